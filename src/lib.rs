@@ -1,0 +1,5 @@
+//! Blade-tip/casing rub of a flexible bladed disk in a flexible casing, after
+//! Legrand, Pierre and Peseux (2010).
+
+pub mod model;
+pub mod scene;

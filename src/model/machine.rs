@@ -1,0 +1,237 @@
+//! Everything that follows from the parameters and the nodal diameters alone:
+//! frequencies, modal masses and damping, and the speeds where things change.
+
+use std::f64::consts::TAU;
+
+use super::{BladedDisk, Casing, Rim};
+
+/// The four-coordinate model of one machine at one number of nodal diameters.
+///
+/// Mode shapes are `p_c(i) = cos(n_d Phi_i)`, `p_s(i) = sin(n_d Phi_i)`, not
+/// normalised, so the blade modal mass is `N m_b/2` (`N m_b` where `p_s`
+/// vanishes and one blade mode is left).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Machine {
+    /// Phase groups and the polygon in the frame of the blades.
+    pub rim: Rim,
+    /// `n_d` as a number.
+    pub nodal_diameters: f64,
+    /// Casing modal mass `m_c` \[kg\].
+    pub casing_mass: f64,
+    /// Casing modal stiffness `k_c` \[N/m\].
+    pub casing_stiffness: f64,
+    /// Casing modal damping `d_c = 2 m_c omega_c zeta_c` \[N s/m\].
+    pub casing_damping: f64,
+    /// Casing damping ratio `zeta_c`.
+    pub casing_damping_ratio: f64,
+    /// Casing frequency `omega_c = sqrt(k_c/m_c)` \[rad/s\].
+    pub omega_c: f64,
+    /// Inertia of one blade `m_b` \[kg m^2\].
+    pub blade_inertia: f64,
+    /// Modal mass of each blade mode \[kg m^2\].
+    pub blade_modal_mass: f64,
+    /// Modal damping of each blade mode \[N m s/rad\].
+    pub blade_modal_damping: f64,
+    /// Modal stiffness of each blade mode \[N m/rad\].
+    pub blade_modal_stiffness: f64,
+    /// Damping ratio of the blade modes `zeta_bd`.
+    pub blade_damping_ratio: f64,
+    /// Blade frequency of `n_d` diameters, `omega_bd` \[rad/s\].
+    pub omega_bd: f64,
+    /// Largest frequency of any nodal diameter of the bladed disk \[rad/s\].
+    pub omega_bd_max: f64,
+    /// Whether `p_s` exists: false for `2 n_d` a multiple of `N`.
+    pub has_sine_mode: bool,
+}
+
+impl Machine {
+    /// Derives the model. The parameters are taken as checked (`scene`).
+    #[must_use]
+    pub fn new(disk: &BladedDisk, casing: &Casing, nodal_diameters: u32) -> Self {
+        let clearance = casing.radius_m - disk.blade_length_m;
+        let rim = Rim::new(disk.blades, nodal_diameters, clearance);
+        let has_sine_mode = rim.sides > 2;
+        let blades = f64::from(disk.blades);
+        let blade_modal_mass = blades * disk.inertia_kg_m2 / if has_sine_mode { 2.0 } else { 1.0 };
+        let omega_bd = blade_frequency(disk, nodal_diameters);
+        let omega_bd_max = blade_frequency(disk, disk.blades / 2);
+        let omega_c = (casing.modal_stiffness_n_per_m / casing.modal_mass_kg).sqrt();
+        Self {
+            rim,
+            nodal_diameters: f64::from(nodal_diameters),
+            casing_mass: casing.modal_mass_kg,
+            casing_stiffness: casing.modal_stiffness_n_per_m,
+            casing_damping: 2.0 * casing.modal_mass_kg * omega_c * casing.damping_ratio,
+            casing_damping_ratio: casing.damping_ratio,
+            omega_c,
+            blade_inertia: disk.inertia_kg_m2,
+            blade_modal_mass,
+            blade_modal_damping: 2.0 * omega_bd * disk.damping_ratio * blade_modal_mass,
+            blade_modal_stiffness: omega_bd * omega_bd * blade_modal_mass,
+            blade_damping_ratio: disk.damping_ratio,
+            omega_bd,
+            omega_bd_max,
+            has_sine_mode,
+        }
+    }
+
+    /// Clearance at rest `g0 = R_c - l_b` \[m\].
+    #[must_use]
+    pub fn clearance(&self) -> f64 {
+        self.rim.clearance
+    }
+
+    /// Wave frequency in the frame of the blades, `nu = n_d Omega` \[rad/s\].
+    #[must_use]
+    pub fn nu(&self, speed: f64) -> f64 {
+        self.nodal_diameters * speed
+    }
+
+    /// Critical speed `Omega_c = omega_c/n_d`, Eq. (17) \[rad/s\]; none for `n_d = 0`.
+    #[must_use]
+    pub fn critical_speed(&self) -> Option<f64> {
+        (self.nodal_diameters > 0.0).then(|| self.omega_c / self.nodal_diameters)
+    }
+
+    /// Speed above which both multipliers of the locked motion are compressive,
+    /// `Omega_lock = Omega_c [zeta cot delta + sqrt(1 + zeta^2 cot^2 delta)]`
+    /// \[rad/s\]; none without corners.
+    #[must_use]
+    pub fn lock_speed(&self) -> Option<f64> {
+        self.threshold(1.0 / self.rim.delta.tan())
+    }
+
+    /// Speed down to which the printed equality algorithm holds a lock, one
+    /// multiplier tensile: as `lock_speed` with `tan delta` for `cot delta`.
+    #[must_use]
+    pub fn adhesive_speed(&self) -> Option<f64> {
+        self.threshold(self.rim.delta.tan())
+    }
+
+    fn threshold(&self, slope: f64) -> Option<f64> {
+        let x = self.casing_damping_ratio * slope;
+        let factor = x + (1.0 + x * x).sqrt();
+        let critical = self.critical_speed()?;
+        self.rim.has_corners().then_some(critical * factor)
+    }
+
+    /// Amplitude of the locked casing wave, `g0/cos delta` \[m\]; none without corners.
+    #[must_use]
+    pub fn locked_amplitude(&self) -> Option<f64> {
+        (self.rim.has_corners()).then(|| self.clearance() / self.rim.delta.cos())
+    }
+
+    /// Group multipliers `[lambda_a, lambda_b]` of the locked motion at a
+    /// constant speed, `psi_b = psi_a + 2 delta`, for rigid blades \[N\]:
+    /// `(g0/2 cos delta)(K/cos delta -+ D/sin delta)` with `K = k_c - nu^2 m_c`,
+    /// `D = d_c nu`. Negative is a push. None without corners.
+    #[must_use]
+    pub fn locked_multipliers(&self, speed: f64) -> Option<[f64; 2]> {
+        if !self.rim.has_corners() {
+            return None;
+        }
+        let nu = self.nu(speed);
+        let (sin, cos) = self.rim.delta.sin_cos();
+        let stiff = (self.casing_stiffness - nu * nu * self.casing_mass) / cos;
+        let drag = self.casing_damping * nu / sin;
+        let scale = self.clearance() / (2.0 * cos);
+        Some([scale * (stiff - drag), scale * (stiff + drag)])
+    }
+
+    /// The positive speeds of Eq. (30), `+-omega_c = n_d Omega +- omega_bd`, in
+    /// increasing order \[rad/s\]; empty for `n_d = 0`.
+    #[must_use]
+    pub fn coincidence_speeds(&self) -> Vec<f64> {
+        if self.nodal_diameters == 0.0 {
+            return Vec::new();
+        }
+        let difference = (self.omega_c - self.omega_bd).abs();
+        let sum = self.omega_c + self.omega_bd;
+        vec![difference / self.nodal_diameters, sum / self.nodal_diameters]
+    }
+
+    /// The dangerous coincidence, `Omega = (omega_c + omega_bd)/n_d`, Eq. (31)
+    /// \[rad/s\]; none for `n_d = 0`.
+    #[must_use]
+    pub fn dangerous_speed(&self) -> Option<f64> {
+        self.coincidence_speeds().last().copied()
+    }
+}
+
+/// `omega_bd` of `n_d` diameters from
+/// `omega_bd^2 = (k_b + 2 k_bb (1 - cos(2 pi n_d/N)))/m_b` \[rad/s\].
+#[must_use]
+pub fn blade_frequency(disk: &BladedDisk, nodal_diameters: u32) -> f64 {
+    let angle = TAU * f64::from(nodal_diameters % disk.blades.max(1)) / f64::from(disk.blades);
+    let stiffness =
+        disk.stiffness_nm_per_rad + 2.0 * disk.coupling_nm_per_rad * (1.0 - angle.cos());
+    (stiffness / disk.inertia_kg_m2).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn paper(nodal_diameters: u32, zeta_c: f64) -> Machine {
+        let casing = Casing { damping_ratio: zeta_c, ..Casing::default() };
+        Machine::new(&BladedDisk::default(), &casing, nodal_diameters)
+    }
+
+    fn close(value: f64, expected: f64, tolerance: f64) {
+        assert!((value - expected).abs() <= tolerance, "{value} is not {expected}");
+    }
+
+    #[test]
+    fn frequencies_and_speeds_of_table_1() {
+        let m = paper(3, 0.05);
+        close(m.omega_c, 878.635, 5e-4);
+        close(m.omega_bd, 286.3, 0.05);
+        close(m.critical_speed().unwrap(), 292.878, 1e-3);
+        close(m.dangerous_speed().unwrap(), 388.31, 5e-3);
+        close(m.lock_speed().unwrap(), 411.93, 5e-3);
+        close(paper(3, 0.01).lock_speed().unwrap(), 313.96, 5e-3);
+        close(m.adhesive_speed().unwrap(), 294.99, 5e-3);
+        assert_eq!(paper(3, 0.0).lock_speed(), paper(3, 0.0).critical_speed());
+    }
+
+    #[test]
+    fn four_diameters_with_their_own_stiffness() {
+        let casing = Casing { modal_stiffness_n_per_m: 2.09912e6, ..Casing::default() };
+        let m = Machine::new(&BladedDisk::default(), &casing, 4);
+        close(m.omega_c, 1024.48, 5e-3);
+        close(m.critical_speed().unwrap(), 256.12, 5e-3);
+        close(m.lock_speed().unwrap(), 303.4, 0.05);
+        close(m.locked_amplitude().unwrap(), 1.042_217e-4, 1e-10);
+    }
+
+    #[test]
+    fn locked_multipliers_of_the_closed_form() {
+        let undamped = paper(3, 0.0);
+        close(undamped.locked_amplitude().unwrap(), 1.010_283e-4, 1e-10);
+        close(undamped.locked_multipliers(0.0).unwrap()[0], 78.80, 5e-3);
+        close(undamped.locked_multipliers(500.0).unwrap()[1], -150.855, 5e-4);
+        let [a, b] = paper(3, 0.05).locked_multipliers(500.0).unwrap();
+        close(a, -244.416, 1e-3);
+        close(b, -57.295, 1e-3);
+    }
+
+    #[test]
+    fn multipliers_change_sign_at_the_thresholds() {
+        for zeta in [0.0, 0.01, 0.05, 0.3] {
+            let m = paper(3, zeta);
+            let lock = m.lock_speed().unwrap();
+            assert!(m.locked_multipliers(lock * (1.0 + 1e-9)).unwrap().iter().all(|&l| l < 0.0));
+            assert!(m.locked_multipliers(lock * (1.0 - 1e-9)).unwrap().iter().any(|&l| l > 0.0));
+        }
+    }
+
+    #[test]
+    fn modes_without_a_sine_partner() {
+        assert!(!paper(0, 0.05).has_sine_mode);
+        assert!(!paper(11, 0.05).has_sine_mode);
+        close(paper(11, 0.05).blade_modal_mass, 22.0 * 0.20825, 1e-12);
+        close(paper(3, 0.05).blade_modal_mass, 11.0 * 0.20825, 1e-12);
+        assert_eq!(paper(0, 0.05).critical_speed(), None);
+        assert_eq!(paper(11, 0.05).lock_speed(), None);
+    }
+}

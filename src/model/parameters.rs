@@ -1,0 +1,101 @@
+//! The quantities a user gives: bladed disk, casing and operation, as Table 1
+//! of the paper lists them. Plain data; `scene` says what each may hold.
+
+use serde::Serialize;
+
+/// A tuned bladed disk of rigid blades on angular springs, Eqs. (2)-(3).
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BladedDisk {
+    /// Number of blades `N`.
+    pub blades: u32,
+    /// Blade length `l_b`, from the axis to the tip \[m\].
+    pub blade_length_m: f64,
+    /// Moment of inertia of one blade about the axis, the paper's `m_b` \[kg m^2\].
+    pub inertia_kg_m2: f64,
+    /// Blade-to-disk stiffness `k_b` \[N m/rad\].
+    pub stiffness_nm_per_rad: f64,
+    /// Blade-to-blade stiffness `k_bb` \[N m/rad\].
+    pub coupling_nm_per_rad: f64,
+    /// Viscous damping ratio of every blade mode, `zeta_bd`.
+    pub damping_ratio: f64,
+}
+
+impl Default for BladedDisk {
+    /// Table 1, with the moment of inertia that gives the printed `omega_bd`.
+    fn default() -> Self {
+        Self {
+            blades: 22,
+            blade_length_m: 0.4999,
+            inertia_kg_m2: 0.20825,
+            stiffness_nm_per_rad: 15_000.0,
+            coupling_nm_per_rad: 3_000.0,
+            damping_ratio: 0.04,
+        }
+    }
+}
+
+/// The casing, reduced to its two `n_d`-diameter modes, Eqs. (5)-(6).
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Casing {
+    /// Inner radius `R_c` \[m\].
+    pub radius_m: f64,
+    /// Modal mass `m_c` \[kg\].
+    pub modal_mass_kg: f64,
+    /// Modal stiffness `k_c` \[N/m\].
+    pub modal_stiffness_n_per_m: f64,
+    /// Viscous damping ratio `zeta_c`.
+    pub damping_ratio: f64,
+}
+
+impl Default for Casing {
+    /// Table 1.
+    fn default() -> Self {
+        Self {
+            radius_m: 0.5,
+            modal_mass_kg: 2.0,
+            modal_stiffness_n_per_m: 1.544e6,
+            damping_ratio: 0.05,
+        }
+    }
+}
+
+/// How the machine is run: the mode pair looked at, the rotor and the pulse.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Operation {
+    /// Nodal diameters `n_d` of the retained modes.
+    pub nodal_diameters: u32,
+    /// Rotor speed `Omega` at the start; positive turns counter-clockwise \[rad/s\].
+    pub speed_rad_s: f64,
+    /// Constant angular acceleration of the rotor \[rad/s^2\].
+    pub speed_ramp_rad_s2: f64,
+    /// Force of the rectangular pulse on the `u_c` equation \[N\].
+    pub pulse_n: f64,
+    /// Duration `t_p` of the pulse, from t = 0 \[s\].
+    pub pulse_s: f64,
+}
+
+impl Default for Operation {
+    /// Full speed, three nodal diameters, and a 20 kN pulse of 50 microseconds.
+    fn default() -> Self {
+        Self {
+            nodal_diameters: 3,
+            speed_rad_s: 500.0,
+            speed_ramp_rad_s2: 0.0,
+            pulse_n: 20_000.0,
+            pulse_s: 50e-6,
+        }
+    }
+}
+
+/// Casing state at t = 0; everything is at rest unless a scene says otherwise.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Initial {
+    /// `u_c` \[m\].
+    pub u_c_m: f64,
+    /// `u_s` \[m\].
+    pub u_s_m: f64,
+    /// Rate of `u_c` \[m/s\].
+    pub v_c_m_s: f64,
+    /// Rate of `u_s` \[m/s\].
+    pub v_s_m_s: f64,
+}

@@ -1,0 +1,215 @@
+//! The rim seen in the frame of the blades: a regular polygon.
+//!
+//! With `z = (u_c + i u_s) exp(-i n_d theta)` and rigid blades, the gap of a
+//! blade of phase `psi` is `g = g0 + Re[z exp(-i psi)]`: the casing wave is a
+//! point inside a polygon whose sides are the *phase groups*, the blades that
+//! share `psi = n_d Phi_i` modulo a turn. There are `N' = N/gcd(N, n_d)` sides,
+//! side `k` with phase `psi_k = 2 pi k/N'` and outward normal `-exp(i psi_k)`.
+
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4, PI, TAU};
+
+/// Phase groups of the blades and the polygon they bound.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rim {
+    /// Number of blades `N`.
+    pub blades: u32,
+    /// Nodal diameters `n_d`.
+    pub nodal_diameters: u32,
+    /// Number of sides `N'` of the polygon, that is of phase groups.
+    pub sides: u32,
+    /// Blades in each group, `q = gcd(N, n_d)`.
+    pub blades_per_side: u32,
+    /// Apothem of the polygon: the clearance at rest `g0` \[m\].
+    pub clearance: f64,
+    /// Half the angle between neighbouring sides, `delta = pi/N'` \[rad\].
+    pub delta: f64,
+    /// `(cos psi_k, sin psi_k)` of every side.
+    directions: Vec<(f64, f64)>,
+}
+
+impl Rim {
+    /// Rim of `blades >= 1` blades with `nodal_diameters` and `clearance` \[m\].
+    #[must_use]
+    pub fn new(blades: u32, nodal_diameters: u32, clearance: f64) -> Self {
+        let blades = blades.max(1);
+        let blades_per_side = gcd(blades, nodal_diameters);
+        let sides = blades / blades_per_side;
+        let directions = (0..sides).map(|k| direction(k, sides)).collect();
+        Self {
+            blades,
+            nodal_diameters,
+            sides,
+            blades_per_side,
+            clearance,
+            delta: PI / f64::from(sides),
+            directions,
+        }
+    }
+
+    /// Whether neighbouring sides meet in corners (`N' >= 3`). With one or two
+    /// sides the point is unbounded along them and can never lock.
+    #[must_use]
+    pub fn has_corners(&self) -> bool {
+        self.sides >= 3
+    }
+
+    /// Distance from the middle of a side to its corner, `g0 tan delta` \[m\];
+    /// infinite without corners.
+    #[must_use]
+    pub fn half_side(&self) -> f64 {
+        if self.has_corners() { self.clearance * self.delta.tan() } else { f64::INFINITY }
+    }
+
+    /// Phase `psi_k` of side `k` \[rad\], in `[0, 2 pi)`.
+    #[must_use]
+    pub fn phase(&self, side: u32) -> f64 {
+        TAU * f64::from(side) / f64::from(self.sides)
+    }
+
+    /// `(cos psi_k, sin psi_k)` of side `k` (taken modulo `N'`).
+    #[must_use]
+    pub fn direction(&self, side: u32) -> (f64, f64) {
+        self.directions[(side % self.sides) as usize]
+    }
+
+    /// The side a blade (numbered from 1, as in the paper) belongs to.
+    #[must_use]
+    pub fn side_of_blade(&self, blade: u32) -> u32 {
+        let reduced = u64::from(self.nodal_diameters / self.blades_per_side);
+        let index = u64::from(blade.saturating_sub(1));
+        u32::try_from(reduced * index % u64::from(self.sides)).unwrap_or(0)
+    }
+
+    /// The blades (numbered from 1) of a side, in increasing order.
+    #[must_use]
+    pub fn blades_of_side(&self, side: u32) -> Vec<u32> {
+        (1..=self.blades).filter(|&blade| self.side_of_blade(blade) == side % self.sides).collect()
+    }
+
+    /// The next side in increasing phase.
+    #[must_use]
+    pub fn next(&self, side: u32) -> u32 {
+        (side + 1) % self.sides
+    }
+
+    /// The next side in decreasing phase.
+    #[must_use]
+    pub fn previous(&self, side: u32) -> u32 {
+        (side + self.sides - 1) % self.sides
+    }
+
+    /// Whether two different sides share a corner.
+    #[must_use]
+    pub fn are_neighbours(&self, a: u32, b: u32) -> bool {
+        self.has_corners() && (self.next(a) == b || self.next(b) == a)
+    }
+
+    /// Gap of a side at the point `z = (x, y)` of the blade frame, rigid
+    /// blades \[m\]; positive means open. Eq. (14).
+    #[must_use]
+    pub fn gap(&self, side: u32, x: f64, y: f64) -> f64 {
+        let (c, s) = self.direction(side);
+        self.clearance + x * c + y * s
+    }
+
+    /// The side with the smallest gap at `z = (x, y)`: the one whose outward
+    /// normal is nearest to the direction of `z`.
+    #[must_use]
+    pub fn nearest_side(&self, x: f64, y: f64) -> u32 {
+        let turns = (-y).atan2(-x) / TAU;
+        let sides = f64::from(self.sides);
+        let index = (turns * sides).round().rem_euclid(sides);
+        // `rem_euclid` may round up to `sides` itself.
+        (index as u32) % self.sides
+    }
+}
+
+/// `exp(i 2 pi k/sides)`, exact at multiples of a quarter turn.
+fn direction(k: u32, sides: u32) -> (f64, f64) {
+    // Reduce to the first octant, so that symmetric sides are exact mirrors.
+    let (k, n) = (u64::from(k) * 8, u64::from(sides));
+    let octant = k / n;
+    // Cosine and sine of a fraction of an octant; its end is its own mirror.
+    let within = |numerator: u64| {
+        let (sin, cos) = (FRAC_PI_4 * numerator as f64 / n as f64).sin_cos();
+        if numerator == n { (FRAC_1_SQRT_2, FRAC_1_SQRT_2) } else { (cos, sin) }
+    };
+    let (low_cos, low_sin) = within(k - octant * n);
+    let (high_cos, high_sin) = within((octant + 1) * n - k);
+    match octant {
+        0 => (low_cos, low_sin),
+        1 => (high_sin, high_cos),
+        2 => (-low_sin, low_cos),
+        3 => (-high_cos, high_sin),
+        4 => (-low_cos, -low_sin),
+        5 => (-high_sin, -high_cos),
+        6 => (low_sin, -low_cos),
+        _ => (high_cos, -high_sin),
+    }
+}
+
+/// Greatest common divisor, with `gcd(n, 0) = n`.
+fn gcd(a: u32, b: u32) -> u32 {
+    if b == 0 { a } else { gcd(b, a % b) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn paper_rim_has_one_blade_a_side_and_the_locked_pair_is_a_corner() {
+        let rim = Rim::new(22, 3, 1e-4);
+        assert_eq!((rim.sides, rim.blades_per_side), (22, 1));
+        assert_eq!(rim.side_of_blade(6), 15);
+        assert_eq!(rim.side_of_blade(21), 16);
+        assert!(rim.are_neighbours(15, 16));
+    }
+
+    #[test]
+    fn four_diameters_put_two_blades_on_each_of_eleven_sides() {
+        let rim = Rim::new(22, 4, 1e-4);
+        assert_eq!((rim.sides, rim.blades_per_side), (11, 2));
+        for side in 0..11 {
+            let blades = rim.blades_of_side(side);
+            assert_eq!(blades.len(), 2);
+            assert_eq!(blades[1] - blades[0], 11);
+        }
+    }
+
+    #[test]
+    fn degenerate_and_aliased_diameters() {
+        assert_eq!(Rim::new(22, 0, 1.0).sides, 1);
+        assert_eq!(Rim::new(22, 11, 1.0).sides, 2);
+        assert_eq!(Rim::new(22, 22, 1.0).sides, 1);
+        assert_eq!(Rim::new(22, 25, 1.0).side_of_blade(6), 15);
+        assert_eq!(Rim::new(1, 3, 1.0).sides, 1);
+    }
+
+    #[test]
+    fn directions_agree_with_the_phase_and_mirror_exactly() {
+        for sides in [1, 2, 3, 4, 7, 8, 11, 22, 500] {
+            let rim = Rim::new(sides, 1, 1.0);
+            for k in 0..sides {
+                let (c, s) = rim.direction(k);
+                // The phase itself is rounded: up to half a unit in the last place of 2 pi.
+                assert!((c - rim.phase(k).cos()).abs() < 1.5e-15);
+                assert!((s - rim.phase(k).sin()).abs() < 1.5e-15);
+                let (cm, sm) = rim.direction((sides - k) % sides);
+                assert_eq!((c, s), (cm, -sm), "side {k} of {sides}");
+            }
+        }
+    }
+
+    #[test]
+    fn nearest_side_has_the_smallest_gap() {
+        let rim = Rim::new(22, 3, 1e-4);
+        for step in 0..1000 {
+            let angle = 0.006_3 * f64::from(step);
+            let (y, x) = angle.sin_cos();
+            let nearest = rim.nearest_side(x, y);
+            let smallest = (0..22).map(|k| rim.gap(k, x, y)).fold(f64::INFINITY, f64::min);
+            assert!(rim.gap(nearest, x, y) <= smallest + 1e-12);
+        }
+    }
+}

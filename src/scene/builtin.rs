@@ -1,0 +1,37 @@
+//! The built-in scenes: the files under `presets/`, embedded in the binary.
+
+use super::{Scene, SceneError};
+
+/// A scene that comes with the program.
+#[derive(Clone, Copy, Debug)]
+pub struct Builtin {
+    /// Its name on the command line.
+    pub name: &'static str,
+    /// Its file.
+    pub toml: &'static str,
+}
+
+macro_rules! builtin {
+    ($($name:literal),+ $(,)?) => {
+        &[$(Builtin { name: $name, toml: include_str!(concat!("../../presets/", $name, ".toml")) }),+]
+    };
+}
+
+/// All built-in scenes; the first one is the default.
+pub const BUILTIN: &[Builtin] = builtin!["paper-nd3", "paper-nd4", "adhesive", "undamped"];
+
+impl Scene {
+    /// The built-in scene of this name.
+    ///
+    /// # Errors
+    /// No such scene; the message lists those there are.
+    pub fn builtin(name: &str) -> Result<Self, SceneError> {
+        match BUILTIN.iter().find(|scene| scene.name == name) {
+            Some(scene) => Self::from_toml(scene.toml),
+            None => Err(SceneError::UnknownScene {
+                name: name.to_string(),
+                allowed: BUILTIN.iter().map(|scene| scene.name).collect::<Vec<_>>().join(", "),
+            }),
+        }
+    }
+}

@@ -1,0 +1,64 @@
+//! Why a scene was refused, each in one line.
+
+use thiserror::Error;
+
+/// Why a scene, or a key of one, was refused.
+#[derive(Debug, Error, Clone, PartialEq)]
+pub enum SceneError {
+    /// A key that does not exist.
+    #[error("unknown key {key}; allowed: {allowed}")]
+    UnknownKey {
+        /// Dotted path as given.
+        key: String,
+        /// The keys of its table.
+        allowed: String,
+    },
+    /// A value that is not allowed.
+    #[error("{key} = {value}: allowed is {allowed}")]
+    Refused {
+        /// Dotted path.
+        key: String,
+        /// The value as given.
+        value: String,
+        /// What would be accepted.
+        allowed: String,
+    },
+    /// Text that is not TOML.
+    #[error("not a TOML file: {0}")]
+    Syntax(String),
+    /// A file that cannot be read.
+    #[error("cannot read scene file {path}: {reason}")]
+    File {
+        /// The path as given.
+        path: String,
+        /// The system's reason.
+        reason: String,
+    },
+    /// Neither a built-in scene nor a file.
+    #[error("unknown scene {name}; allowed: a path ending in .toml, or one of {allowed}")]
+    UnknownScene {
+        /// The name as given.
+        name: String,
+        /// Names of the built-in scenes.
+        allowed: String,
+    },
+    /// A refusal, with the file it stands in.
+    #[error("{path}: {error}")]
+    InFile {
+        /// The path as given.
+        path: String,
+        /// What is wrong in it.
+        error: Box<SceneError>,
+    },
+}
+
+impl SceneError {
+    /// A refusal of `value` for `key`.
+    pub fn refused(
+        key: impl Into<String>,
+        value: impl ToString,
+        allowed: impl Into<String>,
+    ) -> Self {
+        Self::Refused { key: key.into(), value: value.to_string(), allowed: allowed.into() }
+    }
+}

@@ -1,0 +1,138 @@
+//! Scene files: TOML in, TOML out. Keys a file leaves out keep the documented
+//! default (the paper's machine); anything else in it must be a known key.
+
+use std::path::Path;
+
+use toml::{Table, Value as Toml};
+
+use super::{Allowed, BUILTIN, Key, Scene, SceneError, Value, keys};
+
+impl Scene {
+    /// A built-in scene by name, or the scene of a `.toml` file.
+    ///
+    /// # Errors
+    /// No such scene, no such file, or a file that is refused.
+    pub fn load(name_or_path: &str) -> Result<Self, SceneError> {
+        if BUILTIN.iter().any(|scene| scene.name == name_or_path) {
+            return Self::builtin(name_or_path);
+        }
+        let path = Path::new(name_or_path);
+        let is_toml = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("toml"));
+        if !is_toml && !name_or_path.contains(std::path::MAIN_SEPARATOR) {
+            return Err(SceneError::UnknownScene {
+                name: name_or_path.to_string(),
+                allowed: BUILTIN.iter().map(|scene| scene.name).collect::<Vec<_>>().join(", "),
+            });
+        }
+        let text = std::fs::read_to_string(path).map_err(|error| SceneError::File {
+            path: name_or_path.to_string(),
+            reason: error.to_string(),
+        })?;
+        Self::from_toml(&text).map_err(|error| SceneError::InFile {
+            path: name_or_path.to_string(),
+            error: Box::new(error),
+        })
+    }
+
+    /// Reads a scene file and checks it whole.
+    ///
+    /// # Errors
+    /// The first thing in it that is refused, in one line.
+    pub fn from_toml(text: &str) -> Result<Self, SceneError> {
+        let scene = Self::from_toml_unchecked(text)?;
+        scene.check()?;
+        Ok(scene)
+    }
+
+    /// Reads a scene file, checking each key but not their combinations, so
+    /// that options can still change the scene before it is checked whole.
+    ///
+    /// # Errors
+    /// Text that is not TOML, unknown keys, values of the wrong type or out of
+    /// bounds.
+    pub fn from_toml_unchecked(text: &str) -> Result<Self, SceneError> {
+        let table: Table = text.parse().map_err(|error: toml::de::Error| {
+            let message = error.message().lines().collect::<Vec<_>>().join(" ");
+            let line = error.span().map_or(1, |span| {
+                1 + text.as_bytes().iter().take(span.start).filter(|&&byte| byte == b'\n').count()
+            });
+            SceneError::Syntax(format!("line {line}: {message}"))
+        })?;
+        let mut scene = Self::default();
+        for (name, value) in &table {
+            if name == "schema" {
+                check_schema(value)?;
+            } else if let Toml::Table(inner) = value {
+                for (leaf, value) in inner {
+                    read(&mut scene, &format!("{name}.{leaf}"), value)?;
+                }
+                if inner.is_empty() && !keys::KEYS.iter().any(|key| in_table(key, name)) {
+                    return Err(keys::unknown(name));
+                }
+            } else {
+                read(&mut scene, name, value)?;
+            }
+        }
+        Ok(scene)
+    }
+
+    /// The whole scene as a TOML file, every key written out.
+    #[must_use]
+    pub fn to_toml(&self) -> String {
+        let mut out = String::from("schema = 1\n");
+        let mut table = "";
+        for key in keys::KEYS {
+            let (section, leaf) = key.path.split_once('.').unwrap_or(("", key.path));
+            if section != table {
+                out.push_str(&format!("\n[{section}]\n"));
+                table = section;
+            }
+            out.push_str(&format!("{leaf} = {}\n", as_toml(&(key.get)(self))));
+        }
+        out
+    }
+}
+
+fn in_table(key: &Key, table: &str) -> bool {
+    key.path.split_once('.').is_some_and(|(name, _)| name == table)
+}
+
+fn as_toml(value: &Value) -> Toml {
+    match value {
+        Value::Real(x) => Toml::Float(*x),
+        Value::Whole(n) => Toml::Integer(i64::try_from(*n).unwrap_or(i64::MAX)),
+        Value::Text(text) => Toml::String(text.clone()),
+        Value::Words(words) => Toml::Array(words.iter().cloned().map(Toml::String).collect()),
+    }
+}
+
+fn check_schema(value: &Toml) -> Result<(), SceneError> {
+    if value.as_integer() == Some(1) {
+        Ok(())
+    } else {
+        Err(SceneError::refused("schema", one_line(value), "1"))
+    }
+}
+
+fn read(scene: &mut Scene, path: &str, toml: &Toml) -> Result<(), SceneError> {
+    let key = keys::find(path)?;
+    let value = match (toml, key.allowed) {
+        (Toml::Float(x), Allowed::Real { .. }) => Some(Value::Real(*x)),
+        (Toml::Integer(n), Allowed::Real { .. }) => Some(Value::Real(*n as f64)),
+        (Toml::Integer(n), Allowed::Whole { .. }) => u64::try_from(*n).ok().map(Value::Whole),
+        (Toml::String(text), Allowed::OneOf(_) | Allowed::Text) => Some(Value::Text(text.clone())),
+        (Toml::Array(items), Allowed::SomeOf(_)) => items
+            .iter()
+            .map(|item| item.as_str().map(String::from))
+            .collect::<Option<Vec<_>>>()
+            .map(Value::Words),
+        _ => None,
+    };
+    let value =
+        value.ok_or_else(|| SceneError::refused(path, one_line(toml), key.allowed.to_string()))?;
+    scene.set_value(key, value)
+}
+
+fn one_line(value: &Toml) -> String {
+    value.to_string().lines().collect::<Vec<_>>().join(" ")
+}

@@ -1,0 +1,290 @@
+//! The one table of scene keys: path, unit, meaning, bounds, and how to get
+//! and set each. The file reader, `--set` and the explorer's knobs all use it.
+
+use super::{ContactLaw, ModelSize, Scene, SceneError, SolverKind};
+
+/// A value of a key.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// A number.
+    Real(f64),
+    /// A whole number, zero or more.
+    Whole(u64),
+    /// A line of text, or one of a few words.
+    Text(String),
+    /// A list of words.
+    Words(Vec<String>),
+}
+
+impl std::fmt::Display for Value {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Real(x) if *x != 0.0 && !(1e-3..1e6).contains(&x.abs()) => write!(out, "{x:e}"),
+            Self::Real(x) => write!(out, "{x}"),
+            Self::Whole(n) => write!(out, "{n}"),
+            Self::Text(text) => write!(out, "{text:?}"),
+            Self::Words(words) => write!(out, "{words:?}"),
+        }
+    }
+}
+
+/// What a key may hold.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Allowed {
+    /// A finite number from `min` to `max`; above `min` where `above`.
+    Real {
+        /// Lower bound.
+        min: f64,
+        /// Upper bound, included.
+        max: f64,
+        /// Whether the lower bound itself is refused.
+        above: bool,
+    },
+    /// A whole number from `min` to `max`.
+    Whole {
+        /// Lower bound, included.
+        min: u64,
+        /// Upper bound, included.
+        max: u64,
+    },
+    /// One of these words.
+    OneOf(&'static [&'static str]),
+    /// One or more of these words.
+    SomeOf(&'static [&'static str]),
+    /// Any line of text.
+    Text,
+}
+
+impl std::fmt::Display for Allowed {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Real { min, max, above: true } => {
+                write!(out, "a number above {} and up to {}", Value::Real(*min), Value::Real(*max))
+            }
+            Self::Real { min, max, above: false } => {
+                write!(out, "a number from {} to {}", Value::Real(*min), Value::Real(*max))
+            }
+            Self::Whole { min, max } => write!(out, "a whole number from {min} to {max}"),
+            Self::OneOf(words) => write!(out, "one of {}", words.join(", ")),
+            Self::SomeOf(words) => write!(out, "a list of {}", words.join(", ")),
+            Self::Text => write!(out, "a line of text"),
+        }
+    }
+}
+
+/// One key of the scene file.
+#[derive(Debug)]
+pub struct Key {
+    /// Dotted path, as in the file.
+    pub path: &'static str,
+    /// Unit, for people.
+    pub unit: &'static str,
+    /// What it is, in a few words.
+    pub what: &'static str,
+    /// What it may hold.
+    pub allowed: Allowed,
+    /// Reads it.
+    pub get: fn(&Scene) -> Value,
+    /// Writes it; the value is of the right kind.
+    pub(super) set: fn(&mut Scene, Value),
+}
+
+impl Key {
+    /// Refuses values of another kind or out of bounds.
+    ///
+    /// # Errors
+    /// One line with key, value and what is allowed.
+    pub fn check(&self, value: &Value) -> Result<(), SceneError> {
+        let fits = match (value, self.allowed) {
+            (Value::Real(x), Allowed::Real { min, max, above }) => {
+                x.is_finite() && *x >= min && *x <= max && !(above && *x <= min)
+            }
+            (Value::Whole(n), Allowed::Whole { min, max }) => (min..=max).contains(n),
+            (Value::Text(text), Allowed::OneOf(words)) => words.contains(&text.as_str()),
+            (Value::Words(list), Allowed::SomeOf(words)) => {
+                !list.is_empty() && list.iter().all(|word| words.contains(&word.as_str()))
+            }
+            (Value::Text(text), Allowed::Text) => !text.chars().any(char::is_control),
+            _ => false,
+        };
+        if fits {
+            Ok(())
+        } else {
+            Err(SceneError::refused(self.path, value, self.allowed.to_string()))
+        }
+    }
+
+    /// Reads a value of this key's kind from text, as given on a command line.
+    ///
+    /// # Errors
+    /// Text that is not of the kind this key holds.
+    pub fn parse(&self, text: &str) -> Result<Value, SceneError> {
+        let refused = || SceneError::refused(self.path, text, self.allowed.to_string());
+        let trimmed = text.trim();
+        Ok(match self.allowed {
+            Allowed::Real { .. } => Value::Real(trimmed.parse().map_err(|_| refused())?),
+            Allowed::Whole { .. } => Value::Whole(trimmed.parse().map_err(|_| refused())?),
+            Allowed::OneOf(_) => Value::Text(trimmed.to_string()),
+            Allowed::Text => Value::Text(text.to_string()),
+            Allowed::SomeOf(_) => {
+                Value::Words(trimmed.split(',').map(|word| word.trim().to_string()).collect())
+            }
+        })
+    }
+}
+
+/// The key with this dotted path.
+///
+/// # Errors
+/// An unknown path; the message lists the keys of its table.
+pub fn find(path: &str) -> Result<&'static Key, SceneError> {
+    KEYS.iter().find(|key| key.path == path).ok_or_else(|| unknown(path))
+}
+
+/// The refusal of a path that is no key, with the keys of its table.
+pub(super) fn unknown(path: &str) -> SceneError {
+    let table = path.split_once('.').map_or("", |(table, _)| table);
+    let of_table = |key: &&Key| key.path.split_once('.').map_or("", |(t, _)| t) == table;
+    let mut names: Vec<&str> = KEYS.iter().filter(of_table).map(|key| key.path).collect();
+    if table.is_empty() || names.is_empty() {
+        names = vec!["schema", "title", "note"];
+        for key in KEYS {
+            if let Some((table, _)) = key.path.split_once('.')
+                && !names.contains(&table)
+            {
+                names.push(table);
+            }
+        }
+    }
+    SceneError::UnknownKey { key: path.to_string(), allowed: names.join(", ") }
+}
+
+/// A word of `Allowed::OneOf` as its enum, and back.
+macro_rules! words {
+    ($type:ident { $($variant:ident = $word:literal),+ }) => {
+        impl $type {
+            /// Every word for this choice, in the order of the enum.
+            pub const WORDS: &'static [&'static str] = &[$($word),+];
+            /// The word used in files and on the command line.
+            #[must_use]
+            pub fn word(self) -> &'static str {
+                match self { $(Self::$variant => $word),+ }
+            }
+            /// The choice a word stands for.
+            #[must_use]
+            pub fn from_word(word: &str) -> Option<Self> {
+                match word { $($word => Some(Self::$variant),)+ _ => None }
+            }
+        }
+    };
+}
+
+words!(SolverKind { Explicit = "explicit", Event = "event" });
+words!(ContactLaw { Unilateral = "unilateral", Bilateral = "bilateral" });
+words!(ModelSize { Rigid = "rigid", Modal = "modal", Full = "full" });
+
+/// Charts of the explorer, in the order of their digits.
+pub const CHARTS: &[&str] =
+    &["response", "gaps", "locked", "frame", "map", "spectrum", "precision"];
+
+macro_rules! real {
+    ($path:literal, $unit:literal, $what:literal, $above:literal $min:literal .. $max:literal, $($field:ident).+) => {
+        Key {
+            path: $path, unit: $unit, what: $what,
+            allowed: Allowed::Real { min: $min, max: $max, above: $above },
+            get: |scene| Value::Real(scene.$($field).+),
+            set: |scene, value| if let Value::Real(x) = value { scene.$($field).+ = x },
+        }
+    };
+}
+macro_rules! whole {
+    ($path:literal, $what:literal, $min:literal .. $max:literal, $($field:ident).+) => {
+        Key {
+            path: $path, unit: "-", what: $what,
+            allowed: Allowed::Whole { min: $min, max: $max },
+            get: |scene| Value::Whole(u64::from(scene.$($field).+)),
+            set: |scene, value| if let Value::Whole(n) = value
+                && let Ok(n) = u32::try_from(n) { scene.$($field).+ = n },
+        }
+    };
+}
+macro_rules! word {
+    ($path:literal, $what:literal, $type:ident, $($field:ident).+) => {
+        Key {
+            path: $path, unit: "-", what: $what, allowed: Allowed::OneOf($type::WORDS),
+            get: |scene| Value::Text(scene.$($field).+.word().to_string()),
+            set: |scene, value| if let Value::Text(text) = value
+                && let Some(choice) = $type::from_word(&text) { scene.$($field).+ = choice },
+        }
+    };
+}
+macro_rules! text {
+    ($path:literal, $what:literal, $field:ident) => {
+        Key {
+            path: $path,
+            unit: "-",
+            what: $what,
+            allowed: Allowed::Text,
+            get: |scene| Value::Text(scene.$field.clone()),
+            set: |scene, value| {
+                if let Value::Text(text) = value {
+                    scene.$field = text
+                }
+            },
+        }
+    };
+}
+
+/// Every key but `schema`, in the order of the file.
+pub const KEYS: &[Key] = &[
+    text!("title", "one line that names the scene", title),
+    text!("note", "what to look for", note),
+    whole!("bladed_disk.blades", "number of blades N", 1..4096, bladed_disk.blades),
+    real!("bladed_disk.blade_length_m", "m", "blade length l_b", true 0.0..1e3, bladed_disk.blade_length_m),
+    real!("bladed_disk.inertia_kg_m2", "kg m^2", "blade inertia m_b", true 0.0..1e9, bladed_disk.inertia_kg_m2),
+    real!("bladed_disk.stiffness_nm_per_rad", "N m/rad", "blade-to-disk stiffness k_b", true 0.0..1e15, bladed_disk.stiffness_nm_per_rad),
+    real!("bladed_disk.coupling_nm_per_rad", "N m/rad", "blade-to-blade stiffness k_bb", false 0.0..1e15, bladed_disk.coupling_nm_per_rad),
+    real!("bladed_disk.damping_ratio", "-", "blade damping zeta_bd", false 0.0..10.0, bladed_disk.damping_ratio),
+    real!("casing.radius_m", "m", "casing radius R_c", true 0.0..1e3, casing.radius_m),
+    real!("casing.modal_mass_kg", "kg", "casing modal mass m_c", true 0.0..1e9, casing.modal_mass_kg),
+    real!("casing.modal_stiffness_n_per_m", "N/m", "casing modal stiffness k_c", true 0.0..1e15, casing.modal_stiffness_n_per_m),
+    real!("casing.damping_ratio", "-", "casing damping zeta_c", false 0.0..10.0, casing.damping_ratio),
+    whole!("operation.nodal_diameters", "nodal diameters n_d", 0..4096, operation.nodal_diameters),
+    real!(
+        "operation.speed_rad_s",
+        "rad/s",
+        "rotor speed Omega",
+        false - 1e6..1e6,
+        operation.speed_rad_s
+    ),
+    real!(
+        "operation.speed_ramp_rad_s2",
+        "rad/s^2",
+        "rotor acceleration",
+        false - 1e9..1e9,
+        operation.speed_ramp_rad_s2
+    ),
+    real!("operation.pulse_n", "N", "pulse force on u_c", false - 1e12..1e12, operation.pulse_n),
+    real!("operation.pulse_s", "s", "pulse duration t_p", false 0.0..1e6, operation.pulse_s),
+    real!("initial.u_c_m", "m", "u_c at t = 0", false - 1e3..1e3, initial.u_c_m),
+    real!("initial.u_s_m", "m", "u_s at t = 0", false - 1e3..1e3, initial.u_s_m),
+    real!("initial.v_c_m_s", "m/s", "rate of u_c at t = 0", false - 1e6..1e6, initial.v_c_m_s),
+    real!("initial.v_s_m_s", "m/s", "rate of u_s at t = 0", false - 1e6..1e6, initial.v_s_m_s),
+    word!("solver.kind", "solver", SolverKind, solver.kind),
+    word!("solver.contact", "contact law", ContactLaw, solver.contact),
+    word!("solver.model", "model size", ModelSize, solver.model),
+    real!("solver.step_s", "s", "time step h (explicit only)", true 0.0..1e3, solver.step_s),
+    real!("solver.end_s", "s", "end of the simulation", true 0.0..1e6, solver.end_s),
+    Key {
+        path: "view.charts",
+        unit: "-",
+        what: "charts the explorer opens with",
+        allowed: Allowed::SomeOf(CHARTS),
+        get: |scene| Value::Words(scene.view.charts.clone()),
+        set: |scene, value| {
+            if let Value::Words(words) = value {
+                scene.view.charts = words;
+            }
+        },
+    },
+];

@@ -1,0 +1,270 @@
+//! Scenes: one machine, how it is run and how it is solved, in one value.
+//!
+//! A scene comes from a built-in preset or a TOML file, may be changed key by
+//! key (`Scene::set`), and is refused with one line that names the key, its
+//! value and what is allowed. `keys` is the one table of keys behind the file
+//! format, the command line and the knobs of the explorer.
+
+mod builtin;
+mod check;
+mod error;
+mod file;
+pub mod keys;
+
+use serde::Serialize;
+
+pub use builtin::{BUILTIN, Builtin};
+pub use error::SceneError;
+pub use keys::{Allowed, KEYS, Key, Value};
+
+use crate::model::{BladedDisk, Casing, Initial, Machine, Operation};
+
+/// Which solver advances the motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SolverKind {
+    /// Explicit central differences, Eqs. (8)-(16): first order in contact.
+    Explicit,
+    /// Event-driven closed forms: the reference.
+    Event,
+}
+
+/// Which contact law closes the predicted penetrations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ContactLaw {
+    /// Signorini: multipliers may only push.
+    Unilateral,
+    /// The paper's Eqs. (11)-(13): every penetration is an equality, pull or push.
+    Bilateral,
+}
+
+/// How much of the machine moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ModelSize {
+    /// Casing only; the blades are rigid.
+    Rigid,
+    /// The paper's four coordinates.
+    Modal,
+    /// Every blade its own coordinate, Eqs. (2)-(3).
+    Full,
+}
+
+/// Numerical choices of a time simulation.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SolverChoice {
+    /// Which solver.
+    pub kind: SolverKind,
+    /// Which contact law.
+    pub contact: ContactLaw,
+    /// Which model size.
+    pub model: ModelSize,
+    /// Time step of the explicit solver \[s\].
+    pub step_s: f64,
+    /// End of the simulation \[s\].
+    pub end_s: f64,
+}
+
+impl Default for SolverChoice {
+    fn default() -> Self {
+        Self {
+            kind: SolverKind::Explicit,
+            contact: ContactLaw::Unilateral,
+            model: ModelSize::Modal,
+            step_s: 1e-7,
+            end_s: 0.1,
+        }
+    }
+}
+
+/// Which charts the explorer opens with.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct View {
+    /// Names of charts, the first one the largest.
+    pub charts: Vec<String>,
+}
+
+impl Default for View {
+    fn default() -> Self {
+        Self { charts: ["response", "gaps", "locked"].map(String::from).to_vec() }
+    }
+}
+
+/// One scene, complete: every key has a value.
+///
+/// ```
+/// use rubscope::scene::Scene;
+/// let mut scene = Scene::builtin("paper-nd3")?;
+/// scene.set("operation.speed_rad_s", "450")?;
+/// assert_eq!(scene.operation.speed_rad_s, 450.0);
+/// let refused = scene.set("bladed_disk.blades", "0").unwrap_err();
+/// assert!(refused.to_string().starts_with("bladed_disk.blades = 0"));
+/// # Ok::<(), rubscope::scene::SceneError>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Scene {
+    /// Version of the file format; 1.
+    #[serde(serialize_with = "schema_as_number")]
+    pub schema: Schema,
+    /// One line that names the scene.
+    pub title: String,
+    /// What to look for.
+    pub note: String,
+    /// The bladed disk.
+    pub bladed_disk: BladedDisk,
+    /// The casing.
+    pub casing: Casing,
+    /// Speed, pulse and nodal diameters.
+    pub operation: Operation,
+    /// Casing state at t = 0.
+    pub initial: Initial,
+    /// Numerical choices.
+    pub solver: SolverChoice,
+    /// Charts to open with.
+    pub view: View,
+}
+
+/// The version of the scene format; there is one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Schema;
+
+fn schema_as_number<S: serde::Serializer>(_: &Schema, out: S) -> Result<S::Ok, S::Error> {
+    out.serialize_u32(1)
+}
+
+impl Scene {
+    /// The machine this scene describes, with all that is derived from it.
+    #[must_use]
+    pub fn machine(&self) -> Machine {
+        Machine::new(&self.bladed_disk, &self.casing, self.operation.nodal_diameters)
+    }
+
+    /// Largest step the explicit solver is stable for, `2/omega_max`, Eq. (9) \[s\].
+    #[must_use]
+    pub fn stable_step(&self) -> f64 {
+        let machine = self.machine();
+        let fastest = match self.solver.model {
+            ModelSize::Rigid => machine.omega_c,
+            ModelSize::Modal => machine.omega_c.max(machine.omega_bd),
+            ModelSize::Full => machine.omega_c.max(machine.omega_bd_max),
+        };
+        2.0 / fastest
+    }
+
+    /// Sets one key from text, as `--set` and the knobs do, and checks the
+    /// value against the key's own bounds. The scene is unchanged on error.
+    ///
+    /// # Errors
+    /// An unknown key, a value of the wrong type, or one out of bounds.
+    pub fn set(&mut self, path: &str, text: &str) -> Result<(), SceneError> {
+        let key = keys::find(path)?;
+        let value = key.parse(text)?;
+        self.set_value(key, value)
+    }
+
+    /// Sets one key to a value, checked against the key's own bounds.
+    ///
+    /// # Errors
+    /// A value of the wrong kind or out of bounds.
+    pub fn set_value(&mut self, key: &Key, value: Value) -> Result<(), SceneError> {
+        key.check(&value)?;
+        (key.set)(self, value);
+        Ok(())
+    }
+
+    /// Checks what single keys cannot: clearance, stable step, solver pairs.
+    ///
+    /// # Errors
+    /// The first combination that is not allowed, named by its key.
+    pub fn check(&self) -> Result<(), SceneError> {
+        check::check(self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refusal(toml: &str) -> String {
+        let message = Scene::from_toml(toml).unwrap_err().to_string();
+        assert_eq!(message.lines().count(), 1, "{message}");
+        message
+    }
+
+    #[test]
+    fn every_builtin_scene_loads_and_survives_a_round_trip() {
+        for builtin in BUILTIN {
+            let scene = Scene::builtin(builtin.name).unwrap();
+            assert!(!scene.title.is_empty() && !scene.note.is_empty(), "{}", builtin.name);
+            assert_eq!(Scene::from_toml(&scene.to_toml()).unwrap(), scene);
+        }
+    }
+
+    #[test]
+    fn every_key_is_in_the_struct_and_every_field_in_the_table() {
+        let scene = Scene::default();
+        let table = toml::Table::try_from(&scene).unwrap();
+        let mut paths = Vec::new();
+        for (name, value) in &table {
+            match value {
+                toml::Value::Table(inner) => {
+                    paths.extend(inner.keys().map(|leaf| format!("{name}.{leaf}")));
+                }
+                _ if name == "schema" => {}
+                _ => paths.push(name.clone()),
+            }
+        }
+        let mut keys: Vec<&str> = KEYS.iter().map(|key| key.path).collect();
+        keys.sort_unstable();
+        paths.sort_unstable();
+        assert_eq!(paths, keys);
+    }
+
+    #[test]
+    fn what_a_file_may_not_hold_is_refused_by_name() {
+        for (toml, start) in [
+            ("colour = 1", "unknown key colour; allowed: schema, title"),
+            ("[casing]\ncolour = 1", "unknown key casing.colour; allowed: casing.radius_m"),
+            ("[paint]\n", "unknown key paint; allowed"),
+            ("schema = 2", "schema = 2: allowed is 1"),
+            ("[casing]\nradius_m = \"wide\"", "casing.radius_m = \"wide\": allowed is a number"),
+            ("[casing]\nradius_m = nan", "casing.radius_m = NaN: allowed"),
+            ("[operation]\npulse_n = inf", "operation.pulse_n = inf: allowed"),
+            ("[bladed_disk]\nblades = 0", "bladed_disk.blades = 0: allowed is a whole number"),
+            ("[bladed_disk]\nblades = 2.5", "bladed_disk.blades = 2.5: allowed is a whole"),
+            ("[casing]\nradius_m = 0.4", "casing.radius_m = 0.4: allowed is above bladed_disk"),
+            ("[solver]\nstep_s = 0.01", "solver.step_s = 1e-2: allowed is above 0 and below"),
+            ("[solver]\nkind = \"magic\"", "solver.kind = \"magic\": allowed is one of explicit"),
+            (
+                "[solver]\nkind = \"event\"\ncontact = \"bilateral\"",
+                "solver.contact = \"bilateral\"",
+            ),
+            ("[initial]\nu_c_m = 1.0", "initial.u_c_m = 1e0"),
+            ("casing = 3", "unknown key casing"),
+            ("casing.radius_m.x = 3", "casing.radius_m = "),
+            ("a = = 3", "not a TOML file: line 1"),
+        ] {
+            let message = refusal(toml);
+            assert!(message.starts_with(start), "{toml:?} gave {message}");
+        }
+    }
+
+    #[test]
+    fn options_read_numbers_of_any_sign_and_refuse_the_rest() {
+        let mut scene = Scene::default();
+        scene.set("operation.speed_rad_s", "-430").unwrap();
+        assert_eq!(scene.operation.speed_rad_s, -430.0);
+        let before = scene.clone();
+        for (key, value) in [
+            ("operation.speed_rad_s", "fast"),
+            ("operation.speed_rad_s", "NaN"),
+            ("bladed_disk.blades", "-1"),
+            ("solver.model", "huge"),
+            ("nothing", "1"),
+        ] {
+            assert!(scene.set(key, value).is_err(), "{key} = {value}");
+        }
+        assert_eq!(scene, before);
+    }
+}
