@@ -2,4 +2,5 @@
 //! Legrand, Pierre and Peseux (2010).
 
 pub mod model;
+pub mod motion;
 pub mod scene;

@@ -1,0 +1,138 @@
+//! The record of contacts that both solvers keep: which sides touch, since
+//! when, the impacts, and the steps that pulled. Constant memory but for the
+//! first thousand impacts.
+
+/// Impacts kept one by one; later ones are only counted.
+const IMPACTS_KEPT: usize = 1000;
+
+/// The phase groups in contact at one instant.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Touching {
+    /// No blade touches.
+    #[default]
+    Nothing,
+    /// One side of the polygon.
+    Side(u32),
+    /// Two sides, the smaller index first.
+    Corner(u32, u32),
+    /// Three sides or more: only very compliant blades, or a wrecked step.
+    Many,
+}
+
+impl Touching {
+    /// From the list of sides in contact, in any order and with repeats.
+    #[must_use]
+    pub fn of(sides: &[u32]) -> Self {
+        let Some(&first) = sides.first() else { return Self::Nothing };
+        let low = sides.iter().fold(first, |a, &b| a.min(b));
+        let high = sides.iter().fold(first, |a, &b| a.max(b));
+        if low == high {
+            Self::Side(low)
+        } else if sides.iter().all(|&side| side == low || side == high) {
+            Self::Corner(low, high)
+        } else {
+            Self::Many
+        }
+    }
+
+    /// Whether this side is among those in contact (unknown counts as yes).
+    #[must_use]
+    pub fn includes(self, side: u32) -> bool {
+        match self {
+            Self::Nothing => false,
+            Self::Side(a) => a == side,
+            Self::Corner(a, b) => a == side || b == side,
+            Self::Many => true,
+        }
+    }
+}
+
+/// A blade group meeting the casing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Impact {
+    /// When \[s\].
+    pub t_s: f64,
+    /// Which side of the polygon.
+    pub side: u32,
+}
+
+/// What touched, when, and how.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ContactLog {
+    /// The sides in contact now.
+    pub touching: Touching,
+    /// Since when `touching` has been what it is \[s\].
+    pub since: f64,
+    /// Since when something has touched without a break \[s\].
+    pub unbroken_since: Option<f64>,
+    /// The end of the latest contact, or now while in contact \[s\].
+    pub last_contact: Option<f64>,
+    /// The latest step with a tensile multiplier \[s\].
+    pub last_tensile: Option<f64>,
+    /// How many steps had a tensile multiplier.
+    pub tensile_steps: u64,
+    /// The first impacts, in order of time.
+    pub impacts: Vec<Impact>,
+    /// How many impacts in all.
+    pub impact_count: u64,
+}
+
+impl ContactLog {
+    /// From `t` on, these sides touch.
+    pub fn touch(&mut self, t: f64, touching: Touching) {
+        if touching != self.touching {
+            self.touching = touching;
+            self.since = t;
+        }
+        if touching == Touching::Nothing {
+            self.unbroken_since = None;
+        } else {
+            self.unbroken_since.get_or_insert(t);
+            self.last_contact = Some(t);
+        }
+    }
+
+    /// A blade group meets the casing at `t`.
+    pub fn impact(&mut self, t: f64, side: u32) {
+        self.impact_count += 1;
+        if self.impacts.len() < IMPACTS_KEPT {
+            self.impacts.push(Impact { t_s: t, side });
+        }
+    }
+
+    /// A step at `t` pulled.
+    pub fn tensile(&mut self, t: f64) {
+        self.tensile_steps += 1;
+        self.last_tensile = Some(t);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn touching_is_the_set_of_sides() {
+        assert_eq!(Touching::of(&[]), Touching::Nothing);
+        assert_eq!(Touching::of(&[4, 4]), Touching::Side(4));
+        assert_eq!(Touching::of(&[16, 15, 16]), Touching::Corner(15, 16));
+        assert_eq!(Touching::of(&[1, 2, 3]), Touching::Many);
+    }
+
+    #[test]
+    fn a_break_ends_the_unbroken_contact_and_a_change_of_sides_does_not() {
+        let mut log = ContactLog::default();
+        log.touch(1.0, Touching::Side(3));
+        log.touch(2.0, Touching::Corner(3, 4));
+        assert_eq!((log.since, log.unbroken_since), (2.0, Some(1.0)));
+        log.touch(3.0, Touching::Nothing);
+        assert_eq!((log.unbroken_since, log.last_contact), (None, Some(2.0)));
+    }
+
+    #[test]
+    fn only_the_first_thousand_impacts_are_kept() {
+        let mut log = ContactLog::default();
+        (0..1500).for_each(|n| log.impact(f64::from(n), 0));
+        assert_eq!((log.impacts.len(), log.impact_count), (1000, 1500));
+    }
+}

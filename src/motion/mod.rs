@@ -1,0 +1,13 @@
+//! Time domain: solvers that advance the motion of one scene, the record of
+//! contacts they share, and the verdict on how the motion lasts.
+//!
+//! A solver is a value that holds its whole state: `advance(until)` moves it
+//! on, `clone` forks it, nothing is global.
+
+mod contacts;
+mod drive;
+pub mod verdict;
+
+pub use contacts::{ContactLog, Impact, Touching};
+pub use drive::{Failure, Pulse, Rotor, State};
+pub use verdict::{Checks, Contact, Outcome, Verdict};

@@ -1,0 +1,197 @@
+//! How a motion lasts, judged in one place for every solver.
+//!
+//! *decay*: no contact can come again, or none came over the last part of the
+//! run. *locked*: the same sides in contact without a break, all compressive.
+//! *adhesive*: locked, but some multiplier pulls. *slip*: contact without a
+//! break while the sides change. *bounce*: contacts that come and go.
+//! *failed*: the run stopped early.
+
+use serde::Serialize;
+
+use super::{ContactLog, Touching};
+use crate::model::Machine;
+
+/// Part of the run, at its end, over which the verdict is judged.
+pub const LAST_PART: f64 = 0.1;
+
+/// How a motion lasts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Verdict {
+    /// The motion dies away without further contact.
+    Decay,
+    /// Contacts that come and go.
+    Bounce,
+    /// Permanent contact with the wave turning against the blades.
+    Slip,
+    /// Permanent contact of the same sides, all pushing.
+    Locked,
+    /// Permanent contact of the same sides, some of them pulling.
+    Adhesive,
+    /// The run stopped early, with a reason.
+    Failed,
+}
+
+impl Verdict {
+    /// Every verdict, in the order of the documentation.
+    pub const ALL: [Self; 6] =
+        [Self::Decay, Self::Bounce, Self::Slip, Self::Locked, Self::Adhesive, Self::Failed];
+
+    /// The word used in files and on screen.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Decay => "decay",
+            Self::Bounce => "bounce",
+            Self::Slip => "slip",
+            Self::Locked => "locked",
+            Self::Adhesive => "adhesive",
+            Self::Failed => "failed",
+        }
+    }
+
+    /// The verdict a word stands for.
+    #[must_use]
+    pub fn from_word(word: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|verdict| verdict.word() == word)
+    }
+}
+
+impl std::fmt::Display for Verdict {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        out.pad(self.word())
+    }
+}
+
+/// One phase group in contact, with its multiplier.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Contact {
+    /// The blades of the group, numbered from 1.
+    pub blades: Vec<u32>,
+    /// Sum of the group's multipliers; negative is a push \[N\].
+    pub multiplier_n: f64,
+}
+
+/// How a run ended.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Outcome {
+    /// How the motion lasts.
+    pub verdict: Verdict,
+    /// Whether a tiny change of the pulse or of the tolerance changes the
+    /// verdict or the impact count.
+    pub sensitive: bool,
+    /// Why the run failed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub message: Option<String>,
+    /// Since when the final sides have been locked \[s\].
+    pub lock_time_s: Option<f64>,
+    /// The groups in contact at the end, in phase order (`psi_a`, `psi_b`).
+    pub contacts: Vec<Contact>,
+    /// `|u|` at the end \[m\].
+    pub amplitude_m: f64,
+    /// Mean angular speed of the casing wave over the last part, divided by
+    /// `n_d`; equals the rotor speed when locked \[rad/s\].
+    pub wave_speed_rad_s: Option<f64>,
+}
+
+/// What a run kept watch on.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Checks {
+    /// Deepest penetration of an accepted state \[m\].
+    pub max_penetration_m: f64,
+    /// Deepest penetration predicted before correction (explicit only) \[m\].
+    pub max_predicted_penetration_m: Option<f64>,
+    /// Steps with a tensile multiplier.
+    pub tensile_steps: u64,
+    /// Largest blade angle \[rad\].
+    pub max_blade_angle_rad: f64,
+    /// Work of pulse and rotor less energy stored, dissipated and lost \[J\].
+    pub energy_residual_j: Option<f64>,
+}
+
+/// Verdict at time `now` over the last `window` seconds. `over` says that no
+/// contact can ever come again.
+#[must_use]
+pub fn judge(log: &ContactLog, machine: &Machine, now: f64, window: f64, over: bool) -> Verdict {
+    let start = now - window;
+    let held = match log.touching {
+        Touching::Corner(..) | Touching::Many => hold_time(machine, window),
+        Touching::Nothing | Touching::Side(_) => window,
+    };
+    if over {
+        Verdict::Decay
+    } else if log.touching != Touching::Nothing && log.since <= now - held {
+        if !machine.rim.has_corners() {
+            Verdict::Slip
+        } else if log.last_tensile.is_some_and(|t| t >= now - held) {
+            Verdict::Adhesive
+        } else {
+            Verdict::Locked
+        }
+    } else if log.unbroken_since.is_some_and(|t| t <= start) {
+        Verdict::Slip
+    } else if log.last_contact.is_some_and(|t| t >= start) {
+        Verdict::Bounce
+    } else {
+        Verdict::Decay
+    }
+}
+
+/// How long a corner must be held to count as locked: one casing period, or
+/// the last part where that is shorter \[s\].
+fn hold_time(machine: &Machine, window: f64) -> f64 {
+    window.min(std::f64::consts::TAU / machine.omega_c)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    fn judged(build: impl Fn(&mut ContactLog)) -> Verdict {
+        let mut log = ContactLog::default();
+        build(&mut log);
+        judge(&log, &Scene::default().machine(), 0.1, 0.01, false)
+    }
+
+    #[test]
+    fn the_five_ways_to_last() {
+        assert_eq!(judged(|_| {}), Verdict::Decay);
+        assert_eq!(judged(|log| log.touch(0.01, Touching::Corner(15, 16))), Verdict::Locked);
+        assert_eq!(
+            judged(|log| {
+                log.touch(0.01, Touching::Corner(15, 16));
+                log.tensile(0.0999);
+            }),
+            Verdict::Adhesive
+        );
+        assert_eq!(
+            judged(|log| {
+                log.touch(0.01, Touching::Side(3));
+                log.touch(0.095, Touching::Side(2));
+            }),
+            Verdict::Slip
+        );
+        assert_eq!(
+            judged(|log| {
+                log.touch(0.091, Touching::Side(3));
+                log.touch(0.095, Touching::Nothing);
+            }),
+            Verdict::Bounce
+        );
+        assert_eq!(
+            judged(|log| {
+                log.touch(0.02, Touching::Side(3));
+                log.touch(0.03, Touching::Nothing);
+            }),
+            Verdict::Decay
+        );
+    }
+
+    #[test]
+    fn words_name_every_verdict() {
+        for verdict in Verdict::ALL {
+            assert_eq!(Verdict::from_word(verdict.word()), Some(verdict));
+        }
+    }
+}
