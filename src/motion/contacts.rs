@@ -2,6 +2,8 @@
 //! when, the impacts, and the steps that pulled. Constant memory but for the
 //! first thousand impacts.
 
+use crate::model::Rim;
+
 /// Impacts kept one by one; later ones are only counted.
 const IMPACTS_KEPT: usize = 1000;
 
@@ -23,15 +25,17 @@ impl Touching {
     /// From the list of sides in contact, in any order and with repeats.
     #[must_use]
     pub fn of(sides: &[u32]) -> Self {
-        let Some(&first) = sides.first() else { return Self::Nothing };
-        let low = sides.iter().fold(first, |a, &b| a.min(b));
-        let high = sides.iter().fold(first, |a, &b| a.max(b));
-        if low == high {
-            Self::Side(low)
-        } else if sides.iter().all(|&side| side == low || side == high) {
-            Self::Corner(low, high)
-        } else {
-            Self::Many
+        sides.iter().fold(Self::Nothing, |touching, &side| touching.with(side))
+    }
+
+    /// With one more side.
+    #[must_use]
+    pub fn with(self, side: u32) -> Self {
+        match self {
+            Self::Nothing => Self::Side(side),
+            Self::Side(a) if a != side => Self::Corner(a.min(side), a.max(side)),
+            Self::Corner(a, b) if a != side && b != side => Self::Many,
+            _ => self,
         }
     }
 
@@ -44,6 +48,19 @@ impl Touching {
             Self::Corner(a, b) => a == side || b == side,
             Self::Many => true,
         }
+    }
+}
+
+/// Puts sides in contact in phase order: at a corner `psi_a` before
+/// `psi_b = psi_a + 2 delta`, otherwise by index.
+pub fn in_phase_order(rim: &Rim, sides: &mut [(u32, f64)]) {
+    sides.sort_by_key(|&(side, _)| side);
+    if let [first, second] = sides
+        && rim.has_corners()
+        && rim.next(first.0) != second.0
+        && rim.next(second.0) == first.0
+    {
+        std::mem::swap(first, second);
     }
 }
 

@@ -6,8 +6,13 @@
 
 mod contacts;
 mod drive;
+pub mod explicit;
+mod run;
+mod solver;
 pub mod verdict;
 
-pub use contacts::{ContactLog, Impact, Touching};
+pub use contacts::{ContactLog, Impact, Touching, in_phase_order};
 pub use drive::{Failure, Pulse, Rotor, State};
+pub use run::{FinalState, ImpactReport, RunReport, Sample, Sampling, SolverReport, simulate};
+pub use solver::Motion;
 pub use verdict::{Checks, Contact, Outcome, Verdict};

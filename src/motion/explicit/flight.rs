@@ -1,0 +1,133 @@
+//! Free flight in blocks, and the turning phase of the rotor.
+//!
+//! Free steps are a linear recurrence, and its discrete energy bounds how far
+//! `|u|` can travel in one step. So many steps as cannot reach the clearance
+//! form a *block*: it is decided on once, looked at wherever asked, and taken
+//! at its end. Looking never changes the trajectory.
+
+use super::{BREAK_STEPS, Blades, Coordinate, Explicit};
+use crate::motion::{Rotor, Touching};
+
+/// Blocks shorter than this are stepped: deciding costs about as much.
+const SHORTEST_BLOCK: u64 = 8;
+/// A block without end: no contact can ever come again.
+const ENDLESS: u64 = u64::MAX;
+
+/// Free steps decided on, from the step the coordinates belong to.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Block {
+    length: u64,
+    used: u64,
+}
+
+impl Block {
+    pub(super) fn is_open(self) -> bool {
+        self.length > 0
+    }
+    pub(super) fn is_endless(self) -> bool {
+        self.length == ENDLESS
+    }
+    pub(super) fn used(self) -> u64 {
+        self.used
+    }
+}
+
+impl<B: Blades> Explicit<B> {
+    /// Whether a block of steps that cannot touch is open, deciding on one if
+    /// it can be long enough to be worth it.
+    pub(super) fn open_block(&mut self) -> Result<bool, String> {
+        if self.block.is_open() {
+            return Ok(true);
+        }
+        let pulse_to_come =
+            self.pulse.force != 0.0 && self.time_of(self.n) - 0.5 * self.step < self.pulse.end;
+        let clearance = self.machine.rim.clearance;
+        let distance = self.u[0].x.hypot(self.u[1].x);
+        if pulse_to_come || distance >= clearance {
+            return Ok(false);
+        }
+        let energy = self.casing.twice_energy(self.u[0]) + self.casing.twice_energy(self.u[1]);
+        let (farthest, longest) = self.casing.reach(energy);
+        let length =
+            if farthest < clearance { ENDLESS } else { ((clearance - distance) / longest) as u64 };
+        if length < SHORTEST_BLOCK {
+            return Ok(false);
+        }
+        // Such a block is longer than the pause that ends a contact.
+        if self.log.touching != Touching::Nothing {
+            self.end_contact(self.n.max(self.last_touch + BREAK_STEPS + 1))?;
+        }
+        self.block = Block { length, used: 0 };
+        Ok(true)
+    }
+
+    /// Goes on inside the open block, up to `target`; takes it at its end.
+    pub(super) fn use_block(&mut self, target: u64) {
+        let wanted = target - self.n;
+        self.block.used = wanted.min(self.block.length);
+        if self.block.used == self.block.length {
+            self.close_block();
+        }
+    }
+
+    /// Takes the steps used so far for good.
+    pub(super) fn close_block(&mut self) {
+        let (u, blades) = self.materialized();
+        self.n += self.block.used;
+        self.u = u;
+        self.blades = blades;
+        self.block = Block::default();
+    }
+
+    /// Coordinates at the latest step, inside a block or not.
+    pub(super) fn materialized(&self) -> ([Coordinate; 2], B) {
+        let mut blades = self.blades.clone();
+        if self.block.used == 0 {
+            return (self.u, blades);
+        }
+        blades.skip(self.block.used);
+        (self.u.map(|coordinate| self.casing.skip(coordinate, self.block.used)), blades)
+    }
+}
+
+/// The phase of the wave frame, `exp(i n_d theta)`, at every step: an exact
+/// sine and cosine each 64 steps and a table between them, so that the value at
+/// a step does not depend on the steps before it.
+#[derive(Clone, Debug)]
+pub(super) struct Phasor {
+    table: Vec<(f64, f64)>,
+    block: u64,
+    at_block: (f64, f64),
+}
+
+const TABLE: u64 = 64;
+
+impl Phasor {
+    pub(super) fn new(rotor: &Rotor, diameters: f64, step: f64) -> Self {
+        let entry = |j: u64| {
+            let (sin, cos) = (diameters * rotor.speed(0.0) * step * j as f64).sin_cos();
+            (cos, sin)
+        };
+        let steady = rotor.ramp() == 0.0;
+        let table = if steady { (0..TABLE).map(entry).collect() } else { Vec::new() };
+        Self { table, block: u64::MAX, at_block: (1.0, 0.0) }
+    }
+
+    /// `(cos n_d theta, sin n_d theta)` at step `n`.
+    pub(super) fn at(&mut self, n: u64, rotor: &Rotor, diameters: f64, step: f64) -> (f64, f64) {
+        let exact = |n: u64| {
+            let (sin, cos) = (diameters * rotor.angle(n as f64 * step)).sin_cos();
+            (cos, sin)
+        };
+        if self.table.is_empty() {
+            return exact(n);
+        }
+        if n / TABLE != self.block {
+            self.block = n / TABLE;
+            self.at_block = exact(self.block * TABLE);
+        }
+        let (c, s) = self.at_block;
+        let (dc, ds) = self.table[(n % TABLE) as usize];
+        (c * dc - s * ds, s * dc + c * ds)
+    }
+}

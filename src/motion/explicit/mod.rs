@@ -1,0 +1,349 @@
+//! The paper's time solver, Eqs. (8)-(16): explicit central differences with
+//! Lagrange-multiplier contact. First order in the step once contact happens.
+//!
+//! Each step predicts free motion, looks for penetrations and corrects them
+//! with one of the two contact laws. `|u*| < g0` means no blade can touch,
+//! whatever its angle; a bound on how far the casing can travel says how many
+//! such steps are safe, and those are done at once (`flight`).
+
+mod blades;
+mod correct;
+mod flight;
+mod oscillator;
+
+pub use blades::{Blades, FullBlades, ModalBlades, RigidBlades};
+pub use oscillator::{Coordinate, Oscillator};
+
+use super::{Checks, ContactLog, Failure, Pulse, Rotor, State, Touching};
+use crate::model::Machine;
+use crate::scene::{ContactLaw, Scene};
+use flight::{Block, Phasor};
+
+/// Steps without contact before a contact counts as broken: the scheme's
+/// impact takes two steps, and its rounding may open one step between them.
+const BREAK_STEPS: u64 = 2;
+
+/// Blade angle beyond which small-angle blades have lost their meaning \[rad\].
+const LARGEST_ANGLE: f64 = 0.1;
+
+/// The explicit solver on one size of bladed disk.
+#[derive(Clone, Debug)]
+pub struct Explicit<B: Blades> {
+    machine: Machine,
+    law: ContactLaw,
+    casing_radius: f64,
+    step: f64,
+    rotor: Rotor,
+    pulse: Pulse,
+    pulse_length: f64,
+    casing: Oscillator,
+    /// Index of the step the coordinates belong to, `t = n h`.
+    n: u64,
+    u: [Coordinate; 2],
+    blades: B,
+    /// Free steps already decided on, not yet taken; see `flight`.
+    block: Block,
+    phasor: Phasor,
+    /// Step of the latest contact of each side, from 1; 0 for never.
+    touched: Vec<u64>,
+    last_touch: u64,
+    /// Side to begin the search for the deepest penetration at.
+    near: u32,
+    /// Multipliers of the latest step in contact, by row.
+    rows: Vec<Row>,
+    /// Room for the rows of one side.
+    indices: Vec<u32>,
+    /// Impulse on each side since `take_impulses` \[N s\].
+    impulses: Vec<f64>,
+    impulses_since: u64,
+    log: ContactLog,
+    deepest: f64,
+    deepest_predicted: f64,
+    widest: f64,
+    failure: Option<Failure>,
+}
+
+/// One constraint of a step: a side or a blade with its predicted gap.
+#[derive(Clone, Copy, Debug)]
+struct Row {
+    index: u32,
+    side: u32,
+    /// Predicted gap `g*` \[m\].
+    gap: f64,
+    /// `(cos beta, sin beta)`, standing frame.
+    normal: (f64, f64),
+    /// `A = dg/dalpha` \[m\].
+    lever: f64,
+    /// Multiplier \[N\].
+    lambda: f64,
+}
+
+impl<B: Blades> Explicit<B> {
+    /// The motion of a scene at t = 0. The scene is taken as checked.
+    #[must_use]
+    pub fn new(scene: &Scene) -> Self {
+        let machine = scene.machine();
+        let step = scene.solver.step_s;
+        let rotor = Rotor::of(scene);
+        let pulse = Pulse::of(scene);
+        let casing = Oscillator::new(
+            machine.casing_mass,
+            machine.casing_damping,
+            machine.casing_stiffness,
+            step,
+        );
+        let first_force = pulse.mean(0.0, 0.5 * step);
+        let initial = &scene.initial;
+        let u = [
+            casing.start(initial.u_c_m, initial.v_c_m_s, first_force),
+            casing.start(initial.u_s_m, initial.v_s_m_s, 0.0),
+        ];
+        let sides = machine.rim.sides as usize;
+        Self {
+            blades: B::at_rest(scene, &machine),
+            phasor: Phasor::new(&rotor, machine.nodal_diameters, step),
+            law: scene.solver.contact,
+            casing_radius: scene.casing.radius_m,
+            pulse_length: scene.operation.pulse_s,
+            touched: vec![0; sides],
+            impulses: vec![0.0; sides],
+            machine,
+            step,
+            rotor,
+            pulse,
+            casing,
+            n: 0,
+            u,
+            block: Block::default(),
+            last_touch: 0,
+            near: 0,
+            rows: Vec::with_capacity(8),
+            indices: Vec::with_capacity(8),
+            impulses_since: 0,
+            log: ContactLog::default(),
+            deepest: 0.0,
+            deepest_predicted: 0.0,
+            widest: 0.0,
+            failure: None,
+        }
+    }
+
+    /// Advances to the last step at or before `until` \[s\]. The trajectory
+    /// does not depend on the instants at which it is looked at.
+    ///
+    /// # Errors
+    /// The run has failed, now or before: a predicted penetration deeper than
+    /// the clearance, a blade angle beyond 0.1 rad, or a casing displacement
+    /// larger than the casing.
+    pub fn advance(&mut self, until: f64) -> Result<(), Failure> {
+        if let Some(failure) = &self.failure {
+            return Err(failure.clone());
+        }
+        // A step that ends within a millionth of itself after `until` belongs to it.
+        let target = (until / self.step + 1e-6).floor().max(0.0) as u64;
+        while self.steps() < target {
+            let moved = match self.open_block() {
+                Ok(true) => {
+                    self.use_block(target);
+                    Ok(())
+                }
+                Ok(false) => self.take_step(),
+                Err(reason) => Err(reason),
+            };
+            if let Err(reason) = moved {
+                let failure = Failure { t_s: self.time_of(self.n), reason };
+                self.log.touch(failure.t_s, Touching::Nothing);
+                self.failure = Some(failure.clone());
+                return Err(failure);
+            }
+        }
+        Ok(())
+    }
+
+    /// One step: predict, look, correct.
+    fn take_step(&mut self) -> Result<(), String> {
+        let n = self.n;
+        let force = self.force(n);
+        self.u = [self.casing.step(self.u[0], force), self.casing.step(self.u[1], 0.0)];
+        self.blades.predict();
+        self.n = n + 1;
+        let distance2 = self.u[0].x * self.u[0].x + self.u[1].x * self.u[1].x;
+        let clearance = self.machine.rim.clearance;
+        if distance2 < clearance * clearance {
+            self.open_gap()
+        } else {
+            self.meet(distance2.sqrt())
+        }
+    }
+
+    /// Bookkeeping of a step without contact.
+    fn open_gap(&mut self) -> Result<(), String> {
+        let still = self.log.touching == Touching::Nothing;
+        if still || self.n <= self.last_touch + BREAK_STEPS {
+            Ok(())
+        } else {
+            self.end_contact(self.n)
+        }
+    }
+
+    /// The contact is broken at step `n`; how far will the blades swing?
+    fn end_contact(&mut self, n: u64) -> Result<(), String> {
+        self.log.touch(self.time_of(n), Touching::Nothing);
+        self.rows.clear();
+        let reach = self.blades.reach();
+        self.widest = self.widest.max(reach);
+        if reach <= LARGEST_ANGLE {
+            return Ok(());
+        }
+        Err(too_wide(reach))
+    }
+
+    /// Mean force of the pulse over the step centred on `n`, whole at n = 0.
+    fn force(&self, n: u64) -> f64 {
+        let t = self.time_of(n);
+        let half = 0.5 * self.step;
+        self.pulse.mean(if n == 0 { 0.0 } else { t - half }, t + half)
+    }
+
+    fn time_of(&self, n: u64) -> f64 {
+        n as f64 * self.step
+    }
+
+    /// Steps taken so far.
+    #[must_use]
+    pub fn steps(&self) -> u64 {
+        self.n + self.block.used()
+    }
+
+    /// Time of the latest step \[s\].
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.time_of(self.steps())
+    }
+
+    /// The four coordinates and their rates at the latest step.
+    #[must_use]
+    pub fn state(&self) -> State {
+        let (u, blades) = self.materialized();
+        let n = self.steps();
+        let in_contact = self.log.touching != Touching::Nothing;
+        let rate = |coordinate: Coordinate, force: f64| {
+            if in_contact {
+                coordinate.increment / self.step
+            } else {
+                self.casing.rate(coordinate, force)
+            }
+        };
+        let (alpha, alpha_rate) = blades.modal();
+        State {
+            t_s: self.time_of(n),
+            u: u.map(|coordinate| coordinate.x),
+            v: [rate(u[0], self.force(n)), rate(u[1], 0.0)],
+            alpha,
+            alpha_rate,
+        }
+    }
+
+    /// The angle of every blade at the latest step \[rad\].
+    #[must_use]
+    pub fn blade_angles(&self) -> Vec<f64> {
+        self.materialized().1.every_angle(&self.machine)
+    }
+
+    /// Multipliers of the sides in contact at the latest step, in phase order
+    /// \[N\]; negative is a push. An impact's peak grows like 1/h.
+    #[must_use]
+    pub fn multipliers(&self) -> Vec<(u32, f64)> {
+        if self.log.touching == Touching::Nothing {
+            return Vec::new();
+        }
+        let mut sums: Vec<(u32, f64)> = Vec::new();
+        for row in &self.rows {
+            match sums.iter_mut().find(|(side, _)| *side == row.side) {
+                Some((_, sum)) => *sum += row.lambda,
+                None => sums.push((row.side, row.lambda)),
+            }
+        }
+        super::contacts::in_phase_order(&self.machine.rim, &mut sums);
+        sums
+    }
+
+    /// Mean force on each side since this was last asked, for the sides that
+    /// were touched \[N\]; negative is a push. Independent of the step.
+    pub fn take_mean_forces(&mut self) -> Vec<(u32, f64)> {
+        let span = self.steps().saturating_sub(self.impulses_since) as f64 * self.step;
+        self.impulses_since = self.steps();
+        let mut means = Vec::new();
+        for (side, impulse) in self.impulses.iter_mut().enumerate() {
+            if *impulse != 0.0 && span > 0.0 {
+                means.push((side as u32, *impulse / span));
+                *impulse = 0.0;
+            }
+        }
+        super::contacts::in_phase_order(&self.machine.rim, &mut means);
+        means
+    }
+
+    /// Whether no contact can ever come again.
+    #[must_use]
+    pub fn over(&self) -> bool {
+        self.block.is_endless()
+    }
+
+    /// The record of contacts.
+    #[must_use]
+    pub fn contacts(&self) -> &ContactLog {
+        &self.log
+    }
+
+    /// The machine.
+    #[must_use]
+    pub fn machine(&self) -> &Machine {
+        &self.machine
+    }
+
+    /// The rotor.
+    #[must_use]
+    pub fn rotor(&self) -> &Rotor {
+        &self.rotor
+    }
+
+    /// Why the run failed, if it did.
+    #[must_use]
+    pub fn failure(&self) -> Option<&Failure> {
+        self.failure.as_ref()
+    }
+
+    /// What was kept watch on.
+    #[must_use]
+    pub fn checks(&self) -> Checks {
+        Checks {
+            max_penetration_m: self.deepest,
+            max_predicted_penetration_m: Some(self.deepest_predicted),
+            tensile_steps: self.log.tensile_steps,
+            max_blade_angle_rad: self.widest,
+            energy_residual_j: None,
+        }
+    }
+
+    /// Fires the pulse again, from now on.
+    pub fn fire(&mut self) {
+        self.close_block();
+        let start = self.time();
+        self.pulse.start = start;
+        self.pulse.end = start + self.pulse_length;
+    }
+
+    /// From now on, turn with this speed \[rad/s\] and acceleration \[rad/s^2\].
+    pub fn set_speed(&mut self, speed: f64, ramp: f64) {
+        self.close_block();
+        self.rotor.change(self.time(), speed, ramp);
+        self.phasor = Phasor::new(&self.rotor, self.machine.nodal_diameters, self.step);
+    }
+}
+
+fn too_wide(angle: f64) -> String {
+    format!(
+        "a blade angle of {angle:e} rad is beyond the {LARGEST_ANGLE} rad that small angles allow"
+    )
+}
