@@ -1,6 +1,25 @@
 //! Blade-tip/casing rub of a flexible bladed disk in a flexible casing, after
 //! Legrand, Pierre and Peseux (2010).
+//!
+//! Dependencies point one way: `cli` and `tui` use `report` and `study`, these
+//! use `motion` (time domain) and `harmonic` (frequency domain), these use
+//! `contact`, and all use `model`. A `scene` says what to solve and how.
+//! Everything below `cli` and `tui` knows no terminal and prints nothing.
+//!
+//! ```
+//! use rubscope::motion::{Sampling, Verdict, simulate};
+//! use rubscope::scene::Scene;
+//!
+//! let mut scene = Scene::builtin("paper-nd3")?; // equality contact, 1 MN
+//! let report = simulate(&scene, Sampling::default(), &mut |_| {});
+//! assert_eq!(report.outcome.verdict, Verdict::Locked);
+//! scene.set("solver.contact", "unilateral")?; // contact that may only push
+//! let report = simulate(&scene, Sampling::default(), &mut |_| {});
+//! assert_eq!(report.outcome.verdict, Verdict::Decay);
+//! # Ok::<(), rubscope::scene::SceneError>(())
+//! ```
 
+pub mod cli;
 pub mod contact;
 pub mod model;
 pub mod motion;

@@ -13,8 +13,22 @@ impl Scene {
     /// # Errors
     /// No such scene, no such file, or a file that is refused.
     pub fn load(name_or_path: &str) -> Result<Self, SceneError> {
-        if BUILTIN.iter().any(|scene| scene.name == name_or_path) {
-            return Self::builtin(name_or_path);
+        let scene = Self::load_unchecked(name_or_path)?;
+        scene.check().map_err(|error| match builtin_text(name_or_path) {
+            Some(_) => error,
+            None => in_file(name_or_path, error),
+        })?;
+        Ok(scene)
+    }
+
+    /// As `load`, checking each key but not their combinations, so that
+    /// options can still change the scene before it is checked whole.
+    ///
+    /// # Errors
+    /// No such scene, no such file, or a key in it that is refused.
+    pub fn load_unchecked(name_or_path: &str) -> Result<Self, SceneError> {
+        if let Some(text) = builtin_text(name_or_path) {
+            return Self::from_toml_unchecked(text);
         }
         let path = Path::new(name_or_path);
         let is_toml = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("toml"));
@@ -28,10 +42,7 @@ impl Scene {
             path: name_or_path.to_string(),
             reason: error.to_string(),
         })?;
-        Self::from_toml(&text).map_err(|error| SceneError::InFile {
-            path: name_or_path.to_string(),
-            error: Box::new(error),
-        })
+        Self::from_toml_unchecked(&text).map_err(|error| in_file(name_or_path, error))
     }
 
     /// Reads a scene file and checks it whole.
@@ -91,6 +102,14 @@ impl Scene {
         }
         out
     }
+}
+
+fn builtin_text(name: &str) -> Option<&'static str> {
+    BUILTIN.iter().find(|scene| scene.name == name).map(|scene| scene.toml)
+}
+
+fn in_file(path: &str, error: SceneError) -> SceneError {
+    SceneError::InFile { path: path.to_string(), error: Box::new(error) }
 }
 
 fn in_table(key: &Key, table: &str) -> bool {

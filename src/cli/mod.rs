@@ -1,0 +1,66 @@
+//! The command line: one file per command, options that change the scene in
+//! `options`, exit status and one-line messages in `status`.
+//!
+//! Data goes to standard output, everything else to standard error.
+
+mod completions;
+mod explore;
+mod man;
+pub mod options;
+pub mod range;
+mod scenes;
+pub mod status;
+
+use std::ffi::OsString;
+use std::io::{BufWriter, Write};
+
+use clap::{Parser, Subcommand};
+
+use status::Status;
+
+/// What a command gives back: how it ended, or why it could not be done.
+pub type Done = anyhow::Result<Status>;
+
+/// See a flexible bladed disk rub against its flexible casing.
+///
+/// Without a command, opens the explorer on SCENE. Every command takes a
+/// SCENE, which is the name of a built-in scene (see `rubscope scenes`) or the
+/// path of a .toml file, and options that change it.
+#[derive(Debug, Parser)]
+#[command(name = "rubscope", version, args_conflicts_with_subcommands = true)]
+pub struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+    #[command(flatten)]
+    explore: explore::Explore,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Scenes(scenes::Scenes),
+    Completions(completions::Completions),
+    Man(man::Man),
+}
+
+/// Runs the program on these arguments and returns its exit status.
+pub fn main(args: impl IntoIterator<Item = OsString>) -> u8 {
+    let cli = match Cli::try_parse_from(args) {
+        Ok(cli) => cli,
+        Err(error) => return status::usage(&error),
+    };
+    let mut out = BufWriter::new(std::io::stdout().lock());
+    let done = dispatch(cli, &mut out).and_then(|status| {
+        out.flush()?;
+        Ok(status)
+    });
+    status::exit(done)
+}
+
+fn dispatch(cli: Cli, out: &mut dyn Write) -> Done {
+    match cli.command {
+        None => cli.explore.run(),
+        Some(Command::Scenes(command)) => command.run(out),
+        Some(Command::Completions(command)) => command.run(out),
+        Some(Command::Man(command)) => command.run(out),
+    }
+}

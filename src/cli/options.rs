@@ -1,0 +1,228 @@
+//! The scene a command works on: a built-in scene or a file, and options that
+//! change it. Precedence: option, then file, then documented default.
+
+use clap::Args;
+
+use super::range::Range;
+use super::status::{Refusal, say};
+use crate::scene::{BUILTIN, ContactLaw, ModelSize, Scene, SolverKind};
+
+/// The scene and the options that change it, on every command.
+#[derive(Args, Clone, Debug, Default)]
+pub struct SceneOptions {
+    /// Built-in scene or path of a .toml file [default: paper-nd3]
+    #[arg(value_name = "SCENE")]
+    scene: Option<String>,
+    /// Rotor speed; negative turns the other way [rad/s]
+    #[arg(long, value_name = "SPEED", allow_hyphen_values = true, help_heading = HEADING)]
+    speed: Option<String>,
+    /// Force of the pulse on the casing [N]
+    #[arg(long, value_name = "FORCE", allow_hyphen_values = true, help_heading = HEADING)]
+    pulse: Option<String>,
+    /// Nodal diameters
+    #[arg(long, value_name = "COUNT", allow_hyphen_values = true, help_heading = HEADING)]
+    nd: Option<String>,
+    /// Damping ratio of the casing
+    #[arg(long, value_name = "RATIO", allow_hyphen_values = true, help_heading = HEADING)]
+    zeta_casing: Option<String>,
+    /// Damping ratio of the bladed disk
+    #[arg(long, value_name = "RATIO", allow_hyphen_values = true, help_heading = HEADING)]
+    zeta_disk: Option<String>,
+    /// explicit: the paper's time steps; event: closed forms between contacts
+    #[arg(long, value_name = "KIND", help_heading = HEADING)]
+    solver: Option<String>,
+    /// unilateral: contact only pushes; bilateral: the paper's equality, which may pull
+    #[arg(long, value_name = "LAW", help_heading = HEADING)]
+    contact: Option<String>,
+    /// rigid: casing only; modal: the paper's four coordinates; full: every blade
+    #[arg(long, value_name = "SIZE", help_heading = HEADING)]
+    model: Option<String>,
+    /// Time step of the explicit solver [s]
+    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true, help_heading = HEADING)]
+    step: Option<String>,
+    /// End of the simulation [s]
+    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true, help_heading = HEADING)]
+    end: Option<String>,
+    /// Any key of the scene file, such as bladed_disk.blades=24; repeatable, applied last
+    #[arg(long, value_name = "PATH=VALUE", allow_hyphen_values = true, help_heading = HEADING)]
+    set: Vec<String>,
+}
+
+const HEADING: &str = "Options that change the scene";
+
+/// Key of the rotor speed, which some commands sweep.
+const SPEED: &str = "operation.speed_rad_s";
+/// Key of the pulse, which some commands sweep.
+const PULSE: &str = "operation.pulse_n";
+
+/// Which options a command takes as a range `FROM:TO:COUNT`.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Swept {
+    /// `--speed` may be a range.
+    pub speed: bool,
+    /// `--pulse` may be a range.
+    pub pulse: bool,
+}
+
+/// A scene ready to be used, with the ranges that were asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Resolved {
+    /// The scene, checked; a swept key holds the first value of its range.
+    pub scene: Scene,
+    /// The range given with `--speed`.
+    pub speeds: Option<Range>,
+    /// The range given with `--pulse`.
+    pub pulses: Option<Range>,
+}
+
+impl SceneOptions {
+    /// The scene these options describe. What had to be changed beside them is
+    /// said on standard error.
+    ///
+    /// # Errors
+    /// No such scene, or the first key, value or combination that is refused.
+    pub fn scene(&self) -> anyhow::Result<Scene> {
+        Ok(self.resolve(Swept::default())?.scene)
+    }
+
+    /// The scene these options describe, and the ranges among them.
+    ///
+    /// # Errors
+    /// As `scene`; the scene is checked at both ends of each range.
+    pub fn resolve(&self, swept: Swept) -> anyhow::Result<Resolved> {
+        let default = BUILTIN.first().map_or("paper-nd3", |scene| scene.name);
+        let mut scene = Scene::load_unchecked(self.scene.as_deref().unwrap_or(default))?;
+        let mut given = Vec::new();
+        let (mut speeds, mut pulses) = (None, None);
+        for (option, key, text) in self.named() {
+            let Some(text) = text else { continue };
+            let range = match key {
+                SPEED if swept.speed => &mut speeds,
+                PULSE if swept.pulse => &mut pulses,
+                _ => &mut None,
+            };
+            let sweeps = (key == SPEED && swept.speed) || (key == PULSE && swept.pulse);
+            if sweeps && Range::looks_like(text) {
+                let parsed = Range::parse(option, text)?;
+                *range = Some(parsed);
+                scene.set(key, &parsed.from.to_string())?;
+            } else {
+                scene.set(key, text)?;
+            }
+            given.push(key);
+        }
+        for assignment in &self.set {
+            let (key, text) = assignment.split_once('=').ok_or_else(|| {
+                Refusal::of("--set", assignment, "PATH=VALUE, such as bladed_disk.blades=24")
+            })?;
+            let key = key.trim();
+            scene.set(key, text)?;
+            given.push(key);
+        }
+        follow(&mut scene, &given);
+        for (key, range) in [(SPEED, speeds), (PULSE, pulses)] {
+            if let Some(range) = range {
+                let mut last = scene.clone();
+                last.set(key, &range.to.to_string())?;
+                last.check()?;
+            }
+        }
+        scene.check()?;
+        Ok(Resolved { scene, speeds, pulses })
+    }
+
+    /// Every named option, the key it sets, and its text.
+    fn named(&self) -> [(&'static str, &'static str, Option<&String>); 10] {
+        [
+            ("--speed", SPEED, self.speed.as_ref()),
+            ("--pulse", PULSE, self.pulse.as_ref()),
+            ("--nd", "operation.nodal_diameters", self.nd.as_ref()),
+            ("--zeta-casing", "casing.damping_ratio", self.zeta_casing.as_ref()),
+            ("--zeta-disk", "bladed_disk.damping_ratio", self.zeta_disk.as_ref()),
+            ("--solver", "solver.kind", self.solver.as_ref()),
+            ("--contact", "solver.contact", self.contact.as_ref()),
+            ("--model", "solver.model", self.model.as_ref()),
+            ("--step", "solver.step_s", self.step.as_ref()),
+            ("--end", "solver.end_s", self.end.as_ref()),
+        ]
+    }
+}
+
+/// Asked for one of solver, contact law and model, a file's choice of the
+/// others may not go with it: then they follow, and it is said. What was asked
+/// for itself is never changed.
+fn follow(scene: &mut Scene, given: &[&str]) {
+    let asked = |key: &str| given.contains(&key);
+    let solver = &mut scene.solver;
+    if solver.kind != SolverKind::Event {
+        return;
+    }
+    if asked("solver.kind") {
+        if solver.contact == ContactLaw::Bilateral && !asked("solver.contact") {
+            solver.contact = ContactLaw::Unilateral;
+            say(
+                "rubscope: the event solver knows unilateral contact only: took that instead of the scene's bilateral",
+            );
+        }
+        if solver.model == ModelSize::Full && !asked("solver.model") {
+            solver.model = ModelSize::Modal;
+            say(
+                "rubscope: the event solver knows the rigid and modal models only: took modal instead of the scene's full",
+            );
+        }
+    } else if (asked("solver.contact") && solver.contact == ContactLaw::Bilateral)
+        || (asked("solver.model") && solver.model == ModelSize::Full)
+    {
+        solver.kind = SolverKind::Explicit;
+        say(
+            "rubscope: only the explicit solver can do this: took it instead of the scene's event solver",
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn options(set: &[&str]) -> SceneOptions {
+        SceneOptions { set: set.iter().map(ToString::to_string).collect(), ..Default::default() }
+    }
+
+    #[test]
+    fn a_range_is_taken_only_where_the_command_sweeps_it() {
+        let options = SceneOptions { speed: Some("100:500:5".into()), ..Default::default() };
+        let swept = Swept { speed: true, pulse: false };
+        let resolved = options.resolve(swept).unwrap();
+        assert_eq!(resolved.speeds.unwrap().count, 5);
+        assert_eq!(resolved.scene.operation.speed_rad_s, 100.0);
+        let refused = options.scene().unwrap_err().to_string();
+        assert!(refused.starts_with("operation.speed_rad_s = 100:500:5: allowed is a number"));
+    }
+
+    #[test]
+    fn the_far_end_of_a_range_is_checked_too() {
+        let swept = Swept { speed: true, pulse: false };
+        let options = SceneOptions { speed: Some("0:2e6:3".into()), ..Default::default() };
+        let refused = options.resolve(swept).unwrap_err().to_string();
+        assert!(refused.starts_with("operation.speed_rad_s = 2e6"), "{refused}");
+    }
+
+    #[test]
+    fn the_contact_law_follows_the_solver_unless_both_are_asked_for() {
+        let scene = options(&["solver.kind=event"]).scene().unwrap();
+        assert_eq!(scene.solver.contact, ContactLaw::Unilateral);
+        let both = options(&["solver.kind=event", "solver.contact=bilateral"]);
+        assert!(
+            both.scene().unwrap_err().to_string().starts_with("solver.contact = \"bilateral\"")
+        );
+    }
+
+    #[test]
+    fn the_solver_follows_what_only_the_explicit_one_can_do() {
+        let mut scene = Scene::default();
+        scene.solver.kind = SolverKind::Event;
+        scene.solver.contact = ContactLaw::Bilateral;
+        follow(&mut scene, &["solver.contact"]);
+        assert_eq!(scene.solver.kind, SolverKind::Explicit);
+    }
+}

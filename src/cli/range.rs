@@ -1,0 +1,97 @@
+//! `FROM:TO:COUNT`, a range of values that a command sweeps.
+
+use super::status::Refusal;
+
+/// Most values of one range.
+const MOST: usize = 1_000_000;
+
+/// Evenly spaced values, both ends included.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Range {
+    /// First value.
+    pub from: f64,
+    /// Last value.
+    pub to: f64,
+    /// How many values, at least one.
+    pub count: usize,
+}
+
+impl Range {
+    /// Whether this text is meant as a range.
+    #[must_use]
+    pub fn looks_like(text: &str) -> bool {
+        text.contains(':')
+    }
+
+    /// Reads `FROM:TO:COUNT`, given for `name` (an option as typed).
+    ///
+    /// # Errors
+    /// Text of another form, ends that are no finite numbers, or a count
+    /// outside 1 to a million.
+    pub fn parse(name: &str, text: &str) -> Result<Self, Refusal> {
+        let refused = || {
+            let form = format!("FROM:TO:COUNT, two numbers and a count from 1 to {MOST}");
+            Refusal::of(name, text, form)
+        };
+        let parts: Vec<&str> = text.split(':').map(str::trim).collect();
+        let [from, to, count] = parts.as_slice() else { return Err(refused()) };
+        let number = |text: &str| text.parse().ok().filter(|x: &f64| x.is_finite());
+        let count = count.parse().ok().filter(|n| (1..=MOST).contains(n));
+        match (number(from), number(to), count) {
+            (Some(from), Some(to), Some(count)) => Ok(Self { from, to, count }),
+            _ => Err(refused()),
+        }
+    }
+
+    /// The values.
+    #[must_use]
+    pub fn values(&self) -> Vec<f64> {
+        linspace(self.from, self.to, self.count)
+    }
+}
+
+/// `count` evenly spaced values from `from` to `to`, both ends exactly.
+#[must_use]
+pub fn linspace(from: f64, to: f64, count: usize) -> Vec<f64> {
+    let last = count.saturating_sub(1);
+    (0..count)
+        .map(|n| {
+            if n == 0 {
+                from
+            } else if n == last {
+                to
+            } else {
+                let part = n as f64 / last as f64;
+                from * (1.0 - part) + to * part
+            }
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_ends_are_exact_and_whole_steps_stay_whole() {
+        assert_eq!(linspace(0.0, 500.0, 501)[499], 499.0);
+        assert_eq!(linspace(-0.1, 0.3, 7).last(), Some(&0.3));
+        assert_eq!(linspace(4.0, 9.0, 1), [4.0]);
+        assert!(linspace(4.0, 9.0, 0).is_empty());
+        assert_eq!(linspace(500.0, -500.0, 3), [500.0, 0.0, -500.0]);
+    }
+
+    #[test]
+    fn other_forms_are_refused_with_the_form_that_is_allowed() {
+        assert_eq!(
+            Range::parse("--speed", "-10:1e2:3").unwrap(),
+            Range { from: -10.0, to: 100.0, count: 3 }
+        );
+        for text in
+            ["1:2", "1:2:0", "1:2:x", "a:2:3", "1:nan:3", "1:2:3:4", "1:2:-3", "1:2:9999999"]
+        {
+            let message = Range::parse("--speed", text).unwrap_err().to_string();
+            assert!(message.starts_with(&format!("--speed = {text}: allowed is FROM:TO:COUNT")));
+        }
+    }
+}

@@ -1,0 +1,42 @@
+//! `rubscope scenes`: the built-in scenes, or the file of one.
+
+use std::io::Write;
+
+use clap::Args;
+
+use super::Done;
+use super::status::Status;
+use crate::scene::{BUILTIN, Scene};
+
+/// List the built-in scenes; with a name, print its file.
+#[derive(Args, Debug)]
+pub struct Scenes {
+    /// Name of a built-in scene
+    name: Option<String>,
+}
+
+impl Scenes {
+    pub(super) fn run(&self, out: &mut dyn Write) -> Done {
+        match &self.name {
+            Some(name) => {
+                // Checked through the same door as any use of the scene.
+                Scene::builtin(name)?;
+                let file = BUILTIN.iter().find(|scene| scene.name == name).map(|scene| scene.toml);
+                writeln!(out, "{}", file.unwrap_or_default().trim_end())?;
+            }
+            None => list(out)?,
+        }
+        Ok(Status::Done)
+    }
+}
+
+fn list(out: &mut dyn Write) -> anyhow::Result<()> {
+    let widest = BUILTIN.iter().map(|scene| scene.name.len()).max().unwrap_or(0);
+    for (index, builtin) in BUILTIN.iter().enumerate() {
+        let scene = Scene::builtin(builtin.name)?;
+        let default = if index == 0 { " (the default)" } else { "" };
+        writeln!(out, "{:widest$}  {}{default}", builtin.name, scene.title)?;
+        writeln!(out, "{:widest$}  {}", "", scene.note)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,117 @@
+//! Exit status and messages: 0 done, 1 failed, 2 wrong usage or refused
+//! input, 128 + n on signal n. Every message is one line on standard error.
+
+use std::io::{ErrorKind, Write};
+
+use clap::error::ErrorKind as Usage;
+use thiserror::Error;
+
+use crate::scene::SceneError;
+
+/// How a command that could be carried out ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// It did what was asked.
+    Done,
+    /// It was carried out, and what it computed failed; the output says why.
+    Failed,
+    /// It was ended by this signal.
+    Signal(u8),
+}
+
+/// Input that is refused beyond the scene itself, in one line.
+#[derive(Debug, Error)]
+#[error("{0}")]
+pub struct Refusal(String);
+
+impl Refusal {
+    /// A refusal of `value` for `name`, an option or argument as typed.
+    pub fn of(name: &str, value: impl std::fmt::Display, allowed: impl std::fmt::Display) -> Self {
+        Self(format!("{name} = {value}: allowed is {allowed}"))
+    }
+
+    /// A refusal in the words of its reason.
+    pub fn because(reason: impl Into<String>) -> Self {
+        Self(reason.into())
+    }
+}
+
+/// SIGPIPE, by the number it has on every Unix.
+const BROKEN_PIPE: u8 = 13;
+
+/// The exit status of a command, after its message if it has one.
+pub fn exit(done: super::Done) -> u8 {
+    let error = match done {
+        Ok(Status::Done) => return 0,
+        Ok(Status::Failed) => return 1,
+        Ok(Status::Signal(number)) => return 128 + number,
+        Err(error) => error,
+    };
+    let closed = |error: &std::io::Error| error.kind() == ErrorKind::BrokenPipe;
+    if error.downcast_ref::<std::io::Error>().is_some_and(closed) {
+        // Whoever read the output has seen enough: end as by SIGPIPE, silently.
+        return 128 + BROKEN_PIPE;
+    }
+    say(&format!("rubscope: {error:#}"));
+    if error.is::<SceneError>() || error.is::<Refusal>() { 2 } else { 1 }
+}
+
+/// The exit status of a command line that clap did not turn into a command:
+/// help and version on standard output, anything else refused in one line.
+pub fn usage(error: &clap::Error) -> u8 {
+    match error.kind() {
+        Usage::DisplayHelp | Usage::DisplayVersion => match error.print() {
+            Ok(()) => 0,
+            Err(failure) => exit(Err(failure.into())),
+        },
+        _ => {
+            say(&format!("rubscope: {}", in_one_line(&error.to_string())));
+            2
+        }
+    }
+}
+
+/// Clap's message without its usage block, as one line.
+fn in_one_line(message: &str) -> String {
+    let told: Vec<&str> = message
+        .lines()
+        .map(str::trim)
+        .take_while(|line| !line.starts_with("Usage:") && !line.starts_with("For more"))
+        .filter(|line| !line.is_empty())
+        .collect();
+    let line = told.join(" ");
+    let line = line.strip_prefix("error: ").unwrap_or(&line);
+    format!("{line} (see rubscope --help)")
+}
+
+/// One line on standard error. A closed standard error is no reason to fail.
+pub fn say(line: &str) {
+    // Control characters in quoted input must not reach the terminal.
+    let clean: String = line.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+    let _ = writeln!(std::io::stderr(), "{clean}");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn clap_messages_become_one_line() {
+        let message = "error: invalid value 'x' for '--color <WHEN>'\n  [possible values: a, b]\n\n\
+                       Usage: rubscope [SCENE]\n\nFor more information, try '--help'.\n";
+        assert_eq!(
+            in_one_line(message),
+            "invalid value 'x' for '--color <WHEN>' [possible values: a, b] (see rubscope --help)"
+        );
+    }
+
+    #[test]
+    fn each_kind_of_ending_has_its_status() {
+        assert_eq!(exit(Ok(Status::Done)), 0);
+        assert_eq!(exit(Ok(Status::Failed)), 1);
+        assert_eq!(exit(Ok(Status::Signal(2))), 130);
+        assert_eq!(exit(Err(std::io::Error::from(ErrorKind::BrokenPipe).into())), 141);
+        assert_eq!(exit(Err(Refusal::because("no").into())), 2);
+        assert_eq!(exit(Err(anyhow::anyhow!("disk full"))), 1);
+    }
+}
