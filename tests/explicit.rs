@@ -1,5 +1,7 @@
 //! The explicit solver against the reference numbers and closed forms.
 
+#![expect(clippy::unwrap_used, reason = "a test states what must hold")]
+
 use rubscope::motion::{Motion, RunReport, Sampling, Verdict, simulate};
 use rubscope::scene::Scene;
 
