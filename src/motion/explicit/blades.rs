@@ -15,8 +15,10 @@ use crate::scene::Scene;
 pub trait Blades: Clone + std::fmt::Debug {
     /// The disk at rest, for this scene.
     fn at_rest(scene: &Scene, machine: &Machine) -> Self;
-    /// Constraint rows of one side of the polygon, appended to `rows`.
-    fn rows_of_side(&self, side: u32, rows: &mut Vec<u32>);
+    /// How many constraint rows a side of the polygon has.
+    fn rows_of_side(&self, side: u32) -> usize;
+    /// One of the rows of a side.
+    fn row(&self, side: u32, place: usize) -> u32;
     /// One free step; contact corrects it afterwards.
     fn predict(&mut self);
     /// Blade angle of a row \[rad\].
@@ -27,6 +29,8 @@ pub trait Blades: Clone + std::fmt::Debug {
     fn correct(&mut self, row: u32, torque: f64);
     /// `steps` free steps at once.
     fn skip(&mut self, steps: u64);
+    /// A bound on every blade angle now \[rad\].
+    fn largest_angle(&self) -> f64;
     /// Largest blade angle that free motion can still reach \[rad\].
     fn reach(&self) -> f64;
     /// `[alpha_c, alpha_s]` and their rates.
@@ -45,8 +49,11 @@ impl Blades for RigidBlades {
     fn at_rest(scene: &Scene, _: &Machine) -> Self {
         Self { blades: scene.bladed_disk.blades as usize }
     }
-    fn rows_of_side(&self, side: u32, rows: &mut Vec<u32>) {
-        rows.push(side);
+    fn rows_of_side(&self, _: u32) -> usize {
+        1
+    }
+    fn row(&self, side: u32, _: usize) -> u32 {
+        side
     }
     fn predict(&mut self) {}
     fn angle(&self, _: u32) -> f64 {
@@ -57,6 +64,9 @@ impl Blades for RigidBlades {
     }
     fn correct(&mut self, _: u32, _: f64) {}
     fn skip(&mut self, _: u64) {}
+    fn largest_angle(&self) -> f64 {
+        0.0
+    }
     fn reach(&self) -> f64 {
         0.0
     }
@@ -95,8 +105,11 @@ impl Blades for ModalBlades {
             shapes: (0..machine.rim.sides).map(shape).collect(),
         }
     }
-    fn rows_of_side(&self, side: u32, rows: &mut Vec<u32>) {
-        rows.push(side);
+    fn rows_of_side(&self, _: u32) -> usize {
+        1
+    }
+    fn row(&self, side: u32, _: usize) -> u32 {
+        side
     }
     fn predict(&mut self) {
         self.modes = self.modes.map(|mode| self.oscillator.step(mode, 0.0));
@@ -118,6 +131,9 @@ impl Blades for ModalBlades {
     }
     fn skip(&mut self, steps: u64) {
         self.modes = self.modes.map(|mode| self.oscillator.skip(mode, steps));
+    }
+    fn largest_angle(&self) -> f64 {
+        self.modes[0].x.abs() + self.modes[1].x.abs()
     }
     fn reach(&self) -> f64 {
         let energy: f64 = self.modes.iter().map(|&mode| self.oscillator.twice_energy(mode)).sum();
@@ -213,8 +229,11 @@ impl Blades for FullBlades {
             shown: [(cosine, scale), sine],
         }
     }
-    fn rows_of_side(&self, side: u32, rows: &mut Vec<u32>) {
-        rows.extend(&self.sides[side as usize]);
+    fn rows_of_side(&self, side: u32) -> usize {
+        self.sides[side as usize].len()
+    }
+    fn row(&self, side: u32, place: usize) -> u32 {
+        self.sides[side as usize][place]
     }
     fn predict(&mut self) {
         for (mode, &k) in self.modes.iter_mut().zip(&self.diameters) {
@@ -240,13 +259,16 @@ impl Blades for FullBlades {
             *mode = self.oscillators[k].skip(*mode, steps);
         }
     }
+    fn largest_angle(&self) -> f64 {
+        // Any blade's angle is at most the norm of the orthonormal coordinates.
+        self.modes.iter().map(|mode| mode.x * mode.x).sum::<f64>().sqrt()
+    }
     fn reach(&self) -> f64 {
         let modes = self.modes.iter().zip(&self.diameters);
         let most = modes.map(|(&mode, &k)| {
             let oscillator = &self.oscillators[k];
             oscillator.reach(oscillator.twice_energy(mode)).0
         });
-        // Any blade's angle is at most the norm of the orthonormal coordinates.
         most.map(|x| x * x).sum::<f64>().sqrt()
     }
     fn modal(&self) -> ([f64; 2], [f64; 2]) {

@@ -1,5 +1,8 @@
 //! The correction of one step, Eqs. (11)-(16): which rows penetrate, their
 //! multipliers by the chosen law, and the displacements they change.
+//!
+//! All of it happens in the frame of the blades, at `z = u exp(-i n_d theta)`,
+//! where the sides stand still and only small blade angles turn them.
 
 use nalgebra::DMatrix;
 
@@ -11,17 +14,19 @@ use crate::scene::ContactLaw;
 impl<B: Blades> Explicit<B> {
     /// A predicted step outside the circle of the clearance: find what
     /// penetrates and correct it.
-    pub(super) fn meet(&mut self, distance: f64) -> Result<(), String> {
-        if distance.is_nan() || distance > self.casing_radius {
+    pub(super) fn meet(&mut self, distance2: f64) -> Result<(), String> {
+        if distance2.is_nan() || distance2 > self.casing_radius * self.casing_radius {
             return Err(format!(
-                "the casing displacement {distance:e} m is beyond the casing radius {} m",
+                "the casing displacement {:e} m is beyond the casing radius {} m",
+                distance2.sqrt(),
                 self.casing_radius
             ));
         }
-        let phase = self.phasor.at(self.n, &self.rotor, self.machine.nodal_diameters, self.step);
-        self.gather(phase);
-        let deepest = self.rows.iter().fold(0.0_f64, |deepest, row| deepest.max(-row.gap));
-        if deepest == 0.0 {
+        let (c, s) = self.phasor.at(self.n, &self.rotor, self.machine.nodal_diameters, self.step);
+        let (u_c, u_s) = (self.u[0].x, self.u[1].x);
+        let z = (u_c * c + u_s * s, u_s * c - u_c * s);
+        let deepest = self.gather(z);
+        if deepest <= 0.0 {
             return self.open_gap();
         }
         self.deepest_predicted = self.deepest_predicted.max(deepest);
@@ -33,31 +38,49 @@ impl<B: Blades> Explicit<B> {
             ));
         }
         self.solve()?;
-        self.apply();
-        self.record(phase)
+        let (dx, dy) = self.apply();
+        let shift = [dx * c - dy * s, dx * s + dy * c];
+        for (coordinate, shift) in self.u.iter_mut().zip(shift) {
+            coordinate.x += shift;
+            coordinate.increment += shift;
+        }
+        self.record((z.0 + dx, z.1 + dy))
     }
 
-    /// Fills `rows` with the sides that penetrate and, under the unilateral
-    /// law, the next one on either hand, which a correction may push in.
-    fn gather(&mut self, phase: (f64, f64)) {
-        let (c, s) = phase;
-        let (u_c, u_s) = (self.u[0].x, self.u[1].x);
-        // The point in the frame of the blades, z = u exp(-i n_d theta).
-        let z = (u_c * c + u_s * s, u_s * c - u_c * s);
+    /// Fills `rows` with those that penetrate and, where pushing on one side
+    /// may push its neighbour in, the neighbours; the deepest penetration.
+    fn gather(&mut self, z: (f64, f64)) -> f64 {
+        // A blade angle moves a gap by at most |z| n_d alpha.
+        let reach = self.machine.nodal_diameters * self.blades.largest_angle();
+        self.look = reach * (z.0.abs() + z.1.abs());
         let near = self.follow(z);
         self.near = near;
         self.rows.clear();
-        if !self.add_side(near, z, phase) {
-            return;
-        }
+        let mut deepest = self.add_side(near, z);
         let mut right = self.machine.rim.next(near);
-        while right != near && self.add_side(right, z, phase) {
+        while right != near && self.is_close(right, z) {
+            let depth = self.add_side(right, z);
+            deepest = deepest.max(depth);
+            if depth <= 0.0 {
+                break;
+            }
             right = self.machine.rim.next(right);
         }
         let mut left = self.machine.rim.previous(near);
-        while left != near && left != right && self.add_side(left, z, phase) {
+        while left != near && left != right && self.is_close(left, z) {
+            let depth = self.add_side(left, z);
+            deepest = deepest.max(depth);
+            if depth <= 0.0 {
+                break;
+            }
             left = self.machine.rim.previous(left);
         }
+        deepest
+    }
+
+    fn is_close(&self, side: u32, z: (f64, f64)) -> bool {
+        let rim = &self.machine.rim;
+        self.neighbours_matter || rim.gap(side, z.0, z.1) < self.look
     }
 
     /// The side nearest to `z`, from the one found last: around the rim the
@@ -65,45 +88,36 @@ impl<B: Blades> Explicit<B> {
     fn follow(&self, z: (f64, f64)) -> u32 {
         let rim = &self.machine.rim;
         let gap = |side| rim.gap(side, z.0, z.1);
-        let (here, left, right) = (self.near, rim.previous(self.near), rim.next(self.near));
-        if gap(here) < rim.clearance && gap(here) <= gap(left) && gap(here) <= gap(right) {
-            here
+        let here = gap(self.near);
+        // On the far side of the rim the gap has its maximum instead.
+        if here < self.machine.rim.clearance
+            && here <= gap(rim.previous(self.near))
+            && here <= gap(rim.next(self.near))
+        {
+            self.near
         } else {
             rim.nearest_side(z.0, z.1)
         }
     }
 
-    /// Appends the rows of a side; whether any of them penetrates.
-    fn add_side(&mut self, side: u32, z: (f64, f64), phase: (f64, f64)) -> bool {
+    /// Appends the rows of a side that penetrate (or matter); its deepest
+    /// penetration.
+    fn add_side(&mut self, side: u32, z: (f64, f64)) -> f64 {
         let rim = &self.machine.rim;
         let diameters = self.machine.nodal_diameters;
-        let first = self.rows.len();
-        let mut indices = std::mem::take(&mut self.indices);
-        indices.clear();
-        self.blades.rows_of_side(side, &mut indices);
-        for &index in &indices {
-            // exp(i(psi + n_d alpha)) and from it exp(i beta).
-            let (dir_c, dir_s) = rim.direction(side);
-            let (sin, cos) = small_sin_cos(diameters * self.blades.angle(index));
-            let turned = (dir_c * cos - dir_s * sin, dir_s * cos + dir_c * sin);
-            self.rows.push(Row {
-                index,
-                side,
-                gap: rim.clearance + z.0 * turned.0 + z.1 * turned.1,
-                normal: (
-                    turned.0 * phase.0 - turned.1 * phase.1,
-                    turned.1 * phase.0 + turned.0 * phase.1,
-                ),
-                lever: diameters * (z.1 * turned.0 - z.0 * turned.1),
-                lambda: 0.0,
-            });
+        let (dir_c, dir_s) = rim.direction(side);
+        let mut deepest = 0.0_f64;
+        for place in 0..self.blades.rows_of_side(side) {
+            let index = self.blades.row(side, place);
+            let normal = turned((dir_c, dir_s), diameters * self.blades.angle(index));
+            let gap = rim.clearance + z.0 * normal.0 + z.1 * normal.1;
+            deepest = deepest.max(-gap);
+            if gap < 0.0 || self.neighbours_matter {
+                let lever = diameters * (z.1 * normal.0 - z.0 * normal.1);
+                self.rows.push(Row { index, side, gap, normal, lever, lambda: 0.0 });
+            }
         }
-        self.indices = indices;
-        let penetrates = self.rows[first..].iter().any(|row| row.gap < 0.0);
-        if self.law == ContactLaw::Bilateral {
-            self.rows.retain(|row| row.gap < 0.0);
-        }
-        penetrates
+        deepest
     }
 
     /// Entry of `W = C^T [M/h^2 + D/2h]^-1 C` for two rows \[m/N\].
@@ -115,91 +129,37 @@ impl<B: Blades> Explicit<B> {
 
     /// Multipliers of all rows by the chosen law.
     fn solve(&mut self) -> Result<(), String> {
-        match self.law {
-            ContactLaw::Bilateral => self.solve_equalities(),
-            ContactLaw::Unilateral => {
-                if self.solve_by_cases() {
-                    Ok(())
+        let unilateral = self.law == ContactLaw::Unilateral;
+        match self.rows.as_mut_slice() {
+            [_] => {
+                let row = &self.rows[0];
+                self.rows[0].lambda = contact::single(self.influence(row, row), row.gap);
+            }
+            [_, _] => {
+                let (a, b) = (&self.rows[0], &self.rows[1]);
+                let cross = self.influence(a, b);
+                let w = [[self.influence(a, a), cross], [cross, self.influence(b, b)]];
+                let gap = [a.gap, b.gap];
+                let lambda = if unilateral {
+                    contact::complementary_pair(w, gap).ok_or_else(|| dependent(2))?
                 } else {
-                    self.solve_dense(|w, gap| contact::complementary(&w, gap))
-                }
-            }
-        }
-    }
-
-    fn solve_equalities(&mut self) -> Result<(), String> {
-        match self.rows.len() {
-            1 => {
-                self.rows[0].lambda =
-                    contact::single(self.influence(&self.rows[0], &self.rows[0]), self.rows[0].gap);
-            }
-            2 => {
-                let lambda = self.close_pair(0, 1);
+                    contact::pair(w, gap)
+                };
                 self.rows[0].lambda = lambda[0];
                 self.rows[1].lambda = lambda[1];
             }
-            _ => return self.solve_dense(contact::all_closed),
+            _ if unilateral => self.solve_dense(|w, gap| contact::complementary(&w, gap))?,
+            _ => {
+                // The equality law closes penetrations only.
+                self.rows.retain(|row| row.gap < 0.0);
+                self.solve_dense(contact::all_closed)?;
+            }
         }
         if self.rows.iter().all(|row| row.lambda.is_finite()) {
             Ok(())
         } else {
             Err(dependent(self.rows.len()))
         }
-    }
-
-    fn close_pair(&self, a: usize, b: usize) -> [f64; 2] {
-        let (a, b) = (&self.rows[a], &self.rows[b]);
-        let cross = self.influence(a, b);
-        let w = [[self.influence(a, a), cross], [cross, self.influence(b, b)]];
-        contact::pair(w, [a.gap, b.gap])
-    }
-
-    /// Complementarity by cases: the deepest row alone, then with each other
-    /// row, then each other row alone. False where none of them holds.
-    fn solve_by_cases(&mut self) -> bool {
-        let count = self.rows.len();
-        let deepest =
-            (0..count).fold(0, |a, b| if self.rows[b].gap < self.rows[a].gap { b } else { a });
-        let alone = |solver: &Self, row: usize| {
-            let row = &solver.rows[row];
-            contact::single(solver.influence(row, row), row.gap)
-        };
-        let first = alone(self, deepest);
-        if self.holds(&[(deepest, first)]) {
-            self.rows[deepest].lambda = first;
-            return true;
-        }
-        for other in (0..count).filter(|&other| other != deepest) {
-            let lambda = self.close_pair(deepest, other);
-            if self.holds(&[(deepest, lambda[0]), (other, lambda[1])]) {
-                self.rows[deepest].lambda = lambda[0];
-                self.rows[other].lambda = lambda[1];
-                return true;
-            }
-        }
-        for other in (0..count).filter(|&other| other != deepest) {
-            let lambda = alone(self, other);
-            if self.holds(&[(other, lambda)]) {
-                self.rows[other].lambda = lambda;
-                return true;
-            }
-        }
-        false
-    }
-
-    /// Whether these multipliers push and leave every other row open.
-    fn holds(&self, chosen: &[(usize, f64)]) -> bool {
-        chosen.iter().all(|&(_, lambda)| lambda <= 0.0)
-            && self.rows.iter().enumerate().all(|(index, row)| {
-                chosen.iter().any(|&(active, _)| active == index)
-                    || row.gap
-                        >= chosen
-                            .iter()
-                            .map(|&(active, lambda)| {
-                                self.influence(row, &self.rows[active]) * lambda
-                            })
-                            .sum::<f64>()
-            })
     }
 
     fn solve_dense(
@@ -209,49 +169,44 @@ impl<B: Blades> Explicit<B> {
         let count = self.rows.len();
         let w = DMatrix::from_fn(count, count, |i, j| self.influence(&self.rows[i], &self.rows[j]));
         let gap: Vec<f64> = self.rows.iter().map(|row| row.gap).collect();
-        let lambda = law(w, &gap).filter(|lambda| lambda.iter().all(|value| value.is_finite()));
-        let lambda = lambda.ok_or_else(|| dependent(count))?;
+        let lambda = law(w, &gap).ok_or_else(|| dependent(count))?;
         for (row, value) in self.rows.iter_mut().zip(lambda) {
             row.lambda = value;
         }
         Ok(())
     }
 
-    /// Corrects the predicted displacements, Eq. (13b).
-    fn apply(&mut self) {
-        self.rows.retain(|row| row.lambda != 0.0);
+    /// Corrects the blades, Eq. (13b); the shift of the casing in their frame.
+    fn apply(&mut self) -> (f64, f64) {
+        let mut shift = (0.0, 0.0);
         for row in &self.rows {
-            let shift = -self.casing.compliance * row.lambda;
-            for (coordinate, normal) in self.u.iter_mut().zip([row.normal.0, row.normal.1]) {
-                coordinate.x += shift * normal;
-                coordinate.increment += shift * normal;
+            if row.lambda != 0.0 {
+                shift.0 -= self.casing.compliance * row.lambda * row.normal.0;
+                shift.1 -= self.casing.compliance * row.lambda * row.normal.1;
+                self.blades.correct(row.index, -row.lever * row.lambda);
             }
-            self.blades.correct(row.index, -row.lever * row.lambda);
         }
+        shift
     }
 
     /// Keeps what the step did: impulses, impacts, pulls, penetration left.
-    fn record(&mut self, phase: (f64, f64)) -> Result<(), String> {
-        let (n, t) = (self.n, self.time_of(self.n));
-        let diameters = self.machine.nodal_diameters;
+    fn record(&mut self, z: (f64, f64)) -> Result<(), String> {
+        let n = self.n;
         let mut touching = Touching::Nothing;
         let mut pulls = false;
-        for row in &self.rows {
+        for row in self.rows.iter().filter(|row| row.lambda != 0.0) {
             let angle = self.blades.angle(row.index);
-            let (sin, cos) = small_sin_cos(diameters * angle);
-            let (dir_c, dir_s) = self.machine.rim.direction(row.side);
-            let turned = (dir_c * cos - dir_s * sin, dir_s * cos + dir_c * sin);
-            let normal =
-                (turned.0 * phase.0 - turned.1 * phase.1, turned.1 * phase.0 + turned.0 * phase.1);
-            let gap = self.machine.rim.clearance + self.u[0].x * normal.0 + self.u[1].x * normal.1;
+            let direction = self.machine.rim.direction(row.side);
+            let normal = turned(direction, self.machine.nodal_diameters * angle);
+            let gap = self.machine.rim.clearance + z.0 * normal.0 + z.1 * normal.1;
             self.deepest = self.deepest.max(-gap);
             self.widest = self.widest.max(angle.abs());
-            if angle.abs() > LARGEST_ANGLE || angle.is_nan() {
+            if angle.is_nan() || angle.abs() > LARGEST_ANGLE {
                 return Err(too_wide(angle));
             }
             let last = &mut self.touched[row.side as usize];
             if *last == 0 || n > *last + BREAK_STEPS {
-                self.log.impact(t, row.side);
+                self.log.impact(n as f64 * self.step, row.side);
             }
             *last = n;
             self.impulses[row.side as usize] += row.lambda * self.step;
@@ -259,11 +214,22 @@ impl<B: Blades> Explicit<B> {
             pulls |= row.lambda > 0.0;
         }
         self.last_touch = n;
+        let t = self.time_of(n);
         self.log.touch(t, touching);
         if pulls {
             self.log.tensile(t);
         }
         Ok(())
+    }
+
+    /// Whether pushing on one side can push another into the casing: fewer
+    /// than four sides, or blades soft enough to couple them.
+    pub(super) fn neighbours_matter(&self) -> bool {
+        let rim = &self.machine.rim;
+        let turn = (2.0 * rim.delta).cos();
+        let lever = 2.0 * self.machine.nodal_diameters * rim.clearance;
+        let soft = lever * lever * self.blades.compliance(0, 0);
+        turn * self.casing.compliance < 2.0 * soft
     }
 }
 
@@ -271,12 +237,13 @@ fn dependent(rows: usize) -> String {
     format!("the multipliers of {rows} penetrating rows cannot be told apart (singular equations)")
 }
 
-/// Sine and cosine of a blade's small phase, to round-off.
-fn small_sin_cos(angle: f64) -> (f64, f64) {
-    if angle.abs() < 1e-4 {
+/// A direction turned by a small blade phase, to round-off.
+fn turned((c, s): (f64, f64), angle: f64) -> (f64, f64) {
+    let (sin, cos) = if angle.abs() < 1e-4 {
         let square = angle * angle;
-        (angle * (1.0 - square / 6.0), 1.0 - 0.5 * square)
+        (angle * (1.0 - square * (1.0 / 6.0)), 1.0 - 0.5 * square)
     } else {
         angle.sin_cos()
-    }
+    };
+    (c * cos - s * sin, s * cos + c * sin)
 }

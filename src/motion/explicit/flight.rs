@@ -39,13 +39,14 @@ impl<B: Blades> Explicit<B> {
         if self.block.is_open() {
             return Ok(true);
         }
+        let clearance = self.machine.rim.clearance;
+        let distance2 = self.u[0].x * self.u[0].x + self.u[1].x * self.u[1].x;
         let pulse_to_come =
             self.pulse.force != 0.0 && self.time_of(self.n) - 0.5 * self.step < self.pulse.end;
-        let clearance = self.machine.rim.clearance;
-        let distance = self.u[0].x.hypot(self.u[1].x);
-        if pulse_to_come || distance >= clearance {
+        if distance2 >= clearance * clearance || pulse_to_come {
             return Ok(false);
         }
+        let distance = distance2.sqrt();
         let energy = self.casing.twice_energy(self.u[0]) + self.casing.twice_energy(self.u[1]);
         let (farthest, longest) = self.casing.reach(energy);
         let length =

@@ -51,8 +51,10 @@ pub struct Explicit<B: Blades> {
     near: u32,
     /// Multipliers of the latest step in contact, by row.
     rows: Vec<Row>,
-    /// Room for the rows of one side.
-    indices: Vec<u32>,
+    /// Whether the sides beside a penetrating one always count; see `correct`.
+    neighbours_matter: bool,
+    /// Rigid gap beyond which no blade of a side can touch now \[m\].
+    look: f64,
     /// Impulse on each side since `take_impulses` \[N s\].
     impulses: Vec<f64>,
     impulses_since: u64,
@@ -70,7 +72,7 @@ struct Row {
     side: u32,
     /// Predicted gap `g*` \[m\].
     gap: f64,
-    /// `(cos beta, sin beta)`, standing frame.
+    /// `exp(i (psi + n_d alpha))`: the gap is `g0 + Re[z conj(normal)]`.
     normal: (f64, f64),
     /// `A = dg/dalpha` \[m\].
     lever: f64,
@@ -99,7 +101,7 @@ impl<B: Blades> Explicit<B> {
             casing.start(initial.u_s_m, initial.v_s_m_s, 0.0),
         ];
         let sides = machine.rim.sides as usize;
-        Self {
+        let mut motion = Self {
             blades: B::at_rest(scene, &machine),
             phasor: Phasor::new(&rotor, machine.nodal_diameters, step),
             law: scene.solver.contact,
@@ -118,14 +120,17 @@ impl<B: Blades> Explicit<B> {
             last_touch: 0,
             near: 0,
             rows: Vec::with_capacity(8),
-            indices: Vec::with_capacity(8),
+            neighbours_matter: false,
+            look: 0.0,
             impulses_since: 0,
             log: ContactLog::default(),
             deepest: 0.0,
             deepest_predicted: 0.0,
             widest: 0.0,
             failure: None,
-        }
+        };
+        motion.neighbours_matter = motion.neighbours_matter();
+        motion
     }
 
     /// Advances to the last step at or before `until` \[s\]. The trajectory
@@ -169,11 +174,7 @@ impl<B: Blades> Explicit<B> {
         self.n = n + 1;
         let distance2 = self.u[0].x * self.u[0].x + self.u[1].x * self.u[1].x;
         let clearance = self.machine.rim.clearance;
-        if distance2 < clearance * clearance {
-            self.open_gap()
-        } else {
-            self.meet(distance2.sqrt())
-        }
+        if distance2 < clearance * clearance { self.open_gap() } else { self.meet(distance2) }
     }
 
     /// Bookkeeping of a step without contact.
