@@ -23,4 +23,5 @@ pub mod cli;
 pub mod contact;
 pub mod model;
 pub mod motion;
+pub mod report;
 pub mod scene;

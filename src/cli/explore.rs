@@ -2,11 +2,11 @@
 
 use std::io::IsTerminal;
 
-use clap::Args;
+use clap::{Args, CommandFactory};
 
-use super::Done;
 use super::options::SceneOptions;
 use super::status::Refusal;
+use super::{Cli, Done};
 
 /// What the explorer opens with.
 #[derive(Args, Debug)]
@@ -17,6 +17,7 @@ pub struct Explore {
 
 impl Explore {
     pub(super) fn run(&self) -> Done {
+        self.refuse_command()?;
         let _scene = self.options.scene()?;
         if !std::io::stdout().is_terminal() {
             return Err(Refusal::because(
@@ -25,5 +26,15 @@ impl Explore {
             .into());
         }
         anyhow::bail!("the explorer is not part of this build")
+    }
+
+    /// A command after options is read as a scene: say what was meant.
+    fn refuse_command(&self) -> Result<(), Refusal> {
+        let name = self.options.name().unwrap_or_default();
+        if Cli::command().get_subcommands().any(|command| command.get_name() == name) {
+            let right = format!("options come after the command: rubscope {name} [OPTIONS]");
+            return Err(Refusal::because(right));
+        }
+        Ok(())
     }
 }

@@ -8,6 +8,7 @@ mod explore;
 mod man;
 pub mod options;
 pub mod range;
+mod run;
 mod scenes;
 pub mod status;
 
@@ -37,6 +38,7 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    Run(Box<run::Run>),
     Scenes(scenes::Scenes),
     Completions(completions::Completions),
     Man(man::Man),
@@ -59,6 +61,7 @@ pub fn main(args: impl IntoIterator<Item = OsString>) -> u8 {
 fn dispatch(cli: Cli, out: &mut dyn Write) -> Done {
     match cli.command {
         None => cli.explore.run(),
+        Some(Command::Run(command)) => command.run(out),
         Some(Command::Scenes(command)) => command.run(out),
         Some(Command::Completions(command)) => command.run(out),
         Some(Command::Man(command)) => command.run(out),

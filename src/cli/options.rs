@@ -76,6 +76,12 @@ pub struct Resolved {
 }
 
 impl SceneOptions {
+    /// The scene as given: a name or a path.
+    #[must_use]
+    pub fn name(&self) -> Option<&str> {
+        self.scene.as_deref()
+    }
+
     /// The scene these options describe. What had to be changed beside them is
     /// said on standard error.
     ///

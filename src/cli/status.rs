@@ -77,7 +77,7 @@ fn in_one_line(message: &str) -> String {
         .lines()
         .map(str::trim)
         .take_while(|line| !line.starts_with("Usage:") && !line.starts_with("For more"))
-        .filter(|line| !line.is_empty())
+        .filter(|line| !line.is_empty() && !line.starts_with("tip: to pass"))
         .collect();
     let line = told.join(" ");
     let line = line.strip_prefix("error: ").unwrap_or(&line);

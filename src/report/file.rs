@@ -1,0 +1,123 @@
+//! Files: the format by the ending of the name, and writing beside the target
+//! first, so that a failure never leaves half a file in its place.
+
+use std::ffi::OsString;
+use std::fs::File;
+use std::io::{BufWriter, Error, ErrorKind, Result, Write};
+use std::path::{Path, PathBuf};
+
+use super::{History, csv, npz};
+
+/// File formats of a history.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HistoryFormat {
+    /// Text, for everything.
+    Csv,
+    /// Arrays, for numpy.
+    Npz,
+}
+
+impl HistoryFormat {
+    /// The format a file name asks for by its ending.
+    #[must_use]
+    pub fn of(path: &Path) -> Option<Self> {
+        let ending = path.extension()?.to_str()?.to_ascii_lowercase();
+        match ending.as_str() {
+            "csv" => Some(Self::Csv),
+            "npz" => Some(Self::Npz),
+            _ => None,
+        }
+    }
+
+    /// Writes a history in this format.
+    ///
+    /// # Errors
+    /// What the writer refuses.
+    pub fn write(self, history: &History, out: &mut dyn Write) -> Result<()> {
+        match self {
+            Self::Csv => csv::write(history, out),
+            Self::Npz => npz::write(history, out),
+        }
+    }
+}
+
+/// Puts what `write` writes in the place of `path`, all of it or nothing.
+///
+/// # Errors
+/// What the system or `write` refuses; `path` is then as it was before.
+pub fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<()> {
+    if path.is_dir() {
+        return Err(Error::from(ErrorKind::IsADirectory));
+    }
+    let temporary = beside(path);
+    let written = File::create_new(&temporary).and_then(|file| {
+        let mut out = BufWriter::new(file);
+        write(&mut out)?;
+        out.into_inner()?.sync_all()?;
+        std::fs::rename(&temporary, path)
+    });
+    if written.is_err() {
+        // The error that matters is the first one.
+        let _ = std::fs::remove_file(&temporary);
+    }
+    written
+}
+
+/// Whether a file can be put there, as far as can be told without writing.
+///
+/// # Errors
+/// The directory does not exist, or the path is a directory itself.
+pub fn check_place(path: &Path) -> Result<()> {
+    if path.is_dir() {
+        return Err(Error::from(ErrorKind::IsADirectory));
+    }
+    let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty());
+    match parent.map(std::fs::metadata).transpose()? {
+        Some(metadata) if !metadata.is_dir() => Err(Error::from(ErrorKind::NotADirectory)),
+        _ => Ok(()),
+    }
+}
+
+fn beside(path: &Path) -> PathBuf {
+    let mut name = OsString::from(".");
+    name.push(path.file_name().unwrap_or_default());
+    name.push(format!(".{}.part", std::process::id()));
+    path.with_file_name(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_ending_decides_the_format() {
+        assert_eq!(HistoryFormat::of(Path::new("a/b.CSV")), Some(HistoryFormat::Csv));
+        assert_eq!(HistoryFormat::of(Path::new("b.npz")), Some(HistoryFormat::Npz));
+        assert_eq!(HistoryFormat::of(Path::new("csv")), None);
+        assert_eq!(HistoryFormat::of(Path::new("b.xlsx")), None);
+    }
+
+    #[test]
+    fn a_failure_leaves_the_old_file_and_no_other() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("history.csv");
+        replace(&path, |out| out.write_all(b"old")).unwrap();
+        let failed = replace(&path, |out| {
+            out.write_all(b"new")?;
+            Err(Error::other("disk full"))
+        });
+        assert_eq!(failed.unwrap_err().to_string(), "disk full");
+        assert_eq!(std::fs::read(&path).unwrap(), b"old");
+        assert_eq!(std::fs::read_dir(directory.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn places_that_cannot_take_a_file() {
+        let directory = tempfile::tempdir().unwrap();
+        assert!(check_place(&directory.path().join("a.csv")).is_ok());
+        assert!(check_place(Path::new("a.csv")).is_ok());
+        assert!(check_place(&directory.path().join("none").join("a.csv")).is_err());
+        assert!(check_place(directory.path()).is_err());
+        assert!(replace(directory.path(), |_| Ok(())).is_err());
+    }
+}

@@ -1,0 +1,130 @@
+//! The history of a run as named columns, the same in every file format.
+
+use crate::motion::Sample;
+
+/// Columns before the gaps of the single blades.
+const COLUMNS: [&str; 11] = [
+    "t_s",
+    "theta_rad",
+    "speed_rad_s",
+    "u_c_m",
+    "u_s_m",
+    "alpha_c_rad",
+    "alpha_s_rad",
+    "gap_min_m",
+    "multiplier_sum_n",
+    "multiplier_min_n",
+    "multiplier_max_n",
+];
+
+/// One named column.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    /// Its name, with the unit.
+    pub name: String,
+    /// One value per sample.
+    pub values: Vec<f64>,
+}
+
+/// A run, sample by sample. Multipliers are group sums, averaged since the
+/// sample before; negative is a push.
+#[derive(Clone, Debug, PartialEq)]
+pub struct History {
+    columns: Vec<Column>,
+}
+
+impl History {
+    /// An empty history; `blades` gap columns are added, none for 0.
+    #[must_use]
+    pub fn new(blades: u32) -> Self {
+        let gaps = (1..=blades).map(|blade| format!("gap_{blade}_m"));
+        let names = COLUMNS.into_iter().map(String::from).chain(gaps);
+        Self { columns: names.map(|name| Column { name, values: Vec::new() }).collect() }
+    }
+
+    /// Adds a sample, which must carry the gaps of all blades. A sample that
+    /// holds anything but finite numbers is left out.
+    pub fn push(&mut self, sample: &Sample) {
+        let forces = || sample.mean_forces.iter().map(|(_, force)| *force);
+        let gap_min = sample.gaps.iter().copied().fold(f64::INFINITY, f64::min);
+        let state = &sample.state;
+        let row = [
+            state.t_s,
+            sample.rotor_angle_rad,
+            sample.rotor_speed_rad_s,
+            state.u[0],
+            state.u[1],
+            state.alpha[0],
+            state.alpha[1],
+            gap_min,
+            forces().fold(0.0, |sum, force| sum + force),
+            forces().reduce(f64::min).unwrap_or(0.0),
+            forces().reduce(f64::max).unwrap_or(0.0),
+        ];
+        let row = row.into_iter().chain(sample.gaps.iter().copied());
+        if !row.clone().take(self.columns.len()).all(f64::is_finite) {
+            return;
+        }
+        for (column, value) in self.columns.iter_mut().zip(row) {
+            column.values.push(value);
+        }
+    }
+
+    /// The columns, all of one length.
+    #[must_use]
+    pub fn columns(&self) -> &[Column] {
+        &self.columns
+    }
+
+    /// How many samples there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.columns.first().map_or(0, |column| column.values.len())
+    }
+
+    /// Whether there is no sample.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+    use crate::motion::State;
+
+    pub(in crate::report) fn sample(t_s: f64) -> Sample {
+        Sample {
+            state: State { t_s, u: [0.1, -2.5e-300], ..State::default() },
+            rotor_angle_rad: 500.0 * t_s,
+            rotor_speed_rad_s: 500.0,
+            mean_forces: vec![(15, -100.0), (16, 40.0)],
+            gaps: vec![2e-4, 1e-4, 3e-4],
+        }
+    }
+
+    fn column<'a>(history: &'a History, name: &str) -> &'a [f64] {
+        &history.columns().iter().find(|column| column.name == name).unwrap().values
+    }
+
+    #[test]
+    fn a_sample_fills_every_column() {
+        let mut history = History::new(3);
+        history.push(&sample(0.25));
+        assert_eq!(history.len(), 1);
+        assert_eq!(column(&history, "gap_min_m"), [1e-4]);
+        assert_eq!(column(&history, "gap_3_m"), [3e-4]);
+        assert_eq!(column(&history, "multiplier_sum_n"), [-60.0]);
+        assert_eq!(column(&history, "multiplier_max_n"), [40.0]);
+        assert!(history.columns().iter().all(|column| column.values.len() == 1));
+    }
+
+    #[test]
+    fn what_is_no_number_never_gets_in() {
+        let mut history = History::new(0);
+        history.push(&sample(f64::NAN));
+        history.push(&Sample { rotor_angle_rad: f64::INFINITY, ..sample(0.1) });
+        assert!(history.is_empty());
+    }
+}

@@ -1,0 +1,14 @@
+//! Reports: one file per format. A report takes what a computation returned
+//! and a place to write to; it computes nothing itself.
+
+pub mod csv;
+pub mod file;
+pub mod history;
+pub mod json;
+pub mod npz;
+pub mod number;
+pub mod summary;
+mod zip;
+
+pub use file::HistoryFormat;
+pub use history::History;

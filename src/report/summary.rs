@@ -1,0 +1,283 @@
+//! The summary of a run in plain sentences, one fact a line, so that it reads
+//! the same on a screen, on paper and aloud.
+
+use std::io::{Result, Write};
+
+use super::number::{count, short, time};
+use crate::model::Machine;
+use crate::motion::{Contact, RunReport, Verdict};
+use crate::scene::{ContactLaw, SolverKind};
+
+/// Impacts told one by one.
+const IMPACTS_TOLD: usize = 4;
+
+/// Writes the summary of a run.
+///
+/// # Errors
+/// What the writer refuses.
+pub fn write(report: &RunReport, out: &mut dyn Write) -> Result<()> {
+    let machine = report.scene.machine();
+    if !report.scene.title.is_empty() {
+        writeln!(out, "{}", report.scene.title)?;
+    }
+    writeln!(out, "{}", how(report))?;
+    writeln!(out)?;
+    writeln!(out, "Verdict: {}. {}", report.outcome.verdict, meaning(report))?;
+    if let Some(message) = &report.outcome.message {
+        writeln!(out, "Reason: {message}.")?;
+    }
+    if report.outcome.sensitive {
+        writeln!(
+            out,
+            "Sensitive: a tiny change of the pulse or of the tolerance changes this outcome; do not rely on it."
+        )?;
+    }
+    if let Some(line) = warning(report) {
+        writeln!(out, "{line}")?;
+    }
+    writeln!(out)?;
+    motion(report, &machine, out)?;
+    writeln!(out)?;
+    checks(report, &machine, out)
+}
+
+/// Solver, contact law, model, and the conditions of the run.
+fn how(report: &RunReport) -> String {
+    let scene = &report.scene;
+    let step = match report.solver.kind {
+        SolverKind::Explicit => format!(", step {}", time(scene.solver.step_s)),
+        SolverKind::Event => String::new(),
+    };
+    format!(
+        "{} solver, {} contact, {} model{step}; {} at {} rad/s; pulse of {} N for {}; simulated to {}.",
+        capital(report.solver.kind.word()),
+        report.solver.contact.word(),
+        report.solver.model.word(),
+        count(u64::from(scene.operation.nodal_diameters), "nodal diameter"),
+        short(scene.operation.speed_rad_s),
+        short(scene.operation.pulse_n),
+        time(scene.operation.pulse_s),
+        time(scene.solver.end_s),
+    )
+}
+
+/// What a verdict means, in one sentence.
+fn meaning(report: &RunReport) -> &'static str {
+    match report.outcome.verdict {
+        Verdict::Decay if report.impact_count == 0 => "No blade ever touched the casing.",
+        Verdict::Decay => "The contact ended and the motion dies away.",
+        Verdict::Bounce => "Blades and casing meet and part again and again.",
+        Verdict::Slip => {
+            "The contact is permanent, but the wave slips along the blades, group after group."
+        }
+        Verdict::Locked => "The same blades hold the casing without a break, and all of them push.",
+        Verdict::Adhesive => {
+            "The same blades hold the casing without a break, but some of them pull: \
+             it is held by a pull, which no contact can give."
+        }
+        Verdict::Failed => "The computation broke down; what follows is the state it stopped at.",
+    }
+}
+
+/// What the equality of the bilateral law did that no contact can do.
+fn warning(report: &RunReport) -> Option<String> {
+    let pulls = report.checks.tensile_steps;
+    (report.solver.contact == ContactLaw::Bilateral && pulls > 0).then(|| {
+        format!(
+            "Warning: the bilateral law pulled in {}, where a real contact lets go; compare with --contact unilateral.",
+            count(pulls, "step")
+        )
+    })
+}
+
+fn motion(report: &RunReport, machine: &Machine, out: &mut dyn Write) -> Result<()> {
+    let outcome = &report.outcome;
+    if let Some(since) = outcome.lock_time_s {
+        writeln!(out, "Held by the same blades since {}.", time(since))?;
+    }
+    for contact in &outcome.contacts {
+        writeln!(out, "{}", touch(contact))?;
+    }
+    writeln!(
+        out,
+        "Amplitude of the casing wave at the end: {} m, {} of the clearance.",
+        short(outcome.amplitude_m),
+        short(outcome.amplitude_m / machine.clearance())
+    )?;
+    if let Some(wave) = outcome.wave_speed_rad_s {
+        writeln!(out, "The wave turns at {} rad/s.", short(wave))?;
+    }
+    writeln!(out, "{}", speeds(report, machine))?;
+    if let Some(dangerous) = machine.dangerous_speed() {
+        writeln!(out, "Dangerous coincidence speed: {} rad/s.", short(dangerous))?;
+    }
+    writeln!(out, "{}", impacts(report))
+}
+
+fn touch(contact: &Contact) -> String {
+    let (who, verb) = match contact.blades.as_slice() {
+        [blade] => (format!("Blade {blade}"), ["pushes", "pulls"]),
+        several => {
+            let names: Vec<String> = several.iter().map(ToString::to_string).collect();
+            (format!("Blades {} together", listed(&names)), ["push", "pull"])
+        }
+    };
+    let [push, pull] = verb;
+    let verb = if contact.multiplier_n > 0.0 { pull } else { push };
+    format!("{who} {verb} with {} N at the end.", short(contact.multiplier_n.abs()))
+}
+
+/// The rotor speed beside the speeds where things change.
+fn speeds(report: &RunReport, machine: &Machine) -> String {
+    let operation = &report.scene.operation;
+    let speed = operation.speed_rad_s + operation.speed_ramp_rad_s2 * report.r#final.t_s;
+    let at_end = if operation.speed_ramp_rad_s2 == 0.0 { "" } else { " at the end" };
+    let mut parts = vec![format!("Rotor speed{at_end}: {} rad/s", short(speed))];
+    for (name, threshold) in
+        [("Omega_c", machine.critical_speed()), ("Omega_lock", machine.lock_speed())]
+    {
+        if let Some(threshold) = threshold {
+            let ratio = short(speed.abs() / threshold);
+            parts.push(format!("{ratio} of {name} ({} rad/s)", short(threshold)));
+        }
+    }
+    format!("{}.", parts.join(", "))
+}
+
+fn impacts(report: &RunReport) -> String {
+    if report.impact_count == 0 {
+        return "No impact.".to_string();
+    }
+    let told: Vec<String> = report
+        .impacts
+        .iter()
+        .take(IMPACTS_TOLD)
+        .map(|hit| {
+            let names: Vec<String> = hit.blades.iter().map(ToString::to_string).collect();
+            let noun = if names.len() == 1 { "blade" } else { "blades" };
+            format!("{noun} {} at {}", listed(&names), time(hit.t_s))
+        })
+        .collect();
+    let all = u64::try_from(told.len()).is_ok_and(|told| told == report.impact_count);
+    let start = if all { "" } else { "the first ones " };
+    format!("{}: {start}{}.", count(report.impact_count, "impact"), told.join("; "))
+}
+
+fn checks(report: &RunReport, machine: &Machine, out: &mut dyn Write) -> Result<()> {
+    let checks = &report.checks;
+    let part = short(checks.max_penetration_m / machine.clearance());
+    let deepest = short(checks.max_penetration_m);
+    writeln!(out, "Deepest penetration: {deepest} m, {part} of the clearance.")?;
+    if let Some(predicted) = checks.max_predicted_penetration_m {
+        writeln!(out, "Deepest penetration predicted before correction: {} m.", short(predicted))?;
+    }
+    writeln!(out, "Steps with a pulling multiplier: {}.", checks.tensile_steps)?;
+    writeln!(out, "Largest blade angle: {} rad.", short(checks.max_blade_angle_rad))?;
+    if let Some(residual) = checks.energy_residual_j {
+        writeln!(out, "Energy not accounted for: {} J.", short(residual))?;
+    }
+    writeln!(out, "{}", cost(report))
+}
+
+fn cost(report: &RunReport) -> String {
+    let wall = report.solver.wall_s;
+    let mut parts = Vec::new();
+    if let Some(steps) = report.solver.steps {
+        parts.push(count(steps, "step"));
+    }
+    if let Some(events) = report.solver.events {
+        parts.push(count(events, "event"));
+    }
+    let each = match report.solver.steps {
+        Some(steps) if steps > 0 => format!(", {} a step", time(wall / steps as f64)),
+        _ => String::new(),
+    };
+    let what = if parts.is_empty() { String::new() } else { format!("{} in ", parts.join(", ")) };
+    format!("Cost: {what}{}{each}.", time(wall))
+}
+
+/// "6", "6 and 17", "1, 2 and 3".
+fn listed(names: &[String]) -> String {
+    match names {
+        [] => String::new(),
+        [only] => only.clone(),
+        [head @ .., last] => format!("{} and {last}", head.join(", ")),
+    }
+}
+
+fn capital(word: &str) -> String {
+    let mut letters = word.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::{Sampling, simulate};
+    use crate::scene::Scene;
+
+    fn report(settings: &[(&str, &str)]) -> RunReport {
+        let mut scene = Scene::default();
+        for (key, text) in [("solver.step_s", "1e-6"), ("solver.end_s", "2e-3")] {
+            scene.set(key, text).unwrap();
+        }
+        for (key, text) in settings {
+            scene.set(key, text).unwrap();
+        }
+        simulate(&scene, Sampling::default(), &mut |_| {})
+    }
+
+    fn told(report: &RunReport) -> String {
+        let mut text = Vec::new();
+        write(report, &mut text).unwrap();
+        String::from_utf8(text).unwrap()
+    }
+
+    #[test]
+    fn every_verdict_says_what_it_means() {
+        let mut report = report(&[]);
+        for (verdict, words) in [
+            (Verdict::Decay, "dies away"),
+            (Verdict::Bounce, "again and again"),
+            (Verdict::Slip, "slips along"),
+            (Verdict::Locked, "all of them push"),
+            (Verdict::Adhesive, "held by a pull, which no contact can give"),
+            (Verdict::Failed, "broke down"),
+        ] {
+            report.outcome.verdict = verdict;
+            let text = told(&report);
+            assert!(
+                text.contains(&format!("Verdict: {verdict}.")) && text.contains(words),
+                "{text}"
+            );
+        }
+    }
+
+    #[test]
+    fn blades_push_or_pull_in_groups() {
+        let touch = |blades: &[u32], multiplier_n| {
+            super::touch(&Contact { blades: blades.to_vec(), multiplier_n })
+        };
+        assert_eq!(touch(&[6], -244.416), "Blade 6 pushes with 244.416 N at the end.");
+        assert_eq!(touch(&[6, 17], 3.0), "Blades 6 and 17 together pull with 3 N at the end.");
+    }
+
+    #[test]
+    fn sensitive_and_pulling_runs_say_so() {
+        let mut report = report(&[]);
+        assert!(!told(&report).contains("Warning") && !told(&report).contains("Sensitive"));
+        report.outcome.sensitive = true;
+        report.solver.contact = ContactLaw::Bilateral;
+        report.checks.tensile_steps = 2;
+        let text = told(&report);
+        assert!(text.contains("Sensitive: ") && text.contains("pulled in 2 steps"), "{text}");
+    }
+
+    #[test]
+    fn a_run_without_touch_and_without_critical_speed_reads_well() {
+        let report = report(&[("operation.pulse_n", "0"), ("operation.nodal_diameters", "0")]);
+        let text = told(&report);
+        assert!(text.contains("No blade ever touched") && text.contains("No impact."), "{text}");
+        assert!(!text.contains("Omega_c") && !text.contains("not a number"), "{text}");
+    }
+}
