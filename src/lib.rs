@@ -25,3 +25,4 @@ pub mod model;
 pub mod motion;
 pub mod report;
 pub mod scene;
+pub mod study;

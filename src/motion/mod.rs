@@ -13,6 +13,9 @@ pub mod verdict;
 
 pub use contacts::{ContactLog, Impact, Touching, in_phase_order};
 pub use drive::{Failure, Pulse, Rotor, State};
-pub use run::{FinalState, ImpactReport, RunReport, Sample, Sampling, SolverReport, simulate};
+pub use run::{
+    FinalState, ImpactReport, RunReport, Sample, Sampling, Settled, SolverReport, is_sensitive,
+    settle, simulate,
+};
 pub use solver::Motion;
 pub use verdict::{Checks, Contact, Outcome, Verdict};

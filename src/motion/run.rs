@@ -98,6 +98,58 @@ pub struct RunReport {
     pub checks: Checks,
 }
 
+/// How a run lasts, without its history.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Settled {
+    /// How the motion lasts.
+    pub verdict: Verdict,
+    /// Impacts until the verdict was settled.
+    pub impact_count: u64,
+}
+
+/// Runs a checked scene until its verdict is settled, at most to its end.
+#[must_use]
+pub fn settle(scene: &Scene) -> Settled {
+    settle_motion(Motion::new(scene), scene.solver.end_s)
+}
+
+fn settle_motion(mut motion: Motion, end: f64) -> Settled {
+    // Looking costs little against one casing period of motion.
+    let interval = (TAU / motion.machine().omega_c).max(end / 1e6);
+    let mut verdict = None;
+    let mut looks = 0.0;
+    while verdict.is_none() {
+        looks += 1.0;
+        let until = (looks * interval).min(end);
+        verdict = match motion.advance(until) {
+            Err(_) => Some(Verdict::Failed),
+            Ok(()) if until >= end => {
+                let (log, machine) = (motion.contacts(), motion.machine());
+                Some(judge(log, machine, motion.state().t_s, LAST_PART * end, motion.over()))
+            }
+            Ok(()) => motion.settled(),
+        };
+    }
+    Settled {
+        verdict: verdict.unwrap_or(Verdict::Failed),
+        impact_count: motion.contacts().impact_count,
+    }
+}
+
+/// Relative change of the pulse that no trustworthy verdict may notice.
+const NUDGE: f64 = 1e-9;
+
+/// Whether a relative change of 1e-9 of the pulse, up or down, changes the
+/// verdict or the impact count.
+#[must_use]
+pub fn is_sensitive(scene: &Scene, settled: Settled) -> bool {
+    [1.0 - NUDGE, 1.0 + NUDGE].into_iter().any(|factor| {
+        let mut nudged = scene.clone();
+        nudged.operation.pulse_n *= factor;
+        settle(&nudged) != settled
+    })
+}
+
 /// Runs a checked scene to its end, handing samples to `sink` on the way.
 pub fn simulate(scene: &Scene, sampling: Sampling, sink: &mut dyn FnMut(&Sample)) -> RunReport {
     let started = Instant::now();

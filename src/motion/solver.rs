@@ -1,7 +1,9 @@
 //! One motion, whichever solver and model size the scene asks for.
 
+use std::f64::consts::TAU;
+
 use super::explicit::{Explicit, FullBlades, ModalBlades, RigidBlades};
-use super::{Checks, ContactLog, Failure, Rotor, State};
+use super::{Checks, ContactLog, Failure, Pulse, Rotor, State, Touching, Verdict};
 use crate::model::Machine;
 use crate::scene::{ModelSize, Scene};
 
@@ -97,6 +99,31 @@ impl Motion {
     #[must_use]
     pub fn over(&self) -> bool {
         each!(self, inner => inner.over())
+    }
+
+    /// The verdict, once nothing to come can change it: no contact can come
+    /// again, or at constant speed a corner has been held for a casing period
+    /// after the pulse.
+    #[must_use]
+    pub fn settled(&self) -> Option<Verdict> {
+        if self.over() {
+            return Some(Verdict::Decay);
+        }
+        let (log, now) = (self.contacts(), self.state().t_s);
+        let held_since = log.since.max(self.pulse().end);
+        let period = TAU / self.machine().omega_c;
+        let corner = matches!(log.touching, Touching::Corner(..));
+        if !corner || self.rotor().ramp() != 0.0 || now < held_since + period {
+            return None;
+        }
+        let pulled = log.last_tensile.is_some_and(|t| t >= held_since);
+        Some(if pulled { Verdict::Adhesive } else { Verdict::Locked })
+    }
+
+    /// The pulse in force.
+    #[must_use]
+    pub fn pulse(&self) -> &Pulse {
+        each!(self, inner => inner.pulse())
     }
 
     /// The record of contacts.

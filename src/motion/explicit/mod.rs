@@ -303,6 +303,12 @@ impl<B: Blades> Explicit<B> {
         &self.machine
     }
 
+    /// The pulse in force.
+    #[must_use]
+    pub fn pulse(&self) -> &Pulse {
+        &self.pulse
+    }
+
     /// The rotor.
     #[must_use]
     pub fn rotor(&self) -> &Rotor {

@@ -1,0 +1,184 @@
+//! One axis of a map: a numeric key of the scene over a range of values,
+//! spaced evenly or by equal factors.
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::scene::{Allowed, Scene, SceneError, Value, keys};
+
+/// Most values one axis may have.
+pub const MOST_VALUES: u32 = 100_000;
+
+/// Why an axis was refused.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum AxisError {
+    /// Text that is not `PATH=FROM:TO:COUNT`.
+    #[error("axis {text}: allowed is PATH=FROM:TO:COUNT or PATH=log:FROM:TO:COUNT")]
+    Form {
+        /// As given.
+        text: String,
+    },
+    /// A key that holds no number.
+    #[error("axis {path}: allowed are keys that hold a number")]
+    NotNumeric {
+        /// Dotted path.
+        path: String,
+    },
+    /// A range that makes no sense.
+    #[error("axis {path} = {range}: allowed is {allowed}")]
+    Range {
+        /// Dotted path.
+        path: String,
+        /// As given.
+        range: String,
+        /// What would be accepted.
+        allowed: String,
+    },
+    /// A key that does not exist, or a value it may not hold.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+}
+
+/// A key and the values it takes along one axis.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Axis {
+    /// Dotted path of the key.
+    pub path: String,
+    /// First value.
+    pub from: f64,
+    /// Last value.
+    pub to: f64,
+    /// Number of values.
+    pub count: u32,
+    /// Whether values are spaced by equal factors.
+    pub log: bool,
+}
+
+impl Axis {
+    /// An axis over a numeric key, checked at both ends.
+    ///
+    /// # Errors
+    /// An unknown or non-numeric key, or a range without meaning.
+    pub fn new(path: &str, from: f64, to: f64, count: u32, log: bool) -> Result<Self, AxisError> {
+        let key = keys::find(path)?;
+        if !matches!(key.allowed, Allowed::Real { .. } | Allowed::Whole { .. }) {
+            return Err(AxisError::NotNumeric { path: path.to_string() });
+        }
+        let axis = Self { path: path.to_string(), from, to, count, log };
+        let refused = |allowed: &str| AxisError::Range {
+            path: path.to_string(),
+            range: format!("{}{from}:{to}:{count}", if log { "log:" } else { "" }),
+            allowed: allowed.to_string(),
+        };
+        if !(1..=MOST_VALUES).contains(&count) {
+            return Err(refused("a count from 1 to 100000"));
+        }
+        if log && !(from > 0.0 && to > 0.0) {
+            return Err(refused("log: with both ends above 0"));
+        }
+        let mut scene = Scene::default();
+        axis.apply(&mut scene, 0)?;
+        axis.apply(&mut scene, count - 1)?;
+        Ok(axis)
+    }
+
+    /// Reads `PATH=FROM:TO:COUNT` or `PATH=log:FROM:TO:COUNT`.
+    ///
+    /// # Errors
+    /// Text of another form, or what `new` refuses.
+    pub fn parse(text: &str) -> Result<Self, AxisError> {
+        let form = || AxisError::Form { text: text.to_string() };
+        let (path, range) = text.split_once('=').ok_or_else(form)?;
+        let (log, range) = match range.trim().strip_prefix("log:") {
+            Some(rest) => (true, rest),
+            None => (false, range.trim()),
+        };
+        let parts: Vec<&str> = range.split(':').map(str::trim).collect();
+        let [from, to, count] = parts.as_slice() else { return Err(form()) };
+        let number = |text: &str| text.parse::<f64>().map_err(|_| form());
+        let count = count.parse().map_err(|_| form())?;
+        Self::new(path.trim(), number(from)?, number(to)?, count, log)
+    }
+
+    /// Value number `index`, from 0; both ends are exact.
+    #[must_use]
+    pub fn value(&self, index: u32) -> f64 {
+        if index == 0 {
+            return self.from;
+        }
+        if index + 1 >= self.count {
+            return self.to;
+        }
+        let part = f64::from(index) / f64::from(self.count - 1);
+        if self.log {
+            self.from * (self.to / self.from).powf(part)
+        } else {
+            self.from + (self.to - self.from) * part
+        }
+    }
+
+    /// All values in order.
+    #[must_use]
+    pub fn values(&self) -> Vec<f64> {
+        (0..self.count).map(|index| self.value(index)).collect()
+    }
+
+    /// Sets the key of a scene to value number `index`; whole-numbered keys
+    /// take the nearest whole number.
+    ///
+    /// # Errors
+    /// A value the key may not hold.
+    pub fn apply(&self, scene: &mut Scene, index: u32) -> Result<(), SceneError> {
+        let key = keys::find(&self.path)?;
+        let value = self.value(index);
+        let value = match key.allowed {
+            Allowed::Whole { .. } if value >= 0.0 => Value::Whole(value.round() as u64),
+            _ => Value::Real(value),
+        };
+        scene.set_value(key, value)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ends_are_exact_and_spacing_is_even_or_by_factors() {
+        let axis = Axis::parse("operation.speed_rad_s=0:500:501").unwrap();
+        assert_eq!((axis.value(0), axis.value(500)), (0.0, 500.0));
+        assert!((axis.value(300) - 300.0).abs() < 1e-12);
+        let axis = Axis::parse("operation.pulse_n=log:1e3:1e6:4").unwrap();
+        for (value, expected) in axis.values().iter().zip([1e3, 1e4, 1e5, 1e6]) {
+            assert!((value / expected - 1.0).abs() < 1e-12);
+        }
+        assert_eq!(Axis::parse("operation.speed_rad_s=7:9:1").unwrap().values(), [7.0]);
+    }
+
+    #[test]
+    fn axes_without_meaning_are_refused_by_name() {
+        for (text, start) in [
+            ("operation.speed_rad_s", "axis operation.speed_rad_s: allowed is PATH="),
+            ("operation.speed_rad_s=0:1", "axis operation.speed_rad_s=0:1: allowed is PATH="),
+            (
+                "operation.speed_rad_s=0:1:0",
+                "axis operation.speed_rad_s = 0:1:0: allowed is a count",
+            ),
+            ("operation.pulse_n=log:0:1:5", "axis operation.pulse_n = log:0:1:5: allowed is log:"),
+            ("solver.model=0:1:5", "axis solver.model: allowed are keys"),
+            ("nothing=0:1:5", "unknown key nothing"),
+            ("casing.damping_ratio=-1:1:5", "casing.damping_ratio = -1"),
+        ] {
+            let message = Axis::parse(text).unwrap_err().to_string();
+            assert!(message.starts_with(start), "{message}");
+        }
+    }
+
+    #[test]
+    fn whole_keys_take_whole_values() {
+        let axis = Axis::parse("operation.nodal_diameters=2:6:5").unwrap();
+        let mut scene = Scene::default();
+        axis.apply(&mut scene, 3).unwrap();
+        assert_eq!(scene.operation.nodal_diameters, 5);
+    }
+}

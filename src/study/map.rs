@@ -1,0 +1,170 @@
+//! The interaction map, the paper's Fig. 8 as a working tool: how the motion
+//! lasts over two quantities of a scene, one independent run a cell.
+//!
+//! Cells are numbered along x first. Every cell is computed from its scene
+//! alone, so the result is the same for any number of threads and any order.
+
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::time::Instant;
+
+use rayon::prelude::*;
+
+use super::Axis;
+use crate::motion::{Settled, Verdict, is_sensitive, settle};
+use crate::scene::{Scene, SceneError};
+
+/// What a map is of: everything that decides its cells.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MapPlan {
+    /// The scene all cells start from.
+    pub scene: Scene,
+    /// Columns; rotor speed by default.
+    pub x: Axis,
+    /// Rows; pulse by default.
+    pub y: Axis,
+    /// Whether to find out which cells are sensitive, at three runs a cell.
+    pub sensitivity: bool,
+}
+
+/// One cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cell {
+    /// How the motion lasts.
+    pub verdict: Verdict,
+    /// Whether a relative change of 1e-9 of the pulse changes it.
+    pub sensitive: bool,
+}
+
+/// A map, whole or in part.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Map {
+    /// What it is of.
+    pub plan: MapPlan,
+    /// Cells in order; none where not computed.
+    pub cells: Vec<Option<Cell>>,
+    /// Cells computed by a run of their own.
+    pub runs: u64,
+    /// Wall time of this computation \[s\].
+    pub wall_s: f64,
+}
+
+/// What a caller sees and says while a map is computed.
+#[derive(Debug, Default)]
+pub struct Progress {
+    /// Cells done so far.
+    pub done: AtomicU64,
+    /// Set to stop early; what is done is kept.
+    pub stop: AtomicBool,
+}
+
+impl MapPlan {
+    /// Number of cells.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.x.count as usize * self.y.count as usize
+    }
+
+    /// Whether there are no cells.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The scene of a cell.
+    ///
+    /// # Errors
+    /// Values that the scene may not hold together.
+    pub fn scene_of(&self, index: usize) -> Result<Scene, SceneError> {
+        let mut scene = self.scene.clone();
+        let columns = self.x.count as usize;
+        self.x.apply(&mut scene, (index % columns) as u32)?;
+        self.y.apply(&mut scene, (index / columns) as u32)?;
+        scene.check()?;
+        Ok(scene)
+    }
+
+    /// Refuses a plan whose corners are not scenes.
+    ///
+    /// # Errors
+    /// The first corner that is refused.
+    pub fn check(&self) -> Result<(), SceneError> {
+        let (columns, cells) = (self.x.count as usize, self.len());
+        for corner in [0, columns - 1, cells - columns, cells - 1] {
+            self.scene_of(corner)?;
+        }
+        Ok(())
+    }
+
+    /// Computes one cell. A scene that is refused counts as failed.
+    #[must_use]
+    pub fn compute(&self, index: usize) -> Cell {
+        let Ok(scene) = self.scene_of(index) else {
+            return Cell { verdict: Verdict::Failed, sensitive: false };
+        };
+        let settled: Settled = settle(&scene);
+        let sensitive = self.sensitivity && is_sensitive(&scene, settled);
+        Cell { verdict: settled.verdict, sensitive }
+    }
+}
+
+impl Map {
+    /// A map with nothing computed.
+    #[must_use]
+    pub fn empty(plan: MapPlan) -> Self {
+        let cells = vec![None; plan.len()];
+        Self { plan, cells, runs: 0, wall_s: 0.0 }
+    }
+
+    /// Computes the given cells that are still missing, in parallel, and hands
+    /// each to `keep` as it comes. Stops early when asked.
+    pub fn fill(
+        &mut self,
+        indices: &[usize],
+        progress: &Progress,
+        keep: &(dyn Fn(usize, Cell) + Sync),
+    ) {
+        let started = Instant::now();
+        let missing: Vec<usize> =
+            indices.iter().copied().filter(|&index| self.cells[index].is_none()).collect();
+        let plan = &self.plan;
+        let computed: Vec<(usize, Cell)> = missing
+            .par_iter()
+            .with_max_len(16)
+            .filter_map(|&index| {
+                if progress.stop.load(Ordering::Relaxed) {
+                    return None;
+                }
+                let cell = plan.compute(index);
+                keep(index, cell);
+                progress.done.fetch_add(1, Ordering::Relaxed);
+                Some((index, cell))
+            })
+            .collect();
+        self.runs += computed.len() as u64;
+        for (index, cell) in computed {
+            self.cells[index] = Some(cell);
+        }
+        self.wall_s += started.elapsed().as_secs_f64();
+    }
+
+    /// Whether every cell is there.
+    #[must_use]
+    pub fn is_complete(&self) -> bool {
+        self.cells.iter().all(Option::is_some)
+    }
+
+    /// The cell of a column and a row.
+    #[must_use]
+    pub fn at(&self, column: u32, row: u32) -> Option<Cell> {
+        *self.cells.get(row as usize * self.plan.x.count as usize + column as usize)?
+    }
+
+    /// How many cells have each verdict, and how many are sensitive.
+    #[must_use]
+    pub fn census(&self) -> ([(Verdict, usize); 6], usize) {
+        let cells = || self.cells.iter().flatten();
+        let count = Verdict::ALL
+            .map(|verdict| (verdict, cells().filter(|cell| cell.verdict == verdict).count()));
+        (count, cells().filter(|cell| cell.sensitive).count())
+    }
+}
