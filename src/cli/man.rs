@@ -1,12 +1,14 @@
 //! `rubscope man`: the manual pages, made from the same definition as the
-//! command line itself.
+//! command line itself, with what that cannot know added here.
 
 use std::io::Write;
 
 use clap::{Args, CommandFactory};
+use clap_mangen::roff::{Inline, Roff, bold, roman};
 
 use super::status::{Refusal, Status};
 use super::{Cli, Done};
+use crate::scene::BUILTIN;
 
 /// Print the manual page, or that of one command.
 #[derive(Args, Debug)]
@@ -23,7 +25,19 @@ impl Man {
             None => whole,
             Some(name) => page_of(&whole, name)?,
         };
-        clap_mangen::Man::new(command).manual("rubscope manual").render(out)?;
+        let page = clap_mangen::Man::new(command).manual("rubscope manual");
+        if self.command.is_some() {
+            page.render(out)?;
+        } else {
+            page.render_title(out)?;
+            page.render_name_section(out)?;
+            page.render_synopsis_section(out)?;
+            page.render_description_section(out)?;
+            page.render_options_section(out)?;
+            page.render_subcommands_section(out)?;
+            added().to_writer(out)?;
+            page.render_version_section(out)?;
+        }
         Ok(Status::Done)
     }
 }
@@ -35,4 +49,51 @@ fn page_of(whole: &clap::Command, name: &str) -> Result<clap::Command, Refusal> 
             whole.get_subcommands().map(clap::Command::get_name).filter(|&n| n != "help").collect();
         Refusal::of("COMMAND", name, format!("one of {}", names.join(", ")))
     })
+}
+
+/// What each exit status means.
+const EXIT_STATUS: &[(&str, &str)] = &[
+    ("0", "Done."),
+    ("1", "Failed: a file could not be written, or the computation broke down."),
+    ("2", "Wrong usage or refused input; one line names the key, the value and what is allowed."),
+    ("128+n", "Ended by signal n."),
+];
+
+const EXAMPLES: &[(&str, &str)] = &[
+    ("rubscope", "Open the explorer on the default scene."),
+    ("rubscope run adhesive", "Simulate a built-in scene and say how it ends."),
+    (
+        "rubscope run --contact unilateral --speed -430 --json",
+        "The default scene with contact that only pushes, the rotor turning the other way, as JSON.",
+    ),
+    (
+        "rubscope run my.toml --set bladed_disk.blades=24 --out history.npz",
+        "A scene file with one key changed; the history goes to a file for numpy.",
+    ),
+];
+
+/// The sections that the definition of the command line does not hold.
+fn added() -> Roff {
+    let mut page = Roff::new();
+    page.control("SH", ["SCENES"]);
+    let names: Vec<&str> = BUILTIN.iter().map(|scene| scene.name).collect();
+    page.text([roman(format!(
+        "Built-in scenes: {}. The first one is the default. A scene file is TOML; \
+         `rubscope scenes NAME` prints one to start from. An option wins over the file, \
+         and the file over the default.",
+        names.join(", ")
+    ))]);
+    list(&mut page, "EXIT STATUS", EXIT_STATUS);
+    list(&mut page, "EXAMPLES", EXAMPLES);
+    page
+}
+
+fn list(page: &mut Roff, heading: &str, entries: &[(&str, &str)]) {
+    page.control("SH", [heading]);
+    for (term, text) in entries {
+        page.control("TP", []);
+        let term: [Inline; 1] = [bold(*term)];
+        page.text(term);
+        page.text([roman(*text)]);
+    }
 }

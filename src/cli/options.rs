@@ -125,7 +125,7 @@ impl SceneOptions {
             scene.set(key, text)?;
             given.push(key);
         }
-        follow(&mut scene, &given);
+        let followed = follow(&mut scene, &given);
         for (key, range) in [(SPEED, speeds), (PULSE, pulses)] {
             if let Some(range) = range {
                 let mut last = scene.clone();
@@ -134,6 +134,7 @@ impl SceneOptions {
             }
         }
         scene.check()?;
+        followed.iter().for_each(|line| say(line));
         Ok(Resolved { scene, speeds, pulses })
     }
 
@@ -155,40 +156,48 @@ impl SceneOptions {
 }
 
 /// Asked for one of solver, contact law and model, a file's choice of the
-/// others may not go with it: then they follow, and it is said. What was asked
-/// for itself is never changed.
-fn follow(scene: &mut Scene, given: &[&str]) {
+/// others may not go with it: then they follow. What was asked for itself is
+/// never changed. Returns what to say about it.
+fn follow(scene: &mut Scene, given: &[&str]) -> Vec<&'static str> {
     let asked = |key: &str| given.contains(&key);
+    let mut said = Vec::new();
     let solver = &mut scene.solver;
     if solver.kind != SolverKind::Event {
-        return;
+        return said;
     }
     if asked("solver.kind") {
         if solver.contact == ContactLaw::Bilateral && !asked("solver.contact") {
             solver.contact = ContactLaw::Unilateral;
-            say(
-                "rubscope: the event solver knows unilateral contact only: took that instead of the scene's bilateral",
-            );
+            said.push("rubscope: took solver.contact = \"unilateral\" instead of the scene's \"bilateral\", which the event solver does not know");
         }
         if solver.model == ModelSize::Full && !asked("solver.model") {
             solver.model = ModelSize::Modal;
-            say(
-                "rubscope: the event solver knows the rigid and modal models only: took modal instead of the scene's full",
-            );
+            said.push("rubscope: took solver.model = \"modal\" instead of the scene's \"full\", which the event solver does not know");
         }
     } else if (asked("solver.contact") && solver.contact == ContactLaw::Bilateral)
         || (asked("solver.model") && solver.model == ModelSize::Full)
     {
         solver.kind = SolverKind::Explicit;
-        say(
-            "rubscope: only the explicit solver can do this: took it instead of the scene's event solver",
-        );
+        said.push("rubscope: took solver.kind = \"explicit\" instead of the scene's \"event\", which cannot do what the options ask");
     }
+    said
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_was_not_asked_for_is_left_alone() {
+        for given in [&[][..], &["solver.step_s"], &["solver.kind", "solver.contact"]] {
+            let mut scene = Scene::default();
+            scene.solver.kind = SolverKind::Event;
+            scene.solver.contact = ContactLaw::Bilateral;
+            let before = scene.clone();
+            assert!(follow(&mut scene, given).is_empty());
+            assert_eq!(scene, before);
+        }
+    }
 
     fn options(set: &[&str]) -> SceneOptions {
         SceneOptions { set: set.iter().map(ToString::to_string).collect(), ..Default::default() }
@@ -228,7 +237,7 @@ mod tests {
         let mut scene = Scene::default();
         scene.solver.kind = SolverKind::Event;
         scene.solver.contact = ContactLaw::Bilateral;
-        follow(&mut scene, &["solver.contact"]);
+        assert_eq!(follow(&mut scene, &["solver.contact"]).len(), 1);
         assert_eq!(scene.solver.kind, SolverKind::Explicit);
     }
 }

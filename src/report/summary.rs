@@ -11,6 +11,10 @@ use crate::scene::{ContactLaw, SolverKind};
 /// Impacts told one by one.
 const IMPACTS_TOLD: usize = 4;
 
+/// Penetration, as a part of the clearance, that closing a gap in double
+/// precision may leave: a few hundred units in the last place.
+const ROUND_OFF: f64 = 1e-13;
+
 /// Writes the summary of a run.
 ///
 /// # Errors
@@ -65,7 +69,7 @@ fn how(report: &RunReport) -> String {
 fn meaning(report: &RunReport) -> &'static str {
     match report.outcome.verdict {
         Verdict::Decay if report.impact_count == 0 => "No blade ever touched the casing.",
-        Verdict::Decay => "The contact ended and the motion dies away.",
+        Verdict::Decay => "The contact ended and does not come again.",
         Verdict::Bounce => "Blades and casing meet and part again and again.",
         Verdict::Slip => {
             "The contact is permanent, but the wave slips along the blades, group after group."
@@ -165,9 +169,13 @@ fn impacts(report: &RunReport) -> String {
 
 fn checks(report: &RunReport, machine: &Machine, out: &mut dyn Write) -> Result<()> {
     let checks = &report.checks;
-    let part = short(checks.max_penetration_m / machine.clearance());
-    let deepest = short(checks.max_penetration_m);
-    writeln!(out, "Deepest penetration: {deepest} m, {part} of the clearance.")?;
+    let part = checks.max_penetration_m / machine.clearance();
+    if part < ROUND_OFF {
+        writeln!(out, "Deepest penetration: none beyond round-off.")?;
+    } else {
+        let deepest = short(checks.max_penetration_m);
+        writeln!(out, "Deepest penetration: {deepest} m, {} of the clearance.", short(part))?;
+    }
     if let Some(predicted) = checks.max_predicted_penetration_m {
         writeln!(out, "Deepest penetration predicted before correction: {} m.", short(predicted))?;
     }
@@ -237,7 +245,7 @@ mod tests {
     fn every_verdict_says_what_it_means() {
         let mut report = report(&[]);
         for (verdict, words) in [
-            (Verdict::Decay, "dies away"),
+            (Verdict::Decay, "does not come again"),
             (Verdict::Bounce, "again and again"),
             (Verdict::Slip, "slips along"),
             (Verdict::Locked, "all of them push"),
