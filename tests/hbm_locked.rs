@@ -1,6 +1,8 @@
 //! Locked motion in the frequency domain against the closed forms, the paper's
 //! numbers, and the eight equations (27) written out as they are printed.
 
+#![expect(clippy::unwrap_used, reason = "a test states what must hold")]
+
 use nalgebra::{SMatrix, SVector};
 use rubscope::harmonic::{Corner, Form, Locked, LockedPoint, locked_motion};
 use rubscope::model::{BladedDisk, Casing, Machine};

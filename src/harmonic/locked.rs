@@ -4,7 +4,8 @@
 //! rigid blades.
 
 use super::equations::{Equations, Scales, Unknowns, Wave};
-use super::stability::{Held, Linearised};
+use super::posture::Posture;
+use super::stability::Linearised;
 use super::{Corner, Form, HarmonicError};
 use crate::model::Machine;
 
@@ -158,8 +159,11 @@ impl Locked {
         let [x, y, lambda_a, lambda_b, alpha_a, alpha_b]: [f64; 6] = (*unknowns).into();
         let length = self.scales.length;
         let multipliers = [lambda_a, lambda_b];
-        let held = self.held(unknowns);
-        let smallest_gap = length * self.smallest_open_gap(unknowns);
+        let (rim, sides) = (&self.machine.rim, self.corner.sides());
+        let turns = [alpha_a, alpha_b].map(|angle| self.scales.softness * angle);
+        let posture = Posture::of_pair(rim, (x, y), sides, turns);
+        let held = [0, 1].map(|i| posture.held(rim, sides[i], multipliers[i]));
+        let smallest_gap = length * posture.smallest_gap(rim, &sides);
         let admissible = multipliers.iter().all(|&l| l <= 0.0) && smallest_gap > 0.0;
         let stable = multipliers.iter().all(|&l| l <= 0.0)
             && Linearised::about(&self.machine, speed, self.damped, &held).is_stable();
@@ -181,43 +185,6 @@ impl Locked {
             power: torque * speed,
         }
     }
-
-    fn held(&self, unknowns: &Unknowns) -> [Held; 2] {
-        let (x, y) = (unknowns[0], unknowns[1]);
-        let sides = self.corner.sides();
-        std::array::from_fn(|i| {
-            let phase = self.machine.rim.direction(sides[i]);
-            let direction = turned(phase, self.scales.softness * unknowns[4 + i]);
-            let arm = y * direction.0 - x * direction.1;
-            Held { phase, direction, arm, multiplier: unknowns[2 + i] }
-        })
-    }
-
-    /// Smallest gap of the groups not in contact, over `g0`. All blades follow
-    /// from the two in contact by the mode shapes, Eq. (20).
-    fn smallest_open_gap(&self, unknowns: &Unknowns) -> f64 {
-        let rim = &self.machine.rim;
-        let [(c_a, s_a), (c_b, s_b)] = self.corner.sides().map(|side| rim.direction(side));
-        let sine = c_a * s_b - s_a * c_b;
-        let turns = [4, 5].map(|i| self.scales.softness * unknowns[i]);
-        let turn_c = (turns[0] * s_b - turns[1] * s_a) / sine;
-        let turn_s = (turns[1] * c_a - turns[0] * c_b) / sine;
-        let mut smallest = f64::INFINITY;
-        for side in 0..rim.sides {
-            if side != self.corner.a && side != self.corner.b {
-                let phase = rim.direction(side);
-                let (c, s) = turned(phase, phase.0 * turn_c + phase.1 * turn_s);
-                smallest = smallest.min(1.0 + unknowns[0] * c + unknowns[1] * s);
-            }
-        }
-        smallest
-    }
-}
-
-/// A direction turned by an angle \[rad\].
-pub(super) fn turned((c, s): (f64, f64), angle: f64) -> (f64, f64) {
-    let (sin, cos) = angle.sin_cos();
-    (c * cos - s * sin, s * cos + c * sin)
 }
 
 /// The locked motion of a machine over speeds \[rad/s\], held between the

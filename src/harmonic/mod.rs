@@ -9,6 +9,7 @@ mod equations;
 mod error;
 mod form;
 mod locked;
+mod posture;
 mod stability;
 
 pub use corner::{Corner, PAPER_PAIR};
