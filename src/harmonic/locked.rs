@@ -167,7 +167,11 @@ impl Locked {
         let admissible = multipliers.iter().all(|&l| l <= 0.0) && smallest_gap > 0.0;
         let stable = multipliers.iter().all(|&l| l <= 0.0)
             && Linearised::about(&self.machine, speed, self.damped, &held).is_stable();
-        let lever: f64 = held.iter().map(|side| side.multiplier * side.arm).sum();
+        // Without drag the two levers cancel, and their sum is rounding only.
+        let lever = match wave.drag {
+            0.0 => 0.0,
+            _ => held.iter().map(|side| side.multiplier * side.arm).sum(),
+        };
         let torque = self.machine.nodal_diameters * self.scales.force * length * lever;
         LockedPoint {
             speed,
