@@ -21,6 +21,7 @@
 
 pub mod cli;
 pub mod contact;
+pub mod harmonic;
 pub mod model;
 pub mod motion;
 pub mod report;

@@ -5,6 +5,7 @@
 
 mod completions;
 mod explore;
+mod hbm;
 mod man;
 pub mod options;
 pub mod range;
@@ -39,6 +40,7 @@ pub struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     Run(Box<run::Run>),
+    Hbm(Box<hbm::Hbm>),
     Scenes(scenes::Scenes),
     Completions(completions::Completions),
     Man(man::Man),
@@ -62,6 +64,7 @@ fn dispatch(cli: Cli, out: &mut dyn Write) -> Done {
     match cli.command {
         None => cli.explore.run(),
         Some(Command::Run(command)) => command.run(out),
+        Some(Command::Hbm(command)) => command.run(out),
         Some(Command::Scenes(command)) => command.run(out),
         Some(Command::Completions(command)) => command.run(out),
         Some(Command::Man(command)) => command.run(out),

@@ -82,6 +82,12 @@ impl SceneOptions {
         self.scene.as_deref()
     }
 
+    /// Whether `--speed` was given.
+    #[must_use]
+    pub fn names_a_speed(&self) -> bool {
+        self.speed.is_some()
+    }
+
     /// The scene these options describe. What had to be changed beside them is
     /// said on standard error.
     ///

@@ -20,7 +20,7 @@ pub fn write(history: &History, out: &mut dyn Write) -> std::io::Result<()> {
 }
 
 /// The shortest text that reads back as this number.
-fn exact(x: f64) -> String {
+pub(super) fn exact(x: f64) -> String {
     if x != 0.0 && !(1e-4..1e15).contains(&x.abs()) { format!("{x:e}") } else { x.to_string() }
 }
 

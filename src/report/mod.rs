@@ -3,11 +3,13 @@
 
 pub mod csv;
 pub mod file;
+pub mod hbm;
 pub mod history;
 pub mod json;
 pub mod npz;
 pub mod number;
 pub mod summary;
+pub mod table;
 mod zip;
 
 pub use file::HistoryFormat;

@@ -1,0 +1,254 @@
+//! The harmonic balance equations of a corner, Eq. (27), and their Jacobian,
+//! in numbers of order one.
+//!
+//! Lengths are counted in `g0`, multipliers in `k_c g0` and blade angles in
+//! `n_d k_c g0^2/(m_b omega_bd^2)`, so that `n_d alpha = softness * alpha~`.
+//! With `x = (u_cc + u_ss)/2`, `y = (u_sc - u_cs)/2`, that is `z = x + i y`, and
+//! `(C, S)` the direction of a contact, Eq. (27) reads
+//!
+//! - rows 1-2: `alpha_i + sum_j share_ij Lambda_j (y C_j - x S_j) = 0`
+//! - rows 3-4: `1 + x C_i + y S_i = 0`
+//! - rows 5, 8: `kappa u_cc + drag u_cs + sum Lambda C = 0`, the same for `u_ss, -u_sc`
+//! - rows 6, 7: `kappa u_cs - drag u_cc - sum Lambda S = 0`, the same for `-u_sc, u_ss`
+//!
+//! Half the differences of rows 5-8 say that the backward wave, `u_cc - u_ss`
+//! and `u_cs + u_sc`, vanishes; half their sums are one complex equation for
+//! `z`. So eight equations are six, and Newton is done on those; the residual
+//! reported is that of all eight.
+
+use nalgebra::{SMatrix, SVector};
+
+use super::{Corner, Form};
+use crate::model::Machine;
+
+/// `[x, y, Lambda_a, Lambda_b, alpha_a, alpha_b]`, scaled.
+pub(super) type Unknowns = SVector<f64, 6>;
+type Jacobian = SMatrix<f64, 6, 6>;
+
+/// The casing at one speed: `kappa = 1 - (nu/omega_c)^2` and
+/// `drag = 2 zeta_c nu/omega_c`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Wave {
+    pub kappa: f64,
+    pub drag: f64,
+}
+
+impl Wave {
+    /// At rotor speed `speed` \[rad/s\], with or without the casing's damping.
+    pub fn at(machine: &Machine, speed: f64, damped: bool) -> Self {
+        let ratio = machine.nu(speed) / machine.omega_c;
+        let damping = if damped { machine.casing_damping_ratio } else { 0.0 };
+        // The factored difference keeps its digits near the critical speed.
+        Self { kappa: (1.0 - ratio) * (1.0 + ratio), drag: 2.0 * damping * ratio }
+    }
+}
+
+/// Units that make the equations dimensionless.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Scales {
+    /// `g0` \[m\].
+    pub length: f64,
+    /// `k_c g0` \[N\].
+    pub force: f64,
+    /// `n_d k_c g0^2/(m_b omega_bd^2)` \[rad\].
+    pub angle: f64,
+    /// `n_d` times `angle`.
+    pub softness: f64,
+}
+
+impl Scales {
+    pub fn of(machine: &Machine) -> Self {
+        let length = machine.clearance();
+        let force = machine.casing_stiffness * length;
+        let stiffness = machine.blade_inertia * machine.omega_bd * machine.omega_bd;
+        let angle = machine.nodal_diameters * force * length / stiffness;
+        Self { length, force, angle, softness: machine.nodal_diameters * angle }
+    }
+}
+
+/// Eq. (27) for one corner and one form.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Equations {
+    /// `(cos psi, sin psi)` of both sides.
+    phases: [(f64, f64); 2],
+    softness: f64,
+    share: [[f64; 2]; 2],
+    /// Whether the direction of a contact is exact in the blade angle, or
+    /// expanded to first order, Eq. (26).
+    exact: bool,
+}
+
+/// A contact as its blades stand: direction, its derivative by the scaled
+/// angle, and the lever `y C - x S`.
+struct Lever {
+    cos: f64,
+    sin: f64,
+    cos_slope: f64,
+    sin_slope: f64,
+    arm: f64,
+    arm_slope: f64,
+}
+
+impl Equations {
+    pub fn new(machine: &Machine, corner: Corner, form: Form) -> Self {
+        let rim = &machine.rim;
+        let each = 1.0 / f64::from(rim.blades_per_side);
+        let share = match form {
+            // Rows 1-2 as printed carry -2 times the torque that (19) has.
+            Form::Printed => [[-2.0 * each, 0.0], [0.0, -2.0 * each]],
+            Form::Blade => [[each, 0.0], [0.0, each]],
+            Form::Modal => {
+                let own = 2.0 / f64::from(rim.blades);
+                let other = own * (2.0 * rim.delta).cos();
+                [[own, other], [other, own]]
+            }
+        };
+        Self {
+            phases: corner.sides().map(|side| rim.direction(side)),
+            softness: Scales::of(machine).softness,
+            share,
+            exact: form == Form::Modal,
+        }
+    }
+
+    pub fn softness(&self) -> f64 {
+        self.softness
+    }
+
+    /// The closed form for rigid blades, `z` in the corner and the exact
+    /// (damped) pair of multipliers, with the blade angles it bends the blades to.
+    pub fn predict(&self, wave: Wave) -> Unknowns {
+        let [(c_a, s_a), (c_b, s_b)] = self.phases;
+        // c_a + c_b = 2 cos(delta) cos(middle phase); |sum|^2 = 4 cos^2(delta).
+        let (c, s) = (c_a + c_b, s_a + s_b);
+        let square = c * c + s * s;
+        let (x, y) = (-2.0 * c / square, -2.0 * s / square);
+        let sine = c_a * s_b - s_a * c_b;
+        // (kappa + i drag) z + sum Lambda exp(i psi) = 0, solved by Cramer's rule.
+        let (re, im) = (wave.kappa * x - wave.drag * y, wave.kappa * y + wave.drag * x);
+        let multipliers = [(im * c_b - re * s_b) / sine, (re * s_a - im * c_a) / sine];
+        let arm = [y * c_a - x * s_a, y * c_b - x * s_b];
+        let alpha = |i: usize| {
+            -(self.share[i][0] * multipliers[0] * arm[0]
+                + self.share[i][1] * multipliers[1] * arm[1])
+        };
+        Unknowns::from([x, y, multipliers[0], multipliers[1], alpha(0), alpha(1)])
+    }
+
+    fn lever(&self, side: usize, unknowns: &Unknowns) -> Lever {
+        let (c, s) = self.phases[side];
+        let turn = self.softness * unknowns[4 + side];
+        let (x, y) = (unknowns[0], unknowns[1]);
+        let (cos, sin, (cos_slope, sin_slope)) = if self.exact {
+            let (sin_turn, cos_turn) = turn.sin_cos();
+            let (cos, sin) = (c * cos_turn - s * sin_turn, s * cos_turn + c * sin_turn);
+            (cos, sin, (-sin, cos))
+        } else {
+            (c - s * turn, s + c * turn, (-s, c))
+        };
+        let (cos_slope, sin_slope) = (self.softness * cos_slope, self.softness * sin_slope);
+        Lever {
+            cos,
+            sin,
+            cos_slope,
+            sin_slope,
+            arm: y * cos - x * sin,
+            arm_slope: y * cos_slope - x * sin_slope,
+        }
+    }
+
+    /// The six equations (rows 1-2, 3-4, and the half sums of rows 5-8).
+    pub fn residual(&self, wave: Wave, unknowns: &Unknowns) -> Unknowns {
+        let levers = [self.lever(0, unknowns), self.lever(1, unknowns)];
+        self.rows(wave, unknowns, &levers)
+    }
+
+    fn rows(&self, wave: Wave, u: &Unknowns, levers: &[Lever; 2]) -> Unknowns {
+        let [a, b] = levers;
+        let torque = [u[2] * a.arm, u[3] * b.arm];
+        Unknowns::from([
+            u[4] + self.share[0][0] * torque[0] + self.share[0][1] * torque[1],
+            u[5] + self.share[1][0] * torque[0] + self.share[1][1] * torque[1],
+            1.0 + u[0] * a.cos + u[1] * a.sin,
+            1.0 + u[0] * b.cos + u[1] * b.sin,
+            wave.kappa * u[0] - wave.drag * u[1] + u[2] * a.cos + u[3] * b.cos,
+            wave.kappa * u[1] + wave.drag * u[0] + u[2] * a.sin + u[3] * b.sin,
+        ])
+    }
+
+    /// Residual and Jacobian together.
+    pub fn linearised(&self, wave: Wave, u: &Unknowns) -> (Unknowns, Jacobian) {
+        let levers = [self.lever(0, u), self.lever(1, u)];
+        let residual = self.rows(wave, u, &levers);
+        let mut jacobian = Jacobian::zeros();
+        jacobian[(4, 0)] = wave.kappa;
+        jacobian[(4, 1)] = -wave.drag;
+        jacobian[(5, 0)] = wave.drag;
+        jacobian[(5, 1)] = wave.kappa;
+        for (j, lever) in levers.iter().enumerate() {
+            let multiplier = u[2 + j];
+            for i in 0..2 {
+                let share = self.share[i][j];
+                jacobian[(i, 0)] -= share * multiplier * lever.sin;
+                jacobian[(i, 1)] += share * multiplier * lever.cos;
+                jacobian[(i, 2 + j)] = share * lever.arm;
+                jacobian[(i, 4 + j)] =
+                    share * multiplier * lever.arm_slope + f64::from(u8::from(i == j));
+            }
+            jacobian[(2 + j, 0)] = lever.cos;
+            jacobian[(2 + j, 1)] = lever.sin;
+            jacobian[(2 + j, 4 + j)] = u[0] * lever.cos_slope + u[1] * lever.sin_slope;
+            jacobian[(4, 2 + j)] = lever.cos;
+            jacobian[(5, 2 + j)] = lever.sin;
+            jacobian[(4, 4 + j)] = multiplier * lever.cos_slope;
+            jacobian[(5, 4 + j)] = multiplier * lever.sin_slope;
+        }
+        (residual, jacobian)
+    }
+
+    /// Largest of the eight rows of Eq. (27) as they are printed, for the eight
+    /// unknowns `u_cc = u_ss = x`, `u_sc = -u_cs = y`.
+    pub fn printed_residual(&self, wave: Wave, u: &Unknowns) -> f64 {
+        let [a, b] = [self.lever(0, u), self.lever(1, u)];
+        let six = self.rows(wave, u, &[a, b]);
+        let (u_cc, u_cs, u_sc, u_ss) = (u[0], -u[1], u[1], u[0]);
+        let push_cos = six[4] - (wave.kappa * u[0] - wave.drag * u[1]);
+        let push_sin = six[5] - (wave.kappa * u[1] + wave.drag * u[0]);
+        let rows = [
+            six[0],
+            six[1],
+            six[2],
+            six[3],
+            wave.kappa * u_cc + wave.drag * u_cs + push_cos,
+            wave.kappa * u_cs - wave.drag * u_cc - push_sin,
+            wave.kappa * u_sc + wave.drag * u_ss + push_sin,
+            wave.kappa * u_ss - wave.drag * u_sc + push_cos,
+        ];
+        rows.iter().fold(0.0, |largest, row| row.abs().max(largest))
+    }
+
+    /// Newton's method from `start`; `None` where it does not settle.
+    pub fn solve(&self, wave: Wave, start: Unknowns) -> Option<Unknowns> {
+        // Rows are of order one, so a residual of a few units in the last
+        // place of the largest term is all that rounding leaves.
+        let size = 1.0 + wave.kappa.abs() + wave.drag.abs();
+        let mut unknowns = start;
+        for _ in 0..30 {
+            let (residual, jacobian) = self.linearised(wave, &unknowns);
+            let norm = residual.amax();
+            if !norm.is_finite() {
+                return None;
+            }
+            if norm <= 4.0 * f64::EPSILON * size {
+                return Some(unknowns);
+            }
+            let step = jacobian.lu().solve(&residual)?;
+            unknowns -= step;
+            if step.amax() <= 4.0 * f64::EPSILON * unknowns.amax() {
+                return Some(unknowns);
+            }
+        }
+        // Ill-conditioned, close to a fold: accept what is accurate enough.
+        (self.residual(wave, &unknowns).amax() <= 1e-11 * size).then_some(unknowns)
+    }
+}

@@ -1,0 +1,76 @@
+//! Why a question about steady states was refused, each in one line that names
+//! the key, its value and what is allowed.
+
+use thiserror::Error;
+
+use crate::model::Rim;
+
+/// What has no meaning, or was not found, in the frequency domain.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum HarmonicError {
+    /// Fewer than three sides: neighbouring sides never meet.
+    #[error(
+        "operation.nodal_diameters = {nodal_diameters}: allowed is one with N' = N/gcd(N, n_d) >= 3 \
+         phase groups; a corner needs three sides (N = {blades} gives {sides} here)"
+    )]
+    NoCorner {
+        /// `n_d`.
+        nodal_diameters: u32,
+        /// `N`.
+        blades: u32,
+        /// `N'`.
+        sides: u32,
+    },
+    /// `n_d = 0`: the casing has no travelling wave.
+    #[error(
+        "operation.nodal_diameters = 0: allowed is 1 or more; without nodal diameters there is no \
+         travelling wave and no critical speed"
+    )]
+    NoWave,
+    /// Two blades that cannot hold the wave between them.
+    #[error("blades = {first},{second}: allowed is {allowed}")]
+    Blades {
+        /// The first blade as given.
+        first: u32,
+        /// The second blade as given.
+        second: u32,
+        /// What would be accepted.
+        allowed: String,
+    },
+    /// A speed that is no number.
+    #[error("speed = {0}: allowed is a finite number of rad/s")]
+    Speed(f64),
+    /// A parameter of the frequency domain out of bounds.
+    #[error("{key} = {value}: allowed is {allowed}")]
+    Refused {
+        /// Its name.
+        key: &'static str,
+        /// As given.
+        value: String,
+        /// What would be accepted.
+        allowed: String,
+    },
+    /// Newton's method found no equilibrium: blades so soft that the branch
+    /// has folded back before this speed.
+    #[error(
+        "no locked motion at speed = {speed} rad/s: the branch of these blades (softness {softness:e}) \
+         ends before it"
+    )]
+    NotFound {
+        /// Rotor speed \[rad/s\].
+        speed: f64,
+        /// `n_d^2 k_c g0^2/(m_b omega_bd^2)`.
+        softness: f64,
+    },
+}
+
+impl HarmonicError {
+    /// The refusal of a rim without corners.
+    pub(super) fn no_corner(rim: &Rim) -> Self {
+        Self::NoCorner {
+            nodal_diameters: rim.nodal_diameters,
+            blades: rim.blades,
+            sides: rim.sides,
+        }
+    }
+}

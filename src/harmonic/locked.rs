@@ -1,0 +1,226 @@
+//! Locked motion against speed: two phase groups hold the casing wave in a
+//! corner of the blade frame, where it is an equilibrium (one harmonic is
+//! exact). Newton's method on Eq. (27), started from the closed form for
+//! rigid blades.
+
+use super::equations::{Equations, Scales, Unknowns, Wave};
+use super::posture::Posture;
+use super::stability::Linearised;
+use super::{Corner, Form, HarmonicError};
+use crate::model::Machine;
+
+/// The locked motion at one rotor speed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LockedPoint {
+    /// Rotor speed `Omega` \[rad/s\].
+    pub speed: f64,
+    /// `[Lambda_a, Lambda_b]`, summed over each group; negative is a push \[N\].
+    pub multipliers: [f64; 2],
+    /// Angle of one blade of each group, `[alpha_a, alpha_b]` \[rad\].
+    pub alpha: [f64; 2],
+    /// `u_cc`, cosine part of `u_c(t)`, Eq. (25) \[m\].
+    pub u_cc: f64,
+    /// `u_cs`, sine part of `u_c(t)` \[m\].
+    pub u_cs: f64,
+    /// `u_sc`, cosine part of `u_s(t)` \[m\].
+    pub u_sc: f64,
+    /// `u_ss`, sine part of `u_s(t)` \[m\].
+    pub u_ss: f64,
+    /// Smallest gap of all groups not in contact \[m\]; infinite with none left.
+    pub smallest_gap: f64,
+    /// Whether contact can hold it: both multipliers push (or vanish) and
+    /// every other gap is open.
+    pub admissible: bool,
+    /// Whether it lasts: no multiplier pulls, and no motion that keeps both
+    /// contacts grows. That motion is the time model's (two blade modes), in
+    /// every form.
+    pub stable: bool,
+    /// Largest row of the eight equations (27), dimensionless: torques over
+    /// `n_d k_c g0^2`, gaps over `g0`, forces over `k_c g0`.
+    pub residual: f64,
+    /// Torque the rotor must give to hold the wave, `sum Lambda A` \[N m\].
+    pub torque: f64,
+    /// Power it takes, `torque * Omega` \[W\].
+    pub power: f64,
+}
+
+impl LockedPoint {
+    /// Amplitude `|z|` of the casing wave \[m\].
+    #[must_use]
+    pub fn amplitude(&self) -> f64 {
+        self.u_cc.hypot(self.u_sc)
+    }
+}
+
+/// Solver of the locked motion of one machine in one corner and one form.
+#[derive(Clone, Debug)]
+pub struct Locked {
+    machine: Machine,
+    corner: Corner,
+    form: Form,
+    damped: bool,
+    scales: Scales,
+    equations: Equations,
+}
+
+/// The locked motion over a list of speeds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sweep {
+    /// The corner that holds the wave.
+    pub corner: Corner,
+    /// Which equations.
+    pub form: Form,
+    /// Whether the damping of casing and blades is in them.
+    pub damped: bool,
+    /// One point for each speed where there is a locked motion, in the order
+    /// given.
+    pub points: Vec<LockedPoint>,
+    /// The speeds where there is none: blades so soft that the branch has
+    /// folded back \[rad/s\].
+    pub missing: Vec<f64>,
+}
+
+impl Locked {
+    /// Prepares the equations. Undamped is the paper's Eq. (27); damped adds
+    /// `d_c` to its casing rows.
+    ///
+    /// # Errors
+    /// A rim without corners.
+    pub fn new(
+        machine: &Machine,
+        corner: Corner,
+        form: Form,
+        damped: bool,
+    ) -> Result<Self, HarmonicError> {
+        let corner = Corner::after(&machine.rim, corner.a)?;
+        Ok(Self {
+            machine: machine.clone(),
+            corner,
+            form,
+            damped,
+            scales: Scales::of(machine),
+            equations: Equations::new(machine, corner, form),
+        })
+    }
+
+    /// The corner that holds the wave.
+    #[must_use]
+    pub fn corner(&self) -> Corner {
+        self.corner
+    }
+
+    /// The locked motion at one speed \[rad/s\].
+    ///
+    /// # Errors
+    /// A speed that is not finite, or one with no locked motion.
+    pub fn at(&self, speed: f64) -> Result<LockedPoint, HarmonicError> {
+        let mut last = None;
+        self.next(speed, &mut last)
+    }
+
+    /// The locked motion at each speed \[rad/s\], each started from the closed
+    /// form, or where that fails from the point before.
+    ///
+    /// # Errors
+    /// A speed that is not finite.
+    pub fn sweep(&self, speeds: &[f64]) -> Result<Sweep, HarmonicError> {
+        let mut last = None;
+        let mut points = Vec::with_capacity(speeds.len());
+        let mut missing = Vec::new();
+        for &speed in speeds {
+            match self.next(speed, &mut last) {
+                Ok(point) => points.push(point),
+                Err(HarmonicError::NotFound { .. }) => missing.push(speed),
+                Err(error) => return Err(error),
+            }
+        }
+        Ok(Sweep { corner: self.corner, form: self.form, damped: self.damped, points, missing })
+    }
+
+    fn next(&self, speed: f64, last: &mut Option<Unknowns>) -> Result<LockedPoint, HarmonicError> {
+        if !speed.is_finite() {
+            return Err(HarmonicError::Speed(speed));
+        }
+        let wave = Wave::at(&self.machine, speed, self.damped);
+        let found = self
+            .equations
+            .solve(wave, self.equations.predict(wave))
+            .or_else(|| last.and_then(|start| self.equations.solve(wave, start)));
+        match found {
+            Some(unknowns) => {
+                *last = Some(unknowns);
+                Ok(self.point(speed, wave, &unknowns))
+            }
+            None => Err(HarmonicError::NotFound { speed, softness: self.equations.softness() }),
+        }
+    }
+
+    fn point(&self, speed: f64, wave: Wave, unknowns: &Unknowns) -> LockedPoint {
+        let [x, y, lambda_a, lambda_b, alpha_a, alpha_b]: [f64; 6] = (*unknowns).into();
+        let length = self.scales.length;
+        let multipliers = [lambda_a, lambda_b];
+        let (rim, sides) = (&self.machine.rim, self.corner.sides());
+        let turns = [alpha_a, alpha_b].map(|angle| self.scales.softness * angle);
+        let posture = Posture::of_pair(rim, (x, y), sides, turns);
+        let held = [0, 1].map(|i| posture.held(rim, sides[i], multipliers[i]));
+        let smallest_gap = length * posture.smallest_gap(rim, &sides);
+        let admissible = multipliers.iter().all(|&l| l <= 0.0) && smallest_gap > 0.0;
+        let stable = multipliers.iter().all(|&l| l <= 0.0)
+            && Linearised::about(&self.machine, speed, self.damped, &held).is_stable();
+        // Without drag the two levers cancel, and their sum is rounding only.
+        let lever = match wave.drag {
+            0.0 => 0.0,
+            _ => held.iter().map(|side| side.multiplier * side.arm).sum(),
+        };
+        let torque = self.machine.nodal_diameters * self.scales.force * length * lever;
+        LockedPoint {
+            speed,
+            multipliers: multipliers.map(|l| l * self.scales.force),
+            alpha: [alpha_a, alpha_b].map(|angle| angle * self.scales.angle),
+            u_cc: x * length,
+            u_cs: -y * length,
+            u_sc: y * length,
+            u_ss: x * length,
+            smallest_gap,
+            admissible,
+            stable,
+            residual: self.equations.printed_residual(wave, unknowns),
+            torque,
+            power: torque * speed,
+        }
+    }
+}
+
+/// The locked motion of a machine over speeds \[rad/s\], held between the
+/// groups of two blades (the paper's where `None`, see [`Corner::paper`]).
+///
+/// ```
+/// use rubscope::harmonic::{Form, locked_motion};
+/// use rubscope::scene::Scene;
+///
+/// let machine = Scene::builtin("paper-nd3")?.machine();
+/// let speeds: Vec<f64> = (0..=500).map(f64::from).collect();
+/// let sweep = locked_motion(&machine, Form::Modal, false, Some([6, 21]), &speeds)?;
+/// let last = sweep.points[500];
+/// assert!((last.multipliers[0] - -150.85535).abs() < 1e-4);
+/// assert!(last.admissible && last.stable);
+/// assert!(!sweep.points[292].admissible && sweep.points[293].admissible);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// A rim without corners, blades that are not phase neighbours, or a speed
+/// that is not finite.
+pub fn locked_motion(
+    machine: &Machine,
+    form: Form,
+    damped: bool,
+    blades: Option<[u32; 2]>,
+    speeds: &[f64],
+) -> Result<Sweep, HarmonicError> {
+    let corner = match blades {
+        Some(pair) => Corner::of_blades(&machine.rim, pair)?,
+        None => Corner::paper(&machine.rim)?,
+    };
+    Locked::new(machine, corner, form, damped)?.sweep(speeds)
+}

@@ -1,0 +1,18 @@
+//! Frequency domain: steady states of the frame that turns with the blades.
+//!
+//! There a locked motion is an equilibrium: the wave is a point in a corner of
+//! the polygon of `model::Rim`, one harmonic is exact, and stability needs
+//! eigenvalues only. No time step, no initial condition.
+
+mod corner;
+mod equations;
+mod error;
+mod form;
+mod locked;
+mod posture;
+mod stability;
+
+pub use corner::{Corner, PAPER_PAIR};
+pub use error::HarmonicError;
+pub use form::Form;
+pub use locked::{Locked, LockedPoint, Sweep, locked_motion};

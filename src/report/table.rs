@@ -1,0 +1,163 @@
+//! A table of named columns: aligned text for people, CSV for everything else.
+
+use std::io::{Result, Write};
+
+use super::csv::exact;
+use super::number::short;
+
+/// One cell of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Cell {
+    /// A number; what is no finite number is left empty.
+    Number(f64),
+    /// A word or two.
+    Word(String),
+    /// No such figure.
+    Empty,
+}
+
+impl From<f64> for Cell {
+    fn from(x: f64) -> Self {
+        if x.is_finite() { Self::Number(x) } else { Self::Empty }
+    }
+}
+
+impl From<Option<f64>> for Cell {
+    fn from(x: Option<f64>) -> Self {
+        x.map_or(Self::Empty, Self::from)
+    }
+}
+
+impl From<bool> for Cell {
+    fn from(yes: bool) -> Self {
+        Self::Word(yes.to_string())
+    }
+}
+
+impl From<&str> for Cell {
+    fn from(word: &str) -> Self {
+        Self::Word(word.to_string())
+    }
+}
+
+impl From<String> for Cell {
+    fn from(word: String) -> Self {
+        Self::Word(word)
+    }
+}
+
+/// Rows under named columns; names carry the unit, as in `speed_rad_s`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Table {
+    names: Vec<String>,
+    rows: Vec<Vec<Cell>>,
+}
+
+impl Table {
+    /// An empty table with these columns.
+    #[must_use]
+    pub fn new(names: &[&str]) -> Self {
+        Self { names: names.iter().map(ToString::to_string).collect(), rows: Vec::new() }
+    }
+
+    /// Adds a row, one cell for each column.
+    pub fn push(&mut self, mut row: Vec<Cell>) {
+        row.resize(self.names.len(), Cell::Empty);
+        self.rows.push(row);
+    }
+
+    /// How many rows there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Whether there is no row.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.rows.is_empty()
+    }
+
+    /// Writes CSV: a header line, then numbers that read back as themselves.
+    ///
+    /// # Errors
+    /// What the writer refuses.
+    pub fn write_csv(&self, out: &mut dyn Write) -> Result<()> {
+        let mut csv = csv::Writer::from_writer(out);
+        csv.write_record(&self.names)?;
+        for row in &self.rows {
+            csv.write_record(row.iter().map(|cell| match cell {
+                Cell::Number(x) => exact(*x),
+                Cell::Word(word) => word.clone(),
+                Cell::Empty => String::new(),
+            }))?;
+        }
+        csv.flush()
+    }
+
+    /// Writes aligned text: numbers of six digits to the right, words to the
+    /// left, `-` where there is no figure.
+    ///
+    /// # Errors
+    /// What the writer refuses.
+    pub fn write_text(&self, out: &mut dyn Write) -> Result<()> {
+        let text = |cell: &Cell| match cell {
+            Cell::Number(x) => short(*x),
+            Cell::Word(word) => word.clone(),
+            Cell::Empty => "-".to_string(),
+        };
+        let shown: Vec<Vec<String>> =
+            self.rows.iter().map(|row| row.iter().map(text).collect()).collect();
+        let cells = |column: usize| self.rows.iter().filter_map(move |row| row.get(column));
+        let words: Vec<bool> = (0..self.names.len())
+            .map(|column| cells(column).any(|cell| matches!(cell, Cell::Word(_))))
+            .collect();
+        let widths: Vec<usize> = (0..self.names.len())
+            .map(|column| {
+                let entries = shown.iter().filter_map(|row| row.get(column));
+                let name = self.names.get(column).map_or(0, |name| name.chars().count());
+                entries.map(|entry| entry.chars().count()).max().unwrap_or(0).max(name)
+            })
+            .collect();
+        let mut line = |row: &[String]| {
+            let mut text = String::new();
+            for ((entry, &width), &word) in row.iter().zip(&widths).zip(&words) {
+                let padded =
+                    if word { format!("{entry:<width$}") } else { format!("{entry:>width$}") };
+                text.push_str(&padded);
+                text.push_str("  ");
+            }
+            writeln!(out, "{}", text.trim_end())
+        };
+        line(&self.names)?;
+        shown.iter().try_for_each(|row| line(row))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table() -> Table {
+        let mut table = Table::new(&["speed_rad_s", "state"]);
+        table.push(vec![(1.0 / 3.0).into(), "locked, a".into()]);
+        table.push(vec![f64::NAN.into()]);
+        table
+    }
+
+    #[test]
+    fn csv_keeps_every_digit_and_leaves_no_figure_empty() {
+        let mut out = Vec::new();
+        table().write_csv(&mut out).unwrap();
+        let text = String::from_utf8(out).unwrap();
+        assert_eq!(text, "speed_rad_s,state\n0.3333333333333333,\"locked, a\"\n,\n");
+    }
+
+    #[test]
+    fn text_is_aligned() {
+        let mut out = Vec::new();
+        table().write_text(&mut out).unwrap();
+        let text = String::from_utf8(out).unwrap();
+        assert_eq!(text, "speed_rad_s  state\n   0.333333  locked, a\n          -  -\n");
+    }
+}
