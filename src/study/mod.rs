@@ -3,6 +3,8 @@
 mod adaptive;
 mod axis;
 pub mod map;
+pub mod part;
 
 pub use axis::{Axis, AxisError};
 pub use map::{Cell, Map, MapPlan, Progress};
+pub use part::{PartError, Shard};
