@@ -7,6 +7,8 @@ mod completions;
 mod explore;
 mod hbm;
 mod man;
+mod map;
+mod map_run;
 pub mod options;
 pub mod range;
 mod run;
@@ -41,6 +43,7 @@ pub struct Cli {
 enum Command {
     Run(Box<run::Run>),
     Hbm(Box<hbm::Hbm>),
+    Map(Box<map::MapCommand>),
     Scenes(scenes::Scenes),
     Completions(completions::Completions),
     Man(man::Man),
@@ -65,6 +68,7 @@ fn dispatch(cli: Cli, out: &mut dyn Write) -> Done {
         None => cli.explore.run(),
         Some(Command::Run(command)) => command.run(out),
         Some(Command::Hbm(command)) => command.run(out),
+        Some(Command::Map(command)) => command.run(out),
         Some(Command::Scenes(command)) => command.run(out),
         Some(Command::Completions(command)) => command.run(out),
         Some(Command::Man(command)) => command.run(out),

@@ -6,6 +6,8 @@ pub mod file;
 pub mod hbm;
 pub mod history;
 pub mod json;
+pub mod map;
+pub mod map_svg;
 pub mod npz;
 pub mod number;
 pub mod summary;

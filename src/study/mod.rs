@@ -3,6 +3,7 @@
 mod adaptive;
 mod axis;
 pub mod map;
+pub mod overlay;
 pub mod part;
 
 pub use axis::{Axis, AxisError};

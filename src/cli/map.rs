@@ -1,0 +1,248 @@
+//! `rubscope map`: how the motion lasts over two quantities of a scene.
+//!
+//! What is computed is never lost: with `--out` or `--resume` cells are noted
+//! in a part file as they come, Ctrl-C keeps them and says how to go on, and a
+//! result that cannot be written goes to standard output instead.
+
+use std::fs::File;
+use std::io::{BufReader, Write};
+use std::path::{Path, PathBuf};
+
+use anyhow::Context;
+use clap::{Args, Subcommand};
+
+use super::Done;
+use super::map_run::{Kept, compute};
+use super::options::{SceneOptions, Swept};
+use super::range::Range;
+use super::status::{Refusal, Status, say};
+use crate::report::{file, json, map as report, map_svg};
+use crate::study::{Axis, AxisError, Map, MapPlan, Shard, overlay, part};
+
+/// Columns and rows without other wishes.
+const COLUMNS: u32 = 51;
+const ROWS: u32 = 25;
+
+/// Map how the motion lasts over pulse and speed, or any two keys.
+#[derive(Args, Debug)]
+#[command(args_conflicts_with_subcommands = true)]
+pub struct MapCommand {
+    #[command(subcommand)]
+    merge: Option<MapSubcommand>,
+    #[command(flatten)]
+    options: SceneOptions,
+    /// Columns: PATH=FROM:TO:COUNT or PATH=log:FROM:TO:COUNT [default: the speed]
+    #[arg(long, value_name = "AXIS", conflicts_with = "speed")]
+    x: Option<String>,
+    /// Rows, in the same form [default: the pulse]
+    #[arg(long, value_name = "AXIS", conflicts_with = "pulse")]
+    y: Option<String>,
+    /// Coarse cells first, then only beside changes
+    #[arg(long, conflicts_with = "shard")]
+    adaptive: bool,
+    /// Do not look for sensitive cells: a third of the runs
+    #[arg(long)]
+    no_sensitivity: bool,
+    /// Number of threads [default: every core]
+    #[arg(long, value_name = "COUNT")]
+    threads: Option<usize>,
+    /// Compute only share K of COUNT, counted from 1, into --out FILE.part
+    #[arg(long, value_name = "K/COUNT", requires = "out")]
+    shard: Option<String>,
+    /// Go on from the cells in FILE, and note new ones there
+    #[arg(long, value_name = "FILE")]
+    resume: Option<PathBuf>,
+    #[command(flatten)]
+    result: ResultOptions,
+}
+
+/// Where a finished map goes.
+#[derive(Args, Debug)]
+struct ResultOptions {
+    /// Print the map as JSON (rubscope.map/1)
+    #[arg(long)]
+    json: bool,
+    /// Write the map to FILE: .csv, .json, .svg, or .part to be merged later
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+}
+
+#[derive(Subcommand, Debug)]
+enum MapSubcommand {
+    /// Join the parts that shards computed
+    Merge(Merge),
+}
+
+#[derive(Args, Debug)]
+struct Merge {
+    /// Parts of one map
+    #[arg(value_name = "FILE", required = true)]
+    files: Vec<PathBuf>,
+    #[command(flatten)]
+    result: ResultOptions,
+}
+
+impl MapCommand {
+    pub(super) fn run(&self, out: &mut dyn Write) -> Done {
+        if let Some(MapSubcommand::Merge(merge)) = &self.merge {
+            return merge.run(out);
+        }
+        let format = self.result.format()?;
+        let shard = self.shard()?;
+        if self.shard.is_some() && format != Some(Format::Part) {
+            return Err(Refusal::because("--shard: allowed with --out FILE.part only").into());
+        }
+        let mut map = self.start(Map::empty(self.plan()?))?;
+        let indices = shard.indices(map.cells.len());
+        let kept = Kept { adaptive: self.adaptive, threads: self.threads, part: self.part_file() };
+        if let Some(signal) = compute(&mut map, &indices, &kept)? {
+            return Ok(Status::Signal(signal));
+        }
+        self.result.deliver(&map, out)?;
+        // Its cells are in the result now.
+        if let (Some(file), Some(_)) = (&kept.part, &self.result.out) {
+            let _ = std::fs::remove_file(file);
+        }
+        Ok(Status::Done)
+    }
+
+    fn plan(&self) -> anyhow::Result<MapPlan> {
+        let swept = Swept { speed: self.x.is_none(), pulse: self.y.is_none() };
+        let resolved = self.options.resolve(swept)?;
+        let axis = |text: &Option<String>, path: &str, range: Option<Range>, from, to, count| {
+            let axis = match (text, range) {
+                (Some(text), _) => Axis::parse(text),
+                (None, Some(range)) => {
+                    let count = u32::try_from(range.count).unwrap_or(u32::MAX);
+                    Axis::new(path, range.from, range.to, count, false)
+                }
+                (None, None) => Axis::new(path, from, to, count, false),
+            };
+            axis.map_err(|error: AxisError| Refusal::because(error.to_string()))
+        };
+        let scene = resolved.scene;
+        let plan = MapPlan {
+            x: axis(&self.x, "operation.speed_rad_s", resolved.speeds, 0.0, 500.0, COLUMNS)?,
+            y: axis(&self.y, "operation.pulse_n", resolved.pulses, 0.0, 1.2e6, ROWS)?,
+            scene,
+            sensitivity: !self.no_sensitivity,
+        };
+        plan.check()?;
+        Ok(plan)
+    }
+
+    /// The map to go on from.
+    fn start(&self, empty: Map) -> anyhow::Result<Map> {
+        let Some(path) = self.resume.as_deref().filter(|path| path.exists()) else {
+            return Ok(empty);
+        };
+        let kept = read_parts(&[path.to_path_buf()])?;
+        if kept.plan != empty.plan {
+            let shown = path.display();
+            return Err(Refusal::because(format!("{shown} is a part of another map")).into());
+        }
+        Ok(kept)
+    }
+
+    fn shard(&self) -> Result<Shard, Refusal> {
+        let Some(text) = &self.shard else { return Ok(Shard::WHOLE) };
+        Shard::parse(text)
+            .ok_or_else(|| Refusal::of("--shard", text, "K/COUNT with K from 1 to COUNT"))
+    }
+
+    /// Where cells are noted as they come.
+    fn part_file(&self) -> Option<PathBuf> {
+        self.resume.clone().or_else(|| {
+            let mut name = self.result.out.clone()?.into_os_string();
+            name.push(".partial");
+            Some(PathBuf::from(name))
+        })
+    }
+}
+
+impl Merge {
+    fn run(&self, out: &mut dyn Write) -> Done {
+        self.result.format()?;
+        let map = read_parts(&self.files)?;
+        part::require_complete(&map).map_err(|error| Refusal::because(error.to_string()))?;
+        self.result.deliver(&map, out)?;
+        Ok(Status::Done)
+    }
+}
+
+fn read_parts(files: &[PathBuf]) -> anyhow::Result<Map> {
+    let mut parts = Vec::new();
+    for path in files {
+        let shown = path.display().to_string();
+        let file = File::open(path).with_context(|| format!("cannot read {shown}"))?;
+        parts.push((shown, BufReader::new(file)));
+    }
+    let map = part::read_all(parts).map_err(|error| Refusal::because(error.to_string()))?;
+    map.ok_or_else(|| Refusal::because("no part of a map was given").into())
+}
+
+/// The format of a result file, by its ending.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Format {
+    Csv,
+    Json,
+    Svg,
+    Part,
+}
+
+impl ResultOptions {
+    fn format(&self) -> anyhow::Result<Option<Format>> {
+        let Some(path) = &self.out else { return Ok(None) };
+        let format = match path.extension().and_then(|end| end.to_str()) {
+            Some("csv") => Format::Csv,
+            Some("json") => Format::Json,
+            Some("svg") => Format::Svg,
+            Some("part") => Format::Part,
+            _ => {
+                let allowed = "a file name ending in .csv, .json, .svg or .part";
+                return Err(Refusal::of("--out", path.display(), allowed).into());
+            }
+        };
+        // Before the computation, which may take long.
+        file::check_place(path).with_context(|| format!("cannot write {}", path.display()))?;
+        Ok(Some(format))
+    }
+
+    /// Prints and writes the finished map. If it cannot be written, it goes
+    /// to standard output as JSON, so that nothing computed is lost.
+    fn deliver(&self, map: &Map, out: &mut dyn Write) -> anyhow::Result<()> {
+        if self.json {
+            json::write(&report::to_json(map, true), out)?;
+        } else if self.out.is_none() {
+            report::write_text(map, out)?;
+        }
+        let (Some(path), Some(format)) = (&self.out, self.format()?) else { return Ok(()) };
+        let shown = path.display();
+        if let Err(error) = write_file(map, format, path) {
+            if !self.json {
+                json::write(&report::to_json(map, false), out)?;
+            }
+            let kept = "the whole map is on standard output as JSON";
+            return Err(error.context(format!("cannot write {shown}; {kept}")));
+        }
+        say(&format!("rubscope: wrote {} cells to {shown}", map.cells.iter().flatten().count()));
+        Ok(())
+    }
+}
+
+fn write_file(map: &Map, format: Format, path: &Path) -> anyhow::Result<()> {
+    let picture = match format {
+        Format::Svg => {
+            let curves = overlay::curves(&map.plan);
+            map_svg::draw(map, &curves).map_err(|reason| anyhow::anyhow!(reason))?
+        }
+        _ => String::new(),
+    };
+    file::replace(path, |out| match format {
+        Format::Csv => report::write_csv(map, out),
+        Format::Json => json::write(&report::to_json(map, false), out),
+        Format::Svg => out.write_all(picture.as_bytes()),
+        Format::Part => part::write(map, out),
+    })?;
+    Ok(())
+}

@@ -1,0 +1,157 @@
+//! The computation behind `rubscope map`: threads, progress, signals, and the
+//! part file that keeps every cell from the moment it is known.
+
+use std::fs::{File, OpenOptions};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+use anyhow::Context;
+use indicatif::{ProgressBar, ProgressStyle};
+use signal_hook::consts::{SIGINT, SIGTERM};
+
+use super::status::say;
+use crate::study::{Cell, Map, Progress, part};
+
+/// Where cells go if the run is stopped and no file was named.
+const DEFAULT_PART: &str = "rubscope-map.partial";
+/// How often the bar and the signals are looked at.
+const LOOK: Duration = Duration::from_millis(100);
+
+/// How a map is to be computed and kept.
+pub(super) struct Kept {
+    /// Refine only beside changes.
+    pub adaptive: bool,
+    /// Number of threads.
+    pub threads: Option<usize>,
+    /// Where cells are noted as they come.
+    pub part: Option<PathBuf>,
+}
+
+/// Computes the cells of a map; the number of the signal that stopped it.
+pub(super) fn compute(map: &mut Map, indices: &[usize], kept: &Kept) -> anyhow::Result<Option<u8>> {
+    let progress = Progress::default();
+    let signal = Arc::new(AtomicUsize::new(0));
+    for number in [SIGINT, SIGTERM] {
+        signal_hook::flag::register_usize(number, Arc::clone(&signal), number as usize)?;
+    }
+    let notes = match &kept.part {
+        Some(path) => Some(Notes::open(path, map)?),
+        None => None,
+    };
+    let mut builder = rayon::ThreadPoolBuilder::new();
+    if let Some(threads) = kept.threads {
+        builder = builder.num_threads(threads);
+    }
+    let pool = builder.build()?;
+    let missing = indices.iter().filter(|&&index| map.cells[index].is_none()).count();
+    let finished = AtomicBool::new(false);
+    std::thread::scope(|scope| {
+        scope.spawn(|| watch(&progress, &signal, &finished, missing as u64));
+        let keep = |index: usize, cell: Cell| {
+            if let Some(notes) = &notes {
+                notes.keep(index, cell);
+            }
+        };
+        pool.install(|| {
+            if kept.adaptive {
+                map.fill_adaptively(&progress, &keep);
+            } else {
+                map.fill(indices, &progress, &keep);
+            }
+        });
+        finished.store(true, Ordering::Relaxed);
+    });
+    let trouble = notes.and_then(Notes::close);
+    if let Some((path, error)) = trouble {
+        say(&format!("rubscope: could not note cells in {}: {error}", path.display()));
+    }
+    match signal.load(Ordering::Relaxed) {
+        0 => {
+            if kept.adaptive {
+                let (runs, cells) = (map.runs, map.cells.len());
+                say(&format!("rubscope: {runs} runs for {cells} cells"));
+            }
+            Ok(None)
+        }
+        number => {
+            stopped(map, kept.part.as_deref())?;
+            Ok(Some(u8::try_from(number).unwrap_or(1)))
+        }
+    }
+}
+
+/// Keeps what is done and says how to go on.
+fn stopped(map: &Map, file: Option<&Path>) -> anyhow::Result<()> {
+    let path = file.unwrap_or(Path::new(DEFAULT_PART));
+    if file.is_none() {
+        crate::report::file::replace(path, |out| part::write(map, out))
+            .with_context(|| format!("cannot keep the cells in {}", path.display()))?;
+    }
+    let done = map.cells.iter().flatten().count();
+    say(&format!(
+        "rubscope: stopped; {done} of {} cells are kept: go on with the same command and --resume {}",
+        map.cells.len(),
+        path.display()
+    ));
+    Ok(())
+}
+
+/// Moves the bar and passes signals on, until the cells are done.
+fn watch(progress: &Progress, signal: &AtomicUsize, finished: &AtomicBool, cells: u64) {
+    let bar = ProgressBar::new(cells);
+    if let Ok(style) =
+        ProgressStyle::with_template("{bar:30} {pos}/{len} cells, {per_sec}, {eta} left")
+    {
+        bar.set_style(style);
+    }
+    while !finished.load(Ordering::Relaxed) {
+        if signal.load(Ordering::Relaxed) != 0 {
+            progress.stop.store(true, Ordering::Relaxed);
+        }
+        bar.set_position(progress.done.load(Ordering::Relaxed));
+        std::thread::sleep(LOOK.min(Duration::from_millis(1 + cells / 100)));
+    }
+    bar.finish_and_clear();
+}
+
+/// The part file while cells come in.
+struct Notes {
+    path: PathBuf,
+    file: Mutex<(File, Option<std::io::Error>)>,
+}
+
+impl Notes {
+    /// Begins the file anew with the cells there are already, so that a line
+    /// cut short by a kill is gone.
+    fn open(path: &Path, map: &Map) -> anyhow::Result<Self> {
+        let cannot = || format!("cannot write {}", path.display());
+        crate::report::file::replace(path, |out| part::write(map, out)).with_context(cannot)?;
+        let file = OpenOptions::new().append(true).open(path).with_context(cannot)?;
+        Ok(Self { path: path.to_path_buf(), file: Mutex::new((file, None)) })
+    }
+
+    fn lock(&self) -> MutexGuard<'_, (File, Option<std::io::Error>)> {
+        self.file.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Notes one cell. A full disk must not stop the computation: the first
+    /// error is kept and told at the end.
+    fn keep(&self, index: usize, cell: Cell) {
+        let mut guard = self.lock();
+        let (file, trouble) = &mut *guard;
+        if trouble.is_none() {
+            // One write a line: a run that is killed leaves whole lines.
+            let mut line = Vec::with_capacity(24);
+            let written = part::write_cell(index, cell, &mut line);
+            *trouble = written.and_then(|()| file.write_all(&line)).err();
+        }
+    }
+
+    fn close(self) -> Option<(PathBuf, std::io::Error)> {
+        let (_, trouble) = self.file.into_inner().unwrap_or_else(PoisonError::into_inner);
+        Some((self.path, trouble?))
+    }
+}

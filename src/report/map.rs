@@ -1,0 +1,129 @@
+//! The interaction map as JSON (`rubscope.map/1`), as CSV, and as text with
+//! one character a cell.
+
+use std::io::{Result, Write};
+
+use serde_json::{Map as Object, Value, json};
+
+use super::number::short;
+use crate::motion::Verdict;
+use crate::study::{Axis, Cell, Map};
+
+/// Columns and rows the text map is thinned to.
+const TEXT_COLUMNS: usize = 100;
+const TEXT_ROWS: usize = 40;
+
+/// The map as JSON. Timing is given on standard output only: the same map is
+/// the same file.
+#[must_use]
+pub fn to_json(map: &Map, with_time: bool) -> Value {
+    let mut object = Object::new();
+    object.insert("schema".into(), json!("rubscope.map/1"));
+    object.insert("scene".into(), json!(map.plan.scene));
+    for (name, axis) in [("x", &map.plan.x), ("y", &map.plan.y)] {
+        object.insert(name.into(), json!({ "path": axis.path, "log": axis.log }));
+        object.insert(leaf(axis).into(), json!(axis.values()));
+    }
+    let rows = |value: &dyn Fn(Cell) -> Value| -> Value {
+        (0..map.plan.y.count)
+            .map(|row| {
+                (0..map.plan.x.count)
+                    .map(|column| map.at(column, row).map_or(Value::Null, value))
+                    .collect::<Value>()
+            })
+            .collect()
+    };
+    object.insert("verdict".into(), rows(&|cell| json!(cell.verdict)));
+    object.insert("sensitive".into(), rows(&|cell| json!(cell.sensitive)));
+    object.insert("wall_s".into(), if with_time { json!(map.wall_s) } else { Value::Null });
+    object.insert("runs".into(), json!(map.runs));
+    Value::Object(object)
+}
+
+/// The last part of an axis's key, such as `speed_rad_s`.
+#[must_use]
+pub fn leaf(axis: &Axis) -> &str {
+    axis.path.rsplit('.').next().unwrap_or(&axis.path)
+}
+
+/// The map as CSV, a line a cell.
+///
+/// # Errors
+/// What the writer says.
+pub fn write_csv(map: &Map, out: &mut dyn Write) -> Result<()> {
+    let mut csv = csv::Writer::from_writer(out);
+    csv.write_record([leaf(&map.plan.x), leaf(&map.plan.y), "verdict", "sensitive"])?;
+    for row in 0..map.plan.y.count {
+        for column in 0..map.plan.x.count {
+            let (verdict, sensitive) = match map.at(column, row) {
+                Some(cell) => (cell.verdict.word(), cell.sensitive.to_string()),
+                None => ("", String::new()),
+            };
+            let (x, y) = (map.plan.x.value(column), map.plan.y.value(row));
+            csv.write_record([&x.to_string(), &y.to_string(), verdict, &sensitive])?;
+        }
+    }
+    csv.flush()
+}
+
+/// The character of a cell: a mark for the verdict, its first letter where it
+/// is sensitive.
+#[must_use]
+pub fn mark(cell: Option<Cell>) -> char {
+    let Some(cell) = cell else { return ' ' };
+    match (cell.verdict, cell.sensitive) {
+        (Verdict::Decay, false) => '.',
+        (Verdict::Bounce, false) => 'o',
+        (Verdict::Slip, false) => '~',
+        (Verdict::Locked, false) => '#',
+        (Verdict::Adhesive, false) => '%',
+        (Verdict::Failed, false) => '!',
+        (Verdict::Decay, true) => 'd',
+        (Verdict::Bounce, true) => 'b',
+        (Verdict::Slip, true) => 's',
+        (Verdict::Locked, true) => 'l',
+        (Verdict::Adhesive, true) => 'a',
+        (Verdict::Failed, true) => 'f',
+    }
+}
+
+/// The map as text, highest row first, with a legend of what is in it.
+///
+/// # Errors
+/// What the writer says.
+pub fn write_text(map: &Map, out: &mut dyn Write) -> Result<()> {
+    let (x, y) = (&map.plan.x, &map.plan.y);
+    let across = (x.count as usize).div_ceil(TEXT_COLUMNS);
+    let down = (y.count as usize).div_ceil(TEXT_ROWS);
+    writeln!(out, "{} (up) against {} (right)", y.path, x.path)?;
+    let rows: Vec<u32> = (0..y.count).step_by(down).collect();
+    for &row in rows.iter().rev() {
+        let line: String =
+            (0..x.count).step_by(across).map(|column| mark(map.at(column, row))).collect();
+        writeln!(out, "{:>12} |{line}|", short(y.value(row)))?;
+    }
+    let width = (x.count as usize).div_ceil(across);
+    let (first, last) = (short(x.value(0)), short(x.value(x.count - 1)));
+    writeln!(out, "{:>13}{first}{last:>1$}", "", width.saturating_sub(first.len()) + 1)?;
+    if across * down > 1 {
+        writeln!(out, "Every {across} columns and {down} rows are shown.")?;
+    }
+    write_legend(map, out)
+}
+
+fn write_legend(map: &Map, out: &mut dyn Write) -> Result<()> {
+    let (census, sensitive) = map.census();
+    let cells = map.cells.len();
+    for (verdict, count) in census.into_iter().filter(|&(_, count)| count > 0) {
+        let plain = mark(Some(Cell { verdict, sensitive: false }));
+        writeln!(out, "{plain}  {verdict}: {count} of {cells} cells")?;
+    }
+    if sensitive > 0 {
+        writeln!(
+            out,
+            "A letter (d b s l a f) marks the {sensitive} sensitive cells, where a relative \
+             change of 1e-9 of the pulse changes the verdict or the number of impacts."
+        )?;
+    }
+    Ok(())
+}

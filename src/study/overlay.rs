@@ -1,0 +1,89 @@
+//! Curves over a map: the critical and the lock-in speed, and the smallest
+//! pulse that makes any blade touch.
+
+use super::MapPlan;
+use crate::motion::Motion;
+use crate::scene::{ContactLaw, ModelSize, Scene, SolverKind};
+
+const SPEED: &str = "operation.speed_rad_s";
+const PULSE: &str = "operation.pulse_n";
+
+/// A curve over a map, in the quantities of its axes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curve {
+    /// What it is.
+    pub name: &'static str,
+    /// Points `(x, y)`, in order.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// The curves that have a meaning on these axes, at the resolution of the map.
+#[must_use]
+pub fn curves(plan: &MapPlan) -> Vec<Curve> {
+    let mut curves = Vec::new();
+    if let Some(of_speed) = AlongOther::of(plan, SPEED) {
+        curves.push(of_speed.trace("Omega_c", |scene| scene.machine().critical_speed()));
+        curves.push(of_speed.trace("Omega_lock", |scene| scene.machine().lock_speed()));
+    }
+    if let Some(of_pulse) = AlongOther::of(plan, PULSE) {
+        let most = plan.x.to.abs().max(plan.y.to.abs());
+        curves.push(of_pulse.trace("grazing pulse", |scene| grazing_pulse(scene, most)));
+    }
+    curves.retain(|curve| !curve.points.is_empty());
+    curves
+}
+
+/// A map with one axis over a given key, walked along the other axis.
+struct AlongOther<'a> {
+    plan: &'a MapPlan,
+    /// Whether the key is on the x axis.
+    on_x: bool,
+}
+
+impl<'a> AlongOther<'a> {
+    fn of(plan: &'a MapPlan, path: &str) -> Option<Self> {
+        let on_x = plan.x.path == path;
+        (on_x || plan.y.path == path).then_some(Self { plan, on_x })
+    }
+
+    fn trace(&self, name: &'static str, value: impl Fn(&Scene) -> Option<f64>) -> Curve {
+        let other = if self.on_x { &self.plan.y } else { &self.plan.x };
+        let points = (0..other.count).filter_map(|index| {
+            let mut scene = self.plan.scene.clone();
+            other.apply(&mut scene, index).ok()?;
+            let (along, value) = (other.value(index), value(&scene)?);
+            Some(if self.on_x { (value, along) } else { (along, value) })
+        });
+        Curve { name, points: points.collect() }
+    }
+}
+
+/// The smallest pulse force of the scene's duration that makes a blade touch,
+/// up to `most` \[N\], by bisection on the event solver with rigid blades.
+#[must_use]
+pub fn grazing_pulse(scene: &Scene, most: f64) -> Option<f64> {
+    let touches = |force: f64| {
+        let mut scene = scene.clone();
+        scene.solver.kind = SolverKind::Event;
+        scene.solver.contact = ContactLaw::Unilateral;
+        scene.solver.model = ModelSize::Rigid;
+        scene.operation.pulse_n = force;
+        let mut motion = Motion::new(&scene);
+        // A free casing swings out furthest within its first period.
+        let period = std::f64::consts::TAU / motion.machine().omega_c;
+        let until = (scene.operation.pulse_s + period).min(scene.solver.end_s);
+        motion.advance(until).is_err() || motion.contacts().impact_count > 0
+    };
+    if most <= 0.0 || !touches(most) {
+        return None;
+    }
+    let (mut free, mut touching) = (0.0, most);
+    while touching - free > 1e-12 * touching {
+        let middle = 0.5 * (free + touching);
+        if middle <= free || middle >= touching {
+            break;
+        }
+        if touches(middle) { touching = middle } else { free = middle }
+    }
+    Some(touching)
+}
