@@ -6,8 +6,10 @@
 
 mod contacts;
 mod drive;
+mod event;
 pub mod verdict;
 
 pub use contacts::{ContactLog, Impact, Touching};
 pub use drive::{Failure, Pulse, Rotor, State};
+pub use event::Event;
 pub use verdict::{Checks, Contact, Outcome, Verdict};
