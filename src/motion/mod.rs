@@ -6,6 +6,7 @@
 
 mod contacts;
 mod drive;
+mod event;
 pub mod explicit;
 mod run;
 mod solver;
@@ -13,9 +14,10 @@ pub mod verdict;
 
 pub use contacts::{ContactLog, Impact, Touching, in_phase_order};
 pub use drive::{Failure, Pulse, Rotor, State};
+pub use event::Event;
 pub use run::{
     FinalState, ImpactReport, RunReport, Sample, Sampling, Settled, SolverReport, is_sensitive,
-    settle, simulate,
+    settle, simulate, verdict_of,
 };
 pub use solver::Motion;
 pub use verdict::{Checks, Contact, Outcome, Verdict};

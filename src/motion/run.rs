@@ -7,7 +7,7 @@ use std::time::Instant;
 use serde::Serialize;
 
 use super::verdict::{LAST_PART, judge};
-use super::{Checks, Contact, Motion, Outcome, State, Verdict};
+use super::{Checks, Contact, Event, Motion, Outcome, State, Verdict};
 use crate::model::Machine;
 use crate::scene::{ContactLaw, ModelSize, Scene, SolverKind};
 
@@ -123,10 +123,7 @@ fn settle_motion(mut motion: Motion, end: f64) -> Settled {
         let until = (looks * interval).min(end);
         verdict = match motion.advance(until) {
             Err(_) => Some(Verdict::Failed),
-            Ok(()) if until >= end => {
-                let (log, machine) = (motion.contacts(), motion.machine());
-                Some(judge(log, machine, motion.state().t_s, LAST_PART * end, motion.over()))
-            }
+            Ok(()) if until >= end => Some(verdict_of(&motion, LAST_PART * end)),
             Ok(()) => motion.settled(),
         };
     }
@@ -139,10 +136,34 @@ fn settle_motion(mut motion: Motion, end: f64) -> Settled {
 /// Relative change of the pulse that no trustworthy verdict may notice.
 const NUDGE: f64 = 1e-9;
 
-/// Whether a relative change of 1e-9 of the pulse, up or down, changes the
-/// verdict or the impact count.
+/// The verdict on a motion now, over the last `window` seconds.
+#[must_use]
+pub fn verdict_of(motion: &Motion, window: f64) -> Verdict {
+    let now = || motion.state().t_s;
+    if motion.failure().is_some() {
+        return Verdict::Failed;
+    }
+    motion
+        .settled()
+        .unwrap_or_else(|| judge(motion.contacts(), motion.machine(), now(), window, motion.over()))
+}
+
+/// Part of its tolerance at which the event solver is tried again.
+const FINER: f64 = 0.1;
+
+/// Whether a relative change of 1e-9 of the pulse, up or down, or with the
+/// event solver a tolerance ten times finer, changes the verdict or the impact
+/// count.
 #[must_use]
 pub fn is_sensitive(scene: &Scene, settled: Settled) -> bool {
+    if scene.solver.kind == SolverKind::Event {
+        let event = Event::new(scene);
+        let finer = FINER * event.tolerance();
+        let motion = Motion::Event(Box::new(event.with_tolerance(finer)));
+        if settle_motion(motion, scene.solver.end_s) != settled {
+            return true;
+        }
+    }
     [1.0 - NUDGE, 1.0 + NUDGE].into_iter().any(|factor| {
         let mut nudged = scene.clone();
         nudged.operation.pulse_n *= factor;
@@ -186,7 +207,10 @@ pub fn simulate(scene: &Scene, sampling: Sampling, sink: &mut dyn FnMut(&Sample)
             break;
         }
     }
-    report(scene, &motion, &wave, started)
+    let mut report = report(scene, &motion, &wave, started);
+    let settled = Settled { verdict: report.outcome.verdict, impact_count: report.impact_count };
+    report.outcome.sensitive = is_sensitive(scene, settled);
+    report
 }
 
 fn take_sample(motion: &mut Motion, gaps: bool) -> Sample {
@@ -245,10 +269,7 @@ fn report(scene: &Scene, motion: &Motion, wave: &WaveAngle, started: Instant) ->
     let rim = &machine.rim;
     let (log, state) = (motion.contacts(), motion.state());
     let window = LAST_PART * scene.solver.end_s;
-    let verdict = match motion.failure() {
-        Some(_) => Verdict::Failed,
-        None => judge(log, machine, state.t_s, window, motion.over()),
-    };
+    let verdict = verdict_of(motion, window);
     let lasting = !matches!(verdict, Verdict::Failed | Verdict::Decay);
     let outcome = Outcome {
         verdict,

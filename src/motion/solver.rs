@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 
 use super::explicit::{Explicit, FullBlades, ModalBlades, RigidBlades};
-use super::{Checks, ContactLog, Failure, Pulse, Rotor, State, Touching, Verdict};
+use super::{Checks, ContactLog, Event, Failure, Pulse, Rotor, State, Touching, Verdict};
 use crate::model::Machine;
-use crate::scene::{ModelSize, Scene};
+use crate::scene::{ModelSize, Scene, SolverKind};
 
 /// A motion under way: advanced, looked at, cloned.
 ///
@@ -24,6 +24,8 @@ pub enum Motion {
     Modal(Box<Explicit<ModalBlades>>),
     /// Explicit, every blade its own coordinate.
     Full(Box<Explicit<FullBlades>>),
+    /// Event-driven closed forms.
+    Event(Box<Event>),
 }
 
 macro_rules! each {
@@ -32,6 +34,7 @@ macro_rules! each {
             Self::Rigid($inner) => $do,
             Self::Modal($inner) => $do,
             Self::Full($inner) => $do,
+            Self::Event($inner) => $do,
         }
     };
 }
@@ -40,6 +43,9 @@ impl Motion {
     /// The motion of a checked scene at t = 0.
     #[must_use]
     pub fn new(scene: &Scene) -> Self {
+        if scene.solver.kind == SolverKind::Event {
+            return Self::Event(Box::new(Event::new(scene)));
+        }
         match scene.solver.model {
             ModelSize::Rigid => Self::Rigid(Box::new(Explicit::new(scene))),
             ModelSize::Modal => Self::Modal(Box::new(Explicit::new(scene))),
@@ -64,7 +70,19 @@ impl Motion {
     /// The angle of every blade now \[rad\].
     #[must_use]
     pub fn blade_angles(&self) -> Vec<f64> {
-        each!(self, inner => inner.blade_angles())
+        match self {
+            Self::Rigid(inner) => inner.blade_angles(),
+            Self::Modal(inner) => inner.blade_angles(),
+            Self::Full(inner) => inner.blade_angles(),
+            Self::Event(inner) => {
+                let (rim, [c, s]) = (&inner.machine().rim, inner.state().alpha);
+                let angle = |blade| {
+                    let (p_c, p_s) = rim.direction(rim.side_of_blade(blade));
+                    p_c * c + p_s * s
+                };
+                (1..=rim.blades).map(angle).collect()
+            }
+        }
     }
 
     /// The gap of every blade now, Eq. (14); positive means open \[m\].
@@ -90,9 +108,16 @@ impl Motion {
         each!(self, inner => inner.multipliers())
     }
 
-    /// Mean force on each touched side since last asked \[N\]; negative is a push.
+    /// Mean force on each touched side since last asked \[N\]; negative is a
+    /// push. The event solver, whose forces have no step to average over,
+    /// gives the forces now; its impacts are impulses without duration.
     pub fn take_mean_forces(&mut self) -> Vec<(u32, f64)> {
-        each!(self, inner => inner.take_mean_forces())
+        match self {
+            Self::Rigid(inner) => inner.take_mean_forces(),
+            Self::Modal(inner) => inner.take_mean_forces(),
+            Self::Full(inner) => inner.take_mean_forces(),
+            Self::Event(inner) => inner.multipliers(),
+        }
     }
 
     /// Whether no contact can ever come again.
@@ -106,6 +131,9 @@ impl Motion {
     /// after the pulse.
     #[must_use]
     pub fn settled(&self) -> Option<Verdict> {
+        if let Self::Event(inner) = self {
+            return inner.settled();
+        }
         if self.over() {
             return Some(Verdict::Decay);
         }
@@ -147,13 +175,21 @@ impl Motion {
     /// Time steps taken; none for a solver without steps.
     #[must_use]
     pub fn steps(&self) -> Option<u64> {
-        Some(each!(self, inner => inner.steps()))
+        match self {
+            Self::Rigid(inner) => Some(inner.steps()),
+            Self::Modal(inner) => Some(inner.steps()),
+            Self::Full(inner) => Some(inner.steps()),
+            Self::Event(_) => None,
+        }
     }
 
     /// Changes of mode computed; none for a solver that does not know them.
     #[must_use]
     pub fn events(&self) -> Option<u64> {
-        None
+        match self {
+            Self::Event(inner) => Some(inner.events()),
+            _ => None,
+        }
     }
 
     /// Why the run failed, if it did.

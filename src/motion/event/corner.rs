@@ -1,0 +1,85 @@
+//! Locked in a corner: the casing wave turns with the rotor, two sides push.
+//!
+//! With `D = 2 c nu + nu'` and the side half-length `h = g0 tan delta`, a
+//! casing held at rest in the corner of sides `a` and `b` (`psi_b = psi_a +
+//! 2 delta`) and then let go would open the two gaps with
+//! `q_a = f cos beta_a + (omega_c^2 - nu^2) g0 - D h` and
+//! `q_b = f cos beta_b + (omega_c^2 - nu^2) g0 + D h`; the pushes cancel both.
+
+use super::approach::safe_step;
+use super::world::{Drive, Plane, World};
+
+/// What one look ahead in a corner finds.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Hold {
+    /// No event before this time.
+    Until(f64),
+    /// The push of the first (`false`) or second side vanishes now.
+    Yield(bool),
+    /// The pushes do not change.
+    Always,
+}
+
+/// Opening accelerations `q_a`, `q_b` of a corner at rest, `s` seconds on, and
+/// their rates.
+pub(super) fn opening(world: &World, drive: &Drive, a: u32, s: f64) -> [(f64, f64); 2] {
+    let (nu, ramp, c2) = (drive.nu(s), drive.nu_rate, 2.0 * world.damping);
+    let (g0, h) = (world.clearance, world.half_side);
+    let inward = drive.inward(world, a, s);
+    let centred = (world.omega - nu) * (world.omega + nu) * g0;
+    let slack = -2.0 * nu * ramp * g0;
+    let mut openings = [(0.0, 0.0); 2];
+    for (opening, (direction, sign)) in
+        openings.iter_mut().zip([(inward, -1.0), (inward * world.turn, 1.0)])
+    {
+        *opening = (
+            drive.pulse * direction.re + centred + sign * (c2 * nu + ramp) * h,
+            slack - drive.pulse * nu * direction.im + sign * c2 * ramp * h,
+        );
+    }
+    openings
+}
+
+/// Impulses or pushes that cancel two opening rates at once:
+/// `p + [[1, cos 2 delta], [cos 2 delta, 1]]^-1 q = 0`.
+pub(super) fn cancelled(world: &World, a: f64, b: f64) -> [f64; 2] {
+    let Plane { re: cos, im: sin } = world.turn;
+    let scale = 1.0 / (sin * sin);
+    [-(a - cos * b) * scale, -(b - cos * a) * scale]
+}
+
+/// Pushes per unit mass of both sides \[m/s^2\].
+pub(super) fn pushes(world: &World, drive: &Drive, a: u32, s: f64) -> [f64; 2] {
+    let [first, second] = opening(world, drive, a, s);
+    cancelled(world, first.0, second.0)
+}
+
+/// Looks ahead from `s` in the corner of `a` and the next side.
+pub(super) fn look(world: &World, drive: &Drive, a: u32, s: f64, end: f64) -> Hold {
+    if drive.steady() {
+        return Hold::Always;
+    }
+    let [first, second] = opening(world, drive, a, s);
+    let pushes = cancelled(world, first.0, second.0);
+    let rates = cancelled(world, first.1, second.1);
+    let ramp = drive.nu_rate.abs();
+    // A ramp may change the wave frequency by its own size, or by one turn a
+    // period of it, in one look.
+    let size = drive.nu(s).abs() + ramp.sqrt();
+    let span = if ramp > 0.0 { (size / ramp).min(end - s) } else { end - s };
+    let turning = drive.nu(s).abs().max(drive.nu(s + span).abs());
+    let Plane { re: cos, im: sin } = world.turn;
+    let spread = (1.0 + cos.abs()) / (sin * sin);
+    let pulse = drive.pulse.abs();
+    let bend = spread * (2.0 * ramp * ramp * world.clearance + pulse * (turning * turning + ramp));
+    let square = (world.omega * world.omega).max(turning * turning);
+    let noise = world.tolerance * spread * (square * world.clearance + pulse);
+    let mut stride = span;
+    for (second, (push, rate)) in [false, true].into_iter().zip(pushes.into_iter().zip(rates)) {
+        if push <= noise && rate < 0.0 {
+            return Hold::Yield(second);
+        }
+        stride = stride.min(safe_step(push.max(0.0) + noise, rate, bend));
+    }
+    Hold::Until((s + stride).max(s.next_up()))
+}

@@ -1,0 +1,233 @@
+//! Free flight: nothing touches. Two uncoupled oscillators in the standing
+//! frame, in closed form, and a search for the first touch that cannot miss.
+//!
+//! While `|u| < g0` no side can touch, whatever the rotor does: that costs one
+//! comparison. Beyond, the gaps of the nearest sides are advanced on with a
+//! bound on their second derivative in the turning frame (`approach`); the rest
+//! are kept open by a bound on the speed.
+
+use super::approach::{leaving_step, safe_step};
+use super::world::{Drive, Plane, World};
+
+/// A side that the flight leaves with neither gap nor rate.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Leaving {
+    pub side: u32,
+    /// Second derivative of its gap \[m/s^2\], zero or more.
+    pub bend: f64,
+    /// Third derivative \[m/s^3\].
+    pub twist: f64,
+}
+
+/// Free flight from a state in the standing frame.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Free {
+    pub place: Plane,
+    pub rate: Plane,
+    pub leaving: [Option<Leaving>; 2],
+}
+
+/// What one look ahead finds.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Look {
+    /// No event before this time.
+    Until(f64),
+    /// This side touches now.
+    Touch(u32),
+    /// Nothing can touch any more, for as long as the drive does not change.
+    Never,
+    /// The motion went beyond the casing radius.
+    Gone,
+}
+
+/// Bounds over a stretch of flight ahead.
+struct Bounds {
+    /// On `|u|`, `|u'|`, `|u''|`.
+    standing: [f64; 3],
+    /// On the first, second and fourth derivative of `z`.
+    turning: [f64; 3],
+}
+
+impl Free {
+    pub(super) fn new(place: Plane, rate: Plane) -> Self {
+        Self { place, rate, leaving: [None; 2] }
+    }
+
+    /// Place and rate in the standing frame, `s` seconds on.
+    pub(super) fn at(&self, world: &World, drive: &Drive, s: f64) -> (Plane, Plane) {
+        let response = world.kernel.at(s);
+        let stiffness = world.kernel.stiffness;
+        if drive.pulse == 0.0 {
+            let place = self.place * response.hold + self.rate * response.unit;
+            let rate = self.rate * response.slope - self.place * (stiffness * response.unit);
+            (place, rate)
+        } else {
+            let forcing = Plane::new(drive.pulse, 0.0) - self.place * stiffness;
+            let place = self.place + self.rate * response.unit + forcing * response.ramp;
+            (place, self.rate * response.slope + forcing * response.unit)
+        }
+    }
+
+    /// Whether the energy left cannot reach a side, with no pulse to come.
+    pub(super) fn spent(world: &World, place: Plane, rate: Plane) -> bool {
+        let reach = world.omega * world.clearance;
+        rate.norm_sqr() + world.omega * world.omega * place.norm_sqr() < reach * reach
+    }
+
+    /// Second and third derivative of the gap of `side` at the start.
+    pub(super) fn curvature(&self, world: &World, drive: &Drive, side: u32) -> (f64, f64) {
+        let (c, k) = (world.damping, world.kernel.stiffness);
+        let (u, v, nu, nu_rate) = (self.place, self.rate, drive.nu, drive.nu_rate);
+        let a = Plane::new(drive.pulse, 0.0) - v * (2.0 * c) - u * k;
+        let jerk = -a * (2.0 * c) - v * k;
+        let out = drive.inward(world, side, 0.0).conj();
+        let i = Plane::i();
+        let second = a - i * v * (2.0 * nu) - u * Plane::new(nu * nu, nu_rate);
+        let third = jerk - i * a * (3.0 * nu) - v * Plane::new(nu * nu, nu_rate) * 3.0
+            + u * Plane::new(-3.0 * nu * nu_rate, nu * nu * nu);
+        ((second * out).re, (third * out).re)
+    }
+
+    /// Looks ahead from `s`, before which nothing happens, to at most `end`.
+    pub(super) fn look(&self, world: &World, drive: &Drive, s: f64, end: f64) -> Look {
+        let (u, v) = self.at(world, drive, s);
+        if drive.pulse == 0.0 && Self::spent(world, u, v) {
+            return Look::Never;
+        }
+        let radius = u.norm();
+        if !world.corners && radius > world.reach {
+            return Look::Gone;
+        }
+        // A ramp may change the turning rate by a tenth of all rates in one look.
+        let (nu, rates) = (drive.nu(s), world.omega + drive.nu(s).abs());
+        let change = drive.nu_rate.abs();
+        let span = if change > 0.0 {
+            0.1 * (rates * rates).max(change).sqrt() / change
+        } else {
+            f64::INFINITY
+        };
+        let span = span.min(end - s);
+        let bounds = Bounds::new(world, drive, u, v, span, [nu, drive.nu(s + span.min(1e9))]);
+        let clearance = world.clearance;
+        let mut stride: f64 = 0.0;
+        if radius < clearance {
+            let [place, rate, acceleration] = bounds.standing;
+            let margin = (clearance - radius) * (clearance + radius);
+            let closing = -2.0 * (u.re * v.re + u.im * v.im);
+            stride = safe_step(margin, closing, 2.0 * (rate * rate + place * acceleration));
+        }
+        if radius > 0.9 * clearance {
+            match self.sides(world, drive, s, (u, v), &bounds) {
+                Look::Until(near) => stride = stride.max(near),
+                found => return found,
+            }
+        }
+        Look::Until((s + stride.min(span)).max(s.next_up()))
+    }
+
+    /// Time over which no side can close, or the side that touches now.
+    fn sides(
+        &self,
+        world: &World,
+        drive: &Drive,
+        s: f64,
+        (u, v): (Plane, Plane),
+        bounds: &Bounds,
+    ) -> Look {
+        let rim = &world.machine.rim;
+        let back = Plane::cis(-drive.phase(s));
+        let z = u * back;
+        let rate = (v - Plane::i() * u * drive.nu(s)) * back;
+        // Round-off of the closed form: that of the terms it adds up.
+        let terms = self.place.norm() + self.rate.norm() * s.min(1.0 / world.omega) + u.norm();
+        let noise = world.tolerance * (world.clearance + terms);
+        let [speed, bend, jounce] = bounds.turning;
+        let nearest = rim.nearest_side(z.re, z.im);
+        let (first, count) =
+            if rim.sides <= 6 { (0, rim.sides) } else { (rim.previous(nearest), 3) };
+        let mut stride = f64::INFINITY;
+        if count < rim.sides {
+            // The others lie at least three half corners away from `z`.
+            let open = world.clearance - z.norm() * (3.0 * rim.delta).cos();
+            stride = open.max(0.0) / speed;
+        }
+        for k in 0..count {
+            let side = (first + k) % rim.sides;
+            let normal = world.direction(side);
+            let gap = world.clearance + z.re * normal.re + z.im * normal.im;
+            let closing = rate.re * normal.re + rate.im * normal.im;
+            let leaving = self.leaving.iter().flatten().find(|leaving| leaving.side == side);
+            let safe = match leaving {
+                Some(leaving) if s == 0.0 => leaving_step(leaving.bend, leaving.twist, jounce),
+                _ if gap <= noise && closing < 0.0 => return Look::Touch(side),
+                _ => safe_step(gap.max(0.0) + noise, closing, bend),
+            };
+            stride = stride.min(safe);
+        }
+        Look::Until(stride)
+    }
+}
+
+impl Bounds {
+    /// From the state now, over `span` seconds in which the wave turns against
+    /// the standing frame at rates between those of `nu`.
+    fn new(world: &World, drive: &Drive, u: Plane, v: Plane, span: f64, nu: [f64; 2]) -> Self {
+        let (omega, c) = (world.omega, world.damping);
+        let centre = drive.pulse / (omega * omega);
+        let from = u - Plane::new(centre, 0.0);
+        let centre = centre.abs();
+        let turning = nu[0].abs().max(nu[1].abs());
+        let ramp = drive.nu_rate.abs();
+        // Energy about the centre never grows; every derivative costs at most
+        // a factor omega + 2 c, or that and nu in the turning frame.
+        let top = (v.norm_sqr() + omega * omega * from.norm_sqr()).sqrt();
+        let (size, factor) = (top / omega, omega + 2.0 * c);
+        let mut standing = [size, top, top * factor];
+        let mut turned = hermite(size, factor + turning, ramp);
+        if let Some(exponents) = world.kernel.exponents() {
+            // A sum of two exponentials, each bounded by its amplitude now: in
+            // the turning frame one of them may be nearly at rest.
+            let [p, q] = exponents.map(|(re, im)| Plane::new(re, im));
+            let mut waves = [0.0; 3];
+            let mut turned_waves = [0.0; 3];
+            for (exponent, other) in [(p, q), (q, p)] {
+                let amplitude = ((v - from * other) / (exponent - other)).norm();
+                let rate = exponent.norm();
+                for (sum, term) in waves.iter_mut().zip([1.0, rate, rate * rate]) {
+                    *sum += amplitude * term;
+                }
+                let spin = (exponent.im - nu[0]).abs().max((exponent.im - nu[1]).abs());
+                let terms = hermite(amplitude, exponent.re.hypot(spin), ramp);
+                for (sum, term) in turned_waves.iter_mut().zip(terms) {
+                    *sum += term;
+                }
+            }
+            lower(&mut standing, waves);
+            lower(&mut turned, turned_waves);
+        }
+        standing[0] += centre;
+        for (sum, term) in turned.iter_mut().zip(hermite(centre, turning, ramp)) {
+            *sum += term;
+        }
+        // Over a short span the motion now bounds the motion ahead.
+        let rate = v.norm() + standing[2] * span;
+        standing[1] = standing[1].min(rate);
+        standing[0] = standing[0].min(u.norm() + standing[1] * span);
+        turned[0] = turned[0].min(standing[1] + turning * standing[0]);
+        Self { standing, turning: turned }
+    }
+}
+
+/// Bounds on the first, second and fourth derivative of
+/// `size exp(mu t - i ramp t^2/2)` with `|mu| <= rate`.
+fn hermite(size: f64, rate: f64, ramp: f64) -> [f64; 3] {
+    let square = rate * rate;
+    let fourth = square * square + 6.0 * square * ramp + 3.0 * ramp * ramp;
+    [size * rate, size * (square + ramp), size * fourth]
+}
+
+fn lower(bounds: &mut [f64; 3], others: [f64; 3]) {
+    for (bound, other) in bounds.iter_mut().zip(others) {
+        *bound = bound.min(other);
+    }
+}

@@ -1,0 +1,261 @@
+//! The event-driven solver: the true motion, mode by mode.
+//!
+//! With rigid blades the casing wave is a point in a polygon that turns with
+//! the rotor (`model::Rim`), and it moves in one of four modes: *free*,
+//! *sliding* along a side, *rocking* into a corner, or *locked* in a corner.
+//! Within a mode the motion is known in closed form (`kernel`) or as a power
+//! series summed to round-off (`series`: pulse or ramp while sliding). Each
+//! mode looks ahead for its end with bounds that cannot miss it (`approach`),
+//! and the next mode follows from plastic impact and from the pushes by cases
+//! (`contact`), so that nothing triggers twice.
+//!
+//! A segment is always evaluated from its start, never from an output time:
+//! where one looks does not change the motion, not by one bit.
+
+mod approach;
+mod contact;
+mod corner;
+mod free;
+mod kernel;
+mod ledger;
+mod rocking;
+mod series;
+mod slide;
+mod world;
+
+mod mode;
+mod segment;
+
+use crate::model::Machine;
+use crate::motion::{Checks, ContactLog, Failure, Pulse, Rotor, State, Verdict};
+use crate::scene::Scene;
+
+use ledger::Ledger;
+use mode::{Mode, What};
+use world::{Drive, Plane, World};
+
+/// Most mode changes of one run. A million impacts take a second; fifty times
+/// that is no motion anyone waits for, but a scene that should be looked at.
+const MOST_EVENTS: u64 = 50_000_000;
+/// Most looks ahead within one segment: minutes of work without an event.
+const MOST_LOOKS: u64 = 1_000_000_000;
+/// Most mode changes in a row that take no time at all.
+const MOST_IDLE: u32 = 1000;
+
+/// The event-driven solver of one scene, at some instant of its motion.
+///
+/// ```
+/// use rubscope::{motion::Event, scene::Scene};
+/// let mut motion = Event::new(&Scene::default());
+/// motion.advance(0.1)?;
+/// assert!(motion.over());
+/// assert_eq!(motion.contacts().impact_count, 2);
+/// # Ok::<(), rubscope::motion::Failure>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Event {
+    world: World,
+    rotor: Rotor,
+    pulse: Pulse,
+    log: ContactLog,
+    ledger: Ledger,
+    /// Start of the segment; the second part holds what the first rounds off.
+    start: (f64, f64),
+    now: f64,
+    drive: Drive,
+    mode: Mode,
+    /// No event of the segment comes before this \[s after its start\].
+    safe: f64,
+    /// The event that ends the segment, once found.
+    found: Option<(f64, What)>,
+    events: u64,
+    idle: u32,
+    looks: u64,
+    deepest: f64,
+    failed: Option<Failure>,
+}
+
+impl Event {
+    /// The motion of a scene at t = 0.
+    #[must_use]
+    pub fn new(scene: &Scene) -> Self {
+        let world = World::new(scene);
+        let place = Plane::new(scene.initial.u_c_m, scene.initial.u_s_m);
+        let rate = Plane::new(scene.initial.v_c_m_s, scene.initial.v_s_m_s);
+        let ledger = Ledger { start: ledger::energy(&world, place, rate), ..Ledger::default() };
+        let mut event = Self {
+            mode: Mode::Free(free::Free::new(place, rate)),
+            world,
+            rotor: Rotor::of(scene),
+            pulse: Pulse::of(scene),
+            log: ContactLog::default(),
+            ledger,
+            start: (0.0, 0.0),
+            now: 0.0,
+            drive: Drive::default(),
+            safe: 0.0,
+            found: None,
+            events: 0,
+            idle: 0,
+            looks: 0,
+            deepest: 0.0,
+            failed: None,
+        };
+        event.drive = event.drive_now(0.0);
+        event.begin(place, rate);
+        event
+    }
+
+    /// The same, with gaps below `tolerance` times the size of the motion taken
+    /// as closed; 1e-15 otherwise.
+    #[must_use]
+    pub fn with_tolerance(mut self, tolerance: f64) -> Self {
+        self.world.tolerance = tolerance.clamp(1e-16, 1e-3);
+        self
+    }
+
+    /// The tolerance in force.
+    #[must_use]
+    pub fn tolerance(&self) -> f64 {
+        self.world.tolerance
+    }
+
+    /// Moves to the instant `until` \[s\], which is not before the present.
+    ///
+    /// # Errors
+    /// A motion that leaves the casing, or more mode changes than a run may
+    /// have. The state then stays where it failed.
+    pub fn advance(&mut self, until: f64) -> Result<(), Failure> {
+        while self.change(until)?.is_some() {}
+        self.arrive(until);
+        Ok(())
+    }
+
+    /// Moves to the next change of mode, or to `limit` if none comes before
+    /// \[s\]; returns the instant reached.
+    ///
+    /// # Errors
+    /// As `advance`.
+    pub fn next_event(&mut self, limit: f64) -> Result<f64, Failure> {
+        let events = self.events;
+        while events == self.events {
+            if self.change(limit)?.is_none() {
+                self.arrive(limit);
+                return Ok(self.now);
+            }
+        }
+        self.arrive(self.start.0.max(self.now));
+        Ok(self.now)
+    }
+
+    /// The motion now; blades of the rigid model do not move.
+    #[must_use]
+    pub fn state(&self) -> State {
+        let (u, v) = self.mode.standing(&self.world, &self.drive, self.elapsed(self.now));
+        State { t_s: self.now, u: [u.re, u.im], v: [v.re, v.im], ..State::default() }
+    }
+
+    /// What touched so far.
+    #[must_use]
+    pub fn contacts(&self) -> &ContactLog {
+        &self.log
+    }
+
+    /// The sides in contact now in phase order (`psi_a`, `psi_b`), each with its
+    /// group multiplier \[N\]; negative is a push.
+    #[must_use]
+    pub fn multipliers(&self) -> Vec<(u32, f64)> {
+        let s = self.elapsed(self.now);
+        let pushes = self.mode.pushes(&self.world, &self.drive, s);
+        let multiplier = |(side, push): (u32, f64)| (side, -push * self.world.mass);
+        pushes.into_iter().flatten().map(multiplier).collect()
+    }
+
+    /// Whether no contact can ever come again: the pulse is over and the energy
+    /// left cannot close the clearance.
+    #[must_use]
+    pub fn over(&self) -> bool {
+        let Mode::Free(free) = &self.mode else { return false };
+        let (u, v) = free.at(&self.world, &self.drive, self.elapsed(self.now));
+        self.drive.pulse == 0.0 && free::Free::spent(&self.world, u, v)
+    }
+
+    /// The verdict, where it is known for good: decay once nothing can touch
+    /// any more, locked in a corner at constant speed with both sides pushing.
+    #[must_use]
+    pub fn settled(&self) -> Option<Verdict> {
+        if self.failed.is_some() {
+            Some(Verdict::Failed)
+        } else if self.over() {
+            Some(Verdict::Decay)
+        } else if let Mode::Corner(a) = self.mode
+            && self.drive.steady()
+        {
+            let pushes = corner::pushes(&self.world, &self.drive, a, 0.0);
+            pushes.iter().all(|&push| push > 0.0).then_some(Verdict::Locked)
+        } else {
+            None
+        }
+    }
+
+    /// Why the run failed, if it did.
+    #[must_use]
+    pub fn failure(&self) -> Option<&Failure> {
+        self.failed.as_ref()
+    }
+
+    /// The pulse in force.
+    #[must_use]
+    pub fn pulse(&self) -> &Pulse {
+        &self.pulse
+    }
+
+    /// The rotor.
+    #[must_use]
+    pub fn rotor(&self) -> &Rotor {
+        &self.rotor
+    }
+
+    /// The machine.
+    #[must_use]
+    pub fn machine(&self) -> &Machine {
+        &self.world.machine
+    }
+
+    /// Mode changes so far.
+    #[must_use]
+    pub fn events(&self) -> u64 {
+        self.events
+    }
+
+    /// Penetration and energy balance so far.
+    #[must_use]
+    pub fn checks(&self) -> Checks {
+        let s = self.elapsed(self.now);
+        let (u, v) = self.mode.standing(&self.world, &self.drive, s);
+        let mut ledger = self.ledger;
+        self.mode.book(&self.world, &self.drive, s, &mut ledger);
+        let residual = ledger.residual(ledger::energy(&self.world, u, v));
+        Checks {
+            max_penetration_m: self.deepest,
+            energy_residual_j: Some(self.world.mass * residual),
+            ..Checks::default()
+        }
+    }
+
+    /// Fires the scene's pulse again, from now on.
+    pub fn fire(&mut self) {
+        let length = self.pulse.end - self.pulse.start;
+        self.intervene(|event| {
+            let now = event.now;
+            event.pulse = Pulse { start: now, end: now + length, ..event.pulse };
+        });
+    }
+
+    /// Turns the rotor from now on with `speed` \[rad/s\] and `ramp`
+    /// \[rad/s^2\]. A sudden change of speed acts on sides in contact as an
+    /// impact does.
+    pub fn set_speed(&mut self, speed: f64, ramp: f64) {
+        self.intervene(|event| event.rotor.change(event.now, speed, ramp));
+    }
+}

@@ -1,0 +1,196 @@
+//! The modes of motion, seen alike: where the casing is, what pushes, what the
+//! energy does, and what ends the mode.
+
+use super::corner::{self, Hold};
+use super::free::{Free, Look};
+use super::ledger::{self, Ledger, quadrature};
+use super::rocking;
+use super::series::Series;
+use super::slide::{Ahead, Along, Slide};
+use super::world::{Drive, Plane, World};
+use crate::motion::Touching;
+
+/// How the casing moves until the next event.
+#[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant, reason = "modes change often and live in one place: no boxes")]
+pub(super) enum Mode {
+    /// Nothing touches.
+    Free(Free),
+    /// Along one side, at constant speed and without pulse.
+    Slide(Slide),
+    /// Along one side, while the pulse acts or the speed changes.
+    Driven(Series),
+    /// From the corner of `a` and the next side with `speed` along the first or
+    /// second of them, into the rest that comes after `time`.
+    Rocking { a: u32, second: bool, speed: f64, time: f64, lost: f64 },
+    /// At rest in the corner of this side and the next.
+    Corner(u32),
+}
+
+/// What ends a mode.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum What {
+    /// A side touches.
+    Touch(u32),
+    /// The upper (`true`) or lower end of the side is reached.
+    Edge(bool),
+    /// The only push vanishes.
+    Release,
+    /// The push of the first or second (`true`) side of a corner vanishes.
+    Yield(bool),
+    /// The crossings of a rocking motion have accumulated.
+    Lock,
+    /// The pulse ends.
+    PulseEnd,
+    /// The power series ends; the motion goes on.
+    SeriesEnd,
+    /// The motion left the casing.
+    Gone,
+}
+
+/// What one look ahead finds, in any mode.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Next {
+    Until(f64),
+    Now(What),
+}
+
+impl Mode {
+    /// Looks ahead from `s` to at most `end`; events do not come before `s`.
+    pub(super) fn look(&self, world: &World, drive: &Drive, s: f64, end: f64) -> Next {
+        let along = |ahead: Ahead| match ahead {
+            Ahead::Until(later) => Next::Until(later),
+            Ahead::Edge(up) if world.corners => Next::Now(What::Edge(up)),
+            Ahead::Edge(_) => Next::Now(What::Gone),
+            Ahead::Release => Next::Now(What::Release),
+        };
+        match self {
+            Self::Free(free) => match free.look(world, drive, s, end) {
+                Look::Until(later) => Next::Until(later),
+                Look::Touch(side) => Next::Now(What::Touch(side)),
+                Look::Never => Next::Until(end),
+                Look::Gone => Next::Now(What::Gone),
+            },
+            Self::Slide(slide) => along(slide.look(world, drive, s)),
+            Self::Driven(series) => along(series.look(world, drive, s)),
+            Self::Rocking { time, .. } if s < *time => Next::Until(*time),
+            Self::Rocking { .. } => Next::Now(What::Lock),
+            Self::Corner(a) => match corner::look(world, drive, *a, s, end) {
+                Hold::Until(later) => Next::Until(later),
+                Hold::Yield(second) => Next::Now(What::Yield(second)),
+                Hold::Always => Next::Until(end),
+            },
+        }
+    }
+
+    /// How long the mode is defined for \[s\].
+    pub(super) fn length(&self) -> f64 {
+        if let Self::Driven(series) = self { series.length } else { f64::INFINITY }
+    }
+
+    /// The side slid along and the motion along it; a corner counts as its
+    /// first side.
+    pub(super) fn along(&self, world: &World, drive: &Drive, s: f64) -> Option<(u32, Along)> {
+        match self {
+            Self::Free(_) => None,
+            Self::Slide(slide) => Some((slide.side, slide.at(world, drive, s))),
+            Self::Driven(series) => Some((series.side, series.at(s))),
+            Self::Rocking { a, second, speed, .. } => {
+                let swing = rocking::replay(world, drive, *a, *second, *speed, s);
+                let (side, sign) =
+                    if swing.second { (world.machine.rim.next(*a), 1.0) } else { (*a, -1.0) };
+                let y = sign * (world.half_side - swing.distance);
+                let rate = -sign * swing.speed;
+                let pulse = drive.pulse * drive.inward(world, side, s).re;
+                let push = world.push(drive.nu(s), drive.nu_rate, y, rate, pulse);
+                Some((side, Along { y, rate, push }))
+            }
+            Self::Corner(a) => {
+                let [push, _] = corner::pushes(world, drive, *a, s);
+                Some((*a, Along { y: -world.half_side, rate: 0.0, push }))
+            }
+        }
+    }
+
+    /// Place and rate in the standing frame, `s` seconds on.
+    pub(super) fn standing(&self, world: &World, drive: &Drive, s: f64) -> (Plane, Plane) {
+        if let Self::Free(free) = self {
+            return free.at(world, drive, s);
+        }
+        let Some((side, along)) = self.along(world, drive, s) else { return Default::default() };
+        let inward = drive.inward(world, side, s);
+        let place = Plane::new(-world.clearance, along.y);
+        let rate = Plane::new(0.0, along.rate) + Plane::i() * place * drive.nu(s);
+        (place * inward, rate * inward)
+    }
+
+    /// Sides in contact with their pushes per unit mass, in phase order.
+    pub(super) fn pushes(&self, world: &World, drive: &Drive, s: f64) -> [Option<(u32, f64)>; 2] {
+        if let Self::Corner(a) = self {
+            let [first, second] = corner::pushes(world, drive, *a, s);
+            return [Some((*a, first)), Some((world.machine.rim.next(*a), second))];
+        }
+        [self.along(world, drive, s).map(|(side, along)| (side, along.push)), None]
+    }
+
+    /// The sides in contact as the log of contacts names them.
+    pub(super) fn touching(&self, world: &World) -> Touching {
+        match self {
+            Self::Free(_) => Touching::Nothing,
+            Self::Slide(slide) => Touching::Side(slide.side),
+            Self::Driven(series) => Touching::Side(series.side),
+            Self::Rocking { a, second: false, .. } => Touching::Side(*a),
+            Self::Rocking { a, second: true, .. } => Touching::Side(world.machine.rim.next(*a)),
+            Self::Corner(a) => Touching::of(&[*a, world.machine.rim.next(*a)]),
+        }
+    }
+
+    /// Books the energies of the first `s` seconds of the mode.
+    pub(super) fn book(&self, world: &World, drive: &Drive, s: f64, ledger: &mut Ledger) {
+        let before = self.standing(world, drive, 0.0);
+        let after = self.standing(world, drive, s);
+        let pulse = drive.pulse * (after.0.re - before.0.re);
+        ledger.pulse += pulse;
+        let drag = 2.0 * world.damping;
+        let (nu, ramp) = (drive.nu.abs().max(drive.nu(s).abs()), drive.nu_rate.abs());
+        let rate = 2.0 * (world.omega + drag + nu + ramp.sqrt());
+        let power = |t: f64, y: f64, rate: f64, push: f64| {
+            let nu = drive.nu(t);
+            let (across, along) = (nu * y, rate - nu * world.clearance);
+            [drag * (along * along + across * across), -nu * push * y]
+        };
+        let [dissipated, work] = match self {
+            Self::Free(free) => [ledger::dissipated(world, drive, free, s), 0.0],
+            Self::Slide(slide) => quadrature(s, rate, |t| {
+                let Along { y, rate, push } = slide.at(world, drive, t);
+                power(t, y, rate, push)
+            }),
+            Self::Driven(series) => quadrature(s, rate, |t| {
+                let Along { y, rate, push } = series.at(t);
+                power(t, y, rate, push)
+            }),
+            Self::Rocking { a, second, speed, time, lost } => {
+                let lost = if s < *time {
+                    rocking::replay(world, drive, *a, *second, *speed, s).lost
+                } else {
+                    *lost
+                };
+                ledger.lost += lost;
+                let place = before.0.norm_sqr();
+                let dissipated = drag * drive.nu * drive.nu * place * s;
+                let [before, after] = [before, after].map(|(u, v)| ledger::energy(world, u, v));
+                [dissipated, after - before + lost + dissipated - pulse]
+            }
+            Self::Corner(a) => {
+                let power = |t: f64| {
+                    let [first, second] = corner::pushes(world, drive, *a, t);
+                    let [dissipated, work] = power(t, -world.half_side, 0.0, first);
+                    [dissipated, work - drive.nu(t) * second * world.half_side]
+                };
+                if drive.steady() { power(0.0).map(|x| x * s) } else { quadrature(s, rate, power) }
+            }
+        };
+        ledger.dissipated += dissipated;
+        ledger.rotor += work;
+    }
+}

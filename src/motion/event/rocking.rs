@@ -1,0 +1,278 @@
+//! Rocking into a corner: crossings that accumulate, summed to their limit.
+//!
+//! Next to a corner the casing leaves along one side with speed `v`, is pulled
+//! back by the acceleration `A` of that side, and crosses to the other side,
+//! which keeps the fraction `cos 2 delta` of its speed. Both sides obey
+//! `x'' + 2 c x' + kappa x = -A`, so an excursion takes the time `tau(v/A)` and
+//! comes back with the speed `A R(v/A)`, where `tau` and `R` are power series
+//! that depend on `c` and `kappa` alone. The time left to the limit obeys
+//! `T_a(v) = tau + T_b(cos 2 delta A_a R)`, and likewise from `b`: solved order
+//! by order, it is the geometric series with its corrections.
+//!
+//! The sum replaces the crossings once ten orders of it are exact to round-off
+//! and nothing else can happen on the way: both accelerations point to the
+//! corner, both sides push at every speed still to come (speeds only shrink, as
+//! a crossing keeps less than all and damping gives nothing back), and every
+//! excursion stays well short of the next corner. While the pulse or a ramp
+//! acts, the accelerations must also keep their values to one part in 1e9 until
+//! the limit.
+
+use super::corner::opening;
+use super::slide;
+use super::world::{Drive, Plane, World};
+
+/// Orders of the series.
+const ORDERS: usize = 10;
+
+type Series = [f64; ORDERS + 1];
+
+/// The limit of a rocking motion.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Limit {
+    /// Time left until the casing rests in the corner \[s\].
+    pub time: f64,
+    /// Energy lost in the crossings still to come, per unit mass \[m^2/s^2\].
+    pub lost: f64,
+}
+
+/// The limit, if the motion that leaves the corner of `a` and the next side with
+/// `speed > 0` along `a` (`second` false) or along the next side can do nothing
+/// but rock into it.
+pub(super) fn limit(
+    world: &World,
+    drive: &Drive,
+    a: u32,
+    second: bool,
+    speed: f64,
+) -> Option<Limit> {
+    let cos = world.turn.re;
+    // A side alone pushes with minus its own opening acceleration.
+    let [(qa, qa_rate), (qb, qb_rate)] = opening(world, drive, a, 0.0);
+    let sin = world.turn.im;
+    let pulls = pulls(world, qa, qb);
+    let change = (qa_rate.abs() + qb_rate.abs()) / sin;
+    let own = if second { pulls[1] } else { pulls[0] };
+    let weakest = pulls[0].min(pulls[1]);
+    if weakest <= 0.0 || own <= 0.0 {
+        return None;
+    }
+    let margin = 4.0 * drive.nu.abs() * speed;
+    if -qa <= margin || -qb <= margin || speed * speed > weakest * world.half_side {
+        return None;
+    }
+    let kernel = slide::kernel(world, drive.nu);
+    let fastest = 2.0 * kernel.damping + kernel.stiffness.abs().sqrt();
+    let start = speed / own;
+    if start * fastest > 0.05 {
+        return None;
+    }
+    let sums = Sums::new(kernel.damping, kernel.stiffness, cos, pulls);
+    let times = if second { &sums.time[1] } else { &sums.time[0] };
+    let time = exact(times, start)?;
+    let losses = if second { &sums.lost[1] } else { &sums.lost[0] };
+    if !drive.steady() && change * time > 1e-9 * weakest {
+        return None;
+    }
+    let lost = value(losses, start);
+    Some(Limit { time, lost: 0.5 * sin * sin * lost })
+}
+
+/// Where a rocking motion is some time after it left the corner.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Swing {
+    /// Whether it is on the second side of the corner.
+    pub second: bool,
+    /// Distance from the corner \[m\].
+    pub distance: f64,
+    /// Speed away from the corner \[m/s\].
+    pub speed: f64,
+    /// Energy lost in crossings so far, per unit mass \[m^2/s^2\].
+    pub lost: f64,
+}
+
+/// Steps through the crossings that `limit` sums, up to the instant `s`.
+pub(super) fn replay(
+    world: &World,
+    drive: &Drive,
+    a: u32,
+    second: bool,
+    speed: f64,
+    s: f64,
+) -> Swing {
+    let Plane { re: cos, im: sin } = world.turn;
+    let [(qa, _), (qb, _)] = opening(world, drive, a, 0.0);
+    let pulls = pulls(world, qa, qb);
+    let kernel = slide::kernel(world, drive.nu);
+    let (duration, back) = excursion(kernel.damping, kernel.stiffness);
+    let mut swing = Swing { second, distance: 0.0, speed, lost: 0.0 };
+    let mut left = s;
+    loop {
+        let pull = if swing.second { pulls[1] } else { pulls[0] };
+        let start = swing.speed / pull;
+        let time = value(&duration, start);
+        if time >= left {
+            let response = kernel.at(left);
+            swing.distance = (swing.speed * response.unit - pull * response.ramp).max(0.0);
+            swing.speed = swing.speed * response.slope - pull * response.unit;
+            return swing;
+        }
+        if left - time == left {
+            // The rest of the crossings takes no time that could be told apart.
+            return Swing { distance: 0.0, speed: 0.0, ..swing };
+        }
+        left -= time;
+        let arrived = pull * value(&back, start);
+        swing.lost += 0.5 * sin * sin * arrived * arrived;
+        swing.speed = cos * arrived;
+        swing.second = !swing.second;
+    }
+}
+
+/// Accelerations towards the corner along either side, the other side open.
+fn pulls(world: &World, qa: f64, qb: f64) -> [f64; 2] {
+    let Plane { re: cos, im: sin } = world.turn;
+    [-(qb - cos * qa) / sin, -(qa - cos * qb) / sin]
+}
+
+fn value(series: &Series, x: f64) -> f64 {
+    series.iter().rev().fold(0.0, |sum, term| sum * x + term)
+}
+
+/// The series at `x`, if its last orders are round-off.
+fn exact(series: &Series, x: f64) -> Option<f64> {
+    let sum = value(series, x);
+    let last = x.powi(ORDERS as i32 - 1);
+    let tail = (series[ORDERS - 1] * last).abs() + (series[ORDERS] * last * x).abs();
+    (tail <= 1e-15 * sum && sum.is_finite()).then_some(sum)
+}
+
+/// Sums over all crossings to come, from either side, in powers of `v/A`.
+struct Sums {
+    time: [Series; 2],
+    lost: [Series; 2],
+}
+
+impl Sums {
+    fn new(c: f64, kappa: f64, cos: f64, pulls: [f64; 2]) -> Self {
+        let (duration, back) = excursion(c, kappa);
+        let powers = powers(&back);
+        let ratio = pulls[0] / pulls[1];
+        let keep = [cos * ratio, cos / ratio];
+        let time = accumulate(&powers, keep, [duration; 2]);
+        let lost = accumulate(&powers, keep, pulls.map(|pull| powers[2].map(|x| pull * pull * x)));
+        Self { time, lost }
+    }
+}
+
+/// Solves `X_a(x) = F_a(x) + X_b(keep_a R(x))` and the same with `a` and `b`
+/// exchanged, order by order.
+fn accumulate(powers: &[Series; ORDERS + 1], keep: [f64; 2], each: [Series; 2]) -> [Series; 2] {
+    let mut sums = [[0.0; ORDERS + 1]; 2];
+    for n in 1..=ORDERS {
+        let order = n as i32;
+        let mut known = [each[0][n], each[1][n]];
+        for k in 1..n {
+            let power = k as i32;
+            known[0] += sums[1][k] * keep[0].powi(power) * powers[k][n];
+            known[1] += sums[0][k] * keep[1].powi(power) * powers[k][n];
+        }
+        let kept = [keep[0].powi(order), keep[1].powi(order)];
+        let over = 1.0 / (1.0 - kept[0] * kept[1]);
+        sums[0][n] = (known[0] + kept[0] * known[1]) * over;
+        sums[1][n] = (known[1] + kept[1] * known[0]) * over;
+    }
+    sums
+}
+
+/// Duration and return speed (over `A`) of an excursion that starts with the
+/// speed `A x`, as series in `x`.
+fn excursion(c: f64, kappa: f64) -> (Series, Series) {
+    // unit = sum a_n s^n with a_1 = 1, ramp its integral; x = ramp/unit.
+    let mut unit = [0.0; ORDERS + 2];
+    unit[1] = 1.0;
+    for n in 1..=ORDERS {
+        let order = n as f64;
+        unit[n + 1] = -(2.0 * c * order * unit[n] + kappa * unit[n - 1]) / (order * (order + 1.0));
+    }
+    // Coefficients e_n of ramp/unit: sum_k e_k unit_{n+1-k} = ramp_{n+1}.
+    let mut ratio = [0.0; ORDERS + 1];
+    for n in 1..=ORDERS {
+        let ramp = unit[n] / (n as f64 + 1.0);
+        let known: f64 = (1..n).map(|k| ratio[k] * unit[n + 1 - k]).sum();
+        ratio[n] = ramp - known;
+    }
+    // Reversion: s(x) with sum e_k s^k = x.
+    let mut duration = [0.0; ORDERS + 1];
+    duration[1] = 1.0 / ratio[1];
+    for n in 2..=ORDERS {
+        let table = powers(&duration);
+        let known: f64 = (2..=n).map(|k| ratio[k] * table[k][n]).sum();
+        duration[n] = -known / ratio[1];
+    }
+    // Return speed over A: unit(s) - x unit'(s).
+    let table = powers(&duration);
+    let mut back = [0.0; ORDERS + 1];
+    for n in 1..=ORDERS {
+        for k in 1..=n {
+            back[n] += unit[k] * table[k][n];
+        }
+        // unit' = 1 + sum_{k>=1} (k+1) a_{k+1} s^k.
+        let slope: f64 = (1..n).map(|k| (k as f64 + 1.0) * unit[k + 1] * table[k][n - 1]).sum();
+        back[n] -= slope + if n == 1 { 1.0 } else { 0.0 };
+    }
+    (duration, back)
+}
+
+/// Powers of a series without constant term, from the zeroth to the last order.
+fn powers(series: &Series) -> [Series; ORDERS + 1] {
+    let mut table = [[0.0; ORDERS + 1]; ORDERS + 1];
+    table[0][0] = 1.0;
+    for k in 1..=ORDERS {
+        for n in k..=ORDERS {
+            table[k][n] = (1..=n).map(|j| series[j] * table[k - 1][n - j]).sum();
+        }
+    }
+    table
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::kernel::Kernel;
+    use super::*;
+
+    /// One excursion by bisection on the closed form.
+    fn stepped(kernel: &Kernel, pull: f64, speed: f64) -> (f64, f64) {
+        let place = |s: f64| speed * kernel.at(s).unit - pull * kernel.at(s).ramp;
+        let (mut low, mut high) = (1e-3 * speed / pull, 3.0 * speed / pull);
+        for _ in 0..200 {
+            let middle = 0.5 * (low + high);
+            if place(middle) > 0.0 { low = middle } else { high = middle }
+        }
+        let response = kernel.at(low);
+        (low, -(speed * response.slope - pull * response.unit))
+    }
+
+    #[test]
+    fn one_excursion_and_the_sum_of_all_agree_with_stepping() {
+        let (c, kappa) = (44.0, -1.5e6);
+        let kernel = Kernel::new(c, kappa);
+        let (duration, back) = excursion(c, kappa);
+        let pulls = [20.0, 55.0];
+        let cos = (std::f64::consts::PI / 5.5).cos();
+        let sums = Sums::new(c, kappa, cos, pulls);
+        let start = 4e-6;
+        let (time, speed) = stepped(&kernel, 1.0, start);
+        assert!((value(&duration, start) / time - 1.0).abs() < 1e-13);
+        assert!((value(&back, start) / speed - 1.0).abs() < 1e-13);
+        let (mut total, mut lost, mut speed) = (0.0, 0.0, start * pulls[0]);
+        for n in 0..400 {
+            let (time, back) = stepped(&kernel, pulls[n % 2], speed);
+            total += time;
+            lost += back * back;
+            speed = cos * back;
+        }
+        let summed = exact(&sums.time[0], start).unwrap();
+        assert!((summed / total - 1.0).abs() < 1e-12, "{summed} {total}");
+        assert!((value(&sums.lost[0], start) / lost - 1.0).abs() < 1e-12);
+    }
+}

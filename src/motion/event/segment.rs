@@ -1,0 +1,160 @@
+//! From one segment to the next: finding the event that ends it, moving the
+//! start, and what pulse and rotor do from there.
+
+use std::f64::consts::TAU;
+
+use super::mode::{Mode, Next, What};
+use super::world::{Drive, Plane};
+use super::{Event, MOST_EVENTS, MOST_IDLE, MOST_LOOKS};
+use crate::motion::{Failure, Touching};
+
+impl Event {
+    /// Seconds from the start of the segment to `t`.
+    pub(super) fn elapsed(&self, t: f64) -> f64 {
+        ((t - self.start.0) - self.start.1).max(0.0)
+    }
+
+    /// Goes through the next event, if it comes no later than `until`.
+    pub(super) fn change(&mut self, until: f64) -> Result<Option<What>, Failure> {
+        if let Some(failure) = &self.failed {
+            return Err(failure.clone());
+        }
+        let Some((s, what)) = self.seek(self.elapsed(until)) else {
+            return self.failed.clone().map_or(Ok(None), Err);
+        };
+        self.idle = if s > 0.0 { 0 } else { self.idle + 1 };
+        if what != What::SeriesEnd {
+            self.events += 1;
+        }
+        if what == What::Gone {
+            self.fail(s, |event| {
+                let radius = event.world.reach;
+                format!("no corner holds the casing wave, and it grew beyond the casing radius, {radius:e} m")
+            });
+        } else if self.events > MOST_EVENTS {
+            self.fail(s, |_| format!("more than {MOST_EVENTS} changes of contact"));
+        } else if self.idle > MOST_IDLE {
+            self.fail(s, |_| format!("{MOST_IDLE} changes of contact at one instant"));
+        } else {
+            self.pass(s, what);
+            return Ok(Some(what));
+        }
+        self.failed.clone().map_or(Ok(None), Err)
+    }
+
+    /// Ends `advance` at `until`.
+    pub(super) fn arrive(&mut self, until: f64) {
+        self.now = until.max(self.now);
+        let touching = self.mode.touching(&self.world);
+        if touching != Touching::Nothing {
+            self.log.touch(self.now, touching);
+        }
+    }
+
+    fn fail(&mut self, s: f64, reason: impl Fn(&Self) -> String) {
+        let t_s = self.start.0 + s;
+        self.now = t_s.max(self.now);
+        self.failed = Some(Failure { t_s, reason: reason(self) });
+    }
+
+    /// The event that ends the segment, if no later than `limit` seconds after
+    /// its start. The looks ahead do not depend on `limit`.
+    fn seek(&mut self, limit: f64) -> Option<(f64, What)> {
+        let pulse_end = self.pulse_left();
+        let series_end = self.mode.length();
+        let end = pulse_end.min(series_end);
+        loop {
+            if let Some((s, what)) = self.found {
+                return (s <= limit).then_some((s, what));
+            }
+            if self.safe > limit {
+                return None;
+            }
+            if self.safe >= end {
+                let what = if pulse_end <= series_end { What::PulseEnd } else { What::SeriesEnd };
+                self.found = end.is_finite().then_some((end, what));
+                self.found?;
+                continue;
+            }
+            self.looks += 1;
+            if self.looks > MOST_LOOKS {
+                self.fail(self.safe, |_| format!("no change of contact within {MOST_LOOKS} looks"));
+                return None;
+            }
+            match self.mode.look(&self.world, &self.drive, self.safe, end) {
+                Next::Until(later) => self.safe = later.min(end),
+                Next::Now(what) => self.found = Some((self.safe, what)),
+            }
+        }
+    }
+
+    /// Seconds from the start of the segment to the end of the pulse.
+    fn pulse_left(&self) -> f64 {
+        if self.drive.pulse == 0.0 { f64::INFINITY } else { self.elapsed(self.pulse.end) }
+    }
+
+    /// Books the segment and moves its start by `s`; the mode is left to be
+    /// replaced.
+    pub(super) fn rebase(&mut self, s: f64, what: Option<What>) {
+        self.mode.book(&self.world, &self.drive, s, &mut self.ledger);
+        let phase = self.drive.phase(s) % TAU;
+        if what == Some(What::PulseEnd) {
+            self.start = (self.pulse.end, 0.0);
+        } else {
+            // Two-sum: the part that rounding drops is kept.
+            let (t, low) = self.start;
+            let add = s + low;
+            let sum = t + add;
+            let rest = sum - t;
+            self.start = (sum, (t - (sum - rest)) + (add - rest));
+        }
+        self.now = self.now.max(self.start.0);
+        self.drive = self.drive_now(phase);
+        self.safe = 0.0;
+        self.found = None;
+        self.looks = 0;
+    }
+
+    /// Rotor and pulse from the start of the segment on.
+    pub(super) fn drive_now(&self, phase: f64) -> Drive {
+        let t = self.start.0;
+        let diameters = self.world.machine.nodal_diameters;
+        let acting = (self.pulse.start..self.pulse.end).contains(&t);
+        Drive {
+            phase,
+            nu: diameters * self.rotor.speed(t),
+            nu_rate: diameters * self.rotor.ramp(),
+            pulse: if acting { self.pulse.force / self.world.mass } else { 0.0 },
+        }
+    }
+
+    /// Changes rotor or pulse at the present instant; the casing keeps its
+    /// place and its rate in the standing frame.
+    pub(super) fn intervene(&mut self, change: impl FnOnce(&mut Self)) {
+        if self.failed.is_some() {
+            return;
+        }
+        let s = self.elapsed(self.now);
+        let (place, rate) = self.mode.standing(&self.world, &self.drive, s);
+        let along = self.mode.along(&self.world, &self.drive, s);
+        let corner = if let Mode::Corner(a) = self.mode { Some(a) } else { None };
+        self.rebase(s, None);
+        self.start = (self.now, 0.0);
+        let nu = self.drive.nu;
+        change(self);
+        self.drive = self.drive_now(self.drive.phase);
+        // The rate against the blades jumps with the speed of the rotor.
+        let slip = nu - self.drive.nu;
+        if let Some((side, along)) = along {
+            let place = Plane::new(-self.world.clearance, along.y);
+            let rate = Plane::new(0.0, along.rate) + Plane::i() * place * slip;
+            if let Some(a) = corner {
+                self.meet_corner(a, rate);
+            } else {
+                self.meet_side(side, along.y, rate);
+            }
+        } else {
+            self.fly(place, rate);
+        }
+    }
+}

@@ -1,0 +1,121 @@
+//! Sliding on one side of the polygon at a constant rotor speed, no pulse.
+//!
+//! With `z = -exp(i psi) (g0 - i y)` the motion along the side is
+//! `y'' + 2 c y' + (omega_c^2 - nu^2) y = 2 c nu g0`, `c = zeta_c omega_c`,
+//! and the side pushes with `N/m = -(omega_c^2 - nu^2) g0 - 2 nu y' - 2 c nu y`.
+//! `y` grows backward, towards decreasing angle: `y = g0 tan delta` is the
+//! corner with the side of next lower phase.
+
+use super::approach::{leaving_step, safe_step};
+use super::kernel::Kernel;
+use super::world::{Drive, World};
+
+/// Sliding on `side` from `y` with rate `rate`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Slide {
+    pub side: u32,
+    /// Position along the side, backward from its middle \[m\].
+    pub y: f64,
+    /// Its rate \[m/s\].
+    pub rate: f64,
+    kernel: Kernel,
+    /// Acceleration at rest at the start \[m/s^2\].
+    pull: f64,
+}
+
+/// Position, rate and push at one instant.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Along {
+    /// Position along the side \[m\].
+    pub y: f64,
+    /// Its rate \[m/s\].
+    pub rate: f64,
+    /// Push per unit mass \[m/s^2\].
+    pub push: f64,
+}
+
+/// What one look ahead along a side finds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Ahead {
+    /// No event before this time.
+    Until(f64),
+    /// The upper (`true`) or lower end of the side is reached now.
+    Edge(bool),
+    /// The push vanishes now.
+    Release,
+}
+
+impl Slide {
+    pub(super) fn new(world: &World, drive: &Drive, side: u32, y: f64, rate: f64) -> Self {
+        let kernel = kernel(world, drive.nu);
+        let drag = 2.0 * world.damping * drive.nu * world.clearance;
+        Self { side, y, rate, kernel, pull: drag - kernel.stiffness * y }
+    }
+
+    /// Displacement from the start and rate, `s` seconds on.
+    fn moved(&self, s: f64) -> (f64, f64) {
+        let response = self.kernel.at(s);
+        let displacement = self.rate * response.unit + self.pull * response.ramp;
+        (displacement, self.rate * response.slope + self.pull * response.unit)
+    }
+
+    pub(super) fn at(&self, world: &World, drive: &Drive, s: f64) -> Along {
+        let (displacement, rate) = self.moved(s);
+        let y = self.y + displacement;
+        Along { y, rate, push: world.push(drive.nu, 0.0, y, rate, 0.0) }
+    }
+
+    /// Looks ahead from `s`, before which nothing happens.
+    pub(super) fn look(&self, world: &World, drive: &Drive, s: f64) -> Ahead {
+        let (displacement, rate) = self.moved(s);
+        let (kappa, c, nu) = (self.kernel.stiffness, self.kernel.damping, drive.nu);
+        let pull = self.pull - kappa * displacement;
+        let acceleration = pull - 2.0 * c * rate;
+        // The motion from here on, relative to here, and its derivatives are
+        // bounded by their scale now times exp(fastest * t); over `span` that
+        // factor is below 1.65.
+        let fastest = 2.0 * c + kappa.abs().sqrt();
+        let span = if fastest > 0.0 { 0.5 / fastest } else { f64::INFINITY };
+        let bend = 1.65 * (rate.abs() * fastest + pull.abs());
+        let mut stride = span;
+        for up in [true, false] {
+            let sign = if up { -1.0 } else { 1.0 };
+            let room = world.half_side + sign * self.y;
+            let gap = room + sign * displacement;
+            let closing = sign * rate;
+            let noise = world.tolerance * (room + displacement.abs());
+            if s == 0.0 && room == 0.0 && rate == 0.0 {
+                let twist = -2.0 * c * acceleration - kappa * rate;
+                let jounce = bend * fastest * fastest;
+                stride = stride.min(leaving_step(sign * acceleration, sign * twist, jounce));
+            } else if gap <= noise && closing < 0.0 {
+                return Ahead::Edge(up);
+            } else {
+                stride = stride.min(safe_step(gap.max(0.0) + noise, closing, bend));
+            }
+        }
+        let y = self.y + displacement;
+        let push = world.push(nu, 0.0, y, rate, 0.0);
+        let push_rate = -2.0 * nu * (acceleration + c * rate);
+        let noise = push_noise(world, nu, y, rate, 0.0);
+        if push <= noise && push_rate < 0.0 {
+            return Ahead::Release;
+        }
+        let push_bend = 2.0 * nu.abs() * bend * (fastest + c);
+        stride = stride.min(safe_step(push.max(0.0) + noise, push_rate, push_bend));
+        Ahead::Until((s + stride).max(s.next_up()))
+    }
+}
+
+/// Response along a side at the wave frequency `nu`. The difference of squares
+/// is taken as a product, so that it is exactly zero at `nu = omega_c`.
+pub(super) fn kernel(world: &World, nu: f64) -> Kernel {
+    Kernel::new(world.damping, (world.omega - nu) * (world.omega + nu))
+}
+
+/// Round-off of the push \[m/s^2\].
+pub(super) fn push_noise(world: &World, nu: f64, y: f64, rate: f64, pulse: f64) -> f64 {
+    let square = (world.omega * world.omega).max(nu * nu);
+    world.tolerance
+        * (square * (world.clearance + y.abs()) + 2.0 * nu.abs() * rate.abs() + pulse.abs())
+}

@@ -1,0 +1,113 @@
+//! What does not change along a run, and what is constant between events.
+
+use std::f64::consts::PI;
+
+use nalgebra::Complex;
+
+use super::kernel::Kernel;
+use crate::model::Machine;
+use crate::scene::Scene;
+
+/// A point or vector of the plane of the two casing coordinates.
+pub(super) type Plane = Complex<f64>;
+
+/// The machine in the units the solver works with: everything per unit mass.
+#[derive(Clone, Debug)]
+pub(super) struct World {
+    pub machine: Machine,
+    /// Clearance `g0` \[m\].
+    pub clearance: f64,
+    /// Where a side ends, `g0 tan delta`; without corners, the casing radius,
+    /// beyond which a sliding motion is given up \[m\].
+    pub half_side: f64,
+    /// Casing frequency \[rad/s\].
+    pub omega: f64,
+    /// `zeta_c omega_c` \[1/s\].
+    pub damping: f64,
+    /// Response of the free casing.
+    pub kernel: Kernel,
+    /// Casing modal mass \[kg\].
+    pub mass: f64,
+    /// Cosine and sine of the angle `2 delta` between neighbouring sides.
+    pub turn: Plane,
+    /// Whether the polygon has corners.
+    pub corners: bool,
+    /// Beyond this the motion is given up: the casing radius \[m\].
+    pub reach: f64,
+    /// Gaps below this part of the motion's size count as closed.
+    pub tolerance: f64,
+}
+
+impl World {
+    pub(super) fn new(scene: &Scene) -> Self {
+        let machine = scene.machine();
+        let corners = machine.rim.has_corners();
+        let damping = machine.casing_damping_ratio * machine.omega_c;
+        let twice = 2.0 * PI / f64::from(machine.rim.sides);
+        Self {
+            clearance: machine.clearance(),
+            half_side: if corners { machine.rim.half_side() } else { scene.casing.radius_m },
+            omega: machine.omega_c,
+            damping,
+            kernel: Kernel::new(damping, machine.omega_c * machine.omega_c),
+            mass: machine.casing_mass,
+            turn: Plane::cis(twice),
+            corners,
+            reach: scene.casing.radius_m,
+            tolerance: 1e-15,
+            machine,
+        }
+    }
+
+    /// `exp(i psi)` of a side.
+    pub(super) fn direction(&self, side: u32) -> Plane {
+        let (cos, sin) = self.machine.rim.direction(side);
+        Plane::new(cos, sin)
+    }
+
+    /// Push per unit mass that keeps the casing on a side at `y` with rate
+    /// `rate`, while the wave turns by `nu` against the standing frame and the
+    /// pulse has the component `pulse` along `exp(i beta)` \[m/s^2\]; negative
+    /// where the side would have to pull.
+    pub(super) fn push(&self, nu: f64, nu_rate: f64, y: f64, rate: f64, pulse: f64) -> f64 {
+        -(self.omega * self.omega - nu * nu) * self.clearance
+            - 2.0 * nu * rate
+            - (2.0 * self.damping * nu + nu_rate) * y
+            - pulse
+    }
+}
+
+/// Rotor and pulse from the start of a segment on.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Drive {
+    /// `n_d theta` at the start, modulo a turn \[rad\].
+    pub phase: f64,
+    /// `n_d Omega` at the start \[rad/s\].
+    pub nu: f64,
+    /// `n_d` times the acceleration \[rad/s^2\].
+    pub nu_rate: f64,
+    /// Pulse force over casing mass on the `u_c` equation \[m/s^2\].
+    pub pulse: f64,
+}
+
+impl Drive {
+    /// `n_d theta`, `s` seconds on \[rad\].
+    pub(super) fn phase(&self, s: f64) -> f64 {
+        self.phase + (self.nu + 0.5 * self.nu_rate * s) * s
+    }
+
+    /// `n_d Omega`, `s` seconds on \[rad/s\].
+    pub(super) fn nu(&self, s: f64) -> f64 {
+        self.nu + self.nu_rate * s
+    }
+
+    /// `exp(i beta)` of a side, the direction that opens its gap, `s` seconds on.
+    pub(super) fn inward(&self, world: &World, side: u32, s: f64) -> Plane {
+        world.direction(side) * Plane::cis(self.phase(s))
+    }
+
+    /// Whether neither pulse nor ramp acts.
+    pub(super) fn steady(&self) -> bool {
+        self.pulse == 0.0 && self.nu_rate == 0.0
+    }
+}
