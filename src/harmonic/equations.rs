@@ -54,6 +54,9 @@ pub(super) struct Scales {
     pub angle: f64,
     /// `n_d` times `angle`.
     pub softness: f64,
+    /// What the blade modes make of a torque on one blade: `2/N`, or `1/N`
+    /// where there is only one mode.
+    pub share: f64,
 }
 
 impl Scales {
@@ -62,7 +65,9 @@ impl Scales {
         let force = machine.casing_stiffness * length;
         let stiffness = machine.blade_inertia * machine.omega_bd * machine.omega_bd;
         let angle = machine.nodal_diameters * force * length / stiffness;
-        Self { length, force, angle, softness: machine.nodal_diameters * angle }
+        let modes = if machine.has_sine_mode { 2.0 } else { 1.0 };
+        let share = modes / f64::from(machine.rim.blades);
+        Self { length, force, angle, softness: machine.nodal_diameters * angle, share }
     }
 }
 
@@ -98,7 +103,7 @@ impl Equations {
             Form::Printed => [[-2.0 * each, 0.0], [0.0, -2.0 * each]],
             Form::Blade => [[each, 0.0], [0.0, each]],
             Form::Modal => {
-                let own = 2.0 / f64::from(rim.blades);
+                let own = Scales::of(machine).share;
                 let other = own * (2.0 * rim.delta).cos();
                 [[own, other], [other, own]]
             }

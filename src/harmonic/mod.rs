@@ -4,15 +4,19 @@
 //! the polygon of `model::Rim`, one harmonic is exact, and stability needs
 //! eigenvalues only. No time step, no initial condition.
 
+mod branches;
 mod corner;
 mod equations;
+mod equilibria;
 mod error;
 mod form;
 mod locked;
 mod posture;
 mod stability;
 
+pub use branches::{Branches, Threshold};
 pub use corner::{Corner, PAPER_PAIR};
+pub use equilibria::{Character, Equilibrium, Kind, equilibria, equilibrium};
 pub use error::HarmonicError;
 pub use form::Form;
 pub use locked::{Locked, LockedPoint, Sweep, locked_motion};

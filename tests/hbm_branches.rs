@@ -1,0 +1,118 @@
+//! Every equilibrium of the blade frame, its stability and the thresholds.
+
+use rubscope::harmonic::{Branches, Character, Kind, Threshold, equilibria};
+use rubscope::model::{BladedDisk, Casing, Machine};
+
+fn machine(stiffness: f64, nodal_diameters: u32, zeta_c: f64) -> Machine {
+    let disk = BladedDisk { stiffness_nm_per_rad: stiffness, ..BladedDisk::default() };
+    let casing = Casing { damping_ratio: zeta_c, ..Casing::default() };
+    Machine::new(&disk, &casing, nodal_diameters)
+}
+
+/// Blades stiff enough to be rigid to the last digits.
+const RIGID: f64 = 1e15;
+
+fn close(value: f64, expected: f64, relative: f64) {
+    assert!((value - expected).abs() <= relative * expected.abs(), "{value:e} is not {expected:e}");
+}
+
+fn threshold(branches: &Branches, kind: Kind, from: Character, to: Character) -> f64 {
+    let same = |t: &&Threshold| t.kind == kind && t.from == from && t.to == to;
+    branches.thresholds.iter().find(same).map_or(f64::NAN, |threshold| threshold.speed)
+}
+
+#[test]
+fn thresholds_of_rigid_blades_are_the_closed_forms() {
+    let speeds: Vec<f64> = (0..=20).map(|k| 30.0 * f64::from(k)).collect();
+    for (diameters, zeta) in [(3, 0.05), (3, 0.01), (4, 0.05), (5, 0.1)] {
+        let machine = machine(RIGID, diameters, zeta);
+        let branches = Branches::over(&machine, &speeds, true).unwrap();
+        let critical = machine.critical_speed().unwrap();
+        let lock = machine.lock_speed().unwrap();
+        let find = |kind, from, to| threshold(&branches, kind, from, to);
+        use Character::{Adhesive, Penetrates, Pulls, Stable, Unstable};
+        // Struck blades give way by A^2/M_b, some 1e-9 of what the casing does.
+        close(find(Kind::Corner, Pulls, Adhesive), machine.adhesive_speed().unwrap(), 1e-8);
+        close(find(Kind::Corner, Adhesive, Stable), lock, 1e-12);
+        close(find(Kind::Side, Pulls, Penetrates), critical, 1e-12);
+        // Above the lock-in speed the saddle stands on the side: the
+        // single-side limit is the same number.
+        close(find(Kind::Side, Penetrates, Unstable), lock, 1e-12);
+        assert_eq!(branches.thresholds.len(), 4);
+    }
+}
+
+#[test]
+fn without_damping_everything_happens_at_the_critical_speed() {
+    let machine = machine(15_000.0, 3, 0.05);
+    let branches = Branches::over(&machine, &[0.0, 200.0, 500.0], false).unwrap();
+    let critical = machine.critical_speed().unwrap();
+    assert_eq!(branches.thresholds.len(), 2, "{:?}", branches.thresholds);
+    for threshold in &branches.thresholds {
+        close(threshold.speed, critical, 1e-12);
+        assert_eq!(threshold.from, Character::Pulls);
+    }
+}
+
+#[test]
+fn a_side_is_a_saddle_with_the_closed_forms_of_sliding() {
+    let machine = machine(RIGID, 3, 0.05);
+    let speed = 500.0;
+    let states = equilibria(&machine, speed, true).unwrap();
+    let side = states.iter().find(|state| state.kind == Kind::Side).unwrap();
+    let (nu, omega, zeta) = (machine.nu(speed), machine.omega_c, 0.05);
+    let square = omega * omega - nu * nu;
+    // y* = 2 zeta omega nu g0/(omega^2 - nu^2), and the push at rest there.
+    let offset = 2.0 * zeta * omega * nu * machine.clearance() / square;
+    let push =
+        machine.casing_mass * (-square * machine.clearance() - 2.0 * zeta * omega * nu * offset);
+    close(side.contacts[0].1, -push, 1e-12);
+    close(side.amplitude(), machine.clearance().hypot(offset), 1e-12);
+    let root = (zeta * zeta * omega * omega - square).sqrt() - zeta * omega;
+    // Eigenvalues are good to rounding of the largest, here blades at 1e5 omega_c.
+    close(side.growth(), root, 1e-7);
+    close(side.power, machine.casing_damping * nu * nu * side.amplitude().powi(2), 1e-12);
+    assert_eq!(side.eigenvalues.len(), 6);
+}
+
+#[test]
+fn rest_turns_backward_in_the_blade_frame_and_decays() {
+    let machine = machine(15_000.0, 3, 0.05);
+    for speed in [0.0, 300.0, 5000.0] {
+        let states = equilibria(&machine, speed, true).unwrap();
+        let rest = &states[0];
+        assert_eq!((rest.kind, rest.character), (Kind::Rest, Character::Stable));
+        assert_eq!((rest.torque, rest.eigenvalues.len()), (0.0, 8));
+        let slowest = (0.05 * machine.omega_c).min(0.04 * machine.omega_bd);
+        close(rest.growth(), -slowest, 1e-9);
+    }
+}
+
+#[test]
+fn the_corner_keeps_only_the_blades_moving() {
+    let machine = machine(15_000.0, 3, 0.05);
+    let states = equilibria(&machine, 500.0, true).unwrap();
+    let corner = states.last().unwrap();
+    assert_eq!((corner.kind, corner.character), (Kind::Corner, Character::Stable));
+    assert_eq!(corner.eigenvalues.len(), 4);
+    // The casing adds 1e-6 of the blades' inertia.
+    close(corner.growth(), -0.04 * machine.omega_bd, 1e-5);
+    for value in &corner.eigenvalues {
+        close(value.norm(), machine.omega_bd, 1e-5);
+    }
+}
+
+#[test]
+fn one_or_two_sides_have_no_corner_but_states_all_the_same() {
+    for (diameters, count) in [(0, 6), (11, 6)] {
+        let machine = machine(15_000.0, diameters, 0.05);
+        let states = equilibria(&machine, 100.0, true).unwrap();
+        let kinds: Vec<Kind> = states.iter().map(|state| state.kind).collect();
+        let expected = [Kind::Rest, Kind::Side];
+        assert_eq!(kinds, expected);
+        assert_eq!(states[0].eigenvalues.len(), count, "one blade mode");
+    }
+    let machine = machine(15_000.0, 11, 0.05);
+    let above = equilibria(&machine, 500.0, true).unwrap();
+    assert_eq!(above[1].character, Character::Unstable);
+}
