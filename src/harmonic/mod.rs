@@ -9,8 +9,10 @@ mod corner;
 mod equations;
 mod equilibria;
 mod error;
+mod fold;
 mod form;
 mod locked;
+mod opening;
 mod posture;
 mod stability;
 
@@ -18,5 +20,6 @@ pub use branches::{Branches, Threshold};
 pub use corner::{Corner, PAPER_PAIR};
 pub use equilibria::{Character, Equilibrium, Kind, equilibria, equilibrium};
 pub use error::HarmonicError;
+pub use fold::{CornerBranch, Fold, corner_branch};
 pub use form::Form;
 pub use locked::{Locked, LockedPoint, Sweep, locked_motion};
