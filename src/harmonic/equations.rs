@@ -18,6 +18,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
+use super::opening::Opening;
 use super::{Corner, Form};
 use crate::model::Machine;
 
@@ -54,6 +55,9 @@ pub(super) struct Scales {
     pub angle: f64,
     /// `n_d` times `angle`.
     pub softness: f64,
+    /// What the blade modes make of a torque on one blade: `2/N`, or `1/N`
+    /// where there is only one mode.
+    pub share: f64,
 }
 
 impl Scales {
@@ -62,7 +66,9 @@ impl Scales {
         let force = machine.casing_stiffness * length;
         let stiffness = machine.blade_inertia * machine.omega_bd * machine.omega_bd;
         let angle = machine.nodal_diameters * force * length / stiffness;
-        Self { length, force, angle, softness: machine.nodal_diameters * angle }
+        let modes = if machine.has_sine_mode { 2.0 } else { 1.0 };
+        let share = modes / f64::from(machine.rim.blades);
+        Self { length, force, angle, softness: machine.nodal_diameters * angle, share }
     }
 }
 
@@ -73,9 +79,9 @@ pub(super) struct Equations {
     phases: [(f64, f64); 2],
     softness: f64,
     share: [[f64; 2]; 2],
-    /// Whether the direction of a contact is exact in the blade angle, or
-    /// expanded to first order, Eq. (26).
-    exact: bool,
+    /// With it the direction of a contact is exact in the blade angle; without
+    /// it expanded to first order, Eq. (26).
+    opening: Option<Opening>,
 }
 
 /// A contact as its blades stand: direction, its derivative by the scaled
@@ -98,7 +104,7 @@ impl Equations {
             Form::Printed => [[-2.0 * each, 0.0], [0.0, -2.0 * each]],
             Form::Blade => [[each, 0.0], [0.0, each]],
             Form::Modal => {
-                let own = 2.0 / f64::from(rim.blades);
+                let own = Scales::of(machine).share;
                 let other = own * (2.0 * rim.delta).cos();
                 [[own, other], [other, own]]
             }
@@ -107,7 +113,7 @@ impl Equations {
             phases: corner.sides().map(|side| rim.direction(side)),
             softness: Scales::of(machine).softness,
             share,
-            exact: form == Form::Modal,
+            opening: (form == Form::Modal).then(|| Opening::of(machine)),
         }
     }
 
@@ -115,31 +121,44 @@ impl Equations {
         self.softness
     }
 
-    /// The closed form for rigid blades, `z` in the corner and the exact
-    /// (damped) pair of multipliers, with the blade angles it bends the blades to.
-    pub fn predict(&self, wave: Wave) -> Unknowns {
+    /// Where Newton starts: for the exact form the closed form of the corner
+    /// with its bent blades, for the others that of rigid blades. `None` where
+    /// the exact branch has folded back.
+    pub fn predict(&self, wave: Wave) -> Option<Unknowns> {
+        match self.opening {
+            None => Some(self.opened(wave, 0.0)),
+            Some(opening) => Some(self.opened(wave, opening.at(wave.kappa)?)),
+        }
+    }
+
+    /// The closed form with the blades as far apart as if each side had been
+    /// turned by `-+widening` \[rad\]: levers, multipliers, blade angles, and `z`.
+    pub fn opened(&self, wave: Wave, widening: f64) -> Unknowns {
         let [(c_a, s_a), (c_b, s_b)] = self.phases;
-        // c_a + c_b = 2 cos(delta) cos(middle phase); |sum|^2 = 4 cos^2(delta).
+        // c_a + c_b = 2 cos(delta) cos(middle phase), and so for the sines.
         let (c, s) = (c_a + c_b, s_a + s_b);
-        let square = c * c + s * s;
-        let (x, y) = (-2.0 * c / square, -2.0 * s / square);
-        let sine = c_a * s_b - s_a * c_b;
-        // (kappa + i drag) z + sum Lambda exp(i psi) = 0, solved by Cramer's rule.
-        let (re, im) = (wave.kappa * x - wave.drag * y, wave.kappa * y + wave.drag * x);
-        let multipliers = [(im * c_b - re * s_b) / sine, (re * s_a - im * c_a) / sine];
-        let arm = [y * c_a - x * s_a, y * c_b - x * s_b];
-        let alpha = |i: usize| {
-            -(self.share[i][0] * multipliers[0] * arm[0]
-                + self.share[i][1] * multipliers[1] * arm[1])
-        };
-        Unknowns::from([x, y, multipliers[0], multipliers[1], alpha(0), alpha(1)])
+        let twice_cos = c.hypot(s);
+        let half = (0.5 * (c_a * s_b - s_a * c_b) / (0.5 * twice_cos)).atan2(0.5 * twice_cos);
+        let (sin, cos) = (half + widening).sin_cos();
+        let tangent = sin / cos;
+        let (stiff, drag) = (wave.kappa / cos, wave.drag / sin);
+        let multipliers = [(stiff - drag) / (2.0 * cos), (stiff + drag) / (2.0 * cos)];
+        let torque = [-multipliers[0] * tangent, multipliers[1] * tangent];
+        let alpha = self.share.map(|[to_a, to_b]| -(to_a * torque[0] + to_b * torque[1]));
+        // The expansion (26) turns by its first order; so little as it is here.
+        let middle = 0.5 * self.softness * (alpha[0] + alpha[1]);
+        let (sin_middle, cos_middle) = middle.sin_cos();
+        let size = -1.0 / (twice_cos * cos);
+        let x = size * (c * cos_middle - s * sin_middle);
+        let y = size * (s * cos_middle + c * sin_middle);
+        Unknowns::from([x, y, multipliers[0], multipliers[1], alpha[0], alpha[1]])
     }
 
     fn lever(&self, side: usize, unknowns: &Unknowns) -> Lever {
         let (c, s) = self.phases[side];
         let turn = self.softness * unknowns[4 + side];
         let (x, y) = (unknowns[0], unknowns[1]);
-        let (cos, sin, (cos_slope, sin_slope)) = if self.exact {
+        let (cos, sin, (cos_slope, sin_slope)) = if self.opening.is_some() {
             let (sin_turn, cos_turn) = turn.sin_cos();
             let (cos, sin) = (c * cos_turn - s * sin_turn, s * cos_turn + c * sin_turn);
             (cos, sin, (-sin, cos))

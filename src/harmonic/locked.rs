@@ -142,10 +142,12 @@ impl Locked {
             return Err(HarmonicError::Speed(speed));
         }
         let wave = Wave::at(&self.machine, speed, self.damped);
-        let found = self
-            .equations
-            .solve(wave, self.equations.predict(wave))
-            .or_else(|| last.and_then(|start| self.equations.solve(wave, start)));
+        // No prediction means that the branch has ended: what Newton might find
+        // from elsewhere would be another one.
+        let found = self.equations.predict(wave).and_then(|start| {
+            let again = || last.and_then(|start| self.equations.solve(wave, start));
+            self.equations.solve(wave, start).or_else(again)
+        });
         match found {
             Some(unknowns) => {
                 *last = Some(unknowns);

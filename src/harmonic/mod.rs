@@ -4,15 +4,22 @@
 //! the polygon of `model::Rim`, one harmonic is exact, and stability needs
 //! eigenvalues only. No time step, no initial condition.
 
+mod branches;
 mod corner;
 mod equations;
+mod equilibria;
 mod error;
+mod fold;
 mod form;
 mod locked;
+mod opening;
 mod posture;
 mod stability;
 
+pub use branches::{Branches, Threshold};
 pub use corner::{Corner, PAPER_PAIR};
+pub use equilibria::{Character, Equilibrium, Kind, equilibria, equilibrium};
 pub use error::HarmonicError;
+pub use fold::{CornerBranch, Fold, corner_branch};
 pub use form::Form;
 pub use locked::{Locked, LockedPoint, Sweep, locked_motion};

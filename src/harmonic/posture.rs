@@ -21,6 +21,18 @@ impl Posture {
         Self { z, turn: (turn_c, turn_s) }
     }
 
+    /// With the blade modes bent by these contacts, given as side, scaled
+    /// multiplier and lever; `compliance` is softness times share.
+    pub fn bent(rim: &Rim, z: (f64, f64), compliance: f64, loads: &[(u32, f64, f64)]) -> Self {
+        let mut turn = (0.0, 0.0);
+        for &(side, multiplier, arm) in loads {
+            let (c, s) = rim.direction(side);
+            turn.0 -= compliance * multiplier * arm * c;
+            turn.1 -= compliance * multiplier * arm * s;
+        }
+        Self { z, turn }
+    }
+
     /// `exp(i (psi + n_d alpha))` of a side.
     pub fn direction(&self, rim: &Rim, side: u32) -> (f64, f64) {
         let (c, s) = rim.direction(side);

@@ -32,6 +32,8 @@ pub(super) struct Linearised {
     damping: Matrix4<f64>,
     stiffness: Matrix4<f64>,
     gradients: Vec<Vector4<f64>>,
+    multipliers: Vec<f64>,
+    sine_mode: bool,
     damped: bool,
     rate: f64,
 }
@@ -77,14 +79,16 @@ impl Linearised {
             damping,
             stiffness,
             gradients,
+            multipliers: held.iter().map(|side| side.multiplier).collect(),
+            sine_mode: machine.has_sine_mode,
             damped,
             rate: machine.omega_c,
         }
     }
 
     /// Basis of the motions that keep every contact, one column each.
-    pub fn free_motions(&self) -> DMatrix<f64> {
-        match self.gradients.as_slice() {
+    fn free_motions(&self) -> DMatrix<f64> {
+        let all = match self.gradients.as_slice() {
             [] => DMatrix::identity(4, 4),
             [one] => {
                 // Two casing and two blade motions less one: the casing follows
@@ -104,7 +108,24 @@ impl Linearised {
                 let follow = follow(a, b);
                 DMatrix::from_fn(4, 2, |row, column| follow[(row, column)])
             }
-        }
+        };
+        // The last column is the sine mode of the blades.
+        let last = all.ncols() - 1;
+        if self.sine_mode { all } else { all.remove_column(last) }
+    }
+
+    /// Whether without the contact forces every contact would close: then the
+    /// equality of Eq. (11) holds this state whatever the signs.
+    pub fn closes(&self) -> bool {
+        self.gradients.iter().all(|gradient| {
+            let pushes = self.gradients.iter().zip(&self.multipliers);
+            let acceleration: f64 = pushes
+                .map(|(other, multiplier)| {
+                    multiplier * gradient.component_div(&self.mass).dot(other)
+                })
+                .sum();
+            acceleration < 0.0
+        })
     }
 
     /// Eigenvalues of the motion that keeps every contact \[1/s\].
@@ -164,9 +185,10 @@ pub(super) fn largest_growth(values: &[Complex<f64>]) -> f64 {
     values.iter().map(|value| value.re).fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// `n_d alpha_i` per unit of scaled blade coordinate: `sqrt(2 softness/N)`.
+/// `n_d alpha_i` per unit of scaled blade coordinate.
 pub(super) fn blade_scale(machine: &Machine) -> f64 {
-    (2.0 * Scales::of(machine).softness / f64::from(machine.rim.blades)).sqrt()
+    let scales = Scales::of(machine);
+    (scales.softness * scales.share).sqrt()
 }
 
 /// The casing follows the blades: `(x, y) = -B_u^-1 B_alpha alpha`.

@@ -1,0 +1,106 @@
+//! The branches of equilibria over speed, and the speeds where one appears,
+//! vanishes, becomes tensile or changes its stability.
+
+use super::equilibria::equilibrium;
+use super::{Character, Corner, Equilibrium, HarmonicError, Kind};
+use crate::model::Machine;
+
+/// A speed at which a branch changes its character.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Threshold {
+    /// Which branch.
+    pub kind: Kind,
+    /// Where \[rad/s\], to the last digit.
+    pub speed: f64,
+    /// What it is below.
+    pub from: Character,
+    /// What it is above.
+    pub to: Character,
+}
+
+/// Equilibria over a list of speeds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Branches {
+    /// Every equilibrium at every speed, in the order of the speeds.
+    pub states: Vec<Equilibrium>,
+    /// Where branches change between the smallest and the largest speed, in
+    /// order of speed.
+    pub thresholds: Vec<Threshold>,
+}
+
+/// Most changes looked for between two neighbouring speeds.
+const MOST_CHANGES: usize = 16;
+
+impl Branches {
+    /// Over these speeds \[rad/s\]; changes are found between neighbouring
+    /// ones and then bisected.
+    ///
+    /// # Errors
+    /// A speed that is not finite.
+    pub fn over(machine: &Machine, speeds: &[f64], damped: bool) -> Result<Self, HarmonicError> {
+        let side = Corner::paper(&machine.rim).map_or(0, |corner| corner.a);
+        let at = |kind, speed| equilibrium(machine, kind, side, speed, damped);
+        let mut states = Vec::new();
+        for &speed in speeds {
+            for kind in Kind::ALL {
+                states.extend(at(kind, speed)?);
+            }
+        }
+        let mut sorted = speeds.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        let mut thresholds = Vec::new();
+        for kind in Kind::ALL {
+            let character = |speed| -> Result<Character, HarmonicError> {
+                Ok(at(kind, speed)?.map_or(Character::Absent, |state| state.character))
+            };
+            for pair in sorted.windows(2) {
+                if let [low, high] = *pair {
+                    let found = changes(low, high, &character)?;
+                    thresholds.extend(found.into_iter().map(|(speed, from, to)| Threshold {
+                        kind,
+                        speed,
+                        from,
+                        to,
+                    }));
+                }
+            }
+        }
+        thresholds.sort_by(|a, b| a.speed.total_cmp(&b.speed));
+        Ok(Self { states, thresholds })
+    }
+}
+
+/// The changes of `what` between two speeds, as far as bisection sees them:
+/// the speed, and what it is below and above.
+pub(super) fn changes<T: Copy + PartialEq>(
+    low: f64,
+    high: f64,
+    what: &impl Fn(f64) -> Result<T, HarmonicError>,
+) -> Result<Vec<(f64, T, T)>, HarmonicError> {
+    let mut found: Vec<(f64, T, T)> = Vec::new();
+    let (mut start, mut before, last) = (low, what(low)?, what(high)?);
+    while before != last && found.len() < MOST_CHANGES {
+        let (mut below, mut above, mut after) = (start, high, last);
+        // Halving a double's interval 200 times ends at neighbouring numbers.
+        for _ in 0..200 {
+            let middle = 0.5 * (below + above);
+            if middle <= below || middle >= above {
+                break;
+            }
+            let here = what(middle)?;
+            if here == before {
+                below = middle;
+            } else {
+                (above, after) = (middle, here);
+            }
+        }
+        match found.last_mut() {
+            // Something that is so at a single speed only, as the side's push
+            // that is infinite at the critical speed itself, is no branch.
+            Some(last) if above - last.0 <= 4.0 * f64::EPSILON * above.abs() => last.2 = after,
+            _ => found.push((above, before, after)),
+        }
+        (start, before) = (above, after);
+    }
+    Ok(found)
+}

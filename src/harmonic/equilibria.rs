@@ -1,0 +1,269 @@
+//! Every equilibrium of the blade frame at a constant speed: rest, a side that
+//! holds the wave alone, and a corner. By symmetry one side and one corner
+//! stand for all `N'` of them.
+
+use nalgebra::Complex;
+use serde::Serialize;
+
+use super::equations::{Equations, Scales, Unknowns, Wave};
+use super::posture::Posture;
+use super::stability::{Linearised, NEUTRAL, largest_growth};
+use super::{Corner, Form, HarmonicError};
+use crate::model::Machine;
+
+/// What is in contact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Kind {
+    /// Nothing: the casing at rest.
+    Rest,
+    /// One phase group.
+    Side,
+    /// Two neighbouring phase groups.
+    Corner,
+}
+
+impl Kind {
+    /// Every kind.
+    pub const ALL: [Self; 3] = [Self::Rest, Self::Side, Self::Corner];
+
+    /// The word used in reports.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Rest => "rest",
+            Self::Side => "side",
+            Self::Corner => "corner",
+        }
+    }
+}
+
+/// What an equilibrium is worth to a real contact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Character {
+    /// There is no such equilibrium.
+    Absent,
+    /// Some multiplier pulls: no contact holds it.
+    Pulls,
+    /// Some multiplier pulls, but both predicted gaps close, so that the
+    /// paper's equality algorithm holds it.
+    Adhesive,
+    /// Another blade would stand inside the casing.
+    Penetrates,
+    /// Admissible, but some motion that keeps the contacts grows.
+    Unstable,
+    /// Admissible and lasting.
+    Stable,
+}
+
+impl Character {
+    /// The word used in reports.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Absent => "absent",
+            Self::Pulls => "pulls",
+            Self::Adhesive => "adhesive",
+            Self::Penetrates => "penetrates",
+            Self::Unstable => "unstable",
+            Self::Stable => "stable",
+        }
+    }
+}
+
+/// A steady state in the frame of the blades.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Equilibrium {
+    /// What is in contact.
+    pub kind: Kind,
+    /// Rotor speed \[rad/s\].
+    pub speed: f64,
+    /// Sides in contact with their group multipliers; negative pushes \[N\].
+    pub contacts: Vec<(u32, f64)>,
+    /// `z = (u_c + i u_s) exp(-i n_d theta)` \[m\].
+    pub z: [f64; 2],
+    /// Blade coordinates `[alpha_c, alpha_s]` \[rad\].
+    pub alpha: [f64; 2],
+    /// Smallest gap of the groups not in contact \[m\].
+    pub smallest_gap: f64,
+    /// What it is worth.
+    pub character: Character,
+    /// Eigenvalues of the motion that keeps the contacts \[1/s\].
+    pub eigenvalues: Vec<Complex<f64>>,
+    /// Torque the rotor must give, `sum Lambda A` \[N m\].
+    pub torque: f64,
+    /// Power it takes; what the casing's damper takes, `d_c nu^2 |z|^2` \[W\].
+    pub power: f64,
+}
+
+impl Equilibrium {
+    /// Both signs right and every other gap open.
+    #[must_use]
+    pub fn admissible(&self) -> bool {
+        matches!(self.character, Character::Unstable | Character::Stable)
+    }
+
+    /// Largest real part of its eigenvalues \[1/s\].
+    #[must_use]
+    pub fn growth(&self) -> f64 {
+        largest_growth(&self.eigenvalues)
+    }
+
+    /// Amplitude of the casing wave \[m\].
+    #[must_use]
+    pub fn amplitude(&self) -> f64 {
+        self.z[0].hypot(self.z[1])
+    }
+}
+
+/// All equilibria at one speed \[rad/s\] that exist, rest first. The side is
+/// the first of the default corner.
+///
+/// ```
+/// use rubscope::harmonic::{Character, Kind, equilibria};
+/// use rubscope::scene::Scene;
+///
+/// let machine = Scene::builtin("paper-nd3")?.machine();
+/// let states = equilibria(&machine, 500.0, true)?;
+/// let found: Vec<_> = states.iter().map(|state| (state.kind, state.character)).collect();
+/// assert_eq!(found, [
+///     (Kind::Rest, Character::Stable),
+///     (Kind::Side, Character::Unstable), // a saddle: the wave slides to a corner
+///     (Kind::Corner, Character::Stable),
+/// ]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// A speed that is not finite.
+pub fn equilibria(
+    machine: &Machine,
+    speed: f64,
+    damped: bool,
+) -> Result<Vec<Equilibrium>, HarmonicError> {
+    let corner = Corner::paper(&machine.rim).ok();
+    let side = corner.map_or(0, |corner| corner.a);
+    let all = Kind::ALL.map(|kind| equilibrium(machine, kind, side, speed, damped));
+    let mut found = Vec::new();
+    for state in all {
+        found.extend(state?);
+    }
+    Ok(found)
+}
+
+/// The equilibrium of one kind on `side`, or on the corner between it and the
+/// next, at one speed; `None` where there is none.
+///
+/// # Errors
+/// A speed that is not finite.
+pub fn equilibrium(
+    machine: &Machine,
+    kind: Kind,
+    side: u32,
+    speed: f64,
+    damped: bool,
+) -> Result<Option<Equilibrium>, HarmonicError> {
+    if !speed.is_finite() {
+        return Err(HarmonicError::Speed(speed));
+    }
+    let wave = Wave::at(machine, speed, damped);
+    let scales = Scales::of(machine);
+    let loads = match kind {
+        Kind::Rest => Some(((0.0, 0.0), Vec::new())),
+        Kind::Side => on_side(machine, &scales, wave, side),
+        Kind::Corner => in_corner(machine, wave, side),
+    };
+    Ok(loads.map(|(z, loads)| {
+        let compliance = scales.softness * scales.share;
+        let posture = Posture::bent(&machine.rim, z, compliance, &loads);
+        judged(machine, kind, speed, damped, &posture, &loads)
+    }))
+}
+
+/// `z` and the loads (side, multiplier, lever) of an equilibrium, scaled.
+type Loaded = ((f64, f64), Vec<(u32, f64, f64)>);
+
+/// One side holds the wave: `(kappa + i drag) z = -Lambda exp(i phi)` and a
+/// closed gap give `Lambda = (kappa^2 + drag^2)/kappa`, lever `drag/kappa`; the
+/// blade only turns the whole picture.
+fn on_side(machine: &Machine, scales: &Scales, wave: Wave, side: u32) -> Option<Loaded> {
+    let (kappa, drag) = (wave.kappa, wave.drag);
+    let (multiplier, arm) =
+        if drag == 0.0 { (kappa, 0.0) } else { (kappa + drag * drag / kappa, drag / kappa) };
+    if !(multiplier.is_finite() && arm.is_finite()) {
+        return None;
+    }
+    let loads = vec![(side, multiplier, arm)];
+    let still = Posture::bent(&machine.rim, (0.0, 0.0), scales.softness * scales.share, &loads);
+    let (c, s) = still.direction(&machine.rim, side);
+    // z exp(-i phi) = -1 + i arm.
+    Some(((-c - arm * s, -s + arm * c), loads))
+}
+
+fn in_corner(machine: &Machine, wave: Wave, side: u32) -> Option<Loaded> {
+    let corner = Corner::after(&machine.rim, side).ok()?;
+    let equations = Equations::new(machine, corner, Form::Modal);
+    let unknowns = equations.solve(wave, equations.predict(wave)?)?;
+    Some(loads_of(machine, corner, &unknowns))
+}
+
+/// The loads behind a solution of the corner's equations.
+pub(super) fn loads_of(machine: &Machine, corner: Corner, unknowns: &Unknowns) -> Loaded {
+    let [x, y, lambda_a, lambda_b, alpha_a, alpha_b]: [f64; 6] = (*unknowns).into();
+    let softness = Scales::of(machine).softness;
+    let turns = [softness * alpha_a, softness * alpha_b];
+    let posture = Posture::of_pair(&machine.rim, (x, y), corner.sides(), turns);
+    let arm = |side, multiplier| posture.held(&machine.rim, side, multiplier).arm;
+    let loads = vec![
+        (corner.a, lambda_a, arm(corner.a, lambda_a)),
+        (corner.b, lambda_b, arm(corner.b, lambda_b)),
+    ];
+    ((x, y), loads)
+}
+
+/// Gaps, stability, torque and character of a posture under its loads.
+pub(super) fn judged(
+    machine: &Machine,
+    kind: Kind,
+    speed: f64,
+    damped: bool,
+    posture: &Posture,
+    loads: &[(u32, f64, f64)],
+) -> Equilibrium {
+    let (rim, scales) = (&machine.rim, Scales::of(machine));
+    let sides: Vec<u32> = loads.iter().map(|load| load.0).collect();
+    let held: Vec<_> = loads.iter().map(|load| posture.held(rim, load.0, load.1)).collect();
+    let motion = Linearised::about(machine, speed, damped, &held);
+    let eigenvalues = motion.eigenvalues();
+    let open = posture.smallest_gap(rim, &sides);
+    let character = if loads.iter().any(|load| load.1 > 0.0) {
+        let equality = kind == Kind::Corner && motion.closes();
+        if equality { Character::Adhesive } else { Character::Pulls }
+    } else if open < 0.0 {
+        Character::Penetrates
+    } else if largest_growth(&eigenvalues) > NEUTRAL * machine.omega_c {
+        Character::Unstable
+    } else {
+        Character::Stable
+    };
+    let lever: f64 = match Wave::at(machine, speed, damped).drag {
+        // Without drag the levers cancel, and their sum is rounding only.
+        0.0 => 0.0,
+        _ => held.iter().map(|side| side.multiplier * side.arm).sum(),
+    };
+    let torque = machine.nodal_diameters * scales.force * scales.length * lever;
+    let angle = if scales.softness > 0.0 { scales.angle / scales.softness } else { 0.0 };
+    Equilibrium {
+        kind,
+        speed,
+        contacts: loads.iter().map(|load| (load.0, load.1 * scales.force)).collect(),
+        z: [posture.z.0 * scales.length, posture.z.1 * scales.length],
+        alpha: [posture.turn.0 * angle, posture.turn.1 * angle],
+        smallest_gap: open * scales.length,
+        character,
+        eigenvalues,
+        torque,
+        power: torque * speed,
+    }
+}

@@ -1,0 +1,132 @@
+//! A corner whose blades bend, exactly: one equation for its opening.
+//!
+//! Let the contacting blades stand `2 Delta` apart in phase, `2 delta` before
+//! they bend. Then `|z| = g0/cos Delta`, the levers are `-+tan Delta`, and the
+//! multipliers are those of the closed form with `Delta` for `delta`. Their sum
+//! is `kappa/cos^2 Delta` whatever the damping, and the two blade modes give
+//!
+//! `Delta - delta = -c kappa tan Delta/cos^2 Delta`, `c = softness (2/N) sin^2 delta`.
+//!
+//! So the branch is explicit when followed by its opening, folds included:
+//! `kappa = -(Delta - delta) cos^3 Delta/(c sin Delta)`, which turns back where
+//! `sin Delta cos Delta = (Delta - delta)(1 + 2 sin^2 Delta)`.
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::equations::Scales;
+use crate::model::Machine;
+
+/// The opening of one rim's corners.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Opening {
+    /// Half angle of the unbent corner, `delta` \[rad\].
+    pub delta: f64,
+    /// `c` above.
+    compliance: f64,
+}
+
+impl Opening {
+    /// Of a machine's corners.
+    pub fn of(machine: &Machine) -> Self {
+        let scales = Scales::of(machine);
+        Self::new(machine.rim.delta, scales.softness * scales.share)
+    }
+
+    /// With the (dimensionless) softness of the blades times their share.
+    fn new(delta: f64, bend: f64) -> Self {
+        Self { delta, compliance: bend * delta.sin().powi(2) }
+    }
+
+    /// The widening `Delta - delta` \[rad\] at `kappa`, on the branch of stiff
+    /// blades; `None` beyond its fold.
+    pub fn at(&self, kappa: f64) -> Option<f64> {
+        let mut widening = 0.0;
+        // Steps shrink, to half at worst (at the fold), until they are rounding.
+        let mut last = f64::INFINITY;
+        for _ in 0..100 {
+            let angle = self.delta + widening;
+            let (sin, cos) = angle.sin_cos();
+            let pull = self.compliance * kappa / (cos * cos);
+            let value = widening + pull * sin / cos;
+            let slope = 1.0 + pull * (1.0 + 2.0 * sin * sin) / (cos * cos);
+            // The slope vanishes at the fold. Newton's steps from delta stay on
+            // the near side of the root: the equation is convex there.
+            if slope <= 0.0 {
+                return None;
+            }
+            let step = value / slope;
+            widening -= step;
+            let angle = self.delta + widening;
+            if !(angle > 0.0 && angle < FRAC_PI_2) {
+                return None;
+            }
+            if step.abs() <= 2.0 * f64::EPSILON * widening.abs()
+                || (step.abs() >= last && step.abs() <= 1e-7 * angle)
+            {
+                return Some(widening);
+            }
+            last = step.abs();
+        }
+        None
+    }
+
+    /// `kappa` at a widening, and its slope; `None` for blades so stiff that
+    /// the corner cannot open so far.
+    pub fn kappa(&self, widening: f64) -> Option<(f64, f64)> {
+        let (sin, cos) = (self.delta + widening).sin_cos();
+        let scale = -cos * cos / (self.compliance * sin * sin);
+        let kappa = scale * widening * sin * cos;
+        let slope = scale * (sin * cos - widening * (1.0 + 2.0 * sin * sin));
+        (kappa.is_finite() && slope.is_finite()).then_some((kappa, slope))
+    }
+
+    /// The widening at the fold \[rad\]: a matter of `delta` alone.
+    pub fn at_fold(&self) -> f64 {
+        let (mut below, mut above) = (0.0, FRAC_PI_2 - self.delta);
+        for _ in 0..60 {
+            let widening = 0.5 * (below + above);
+            let (sin, cos) = (self.delta + widening).sin_cos();
+            if sin * cos > widening * (1.0 + 2.0 * sin * sin) {
+                below = widening;
+            } else {
+                above = widening;
+            }
+        }
+        below
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_branch_by_speed_is_the_branch_by_opening() {
+        for (delta, bend) in [(0.1428, 1e-6), (0.1428, 40.0), (0.6, 3.0), (1.0, 0.3)] {
+            let opening = Opening::new(delta, bend);
+            let (limit, slope) = opening.kappa(opening.at_fold()).unwrap();
+            assert!(slope.abs() < 1e-12 * (limit / delta).abs());
+            for part in [-3.0, -0.5, 0.0, 1e-9, 0.1, 0.5, 0.9, 0.999] {
+                let widening = opening.at(part * limit).unwrap();
+                let (back, _) = opening.kappa(widening).unwrap();
+                // Next to the fold an angle's rounding counts a hundredfold.
+                assert!((back - part * limit).abs() <= 1e-13 * limit.abs());
+                assert_eq!(widening > 0.0, part > 0.0);
+            }
+            assert_eq!(opening.at(1.001 * limit), None);
+        }
+    }
+
+    #[test]
+    fn the_slope_is_the_slope_and_the_fold_is_the_extreme() {
+        let opening = Opening::new(0.3, 2.0);
+        let at = |widening| opening.kappa(widening).unwrap().0;
+        for widening in [-0.1, 0.05, 0.7] {
+            let (_, slope) = opening.kappa(widening).unwrap();
+            let measured = (at(widening + 1e-5) - at(widening - 1e-5)) / 2e-5;
+            assert!((measured - slope).abs() < 1e-7 * slope.abs().max(1.0));
+        }
+        let fold = opening.at_fold();
+        assert!(at(fold) < at(fold - 1e-4) && at(fold) < at(fold + 1e-4));
+    }
+}
