@@ -187,7 +187,12 @@ pub const BINDINGS: &[Binding] = &[
     bind!(Main, [key(KeyCode::Right), letter('l')], turn(true, false), "turn the knob up", "←→" "turn"),
     bind!(Main, [key(KeyCode::Left), letter('h')], turn(false, false), "turn the knob down"),
     bind!(Main, [shift(KeyCode::Right), letter('L')], turn(true, true), "turn it up in large steps", "HL" "coarse"),
-    bind!(Main, [shift(KeyCode::Left), letter('H')], turn(false, true), "turn it down in large steps"),
+    bind!(
+        Main,
+        [shift(KeyCode::Left), letter('H')],
+        turn(false, true),
+        "turn it down in large steps"
+    ),
     bind!(Main, [key(KeyCode::Enter)], Action::Type, "type a value (20k, 1e-7, 50u)", "Enter" "type"),
     bind!(Main, [letter(' ')], Action::Pause, "pause, or go on", "Space" "pause"),
     bind!(Main, [key(KeyCode::Tab)], Action::NextView, "next view", "Tab" "view"),
@@ -203,7 +208,12 @@ pub const BINDINGS: &[Binding] = &[
     bind!(Main, [key(KeyCode::Backspace)], Action::Reset, "back to the scene's value"),
     bind!(Main, [letter('u')], Action::Undo, "undo the last turn of a knob", "u" "undo"),
     bind!(Main, [ctrl('r')], Action::Redo, "redo it"),
-    bind!(Main, [letter('x')], Action::Live, "knobs act on the running motion (live), or begin it anew"),
+    bind!(
+        Main,
+        [letter('x')],
+        Action::Live,
+        "knobs act on the running motion (live), or begin it anew"
+    ),
     bind!(Main, [letter('1')], Action::View(1), "view 1: response"),
     bind!(Main, [letter('2')], Action::View(2), "view 2: gaps"),
     bind!(Main, [letter('3')], Action::View(3), "view 3: locked motion"),
@@ -211,7 +221,12 @@ pub const BINDINGS: &[Binding] = &[
     bind!(Main, [letter('-')], Action::ZoomOut, "a longer page of time"),
     bind!(Main, [letter('=')], Action::ZoomReset, "the first page of time"),
     bind!(Main, [letter('a')], Action::Autoscale, "scales follow the data, or stand still"),
-    bind!(Main, [letter('m')], Action::Marker, "next marker (braille, octant, halfblock, dot, ascii)"),
+    bind!(
+        Main,
+        [letter('m')],
+        Action::Marker,
+        "next marker (braille, octant, halfblock, dot, ascii)"
+    ),
     bind!(Main, [letter('t')], Action::Theme, "next theme (dark, light, colour-blind, mono)"),
     bind!(Main, [ctrl('z')], Action::Suspend, "suspend"),
     bind!(Main, [ctrl('l')], Action::Redraw, "draw the screen anew"),

@@ -135,7 +135,8 @@ impl Knob {
                     solver.model = ModelSize::Modal;
                     said.push("model is now modal");
                 }
-                (!said.is_empty()).then(|| format!("{}: the event solver knows no other", said.join(", ")))
+                (!said.is_empty())
+                    .then(|| format!("{}: the event solver knows no other", said.join(", ")))
             }
             Target::Key("solver.contact") if solver.contact == ContactLaw::Bilateral => {
                 solver.kind = SolverKind::Explicit;
@@ -160,9 +161,12 @@ impl Knob {
                 let digits = (-fine.log10()).ceil().clamp(0.0, 12.0) as usize + 1;
                 Value::Real(self.bounded(format!("{next:.digits$}").parse().unwrap_or(next)))
             }
-            (Value::Real(x), Turn::Decades(least)) => {
-                Value::Real(self.bounded(decades(*x, up, if coarse { COARSE } else { FINE }, least)))
-            }
+            (Value::Real(x), Turn::Decades(least)) => Value::Real(self.bounded(decades(
+                *x,
+                up,
+                if coarse { COARSE } else { FINE },
+                least,
+            ))),
             (Value::Whole(n), Turn::Whole(fine, large)) => {
                 let step = if coarse { large } else { fine };
                 let (min, mut max) = match self.allowed() {
@@ -251,9 +255,9 @@ impl Knob {
         match self.allowed() {
             Some(Allowed::Real { .. }) => {
                 let text = text.strip_suffix(self.unit()).unwrap_or(text).trim_end();
-                prefixed(text).map(Value::Real).ok_or_else(|| {
-                    refused("a number, such as 500, 2.5e-7, 20k or 50u".into())
-                })
+                prefixed(text)
+                    .map(Value::Real)
+                    .ok_or_else(|| refused("a number, such as 500, 2.5e-7, 20k or 50u".into()))
             }
             Some(Allowed::Whole { .. }) => {
                 text.parse().map(Value::Whole).map_err(|_| refused("a whole number".into()))
@@ -343,7 +347,10 @@ mod tests {
     use super::*;
 
     fn knob(path: &str) -> &'static Knob {
-        KNOBS.iter().find(|knob| knob.target == Target::Key(Box::leak(path.to_string().into_boxed_str()))).unwrap()
+        KNOBS
+            .iter()
+            .find(|knob| knob.target == Target::Key(Box::leak(path.to_string().into_boxed_str())))
+            .unwrap()
     }
 
     #[test]
@@ -362,7 +369,12 @@ mod tests {
         for key in keys::KEYS {
             let numeric = matches!(key.allowed, Allowed::Real { .. } | Allowed::Whole { .. });
             let knobs = KNOBS.iter().filter(|knob| knob.target == Target::Key(key.path)).count();
-            assert_eq!(knobs, usize::from(numeric || matches!(key.allowed, Allowed::OneOf(_))), "{}", key.path);
+            assert_eq!(
+                knobs,
+                usize::from(numeric || matches!(key.allowed, Allowed::OneOf(_))),
+                "{}",
+                key.path
+            );
         }
     }
 

@@ -106,8 +106,10 @@ impl<'a> Plot<'a> {
             }
             let label = self.x.scale.label(value, step);
             let width = u16::try_from(label.chars().count()).unwrap_or(0);
-            let start =
-                column.saturating_sub(width / 2).min(inner.right().saturating_sub(width)).max(inner.x.saturating_sub(1));
+            let start = column
+                .saturating_sub(width / 2)
+                .min(inner.right().saturating_sub(width))
+                .max(inner.x.saturating_sub(1));
             if start >= free && start + width <= inner.right() {
                 self.text(start, labels_row, &label, quiet);
                 free = start + width + 1;

@@ -182,7 +182,10 @@ mod tests {
         assert_eq!(drawn(Marker::HalfBlock, |r| r.set(0, 1, &PEN)), "▄       ");
         assert_eq!(drawn(Marker::Dot, |r| r.set(3, 1, &PEN)), "       •");
         assert_eq!(drawn(Marker::Ascii, |r| r.set(1, 0, &PEN)), " *      ");
-        assert_eq!(drawn(Marker::Octant, |r| (0..8).for_each(|k| r.set(k % 2, k / 2, &PEN))), "█       ");
+        assert_eq!(
+            drawn(Marker::Octant, |r| (0..8).for_each(|k| r.set(k % 2, k / 2, &PEN))),
+            "█       "
+        );
     }
 
     #[test]

@@ -89,7 +89,9 @@ impl Skin {
         if self.ascii() {
             AxisSigns { side: '|', side_tick: '+', corner: '+', floor: '-', floor_tick: '+' }
         } else {
-            AxisSigns { side: '│', side_tick: '┤', corner: '└', floor: '─', floor_tick: '┬' }
+            AxisSigns {
+                side: '│', side_tick: '┤', corner: '└', floor: '─', floor_tick: '┬'
+            }
         }
     }
 

@@ -116,7 +116,10 @@ mod tests {
         for theme in Theme::ALL {
             for role in ROLES {
                 let colour = theme.style(role).fg.unwrap();
-                assert!(!matches!(colour, Color::Rgb(..) | Color::Indexed(_)), "{theme:?} {role:?}");
+                assert!(
+                    !matches!(colour, Color::Rgb(..) | Color::Indexed(_)),
+                    "{theme:?} {role:?}"
+                );
             }
         }
     }
