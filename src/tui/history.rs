@@ -109,7 +109,7 @@ impl History {
     pub fn columns(&self, channel: Channel, from: f64, to: f64, columns: usize) -> Vec<Span> {
         let mut out: Vec<Span> = vec![None; columns];
         let width = (to - from) / columns.max(1) as f64;
-        if !(width > 0.0) {
+        if width.is_nan() || width <= 0.0 {
             return out;
         }
         let last = columns.saturating_sub(1);

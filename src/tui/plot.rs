@@ -9,7 +9,7 @@ use ratatui::{
 
 use super::axis::{Scale, ticks};
 use super::history::Span;
-use super::raster::{Pen, Raster};
+use super::raster::{DASH, DASH_ON, Pen, Raster};
 use super::skin::Skin;
 use super::theme::Role;
 
@@ -50,6 +50,7 @@ pub struct Plot<'a> {
     pub inner: Rect,
     x: Axis,
     y: Axis,
+    rule: bool,
 }
 
 impl<'a> Plot<'a> {
@@ -69,7 +70,7 @@ impl<'a> Plot<'a> {
         let gutter = u16::try_from(gutter).unwrap_or(6).min(area.width / 2) + 1;
         let inner = Rect::new(area.x + gutter, area.y, area.width - gutter, rows);
         let quiet = skin.style(Role::Quiet);
-        let mut plot = Self { buffer, raster: Raster::new(inner, skin.marker), inner, x, y };
+        let mut plot = Self { buffer, raster: Raster::new(inner, skin.marker), inner, x, y, rule };
         let signs = skin.axis_signs();
         for row in inner.y..inner.bottom() {
             plot.put(inner.x - 1, row, signs.side, quiet);
@@ -115,6 +116,12 @@ impl<'a> Plot<'a> {
                 free = start + width + 1;
             }
         }
+    }
+
+    /// The row of the level axis line, where there is room for one.
+    #[must_use]
+    pub fn axis_row(&self) -> Option<u16> {
+        self.rule.then(|| self.inner.bottom())
     }
 
     /// The column of an x value inside the chart.
@@ -203,7 +210,7 @@ impl<'a> Plot<'a> {
                 }
             }
             let x = i64::try_from(column).unwrap_or(0);
-            if !pen.dashed || column % 6 < 3 {
+            if !pen.dashed || x.rem_euclid(DASH) < DASH_ON {
                 let solid = Pen { dashed: false, ..*pen };
                 self.raster.line((x, top), (x, bottom), &solid);
             }

@@ -82,6 +82,11 @@ struct Dots {
     style: Style,
 }
 
+/// A dashed pen repeats after this many sub-pixels across,
+pub(super) const DASH: i64 = 6;
+/// and draws so many of them.
+pub(super) const DASH_ON: i64 = 4;
+
 /// Sub-pixels over an area.
 pub struct Raster {
     area: Rect,
@@ -128,7 +133,7 @@ impl Raster {
         for k in 0..=steps {
             let x = x0 + ((x1 - x0) * k + (x1 - x0).signum() * steps / 2) / steps;
             let y = y0 + ((y1 - y0) * k + (y1 - y0).signum() * steps / 2) / steps;
-            if !pen.dashed || (x.rem_euclid(6)) < 3 {
+            if !pen.dashed || x.rem_euclid(DASH) < DASH_ON {
                 self.set(x, y, pen);
             }
         }
@@ -202,7 +207,13 @@ mod tests {
         let full = drawn(Marker::Ascii, |r| r.line((0, 0), (3, 0), &PEN));
         assert_eq!(full, "****    ");
         let dashed = drawn(Marker::Ascii, |r| r.line((0, 0), (3, 0), &Pen { dashed: true, ..PEN }));
-        assert_eq!(dashed, "***     ");
+        assert_eq!(dashed, "****    ");
+        let area = Rect::new(0, 0, 12, 1);
+        let mut raster = Raster::new(area, Marker::Ascii);
+        raster.line((0, 0), (11, 0), &Pen { dashed: true, ..PEN });
+        let mut buffer = Buffer::empty(area);
+        raster.draw(&mut buffer);
+        assert_eq!(buffer, Buffer::with_lines(["****  ****  "]));
     }
 
     #[test]

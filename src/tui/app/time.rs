@@ -20,8 +20,18 @@ pub(super) const MOST_ZOOM: i32 = 12;
 /// Length of a page at a rate and a zoom, a round number \[s\].
 #[must_use]
 pub fn page_length(rate: f64, zoom: i32) -> f64 {
-    let length = PAGE_SECONDS * rate * 0.5f64.powi(zoom);
-    nice_step(length, 1).unwrap_or(length)
+    let usual = nice_step(PAGE_SECONDS * rate, 1).unwrap_or(PAGE_SECONDS * rate);
+    // Every zoom is one place in the sequence 1, 2, 5, 10, 20, 50, ...
+    let power = (usual.log10() + 1e-9).floor();
+    let digit = match usual / 10f64.powf(power) {
+        x if x < 1.5 => 0,
+        x if x < 3.5 => 1,
+        _ => 2,
+    };
+    let place = 3 * power as i32 + digit - zoom;
+    let mantissa = ["1", "2", "5"].get(place.rem_euclid(3) as usize).copied().unwrap_or("1");
+    // Text gives the double nearest to the decimal number.
+    format!("{mantissa}e{}", place.div_euclid(3)).parse().unwrap_or(usual)
 }
 
 impl App {
@@ -71,7 +81,7 @@ mod tests {
     #[test]
     fn the_first_page_is_twenty_milliseconds_at_five_a_second() {
         assert_eq!(RATES[FIRST_RATE], 5e-3);
-        assert!((page_length(5e-3, 0) - 0.02).abs() < 1e-15);
+        assert_eq!(page_length(5e-3, 0), 0.02);
         assert_eq!((RATES[0], RATES[RATES.len() - 1]), (1e-5, 1.0));
     }
 

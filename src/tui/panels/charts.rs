@@ -52,7 +52,6 @@ pub fn title(
     };
     put(&name, style, &mut column, buffer);
     for (text, style) in legend {
-        column += 1;
         if !put(&format!(" {} ", skin.spell(text)), *style, &mut column, buffer) {
             break;
         }

@@ -33,13 +33,13 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
     plot.level(app.machine.clearance(), skin.either('┈', '.'), quiet);
     let Some(moment) = &app.moment else { return };
     let gaps = || (1..=count).map(f64::from).zip(moment.gaps.iter().copied());
-    // Between blades nothing is measured: a line only where they are dense.
-    let crowded = count > u32::from(plot.inner.width) / 2;
-    if crowded {
-        plot.curve(gaps(), &skin.first());
-        plot.ink();
-    } else {
-        let sign = skin.either('●', 'o');
+    // Between blades nothing is measured: the line only leads the eye.
+    plot.curve(gaps(), &skin.quiet());
+    plot.ink();
+    let room = u32::from(plot.inner.width);
+    if count <= room {
+        let sign =
+            if 2 * count <= room { skin.either('●', 'o') } else { skin.either('•', 'o') };
         for (blade, gap) in gaps() {
             plot.point(blade, gap.min(range.high), sign, skin.style(Role::First));
         }

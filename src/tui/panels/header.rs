@@ -27,9 +27,10 @@ fn verdict(app: &App, buffer: &mut Buffer, area: Rect) {
     // The word always stands; its detail, then the title, take what is left.
     let title = skin.spell(&app.scene.title);
     let room = width.saturating_sub(word.chars().count() + 1);
-    let detail: String = detail.chars().take(room).collect();
+    let detail = shorten(&detail, room, skin.either("…", ".."));
     let left = room.saturating_sub(detail.chars().count() + 2);
-    let title: String = if left >= 8 { title.chars().take(left).collect() } else { String::new() };
+    let title =
+        if left >= 8 { shorten(&title, left, skin.either("…", "..")) } else { String::new() };
     print(buffer, area, 0, &word, style);
     let after = Rect {
         x: area.x + cells(&word) + 1,
@@ -40,6 +41,15 @@ fn verdict(app: &App, buffer: &mut Buffer, area: Rect) {
     let start = area.width.saturating_sub(cells(&title));
     let right = Rect { x: area.x + start, width: area.width - start, ..area };
     print(buffer, right, 0, &title, skin.style(Role::Quiet));
+}
+
+/// Text of at most `width` characters, its end marked where it was cut.
+fn shorten(text: &str, width: usize, mark: &str) -> String {
+    if text.chars().count() <= width {
+        return text.to_string();
+    }
+    let kept = width.saturating_sub(mark.chars().count());
+    text.chars().take(kept).chain(mark.chars()).take(width).collect()
 }
 
 fn cells(text: &str) -> u16 {
@@ -62,28 +72,21 @@ fn speeds(app: &App, buffer: &mut Buffer, area: Rect) {
     parts.push((format!("  {go} "), skin.style(Role::Focus)));
     parts.push((skin.spell(&readable(app.now(), "s")), text));
     let limited = if app.pace.limited { " (solver's limit)" } else { "" };
+    parts.push((format!(" {}{limited}", app.rate_text()), quiet));
     if app.live {
         parts.push((" LIVE".into(), skin.style(Role::Focus)));
     }
-    parts.push((format!("  {}{limited}", app.rate_text()), quiet));
     let solver = &app.scene.solver;
-    let names = [solver.kind.word(), solver.contact.word(), solver.model.word()].join(" ");
-    parts.push((format!("  {names}"), quiet));
-    if let Some(pace) = pace(app) {
-        parts.push((format!("  {}", skin.spell(&pace)), text));
+    parts.push((format!("  {}", solver.kind.word()), text));
+    if let Some(step) = app.pace.step_s {
+        parts.push((skin.spell(&format!(" {}/step", short(step))), text));
     }
+    if let Some(run) = app.pace.run_s {
+        let run = format!(", {} in {}", short(solver.end_s), short(run));
+        parts.push((skin.spell(&run), quiet));
+    }
+    parts.push((format!("  {} {}", solver.contact.word(), solver.model.word()), quiet));
     pieces(buffer, area, 1, &parts);
-}
-
-/// The solver's speed: nanoseconds a step, and the whole run.
-fn pace(app: &App) -> Option<String> {
-    let run =
-        app.pace.run_s.map(|run| format!("{} in {}", short(app.scene.solver.end_s), short(run)));
-    let step = app.pace.step_s.map(|step| format!("{}/step", short(step)));
-    match (step, run) {
-        (Some(step), Some(run)) => Some(format!("{step}, {run}")),
-        (step, run) => step.or(run),
-    }
 }
 
 /// Two or three digits are enough for a speed.

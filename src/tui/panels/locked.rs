@@ -20,8 +20,8 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
     if damped {
         legend.push(entry(skin, &skin.second(), "λ_b"));
     }
+    legend.push((format!("{point} running"), skin.style(Role::Contact)));
     legend.push(("N over rad/s".into(), quiet));
-    legend.push((format!("{point} time solver"), skin.style(Role::Contact)));
     legend.push(("below 0 pushes".into(), quiet));
     let inside = title(app, buffer, area, View::Locked, "locked λ(Ω)", &legend);
     let fastest = speed_range(app);

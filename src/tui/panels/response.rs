@@ -26,7 +26,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
             app,
             buffer,
             casing,
-            "casing",
+            "response, casing",
             ["u_c", "u_s"],
             [Channel::UC, Channel::US],
             app.ranges.casing,
@@ -36,7 +36,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
             app,
             buffer,
             blades,
-            "blades",
+            "response, blades",
             ["α_c", "α_s"],
             [Channel::AlphaC, Channel::AlphaS],
             app.ranges.blades,
@@ -47,7 +47,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
             app,
             buffer,
             area,
-            "casing",
+            "response, casing",
             ["u_c", "u_s"],
             [Channel::UC, Channel::US],
             app.ranges.casing,
@@ -91,7 +91,8 @@ fn page(
     plot.ink();
     let cells = usize::from(plot.inner.width);
     let sign = skin.either('▪', '#');
-    let row = plot.inner.bottom() - 1;
+    // On the time axis where there is one, so that no data is covered.
+    let row = plot.axis_row().unwrap_or(plot.inner.bottom() - 1);
     for (column, _) in
         (plot.inner.x..).zip(app.history.contacts(from, to, cells)).filter(|(_, touched)| *touched)
     {

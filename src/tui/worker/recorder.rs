@@ -60,7 +60,7 @@ impl Recorder {
     }
 
     fn average(&mut self, forces: &[(u32, f64)], elapsed: f64) {
-        if !(elapsed > 0.0) {
+        if elapsed.is_nan() || elapsed <= 0.0 {
             return;
         }
         self.over += elapsed;
