@@ -5,8 +5,9 @@ use std::io::IsTerminal;
 use clap::{Args, CommandFactory};
 
 use super::options::SceneOptions;
-use super::status::Refusal;
+use super::status::{Refusal, Status};
 use super::{Cli, Done};
+use crate::tui;
 
 /// What the explorer opens with.
 #[derive(Args, Debug)]
@@ -18,14 +19,17 @@ pub struct Explore {
 impl Explore {
     pub(super) fn run(&self) -> Done {
         self.refuse_command()?;
-        let _scene = self.options.scene()?;
+        let scene = self.options.scene()?;
         if !std::io::stdout().is_terminal() {
             return Err(Refusal::because(
                 "the explorer needs a terminal on standard output; without one, use `rubscope run`",
             )
             .into());
         }
-        anyhow::bail!("the explorer is not part of this build")
+        match tui::explore(scene, tui::ExploreOptions::default())? {
+            0 => Ok(Status::Done),
+            code => Ok(Status::Signal(code.saturating_sub(128))),
+        }
     }
 
     /// A command after options is read as a scene: say what was meant.

@@ -1,0 +1,131 @@
+//! Turning knobs: values are checked before they count, refused in place, and
+//! can be undone.
+
+use super::{App, Mode, Ranges};
+use crate::scene::{Scene, Value};
+use crate::tui::knobs::{KNOBS, Knob, Target};
+
+/// Turns that can be undone.
+const UNDO_KEPT: usize = 1000;
+
+impl App {
+    /// The selected knob.
+    #[must_use]
+    pub fn selected(&self) -> Option<&'static Knob> {
+        KNOBS.get(self.knob)
+    }
+
+    pub(super) fn select(&mut self, up: bool) {
+        let count = KNOBS.len();
+        self.knob = if up { self.knob + count - 1 } else { self.knob + 1 } % count;
+        self.refusal = None;
+    }
+
+    pub(super) fn turn(&mut self, up: bool, coarse: bool) {
+        if let Some(knob) = self.selected() {
+            let value = knob.turned(&knob.get(&self.scene), up, coarse, &self.scene);
+            self.set(knob, value);
+        }
+    }
+
+    pub(super) fn reset(&mut self) {
+        if let Some(knob) = self.selected() {
+            self.set(knob, knob.get(&self.opened));
+        }
+    }
+
+    /// Takes what was typed; a refusal leaves the text open to be mended.
+    pub(super) fn accept(&mut self, text: &str) {
+        let Some(knob) = self.selected() else { return };
+        match knob.parse(text) {
+            Ok(value) => {
+                if self.set(knob, value) {
+                    self.mode = Mode::Main;
+                }
+            }
+            Err(error) => self.refusal = Some(error.to_string()),
+        }
+    }
+
+    /// Sets a knob; false where the value was refused.
+    fn set(&mut self, knob: &'static Knob, value: Value) -> bool {
+        match knob.set(&self.scene, value) {
+            Ok((scene, said)) => {
+                self.refusal = None;
+                if said.is_some() {
+                    self.status = said;
+                }
+                if scene != self.scene {
+                    self.undo.push(self.scene.clone());
+                    if self.undo.len() > UNDO_KEPT {
+                        self.undo.remove(0);
+                    }
+                    self.redo.clear();
+                    let live = self.live && acts_live(knob);
+                    self.take_scene(scene, live);
+                }
+                true
+            }
+            Err(error) => {
+                self.refusal = Some(error.to_string());
+                false
+            }
+        }
+    }
+
+    /// Makes a scene the present one and begins its run, or lets it act on
+    /// the running motion.
+    pub fn take_scene(&mut self, scene: Scene, live: bool) {
+        let clearance = self.machine.clearance();
+        self.scene = scene;
+        self.machine = self.scene.machine();
+        if self.machine.clearance() != clearance {
+            let follow = self.ranges.follow;
+            self.ranges = Ranges { follow, ..Ranges::of(self.machine.clearance()) };
+        }
+        if live {
+            self.counters.changes += 1;
+            self.ahead = None;
+            self.reference = None;
+        } else {
+            self.restart();
+        }
+    }
+
+    /// Begins the run anew.
+    pub fn restart(&mut self) {
+        self.counters.restarts += 1;
+        self.history.clear();
+        self.moment = None;
+        self.ahead = None;
+        self.reference = None;
+        self.beside = None;
+        self.trouble = None;
+        self.page = 0;
+    }
+
+    pub(super) fn undo(&mut self) {
+        if let Some(scene) = self.undo.pop() {
+            self.redo.push(self.scene.clone());
+            self.refusal = None;
+            self.take_scene(scene, false);
+        } else {
+            self.status = Some("nothing to undo".into());
+        }
+    }
+
+    pub(super) fn redo(&mut self) {
+        if let Some(scene) = self.redo.pop() {
+            self.undo.push(self.scene.clone());
+            self.refusal = None;
+            self.take_scene(scene, false);
+        } else {
+            self.status = Some("nothing to redo".into());
+        }
+    }
+}
+
+/// Whether a knob can act on a motion that is under way.
+fn acts_live(knob: &Knob) -> bool {
+    matches!(knob.target, Target::Key("operation.speed_rad_s" | "operation.speed_ramp_rad_s2"))
+}

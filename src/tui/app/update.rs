@@ -1,0 +1,156 @@
+//! Keys and actions: each changes the state and says what must happen outside.
+
+use crossterm::event::{KeyCode, KeyEvent};
+
+use super::time::MOST_ZOOM;
+use super::{App, Mode, RATES, View};
+use crate::tui::bindings::{Action, Chord, lookup};
+use crate::tui::knobs::KNOBS;
+
+/// What must happen outside of the state.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Effect {
+    /// Nothing but a redraw.
+    None,
+    /// Leave.
+    Quit,
+    /// Suspend the job.
+    Suspend,
+    /// Draw everything anew.
+    Redraw,
+}
+
+/// Longest text of a typed value.
+const LONGEST_TYPED: usize = 40;
+
+impl App {
+    /// Handles a key press.
+    pub fn key(&mut self, event: &KeyEvent) -> Effect {
+        let chord = Chord::of(event);
+        if let Some(action) = lookup(self.context(), chord) {
+            return self.act(action);
+        }
+        if let (Mode::Typing(text), KeyCode::Char(letter), false) =
+            (&mut self.mode, chord.code, chord.ctrl)
+            && text.len() < LONGEST_TYPED
+        {
+            text.push(letter);
+        }
+        Effect::None
+    }
+
+    /// Carries out an action.
+    pub fn act(&mut self, action: Action) -> Effect {
+        self.status = None;
+        match (&mut self.mode, action) {
+            (_, Action::Quit) => return Effect::Quit,
+            (_, Action::Suspend) => return Effect::Suspend,
+            (_, Action::Redraw) => return Effect::Redraw,
+            (_, Action::Theme) => {
+                self.skin.theme = self.skin.theme.next();
+                self.status = Some(format!("theme {}", self.skin.theme.name()));
+            }
+            (Mode::Help(scroll), Action::KnobBelow) => *scroll = scroll.saturating_add(1),
+            (Mode::Help(scroll), Action::KnobAbove) => *scroll = scroll.saturating_sub(1),
+            (Mode::Typing(text), Action::Rub) => {
+                text.pop();
+            }
+            (Mode::Typing(text), Action::Accept) => {
+                let text = text.clone();
+                self.accept(&text);
+            }
+            (_, Action::Close) => self.close(),
+            _ => self.act_main(action),
+        }
+        Effect::None
+    }
+
+    fn close(&mut self) {
+        self.refusal = None;
+        if self.mode != Mode::Main {
+            self.mode = Mode::Main;
+        } else {
+            self.full_screen = false;
+        }
+    }
+
+    fn act_main(&mut self, action: Action) {
+        match action {
+            Action::Help => self.mode = Mode::Help(0),
+            Action::NextView => self.show(self.neighbour(1)),
+            Action::PreviousView => self.show(self.neighbour(View::ALL.len() - 1)),
+            Action::View(digit) => {
+                if let Some(view) = View::ALL.into_iter().find(|view| view.digit() == digit) {
+                    self.show(view);
+                }
+            }
+            Action::KnobAbove => self.select(true),
+            Action::KnobBelow => self.select(false),
+            Action::Turn { up, coarse } => self.turn(up, coarse),
+            Action::Type => {
+                self.refusal = None;
+                self.mode = Mode::Typing(String::new());
+            }
+            Action::Reset => self.reset(),
+            Action::Undo => self.undo(),
+            Action::Redo => self.redo(),
+            Action::Pause => self.playing = !self.playing,
+            Action::Step => {
+                self.playing = false;
+                self.counters.steps += 1;
+            }
+            Action::Restart => {
+                self.restart();
+                self.status = Some("begun anew".into());
+            }
+            Action::Fire => {
+                self.counters.pulses += 1;
+                self.ahead = None;
+                let pulse = KNOBS.get(1).map(|knob| knob.shown(&knob.get(&self.scene)));
+                self.status = pulse.map(|pulse| format!("pulse of {pulse} fired"));
+            }
+            Action::Slower => self.rate = self.rate.saturating_sub(1),
+            Action::Faster => self.rate = (self.rate + 1).min(RATES.len() - 1),
+            Action::ZoomIn => self.zoom = (self.zoom + 1).min(MOST_ZOOM),
+            Action::ZoomOut => self.zoom = (self.zoom - 1).max(-MOST_ZOOM),
+            Action::ZoomReset => self.zoom = 0,
+            Action::Autoscale => {
+                self.ranges.follow = !self.ranges.follow;
+                let how = if self.ranges.follow { "follow the data" } else { "stand still" };
+                self.status = Some(format!("scales {how}"));
+            }
+            Action::FullScreen => self.full_screen = !self.full_screen,
+            Action::Marker => {
+                self.skin.marker = self.skin.marker.next();
+                self.status = Some(format!("marker {}", self.skin.marker.word()));
+            }
+            Action::Live => {
+                self.live = !self.live;
+                self.status = Some(if self.live {
+                    "live: speed and ramp act on the running motion".into()
+                } else {
+                    "knobs begin the run anew".to_string()
+                });
+            }
+            _ => {}
+        }
+    }
+
+    fn neighbour(&self, by: usize) -> View {
+        let place = View::ALL.iter().position(|view| *view == self.view).unwrap_or(0);
+        View::ALL.get((place + by) % View::ALL.len()).copied().unwrap_or(self.view)
+    }
+
+    /// Makes a view the large one; the one that was takes its place.
+    fn show(&mut self, view: View) {
+        if view == self.view {
+            return;
+        }
+        for companion in &mut self.companions {
+            if *companion == view {
+                *companion = self.view;
+            }
+        }
+        self.view = view;
+    }
+}

@@ -1,0 +1,215 @@
+//! Axes: round ticks (1-2-5), labels under one SI prefix per axis, and ranges
+//! that follow the data with hysteresis, so that a chart does not breathe.
+
+/// A step of 1, 2 or 5 times a power of ten that puts at most `most` ticks in
+/// `span`; none for a span that is not a positive number.
+#[must_use]
+pub fn nice_step(span: f64, most: usize) -> Option<f64> {
+    if !(span.is_finite() && span > 0.0) || most == 0 {
+        return None;
+    }
+    let raw = span / most as f64;
+    let power = 10f64.powf(raw.log10().floor());
+    // The logarithm of a power of ten may land on either side of it.
+    let step = [1.0, 2.0, 5.0, 10.0, 20.0]
+        .into_iter()
+        .map(|m| m * power)
+        .find(|step| *step >= raw * (1.0 - 1e-9))?;
+    (step.is_finite() && step > 0.0).then_some(step)
+}
+
+/// Round values inside `[low, high]`, at most about `most` of them, with their
+/// spacing; empty where the range is empty, reversed or not finite.
+#[must_use]
+pub fn ticks(low: f64, high: f64, most: usize) -> (Vec<f64>, f64) {
+    let Some(step) = nice_step(high - low, most.max(1)) else { return (Vec::new(), 1.0) };
+    let slack = 1e-9 * step;
+    let first = ((low - slack) / step).ceil();
+    let last = ((high + slack) / step).floor();
+    // A range far from zero and narrower than its own round-off has no ticks.
+    if !(last - first).is_finite() || last - first > 1e3 {
+        return (Vec::new(), step);
+    }
+    let count = (last - first).max(-1.0) as i64;
+    let values = (0..=count)
+        .map(|k| (first + k as f64) * step)
+        .map(|x| if x == 0.0 { 0.0 } else { x })
+        .collect();
+    (values, step)
+}
+
+/// One SI prefix for a whole axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scale {
+    /// What one shown unit is worth.
+    pub factor: f64,
+    /// The prefix in front of the unit.
+    pub prefix: &'static str,
+}
+
+/// Prefixes in increasing order; micro is written `u` where only ASCII is allowed.
+const PREFIXES: &[(f64, &str)] = &[
+    (1e-15, "f"),
+    (1e-12, "p"),
+    (1e-9, "n"),
+    (1e-6, "µ"),
+    (1e-3, "m"),
+    (1.0, ""),
+    (1e3, "k"),
+    (1e6, "M"),
+    (1e9, "G"),
+];
+
+impl Scale {
+    /// The prefix under which the largest magnitude reads as 1 to 999.
+    #[must_use]
+    pub fn of(magnitude: f64) -> Self {
+        let magnitude = magnitude.abs() * (1.0 + 1e-9);
+        let (factor, prefix) = PREFIXES
+            .iter()
+            .rev()
+            .find(|(factor, _)| magnitude >= *factor)
+            .copied()
+            .unwrap_or(if magnitude > 0.0 { (1e-15, "f") } else { (1.0, "") });
+        Self { factor, prefix }
+    }
+
+    /// No prefix, for angles, speeds and counts.
+    #[must_use]
+    pub const fn plain() -> Self {
+        Self { factor: 1.0, prefix: "" }
+    }
+
+    /// A tick's label with just the decimals its spacing needs.
+    #[must_use]
+    pub fn label(&self, value: f64, step: f64) -> String {
+        let shown = step / self.factor;
+        let decimals = if shown > 0.0 && shown.is_finite() {
+            (-shown.log10() - 1e-9).ceil().clamp(0.0, 9.0) as usize
+        } else {
+            0
+        };
+        format!("{:.decimals$}", value / self.factor)
+    }
+}
+
+/// A number with four significant digits and its SI prefix, such as `228.2 µ`.
+#[must_use]
+pub fn readable(value: f64, unit: &str) -> String {
+    if !value.is_finite() {
+        return format!("- {unit}").trim_end().to_string();
+    }
+    let scale = Scale::of(value);
+    let shown = value / scale.factor;
+    let decimals = match shown.abs() {
+        x if x >= 1000.0 => 0,
+        x if x >= 100.0 => 1,
+        x if x >= 10.0 => 2,
+        _ => 3,
+    };
+    format!("{shown:.decimals$} {}{unit}", scale.prefix).trim_end().to_string()
+}
+
+/// A range that grows at once and shrinks only when the data has become much
+/// smaller, always to round numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AutoRange {
+    /// Lower end.
+    pub low: f64,
+    /// Upper end.
+    pub high: f64,
+}
+
+/// The data must be this much smaller than the range before it shrinks.
+const SHRINK_BELOW: f64 = 0.35;
+
+impl AutoRange {
+    /// A range to begin with.
+    #[must_use]
+    pub const fn new(low: f64, high: f64) -> Self {
+        Self { low, high }
+    }
+
+    /// Follows data between `low` and `high`; anything not finite is ignored.
+    pub fn follow(&mut self, low: f64, high: f64) {
+        if !(low.is_finite() && high.is_finite() && high >= low) {
+            return;
+        }
+        let (width, data) = (self.high - self.low, high - low);
+        let outside = low < self.low || high > self.high;
+        if outside || data < SHRINK_BELOW * width {
+            let margin = 0.05 * data.max(1e-12 * high.abs()).max(f64::MIN_POSITIVE);
+            let (low, high) = round_out(low - margin, high + margin);
+            if high > low {
+                *self = Self { low, high };
+            }
+        }
+    }
+}
+
+/// The smallest range with round ends that holds `[low, high]`.
+fn round_out(low: f64, high: f64) -> (f64, f64) {
+    match nice_step(high - low, 8) {
+        Some(step) => ((low / step).floor() * step, (high / step).ceil() * step),
+        None => (low, high),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn ticks_are_round_and_inside() {
+        assert_eq!(ticks(0.0, 500.0, 5), (vec![0.0, 100.0, 200.0, 300.0, 400.0, 500.0], 100.0));
+        assert_eq!(ticks(-1.0, 1.0, 4).0, vec![-1.0, -0.5, 0.0, 0.5, 1.0]);
+        assert_eq!(ticks(0.013, 0.031, 3), (vec![0.02, 0.03], 0.01));
+        assert!(ticks(1.0, 1.0, 5).0.is_empty());
+        assert!(ticks(f64::NAN, 1.0, 5).0.is_empty());
+        assert!(ticks(2.0, 1.0, 5).0.is_empty());
+    }
+
+    #[test]
+    fn labels_show_the_decimals_of_their_step() {
+        let micro = Scale::of(1.0e-4);
+        assert_eq!((micro.prefix, micro.label(5e-5, 5e-5).as_str()), ("µ", "50"));
+        assert_eq!(Scale::plain().label(0.25, 0.05), "0.25");
+        assert_eq!(Scale::of(0.02).label(5e-3, 5e-3), "5");
+        assert_eq!(readable(2.282e-4, "s"), "228.2 µs");
+        assert_eq!(readable(0.0, "s"), "0.000 s");
+        assert_eq!(readable(f64::NAN, "s"), "- s");
+    }
+
+    #[test]
+    fn a_range_grows_at_once_and_shrinks_late() {
+        let mut range = AutoRange::new(-1.0, 1.0);
+        range.follow(-0.9, 0.9);
+        assert_eq!(range, AutoRange::new(-1.0, 1.0));
+        range.follow(-0.5, 0.5);
+        assert_eq!(range, AutoRange::new(-1.0, 1.0), "half the range is no reason to shrink");
+        range.follow(-3.0, 1.0);
+        assert!(range.low <= -3.0 && range.high >= 1.0);
+        range.follow(-0.1, 0.1);
+        assert!(range.high - range.low < 0.5, "{range:?}");
+        range.follow(f64::NAN, 5.0);
+        assert!(range.high < 5.0);
+    }
+
+    proptest! {
+        #[test]
+        fn ticks_of_any_range_are_few_increasing_and_inside(
+            low in -1e12f64..1e12, span in 1e-9f64..1e12, most in 1usize..12,
+        ) {
+            let (values, step) = ticks(low, low + span, most);
+            prop_assert!(values.len() <= most + 1);
+            for pair in values.windows(2) {
+                prop_assert!(pair[1] > pair[0]);
+            }
+            for value in values {
+                // Half a step: the ends carry the round-off of a large offset.
+                prop_assert!(value >= low - 0.5 * step && value <= low + span + 0.5 * step);
+            }
+        }
+    }
+}

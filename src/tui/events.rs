@@ -1,0 +1,94 @@
+//! What the drawing thread waits for, and the threads that bring it: one
+//! blocks in reading keys, one waits for signals.
+
+use std::sync::mpsc::Sender;
+use std::thread;
+
+use crossterm::event::{self, KeyEvent, KeyEventKind};
+
+/// Something that happened.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Event {
+    /// A key was pressed.
+    Key(KeyEvent),
+    /// The terminal has another size.
+    Resize,
+    /// The engine has something new.
+    Fresh,
+    /// A signal that ends the program.
+    Signal(u8),
+    /// The job shall be suspended.
+    Suspend,
+    /// The job goes on.
+    Continued,
+    /// No more keys will come: the terminal is gone.
+    InputClosed,
+}
+
+/// Starts the thread that reads keys.
+///
+/// # Errors
+/// The system gives no thread.
+pub fn read_keys(to: Sender<Event>) -> std::io::Result<()> {
+    let read = move || {
+        loop {
+            let event = match event::read() {
+                // Some terminals also report releases; repeats count as presses.
+                Ok(event::Event::Key(key)) if key.kind != KeyEventKind::Release => Event::Key(key),
+                Ok(event::Event::Resize(..)) => Event::Resize,
+                Ok(_) => continue,
+                Err(_) => Event::InputClosed,
+            };
+            let last = event == Event::InputClosed;
+            if to.send(event).is_err() || last {
+                return;
+            }
+        }
+    };
+    thread::Builder::new().name("rubscope-input".into()).spawn(read).map(|_| ())
+}
+
+/// Starts the thread that waits for signals. If the drawing thread has not
+/// ended the program some time after a deadly signal, this thread does.
+///
+/// # Errors
+/// The system gives no thread, or no signals.
+#[cfg(unix)]
+pub fn watch_signals(to: Sender<Event>) -> std::io::Result<()> {
+    use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP};
+    let mut signals =
+        signal_hook::iterator::Signals::new([SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGTSTP, SIGCONT])?;
+    let watch = move || {
+        for signal in signals.forever() {
+            let event = match signal {
+                SIGTSTP => Event::Suspend,
+                SIGCONT => Event::Continued,
+                deadly => Event::Signal(u8::try_from(deadly).unwrap_or(0)),
+            };
+            let deadly = matches!(event, Event::Signal(_));
+            let heard = to.send(event).is_ok();
+            if deadly {
+                if heard {
+                    thread::sleep(PATIENCE);
+                }
+                super::terminal::leave();
+                std::process::exit(128 + signal);
+            }
+        }
+    };
+    thread::Builder::new().name("rubscope-signals".into()).spawn(watch).map(|_| ())
+}
+
+/// No signals to wait for.
+///
+/// # Errors
+/// None here.
+#[cfg(not(unix))]
+pub fn watch_signals(_: Sender<Event>) -> std::io::Result<()> {
+    Ok(())
+}
+
+/// How long the drawing thread may take to leave after a deadly signal: it may
+/// be held up by a terminal that takes no output.
+#[cfg(unix)]
+const PATIENCE: std::time::Duration = std::time::Duration::from_secs(2);

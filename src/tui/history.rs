@@ -1,0 +1,235 @@
+//! What a run has shown so far, as bins that keep the least and the greatest
+//! value of each channel: a contact peak one step long survives any zoom.
+
+/// The recorded quantities, in the order of `Bin::low`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Channel {
+    /// `u_c` \[m\].
+    UC,
+    /// `u_s` \[m\].
+    US,
+    /// `alpha_c` \[rad\].
+    AlphaC,
+    /// `alpha_s` \[rad\].
+    AlphaS,
+    /// The smallest gap of all blades \[m\].
+    Gap,
+    /// Amplitude of the casing wave `|u|` \[m\].
+    Amplitude,
+    /// Sum of all pushes, positive as a push \[N\].
+    Push,
+    /// Rotor speed \[rad/s\].
+    Speed,
+}
+
+/// How many channels there are.
+pub const CHANNELS: usize = 8;
+
+/// Least and greatest values over a stretch of time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bin {
+    /// Start \[s\].
+    pub from: f64,
+    /// End \[s\].
+    pub to: f64,
+    /// Least value of every channel.
+    pub low: [f64; CHANNELS],
+    /// Greatest value of every channel.
+    pub high: [f64; CHANNELS],
+    /// Whether any blade touched.
+    pub contact: bool,
+    /// Whether any multiplier pulled.
+    pub tensile: bool,
+}
+
+impl Bin {
+    /// A bin of one sample.
+    #[must_use]
+    pub fn of(t: f64, values: [f64; CHANNELS]) -> Self {
+        Self { from: t, to: t, low: values, high: values, contact: false, tensile: false }
+    }
+
+    /// Joins a later bin to this one.
+    pub fn join(&mut self, later: &Self) {
+        self.to = later.to;
+        for ((low, high), (new_low, new_high)) in
+            self.low.iter_mut().zip(&mut self.high).zip(later.low.iter().zip(&later.high))
+        {
+            *low = low.min(*new_low);
+            *high = high.max(*new_high);
+        }
+        self.contact |= later.contact;
+        self.tensile |= later.tensile;
+    }
+}
+
+/// Most bins kept; beyond, neighbours are joined and the resolution halves.
+pub const MOST_BINS: usize = 1 << 15;
+
+/// The bins of one run, in order of time.
+#[derive(Clone, Debug, Default)]
+pub struct History {
+    bins: Vec<Bin>,
+}
+
+/// Least and greatest value of one column of a chart.
+pub type Span = Option<(f64, f64)>;
+
+impl History {
+    /// Adds bins at the end.
+    pub fn extend(&mut self, new: &[Bin]) {
+        self.bins.extend(new.iter().filter(|bin| bin.from.is_finite()));
+        while self.bins.len() > MOST_BINS {
+            thin(&mut self.bins);
+        }
+    }
+
+    /// Forgets everything.
+    pub fn clear(&mut self) {
+        self.bins.clear();
+    }
+
+    /// All bins.
+    #[must_use]
+    pub fn bins(&self) -> &[Bin] {
+        &self.bins
+    }
+
+    /// The bins that overlap `[from, to]`.
+    #[must_use]
+    pub fn between(&self, from: f64, to: f64) -> &[Bin] {
+        let start = self.bins.partition_point(|bin| bin.to < from);
+        let end = self.bins.partition_point(|bin| bin.from <= to);
+        self.bins.get(start..end.max(start)).unwrap_or(&[])
+    }
+
+    /// One channel over `[from, to]` as `columns` columns; `None` where
+    /// nothing was recorded. Values that are not finite are left out.
+    #[must_use]
+    pub fn columns(&self, channel: Channel, from: f64, to: f64, columns: usize) -> Vec<Span> {
+        let mut out: Vec<Span> = vec![None; columns];
+        let width = (to - from) / columns.max(1) as f64;
+        if width.is_nan() || width <= 0.0 {
+            return out;
+        }
+        let last = columns.saturating_sub(1);
+        for bin in self.between(from, to) {
+            let (low, high) = (bin.low[channel as usize], bin.high[channel as usize]);
+            if !(low.is_finite() && high.is_finite()) {
+                continue;
+            }
+            let place = |t: f64| (((t - from) / width).max(0.0) as usize).min(last);
+            for slot in out.iter_mut().take(place(bin.to) + 1).skip(place(bin.from)) {
+                *slot = Some(match *slot {
+                    Some((a, b)) => (a.min(low), b.max(high)),
+                    None => (low, high),
+                });
+            }
+        }
+        out
+    }
+
+    /// Which of `columns` columns of `[from, to]` saw a contact.
+    #[must_use]
+    pub fn contacts(&self, from: f64, to: f64, columns: usize) -> Vec<bool> {
+        let mut out = vec![false; columns];
+        let width = (to - from) / columns.max(1) as f64;
+        let last = columns.saturating_sub(1);
+        for bin in self.between(from, to).iter().filter(|bin| bin.contact && width > 0.0) {
+            let place = |t: f64| (((t - from) / width).max(0.0) as usize).min(last);
+            out.iter_mut().take(place(bin.to) + 1).skip(place(bin.from)).for_each(|c| *c = true);
+        }
+        out
+    }
+
+    /// The bin at an instant, for reading values under a cursor.
+    #[must_use]
+    pub fn at(&self, t: f64) -> Option<&Bin> {
+        self.bins.get(self.bins.partition_point(|bin| bin.to < t)).filter(|bin| bin.from <= t)
+    }
+}
+
+/// Joins neighbours, two by two.
+pub fn thin(bins: &mut Vec<Bin>) {
+    let joined = bins
+        .chunks(2)
+        .filter_map(|pair| {
+            let mut first = *pair.first()?;
+            if let Some(second) = pair.get(1) {
+                first.join(second);
+            }
+            Some(first)
+        })
+        .collect();
+    *bins = joined;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn bin(from: f64, to: f64, value: f64) -> Bin {
+        let mut bin = Bin::of(from, [value; CHANNELS]);
+        bin.to = to;
+        bin
+    }
+
+    fn ramp(count: u32) -> History {
+        let mut history = History::default();
+        for k in 0..count {
+            history.extend(&[bin(f64::from(k), f64::from(k) + 0.999, f64::from(k))]);
+        }
+        history
+    }
+
+    #[test]
+    fn a_peak_of_one_bin_survives_any_width() {
+        let mut history = ramp(1000);
+        history.bins[517].high[Channel::Push as usize] = 1e6;
+        for columns in [1, 7, 40, 300, 2000] {
+            let top = history
+                .columns(Channel::Push, 0.0, 1000.0, columns)
+                .into_iter()
+                .flatten()
+                .map(|(_, high)| high)
+                .fold(0.0, f64::max);
+            assert_eq!(top, 1e6, "{columns} columns");
+        }
+    }
+
+    #[test]
+    fn columns_beyond_the_data_are_empty_and_nothing_leaks_across_pages() {
+        let history = ramp(10);
+        let columns = history.columns(Channel::UC, 0.0, 20.0, 20);
+        assert_eq!(columns.iter().flatten().count(), 10);
+        assert_eq!(columns[3], Some((3.0, 3.0)));
+        assert!(history.columns(Channel::UC, 20.0, 40.0, 8).iter().all(Option::is_none));
+        assert!(history.columns(Channel::UC, 5.0, 5.0, 8).iter().all(Option::is_none));
+    }
+
+    #[test]
+    fn a_long_run_keeps_its_extremes_in_bounded_memory() {
+        let history = ramp(100_000);
+        assert!(history.bins().len() <= MOST_BINS);
+        assert_eq!(history.bins()[0].from, 0.0);
+        let top = history.columns(Channel::US, 0.0, 1e5, 1)[0];
+        assert_eq!(top, Some((0.0, 99_999.0)));
+    }
+
+    #[test]
+    fn not_a_number_never_reaches_a_column() {
+        let mut history = ramp(3);
+        history.extend(&[bin(3.0, 4.0, f64::NAN), bin(4.0, 5.0, f64::INFINITY)]);
+        for span in history.columns(Channel::UC, 0.0, 6.0, 12).into_iter().flatten() {
+            assert!(span.0.is_finite() && span.1.is_finite());
+        }
+    }
+
+    #[test]
+    fn reading_at_an_instant() {
+        let history = ramp(5);
+        assert_eq!(history.at(2.5).unwrap().low[0], 2.0);
+        assert!(history.at(7.0).is_none());
+        assert!(history.at(-1.0).is_none());
+    }
+}

@@ -1,0 +1,447 @@
+//! The knobs: keys of the scene with a label and a sensible step. Names,
+//! units, bounds and meaning come from the table of keys.
+
+use super::axis::Scale;
+use crate::scene::{Allowed, ContactLaw, ModelSize, Scene, SceneError, SolverKind, Value, keys};
+
+/// What a knob sets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Target {
+    /// A key of the scene.
+    Key(&'static str),
+    /// The clearance `g0`, by moving the casing radius.
+    Clearance,
+}
+
+/// How a knob turns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Turn {
+    /// By equal steps, fine and coarse.
+    Linear(f64, f64),
+    /// By mantissas over decades, not below this magnitude but for zero.
+    Decades(f64),
+    /// By whole steps, fine and coarse.
+    Whole(u64, u64),
+    /// Through a list of words.
+    Words,
+}
+
+/// One knob.
+#[derive(Debug)]
+pub struct Knob {
+    /// Short name.
+    pub label: &'static str,
+    /// What it sets.
+    pub target: Target,
+    /// How it turns.
+    pub turn: Turn,
+}
+
+macro_rules! knob {
+    ($label:literal, $path:literal, $turn:expr) => {
+        Knob { label: $label, target: Target::Key($path), turn: $turn }
+    };
+}
+
+/// Every knob, in the order of the panel.
+pub const KNOBS: &[Knob] = &[
+    knob!("speed Ω", "operation.speed_rad_s", Turn::Linear(5.0, 50.0)),
+    knob!("pulse F", "operation.pulse_n", Turn::Decades(1.0)),
+    knob!("diameters n_d", "operation.nodal_diameters", Turn::Whole(1, 4)),
+    knob!("damping ζ_c", "casing.damping_ratio", Turn::Linear(0.005, 0.05)),
+    knob!("damping ζ_bd", "bladed_disk.damping_ratio", Turn::Linear(0.005, 0.05)),
+    Knob { label: "clearance g0", target: Target::Clearance, turn: Turn::Decades(1e-9) },
+    knob!("pulse time t_p", "operation.pulse_s", Turn::Decades(1e-9)),
+    knob!("blades N", "bladed_disk.blades", Turn::Whole(1, 10)),
+    knob!("solver", "solver.kind", Turn::Words),
+    knob!("contact", "solver.contact", Turn::Words),
+    knob!("model", "solver.model", Turn::Words),
+    knob!("step h", "solver.step_s", Turn::Decades(1e-12)),
+    knob!("run end", "solver.end_s", Turn::Decades(1e-9)),
+    knob!("speed ramp", "operation.speed_ramp_rad_s2", Turn::Decades(1.0)),
+    knob!("casing k_c", "casing.modal_stiffness_n_per_m", Turn::Decades(1e-6)),
+    knob!("casing m_c", "casing.modal_mass_kg", Turn::Decades(1e-9)),
+    knob!("blade k_b", "bladed_disk.stiffness_nm_per_rad", Turn::Decades(1e-6)),
+    knob!("blade k_bb", "bladed_disk.coupling_nm_per_rad", Turn::Decades(1e-3)),
+    knob!("blade m_b", "bladed_disk.inertia_kg_m2", Turn::Decades(1e-9)),
+    knob!("blade l_b", "bladed_disk.blade_length_m", Turn::Linear(1e-6, 1e-5)),
+    knob!("casing R_c", "casing.radius_m", Turn::Linear(1e-6, 1e-5)),
+    knob!("start u_c", "initial.u_c_m", Turn::Linear(5e-6, 2e-5)),
+    knob!("start u_s", "initial.u_s_m", Turn::Linear(5e-6, 2e-5)),
+    knob!("start u_c'", "initial.v_c_m_s", Turn::Linear(5e-3, 5e-2)),
+    knob!("start u_s'", "initial.v_s_m_s", Turn::Linear(5e-3, 5e-2)),
+];
+
+/// Mantissas of fine turns, two digits; coarse turns use 1, 2 and 5.
+const FINE: &[f64] = &[
+    1.0, 1.1, 1.2, 1.3, 1.5, 1.6, 1.8, 2.0, 2.2, 2.4, 2.7, 3.0, 3.3, 3.6, 3.9, 4.3, 4.7, 5.0, 5.6,
+    6.2, 6.8, 7.5, 8.2, 9.1,
+];
+const COARSE: &[f64] = &[1.0, 2.0, 5.0];
+
+impl Knob {
+    /// The value in a scene.
+    #[must_use]
+    pub fn get(&self, scene: &Scene) -> Value {
+        match self.target {
+            Target::Key(path) => keys::find(path).map_or(Value::Whole(0), |key| (key.get)(scene)),
+            Target::Clearance => {
+                let clearance = scene.casing.radius_m - scene.bladed_disk.blade_length_m;
+                // Twelve digits: the difference of two lengths has no more.
+                Value::Real(format!("{clearance:.11e}").parse().unwrap_or(clearance))
+            }
+        }
+    }
+
+    /// Sets it and checks the whole scene, which is unchanged on error. A
+    /// solver that does not know the contact law or the model takes the
+    /// nearest it knows; the second value says so.
+    ///
+    /// # Errors
+    /// The refusal, in one line.
+    pub fn set(&self, scene: &Scene, value: Value) -> Result<(Scene, Option<String>), SceneError> {
+        let mut changed = scene.clone();
+        match self.target {
+            Target::Key(path) => changed.set_value(keys::find(path)?, value)?,
+            Target::Clearance => {
+                let Value::Real(clearance) = value else {
+                    return Err(SceneError::refused("clearance", value, "a number"));
+                };
+                if !(clearance.is_finite() && clearance > 0.0) {
+                    return Err(SceneError::refused("clearance", value, "a number above 0"));
+                }
+                let radius = changed.bladed_disk.blade_length_m + clearance;
+                changed.set_value(keys::find("casing.radius_m")?, Value::Real(radius))?;
+            }
+        }
+        let said = self.make_compatible(&mut changed);
+        changed.check()?;
+        Ok((changed, said))
+    }
+
+    fn make_compatible(&self, scene: &mut Scene) -> Option<String> {
+        let solver = &mut scene.solver;
+        if solver.kind != SolverKind::Event {
+            return None;
+        }
+        match self.target {
+            Target::Key("solver.kind") => {
+                let mut said = Vec::new();
+                if solver.contact == ContactLaw::Bilateral {
+                    solver.contact = ContactLaw::Unilateral;
+                    said.push("contact is now unilateral");
+                }
+                if solver.model == ModelSize::Full {
+                    solver.model = ModelSize::Modal;
+                    said.push("model is now modal");
+                }
+                (!said.is_empty())
+                    .then(|| format!("{}: the event solver knows no other", said.join(", ")))
+            }
+            Target::Key("solver.contact") if solver.contact == ContactLaw::Bilateral => {
+                solver.kind = SolverKind::Explicit;
+                Some("solver is now explicit: bilateral is a law of the time step".into())
+            }
+            Target::Key("solver.model") if solver.model == ModelSize::Full => {
+                solver.kind = SolverKind::Explicit;
+                Some("solver is now explicit: the event solver has no full model".into())
+            }
+            _ => None,
+        }
+    }
+
+    /// The value after one turn.
+    #[must_use]
+    pub fn turned(&self, value: &Value, up: bool, coarse: bool, scene: &Scene) -> Value {
+        match (value, self.turn) {
+            (Value::Real(x), Turn::Linear(fine, large)) => {
+                let step = if coarse { large } else { fine };
+                let next = (x / step + if up { 1.0 } else { -1.0 }).round() * step;
+                // Decimal digits instead of the round-off of a multiple.
+                let digits = (-fine.log10()).ceil().clamp(0.0, 12.0) as usize + 1;
+                Value::Real(self.bounded(format!("{next:.digits$}").parse().unwrap_or(next)))
+            }
+            (Value::Real(x), Turn::Decades(least)) => Value::Real(self.bounded(decades(
+                *x,
+                up,
+                if coarse { COARSE } else { FINE },
+                least,
+            ))),
+            (Value::Whole(n), Turn::Whole(fine, large)) => {
+                let step = if coarse { large } else { fine };
+                let (min, mut max) = match self.allowed() {
+                    Some(Allowed::Whole { min, max }) => (min, max),
+                    _ => (0, u64::MAX),
+                };
+                if self.target == Target::Key("operation.nodal_diameters") {
+                    // More than N/2 diameters look like fewer; they can be typed.
+                    max = max.min(u64::from(scene.bladed_disk.blades / 2)).max(*n);
+                }
+                let next = if up { n.saturating_add(step) } else { n.saturating_sub(step) };
+                Value::Whole(next.clamp(min, max.max(min)))
+            }
+            (Value::Text(word), Turn::Words) => {
+                let words = match self.allowed() {
+                    Some(Allowed::OneOf(words)) => words,
+                    _ => &[],
+                };
+                let place = words.iter().position(|w| w == word).unwrap_or(0);
+                let next = if up { place + 1 } else { place + words.len().saturating_sub(1) };
+                let next = words.get(next % words.len().max(1));
+                Value::Text(next.map_or_else(|| word.clone(), ToString::to_string))
+            }
+            _ => value.clone(),
+        }
+    }
+
+    fn bounded(&self, x: f64) -> f64 {
+        match self.allowed() {
+            Some(Allowed::Real { min, max, .. }) => x.clamp(min, max),
+            _ => x,
+        }
+    }
+
+    /// What the key may hold.
+    #[must_use]
+    pub fn allowed(&self) -> Option<Allowed> {
+        match self.target {
+            Target::Key(path) => keys::find(path).ok().map(|key| key.allowed),
+            Target::Clearance => Some(Allowed::Real { min: 0.0, max: 1e3, above: true }),
+        }
+    }
+
+    /// The unit; empty for words and counts.
+    #[must_use]
+    pub fn unit(&self) -> &'static str {
+        match self.target {
+            Target::Key(path) => keys::find(path).map_or("", |key| key.unit).trim_matches('-'),
+            Target::Clearance => "m",
+        }
+    }
+
+    /// What it is, in a few words.
+    #[must_use]
+    pub fn what(&self) -> &'static str {
+        match self.target {
+            Target::Key(path) => keys::find(path).map_or("", |key| key.what),
+            Target::Clearance => "clearance at rest g0 = R_c - l_b",
+        }
+    }
+
+    /// The value as shown, with prefix and unit.
+    #[must_use]
+    pub fn shown(&self, value: &Value) -> String {
+        match value {
+            Value::Real(x) => number(*x, self.unit()),
+            Value::Text(word) => word.clone(),
+            other => other.to_string(),
+        }
+    }
+
+    /// Reads what was typed: a number, also with an SI prefix (`20k`, `50u`),
+    /// or a word or its beginning.
+    ///
+    /// # Errors
+    /// The refusal, in one line.
+    pub fn parse(&self, text: &str) -> Result<Value, SceneError> {
+        let text = text.trim();
+        let refused = |allowed: String| {
+            let name = match self.target {
+                Target::Key(path) => path,
+                Target::Clearance => "clearance",
+            };
+            SceneError::refused(name, text, allowed)
+        };
+        match self.allowed() {
+            Some(Allowed::Real { .. }) => {
+                let text = text.strip_suffix(self.unit()).unwrap_or(text).trim_end();
+                prefixed(text)
+                    .map(Value::Real)
+                    .ok_or_else(|| refused("a number, such as 500, 2.5e-7, 20k or 50u".into()))
+            }
+            Some(Allowed::Whole { .. }) => {
+                text.parse().map(Value::Whole).map_err(|_| refused("a whole number".into()))
+            }
+            Some(Allowed::OneOf(words)) => {
+                let found = words.iter().find(|word| !text.is_empty() && word.starts_with(text));
+                found
+                    .map(|word| Value::Text((*word).to_string()))
+                    .ok_or_else(|| refused(format!("one of {}", words.join(", "))))
+            }
+            _ => Err(refused("a value".into())),
+        }
+    }
+}
+
+/// The next number up or down whose mantissa is in the list.
+fn decades(x: f64, up: bool, mantissas: &[f64], least: f64) -> f64 {
+    if x.abs() < least * (1.0 - 1e-9) {
+        return if up { least } else { 0.0 };
+    }
+    if x < 0.0 {
+        return -decades(-x, !up, mantissas, least);
+    }
+    let power = x.log10().floor() as i32;
+    let candidates = (power - 1..=power + 1).flat_map(|p| {
+        // Text gives the double nearest to the decimal number.
+        mantissas.iter().filter_map(move |m| format!("{m}e{p}").parse::<f64>().ok())
+    });
+    let next = if up {
+        candidates.filter(|c| *c > x * (1.0 + 1e-9)).fold(f64::INFINITY, f64::min)
+    } else {
+        candidates.filter(|c| *c < x * (1.0 - 1e-9)).fold(0.0, f64::max)
+    };
+    if !next.is_finite() {
+        x
+    } else if next < least * (1.0 - 1e-9) {
+        0.0
+    } else {
+        next
+    }
+}
+
+/// A number with an optional SI prefix at its end.
+fn prefixed(text: &str) -> Option<f64> {
+    if let Ok(x) = text.parse::<f64>() {
+        return Some(x);
+    }
+    let last = text.chars().last()?;
+    let factor = match last {
+        'G' => "e9",
+        'M' => "e6",
+        'k' => "e3",
+        'm' => "e-3",
+        'u' | 'µ' => "e-6",
+        'n' => "e-9",
+        'p' => "e-12",
+        _ => return None,
+    };
+    let number = text.strip_suffix(last)?.trim_end();
+    // Read as one decimal number, so that 50u is exactly what 50e-6 is.
+    let plain = number.bytes().all(|b| b.is_ascii_digit() || matches!(b, b'.' | b'-' | b'+'));
+    if plain { format!("{number}{factor}").parse().ok() } else { None }
+}
+
+/// A number as people write it: up to seven digits, a prefix for units that
+/// take one, no trailing zeros.
+#[must_use]
+pub fn number(x: f64, unit: &str) -> String {
+    let takes_prefix = matches!(unit, "m" | "s" | "N" | "N/m" | "m/s" | "N m/rad");
+    let scale = if takes_prefix { Scale::of(x) } else { Scale::plain() };
+    let shown = x / scale.factor;
+    let text = if shown != 0.0 && !(1e-4..1e7).contains(&shown.abs()) {
+        format!("{shown:e}")
+    } else {
+        let digits = 6 - shown.abs().max(1e-4).log10().floor() as i32;
+        let text = format!("{shown:.*}", digits.clamp(0, 9) as usize);
+        match text.contains('.') {
+            true => text.trim_end_matches('0').trim_end_matches('.').to_string(),
+            false => text,
+        }
+    };
+    format!("{text} {}{unit}", scale.prefix).trim_end().to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn knob(path: &str) -> &'static Knob {
+        KNOBS
+            .iter()
+            .find(|knob| knob.target == Target::Key(Box::leak(path.to_string().into_boxed_str())))
+            .unwrap()
+    }
+
+    #[test]
+    fn every_knob_reads_and_writes_a_scene() {
+        let scene = Scene::default();
+        for knob in KNOBS {
+            let value = knob.get(&scene);
+            let (again, _) = knob.set(&scene, value.clone()).unwrap();
+            assert_eq!(knob.get(&again), value, "{}", knob.label);
+            assert!(!knob.shown(&value).is_empty() && !knob.what().is_empty());
+        }
+    }
+
+    #[test]
+    fn every_number_of_a_scene_has_a_knob() {
+        for key in keys::KEYS {
+            let numeric = matches!(key.allowed, Allowed::Real { .. } | Allowed::Whole { .. });
+            let knobs = KNOBS.iter().filter(|knob| knob.target == Target::Key(key.path)).count();
+            assert_eq!(
+                knobs,
+                usize::from(numeric || matches!(key.allowed, Allowed::OneOf(_))),
+                "{}",
+                key.path
+            );
+        }
+    }
+
+    #[test]
+    fn turning_up_and_down_again_comes_back() {
+        let scene = Scene::default();
+        for (path, values) in [
+            ("operation.pulse_n", vec![20e3, 1e6, 5e-1 * 20e3]),
+            ("operation.speed_rad_s", vec![500.0, -430.0, 0.0]),
+            ("casing.damping_ratio", vec![0.05, 0.015]),
+            ("solver.step_s", vec![1e-7, 2e-6]),
+        ] {
+            for x in values {
+                for coarse in [false, true] {
+                    let up = knob(path).turned(&Value::Real(x), true, coarse, &scene);
+                    assert_ne!(up, Value::Real(x));
+                    if !coarse {
+                        let back = knob(path).turned(&up, false, coarse, &scene);
+                        assert_eq!(back, Value::Real(x), "{path} {x}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn pulses_pass_through_zero() {
+        let pulse = knob("operation.pulse_n");
+        let scene = Scene::default();
+        let zero = pulse.turned(&Value::Real(1.0), false, true, &scene);
+        assert_eq!(zero, Value::Real(0.0));
+        assert_eq!(pulse.turned(&zero, true, true, &scene), Value::Real(1.0));
+        assert_eq!(pulse.turned(&Value::Real(-20e3), true, true, &scene), Value::Real(-10e3));
+    }
+
+    #[test]
+    fn typed_values_take_prefixes_and_units_and_refuse_nonsense() {
+        let pulse = knob("operation.pulse_n");
+        for (text, value) in [("20k", 20e3), ("1M", 1e6), ("-3.5e3", -3.5e3), ("20000 N", 20e3)] {
+            assert_eq!(pulse.parse(text).unwrap(), Value::Real(value), "{text}");
+        }
+        assert_eq!(knob("operation.pulse_s").parse("50u").unwrap(), Value::Real(50e-6));
+        for text in ["", "fast", "1e", "--3", "5q", "e3"] {
+            let line = pulse.parse(text).unwrap_err().to_string();
+            assert!(line.starts_with("operation.pulse_n = "), "{line}");
+        }
+        assert_eq!(knob("solver.contact").parse("bi").unwrap(), Value::Text("bilateral".into()));
+    }
+
+    #[test]
+    fn a_solver_takes_the_nearest_law_it_knows_and_says_so() {
+        let paper = Scene::builtin("paper-nd3").unwrap();
+        let (event, said) = knob("solver.kind").set(&paper, Value::Text("event".into())).unwrap();
+        assert_eq!(event.solver.contact, ContactLaw::Unilateral);
+        assert!(said.unwrap().contains("unilateral"));
+        let back = knob("solver.contact").set(&event, Value::Text("bilateral".into())).unwrap().0;
+        assert_eq!(back.solver.kind, SolverKind::Explicit);
+    }
+
+    #[test]
+    fn numbers_read_as_people_write_them() {
+        assert_eq!(number(1e-4, "m"), "100 µm");
+        assert_eq!(number(1e6, "N"), "1 MN");
+        assert_eq!(number(0.05, ""), "0.05");
+        assert_eq!(number(-430.0, "rad/s"), "-430 rad/s");
+        assert_eq!(number(1.544e6, "N/m"), "1.544 MN/m");
+        assert_eq!(number(0.0, "N"), "0 N");
+        assert_eq!(number(1e-7, "s"), "100 ns");
+    }
+}

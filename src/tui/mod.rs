@@ -1,0 +1,132 @@
+//! The explorer: a live screen on one motion. State and update (`app`) know no
+//! terminal; panels are functions of the state; the solver runs in a thread of
+//! its own (`worker`) behind two slots; one table of bindings feeds the keys,
+//! the footer, the help and the manual page.
+
+pub mod app;
+pub mod axis;
+pub mod bindings;
+pub mod engine;
+pub mod events;
+pub mod history;
+pub mod knobs;
+pub mod panels;
+pub mod plot;
+pub mod raster;
+mod run;
+pub mod skin;
+pub mod terminal;
+pub mod theme;
+pub mod worker;
+
+use std::io::IsTerminal;
+use std::sync::{Arc, Mutex, PoisonError, mpsc};
+use std::time::Duration;
+
+pub use app::{App, Exit};
+pub use raster::Marker;
+pub use run::run;
+pub use theme::Theme;
+
+use crate::scene::Scene;
+
+/// When to use colour.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Color {
+    /// Where the terminal has it and `NO_COLOR` does not forbid it.
+    #[default]
+    Auto,
+    /// Always.
+    Always,
+    /// Never; bold, reverse and dim stay.
+    Never,
+}
+
+impl Color {
+    /// The words of the command line.
+    pub const WORDS: &'static [&'static str] = &["auto", "always", "never"];
+
+    /// The choice a word stands for.
+    #[must_use]
+    pub fn from_word(word: &str) -> Option<Self> {
+        match word {
+            "auto" => Some(Self::Auto),
+            "always" => Some(Self::Always),
+            "never" => Some(Self::Never),
+            _ => None,
+        }
+    }
+}
+
+/// How the explorer looks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ExploreOptions {
+    /// Most frames a second while the motion plays.
+    pub fps: f64,
+    /// When to use colour.
+    pub color: Color,
+    /// How points are drawn.
+    pub marker: Marker,
+}
+
+impl Default for ExploreOptions {
+    fn default() -> Self {
+        Self { fps: 10.0, color: Color::Auto, marker: Marker::Braille }
+    }
+}
+
+impl ExploreOptions {
+    fn theme(&self) -> Theme {
+        let variable = |name| std::env::var(name).unwrap_or_default();
+        let plain = match self.color {
+            Color::Always => false,
+            Color::Never => true,
+            Color::Auto => !variable("NO_COLOR").is_empty() || variable("TERM") == "dumb",
+        };
+        if plain { Theme::Mono } else { Theme::Dark }
+    }
+
+    fn frame(&self) -> Duration {
+        let fps = if self.fps.is_finite() { self.fps.clamp(0.1, 60.0) } else { 10.0 };
+        Duration::from_secs_f64(1.0 / fps)
+    }
+}
+
+/// Opens the explorer on a checked scene and stays until it is left. The
+/// result is the exit status: 0, or 128 + n after signal n.
+///
+/// # Errors
+/// Standard output is no terminal that can show a screen, or threads or
+/// signals are not to be had.
+pub fn explore(scene: Scene, options: ExploreOptions) -> anyhow::Result<u8> {
+    let dumb = std::env::var("TERM").is_ok_and(|term| term == "dumb");
+    if dumb || !std::io::stdout().is_terminal() {
+        anyhow::bail!("the explorer needs a terminal; use `rubscope run` without one");
+    }
+    // crossterm would drop bold and reverse along with the colours; the mono
+    // theme has no colours to drop.
+    crossterm::style::force_color_output(true);
+    terminal::install_panic_hook();
+    let (sender, events) = mpsc::channel();
+    events::watch_signals(sender.clone())?;
+    let nudges = Mutex::new(sender.clone());
+    let nudge: engine::Nudge = Arc::new(move || {
+        // If nobody listens any more, the program is about to end.
+        let _ = nudges.lock().unwrap_or_else(PoisonError::into_inner).send(events::Event::Fresh);
+    });
+    let mut worker = worker::Worker::spawn(nudge)?;
+    let mut app = App::new(scene, options.theme(), options.marker);
+    let guard = terminal::Guard;
+    let mut screen = terminal::open()?;
+    events::read_keys(sender)?;
+    let mut shell = terminal::Shell;
+    let ended = run(&mut screen, &events, &mut app, &mut worker, &mut shell, options.frame());
+    drop(guard);
+    // Dropping the screen would write to standard error if the terminal is gone.
+    std::mem::forget(screen);
+    Ok(match ended {
+        Ok(Exit::Done) => 0,
+        Ok(Exit::Signal(number)) => 128 + number,
+        Err(_) => 128 + run::HANGUP,
+    })
+}

@@ -1,0 +1,36 @@
+//! The last line: what just happened, or the keys for where you are, from the
+//! table of bindings.
+
+use ratatui::{buffer::Buffer, layout::Rect};
+
+use super::{pieces, print};
+use crate::tui::app::App;
+use crate::tui::bindings;
+use crate::tui::theme::Role;
+
+/// Draws the line.
+pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
+    let skin = &app.skin;
+    if let Some(status) = &app.status {
+        print(buffer, area, 0, &skin.spell(status), skin.style(Role::Good));
+        return;
+    }
+    let mut parts = Vec::new();
+    for (keys, word) in bindings::of(app.context()).filter_map(|binding| binding.footer) {
+        let gap = if parts.is_empty() { "" } else { "  " };
+        parts.push((format!("{gap}{}", skin.spell(keys)), skin.style(Role::Focus)));
+        parts.push((format!(" {word}"), skin.style(Role::Quiet)));
+    }
+    // A key without its word says nothing: cut in pairs.
+    let mut room = usize::from(area.width);
+    let mut fitting = Vec::new();
+    for pair in parts.chunks(2) {
+        let wide: usize = pair.iter().map(|(text, _)| text.chars().count()).sum();
+        if wide > room {
+            break;
+        }
+        room -= wide;
+        fitting.extend_from_slice(pair);
+    }
+    pieces(buffer, area, 0, &fitting);
+}

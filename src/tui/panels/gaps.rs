@@ -1,0 +1,79 @@
+//! View 2: the gap of every blade now, over the fixed zero line that is the
+//! casing; blades in contact carry a sign and their number.
+
+use ratatui::{buffer::Buffer, layout::Rect};
+
+use super::charts::title;
+use crate::motion::Touching;
+use crate::tui::app::{App, View};
+use crate::tui::plot::{Axis, Plot};
+use crate::tui::theme::Role;
+
+/// Draws the view.
+pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
+    let skin = &app.skin;
+    let quiet = skin.style(Role::Quiet);
+    let contact = skin.style(Role::Contact);
+    let range = app.ranges.gaps;
+    let y = Axis::scaled(range.low, range.high);
+    let count = app.machine.rim.blades;
+    let x = Axis::plain(0.5, f64::from(count) + 0.5);
+    let touching = touching_blades(app);
+    let mark = skin.either('▲', '^');
+    let legend = [
+        (format!("{}m by blade", y.scale.prefix), quiet),
+        (
+            format!("{mark} {}", app.contact_now()),
+            if touching.is_empty() { quiet } else { contact },
+        ),
+    ];
+    let inside = title(app, buffer, area, View::Gaps, "gaps", &legend);
+    let Some(mut plot) = Plot::new(buffer, inside, x, y, skin) else { return };
+    plot.level(0.0, skin.either('━', '='), skin.style(Role::Text));
+    plot.level(app.machine.clearance(), skin.either('┈', '.'), quiet);
+    let Some(moment) = &app.moment else { return };
+    let gaps = || (1..=count).map(f64::from).zip(moment.gaps.iter().copied());
+    // Between blades nothing is measured: the line only leads the eye.
+    plot.curve(gaps(), &skin.quiet());
+    plot.ink();
+    let room = u32::from(plot.inner.width);
+    if count <= room {
+        let sign =
+            if 2 * count <= room { skin.either('●', 'o') } else { skin.either('•', 'o') };
+        for (blade, gap) in gaps() {
+            plot.point(blade, gap.min(range.high), sign, skin.style(Role::First));
+        }
+    }
+    for blade in &touching {
+        plot.point(f64::from(*blade), 0.0, mark, contact);
+    }
+    label(&mut plot, &touching, app);
+}
+
+/// Numbers of the touching blades under the zero line.
+fn label(plot: &mut Plot, touching: &[u32], app: &App) {
+    let Some(row) = plot.row(0.0).map(|row| row + 1).filter(|row| *row < plot.inner.bottom())
+    else {
+        return;
+    };
+    for blade in touching.iter().take(16) {
+        plot.note(f64::from(*blade), row, &format!("{blade}"), app.skin.style(Role::Contact));
+    }
+}
+
+/// The blades in contact now, numbered from 1.
+fn touching_blades(app: &App) -> Vec<u32> {
+    let Some(moment) = &app.moment else { return Vec::new() };
+    let rim = &app.machine.rim;
+    let of = |sides: &[u32]| sides.iter().flat_map(|side| rim.blades_of_side(*side)).collect();
+    match moment.touching {
+        Touching::Nothing => Vec::new(),
+        Touching::Side(side) => of(&[side]),
+        Touching::Corner(a, b) => of(&[a, b]),
+        Touching::Many => (1..=rim.blades)
+            .zip(&moment.gaps)
+            .filter(|(_, gap)| **gap <= 1e-9 * rim.clearance)
+            .map(|(blade, _)| blade)
+            .collect(),
+    }
+}

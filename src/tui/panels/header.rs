@@ -1,0 +1,100 @@
+//! The two lines at the top: scene and verdict; speeds, solver, time.
+
+use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
+
+use super::{pieces, print};
+use crate::tui::app::App;
+use crate::tui::axis::readable;
+use crate::tui::theme::Role;
+
+/// Draws both lines.
+pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
+    verdict(app, buffer, area);
+    speeds(app, buffer, area);
+}
+
+fn verdict(app: &App, buffer: &mut Buffer, area: Rect) {
+    let skin = &app.skin;
+    let words = app.verdict();
+    let width = usize::from(area.width);
+    let word = format!(" {} ", words.word);
+    let style = skin.style(words.role).add_modifier(Modifier::BOLD | Modifier::REVERSED);
+    let mut detail = words.detail;
+    if let Some(other) = app.disagreement() {
+        detail = format!("{detail} | {other}");
+    }
+    let detail = skin.spell(&detail);
+    // The word always stands; its detail, then the title, take what is left.
+    let title = skin.spell(&app.scene.title);
+    let room = width.saturating_sub(word.chars().count() + 1);
+    let detail = shorten(&detail, room, skin.either("…", ".."));
+    let left = room.saturating_sub(detail.chars().count() + 2);
+    let title =
+        if left >= 8 { shorten(&title, left, skin.either("…", "..")) } else { String::new() };
+    print(buffer, area, 0, &word, style);
+    let after = Rect {
+        x: area.x + cells(&word) + 1,
+        width: area.width.saturating_sub(cells(&word) + 1),
+        ..area
+    };
+    print(buffer, after, 0, &detail, skin.style(words.role));
+    let start = area.width.saturating_sub(cells(&title));
+    let right = Rect { x: area.x + start, width: area.width - start, ..area };
+    print(buffer, right, 0, &title, skin.style(Role::Quiet));
+}
+
+/// Text of at most `width` characters, its end marked where it was cut.
+fn shorten(text: &str, width: usize, mark: &str) -> String {
+    if text.chars().count() <= width {
+        return text.to_string();
+    }
+    let kept = width.saturating_sub(mark.chars().count());
+    text.chars().take(kept).chain(mark.chars()).take(width).collect()
+}
+
+fn cells(text: &str) -> u16 {
+    u16::try_from(text.chars().count()).unwrap_or(u16::MAX)
+}
+
+fn speeds(app: &App, buffer: &mut Buffer, area: Rect) {
+    let skin = &app.skin;
+    let (text, quiet) = (skin.style(Role::Text), skin.style(Role::Quiet));
+    let mut parts = Vec::new();
+    let speed = app.speed().abs();
+    let ratio = |of: Option<f64>| {
+        of.filter(|of| *of > 0.0).map_or("-".to_string(), |of| format!("{:.3}", speed / of))
+    };
+    parts.push((skin.spell("Ω/Ω_c "), quiet));
+    parts.push((ratio(app.machine.critical_speed()), text));
+    parts.push((skin.spell(" Ω/Ω_lock "), quiet));
+    parts.push((ratio(app.machine.lock_speed()), text));
+    let go = if app.playing { skin.either("►", ">") } else { skin.either("‖", "=") };
+    parts.push((format!("  {go} "), skin.style(Role::Focus)));
+    parts.push((skin.spell(&readable(app.now(), "s")), text));
+    let limited = if app.pace.limited { " (solver's limit)" } else { "" };
+    parts.push((format!(" {}{limited}", app.rate_text()), quiet));
+    if app.live {
+        parts.push((" LIVE".into(), skin.style(Role::Focus)));
+    }
+    let solver = &app.scene.solver;
+    parts.push((format!("  {}", solver.kind.word()), text));
+    if let Some(step) = app.pace.step_s {
+        parts.push((skin.spell(&format!(" {}/step", short(step))), text));
+    }
+    if let Some(run) = app.pace.run_s {
+        let run = format!(", {} in {}", short(solver.end_s), short(run));
+        parts.push((skin.spell(&run), quiet));
+    }
+    parts.push((format!("  {} {}", solver.contact.word(), solver.model.word()), quiet));
+    pieces(buffer, area, 1, &parts);
+}
+
+/// Two or three digits are enough for a speed.
+fn short(seconds: f64) -> String {
+    let scale = crate::tui::axis::Scale::of(seconds);
+    let shown = seconds / scale.factor;
+    let decimals = usize::from(shown < 9.95);
+    let text = format!("{shown:.decimals$}");
+    let text = text.strip_suffix(".0").unwrap_or(&text);
+    format!("{text} {}s", scale.prefix)
+}

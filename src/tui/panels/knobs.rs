@@ -1,0 +1,89 @@
+//! The knobs: a column with the selected one explained below, or a single
+//! line where there is no room.
+
+use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
+
+use super::{print, wrap};
+use crate::tui::app::{App, Mode};
+use crate::tui::knobs::{KNOBS, Knob};
+use crate::tui::theme::Role;
+
+/// Rows below the list that explain the selected knob.
+const NOTES: u16 = 4;
+
+/// Draws the column.
+pub fn panel(app: &App, buffer: &mut Buffer, area: Rect) {
+    let area = Rect { width: area.width.saturating_sub(1), ..area };
+    let notes = notes(app, usize::from(area.width));
+    let wanted = u16::try_from(notes.len()).unwrap_or(NOTES).clamp(NOTES, area.height / 2);
+    let rows = area.height.saturating_sub(wanted);
+    // Keep the selected knob in sight.
+    let first = (app.knob + 1).saturating_sub(usize::from(rows));
+    for (row, (place, knob)) in (0..rows).zip(KNOBS.iter().enumerate().skip(first)) {
+        line(app, buffer, Rect { y: area.y + row, height: 1, ..area }, place, knob);
+    }
+    for (row, (text, role)) in (rows..area.height).zip(notes) {
+        print(buffer, area, row, &text, app.skin.style(role));
+    }
+}
+
+fn line(app: &App, buffer: &mut Buffer, area: Rect, place: usize, knob: &Knob) {
+    let skin = &app.skin;
+    let selected = place == app.knob;
+    let value = knob.get(&app.scene);
+    let changed = if value == knob.get(&app.opened) { ' ' } else { '*' };
+    let sign = if selected { skin.either('▸', '>') } else { ' ' };
+    let label = skin.spell(&format!("{sign}{}{changed}", knob.label));
+    let shown = match (&app.mode, selected) {
+        (Mode::Typing(text), true) => format!("{text}_"),
+        _ => skin.spell(&knob.shown(&value)),
+    };
+    let width = usize::from(area.width);
+    let room = width.saturating_sub(label.chars().count() + 1);
+    // The end of a typed value is where the eye is.
+    let skip = shown.chars().count().saturating_sub(room);
+    let shown: String = shown.chars().skip(skip).collect();
+    let pad = width.saturating_sub(label.chars().count() + shown.chars().count());
+    let text = format!("{label}{}{shown}", " ".repeat(pad));
+    let style = match (selected, changed == '*') {
+        (true, _) => skin.style(Role::Focus).add_modifier(Modifier::REVERSED),
+        (false, true) => skin.style(Role::Text).add_modifier(Modifier::BOLD),
+        (false, false) => skin.style(Role::Text),
+    };
+    print(buffer, area, 0, &text, style);
+}
+
+/// What the selected knob is, what it may hold, and why a value was refused.
+fn notes(app: &App, width: usize) -> Vec<(String, Role)> {
+    let Some(knob) = app.selected() else { return Vec::new() };
+    let mut lines = Vec::new();
+    if let Some(refusal) = &app.refusal {
+        lines.extend(wrap(&app.skin.spell(refusal), width).into_iter().map(|l| (l, Role::Trouble)));
+        return lines;
+    }
+    let unit = if knob.unit().is_empty() { String::new() } else { format!(" [{}]", knob.unit()) };
+    let what = app.skin.spell(&format!("{}{unit}", knob.what()));
+    lines.extend(wrap(&what, width).into_iter().map(|l| (l, Role::Quiet)));
+    if let Some(allowed) = knob.allowed() {
+        lines.extend(wrap(&allowed.to_string(), width).into_iter().map(|l| (l, Role::Quiet)));
+    }
+    lines
+}
+
+/// Draws the selected knob alone.
+pub fn strip(app: &App, buffer: &mut Buffer, area: Rect) {
+    let skin = &app.skin;
+    if let Some(refusal) = &app.refusal {
+        print(buffer, area, 0, &skin.spell(refusal), skin.style(Role::Trouble));
+        return;
+    }
+    let Some(knob) = app.selected() else { return };
+    let shown = match &app.mode {
+        Mode::Typing(text) => format!("{text}_"),
+        _ => knob.shown(&knob.get(&app.scene)),
+    };
+    let changed = if knob.get(&app.scene) == knob.get(&app.opened) { "" } else { "*" };
+    let text = format!("◄ {}{changed} {shown} ►  {}/{}", knob.label, app.knob + 1, KNOBS.len());
+    let style = skin.style(Role::Focus).add_modifier(Modifier::REVERSED);
+    print(buffer, area, 0, &skin.spell(&text), style);
+}

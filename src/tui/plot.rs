@@ -1,0 +1,333 @@
+//! A chart's frame and its mapping from numbers to places: axis lines, round
+//! ticks, and pens that draw only finite values. Panels put data on it.
+
+use ratatui::{
+    buffer::Buffer,
+    layout::{Position, Rect},
+    style::Style,
+};
+
+use super::axis::{Scale, ticks};
+use super::history::Span;
+use super::raster::{DASH, DASH_ON, Pen, Raster};
+use super::skin::Skin;
+use super::theme::Role;
+
+/// One axis: range, prefix, and the largest number of ticks.
+#[derive(Clone, Copy, Debug)]
+pub struct Axis {
+    /// Lower end.
+    pub low: f64,
+    /// Upper end.
+    pub high: f64,
+    /// Prefix of the labels.
+    pub scale: Scale,
+}
+
+impl Axis {
+    /// An axis whose labels carry the prefix of its greatest magnitude.
+    #[must_use]
+    pub fn scaled(low: f64, high: f64) -> Self {
+        Self { low, high, scale: Scale::of(low.abs().max(high.abs())) }
+    }
+
+    /// An axis without a prefix.
+    #[must_use]
+    pub fn plain(low: f64, high: f64) -> Self {
+        Self { low, high, scale: Scale::plain() }
+    }
+
+    fn is_sound(&self) -> bool {
+        self.low.is_finite() && self.high.is_finite() && self.high > self.low
+    }
+}
+
+/// A framed chart under construction.
+pub struct Plot<'a> {
+    buffer: &'a mut Buffer,
+    raster: Raster,
+    /// Where data goes.
+    pub inner: Rect,
+    x: Axis,
+    y: Axis,
+    rule: bool,
+}
+
+impl<'a> Plot<'a> {
+    /// Draws the frame in `area`; none where the area is too small or an axis
+    /// is not a proper range.
+    #[must_use]
+    pub fn new(buffer: &'a mut Buffer, area: Rect, x: Axis, y: Axis, skin: &Skin) -> Option<Self> {
+        if !x.is_sound() || !y.is_sound() || area.width < 10 || area.height < 3 {
+            return None;
+        }
+        let rule = area.height >= 7;
+        let below = if rule { 2 } else { 1 };
+        let rows = area.height - below;
+        let (y_ticks, y_step) = ticks(y.low, y.high, usize::from(rows.div_ceil(2)).clamp(1, 7));
+        let labels: Vec<String> = y_ticks.iter().map(|v| y.scale.label(*v, y_step)).collect();
+        let gutter = labels.iter().map(|label| label.chars().count()).max().unwrap_or(1).max(2);
+        let gutter = u16::try_from(gutter).unwrap_or(6).min(area.width / 2) + 1;
+        let inner = Rect::new(area.x + gutter, area.y, area.width - gutter, rows);
+        let quiet = skin.style(Role::Quiet);
+        let mut plot = Self { buffer, raster: Raster::new(inner, skin.marker), inner, x, y, rule };
+        let signs = skin.axis_signs();
+        for row in inner.y..inner.bottom() {
+            plot.put(inner.x - 1, row, signs.side, quiet);
+        }
+        for (value, label) in y_ticks.iter().zip(&labels) {
+            if let Some(row) = plot.row(*value) {
+                let start = inner.x - 1 - u16::try_from(label.chars().count()).unwrap_or(0);
+                plot.text(start.max(area.x), row, label, quiet);
+                plot.put(inner.x - 1, row, signs.side_tick, quiet);
+            }
+        }
+        plot.x_axis(rule, skin);
+        Some(plot)
+    }
+
+    fn x_axis(&mut self, rule: bool, skin: &Skin) {
+        let quiet = skin.style(Role::Quiet);
+        let signs = skin.axis_signs();
+        let inner = self.inner;
+        if rule {
+            self.put(inner.x - 1, inner.bottom(), signs.corner, quiet);
+            for column in inner.x..inner.right() {
+                self.put(column, inner.bottom(), signs.floor, quiet);
+            }
+        }
+        let labels_row = inner.bottom() + u16::from(rule);
+        let most = usize::from(inner.width / 9).clamp(1, 10);
+        let (values, step) = ticks(self.x.low, self.x.high, most);
+        let mut free = inner.x.saturating_sub(1);
+        for value in values {
+            let Some(column) = self.column(value) else { continue };
+            if rule {
+                self.put(column, inner.bottom(), signs.floor_tick, quiet);
+            }
+            let label = self.x.scale.label(value, step);
+            let width = u16::try_from(label.chars().count()).unwrap_or(0);
+            let start = column
+                .saturating_sub(width / 2)
+                .min(inner.right().saturating_sub(width))
+                .max(inner.x.saturating_sub(1));
+            if start >= free && start + width <= inner.right() {
+                self.text(start, labels_row, &label, quiet);
+                free = start + width + 1;
+            }
+        }
+    }
+
+    /// The row of the level axis line, where there is room for one.
+    #[must_use]
+    pub fn axis_row(&self) -> Option<u16> {
+        self.rule.then(|| self.inner.bottom())
+    }
+
+    /// The column of an x value inside the chart.
+    #[must_use]
+    pub fn column(&self, value: f64) -> Option<u16> {
+        let across = (value - self.x.low) / (self.x.high - self.x.low);
+        (-1e-9..=1.0 + 1e-9).contains(&across).then(|| {
+            let cells = f64::from(self.inner.width.saturating_sub(1));
+            self.inner.x + (across * cells).round().clamp(0.0, cells) as u16
+        })
+    }
+
+    /// The row of a y value inside the chart.
+    #[must_use]
+    pub fn row(&self, value: f64) -> Option<u16> {
+        let up = (value - self.y.low) / (self.y.high - self.y.low);
+        (-1e-9..=1.0 + 1e-9).contains(&up).then(|| {
+            let cells = f64::from(self.inner.height);
+            let from_top = ((1.0 - up) * cells).floor().clamp(0.0, cells - 1.0);
+            self.inner.y + from_top as u16
+        })
+    }
+
+    /// Sub-pixel columns across, for decimation by least and greatest value.
+    #[must_use]
+    pub fn columns(&self) -> usize {
+        self.raster.size().0
+    }
+
+    /// One x value per sub-pixel column, at its middle.
+    #[must_use]
+    pub fn column_values(&self) -> Vec<f64> {
+        let count = self.columns();
+        let width = (self.x.high - self.x.low) / count.max(1) as f64;
+        (0..count).map(|k| self.x.low + (k as f64 + 0.5) * width).collect()
+    }
+
+    fn pixel_x(&self, value: f64) -> f64 {
+        let across = (value - self.x.low) / (self.x.high - self.x.low);
+        across * (self.raster.size().0.saturating_sub(1)) as f64
+    }
+
+    fn pixel_y(&self, value: f64) -> f64 {
+        let up = (value - self.y.low) / (self.y.high - self.y.low);
+        (1.0 - up) * (self.raster.size().1.saturating_sub(1)) as f64
+    }
+
+    /// A polyline; a value that is not finite breaks it.
+    pub fn curve(&mut self, points: impl IntoIterator<Item = (f64, f64)>, pen: &Pen) {
+        let mut last: Option<(i64, i64)> = None;
+        for (x, y) in points {
+            let (x, y) = (self.pixel_x(x), self.pixel_y(y));
+            if !(x.is_finite() && y.is_finite()) {
+                last = None;
+                continue;
+            }
+            // Rounded, and bounded so that the whole number exists.
+            let here = (x.round().clamp(-1e5, 1e5) as i64, y.round().clamp(-1e5, 1e5) as i64);
+            self.raster.line(last.unwrap_or(here), here, pen);
+            last = Some(here);
+        }
+    }
+
+    /// A decimated signal, one span per sub-pixel column, joined to the next.
+    pub fn spans(&mut self, spans: &[Span], pen: &Pen) {
+        let mut last: Option<(i64, i64)> = None;
+        for (column, span) in spans.iter().enumerate() {
+            let Some((low, high)) = span else {
+                last = None;
+                continue;
+            };
+            let (bottom, top) = (self.pixel_y(*low), self.pixel_y(*high));
+            if !(bottom.is_finite() && top.is_finite()) {
+                last = None;
+                continue;
+            }
+            let (mut top, mut bottom) =
+                (top.round().clamp(-1e5, 1e5) as i64, bottom.round().clamp(-1e5, 1e5) as i64);
+            let shown = (top, bottom);
+            if let Some((last_top, last_bottom)) = last {
+                // Reach half way to the neighbour, so that steep parts do not break up.
+                if top > last_bottom + 1 {
+                    top = last_bottom + 1;
+                } else if bottom < last_top - 1 {
+                    bottom = last_top - 1;
+                }
+            }
+            let x = i64::try_from(column).unwrap_or(0);
+            if !pen.dashed || x.rem_euclid(DASH) < DASH_ON {
+                let solid = Pen { dashed: false, ..*pen };
+                self.raster.line((x, top), (x, bottom), &solid);
+            }
+            last = Some(shown);
+        }
+    }
+
+    /// A level across the chart, drawn before the data.
+    pub fn level(&mut self, y: f64, sign: char, style: Style) {
+        if let Some(row) = self.row(y) {
+            for column in self.inner.x..self.inner.right() {
+                self.put(column, row, sign, style);
+            }
+        }
+    }
+
+    /// An upright line, drawn before the data.
+    pub fn upright(&mut self, x: f64, sign: char, style: Style) {
+        if let Some(column) = self.column(x) {
+            for row in self.inner.y..self.inner.bottom() {
+                self.put(column, row, sign, style);
+            }
+        }
+    }
+
+    /// Puts the raster under whatever signs are drawn after.
+    pub fn ink(&mut self) {
+        self.raster.draw(self.buffer);
+    }
+
+    /// One sign at a data point; outside the chart it is left out.
+    pub fn point(&mut self, x: f64, y: f64, sign: char, style: Style) {
+        if let (Some(column), Some(row)) = (self.column(x), self.row(y)) {
+            self.put(column, row, sign, style);
+        }
+    }
+
+    /// A short text at a column of the chart, kept inside it.
+    pub fn note(&mut self, x: f64, row: u16, text: &str, style: Style) {
+        let Some(column) = self.column(x) else { return };
+        let width = u16::try_from(text.chars().count()).unwrap_or(u16::MAX);
+        if width > self.inner.width || row >= self.inner.bottom() {
+            return;
+        }
+        self.text(column.min(self.inner.right() - width), row, text, style);
+    }
+
+    fn put(&mut self, x: u16, y: u16, sign: char, style: Style) {
+        if let Some(cell) = self.buffer.cell_mut(Position::new(x, y)) {
+            cell.set_char(sign).set_style(style);
+        }
+    }
+
+    /// Text at a place; what does not fit is cut.
+    pub fn text(&mut self, x: u16, y: u16, text: &str, style: Style) {
+        let area = *self.buffer.area();
+        if y < area.bottom() && x < area.right() {
+            self.buffer.set_stringn(x, y, text, usize::from(area.right() - x), style);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tui::{raster::Marker, theme::Theme};
+    use proptest::prelude::*;
+
+    fn skin() -> Skin {
+        Skin { theme: Theme::Mono, marker: Marker::Ascii }
+    }
+
+    #[test]
+    fn ends_of_the_axes_are_the_ends_of_the_chart() {
+        let mut buffer = Buffer::empty(Rect::new(0, 0, 40, 12));
+        let area = *buffer.area();
+        let axis = Axis::plain(0.0, 500.0);
+        let plot = Plot::new(&mut buffer, area, axis, Axis::plain(-1.0, 1.0), &skin()).unwrap();
+        assert_eq!(plot.column(0.0), Some(plot.inner.x));
+        assert_eq!(plot.column(500.0), Some(plot.inner.right() - 1));
+        assert_eq!(plot.row(1.0), Some(plot.inner.y));
+        assert_eq!(plot.row(-1.0), Some(plot.inner.bottom() - 1));
+        assert_eq!(plot.column(501.0), None);
+    }
+
+    #[test]
+    fn axes_that_are_no_ranges_are_refused() {
+        let mut buffer = Buffer::empty(Rect::new(0, 0, 40, 12));
+        let area = *buffer.area();
+        let good = Axis::plain(0.0, 1.0);
+        for bad in [Axis::plain(1.0, 0.0), Axis::plain(f64::NAN, 1.0), Axis::plain(2.0, 2.0)] {
+            assert!(Plot::new(&mut buffer, area, bad, good, &skin()).is_none());
+            assert!(Plot::new(&mut buffer, area, good, bad, &skin()).is_none());
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn any_numbers_at_any_size_are_drawn_without_panic(
+            width in 0u16..80, height in 0u16..40, xs in proptest::collection::vec(proptest::num::f64::ANY, 8),
+            low in proptest::num::f64::ANY, high in proptest::num::f64::ANY,
+        ) {
+            let mut buffer = Buffer::empty(Rect::new(0, 0, width, height));
+            let area = *buffer.area();
+            let pen = Pen { style: Style::new(), sign: '*', dashed: true };
+            let skin = Skin { theme: Theme::Dark, marker: Marker::Braille };
+            if let Some(mut plot) = Plot::new(&mut buffer, area, Axis::scaled(low, high), Axis::plain(-1.0, 1.0), &skin) {
+                plot.curve(xs.iter().map(|x| (*x, *x)), &pen);
+                plot.spans(&xs.iter().map(|x| Some((*x, *x))).collect::<Vec<_>>(), &pen);
+                for x in &xs {
+                    plot.point(*x, *x, 'o', Style::new());
+                    plot.note(*x, 0, "here", Style::new());
+                    plot.level(*x, '-', Style::new());
+                    plot.upright(*x, '|', Style::new());
+                }
+                plot.ink();
+            }
+        }
+    }
+}

@@ -1,0 +1,226 @@
+//! A grid of sub-pixels over terminal cells: braille, octants, half blocks,
+//! dots or plain ASCII. It takes numbers only after they became whole pixels,
+//! so nothing that is not a number can reach the screen.
+
+use ratatui::{
+    buffer::Buffer,
+    layout::{Position, Rect},
+    style::Style,
+    symbols::{braille::BRAILLE, pixel::OCTANTS},
+};
+
+/// How points are drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Marker {
+    /// Two by four dots a cell.
+    #[default]
+    Braille,
+    /// Two by four blocks a cell; needs a recent font.
+    Octant,
+    /// One by two blocks a cell.
+    HalfBlock,
+    /// One round dot a cell.
+    Dot,
+    /// One ASCII sign a cell, a different one for each series.
+    Ascii,
+}
+
+impl Marker {
+    /// The words of the command line, in the order `m` steps through them.
+    pub const WORDS: &'static [&'static str] = &["braille", "octant", "halfblock", "dot", "ascii"];
+    const ALL: [Self; 5] = [Self::Braille, Self::Octant, Self::HalfBlock, Self::Dot, Self::Ascii];
+
+    /// The marker a word stands for.
+    #[must_use]
+    pub fn from_word(word: &str) -> Option<Self> {
+        Self::WORDS.iter().zip(Self::ALL).find(|(name, _)| **name == word).map(|(_, marker)| marker)
+    }
+
+    /// Its word.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        Self::WORDS
+            .iter()
+            .zip(Self::ALL)
+            .find(|(_, marker)| *marker == self)
+            .map_or("", |(word, _)| *word)
+    }
+
+    /// The next marker.
+    #[must_use]
+    pub fn next(self) -> Self {
+        let place = Self::ALL.iter().position(|marker| *marker == self).unwrap_or(0);
+        Self::ALL.into_iter().cycle().nth(place + 1).unwrap_or(self)
+    }
+
+    /// Sub-pixels of one cell, across and down.
+    #[must_use]
+    pub fn grain(self) -> (usize, usize) {
+        match self {
+            Self::Braille | Self::Octant => (2, 4),
+            Self::HalfBlock => (1, 2),
+            Self::Dot | Self::Ascii => (1, 1),
+        }
+    }
+}
+
+/// How one series is drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct Pen {
+    /// Colour and weight.
+    pub style: Style,
+    /// The sign of this series where only ASCII is drawn.
+    pub sign: char,
+    /// Every other stretch is left out, so that two series differ without colour.
+    pub dashed: bool,
+}
+
+#[derive(Clone, Copy, Default)]
+struct Dots {
+    bits: u8,
+    sign: char,
+    style: Style,
+}
+
+/// A dashed pen repeats after this many sub-pixels across,
+pub(super) const DASH: i64 = 6;
+/// and draws so many of them.
+pub(super) const DASH_ON: i64 = 4;
+
+/// Sub-pixels over an area.
+pub struct Raster {
+    area: Rect,
+    marker: Marker,
+    dots: Vec<Dots>,
+}
+
+impl Raster {
+    /// An empty raster over `area`.
+    #[must_use]
+    pub fn new(area: Rect, marker: Marker) -> Self {
+        Self { area, marker, dots: vec![Dots::default(); area.area() as usize] }
+    }
+
+    /// Width and height in sub-pixels.
+    #[must_use]
+    pub fn size(&self) -> (usize, usize) {
+        let (across, down) = self.marker.grain();
+        (usize::from(self.area.width) * across, usize::from(self.area.height) * down)
+    }
+
+    /// Sets one sub-pixel, counted from the top left; outside is ignored.
+    pub fn set(&mut self, x: i64, y: i64, pen: &Pen) {
+        let (width, height) = self.size();
+        let (Ok(x), Ok(y)) = (usize::try_from(x), usize::try_from(y)) else { return };
+        if x >= width || y >= height {
+            return;
+        }
+        let (across, down) = self.marker.grain();
+        let cell = (y / down) * usize::from(self.area.width) + x / across;
+        if let Some(dots) = self.dots.get_mut(cell) {
+            dots.bits |= 1 << ((y % down) * across + x % across);
+            dots.sign = pen.sign;
+            dots.style = pen.style;
+        }
+    }
+
+    /// A straight line, dashed where the pen says so.
+    pub fn line(&mut self, from: (i64, i64), to: (i64, i64), pen: &Pen) {
+        // Ends far outside would make the walk long; nothing out there shows.
+        let bound = |v: i64| v.clamp(-20_000, 20_000);
+        let (x0, y0, x1, y1) = (bound(from.0), bound(from.1), bound(to.0), bound(to.1));
+        let steps = (x1 - x0).abs().max((y1 - y0).abs()).max(1);
+        for k in 0..=steps {
+            let x = x0 + ((x1 - x0) * k + (x1 - x0).signum() * steps / 2) / steps;
+            let y = y0 + ((y1 - y0) * k + (y1 - y0).signum() * steps / 2) / steps;
+            if !pen.dashed || x.rem_euclid(DASH) < DASH_ON {
+                self.set(x, y, pen);
+            }
+        }
+    }
+
+    /// Writes the dots into the buffer; cells without dots are left alone.
+    pub fn draw(&self, buffer: &mut Buffer) {
+        for (index, dots) in self.dots.iter().enumerate().filter(|(_, dots)| dots.bits != 0) {
+            let width = usize::from(self.area.width).max(1);
+            let (row, column) = (index / width, index % width);
+            let place = Position::new(
+                self.area.x.saturating_add(u16::try_from(column).unwrap_or(u16::MAX)),
+                self.area.y.saturating_add(u16::try_from(row).unwrap_or(u16::MAX)),
+            );
+            let sign = match self.marker {
+                Marker::Braille => BRAILLE.get(usize::from(dots.bits)).copied().unwrap_or(' '),
+                Marker::Octant => OCTANTS.get(usize::from(dots.bits)).copied().unwrap_or(' '),
+                Marker::HalfBlock => match dots.bits {
+                    1 => '▀',
+                    2 => '▄',
+                    _ => '█',
+                },
+                Marker::Dot => '•',
+                Marker::Ascii => dots.sign,
+            };
+            if let Some(cell) = buffer.cell_mut(place) {
+                cell.set_char(sign).set_style(dots.style);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PEN: Pen = Pen { style: Style::new(), sign: '*', dashed: false };
+
+    fn drawn(marker: Marker, draw: impl Fn(&mut Raster)) -> String {
+        let area = Rect::new(0, 0, 4, 2);
+        let mut raster = Raster::new(area, marker);
+        draw(&mut raster);
+        let mut buffer = Buffer::empty(area);
+        raster.draw(&mut buffer);
+        buffer.content.iter().map(|cell| cell.symbol().to_string()).collect()
+    }
+
+    #[test]
+    fn one_corner_dot_in_every_marker() {
+        assert_eq!(drawn(Marker::Braille, |r| r.set(0, 0, &PEN)), "⠁       ");
+        assert_eq!(drawn(Marker::HalfBlock, |r| r.set(0, 1, &PEN)), "▄       ");
+        assert_eq!(drawn(Marker::Dot, |r| r.set(3, 1, &PEN)), "       •");
+        assert_eq!(drawn(Marker::Ascii, |r| r.set(1, 0, &PEN)), " *      ");
+        assert_eq!(
+            drawn(Marker::Octant, |r| (0..8).for_each(|k| r.set(k % 2, k / 2, &PEN))),
+            "█       "
+        );
+    }
+
+    #[test]
+    fn anything_outside_is_ignored() {
+        let blank = " ".repeat(8);
+        assert_eq!(drawn(Marker::Braille, |r| r.set(-1, 0, &PEN)), blank);
+        assert_eq!(drawn(Marker::Braille, |r| r.set(8, 0, &PEN)), blank);
+        let far = |r: &mut Raster| r.line((i64::MIN / 4, -5), (i64::MAX / 4, -5), &PEN);
+        assert_eq!(drawn(Marker::Braille, far), blank);
+    }
+
+    #[test]
+    fn a_line_crosses_every_column_and_a_dashed_one_does_not() {
+        let full = drawn(Marker::Ascii, |r| r.line((0, 0), (3, 0), &PEN));
+        assert_eq!(full, "****    ");
+        let dashed = drawn(Marker::Ascii, |r| r.line((0, 0), (3, 0), &Pen { dashed: true, ..PEN }));
+        assert_eq!(dashed, "****    ");
+        let area = Rect::new(0, 0, 12, 1);
+        let mut raster = Raster::new(area, Marker::Ascii);
+        raster.line((0, 0), (11, 0), &Pen { dashed: true, ..PEN });
+        let mut buffer = Buffer::empty(area);
+        raster.draw(&mut buffer);
+        assert_eq!(buffer, Buffer::with_lines(["****  ****  "]));
+    }
+
+    #[test]
+    fn words_name_every_marker() {
+        for word in Marker::WORDS {
+            assert_eq!(Marker::from_word(word).unwrap().word(), *word);
+        }
+        assert_eq!(Marker::from_word("nothing"), None);
+    }
+}

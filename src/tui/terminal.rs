@@ -1,0 +1,126 @@
+//! Taking the terminal and giving it back, on every way out.
+
+use std::io::{BufWriter, Stdout, Write, stdout};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use crossterm::{
+    cursor::{Hide, Show},
+    execute,
+    terminal::{EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode},
+};
+use ratatui::{Terminal, backend::CrosstermBackend};
+
+use super::worker::WORKER_NAME;
+
+/// Whether the terminal is ours now.
+static TAKEN: AtomicBool = AtomicBool::new(false);
+
+/// A frame is written in one piece.
+const FRAME_BYTES: usize = 1 << 16;
+
+/// The terminal of the explorer.
+pub type Screen = Terminal<CrosstermBackend<BufWriter<Stdout>>>;
+
+/// Raw keys, the alternate screen, no cursor.
+///
+/// # Errors
+/// The terminal refuses.
+pub fn enter() -> std::io::Result<()> {
+    enable_raw_mode()?;
+    TAKEN.store(true, Ordering::SeqCst);
+    execute!(stdout(), EnterAlternateScreen, Hide)
+}
+
+/// Gives the terminal back; may be called at any time, from any thread, and
+/// on a terminal that is gone.
+pub fn leave() {
+    if TAKEN.swap(false, Ordering::SeqCst) {
+        // There is nobody left to tell about an error here.
+        let mut out = stdout();
+        let _ = execute!(out, LeaveAlternateScreen, Show);
+        let _ = out.flush();
+        let _ = disable_raw_mode();
+    }
+}
+
+/// Opens the screen on standard output.
+///
+/// # Errors
+/// The terminal refuses.
+pub fn open() -> std::io::Result<Screen> {
+    enter()?;
+    Terminal::new(CrosstermBackend::new(BufWriter::with_capacity(FRAME_BYTES, stdout())))
+}
+
+/// A panic gives the terminal back before it is reported. The worker's panics
+/// are caught and shown on the screen: the hook keeps quiet about them.
+pub fn install_panic_hook() {
+    let report = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |info| {
+        if std::thread::current().name() == Some(WORKER_NAME) {
+            return;
+        }
+        leave();
+        report(info);
+    }));
+}
+
+/// Gives the terminal back when dropped.
+pub struct Guard;
+
+impl Drop for Guard {
+    fn drop(&mut self) {
+        leave();
+    }
+}
+
+/// What the run loop needs beside a backend: suspending the job.
+pub trait Host {
+    /// Gives the terminal to the shell until the job is continued.
+    ///
+    /// # Errors
+    /// The terminal cannot be taken back.
+    fn suspend(&mut self) -> std::io::Result<()>;
+    /// Takes the terminal again after the job was continued from outside.
+    ///
+    /// # Errors
+    /// The terminal cannot be taken back.
+    fn resume(&mut self) -> std::io::Result<()>;
+}
+
+/// A host without a terminal, for tests.
+#[derive(Debug, Default)]
+pub struct NoHost;
+
+impl Host for NoHost {
+    fn suspend(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+    fn resume(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
+/// The real terminal and its shell.
+#[derive(Debug, Default)]
+pub struct Shell;
+
+impl Host for Shell {
+    #[cfg(unix)]
+    fn suspend(&mut self) -> std::io::Result<()> {
+        leave();
+        signal_hook::low_level::emulate_default_handler(signal_hook::consts::SIGTSTP)?;
+        enter()
+    }
+
+    #[cfg(not(unix))]
+    fn suspend(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+
+    fn resume(&mut self) -> std::io::Result<()> {
+        // Whatever the shell did to the terminal in between is undone.
+        leave();
+        enter()
+    }
+}

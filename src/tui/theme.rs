@@ -1,0 +1,136 @@
+//! Colours by role, never by place. Every theme names the same eight roles;
+//! whatever a colour says is also said by a sign, a word or a line style.
+
+use ratatui::style::{Color, Modifier, Style};
+
+/// What a colour is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// Ordinary text.
+    Text,
+    /// Axes, frames, units: there, but not in the way.
+    Quiet,
+    /// What the keyboard acts on.
+    Focus,
+    /// The first series of a chart.
+    First,
+    /// The second series of a chart.
+    Second,
+    /// Blades in contact, and their forces.
+    Contact,
+    /// Good news.
+    Good,
+    /// Trouble: refused values, pulls, failures.
+    Trouble,
+}
+
+/// A named set of colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Theme {
+    /// Light text on a dark ground.
+    Dark,
+    /// Dark text on a light ground.
+    Light,
+    /// No colours: bold, dim, reverse and underline only.
+    Mono,
+    /// Blue and orange (yellow), safe for the common colour blindnesses.
+    ColourBlind,
+}
+
+impl Theme {
+    /// All themes, in the order `t` steps through them.
+    pub const ALL: [Self; 4] = [Self::Dark, Self::Light, Self::ColourBlind, Self::Mono];
+
+    /// The name on screen.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Dark => "dark",
+            Self::Light => "light",
+            Self::Mono => "mono",
+            Self::ColourBlind => "colour-blind",
+        }
+    }
+
+    /// The next theme.
+    #[must_use]
+    pub fn next(self) -> Self {
+        let place = Self::ALL.iter().position(|theme| *theme == self).unwrap_or(0);
+        Self::ALL.into_iter().cycle().nth(place + 1).unwrap_or(self)
+    }
+
+    /// Style of a role. The sixteen named colours only: the user's palette
+    /// decides what they look like.
+    #[must_use]
+    pub fn style(self, role: Role) -> Style {
+        let colour = match (self, role) {
+            (Self::Mono, _) | (_, Role::Text) => Color::Reset,
+            (Self::Dark, Role::Quiet) => Color::DarkGray,
+            (Self::Dark, Role::Focus) => Color::LightYellow,
+            (Self::Dark, Role::First) => Color::LightCyan,
+            (Self::Dark, Role::Second) => Color::LightMagenta,
+            (Self::Dark, Role::Contact) => Color::LightRed,
+            (Self::Dark, Role::Good) => Color::LightGreen,
+            (Self::Dark, Role::Trouble) => Color::LightRed,
+            (Self::Light, Role::Quiet) => Color::DarkGray,
+            (Self::Light, Role::Focus) => Color::Blue,
+            (Self::Light, Role::First) => Color::Blue,
+            (Self::Light, Role::Second) => Color::Magenta,
+            (Self::Light, Role::Contact) => Color::Red,
+            (Self::Light, Role::Good) => Color::Green,
+            (Self::Light, Role::Trouble) => Color::Red,
+            (Self::ColourBlind, Role::Quiet) => Color::DarkGray,
+            (Self::ColourBlind, Role::Focus) => Color::LightYellow,
+            (Self::ColourBlind, Role::First) => Color::LightBlue,
+            (Self::ColourBlind, Role::Second) => Color::Yellow,
+            (Self::ColourBlind, Role::Contact) => Color::LightYellow,
+            (Self::ColourBlind, Role::Good) => Color::LightBlue,
+            (Self::ColourBlind, Role::Trouble) => Color::LightYellow,
+        };
+        let weight = match role {
+            Role::Quiet if self == Self::Mono => Modifier::DIM,
+            Role::Focus | Role::Contact | Role::Trouble => Modifier::BOLD,
+            _ => Modifier::empty(),
+        };
+        Style::new().fg(colour).add_modifier(weight)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ROLES: [Role; 8] = [
+        Role::Text,
+        Role::Quiet,
+        Role::Focus,
+        Role::First,
+        Role::Second,
+        Role::Contact,
+        Role::Good,
+        Role::Trouble,
+    ];
+
+    #[test]
+    fn no_theme_uses_colours_the_user_did_not_choose() {
+        for theme in Theme::ALL {
+            for role in ROLES {
+                let colour = theme.style(role).fg.unwrap();
+                assert!(
+                    !matches!(colour, Color::Rgb(..) | Color::Indexed(_)),
+                    "{theme:?} {role:?}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn mono_has_no_colour_at_all_and_the_cycle_visits_every_theme() {
+        assert!(ROLES.iter().all(|role| Theme::Mono.style(*role).fg == Some(Color::Reset)));
+        let mut theme = Theme::Dark;
+        for _ in 0..Theme::ALL.len() {
+            theme = theme.next();
+        }
+        assert_eq!(theme, Theme::Dark);
+    }
+}

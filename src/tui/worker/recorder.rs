@@ -1,0 +1,91 @@
+//! Turns a motion that is looked at now and then into bins of least and
+//! greatest values, and averages its contact forces between snapshots.
+
+use crate::motion::{Motion, Touching};
+use crate::tui::history::{Bin, CHANNELS, MOST_BINS, thin};
+
+/// Records one motion.
+#[derive(Debug, Default)]
+pub struct Recorder {
+    done: Vec<Bin>,
+    open: Option<Bin>,
+    impacts: u64,
+    tensile: u64,
+    last: Option<f64>,
+    sums: Vec<(u32, f64)>,
+    over: f64,
+    means: Vec<(u32, f64)>,
+}
+
+impl Recorder {
+    /// Looks at the motion now; bins are closed after `length` seconds.
+    pub fn look(&mut self, motion: &mut Motion, length: f64) {
+        let state = motion.state();
+        let forces = motion.take_mean_forces();
+        let push: f64 = forces.iter().map(|(_, force)| -force).sum();
+        let mut values = [0.0; CHANNELS];
+        let gap = motion.blade_gaps().into_iter().fold(f64::INFINITY, f64::min);
+        let speed = motion.rotor().speed(state.t_s);
+        let seen = [
+            state.u[0],
+            state.u[1],
+            state.alpha[0],
+            state.alpha[1],
+            gap,
+            state.amplitude(),
+            push,
+            speed,
+        ];
+        for (slot, value) in values.iter_mut().zip(seen) {
+            *slot = value;
+        }
+        let mut bin = Bin::of(self.last.unwrap_or(state.t_s), values);
+        bin.to = state.t_s;
+        let log = motion.contacts();
+        bin.contact = log.touching != Touching::Nothing || log.impact_count > self.impacts;
+        bin.tensile = log.tensile_steps > self.tensile;
+        (self.impacts, self.tensile) = (log.impact_count, log.tensile_steps);
+        self.average(&forces, bin.to - bin.from);
+        self.last = Some(state.t_s);
+        match &mut self.open {
+            Some(open) => open.join(&bin),
+            None => self.open = Some(bin),
+        }
+        if self.open.is_some_and(|open| open.to - open.from >= length) {
+            self.done.extend(self.open.take());
+            if self.done.len() > MOST_BINS {
+                thin(&mut self.done);
+            }
+        }
+    }
+
+    fn average(&mut self, forces: &[(u32, f64)], elapsed: f64) {
+        if elapsed.is_nan() || elapsed <= 0.0 {
+            return;
+        }
+        self.over += elapsed;
+        for (side, force) in forces.iter().filter(|(_, force)| force.is_finite()) {
+            match self.sums.iter_mut().find(|(known, _)| known == side) {
+                Some((_, sum)) => *sum += force * elapsed,
+                None => self.sums.push((*side, force * elapsed)),
+            }
+        }
+    }
+
+    /// The closed bins since last asked.
+    pub fn take_bins(&mut self) -> Vec<Bin> {
+        std::mem::take(&mut self.done)
+    }
+
+    /// Mean force on each side since last asked; the former means while
+    /// nothing has moved.
+    pub fn mean_forces(&mut self) -> Vec<(u32, f64)> {
+        if self.over > 0.0 {
+            self.means = self.sums.iter().map(|(side, sum)| (*side, sum / self.over)).collect();
+            self.means.sort_by_key(|(side, _)| *side);
+            self.sums.clear();
+            self.over = 0.0;
+        }
+        self.means.clone()
+    }
+}

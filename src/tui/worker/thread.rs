@@ -1,0 +1,237 @@
+//! The worker thread: one slot with the latest order, one with the latest
+//! snapshot. Neither side waits for the other: a newer order replaces an older
+//! one, and a snapshot nobody took is joined with the next.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use super::Player;
+use crate::tui::engine::{Engine, Nudge, Order, Snapshot};
+use crate::tui::history::{MOST_BINS, thin};
+
+/// Name of the thread: the panic hook leaves the screen alone for it.
+pub const WORKER_NAME: &str = "rubscope-worker";
+
+/// Time between two looks at the clock while the motion plays.
+const BEAT: Duration = Duration::from_millis(33);
+/// Most wall time one beat may make up for, after a suspension for instance.
+const LONGEST_BEAT: Duration = Duration::from_millis(100);
+
+#[derive(Default)]
+struct Slots {
+    order: Option<Order>,
+    snapshot: Option<Snapshot>,
+    quit: bool,
+}
+
+#[derive(Default)]
+struct Shared {
+    slots: Mutex<Slots>,
+    wake: Condvar,
+}
+
+impl Shared {
+    /// A poisoned lock holds plain values that are replaced whole: still sound.
+    fn lock(&self) -> MutexGuard<'_, Slots> {
+        self.slots.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// A handle on the thread; dropping it ends the thread at its next beat.
+pub struct Worker {
+    shared: Arc<Shared>,
+}
+
+impl Worker {
+    /// Starts the thread. `nudge` is called when a first snapshot is ready
+    /// after the last one was taken.
+    ///
+    /// # Errors
+    /// The system gives no thread.
+    pub fn spawn(nudge: Nudge) -> std::io::Result<Self> {
+        let shared = Arc::new(Shared::default());
+        let theirs = Arc::clone(&shared);
+        std::thread::Builder::new()
+            .name(WORKER_NAME.to_string())
+            .spawn(move || run(&theirs, &nudge))?;
+        Ok(Self { shared })
+    }
+}
+
+impl Engine for Worker {
+    fn order(&mut self, order: &Order) {
+        self.shared.lock().order = Some(order.clone());
+        self.shared.wake.notify_one();
+    }
+
+    fn take(&mut self) -> Option<Snapshot> {
+        self.shared.lock().snapshot.take()
+    }
+}
+
+impl Drop for Worker {
+    fn drop(&mut self) {
+        self.shared.lock().quit = true;
+        self.shared.wake.notify_one();
+    }
+}
+
+fn run(shared: &Shared, nudge: &Nudge) {
+    let mut player: Option<Player> = None;
+    let mut playing = None;
+    loop {
+        let busy = player.as_ref().is_some_and(Player::is_computing);
+        let Some(order) = next_order(shared, busy, playing.is_some()) else { return };
+        let beat = guarded(|| {
+            let fresh = order.is_some();
+            if let Some(order) = order {
+                playing = order
+                    .playing
+                    .then(|| (playing.map_or_else(Instant::now, |(at, _)| at), order.rate));
+                match &mut player {
+                    Some(player) => player.apply(&order),
+                    None => player = Some(Player::new(order)),
+                }
+            }
+            let player = player.as_mut()?;
+            let mut moved = fresh;
+            if let Some((last, rate)) = playing.as_mut() {
+                let elapsed = last.elapsed();
+                if elapsed >= BEAT {
+                    *last = Instant::now();
+                    player.play(elapsed.min(LONGEST_BEAT).as_secs_f64() * *rate);
+                    moved = true;
+                }
+            }
+            if player.is_computing() {
+                player.compute();
+                moved = true;
+            }
+            moved.then(|| player.snapshot())
+        });
+        match beat {
+            Ok(None) => {}
+            Ok(Some(snapshot)) => publish(shared, snapshot, nudge),
+            Err(trouble) => {
+                player = None;
+                playing = None;
+                publish(shared, Snapshot { trouble: Some(trouble), ..Snapshot::default() }, nudge);
+            }
+        }
+    }
+}
+
+/// The next order, if there is one; waits when there is nothing to do. The
+/// outer option is none when the thread shall end.
+fn next_order(shared: &Shared, busy: bool, playing: bool) -> Option<Option<Order>> {
+    let mut slots = shared.lock();
+    if slots.order.is_none() && !slots.quit && !busy {
+        slots = if playing {
+            shared.wake.wait_timeout(slots, BEAT).unwrap_or_else(PoisonError::into_inner).0
+        } else {
+            shared.wake.wait(slots).unwrap_or_else(PoisonError::into_inner)
+        };
+    }
+    if slots.quit { None } else { Some(slots.order.take()) }
+}
+
+fn publish(shared: &Shared, mut snapshot: Snapshot, nudge: &Nudge) {
+    let first = {
+        let mut slots = shared.lock();
+        let waiting = slots.snapshot.take();
+        let first = waiting.is_none();
+        if let Some(waiting) = waiting
+            && waiting.restarts == snapshot.restarts
+        {
+            let mut bins = waiting.bins;
+            bins.append(&mut snapshot.bins);
+            if bins.len() > MOST_BINS {
+                thin(&mut bins);
+            }
+            snapshot.bins = bins;
+            snapshot.trouble = snapshot.trouble.or(waiting.trouble);
+        }
+        slots.snapshot = Some(snapshot);
+        first
+    };
+    if first {
+        nudge();
+    }
+}
+
+/// Runs `work`; a panic comes back as a line of text.
+fn guarded<T>(work: impl FnOnce() -> T) -> Result<T, String> {
+    catch_unwind(AssertUnwindSafe(work)).map_err(|payload| {
+        let what = payload
+            .downcast_ref::<&str>()
+            .map(ToString::to_string)
+            .or_else(|| payload.downcast_ref::<String>().cloned())
+            .unwrap_or_else(|| "unknown reason".to_string());
+        format!("the solver broke off ({what}); r begins anew")
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+    use crate::tui::engine::Ahead;
+
+    fn order(speed: f64, restarts: u64) -> Order {
+        let mut scene = Scene::default();
+        scene.operation.speed_rad_s = speed;
+        scene.solver.step_s = 1e-6;
+        Order {
+            scene,
+            restarts,
+            changes: 0,
+            steps: 0,
+            jumps: 0,
+            pulses: 0,
+            playing: false,
+            rate: 5e-3,
+            bin_s: 2e-5,
+            beside: false,
+        }
+    }
+
+    #[test]
+    fn a_knob_turned_twenty_times_computes_the_last_value() {
+        let mut worker = Worker::spawn(Arc::new(|| {})).unwrap();
+        for turn in 0..20 {
+            worker.order(&order(400.0 + f64::from(turn), u64::from(turn as u32)));
+        }
+        // Bounded by patience, not by speed: the last order must come through.
+        for _ in 0..10_000 {
+            if let Some(snapshot) = worker.take()
+                && snapshot.generation == 19
+                && matches!(snapshot.ahead, Some(Ahead::Done(_)))
+            {
+                assert_eq!(snapshot.moment.speed, 419.0);
+                return;
+            }
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        panic!("the last order never came through");
+    }
+
+    #[test]
+    fn a_panic_becomes_a_line() {
+        let line = guarded(|| -> () { panic!("no {}", "blades") }).unwrap_err();
+        assert!(line.contains("no blades"), "{line}");
+    }
+
+    #[test]
+    fn a_snapshot_nobody_took_keeps_its_bins() {
+        let shared = Shared::default();
+        let nudge: Nudge = Arc::new(|| {});
+        let bin = crate::tui::history::Bin::of(0.0, [0.0; 8]);
+        for _ in 0..3 {
+            publish(&shared, Snapshot { bins: vec![bin], ..Snapshot::default() }, &nudge);
+        }
+        assert_eq!(shared.lock().snapshot.as_ref().unwrap().bins.len(), 3);
+        publish(&shared, Snapshot { restarts: 1, bins: vec![bin], ..Snapshot::default() }, &nudge);
+        assert_eq!(shared.lock().snapshot.as_ref().unwrap().bins.len(), 1);
+    }
+}
