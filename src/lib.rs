@@ -26,8 +26,5 @@ pub mod model;
 pub mod motion;
 pub mod report;
 pub mod scene;
-<<<<<<< HEAD
 pub mod study;
-=======
 pub mod tui;
->>>>>>> 26cdc19 (Explorer: state, knobs, charts, worker and terminal handling)
