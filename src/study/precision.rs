@@ -1,0 +1,351 @@
+//! Speed against error: every solver, law and model size on one scene, each
+//! over its steps or tolerances, against the event solver as reference.
+//!
+//! The reference is itself checked by halving its tolerance. Where a tiny
+//! change of the pulse changes the outcome (a *sensitive* scene) end states
+//! mean nothing, and only verdicts are compared.
+
+use std::time::Instant;
+
+use serde::Serialize;
+
+use crate::motion::{Event, Motion, Settled, State, Verdict, is_sensitive, verdict};
+use crate::scene::{ContactLaw, ModelSize, Scene, SolverKind};
+
+/// Time steps tried \[s\].
+const STEPS: [f64; 5] = [1e-5, 1e-6, 5e-7, 1e-7, 1e-8];
+/// Tolerances of the event solver tried, relative to the size of the motion.
+const TOLERANCES: [f64; 4] = [1e-6, 1e-9, 1e-12, 1e-15];
+/// Impacts whose times are compared.
+const FIRST_IMPACTS: usize = 4;
+
+/// One way to solve the scene.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Way {
+    /// Which solver.
+    pub solver: SolverKind,
+    /// Which contact law.
+    pub contact: ContactLaw,
+    /// Which model size.
+    pub model: ModelSize,
+    /// Time step; none for the event solver \[s\].
+    pub step_s: Option<f64>,
+    /// Tolerance; none for the explicit solver.
+    pub tolerance: Option<f64>,
+}
+
+/// What one way gave, and at what cost.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Row {
+    /// How it was solved.
+    #[serde(flatten)]
+    pub way: Way,
+    /// `|u - u_ref|/g0` at the end; none on a sensitive scene or a failed run.
+    pub error_final: Option<f64>,
+    /// Largest error in the times of the first impacts \[s\]; none where they
+    /// are not the same blades.
+    pub error_impact_time_s: Option<f64>,
+    /// Deepest penetration of an accepted state \[m\].
+    pub max_penetration_m: f64,
+    /// Median wall time \[s\].
+    pub wall_s: f64,
+    /// Wall time a step \[ns\].
+    pub ns_per_step: Option<f64>,
+    /// Time steps.
+    pub steps: Option<u64>,
+    /// Changes of mode.
+    pub events: Option<u64>,
+    /// The verdict.
+    pub verdict: Verdict,
+    /// Whether it is the verdict of the reference.
+    pub verdict_right: bool,
+}
+
+/// What everything is measured against.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Reference {
+    /// Always the event solver under unilateral contact.
+    #[serde(flatten)]
+    pub way: Way,
+    /// Its verdict.
+    pub verdict: Verdict,
+    /// Its impacts.
+    pub impact_count: u64,
+    /// Whether the scene is sensitive.
+    pub sensitive: bool,
+    /// `|u - u_halved|/g0` at the end, with its tolerance halved.
+    pub error_halved: f64,
+    /// Median wall time \[s\].
+    pub wall_s: f64,
+}
+
+/// The whole comparison, as `precision --json` prints it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Precision {
+    /// `rubscope.precision/1`.
+    pub schema: &'static str,
+    /// The scene, its solver settings aside.
+    pub scene: Scene,
+    /// What everything is measured against.
+    pub reference: Reference,
+    /// One row a way.
+    pub rows: Vec<Row>,
+}
+
+/// How much effort to spend.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Effort {
+    /// Runs a row, for the median.
+    pub repeats: u32,
+    /// Smallest time step tried \[s\].
+    pub finest_s: f64,
+    /// Seconds after which a row is not repeated any more.
+    pub seconds: f64,
+}
+
+impl Default for Effort {
+    fn default() -> Self {
+        Self { repeats: 5, finest_s: 1e-8, seconds: 0.5 }
+    }
+}
+
+/// Every way to solve a scene, coarse to fine. Steps beyond the stability
+/// limit and other refused combinations are left out.
+#[must_use]
+pub fn ways(scene: &Scene, effort: Effort) -> Vec<Way> {
+    let mut ways = Vec::new();
+    for model in [ModelSize::Rigid, ModelSize::Modal, ModelSize::Full] {
+        for contact in [ContactLaw::Unilateral, ContactLaw::Bilateral] {
+            for step in STEPS.into_iter().filter(|&step| step >= effort.finest_s) {
+                let solver = SolverKind::Explicit;
+                ways.push(Way { solver, contact, model, step_s: Some(step), tolerance: None });
+            }
+        }
+    }
+    for model in [ModelSize::Rigid, ModelSize::Modal] {
+        for tolerance in TOLERANCES {
+            let (solver, contact) = (SolverKind::Event, ContactLaw::Unilateral);
+            ways.push(Way { solver, contact, model, step_s: None, tolerance: Some(tolerance) });
+        }
+    }
+    ways.retain(|way| way.of(scene).check().is_ok());
+    ways
+}
+
+impl Way {
+    /// The scene solved this way.
+    #[must_use]
+    pub fn of(&self, scene: &Scene) -> Scene {
+        let mut scene = scene.clone();
+        scene.solver.kind = self.solver;
+        scene.solver.contact = self.contact;
+        scene.solver.model = self.model;
+        if let Some(step) = self.step_s {
+            scene.solver.step_s = step;
+        }
+        scene
+    }
+
+    fn start(&self, scene: &Scene) -> Motion {
+        let scene = self.of(scene);
+        match self.tolerance {
+            Some(tolerance) => {
+                Motion::Event(Box::new(Event::new(&scene).with_tolerance(tolerance)))
+            }
+            None => Motion::new(&scene),
+        }
+    }
+
+    /// Runs to the end and times it.
+    fn run(&self, scene: &Scene) -> Run {
+        let started = Instant::now();
+        let mut motion = self.start(scene);
+        let failed = motion.advance(scene.solver.end_s).is_err();
+        let wall_s = started.elapsed().as_secs_f64();
+        let window = verdict::LAST_PART * scene.solver.end_s;
+        Run { verdict: crate::motion::verdict_of(&motion, window), failed, wall_s, motion }
+    }
+}
+
+/// One run to the end.
+struct Run {
+    motion: Motion,
+    verdict: Verdict,
+    failed: bool,
+    wall_s: f64,
+}
+
+/// The reference for a model size, ready to measure rows against.
+pub struct Measure {
+    scene: Scene,
+    reference: Reference,
+    runs: Vec<(ModelSize, Run)>,
+}
+
+impl Measure {
+    /// Solves the scene by the event solver, for rigid and for moving blades.
+    #[must_use]
+    pub fn new(scene: &Scene) -> Self {
+        let way = |model, tolerance| Way {
+            solver: SolverKind::Event,
+            contact: ContactLaw::Unilateral,
+            model,
+            step_s: None,
+            tolerance: Some(tolerance),
+        };
+        let finest = Event::new(scene).tolerance();
+        let model = match scene.solver.model {
+            ModelSize::Rigid => ModelSize::Rigid,
+            _ => ModelSize::Modal,
+        };
+        let chosen = way(model, finest);
+        let run = chosen.run(scene);
+        let halved = way(model, 0.5 * finest).run(scene);
+        let resolved = chosen.of(scene);
+        let settled =
+            Settled { verdict: run.verdict, impact_count: run.motion.contacts().impact_count };
+        let reference = Reference {
+            way: chosen,
+            verdict: run.verdict,
+            impact_count: settled.impact_count,
+            sensitive: is_sensitive(&resolved, settled),
+            error_halved: distance(&run.motion.state(), &halved.motion.state())
+                / run.motion.machine().clearance(),
+            wall_s: run.wall_s,
+        };
+        let runs = [ModelSize::Rigid, ModelSize::Modal]
+            .map(|model| (model, way(model, finest).run(scene)))
+            .into_iter()
+            .collect();
+        Self { scene: scene.clone(), reference, runs }
+    }
+
+    /// What everything is measured against.
+    #[must_use]
+    pub fn reference(&self) -> &Reference {
+        &self.reference
+    }
+
+    /// Solves the scene one way, repeatedly, and compares.
+    #[must_use]
+    pub fn row(&self, way: Way, effort: Effort) -> Row {
+        let first = way.run(&self.scene);
+        let mut walls = vec![first.wall_s];
+        while walls.len() < effort.repeats as usize && walls.iter().sum::<f64>() < effort.seconds {
+            walls.push(way.run(&self.scene).wall_s);
+        }
+        let wall_s = median(&mut walls);
+        let size = if way.model == ModelSize::Rigid { ModelSize::Rigid } else { ModelSize::Modal };
+        let reference = self.runs.iter().find(|(model, _)| *model == size).map(|(_, run)| run);
+        let comparable = !self.reference.sensitive && !first.failed;
+        let clearance = first.motion.machine().clearance();
+        let error_final = reference
+            .filter(|_| comparable)
+            .map(|run| distance(&run.motion.state(), &first.motion.state()) / clearance);
+        let steps = first.motion.steps();
+        Row {
+            way,
+            error_final,
+            error_impact_time_s: reference.and_then(|run| impact_error(&run.motion, &first.motion)),
+            max_penetration_m: first.motion.checks().max_penetration_m,
+            wall_s,
+            ns_per_step: steps.filter(|&n| n > 0).map(|n| 1e9 * wall_s / n as f64),
+            steps,
+            events: first.motion.events(),
+            verdict: first.verdict,
+            verdict_right: first.verdict == self.reference.verdict,
+        }
+    }
+
+    /// Puts rows together.
+    #[must_use]
+    pub fn report(self, rows: Vec<Row>) -> Precision {
+        let Self { scene, reference, .. } = self;
+        Precision { schema: "rubscope.precision/1", scene, reference, rows }
+    }
+}
+
+/// `|u_a - u_b|` \[m\].
+fn distance(a: &State, b: &State) -> f64 {
+    (a.u[0] - b.u[0]).hypot(a.u[1] - b.u[1])
+}
+
+/// Largest difference in the times of the first impacts, if they are of the
+/// same blades \[s\].
+fn impact_error(reference: &Motion, motion: &Motion) -> Option<f64> {
+    let (expected, found) = (&reference.contacts().impacts, &motion.contacts().impacts);
+    let count = expected.len().min(FIRST_IMPACTS);
+    if count == 0 || found.len() < count {
+        return None;
+    }
+    let pairs = || expected.iter().zip(found).take(count);
+    pairs()
+        .all(|(a, b)| a.side == b.side)
+        .then(|| pairs().fold(0.0_f64, |worst, (a, b)| worst.max((a.t_s - b.t_s).abs())))
+}
+
+fn median(values: &mut [f64]) -> f64 {
+    values.sort_by(f64::total_cmp);
+    let middle = values.len() / 2;
+    match values {
+        [] => 0.0,
+        _ if values.len() % 2 == 1 => values[middle],
+        _ => 0.5 * (values[middle - 1] + values[middle]),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn quick() -> Effort {
+        Effort { repeats: 1, finest_s: 1e-7, seconds: 0.0 }
+    }
+
+    fn rows(scene: &Scene, chosen: impl Fn(&Way) -> bool) -> (Reference, Vec<Row>) {
+        let measure = Measure::new(scene);
+        let rows = ways(scene, quick())
+            .into_iter()
+            .filter(chosen)
+            .map(|way| measure.row(way, quick()))
+            .collect();
+        (measure.reference().clone(), rows)
+    }
+
+    #[test]
+    fn errors_of_the_explicit_solver_fall_with_its_step() {
+        let (reference, rows) = rows(&Scene::default(), |way| {
+            way.model == ModelSize::Rigid
+                && way.contact == ContactLaw::Unilateral
+                && way.solver == SolverKind::Explicit
+        });
+        assert!(reference.error_halved < 1e-12 && !reference.sensitive);
+        let errors: Vec<f64> = rows.iter().map(|row| row.error_final.unwrap()).collect();
+        assert_eq!(errors.len(), 4);
+        assert!(errors.windows(2).all(|pair| pair[1] < pair[0]), "{errors:?}");
+        // Order one in contact: two decades of step, two decades of error.
+        assert!((errors[0] / errors[3]).log10() > 1.7, "{errors:?}");
+        assert!(rows.iter().all(|row| row.verdict_right));
+    }
+
+    #[test]
+    fn the_event_solver_is_exact_at_every_tolerance_that_is_tight() {
+        let (_, rows) = rows(&Scene::default(), |way| {
+            way.solver == SolverKind::Event && way.tolerance <= Some(1e-9)
+        });
+        assert!(rows.iter().all(|row| row.error_final.unwrap() < 1e-8), "{rows:?}");
+    }
+
+    #[test]
+    fn a_step_too_long_is_left_out() {
+        let mut scene = Scene::default();
+        scene.casing.modal_mass_kg = 2e-6;
+        assert!(ways(&scene, quick()).iter().all(|way| way.step_s.is_none_or(|h| h < 1e-5)));
+    }
+
+    #[test]
+    fn medians() {
+        assert_eq!(median(&mut [3.0, 1.0, 2.0]), 2.0);
+        assert_eq!(median(&mut [4.0, 1.0, 2.0, 3.0]), 2.5);
+    }
+}
