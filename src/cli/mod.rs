@@ -10,6 +10,7 @@ mod man;
 mod map;
 mod map_run;
 pub mod options;
+mod precision;
 pub mod range;
 mod run;
 mod scenes;
@@ -44,6 +45,7 @@ enum Command {
     Run(Box<run::Run>),
     Hbm(Box<hbm::Hbm>),
     Map(Box<map::MapCommand>),
+    Precision(Box<precision::PrecisionCommand>),
     Scenes(scenes::Scenes),
     Completions(completions::Completions),
     Man(man::Man),
@@ -69,6 +71,7 @@ fn dispatch(cli: Cli, out: &mut dyn Write) -> Done {
         Some(Command::Run(command)) => command.run(out),
         Some(Command::Hbm(command)) => command.run(out),
         Some(Command::Map(command)) => command.run(out),
+        Some(Command::Precision(command)) => command.run(out),
         Some(Command::Scenes(command)) => command.run(out),
         Some(Command::Completions(command)) => command.run(out),
         Some(Command::Man(command)) => command.run(out),

@@ -10,6 +10,8 @@ pub mod map;
 pub mod map_svg;
 pub mod npz;
 pub mod number;
+pub mod precision;
+pub mod precision_svg;
 pub mod summary;
 pub mod table;
 mod zip;

@@ -1,0 +1,93 @@
+//! `rubscope precision`: speed against error of every solver on one scene.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use anyhow::Context;
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::Done;
+use super::options::SceneOptions;
+use super::status::{Refusal, Status, say};
+use crate::report::{file, json, precision as report, precision_svg};
+use crate::study::precision::{Effort, Measure, Precision, ways};
+
+/// Measure every solver's speed against its error on a scene.
+#[derive(Args, Debug)]
+pub struct PrecisionCommand {
+    #[command(flatten)]
+    options: SceneOptions,
+    /// Print the measurements as JSON (rubscope.precision/1)
+    #[arg(long)]
+    json: bool,
+    /// Write the measurements to FILE: .csv, or .svg for the chart
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Runs of which the median time is taken
+    #[arg(long, value_name = "COUNT", default_value_t = 5,
+          value_parser = clap::value_parser!(u32).range(1..=1000))]
+    repeat: u32,
+    /// Smallest time step tried [s]
+    #[arg(long, value_name = "SECONDS", default_value_t = 1e-8)]
+    finest: f64,
+}
+
+impl PrecisionCommand {
+    pub(super) fn run(&self, out: &mut dyn Write) -> Done {
+        let scene = self.options.scene()?;
+        if self.finest.is_nan() || self.finest <= 0.0 {
+            return Err(Refusal::of("--finest", self.finest, "a time step above 0").into());
+        }
+        let is_svg = match self.out.as_deref().map(|path| (path, path.extension())) {
+            None => false,
+            Some((_, Some(end))) if end == "csv" => false,
+            Some((_, Some(end))) if end == "svg" => true,
+            Some((path, _)) => {
+                let allowed = "a file name ending in .csv or .svg";
+                return Err(Refusal::of("--out", path.display(), allowed).into());
+            }
+        };
+        let effort = Effort { repeats: self.repeat, finest_s: self.finest, ..Effort::default() };
+        let ways = ways(&scene, effort);
+        let bar = ProgressBar::new(ways.len() as u64);
+        if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}") {
+            bar.set_style(style);
+        }
+        let measure = Measure::new(&scene);
+        let mut rows = Vec::with_capacity(ways.len());
+        for way in ways {
+            bar.set_message(report::series(&way));
+            rows.push(measure.row(way, effort));
+            bar.inc(1);
+        }
+        bar.finish_and_clear();
+        self.deliver(&measure.report(rows), is_svg, out)
+    }
+
+    fn deliver(&self, measured: &Precision, is_svg: bool, out: &mut dyn Write) -> Done {
+        if self.json {
+            json::write(measured, out)?;
+        } else {
+            report::write(measured, out)?;
+        }
+        if let Some(path) = &self.out {
+            let shown = path.display();
+            let picture = if is_svg {
+                precision_svg::draw(measured).map_err(Refusal::because)?
+            } else {
+                String::new()
+            };
+            file::replace(path, |out| {
+                if is_svg {
+                    out.write_all(picture.as_bytes())
+                } else {
+                    report::table(measured).write_csv(out)
+                }
+            })
+            .with_context(|| format!("cannot write {shown}"))?;
+            say(&format!("rubscope: wrote {} rows to {shown}", measured.rows.len()));
+        }
+        Ok(Status::Done)
+    }
+}

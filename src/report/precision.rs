@@ -1,0 +1,213 @@
+//! Speed against error as a table, as CSV, and as a chart in text: log error
+//! against log time, one letter a series.
+
+use std::io::{Result, Write};
+
+use super::number::{short, time};
+use super::table::Table;
+use crate::scene::{ContactLaw, ModelSize, SolverKind};
+use crate::study::precision::{Precision, Row, Way};
+
+/// Size of the text chart.
+const COLUMNS: usize = 64;
+const ROWS: usize = 20;
+
+/// Smallest error shown; below it is round-off.
+pub const FLOOR: f64 = 1e-16;
+
+/// Letter of a series in the text chart: solver, law and model size.
+#[must_use]
+pub fn letter(way: &Way) -> char {
+    let base = match (way.solver, way.contact) {
+        (SolverKind::Event, _) => 'e',
+        (SolverKind::Explicit, ContactLaw::Unilateral) => 'u',
+        (SolverKind::Explicit, ContactLaw::Bilateral) => 'b',
+    };
+    match way.model {
+        ModelSize::Rigid => base,
+        ModelSize::Modal => base.to_ascii_uppercase(),
+        ModelSize::Full => match base {
+            'u' => '1',
+            _ => '2',
+        },
+    }
+}
+
+/// Name of a series.
+#[must_use]
+pub fn series(way: &Way) -> String {
+    format!("{} {} {}", way.solver.word(), way.contact.word(), way.model.word())
+}
+
+/// The rows with units, for people.
+#[must_use]
+pub fn summary_table(report: &Precision) -> Table {
+    let mut table = Table::new(&[
+        "",
+        "solver",
+        "contact",
+        "model",
+        "step or tol.",
+        "error [g0]",
+        "impact error [s]",
+        "time [us]",
+        "ns/step",
+        "verdict",
+        "",
+    ]);
+    for row in &report.rows {
+        table.push(vec![
+            letter(&row.way).to_string().into(),
+            row.way.solver.word().into(),
+            row.way.contact.word().into(),
+            row.way.model.word().into(),
+            row.way.step_s.or(row.way.tolerance).into(),
+            row.error_final.map(two_digits).into(),
+            row.error_impact_time_s.map(two_digits).into(),
+            three_digits(1e6 * row.wall_s).into(),
+            row.ns_per_step.map(three_digits).into(),
+            row.verdict.word().into(),
+            if row.verdict_right { "" } else { "wrong" }.into(),
+        ]);
+    }
+    table
+}
+
+fn two_digits(x: f64) -> f64 {
+    format!("{x:.1e}").parse().unwrap_or(x)
+}
+
+fn three_digits(x: f64) -> f64 {
+    format!("{x:.2e}").parse().unwrap_or(x)
+}
+
+/// Every figure, for files.
+#[must_use]
+pub fn table(report: &Precision) -> Table {
+    let mut table = Table::new(&[
+        "solver",
+        "contact",
+        "model",
+        "step_s",
+        "tolerance",
+        "error_final",
+        "error_impact_time_s",
+        "max_penetration_m",
+        "wall_s",
+        "ns_per_step",
+        "steps",
+        "events",
+        "verdict",
+        "verdict_right",
+    ]);
+    let whole = |n: Option<u64>| n.map(|n| n as f64);
+    for row in &report.rows {
+        table.push(vec![
+            row.way.solver.word().into(),
+            row.way.contact.word().into(),
+            row.way.model.word().into(),
+            row.way.step_s.into(),
+            row.way.tolerance.into(),
+            row.error_final.into(),
+            row.error_impact_time_s.into(),
+            row.max_penetration_m.into(),
+            row.wall_s.into(),
+            row.ns_per_step.into(),
+            whole(row.steps).into(),
+            whole(row.events).into(),
+            row.verdict.word().into(),
+            row.verdict_right.into(),
+        ]);
+    }
+    table
+}
+
+/// Table, chart and what they are measured against, for people.
+///
+/// # Errors
+/// What the writer says.
+pub fn write(report: &Precision, out: &mut dyn Write) -> Result<()> {
+    let reference = &report.reference;
+    writeln!(out, "{}", report.scene.title)?;
+    writeln!(
+        out,
+        "Reference: event solver, unilateral, {} model: {}, {} impacts, {}. Halving its tolerance \
+         moves the end by {} of the clearance.",
+        reference.way.model.word(),
+        reference.verdict,
+        reference.impact_count,
+        time(reference.wall_s),
+        short(two_digits(reference.error_halved)),
+    )?;
+    if reference.sensitive {
+        let right = report.rows.iter().filter(|row| row.verdict_right).count();
+        writeln!(
+            out,
+            "This scene is sensitive: a relative change of 1e-9 of the pulse changes its outcome. \
+             End states are not compared; {right} of {} ways agree with the verdict of the reference.",
+            report.rows.len()
+        )?;
+    }
+    writeln!(out)?;
+    summary_table(report).write_text(out)?;
+    if report.rows.iter().any(|row| row.error_final.is_some()) {
+        writeln!(out)?;
+        write_chart(report, out)?;
+    }
+    Ok(())
+}
+
+/// A row that has a place in the chart: `(log10 seconds, log10 error)`.
+#[must_use]
+pub fn place(row: &Row) -> Option<(f64, f64)> {
+    let error = row.error_final?.max(FLOOR);
+    (row.wall_s > 0.0).then(|| (row.wall_s.log10(), error.log10()))
+}
+
+/// Log error (up) against log time (right), a letter a row.
+fn write_chart(report: &Precision, out: &mut dyn Write) -> Result<()> {
+    let placed: Vec<((f64, f64), char)> =
+        report.rows.iter().filter_map(|row| Some((place(row)?, letter(&row.way)))).collect();
+    let bound = |value: fn(&(f64, f64)) -> f64| {
+        let values = || placed.iter().map(|(at, _)| value(at));
+        let (low, high) =
+            (values().fold(f64::INFINITY, f64::min), values().fold(-f64::INFINITY, f64::max));
+        (low.floor(), high.ceil().max(low.floor() + 1.0))
+    };
+    let ((left, right), (bottom, top)) = (bound(|at| at.0), bound(|at| at.1));
+    let mut cells = vec![vec![' '; COLUMNS + 1]; ROWS + 1];
+    for ((x, y), mark) in &placed {
+        let column = ((x - left) / (right - left) * COLUMNS as f64).round() as usize;
+        let row = ((top - y) / (top - bottom) * ROWS as f64).round() as usize;
+        if let Some(cell) = cells.get_mut(row).and_then(|line| line.get_mut(column)) {
+            *cell = *mark;
+        }
+    }
+    writeln!(out, "log10 error (of the clearance) against log10 time (s)")?;
+    for (index, line) in cells.iter().enumerate() {
+        let level = top - (top - bottom) * index as f64 / ROWS as f64;
+        let label = if (level - level.round()).abs() < 1e-9 {
+            format!("{level:.0}")
+        } else {
+            String::new()
+        };
+        let line: String = line.iter().collect();
+        writeln!(out, "{label:>4} |{}", line.trim_end())?;
+    }
+    let mut axis = vec![' '; COLUMNS + 8];
+    for decade in (left as i32)..=(right as i32) {
+        let at = ((f64::from(decade) - left) / (right - left) * COLUMNS as f64).round() as usize;
+        for (offset, digit) in decade.to_string().chars().enumerate() {
+            if let Some(cell) = axis.get_mut(at + offset) {
+                *cell = digit;
+            }
+        }
+    }
+    let axis: String = axis.iter().collect();
+    writeln!(out, "     +{}", "-".repeat(COLUMNS))?;
+    writeln!(out, "     {}", axis.trim_end())?;
+    writeln!(
+        out,
+        "e event, u explicit unilateral, b explicit bilateral; capitals: modal; 1, 2: full"
+    )
+}
