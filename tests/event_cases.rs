@@ -1,5 +1,7 @@
 //! The event solver on the motions whose numbers are known.
 
+#![expect(clippy::unwrap_used, reason = "tests state what must hold")]
+
 use rubscope::motion::{Event, Touching, Verdict};
 use rubscope::scene::Scene;
 

@@ -18,6 +18,24 @@ pub(super) fn safe_step(gap: f64, rate: f64, bend: f64) -> f64 {
     }
 }
 
+/// As `safe_step`, from the second derivative now (`bend`, of either sign) and a
+/// bound on the third that holds for `span` seconds; never longer than `span`.
+///
+/// Over any part `t <= span` the second derivative is at least `bend - jerk t`:
+/// a shorter part gives a better bound, so a few are tried and the best is kept.
+pub(super) fn curved_step(gap: f64, rate: f64, bend: f64, jerk: f64, span: f64) -> f64 {
+    let (mut best, mut part) = (0.0_f64, span);
+    for _ in 0..3 {
+        let step = safe_step(gap, rate, (jerk * part - bend).max(0.0));
+        if step >= part {
+            return part.max(best);
+        }
+        best = best.max(step);
+        part = 0.5 * (part + step);
+    }
+    best
+}
+
 /// Longest time over which a gap that starts closed and at rest stays open
 /// \[s\]: `gap >= t^2 (bend/2 + twist t/6 - jounce t^2/24)`, from its second and
 /// third derivatives now and a bound on the fourth.
@@ -40,6 +58,16 @@ mod tests {
         assert_eq!(safe_step(1.0, 1.0, 0.0), f64::INFINITY);
         assert_eq!(safe_step(0.0, -1.0, 1.0), 0.0);
         assert_eq!(safe_step(0.0, 0.0, 1.0), 0.0);
+    }
+
+    #[test]
+    fn a_known_curvature_lengthens_the_step_and_keeps_it_safe() {
+        // The gap 1 + t - t^3/6 closes at 2.849, the gap 1 - t - t^3/6 at 0.8846.
+        let step = curved_step(1.0, 1.0, 0.0, 1.0, 3.0);
+        assert!(step > 1.7 && step < 2.849, "{step}");
+        let step = curved_step(1.0, -1.0, 0.0, 1.0, 2.0);
+        assert!(step > 0.5 && step < 0.8846, "{step}");
+        assert!(step >= safe_step(1.0, -1.0, 2.0));
     }
 
     #[test]

@@ -81,7 +81,7 @@ fn integral(r: Plane, s: f64) -> Plane {
 }
 
 /// Integrals over `[0, s]` of two functions whose fastest rate is `rate`, by
-/// Gauss quadrature with eight points a radian.
+/// Gauss quadrature with eight points every four radians: an error of 1e-13.
 pub(super) fn quadrature(s: f64, rate: f64, integrand: impl Fn(f64) -> [f64; 2]) -> [f64; 2] {
     let mut sums = [0.0; 2];
     if s <= 0.0 {
@@ -89,7 +89,7 @@ pub(super) fn quadrature(s: f64, rate: f64, integrand: impl Fn(f64) -> [f64; 2])
     }
     let turns = rate * s;
     let rule: &[(f64, f64)] = if turns < 0.05 { &GAUSS_3 } else { &GAUSS_8 };
-    let panels = turns.ceil().clamp(1.0, 1e7);
+    let panels = (0.25 * turns).ceil().clamp(1.0, 1e7);
     let half = 0.5 * s / panels;
     let mut panel = 0.0;
     while panel < panels {

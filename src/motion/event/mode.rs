@@ -161,7 +161,7 @@ impl Mode {
         };
         let [dissipated, work] = match self {
             Self::Free(free) => [ledger::dissipated(world, drive, free, s), 0.0],
-            Self::Slide(slide) => quadrature(s, rate, |t| {
+            Self::Slide(slide) => quadrature(s, 2.0 * slide.fastest(), |t| {
                 let Along { y, rate, push } = slide.at(world, drive, t);
                 power(t, y, rate, push)
             }),

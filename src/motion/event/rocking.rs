@@ -63,7 +63,7 @@ pub(super) fn limit(
     let kernel = slide::kernel(world, drive.nu);
     let fastest = 2.0 * kernel.damping + kernel.stiffness.abs().sqrt();
     let start = speed / own;
-    if start * fastest > 0.05 {
+    if start * fastest > 0.03 {
         return None;
     }
     let sums = Sums::new(kernel.damping, kernel.stiffness, cos, pulls);
@@ -168,18 +168,21 @@ impl Sums {
 /// exchanged, order by order.
 fn accumulate(powers: &[Series; ORDERS + 1], keep: [f64; 2], each: [Series; 2]) -> [Series; 2] {
     let mut sums = [[0.0; ORDERS + 1]; 2];
+    // The sums found so far, times the powers of what is kept.
+    let mut scaled = [[0.0; ORDERS + 1]; 2];
+    let mut kept = [1.0, 1.0];
     for n in 1..=ORDERS {
-        let order = n as i32;
         let mut known = [each[0][n], each[1][n]];
         for k in 1..n {
-            let power = k as i32;
-            known[0] += sums[1][k] * keep[0].powi(power) * powers[k][n];
-            known[1] += sums[0][k] * keep[1].powi(power) * powers[k][n];
+            known[0] += scaled[1][k] * powers[k][n];
+            known[1] += scaled[0][k] * powers[k][n];
         }
-        let kept = [keep[0].powi(order), keep[1].powi(order)];
+        kept = [kept[0] * keep[0], kept[1] * keep[1]];
         let over = 1.0 / (1.0 - kept[0] * kept[1]);
         sums[0][n] = (known[0] + kept[0] * known[1]) * over;
         sums[1][n] = (known[1] + kept[1] * known[0]) * over;
+        scaled[1][n] = sums[1][n] * kept[0];
+        scaled[0][n] = sums[0][n] * kept[1];
     }
     sums
 }
@@ -201,16 +204,18 @@ fn excursion(c: f64, kappa: f64) -> (Series, Series) {
         let known: f64 = (1..n).map(|k| ratio[k] * unit[n + 1 - k]).sum();
         ratio[n] = ramp - known;
     }
-    // Reversion: s(x) with sum e_k s^k = x.
-    let mut duration = [0.0; ORDERS + 1];
-    duration[1] = 1.0 / ratio[1];
-    for n in 2..=ORDERS {
-        let table = powers(&duration);
+    // Reversion: s(x) with sum e_k s^k = x. The powers of s are filled in order
+    // by order: those above the first need no more than the orders known.
+    let mut table = [[0.0; ORDERS + 1]; ORDERS + 1];
+    table[0][0] = 1.0;
+    for n in 1..=ORDERS {
+        for k in 2..=n {
+            table[k][n] = (1..n).map(|j| table[1][j] * table[k - 1][n - j]).sum();
+        }
         let known: f64 = (2..=n).map(|k| ratio[k] * table[k][n]).sum();
-        duration[n] = -known / ratio[1];
+        table[1][n] = (if n == 1 { 1.0 } else { 0.0 } - known) / ratio[1];
     }
     // Return speed over A: unit(s) - x unit'(s).
-    let table = powers(&duration);
     let mut back = [0.0; ORDERS + 1];
     for n in 1..=ORDERS {
         for k in 1..=n {
@@ -220,7 +225,7 @@ fn excursion(c: f64, kappa: f64) -> (Series, Series) {
         let slope: f64 = (1..n).map(|k| (k as f64 + 1.0) * unit[k + 1] * table[k][n - 1]).sum();
         back[n] -= slope + if n == 1 { 1.0 } else { 0.0 };
     }
-    (duration, back)
+    (table[1], back)
 }
 
 /// Powers of a series without constant term, from the zeroth to the last order.
@@ -229,7 +234,7 @@ fn powers(series: &Series) -> [Series; ORDERS + 1] {
     table[0][0] = 1.0;
     for k in 1..=ORDERS {
         for n in k..=ORDERS {
-            table[k][n] = (1..=n).map(|j| series[j] * table[k - 1][n - j]).sum();
+            table[k][n] = (1..=n - k + 1).map(|j| series[j] * table[k - 1][n - j]).sum();
         }
     }
     table

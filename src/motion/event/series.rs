@@ -6,7 +6,7 @@
 //! round-off. A stretch is a polynomial: any instant of it can be asked for,
 //! and sums of its coefficients bound its derivatives.
 
-use super::approach::{leaving_step, safe_step};
+use super::approach::{curved_step, leaving_step};
 use super::slide::{Ahead, Along, push_noise};
 use super::world::{Drive, World};
 
@@ -99,8 +99,8 @@ impl Series {
     /// Looks ahead from `s`, before which nothing happens, within the stretch.
     pub(super) fn look(&self, world: &World, drive: &Drive, s: f64) -> Ahead {
         let x = s / self.length;
-        let [displacement, rate, _] = values(&self.y, x, 1);
-        let bend = curvature(&self.y);
+        let [displacement, rate, acceleration] = values(&self.y, x, 1);
+        let (along, span) = (jerk(&self.y), 1.0 - x);
         let mut stride = f64::INFINITY;
         for up in [true, false] {
             let sign = if up { -1.0 } else { 1.0 };
@@ -115,10 +115,11 @@ impl Series {
             } else if gap <= noise && closing < 0.0 {
                 return Ahead::Edge(up);
             } else {
-                stride = stride.min(safe_step(gap.max(0.0) + noise, closing, bend));
+                let gap = gap.max(0.0) + noise;
+                stride = stride.min(curved_step(gap, closing, sign * acceleration, along, span));
             }
         }
-        let [push, push_rate, _] = values(&self.push, x, 0);
+        let [push, push_rate, push_bend] = values(&self.push, x, 0);
         let noise = push_noise(
             world,
             drive.nu(s),
@@ -129,8 +130,10 @@ impl Series {
         if push <= noise && push_rate < 0.0 {
             return Ahead::Release;
         }
-        let safe = safe_step(push.max(0.0) + noise, push_rate, curvature(&self.push));
-        stride = stride.min(safe) * self.length;
+        let push_jerk = jerk(&self.push);
+        let push = push.max(0.0) + noise;
+        stride = stride.min(curved_step(push, push_rate, push_bend, push_jerk, span));
+        let stride = stride * self.length;
         Ahead::Until((s + stride).max(s.next_up()))
     }
 }
@@ -146,7 +149,8 @@ fn values(terms: &Terms, x: f64, first: usize) -> [f64; 3] {
     [value, rate, 2.0 * bend]
 }
 
-/// Bound on the second derivative over the stretch, `0 <= x <= 1`.
-fn curvature(terms: &Terms) -> f64 {
-    terms.iter().enumerate().map(|(n, term)| (n * n.saturating_sub(1)) as f64 * term.abs()).sum()
+/// Bound on the third derivative over the stretch, `0 <= x <= 1`.
+fn jerk(terms: &Terms) -> f64 {
+    let factor = |n: f64| n * (n - 1.0) * (n - 2.0);
+    terms.iter().enumerate().skip(3).map(|(n, term)| factor(n as f64) * term.abs()).sum()
 }

@@ -6,7 +6,7 @@
 //! `y` grows backward, towards decreasing angle: `y = g0 tan delta` is the
 //! corner with the side of next lower phase.
 
-use super::approach::{leaving_step, safe_step};
+use super::approach::{curved_step, leaving_step};
 use super::kernel::Kernel;
 use super::world::{Drive, World};
 
@@ -65,18 +65,25 @@ impl Slide {
         Along { y, rate, push: world.push(drive.nu, 0.0, y, rate, 0.0) }
     }
 
+    /// Fastest rate of the motion along the side \[1/s\].
+    pub(super) fn fastest(&self) -> f64 {
+        2.0 * self.kernel.damping + self.kernel.stiffness.abs().sqrt()
+    }
+
     /// Looks ahead from `s`, before which nothing happens.
     pub(super) fn look(&self, world: &World, drive: &Drive, s: f64) -> Ahead {
         let (displacement, rate) = self.moved(s);
         let (kappa, c, nu) = (self.kernel.stiffness, self.kernel.damping, drive.nu);
         let pull = self.pull - kappa * displacement;
         let acceleration = pull - 2.0 * c * rate;
+        let third = -2.0 * c * acceleration - kappa * rate;
         // The motion from here on, relative to here, and its derivatives are
-        // bounded by their scale now times exp(fastest * t); over `span` that
-        // factor is below 1.65.
-        let fastest = 2.0 * c + kappa.abs().sqrt();
+        // bounded by their scale now times exp(fastest * t), one more factor
+        // `fastest` each; over `span` the exponential is below 1.65.
+        let fastest = self.fastest();
         let span = if fastest > 0.0 { 0.5 / fastest } else { f64::INFINITY };
         let bend = 1.65 * (rate.abs() * fastest + pull.abs());
+        let jerk = bend * fastest;
         let mut stride = span;
         for up in [true, false] {
             let sign = if up { -1.0 } else { 1.0 };
@@ -85,13 +92,13 @@ impl Slide {
             let closing = sign * rate;
             let noise = world.tolerance * (room + displacement.abs());
             if s == 0.0 && room == 0.0 && rate == 0.0 {
-                let twist = -2.0 * c * acceleration - kappa * rate;
-                let jounce = bend * fastest * fastest;
-                stride = stride.min(leaving_step(sign * acceleration, sign * twist, jounce));
+                let jounce = jerk * fastest;
+                stride = stride.min(leaving_step(sign * acceleration, sign * third, jounce));
             } else if gap <= noise && closing < 0.0 {
                 return Ahead::Edge(up);
             } else {
-                stride = stride.min(safe_step(gap.max(0.0) + noise, closing, bend));
+                let gap = gap.max(0.0) + noise;
+                stride = stride.min(curved_step(gap, closing, sign * acceleration, jerk, span));
             }
         }
         let y = self.y + displacement;
@@ -101,8 +108,10 @@ impl Slide {
         if push <= noise && push_rate < 0.0 {
             return Ahead::Release;
         }
-        let push_bend = 2.0 * nu.abs() * bend * (fastest + c);
-        stride = stride.min(safe_step(push.max(0.0) + noise, push_rate, push_bend));
+        let push_bend = -2.0 * nu * (third + c * acceleration);
+        let push_jerk = 2.0 * nu.abs() * jerk * (fastest + c);
+        let push = push.max(0.0) + noise;
+        stride = stride.min(curved_step(push, push_rate, push_bend, push_jerk, span));
         Ahead::Until((s + stride).max(s.next_up()))
     }
 }
