@@ -14,6 +14,8 @@ mod form;
 mod locked;
 mod opening;
 mod posture;
+mod slide;
+mod slip;
 mod stability;
 
 pub use branches::{Branches, Threshold};
@@ -23,3 +25,4 @@ pub use error::HarmonicError;
 pub use fold::{CornerBranch, Fold, corner_branch};
 pub use form::Form;
 pub use locked::{Locked, LockedPoint, Sweep, locked_motion};
+pub use slip::{Crossing, NoSlip, SlipOrbit, SlipPoint, slip_limits, slip_map, slip_over};
