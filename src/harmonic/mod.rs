@@ -5,6 +5,7 @@
 //! eigenvalues only. No time step, no initial condition.
 
 mod branches;
+mod campbell;
 mod corner;
 mod equations;
 mod equilibria;
@@ -14,12 +15,18 @@ mod form;
 mod locked;
 mod opening;
 mod posture;
+mod slide;
+mod slip;
+mod spectrum;
 mod stability;
 
 pub use branches::{Branches, Threshold};
+pub use campbell::{Campbell, Coincidence, Line};
 pub use corner::{Corner, PAPER_PAIR};
 pub use equilibria::{Character, Equilibrium, Kind, equilibria, equilibrium};
 pub use error::HarmonicError;
 pub use fold::{CornerBranch, Fold, corner_branch};
 pub use form::Form;
 pub use locked::{Locked, LockedPoint, Sweep, locked_motion};
+pub use slip::{Crossing, NoSlip, SlipOrbit, SlipPoint, slip_limits, slip_map, slip_over};
+pub use spectrum::{Harmonic, SlipSpectrum, Truncation, slip_spectrum};

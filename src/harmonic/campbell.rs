@@ -1,0 +1,130 @@
+//! Campbell data: frequencies of both structures against rotor speed in the
+//! standing frame, engine-order lines, and the coincidences (30).
+
+use super::HarmonicError;
+use crate::model::Machine;
+
+/// A straight line `frequency = intercept + slope * Omega`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Line {
+    /// What it is.
+    pub name: String,
+    /// At standstill \[rad/s\].
+    pub intercept: f64,
+    /// Change with the rotor speed.
+    pub slope: f64,
+}
+
+impl Line {
+    /// Frequency at a rotor speed \[rad/s\]; negative is a wave that turns
+    /// backward in the standing frame.
+    #[must_use]
+    pub fn at(&self, speed: f64) -> f64 {
+        self.intercept + self.slope * speed
+    }
+}
+
+/// One of the four coincidences of Eq. (30), `casing = n_d Omega + blades`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coincidence {
+    /// `+omega_c` or `-omega_c` \[rad/s\].
+    pub casing: f64,
+    /// `+omega_bd` or `-omega_bd` \[rad/s\].
+    pub blades: f64,
+    /// Rotor speed where they coincide \[rad/s\]; negative for the other sense
+    /// of rotation.
+    pub speed: f64,
+    /// Whether it is the dangerous one, Eq. (31).
+    pub dangerous: bool,
+}
+
+/// The lines of a Campbell diagram.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Campbell {
+    /// Casing, bladed disk forward and backward, then engine orders.
+    pub lines: Vec<Line>,
+    /// The four coincidences.
+    pub coincidences: [Coincidence; 4],
+}
+
+impl Campbell {
+    /// With the engine-order lines `order * Omega` of these orders.
+    ///
+    /// ```
+    /// use rubscope::harmonic::Campbell;
+    /// use rubscope::scene::Scene;
+    /// let machine = Scene::builtin("paper-nd3")?.machine();
+    /// let campbell = Campbell::of(&machine, &[3])?;
+    /// let dangerous = campbell.coincidences.iter().find(|c| c.dangerous).unwrap();
+    /// assert!((dangerous.speed - 388.31).abs() < 0.005);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// No nodal diameters, hence no travelling waves.
+    pub fn of(machine: &Machine, orders: &[u32]) -> Result<Self, HarmonicError> {
+        let n_d = machine.nodal_diameters;
+        if n_d == 0.0 {
+            return Err(HarmonicError::NoWave);
+        }
+        let (omega_c, omega_bd) = (machine.omega_c, machine.omega_bd);
+        let line = |name: &str, intercept, slope| Line { name: name.to_string(), intercept, slope };
+        let mut lines = vec![
+            line("omega_c", omega_c, 0.0),
+            line("-omega_c", -omega_c, 0.0),
+            line("n_d Omega + omega_bd", omega_bd, n_d),
+            line("n_d Omega - omega_bd", -omega_bd, n_d),
+        ];
+        lines.extend(
+            orders.iter().map(|&order| line(&format!("{order} Omega"), 0.0, f64::from(order))),
+        );
+        let coincidence = |casing: f64, blades: f64| Coincidence {
+            casing,
+            blades,
+            speed: (casing - blades) / n_d,
+            dangerous: casing > 0.0 && blades < 0.0,
+        };
+        let coincidences = [
+            coincidence(omega_c, omega_bd),
+            coincidence(omega_c, -omega_bd),
+            coincidence(-omega_c, omega_bd),
+            coincidence(-omega_c, -omega_bd),
+        ];
+        Ok(Self { lines, coincidences })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    #[test]
+    fn lines_cross_at_the_coincidences() {
+        let machine = Scene::default().machine();
+        let campbell = Campbell::of(&machine, &[1, 3]).unwrap();
+        assert_eq!(campbell.lines.len(), 6);
+        for found in campbell.coincidences {
+            let casing = if found.casing > 0.0 { 0 } else { 1 };
+            let blades = if found.blades > 0.0 { 2 } else { 3 };
+            let gap =
+                campbell.lines[casing].at(found.speed) - campbell.lines[blades].at(found.speed);
+            assert!(gap.abs() < 1e-12 * machine.omega_c);
+        }
+        let dangerous: Vec<_> = campbell.coincidences.iter().filter(|c| c.dangerous).collect();
+        assert_eq!(dangerous.len(), 1);
+        assert_eq!(Some(dangerous[0].speed), machine.dangerous_speed());
+        let mut positive: Vec<f64> =
+            campbell.coincidences.iter().map(|c| c.speed).filter(|&speed| speed > 0.0).collect();
+        positive.sort_by(f64::total_cmp);
+        assert_eq!(positive, machine.coincidence_speeds());
+    }
+
+    #[test]
+    fn without_nodal_diameters_there_is_no_wave() {
+        let mut scene = Scene::default();
+        scene.set("operation.nodal_diameters", "0").unwrap();
+        let message = Campbell::of(&scene.machine(), &[]).unwrap_err().to_string();
+        assert!(message.starts_with("operation.nodal_diameters = 0: allowed is 1 or more"));
+    }
+}

@@ -1,0 +1,270 @@
+//! Slip: permanent contact with the wave turning slower than the rotor, side
+//! after side. As a map it is one number, the speed just after a corner, and a
+//! lasting slip is a fixed point of it.
+
+use serde::Serialize;
+
+use super::slide::{Arc, Slide};
+use super::{HarmonicError, branches::changes};
+use crate::model::Machine;
+
+/// Why there is no lasting slip at some speed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum NoSlip {
+    /// Corners of a right angle or less (`N' <= 4`) stop the wave.
+    StopsAtCorner,
+    /// Not above the critical speed: nothing presses the wave on the sides.
+    BelowCritical,
+    /// Nothing makes up for what corners take: no drag, or too little of it to
+    /// climb over the saddle.
+    NoDrive,
+    /// The wave would have to be pulled to stay on a side.
+    Lifts,
+}
+
+impl NoSlip {
+    /// The word used in reports.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::StopsAtCorner => "stops-at-corner",
+            Self::BelowCritical => "below-critical",
+            Self::NoDrive => "no-drive",
+            Self::Lifts => "lifts",
+        }
+    }
+}
+
+/// A lasting slip.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SlipOrbit {
+    /// Angular speed of the casing wave over `n_d`; between zero and the
+    /// rotor's \[rad/s\].
+    pub wave_speed: f64,
+    /// Time to cross one side \[s\].
+    pub period: f64,
+    /// Speed along the side just after a corner \[m/s\].
+    pub speed_after: f64,
+    /// Speed along the side just before the next corner \[m/s\].
+    pub speed_before: f64,
+    /// Slope of the map at the fixed point, `cos^2(2 delta) exp(-2 zeta_c
+    /// omega_c T)`; below one, so that slip is stable where it exists.
+    pub slope: f64,
+    /// Smallest push along a side; negative would be a pull \[N\].
+    pub least_push: f64,
+    /// Impulse on the side met at a corner \[N s\].
+    pub corner_impulse: f64,
+    /// Mean torque the rotor must give, impulses included \[N m\].
+    pub torque: f64,
+    /// Mean power it takes \[W\].
+    pub power: f64,
+    /// Mean power the casing's damper takes \[W\].
+    pub damper_power: f64,
+    /// Mean power lost at the corners \[W\].
+    pub corner_power: f64,
+}
+
+/// Slip at one rotor speed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SlipPoint {
+    /// Rotor speed \[rad/s\].
+    pub speed: f64,
+    /// The lasting slip, or why there is none.
+    pub outcome: Result<SlipOrbit, NoSlip>,
+}
+
+impl SlipPoint {
+    /// Whether there is a lasting slip that contact can hold.
+    #[must_use]
+    pub fn exists(&self) -> bool {
+        self.outcome.is_ok()
+    }
+
+    /// Whether it attracts its neighbours.
+    #[must_use]
+    pub fn stable(&self) -> bool {
+        self.outcome.is_ok_and(|orbit| orbit.slope.abs() < 1.0)
+    }
+}
+
+/// One step of the map from corner to corner.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crossing {
+    /// Speed just after the next corner \[m/s\].
+    pub speed_after: f64,
+    /// Time it took \[s\].
+    pub time: f64,
+    /// Smallest push on the way \[N\]; below zero the contact is lost.
+    pub least_push: f64,
+    /// Derivative of `speed_after` by the speed it started with.
+    pub slope: f64,
+}
+
+/// The map: from a speed just after one corner \[m/s\], along a side, to that
+/// just after the next; `None` where the wave turns back (and rocks into the
+/// corner), or not above the critical speed.
+///
+/// ```
+/// use rubscope::harmonic::{slip_map, slip_over};
+/// use rubscope::scene::Scene;
+///
+/// let mut scene = Scene::builtin("paper-nd3")?;
+/// scene.set("casing.damping_ratio", "0.01")?;
+/// let machine = scene.machine();
+/// let orbit = slip_over(&machine, &[500.0])?[0].outcome.unwrap();
+/// let mut speed = 2.0 * orbit.speed_after;
+/// for _ in 0..2000 {
+///     speed = slip_map(&machine, 500.0, speed).unwrap().speed_after;
+/// }
+/// assert!((speed / orbit.speed_after - 1.0).abs() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub fn slip_map(machine: &Machine, rotor_speed: f64, speed: f64) -> Option<Crossing> {
+    let slide = Slide::at(machine, rotor_speed)?;
+    let units = Units::of(machine);
+    let arc = slide.cross(speed / units.speed)?;
+    let [after, before] = slide.end_speeds(&arc);
+    Some(Crossing {
+        speed_after: slide.kept * before * units.speed,
+        time: arc.time / machine.omega_c,
+        least_push: slide.least_push(&arc) * units.force,
+        slope: slide.kept * (after / before) * contraction(&slide, &arc),
+    })
+}
+
+/// Lasting slip over a list of rotor speeds \[rad/s\].
+///
+/// # Errors
+/// A rim without corners, or a speed that is not finite.
+pub fn slip_over(machine: &Machine, speeds: &[f64]) -> Result<Vec<SlipPoint>, HarmonicError> {
+    if !machine.rim.has_corners() {
+        return Err(HarmonicError::no_corner(&machine.rim));
+    }
+    if let Some(&speed) = speeds.iter().find(|speed| !speed.is_finite()) {
+        return Err(HarmonicError::Speed(speed));
+    }
+    Ok(speeds.iter().map(|&speed| point(machine, speed)).collect())
+}
+
+/// The speeds between the least and the largest of a list where slip appears
+/// (`true`) or vanishes, to the last digit \[rad/s\].
+///
+/// # Errors
+/// As `slip_over`.
+pub fn slip_limits(machine: &Machine, speeds: &[f64]) -> Result<Vec<(f64, bool)>, HarmonicError> {
+    slip_over(machine, speeds)?;
+    let mut sorted = speeds.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let exists = |speed| Ok(point(machine, speed).exists());
+    let mut limits = Vec::new();
+    for pair in sorted.windows(2) {
+        if let [low, high] = *pair {
+            limits.extend(changes(low, high, &exists)?.iter().map(|&(speed, _, to)| (speed, to)));
+        }
+    }
+    Ok(limits)
+}
+
+/// The repeating arc at a speed, held by contact all along.
+pub(super) fn repeating(machine: &Machine, speed: f64) -> Result<(Slide, Arc), NoSlip> {
+    let slide = Slide::at(machine, speed).ok_or(NoSlip::BelowCritical)?;
+    if slide.kept <= 0.0 {
+        return Err(NoSlip::StopsAtCorner);
+    }
+    let arc = slide.repeating().ok_or(NoSlip::NoDrive)?;
+    // NaN, which overflow might leave, is no push either.
+    if slide.least_push(&arc) >= 0.0 { Ok((slide, arc)) } else { Err(NoSlip::Lifts) }
+}
+
+fn point(machine: &Machine, speed: f64) -> SlipPoint {
+    let outcome = repeating(machine, speed).map(|(slide, arc)| orbit(machine, speed, &slide, &arc));
+    SlipPoint { speed, outcome }
+}
+
+/// Units of speed \[m/s\] and force \[N\] behind the scaled flow.
+struct Units {
+    speed: f64,
+    force: f64,
+}
+
+impl Units {
+    fn of(machine: &Machine) -> Self {
+        let length = machine.clearance();
+        Self { speed: machine.omega_c * length, force: machine.casing_stiffness * length }
+    }
+}
+
+/// How much areas of the sliding flow shrink along an arc.
+fn contraction(slide: &Slide, arc: &Arc) -> f64 {
+    (-2.0 * slide.zeta * arc.time).exp()
+}
+
+fn orbit(machine: &Machine, speed: f64, slide: &Slide, arc: &Arc) -> SlipOrbit {
+    let units = Units::of(machine);
+    let [after, before] = slide.end_speeds(arc);
+    let impulse = before * slide.struck;
+    let means = Means::of(slide, arc);
+    // T = sum Lambda A with Lambda = -N, A = n_d y; the impulse comes at y = -end.
+    let lever = -means.push_lever + impulse * slide.end / arc.time;
+    let unit = units.force * machine.clearance();
+    let torque = machine.nodal_diameters * unit * lever * speed.signum();
+    let power = unit * machine.omega_c;
+    let drift = 2.0 * machine.rim.delta * machine.omega_c / arc.time / machine.nodal_diameters;
+    SlipOrbit {
+        wave_speed: speed - speed.signum() * drift,
+        period: arc.time / machine.omega_c,
+        speed_after: after * units.speed,
+        speed_before: before * units.speed,
+        slope: slide.kept * slide.kept * contraction(slide, arc),
+        least_push: slide.least_push(arc) * units.force,
+        corner_impulse: impulse * units.force / machine.omega_c,
+        torque,
+        power: torque * speed,
+        damper_power: power * 2.0 * slide.zeta * means.rate_square,
+        corner_power: power * 0.5 * impulse * impulse / arc.time,
+    }
+}
+
+/// Means over an arc, from integrals of products of exponentials.
+struct Means {
+    /// Of `N y`.
+    push_lever: f64,
+    /// Of `|u'|^2 = (y' - f)^2 + f^2 y^2`.
+    rate_square: f64,
+}
+
+impl Means {
+    fn of(slide: &Slide, arc: &Arc) -> Self {
+        let [up, down] = slide.roots;
+        let rates = [0.0, up, down];
+        let y = [slide.saddle, arc.grow, arc.decay];
+        let speed = [0.0, arc.grow * up, arc.decay * down];
+        let f = slide.ratio;
+        let constant = [1.0, 0.0, 0.0];
+        let combine =
+            |a: f64, b: f64, c: f64| [0, 1, 2].map(|i| a * constant[i] + b * speed[i] + c * y[i]);
+        let push = combine((f - 1.0) * (f + 1.0), -2.0 * f, -2.0 * slide.zeta * f);
+        let against = combine(-f, 1.0, 0.0);
+        let mean = |p: &[f64; 3], q: &[f64; 3]| {
+            let mut sum = 0.0;
+            for i in 0..3 {
+                for j in 0..3 {
+                    sum += p[i] * q[j] * mean_exponential(rates[i] + rates[j], arc.time);
+                }
+            }
+            sum
+        };
+        Self {
+            push_lever: mean(&push, &y),
+            rate_square: mean(&against, &against) + f * f * mean(&y, &y),
+        }
+    }
+}
+
+/// Mean of `e^(rate t)` over `[0, time]`.
+fn mean_exponential(rate: f64, time: f64) -> f64 {
+    let x = rate * time;
+    if x == 0.0 { 1.0 } else { x.exp_m1() / x }
+}

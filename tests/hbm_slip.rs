@@ -1,0 +1,139 @@
+//! Slip in the frequency domain: the map from corner to corner, its fixed
+//! point, and the balance of power.
+
+use rubscope::harmonic::{NoSlip, slip_limits, slip_map, slip_over};
+use rubscope::model::{BladedDisk, Casing, Machine};
+
+fn machine(nodal_diameters: u32, zeta_c: f64) -> Machine {
+    let casing = Casing { damping_ratio: zeta_c, ..Casing::default() };
+    Machine::new(&BladedDisk::default(), &casing, nodal_diameters)
+}
+
+fn close(value: f64, expected: f64, relative: f64) {
+    assert!((value - expected).abs() <= relative * expected.abs(), "{value:e} is not {expected:e}");
+}
+
+#[test]
+fn power_closes_and_the_multiplier_is_below_one_wherever_slip_lives() {
+    for (diameters, zeta, speed) in
+        [(3, 0.01, 500.0), (3, 0.05, 900.0), (4, 0.05, 500.0), (1, 0.02, 4000.0), (5, 0.1, 1500.0)]
+    {
+        let machine = machine(diameters, zeta);
+        for sign in [1.0, -1.0] {
+            let point = slip_over(&machine, &[sign * speed]).unwrap()[0];
+            let orbit = point.outcome.unwrap();
+            close(orbit.power, orbit.damper_power + orbit.corner_power, 1e-12);
+            assert!(orbit.slope > 0.0 && orbit.slope < 1.0 && point.stable());
+            assert!(orbit.least_push > 0.0 && orbit.power > 0.0);
+            let fraction = orbit.wave_speed / (sign * speed);
+            assert!((0.0..1.0).contains(&fraction), "slower than the rotor: {fraction}");
+            close(orbit.speed_after, orbit.speed_before * (2.0 * machine.rim.delta).cos(), 1e-12);
+        }
+    }
+}
+
+#[test]
+fn the_fixed_point_is_fixed_and_its_slope_is_the_slope() {
+    let machine = machine(3, 0.01);
+    let orbit = slip_over(&machine, &[500.0]).unwrap()[0].outcome.unwrap();
+    let map = |speed| slip_map(&machine, 500.0, speed).unwrap();
+    let next = map(orbit.speed_after);
+    close(next.speed_after, orbit.speed_after, 1e-13);
+    close(next.time, orbit.period, 1e-13);
+    close(next.least_push, orbit.least_push, 1e-12);
+    close(next.slope, orbit.slope, 1e-12);
+    let step = 1e-5 * orbit.speed_after;
+    let (up, down) = (map(orbit.speed_after + step), map(orbit.speed_after - step));
+    // Second differences leave 1e-10 of the slope.
+    close((up.speed_after - down.speed_after) / (2.0 * step), orbit.slope, 1e-8);
+}
+
+/// Motion in the blade frame by small Runge-Kutta steps: side, position and
+/// speed along it, from the equations of motion alone.
+fn crossing_by_steps(machine: &Machine, rotor: f64, start: f64) -> (f64, f64) {
+    let nu = machine.nu(rotor);
+    let (omega, zeta) = (machine.omega_c, machine.casing_damping_ratio);
+    let end = machine.rim.half_side();
+    let rate = |y: f64, v: f64| {
+        2.0 * zeta * omega * (nu * machine.clearance() - v) - (omega * omega - nu * nu) * y
+    };
+    let (mut y, mut v, mut t) = (-end, start, 0.0);
+    let mut h = 1e-6;
+    while h > 1e-14 {
+        let (k1, l1) = (v, rate(y, v));
+        let (k2, l2) = (v + 0.5 * h * l1, rate(y + 0.5 * h * k1, v + 0.5 * h * l1));
+        let (k3, l3) = (v + 0.5 * h * l2, rate(y + 0.5 * h * k2, v + 0.5 * h * l2));
+        let (k4, l4) = (v + h * l3, rate(y + h * k3, v + h * l3));
+        let (dy, dv) =
+            (h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4), h / 6.0 * (l1 + 2.0 * l2 + 2.0 * l3 + l4));
+        if y + dy > end {
+            h *= 0.5;
+        } else {
+            (y, v, t) = (y + dy, v + dv, t + h);
+        }
+    }
+    (t, v)
+}
+
+#[test]
+fn the_closed_flow_is_the_equation_of_motion() {
+    for (zeta, rotor, start) in [(0.01, 500.0, 0.03), (0.05, 800.0, 0.1), (0.0, 400.0, 0.05)] {
+        let machine = machine(3, zeta);
+        let crossing = slip_map(&machine, rotor, start).unwrap();
+        let (time, before) = crossing_by_steps(&machine, rotor, start);
+        close(crossing.time, time, 1e-9);
+        close(crossing.speed_after, before * (2.0 * machine.rim.delta).cos(), 1e-9);
+    }
+}
+
+#[test]
+fn where_slip_lives() {
+    let speeds: Vec<f64> = (0..=200).map(|k| 10.0 * f64::from(k)).collect();
+    let limits = slip_limits(&machine(3, 0.01), &speeds).unwrap();
+    let [(from, true), (to, false)] = limits[..] else { panic!("{limits:?}") };
+    // Below, the wave lifts off: the smallest push is zero just there.
+    let machine_at = machine(3, 0.01);
+    let first = slip_over(&machine_at, &[from]).unwrap()[0].outcome.unwrap();
+    assert!(first.least_push < 1e-9, "{}", first.least_push);
+    let below = slip_over(&machine_at, &[from * (1.0 - 1e-9)]).unwrap()[0];
+    assert_eq!(below.outcome, Err(NoSlip::Lifts));
+    // Above, the wave no longer climbs over the saddle: the speed gained along
+    // the unstable manifold, less the corner's part, is that of the stable one.
+    let (omega, zeta, nu) = (machine_at.omega_c, 0.01, machine_at.nu(to));
+    let root = (zeta * zeta * omega * omega + nu * nu - omega * omega).sqrt();
+    let saddle = -2.0 * zeta * omega * nu * machine_at.clearance() / (nu * nu - omega * omega);
+    let end = machine_at.rim.half_side();
+    let gained = (root - zeta * omega) * (end - saddle);
+    let needed = (root + zeta * omega) * (end + saddle);
+    close(gained * (2.0 * machine_at.rim.delta).cos(), needed, 1e-11);
+    let above = slip_over(&machine_at, &[to * (1.0 + 1e-9)]).unwrap()[0];
+    assert_eq!(above.outcome, Err(NoSlip::NoDrive));
+    // With more damping slip begins later: at the paper's 5 % not below 735 rad/s.
+    let damped = slip_limits(&machine(3, 0.05), &speeds).unwrap();
+    assert!((735.0..736.0).contains(&damped[0].0));
+}
+
+#[test]
+fn no_slip_says_why() {
+    let reason = |machine: &Machine, speed| slip_over(machine, &[speed]).unwrap()[0].outcome;
+    assert_eq!(reason(&machine(3, 0.01), 290.0), Err(NoSlip::BelowCritical));
+    assert_eq!(reason(&machine(3, 0.0), 500.0), Err(NoSlip::NoDrive));
+    for blades in [3, 4] {
+        let disk = BladedDisk { blades, ..BladedDisk::default() };
+        let square = Machine::new(&disk, &Casing::default(), 1);
+        assert_eq!(reason(&square, 2000.0), Err(NoSlip::StopsAtCorner));
+    }
+    assert!(slip_over(&machine(11, 0.01), &[500.0]).unwrap_err().to_string().contains("= 11"));
+    assert!(slip_over(&machine(3, 0.01), &[f64::INFINITY]).is_err());
+}
+
+/// Too slow to pass the saddle is rocking, not slip.
+#[test]
+fn slow_waves_turn_back() {
+    let machine = machine(3, 0.01);
+    assert_eq!(slip_map(&machine, 500.0, 1e-3), None);
+    assert!(slip_map(&machine, 500.0, 0.05).is_some());
+    // Between the critical and the lock-in speed there is no saddle on the side
+    // and any drift goes on.
+    assert!(slip_map(&machine, 300.0, 1e-6).is_some());
+}
