@@ -14,6 +14,32 @@ use crate::tui;
 pub struct Explore {
     #[command(flatten)]
     options: SceneOptions,
+    /// Most frames a second while the motion plays
+    #[arg(long, value_name = "COUNT", default_value_t = 10.0, value_parser = frames)]
+    fps: f64,
+    /// Colours: where the terminal has them, always, or never
+    #[arg(long, value_name = "WHEN", default_value = "auto", value_parser = color)]
+    color: tui::Color,
+    /// How points are drawn: braille, octant, halfblock, dot or ascii
+    #[arg(long, value_name = "MARKER", default_value = "braille", value_parser = marker)]
+    marker: tui::Marker,
+}
+
+fn frames(text: &str) -> Result<f64, String> {
+    let fps = text.parse().ok().filter(|fps| (0.1..=60.0).contains(fps));
+    fps.ok_or_else(|| "allowed is a number from 0.1 to 60".to_string())
+}
+
+fn color(text: &str) -> Result<tui::Color, String> {
+    tui::Color::from_word(text).ok_or_else(|| one_of(tui::Color::WORDS))
+}
+
+fn marker(text: &str) -> Result<tui::Marker, String> {
+    tui::Marker::from_word(text).ok_or_else(|| one_of(tui::Marker::WORDS))
+}
+
+fn one_of(words: &[&str]) -> String {
+    format!("allowed is one of {}", words.join(", "))
 }
 
 impl Explore {
@@ -26,7 +52,8 @@ impl Explore {
             )
             .into());
         }
-        match tui::explore(scene, tui::ExploreOptions::default())? {
+        let look = tui::ExploreOptions { fps: self.fps, color: self.color, marker: self.marker };
+        match tui::explore(scene, look)? {
             0 => Ok(Status::Done),
             code => Ok(Status::Signal(code.saturating_sub(128))),
         }

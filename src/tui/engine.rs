@@ -5,6 +5,7 @@
 use std::sync::Arc;
 
 use super::history::Bin;
+use super::locked_curve::LockedCurves;
 use crate::motion::{Checks, State, Touching, Verdict};
 use crate::scene::Scene;
 
@@ -125,6 +126,8 @@ pub struct Snapshot {
     pub reference: Option<Forecast>,
     /// The same scene under the other contact law.
     pub beside: Option<Forecast>,
+    /// The locked motion against speed, once it is computed.
+    pub locked: Option<Arc<LockedCurves>>,
     /// Solver speed.
     pub pace: Pace,
     /// Something broke in the engine itself.

@@ -10,6 +10,7 @@ pub mod engine;
 pub mod events;
 pub mod history;
 pub mod knobs;
+pub mod locked_curve;
 pub mod panels;
 pub mod plot;
 pub mod raster;

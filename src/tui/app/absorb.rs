@@ -24,6 +24,9 @@ impl App {
             self.reference = snapshot.reference;
             self.beside = snapshot.beside;
             self.pace = snapshot.pace;
+            if snapshot.locked.is_some() {
+                self.locked = snapshot.locked;
+            }
         }
         true
     }

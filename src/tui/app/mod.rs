@@ -10,10 +10,13 @@ mod verdict;
 pub use time::{RATES, page_length};
 pub use update::Effect;
 
+use std::sync::Arc;
+
 use super::axis::AutoRange;
 use super::bindings::Context;
 use super::engine::{Ahead, Forecast, Moment, Order, Pace};
 use super::history::History;
+use super::locked_curve::LockedCurves;
 use super::raster::Marker;
 use super::skin::Skin;
 use super::theme::Theme;
@@ -145,6 +148,9 @@ pub struct App {
     pub reference: Option<Forecast>,
     /// What it comes to under the other contact law.
     pub beside: Option<Forecast>,
+    /// The locked motion against speed; that of the machine before until the
+    /// new one is computed.
+    pub locked: Option<Arc<LockedCurves>>,
     /// Solver speed.
     pub pace: Pace,
     /// Something broke in the engine.
@@ -202,6 +208,7 @@ impl App {
             ahead: None,
             reference: None,
             beside: None,
+            locked: None,
             pace: Pace::default(),
             trouble: None,
             skin: Skin { theme, marker },

@@ -7,6 +7,7 @@ use super::charts::title;
 use crate::motion::Touching;
 use crate::tui::app::{App, View};
 use crate::tui::plot::{Axis, Plot};
+use crate::tui::raster::Pen;
 use crate::tui::theme::Role;
 
 /// Draws the view.
@@ -34,7 +35,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
     let Some(moment) = &app.moment else { return };
     let gaps = || (1..=count).map(f64::from).zip(moment.gaps.iter().copied());
     // Between blades nothing is measured: the line only leads the eye.
-    plot.curve(gaps(), &skin.quiet());
+    plot.curve(gaps(), &Pen { dashed: false, ..skin.quiet() });
     plot.ink();
     let room = u32::from(plot.inner.width);
     if count <= room {

@@ -1,44 +1,63 @@
 //! View 3: the multipliers of the locked motion against speed, the speeds
-//! where things change, the present speed, and what the time solver finds.
+//! where things change, the present speed, and what the running motion shows.
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
 use super::charts::{entry, title};
+use super::print;
+use crate::harmonic::{LockedPoint, Sweep};
 use crate::motion::Touching;
 use crate::tui::app::{App, View};
 use crate::tui::axis::nice_step;
 use crate::tui::plot::{Axis, Plot};
+use crate::tui::raster::Pen;
 use crate::tui::theme::Role;
+
+/// From this height on the undamped curve of the paper is shown as well.
+const ROOMY: u16 = 14;
 
 /// Draws the view.
 pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
     let skin = &app.skin;
     let quiet = skin.style(Role::Quiet);
-    let damped = app.machine.casing_damping > 0.0;
+    let curves = app.locked.as_deref();
+    let roomy = area.height >= ROOMY;
+    let pair = curves.is_some_and(|curves| curves.undamped.is_some());
     let point = skin.either('◆', '@');
-    let mut legend = vec![entry(skin, &skin.first(), if damped { "λ_a" } else { "λ" })];
-    if damped {
+    let mut legend = vec![entry(skin, &skin.first(), if pair { "λ_a" } else { "λ" })];
+    if pair {
         legend.push(entry(skin, &skin.second(), "λ_b"));
     }
-    legend.push((format!("{point} running"), skin.style(Role::Contact)));
+    let points = running(app);
+    let forces: Vec<String> = points.iter().take(2).map(|force| short(*force)).collect();
+    let now = if points.is_empty() { "running".to_string() } else { forces.join(" ") };
+    legend.push((format!("{point} {now}"), skin.style(Role::Contact)));
     legend.push(("N over rad/s".into(), quiet));
     legend.push(("below 0 pushes".into(), quiet));
+    if pair && roomy {
+        legend.push(entry(skin, &skin.quiet(), "undamped"));
+    }
     let inside = title(app, buffer, area, View::Locked, "locked λ(Ω)", &legend);
-    let fastest = speed_range(app);
-    let ends = [0.0, fastest].map(|speed| app.machine.locked_multipliers(speed));
-    let (Some(slow), Some(fast)) = (ends[0], ends[1]) else {
-        let no = "no corner between two blade groups: this wave never locks";
-        super::print(buffer, inside, 1, no, quiet);
+    let Some(curves) = curves else { return };
+    let Some(damped) = &curves.damped else {
+        print(
+            buffer,
+            inside,
+            1,
+            "no corner between two blade groups: this wave never locks",
+            quiet,
+        );
         return;
     };
-    let points = time_points(app);
-    let all = slow.iter().chain(&fast).chain(points.iter());
-    let (low, high) = all.fold((0.0_f64, 0.0_f64), |(a, b), v| (a.min(*v), b.max(*v)));
+    let lambdas = damped.points.iter().flat_map(|point| point.multipliers);
+    // The curves set the scale: the mean over an impact may be far beyond it.
+    let (low, high) = lambdas
+        .filter(|lambda| lambda.is_finite())
+        .fold((0.0_f64, 0.0_f64), |(a, b), v| (a.min(v), b.max(v)));
     let step = nice_step(high - low, 6).unwrap_or(1.0);
     let y = Axis::scaled((low / step).floor() * step, (high / step).ceil() * step);
-    let Some(mut plot) = Plot::new(buffer, inside, Axis::plain(0.0, fastest), y, skin) else {
-        return;
-    };
+    let x = Axis::plain(0.0, curves.fastest);
+    let Some(mut plot) = Plot::new(buffer, inside, x, y, skin) else { return };
     let marks = thresholds(app);
     plot.level(0.0, skin.either('┈', '.'), quiet);
     for (speed, _) in &marks {
@@ -46,53 +65,49 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
     }
     let speed = app.speed().abs();
     plot.upright(speed, skin.either('│', '|'), skin.style(Role::Focus));
-    let speeds = plot.column_values();
-    for (place, pen) in [skin.first(), skin.second()].iter().enumerate().rev() {
-        if place == 0 || damped {
-            let curve = |speed: &f64| {
-                let pair = app.machine.locked_multipliers(*speed)?;
-                pair.get(place).map(|lambda| (*speed, *lambda))
-            };
-            plot.curve(speeds.iter().filter_map(curve), pen);
+    if let Some(undamped) = &curves.undamped {
+        if roomy {
+            curve(&mut plot, undamped, 0, &skin.quiet());
         }
+        curve(&mut plot, damped, 1, &skin.second());
     }
+    curve(&mut plot, damped, 0, &skin.first());
     plot.ink();
     for force in points {
-        plot.point(speed, force, point, skin.style(Role::Contact));
+        let (sign, shown) = if force < y.low {
+            (skin.either('▼', 'v'), y.low)
+        } else if force > y.high {
+            (skin.either('▲', '^'), y.high)
+        } else {
+            (point, force)
+        };
+        plot.point(speed, shown, sign, skin.style(Role::Contact));
     }
     names(&mut plot, &marks, app);
 }
 
-/// Names of the thresholds in the top row, one beside the other.
+fn curve(plot: &mut Plot, sweep: &Sweep, place: usize, pen: &Pen) {
+    let lambda = |point: &LockedPoint| Some((point.speed, *point.multipliers.get(place)?));
+    plot.curve(sweep.points.iter().filter_map(lambda), pen);
+}
+
+/// Names of the thresholds in the upper rows, one below the other where they
+/// are close.
 fn names(plot: &mut Plot, marks: &[(f64, &str)], app: &App) {
-    let mut free = plot.inner.x;
+    let mut free = [0_u16; 3];
     for (speed, name) in marks {
         let name = app.skin.spell(name);
+        let Some(column) = plot.column(*speed) else { continue };
         let wide = u16::try_from(name.chars().count()).unwrap_or(u16::MAX);
-        for row in plot.inner.y..plot.inner.y.saturating_add(3).min(plot.inner.bottom()) {
-            if let Some(column) = plot.column(*speed)
-                && (column >= free || row > plot.inner.y)
-            {
+        let column = column.min(plot.inner.right().saturating_sub(wide));
+        for (row, free) in (plot.inner.y..plot.inner.bottom()).zip(&mut free) {
+            if column >= *free {
                 plot.note(*speed, row, &name, app.skin.style(Role::Text));
-                free = column.saturating_add(wide + 1);
+                *free = column.saturating_add(wide + 1);
                 break;
             }
         }
     }
-}
-
-/// From zero to a round speed beyond everything of interest \[rad/s\].
-fn speed_range(app: &App) -> f64 {
-    let machine = &app.machine;
-    let of_interest = [
-        machine.lock_speed(),
-        machine.dangerous_speed(),
-        Some(app.speed().abs()),
-        Some(app.scene.operation.speed_rad_s.abs()),
-    ];
-    let most = of_interest.into_iter().flatten().filter(|s| s.is_finite()).fold(1.0, f64::max);
-    let step = nice_step(most * 1.15, 10).unwrap_or(most);
-    (most * 1.05 / step).ceil() * step
 }
 
 /// The speeds where things change, slowest first.
@@ -114,11 +129,16 @@ fn thresholds(app: &App) -> Vec<(f64, &'static str)> {
     marks
 }
 
-/// Mean multipliers of the time solver, while something touches.
-fn time_points(app: &App) -> Vec<f64> {
+/// Mean multipliers of the running motion, while something touches.
+fn running(app: &App) -> Vec<f64> {
     let Some(moment) = &app.moment else { return Vec::new() };
     if moment.touching == Touching::Nothing {
         return Vec::new();
     }
     moment.multipliers.iter().map(|(_, force)| *force).filter(|force| force.is_finite()).collect()
+}
+
+/// A force in as few characters as say it.
+fn short(force: f64) -> String {
+    if force.abs() < 1e4 { format!("{force:.0}") } else { format!("{:.0}k", force / 1e3) }
 }

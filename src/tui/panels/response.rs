@@ -7,6 +7,7 @@ use ratatui::{
 };
 
 use super::charts::{entry, title};
+use super::wrap;
 use crate::tui::app::{App, View};
 use crate::tui::axis::AutoRange;
 use crate::tui::history::Channel;
@@ -97,5 +98,13 @@ fn page(
         (plot.inner.x..).zip(app.history.contacts(from, to, cells)).filter(|(_, touched)| *touched)
     {
         plot.text(column, row, &sign.to_string(), skin.style(Role::Contact));
+    }
+    if let Some(failure) = app.moment.as_ref().and_then(|moment| moment.failure.as_ref()) {
+        let inner = plot.inner;
+        for (row, line) in
+            (inner.y..inner.bottom()).zip(wrap(failure, usize::from(inner.width) - 2))
+        {
+            plot.text(inner.x + 1, row, &skin.spell(&line), skin.style(Role::Trouble));
+        }
     }
 }

@@ -1,6 +1,7 @@
 //! The engine without clock or thread: takes orders, plays the motion,
 //! computes what it will come to, and says what there is to see.
 
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::forecast::Run;
@@ -8,12 +9,13 @@ use super::recorder::Recorder;
 use crate::motion::Motion;
 use crate::scene::{ContactLaw, Scene, SolverKind};
 use crate::tui::engine::{Ahead, Forecast, Moment, Order, Pace, Snapshot};
+use crate::tui::locked_curve::LockedCurves;
 
 /// Samples per recorded bin.
 const SAMPLES: f64 = 4.0;
 /// Samples per turn of the wave, at least.
 const PER_TURN: f64 = 24.0;
-/// Longest wall time one call of `play` may take.
+/// Longest wall time one call of `play` takes beside a screen.
 const PLAY_LIMIT: Duration = Duration::from_millis(25);
 /// Samples a jump to the next change of contact looks through at most.
 const JUMP_SAMPLES: usize = 20_000;
@@ -29,12 +31,20 @@ pub struct Player {
     ahead: Run,
     reference: Option<Run>,
     beside: Option<Run>,
+    locked: Option<Arc<LockedCurves>>,
+    patience: Duration,
 }
 
 impl Player {
     /// Begins the order's scene.
     #[must_use]
     pub fn new(order: Order) -> Self {
+        Self::patient(order, PLAY_LIMIT)
+    }
+
+    /// As `new`; `play` may take this much wall time a call.
+    #[must_use]
+    pub fn patient(order: Order, patience: Duration) -> Self {
         let scene = &order.scene;
         let motion = Motion::new(scene);
         let mut player = Self {
@@ -44,6 +54,8 @@ impl Player {
             ahead: Run::new(motion.clone(), scene.solver.end_s),
             reference: reference(scene),
             beside: None,
+            locked: None,
+            patience,
             motion,
             order,
         };
@@ -56,7 +68,7 @@ impl Player {
     pub fn apply(&mut self, order: &Order) {
         let before = std::mem::replace(&mut self.order, order.clone());
         if order.restarts != before.restarts {
-            *self = Self::new(order.clone());
+            *self = Self::patient(order.clone(), self.patience);
             return;
         }
         if order.changes != before.changes {
@@ -68,6 +80,7 @@ impl Player {
         }
         if order.changes != before.changes || order.pulses != before.pulses {
             self.ahead = Run::new(self.motion.clone(), order.scene.solver.end_s);
+            self.locked = None;
             // The reference starts from rest; it says nothing about a changed run.
             self.reference = None;
         }
@@ -129,7 +142,7 @@ impl Player {
                 self.one_step();
             }
             self.look();
-            if began.elapsed() > PLAY_LIMIT {
+            if began.elapsed() > self.patience {
                 self.limited = self.motion.state().t_s + sample <= self.target;
                 self.target = self.target.min(self.motion.state().t_s + sample);
                 break;
@@ -179,7 +192,7 @@ impl Player {
     /// Whether a run ahead is not at its end.
     #[must_use]
     pub fn is_computing(&self) -> bool {
-        self.runs().any(|run| !run.is_done())
+        self.locked.is_none() || self.runs().any(|run| !run.is_done())
     }
 
     fn runs(&self) -> impl Iterator<Item = &Run> {
@@ -188,6 +201,10 @@ impl Player {
 
     /// Goes one slice on with the first run that is not at its end.
     pub fn compute(&mut self) {
+        if self.locked.is_none() && self.ahead.is_done() {
+            self.locked = Some(Arc::new(LockedCurves::of(&self.order.scene)));
+            return;
+        }
         let runs =
             std::iter::once(&mut self.ahead).chain(&mut self.reference).chain(&mut self.beside);
         for run in runs {
@@ -227,6 +244,7 @@ impl Player {
                 run_s: self.ahead.is_done().then(|| self.ahead.wall_s()),
                 limited: self.limited,
             },
+            locked: self.locked.clone(),
             trouble: None,
         }
     }

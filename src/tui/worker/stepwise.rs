@@ -2,6 +2,8 @@
 //! same amount, and the solver's speed is a fixed figure. For tests and
 //! pictures that must come out the same on every machine.
 
+use std::time::Duration;
+
 use super::Player;
 use crate::tui::engine::{Engine, Order, Pace, Snapshot};
 
@@ -36,16 +38,13 @@ impl Engine for Stepwise {
                 player.apply(order);
                 player
             }
-            None => self.player.insert(Player::new(order.clone())),
+            None => self.player.insert(Player::patient(order.clone(), Duration::MAX)),
         };
         while player.is_computing() {
             player.compute();
         }
         if order.playing {
-            // Beyond what fits in good time the player would stop early.
-            for _ in 0..20 {
-                player.play(self.stride / 20.0);
-            }
+            player.play(self.stride);
         } else if !self.fresh {
             return None;
         }

@@ -1,7 +1,11 @@
 //! The knobs: keys of the scene with a label and a sensible step. Names,
 //! units, bounds and meaning come from the table of keys.
 
-use super::axis::Scale;
+mod number;
+
+pub use number::number;
+use number::{COARSE, FINE, decades, prefixed};
+
 use crate::scene::{Allowed, ContactLaw, ModelSize, Scene, SceneError, SolverKind, Value, keys};
 
 /// What a knob sets.
@@ -71,13 +75,6 @@ pub const KNOBS: &[Knob] = &[
     knob!("start u_c'", "initial.v_c_m_s", Turn::Linear(5e-3, 5e-2)),
     knob!("start u_s'", "initial.v_s_m_s", Turn::Linear(5e-3, 5e-2)),
 ];
-
-/// Mantissas of fine turns, two digits; coarse turns use 1, 2 and 5.
-const FINE: &[f64] = &[
-    1.0, 1.1, 1.2, 1.3, 1.5, 1.6, 1.8, 2.0, 2.2, 2.4, 2.7, 3.0, 3.3, 3.6, 3.9, 4.3, 4.7, 5.0, 5.6,
-    6.2, 6.8, 7.5, 8.2, 9.1,
-];
-const COARSE: &[f64] = &[1.0, 2.0, 5.0];
 
 impl Knob {
     /// The value in a scene.
@@ -273,75 +270,6 @@ impl Knob {
     }
 }
 
-/// The next number up or down whose mantissa is in the list.
-fn decades(x: f64, up: bool, mantissas: &[f64], least: f64) -> f64 {
-    if x.abs() < least * (1.0 - 1e-9) {
-        return if up { least } else { 0.0 };
-    }
-    if x < 0.0 {
-        return -decades(-x, !up, mantissas, least);
-    }
-    let power = x.log10().floor() as i32;
-    let candidates = (power - 1..=power + 1).flat_map(|p| {
-        // Text gives the double nearest to the decimal number.
-        mantissas.iter().filter_map(move |m| format!("{m}e{p}").parse::<f64>().ok())
-    });
-    let next = if up {
-        candidates.filter(|c| *c > x * (1.0 + 1e-9)).fold(f64::INFINITY, f64::min)
-    } else {
-        candidates.filter(|c| *c < x * (1.0 - 1e-9)).fold(0.0, f64::max)
-    };
-    if !next.is_finite() {
-        x
-    } else if next < least * (1.0 - 1e-9) {
-        0.0
-    } else {
-        next
-    }
-}
-
-/// A number with an optional SI prefix at its end.
-fn prefixed(text: &str) -> Option<f64> {
-    if let Ok(x) = text.parse::<f64>() {
-        return Some(x);
-    }
-    let last = text.chars().last()?;
-    let factor = match last {
-        'G' => "e9",
-        'M' => "e6",
-        'k' => "e3",
-        'm' => "e-3",
-        'u' | 'µ' => "e-6",
-        'n' => "e-9",
-        'p' => "e-12",
-        _ => return None,
-    };
-    let number = text.strip_suffix(last)?.trim_end();
-    // Read as one decimal number, so that 50u is exactly what 50e-6 is.
-    let plain = number.bytes().all(|b| b.is_ascii_digit() || matches!(b, b'.' | b'-' | b'+'));
-    if plain { format!("{number}{factor}").parse().ok() } else { None }
-}
-
-/// A number as people write it: up to seven digits, a prefix for units that
-/// take one, no trailing zeros.
-#[must_use]
-pub fn number(x: f64, unit: &str) -> String {
-    let takes_prefix = matches!(unit, "m" | "s" | "N" | "N/m" | "m/s" | "N m/rad");
-    let scale = if takes_prefix { Scale::of(x) } else { Scale::plain() };
-    let shown = x / scale.factor;
-    let text = if shown != 0.0 && !(1e-4..1e7).contains(&shown.abs()) {
-        format!("{shown:e}")
-    } else {
-        let digits = 6 - shown.abs().max(1e-4).log10().floor() as i32;
-        let text = format!("{shown:.*}", digits.clamp(0, 9) as usize);
-        match text.contains('.') {
-            true => text.trim_end_matches('0').trim_end_matches('.').to_string(),
-            false => text,
-        }
-    };
-    format!("{text} {}{unit}", scale.prefix).trim_end().to_string()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -432,16 +360,5 @@ mod tests {
         assert!(said.unwrap().contains("unilateral"));
         let back = knob("solver.contact").set(&event, Value::Text("bilateral".into())).unwrap().0;
         assert_eq!(back.solver.kind, SolverKind::Explicit);
-    }
-
-    #[test]
-    fn numbers_read_as_people_write_them() {
-        assert_eq!(number(1e-4, "m"), "100 µm");
-        assert_eq!(number(1e6, "N"), "1 MN");
-        assert_eq!(number(0.05, ""), "0.05");
-        assert_eq!(number(-430.0, "rad/s"), "-430 rad/s");
-        assert_eq!(number(1.544e6, "N/m"), "1.544 MN/m");
-        assert_eq!(number(0.0, "N"), "0 N");
-        assert_eq!(number(1e-7, "s"), "100 ns");
     }
 }

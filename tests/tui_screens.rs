@@ -1,0 +1,173 @@
+//! Whole screens of the explorer: keys in, text out, without a terminal. The
+//! engine is driven by hand and its speed figure is fixed, so that a picture
+//! comes out the same on every machine.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests state what must hold")]
+
+use std::sync::mpsc;
+use std::time::Duration;
+
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+use ratatui::{Terminal, backend::TestBackend};
+use rubscope::scene::Scene;
+use rubscope::tui::events::Event;
+use rubscope::tui::terminal::NoHost;
+use rubscope::tui::worker::Stepwise;
+use rubscope::tui::{App, Exit, Marker, Theme, run};
+
+/// An explorer on a test backend.
+struct Session {
+    terminal: Terminal<TestBackend>,
+    app: App,
+    engine: Stepwise,
+}
+
+/// The paper's scene with a coarser step and a shorter run, for speed.
+fn scene() -> Scene {
+    let mut scene = Scene::builtin("paper-nd3").unwrap();
+    scene.solver.step_s = 2e-7;
+    scene.solver.end_s = 0.02;
+    scene
+}
+
+impl Session {
+    fn open(width: u16, height: u16, scene: Scene, theme: Theme, marker: Marker) -> Self {
+        let terminal = Terminal::new(TestBackend::new(width, height)).unwrap();
+        let mut session =
+            Self { terminal, app: App::new(scene, theme, marker), engine: Stepwise::new(3e-3) };
+        session.press("");
+        session
+    }
+
+    /// Presses keys, one a letter; two frames later the screen is looked at.
+    fn press(&mut self, keys: &str) -> Exit {
+        self.keys(keys.chars().map(|letter| match letter {
+            '\n' => KeyCode::Enter,
+            '\t' => KeyCode::Tab,
+            '\u{1b}' => KeyCode::Esc,
+            '\u{8}' => KeyCode::Backspace,
+            letter => KeyCode::Char(letter),
+        }))
+    }
+
+    fn keys(&mut self, keys: impl Iterator<Item = KeyCode>) -> Exit {
+        let (sender, events) = mpsc::channel();
+        for key in keys {
+            sender.send(Event::Key(KeyEvent::new(key, KeyModifiers::NONE))).unwrap();
+        }
+        drop(sender);
+        let (app, engine) = (&mut self.app, &mut self.engine);
+        run(&mut self.terminal, &events, app, engine, &mut NoHost, Duration::ZERO).unwrap()
+    }
+
+    fn text(&self) -> String {
+        let buffer = self.terminal.backend().buffer();
+        let width = usize::from(buffer.area.width);
+        buffer
+            .content
+            .chunks(width)
+            .map(|row| row.iter().map(|cell| cell.symbol()).collect::<String>())
+            .map(|row| row.trim_end().to_string() + "\n")
+            .collect()
+    }
+}
+
+#[test]
+fn the_first_screen_at_three_sizes() {
+    for (width, height) in [(80, 24), (120, 40), (40, 12)] {
+        let session = Session::open(width, height, scene(), Theme::Dark, Marker::Braille);
+        insta::assert_snapshot!(format!("first_{width}x{height}"), session.text());
+    }
+}
+
+#[test]
+fn each_view_and_the_help_in_ascii() {
+    for (name, keys) in [("response", "1f"), ("gaps", "2f"), ("locked", "3f"), ("help", "?")] {
+        let mut session = Session::open(80, 24, scene(), Theme::Mono, Marker::Ascii);
+        session.press(keys);
+        let text = session.text();
+        assert!(text.is_ascii(), "{text}");
+        insta::assert_snapshot!(format!("ascii_{name}"), text);
+    }
+}
+
+#[test]
+fn a_knob_changes_the_verdict_and_undo_brings_it_back() {
+    let mut session = Session::open(100, 30, scene(), Theme::Dark, Marker::Braille);
+    assert!(session.text().contains(" LOCKED "), "{}", session.text());
+    // Nine down is the contact law; one turn makes it unilateral.
+    session.press("jjjjjjjjjl");
+    assert!(session.text().contains(" DECAY "), "{}", session.text());
+    session.press("u");
+    assert!(session.text().contains(" LOCKED "), "{}", session.text());
+}
+
+#[test]
+fn an_adhesive_lock_is_never_called_locked_without_saying_so() {
+    let mut scene = Scene::builtin("adhesive").unwrap();
+    scene.solver.step_s = 2e-7;
+    let session = Session::open(100, 30, scene, Theme::Dark, Marker::Braille);
+    let text = session.text();
+    assert!(text.contains(" ADHESIVE ") && text.contains("a lock that pulls"), "{text}");
+}
+
+#[test]
+fn a_typed_value_that_is_refused_says_so_in_place() {
+    let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille);
+    session.press("\nfast\n");
+    assert!(session.text().contains("operation.speed_rad_s ="), "{}", session.text());
+    assert_eq!(session.app.scene.operation.speed_rad_s, 500.0);
+    session.press("\u{1b}\n-430\n");
+    assert_eq!(session.app.scene.operation.speed_rad_s, -430.0);
+    // Seven down is the number of blades, which cannot be zero.
+    session.press("jjjjjjj\n0\n");
+    assert!(session.text().contains("bladed_disk.blades = 0"), "{}", session.text());
+}
+
+#[test]
+fn a_run_that_fails_says_when_and_why() {
+    let mut scene = scene();
+    scene.operation.pulse_n = 1e9;
+    let session = Session::open(100, 30, scene, Theme::Dark, Marker::Braille);
+    let text = session.text();
+    assert!(text.contains(" FAILED ") && text.contains("failed at t = "), "{text}");
+}
+
+#[test]
+fn too_small_a_screen_says_what_it_needs() {
+    let session = Session::open(39, 12, scene(), Theme::Dark, Marker::Braille);
+    assert!(session.text().contains("rubscope needs 40x12; this is 39x12"));
+}
+
+#[test]
+fn pause_stops_time_and_a_step_is_one_step() {
+    let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille);
+    session.press(" ");
+    let before = session.app.now();
+    session.press("");
+    assert_eq!(session.app.now(), before);
+    session.press("...");
+    let steps = (session.app.now() - before) / session.app.scene.solver.step_s;
+    // Three steps, to the round-off of a time that is a multiple of a step.
+    assert!((steps - 3.0).abs() < 1e-6, "{steps}");
+}
+
+#[test]
+fn quitting_is_quitting_and_escape_is_not() {
+    let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille);
+    session.press("?\u{1b}\u{1b}\u{1b}");
+    assert!(session.text().contains(" LOCKED "));
+    assert_eq!(session.press("q"), Exit::Done);
+}
+
+#[test]
+fn signals_and_a_lost_terminal_end_with_their_number() {
+    for (event, number) in [(Event::Signal(15), 15), (Event::InputClosed, 1)] {
+        let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille);
+        let (sender, events) = mpsc::channel();
+        sender.send(event).unwrap();
+        let (app, engine) = (&mut session.app, &mut session.engine);
+        let exit = run(&mut session.terminal, &events, app, engine, &mut NoHost, Duration::ZERO);
+        assert_eq!(exit.unwrap(), Exit::Signal(number));
+    }
+}
