@@ -69,7 +69,9 @@ impl Rim {
     /// `(cos psi_k, sin psi_k)` of side `k` (taken modulo `N'`).
     #[must_use]
     pub fn direction(&self, side: u32) -> (f64, f64) {
-        self.directions[(side % self.sides) as usize]
+        // Steps ask for this all the time, and a division is slow.
+        let side = if side < self.sides { side } else { side % self.sides };
+        self.directions[side as usize]
     }
 
     /// The side a blade (numbered from 1, as in the paper) belongs to.
@@ -89,13 +91,13 @@ impl Rim {
     /// The next side in increasing phase.
     #[must_use]
     pub fn next(&self, side: u32) -> u32 {
-        (side + 1) % self.sides
+        if side + 1 < self.sides { side + 1 } else { 0 }
     }
 
     /// The next side in decreasing phase.
     #[must_use]
     pub fn previous(&self, side: u32) -> u32 {
-        (side + self.sides - 1) % self.sides
+        if side == 0 { self.sides - 1 } else { side - 1 }
     }
 
     /// Whether two different sides share a corner.
