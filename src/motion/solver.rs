@@ -127,8 +127,8 @@ impl Motion {
     }
 
     /// The verdict, once nothing to come can change it: no contact can come
-    /// again, or at constant speed a corner has been held for a casing period
-    /// after the pulse.
+    /// again, or at constant speed a corner has been held for two casing
+    /// periods after the pulse.
     #[must_use]
     pub fn settled(&self) -> Option<Verdict> {
         if let Self::Event(inner) = self {
@@ -141,10 +141,11 @@ impl Motion {
         let held_since = log.since.max(self.pulse().end);
         let period = TAU / self.machine().omega_c;
         let corner = matches!(log.touching, Touching::Corner(..));
-        if !corner || self.rotor().ramp() != 0.0 || now < held_since + period {
+        // The first of two periods is for the steps in which the lock was caught.
+        if !corner || self.rotor().ramp() != 0.0 || now < held_since + 2.0 * period {
             return None;
         }
-        let pulled = log.last_tensile.is_some_and(|t| t >= held_since);
+        let pulled = log.last_tensile.is_some_and(|t| t > now - period);
         Some(if pulled { Verdict::Adhesive } else { Verdict::Locked })
     }
 

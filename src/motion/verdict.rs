@@ -1,9 +1,9 @@
 //! How a motion lasts, judged in one place for every solver.
 //!
 //! *decay*: no contact can come again, or none came over the last part of the
-//! run. *locked*: the same sides in contact without a break, all compressive.
-//! *adhesive*: locked, but some multiplier pulls. *slip*: contact without a
-//! break while the sides change. *bounce*: contacts that come and go.
+//! run. *locked*: the same two sides (a corner) in contact without a break, all
+//! compressive. *adhesive*: locked, but some multiplier pulls. *slip*: contact
+//! without a break while the sides change, or along one side. *bounce*: contacts that come and go.
 //! *failed*: the run stopped early.
 
 use serde::Serialize;
@@ -121,7 +121,8 @@ pub fn judge(log: &ContactLog, machine: &Machine, now: f64, window: f64, over: b
     if over {
         Verdict::Decay
     } else if log.touching != Touching::Nothing && log.since <= now - held {
-        if !machine.rim.has_corners() {
+        if matches!(log.touching, Touching::Side(_)) {
+            // Nothing holds the wave along a single side: it slides.
             Verdict::Slip
         } else if log.last_tensile.is_some_and(|t| t >= now - held) {
             Verdict::Adhesive

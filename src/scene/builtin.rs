@@ -18,7 +18,18 @@ macro_rules! builtin {
 }
 
 /// All built-in scenes; the first one is the default.
-pub const BUILTIN: &[Builtin] = builtin!["paper-nd3", "paper-nd4", "adhesive", "undamped"];
+pub const BUILTIN: &[Builtin] = builtin![
+    "paper-nd3",
+    "paper-nd4",
+    "adhesive",
+    "undamped",
+    "rocking",
+    "slip",
+    "grazing",
+    "near-critical",
+    "run-down",
+    "half-n",
+];
 
 impl Scene {
     /// The built-in scene of this name.
