@@ -26,7 +26,13 @@ impl Event {
         let side = rim.nearest_side(place.re, place.im);
         // The scene allows a start on a side up to this round-off.
         if rim.gap(side, place.re, place.im) <= 1e-12 * self.world.clearance {
-            self.touch(side, place, rate);
+            // So is a rate against the blades that is round-off of its two parts.
+            let carried = Plane::i() * place * self.drive.nu;
+            let local = (rate - carried) * self.world.direction(side).conj();
+            let noise = 1e-12 * (rate.norm() + carried.norm());
+            let clean = |x: f64| if x.abs() <= noise { 0.0 } else { x };
+            let local = Plane::new(clean(local.re), clean(local.im));
+            self.touch(side, place, local);
         } else {
             self.fly(place, rate);
         }
@@ -44,7 +50,11 @@ impl Event {
         let half = self.world.half_side;
         let next = |side: u32| self.world.machine.rim.next(side);
         match (what, along, corner) {
-            (What::Touch(side), ..) => self.touch(side, place, rate),
+            (What::Touch(side), ..) => {
+                let out = self.drive.inward(&self.world, side, 0.0).conj();
+                let local = (rate - Plane::i() * place * self.drive.nu) * out;
+                self.touch(side, place, local);
+            }
             (What::Edge(true), Some((side, along)), _) => {
                 let lower = self.world.machine.rim.previous(side);
                 let rate = Plane::new(0.0, along.rate) * self.world.turn;
@@ -74,14 +84,13 @@ impl Event {
         self.enter(Mode::Free(Free::new(place, rate)));
     }
 
-    /// A side is met at a state in the standing frame.
-    fn touch(&mut self, side: u32, place: Plane, rate: Plane) {
-        let out = self.drive.inward(&self.world, side, 0.0).conj();
-        let met = place * out;
+    /// A side is met at `place` in the standing frame; `local` is the rate of
+    /// `z exp(-i psi)`.
+    fn touch(&mut self, side: u32, place: Plane, local: Plane) {
+        let met = place * self.drive.inward(&self.world, side, 0.0).conj();
         self.deepest = self.deepest.max(-(self.world.clearance + met.re));
         let half = self.world.half_side;
         let y = met.im.clamp(-half, half);
-        let local = rate * out - Plane::i() * Plane::new(-self.world.clearance, y) * self.drive.nu;
         let size = self.world.clearance + local.norm() / self.world.omega;
         let rim = &self.world.machine.rim;
         if self.world.corners && half - y.abs() <= 16.0 * self.world.tolerance * size {

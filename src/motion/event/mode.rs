@@ -95,6 +95,9 @@ impl Mode {
             Self::Free(_) => None,
             Self::Slide(slide) => Some((slide.side, slide.at(world, drive, s))),
             Self::Driven(series) => Some((series.side, series.at(s))),
+            Self::Rocking { a, time, .. } if s >= *time => {
+                Some((*a, Along { y: -world.half_side, rate: 0.0, push: 0.0 }))
+            }
             Self::Rocking { a, second, speed, .. } => {
                 let swing = rocking::replay(world, drive, *a, *second, *speed, s);
                 let (side, sign) =
