@@ -147,10 +147,26 @@ impl Linearised {
         values.iter().map(|value| value * self.rate).collect()
     }
 
+    /// Gradients of the gaps in contact.
+    pub fn gradients(&self) -> &[Vector4<f64>] {
+        &self.gradients
+    }
+
+    /// `K + i ratio C - ratio^2 M`.
+    pub fn dynamic_stiffness(&self, ratio: f64) -> Matrix4<Complex<f64>> {
+        let static_part = self.stiffness - Matrix4::from_diagonal(&self.mass) * (ratio * ratio);
+        static_part.zip_map(&(self.damping * ratio), Complex::new)
+    }
+
+    /// The two motions left in a corner: the blades', which the casing follows.
+    pub fn corner_basis(&self) -> Option<Matrix4x2<f64>> {
+        let [a, b] = self.gradients.as_slice() else { return None };
+        Some(follow(a, b))
+    }
+
     /// `M, C, K` of the two blade motions left in a corner.
     fn corner_motion(&self) -> Option<[Matrix2<f64>; 3]> {
-        let [a, b] = self.gradients.as_slice() else { return None };
-        let basis = follow(a, b);
+        let basis = self.corner_basis()?;
         let across = basis.transpose();
         Some([
             across * Matrix4::from_diagonal(&self.mass) * basis,

@@ -6,5 +6,5 @@ mod parameters;
 mod rim;
 
 pub use machine::{Machine, blade_frequency};
-pub use parameters::{BladedDisk, Casing, Initial, Operation};
+pub use parameters::{BladedDisk, Casing, Excitation, Initial, Operation};
 pub use rim::Rim;

@@ -99,3 +99,20 @@ pub struct Initial {
     /// Rate of `u_s` \[m/s\].
     pub v_s_m_s: f64,
 }
+
+/// An engine-order excitation: a torque `amplitude * cos(order (theta + Phi_i))`
+/// on every blade, fixed in the standing frame; off at amplitude zero.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Excitation {
+    /// Torque on each blade \[N m\].
+    pub amplitude_nm: f64,
+    /// Engine order: how often a turn the load rises and falls.
+    pub order: u32,
+}
+
+impl Default for Excitation {
+    /// Off.
+    fn default() -> Self {
+        Self { amplitude_nm: 0.0, order: 3 }
+    }
+}

@@ -270,6 +270,14 @@ pub const KEYS: &[Key] = &[
     real!("initial.u_s_m", "m", "u_s at t = 0", false - 1e3..1e3, initial.u_s_m),
     real!("initial.v_c_m_s", "m/s", "rate of u_c at t = 0", false - 1e6..1e6, initial.v_c_m_s),
     real!("initial.v_s_m_s", "m/s", "rate of u_s at t = 0", false - 1e6..1e6, initial.v_s_m_s),
+    real!(
+        "excitation.amplitude_nm",
+        "N m",
+        "engine-order torque on each blade, 0 for none",
+        false 0.0..1e9,
+        excitation.amplitude_nm
+    ),
+    whole!("excitation.order", "engine order of that torque", 1..4096, excitation.order),
     word!("solver.kind", "solver", SolverKind, solver.kind),
     word!("solver.contact", "contact law", ContactLaw, solver.contact),
     word!("solver.model", "model size", ModelSize, solver.model),

@@ -17,7 +17,7 @@ pub use builtin::{BUILTIN, Builtin};
 pub use error::SceneError;
 pub use keys::{Allowed, KEYS, Key, Value};
 
-use crate::model::{BladedDisk, Casing, Initial, Machine, Operation};
+use crate::model::{BladedDisk, Casing, Excitation, Initial, Machine, Operation};
 
 /// Which solver advances the motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -119,6 +119,8 @@ pub struct Scene {
     pub operation: Operation,
     /// Casing state at t = 0.
     pub initial: Initial,
+    /// Engine-order excitation of the blades; off by default.
+    pub excitation: Excitation,
     /// Numerical choices.
     pub solver: SolverChoice,
     /// Charts to open with.

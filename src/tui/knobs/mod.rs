@@ -74,6 +74,8 @@ pub const KNOBS: &[Knob] = &[
     knob!("start u_s", "initial.u_s_m", Turn::Linear(5e-6, 2e-5)),
     knob!("start u_c'", "initial.v_c_m_s", Turn::Linear(5e-3, 5e-2)),
     knob!("start u_s'", "initial.v_s_m_s", Turn::Linear(5e-3, 5e-2)),
+    knob!("EO torque", "excitation.amplitude_nm", Turn::Decades(1e-3)),
+    knob!("EO order", "excitation.order", Turn::Whole(1, 5)),
 ];
 
 impl Knob {

@@ -1,0 +1,161 @@
+//! What an engine-order excitation of the blades does to a locked motion: the
+//! linear response about it, both contacts kept.
+//!
+//! A load `Q cos(E (theta + Phi_i))`, fixed in the standing frame, drives the
+//! modes of `n_d` diameters only where `E` is `+-n_d` modulo `N`, at `E Omega` in
+//! the blade frame: `sum_i exp(i psi_i) Q_i = (N/2) Q exp(+-i E theta)`. In a
+//! corner the blades are all that is free to move, and the casing follows them.
+
+use nalgebra::{Complex, Matrix2, Vector2, Vector4};
+
+use super::equations::{Equations, Scales, Wave};
+use super::equilibria::{judged, loads_of};
+use super::posture::Posture;
+use super::stability::{Held, Linearised, blade_scale};
+use super::{Corner, Equilibrium, Form, HarmonicError, Kind};
+use crate::model::{Excitation, Machine};
+
+/// The locked motion with its response to an engine order at one speed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ExcitedLock {
+    /// The locked motion without the excitation.
+    pub state: Equilibrium,
+    /// Frequency in the blade frame, `E |Omega|` \[rad/s\].
+    pub frequency: f64,
+    /// Complex amplitudes of `x, y` (casing, blade frame) \[m\] and of `alpha_c`,
+    /// `alpha_s` \[rad\], each the coefficient of `exp(i frequency t)`.
+    pub response: [Complex<f64>; 4],
+    /// Complex amplitudes of both group multipliers \[N\].
+    pub multipliers: [Complex<f64>; 2],
+    /// Largest change of `|z|` over that of the locked motion.
+    pub relative_amplitude: f64,
+    /// Largest change of a multiplier over its mean.
+    pub relative_multiplier: f64,
+    /// The torque at which a multiplier would first reach zero, by the linear
+    /// response \[N m\]; none where the excitation does not reach these modes.
+    pub release_torque: Option<f64>,
+}
+
+/// Whether an engine order drives the modes of this machine.
+#[must_use]
+pub fn drives(machine: &Machine, order: u32) -> bool {
+    let (forward, backward) = reach(machine, order);
+    forward || backward
+}
+
+/// Whether `n_d + E` and `n_d - E` are multiples of `N`.
+fn reach(machine: &Machine, order: u32) -> (bool, bool) {
+    let blades = u64::from(machine.rim.blades);
+    let diameters = u64::from(machine.rim.nodal_diameters) % blades;
+    let order = u64::from(order) % blades;
+    ((diameters + order).is_multiple_of(blades), diameters == order)
+}
+
+/// The response of the locked motion (form `modal`, damped) in the corner after
+/// `side` at each speed \[rad/s\]; speeds without a locked motion are left out.
+///
+/// # Errors
+/// A rim without corners, or a speed that is not finite.
+pub fn excited_lock(
+    machine: &Machine,
+    side: u32,
+    excitation: &Excitation,
+    speeds: &[f64],
+) -> Result<Vec<ExcitedLock>, HarmonicError> {
+    let corner = Corner::after(&machine.rim, side)?;
+    let mut found = Vec::with_capacity(speeds.len());
+    for &speed in speeds {
+        if !speed.is_finite() {
+            return Err(HarmonicError::Speed(speed));
+        }
+        found.extend(at(machine, corner, excitation, speed));
+    }
+    Ok(found)
+}
+
+fn at(
+    machine: &Machine,
+    corner: Corner,
+    excitation: &Excitation,
+    speed: f64,
+) -> Option<ExcitedLock> {
+    let wave = Wave::at(machine, speed, true);
+    let equations = Equations::new(machine, corner, Form::Modal);
+    let unknowns = equations.solve(wave, equations.predict(wave)?)?;
+    let (z, loads) = loads_of(machine, corner, &unknowns);
+    let turns = [4, 5].map(|i| equations.softness() * unknowns[i]);
+    let posture = Posture::of_pair(&machine.rim, z, corner.sides(), turns);
+    let held: Vec<Held> =
+        loads.iter().map(|load| posture.held(&machine.rim, load.0, load.1)).collect();
+    let state = judged(machine, Kind::Corner, speed, true, &posture, &loads);
+    let motion = Linearised::about(machine, speed, true, &held);
+
+    let scales = Scales::of(machine);
+    let angle = blade_scale(machine) / machine.nodal_diameters;
+    let torque = excitation.amplitude_nm * angle / (scales.force * scales.length);
+    let frequency = f64::from(excitation.order) * speed;
+    let load = modal_load(machine, excitation.order).map(|part| part * torque);
+    let (shape, pushes) = motion.forced(load, frequency / machine.omega_c)?;
+    let units = [scales.length, scales.length, angle, angle];
+    let response = [0, 1, 2, 3].map(|i| shape[i] * units[i]);
+    let multipliers = [0, 1].map(|i| pushes[i] * scales.force);
+    let means = [0, 1].map(|i| state.contacts.get(i).map_or(0.0, |contact| contact.1));
+    let over = |change: f64, whole: f64| if change == 0.0 { 0.0 } else { change / whole.abs() };
+    let relative = [0, 1].map(|i| over(multipliers[i].norm(), means[i]));
+    let relative_multiplier = relative[0].max(relative[1]);
+    Some(ExcitedLock {
+        relative_amplitude: over(radial(&state, &response), state.amplitude()),
+        relative_multiplier,
+        release_torque: (relative_multiplier > 0.0)
+            .then(|| excitation.amplitude_nm / relative_multiplier),
+        state,
+        frequency: frequency.abs(),
+        response,
+        multipliers,
+    })
+}
+
+/// The load on `(alpha_c, alpha_s)` per unit torque on each blade, as the
+/// coefficients of `exp(i E Omega t)`.
+fn modal_load(machine: &Machine, order: u32) -> [Complex<f64>; 2] {
+    let half = 0.5 * f64::from(machine.rim.blades);
+    let (forward, backward) = reach(machine, order);
+    let part = |reached: bool| if reached { half } else { 0.0 };
+    // exp(i E theta) = cos + i sin: the sine coordinate lags or leads by a quarter.
+    [
+        Complex::new(part(forward) + part(backward), 0.0),
+        Complex::new(0.0, part(backward) - part(forward)),
+    ]
+}
+
+/// Largest change of `|z|`: the part of the response along `z`.
+fn radial(state: &Equilibrium, response: &[Complex<f64>; 4]) -> f64 {
+    let amplitude = state.amplitude();
+    ((response[0] * state.z[0] + response[1] * state.z[1]) / amplitude).norm()
+}
+
+/// Coordinates and multipliers of a forced motion, scaled.
+type Forced = (Vector4<Complex<f64>>, Vector2<Complex<f64>>);
+
+impl Linearised {
+    /// The steady response to a load `exp(i ratio t)` on the blade modes, both
+    /// contacts of a corner kept: coordinates and multipliers, scaled. `None`
+    /// at an undamped resonance.
+    fn forced(&self, load: [Complex<f64>; 2], ratio: f64) -> Option<Forced> {
+        let basis = self.corner_basis()?.map(real);
+        let dynamic = self.dynamic_stiffness(ratio);
+        let load = Vector4::new(real(0.0), real(0.0), load[0], load[1]);
+        let reduced: Matrix2<Complex<f64>> = basis.transpose() * dynamic * basis;
+        let motion = basis * reduced.try_inverse()? * (basis.transpose() * load);
+        // The casing rows of the full equations give the multipliers.
+        let left = dynamic * motion;
+        let &[a, b] = self.gradients() else { return None };
+        let contact = Matrix2::new(a[0], b[0], a[1], b[1]).map(real);
+        let pushes = contact.try_inverse()? * Vector2::new(-left[0], -left[1]);
+        Some((motion, pushes))
+    }
+}
+
+fn real(x: f64) -> Complex<f64> {
+    Complex::new(x, 0.0)
+}
