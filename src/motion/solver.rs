@@ -144,7 +144,8 @@ impl Motion {
         if !corner || self.rotor().ramp() != 0.0 || now < held_since + period {
             return None;
         }
-        let pulled = log.last_tensile.is_some_and(|t| t >= held_since);
+        // The step that caught the wave may have pulled; an adhesive lock goes on pulling.
+        let pulled = log.last_tensile.is_some_and(|t| t >= now - 0.5 * period);
         Some(if pulled { Verdict::Adhesive } else { Verdict::Locked })
     }
 
