@@ -1,6 +1,6 @@
 //! Figs. 9 and 10: the locked motion by harmonic balance, against speed.
 
-use super::{Figure, Mark, Panel, Quantity, Series, Style};
+use super::{Figure, Mark, Panel, Quantity, Series, Style, speed_marks};
 use crate::harmonic::{Form, HarmonicError, LockedPoint, Sweep, locked_motion};
 use crate::model::Machine;
 use crate::scene::Scene;
@@ -42,12 +42,8 @@ pub fn multipliers(scene: &Scene) -> Result<Figure, HarmonicError> {
         series("lambda_1, damped", Style::Line(2), &damped, |point| point.multipliers[0]),
         series("lambda_2, damped", Style::Dashed(3), &damped, |point| point.multipliers[1]),
     ];
-    let mut panel = Panel::new("", Quantity::SPEED, LAMBDA, lines);
-    for (label, speed) in
-        [("Omega_c", machine.critical_speed()), ("Omega_lock", machine.lock_speed())]
-    {
-        panel.marks.extend(speed.map(|x| Mark { x, label }));
-    }
+    let marks = speed_marks(&machine);
+    let panel = Panel { marks, ..Panel::new("", Quantity::SPEED, LAMBDA, lines) };
     Ok(Figure {
         number: 9,
         title: "Contact multipliers of the locked motion against rotor speed".into(),

@@ -15,6 +15,7 @@ mod zone;
 pub use figure::{Figure, Mark, Panel, Quantity, Series, Style};
 
 use crate::harmonic::HarmonicError;
+use crate::model::Machine;
 use crate::scene::{Scene, SceneError};
 
 /// The numbers of the figures there are.
@@ -52,6 +53,17 @@ impl Scenes {
     }
 }
 
+/// The speeds above which the wave is pushed outwards, and above which both
+/// multipliers of a lock push; one and the same without casing damping.
+fn speed_marks(machine: &Machine) -> Vec<Mark> {
+    let critical = machine.critical_speed();
+    let lock = machine.lock_speed().filter(|_| machine.casing_damping_ratio > 0.0);
+    [("Omega_c", critical), ("Omega_lock", lock)]
+        .into_iter()
+        .filter_map(|(label, speed)| Some(Mark { x: speed?, label }))
+        .collect()
+}
+
 /// One figure by its number in the paper; none for a number not in `NUMBERS`.
 ///
 /// # Errors
@@ -62,7 +74,7 @@ pub fn figure(number: u32, scenes: &Scenes) -> Result<Option<Figure>, HarmonicEr
         5 => Some(time::gaps(&scenes.three)),
         6 => Some(time::response(6, &scenes.three)),
         7 => Some(time::response(7, &scenes.four)),
-        8 => Some(zone::zone(&scenes.machine)),
+        8 => Some(zone::zone(&scenes.machine, &scenes.three)),
         9 => Some(harmonic::multipliers(&scenes.machine)?),
         10 => Some(harmonic::amplitudes(&scenes.machine)?),
         _ => None,

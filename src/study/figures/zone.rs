@@ -1,7 +1,6 @@
-//! Fig. 8: which pulses at which speeds lead to which lasting motion, with the
-//! paper's equality contact and with contact that only pushes.
+//! Fig. 8: which pulses at which speeds lead to which lasting motion.
 
-use super::{Figure, Mark, Panel, Quantity, Series, Style};
+use super::{Figure, Panel, Quantity, Series, Style, speed_marks};
 use crate::motion::Verdict;
 use crate::scene::{ContactLaw, Scene, SolverKind};
 use crate::study::{Axis, Map, MapPlan, Progress};
@@ -15,34 +14,46 @@ const PULSE_RANGE: (f64, f64) = (1e3, 1e6);
 
 const PULSE: Quantity = Quantity { column: "pulse_n", label: "pulse [N]", factor: 1.0, log: true };
 
-/// Fig. 8, once for each contact law.
-pub fn zone(scene: &Scene) -> Figure {
-    let mut panels = Vec::new();
-    for (law, title) in [
-        (ContactLaw::Bilateral, "(a) bilateral contact, the paper's algorithm"),
-        (ContactLaw::Unilateral, "(b) unilateral contact"),
-    ] {
-        let mut scene = scene.clone();
-        scene.solver.kind = SolverKind::Explicit;
-        scene.solver.contact = law;
-        let mut panel = Panel::new(title, Quantity::SPEED, PULSE, cells(scene.clone()));
-        let machine = scene.machine();
-        for (label, speed) in
-            [("Omega_c", machine.critical_speed()), ("Omega_lock", machine.lock_speed())]
-        {
-            panel.marks.extend(speed.map(|x| Mark { x, label }));
-        }
-        panels.push(panel);
+/// Fig. 8 for one machine with each contact law, and with contact that only
+/// pushes for the machine of the figures in time, where its damping differs.
+pub fn zone(scene: &Scene, other: &Scene) -> Figure {
+    let bilateral = with(scene, SolverKind::Explicit, ContactLaw::Bilateral);
+    let unilateral = with(scene, SolverKind::Event, ContactLaw::Unilateral);
+    let mut panels = vec![
+        panel("(a) bilateral contact, the paper's algorithm", bilateral),
+        panel("(b) contact that only pushes", unilateral),
+    ];
+    if other.casing.damping_ratio != scene.casing.damping_ratio {
+        let other = with(other, SolverKind::Event, ContactLaw::Unilateral);
+        let title =
+            format!("(c) contact that only pushes, zeta_c = {}", other.casing.damping_ratio);
+        panels.push(panel(&title, other));
     }
     Figure {
         number: 8,
         title: "How the motion lasts, against pulse and rotor speed".into(),
         note: format!(
-            "n_d = {}, zeta_c = {}, explicit solver, h = {:e} s",
-            scene.operation.nodal_diameters, scene.casing.damping_ratio, scene.solver.step_s
+            "n_d = {}, zeta_c = {}, {} s",
+            scene.operation.nodal_diameters, scene.casing.damping_ratio, scene.solver.end_s
         ),
         panels,
     }
+}
+
+/// The scene with this solver, where it can be had, and this contact law.
+fn with(scene: &Scene, kind: SolverKind, contact: ContactLaw) -> Scene {
+    let mut scene = scene.clone();
+    scene.solver.contact = contact;
+    scene.solver.kind = kind;
+    if scene.check().is_err() {
+        scene.solver.kind = SolverKind::Explicit;
+    }
+    scene
+}
+
+fn panel(title: &str, scene: Scene) -> Panel {
+    let marks = speed_marks(&scene.machine());
+    Panel { marks, ..Panel::new(title, Quantity::SPEED, PULSE, cells(scene)) }
 }
 
 /// One series of cells for each verdict that occurs.
