@@ -158,3 +158,13 @@ fn history_options_without_a_file_are_refused() {
     assert!(refusal(&["run", "--gaps"]).contains("--out <FILE>"));
     assert!(refusal(&["run", "--out", "a.csv", "--samples", "1"]).contains("2..=1000000"));
 }
+
+#[test]
+fn run_and_map_agree_on_a_lock_that_was_caught_by_a_pull() {
+    // The bilateral law pulls in the two steps that catch the wave, and never again.
+    let report = json(&["run", "--pulse", "51742", "--json"]);
+    assert_eq!(report["outcome"]["verdict"], "locked");
+    assert_eq!(report["checks"]["tensile_steps"], 2);
+    let map = json(&["map", "--speed", "500:500:1", "--pulse", "51742:51742:1", "--json"]);
+    assert_eq!(map["verdict"], serde_json::json!([["locked"]]));
+}

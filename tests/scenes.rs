@@ -48,7 +48,7 @@ fn adhesive_glues_and_lets_go() {
 #[test]
 fn undamped_bounces_until_it_no_longer_reaches_the_blades_and_rings_on() {
     assert_eq!(verdict("undamped", &[("solver.step_s", "1e-6")]), Verdict::Bounce);
-    let event = [("solver.kind", "event"), ("solver.model", "rigid"), ("solver.end_s", "1")];
+    let event = [("solver.kind", "event"), ("solver.model", "rigid"), ("solver.end_s", "10")];
     let report = run("undamped", &event);
     assert_eq!(report.outcome.verdict, Verdict::Decay);
     assert!(report.outcome.sensitive);

@@ -46,7 +46,8 @@ impl Explore {
     pub(super) fn run(&self) -> Done {
         self.refuse_command()?;
         let scene = self.options.scene()?;
-        if !std::io::stdout().is_terminal() {
+        let dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
+        if dumb || !std::io::stdout().is_terminal() {
             return Err(Refusal::because(
                 "the explorer needs a terminal on standard output; without one, use `rubscope run`",
             )

@@ -4,11 +4,12 @@
 use std::io::Write;
 
 use clap::{Args, CommandFactory};
-use clap_mangen::roff::{Inline, Roff, bold, roman};
+use clap_mangen::roff::{Roff, bold, roman};
 
 use super::status::{Refusal, Status};
 use super::{Cli, Done};
 use crate::scene::BUILTIN;
+use crate::tui::bindings::{self, Context, keys_text};
 
 /// Print the manual page, or that of one command.
 #[derive(Args, Debug)]
@@ -59,6 +60,12 @@ const EXIT_STATUS: &[(&str, &str)] = &[
     ("128+n", "Ended by signal n."),
 ];
 
+/// What the explorer takes from its surroundings.
+const ENVIRONMENT: &[(&str, &str)] = &[
+    ("NO_COLOR", "Not empty: no colours, unless --color says otherwise; bold and reverse stay."),
+    ("TERM", "dumb: there is no explorer; the other commands do not care."),
+];
+
 const EXAMPLES: &[(&str, &str)] = &[
     ("rubscope", "Open the explorer on the default scene."),
     ("rubscope run adhesive", "Simulate a built-in scene and say how it ends."),
@@ -66,6 +73,9 @@ const EXAMPLES: &[(&str, &str)] = &[
         "rubscope run --contact unilateral --speed -430 --json",
         "The default scene with contact that only pushes, the rotor turning the other way, as JSON.",
     ),
+    ("rubscope hbm --speed 0:500:501 --damped", "The locked motion against rotor speed."),
+    ("rubscope map --speed 250:500:51 --pulse 1e4:1e6:25", "Which pulses lock at which speeds."),
+    ("rubscope figures --out figures", "The figures of the paper."),
     (
         "rubscope run my.toml --set bladed_disk.blades=24 --out history.npz",
         "A scene file with one key changed; the history goes to a file for numpy.",
@@ -83,17 +93,21 @@ fn added() -> Roff {
          and the file over the default.",
         names.join(", ")
     ))]);
-    list(&mut page, "EXIT STATUS", EXIT_STATUS);
-    list(&mut page, "EXAMPLES", EXAMPLES);
+    list(&mut page, "KEYS", bindings::of(Context::Main).map(|b| (keys_text(b), b.what)));
+    let told = |entries: &'static [(&str, &'static str)]| {
+        entries.iter().map(|(term, text)| (term.to_string(), *text))
+    };
+    list(&mut page, "EXIT STATUS", told(EXIT_STATUS));
+    list(&mut page, "ENVIRONMENT", told(ENVIRONMENT));
+    list(&mut page, "EXAMPLES", told(EXAMPLES));
     page
 }
 
-fn list(page: &mut Roff, heading: &str, entries: &[(&str, &str)]) {
+fn list(page: &mut Roff, heading: &str, entries: impl Iterator<Item = (String, &'static str)>) {
     page.control("SH", [heading]);
     for (term, text) in entries {
         page.control("TP", []);
-        let term: [Inline; 1] = [bold(*term)];
-        page.text(term);
-        page.text([roman(*text)]);
+        page.text([bold(term)]);
+        page.text([roman(text)]);
     }
 }

@@ -5,6 +5,7 @@
 
 mod completions;
 mod explore;
+mod figures;
 mod hbm;
 mod man;
 mod map;
@@ -46,6 +47,7 @@ enum Command {
     Hbm(Box<hbm::Hbm>),
     Map(Box<map::MapCommand>),
     Precision(Box<precision::PrecisionCommand>),
+    Figures(Box<figures::Figures>),
     Scenes(scenes::Scenes),
     Completions(completions::Completions),
     Man(man::Man),
@@ -72,6 +74,7 @@ fn dispatch(cli: Cli, out: &mut dyn Write) -> Done {
         Some(Command::Hbm(command)) => command.run(out),
         Some(Command::Map(command)) => command.run(out),
         Some(Command::Precision(command)) => command.run(out),
+        Some(Command::Figures(command)) => command.run(),
         Some(Command::Scenes(command)) => command.run(out),
         Some(Command::Completions(command)) => command.run(out),
         Some(Command::Man(command)) => command.run(out),

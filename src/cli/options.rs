@@ -103,7 +103,19 @@ impl SceneOptions {
     /// As `scene`; the scene is checked at both ends of each range.
     pub fn resolve(&self, swept: Swept) -> anyhow::Result<Resolved> {
         let default = BUILTIN.first().map_or("paper-nd3", |scene| scene.name);
-        let mut scene = Scene::load_unchecked(self.scene.as_deref().unwrap_or(default))?;
+        let scene = Scene::load_unchecked(self.scene.as_deref().unwrap_or(default))?;
+        self.apply(scene, swept)
+    }
+
+    /// Another scene than the one named, changed by these options.
+    ///
+    /// # Errors
+    /// As `scene`.
+    pub fn change(&self, scene: Scene) -> anyhow::Result<Scene> {
+        Ok(self.apply(scene, Swept::default())?.scene)
+    }
+
+    fn apply(&self, mut scene: Scene, swept: Swept) -> anyhow::Result<Resolved> {
         let mut given = Vec::new();
         let (mut speeds, mut pulses) = (None, None);
         for (option, key, text) in self.named() {

@@ -9,7 +9,7 @@ use crate::motion::Verdict;
 use crate::study::{Axis, Map, overlay::Curve};
 
 /// Colour of a verdict, readable without colour vision.
-fn colour(verdict: Verdict) -> RGBColor {
+pub(super) fn colour(verdict: Verdict) -> RGBColor {
     match verdict {
         Verdict::Decay => RGBColor(240, 240, 240),
         Verdict::Bounce => RGBColor(190, 210, 235),

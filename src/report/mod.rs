@@ -2,6 +2,7 @@
 //! and a place to write to; it computes nothing itself.
 
 pub mod csv;
+pub mod figure;
 pub mod file;
 pub mod hbm;
 pub mod history;
@@ -13,6 +14,7 @@ pub mod number;
 pub mod precision;
 pub mod precision_svg;
 pub mod summary;
+pub mod svg;
 pub mod table;
 mod zip;
 

@@ -1,7 +1,9 @@
-//! Many runs of one scene: the interaction map, and speed against error.
+//! Many runs of one scene: the interaction map, speed against error, and the
+//! paper's figures.
 
 mod adaptive;
 mod axis;
+pub mod figures;
 pub mod map;
 pub mod overlay;
 pub mod part;

@@ -1,0 +1,100 @@
+//! `rubscope figures`: the paper's Figs. 4 to 10, remade as SVG with their
+//! data as CSV.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::Context;
+use clap::Args;
+
+use super::Done;
+use super::options::SceneOptions;
+use super::status::{Refusal, Status, say};
+use crate::report::{figure::table, file, svg};
+use crate::scene::Scene;
+use crate::study::figures::{Figure, NUMBERS, Scenes, figure};
+
+/// Remake the paper's Figs. 4 to 10 as SVG, with their data as CSV.
+///
+/// Without a SCENE, Figs. 4 to 7 show a motion that locks late, as in the
+/// paper: without casing damping, with unilateral contact, and with a pulse
+/// that the paper does not print. With a SCENE, that is the scene of every
+/// figure, with four nodal diameters in Fig. 7. Other options change every
+/// figure. Fig. 4 has its own time steps, Fig. 8 its own contact laws and
+/// pulses, and Figs. 8 to 10 range from standstill to the speed of the scene.
+#[derive(Args, Debug)]
+pub struct Figures {
+    #[command(flatten)]
+    options: SceneOptions,
+    /// Directory of the files; made where there is none
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Only these figures, such as 4,9
+    #[arg(long, value_name = "NUMBERS", value_delimiter = ',')]
+    only: Vec<u32>,
+}
+
+impl Figures {
+    pub(super) fn run(&self) -> Done {
+        let numbers = self.numbers()?;
+        let scenes = self.scenes()?;
+        let shown = self.out.display();
+        std::fs::create_dir_all(&self.out).with_context(|| format!("cannot make {shown}"))?;
+        for number in numbers {
+            // A machine that cannot lock has no Figs. 9 and 10: refused input.
+            let drawn = figure(number, &scenes)
+                .map_err(|error| Refusal::because(format!("figure {number}: {error}")))?;
+            if let Some(drawn) = drawn {
+                self.save(&drawn)?;
+            }
+        }
+        Ok(Status::Done)
+    }
+
+    fn numbers(&self) -> Result<Vec<u32>, Refusal> {
+        if self.only.is_empty() {
+            return Ok(NUMBERS.to_vec());
+        }
+        match self.only.iter().find(|number| !NUMBERS.contains(number)) {
+            Some(unknown) => Err(Refusal::of("--only", unknown, "numbers from 4 to 10")),
+            None => Ok(self.only.clone()),
+        }
+    }
+
+    fn scenes(&self) -> anyhow::Result<Scenes> {
+        let paper = match self.options.name() {
+            None => Scenes::paper()?,
+            Some(name) => {
+                let scene = Scene::load_unchecked(name)?;
+                let mut four = scene.clone();
+                four.set("operation.nodal_diameters", "4")?;
+                Scenes { three: scene.clone(), four, machine: scene }
+            }
+        };
+        Ok(Scenes {
+            three: self.options.change(paper.three)?,
+            four: self.options.change(paper.four)?,
+            machine: self.options.change(paper.machine)?,
+        })
+    }
+
+    fn save(&self, figure: &Figure) -> anyhow::Result<()> {
+        let stem = format!("fig{:02}", figure.number);
+        let mut names = vec![format!("{stem}.svg")];
+        write(&self.out.join(format!("{stem}.svg")), |out| svg::write(figure, out))?;
+        for (panel, letter) in figure.panels.iter().zip('a'..='z') {
+            let letter = if figure.panels.len() > 1 { letter.to_string() } else { String::new() };
+            let name = format!("{stem}{letter}.csv");
+            write(&self.out.join(&name), |out| table(panel).write_csv(out))?;
+            names.push(name);
+        }
+        say(&format!("rubscope: wrote {} to {}", names.join(", "), self.out.display()));
+        Ok(())
+    }
+}
+
+fn write(
+    path: &Path,
+    content: impl FnOnce(&mut dyn std::io::Write) -> std::io::Result<()>,
+) -> anyhow::Result<()> {
+    file::replace(path, content).with_context(|| format!("cannot write {}", path.display()))
+}

@@ -1,0 +1,69 @@
+//! The data of a figure as a table, one for each panel.
+
+use super::table::{Cell, Table};
+use crate::study::figures::Panel;
+
+/// A column of x and one for each series where they share x; otherwise one row
+/// a point, with the name of its series.
+#[must_use]
+pub fn table(panel: &Panel) -> Table {
+    if panel.shares_x() { wide(panel) } else { long(panel) }
+}
+
+fn wide(panel: &Panel) -> Table {
+    let unit = panel.y.column.split_once('_').map_or("", |(_, unit)| unit);
+    let names: Vec<String> = panel
+        .series
+        .iter()
+        .map(|series| format!("{}_{unit}", series.label.replace(", ", "_").replace(' ', "_")))
+        .collect();
+    let mut table = Table::new(
+        &std::iter::once(panel.x.column)
+            .chain(names.iter().map(String::as_str))
+            .collect::<Vec<_>>(),
+    );
+    let xs = panel.series.first().map(|series| series.points.as_slice()).unwrap_or_default();
+    for (row, (x, _)) in xs.iter().enumerate() {
+        let values = panel.series.iter().map(|series| series.points.get(row).map(|point| point.1));
+        table.push(std::iter::once(Cell::from(*x)).chain(values.map(Cell::from)).collect());
+    }
+    table
+}
+
+fn long(panel: &Panel) -> Table {
+    let mut table = Table::new(&["series", panel.x.column, panel.y.column]);
+    for series in &panel.series {
+        for &(x, y) in &series.points {
+            table.push(vec![series.label.as_str().into(), x.into(), y.into()]);
+        }
+    }
+    table
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::figures::{Quantity, Series, Style};
+
+    fn text(points: [&[(f64, f64)]; 2]) -> String {
+        let [a, b] = points.map(|points| points.iter().copied());
+        let series =
+            vec![Series::new("u c", Style::Faint, a), Series::new("u s, damped", Style::Faint, b)];
+        let y = Quantity::new("u_m", "u", 1e6);
+        let mut out = Vec::new();
+        table(&Panel::new("", Quantity::TIME, y, series)).write_csv(&mut out).unwrap();
+        String::from_utf8(out).unwrap()
+    }
+
+    #[test]
+    fn series_over_the_same_x_stand_side_by_side() {
+        let shared = text([&[(0.0, 1.0), (0.5, 2.0)], &[(0.0, 3.0), (0.5, 4.0)]]);
+        assert_eq!(shared, "t_s,u_c_m,u_s_damped_m\n0,1,3\n0.5,2,4\n");
+    }
+
+    #[test]
+    fn others_stand_below_each_other() {
+        let apart = text([&[(0.0, 1.0)], &[(0.5, 4.0)]]);
+        assert_eq!(apart, "series,t_s,u_m\nu c,0,1\n\"u s, damped\",0.5,4\n");
+    }
+}

@@ -1,0 +1,121 @@
+//! A figure as data: panels of series over two quantities, all in SI units.
+
+use crate::motion::Verdict;
+
+/// One figure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    /// Its number in the paper.
+    pub number: u32,
+    /// One line that says what it shows.
+    pub title: String,
+    /// One line that says of what.
+    pub note: String,
+    /// Its panels, from top to bottom.
+    pub panels: Vec<Panel>,
+}
+
+/// One pair of axes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Panel {
+    /// What it shows, where there are several.
+    pub title: String,
+    /// Horizontal axis.
+    pub x: Quantity,
+    /// Vertical axis.
+    pub y: Quantity,
+    /// What is drawn, in order.
+    pub series: Vec<Series>,
+    /// Values of x that mean something.
+    pub marks: Vec<Mark>,
+}
+
+/// What an axis measures.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quantity {
+    /// Name in files, with the SI unit.
+    pub column: &'static str,
+    /// Name on the axis, with the unit shown.
+    pub label: &'static str,
+    /// Shown units in one SI unit.
+    pub factor: f64,
+    /// Whether the axis is logarithmic.
+    pub log: bool,
+}
+
+/// One curve or set of points.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series {
+    /// Name in files and in the legend.
+    pub label: String,
+    /// How it is drawn.
+    pub style: Style,
+    /// `(x, y)`, finite, in SI units.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// How a series is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Style {
+    /// A line in the colour of this number.
+    Line(usize),
+    /// A dashed line in the colour of this number.
+    Dashed(usize),
+    /// A thin grey line without a legend of its own.
+    Faint,
+    /// Cells of a map, in the colour of this verdict.
+    Cells(Verdict),
+}
+
+/// A vertical line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mark {
+    /// Where, in SI units.
+    pub x: f64,
+    /// Its name.
+    pub label: &'static str,
+}
+
+impl Quantity {
+    /// Time, shown in milliseconds.
+    pub const TIME: Self = Self::new("t_s", "time [ms]", 1e3);
+    /// Rotor speed.
+    pub const SPEED: Self = Self::new("speed_rad_s", "rotor speed [rad/s]", 1.0);
+
+    /// A quantity on a linear axis.
+    #[must_use]
+    pub const fn new(column: &'static str, label: &'static str, factor: f64) -> Self {
+        Self { column, label, factor, log: false }
+    }
+}
+
+impl Series {
+    /// A series of the points that are numbers.
+    #[must_use]
+    pub fn new(
+        label: impl Into<String>,
+        style: Style,
+        points: impl IntoIterator<Item = (f64, f64)>,
+    ) -> Self {
+        let points = points.into_iter().filter(|(x, y)| x.is_finite() && y.is_finite()).collect();
+        Self { label: label.into(), style, points }
+    }
+}
+
+impl Panel {
+    /// A panel without marks.
+    #[must_use]
+    pub fn new(title: &str, x: Quantity, y: Quantity, series: Vec<Series>) -> Self {
+        Self { title: title.to_string(), x, y, series, marks: Vec::new() }
+    }
+
+    /// Whether all series are curves over the same values of x.
+    #[must_use]
+    pub fn shares_x(&self) -> bool {
+        let xs = |series: &Series| series.points.iter().map(|point| point.0).collect::<Vec<_>>();
+        let mut all = self.series.iter().map(xs);
+        let first = all.next();
+        let is_cells = |series: &Series| matches!(series.style, Style::Cells(_));
+        all.all(|xs| Some(xs) == first) && !self.series.iter().any(is_cells)
+    }
+}
