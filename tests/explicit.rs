@@ -195,3 +195,41 @@ fn impacts_under_a_pulse_fired_again() {
     motion.advance(0.06).unwrap();
     assert!(motion.contacts().impact_count > 2);
 }
+
+#[test]
+fn an_engine_order_moves_the_blades_and_hardly_the_lock() {
+    let drive = [("excitation.amplitude_nm", "1.0"), ("excitation.order", "3")];
+    // Heavy blade damping, so that the transient is gone by exp(-17).
+    let heavy = ("bladed_disk.damping_ratio", "0.3");
+    let still = [(PULSE, "0"), (SPEED, "100"), (STEP, "1e-6"), heavy, drive[0], drive[1]];
+    // Blades alone settle to the linear response at 3 Omega, since E = n_d.
+    let scene = scene(&still);
+    let machine = scene.machine();
+    let mut motion = Motion::new(&scene);
+    motion.advance(0.2).unwrap();
+    let omega = 3.0 * 100.0;
+    let stiff = machine.omega_bd * machine.omega_bd - omega * omega;
+    let drag = 2.0 * machine.blade_damping_ratio * machine.omega_bd * omega;
+    let expected = 1.0 / (machine.blade_inertia * stiff.hypot(drag));
+    let found = motion.state().alpha[0].hypot(motion.state().alpha[1]);
+    // Second order in the step: (omega h)^2/12 of the response near resonance.
+    assert!((found / expected - 1.0).abs() < 1e-6, "{found} {expected}");
+    // The full model agrees on the pair that is driven.
+    let mut full = scene.clone();
+    full.set(MODEL, "full").unwrap();
+    let mut full = Motion::new(&full);
+    full.advance(0.01).unwrap();
+    let mut modal = Motion::new(&scene);
+    modal.advance(0.01).unwrap();
+    for (a, b) in full.state().alpha.iter().zip(modal.state().alpha) {
+        assert!((a - b).abs() < 1e-12 * expected.max(1.0), "{a} {b}");
+    }
+    // The paper's remark: no noticeable effect on the locked motion.
+    let lock = [(PULSE, "1e6"), (LAW, "bilateral"), ("solver.end_s", "0.02")];
+    let quiet = run(&lock);
+    let driven = run(&[lock[0], lock[1], lock[2], drive[0], drive[1]]);
+    assert_eq!(driven.outcome.verdict, Verdict::Locked);
+    for (a, b) in quiet.outcome.contacts.iter().zip(&driven.outcome.contacts) {
+        assert!((a.multiplier_n / b.multiplier_n - 1.0).abs() < 0.01, "{a:?} {b:?}");
+    }
+}

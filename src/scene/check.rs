@@ -11,6 +11,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     clearance(scene)?;
     frequencies(scene)?;
     initial_state(scene)?;
+    excitation(scene)?;
     match scene.solver.kind {
         SolverKind::Explicit => explicit(scene),
         SolverKind::Event => event(scene),
@@ -56,6 +57,20 @@ fn initial_state(scene: &Scene) -> Result<(), SceneError> {
     }
     let deepest = format!("a casing position with every gap open; here the smallest is {gap:e} m");
     Err(SceneError::refused("initial.u_c_m", format!("{x:e}, u_s_m = {y:e}"), deepest))
+}
+
+fn excitation(scene: &Scene) -> Result<(), SceneError> {
+    let amplitude = scene.excitation.amplitude_nm;
+    let allowed = if amplitude == 0.0 {
+        return Ok(());
+    } else if scene.solver.kind == SolverKind::Event {
+        "0 with solver.kind = \"event\""
+    } else if scene.solver.model == ModelSize::Rigid {
+        "0 with solver.model = \"rigid\", whose blades do not move"
+    } else {
+        return Ok(());
+    };
+    Err(SceneError::refused("excitation.amplitude_nm", amplitude, allowed))
 }
 
 fn explicit(scene: &Scene) -> Result<(), SceneError> {

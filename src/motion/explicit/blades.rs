@@ -7,6 +7,7 @@
 
 use std::f64::consts::TAU;
 
+use super::excitation::Excitation;
 use super::oscillator::{Coordinate, Oscillator};
 use crate::model::{Machine, blade_frequency};
 use crate::scene::Scene;
@@ -19,8 +20,9 @@ pub trait Blades: Clone + std::fmt::Debug {
     fn rows_of_side(&self, side: u32) -> usize;
     /// One of the rows of a side.
     fn row(&self, side: u32, place: usize) -> u32;
-    /// One free step; contact corrects it afterwards.
-    fn predict(&mut self);
+    /// One step without contact, which corrects it afterwards, under an
+    /// excitation at its phase.
+    fn predict(&mut self, excitation: Option<(&Excitation, f64)>);
     /// Blade angle of a row \[rad\].
     fn angle(&self, row: u32) -> f64;
     /// Angle of row `a` per unit torque on row `b` over one step \[rad/(N m)\].
@@ -55,7 +57,7 @@ impl Blades for RigidBlades {
     fn row(&self, side: u32, _: usize) -> u32 {
         side
     }
-    fn predict(&mut self) {}
+    fn predict(&mut self, _: Option<(&Excitation, f64)>) {}
     fn angle(&self, _: u32) -> f64 {
         0.0
     }
@@ -84,6 +86,8 @@ impl Blades for RigidBlades {
 pub struct ModalBlades {
     oscillator: Oscillator,
     modes: [Coordinate; 2],
+    diameters: u32,
+    has_sine_mode: bool,
     /// `(p_c, p_s)` of every side.
     shapes: Vec<(f64, f64)>,
 }
@@ -102,6 +106,8 @@ impl Blades for ModalBlades {
                 scene.solver.step_s,
             ),
             modes: [Coordinate::default(); 2],
+            diameters: machine.rim.nodal_diameters,
+            has_sine_mode: machine.has_sine_mode,
             shapes: (0..machine.rim.sides).map(shape).collect(),
         }
     }
@@ -111,8 +117,17 @@ impl Blades for ModalBlades {
     fn row(&self, side: u32, _: usize) -> u32 {
         side
     }
-    fn predict(&mut self) {
-        self.modes = self.modes.map(|mode| self.oscillator.step(mode, 0.0));
+    fn predict(&mut self, excitation: Option<(&Excitation, f64)>) {
+        let torque = match excitation {
+            None => [0.0; 2],
+            Some((excitation, phase)) => excitation.torque_on(self.diameters, phase),
+        };
+        for (mode, torque) in self.modes.iter_mut().zip(torque) {
+            *mode = self.oscillator.step(*mode, torque);
+        }
+        if !self.has_sine_mode {
+            self.modes[1] = Coordinate::default();
+        }
     }
     fn angle(&self, row: u32) -> f64 {
         let (c, s) = self.shapes[row as usize];
@@ -158,6 +173,8 @@ pub struct FullBlades {
     modes: Vec<Coordinate>,
     /// Number of diameters of each mode.
     diameters: Vec<usize>,
+    /// Factor that makes the modes of each number of diameters orthonormal.
+    scales: Vec<f64>,
     /// `basis[blade][mode]`, orthonormal.
     basis: Vec<Vec<f64>>,
     /// Angle of a blade per unit torque `distance` blades away.
@@ -187,9 +204,11 @@ impl Blades for FullBlades {
             .collect::<Vec<_>>();
         let mut diameters = Vec::with_capacity(count);
         let mut basis = vec![Vec::with_capacity(count); count];
+        let mut scales = Vec::with_capacity(count / 2 + 1);
         for k in 0..=count / 2 {
             let alone = k == 0 || 2 * k == count;
             let scale = if alone { 1.0 / blades } else { 2.0 / blades }.sqrt();
+            scales.push(scale);
             for sine in [false, true].into_iter().take(if alone { 1 } else { 2 }) {
                 diameters.push(k);
                 for (blade, row) in basis.iter_mut().enumerate() {
@@ -224,6 +243,7 @@ impl Blades for FullBlades {
                 .collect(),
             oscillators,
             diameters,
+            scales,
             basis,
             influence,
             shown: [(cosine, scale), sine],
@@ -235,9 +255,15 @@ impl Blades for FullBlades {
     fn row(&self, side: u32, place: usize) -> u32 {
         self.sides[side as usize][place]
     }
-    fn predict(&mut self) {
-        for (mode, &k) in self.modes.iter_mut().zip(&self.diameters) {
-            *mode = self.oscillators[k].step(*mode, 0.0);
+    fn predict(&mut self, excitation: Option<(&Excitation, f64)>) {
+        for (m, (mode, &k)) in self.modes.iter_mut().zip(&self.diameters).enumerate() {
+            let torque = excitation.map_or(0.0, |(excitation, phase)| {
+                // Cosine modes stand before their sine partners.
+                let is_sine = m > 0 && self.diameters[m - 1] == k;
+                let torque = excitation.torque_on(k as u32, phase);
+                self.scales[k] * torque[usize::from(is_sine)]
+            });
+            *mode = self.oscillators[k].step(*mode, torque);
         }
     }
     fn angle(&self, row: u32) -> f64 {

@@ -43,7 +43,8 @@ impl<B: Blades> Explicit<B> {
         let distance2 = self.u[0].x * self.u[0].x + self.u[1].x * self.u[1].x;
         let pulse_to_come =
             self.pulse.force != 0.0 && self.time_of(self.n) - 0.5 * self.step < self.pulse.end;
-        if distance2 >= clearance * clearance || pulse_to_come {
+        // Blades that are driven do not follow the free recurrence.
+        if distance2 >= clearance * clearance || pulse_to_come || self.excitation.is_some() {
             return Ok(false);
         }
         let distance = distance2.sqrt();
@@ -60,6 +61,13 @@ impl<B: Blades> Explicit<B> {
         }
         self.block = Block { length, used: 0 };
         Ok(true)
+    }
+
+    /// Whether the casing, whatever the blades do, never reaches one again.
+    pub(super) fn is_out_of_reach(&self) -> bool {
+        let energy = self.casing.twice_energy(self.u[0]) + self.casing.twice_energy(self.u[1]);
+        let after_pulse = self.time_of(self.n) - 0.5 * self.step >= self.pulse.end;
+        after_pulse && self.casing.reach(energy).0 < self.machine.rim.clearance
     }
 
     /// Goes on inside the open block, up to `target`; takes it at its end.

@@ -8,10 +8,12 @@
 
 mod blades;
 mod correct;
+mod excitation;
 mod flight;
 mod oscillator;
 
 pub use blades::{Blades, FullBlades, ModalBlades, RigidBlades};
+pub use excitation::Excitation;
 pub use oscillator::{Coordinate, Oscillator};
 
 use super::{Checks, ContactLog, Failure, Pulse, Rotor, State, Touching};
@@ -36,6 +38,7 @@ pub struct Explicit<B: Blades> {
     rotor: Rotor,
     pulse: Pulse,
     pulse_length: f64,
+    excitation: Option<Excitation>,
     casing: Oscillator,
     /// Index of the step the coordinates belong to, `t = n h`.
     n: u64,
@@ -107,6 +110,7 @@ impl<B: Blades> Explicit<B> {
             law: scene.solver.contact,
             casing_radius: scene.casing.radius_m,
             pulse_length: scene.operation.pulse_s,
+            excitation: Excitation::of(scene),
             touched: vec![0; sides],
             impulses: vec![0.0; sides],
             machine,
@@ -170,7 +174,11 @@ impl<B: Blades> Explicit<B> {
         let n = self.n;
         let force = self.force(n);
         self.u = [self.casing.step(self.u[0], force), self.casing.step(self.u[1], 0.0)];
-        self.blades.predict();
+        let excitation = self
+            .excitation
+            .as_ref()
+            .map(|torque| (torque, torque.phase(&self.rotor, self.time_of(n))));
+        self.blades.predict(excitation);
         self.n = n + 1;
         let distance2 = self.u[0].x * self.u[0].x + self.u[1].x * self.u[1].x;
         let clearance = self.machine.rim.clearance;
@@ -288,7 +296,7 @@ impl<B: Blades> Explicit<B> {
     /// Whether no contact can ever come again.
     #[must_use]
     pub fn over(&self) -> bool {
-        self.block.is_endless()
+        self.block.is_endless() || (self.excitation.is_some() && self.is_out_of_reach())
     }
 
     /// The record of contacts.
