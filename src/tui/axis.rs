@@ -93,6 +93,14 @@ impl Scale {
     }
 }
 
+impl Scale {
+    /// The label of a tick, as a power of ten where the axis is of exponents.
+    #[must_use]
+    pub fn tick(&self, value: f64, step: f64, power: bool) -> String {
+        if power { format!("1e{value:.0}") } else { self.label(value, step) }
+    }
+}
+
 /// A number with four significant digits and its SI prefix, such as `228.2 µ`.
 #[must_use]
 pub fn readable(value: f64, unit: &str) -> String {

@@ -6,8 +6,11 @@ use std::sync::Arc;
 
 use super::history::Bin;
 use super::locked_curve::LockedCurves;
+use super::spectrum::Spectrum;
 use crate::motion::{Checks, State, Touching, Verdict};
 use crate::scene::Scene;
+use crate::study::Map;
+use crate::study::precision::Precision;
 
 /// Everything the screen wants. Counters only ever grow, so that an order
 /// that replaces another loses none of its presses.
@@ -33,6 +36,19 @@ pub struct Order {
     pub bin_s: f64,
     /// Whether to run the other contact law beside this one.
     pub beside: bool,
+    /// What the open views need.
+    pub wants: Wants,
+}
+
+/// Studies that are computed only while their view is open.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Wants {
+    /// The spectrum of the run.
+    pub spectrum: bool,
+    /// The map over speed and pulse.
+    pub map: bool,
+    /// Speed against error.
+    pub precision: bool,
 }
 
 impl Order {
@@ -128,6 +144,12 @@ pub struct Snapshot {
     pub beside: Option<Forecast>,
     /// The locked motion against speed, once it is computed.
     pub locked: Option<Arc<LockedCurves>>,
+    /// The spectrum of the run, while wanted.
+    pub spectrum: Option<Arc<Spectrum>>,
+    /// The map, while wanted; cells come one by one.
+    pub map: Option<Arc<Map>>,
+    /// Speed against error, while wanted; rows come one by one.
+    pub precision: Option<Arc<Precision>>,
     /// Solver speed.
     pub pace: Pace,
     /// Something broke in the engine itself.

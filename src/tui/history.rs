@@ -20,10 +20,14 @@ pub enum Channel {
     Push,
     /// Rotor speed \[rad/s\].
     Speed,
+    /// The casing wave in the frame of the blades, `Re z` \[m\].
+    X,
+    /// `Im z` \[m\].
+    Y,
 }
 
 /// How many channels there are.
-pub const CHANNELS: usize = 8;
+pub const CHANNELS: usize = 10;
 
 /// Least and greatest values over a stretch of time.
 #[derive(Clone, Copy, Debug, PartialEq)]

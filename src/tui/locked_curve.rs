@@ -34,7 +34,7 @@ impl LockedCurves {
 }
 
 /// From zero to a round speed beyond everything of interest \[rad/s\].
-fn speed_range(scene: &Scene) -> f64 {
+pub fn speed_range(scene: &Scene) -> f64 {
     let machine = scene.machine();
     let of_interest =
         [machine.lock_speed(), machine.dangerous_speed(), Some(scene.operation.speed_rad_s.abs())];

@@ -16,6 +16,7 @@ pub mod plot;
 pub mod raster;
 mod run;
 pub mod skin;
+pub mod spectrum;
 pub mod terminal;
 pub mod theme;
 pub mod worker;

@@ -58,6 +58,50 @@ impl<'a> Plot<'a> {
     /// is not a proper range.
     #[must_use]
     pub fn new(buffer: &'a mut Buffer, area: Rect, x: Axis, y: Axis, skin: &Skin) -> Option<Self> {
+        Self::framed(buffer, area, x, y, skin, [false, false])
+    }
+
+    /// As `new`, with a y axis of powers of ten: its range is that of the
+    /// exponents.
+    #[must_use]
+    pub fn powers(
+        buffer: &'a mut Buffer,
+        area: Rect,
+        x: Axis,
+        y: Axis,
+        skin: &Skin,
+    ) -> Option<Self> {
+        Self::framed(buffer, area, x, y, skin, [false, true])
+    }
+
+    /// As `powers`, on both axes.
+    #[must_use]
+    pub fn powers_both(
+        buffer: &'a mut Buffer,
+        area: Rect,
+        x: Axis,
+        y: Axis,
+        skin: &Skin,
+    ) -> Option<Self> {
+        Self::framed(buffer, area, x, y, skin, [true, true])
+    }
+
+    /// A chart without axes, for pictures.
+    #[must_use]
+    pub fn bare(buffer: &'a mut Buffer, area: Rect, x: Axis, y: Axis, skin: &Skin) -> Option<Self> {
+        let sound = x.is_sound() && y.is_sound() && area.width > 1 && area.height > 1;
+        let raster = Raster::new(area, skin.marker);
+        sound.then_some(Self { buffer, raster, inner: area, x, y, rule: false })
+    }
+
+    fn framed(
+        buffer: &'a mut Buffer,
+        area: Rect,
+        x: Axis,
+        y: Axis,
+        skin: &Skin,
+        powers: [bool; 2],
+    ) -> Option<Self> {
         if !x.is_sound() || !y.is_sound() || area.width < 10 || area.height < 3 {
             return None;
         }
@@ -65,7 +109,9 @@ impl<'a> Plot<'a> {
         let below = if rule { 2 } else { 1 };
         let rows = area.height - below;
         let (y_ticks, y_step) = ticks(y.low, y.high, usize::from(rows.div_ceil(2)).clamp(1, 7));
-        let labels: Vec<String> = y_ticks.iter().map(|v| y.scale.label(*v, y_step)).collect();
+        let (y_ticks, y_step) = if powers[1] { whole(y_ticks) } else { (y_ticks, y_step) };
+        let labels: Vec<String> =
+            y_ticks.iter().map(|v| y.scale.tick(*v, y_step, powers[1])).collect();
         let gutter = labels.iter().map(|label| label.chars().count()).max().unwrap_or(1).max(2);
         let gutter = u16::try_from(gutter).unwrap_or(6).min(area.width / 2) + 1;
         let inner = Rect::new(area.x + gutter, area.y, area.width - gutter, rows);
@@ -82,11 +128,11 @@ impl<'a> Plot<'a> {
                 plot.put(inner.x - 1, row, signs.side_tick, quiet);
             }
         }
-        plot.x_axis(rule, skin);
+        plot.x_axis(rule, skin, powers[0]);
         Some(plot)
     }
 
-    fn x_axis(&mut self, rule: bool, skin: &Skin) {
+    fn x_axis(&mut self, rule: bool, skin: &Skin, powers: bool) {
         let quiet = skin.style(Role::Quiet);
         let signs = skin.axis_signs();
         let inner = self.inner;
@@ -99,13 +145,14 @@ impl<'a> Plot<'a> {
         let labels_row = inner.bottom() + u16::from(rule);
         let most = usize::from(inner.width / 9).clamp(1, 10);
         let (values, step) = ticks(self.x.low, self.x.high, most);
+        let (values, step) = if powers { whole(values) } else { (values, step) };
         let mut free = inner.x.saturating_sub(1);
         for value in values {
             let Some(column) = self.column(value) else { continue };
             if rule {
                 self.put(column, inner.bottom(), signs.floor_tick, quiet);
             }
-            let label = self.x.scale.label(value, step);
+            let label = self.x.scale.tick(value, step, powers);
             let width = u16::try_from(label.chars().count()).unwrap_or(0);
             let start = column
                 .saturating_sub(width / 2)
@@ -258,6 +305,14 @@ impl<'a> Plot<'a> {
         self.text(column.min(self.inner.right() - width), row, text, style);
     }
 
+    /// A short text centred at a place of the chart.
+    pub fn label(&mut self, x: f64, y: f64, text: &str, style: Style) {
+        let half = u16::try_from(text.chars().count() / 2).unwrap_or(0);
+        if let (Some(column), Some(row)) = (self.column(x), self.row(y)) {
+            self.text(column.saturating_sub(half).max(self.inner.x), row, text, style);
+        }
+    }
+
     fn put(&mut self, x: u16, y: u16, sign: char, style: Style) {
         if let Some(cell) = self.buffer.cell_mut(Position::new(x, y)) {
             cell.set_char(sign).set_style(style);
@@ -271,6 +326,11 @@ impl<'a> Plot<'a> {
             self.buffer.set_stringn(x, y, text, usize::from(area.right() - x), style);
         }
     }
+}
+
+/// Only the whole exponents among ticks, one apart or more.
+fn whole(values: Vec<f64>) -> (Vec<f64>, f64) {
+    (values.into_iter().filter(|v| (v - v.round()).abs() < 1e-9).collect(), 1.0)
 }
 
 #[cfg(test)]

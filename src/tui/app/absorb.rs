@@ -2,8 +2,12 @@
 //! that have been turned since, is dropped.
 
 use super::App;
+use crate::motion::Touching;
 use crate::tui::engine::Snapshot;
 use crate::tui::history::{Bin, Channel};
+
+/// Frames of the busy pictures on one page: about three a second.
+const SLOW_FRAMES: f64 = 12.0;
 
 impl App {
     /// Takes a snapshot in; false where it was too old to change anything.
@@ -17,6 +21,13 @@ impl App {
         }
         self.follow(&snapshot.bins);
         self.history.extend(&snapshot.bins);
+        let due = self.slow.as_ref().is_none_or(|slow| {
+            let elapsed = snapshot.moment.state.t_s - slow.state.t_s;
+            !self.playing || elapsed < 0.0 || elapsed >= self.page_s() / SLOW_FRAMES
+        });
+        if due {
+            self.slow = Some(snapshot.moment.clone());
+        }
         self.moment = Some(snapshot.moment);
         self.turn_page();
         if snapshot.generation == self.order().generation() {
@@ -24,9 +35,10 @@ impl App {
             self.reference = snapshot.reference;
             self.beside = snapshot.beside;
             self.pace = snapshot.pace;
-            if snapshot.locked.is_some() {
-                self.locked = snapshot.locked;
-            }
+            self.spectrum = snapshot.spectrum;
+            self.map = snapshot.map.or(self.map.take());
+            self.precision = snapshot.precision.or(self.precision.take());
+            self.locked = snapshot.locked.or(self.locked.take());
         }
         true
     }
@@ -90,4 +102,18 @@ fn extremes(bins: &[Bin], channels: &[Channel]) -> Option<(f64, f64)> {
         }
     }
     found
+}
+
+impl App {
+    /// Whether the wave stands still in the frame of the blades: paused, or a
+    /// corner has been held for a while.
+    #[must_use]
+    pub fn still(&self) -> bool {
+        !self.playing
+            || self.moment.as_ref().is_some_and(|moment| {
+                let held = moment.state.t_s - moment.since;
+                matches!(moment.touching, Touching::Corner(..))
+                    && held > self.page_s() / SLOW_FRAMES
+            })
+    }
 }

@@ -14,14 +14,18 @@ use std::sync::Arc;
 
 use super::axis::AutoRange;
 use super::bindings::Context;
+use super::engine::Wants;
 use super::engine::{Ahead, Forecast, Moment, Order, Pace};
 use super::history::History;
 use super::locked_curve::LockedCurves;
 use super::raster::Marker;
 use super::skin::Skin;
+use super::spectrum::Spectrum;
 use super::theme::Theme;
 use crate::model::Machine;
 use crate::scene::{Scene, keys::CHARTS};
+use crate::study::Map;
+use crate::study::precision::Precision;
 
 /// The views, in the order of their digits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,11 +36,27 @@ pub enum View {
     Gaps,
     /// Multipliers of the locked motion against speed.
     Locked,
+    /// The wave as a point in the frame of the blades, and the rim as a wheel.
+    Frame,
+    /// How the motion lasts, over speed and pulse.
+    Map,
+    /// Spectrum of the run, and Campbell lines.
+    Spectrum,
+    /// Speed against error of every solver.
+    Precision,
 }
 
 impl View {
     /// All views.
-    pub const ALL: [Self; 3] = [Self::Response, Self::Gaps, Self::Locked];
+    pub const ALL: [Self; 7] = [
+        Self::Response,
+        Self::Gaps,
+        Self::Locked,
+        Self::Frame,
+        Self::Map,
+        Self::Spectrum,
+        Self::Precision,
+    ];
 
     /// The word of the scene file.
     #[must_use]
@@ -57,6 +77,10 @@ impl View {
             Self::Response => 1,
             Self::Gaps => 2,
             Self::Locked => 3,
+            Self::Frame => 4,
+            Self::Map => 5,
+            Self::Spectrum => 6,
+            Self::Precision => 7,
         }
     }
 }
@@ -136,12 +160,17 @@ pub struct App {
     pub rate: usize,
     /// Page length relative to the usual one, in steps of about two.
     pub zoom: i32,
+    /// Whether the other contact law runs beside this one.
+    pub compare: bool,
     /// Whether knobs act on the running motion.
     pub live: bool,
     /// What was recorded of the running motion.
     pub history: History,
     /// The latest instant.
     pub moment: Option<Moment>,
+    /// The instant that busy pictures show, a few times a second: a whole
+    /// wave that moves with every frame would flood a slow line.
+    pub slow: Option<Moment>,
     /// What the run comes to.
     pub ahead: Option<Ahead>,
     /// What it comes to under the event solver and unilateral contact.
@@ -151,6 +180,12 @@ pub struct App {
     /// The locked motion against speed; that of the machine before until the
     /// new one is computed.
     pub locked: Option<Arc<LockedCurves>>,
+    /// The spectrum of the run.
+    pub spectrum: Option<Arc<Spectrum>>,
+    /// The map over speed and pulse.
+    pub map: Option<Arc<Map>>,
+    /// Speed against error.
+    pub precision: Option<Arc<Precision>>,
     /// Solver speed.
     pub pace: Pace,
     /// Something broke in the engine.
@@ -202,13 +237,18 @@ impl App {
             playing: true,
             rate: time::FIRST_RATE,
             zoom: 0,
+            compare: false,
             live: false,
             history: History::default(),
             moment: None,
+            slow: None,
             ahead: None,
             reference: None,
             beside: None,
             locked: None,
+            spectrum: None,
+            map: None,
+            precision: None,
             pace: Pace::default(),
             trouble: None,
             skin: Skin { theme, marker },
@@ -242,8 +282,20 @@ impl App {
             playing: self.playing,
             rate: self.rate(),
             bin_s: self.page_s() / BINS_PER_PAGE,
-            beside: false,
+            beside: self.compare,
+            wants: Wants {
+                spectrum: self.is_open(View::Spectrum),
+                map: self.is_open(View::Map),
+                precision: self.is_open(View::Precision),
+            },
         }
+    }
+
+    /// Whether a view may be on the screen.
+    #[must_use]
+    pub fn is_open(&self, view: View) -> bool {
+        let beside = self.companions.iter().take(COMPANIONS).any(|other| *other == view);
+        view == self.view || (beside && !self.full_screen)
     }
 
     /// The present rotor speed \[rad/s\].
@@ -252,6 +304,9 @@ impl App {
         self.moment.as_ref().map_or(self.scene.operation.speed_rad_s, |moment| moment.speed)
     }
 }
+
+/// Charts beside the large one, at most.
+pub const COMPANIONS: usize = 2;
 
 /// Bins recorded per page: more than the sub-pixels of a wide screen.
 const BINS_PER_PAGE: f64 = 1024.0;

@@ -97,6 +97,7 @@ impl App {
         self.counters.restarts += 1;
         self.history.clear();
         self.moment = None;
+        self.slow = None;
         self.ahead = None;
         self.reference = None;
         self.beside = None;

@@ -6,7 +6,7 @@ use ratatui::{
     style::{Modifier, Style},
 };
 
-use super::{gaps, locked, print, response};
+use super::{frame, gaps, locked, map, precision, print, response, spectrum};
 use crate::tui::app::{App, View};
 use crate::tui::raster::Pen;
 use crate::tui::skin::Skin;
@@ -18,6 +18,10 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, view: View) {
         View::Response => response::draw(app, buffer, area),
         View::Gaps => gaps::draw(app, buffer, area),
         View::Locked => locked::draw(app, buffer, area),
+        View::Frame => frame::draw(app, buffer, area),
+        View::Map => map::draw(app, buffer, area),
+        View::Spectrum => spectrum::draw(app, buffer, area),
+        View::Precision => precision::draw(app, buffer, area),
     }
 }
 

@@ -32,11 +32,13 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
     let Some(mut plot) = Plot::new(buffer, inside, x, y, skin) else { return };
     plot.level(0.0, skin.either('━', '='), skin.style(Role::Text));
     plot.level(app.machine.clearance(), skin.either('┈', '.'), quiet);
-    let Some(moment) = &app.moment else { return };
+    let Some(moment) = &app.slow else { return };
     let gaps = || (1..=count).map(f64::from).zip(moment.gaps.iter().copied());
     // Between blades nothing is measured: the line only leads the eye.
-    plot.curve(gaps(), &Pen { dashed: false, ..skin.quiet() });
-    plot.ink();
+    if app.still() || count > u32::from(plot.inner.width) {
+        plot.curve(gaps(), &Pen { dashed: false, ..skin.quiet() });
+        plot.ink();
+    }
     let room = u32::from(plot.inner.width);
     if count <= room {
         let sign =
@@ -64,7 +66,7 @@ fn label(plot: &mut Plot, touching: &[u32], app: &App) {
 
 /// The blades in contact now, numbered from 1.
 fn touching_blades(app: &App) -> Vec<u32> {
-    let Some(moment) = &app.moment else { return Vec::new() };
+    let Some(moment) = &app.slow else { return Vec::new() };
     let rim = &app.machine.rim;
     let of = |sides: &[u32]| sides.iter().flat_map(|side| rim.blades_of_side(*side)).collect();
     match moment.touching {

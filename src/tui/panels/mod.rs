@@ -3,13 +3,18 @@
 
 mod charts;
 mod footer;
+mod frame;
 mod gaps;
 mod header;
 mod help;
 mod knobs;
 mod layout;
 mod locked;
+mod map;
+mod precision;
 mod response;
+mod spectrum;
+mod wheel;
 
 use ratatui::{
     Frame,

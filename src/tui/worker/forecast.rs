@@ -3,8 +3,8 @@
 
 use std::time::{Duration, Instant};
 
-use crate::motion::verdict::{LAST_PART, judge};
-use crate::motion::{Motion, Verdict};
+use crate::motion::verdict::LAST_PART;
+use crate::motion::{Motion, Verdict, verdict_of};
 use crate::tui::engine::{Ahead, Forecast};
 
 /// A motion on its way to an end.
@@ -14,11 +14,18 @@ pub struct Run {
     start: f64,
     end: f64,
     window: f64,
-    slice: f64,
+    taken: u32,
+    signal: Vec<[f64; 2]>,
+    /// Longest stretch to advance at once \[s\].
+    stretch: f64,
+    cut: Option<f64>,
     wall: Duration,
     steps: u64,
     result: Option<Forecast>,
 }
+
+/// Samples of one run, for its spectrum.
+pub const SAMPLES: u32 = 2048;
 
 /// Wall time one slice should take.
 const SLICE: Duration = Duration::from_millis(5);
@@ -32,7 +39,10 @@ impl Run {
         Self {
             end: start + length,
             window: LAST_PART * length,
-            slice: length / 1000.0,
+            taken: 0,
+            signal: Vec::with_capacity(SAMPLES as usize),
+            stretch: f64::INFINITY,
+            cut: None,
             wall: Duration::ZERO,
             result: None,
             motion,
@@ -47,30 +57,43 @@ impl Run {
             return;
         }
         let began = Instant::now();
-        let until = (self.motion.state().t_s + self.slice).min(self.end);
-        // The explicit solver stops at its last step before `until`.
-        let near_end = self.end - until < 0.5 * self.slice;
-        let until = if near_end { self.end } else { until };
-        let failed = self.motion.advance(until).is_err();
-        let took = began.elapsed();
-        self.wall += took;
-        if took * 2 < SLICE {
-            self.slice *= 2.0;
-        } else if took > SLICE * 2 {
-            self.slice = (0.5 * self.slice).max((self.end - self.start) * 1e-7);
+        let length = self.end - self.start;
+        let mut failed = false;
+        while !failed && self.taken < SAMPLES && began.elapsed() < SLICE {
+            let part = f64::from(self.taken + 1) / f64::from(SAMPLES);
+            let sample =
+                if self.taken + 1 == SAMPLES { self.end } else { self.start + part * length };
+            // Steps so slow that a sample takes longer than a slice are cut up.
+            let until = sample.min(self.cut.unwrap_or(f64::INFINITY));
+            let before = self.motion.state().t_s;
+            let step = Instant::now();
+            failed = self.motion.advance(until).is_err();
+            let took = step.elapsed();
+            if took > SLICE * 4 {
+                self.stretch = (until - before) / 8.0;
+            }
+            if until >= sample {
+                self.taken += 1;
+                self.signal.push(self.motion.state().u);
+            }
+            self.cut = self.stretch.is_finite().then(|| until + self.stretch);
         }
-        if failed || until >= self.end || self.motion.over() {
+        self.wall += began.elapsed();
+        if failed || self.taken >= SAMPLES {
             self.result = Some(self.judged());
         }
+    }
+
+    /// `u_c` and `u_s` at equal intervals over the run so far \[m\].
+    #[must_use]
+    pub fn signal(&self) -> &[[f64; 2]] {
+        &self.signal
     }
 
     fn judged(&self) -> Forecast {
         let motion = &self.motion;
         let (log, state) = (motion.contacts(), motion.state());
-        let verdict = match motion.failure() {
-            Some(_) => Verdict::Failed,
-            None => judge(log, motion.machine(), state.t_s, self.window, motion.over()),
-        };
+        let verdict = verdict_of(motion, self.window);
         let lasting = matches!(verdict, Verdict::Locked | Verdict::Adhesive | Verdict::Slip);
         Forecast {
             verdict,

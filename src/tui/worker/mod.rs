@@ -5,8 +5,11 @@ mod forecast;
 mod player;
 mod recorder;
 mod stepwise;
+mod studies;
 mod thread;
 
+pub use forecast::SAMPLES;
 pub use player::Player;
+pub use recorder::in_blade_frame;
 pub use stepwise::Stepwise;
 pub use thread::{WORKER_NAME, Worker};

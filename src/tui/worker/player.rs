@@ -1,15 +1,14 @@
 //! The engine without clock or thread: takes orders, plays the motion,
 //! computes what it will come to, and says what there is to see.
 
-use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::forecast::Run;
 use super::recorder::Recorder;
+use super::studies::Studies;
 use crate::motion::Motion;
 use crate::scene::{ContactLaw, Scene, SolverKind};
 use crate::tui::engine::{Ahead, Forecast, Moment, Order, Pace, Snapshot};
-use crate::tui::locked_curve::LockedCurves;
 
 /// Samples per recorded bin.
 const SAMPLES: f64 = 4.0;
@@ -31,7 +30,7 @@ pub struct Player {
     ahead: Run,
     reference: Option<Run>,
     beside: Option<Run>,
-    locked: Option<Arc<LockedCurves>>,
+    studies: Studies,
     patience: Duration,
 }
 
@@ -54,7 +53,7 @@ impl Player {
             ahead: Run::new(motion.clone(), scene.solver.end_s),
             reference: reference(scene),
             beside: None,
-            locked: None,
+            studies: Studies::default(),
             patience,
             motion,
             order,
@@ -68,7 +67,9 @@ impl Player {
     pub fn apply(&mut self, order: &Order) {
         let before = std::mem::replace(&mut self.order, order.clone());
         if order.restarts != before.restarts {
-            *self = Self::patient(order.clone(), self.patience);
+            let mut studies = std::mem::take(&mut self.studies);
+            studies.begin();
+            *self = Self { studies, ..Self::patient(order.clone(), self.patience) };
             return;
         }
         if order.changes != before.changes {
@@ -80,7 +81,7 @@ impl Player {
         }
         if order.changes != before.changes || order.pulses != before.pulses {
             self.ahead = Run::new(self.motion.clone(), order.scene.solver.end_s);
-            self.locked = None;
+            self.studies.begin();
             // The reference starts from rest; it says nothing about a changed run.
             self.reference = None;
         }
@@ -192,7 +193,7 @@ impl Player {
     /// Whether a run ahead is not at its end.
     #[must_use]
     pub fn is_computing(&self) -> bool {
-        self.locked.is_none() || self.runs().any(|run| !run.is_done())
+        self.runs().any(|run| !run.is_done()) || self.studies.is_computing(&self.order)
     }
 
     fn runs(&self) -> impl Iterator<Item = &Run> {
@@ -201,10 +202,6 @@ impl Player {
 
     /// Goes one slice on with the first run that is not at its end.
     pub fn compute(&mut self) {
-        if self.locked.is_none() && self.ahead.is_done() {
-            self.locked = Some(Arc::new(LockedCurves::of(&self.order.scene)));
-            return;
-        }
         let runs =
             std::iter::once(&mut self.ahead).chain(&mut self.reference).chain(&mut self.beside);
         for run in runs {
@@ -213,6 +210,8 @@ impl Player {
                 return;
             }
         }
+        let length = self.order.scene.solver.end_s;
+        self.studies.go_on(&self.order, self.ahead.signal(), length);
     }
 
     /// What there is to see now, with the bins since the last call.
@@ -231,7 +230,7 @@ impl Player {
             over: self.motion.over(),
             failure: self.motion.failure().map(ToString::to_string),
         };
-        Snapshot {
+        let mut snapshot = Snapshot {
             generation: self.order.generation(),
             restarts: self.order.restarts,
             moment,
@@ -244,9 +243,10 @@ impl Player {
                 run_s: self.ahead.is_done().then(|| self.ahead.wall_s()),
                 limited: self.limited,
             },
-            locked: self.locked.clone(),
-            trouble: None,
-        }
+            ..Snapshot::default()
+        };
+        self.studies.show(&mut snapshot);
+        snapshot
     }
 }
 

@@ -4,6 +4,13 @@
 use crate::motion::{Motion, Touching};
 use crate::tui::history::{Bin, CHANNELS, MOST_BINS, thin};
 
+/// `z = (u_c + i u_s) exp(-i n_d theta)` \[m\], with `turned = n_d theta`.
+#[must_use]
+pub fn in_blade_frame(u: [f64; 2], turned: f64) -> [f64; 2] {
+    let (sin, cos) = turned.sin_cos();
+    [u[0] * cos + u[1] * sin, u[1] * cos - u[0] * sin]
+}
+
 /// Records one motion.
 #[derive(Debug, Default)]
 pub struct Recorder {
@@ -26,6 +33,8 @@ impl Recorder {
         let mut values = [0.0; CHANNELS];
         let gap = motion.blade_gaps().into_iter().fold(f64::INFINITY, f64::min);
         let speed = motion.rotor().speed(state.t_s);
+        let turned = motion.machine().nodal_diameters * motion.rotor().angle(state.t_s);
+        let [x, y] = in_blade_frame(state.u, turned);
         let seen = [
             state.u[0],
             state.u[1],
@@ -35,6 +44,8 @@ impl Recorder {
             state.amplitude(),
             push,
             speed,
+            x,
+            y,
         ];
         for (slot, value) in values.iter_mut().zip(seen) {
             *slot = value;

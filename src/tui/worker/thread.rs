@@ -177,6 +177,7 @@ mod tests {
     use super::*;
     use crate::scene::Scene;
     use crate::tui::engine::Ahead;
+    use crate::tui::history::CHANNELS;
 
     fn order(speed: f64, restarts: u64) -> Order {
         let mut scene = Scene::default();
@@ -193,6 +194,7 @@ mod tests {
             rate: 5e-3,
             bin_s: 2e-5,
             beside: false,
+            wants: crate::tui::engine::Wants::default(),
         }
     }
 
@@ -226,7 +228,7 @@ mod tests {
     fn a_snapshot_nobody_took_keeps_its_bins() {
         let shared = Shared::default();
         let nudge: Nudge = Arc::new(|| {});
-        let bin = crate::tui::history::Bin::of(0.0, [0.0; 8]);
+        let bin = crate::tui::history::Bin::of(0.0, [0.0; CHANNELS]);
         for _ in 0..3 {
             publish(&shared, Snapshot { bins: vec![bin], ..Snapshot::default() }, &nudge);
         }

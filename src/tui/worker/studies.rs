@@ -1,0 +1,194 @@
+//! What some views need beside the motion: the curves of the locked motion,
+//! the spectrum of the whole run, the map and the comparison of solvers. Each
+//! is computed only while its view is open, in slices, and kept as long as
+//! what it depends on stays the same.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use crate::scene::{ContactLaw, ModelSize, Scene, SolverKind};
+use crate::study::precision::{Effort, Measure, Precision, Row, Way, ways};
+use crate::study::{Axis, Map, MapPlan};
+use crate::tui::engine::{Order, Snapshot};
+use crate::tui::locked_curve::LockedCurves;
+use crate::tui::spectrum::Spectrum;
+
+/// Cells of the map, across and up.
+const CELLS: (u32, u32) = (60, 24);
+/// Pulses of the map \[N\].
+const PULSES: (f64, f64) = (1e3, 1e7);
+/// Wall time of one slice.
+const SLICE: Duration = Duration::from_millis(5);
+/// One run a row, and no step finer than the paper's: the picture comes soon.
+const EFFORT: Effort = Effort { repeats: 1, finest_s: 1e-7, seconds: 0.0 };
+
+/// The studies of one scene.
+#[derive(Default)]
+pub struct Studies {
+    locked: Option<(Scene, Arc<LockedCurves>)>,
+    spectrum: Option<Arc<Spectrum>>,
+    map: Option<Arc<Map>>,
+    map_next: usize,
+    precision: Option<(Scene, Option<Measure>, Vec<Way>, Arc<Precision>)>,
+}
+
+impl std::fmt::Debug for Studies {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        out.debug_struct("Studies").finish_non_exhaustive()
+    }
+}
+
+impl Studies {
+    /// The run has begun anew: its spectrum is another one.
+    pub fn begin(&mut self) {
+        self.spectrum = None;
+    }
+
+    /// Whether anything that is wanted is missing.
+    #[must_use]
+    pub fn is_computing(&self, order: &Order) -> bool {
+        self.locked_is_old(order)
+            || (order.wants.spectrum && self.spectrum.is_none())
+            || (order.wants.map && !self.map_is_done(order))
+            || (order.wants.precision && !self.precision_is_done(order))
+    }
+
+    fn locked_is_old(&self, order: &Order) -> bool {
+        self.locked.as_ref().is_none_or(|(scene, _)| *scene != order.scene)
+    }
+
+    fn map_is_done(&self, order: &Order) -> bool {
+        // A scene without a map has nothing left to compute.
+        let Some(plan) = plan(&order.scene) else { return true };
+        let complete = |map: &Arc<Map>| self.map_next >= map.cells.len() && plan == map.plan;
+        self.map.as_ref().is_some_and(complete)
+    }
+
+    fn precision_is_done(&self, order: &Order) -> bool {
+        self.precision
+            .as_ref()
+            .is_some_and(|(scene, _, left, _)| *scene == order.scene && left.is_empty())
+    }
+
+    /// Goes one slice on. `signal` is the finished run, `length` its duration.
+    pub fn go_on(&mut self, order: &Order, signal: &[[f64; 2]], length: f64) {
+        if self.locked_is_old(order) {
+            let curves = Arc::new(LockedCurves::of(&order.scene));
+            self.locked = Some((order.scene.clone(), curves));
+        } else if order.wants.spectrum && self.spectrum.is_none() {
+            self.spectrum = Some(Arc::new(Spectrum::of(signal, length)));
+        } else if order.wants.map && !self.map_is_done(order) {
+            self.go_on_with_map(&order.scene);
+        } else if order.wants.precision {
+            self.go_on_with_precision(&order.scene);
+        }
+    }
+
+    fn go_on_with_map(&mut self, scene: &Scene) {
+        let Some(plan) = plan(scene) else { return };
+        if self.map.as_ref().is_none_or(|map| map.plan != plan) {
+            self.map = Some(Arc::new(Map::empty(plan)));
+            self.map_next = 0;
+        }
+        let Some(map) = &mut self.map else { return };
+        let map = Arc::make_mut(map);
+        let began = Instant::now();
+        let count = map.cells.len();
+        while self.map_next < count && began.elapsed() < SLICE {
+            // A stride without a common divisor visits every cell, all over at once.
+            let index = (self.map_next * stride(count)) % count;
+            let cell = map.plan.compute(index);
+            if let Some(slot) = map.cells.get_mut(index) {
+                *slot = Some(cell);
+            }
+            map.runs += 1;
+            self.map_next += 1;
+        }
+        map.wall_s += began.elapsed().as_secs_f64();
+    }
+
+    fn go_on_with_precision(&mut self, scene: &Scene) {
+        let fresh = self.precision.as_ref().is_none_or(|(of, ..)| of != scene);
+        if fresh {
+            let measure = Measure::new(scene);
+            let rows: Vec<Row> = Vec::new();
+            let report = Precision {
+                schema: "rubscope.precision/1",
+                scene: scene.clone(),
+                reference: measure.reference().clone(),
+                rows,
+            };
+            let mut left = ways(scene, EFFORT);
+            left.reverse();
+            self.precision = Some((scene.clone(), Some(measure), left, Arc::new(report)));
+            return;
+        }
+        let Some((_, measure, left, report)) = &mut self.precision else { return };
+        if let (Some(measure), Some(way)) = (measure.as_ref(), left.pop()) {
+            let row = measure.row(way, EFFORT);
+            Arc::make_mut(report).rows.push(row);
+        }
+        if left.is_empty() {
+            *measure = None;
+        }
+    }
+
+    /// Puts what there is into a snapshot.
+    pub fn show(&self, snapshot: &mut Snapshot) {
+        snapshot.locked = self.locked.as_ref().map(|(_, curves)| Arc::clone(curves));
+        snapshot.spectrum.clone_from(&self.spectrum);
+        snapshot.map.clone_from(&self.map);
+        snapshot.precision = self.precision.as_ref().map(|(.., report)| Arc::clone(report));
+    }
+}
+
+/// The map of a scene: speed from zero to beyond everything of interest, pulse
+/// over four decades, by the event solver with rigid blades.
+fn plan(scene: &Scene) -> Option<MapPlan> {
+    let fastest = crate::tui::locked_curve::speed_range(scene);
+    let mut scene = scene.clone();
+    scene.solver.kind = SolverKind::Event;
+    scene.solver.contact = ContactLaw::Unilateral;
+    scene.solver.model = ModelSize::Rigid;
+    scene.operation.speed_rad_s = 0.0;
+    scene.operation.pulse_n = 0.0;
+    let x = Axis::new("operation.speed_rad_s", 0.0, fastest, CELLS.0, false).ok()?;
+    let y = Axis::new("operation.pulse_n", PULSES.0, PULSES.1, CELLS.1, true).ok()?;
+    let plan = MapPlan { scene, x, y, sensitivity: false };
+    plan.check().is_ok().then_some(plan)
+}
+
+/// A stride near the golden section of `count` without a common divisor.
+fn stride(count: usize) -> usize {
+    let gcd = |mut a: usize, mut b: usize| {
+        while b != 0 {
+            (a, b) = (b, a % b);
+        }
+        a
+    };
+    let start = (count as f64 * 0.618) as usize;
+    (start.max(1)..).find(|stride| gcd(*stride, count) == 1).unwrap_or(1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_stride_visits_every_cell_once() {
+        for count in [1, 2, 60 * 24, 97] {
+            let mut seen = vec![false; count];
+            (0..count).for_each(|k| seen[(k * stride(count)) % count] = true);
+            assert!(seen.iter().all(|cell| *cell), "{count}");
+        }
+    }
+
+    #[test]
+    fn the_map_does_not_depend_on_the_knobs_it_sweeps() {
+        let mut scene = Scene::default();
+        let before = plan(&scene).unwrap();
+        scene.operation.pulse_n = 5.0;
+        scene.operation.speed_rad_s = 100.0;
+        assert_eq!(plan(&scene).unwrap(), before);
+    }
+}
