@@ -233,3 +233,54 @@ fn an_engine_order_moves_the_blades_and_hardly_the_lock() {
         assert!((a.multiplier_n / b.multiplier_n - 1.0).abs() < 0.01, "{a:?} {b:?}");
     }
 }
+
+#[test]
+fn a_held_lock_is_the_same_stepped_or_skipped() {
+    let corner = [
+        ("initial.u_c_m", "2.8462967654653897e-5"),
+        ("initial.u_s_m", "9.693596572237225e-5"),
+        ("initial.v_c_m_s", "-0.1454"),
+        ("initial.v_s_m_s", "0.0427"),
+    ];
+    for (model, law, speed) in [
+        ("rigid", "bilateral", "500"),
+        ("modal", "bilateral", "500"),
+        ("modal", "bilateral", "360"),
+        ("modal", "unilateral", "500"),
+    ] {
+        let mut changes = vec![(MODEL, model), (LAW, law), (SPEED, speed), (STEP, "2e-7")];
+        if law == "bilateral" {
+            changes.push((PULSE, "1e6"));
+        } else {
+            changes.push((PULSE, "0"));
+            changes.extend(corner);
+        }
+        let scene = scene(&changes);
+        let mut skipped = Motion::new(&scene);
+        skipped.advance(0.012).unwrap();
+        // A speed set anew every 50 steps leaves no lock time to be held.
+        let mut stepped = Motion::new(&scene);
+        for chunk in 1..=1200 {
+            stepped.set_speed(scene.operation.speed_rad_s, 0.0);
+            stepped.advance(f64::from(chunk) * 1e-5).unwrap();
+        }
+        let (a, b) = (skipped.state(), stepped.state());
+        let clearance = scene.machine().clearance();
+        for (x, y) in a.u.iter().zip(b.u) {
+            // Round-off of the angle of the rotor, reset 1200 times.
+            assert!((x - y).abs() < 1e-9 * clearance, "{model} {law} {speed}: {x} {y}");
+        }
+        for (x, y) in a.alpha.iter().zip(b.alpha) {
+            assert!((x - y).abs() < 1e-14, "{model} {law} {speed}: alpha {x} {y}");
+        }
+        let (a, b) = (skipped.multipliers(), stepped.multipliers());
+        assert_eq!((a.len(), b.len()), (2, 2));
+        for (x, y) in a.iter().zip(b) {
+            assert_eq!(x.0, y.0);
+            // A second difference of round-off: 1e-20 m / (1e-7 s)^2 * 2 kg.
+            assert!((x.1 - y.1).abs() < 1e-4, "{model} {law} {speed}: {x:?} {y:?}");
+        }
+        let tensile = [&skipped, &stepped].map(|motion| motion.contacts().tensile_steps);
+        assert!(tensile[0].abs_diff(tensile[1]) <= 1, "{tensile:?}");
+    }
+}

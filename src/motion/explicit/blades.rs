@@ -39,6 +39,25 @@ pub trait Blades: Clone + std::fmt::Debug {
     fn modal(&self) -> ([f64; 2], [f64; 2]);
     /// The angle of every blade \[rad\].
     fn every_angle(&self, machine: &Machine) -> Vec<f64>;
+    /// The two modes that a held corner follows; none where there are more.
+    fn held_modes(&self) -> Option<[Coordinate; 2]> {
+        None
+    }
+    /// Puts the modes of a held corner back.
+    fn set_held_modes(&mut self, _: [Coordinate; 2]) {}
+    /// Blade angle of a side for these mode displacements \[rad\].
+    fn held_angle(&self, _: u32, _: [f64; 2]) -> f64 {
+        0.0
+    }
+    /// Whether blades never move.
+    fn is_rigid(&self) -> bool {
+        false
+    }
+    /// Bounds on the displacement and the increment of these modes in free
+    /// motion.
+    fn swing(&self, _: [Coordinate; 2]) -> (f64, f64) {
+        (0.0, 0.0)
+    }
 }
 
 /// Blades that do not move.
@@ -77,6 +96,12 @@ impl Blades for RigidBlades {
     }
     fn every_angle(&self, _: &Machine) -> Vec<f64> {
         vec![0.0; self.blades]
+    }
+    fn held_modes(&self) -> Option<[Coordinate; 2]> {
+        Some([Coordinate::default(); 2])
+    }
+    fn is_rigid(&self) -> bool {
+        true
     }
 }
 
@@ -160,6 +185,20 @@ impl Blades for ModalBlades {
     fn every_angle(&self, machine: &Machine) -> Vec<f64> {
         let rim = &machine.rim;
         (1..=rim.blades).map(|blade| self.angle(rim.side_of_blade(blade))).collect()
+    }
+    fn held_modes(&self) -> Option<[Coordinate; 2]> {
+        Some(self.modes)
+    }
+    fn set_held_modes(&mut self, modes: [Coordinate; 2]) {
+        self.modes = modes;
+    }
+    fn held_angle(&self, side: u32, [cosine, sine]: [f64; 2]) -> f64 {
+        let (c, s) = self.shapes[side as usize];
+        c * cosine + s * sine
+    }
+    fn swing(&self, modes: [Coordinate; 2]) -> (f64, f64) {
+        let energy: f64 = modes.iter().map(|&mode| self.oscillator.twice_energy(mode)).sum();
+        self.oscillator.reach(energy)
     }
 }
 

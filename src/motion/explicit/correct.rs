@@ -238,7 +238,7 @@ fn dependent(rows: usize) -> String {
 }
 
 /// A direction turned by a small blade phase, to round-off.
-fn turned((c, s): (f64, f64), angle: f64) -> (f64, f64) {
+pub(super) fn turned((c, s): (f64, f64), angle: f64) -> (f64, f64) {
     let (sin, cos) = if angle.abs() < 1e-4 {
         let square = angle * angle;
         (angle * (1.0 - square * (1.0 / 6.0)), 1.0 - 0.5 * square)

@@ -5,7 +5,7 @@
 //! form a *block*: it is decided on once, looked at wherever asked, and taken
 //! at its end. Looking never changes the trajectory.
 
-use super::{BREAK_STEPS, Blades, Coordinate, Explicit};
+use super::{BREAK_STEPS, Blades, Coordinate, Explicit, Held};
 use crate::motion::{Rotor, Touching};
 
 /// Blocks shorter than this are stepped: deciding costs about as much.
@@ -41,6 +41,10 @@ impl<B: Blades> Explicit<B> {
         }
         let clearance = self.machine.rim.clearance;
         let distance2 = self.u[0].x * self.u[0].x + self.u[1].x * self.u[1].x;
+        if self.last_touch == self.n && self.hold() {
+            self.block = Block { length: ENDLESS, used: 0 };
+            return Ok(true);
+        }
         let pulse_to_come =
             self.pulse.force != 0.0 && self.time_of(self.n) - 0.5 * self.step < self.pulse.end;
         // Blades that are driven do not follow the free recurrence.
@@ -72,8 +76,13 @@ impl<B: Blades> Explicit<B> {
 
     /// Goes on inside the open block, up to `target`; takes it at its end.
     pub(super) fn use_block(&mut self, target: u64) {
+        let before = self.block.used;
         let wanted = target - self.n;
         self.block.used = wanted.min(self.block.length);
+        if let Some(held) = self.held.take() {
+            self.log_held(&held, before);
+            self.held = Some(held);
+        }
         if self.block.used == self.block.length {
             self.close_block();
         }
@@ -85,11 +94,37 @@ impl<B: Blades> Explicit<B> {
         self.n += self.block.used;
         self.u = u;
         self.blades = blades;
+        if let Some(held) = self.held.take() {
+            self.last_touch = self.n;
+            for side in held.sides {
+                self.touched[side as usize] = self.n;
+            }
+            self.hold_tried = self.n;
+        }
         self.block = Block::default();
+    }
+
+    /// Keeps what the steps of a held corner did since `before`.
+    fn log_held(&mut self, held: &Held, before: u64) {
+        let (used, t) = (self.block.used, self.time_of(self.steps()));
+        let ends = [held.multipliers(before.max(1)), held.multipliers(used)];
+        for (k, side) in held.sides.into_iter().enumerate() {
+            let mean = 0.5 * (ends[0][k] + ends[1][k]);
+            self.impulses[side as usize] += mean * (used - before) as f64 * self.step;
+        }
+        self.log.touch(t, self.log.touching);
+        self.widest = self.widest.max(held.farthest);
+        if held.pulls {
+            self.log.tensile_steps += used - before;
+            self.log.last_tensile = Some(t);
+        }
     }
 
     /// Coordinates at the latest step, inside a block or not.
     pub(super) fn materialized(&self) -> ([Coordinate; 2], B) {
+        if let Some(held) = self.held.as_ref().filter(|_| self.block.used > 0) {
+            return self.held_at(held, self.block.used);
+        }
         let mut blades = self.blades.clone();
         if self.block.used == 0 {
             return (self.u, blades);

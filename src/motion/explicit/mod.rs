@@ -10,6 +10,7 @@ mod blades;
 mod correct;
 mod excitation;
 mod flight;
+mod held;
 mod oscillator;
 
 pub use blades::{Blades, FullBlades, ModalBlades, RigidBlades};
@@ -20,6 +21,7 @@ use super::{Checks, ContactLog, Failure, Pulse, Rotor, State, Touching};
 use crate::model::Machine;
 use crate::scene::{ContactLaw, Scene};
 use flight::{Block, Phasor};
+use held::Held;
 
 /// Steps without contact before a contact counts as broken: the scheme's
 /// impact takes two steps, and its rounding may open one step between them.
@@ -46,6 +48,10 @@ pub struct Explicit<B: Blades> {
     blades: B,
     /// Free steps already decided on, not yet taken; see `flight`.
     block: Block,
+    /// The corner that the open block holds, if it is one.
+    held: Option<Held>,
+    /// Step before which a corner is not tried to be held.
+    hold_tried: u64,
     phasor: Phasor,
     /// Step of the latest contact of each side, from 1; 0 for never.
     touched: Vec<u64>,
@@ -121,6 +127,8 @@ impl<B: Blades> Explicit<B> {
             n: 0,
             u,
             block: Block::default(),
+            held: None,
+            hold_tried: 0,
             last_touch: 0,
             near: 0,
             rows: Vec::with_capacity(8),
@@ -267,6 +275,11 @@ impl<B: Blades> Explicit<B> {
             return Vec::new();
         }
         let mut sums: Vec<(u32, f64)> = Vec::new();
+        if let Some(held) = self.held.as_ref().filter(|_| self.block.used() > 0) {
+            sums.extend(held.sides.into_iter().zip(held.multipliers(self.block.used())));
+            super::contacts::in_phase_order(&self.machine.rim, &mut sums);
+            return sums;
+        }
         for row in &self.rows {
             match sums.iter_mut().find(|(side, _)| *side == row.side) {
                 Some((_, sum)) => *sum += row.lambda,
@@ -296,7 +309,8 @@ impl<B: Blades> Explicit<B> {
     /// Whether no contact can ever come again.
     #[must_use]
     pub fn over(&self) -> bool {
-        self.block.is_endless() || (self.excitation.is_some() && self.is_out_of_reach())
+        (self.block.is_endless() && self.held.is_none())
+            || (self.excitation.is_some() && self.is_out_of_reach())
     }
 
     /// The record of contacts.
@@ -343,15 +357,21 @@ impl<B: Blades> Explicit<B> {
 
     /// Fires the pulse again, from now on.
     pub fn fire(&mut self) {
-        self.close_block();
+        self.interrupt();
         let start = self.time();
         self.pulse.start = start;
         self.pulse.end = start + self.pulse_length;
     }
 
+    /// Ends what was decided on ahead.
+    fn interrupt(&mut self) {
+        self.close_block();
+        self.hold_tried = self.n;
+    }
+
     /// From now on, turn with this speed \[rad/s\] and acceleration \[rad/s^2\].
     pub fn set_speed(&mut self, speed: f64, ramp: f64) {
-        self.close_block();
+        self.interrupt();
         self.rotor.change(self.time(), speed, ramp);
         self.phasor = Phasor::new(&self.rotor, self.machine.nodal_diameters, self.step);
     }
