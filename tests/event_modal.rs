@@ -73,10 +73,8 @@ impl Plain {
         ];
         let rows: Vec<_> = held.iter().map(|&side| self.gap(side, x, t)).collect();
         let weight = |p: &[f64; 4], q: &[f64; 4]| (0..4).map(|i| p[i] * q[i] / masses[i]).sum();
-        let opening: Vec<f64> = rows
-            .iter()
-            .map(|row| row.3 + (0..4).map(|i| row.1[i] * a[i]).sum::<f64>())
-            .collect();
+        let opening: Vec<f64> =
+            rows.iter().map(|row| row.3 + (0..4).map(|i| row.1[i] * a[i]).sum::<f64>()).collect();
         // M a + C lambda = F with C the gradients: lambda < 0 pushes.
         let lambdas: Vec<f64> = match rows.as_slice() {
             [] => vec![],
@@ -133,9 +131,7 @@ impl Plain {
 }
 
 fn phase(s: &State) -> Phase {
-    [
-        s.u[0], s.u[1], s.alpha[0], s.alpha[1], s.v[0], s.v[1], s.alpha_rate[0], s.alpha_rate[1],
-    ]
+    [s.u[0], s.u[1], s.alpha[0], s.alpha[1], s.v[0], s.v[1], s.alpha_rate[0], s.alpha_rate[1]]
 }
 
 /// Compares casing and blades, each to `tolerance` of its own size.
@@ -317,8 +313,7 @@ fn halves_make_the_whole_and_no_gap_opens_inward() {
             for side in 0..machine.rim.sides {
                 let (c, s) = machine.rim.direction(side);
                 let alpha = state.alpha[0] * c + state.alpha[1] * s;
-                let beta = machine.rim.phase(side)
-                    + 3.0 * (parts.rotor().angle(state.t_s) + alpha);
+                let beta = machine.rim.phase(side) + 3.0 * (parts.rotor().angle(state.t_s) + alpha);
                 let gap = machine.clearance() + state.u[0] * beta.cos() + state.u[1] * beta.sin();
                 assert!(gap > -1e-12 * machine.clearance(), "{gap:e}");
             }

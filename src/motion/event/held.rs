@@ -13,7 +13,7 @@
 
 use super::approach::curved_step;
 use super::blades::{Blades, Tips};
-use super::corner::Hold;
+use super::corner::{self, Hold};
 use super::terms::{TERMS, Terms, ended, jerk, product, quotient, slope, values};
 use super::world::{Drive, Plane, World};
 
@@ -168,6 +168,30 @@ impl Held {
     /// Distance of both contacts from the middle of their sides \[m\].
     pub(super) fn half_side(&self, world: &World, s: f64) -> f64 {
         world.clearance * world.half_angle(self.a, &self.tips(world, s)).tan()
+    }
+
+    /// Whether, at constant speed, no push can vanish any more: what is left of
+    /// the blades' vibration about their rest moves the pushes by less than half
+    /// of what they are.
+    pub(super) fn for_good(&self, world: &World, drive: &Drive, blades: &Blades, s: f64) -> bool {
+        let (sin, cos) = world.machine.rim.delta.sin_cos();
+        let rest = corner::pushes(world, drive, self.a, 0.0);
+        let least = rest[0].min(rest[1]);
+        let moment = blades.ratio / blades.diameters * world.half_side;
+        let offset = Plane::new((rest[1] - rest[0]) * cos, (rest[1] + rest[0]) * sin);
+        let rest = offset * bisector(world, self.a) * (moment / blades.kernel.stiffness);
+        let tips = self.tips(world, s);
+        let left = Tips { angle: tips.angle - rest, rate: tips.rate };
+        // An angle, its rate and its acceleration enter the pushes with at most
+        // these rates squared, times the distance of the corner over sin delta.
+        let rates = drive.nu.abs()
+            + world.omega
+            + blades.omega
+            + 2.0 * (world.damping + blades.kernel.damping);
+        let turned = blades.diameters * blades.amplitude(&left);
+        let change = 2.0 * turned * rates * rates * world.clearance / (sin * cos);
+        let light = blades.ratio * world.half_side * world.half_side < 1e-3;
+        light && change < 0.5 * least
     }
 
     /// Looks ahead from `s`, before which nothing happens, within the stretch.

@@ -205,6 +205,12 @@ impl Event {
         {
             let pushes = corner::pushes(&self.world, &self.drive, a, 0.0);
             pushes.iter().all(|&push| push > 0.0).then_some(Verdict::Locked)
+        } else if let Mode::Held(held) = &self.mode
+            && let Some(blades) = &self.world.blades
+            && self.drive.steady()
+        {
+            let s = self.elapsed(self.now);
+            held.for_good(&self.world, &self.drive, blades, s).then_some(Verdict::Locked)
         } else {
             None
         }

@@ -189,10 +189,9 @@ impl Series {
         let [y, rate, _] = values(&self.y, x);
         let span = 1.0 - x;
         let mut stride = span;
-        let flexible = if world.blades.is_some() { world.half_side.abs() } else { 0.0 };
         for (room, up) in self.rooms.iter().zip([true, false]) {
             let [gap, closing, bend] = values(room, x);
-            let noise = world.tolerance * (room[0].abs() + (gap - room[0]).abs() + flexible);
+            let noise = world.tolerance * (room[0].abs() + room[1].abs() * x);
             if s == 0.0 && room[0] == 0.0 && room[1] == 0.0 {
                 let tail: f64 = room.iter().skip(4).map(|term| term.abs()).sum();
                 stride = stride.min(leaving_step(2.0 * room[2], 6.0 * room[3], 24.0 * tail));
