@@ -84,6 +84,7 @@ fn a_hundred_seconds_without_damping_keep_the_energy_in_the_turning_frame() {
 fn at_the_critical_speed_a_slide_keeps_its_pace() {
     // omega_c^2 - nu^2 = 0 and no damping: y'' = 0 and the push is -2 nu y'.
     let mut scene = Scene::default();
+    scene.set("solver.model", "rigid").unwrap();
     scene.casing.damping_ratio = 0.0;
     scene.operation.pulse_n = 0.0;
     let critical = scene.machine().critical_speed().unwrap();

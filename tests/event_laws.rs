@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use rubscope::motion::{Event, State};
 use rubscope::scene::{ModelSize, Scene};
 
-/// A scene of every kind the event solver takes, rigid blades.
+/// A scene of every kind the event solver takes; one in three with moving blades.
 fn scenes() -> impl Strategy<Value = Scene> {
     let sizes = (1_u32..=30, 0_u32..=35, prop_oneof![Just(1e-4), 1e-6..1e-2]);
     let zeta = prop_oneof![Just(0.0), Just(0.05), Just(1.0), 0.0..0.2, 0.2..3.0];
@@ -15,8 +15,9 @@ fn scenes() -> impl Strategy<Value = Scene> {
     let speed = prop_oneof![-900.0..900.0, 280.0..310.0];
     let pulse = (prop_oneof![Just(0.0), 1.0..6.5], prop_oneof![Just(50e-6), 1e-6..3e-3]);
     let start = (-0.9..0.9, -0.9..0.9, -3.0..3.0, -3.0..3.0);
-    (sizes, zeta, ramp, speed, pulse, any::<bool>(), start).prop_map(
-        |(sizes, zeta, ramp, speed, (decades, length), negative, start)| {
+    let model = prop_oneof![2 => Just(ModelSize::Rigid), 1 => Just(ModelSize::Modal)];
+    (sizes, zeta, ramp, speed, pulse, any::<bool>(), start, model).prop_map(
+        |(sizes, zeta, ramp, speed, (decades, length), negative, start, model)| {
             let mut scene = Scene::default();
             scene.bladed_disk.blades = sizes.0;
             scene.operation.nodal_diameters = sizes.1;
@@ -33,7 +34,7 @@ fn scenes() -> impl Strategy<Value = Scene> {
             scene.initial.u_s_m = 0.7 * clearance * start.1;
             scene.initial.v_c_m_s = speed * start.2;
             scene.initial.v_s_m_s = speed * start.3;
-            scene.solver.model = ModelSize::Rigid;
+            scene.solver.model = model;
             scene
         },
     )
@@ -50,18 +51,30 @@ fn lawful(motion: &Event) -> Result<(), TestCaseError> {
     // Round-off of a phase of up to 1e4 rad, twice, and of the motion.
     let size = machine.clearance() + state.amplitude();
     prop_assert!(size.is_finite());
+    let gap = |side: u32| {
+        let (c, s) = rim.direction(side);
+        let alpha = machine.nodal_diameters * (state.alpha[0] * c + state.alpha[1] * s);
+        let (sin, cos) = alpha.sin_cos();
+        rim.gap(side, z.0 * cos + z.1 * sin, z.1 * cos - z.0 * sin)
+    };
     for side in 0..rim.sides {
-        let gap = rim.gap(side, z.0, z.1);
+        let gap = gap(side);
         prop_assert!(gap > -1e-10 * size, "gap {gap:e} of side {side} at {}", state.t_s);
     }
     let nu = machine.nu(motion.rotor().speed(state.t_s));
     let scale = size * machine.casing_mass * (nu * nu + machine.omega_c.powi(2));
     for (side, multiplier) in motion.multipliers() {
         prop_assert!(multiplier <= 1e-9 * scale, "{multiplier} N pulls at {}", state.t_s);
-        let gap = rim.gap(side, z.0, z.1);
+        let gap = gap(side);
         prop_assert!(gap < 1e-10 * size, "push {multiplier} over a gap {gap:e}");
     }
     Ok(())
+}
+
+/// Whether a motion may leave what the model describes: a wave that no corner
+/// holds, or blades that turn sides past each other.
+fn may_fail(scene: &Scene) -> bool {
+    !scene.machine().rim.has_corners() || scene.solver.model == ModelSize::Modal
 }
 
 fn same(a: &State, b: &State) -> bool {
@@ -69,7 +82,7 @@ fn same(a: &State, b: &State) -> bool {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 60, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 60, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn no_penetration_no_pull_and_a_balance_of_energy(scene in scenes()) {
@@ -81,7 +94,7 @@ proptest! {
             loop {
                 match motion.next_event(until) {
                     Err(_) => {
-                        prop_assert!(!motion.machine().rim.has_corners());
+                        prop_assert!(may_fail(&scene));
                         return Ok(());
                     }
                     Ok(_) => lawful(&motion)?,

@@ -7,11 +7,12 @@
 //! it is not asked again.
 
 use super::Event;
+use super::blades::Tips;
 use super::corner::{cancelled, opening};
 use super::free::{Free, Leaving};
 use super::mode::{Mode, What};
 use super::rocking;
-use super::series::Series;
+use super::series::{From, Series};
 use super::slide::Slide;
 use super::world::Plane;
 use crate::motion::Touching;
@@ -32,7 +33,12 @@ impl Event {
             let noise = 1e-12 * (rate.norm() + carried.norm());
             let clean = |x: f64| if x.abs() <= noise { 0.0 } else { x };
             let local = Plane::new(clean(local.re), clean(local.im));
-            self.touch(side, place, local);
+            if let Some(blades) = self.world.blades {
+                let rate = carried + local * self.world.direction(side);
+                self.touch_compliant(&blades, side, place, rate);
+            } else {
+                self.touch(side, place, local);
+            }
         } else {
             self.fly(place, rate);
         }
@@ -40,6 +46,10 @@ impl Event {
 
     /// Passes the event `what`, `s` seconds into the segment.
     pub(super) fn pass(&mut self, s: f64, what: What) {
+        if let Some(blades) = self.world.blades {
+            self.pass_compliant(&blades, s, what);
+            return;
+        }
         let (place, rate) = self.mode.standing(&self.world, &self.drive, s);
         let along = self.mode.along(&self.world, &self.drive, s);
         let corner = match self.mode {
@@ -81,7 +91,7 @@ impl Event {
 
     /// Free flight from a state that touches nothing.
     pub(super) fn fly(&mut self, place: Plane, rate: Plane) {
-        self.enter(Mode::Free(Free::new(place, rate)));
+        self.enter(Mode::Free(Free::new(place, rate, self.tips)));
     }
 
     /// A side is met at `place` in the standing frame; `local` is the rate of
@@ -114,7 +124,7 @@ impl Event {
             self.fly(place, rate);
             return;
         }
-        self.strike(&[(side, y, -rate.re)]);
+        self.strike(&[(side, y, -rate.re, -rate.re)]);
         self.stay_or_leave(side, y, rate.im);
     }
 
@@ -157,30 +167,33 @@ impl Event {
                 self.fly(place, rate);
             }
         } else if opens_a < 0.0 && opens_b - cos * opens_a > 0.0 {
-            self.strike(&[(a, -half, -opens_a)]);
+            self.strike(&[(a, -half, -opens_a, -opens_a)]);
             self.stay_or_leave(a, -half, rate.im);
         } else if opens_b < 0.0 && opens_a - cos * opens_b > 0.0 {
-            self.strike(&[(b, half, -opens_b)]);
+            self.strike(&[(b, half, -opens_b, -opens_b)]);
             self.stay_or_leave(b, half, other.im);
         } else {
             let [first, second] = cancelled(world, opens_a, opens_b);
-            self.strike(&[(a, -half, first), (b, half, second)]);
-            // All of the rate is lost, while `strike` books single sides only.
-            self.ledger.lost += 0.5 * (rate.norm_sqr() - first * first - second * second);
+            self.strike(&[(a, -half, first, -opens_a), (b, half, second, -opens_b)]);
             self.rest(a);
         }
     }
 
-    /// Books impulses (per unit mass) on sides at their places.
-    fn strike(&mut self, impulses: &[(u32, f64, f64)]) {
+    /// Books an impulse (per unit mass) on a side at `y`, which ended a closing
+    /// speed: it takes the work `-impulse nu y` from the rotor.
+    pub(super) fn book_impact(&mut self, side: u32, y: f64, impulse: f64, closing: f64) {
+        self.ledger.rotor -= impulse * self.drive.nu * y;
+        self.ledger.lost += 0.5 * impulse * closing;
+        if closing > SOFT * self.world.omega * self.world.clearance {
+            self.log.impact(self.start.0, side);
+        }
+    }
+
+    /// Books impulses on sides at their places with the closing speeds.
+    fn strike(&mut self, impulses: &[(u32, f64, f64, f64)]) {
         let t = self.start.0;
-        let soft = SOFT * self.world.omega * self.world.clearance;
-        for &(side, y, impulse) in impulses {
-            self.ledger.rotor -= impulse * self.drive.nu * y;
-            self.ledger.lost += 0.5 * impulse * impulse;
-            if impulse > soft {
-                self.log.impact(t, side);
-            }
+        for &(side, y, impulse, closing) in impulses {
+            self.book_impact(side, y, impulse, closing);
         }
         match *impulses {
             [(side, ..)] => self.log.touch(t, Touching::Side(side)),
@@ -222,7 +235,8 @@ impl Event {
         let mode = if drive.steady() {
             Mode::Slide(Slide::new(world, drive, side, y, rate))
         } else {
-            Mode::Driven(Series::new(world, drive, side, y, rate))
+            let from = From { y, rate, tips: Tips::default(), edge: None };
+            Mode::Driven(Series::new(world, drive, side, &from))
         };
         self.enter(mode);
     }
@@ -232,7 +246,7 @@ impl Event {
     fn leave(&mut self, sides: &[(u32, f64)], rate: Plane, frame: u32) {
         let Some(&(_, y)) = sides.first() else { return };
         let (place, rate) = self.standing(frame, y, rate);
-        let flight = Free::new(place, rate);
+        let flight = Free::new(place, rate, Tips::default());
         let mut free = flight;
         for (slot, &(side, _)) in free.leaving.iter_mut().zip(sides) {
             let (bend, twist) = flight.curvature(&self.world, &self.drive, side);
@@ -248,7 +262,7 @@ impl Event {
         (place * inward, (rate + Plane::i() * place * self.drive.nu) * inward)
     }
 
-    fn enter(&mut self, mode: Mode) {
+    pub(super) fn enter(&mut self, mode: Mode) {
         let t = self.start.0;
         let touching = mode.touching(&self.world);
         let before = self.log.touching;

@@ -7,6 +7,7 @@
 //! are kept open by a bound on the speed.
 
 use super::approach::{leaving_step, safe_step};
+use super::blades::{Blades, Tips};
 use super::world::{Drive, Plane, World};
 
 /// A side that the flight leaves with neither gap nor rate.
@@ -24,6 +25,8 @@ pub(super) struct Leaving {
 pub(super) struct Free {
     pub place: Plane,
     pub rate: Plane,
+    /// Blades at the start.
+    pub tips: Tips,
     pub leaving: [Option<Leaving>; 2],
 }
 
@@ -44,13 +47,18 @@ pub(super) enum Look {
 struct Bounds {
     /// On `|u|`, `|u'|`, `|u''|`.
     standing: [f64; 3],
-    /// On the first, second and fourth derivative of `z`.
-    turning: [f64; 3],
+    /// On `|z|` and its first four derivatives, seen from the sides.
+    turning: [f64; 5],
 }
 
 impl Free {
-    pub(super) fn new(place: Plane, rate: Plane) -> Self {
-        Self { place, rate, leaving: [None; 2] }
+    pub(super) fn new(place: Plane, rate: Plane, tips: Tips) -> Self {
+        Self { place, rate, tips, leaving: [None; 2] }
+    }
+
+    /// The blades, `s` seconds on.
+    pub(super) fn tips(&self, world: &World, s: f64) -> Tips {
+        world.blades.map_or(self.tips, |blades| blades.free(&self.tips, s))
     }
 
     /// Place and rate in the standing frame, `s` seconds on.
@@ -77,14 +85,23 @@ impl Free {
     /// Second and third derivative of the gap of `side` at the start.
     pub(super) fn curvature(&self, world: &World, drive: &Drive, side: u32) -> (f64, f64) {
         let (c, k) = (world.damping, world.kernel.stiffness);
-        let (u, v, nu, nu_rate) = (self.place, self.rate, drive.nu, drive.nu_rate);
+        let (u, v) = (self.place, self.rate);
         let a = Plane::new(drive.pulse, 0.0) - v * (2.0 * c) - u * k;
         let jerk = -a * (2.0 * c) - v * k;
-        let out = drive.inward(world, side, 0.0).conj();
-        let i = Plane::i();
+        let (inward, nu) = world.facing(drive, side, 0.0, &self.tips);
+        let (mut nu_rate, mut nu_bend) = (drive.nu_rate, 0.0);
+        if let Some(blades) = &world.blades {
+            let (c, k) = (blades.kernel.damping, blades.kernel.stiffness);
+            let second = -self.tips.rate * (2.0 * c) - self.tips.angle * k;
+            let third = -second * (2.0 * c) - self.tips.rate * k;
+            let along = world.direction(side).conj() * blades.diameters;
+            nu_rate += (second * along).re;
+            nu_bend += (third * along).re;
+        }
+        let (out, i) = (inward.conj(), Plane::i());
         let second = a - i * v * (2.0 * nu) - u * Plane::new(nu * nu, nu_rate);
         let third = jerk - i * a * (3.0 * nu) - v * Plane::new(nu * nu, nu_rate) * 3.0
-            + u * Plane::new(-3.0 * nu * nu_rate, nu * nu * nu);
+            + u * Plane::new(-3.0 * nu * nu_rate, nu * nu * nu - nu_bend);
         ((second * out).re, (third * out).re)
     }
 
@@ -107,7 +124,11 @@ impl Free {
             f64::INFINITY
         };
         let span = span.min(end - s);
-        let bounds = Bounds::new(world, drive, u, v, span, [nu, drive.nu(s + span.min(1e9))]);
+        let tips = self.tips(world, s);
+        let mut bounds = Bounds::new(world, drive, u, v, span, [nu, drive.nu(s + span.min(1e9))]);
+        if let Some(blades) = &world.blades {
+            bounds.shift(blades, &tips);
+        }
         let clearance = world.clearance;
         let mut stride: f64 = 0.0;
         if radius < clearance {
@@ -117,7 +138,7 @@ impl Free {
             stride = safe_step(margin, closing, 2.0 * (rate * rate + place * acceleration));
         }
         if radius > 0.9 * clearance {
-            match self.sides(world, drive, s, (u, v), &bounds) {
+            match self.sides(world, drive, s, (u, v, tips), &bounds) {
                 Look::Until(near) => stride = stride.max(near),
                 found => return found,
             }
@@ -131,7 +152,7 @@ impl Free {
         world: &World,
         drive: &Drive,
         s: f64,
-        (u, v): (Plane, Plane),
+        (u, v, tips): (Plane, Plane, Tips),
         bounds: &Bounds,
     ) -> Look {
         let rim = &world.machine.rim;
@@ -141,21 +162,33 @@ impl Free {
         // Round-off of the closed form: that of the terms it adds up.
         let terms = self.place.norm() + self.rate.norm() * s.min(1.0 / world.omega) + u.norm();
         let noise = world.tolerance * (world.clearance + terms);
-        let [speed, bend, jounce] = bounds.turning;
+        let [_, speed, bend, _, jounce] = bounds.turning;
+        // Blades may turn sides by less than half a corner, or all are asked.
+        let shift = world.blades.map_or(0.0, |b| b.diameters * b.amplitude(&tips));
         let nearest = rim.nearest_side(z.re, z.im);
-        let (first, count) =
-            if rim.sides <= 6 { (0, rim.sides) } else { (rim.previous(nearest), 3) };
+        let (first, count) = if rim.sides <= 6 || shift > 0.5 * rim.delta {
+            (0, rim.sides)
+        } else {
+            (rim.previous(nearest), 3)
+        };
         let mut stride = f64::INFINITY;
         if count < rim.sides {
             // The others lie at least three half corners away from `z`.
-            let open = world.clearance - z.norm() * (3.0 * rim.delta).cos();
+            let open = world.clearance - z.norm() * (3.0 * rim.delta - shift).cos();
             stride = open.max(0.0) / speed;
         }
         for k in 0..count {
             let side = (first + k) % rim.sides;
-            let normal = world.direction(side);
+            let mut normal = world.direction(side);
+            let mut closing = rate.re * normal.re + rate.im * normal.im;
+            if let Some(blades) = &world.blades {
+                let turned = blades.diameters * (tips.angle * normal.conj()).re;
+                let spin = blades.diameters * (tips.rate * normal.conj()).re;
+                normal *= Plane::cis(turned);
+                let local = (rate - Plane::i() * z * spin) * normal.conj();
+                closing = local.re;
+            }
             let gap = world.clearance + z.re * normal.re + z.im * normal.im;
-            let closing = rate.re * normal.re + rate.im * normal.im;
             let leaving = self.leaving.iter().flatten().find(|leaving| leaving.side == side);
             let safe = match leaving {
                 Some(leaving) if s == 0.0 => leaving_step(leaving.bend, leaving.twist, jounce),
@@ -189,7 +222,7 @@ impl Bounds {
             // the turning frame one of them may be nearly at rest.
             let [p, q] = exponents.map(|(re, im)| Plane::new(re, im));
             let mut waves = [0.0; 3];
-            let mut turned_waves = [0.0; 3];
+            let mut turned_waves = [0.0; 5];
             for (exponent, other) in [(p, q), (q, p)] {
                 let amplitude = ((v - from * other) / (exponent - other)).norm();
                 let rate = exponent.norm();
@@ -213,20 +246,44 @@ impl Bounds {
         let rate = v.norm() + standing[2] * span;
         standing[1] = standing[1].min(rate);
         standing[0] = standing[0].min(u.norm() + standing[1] * span);
-        turned[0] = turned[0].min(standing[1] + turning * standing[0]);
+        turned[0] = turned[0].min(standing[0]);
+        turned[1] = turned[1].min(standing[1] + turning * standing[0]);
         Self { standing, turning: turned }
+    }
+
+    /// Adds what the motion of the blades does to the gaps: bounds on the
+    /// derivatives of `z exp(-i n_d alpha)`.
+    fn shift(&mut self, blades: &Blades, tips: &Tips) {
+        let [a, b, c, d] = blades.turning(tips);
+        let factor = [
+            1.0,
+            a,
+            b + a * a,
+            c + 3.0 * a * b + a * a * a,
+            d + 4.0 * a * c + 3.0 * b * b + 6.0 * a * a * b + a * a * a * a,
+        ];
+        let [z0, z1, z2, z3, z4] = self.turning;
+        let [_, e1, e2, e3, e4] = factor;
+        self.turning = [
+            z0,
+            z1 + z0 * e1,
+            z2 + 2.0 * z1 * e1 + z0 * e2,
+            z3 + 3.0 * z2 * e1 + 3.0 * z1 * e2 + z0 * e3,
+            z4 + 4.0 * z3 * e1 + 6.0 * z2 * e2 + 4.0 * z1 * e3 + z0 * e4,
+        ];
     }
 }
 
-/// Bounds on the first, second and fourth derivative of
-/// `size exp(mu t - i ramp t^2/2)` with `|mu| <= rate`.
-fn hermite(size: f64, rate: f64, ramp: f64) -> [f64; 3] {
+/// Bounds on `size exp(mu t - i ramp t^2/2)`, `|mu| <= rate`, and its first four
+/// derivatives.
+fn hermite(size: f64, rate: f64, ramp: f64) -> [f64; 5] {
     let square = rate * rate;
     let fourth = square * square + 6.0 * square * ramp + 3.0 * ramp * ramp;
-    [size * rate, size * (square + ramp), size * fourth]
+    let third = rate * (square + 3.0 * ramp);
+    [size, size * rate, size * (square + ramp), size * third, size * fourth]
 }
 
-fn lower(bounds: &mut [f64; 3], others: [f64; 3]) {
+fn lower<const N: usize>(bounds: &mut [f64; N], others: [f64; N]) {
     for (bound, other) in bounds.iter_mut().zip(others) {
         *bound = bound.min(other);
     }

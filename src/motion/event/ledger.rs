@@ -9,6 +9,7 @@
 //! balance.
 
 use super::free::Free;
+use super::kernel::Kernel;
 use super::world::{Drive, Plane, World};
 
 /// Energies per unit casing mass \[m^2/s^2\].
@@ -38,26 +39,37 @@ pub(super) fn energy(world: &World, u: Plane, v: Plane) -> f64 {
     0.5 * (v.norm_sqr() + world.kernel.stiffness * u.norm_sqr())
 }
 
-/// Energy dissipated in `s` seconds of free flight.
+/// Energy dissipated in `s` seconds of free flight, by the casing and by the
+/// blades.
 pub(super) fn dissipated(world: &World, drive: &Drive, free: &Free, s: f64) -> f64 {
-    if world.damping == 0.0 {
+    let centre = drive.pulse / world.kernel.stiffness;
+    let from = free.place - Plane::new(centre, 0.0);
+    let casing = damped(&world.kernel, from, free.rate, s);
+    let blades = world.blades.map_or(0.0, |blades| {
+        blades.mass * damped(&blades.kernel, free.tips.angle, free.tips.rate, s)
+    });
+    casing + blades
+}
+
+/// Energy per unit mass that a free damped oscillator loses in `s` seconds.
+fn damped(kernel: &Kernel, from: Plane, rate: Plane, s: f64) -> f64 {
+    if kernel.damping == 0.0 || (from.norm_sqr() == 0.0 && rate.norm_sqr() == 0.0) {
         return 0.0;
     }
-    let power = 2.0 * world.damping;
-    let Some(exponents) = world.kernel.exponents() else {
+    let power = 2.0 * kernel.damping;
+    let Some(exponents) = kernel.exponents() else {
         // Near critical damping all is over after some forty periods.
-        let lasting = s.min(200.0 / world.omega);
-        let [sum, _] = quadrature(lasting, 2.0 * world.omega, |t| {
-            [free.at(world, drive, t).1.norm_sqr(), 0.0]
+        let omega = kernel.stiffness.sqrt();
+        let [sum, _] = quadrature(s.min(200.0 / omega), 2.0 * omega, |t| {
+            let response = kernel.at(t);
+            let rate = rate * response.slope - from * (kernel.stiffness * response.unit);
+            [rate.norm_sqr(), 0.0]
         });
         return power * sum;
     };
     let [p, q] = exponents.map(|(re, im)| Plane::new(re, im));
-    let centre = drive.pulse / world.kernel.stiffness;
-    let from = free.place - Plane::new(centre, 0.0);
-    let speeds = [(p, q), (q, p)].map(|(exponent, other)| {
-        (exponent, exponent * (free.rate - from * other) / (exponent - other))
-    });
+    let speeds = [(p, q), (q, p)]
+        .map(|(exponent, other)| (exponent, exponent * (rate - from * other) / (exponent - other)));
     let mut sum = 0.0;
     for (first, a) in speeds {
         for (second, b) in speeds {

@@ -13,14 +13,18 @@
 //! where one looks does not change the motion, not by one bit.
 
 mod approach;
+mod blades;
+mod compliant;
 mod contact;
 mod corner;
 mod free;
+mod held;
 mod kernel;
 mod ledger;
 mod rocking;
 mod series;
 mod slide;
+mod terms;
 mod world;
 
 mod mode;
@@ -30,6 +34,7 @@ use crate::model::Machine;
 use crate::motion::{Checks, ContactLog, Failure, Pulse, Rotor, State, Verdict};
 use crate::scene::Scene;
 
+use blades::Tips;
 use ledger::Ledger;
 use mode::{Mode, What};
 use world::{Drive, Plane, World};
@@ -64,6 +69,8 @@ pub struct Event {
     now: f64,
     drive: Drive,
     mode: Mode,
+    /// Blades at the start of the segment.
+    tips: Tips,
     /// No event of the segment comes before this \[s after its start\].
     safe: f64,
     /// The event that ends the segment, once found.
@@ -72,6 +79,7 @@ pub struct Event {
     idle: u32,
     looks: u64,
     deepest: f64,
+    widest: f64,
     failed: Option<Failure>,
 }
 
@@ -84,7 +92,7 @@ impl Event {
         let rate = Plane::new(scene.initial.v_c_m_s, scene.initial.v_s_m_s);
         let ledger = Ledger { start: ledger::energy(&world, place, rate), ..Ledger::default() };
         let mut event = Self {
-            mode: Mode::Free(free::Free::new(place, rate)),
+            mode: Mode::Free(free::Free::new(place, rate, Tips::default())),
             world,
             rotor: Rotor::of(scene),
             pulse: Pulse::of(scene),
@@ -99,6 +107,8 @@ impl Event {
             idle: 0,
             looks: 0,
             deepest: 0.0,
+            widest: 0.0,
+            tips: Tips::default(),
             failed: None,
         };
         event.drive = event.drive_now(0.0);
@@ -151,8 +161,16 @@ impl Event {
     /// The motion now; blades of the rigid model do not move.
     #[must_use]
     pub fn state(&self) -> State {
-        let (u, v) = self.mode.standing(&self.world, &self.drive, self.elapsed(self.now));
-        State { t_s: self.now, u: [u.re, u.im], v: [v.re, v.im], ..State::default() }
+        let s = self.elapsed(self.now);
+        let (u, v) = self.mode.standing(&self.world, &self.drive, s);
+        let Tips { angle, rate } = self.mode.tips(&self.world, s);
+        State {
+            t_s: self.now,
+            u: [u.re, u.im],
+            v: [v.re, v.im],
+            alpha: [angle.re, angle.im],
+            alpha_rate: [rate.re, rate.im],
+        }
     }
 
     /// What touched so far.
@@ -193,6 +211,12 @@ impl Event {
         {
             let pushes = corner::pushes(&self.world, &self.drive, a, 0.0);
             pushes.iter().all(|&push| push > 0.0).then_some(Verdict::Locked)
+        } else if let Mode::Held(held) = &self.mode
+            && let Some(blades) = &self.world.blades
+            && self.drive.steady()
+        {
+            let s = self.elapsed(self.now);
+            held.for_good(&self.world, &self.drive, blades, s).then_some(Verdict::Locked)
         } else {
             None
         }
@@ -232,12 +256,12 @@ impl Event {
     #[must_use]
     pub fn checks(&self) -> Checks {
         let s = self.elapsed(self.now);
-        let (u, v) = self.mode.standing(&self.world, &self.drive, s);
         let mut ledger = self.ledger;
         self.mode.book(&self.world, &self.drive, s, &mut ledger);
-        let residual = ledger.residual(ledger::energy(&self.world, u, v));
+        let residual = ledger.residual(self.mode.energy(&self.world, &self.drive, s));
         Checks {
             max_penetration_m: self.deepest,
+            max_blade_angle_rad: self.widest,
             energy_residual_j: Some(self.world.mass * residual),
             ..Checks::default()
         }

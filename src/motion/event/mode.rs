@@ -1,8 +1,10 @@
 //! The modes of motion, seen alike: where the casing is, what pushes, what the
 //! energy does, and what ends the mode.
 
+use super::blades::Tips;
 use super::corner::{self, Hold};
 use super::free::{Free, Look};
+use super::held::Held;
 use super::ledger::{self, Ledger, quadrature};
 use super::rocking;
 use super::series::Series;
@@ -25,6 +27,8 @@ pub(super) enum Mode {
     Rocking { a: u32, second: bool, speed: f64, time: f64, lost: f64 },
     /// At rest in the corner of this side and the next.
     Corner(u32),
+    /// In a corner whose sides move with their blades.
+    Held(Held),
 }
 
 /// What ends a mode.
@@ -75,17 +79,18 @@ impl Mode {
             Self::Driven(series) => along(series.look(world, drive, s)),
             Self::Rocking { time, .. } if s < *time => Next::Until(*time),
             Self::Rocking { .. } => Next::Now(What::Lock),
-            Self::Corner(a) => match corner::look(world, drive, *a, s, end) {
-                Hold::Until(later) => Next::Until(later),
-                Hold::Yield(second) => Next::Now(What::Yield(second)),
-                Hold::Always => Next::Until(end),
-            },
+            Self::Corner(a) => hold(corner::look(world, drive, *a, s, end), end),
+            Self::Held(held) => hold(held.look(world, s), end),
         }
     }
 
     /// How long the mode is defined for \[s\].
     pub(super) fn length(&self) -> f64 {
-        if let Self::Driven(series) = self { series.length } else { f64::INFINITY }
+        match self {
+            Self::Driven(series) => series.length,
+            Self::Held(held) => held.length,
+            _ => f64::INFINITY,
+        }
     }
 
     /// The side slid along and the motion along it; a corner counts as its
@@ -112,6 +117,10 @@ impl Mode {
                 let [push, _] = corner::pushes(world, drive, *a, s);
                 Some((*a, Along { y: -world.half_side, rate: 0.0, push }))
             }
+            Self::Held(held) => {
+                let [push, _] = held.pushes(s);
+                Some((held.a, Along { y: -held.half_side(world, s), rate: 0.0, push }))
+            }
         }
     }
 
@@ -120,18 +129,42 @@ impl Mode {
         if let Self::Free(free) = self {
             return free.at(world, drive, s);
         }
+        if let Self::Held(held) = self {
+            return held.standing(world, drive, s);
+        }
         let Some((side, along)) = self.along(world, drive, s) else { return Default::default() };
-        let inward = drive.inward(world, side, s);
+        let (inward, spin) = world.facing(drive, side, s, &self.tips(world, s));
         let place = Plane::new(-world.clearance, along.y);
-        let rate = Plane::new(0.0, along.rate) + Plane::i() * place * drive.nu(s);
+        let rate = Plane::new(0.0, along.rate) + Plane::i() * place * spin;
         (place * inward, rate * inward)
+    }
+
+    /// The blades, `s` seconds on.
+    pub(super) fn tips(&self, world: &World, s: f64) -> Tips {
+        match self {
+            Self::Free(free) => free.tips(world, s),
+            Self::Driven(series) => series.tips(world, s),
+            Self::Held(held) => held.tips(world, s),
+            _ => Tips::default(),
+        }
+    }
+
+    /// Kinetic and potential energy per unit casing mass, `s` seconds on.
+    pub(super) fn energy(&self, world: &World, drive: &Drive, s: f64) -> f64 {
+        let (u, v) = self.standing(world, drive, s);
+        let blades = world.blades.map_or(0.0, |blades| blades.energy(&self.tips(world, s)));
+        ledger::energy(world, u, v) + blades
     }
 
     /// Sides in contact with their pushes per unit mass, in phase order.
     pub(super) fn pushes(&self, world: &World, drive: &Drive, s: f64) -> [Option<(u32, f64)>; 2] {
-        if let Self::Corner(a) = self {
-            let [first, second] = corner::pushes(world, drive, *a, s);
-            return [Some((*a, first)), Some((world.machine.rim.next(*a), second))];
+        let corner = match self {
+            Self::Corner(a) => Some((*a, corner::pushes(world, drive, *a, s))),
+            Self::Held(held) => Some((held.a, held.pushes(s))),
+            _ => None,
+        };
+        if let Some((a, [first, second])) = corner {
+            return [Some((a, first)), Some((world.machine.rim.next(a), second))];
         }
         [self.along(world, drive, s).map(|(side, along)| (side, along.push)), None]
     }
@@ -144,7 +177,9 @@ impl Mode {
             Self::Driven(series) => Touching::Side(series.side),
             Self::Rocking { a, second: false, .. } => Touching::Side(*a),
             Self::Rocking { a, second: true, .. } => Touching::Side(world.machine.rim.next(*a)),
-            Self::Corner(a) => Touching::of(&[*a, world.machine.rim.next(*a)]),
+            Self::Corner(a) | Self::Held(Held { a, .. }) => {
+                Touching::of(&[*a, world.machine.rim.next(*a)])
+            }
         }
     }
 
@@ -162,15 +197,31 @@ impl Mode {
             let (across, along) = (nu * y, rate - nu * world.clearance);
             [drag * (along * along + across * across), -nu * push * y]
         };
+        // As above, where the side turns with its blades.
+        let compliant = |t: f64, work: f64| {
+            let (_, rate) = self.standing(world, drive, t);
+            let blades = world.blades.map_or(0.0, |blades| {
+                2.0 * blades.kernel.damping * blades.mass * self.tips(world, t).rate.norm_sqr()
+            });
+            [drag * rate.norm_sqr() + blades, -drive.nu(t) * work]
+        };
         let [dissipated, work] = match self {
             Self::Free(free) => [ledger::dissipated(world, drive, free, s), 0.0],
             Self::Slide(slide) => quadrature(s, 2.0 * slide.fastest(), |t| {
                 let Along { y, rate, push } = slide.at(world, drive, t);
                 power(t, y, rate, push)
             }),
-            Self::Driven(series) => quadrature(s, rate, |t| {
+            Self::Driven(series) => quadrature(s, 2.0 / series.length, |t| {
                 let Along { y, rate, push } = series.at(t);
-                power(t, y, rate, push)
+                if world.blades.is_some() {
+                    compliant(t, push * y)
+                } else {
+                    power(t, y, rate, push)
+                }
+            }),
+            Self::Held(held) => quadrature(s, 2.0 / held.length, |t| {
+                let [first, second] = held.pushes(t);
+                compliant(t, (second - first) * held.half_side(world, t))
             }),
             Self::Rocking { a, second, speed, time, lost } => {
                 let lost = if s < *time {
@@ -195,5 +246,13 @@ impl Mode {
         };
         ledger.dissipated += dissipated;
         ledger.rotor += work;
+    }
+}
+
+fn hold(hold: Hold, end: f64) -> Next {
+    match hold {
+        Hold::Until(later) => Next::Until(later),
+        Hold::Yield(second) => Next::Now(What::Yield(second)),
+        Hold::Always => Next::Until(end),
     }
 }

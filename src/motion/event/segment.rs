@@ -45,6 +45,10 @@ impl Event {
     /// Ends `advance` at `until`.
     pub(super) fn arrive(&mut self, until: f64) {
         self.now = until.max(self.now);
+        if self.world.blades.is_some() {
+            let tips = self.mode.tips(&self.world, self.elapsed(self.now));
+            self.widest = self.widest.max(tips.angle.norm());
+        }
         let touching = self.mode.touching(&self.world);
         if touching != Touching::Nothing {
             self.log.touch(self.now, touching);
@@ -97,6 +101,7 @@ impl Event {
     /// replaced.
     pub(super) fn rebase(&mut self, s: f64, what: Option<What>) {
         self.mode.book(&self.world, &self.drive, s, &mut self.ledger);
+        let tips = self.mode.tips(&self.world, s);
         let phase = self.drive.phase(s) % TAU;
         if what == Some(What::PulseEnd) {
             self.start = (self.pulse.end, 0.0);
@@ -113,6 +118,7 @@ impl Event {
         self.safe = 0.0;
         self.found = None;
         self.looks = 0;
+        self.watch_blades(&tips);
     }
 
     /// Rotor and pulse from the start of the segment on.
@@ -137,12 +143,23 @@ impl Event {
         let s = self.elapsed(self.now);
         let (place, rate) = self.mode.standing(&self.world, &self.drive, s);
         let along = self.mode.along(&self.world, &self.drive, s);
-        let corner = if let Mode::Corner(a) = self.mode { Some(a) } else { None };
+        let corner = match &self.mode {
+            Mode::Corner(a) => Some(*a),
+            Mode::Held(held) => Some(held.a),
+            _ => None,
+        };
+        let tips = self.mode.tips(&self.world, s);
         self.rebase(s, None);
+        self.tips = tips;
         self.start = (self.now, 0.0);
         let nu = self.drive.nu;
         change(self);
         self.drive = self.drive_now(self.drive.phase);
+        if let Some(blades) = self.world.blades {
+            let side = along.map(|(side, _)| side);
+            self.resume_compliant(&blades, (place, rate), side, corner);
+            return;
+        }
         // The rate against the blades jumps with the speed of the rotor.
         let slip = nu - self.drive.nu;
         if let Some((side, along)) = along {

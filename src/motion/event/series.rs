@@ -1,19 +1,20 @@
-//! Sliding while the pulse acts or the speed changes, as power series in time.
+//! Sliding while the pulse acts, the speed changes or the blades move, as power
+//! series in time.
 //!
-//! The equations of `slide` with `nu(t)`, the Euler term `nu' g0` and the pulse
-//! turning against the side have entire solutions; one stretch of them, no
+//! On a side that turns with `mu = nu + n_d alpha'` the motion is
+//! `y'' = (mu^2 - omega_c^2) y - 2 c y' + (2 c mu + mu') g0 - f sin gamma`, the
+//! push `N = (mu^2 - omega_c^2) g0 - 2 mu y' - 2 c mu y - mu' y - f cos gamma`,
+//! and the blades of the side answer with `alpha'' = -2 c_b alpha' - omega_b^2
+//! alpha + (ratio/n_d) N y`. The solutions are analytic; one stretch of them, no
 //! longer than the time of one radian of the fastest rate, is summed to
 //! round-off. A stretch is a polynomial: any instant of it can be asked for,
 //! and sums of its coefficients bound its derivatives.
 
 use super::approach::{curved_step, leaving_step};
+use super::blades::{Blades, Tips};
 use super::slide::{Ahead, Along, push_noise};
-use super::world::{Drive, World};
-
-/// Terms kept: `1/22!` is 1e-21.
-const TERMS: usize = 22;
-
-type Terms = [f64; TERMS];
+use super::terms::{TERMS, Terms, ended, jerk, product, quotient, slope, values};
+use super::world::{Drive, Plane, World};
 
 /// One stretch of sliding on `side`.
 #[derive(Clone, Copy, Debug)]
@@ -21,136 +22,213 @@ pub(super) struct Series {
     pub side: u32,
     /// Length of the stretch \[s\].
     pub length: f64,
-    /// Scale of time the terms refer to: terms are of `(s/length)^n`.
     y: Terms,
     push: Terms,
+    /// Distances to the upper and lower end of the side \[m\].
+    rooms: [Terms; 2],
+    /// Blade angle along the side and across it \[rad\].
+    tips: [Terms; 2],
+}
+
+/// Where a stretch begins.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct From {
+    /// Position along the side \[m\].
+    pub y: f64,
+    /// Its rate \[m/s\].
+    pub rate: f64,
+    /// Blade angles.
+    pub tips: Tips,
+    /// The end of the side it starts at, upper (`true`) or lower.
+    pub edge: Option<bool>,
 }
 
 impl Series {
-    pub(super) fn new(world: &World, drive: &Drive, side: u32, y: f64, rate: f64) -> Self {
-        let turning = drive.nu.abs();
-        let fastest = world.omega + 2.0 * world.damping + turning + drive.nu_rate.abs().sqrt();
-        let length = 1.0 / fastest;
-        let (sin, cos) = {
-            let inward = drive.inward(world, side, 0.0);
-            (inward.im, inward.re)
+    pub(super) fn new(world: &World, drive: &Drive, side: u32, from: &From) -> Self {
+        let (inward, spin) = world.facing(drive, side, 0.0, &from.tips);
+        let mut fastest =
+            world.omega + 2.0 * world.damping + spin.abs() + drive.nu_rate.abs().sqrt();
+        if let Some(blades) = &world.blades {
+            fastest += blades.omega + 2.0 * blades.kernel.damping;
+        }
+        let local = from.tips.angle * world.direction(side).conj();
+        let turning = from.tips.rate * world.direction(side).conj();
+        let mut series = Self {
+            side,
+            length: 1.0 / fastest,
+            y: [0.0; TERMS],
+            push: [0.0; TERMS],
+            rooms: [[0.0; TERMS]; 2],
+            tips: [[0.0; TERMS]; 2],
         };
-        let mut terms = Self { side, length, y: [0.0; TERMS], push: [0.0; TERMS] };
-        terms.expand(world, drive, [y, rate], [cos, sin]);
-        terms
+        // Without moving blades the solution is entire and one try is enough.
+        for _ in 0..60 {
+            let h = series.length;
+            (series.y[0], series.y[1]) = (from.y, from.rate * h);
+            for (terms, (angle, rate)) in
+                series.tips.iter_mut().zip([(local.re, turning.re), (local.im, turning.im)])
+            {
+                (terms[0], terms[1]) = (angle, rate * h);
+            }
+            series.expand(world, drive, inward);
+            if world.blades.is_none() || (ended(&series.y) && ended(&series.push)) {
+                break;
+            }
+            series.length *= 0.5;
+        }
+        series.enclose(world, from);
+        series
     }
 
-    /// Fills the terms by the recurrence of the differential equation, with
+    /// Fills the terms by the recurrence of the differential equations, with
     /// time counted in units of `length`.
-    fn expand(&mut self, world: &World, drive: &Drive, [y, rate]: [f64; 2], [cos, sin]: [f64; 2]) {
+    fn expand(&mut self, world: &World, drive: &Drive, inward: Plane) {
         let h = self.length;
         let (nu, ramp) = (drive.nu * h, drive.nu_rate * h * h);
         let (omega2, c2) = (world.omega * world.omega * h * h, 2.0 * world.damping * h);
         let (g0, pulse) = (world.clearance, drive.pulse * h * h);
-        let (mut cosine, mut sine) = ([0.0; TERMS], [0.0; TERMS]);
-        (cosine[0], sine[0]) = (cos, sin);
-        let y_terms = &mut self.y;
-        (y_terms[0], y_terms[1]) = (y, rate * h);
-        let earlier = |terms: &Terms, n: usize, k: usize| if n >= k { terms[n - k] } else { 0.0 };
+        let blades = world.blades.as_ref();
+        let diameters = blades.map_or(0.0, |blades| blades.diameters);
+        let (mut cos, mut sin) = ([0.0; TERMS], [0.0; TERMS]);
+        (cos[0], sin[0]) = (inward.re, inward.im);
+        let (mut mu, mut squared, mut free) = ([0.0; TERMS], [0.0; TERMS], [0.0; TERMS]);
+        let (mut share, mut y_slope) = ([0.0; TERMS], [0.0; TERMS]);
+        let Self { y, push, tips: [along, across], .. } = self;
         for n in 0..TERMS {
-            let order = n as f64;
+            let over = 1.0 / ((n as f64 + 1.0) * (n as f64 + 2.0));
+            mu[n] = diameters * slope(along, n) + [nu, ramp].get(n).unwrap_or(&0.0);
+            squared[n] = product(&mu, &mu, n);
+            y_slope[n] = slope(y, n);
             if n + 1 < TERMS {
-                let over = 1.0 / (order + 1.0);
-                sine[n + 1] = over * (nu * cosine[n] + ramp * earlier(&cosine, n, 1));
-                cosine[n + 1] = -over * (nu * sine[n] + ramp * earlier(&sine, n, 1));
+                sin[n + 1] = product(&cos, &mu, n) / (n as f64 + 1.0);
+                cos[n + 1] = -product(&sin, &mu, n) / (n as f64 + 1.0);
             }
-            // Terms of nu y and nu^2 y.
-            let turned = nu * y_terms[n] + ramp * earlier(y_terms, n, 1);
-            let before =
-                if n >= 1 { nu * y_terms[n - 1] + ramp * earlier(y_terms, n, 2) } else { 0.0 };
-            let squared = nu * turned + ramp * before;
-            let slope = if n + 1 < TERMS { (order + 1.0) * y_terms[n + 1] } else { 0.0 };
-            let constant = match n {
-                0 => (c2 * nu + ramp) * g0,
-                1 => c2 * ramp * g0,
-                _ => 0.0,
-            };
+            let constant = if n == 0 { 1.0 } else { 0.0 };
+            let euler = if n == 0 { ramp } else { 0.0 };
+            let mut held = (squared[n] - constant * omega2) * g0
+                - 2.0 * product(&y_slope, &mu, n)
+                - c2 * product(y, &mu, n)
+                - ramp * y[n]
+                - pulse * cos[n];
+            let mut mu_slope = euler;
+            if let Some(blades) = blades {
+                free[n] = blades.free_term(along, n, h);
+                held -= diameters * product(y, &free, n);
+                share[n] = constant + blades.ratio * product(y, y, n);
+                push[n] = quotient(held, &share, push, n);
+                let answer = free[n] + blades.ratio / diameters * product(push, y, n);
+                mu_slope += diameters * answer;
+                if n + 2 < TERMS {
+                    along[n + 2] = answer * over;
+                    across[n + 2] = blades.free_term(across, n, h) * over;
+                }
+            } else {
+                push[n] = held;
+            }
             if n + 2 < TERMS {
-                y_terms[n + 2] = (constant - c2 * slope - omega2 * y_terms[n] + squared
-                    - pulse * sine[n])
-                    / ((order + 1.0) * (order + 2.0));
+                let centred = product(y, &squared, n) - omega2 * y[n];
+                let drag = c2 * (mu[n] * g0 - y_slope[n]);
+                y[n + 2] = (centred + drag + mu_slope * g0 - pulse * sin[n]) * over;
             }
-            let held = match n {
-                0 => (nu * nu - omega2) * g0,
-                1 => 2.0 * nu * ramp * g0,
-                2 => ramp * ramp * g0,
-                _ => 0.0,
-            };
-            let coriolis = 2.0 * (nu * slope + ramp * order * y_terms[n]);
-            self.push[n] =
-                (held - coriolis - c2 * turned - ramp * y_terms[n] - pulse * cosine[n]) / (h * h);
         }
-        // The last term of the push lacks its Coriolis part; it is below round-off.
-        self.push[TERMS - 1] = 0.0;
+        // The last terms of the push lack their Coriolis part: round-off.
+        push[TERMS - 2..].fill(0.0);
+        push.iter_mut().for_each(|term| *term /= h * h);
+    }
+
+    /// Fills the distances to both ends of the side.
+    fn enclose(&mut self, world: &World, from: &From) {
+        let (sin, cos) = world.machine.rim.delta.sin_cos();
+        for (room, (upper, sign)) in self.rooms.iter_mut().zip([(true, -1.0), (false, 1.0)]) {
+            room[0] = world.half_side;
+            if let (Some(blades), true) = (&world.blades, world.corners) {
+                // Half the angle to the neighbour: delta, and what blades add.
+                let scale = blades.diameters * sin;
+                let mut angle: Terms = std::array::from_fn(|n| {
+                    scale * (cos * self.tips[1][n] - sign * sin * self.tips[0][n])
+                });
+                angle[0] += world.machine.rim.delta;
+                *room = tangent(&angle).map(|term| world.clearance * term);
+            }
+            for (term, y) in room.iter_mut().zip(&self.y) {
+                *term += sign * y;
+            }
+            if from.edge == Some(upper) {
+                room[0] = 0.0;
+                if from.rate == 0.0 {
+                    room[1] = 0.0;
+                }
+            }
+        }
     }
 
     pub(super) fn at(&self, s: f64) -> Along {
         let x = s / self.length;
-        let [y, rate, _] = values(&self.y, x, 0);
-        let [push, _, _] = values(&self.push, x, 0);
-        Along { y, rate: rate / self.length, push }
+        let [y, rate, _] = values(&self.y, x);
+        Along { y, rate: rate / self.length, push: values(&self.push, x)[0] }
+    }
+
+    /// The blades, `s` seconds on.
+    pub(super) fn tips(&self, world: &World, s: f64) -> Tips {
+        if world.blades.is_none() {
+            return Tips::default();
+        }
+        let x = s / self.length;
+        let [[along, along_rate, _], [across, across_rate, _]] =
+            [values(&self.tips[0], x), values(&self.tips[1], x)];
+        let direction = world.direction(self.side);
+        Tips {
+            angle: Plane::new(along, across) * direction,
+            rate: Plane::new(along_rate, across_rate) * direction / self.length,
+        }
     }
 
     /// Looks ahead from `s`, before which nothing happens, within the stretch.
     pub(super) fn look(&self, world: &World, drive: &Drive, s: f64) -> Ahead {
         let x = s / self.length;
-        let [displacement, rate, acceleration] = values(&self.y, x, 1);
-        let (along, span) = (jerk(&self.y), 1.0 - x);
-        let mut stride = f64::INFINITY;
-        for up in [true, false] {
-            let sign = if up { -1.0 } else { 1.0 };
-            let room = world.half_side + sign * self.y[0];
-            let gap = room + sign * displacement;
-            let closing = sign * rate;
-            let noise = world.tolerance * (room + displacement.abs());
-            if s == 0.0 && room == 0.0 && self.y[1] == 0.0 {
-                let tail: f64 = self.y.iter().skip(4).map(|term| term.abs()).sum();
-                let [second, third] = [sign * 2.0 * self.y[2], sign * 6.0 * self.y[3]];
-                stride = stride.min(leaving_step(second, third, 24.0 * tail));
+        let [y, rate, _] = values(&self.y, x);
+        let span = 1.0 - x;
+        let mut stride = span;
+        for (room, up) in self.rooms.iter().zip([true, false]) {
+            let [gap, closing, bend] = values(room, x);
+            let noise = world.tolerance * (room[0].abs() + room[1].abs() * x);
+            if s == 0.0 && room[0] == 0.0 && room[1] == 0.0 {
+                let tail: f64 = room.iter().skip(4).map(|term| term.abs()).sum();
+                stride = stride.min(leaving_step(2.0 * room[2], 6.0 * room[3], 24.0 * tail));
             } else if gap <= noise && closing < 0.0 {
                 return Ahead::Edge(up);
             } else {
                 let gap = gap.max(0.0) + noise;
-                stride = stride.min(curved_step(gap, closing, sign * acceleration, along, span));
+                stride = stride.min(curved_step(gap, closing, bend, jerk(room), span));
             }
         }
-        let [push, push_rate, push_bend] = values(&self.push, x, 0);
-        let noise = push_noise(
-            world,
-            drive.nu(s),
-            self.y[0] + displacement,
-            rate / self.length,
-            drive.pulse,
-        );
+        let [push, push_rate, push_bend] = values(&self.push, x);
+        let noise = push_noise(world, drive.nu(s), y, rate / self.length, drive.pulse);
         if push <= noise && push_rate < 0.0 {
             return Ahead::Release;
         }
-        let push_jerk = jerk(&self.push);
         let push = push.max(0.0) + noise;
-        stride = stride.min(curved_step(push, push_rate, push_bend, push_jerk, span));
-        let stride = stride * self.length;
-        Ahead::Until((s + stride).max(s.next_up()))
+        stride = stride.min(curved_step(push, push_rate, push_bend, jerk(&self.push), span));
+        Ahead::Until((s + stride * self.length).max(s.next_up()))
     }
 }
 
-/// Value from term `first` on, and first and second derivative, by Horner.
-fn values(terms: &Terms, x: f64, first: usize) -> [f64; 3] {
-    let (mut value, mut rate, mut bend) = (0.0, 0.0, 0.0);
-    for (n, &term) in terms.iter().enumerate().rev() {
-        bend = bend * x + rate;
-        rate = rate * x + value;
-        value = value * x + if n >= first { term } else { 0.0 };
+impl Blades {
+    /// Term `n` of the acceleration of a free blade coordinate, in units of the
+    /// stretch `h`.
+    pub(super) fn free_term(&self, angle: &Terms, n: usize, h: f64) -> f64 {
+        -2.0 * self.kernel.damping * h * slope(angle, n) - self.kernel.stiffness * h * h * angle[n]
     }
-    [value, rate, 2.0 * bend]
 }
 
-/// Bound on the third derivative over the stretch, `0 <= x <= 1`.
-fn jerk(terms: &Terms) -> f64 {
-    let factor = |n: f64| n * (n - 1.0) * (n - 2.0);
-    terms.iter().enumerate().skip(3).map(|(n, term)| factor(n as f64) * term.abs()).sum()
+/// Series of the tangent, `T' = (1 + T^2) angle'`.
+fn tangent(angle: &Terms) -> Terms {
+    let (mut result, mut factor, mut rate) = ([0.0; TERMS], [0.0; TERMS], [0.0; TERMS]);
+    result[0] = angle[0].tan();
+    for n in 0..TERMS - 1 {
+        rate[n] = slope(angle, n);
+        factor[n] = product(&result, &result, n) + if n == 0 { 1.0 } else { 0.0 };
+        result[n + 1] = product(&factor, &rate, n) / (n as f64 + 1.0);
+    }
+    result
 }

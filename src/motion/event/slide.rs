@@ -90,7 +90,7 @@ impl Slide {
             let room = world.half_side + sign * self.y;
             let gap = room + sign * displacement;
             let closing = sign * rate;
-            let noise = world.tolerance * (room + displacement.abs());
+            let noise = world.tolerance * (room + self.rate.abs() * s);
             if s == 0.0 && room == 0.0 && rate == 0.0 {
                 let jounce = jerk * fastest;
                 stride = stride.min(leaving_step(sign * acceleration, sign * third, jounce));

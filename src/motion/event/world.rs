@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use nalgebra::Complex;
 
+use super::blades::Blades;
 use super::kernel::Kernel;
 use crate::model::Machine;
 use crate::scene::Scene;
@@ -26,6 +27,8 @@ pub(super) struct World {
     pub damping: f64,
     /// Response of the free casing.
     pub kernel: Kernel,
+    /// The blades, where they move.
+    pub blades: Option<Blades>,
     /// Casing modal mass \[kg\].
     pub mass: f64,
     /// Cosine and sine of the angle `2 delta` between neighbouring sides.
@@ -50,6 +53,7 @@ impl World {
             omega: machine.omega_c,
             damping,
             kernel: Kernel::new(damping, machine.omega_c * machine.omega_c),
+            blades: Blades::of(scene, &machine),
             mass: machine.casing_mass,
             turn: Plane::cis(twice),
             corners,

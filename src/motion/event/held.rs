@@ -1,0 +1,218 @@
+//! Locked in a corner whose two sides move with their blades.
+//!
+//! Both gaps are closed, so the casing follows the blades: with `a exp(-i
+//! psi_m) = xi + i eta` about the bisector `psi_m` of the corner, the wave is
+//! `u = -R exp(i sigma)`, `sigma = n_d theta + psi_m + n_d cos delta xi`,
+//! `R = g0/cos tau`, `tau = delta + n_d sin delta eta`. The sum `S` and
+//! difference `D` of the pushes follow from the casing equation,
+//! `S cos tau = -(R'' - sigma'^2 R + 2 c R' + omega_c^2 R) - f cos sigma`,
+//! `D sin tau = -(2 sigma' R' + sigma'' R + 2 c sigma' R) + f sin sigma`, and
+//! turn the blades by `k tan tau (D cos delta + i S sin delta)`,
+//! `k = ratio g0/n_d`. The two unknown accelerations `xi''` and `eta''` are
+//! eliminated; what is left is summed as a power series, as in `series`.
+
+use super::approach::curved_step;
+use super::blades::{Blades, Tips};
+use super::corner::{self, Hold};
+use super::terms::{TERMS, Terms, ended, jerk, product, quotient, slope, values};
+use super::world::{Drive, Plane, World};
+
+/// One stretch of locked motion in the corner of side `a` and the next.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Held {
+    pub a: u32,
+    /// Length of the stretch \[s\].
+    pub length: f64,
+    /// Blade angles along and across the bisector, `xi` and `eta` \[rad\].
+    tips: [Terms; 2],
+    /// Pushes of `a` and the next side, per unit mass \[m/s^2\].
+    pushes: [Terms; 2],
+}
+
+impl Held {
+    pub(super) fn new(world: &World, drive: &Drive, blades: &Blades, a: u32, tips: &Tips) -> Self {
+        let bisector = bisector(world, a);
+        let (local, turning) = (tips.angle * bisector.conj(), tips.rate * bisector.conj());
+        let spin = drive.nu.abs() + blades.diameters * tips.rate.norm();
+        let fastest = world.omega
+            + 2.0 * world.damping
+            + spin
+            + drive.nu_rate.abs().sqrt()
+            + blades.omega
+            + 2.0 * blades.kernel.damping;
+        let mut held =
+            Self { a, length: 1.0 / fastest, tips: [[0.0; TERMS]; 2], pushes: [[0.0; TERMS]; 2] };
+        for _ in 0..60 {
+            let h = held.length;
+            for (terms, (angle, rate)) in
+                held.tips.iter_mut().zip([(local.re, turning.re), (local.im, turning.im)])
+            {
+                (terms[0], terms[1]) = (angle, rate * h);
+            }
+            held.expand(world, drive, blades, bisector);
+            if held.pushes.iter().all(ended) {
+                break;
+            }
+            held.length *= 0.5;
+        }
+        held
+    }
+
+    fn expand(&mut self, world: &World, drive: &Drive, blades: &Blades, bisector: Plane) {
+        let h = self.length;
+        let (nu, ramp) = (drive.nu * h, drive.nu_rate * h * h);
+        let (omega2, c2) = (world.omega * world.omega * h * h, 2.0 * world.damping * h);
+        let (g0, pulse) = (world.clearance, drive.pulse * h * h);
+        let (sin_d, cos_d) = world.machine.rim.delta.sin_cos();
+        let (along, across) = (blades.diameters * cos_d, blades.diameters * sin_d);
+        let k = blades.ratio * g0 / blades.diameters;
+        let zero = [0.0; TERMS];
+        let Self { tips: [xi, eta], pushes: [first, second], .. } = self;
+        let start = bisector * Plane::cis(drive.phase + along * xi[0]);
+        let (mut cos, mut sin) = (zero, zero);
+        (cos[0], sin[0]) = (start.re, start.im);
+        // tau', sigma', their squares; tan, sec, their products.
+        let (mut tau, mut sigma, mut tau2, mut sigma2) = (zero, zero, zero, zero);
+        let (mut tan, mut sec, mut tan2, mut both, mut sec2) = (zero, zero, zero, zero, zero);
+        let tau_start = world.machine.rim.delta + across * eta[0];
+        (tan[0], sec[0]) = (tau_start.tan(), 1.0 / tau_start.cos());
+        let (mut radius_rate, mut curve, mut steep, mut bent) = (zero, zero, zero, zero);
+        let (mut free_xi, mut free_eta) = (zero, zero);
+        let (mut across_sum, mut along_sum) = (zero, zero);
+        let (mut sum, mut difference, mut share_sum, mut share) = (zero, zero, zero, zero);
+        let (mut spin_rate, mut spin_place) = (zero, zero);
+        for n in 0..TERMS {
+            let order = n as f64;
+            let constant = if n == 0 { 1.0 } else { 0.0 };
+            tau[n] = across * slope(eta, n);
+            sigma[n] = along * slope(xi, n) + [nu, ramp].get(n).unwrap_or(&0.0);
+            tau2[n] = product(&tau, &tau, n);
+            sigma2[n] = product(&sigma, &sigma, n);
+            tan2[n] = product(&tan, &tan, n);
+            both[n] = product(&tan, &sec, n);
+            sec2[n] = product(&sec, &sec, n);
+            if n + 1 < TERMS {
+                tan[n + 1] = (product(&sec2, &tau, n)) / (order + 1.0);
+                sec[n + 1] = product(&both, &tau, n) / (order + 1.0);
+                sin[n + 1] = product(&cos, &sigma, n) / (order + 1.0);
+                cos[n + 1] = -product(&sin, &sigma, n) / (order + 1.0);
+            }
+            // R = g0 sec, R' = g0 sec tan tau'; the part of R'' without tau''.
+            radius_rate[n] = g0 * product(&both, &tau, n);
+            curve[n] = tan2[n] + sec2[n];
+            steep[n] = product(&curve, &tau2, n);
+            bent[n] = g0 * product(&sec, &steep, n);
+            free_xi[n] = blades.free_term(xi, n, h);
+            free_eta[n] = blades.free_term(eta, n, h);
+            // S (1 + g0 n_d k sin^2 delta (sec tan)^2) = -sec (...).
+            across_sum[n] = bent[n] - g0 * product(&sigma2, &sec, n)
+                + c2 * radius_rate[n]
+                + omega2 * g0 * sec[n]
+                + pulse * cos[n]
+                + g0 * across * product(&both, &free_eta, n);
+            share_sum[n] = constant + g0 * across * k * sin_d * product(&both, &both, n);
+            sum[n] = quotient(-product(&sec, &across_sum, n), &share_sum, &sum, n);
+            // D tan (1 + g0 n_d k cos^2 delta sec^2) = sec (...).
+            spin_rate[n] = product(&sigma, &radius_rate, n);
+            spin_place[n] = product(&sigma, &sec, n);
+            along_sum[n] = pulse * sin[n]
+                - 2.0 * spin_rate[n]
+                - c2 * g0 * spin_place[n]
+                - g0 * (ramp * sec[n] + along * product(&sec, &free_xi, n));
+            share[n] = tan[n] + g0 * along * k * cos_d * product(&tan, &sec2, n);
+            difference[n] = quotient(product(&sec, &along_sum, n), &share, &difference, n);
+            if n + 2 < TERMS {
+                let over = 1.0 / ((order + 1.0) * (order + 2.0));
+                xi[n + 2] = over * (free_xi[n] + k * cos_d * product(&tan, &difference, n));
+                eta[n + 2] = over * (free_eta[n] + k * sin_d * product(&tan, &sum, n));
+            }
+            first[n] = 0.5 * (sum[n] - difference[n]) / (h * h);
+            second[n] = 0.5 * (sum[n] + difference[n]) / (h * h);
+        }
+        for pushes in [first, second] {
+            // These lack what the last blade terms would add: round-off.
+            pushes[TERMS - 2..].fill(0.0);
+        }
+    }
+
+    /// Place and rate of the casing in the standing frame, `s` seconds on.
+    pub(super) fn standing(&self, world: &World, drive: &Drive, s: f64) -> (Plane, Plane) {
+        let diameters = world.blades.map_or(0.0, |blades| blades.diameters);
+        let (sin, cos) = world.machine.rim.delta.sin_cos();
+        let [[xi, xi_rate, _], [eta, eta_rate, _]] =
+            self.tips.map(|terms| values(&terms, s / self.length));
+        let tau = world.machine.rim.delta + diameters * sin * eta;
+        let radius = world.clearance / tau.cos();
+        let growth = radius * tau.tan() * diameters * sin * eta_rate / self.length;
+        let spin = drive.nu(s) + diameters * cos * xi_rate / self.length;
+        let turned = bisector(world, self.a) * Plane::cis(drive.phase(s) + diameters * cos * xi);
+        (-turned * radius, -turned * Plane::new(growth, spin * radius))
+    }
+
+    /// The blades, `s` seconds on.
+    pub(super) fn tips(&self, world: &World, s: f64) -> Tips {
+        let [[xi, xi_rate, _], [eta, eta_rate, _]] =
+            self.tips.map(|terms| values(&terms, s / self.length));
+        let bisector = bisector(world, self.a);
+        Tips {
+            angle: Plane::new(xi, eta) * bisector,
+            rate: Plane::new(xi_rate, eta_rate) * bisector / self.length,
+        }
+    }
+
+    /// Pushes of both sides per unit mass \[m/s^2\].
+    pub(super) fn pushes(&self, s: f64) -> [f64; 2] {
+        self.pushes.map(|terms| values(&terms, s / self.length)[0])
+    }
+
+    /// Distance of both contacts from the middle of their sides \[m\].
+    pub(super) fn half_side(&self, world: &World, s: f64) -> f64 {
+        world.clearance * world.half_angle(self.a, &self.tips(world, s)).tan()
+    }
+
+    /// Whether, at constant speed, no push can vanish any more: what is left of
+    /// the blades' vibration about their rest moves the pushes by less than half
+    /// of what they are.
+    pub(super) fn for_good(&self, world: &World, drive: &Drive, blades: &Blades, s: f64) -> bool {
+        let (sin, cos) = world.machine.rim.delta.sin_cos();
+        let rest = corner::pushes(world, drive, self.a, 0.0);
+        let least = rest[0].min(rest[1]);
+        let moment = blades.ratio / blades.diameters * world.half_side;
+        let offset = Plane::new((rest[1] - rest[0]) * cos, (rest[1] + rest[0]) * sin);
+        let rest = offset * bisector(world, self.a) * (moment / blades.kernel.stiffness);
+        let tips = self.tips(world, s);
+        let left = Tips { angle: tips.angle - rest, rate: tips.rate };
+        // An angle, its rate and its acceleration enter the pushes with at most
+        // these rates squared, times the distance of the corner over sin delta.
+        let rates = drive.nu.abs()
+            + world.omega
+            + blades.omega
+            + 2.0 * (world.damping + blades.kernel.damping);
+        let turned = blades.diameters * blades.amplitude(&left);
+        let change = 2.0 * turned * rates * rates * world.clearance / (sin * cos);
+        let light = blades.ratio * world.half_side * world.half_side < 1e-3;
+        light && change < 0.5 * least
+    }
+
+    /// Looks ahead from `s`, before which nothing happens, within the stretch.
+    pub(super) fn look(&self, world: &World, s: f64) -> Hold {
+        let x = s / self.length;
+        let mut stride = 1.0 - x;
+        for (terms, second) in self.pushes.iter().zip([false, true]) {
+            let [push, rate, bend] = values(terms, x);
+            let size: f64 = terms.iter().map(|term| term.abs()).sum();
+            let noise = world.tolerance * size;
+            if push <= noise && rate < 0.0 {
+                return Hold::Yield(second);
+            }
+            let push = push.max(0.0) + noise;
+            stride = stride.min(curved_step(push, rate, bend, jerk(terms), 1.0 - x));
+        }
+        Hold::Until((s + stride * self.length).max(s.next_up()))
+    }
+}
+
+/// `exp(i psi_m)`, half-way between a side and the next.
+fn bisector(world: &World, a: u32) -> Plane {
+    world.direction(a) * Plane::cis(world.machine.rim.delta)
+}
