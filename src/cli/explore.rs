@@ -53,7 +53,12 @@ impl Explore {
             )
             .into());
         }
-        let look = tui::ExploreOptions { fps: self.fps, color: self.color, marker: self.marker };
+        let look = tui::ExploreOptions {
+            fps: self.fps,
+            color: self.color,
+            marker: self.marker,
+            source: self.options.name().map(String::from),
+        };
         match tui::explore(scene, look)? {
             0 => Ok(Status::Done),
             code => Ok(Status::Signal(code.saturating_sub(128))),

@@ -142,6 +142,8 @@ pub struct Snapshot {
     pub reference: Option<Forecast>,
     /// The same scene under the other contact law.
     pub beside: Option<Forecast>,
+    /// What was recorded of it since the last snapshot.
+    pub beside_bins: Vec<Bin>,
     /// The locked motion against speed, once it is computed.
     pub locked: Option<Arc<LockedCurves>>,
     /// The spectrum of the run, while wanted.

@@ -8,8 +8,10 @@ pub mod axis;
 pub mod bindings;
 pub mod engine;
 pub mod events;
+pub mod export;
 pub mod history;
 pub mod knobs;
+pub mod lessons;
 pub mod locked_curve;
 pub mod panels;
 pub mod plot;
@@ -61,7 +63,7 @@ impl Color {
 }
 
 /// How the explorer looks.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ExploreOptions {
     /// Most frames a second while the motion plays.
     pub fps: f64,
@@ -69,11 +71,13 @@ pub struct ExploreOptions {
     pub color: Color,
     /// How points are drawn.
     pub marker: Marker,
+    /// Name or path of the scene, for the command line that repeats the run.
+    pub source: Option<String>,
 }
 
 impl Default for ExploreOptions {
     fn default() -> Self {
-        Self { fps: 10.0, color: Color::Auto, marker: Marker::Braille }
+        Self { fps: 10.0, color: Color::Auto, marker: Marker::Braille, source: None }
     }
 }
 
@@ -118,6 +122,7 @@ pub fn explore(scene: Scene, options: ExploreOptions) -> anyhow::Result<u8> {
     });
     let mut worker = worker::Worker::spawn(nudge)?;
     let mut app = App::new(scene, options.theme(), options.marker);
+    app.source.clone_from(&options.source);
     let guard = terminal::Guard;
     let mut screen = terminal::open()?;
     events::read_keys(sender)?;

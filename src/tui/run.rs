@@ -122,6 +122,11 @@ fn handle(event: &Event, app: &mut App, host: &mut dyn Host) -> Heard {
             Effect::Quit => Heard::Exit(Exit::Done),
             Effect::Suspend => resumed(host.suspend()),
             Effect::Redraw => Heard::Anew,
+            Effect::Copy(text) => {
+                // A terminal that cannot take it still shows it.
+                let _ = host.copy(&text);
+                Heard::Draw(Due::Now)
+            }
         },
         Event::Resize => Heard::Draw(Due::Now),
         Event::Fresh => Heard::Draw(Due::Frame),

@@ -86,6 +86,11 @@ pub trait Host {
     /// # Errors
     /// The terminal cannot be taken back.
     fn resume(&mut self) -> std::io::Result<()>;
+    /// Puts a text on the clipboard of the terminal.
+    ///
+    /// # Errors
+    /// The terminal cannot be written to.
+    fn copy(&mut self, text: &str) -> std::io::Result<()>;
 }
 
 /// A host without a terminal, for tests.
@@ -97,6 +102,9 @@ impl Host for NoHost {
         Ok(())
     }
     fn resume(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+    fn copy(&mut self, _: &str) -> std::io::Result<()> {
         Ok(())
     }
 }
@@ -122,5 +130,41 @@ impl Host for Shell {
         // Whatever the shell did to the terminal in between is undone.
         leave();
         enter()
+    }
+
+    fn copy(&mut self, text: &str) -> std::io::Result<()> {
+        // OSC 52: the terminal, not this machine, owns the clipboard.
+        let mut out = stdout();
+        write!(out, "\x1b]52;c;{}\x07", base64(text.as_bytes()))?;
+        out.flush()
+    }
+}
+
+/// Base 64 with padding, as OSC 52 wants it.
+fn base64(bytes: &[u8]) -> String {
+    const SIGNS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut out = String::new();
+    for chunk in bytes.chunks(3) {
+        let byte = |k: usize| u32::from(chunk.get(k).copied().unwrap_or(0));
+        let bits = byte(0) << 16 | byte(1) << 8 | byte(2);
+        for k in 0..4 {
+            let sign = SIGNS.get((bits >> (18 - 6 * k) & 63) as usize).copied().unwrap_or(b'A');
+            out.push(if k <= chunk.len() { char::from(sign) } else { '=' });
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn base64_of_the_examples_of_rfc_4648() {
+        for (text, expected) in
+            [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foobar", "Zm9vYmFy")]
+        {
+            assert_eq!(base64(text.as_bytes()), expected);
+        }
     }
 }

@@ -21,6 +21,7 @@ impl App {
         }
         self.follow(&snapshot.bins);
         self.history.extend(&snapshot.bins);
+        self.beside_history.extend(&snapshot.beside_bins);
         let due = self.slow.as_ref().is_none_or(|slow| {
             let elapsed = snapshot.moment.state.t_s - slow.state.t_s;
             !self.playing || elapsed < 0.0 || elapsed >= self.page_s() / SLOW_FRAMES
@@ -40,6 +41,7 @@ impl App {
             self.precision = snapshot.precision.or(self.precision.take());
             self.locked = snapshot.locked.or(self.locked.take());
         }
+        self.check_lesson();
         true
     }
 

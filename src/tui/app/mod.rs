@@ -2,13 +2,18 @@
 //! of this value, and only keys and snapshots change it.
 
 mod absorb;
+mod command;
+mod files;
+mod guide;
 mod time;
 mod turn;
 mod update;
 mod verdict;
 
+pub use guide::Progress;
 pub use time::{RATES, page_length};
 pub use update::Effect;
+pub use verdict::Words;
 
 use std::sync::Arc;
 
@@ -85,6 +90,26 @@ impl View {
     }
 }
 
+/// A run pinned behind the next ones.
+#[derive(Clone, Debug)]
+pub struct Baseline {
+    /// What was recorded of it.
+    pub history: History,
+    /// Its verdict.
+    pub words: Words,
+    /// Its forces: sides and multipliers \[N\].
+    pub forces: Vec<(u32, f64)>,
+}
+
+/// What a file name is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    /// The scene as a TOML file.
+    Save,
+    /// The large chart's data as CSV, or the screen as SVG.
+    Export,
+}
+
 /// What the keyboard acts on.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Mode {
@@ -94,6 +119,12 @@ pub enum Mode {
     Typing(String),
     /// The help is open, scrolled down by some lines.
     Help(u16),
+    /// A file name is being typed.
+    Naming(Purpose, String),
+    /// A file exists: may it be replaced?
+    Replacing(Purpose, String),
+    /// A lesson is being chosen.
+    Lessons(usize),
 }
 
 /// How the explorer ends.
@@ -186,6 +217,20 @@ pub struct App {
     pub map: Option<Arc<Map>>,
     /// Speed against error.
     pub precision: Option<Arc<Precision>>,
+    /// What was recorded under the other contact law.
+    pub beside_history: History,
+    /// A run pinned to compare with.
+    pub baseline: Option<Baseline>,
+    /// How many charts stand beside the large one.
+    pub charts_beside: usize,
+    /// Place of the reading cursor on the page, 0 to 1.
+    pub cursor: Option<f64>,
+    /// Pages looked back from the present one.
+    pub pages_back: i64,
+    /// What the scene was opened by, for the command line that repeats it.
+    pub source: Option<String>,
+    /// The lesson under way.
+    pub lesson: Option<Progress>,
     /// Solver speed.
     pub pace: Pace,
     /// Something broke in the engine.
@@ -249,6 +294,13 @@ impl App {
             spectrum: None,
             map: None,
             precision: None,
+            beside_history: History::default(),
+            baseline: None,
+            charts_beside: 2,
+            cursor: None,
+            pages_back: 0,
+            source: None,
+            lesson: None,
             pace: Pace::default(),
             trouble: None,
             skin: Skin { theme, marker },
@@ -266,6 +318,9 @@ impl App {
             Mode::Main => Context::Main,
             Mode::Typing(_) => Context::Typing,
             Mode::Help(_) => Context::Help,
+            Mode::Naming(..) => Context::Typing,
+            Mode::Replacing(..) => Context::Replacing,
+            Mode::Lessons(_) => Context::Lessons,
         }
     }
 
@@ -294,7 +349,7 @@ impl App {
     /// Whether a view may be on the screen.
     #[must_use]
     pub fn is_open(&self, view: View) -> bool {
-        let beside = self.companions.iter().take(COMPANIONS).any(|other| *other == view);
+        let beside = self.companions.iter().take(self.charts_beside).any(|other| *other == view);
         view == self.view || (beside && !self.full_screen)
     }
 
@@ -304,9 +359,6 @@ impl App {
         self.moment.as_ref().map_or(self.scene.operation.speed_rad_s, |moment| moment.speed)
     }
 }
-
-/// Charts beside the large one, at most.
-pub const COMPANIONS: usize = 2;
 
 /// Bins recorded per page: more than the sub-pixels of a wide screen.
 const BINS_PER_PAGE: f64 = 1024.0;

@@ -96,6 +96,8 @@ impl App {
     pub fn restart(&mut self) {
         self.counters.restarts += 1;
         self.history.clear();
+        self.beside_history.clear();
+        self.pages_back = 0;
         self.moment = None;
         self.slow = None;
         self.ahead = None;

@@ -3,9 +3,11 @@
 use crossterm::event::{KeyCode, KeyEvent};
 
 use super::time::MOST_ZOOM;
-use super::{App, Mode, RATES, View};
+use super::{App, Baseline, Mode, Purpose, RATES, View};
 use crate::tui::bindings::{Action, Chord, lookup};
+use crate::tui::engine::Ahead;
 use crate::tui::knobs::KNOBS;
+use crate::tui::lessons;
 
 /// What must happen outside of the state.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -18,19 +20,23 @@ pub enum Effect {
     Suspend,
     /// Draw everything anew.
     Redraw,
+    /// Put a text on the clipboard of the terminal.
+    Copy(String),
 }
 
 /// Longest text of a typed value.
-const LONGEST_TYPED: usize = 40;
+const LONGEST_TYPED: usize = 200;
 
 impl App {
     /// Handles a key press.
     pub fn key(&mut self, event: &KeyEvent) -> Effect {
         let chord = Chord::of(event);
         if let Some(action) = lookup(self.context(), chord) {
-            return self.act(action);
+            let effect = self.act(action);
+            self.check_lesson();
+            return effect;
         }
-        if let (Mode::Typing(text), KeyCode::Char(letter), false) =
+        if let (Mode::Typing(text) | Mode::Naming(_, text), KeyCode::Char(letter), false) =
             (&mut self.mode, chord.code, chord.ctrl)
             && text.len() < LONGEST_TYPED
         {
@@ -52,9 +58,26 @@ impl App {
             }
             (Mode::Help(scroll), Action::KnobBelow) => *scroll = scroll.saturating_add(1),
             (Mode::Help(scroll), Action::KnobAbove) => *scroll = scroll.saturating_sub(1),
-            (Mode::Typing(text), Action::Rub) => {
+            (Mode::Typing(text) | Mode::Naming(_, text), Action::Rub) => {
                 text.pop();
             }
+            (Mode::Naming(purpose, name), Action::Accept) => {
+                let (purpose, name) = (*purpose, name.clone());
+                self.write(purpose, &name, false);
+            }
+            (Mode::Replacing(purpose, name), Action::Yes) => {
+                let (purpose, name) = (*purpose, name.clone());
+                self.write(purpose, &name, true);
+            }
+            (Mode::Lessons(place), Action::KnobBelow) => {
+                *place = (*place + 1).min(lessons::all().len().saturating_sub(1));
+            }
+            (Mode::Lessons(place), Action::KnobAbove) => *place = place.saturating_sub(1),
+            (Mode::Lessons(place), Action::Accept) => {
+                let place = *place;
+                self.begin_lesson(place);
+            }
+            (_, Action::Copy) => return Effect::Copy(self.copied()),
             (Mode::Typing(text), Action::Accept) => {
                 let text = text.clone();
                 self.accept(&text);
@@ -69,6 +92,9 @@ impl App {
         self.refusal = None;
         if self.mode != Mode::Main {
             self.mode = Mode::Main;
+        } else if self.cursor.is_some() || self.pages_back > 0 {
+            self.cursor = None;
+            self.pages_back = 0;
         } else {
             self.full_screen = false;
         }
@@ -99,6 +125,27 @@ impl App {
                 self.playing = false;
                 self.counters.steps += 1;
             }
+            Action::Jump => {
+                self.playing = false;
+                self.counters.jumps += 1;
+            }
+            Action::Pin => self.pin(),
+            Action::OtherLaw => {
+                self.compare = !self.compare;
+                self.beside = None;
+                self.beside_history.clear();
+            }
+            Action::Save => self.mode = Mode::Naming(Purpose::Save, "scene.toml".into()),
+            Action::Export => {
+                let name = format!("{}.csv", self.view.word());
+                self.mode = Mode::Naming(Purpose::Export, name);
+            }
+            Action::Guide => self.guide(),
+            Action::LeaveGuide => self.lesson = None,
+            Action::Charts => self.charts_beside = (self.charts_beside + 1) % 4,
+            Action::PageBack => self.pan(true),
+            Action::PageForward => self.pan(false),
+            Action::Cursor { right, coarse } => self.move_cursor(right, coarse),
             Action::Restart => {
                 self.restart();
                 self.status = Some("begun anew".into());
@@ -141,8 +188,22 @@ impl App {
         View::ALL.get((place + by) % View::ALL.len()).copied().unwrap_or(self.view)
     }
 
+    fn pin(&mut self) {
+        if self.baseline.take().is_some() {
+            self.status = Some("baseline let go".into());
+            return;
+        }
+        let forces = match &self.ahead {
+            Some(Ahead::Done(forecast)) => forecast.multipliers.clone(),
+            _ => Vec::new(),
+        };
+        self.baseline =
+            Some(Baseline { history: self.history.clone(), words: self.verdict(), forces });
+        self.status = Some("this run stays behind the next as a baseline".into());
+    }
+
     /// Makes a view the large one; the one that was takes its place.
-    fn show(&mut self, view: View) {
+    pub(super) fn show(&mut self, view: View) {
         if view == self.view {
             return;
         }

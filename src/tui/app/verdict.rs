@@ -36,7 +36,7 @@ impl App {
         }
     }
 
-    fn words(&self, forecast: &Forecast) -> Words {
+    pub(crate) fn words(&self, forecast: &Forecast) -> Words {
         let since = forecast.since.map_or(String::new(), |t| format!("since {}", readable(t, "s")));
         let tensile = forecast.checks.tensile_steps;
         let blades = self.blades_of(forecast.multipliers.iter().map(|(side, _)| *side));

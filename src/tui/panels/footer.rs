@@ -4,13 +4,28 @@
 use ratatui::{buffer::Buffer, layout::Rect};
 
 use super::{pieces, print};
-use crate::tui::app::App;
+use crate::tui::app::{App, Mode, Purpose};
 use crate::tui::bindings;
 use crate::tui::theme::Role;
 
 /// Draws the line.
 pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
     let skin = &app.skin;
+    let question = match &app.mode {
+        Mode::Naming(Purpose::Save, name) => Some(format!("save the scene as: {name}_")),
+        Mode::Naming(Purpose::Export, name) => {
+            Some(format!("export as (.csv data, .svg picture): {name}_"))
+        }
+        Mode::Replacing(_, name) => Some(format!("{name} exists: y replaces it, n leaves it")),
+        _ => None,
+    };
+    if let Some(question) = question {
+        // The end, where the cursor is, must be seen.
+        let skip = question.chars().count().saturating_sub(usize::from(area.width));
+        let shown: String = question.chars().skip(skip).collect();
+        print(buffer, area, 0, &shown, skin.style(Role::Focus));
+        return;
+    }
     if let Some(status) = &app.status {
         print(buffer, area, 0, &skin.spell(status), skin.style(Role::Good));
         return;

@@ -23,6 +23,11 @@ fn verdict(app: &App, buffer: &mut Buffer, area: Rect) {
     if let Some(other) = app.disagreement() {
         detail = format!("{detail} | {other}");
     }
+    if let Some(baseline) = &app.baseline
+        && baseline.words.word != words.word
+    {
+        detail = format!("{detail} | pinned: {}", baseline.words.word);
+    }
     let detail = skin.spell(&detail);
     // The word always stands; its detail, then the title, take what is left.
     let title = skin.spell(&app.scene.title);
@@ -73,6 +78,9 @@ fn speeds(app: &App, buffer: &mut Buffer, area: Rect) {
     parts.push((skin.spell(&readable(app.now(), "s")), text));
     let limited = if app.pace.limited { " (solver's limit)" } else { "" };
     parts.push((format!(" {}{limited}", app.rate_text()), quiet));
+    if app.pages_back > 0 {
+        parts.push((format!(" {} back", app.pages_back), skin.style(Role::Focus)));
+    }
     if app.live {
         parts.push((" LIVE".into(), skin.style(Role::Focus)));
     }

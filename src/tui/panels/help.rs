@@ -37,9 +37,15 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, scroll: u16) {
     for binding in bindings::of(Context::Main) {
         entry(&mut lines, &bindings::keys_text(binding), binding.what, width);
     }
-    lines.push(("While typing".into(), String::new(), true));
-    for binding in bindings::of(Context::Typing) {
-        entry(&mut lines, &bindings::keys_text(binding), binding.what, width);
+    for (head, context) in [
+        ("While typing", Context::Typing),
+        ("Where a file exists", Context::Replacing),
+        ("In the list of lessons", Context::Lessons),
+    ] {
+        lines.push((head.into(), String::new(), true));
+        for binding in bindings::of(context) {
+            entry(&mut lines, &bindings::keys_text(binding), binding.what, width);
+        }
     }
     lines.push(("Words".into(), String::new(), true));
     for (word, meaning) in WORDS {

@@ -28,6 +28,8 @@ pub struct Places {
     pub strip: Option<Rect>,
     /// The charts.
     pub charts: Vec<(View, Rect)>,
+    /// The lesson under way.
+    pub guide: Option<Rect>,
     /// Keys.
     pub footer: Rect,
 }
@@ -37,11 +39,12 @@ pub fn places(area: Rect, app: &App) -> Places {
     let [header, body, footer] =
         Layout::vertical([Constraint::Length(2), Constraint::Min(1), Constraint::Length(1)])
             .areas(area);
+    let (guide, body) = guide(body, app);
     if app.full_screen {
         let [strip, charts] =
             Layout::vertical([Constraint::Length(1), Constraint::Min(1)]).areas(body);
         let charts = vec![(app.view, charts)];
-        return Places { header, body, knobs: None, strip: Some(strip), charts, footer };
+        return Places { header, body, knobs: None, strip: Some(strip), charts, guide, footer };
     }
     let (knobs, strip, charts) = if area.width >= KNOBS_FROM {
         let columns = [Constraint::Length(KNOBS_WIDTH), Constraint::Min(1)];
@@ -52,30 +55,55 @@ pub fn places(area: Rect, app: &App) -> Places {
             Layout::vertical([Constraint::Length(1), Constraint::Min(1)]).areas(body);
         (None, Some(strip), charts)
     };
-    Places { header, body, knobs, strip, charts: split(charts, app), footer }
+    Places { header, body, knobs, strip, charts: split(charts, app), guide, footer }
 }
 
-/// One large chart and as many beside it as can still be read.
-fn split(area: Rect, app: &App) -> Vec<(View, Rect)> {
-    let mut others = app.companions.iter().copied();
-    let mut charts = Vec::new();
-    if area.height < 14 {
-        charts.push((app.view, area));
-    } else if area.width >= PAIR_FROM {
-        let rows = [Constraint::Percentage(55), Constraint::Percentage(45)];
-        let [top, bottom] = Layout::vertical(rows).areas(area);
-        let halves = [Constraint::Percentage(50), Constraint::Percentage(50)];
-        let [left, right] = Layout::horizontal(halves).spacing(1).areas(bottom);
-        charts.push((app.view, top));
-        charts.extend(others.by_ref().zip([left, right]));
-    } else {
-        let small = if area.height >= 20 { 2 } else { 1 };
-        let low = if small == 2 { area.height * 3 / 10 } else { area.height * 4 / 10 };
-        let mut rows = vec![Constraint::Min(1)];
-        rows.extend((0..small).map(|_| Constraint::Length(low)));
-        let areas = Layout::vertical(rows).split(area);
-        let views = std::iter::once(app.view).chain(others);
-        charts.extend(views.zip(areas.iter().copied()));
+/// Rows of the lesson under way, above the knobs and charts.
+fn guide(body: Rect, app: &App) -> (Option<Rect>, Rect) {
+    if app.lesson.is_none() || body.height < 9 {
+        return (None, body);
     }
-    charts
+    let wanted = super::guide::rows(app, usize::from(body.width));
+    // The charts keep at least half of the screen.
+    let rows = wanted.min(body.height / 2);
+    let [guide, body] =
+        Layout::vertical([Constraint::Length(rows), Constraint::Min(1)]).areas(body);
+    (Some(guide), body)
 }
+
+/// One large chart and as many beside it as are asked for and can be read.
+fn split(area: Rect, app: &App) -> Vec<(View, Rect)> {
+    let views = std::iter::once(app.view).chain(app.companions.iter().copied());
+    let halves = || [Constraint::Percentage(50), Constraint::Percentage(50)];
+    let readable = match area.height {
+        0..14 => 0,
+        14..20 if area.width < PAIR_FROM => 1,
+        _ => 3,
+    };
+    let beside = app.charts_beside.min(readable);
+    let areas: Vec<Rect> = match (beside, area.width >= PAIR_FROM) {
+        (0, _) => vec![area],
+        (1, _) => Layout::vertical(LARGE).split(area).to_vec(),
+        (2, true) => {
+            let [top, bottom] = Layout::vertical(LARGE).areas(area);
+            let [left, right] = Layout::horizontal(halves()).spacing(1).areas(bottom);
+            vec![top, left, right]
+        }
+        (_, true) => {
+            let [top, bottom] = Layout::vertical(halves()).areas(area);
+            let [a, b] = Layout::horizontal(halves()).spacing(1).areas(top);
+            let [c, d] = Layout::horizontal(halves()).spacing(1).areas(bottom);
+            vec![a, b, c, d]
+        }
+        (count, false) => {
+            let low = area.height * 3 / (4 + 3 * u16::try_from(count).unwrap_or(2));
+            let mut rows = vec![Constraint::Min(1)];
+            rows.extend((0..count).map(|_| Constraint::Length(low)));
+            Layout::vertical(rows).split(area).to_vec()
+        }
+    };
+    views.zip(areas).collect()
+}
+
+/// The large chart above, a smaller one below.
+const LARGE: [Constraint; 2] = [Constraint::Percentage(55), Constraint::Percentage(45)];

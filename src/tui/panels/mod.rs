@@ -5,6 +5,7 @@ mod charts;
 mod footer;
 mod frame;
 mod gaps;
+mod guide;
 mod header;
 mod help;
 mod knobs;
@@ -32,7 +33,11 @@ pub use layout::{LEAST_HEIGHT, LEAST_WIDTH};
 /// Draws the whole screen.
 pub fn draw(frame: &mut Frame, app: &App) {
     let area = frame.area();
-    let buffer = frame.buffer_mut();
+    paint(app, frame.buffer_mut(), area);
+}
+
+/// Paints the whole screen into a buffer.
+pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
     if area.width < LEAST_WIDTH || area.height < LEAST_HEIGHT {
         let needs = format!(
             "rubscope needs {LEAST_WIDTH}x{LEAST_HEIGHT}; this is {}x{}",
@@ -45,7 +50,12 @@ pub fn draw(frame: &mut Frame, app: &App) {
     header::draw(app, buffer, places.header);
     if let Mode::Help(scroll) = app.mode {
         help::draw(app, buffer, places.body, scroll);
+    } else if let Mode::Lessons(place) = app.mode {
+        guide::list(app, buffer, places.body, place);
     } else {
+        if let Some(area) = places.guide {
+            guide::draw(app, buffer, area);
+        }
         if let Some(area) = places.knobs {
             knobs::panel(app, buffer, area);
         }

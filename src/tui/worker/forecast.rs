@@ -76,7 +76,7 @@ impl Run {
                 self.taken += 1;
                 self.signal.push(self.motion.state().u);
             }
-            self.cut = self.stretch.is_finite().then(|| until + self.stretch);
+            self.cut = self.stretch.is_finite().then_some(until + self.stretch);
         }
         self.wall += began.elapsed();
         if failed || self.taken >= SAMPLES {

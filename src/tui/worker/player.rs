@@ -19,6 +19,14 @@ const PLAY_LIMIT: Duration = Duration::from_millis(25);
 /// Samples a jump to the next change of contact looks through at most.
 const JUMP_SAMPLES: usize = 20_000;
 
+/// The same scene under the other contact law: played in step, and run ahead.
+#[derive(Debug)]
+struct Beside {
+    motion: Motion,
+    recorder: Recorder,
+    ahead: Run,
+}
+
 /// A motion being played, and its runs ahead.
 #[derive(Debug)]
 pub struct Player {
@@ -29,9 +37,27 @@ pub struct Player {
     limited: bool,
     ahead: Run,
     reference: Option<Run>,
-    beside: Option<Run>,
+    beside: Option<Beside>,
     studies: Studies,
     patience: Duration,
+}
+
+impl Beside {
+    /// Plays to where the other motion is.
+    fn catch_up(&mut self, until: f64, sample: f64, bin: f64) {
+        loop {
+            self.recorder.look(&mut self.motion, bin);
+            let next = (self.motion.state().t_s + sample).min(until);
+            let before = self.motion.state().t_s;
+            // A failure stays in the motion; the run ahead tells of it.
+            if next <= before || self.motion.advance(next).is_err() {
+                return;
+            }
+            if self.motion.state().t_s <= before {
+                return;
+            }
+        }
+    }
 }
 
 impl Player {
@@ -97,7 +123,7 @@ impl Player {
     }
 
     /// The same scene under the other contact law, if it is wanted.
-    fn other_law(&self) -> Option<Run> {
+    fn other_law(&self) -> Option<Beside> {
         if !self.order.beside {
             return None;
         }
@@ -108,7 +134,11 @@ impl Player {
             ContactLaw::Bilateral => ContactLaw::Unilateral,
         };
         scene.check().ok()?;
-        Some(Run::new(Motion::new(&scene), scene.solver.end_s))
+        let motion = Motion::new(&scene);
+        let ahead = Run::new(motion.clone(), scene.solver.end_s);
+        let mut beside = Beside { motion, recorder: Recorder::default(), ahead };
+        beside.catch_up(self.motion.state().t_s, self.sample_length(), self.order.bin_s);
+        Some(beside)
     }
 
     fn sample_length(&self) -> f64 {
@@ -152,6 +182,14 @@ impl Player {
         if self.motion.failure().is_some() {
             self.target = self.motion.state().t_s;
         }
+        self.bring_beside();
+    }
+
+    fn bring_beside(&mut self) {
+        let (now, sample, bin) = (self.motion.state().t_s, self.sample_length(), self.order.bin_s);
+        if let Some(beside) = &mut self.beside {
+            beside.catch_up(now, sample, bin);
+        }
     }
 
     /// One time step, or one sample of a solver that does not step.
@@ -169,6 +207,7 @@ impl Player {
         self.one_step();
         self.look();
         self.target = self.motion.state().t_s;
+        self.bring_beside();
     }
 
     /// Goes on until the contact changes.
@@ -188,6 +227,7 @@ impl Player {
             }
         }
         self.target = self.motion.state().t_s;
+        self.bring_beside();
     }
 
     /// Whether a run ahead is not at its end.
@@ -197,13 +237,14 @@ impl Player {
     }
 
     fn runs(&self) -> impl Iterator<Item = &Run> {
-        std::iter::once(&self.ahead).chain(&self.reference).chain(&self.beside)
+        let beside = self.beside.as_ref().map(|beside| &beside.ahead);
+        std::iter::once(&self.ahead).chain(&self.reference).chain(beside)
     }
 
     /// Goes one slice on with the first run that is not at its end.
     pub fn compute(&mut self) {
-        let runs =
-            std::iter::once(&mut self.ahead).chain(&mut self.reference).chain(&mut self.beside);
+        let beside = self.beside.as_mut().map(|beside| &mut beside.ahead);
+        let runs = std::iter::once(&mut self.ahead).chain(&mut self.reference).chain(beside);
         for run in runs {
             if !run.is_done() {
                 run.go_on();
@@ -237,7 +278,12 @@ impl Player {
             bins: self.recorder.take_bins(),
             ahead: Some(self.ahead.ahead()),
             reference: done(self.reference.as_ref()),
-            beside: done(self.beside.as_ref()),
+            beside: done(self.beside.as_ref().map(|beside| &beside.ahead)),
+            beside_bins: self
+                .beside
+                .as_mut()
+                .map(|beside| beside.recorder.take_bins())
+                .unwrap_or_default(),
             pace: Pace {
                 step_s: self.ahead.step_s(),
                 run_s: self.ahead.is_done().then(|| self.ahead.wall_s()),

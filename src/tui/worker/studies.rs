@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use crate::scene::{ContactLaw, ModelSize, Scene, SolverKind};
-use crate::study::precision::{Effort, Measure, Precision, Row, Way, ways};
+use crate::study::precision::{Effort, Measure, Precision, Way, ways};
 use crate::study::{Axis, Map, MapPlan};
 use crate::tui::engine::{Order, Snapshot};
 use crate::tui::locked_curve::LockedCurves;
@@ -22,6 +22,14 @@ const SLICE: Duration = Duration::from_millis(5);
 /// One run a row, and no step finer than the paper's: the picture comes soon.
 const EFFORT: Effort = Effort { repeats: 1, finest_s: 1e-7, seconds: 0.0 };
 
+/// Speed against error, row by row.
+struct Comparison {
+    scene: Scene,
+    measure: Measure,
+    left: Vec<Way>,
+    report: Arc<Precision>,
+}
+
 /// The studies of one scene.
 #[derive(Default)]
 pub struct Studies {
@@ -29,7 +37,7 @@ pub struct Studies {
     spectrum: Option<Arc<Spectrum>>,
     map: Option<Arc<Map>>,
     map_next: usize,
-    precision: Option<(Scene, Option<Measure>, Vec<Way>, Arc<Precision>)>,
+    precision: Option<Comparison>,
 }
 
 impl std::fmt::Debug for Studies {
@@ -67,7 +75,7 @@ impl Studies {
     fn precision_is_done(&self, order: &Order) -> bool {
         self.precision
             .as_ref()
-            .is_some_and(|(scene, _, left, _)| *scene == order.scene && left.is_empty())
+            .is_some_and(|found| found.scene == order.scene && found.left.is_empty())
     }
 
     /// Goes one slice on. `signal` is the finished run, `length` its duration.
@@ -108,29 +116,24 @@ impl Studies {
     }
 
     fn go_on_with_precision(&mut self, scene: &Scene) {
-        let fresh = self.precision.as_ref().is_none_or(|(of, ..)| of != scene);
-        if fresh {
-            let measure = Measure::new(scene);
-            let rows: Vec<Row> = Vec::new();
-            let report = Precision {
-                schema: "rubscope.precision/1",
-                scene: scene.clone(),
-                reference: measure.reference().clone(),
-                rows,
-            };
-            let mut left = ways(scene, EFFORT);
-            left.reverse();
-            self.precision = Some((scene.clone(), Some(measure), left, Arc::new(report)));
+        if let Some(found) = self.precision.as_mut().filter(|found| found.scene == *scene) {
+            if let Some(way) = found.left.pop() {
+                let row = found.measure.row(way, EFFORT);
+                Arc::make_mut(&mut found.report).rows.push(row);
+            }
             return;
         }
-        let Some((_, measure, left, report)) = &mut self.precision else { return };
-        if let (Some(measure), Some(way)) = (measure.as_ref(), left.pop()) {
-            let row = measure.row(way, EFFORT);
-            Arc::make_mut(report).rows.push(row);
-        }
-        if left.is_empty() {
-            *measure = None;
-        }
+        let measure = Measure::new(scene);
+        let report = Precision {
+            schema: "rubscope.precision/1",
+            scene: scene.clone(),
+            reference: measure.reference().clone(),
+            rows: Vec::new(),
+        };
+        let mut left = ways(scene, EFFORT);
+        left.reverse();
+        let report = Arc::new(report);
+        self.precision = Some(Comparison { scene: scene.clone(), measure, left, report });
     }
 
     /// Puts what there is into a snapshot.
@@ -138,15 +141,22 @@ impl Studies {
         snapshot.locked = self.locked.as_ref().map(|(_, curves)| Arc::clone(curves));
         snapshot.spectrum.clone_from(&self.spectrum);
         snapshot.map.clone_from(&self.map);
-        snapshot.precision = self.precision.as_ref().map(|(.., report)| Arc::clone(report));
+        snapshot.precision = self.precision.as_ref().map(|found| Arc::clone(&found.report));
     }
 }
 
 /// The map of a scene: speed from zero to beyond everything of interest, pulse
 /// over four decades, by the event solver with rigid blades.
 fn plan(scene: &Scene) -> Option<MapPlan> {
-    let fastest = crate::tui::locked_curve::speed_range(scene);
     let mut scene = scene.clone();
+    let speed = scene.operation.speed_rad_s.abs();
+    let machine = scene.machine();
+    let thresholds = [machine.lock_speed(), machine.dangerous_speed(), machine.critical_speed()];
+    // The range stays while the speed is turned, but for a speed far beyond.
+    scene.operation.speed_rad_s = 1.3 * thresholds.into_iter().flatten().fold(1.0, f64::max);
+    let usual = crate::tui::locked_curve::speed_range(&scene);
+    scene.operation.speed_rad_s = speed;
+    let fastest = if speed > usual { crate::tui::locked_curve::speed_range(&scene) } else { usual };
     scene.solver.kind = SolverKind::Event;
     scene.solver.contact = ContactLaw::Unilateral;
     scene.solver.model = ModelSize::Rigid;

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use super::Player;
 use crate::tui::engine::{Engine, Nudge, Order, Snapshot};
-use crate::tui::history::{MOST_BINS, thin};
+use crate::tui::history::{Bin, MOST_BINS, thin};
 
 /// Name of the thread: the panic hook leaves the screen alone for it.
 pub const WORKER_NAME: &str = "rubscope-worker";
@@ -144,12 +144,15 @@ fn publish(shared: &Shared, mut snapshot: Snapshot, nudge: &Nudge) {
         if let Some(waiting) = waiting
             && waiting.restarts == snapshot.restarts
         {
-            let mut bins = waiting.bins;
-            bins.append(&mut snapshot.bins);
-            if bins.len() > MOST_BINS {
-                thin(&mut bins);
-            }
-            snapshot.bins = bins;
+            let join = |mut bins: Vec<Bin>, new: &mut Vec<Bin>| {
+                bins.append(new);
+                if bins.len() > MOST_BINS {
+                    thin(&mut bins);
+                }
+                *new = bins;
+            };
+            join(waiting.bins, &mut snapshot.bins);
+            join(waiting.beside_bins, &mut snapshot.beside_bins);
             snapshot.trouble = snapshot.trouble.or(waiting.trouble);
         }
         slots.snapshot = Some(snapshot);

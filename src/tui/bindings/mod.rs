@@ -1,6 +1,10 @@
 //! The one table of key bindings. The handler looks keys up in it; the footer,
 //! the help and the manual page are printed from it.
 
+mod table;
+
+pub use table::BINDINGS;
+
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 /// What a key does.
@@ -69,6 +73,37 @@ pub enum Action {
     Theme,
     /// Knobs begin the run anew, or act on the running motion.
     Live,
+    /// On to the next change of contact.
+    Jump,
+    /// Pin this run behind the next ones, or let it go.
+    Pin,
+    /// The other contact law beside this one.
+    OtherLaw,
+    /// Save the scene.
+    Save,
+    /// Export what is seen.
+    Export,
+    /// Copy the command line that repeats this run.
+    Copy,
+    /// Lessons, or the next step of the one under way.
+    Guide,
+    /// Leave the lesson.
+    LeaveGuide,
+    /// Fewer or more charts.
+    Charts,
+    /// A page back.
+    PageBack,
+    /// A page forward.
+    PageForward,
+    /// The reading cursor.
+    Cursor {
+        /// To the right.
+        right: bool,
+        /// By a tenth of the page.
+        coarse: bool,
+    },
+    /// Yes.
+    Yes,
     /// Accept what was typed.
     Accept,
     /// Delete the last character.
@@ -84,6 +119,10 @@ pub enum Context {
     Typing,
     /// The help is open.
     Help,
+    /// A file exists: may it be replaced?
+    Replacing,
+    /// A lesson is being chosen.
+    Lessons,
 }
 
 /// A key with its modifiers. Shift is part of a letter, not beside it.
@@ -95,19 +134,6 @@ pub struct Chord {
     pub ctrl: bool,
     /// With Shift, for keys that are no characters.
     pub shift: bool,
-}
-
-const fn letter(letter: char) -> Chord {
-    Chord { code: KeyCode::Char(letter), ctrl: false, shift: false }
-}
-const fn ctrl(letter: char) -> Chord {
-    Chord { code: KeyCode::Char(letter), ctrl: true, shift: false }
-}
-const fn key(code: KeyCode) -> Chord {
-    Chord { code, ctrl: false, shift: false }
-}
-const fn shift(code: KeyCode) -> Chord {
-    Chord { code, ctrl: false, shift: true }
 }
 
 impl Chord {
@@ -165,89 +191,6 @@ pub struct Binding {
     pub footer: Option<(&'static str, &'static str)>,
 }
 
-macro_rules! bind {
-    ($context:ident, [$($key:expr),+], $action:expr, $what:literal) => {
-        Binding { context: Context::$context, keys: &[$($key),+], action: $action, what: $what, footer: None }
-    };
-    ($context:ident, [$($key:expr),+], $action:expr, $what:literal, $short:literal $word:literal) => {
-        Binding { context: Context::$context, keys: &[$($key),+], action: $action, what: $what,
-                  footer: Some(($short, $word)) }
-    };
-}
-
-const fn turn(up: bool, coarse: bool) -> Action {
-    Action::Turn { up, coarse }
-}
-
-/// Every binding, in the order of the help; those of the footer come in the
-/// order of their importance.
-pub const BINDINGS: &[Binding] = &[
-    bind!(Main, [key(KeyCode::Up), letter('k')], Action::KnobAbove, "select the knob above", "↑↓" "knob"),
-    bind!(Main, [key(KeyCode::Down), letter('j')], Action::KnobBelow, "select the knob below"),
-    bind!(Main, [key(KeyCode::Right), letter('l')], turn(true, false), "turn the knob up", "←→" "turn"),
-    bind!(Main, [key(KeyCode::Left), letter('h')], turn(false, false), "turn the knob down"),
-    bind!(Main, [shift(KeyCode::Right), letter('L')], turn(true, true), "turn it up in large steps", "HL" "coarse"),
-    bind!(
-        Main,
-        [shift(KeyCode::Left), letter('H')],
-        turn(false, true),
-        "turn it down in large steps"
-    ),
-    bind!(Main, [key(KeyCode::Enter)], Action::Type, "type a value (20k, 1e-7, 50u)", "Enter" "type"),
-    bind!(Main, [letter(' ')], Action::Pause, "pause, or go on", "Space" "pause"),
-    bind!(Main, [key(KeyCode::Tab)], Action::NextView, "next view", "Tab" "view"),
-    bind!(Main, [key(KeyCode::BackTab)], Action::PreviousView, "previous view"),
-    bind!(Main, [letter('?')], Action::Help, "this help", "?" "help"),
-    bind!(Main, [letter('q'), ctrl('c')], Action::Quit, "quit", "q" "quit"),
-    bind!(Main, [letter('r')], Action::Restart, "begin the run anew", "r" "restart"),
-    bind!(Main, [letter('p')], Action::Fire, "fire the pulse into the running motion", "p" "pulse"),
-    bind!(Main, [letter('[')], Action::Slower, "slower motion", "[ ]" "slower, faster"),
-    bind!(Main, [letter(']')], Action::Faster, "faster motion"),
-    bind!(Main, [letter('f')], Action::FullScreen, "one chart over the whole screen, or back", "f" "full"),
-    bind!(Main, [letter('.')], Action::Step, "one step (pauses)", "." "step"),
-    bind!(Main, [key(KeyCode::Backspace)], Action::Reset, "back to the scene's value"),
-    bind!(Main, [letter('u')], Action::Undo, "undo the last turn of a knob", "u" "undo"),
-    bind!(Main, [ctrl('r')], Action::Redo, "redo it"),
-    bind!(
-        Main,
-        [letter('x')],
-        Action::Live,
-        "knobs act on the running motion (live), or begin it anew"
-    ),
-    bind!(Main, [letter('1')], Action::View(1), "view 1: response"),
-    bind!(Main, [letter('2')], Action::View(2), "view 2: gaps"),
-    bind!(Main, [letter('3')], Action::View(3), "view 3: locked motion"),
-    bind!(Main, [letter('4')], Action::View(4), "view 4: blade frame and wheel"),
-    bind!(Main, [letter('5')], Action::View(5), "view 5: map over speed and pulse"),
-    bind!(Main, [letter('6')], Action::View(6), "view 6: spectrum and Campbell lines"),
-    bind!(Main, [letter('7')], Action::View(7), "view 7: speed against error"),
-    bind!(Main, [letter('+')], Action::ZoomIn, "a shorter page of time"),
-    bind!(Main, [letter('-')], Action::ZoomOut, "a longer page of time"),
-    bind!(Main, [letter('=')], Action::ZoomReset, "the first page of time"),
-    bind!(Main, [letter('a')], Action::Autoscale, "scales follow the data, or stand still"),
-    bind!(
-        Main,
-        [letter('m')],
-        Action::Marker,
-        "next marker (braille, octant, halfblock, dot, ascii)"
-    ),
-    bind!(Main, [letter('t')], Action::Theme, "next theme (dark, light, colour-blind, mono)"),
-    bind!(Main, [ctrl('z')], Action::Suspend, "suspend"),
-    bind!(Main, [ctrl('l')], Action::Redraw, "draw the screen anew"),
-    bind!(Main, [key(KeyCode::Esc)], Action::Close, "close what is open; never quits"),
-    bind!(Typing, [key(KeyCode::Enter)], Action::Accept, "take the value", "Enter" "take"),
-    bind!(Typing, [key(KeyCode::Esc)], Action::Close, "leave it as it was", "Esc" "leave"),
-    bind!(Typing, [key(KeyCode::Backspace)], Action::Rub, "delete the last character", "Backspace" "delete"),
-    bind!(Typing, [ctrl('c')], Action::Quit, "quit", "Ctrl-C" "quit"),
-    bind!(Help, [key(KeyCode::Esc), letter('?')], Action::Close, "close the help", "Esc" "close"),
-    bind!(Help, [key(KeyCode::Down), letter('j'), letter(' ')], Action::KnobBelow, "scroll down", "↑↓" "scroll"),
-    bind!(Help, [key(KeyCode::Up), letter('k')], Action::KnobAbove, "scroll up"),
-    bind!(Help, [letter('q'), ctrl('c')], Action::Quit, "quit", "q" "quit"),
-    bind!(Help, [letter('t')], Action::Theme, "next theme"),
-    bind!(Help, [ctrl('z')], Action::Suspend, "suspend"),
-    bind!(Help, [ctrl('l')], Action::Redraw, "draw the screen anew"),
-];
-
 /// What a key does in a context.
 #[must_use]
 pub fn lookup(context: Context, chord: Chord) -> Option<Action> {
@@ -276,6 +219,7 @@ pub fn manual() -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use table::{key, letter, shift};
 
     #[test]
     fn no_key_is_bound_twice_in_a_context() {
@@ -294,7 +238,9 @@ mod tests {
         for binding in BINDINGS {
             assert!(!binding.what.is_empty() && !binding.keys.is_empty());
         }
-        for context in [Context::Main, Context::Typing, Context::Help] {
+        for context in
+            [Context::Main, Context::Typing, Context::Help, Context::Replacing, Context::Lessons]
+        {
             let interrupt = Chord { code: KeyCode::Char('c'), ctrl: true, shift: false };
             assert_eq!(lookup(context, interrupt), Some(Action::Quit));
             assert_eq!(lookup(context, key(KeyCode::Esc)), Some(Action::Close));

@@ -1,0 +1,66 @@
+//! The command line that repeats the run on the screen.
+
+use super::App;
+use crate::scene::{BUILTIN, KEYS, Scene, Value};
+
+impl App {
+    /// `rubscope run SCENE` with every key that differs from it.
+    #[must_use]
+    pub fn command(&self) -> String {
+        let usual = BUILTIN.first().map_or("", |scene| scene.name);
+        let source = self.source.as_deref().unwrap_or(usual);
+        let base = Scene::load(source).unwrap_or_default();
+        let mut command = format!("rubscope run {}", quoted(source));
+        for key in KEYS.iter().filter(|key| !key.path.starts_with("view.")) {
+            let value = (key.get)(&self.scene);
+            if value != (key.get)(&base) {
+                let text = match value {
+                    Value::Real(x) => format!("{x:?}"),
+                    Value::Text(text) => text,
+                    other => other.to_string(),
+                };
+                command.push_str(&format!(" --set {}", quoted(&format!("{}={text}", key.path))));
+            }
+        }
+        command
+    }
+
+    /// The command to copy, said in the status line as well.
+    pub(super) fn copied(&mut self) -> String {
+        let command = self.command();
+        self.status = Some(format!("copied: {command}"));
+        command
+    }
+}
+
+/// A word as a shell takes it.
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=+".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        word.to_string()
+    } else {
+        format!("'{}'", word.replace('\'', "'\\''"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tui::{Marker, Theme};
+
+    #[test]
+    fn the_command_names_what_differs_and_nothing_else() {
+        let mut scene = Scene::builtin("paper-nd3").unwrap();
+        let app = App::new(scene.clone(), Theme::Dark, Marker::Braille);
+        assert_eq!(app.command(), "rubscope run paper-nd3");
+        scene.set("operation.speed_rad_s", "-430").unwrap();
+        scene.set("solver.contact", "unilateral").unwrap();
+        scene.set("title", "it's mine").unwrap();
+        let app = App::new(scene, Theme::Dark, Marker::Braille);
+        assert_eq!(
+            app.command(),
+            "rubscope run paper-nd3 --set 'title=it'\\''s mine' \
+             --set operation.speed_rad_s=-430.0 --set solver.contact=unilateral"
+        );
+    }
+}

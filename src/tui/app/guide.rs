@@ -1,0 +1,121 @@
+//! A lesson under way: which step, and whether it has been done.
+
+use super::{App, Mode, View};
+use crate::motion::Verdict;
+use crate::scene::{Scene, Value, keys};
+use crate::tui::engine::Ahead;
+use crate::tui::lessons::{self, Condition, Lesson};
+
+/// How far a lesson has come.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Progress {
+    /// Which lesson.
+    pub lesson: usize,
+    /// Which step, from 0.
+    pub step: usize,
+    /// What each step asked has been done.
+    pub done: bool,
+}
+
+impl App {
+    /// The lesson under way.
+    #[must_use]
+    pub fn current_lesson(&self) -> Option<(&'static Lesson, &Progress)> {
+        let progress = self.lesson.as_ref()?;
+        Some((lessons::all().get(progress.lesson)?, progress))
+    }
+
+    /// The key of the guide: the list, or the next step.
+    pub(super) fn guide(&mut self) {
+        let Some((lesson, progress)) = self.current_lesson() else {
+            self.mode = Mode::Lessons(0);
+            return;
+        };
+        let (steps, title) = (lesson.steps.len(), lesson.title.clone());
+        if progress.step + 1 >= steps {
+            self.lesson = None;
+            self.status = Some(format!("end of the lesson: {title}"));
+        } else {
+            self.begin_step(progress.lesson, progress.step + 1);
+        }
+    }
+
+    /// Begins a lesson with its own scene.
+    pub(super) fn begin_lesson(&mut self, place: usize) {
+        self.mode = Mode::Main;
+        let Some(lesson) = lessons::all().get(place) else { return };
+        match Scene::builtin(&lesson.scene) {
+            Ok(scene) => {
+                self.opened = scene.clone();
+                self.source = Some(lesson.scene.clone());
+                self.take_scene(scene, false);
+                self.begin_step(place, 0);
+            }
+            Err(error) => self.status = Some(error.to_string()),
+        }
+    }
+
+    /// Sets knobs and view for a step.
+    fn begin_step(&mut self, lesson: usize, step: usize) {
+        self.lesson = Some(Progress { lesson, step, done: false });
+        let Some(found) = lessons::all().get(lesson).and_then(|l| l.steps.get(step)) else {
+            return;
+        };
+        let mut scene = self.scene.clone();
+        for (path, value) in &found.set {
+            if let Err(error) = scene.set(path, value) {
+                self.status = Some(error.to_string());
+            }
+        }
+        if scene != self.scene && scene.check().is_ok() {
+            self.take_scene(scene, false);
+        }
+        if let Some(view) = found.view.as_deref().and_then(View::from_word) {
+            self.show(view);
+        }
+        if let Some(live) = found.live {
+            self.live = live;
+        }
+    }
+
+    /// Notes when what the step asks has been done.
+    pub fn check_lesson(&mut self) {
+        let Some((lesson, progress)) = self.current_lesson() else { return };
+        if progress.done {
+            return;
+        }
+        let Some(step) = lesson.steps.get(progress.step) else { return };
+        let done = step.until.as_ref().is_none_or(|condition| self.meets(condition));
+        if let Some(progress) = &mut self.lesson {
+            progress.done = done;
+        }
+    }
+
+    fn meets(&self, condition: &Condition) -> bool {
+        match condition {
+            Condition::Verdict(word) => {
+                let now = match &self.ahead {
+                    Some(Ahead::Done(forecast)) => Some(forecast.verdict),
+                    _ => None,
+                };
+                now.is_some() && now == Verdict::from_word(word)
+            }
+            Condition::View(word) => View::from_word(word) == Some(self.view),
+            Condition::Compare(wanted) => self.compare == *wanted,
+            Condition::Above(path, limit) => self.number(path).is_some_and(|x| x > *limit),
+            Condition::Below(path, limit) => self.number(path).is_some_and(|x| x < *limit),
+            Condition::Is(path, word) => {
+                let key = keys::find(path).ok();
+                key.is_some_and(|key| (key.get)(&self.scene) == Value::Text(word.clone()))
+            }
+        }
+    }
+
+    fn number(&self, path: &str) -> Option<f64> {
+        match (keys::find(path).ok()?.get)(&self.scene) {
+            Value::Real(x) => Some(x),
+            Value::Whole(n) => Some(n as f64),
+            Value::Text(_) | Value::Words(_) => None,
+        }
+    }
+}

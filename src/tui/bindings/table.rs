@@ -1,0 +1,143 @@
+//! The table itself: which key does what, where, and in which words.
+
+use crossterm::event::KeyCode;
+
+use super::{Action, Binding, Chord, Context};
+
+pub(super) const fn letter(letter: char) -> Chord {
+    Chord { code: KeyCode::Char(letter), ctrl: false, shift: false }
+}
+pub(super) const fn ctrl(letter: char) -> Chord {
+    Chord { code: KeyCode::Char(letter), ctrl: true, shift: false }
+}
+pub(super) const fn key(code: KeyCode) -> Chord {
+    Chord { code, ctrl: false, shift: false }
+}
+pub(super) const fn shift(code: KeyCode) -> Chord {
+    Chord { code, ctrl: false, shift: true }
+}
+
+macro_rules! bind {
+    ($context:ident, [$($key:expr),+], $action:expr, $what:literal) => {
+        Binding { context: Context::$context, keys: &[$($key),+], action: $action, what: $what, footer: None }
+    };
+    ($context:ident, [$($key:expr),+], $action:expr, $what:literal, $short:literal $word:literal) => {
+        Binding { context: Context::$context, keys: &[$($key),+], action: $action, what: $what,
+                  footer: Some(($short, $word)) }
+    };
+}
+
+const fn cursor(right: bool, coarse: bool) -> Action {
+    Action::Cursor { right, coarse }
+}
+
+const fn turn(up: bool, coarse: bool) -> Action {
+    Action::Turn { up, coarse }
+}
+
+/// Every binding, in the order of the help; those of the footer come in the
+/// order of their importance.
+pub const BINDINGS: &[Binding] = &[
+    bind!(Main, [key(KeyCode::Up), letter('k')], Action::KnobAbove, "select the knob above", "↑↓" "knob"),
+    bind!(Main, [key(KeyCode::Down), letter('j')], Action::KnobBelow, "select the knob below"),
+    bind!(Main, [key(KeyCode::Right), letter('l')], turn(true, false), "turn the knob up", "←→" "turn"),
+    bind!(Main, [key(KeyCode::Left), letter('h')], turn(false, false), "turn the knob down"),
+    bind!(Main, [shift(KeyCode::Right), letter('L')], turn(true, true), "turn it up in large steps", "HL" "coarse"),
+    bind!(
+        Main,
+        [shift(KeyCode::Left), letter('H')],
+        turn(false, true),
+        "turn it down in large steps"
+    ),
+    bind!(Main, [key(KeyCode::Enter)], Action::Type, "type a value (20k, 1e-7, 50u)", "Enter" "type"),
+    bind!(Main, [letter(' ')], Action::Pause, "pause, or go on", "Space" "pause"),
+    bind!(Main, [key(KeyCode::Tab)], Action::NextView, "next view", "Tab" "view"),
+    bind!(Main, [key(KeyCode::BackTab)], Action::PreviousView, "previous view"),
+    bind!(Main, [letter('?')], Action::Help, "this help", "?" "help"),
+    bind!(Main, [letter('q'), ctrl('c')], Action::Quit, "quit", "q" "quit"),
+    bind!(Main, [letter('r')], Action::Restart, "begin the run anew", "r" "restart"),
+    bind!(Main, [letter('p')], Action::Fire, "fire the pulse into the running motion", "p" "pulse"),
+    bind!(Main, [letter('[')], Action::Slower, "slower motion", "[ ]" "slower, faster"),
+    bind!(Main, [letter(']')], Action::Faster, "faster motion"),
+    bind!(Main, [letter('f')], Action::FullScreen, "one chart over the whole screen, or back", "f" "full"),
+    bind!(Main, [letter('.')], Action::Step, "one step (pauses)", "." "step"),
+    bind!(Main, [key(KeyCode::Backspace)], Action::Reset, "back to the scene's value"),
+    bind!(Main, [letter('u')], Action::Undo, "undo the last turn of a knob", "u" "undo"),
+    bind!(Main, [ctrl('r')], Action::Redo, "redo it"),
+    bind!(
+        Main,
+        [letter('x')],
+        Action::Live,
+        "knobs act on the running motion (live), or begin it anew"
+    ),
+    bind!(Main, [letter('g')], Action::Guide, "guide: choose a lesson; in one, its next step", "g" "guide"),
+    bind!(Main, [letter('G')], Action::LeaveGuide, "leave the lesson"),
+    bind!(Main, [letter('n')], Action::Jump, "on to the next change of contact (pauses)"),
+    bind!(Main, [letter('b')], Action::Pin, "pin this run as a baseline behind the next, or let it go", "b" "pin"),
+    bind!(Main, [letter('c')], Action::OtherLaw, "the other contact law beside this one", "c" "both laws"),
+    bind!(Main, [letter('s')], Action::Save, "save the scene"),
+    bind!(
+        Main,
+        [letter('e')],
+        Action::Export,
+        "export the large chart (.csv) or the screen (.svg)"
+    ),
+    bind!(
+        Main,
+        [letter('y')],
+        Action::Copy,
+        "copy the command line that repeats this run (OSC 52)"
+    ),
+    bind!(Main, [letter('v')], Action::Charts, "one, two, three or four charts"),
+    bind!(Main, [letter('<'), key(KeyCode::PageUp)], Action::PageBack, "a page of time back"),
+    bind!(
+        Main,
+        [letter('>'), key(KeyCode::PageDown)],
+        Action::PageForward,
+        "a page of time forward"
+    ),
+    bind!(Main, [letter('(')], cursor(false, false), "reading cursor to the left"),
+    bind!(Main, [letter(')')], cursor(true, false), "reading cursor to the right"),
+    bind!(Main, [letter('{')], cursor(false, true), "reading cursor far to the left"),
+    bind!(Main, [letter('}')], cursor(true, true), "reading cursor far to the right"),
+    bind!(Main, [letter('1')], Action::View(1), "view 1: response"),
+    bind!(Main, [letter('2')], Action::View(2), "view 2: gaps"),
+    bind!(Main, [letter('3')], Action::View(3), "view 3: locked motion"),
+    bind!(Main, [letter('4')], Action::View(4), "view 4: blade frame and wheel"),
+    bind!(Main, [letter('5')], Action::View(5), "view 5: map over speed and pulse"),
+    bind!(Main, [letter('6')], Action::View(6), "view 6: spectrum and Campbell lines"),
+    bind!(Main, [letter('7')], Action::View(7), "view 7: speed against error"),
+    bind!(Main, [letter('+')], Action::ZoomIn, "a shorter page of time"),
+    bind!(Main, [letter('-')], Action::ZoomOut, "a longer page of time"),
+    bind!(Main, [letter('=')], Action::ZoomReset, "the first page of time"),
+    bind!(Main, [letter('a')], Action::Autoscale, "scales follow the data, or stand still"),
+    bind!(
+        Main,
+        [letter('m')],
+        Action::Marker,
+        "next marker (braille, octant, halfblock, dot, ascii)"
+    ),
+    bind!(Main, [letter('t')], Action::Theme, "next theme (dark, light, colour-blind, mono)"),
+    bind!(Main, [ctrl('z')], Action::Suspend, "suspend"),
+    bind!(Main, [ctrl('l')], Action::Redraw, "draw the screen anew"),
+    bind!(Main, [key(KeyCode::Esc)], Action::Close, "close what is open; never quits"),
+    bind!(Typing, [key(KeyCode::Enter)], Action::Accept, "take the value", "Enter" "take"),
+    bind!(Typing, [key(KeyCode::Esc)], Action::Close, "leave it as it was", "Esc" "leave"),
+    bind!(Typing, [key(KeyCode::Backspace)], Action::Rub, "delete the last character", "Backspace" "delete"),
+    bind!(Typing, [ctrl('c')], Action::Quit, "quit", "Ctrl-C" "quit"),
+    bind!(Help, [key(KeyCode::Esc), letter('?')], Action::Close, "close the help", "Esc" "close"),
+    bind!(Help, [key(KeyCode::Down), letter('j'), letter(' ')], Action::KnobBelow, "scroll down", "↑↓" "scroll"),
+    bind!(Help, [key(KeyCode::Up), letter('k')], Action::KnobAbove, "scroll up"),
+    bind!(Help, [letter('q'), ctrl('c')], Action::Quit, "quit", "q" "quit"),
+    bind!(Help, [letter('t')], Action::Theme, "next theme"),
+    bind!(Help, [ctrl('z')], Action::Suspend, "suspend"),
+    bind!(Help, [ctrl('l')], Action::Redraw, "draw the screen anew"),
+    bind!(Replacing, [letter('y')], Action::Yes, "replace the file", "y" "replace"),
+    bind!(Replacing, [letter('n'), key(KeyCode::Esc)], Action::Close, "leave it as it is", "n" "leave it"),
+    bind!(Replacing, [ctrl('c')], Action::Quit, "quit", "Ctrl-C" "quit"),
+    bind!(Lessons, [key(KeyCode::Up), letter('k')], Action::KnobAbove, "the lesson above", "↑↓" "choose"),
+    bind!(Lessons, [key(KeyCode::Down), letter('j')], Action::KnobBelow, "the lesson below"),
+    bind!(Lessons, [key(KeyCode::Enter), letter('g')], Action::Accept, "begin the lesson", "Enter" "begin"),
+    bind!(Lessons, [key(KeyCode::Esc)], Action::Close, "close the list", "Esc" "close"),
+    bind!(Lessons, [letter('q'), ctrl('c')], Action::Quit, "quit", "q" "quit"),
+];

@@ -1,0 +1,73 @@
+//! The guide: the list of lessons, and the step under way.
+
+use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
+
+use super::{print, wrap};
+use crate::tui::app::App;
+use crate::tui::lessons;
+use crate::tui::theme::Role;
+
+/// The list of lessons, one of them selected.
+pub fn list(app: &App, buffer: &mut Buffer, area: Rect, place: usize) {
+    let skin = &app.skin;
+    let bold = skin.style(Role::Text).add_modifier(Modifier::BOLD);
+    print(buffer, area, 0, "Lessons: Enter begins one, g goes from step to step", bold);
+    let rows = usize::from(area.height.saturating_sub(2));
+    let first = (place + 1).saturating_sub(rows);
+    for (row, (index, lesson)) in
+        (2..area.height).zip(lessons::all().iter().enumerate().skip(first))
+    {
+        let selected = index == place;
+        let sign = if selected { skin.either("▸", ">") } else { " " };
+        let text = format!("{sign} {}. {} ({} steps)", index + 1, lesson.title, lesson.steps.len());
+        let style = if selected {
+            skin.style(Role::Focus).add_modifier(Modifier::REVERSED)
+        } else {
+            skin.style(Role::Text)
+        };
+        print(buffer, area, row, &skin.spell(&text), style);
+    }
+}
+
+fn lines(app: &App, width: usize) -> Vec<(String, Role)> {
+    let Some((lesson, progress)) = app.current_lesson() else { return Vec::new() };
+    let Some(step) = lesson.steps.get(progress.step) else { return Vec::new() };
+    let skin = &app.skin;
+    let of = |text: &str, role: Role| -> Vec<(String, Role)> {
+        wrap(&skin.spell(text), width).into_iter().map(|line| (line, role)).collect()
+    };
+    let head = format!("{} - step {} of {}", lesson.title, progress.step + 1, lesson.steps.len());
+    let mut lines = of(&head, Role::Focus);
+    lines.extend(of(&step.text, Role::Text));
+    if let Some(equation) = &step.equation {
+        lines.extend(of(equation, Role::First));
+    }
+    let last = progress.step + 1 == lesson.steps.len();
+    let next = if last { "g ends the lesson" } else { "g: next step" };
+    match &step.task {
+        Some(task) if progress.done => lines.extend(of(&format!("[x] {task}  {next}"), Role::Good)),
+        Some(task) => lines.extend(of(&format!("[ ] {task}"), Role::Focus)),
+        None => lines.extend(of(next, Role::Good)),
+    }
+    lines
+}
+
+/// Rows the step needs, with a rule below.
+pub fn rows(app: &App, width: usize) -> u16 {
+    u16::try_from(lines(app, width).len() + 1).unwrap_or(u16::MAX)
+}
+
+/// The step under way.
+pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
+    let skin = &app.skin;
+    let lines = lines(app, usize::from(area.width));
+    // Where it is too long for the screen its end, the task, must be seen.
+    let room = usize::from(area.height.saturating_sub(1));
+    let skip = lines.len().saturating_sub(room);
+    let kept = lines.iter().take(1).chain(lines.iter().skip(1 + skip));
+    for (row, (text, role)) in (0..area.height).zip(kept) {
+        print(buffer, area, row, text, skin.style(*role));
+    }
+    let rule = skin.either("─", "-").repeat(usize::from(area.width));
+    print(buffer, area, area.height.saturating_sub(1), &rule, skin.style(Role::Quiet));
+}
