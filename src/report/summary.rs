@@ -52,8 +52,16 @@ fn how(report: &RunReport) -> String {
         SolverKind::Explicit => format!(", step {}", time(scene.solver.step_s)),
         SolverKind::Event => String::new(),
     };
+    let excitation = match &scene.excitation {
+        none if none.amplitude_nm == 0.0 => String::new(),
+        some => format!(
+            "; engine order {} with {} N m on each blade",
+            some.order,
+            short(some.amplitude_nm)
+        ),
+    };
     format!(
-        "{} solver, {} contact, {} model{step}; {} at {} rad/s; pulse of {} N for {}; simulated to {}.",
+        "{} solver, {} contact, {} model{step}; {} at {} rad/s; pulse of {} N for {}{excitation}; simulated to {}.",
         capital(report.solver.kind.word()),
         report.solver.contact.word(),
         report.solver.model.word(),
