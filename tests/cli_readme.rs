@@ -11,11 +11,15 @@ struct Shown {
     lines: Vec<String>,
 }
 
+fn readme() -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
+    std::fs::read_to_string(path).unwrap()
+}
+
 fn shown() -> Vec<Shown> {
-    let readme = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
     let mut found: Vec<Shown> = Vec::new();
     let mut inside = false;
-    for line in std::fs::read_to_string(readme).unwrap().lines() {
+    for line in readme().lines() {
         if line.starts_with("```") {
             inside = line == "```console";
         } else if let Some(command) = line.strip_prefix("$ ").filter(|_| inside) {
@@ -80,5 +84,19 @@ fn every_command_of_the_readme_prints_what_the_readme_shows() {
         let ends_well = output.status.success() || lines.iter().any(|l| l.starts_with("rubscope:"));
         assert!(ends_well, "{command}: {}\n{}", output.status, printed.join("\n"));
         assert!(matches(&lines, &printed), "{command} printed\n{}", printed.join("\n"));
+    }
+}
+
+#[test]
+fn every_key_and_option_is_in_the_readme() {
+    let readme = readme();
+    for key in rubscope::scene::KEYS {
+        let Some((table, leaf)) = key.path.split_once('.') else { continue };
+        let told = readme.contains(&format!("`{table}.`")) && readme.contains(&format!("`{leaf}`"));
+        assert!(told, "{}", key.path);
+    }
+    let command = |name: &str| readme.contains(&format!("rubscope {name}"));
+    for name in ["run", "hbm", "map", "precision", "figures", "scenes", "completions", "man"] {
+        assert!(command(name), "{name}");
     }
 }

@@ -52,8 +52,16 @@ fn how(report: &RunReport) -> String {
         SolverKind::Explicit => format!(", step {}", time(scene.solver.step_s)),
         SolverKind::Event => String::new(),
     };
+    let excitation = match &scene.excitation {
+        none if none.amplitude_nm == 0.0 => String::new(),
+        some => format!(
+            "; engine order {} with {} N m on each blade",
+            some.order,
+            short(some.amplitude_nm)
+        ),
+    };
     format!(
-        "{} solver, {} contact, {} model{step}; {} at {} rad/s; pulse of {} N for {}; simulated to {}.",
+        "{} solver, {} contact, {} model{step}; {} at {} rad/s; pulse of {} N for {}{excitation}; simulated to {}.",
         capital(report.solver.kind.word()),
         report.solver.contact.word(),
         report.solver.model.word(),
@@ -71,9 +79,7 @@ fn meaning(report: &RunReport) -> &'static str {
         Verdict::Decay if report.impact_count == 0 => "No blade ever touched the casing.",
         Verdict::Decay => "The contact ended and does not come again.",
         Verdict::Bounce => "Blades and casing meet and part again and again.",
-        Verdict::Slip => {
-            "The contact is permanent, but the wave slips along the blades, group after group."
-        }
+        Verdict::Slip => "The contact is permanent, but the wave slips along the blades.",
         Verdict::Locked => "The same blades hold the casing without a break, and all of them push.",
         Verdict::Adhesive => {
             "The same blades hold the casing without a break, but some of them pull: \
@@ -121,10 +127,7 @@ fn motion(report: &RunReport, machine: &Machine, out: &mut dyn Write) -> Result<
 fn touch(contact: &Contact) -> String {
     let (who, verb) = match contact.blades.as_slice() {
         [blade] => (format!("Blade {blade}"), ["pushes", "pulls"]),
-        several => {
-            let names: Vec<String> = several.iter().map(ToString::to_string).collect();
-            (format!("Blades {} together", listed(&names)), ["push", "pull"])
-        }
+        several => (format!("Blades {} together", listed(several)), ["push", "pull"]),
     };
     let [push, pull] = verb;
     let verb = if contact.multiplier_n > 0.0 { pull } else { push };
@@ -157,9 +160,8 @@ fn impacts(report: &RunReport) -> String {
         .iter()
         .take(IMPACTS_TOLD)
         .map(|hit| {
-            let names: Vec<String> = hit.blades.iter().map(ToString::to_string).collect();
-            let noun = if names.len() == 1 { "blade" } else { "blades" };
-            format!("{noun} {} at {}", listed(&names), time(hit.t_s))
+            let noun = if hit.blades.len() == 1 { "blade" } else { "blades" };
+            format!("{noun} {} at {}", listed(&hit.blades), time(hit.t_s))
         })
         .collect();
     let all = u64::try_from(told.len()).is_ok_and(|told| told == report.impact_count);
@@ -204,12 +206,18 @@ fn cost(report: &RunReport) -> String {
     format!("Cost: {what}{}{each}.", time(wall))
 }
 
-/// "6", "6 and 17", "1, 2 and 3".
-fn listed(names: &[String]) -> String {
-    match names {
+/// "6", "6 and 17", "1, 2 and 3", "1, 3, 5 and 8 more".
+fn listed(blades: &[u32]) -> String {
+    let names = |blades: &[u32]| -> String {
+        blades.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
+    };
+    match blades {
         [] => String::new(),
-        [only] => only.clone(),
-        [head @ .., last] => format!("{} and {last}", head.join(", ")),
+        [only] => only.to_string(),
+        [a, b, c, _, rest @ ..] if !rest.is_empty() => {
+            format!("{} and {} more", names(&[*a, *b, *c]), rest.len() + 1)
+        }
+        [head @ .., last] => format!("{} and {last}", names(head)),
     }
 }
 
@@ -247,7 +255,7 @@ mod tests {
         for (verdict, words) in [
             (Verdict::Decay, "does not come again"),
             (Verdict::Bounce, "again and again"),
-            (Verdict::Slip, "slips along"),
+            (Verdict::Slip, "slips along the blades"),
             (Verdict::Locked, "all of them push"),
             (Verdict::Adhesive, "held by a pull, which no contact can give"),
             (Verdict::Failed, "broke down"),
@@ -267,6 +275,8 @@ mod tests {
             super::touch(&Contact { blades: blades.to_vec(), multiplier_n })
         };
         assert_eq!(touch(&[6], -244.416), "Blade 6 pushes with 244.416 N at the end.");
+        assert_eq!(listed(&[1, 3, 5, 7]), "1, 3, 5 and 7");
+        assert_eq!(listed(&[1, 3, 5, 7, 9]), "1, 3, 5 and 2 more");
         assert_eq!(touch(&[6, 17], 3.0), "Blades 6 and 17 together pull with 3 N at the end.");
     }
 
