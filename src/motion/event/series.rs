@@ -41,6 +41,8 @@ pub(super) struct From {
     pub tips: Tips,
     /// The end of the side it starts at, upper (`true`) or lower.
     pub edge: Option<bool>,
+    /// Whether it starts there at rest against the other side.
+    pub resting: bool,
 }
 
 impl Series {
@@ -155,11 +157,16 @@ impl Series {
             }
             if from.edge == Some(upper) {
                 room[0] = 0.0;
-                if from.rate == 0.0 {
+                if from.resting {
                     room[1] = 0.0;
                 }
             }
         }
+    }
+
+    /// Speed at the start away from the upper (`true`) or lower end \[m/s\].
+    pub(super) fn parting(&self, upper: bool) -> f64 {
+        self.rooms[usize::from(!upper)][1] / self.length
     }
 
     pub(super) fn at(&self, s: f64) -> Along {
