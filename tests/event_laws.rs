@@ -1,6 +1,5 @@
 //! Laws that need no reference, over random scenes: nothing penetrates, nothing
 //! pulls, energy balances, and the motion does not depend on how it is looked at.
-#![expect(clippy::unwrap_used, reason = "tests state what must hold")]
 
 use std::f64::consts::TAU;
 

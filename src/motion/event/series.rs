@@ -13,7 +13,7 @@
 use super::approach::{curved_step, leaving_step};
 use super::blades::{Blades, Tips};
 use super::slide::{Ahead, Along, push_noise};
-use super::terms::{TERMS, Terms, ended, jerk, product, quotient, slope, values};
+use super::terms::{STRETCH, TERMS, Terms, ended, jerk, product, quotient, slope, values};
 use super::world::{Drive, Plane, World};
 
 /// One stretch of sliding on `side`.
@@ -57,7 +57,7 @@ impl Series {
         let turning = from.tips.rate * world.direction(side).conj();
         let mut series = Self {
             side,
-            length: 1.0 / fastest,
+            length: STRETCH / fastest,
             y: [0.0; TERMS],
             push: [0.0; TERMS],
             rooms: [[0.0; TERMS]; 2],
