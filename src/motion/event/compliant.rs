@@ -7,9 +7,10 @@
 //! cases are the same.
 
 use super::Event;
-use super::blades::{Blades, Tips};
+use super::blades::Blades;
 use super::free::{Free, Leaving};
 use super::held::Held;
+use super::meeting::NOISE;
 use super::mode::{Mode, What};
 use super::rocking;
 use super::series::{From, Series};
@@ -19,22 +20,6 @@ use crate::motion::Touching;
 /// Rocking is summed once the rest of it takes less than this part of the time
 /// of one radian: the blades do not notice.
 const BRIEF: f64 = 1e-6;
-
-/// Part of the rates that a difference of two may be off by.
-const NOISE: f64 = 1e-14;
-
-/// The corner of side `a` and the next as it stands now.
-struct Meeting {
-    a: u32,
-    b: u32,
-    /// Directions that open the gaps.
-    inward: [Plane; 2],
-    /// Places along the sides \[m\].
-    y: [f64; 2],
-    /// Opening of both gaps by a push on the first, and of one by the other's.
-    own: f64,
-    cross: f64,
-}
 
 impl Event {
     /// Passes the event `what`, `s` seconds into the segment.
@@ -60,13 +45,13 @@ impl Event {
             }
             (What::Yield(second), _, Some(a)) => {
                 let side = if second { a } else { rim.next(a) };
-                self.hold_or_leave(blades, side, rate, Some(!second));
+                self.hold_or_leave(blades, side, rate, (!second, true));
             }
             (What::SeriesEnd, _, Some(a)) => self.enter_held(blades, a),
             (_, _, Some(a)) => self.rest_compliant(blades, a, rate),
             (_, Some((side, along)), _) => {
                 let (_, rate) = self.on_side(side, along.y, along.rate);
-                self.hold_or_leave_at(blades, side, (along.y, along.rate), rate, None);
+                self.hold_or_leave_at(blades, side, (along.y, along.rate), rate);
             }
             _ => self.fly(place, rate),
         }
@@ -109,34 +94,7 @@ impl Event {
         self.strike_compliant(blades, &[(side, y, impulse, closing)]);
         let along = local.im + blades.ratio * y * impulse * self.world.clearance;
         let after = rate + inward * impulse;
-        self.hold_or_leave_at(blades, side, (y, along), after, None);
-    }
-
-    /// The corner of `a` and the next side as it stands now.
-    fn meeting(&self, blades: &Blades, a: u32) -> Meeting {
-        let world = &self.world;
-        let b = world.machine.rim.next(a);
-        let tau = world.half_angle(a, &self.tips);
-        let y = world.clearance * tau.tan();
-        let [first, second] = [a, b].map(|side| world.facing(&self.drive, side, 0.0, &self.tips).0);
-        Meeting {
-            a,
-            b,
-            inward: [first, second],
-            y: [-y, y],
-            own: 1.0 + blades.ratio * y * y,
-            cross: (2.0 * tau).cos() - blades.ratio * y * y * world.turn.re,
-        }
-    }
-
-    /// Rates of both gaps of a corner at a casing rate in the standing frame.
-    fn openings(&self, meeting: &Meeting, rate: Plane) -> [f64; 2] {
-        let sides = [meeting.a, meeting.b];
-        std::array::from_fn(|k| {
-            let (inward, spin) = self.world.facing(&self.drive, sides[k], 0.0, &self.tips);
-            // i (-g0 + i y) spin has the real part -y spin.
-            (rate * inward.conj()).re + meeting.y[k] * spin
-        })
+        self.hold_or_leave_at(blades, side, (y, along), after);
     }
 
     /// A corner is reached along one of its sides: the first, or the second
@@ -145,7 +103,10 @@ impl Event {
         self.meet_compliant(blades, a, rate, kept);
         let Mode::Driven(series) = &self.mode else { return };
         let second = series.side != a;
-        let speed = series.at(0.0).rate.abs();
+        let speed = series.parting(second);
+        if speed <= 0.0 {
+            return;
+        }
         let Some(limit) = rocking::limit(&self.world, &self.drive, a, second, speed) else {
             return;
         };
@@ -190,21 +151,21 @@ impl Event {
         if first >= 0.0 && second >= 0.0 {
             match (first == 0.0, second == 0.0) {
                 (true, true) => self.rest_compliant(blades, a, rate),
-                (true, false) => self.hold_or_leave(blades, a, rate, Some(false)),
-                (false, true) => self.hold_or_leave(blades, b, rate, Some(true)),
+                (true, false) => self.hold_or_leave(blades, a, rate, (false, false)),
+                (false, true) => self.hold_or_leave(blades, b, rate, (true, false)),
                 (false, false) => {
-                    let place = self.corner_place(&meeting);
+                    let place = meeting.place(&self.world);
                     self.fly(place, rate);
                 }
             }
         } else if first < 0.0 && second - share * first > 0.0 {
             let impulse = -first / meeting.own;
             self.strike_compliant(blades, &[(a, meeting.y[0], impulse, -first)]);
-            self.hold_or_leave(blades, a, meeting.struck(rate, [impulse, 0.0]), Some(false));
+            self.hold_or_leave(blades, a, meeting.struck(rate, [impulse, 0.0]), (false, false));
         } else if second < 0.0 && first - share * second > 0.0 {
             let impulse = -second / meeting.own;
             self.strike_compliant(blades, &[(b, meeting.y[1], impulse, -second)]);
-            self.hold_or_leave(blades, b, meeting.struck(rate, [0.0, impulse]), Some(true));
+            self.hold_or_leave(blades, b, meeting.struck(rate, [0.0, impulse]), (true, false));
         } else {
             let impulses = meeting.cancelled(first, second);
             self.strike_compliant(
@@ -213,10 +174,6 @@ impl Event {
             );
             self.rest_compliant(blades, a, meeting.struck(rate, impulses));
         }
-    }
-
-    fn corner_place(&self, meeting: &Meeting) -> Plane {
-        meeting.inward[0] * Plane::new(-self.world.clearance, meeting.y[0])
     }
 
     /// Turns the blades by impulses on sides at their places.
@@ -243,7 +200,7 @@ impl Event {
     /// At rest in a corner: which sides hold? Accelerations by cases.
     fn rest_compliant(&mut self, blades: &Blades, a: u32, rate: Plane) {
         let meeting = self.meeting(blades, a);
-        let place = self.corner_place(&meeting);
+        let place = meeting.place(&self.world);
         let flight = Free::new(place, rate, self.tips);
         let [first, second] =
             [meeting.a, meeting.b].map(|side| flight.curvature(&self.world, &self.drive, side).0);
@@ -251,9 +208,9 @@ impl Event {
         if meeting.cancelled(first, second).iter().all(|&push| push >= 0.0) {
             self.enter_held(blades, a);
         } else if first <= 0.0 && second - share * first > 0.0 {
-            self.slide_compliant(meeting.a, (meeting.y[0], 0.0), Some(false));
+            self.slide_from_corner(meeting.a, rate, (false, true));
         } else if second <= 0.0 && first - share * second > 0.0 {
-            self.slide_compliant(meeting.b, (meeting.y[1], 0.0), Some(true));
+            self.slide_from_corner(meeting.b, rate, (true, true));
         } else {
             self.leave_compliant(&[meeting.a, meeting.b], (place, rate));
         }
@@ -264,40 +221,62 @@ impl Event {
         self.enter(Mode::Held(held));
     }
 
-    /// One side of a corner, at its upper (`true`) or lower end, touches without
-    /// rate.
-    fn hold_or_leave(&mut self, blades: &Blades, side: u32, rate: Plane, edge: Option<bool>) {
-        let lower = if edge == Some(true) { self.world.machine.rim.previous(side) } else { side };
+    /// One side of a corner touches without rate: it holds if it pushes. The
+    /// corner is at its upper (`true`) or lower end, and may be at rest.
+    fn hold_or_leave(&mut self, blades: &Blades, side: u32, rate: Plane, end: (bool, bool)) {
+        let (y, _) = self.at_corner(side, rate, end.0);
+        if self.pushes_at(blades, side, y, rate) {
+            self.slide_from_corner(side, rate, end);
+        } else {
+            let (place, _) = self.on_side(side, y, 0.0);
+            self.leave_compliant(&[side], (place, rate));
+        }
+    }
+
+    /// Place and rate along a side whose corner at the upper (`true`) or lower
+    /// end is where the casing is.
+    fn at_corner(&self, side: u32, rate: Plane, upper: bool) -> (f64, f64) {
+        let lower = if upper { self.world.machine.rim.previous(side) } else { side };
         let half = self.world.clearance * self.world.half_angle(lower, &self.tips).tan();
-        let y = if edge == Some(true) { half } else { -half };
         let (inward, spin) = self.world.facing(&self.drive, side, 0.0, &self.tips);
         // i (-g0 + i y) spin has the imaginary part -g0 spin.
         let along = (rate * inward.conj()).im + self.world.clearance * spin;
-        self.hold_or_leave_at(blades, side, (y, along), rate, edge);
+        (if upper { half } else { -half }, along)
     }
 
-    /// One side touches without rate: it holds if it pushes.
+    fn slide_from_corner(&mut self, side: u32, rate: Plane, (upper, resting): (bool, bool)) {
+        let (y, along) = self.at_corner(side, rate, upper);
+        let from = From { y, rate: along, tips: self.tips, edge: Some(upper), resting };
+        self.slide_compliant(side, &from);
+    }
+
+    /// One side touches without rate, away from its corners: it holds if it pushes.
     fn hold_or_leave_at(
         &mut self,
         blades: &Blades,
         side: u32,
         (y, along): (f64, f64),
         rate: Plane,
-        edge: Option<bool>,
     ) {
-        let (place, _) = self.on_side(side, y, along);
-        let flight = Free::new(place, rate, self.tips);
-        let opening = flight.curvature(&self.world, &self.drive, side).0;
-        if -opening / (1.0 + blades.ratio * y * y) >= 0.0 {
-            self.slide_compliant(side, (y, along), edge);
+        if self.pushes_at(blades, side, y, rate) {
+            let from = From { y, rate: along, tips: self.tips, edge: None, resting: false };
+            self.slide_compliant(side, &from);
         } else {
+            let (place, _) = self.on_side(side, y, along);
             self.leave_compliant(&[side], (place, rate));
         }
     }
 
-    fn slide_compliant(&mut self, side: u32, (y, rate): (f64, f64), edge: Option<bool>) {
-        let from = From { y, rate, tips: self.tips, edge };
-        self.enter(Mode::Driven(Series::new(&self.world, &self.drive, side, &from)));
+    /// Whether a side that touches without rate pushes.
+    fn pushes_at(&self, blades: &Blades, side: u32, y: f64, rate: Plane) -> bool {
+        let (place, _) = self.on_side(side, y, 0.0);
+        let flight = Free::new(place, rate, self.tips);
+        let opening = flight.curvature(&self.world, &self.drive, side).0;
+        -opening / (1.0 + blades.ratio * y * y) >= 0.0
+    }
+
+    fn slide_compliant(&mut self, side: u32, from: &From) {
+        self.enter(Mode::Driven(Series::new(&self.world, &self.drive, side, from)));
     }
 
     fn leave_compliant(&mut self, sides: &[u32], (place, rate): (Plane, Plane)) {
@@ -325,44 +304,5 @@ impl Event {
         } else {
             self.fly(place, rate);
         }
-    }
-
-    /// Fails a motion whose blades leave what the model can describe.
-    pub(super) fn watch_blades(&mut self, tips: &Tips) {
-        let Some(blades) = &self.world.blades else { return };
-        let angle = tips.angle.norm();
-        self.widest = self.widest.max(angle);
-        let limit = MOST_ANGLE.min(0.5 * self.world.machine.rim.delta / blades.diameters);
-        if angle > limit && self.failed.is_none() {
-            self.failed = Some(crate::motion::Failure {
-                t_s: self.start.0,
-                reason: format!(
-                    "a blade angle of {angle:e} rad; beyond {limit:e} rad the sides lose their order"
-                ),
-            });
-        }
-    }
-}
-
-/// Largest blade angle the model stands for \[rad\].
-const MOST_ANGLE: f64 = 0.1;
-
-impl Meeting {
-    /// Impulses or pushes that cancel two opening rates at once.
-    fn cancelled(&self, first: f64, second: f64) -> [f64; 2] {
-        let scale = 1.0 / (self.own * self.own - self.cross * self.cross);
-        [
-            -(self.own * first - self.cross * second) * scale,
-            -(self.own * second - self.cross * first) * scale,
-        ]
-    }
-
-    fn on_sides(&self, impulses: [f64; 2]) -> [(u32, f64, f64); 2] {
-        [(self.a, self.y[0], impulses[0]), (self.b, self.y[1], impulses[1])]
-    }
-
-    /// The casing rate after impulses on both sides.
-    fn struck(&self, rate: Plane, impulses: [f64; 2]) -> Plane {
-        rate + self.inward[0] * impulses[0] + self.inward[1] * impulses[1]
     }
 }

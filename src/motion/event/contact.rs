@@ -235,7 +235,8 @@ impl Event {
         let mode = if drive.steady() {
             Mode::Slide(Slide::new(world, drive, side, y, rate))
         } else {
-            let from = From { y, rate, tips: Tips::default(), edge: None };
+            let edge = (y.abs() == world.half_side).then_some(y > 0.0);
+            let from = From { y, rate, tips: Tips::default(), edge, resting: rate == 0.0 };
             Mode::Driven(Series::new(world, drive, side, &from))
         };
         self.enter(mode);

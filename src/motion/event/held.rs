@@ -14,7 +14,7 @@
 use super::approach::curved_step;
 use super::blades::{Blades, Tips};
 use super::corner::{self, Hold};
-use super::terms::{TERMS, Terms, ended, jerk, product, quotient, slope, values};
+use super::terms::{STRETCH, TERMS, Terms, ended, jerk, product, quotient, slope, values};
 use super::world::{Drive, Plane, World};
 
 /// One stretch of locked motion in the corner of side `a` and the next.
@@ -40,8 +40,12 @@ impl Held {
             + drive.nu_rate.abs().sqrt()
             + blades.omega
             + 2.0 * blades.kernel.damping;
-        let mut held =
-            Self { a, length: 1.0 / fastest, tips: [[0.0; TERMS]; 2], pushes: [[0.0; TERMS]; 2] };
+        let mut held = Self {
+            a,
+            length: STRETCH / fastest,
+            tips: [[0.0; TERMS]; 2],
+            pushes: [[0.0; TERMS]; 2],
+        };
         for _ in 0..60 {
             let h = held.length;
             for (terms, (angle, rate)) in

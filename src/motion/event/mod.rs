@@ -21,6 +21,7 @@ mod free;
 mod held;
 mod kernel;
 mod ledger;
+mod meeting;
 mod rocking;
 mod series;
 mod slide;

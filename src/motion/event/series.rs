@@ -13,7 +13,7 @@
 use super::approach::{curved_step, leaving_step};
 use super::blades::{Blades, Tips};
 use super::slide::{Ahead, Along, push_noise};
-use super::terms::{TERMS, Terms, ended, jerk, product, quotient, slope, values};
+use super::terms::{STRETCH, TERMS, Terms, ended, jerk, product, quotient, slope, values};
 use super::world::{Drive, Plane, World};
 
 /// One stretch of sliding on `side`.
@@ -41,6 +41,8 @@ pub(super) struct From {
     pub tips: Tips,
     /// The end of the side it starts at, upper (`true`) or lower.
     pub edge: Option<bool>,
+    /// Whether it starts there at rest against the other side.
+    pub resting: bool,
 }
 
 impl Series {
@@ -55,7 +57,7 @@ impl Series {
         let turning = from.tips.rate * world.direction(side).conj();
         let mut series = Self {
             side,
-            length: 1.0 / fastest,
+            length: STRETCH / fastest,
             y: [0.0; TERMS],
             push: [0.0; TERMS],
             rooms: [[0.0; TERMS]; 2],
@@ -155,11 +157,16 @@ impl Series {
             }
             if from.edge == Some(upper) {
                 room[0] = 0.0;
-                if from.rate == 0.0 {
+                if from.resting {
                     room[1] = 0.0;
                 }
             }
         }
+    }
+
+    /// Speed at the start away from the upper (`true`) or lower end \[m/s\].
+    pub(super) fn parting(&self, upper: bool) -> f64 {
+        self.rooms[usize::from(!upper)][1] / self.length
     }
 
     pub(super) fn at(&self, s: f64) -> Along {
