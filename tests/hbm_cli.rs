@@ -64,6 +64,17 @@ fn slip_says_whether_it_exists() {
 }
 
 #[test]
+fn slip_lives_in_a_region_of_speed_and_damping() {
+    let report = json(&["--slip", "--speed", "0:2000:41", "--zetas", "0:0.01:2"]);
+    let region = report["slip_region"].as_array().unwrap();
+    assert!(region[0]["limits"].as_array().unwrap().is_empty(), "no drag, no slip");
+    let limits = region[1]["limits"].as_array().unwrap();
+    assert_eq!((&limits[0]["appears"], &limits[1]["appears"]), (&true.into(), &false.into()));
+    assert!((number(&limits[0]["speed_rad_s"]) - 433.524).abs() < 1e-3);
+    assert!((number(&limits[1]["speed_rad_s"]) - 1876.61).abs() < 5e-3);
+}
+
+#[test]
 fn every_view_prints_a_table_and_json() {
     let soft = "bladed_disk.stiffness_nm_per_rad=0.002";
     let load = "excitation.amplitude_nm=10";
@@ -98,6 +109,8 @@ fn what_has_no_meaning_ends_with_status_2_and_one_line() {
         (vec!["--form", "round"], "rubscope: --form = round: allowed is one of printed"),
         (vec!["--excitation"], "rubscope: excitation.amplitude_nm = 0: allowed is above 0"),
         (vec!["--harmonics", "9999"], "rubscope: harmonics = 9999: allowed is"),
+        (vec!["--slip", "--zetas", "0:99:2"], "rubscope: --zetas = 99: allowed is"),
+        (vec!["--zetas", "0:1:2"], "rubscope: the following required arguments"),
         (vec!["--out", "a.txt"], "rubscope: --out = a.txt: allowed is"),
         (vec!["--slip", "--fold"], "rubscope: the argument '--slip' cannot be used with"),
     ] {

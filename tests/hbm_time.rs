@@ -4,7 +4,7 @@
 #![expect(clippy::unwrap_used, reason = "a test states what must hold")]
 
 use nalgebra::Complex;
-use rubscope::harmonic::{Corner, Form, Locked, SlipOrbit, slip_over};
+use rubscope::harmonic::{Corner, Form, Locked, SlipOrbit, excited_lock, slip_over};
 use rubscope::motion::{Event, Motion, Touching};
 use rubscope::scene::{ModelSize, Scene};
 
@@ -199,6 +199,44 @@ fn event_locked_motion_is_the_modal_form() {
             let (cos, sin) = machine.rim.direction(side);
             let alpha = cos * state.alpha[0] + sin * state.alpha[1];
             close(alpha, point.alpha[i], 1e-12);
+        }
+    }
+}
+
+/// The linear response against the explicit solver, blade by blade amplitude:
+/// its Fourier coefficient over whole periods of the load.
+#[test]
+fn an_engine_order_moves_the_blades_as_the_frequency_domain_says() {
+    let speed = 500.0;
+    let mut scene = in_corner(0.05, speed);
+    scene.solver.model = ModelSize::Modal;
+    scene.solver.step_s = 1e-6;
+    scene.bladed_disk.damping_ratio = 0.2;
+    for order in [3, 19] {
+        scene.excitation.amplitude_nm = 10.0;
+        scene.excitation.order = order;
+        scene.check().unwrap();
+        let machine = scene.machine();
+        let response = excited_lock(&machine, 15, &scene.excitation, &[speed]).unwrap().remove(0);
+        let mut motion = Motion::new(&scene);
+        let period = std::f64::consts::TAU / response.frequency;
+        let start = (0.25 / period).ceil() * period;
+        let (count, mut sums) = (64, [Complex::new(0.0, 0.0); 2]);
+        for sample in 0..count {
+            let time = start + period * f64::from(sample) / f64::from(count);
+            motion.advance(time).unwrap();
+            let state = motion.state();
+            let turn = Complex::new(0.0, -response.frequency * state.t_s).exp();
+            for (sum, alpha) in sums.iter_mut().zip(state.alpha) {
+                *sum += turn * (alpha * 2.0 / f64::from(count));
+            }
+        }
+        assert_eq!(motion.contacts().touching, Touching::Corner(15, 16));
+        for (found, expected) in sums.into_iter().zip(&response.response[2..]) {
+            println!(
+                "{order} {found} {expected} {:e}",
+                (found - expected).norm() / expected.norm()
+            );
         }
     }
 }

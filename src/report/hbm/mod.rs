@@ -15,7 +15,10 @@ pub use branches::{BranchReport, FoldReport, branch_table, corner_table, thresho
 pub use campbell::{CampbellReport, campbell_table, coincidence_table};
 pub use excitation::{ExcitationReport, excitation_table};
 pub use locked::{locked_table, summary_table};
-pub use slip::{HarmonicsReport, SlipReport, slip_table, term_table, truncation_table};
+pub use slip::{
+    HarmonicsReport, RegionReport, SlipReport, region_table, slip_table, term_table,
+    truncation_table,
+};
 
 use crate::harmonic::{
     Branches, Campbell, CornerBranch, Form, NoSlip, SlipPoint, SlipSpectrum, Sweep,
@@ -56,6 +59,8 @@ pub struct HbmReport {
     #[serde(skip_serializing_if = "Option::is_none")]
     slip_limits_rad_s: Option<Vec<f64>>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    slip_region: Option<Vec<RegionReport>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     harmonics: Option<Vec<HarmonicsReport>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     campbell: Option<CampbellReport>,
@@ -85,6 +90,7 @@ impl HbmReport {
             fold: None,
             slip: None,
             slip_limits_rad_s: None,
+            slip_region: None,
             harmonics: None,
             campbell: None,
             excitation: None,
@@ -118,6 +124,13 @@ impl HbmReport {
     pub fn with_slip(mut self, points: &[SlipPoint], limits: &[(f64, bool)]) -> Self {
         self.slip = Some(points.iter().map(SlipReport::of).collect());
         self.slip_limits_rad_s = Some(limits.iter().map(|limit| limit.0).collect());
+        self
+    }
+
+    /// Adds where slip lives over damping ratios of the casing.
+    #[must_use]
+    pub fn with_slip_region(mut self, region: &[(f64, Vec<(f64, bool)>)]) -> Self {
+        self.slip_region = Some(region.iter().map(RegionReport::of).collect());
         self
     }
 

@@ -88,6 +88,40 @@ pub fn slip_table(points: &[SlipPoint]) -> Table {
     table
 }
 
+/// Where slip lives at one damping ratio, in JSON.
+#[derive(Clone, Debug, Serialize)]
+pub struct RegionReport {
+    casing_damping_ratio: f64,
+    /// Speeds where slip appears and vanishes.
+    limits: Vec<LimitReport>,
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct LimitReport {
+    speed_rad_s: f64,
+    appears: bool,
+}
+
+impl RegionReport {
+    /// Of a damping ratio and its limits.
+    #[must_use]
+    pub fn of((zeta, limits): &(f64, Vec<(f64, bool)>)) -> Self {
+        let limit = |&(speed_rad_s, appears): &(f64, bool)| LimitReport { speed_rad_s, appears };
+        Self { casing_damping_ratio: *zeta, limits: limits.iter().map(limit).collect() }
+    }
+}
+
+/// Where slip lives, a row for each damping ratio.
+#[must_use]
+pub fn region_table(region: &[(f64, Vec<(f64, bool)>)]) -> Table {
+    let mut table = Table::new(&["casing_damping_ratio", "appears_rad_s", "vanishes_rad_s"]);
+    for (zeta, limits) in region {
+        let first = |appears| limits.iter().find(|limit| limit.1 == appears).map(|limit| limit.0);
+        table.push(vec![(*zeta).into(), first(true).into(), first(false).into()]);
+    }
+    table
+}
+
 /// The series at one speed in JSON.
 #[derive(Clone, Debug, Serialize)]
 pub struct HarmonicsReport {
