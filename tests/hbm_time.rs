@@ -25,11 +25,18 @@ fn close(value: f64, expected: f64, relative: f64) {
 
 /// The wave put into the corner of blades 6 and 21, turning with the rotor.
 fn in_corner(zeta: f64, speed: f64) -> Scene {
+    in_default_corner(3, zeta, speed)
+}
+
+/// The same for any number of diameters, in the default corner.
+fn in_default_corner(diameters: u32, zeta: f64, speed: f64) -> Scene {
     let mut scene = scene(&[("operation.pulse_n", "0")]);
+    scene.operation.nodal_diameters = diameters;
     scene.casing.damping_ratio = zeta;
     scene.operation.speed_rad_s = speed;
     let machine = scene.machine();
-    let middle = machine.rim.phase(15) + machine.rim.delta;
+    let corner = Corner::paper(&machine.rim).unwrap();
+    let middle = machine.rim.phase(corner.a) + machine.rim.delta;
     let amplitude = machine.locked_amplitude().unwrap();
     let nu = machine.nu(speed);
     scene.initial.u_c_m = -amplitude * middle.cos();
@@ -175,19 +182,21 @@ fn explicit_locked_motion_is_the_modal_form_with_its_first_order_error() {
 /// exact form, in all four coordinates and both multipliers.
 #[test]
 fn event_locked_motion_is_the_modal_form() {
-    for speed in [420.0, 500.0, 700.0] {
-        let mut scene = in_corner(0.05, speed);
+    // Four diameters put two blades on each side.
+    for (diameters, speed) in [(3, 420.0), (3, 500.0), (3, 700.0), (4, 500.0), (7, 300.0)] {
+        let mut scene = in_default_corner(diameters, 0.05, speed);
         scene.solver.model = ModelSize::Modal;
         // The blades' start at rest is forgotten after 0.3 s.
         scene.bladed_disk.damping_ratio = 0.5;
         let mut motion = Event::new(&scene);
         motion.advance(0.3).unwrap();
-        assert_eq!(motion.contacts().touching, Touching::Corner(15, 16));
         let machine = scene.machine();
-        let corner = Corner { a: 15, b: 16 };
+        let corner = Corner::paper(&machine.rim).unwrap();
+        assert_eq!(motion.contacts().touching, Touching::of(&corner.sides()));
         let point = Locked::new(&machine, corner, Form::Modal, true).unwrap().at(speed).unwrap();
         let state = motion.state();
-        let turn = Complex::new(0.0, -3.0 * motion.rotor().angle(state.t_s)).exp();
+        let turn =
+            Complex::new(0.0, -machine.nodal_diameters * motion.rotor().angle(state.t_s)).exp();
         let z = Complex::new(state.u[0], state.u[1]) * turn;
         let expected = Complex::new(point.u_cc, point.u_sc);
         // An angle of 600 rad rounds off by 1e-13.
