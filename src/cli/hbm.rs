@@ -7,22 +7,22 @@ use anyhow::Context;
 use clap::Args;
 
 use super::Done;
+use super::hbm_views::{self as views, Asked, View};
 use super::options::{SceneOptions, Swept};
-use super::range::linspace;
+use super::range::{Range, linspace};
 use super::status::{Refusal, Status, say};
-use crate::harmonic::{Form, HarmonicError, Sweep, locked_motion};
-use crate::model::Machine;
-use crate::report::hbm::{HbmReport, locked_table, summary_table, write_heading};
+use crate::harmonic::{Form, Sweep};
+use crate::report::hbm as report;
 use crate::report::table::Table;
 use crate::report::{file, json};
 
 /// Speeds of a sweep when none are asked for.
 const SPEEDS: usize = 51;
-
 /// Locked motion against speed, by harmonic balance.
 ///
 /// `--speed FROM:TO:COUNT` sweeps the speed; a single speed gives one point,
-/// none the range from standstill to the speed of the scene.
+/// none the range from standstill to the speed of the scene. Without one of
+/// the views below, the locked motion itself is shown.
 #[derive(Args, Debug)]
 pub struct Hbm {
     #[command(flatten)]
@@ -36,6 +36,27 @@ pub struct Hbm {
     /// The two blades that hold the wave, phase neighbours [default: 6,21 where they are]
     #[arg(long, value_name = "I,J", allow_hyphen_values = true)]
     blades: Option<String>,
+    /// View: every equilibrium, its stability, and the thresholds of each branch
+    #[arg(long, group = "view")]
+    branches: bool,
+    /// View: the corner branch followed through its fold (very soft blades)
+    #[arg(long, group = "view")]
+    fold: bool,
+    /// View: lasting slip, the fixed point of the map from corner to corner
+    #[arg(long, group = "view")]
+    slip: bool,
+    /// With --slip: where slip lives over damping ratios of the casing too
+    #[arg(long, value_name = "FROM:TO:COUNT", requires = "slip", allow_hyphen_values = true)]
+    zetas: Option<String>,
+    /// View: Fourier series of slip and what is left out with up to COUNT harmonics
+    #[arg(long, group = "view", value_name = "COUNT", num_args = 0..=1, default_missing_value = "16")]
+    harmonics: Option<u32>,
+    /// View: frequencies against speed, engine orders, and the coincidences (30)
+    #[arg(long, group = "view")]
+    campbell: bool,
+    /// View: response of the damped lock to the scene's engine-order excitation
+    #[arg(long, group = "view")]
+    excitation: bool,
     /// Print everything as JSON (rubscope.hbm/1)
     #[arg(long)]
     json: bool,
@@ -47,41 +68,51 @@ pub struct Hbm {
 impl Hbm {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
         let resolved = self.options.resolve(Swept { speed: true, pulse: false })?;
-        let form = self.form()?;
-        let pair = self.pair()?;
         let speeds = match resolved.speeds {
             Some(range) => range.values(),
-            None if self.options.names_a_speed() => vec![resolved.scene.operation.speed_rad_s],
+            None if self.options.names_a_speed() || self.harmonics.is_some() => {
+                vec![resolved.scene.operation.speed_rad_s]
+            }
             None => linspace(0.0, resolved.scene.operation.speed_rad_s, SPEEDS),
         };
-        let machine = resolved.scene.machine();
-        let sweep = locked_motion(&machine, form, self.damped, pair, &speeds).map_err(refused)?;
+        let (form, pair) = (self.form()?, self.pair()?);
+        let asked =
+            Asked { scene: &resolved.scene, speeds: &speeds, form, damped: self.damped, pair };
+        let answer = views::answer(&asked, &self.view()?)?;
         if let Some(path) = &self.out {
-            save(path, &locked_table(&sweep))?;
+            save(path, &answer.file)?;
         }
         if self.json {
-            let report = HbmReport::new(&machine, form, self.damped);
-            json::write(&report.with_sweep(&machine.rim, &sweep), out)?;
+            json::write(&answer.json, out)?;
         } else {
-            self.print(&machine, &resolved.scene.title, &sweep, out)?;
+            let machine = resolved.scene.machine();
+            report::write_heading(&machine, &resolved.scene.title, answer.sweep.as_ref(), out)?;
+            for (title, table) in &answer.tables {
+                writeln!(out)?;
+                if !title.is_empty() {
+                    writeln!(out, "{title}")?;
+                }
+                table.write_text(out)?;
+            }
         }
-        warn_missing(&sweep);
+        answer.sweep.iter().for_each(warn_missing);
         Ok(Status::Done)
     }
 
-    fn print(
-        &self,
-        machine: &Machine,
-        title: &str,
-        sweep: &Sweep,
-        out: &mut dyn Write,
-    ) -> anyhow::Result<()> {
-        write_heading(machine, title, Some(sweep), out)?;
-        if self.out.is_none() {
-            writeln!(out)?;
-            summary_table(sweep).write_text(out)?;
-        }
-        Ok(())
+    fn view(&self) -> Result<View, Refusal> {
+        let zetas = match &self.zetas {
+            Some(text) => Some(Range::parse("--zetas", text)?.values()),
+            None => None,
+        };
+        Ok(match self {
+            Self { branches: true, .. } => View::Branches,
+            Self { fold: true, .. } => View::Fold,
+            Self { slip: true, .. } => View::Slip(zetas.unwrap_or_default()),
+            Self { harmonics: Some(most), .. } => View::Harmonics(*most),
+            Self { campbell: true, .. } => View::Campbell,
+            Self { excitation: true, .. } => View::Excitation,
+            _ => View::Locked,
+        })
     }
 
     fn form(&self) -> Result<Form, Refusal> {
@@ -102,16 +133,6 @@ impl Hbm {
             _ => Err(Refusal::of("--blades", text, "I,J, the numbers of two blades")),
         }
     }
-}
-
-/// What has no meaning is refused input, not a failure.
-fn refused(error: HarmonicError) -> Refusal {
-    let message = error.to_string();
-    // The option as typed, where the library names the argument.
-    Refusal::because(match error {
-        HarmonicError::Blades { .. } => format!("--{message}"),
-        _ => message,
-    })
 }
 
 fn save(path: &Path, table: &Table) -> anyhow::Result<()> {

@@ -7,6 +7,7 @@ mod completions;
 mod explore;
 mod figures;
 mod hbm;
+mod hbm_views;
 mod man;
 mod map;
 mod map_run;

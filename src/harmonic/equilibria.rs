@@ -104,6 +104,12 @@ impl Equilibrium {
         matches!(self.character, Character::Unstable | Character::Stable)
     }
 
+    /// Admissible, and no motion that keeps the contacts grows.
+    #[must_use]
+    pub fn stable(&self) -> bool {
+        self.character == Character::Stable
+    }
+
     /// Largest real part of its eigenvalues \[1/s\].
     #[must_use]
     pub fn growth(&self) -> f64 {

@@ -3,6 +3,12 @@
 //! There a locked motion is an equilibrium: the wave is a point in a corner of
 //! the polygon of `model::Rim`, one harmonic is exact, and stability needs
 //! eigenvalues only. No time step, no initial condition.
+//!
+//! - the lock, Eq. (27) in three forms: `equations`, `locked` ([`locked_motion`])
+//! - every equilibrium, its stability and thresholds: `equilibria`, `stability`,
+//!   `branches`; very soft blades: `opening`, `fold`
+//! - slip as a map and its Fourier series: `slide`, `slip`, `spectrum`
+//! - coincidences and excitation: `campbell`, `excitation`
 
 mod branches;
 mod campbell;

@@ -129,6 +129,9 @@ impl Table {
             }
             writeln!(out, "{}", text.trim_end())
         };
+        if self.names.is_empty() {
+            return Ok(());
+        }
         line(&self.names)?;
         shown.iter().try_for_each(|row| line(row))
     }

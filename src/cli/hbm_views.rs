@@ -1,0 +1,300 @@
+//! The views of `rubscope hbm`: each computes, and gives back its JSON, its
+//! tables for people and the table for a file.
+
+use super::status::Refusal;
+use crate::harmonic::{
+    Branches, Campbell, Corner, Form, HarmonicError, NoSlip, SlipSpectrum, Sweep, corner_branch,
+    drives, excited_lock, locked_motion, slip_limits, slip_over, slip_spectrum,
+};
+use crate::model::Machine;
+use crate::report::hbm::{self as report, HbmReport};
+use crate::report::number::short;
+use crate::report::table::Table;
+use crate::scene::Scene;
+
+/// Arc length between points of a branch followed through its fold.
+const ARC: f64 = 0.05;
+/// Engine-order lines drawn beside those of the scene.
+const ORDERS: [u32; 4] = [1, 2, 3, 4];
+
+/// What is looked at.
+pub(super) enum View {
+    /// The locked motion.
+    Locked,
+    /// Every equilibrium.
+    Branches,
+    /// The corner branch through its fold.
+    Fold,
+    /// Slip, and where it lives over these damping ratios.
+    Slip(Vec<f64>),
+    /// The Fourier series of slip with so many harmonics.
+    Harmonics(u32),
+    /// Campbell data.
+    Campbell,
+    /// The response to the scene's engine order.
+    Excitation,
+}
+
+/// On what, and how.
+pub(super) struct Asked<'a> {
+    pub scene: &'a Scene,
+    pub speeds: &'a [f64],
+    pub form: Form,
+    pub damped: bool,
+    pub pair: Option<[u32; 2]>,
+}
+
+/// What a view has to say: JSON, tables with their titles, the table for files.
+pub(super) struct Answer {
+    pub json: HbmReport,
+    pub tables: Vec<(String, Table)>,
+    pub file: Table,
+    /// The locked motion, where it is the subject.
+    pub sweep: Option<Sweep>,
+}
+
+/// Computes a view.
+///
+/// # Errors
+/// What has no meaning, refused by name.
+pub(super) fn answer(asked: &Asked, view: &View) -> Result<Answer, Refusal> {
+    let Asked { scene, speeds, form, damped, pair } = *asked;
+    let machine = scene.machine();
+    let sweep = locked_motion(&machine, form, damped, pair, speeds);
+    let json = HbmReport::new(&machine, form, damped);
+    let json = match (&sweep, view) {
+        (Ok(sweep), _) => json.with_sweep(&machine.rim, sweep),
+        // These have a meaning without corners too.
+        (Err(HarmonicError::NoCorner { .. }), View::Branches | View::Campbell) => json,
+        (Err(error), _) => return Err(refused(error.clone())),
+    };
+    let answer = match (view, sweep) {
+        (View::Branches, _) => all_branches(json, &machine, speeds, damped),
+        (View::Campbell, _) => campbell(json, scene, &machine, speeds),
+        (View::Slip(zetas), _) => slipping(json, scene, speeds, zetas),
+        (View::Harmonics(most), _) => series(json, &machine, speeds, *most),
+        (View::Fold, _) => folding(json, &machine, corner(asked, &machine)?.a, speeds, damped),
+        (View::Excitation, _) => excited(json, scene, corner(asked, &machine)?.a, speeds),
+        (View::Locked, Err(error)) => Err(error),
+        (View::Locked, Ok(sweep)) => Ok(Answer {
+            json,
+            tables: vec![(String::new(), report::summary_table(&sweep))],
+            file: report::locked_table(&sweep),
+            sweep: Some(sweep),
+        }),
+    };
+    answer.map_err(refused)
+}
+
+fn corner(asked: &Asked, machine: &Machine) -> Result<Corner, Refusal> {
+    let corner = match asked.pair {
+        Some(pair) => Corner::of_blades(&machine.rim, pair),
+        None => Corner::paper(&machine.rim),
+    };
+    corner.map_err(refused)
+}
+
+/// What has no meaning is refused input, not a failure.
+fn refused(error: HarmonicError) -> Refusal {
+    let message = error.to_string();
+    // The option as typed, where the library names the argument.
+    Refusal::because(match error {
+        HarmonicError::Blades { .. } => format!("--{message}"),
+        _ => message,
+    })
+}
+
+fn all_branches(
+    json: HbmReport,
+    machine: &Machine,
+    speeds: &[f64],
+    damped: bool,
+) -> Result<Answer, HarmonicError> {
+    let branches = Branches::over(machine, speeds, damped)?;
+    let states = report::branch_table(&branches);
+    let damping = if damped { "with damping" } else { "without damping (see --damped)" };
+    Ok(Answer {
+        json: json.with_branches(machine, &branches),
+        tables: vec![
+            (
+                format!("Where branches change between these speeds, {damping}:"),
+                report::threshold_table(&branches),
+            ),
+            ("Equilibria of the blade frame:".to_string(), states.clone()),
+        ],
+        file: states,
+        sweep: None,
+    })
+}
+
+fn campbell(
+    json: HbmReport,
+    scene: &Scene,
+    machine: &Machine,
+    speeds: &[f64],
+) -> Result<Answer, HarmonicError> {
+    let mut orders = ORDERS.to_vec();
+    if scene.excitation.amplitude_nm > 0.0 && !orders.contains(&scene.excitation.order) {
+        orders.push(scene.excitation.order);
+    }
+    let campbell = Campbell::of(machine, &orders)?;
+    let lines = report::campbell_table(&campbell, speeds);
+    Ok(Answer {
+        json: json.with_campbell(&campbell, speeds),
+        tables: vec![
+            (
+                "Coincidences +-omega_c = n_d Omega +- omega_bd, Eq. (30):".to_string(),
+                report::coincidence_table(&campbell),
+            ),
+            ("Frequencies in the standing frame [rad/s]:".to_string(), lines.clone()),
+        ],
+        file: lines,
+        sweep: None,
+    })
+}
+
+fn slipping(
+    json: HbmReport,
+    scene: &Scene,
+    speeds: &[f64],
+    zetas: &[f64],
+) -> Result<Answer, HarmonicError> {
+    let machine = scene.machine();
+    let points = slip_over(&machine, speeds)?;
+    let limits = slip_limits(&machine, speeds)?;
+    let told: Vec<String> = limits
+        .iter()
+        .map(|&(speed, appears)| {
+            format!("{} at {} rad/s", if appears { "appears" } else { "vanishes" }, short(speed))
+        })
+        .collect();
+    let title = if told.is_empty() {
+        "Slip neither appears nor vanishes between these speeds.".to_string()
+    } else {
+        format!("Slip {}.", told.join(", "))
+    };
+    let table = report::slip_table(&points);
+    let mut answer = Answer {
+        json: json.with_slip(&points, &limits),
+        tables: vec![(title, table.clone())],
+        file: table,
+        sweep: None,
+    };
+    if !zetas.is_empty() {
+        let mut region = Vec::with_capacity(zetas.len());
+        for &zeta in zetas {
+            let mut damped = scene.clone();
+            damped.set("casing.damping_ratio", &zeta.to_string()).map_err(|_| {
+                let allowed = "damping ratios from 0 to 10".to_string();
+                HarmonicError::Refused { key: "--zetas", value: zeta.to_string(), allowed }
+            })?;
+            region.push((zeta, slip_limits(&damped.machine(), speeds)?));
+        }
+        let table = report::region_table(&region);
+        answer.json = answer.json.with_slip_region(&region);
+        answer.tables.push(("Where slip lives between these speeds:".to_string(), table.clone()));
+        answer.file = table;
+    }
+    Ok(answer)
+}
+
+fn series(
+    json: HbmReport,
+    machine: &Machine,
+    speeds: &[f64],
+    most: u32,
+) -> Result<Answer, HarmonicError> {
+    let mut series: Vec<(f64, Result<SlipSpectrum, NoSlip>)> = Vec::new();
+    for &speed in speeds {
+        series.push((speed, slip_spectrum(machine, speed, most)?));
+    }
+    let mut tables = Vec::new();
+    for (speed, found) in &series {
+        let speed = short(*speed);
+        match found {
+            Ok(found) => {
+                let title = format!(
+                    "A lock needs one harmonic, exactly. Slip at {speed} rad/s, truncated at -H to H:"
+                );
+                tables.push((title, report::truncation_table(found)));
+                let title = "Its harmonics in the standing frame:".to_string();
+                tables.push((title, report::term_table(found)));
+            }
+            Err(reason) => {
+                let title = format!("No slip at {speed} rad/s ({}).", reason.word());
+                tables.push((title, Table::new(&[])));
+            }
+        }
+    }
+    let file = series.iter().find_map(|(_, found)| found.as_ref().ok());
+    Ok(Answer {
+        file: file.map_or_else(|| Table::new(&["number"]), report::term_table),
+        json: json.with_harmonics(&series),
+        tables,
+        sweep: None,
+    })
+}
+
+fn folding(
+    json: HbmReport,
+    machine: &Machine,
+    side: u32,
+    speeds: &[f64],
+    damped: bool,
+) -> Result<Answer, HarmonicError> {
+    let from = speeds.iter().copied().fold(f64::INFINITY, f64::min);
+    let to = speeds.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let branch = corner_branch(machine, side, damped, [from, to], ARC)?;
+    let title = match branch.fold {
+        Some(fold) => format!(
+            "The corner branch folds back at {} rad/s, opened to {} rad from {} rad.",
+            short(fold.speed),
+            short(fold.opening),
+            short(machine.rim.delta)
+        ),
+        None => "The corner branch does not fold: the blades are as good as rigid.".to_string(),
+    };
+    let table = report::corner_table(&branch);
+    Ok(Answer {
+        json: json.with_fold(&branch),
+        tables: vec![(title, table.clone())],
+        file: table,
+        sweep: None,
+    })
+}
+
+fn excited(
+    json: HbmReport,
+    scene: &Scene,
+    side: u32,
+    speeds: &[f64],
+) -> Result<Answer, HarmonicError> {
+    let (machine, excitation) = (scene.machine(), &scene.excitation);
+    if excitation.amplitude_nm <= 0.0 {
+        let allowed = "above 0 with --excitation, such as --set excitation.amplitude_nm=10";
+        return Err(HarmonicError::Refused {
+            key: "excitation.amplitude_nm",
+            value: excitation.amplitude_nm.to_string(),
+            allowed: allowed.to_string(),
+        });
+    }
+    let reaches = drives(&machine, excitation.order);
+    let found = excited_lock(&machine, side, excitation, speeds)?;
+    let title = format!(
+        "Engine order {} with {} N m on each blade{}",
+        excitation.order,
+        short(excitation.amplitude_nm),
+        if reaches {
+            ": amplitudes about the damped lock."
+        } else {
+            " does not drive the modes of these diameters: E is not +-n_d modulo N."
+        }
+    );
+    let table = report::excitation_table(&found);
+    Ok(Answer {
+        json: json.with_excitation(report::ExcitationReport::of(excitation, reaches, &found)),
+        tables: vec![(title, table.clone())],
+        file: table,
+        sweep: None,
+    })
+}

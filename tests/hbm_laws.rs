@@ -1,0 +1,169 @@
+//! Laws of the frequency domain over random machines.
+
+use proptest::prelude::*;
+use rubscope::harmonic::{
+    Character, Corner, Form, Kind, Locked, corner_branch, equilibria, slip_map, slip_over,
+};
+use rubscope::model::{BladedDisk, Casing, Machine};
+
+/// Machines with corners: 3 to 40 blades, any diameters that leave three sides,
+/// clearances of 10 um to 1 mm, blades from soft to stiff, damping up to 0.3.
+fn machines() -> impl Strategy<Value = Machine> {
+    machines_with(1e2..1e6)
+}
+
+fn machines_with(stiffness: std::ops::Range<f64>) -> impl Strategy<Value = Machine> {
+    let disk = (3..40_u32, 1e-5..1e-3, stiffness, 0.0..1e5, 0.01..10.0, 0.0..0.3);
+    let casing = (0.1..10.0, 1e4..1e8, 0.0..0.3);
+    (disk, casing, 1..60_u32)
+        .prop_map(|(disk, casing, diameters)| {
+            let (blades, clearance, stiffness, coupling, inertia, zeta_bd) = disk;
+            let (mass, k_c, zeta_c) = casing;
+            let disk = BladedDisk {
+                blades,
+                blade_length_m: 0.5 - clearance,
+                inertia_kg_m2: inertia,
+                stiffness_nm_per_rad: stiffness,
+                coupling_nm_per_rad: coupling,
+                damping_ratio: zeta_bd,
+            };
+            let casing = Casing {
+                radius_m: 0.5,
+                modal_mass_kg: mass,
+                modal_stiffness_n_per_m: k_c,
+                damping_ratio: zeta_c,
+            };
+            Machine::new(&disk, &casing, diameters)
+        })
+        .prop_filter("a corner needs three sides", |machine| machine.rim.has_corners())
+}
+
+/// Within a few digits of rounding: `value` against `expected`, of size `scale`.
+fn near(value: f64, expected: f64, scale: f64) -> bool {
+    (value - expected).abs() <= 1e-11 * scale
+}
+
+proptest! {
+    #[test]
+    fn every_form_solves_its_equations(
+        machine in machines(), ratio in 0.0..4.0_f64, a in 0..1000_u32, damped: bool,
+    ) {
+        let speed = ratio * machine.critical_speed().unwrap_or(1.0);
+        let corner = Corner::after(&machine.rim, a).unwrap();
+        for form in Form::ALL {
+            let locked = Locked::new(&machine, corner, form, damped).unwrap();
+            if let Ok(point) = locked.at(speed) {
+                prop_assert!(point.residual < 1e-11, "{form}: {}", point.residual);
+                let pushes = point.multipliers.iter().all(|&multiplier| multiplier <= 0.0);
+                prop_assert!(!point.admissible || pushes);
+                prop_assert!(!point.stable || pushes);
+            }
+        }
+    }
+
+    #[test]
+    fn power_is_what_the_damper_takes(machine in machines(), ratio in -4.0..4.0_f64) {
+        let speed = ratio * machine.critical_speed().unwrap_or(1.0);
+        let nu = machine.nu(speed);
+        for state in equilibria(&machine, speed, true).unwrap() {
+            let dissipated = machine.casing_damping * nu * nu * state.amplitude().powi(2);
+            // The levers of a corner cancel but for their difference.
+            let k = machine.casing_stiffness - nu * nu * machine.casing_mass;
+            let scale = dissipated + (k * nu).abs() * state.amplitude().powi(2);
+            prop_assert!(near(state.power, dissipated, scale), "{:?}", state.kind);
+        }
+    }
+
+    #[test]
+    fn turning_by_a_group_turns_the_state(machine in machines(), ratio in 1.0..3.0_f64, a in 0..1000_u32) {
+        let speed = ratio * machine.critical_speed().unwrap_or(1.0);
+        let at = |side| {
+            let corner = Corner::after(&machine.rim, side).unwrap();
+            Locked::new(&machine, corner, Form::Modal, true).unwrap().at(speed)
+        };
+        match (at(0), at(a)) {
+            (Ok(one), Ok(other)) => {
+                let scale = one.multipliers.iter().fold(0.0_f64, |size, l| size.max(l.abs()));
+                for i in 0..2 {
+                    prop_assert!(near(one.multipliers[i], other.multipliers[i], scale));
+                }
+                prop_assert!(near(one.amplitude(), other.amplitude(), one.amplitude()));
+                // z turns by the phase of the side.
+                let turn = machine.rim.phase(a % machine.rim.sides);
+                let (x, y) = (
+                    one.u_cc * turn.cos() - one.u_sc * turn.sin(),
+                    one.u_cc * turn.sin() + one.u_sc * turn.cos(),
+                );
+                prop_assert!(near(x, other.u_cc, one.amplitude()));
+                prop_assert!(near(y, other.u_sc, one.amplitude()));
+                prop_assert_eq!(one.admissible, other.admissible);
+            }
+            (Err(_), Err(_)) => {}
+            _ => prop_assert!(false, "a corner that exists in one place only"),
+        }
+    }
+
+    #[test]
+    fn the_other_sense_of_rotation_is_the_mirror(machine in machines(), ratio in 0.1..3.0_f64) {
+        let speed = ratio * machine.critical_speed().unwrap_or(1.0);
+        let corner = Corner::after(&machine.rim, 0).unwrap();
+        let locked = Locked::new(&machine, corner, Form::Modal, true).unwrap();
+        if let (Ok(one), Ok(mirror)) = (locked.at(speed), locked.at(-speed)) {
+            let scale = one.multipliers.iter().fold(0.0_f64, |size, l| size.max(l.abs()));
+            prop_assert!(near(one.multipliers[0], mirror.multipliers[1], scale));
+            prop_assert!(near(one.torque, -mirror.torque, one.torque.abs() + 1e-12 * scale));
+        }
+        let slip = |speed| slip_over(&machine, &[speed]).unwrap()[0];
+        if let (Ok(one), Ok(mirror)) = (slip(speed).outcome, slip(-speed).outcome) {
+            prop_assert_eq!(one.wave_speed, -mirror.wave_speed);
+            prop_assert_eq!(one.power, mirror.power);
+        }
+    }
+
+    /// Stiff enough blades do not move the thresholds: below `Omega_lock` some
+    /// multiplier pulls, above none, and the saddle stands on the side.
+    #[test]
+    fn signs_follow_the_thresholds(machine in machines_with(1e11..1e12), part in 0.5..2.0_f64) {
+        prop_assume!((part - 1.0).abs() > 1e-3);
+        let lock = machine.lock_speed().unwrap();
+        for state in equilibria(&machine, part * lock, true).unwrap() {
+            match state.kind {
+                Kind::Rest => prop_assert_eq!(state.character, Character::Stable),
+                Kind::Side => prop_assert!(!state.stable()),
+                Kind::Corner => prop_assert_eq!(state.admissible(), part > 1.0),
+            }
+            if state.kind == Kind::Side {
+                prop_assert_eq!(state.admissible(), part > 1.0);
+            }
+        }
+    }
+
+    #[test]
+    fn slip_is_a_fixed_point_that_attracts_and_closes_its_power(
+        machine in machines(), ratio in 1.0..8.0_f64,
+    ) {
+        let speed = ratio * machine.critical_speed().unwrap_or(1.0);
+        if let Ok(orbit) = slip_over(&machine, &[speed]).unwrap()[0].outcome {
+            prop_assert!(orbit.slope > 0.0 && orbit.slope < 1.0);
+            prop_assert!(orbit.wave_speed > 0.0 && orbit.wave_speed < speed);
+            prop_assert!(orbit.least_push >= 0.0);
+            prop_assert!(near(orbit.power, orbit.damper_power + orbit.corner_power, orbit.power));
+            let next = slip_map(&machine, speed, orbit.speed_after).unwrap();
+            // Close to the saddle a crossing takes long and forgets its digits.
+            let scale = orbit.speed_after * (1.0 + orbit.slope / (1.0 - orbit.slope));
+            prop_assert!((next.speed_after - orbit.speed_after).abs() < 1e-8 * scale);
+        }
+    }
+
+    #[test]
+    fn a_branch_that_folds_never_leaves_its_equations(machine in machines(), limit in 1.1..20.0_f64) {
+        let critical = machine.critical_speed().unwrap_or(1.0);
+        let branch = corner_branch(&machine, 0, true, [0.0, limit * critical], 0.2).unwrap();
+        let fold = branch.fold.map_or(f64::INFINITY, |fold| fold.speed);
+        for (opening, state) in &branch.points {
+            prop_assert!(state.speed <= fold * (1.0 + 1e-12));
+            let expected = machine.clearance() / opening.cos();
+            prop_assert!(near(state.amplitude(), expected, expected));
+        }
+    }
+}
