@@ -138,6 +138,9 @@ pub struct Snapshot {
     pub bins: Vec<Bin>,
     /// The run ahead.
     pub ahead: Option<Ahead>,
+    /// Whether a tiny change of the pulse changes the outcome under the event
+    /// solver; false until it is known.
+    pub sensitive: bool,
     /// The event solver under unilateral contact, on the same scene.
     pub reference: Option<Forecast>,
     /// The same scene under the other contact law.

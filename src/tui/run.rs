@@ -105,6 +105,8 @@ fn show<B: Backend>(
     if let Some(snapshot) = engine.take() {
         app.absorb(snapshot);
     }
+    let size = terminal.size()?;
+    app.size = (size.width, size.height);
     terminal.draw(|frame| panels::draw(frame, app)).map(|_| ())
 }
 

@@ -6,8 +6,8 @@ use crate::motion::Touching;
 use crate::tui::engine::Snapshot;
 use crate::tui::history::{Bin, Channel};
 
-/// Frames of the busy pictures on one page: about three a second.
-const SLOW_FRAMES: f64 = 12.0;
+/// Frames of the busy pictures on one page: two a second.
+const SLOW_FRAMES: f64 = 8.0;
 
 impl App {
     /// Takes a snapshot in; false where it was too old to change anything.
@@ -34,6 +34,7 @@ impl App {
         if snapshot.generation == self.order().generation() {
             self.ahead = snapshot.ahead;
             self.reference = snapshot.reference;
+            self.sensitive = snapshot.sensitive;
             self.beside = snapshot.beside;
             self.pace = snapshot.pace;
             self.spectrum = snapshot.spectrum;

@@ -5,6 +5,7 @@ use crate::motion::Verdict;
 use crate::scene::{Scene, Value, keys};
 use crate::tui::engine::Ahead;
 use crate::tui::lessons::{self, Condition, Lesson};
+use crate::tui::panels;
 
 /// How far a lesson has come.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,6 +16,8 @@ pub struct Progress {
     pub step: usize,
     /// What each step asked has been done.
     pub done: bool,
+    /// Its text has been read, where it takes the place of the charts.
+    pub read: bool,
 }
 
 impl App {
@@ -31,6 +34,12 @@ impl App {
             self.mode = Mode::Lessons(0);
             return;
         };
+        if !progress.read && panels::lesson_fills(self) {
+            if let Some(progress) = &mut self.lesson {
+                progress.read = true;
+            }
+            return;
+        }
         let (steps, title) = (lesson.steps.len(), lesson.title.clone());
         if progress.step + 1 >= steps {
             self.lesson = None;
@@ -57,7 +66,7 @@ impl App {
 
     /// Sets knobs and view for a step.
     fn begin_step(&mut self, lesson: usize, step: usize) {
-        self.lesson = Some(Progress { lesson, step, done: false });
+        self.lesson = Some(Progress { lesson, step, done: false, read: false });
         let Some(found) = lessons::all().get(lesson).and_then(|l| l.steps.get(step)) else {
             return;
         };

@@ -206,6 +206,10 @@ pub struct App {
     pub ahead: Option<Ahead>,
     /// What it comes to under the event solver and unilateral contact.
     pub reference: Option<Forecast>,
+    /// Whether a tiny change of the pulse changes the outcome.
+    pub sensitive: bool,
+    /// Width and height of the screen, in cells.
+    pub size: (u16, u16),
     /// What it comes to under the other contact law.
     pub beside: Option<Forecast>,
     /// The locked motion against speed; that of the machine before until the
@@ -289,6 +293,8 @@ impl App {
             slow: None,
             ahead: None,
             reference: None,
+            sensitive: false,
+            size: (80, 24),
             beside: None,
             locked: None,
             spectrum: None,

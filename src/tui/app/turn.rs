@@ -62,6 +62,10 @@ impl App {
                     }
                     self.redo.clear();
                     let live = self.live && acts_live(knob);
+                    if self.live && !live && self.status.is_none() {
+                        let what = "only speed and ramp act on the running motion: begun anew";
+                        self.status = Some(what.into());
+                    }
                     self.take_scene(scene, live);
                 }
                 true

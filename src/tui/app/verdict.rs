@@ -26,7 +26,13 @@ impl App {
             return Words { word: "STOPPED".into(), detail: trouble.clone(), role: Role::Trouble };
         }
         match &self.ahead {
-            Some(Ahead::Done(forecast)) => self.words(forecast),
+            Some(Ahead::Done(forecast)) => {
+                let mut words = self.words(forecast);
+                if self.sensitive {
+                    words.detail.push_str(", sensitive");
+                }
+                words
+            }
             Some(Ahead::Computing(part)) => Words {
                 word: "computing".into(),
                 detail: format!("{:.0} %", 100.0 * part),
@@ -77,10 +83,12 @@ impl App {
         if other.verdict == own.verdict {
             return None;
         }
-        let why = if own.checks.tensile_steps > 0 {
+        let why = if self.sensitive {
+            "the scene is sensitive".to_string()
+        } else if own.checks.tensile_steps > 0 {
             format!("here {} pulled", plural(own.checks.tensile_steps, "step"))
         } else {
-            "step too large, or sensitive".to_string()
+            "step too large".to_string()
         };
         Some(format!("event solver, unilateral: {} ({why})", other.verdict))
     }

@@ -44,6 +44,10 @@ fn lines(app: &App, width: usize) -> Vec<(String, Role)> {
     }
     let last = progress.step + 1 == lesson.steps.len();
     let next = if last { "g ends the lesson" } else { "g: next step" };
+    if !progress.read && super::lesson_fills(app) {
+        lines.extend(of("g: to the charts", Role::Good));
+        return lines;
+    }
     match &step.task {
         Some(task) if progress.done => lines.extend(of(&format!("[x] {task}  {next}"), Role::Good)),
         Some(task) => lines.extend(of(&format!("[ ] {task}"), Role::Focus)),

@@ -64,8 +64,13 @@ fn guide(body: Rect, app: &App) -> (Option<Rect>, Rect) {
         return (None, body);
     }
     let wanted = super::guide::rows(app, usize::from(body.width));
-    // The charts keep at least half of the screen.
-    let rows = wanted.min(body.height / 2);
+    let read = app.lesson.as_ref().is_some_and(|progress| progress.read);
+    let rows = match wanted <= body.height / 2 {
+        true => wanted,
+        // Too long to stand beside the charts: first the text, then its task.
+        false if !read => body.height.saturating_sub(1),
+        false => (body.height / 3).max(3),
+    };
     let [guide, body] =
         Layout::vertical([Constraint::Length(rows), Constraint::Min(1)]).areas(body);
     (Some(guide), body)
@@ -107,3 +112,10 @@ fn split(area: Rect, app: &App) -> Vec<(View, Rect)> {
 
 /// The large chart above, a smaller one below.
 const LARGE: [Constraint; 2] = [Constraint::Percentage(55), Constraint::Percentage(45)];
+
+/// Whether the lesson's text takes the place of the charts on this screen.
+pub fn lesson_fills(app: &App) -> bool {
+    // Header and footer take three rows.
+    let body = app.size.1.saturating_sub(3);
+    app.lesson.is_some() && super::guide::rows(app, usize::from(app.size.0)) > body / 2
+}

@@ -28,7 +28,7 @@ use ratatui::{
 
 use super::app::{App, Mode};
 use super::theme::Role;
-pub use layout::{LEAST_HEIGHT, LEAST_WIDTH};
+pub use layout::{LEAST_HEIGHT, LEAST_WIDTH, lesson_fills};
 
 /// Draws the whole screen.
 pub fn draw(frame: &mut Frame, app: &App) {

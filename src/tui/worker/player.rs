@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use super::forecast::Run;
 use super::recorder::Recorder;
 use super::studies::Studies;
-use crate::motion::Motion;
+use crate::motion::{Motion, is_sensitive, settle};
 use crate::scene::{ContactLaw, Scene, SolverKind};
 use crate::tui::engine::{Ahead, Forecast, Moment, Order, Pace, Snapshot};
 
@@ -39,6 +39,7 @@ pub struct Player {
     reference: Option<Run>,
     beside: Option<Beside>,
     studies: Studies,
+    sensitive: Option<bool>,
     patience: Duration,
 }
 
@@ -80,6 +81,7 @@ impl Player {
             reference: reference(scene),
             beside: None,
             studies: Studies::default(),
+            sensitive: None,
             patience,
             motion,
             order,
@@ -233,7 +235,9 @@ impl Player {
     /// Whether a run ahead is not at its end.
     #[must_use]
     pub fn is_computing(&self) -> bool {
-        self.runs().any(|run| !run.is_done()) || self.studies.is_computing(&self.order)
+        self.runs().any(|run| !run.is_done())
+            || self.sensitive.is_none()
+            || self.studies.is_computing(&self.order)
     }
 
     fn runs(&self) -> impl Iterator<Item = &Run> {
@@ -250,6 +254,10 @@ impl Player {
                 run.go_on();
                 return;
             }
+        }
+        if self.sensitive.is_none() {
+            self.sensitive = Some(sensitive(&self.order.scene));
+            return;
         }
         let length = self.order.scene.solver.end_s;
         self.studies.go_on(&self.order, self.ahead.signal(), length);
@@ -277,6 +285,7 @@ impl Player {
             moment,
             bins: self.recorder.take_bins(),
             ahead: Some(self.ahead.ahead()),
+            sensitive: self.sensitive.unwrap_or(false),
             reference: done(self.reference.as_ref()),
             beside: done(self.beside.as_ref().map(|beside| &beside.ahead)),
             beside_bins: self
@@ -298,16 +307,25 @@ impl Player {
 
 /// The event solver under unilateral contact, where the scene's own solver is another.
 fn reference(scene: &Scene) -> Option<Run> {
-    let mut scene = scene.clone();
     if scene.solver.kind == SolverKind::Event {
         return None;
     }
+    let scene = by_events(scene)?;
+    Some(Run::new(Motion::new(&scene), scene.solver.end_s))
+}
+
+/// The scene with the event solver and unilateral contact, if it knows it.
+fn by_events(scene: &Scene) -> Option<Scene> {
+    let mut scene = scene.clone();
     scene.solver.kind = SolverKind::Event;
     scene.solver.contact = ContactLaw::Unilateral;
     scene.check().ok()?;
-    let motion = Motion::new(&scene);
-    // A solver that steps is not the event solver.
-    motion.steps().is_none().then(|| Run::new(motion, scene.solver.end_s))
+    Some(scene)
+}
+
+/// Whether a tiny change of the pulse changes the outcome.
+fn sensitive(scene: &Scene) -> bool {
+    by_events(scene).is_some_and(|scene| is_sensitive(&scene, settle(&scene)))
 }
 
 fn done(run: Option<&Run>) -> Option<Forecast> {
