@@ -190,17 +190,14 @@ fn straight_into_a_corner_or_onto_a_side_by_symmetry() {
 }
 
 #[test]
-fn a_million_impacts() {
-    // Without damping just below the critical speed of many diameters the
-    // casing is fed by the rotor again and again.
-    let changes =
-        [(ZETA, 0.0), (SPEED, 600.0), (DIAMETERS, 25.0), (BLADE, 0.499_999), (PULSE, 2e3)];
-    let (mut motion, _) = run(&changes, 0.0);
-    let mut t = 0.0;
-    while motion.events() < 20_000 && t < 100.0 && motion.settled().is_none() {
-        t = motion.next_event(100.0).unwrap();
-    }
-    assert!(motion.state().u[0].is_finite());
+fn a_slip_that_goes_on_for_ever_goes_through_side_after_side() {
+    let motion = arrives(&[(ZETA, 0.01), (PULSE, 51742.0)], 10.0);
+    let log = motion.contacts();
+    assert!(log.unbroken_since.unwrap() < 0.01);
+    // About 1100 crossings a second, and their record stays small.
+    assert!(log.impact_count > 10_000 && log.impacts.len() == 1000);
+    // The rotor does some 40 J in that time.
+    assert!(motion.checks().energy_residual_j.unwrap().abs() < 1e-9);
 }
 
 #[test]

@@ -280,6 +280,27 @@ fn case_c_with_blades_locks_at_the_same_instant() {
 }
 
 #[test]
+fn very_stiff_blades_follow_the_pushes() {
+    let mut scene = scene(&[("bladed_disk.stiffness_nm_per_rad", 1e12)]);
+    on_side_0(&mut scene, true, 0.0);
+    let mut motion = Event::new(&scene);
+    motion.advance(1.0).unwrap();
+    let (machine, state) = (motion.machine(), motion.state());
+    // alpha = (1/K) sum_j -lambda_j A_j exp(i psi_j) with A_j = n_d y_j.
+    let mut expected = [0.0; 2];
+    for ((side, lambda), y) in motion.multipliers().into_iter().zip([-1.0, 1.0]) {
+        let (c, s) = machine.rim.direction(side);
+        let moment = -lambda * machine.nodal_diameters * y * machine.rim.half_side();
+        expected[0] += moment * c / machine.blade_modal_stiffness;
+        expected[1] += moment * s / machine.blade_modal_stiffness;
+    }
+    for (alpha, expected) in state.alpha.iter().zip(expected) {
+        close(*alpha, expected, 1e-12 * expected.abs());
+    }
+    assert!(motion.events() < 10);
+}
+
+#[test]
 fn stiff_and_light_blades_fail_plainly_or_arrive() {
     for (inertia, stiffness) in [(0.20825, 1e12), (1e-9, 15_000.0), (1e-9, 1e-3), (1e3, 15e3)] {
         let scene = scene(&[

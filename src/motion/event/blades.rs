@@ -51,6 +51,42 @@ impl Blades {
         })
     }
 
+    /// Whether the casing cannot tell them from rigid ones, and they are so much
+    /// faster than the motion that their angles follow the pushes at once.
+    pub(super) fn negligible(&self, scene: &Scene, machine: &Machine) -> bool {
+        let operation = &scene.operation;
+        let last = operation.speed_rad_s + operation.speed_ramp_rad_s2 * scene.solver.end_s;
+        let nu = machine.nu(operation.speed_rad_s.abs().max(last.abs()));
+        let rates = machine.omega_c + nu;
+        let clearance = machine.clearance();
+        let half_side =
+            if machine.rim.has_corners() { machine.rim.half_side() } else { return false };
+        // Largest push per unit mass that lasts, and largest impulse.
+        let pulse = operation.pulse_n.abs() / machine.casing_mass;
+        let start = scene.initial.v_c_m_s.hypot(scene.initial.v_s_m_s);
+        let speed = pulse * operation.pulse_s + start + 10.0 * rates * clearance;
+        let push = pulse + rates * rates * clearance + 2.0 * nu * speed;
+        let lever = self.ratio / self.diameters * half_side;
+        let angle = lever * (push / self.omega + speed) / self.omega;
+        // Gaps shift by n_d times the angle and the place along the side.
+        self.omega > 100.0 * rates && self.diameters * angle * half_side < 1e-9 * clearance
+    }
+
+    /// Angles of blades that follow these pushes at once.
+    pub(super) fn following(
+        &self,
+        world: &World,
+        pushes: [Option<(u32, f64)>; 2],
+        y: [f64; 2],
+    ) -> Tips {
+        let lever = self.ratio / self.diameters / self.kernel.stiffness;
+        let mut tips = Tips::default();
+        for ((side, push), y) in pushes.into_iter().flatten().zip(y) {
+            tips.angle += world.direction(side) * (lever * push * y);
+        }
+        tips
+    }
+
     /// Blade angles of the free blades, `s` seconds on.
     pub(super) fn free(&self, tips: &Tips, s: f64) -> Tips {
         if *tips == Tips::default() {

@@ -4,8 +4,10 @@
 //! the rotor (`model::Rim`), and it moves in one of four modes: *free*,
 //! *sliding* along a side, *rocking* into a corner, or *locked* in a corner.
 //! Within a mode the motion is known in closed form (`kernel`) or as a power
-//! series summed to round-off (`series`: pulse or ramp while sliding). Each
-//! mode looks ahead for its end with bounds that cannot miss it (`approach`),
+//! series summed to round-off (`series`: pulse or ramp while sliding). With
+//! blades that move (`blades`) the sides turn a little by themselves; sliding
+//! and locked motion are then power series too (`series`, `held`), and impacts
+//! share their impulse with the blades (`compliant`). Each mode looks ahead for its end with bounds that cannot miss it (`approach`),
 //! and the next mode follows from plastic impact and from the pushes by cases
 //! (`contact`), so that nothing triggers twice.
 //!
@@ -159,12 +161,13 @@ impl Event {
         Ok(self.now)
     }
 
-    /// The motion now; blades of the rigid model do not move.
+    /// The motion now; blades of the rigid model do not move, and those too stiff
+    /// for the casing to notice follow the pushes at once.
     #[must_use]
     pub fn state(&self) -> State {
         let s = self.elapsed(self.now);
         let (u, v) = self.mode.standing(&self.world, &self.drive, s);
-        let Tips { angle, rate } = self.mode.tips(&self.world, s);
+        let Tips { angle, rate } = self.mode.reported(&self.world, &self.drive, s);
         State {
             t_s: self.now,
             u: [u.re, u.im],

@@ -149,6 +149,14 @@ impl Mode {
         }
     }
 
+    /// The blades as they are reported: stiff ones follow the pushes.
+    pub(super) fn reported(&self, world: &World, drive: &Drive, s: f64) -> Tips {
+        let Some(blades) = &world.stiff else { return self.tips(world, s) };
+        let Some((_, along)) = self.along(world, drive, s) else { return Tips::default() };
+        let pushes = self.pushes(world, drive, s);
+        blades.following(world, pushes, [along.y, world.half_side])
+    }
+
     /// Kinetic and potential energy per unit casing mass, `s` seconds on.
     pub(super) fn energy(&self, world: &World, drive: &Drive, s: f64) -> f64 {
         let (u, v) = self.standing(world, drive, s);
@@ -185,9 +193,12 @@ impl Mode {
 
     /// Books the energies of the first `s` seconds of the mode.
     pub(super) fn book(&self, world: &World, drive: &Drive, s: f64, ledger: &mut Ledger) {
-        let before = self.standing(world, drive, 0.0);
-        let after = self.standing(world, drive, s);
-        let pulse = drive.pulse * (after.0.re - before.0.re);
+        let ends = || [0.0, s].map(|t| self.standing(world, drive, t));
+        let mut pulse = 0.0;
+        if drive.pulse != 0.0 {
+            let [before, after] = ends();
+            pulse = drive.pulse * (after.0.re - before.0.re);
+        }
         ledger.pulse += pulse;
         let drag = 2.0 * world.damping;
         let (nu, ramp) = (drive.nu.abs().max(drive.nu(s).abs()), drive.nu_rate.abs());
@@ -230,8 +241,8 @@ impl Mode {
                     *lost
                 };
                 ledger.lost += lost;
-                let place = before.0.norm_sqr();
-                let dissipated = drag * drive.nu * drive.nu * place * s;
+                let [before, after] = ends();
+                let dissipated = drag * drive.nu * drive.nu * before.0.norm_sqr() * s;
                 let [before, after] = [before, after].map(|(u, v)| ledger::energy(world, u, v));
                 [dissipated, after - before + lost + dissipated - pulse]
             }

@@ -29,6 +29,8 @@ pub(super) struct World {
     pub kernel: Kernel,
     /// The blades, where they move.
     pub blades: Option<Blades>,
+    /// Blades too stiff for the casing to notice: their angles follow the pushes.
+    pub stiff: Option<Blades>,
     /// Casing modal mass \[kg\].
     pub mass: f64,
     /// Cosine and sine of the angle `2 delta` between neighbouring sides.
@@ -46,6 +48,8 @@ impl World {
         let machine = scene.machine();
         let corners = machine.rim.has_corners();
         let damping = machine.casing_damping_ratio * machine.omega_c;
+        let blades = Blades::of(scene, &machine);
+        let negligible = blades.is_some_and(|blades| blades.negligible(scene, &machine));
         let twice = 2.0 * PI / f64::from(machine.rim.sides);
         Self {
             clearance: machine.clearance(),
@@ -53,7 +57,8 @@ impl World {
             omega: machine.omega_c,
             damping,
             kernel: Kernel::new(damping, machine.omega_c * machine.omega_c),
-            blades: Blades::of(scene, &machine),
+            blades: if negligible { None } else { blades },
+            stiff: if negligible { blades } else { None },
             mass: machine.casing_mass,
             turn: Plane::cis(twice),
             corners,
