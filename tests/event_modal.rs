@@ -26,16 +26,19 @@ fn close(value: f64, expected: f64, tolerance: f64) {
 /// `[u_c, u_s, alpha_c, alpha_s]` and their rates.
 type Phase = [f64; 8];
 
-/// Equations of motion as the paper writes them, at a constant speed.
+/// Equations of motion as the paper writes them, with a speed ramp.
 struct Plain {
     m: Machine,
     speed: f64,
+    ramp: f64,
     force: f64,
 }
 
 impl Plain {
     fn of(scene: &Scene) -> Self {
-        Self { m: scene.machine(), speed: scene.operation.speed_rad_s, force: 0.0 }
+        let operation = &scene.operation;
+        let (speed, ramp) = (operation.speed_rad_s, operation.speed_ramp_rad_s2);
+        Self { m: scene.machine(), speed, ramp, force: operation.pulse_n }
     }
 
     /// Gap of a side, its gradient, its rate and the part of its second
@@ -43,14 +46,16 @@ impl Plain {
     fn gap(&self, side: u32, x: &Phase, t: f64) -> (f64, [f64; 4], f64, f64) {
         let n = self.m.nodal_diameters;
         let (pc, ps) = self.m.rim.direction(side);
-        let beta = ps.atan2(pc) + n * (self.speed * t + pc * x[2] + ps * x[3]);
+        let angle = (self.speed + 0.5 * self.ramp * t) * t;
+        let beta = ps.atan2(pc) + n * (angle + pc * x[2] + ps * x[3]);
         let (sin, cos) = beta.sin_cos();
-        let turn = n * (self.speed + pc * x[6] + ps * x[7]);
+        let turn = n * (self.speed + self.ramp * t + pc * x[6] + ps * x[7]);
         let a = x[1] * cos - x[0] * sin;
         let gap = self.m.clearance() + x[0] * cos + x[1] * sin;
         let gradient = [cos, sin, n * a * pc, n * a * ps];
         let rate = x[4] * cos + x[5] * sin + a * turn;
-        let bend = 2.0 * turn * (x[5] * cos - x[4] * sin) - turn * turn * (x[0] * cos + x[1] * sin);
+        let bend = 2.0 * turn * (x[5] * cos - x[4] * sin) - turn * turn * (x[0] * cos + x[1] * sin)
+            + a * n * self.ramp;
         (gap, gradient, rate, bend)
     }
 
@@ -167,7 +172,6 @@ fn case_a_with_blades_agrees_with_runge_kutta_to_1e_9() {
     let sides: Vec<u32> = [19, 4].map(|blade| motion.machine().rim.side_of_blade(blade)).into();
     assert_eq!(impacts.iter().map(|impact| impact.side).collect::<Vec<_>>(), sides);
     // The pulse, then flights that end where the gap of the next side closes.
-    plain.force = 20e3;
     let mut x = plain.run([0.0; 8], 0.0, 50e-6, 200, &[]);
     plain.force = 0.0;
     let mut t = 50e-6;
@@ -202,9 +206,15 @@ fn on_side_0(scene: &mut Scene, corner: bool, pace: f64) {
 
 #[test]
 fn sliding_with_blades_agrees_with_the_constrained_equations() {
-    for soft in [false, true] {
+    let steady = (0.0, 0.0);
+    for (soft, (ramp, pulse)) in
+        [(false, steady), (true, steady), (false, (-3e4, -50.0)), (true, (2e4, 30.0))]
+    {
         let mut scene = if soft { scene(&SOFT) } else { scene(&[]) };
         on_side_0(&mut scene, false, -4e-3);
+        scene.operation.speed_ramp_rad_s2 = ramp;
+        scene.operation.pulse_n = pulse;
+        scene.operation.pulse_s = 1.0;
         let mut motion = Event::new(&scene);
         let start = phase(&motion.state());
         assert_eq!(motion.contacts().touching, Touching::Side(0));
@@ -217,20 +227,27 @@ fn sliding_with_blades_agrees_with_the_constrained_equations() {
         let (_, lambdas) = plain.acceleration(&x, until, &[0]);
         let found = motion.multipliers();
         close(found[0].1, lambdas[0], 1e-9 * lambdas[0].abs());
+        assert!(until > 1e-4);
         assert!(motion.checks().energy_residual_j.unwrap().abs() < 1e-14);
     }
 }
 
 #[test]
 fn locked_with_blades_agrees_with_the_constrained_equations() {
-    for soft in [false, true] {
+    for (soft, ramp, pulse) in
+        [(false, 0.0, 0.0), (true, 0.0, 0.0), (false, -1000.0, -2.0), (true, 2000.0, 2.0)]
+    {
         let mut scene = if soft { scene(&SOFT) } else { scene(&[]) };
         on_side_0(&mut scene, true, 0.0);
+        scene.operation.speed_ramp_rad_s2 = ramp;
+        scene.operation.pulse_n = pulse;
+        scene.operation.pulse_s = 1.0;
         let mut motion = Event::new(&scene);
         assert_eq!(motion.contacts().touching, Touching::Corner(0, 1), "{soft}");
         let start = phase(&motion.state());
         let until = 0.02;
         motion.advance(until).unwrap();
+        assert_eq!((motion.events(), motion.contacts().since), (0, 0.0));
         let plain = Plain::of(&scene);
         let x = plain.run(start, 0.0, until, 20_000, &[0, 1]);
         agree(&phase(&motion.state()), &x, 1e-9);

@@ -45,8 +45,9 @@ impl Event {
     /// Ends `advance` at `until`.
     pub(super) fn arrive(&mut self, until: f64) {
         self.now = until.max(self.now);
-        if self.world.blades.is_some() {
-            let tips = self.mode.tips(&self.world, self.elapsed(self.now));
+        if self.world.blades.is_some() || self.world.stiff.is_some() {
+            let s = self.elapsed(self.now);
+            let tips = self.mode.reported(&self.world, &self.drive, s);
             self.widest = self.widest.max(tips.angle.norm());
         }
         let touching = self.mode.touching(&self.world);
