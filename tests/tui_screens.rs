@@ -161,6 +161,16 @@ fn quitting_is_quitting_and_escape_is_not() {
 }
 
 #[test]
+fn escape_and_a_key_in_one_go_are_both_heard() {
+    let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille);
+    session.press("?");
+    session.app.key(&KeyEvent::new(KeyCode::Char('2'), KeyModifiers::ALT));
+    session.press("");
+    assert!(session.text().contains("2 gaps"), "{}", session.text());
+    assert_eq!(session.app.view.digit(), 2);
+}
+
+#[test]
 fn signals_and_a_lost_terminal_end_with_their_number() {
     for (event, number) in [(Event::Signal(15), 15), (Event::InputClosed, 1)] {
         let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille);
