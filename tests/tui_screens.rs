@@ -161,6 +161,16 @@ fn quitting_is_quitting_and_escape_is_not() {
 }
 
 #[test]
+fn escape_and_a_key_in_one_go_are_both_heard() {
+    let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille);
+    session.press("?");
+    session.app.key(&KeyEvent::new(KeyCode::Char('2'), KeyModifiers::ALT));
+    session.press("");
+    assert!(session.text().contains("2 gaps"), "{}", session.text());
+    assert_eq!(session.app.view.digit(), 2);
+}
+
+#[test]
 fn signals_and_a_lost_terminal_end_with_their_number() {
     for (event, number) in [(Event::Signal(15), 15), (Event::InputClosed, 1)] {
         let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille);
@@ -170,4 +180,140 @@ fn signals_and_a_lost_terminal_end_with_their_number() {
         let exit = run(&mut session.terminal, &events, app, engine, &mut NoHost, Duration::ZERO);
         assert_eq!(exit.unwrap(), Exit::Signal(number));
     }
+}
+
+#[test]
+fn every_view_with_the_large_chart_at_120_by_40() {
+    for digit in ['1', '2', '3', '4', '5', '6'] {
+        let mut session = Session::open(120, 40, scene(), Theme::Dark, Marker::Braille);
+        session.press(&digit.to_string());
+        insta::assert_snapshot!(format!("view_{digit}"), session.text());
+    }
+}
+
+#[test]
+fn speed_against_error_shows_every_kind_of_solver() {
+    let mut scene = scene();
+    scene.solver.end_s = 2e-3;
+    scene.solver.contact = rubscope::scene::ContactLaw::Unilateral;
+    scene.operation.pulse_n = 2e4;
+    let mut session = Session::open(120, 40, scene, Theme::Dark, Marker::Braille);
+    // Wall times differ from run to run: only what must be there is looked at.
+    session.press("7f");
+    let text = session.text();
+    assert!(text.contains("7 precision") && text.contains("reference"), "{text}");
+    for letter in ["e", "U"] {
+        assert!(text.contains(letter), "no {letter} in {text}");
+    }
+}
+
+#[test]
+fn every_lesson_begins_with_a_screen_of_its_own() {
+    for place in 0..rubscope::tui::lessons::all().len() {
+        let mut session = Session::open(80, 24, scene(), Theme::Light, Marker::Braille);
+        let down = "j".repeat(place);
+        session.press(&format!("g{down}\n"));
+        let lesson = &rubscope::tui::lessons::all()[place];
+        let text = session.text();
+        assert!(text.contains(&format!("{} - step 1 of", lesson.title)), "{text}");
+        // The key that goes from step to step ends it after the last one; a
+        // long text takes one press more.
+        let mut presses = 0;
+        while session.app.lesson.is_some() {
+            session.press("g");
+            presses += 1;
+            assert!(presses <= 2 * lesson.steps.len(), "{}", session.text());
+        }
+    }
+}
+
+#[test]
+fn a_task_of_a_lesson_is_checked_off() {
+    let mut session = Session::open(100, 40, scene(), Theme::Dark, Marker::Braille);
+    session.press("g\ng");
+    assert!(session.text().contains("[ ] Turn the speed below 290"), "{}", session.text());
+    session.press("\n280\n");
+    assert!(session.text().contains("[x] Turn the speed below 290"), "{}", session.text());
+}
+
+#[test]
+fn themes_differ_in_colour_only_and_mono_has_none() {
+    let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille);
+    session.press(" ");
+    let before = session.text();
+    for theme in ["light", "colour-blind", "mono"] {
+        session.press("t");
+        assert!(session.text().contains(&format!("theme {theme}")));
+    }
+    let colours = session.terminal.backend().buffer().content.iter().map(|cell| cell.fg);
+    assert!(colours.into_iter().all(|colour| colour == ratatui::style::Color::Reset));
+    let body = |text: &str| text.lines().take(23).collect::<Vec<_>>().join("\n");
+    assert_eq!(body(&session.text()), body(&before), "a theme told something by itself");
+}
+
+#[test]
+fn both_laws_side_by_side_and_a_pinned_baseline() {
+    let mut session = Session::open(120, 40, scene(), Theme::Dark, Marker::Braille);
+    session.press("c");
+    session.press("");
+    let text = session.text();
+    assert!(text.contains("bilateral: LOCKED") && text.contains("unilateral: DECAY"), "{text}");
+    session.press("c");
+    session.press("b");
+    session.press("jjjjjjjjjl");
+    let text = session.text();
+    assert!(text.contains(" DECAY ") && text.contains("pinned: LOCKED"), "{text}");
+}
+
+#[test]
+fn a_file_is_never_replaced_without_asking() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.toml");
+    let name = path.to_str().unwrap().to_string();
+    let erase = "\u{8}".repeat(40);
+    let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille);
+    session.press(&format!("s{erase}{name}\n"));
+    assert_eq!(Scene::load(&name).unwrap(), scene());
+    std::fs::write(&path, "mine").unwrap();
+    session.press(&format!("s{erase}{name}\n"));
+    assert!(session.text().contains("y replaces it"), "{}", session.text());
+    session.press("n");
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), "mine");
+    session.press(&format!("s{erase}{name}\n"));
+    session.press("y");
+    assert_eq!(Scene::load(&name).unwrap(), scene());
+    for (view, file) in [("1", "a.csv"), ("2", "b.csv"), ("3", "c.csv"), ("1", "d.svg")] {
+        let path = folder.path().join(file);
+        let name = path.to_str().unwrap();
+        session.press(view);
+        session.press(&format!("e{erase}{name}\n"));
+        let text = std::fs::read_to_string(&path).unwrap();
+        assert!(text.len() > 100 && !text.contains("NaN"), "{file}: {text}");
+    }
+}
+
+#[test]
+fn the_speed_acts_on_the_running_motion_when_live() {
+    let mut session = Session::open(120, 40, scene(), Theme::Dark, Marker::Braille);
+    let before = session.app.now();
+    session.press("x");
+    session.press("HHHH");
+    assert!(session.app.now() > before, "the run began anew");
+    assert_eq!(session.app.speed(), 300.0);
+    assert!(session.text().contains("LIVE"), "{}", session.text());
+}
+
+#[test]
+fn the_cursor_reads_values_and_pages_can_be_looked_back_at() {
+    let mut session = Session::open(120, 40, scene(), Theme::Dark, Marker::Braille);
+    // 33 ms of motion are on the second page of 20 ms.
+    for _ in 0..10 {
+        session.press("");
+    }
+    session.press(" ((((");
+    assert!(session.text().contains(" at "), "{}", session.text());
+    session.press("<");
+    assert!(session.text().contains("1 back"), "{}", session.text());
+    session.press("\u{1b}");
+    assert!(!session.text().contains("1 back"), "{}", session.text());
 }

@@ -1,6 +1,6 @@
 //! Keys and actions: each changes the state and says what must happen outside.
 
-use crossterm::event::{KeyCode, KeyEvent};
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 use super::time::MOST_ZOOM;
 use super::{App, Baseline, Mode, Purpose, RATES, View};
@@ -30,6 +30,10 @@ const LONGEST_TYPED: usize = 200;
 impl App {
     /// Handles a key press.
     pub fn key(&mut self, event: &KeyEvent) -> Effect {
+        if event.modifiers.contains(KeyModifiers::ALT) && event.code != KeyCode::Esc {
+            // Escape and a key that arrive together look like Alt and that key.
+            self.act(Action::Close);
+        }
         let chord = Chord::of(event);
         if let Some(action) = lookup(self.context(), chord) {
             let effect = self.act(action);

@@ -29,7 +29,8 @@ pub fn list(app: &App, buffer: &mut Buffer, area: Rect, place: usize) {
     }
 }
 
-fn lines(app: &App, width: usize) -> Vec<(String, Role)> {
+/// The lines of a step; `page` where its text is a page before the charts.
+fn lines(app: &App, width: usize, page: bool) -> Vec<(String, Role)> {
     let Some((lesson, progress)) = app.current_lesson() else { return Vec::new() };
     let Some(step) = lesson.steps.get(progress.step) else { return Vec::new() };
     let skin = &app.skin;
@@ -44,7 +45,7 @@ fn lines(app: &App, width: usize) -> Vec<(String, Role)> {
     }
     let last = progress.step + 1 == lesson.steps.len();
     let next = if last { "g ends the lesson" } else { "g: next step" };
-    if !progress.read && super::lesson_fills(app) {
+    if page {
         lines.extend(of("g: to the charts", Role::Good));
         return lines;
     }
@@ -58,13 +59,14 @@ fn lines(app: &App, width: usize) -> Vec<(String, Role)> {
 
 /// Rows the step needs, with a rule below.
 pub fn rows(app: &App, width: usize) -> u16 {
-    u16::try_from(lines(app, width).len() + 1).unwrap_or(u16::MAX)
+    u16::try_from(lines(app, width, false).len() + 1).unwrap_or(u16::MAX)
 }
 
 /// The step under way.
 pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
     let skin = &app.skin;
-    let lines = lines(app, usize::from(area.width));
+    let page = app.lesson.as_ref().is_some_and(|progress| !progress.read);
+    let lines = lines(app, usize::from(area.width), page && super::lesson_fills(app));
     // Where it is too long for the screen its end, the task, must be seen.
     let room = usize::from(area.height.saturating_sub(1));
     let skip = lines.len().saturating_sub(room);

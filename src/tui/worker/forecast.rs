@@ -69,8 +69,13 @@ impl Run {
             let step = Instant::now();
             failed = self.motion.advance(until).is_err();
             let took = step.elapsed();
+            // Shorter stretches where one took long, but never so short that
+            // a busy machine brings the run to a halt.
+            let least = length / f64::from(SAMPLES) / 32.0;
             if took > SLICE * 4 {
-                self.stretch = (until - before) / 8.0;
+                self.stretch = (0.25 * self.stretch.min(until - before)).max(least);
+            } else {
+                self.stretch *= 2.0;
             }
             if until >= sample {
                 self.taken += 1;
