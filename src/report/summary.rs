@@ -182,7 +182,7 @@ fn checks(report: &RunReport, machine: &Machine, out: &mut dyn Write) -> Result<
         writeln!(out, "Deepest penetration predicted before correction: {} m.", short(predicted))?;
     }
     writeln!(out, "Steps with a pulling multiplier: {}.", checks.tensile_steps)?;
-    writeln!(out, "Largest blade angle: {} rad.", short(checks.max_blade_angle_rad))?;
+    writeln!(out, "Blade angle: at most {} rad.", short(checks.max_blade_angle_rad))?;
     if let Some(residual) = checks.energy_residual_j {
         writeln!(out, "Energy not accounted for: {} J.", short(residual))?;
     }
