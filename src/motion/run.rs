@@ -107,6 +107,14 @@ pub struct Settled {
     pub impact_count: u64,
 }
 
+impl Settled {
+    /// Whether two runs that should be the same are not.
+    fn differs_from(self, other: Self) -> bool {
+        let locked = matches!(self.verdict, Verdict::Locked | Verdict::Adhesive);
+        self.verdict != other.verdict || (!locked && self.impact_count != other.impact_count)
+    }
+}
+
 /// Runs a checked scene until its verdict is settled, at most to its end.
 #[must_use]
 pub fn settle(scene: &Scene) -> Settled {
@@ -153,21 +161,22 @@ const FINER: f64 = 0.1;
 
 /// Whether a relative change of 1e-9 of the pulse, up or down, or with the
 /// event solver a tolerance ten times finer, changes the verdict or the impact
-/// count.
+/// count. A locked wave has rocked into its corner by infinitely many impacts,
+/// so there the count is no fact and only the verdict counts.
 #[must_use]
 pub fn is_sensitive(scene: &Scene, settled: Settled) -> bool {
     if scene.solver.kind == SolverKind::Event {
         let event = Event::new(scene);
         let finer = FINER * event.tolerance();
         let motion = Motion::Event(Box::new(event.with_tolerance(finer)));
-        if settle_motion(motion, scene.solver.end_s) != settled {
+        if settle_motion(motion, scene.solver.end_s).differs_from(settled) {
             return true;
         }
     }
     [1.0 - NUDGE, 1.0 + NUDGE].into_iter().any(|factor| {
         let mut nudged = scene.clone();
         nudged.operation.pulse_n *= factor;
-        settle(&nudged) != settled
+        settle(&nudged).differs_from(settled)
     })
 }
 
