@@ -44,6 +44,9 @@ proptest! {
         scene.solver.step_s = 1e-6;
         scene.solver.end_s = 2e-3;
         let mut app = App::new(scene, Theme::Dark, Marker::Braille);
+        // Keys at random save and export, too.
+        let files = tempfile::tempdir().unwrap();
+        app.directory = files.path().to_path_buf();
         let mut terminal = Terminal::new(TestBackend::new(80, 24)).unwrap();
         let mut engine = Stepwise::new(1e-4);
         for (width, height, keys) in rounds {

@@ -35,7 +35,10 @@ impl App {
         } else {
             options.create_new(true);
         }
-        match options.open(name).and_then(|mut file| file.write_all(content.as_bytes())) {
+        match options
+            .open(self.directory.join(name))
+            .and_then(|mut file| file.write_all(content.as_bytes()))
+        {
             Ok(()) => self.status = Some(format!("written: {name}")),
             Err(error) if error.kind() == ErrorKind::AlreadyExists => {
                 self.mode = Mode::Replacing(purpose, name.to_string());

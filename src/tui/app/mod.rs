@@ -175,6 +175,8 @@ pub struct App {
     pub knob: usize,
     /// What the keyboard acts on.
     pub mode: Mode,
+    /// Where files are written; the working directory unless set.
+    pub directory: std::path::PathBuf,
     /// Why the last value of the selected knob was refused.
     pub refusal: Option<String>,
     /// What just happened.
@@ -278,6 +280,7 @@ impl App {
             scene,
             knob: 0,
             mode: Mode::Main,
+            directory: std::path::PathBuf::new(),
             refusal: None,
             status: None,
             view,
