@@ -98,8 +98,7 @@ fn locked_multipliers_converge_with_the_known_coefficient() {
     // The scheme turns K + iD by -nu h: an extra damping nu h |K|, and a
     // stiffness larger by nu h D.
     let drag = machine.casing_damping * nu;
-    let coefficient =
-        machine.clearance() / (2.0 * cos) * nu * (stiffness.abs() / sin - drag / cos);
+    let coefficient = machine.clearance() / (2.0 * cos) * nu * (stiffness.abs() / sin - drag / cos);
     // Held from the start. The multiplier is a second difference of positions:
     // its round-off is 1e-3 N at 1e-7 s, so the steps are not smaller.
     let steps = [2e-6, 1e-6, 5e-7];
