@@ -5,7 +5,7 @@
 //! result that cannot be written goes to standard output instead.
 
 use std::fs::File;
-use std::io::{BufReader, Write};
+use std::io::{BufReader, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
@@ -19,9 +19,11 @@ use super::status::{Refusal, Status, say};
 use crate::report::{file, json, map as report, map_svg};
 use crate::study::{Axis, AxisError, Map, MapPlan, Shard, overlay, part};
 
-/// Columns and rows without other wishes.
+/// Columns and rows without other wishes: steps of 10 rad/s and 50 kN.
 const COLUMNS: u32 = 51;
-const ROWS: u32 = 25;
+const ROWS: u32 = 21;
+/// Width of a map where standard output is no terminal.
+const WIDTH: usize = 115;
 
 /// Map how the motion lasts over pulse and speed, or any two keys.
 #[derive(Args, Debug)]
@@ -37,7 +39,7 @@ pub struct MapCommand {
     /// Rows, in the same form [default: the pulse]
     #[arg(long, value_name = "AXIS", conflicts_with = "pulse")]
     y: Option<String>,
-    /// Coarse cells first, then only beside changes
+    /// Coarse cells first, then only beside another verdict, down to every cell
     #[arg(long, conflicts_with = "shard")]
     adaptive: bool,
     /// Do not look for sensitive cells: a third of the runs
@@ -92,10 +94,15 @@ impl MapCommand {
         if self.shard.is_some() && format != Some(Format::Part) {
             return Err(Refusal::because("--shard: allowed with --out FILE.part only").into());
         }
+        if self.adaptive && format == Some(Format::Part) {
+            let reason = "--adaptive: allowed with --out FILE.csv, .json or .svg, since a part \
+                          holds cells that were run";
+            return Err(Refusal::because(reason).into());
+        }
         let mut map = self.start(Map::empty(self.plan()?))?;
         let indices = shard.indices(map.cells.len());
         let kept = Kept { adaptive: self.adaptive, threads: self.threads, part: self.part_file() };
-        if let Some(signal) = compute(&mut map, &indices, &kept)? {
+        if let Some(signal) = compute(&mut map, &indices, &kept, out)? {
             return Ok(Status::Signal(signal));
         }
         self.result.deliver(&map, out)?;
@@ -123,7 +130,7 @@ impl MapCommand {
         let scene = resolved.scene;
         let plan = MapPlan {
             x: axis(&self.x, "operation.speed_rad_s", resolved.speeds, 0.0, 500.0, COLUMNS)?,
-            y: axis(&self.y, "operation.pulse_n", resolved.pulses, 0.0, 1.2e6, ROWS)?,
+            y: axis(&self.y, "operation.pulse_n", resolved.pulses, 0.0, 1e6, ROWS)?,
             scene,
             sensitivity: !self.no_sensitivity,
         };
@@ -131,16 +138,21 @@ impl MapCommand {
         Ok(plan)
     }
 
-    /// The map to go on from.
+    /// The map to go on from: that of `--resume`, or what an earlier run of the
+    /// same command left.
     fn start(&self, empty: Map) -> anyhow::Result<Map> {
-        let Some(path) = self.resume.as_deref().filter(|path| path.exists()) else {
+        let Some(path) = self.part_file().filter(|path| path.exists()) else {
             return Ok(empty);
         };
-        let kept = read_parts(&[path.to_path_buf()])?;
+        let kept = read_parts(&[path.clone()])?;
+        let shown = path.display();
+        let done = kept.cells.iter().flatten().count();
         if kept.plan != empty.plan {
-            let shown = path.display();
-            return Err(Refusal::because(format!("{shown} is a part of another map")).into());
+            let allowed = "to finish that map first, or to remove the file";
+            let reason = format!("{shown} holds {done} cells of another map: allowed is {allowed}");
+            return Err(Refusal::because(reason).into());
         }
+        say(&format!("rubscope: going on from {done} cells in {shown}"));
         Ok(kept)
     }
 
@@ -214,20 +226,31 @@ impl ResultOptions {
         if self.json {
             json::write(&report::to_json(map, true), out)?;
         } else if self.out.is_none() {
-            report::write_text(map, out)?;
+            report::write_text(map, width(), out)?;
         }
         let (Some(path), Some(format)) = (&self.out, self.format()?) else { return Ok(()) };
         let shown = path.display();
         if let Err(error) = write_file(map, format, path) {
-            if !self.json {
-                json::write(&report::to_json(map, false), out)?;
-            }
-            let kept = "the whole map is on standard output as JSON";
+            let kept = if format == Format::Part {
+                part::write(map, out)?;
+                "its cells are on standard output, to be saved as a part"
+            } else {
+                if !self.json {
+                    json::write(&report::to_json(map, false), out)?;
+                }
+                "the whole map is on standard output as JSON"
+            };
             return Err(error.context(format!("cannot write {shown}; {kept}")));
         }
         say(&format!("rubscope: wrote {} cells to {shown}", map.cells.iter().flatten().count()));
         Ok(())
     }
+}
+
+/// Width that a map in text may have.
+fn width() -> usize {
+    let size = crossterm::terminal::size().ok().filter(|_| std::io::stdout().is_terminal());
+    size.map_or(WIDTH, |(columns, _)| usize::from(columns))
 }
 
 fn write_file(map: &Map, format: Format, path: &Path) -> anyhow::Result<()> {

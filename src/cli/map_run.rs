@@ -15,8 +15,6 @@ use signal_hook::consts::{SIGINT, SIGTERM};
 use super::status::say;
 use crate::study::{Cell, Map, Progress, part};
 
-/// Where cells go if the run is stopped and no file was named.
-const DEFAULT_PART: &str = "rubscope-map.partial";
 /// How often the bar and the signals are looked at.
 const LOOK: Duration = Duration::from_millis(100);
 
@@ -31,7 +29,12 @@ pub(super) struct Kept {
 }
 
 /// Computes the cells of a map; the number of the signal that stopped it.
-pub(super) fn compute(map: &mut Map, indices: &[usize], kept: &Kept) -> anyhow::Result<Option<u8>> {
+pub(super) fn compute(
+    map: &mut Map,
+    indices: &[usize],
+    kept: &Kept,
+    out: &mut dyn Write,
+) -> anyhow::Result<Option<u8>> {
     let progress = Progress::default();
     let signal = Arc::new(AtomicUsize::new(0));
     for number in [SIGINT, SIGTERM] {
@@ -65,32 +68,57 @@ pub(super) fn compute(map: &mut Map, indices: &[usize], kept: &Kept) -> anyhow::
         finished.store(true, Ordering::Relaxed);
     });
     let trouble = notes.and_then(Notes::close);
-    if let Some((path, error)) = trouble {
+    if let Some((path, error)) = &trouble {
         say(&format!("rubscope: could not note cells in {}: {error}", path.display()));
     }
     match signal.load(Ordering::Relaxed) {
         0 => {
             if kept.adaptive {
-                let (runs, cells) = (map.runs, map.cells.len());
-                say(&format!("rubscope: {runs} runs for {cells} cells"));
+                say_what_was_saved(map);
             }
             Ok(None)
         }
         number => {
-            stopped(map, kept.part.as_deref())?;
+            stopped(map, kept.part.as_deref().filter(|_| trouble.is_none()), out)?;
             Ok(Some(u8::try_from(number).unwrap_or(1)))
         }
     }
 }
 
-/// Keeps what is done and says how to go on.
-fn stopped(map: &Map, file: Option<&Path>) -> anyhow::Result<()> {
-    let path = file.unwrap_or(Path::new(DEFAULT_PART));
-    if file.is_none() {
-        crate::report::file::replace(path, |out| part::write(map, out))
-            .with_context(|| format!("cannot keep the cells in {}", path.display()))?;
+/// What an adaptive map cost against all of its cells.
+fn say_what_was_saved(map: &Map) {
+    let (runs, cells, stride) = (map.runs, map.cells.len() as u64, map.coarsest_stride());
+    let saved = cells.saturating_sub(runs);
+    let percent = 100 * saved / cells.max(1);
+    say(&format!(
+        "rubscope: {runs} runs for {cells} cells, {saved} ({percent} %) saved; begun with 1 of \
+         {stride} columns and rows, every border between verdicts run to the cell"
+    ));
+}
+
+/// Where cells go if no file was named: never over those of another run.
+fn unused_name() -> PathBuf {
+    let path = PathBuf::from("rubscope-map.partial");
+    if path.exists() {
+        PathBuf::from(format!("rubscope-map-{}.partial", std::process::id()))
+    } else {
+        path
     }
+}
+
+/// Keeps what is done and says how to go on. Without a part file that has all
+/// cells one is written; if that fails, the cells go to standard output.
+fn stopped(map: &Map, complete: Option<&Path>, out: &mut dyn Write) -> anyhow::Result<()> {
+    let path = complete.map_or_else(unused_name, Path::to_path_buf);
     let done = map.cells.iter().flatten().count();
+    if complete.is_none()
+        && let Err(error) = crate::report::file::replace(&path, |out| part::write(map, out))
+    {
+        part::write(map, out)?;
+        let kept = "its cells are on standard output, to be saved as a part for --resume";
+        let shown = path.display();
+        return Err(anyhow::Error::from(error).context(format!("cannot write {shown}; {kept}")));
+    }
     say(&format!(
         "rubscope: stopped; {done} of {} cells are kept: go on with the same command and --resume {}",
         map.cells.len(),
@@ -128,7 +156,7 @@ impl Notes {
     /// cut short by a kill is gone.
     fn open(path: &Path, map: &Map) -> anyhow::Result<Self> {
         let cannot = || format!("cannot write {}", path.display());
-        crate::report::file::replace(path, |out| part::write(map, out)).with_context(cannot)?;
+        crate::report::file::replace(&path, |out| part::write(map, out)).with_context(cannot)?;
         let file = OpenOptions::new().append(true).open(path).with_context(cannot)?;
         Ok(Self { path: path.to_path_buf(), file: Mutex::new((file, None)) })
     }

@@ -41,13 +41,20 @@ impl HistoryFormat {
     }
 }
 
-/// Puts what `write` writes in the place of `path`, all of it or nothing.
+/// Puts what `write` writes in the place of `path`, all of it or nothing. A
+/// link is followed, and a device or a pipe is written to as it is.
 ///
 /// # Errors
-/// What the system or `write` refuses; `path` is then as it was before.
+/// What the system or `write` refuses; a file at `path` is then as it was before.
 pub fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<()> {
+    let path = &path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
     if path.is_dir() {
         return Err(Error::from(ErrorKind::IsADirectory));
+    }
+    if path.exists() && !path.is_file() {
+        let mut out = BufWriter::new(File::options().write(true).open(path)?);
+        write(&mut out)?;
+        return out.flush();
     }
     let temporary = beside(path);
     let written = File::create_new(&temporary).and_then(|file| {

@@ -7,11 +7,13 @@ use serde_json::{Map as Object, Value, json};
 
 use super::number::short;
 use crate::motion::Verdict;
-use crate::study::{Axis, Cell, Map};
+use crate::study::{Axis, Cell, Map, overlay};
 
-/// Columns and rows the text map is thinned to.
-const TEXT_COLUMNS: usize = 100;
+/// Rows the text map is thinned to.
 const TEXT_ROWS: usize = 40;
+/// Signs left of the cells, and those left and right together.
+const INDENT: usize = 14;
+const FRAME: usize = INDENT + 1;
 
 /// The map as JSON. Timing is given on standard output only: the same map is
 /// the same file.
@@ -87,13 +89,15 @@ pub fn mark(cell: Option<Cell>) -> char {
     }
 }
 
-/// The map as text, highest row first, with a legend of what is in it.
+/// The map as text, highest row first, no line of cells wider than `width`,
+/// with a legend of what is in it.
 ///
 /// # Errors
 /// What the writer says.
-pub fn write_text(map: &Map, out: &mut dyn Write) -> Result<()> {
+pub fn write_text(map: &Map, width: usize, out: &mut dyn Write) -> Result<()> {
     let (x, y) = (&map.plan.x, &map.plan.y);
-    let across = (x.count as usize).div_ceil(TEXT_COLUMNS);
+    let most = width.saturating_sub(FRAME).max(10);
+    let across = (x.count as usize).div_ceil(most);
     let down = (y.count as usize).div_ceil(TEXT_ROWS);
     writeln!(out, "{} (up) against {} (right)", y.path, x.path)?;
     let rows: Vec<u32> = (0..y.count).step_by(down).collect();
@@ -102,13 +106,35 @@ pub fn write_text(map: &Map, out: &mut dyn Write) -> Result<()> {
             (0..x.count).step_by(across).map(|column| mark(map.at(column, row))).collect();
         writeln!(out, "{:>12} |{line}|", short(y.value(row)))?;
     }
-    let width = (x.count as usize).div_ceil(across);
+    let columns = (x.count as usize).div_ceil(across);
     let (first, last) = (short(x.value(0)), short(x.value(x.count - 1)));
-    writeln!(out, "{:>13}{first}{last:>1$}", "", width.saturating_sub(first.len()) + 1)?;
-    if across * down > 1 {
-        writeln!(out, "Every {across} columns and {down} rows are shown.")?;
+    writeln!(out, "{:>INDENT$}{first}{last:>1$}", "", columns.saturating_sub(first.len()))?;
+    write_speeds(map, across, columns, out)?;
+    if across > 1 || down > 1 {
+        writeln!(out, "Shown is 1 of {across} columns and 1 of {down} rows.")?;
     }
     write_legend(map, out)
+}
+
+/// Points at the columns of the critical and the lock-in speed, where they are
+/// the same for all rows.
+fn write_speeds(map: &Map, across: usize, columns: usize, out: &mut dyn Write) -> Result<()> {
+    for curve in overlay::speed_curves(&map.plan) {
+        let Some(&(speed, _)) = curve.points.first() else { continue };
+        let column = (map.plan.x.place(speed) / across as f64).round();
+        let upright = curve.points.iter().all(|point| point.0 == speed);
+        if map.plan.x.path != overlay::SPEED || !upright || !(0.0..columns as f64).contains(&column)
+        {
+            continue;
+        }
+        let (column, name) = (column as usize, format!("{} = {}", curve.name, short(speed)));
+        if column + 2 + name.len() <= columns.max(40) {
+            writeln!(out, "{:>1$}^ {name}", "", INDENT + column)?;
+        } else {
+            writeln!(out, "{name:>0$} ^", (INDENT + column).saturating_sub(1))?;
+        }
+    }
+    Ok(())
 }
 
 fn write_legend(map: &Map, out: &mut dyn Write) -> Result<()> {
@@ -116,14 +142,22 @@ fn write_legend(map: &Map, out: &mut dyn Write) -> Result<()> {
     let cells = map.cells.len();
     for (verdict, count) in census.into_iter().filter(|&(_, count)| count > 0) {
         let plain = mark(Some(Cell { verdict, sensitive: false }));
-        writeln!(out, "{plain}  {verdict}: {count} of {cells} cells")?;
+        let means = match verdict {
+            Verdict::Decay => "contact ends",
+            Verdict::Bounce => "contacts come and go",
+            Verdict::Slip => "held while the blades change",
+            Verdict::Locked => "held by the same blades, which push",
+            Verdict::Adhesive => "held by the same blades, some of which pull",
+            Verdict::Failed => "the computation broke down",
+        };
+        writeln!(out, "{plain}  {verdict}, {means}: {count} of {cells} cells")?;
     }
     if sensitive > 0 {
         writeln!(
             out,
-            "A letter (d b s l a f) marks the {sensitive} sensitive cells, where a relative \
-             change of 1e-9 of the pulse changes the verdict or the number of impacts."
+            "A letter (d b s l a f) marks the {sensitive} sensitive cells, where a relative change"
         )?;
+        writeln!(out, "of 1e-9 of the pulse changes the verdict or the number of impacts.")?;
     }
     Ok(())
 }

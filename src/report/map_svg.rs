@@ -6,7 +6,7 @@ use plotters::prelude::*;
 
 use super::map::leaf;
 use crate::motion::Verdict;
-use crate::study::{Axis, Map, overlay::Curve};
+use crate::study::{Map, overlay::Curve};
 
 /// Colour of a verdict, readable without colour vision.
 pub(super) fn colour(verdict: Verdict) -> RGBColor {
@@ -17,26 +17,6 @@ pub(super) fn colour(verdict: Verdict) -> RGBColor {
         Verdict::Locked => RGBColor(40, 70, 140),
         Verdict::Adhesive => RGBColor(200, 70, 90),
         Verdict::Failed => RGBColor(0, 0, 0),
-    }
-}
-
-/// Position of a value along an axis, from 0 (first) to `count - 1` (last).
-fn place(axis: &Axis, value: f64) -> f64 {
-    let span = f64::from(axis.count.max(2) - 1);
-    if axis.log {
-        span * (value / axis.from).ln() / (axis.to / axis.from).ln()
-    } else {
-        span * (value - axis.from) / (axis.to - axis.from)
-    }
-}
-
-/// The value at a position along an axis.
-fn value_at(axis: &Axis, place: f64) -> f64 {
-    let part = place / f64::from(axis.count.max(2) - 1);
-    if axis.log {
-        axis.from * (axis.to / axis.from).powf(part)
-    } else {
-        axis.from + (axis.to - axis.from) * part
     }
 }
 
@@ -76,8 +56,8 @@ where
         .disable_mesh()
         .x_desc(leaf(x))
         .y_desc(leaf(y))
-        .x_label_formatter(&|place| super::number::short(value_at(x, *place)))
-        .y_label_formatter(&|place| super::number::short(value_at(y, *place)))
+        .x_label_formatter(&|place| super::number::short(x.value_at(*place)))
+        .y_label_formatter(&|place| super::number::short(y.value_at(*place)))
         .draw()
         .map_err(|error| error.to_string())?;
     for verdict in Verdict::ALL {
@@ -102,7 +82,7 @@ where
         )
         .map_err(|error| error.to_string())?;
     for (curve, style) in curves.iter().zip([BLACK, RED, MAGENTA]) {
-        let inside = curve.points.iter().map(|&(px, py)| (place(x, px), place(y, py)));
+        let inside = curve.points.iter().map(|&(px, py)| (x.place(px), y.place(py)));
         let inside =
             inside.filter(|&(px, py)| (-0.5..=right).contains(&px) && (-0.5..=top).contains(&py));
         chart

@@ -36,6 +36,15 @@ pub fn draw(report: &Precision) -> Result<String, String> {
     Ok(svg)
 }
 
+/// Label of a whole power of ten; none between.
+fn decade(exponent: &f64) -> String {
+    if (exponent - exponent.round()).abs() < 1e-9 {
+        format!("1e{exponent:.0}")
+    } else {
+        String::new()
+    }
+}
+
 fn draw_rows(
     svg: &mut String,
     title: &str,
@@ -60,8 +69,8 @@ fn draw_rows(
         .configure_mesh()
         .x_desc("wall time [s]")
         .y_desc("error at the end [of the clearance]")
-        .x_label_formatter(&|exponent| format!("1e{exponent:.0}"))
-        .y_label_formatter(&|exponent| format!("1e{exponent:.0}"))
+        .x_label_formatter(&decade)
+        .y_label_formatter(&decade)
         .draw()
         .map_err(|error| words(&error))?;
     let mut names: Vec<String> = placed.iter().map(|(way, _)| series(way)).collect();

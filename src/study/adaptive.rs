@@ -1,46 +1,102 @@
 //! Adaptive maps: a coarse grid first, then only cells beside a change, down
-//! to the resolution of the plan. Cells that were not run take the value of
-//! the coarse cell they lie in.
+//! to the resolution of the plan; then every border found is followed to its
+//! ends. Cells that were not run take the value of the coarse cell they lie in.
+//!
+//! In the result every cell beside another verdict was run, so a zone that any
+//! run hit is drawn as the full map draws it. A zone smaller than the coarse
+//! grid that no run hit is missed. Only verdicts count as a change: sensitive
+//! cells come as speckle, and following that would run every cell.
+
+use std::sync::atomic::Ordering;
 
 use super::map::{Cell, Map, Progress};
 
 /// Coarsest stride between computed cells.
-const COARSEST: usize = 16;
+const COARSEST: usize = 8;
+/// Least number of coarse cells along the shorter side, where there are as many.
+const FEWEST: usize = 6;
+
+type Keep<'a> = &'a (dyn Fn(usize, Cell) + Sync);
 
 impl Map {
     /// Fills the map adaptively; cells inferred without a run are not counted
-    /// in `runs`.
-    pub fn fill_adaptively(&mut self, progress: &Progress, keep: &(dyn Fn(usize, Cell) + Sync)) {
-        let columns = self.plan.x.count as usize;
-        let rows = self.plan.y.count as usize;
-        let mut stride = COARSEST.min(columns.max(rows).next_power_of_two());
-        self.fill(&grid(columns, rows, stride), progress, keep);
-        while stride > 1 {
+    /// in `runs`. Stopped early, only cells that were run are left.
+    pub fn fill_adaptively(&mut self, progress: &Progress, keep: Keep<'_>) {
+        let mut stride = self.coarsest_stride();
+        let mut inferred = vec![false; self.cells.len()];
+        let coarse = self.grid(stride);
+        self.fill(&coarse, progress, keep);
+        while stride > 1 && !progress.stop.load(Ordering::Relaxed) {
             let half = stride / 2;
-            let wanted: Vec<usize> = grid(columns, rows, half)
-                .into_iter()
-                .filter(|&index| {
-                    self.cells[index].is_none() && self.is_mixed(index, stride, columns, rows)
-                })
-                .collect();
+            let mut wanted = self.grid(half);
+            wanted.retain(|&index| self.cells[index].is_none() && self.is_mixed(index, stride));
             self.fill(&wanted, progress, keep);
-            self.infer(half, stride, columns, rows);
+            if !progress.stop.load(Ordering::Relaxed) {
+                self.infer(half, stride, &mut inferred);
+            }
             stride = half;
+        }
+        self.follow_borders(&mut inferred, progress, keep);
+        if progress.stop.load(Ordering::Relaxed) {
+            for (cell, _) in self.cells.iter_mut().zip(&inferred).filter(|(_, guess)| **guess) {
+                *cell = None;
+            }
         }
     }
 
-    /// Whether the known cells around `index`, one stride away at most, differ.
-    fn is_mixed(&self, index: usize, stride: usize, columns: usize, rows: usize) -> bool {
+    /// The stride to begin with: the largest power of two, up to `COARSEST`,
+    /// that leaves `FEWEST` cells along the shorter side.
+    #[must_use]
+    pub fn coarsest_stride(&self) -> usize {
+        let shorter = self.plan.x.count.min(self.plan.y.count) as usize;
+        let mut stride = 1;
+        while 2 * stride <= COARSEST && 2 * stride * FEWEST <= shorter {
+            stride *= 2;
+        }
+        stride
+    }
+
+    /// Runs inferred cells beside another verdict until there are none.
+    fn follow_borders(&mut self, inferred: &mut [bool], progress: &Progress, keep: Keep<'_>) {
+        while !progress.stop.load(Ordering::Relaxed) {
+            let doubtful: Vec<usize> = (0..inferred.len())
+                .filter(|&index| inferred[index] && self.is_beside_another(index))
+                .collect();
+            if doubtful.is_empty() {
+                break;
+            }
+            for &index in &doubtful {
+                inferred[index] = false;
+                self.cells[index] = None;
+            }
+            self.fill(&doubtful, progress, keep);
+        }
+    }
+
+    fn is_beside_another(&self, index: usize) -> bool {
+        let (columns, rows) = (self.plan.x.count as usize, self.plan.y.count as usize);
         let (column, row) = (index % columns, index / columns);
-        let mut seen: Option<Cell> = None;
+        let verdict = |index: usize| self.cells[index].map(|cell| cell.verdict);
+        let here = verdict(index);
+        let across = column.saturating_sub(1)..=(column + 1).min(columns - 1);
+        (row.saturating_sub(1)..=(row + 1).min(rows - 1))
+            .any(|y| across.clone().any(|x| verdict(y * columns + x) != here))
+    }
+
+    /// Whether the verdicts of the coarse cells around `index` differ, those
+    /// beside the coarse cell it lies in among them.
+    fn is_mixed(&self, index: usize, stride: usize) -> bool {
+        let (columns, rows) = (self.plan.x.count as usize, self.plan.y.count as usize);
+        let (column, row) = (index % columns, index / columns);
+        let mut seen = None;
         for y in (row / stride).saturating_sub(1)..=row / stride + 2 {
             for x in (column / stride).saturating_sub(1)..=column / stride + 2 {
                 let (x, y) = ((x * stride).min(columns - 1), (y * stride).min(rows - 1));
                 let Some(cell) = self.cells[y * columns + x] else { continue };
-                if cell.sensitive || seen.is_some_and(|seen| seen != cell) {
+                if seen.is_some_and(|seen| seen != cell.verdict) {
                     return true;
                 }
-                seen = Some(cell);
+                seen = Some(cell.verdict);
             }
         }
         false
@@ -48,25 +104,24 @@ impl Map {
 
     /// Gives the cells of the finer grid that were not run the value of the
     /// coarse cell before them.
-    fn infer(&mut self, half: usize, stride: usize, columns: usize, rows: usize) {
-        for index in grid(columns, rows, half) {
+    fn infer(&mut self, half: usize, stride: usize, inferred: &mut [bool]) {
+        let columns = self.plan.x.count as usize;
+        for index in self.grid(half) {
             if self.cells[index].is_none() {
                 let (column, row) = (index % columns, index / columns);
                 let from = (row / stride * stride) * columns + column / stride * stride;
                 self.cells[index] = self.cells[from];
+                inferred[index] = true;
             }
         }
     }
-}
 
-/// Cells on multiples of `stride`, with the last column and row always in.
-fn grid(columns: usize, rows: usize, stride: usize) -> Vec<usize> {
-    let line = |count: usize| {
-        (0..count).filter(move |&i| i % stride == 0 || i + 1 == count).collect::<Vec<_>>()
-    };
-    let across = line(columns);
-    line(rows)
-        .into_iter()
-        .flat_map(|row| across.iter().map(move |&column| row * columns + column))
-        .collect()
+    /// Cells on multiples of `stride`, with the last column and row always in.
+    fn grid(&self, stride: usize) -> Vec<usize> {
+        let line = |count: usize| (0..count).filter(move |&i| i % stride == 0 || i + 1 == count);
+        let columns = self.plan.x.count as usize;
+        line(self.plan.y.count as usize)
+            .flat_map(|row| line(columns).map(move |column| row * columns + column))
+            .collect()
+    }
 }

@@ -109,11 +109,29 @@ impl Axis {
         if index + 1 >= self.count {
             return self.to;
         }
-        let part = f64::from(index) / f64::from(self.count - 1);
+        self.value_at(f64::from(index))
+    }
+
+    /// The value at a position between 0 (first) and `count - 1` (last).
+    #[must_use]
+    pub fn value_at(&self, place: f64) -> f64 {
+        let part = place / f64::from(self.count.max(2) - 1);
         if self.log {
             self.from * (self.to / self.from).powf(part)
         } else {
             self.from + (self.to - self.from) * part
+        }
+    }
+
+    /// The position of a value, from 0 (first) to `count - 1` (last); beyond
+    /// them outside the axis.
+    #[must_use]
+    pub fn place(&self, value: f64) -> f64 {
+        let span = f64::from(self.count.max(2) - 1);
+        if self.log {
+            span * (value / self.from).ln() / (self.to / self.from).ln()
+        } else {
+            span * (value - self.from) / (self.to - self.from)
         }
     }
 

@@ -5,7 +5,8 @@ use super::MapPlan;
 use crate::motion::Motion;
 use crate::scene::{ContactLaw, ModelSize, Scene, SolverKind};
 
-const SPEED: &str = "operation.speed_rad_s";
+/// Key of the rotor speed.
+pub const SPEED: &str = "operation.speed_rad_s";
 const PULSE: &str = "operation.pulse_n";
 
 /// A curve over a map, in the quantities of its axes.
@@ -20,17 +21,23 @@ pub struct Curve {
 /// The curves that have a meaning on these axes, at the resolution of the map.
 #[must_use]
 pub fn curves(plan: &MapPlan) -> Vec<Curve> {
-    let mut curves = Vec::new();
-    if let Some(of_speed) = AlongOther::of(plan, SPEED) {
-        curves.push(of_speed.trace("Omega_c", |scene| scene.machine().critical_speed()));
-        curves.push(of_speed.trace("Omega_lock", |scene| scene.machine().lock_speed()));
-    }
+    let mut curves = speed_curves(plan);
     if let Some(of_pulse) = AlongOther::of(plan, PULSE) {
         let most = plan.x.to.abs().max(plan.y.to.abs());
         curves.push(of_pulse.trace("grazing pulse", |scene| grazing_pulse(scene, most)));
     }
     curves.retain(|curve| !curve.points.is_empty());
     curves
+}
+
+/// The critical and the lock-in speed, where one axis is the speed.
+#[must_use]
+pub fn speed_curves(plan: &MapPlan) -> Vec<Curve> {
+    let Some(of_speed) = AlongOther::of(plan, SPEED) else { return Vec::new() };
+    vec![
+        of_speed.trace("Omega_c", |scene| scene.machine().critical_speed()),
+        of_speed.trace("Omega_lock", |scene| scene.machine().lock_speed()),
+    ]
 }
 
 /// A map with one axis over a given key, walked along the other axis.

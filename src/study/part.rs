@@ -208,18 +208,15 @@ fn plan_of(header: &Header) -> Result<MapPlan, SceneError> {
     })
 }
 
-fn read_cells(file: &str, part: impl BufRead, map: &mut Map) -> Result<(), PartError> {
+fn read_cells(file: &str, mut part: impl BufRead, map: &mut Map) -> Result<(), PartError> {
     let form = |reason: String| PartError::Form { file: file.to_string(), reason };
-    let mut lines = part.lines().peekable();
-    while let Some(line) = lines.next() {
-        let line = line.map_err(|error| form(error.to_string()))?;
-        let Some((index, cell)) = parse_cell(&line) else {
-            // A run that was killed may leave half of its last line.
-            if lines.peek().is_none() {
-                break;
-            }
-            return Err(form(format!("the line {line:?}")));
-        };
+    let mut text = String::new();
+    while part.read_line(&mut text).map_err(|error| form(error.to_string()))? > 0 {
+        // A run that was killed, or a full disk, may cut the last line short,
+        // and half a line may still read as a cell.
+        let Some(line) = text.strip_suffix('\n') else { break };
+        let (index, cell) = parse_cell(line).ok_or_else(|| form(format!("the line {line:?}")))?;
+        text.clear();
         match map.cells.get_mut(index) {
             None => return Err(form(format!("cell {index} outside the map"))),
             Some(Some(known)) if *known != cell => {
