@@ -144,7 +144,7 @@ impl MapCommand {
         let Some(path) = self.part_file().filter(|path| path.exists()) else {
             return Ok(empty);
         };
-        let kept = read_parts(&[path.clone()])?;
+        let kept = read_parts(std::slice::from_ref(&path))?;
         let shown = path.display();
         let done = kept.cells.iter().flatten().count();
         if kept.plan != empty.plan {

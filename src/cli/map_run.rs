@@ -156,7 +156,7 @@ impl Notes {
     /// cut short by a kill is gone.
     fn open(path: &Path, map: &Map) -> anyhow::Result<Self> {
         let cannot = || format!("cannot write {}", path.display());
-        crate::report::file::replace(&path, |out| part::write(map, out)).with_context(cannot)?;
+        crate::report::file::replace(path, |out| part::write(map, out)).with_context(cannot)?;
         let file = OpenOptions::new().append(true).open(path).with_context(cannot)?;
         Ok(Self { path: path.to_path_buf(), file: Mutex::new((file, None)) })
     }
