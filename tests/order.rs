@@ -163,3 +163,26 @@ fn the_adhesive_threshold_of_the_equality_law() {
     let exact = Scene::default().machine().adhesive_speed().unwrap();
     assert!((high - exact).abs() < 0.1, "{high} {exact}");
 }
+
+#[test]
+fn blades_of_the_explicit_and_the_event_solver_agree() {
+    let blades = |kind: &str, step: &str| {
+        let scene = scene(&[
+            ("solver.kind", kind),
+            ("solver.step_s", step),
+            ("solver.end_s", "0.01"),
+            ("operation.pulse_n", "20000"),
+        ]);
+        end(&scene).alpha
+    };
+    let exact = blades("event", "1e-7");
+    let size = exact[0].hypot(exact[1]);
+    assert!(size > 1e-9);
+    let error = |step: &str| {
+        let found = blades("explicit", step);
+        (found[0] - exact[0]).hypot(found[1] - exact[1]) / size
+    };
+    // An impact's lever is seen a step late: first order.
+    let (coarse, fine) = (error("1e-6"), error("1e-8"));
+    assert!(fine < 1e-3 && fine < coarse / 10.0, "{coarse} {fine}");
+}
