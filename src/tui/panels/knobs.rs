@@ -15,7 +15,7 @@ const NOTES: u16 = 4;
 pub fn panel(app: &App, buffer: &mut Buffer, area: Rect) {
     let area = Rect { width: area.width.saturating_sub(1), ..area };
     let notes = notes(app, usize::from(area.width));
-    let wanted = u16::try_from(notes.len()).unwrap_or(NOTES).clamp(NOTES, area.height / 2);
+    let wanted = u16::try_from(notes.len()).unwrap_or(NOTES).max(NOTES).min(area.height / 2);
     let rows = area.height.saturating_sub(wanted);
     // Keep the selected knob in sight.
     let first = (app.knob + 1).saturating_sub(usize::from(rows));
