@@ -16,7 +16,6 @@ pub mod precision_svg;
 pub mod summary;
 pub mod svg;
 pub mod table;
-mod zip;
 
 pub use file::HistoryFormat;
 pub use history::History;
