@@ -1,8 +1,6 @@
 //! Hard cases of the explicit solver: each has a right answer or a plain
 //! refusal; nothing hangs and no report holds a number that is none.
 
-#![expect(clippy::unwrap_used, reason = "a test states what must hold")]
-
 use rubscope::motion::{RunReport, Sampling, Verdict, simulate};
 use rubscope::scene::{Scene, SceneError};
 

@@ -187,7 +187,7 @@ impl<'a> Plot<'a> {
         let up = (value - self.y.low) / (self.y.high - self.y.low);
         (-1e-9..=1.0 + 1e-9).contains(&up).then(|| {
             let cells = f64::from(self.inner.height);
-            let from_top = ((1.0 - up) * cells).floor().clamp(0.0, cells - 1.0);
+            let from_top = ((1.0 - up) * cells).floor().clamp(0.0, (cells - 1.0).max(0.0));
             self.inner.y + from_top as u16
         })
     }

@@ -208,14 +208,6 @@ pub fn keys_text(binding: &Binding) -> String {
     binding.keys.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
 }
 
-/// The bindings of the explorer as text for the manual page, one a line.
-#[must_use]
-pub fn manual() -> String {
-    of(Context::Main)
-        .map(|binding| format!("{:<18} {}\n", keys_text(binding), binding.what))
-        .collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
