@@ -4,7 +4,6 @@
 
 use plotters::prelude::*;
 
-use super::map::leaf;
 use crate::motion::Verdict;
 use crate::study::{Map, overlay::Curve};
 
@@ -44,8 +43,10 @@ where
     let (x, y) = (&map.plan.x, &map.plan.y);
     area.fill(&WHITE).map_err(|error| error.to_string())?;
     let (right, top) = (f64::from(x.count) - 0.5, f64::from(y.count) - 0.5);
+    let scene = &map.plan.scene;
+    let caption = format!("{} ({} contact)", scene.title, scene.solver.contact.word());
     let mut chart = ChartBuilder::on(area)
-        .caption(&map.plan.scene.title, ("sans-serif", 20))
+        .caption(caption, ("sans-serif", 20))
         .margin(12)
         .x_label_area_size(48)
         .y_label_area_size(80)
@@ -54,8 +55,8 @@ where
     chart
         .configure_mesh()
         .disable_mesh()
-        .x_desc(leaf(x))
-        .y_desc(leaf(y))
+        .x_desc(&x.path)
+        .y_desc(&y.path)
         .x_label_formatter(&|place| super::number::short(x.value_at(*place)))
         .y_label_formatter(&|place| super::number::short(y.value_at(*place)))
         .draw()
@@ -74,13 +75,14 @@ where
             .label(verdict.word())
             .legend(move |(x, y)| Rectangle::new([(x, y - 5), (x + 12, y + 5)], fill));
     }
-    chart
-        .draw_series(
-            places(map, |cell| cell.sensitive)
-                .into_iter()
-                .map(|at| Circle::new(at, 1.5, RGBColor(120, 120, 120).filled())),
-        )
-        .map_err(|error| error.to_string())?;
+    let (dot, dots) = (RGBColor(120, 120, 120).filled(), places(map, |cell| cell.sensitive));
+    if !dots.is_empty() {
+        chart
+            .draw_series(dots.into_iter().map(|at| Circle::new(at, 1.5, dot)))
+            .map_err(|error| error.to_string())?
+            .label("sensitive")
+            .legend(move |(x, y)| Circle::new((x + 6, y), 1.5, dot));
+    }
     for (curve, style) in curves.iter().zip([BLACK, RED, MAGENTA]) {
         let inside = curve.points.iter().map(|&(px, py)| (x.place(px), y.place(py)));
         let inside =
@@ -93,6 +95,8 @@ where
     }
     chart
         .configure_series_labels()
+        // Low speeds and strong pulses: there is least to cover.
+        .position(SeriesLabelPosition::UpperLeft)
         .background_style(WHITE.mix(0.85))
         .border_style(BLACK)
         .draw()
