@@ -317,3 +317,84 @@ fn the_cursor_reads_values_and_pages_can_be_looked_back_at() {
     session.press("\u{1b}");
     assert!(!session.text().contains("1 back"), "{}", session.text());
 }
+
+#[test]
+fn a_damping_acts_on_the_running_motion_and_the_number_of_blades_begins_anew() {
+    let mut session = Session::open(120, 40, scene(), Theme::Dark, Marker::Braille);
+    let before = session.app.now();
+    session.press("cxjjjL");
+    assert!(session.app.now() > before, "the run began anew");
+    assert!(session.app.scene.casing.damping_ratio > scene().casing.damping_ratio);
+    session.press("u");
+    let later = session.app.now();
+    assert!(later > before && session.app.scene == scene(), "undo began the run anew");
+    session.press("jjjjl");
+    assert_eq!(session.app.scene.bladed_disk.blades, 23);
+    assert!(session.app.now() < later && session.text().contains("begun anew"));
+}
+
+#[test]
+fn the_gaps_against_time_need_no_colour() {
+    for (name, marker) in [("heat", Marker::Braille), ("ascii_heat", Marker::Ascii)] {
+        let mut session = Session::open(80, 24, scene(), Theme::Mono, marker);
+        session.press("wf ");
+        let text = session.text();
+        assert!(marker != Marker::Ascii || text.is_ascii(), "{text}");
+        insta::assert_snapshot!(name, text);
+        session.press("w");
+        assert!(session.text().contains("gaps of this instant"), "{}", session.text());
+    }
+}
+
+#[test]
+fn a_storm_of_sizes_between_keys_leaves_one_picture_of_the_last() {
+    let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Dot);
+    for (width, height) in [(40, 12), (1, 1), (200, 60), (0, 0), (39, 11), (97, 31)] {
+        session.terminal.backend_mut().resize(width, height);
+        let (sender, events) = mpsc::channel();
+        for key in "\t[]fwf".chars().cycle().take(300) {
+            let code = if key == '\t' { KeyCode::Tab } else { KeyCode::Char(key) };
+            (0..10).for_each(|_| sender.send(Event::Resize).unwrap());
+            sender.send(Event::Key(KeyEvent::new(code, KeyModifiers::NONE))).unwrap();
+        }
+        drop(sender);
+        let (app, engine) = (&mut session.app, &mut session.engine);
+        run(&mut session.terminal, &events, app, engine, &mut NoHost, Duration::ZERO).unwrap();
+        assert_eq!(session.app.size, (width, height));
+    }
+    assert!(session.text().contains(" LOCKED "), "{}", session.text());
+}
+
+/// Every stretch of one look: row, columns, colour, weight, and its text.
+fn styles(session: &Session) -> String {
+    let buffer = session.terminal.backend().buffer();
+    let mut out = String::new();
+    for (y, row) in buffer.content.chunks(usize::from(buffer.area.width)).enumerate() {
+        let mut from = 0;
+        while let Some(first) = row.get(from) {
+            let alike = |cell: &&ratatui::buffer::Cell| {
+                (cell.fg, cell.bg, cell.modifier) == (first.fg, first.bg, first.modifier)
+            };
+            let count = row.iter().skip(from).take_while(alike).count();
+            let text: String =
+                row.iter().skip(from).take(count).map(|cell| cell.symbol()).collect();
+            if !text.trim().is_empty() {
+                let (fg, weight) = (first.fg, first.modifier);
+                out.push_str(&format!(
+                    "{y:2} {from:2}+{count:<2} {fg} {weight:?} {}\n",
+                    text.trim()
+                ));
+            }
+            from += count;
+        }
+    }
+    out
+}
+
+#[test]
+fn the_colours_of_the_light_and_the_weights_of_the_mono_theme() {
+    for (name, theme) in [("light", Theme::Light), ("mono", Theme::Mono)] {
+        let session = Session::open(80, 24, scene(), theme, Marker::Ascii);
+        insta::assert_snapshot!(format!("styles_{name}_80x24"), styles(&session));
+    }
+}

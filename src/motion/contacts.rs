@@ -39,6 +39,17 @@ impl Touching {
         }
     }
 
+    /// With the sides of another.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        match other {
+            Self::Nothing => self,
+            Self::Side(a) => self.with(a),
+            Self::Corner(a, b) => self.with(a).with(b),
+            Self::Many => Self::Many,
+        }
+    }
+
     /// Whether this side is among those in contact (unknown counts as yes).
     #[must_use]
     pub fn includes(self, side: u32) -> bool {
@@ -134,6 +145,9 @@ mod tests {
         assert_eq!(Touching::of(&[4, 4]), Touching::Side(4));
         assert_eq!(Touching::of(&[16, 15, 16]), Touching::Corner(15, 16));
         assert_eq!(Touching::of(&[1, 2, 3]), Touching::Many);
+        assert_eq!(Touching::Nothing.and(Touching::Corner(1, 2)), Touching::Corner(1, 2));
+        assert_eq!(Touching::Side(2).and(Touching::Corner(1, 2)), Touching::Corner(1, 2));
+        assert_eq!(Touching::Side(3).and(Touching::Corner(1, 2)), Touching::Many);
     }
 
     #[test]

@@ -214,4 +214,20 @@ impl Motion {
     pub fn set_speed(&mut self, speed: f64, ramp: f64) {
         each!(self, inner => inner.set_speed(speed, ramp));
     }
+
+    /// From now on, moves with the parameters of a checked scene: dampings,
+    /// masses, stiffnesses, contact law, and the pulse to fire next. False,
+    /// and nothing changes, where that needs another motion: another solver or
+    /// model, number of blades or diameters, clearance or step.
+    pub fn adopt(&mut self, scene: &Scene) -> bool {
+        if scene.solver.kind == SolverKind::Event {
+            return false;
+        }
+        match (self, scene.solver.model) {
+            (Self::Rigid(inner), ModelSize::Rigid) => inner.adopt(scene),
+            (Self::Modal(inner), ModelSize::Modal) => inner.adopt(scene),
+            (Self::Full(inner), ModelSize::Full) => inner.adopt(scene),
+            _ => false,
+        }
+    }
 }

@@ -11,6 +11,7 @@ use ratatui::{
 use super::app::{App, Mode, View};
 use super::history::{Bin, Channel};
 use super::panels;
+use super::theme::Theme;
 
 /// The data of the large chart.
 ///
@@ -20,6 +21,7 @@ pub fn csv(app: &App) -> Result<String, String> {
     let mut out = String::new();
     let rows = match app.view {
         View::Response | View::Frame => response(app, &mut out),
+        View::Gaps if app.heat => gaps_in_time(app, &mut out),
         View::Gaps => gaps(app, &mut out),
         View::Locked => locked(app, &mut out),
         View::Map => return map(app),
@@ -72,6 +74,25 @@ fn gaps(app: &App, out: &mut String) -> Rows {
     Ok(gaps.len())
 }
 
+fn gaps_in_time(app: &App, out: &mut String) -> Rows {
+    let rim = &app.machine.rim;
+    write!(out, "from_s,to_s")?;
+    for blade in 1..=rim.blades {
+        write!(out, ",least_gap_{blade}_m")?;
+    }
+    writeln!(out)?;
+    let (from, to) = app.page();
+    let bins = app.history.between(from, to);
+    for bin in bins {
+        write!(out, "{:e},{:e}", bin.from, bin.to)?;
+        for blade in 1..=rim.blades {
+            write!(out, ",{:e}", panels::heat::least_gap(rim, rim.side_of_blade(blade), bin))?;
+        }
+        writeln!(out)?;
+    }
+    Ok(bins.len())
+}
+
 fn locked(app: &App, out: &mut String) -> Rows {
     writeln!(out, "speed_rad_s,multiplier_a_n,multiplier_b_n,admissible,stable")?;
     let sweep = app.locked.as_ref().and_then(|curves| curves.damped.as_ref());
@@ -100,15 +121,17 @@ fn map(app: &App) -> Result<String, String> {
     String::from_utf8(bytes).map_err(|error| error.to_string())
 }
 
-/// Size of the picture in cells, where no screen gives one.
-const CELLS: (u16, u16) = (120, 40);
 /// Size of a cell in the picture.
 const CELL: (u32, u32) = (8, 17);
 
-/// The screen as a picture of 120 by 40 cells.
+/// The screen as a picture: its size, on the ground its theme is made for.
 #[must_use]
 pub fn svg(app: &App) -> String {
-    let area = Rect::new(0, 0, CELLS.0, CELLS.1);
+    let area = Rect::new(0, 0, app.size.0, app.size.1);
+    let (ground, ink) = match app.skin.theme {
+        Theme::Light => ("#ffffff", "#1a1a1a"),
+        _ => ("#101418", "#e6e6e6"),
+    };
     let mut buffer = Buffer::empty(area);
     let mut plain = app.clone();
     plain.mode = Mode::Main;
@@ -118,13 +141,13 @@ pub fn svg(app: &App) -> String {
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
          viewBox=\"0 0 {width} {height}\" font-family=\"monospace\" font-size=\"13\">\n\
-         <rect width=\"{width}\" height=\"{height}\" fill=\"#101418\"/>\n"
+         <rect width=\"{width}\" height=\"{height}\" fill=\"{ground}\"/>\n"
     );
     for (index, cell) in buffer.content.iter().enumerate() {
         let column = u32::try_from(index % usize::from(area.width)).unwrap_or(0);
         let row = u32::try_from(index / usize::from(area.width)).unwrap_or(0);
         let (x, y) = (column * CELL.0, row * CELL.1);
-        let colour = hex(cell.fg);
+        let colour = hex(cell.fg, app.skin.theme).unwrap_or(ink);
         let reversed = cell.modifier.contains(Modifier::REVERSED);
         if reversed {
             let (w, h) = CELL;
@@ -139,7 +162,7 @@ pub fn svg(app: &App) -> String {
             ">" => "&gt;",
             text => text,
         };
-        let fill = if reversed { "#101418" } else { colour };
+        let fill = if reversed { ground } else { colour };
         let weight =
             if cell.modifier.contains(Modifier::BOLD) { " font-weight=\"bold\"" } else { "" };
         let base = y + CELL.1 - 4;
@@ -151,24 +174,27 @@ pub fn svg(app: &App) -> String {
     out
 }
 
-fn hex(colour: Color) -> &'static str {
-    match colour {
-        Color::DarkGray => "#7f8790",
-        Color::LightCyan => "#5fd7e0",
-        Color::LightMagenta | Color::Magenta => "#e58fe0",
-        Color::LightRed | Color::Red => "#ff6b6b",
-        Color::LightGreen | Color::Green => "#7bd88f",
-        Color::LightYellow | Color::Yellow => "#f5d76e",
-        Color::LightBlue | Color::Blue => "#78a9ff",
-        _ => "#e6e6e6",
-    }
+/// A named colour on its ground: light on dark, dark on light. The text's own
+/// is none.
+fn hex(colour: Color, theme: Theme) -> Option<&'static str> {
+    let [light, dark] = match colour {
+        Color::DarkGray => ["#7f8790", "#6b7280"],
+        Color::LightCyan => ["#5fd7e0", "#00707a"],
+        Color::LightMagenta | Color::Magenta => ["#e58fe0", "#a020a0"],
+        Color::LightRed | Color::Red => ["#ff6b6b", "#c01c28"],
+        Color::LightGreen | Color::Green => ["#7bd88f", "#1a7f37"],
+        Color::LightYellow | Color::Yellow => ["#f5d76e", "#8a6d00"],
+        Color::LightBlue | Color::Blue => ["#78a9ff", "#0b57d0"],
+        _ => return None,
+    };
+    Some(if theme == Theme::Light { dark } else { light })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::scene::Scene;
-    use crate::tui::{Marker, Theme};
+    use crate::tui::Marker;
 
     #[test]
     fn a_picture_is_well_formed_and_says_what_the_screen_says() {
@@ -177,6 +203,17 @@ mod tests {
         assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
         assert_eq!(svg.matches("<text").count(), svg.matches("</text>").count());
         assert!(!svg.contains("NaN"));
+    }
+
+    #[test]
+    fn a_picture_has_the_size_and_the_ground_of_the_screen() {
+        let mut app = App::new(Scene::default(), Theme::Light, Marker::Braille);
+        app.size = (100, 30);
+        let light = svg(&app);
+        assert!(light.contains("width=\"800\" height=\"510\""), "{}", &light[..200]);
+        assert!(light.contains("fill=\"#ffffff\"/>") && !light.contains("#101418"));
+        app.skin.theme = Theme::Dark;
+        assert!(svg(&app).contains("fill=\"#101418\"/>"));
     }
 
     #[test]

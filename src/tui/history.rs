@@ -1,6 +1,8 @@
 //! What a run has shown so far, as bins that keep the least and the greatest
 //! value of each channel: a contact peak one step long survives any zoom.
 
+use crate::motion::Touching;
+
 /// The recorded quantities, in the order of `Bin::low`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Channel {
@@ -42,6 +44,8 @@ pub struct Bin {
     pub high: [f64; CHANNELS],
     /// Whether any blade touched.
     pub contact: bool,
+    /// The sides that touched.
+    pub touched: Touching,
     /// Whether any multiplier pulled.
     pub tensile: bool,
 }
@@ -50,7 +54,15 @@ impl Bin {
     /// A bin of one sample.
     #[must_use]
     pub fn of(t: f64, values: [f64; CHANNELS]) -> Self {
-        Self { from: t, to: t, low: values, high: values, contact: false, tensile: false }
+        let touched = Touching::Nothing;
+        Self { from: t, to: t, low: values, high: values, contact: false, touched, tensile: false }
+    }
+
+    /// The box the casing wave stayed in, in the frame of the blades \[m\].
+    #[must_use]
+    pub fn wave(&self) -> [(f64, f64); 2] {
+        [Channel::X, Channel::Y]
+            .map(|channel| (self.low[channel as usize], self.high[channel as usize]))
     }
 
     /// Joins a later bin to this one.
@@ -63,6 +75,7 @@ impl Bin {
             *high = high.max(*new_high);
         }
         self.contact |= later.contact;
+        self.touched = self.touched.and(later.touched);
         self.tensile |= later.tensile;
     }
 }

@@ -16,6 +16,8 @@ use crate::scene::Scene;
 pub trait Blades: Clone + std::fmt::Debug {
     /// The disk at rest, for this scene.
     fn at_rest(scene: &Scene, machine: &Machine) -> Self;
+    /// These blades with the displacements and rates of others of their kind.
+    fn moving_as(self, other: &Self) -> Self;
     /// How many constraint rows a side of the polygon has.
     fn rows_of_side(&self, side: u32) -> usize;
     /// One of the rows of a side.
@@ -69,6 +71,9 @@ pub struct RigidBlades {
 impl Blades for RigidBlades {
     fn at_rest(scene: &Scene, _: &Machine) -> Self {
         Self { blades: scene.bladed_disk.blades as usize }
+    }
+    fn moving_as(self, _: &Self) -> Self {
+        self
     }
     fn rows_of_side(&self, _: u32) -> usize {
         1
@@ -135,6 +140,9 @@ impl Blades for ModalBlades {
             has_sine_mode: machine.has_sine_mode,
             shapes: (0..machine.rim.sides).map(shape).collect(),
         }
+    }
+    fn moving_as(self, other: &Self) -> Self {
+        Self { modes: other.modes, ..self }
     }
     fn rows_of_side(&self, _: u32) -> usize {
         1
@@ -287,6 +295,9 @@ impl Blades for FullBlades {
             influence,
             shown: [(cosine, scale), sine],
         }
+    }
+    fn moving_as(self, other: &Self) -> Self {
+        Self { modes: other.modes.clone(), ..self }
     }
     fn rows_of_side(&self, side: u32) -> usize {
         self.sides[side as usize].len()

@@ -6,6 +6,7 @@
 //! whatever its angle; a bound on how far the casing can travel says how many
 //! such steps are safe, and those are done at once (`flight`).
 
+mod adopt;
 mod blades;
 mod correct;
 mod excitation;
@@ -39,7 +40,8 @@ pub struct Explicit<B: Blades> {
     step: f64,
     rotor: Rotor,
     pulse: Pulse,
-    pulse_length: f64,
+    /// The pulse to fire next, from zero on.
+    next_pulse: Pulse,
     excitation: Option<Excitation>,
     casing: Oscillator,
     /// Index of the step the coordinates belong to, `t = n h`.
@@ -115,7 +117,7 @@ impl<B: Blades> Explicit<B> {
             phasor: Phasor::new(&rotor, machine.nodal_diameters, step),
             law: scene.solver.contact,
             casing_radius: scene.casing.radius_m,
-            pulse_length: scene.operation.pulse_s,
+            next_pulse: pulse,
             excitation: Excitation::of(scene),
             touched: vec![0; sides],
             impulses: vec![0.0; sides],
@@ -358,9 +360,8 @@ impl<B: Blades> Explicit<B> {
     /// Fires the pulse again, from now on.
     pub fn fire(&mut self) {
         self.interrupt();
-        let start = self.time();
-        self.pulse.start = start;
-        self.pulse.end = start + self.pulse_length;
+        let (start, next) = (self.time(), self.next_pulse);
+        self.pulse = Pulse { start, end: start + next.end, force: next.force };
     }
 
     /// Ends what was decided on ahead.

@@ -185,6 +185,8 @@ pub struct App {
     pub view: View,
     /// The charts beside it.
     pub companions: Vec<View>,
+    /// Whether the gaps stand against time.
+    pub heat: bool,
     /// Whether the large chart has the whole screen.
     pub full_screen: bool,
     /// Whether time passes.
@@ -285,6 +287,7 @@ impl App {
             status: None,
             view,
             companions: views.into_iter().skip(1).collect(),
+            heat: false,
             full_screen: false,
             playing: true,
             rate: time::FIRST_RATE,

@@ -2,8 +2,9 @@
 //! can be undone.
 
 use super::{App, Mode, Ranges};
+use crate::motion::Motion;
 use crate::scene::{Scene, Value};
-use crate::tui::knobs::{KNOBS, Knob, Target};
+use crate::tui::knobs::{KNOBS, Knob};
 
 /// Turns that can be undone.
 const UNDO_KEPT: usize = 1000;
@@ -61,12 +62,7 @@ impl App {
                         self.undo.remove(0);
                     }
                     self.redo.clear();
-                    let live = self.live && acts_live(knob);
-                    if self.live && !live && self.status.is_none() {
-                        let what = "only speed and ramp act on the running motion: begun anew";
-                        self.status = Some(what.into());
-                    }
-                    self.take_scene(scene, live);
+                    self.take_turned(scene);
                 }
                 true
             }
@@ -75,6 +71,16 @@ impl App {
                 false
             }
         }
+    }
+
+    /// Takes a scene some knobs further: live where that is on and can be.
+    fn take_turned(&mut self, scene: Scene) {
+        let failed = self.moment.as_ref().is_some_and(|moment| moment.failure.is_some());
+        let live = self.live && !failed && acts_live(&self.scene, &scene);
+        if self.live && !live && self.status.is_none() {
+            self.status = Some("this cannot act on a running motion: begun anew".into());
+        }
+        self.take_scene(scene, live);
     }
 
     /// Makes a scene the present one and begins its run, or lets it act on
@@ -115,7 +121,7 @@ impl App {
         if let Some(scene) = self.undo.pop() {
             self.redo.push(self.scene.clone());
             self.refusal = None;
-            self.take_scene(scene, false);
+            self.take_turned(scene);
         } else {
             self.status = Some("nothing to undo".into());
         }
@@ -125,14 +131,19 @@ impl App {
         if let Some(scene) = self.redo.pop() {
             self.undo.push(self.scene.clone());
             self.refusal = None;
-            self.take_scene(scene, false);
+            self.take_turned(scene);
         } else {
             self.status = Some("nothing to redo".into());
         }
     }
 }
 
-/// Whether a knob can act on a motion that is under way.
-fn acts_live(knob: &Knob) -> bool {
-    matches!(knob.target, Target::Key("operation.speed_rad_s" | "operation.speed_ramp_rad_s2"))
+/// Whether a change of scene can act on a motion that is under way: speed and
+/// ramp always can, the rest where the solver adopts it.
+fn acts_live(before: &Scene, after: &Scene) -> bool {
+    let mut turned = before.clone();
+    turned.operation.speed_rad_s = after.operation.speed_rad_s;
+    turned.operation.speed_ramp_rad_s2 = after.operation.speed_ramp_rad_s2;
+    // A start that is over cannot be changed any more.
+    turned == *after || (before.initial == after.initial && Motion::new(before).adopt(after))
 }

@@ -146,6 +146,12 @@ impl App {
             }
             Action::Guide => self.guide(),
             Action::LeaveGuide => self.lesson = None,
+            Action::Heat => {
+                self.heat = !self.heat;
+                self.show(View::Gaps);
+                let how = if self.heat { "against time" } else { "of this instant" };
+                self.status = Some(format!("gaps {how}"));
+            }
             Action::Charts => self.charts_beside = (self.charts_beside + 1) % 4,
             Action::PageBack => self.pan(true),
             Action::PageForward => self.pan(false),
@@ -178,7 +184,7 @@ impl App {
             Action::Live => {
                 self.live = !self.live;
                 self.status = Some(if self.live {
-                    "live: speed and ramp act on the running motion".into()
+                    "live: knobs act on the running motion".into()
                 } else {
                     "knobs begin the run anew".to_string()
                 });

@@ -89,6 +89,8 @@ pub enum Action {
     Guide,
     /// Leave the lesson.
     LeaveGuide,
+    /// Gaps against time, or of one instant.
+    Heat,
     /// Fewer or more charts.
     Charts,
     /// A page back.

@@ -88,6 +88,12 @@ pub const BINDINGS: &[Binding] = &[
         Action::Copy,
         "copy the command line that repeats this run (OSC 52)"
     ),
+    bind!(
+        Main,
+        [letter('w')],
+        Action::Heat,
+        "gaps against time as shades, or those of one instant"
+    ),
     bind!(Main, [letter('v')], Action::Charts, "one, two, three or four charts"),
     bind!(Main, [letter('<'), key(KeyCode::PageUp)], Action::PageBack, "a page of time back"),
     bind!(

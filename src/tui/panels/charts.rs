@@ -6,7 +6,7 @@ use ratatui::{
     style::{Modifier, Style},
 };
 
-use super::{frame, gaps, locked, map, precision, print, response, spectrum};
+use super::{frame, gaps, heat, locked, map, precision, print, response, spectrum};
 use crate::tui::app::{App, View};
 use crate::tui::raster::Pen;
 use crate::tui::skin::Skin;
@@ -16,6 +16,7 @@ use crate::tui::theme::Role;
 pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, view: View) {
     match view {
         View::Response => response::draw(app, buffer, area),
+        View::Gaps if app.heat => heat::draw(app, buffer, area),
         View::Gaps => gaps::draw(app, buffer, area),
         View::Locked => locked::draw(app, buffer, area),
         View::Frame => frame::draw(app, buffer, area),

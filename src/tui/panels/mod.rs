@@ -7,6 +7,7 @@ mod frame;
 mod gaps;
 mod guide;
 mod header;
+pub mod heat;
 mod help;
 mod knobs;
 mod layout;

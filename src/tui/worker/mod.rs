@@ -1,6 +1,7 @@
 //! The solver beside the screen: a player without clock or thread, the thread
 //! that drives it, and a stand-in that is driven by hand.
 
+mod comparison;
 mod forecast;
 mod player;
 mod recorder;

@@ -100,15 +100,21 @@ impl Player {
             *self = Self { studies, ..Self::patient(order.clone(), self.patience) };
             return;
         }
-        if order.changes != before.changes {
-            let operation = &order.scene.operation;
-            self.motion.set_speed(operation.speed_rad_s, operation.speed_ramp_rad_s2);
-        }
-        if order.pulses != before.pulses {
-            self.motion.fire();
+        let other = other_law(&order.scene);
+        let beside = self.beside.as_mut().map(|beside| (&mut beside.motion, &other));
+        for (motion, scene) in std::iter::once((&mut self.motion, &order.scene)).chain(beside) {
+            if order.changes != before.changes {
+                change(motion, &before.scene, scene);
+            }
+            if order.pulses != before.pulses {
+                motion.fire();
+            }
         }
         if order.changes != before.changes || order.pulses != before.pulses {
             self.ahead = Run::new(self.motion.clone(), order.scene.solver.end_s);
+            if let Some(beside) = &mut self.beside {
+                beside.ahead = Run::new(beside.motion.clone(), order.scene.solver.end_s);
+            }
             self.studies.begin();
             // The reference starts from rest; it says nothing about a changed run.
             self.reference = None;
@@ -129,12 +135,7 @@ impl Player {
         if !self.order.beside {
             return None;
         }
-        let mut scene = self.order.scene.clone();
-        scene.solver.kind = SolverKind::Explicit;
-        scene.solver.contact = match scene.solver.contact {
-            ContactLaw::Unilateral => ContactLaw::Bilateral,
-            ContactLaw::Bilateral => ContactLaw::Unilateral,
-        };
+        let scene = other_law(&self.order.scene);
         scene.check().ok()?;
         let motion = Motion::new(&scene);
         let ahead = Run::new(motion.clone(), scene.solver.end_s);
@@ -303,6 +304,29 @@ impl Player {
         self.studies.show(&mut snapshot);
         snapshot
     }
+}
+
+/// The scene under the other contact law, by the solver that knows both.
+fn other_law(scene: &Scene) -> Scene {
+    let mut scene = scene.clone();
+    scene.solver.kind = SolverKind::Explicit;
+    scene.solver.contact = match scene.solver.contact {
+        ContactLaw::Unilateral => ContactLaw::Bilateral,
+        ContactLaw::Bilateral => ContactLaw::Unilateral,
+    };
+    scene
+}
+
+/// Lets knobs act on a motion under way. A rotor that ramps keeps its speed
+/// unless that is what was turned.
+fn change(motion: &mut Motion, before: &Scene, now: &Scene) {
+    let rotor = |scene: &Scene| (scene.operation.speed_rad_s, scene.operation.speed_ramp_rad_s2);
+    if rotor(before) != rotor(now) {
+        let (speed, ramp) = rotor(now);
+        motion.set_speed(speed, ramp);
+    }
+    // The event solver adopts nothing, and only its rotor is turned live.
+    motion.adopt(now);
 }
 
 /// The event solver under unilateral contact, where the scene's own solver is another.

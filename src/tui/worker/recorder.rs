@@ -54,6 +54,10 @@ impl Recorder {
         bin.to = state.t_s;
         let log = motion.contacts();
         bin.contact = log.touching != Touching::Nothing || log.impact_count > self.impacts;
+        let impacts = usize::try_from(self.impacts).unwrap_or(usize::MAX);
+        let met = log.impacts.iter().skip(impacts).map(|impact| impact.side);
+        let pushed = forces.iter().map(|(side, _)| *side);
+        bin.touched = met.chain(pushed).fold(log.touching, Touching::with);
         bin.tensile = log.tensile_steps > self.tensile;
         (self.impacts, self.tensile) = (log.impact_count, log.tensile_steps);
         self.average(&forces, bin.to - bin.from);

@@ -6,8 +6,8 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use super::comparison::Comparison;
 use crate::scene::{ContactLaw, ModelSize, Scene, SolverKind};
-use crate::study::precision::{Effort, Measure, Precision, Way, ways};
 use crate::study::{Axis, Map, MapPlan};
 use crate::tui::engine::{Order, Snapshot};
 use crate::tui::locked_curve::LockedCurves;
@@ -19,17 +19,6 @@ const CELLS: (u32, u32) = (60, 24);
 const PULSES: (f64, f64) = (1e3, 1e7);
 /// Wall time of one slice.
 const SLICE: Duration = Duration::from_millis(5);
-/// One run a row, and no step finer than the paper's: the picture comes soon.
-const EFFORT: Effort = Effort { repeats: 1, finest_s: 1e-7, seconds: 0.0 };
-
-/// Speed against error, row by row.
-struct Comparison {
-    scene: Scene,
-    measure: Measure,
-    left: Vec<Way>,
-    report: Arc<Precision>,
-}
-
 /// The studies of one scene.
 #[derive(Default)]
 pub struct Studies {
@@ -73,9 +62,8 @@ impl Studies {
     }
 
     fn precision_is_done(&self, order: &Order) -> bool {
-        self.precision
-            .as_ref()
-            .is_some_and(|found| found.scene == order.scene && found.left.is_empty())
+        let found = self.precision.as_ref();
+        found.is_some_and(|found| found.is_of(&order.scene) && found.is_done())
     }
 
     /// Goes one slice on. `signal` is the finished run, `length` its duration.
@@ -116,24 +104,10 @@ impl Studies {
     }
 
     fn go_on_with_precision(&mut self, scene: &Scene) {
-        if let Some(found) = self.precision.as_mut().filter(|found| found.scene == *scene) {
-            if let Some(way) = found.left.pop() {
-                let row = found.measure.row(way, EFFORT);
-                Arc::make_mut(&mut found.report).rows.push(row);
-            }
-            return;
+        match self.precision.as_mut().filter(|found| found.is_of(scene)) {
+            Some(found) => found.go_on(SLICE),
+            None => self.precision = Some(Comparison::of(scene)),
         }
-        let measure = Measure::new(scene);
-        let report = Precision {
-            schema: "rubscope.precision/1",
-            scene: scene.clone(),
-            reference: measure.reference().clone(),
-            rows: Vec::new(),
-        };
-        let mut left = ways(scene, EFFORT);
-        left.reverse();
-        let report = Arc::new(report);
-        self.precision = Some(Comparison { scene: scene.clone(), measure, left, report });
     }
 
     /// Puts what there is into a snapshot.
@@ -141,7 +115,7 @@ impl Studies {
         snapshot.locked = self.locked.as_ref().map(|(_, curves)| Arc::clone(curves));
         snapshot.spectrum.clone_from(&self.spectrum);
         snapshot.map.clone_from(&self.map);
-        snapshot.precision = self.precision.as_ref().map(|found| Arc::clone(&found.report));
+        snapshot.precision = self.precision.as_ref().and_then(Comparison::report).cloned();
     }
 }
 

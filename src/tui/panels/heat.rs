@@ -1,0 +1,165 @@
+//! View 2 against time: a row for each blade, a column for each stretch of the
+//! page, the smallest gap as a shade and contact as a full block. It reads
+//! without any colour.
+
+use ratatui::{buffer::Buffer, layout::Rect};
+
+use super::charts::title;
+use crate::model::Rim;
+use crate::motion::Touching;
+use crate::tui::app::{App, View};
+use crate::tui::history::Bin;
+use crate::tui::plot::{Axis, Plot};
+use crate::tui::theme::Role;
+
+/// Signs of contact and of the shades, the nearest first.
+const SIGNS: [char; 4] = ['█', '▓', '▒', '░'];
+/// The same in ASCII.
+const ASCII: [char; 4] = ['#', '%', '+', '.'];
+/// Gaps below which a shade is drawn, in clearances: beyond the last, the
+/// casing is farther away than at rest.
+const SHADES: [f64; 3] = [0.1, 0.5, 1.0];
+
+/// What a blade has been through in one column.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Spot {
+    /// Smallest gap, in clearances.
+    gap: f64,
+    touched: bool,
+}
+
+/// The smallest gap of a side over a bin, blades unbent \[m\]. What is known
+/// of the wave is the box it stayed in, so this is a lower bound.
+#[must_use]
+pub fn least_gap(rim: &Rim, side: u32, bin: &Bin) -> f64 {
+    let (c, s) = rim.direction(side);
+    let [(x0, x1), (y0, y1)] = bin.wave();
+    rim.clearance + (c * x0).min(c * x1) + (s * y0).min(s * y1)
+}
+
+/// Whether a side was touched in a bin. Of more than two sides in one bin only
+/// their number is known: then those that came as near as a corner's sides.
+fn touches(rim: &Rim, side: u32, bin: &Bin) -> bool {
+    match bin.touched {
+        Touching::Many => least_gap(rim, side, bin) < rim.delta * rim.delta * rim.clearance,
+        touched => touched.includes(side),
+    }
+}
+
+/// Every side in every column of the page.
+fn spots(app: &App, columns: usize) -> Vec<Vec<Option<Spot>>> {
+    let rim = &app.machine.rim;
+    let (from, to) = app.page();
+    let width = (to - from) / columns.max(1) as f64;
+    let mut out = vec![vec![None; columns]; rim.sides as usize];
+    let place = |t: f64| (((t - from) / width).max(0.0) as usize).min(columns.saturating_sub(1));
+    for bin in app.history.between(from, to) {
+        for (side, row) in (0..rim.sides).zip(&mut out) {
+            let gap = least_gap(rim, side, bin) / rim.clearance;
+            if !gap.is_finite() {
+                continue;
+            }
+            let touched = touches(rim, side, bin);
+            for slot in row.iter_mut().take(place(bin.to) + 1).skip(place(bin.from)) {
+                *slot = Some(slot.map_or(Spot { gap, touched }, |spot: Spot| Spot {
+                    gap: spot.gap.min(gap),
+                    touched: spot.touched || touched,
+                }));
+            }
+        }
+    }
+    out
+}
+
+/// The sign of the blades of one row, lower blade first.
+fn sign(spots: &[Spot], signs: [char; 4], ascii: bool) -> Option<(char, bool)> {
+    let gap = spots.iter().map(|spot| spot.gap).fold(f64::INFINITY, f64::min);
+    match spots {
+        // Two blades a row: half a block tells which of them touches.
+        [Spot { touched: true, .. }, Spot { touched: false, .. }] if !ascii => Some(('▄', true)),
+        [Spot { touched: false, .. }, Spot { touched: true, .. }] if !ascii => Some(('▀', true)),
+        _ if spots.iter().any(|spot| spot.touched) => Some((signs[0], true)),
+        _ => {
+            let shades = SHADES.iter().zip(&signs[1..]);
+            shades.into_iter().find(|(most, _)| gap < **most).map(|(_, sign)| (*sign, false))
+        }
+    }
+}
+
+/// Draws the view.
+pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
+    let skin = &app.skin;
+    let (first, contact) = (skin.style(Role::First), skin.style(Role::Contact));
+    let signs = skin.either(SIGNS, ASCII);
+    let (from, to) = app.page();
+    let count = app.machine.rim.blades;
+    let x = Axis::scaled(from, to);
+    let y = Axis::plain(0.5, f64::from(count) + 0.5);
+    let mut legend = vec![(format!("{} contact", signs[0]), contact)];
+    for (sign, most) in signs.into_iter().skip(1).zip(SHADES) {
+        legend.push((format!("{sign} <{:.0}%", 100.0 * most), first));
+    }
+    let quiet = skin.style(Role::Quiet);
+    legend.push((format!("of clearance; over {}s", x.scale.prefix), quiet));
+    let inside = title(app, buffer, area, View::Gaps, "gaps in time", &legend);
+    let Some(mut plot) = Plot::new(buffer, inside, x, y, skin) else { return };
+    let inner = plot.inner;
+    let spots = spots(app, usize::from(inner.width));
+    let rim = &app.machine.rim;
+    let rows = u64::from(inner.height.max(1));
+    for up in 0..inner.height {
+        let blade_at = |row: u64| (row * u64::from(count) / rows) as u32;
+        let low = blade_at(u64::from(up));
+        let high = blade_at(u64::from(up) + 1).max(low + 1).min(count);
+        let row = inner.bottom() - 1 - up;
+        for (place, column) in (inner.x..inner.right()).enumerate() {
+            let of_blade = |blade: u32| {
+                let side = rim.side_of_blade(blade + 1) as usize;
+                spots.get(side)?.get(place).copied().flatten()
+            };
+            let here: Vec<Spot> = (low..high).filter_map(of_blade).collect();
+            if let Some((sign, touched)) = sign(&here, signs, skin.ascii()) {
+                let style = if touched { contact } else { first };
+                plot.text(column, row, sign.encode_utf8(&mut [0; 4]), style);
+            }
+        }
+    }
+    if let Some(t) = app.cursor_time() {
+        plot.upright(t, skin.either('┊', ':'), skin.style(Role::Focus));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tui::history::{CHANNELS, Channel};
+
+    fn bin(x: f64, y: f64) -> Bin {
+        let mut values = [0.0; CHANNELS];
+        values[Channel::X as usize] = x;
+        values[Channel::Y as usize] = y;
+        Bin::of(0.0, values)
+    }
+
+    #[test]
+    fn the_gap_of_a_wave_that_stands_still_is_the_gap_of_the_rim() {
+        let rim = Rim::new(22, 3, 1e-4);
+        for side in 0..rim.sides {
+            let gap = least_gap(&rim, side, &bin(3e-5, -8e-5));
+            // Two sums of the same three terms.
+            assert!((gap - rim.gap(side, 3e-5, -8e-5)).abs() < 1e-18);
+        }
+    }
+
+    #[test]
+    fn half_blocks_tell_which_blade_touches() {
+        let spot = |touched| Spot { gap: 0.3, touched };
+        let of = |low, high| sign(&[spot(low), spot(high)], SIGNS, false);
+        assert_eq!(of(true, false), Some(('▄', true)));
+        assert_eq!(of(false, true), Some(('▀', true)));
+        assert_eq!(of(true, true), Some(('█', true)));
+        assert_eq!(of(false, false), Some(('▒', false)));
+        assert_eq!(sign(&[Spot { gap: 1.2, touched: false }], SIGNS, false), None);
+        assert_eq!(sign(&[spot(true), spot(false)], ASCII, true), Some(('#', true)));
+    }
+}
