@@ -6,8 +6,8 @@ use crate::motion::Touching;
 use crate::tui::engine::Snapshot;
 use crate::tui::history::{Bin, Channel};
 
-/// Frames of the busy pictures on one page: three in two seconds.
-const SLOW_FRAMES: f64 = 6.0;
+/// Frames of the busy pictures on one page: about one a second.
+const SLOW_FRAMES: f64 = 4.5;
 
 impl App {
     /// Takes a snapshot in; false where it was too old to change anything.

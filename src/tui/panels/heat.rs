@@ -53,7 +53,9 @@ fn spots(app: &App, columns: usize) -> Vec<Vec<Option<Spot>>> {
     let width = (to - from) / columns.max(1) as f64;
     let mut out = vec![vec![None; columns]; rim.sides as usize];
     let place = |t: f64| (((t - from) / width).max(0.0) as usize).min(columns.saturating_sub(1));
-    for bin in app.history.between(from, to) {
+    // Some columns at a time: every column by itself would flood a slow line.
+    let Some(until) = app.slow.as_ref().map(|moment| moment.state.t_s) else { return out };
+    for bin in app.history.between(from, to).iter().filter(|bin| bin.from <= until) {
         for (side, row) in (0..rim.sides).zip(&mut out) {
             let gap = least_gap(rim, side, bin) / rim.clearance;
             if !gap.is_finite() {
