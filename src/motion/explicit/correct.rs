@@ -17,7 +17,7 @@ impl<B: Blades> Explicit<B> {
     pub(super) fn meet(&mut self, distance2: f64) -> Result<(), String> {
         if distance2.is_nan() || distance2 > self.casing_radius * self.casing_radius {
             return Err(format!(
-                "the casing displacement {:e} m is beyond the casing radius {} m",
+                "the casing displacement {:.3e} m is beyond the casing radius {} m",
                 distance2.sqrt(),
                 self.casing_radius
             ));
@@ -33,8 +33,8 @@ impl<B: Blades> Explicit<B> {
         let clearance = self.machine.rim.clearance;
         if deepest > clearance {
             return Err(format!(
-                "a predicted penetration of {deepest:e} m is deeper than the clearance \
-                 {clearance:e} m; a smaller step or a weaker pulse is needed"
+                "a predicted penetration of {deepest:.3e} m is deeper than the clearance \
+                 {clearance:.3e} m; a smaller step or a weaker pulse is needed"
             ));
         }
         self.solve()?;

@@ -380,6 +380,6 @@ impl<B: Blades> Explicit<B> {
 
 fn too_wide(angle: f64) -> String {
     format!(
-        "a blade angle of {angle:e} rad is beyond the {LARGEST_ANGLE} rad that small angles allow"
+        "a blade angle of {angle:.3e} rad is beyond the {LARGEST_ANGLE} rad that small angles allow"
     )
 }
