@@ -1,4 +1,4 @@
-//! Every built-in scene does what its note says.
+//! Every built-in scene does what its note says, for as long as is asked.
 
 #![expect(clippy::unwrap_used, reason = "a test states what must hold")]
 
@@ -128,4 +128,16 @@ fn half_n_slides_along_a_side_and_grows() {
     let longer = run("half-n", &[("solver.end_s", "0.02")]);
     assert_eq!(longer.outcome.verdict, Verdict::Failed);
     assert!(longer.outcome.message.unwrap().contains("beyond the casing radius"));
+}
+
+#[test]
+fn slip_goes_on_for_a_million_impacts() {
+    let mut motion = Motion::new(&Scene::builtin("slip").unwrap());
+    motion.advance(900.0).unwrap();
+    assert!(motion.contacts().impact_count > 1_000_000);
+    let checks = motion.checks();
+    let clearance = motion.machine().clearance();
+    assert!(checks.max_penetration_m < 1e-14 * clearance, "{checks:?}");
+    // 4 W over 900 s are 4 kJ: round-off of a million terms.
+    assert!(checks.energy_residual_j.unwrap().abs() < 1e-7, "{checks:?}");
 }
