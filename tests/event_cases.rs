@@ -1,4 +1,4 @@
-//! The event solver on the motions whose numbers are known: MODEL.md's cases,
+//! The event solver on the motions whose numbers are known: the reference cases,
 //! the closed forms of locked motion, thresholds in speed and in pulse.
 #![expect(clippy::unwrap_used, reason = "tests state what must hold")]
 
@@ -36,7 +36,7 @@ const DIAMETERS: &str = "operation.nodal_diameters";
 fn case_a_has_its_two_impacts_and_decays() {
     let motion = run(&[], 0.1);
     let impacts = &motion.contacts().impacts;
-    // MODEL.md prints six digits of the times and eight of the state.
+    // The reference has six digits of the times and eight of the state.
     close(impacts[0].t_s, 0.228_219e-3, 5e-10);
     close(impacts[1].t_s, 0.292_811e-3, 5e-10);
     let blades: Vec<_> =

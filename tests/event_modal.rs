@@ -261,7 +261,7 @@ fn locked_with_blades_agrees_with_the_constrained_equations() {
 
 #[test]
 fn locked_blade_angles_come_to_rest_at_the_modal_balance() {
-    // MODEL.md section 5: 1.404e-9 rad at 500 rad/s without damping of the
+    // The reference: 1.404e-9 rad at 500 rad/s without damping of the
     // casing, from alpha_i = (2/N) sum_j cos(psi_i - psi_j) Q_j/(m_b omega^2).
     let mut scene = scene(&[("casing.damping_ratio", 0.0)]);
     on_side_0(&mut scene, true, 0.0);
