@@ -13,12 +13,7 @@ use rubscope::motion::{Motion, Sampling, settle, simulate};
 use rubscope::scene::Scene;
 
 fn scene(changes: &[(&str, &str)]) -> Scene {
-    let mut scene = Scene::default();
-    for (key, value) in changes {
-        scene.set(key, value).unwrap();
-    }
-    scene.check().unwrap();
-    scene
+    Scene::default().with(changes).unwrap()
 }
 
 const EVENT: [(&str, &str); 2] = [("solver.kind", "event"), ("solver.model", "rigid")];

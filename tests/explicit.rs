@@ -7,12 +7,7 @@ use rubscope::scene::Scene;
 
 /// Case A of the paper's machine: three diameters, 500 rad/s, 20 kN.
 fn scene(changes: &[(&str, &str)]) -> Scene {
-    let mut scene = Scene::default();
-    for (key, value) in changes {
-        scene.set(key, value).unwrap();
-    }
-    scene.check().unwrap();
-    scene
+    Scene::default().with(changes).unwrap()
 }
 
 fn run(changes: &[(&str, &str)]) -> RunReport {

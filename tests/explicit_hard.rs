@@ -9,10 +9,7 @@ fn run(changes: &[(&str, &str)]) -> Result<RunReport, SceneError> {
     let mut scene = Scene::default();
     scene.set("solver.end_s", "2e-3")?;
     scene.set("solver.step_s", "1e-6")?;
-    for (key, value) in changes {
-        scene.set(key, value)?;
-    }
-    scene.check()?;
+    let scene = scene.with(changes)?;
     let report = simulate(&scene, Sampling::default(), &mut |_| {});
     let numbers = [
         report.r#final.t_s,

@@ -12,11 +12,7 @@ use rubscope::scene::{ModelSize, Scene};
 fn scene(changes: &[(&str, &str)]) -> Scene {
     let mut scene = Scene::default();
     scene.solver.model = ModelSize::Rigid;
-    for (key, value) in changes {
-        scene.set(key, value).unwrap();
-    }
-    scene.check().unwrap();
-    scene
+    scene.with(changes).unwrap()
 }
 
 fn close(value: f64, expected: f64, relative: f64) {

@@ -7,12 +7,7 @@ use rubscope::motion::{Motion, Sampling, State, Verdict, settle, simulate};
 use rubscope::scene::Scene;
 
 fn scene(changes: &[(&str, &str)]) -> Scene {
-    let mut scene = Scene::default();
-    for (key, value) in changes {
-        scene.set(key, value).unwrap();
-    }
-    scene.check().unwrap();
-    scene
+    Scene::default().with(changes).unwrap()
 }
 
 /// Puts the wave into the corner of sides 15 and 16, turning with the rotor.

@@ -6,11 +6,7 @@ use rubscope::motion::{Motion, RunReport, Sampling, Verdict, simulate};
 use rubscope::scene::Scene;
 
 fn run(name: &str, changes: &[(&str, &str)]) -> RunReport {
-    let mut scene = Scene::builtin(name).unwrap();
-    for (key, value) in changes {
-        scene.set(key, value).unwrap();
-    }
-    scene.check().unwrap();
+    let scene = Scene::builtin(name).unwrap().with(changes).unwrap();
     simulate(&scene, Sampling::default(), &mut |_| {})
 }
 

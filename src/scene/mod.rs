@@ -165,6 +165,18 @@ impl Scene {
         self.set_value(key, value)
     }
 
+    /// This scene with some keys set from text, checked whole.
+    ///
+    /// # Errors
+    /// The first key, value or combination that is refused.
+    pub fn with(mut self, changes: &[(&str, &str)]) -> Result<Self, SceneError> {
+        for (path, text) in changes {
+            self.set(path, text)?;
+        }
+        self.check()?;
+        Ok(self)
+    }
+
     /// Sets one key to a value, checked against the key's own bounds.
     ///
     /// # Errors

@@ -45,15 +45,13 @@ impl<B: Blades> Explicit<B> {
             self.block = Block { length: ENDLESS, used: 0 };
             return Ok(true);
         }
-        let pulse_to_come =
-            self.pulse.force != 0.0 && self.time_of(self.n) - 0.5 * self.step < self.pulse.end;
         // Blades that are driven do not follow the free recurrence.
-        if distance2 >= clearance * clearance || pulse_to_come || self.excitation.is_some() {
+        let outside = distance2 >= clearance * clearance;
+        if outside || self.pulse_to_come() || self.excitation.is_some() {
             return Ok(false);
         }
         let distance = distance2.sqrt();
-        let energy = self.casing.twice_energy(self.u[0]) + self.casing.twice_energy(self.u[1]);
-        let (farthest, longest) = self.casing.reach(energy);
+        let (farthest, longest) = self.casing_reach();
         let length =
             if farthest < clearance { ENDLESS } else { ((clearance - distance) / longest) as u64 };
         if length < SHORTEST_BLOCK {
@@ -69,9 +67,18 @@ impl<B: Blades> Explicit<B> {
 
     /// Whether the casing, whatever the blades do, never reaches one again.
     pub(super) fn is_out_of_reach(&self) -> bool {
+        !self.pulse_to_come() && self.casing_reach().0 < self.machine.rim.clearance
+    }
+
+    /// Whether the pulse still acts on this step or a later one.
+    fn pulse_to_come(&self) -> bool {
+        self.pulse.force != 0.0 && self.time_of(self.n) - 0.5 * self.step < self.pulse.end
+    }
+
+    /// Bounds on `|u|` and on its change in a step, over all free motion to come.
+    fn casing_reach(&self) -> (f64, f64) {
         let energy = self.casing.twice_energy(self.u[0]) + self.casing.twice_energy(self.u[1]);
-        let after_pulse = self.time_of(self.n) - 0.5 * self.step >= self.pulse.end;
-        after_pulse && self.casing.reach(energy).0 < self.machine.rim.clearance
+        self.casing.reach(energy)
     }
 
     /// Goes on inside the open block, up to `target`; takes it at its end.
