@@ -3,7 +3,7 @@
 
 use std::io::{Result, Write};
 
-use super::number::{short, time};
+use super::number::{count, short, time};
 use super::table::Table;
 use crate::scene::{ContactLaw, ModelSize, SolverKind};
 use crate::study::precision::{Precision, Row, Way};
@@ -131,13 +131,18 @@ pub fn write(report: &Precision, out: &mut dyn Write) -> Result<()> {
     writeln!(out, "{}", report.scene.title)?;
     writeln!(
         out,
-        "Reference: event solver, unilateral, {} model: {}, {} impacts, {}. Halving its tolerance \
-         moves the end by {} of the clearance.",
+        "Reference: event solver, unilateral, {} model: {}, {}, {}. {}",
         reference.way.model.word(),
         reference.verdict,
-        reference.impact_count,
+        count(reference.impact_count, "impact"),
         time(reference.wall_s),
-        short(two_digits(reference.error_halved)),
+        match reference.error_halved {
+            Some(moved) => format!(
+                "Halving its tolerance moves the end by {} of the clearance.",
+                short(two_digits(moved))
+            ),
+            None => "It has no state at the end to compare with.".to_string(),
+        },
     )?;
     if reference.sensitive {
         let right = report.rows.iter().filter(|row| row.verdict_right).count();

@@ -1,0 +1,38 @@
+//! The reference motion, kept so that it can be taken at any instant near the
+//! end: an explicit run ends at its last step, up to a step before the end of
+//! the scene.
+
+use super::ways::{LONGEST, Way};
+use crate::motion::{Motion, State};
+use crate::scene::{ModelSize, Scene};
+
+/// The reference for one model size, at its end and a little before.
+pub(super) struct Track {
+    pub(super) model: ModelSize,
+    /// Where every explicit run has at least one step to come.
+    before: Motion,
+    pub(super) end: Motion,
+}
+
+impl Track {
+    pub(super) fn of(way: Way, scene: &Scene) -> Self {
+        let end_s = scene.solver.end_s;
+        let mut before = way.start(scene);
+        // A failure stays in the motion, and `at` finds it.
+        let _ = before.advance((end_s - 1.01 * LONGEST).max(0.0));
+        let mut end = before.clone();
+        let _ = end.advance(end_s);
+        Self { model: way.model, before, end }
+    }
+
+    /// The state at the instant `t` near the end \[s\]; none if it failed by
+    /// then, or if that instant is not near the end.
+    pub(super) fn at(&self, t: f64) -> Option<State> {
+        if t < self.before.state().t_s {
+            return None;
+        }
+        let mut motion = self.before.clone();
+        motion.advance(t).ok()?;
+        Some(motion.state())
+    }
+}
