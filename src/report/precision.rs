@@ -12,9 +12,6 @@ use crate::study::precision::{Precision, Row, Way};
 const COLUMNS: usize = 64;
 const ROWS: usize = 20;
 
-/// Smallest error shown; below it is round-off.
-pub const FLOOR: f64 = 1e-16;
-
 /// Letter of a series in the text chart: solver, law and model size.
 #[must_use]
 pub fn letter(way: &Way) -> char {
@@ -37,6 +34,15 @@ pub fn letter(way: &Way) -> char {
 #[must_use]
 pub fn series(way: &Way) -> String {
     format!("{} {} {}", way.solver.word(), way.contact.word(), way.model.word())
+}
+
+/// What is to be said about the verdict of a row.
+fn remark(row: &Row) -> &'static str {
+    match row {
+        Row { other_law: true, .. } => "other law",
+        Row { verdict_right: false, .. } => "wrong",
+        _ => "",
+    }
 }
 
 /// The rows with units, for people.
@@ -67,7 +73,7 @@ pub fn summary_table(report: &Precision) -> Table {
             three_digits(1e6 * row.wall_s).into(),
             row.ns_per_step.map(three_digits).into(),
             row.verdict.word().into(),
-            if row.verdict_right { "" } else { "wrong" }.into(),
+            remark(row).into(),
         ]);
     }
     table
@@ -99,6 +105,7 @@ pub fn table(report: &Precision) -> Table {
         "events",
         "verdict",
         "verdict_right",
+        "other_law",
     ]);
     let whole = |n: Option<u64>| n.map(|n| n as f64);
     for row in &report.rows {
@@ -117,6 +124,7 @@ pub fn table(report: &Precision) -> Table {
             whole(row.events).into(),
             row.verdict.word().into(),
             row.verdict_right.into(),
+            row.other_law.into(),
         ]);
     }
     table
@@ -145,16 +153,24 @@ pub fn write(report: &Precision, out: &mut dyn Write) -> Result<()> {
         },
     )?;
     if reference.sensitive {
-        let right = report.rows.iter().filter(|row| row.verdict_right).count();
+        let same_law = || report.rows.iter().filter(|row| !row.other_law);
+        let right = same_law().filter(|row| row.verdict_right).count();
         writeln!(
             out,
             "This scene is sensitive: a relative change of 1e-9 of the pulse changes its outcome. \
-             End states are not compared; {right} of {} ways agree with the verdict of the reference.",
-            report.rows.len()
+             End states are not compared; {right} of {} ways under the same contact law agree \
+             with the verdict of the reference.",
+            same_law().count()
         )?;
     }
     writeln!(out)?;
     summary_table(report).write_text(out)?;
+    if report.rows.iter().any(|row| row.other_law) {
+        writeln!(
+            out,
+            "other law: another problem than that of the reference; a different answer is no error"
+        )?;
+    }
     if report.rows.iter().any(|row| row.error_final.is_some()) {
         writeln!(out)?;
         write_chart(report, out)?;
@@ -162,46 +178,76 @@ pub fn write(report: &Precision, out: &mut dyn Write) -> Result<()> {
     Ok(())
 }
 
-/// A row that has a place in the chart: `(log10 seconds, log10 error)`.
-#[must_use]
-pub fn place(row: &Row) -> Option<(f64, f64)> {
-    let error = row.error_final?.max(FLOOR);
-    (row.wall_s > 0.0).then(|| (row.wall_s.log10(), error.log10()))
+/// Where a row stands in a chart of two logarithmic axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// log10 of the wall time in seconds.
+    pub time: f64,
+    /// log10 of the error; none for an error of zero, which no such axis has.
+    pub error: Option<f64>,
 }
 
-/// Log error (up) against log time (right), a letter a row.
+/// The place of a row that has an error.
+#[must_use]
+pub fn place(row: &Row) -> Option<Place> {
+    let error = row.error_final?;
+    let error = (error > 0.0).then(|| error.log10());
+    (row.wall_s > 0.0).then(|| Place { time: row.wall_s.log10(), error })
+}
+
+/// Whole powers of ten around some values; none where there is no value.
+#[must_use]
+pub fn decades(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
+    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+        (low.min(value), high.max(value))
+    });
+    (low <= high).then(|| (low.floor(), high.ceil().max(low.floor() + 1.0)))
+}
+
+/// Log error (up) against log time (right), a letter a row; errors of zero in
+/// a line of their own below.
 fn write_chart(report: &Precision, out: &mut dyn Write) -> Result<()> {
-    let placed: Vec<((f64, f64), char)> =
+    let placed: Vec<(Place, char)> =
         report.rows.iter().filter_map(|row| Some((place(row)?, letter(&row.way)))).collect();
-    let bound = |value: fn(&(f64, f64)) -> f64| {
-        let values = || placed.iter().map(|(at, _)| value(at));
-        let (low, high) =
-            (values().fold(f64::INFINITY, f64::min), values().fold(-f64::INFINITY, f64::max));
-        (low.floor(), high.ceil().max(low.floor() + 1.0))
-    };
-    let ((left, right), (bottom, top)) = (bound(|at| at.0), bound(|at| at.1));
-    let mut cells = vec![vec![' '; COLUMNS + 1]; ROWS + 1];
-    for ((x, y), mark) in &placed {
-        let column = ((x - left) / (right - left) * COLUMNS as f64).round() as usize;
-        let row = ((top - y) / (top - bottom) * ROWS as f64).round() as usize;
-        if let Some(cell) = cells.get_mut(row).and_then(|line| line.get_mut(column)) {
+    let Some((left, right)) = decades(placed.iter().map(|(at, _)| at.time)) else { return Ok(()) };
+    let column = |x: f64| ((x - left) / (right - left) * COLUMNS as f64).round() as usize;
+    let mut zeros = vec![' '; COLUMNS + 1];
+    writeln!(out, "log10 error (of the clearance) against log10 time (s)")?;
+    if let Some((bottom, top)) = decades(placed.iter().filter_map(|(at, _)| at.error)) {
+        let mut cells = vec![vec![' '; COLUMNS + 1]; ROWS + 1];
+        for (at, mark) in &placed {
+            let line = match at.error {
+                Some(y) => {
+                    cells.get_mut(((top - y) / (top - bottom) * ROWS as f64).round() as usize)
+                }
+                None => None,
+            };
+            if let Some(cell) = line.and_then(|line| line.get_mut(column(at.time))) {
+                *cell = *mark;
+            }
+        }
+        for (index, line) in cells.iter().enumerate() {
+            let level = top - (top - bottom) * index as f64 / ROWS as f64;
+            let label = if (level - level.round()).abs() < 1e-9 {
+                format!("{level:.0}")
+            } else {
+                String::new()
+            };
+            write_line(&label, line, out)?;
+        }
+    }
+    for (at, mark) in placed.iter().filter(|(at, _)| at.error.is_none()) {
+        if let Some(cell) = zeros.get_mut(column(at.time)) {
             *cell = *mark;
         }
     }
-    writeln!(out, "log10 error (of the clearance) against log10 time (s)")?;
-    for (index, line) in cells.iter().enumerate() {
-        let level = top - (top - bottom) * index as f64 / ROWS as f64;
-        let label = if (level - level.round()).abs() < 1e-9 {
-            format!("{level:.0}")
-        } else {
-            String::new()
-        };
-        let line: String = line.iter().collect();
-        writeln!(out, "{label:>4} |{}", line.trim_end())?;
+    if zeros.iter().any(|&cell| cell != ' ') {
+        writeln!(out, "     : below, an error of 0, which has no logarithm")?;
+        write_line("0", &zeros, out)?;
     }
     let mut axis = vec![' '; COLUMNS + 8];
     for decade in (left as i32)..=(right as i32) {
-        let at = ((f64::from(decade) - left) / (right - left) * COLUMNS as f64).round() as usize;
+        let at = column(f64::from(decade));
         for (offset, digit) in decade.to_string().chars().enumerate() {
             if let Some(cell) = axis.get_mut(at + offset) {
                 *cell = digit;
@@ -215,4 +261,9 @@ fn write_chart(report: &Precision, out: &mut dyn Write) -> Result<()> {
         out,
         "e event, u explicit unilateral, b explicit bilateral; capitals: modal; 1, 2: full"
     )
+}
+
+fn write_line(label: &str, cells: &[char], out: &mut dyn Write) -> Result<()> {
+    let cells: String = cells.iter().collect();
+    writeln!(out, "{label:>4} |{}", cells.trim_end())
 }

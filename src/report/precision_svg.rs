@@ -2,9 +2,9 @@
 
 use plotters::prelude::*;
 
-use super::precision::{place, series};
+use super::precision::{Place, decades, place, series};
 use crate::scene::{ContactLaw, ModelSize, SolverKind};
-use crate::study::precision::{Precision, Way};
+use crate::study::precision::{Precision, Row, Way};
 
 /// Colour by solver and law; the model size is told by the marker's size.
 fn style(way: &Way) -> (RGBColor, i32) {
@@ -26,14 +26,27 @@ fn style(way: &Way) -> (RGBColor, i32) {
 /// # Errors
 /// What the drawing backend says, in words; nothing to compare.
 pub fn draw(report: &Precision) -> Result<String, String> {
-    let placed: Vec<(Way, (f64, f64))> =
-        report.rows.iter().filter_map(|row| Some((row.way, place(row)?))).collect();
-    if placed.is_empty() {
-        return Err("on a sensitive scene there are no errors to draw".to_string());
-    }
+    let placed: Vec<(&Row, Place)> =
+        report.rows.iter().filter_map(|row| Some((row, place(row)?))).collect();
+    let times = decades(placed.iter().map(|(_, at)| at.time));
+    let errors = decades(placed.iter().filter_map(|(_, at)| at.error));
+    let (Some(times), Some(errors)) = (times, errors) else {
+        return Err(match (placed.is_empty(), report.reference.sensitive) {
+            (false, _) => "every error is 0: a logarithmic axis has no place for it".to_string(),
+            (_, true) => "on a sensitive scene there are no errors to draw".to_string(),
+            _ => "every run or the reference failed: there are no errors to draw".to_string(),
+        });
+    };
     let mut svg = String::new();
-    draw_rows(&mut svg, &report.scene.title, &placed).map_err(|error| error.to_string())?;
+    draw_rows(&mut svg, &report.scene.title, &placed, times, errors)
+        .map_err(|error| error.to_string())?;
     Ok(svg)
+}
+
+/// Name of a series, with a word on a law that is not the reference's.
+fn name(row: &Row) -> String {
+    let law = if row.other_law { ", other law" } else { "" };
+    format!("{}{law}", series(&row.way))
 }
 
 /// Label of a whole power of ten; none between.
@@ -48,14 +61,11 @@ fn decade(exponent: &f64) -> String {
 fn draw_rows(
     svg: &mut String,
     title: &str,
-    placed: &[(Way, (f64, f64))],
+    placed: &[(&Row, Place)],
+    (left, right): (f64, f64),
+    (bottom, top): (f64, f64),
 ) -> Result<(), Box<dyn std::error::Error>> {
     let words = |error: &dyn std::fmt::Display| error.to_string();
-    let bound = |value: fn(&(f64, f64)) -> f64| {
-        let values = || placed.iter().map(|(_, at)| value(at));
-        let low = values().fold(f64::INFINITY, f64::min).floor();
-        low..values().fold(f64::NEG_INFINITY, f64::max).ceil().max(low + 1.0)
-    };
     let area = SVGBackend::with_string(svg, (900, 600)).into_drawing_area();
     area.fill(&WHITE).map_err(|error| words(&error))?;
     let mut chart = ChartBuilder::on(&area)
@@ -63,7 +73,7 @@ fn draw_rows(
         .margin(12)
         .x_label_area_size(48)
         .y_label_area_size(64)
-        .build_cartesian_2d(bound(|at| at.0), bound(|at| at.1))
+        .build_cartesian_2d(left..right, bottom..top)
         .map_err(|error| words(&error))?;
     chart
         .configure_mesh()
@@ -73,20 +83,33 @@ fn draw_rows(
         .y_label_formatter(&decade)
         .draw()
         .map_err(|error| words(&error))?;
-    let mut names: Vec<String> = placed.iter().map(|(way, _)| series(way)).collect();
+    let mut names: Vec<String> = placed.iter().map(|(row, _)| name(row)).collect();
     names.dedup();
-    for name in names {
-        let of_series = || placed.iter().filter(|(way, _)| series(way) == name);
-        let Some((way, _)) = of_series().next() else { continue };
-        let (colour, size) = style(way);
+    for series in names {
+        let rows = || placed.iter().filter(|(row, _)| name(row) == series);
+        let Some((row, _)) = rows().next() else { continue };
+        let (colour, size) = style(&row.way);
+        let points = || rows().filter_map(|(_, at)| Some((at.time, at.error?)));
         chart
-            .draw_series(LineSeries::new(of_series().map(|(_, at)| *at), colour.mix(0.5)))
+            .draw_series(LineSeries::new(points(), colour.mix(0.5)))
             .map_err(|error| words(&error))?;
         chart
-            .draw_series(of_series().map(|(_, at)| Circle::new(*at, size, colour.filled())))
+            .draw_series(points().map(|at| Circle::new(at, size, colour.filled())))
             .map_err(|error| words(&error))?
-            .label(name)
+            .label(series.clone())
             .legend(move |at| Circle::new(at, size, colour.filled()));
+        // Errors of zero stand on the lower edge, which is none of their value.
+        let zeros = rows().filter(|(_, at)| at.error.is_none()).map(|(_, at)| (at.time, bottom));
+        chart
+            .draw_series(zeros.map(|at| TriangleMarker::new(at, size + 2, colour.stroke_width(1))))
+            .map_err(|error| words(&error))?;
+    }
+    if placed.iter().any(|(_, at)| at.error.is_none()) {
+        chart
+            .draw_series(std::iter::empty::<Circle<(f64, f64), i32>>())
+            .map_err(|error| words(&error))?
+            .label("error 0, off this scale")
+            .legend(|at| TriangleMarker::new(at, 5, BLACK.stroke_width(1)));
     }
     chart
         .configure_series_labels()

@@ -49,6 +49,18 @@ pub struct Row {
     pub verdict: Verdict,
     /// Whether it is the verdict of the reference.
     pub verdict_right: bool,
+    /// Whether it has another contact law than the reference: a solution of
+    /// another problem, which may differ from the reference and be right.
+    pub other_law: bool,
+}
+
+impl Row {
+    /// Whether it solves the same problem as the reference and has another
+    /// verdict.
+    #[must_use]
+    pub fn is_wrong(&self) -> bool {
+        !self.other_law && !self.verdict_right
+    }
 }
 
 /// What everything is measured against.
@@ -172,6 +184,7 @@ impl Measure {
             events: first.motion.events(),
             verdict: first.verdict,
             verdict_right: first.verdict == self.reference.verdict,
+            other_law: way.contact != self.reference.way.contact,
         }
     }
 

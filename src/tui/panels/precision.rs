@@ -5,7 +5,7 @@ use ratatui::{buffer::Buffer, layout::Rect};
 
 use super::charts::title;
 use super::print;
-use crate::report::precision::{letter, place};
+use crate::report::precision::{decades, letter, place};
 use crate::scene::SolverKind;
 use crate::study::precision::Way;
 use crate::tui::app::{App, View};
@@ -22,7 +22,10 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
     };
     let legend = [
         ("e event".to_string(), skin.style(Role::First)),
-        ("u, b explicit (capital: modal, 1 2: full)".to_string(), skin.style(Role::Second)),
+        (
+            "u explicit, b other law (capital: modal, 1 2: full)".to_string(),
+            skin.style(Role::Second),
+        ),
         ("error |u-u_ref|/g0 by wall time [s]".to_string(), quiet),
     ];
     let inside = title(app, buffer, area, View::Precision, "precision", &legend);
@@ -39,36 +42,36 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
             skin.style(Role::Trouble),
         );
     }
-    let wrong = report.rows.iter().filter(|row| !row.verdict_right).count();
     let inside = Rect { y: inside.y + 1, height: inside.height.saturating_sub(1), ..inside };
-    let points: Vec<_> = report
-        .rows
-        .iter()
-        .filter_map(|row| Some((place(row)?, &row.way, row.verdict_right)))
-        .collect();
+    let points: Vec<_> = report.rows.iter().filter_map(|row| Some((place(row)?, row))).collect();
     if !report.reference.sensitive {
+        let same_law = report.rows.iter().filter(|row| !row.other_law).count();
+        let wrong = report.rows.iter().filter(|row| row.is_wrong()).count();
         let note = format!(
-            "reference {}; {} of {} runs have another verdict (!)",
+            "reference {}; {wrong} of {same_law} runs under its contact law have another verdict (!)",
             report.reference.verdict,
-            wrong,
-            report.rows.len()
         );
         print(buffer, Rect { y: inside.y - 1, ..inside }, 0, &note, quiet);
     }
-    let bound = |values: &mut dyn Iterator<Item = f64>| {
-        let (low, high) = values
-            .filter(|v| v.is_finite())
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
-        (low.floor(), high.ceil().max(low.floor() + 1.0))
-    };
-    let (left, right) = bound(&mut points.iter().map(|((x, _), ..)| *x));
-    let (bottom, top) = bound(&mut points.iter().map(|((_, y), ..)| *y));
+    let Some((left, right)) = decades(points.iter().map(|(at, _)| at.time)) else { return };
+    // Only zeros: any range will do, they stand below it.
+    let errors = decades(points.iter().filter_map(|(at, _)| at.error));
+    let (bottom, top) = errors.unwrap_or((-16.0, 0.0));
     let (x, y) = (Axis::plain(left, right), Axis::plain(bottom, top));
     let Some(mut plot) = Plot::powers_both(buffer, inside, x, y, skin) else { return };
-    for ((x, y), way, right) in points {
-        plot.point(x, y, letter(way), skin.style(role(way)));
-        if !right && let (Some(column), Some(row)) = (plot.column(x), plot.row(y)) {
-            plot.text(column + 1, row, "!", skin.style(Role::Trouble));
+    for (at, row) in points {
+        let style = skin.style(role(&row.way));
+        plot.point(at.time, at.error.unwrap_or(bottom), letter(&row.way), style);
+        let beside = match (row.is_wrong(), at.error) {
+            (true, _) => ("!", skin.style(Role::Trouble)),
+            // Off the logarithmic axis, below its lower end.
+            (false, None) => ("=0", quiet),
+            (false, Some(_)) => continue,
+        };
+        if let (Some(column), Some(line)) =
+            (plot.column(at.time), plot.row(at.error.unwrap_or(bottom)))
+        {
+            plot.text(column + 1, line, beside.0, beside.1);
         }
     }
 }
