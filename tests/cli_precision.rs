@@ -143,3 +143,10 @@ fn a_wrong_verdict_under_the_same_law_is_called_wrong() {
     assert_eq!(ending("b  explicit  bilateral   rigid          1e-6"), "locked other law");
     assert_eq!(ending("u  explicit  unilateral  rigid          1e-6"), "slip");
 }
+
+#[test]
+fn a_scene_that_the_reference_does_not_know_is_refused() {
+    let said = refusal(&["precision", "--set", "excitation.amplitude_nm=1"]);
+    let start = "rubscope: excitation.amplitude_nm = 1: allowed is 0 with solver.kind = \"event\"";
+    assert!(said.starts_with(start), "{said}");
+}

@@ -36,6 +36,7 @@ pub struct PrecisionCommand {
 impl PrecisionCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
         let scene = self.options.scene()?;
+        Measure::check(&scene)?;
         if self.finest.is_nan() || self.finest <= 0.0 {
             return Err(Refusal::of("--finest", self.finest, "a time step above 0").into());
         }

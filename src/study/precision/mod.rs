@@ -15,7 +15,7 @@ use serde::Serialize;
 pub use ways::{Effort, Way, ways};
 
 use crate::motion::{Event, Motion, Settled, State, Verdict, is_sensitive};
-use crate::scene::{ContactLaw, ModelSize, Scene, SolverKind};
+use crate::scene::{ContactLaw, ModelSize, Scene, SceneError, SolverKind};
 use track::Track;
 
 /// Impacts whose times are compared.
@@ -110,25 +110,40 @@ pub struct Measure {
     tracks: [Track; 2],
 }
 
+/// The event solver on one model size.
+fn by_events(model: ModelSize, tolerance: f64) -> Way {
+    Way {
+        solver: SolverKind::Event,
+        contact: ContactLaw::Unilateral,
+        model,
+        step_s: None,
+        tolerance: Some(tolerance),
+    }
+}
+
+/// The model size of the reference for one size of a scene.
+fn size_of_reference(model: ModelSize) -> ModelSize {
+    if model == ModelSize::Rigid { ModelSize::Rigid } else { ModelSize::Modal }
+}
+
 impl Measure {
+    /// Refuses a scene that the reference does not know: then there is nothing
+    /// to measure against.
+    ///
+    /// # Errors
+    /// The key that the event solver does not know.
+    pub fn check(scene: &Scene) -> Result<(), SceneError> {
+        by_events(size_of_reference(scene.solver.model), 0.0).of(scene).check()
+    }
+
     /// Solves the scene by the event solver, for rigid and for moving blades.
     #[must_use]
     pub fn new(scene: &Scene) -> Self {
-        let way = |model, tolerance| Way {
-            solver: SolverKind::Event,
-            contact: ContactLaw::Unilateral,
-            model,
-            step_s: None,
-            tolerance: Some(tolerance),
-        };
         let finest = Event::new(scene).tolerance();
-        let model = match scene.solver.model {
-            ModelSize::Rigid => ModelSize::Rigid,
-            _ => ModelSize::Modal,
-        };
-        let chosen = way(model, finest);
+        let model = size_of_reference(scene.solver.model);
+        let chosen = by_events(model, finest);
         let run = chosen.run(scene);
-        let halved = way(model, 0.5 * finest).run(scene);
+        let halved = by_events(model, 0.5 * finest).run(scene);
         let resolved = chosen.of(scene);
         let settled =
             Settled { verdict: run.verdict, impact_count: run.motion.contacts().impact_count };
@@ -143,8 +158,8 @@ impl Measure {
             }),
             wall_s: run.wall_s,
         };
-        let tracks =
-            [ModelSize::Rigid, ModelSize::Modal].map(|model| Track::of(way(model, finest), scene));
+        let tracks = [ModelSize::Rigid, ModelSize::Modal]
+            .map(|model| Track::of(by_events(model, finest), scene));
         Self { scene: scene.clone(), reference, tracks }
     }
 
@@ -163,7 +178,7 @@ impl Measure {
             walls.push(way.run(&self.scene).wall_s);
         }
         let wall_s = median(&mut walls);
-        let size = if way.model == ModelSize::Rigid { ModelSize::Rigid } else { ModelSize::Modal };
+        let size = size_of_reference(way.model);
         let track = self.tracks.iter().find(|track| track.model == size);
         let comparable = !self.reference.sensitive && !first.failed;
         let clearance = first.motion.machine().clearance();

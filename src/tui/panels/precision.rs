@@ -7,7 +7,7 @@ use super::charts::title;
 use super::print;
 use crate::report::precision::{decades, letter, place};
 use crate::scene::SolverKind;
-use crate::study::precision::Way;
+use crate::study::precision::{Measure, Way};
 use crate::tui::app::{App, View};
 use crate::tui::plot::{Axis, Plot};
 use crate::tui::theme::Role;
@@ -29,6 +29,11 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
         ("error |u-u_ref|/g0 by wall time [s]".to_string(), quiet),
     ];
     let inside = title(app, buffer, area, View::Precision, "precision", &legend);
+    if let Err(error) = Measure::check(&app.scene) {
+        print(buffer, inside, 1, "no reference for this scene:", skin.style(Role::Trouble));
+        print(buffer, inside, 2, &error.to_string(), quiet);
+        return;
+    }
     let Some(report) = &app.precision else {
         print(buffer, inside, 1, "computed while this view is open", quiet);
         return;
