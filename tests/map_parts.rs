@@ -93,6 +93,57 @@ fn parts_that_do_not_belong_together_are_refused_by_name() {
     assert!(merge(&[&first, &other]).starts_with("rubscope: 1 of 234 cells are in none"));
 }
 
+#[test]
+fn parts_with_another_title_note_or_view_belong_together() {
+    let directory = tempfile::tempdir().unwrap();
+    let at = |name: &str| directory.path().join(name);
+    let (first, second) = (text(&at("first.part")), text(&at("second.part")));
+    let other = ["--set", "title=Tuesday", "--set", "note=on node 2", "--set", "view.charts=map"];
+    done(&words(MAP, &["--shard", "1/2", "--out", &first]));
+    let share = [&["--shard", "2/2", "--out", &second][..], &other].concat();
+    done(&words(MAP, &share));
+    let (merged, single) = (at("merged.json"), at("single.json"));
+    done(&["map", "merge", &first, &second, "--out", &text(&merged)]);
+    done(&words(MAP, &["--out", &text(&single)]));
+    // Title and note are those of the first part.
+    assert_same_bytes(&merged, &single);
+    // A run under another title goes on from these cells, under its own.
+    let resumed = at("resumed.json");
+    let said = done(&words(
+        MAP,
+        &[&["--resume", &second, "--out", &text(&resumed)][..], &["--set", "title=Wednesday"]]
+            .concat(),
+    ));
+    assert!(said.starts_with("rubscope: going on from 117 cells"), "{said}");
+    let found = std::fs::read_to_string(&resumed).unwrap();
+    let expected = std::fs::read_to_string(&single).unwrap();
+    assert_eq!(found, expected.replace("Locked motion, three nodal diameters", "Wednesday"));
+}
+
+#[test]
+fn a_part_with_a_header_without_meaning_is_refused() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = text(&directory.path().join("a.part"));
+    done(&words(MAP, &["--shard", "1/9", "--out", &path]));
+    let part = std::fs::read_to_string(&path).unwrap();
+    for (from, to, said) in [
+        ("\"count\":26", "\"count\":0", "a count from 1 to 100000"),
+        ("\"count\":26", "\"count\":4294967295", "a count from 1 to 100000"),
+        ("\"path\":\"operation.speed_rad_s\"", "\"path\":\"speed\"", "unknown key speed"),
+        ("\"to\":500.0", "\"to\":1e300", "operation.speed_rad_s = 1e300: allowed is"),
+        ("blades = 22", "blades = 0", "bladed_disk.blades = 0: allowed is"),
+    ] {
+        assert!(part.contains(from), "{part}");
+        std::fs::write(&path, part.replacen(from, to, 1)).unwrap();
+        let refused = refusal(&["map", "merge", &path]);
+        assert!(
+            refused.starts_with(&format!("rubscope: {path}: not a part of a map")),
+            "{refused}"
+        );
+        assert!(refused.contains(said), "{refused}");
+    }
+}
+
 #[cfg(unix)]
 mod stopped {
     use super::*;

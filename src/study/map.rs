@@ -13,6 +13,9 @@ use super::Axis;
 use crate::motion::{Settled, Verdict, is_sensitive, settle};
 use crate::scene::{Scene, SceneError};
 
+/// Most cells of one map: they are all held in memory.
+const MOST_CELLS: usize = 100_000_000;
+
 /// What a map is of: everything that decides its cells.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapPlan {
@@ -83,11 +86,49 @@ impl MapPlan {
         Ok(scene)
     }
 
-    /// Refuses a plan whose corners are not scenes.
+    /// The first thing in which two plans differ so that their cells may.
+    #[must_use]
+    pub fn difference(&self, other: &Self) -> Option<&'static str> {
+        [
+            ("the x axis", self.x != other.x),
+            ("the y axis", self.y != other.y),
+            ("the scene", self.deciding() != other.deciding()),
+            ("whether sensitivity was asked for", self.sensitivity != other.sensitivity),
+        ]
+        .into_iter()
+        .find_map(|(what, differs)| differs.then_some(what))
+    }
+
+    /// The scene without what decides no cell: title, note and view, and the
+    /// keys on the axes, of which each cell has its own values.
+    fn deciding(&self) -> Scene {
+        let Scene { title, note, view, .. } = Scene::default();
+        let mut scene = Scene { title, note, view, ..self.scene.clone() };
+        for axis in [&self.x, &self.y] {
+            // An axis that no scene takes leaves both scenes as they are.
+            let _ = axis.apply(&mut scene, 0);
+        }
+        scene
+    }
+
+    /// Refuses a plan of more cells than fit.
     ///
     /// # Errors
-    /// The first corner that is refused.
+    /// The number of cells, and how many are allowed.
+    pub fn check_size(&self) -> Result<(), SceneError> {
+        if (1..=MOST_CELLS).contains(&self.len()) {
+            return Ok(());
+        }
+        let size = format!("{} x {} cells", self.x.count, self.y.count);
+        Err(SceneError::refused("map", size, format!("from 1 to {MOST_CELLS} cells")))
+    }
+
+    /// Refuses a plan of too many cells, or whose corners are not scenes.
+    ///
+    /// # Errors
+    /// The number of cells, or the first corner that is refused.
     pub fn check(&self) -> Result<(), SceneError> {
+        self.check_size()?;
         let (columns, cells) = (self.x.count as usize, self.len());
         for corner in [0, columns - 1, cells - columns, cells - 1] {
             self.scene_of(corner)?;

@@ -7,9 +7,9 @@ use std::io::{BufRead, Write};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::{Axis, Cell, Map, MapPlan};
+use super::{Axis, AxisError, Cell, Map, MapPlan};
 use crate::motion::Verdict;
-use crate::scene::{Scene, SceneError};
+use crate::scene::Scene;
 
 /// Version of the format and of the numbers in it.
 const SCHEMA: &str = "rubscope.map-part/1";
@@ -85,7 +85,8 @@ pub enum PartError {
     },
 }
 
-/// What the header line says: everything that decides the cells.
+/// What the header line says: everything that decides the cells, with title
+/// and note of the scene for those who read the map.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Header {
     schema: String,
@@ -108,17 +109,17 @@ impl Header {
         }
     }
 
-    /// The first thing in which two headers differ.
-    fn difference(&self, other: &Self) -> Option<&'static str> {
-        [
-            ("the version of rubscope", self.version != other.version),
-            ("the scene", self.scene != other.scene),
-            ("the x axis", self.x != other.x),
-            ("the y axis", self.y != other.y),
-            ("whether sensitivity was asked for", self.sensitivity != other.sensitivity),
-        ]
-        .into_iter()
-        .find_map(|(what, differs)| differs.then_some(what))
+    /// The plan it describes.
+    fn plan(&self) -> Result<MapPlan, AxisError> {
+        let again = |axis: &Axis| Axis::new(&axis.path, axis.from, axis.to, axis.count, axis.log);
+        let plan = MapPlan {
+            scene: Scene::from_toml_unchecked(&self.scene)?,
+            x: again(&self.x)?,
+            y: again(&self.y)?,
+            sensitivity: self.sensitivity,
+        };
+        plan.check_size()?;
+        Ok(plan)
     }
 }
 
@@ -161,7 +162,7 @@ pub fn write(map: &Map, out: &mut dyn Write) -> std::io::Result<()> {
 pub fn read_all<R: BufRead>(
     parts: impl IntoIterator<Item = (String, R)>,
 ) -> Result<Option<Map>, PartError> {
-    let mut joined: Option<(String, Header, Map)> = None;
+    let mut joined: Option<(String, String, Map)> = None;
     for (file, mut part) in parts {
         let form = |reason: String| PartError::Form { file: file.clone(), reason };
         let mut line = String::new();
@@ -171,12 +172,12 @@ pub fn read_all<R: BufRead>(
         if header.schema != SCHEMA {
             return Err(form(format!("schema {} where {SCHEMA} is read", header.schema)));
         }
-        if joined.is_none() {
-            let plan = plan_of(&header).map_err(|error| form(error.to_string()))?;
-            joined = Some((file.clone(), header.clone(), Map::empty(plan)));
-        }
-        let Some((other, first, map)) = &mut joined else { continue };
-        if let Some(what) = header.difference(first) {
+        let plan = header.plan().map_err(|error| form(error.to_string()))?;
+        let (other, version, map) = joined.get_or_insert_with(|| {
+            (file.clone(), header.version.clone(), Map::empty(plan.clone()))
+        });
+        let differs = (header.version != *version).then_some("the version of rubscope");
+        if let Some(what) = differs.or_else(|| plan.difference(&map.plan)) {
             let what = what.to_string();
             return Err(PartError::Different { file, other: other.clone(), what });
         }
@@ -195,17 +196,6 @@ pub fn require_complete(map: &Map) -> Result<(), PartError> {
         None => Ok(()),
         Some(first) => Err(PartError::Missing { missing, cells: map.cells.len(), first }),
     }
-}
-
-/// The plan a header describes, so that `plan == plan_of(header)` says whether
-/// a part belongs to it.
-fn plan_of(header: &Header) -> Result<MapPlan, SceneError> {
-    Ok(MapPlan {
-        scene: Scene::from_toml_unchecked(&header.scene)?,
-        x: header.x.clone(),
-        y: header.y.clone(),
-        sensitivity: header.sensitivity,
-    })
 }
 
 fn read_cells(file: &str, mut part: impl BufRead, map: &mut Map) -> Result<(), PartError> {
@@ -309,6 +299,32 @@ mod tests {
         assert_eq!(message, "part 1 does not belong to part 0: they differ in the scene");
         let conflict = text.replacen("1 decay", "0 failed", 1).into_bytes();
         assert!(matches!(read(&[first, conflict]), Err(PartError::Conflict { index: 0, .. })));
+    }
+
+    #[test]
+    fn what_decides_no_cell_does_not_part_the_parts() {
+        let first = part(Shard { shard: 1, count: 2 });
+        let text = String::from_utf8(part(Shard { shard: 2, count: 2 })).unwrap();
+        // Title, note and view, and the base values of the keys on the axes.
+        let other = text
+            .replacen("title = \\\"\\\"", "title = \\\"another\\\"", 1)
+            .replacen("note = \\\"\\\"", "note = \\\"seen on Monday\\\"", 1)
+            .replacen("\\\"response\\\", ", "", 1)
+            .replacen("speed_rad_s = 500.0", "speed_rad_s = 320.0", 1)
+            .replacen("pulse_n = 20000.0", "pulse_n = 7.0", 1);
+        assert!(other.contains("another") && other.contains("Monday") && other.contains("= 7.0"));
+        assert!(!other.contains("response") && other.contains("speed_rad_s = 320.0"), "{other}");
+        let joined = read(&[first.clone(), other.into_bytes()]).unwrap().unwrap();
+        require_complete(&joined).unwrap();
+        // A part of a time when the scene had fewer keys: the rest has defaults.
+        let mut lines = text.replacen("\\norder = 3", "", 1);
+        lines = lines.replacen("contact = \\\"unilateral\\\"\\n", "", 1);
+        assert!(lines.len() < text.len() - 30);
+        require_complete(&read(&[first.clone(), lines.into_bytes()]).unwrap().unwrap()).unwrap();
+        // What does decide them still counts.
+        let damped = text.replacen("damping_ratio = 0.05", "damping_ratio = 0.06", 1);
+        assert_ne!(damped, text);
+        assert!(read(&[first, damped.into_bytes()]).is_err());
     }
 
     #[test]
