@@ -106,6 +106,24 @@ fn refused_options_name_key_value_and_what_is_allowed() {
 }
 
 #[test]
+fn a_step_bound_is_printed_in_four_digits_and_accepted_as_printed() {
+    for (speed, step, bound) in [
+        ("0", "0.01", "2.276e-3"),
+        ("0", "2.4e-3", "2.276e-3"),
+        ("500", "0.01", "3.333e-4"),
+        ("500", "4e-4", "3.333e-4"),
+        ("-430", "2.4e-3", "3.875e-4"),
+    ] {
+        let short = ["run", "--end", "0.01", "--speed", speed, "--step"];
+        let said = refusal(&[&short[..], &[step]].concat());
+        let printed = said.split("at most ").nth(1).unwrap().split(',').next().unwrap();
+        assert_eq!(printed, bound, "{said}");
+        // Coarse as it is, such a step may break down, but it is run.
+        assert_ne!(rubscope(&[&short[..], &[printed]].concat()).status.code(), Some(2), "{said}");
+    }
+}
+
+#[test]
 fn refused_files_are_named() {
     for (toml, found) in [
         ("[casing]\nradius_m = nan\n", "casing.radius_m = NaN: allowed is"),

@@ -6,6 +6,8 @@ use super::{ContactLaw, ModelSize, Scene, SceneError, SolverKind};
 const MOST_STEPS: f64 = 1e10;
 /// Largest angle the wave may turn against the blades in one step \[rad\].
 const MOST_TURN: f64 = 0.5;
+/// What a product or a quotient at a bound may be above it.
+const ROUND_OFF: f64 = 1.0 + 1e-12;
 
 pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     clearance(scene)?;
@@ -38,8 +40,10 @@ fn frequencies(scene: &Scene) -> Result<(), SceneError> {
         ("bladed_disk.inertia_kg_m2", scene.bladed_disk.inertia_kg_m2, machine.omega_bd),
     ] {
         if !(1e-6..=1e15).contains(&frequency) {
+            // Rounded away from what is allowed.
+            let given = if frequency > 1.0 { up(frequency) } else { down(frequency) };
             let allowed =
-                format!("one that gives a frequency from 1e-6 to 1e15 rad/s, not {frequency:e}");
+                format!("one that gives a frequency from 1e-6 to 1e15 rad/s, not {given:e}");
             return Err(SceneError::refused(key, format!("{value:e}"), allowed));
         }
     }
@@ -55,7 +59,9 @@ fn initial_state(scene: &Scene) -> Result<(), SceneError> {
     if gap >= -1e-12 * machine.clearance() {
         return Ok(());
     }
-    let deepest = format!("a casing position with every gap open; here the smallest is {gap:e} m");
+    let deepest = down(gap);
+    let deepest =
+        format!("a casing position with every gap open; here the smallest is {deepest:e} m");
     Err(SceneError::refused("initial.u_c_m", format!("{x:e}, u_s_m = {y:e}"), deepest))
 }
 
@@ -73,33 +79,73 @@ fn excitation(scene: &Scene) -> Result<(), SceneError> {
     Err(SceneError::refused("excitation.amplitude_nm", amplitude, allowed))
 }
 
+/// Bounds of the step, each printed so that the printed value is accepted.
 fn explicit(scene: &Scene) -> Result<(), SceneError> {
-    let step = scene.solver.step_s;
+    let (step, end) = (scene.solver.step_s, scene.solver.end_s);
+    let operation = &scene.operation;
+    let last = operation.speed_rad_s + operation.speed_ramp_rad_s2 * end;
+    let fastest = operation.speed_rad_s.abs().max(last.abs());
+    let turn = f64::from(operation.nodal_diameters) * fastest;
+    let stable = scene.stable_step();
+    let is_stable = step < stable;
+    let turns_little = turn * step <= MOST_TURN * ROUND_OFF;
+    let is_affordable = end / step <= MOST_STEPS * ROUND_OFF;
+    if is_stable && turns_little && is_affordable {
+        return Ok(());
+    }
     let refused =
         |allowed: String| SceneError::refused("solver.step_s", format!("{step:e}"), allowed);
-    let limit = scene.stable_step();
-    if step >= limit {
-        return Err(refused(format!(
-            "above 0 and below the stability limit 2/omega_max = {limit:e}"
-        )));
+    let (most, least) = (below(stable).min(down(MOST_TURN / turn)), up(end / MOST_STEPS));
+    if least > most {
+        let until = below(most * MOST_STEPS);
+        let allowed = format!(
+            "at most {until:e}, for at most {MOST_STEPS:e} steps of solver.step_s = {most:e}, the longest allowed"
+        );
+        return Err(SceneError::refused("solver.end_s", format!("{end:e}"), allowed));
     }
-    let operation = &scene.operation;
-    let last = operation.speed_rad_s + operation.speed_ramp_rad_s2 * scene.solver.end_s;
-    let fastest = operation.speed_rad_s.abs().max(last.abs());
-    let turn = f64::from(operation.nodal_diameters) * fastest * step;
-    if turn > MOST_TURN {
-        let most = step * MOST_TURN / turn;
-        return Err(refused(format!(
-            "at most {most:e}, so that the wave turns at most {MOST_TURN} rad a step at {fastest} rad/s"
-        )));
-    }
-    if scene.solver.end_s / step > MOST_STEPS {
-        let least = scene.solver.end_s / MOST_STEPS;
+    if !is_affordable {
         return Err(refused(format!(
             "at least {least:e}, for at most {MOST_STEPS:e} steps to solver.end_s"
         )));
     }
-    Ok(())
+    let mut allowed = format!("at most {most:e}");
+    if !is_stable {
+        allowed = format!("above 0 and below the stability limit 2/omega_max, {allowed}");
+    }
+    if most < below(stable) {
+        let fastest = up(fastest);
+        allowed.push_str(&format!(
+            ", so that the wave turns at most {MOST_TURN} rad a step at {fastest} rad/s"
+        ));
+    }
+    Err(refused(allowed))
+}
+
+/// A number in four digits, not above it.
+fn down(x: f64) -> f64 {
+    let near = four_digits(x);
+    if near > x { four_digits(near - unit(x)) } else { near }
+}
+
+/// A number in four digits, not below it.
+fn up(x: f64) -> f64 {
+    -down(-x)
+}
+
+/// A number in four digits, below it.
+fn below(x: f64) -> f64 {
+    let near = down(x);
+    if near < x { near } else { four_digits(near - unit(x)) }
+}
+
+/// The number nearest in four digits, which prints as them.
+fn four_digits(x: f64) -> f64 {
+    format!("{x:.3e}").parse().unwrap_or(x)
+}
+
+/// One in the last of four digits of a number.
+fn unit(x: f64) -> f64 {
+    if x == 0.0 || !x.is_finite() { 0.0 } else { 10_f64.powf(x.abs().log10().floor() - 3.0) }
 }
 
 fn event(scene: &Scene) -> Result<(), SceneError> {
@@ -118,4 +164,71 @@ fn event(scene: &Scene) -> Result<(), SceneError> {
         ));
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The number after a word in a message.
+    fn number_after(message: &str, word: &str) -> Option<f64> {
+        let rest = message.split(word).nth(1)?.trim_start();
+        rest.split([' ', ',']).next()?.parse().ok()
+    }
+
+    #[test]
+    fn a_bound_as_it_is_printed_is_accepted() {
+        let mut refusals = [0; 3];
+        for model in [ModelSize::Rigid, ModelSize::Modal, ModelSize::Full] {
+            for (mass, diameters) in [(2.0, 3), (0.5, 4), (1.544, 0), (2.31, 11), (1e-4, 3)] {
+                for speed in [0.0, 10.0, 250.0, -500.0, 1e4, 9.7e5] {
+                    for (end, ramp) in [(0.1, 0.0), (0.3, -77.7), (300.0, 0.0), (1e6, 0.0)] {
+                        for step in [1e3, 0.01, 2.3e-3, 3.4e-4, 1e-7, 1.23e-11] {
+                            let mut scene = Scene::default();
+                            scene.casing.modal_mass_kg = mass;
+                            scene.operation.nodal_diameters = diameters;
+                            scene.operation.speed_rad_s = speed;
+                            scene.operation.speed_ramp_rad_s2 = ramp;
+                            scene.solver.model = model;
+                            scene.solver.end_s = end;
+                            scene.solver.step_s = step;
+                            let Err(error) = check(&scene) else { continue };
+                            let message = error.to_string();
+                            let most = number_after(&message, "at most");
+                            if message.starts_with("solver.end_s = ") {
+                                scene.solver.end_s = most.unwrap();
+                                scene.solver.step_s =
+                                    number_after(&message, "solver.step_s =").unwrap();
+                                refusals[2] += 1;
+                            } else if let Some(least) = number_after(&message, "at least") {
+                                scene.solver.step_s = least;
+                                refusals[1] += 1;
+                            } else {
+                                scene.solver.step_s = most.unwrap();
+                                refusals[0] += 1;
+                            }
+                            assert_eq!(check(&scene), Ok(()), "after {message}");
+                        }
+                    }
+                }
+            }
+        }
+        assert!(refusals.iter().all(|&count| count > 50), "{refusals:?}");
+    }
+
+    #[test]
+    fn four_digits_on_the_safe_side() {
+        for (x, under, least_under, over) in [
+            (2.276_257_268e-3, 2.276e-3, 2.276e-3, 2.277e-3),
+            (2e-3, 2e-3, 1.999e-3, 2e-3),
+            (1e-3, 1e-3, 9.99e-4, 1e-3),
+            (9.999_999e-7, 9.999e-7, 9.999e-7, 1e-6),
+            (-1.234_56e5, -1.235e5, -1.235e5, -1.234e5),
+        ] {
+            assert_eq!((down(x), up(x)), (under, over), "{x}");
+            // One unit at a power of ten is one of the decade above it.
+            assert!((below(x) - least_under).abs() <= 1e-3 * x.abs() && below(x) < x, "{x}");
+        }
+        assert_eq!((down(0.0), down(f64::INFINITY)), (0.0, f64::INFINITY));
+    }
 }
