@@ -145,7 +145,7 @@ fn write_legend(map: &Map, out: &mut dyn Write) -> Result<()> {
         let means = match verdict {
             Verdict::Decay => "contact ends",
             Verdict::Bounce => "contacts come and go",
-            Verdict::Slip => "held while the blades change",
+            Verdict::Slip => "contact without a break, but not held",
             Verdict::Locked => "held by the same blades, which push",
             Verdict::Adhesive => "held by the same blades, some of which pull",
             Verdict::Failed => "the computation broke down",
