@@ -16,6 +16,7 @@ mod precision;
 pub mod range;
 mod run;
 mod scenes;
+pub mod script;
 pub mod status;
 
 use std::ffi::OsString;

@@ -1,0 +1,223 @@
+//! What is done to a motion that is under way: `--at TIME:PATH=VALUE` and
+//! `--at TIME:pulse`, by the rules of the explorer when its knobs act live, so
+//! that what was done on the screen can be repeated without one.
+//!
+//! `parse` reads the options, `Script::resolve` checks them against a scene
+//! before anything is simulated, and `Step::apply` is the one place where a
+//! step reaches the motion.
+
+use serde::{Serialize, Serializer};
+
+use super::status::Refusal;
+use crate::motion::Motion;
+use crate::scene::{KEYS, Scene, SolverKind, Value, keys};
+
+/// The option, as it is named in refusals.
+const OPTION: &str = "--at";
+/// What stands in place of a key to fire the pulse.
+const PULSE: &str = "pulse";
+/// Key of the rotor speed, and of its acceleration: every solver takes them.
+const SPEED: &str = "operation.speed_rad_s";
+const RAMP: &str = "operation.speed_ramp_rad_s2";
+/// Keys, or tables of keys, that a running motion cannot take: those of its
+/// start, of its steps and its end, of the polygon, and those for readers.
+const FIXED: [&str; 12] = [
+    "title",
+    "note",
+    "view.",
+    "initial.",
+    "bladed_disk.blades",
+    "bladed_disk.blade_length_m",
+    "casing.radius_m",
+    "operation.nodal_diameters",
+    "solver.kind",
+    "solver.model",
+    "solver.step_s",
+    "solver.end_s",
+];
+
+/// One thing done to a running motion.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Change {
+    /// Fires the pulse.
+    Pulse,
+    /// Sets a key of the scene.
+    Set {
+        /// Dotted path of the key.
+        path: String,
+        /// The value, as typed.
+        value: String,
+    },
+}
+
+impl std::fmt::Display for Change {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Pulse => out.write_str(PULSE),
+            Self::Set { path, value } => write!(out, "{path}={value}"),
+        }
+    }
+}
+
+/// Reads the options into changes in order of time \[s\]; those of one instant
+/// keep the order in which they were given.
+///
+/// # Errors
+/// An option of another form.
+pub fn parse(options: &[String]) -> Result<Vec<(f64, Change)>, Refusal> {
+    let mut changes = options.iter().map(|text| parse_one(text)).collect::<Result<Vec<_>, _>>()?;
+    changes.sort_by(|(one, _), (other, _)| one.total_cmp(other));
+    Ok(changes)
+}
+
+fn parse_one(text: &str) -> Result<(f64, Change), Refusal> {
+    let form = || {
+        let allowed = "TIME:PATH=VALUE or TIME:pulse, with TIME in seconds";
+        Refusal::of(OPTION, text, allowed)
+    };
+    let (time, change) = text.split_once(':').ok_or_else(form)?;
+    let time: f64 = time.trim().parse().map_err(|_| form())?;
+    let change = match change.split_once('=') {
+        Some((path, value)) => Change::Set { path: path.trim().into(), value: value.into() },
+        None if change.trim() == PULSE => Change::Pulse,
+        None => return Err(form()),
+    };
+    // A sum with zero, so that -0 and 0 are one instant.
+    Ok((time + 0.0, change))
+}
+
+/// A change, checked, with the scene as it is from then on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Step {
+    /// When \[s\].
+    pub t_s: f64,
+    /// What was asked.
+    pub change: Change,
+    /// The scene from then on.
+    pub scene: Scene,
+    /// Whether the rotor turns with the speed and ramp of the scene from then on.
+    turns: bool,
+}
+
+impl Step {
+    fn of(t_s: f64, change: &Change, before: &Scene) -> Result<Self, Refusal> {
+        let shown = format!("{t_s}:{change}");
+        let end = before.solver.end_s;
+        if !(0.0..=end).contains(&t_s) {
+            let allowed = format!("a time from 0 to solver.end_s = {end}");
+            return Err(Refusal::of(OPTION, shown, allowed));
+        }
+        let step = |scene, turns| Self { t_s, change: change.clone(), scene, turns };
+        let Change::Set { path, value } = change else { return Ok(step(before.clone(), false)) };
+        let refused = |error| Refusal::because(format!("{OPTION} {shown}: {error}"));
+        keys::find(path).map_err(refused)?;
+        let fixed = || Refusal::of(OPTION, &shown, live_keys(before));
+        if !acts_live(path, before) {
+            return Err(fixed());
+        }
+        let scene = before.clone().with(&[(path, value)]).map_err(refused)?;
+        let of_rotor = path == SPEED || path == RAMP;
+        if !of_rotor && !Motion::new(before).adopt(&scene) {
+            return Err(fixed());
+        }
+        // A ramp of the same value is no change, and a rotor that ramps keeps
+        // its speed; the same speed again is one, if it ramps.
+        let turns = path == SPEED || rotor(before) != rotor(&scene);
+        Ok(step(scene, turns))
+    }
+
+    /// Acts on a motion that has been advanced to `t_s` (the explicit solver:
+    /// to its last step by then), and on which the steps before this one have
+    /// acted.
+    pub fn apply(&self, motion: &mut Motion) {
+        if self.change == Change::Pulse {
+            motion.fire();
+            return;
+        }
+        if self.turns {
+            let (speed, ramp) = rotor(&self.scene);
+            motion.set_speed(speed, ramp);
+        }
+        // The event solver adopts nothing, and only its rotor is turned.
+        motion.adopt(&self.scene);
+    }
+}
+
+/// Speed and acceleration of the rotor.
+fn rotor(scene: &Scene) -> (f64, f64) {
+    (scene.operation.speed_rad_s, scene.operation.speed_ramp_rad_s2)
+}
+
+/// Whether a key can act on a running motion of this scene.
+fn acts_live(path: &str, scene: &Scene) -> bool {
+    let fixed =
+        |name: &&str| if name.ends_with('.') { path.starts_with(*name) } else { path == *name };
+    path == SPEED
+        || path == RAMP
+        || (scene.solver.kind == SolverKind::Explicit && !FIXED.iter().any(fixed))
+}
+
+/// What can act on a running motion of this scene, for a refusal.
+fn live_keys(scene: &Scene) -> String {
+    let keys: Vec<&str> =
+        KEYS.iter().map(|key| key.path).filter(|path| acts_live(path, scene)).collect();
+    let solver = scene.solver.kind.word();
+    format!("{PULSE}, or a key that a running {solver} motion takes: {}", keys.join(", "))
+}
+
+/// Checked changes, in order of time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Script(Vec<Step>);
+
+impl Script {
+    /// Checks changes, in order of time, on the scene that the motion starts
+    /// with; each sees the scene that those before it left.
+    ///
+    /// # Errors
+    /// The first change that is refused: a time outside the run, a key that
+    /// does not exist or needs another motion, or a value that is not allowed.
+    pub fn resolve(changes: &[(f64, Change)], scene: &Scene) -> Result<Self, Refusal> {
+        let mut steps: Vec<Step> = Vec::with_capacity(changes.len());
+        for (t_s, change) in changes {
+            let before = steps.last().map_or(scene, |step| &step.scene);
+            let step = Step::of(*t_s, change, before)?;
+            steps.push(step);
+        }
+        Ok(Self(steps))
+    }
+
+    /// Whether nothing is done.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// The steps, in order of time.
+    #[must_use]
+    pub fn steps(&self) -> &[Step] {
+        &self.0
+    }
+}
+
+impl Serialize for Script {
+    fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
+        out.collect_seq(self.0.iter().map(told))
+    }
+}
+
+/// A step as JSON reports tell it.
+fn told(step: &Step) -> serde_json::Value {
+    let t_s = step.t_s;
+    match &step.change {
+        Change::Pulse => serde_json::json!({ "t_s": t_s, "pulse": true }),
+        Change::Set { path, value } => {
+            let value = match keys::find(path).map(|key| (key.get)(&step.scene)) {
+                Ok(Value::Real(x)) => serde_json::json!(x),
+                Ok(Value::Whole(n)) => serde_json::json!(n),
+                Ok(Value::Text(word)) => serde_json::json!(word),
+                Ok(Value::Words(_)) | Err(_) => serde_json::json!(value),
+            };
+            serde_json::json!({ "t_s": t_s, "path": path, "value": value })
+        }
+    }
+}
