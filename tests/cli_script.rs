@@ -3,6 +3,9 @@
 
 #![expect(clippy::unwrap_used, reason = "a test states what must hold")]
 
+mod cli_support;
+
+use cli_support::{refusal, rubscope};
 use rubscope::cli::script::{Change, Script, parse};
 use rubscope::motion::Motion;
 use rubscope::scene::{Allowed, ContactLaw, KEYS, Key, ModelSize, Scene, SolverKind, Value};
@@ -44,7 +47,7 @@ fn changes_are_put_in_order_of_time_and_keep_their_order_at_one_instant() {
         [
             "0 operation.speed_rad_s=480",
             "0 solver.contact=bilateral",
-            "0.01 operation.pulse_n= -5e3",
+            "0.01 operation.pulse_n=-5e3",
             "0.01 pulse",
             "0.02 pulse"
         ]
@@ -227,4 +230,34 @@ fn json_names_each_change() {
             { "t_s": 0.02, "pulse": true }
         ])
     );
+}
+
+#[test]
+fn the_option_is_checked_before_the_simulation() {
+    // So many steps that a debug build would be at it for minutes.
+    let long = ["run", "slip", "--solver", "explicit", "--step", "1e-9", "--end", "10"];
+    for (options, said) in [
+        (&["--at", "11:pulse"][..], "--at = 11:pulse: allowed is a time from 0 to solver.end_s ="),
+        (&["--at", "-1:pulse"], "--at = -1:pulse: allowed is a time from 0 to solver.end_s = 10"),
+        (&["--at", "pulse"], "--at = pulse: allowed is TIME:PATH=VALUE or TIME:pulse"),
+        (&["--at", "1:bladed_disk.blades=24"], "--at = 1:bladed_disk.blades=24: allowed is pulse"),
+        (&["--at", "1:pulse", "--at", "2:x=1"], "--at 2:x=1: unknown key x; allowed: schema"),
+        (
+            &["--at", "1:casing.damping_ratio=lots"],
+            "--at 1:casing.damping_ratio=lots: casing.damping_ratio = lots: allowed is a number",
+        ),
+    ] {
+        let refused = refusal(&[&long[..], options].concat());
+        assert!(refused.starts_with(&format!("rubscope: {said}")), "{refused}");
+    }
+}
+
+#[test]
+fn a_run_without_changes_says_nothing_of_them() {
+    let output = rubscope(&["run", "--end", "1e-4", "--json"]);
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(report["schema"], "rubscope.run/1");
+    assert!(report.get("changes").is_none());
+    let output = rubscope(&["run", "--end", "1e-4"]);
+    assert!(!String::from_utf8(output.stdout).unwrap().contains("hanged"));
 }

@@ -10,6 +10,7 @@ use serde::{Serialize, Serializer};
 
 use super::status::Refusal;
 use crate::motion::Motion;
+use crate::report::number::time;
 use crate::scene::{KEYS, Scene, SolverKind, Value, keys};
 
 /// The option, as it is named in refusals.
@@ -78,7 +79,7 @@ fn parse_one(text: &str) -> Result<(f64, Change), Refusal> {
     let (time, change) = text.split_once(':').ok_or_else(form)?;
     let time: f64 = time.trim().parse().map_err(|_| form())?;
     let change = match change.split_once('=') {
-        Some((path, value)) => Change::Set { path: path.trim().into(), value: value.into() },
+        Some((path, value)) => Change::Set { path: path.trim().into(), value: value.trim().into() },
         None if change.trim() == PULSE => Change::Pulse,
         None => return Err(form()),
     };
@@ -196,6 +197,16 @@ impl Script {
     #[must_use]
     pub fn steps(&self) -> &[Step] {
         &self.0
+    }
+}
+
+impl std::fmt::Display for Script {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        for (index, step) in self.0.iter().enumerate() {
+            let comma = if index == 0 { "" } else { ", " };
+            write!(out, "{comma}{} at {}", step.change, time(step.t_s))?;
+        }
+        Ok(())
     }
 }
 
