@@ -48,7 +48,6 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
         );
     }
     let inside = Rect { y: inside.y + 1, height: inside.height.saturating_sub(1), ..inside };
-    let points: Vec<_> = report.rows.iter().filter_map(|row| Some((place(row)?, row))).collect();
     if !report.reference.sensitive {
         let same_law = report.rows.iter().filter(|row| !row.other_law).count();
         let wrong = report.rows.iter().filter(|row| row.is_wrong()).count();
@@ -58,25 +57,30 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
         );
         print(buffer, Rect { y: inside.y - 1, ..inside }, 0, &note, quiet);
     }
-    let Some((left, right)) = decades(points.iter().map(|(at, _)| at.time)) else { return };
-    // Only zeros: any range will do, they stand below it.
-    let errors = decades(points.iter().filter_map(|(at, _)| at.error));
-    let (bottom, top) = errors.unwrap_or((-16.0, 0.0));
+    let placed = || report.rows.iter().filter_map(|row| Some((place(row)?, row)));
+    // An error of zero has no place on the axis: such rows have a line below.
+    let mut zeros: Vec<char> =
+        placed().filter(|(at, _)| at.error.is_none()).map(|(_, row)| letter(&row.way)).collect();
+    zeros.dedup();
+    let height = inside.height.saturating_sub(u16::from(!zeros.is_empty()));
+    if !zeros.is_empty() {
+        let letters: String = zeros.into_iter().flat_map(|letter| [' ', letter]).collect();
+        print(buffer, inside, height, &format!("error 0, off this axis:{letters}"), quiet);
+    }
+    let inside = Rect { height, ..inside };
+    let points: Vec<_> =
+        placed().filter_map(|(at, row)| Some(((at.time, at.error?), row))).collect();
+    let times = decades(points.iter().map(|((x, _), _)| *x));
+    let errors = decades(points.iter().map(|((_, y), _)| *y));
+    let (Some((left, right)), Some((bottom, top))) = (times, errors) else { return };
     let (x, y) = (Axis::plain(left, right), Axis::plain(bottom, top));
     let Some(mut plot) = Plot::powers_both(buffer, inside, x, y, skin) else { return };
-    for (at, row) in points {
-        let style = skin.style(role(&row.way));
-        plot.point(at.time, at.error.unwrap_or(bottom), letter(&row.way), style);
-        let beside = match (row.is_wrong(), at.error) {
-            (true, _) => ("!", skin.style(Role::Trouble)),
-            // Off the logarithmic axis, below its lower end.
-            (false, None) => ("=0", quiet),
-            (false, Some(_)) => continue,
-        };
-        if let (Some(column), Some(line)) =
-            (plot.column(at.time), plot.row(at.error.unwrap_or(bottom)))
+    for ((x, y), row) in points {
+        plot.point(x, y, letter(&row.way), skin.style(role(&row.way)));
+        if row.is_wrong()
+            && let (Some(column), Some(line)) = (plot.column(x), plot.row(y))
         {
-            plot.text(column + 1, line, beside.0, beside.1);
+            plot.text(column + 1, line, "!", skin.style(Role::Trouble));
         }
     }
 }
