@@ -1,8 +1,6 @@
 //! Every equilibrium of the blade frame, its stability and the thresholds.
 
-use rubscope::harmonic::{
-    Branches, Character, Form, Kind, Threshold, corner_branch, equilibria, locked_motion,
-};
+use rubscope::harmonic::{Branches, Character, Kind, Threshold, equilibria};
 use rubscope::model::{BladedDisk, Casing, Machine};
 
 fn machine(stiffness: f64, nodal_diameters: u32, zeta_c: f64) -> Machine {
@@ -117,74 +115,4 @@ fn one_or_two_sides_have_no_corner_but_states_all_the_same() {
     let machine = machine(15_000.0, 11, 0.05);
     let above = equilibria(&machine, 500.0, true).unwrap();
     assert_eq!(above[1].character, Character::Unstable);
-}
-
-/// Soft enough to fold within the speeds of the paper.
-fn soft() -> Machine {
-    let disk = BladedDisk {
-        stiffness_nm_per_rad: 2e-3,
-        coupling_nm_per_rad: 0.0,
-        ..BladedDisk::default()
-    };
-    Machine::new(&disk, &Casing::default(), 3)
-}
-
-#[test]
-fn the_fold_of_very_soft_blades_is_passed() {
-    let machine = soft();
-    let branch = corner_branch(&machine, 15, true, [100.0, 2000.0], 0.02).unwrap();
-    let fold = branch.fold.unwrap();
-    assert!((300.0..2000.0).contains(&fold.speed), "{}", fold.speed);
-    let speeds: Vec<f64> = branch.points.iter().map(|(_, state)| state.speed).collect();
-    let top = speeds.iter().position(|&speed| speed == fold.speed).unwrap();
-    assert!(speeds[..top].windows(2).all(|pair| pair[0] < pair[1]));
-    assert!(speeds[top..].windows(2).all(|pair| pair[0] > pair[1]));
-    assert!(branch.points.windows(2).all(|pair| pair[0].0 < pair[1].0));
-    for (opening, state) in &branch.points {
-        // An equilibrium, whatever the branch: both gaps closed, forces balanced.
-        let nu = machine.nu(state.speed);
-        let k = machine.casing_stiffness - nu * nu * machine.casing_mass;
-        let d = machine.casing_damping * nu;
-        let z = state.z;
-        let mut force = [k * z[0] - d * z[1], k * z[1] + d * z[0]];
-        let scale = force[0].hypot(force[1]);
-        for &(side, multiplier) in &state.contacts {
-            let (cos, sin) = machine.rim.direction(side);
-            let phase =
-                machine.rim.phase(side) + 3.0 * (cos * state.alpha[0] + sin * state.alpha[1]);
-            let gap = machine.clearance() + z[0] * phase.cos() + z[1] * phase.sin();
-            // Phases up to 2 pi and amplitudes up to 1000 clearances round off.
-            assert!(gap.abs() < 1e-14 * state.amplitude() / 1e-4, "{gap:e}");
-            force = [force[0] + multiplier * phase.cos(), force[1] + multiplier * phase.sin()];
-        }
-        assert!(force[0].hypot(force[1]) < 1e-11 * scale, "{force:?} at {opening}");
-        let dissipated = machine.casing_damping * nu * nu * state.amplitude().powi(2);
-        close(state.power, dissipated, 1e-11);
-    }
-    // A fold exchanges stability: an eigenvalue passes through zero.
-    let sign = |state: &rubscope::harmonic::Equilibrium| {
-        state.eigenvalues.iter().product::<nalgebra::Complex<f64>>().re
-    };
-    let (before, after) = (&branch.points[top - 1].1, &branch.points[top + 1].1);
-    assert!(sign(before) > 0.0 && sign(after) < 0.0);
-    assert!(after.growth() > 0.0);
-}
-
-#[test]
-fn beyond_its_fold_a_speed_has_no_locked_motion() {
-    let machine = soft();
-    let fold = corner_branch(&machine, 15, false, [0.0, 1.0], 0.02).unwrap().fold.unwrap().speed;
-    let speeds = [0.5 * fold, 0.999 * fold, 1.001 * fold, 3.0 * fold];
-    let sweep = locked_motion(&machine, Form::Modal, false, None, &speeds).unwrap();
-    assert_eq!((sweep.points.len(), sweep.missing.as_slice()), (2, &speeds[2..]));
-    assert!(sweep.points.iter().all(|point| point.residual < 1e-12));
-    // The paper's blades fold far beyond any rotor.
-    let paper = machine_of_table_1();
-    let branch = corner_branch(&paper, 15, true, [0.0, 500.0], 0.05).unwrap();
-    assert!(branch.fold.unwrap().speed > 1e6);
-    assert_eq!(branch.points.last().unwrap().1.speed, 500.0);
-}
-
-fn machine_of_table_1() -> Machine {
-    machine(15_000.0, 3, 0.05)
 }

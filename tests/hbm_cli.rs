@@ -98,6 +98,26 @@ fn every_view_prints_a_table_and_json() {
 }
 
 #[test]
+fn a_branch_asked_to_end_below_its_fold_prints_no_more_than_that() {
+    let soft = ["--fold", "--nd", "55", "--set", "bladed_disk.blades=14"];
+    let stiffness = ["--set", "bladed_disk.stiffness_nm_per_rad=5000"];
+    let ending = |range: &str| {
+        let args = [soft.as_slice(), &stiffness, &["--speed", range]].concat();
+        let text = hbm(&args).assert().success().get_output().stdout.clone();
+        (json(&args)["fold"].clone(), String::from_utf8(text).unwrap())
+    };
+    let (fold, text) = ending("0:1296.4987:2");
+    let last = fold["points"].as_array().unwrap().last().unwrap();
+    assert_eq!(number(&last["speed_rad_s"]), 1296.4987);
+    assert!(number(&last["opening_rad"]) < number(&fold["fold_opening_rad"]));
+    // An arc of 81.2 critical speeds in steps of 0.05, a line each.
+    assert!((1500..1700).contains(&text.lines().count()), "{}", text.lines().count());
+    let (fold, text) = ending("1300:1400:2");
+    assert_eq!(fold["points"].as_array().unwrap().len(), 0);
+    assert!(text.contains("folds back at 1296.5 rad/s, below all of these speeds."), "{text}");
+}
+
+#[test]
 fn what_has_no_meaning_ends_with_status_2_and_one_line() {
     for (args, start) in [
         (vec!["--nd", "0"], "rubscope: operation.nodal_diameters = 0: allowed is"),

@@ -246,6 +246,10 @@ fn folding(
     let to = speeds.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let branch = corner_branch(machine, side, damped, [from, to], ARC)?;
     let title = match branch.fold {
+        Some(fold) if branch.points.is_empty() => format!(
+            "The corner branch folds back at {} rad/s, below all of these speeds.",
+            short(fold.speed)
+        ),
         Some(fold) => format!(
             "The corner branch folds back at {} rad/s, opened to {} rad from {} rad.",
             short(fold.speed),

@@ -3,7 +3,10 @@
 //! stiffness at some speed, and the branch turns back.
 //!
 //! Points are spaced by arc length in the plane of speed (over `Omega_c`) and
-//! opening, and each is exact: the branch is explicit in its opening.
+//! opening, and each is exact: the branch is explicit in its opening. Up to the
+//! fold both coordinates only grow, behind it the speed only falls, so that
+//! where each leg ends is known before it is walked: an end or a fold is landed
+//! on, and none is stepped over.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -35,11 +38,21 @@ pub struct CornerBranch {
 
 /// Most points of one branch.
 const MOST_POINTS: usize = 20_000;
+/// What the widest corner leaves of a right angle, where the amplitude would be
+/// infinite \[rad\].
+const LEFT_OPEN: f64 = 1e-3;
+/// Neighbours are an arc from the first to the second of these steps apart, and
+/// the last two of a leg at most the third.
+const APART: [f64; 3] = [0.9, 1.1, 1.5];
+/// The largest speed over `Omega_c`: squares of it leave room for what they are
+/// multiplied with.
+const FASTEST: f64 = 1e100;
 
 /// Follows the corner states of the exact modal form from speed `from` to `to`
-/// \[rad/s\]; where the branch folds before `to`, back to `from` or until the
-/// corner stands open by nearly a half turn. `step` is the arc length between
-/// points.
+/// \[rad/s\], both included; where the branch folds before `to`, through the
+/// fold and back to `from` or until the corner stands open by nearly a half
+/// turn. Without a point where it folds before `from`. `step` is the arc length
+/// between points, more where these would be over 20,000.
 ///
 /// # Errors
 /// A rim without corners, speeds that are not `0 <= from < to`, or a step
@@ -53,8 +66,8 @@ pub fn corner_branch(
 ) -> Result<CornerBranch, HarmonicError> {
     let corner = Corner::after(&machine.rim, side)?;
     let Some(critical) = machine.critical_speed() else { return Err(HarmonicError::NoWave) };
-    if !(from >= 0.0 && to > from && to.is_finite()) {
-        let allowed = "two speeds with 0 <= from < to".to_string();
+    if !(from >= 0.0 && to > from && to / critical <= FASTEST) {
+        let allowed = format!("two speeds with 0 <= from < to, up to {FASTEST:e} critical speeds");
         return Err(HarmonicError::Refused {
             key: "speed",
             value: format!("{from}:{to}"),
@@ -66,78 +79,137 @@ pub fn corner_branch(
         return Err(HarmonicError::Refused { key, value: step.to_string(), allowed });
     }
     let opening = Opening::of(machine);
-    let equations = Equations::new(machine, corner, Form::Modal);
-    let walk = Walk { machine, corner, damped, critical, opening, equations };
     let widest = opening.at_fold();
-    let fold = opening.kappa(widest).map(|(kappa, _)| Fold {
-        speed: critical * (1.0 - kappa).sqrt(),
-        opening: opening.delta + widest,
-    });
-    let points = walk.points([from, to], step, fold.map(|fold| (fold, widest)));
-    Ok(CornerBranch { points, fold })
+    let top = opening
+        .kappa(widest)
+        .map(|(kappa, _)| Place { speed: critical * (1.0 - kappa).sqrt(), widening: widest });
+    let walk = Walk { machine, critical, opening, top };
+    let places = walk.places([from, to], step);
+    let equations = Equations::new(machine, corner, Form::Modal);
+    let state = |place: &Place| {
+        let mut wave = Wave::at(machine, place.speed, damped);
+        // Next to the fold, and with very soft blades, the opening says more of
+        // kappa than the digits of the speed do.
+        if let Some((kappa, _)) = opening.kappa(place.widening) {
+            wave.kappa = kappa;
+        }
+        let unknowns = equations.opened(wave, place.widening);
+        let (z, loads) = loads_of(machine, corner, &unknowns);
+        let turns = [4, 5].map(|i| equations.softness() * unknowns[i]);
+        let posture = Posture::of_pair(&machine.rim, z, corner.sides(), turns);
+        let state = judged(machine, Kind::Corner, place.speed, damped, &posture, &loads);
+        (opening.delta + place.widening, state)
+    };
+    Ok(CornerBranch {
+        points: places.iter().map(state).collect(),
+        fold: top.map(|top| Fold { speed: top.speed, opening: opening.delta + top.widening }),
+    })
+}
+
+/// Where a branch has got to: speed \[rad/s\] and `Delta - delta` \[rad\].
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Place {
+    speed: f64,
+    widening: f64,
 }
 
 struct Walk<'a> {
     machine: &'a Machine,
-    corner: Corner,
-    damped: bool,
     critical: f64,
     opening: Opening,
-    equations: Equations,
+    /// The fold; none for blades as good as rigid.
+    top: Option<Place>,
 }
 
 impl Walk<'_> {
-    fn points(
-        &self,
-        [from, to]: [f64; 2],
-        step: f64,
-        fold: Option<(Fold, f64)>,
-    ) -> Vec<(f64, Equilibrium)> {
-        let mut points = Vec::new();
-        let folds = fold.filter(|(fold, _)| fold.speed < to);
-        // Not quite a right angle, where the amplitude would be infinite.
-        let end = FRAC_PI_2 - 1e-3 - self.opening.delta;
-        let Some(mut widening) = self.opening.at(self.kappa(from)) else { return points };
-        let mut speed = from;
-        let mut passed = false;
-        while points.len() < MOST_POINTS {
-            points.push(self.state(speed, widening));
-            let Some((_, slope)) = self.opening.kappa(widening) else { break };
-            // kappa = 1 - (Omega/Omega_c)^2, so Omega moves by -slope/(2 Omega).
-            let rate = slope / (2.0 * (speed / self.critical).max(step));
-            let next = widening + step / rate.hypot(1.0);
-            match folds {
-                Some((fold, widest)) if !passed && next >= widest => {
-                    passed = true;
-                    (speed, widening) = (fold.speed, widest);
-                    continue;
-                }
-                _ => {}
-            }
-            let Some((kappa, _)) = self.opening.kappa(next) else { break };
-            (speed, widening) = (self.critical * (1.0 - kappa).max(0.0).sqrt(), next);
-            if passed && (speed < from || widening > end) {
-                break;
-            }
-            if speed >= to {
-                points.extend(self.opening.at(self.kappa(to)).map(|last| self.state(to, last)));
-                break;
+    /// Both ends, the fold where it is passed, and what lies between, in order.
+    fn places(&self, [from, to]: [f64; 2], step: f64) -> Vec<Place> {
+        let Some(first) = self.rising(from) else { return Vec::new() };
+        let ends = match self.top {
+            Some(top) if top.speed < to => vec![top, self.last(top, from)],
+            _ => self.rising(to).into_iter().collect(),
+        };
+        // A leg is no longer than its two ways together.
+        let mut whole = 0.0;
+        let mut start = first;
+        for &end in &ends {
+            whole += (end.speed - start.speed).abs() / self.critical;
+            whole += (end.widening - start.widening).abs();
+            start = end;
+        }
+        let step = step.max(1.2 * whole / MOST_POINTS as f64);
+        let mut places = vec![first];
+        let mut here = first;
+        for end in ends {
+            while here != end && places.len() < MOST_POINTS {
+                here = self.onward(here, end, step).unwrap_or(end);
+                places.push(here);
             }
         }
-        points
+        places
     }
 
-    fn kappa(&self, speed: f64) -> f64 {
-        Wave::at(self.machine, speed, false).kappa
+    /// One step from `here` towards the end of its leg; `None` where that is so
+    /// near that it is the step.
+    fn onward(&self, here: Place, end: Place, step: f64) -> Option<Place> {
+        let [least, most, last] = APART.map(|part| part * step);
+        if self.apart(here, end) <= last {
+            return None;
+        }
+        if self.top.is_none() {
+            return self.rising(here.speed + step * self.critical);
+        }
+        // On one leg places farther on stand farther apart, too.
+        let (mut near, mut far) = (here.widening, end.widening);
+        for _ in 0..100 {
+            let place = self.at(0.5 * (near + far))?;
+            let apart = self.apart(here, place);
+            if apart < least {
+                near = place.widening;
+            } else if apart > most {
+                far = place.widening;
+            } else {
+                return Some(place);
+            }
+        }
+        None
     }
 
-    fn state(&self, speed: f64, widening: f64) -> (f64, Equilibrium) {
-        let wave = Wave::at(self.machine, speed, self.damped);
-        let unknowns = self.equations.opened(wave, widening);
-        let (z, loads) = loads_of(self.machine, self.corner, &unknowns);
-        let turns = [4, 5].map(|i| self.equations.softness() * unknowns[i]);
-        let posture = Posture::of_pair(&self.machine.rim, z, self.corner.sides(), turns);
-        let state = judged(self.machine, Kind::Corner, speed, self.damped, &posture, &loads);
-        (self.opening.delta + widening, state)
+    /// Chord between two places, speeds over `Omega_c`.
+    fn apart(&self, a: Place, b: Place) -> f64 {
+        ((b.speed - a.speed) / self.critical).hypot(b.widening - a.widening)
+    }
+
+    /// The place of this widening.
+    fn at(&self, widening: f64) -> Option<Place> {
+        let (kappa, _) = self.opening.kappa(widening)?;
+        // kappa = 1 - (Omega/Omega_c)^2.
+        Some(Place { speed: self.critical * (1.0 - kappa).max(0.0).sqrt(), widening })
+    }
+
+    /// The place of this speed on the way up to the fold; `None` beyond it.
+    fn rising(&self, speed: f64) -> Option<Place> {
+        let kappa = Wave::at(self.machine, speed, false).kappa;
+        let found = self.opening.at(kappa);
+        let Some(top) = self.top else { return found.map(|widening| Place { speed, widening }) };
+        if speed >= top.speed {
+            return (speed == top.speed).then_some(top);
+        }
+        // Newton gives up where rounding hides on which side of the fold it is.
+        let widening = found.unwrap_or_else(|| self.opening.between(kappa, [0.0, top.widening]));
+        Some(Place { speed, widening: widening.min(top.widening) })
+    }
+
+    /// Where the branch ends behind its fold: at this speed, or wide open.
+    fn last(&self, top: Place, speed: f64) -> Place {
+        if speed >= top.speed {
+            return top;
+        }
+        let widest = FRAC_PI_2 - LEFT_OPEN - self.opening.delta;
+        if let Some(open) = self.at(widest).filter(|open| open.speed >= speed) {
+            return open;
+        }
+        let kappa = Wave::at(self.machine, speed, false).kappa;
+        Place { speed, widening: self.opening.between(kappa, [top.widening, widest]) }
     }
 }

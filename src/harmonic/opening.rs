@@ -16,6 +16,10 @@ use std::f64::consts::FRAC_PI_2;
 use super::equations::Scales;
 use crate::model::Machine;
 
+/// A compliance below which the corner cannot open by a part of itself that a
+/// number resolves, at any speed whose square a number holds.
+const AS_GOOD_AS_RIGID: f64 = 1e-290;
+
 /// The opening of one rim's corners.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Opening {
@@ -70,9 +74,33 @@ impl Opening {
         None
     }
 
+    /// The widening \[rad\] between two others where `kappa` is this, by
+    /// halving: also next to the fold, where Newton's method has no slope, and
+    /// behind it. `kappa` must change one way only between the two.
+    pub fn between(&self, kappa: f64, [mut near, mut far]: [f64; 2]) -> f64 {
+        let at = |widening| self.kappa(widening).map_or(f64::NAN, |(kappa, _)| kappa);
+        let grows = at(near) < at(far);
+        let mut middle = near;
+        for _ in 0..200 {
+            middle = 0.5 * (near + far);
+            if middle <= near || middle >= far {
+                break;
+            }
+            if (at(middle) < kappa) == grows {
+                near = middle;
+            } else {
+                far = middle;
+            }
+        }
+        middle
+    }
+
     /// `kappa` at a widening, and its slope; `None` for blades so stiff that
     /// the corner cannot open so far.
     pub fn kappa(&self, widening: f64) -> Option<(f64, f64)> {
+        if self.compliance < AS_GOOD_AS_RIGID {
+            return None;
+        }
         let (sin, cos) = (self.delta + widening).sin_cos();
         let scale = -cos * cos / (self.compliance * sin * sin);
         let kappa = scale * widening * sin * cos;

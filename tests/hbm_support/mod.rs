@@ -1,0 +1,135 @@
+//! What every corner branch must keep to, whatever the machine.
+
+use std::f64::consts::FRAC_PI_2;
+
+use rubscope::harmonic::{CornerBranch, Equilibrium};
+use rubscope::model::Machine;
+
+/// A right angle less what the widest corner leaves of it \[rad\].
+const WIDEST: f64 = FRAC_PI_2 - 1e-3;
+/// Most points of one branch.
+const MOST_POINTS: usize = 20_000;
+
+/// Checks a branch that was followed from `from` to `to` \[rad/s\] with points
+/// an arc of `step` apart; says what is wrong.
+pub fn keeps_to_its_laws(
+    machine: &Machine,
+    branch: &CornerBranch,
+    [from, to]: [f64; 2],
+    step: f64,
+) -> Result<(), String> {
+    let must = |holds: bool, what: &str| if holds { Ok(()) } else { Err(what.to_string()) };
+    let points = &branch.points;
+    let fold = branch.fold.map_or(f64::INFINITY, |fold| fold.speed);
+    if from > fold {
+        return must(points.is_empty(), "no corner state beyond the fold");
+    }
+    let [(_, first), .., (widest, last)] = points.as_slice() else {
+        return must(points.len() == 1 && from == fold, "only the fold itself is a single point");
+    };
+    must(first.speed == from, "begins where it was asked to")?;
+    let rising = |pair: &[(f64, Equilibrium)]| pair[0].1.speed < pair[1].1.speed;
+    let falling = |pair: &[(f64, Equilibrium)]| pair[0].1.speed > pair[1].1.speed;
+    if to <= fold {
+        must(last.speed == to, "ends where it was asked to")?;
+        must(points.windows(2).all(rising), "speeds rise up to the end")?;
+    } else {
+        let folded = branch.fold.map(|fold| (fold.speed, fold.opening));
+        let top =
+            points.iter().position(|(opening, state)| Some((state.speed, *opening)) == folded);
+        let top = top.ok_or("the fold is a point of the branch")?;
+        must(points[..=top].windows(2).all(rising), "speeds rise up to the fold")?;
+        must(points[top..].windows(2).all(falling), "speeds fall behind the fold")?;
+        let open = (widest - WIDEST).abs() <= 4.0 * f64::EPSILON;
+        must(last.speed == from || open, "ends where it began or wide open")?;
+        must(last.speed >= from, "does not go below where it began")?;
+    }
+    let widens = |pair: &[(f64, Equilibrium)]| pair[0].0 <= pair[1].0;
+    must(points.windows(2).all(widens), "the corner only widens")?;
+    must(*widest <= WIDEST + 4.0 * f64::EPSILON, "the corner stays below a right angle")?;
+    spacing(machine, points, step)?;
+    points.iter().try_for_each(|(opening, state)| {
+        must(state.speed <= fold, "no state beyond the fold")?;
+        balance(machine, *opening, state)
+    })
+}
+
+/// Neighbours an arc of `step` apart, or as far as so many points must be.
+fn spacing(machine: &Machine, points: &[(f64, Equilibrium)], step: f64) -> Result<(), String> {
+    let critical = machine.critical_speed().unwrap_or(f64::NAN);
+    let arcs: Vec<f64> = points
+        .windows(2)
+        .map(|pair| ((pair[1].1.speed - pair[0].1.speed) / critical).hypot(pair[1].0 - pair[0].0))
+        .collect();
+    // Both coordinates go one way on each side of the fold, so that the sum of
+    // their ways bounds the arc.
+    let ways = points.windows(2).map(|pair| {
+        ((pair[1].1.speed - pair[0].1.speed) / critical).abs() + (pair[1].0 - pair[0].0).abs()
+    });
+    let whole: f64 = ways.sum();
+    if points.len() > MOST_POINTS || points.len() as f64 > 1.2 * whole / step + 4.0 {
+        return Err(format!("{} points for {} steps", points.len(), whole / step));
+    }
+    let longest = arcs.iter().copied().fold(0.0, f64::max);
+    let allowed = 1.6 * step.max(1.2 * whole / MOST_POINTS as f64);
+    if longest > allowed {
+        return Err(format!("points {longest} apart, allowed is {allowed}"));
+    }
+    Ok(())
+}
+
+/// Both gaps closed, forces in balance, the amplitude that of the opening, and
+/// the power what the damper takes.
+fn balance(machine: &Machine, opening: f64, state: &Equilibrium) -> Result<(), String> {
+    let failed = |what: &str, by: f64| {
+        Err(format!("{what} by {by:e} at {} rad/s, open to {opening}", state.speed))
+    };
+    let amplitude = state.amplitude();
+    let expected = machine.clearance() / opening.cos();
+    let off = (amplitude / expected - 1.0).abs();
+    if off > 1e-11 || off.is_nan() {
+        return failed("amplitude is off", off);
+    }
+    let nu = machine.nu(state.speed);
+    let ratio = nu / machine.omega_c;
+    let k = machine.casing_stiffness * (1.0 - ratio) * (1.0 + ratio);
+    let d = machine.casing_damping * nu;
+    let z = state.z;
+    let mut force = [k * z[0] - d * z[1], k * z[1] + d * z[0]];
+    // Multipliers are what the forces are made of: their rounding is the limit.
+    let mut scale = force[0].hypot(force[1]);
+    // The speed is rounded, and with it the difference of stiffness and inertia;
+    // and blades that turn by many radians have few digits left for the rest.
+    let mut loads = 0.0;
+    let inertia = machine.casing_stiffness * amplitude * ratio.max(1.0).powi(2);
+    for &(side, multiplier) in &state.contacts {
+        let (cos, sin) = machine.rim.direction(side);
+        let turn = machine.nodal_diameters * (cos * state.alpha[0] + sin * state.alpha[1]);
+        let (sin_turn, cos_turn) = turn.sin_cos();
+        let (cos, sin) = (cos * cos_turn - sin * sin_turn, sin * cos_turn + cos * sin_turn);
+        let gap = 1.0 + (z[0] * cos + z[1] * sin) / machine.clearance();
+        // Rounding of the turn, and of the six cosines between an opening and the
+        // turn it asks for, which count the more the nearer to a right angle.
+        let reach = amplitude / machine.clearance();
+        let exact = f64::EPSILON * reach * (45.0 * (1.0 + turn.abs()) + 12.0 * reach);
+        if gap.abs() > exact {
+            return failed("a contact stands open", gap);
+        }
+        force = [force[0] + multiplier * cos, force[1] + multiplier * sin];
+        scale = scale.max(multiplier.abs());
+        loads += multiplier.abs() * (1.0 + turn.abs());
+    }
+    let left = force[0].hypot(force[1]);
+    if left > 1e-11 * scale + 8.0 * f64::EPSILON * (inertia + loads) {
+        return failed("forces are out of balance", left / scale);
+    }
+    let dissipated = d * nu * amplitude * amplitude;
+    // The levers of the two contacts cancel but for their difference.
+    let size = dissipated + (k * nu).abs() * amplitude * amplitude;
+    let round = 16.0 * f64::EPSILON * loads * amplitude * nu;
+    let off = (state.power - dissipated).abs();
+    if off > 1e-11 * size + round || off.is_nan() {
+        return failed("the power is not what the damper takes", off / size);
+    }
+    Ok(())
+}
