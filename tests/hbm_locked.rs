@@ -235,3 +235,43 @@ fn what_has_no_meaning_is_refused_in_one_line_that_names_the_key() {
     assert!(message.to_string().starts_with("blades = 6,7: allowed is a pair of phase"));
     assert!(locked_motion(&machine, Form::Modal, false, None, &[f64::NAN]).is_err());
 }
+
+/// Blades that turn the wave by 0.8 rad: from the rigid corner Newton's method
+/// wandered, and came upon the solution at one of these speeds only.
+#[test]
+fn soft_blades_of_the_printed_form_are_followed_and_not_met_by_chance() {
+    let stiffness = 0.01 * 9_083.990_796_689_513_f64.powi(2);
+    let disk = BladedDisk {
+        blades: 5,
+        blade_length_m: 0.5 - 0.000_969_139_512_671_024_5,
+        inertia_kg_m2: 0.01,
+        stiffness_nm_per_rad: stiffness,
+        coupling_nm_per_rad: 0.0,
+        damping_ratio: 0.0,
+    };
+    let casing = Casing {
+        radius_m: 0.5,
+        modal_mass_kg: 0.1,
+        modal_stiffness_n_per_m: 92_754_544.609_138_88,
+        damping_ratio: 0.287_670_490_018_661_6,
+    };
+    let machine = Machine::new(&disk, &casing, 49);
+    let critical = machine.critical_speed().unwrap();
+    let speeds: Vec<f64> =
+        (-5..=5).map(|k| (2.894_076_755_376_282_5 + 1e-3 * f64::from(k)) * critical).collect();
+    let sweep = locked_motion(&machine, Form::Printed, true, None, &speeds).unwrap();
+    assert!(sweep.missing.is_empty(), "missed {:?}", sweep.missing);
+    assert!(sweep.points.iter().all(|point| point.residual < 1e-14));
+    // One branch: by equal steps of the speed, equal steps of the multipliers.
+    for three in sweep.points.windows(3) {
+        let [a, b, c] = [0, 1, 2].map(|k| three[k].multipliers[1]);
+        close(c - b, b - a, 1e-3 * (b - a).abs());
+    }
+    // The order of the speeds does not matter, nor does what was found before.
+    let mut down: Vec<f64> = (0..=300).map(|k| 0.01 * f64::from(k) * critical).collect();
+    let up = locked_motion(&machine, Form::Printed, true, None, &down).unwrap();
+    down.reverse();
+    let down = locked_motion(&machine, Form::Printed, true, None, &down).unwrap();
+    assert!(up.points.iter().eq(down.points.iter().rev()));
+    assert!((20..301).contains(&up.points.len()), "{}", up.points.len());
+}

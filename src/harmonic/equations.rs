@@ -121,6 +121,16 @@ impl Equations {
         self.softness
     }
 
+    /// The same corner with blades a part as soft.
+    pub fn stiffened(&self, part: f64) -> Self {
+        Self { softness: part * self.softness, ..self.clone() }
+    }
+
+    /// Whether the start that is predicted is the solution itself.
+    pub fn is_exact(&self) -> bool {
+        self.opening.is_some()
+    }
+
     /// Where Newton starts: for the exact form the closed form of the corner
     /// with its bent blades, for the others that of rigid blades. `None` where
     /// the exact branch has folded back.
@@ -244,30 +254,5 @@ impl Equations {
             wave.kappa * u_ss - wave.drag * u_sc + push_cos,
         ];
         rows.iter().fold(0.0, |largest, row| row.abs().max(largest))
-    }
-
-    /// Newton's method from `start`; `None` where it does not settle.
-    pub fn solve(&self, wave: Wave, start: Unknowns) -> Option<Unknowns> {
-        // Rows are of order one, so a residual of a few units in the last
-        // place of the largest term is all that rounding leaves.
-        let size = 1.0 + wave.kappa.abs() + wave.drag.abs();
-        let mut unknowns = start;
-        for _ in 0..30 {
-            let (residual, jacobian) = self.linearised(wave, &unknowns);
-            let norm = residual.amax();
-            if !norm.is_finite() {
-                return None;
-            }
-            if norm <= 4.0 * f64::EPSILON * size {
-                return Some(unknowns);
-            }
-            let step = jacobian.lu().solve(&residual)?;
-            unknowns -= step;
-            if step.amax() <= 4.0 * f64::EPSILON * unknowns.amax() {
-                return Some(unknowns);
-            }
-        }
-        // Ill-conditioned, close to a fold: accept what is accurate enough.
-        (self.residual(wave, &unknowns).amax() <= 1e-11 * size).then_some(unknowns)
     }
 }

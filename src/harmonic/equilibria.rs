@@ -210,7 +210,7 @@ fn on_side(machine: &Machine, scales: &Scales, wave: Wave, side: u32) -> Option<
 fn in_corner(machine: &Machine, wave: Wave, side: u32) -> Option<Loaded> {
     let corner = Corner::after(&machine.rim, side).ok()?;
     let equations = Equations::new(machine, corner, Form::Modal);
-    let unknowns = equations.solve(wave, equations.predict(wave)?)?;
+    let unknowns = equations.locked(wave)?;
     Some(loads_of(machine, corner, &unknowns))
 }
 

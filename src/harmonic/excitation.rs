@@ -81,7 +81,7 @@ fn at(
 ) -> Option<ExcitedLock> {
     let wave = Wave::at(machine, speed, true);
     let equations = Equations::new(machine, corner, Form::Modal);
-    let unknowns = equations.solve(wave, equations.predict(wave)?)?;
+    let unknowns = equations.locked(wave)?;
     let (z, loads) = loads_of(machine, corner, &unknowns);
     let turns = [4, 5].map(|i| equations.softness() * unknowns[i]);
     let posture = Posture::of_pair(&machine.rim, z, corner.sides(), turns);

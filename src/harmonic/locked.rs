@@ -1,7 +1,6 @@
 //! Locked motion against speed: two phase groups hold the casing wave in a
 //! corner of the blade frame, where it is an equilibrium (one harmonic is
-//! exact). Newton's method on Eq. (27), started from the closed form for
-//! rigid blades.
+//! exact). Newton's method on Eq. (27), started from the closed form.
 
 use super::equations::{Equations, Scales, Unknowns, Wave};
 use super::posture::Posture;
@@ -114,47 +113,31 @@ impl Locked {
     /// # Errors
     /// A speed that is not finite, or one with no locked motion.
     pub fn at(&self, speed: f64) -> Result<LockedPoint, HarmonicError> {
-        let mut last = None;
-        self.next(speed, &mut last)
+        if !speed.is_finite() {
+            return Err(HarmonicError::Speed(speed));
+        }
+        let wave = Wave::at(&self.machine, speed, self.damped);
+        match self.equations.locked(wave) {
+            Some(unknowns) => Ok(self.point(speed, wave, &unknowns)),
+            None => Err(HarmonicError::NotFound { speed, softness: self.equations.softness() }),
+        }
     }
 
-    /// The locked motion at each speed \[rad/s\], each started from the closed
-    /// form, or where that fails from the point before.
+    /// The locked motion at each speed \[rad/s\].
     ///
     /// # Errors
     /// A speed that is not finite.
     pub fn sweep(&self, speeds: &[f64]) -> Result<Sweep, HarmonicError> {
-        let mut last = None;
         let mut points = Vec::with_capacity(speeds.len());
         let mut missing = Vec::new();
         for &speed in speeds {
-            match self.next(speed, &mut last) {
+            match self.at(speed) {
                 Ok(point) => points.push(point),
                 Err(HarmonicError::NotFound { .. }) => missing.push(speed),
                 Err(error) => return Err(error),
             }
         }
         Ok(Sweep { corner: self.corner, form: self.form, damped: self.damped, points, missing })
-    }
-
-    fn next(&self, speed: f64, last: &mut Option<Unknowns>) -> Result<LockedPoint, HarmonicError> {
-        if !speed.is_finite() {
-            return Err(HarmonicError::Speed(speed));
-        }
-        let wave = Wave::at(&self.machine, speed, self.damped);
-        // No prediction means that the branch has ended: what Newton might find
-        // from elsewhere would be another one.
-        let found = self.equations.predict(wave).and_then(|start| {
-            let again = || last.and_then(|start| self.equations.solve(wave, start));
-            self.equations.solve(wave, start).or_else(again)
-        });
-        match found {
-            Some(unknowns) => {
-                *last = Some(unknowns);
-                Ok(self.point(speed, wave, &unknowns))
-            }
-            None => Err(HarmonicError::NotFound { speed, softness: self.equations.softness() }),
-        }
     }
 
     fn point(&self, speed: f64, wave: Wave, unknowns: &Unknowns) -> LockedPoint {

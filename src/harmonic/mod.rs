@@ -4,7 +4,8 @@
 //! the polygon of `model::Rim`, one harmonic is exact, and stability needs
 //! eigenvalues only. No time step, no initial condition.
 //!
-//! - the lock, Eq. (27) in three forms: `equations`, `locked` ([`locked_motion`])
+//! - the lock, Eq. (27) in three forms: `equations`, `newton`, `locked`
+//!   ([`locked_motion`])
 //! - every equilibrium, its stability and thresholds: `equilibria`, `stability`,
 //!   `branches`; very soft blades: `opening`, `fold`
 //! - slip as a map and its Fourier series: `slide`, `slip`, `spectrum`
@@ -20,6 +21,7 @@ mod excitation;
 mod fold;
 mod form;
 mod locked;
+mod newton;
 mod opening;
 mod posture;
 mod slide;
