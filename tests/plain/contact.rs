@@ -210,6 +210,8 @@ impl Plain {
         for (row, &value) in rows.iter().zip(lambda).filter(|(_, value)| **value != ZERO) {
             let side = self.rim.side_of[row.blade];
             pulled |= value > ZERO;
+            self.impulse += value.0.abs() * self.h.0;
+            self.impulses[side as usize] += value.0 * self.h.0;
             match sums.iter_mut().find(|(s, _)| *s == side) {
                 Some((_, sum)) => *sum += value,
                 None => sums.push((side, value)),

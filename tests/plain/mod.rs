@@ -18,6 +18,7 @@
 //! plain.in_contact();                          // touched within the last two steps
 //! plain.impacts; plain.tensile_steps;          // (t, side); steps with a tensile row
 //! plain.widest; plain.deepest_predicted;       // over all steps: blade angle, -g*
+//! plain.impulses;                              // of each side over all steps, N s
 //! plain.window(0.01);                          // the last 10 ms: touched, unbroken, sides kept, pulled
 //! plain.nudge(1e-12);                          // moves u by that many metres, to see how the motion amplifies
 //! ```
@@ -32,6 +33,7 @@
 //! the program's numbering. A positive multiplier pulls.
 #![allow(dead_code, reason = "each test that includes this uses a part of it")]
 
+pub mod checks;
 pub mod compare;
 pub mod contact;
 pub mod dd;
@@ -117,6 +119,11 @@ pub struct Plain {
     pub widest: f64,
     /// Deepest predicted penetration of any step \[m\].
     pub deepest_predicted: f64,
+    /// Sum of the multipliers of each side over all steps, times the step
+    /// \[N s\]; negative is a push.
+    pub impulses: Vec<f64>,
+    /// The same of all rows without their signs \[N s\].
+    pub impulse: f64,
 }
 
 fn casing_of(scene: &Scene, h: Dd) -> Oscillator {
@@ -131,6 +138,8 @@ impl Plain {
         let h = Dd::from(scene.solver.step_s);
         let operation = &scene.operation;
         let rim = contact::Rim::new(scene);
+        let touched = vec![0; rim.sides as usize];
+        let impulses = vec![0.0; rim.sides as usize];
         let mut plain = Self {
             n: 0,
             h,
@@ -147,7 +156,7 @@ impl Plain {
             },
             pulses: Vec::new(),
             first_force: ZERO,
-            touched: vec![0; rim.sides as usize],
+            touched,
             rim,
             last: Vec::new(),
             last_touch: 0,
@@ -157,6 +166,8 @@ impl Plain {
             tensile_steps: 0,
             widest: 0.0,
             deepest_predicted: 0.0,
+            impulse: 0.0,
+            impulses,
         };
         plain.fire(operation.pulse_n, operation.pulse_s);
         let half = h / Dd::from(2.0);
@@ -235,6 +246,12 @@ impl Plain {
             }
         }
         self.pulses.push(Pulse { start: now, end: now + Dd::from(duration), force });
+    }
+
+    /// Whether the pulse under way still acts on a step to come.
+    pub fn is_pulsed(&self) -> bool {
+        let from = self.time_exact() - self.h / Dd::from(2.0);
+        self.pulses.iter().any(|pulse| pulse.force != 0.0 && from < pulse.end)
     }
 
     /// Turns with this speed and acceleration from now on.
