@@ -215,12 +215,17 @@ fn multipliers_right_after_a_change_of_a_held_lock() {
         change(&mut pair);
         pair.check_multipliers_now("held");
     }
-    // A lock pinned by a pulse: its last stepped multipliers are the pulse's.
-    let pinned = [(MODEL, "rigid"), (LAW, "bilateral"), (PULSE, "9e4")];
-    let mut pair = Pair::new(&scene(&pinned));
-    assert!(pair.advance(0.004).is_ok());
+    // A pulse that presses a lock: the step before it is held still has some
+    // of it.
+    let mut pressed = in_corner(scene(&[(MODEL, "rigid"), (LAW, "bilateral")]));
+    let mut pair = Pair::new(&pressed);
+    (pressed.operation.pulse_n, pressed.operation.pulse_s) = (-100.0, 8.09e-5);
+    pair.adopt(&pressed);
+    assert!(pair.advance(0.001).is_ok());
+    pair.fire();
+    assert!(pair.advance(0.002).is_ok());
     pair.set_speed(500.0, 0.0);
-    pair.check_multipliers_now("pinned");
+    pair.check_multipliers_now("pressed");
 }
 
 #[test]
