@@ -8,6 +8,7 @@ mod contacts;
 mod drive;
 mod event;
 pub mod explicit;
+mod kernel;
 mod run;
 mod solver;
 pub mod verdict;

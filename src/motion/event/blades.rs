@@ -7,9 +7,9 @@
 //! the blades by the moment `N n_d y` on the mode along `exp(i psi)`: the
 //! contact feels the mass ratio `ratio y^2`, `ratio = m_c n_d^2/M_blade`.
 
-use super::kernel::Kernel;
 use super::world::{Drive, Plane, World};
 use crate::model::Machine;
+use crate::motion::kernel::Kernel;
 use crate::scene::{ModelSize, Scene};
 
 /// What the casing feels of the blades.

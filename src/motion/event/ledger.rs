@@ -9,8 +9,8 @@
 //! balance.
 
 use super::free::Free;
-use super::kernel::Kernel;
 use super::world::{Drive, Plane, World};
+use crate::motion::kernel::Kernel;
 
 /// Energies per unit casing mass \[m^2/s^2\].
 #[derive(Clone, Copy, Debug, Default)]

@@ -21,7 +21,6 @@ mod contact;
 mod corner;
 mod free;
 mod held;
-mod kernel;
 mod ledger;
 mod meeting;
 mod rocking;

@@ -242,8 +242,8 @@ fn powers(series: &Series) -> [Series; ORDERS + 1] {
 
 #[cfg(test)]
 mod tests {
-    use super::super::kernel::Kernel;
     use super::*;
+    use crate::motion::kernel::Kernel;
 
     /// One excursion by bisection on the closed form.
     fn stepped(kernel: &Kernel, pull: f64, speed: f64) -> (f64, f64) {

@@ -7,8 +7,8 @@
 //! corner with the side of next lower phase.
 
 use super::approach::{curved_step, leaving_step};
-use super::kernel::Kernel;
 use super::world::{Drive, World};
+use crate::motion::kernel::Kernel;
 
 /// Sliding on `side` from `y` with rate `rate`.
 #[derive(Clone, Copy, Debug)]

@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use nalgebra::Complex;
 
 use super::blades::Blades;
-use super::kernel::Kernel;
 use crate::model::Machine;
+use crate::motion::kernel::Kernel;
 use crate::scene::Scene;
 
 /// A point or vector of the plane of the two casing coordinates.

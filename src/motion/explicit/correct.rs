@@ -6,15 +6,23 @@
 
 use nalgebra::DMatrix;
 
-use super::{BREAK_STEPS, Blades, Explicit, LARGEST_ANGLE, Row, too_wide};
-use crate::contact;
+use super::{BREAK_STEPS, Blades, Explicit, Row};
+use crate::contact::{
+    self,
+    repeated::{Reference, Repeat, Repeated},
+};
 use crate::motion::Touching;
 use crate::scene::ContactLaw;
 
+/// Part of their phases by which blades of one side that stand alike may differ:
+/// the round-off of the sums that their angles are.
+const SAME_TURN: f64 = 1e-13;
+
 impl<B: Blades> Explicit<B> {
     /// A predicted step outside the circle of the clearance: find what
-    /// penetrates and correct it.
-    pub(super) fn meet(&mut self, distance2: f64) -> Result<(), String> {
+    /// penetrates and correct it. Returns a bound on what that does to any blade
+    /// angle \[rad\].
+    pub(super) fn meet(&mut self, distance2: f64) -> Result<f64, String> {
         if distance2.is_nan() || distance2 > self.casing_radius * self.casing_radius {
             return Err(format!(
                 "the casing displacement {:.3e} m is beyond the casing radius {} m",
@@ -27,7 +35,8 @@ impl<B: Blades> Explicit<B> {
         let z = (u_c * c + u_s * s, u_s * c - u_c * s);
         let deepest = self.gather(z);
         if deepest <= 0.0 {
-            return self.open_gap();
+            self.open_gap();
+            return Ok(0.0);
         }
         self.deepest_predicted = self.deepest_predicted.max(deepest);
         let clearance = self.machine.rim.clearance;
@@ -38,20 +47,21 @@ impl<B: Blades> Explicit<B> {
             ));
         }
         self.solve()?;
-        let (dx, dy) = self.apply();
+        let ((dx, dy), change) = self.apply();
         let shift = [dx * c - dy * s, dx * s + dy * c];
         for (coordinate, shift) in self.u.iter_mut().zip(shift) {
             coordinate.x += shift;
             coordinate.increment += shift;
         }
-        self.record((z.0 + dx, z.1 + dy))
+        self.record((z.0 + dx, z.1 + dy));
+        Ok(change)
     }
 
     /// Fills `rows` with those that penetrate and, where pushing on one side
     /// may push its neighbour in, the neighbours; the deepest penetration.
     fn gather(&mut self, z: (f64, f64)) -> f64 {
         // A blade angle moves a gap by at most |z| n_d alpha.
-        let reach = self.machine.nodal_diameters * self.blades.largest_angle();
+        let reach = self.machine.nodal_diameters * self.blades.bound_now();
         self.look = reach * (z.0.abs() + z.1.abs());
         let near = self.follow(z);
         self.near = near;
@@ -109,12 +119,13 @@ impl<B: Blades> Explicit<B> {
         let mut deepest = 0.0_f64;
         for place in 0..self.blades.rows_of_side(side) {
             let index = self.blades.row(side, place);
-            let normal = turned((dir_c, dir_s), diameters * self.blades.angle(index));
+            let turn = diameters * self.blades.angle(index);
+            let normal = turned((dir_c, dir_s), turn);
             let gap = rim.clearance + z.0 * normal.0 + z.1 * normal.1;
             deepest = deepest.max(-gap);
             if gap < 0.0 || self.neighbours_matter {
                 let lever = diameters * (z.1 * normal.0 - z.0 * normal.1);
-                self.rows.push(Row { index, side, gap, normal, lever, lambda: 0.0 });
+                self.rows.push(Row { index, side, gap, turn, normal, lever, lambda: 0.0 });
             }
         }
         deepest
@@ -130,10 +141,17 @@ impl<B: Blades> Explicit<B> {
     /// Multipliers of all rows by the chosen law.
     fn solve(&mut self) -> Result<(), String> {
         let unilateral = self.law == ContactLaw::Unilateral;
+        if !unilateral {
+            // The equality law closes penetrations only.
+            self.rows.retain(|row| row.gap < 0.0);
+        }
         match self.rows.as_mut_slice() {
             [_] => {
                 let row = &self.rows[0];
                 self.rows[0].lambda = contact::single(self.influence(row, row), row.gap);
+            }
+            rows if rows.windows(2).any(|pair| pair[0].side == pair[1].side) => {
+                self.solve_repeated(unilateral)?;
             }
             [_, _] => {
                 let (a, b) = (&self.rows[0], &self.rows[1]);
@@ -149,17 +167,61 @@ impl<B: Blades> Explicit<B> {
                 self.rows[1].lambda = lambda[1];
             }
             _ if unilateral => self.solve_dense(|w, gap| contact::complementary(&w, gap))?,
-            _ => {
-                // The equality law closes penetrations only.
-                self.rows.retain(|row| row.gap < 0.0);
-                self.solve_dense(contact::all_closed)?;
-            }
+            _ => self.solve_dense(contact::all_closed)?,
         }
         if self.rows.iter().all(|row| row.lambda.is_finite()) {
             Ok(())
         } else {
             Err(dependent(self.rows.len()))
         }
+    }
+
+    /// As `solve`, where a side has several rows: each is told by what it has
+    /// beside the first of its side.
+    fn solve_repeated(&mut self, unilateral: bool) -> Result<(), String> {
+        let diameters = self.machine.nodal_diameters;
+        let (mut groups, mut repeats): (Vec<Reference>, Vec<Repeat>) = Default::default();
+        let mut first = &self.rows[0];
+        for row in &self.rows {
+            if groups.is_empty() || row.side != first.side {
+                first = row;
+                groups.push(Reference { gap: row.gap, normal: row.normal });
+            }
+            let mut repeat = Repeat {
+                group: groups.len() - 1,
+                gap: 0.0,
+                normal: first.normal,
+                turned: (0.0, 0.0),
+                lever: first.lever,
+            };
+            let apart = row.turn - first.turn;
+            // Blades that stand alike to round-off are one.
+            if apart.abs() > SAME_TURN * (row.turn.abs() + first.turn.abs()) {
+                let half = (0.5 * apart).sin();
+                let (cos, sin) = (-2.0 * half * half, apart.sin());
+                let (c, s) = first.normal;
+                let reach = first.gap - self.machine.rim.clearance;
+                repeat.gap = reach * cos + first.lever / diameters * sin;
+                repeat.normal = row.normal;
+                repeat.turned = (c * cos - s * sin, s * cos + c * sin);
+                repeat.lever = row.lever;
+            }
+            repeats.push(repeat);
+        }
+        let compliance =
+            |a: usize, b: usize| self.blades.compliance(self.rows[a].index, self.rows[b].index);
+        let repeated = Repeated {
+            groups: &groups,
+            rows: &repeats,
+            casing: self.casing.compliance,
+            blades: compliance,
+        };
+        let lambda = if unilateral { repeated.complementary() } else { repeated.all_closed() };
+        let lambda = lambda.ok_or_else(|| dependent(self.rows.len()))?;
+        for (row, value) in self.rows.iter_mut().zip(lambda) {
+            row.lambda = value;
+        }
+        Ok(())
     }
 
     fn solve_dense(
@@ -176,21 +238,24 @@ impl<B: Blades> Explicit<B> {
         Ok(())
     }
 
-    /// Corrects the blades, Eq. (13b); the shift of the casing in their frame.
-    fn apply(&mut self) -> (f64, f64) {
-        let mut shift = (0.0, 0.0);
+    /// Corrects the blades, Eq. (13b); the shift of the casing in their frame,
+    /// and a bound on the change of any blade angle.
+    fn apply(&mut self) -> ((f64, f64), f64) {
+        let (mut shift, mut change) = ((0.0, 0.0), 0.0);
         for row in &self.rows {
             if row.lambda != 0.0 {
                 shift.0 -= self.casing.compliance * row.lambda * row.normal.0;
                 shift.1 -= self.casing.compliance * row.lambda * row.normal.1;
-                self.blades.correct(row.index, -row.lever * row.lambda);
+                let torque = -row.lever * row.lambda;
+                self.blades.correct(row.index, torque);
+                change += self.blades.compliance(row.index, row.index) * torque.abs();
             }
         }
-        shift
+        (shift, change)
     }
 
     /// Keeps what the step did: impulses, impacts, pulls, penetration left.
-    fn record(&mut self, z: (f64, f64)) -> Result<(), String> {
+    fn record(&mut self, z: (f64, f64)) {
         let n = self.n;
         let mut touching = Touching::Nothing;
         let mut pulls = false;
@@ -200,10 +265,6 @@ impl<B: Blades> Explicit<B> {
             let normal = turned(direction, self.machine.nodal_diameters * angle);
             let gap = self.machine.rim.clearance + z.0 * normal.0 + z.1 * normal.1;
             self.deepest = self.deepest.max(-gap);
-            self.widest = self.widest.max(angle.abs());
-            if angle.is_nan() || angle.abs() > LARGEST_ANGLE {
-                return Err(too_wide(angle));
-            }
             let last = &mut self.touched[row.side as usize];
             if *last == 0 || n > *last + BREAK_STEPS {
                 self.log.impact(n as f64 * self.step, row.side);
@@ -219,7 +280,6 @@ impl<B: Blades> Explicit<B> {
         if pulls {
             self.log.tensile(t);
         }
-        Ok(())
     }
 
     /// Whether pushing on one side can push another into the casing: fewer

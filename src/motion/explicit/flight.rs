@@ -5,6 +5,7 @@
 //! form a *block*: it is decided on once, looked at wherever asked, and taken
 //! at its end. Looking never changes the trajectory.
 
+use super::watch::LARGEST_ANGLE;
 use super::{BREAK_STEPS, Blades, Coordinate, Explicit, Held};
 use crate::motion::{Rotor, Touching};
 
@@ -35,34 +36,45 @@ impl Block {
 impl<B: Blades> Explicit<B> {
     /// Whether a block of steps that cannot touch is open, deciding on one if
     /// it can be long enough to be worth it.
-    pub(super) fn open_block(&mut self) -> Result<bool, String> {
+    pub(super) fn open_block(&mut self) -> bool {
         if self.block.is_open() {
-            return Ok(true);
+            return true;
         }
         let clearance = self.machine.rim.clearance;
         let distance2 = self.u[0].x * self.u[0].x + self.u[1].x * self.u[1].x;
         if self.last_touch == self.n && self.hold() {
             self.block = Block { length: ENDLESS, used: 0 };
-            return Ok(true);
+            return true;
         }
         // Blades that are driven do not follow the free recurrence.
         let outside = distance2 >= clearance * clearance;
         if outside || self.pulse_to_come() || self.excitation.is_some() {
-            return Ok(false);
+            return false;
         }
         let distance = distance2.sqrt();
         let (farthest, longest) = self.casing_reach();
         let length =
             if farthest < clearance { ENDLESS } else { ((clearance - distance) / longest) as u64 };
-        if length < SHORTEST_BLOCK {
-            return Ok(false);
+        // Blades that may swing too far are followed step by step.
+        if length < SHORTEST_BLOCK || self.blades.reach() > LARGEST_ANGLE {
+            return false;
         }
         // Such a block is longer than the pause that ends a contact.
         if self.log.touching != Touching::Nothing {
-            self.end_contact(self.n.max(self.last_touch + BREAK_STEPS + 1))?;
+            self.end_contact(self.n.max(self.last_touch + BREAK_STEPS + 1));
         }
         self.block = Block { length, used: 0 };
-        Ok(true)
+        true
+    }
+
+    /// The largest angle of any blade so far, the open block included \[rad\].
+    pub(super) fn largest_angle(&self) -> f64 {
+        let (used, least) = (self.block.used, self.watch.largest());
+        match &self.held {
+            _ if used == 0 => least,
+            Some(held) => held.largest_angle(used, least),
+            None => self.blades.peak(used, least),
+        }
     }
 
     /// Whether the casing, whatever the blades do, never reaches one again.
@@ -98,12 +110,15 @@ impl<B: Blades> Explicit<B> {
     /// Takes the steps used so far for good.
     pub(super) fn close_block(&mut self) {
         let (u, blades) = self.materialized();
+        if self.block.used > 0 {
+            self.watch.skipped(self.largest_angle(), blades.bound_now());
+        }
         self.n += self.block.used;
         self.u = u;
         self.blades = blades;
         if let Some(held) = self.held.take() {
             self.last_touch = self.n;
-            for side in held.sides {
+            for side in held.sides() {
                 self.touched[side as usize] = self.n;
             }
             self.hold_tried = self.n;
@@ -115,12 +130,11 @@ impl<B: Blades> Explicit<B> {
     fn log_held(&mut self, held: &Held, before: u64) {
         let (used, t) = (self.block.used, self.time_of(self.steps()));
         let ends = [held.multipliers(before.max(1)), held.multipliers(used)];
-        for (k, side) in held.sides.into_iter().enumerate() {
+        for (k, side) in held.sides().into_iter().enumerate() {
             let mean = 0.5 * (ends[0][k] + ends[1][k]);
             self.impulses[side as usize] += mean * (used - before) as f64 * self.step;
         }
         self.log.touch(t, self.log.touching);
-        self.widest = self.widest.max(held.farthest);
         if held.pulls {
             self.log.tensile_steps += used - before;
             self.log.last_tensile = Some(t);

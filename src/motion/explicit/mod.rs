@@ -8,11 +8,14 @@
 
 mod adopt;
 mod blades;
+mod corner_step;
 mod correct;
 mod excitation;
 mod flight;
 mod held;
+mod leap;
 mod oscillator;
+mod watch;
 
 pub use blades::{Blades, FullBlades, ModalBlades, RigidBlades};
 pub use excitation::Excitation;
@@ -23,13 +26,11 @@ use crate::model::Machine;
 use crate::scene::{ContactLaw, Scene};
 use flight::{Block, Phasor};
 use held::Held;
+use watch::Watch;
 
 /// Steps without contact before a contact counts as broken: the scheme's
 /// impact takes two steps, and its rounding may open one step between them.
 const BREAK_STEPS: u64 = 2;
-
-/// Blade angle beyond which small-angle blades have lost their meaning \[rad\].
-const LARGEST_ANGLE: f64 = 0.1;
 
 /// The explicit solver on one size of bladed disk.
 #[derive(Clone, Debug)]
@@ -72,7 +73,7 @@ pub struct Explicit<B: Blades> {
     log: ContactLog,
     deepest: f64,
     deepest_predicted: f64,
-    widest: f64,
+    watch: Watch,
     failure: Option<Failure>,
 }
 
@@ -83,6 +84,8 @@ struct Row {
     side: u32,
     /// Predicted gap `g*` \[m\].
     gap: f64,
+    /// `n_d alpha` \[rad\].
+    turn: f64,
     /// `exp(i (psi + n_d alpha))`: the gap is `g0 + Re[z conj(normal)]`.
     normal: (f64, f64),
     /// `A = dg/dalpha` \[m\].
@@ -140,7 +143,7 @@ impl<B: Blades> Explicit<B> {
             log: ContactLog::default(),
             deepest: 0.0,
             deepest_predicted: 0.0,
-            widest: 0.0,
+            watch: Watch::default(),
             failure: None,
         };
         motion.neighbours_matter = motion.neighbours_matter();
@@ -161,13 +164,11 @@ impl<B: Blades> Explicit<B> {
         // A step that ends within a millionth of itself after `until` belongs to it.
         let target = (until / self.step + 1e-6).floor().max(0.0) as u64;
         while self.steps() < target {
-            let moved = match self.open_block() {
-                Ok(true) => {
-                    self.use_block(target);
-                    Ok(())
-                }
-                Ok(false) => self.take_step(),
-                Err(reason) => Err(reason),
+            let moved = if self.open_block() {
+                self.use_block(target);
+                Ok(())
+            } else {
+                self.take_step()
             };
             if let Err(reason) = moved {
                 let failure = Failure { t_s: self.time_of(self.n), reason };
@@ -188,33 +189,32 @@ impl<B: Blades> Explicit<B> {
             .excitation
             .as_ref()
             .map(|torque| (torque, torque.phase(&self.rotor, self.time_of(n))));
-        self.blades.predict(excitation);
+        let mut change = self.blades.predict(excitation);
         self.n = n + 1;
         let distance2 = self.u[0].x * self.u[0].x + self.u[1].x * self.u[1].x;
         let clearance = self.machine.rim.clearance;
-        if distance2 < clearance * clearance { self.open_gap() } else { self.meet(distance2) }
+        if distance2 < clearance * clearance {
+            self.open_gap();
+        } else {
+            change += self.meet(distance2)?;
+        }
+        if self.watch.moved(change) {
+            self.watch.look(self.blades.largest_now())?;
+        }
+        Ok(())
     }
 
     /// Bookkeeping of a step without contact.
-    fn open_gap(&mut self) -> Result<(), String> {
-        let still = self.log.touching == Touching::Nothing;
-        if still || self.n <= self.last_touch + BREAK_STEPS {
-            Ok(())
-        } else {
-            self.end_contact(self.n)
+    fn open_gap(&mut self) {
+        if self.log.touching != Touching::Nothing && self.n > self.last_touch + BREAK_STEPS {
+            self.end_contact(self.n);
         }
     }
 
-    /// The contact is broken at step `n`; how far will the blades swing?
-    fn end_contact(&mut self, n: u64) -> Result<(), String> {
+    /// The contact is broken at step `n`.
+    fn end_contact(&mut self, n: u64) {
         self.log.touch(self.time_of(n), Touching::Nothing);
         self.rows.clear();
-        let reach = self.blades.reach();
-        self.widest = self.widest.max(reach);
-        if reach <= LARGEST_ANGLE {
-            return Ok(());
-        }
-        Err(too_wide(reach))
     }
 
     /// Mean force of the pulse over the step centred on `n`, whole at n = 0.
@@ -278,11 +278,11 @@ impl<B: Blades> Explicit<B> {
         }
         let mut sums: Vec<(u32, f64)> = Vec::new();
         if let Some(held) = self.held.as_ref().filter(|_| self.block.used() > 0) {
-            sums.extend(held.sides.into_iter().zip(held.multipliers(self.block.used())));
+            sums.extend(held.sides().into_iter().zip(held.multipliers(self.block.used())));
             super::contacts::in_phase_order(&self.machine.rim, &mut sums);
             return sums;
         }
-        for row in &self.rows {
+        for row in self.rows.iter().filter(|row| row.lambda != 0.0) {
             match sums.iter_mut().find(|(side, _)| *side == row.side) {
                 Some((_, sum)) => *sum += row.lambda,
                 None => sums.push((row.side, row.lambda)),
@@ -352,7 +352,7 @@ impl<B: Blades> Explicit<B> {
             max_penetration_m: self.deepest,
             max_predicted_penetration_m: Some(self.deepest_predicted),
             tensile_steps: self.log.tensile_steps,
-            max_blade_angle_rad: self.widest,
+            max_blade_angle_rad: self.largest_angle(),
             energy_residual_j: None,
         }
     }
@@ -376,10 +376,4 @@ impl<B: Blades> Explicit<B> {
         self.rotor.change(self.time(), speed, ramp);
         self.phasor = Phasor::new(&self.rotor, self.machine.nodal_diameters, self.step);
     }
-}
-
-fn too_wide(angle: f64) -> String {
-    format!(
-        "a blade angle of {angle:.3e} rad is beyond the {LARGEST_ANGLE} rad that small angles allow"
-    )
 }

@@ -6,10 +6,13 @@
 //! ```
 //!
 //! which is Eq. (10) with `increment = x[n] - x[n-1]` carried beside `x`. The
-//! scheme is a linear recurrence, so `2^j` free steps are one 2 x 2 matrix.
+//! scheme is a linear recurrence, so `2^j` free steps are one 2 x 2 matrix
+//! (`leap`).
 
-/// Largest block of free steps, as a power of two.
-pub const LARGEST_BLOCK: usize = 40;
+use nalgebra::{Matrix2, Vector2};
+
+use super::leap::Leap;
+use crate::motion::kernel::Kernel;
 
 /// Coefficients of the recurrence for one mass, damping and stiffness.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,15 +20,17 @@ pub struct Oscillator {
     /// `(m/h^2 - d/2h)/(m/h^2 + d/2h)`.
     ratio: f64,
     /// `k/(m/h^2 + d/2h)`.
-    pull: f64,
+    pub pull: f64,
+    /// One less `ratio`, with its own digits.
+    pub loss: f64,
     /// Displacement that a unit force makes in one step, `1/(m/h^2 + d/2h)`.
     pub compliance: f64,
     mass: f64,
     damping: f64,
     stiffness: f64,
     step: f64,
-    /// `T^(2^j)`, acting on `(x, increment)`.
-    powers: Vec<[[f64; 2]; 2]>,
+    /// Many steps at once, acting on `(x, increment)`.
+    leap: Leap<2>,
 }
 
 /// Displacement and last increment of one coordinate.
@@ -46,12 +51,9 @@ impl Oscillator {
         let compliance = 1.0 / (inertia + drag);
         let ratio = (inertia - drag) * compliance;
         let pull = stiffness * compliance;
-        let mut powers = vec![[[1.0 - pull, ratio], [-pull, ratio]]];
-        while powers.len() <= LARGEST_BLOCK {
-            let last = powers[powers.len() - 1];
-            powers.push(multiply(last, last));
-        }
-        Self { ratio, pull, compliance, mass, damping, stiffness, step, powers }
+        let loss = 2.0 * drag * compliance;
+        let leap = Leap::new(Matrix2::new(-pull, ratio, -pull, -loss));
+        Self { ratio, pull, loss, compliance, mass, damping, stiffness, step, leap }
     }
 
     /// State at n = 0 from position and rate, so that `x[-1]` is
@@ -71,16 +73,9 @@ impl Oscillator {
 
     /// `steps` free steps at once.
     #[must_use]
-    pub fn skip(&self, mut at: Coordinate, steps: u64) -> Coordinate {
-        for (bit, power) in self.powers.iter().enumerate() {
-            if steps >> bit & 1 == 1 {
-                at = Coordinate {
-                    x: power[0][0] * at.x + power[0][1] * at.increment,
-                    increment: power[1][0] * at.x + power[1][1] * at.increment,
-                };
-            }
-        }
-        at
+    pub fn skip(&self, at: Coordinate, steps: u64) -> Coordinate {
+        let ahead = self.leap.apply(Vector2::new(at.x, at.increment), steps);
+        Coordinate { x: ahead.x, increment: ahead.y }
     }
 
     /// Rate at step n of a free coordinate, `(x[n+1] - x[n-1])/2h`.
@@ -97,6 +92,44 @@ impl Oscillator {
         self.mass * rate * rate + self.stiffness * at.x * (at.x - at.increment)
     }
 
+    /// Angle that a free coordinate turns through in a step, about \[rad\].
+    #[must_use]
+    pub fn turn(&self) -> f64 {
+        self.step * (self.stiffness / self.mass).sqrt()
+    }
+
+    /// Largest `|x|` around the first turning point of a free coordinate, if it
+    /// comes within `steps` steps; zero otherwise.
+    #[must_use]
+    pub fn turning_point(&self, at: Coordinate, steps: u64) -> f64 {
+        let damping = 0.5 * self.damping / self.mass;
+        let kernel = Kernel::new(damping, self.stiffness / self.mass);
+        // The time of a continuous coordinate; steps turn a part of a step
+        // earlier or later, as far as their own angle squared.
+        let Some(time) = kernel.first_rest(at.x, self.rate(at, 0.0)) else { return 0.0 };
+        let nearest = time / self.step;
+        if nearest >= steps as f64 + 1.0 {
+            return 0.0;
+        }
+        let around = (nearest * self.turn() * self.turn()).ceil() as u64 + 1;
+        let first = (nearest as u64).saturating_sub(around);
+        let last = (nearest as u64 + around + 1).min(steps);
+        // Around it the steps rise and then fall.
+        let size = |steps| self.skip(at, steps).x.abs();
+        let (mut low, mut high) = (first, last);
+        while high > low + 1 {
+            let middle = low + (high - low) / 2;
+            if size(middle + 1) > size(middle) { low = middle + 1 } else { high = middle }
+        }
+        size(low).max(size(high))
+    }
+
+    /// `reach` of these coordinates together.
+    #[must_use]
+    pub fn reach_of(&self, coordinates: [Coordinate; 2]) -> (f64, f64) {
+        self.reach(coordinates.into_iter().map(|at| self.twice_energy(at)).sum())
+    }
+
     /// Bounds on `|x|` and on `|increment|` over all free steps to come, for
     /// one or more coordinates of this kind with this sum of `twice_energy`.
     #[must_use]
@@ -108,11 +141,6 @@ impl Oscillator {
         let position = (energy / self.stiffness * (inertia / rest)).sqrt();
         (position, (energy / rest).sqrt())
     }
-}
-
-fn multiply(a: [[f64; 2]; 2], b: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
-    let entry = |i: usize, j: usize| a[i][0] * b[0][j] + a[i][1] * b[1][j];
-    [[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]]
 }
 
 #[cfg(test)]

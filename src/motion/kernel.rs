@@ -7,6 +7,8 @@
 //! from the blades) and `kappa < 0` are one case, only evaluated in different
 //! ways where round-off asks for it.
 
+use std::f64::consts::PI;
+
 /// Most terms of the power series; at `rate * s = 1/2` the last is below 1e-20.
 const TERMS: usize = 18;
 
@@ -53,6 +55,22 @@ impl Kernel {
         } else {
             Some([(-self.stiffness / (c + q), 0.0), (-c - q, 0.0)])
         }
+    }
+
+    /// When a free motion from `place` with `rate` first comes to rest \[s\], for
+    /// `kappa > 0`; none where it creeps back to zero without a turning point.
+    pub(super) fn first_rest(&self, place: f64, rate: f64) -> Option<f64> {
+        let q = self.root;
+        let (across, along) = (rate, self.damping * rate + self.stiffness * place);
+        let time = if self.discriminant < 0.0 {
+            let angle = (q * across).atan2(along);
+            (if angle < 0.0 { angle + PI } else { angle }) / q
+        } else if q > 0.0 {
+            (q * across / along).atanh() / q
+        } else {
+            across / along
+        };
+        (time >= 0.0 && time.is_finite()).then_some(time)
     }
 
     /// The response `s >= 0` seconds on.
@@ -205,6 +223,27 @@ mod tests {
                     let error =
                         (value - expected).abs() / expected.abs().max(slope.abs()).max(unit);
                     assert!(error < 1e-11, "c {c}, kappa {kappa}, s {s}: {value} {expected}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_turning_point_is_where_the_rate_vanishes_first() {
+        for (c, kappa) in [(0.0, 2.0), (0.3, 1.0), (1.0, 1.0), (0.999_999, 1.0), (3.0, 1.0)] {
+            let kernel = Kernel::new(c, kappa);
+            for (place, rate) in [(1.0, 0.3), (1.0, -0.1), (-0.2, 1.0), (0.0, 1.0), (0.1, -7.0)] {
+                let rate_at = |s: f64| {
+                    let response = kernel.at(s);
+                    rate * response.slope - place * kappa * response.unit
+                };
+                let sampled = (1..40_000).map(|k| 1e-3 * f64::from(k));
+                let first = sampled.into_iter().find(|&s| rate_at(s) * rate < 0.0);
+                let found = kernel.first_rest(place, rate).filter(|&time| time < 39.0);
+                assert_eq!(found.is_some(), first.is_some(), "{c} {kappa} {place} {rate}");
+                if let (Some(time), Some(first)) = (found, first) {
+                    assert!(time <= first && time > first - 1.001e-3, "{time} {first}");
+                    assert!(rate_at(time).abs() < 1e-12, "{c} {kappa} {place} {rate}");
                 }
             }
         }

@@ -8,7 +8,10 @@
 //!
 //! At most one corner of the polygon touches in every ordinary step, so both
 //! laws are solved by cases on two rows; larger sets (very compliant blades, a
-//! step too long) go to a dense solve.
+//! step too long) go to a dense solve, and sets with several blades of one side
+//! to `repeated`, which keeps the digits that such rows lose here.
+
+pub mod repeated;
 
 use nalgebra::{DMatrix, DVector};
 

@@ -1,0 +1,123 @@
+//! Three sizes of the bladed disk for the explicit solver: rigid blades, the
+//! two modes of the paper, or every blade its own coordinate.
+//!
+//! To contact they all look alike: *rows*, each a constraint with a blade
+//! angle, a side of the polygon, and the angle that torques on rows make in
+//! one step.
+
+mod full;
+mod modal;
+
+pub use full::FullBlades;
+pub use modal::ModalBlades;
+
+use super::excitation::Excitation;
+use super::oscillator::Coordinate;
+use crate::model::Machine;
+use crate::scene::Scene;
+
+/// What the explicit solver asks of the bladed disk.
+pub trait Blades: Clone + std::fmt::Debug {
+    /// The disk at rest, for this scene.
+    fn at_rest(scene: &Scene, machine: &Machine) -> Self;
+    /// These blades with the displacements and rates of others of their kind.
+    fn moving_as(self, other: &Self) -> Self;
+    /// How many constraint rows a side of the polygon has.
+    fn rows_of_side(&self, side: u32) -> usize;
+    /// One of the rows of a side.
+    fn row(&self, side: u32, place: usize) -> u32;
+    /// One step without contact, which corrects it afterwards, under an
+    /// excitation at its phase. Returns a bound on the change of any blade
+    /// angle \[rad\].
+    fn predict(&mut self, excitation: Option<(&Excitation, f64)>) -> f64;
+    /// Blade angle of a row \[rad\].
+    fn angle(&self, row: u32) -> f64;
+    /// Angle of row `a` per unit torque on row `b` over one step
+    /// \[rad/(N m)\]; for no pair larger than for a row itself.
+    fn compliance(&self, a: u32, b: u32) -> f64;
+    /// Correction of the predicted step by a torque on a row \[N m\].
+    fn correct(&mut self, row: u32, torque: f64);
+    /// `steps` free steps at once.
+    fn skip(&mut self, steps: u64);
+    /// A bound on every blade angle now \[rad\].
+    fn bound_now(&self) -> f64;
+    /// The largest angle of any blade now \[rad\].
+    fn largest_now(&self) -> f64;
+    /// A bound on every blade angle that free motion can still reach \[rad\].
+    fn reach(&self) -> f64;
+    /// The largest angle of any blade over the next `steps` free steps; `least`
+    /// where none is larger \[rad\].
+    fn peak(&self, steps: u64, least: f64) -> f64;
+    /// `[alpha_c, alpha_s]` and their rates.
+    fn modal(&self) -> ([f64; 2], [f64; 2]);
+    /// The angle of every blade \[rad\].
+    fn every_angle(&self, machine: &Machine) -> Vec<f64>;
+    /// The modes of a held corner; none where there are more than two.
+    fn held_modes(&self) -> Option<HeldModes<'_>> {
+        None
+    }
+    /// Puts the modes of a held corner back.
+    fn set_held_modes(&mut self, _: [Coordinate; 2]) {}
+}
+
+/// The blade modes as a held corner knows them.
+#[derive(Clone, Copy, Debug)]
+pub struct HeldModes<'a> {
+    /// `alpha_c` and `alpha_s`.
+    pub modes: [Coordinate; 2],
+    /// The blades that move, none for rigid ones.
+    pub moving: Option<&'a ModalBlades>,
+}
+
+/// Blades that do not move.
+#[derive(Clone, Debug)]
+pub struct RigidBlades {
+    blades: usize,
+}
+
+impl Blades for RigidBlades {
+    fn at_rest(scene: &Scene, _: &Machine) -> Self {
+        Self { blades: scene.bladed_disk.blades as usize }
+    }
+    fn moving_as(self, _: &Self) -> Self {
+        self
+    }
+    fn rows_of_side(&self, _: u32) -> usize {
+        1
+    }
+    fn row(&self, side: u32, _: usize) -> u32 {
+        side
+    }
+    fn predict(&mut self, _: Option<(&Excitation, f64)>) -> f64 {
+        0.0
+    }
+    fn angle(&self, _: u32) -> f64 {
+        0.0
+    }
+    fn compliance(&self, _: u32, _: u32) -> f64 {
+        0.0
+    }
+    fn correct(&mut self, _: u32, _: f64) {}
+    fn skip(&mut self, _: u64) {}
+    fn bound_now(&self) -> f64 {
+        0.0
+    }
+    fn largest_now(&self) -> f64 {
+        0.0
+    }
+    fn reach(&self) -> f64 {
+        0.0
+    }
+    fn peak(&self, _: u64, least: f64) -> f64 {
+        least
+    }
+    fn modal(&self) -> ([f64; 2], [f64; 2]) {
+        ([0.0; 2], [0.0; 2])
+    }
+    fn every_angle(&self, _: &Machine) -> Vec<f64> {
+        vec![0.0; self.blades]
+    }
+    fn held_modes(&self) -> Option<HeldModes<'_>> {
+        Some(HeldModes { modes: [Coordinate::default(); 2], moving: None })
+    }
+}

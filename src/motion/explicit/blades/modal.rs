@@ -1,0 +1,153 @@
+//! The paper's four-coordinate model: the two blade modes of `n_d` diameters.
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use super::{Blades, HeldModes};
+use crate::model::Machine;
+use crate::motion::explicit::{Coordinate, Excitation, Oscillator};
+use crate::scene::Scene;
+
+/// The two `n_d`-diameter modes, Eq. (4). Blades of one phase group move
+/// alike, so a row is a side.
+#[derive(Clone, Debug)]
+pub struct ModalBlades {
+    oscillator: Oscillator,
+    modes: [Coordinate; 2],
+    diameters: u32,
+    has_sine_mode: bool,
+    /// `(p_c, p_s)` of every side.
+    shapes: Arc<[(f64, f64)]>,
+}
+
+impl Blades for ModalBlades {
+    fn at_rest(scene: &Scene, machine: &Machine) -> Self {
+        let shape = |side| {
+            let (c, s) = machine.rim.direction(side);
+            (c, if machine.has_sine_mode { s } else { 0.0 })
+        };
+        Self {
+            oscillator: Oscillator::new(
+                machine.blade_modal_mass,
+                machine.blade_modal_damping,
+                machine.blade_modal_stiffness,
+                scene.solver.step_s,
+            ),
+            modes: [Coordinate::default(); 2],
+            diameters: machine.rim.nodal_diameters,
+            has_sine_mode: machine.has_sine_mode,
+            shapes: (0..machine.rim.sides).map(shape).collect(),
+        }
+    }
+    fn moving_as(self, other: &Self) -> Self {
+        Self { modes: other.modes, ..self }
+    }
+    fn rows_of_side(&self, _: u32) -> usize {
+        1
+    }
+    fn row(&self, side: u32, _: usize) -> u32 {
+        side
+    }
+    fn predict(&mut self, excitation: Option<(&Excitation, f64)>) -> f64 {
+        let torque = match excitation {
+            None => [0.0; 2],
+            Some((excitation, phase)) => excitation.torque_on(self.diameters, phase),
+        };
+        for (mode, torque) in self.modes.iter_mut().zip(torque) {
+            *mode = self.oscillator.step(*mode, torque);
+        }
+        if !self.has_sine_mode {
+            self.modes[1] = Coordinate::default();
+        }
+        self.modes[0].increment.abs() + self.modes[1].increment.abs()
+    }
+    fn angle(&self, row: u32) -> f64 {
+        let (c, s) = self.shapes[row as usize];
+        c * self.modes[0].x + s * self.modes[1].x
+    }
+    fn compliance(&self, a: u32, b: u32) -> f64 {
+        let ((ca, sa), (cb, sb)) = (self.shapes[a as usize], self.shapes[b as usize]);
+        self.oscillator.compliance * (ca * cb + sa * sb)
+    }
+    fn correct(&mut self, row: u32, torque: f64) {
+        let (c, s) = self.shapes[row as usize];
+        for (mode, shape) in self.modes.iter_mut().zip([c, s]) {
+            mode.x += self.oscillator.compliance * torque * shape;
+            mode.increment += self.oscillator.compliance * torque * shape;
+        }
+    }
+    fn skip(&mut self, steps: u64) {
+        self.modes = self.modes.map(|mode| self.oscillator.skip(mode, steps));
+    }
+    fn bound_now(&self) -> f64 {
+        self.modes[0].x.abs() + self.modes[1].x.abs()
+    }
+    fn largest_now(&self) -> f64 {
+        self.largest(self.modes.map(|mode| mode.x))
+    }
+    fn reach(&self) -> f64 {
+        self.oscillator.reach_of(self.modes).0
+    }
+    fn peak(&self, steps: u64, least: f64) -> f64 {
+        if self.reach() <= least {
+            return least;
+        }
+        let mut last = self.clone();
+        last.skip(steps);
+        let mut most = least.max(self.largest_now()).max(last.largest_now());
+        // All blades swing alike but for their phases: a blade's first turning
+        // point is its largest angle, as every later one is damped.
+        for &(c, s) in self.shapes.iter() {
+            let blade = Coordinate {
+                x: c * self.modes[0].x + s * self.modes[1].x,
+                increment: c * self.modes[0].increment + s * self.modes[1].increment,
+            };
+            if self.oscillator.reach_of([blade, Coordinate::default()]).0 > most {
+                most = most.max(self.oscillator.turning_point(blade, steps));
+            }
+        }
+        most
+    }
+    fn modal(&self) -> ([f64; 2], [f64; 2]) {
+        (self.modes.map(|mode| mode.x), self.modes.map(|mode| self.oscillator.rate(mode, 0.0)))
+    }
+    fn every_angle(&self, machine: &Machine) -> Vec<f64> {
+        let rim = &machine.rim;
+        (1..=rim.blades).map(|blade| self.angle(rim.side_of_blade(blade))).collect()
+    }
+    fn held_modes(&self) -> Option<HeldModes<'_>> {
+        Some(HeldModes { modes: self.modes, moving: Some(self) })
+    }
+    fn set_held_modes(&mut self, modes: [Coordinate; 2]) {
+        self.modes = modes;
+    }
+}
+
+impl ModalBlades {
+    /// The oscillator that both modes are.
+    pub fn oscillator(&self) -> &Oscillator {
+        &self.oscillator
+    }
+
+    /// `(p_c, p_s)` of a side.
+    pub fn shape(&self, side: u32) -> (f64, f64) {
+        self.shapes[side as usize]
+    }
+
+    /// The largest angle of any blade at these mode displacements \[rad\].
+    pub fn largest(&self, [cosine, sine]: [f64; 2]) -> f64 {
+        if !self.has_sine_mode {
+            return cosine.abs();
+        }
+        // The blades whose phases are nearest to the mode's, and to its opposite.
+        let sides = self.shapes.len();
+        let turns = sine.atan2(cosine) / TAU * sides as f64;
+        [turns, turns + 0.5 * sides as f64]
+            .into_iter()
+            .map(|place| {
+                let (c, s) = self.shapes[place.round().rem_euclid(sides as f64) as usize % sides];
+                (c * cosine + s * sine).abs()
+            })
+            .fold(0.0, f64::max)
+    }
+}
