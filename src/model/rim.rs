@@ -124,6 +124,17 @@ impl Rim {
         // `rem_euclid` may round up to `sides` itself.
         (index as u32) % self.sides
     }
+
+    /// Largest `|x cos psi + y sin psi|` of any side: the largest blade angle of
+    /// the mode displacements `(x, y)`.
+    #[must_use]
+    pub fn largest_component(&self, x: f64, y: f64) -> f64 {
+        let along = |side: u32| {
+            let (c, s) = self.direction(side);
+            (c * x + s * y).abs()
+        };
+        along(self.nearest_side(x, y)).max(along(self.nearest_side(-x, -y)))
+    }
 }
 
 /// `exp(i 2 pi k/sides)`, exact at multiples of a quarter turn.
@@ -212,6 +223,22 @@ mod tests {
             let nearest = rim.nearest_side(x, y);
             let smallest = (0..22).map(|k| rim.gap(k, x, y)).fold(f64::INFINITY, f64::min);
             assert!(rim.gap(nearest, x, y) <= smallest + 1e-12);
+        }
+    }
+
+    #[test]
+    fn largest_component_is_that_of_all_sides() {
+        for sides in [1, 2, 3, 4, 7, 22] {
+            let rim = Rim::new(sides, 1, 1e-4);
+            for step in 0..200 {
+                let (y, x) = (0.031_7 * f64::from(step)).sin_cos();
+                let each = (0..sides).map(|k| {
+                    let (c, s) = rim.direction(k);
+                    (c * x + s * y).abs()
+                });
+                let all = each.fold(0.0, f64::max);
+                assert_eq!(rim.largest_component(x, y), all, "{sides} {step}");
+            }
         }
     }
 }

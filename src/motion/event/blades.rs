@@ -87,6 +87,12 @@ impl Blades {
         tips
     }
 
+    /// Largest angle of blades at rest after this impulse at `y` \[rad\].
+    pub(super) fn kicked(&self, y: f64, impulse: f64) -> f64 {
+        let rate = self.ratio / self.diameters * (y * impulse).abs();
+        self.kernel.first_rest(0.0, rate).map_or(0.0, |time| rate * self.kernel.at(time).unit)
+    }
+
     /// Blade angles of the free blades, `s` seconds on.
     pub(super) fn free(&self, tips: &Tips, s: f64) -> Tips {
         if *tips == Tips::default() {
@@ -125,6 +131,11 @@ impl PartialEq for Tips {
 }
 
 impl World {
+    /// The largest angle of any blade \[rad\].
+    pub(super) fn largest(&self, tips: &Tips) -> f64 {
+        self.machine.rim.largest_component(tips.angle.re, tips.angle.im)
+    }
+
     /// `exp(i gamma)` of a side, the direction that opens its gap, and `gamma'`.
     pub(super) fn facing(&self, drive: &Drive, side: u32, s: f64, tips: &Tips) -> (Plane, f64) {
         let direction = self.direction(side);

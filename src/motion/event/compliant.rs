@@ -10,11 +10,10 @@ use super::Event;
 use super::blades::Blades;
 use super::free::{Free, Leaving};
 use super::held::Held;
-use super::meeting::NOISE;
 use super::mode::{Mode, What};
 use super::rocking;
 use super::series::{From, Series};
-use super::world::Plane;
+use super::world::{NOISE, Plane};
 use crate::motion::Touching;
 
 /// Rocking is summed once the rest of it takes less than this part of the time
@@ -202,8 +201,11 @@ impl Event {
         let meeting = self.meeting(blades, a);
         let place = meeting.place(&self.world);
         let flight = Free::new(place, rate, self.tips);
-        let [first, second] =
-            [meeting.a, meeting.b].map(|side| flight.curvature(&self.world, &self.drive, side).0);
+        let noise = self.world.push_noise(&self.drive);
+        let [first, second] = [meeting.a, meeting.b].map(|side| {
+            let opening = flight.curvature(&self.world, &self.drive, side).0;
+            if opening.abs() <= noise { 0.0 } else { opening }
+        });
         let share = meeting.cross / meeting.own;
         if meeting.cancelled(first, second).iter().all(|&push| push >= 0.0) {
             self.enter_held(blades, a);

@@ -184,6 +184,9 @@ impl Event {
     pub(super) fn book_impact(&mut self, side: u32, y: f64, impulse: f64, closing: f64) {
         self.ledger.rotor -= impulse * self.drive.nu * y;
         self.ledger.lost += 0.5 * impulse * closing;
+        if let Some(blades) = &self.world.stiff {
+            self.widest = self.widest.max(blades.kicked(y, impulse));
+        }
         if closing > SOFT * self.world.omega * self.world.clearance {
             self.log.impact(self.start.0, side);
         }

@@ -18,6 +18,8 @@ pub(super) enum Hold {
     Yield(bool),
     /// The pushes do not change.
     Always,
+    /// The motion grows too fast to be followed.
+    Lost,
 }
 
 /// Opening accelerations `q_a`, `q_b` of a corner at rest, `s` seconds on, and

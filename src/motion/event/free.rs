@@ -10,6 +10,12 @@ use super::approach::{leaving_step, safe_step};
 use super::blades::{Blades, Tips};
 use super::world::{Drive, Plane, World};
 
+/// Radians of all rates below which a look ahead asks for a better bound.
+const SHORT_LOOK: f64 = 1e-6;
+
+/// Part of all rates below which the casing's own is a soft casing's.
+const SOFT_CASING: f64 = 1e-3;
+
 /// A side that the flight leaves with neither gap nor rate.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Leaving {
@@ -59,6 +65,28 @@ impl Free {
     /// The blades, `s` seconds on.
     pub(super) fn tips(&self, world: &World, s: f64) -> Tips {
         world.blades.map_or(self.tips, |blades| blades.free(&self.tips, s))
+    }
+
+    /// The largest angle of any blade over the first `s` seconds, `least` where
+    /// none is larger \[rad\].
+    pub(super) fn largest_angle(&self, world: &World, s: f64, least: f64) -> f64 {
+        let Some(blades) = &world.blades else { return least };
+        if blades.amplitude(&self.tips) <= least {
+            return least;
+        }
+        let ends = [0.0, s].map(|t| world.largest(&self.tips(world, t)));
+        let mut most = least.max(ends[0]).max(ends[1]);
+        // A blade's first turning point is its largest angle: later ones are
+        // damped.
+        for side in 0..world.machine.rim.sides {
+            let direction = world.direction(side).conj();
+            let (angle, rate) = ((self.tips.angle * direction).re, (self.tips.rate * direction).re);
+            let turning_point = blades.kernel.first_rest(angle, rate).filter(|&time| time < s);
+            if let Some(time) = turning_point {
+                most = most.max((self.tips(world, time).angle * direction).re.abs());
+            }
+        }
+        most
     }
 
     /// Place and rate in the standing frame, `s` seconds on.
@@ -136,10 +164,26 @@ impl Free {
             let margin = (clearance - radius) * (clearance + radius);
             let closing = -2.0 * (u.re * v.re + u.im * v.im);
             stride = safe_step(margin, closing, 2.0 * (rate * rate + place * acceleration));
+            if stride * rates < SHORT_LOOK {
+                // These bounds hold for the whole span, which a strong pulse makes
+                // useless; this one asks for the acceleration alone.
+                stride = stride.max(safe_step(clearance - radius, -size(v), acceleration));
+            }
         }
         if radius > 0.9 * clearance {
+            let mut near_span = span;
+            if world.omega < SOFT_CASING * rates {
+                // It may swing so far that nothing bounds it over a whole period.
+                near_span = span.min(1.0 / rates);
+                let nu = [nu, drive.nu(s + near_span)];
+                bounds = Bounds::new(world, drive, u, v, near_span, nu);
+                bounds.lower_locally(world, drive, nu);
+                if let Some(blades) = &world.blades {
+                    bounds.shift(blades, &tips);
+                }
+            }
             match self.sides(world, drive, s, (u, v, tips), &bounds) {
-                Look::Until(near) => stride = stride.max(near),
+                Look::Until(near) => stride = stride.max(near.min(near_span)),
                 found => return found,
             }
         }
@@ -251,6 +295,16 @@ impl Bounds {
         Self { standing, turning: turned }
     }
 
+    /// Lowers the derivatives seen from the sides to what those in the standing
+    /// frame, over the same span, and the turning make of them.
+    fn lower_locally(&mut self, world: &World, drive: &Drive, nu: [f64; 2]) {
+        let [place, rate, bend] = self.standing;
+        let factor = world.omega + 2.0 * world.damping;
+        let standing = [place, rate, bend, bend * factor, bend * factor * factor];
+        let turn = hermite(1.0, nu[0].abs().max(nu[1].abs()), drive.nu_rate.abs());
+        lower(&mut self.turning, leibniz(standing, turn));
+    }
+
     /// Adds what the motion of the blades does to the gaps: bounds on the
     /// derivatives of `z exp(-i n_d alpha)`.
     fn shift(&mut self, blades: &Blades, tips: &Tips) {
@@ -262,16 +316,19 @@ impl Bounds {
             c + 3.0 * a * b + a * a * a,
             d + 4.0 * a * c + 3.0 * b * b + 6.0 * a * a * b + a * a * a * a,
         ];
-        let [z0, z1, z2, z3, z4] = self.turning;
-        let [_, e1, e2, e3, e4] = factor;
-        self.turning = [
-            z0,
-            z1 + z0 * e1,
-            z2 + 2.0 * z1 * e1 + z0 * e2,
-            z3 + 3.0 * z2 * e1 + 3.0 * z1 * e2 + z0 * e3,
-            z4 + 4.0 * z3 * e1 + 6.0 * z2 * e2 + 4.0 * z1 * e3 + z0 * e4,
-        ];
+        self.turning = leibniz(self.turning, factor);
     }
+}
+
+/// Bounds on a product and its first four derivatives from those of its factors.
+fn leibniz([z0, z1, z2, z3, z4]: [f64; 5], [e0, e1, e2, e3, e4]: [f64; 5]) -> [f64; 5] {
+    [
+        z0 * e0,
+        z1 * e0 + z0 * e1,
+        z2 * e0 + 2.0 * z1 * e1 + z0 * e2,
+        z3 * e0 + 3.0 * z2 * e1 + 3.0 * z1 * e2 + z0 * e3,
+        z4 * e0 + 4.0 * z3 * e1 + 6.0 * z2 * e2 + 4.0 * z1 * e3 + z0 * e4,
+    ]
 }
 
 /// `|p|`, without the care `hypot` takes at the ends of the number range: no

@@ -27,6 +27,10 @@ pub(super) struct Held {
     tips: [Terms; 2],
     /// Pushes of `a` and the next side, per unit mass \[m/s^2\].
     pushes: [Terms; 2],
+    /// Whether no stretch is short enough for its terms to end.
+    lost: bool,
+    /// Pushes below this are round-off of the terms that they add up.
+    noise: f64,
 }
 
 impl Held {
@@ -45,6 +49,8 @@ impl Held {
             length: STRETCH / fastest,
             tips: [[0.0; TERMS]; 2],
             pushes: [[0.0; TERMS]; 2],
+            noise: world.push_noise(drive),
+            lost: false,
         };
         for _ in 0..60 {
             let h = held.length;
@@ -54,7 +60,8 @@ impl Held {
                 (terms[0], terms[1]) = (angle, rate * h);
             }
             held.expand(world, drive, blades, bisector);
-            if held.pushes.iter().all(ended) {
+            held.lost = !held.pushes.iter().all(|terms| ended(terms) || held.rests(terms));
+            if !held.lost {
                 break;
             }
             held.length *= 0.5;
@@ -153,6 +160,11 @@ impl Held {
         (-turned * radius, -turned * Plane::new(growth, spin * radius))
     }
 
+    /// A bound on every blade angle over the stretch \[rad\].
+    pub(super) fn largest_bound(&self) -> f64 {
+        self.tips.iter().flatten().map(|term| term.abs()).sum()
+    }
+
     /// The blades, `s` seconds on.
     pub(super) fn tips(&self, world: &World, s: f64) -> Tips {
         let [[xi, xi_rate, _], [eta, eta_rate, _]] =
@@ -198,13 +210,26 @@ impl Held {
         light && change < 0.5 * least
     }
 
+    /// Whether a push is nothing but round-off.
+    fn rests(&self, push: &Terms) -> bool {
+        push.iter().map(|term| term.abs()).sum::<f64>() <= self.noise
+    }
+
     /// Looks ahead from `s`, before which nothing happens, within the stretch.
     pub(super) fn look(&self, world: &World, s: f64) -> Hold {
+        if self.lost {
+            return Hold::Lost;
+        }
         let x = s / self.length;
         let mut stride = 1.0 - x;
         for (terms, second) in self.pushes.iter().zip([false, true]) {
             let [push, rate, bend] = values(terms, x);
             let size: f64 = terms.iter().map(|term| term.abs()).sum();
+            if self.rests(terms) {
+                // A side that holds without a push, as at the critical speed
+                // itself, does not let go by round-off.
+                continue;
+            }
             let noise = world.tolerance * size;
             if push <= noise && rate < 0.0 {
                 return Hold::Yield(second);

@@ -6,8 +6,6 @@ use super::blades::{Blades, Tips};
 use super::world::{Plane, World};
 use crate::motion::Failure;
 
-/// Part of the rates that a difference of two may be off by.
-pub(super) const NOISE: f64 = 1e-14;
 /// Largest blade angle the model stands for \[rad\].
 const MOST_ANGLE: f64 = 0.1;
 
@@ -52,19 +50,31 @@ impl Event {
         })
     }
 
-    /// Fails a motion whose blades leave what the model can describe.
+    /// Fails a motion whose blades leave what the model can describe: beyond
+    /// small angles, or so far that two sides of the polygon change places, which
+    /// are `2 delta - 2 n_d sin(delta) |a|` apart at least.
     pub(super) fn watch_blades(&mut self, tips: &Tips) {
         let Some(blades) = &self.world.blades else { return };
-        let angle = tips.angle.norm();
-        self.widest = self.widest.max(angle);
-        let limit = MOST_ANGLE.min(0.5 * self.world.machine.rim.delta / blades.diameters);
-        if angle > limit && self.failed.is_none() {
-            self.failed = Some(Failure {
-                t_s: self.start.0,
-                reason: format!(
-                    "a blade angle of {angle:e} rad; beyond {limit:e} rad the sides lose their order"
-                ),
-            });
+        let rim = &self.world.machine.rim;
+        let order = if self.world.corners {
+            rim.delta / (blades.diameters * rim.delta.sin())
+        } else {
+            f64::INFINITY
+        };
+        let (angle, size) = (self.widest, tips.angle.norm());
+        let reason = if angle > MOST_ANGLE {
+            format!(
+                "a blade angle of {angle:.3e} rad is beyond the {MOST_ANGLE} rad that small angles allow"
+            )
+        } else if size > order {
+            format!(
+                "blade angles of {size:.3e} rad let sides change places, which they do from {order:.3e} rad on"
+            )
+        } else {
+            return;
+        };
+        if self.failed.is_none() {
+            self.failed = Some(Failure { t_s: self.start.0, reason });
         }
     }
 }

@@ -264,7 +264,7 @@ impl Event {
         let residual = ledger.residual(self.mode.energy(&self.world, &self.drive, s));
         Checks {
             max_penetration_m: self.deepest,
-            max_blade_angle_rad: self.widest,
+            max_blade_angle_rad: self.mode.largest_angle(&self.world, &self.drive, s, self.widest),
             energy_residual_j: Some(self.world.mass * residual),
             ..Checks::default()
         }

@@ -50,6 +50,8 @@ pub(super) enum What {
     SeriesEnd,
     /// The motion left the casing.
     Gone,
+    /// The motion grows too fast to be followed.
+    Lost,
 }
 
 /// What one look ahead finds, in any mode.
@@ -67,6 +69,7 @@ impl Mode {
             Ahead::Edge(up) if world.corners => Next::Now(What::Edge(up)),
             Ahead::Edge(_) => Next::Now(What::Gone),
             Ahead::Release => Next::Now(What::Release),
+            Ahead::Lost => Next::Now(What::Lost),
         };
         match self {
             Self::Free(free) => match free.look(world, drive, s, end) {
@@ -155,6 +158,28 @@ impl Mode {
         let Some((_, along)) = self.along(world, drive, s) else { return Tips::default() };
         let pushes = self.pushes(world, drive, s);
         blades.following(world, pushes, [along.y, world.half_side])
+    }
+
+    /// The largest angle of any blade over the first `s` seconds, `least` where
+    /// none is larger \[rad\].
+    pub(super) fn largest_angle(&self, world: &World, drive: &Drive, s: f64, least: f64) -> f64 {
+        let angle = |t: f64| world.largest(&self.reported(world, drive, t));
+        let bound = match self {
+            Self::Free(free) => return free.largest_angle(world, s, least),
+            Self::Driven(series) if world.blades.is_some() => series.largest_bound(),
+            Self::Held(held) => held.largest_bound(),
+            _ if world.stiff.is_some() => f64::INFINITY,
+            _ => 0.0,
+        };
+        if bound <= least {
+            return least;
+        }
+        let rate = match self {
+            Self::Slide(slide) => slide.fastest(),
+            Self::Corner(_) if drive.steady() => return least.max(angle(s)),
+            _ => 1.0 / self.length().min(s),
+        };
+        peak(s, rate, angle).max(least)
     }
 
     /// Kinetic and potential energy per unit casing mass, `s` seconds on.
@@ -265,5 +290,32 @@ fn hold(hold: Hold, end: f64) -> Next {
         Hold::Until(later) => Next::Until(later),
         Hold::Yield(second) => Next::Now(What::Yield(second)),
         Hold::Always => Next::Until(end),
+        Hold::Lost => Next::Now(What::Lost),
     }
+}
+
+/// Looks at a function for its largest value, at most.
+const MOST_LOOKS: f64 = 10_000.0;
+
+/// The largest value over `[0, s]` of a function that changes at `rate`.
+fn peak(s: f64, rate: f64, value: impl Fn(f64) -> f64) -> f64 {
+    let parts = (8.0 * rate * s).ceil().clamp(2.0, MOST_LOOKS);
+    let at = |k: f64| s * (k / parts).clamp(0.0, 1.0);
+    let (mut best, mut most, mut k) = (0.0, value(0.0), 1.0);
+    while k <= parts {
+        let here = value(at(k));
+        if here > most {
+            (best, most) = (k, here);
+        }
+        k += 1.0;
+    }
+    // The top lies beside the largest look, and there is one: thirds find it to
+    // the square root of round-off in time, which is round-off in value.
+    let (mut low, mut high) = (at(best - 1.0), at(best + 1.0));
+    for _ in 0..50 {
+        let third = (high - low) / 3.0;
+        let [first, second] = [low + third, high - third];
+        if value(first) < value(second) { low = first } else { high = second }
+    }
+    most.max(value(0.5 * (low + high)))
 }

@@ -31,25 +31,21 @@ impl Event {
                 let radius = event.world.reach;
                 format!("no corner holds the casing wave, and it grew beyond the casing radius, {radius:e} m")
             });
+        } else if what == What::Lost {
+            self.fail(s, |_| "blades and casing in contact move each other ever faster, beyond what their series can follow".into());
         } else if self.events > MOST_EVENTS {
             self.fail(s, |_| format!("more than {MOST_EVENTS} changes of contact"));
         } else if self.idle > MOST_IDLE {
             self.fail(s, |_| format!("{MOST_IDLE} changes of contact at one instant"));
         } else {
             self.pass(s, what);
-            return Ok(Some(what));
         }
-        self.failed.clone().map_or(Ok(None), Err)
+        self.failed.clone().map_or(Ok(Some(what)), Err)
     }
 
     /// Ends `advance` at `until`.
     pub(super) fn arrive(&mut self, until: f64) {
         self.now = until.max(self.now);
-        if self.world.blades.is_some() || self.world.stiff.is_some() {
-            let s = self.elapsed(self.now);
-            let tips = self.mode.reported(&self.world, &self.drive, s);
-            self.widest = self.widest.max(tips.angle.norm());
-        }
         let touching = self.mode.touching(&self.world);
         if touching != Touching::Nothing {
             self.log.touch(self.now, touching);
@@ -102,6 +98,7 @@ impl Event {
     /// replaced.
     pub(super) fn rebase(&mut self, s: f64, what: Option<What>) {
         self.mode.book(&self.world, &self.drive, s, &mut self.ledger);
+        self.widest = self.mode.largest_angle(&self.world, &self.drive, s, self.widest);
         let tips = self.mode.tips(&self.world, s);
         let phase = self.drive.phase(s) % TAU;
         if what == Some(What::PulseEnd) {

@@ -28,6 +28,8 @@ pub(super) struct Series {
     rooms: [Terms; 2],
     /// Blade angle along the side and across it \[rad\].
     tips: [Terms; 2],
+    /// Whether no stretch is short enough for its terms to end.
+    lost: bool,
 }
 
 /// Where a stretch begins.
@@ -62,6 +64,7 @@ impl Series {
             push: [0.0; TERMS],
             rooms: [[0.0; TERMS]; 2],
             tips: [[0.0; TERMS]; 2],
+            lost: false,
         };
         // Without moving blades the solution is entire and one try is enough.
         for _ in 0..60 {
@@ -73,12 +76,14 @@ impl Series {
                 (terms[0], terms[1]) = (angle, rate * h);
             }
             series.expand(world, drive, inward);
-            if world.blades.is_none() || (ended(&series.y) && ended(&series.push)) {
+            series.enclose(world, from);
+            let exact = ended(&series.y) && ended(&series.push) && series.rooms.iter().all(ended);
+            series.lost = world.blades.is_some() && !exact;
+            if !series.lost {
                 break;
             }
             series.length *= 0.5;
         }
-        series.enclose(world, from);
         series
     }
 
@@ -175,6 +180,11 @@ impl Series {
         Along { y, rate: rate / self.length, push: values(&self.push, x)[0] }
     }
 
+    /// A bound on every blade angle over the stretch \[rad\].
+    pub(super) fn largest_bound(&self) -> f64 {
+        self.tips.iter().flatten().map(|term| term.abs()).sum()
+    }
+
     /// The blades, `s` seconds on.
     pub(super) fn tips(&self, world: &World, s: f64) -> Tips {
         if world.blades.is_none() {
@@ -192,6 +202,9 @@ impl Series {
 
     /// Looks ahead from `s`, before which nothing happens, within the stretch.
     pub(super) fn look(&self, world: &World, drive: &Drive, s: f64) -> Ahead {
+        if self.lost {
+            return Ahead::Lost;
+        }
         let x = s / self.length;
         let [y, rate, _] = values(&self.y, x);
         let span = 1.0 - x;

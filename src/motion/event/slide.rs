@@ -43,6 +43,8 @@ pub(super) enum Ahead {
     Edge(bool),
     /// The push vanishes now.
     Release,
+    /// The motion grows too fast to be followed.
+    Lost,
 }
 
 impl Slide {

@@ -9,6 +9,9 @@ use crate::model::Machine;
 use crate::motion::kernel::Kernel;
 use crate::scene::Scene;
 
+/// Part of the terms of a sum that round-off may make of it.
+pub(super) const NOISE: f64 = 1e-14;
+
 /// A point or vector of the plane of the two casing coordinates.
 pub(super) type Plane = Complex<f64>;
 
@@ -72,6 +75,14 @@ impl World {
     pub(super) fn direction(&self, side: u32) -> Plane {
         let (cos, sin) = self.machine.rim.direction(side);
         Plane::new(cos, sin)
+    }
+
+    /// Round-off of the pushes of a corner: of the accelerations that cancel in
+    /// them \[m/s^2\].
+    pub(super) fn push_noise(&self, drive: &Drive) -> f64 {
+        let square = (self.omega * self.omega).max(drive.nu * drive.nu);
+        let spread = if self.corners { self.turn.im.abs() } else { 1.0 };
+        NOISE * (square * self.clearance + drive.pulse.abs()) / spread
     }
 
     /// Push per unit mass that keeps the casing on a side at `y` with rate

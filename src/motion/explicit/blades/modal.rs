@@ -1,10 +1,9 @@
 //! The paper's four-coordinate model: the two blade modes of `n_d` diameters.
 
-use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use super::{Blades, HeldModes};
-use crate::model::Machine;
+use crate::model::{Machine, Rim};
 use crate::motion::explicit::{Coordinate, Excitation, Oscillator};
 use crate::scene::Scene;
 
@@ -14,18 +13,14 @@ use crate::scene::Scene;
 pub struct ModalBlades {
     oscillator: Oscillator,
     modes: [Coordinate; 2],
-    diameters: u32,
     has_sine_mode: bool,
-    /// `(p_c, p_s)` of every side.
-    shapes: Arc<[(f64, f64)]>,
+    /// Mode shapes `(p_c, p_s)` of a side are its direction: where there is no
+    /// sine mode, all of them are `(+-1, 0)`.
+    rim: Arc<Rim>,
 }
 
 impl Blades for ModalBlades {
     fn at_rest(scene: &Scene, machine: &Machine) -> Self {
-        let shape = |side| {
-            let (c, s) = machine.rim.direction(side);
-            (c, if machine.has_sine_mode { s } else { 0.0 })
-        };
         Self {
             oscillator: Oscillator::new(
                 machine.blade_modal_mass,
@@ -34,9 +29,8 @@ impl Blades for ModalBlades {
                 scene.solver.step_s,
             ),
             modes: [Coordinate::default(); 2],
-            diameters: machine.rim.nodal_diameters,
             has_sine_mode: machine.has_sine_mode,
-            shapes: (0..machine.rim.sides).map(shape).collect(),
+            rim: Arc::new(machine.rim.clone()),
         }
     }
     fn moving_as(self, other: &Self) -> Self {
@@ -51,7 +45,7 @@ impl Blades for ModalBlades {
     fn predict(&mut self, excitation: Option<(&Excitation, f64)>) -> f64 {
         let torque = match excitation {
             None => [0.0; 2],
-            Some((excitation, phase)) => excitation.torque_on(self.diameters, phase),
+            Some((excitation, phase)) => excitation.torque_on(self.rim.nodal_diameters, phase),
         };
         for (mode, torque) in self.modes.iter_mut().zip(torque) {
             *mode = self.oscillator.step(*mode, torque);
@@ -62,15 +56,15 @@ impl Blades for ModalBlades {
         self.modes[0].increment.abs() + self.modes[1].increment.abs()
     }
     fn angle(&self, row: u32) -> f64 {
-        let (c, s) = self.shapes[row as usize];
+        let (c, s) = self.rim.direction(row);
         c * self.modes[0].x + s * self.modes[1].x
     }
     fn compliance(&self, a: u32, b: u32) -> f64 {
-        let ((ca, sa), (cb, sb)) = (self.shapes[a as usize], self.shapes[b as usize]);
+        let ((ca, sa), (cb, sb)) = (self.rim.direction(a), self.rim.direction(b));
         self.oscillator.compliance * (ca * cb + sa * sb)
     }
     fn correct(&mut self, row: u32, torque: f64) {
-        let (c, s) = self.shapes[row as usize];
+        let (c, s) = self.rim.direction(row);
         for (mode, shape) in self.modes.iter_mut().zip([c, s]) {
             mode.x += self.oscillator.compliance * torque * shape;
             mode.increment += self.oscillator.compliance * torque * shape;
@@ -97,7 +91,7 @@ impl Blades for ModalBlades {
         let mut most = least.max(self.largest_now()).max(last.largest_now());
         // All blades swing alike but for their phases: a blade's first turning
         // point is its largest angle, as every later one is damped.
-        for &(c, s) in self.shapes.iter() {
+        for (c, s) in (0..self.rim.sides).map(|side| self.rim.direction(side)) {
             let blade = Coordinate {
                 x: c * self.modes[0].x + s * self.modes[1].x,
                 increment: c * self.modes[0].increment + s * self.modes[1].increment,
@@ -131,23 +125,11 @@ impl ModalBlades {
 
     /// `(p_c, p_s)` of a side.
     pub fn shape(&self, side: u32) -> (f64, f64) {
-        self.shapes[side as usize]
+        self.rim.direction(side)
     }
 
     /// The largest angle of any blade at these mode displacements \[rad\].
     pub fn largest(&self, [cosine, sine]: [f64; 2]) -> f64 {
-        if !self.has_sine_mode {
-            return cosine.abs();
-        }
-        // The blades whose phases are nearest to the mode's, and to its opposite.
-        let sides = self.shapes.len();
-        let turns = sine.atan2(cosine) / TAU * sides as f64;
-        [turns, turns + 0.5 * sides as f64]
-            .into_iter()
-            .map(|place| {
-                let (c, s) = self.shapes[place.round().rem_euclid(sides as f64) as usize % sides];
-                (c * cosine + s * sine).abs()
-            })
-            .fold(0.0, f64::max)
+        self.rim.largest_component(cosine, sine)
     }
 }
