@@ -91,6 +91,8 @@ pub struct ContactLog {
     pub touching: Touching,
     /// Since when `touching` has been what it is \[s\].
     pub since: f64,
+    /// The longest that a corner was held, before the contact of now \[s\].
+    pub longest_corner: f64,
     /// Since when something has touched without a break \[s\].
     pub unbroken_since: Option<f64>,
     /// The end of the latest contact, or now while in contact \[s\].
@@ -109,6 +111,7 @@ impl ContactLog {
     /// From `t` on, these sides touch.
     pub fn touch(&mut self, t: f64, touching: Touching) {
         if touching != self.touching {
+            self.longest_corner = self.corner_time();
             self.touching = touching;
             self.since = t;
         }
@@ -117,6 +120,15 @@ impl ContactLog {
         } else {
             self.unbroken_since.get_or_insert(t);
             self.last_contact = Some(t);
+        }
+    }
+
+    /// The longest that a corner was held without a break, until now \[s\].
+    #[must_use]
+    pub fn corner_time(&self) -> f64 {
+        match (self.touching, self.last_contact) {
+            (Touching::Corner(..), Some(last)) => self.longest_corner.max(last - self.since),
+            _ => self.longest_corner,
         }
     }
 
@@ -158,6 +170,18 @@ mod tests {
         assert_eq!((log.since, log.unbroken_since), (2.0, Some(1.0)));
         log.touch(3.0, Touching::Nothing);
         assert_eq!((log.unbroken_since, log.last_contact), (None, Some(2.0)));
+    }
+
+    #[test]
+    fn the_longest_corner_is_remembered() {
+        let mut log = ContactLog::default();
+        log.touch(1.0, Touching::Corner(3, 4));
+        log.touch(3.0, Touching::Corner(3, 4));
+        assert_eq!(log.corner_time(), 2.0);
+        log.touch(3.5, Touching::Side(4));
+        log.touch(4.0, Touching::Corner(4, 5));
+        log.touch(4.5, Touching::Corner(4, 5));
+        assert_eq!(log.corner_time(), 2.0);
     }
 
     #[test]

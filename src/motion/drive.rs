@@ -75,6 +75,13 @@ impl Rotor {
         self.speed + self.ramp * (t - self.since)
     }
 
+    /// Mean speed over the last `window` seconds before `t`, as far as this speed
+    /// and acceleration reach back \[rad/s\].
+    #[must_use]
+    pub fn mean_speed(&self, t: f64, window: f64) -> f64 {
+        self.speed(0.5 * (t + (t - window).max(self.since)))
+    }
+
     /// Acceleration \[rad/s^2\].
     #[must_use]
     pub fn ramp(&self) -> f64 {

@@ -10,15 +10,20 @@ mod event;
 pub mod explicit;
 mod kernel;
 mod run;
+mod script;
+mod sensitivity;
 mod solver;
 pub mod verdict;
+mod wave;
 
 pub use contacts::{ContactLog, Impact, Touching, in_phase_order};
 pub use drive::{Failure, Pulse, Rotor, State};
 pub use event::Event;
 pub use run::{
-    FinalState, ImpactReport, RunReport, Sample, Sampling, Settled, SolverReport, is_sensitive,
-    settle, simulate, verdict_of,
+    FinalState, ImpactReport, RunReport, Sample, Sampling, Settled, SolverReport, settle, simulate,
+    simulate_with, verdict_of,
 };
+pub use script::{Change, Script};
+pub use sensitivity::{is_sensitive, is_sensitive_with};
 pub use solver::Motion;
 pub use verdict::{Checks, Contact, Outcome, Verdict};

@@ -1,15 +1,20 @@
 //! One whole run: drive a motion to its end, sample it on the way, judge it,
 //! and report it in the shape of `rubscope.run/1`.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 use std::time::Instant;
 
 use serde::Serialize;
 
+use super::script::{Script, Scripted};
+use super::sensitivity::{is_sensitive_with, sign};
 use super::verdict::{LAST_PART, judge};
+use super::wave::Wave;
 use super::{Checks, Contact, Motion, Outcome, State, Verdict};
-use crate::model::Machine;
 use crate::scene::{ContactLaw, ModelSize, Scene, SolverKind};
+
+/// Looks at a run on the way to its verdict, at most.
+const MOST_LOOKS: f64 = 1e6;
 
 /// What a recorder sees at one instant.
 #[derive(Clone, Debug)]
@@ -105,90 +110,83 @@ pub struct Settled {
     pub verdict: Verdict,
     /// Impacts until the verdict was settled.
     pub impact_count: u64,
+    /// Whether a corner was held for a casing period: then it was reached by
+    /// infinitely many impacts, and their count is no fact.
+    pub rested: bool,
 }
 
 impl Settled {
-    /// Whether two runs that should be the same are not.
-    fn differs_from(self, other: Self) -> bool {
-        let locked = matches!(self.verdict, Verdict::Locked | Verdict::Adhesive);
-        self.verdict != other.verdict || (!locked && self.impact_count != other.impact_count)
+    /// Of a motion that has come to this verdict.
+    #[must_use]
+    pub fn of(motion: &Motion, verdict: Verdict) -> Self {
+        let (log, period) = (motion.contacts(), TAU / motion.machine().omega_c);
+        let locked = matches!(verdict, Verdict::Locked | Verdict::Adhesive);
+        Self {
+            verdict,
+            impact_count: log.impact_count,
+            rested: locked || log.corner_time() >= period,
+        }
     }
 }
 
 /// Runs a checked scene until its verdict is settled, at most to its end.
 #[must_use]
 pub fn settle(scene: &Scene) -> Settled {
-    settle_motion(Motion::new(scene), scene.solver.end_s)
+    settle_motion(Motion::new(scene), &Script::default(), scene.solver.end_s, None)
 }
 
-fn settle_motion(mut motion: Motion, end: f64) -> Settled {
+/// Runs a motion through a script until its verdict is settled, at most to
+/// `end`; with `noise`, its rate changes by that part once a casing period.
+pub(super) fn settle_motion(
+    motion: Motion,
+    script: &Script,
+    end: f64,
+    noise: Option<f64>,
+) -> Settled {
     // Looking costs little against one casing period of motion.
-    let interval = (TAU / motion.machine().omega_c).max(end / 1e6);
+    let interval = (TAU / motion.machine().omega_c).max(end / MOST_LOOKS);
+    let mut scripted = Scripted::new(motion, script);
     let mut verdict = None;
-    let mut looks = 0.0;
+    let mut looks = 0;
     while verdict.is_none() {
-        looks += 1.0;
-        let until = (looks * interval).min(end);
-        verdict = match motion.advance(until) {
+        looks += 1;
+        let until = (looks as f64 * interval).min(end);
+        verdict = match scripted.advance(until) {
             Err(_) => Some(Verdict::Failed),
-            Ok(()) if until >= end => Some(verdict_of(&motion, LAST_PART * end)),
-            Ok(()) => motion.settled(),
+            Ok(()) if until >= end => Some(verdict_of(&scripted.motion, LAST_PART * end)),
+            Ok(()) if scripted.is_through() => scripted.motion.settled(),
+            Ok(()) => None,
         };
+        if let Some(part) = noise {
+            scripted.motion.scale_rate(1.0 + part * sign(looks));
+        }
     }
-    Settled {
-        verdict: verdict.unwrap_or(Verdict::Failed),
-        impact_count: motion.contacts().impact_count,
-    }
+    Settled::of(&scripted.motion, verdict.unwrap_or(Verdict::Failed))
 }
 
-/// Relative change of the pulse that no trustworthy verdict may notice.
-const NUDGE: f64 = 1e-9;
-
-/// The verdict on a motion now, over the last `window` seconds.
+/// The verdict on a motion now: what is known for good, or that over the last
+/// `window` seconds.
 #[must_use]
 pub fn verdict_of(motion: &Motion, window: f64) -> Verdict {
-    let now = || motion.state().t_s;
-    if motion.failure().is_some() {
-        return Verdict::Failed;
-    }
-    motion
-        .settled()
-        .unwrap_or_else(|| judge(motion.contacts(), motion.machine(), now(), window, motion.over()))
-}
-
-/// Part of its tolerance at which the event solver is tried again.
-const FINER: f64 = 0.1;
-
-/// Whether a relative change of 1e-9 of the pulse, up or down, changes the
-/// verdict or the impact count. The event solver goes up with a tolerance ten
-/// times finer as well, so that two runs more answer for both. A locked wave
-/// has rocked into its corner by infinitely many impacts, so there the count is
-/// no fact and only the verdict counts.
-#[must_use]
-pub fn is_sensitive(scene: &Scene, settled: Settled) -> bool {
-    [(1.0 + NUDGE, FINER), (1.0 - NUDGE, 1.0)].into_iter().any(|(factor, finer)| {
-        let mut nudged = scene.clone();
-        nudged.operation.pulse_n *= factor;
-        let motion = match Motion::new(&nudged) {
-            Motion::Event(event) => {
-                let tolerance = finer * event.tolerance();
-                Motion::Event(Box::new(event.with_tolerance(tolerance)))
-            }
-            explicit => explicit,
-        };
-        settle_motion(motion, scene.solver.end_s).differs_from(settled)
-    })
+    motion.settled().unwrap_or_else(|| judge(motion.contacts(), motion.state().t_s, window))
 }
 
 /// Runs a checked scene to its end, handing samples to `sink` on the way.
 pub fn simulate(scene: &Scene, sampling: Sampling, sink: &mut dyn FnMut(&Sample)) -> RunReport {
+    simulate_with(scene, &Script::default(), sampling, sink)
+}
+
+/// As `simulate`, with changes on the way.
+pub fn simulate_with(
+    scene: &Scene,
+    script: &Script,
+    sampling: Sampling,
+    sink: &mut dyn FnMut(&Sample),
+) -> RunReport {
     let started = Instant::now();
-    let mut motion = Motion::new(scene);
+    let mut scripted = Scripted::new(Motion::new(scene), script);
     let end = scene.solver.end_s;
-    let last_part = (1.0 - LAST_PART) * end;
-    let mut wave = WaveAngle::default();
-    let wave_interval = wave_interval(scene);
-    let mut next_wave = last_part;
+    let mut wave = Wave::over(scene, script);
     let mut sample = 0_u32;
     loop {
         let sample_time = match sampling.intervals {
@@ -196,29 +194,25 @@ pub fn simulate(scene: &Scene, sampling: Sampling, sink: &mut dyn FnMut(&Sample)
             n if sample > n => f64::INFINITY,
             n => end * (f64::from(sample) / f64::from(n)),
         };
-        let until = sample_time.min(next_wave).min(end);
-        if motion.advance(until).is_err() {
+        let until = sample_time.min(wave.next_look()).min(end);
+        if scripted.advance(until).is_err() {
             break;
         }
-        if until >= next_wave {
-            wave.look(motion.state());
-            next_wave =
-                if until < end { (next_wave + wave_interval).min(end) } else { f64::INFINITY };
+        if until >= wave.next_look() {
+            wave.look(scripted.motion.state());
         }
         if until >= sample_time {
-            sink(&take_sample(&mut motion, sampling.gaps));
+            sink(&take_sample(&mut scripted.motion, sampling.gaps));
             sample += 1;
         }
-        if until >= end
-            && next_wave > end
-            && (sampling.intervals == 0 || sample > sampling.intervals)
-        {
+        let sampled = sampling.intervals == 0 || sample > sampling.intervals;
+        if until >= end && wave.next_look() > end && sampled {
             break;
         }
     }
-    let mut report = report(scene, &motion, &wave, started);
-    let settled = Settled { verdict: report.outcome.verdict, impact_count: report.impact_count };
-    report.outcome.sensitive = is_sensitive(scene, settled);
+    let mut report = report(scene, &scripted.motion, &wave, started);
+    let settled = Settled::of(&scripted.motion, report.outcome.verdict);
+    report.outcome.sensitive = is_sensitive_with(scene, script, settled);
     report
 }
 
@@ -233,65 +227,31 @@ fn take_sample(motion: &mut Motion, gaps: bool) -> Sample {
     }
 }
 
-/// Interval at which the wave's angle cannot turn by half a turn unseen \[s\].
-fn wave_interval(scene: &Scene) -> f64 {
-    let machine = scene.machine();
-    let end = scene.solver.end_s;
-    let last = scene.operation.speed_rad_s + scene.operation.speed_ramp_rad_s2 * end;
-    let fastest = machine.nu(scene.operation.speed_rad_s.abs().max(last.abs())) + machine.omega_c;
-    // Bounded from below, so that a very long last part stays affordable.
-    (TAU / 16.0 / fastest).max(LAST_PART * end / 100_000.0)
-}
-
-/// Total angle the casing wave turns through, by small differences.
-#[derive(Clone, Copy, Debug, Default)]
-struct WaveAngle {
-    first: Option<(f64, f64)>,
-    last: (f64, f64),
-    turned: f64,
-}
-
-impl WaveAngle {
-    fn look(&mut self, state: State) {
-        if state.amplitude() == 0.0 {
-            return;
-        }
-        let angle = state.u[1].atan2(state.u[0]);
-        if self.first.is_none() {
-            self.first = Some((state.t_s, angle));
-        } else {
-            self.turned += (angle - self.last.1 + PI).rem_euclid(TAU) - PI;
-        }
-        self.last = (state.t_s, angle);
-    }
-
-    /// Mean angular speed of the wave divided by `n_d` \[rad/s\].
-    fn speed(&self, machine: &Machine) -> Option<f64> {
-        let elapsed = self.last.0 - self.first?.0;
-        let speed = self.turned / elapsed / machine.nodal_diameters;
-        (elapsed > 0.0 && speed.is_finite()).then_some(speed)
-    }
-}
-
-fn report(scene: &Scene, motion: &Motion, wave: &WaveAngle, started: Instant) -> RunReport {
+fn report(scene: &Scene, motion: &Motion, wave: &Wave, started: Instant) -> RunReport {
     let machine = motion.machine();
     let rim = &machine.rim;
     let (log, state) = (motion.contacts(), motion.state());
     let window = LAST_PART * scene.solver.end_s;
     let verdict = verdict_of(motion, window);
-    let lasting = !matches!(verdict, Verdict::Failed | Verdict::Decay);
+    let locked = matches!(verdict, Verdict::Locked | Verdict::Adhesive);
+    let wave_speed_rad_s = match verdict {
+        Verdict::Failed | Verdict::Decay => None,
+        // It turns with the blades.
+        Verdict::Locked | Verdict::Adhesive => Some(motion.rotor().mean_speed(state.t_s, window)),
+        Verdict::Slip | Verdict::Bounce => wave.speed(machine),
+    };
     let outcome = Outcome {
         verdict,
         sensitive: false,
         message: motion.failure().map(ToString::to_string),
-        lock_time_s: matches!(verdict, Verdict::Locked | Verdict::Adhesive).then_some(log.since),
+        lock_time_s: locked.then_some(log.since),
         contacts: motion
             .multipliers()
             .into_iter()
             .map(|(side, multiplier_n)| Contact { blades: rim.blades_of_side(side), multiplier_n })
             .collect(),
         amplitude_m: state.amplitude(),
-        wave_speed_rad_s: if lasting { wave.speed(machine) } else { None },
+        wave_speed_rad_s,
     };
     RunReport {
         schema: "rubscope.run/1",

@@ -1,9 +1,7 @@
 //! One motion, whichever solver and model size the scene asks for.
 
-use std::f64::consts::TAU;
-
 use super::explicit::{Explicit, FullBlades, ModalBlades, RigidBlades};
-use super::{Checks, ContactLog, Event, Failure, Pulse, Rotor, State, Touching, Verdict};
+use super::{Checks, ContactLog, Event, Failure, Pulse, Rotor, State, Verdict};
 use crate::model::Machine;
 use crate::scene::{ModelSize, Scene, SolverKind};
 
@@ -127,26 +125,10 @@ impl Motion {
     }
 
     /// The verdict, once nothing to come can change it: no contact can come
-    /// again, or at constant speed a corner has been held for two casing
-    /// periods after the pulse.
+    /// again, or a corner can never let go.
     #[must_use]
     pub fn settled(&self) -> Option<Verdict> {
-        if let Self::Event(inner) = self {
-            return inner.settled();
-        }
-        if self.over() {
-            return Some(Verdict::Decay);
-        }
-        let (log, now) = (self.contacts(), self.state().t_s);
-        let held_since = log.since.max(self.pulse().end);
-        let period = TAU / self.machine().omega_c;
-        let corner = matches!(log.touching, Touching::Corner(..));
-        // The first of two periods is for the steps in which the lock was caught.
-        if !corner || self.rotor().ramp() != 0.0 || now < held_since + 2.0 * period {
-            return None;
-        }
-        let pulled = log.last_tensile.is_some_and(|t| t > now - period);
-        Some(if pulled { Verdict::Adhesive } else { Verdict::Locked })
+        each!(self, inner => inner.settled())
     }
 
     /// The pulse in force.
@@ -213,6 +195,12 @@ impl Motion {
     /// From now on, turn with this speed \[rad/s\] and acceleration \[rad/s^2\].
     pub fn set_speed(&mut self, speed: f64, ramp: f64) {
         each!(self, inner => inner.set_speed(speed, ramp));
+    }
+
+    /// Multiplies the rate of the casing, as far as contact leaves it free, by
+    /// `factor`: the noise that a trustworthy verdict does not notice.
+    pub fn scale_rate(&mut self, factor: f64) {
+        each!(self, inner => inner.scale_rate(factor));
     }
 
     /// From now on, moves with the parameters of a checked scene: dampings,

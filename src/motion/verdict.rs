@@ -1,15 +1,17 @@
 //! How a motion lasts, judged in one place for every solver.
 //!
-//! *decay*: no contact can come again, or none came over the last part of the
-//! run. *locked*: the same two sides (a corner) in contact without a break, all
-//! compressive. *adhesive*: locked, but some multiplier pulls. *slip*: contact
-//! without a break while the sides change, or along one side. *bounce*: contacts that come and go.
-//! *failed*: the run stopped early.
+//! A verdict known for good, by proof (`Motion::settled`), counts at once:
+//! *decay* where no contact can ever come again, *locked* or *adhesive* where a
+//! corner can never let go. Otherwise the last part of the run is judged:
+//! *locked*: the same two sides (a corner) in contact all through it, without a
+//! break and all compressive. *adhesive*: locked, but some multiplier pulls.
+//! *slip*: contact without a break while the sides change, or along one side,
+//! which nothing but a corner could hold. *bounce*: contacts that come and go.
+//! *decay*: no contact. *failed*: the run stopped early.
 
 use serde::Serialize;
 
 use super::{ContactLog, Touching};
-use crate::model::Machine;
 
 /// Part of the run, at its end, over which the verdict is judged.
 pub const LAST_PART: f64 = 0.1;
@@ -22,7 +24,7 @@ pub enum Verdict {
     Decay,
     /// Contacts that come and go.
     Bounce,
-    /// Permanent contact with the wave turning against the blades.
+    /// Contact without a break while its sides change, or along one side.
     Slip,
     /// Permanent contact of the same sides, all pushing.
     Locked,
@@ -77,8 +79,8 @@ pub struct Contact {
 pub struct Outcome {
     /// How the motion lasts.
     pub verdict: Verdict,
-    /// Whether a tiny change of the pulse or of the tolerance changes the
-    /// verdict or the impact count.
+    /// Whether a tiny change of what drives the run, or of its rate on the way,
+    /// changes the verdict or the impact count.
     pub sensitive: bool,
     /// Why the run failed.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -109,22 +111,13 @@ pub struct Checks {
     pub energy_residual_j: Option<f64>,
 }
 
-/// Verdict at time `now` over the last `window` seconds. `over` says that no
-/// contact can ever come again.
+/// Verdict at time `now` over the last `window` seconds.
 #[must_use]
-pub fn judge(log: &ContactLog, machine: &Machine, now: f64, window: f64, over: bool) -> Verdict {
+pub fn judge(log: &ContactLog, now: f64, window: f64) -> Verdict {
     let start = now - window;
-    let held = match log.touching {
-        Touching::Corner(..) | Touching::Many => hold_time(machine, window),
-        Touching::Nothing | Touching::Side(_) => window,
-    };
-    if over {
-        Verdict::Decay
-    } else if log.touching != Touching::Nothing && log.since <= now - held {
-        if matches!(log.touching, Touching::Side(_)) {
-            // Nothing holds the wave along a single side: it slides.
-            Verdict::Slip
-        } else if log.last_tensile.is_some_and(|t| t >= now - held) {
+    let corner = matches!(log.touching, Touching::Corner(..) | Touching::Many);
+    if corner && log.since <= start {
+        if log.last_tensile.is_some_and(|t| t >= start) {
             Verdict::Adhesive
         } else {
             Verdict::Locked
@@ -138,21 +131,14 @@ pub fn judge(log: &ContactLog, machine: &Machine, now: f64, window: f64, over: b
     }
 }
 
-/// How long a corner must be held to count as locked: one casing period, or
-/// the last part where that is shorter \[s\].
-fn hold_time(machine: &Machine, window: f64) -> f64 {
-    window.min(std::f64::consts::TAU / machine.omega_c)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Scene;
 
     fn judged(build: impl Fn(&mut ContactLog)) -> Verdict {
         let mut log = ContactLog::default();
         build(&mut log);
-        judge(&log, &Scene::default().machine(), 0.1, 0.01, false)
+        judge(&log, 0.1, 0.01)
     }
 
     #[test]
@@ -168,11 +154,21 @@ mod tests {
         );
         assert_eq!(
             judged(|log| {
-                log.touch(0.01, Touching::Side(3));
-                log.touch(0.095, Touching::Side(2));
+                log.touch(0.01, Touching::Corner(15, 16));
+                log.tensile(0.0899);
             }),
-            Verdict::Slip
+            Verdict::Locked
         );
+        for last in [Touching::Side(2), Touching::Corner(2, 3)] {
+            // A corner held for half of the last part is not held all through it.
+            assert_eq!(
+                judged(|log| {
+                    log.touch(0.01, Touching::Side(3));
+                    log.touch(0.095, last);
+                }),
+                Verdict::Slip
+            );
+        }
         assert_eq!(
             judged(|log| {
                 log.touch(0.091, Touching::Side(3));

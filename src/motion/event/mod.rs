@@ -285,4 +285,13 @@ impl Event {
     pub fn set_speed(&mut self, speed: f64, ramp: f64) {
         self.intervene(|event| event.rotor.change(event.now, speed, ramp));
     }
+
+    /// Multiplies the rate of the casing, in flight or along a side, by
+    /// `factor`. In a corner it has none of its own.
+    pub fn scale_rate(&mut self, factor: f64) {
+        let free = matches!(self.mode, Mode::Free(_) | Mode::Slide(_) | Mode::Driven(_));
+        if free && !self.over() {
+            self.intervene_scaled(factor, |_| {});
+        }
+    }
 }

@@ -135,12 +135,28 @@ impl Event {
     /// Changes rotor or pulse at the present instant; the casing keeps its
     /// place and its rate in the standing frame.
     pub(super) fn intervene(&mut self, change: impl FnOnce(&mut Self)) {
+        self.intervene_scaled(1.0, change);
+    }
+
+    /// As `intervene`, with the rate of free flight or along a side multiplied
+    /// by `factor`.
+    pub(super) fn intervene_scaled(&mut self, factor: f64, change: impl FnOnce(&mut Self)) {
         if self.failed.is_some() {
             return;
         }
         let s = self.elapsed(self.now);
-        let (place, rate) = self.mode.standing(&self.world, &self.drive, s);
-        let along = self.mode.along(&self.world, &self.drive, s);
+        let (place, mut rate) = self.mode.standing(&self.world, &self.drive, s);
+        let mut along = self.mode.along(&self.world, &self.drive, s);
+        match (&self.mode, &mut along) {
+            (Mode::Free(_), _) => rate *= factor,
+            (Mode::Slide(_) | Mode::Driven(_), Some((side, along))) => {
+                let tips = self.mode.tips(&self.world, s);
+                let (inward, _) = self.world.facing(&self.drive, *side, s, &tips);
+                rate += Plane::i() * inward * ((factor - 1.0) * along.rate);
+                along.rate *= factor;
+            }
+            _ => {}
+        }
         let corner = match &self.mode {
             Mode::Corner(a) => Some(*a),
             Mode::Held(held) => Some(held.a),

@@ -18,7 +18,7 @@ use crate::motion::Touching;
 use crate::scene::ContactLaw;
 
 /// Steps a corner must have been closed before the map is made.
-const SETTLED_STEPS: u64 = 64;
+pub(super) const SETTLED_STEPS: u64 = 64;
 /// Steps until it is tried again where it could not be used.
 const TRY_AGAIN: u64 = 4096;
 /// Change of a blade angle by which the step is differentiated \[rad\].

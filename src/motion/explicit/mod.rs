@@ -15,6 +15,7 @@ mod flight;
 mod held;
 mod leap;
 mod oscillator;
+mod settled;
 mod watch;
 
 pub use blades::{Blades, FullBlades, ModalBlades, RigidBlades};

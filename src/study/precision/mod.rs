@@ -145,8 +145,7 @@ impl Measure {
         let run = chosen.run(scene);
         let halved = by_events(model, 0.5 * finest).run(scene);
         let resolved = chosen.of(scene);
-        let settled =
-            Settled { verdict: run.verdict, impact_count: run.motion.contacts().impact_count };
+        let settled = Settled::of(&run.motion, run.verdict);
         let reference = Reference {
             way: chosen,
             verdict: run.verdict,

@@ -1,0 +1,80 @@
+//! Verdicts of the explicit solver that nothing to come can change.
+
+use super::held::SETTLED_STEPS;
+use super::{Blades, Explicit};
+use crate::motion::Verdict;
+use crate::scene::ContactLaw;
+
+/// Part of the least push that the blades' motion may take from it.
+const ROOM: f64 = 0.5;
+/// What the contact may feel of the blades' own inertia, against the casing's.
+const LIGHT: f64 = 1e-3;
+
+impl<B: Blades> Explicit<B> {
+    /// The verdict, once nothing to come can change it: no contact can come
+    /// again, or a corner can never let go.
+    #[must_use]
+    pub fn settled(&self) -> Option<Verdict> {
+        if self.failure.is_some() {
+            Some(Verdict::Failed)
+        } else if self.over() {
+            Some(Verdict::Decay)
+        } else if let Some(held) = &self.held {
+            Some(locked(held.pulls))
+        } else if self.blades.held_modes().is_none() {
+            self.corner_for_good()
+        } else {
+            None
+        }
+    }
+
+    /// A corner of blades of their own, if at constant speed its pushes cannot
+    /// vanish any more: an angle, its rate and its acceleration enter them with
+    /// at most all rates squared times the distance of the corner over its sine.
+    fn corner_for_good(&self) -> Option<Verdict> {
+        let sides = self.steady_corner()?;
+        let since = (self.log.since / self.step) as u64;
+        let machine = &self.machine;
+        if self.n < since + SETTLED_STEPS || !machine.rim.has_corners() {
+            return None;
+        }
+        let sum = |side| {
+            let rows = self.rows.iter().filter(|row| row.side == side);
+            rows.map(|row| row.lambda).sum::<f64>()
+        };
+        let [a, b] = sides.map(sum);
+        let (sin, cos) = machine.rim.delta.sin_cos();
+        let turn = (2.0 * machine.rim.delta).cos();
+        // Bilateral contact lasts while both sides are predicted to penetrate.
+        let least = match self.law {
+            ContactLaw::Unilateral => (-a).min(-b),
+            ContactLaw::Bilateral => (-(a + turn * b)).min(-(b + turn * a)),
+        };
+        let damping = machine.casing_damping_ratio * machine.omega_c
+            + machine.blade_damping_ratio * machine.omega_bd_max;
+        let nu = machine.nu(self.rotor.speed(self.time_of(self.n))).abs();
+        let rates = nu + machine.omega_c + machine.omega_bd_max + 2.0 * damping;
+        let turned = machine.nodal_diameters * self.blades.reach();
+        let distance = machine.clearance() / (sin * cos);
+        let change = 2.0 * turned * rates * rates * distance * machine.casing_mass;
+        let lever = machine.nodal_diameters * machine.rim.half_side();
+        let light = lever * lever * self.blades.compliance(0, 0) < LIGHT * self.casing.compliance;
+        (light && change < ROOM * least).then(|| locked(a > 0.0 || b > 0.0))
+    }
+
+    /// Multiplies the rate of the casing by `factor`. A corner that is held for
+    /// good has no rate of its own.
+    pub fn scale_rate(&mut self, factor: f64) {
+        if self.held.is_some() {
+            return;
+        }
+        self.close_block();
+        for coordinate in &mut self.u {
+            coordinate.increment *= factor;
+        }
+    }
+}
+
+fn locked(pulls: bool) -> Verdict {
+    if pulls { Verdict::Adhesive } else { Verdict::Locked }
+}

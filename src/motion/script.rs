@@ -1,0 +1,89 @@
+//! Changes on the way: what a user does to a running motion, as data, so that it
+//! can be repeated without a screen.
+
+use super::{Failure, Motion};
+use crate::scene::Scene;
+
+/// One change of a running motion.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Change {
+    /// The pulse is fired again.
+    Pulse,
+    /// From now on, the rotor turns with this speed \[rad/s\] and acceleration
+    /// \[rad/s^2\].
+    Rotor {
+        /// \[rad/s\]
+        speed: f64,
+        /// \[rad/s^2\]
+        ramp: f64,
+    },
+    /// From now on, the motion has the parameters of this checked scene.
+    Parameters(Box<Scene>),
+}
+
+/// Changes in order of time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Script {
+    changes: Vec<(f64, Change)>,
+}
+
+impl Script {
+    /// These changes, each at its time \[s\]; those at one instant in the order
+    /// given.
+    #[must_use]
+    pub fn new(mut changes: Vec<(f64, Change)>) -> Self {
+        changes.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+        Self { changes }
+    }
+
+    /// The changes, in order of time \[s\].
+    #[must_use]
+    pub fn changes(&self) -> &[(f64, Change)] {
+        &self.changes
+    }
+
+    /// The same times with other changes.
+    #[must_use]
+    pub fn mapped(&self, map: impl Fn(Change) -> Change) -> Self {
+        let changes = self.changes.iter().map(|(t, change)| (*t, map(change.clone())));
+        Self { changes: changes.collect() }
+    }
+}
+
+/// A motion that goes through a script.
+#[derive(Clone, Debug)]
+pub(super) struct Scripted<'a> {
+    pub motion: Motion,
+    to_come: &'a [(f64, Change)],
+}
+
+impl<'a> Scripted<'a> {
+    pub fn new(motion: Motion, script: &'a Script) -> Self {
+        Self { motion, to_come: &script.changes }
+    }
+
+    /// Advances to `until` \[s\], through the changes due by then.
+    ///
+    /// # Errors
+    /// The run has failed, now or before.
+    pub fn advance(&mut self, until: f64) -> Result<(), Failure> {
+        while let Some(((t, change), rest)) = self.to_come.split_first()
+            && *t <= until
+        {
+            self.motion.advance(*t)?;
+            self.to_come = rest;
+            match change {
+                Change::Pulse => self.motion.fire(),
+                Change::Rotor { speed, ramp } => self.motion.set_speed(*speed, *ramp),
+                // A scene that asks for another motion was refused before the run.
+                Change::Parameters(scene) => _ = self.motion.adopt(scene),
+            }
+        }
+        self.motion.advance(until)
+    }
+
+    /// Whether every change has been made.
+    pub fn is_through(&self) -> bool {
+        self.to_come.is_empty()
+    }
+}

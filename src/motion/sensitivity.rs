@@ -1,0 +1,86 @@
+//! Can a verdict be trusted? It is asked three times more, with changes that no
+//! measurement could see.
+//!
+//! What drives the run (the pulse, or the start and the excitation) is made
+//! larger, then smaller, by one part in 1e9. A run may forget its start at a plastic
+//! impact and yet amplify round-off later; so in a third run the rate of the
+//! casing is changed by one part in 1e9 once a casing period, up or down without
+//! a pattern, and the event solver closes gaps ten times finer. Each change has
+//! a run of its own, for two in one run may cancel.
+
+use super::Motion;
+use super::run::{Settled, settle_motion};
+use super::script::{Change, Script};
+use crate::scene::Scene;
+
+/// Relative change that no trustworthy verdict may notice.
+const NUDGE: f64 = 1e-9;
+/// Part of its tolerance at which the event solver is tried again.
+const FINER: f64 = 0.1;
+
+impl Settled {
+    /// Whether two runs that should be the same are not.
+    fn differs_from(self, other: Self) -> bool {
+        let counted = !self.rested && !other.rested;
+        self.verdict != other.verdict || (counted && self.impact_count != other.impact_count)
+    }
+}
+
+/// Whether a tiny change makes another verdict or another number of impacts of
+/// a checked scene that settled so.
+#[must_use]
+pub fn is_sensitive(scene: &Scene, settled: Settled) -> bool {
+    is_sensitive_with(scene, &Script::default(), settled)
+}
+
+/// As `is_sensitive`, for a run with changes on the way.
+#[must_use]
+pub fn is_sensitive_with(scene: &Scene, script: &Script, settled: Settled) -> bool {
+    let end = scene.solver.end_s;
+    let driven = |factor: f64| {
+        let script = script.mapped(|change| match change {
+            Change::Parameters(scene) => Change::Parameters(Box::new(nudged(&scene, factor))),
+            other => other,
+        });
+        settle_motion(Motion::new(&nudged(scene, factor)), &script, end, None)
+    };
+    let noisy = || {
+        let motion = match Motion::new(scene) {
+            Motion::Event(event) => {
+                let tolerance = FINER * event.tolerance();
+                Motion::Event(Box::new(event.with_tolerance(tolerance)))
+            }
+            explicit => explicit,
+        };
+        settle_motion(motion, script, end, Some(NUDGE))
+    };
+    driven(1.0 + NUDGE).differs_from(settled)
+        || driven(1.0 - NUDGE).differs_from(settled)
+        || noisy().differs_from(settled)
+}
+
+/// The scene with what drives it multiplied by `factor`: the pulse, or without
+/// one the start and the excitation. The start only moves inward, for it may
+/// touch.
+fn nudged(scene: &Scene, factor: f64) -> Scene {
+    let mut scene = scene.clone();
+    if scene.operation.pulse_n != 0.0 {
+        scene.operation.pulse_n *= factor;
+        return scene;
+    }
+    scene.excitation.amplitude_nm *= factor;
+    let initial = &mut scene.initial;
+    initial.v_c_m_s *= factor;
+    initial.v_s_m_s *= factor;
+    initial.u_c_m *= factor.min(1.0);
+    initial.u_s_m *= factor.min(1.0);
+    scene
+}
+
+/// `-1` or `1`, without a pattern (the finisher of SplitMix64).
+pub(super) fn sign(n: u64) -> f64 {
+    let mut x = n.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    if (x ^ (x >> 31)) & 1 == 0 { 1.0 } else { -1.0 }
+}

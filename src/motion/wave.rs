@@ -1,0 +1,85 @@
+//! How fast the casing wave turns, over the end of a run.
+
+use std::f64::consts::{PI, TAU};
+
+use super::State;
+use super::script::{Change, Script};
+use super::verdict::LAST_PART;
+use crate::model::Machine;
+use crate::scene::Scene;
+
+/// Looks at the wave, at most.
+const MOST_LOOKS: f64 = 100_000.0;
+/// Looks for each turn of the fastest motion.
+const LOOKS_A_TURN: f64 = 16.0;
+
+/// The angle the casing wave turns through, by differences so small that no half
+/// turn hides in them: over the last part of the run, or over so much of its end
+/// as can be looked at so closely.
+#[derive(Clone, Debug)]
+pub(super) struct Wave {
+    end: f64,
+    interval: f64,
+    /// When to look next \[s\]; infinity after the end.
+    next: f64,
+    first: Option<(f64, f64)>,
+    last: (f64, f64),
+    turned: f64,
+}
+
+impl Wave {
+    pub fn over(scene: &Scene, script: &Script) -> Self {
+        let machine = scene.machine();
+        let end = scene.solver.end_s;
+        let operation = &scene.operation;
+        let mut rotors = vec![(0.0, operation.speed_rad_s, operation.speed_ramp_rad_s2)];
+        rotors.extend(script.changes().iter().filter_map(|(t, change)| match change {
+            Change::Rotor { speed, ramp } => Some((*t, *speed, *ramp)),
+            Change::Pulse | Change::Parameters(_) => None,
+        }));
+        let fastest = rotors.iter().fold(0.0_f64, |most, (t, speed, ramp)| {
+            most.max(speed.abs()).max((speed + ramp * (end - t)).abs())
+        });
+        let frequency = script.changes().iter().fold(machine.omega_c, |most, (_, change)| {
+            if let Change::Parameters(scene) = change {
+                most.max(scene.machine().omega_c)
+            } else {
+                most
+            }
+        });
+        let interval = TAU / LOOKS_A_TURN / (machine.nu(fastest) + frequency);
+        let next = ((1.0 - LAST_PART) * end).max(end - MOST_LOOKS * interval);
+        Self { end, interval, next, first: None, last: (0.0, 0.0), turned: 0.0 }
+    }
+
+    /// When to look next \[s\]; infinity after the end.
+    pub fn next_look(&self) -> f64 {
+        self.next
+    }
+
+    /// Looks at the state at the instant asked for.
+    pub fn look(&mut self, state: State) {
+        self.next = if self.next < self.end {
+            (self.next + self.interval).min(self.end)
+        } else {
+            f64::INFINITY
+        };
+        if state.amplitude() == 0.0 {
+            return;
+        }
+        let angle = state.u[1].atan2(state.u[0]);
+        if self.first.is_none() {
+            self.first = Some((state.t_s, angle));
+        } else {
+            self.turned += (angle - self.last.1 + PI).rem_euclid(TAU) - PI;
+        }
+        self.last = (state.t_s, angle);
+    }
+
+    /// Mean angular speed of the wave divided by `n_d` \[rad/s\].
+    pub fn speed(&self, machine: &Machine) -> Option<f64> {
+        let elapsed = self.last.0 - self.first?.0;
+        let speed = self.turned / elapsed / machine.nodal_diameters;
+        (elapsed > 0.0 && speed.is_finite()).then_some(speed)
+    }
+}
