@@ -7,7 +7,7 @@ mod cli_support;
 
 use cli_support::{refusal, rubscope};
 use rubscope::cli::script::{Change, Script, parse};
-use rubscope::motion::Motion;
+use rubscope::motion::{self, Motion};
 use rubscope::scene::{Allowed, ContactLaw, KEYS, Key, ModelSize, Scene, SolverKind, Value};
 
 fn parsed(options: &[&str]) -> Result<Vec<(f64, Change)>, String> {
@@ -125,7 +125,12 @@ fn a_key_acts_live_just_where_the_motion_takes_it() {
             let takes = Motion::new(&scene).adopt(&changed);
             let text = format!("0.01:{}={value}", key.path);
             match script(&[&text], &scene) {
-                Ok(script) => assert!(takes && script.steps()[0].scene == changed, "{text}"),
+                Ok(script) => {
+                    let changes = script.changes();
+                    let (_, last) = changes.changes().last().unwrap();
+                    let adopted = motion::Change::Parameters(Box::new(changed));
+                    assert!(takes && *last == adopted, "{text}");
+                }
                 // Adopted without a trace: what a running motion has no use for.
                 Err(_) if takes => assert!(
                     ["title", "note", "view.charts", "solver.end_s"].contains(&key.path)
@@ -141,9 +146,9 @@ fn a_key_acts_live_just_where_the_motion_takes_it() {
 /// The motion of a scene moved to `end` by a script.
 fn moved(scene: &Scene, script: &Script, end: f64) -> Motion {
     let mut motion = Motion::new(scene);
-    for step in script.steps() {
-        motion.advance(step.t_s).unwrap();
-        step.apply(&mut motion);
+    for (t_s, change) in script.changes().changes() {
+        motion.advance(*t_s).unwrap();
+        motion.apply(change);
     }
     motion.advance(end).unwrap();
     motion

@@ -11,7 +11,7 @@ use super::Done;
 use super::options::SceneOptions;
 use super::script::{self, Script};
 use super::status::{Refusal, Status, say};
-use crate::motion::{RunReport, Sample, Sampling, Verdict, simulate};
+use crate::motion::{RunReport, Sampling, Verdict, simulate_with};
 use crate::report::{self, History, HistoryFormat};
 use crate::scene::Scene;
 
@@ -52,7 +52,7 @@ impl Run {
         let scene = self.options.scene()?;
         let script = Script::resolve(&script::parse(&self.at)?, &scene)?;
         let report = match &self.out {
-            None => changed(&scene, &script, Sampling::default(), &mut |_| {})?,
+            None => simulate_with(&scene, &script.changes(), Sampling::default(), &mut |_| {}),
             Some(path) => self.simulate_to(&scene, &script, path)?,
         };
         let changes = Some(&script).filter(|script| !script.is_empty());
@@ -84,27 +84,11 @@ impl Run {
         let mut history = History::new(if self.gaps { scene.bladed_disk.blades } else { 0 });
         // Both ends are samples. The smallest gap needs the gaps of all blades.
         let sampling = Sampling { intervals: self.samples - 1, gaps: true };
-        let report = changed(scene, script, sampling, &mut |sample| history.push(sample))?;
+        let report =
+            simulate_with(scene, &script.changes(), sampling, &mut |sample| history.push(sample));
         report::file::replace(path, |out| format.write(&history, out))
             .with_context(|| format!("cannot write {shown}"))?;
         say(&format!("rubscope: wrote {} samples to {shown}", history.len()));
         Ok(report)
     }
-}
-
-/// The run, with what the script does on the way.
-///
-/// # Errors
-/// A script with anything in it: `simulate` takes none.
-fn changed(
-    scene: &Scene,
-    script: &Script,
-    sampling: Sampling,
-    sink: &mut dyn FnMut(&Sample),
-) -> Result<RunReport, Refusal> {
-    if script.is_empty() {
-        return Ok(simulate(scene, sampling, sink));
-    }
-    let reason = format!("--at: {script}: allowed in the explorer only, so far");
-    Err(Refusal::because(reason))
 }

@@ -3,13 +3,13 @@
 //! that what was done on the screen can be repeated without one.
 //!
 //! `parse` reads the options, `Script::resolve` checks them against a scene
-//! before anything is simulated, and `Step::apply` is the one place where a
-//! step reaches the motion.
+//! before anything is simulated, and `Script::changes` is what the motion goes
+//! through.
 
 use serde::{Serialize, Serializer};
 
 use super::status::Refusal;
-use crate::motion::Motion;
+use crate::motion::{self, Motion};
 use crate::report::number::time;
 use crate::scene::{KEYS, Scene, SolverKind, Value, keys};
 
@@ -96,8 +96,8 @@ pub struct Step {
     pub change: Change,
     /// The scene from then on.
     pub scene: Scene,
-    /// Whether the rotor turns with the speed and ramp of the scene from then on.
-    turns: bool,
+    /// What happens to the motion.
+    acts: Vec<motion::Change>,
 }
 
 impl Step {
@@ -108,8 +108,10 @@ impl Step {
             let allowed = format!("a time from 0 to solver.end_s = {end}");
             return Err(Refusal::of(OPTION, shown, allowed));
         }
-        let step = |scene, turns| Self { t_s, change: change.clone(), scene, turns };
-        let Change::Set { path, value } = change else { return Ok(step(before.clone(), false)) };
+        let step = |scene, acts| Self { t_s, change: change.clone(), scene, acts };
+        let Change::Set { path, value } = change else {
+            return Ok(step(before.clone(), vec![motion::Change::Pulse]));
+        };
         let refused = |error| Refusal::because(format!("{OPTION} {shown}: {error}"));
         keys::find(path).map_err(refused)?;
         let fixed = || Refusal::of(OPTION, &shown, live_keys(before));
@@ -121,32 +123,15 @@ impl Step {
         if !of_rotor && !Motion::new(before).adopt(&scene) {
             return Err(fixed());
         }
-        // A ramp of the same value is no change, and a rotor that ramps keeps
-        // its speed; the same speed again is one, if it ramps.
-        let turns = path == SPEED || rotor(before) != rotor(&scene);
-        Ok(step(scene, turns))
-    }
-
-    /// Acts on a motion that has been advanced to `t_s` (the explicit solver:
-    /// to its last step by then), and on which the steps before this one have
-    /// acted.
-    pub fn apply(&self, motion: &mut Motion) {
-        if self.change == Change::Pulse {
-            motion.fire();
-            return;
+        let mut acts = motion::Change::between(before, &scene);
+        if path == SPEED && before.operation.speed_rad_s == scene.operation.speed_rad_s {
+            // The same speed again is a change where the rotor ramps.
+            let (speed, ramp) =
+                (Some(scene.operation.speed_rad_s), scene.operation.speed_ramp_rad_s2);
+            acts.insert(0, motion::Change::Rotor { speed, ramp });
         }
-        if self.turns {
-            let (speed, ramp) = rotor(&self.scene);
-            motion.set_speed(speed, ramp);
-        }
-        // The event solver adopts nothing, and only its rotor is turned.
-        motion.adopt(&self.scene);
+        Ok(step(scene, acts))
     }
-}
-
-/// Speed and acceleration of the rotor.
-fn rotor(scene: &Scene) -> (f64, f64) {
-    (scene.operation.speed_rad_s, scene.operation.speed_ramp_rad_s2)
 }
 
 /// Whether a key can act on a running motion of this scene.
@@ -193,10 +178,11 @@ impl Script {
         self.0.is_empty()
     }
 
-    /// The steps, in order of time.
+    /// What the motion goes through.
     #[must_use]
-    pub fn steps(&self) -> &[Step] {
-        &self.0
+    pub fn changes(&self) -> motion::Script {
+        let acts = |step: &Step| step.acts.iter().map(|act| (step.t_s, act.clone())).collect();
+        motion::Script::new(self.0.iter().flat_map::<Vec<_>, _>(acts).collect())
     }
 }
 

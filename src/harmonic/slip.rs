@@ -1,5 +1,5 @@
-//! Slip: permanent contact with the wave turning slower than the rotor, side
-//! after side. As a map it is one number, the speed just after a corner, and a
+//! Slip on a polygon with corners: permanent contact, side after side, with the
+//! wave turning slower than the rotor. As a map it is one number, the speed just after a corner, and a
 //! lasting slip is a fixed point of it.
 
 use serde::Serialize;

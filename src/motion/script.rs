@@ -9,16 +9,46 @@ use crate::scene::Scene;
 pub enum Change {
     /// The pulse is fired again.
     Pulse,
-    /// From now on, the rotor turns with this speed \[rad/s\] and acceleration
-    /// \[rad/s^2\].
+    /// From now on, the rotor turns with another acceleration, from this speed or
+    /// from the one it has.
     Rotor {
         /// \[rad/s\]
-        speed: f64,
+        speed: Option<f64>,
         /// \[rad/s^2\]
         ramp: f64,
     },
     /// From now on, the motion has the parameters of this checked scene.
     Parameters(Box<Scene>),
+}
+
+impl Change {
+    /// What a running motion of one scene takes over from another. A ramp that
+    /// is changed alone goes on from the speed there is.
+    #[must_use]
+    pub fn between(before: &Scene, now: &Scene) -> Vec<Self> {
+        let (old, new) = (&before.operation, &now.operation);
+        let speed = (old.speed_rad_s != new.speed_rad_s).then_some(new.speed_rad_s);
+        let ramp = new.speed_ramp_rad_s2;
+        let turns = speed.is_some() || old.speed_ramp_rad_s2 != ramp;
+        let rotor = turns.then_some(Self::Rotor { speed, ramp });
+        rotor.into_iter().chain([Self::Parameters(Box::new(now.clone()))]).collect()
+    }
+}
+
+impl Motion {
+    /// Changes the motion from now on.
+    pub fn apply(&mut self, change: &Change) {
+        match change {
+            Change::Pulse => self.fire(),
+            Change::Rotor { speed, ramp } => {
+                let now = self.rotor().speed(self.state().t_s);
+                self.set_speed(speed.unwrap_or(now), *ramp);
+            }
+            // The event solver adopts nothing, and a scene that asks for another
+            // motion is refused before.
+            Change::Parameters(scene) => _ = self.adopt(scene),
+        }
+    }
 }
 
 /// Changes in order of time.
@@ -72,12 +102,7 @@ impl<'a> Scripted<'a> {
         {
             self.motion.advance(*t)?;
             self.to_come = rest;
-            match change {
-                Change::Pulse => self.motion.fire(),
-                Change::Rotor { speed, ramp } => self.motion.set_speed(*speed, *ramp),
-                // A scene that asks for another motion was refused before the run.
-                Change::Parameters(scene) => _ = self.motion.adopt(scene),
-            }
+            self.motion.apply(change);
         }
         self.motion.advance(until)
     }

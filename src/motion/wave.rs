@@ -32,21 +32,22 @@ impl Wave {
         let machine = scene.machine();
         let end = scene.solver.end_s;
         let operation = &scene.operation;
-        let mut rotors = vec![(0.0, operation.speed_rad_s, operation.speed_ramp_rad_s2)];
-        rotors.extend(script.changes().iter().filter_map(|(t, change)| match change {
-            Change::Rotor { speed, ramp } => Some((*t, *speed, *ramp)),
-            Change::Pulse | Change::Parameters(_) => None,
-        }));
-        let fastest = rotors.iter().fold(0.0_f64, |most, (t, speed, ramp)| {
-            most.max(speed.abs()).max((speed + ramp * (end - t)).abs())
-        });
-        let frequency = script.changes().iter().fold(machine.omega_c, |most, (_, change)| {
-            if let Change::Parameters(scene) = change {
-                most.max(scene.machine().omega_c)
-            } else {
-                most
+        let mut rotor = (0.0, operation.speed_rad_s, operation.speed_ramp_rad_s2);
+        let mut fastest = rotor.1.abs();
+        let mut frequency = machine.omega_c;
+        let at = |(since, speed, ramp): (f64, f64, f64), t: f64| speed + ramp * (t - since);
+        for (t, change) in script.changes() {
+            match change {
+                Change::Pulse => {}
+                Change::Parameters(scene) => frequency = frequency.max(scene.machine().omega_c),
+                Change::Rotor { speed, ramp } => {
+                    fastest = fastest.max(at(rotor, *t).abs());
+                    rotor = (*t, speed.unwrap_or(at(rotor, *t)), *ramp);
+                    fastest = fastest.max(rotor.1.abs());
+                }
             }
-        });
+        }
+        fastest = fastest.max(at(rotor, end).abs());
         let interval = TAU / LOOKS_A_TURN / (machine.nu(fastest) + frequency);
         let next = ((1.0 - LAST_PART) * end).max(end - MOST_LOOKS * interval);
         Self { end, interval, next, first: None, last: (0.0, 0.0), turned: 0.0 }

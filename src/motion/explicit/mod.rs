@@ -44,6 +44,9 @@ pub struct Explicit<B: Blades> {
     pulse: Pulse,
     /// The pulse to fire next, from zero on.
     next_pulse: Pulse,
+    /// A step, and the mean force in it of a pulse that another has replaced
+    /// \[N\].
+    left_over: (u64, f64),
     excitation: Option<Excitation>,
     casing: Oscillator,
     /// Index of the step the coordinates belong to, `t = n h`.
@@ -122,6 +125,7 @@ impl<B: Blades> Explicit<B> {
             law: scene.solver.contact,
             casing_radius: scene.casing.radius_m,
             next_pulse: pulse,
+            left_over: (0, 0.0),
             excitation: Excitation::of(scene),
             touched: vec![0; sides],
             impulses: vec![0.0; sides],
@@ -222,7 +226,8 @@ impl<B: Blades> Explicit<B> {
     fn force(&self, n: u64) -> f64 {
         let t = self.time_of(n);
         let half = 0.5 * self.step;
-        self.pulse.mean(if n == 0 { 0.0 } else { t - half }, t + half)
+        let left_over = if n == self.left_over.0 { self.left_over.1 } else { 0.0 };
+        self.pulse.mean(if n == 0 { 0.0 } else { t - half }, t + half) + left_over
     }
 
     fn time_of(&self, n: u64) -> f64 {
@@ -358,11 +363,23 @@ impl<B: Blades> Explicit<B> {
         }
     }
 
-    /// Fires the pulse again, from now on.
+    /// Fires the pulse again, from now on; what the pulse before gave in the half
+    /// step until now is kept.
     pub fn fire(&mut self) {
         self.interrupt();
         let (start, next) = (self.time(), self.next_pulse);
+        let half = 0.5 * self.step;
+        let old = self.pulse;
         self.pulse = Pulse { start, end: start + next.end, force: next.force };
+        if self.n == 0 {
+            // The start knew the old force.
+            let change = self.pulse.mean(0.0, half) - old.mean(0.0, half);
+            self.u[0].increment -= 0.5 * self.step * self.step * change / self.machine.casing_mass;
+        } else {
+            let until_now = Pulse { end: old.end.min(start), ..old };
+            let before = if self.left_over.0 == self.n { self.left_over.1 } else { 0.0 };
+            self.left_over = (self.n, before + until_now.mean(start - half, start + half));
+        }
     }
 
     /// Ends what was decided on ahead.

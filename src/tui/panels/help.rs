@@ -21,7 +21,10 @@ const WORDS: &[(&str, &str)] = &[
     ),
     ("locked", "the same blades touch for good, all pushing: the casing wave turns with the rotor"),
     ("adhesive", "looks locked, but a blade pulls: only the equality (bilateral) law allows it"),
-    ("slip", "contact without a break, but the wave turns slower than the rotor"),
+    (
+        "slip",
+        "contact without a break that no corner holds: its sides change, or there is one side",
+    ),
     ("bounce", "contacts that come and go"),
     ("decay", "the motion dies away without further contact"),
     ("Ω_c", "critical speed: above it the turning blades push the casing outward"),

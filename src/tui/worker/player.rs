@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use super::forecast::Run;
 use super::recorder::Recorder;
 use super::studies::Studies;
-use crate::motion::{Motion, is_sensitive, settle};
+use crate::motion::{Change, Motion, is_sensitive, settle};
 use crate::scene::{ContactLaw, Scene, SolverKind};
 use crate::tui::engine::{Ahead, Forecast, Moment, Order, Pace, Snapshot};
 
@@ -104,7 +104,9 @@ impl Player {
         let beside = self.beside.as_mut().map(|beside| (&mut beside.motion, &other));
         for (motion, scene) in std::iter::once((&mut self.motion, &order.scene)).chain(beside) {
             if order.changes != before.changes {
-                change(motion, &before.scene, scene);
+                for change in Change::between(&before.scene, scene) {
+                    motion.apply(&change);
+                }
             }
             if order.pulses != before.pulses {
                 motion.fire();
@@ -315,18 +317,6 @@ fn other_law(scene: &Scene) -> Scene {
         ContactLaw::Bilateral => ContactLaw::Unilateral,
     };
     scene
-}
-
-/// Lets knobs act on a motion under way. A rotor that ramps keeps its speed
-/// unless that is what was turned.
-fn change(motion: &mut Motion, before: &Scene, now: &Scene) {
-    let rotor = |scene: &Scene| (scene.operation.speed_rad_s, scene.operation.speed_ramp_rad_s2);
-    if rotor(before) != rotor(now) {
-        let (speed, ramp) = rotor(now);
-        motion.set_speed(speed, ramp);
-    }
-    // The event solver adopts nothing, and only its rotor is turned live.
-    motion.adopt(now);
 }
 
 /// The event solver under unilateral contact, where the scene's own solver is another.
