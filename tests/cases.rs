@@ -1,6 +1,8 @@
 //! Scenes that once went wrong, with values from codes that share nothing with
 //! this one. Each is a whole command line of `run` or `map`.
 
+#![expect(clippy::unwrap_used, reason = "a test states what must hold")]
+
 use rubscope::motion::{RunReport, Sampling, Verdict, settle, simulate};
 use rubscope::scene::Scene;
 

@@ -96,3 +96,12 @@ fn round_off_of_a_multiplier_at_the_smallest_step() {
         assert!((contact.multiplier_n - exact).abs() < 4e-4, "{contact:?} {exact}");
     }
 }
+
+#[test]
+fn without_damping_the_impacts_of_a_second_are_sensitive() {
+    says("undamped", "Over a second what happens is sensitive");
+    let changes = [("solver.kind", "event")];
+    assert!(!run("undamped", &changes).outcome.sensitive);
+    let changes = [("solver.kind", "event"), ("solver.end_s", "1")];
+    assert!(run("undamped", &changes).outcome.sensitive);
+}

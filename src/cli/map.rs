@@ -42,7 +42,7 @@ pub struct MapCommand {
     /// Coarse cells first, then only beside another verdict, down to every cell
     #[arg(long, conflicts_with = "shard")]
     adaptive: bool,
-    /// Do not look for sensitive cells: a third of the runs
+    /// Do not look for sensitive cells: a quarter of the runs
     #[arg(long)]
     no_sensitivity: bool,
     /// Number of threads [default: every core]

@@ -155,9 +155,12 @@ fn write_legend(map: &Map, out: &mut dyn Write) -> Result<()> {
     if sensitive > 0 {
         writeln!(
             out,
-            "A letter (d b s l a f) marks the {sensitive} sensitive cells, where a relative change"
+            "A letter (d b s l a f) marks the {sensitive} sensitive cells, where a change of 1e-9"
         )?;
-        writeln!(out, "of 1e-9 of the pulse changes the verdict or the number of impacts.")?;
+        writeln!(
+            out,
+            "of the pulse or of the motion changes the verdict or the number of impacts."
+        )?;
     }
     Ok(())
 }

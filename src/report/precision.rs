@@ -157,7 +157,7 @@ pub fn write(report: &Precision, out: &mut dyn Write) -> Result<()> {
         let right = same_law().filter(|row| row.verdict_right).count();
         writeln!(
             out,
-            "This scene is sensitive: a relative change of 1e-9 of the pulse changes its outcome. \
+            "This scene is sensitive: a change of 1e-9 of the pulse or of the motion changes its outcome. \
              End states are not compared; {right} of {} ways under the same contact law agree \
              with the verdict of the reference.",
             same_law().count()

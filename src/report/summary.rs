@@ -33,7 +33,7 @@ pub fn write(report: &RunReport, out: &mut dyn Write) -> Result<()> {
     if report.outcome.sensitive {
         writeln!(
             out,
-            "Sensitive: a tiny change of the pulse or of the tolerance changes this outcome; do not rely on it."
+            "Sensitive: a change of 1e-9 of the pulse or of the motion changes this outcome; do not rely on it."
         )?;
     }
     if let Some(line) = warning(report) {

@@ -25,8 +25,7 @@ impl Watch {
     /// Blades have moved by no more than `change`; whether to look at them.
     pub fn moved(&mut self, change: f64) -> bool {
         self.room -= change;
-        // Not a number asks for a look as well.
-        !(self.room >= 0.0)
+        self.room < 0.0 || self.room.is_nan()
     }
 
     /// The largest angle of any blade now.
@@ -36,7 +35,7 @@ impl Watch {
     pub fn look(&mut self, now: f64) -> Result<(), String> {
         self.largest = self.largest.max(now);
         self.room = self.largest - now;
-        if now <= LARGEST_ANGLE { Ok(()) } else { Err(too_wide(now)) }
+        if now > LARGEST_ANGLE || now.is_nan() { Err(too_wide(now)) } else { Ok(()) }
     }
 
     /// Steps without a look, over which the largest angle was `largest`; blades
