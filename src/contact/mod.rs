@@ -51,12 +51,19 @@ pub fn complementary_pair(w: [[f64; 2]; 2], gap: [f64; 2]) -> Option<[f64; 2]> {
     (both[0] <= 0.0 && both[1] <= 0.0).then_some(both)
 }
 
-/// Every row closed as an equality, Eq. (13a). `None` where `W` is singular.
+/// Every row closed as an equality, Eq. (13a). `None` where `W` is singular, to
+/// the digits it has: more rows than coordinates that could close them.
 #[must_use]
 pub fn all_closed(w: DMatrix<f64>, gap: &[f64]) -> Option<Vec<f64>> {
-    let solution = w.lu().solve(&DVector::from_column_slice(gap))?;
-    Some(solution.as_slice().to_vec())
+    let gap = DVector::from_column_slice(gap);
+    let solution = w.clone().lu().solve(&gap)?;
+    let left = (&w * &solution - &gap).amax();
+    (left <= SINGULAR * gap.amax()).then(|| solution.as_slice().to_vec())
 }
+
+/// Part of the gaps that round-off may leave open before the equations count as
+/// singular.
+const SINGULAR: f64 = 1e-3;
 
 /// The complementarity problem of any number of rows, by principal pivoting
 /// with the least index (Murty), which ends for every positive definite `W`.

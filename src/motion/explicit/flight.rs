@@ -52,7 +52,7 @@ impl<B: Blades> Explicit<B> {
             return false;
         }
         let distance = distance2.sqrt();
-        let (farthest, longest) = self.casing_reach();
+        let (farthest, longest) = self.casing.reach_of(self.u);
         let length =
             if farthest < clearance { ENDLESS } else { ((clearance - distance) / longest) as u64 };
         // Blades that may swing too far are followed step by step.
@@ -77,20 +77,23 @@ impl<B: Blades> Explicit<B> {
         }
     }
 
-    /// Whether the casing, whatever the blades do, never reaches one again.
-    pub(super) fn is_out_of_reach(&self) -> bool {
-        !self.pulse_to_come() && self.casing_reach().0 < self.machine.rim.clearance
+    /// Whether no contact can ever come again: the casing, whatever the blades
+    /// do, never reaches one.
+    #[must_use]
+    pub fn over(&self) -> bool {
+        if self.held.is_some() || self.pulse_to_come() {
+            return false;
+        }
+        let skipped = |coordinate| self.casing.skip(coordinate, self.block.used);
+        self.block.is_endless()
+            || self.casing.reach_of(self.u.map(skipped)).0 < self.machine.rim.clearance
     }
 
     /// Whether the pulse still acts on this step or a later one.
     fn pulse_to_come(&self) -> bool {
-        self.pulse.force != 0.0 && self.time_of(self.n) - 0.5 * self.step < self.pulse.end
-    }
-
-    /// Bounds on `|u|` and on its change in a step, over all free motion to come.
-    fn casing_reach(&self) -> (f64, f64) {
-        let energy = self.casing.twice_energy(self.u[0]) + self.casing.twice_energy(self.u[1]);
-        self.casing.reach(energy)
+        let left_over = self.left_over.0 == self.n && self.left_over.1 != 0.0;
+        let acting = self.time_of(self.n) - 0.5 * self.step < self.pulse.end;
+        left_over || (self.pulse.force != 0.0 && acting)
     }
 
     /// Goes on inside the open block, up to `target`; takes it at its end.
@@ -116,10 +119,16 @@ impl<B: Blades> Explicit<B> {
         self.n += self.block.used;
         self.u = u;
         self.blades = blades;
-        if let Some(held) = self.held.take() {
+        if let Some(held) = self.held.take()
+            && self.block.used > 0
+        {
             self.last_touch = self.n;
-            for side in held.sides() {
+            let latest = held.sides().into_iter().zip(held.multipliers(self.block.used));
+            for (side, lambda) in latest {
                 self.touched[side as usize] = self.n;
+                for row in self.rows.iter_mut().filter(|row| row.side == side) {
+                    row.lambda = lambda;
+                }
             }
             self.hold_tried = self.n;
         }
@@ -129,10 +138,8 @@ impl<B: Blades> Explicit<B> {
     /// Keeps what the steps of a held corner did since `before`.
     fn log_held(&mut self, held: &Held, before: u64) {
         let (used, t) = (self.block.used, self.time_of(self.steps()));
-        let ends = [held.multipliers(before.max(1)), held.multipliers(used)];
-        for (k, side) in held.sides().into_iter().enumerate() {
-            let mean = 0.5 * (ends[0][k] + ends[1][k]);
-            self.impulses[side as usize] += mean * (used - before) as f64 * self.step;
+        for (side, sum) in held.sides().into_iter().zip(held.sums(before, used)) {
+            self.impulses[side as usize] += sum * self.step;
         }
         self.log.touch(t, self.log.touching);
         if held.pulls {

@@ -23,9 +23,9 @@ pub(super) const SETTLED_STEPS: u64 = 64;
 const TRY_AGAIN: u64 = 4096;
 /// Change of a blade angle by which the step is differentiated \[rad\].
 const PROBE: f64 = 1e-6;
-/// Largest blade phase `n_d alpha` whose square the affine map may leave out
-/// \[rad\]: its square is the round-off of a million steps.
-const LARGEST_PHASE: f64 = 3e-6;
+/// Largest blade phase `n_d alpha` of a vibration whose square the affine map may
+/// leave out \[rad\]: it makes 1e-11 of the angles.
+const LARGEST_PHASE: f64 = 1e-5;
 /// Part of a multiplier or gap that its changes may not exceed.
 const ROOM: f64 = 0.5;
 /// Newton steps to the modes at rest; two reach round-off.
@@ -49,6 +49,8 @@ pub(super) struct Held {
     start: Modes,
     /// Many steps of what is beside the rest.
     leap: Leap<4>,
+    /// Inverse of what one step changes of it; zero for rigid blades.
+    unchanged: Map,
     /// Multipliers of the step from `b`: value at rest and gradient \[N\].
     multipliers: [(f64, Modes); 2],
     /// Bounds on angle and increment of what is beside the rest.
@@ -68,8 +70,24 @@ impl Held {
 
     /// Multipliers of the step that led to `steps` steps from the start \[N\].
     pub fn multipliers(&self, steps: u64) -> [f64; 2] {
-        let beside = self.leap.apply(self.start, steps.saturating_sub(1));
-        self.multipliers.map(|(value, gradient)| value + gradient.dot(&beside))
+        let from = steps.saturating_sub(1);
+        // The step itself knows them to the last digit, at any vibration.
+        self.step.from(self.modes(from)).map_or_else(
+            || {
+                let beside = self.leap.apply(self.start, from);
+                self.multipliers.map(|(value, gradient)| value + gradient.dot(&beside))
+            },
+            |step| step.multipliers,
+        )
+    }
+
+    /// Sums of the multipliers of the steps after `before`, up to `steps` \[N\].
+    pub fn sums(&self, before: u64, steps: u64) -> [f64; 2] {
+        let [from, to] = [before, steps].map(|steps| self.leap.apply(self.start, steps));
+        // The sum of T^k b is (T - 1)^-1 times what they change in all.
+        let beside = self.unchanged * (to - from);
+        let count = (steps - before) as f64;
+        self.multipliers.map(|(value, gradient)| count * value + gradient.dot(&beside))
     }
 
     /// The largest blade angle over the first `steps` steps, `least` where none
@@ -81,29 +99,35 @@ impl Held {
             blades.largest([modes[0], modes[1]])
         };
         let stride = (LOOK / blades.oscillator().turn()).clamp(1.0, 1e12) as u64;
-        let (mut most, mut at, mut taken) = (least.max(angle(steps)), 0, 0);
-        // What is beside the rest never grows beyond its bound now.
-        while taken < steps {
-            let here = angle(taken);
-            if here > most {
-                (most, at) = (here, taken);
-            }
-            let beside = self.leap.apply(self.start, taken);
+        let mut most = least.max(angle(0)).max(angle(steps));
+        let (mut before, mut here, mut at) = (0.0, angle(0), 0);
+        while at < steps {
+            // What is beside the rest never grows beyond its bound now.
+            let beside = self.leap.apply(self.start, at);
             let bound = blades.oscillator().reach_of(as_coordinates(beside)).0;
             if self.rest[0].hypot(self.rest[1]) + bound <= most {
                 break;
             }
-            taken += stride;
+            let after = angle((at + stride).min(steps));
+            // Between looks an angle rises by the square of half a look, at most.
+            if here >= before && here >= after && here * (1.0 + LOOK * LOOK) > most {
+                let around = [at.saturating_sub(stride), (at + stride).min(steps)];
+                most = most.max(top(around, angle));
+            }
+            (before, here, at) = (here, after, at + stride);
         }
-        // The top lies within a stride of the largest look.
-        let (mut low, mut high) = (at.saturating_sub(stride), (at + stride).min(steps));
-        while high > low + 2 {
-            let third = (high - low) / 3;
-            let [first, second] = [low + third, high - third];
-            if angle(first) < angle(second) { low = first + 1 } else { high = second }
-        }
-        (low..=high).map(angle).fold(most, f64::max)
+        most
     }
+}
+
+/// The largest value between two steps of a function with one top.
+fn top([mut low, mut high]: [u64; 2], value: impl Fn(u64) -> f64) -> f64 {
+    while high > low + 2 {
+        let third = (high - low) / 3;
+        let [first, second] = [low + third, high - third];
+        if value(first) < value(second) { low = first + 1 } else { high = second }
+    }
+    (low..=high).map(value).fold(0.0, f64::max)
 }
 
 impl<B: Blades> Explicit<B> {
@@ -137,10 +161,11 @@ impl<B: Blades> Explicit<B> {
         let now = as_modes(now.modes);
         let mut rest = now;
         let (change, slopes) = slopes(&step, rest)?;
+        let mut unchanged = Map::zeros();
         if step.blades().is_some() {
-            let inverse = change.try_inverse()?;
+            unchanged = change.try_inverse()?;
             for _ in 0..MOST_CORRECTIONS {
-                let correction = inverse * step.from(rest)?.change;
+                let correction = unchanged * step.from(rest)?.change;
                 rest -= correction;
                 if correction.amax() <= f64::EPSILON * rest.amax() {
                     break;
@@ -160,6 +185,7 @@ impl<B: Blades> Explicit<B> {
             rest,
             start,
             leap: Leap::new(change),
+            unchanged,
             multipliers: [(a, slopes[0]), (b, slopes[1])],
             swing,
             step,

@@ -314,13 +314,6 @@ impl<B: Blades> Explicit<B> {
         means
     }
 
-    /// Whether no contact can ever come again.
-    #[must_use]
-    pub fn over(&self) -> bool {
-        (self.block.is_endless() && self.held.is_none())
-            || (self.excitation.is_some() && self.is_out_of_reach())
-    }
-
     /// The record of contacts.
     #[must_use]
     pub fn contacts(&self) -> &ContactLog {
