@@ -111,8 +111,7 @@ fn play(seed: u64) -> u32 {
         // Windows of a part of a casing period, and of one and more.
         pair.check_verdict(&told, dice.scale(3e-4, 1e-2));
         match dice.bits() % 4 {
-            // A shot during a pulse is a known fault: `fired_again_during_the_pulse`.
-            0 | 1 if !pair.plain.is_pulsed() => {
+            0 | 1 => {
                 pair.fire();
                 told += &format!("\n at {until}: fire");
             }

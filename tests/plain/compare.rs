@@ -25,14 +25,10 @@ pub struct Pair {
     pub(super) scene: Scene,
     /// Sum of `n_d |speed| h` over all steps, a bound on `n_d theta`.
     pub(super) turned: f64,
-    /// Makes no allowance for known faults.
-    pub(super) strict: bool,
     /// Impulses of the sides at the latest look.
     pub(super) impulses: Vec<f64>,
     /// Time of that look.
     pub(super) looked: f64,
-    /// Changed since the latest step.
-    pub(super) changed: bool,
     /// How much longer an early difference is by now, at least 1.
     pub amplified: f64,
 }
@@ -49,19 +45,12 @@ impl Pair {
             amplified_before: 1.0,
             scene,
             turned: 0.0,
-            strict: false,
             impulses: Vec::new(),
             looked: 0.0,
-            changed: false,
             amplified: 1.0,
         };
         pair.nudge();
         pair
-    }
-
-    /// Without allowance for known faults.
-    pub fn strictly(scene: &Scene) -> Self {
-        Self { strict: true, ..Self::new(scene) }
     }
 
     /// Sets the second stepper a little beside the first.
@@ -86,27 +75,12 @@ impl Pair {
 
     /// Advances all; what fails must fail at the same step for the same reason.
     pub fn advance(&mut self, until: f64) -> Result<(), Failure> {
-        let (before, steps) = (self.plain.time(), self.plain.steps());
+        let before = self.plain.time();
         let met = self.plain.advance(until);
         let program = self.motion.advance(until);
-        self.changed &= self.plain.steps() == steps;
         let rotor = self.motion.rotor();
         let fastest = rotor.speed(before).abs().max(rotor.speed(until).abs());
         self.turned += f64::from(self.scene.operation.nodal_diameters) * fastest * (until - before);
-        if !self.strict {
-            // Known faults: the program judges blade angles by a bound on them
-            // and only of blades in contact, and takes for an answer what comes
-            // of three rows that contradict each other.
-            let wide = |reason: &str| reason.contains("blade angle");
-            if met.is_ok() && program.as_ref().is_err_and(|failure| wide(&failure.reason)) {
-                return Err(Failure { t: until, why: Why::BladeAngle(f64::NAN) });
-            }
-            if let Err(failure) = met
-                && matches!(failure.why, Why::BladeAngle(_) | Why::Rows(_))
-            {
-                return Err(failure);
-            }
-        }
         assert_eq!(met.is_ok(), program.is_ok(), "plain {met:?}, program {program:?}");
         if let (Err(plain), Err(program)) = (met, program) {
             let word = match plain.why {
@@ -130,7 +104,6 @@ impl Pair {
     }
 
     pub fn fire(&mut self) {
-        self.changed = true;
         let operation = &self.scene.operation;
         self.motion.fire();
         self.plain.fire(operation.pulse_n, operation.pulse_s);
@@ -138,14 +111,12 @@ impl Pair {
     }
 
     pub fn set_speed(&mut self, speed: f64, ramp: f64) {
-        self.changed = true;
         self.motion.set_speed(speed, ramp);
         self.plain.set_speed(speed, ramp);
         self.nudged.set_speed(speed, ramp);
     }
 
     pub fn adopt(&mut self, scene: &Scene) {
-        self.changed = true;
         assert!(self.motion.adopt(scene), "refused: {scene:?}");
         self.plain.set_parameters(scene);
         self.nudged.set_parameters(scene);

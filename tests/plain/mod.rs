@@ -169,14 +169,12 @@ impl Plain {
             impulse: 0.0,
             impulses,
         };
-        plain.fire(operation.pulse_n, operation.pulse_s);
-        let half = h / Dd::from(2.0);
-        plain.first_force = plain.impulse(ZERO, half) / half;
-        let (first, initial) = (plain.first_force, &scene.initial);
+        let initial = &scene.initial;
         plain.u = [
-            plain.casing.start(initial.u_c_m, initial.v_c_m_s, first, h),
+            plain.casing.start(initial.u_c_m, initial.v_c_m_s, ZERO, h),
             plain.casing.start(initial.u_s_m, initial.v_s_m_s, ZERO, h),
         ];
+        plain.fire(operation.pulse_n, operation.pulse_s);
         plain
     }
 
@@ -237,7 +235,8 @@ impl Plain {
         angle + (Dd::from(speed) + Dd::from(0.5 * ramp) * elapsed) * elapsed
     }
 
-    /// Another pulse from now on; the one under way ends.
+    /// Another pulse from now on; the one under way ends. Before the first step,
+    /// `x[-1]` is made with the new one.
     pub fn fire(&mut self, force: f64, duration: f64) {
         let now = self.time_exact();
         for pulse in &mut self.pulses {
@@ -246,6 +245,13 @@ impl Plain {
             }
         }
         self.pulses.push(Pulse { start: now, end: now + Dd::from(duration), force });
+        if self.n == 0 {
+            let half = self.h / Dd::from(2.0);
+            let first = self.impulse(ZERO, half) / half;
+            let change = self.casing.start(0.0, 0.0, first - self.first_force, self.h);
+            self.u[0].increment = self.u[0].increment + change.increment;
+            self.first_force = first;
+        }
     }
 
     /// Whether the pulse under way still acts on a step to come.
