@@ -84,3 +84,35 @@ impl Wave {
         (elapsed > 0.0 && speed.is_finite()).then_some(speed)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The speed found of a wave that turns at a constant rate to the end.
+    fn found(scene: &Scene, rate: f64) -> (f64, u32) {
+        let mut wave = Wave::over(scene, &Script::default());
+        let (machine, mut looks) = (scene.machine(), 0);
+        while wave.next_look() <= scene.solver.end_s {
+            let t_s = wave.next_look();
+            let (sin, cos) = (machine.nodal_diameters * rate * t_s).sin_cos();
+            wave.look(State { t_s, u: [1e-4 * cos, 1e-4 * sin], ..State::default() });
+            looks += 1;
+        }
+        (wave.speed(&machine).unwrap(), looks)
+    }
+
+    #[test]
+    fn no_half_turn_hides_in_a_long_run() {
+        let mut scene = Scene::default();
+        for end in [1e-3, 0.1, 100.0, 1e4, 1e6] {
+            scene.solver.end_s = end;
+            for rate in [500.0, 385.3, -292.9] {
+                let (speed, looks) = found(&scene, rate);
+                // Angles of up to 1e9 rad have lost some digits.
+                assert!((speed / rate - 1.0).abs() < 1e-6, "{speed} {rate} over {end} s");
+                assert!(looks <= 100_002, "{looks}");
+            }
+        }
+    }
+}

@@ -7,7 +7,8 @@
 //! are kept open by a bound on the speed.
 
 use super::approach::{leaving_step, safe_step};
-use super::blades::{Blades, Tips};
+use super::blades::Tips;
+use super::bounds::{Bounds, size};
 use super::world::{Drive, Plane, World};
 
 /// Radians of all rates below which a look ahead asks for a better bound.
@@ -47,14 +48,6 @@ pub(super) enum Look {
     Never,
     /// The motion went beyond the casing radius.
     Gone,
-}
-
-/// Bounds over a stretch of flight ahead.
-struct Bounds {
-    /// On `|u|`, `|u'|`, `|u''|`.
-    standing: [f64; 3],
-    /// On `|z|` and its first four derivatives, seen from the sides.
-    turning: [f64; 5],
 }
 
 impl Free {
@@ -242,112 +235,5 @@ impl Free {
             stride = stride.min(safe);
         }
         Look::Until(stride)
-    }
-}
-
-impl Bounds {
-    /// From the state now, over `span` seconds in which the wave turns against
-    /// the standing frame at rates between those of `nu`.
-    fn new(world: &World, drive: &Drive, u: Plane, v: Plane, span: f64, nu: [f64; 2]) -> Self {
-        let (omega, c) = (world.omega, world.damping);
-        let centre = drive.pulse / (omega * omega);
-        let from = u - Plane::new(centre, 0.0);
-        let centre = centre.abs();
-        let turning = nu[0].abs().max(nu[1].abs());
-        let ramp = drive.nu_rate.abs();
-        // Energy about the centre never grows; every derivative costs at most
-        // a factor omega + 2 c, or that and nu in the turning frame.
-        let top = (v.norm_sqr() + omega * omega * from.norm_sqr()).sqrt();
-        let (swing, factor) = (top / omega, omega + 2.0 * c);
-        let mut standing = [swing, top, top * factor];
-        let mut turned = hermite(swing, factor + turning, ramp);
-        if let Some(exponents) = world.kernel.exponents() {
-            // A sum of two exponentials, each bounded by its amplitude now: in
-            // the turning frame one of them may be nearly at rest.
-            let [p, q] = exponents.map(|(re, im)| Plane::new(re, im));
-            let mut waves = [0.0; 3];
-            let mut turned_waves = [0.0; 5];
-            for (exponent, other) in [(p, q), (q, p)] {
-                let amplitude = size((v - from * other) / (exponent - other));
-                let rate = size(exponent);
-                for (sum, term) in waves.iter_mut().zip([1.0, rate, rate * rate]) {
-                    *sum += amplitude * term;
-                }
-                let spin = (exponent.im - nu[0]).abs().max((exponent.im - nu[1]).abs());
-                let terms = hermite(amplitude, size(Plane::new(exponent.re, spin)), ramp);
-                for (sum, term) in turned_waves.iter_mut().zip(terms) {
-                    *sum += term;
-                }
-            }
-            lower(&mut standing, waves);
-            lower(&mut turned, turned_waves);
-        }
-        standing[0] += centre;
-        for (sum, term) in turned.iter_mut().zip(hermite(centre, turning, ramp)) {
-            *sum += term;
-        }
-        // Over a short span the motion now bounds the motion ahead.
-        let rate = size(v) + standing[2] * span;
-        standing[1] = standing[1].min(rate);
-        standing[0] = standing[0].min(size(u) + standing[1] * span);
-        turned[0] = turned[0].min(standing[0]);
-        turned[1] = turned[1].min(standing[1] + turning * standing[0]);
-        Self { standing, turning: turned }
-    }
-
-    /// Lowers the derivatives seen from the sides to what those in the standing
-    /// frame, over the same span, and the turning make of them.
-    fn lower_locally(&mut self, world: &World, drive: &Drive, nu: [f64; 2]) {
-        let [place, rate, bend] = self.standing;
-        let factor = world.omega + 2.0 * world.damping;
-        let standing = [place, rate, bend, bend * factor, bend * factor * factor];
-        let turn = hermite(1.0, nu[0].abs().max(nu[1].abs()), drive.nu_rate.abs());
-        lower(&mut self.turning, leibniz(standing, turn));
-    }
-
-    /// Adds what the motion of the blades does to the gaps: bounds on the
-    /// derivatives of `z exp(-i n_d alpha)`.
-    fn shift(&mut self, blades: &Blades, tips: &Tips) {
-        let [a, b, c, d] = blades.turning(tips);
-        let factor = [
-            1.0,
-            a,
-            b + a * a,
-            c + 3.0 * a * b + a * a * a,
-            d + 4.0 * a * c + 3.0 * b * b + 6.0 * a * a * b + a * a * a * a,
-        ];
-        self.turning = leibniz(self.turning, factor);
-    }
-}
-
-/// Bounds on a product and its first four derivatives from those of its factors.
-fn leibniz([z0, z1, z2, z3, z4]: [f64; 5], [e0, e1, e2, e3, e4]: [f64; 5]) -> [f64; 5] {
-    [
-        z0 * e0,
-        z1 * e0 + z0 * e1,
-        z2 * e0 + 2.0 * z1 * e1 + z0 * e2,
-        z3 * e0 + 3.0 * z2 * e1 + 3.0 * z1 * e2 + z0 * e3,
-        z4 * e0 + 4.0 * z3 * e1 + 6.0 * z2 * e2 + 4.0 * z1 * e3 + z0 * e4,
-    ]
-}
-
-/// `|p|`, without the care `hypot` takes at the ends of the number range: no
-/// length or rate of a casing is near them, and it took a quarter of a run.
-fn size(p: Plane) -> f64 {
-    p.norm_sqr().sqrt()
-}
-
-/// Bounds on `size exp(mu t - i ramp t^2/2)`, `|mu| <= rate`, and its first four
-/// derivatives.
-fn hermite(size: f64, rate: f64, ramp: f64) -> [f64; 5] {
-    let square = rate * rate;
-    let fourth = square * square + 6.0 * square * ramp + 3.0 * ramp * ramp;
-    let third = rate * (square + 3.0 * ramp);
-    [size, size * rate, size * (square + ramp), size * third, size * fourth]
-}
-
-fn lower<const N: usize>(bounds: &mut [f64; N], others: [f64; N]) {
-    for (bound, other) in bounds.iter_mut().zip(others) {
-        *bound = bound.min(other);
     }
 }

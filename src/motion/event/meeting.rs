@@ -1,11 +1,15 @@
 //! A corner of two sides that move with their blades: where it is, how its gaps
 //! open, and what impulses on both sides do. Also the watch on blade angles.
 
+use std::f64::consts::FRAC_PI_2;
+
 use super::Event;
 use super::blades::{Blades, Tips};
 use super::world::{Plane, World};
 use crate::motion::Failure;
 
+/// Part of the way to a closed or a straight corner that blades may turn it.
+const CORNER_ROOM: f64 = 0.9;
 /// Largest blade angle the model stands for \[rad\].
 const MOST_ANGLE: f64 = 0.1;
 
@@ -50,31 +54,47 @@ impl Event {
         })
     }
 
-    /// Fails a motion whose blades leave what the model can describe: beyond
-    /// small angles, or so far that two sides of the polygon change places, which
-    /// are `2 delta - 2 n_d sin(delta) |a|` apart at least.
-    pub(super) fn watch_blades(&mut self, tips: &Tips) {
-        let Some(blades) = &self.world.blades else { return };
-        let rim = &self.world.machine.rim;
-        let order = if self.world.corners {
-            rim.delta / (blades.diameters * rim.delta.sin())
-        } else {
-            f64::INFINITY
+    /// Fails a motion whose blades go beyond small angles in the first `s` seconds
+    /// of the segment, at the instant they do.
+    ///
+    /// # Errors
+    /// They do.
+    pub(super) fn check_angles(&mut self, s: f64) -> Result<(), Failure> {
+        let beyond = |event: &Self, s: f64| {
+            let Self { mode, world, drive, .. } = event;
+            mode.largest_angle(world, drive, s, MOST_ANGLE) > MOST_ANGLE
         };
-        let (angle, size) = (self.widest, tips.angle.norm());
-        let reason = if angle > MOST_ANGLE {
-            format!(
-                "a blade angle of {angle:.3e} rad is beyond the {MOST_ANGLE} rad that small angles allow"
-            )
-        } else if size > order {
-            format!(
-                "blade angles of {size:.3e} rad let sides change places, which they do from {order:.3e} rad on"
-            )
-        } else {
-            return;
-        };
-        if self.failed.is_none() {
-            self.failed = Some(Failure { t_s: self.start.0, reason });
+        if self.world.blades.is_none() || !beyond(self, s) {
+            return Ok(());
+        }
+        let (mut within, mut after) = (0.0, s);
+        for _ in 0..100 {
+            let middle = 0.5 * (within + after);
+            if middle <= within || middle >= after {
+                break;
+            }
+            if beyond(self, middle) { after = middle } else { within = middle }
+        }
+        Err(self.fail(after, |_| {
+            format!("a blade angle is beyond the {MOST_ANGLE} rad that small angles allow")
+        }))
+    }
+
+    /// Fails a motion whose blades have turned a corner so far that it nearly
+    /// closes or opens to a half turn. Half its angle is `delta`, give or take
+    /// `n_d sin(delta) |a|`.
+    pub(super) fn check_order(&mut self, tips: &Tips) {
+        let Some(blades) = self.world.blades.filter(|_| self.world.corners) else { return };
+        let delta = self.world.machine.rim.delta;
+        let room = CORNER_ROOM * delta.min(FRAC_PI_2 - delta);
+        let (size, most) = (tips.angle.norm(), room / (blades.diameters * delta.sin()));
+        if size > most {
+            self.fail(0.0, |_| {
+                format!(
+                    "blade angles of {size:.3e} rad close or open a corner; up to {most:.3e} rad \
+                     sides keep their order"
+                )
+            });
         }
     }
 }

@@ -16,6 +16,7 @@
 
 mod approach;
 mod blades;
+mod bounds;
 mod compliant;
 mod contact;
 mod corner;
@@ -139,8 +140,7 @@ impl Event {
     /// have. The state then stays where it failed.
     pub fn advance(&mut self, until: f64) -> Result<(), Failure> {
         while self.change(until)?.is_some() {}
-        self.arrive(until);
-        Ok(())
+        self.arrive(until)
     }
 
     /// Moves to the next change of mode, or to `limit` if none comes before
@@ -152,11 +152,11 @@ impl Event {
         let events = self.events;
         while events == self.events {
             if self.change(limit)?.is_none() {
-                self.arrive(limit);
+                self.arrive(limit)?;
                 return Ok(self.now);
             }
         }
-        self.arrive(self.start.0.max(self.now));
+        self.arrive(self.start.0.max(self.now))?;
         Ok(self.now)
     }
 

@@ -22,6 +22,7 @@ impl Event {
         let Some((s, what)) = self.seek(self.elapsed(until)) else {
             return self.failed.clone().map_or(Ok(None), Err);
         };
+        self.check_angles(s)?;
         self.idle = if s > 0.0 { 0 } else { self.idle + 1 };
         if what != What::SeriesEnd {
             self.events += 1;
@@ -44,18 +45,25 @@ impl Event {
     }
 
     /// Ends `advance` at `until`.
-    pub(super) fn arrive(&mut self, until: f64) {
+    ///
+    /// # Errors
+    /// Blades went beyond small angles before.
+    pub(super) fn arrive(&mut self, until: f64) -> Result<(), Failure> {
+        self.check_angles(self.elapsed(until))?;
         self.now = until.max(self.now);
         let touching = self.mode.touching(&self.world);
         if touching != Touching::Nothing {
             self.log.touch(self.now, touching);
         }
+        Ok(())
     }
 
-    fn fail(&mut self, s: f64, reason: impl Fn(&Self) -> String) {
+    /// Ends the motion `s` seconds into the segment.
+    pub(super) fn fail(&mut self, s: f64, reason: impl Fn(&Self) -> String) -> Failure {
         let t_s = self.start.0 + s;
         self.now = t_s.max(self.now);
-        self.failed = Some(Failure { t_s, reason: reason(self) });
+        let failure = Failure { t_s, reason: reason(self) };
+        self.failed.get_or_insert(failure).clone()
     }
 
     /// The event that ends the segment, if no later than `limit` seconds after
@@ -116,7 +124,7 @@ impl Event {
         self.safe = 0.0;
         self.found = None;
         self.looks = 0;
-        self.watch_blades(&tips);
+        self.check_order(&tips);
     }
 
     /// Rotor and pulse from the start of the segment on.
