@@ -211,6 +211,16 @@ fn a_count_that_a_larger_pulse_changes_is_sensitive() {
 }
 
 #[test]
+fn a_lock_whose_time_a_tiny_change_moves_is_sensitive() {
+    // Locked with a billionth more or less pulse as well, but at other times.
+    let how = "solver event model rigid contact unilateral nd 5 zeta-casing 0 speed 500 \
+               end 0.114584672293341 bladed_disk.blades 12 pulse 5280.215591911308";
+    let report = run("paper-nd3", how);
+    assert_eq!(report.outcome.verdict, Verdict::Locked);
+    assert!(report.outcome.sensitive);
+}
+
+#[test]
 fn a_start_that_a_tiny_change_turns_elsewhere_is_sensitive_without_a_pulse() {
     // Locked at the speed where one push vanishes.
     let how = format!(

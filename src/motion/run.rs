@@ -104,7 +104,7 @@ pub struct RunReport {
 }
 
 /// How a run lasts, without its history.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settled {
     /// How the motion lasts.
     pub verdict: Verdict,
@@ -113,6 +113,8 @@ pub struct Settled {
     /// Whether a corner was held for a casing period: then it was reached by
     /// infinitely many impacts, and their count is no fact.
     pub rested: bool,
+    /// Since when the wave is locked \[s\].
+    pub locked_s: Option<f64>,
 }
 
 impl Settled {
@@ -125,6 +127,7 @@ impl Settled {
             verdict,
             impact_count: log.impact_count,
             rested: locked || log.corner_time() >= period,
+            locked_s: locked.then_some(log.since),
         }
     }
 }

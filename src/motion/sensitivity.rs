@@ -9,20 +9,28 @@
 //! a run of its own, for two in one run may cancel.
 
 use super::Motion;
+use std::f64::consts::TAU;
+
 use super::run::{Settled, settle_motion};
 use super::script::{Change, Script};
 use crate::scene::Scene;
 
 /// Relative change that no trustworthy verdict may notice.
 const NUDGE: f64 = 1e-9;
+/// Part of a casing period by which a lock may come earlier or later.
+const LATER: f64 = 0.1;
 /// Part of its tolerance at which the event solver is tried again.
 const FINER: f64 = 0.1;
 
 impl Settled {
-    /// Whether two runs that should be the same are not.
-    fn differs_from(self, other: Self) -> bool {
+    /// Whether two runs that should be the same are not, where `moment` \[s\] is
+    /// how much later a wave may lock.
+    fn differs_from(self, other: Self, moment: f64) -> bool {
         let counted = !self.rested && !other.rested;
-        self.verdict != other.verdict || (counted && self.impact_count != other.impact_count)
+        let late = |(one, two): (f64, f64)| (one - two).abs() > moment;
+        self.verdict != other.verdict
+            || (counted && self.impact_count != other.impact_count)
+            || self.locked_s.zip(other.locked_s).is_some_and(late)
     }
 }
 
@@ -37,6 +45,7 @@ pub fn is_sensitive(scene: &Scene, settled: Settled) -> bool {
 #[must_use]
 pub fn is_sensitive_with(scene: &Scene, script: &Script, settled: Settled) -> bool {
     let end = scene.solver.end_s;
+    let moment = LATER * TAU / scene.machine().omega_c;
     let driven = |factor: f64| {
         let script = script.mapped(|change| match change {
             Change::Parameters(scene) => Change::Parameters(Box::new(nudged(&scene, factor))),
@@ -54,9 +63,9 @@ pub fn is_sensitive_with(scene: &Scene, script: &Script, settled: Settled) -> bo
         };
         settle_motion(motion, script, end, Some(NUDGE))
     };
-    driven(1.0 + NUDGE).differs_from(settled)
-        || driven(1.0 - NUDGE).differs_from(settled)
-        || noisy().differs_from(settled)
+    driven(1.0 + NUDGE).differs_from(settled, moment)
+        || driven(1.0 - NUDGE).differs_from(settled, moment)
+        || noisy().differs_from(settled, moment)
 }
 
 /// The scene with what drives it multiplied by `factor`: the pulse, or without

@@ -15,7 +15,7 @@ use super::world::{Drive, Plane, World};
 const SHORT_LOOK: f64 = 1e-6;
 
 /// Part of all rates below which the casing's own is a soft casing's.
-const SOFT_CASING: f64 = 1e-3;
+const SOFT_CASING: f64 = 0.1;
 
 /// A side that the flight leaves with neither gap nor rate.
 #[derive(Clone, Copy, Debug)]

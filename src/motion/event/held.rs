@@ -178,7 +178,9 @@ impl Held {
 
     /// Pushes of both sides per unit mass \[m/s^2\].
     pub(super) fn pushes(&self, s: f64) -> [f64; 2] {
-        self.pushes.map(|terms| values(&terms, s / self.length)[0])
+        let push =
+            |terms| if self.rests(&terms) { 0.0 } else { values(&terms, s / self.length)[0] };
+        self.pushes.map(push)
     }
 
     /// Distance of both contacts from the middle of their sides \[m\].
