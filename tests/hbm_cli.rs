@@ -75,6 +75,33 @@ fn slip_lives_in_a_region_of_speed_and_damping() {
 }
 
 #[test]
+fn slip_everywhere_and_slip_nowhere_are_told_apart() {
+    for (speeds, word, lowest) in
+        [("450:500:3", "everywhere", true), ("300:400:3", "nowhere", false)]
+    {
+        let options = ["--slip", "--speed", speeds, "--zetas", "0.01:0.01:1"];
+        let region = json(&options)["slip_region"][0].clone();
+        assert!(region["limits"].as_array().unwrap().is_empty(), "{region}");
+        assert_eq!(region["exists_at_lowest"], lowest);
+        let told = hbm(&options).assert().success().get_output().stdout.clone();
+        assert!(String::from_utf8(told).unwrap().contains(word), "{word}");
+    }
+}
+
+#[test]
+fn a_casing_that_hardly_springs_back_has_its_eigenvalues() {
+    let soft = "casing.modal_stiffness_n_per_m=6e-8";
+    let report = json(&["half-n", "--set", soft, "--branches", "--speed", "0:5578:2"]);
+    let states = report["branches"]["states"].as_array().unwrap();
+    // The side's saddle leaves at nu, as the casing has no stiffness to speak of;
+    // blades give way by their share of the mass, some 1e-7.
+    let last = states.last().unwrap();
+    assert_eq!(last["kind"], "side");
+    let growth = number(&last["growth_per_s"]);
+    assert!((growth / (11.0 * 5578.0) - 1.0).abs() < 1e-6, "{last}");
+}
+
+#[test]
 fn every_view_prints_a_table_and_json() {
     let soft = "bladed_disk.stiffness_nm_per_rad=0.002";
     let load = "excitation.amplitude_nm=10";

@@ -188,7 +188,11 @@ fn slipping(
                 let allowed = "damping ratios from 0 to 10".to_string();
                 HarmonicError::Refused { key: "--zetas", value: zeta.to_string(), allowed }
             })?;
-            region.push((zeta, slip_limits(&damped.machine(), speeds)?));
+            let machine = damped.machine();
+            let lowest = speeds.iter().copied().fold(f64::INFINITY, f64::min);
+            let at_lowest = slip_over(&machine, &[lowest])?.iter().any(|at| at.outcome.is_ok());
+            let limits = slip_limits(&machine, speeds)?;
+            region.push(report::Region { zeta, at_lowest, limits });
         }
         let table = report::region_table(&region);
         answer.json = answer.json.with_slip_region(&region);

@@ -9,10 +9,15 @@
 //! `H_k` the second derivatives of the gap. The damping of the casing is at
 //! rest in the standing frame, so `K` holds its circulatory part.
 
-use nalgebra::{Complex, DMatrix, DVector, Matrix2, Matrix4, Matrix4x2, Vector4};
+use nalgebra::{Complex, DMatrix, DVector, Matrix2, Matrix4, Matrix4x2, Schur, Vector4};
 
 use super::equations::{Scales, Wave};
 use crate::model::Machine;
+
+/// Rate over `omega_c` from which on time is counted in a shorter unit.
+const STIFF: f64 = 1e4;
+/// Iterations for eigenvalues, at most; a few dozen do.
+const MOST_ITERATIONS: usize = 10_000;
 
 /// One side in contact: its phase, `(C, S)` of `psi + n_d alpha`, the lever
 /// `y C - x S` and the multiplier, all scaled.
@@ -139,12 +144,19 @@ impl Linearised {
         let n = basis.ncols();
         let stiffness = &inverse * (&across * dense(&self.stiffness) * &basis);
         let damping = &inverse * (&across * dense(&self.damping) * &basis);
+        // A time unit in which a casing that hardly springs back against its blades
+        // is of order one too: its entries would be some 1e17 apart.
+        let fastest = damping.amax().max(stiffness.amax().sqrt());
+        let unit = if fastest > STIFF { fastest } else { 1.0 };
+        let (stiffness, damping) = (stiffness / (unit * unit), damping / unit);
         let mut first_order = DMatrix::zeros(2 * n, 2 * n);
         first_order.view_mut((0, n), (n, n)).fill_with_identity();
         first_order.view_mut((n, 0), (n, n)).copy_from(&-stiffness);
         first_order.view_mut((n, n), (n, n)).copy_from(&-damping);
-        let values = first_order.complex_eigenvalues();
-        values.iter().map(|value| value * self.rate).collect()
+        let Some(schur) = Schur::try_new(first_order, f64::EPSILON, MOST_ITERATIONS) else {
+            return Vec::new();
+        };
+        schur.complex_eigenvalues().iter().map(|value| value * (unit * self.rate)).collect()
     }
 
     /// Gradients of the gaps in contact.

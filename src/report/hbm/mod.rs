@@ -16,7 +16,7 @@ pub use campbell::{CampbellReport, campbell_table, coincidence_table};
 pub use excitation::{ExcitationReport, excitation_table};
 pub use locked::{locked_table, summary_table};
 pub use slip::{
-    HarmonicsReport, RegionReport, SlipReport, region_table, slip_table, term_table,
+    HarmonicsReport, Region, RegionReport, SlipReport, region_table, slip_table, term_table,
     truncation_table,
 };
 
@@ -129,7 +129,7 @@ impl HbmReport {
 
     /// Adds where slip lives over damping ratios of the casing.
     #[must_use]
-    pub fn with_slip_region(mut self, region: &[(f64, Vec<(f64, bool)>)]) -> Self {
+    pub fn with_slip_region(mut self, region: &[Region]) -> Self {
         self.slip_region = Some(region.iter().map(RegionReport::of).collect());
         self
     }

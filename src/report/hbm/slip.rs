@@ -92,6 +92,8 @@ pub fn slip_table(points: &[SlipPoint]) -> Table {
 #[derive(Clone, Debug, Serialize)]
 pub struct RegionReport {
     casing_damping_ratio: f64,
+    /// Whether there is slip at the lowest speed.
+    exists_at_lowest: bool,
     /// Speeds where slip appears and vanishes.
     limits: Vec<LimitReport>,
 }
@@ -102,22 +104,55 @@ struct LimitReport {
     appears: bool,
 }
 
+/// Where slip lives at one damping ratio.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Region {
+    /// Damping ratio of the casing.
+    pub zeta: f64,
+    /// Whether there is slip at the lowest speed.
+    pub at_lowest: bool,
+    /// Speeds \[rad/s\] where slip appears (`true`) and vanishes.
+    pub limits: Vec<(f64, bool)>,
+}
+
+impl Region {
+    /// Where between the lowest and the highest speed there is slip.
+    fn word(&self) -> &'static str {
+        match (self.limits.is_empty(), self.at_lowest) {
+            (true, true) => "everywhere",
+            (true, false) => "nowhere",
+            (false, _) => "in part",
+        }
+    }
+}
+
 impl RegionReport {
     /// Of a damping ratio and its limits.
     #[must_use]
-    pub fn of((zeta, limits): &(f64, Vec<(f64, bool)>)) -> Self {
+    pub fn of(region: &Region) -> Self {
         let limit = |&(speed_rad_s, appears): &(f64, bool)| LimitReport { speed_rad_s, appears };
-        Self { casing_damping_ratio: *zeta, limits: limits.iter().map(limit).collect() }
+        Self {
+            casing_damping_ratio: region.zeta,
+            exists_at_lowest: region.at_lowest,
+            limits: region.limits.iter().map(limit).collect(),
+        }
     }
 }
 
 /// Where slip lives, a row for each damping ratio.
 #[must_use]
-pub fn region_table(region: &[(f64, Vec<(f64, bool)>)]) -> Table {
-    let mut table = Table::new(&["casing_damping_ratio", "appears_rad_s", "vanishes_rad_s"]);
-    for (zeta, limits) in region {
-        let first = |appears| limits.iter().find(|limit| limit.1 == appears).map(|limit| limit.0);
-        table.push(vec![(*zeta).into(), first(true).into(), first(false).into()]);
+pub fn region_table(regions: &[Region]) -> Table {
+    let mut table =
+        Table::new(&["casing_damping_ratio", "slip", "appears_rad_s", "vanishes_rad_s"]);
+    for region in regions {
+        let first =
+            |appears| region.limits.iter().find(|limit| limit.1 == appears).map(|limit| limit.0);
+        table.push(vec![
+            region.zeta.into(),
+            region.word().into(),
+            first(true).into(),
+            first(false).into(),
+        ]);
     }
     table
 }
