@@ -42,20 +42,15 @@ impl Dice {
     }
 }
 
-/// A machine to begin with. Left out are the two known faults of the program:
-/// blades that share a phase in the full model, and two sides under the
-/// bilateral law.
+/// A machine to begin with: one blade or several on a side, corners or none.
 fn first_scene(dice: &mut Dice) -> Scene {
     let mut scene = scene(&[]);
     scene.solver.model = dice.one_of(&[ModelSize::Rigid, ModelSize::Modal, ModelSize::Full]);
     scene.solver.contact = dice.one_of(&[ContactLaw::Unilateral, ContactLaw::Bilateral]);
     scene.solver.step_s = dice.one_of(&[1e-6, 1e-6, 3.7e-7, 4e-6]);
-    let machines: &[(u32, u32)] = match (scene.solver.model, scene.solver.contact) {
-        (ModelSize::Full, _) => &[(22, 3), (22, 5), (7, 3), (5, 6)],
-        (_, ContactLaw::Bilateral) => &[(22, 3), (22, 4), (12, 3), (3, 1), (1, 1)],
-        (_, ContactLaw::Unilateral) => &[(22, 3), (22, 4), (22, 11), (22, 0), (12, 3), (3, 1)],
-    };
-    (scene.bladed_disk.blades, scene.operation.nodal_diameters) = dice.one_of(machines);
+    let machines =
+        [(22, 3), (22, 4), (22, 11), (22, 0), (12, 3), (12, 2), (7, 3), (5, 6), (3, 1), (1, 1)];
+    (scene.bladed_disk.blades, scene.operation.nodal_diameters) = dice.one_of(&machines);
     scene.casing.damping_ratio = dice.one_of(&[0.0, 0.01, 0.05, 0.3]);
     scene.operation.speed_rad_s = dice.one_of(&[500.0, 430.0, -500.0, 300.0, 0.0, 120.0]);
     scene.operation.pulse_n = dice.scale(5e3, 1e5) * dice.one_of(&[1.0, -1.0]);
