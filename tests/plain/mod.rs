@@ -249,7 +249,7 @@ impl Plain {
             let half = self.h / Dd::from(2.0);
             let first = self.impulse(ZERO, half) / half;
             let change = self.casing.start(0.0, 0.0, first - self.first_force, self.h);
-            self.u[0].increment = self.u[0].increment + change.increment;
+            self.u[0].increment += change.increment;
             self.first_force = first;
         }
     }
