@@ -116,3 +116,46 @@ fn one_or_two_sides_have_no_corner_but_states_all_the_same() {
     let above = equilibria(&machine, 500.0, true).unwrap();
     assert_eq!(above[1].character, Character::Unstable);
 }
+
+/// A casing so soft that the rotor is 3.5e8 times critical: eigenvalues of rest
+/// nearly coincide, and those of the side differ by as much.
+#[test]
+fn a_very_soft_casing_has_the_closed_forms_all_the_same() {
+    let disk = BladedDisk::default();
+    let casing = Casing { modal_stiffness_n_per_m: 6e-8, ..Casing::default() };
+    let machine = Machine::new(&disk, &casing, 11);
+    let speed = 5578.0;
+    for damped in [false, true] {
+        let branches = Branches::over(&machine, &[0.0, speed], damped).unwrap();
+        assert_eq!(branches.states.len(), 4);
+        let (rest, side) = (&branches.states[2], &branches.states[3]);
+        assert_eq!((rest.kind, rest.character), (Kind::Rest, Character::Stable));
+        let slowest = if damped { -0.05 * machine.omega_c } else { 0.0 };
+        close(rest.growth(), slowest, 1e-12);
+        assert_eq!((side.kind, side.character), (Kind::Side, Character::Unstable));
+        // (s^2 + kappa)(s^2 + w^2 - kappa e) = kappa^2 e, kappa = w_c^2 - nu^2: along
+        // the side the casing takes the blades with it. Damping is 1e-10 of it.
+        let kappa = (machine.omega_c - machine.nu(speed)) * (machine.omega_c + machine.nu(speed));
+        let moved = (11.0 * machine.clearance()).powi(2) * machine.casing_mass;
+        let share = moved / (22.0 * machine.blade_inertia);
+        let blade = machine.omega_bd.powi(2) - kappa * share;
+        let (sum, product) = (kappa + blade, kappa * blade - kappa * kappa * share);
+        let square = -0.5 * (sum - (sum * sum - 4.0 * product).sqrt());
+        close(side.growth(), square.sqrt(), 1e-9);
+        assert!(branches.thresholds.iter().all(|threshold| threshold.kind == Kind::Side));
+        close(branches.thresholds[0].speed, machine.critical_speed().unwrap(), 1e-12);
+    }
+}
+
+/// Next to the critical speed the lever of a damped side is 1e14 long.
+#[test]
+fn a_side_next_to_the_critical_speed_keeps_its_eigenvalues() {
+    let machine = machine(15_000.0, 3, 0.05);
+    let critical = machine.critical_speed().unwrap();
+    for part in [-1e-6, -1e-10, -1e-14, 1e-14, 1e-10, 1e-6] {
+        let states = equilibria(&machine, critical * (1.0 + part), true).unwrap();
+        let side = states.iter().find(|state| state.kind == Kind::Side).unwrap();
+        assert_eq!(side.eigenvalues.len(), 6, "{part:e}");
+        assert!(side.eigenvalues.iter().all(|value| value.re.is_finite()));
+    }
+}

@@ -145,6 +145,19 @@ fn a_branch_asked_to_end_below_its_fold_prints_no_more_than_that() {
 }
 
 #[test]
+fn the_branches_of_a_very_soft_casing_end() {
+    let soft = "casing.modal_stiffness_n_per_m=6e-8";
+    let output = assert_cmd::cargo::cargo_bin_cmd!("rubscope")
+        .args(["hbm", "half-n", "--set", soft, "--branches", "--speed", "0:5578:2"])
+        .timeout(std::time::Duration::from_secs(60))
+        .assert()
+        .success();
+    let text = String::from_utf8(output.get_output().stdout.clone()).unwrap();
+    assert!(text.contains("1.57459e-5  side   pulls  unstable"), "{text}");
+    assert!(!text.contains("rest   unstable"), "{text}");
+}
+
+#[test]
 fn what_has_no_meaning_ends_with_status_2_and_one_line() {
     for (args, start) in [
         (vec!["--nd", "0"], "rubscope: operation.nodal_diameters = 0: allowed is"),

@@ -119,6 +119,36 @@ proptest! {
         }
     }
 
+    /// Casings and blades over thirty powers of ten: work is bounded, and without
+    /// damping every motion that grows has one that decays as fast.
+    #[test]
+    fn every_state_has_its_eigenvalues_however_soft_the_machine(
+        blades in 1..40_u32, diameters in 1..60_u32, casing in -10.0..12.0_f64,
+        stiffness in -3.0..14.0_f64, decades in -3.0..6.0_f64, zeta in 0.0..0.3_f64, damped: bool,
+    ) {
+        let stiffness_nm_per_rad = 10_f64.powf(stiffness);
+        let disk = BladedDisk { blades, stiffness_nm_per_rad, ..BladedDisk::default() };
+        let modal_stiffness_n_per_m = 10_f64.powf(casing);
+        let casing =
+            Casing { modal_stiffness_n_per_m, damping_ratio: zeta, ..Casing::default() };
+        let machine = Machine::new(&disk, &casing, diameters);
+        let speed = 10_f64.powf(decades);
+        let states = equilibria(&machine, speed, damped);
+        prop_assert!(states.is_ok(), "{states:?}");
+        for state in states.unwrap() {
+            let values = &state.eigenvalues;
+            let fastest = values.iter().map(|value| value.norm()).fold(0.0, f64::max);
+            prop_assert!(!values.is_empty() && fastest.is_finite());
+            let sum: f64 = values.iter().map(|value| value.re).sum();
+            if !damped {
+                prop_assert!(sum.abs() <= 1e-12 * fastest, "{:?}: {sum:e} in {values:?}", state.kind);
+            }
+            if state.kind == Kind::Rest {
+                prop_assert_eq!(state.character, Character::Stable);
+            }
+        }
+    }
+
     #[test]
     fn turning_by_a_group_turns_the_state(machine in machines(), ratio in 1.0..3.0_f64, a in 0..1000_u32) {
         let speed = ratio * machine.critical_speed().unwrap_or(1.0);

@@ -36,7 +36,7 @@ impl Branches {
     /// ones and then bisected.
     ///
     /// # Errors
-    /// A speed that is not finite.
+    /// A speed that is not finite, or eigenvalues that cannot be computed.
     pub fn over(machine: &Machine, speeds: &[f64], damped: bool) -> Result<Self, HarmonicError> {
         let side = Corner::paper(&machine.rim).map_or(0, |corner| corner.a);
         let at = |kind, speed| equilibrium(machine, kind, side, speed, damped);

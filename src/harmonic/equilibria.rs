@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::equations::{Equations, Scales, Unknowns, Wave};
 use super::posture::Posture;
-use super::stability::{Linearised, NEUTRAL, largest_growth};
+use super::stability::{Linearised, at_rest, grows, largest_growth};
 use super::{Corner, Form, HarmonicError};
 use crate::model::Machine;
 
@@ -142,7 +142,7 @@ impl Equilibrium {
 /// ```
 ///
 /// # Errors
-/// A speed that is not finite.
+/// A speed that is not finite, or eigenvalues that cannot be computed.
 pub fn equilibria(
     machine: &Machine,
     speed: f64,
@@ -162,7 +162,7 @@ pub fn equilibria(
 /// next, at one speed; `None` where there is none.
 ///
 /// # Errors
-/// A speed that is not finite.
+/// A speed that is not finite, or eigenvalues that cannot be computed.
 pub fn equilibrium(
     machine: &Machine,
     kind: Kind,
@@ -180,11 +180,10 @@ pub fn equilibrium(
         Kind::Side => on_side(machine, &scales, wave, side),
         Kind::Corner => in_corner(machine, wave, side),
     };
-    Ok(loads.map(|(z, loads)| {
-        let compliance = scales.softness * scales.share;
-        let posture = Posture::bent(&machine.rim, z, compliance, &loads);
-        judged(machine, kind, speed, damped, &posture, &loads)
-    }))
+    let Some((z, loads)) = loads else { return Ok(None) };
+    let compliance = scales.softness * scales.share;
+    let posture = Posture::bent(&machine.rim, z, compliance, &loads);
+    judged(machine, kind, speed, damped, &posture, &loads).map(Some)
 }
 
 /// `z` and the loads (side, multiplier, lever) of an equilibrium, scaled.
@@ -229,6 +228,9 @@ pub(super) fn loads_of(machine: &Machine, corner: Corner, unknowns: &Unknowns) -
 }
 
 /// Gaps, stability, torque and character of a posture under its loads.
+///
+/// # Errors
+/// Eigenvalues that cannot be computed.
 pub(super) fn judged(
     machine: &Machine,
     kind: Kind,
@@ -236,19 +238,22 @@ pub(super) fn judged(
     damped: bool,
     posture: &Posture,
     loads: &[(u32, f64, f64)],
-) -> Equilibrium {
+) -> Result<Equilibrium, HarmonicError> {
     let (rim, scales) = (&machine.rim, Scales::of(machine));
     let sides: Vec<u32> = loads.iter().map(|load| load.0).collect();
     let held: Vec<_> = loads.iter().map(|load| posture.held(rim, load.0, load.1)).collect();
     let motion = Linearised::about(machine, speed, damped, &held);
-    let eigenvalues = motion.eigenvalues();
+    let eigenvalues = match kind {
+        Kind::Rest => at_rest(machine, speed, damped),
+        _ => motion.eigenvalues().ok_or(HarmonicError::Unsettled { speed })?,
+    };
     let open = posture.smallest_gap(rim, &sides);
     let character = if loads.iter().any(|load| load.1 > 0.0) {
         let equality = kind == Kind::Corner && motion.closes();
         if equality { Character::Adhesive } else { Character::Pulls }
     } else if open < 0.0 {
         Character::Penetrates
-    } else if largest_growth(&eigenvalues) > NEUTRAL * machine.omega_c {
+    } else if grows(&eigenvalues, machine.omega_c) {
         Character::Unstable
     } else {
         Character::Stable
@@ -260,7 +265,7 @@ pub(super) fn judged(
     };
     let torque = machine.nodal_diameters * scales.force * scales.length * lever;
     let angle = if scales.softness > 0.0 { scales.angle / scales.softness } else { 0.0 };
-    Equilibrium {
+    Ok(Equilibrium {
         kind,
         speed,
         contacts: loads.iter().map(|load| (load.0, load.1 * scales.force)).collect(),
@@ -271,5 +276,5 @@ pub(super) fn judged(
         eigenvalues,
         torque,
         power: torque * speed,
-    }
+    })
 }

@@ -62,6 +62,16 @@ pub enum HarmonicError {
         /// `n_d^2 k_c g0^2/(m_b omega_bd^2)`.
         softness: f64,
     },
+    /// The eigenvalues of a motion about an equilibrium are beyond numbers, or
+    /// their iteration does not settle.
+    #[error(
+        "speed = {speed}: allowed is one where the eigenvalues of the motion about a steady state \
+         can be computed; here its stiffnesses differ by too many powers of ten"
+    )]
+    Unsettled {
+        /// Rotor speed \[rad/s\].
+        speed: f64,
+    },
 }
 
 impl HarmonicError {

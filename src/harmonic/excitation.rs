@@ -55,7 +55,8 @@ fn reach(machine: &Machine, order: u32) -> (bool, bool) {
 /// `side` at each speed \[rad/s\]; speeds without a locked motion are left out.
 ///
 /// # Errors
-/// A rim without corners, or a speed that is not finite.
+/// A rim without corners, a speed that is not finite, or eigenvalues that cannot
+/// be computed.
 pub fn excited_lock(
     machine: &Machine,
     side: u32,
@@ -68,7 +69,7 @@ pub fn excited_lock(
         if !speed.is_finite() {
             return Err(HarmonicError::Speed(speed));
         }
-        found.extend(at(machine, corner, excitation, speed));
+        found.extend(at(machine, corner, excitation, speed)?);
     }
     Ok(found)
 }
@@ -78,16 +79,16 @@ fn at(
     corner: Corner,
     excitation: &Excitation,
     speed: f64,
-) -> Option<ExcitedLock> {
+) -> Result<Option<ExcitedLock>, HarmonicError> {
     let wave = Wave::at(machine, speed, true);
     let equations = Equations::new(machine, corner, Form::Modal);
-    let unknowns = equations.locked(wave)?;
+    let Some(unknowns) = equations.locked(wave) else { return Ok(None) };
     let (z, loads) = loads_of(machine, corner, &unknowns);
     let turns = [4, 5].map(|i| equations.softness() * unknowns[i]);
     let posture = Posture::of_pair(&machine.rim, z, corner.sides(), turns);
     let held: Vec<Held> =
         loads.iter().map(|load| posture.held(&machine.rim, load.0, load.1)).collect();
-    let state = judged(machine, Kind::Corner, speed, true, &posture, &loads);
+    let state = judged(machine, Kind::Corner, speed, true, &posture, &loads)?;
     let motion = Linearised::about(machine, speed, true, &held);
 
     let scales = Scales::of(machine);
@@ -95,7 +96,8 @@ fn at(
     let torque = excitation.amplitude_nm * angle / (scales.force * scales.length);
     let frequency = f64::from(excitation.order) * speed;
     let load = modal_load(machine, excitation.order).map(|part| part * torque);
-    let (shape, pushes) = motion.forced(load, frequency / machine.omega_c)?;
+    let forced = motion.forced(load, frequency / machine.omega_c);
+    let Some((shape, pushes)) = forced else { return Ok(None) };
     let units = [scales.length, scales.length, angle, angle];
     let response = [0, 1, 2, 3].map(|i| shape[i] * units[i]);
     let multipliers = [0, 1].map(|i| pushes[i] * scales.force);
@@ -103,7 +105,7 @@ fn at(
     let over = |change: f64, whole: f64| if change == 0.0 { 0.0 } else { change / whole.abs() };
     let relative = [0, 1].map(|i| over(multipliers[i].norm(), means[i]));
     let relative_multiplier = relative[0].max(relative[1]);
-    Some(ExcitedLock {
+    Ok(Some(ExcitedLock {
         relative_amplitude: over(radial(&state, &response), state.amplitude()),
         relative_multiplier,
         release_torque: (relative_multiplier > 0.0)
@@ -112,7 +114,7 @@ fn at(
         frequency: frequency.abs(),
         response,
         multipliers,
-    })
+    }))
 }
 
 /// The load on `(alpha_c, alpha_s)` per unit torque on each blade, as the

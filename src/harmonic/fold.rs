@@ -55,8 +55,8 @@ const FASTEST: f64 = 1e100;
 /// between points, more where these would be over 20,000.
 ///
 /// # Errors
-/// A rim without corners, speeds that are not `0 <= from < to`, or a step
-/// outside 1e-4 to 1.
+/// A rim without corners, speeds that are not `0 <= from < to`, a step outside
+/// 1e-4 to 1, or eigenvalues that cannot be computed.
 pub fn corner_branch(
     machine: &Machine,
     side: u32,
@@ -97,11 +97,11 @@ pub fn corner_branch(
         let (z, loads) = loads_of(machine, corner, &unknowns);
         let turns = [4, 5].map(|i| equations.softness() * unknowns[i]);
         let posture = Posture::of_pair(&machine.rim, z, corner.sides(), turns);
-        let state = judged(machine, Kind::Corner, place.speed, damped, &posture, &loads);
-        (opening.delta + place.widening, state)
+        let state = judged(machine, Kind::Corner, place.speed, damped, &posture, &loads)?;
+        Ok((opening.delta + place.widening, state))
     };
     Ok(CornerBranch {
-        points: places.iter().map(state).collect(),
+        points: places.iter().map(state).collect::<Result<_, _>>()?,
         fold: top.map(|top| Fold { speed: top.speed, opening: opening.delta + top.widening }),
     })
 }

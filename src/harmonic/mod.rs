@@ -14,6 +14,7 @@
 mod branches;
 mod campbell;
 mod corner;
+mod eigen;
 mod equations;
 mod equilibria;
 mod error;

@@ -9,15 +9,11 @@
 //! `H_k` the second derivatives of the gap. The damping of the casing is at
 //! rest in the standing frame, so `K` holds its circulatory part.
 
-use nalgebra::{Complex, DMatrix, DVector, Matrix2, Matrix4, Matrix4x2, Schur, Vector4};
+use nalgebra::{Complex, DMatrix, DVector, Matrix2, Matrix4, Matrix4x2, Vector4};
 
+use super::eigen::eigenvalues;
 use super::equations::{Scales, Wave};
 use crate::model::Machine;
-
-/// Rate over `omega_c` from which on time is counted in a shorter unit.
-const STIFF: f64 = 1e4;
-/// Iterations for eigenvalues, at most; a few dozen do.
-const MOST_ITERATIONS: usize = 10_000;
 
 /// One side in contact: its phase, `(C, S)` of `psi + n_d alpha`, the lever
 /// `y C - x S` and the multiplier, all scaled.
@@ -91,32 +87,25 @@ impl Linearised {
         }
     }
 
-    /// Basis of the motions that keep every contact, one column each.
-    fn free_motions(&self) -> DMatrix<f64> {
-        let all = match self.gradients.as_slice() {
-            [] => DMatrix::identity(4, 4),
-            [one] => {
-                // Two casing and two blade motions less one: the casing follows
-                // along the normal what the blades do, and slides freely.
-                let (c, s) = (one[0], one[1]);
-                let mut basis = DMatrix::zeros(4, 3);
-                basis[(0, 0)] = -s;
-                basis[(1, 0)] = c;
-                for i in 0..2 {
-                    basis[(0, 1 + i)] = -one[2 + i] * c;
-                    basis[(1, 1 + i)] = -one[2 + i] * s;
-                    basis[(2 + i, 1 + i)] = 1.0;
-                }
-                basis
+    /// Basis of the motions that keep every contact, one column each, in
+    /// coordinates of unit mass; of length one and at right angles.
+    fn free_motions(&self, weights: &[f64]) -> DMatrix<f64> {
+        let mut basis = DMatrix::identity(weights.len(), weights.len());
+        for gradient in &self.gradients {
+            // The motions left, reflected so that the first of them is all that
+            // moves this gap; the others keep it.
+            let gradient = DVector::from_fn(weights.len(), |row, _| gradient[row] / weights[row]);
+            let mut seen = basis.tr_mul(&gradient);
+            let length = seen.norm();
+            seen[0] += length.copysign(seen[0]);
+            let square = seen.norm_squared();
+            if square > 0.0 {
+                let shares = (&basis * &seen) * (2.0 / square);
+                basis -= shares * seen.transpose();
             }
-            [a, b, ..] => {
-                let follow = follow(a, b);
-                DMatrix::from_fn(4, 2, |row, column| follow[(row, column)])
-            }
-        };
-        // The last column is the sine mode of the blades.
-        let last = all.ncols() - 1;
-        if self.sine_mode { all } else { all.remove_column(last) }
+            basis = basis.remove_column(0);
+        }
+        basis
     }
 
     /// Whether without the contact forces every contact would close: then the
@@ -133,30 +122,30 @@ impl Linearised {
         })
     }
 
-    /// Eigenvalues of the motion that keeps every contact \[1/s\].
-    pub fn eigenvalues(&self) -> Vec<Complex<f64>> {
-        let basis = self.free_motions();
-        let across = basis.transpose();
-        let mass = DMatrix::from_diagonal(&DVector::from_column_slice(self.mass.as_slice()));
-        let dense = |m: &Matrix4<f64>| DMatrix::from_column_slice(4, 4, m.as_slice());
-        let reduced_mass = &across * mass * &basis;
-        let Some(inverse) = reduced_mass.try_inverse() else { return Vec::new() };
+    /// Eigenvalues of the motion that keeps every contact \[1/s\]; `None` where
+    /// they are beyond numbers or do not settle.
+    pub fn eigenvalues(&self) -> Option<Vec<Complex<f64>>> {
+        // The last coordinate is the sine mode of the blades; blades whose rates
+        // are beyond numbers have no mass in these units, and do not move.
+        let masses = self.mass.iter().take(if self.sine_mode { 4 } else { 3 });
+        let weights: Vec<f64> = masses.map(|m| m.sqrt()).filter(|&weight| weight > 0.0).collect();
+        let coordinates = weights.len();
+        let basis = self.free_motions(&weights);
+        // Time in a unit in which the rates of stiff blades are of order one.
+        let unit = weights.iter().fold(1.0, |unit: f64, weight| unit.min(*weight));
+        let reduced = |entry: &dyn Fn(usize, usize) -> f64| {
+            basis.tr_mul(&(DMatrix::from_fn(coordinates, coordinates, entry) * &basis))
+        };
+        let stiffness =
+            reduced(&|i, j| self.stiffness[(i, j)] * (unit / weights[i]) * (unit / weights[j]));
+        let damping = reduced(&|i, j| self.damping[(i, j)] / weights[i] * (unit / weights[j]));
         let n = basis.ncols();
-        let stiffness = &inverse * (&across * dense(&self.stiffness) * &basis);
-        let damping = &inverse * (&across * dense(&self.damping) * &basis);
-        // A time unit in which a casing that hardly springs back against its blades
-        // is of order one too: its entries would be some 1e17 apart.
-        let fastest = damping.amax().max(stiffness.amax().sqrt());
-        let unit = if fastest > STIFF { fastest } else { 1.0 };
-        let (stiffness, damping) = (stiffness / (unit * unit), damping / unit);
         let mut first_order = DMatrix::zeros(2 * n, 2 * n);
         first_order.view_mut((0, n), (n, n)).fill_with_identity();
         first_order.view_mut((n, 0), (n, n)).copy_from(&-stiffness);
         first_order.view_mut((n, n), (n, n)).copy_from(&-damping);
-        let Some(schur) = Schur::try_new(first_order, f64::EPSILON, MOST_ITERATIONS) else {
-            return Vec::new();
-        };
-        schur.complex_eigenvalues().iter().map(|value| value * (unit * self.rate)).collect()
+        let values = eigenvalues(first_order)?;
+        Some(values.iter().map(|value| value * (self.rate / unit)).collect())
     }
 
     /// Gradients of the gaps in contact.
@@ -189,24 +178,44 @@ impl Linearised {
 
     /// Whether no motion that keeps every contact grows. In a corner by the
     /// signs of its characteristic polynomial, which needs no eigenvalues
-    /// unless the answer is close; elsewhere by the eigenvalues.
+    /// unless the answer is close; elsewhere by the eigenvalues. Not where these
+    /// cannot be computed.
     pub fn is_stable(&self) -> bool {
         let by_signs = self.corner_motion().and_then(|motion| {
             let polynomial = characteristic(&motion);
             if self.damped { hurwitz(polynomial) } else { Some(all_oscillate(polynomial)) }
         });
-        by_signs.unwrap_or_else(|| self.growth() <= NEUTRAL * self.rate)
-    }
-
-    /// The largest real part of any eigenvalue \[1/s\].
-    pub fn growth(&self) -> f64 {
-        largest_growth(&self.eigenvalues())
+        by_signs.unwrap_or_else(|| self.eigenvalues().is_some_and(|v| !grows(&v, self.rate)))
     }
 }
 
-/// Real parts up to this fraction of `omega_c` are rounding, not growth:
-/// eigenvalues of a nearly defective pair are known to half the digits.
-pub(super) const NEUTRAL: f64 = 1e-8;
+/// Whether a motion with one of these eigenvalues grows. Real parts up to a small
+/// part of the eigenvalue, or of `rate`, are rounding: eigenvalues of a nearly
+/// defective pair are known to half the digits, all to rounding of the largest.
+pub(super) fn grows(values: &[Complex<f64>], rate: f64) -> bool {
+    let fastest = values.iter().map(|value| value.norm()).fold(0.0, f64::max);
+    values.iter().any(|value| value.re > (1e-8 * value.norm().max(rate)).max(1e-14 * fastest))
+}
+
+/// Eigenvalues of the motion about rest \[1/s\], which keeps no contact: those of
+/// the casing, turned by the rotor, and of the blades.
+pub(super) fn at_rest(machine: &Machine, speed: f64, damped: bool) -> Vec<Complex<f64>> {
+    let roots = |rate: f64, zeta: f64| {
+        let zeta = if damped { zeta } else { 0.0 };
+        let root = Complex::new((zeta - 1.0) * (zeta + 1.0), 0.0).sqrt();
+        // The slower one of two real roots as a quotient, which keeps its digits.
+        let slow = if zeta > 1.0 { -1.0 / (root + zeta) } else { root - zeta };
+        [slow * rate, (-root - zeta) * rate]
+    };
+    let casing = roots(machine.omega_c, machine.casing_damping_ratio);
+    let turn = Complex::new(0.0, machine.nu(speed));
+    let mut values: Vec<_> = casing.iter().flat_map(|root| [root + turn, root - turn]).collect();
+    let modes = if machine.has_sine_mode { 2 } else { 1 };
+    for _ in 0..modes {
+        values.extend(roots(machine.omega_bd, machine.blade_damping_ratio));
+    }
+    values
+}
 
 /// The largest real part of these eigenvalues.
 pub(super) fn largest_growth(values: &[Complex<f64>]) -> f64 {
