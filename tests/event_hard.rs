@@ -2,8 +2,10 @@
 //! refusal: no hang, no NaN, no silent nonsense.
 #![expect(clippy::unwrap_used, reason = "tests state what must hold")]
 
+use std::f64::consts::FRAC_PI_2;
+
 use rubscope::motion::{Event, Failure, Touching, Verdict};
-use rubscope::scene::Scene;
+use rubscope::scene::{ModelSize, Scene};
 
 const ZETA: &str = "casing.damping_ratio";
 const PULSE: &str = "operation.pulse_n";
@@ -219,4 +221,25 @@ fn firing_again_and_changing_speed_keep_the_casing_where_it_is() {
     motion.advance(0.1).unwrap();
     let residual = motion.checks().energy_residual_j.unwrap();
     assert!(residual.abs() < 1e-10, "{residual:e}");
+}
+
+/// Two sides a half turn apart meet where their blades turn them by a quarter
+/// turn: a failure with a reason, not a motion through the other side.
+#[test]
+fn blades_that_turn_two_sides_onto_each_other_end_the_motion() {
+    let mut scene = Scene::default();
+    scene.bladed_disk.blades = 8;
+    scene.bladed_disk.blade_length_m = scene.casing.radius_m - 0.008;
+    scene.casing.damping_ratio = 1.0;
+    scene.operation.nodal_diameters = 28;
+    scene.operation.speed_rad_s = -97.5;
+    scene.operation.pulse_n = -9e4;
+    scene.operation.pulse_s = 1.4e-3;
+    scene.initial.v_c_m_s = -10.0;
+    scene.solver.model = ModelSize::Modal;
+    let mut motion = Event::new(&scene);
+    let failure = motion.advance(0.02).unwrap_err();
+    assert!(failure.reason.contains("turn the only two sides onto each other"), "{failure}");
+    let turned = 28.0 * motion.state().alpha[0].abs();
+    assert!((0.9..FRAC_PI_2).contains(&turned), "{turned} rad");
 }

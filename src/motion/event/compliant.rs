@@ -278,7 +278,14 @@ impl Event {
     }
 
     fn slide_compliant(&mut self, side: u32, from: &From) {
-        self.enter(Mode::Driven(Series::new(&self.world, &self.drive, side, from)));
+        let series = Series::new(&self.world, &self.drive, side, from);
+        if series.may_meet_other(&self.world) {
+            let size = from.tips.angle.norm();
+            self.fail(0.0, |_| {
+                format!("blade angles of {size:.3e} rad turn the only two sides onto each other")
+            });
+        }
+        self.enter(Mode::Driven(series));
     }
 
     fn leave_compliant(&mut self, sides: &[u32], (place, rate): (Plane, Plane)) {

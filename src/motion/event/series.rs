@@ -10,6 +10,8 @@
 //! round-off. A stretch is a polynomial: any instant of it can be asked for,
 //! and sums of its coefficients bound its derivatives.
 
+use std::f64::consts::FRAC_PI_2;
+
 use super::approach::{curved_step, leaving_step};
 use super::blades::{Blades, Tips};
 use super::slide::{Ahead, Along, push_noise};
@@ -67,7 +69,7 @@ impl Series {
             lost: false,
         };
         // Without moving blades the solution is entire and one try is enough.
-        for _ in 0..60 {
+        for halvings in 0..60 {
             let h = series.length;
             (series.y[0], series.y[1]) = (from.y, from.rate * h);
             for (terms, (angle, rate)) in
@@ -79,7 +81,9 @@ impl Series {
             series.enclose(world, from);
             let exact = ended(&series.y) && ended(&series.push) && series.rooms.iter().all(ended);
             series.lost = world.blades.is_some() && !exact;
-            if !series.lost {
+            // Bounds over a short stretch are close ones.
+            let near = halvings < 10 && series.may_meet_other(world);
+            if !series.lost && !near {
                 break;
             }
             series.length *= 0.5;
@@ -178,6 +182,21 @@ impl Series {
         let x = s / self.length;
         let [y, rate, _] = values(&self.y, x);
         Along { y, rate: rate / self.length, push: values(&self.push, x)[0] }
+    }
+
+    /// Whether the other side of a polygon of two may be met within the stretch:
+    /// blades that turn by `x` leave it open by `2 cos x (g0 cos x + y sin x)`.
+    pub(super) fn may_meet_other(&self, world: &World) -> bool {
+        let Some(blades) = world.blades.filter(|_| world.machine.rim.sides == 2) else {
+            return false;
+        };
+        let ends = |terms: &Terms| {
+            let change: f64 = terms.iter().skip(1).map(|term| term.abs()).sum();
+            [terms[0] - change, terms[0] + change]
+        };
+        let turned = ends(&self.tips[0]).map(|angle| blades.diameters * angle);
+        turned.iter().any(|x| x.abs() >= FRAC_PI_2)
+            || ends(&self.y).iter().any(|y| turned.iter().any(|x| y * x.tan() <= -world.clearance))
     }
 
     /// A bound on every blade angle over the stretch \[rad\].
