@@ -27,4 +27,5 @@ pub mod motion;
 pub mod report;
 pub mod scene;
 pub mod study;
+mod tolerances;
 pub mod tui;

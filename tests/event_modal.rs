@@ -328,7 +328,7 @@ fn stiff_and_light_blades_fail_plainly_or_arrive() {
         let result = motion.advance(0.005);
         assert!(motion.state().u[0].is_finite() && motion.state().alpha[0].is_finite());
         if let Err(failure) = result {
-            assert!(failure.reason.contains("blade angle"), "{failure}");
+            assert!(failure.to_string().contains("blade angle"), "{failure}");
         }
     }
 }

@@ -43,7 +43,7 @@ pub struct Reference {
 }
 
 /// The rows of one step.
-pub struct Repeated<'a, Compliance: Fn(usize, usize) -> f64> {
+pub struct Repeated<'a> {
     /// The groups, each with at least one row.
     pub groups: &'a [Reference],
     /// The rows.
@@ -51,7 +51,7 @@ pub struct Repeated<'a, Compliance: Fn(usize, usize) -> f64> {
     /// Casing displacement by a unit force in one step \[m/N\].
     pub casing: f64,
     /// Blade angle of one row by a unit torque on another in one step.
-    pub blades: Compliance,
+    pub blades: &'a dyn Fn(usize, usize) -> f64,
 }
 
 /// Multipliers of some closed rows, and what they do to the rest.
@@ -67,7 +67,7 @@ struct Closed {
 /// Part of the gap's terms that counts as zero in the test for an open row.
 const ROUND_OFF: f64 = 1e-12;
 
-impl<Compliance: Fn(usize, usize) -> f64> Repeated<'_, Compliance> {
+impl Repeated<'_> {
     /// Every row closed as an equality, Eq. (13a). `None` where the rows are
     /// dependent and contradict each other.
     #[must_use]
@@ -226,7 +226,7 @@ mod tests {
             for soft in [0.0, 1e-30, 1e-16, 1e-9, 1e-2] {
                 let (groups, rows) = corner(each, soft, 0.0, [-1e-6, -0.98e-6]);
                 let repeated =
-                    Repeated { groups: &groups, rows: &rows, casing: 1.0, blades: blades(each) };
+                    Repeated { groups: &groups, rows: &rows, casing: 1.0, blades: &blades(each) };
                 let lambda = repeated.complementary().unwrap();
                 let closed = repeated.all_closed().unwrap();
                 // One row a side, with the mean of what its rows give.
@@ -248,7 +248,7 @@ mod tests {
         for (soft, apart) in [(1e-6, 1e-9), (1e-9, 1e-12), (1e-12, 1e-16), (1e-4, 1e-3)] {
             let (groups, rows) = corner(3, soft, apart, [-1e-6, -0.98e-6]);
             let repeated =
-                Repeated { groups: &groups, rows: &rows, casing: 1.0, blades: blades(3) };
+                Repeated { groups: &groups, rows: &rows, casing: 1.0, blades: &blades(3) };
             let lambda = repeated.all_closed().unwrap();
             // Differences within a side: (B lambda)_r - (B lambda)_0 + turned s = gap.
             let bent = |row: usize| -> f64 {
@@ -270,7 +270,7 @@ mod tests {
     fn a_row_that_a_push_beside_it_opens_is_left_alone() {
         // The third row of the first side stands deepest, the first of the second.
         let (groups, rows) = corner(3, 1e-6, 1e-6, [-1e-6, -0.98e-6]);
-        let repeated = Repeated { groups: &groups, rows: &rows, casing: 1.0, blades: blades(3) };
+        let repeated = Repeated { groups: &groups, rows: &rows, casing: 1.0, blades: &blades(3) };
         let lambda = repeated.complementary().unwrap();
         assert!(lambda.iter().all(|&value| value <= 0.0));
         let pushing: Vec<bool> = lambda.iter().map(|&value| value < 0.0).collect();

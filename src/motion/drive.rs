@@ -1,10 +1,9 @@
-//! What every solver shares: the state it reports, the rotor that turns, the
-//! pulse that starts the motion, and the reason a run stopped early.
+//! What every solver shares: the state it reports, the rotor that turns and the
+//! pulse that starts the motion.
 
 use std::f64::consts::TAU;
 
 use serde::Serialize;
-use thiserror::Error;
 
 use crate::scene::Scene;
 
@@ -29,16 +28,6 @@ impl State {
     pub fn amplitude(&self) -> f64 {
         self.u[0].hypot(self.u[1])
     }
-}
-
-/// Why a run stopped before its end.
-#[derive(Clone, Debug, Error, PartialEq, Serialize)]
-#[error("failed at t = {t_s:e} s: {reason}")]
-pub struct Failure {
-    /// When \[s\].
-    pub t_s: f64,
-    /// What happened, with the number that shows it.
-    pub reason: String,
 }
 
 /// The rotor angle: a speed and a constant acceleration from some instant on.

@@ -8,6 +8,7 @@ mod contacts;
 mod drive;
 mod event;
 pub mod explicit;
+mod failure;
 mod kernel;
 mod run;
 mod script;
@@ -17,8 +18,9 @@ pub mod verdict;
 mod wave;
 
 pub use contacts::{ContactLog, Impact, Touching, in_phase_order};
-pub use drive::{Failure, Pulse, Rotor, State};
+pub use drive::{Pulse, Rotor, State};
 pub use event::Event;
+pub use failure::{Failure, FailureReason};
 pub use run::{
     FinalState, ImpactReport, RunReport, Sample, Sampling, Settled, SolverReport, settle, simulate,
     simulate_with, verdict_of,

@@ -14,7 +14,7 @@ use super::mode::{Mode, What};
 use super::rocking;
 use super::series::{From, Series};
 use super::world::{NOISE, Plane};
-use crate::motion::Touching;
+use crate::motion::{FailureReason, Touching};
 
 /// Rocking is summed once the rest of it takes less than this part of the time
 /// of one radian: the blades do not notice.
@@ -281,9 +281,7 @@ impl Event {
         let series = Series::new(&self.world, &self.drive, side, from);
         if series.may_meet_other(&self.world) {
             let size = from.tips.angle.norm();
-            self.fail(0.0, |_| {
-                format!("blade angles of {size:.3e} rad turn the only two sides onto each other")
-            });
+            self.fail(0.0, FailureReason::TwoSides { angle_rad: size });
         }
         self.enter(Mode::Driven(series));
     }

@@ -6,12 +6,11 @@ use std::f64::consts::FRAC_PI_2;
 use super::Event;
 use super::blades::{Blades, Tips};
 use super::world::{Plane, World};
-use crate::motion::Failure;
+use crate::motion::{Failure, FailureReason};
+use crate::tolerances::LARGEST_BLADE_ANGLE;
 
 /// Part of the way to a closed or a straight corner that blades may turn it.
 const CORNER_ROOM: f64 = 0.9;
-/// Largest blade angle the model stands for \[rad\].
-const MOST_ANGLE: f64 = 0.1;
 
 /// The corner of side `a` and the next as it stands now.
 pub(super) struct Meeting {
@@ -62,7 +61,7 @@ impl Event {
     pub(super) fn check_angles(&mut self, s: f64) -> Result<(), Failure> {
         let beyond = |event: &Self, s: f64| {
             let Self { mode, world, drive, .. } = event;
-            mode.largest_angle(world, drive, s, MOST_ANGLE) > MOST_ANGLE
+            mode.largest_angle(world, drive, s, LARGEST_BLADE_ANGLE) > LARGEST_BLADE_ANGLE
         };
         if self.world.blades.is_none() || !beyond(self, s) {
             return Ok(());
@@ -75,9 +74,7 @@ impl Event {
             }
             if beyond(self, middle) { after = middle } else { within = middle }
         }
-        Err(self.fail(after, |_| {
-            format!("a blade angle is beyond the {MOST_ANGLE} rad that small angles allow")
-        }))
+        Err(self.fail(after, FailureReason::BladeAngle))
     }
 
     /// Fails a motion whose blades have turned a corner so far that it nearly
@@ -89,12 +86,7 @@ impl Event {
         let room = CORNER_ROOM * delta.min(FRAC_PI_2 - delta);
         let (size, most) = (tips.angle.norm(), room / (blades.diameters * delta.sin()));
         if size > most {
-            self.fail(0.0, |_| {
-                format!(
-                    "blade angles of {size:.3e} rad close or open a corner; up to {most:.3e} rad \
-                     sides keep their order"
-                )
-            });
+            self.fail(0.0, FailureReason::CornerAngle { angle_rad: size, most_rad: most });
         }
     }
 }

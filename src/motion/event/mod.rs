@@ -42,14 +42,6 @@ use ledger::Ledger;
 use mode::{Mode, What};
 use world::{Drive, Plane, World};
 
-/// Most mode changes of one run. A million impacts take a second; fifty times
-/// that is no motion anyone waits for, but a scene that should be looked at.
-const MOST_EVENTS: u64 = 50_000_000;
-/// Most looks ahead within one segment: minutes of work without an event.
-const MOST_LOOKS: u64 = 1_000_000_000;
-/// Most mode changes in a row that take no time at all.
-const MOST_IDLE: u32 = 1000;
-
 /// The event-driven solver of one scene, at some instant of its motion.
 ///
 /// ```

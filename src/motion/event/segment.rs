@@ -3,10 +3,11 @@
 
 use std::f64::consts::TAU;
 
+use super::Event;
 use super::mode::{Mode, Next, What};
 use super::world::{Drive, Plane};
-use super::{Event, MOST_EVENTS, MOST_IDLE, MOST_LOOKS};
-use crate::motion::{Failure, Touching};
+use crate::motion::{Failure, FailureReason, Touching};
+use crate::tolerances::{MOST_EVENTS, MOST_EVENTS_AT_ONCE, MOST_LOOKS};
 
 impl Event {
     /// Seconds from the start of the segment to `t`.
@@ -27,19 +28,20 @@ impl Event {
         if what != What::SeriesEnd {
             self.events += 1;
         }
-        if what == What::Gone {
-            self.fail(s, |event| {
-                let radius = event.world.reach;
-                format!("no corner holds the casing wave, and it grew beyond the casing radius, {radius:e} m")
-            });
+        let reason = if what == What::Gone {
+            Some(FailureReason::NoCorner { radius_m: self.world.reach })
         } else if what == What::Lost {
-            self.fail(s, |_| "blades and casing in contact move each other ever faster, beyond what their series can follow".into());
+            Some(FailureReason::Series)
         } else if self.events > MOST_EVENTS {
-            self.fail(s, |_| format!("more than {MOST_EVENTS} changes of contact"));
-        } else if self.idle > MOST_IDLE {
-            self.fail(s, |_| format!("{MOST_IDLE} changes of contact at one instant"));
+            Some(FailureReason::Events)
+        } else if self.idle > MOST_EVENTS_AT_ONCE {
+            Some(FailureReason::EventsAtOnce)
         } else {
-            self.pass(s, what);
+            None
+        };
+        match reason {
+            Some(reason) => _ = self.fail(s, reason),
+            None => self.pass(s, what),
         }
         self.failed.clone().map_or(Ok(Some(what)), Err)
     }
@@ -59,10 +61,10 @@ impl Event {
     }
 
     /// Ends the motion `s` seconds into the segment.
-    pub(super) fn fail(&mut self, s: f64, reason: impl Fn(&Self) -> String) -> Failure {
+    pub(super) fn fail(&mut self, s: f64, reason: FailureReason) -> Failure {
         let t_s = self.start.0 + s;
         self.now = t_s.max(self.now);
-        let failure = Failure { t_s, reason: reason(self) };
+        let failure = Failure { t_s, reason };
         self.failed.get_or_insert(failure).clone()
     }
 
@@ -87,7 +89,7 @@ impl Event {
             }
             self.looks += 1;
             if self.looks > MOST_LOOKS {
-                self.fail(self.safe, |_| format!("no change of contact within {MOST_LOOKS} looks"));
+                self.fail(self.safe, FailureReason::Looks);
                 return None;
             }
             match self.mode.look(&self.world, &self.drive, self.safe, end) {

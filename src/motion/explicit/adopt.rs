@@ -5,6 +5,7 @@
 //! mean rates of the last step have no jump.
 
 use super::{Blades, Excitation, Explicit, Oscillator};
+use crate::contact;
 use crate::motion::Pulse;
 use crate::scene::Scene;
 
@@ -32,7 +33,7 @@ impl<B: Blades> Explicit<B> {
             self.step,
         );
         self.machine = machine;
-        self.law = scene.solver.contact;
+        self.law = contact::law(scene.solver.contact);
         self.casing_radius = scene.casing.radius_m;
         self.excitation = Excitation::of(scene);
         self.next_pulse = Pulse::of(scene);

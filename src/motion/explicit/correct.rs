@@ -11,8 +11,7 @@ use crate::contact::{
     self,
     repeated::{Reference, Repeat, Repeated},
 };
-use crate::motion::Touching;
-use crate::scene::ContactLaw;
+use crate::motion::{FailureReason, Touching};
 
 /// Part of their phases by which blades of one side that stand alike may differ:
 /// the round-off of the sums that their angles are.
@@ -22,13 +21,10 @@ impl<B: Blades> Explicit<B> {
     /// A predicted step outside the circle of the clearance: find what
     /// penetrates and correct it. Returns a bound on what that does to any blade
     /// angle \[rad\].
-    pub(super) fn meet(&mut self, distance2: f64) -> Result<f64, String> {
+    pub(super) fn meet(&mut self, distance2: f64) -> Result<f64, FailureReason> {
         if distance2.is_nan() || distance2 > self.casing_radius * self.casing_radius {
-            return Err(format!(
-                "the casing displacement {:.3e} m is beyond the casing radius {} m",
-                distance2.sqrt(),
-                self.casing_radius
-            ));
+            let distance_m = distance2.sqrt();
+            return Err(FailureReason::Displacement { distance_m, radius_m: self.casing_radius });
         }
         let (c, s) = self.phasor.at(self.n, &self.rotor, self.machine.nodal_diameters, self.step);
         let (u_c, u_s) = (self.u[0].x, self.u[1].x);
@@ -41,10 +37,8 @@ impl<B: Blades> Explicit<B> {
         self.deepest_predicted = self.deepest_predicted.max(deepest);
         let clearance = self.machine.rim.clearance;
         if deepest > clearance {
-            return Err(format!(
-                "a predicted penetration of {deepest:.3e} m is deeper than the clearance \
-                 {clearance:.3e} m; a smaller step or a weaker pulse is needed"
-            ));
+            let (depth_m, clearance_m) = (deepest, clearance);
+            return Err(FailureReason::Penetration { depth_m, clearance_m });
         }
         self.solve()?;
         let ((dx, dy), change) = self.apply();
@@ -139,10 +133,9 @@ impl<B: Blades> Explicit<B> {
     }
 
     /// Multipliers of all rows by the chosen law.
-    fn solve(&mut self) -> Result<(), String> {
-        let unilateral = self.law == ContactLaw::Unilateral;
-        if !unilateral {
-            // The equality law closes penetrations only.
+    fn solve(&mut self) -> Result<(), FailureReason> {
+        if self.law.pulls() {
+            // Rows that would be pulled shut are those that penetrate, no others.
             self.rows.retain(|row| row.gap < 0.0);
         }
         match self.rows.as_mut_slice() {
@@ -151,34 +144,30 @@ impl<B: Blades> Explicit<B> {
                 self.rows[0].lambda = contact::single(self.influence(row, row), row.gap);
             }
             rows if rows.windows(2).any(|pair| pair[0].side == pair[1].side) => {
-                self.solve_repeated(unilateral)?;
+                self.solve_repeated()?;
             }
             [_, _] => {
                 let (a, b) = (&self.rows[0], &self.rows[1]);
                 let cross = self.influence(a, b);
                 let w = [[self.influence(a, a), cross], [cross, self.influence(b, b)]];
                 let gap = [a.gap, b.gap];
-                let lambda = if unilateral {
-                    contact::complementary_pair(w, gap).ok_or_else(|| dependent(2))?
-                } else {
-                    contact::pair(w, gap)
-                };
+                let lambda =
+                    self.law.pair(w, gap).ok_or_else(|| FailureReason::Singular { rows: 2 })?;
                 self.rows[0].lambda = lambda[0];
                 self.rows[1].lambda = lambda[1];
             }
-            _ if unilateral => self.solve_dense(|w, gap| contact::complementary(&w, gap))?,
-            _ => self.solve_dense(contact::all_closed)?,
+            _ => self.solve_dense()?,
         }
         if self.rows.iter().all(|row| row.lambda.is_finite()) {
             Ok(())
         } else {
-            Err(dependent(self.rows.len()))
+            Err(FailureReason::Singular { rows: self.rows.len() })
         }
     }
 
     /// As `solve`, where a side has several rows: each is told by what it has
     /// beside the first of its side.
-    fn solve_repeated(&mut self, unilateral: bool) -> Result<(), String> {
+    fn solve_repeated(&mut self) -> Result<(), FailureReason> {
         let diameters = self.machine.nodal_diameters;
         let (mut groups, mut repeats): (Vec<Reference>, Vec<Repeat>) = Default::default();
         let mut first = &self.rows[0];
@@ -214,24 +203,24 @@ impl<B: Blades> Explicit<B> {
             groups: &groups,
             rows: &repeats,
             casing: self.casing.compliance,
-            blades: compliance,
+            blades: &compliance,
         };
-        let lambda = if unilateral { repeated.complementary() } else { repeated.all_closed() };
-        let lambda = lambda.ok_or_else(|| dependent(self.rows.len()))?;
+        let lambda = self
+            .law
+            .repeated(&repeated)
+            .ok_or_else(|| FailureReason::Singular { rows: self.rows.len() })?;
         for (row, value) in self.rows.iter_mut().zip(lambda) {
             row.lambda = value;
         }
         Ok(())
     }
 
-    fn solve_dense(
-        &mut self,
-        law: impl Fn(DMatrix<f64>, &[f64]) -> Option<Vec<f64>>,
-    ) -> Result<(), String> {
+    fn solve_dense(&mut self) -> Result<(), FailureReason> {
         let count = self.rows.len();
         let w = DMatrix::from_fn(count, count, |i, j| self.influence(&self.rows[i], &self.rows[j]));
         let gap: Vec<f64> = self.rows.iter().map(|row| row.gap).collect();
-        let lambda = law(w, &gap).ok_or_else(|| dependent(count))?;
+        let lambda =
+            self.law.dense(w, &gap).ok_or_else(|| FailureReason::Singular { rows: count })?;
         for (row, value) in self.rows.iter_mut().zip(lambda) {
             row.lambda = value;
         }
@@ -291,10 +280,6 @@ impl<B: Blades> Explicit<B> {
         let soft = lever * lever * self.blades.compliance(0, 0);
         turn * self.casing.compliance < 2.0 * soft
     }
-}
-
-fn dependent(rows: usize) -> String {
-    format!("the multipliers of {rows} penetrating rows cannot be told apart (singular equations)")
 }
 
 /// A direction turned by a small blade phase, to round-off.

@@ -5,9 +5,9 @@
 //! form a *block*: it is decided on once, looked at wherever asked, and taken
 //! at its end. Looking never changes the trajectory.
 
-use super::watch::LARGEST_ANGLE;
 use super::{BREAK_STEPS, Blades, Coordinate, Explicit, Held};
 use crate::motion::{Rotor, Touching};
+use crate::tolerances::LARGEST_BLADE_ANGLE;
 
 /// Blocks shorter than this are stepped: deciding costs about as much.
 const SHORTEST_BLOCK: u64 = 8;
@@ -56,7 +56,7 @@ impl<B: Blades> Explicit<B> {
         let length =
             if farthest < clearance { ENDLESS } else { ((clearance - distance) / longest) as u64 };
         // Blades that may swing too far are followed step by step.
-        if length < SHORTEST_BLOCK || self.blades.reach() > LARGEST_ANGLE {
+        if length < SHORTEST_BLOCK || self.blades.reach() > LARGEST_BLADE_ANGLE {
             return false;
         }
         // Such a block is longer than the pause that ends a contact.

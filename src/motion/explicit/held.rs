@@ -15,7 +15,6 @@ use super::corner_step::CornerStep;
 use super::leap::Leap;
 use super::{Blades, Coordinate, Explicit};
 use crate::motion::Touching;
-use crate::scene::ContactLaw;
 
 /// Steps a corner must have been closed before the map is made.
 pub(super) const SETTLED_STEPS: u64 = 64;
@@ -201,11 +200,10 @@ impl<B: Blades> Explicit<B> {
         if self.machine.nodal_diameters * angle > LARGEST_PHASE {
             return false;
         }
-        let unilateral = self.law == ContactLaw::Unilateral;
         (0..4).all(|k| {
             let swing = angle * (slopes[k][0].hypot(slopes[k][1]))
                 + increment * (slopes[k][2].hypot(slopes[k][3]));
-            let sign_fits = if k < 2 { !unilateral || rest[k] < 0.0 } else { rest[k] < 0.0 };
+            let sign_fits = if k < 2 { self.law.pulls() || rest[k] < 0.0 } else { rest[k] < 0.0 };
             sign_fits && rest[k].is_finite() && swing < ROOM * rest[k].abs()
         })
     }

@@ -22,9 +22,10 @@ pub use blades::{Blades, FullBlades, ModalBlades, RigidBlades};
 pub use excitation::Excitation;
 pub use oscillator::{Coordinate, Oscillator};
 
-use super::{Checks, ContactLog, Failure, Pulse, Rotor, State, Touching};
+use super::{Checks, ContactLog, Failure, FailureReason, Pulse, Rotor, State, Touching};
+use crate::contact::{self, StepLaw};
 use crate::model::Machine;
-use crate::scene::{ContactLaw, Scene};
+use crate::scene::Scene;
 use flight::{Block, Phasor};
 use held::Held;
 use watch::Watch;
@@ -37,7 +38,7 @@ const BREAK_STEPS: u64 = 2;
 #[derive(Clone, Debug)]
 pub struct Explicit<B: Blades> {
     machine: Machine,
-    law: ContactLaw,
+    law: &'static dyn StepLaw,
     casing_radius: f64,
     step: f64,
     rotor: Rotor,
@@ -122,7 +123,7 @@ impl<B: Blades> Explicit<B> {
         let mut motion = Self {
             blades: B::at_rest(scene, &machine),
             phasor: Phasor::new(&rotor, machine.nodal_diameters, step),
-            law: scene.solver.contact,
+            law: contact::law(scene.solver.contact),
             casing_radius: scene.casing.radius_m,
             next_pulse: pulse,
             left_over: (0, 0.0),
@@ -186,7 +187,7 @@ impl<B: Blades> Explicit<B> {
     }
 
     /// One step: predict, look, correct.
-    fn take_step(&mut self) -> Result<(), String> {
+    fn take_step(&mut self) -> Result<(), FailureReason> {
         let n = self.n;
         let force = self.force(n);
         self.u = [self.casing.step(self.u[0], force), self.casing.step(self.u[1], 0.0)];

@@ -3,7 +3,6 @@
 use super::held::SETTLED_STEPS;
 use super::{Blades, Explicit};
 use crate::motion::Verdict;
-use crate::scene::ContactLaw;
 
 /// Part of the least push that the blades' motion may take from it.
 const ROOM: f64 = 0.5;
@@ -45,11 +44,7 @@ impl<B: Blades> Explicit<B> {
         let [a, b] = sides.map(sum);
         let (sin, cos) = machine.rim.delta.sin_cos();
         let turn = (2.0 * machine.rim.delta).cos();
-        // Bilateral contact lasts while both sides are predicted to penetrate.
-        let least = match self.law {
-            ContactLaw::Unilateral => (-a).min(-b),
-            ContactLaw::Bilateral => (-(a + turn * b)).min(-(b + turn * a)),
-        };
+        let least = self.law.hold([a, b], turn);
         let damping = machine.casing_damping_ratio * machine.omega_c
             + machine.blade_damping_ratio * machine.omega_bd_max;
         let nu = machine.nu(self.rotor.speed(self.time_of(self.n))).abs();

@@ -4,8 +4,8 @@
 //! these bounds sum to less than what is missing to the largest angle so far,
 //! there is nothing to look at.
 
-/// Blade angle beyond which small-angle blades have lost their meaning \[rad\].
-pub(super) const LARGEST_ANGLE: f64 = 0.1;
+use crate::motion::FailureReason;
+use crate::tolerances::LARGEST_BLADE_ANGLE;
 
 /// The largest blade angle of the steps taken.
 #[derive(Clone, Copy, Debug, Default)]
@@ -32,10 +32,11 @@ impl Watch {
     ///
     /// # Errors
     /// It is beyond what small angles allow, or not a number.
-    pub fn look(&mut self, now: f64) -> Result<(), String> {
+    pub fn look(&mut self, now: f64) -> Result<(), FailureReason> {
         self.largest = self.largest.max(now);
         self.room = self.largest - now;
-        if now > LARGEST_ANGLE || now.is_nan() { Err(too_wide(now)) } else { Ok(()) }
+        let fits = now <= LARGEST_BLADE_ANGLE;
+        if fits { Ok(()) } else { Err(FailureReason::BladeAngle) }
     }
 
     /// Steps without a look, over which the largest angle was `largest`; blades
@@ -44,10 +45,4 @@ impl Watch {
         self.largest = self.largest.max(largest);
         self.room = self.largest - bound;
     }
-}
-
-fn too_wide(angle: f64) -> String {
-    format!(
-        "a blade angle of {angle:.3e} rad is beyond the {LARGEST_ANGLE} rad that small angles allow"
-    )
 }

@@ -1,0 +1,55 @@
+//! The paper's law, Eq. (13a): every predicted penetration is closed as an
+//! equality, by a push or by a pull.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::StepLaw;
+use super::repeated::Repeated;
+
+/// `g = 0` on every row that was predicted to penetrate.
+#[derive(Debug)]
+pub(super) struct Bilateral;
+
+impl StepLaw for Bilateral {
+    fn pulls(&self) -> bool {
+        true
+    }
+    fn pair(&self, w: [[f64; 2]; 2], gap: [f64; 2]) -> Option<[f64; 2]> {
+        Some(pair(w, gap))
+    }
+    fn dense(&self, w: DMatrix<f64>, gap: &[f64]) -> Option<Vec<f64>> {
+        all_closed(w, gap)
+    }
+    fn repeated(&self, rows: &Repeated<'_>) -> Option<Vec<f64>> {
+        rows.all_closed()
+    }
+    /// It lasts while both sides are predicted to penetrate.
+    fn hold(&self, [a, b]: [f64; 2], cos: f64) -> f64 {
+        (-(a + cos * b)).min(-(b + cos * a))
+    }
+}
+
+/// Multipliers of two rows closed as equalities; not finite where the rows
+/// are dependent.
+#[must_use]
+pub fn pair(w: [[f64; 2]; 2], gap: [f64; 2]) -> [f64; 2] {
+    let determinant = w[0][0] * w[1][1] - w[0][1] * w[1][0];
+    [
+        (w[1][1] * gap[0] - w[0][1] * gap[1]) / determinant,
+        (w[0][0] * gap[1] - w[1][0] * gap[0]) / determinant,
+    ]
+}
+
+/// Every row closed as an equality, Eq. (13a). `None` where `W` is singular, to
+/// the digits it has: more rows than coordinates that could close them.
+#[must_use]
+pub fn all_closed(w: DMatrix<f64>, gap: &[f64]) -> Option<Vec<f64>> {
+    let gap = DVector::from_column_slice(gap);
+    let solution = w.clone().lu().solve(&gap)?;
+    let left = (&w * &solution - &gap).amax();
+    (left <= SINGULAR * gap.amax()).then(|| solution.as_slice().to_vec())
+}
+
+/// Part of the gaps that round-off may leave open before the equations count as
+/// singular.
+const SINGULAR: f64 = 1e-3;

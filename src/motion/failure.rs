@@ -1,0 +1,89 @@
+//! Why a motion stopped before its end, in words made here alone.
+
+use thiserror::Error;
+
+use crate::tolerances::{LARGEST_BLADE_ANGLE, MOST_EVENTS, MOST_EVENTS_AT_ONCE, MOST_LOOKS};
+
+/// Why a run stopped before its end.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[error("failed at t = {t_s:e} s: {reason}")]
+pub struct Failure {
+    /// When \[s\].
+    pub t_s: f64,
+    /// What happened.
+    pub reason: FailureReason,
+}
+
+/// What a motion did that the model does not describe, or the solver cannot
+/// follow.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum FailureReason {
+    /// Small angles are no longer small.
+    #[error("a blade angle is beyond the {LARGEST_BLADE_ANGLE} rad that small angles allow")]
+    BladeAngle,
+    /// The sides of a corner are about to change their order.
+    #[error(
+        "blade angles of {angle_rad:.3e} rad close or open a corner; up to {most_rad:.3e} rad \
+         sides keep their order"
+    )]
+    CornerAngle {
+        /// Amplitude of the blade angles \[rad\].
+        angle_rad: f64,
+        /// Largest amplitude that keeps the order \[rad\].
+        most_rad: f64,
+    },
+    /// The sides of a polygon of two are about to meet.
+    #[error("blade angles of {angle_rad:.3e} rad turn the only two sides onto each other")]
+    TwoSides {
+        /// Amplitude of the blade angles \[rad\].
+        angle_rad: f64,
+    },
+    /// A polygon without corners lets the casing wave grow.
+    #[error(
+        "no corner holds the casing wave, and it grew beyond the casing radius, {radius_m:e} m"
+    )]
+    NoCorner {
+        /// Casing radius \[m\].
+        radius_m: f64,
+    },
+    /// The power series of a motion in contact does not converge.
+    #[error(
+        "blades and casing in contact move each other ever faster, beyond what their series can \
+         follow"
+    )]
+    Series,
+    /// Too many changes of contact in one run.
+    #[error("more than {MOST_EVENTS} changes of contact")]
+    Events,
+    /// Too many changes of contact that take no time.
+    #[error("{MOST_EVENTS_AT_ONCE} changes of contact at one instant")]
+    EventsAtOnce,
+    /// Too long a search for the next change of contact.
+    #[error("no change of contact within {MOST_LOOKS} looks")]
+    Looks,
+    /// The casing left its own size behind.
+    #[error("the casing displacement {distance_m:.3e} m is beyond the casing radius {radius_m} m")]
+    Displacement {
+        /// Casing displacement \[m\].
+        distance_m: f64,
+        /// Casing radius \[m\].
+        radius_m: f64,
+    },
+    /// A step went through more than the clearance.
+    #[error(
+        "a predicted penetration of {depth_m:.3e} m is deeper than the clearance {clearance_m:.3e} \
+         m; a smaller step or a weaker pulse is needed"
+    )]
+    Penetration {
+        /// Predicted penetration \[m\].
+        depth_m: f64,
+        /// Clearance \[m\].
+        clearance_m: f64,
+    },
+    /// A step whose equations are singular.
+    #[error("the multipliers of {rows} penetrating rows cannot be told apart (singular equations)")]
+    Singular {
+        /// Number of rows.
+        rows: usize,
+    },
+}
