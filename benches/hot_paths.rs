@@ -9,16 +9,16 @@ use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use rubscope::harmonic::{Form, locked_motion};
-use rubscope::motion::{Motion, Sampling, settle, simulate};
-use rubscope::scene::Scene;
+use rubscope::motion::{Motion, Sample, Sampling, Script, settle, simulate, simulate_with};
+use rubscope::scene::{CheckedScene, Scene};
 
-fn scene(changes: &[(&str, &str)]) -> Scene {
+fn scene(changes: &[(&str, &str)]) -> CheckedScene {
     Scene::default().with(changes).unwrap()
 }
 
 const EVENT: [(&str, &str); 2] = [("solver.kind", "event"), ("solver.model", "rigid")];
 
-fn to_the_end(scene: &Scene) -> f64 {
+fn to_the_end(scene: &CheckedScene) -> f64 {
     let mut motion = Motion::new(scene);
     motion.advance(scene.solver.end_s).unwrap();
     motion.state().u[0]
@@ -99,13 +99,14 @@ fn around(criterion: &mut Criterion) {
         ("solver.step_s", "1e-6"),
     ]);
     group.bench_function("slip without history", |bencher| {
-        bencher.iter(|| simulate(black_box(&slip), Sampling::default(), &mut |_| {}));
+        bencher.iter(|| simulate(black_box(&slip)));
     });
     group.bench_function("slip with 2000 samples", |bencher| {
         let sampling = Sampling { intervals: 2000, gaps: false };
         bencher.iter(|| {
             let mut sum = 0.0;
-            simulate(black_box(&slip), sampling, &mut |sample| sum += sample.state.u[0]);
+            let mut add = |sample: &Sample| sum += sample.state.u[0];
+            simulate_with(black_box(&slip), &Script::default(), sampling, &mut add);
             sum
         });
     });

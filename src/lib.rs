@@ -7,14 +7,14 @@
 //! Everything below `cli` and `tui` knows no terminal and prints nothing.
 //!
 //! ```
-//! use rubscope::motion::{Sampling, Verdict, simulate};
+//! use rubscope::motion::{Verdict, simulate};
 //! use rubscope::scene::Scene;
 //!
 //! let mut scene = Scene::builtin("paper-nd3")?; // equality contact, 1 MN
-//! let report = simulate(&scene, Sampling::default(), &mut |_| {});
+//! let report = simulate(&scene.checked()?);
 //! assert_eq!(report.outcome.verdict, Verdict::Locked);
 //! scene.set("solver.contact", "unilateral")?; // contact that may only push
-//! let report = simulate(&scene, Sampling::default(), &mut |_| {});
+//! let report = simulate(&scene.checked()?);
 //! assert_eq!(report.outcome.verdict, Verdict::Decay);
 //! # Ok::<(), rubscope::scene::SceneError>(())
 //! ```

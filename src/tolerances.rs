@@ -15,3 +15,8 @@ pub(crate) const MOST_LOOKS: u64 = 1_000_000_000;
 /// Most mode changes in a row that take no time. Physical ones are a few; more
 /// are a loop.
 pub(crate) const MOST_EVENTS_AT_ONCE: u32 = 1000;
+
+/// Gaps below this part of the motion's size count as closed in the event
+/// solver: a few roundings. Larger: impacts come that much early. Smaller: a
+/// touch may be looked at again and again.
+pub(crate) const EVENT: f64 = 1e-15;

@@ -4,12 +4,12 @@
 
 #![expect(clippy::unwrap_used, reason = "a test states what must hold")]
 
-use rubscope::motion::{RunReport, Sampling, Verdict, settle, simulate};
+use rubscope::motion::{RunReport, Sampling, Script, Verdict, settle, simulate, simulate_with};
 use rubscope::scene::Scene;
 
 /// The report of `run BASE OPTIONS`.
 fn run(base: &str, options: &str) -> RunReport {
-    simulate(&scene(base, options), Sampling::default(), &mut |_| {})
+    simulate(&scene(base, options).checked().unwrap())
 }
 
 fn scene(base: &str, options: &str) -> Scene {
@@ -28,7 +28,7 @@ fn scene(base: &str, options: &str) -> Scene {
         key => key,
     };
     let changes: Vec<_> = words.chunks(2).map(|pair| (key(pair[0]), pair[1])).collect();
-    Scene::builtin(base).unwrap().with(&changes).unwrap()
+    Scene::builtin(base).unwrap().with(&changes).unwrap().into_scene()
 }
 
 /// A start at rest in a corner of the paper's machine, but for the rate.
@@ -98,7 +98,8 @@ fn the_largest_blade_angle_does_not_depend_on_who_looks() {
     );
     let angles = [0, 7, 4001].map(|intervals| {
         let sampling = Sampling { intervals, gaps: false };
-        simulate(&scene, sampling, &mut |_| {}).checks.max_blade_angle_rad
+        let scene = scene.checked().unwrap();
+        simulate_with(&scene, &Script::default(), sampling, &mut |_| {}).checks.max_blade_angle_rad
     });
     assert_eq!(angles[0], angles[1]);
     assert_eq!(angles[0], angles[2]);
@@ -156,7 +157,7 @@ fn a_lock_under_excitation_is_not_taken_for_good() {
          bladed_disk.stiffness_nm_per_rad 319168.11740367167 excitation.order 3 \
          excitation.amplitude_nm 1"
     );
-    assert_eq!(settle(&scene("paper-nd3", &how)).verdict, Verdict::Decay);
+    assert_eq!(settle(&scene("paper-nd3", &how).checked().unwrap()).verdict, Verdict::Decay);
     let report = run("paper-nd3", &how);
     assert_eq!(report.outcome.verdict, Verdict::Decay);
     assert!(!report.outcome.sensitive);
@@ -175,7 +176,7 @@ fn a_corner_that_lets_go_again_and_again_is_no_lock() {
              initial.u_s_m -0.0013119784322271717 initial.v_c_m_s 1.2053754462529247 \
              initial.v_s_m_s -1.6590569716023988"
         );
-        let settled = settle(&scene("paper-nd3", &how));
+        let settled = settle(&scene("paper-nd3", &how).checked().unwrap());
         assert_eq!(settled.verdict, Verdict::Slip, "{end}: {settled:?}");
         assert!(settled.impact_count > 2000);
     }
@@ -204,7 +205,7 @@ fn a_count_that_a_larger_pulse_changes_is_sensitive() {
     let counts = [1.0, 1.0 + 1e-9, 1.0 - 1e-9].map(|factor| {
         let mut scene = scene.clone();
         scene.operation.pulse_n *= factor;
-        settle(&scene).impact_count
+        settle(&scene.checked().unwrap()).impact_count
     });
     assert_eq!(counts, [70, 71, 70]);
     assert!(run("paper-nd3", how).outcome.sensitive);

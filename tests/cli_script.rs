@@ -16,7 +16,7 @@ fn parsed(options: &[&str]) -> Result<Vec<(f64, Change)>, String> {
 }
 
 fn script(options: &[&str], scene: &Scene) -> Result<Script, String> {
-    Script::resolve(&parsed(options)?, scene).map_err(|error| error.to_string())
+    Script::resolve(&parsed(options)?, &scene.checked().unwrap()).map_err(|error| error.to_string())
 }
 
 fn explicit() -> Scene {
@@ -122,16 +122,16 @@ fn a_key_acts_live_just_where_the_motion_takes_it() {
             let mut changed = scene.clone();
             changed.set(key.path, &value).unwrap();
             assert_ne!(changed, scene, "{}", key.path);
-            let takes = Motion::new(&scene).adopt(&changed);
+            let takes = motion::Change::is_live(&scene, &changed);
             let text = format!("0.01:{}={value}", key.path);
             match script(&[&text], &scene) {
                 Ok(script) => {
                     let changes = script.changes();
                     let (_, last) = changes.changes().last().unwrap();
-                    let adopted = motion::Change::Parameters(Box::new(changed));
+                    let adopted = motion::Change::Parameters(Box::new(changed.checked().unwrap()));
                     assert!(takes && *last == adopted, "{text}");
                 }
-                // Adopted without a trace: what a running motion has no use for.
+                // Taken without a trace: what a running motion has no use for.
                 Err(_) if takes => assert!(
                     ["title", "note", "view.charts", "solver.end_s"].contains(&key.path)
                         || key.path.starts_with("initial."),
@@ -145,7 +145,7 @@ fn a_key_acts_live_just_where_the_motion_takes_it() {
 
 /// The motion of a scene moved to `end` by a script.
 fn moved(scene: &Scene, script: &Script, end: f64) -> Motion {
-    let mut motion = Motion::new(scene);
+    let mut motion = Motion::new(&scene.checked().unwrap());
     for (t_s, change) in script.changes().changes() {
         motion.advance(*t_s).unwrap();
         motion.apply(change);
@@ -169,28 +169,28 @@ fn a_script_does_what_the_calls_on_the_motion_do() {
         scene.solver.model = model;
         let script = script(&options, &scene).unwrap();
         let by_script = moved(&scene, &script, 0.01);
-        let mut by_hand = Motion::new(&scene);
+        let mut by_hand = Motion::new(&scene.checked().unwrap());
         let mut now = scene.clone();
         by_hand.advance(0.002).unwrap();
         now.operation.speed_rad_s = 450.0;
         by_hand.set_speed(450.0, 0.0);
         by_hand.advance(0.003).unwrap();
         (now.operation.pulse_n, now.operation.pulse_s) = (15e3, 1e-4);
-        assert!(by_hand.adopt(&now));
+        by_hand.set_parameters(&now.checked().unwrap());
         by_hand.advance(0.004).unwrap();
         by_hand.fire();
         assert_eq!(by_hand.pulse().force, 15e3);
         by_hand.advance(0.005).unwrap();
         now.casing.damping_ratio = 0.01;
-        assert!(by_hand.adopt(&now));
+        by_hand.set_parameters(&now.checked().unwrap());
         by_hand.advance(0.006).unwrap();
         now.solver.contact = ContactLaw::Bilateral;
-        assert!(by_hand.adopt(&now));
+        by_hand.set_parameters(&now.checked().unwrap());
         by_hand.advance(0.01).unwrap();
         let (a, b) = (by_script.state(), by_hand.state());
         assert_eq!(by_script.pulse(), by_hand.pulse());
         assert_eq!(by_script.contacts().impact_count, by_hand.contacts().impact_count);
-        // Round-off of blocks that an adopted scene without a change cuts.
+        // Round-off of blocks that a scene without a change cuts.
         assert!((a.u[0] - b.u[0]).hypot(a.u[1] - b.u[1]) < 1e-12, "{a:?} {b:?}");
         let without = moved(&scene, &Script::default(), 0.01).state();
         assert!((a.u[0] - without.u[0]).abs() > 1e-6, "{a:?} {without:?}");
@@ -207,7 +207,7 @@ fn the_event_solver_turns_its_rotor_and_fires_to_the_bit() {
         "0.004:operation.speed_ramp_rad_s2=-400",
     ];
     let by_script = moved(&scene, &script(&options, &scene).unwrap(), 0.01);
-    let mut by_hand = Motion::new(&scene);
+    let mut by_hand = Motion::new(&scene.checked().unwrap());
     by_hand.advance(0.001).unwrap();
     by_hand.set_speed(430.0, 0.0);
     by_hand.set_speed(430.0, -400.0);

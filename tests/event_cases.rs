@@ -2,7 +2,7 @@
 //! the closed forms of locked motion, thresholds in speed and in pulse.
 #![expect(clippy::unwrap_used, reason = "tests state what must hold")]
 
-use rubscope::motion::{Event, Touching, Verdict};
+use rubscope::motion::{Event, Solver, Touching, Verdict};
 use rubscope::scene::Scene;
 
 fn scene(changes: &[(&str, f64)]) -> Scene {
@@ -12,12 +12,12 @@ fn scene(changes: &[(&str, f64)]) -> Scene {
     for (key, value) in changes {
         scene.set(key, &value.to_string()).unwrap();
     }
-    scene.check().unwrap();
+    scene.checked().unwrap();
     scene
 }
 
 fn run(changes: &[(&str, f64)], until: f64) -> Event {
-    let mut motion = Event::new(&scene(changes));
+    let mut motion = Event::new(&scene(changes).checked().unwrap()).unwrap();
     motion.advance(until).unwrap();
     motion
 }
@@ -142,7 +142,7 @@ fn the_summed_rocking_is_where_stepping_would_be() {
     // replays the crossings; the corner is approached without a jump.
     let changes = [(ZETA, 0.0), (PULSE, 51742.0)];
     let lock = run(&changes, 0.1).contacts().since;
-    let mut motion = Event::new(&scene(&changes));
+    let mut motion = Event::new(&scene(&changes).checked().unwrap()).unwrap();
     let corner = motion.machine().locked_amplitude().unwrap();
     let mut last = f64::INFINITY;
     for part in 0..40 {
@@ -178,7 +178,7 @@ fn in_a_corner(changes: &[(&str, f64)]) -> Event {
     scene.initial.u_s_m = -radius * sin;
     scene.initial.v_c_m_s = nu * radius * sin;
     scene.initial.v_s_m_s = -nu * radius * cos;
-    Event::new(&scene)
+    Event::new(&scene.checked().unwrap()).unwrap()
 }
 
 #[test]

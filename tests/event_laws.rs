@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 
 use proptest::prelude::*;
-use rubscope::motion::{Event, State};
+use rubscope::motion::{Event, Solver, State};
 use rubscope::scene::{ModelSize, Scene};
 
 /// A scene of every kind the event solver takes; one in three with moving blades.
@@ -86,7 +86,7 @@ proptest! {
 
     #[test]
     fn no_penetration_no_pull_and_a_balance_of_energy(scene in scenes()) {
-        let mut motion = Event::new(&scene);
+        let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
         let end = 0.02;
         let mut largest: f64 = 0.0;
         for part in 1..=200 {
@@ -117,9 +117,9 @@ proptest! {
 
     #[test]
     fn where_one_looks_does_not_change_a_bit(scene in scenes(), cuts in prop::collection::vec(0.0..0.02, 1..6)) {
-        let mut whole = Event::new(&scene);
-        let mut again = Event::new(&scene);
-        let mut parts = Event::new(&scene);
+        let mut whole = Event::new(&scene.checked().unwrap()).unwrap();
+        let mut again = Event::new(&scene.checked().unwrap()).unwrap();
+        let mut parts = Event::new(&scene.checked().unwrap()).unwrap();
         let mut cuts = cuts;
         cuts.sort_by(f64::total_cmp);
         let one = whole.advance(0.02);
@@ -141,7 +141,7 @@ proptest! {
         mirrored.operation.speed_ramp_rad_s2 *= -1.0;
         mirrored.initial.u_s_m *= -1.0;
         mirrored.initial.v_s_m_s *= -1.0;
-        let (mut left, mut right) = (Event::new(&scene), Event::new(&mirrored));
+        let (mut left, mut right) = (Event::new(&scene.checked().unwrap()).unwrap(), Event::new(&mirrored.checked().unwrap()).unwrap());
         // Skims amplify round-off: compare the first twenty changes of contact.
         for _ in 0..20 {
             let both = (left.next_event(0.01), right.next_event(0.01));
@@ -168,7 +168,7 @@ proptest! {
         turned.initial.u_s_m = start.u_c_m * sin + start.u_s_m * cos;
         turned.initial.v_c_m_s = start.v_c_m_s * cos - start.v_s_m_s * sin;
         turned.initial.v_s_m_s = start.v_c_m_s * sin + start.v_s_m_s * cos;
-        let (mut one, mut other) = (Event::new(&scene), Event::new(&turned));
+        let (mut one, mut other) = (Event::new(&scene.checked().unwrap()).unwrap(), Event::new(&turned.checked().unwrap()).unwrap());
         // Impacts near corners and skims amplify round-off: compare the first few.
         let mut until: f64 = 0.005;
         for _ in 0..4 {
@@ -176,7 +176,7 @@ proptest! {
             if next.is_err() { return Ok(()) }
             until = next.unwrap();
         }
-        let mut one = Event::new(&scene);
+        let mut one = Event::new(&scene.checked().unwrap()).unwrap();
         one.advance(0.999 * until).unwrap();
         other.advance(0.999 * until).unwrap();
         let (one, other) = (one.state(), other.state());

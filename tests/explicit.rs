@@ -2,16 +2,18 @@
 
 #![expect(clippy::unwrap_used, reason = "a test states what must hold")]
 
-use rubscope::motion::{Motion, RunReport, Sampling, Verdict, simulate};
+use rubscope::motion::{
+    Motion, RunReport, Sample, Sampling, Script, Verdict, simulate, simulate_with,
+};
 use rubscope::scene::Scene;
 
 /// Case A of the paper's machine: three diameters, 500 rad/s, 20 kN.
 fn scene(changes: &[(&str, &str)]) -> Scene {
-    Scene::default().with(changes).unwrap()
+    Scene::default().with(changes).unwrap().into_scene()
 }
 
 fn run(changes: &[(&str, &str)]) -> RunReport {
-    simulate(&scene(changes), Sampling::default(), &mut |_| {})
+    simulate(&scene(changes).checked().unwrap())
 }
 
 const STEP: &str = "solver.step_s";
@@ -80,7 +82,7 @@ fn locked_multipliers_carry_the_extra_damping_of_the_scheme() {
             ("solver.end_s", "0.3"),
             ("bladed_disk.damping_ratio", "0.5"),
         ]);
-        let report = simulate(&scene, Sampling::default(), &mut |_| {});
+        let report = simulate(&scene.checked().unwrap());
         assert_eq!(report.outcome.verdict, Verdict::Locked);
         let machine = scene.machine();
         let nu: f64 = machine.nu(500.0);
@@ -117,13 +119,15 @@ fn a_wrecked_run_stops_with_a_reason() {
 fn looking_does_not_change_the_motion() {
     for law in ["unilateral", "bilateral"] {
         let scene = scene(&[(LAW, law), (PULSE, "1e5"), ("solver.end_s", "0.01")]);
-        let plain = simulate(&scene, Sampling::default(), &mut |_| {});
+        let plain = simulate(&scene.checked().unwrap());
         let mut seen = 0;
         let sampling = Sampling { intervals: 777, gaps: true };
-        let watched = simulate(&scene, sampling, &mut |sample| {
+        let mut look = |sample: &Sample| {
             seen += 1;
             assert_eq!(sample.gaps.len(), 22);
-        });
+        };
+        let watched =
+            simulate_with(&scene.checked().unwrap(), &Script::default(), sampling, &mut look);
         assert_eq!(seen, 778);
         assert_eq!(plain.r#final, watched.r#final);
         assert_eq!(plain.impacts, watched.impacts);
@@ -145,7 +149,7 @@ fn blades_on_one_side_move_alike_in_the_full_model() {
     let changes = [("operation.nodal_diameters", "4"), ("solver.end_s", "2e-3"), (STEP, "1e-6")];
     let mut full = scene(&changes);
     full.set(MODEL, "full").unwrap();
-    let mut motion = Motion::new(&full);
+    let mut motion = Motion::new(&full.checked().unwrap());
     motion.advance(2e-3).unwrap();
     let angles = motion.blade_angles();
     let largest = angles.iter().fold(0.0_f64, |most, angle| most.max(angle.abs()));
@@ -183,7 +187,7 @@ fn a_speed_ramp_turns_the_wave_frame() {
 
 #[test]
 fn impacts_under_a_pulse_fired_again() {
-    let mut motion = Motion::new(&scene(&[]));
+    let mut motion = Motion::new(&scene(&[]).checked().unwrap());
     motion.advance(0.05).unwrap();
     assert!(motion.over());
     motion.fire();
@@ -200,7 +204,7 @@ fn an_engine_order_moves_the_blades_and_hardly_the_lock() {
     // Blades alone settle to the linear response at 3 Omega, since E = n_d.
     let scene = scene(&still);
     let machine = scene.machine();
-    let mut motion = Motion::new(&scene);
+    let mut motion = Motion::new(&scene.checked().unwrap());
     motion.advance(0.2).unwrap();
     let omega = 3.0 * 100.0;
     let stiff = machine.omega_bd * machine.omega_bd - omega * omega;
@@ -212,9 +216,9 @@ fn an_engine_order_moves_the_blades_and_hardly_the_lock() {
     // The full model agrees on the pair that is driven.
     let mut full = scene.clone();
     full.set(MODEL, "full").unwrap();
-    let mut full = Motion::new(&full);
+    let mut full = Motion::new(&full.checked().unwrap());
     full.advance(0.01).unwrap();
-    let mut modal = Motion::new(&scene);
+    let mut modal = Motion::new(&scene.checked().unwrap());
     modal.advance(0.01).unwrap();
     for (a, b) in full.state().alpha.iter().zip(modal.state().alpha) {
         assert!((a - b).abs() < 1e-12 * expected.max(1.0), "{a} {b}");
@@ -251,10 +255,10 @@ fn a_held_lock_is_the_same_stepped_or_skipped() {
             changes.extend(corner);
         }
         let scene = scene(&changes);
-        let mut skipped = Motion::new(&scene);
+        let mut skipped = Motion::new(&scene.checked().unwrap());
         skipped.advance(0.012).unwrap();
         // A speed set anew every 50 steps leaves no lock time to be held.
-        let mut stepped = Motion::new(&scene);
+        let mut stepped = Motion::new(&scene.checked().unwrap());
         for chunk in 1..=1200 {
             stepped.set_speed(scene.operation.speed_rad_s, 0.0);
             stepped.advance(f64::from(chunk) * 1e-5).unwrap();

@@ -1,7 +1,7 @@
 //! Hard cases of the explicit solver: each has a right answer or a plain
 //! refusal; nothing hangs and no report holds a number that is none.
 
-use rubscope::motion::{RunReport, Sampling, Verdict, simulate};
+use rubscope::motion::{RunReport, Verdict, simulate};
 use rubscope::scene::{Scene, SceneError};
 
 /// Runs 2 ms of the paper's machine with changes, or says why it is refused.
@@ -10,7 +10,7 @@ fn run(changes: &[(&str, &str)]) -> Result<RunReport, SceneError> {
     scene.set("solver.end_s", "2e-3")?;
     scene.set("solver.step_s", "1e-6")?;
     let scene = scene.with(changes)?;
-    let report = simulate(&scene, Sampling::default(), &mut |_| {});
+    let report = simulate(&scene.checked().unwrap());
     let numbers = [
         report.r#final.t_s,
         report.r#final.u_c_m,

@@ -5,14 +5,14 @@
 
 use nalgebra::Complex;
 use rubscope::harmonic::{Corner, Form, Locked, SlipOrbit, excited_lock, slip_over};
-use rubscope::motion::{Event, Motion, Touching};
+use rubscope::motion::{Event, Motion, Solver, Touching};
 use rubscope::scene::{ModelSize, Scene};
 
 /// Rigid blades unless a test changes it, as the closed forms have them.
 fn scene(changes: &[(&str, &str)]) -> Scene {
     let mut scene = Scene::default();
     scene.solver.model = ModelSize::Rigid;
-    scene.with(changes).unwrap()
+    scene.with(changes).unwrap().into_scene()
 }
 
 fn close(value: f64, expected: f64, relative: f64) {
@@ -39,7 +39,7 @@ fn in_default_corner(diameters: u32, zeta: f64, speed: f64) -> Scene {
     scene.initial.u_s_m = -amplitude * middle.sin();
     scene.initial.v_c_m_s = -nu * scene.initial.u_s_m;
     scene.initial.v_s_m_s = nu * scene.initial.u_c_m;
-    scene.check().unwrap();
+    scene.checked().unwrap();
     scene
 }
 
@@ -47,7 +47,7 @@ fn in_default_corner(diameters: u32, zeta: f64, speed: f64) -> Scene {
 fn the_event_solver_holds_the_corner_from_the_lock_in_speed_on() {
     for zeta in [0.01, 0.05] {
         let holds = |speed: f64| {
-            let mut motion = Event::new(&in_corner(zeta, speed));
+            let mut motion = Event::new(&in_corner(zeta, speed).checked().unwrap()).unwrap();
             motion.advance(1e-3).unwrap();
             motion.contacts().touching == Touching::Corner(15, 16)
         };
@@ -66,7 +66,7 @@ fn the_event_solver_holds_the_corner_from_the_lock_in_speed_on() {
 /// Rotor speed of the wave over 100 sides, once neighbouring orbits have come
 /// together to 1e-12.
 fn long_wave_speed(scene: &Scene, orbit: &SlipOrbit) -> f64 {
-    let mut motion = Event::new(scene);
+    let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
     let settle = orbit.period * 1e-12_f64.ln() / orbit.slope.ln();
     motion.advance(0.1 + settle).unwrap();
     let mut sides = Vec::new();
@@ -112,7 +112,7 @@ fn slipping(diameters: u32, zeta: f64, speed: f64, part: f64) -> (Scene, SlipOrb
     scene.initial.u_s_m = y;
     scene.initial.v_c_m_s = -nu * y;
     scene.initial.v_s_m_s = rate - nu * machine.clearance();
-    scene.check().unwrap();
+    scene.checked().unwrap();
     (scene, orbit)
 }
 
@@ -138,7 +138,7 @@ fn explicit_locked_motion_is_the_modal_form_with_its_first_order_error() {
     scene.solver.model = ModelSize::Modal;
     // Blades that come to rest soon, on nothing but the contacts.
     scene.bladed_disk.damping_ratio = 0.5;
-    let mut motion = Motion::new(&scene);
+    let mut motion = Motion::new(&scene.checked().unwrap());
     motion.advance(0.2).unwrap();
     assert_eq!(motion.contacts().touching, Touching::Corner(15, 16));
 
@@ -184,7 +184,7 @@ fn event_locked_motion_is_the_modal_form() {
         scene.solver.model = ModelSize::Modal;
         // The blades' start at rest is forgotten after 0.3 s.
         scene.bladed_disk.damping_ratio = 0.5;
-        let mut motion = Event::new(&scene);
+        let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
         motion.advance(0.3).unwrap();
         let machine = scene.machine();
         let corner = Corner::paper(&machine.rim).unwrap();
@@ -220,10 +220,10 @@ fn an_engine_order_moves_the_blades_as_the_frequency_domain_says() {
     for order in [3, 19] {
         scene.excitation.amplitude_nm = 10.0;
         scene.excitation.order = order;
-        scene.check().unwrap();
+        scene.checked().unwrap();
         let machine = scene.machine();
         let response = excited_lock(&machine, 15, &scene.excitation, &[speed]).unwrap().remove(0);
-        let mut motion = Motion::new(&scene);
+        let mut motion = Motion::new(&scene.checked().unwrap());
         let period = std::f64::consts::TAU / response.frequency;
         let start = (0.25 / period).ceil() * period;
         let (count, mut sums) = (64, [Complex::new(0.0, 0.0); 2]);

@@ -236,7 +236,7 @@ fn mean_forces_of_a_held_lock() {
     }
 }
 
-/// What `Motion::adopt` takes over, each turned on its own.
+/// What a running motion takes over, each turned on its own.
 const TURNS: &[&[(&str, &str)]] = &[
     &[("casing.damping_ratio", "0.3")],
     &[("casing.damping_ratio", "0")],
@@ -259,7 +259,7 @@ const TURNS: &[&[(&str, &str)]] = &[
 ];
 
 fn turned(scene: &Scene, turn: &[(&str, &str)]) -> Option<Scene> {
-    scene.clone().with(turn).ok()
+    Some(scene.clone().with(turn).ok()?.into_scene())
 }
 
 #[test]

@@ -23,7 +23,7 @@ use Act::{Fire, Speed};
 fn exact(scene: &Scene, acts: &[(f64, Act)], end: f64) -> Motion {
     let mut event = scene.clone();
     event.solver.kind = SolverKind::Event;
-    let mut motion = Motion::new(&event);
+    let mut motion = Motion::new(&event.checked().unwrap());
     for (t, act) in acts {
         assert!(motion.advance(*t).is_ok());
         match *act {
@@ -187,10 +187,10 @@ fn fired_while_locked() {
 #[test]
 fn other_parameters_are_refused_and_nothing_changes() {
     let mut event = scene(&[("solver.kind", "event")]);
-    let mut motion = Motion::new(&event);
+    let mut motion = Motion::new(&event.checked().unwrap());
     assert!(motion.advance(2.5e-4).is_ok());
     let before = motion.state();
     event.casing.damping_ratio = 0.3;
-    assert!(!motion.adopt(&event));
+    motion.set_parameters(&event.checked().unwrap());
     assert_eq!(motion.state(), before);
 }

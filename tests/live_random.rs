@@ -119,7 +119,7 @@ fn play(seed: u64) -> u32 {
             _ => {
                 let mut other = pair.scene().clone();
                 turn(&mut dice, &mut other);
-                if other.check().is_ok() {
+                if other.checked().is_ok() {
                     pair.adopt(&other);
                     told += &format!("\n at {until}: {other:?}");
                 }

@@ -3,11 +3,11 @@
 
 #![expect(clippy::unwrap_used, reason = "a test states what must hold")]
 
-use rubscope::motion::{Motion, Sampling, State, Verdict, settle, simulate};
+use rubscope::motion::{Motion, State, Verdict, settle, simulate};
 use rubscope::scene::Scene;
 
 fn scene(changes: &[(&str, &str)]) -> Scene {
-    Scene::default().with(changes).unwrap()
+    Scene::default().with(changes).unwrap().into_scene()
 }
 
 /// Puts the wave into the corner of sides 15 and 16, turning with the rotor.
@@ -35,7 +35,7 @@ fn locked(speed: f64, step: f64) -> Scene {
 }
 
 fn end(scene: &Scene) -> State {
-    let mut motion = Motion::new(scene);
+    let mut motion = Motion::new(&scene.checked().unwrap());
     motion.advance(scene.solver.end_s).unwrap();
     motion.state()
 }
@@ -98,7 +98,7 @@ fn locked_multipliers_converge_with_the_known_coefficient() {
     // its round-off is 1e-3 N at 1e-7 s, so the steps are not smaller.
     let steps = [2e-6, 1e-6, 5e-7];
     let errors = steps.map(|step: f64| {
-        let report = simulate(&locked(500.0, step), Sampling::default(), &mut |_| {});
+        let report = simulate(&locked(500.0, step).checked().unwrap());
         assert_eq!(report.outcome.verdict, Verdict::Locked);
         exact[0] - report.outcome.contacts[0].multiplier_n
     });
@@ -123,7 +123,7 @@ fn the_lock_speed_by_bisection_of_runs() {
                 ("solver.end_s", end_s),
             ]);
             start_in_corner(&mut scene, speed);
-            settle(&scene).verdict == Verdict::Locked
+            settle(&scene.checked().unwrap()).verdict == Verdict::Locked
         };
         let (mut low, mut high) = (293.0, 500.0);
         while high - low > 1e-4 {
@@ -148,7 +148,7 @@ fn the_adhesive_threshold_of_the_equality_law() {
             ("solver.step_s", "1e-7"),
             ("solver.end_s", "0.05"),
         ]);
-        matches!(settle(&scene).verdict, Verdict::Locked | Verdict::Adhesive)
+        matches!(settle(&scene.checked().unwrap()).verdict, Verdict::Locked | Verdict::Adhesive)
     };
     let (mut low, mut high) = (290.0, 300.0);
     while high - low > 0.02 {

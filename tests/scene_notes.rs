@@ -3,15 +3,15 @@
 
 #![expect(clippy::unwrap_used, reason = "a test states what must hold")]
 
-use rubscope::motion::{Motion, RunReport, Sampling, Touching, Verdict, simulate};
+use rubscope::motion::{Motion, RunReport, Touching, Verdict, simulate};
 use rubscope::scene::Scene;
 
 fn scene(name: &str, changes: &[(&str, &str)]) -> Scene {
-    Scene::builtin(name).unwrap().with(changes).unwrap()
+    Scene::builtin(name).unwrap().with(changes).unwrap().into_scene()
 }
 
 fn run(name: &str, changes: &[(&str, &str)]) -> RunReport {
-    simulate(&scene(name, changes), Sampling::default(), &mut |_| {})
+    simulate(&scene(name, changes).checked().unwrap())
 }
 
 fn says(name: &str, words: &str) {
@@ -45,11 +45,11 @@ fn a_little_below_the_critical_speed_the_wave_slips_for_seconds() {
             assert!((293.3..293.7).contains(&wave), "{wave} rad/s to {end} s");
         }
     }
-    let started = Motion::new(&scene("near-critical", &[slower]));
+    let started = Motion::new(&scene("near-critical", &[slower]).checked().unwrap());
     let broken = first_break(started, 0.0, 5.0).unwrap();
     assert!((broken - 3.25).abs() < 5e-3, "{broken}");
     // Slowed down while it is locked, it does the same.
-    let mut locked = Motion::new(&scene("near-critical", &[]));
+    let mut locked = Motion::new(&scene("near-critical", &[]).checked().unwrap());
     locked.advance(0.05).unwrap();
     assert!(matches!(locked.contacts().touching, Touching::Corner(..)));
     locked.set_speed(292.8, 0.0);

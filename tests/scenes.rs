@@ -2,12 +2,12 @@
 
 #![expect(clippy::unwrap_used, reason = "a test states what must hold")]
 
-use rubscope::motion::{Motion, RunReport, Sampling, Verdict, simulate};
+use rubscope::motion::{Motion, RunReport, Verdict, simulate};
 use rubscope::scene::Scene;
 
 fn run(name: &str, changes: &[(&str, &str)]) -> RunReport {
     let scene = Scene::builtin(name).unwrap().with(changes).unwrap();
-    simulate(&scene, Sampling::default(), &mut |_| {})
+    simulate(&scene.checked().unwrap())
 }
 
 fn verdict(name: &str, changes: &[(&str, &str)]) -> Verdict {
@@ -103,7 +103,7 @@ fn near_critical_is_held_by_a_breath() {
 #[test]
 fn run_down_breaks_its_lock_at_the_lock_speed() {
     let scene = Scene::builtin("run-down").unwrap();
-    let mut motion = Motion::new(&scene);
+    let mut motion = Motion::new(&scene.checked().unwrap());
     motion.advance(0.048_9).unwrap();
     assert_eq!(motion.multipliers().len(), 2);
     motion.advance(0.049).unwrap();
@@ -128,7 +128,7 @@ fn half_n_slides_along_a_side_and_grows() {
 
 #[test]
 fn slip_goes_on_for_a_million_impacts() {
-    let mut motion = Motion::new(&Scene::builtin("slip").unwrap());
+    let mut motion = Motion::new(&Scene::builtin("slip").unwrap().checked().unwrap());
     motion.advance(900.0).unwrap();
     assert!(motion.contacts().impact_count > 1_000_000);
     let checks = motion.checks();

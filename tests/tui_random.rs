@@ -43,7 +43,7 @@ proptest! {
         let mut scene = Scene::builtin("paper-nd3").unwrap();
         scene.solver.step_s = 1e-6;
         scene.solver.end_s = 2e-3;
-        let mut app = App::new(scene, Theme::Dark, Marker::Braille);
+        let mut app = App::new(scene.checked().unwrap(), Theme::Dark, Marker::Braille);
         // Keys at random save and export, too.
         let files = tempfile::tempdir().unwrap();
         app.directory = files.path().to_path_buf();
@@ -59,7 +59,7 @@ proptest! {
             drop(sender);
             let exit = run(&mut terminal, &events, &mut app, &mut engine, &mut NoHost, Duration::ZERO);
             prop_assert_eq!(exit.unwrap(), Exit::Done);
-            prop_assert!(app.scene.check().is_ok(), "a scene that was refused came through");
+            prop_assert!(app.scene.checked().is_ok(), "a scene that was refused came through");
             if let Some(moment) = &app.moment {
                 prop_assert_eq!(moment.gaps.len(), app.scene.bladed_disk.blades as usize);
             }

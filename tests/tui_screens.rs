@@ -33,8 +33,11 @@ fn scene() -> Scene {
 impl Session {
     fn open(width: u16, height: u16, scene: Scene, theme: Theme, marker: Marker) -> Self {
         let terminal = Terminal::new(TestBackend::new(width, height)).unwrap();
-        let mut session =
-            Self { terminal, app: App::new(scene, theme, marker), engine: Stepwise::new(3e-3) };
+        let mut session = Self {
+            terminal,
+            app: App::new(scene.checked().unwrap(), theme, marker),
+            engine: Stepwise::new(3e-3),
+        };
         session.press("");
         session
     }
@@ -327,7 +330,7 @@ fn a_damping_acts_on_the_running_motion_and_the_number_of_blades_begins_anew() {
     assert!(session.app.scene.casing.damping_ratio > scene().casing.damping_ratio);
     session.press("u");
     let later = session.app.now();
-    assert!(later > before && session.app.scene == scene(), "undo began the run anew");
+    assert!(later > before && *session.app.scene == scene(), "undo began the run anew");
     session.press("jjjjl");
     assert_eq!(session.app.scene.bladed_disk.blades, 23);
     assert!(session.app.now() < later && session.text().contains("begun anew"));

@@ -63,7 +63,7 @@ fn scenes() -> impl Strategy<Value = Scene> {
             scene.solver.end_s = end;
             scene
         })
-        .prop_filter("a scene that is taken", |scene| scene.check().is_ok())
+        .prop_filter("a scene that is taken", |scene| scene.checked().is_ok())
 }
 
 proptest! {
@@ -71,8 +71,8 @@ proptest! {
 
     #[test]
     fn a_verdict_reached_early_is_that_of_the_whole_run(scene in scenes()) {
-        let early = settle(&scene);
-        let mut motion = Motion::new(&scene);
+        let early = settle(&scene.checked().unwrap());
+        let mut motion = Motion::new(&scene.checked().unwrap());
         let _ = motion.advance(scene.solver.end_s);
         let verdict = verdict_of(&motion, LAST_PART * scene.solver.end_s);
         let whole = Settled::of(&motion, verdict);
@@ -85,7 +85,7 @@ proptest! {
     #[test]
     fn what_is_settled_stays_so(scene in scenes()) {
         let end = scene.solver.end_s;
-        let mut motion = Motion::new(&scene);
+        let mut motion = Motion::new(&scene.checked().unwrap());
         let mut settled = None;
         for part in 1..=40 {
             if motion.advance(end * f64::from(part) / 40.0).is_err() {

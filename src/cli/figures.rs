@@ -10,7 +10,7 @@ use super::Done;
 use super::options::SceneOptions;
 use super::status::{Refusal, Status, say};
 use crate::report::{figure::table, file, svg};
-use crate::scene::Scene;
+use crate::scene::{CheckedScene, Scene};
 use crate::study::figures::{Figure, NUMBERS, Scenes, figure};
 
 /// Remake the paper's Figs. 4 to 10 as SVG, with their data as CSV.
@@ -61,19 +61,23 @@ impl Figures {
     }
 
     fn scenes(&self) -> anyhow::Result<Scenes> {
-        let paper = match self.options.name() {
-            None => Scenes::paper()?,
+        let scenes = match self.options.name() {
+            None => {
+                let Scenes { three, four, machine } = Scenes::paper()?;
+                [three, four, machine].map(CheckedScene::into_scene)
+            }
             Some(name) => {
                 let scene = Scene::load_unchecked(name)?;
                 let mut four = scene.clone();
                 four.set("operation.nodal_diameters", "4")?;
-                Scenes { three: scene.clone(), four, machine: scene }
+                [scene.clone(), four, scene]
             }
         };
+        let [three, four, machine] = scenes;
         Ok(Scenes {
-            three: self.options.change(paper.three)?,
-            four: self.options.change(paper.four)?,
-            machine: self.options.change(paper.machine)?,
+            three: self.options.change(three)?,
+            four: self.options.change(four)?,
+            machine: self.options.change(machine)?,
         })
     }
 

@@ -131,7 +131,7 @@ impl MapCommand {
         let plan = MapPlan {
             x: axis(&self.x, "operation.speed_rad_s", resolved.speeds, 0.0, 500.0, COLUMNS)?,
             y: axis(&self.y, "operation.pulse_n", resolved.pulses, 0.0, 1e6, ROWS)?,
-            scene,
+            scene: scene.into_scene(),
             sensitivity: !self.no_sensitivity,
         };
         plan.check()?;

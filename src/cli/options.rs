@@ -5,7 +5,7 @@ use clap::Args;
 
 use super::range::Range;
 use super::status::{Refusal, say};
-use crate::scene::{BUILTIN, ContactLaw, ModelSize, Scene, SolverKind};
+use crate::scene::{BUILTIN, CheckedScene, ContactLaw, ModelSize, Scene, SolverKind};
 
 /// The scene and the options that change it, on every command.
 #[derive(Args, Clone, Debug, Default)]
@@ -68,7 +68,7 @@ pub struct Swept {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Resolved {
     /// The scene, checked; a swept key holds the first value of its range.
-    pub scene: Scene,
+    pub scene: CheckedScene,
     /// The range given with `--speed`.
     pub speeds: Option<Range>,
     /// The range given with `--pulse`.
@@ -93,7 +93,7 @@ impl SceneOptions {
     ///
     /// # Errors
     /// No such scene, or the first key, value or combination that is refused.
-    pub fn scene(&self) -> anyhow::Result<Scene> {
+    pub fn scene(&self) -> anyhow::Result<CheckedScene> {
         Ok(self.resolve(Swept::default())?.scene)
     }
 
@@ -111,7 +111,7 @@ impl SceneOptions {
     ///
     /// # Errors
     /// As `scene`.
-    pub fn change(&self, scene: Scene) -> anyhow::Result<Scene> {
+    pub fn change(&self, scene: Scene) -> anyhow::Result<CheckedScene> {
         Ok(self.apply(scene, Swept::default())?.scene)
     }
 
@@ -148,10 +148,10 @@ impl SceneOptions {
             if let Some(range) = range {
                 let mut last = scene.clone();
                 last.set(key, &range.to.to_string())?;
-                last.check()?;
+                last.checked()?;
             }
         }
-        scene.check()?;
+        let scene = scene.checked()?;
         followed.iter().for_each(|line| say(line));
         Ok(Resolved { scene, speeds, pulses })
     }

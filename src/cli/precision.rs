@@ -36,7 +36,6 @@ pub struct PrecisionCommand {
 impl PrecisionCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
         let scene = self.options.scene()?;
-        Measure::check(&scene)?;
         if self.finest.is_nan() || self.finest <= 0.0 {
             return Err(Refusal::of("--finest", self.finest, "a time step above 0").into());
         }
@@ -55,11 +54,11 @@ impl PrecisionCommand {
         if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}") {
             bar.set_style(style);
         }
-        let measure = Measure::new(&scene);
+        let measure = Measure::new(&scene)?;
         let mut rows = Vec::with_capacity(ways.len());
         for way in ways {
             bar.set_message(report::series(&way));
-            rows.push(measure.row(way, effort));
+            rows.push(measure.row(way, effort)?);
             bar.inc(1);
         }
         bar.finish_and_clear();

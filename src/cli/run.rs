@@ -13,7 +13,7 @@ use super::script::{self, Script};
 use super::status::{Refusal, Status, say};
 use crate::motion::{RunReport, Sampling, Verdict, simulate_with};
 use crate::report::{self, History, HistoryFormat};
-use crate::scene::Scene;
+use crate::scene::CheckedScene;
 
 /// Simulate a scene in time and tell how it ends.
 #[derive(Args, Debug)]
@@ -72,7 +72,7 @@ impl Run {
 
     fn simulate_to(
         &self,
-        scene: &Scene,
+        scene: &CheckedScene,
         script: &Script,
         path: &Path,
     ) -> anyhow::Result<RunReport> {

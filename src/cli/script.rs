@@ -9,9 +9,9 @@
 use serde::{Serialize, Serializer};
 
 use super::status::Refusal;
-use crate::motion::{self, Motion};
+use crate::motion;
 use crate::report::number::time;
-use crate::scene::{KEYS, Scene, SolverKind, Value, keys};
+use crate::scene::{CheckedScene, KEYS, SolverKind, Value, keys};
 
 /// The option, as it is named in refusals.
 const OPTION: &str = "--at";
@@ -95,13 +95,13 @@ pub struct Step {
     /// What was asked.
     pub change: Change,
     /// The scene from then on.
-    pub scene: Scene,
+    pub scene: CheckedScene,
     /// What happens to the motion.
     acts: Vec<motion::Change>,
 }
 
 impl Step {
-    fn of(t_s: f64, change: &Change, before: &Scene) -> Result<Self, Refusal> {
+    fn of(t_s: f64, change: &Change, before: &CheckedScene) -> Result<Self, Refusal> {
         let shown = format!("{t_s}:{change}");
         let end = before.solver.end_s;
         if !(0.0..=end).contains(&t_s) {
@@ -118,9 +118,9 @@ impl Step {
         if !acts_live(path, before) {
             return Err(fixed());
         }
-        let scene = before.clone().with(&[(path, value)]).map_err(refused)?;
+        let scene = before.clone().into_scene().with(&[(path, value)]).map_err(refused)?;
         let of_rotor = path == SPEED || path == RAMP;
-        if !of_rotor && !Motion::new(before).adopt(&scene) {
+        if !of_rotor && !motion::Change::is_live(before, &scene) {
             return Err(fixed());
         }
         let mut acts = motion::Change::between(before, &scene);
@@ -135,7 +135,7 @@ impl Step {
 }
 
 /// Whether a key can act on a running motion of this scene.
-fn acts_live(path: &str, scene: &Scene) -> bool {
+fn acts_live(path: &str, scene: &CheckedScene) -> bool {
     let fixed =
         |name: &&str| if name.ends_with('.') { path.starts_with(*name) } else { path == *name };
     path == SPEED
@@ -144,7 +144,7 @@ fn acts_live(path: &str, scene: &Scene) -> bool {
 }
 
 /// What can act on a running motion of this scene, for a refusal.
-fn live_keys(scene: &Scene) -> String {
+fn live_keys(scene: &CheckedScene) -> String {
     let keys: Vec<&str> =
         KEYS.iter().map(|key| key.path).filter(|path| acts_live(path, scene)).collect();
     let solver = scene.solver.kind.word();
@@ -162,7 +162,7 @@ impl Script {
     /// # Errors
     /// The first change that is refused: a time outside the run, a key that
     /// does not exist or needs another motion, or a value that is not allowed.
-    pub fn resolve(changes: &[(f64, Change)], scene: &Scene) -> Result<Self, Refusal> {
+    pub fn resolve(changes: &[(f64, Change)], scene: &CheckedScene) -> Result<Self, Refusal> {
         let mut steps: Vec<Step> = Vec::with_capacity(changes.len());
         for (t_s, change) in changes {
             let before = steps.last().map_or(scene, |step| &step.scene);

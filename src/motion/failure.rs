@@ -19,8 +19,14 @@ pub struct Failure {
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum FailureReason {
     /// Small angles are no longer small.
-    #[error("a blade angle is beyond the {LARGEST_BLADE_ANGLE} rad that small angles allow")]
-    BladeAngle,
+    #[error(
+        "a blade angle of {angle_rad:.3e} rad is beyond the {LARGEST_BLADE_ANGLE} rad that small \
+         angles allow"
+    )]
+    BladeAngle {
+        /// The largest angle of any blade \[rad\].
+        angle_rad: f64,
+    },
     /// The sides of a corner are about to change their order.
     #[error(
         "blade angles of {angle_rad:.3e} rad close or open a corner; up to {most_rad:.3e} rad \

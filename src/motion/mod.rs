@@ -27,5 +27,5 @@ pub use run::{
 };
 pub use script::{Change, Script};
 pub use sensitivity::{is_sensitive, is_sensitive_with};
-pub use solver::Motion;
+pub use solver::{Motion, Solver};
 pub use verdict::{Checks, Contact, Outcome, Verdict};

@@ -11,7 +11,7 @@ use super::sensitivity::{is_sensitive_with, sign};
 use super::verdict::{LAST_PART, judge};
 use super::wave::Wave;
 use super::{Checks, Contact, Motion, Outcome, State, Verdict};
-use crate::scene::{ContactLaw, ModelSize, Scene, SolverKind};
+use crate::scene::{CheckedScene, ContactLaw, ModelSize, SolverKind};
 
 /// Looks at a run on the way to its verdict, at most.
 const MOST_LOOKS: f64 = 1e6;
@@ -88,7 +88,7 @@ pub struct RunReport {
     /// `rubscope.run/1`.
     pub schema: &'static str,
     /// The resolved scene.
-    pub scene: Scene,
+    pub scene: CheckedScene,
     /// How it was solved.
     pub solver: SolverReport,
     /// How it ended.
@@ -134,7 +134,7 @@ impl Settled {
 
 /// Runs a checked scene until its verdict is settled, at most to its end.
 #[must_use]
-pub fn settle(scene: &Scene) -> Settled {
+pub fn settle(scene: &CheckedScene) -> Settled {
     settle_motion(Motion::new(scene), &Script::default(), scene.solver.end_s, None)
 }
 
@@ -174,14 +174,15 @@ pub fn verdict_of(motion: &Motion, window: f64) -> Verdict {
     motion.settled().unwrap_or_else(|| judge(motion.contacts(), motion.state().t_s, window))
 }
 
-/// Runs a checked scene to its end, handing samples to `sink` on the way.
-pub fn simulate(scene: &Scene, sampling: Sampling, sink: &mut dyn FnMut(&Sample)) -> RunReport {
-    simulate_with(scene, &Script::default(), sampling, sink)
+/// Runs a scene to its end.
+#[must_use]
+pub fn simulate(scene: &CheckedScene) -> RunReport {
+    simulate_with(scene, &Script::default(), Sampling::default(), &mut |_| {})
 }
 
-/// As `simulate`, with changes on the way.
+/// As `simulate`, with changes on the way, and handing samples to `sink`.
 pub fn simulate_with(
-    scene: &Scene,
+    scene: &CheckedScene,
     script: &Script,
     sampling: Sampling,
     sink: &mut dyn FnMut(&Sample),
@@ -230,7 +231,7 @@ fn take_sample(motion: &mut Motion, gaps: bool) -> Sample {
     }
 }
 
-fn report(scene: &Scene, motion: &Motion, wave: &Wave, started: Instant) -> RunReport {
+fn report(scene: &CheckedScene, motion: &Motion, wave: &Wave, started: Instant) -> RunReport {
     let machine = motion.machine();
     let rim = &machine.rim;
     let (log, state) = (motion.contacts(), motion.state());

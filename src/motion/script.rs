@@ -2,7 +2,7 @@
 //! can be repeated without a screen.
 
 use super::{Failure, Motion};
-use crate::scene::Scene;
+use crate::scene::{CheckedScene, Scene, SolverKind};
 
 /// One change of a running motion.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,14 +18,28 @@ pub enum Change {
         ramp: f64,
     },
     /// From now on, the motion has the parameters of this checked scene.
-    Parameters(Box<Scene>),
+    Parameters(Box<CheckedScene>),
 }
 
 impl Change {
+    /// Whether a running motion of one scene can go on with the parameters of
+    /// another: not with another solver or model, number of blades or diameters,
+    /// clearance or step. The event solver takes none.
+    #[must_use]
+    pub fn is_live(before: &Scene, now: &Scene) -> bool {
+        let fixed = |scene: &Scene| {
+            let (disk, solver) = (&scene.bladed_disk, &scene.solver);
+            let clearance = scene.casing.radius_m - disk.blade_length_m;
+            let diameters = scene.operation.nodal_diameters;
+            (solver.kind, solver.model, disk.blades, diameters, clearance, solver.step_s)
+        };
+        now.solver.kind == SolverKind::Explicit && fixed(before) == fixed(now)
+    }
+
     /// What a running motion of one scene takes over from another. A ramp that
     /// is changed alone goes on from the speed there is.
     #[must_use]
-    pub fn between(before: &Scene, now: &Scene) -> Vec<Self> {
+    pub fn between(before: &CheckedScene, now: &CheckedScene) -> Vec<Self> {
         let (old, new) = (&before.operation, &now.operation);
         let speed = (old.speed_rad_s != new.speed_rad_s).then_some(new.speed_rad_s);
         let ramp = new.speed_ramp_rad_s2;
@@ -44,9 +58,7 @@ impl Motion {
                 let now = self.rotor().speed(self.state().t_s);
                 self.set_speed(speed.unwrap_or(now), *ramp);
             }
-            // The event solver adopts nothing, and a scene that asks for another
-            // motion is refused before.
-            Change::Parameters(scene) => _ = self.adopt(scene),
+            Change::Parameters(scene) => self.set_parameters(scene),
         }
     }
 }

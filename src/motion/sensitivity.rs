@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 
 use super::run::{Settled, settle_motion};
 use super::script::{Change, Script};
-use crate::scene::Scene;
+use crate::scene::CheckedScene;
 
 /// Relative change that no trustworthy verdict may notice.
 const NUDGE: f64 = 1e-9;
@@ -37,13 +37,13 @@ impl Settled {
 /// Whether a tiny change makes another verdict or another number of impacts of
 /// a checked scene that settled so.
 #[must_use]
-pub fn is_sensitive(scene: &Scene, settled: Settled) -> bool {
+pub fn is_sensitive(scene: &CheckedScene, settled: Settled) -> bool {
     is_sensitive_with(scene, &Script::default(), settled)
 }
 
 /// As `is_sensitive`, for a run with changes on the way.
 #[must_use]
-pub fn is_sensitive_with(scene: &Scene, script: &Script, settled: Settled) -> bool {
+pub fn is_sensitive_with(scene: &CheckedScene, script: &Script, settled: Settled) -> bool {
     let end = scene.solver.end_s;
     let moment = LATER * TAU / scene.machine().omega_c;
     let driven = |factor: f64| {
@@ -54,13 +54,8 @@ pub fn is_sensitive_with(scene: &Scene, script: &Script, settled: Settled) -> bo
         settle_motion(Motion::new(&nudged(scene, factor)), &script, end, None)
     };
     let noisy = || {
-        let motion = match Motion::new(scene) {
-            Motion::Event(event) => {
-                let tolerance = FINER * event.tolerance();
-                Motion::Event(Box::new(event.with_tolerance(tolerance)))
-            }
-            explicit => explicit,
-        };
+        let mut motion = Motion::new(scene);
+        motion.scale_tolerance(FINER);
         settle_motion(motion, script, end, Some(NUDGE))
     };
     driven(1.0 + NUDGE).differs_from(settled, moment)
@@ -71,19 +66,19 @@ pub fn is_sensitive_with(scene: &Scene, script: &Script, settled: Settled) -> bo
 /// The scene with what drives it multiplied by `factor`: the pulse, or without
 /// one the start and the excitation. The start only moves inward, for it may
 /// touch.
-fn nudged(scene: &Scene, factor: f64) -> Scene {
-    let mut scene = scene.clone();
-    if scene.operation.pulse_n != 0.0 {
-        scene.operation.pulse_n *= factor;
-        return scene;
-    }
-    scene.excitation.amplitude_nm *= factor;
-    let initial = &mut scene.initial;
-    initial.v_c_m_s *= factor;
-    initial.v_s_m_s *= factor;
-    initial.u_c_m *= factor.min(1.0);
-    initial.u_s_m *= factor.min(1.0);
-    scene
+fn nudged(scene: &CheckedScene, factor: f64) -> CheckedScene {
+    scene.nudged(|scene| {
+        if scene.operation.pulse_n != 0.0 {
+            scene.operation.pulse_n *= factor;
+            return;
+        }
+        scene.excitation.amplitude_nm *= factor;
+        let initial = &mut scene.initial;
+        initial.v_c_m_s *= factor;
+        initial.v_s_m_s *= factor;
+        initial.u_c_m *= factor.min(1.0);
+        initial.u_s_m *= factor.min(1.0);
+    })
 }
 
 /// `-1` or `1`, without a pattern (the finisher of SplitMix64).

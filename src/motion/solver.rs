@@ -1,91 +1,38 @@
-//! One motion, whichever solver and model size the scene asks for.
+//! What every solver offers, and one motion by whichever of them its scene asks
+//! for.
+
+use std::fmt::Debug;
+use std::ops::{Deref, DerefMut};
 
 use super::explicit::{Explicit, FullBlades, ModalBlades, RigidBlades};
 use super::{Checks, ContactLog, Event, Failure, Pulse, Rotor, State, Verdict};
 use crate::model::Machine;
-use crate::scene::{ModelSize, Scene, SolverKind};
+use crate::scene::{CheckedScene, ModelSize, SolverKind};
 
-/// A motion under way: advanced, looked at, cloned.
-///
-/// ```
-/// use rubscope::{motion::Motion, scene::Scene};
-/// let mut motion = Motion::new(&Scene::default());
-/// motion.advance(1e-3)?;
-/// assert_eq!(motion.contacts().impact_count, 2);
-/// # Ok::<(), rubscope::motion::Failure>(())
-/// ```
-#[derive(Clone, Debug)]
-pub enum Motion {
-    /// Explicit, casing only.
-    Rigid(Box<Explicit<RigidBlades>>),
-    /// Explicit, the paper's four coordinates.
-    Modal(Box<Explicit<ModalBlades>>),
-    /// Explicit, every blade its own coordinate.
-    Full(Box<Explicit<FullBlades>>),
-    /// Event-driven closed forms.
-    Event(Box<Event>),
-}
-
-macro_rules! each {
-    ($motion:expr, $inner:ident => $do:expr) => {
-        match $motion {
-            Self::Rigid($inner) => $do,
-            Self::Modal($inner) => $do,
-            Self::Full($inner) => $do,
-            Self::Event($inner) => $do,
-        }
-    };
-}
-
-impl Motion {
-    /// The motion of a checked scene at t = 0.
-    #[must_use]
-    pub fn new(scene: &Scene) -> Self {
-        if scene.solver.kind == SolverKind::Event {
-            return Self::Event(Box::new(Event::new(scene)));
-        }
-        match scene.solver.model {
-            ModelSize::Rigid => Self::Rigid(Box::new(Explicit::new(scene))),
-            ModelSize::Modal => Self::Modal(Box::new(Explicit::new(scene))),
-            ModelSize::Full => Self::Full(Box::new(Explicit::new(scene))),
-        }
-    }
-
+/// A solver of one scene, at some instant of the motion.
+pub trait Solver: Debug + Send + Sync {
     /// Advances to `until` \[s\] (the explicit solver: to its last step by then).
+    /// The motion does not depend on the instants at which it is looked at.
     ///
     /// # Errors
-    /// The run has failed, now or before.
-    pub fn advance(&mut self, until: f64) -> Result<(), Failure> {
-        each!(self, inner => inner.advance(until))
-    }
+    /// The run has failed, now or before. The state stays where it failed.
+    fn advance(&mut self, until: f64) -> Result<(), Failure>;
 
     /// The four coordinates and their rates now.
-    #[must_use]
-    pub fn state(&self) -> State {
-        each!(self, inner => inner.state())
-    }
+    fn state(&self) -> State;
 
     /// The angle of every blade now \[rad\].
-    #[must_use]
-    pub fn blade_angles(&self) -> Vec<f64> {
-        match self {
-            Self::Rigid(inner) => inner.blade_angles(),
-            Self::Modal(inner) => inner.blade_angles(),
-            Self::Full(inner) => inner.blade_angles(),
-            Self::Event(inner) => {
-                let (rim, [c, s]) = (&inner.machine().rim, inner.state().alpha);
-                let angle = |blade| {
-                    let (p_c, p_s) = rim.direction(rim.side_of_blade(blade));
-                    p_c * c + p_s * s
-                };
-                (1..=rim.blades).map(angle).collect()
-            }
-        }
+    fn blade_angles(&self) -> Vec<f64> {
+        let (rim, [c, s]) = (&self.machine().rim, self.state().alpha);
+        let angle = |blade| {
+            let (p_c, p_s) = rim.direction(rim.side_of_blade(blade));
+            p_c * c + p_s * s
+        };
+        (1..=rim.blades).map(angle).collect()
     }
 
     /// The gap of every blade now, Eq. (14); positive means open \[m\].
-    #[must_use]
-    pub fn blade_gaps(&self) -> Vec<f64> {
+    fn blade_gaps(&self) -> Vec<f64> {
         let (machine, state) = (self.machine(), self.state());
         let phase = machine.nodal_diameters * self.rotor().angle(state.t_s);
         let angles = self.blade_angles();
@@ -99,123 +46,123 @@ impl Motion {
             .collect()
     }
 
-    /// Group multipliers of the sides in contact now, in phase order \[N\];
-    /// negative is a push.
-    #[must_use]
-    pub fn multipliers(&self) -> Vec<(u32, f64)> {
-        each!(self, inner => inner.multipliers())
-    }
+    /// Group multipliers of the sides in contact now, in phase order (`psi_a`,
+    /// `psi_b`) \[N\]; negative is a push. In the explicit solver the peak of an
+    /// impact grows like 1/h.
+    fn multipliers(&self) -> Vec<(u32, f64)>;
 
     /// Mean force on each touched side since last asked \[N\]; negative is a
-    /// push. The event solver, whose forces have no step to average over,
-    /// gives the forces now; its impacts are impulses without duration.
-    pub fn take_mean_forces(&mut self) -> Vec<(u32, f64)> {
-        match self {
-            Self::Rigid(inner) => inner.take_mean_forces(),
-            Self::Modal(inner) => inner.take_mean_forces(),
-            Self::Full(inner) => inner.take_mean_forces(),
-            Self::Event(inner) => inner.multipliers(),
-        }
+    /// push. A solver whose forces have no step to average over gives the forces
+    /// now; its impacts are impulses without duration.
+    fn take_mean_forces(&mut self) -> Vec<(u32, f64)> {
+        self.multipliers()
     }
 
     /// Whether no contact can ever come again.
-    #[must_use]
-    pub fn over(&self) -> bool {
-        each!(self, inner => inner.over())
-    }
+    fn over(&self) -> bool;
 
     /// The verdict, once nothing to come can change it: no contact can come
     /// again, or a corner can never let go.
-    #[must_use]
-    pub fn settled(&self) -> Option<Verdict> {
-        each!(self, inner => inner.settled())
-    }
+    fn settled(&self) -> Option<Verdict>;
 
     /// The pulse in force.
-    #[must_use]
-    pub fn pulse(&self) -> &Pulse {
-        each!(self, inner => inner.pulse())
-    }
+    fn pulse(&self) -> &Pulse;
 
     /// The record of contacts.
-    #[must_use]
-    pub fn contacts(&self) -> &ContactLog {
-        each!(self, inner => inner.contacts())
-    }
+    fn contacts(&self) -> &ContactLog;
 
     /// The machine.
-    #[must_use]
-    pub fn machine(&self) -> &Machine {
-        each!(self, inner => inner.machine())
-    }
+    fn machine(&self) -> &Machine;
 
     /// The rotor.
-    #[must_use]
-    pub fn rotor(&self) -> &Rotor {
-        each!(self, inner => inner.rotor())
-    }
+    fn rotor(&self) -> &Rotor;
 
     /// Time steps taken; none for a solver without steps.
-    #[must_use]
-    pub fn steps(&self) -> Option<u64> {
-        match self {
-            Self::Rigid(inner) => Some(inner.steps()),
-            Self::Modal(inner) => Some(inner.steps()),
-            Self::Full(inner) => Some(inner.steps()),
-            Self::Event(_) => None,
-        }
+    fn steps(&self) -> Option<u64> {
+        None
     }
 
     /// Changes of mode computed; none for a solver that does not know them.
-    #[must_use]
-    pub fn events(&self) -> Option<u64> {
-        match self {
-            Self::Event(inner) => Some(inner.events()),
-            _ => None,
-        }
+    fn events(&self) -> Option<u64> {
+        None
     }
 
     /// Why the run failed, if it did.
-    #[must_use]
-    pub fn failure(&self) -> Option<&Failure> {
-        each!(self, inner => inner.failure())
-    }
+    fn failure(&self) -> Option<&Failure>;
 
-    /// What was kept watch on.
-    #[must_use]
-    pub fn checks(&self) -> Checks {
-        each!(self, inner => inner.checks())
-    }
+    /// Largest penetration, blade angle and other checks so far.
+    fn checks(&self) -> Checks;
 
     /// Fires the pulse again, from now on.
-    pub fn fire(&mut self) {
-        each!(self, inner => inner.fire());
-    }
+    fn fire(&mut self);
 
-    /// From now on, turn with this speed \[rad/s\] and acceleration \[rad/s^2\].
-    pub fn set_speed(&mut self, speed: f64, ramp: f64) {
-        each!(self, inner => inner.set_speed(speed, ramp));
-    }
+    /// Turns the rotor from now on with this speed \[rad/s\] and acceleration
+    /// \[rad/s^2\]. A sudden change of speed acts on sides in contact as an impact
+    /// does.
+    fn set_speed(&mut self, speed: f64, ramp: f64);
 
     /// Multiplies the rate of the casing, as far as contact leaves it free, by
     /// `factor`: the noise that a trustworthy verdict does not notice.
-    pub fn scale_rate(&mut self, factor: f64) {
-        each!(self, inner => inner.scale_rate(factor));
-    }
+    fn scale_rate(&mut self, factor: f64);
 
-    /// From now on, moves with the parameters of a checked scene: dampings,
-    /// masses, stiffnesses, contact law, and the pulse to fire next. False,
-    /// and nothing changes, where that needs another motion: another solver or
-    /// model, number of blades or diameters, clearance or step.
-    pub fn adopt(&mut self, scene: &Scene) -> bool {
-        if scene.solver.kind == SolverKind::Event {
-            return false;
+    /// From now on, moves with the parameters of a scene for which
+    /// `Change::is_live` holds: dampings, masses, stiffnesses, contact law, and
+    /// the pulse to fire next.
+    fn set_parameters(&mut self, _: &CheckedScene) {}
+
+    /// Multiplies the solver's own tolerance by `factor`, if it has one.
+    fn scale_tolerance(&mut self, _factor: f64) {}
+
+    /// A copy that goes its own way.
+    fn fork(&self) -> Box<dyn Solver>;
+}
+
+/// A motion under way: advanced, looked at, cloned.
+///
+/// ```
+/// use rubscope::{motion::Motion, scene::Scene};
+/// let mut motion = Motion::new(&Scene::default().checked()?);
+/// motion.advance(1e-3)?;
+/// assert_eq!(motion.contacts().impact_count, 2);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct Motion(Box<dyn Solver>);
+
+impl Motion {
+    /// The motion of a scene at t = 0, by the solver and model size it names.
+    #[must_use]
+    pub fn new(scene: &CheckedScene) -> Self {
+        match (scene.solver.kind, scene.solver.model) {
+            (SolverKind::Event, _) => Event::of(scene).into(),
+            (SolverKind::Explicit, ModelSize::Rigid) => Explicit::<RigidBlades>::new(scene).into(),
+            (SolverKind::Explicit, ModelSize::Modal) => Explicit::<ModalBlades>::new(scene).into(),
+            (SolverKind::Explicit, ModelSize::Full) => Explicit::<FullBlades>::new(scene).into(),
         }
-        match (self, scene.solver.model) {
-            (Self::Rigid(inner), ModelSize::Rigid) => inner.adopt(scene),
-            (Self::Modal(inner), ModelSize::Modal) => inner.adopt(scene),
-            (Self::Full(inner), ModelSize::Full) => inner.adopt(scene),
-            _ => false,
-        }
+    }
+}
+
+impl<S: Solver + 'static> From<S> for Motion {
+    fn from(solver: S) -> Self {
+        Self(Box::new(solver))
+    }
+}
+
+impl Clone for Motion {
+    fn clone(&self) -> Self {
+        Self(self.0.fork())
+    }
+}
+
+impl Deref for Motion {
+    type Target = dyn Solver;
+    fn deref(&self) -> &Self::Target {
+        &*self.0
+    }
+}
+
+impl DerefMut for Motion {
+    fn deref_mut(&mut self) -> &mut Self::Target {
+        &mut *self.0
     }
 }

@@ -229,7 +229,7 @@ fn capital(word: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::motion::{Sampling, simulate};
+    use crate::motion::simulate;
     use crate::scene::Scene;
 
     fn report(settings: &[(&str, &str)]) -> RunReport {
@@ -240,7 +240,7 @@ mod tests {
         for (key, text) in settings {
             scene.set(key, text).unwrap();
         }
-        simulate(&scene, Sampling::default(), &mut |_| {})
+        simulate(&scene.checked().unwrap())
     }
 
     fn told(report: &RunReport) -> String {

@@ -9,6 +9,8 @@ const MOST_TURN: f64 = 0.5;
 /// What a product or a quotient at a bound may be above it.
 const ROUND_OFF: f64 = 1.0 + 1e-12;
 
+/// # Errors
+/// The first combination that is not allowed, named by its key.
 pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     clearance(scene)?;
     frequencies(scene)?;
@@ -148,7 +150,11 @@ fn unit(x: f64) -> f64 {
     if x == 0.0 || !x.is_finite() { 0.0 } else { 10_f64.powf(x.abs().log10().floor() - 3.0) }
 }
 
-fn event(scene: &Scene) -> Result<(), SceneError> {
+/// What the event solver does not know.
+///
+/// # Errors
+/// The bilateral law, or a disk of more than two modes.
+pub(super) fn event(scene: &Scene) -> Result<(), SceneError> {
     if scene.solver.contact == ContactLaw::Bilateral {
         return Err(SceneError::refused(
             "solver.contact",

@@ -14,7 +14,7 @@ impl Scene {
     /// No such scene, no such file, or a file that is refused.
     pub fn load(name_or_path: &str) -> Result<Self, SceneError> {
         let scene = Self::load_unchecked(name_or_path)?;
-        scene.check().map_err(|error| match builtin_text(name_or_path) {
+        scene.checked().map_err(|error| match builtin_text(name_or_path) {
             Some(_) => error,
             None => in_file(name_or_path, error),
         })?;
@@ -51,7 +51,7 @@ impl Scene {
     /// The first thing in it that is refused, in one line.
     pub fn from_toml(text: &str) -> Result<Self, SceneError> {
         let scene = Self::from_toml_unchecked(text)?;
-        scene.check()?;
+        scene.checked()?;
         Ok(scene)
     }
 

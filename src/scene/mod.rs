@@ -7,6 +7,7 @@
 
 mod builtin;
 mod check;
+mod checked;
 mod error;
 mod file;
 pub mod keys;
@@ -14,6 +15,7 @@ pub mod keys;
 use serde::Serialize;
 
 pub use builtin::{BUILTIN, Builtin};
+pub use checked::CheckedScene;
 pub use error::SceneError;
 pub use keys::{Allowed, KEYS, Key, Value};
 
@@ -169,12 +171,11 @@ impl Scene {
     ///
     /// # Errors
     /// The first key, value or combination that is refused.
-    pub fn with(mut self, changes: &[(&str, &str)]) -> Result<Self, SceneError> {
+    pub fn with(mut self, changes: &[(&str, &str)]) -> Result<CheckedScene, SceneError> {
         for (path, text) in changes {
             self.set(path, text)?;
         }
-        self.check()?;
-        Ok(self)
+        self.checked()
     }
 
     /// Sets one key to a value, checked against the key's own bounds.
@@ -185,14 +186,6 @@ impl Scene {
         key.check(&value)?;
         (key.set)(self, value);
         Ok(())
-    }
-
-    /// Checks what single keys cannot: clearance, stable step, solver pairs.
-    ///
-    /// # Errors
-    /// The first combination that is not allowed, named by its key.
-    pub fn check(&self) -> Result<(), SceneError> {
-        check::check(self)
     }
 }
 

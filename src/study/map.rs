@@ -11,7 +11,7 @@ use rayon::prelude::*;
 
 use super::Axis;
 use crate::motion::{Settled, Verdict, is_sensitive, settle};
-use crate::scene::{Scene, SceneError};
+use crate::scene::{CheckedScene, Scene, SceneError};
 
 /// Most cells of one map: they are all held in memory.
 const MOST_CELLS: usize = 100_000_000;
@@ -77,13 +77,12 @@ impl MapPlan {
     ///
     /// # Errors
     /// Values that the scene may not hold together.
-    pub fn scene_of(&self, index: usize) -> Result<Scene, SceneError> {
+    pub fn scene_of(&self, index: usize) -> Result<CheckedScene, SceneError> {
         let mut scene = self.scene.clone();
         let columns = self.x.count as usize;
         self.x.apply(&mut scene, (index % columns) as u32)?;
         self.y.apply(&mut scene, (index / columns) as u32)?;
-        scene.check()?;
-        Ok(scene)
+        scene.checked()
     }
 
     /// The first thing in which two plans differ so that their cells may.

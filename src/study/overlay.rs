@@ -3,7 +3,7 @@
 
 use super::MapPlan;
 use crate::motion::Motion;
-use crate::scene::{ContactLaw, ModelSize, Scene, SolverKind};
+use crate::scene::{ModelSize, Scene};
 
 /// Key of the rotor speed.
 pub const SPEED: &str = "operation.speed_rad_s";
@@ -70,11 +70,10 @@ impl<'a> AlongOther<'a> {
 #[must_use]
 pub fn grazing_pulse(scene: &Scene, most: f64) -> Option<f64> {
     let touches = |force: f64| {
-        let mut scene = scene.clone();
-        scene.solver.kind = SolverKind::Event;
-        scene.solver.contact = ContactLaw::Unilateral;
+        let mut scene = scene.as_reference();
         scene.solver.model = ModelSize::Rigid;
         scene.operation.pulse_n = force;
+        let Ok(scene) = scene.checked() else { return false };
         let mut motion = Motion::new(&scene);
         // A free casing swings out furthest within its first period.
         let period = std::f64::consts::TAU / motion.machine().omega_c;

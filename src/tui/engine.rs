@@ -8,7 +8,7 @@ use super::history::Bin;
 use super::locked_curve::LockedCurves;
 use super::spectrum::Spectrum;
 use crate::motion::{Checks, State, Touching, Verdict};
-use crate::scene::Scene;
+use crate::scene::CheckedScene;
 use crate::study::Map;
 use crate::study::precision::Precision;
 
@@ -17,7 +17,7 @@ use crate::study::precision::Precision;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Order {
     /// The scene as the knobs have it.
-    pub scene: Scene,
+    pub scene: CheckedScene,
     /// How often the run was begun anew.
     pub restarts: u64,
     /// How often a knob acted on the running motion.

@@ -93,7 +93,7 @@ mod tests {
                 for (path, value) in &step.set {
                     scene.set(path, value).unwrap();
                 }
-                scene.check().unwrap();
+                scene.checked().unwrap();
                 assert!(step.view.as_deref().is_none_or(|view| CHARTS.contains(&view)));
                 assert_eq!(step.task.is_some(), step.until.is_some(), "{}", step.text);
             }

@@ -32,7 +32,7 @@ pub use raster::Marker;
 pub use run::run;
 pub use theme::Theme;
 
-use crate::scene::Scene;
+use crate::scene::CheckedScene;
 
 /// When to use colour.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -104,7 +104,7 @@ impl ExploreOptions {
 /// # Errors
 /// Standard output is no terminal that can show a screen, or threads or
 /// signals are not to be had.
-pub fn explore(scene: Scene, options: ExploreOptions) -> anyhow::Result<u8> {
+pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u8> {
     let dumb = std::env::var("TERM").is_ok_and(|term| term == "dumb");
     if dumb || !std::io::stdout().is_terminal() {
         anyhow::bail!("the explorer needs a terminal; use `rubscope run` without one");

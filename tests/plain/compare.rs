@@ -1,7 +1,7 @@
 //! The program's explicit motion beside the plain stepper, and how far apart
 //! round-off alone may put them.
 
-use rubscope::motion::Motion;
+use rubscope::motion::{Change, Motion};
 use rubscope::scene::Scene;
 
 use super::{Failure, Plain, Why};
@@ -36,7 +36,7 @@ pub struct Pair {
 impl Pair {
     pub fn new(scene: &Scene) -> Self {
         let (plain, scene) = (Plain::new(scene), scene.clone());
-        let motion = Motion::new(&scene);
+        let motion = Motion::new(&scene.checked().unwrap());
         let nudged = plain.clone();
         let mut pair = Self {
             motion,
@@ -117,7 +117,8 @@ impl Pair {
     }
 
     pub fn adopt(&mut self, scene: &Scene) {
-        assert!(self.motion.adopt(scene), "refused: {scene:?}");
+        assert!(Change::is_live(&self.scene, scene), "refused: {scene:?}");
+        self.motion.set_parameters(&scene.checked().unwrap());
         self.plain.set_parameters(scene);
         self.nudged.set_parameters(scene);
         self.scene = scene.clone();

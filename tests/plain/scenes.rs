@@ -8,9 +8,7 @@ pub const MODELS: [&str; 3] = ["rigid", "modal", "full"];
 /// A millisecond of the paper's machine takes 1000 steps, unless changed.
 pub fn scene(changes: &[(&str, &str)]) -> Scene {
     let all = [&[("solver.step_s", "1e-6"), ("solver.end_s", "0.1")], changes].concat();
-    let scene = Scene::default().with(&all);
-    assert!(scene.is_ok(), "{changes:?}: {scene:?}");
-    scene.unwrap_or_default()
+    Scene::default().with(&all).unwrap_or_else(|error| panic!("{changes:?}: {error}")).into_scene()
 }
 
 /// Puts the casing into the corner of sides 0 and 1, turning with the blades,
@@ -24,6 +22,6 @@ pub fn in_corner(mut scene: Scene) -> Scene {
     scene.operation.pulse_n = 0.0;
     (scene.initial.u_c_m, scene.initial.u_s_m) = (x, y);
     (scene.initial.v_c_m_s, scene.initial.v_s_m_s) = (-nu * y, nu * x);
-    assert!(scene.check().is_ok(), "{:?}", scene.check());
+    assert!(scene.checked().is_ok(), "{:?}", scene.checked());
     scene
 }

@@ -74,7 +74,8 @@ impl Event {
             }
             if beyond(self, middle) { after = middle } else { within = middle }
         }
-        Err(self.fail(after, FailureReason::BladeAngle))
+        let angle_rad = self.mode.largest_angle(&self.world, &self.drive, after, 0.0);
+        Err(self.fail(after, FailureReason::BladeAngle { angle_rad }))
     }
 
     /// Fails a motion whose blades have turned a corner so far that it nearly

@@ -34,8 +34,8 @@ mod mode;
 mod segment;
 
 use crate::model::Machine;
-use crate::motion::{Checks, ContactLog, Failure, Pulse, Rotor, State, Verdict};
-use crate::scene::Scene;
+use crate::motion::{Checks, ContactLog, Failure, Pulse, Rotor, Solver, State, Verdict};
+use crate::scene::{CheckedScene, SceneError};
 
 use blades::Tips;
 use ledger::Ledger;
@@ -45,12 +45,12 @@ use world::{Drive, Plane, World};
 /// The event-driven solver of one scene, at some instant of its motion.
 ///
 /// ```
-/// use rubscope::{motion::Event, scene::Scene};
-/// let mut motion = Event::new(&Scene::default());
+/// use rubscope::{motion::{Event, Solver}, scene::Scene};
+/// let mut motion = Event::new(&Scene::default().checked()?)?;
 /// motion.advance(0.1)?;
 /// assert!(motion.over());
 /// assert_eq!(motion.contacts().impact_count, 2);
-/// # Ok::<(), rubscope::motion::Failure>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct Event {
@@ -79,9 +79,17 @@ pub struct Event {
 }
 
 impl Event {
-    /// The motion of a scene at t = 0.
-    #[must_use]
-    pub fn new(scene: &Scene) -> Self {
+    /// The motion of a scene at t = 0, whichever solver the scene names.
+    ///
+    /// # Errors
+    /// The contact law or the model size is one that this solver does not know.
+    pub fn new(scene: &CheckedScene) -> Result<Self, SceneError> {
+        scene.suits_events()?;
+        Ok(Self::of(scene))
+    }
+
+    /// As `new`, for a scene that names this solver or suits it.
+    pub(super) fn of(scene: &CheckedScene) -> Self {
         let world = World::new(scene);
         let place = Plane::new(scene.initial.u_c_m, scene.initial.u_s_m);
         let rate = Plane::new(scene.initial.v_c_m_s, scene.initial.v_s_m_s);
@@ -115,24 +123,18 @@ impl Event {
     /// as closed; 1e-15 otherwise.
     #[must_use]
     pub fn with_tolerance(mut self, tolerance: f64) -> Self {
-        self.world.tolerance = tolerance.clamp(1e-16, 1e-3);
+        self.set_tolerance(tolerance);
         self
+    }
+
+    fn set_tolerance(&mut self, tolerance: f64) {
+        self.world.tolerance = tolerance.clamp(1e-16, 1e-3);
     }
 
     /// The tolerance in force.
     #[must_use]
     pub fn tolerance(&self) -> f64 {
         self.world.tolerance
-    }
-
-    /// Moves to the instant `until` \[s\], which is not before the present.
-    ///
-    /// # Errors
-    /// A motion that leaves the casing, or more mode changes than a run may
-    /// have. The state then stays where it failed.
-    pub fn advance(&mut self, until: f64) -> Result<(), Failure> {
-        while self.change(until)?.is_some() {}
-        self.arrive(until)
     }
 
     /// Moves to the next change of mode, or to `limit` if none comes before
@@ -151,11 +153,15 @@ impl Event {
         self.arrive(self.start.0.max(self.now))?;
         Ok(self.now)
     }
+}
 
-    /// The motion now; blades of the rigid model do not move, and those too stiff
-    /// for the casing to notice follow the pushes at once.
-    #[must_use]
-    pub fn state(&self) -> State {
+impl Solver for Event {
+    fn advance(&mut self, until: f64) -> Result<(), Failure> {
+        while self.change(until)?.is_some() {}
+        self.arrive(until)
+    }
+
+    fn state(&self) -> State {
         let s = self.elapsed(self.now);
         let (u, v) = self.mode.standing(&self.world, &self.drive, s);
         let Tips { angle, rate } = self.mode.reported(&self.world, &self.drive, s);
@@ -168,35 +174,24 @@ impl Event {
         }
     }
 
-    /// What touched so far.
-    #[must_use]
-    pub fn contacts(&self) -> &ContactLog {
+    fn contacts(&self) -> &ContactLog {
         &self.log
     }
 
-    /// The sides in contact now in phase order (`psi_a`, `psi_b`), each with its
-    /// group multiplier \[N\]; negative is a push.
-    #[must_use]
-    pub fn multipliers(&self) -> Vec<(u32, f64)> {
+    fn multipliers(&self) -> Vec<(u32, f64)> {
         let s = self.elapsed(self.now);
         let pushes = self.mode.pushes(&self.world, &self.drive, s);
         let multiplier = |(side, push): (u32, f64)| (side, -push * self.world.mass);
         pushes.into_iter().flatten().map(multiplier).collect()
     }
 
-    /// Whether no contact can ever come again: the pulse is over and the energy
-    /// left cannot close the clearance.
-    #[must_use]
-    pub fn over(&self) -> bool {
+    fn over(&self) -> bool {
         let Mode::Free(free) = &self.mode else { return false };
         let (u, v) = free.at(&self.world, &self.drive, self.elapsed(self.now));
         self.drive.pulse == 0.0 && free::Free::spent(&self.world, u, v)
     }
 
-    /// The verdict, where it is known for good: decay once nothing can touch
-    /// any more, locked in a corner at constant speed with both sides pushing.
-    #[must_use]
-    pub fn settled(&self) -> Option<Verdict> {
+    fn settled(&self) -> Option<Verdict> {
         if self.failed.is_some() {
             Some(Verdict::Failed)
         } else if self.over() {
@@ -217,39 +212,23 @@ impl Event {
         }
     }
 
-    /// Why the run failed, if it did.
-    #[must_use]
-    pub fn failure(&self) -> Option<&Failure> {
+    fn failure(&self) -> Option<&Failure> {
         self.failed.as_ref()
     }
 
-    /// The pulse in force.
-    #[must_use]
-    pub fn pulse(&self) -> &Pulse {
+    fn pulse(&self) -> &Pulse {
         &self.pulse
     }
 
-    /// The rotor.
-    #[must_use]
-    pub fn rotor(&self) -> &Rotor {
+    fn rotor(&self) -> &Rotor {
         &self.rotor
     }
 
-    /// The machine.
-    #[must_use]
-    pub fn machine(&self) -> &Machine {
+    fn machine(&self) -> &Machine {
         &self.world.machine
     }
 
-    /// Mode changes so far.
-    #[must_use]
-    pub fn events(&self) -> u64 {
-        self.events
-    }
-
-    /// Penetration and energy balance so far.
-    #[must_use]
-    pub fn checks(&self) -> Checks {
+    fn checks(&self) -> Checks {
         let s = self.elapsed(self.now);
         let mut ledger = self.ledger;
         self.mode.book(&self.world, &self.drive, s, &mut ledger);
@@ -262,8 +241,7 @@ impl Event {
         }
     }
 
-    /// Fires the scene's pulse again, from now on.
-    pub fn fire(&mut self) {
+    fn fire(&mut self) {
         let length = self.pulse.end - self.pulse.start;
         self.intervene(|event| {
             let now = event.now;
@@ -271,19 +249,26 @@ impl Event {
         });
     }
 
-    /// Turns the rotor from now on with `speed` \[rad/s\] and `ramp`
-    /// \[rad/s^2\]. A sudden change of speed acts on sides in contact as an
-    /// impact does.
-    pub fn set_speed(&mut self, speed: f64, ramp: f64) {
+    fn set_speed(&mut self, speed: f64, ramp: f64) {
         self.intervene(|event| event.rotor.change(event.now, speed, ramp));
     }
 
-    /// Multiplies the rate of the casing, in flight or along a side, by
-    /// `factor`. In a corner it has none of its own.
-    pub fn scale_rate(&mut self, factor: f64) {
+    fn scale_rate(&mut self, factor: f64) {
         let free = matches!(self.mode, Mode::Free(_) | Mode::Slide(_) | Mode::Driven(_));
         if free && !self.over() {
             self.intervene_scaled(factor, |_| {});
         }
+    }
+
+    fn events(&self) -> Option<u64> {
+        Some(self.events)
+    }
+
+    fn scale_tolerance(&mut self, factor: f64) {
+        self.set_tolerance(factor * self.world.tolerance);
+    }
+
+    fn fork(&self) -> Box<dyn Solver> {
+        Box::new(self.clone())
     }
 }

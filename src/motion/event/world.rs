@@ -8,6 +8,7 @@ use super::blades::Blades;
 use crate::model::Machine;
 use crate::motion::kernel::Kernel;
 use crate::scene::Scene;
+use crate::tolerances;
 
 /// Part of the terms of a sum that round-off may make of it.
 pub(super) const NOISE: f64 = 1e-14;
@@ -66,7 +67,7 @@ impl World {
             turn: Plane::cis(twice),
             corners,
             reach: scene.casing.radius_m,
-            tolerance: 1e-15,
+            tolerance: tolerances::EVENT,
             machine,
         }
     }

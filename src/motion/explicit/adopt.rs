@@ -4,26 +4,23 @@
 //! Displacements and increments go on as they are, so that positions and the
 //! mean rates of the last step have no jump.
 
+use std::sync::Arc;
+
 use super::{Blades, Excitation, Explicit, Oscillator};
 use crate::contact;
-use crate::motion::Pulse;
-use crate::scene::Scene;
+use crate::motion::{Change, Pulse};
+use crate::scene::CheckedScene;
 
 impl<B: Blades> Explicit<B> {
-    /// From the latest step on, moves with the parameters of a checked scene.
-    /// Time, coordinates, rates, rotor, the pulse under way and the record of
-    /// contacts stay. False, and nothing changes, where the scene has another
-    /// number of blades or nodal diameters, another clearance or another step.
-    pub fn adopt(&mut self, scene: &Scene) -> bool {
-        let machine = scene.machine();
-        let (new, old) = (&machine.rim, &self.machine.rim);
-        let alike = new.blades == old.blades
-            && new.nodal_diameters == old.nodal_diameters
-            && new.clearance == old.clearance
-            && scene.solver.step_s == self.step;
-        if !alike {
-            return false;
+    /// From the latest step on, moves with the parameters of a scene, if that is
+    /// live. Time, coordinates, rates, rotor, the pulse under way and the record
+    /// of contacts stay.
+    pub(super) fn take_parameters(&mut self, scene: &CheckedScene) {
+        if !Change::is_live(&self.scene, scene) {
+            return;
         }
+        self.scene = Arc::new(scene.clone());
+        let machine = scene.machine();
         self.interrupt();
         self.blades = B::at_rest(scene, &machine).moving_as(&self.blades);
         self.casing = Oscillator::new(
@@ -34,17 +31,15 @@ impl<B: Blades> Explicit<B> {
         );
         self.machine = machine;
         self.law = contact::law(scene.solver.contact);
-        self.casing_radius = scene.casing.radius_m;
         self.excitation = Excitation::of(scene);
         self.next_pulse = Pulse::of(scene);
         self.neighbours_matter = self.neighbours_matter();
-        true
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use crate::motion::Motion;
+    use crate::motion::{Change, Motion};
     use crate::scene::{ModelSize, Scene, SolverKind};
 
     fn scene(model: ModelSize) -> Scene {
@@ -58,13 +53,13 @@ mod tests {
     fn adopting_the_same_scene_changes_nothing() {
         for model in [ModelSize::Rigid, ModelSize::Modal, ModelSize::Full] {
             let scene = scene(model);
-            let mut plain = Motion::new(&scene);
+            let mut plain = Motion::new(&scene.checked().unwrap());
             let mut adopting = plain.clone();
             // Under the pulse, in flight, between impacts, and locked.
             for t in [2e-5, 1.5e-4, 1e-3, 8e-3] {
                 plain.advance(t).unwrap();
                 adopting.advance(t).unwrap();
-                assert!(adopting.adopt(&scene));
+                adopting.set_parameters(&scene.checked().unwrap());
             }
             plain.advance(0.02).unwrap();
             adopting.advance(0.02).unwrap();
@@ -81,18 +76,18 @@ mod tests {
         let mut scene = scene(ModelSize::Modal);
         scene.operation.pulse_n = 0.0;
         scene.initial.u_c_m = 5e-5;
-        let mut motion = Motion::new(&scene);
+        let mut motion = Motion::new(&scene.checked().unwrap());
         motion.advance(2e-3).unwrap();
         let before = motion.state();
         scene.casing.damping_ratio *= 3.0;
-        assert!(motion.adopt(&scene));
+        motion.set_parameters(&scene.checked().unwrap());
         let after = motion.state();
         assert_eq!(before.u, after.u);
         // The other run starts with the new damping from where the change was made.
         let mut changed = scene.clone();
         [changed.initial.u_c_m, changed.initial.u_s_m] = after.u;
         [changed.initial.v_c_m_s, changed.initial.v_s_m_s] = after.v;
-        let mut other = Motion::new(&changed);
+        let mut other = Motion::new(&changed.checked().unwrap());
         motion.advance(7e-3).unwrap();
         other.advance(5e-3).unwrap();
         let (here, there) = (motion.state().u[0], other.state().u[0]);
@@ -105,11 +100,11 @@ mod tests {
     #[test]
     fn another_pulse_waits_for_the_next_fire() {
         let mut scene = scene(ModelSize::Modal);
-        let mut motion = Motion::new(&scene);
+        let mut motion = Motion::new(&scene.checked().unwrap());
         motion.advance(1e-5).unwrap();
         scene.operation.pulse_n = 5.0;
         scene.operation.pulse_s = 1e-4;
-        assert!(motion.adopt(&scene));
+        motion.set_parameters(&scene.checked().unwrap());
         assert_eq!(motion.pulse().force, Scene::default().operation.pulse_n);
         motion.advance(3e-3).unwrap();
         motion.fire();
@@ -119,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn what_needs_another_motion_is_refused() {
+    fn what_needs_another_motion_changes_nothing() {
         let base = scene(ModelSize::Modal);
         let turns: [fn(&mut Scene); 6] = [
             |scene| scene.bladed_disk.blades = 21,
@@ -132,8 +127,13 @@ mod tests {
         for turn in turns {
             let mut other = base.clone();
             turn(&mut other);
-            assert!(!Motion::new(&base).adopt(&other), "{other:?}");
-            assert!(!Motion::new(&other).adopt(&base), "{other:?}");
+            for (from, to) in [(&base, &other), (&other, &base)] {
+                assert!(!Change::is_live(from, to), "{other:?}");
+                let mut motion = Motion::new(&from.checked().unwrap());
+                let before = format!("{motion:?}");
+                motion.set_parameters(&to.checked().unwrap());
+                assert_eq!(format!("{motion:?}"), before);
+            }
         }
     }
 }

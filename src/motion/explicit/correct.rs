@@ -22,9 +22,10 @@ impl<B: Blades> Explicit<B> {
     /// penetrates and correct it. Returns a bound on what that does to any blade
     /// angle \[rad\].
     pub(super) fn meet(&mut self, distance2: f64) -> Result<f64, FailureReason> {
-        if distance2.is_nan() || distance2 > self.casing_radius * self.casing_radius {
+        let radius_m = self.scene.casing.radius_m;
+        if distance2.is_nan() || distance2 > radius_m * radius_m {
             let distance_m = distance2.sqrt();
-            return Err(FailureReason::Displacement { distance_m, radius_m: self.casing_radius });
+            return Err(FailureReason::Displacement { distance_m, radius_m });
         }
         let (c, s) = self.phasor.at(self.n, &self.rotor, self.machine.nodal_diameters, self.step);
         let (u_c, u_s) = (self.u[0].x, self.u[1].x);
@@ -151,8 +152,7 @@ impl<B: Blades> Explicit<B> {
                 let cross = self.influence(a, b);
                 let w = [[self.influence(a, a), cross], [cross, self.influence(b, b)]];
                 let gap = [a.gap, b.gap];
-                let lambda =
-                    self.law.pair(w, gap).ok_or_else(|| FailureReason::Singular { rows: 2 })?;
+                let lambda = self.law.pair(w, gap).ok_or(FailureReason::Singular { rows: 2 })?;
                 self.rows[0].lambda = lambda[0];
                 self.rows[1].lambda = lambda[1];
             }
@@ -208,7 +208,7 @@ impl<B: Blades> Explicit<B> {
         let lambda = self
             .law
             .repeated(&repeated)
-            .ok_or_else(|| FailureReason::Singular { rows: self.rows.len() })?;
+            .ok_or(FailureReason::Singular { rows: self.rows.len() })?;
         for (row, value) in self.rows.iter_mut().zip(lambda) {
             row.lambda = value;
         }
@@ -219,8 +219,7 @@ impl<B: Blades> Explicit<B> {
         let count = self.rows.len();
         let w = DMatrix::from_fn(count, count, |i, j| self.influence(&self.rows[i], &self.rows[j]));
         let gap: Vec<f64> = self.rows.iter().map(|row| row.gap).collect();
-        let lambda =
-            self.law.dense(w, &gap).ok_or_else(|| FailureReason::Singular { rows: count })?;
+        let lambda = self.law.dense(w, &gap).ok_or(FailureReason::Singular { rows: count })?;
         for (row, value) in self.rows.iter_mut().zip(lambda) {
             row.lambda = value;
         }

@@ -79,8 +79,7 @@ impl<B: Blades> Explicit<B> {
 
     /// Whether no contact can ever come again: the casing, whatever the blades
     /// do, never reaches one.
-    #[must_use]
-    pub fn over(&self) -> bool {
+    pub(super) fn no_contact_to_come(&self) -> bool {
         if self.held.is_some() || self.pulse_to_come() {
             return false;
         }
@@ -137,7 +136,7 @@ impl<B: Blades> Explicit<B> {
 
     /// Keeps what the steps of a held corner did since `before`.
     fn log_held(&mut self, held: &Held, before: u64) {
-        let (used, t) = (self.block.used, self.time_of(self.steps()));
+        let (used, t) = (self.block.used, self.time_of(self.steps_taken()));
         for (side, sum) in held.sides().into_iter().zip(held.sums(before, used)) {
             self.impulses[side as usize] += sum * self.step;
         }

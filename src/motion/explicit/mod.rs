@@ -22,10 +22,14 @@ pub use blades::{Blades, FullBlades, ModalBlades, RigidBlades};
 pub use excitation::Excitation;
 pub use oscillator::{Coordinate, Oscillator};
 
-use super::{Checks, ContactLog, Failure, FailureReason, Pulse, Rotor, State, Touching};
+use std::sync::Arc;
+
+use super::{
+    Checks, ContactLog, Failure, FailureReason, Pulse, Rotor, Solver, State, Touching, Verdict,
+};
 use crate::contact::{self, StepLaw};
 use crate::model::Machine;
-use crate::scene::Scene;
+use crate::scene::CheckedScene;
 use flight::{Block, Phasor};
 use held::Held;
 use watch::Watch;
@@ -37,9 +41,9 @@ const BREAK_STEPS: u64 = 2;
 /// The explicit solver on one size of bladed disk.
 #[derive(Clone, Debug)]
 pub struct Explicit<B: Blades> {
+    scene: Arc<CheckedScene>,
     machine: Machine,
     law: &'static dyn StepLaw,
-    casing_radius: f64,
     step: f64,
     rotor: Rotor,
     pulse: Pulse,
@@ -100,9 +104,8 @@ struct Row {
 }
 
 impl<B: Blades> Explicit<B> {
-    /// The motion of a scene at t = 0. The scene is taken as checked.
-    #[must_use]
-    pub fn new(scene: &Scene) -> Self {
+    /// The motion of a scene at t = 0.
+    pub(super) fn new(scene: &CheckedScene) -> Self {
         let machine = scene.machine();
         let step = scene.solver.step_s;
         let rotor = Rotor::of(scene);
@@ -121,10 +124,10 @@ impl<B: Blades> Explicit<B> {
         ];
         let sides = machine.rim.sides as usize;
         let mut motion = Self {
+            scene: Arc::new(scene.clone()),
             blades: B::at_rest(scene, &machine),
             phasor: Phasor::new(&rotor, machine.nodal_diameters, step),
             law: contact::law(scene.solver.contact),
-            casing_radius: scene.casing.radius_m,
             next_pulse: pulse,
             left_over: (0, 0.0),
             excitation: Excitation::of(scene),
@@ -154,36 +157,6 @@ impl<B: Blades> Explicit<B> {
         };
         motion.neighbours_matter = motion.neighbours_matter();
         motion
-    }
-
-    /// Advances to the last step at or before `until` \[s\]. The trajectory
-    /// does not depend on the instants at which it is looked at.
-    ///
-    /// # Errors
-    /// The run has failed, now or before: a predicted penetration deeper than
-    /// the clearance, a blade angle beyond 0.1 rad, or a casing displacement
-    /// larger than the casing.
-    pub fn advance(&mut self, until: f64) -> Result<(), Failure> {
-        if let Some(failure) = &self.failure {
-            return Err(failure.clone());
-        }
-        // A step that ends within a millionth of itself after `until` belongs to it.
-        let target = (until / self.step + 1e-6).floor().max(0.0) as u64;
-        while self.steps() < target {
-            let moved = if self.open_block() {
-                self.use_block(target);
-                Ok(())
-            } else {
-                self.take_step()
-            };
-            if let Err(reason) = moved {
-                let failure = Failure { t_s: self.time_of(self.n), reason };
-                self.log.touch(failure.t_s, Touching::Nothing);
-                self.failure = Some(failure.clone());
-                return Err(failure);
-            }
-        }
-        Ok(())
     }
 
     /// One step: predict, look, correct.
@@ -236,22 +209,49 @@ impl<B: Blades> Explicit<B> {
     }
 
     /// Steps taken so far.
-    #[must_use]
-    pub fn steps(&self) -> u64 {
+    fn steps_taken(&self) -> u64 {
         self.n + self.block.used()
     }
 
     /// Time of the latest step \[s\].
-    #[must_use]
-    pub fn time(&self) -> f64 {
-        self.time_of(self.steps())
+    fn time(&self) -> f64 {
+        self.time_of(self.steps_taken())
     }
 
-    /// The four coordinates and their rates at the latest step.
-    #[must_use]
-    pub fn state(&self) -> State {
+    /// Ends what was decided on ahead.
+    fn interrupt(&mut self) {
+        self.close_block();
+        self.hold_tried = self.n;
+    }
+}
+
+impl<B: Blades> Solver for Explicit<B> {
+    fn advance(&mut self, until: f64) -> Result<(), Failure> {
+        if let Some(failure) = &self.failure {
+            return Err(failure.clone());
+        }
+        // A step that ends within a millionth of itself after `until` belongs to it.
+        let target = (until / self.step + 1e-6).floor().max(0.0) as u64;
+        while self.steps_taken() < target {
+            let moved = if self.open_block() {
+                self.use_block(target);
+                Ok(())
+            } else {
+                self.take_step()
+            };
+            if let Err(reason) = moved {
+                let failure = Failure { t_s: self.time_of(self.n), reason };
+                self.log.touch(failure.t_s, Touching::Nothing);
+                self.failure = Some(failure.clone());
+                return Err(failure);
+            }
+        }
+        Ok(())
+    }
+
+    fn state(&self) -> State {
         let (u, blades) = self.materialized();
-        let n = self.steps();
+        let n = self.steps_taken();
         let in_contact = self.log.touching != Touching::Nothing;
         let rate = |coordinate: Coordinate, force: f64| {
             if in_contact {
@@ -270,16 +270,11 @@ impl<B: Blades> Explicit<B> {
         }
     }
 
-    /// The angle of every blade at the latest step \[rad\].
-    #[must_use]
-    pub fn blade_angles(&self) -> Vec<f64> {
+    fn blade_angles(&self) -> Vec<f64> {
         self.materialized().1.every_angle(&self.machine)
     }
 
-    /// Multipliers of the sides in contact at the latest step, in phase order
-    /// \[N\]; negative is a push. An impact's peak grows like 1/h.
-    #[must_use]
-    pub fn multipliers(&self) -> Vec<(u32, f64)> {
+    fn multipliers(&self) -> Vec<(u32, f64)> {
         if self.log.touching == Touching::Nothing {
             return Vec::new();
         }
@@ -299,11 +294,9 @@ impl<B: Blades> Explicit<B> {
         sums
     }
 
-    /// Mean force on each side since this was last asked, for the sides that
-    /// were touched \[N\]; negative is a push. Independent of the step.
-    pub fn take_mean_forces(&mut self) -> Vec<(u32, f64)> {
-        let span = self.steps().saturating_sub(self.impulses_since) as f64 * self.step;
-        self.impulses_since = self.steps();
+    fn take_mean_forces(&mut self) -> Vec<(u32, f64)> {
+        let span = self.steps_taken().saturating_sub(self.impulses_since) as f64 * self.step;
+        self.impulses_since = self.steps_taken();
         let mut means = Vec::new();
         for (side, impulse) in self.impulses.iter_mut().enumerate() {
             if *impulse != 0.0 && span > 0.0 {
@@ -315,39 +308,39 @@ impl<B: Blades> Explicit<B> {
         means
     }
 
-    /// The record of contacts.
-    #[must_use]
-    pub fn contacts(&self) -> &ContactLog {
-        &self.log
+    fn over(&self) -> bool {
+        self.no_contact_to_come()
     }
 
-    /// The machine.
-    #[must_use]
-    pub fn machine(&self) -> &Machine {
-        &self.machine
+    fn settled(&self) -> Option<Verdict> {
+        self.settled_verdict()
     }
 
-    /// The pulse in force.
-    #[must_use]
-    pub fn pulse(&self) -> &Pulse {
+    fn pulse(&self) -> &Pulse {
         &self.pulse
     }
 
-    /// The rotor.
-    #[must_use]
-    pub fn rotor(&self) -> &Rotor {
+    fn contacts(&self) -> &ContactLog {
+        &self.log
+    }
+
+    fn machine(&self) -> &Machine {
+        &self.machine
+    }
+
+    fn rotor(&self) -> &Rotor {
         &self.rotor
     }
 
-    /// Why the run failed, if it did.
-    #[must_use]
-    pub fn failure(&self) -> Option<&Failure> {
+    fn steps(&self) -> Option<u64> {
+        Some(self.steps_taken())
+    }
+
+    fn failure(&self) -> Option<&Failure> {
         self.failure.as_ref()
     }
 
-    /// What was kept watch on.
-    #[must_use]
-    pub fn checks(&self) -> Checks {
+    fn checks(&self) -> Checks {
         Checks {
             max_penetration_m: self.deepest,
             max_predicted_penetration_m: Some(self.deepest_predicted),
@@ -357,9 +350,8 @@ impl<B: Blades> Explicit<B> {
         }
     }
 
-    /// Fires the pulse again, from now on; what the pulse before gave in the half
-    /// step until now is kept.
-    pub fn fire(&mut self) {
+    /// What the pulse before gave in the half step until now is kept.
+    fn fire(&mut self) {
         self.interrupt();
         let (start, next) = (self.time(), self.next_pulse);
         let half = 0.5 * self.step;
@@ -376,16 +368,28 @@ impl<B: Blades> Explicit<B> {
         }
     }
 
-    /// Ends what was decided on ahead.
-    fn interrupt(&mut self) {
-        self.close_block();
-        self.hold_tried = self.n;
-    }
-
-    /// From now on, turn with this speed \[rad/s\] and acceleration \[rad/s^2\].
-    pub fn set_speed(&mut self, speed: f64, ramp: f64) {
+    fn set_speed(&mut self, speed: f64, ramp: f64) {
         self.interrupt();
         self.rotor.change(self.time(), speed, ramp);
         self.phasor = Phasor::new(&self.rotor, self.machine.nodal_diameters, self.step);
+    }
+
+    /// A corner that is held for good has no rate of its own.
+    fn scale_rate(&mut self, factor: f64) {
+        if self.held.is_some() {
+            return;
+        }
+        self.close_block();
+        for coordinate in &mut self.u {
+            coordinate.increment *= factor;
+        }
+    }
+
+    fn set_parameters(&mut self, scene: &CheckedScene) {
+        self.take_parameters(scene);
+    }
+
+    fn fork(&self) -> Box<dyn Solver> {
+        Box::new(self.clone())
     }
 }

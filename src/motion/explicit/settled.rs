@@ -12,11 +12,10 @@ const LIGHT: f64 = 1e-3;
 impl<B: Blades> Explicit<B> {
     /// The verdict, once nothing to come can change it: no contact can come
     /// again, or a corner can never let go.
-    #[must_use]
-    pub fn settled(&self) -> Option<Verdict> {
+    pub(super) fn settled_verdict(&self) -> Option<Verdict> {
         if self.failure.is_some() {
             Some(Verdict::Failed)
-        } else if self.over() {
+        } else if self.no_contact_to_come() {
             Some(Verdict::Decay)
         } else if let Some(held) = &self.held {
             Some(locked(held.pulls))
@@ -55,18 +54,6 @@ impl<B: Blades> Explicit<B> {
         let lever = machine.nodal_diameters * machine.rim.half_side();
         let light = lever * lever * self.blades.compliance(0, 0) < LIGHT * self.casing.compliance;
         (light && change < ROOM * least).then(|| locked(a > 0.0 || b > 0.0))
-    }
-
-    /// Multiplies the rate of the casing by `factor`. A corner that is held for
-    /// good has no rate of its own.
-    pub fn scale_rate(&mut self, factor: f64) {
-        if self.held.is_some() {
-            return;
-        }
-        self.close_block();
-        for coordinate in &mut self.u {
-            coordinate.increment *= factor;
-        }
     }
 }
 

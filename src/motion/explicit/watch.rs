@@ -36,7 +36,7 @@ impl Watch {
         self.largest = self.largest.max(now);
         self.room = self.largest - now;
         let fits = now <= LARGEST_BLADE_ANGLE;
-        if fits { Ok(()) } else { Err(FailureReason::BladeAngle) }
+        if fits { Ok(()) } else { Err(FailureReason::BladeAngle { angle_rad: now }) }
     }
 
     /// Steps without a look, over which the largest angle was `largest`; blades

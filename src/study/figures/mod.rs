@@ -16,7 +16,7 @@ pub use figure::{Figure, Mark, Panel, Quantity, Series, Style};
 
 use crate::harmonic::HarmonicError;
 use crate::model::Machine;
-use crate::scene::{Scene, SceneError};
+use crate::scene::{CheckedScene, Scene, SceneError};
 
 /// The numbers of the figures there are.
 pub const NUMBERS: [u32; 7] = [4, 5, 6, 7, 8, 9, 10];
@@ -25,11 +25,11 @@ pub const NUMBERS: [u32; 7] = [4, 5, 6, 7, 8, 9, 10];
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scenes {
     /// Figs. 4 to 6: three nodal diameters in time.
-    pub three: Scene,
+    pub three: CheckedScene,
     /// Fig. 7: four nodal diameters in time.
-    pub four: Scene,
+    pub four: CheckedScene,
     /// Figs. 8 to 10: the machine of Table 1.
-    pub machine: Scene,
+    pub machine: CheckedScene,
 }
 
 impl Scenes {
@@ -38,17 +38,17 @@ impl Scenes {
     /// # Errors
     /// None, as long as the built-in scenes are there.
     pub fn paper() -> Result<Self, SceneError> {
-        let transient = |name: &str, pulse: &str| -> Result<Scene, SceneError> {
-            let mut scene = Scene::builtin(name)?;
-            scene.set("casing.damping_ratio", "0")?;
-            scene.set("operation.pulse_n", pulse)?;
-            scene.set("solver.contact", "unilateral")?;
-            Ok(scene)
+        let transient = |name: &str, pulse: &str| {
+            Scene::builtin(name)?.with(&[
+                ("casing.damping_ratio", "0"),
+                ("operation.pulse_n", pulse),
+                ("solver.contact", "unilateral"),
+            ])
         };
         Ok(Self {
             three: transient("paper-nd3", "40000")?,
             four: transient("paper-nd4", "42000")?,
-            machine: Scene::builtin("paper-nd3")?,
+            machine: Scene::builtin("paper-nd3")?.checked()?,
         })
     }
 }

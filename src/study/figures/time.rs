@@ -1,8 +1,8 @@
 //! Figs. 4 to 7: one run, or the same run at three time steps.
 
 use super::{Figure, Panel, Quantity, Series, Style};
-use crate::motion::{RunReport, Sample, Sampling, simulate};
-use crate::scene::{Scene, SolverKind};
+use crate::motion::{RunReport, Sample, Sampling, Script, simulate_with};
+use crate::scene::{CheckedScene, SolverKind};
 
 /// Samples of a run; a line of a figure can show no more.
 const INTERVALS: u32 = 1500;
@@ -14,15 +14,16 @@ const U_C: Quantity = Quantity::new("u_c_m", "u_c [um]", 1e6);
 const ALPHA: Quantity = Quantity::new("alpha_rad", "blade angle [nrad]", 1e9);
 const GAP: Quantity = Quantity::new("gap_m", "gap [um]", 1e6);
 
-fn sampled(scene: &Scene, gaps: bool) -> (RunReport, Vec<Sample>) {
+fn sampled(scene: &CheckedScene, gaps: bool) -> (RunReport, Vec<Sample>) {
     let mut samples = Vec::new();
     let sampling = Sampling { intervals: INTERVALS, gaps };
-    let report = simulate(scene, sampling, &mut |sample| samples.push(sample.clone()));
+    let mut keep = |sample: &Sample| samples.push(sample.clone());
+    let report = simulate_with(scene, &Script::default(), sampling, &mut keep);
     (report, samples)
 }
 
 /// One line that says what was run and how it ended.
-fn note(scene: &Scene, report: &RunReport) -> String {
+fn note(scene: &CheckedScene, report: &RunReport) -> String {
     let lasting = match report.outcome.lock_time_s {
         Some(since) => format!("{} from {since:.4} s", report.outcome.verdict),
         None => report.outcome.verdict.to_string(),
@@ -44,13 +45,14 @@ fn series(label: &str, style: Style, samples: &[Sample], of: fn(&Sample) -> f64)
 }
 
 /// Fig. 4: `u_c` at three time steps.
-pub fn steps(scene: &Scene) -> Figure {
+pub fn steps(scene: &CheckedScene) -> Figure {
     let mut lines = Vec::new();
     let mut told = String::new();
     for (index, step) in STEPS.into_iter().enumerate() {
-        let mut scene = scene.clone();
+        let mut scene = scene.clone().into_scene();
         scene.solver.kind = SolverKind::Explicit;
         scene.solver.step_s = step;
+        let Ok(scene) = scene.checked() else { continue };
         let (report, samples) = sampled(&scene, false);
         let style = if index + 1 < STEPS.len() { Style::Dashed(index) } else { Style::Line(index) };
         lines.push(series(&format!("h = {step:e} s"), style, &samples, |sample| sample.state.u[0]));
@@ -65,7 +67,7 @@ pub fn steps(scene: &Scene) -> Figure {
 }
 
 /// Fig. 5: the gaps of all blades, those in contact at the end marked.
-pub fn gaps(scene: &Scene) -> Figure {
+pub fn gaps(scene: &CheckedScene) -> Figure {
     let (report, samples) = sampled(scene, true);
     let held: Vec<u32> =
         report.outcome.contacts.iter().flat_map(|contact| contact.blades.clone()).collect();
@@ -89,7 +91,7 @@ pub fn gaps(scene: &Scene) -> Figure {
 }
 
 /// Figs. 6 and 7: the coordinates of casing and bladed disk.
-pub fn response(number: u32, scene: &Scene) -> Figure {
+pub fn response(number: u32, scene: &CheckedScene) -> Figure {
     let (report, samples) = sampled(scene, false);
     let casing = vec![
         series("u_c", Style::Line(0), &samples, |sample| sample.state.u[0]),

@@ -45,7 +45,7 @@ fn with(scene: &Scene, kind: SolverKind, contact: ContactLaw) -> Scene {
     let mut scene = scene.clone();
     scene.solver.contact = contact;
     scene.solver.kind = kind;
-    if scene.check().is_err() {
+    if scene.checked().is_err() {
         scene.solver.kind = SolverKind::Explicit;
     }
     scene

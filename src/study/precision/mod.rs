@@ -14,8 +14,9 @@ use serde::Serialize;
 
 pub use ways::{Effort, Way, ways};
 
-use crate::motion::{Event, Motion, Settled, State, Verdict, is_sensitive};
+use crate::motion::{Motion, Settled, State, Verdict, is_sensitive};
 use crate::scene::{ContactLaw, ModelSize, Scene, SceneError, SolverKind};
+use crate::tolerances;
 use track::Track;
 
 /// Impacts whose times are compared.
@@ -133,18 +134,21 @@ impl Measure {
     /// # Errors
     /// The key that the event solver does not know.
     pub fn check(scene: &Scene) -> Result<(), SceneError> {
-        by_events(size_of_reference(scene.solver.model), 0.0).of(scene).check()
+        by_events(size_of_reference(scene.solver.model), 0.0).of(scene).map(|_| ())
     }
 
     /// Solves the scene by the event solver, for rigid and for moving blades.
-    #[must_use]
-    pub fn new(scene: &Scene) -> Self {
-        let finest = Event::new(scene).tolerance();
+    ///
+    /// # Errors
+    /// The key that the event solver does not know: then there is nothing to
+    /// measure against.
+    pub fn new(scene: &Scene) -> Result<Self, SceneError> {
         let model = size_of_reference(scene.solver.model);
+        let finest = tolerances::EVENT;
         let chosen = by_events(model, finest);
-        let run = chosen.run(scene);
-        let halved = by_events(model, 0.5 * finest).run(scene);
-        let resolved = chosen.of(scene);
+        let resolved = chosen.of(scene)?;
+        let run = chosen.run(scene)?;
+        let halved = by_events(model, 0.5 * finest).run(scene)?;
         let settled = Settled::of(&run.motion, run.verdict);
         let reference = Reference {
             way: chosen,
@@ -157,9 +161,9 @@ impl Measure {
             }),
             wall_s: run.wall_s,
         };
-        let tracks = [ModelSize::Rigid, ModelSize::Modal]
-            .map(|model| Track::of(by_events(model, finest), scene));
-        Self { scene: scene.clone(), reference, tracks }
+        let track = |model| Track::of(by_events(model, finest), scene);
+        let tracks = [track(ModelSize::Rigid)?, track(ModelSize::Modal)?];
+        Ok(Self { scene: scene.clone(), reference, tracks })
     }
 
     /// What everything is measured against.
@@ -169,12 +173,14 @@ impl Measure {
     }
 
     /// Solves the scene one way, repeatedly, and compares.
-    #[must_use]
-    pub fn row(&self, way: Way, effort: Effort) -> Row {
-        let first = way.run(&self.scene);
+    ///
+    /// # Errors
+    /// This way does not suit the scene.
+    pub fn row(&self, way: Way, effort: Effort) -> Result<Row, SceneError> {
+        let first = way.run(&self.scene)?;
         let mut walls = vec![first.wall_s];
         while walls.len() < effort.repeats as usize && walls.iter().sum::<f64>() < effort.seconds {
-            walls.push(way.run(&self.scene).wall_s);
+            walls.push(way.run(&self.scene)?.wall_s);
         }
         let wall_s = median(&mut walls);
         let size = size_of_reference(way.model);
@@ -187,7 +193,7 @@ impl Measure {
             .and_then(|track| track.at(reached.t_s))
             .map(|exact| distance(&exact, &reached) / clearance);
         let steps = first.motion.steps();
-        Row {
+        Ok(Row {
             way,
             error_final,
             error_impact_time_s: track.and_then(|track| impact_error(&track.end, &first.motion)),
@@ -199,7 +205,7 @@ impl Measure {
             verdict: first.verdict,
             verdict_right: first.verdict == self.reference.verdict,
             other_law: way.contact != self.reference.way.contact,
-        }
+        })
     }
 
     /// Puts rows together.
@@ -248,11 +254,11 @@ mod tests {
     }
 
     fn rows(scene: &Scene, chosen: impl Fn(&Way) -> bool) -> (Reference, Vec<Row>) {
-        let measure = Measure::new(scene);
+        let measure = Measure::new(scene).unwrap();
         let rows = ways(scene, quick())
             .into_iter()
             .filter(chosen)
-            .map(|way| measure.row(way, quick()))
+            .map(|way| measure.row(way, quick()).unwrap())
             .collect();
         (measure.reference().clone(), rows)
     }

@@ -4,7 +4,7 @@
 
 use super::ways::{LONGEST, Way};
 use crate::motion::{Motion, State};
-use crate::scene::{ModelSize, Scene};
+use crate::scene::{ModelSize, Scene, SceneError};
 
 /// The reference for one model size, at its end and a little before.
 pub(super) struct Track {
@@ -15,14 +15,14 @@ pub(super) struct Track {
 }
 
 impl Track {
-    pub(super) fn of(way: Way, scene: &Scene) -> Self {
+    pub(super) fn of(way: Way, scene: &Scene) -> Result<Self, SceneError> {
         let end_s = scene.solver.end_s;
-        let mut before = way.start(scene);
+        let mut before = way.start(scene)?;
         // A failure stays in the motion, and `at` finds it.
         let _ = before.advance((end_s - 1.01 * LONGEST).max(0.0));
         let mut end = before.clone();
         let _ = end.advance(end_s);
-        Self { model: way.model, before, end }
+        Ok(Self { model: way.model, before, end })
     }
 
     /// The state at the instant `t` near the end \[s\]; none if it failed by

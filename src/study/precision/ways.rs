@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::Run;
 use crate::motion::{Event, Motion, verdict};
-use crate::scene::{ContactLaw, ModelSize, Scene, SolverKind};
+use crate::scene::{CheckedScene, ContactLaw, ModelSize, Scene, SceneError, SolverKind};
 
 /// Longest time step tried \[s\].
 pub(super) const LONGEST: f64 = 1e-5;
@@ -67,14 +67,16 @@ pub fn ways(scene: &Scene, effort: Effort) -> Vec<Way> {
             ways.push(Way { solver, contact, model, step_s: None, tolerance: Some(tolerance) });
         }
     }
-    ways.retain(|way| way.of(scene).check().is_ok());
+    ways.retain(|way| way.of(scene).is_ok());
     ways
 }
 
 impl Way {
     /// The scene solved this way.
-    #[must_use]
-    pub fn of(&self, scene: &Scene) -> Scene {
+    ///
+    /// # Errors
+    /// This way does not suit the scene.
+    pub fn of(&self, scene: &Scene) -> Result<CheckedScene, SceneError> {
         let mut scene = scene.clone();
         scene.solver.kind = self.solver;
         scene.solver.contact = self.contact;
@@ -82,26 +84,24 @@ impl Way {
         if let Some(step) = self.step_s {
             scene.solver.step_s = step;
         }
-        scene
+        scene.checked()
     }
 
-    pub(super) fn start(&self, scene: &Scene) -> Motion {
-        let scene = self.of(scene);
-        match self.tolerance {
-            Some(tolerance) => {
-                Motion::Event(Box::new(Event::new(&scene).with_tolerance(tolerance)))
-            }
+    pub(super) fn start(&self, scene: &Scene) -> Result<Motion, SceneError> {
+        let scene = self.of(scene)?;
+        Ok(match self.tolerance {
+            Some(tolerance) => Event::new(&scene)?.with_tolerance(tolerance).into(),
             None => Motion::new(&scene),
-        }
+        })
     }
 
     /// Runs to the end and times it.
-    pub(super) fn run(&self, scene: &Scene) -> Run {
+    pub(super) fn run(&self, scene: &Scene) -> Result<Run, SceneError> {
         let started = Instant::now();
-        let mut motion = self.start(scene);
+        let mut motion = self.start(scene)?;
         let failed = motion.advance(scene.solver.end_s).is_err();
         let wall_s = started.elapsed().as_secs_f64();
         let window = verdict::LAST_PART * scene.solver.end_s;
-        Run { verdict: crate::motion::verdict_of(&motion, window), failed, wall_s, motion }
+        Ok(Run { verdict: crate::motion::verdict_of(&motion, window), failed, wall_s, motion })
     }
 }

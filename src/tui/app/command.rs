@@ -51,12 +51,12 @@ mod tests {
     #[test]
     fn the_command_names_what_differs_and_nothing_else() {
         let mut scene = Scene::builtin("paper-nd3").unwrap();
-        let app = App::new(scene.clone(), Theme::Dark, Marker::Braille);
+        let app = App::new(scene.checked().unwrap(), Theme::Dark, Marker::Braille);
         assert_eq!(app.command(), "rubscope run paper-nd3");
         scene.set("operation.speed_rad_s", "-430").unwrap();
         scene.set("solver.contact", "unilateral").unwrap();
         scene.set("title", "it's mine").unwrap();
-        let app = App::new(scene, Theme::Dark, Marker::Braille);
+        let app = App::new(scene.checked().unwrap(), Theme::Dark, Marker::Braille);
         assert_eq!(
             app.command(),
             "rubscope run paper-nd3 --set 'title=it'\\''s mine' \

@@ -53,7 +53,7 @@ impl App {
     pub(super) fn begin_lesson(&mut self, place: usize) {
         self.mode = Mode::Main;
         let Some(lesson) = lessons::all().get(place) else { return };
-        match Scene::builtin(&lesson.scene) {
+        match Scene::builtin(&lesson.scene).and_then(|scene| scene.checked()) {
             Ok(scene) => {
                 self.opened = scene.clone();
                 self.source = Some(lesson.scene.clone());
@@ -70,13 +70,15 @@ impl App {
         let Some(found) = lessons::all().get(lesson).and_then(|l| l.steps.get(step)) else {
             return;
         };
-        let mut scene = self.scene.clone();
+        let mut scene = self.scene.clone().into_scene();
         for (path, value) in &found.set {
             if let Err(error) = scene.set(path, value) {
                 self.status = Some(error.to_string());
             }
         }
-        if scene != self.scene && scene.check().is_ok() {
+        if scene != *self.scene
+            && let Ok(scene) = scene.checked()
+        {
             self.take_scene(scene, false);
         }
         if let Some(view) = found.view.as_deref().and_then(View::from_word) {

@@ -28,7 +28,7 @@ use super::skin::Skin;
 use super::spectrum::Spectrum;
 use super::theme::Theme;
 use crate::model::Machine;
-use crate::scene::{Scene, keys::CHARTS};
+use crate::scene::{CheckedScene, keys::CHARTS};
 use crate::study::Map;
 use crate::study::precision::Precision;
 
@@ -166,9 +166,9 @@ impl Ranges {
 #[derive(Clone, Debug)]
 pub struct App {
     /// The scene as the knobs have it.
-    pub scene: Scene,
+    pub scene: CheckedScene,
     /// The scene as it was opened; `Backspace` goes back to its values.
-    pub opened: Scene,
+    pub opened: CheckedScene,
     /// Everything derived from `scene`.
     pub machine: Machine,
     /// The selected knob.
@@ -248,8 +248,8 @@ pub struct App {
     /// Theme and marker.
     pub skin: Skin,
     counters: Counters,
-    undo: Vec<Scene>,
-    redo: Vec<Scene>,
+    undo: Vec<CheckedScene>,
+    redo: Vec<CheckedScene>,
     page: i64,
 }
 
@@ -265,7 +265,7 @@ struct Counters {
 impl App {
     /// The explorer on a checked scene.
     #[must_use]
-    pub fn new(scene: Scene, theme: Theme, marker: Marker) -> Self {
+    pub fn new(scene: CheckedScene, theme: Theme, marker: Marker) -> Self {
         let mut views: Vec<View> =
             scene.view.charts.iter().filter_map(|word| View::from_word(word)).collect();
         for view in View::ALL {

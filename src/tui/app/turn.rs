@@ -2,8 +2,8 @@
 //! can be undone.
 
 use super::{App, Mode, Ranges};
-use crate::motion::Motion;
-use crate::scene::{Scene, Value};
+use crate::motion::Change;
+use crate::scene::{CheckedScene, Scene, Value};
 use crate::tui::knobs::{KNOBS, Knob};
 
 /// Turns that can be undone.
@@ -74,7 +74,7 @@ impl App {
     }
 
     /// Takes a scene some knobs further: live where that is on and can be.
-    fn take_turned(&mut self, scene: Scene) {
+    fn take_turned(&mut self, scene: CheckedScene) {
         let failed = self.moment.as_ref().is_some_and(|moment| moment.failure.is_some());
         let live = self.live && !failed && acts_live(&self.scene, &scene);
         if self.live && !live && self.status.is_none() {
@@ -85,7 +85,7 @@ impl App {
 
     /// Makes a scene the present one and begins its run, or lets it act on
     /// the running motion.
-    pub fn take_scene(&mut self, scene: Scene, live: bool) {
+    pub fn take_scene(&mut self, scene: CheckedScene, live: bool) {
         let clearance = self.machine.clearance();
         self.scene = scene;
         self.machine = self.scene.machine();
@@ -145,5 +145,5 @@ fn acts_live(before: &Scene, after: &Scene) -> bool {
     turned.operation.speed_rad_s = after.operation.speed_rad_s;
     turned.operation.speed_ramp_rad_s2 = after.operation.speed_ramp_rad_s2;
     // A start that is over cannot be changed any more.
-    turned == *after || (before.initial == after.initial && Motion::new(before).adopt(after))
+    turned == *after || (before.initial == after.initial && Change::is_live(before, after))
 }

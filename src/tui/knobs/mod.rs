@@ -6,7 +6,9 @@ mod number;
 pub use number::number;
 use number::{COARSE, FINE, decades, prefixed};
 
-use crate::scene::{Allowed, ContactLaw, ModelSize, Scene, SceneError, SolverKind, Value, keys};
+use crate::scene::{
+    Allowed, CheckedScene, ContactLaw, ModelSize, Scene, SceneError, SolverKind, Value, keys,
+};
 
 /// What a knob sets.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -98,7 +100,11 @@ impl Knob {
     ///
     /// # Errors
     /// The refusal, in one line.
-    pub fn set(&self, scene: &Scene, value: Value) -> Result<(Scene, Option<String>), SceneError> {
+    pub fn set(
+        &self,
+        scene: &Scene,
+        value: Value,
+    ) -> Result<(CheckedScene, Option<String>), SceneError> {
         let mut changed = scene.clone();
         match self.target {
             Target::Key(path) => changed.set_value(keys::find(path)?, value)?,
@@ -114,8 +120,7 @@ impl Knob {
             }
         }
         let said = self.make_compatible(&mut changed);
-        changed.check()?;
-        Ok((changed, said))
+        Ok((changed.checked()?, said))
     }
 
     fn make_compatible(&self, scene: &mut Scene) -> Option<String> {

@@ -82,13 +82,14 @@ impl Comparison {
 
 /// Measures until done, or until nobody listens any more.
 fn measure(scene: &Scene, found: &Sender<Found>) {
-    let measure = Measure::new(scene);
+    let Ok(measure) = Measure::new(scene) else { return };
     let reference = Found::Reference(Box::new(measure.reference().clone()));
     if found.send(reference).is_err() {
         return;
     }
     for way in ways(scene, EFFORT) {
-        if found.send(Found::Row(Box::new(measure.row(way, EFFORT)))).is_err() {
+        let Ok(row) = measure.row(way, EFFORT) else { continue };
+        if found.send(Found::Row(Box::new(row))).is_err() {
             return;
         }
     }

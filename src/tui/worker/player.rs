@@ -7,7 +7,7 @@ use super::forecast::Run;
 use super::recorder::Recorder;
 use super::studies::Studies;
 use crate::motion::{Change, Motion, is_sensitive, settle};
-use crate::scene::{ContactLaw, Scene, SolverKind};
+use crate::scene::{CheckedScene, ContactLaw, Scene, SolverKind};
 use crate::tui::engine::{Ahead, Forecast, Moment, Order, Pace, Snapshot};
 
 /// Samples per recorded bin.
@@ -101,7 +101,7 @@ impl Player {
             return;
         }
         let other = other_law(&order.scene);
-        let beside = self.beside.as_mut().map(|beside| (&mut beside.motion, &other));
+        let beside = self.beside.as_mut().map(|beside| &mut beside.motion).zip(other.as_ref());
         for (motion, scene) in std::iter::once((&mut self.motion, &order.scene)).chain(beside) {
             if order.changes != before.changes {
                 for change in Change::between(&before.scene, scene) {
@@ -137,8 +137,7 @@ impl Player {
         if !self.order.beside {
             return None;
         }
-        let scene = other_law(&self.order.scene);
-        scene.check().ok()?;
+        let scene = other_law(&self.order.scene)?;
         let motion = Motion::new(&scene);
         let ahead = Run::new(motion.clone(), scene.solver.end_s);
         let mut beside = Beside { motion, recorder: Recorder::default(), ahead };
@@ -309,14 +308,14 @@ impl Player {
 }
 
 /// The scene under the other contact law, by the solver that knows both.
-fn other_law(scene: &Scene) -> Scene {
+fn other_law(scene: &Scene) -> Option<CheckedScene> {
     let mut scene = scene.clone();
     scene.solver.kind = SolverKind::Explicit;
     scene.solver.contact = match scene.solver.contact {
         ContactLaw::Unilateral => ContactLaw::Bilateral,
         ContactLaw::Bilateral => ContactLaw::Unilateral,
     };
-    scene
+    scene.checked().ok()
 }
 
 /// The event solver under unilateral contact, where the scene's own solver is another.
@@ -324,22 +323,13 @@ fn reference(scene: &Scene) -> Option<Run> {
     if scene.solver.kind == SolverKind::Event {
         return None;
     }
-    let scene = by_events(scene)?;
+    let scene = scene.as_reference().checked().ok()?;
     Some(Run::new(Motion::new(&scene), scene.solver.end_s))
-}
-
-/// The scene with the event solver and unilateral contact, if it knows it.
-fn by_events(scene: &Scene) -> Option<Scene> {
-    let mut scene = scene.clone();
-    scene.solver.kind = SolverKind::Event;
-    scene.solver.contact = ContactLaw::Unilateral;
-    scene.check().ok()?;
-    Some(scene)
 }
 
 /// Whether a tiny change of the pulse changes the outcome.
 fn sensitive(scene: &Scene) -> bool {
-    by_events(scene).is_some_and(|scene| is_sensitive(&scene, settle(&scene)))
+    scene.as_reference().checked().is_ok_and(|scene| is_sensitive(&scene, settle(&scene)))
 }
 
 fn done(run: Option<&Run>) -> Option<Forecast> {

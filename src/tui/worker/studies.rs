@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::comparison::Comparison;
-use crate::scene::{ContactLaw, ModelSize, Scene, SolverKind};
+use crate::scene::{ModelSize, Scene};
 use crate::study::{Axis, Map, MapPlan};
 use crate::tui::engine::{Order, Snapshot};
 use crate::tui::locked_curve::LockedCurves;
@@ -51,7 +51,7 @@ impl Studies {
     }
 
     fn locked_is_old(&self, order: &Order) -> bool {
-        self.locked.as_ref().is_none_or(|(scene, _)| *scene != order.scene)
+        self.locked.as_ref().is_none_or(|(scene, _)| *scene != *order.scene)
     }
 
     fn map_is_done(&self, order: &Order) -> bool {
@@ -70,7 +70,7 @@ impl Studies {
     pub fn go_on(&mut self, order: &Order, signal: &[[f64; 2]], length: f64) {
         if self.locked_is_old(order) {
             let curves = Arc::new(LockedCurves::of(&order.scene));
-            self.locked = Some((order.scene.clone(), curves));
+            self.locked = Some((order.scene.clone().into_scene(), curves));
         } else if order.wants.spectrum && self.spectrum.is_none() {
             self.spectrum = Some(Arc::new(Spectrum::of(signal, length)));
         } else if order.wants.map && !self.map_is_done(order) {
@@ -131,8 +131,7 @@ fn plan(scene: &Scene) -> Option<MapPlan> {
     let usual = crate::tui::locked_curve::speed_range(&scene);
     scene.operation.speed_rad_s = speed;
     let fastest = if speed > usual { crate::tui::locked_curve::speed_range(&scene) } else { usual };
-    scene.solver.kind = SolverKind::Event;
-    scene.solver.contact = ContactLaw::Unilateral;
+    scene = scene.as_reference();
     scene.solver.model = ModelSize::Rigid;
     scene.operation.speed_rad_s = 0.0;
     scene.operation.pulse_n = 0.0;

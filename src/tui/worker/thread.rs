@@ -187,7 +187,7 @@ mod tests {
         scene.operation.speed_rad_s = speed;
         scene.solver.step_s = 1e-6;
         Order {
-            scene,
+            scene: scene.checked().unwrap(),
             restarts,
             changes: 0,
             steps: 0,

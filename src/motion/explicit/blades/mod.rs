@@ -17,7 +17,7 @@ use crate::model::Machine;
 use crate::scene::Scene;
 
 /// What the explicit solver asks of the bladed disk.
-pub trait Blades: Clone + std::fmt::Debug {
+pub trait Blades: Clone + std::fmt::Debug + Send + Sync + 'static {
     /// The disk at rest, for this scene.
     fn at_rest(scene: &Scene, machine: &Machine) -> Self;
     /// These blades with the displacements and rates of others of their kind.

@@ -1,0 +1,76 @@
+//! A scene that can be solved, as a type: what the solvers take.
+
+use std::ops::Deref;
+
+use serde::Serialize;
+
+use super::{ContactLaw, KEYS, Scene, SceneError, SolverKind, check};
+
+/// A scene whose keys and their combinations are all allowed.
+///
+/// ```
+/// use rubscope::scene::Scene;
+/// let mut scene = Scene::builtin("paper-nd3")?;
+/// scene.operation.speed_rad_s = f64::NAN;
+/// let refused = scene.checked().unwrap_err();
+/// assert!(refused.to_string().starts_with("operation.speed_rad_s = NaN"));
+/// # Ok::<(), rubscope::scene::SceneError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(transparent)]
+pub struct CheckedScene(Scene);
+
+impl Deref for CheckedScene {
+    type Target = Scene;
+    fn deref(&self) -> &Scene {
+        &self.0
+    }
+}
+
+impl CheckedScene {
+    /// Whether the event solver knows the contact law and the model size.
+    ///
+    /// # Errors
+    /// It does not, in one line.
+    pub fn suits_events(&self) -> Result<(), SceneError> {
+        check::event(&self.0)
+    }
+
+    /// The scene, to be changed.
+    #[must_use]
+    pub fn into_scene(self) -> Scene {
+        self.0
+    }
+
+    /// This scene, changed by less than any of its bounds could notice: by
+    /// round-off, or inward.
+    pub(crate) fn nudged(&self, change: impl FnOnce(&mut Scene)) -> Self {
+        let mut scene = self.0.clone();
+        change(&mut scene);
+        Self(scene)
+    }
+}
+
+impl Scene {
+    /// This scene as one that can be solved.
+    ///
+    /// # Errors
+    /// The first key out of bounds, or the first combination that is not allowed
+    /// (clearance, stable step, solver pairs), in one line.
+    pub fn checked(&self) -> Result<CheckedScene, SceneError> {
+        for key in KEYS {
+            key.check(&(key.get)(self))?;
+        }
+        check::check(self)?;
+        Ok(CheckedScene(self.clone()))
+    }
+
+    /// This scene for the event solver, which knows one contact law.
+    #[must_use]
+    pub fn as_reference(&self) -> Self {
+        let mut scene = self.clone();
+        scene.solver.kind = SolverKind::Event;
+        scene.solver.contact = ContactLaw::Unilateral;
+        scene
+    }
+}
