@@ -1,0 +1,148 @@
+//! `rubscope precision`: errors at the instants that were really reached, rows
+//! of another contact law, and errors of zero.
+
+use crate::cli_support::{refusal, rubscope};
+use serde_json::Value;
+
+/// The JSON of a comparison that must succeed, each row run once.
+fn compare(arguments: &[&str]) -> Value {
+    let output = rubscope(
+        &[&["precision", "--json", "--repeat", "1", "--finest", "1e-6"], arguments].concat(),
+    );
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+/// What a comparison prints for people.
+fn text(arguments: &[&str]) -> String {
+    let command = ["precision", "--repeat", "1", "--finest", "1e-6"];
+    String::from_utf8(rubscope(&[&command, arguments].concat()).stdout).unwrap()
+}
+
+/// The files of a comparison: CSV and SVG.
+fn files(arguments: &[&str]) -> (String, String) {
+    let directory = tempfile::tempdir().unwrap();
+    let written = |name: &str| {
+        let path = directory.path().join(name);
+        let command = ["precision", "--repeat", "1", "--finest", "1e-6", "--out"];
+        let output = rubscope(&[&command[..], &[path.to_str().unwrap()], arguments].concat());
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        std::fs::read_to_string(&path).unwrap()
+    };
+    (written("rows.csv"), written("rows.svg"))
+}
+
+fn rows(report: &Value) -> &Vec<Value> {
+    report["rows"].as_array().unwrap()
+}
+
+#[test]
+fn the_reference_is_taken_at_the_instant_a_run_really_reached() {
+    // No blade touches; what is left is the error of central differences in
+    // free flight, second order in the step. The end is no multiple of a step.
+    let report = compare(&["--pulse", "1000", "--end", "0.0030037"]);
+    assert_eq!(report["reference"]["impact_count"], 0);
+    for (step, right) in [(1e-6, 4.03e-8), (1e-5, 4.06e-6)] {
+        let of_step = || rows(&report).iter().filter(|row| row["step_s"] == step);
+        assert_eq!(of_step().count(), 6, "two laws, three model sizes");
+        for row in of_step() {
+            let error = row["error_final"].as_f64().unwrap();
+            assert!((error / right - 1.0).abs() < 5e-3, "{error:e} with {row}");
+        }
+    }
+}
+
+#[test]
+fn a_run_that_stopped_early_has_no_error_at_the_end() {
+    // The wave leaves the casing at 19.9 ms, by every solver.
+    let report = compare(&["half-n", "--end", "0.02"]);
+    assert_eq!(report["reference"]["verdict"], "failed");
+    assert_eq!(report["reference"]["error_halved"], Value::Null);
+    assert!(rows(&report).len() > 8);
+    for row in rows(&report) {
+        assert_eq!(row["error_final"], Value::Null, "{row}");
+    }
+    // A step longer than the run cannot take part in it.
+    let report = compare(&["--pulse", "1000", "--end", "5e-6"]);
+    assert!(rows(&report).iter().all(|row| row["step_s"] != 1e-5), "{report}");
+}
+
+#[test]
+fn a_finest_step_without_meaning_is_refused() {
+    for text in ["0", "NaN"] {
+        let said = refusal(&["precision", "--finest", text]);
+        assert_eq!(said, format!("rubscope: --finest = {text}: allowed is a time step above 0"));
+    }
+}
+
+#[test]
+fn another_contact_law_is_no_wrong_answer() {
+    // The default scene locks under the bilateral law and decays under the
+    // unilateral one: both are right about their own law.
+    let short = ["--end", "0.02"];
+    let report = compare(&short);
+    assert_eq!(report["reference"]["contact"], "unilateral");
+    for row in rows(&report) {
+        assert_eq!(row["other_law"], row["contact"] == "bilateral", "{row}");
+        assert!(row["verdict_right"].is_boolean());
+    }
+    let text = text(&short);
+    let lines: Vec<&str> = text.lines().filter(|line| line.contains("  explicit  ")).collect();
+    assert_eq!(lines.len(), 12, "{text}");
+    for line in lines {
+        assert_eq!(line.contains(" bilateral "), line.ends_with("  other law"), "{line}");
+        // A step of 1e-5 s is too coarse for this pulse.
+        let failed = line.contains(" unilateral ") && line.contains("  failed ");
+        assert_eq!(failed, line.ends_with("  wrong"), "{line}");
+    }
+    assert!(text.contains("\nother law: "), "{text}");
+    let (table, _) = files(&short);
+    assert!(table.lines().next().unwrap().ends_with(",verdict,verdict_right,other_law"), "{table}");
+    assert!(table.lines().any(|line| line.contains("bilateral") && line.ends_with(",true")));
+}
+
+#[test]
+fn an_error_of_zero_is_called_zero_and_stays_off_the_logarithmic_axis() {
+    // No contact: the event solver gives the same bits at every tolerance.
+    let free = ["--pulse", "1000", "--end", "0.003"];
+    let report = compare(&free);
+    let exact = rows(&report).iter().filter(|row| row["error_final"] == 0.0).count();
+    assert_eq!(exact, 8, "the event solver's rows");
+    let printed = text(&free);
+    assert!(!printed.contains("e-16") && !printed.contains("\n -16 |"), "{printed}");
+    let marks = printed.lines().find(|line| line.starts_with("   0 |")).unwrap();
+    assert!(marks.contains('e') || marks.contains('E'), "{marks}");
+    let (_, picture) = files(&free);
+    assert!(picture.contains("error 0, off this scale") && !picture.contains("1e-16"), "{picture}");
+    // Nothing at all to place on such an axis is said, not drawn.
+    let still = ["--pulse", "0", "--end", "0.003"];
+    let printed = text(&still);
+    assert!(printed.contains("\n   0 |") && !printed.contains("inf"), "{printed}");
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("still.svg");
+    let command = ["precision", "--repeat", "1", "--finest", "1e-6", "--out"];
+    let output = rubscope(&[&command[..], &[path.to_str().unwrap()], &still].concat());
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(said.contains("every error is 0"), "{said}");
+    assert!(!path.exists());
+}
+
+#[test]
+fn a_wrong_verdict_under_the_same_law_is_called_wrong() {
+    // Slip, where a step of 1e-5 s locks by either law.
+    let text = text(&["slip", "--model", "rigid", "--end", "0.05"]);
+    let ending = |start: &str| {
+        let line = text.lines().find(|line| line.starts_with(start)).unwrap();
+        line.split_whitespace().skip(9).collect::<Vec<_>>().join(" ")
+    };
+    assert_eq!(ending("u  explicit  unilateral  rigid          1e-5"), "locked wrong", "{text}");
+    assert_eq!(ending("b  explicit  bilateral   rigid          1e-6"), "locked other law");
+    assert_eq!(ending("u  explicit  unilateral  rigid          1e-6"), "slip");
+}
+
+#[test]
+fn a_scene_that_the_reference_does_not_know_is_refused() {
+    let said = refusal(&["precision", "--set", "excitation.amplitude_nm=1"]);
+    let start = "rubscope: excitation.amplitude_nm = 1: allowed is 0 with solver.kind = \"event\"";
+    assert!(said.starts_with(start), "{said}");
+}

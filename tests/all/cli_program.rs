@@ -1,0 +1,104 @@
+//! The program as a whole: help, version, completions, manual, the explorer
+//! without a terminal, closed pipes, and exit status.
+
+use std::io::Read;
+use std::process::{Command, Stdio};
+
+use crate::cli_support::{refusal, rubscope};
+
+fn printed(arguments: &[&str]) -> String {
+    let output = rubscope(arguments);
+    assert_eq!(output.status.code(), Some(0), "{arguments:?}");
+    assert!(output.stderr.is_empty(), "{arguments:?}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+#[test]
+fn the_explorer_without_a_terminal_names_the_command_that_needs_none() {
+    for arguments in [&[][..], &["paper-nd4"], &["--speed", "-430"]] {
+        let message = refusal(arguments);
+        assert!(message.contains("terminal") && message.contains("rubscope run"), "{message}");
+    }
+}
+
+#[test]
+fn options_before_a_command_are_explained() {
+    assert_eq!(
+        refusal(&["--speed", "400", "run"]),
+        "rubscope: options come after the command: rubscope run [OPTIONS]"
+    );
+}
+
+#[test]
+fn help_and_version_are_data() {
+    assert!(printed(&["--version"]).starts_with("rubscope "));
+    let help = printed(&["--help"]);
+    for word in ["Usage: rubscope", "run", "scenes", "completions", "man", "--speed", "--set"] {
+        assert!(help.contains(word), "{word} is not in {help}");
+    }
+    assert!(printed(&["run", "--help"]).contains("--samples"));
+}
+
+#[test]
+fn wrong_usage_is_one_line() {
+    for (arguments, found) in [
+        (&["run", "--bogus"][..], "'--bogus'"),
+        (&["run", "a", "b"], "'b'"),
+        (&["run", "--samples", "many", "--out", "a.csv"], "'--samples <COUNT>'"),
+        (&["completions", "sh"], "bash"),
+        (&["completions"], "<SHELL>"),
+        (&["run", "--speed"], "'--speed <SPEED>'"),
+        (&["man", "nothing"], "COMMAND = nothing: allowed is one of run,"),
+        (&["scenes", "nothing"], "unknown scene nothing; allowed: "),
+    ] {
+        let message = refusal(arguments);
+        assert!(message.contains(found), "{arguments:?} said {message}");
+    }
+}
+
+#[test]
+fn control_characters_in_arguments_do_not_reach_the_terminal() {
+    let message = refusal(&["run", "a\u{1b}[31m\nb"]);
+    assert!(!message.chars().any(char::is_control), "{message:?}");
+}
+
+#[test]
+fn scenes_are_listed_and_printed_as_files_that_load() {
+    let list = printed(&["scenes"]);
+    for name in ["paper-nd3", "paper-nd4", "adhesive", "undamped"] {
+        assert!(list.lines().any(|line| line.starts_with(name)), "{list}");
+        let toml = printed(&["scenes", name]);
+        assert!(rubscope::scene::Scene::from_toml(&toml).is_ok(), "{toml}");
+    }
+}
+
+#[test]
+fn completions_and_manual_know_the_commands() {
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        let text = printed(&["completions", shell]);
+        assert!(text.contains("zeta-casing") && text.contains("rubscope"), "{shell}");
+    }
+    let page = printed(&["man"]);
+    assert!(page.contains(".TH rubscope 1") && page.contains(".SH \"EXIT STATUS\""), "{page}");
+    assert!(printed(&["man", "run"]).contains("\\-\\-samples"));
+}
+
+#[test]
+fn a_closed_pipe_ends_the_program_quietly() {
+    let program = assert_cmd::cargo::cargo_bin!("rubscope");
+    for arguments in [&["scenes", "paper-nd3"][..], &["completions", "bash"], &["--help"]] {
+        let mut child = Command::new(program)
+            .args(arguments)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        drop(child.stdout.take());
+        let mut message = String::new();
+        child.stderr.take().unwrap().read_to_string(&mut message).unwrap();
+        let status = child.wait().unwrap();
+        assert_eq!(message, "", "{arguments:?}");
+        // 128 + SIGPIPE, or 0 where everything was written before the pipe closed.
+        assert!(matches!(status.code(), Some(0 | 141)), "{arguments:?}: {status}");
+    }
+}

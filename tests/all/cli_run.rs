@@ -1,0 +1,166 @@
+//! `rubscope run`: verdicts, JSON, history files, exit status.
+
+use crate::cli_support::{refusal, rubscope};
+
+/// A quick scene: few steps, a decay.
+const QUICK: [&str; 6] = ["--contact", "unilateral", "--pulse", "20000", "--end", "0.002"];
+
+/// Standard output of a command that must succeed, as JSON.
+fn json(arguments: &[&str]) -> serde_json::Value {
+    let output = rubscope(arguments);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+fn quick(more: &[&'static str]) -> Vec<&'static str> {
+    [&["run"], QUICK.as_slice(), more].concat()
+}
+
+#[test]
+fn json_has_the_names_and_kinds_of_the_contract() {
+    let report = json(&quick(&["--json"]));
+    assert_eq!(report["schema"], "rubscope.run/1");
+    for (path, kind) in [
+        ("/scene/bladed_disk/blades", "number"),
+        ("/solver/kind", "string"),
+        ("/solver/contact", "string"),
+        ("/solver/model", "string"),
+        ("/solver/steps", "number"),
+        ("/solver/events", "null"),
+        ("/solver/wall_s", "number"),
+        ("/outcome/verdict", "string"),
+        ("/outcome/sensitive", "boolean"),
+        ("/outcome/lock_time_s", "null"),
+        ("/outcome/contacts", "array"),
+        ("/outcome/amplitude_m", "number"),
+        ("/outcome/wave_speed_rad_s", "null"),
+        ("/impacts/0/t_s", "number"),
+        ("/impacts/0/blades/0", "number"),
+        ("/impact_count", "number"),
+        ("/final/t_s", "number"),
+        ("/final/u_c_m", "number"),
+        ("/final/u_s_m", "number"),
+        ("/final/alpha_c_rad", "number"),
+        ("/final/alpha_s_rad", "number"),
+        ("/checks/max_penetration_m", "number"),
+        ("/checks/tensile_steps", "number"),
+        ("/checks/max_blade_angle_rad", "number"),
+        ("/checks/energy_residual_j", "null"),
+    ] {
+        let value = report.pointer(path).unwrap_or_else(|| panic!("no {path} in {report}"));
+        let found = match value {
+            serde_json::Value::Null => "null",
+            serde_json::Value::Bool(_) => "boolean",
+            serde_json::Value::Number(_) => "number",
+            serde_json::Value::String(_) => "string",
+            serde_json::Value::Array(_) => "array",
+            serde_json::Value::Object(_) => "object",
+        };
+        // Not every solver accounts for the energy.
+        assert!(found == kind || path.ends_with("energy_residual_j"), "{path} is a {found}");
+    }
+}
+
+#[test]
+fn case_a_meets_blades_19_and_4() {
+    let report = json(&quick(&["--json"]));
+    assert_eq!(report["outcome"]["verdict"], "decay");
+    let impacts = report["impacts"].as_array().unwrap();
+    assert_eq!(impacts[0]["blades"], serde_json::json!([19]));
+    assert_eq!(impacts[1]["blades"], serde_json::json!([4]));
+    // Two steps of 1e-7 s: a step sees an impact at its end.
+    assert!((impacts[0]["t_s"].as_f64().unwrap() - 2.282_19e-4).abs() < 2e-7);
+}
+
+#[test]
+fn the_summary_tells_a_lock_and_a_pull_apart() {
+    let locked = rubscope(&["run", "--end", "0.005"]);
+    assert!(locked.status.success());
+    let text = String::from_utf8(locked.stdout).unwrap();
+    assert!(text.contains("Verdict: locked. "), "{text}");
+    assert!(text.contains("Warning: the bilateral law pulled in 2 steps"), "{text}");
+    let text = String::from_utf8(rubscope(&["run", "adhesive", "--end", "0.005"]).stdout).unwrap();
+    assert!(text.contains("Verdict: adhesive. "), "{text}");
+    assert!(text.contains("held by a pull, which no contact can give"), "{text}");
+}
+
+#[test]
+fn a_run_that_breaks_down_is_told_and_ends_with_status_1() {
+    // The bilateral scheme predicts a penetration deeper than the clearance here.
+    let wild = ["run", "--step", "1e-6", "--pulse", "1e6", "--json"];
+    let output = rubscope(&wild);
+    assert_eq!(output.status.code(), Some(1));
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(report["outcome"]["verdict"], "failed");
+    assert!(report["outcome"]["message"].as_str().unwrap().contains("failed at t = "));
+    assert!(output.stderr.is_empty());
+}
+
+#[test]
+fn a_history_has_the_asked_number_of_samples_and_reads_back() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("history.csv");
+    let file = path.to_str().unwrap();
+    let output = rubscope(&[&quick(&["--samples", "21", "--gaps", "--out"])[..], &[file]].concat());
+    assert!(output.status.success());
+    let mut reader = csv::Reader::from_path(&path).unwrap();
+    let names: Vec<String> = reader.headers().unwrap().iter().map(String::from).collect();
+    assert_eq!(names[..5], ["t_s", "theta_rad", "speed_rad_s", "u_c_m", "u_s_m"]);
+    assert_eq!(names.len(), 11 + 22);
+    assert_eq!(names.last().unwrap(), "gap_22_m");
+    let rows: Vec<Vec<f64>> = reader
+        .records()
+        .map(|record| record.unwrap().iter().map(|cell| cell.parse().unwrap()).collect())
+        .collect();
+    assert_eq!(rows.len(), 21);
+    assert_eq!(rows[0][0], 0.0);
+    // A step may end up to one step before the sample's instant.
+    assert!((rows[20][0] - 0.002).abs() <= 1.01e-7);
+    for row in &rows {
+        let smallest = row[11..].iter().copied().fold(f64::INFINITY, f64::min);
+        assert_eq!(row[7], smallest);
+        assert!(smallest > -1e-15, "an accepted state does not penetrate");
+    }
+    assert_eq!(std::fs::read_dir(directory.path()).unwrap().count(), 1);
+}
+
+#[test]
+fn numpy_files_hold_one_array_a_column() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("history.NPZ");
+    let output = rubscope(&[&quick(&["--out"])[..], &[path.to_str().unwrap()]].concat());
+    assert!(output.status.success());
+    let bytes = std::fs::read(&path).unwrap();
+    assert_eq!(&bytes[..4], b"PK\x03\x04");
+    let entries = u16::from_le_bytes([bytes[bytes.len() - 12], bytes[bytes.len() - 11]]);
+    assert_eq!(entries, 11);
+}
+
+#[test]
+fn files_that_cannot_be_written_are_refused_in_one_line() {
+    assert_eq!(
+        refusal(&["run", "--out", "history.xlsx"]),
+        "rubscope: --out = history.xlsx: allowed is a file name ending in .csv or .npz"
+    );
+    let output = rubscope(&["run", "--out", "/nonexistent/history.csv"]);
+    assert_eq!(output.status.code(), Some(1));
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert!(message.starts_with("rubscope: cannot write /nonexistent/history.csv: "));
+    assert_eq!(message.lines().count(), 1);
+}
+
+#[test]
+fn history_options_without_a_file_are_refused() {
+    assert!(refusal(&["run", "--gaps"]).contains("--out <FILE>"));
+    assert!(refusal(&["run", "--out", "a.csv", "--samples", "1"]).contains("2..=1000000"));
+}
+
+#[test]
+fn run_and_map_agree_on_a_lock_that_was_caught_by_a_pull() {
+    // The bilateral law pulls in the two steps that catch the wave, and never again.
+    let report = json(&["run", "--pulse", "51742", "--json"]);
+    assert_eq!(report["outcome"]["verdict"], "locked");
+    assert_eq!(report["checks"]["tensile_steps"], 2);
+    let map = json(&["map", "--speed", "500:500:1", "--pulse", "51742:51742:1", "--json"]);
+    assert_eq!(map["verdict"], serde_json::json!([["locked"]]));
+}

@@ -1,0 +1,143 @@
+//! The options that change a scene, on the command line: each reaches its key,
+//! precedence, and what is refused.
+
+use std::io::Write;
+
+use crate::cli_support::{refusal, rubscope};
+
+/// The scene of a short run with these arguments, as its report gives it.
+fn scene(arguments: &[&str]) -> serde_json::Value {
+    let output = rubscope(&[&["run", "--json"], arguments].concat());
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let mut report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    report["scene"].take()
+}
+
+fn file(toml: &str) -> tempfile::NamedTempFile {
+    let mut file = tempfile::Builder::new().suffix(".toml").tempfile().unwrap();
+    file.write_all(toml.as_bytes()).unwrap();
+    file
+}
+
+#[test]
+fn every_option_reaches_its_key() {
+    let short = ["--end", "1e-4", "--contact", "unilateral"];
+    for (option, text, path, value) in [
+        ("--speed", "-430", "/operation/speed_rad_s", serde_json::json!(-430.0)),
+        ("--speed", "4.3e2", "/operation/speed_rad_s", serde_json::json!(430.0)),
+        ("--pulse", "-1e3", "/operation/pulse_n", serde_json::json!(-1000.0)),
+        ("--nd", "4", "/operation/nodal_diameters", serde_json::json!(4)),
+        ("--zeta-casing", "0.01", "/casing/damping_ratio", serde_json::json!(0.01)),
+        ("--zeta-disk", "0", "/bladed_disk/damping_ratio", serde_json::json!(0.0)),
+        ("--solver", "explicit", "/solver/kind", serde_json::json!("explicit")),
+        ("--model", "rigid", "/solver/model", serde_json::json!("rigid")),
+        ("--model", "full", "/solver/model", serde_json::json!("full")),
+        ("--step", "2e-7", "/solver/step_s", serde_json::json!(2e-7)),
+        ("--set", "bladed_disk.blades=24", "/bladed_disk/blades", serde_json::json!(24)),
+        ("--set", "initial.v_c_m_s=-0.1", "/initial/v_c_m_s", serde_json::json!(-0.1)),
+        ("--set", "title=a = b", "/title", serde_json::json!("a = b")),
+    ] {
+        let scene = scene(&[&short[..], &[option, text]].concat());
+        assert_eq!(scene.pointer(path), Some(&value), "{option} {text}");
+    }
+    assert_eq!(scene(&["--contact=bilateral", "--end=1e-4"])["solver"]["contact"], "bilateral");
+}
+
+#[test]
+fn an_option_wins_over_the_file_and_the_file_over_the_default() {
+    let file = file("[operation]\nspeed_rad_s = 450.0\n[solver]\nend_s = 1e-4\n");
+    let path = file.path().to_str().unwrap();
+    let from_file = scene(&[path]);
+    assert_eq!(from_file["operation"]["speed_rad_s"], 450.0);
+    assert_eq!(from_file["bladed_disk"]["blades"], 22);
+    assert_eq!(scene(&[path, "--speed", "-460"])["operation"]["speed_rad_s"], -460.0);
+    let set_last = scene(&["--set", "operation.speed_rad_s=470", path, "--speed", "460"]);
+    assert_eq!(set_last["operation"]["speed_rad_s"], 470.0);
+}
+
+#[test]
+fn without_a_scene_the_default_one_is_run() {
+    assert_eq!(scene(&["--end", "1e-4"]), scene(&["paper-nd3", "--end", "1e-4"]));
+}
+
+#[test]
+fn an_option_can_mend_a_file_that_is_refused_alone() {
+    let file = file("[solver]\nstep_s = 0.01\nend_s = 1e-4\n");
+    let path = file.path().to_str().unwrap();
+    assert!(refusal(&["run", path]).contains("solver.step_s = 1e-2: allowed is above 0 and below"));
+    assert_eq!(scene(&[path, "--step", "1e-7"])["solver"]["step_s"], 1e-7);
+}
+
+#[test]
+fn refused_options_name_key_value_and_what_is_allowed() {
+    for (arguments, start) in [
+        (
+            &["--set", "paint.colour=red"][..],
+            "unknown key paint.colour; allowed: schema, title, note, bladed_disk, casing",
+        ),
+        (&["--set", "casing.colour=red"], "unknown key casing.colour; allowed: casing.radius_m,"),
+        (&["--set", "blades"], "--set = blades: allowed is PATH=VALUE"),
+        (&["--set", "bladed_disk.blades=0"], "bladed_disk.blades = 0: allowed is a whole number"),
+        (&["--set", "bladed_disk.blades=2.5"], "bladed_disk.blades = 2.5: allowed is a whole"),
+        (&["--set", "casing.radius_m=0.4999"], "casing.radius_m = 0.4999: allowed is above bl"),
+        (&["--speed", "NaN"], "operation.speed_rad_s = NaN: allowed is a number from -1e6 to 1e6"),
+        (&["--speed", "inf"], "operation.speed_rad_s = inf: allowed is a number from"),
+        (&["--speed", "fast"], "operation.speed_rad_s = fast: allowed is a number from"),
+        (&["--speed", "1:2:3"], "operation.speed_rad_s = 1:2:3: allowed is a number from"),
+        (&["--nd", "-3"], "operation.nodal_diameters = -3: allowed is a whole number from 0"),
+        (&["--zeta-casing", "-0.1"], "casing.damping_ratio = -0.1: allowed is a number from 0"),
+        (&["--zeta-disk", "x"], "bladed_disk.damping_ratio = x: allowed is a number from 0"),
+        (&["--solver", "magic"], "solver.kind = \"magic\": allowed is one of explicit, event"),
+        (&["--contact", "glue"], "solver.contact = \"glue\": allowed is one of unilateral, bil"),
+        (&["--model", "huge"], "solver.model = \"huge\": allowed is one of rigid, modal, full"),
+        (&["--step", "0"], "solver.step_s = 0: allowed is a number above 0"),
+        (&["--step", "0.01"], "solver.step_s = 1e-2: allowed is above 0 and below the stability"),
+        (&["--end", "-1"], "solver.end_s = -1: allowed is a number above 0"),
+        (&["nowhere"], "unknown scene nowhere; allowed: a path ending in .toml, or one of paper"),
+        (&["nowhere.toml"], "cannot read scene file nowhere.toml: "),
+    ] {
+        let message = refusal(&[&["run"], arguments].concat());
+        assert!(message.starts_with(&format!("rubscope: {start}")), "{arguments:?}: {message}");
+    }
+}
+
+#[test]
+fn a_step_bound_is_printed_in_four_digits_and_accepted_as_printed() {
+    for (speed, step, bound) in [
+        ("0", "0.01", "2.276e-3"),
+        ("0", "2.4e-3", "2.276e-3"),
+        ("500", "0.01", "3.333e-4"),
+        ("500", "4e-4", "3.333e-4"),
+        ("-430", "2.4e-3", "3.875e-4"),
+    ] {
+        let short = ["run", "--end", "0.01", "--speed", speed, "--step"];
+        let said = refusal(&[&short[..], &[step]].concat());
+        let printed = said.split("at most ").nth(1).unwrap().split(',').next().unwrap();
+        assert_eq!(printed, bound, "{said}");
+        // Coarse as it is, such a step may break down, but it is run.
+        assert_ne!(rubscope(&[&short[..], &[printed]].concat()).status.code(), Some(2), "{said}");
+    }
+}
+
+#[test]
+fn refused_files_are_named() {
+    for (toml, found) in [
+        ("[casing]\nradius_m = nan\n", "casing.radius_m = NaN: allowed is"),
+        ("[casing]\ncolour = 1\n", "unknown key casing.colour; allowed: casing.radius_m"),
+        ("[bladed_disk]\nblades = \"many\"\n", "bladed_disk.blades = \"many\": allowed is a whole"),
+        ("[bladed_disk]\n\nblades = = 3\n", "not a TOML file: line 3: "),
+    ] {
+        let file = file(toml);
+        let path = file.path().to_str().unwrap();
+        let message = refusal(&["run", path]);
+        assert!(message.starts_with(&format!("rubscope: {path}: {found}")), "{message}");
+    }
+}
+
+#[test]
+fn the_event_solver_and_the_bilateral_law_asked_for_together_are_refused() {
+    let message = refusal(&["run", "--solver", "event", "--contact", "bilateral"]);
+    assert!(message.starts_with("rubscope: solver.contact = \"bilateral\": allowed is"));
+    let message = refusal(&["run", "--solver", "event", "--model", "full"]);
+    assert!(message.contains("solver.model = \"full\": allowed is"));
+}

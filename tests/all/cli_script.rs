@@ -1,0 +1,264 @@
+//! Changes of a running motion from the command line: order, refusals before
+//! anything is run, and that each does what the call on the motion does.
+
+use crate::cli_support::{refusal, rubscope};
+use rubscope::cli::script::{Change, Script, parse};
+use rubscope::motion::{self, Motion};
+use rubscope::scene::{Allowed, ContactLaw, KEYS, Key, ModelSize, Scene, SolverKind, Value};
+
+fn parsed(options: &[&str]) -> Result<Vec<(f64, Change)>, String> {
+    let options: Vec<String> = options.iter().map(ToString::to_string).collect();
+    parse(&options).map_err(|error| error.to_string())
+}
+
+fn script(options: &[&str], scene: &Scene) -> Result<Script, String> {
+    Script::resolve(&parsed(options)?, &scene.checked().unwrap()).map_err(|error| error.to_string())
+}
+
+fn explicit() -> Scene {
+    let mut scene = Scene::default();
+    scene.solver.step_s = 1e-6;
+    scene
+}
+
+fn event() -> Scene {
+    let mut scene = Scene::default();
+    scene.solver.kind = SolverKind::Event;
+    scene
+}
+
+#[test]
+fn changes_are_put_in_order_of_time_and_keep_their_order_at_one_instant() {
+    let options = [
+        "0.02:pulse",
+        "1e-2:operation.pulse_n = -5e3",
+        "0:operation.speed_rad_s=480",
+        "0.010:pulse",
+        "-0:solver.contact=bilateral",
+    ];
+    let told: Vec<String> =
+        parsed(&options).unwrap().iter().map(|(t, change)| format!("{t} {change}")).collect();
+    assert_eq!(
+        told,
+        [
+            "0 operation.speed_rad_s=480",
+            "0 solver.contact=bilateral",
+            "0.01 operation.pulse_n=-5e3",
+            "0.01 pulse",
+            "0.02 pulse"
+        ]
+    );
+}
+
+#[test]
+fn other_forms_are_refused_with_the_form_that_is_allowed() {
+    for text in ["", "pulse", "0.01", "0.01:", "0.01:fire", "soon:pulse", "0.01 pulse"] {
+        let said = parsed(&["0.01:pulse", text]).unwrap_err();
+        let start = format!("--at = {text}: allowed is TIME:PATH=VALUE or TIME:pulse");
+        assert!(said.starts_with(&start), "{said}");
+    }
+}
+
+#[test]
+fn what_cannot_be_done_is_refused_in_one_line() {
+    let live = "allowed is pulse, or a key that a running explicit motion takes: bladed_disk.";
+    let rotor = "allowed is pulse, or a key that a running event motion takes: \
+                 operation.speed_rad_s, operation.speed_ramp_rad_s2";
+    for (scene, text, said) in [
+        (explicit(), "0.2:pulse", "allowed is a time from 0 to solver.end_s = 0.1"),
+        (explicit(), "-1:pulse", "allowed is a time from 0 to solver.end_s = 0.1"),
+        (explicit(), "NaN:pulse", "allowed is a time from 0 to solver.end_s = 0.1"),
+        (explicit(), "0:bladed_disk.blades=22", live),
+        (explicit(), "0:casing.radius_m=0.6", live),
+        (explicit(), "0:solver.end_s=1", live),
+        (explicit(), "0:initial.u_c_m=0", live),
+        (explicit(), "0:title=x", live),
+        (event(), "0:casing.damping_ratio=0.01", rotor),
+        (event(), "0:operation.pulse_n=1", rotor),
+    ] {
+        let refused = script(&[text], &scene).unwrap_err();
+        let start = format!("--at = {text}: {said}");
+        assert!(refused.starts_with(&start) && refused.lines().count() == 1, "{refused}");
+    }
+    for (scene, text, said) in [
+        (explicit(), "0:casing.colour=1", "unknown key casing.colour; allowed: "),
+        (event(), "0:casing.colour=1", "unknown key casing.colour; allowed: "),
+        (explicit(), "0:casing.damping_ratio=-1", "casing.damping_ratio = -1: allowed is a n"),
+        (event(), "0:operation.speed_rad_s=fast", "operation.speed_rad_s = fast: allowed is"),
+        (explicit(), "0:solver.contact=glue", "solver.contact = \"glue\": allowed is one of"),
+        (explicit(), "0:operation.speed_rad_s=9e5", "solver.step_s = 1e-6: allowed is at most"),
+    ] {
+        let refused = script(&[text], &scene).unwrap_err();
+        assert!(refused.starts_with(&format!("--at {text}: {said}")), "{refused}");
+    }
+    // Each change is checked on the scene that those before it left.
+    let both = ["0.01:excitation.amplitude_nm=1", "0.02:operation.speed_rad_s=1e5"];
+    assert!(script(&both, &explicit()).is_ok());
+    let stiff = "0:bladed_disk.stiffness_nm_per_rad=1e12";
+    let said = script(&[stiff, "0.02:pulse"], &explicit()).unwrap_err();
+    assert!(said.contains("solver.step_s = 1e-6: allowed is above 0 and below"), "{said}");
+}
+
+#[test]
+fn a_key_acts_live_just_where_the_motion_takes_it() {
+    // Another value of a key, allowed in the default scene.
+    let other = |key: &Key, scene: &Scene| match ((key.get)(scene), key.allowed) {
+        (Value::Real(x), _) => (if x == 0.0 { 1e-6 } else { 1.01 * x }).to_string(),
+        (Value::Whole(n), _) => (n + 1).to_string(),
+        (Value::Text(word), Allowed::OneOf(words)) => {
+            (*words.iter().find(|other| **other != word).unwrap()).to_string()
+        }
+        _ => "map".to_string(),
+    };
+    for model in [ModelSize::Modal, ModelSize::Full] {
+        let mut scene = explicit();
+        scene.solver.model = model;
+        for key in KEYS {
+            let value = other(key, &scene);
+            let mut changed = scene.clone();
+            changed.set(key.path, &value).unwrap();
+            assert_ne!(changed, scene, "{}", key.path);
+            let takes = motion::Change::is_live(&scene, &changed);
+            let text = format!("0.01:{}={value}", key.path);
+            match script(&[&text], &scene) {
+                Ok(script) => {
+                    let changes = script.changes();
+                    let (_, last) = changes.changes().last().unwrap();
+                    let adopted = motion::Change::Parameters(Box::new(changed.checked().unwrap()));
+                    assert!(takes && *last == adopted, "{text}");
+                }
+                // Taken without a trace: what a running motion has no use for.
+                Err(_) if takes => assert!(
+                    ["title", "note", "view.charts", "solver.end_s"].contains(&key.path)
+                        || key.path.starts_with("initial."),
+                    "{text}"
+                ),
+                Err(_) => {}
+            }
+        }
+    }
+}
+
+/// The motion of a scene moved to `end` by a script.
+fn moved(scene: &Scene, script: &Script, end: f64) -> Motion {
+    let mut motion = Motion::new(&scene.checked().unwrap());
+    for (t_s, change) in script.changes().changes() {
+        motion.advance(*t_s).unwrap();
+        motion.apply(change);
+    }
+    motion.advance(end).unwrap();
+    motion
+}
+
+#[test]
+fn a_script_does_what_the_calls_on_the_motion_do() {
+    let options = [
+        "0.004:pulse",
+        "0.002:operation.speed_rad_s=450",
+        "0.003:operation.pulse_n=15e3",
+        "0.003:operation.pulse_s=1e-4",
+        "0.005:casing.damping_ratio=0.01",
+        "0.006:solver.contact=bilateral",
+    ];
+    for model in [ModelSize::Rigid, ModelSize::Modal, ModelSize::Full] {
+        let mut scene = explicit();
+        scene.solver.model = model;
+        let script = script(&options, &scene).unwrap();
+        let by_script = moved(&scene, &script, 0.01);
+        let mut by_hand = Motion::new(&scene.checked().unwrap());
+        let mut now = scene.clone();
+        by_hand.advance(0.002).unwrap();
+        now.operation.speed_rad_s = 450.0;
+        by_hand.set_speed(450.0, 0.0);
+        by_hand.advance(0.003).unwrap();
+        (now.operation.pulse_n, now.operation.pulse_s) = (15e3, 1e-4);
+        by_hand.set_parameters(&now.checked().unwrap());
+        by_hand.advance(0.004).unwrap();
+        by_hand.fire();
+        assert_eq!(by_hand.pulse().force, 15e3);
+        by_hand.advance(0.005).unwrap();
+        now.casing.damping_ratio = 0.01;
+        by_hand.set_parameters(&now.checked().unwrap());
+        by_hand.advance(0.006).unwrap();
+        now.solver.contact = ContactLaw::Bilateral;
+        by_hand.set_parameters(&now.checked().unwrap());
+        by_hand.advance(0.01).unwrap();
+        let (a, b) = (by_script.state(), by_hand.state());
+        assert_eq!(by_script.pulse(), by_hand.pulse());
+        assert_eq!(by_script.contacts().impact_count, by_hand.contacts().impact_count);
+        // Round-off of blocks that a scene without a change cuts.
+        assert!((a.u[0] - b.u[0]).hypot(a.u[1] - b.u[1]) < 1e-12, "{a:?} {b:?}");
+        let without = moved(&scene, &Script::default(), 0.01).state();
+        assert!((a.u[0] - without.u[0]).abs() > 1e-6, "{a:?} {without:?}");
+    }
+}
+
+#[test]
+fn the_event_solver_turns_its_rotor_and_fires_to_the_bit() {
+    let scene = event();
+    let options = [
+        "0.003:pulse",
+        "0.001:operation.speed_rad_s=430",
+        "0.001:operation.speed_ramp_rad_s2=-400",
+        "0.004:operation.speed_ramp_rad_s2=-400",
+    ];
+    let by_script = moved(&scene, &script(&options, &scene).unwrap(), 0.01);
+    let mut by_hand = Motion::new(&scene.checked().unwrap());
+    by_hand.advance(0.001).unwrap();
+    by_hand.set_speed(430.0, 0.0);
+    by_hand.set_speed(430.0, -400.0);
+    by_hand.advance(0.003).unwrap();
+    by_hand.fire();
+    by_hand.advance(0.01).unwrap();
+    assert_eq!(by_script.state(), by_hand.state());
+    // The same ramp again was no change: the speed has gone on falling.
+    assert_eq!(by_script.rotor().speed(0.01), 430.0 - 400.0 * 0.009);
+    // The same speed again is one.
+    let again = ["0.001:operation.speed_ramp_rad_s2=-400", "0.005:operation.speed_rad_s=500"];
+    let again = moved(&scene, &script(&again, &scene).unwrap(), 0.01);
+    assert_eq!(again.rotor().speed(0.01), 500.0 - 400.0 * 0.005);
+}
+
+#[test]
+fn json_names_each_change() {
+    let options = ["0.02:pulse", "0.01:operation.speed_rad_s=480", "0:solver.contact=bilateral"];
+    let told = serde_json::to_value(script(&options, &explicit()).unwrap()).unwrap();
+    assert_eq!(
+        told,
+        serde_json::json!([
+            { "t_s": 0.0, "path": "solver.contact", "value": "bilateral" },
+            { "t_s": 0.01, "path": "operation.speed_rad_s", "value": 480.0 },
+            { "t_s": 0.02, "pulse": true }
+        ])
+    );
+}
+
+#[test]
+fn the_option_is_checked_before_the_simulation() {
+    // So many steps that a debug build would be at it for minutes.
+    let long = ["run", "slip", "--solver", "explicit", "--step", "1e-9", "--end", "10"];
+    for (options, said) in [
+        (&["--at", "11:pulse"][..], "--at = 11:pulse: allowed is a time from 0 to solver.end_s ="),
+        (&["--at", "-1:pulse"], "--at = -1:pulse: allowed is a time from 0 to solver.end_s = 10"),
+        (&["--at", "pulse"], "--at = pulse: allowed is TIME:PATH=VALUE or TIME:pulse"),
+        (&["--at", "1:bladed_disk.blades=24"], "--at = 1:bladed_disk.blades=24: allowed is pulse"),
+        (&["--at", "1:pulse", "--at", "2:x=1"], "--at 2:x=1: unknown key x; allowed: schema"),
+        (
+            &["--at", "1:casing.damping_ratio=lots"],
+            "--at 1:casing.damping_ratio=lots: casing.damping_ratio = lots: allowed is a number",
+        ),
+    ] {
+        let refused = refusal(&[&long[..], options].concat());
+        assert!(refused.starts_with(&format!("rubscope: {said}")), "{refused}");
+    }
+}
+
+#[test]
+fn a_run_without_changes_says_nothing_of_them() {
+    let output = rubscope(&["run", "--end", "1e-4", "--json"]);
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(report["schema"], "rubscope.run/1");
+    assert!(report.get("changes").is_none());
+    let output = rubscope(&["run", "--end", "1e-4"]);
+    assert!(!String::from_utf8(output.stdout).unwrap().contains("hanged"));
+}

@@ -1,0 +1,244 @@
+//! The hard cases of the event solver, each with its right answer or its plain
+//! refusal: no hang, no NaN, no silent nonsense.
+
+use std::f64::consts::FRAC_PI_2;
+
+use rubscope::motion::{Event, Failure, Solver, Touching, Verdict};
+use rubscope::scene::{ModelSize, Scene};
+
+const ZETA: &str = "casing.damping_ratio";
+const PULSE: &str = "operation.pulse_n";
+const LENGTH: &str = "operation.pulse_s";
+const SPEED: &str = "operation.speed_rad_s";
+const RAMP: &str = "operation.speed_ramp_rad_s2";
+const DIAMETERS: &str = "operation.nodal_diameters";
+const BLADES: &str = "bladed_disk.blades";
+const BLADE: &str = "bladed_disk.blade_length_m";
+
+fn run(changes: &[(&str, f64)], until: f64) -> (Event, Result<(), Failure>) {
+    let mut scene = Scene::default();
+    scene.set("solver.kind", "event").unwrap();
+    scene.set("solver.model", "rigid").unwrap();
+    for (key, value) in changes {
+        scene.set(key, &value.to_string()).unwrap();
+    }
+    scene.checked().unwrap();
+    let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
+    let result = motion.advance(until);
+    let state = motion.state();
+    let numbers = [state.u[0], state.u[1], state.v[0], state.v[1]];
+    assert!(numbers.iter().all(|x| x.is_finite()), "{changes:?} {state:?}");
+    assert!(motion.checks().energy_residual_j.unwrap().is_finite());
+    (motion, result)
+}
+
+/// As `run`, for a motion that has to arrive; its largest allowed penetration
+/// is round-off of the clearance.
+fn arrives(changes: &[(&str, f64)], until: f64) -> Event {
+    let (motion, result) = run(changes, until);
+    result.unwrap();
+    let clearance = motion.machine().clearance();
+    assert!(motion.checks().max_penetration_m <= 1e-10 * clearance, "{changes:?}");
+    motion
+}
+
+#[test]
+fn no_pulse_no_motion() {
+    let motion = arrives(&[(PULSE, 0.0)], 100.0);
+    assert_eq!((motion.state().u, motion.events()), ([0.0; 2], Some(0)));
+    assert_eq!(motion.settled(), Some(Verdict::Decay));
+}
+
+#[test]
+fn a_giganewton_is_borne() {
+    for zeta in [0.0, 0.05, 1.0, 10.0] {
+        let motion = arrives(&[(PULSE, 1e9), (ZETA, zeta)], 0.1);
+        assert!(motion.contacts().impact_count > 0);
+    }
+    // Long enough to hold the casing in whatever corner it is pressed into.
+    let motion = arrives(&[(PULSE, 1e9), (LENGTH, 0.01), (SPEED, 100.0)], 0.02);
+    assert!(motion.contacts().impact_count > 0);
+}
+
+#[test]
+fn a_hundred_seconds_without_damping_keep_the_energy_in_the_turning_frame() {
+    let motion = arrives(&[(ZETA, 0.0)], 100.0);
+    let checks = motion.checks();
+    // The pulse does 0.25 J.
+    assert!(checks.energy_residual_j.unwrap().abs() < 1e-11);
+    // Between impacts, energy less nu times angular momentum is constant.
+    let jacobi = |motion: &Event| {
+        let s = motion.state();
+        let machine = motion.machine();
+        let energy = 0.5 * (s.v[0].powi(2) + s.v[1].powi(2))
+            + 0.5 * machine.omega_c.powi(2) * (s.u[0].powi(2) + s.u[1].powi(2));
+        energy - 1500.0 * (s.u[0] * s.v[1] - s.u[1] * s.v[0])
+    };
+    let mut later = motion.clone();
+    later.advance(101.0).unwrap();
+    if later.events() == motion.events() {
+        assert!((jacobi(&later) / jacobi(&motion) - 1.0).abs() < 1e-11);
+    }
+}
+
+#[test]
+fn at_the_critical_speed_a_slide_keeps_its_pace() {
+    // omega_c^2 - nu^2 = 0 and no damping: y'' = 0 and the push is -2 nu y'.
+    let mut scene = Scene::default();
+    scene.set("solver.model", "rigid").unwrap();
+    scene.casing.damping_ratio = 0.0;
+    scene.operation.pulse_n = 0.0;
+    let critical = scene.machine().critical_speed().unwrap();
+    scene.operation.speed_rad_s = critical;
+    let machine = scene.machine();
+    let nu = machine.nu(critical);
+    scene.initial.u_c_m = -machine.clearance();
+    // Rate of z in the turning frame: backward along side 0 is -i.
+    let pace = 1e-3;
+    scene.initial.v_s_m_s = -nu * machine.clearance() - pace;
+    let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
+    assert_eq!(motion.contacts().touching, Touching::Side(0));
+    let push = -motion.multipliers()[0].1 / machine.casing_mass;
+    assert!((push - 2.0 * nu * pace).abs() < 1e-10 * push, "{push} {}", 2.0 * nu * pace);
+    let t = motion.next_event(0.1).unwrap();
+    assert!((t * pace / machine.rim.half_side() - 1.0).abs() < 1e-9);
+    assert_eq!(motion.contacts().touching, Touching::Side(1));
+    motion.advance(10.0).unwrap();
+    assert!(motion.state().u[0].is_finite());
+}
+
+#[test]
+fn speeds_of_zero_and_below_and_every_alias() {
+    let still = arrives(&[(SPEED, 0.0)], 0.1);
+    assert_eq!(still.settled(), Some(Verdict::Decay));
+    let (forward, backward) = (arrives(&[], 0.1), arrives(&[(SPEED, -500.0)], 0.1));
+    let (a, b) = (forward.state(), backward.state());
+    assert!((a.u[0] - b.u[0]).abs() < 1e-16 && (a.u[1] + b.u[1]).abs() < 1e-16);
+    // 25 diameters on 22 blades have the sides of 3 but turn faster.
+    let alias = arrives(&[(DIAMETERS, 25.0), (SPEED, 60.0)], 0.1);
+    let plain = arrives(&[(DIAMETERS, 3.0), (SPEED, 500.0)], 0.1);
+    assert!((alias.state().u[0] - plain.state().u[0]).abs() < 1e-16);
+    // Half the blades of an even number: a slab; the same again with every blade.
+    for diameters in [0.0, 2.0, 4.0, 11.0, 22.0, 33.0, 44.0, 4000.0] {
+        for speed in [20.0, 500.0] {
+            let (motion, result) = run(&[(DIAMETERS, diameters), (SPEED, speed)], 0.1);
+            let cornered = motion.machine().rim.has_corners();
+            assert!(result.is_ok() || !cornered, "{diameters} {result:?}");
+        }
+    }
+}
+
+#[test]
+fn a_side_without_corners_lets_the_wave_run_away_with_a_reason() {
+    let (motion, result) =
+        run(&[(DIAMETERS, 11.0), (SPEED, 500.0), (PULSE, 1e6), (ZETA, 0.0)], 10.0);
+    let failure = result.unwrap_err();
+    assert!(failure.to_string().contains("casing radius"), "{failure}");
+    assert!(failure.t_s > 0.0 && failure.t_s < 10.0);
+    assert_eq!(motion.settled(), Some(Verdict::Failed));
+    assert_eq!(motion.clone().advance(11.0), Err(failure));
+}
+
+#[test]
+fn any_number_of_blades() {
+    for blades in [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 500.0, 4096.0] {
+        for (diameters, speed) in [(1.0, 1000.0), (1.0, 100.0), (3.0, 500.0)] {
+            let changes = [(BLADES, blades), (DIAMETERS, diameters), (SPEED, speed), (PULSE, 5e4)];
+            let (motion, result) = run(&changes, 0.02);
+            assert!(result.is_ok() || !motion.machine().rim.has_corners());
+        }
+    }
+}
+
+#[test]
+fn clearances_from_a_picometre_to_a_metre() {
+    for blade in [0.5 - 1e-12, 0.5 - 1e-9, 0.4] {
+        let motion = arrives(&[(BLADE, blade)], 0.01);
+        assert!(motion.events() > Some(0));
+    }
+    let wide = [("casing.radius_m", 1.5), (BLADE, 0.5), (PULSE, 1e8)];
+    let motion = arrives(&wide, 0.01);
+    assert!(motion.contacts().impact_count > 0);
+}
+
+#[test]
+fn every_casing_damping_and_ramp() {
+    for zeta in [0.0, 1e-12, 0.5, 0.999_999, 1.0, 1.000_001, 2.0, 10.0] {
+        for ramp in [0.0, 1.0, -1e4, 1e6, -1e8, 1e9] {
+            let motion = arrives(&[(ZETA, zeta), (RAMP, ramp), (PULSE, 1e5)], 0.003);
+            let residual = motion.checks().energy_residual_j.unwrap();
+            // The pulse does (F t_p)^2/2m = 6 J; what turns at nu has nu^2 g0^2.
+            let nu = motion.machine().nu(motion.rotor().speed(0.003));
+            let scale = 6.0 + 2.0 * (nu * 1e-4).powi(2);
+            assert!(residual.abs() < 1e-11 * scale, "{zeta} {ramp}: {residual:e} J");
+        }
+    }
+}
+
+#[test]
+fn straight_into_a_corner_or_onto_a_side_by_symmetry() {
+    // Not turning, the pulse drives the casing along u_c: for an even number of
+    // sides onto the middle of one, for an odd number exactly into a corner.
+    for (blades, sides) in [(22.0, 1), (7.0, 2), (3.0, 2), (5.0, 2), (4.0, 1)] {
+        let changes = [(BLADES, blades), (DIAMETERS, 1.0), (SPEED, 0.0), (ZETA, 0.0)];
+        let (mut motion, _) = run(&changes, 0.0);
+        motion.next_event(1.0).unwrap();
+        motion.next_event(1.0).unwrap();
+        assert_eq!(motion.contacts().impact_count, sides, "{blades}");
+        let state = motion.state();
+        assert!(state.u[1].abs() < 1e-18 && state.v[1].abs() < 1e-12);
+    }
+}
+
+#[test]
+fn a_slip_that_goes_on_for_ever_goes_through_side_after_side() {
+    let motion = arrives(&[(ZETA, 0.01), (PULSE, 51742.0)], 10.0);
+    let log = motion.contacts();
+    assert!(log.unbroken_since.unwrap() < 0.01);
+    // About 1100 crossings a second, and their record stays small.
+    assert!(log.impact_count > 10_000 && log.impacts.len() == 1000);
+    // The rotor does some 40 J in that time.
+    assert!(motion.checks().energy_residual_j.unwrap().abs() < 1e-9);
+}
+
+#[test]
+fn firing_again_and_changing_speed_keep_the_casing_where_it_is() {
+    let (mut motion, _) = run(&[(PULSE, 51742.0), (ZETA, 0.01)], 0.02);
+    let before = motion.state();
+    motion.fire();
+    assert_eq!(motion.state().u.map(f64::to_bits).len(), 2);
+    for (a, b) in motion.state().u.iter().zip(before.u) {
+        assert!((a - b).abs() < 1e-18);
+    }
+    motion.advance(0.03).unwrap();
+    let before = motion.state();
+    motion.set_speed(-300.0, 50.0);
+    for (a, b) in motion.state().u.iter().zip(before.u) {
+        assert!((a - b).abs() < 1e-18);
+    }
+    assert_eq!(motion.rotor().speed(motion.state().t_s), -300.0);
+    motion.advance(0.1).unwrap();
+    let residual = motion.checks().energy_residual_j.unwrap();
+    assert!(residual.abs() < 1e-10, "{residual:e}");
+}
+
+/// Two sides a half turn apart meet where their blades turn them by a quarter
+/// turn: a failure with a reason, not a motion through the other side.
+#[test]
+fn blades_that_turn_two_sides_onto_each_other_end_the_motion() {
+    let mut scene = Scene::default();
+    scene.bladed_disk.blades = 8;
+    scene.bladed_disk.blade_length_m = scene.casing.radius_m - 0.008;
+    scene.casing.damping_ratio = 1.0;
+    scene.operation.nodal_diameters = 28;
+    scene.operation.speed_rad_s = -97.5;
+    scene.operation.pulse_n = -9e4;
+    scene.operation.pulse_s = 1.4e-3;
+    scene.initial.v_c_m_s = -10.0;
+    scene.solver.model = ModelSize::Modal;
+    let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
+    let failure = motion.advance(0.02).unwrap_err();
+    assert!(failure.to_string().contains("turn the only two sides onto each other"), "{failure}");
+    let turned = 28.0 * motion.state().alpha[0].abs();
+    assert!((0.9..FRAC_PI_2).contains(&turned), "{turned} rad");
+}

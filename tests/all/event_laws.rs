@@ -1,0 +1,188 @@
+//! Laws that need no reference, over random scenes: nothing penetrates, nothing
+//! pulls, energy balances, and the motion does not depend on how it is looked at.
+
+use std::f64::consts::TAU;
+
+use proptest::prelude::*;
+use rubscope::motion::{Event, Solver, State};
+use rubscope::scene::{ModelSize, Scene};
+
+/// A scene of every kind the event solver takes; one in three with moving blades.
+fn scenes() -> impl Strategy<Value = Scene> {
+    let sizes = (1_u32..=30, 0_u32..=35, prop_oneof![Just(1e-4), 1e-6..1e-2]);
+    let zeta = prop_oneof![Just(0.0), Just(0.05), Just(1.0), 0.0..0.2, 0.2..3.0];
+    let ramp = prop_oneof![3 => Just(0.0), 1 => -2e4..2e4, 1 => -1e6..1e6];
+    let speed = prop_oneof![-900.0..900.0, 280.0..310.0];
+    let pulse = (prop_oneof![Just(0.0), 1.0..6.5], prop_oneof![Just(50e-6), 1e-6..3e-3]);
+    let start = (-0.9..0.9, -0.9..0.9, -3.0..3.0, -3.0..3.0);
+    let model = prop_oneof![2 => Just(ModelSize::Rigid), 1 => Just(ModelSize::Modal)];
+    (sizes, zeta, ramp, speed, pulse, any::<bool>(), start, model).prop_map(
+        |(sizes, zeta, ramp, speed, (decades, length), negative, start, model)| {
+            let mut scene = Scene::default();
+            scene.bladed_disk.blades = sizes.0;
+            scene.operation.nodal_diameters = sizes.1;
+            scene.bladed_disk.blade_length_m = scene.casing.radius_m - sizes.2;
+            scene.casing.damping_ratio = zeta;
+            scene.operation.speed_ramp_rad_s2 = ramp;
+            scene.operation.speed_rad_s = speed;
+            let force = if decades > 0.0 { 10_f64.powf(decades) } else { 0.0 };
+            scene.operation.pulse_n = if negative { -force } else { force };
+            scene.operation.pulse_s = length;
+            let clearance = scene.machine().clearance();
+            let speed = clearance * 878.0;
+            scene.initial.u_c_m = 0.7 * clearance * start.0;
+            scene.initial.u_s_m = 0.7 * clearance * start.1;
+            scene.initial.v_c_m_s = speed * start.2;
+            scene.initial.v_s_m_s = speed * start.3;
+            scene.solver.model = model;
+            scene
+        },
+    )
+}
+
+/// Checks the state now; returns the energy scale so far.
+fn lawful(motion: &Event) -> Result<(), TestCaseError> {
+    let state = motion.state();
+    let machine = motion.machine();
+    let rim = &machine.rim;
+    let phase = machine.nodal_diameters * motion.rotor().angle(state.t_s);
+    let (sin, cos) = phase.sin_cos();
+    let z = (state.u[0] * cos + state.u[1] * sin, state.u[1] * cos - state.u[0] * sin);
+    // Round-off of a phase of up to 1e4 rad, twice, and of the motion.
+    let size = machine.clearance() + state.amplitude();
+    prop_assert!(size.is_finite());
+    let gap = |side: u32| {
+        let (c, s) = rim.direction(side);
+        let alpha = machine.nodal_diameters * (state.alpha[0] * c + state.alpha[1] * s);
+        let (sin, cos) = alpha.sin_cos();
+        rim.gap(side, z.0 * cos + z.1 * sin, z.1 * cos - z.0 * sin)
+    };
+    for side in 0..rim.sides {
+        let gap = gap(side);
+        prop_assert!(gap > -1e-10 * size, "gap {gap:e} of side {side} at {}", state.t_s);
+    }
+    let nu = machine.nu(motion.rotor().speed(state.t_s));
+    let scale = size * machine.casing_mass * (nu * nu + machine.omega_c.powi(2));
+    for (side, multiplier) in motion.multipliers() {
+        prop_assert!(multiplier <= 1e-9 * scale, "{multiplier} N pulls at {}", state.t_s);
+        let gap = gap(side);
+        prop_assert!(gap < 1e-10 * size, "push {multiplier} over a gap {gap:e}");
+    }
+    Ok(())
+}
+
+/// Whether a motion may leave what the model describes: a wave that no corner
+/// holds, or blades that turn sides past each other.
+fn may_fail(scene: &Scene) -> bool {
+    !scene.machine().rim.has_corners() || scene.solver.model == ModelSize::Modal
+}
+
+fn same(a: &State, b: &State) -> bool {
+    format!("{a:?}") == format!("{b:?}")
+}
+
+proptest! {
+    #![proptest_config(crate::drawn(60))]
+
+    #[test]
+    fn no_penetration_no_pull_and_a_balance_of_energy(scene in scenes()) {
+        let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
+        let end = 0.02;
+        let mut largest: f64 = 0.0;
+        for part in 1..=200 {
+            let until = end * f64::from(part) / 200.0;
+            loop {
+                match motion.next_event(until) {
+                    Err(_) => {
+                        prop_assert!(may_fail(&scene));
+                        return Ok(());
+                    }
+                    Ok(_) => lawful(&motion)?,
+                }
+                let state = motion.state();
+                let energy = state.v[0].hypot(state.v[1]).powi(2)
+                    + (motion.machine().omega_c * state.amplitude()).powi(2);
+                largest = largest.max(motion.machine().casing_mass * energy);
+                if state.t_s >= until { break }
+            }
+        }
+        // The pulse does work of up to F^2 t^2/m, which comes in pieces.
+        let impulse = scene.operation.pulse_n * scene.operation.pulse_s;
+        let scale = largest + impulse * impulse / motion.machine().casing_mass;
+        let checks = motion.checks();
+        let residual = checks.energy_residual_j.unwrap();
+        prop_assert!(residual.abs() <= 1e-10 * scale, "{residual:e} of {scale:e} J");
+        prop_assert!(checks.max_penetration_m <= 1e-12 * motion.machine().clearance().max(1.0));
+    }
+
+    #[test]
+    fn where_one_looks_does_not_change_a_bit(scene in scenes(), cuts in prop::collection::vec(0.0..0.02, 1..6)) {
+        let mut whole = Event::new(&scene.checked().unwrap()).unwrap();
+        let mut again = Event::new(&scene.checked().unwrap()).unwrap();
+        let mut parts = Event::new(&scene.checked().unwrap()).unwrap();
+        let mut cuts = cuts;
+        cuts.sort_by(f64::total_cmp);
+        let one = whole.advance(0.02);
+        prop_assert_eq!(&one, &again.advance(0.02));
+        prop_assert!(same(&whole.state(), &again.state()));
+        for cut in cuts {
+            if parts.advance(cut).is_err() { break }
+        }
+        prop_assert_eq!(one.is_ok(), parts.advance(0.02).is_ok());
+        prop_assert!(same(&whole.state(), &parts.state()), "{:?} {:?}", whole.state(), parts.state());
+        prop_assert_eq!(whole.contacts().impact_count, parts.contacts().impact_count);
+        prop_assert_eq!(whole.multipliers(), parts.multipliers());
+    }
+
+    #[test]
+    fn the_mirror_image_is_a_motion(scene in scenes()) {
+        let mut mirrored = scene.clone();
+        mirrored.operation.speed_rad_s *= -1.0;
+        mirrored.operation.speed_ramp_rad_s2 *= -1.0;
+        mirrored.initial.u_s_m *= -1.0;
+        mirrored.initial.v_s_m_s *= -1.0;
+        let (mut left, mut right) = (Event::new(&scene.checked().unwrap()).unwrap(), Event::new(&mirrored.checked().unwrap()).unwrap());
+        // Skims amplify round-off: compare the first twenty changes of contact.
+        for _ in 0..20 {
+            let both = (left.next_event(0.01), right.next_event(0.01));
+            prop_assert_eq!(both.0.is_ok(), both.1.is_ok());
+            let Ok(now) = both.0 else { return Ok(()) };
+            if now >= 0.01 { break }
+        }
+        let (left, right) = (left.state(), right.state());
+        let size = scene.machine().clearance() + left.amplitude();
+        prop_assert!((left.u[0] - right.u[0]).abs() < 1e-9 * size);
+        prop_assert!((left.u[1] + right.u[1]).abs() < 1e-9 * size);
+    }
+
+    #[test]
+    fn turning_the_start_by_one_group_turns_the_motion(scene in scenes()) {
+        let mut scene = scene;
+        scene.operation.pulse_n = 0.0;
+        let machine = scene.machine();
+        let angle = TAU / f64::from(machine.rim.sides);
+        let (sin, cos) = angle.sin_cos();
+        let mut turned = scene.clone();
+        let start = &scene.initial;
+        turned.initial.u_c_m = start.u_c_m * cos - start.u_s_m * sin;
+        turned.initial.u_s_m = start.u_c_m * sin + start.u_s_m * cos;
+        turned.initial.v_c_m_s = start.v_c_m_s * cos - start.v_s_m_s * sin;
+        turned.initial.v_s_m_s = start.v_c_m_s * sin + start.v_s_m_s * cos;
+        let (mut one, mut other) = (Event::new(&scene.checked().unwrap()).unwrap(), Event::new(&turned.checked().unwrap()).unwrap());
+        // Impacts near corners and skims amplify round-off: compare the first few.
+        let mut until: f64 = 0.005;
+        for _ in 0..4 {
+            let next = one.next_event(0.005);
+            if next.is_err() { return Ok(()) }
+            until = next.unwrap();
+        }
+        let mut one = Event::new(&scene.checked().unwrap()).unwrap();
+        one.advance(0.999 * until).unwrap();
+        other.advance(0.999 * until).unwrap();
+        let (one, other) = (one.state(), other.state());
+        let back = [other.u[0] * cos + other.u[1] * sin, other.u[1] * cos - other.u[0] * sin];
+        let size = machine.clearance() + one.amplitude();
+        prop_assert!((one.u[0] - back[0]).abs() < 1e-6 * size, "{one:?} {back:?}");
+        prop_assert!((one.u[1] - back[1]).abs() < 1e-6 * size, "{one:?} {back:?}");
+    }
+}

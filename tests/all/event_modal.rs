@@ -1,0 +1,364 @@
+//! The event solver with moving blades, against a plain integration of the
+//! equations of motion with the constraints differentiated twice.
+
+use std::f64::consts::TAU;
+
+use rubscope::model::Machine;
+use rubscope::motion::{Event, Solver, State, Touching, Verdict};
+use rubscope::scene::Scene;
+
+fn scene(changes: &[(&str, f64)]) -> Scene {
+    let mut scene = Scene::default();
+    scene.set("solver.kind", "event").unwrap();
+    scene.set("solver.model", "modal").unwrap();
+    for (key, value) in changes {
+        scene.set(key, &value.to_string()).unwrap();
+    }
+    scene.checked().unwrap();
+    scene
+}
+
+fn close(value: f64, expected: f64, tolerance: f64) {
+    assert!((value - expected).abs() <= tolerance, "{value:e} is not {expected:e}");
+}
+
+/// `[u_c, u_s, alpha_c, alpha_s]` and their rates.
+type Phase = [f64; 8];
+
+/// Equations of motion as the paper writes them, with a speed ramp.
+struct Plain {
+    m: Machine,
+    speed: f64,
+    ramp: f64,
+    force: f64,
+}
+
+impl Plain {
+    fn of(scene: &Scene) -> Self {
+        let operation = &scene.operation;
+        let (speed, ramp) = (operation.speed_rad_s, operation.speed_ramp_rad_s2);
+        Self { m: scene.machine(), speed, ramp, force: operation.pulse_n }
+    }
+
+    /// Gap of a side, its gradient, its rate and the part of its second
+    /// derivative that does not depend on accelerations.
+    fn gap(&self, side: u32, x: &Phase, t: f64) -> (f64, [f64; 4], f64, f64) {
+        let n = self.m.nodal_diameters;
+        let (pc, ps) = self.m.rim.direction(side);
+        let angle = (self.speed + 0.5 * self.ramp * t) * t;
+        let beta = ps.atan2(pc) + n * (angle + pc * x[2] + ps * x[3]);
+        let (sin, cos) = beta.sin_cos();
+        let turn = n * (self.speed + self.ramp * t + pc * x[6] + ps * x[7]);
+        let a = x[1] * cos - x[0] * sin;
+        let gap = self.m.clearance() + x[0] * cos + x[1] * sin;
+        let gradient = [cos, sin, n * a * pc, n * a * ps];
+        let rate = x[4] * cos + x[5] * sin + a * turn;
+        let bend = 2.0 * turn * (x[5] * cos - x[4] * sin) - turn * turn * (x[0] * cos + x[1] * sin)
+            + a * n * self.ramp;
+        (gap, gradient, rate, bend)
+    }
+
+    fn masses(&self) -> [f64; 4] {
+        let (c, b) = (self.m.casing_mass, self.m.blade_modal_mass);
+        [c, c, b, b]
+    }
+
+    /// Accelerations and multipliers with these sides held.
+    fn acceleration(&self, x: &Phase, t: f64, held: &[u32]) -> ([f64; 4], Vec<f64>) {
+        let m = &self.m;
+        let (d, k) = (m.casing_damping, m.casing_stiffness);
+        let (e, l) = (m.blade_modal_damping, m.blade_modal_stiffness);
+        let masses = self.masses();
+        let mut a = [
+            (self.force - d * x[4] - k * x[0]) / masses[0],
+            (-d * x[5] - k * x[1]) / masses[1],
+            (-e * x[6] - l * x[2]) / masses[2],
+            (-e * x[7] - l * x[3]) / masses[3],
+        ];
+        let rows: Vec<_> = held.iter().map(|&side| self.gap(side, x, t)).collect();
+        let weight = |p: &[f64; 4], q: &[f64; 4]| (0..4).map(|i| p[i] * q[i] / masses[i]).sum();
+        let opening: Vec<f64> =
+            rows.iter().map(|row| row.3 + (0..4).map(|i| row.1[i] * a[i]).sum::<f64>()).collect();
+        // M a + C lambda = F with C the gradients: lambda < 0 pushes.
+        let lambdas: Vec<f64> = match rows.as_slice() {
+            [] => vec![],
+            [one] => vec![opening[0] / weight(&one.1, &one.1)],
+            [p, q, ..] => {
+                let (pp, qq, pq): (f64, f64, f64) =
+                    (weight(&p.1, &p.1), weight(&q.1, &q.1), weight(&p.1, &q.1));
+                let det = pp * qq - pq * pq;
+                vec![
+                    (qq * opening[0] - pq * opening[1]) / det,
+                    (pp * opening[1] - pq * opening[0]) / det,
+                ]
+            }
+        };
+        for (row, lambda) in rows.iter().zip(&lambdas) {
+            for i in 0..4 {
+                a[i] -= row.1[i] * lambda / masses[i];
+            }
+        }
+        (a, lambdas)
+    }
+
+    fn step(&self, x: &Phase, t: f64, h: f64, held: &[u32]) -> Phase {
+        let rate = |x: &Phase, t: f64| -> Phase {
+            let (a, _) = self.acceleration(x, t, held);
+            [x[4], x[5], x[6], x[7], a[0], a[1], a[2], a[3]]
+        };
+        let along = |k: &Phase, h: f64| -> Phase { std::array::from_fn(|i| x[i] + h * k[i]) };
+        let k1 = rate(x, t);
+        let k2 = rate(&along(&k1, 0.5 * h), t + 0.5 * h);
+        let k3 = rate(&along(&k2, 0.5 * h), t + 0.5 * h);
+        let k4 = rate(&along(&k3, h), t + h);
+        std::array::from_fn(|i| x[i] + h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]))
+    }
+
+    fn run(&self, mut x: Phase, from: f64, to: f64, steps: u32, held: &[u32]) -> Phase {
+        let h = (to - from) / f64::from(steps);
+        for n in 0..steps {
+            x = self.step(&x, from + f64::from(n) * h, h, held);
+        }
+        x
+    }
+
+    /// Plastic impact on one side.
+    fn impact(&self, mut x: Phase, t: f64, side: u32) -> Phase {
+        let (_, gradient, rate, _) = self.gap(side, &x, t);
+        let masses = self.masses();
+        let weight: f64 = (0..4).map(|i| gradient[i] * gradient[i] / masses[i]).sum();
+        for i in 0..4 {
+            x[4 + i] -= gradient[i] / masses[i] * rate / weight;
+        }
+        x
+    }
+}
+
+fn phase(s: &State) -> Phase {
+    [s.u[0], s.u[1], s.alpha[0], s.alpha[1], s.v[0], s.v[1], s.alpha_rate[0], s.alpha_rate[1]]
+}
+
+/// Compares casing and blades, each to `tolerance` of its own size.
+fn agree(found: &Phase, expected: &Phase, tolerance: f64) {
+    for pair in [[0, 1], [2, 3], [4, 5], [6, 7]] {
+        let size = expected[pair[0]].hypot(expected[pair[1]]);
+        for i in pair {
+            assert!(
+                (found[i] - expected[i]).abs() <= tolerance * size,
+                "coordinate {i}: {:e} is not {:e} of {size:e}",
+                found[i],
+                expected[i]
+            );
+        }
+    }
+}
+
+/// Blades light and soft enough to be felt: a thousandth of Table 1's.
+const SOFT: [(&str, f64); 3] = [
+    ("bladed_disk.inertia_kg_m2", 2e-7),
+    ("bladed_disk.stiffness_nm_per_rad", 0.15),
+    ("bladed_disk.coupling_nm_per_rad", 0.003),
+];
+
+#[test]
+fn case_a_with_blades_agrees_with_runge_kutta_to_1e_9() {
+    let scene = scene(&[]);
+    let mut plain = Plain::of(&scene);
+    let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
+    motion.advance(0.1).unwrap();
+    assert_eq!(motion.settled(), Some(Verdict::Decay));
+    let impacts = motion.contacts().impacts.clone();
+    let sides: Vec<u32> = [19, 4].map(|blade| motion.machine().rim.side_of_blade(blade)).into();
+    assert_eq!(impacts.iter().map(|impact| impact.side).collect::<Vec<_>>(), sides);
+    // The pulse, then flights that end where the gap of the next side closes.
+    let mut x = plain.run([0.0; 8], 0.0, 50e-6, 200, &[]);
+    plain.force = 0.0;
+    let mut t = 50e-6;
+    for (impact, side) in impacts.iter().zip(sides) {
+        let before = x;
+        let (mut low, mut high) = (impact.t_s - 1e-8, impact.t_s + 1e-8);
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            let there = plain.run(before, t, middle, 300, &[]);
+            if plain.gap(side, &there, middle).0 > 0.0 { low = middle } else { high = middle }
+        }
+        close(impact.t_s, low, 1e-14);
+        x = plain.impact(plain.run(before, t, low, 300, &[]), low, side);
+        t = low;
+    }
+    agree(&phase(&motion.state()), &plain.run(x, t, 0.1, 60_000, &[]), 1e-9);
+    let widest = motion.checks().max_blade_angle_rad;
+    assert!(widest > 1e-9 && widest < 1e-5);
+}
+
+/// A start on side 0, or in its corner with the next, carried by the rotor.
+fn on_side_0(scene: &mut Scene, corner: bool, pace: f64) {
+    let machine = scene.machine();
+    let nu = machine.nu(scene.operation.speed_rad_s);
+    let (x, y) = (-machine.clearance(), if corner { -machine.rim.half_side() } else { 0.0 });
+    scene.operation.pulse_n = 0.0;
+    scene.initial.u_c_m = x;
+    scene.initial.u_s_m = y;
+    scene.initial.v_c_m_s = -nu * y;
+    scene.initial.v_s_m_s = nu * x + pace;
+}
+
+#[test]
+fn sliding_with_blades_agrees_with_the_constrained_equations() {
+    let steady = (0.0, 0.0);
+    for (soft, (ramp, pulse)) in
+        [(false, steady), (true, steady), (false, (-3e4, -50.0)), (true, (2e4, 30.0))]
+    {
+        let mut scene = if soft { scene(&SOFT) } else { scene(&[]) };
+        on_side_0(&mut scene, false, -4e-3);
+        scene.operation.speed_ramp_rad_s2 = ramp;
+        scene.operation.pulse_n = pulse;
+        scene.operation.pulse_s = 1.0;
+        let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
+        let start = phase(&motion.state());
+        assert_eq!(motion.contacts().touching, Touching::Side(0));
+        let mut end = motion.clone();
+        let until = 0.9 * end.next_event(1.0).unwrap();
+        motion.advance(until).unwrap();
+        let plain = Plain::of(&scene);
+        let x = plain.run(start, 0.0, until, 4000, &[0]);
+        agree(&phase(&motion.state()), &x, 1e-9);
+        let (_, lambdas) = plain.acceleration(&x, until, &[0]);
+        let found = motion.multipliers();
+        close(found[0].1, lambdas[0], 1e-9 * lambdas[0].abs());
+        assert!(until > 1e-4);
+        assert!(motion.checks().energy_residual_j.unwrap().abs() < 1e-14);
+    }
+}
+
+#[test]
+fn locked_with_blades_agrees_with_the_constrained_equations() {
+    for (soft, ramp, pulse) in
+        [(false, 0.0, 0.0), (true, 0.0, 0.0), (false, -1000.0, -2.0), (true, 2000.0, 2.0)]
+    {
+        let mut scene = if soft { scene(&SOFT) } else { scene(&[]) };
+        on_side_0(&mut scene, true, 0.0);
+        scene.operation.speed_ramp_rad_s2 = ramp;
+        scene.operation.pulse_n = pulse;
+        scene.operation.pulse_s = 1.0;
+        let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
+        assert_eq!(motion.contacts().touching, Touching::Corner(0, 1), "{soft}");
+        let start = phase(&motion.state());
+        let until = 0.02;
+        motion.advance(until).unwrap();
+        assert_eq!((motion.events(), motion.contacts().since), (Some(0), 0.0));
+        let plain = Plain::of(&scene);
+        let x = plain.run(start, 0.0, until, 20_000, &[0, 1]);
+        agree(&phase(&motion.state()), &x, 1e-9);
+        let (_, lambdas) = plain.acceleration(&x, until, &[0, 1]);
+        for ((_, found), lambda) in motion.multipliers().iter().zip(lambdas) {
+            close(*found, lambda, 1e-9 * lambda.abs());
+        }
+        assert!(motion.checks().energy_residual_j.unwrap().abs() < 1e-14);
+    }
+}
+
+#[test]
+fn locked_blade_angles_come_to_rest_at_the_modal_balance() {
+    // The reference: 1.404e-9 rad at 500 rad/s without damping of the
+    // casing, from alpha_i = (2/N) sum_j cos(psi_i - psi_j) Q_j/(m_b omega^2).
+    let mut scene = scene(&[("casing.damping_ratio", 0.0)]);
+    on_side_0(&mut scene, true, 0.0);
+    let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
+    motion.advance(2.0).unwrap();
+    assert_eq!(motion.settled(), Some(Verdict::Locked));
+    let machine = motion.machine();
+    let state = motion.state();
+    let angle = |side: u32| {
+        let (c, s) = machine.rim.direction(side);
+        state.alpha[0] * c + state.alpha[1] * s
+    };
+    close(angle(0).abs(), 1.404e-9, 5e-13);
+    close(angle(0), -angle(1), 1e-6 * angle(0).abs());
+    let [lambda, _] = machine.locked_multipliers(500.0).unwrap();
+    let moment = -lambda * machine.nodal_diameters * -machine.rim.half_side();
+    let share = 1.0 - (TAU / 22.0).cos();
+    let expected = share * moment / machine.blade_modal_stiffness;
+    // The blades turn the sides by 3e-9 rad of the 0.14 rad of a corner.
+    close(angle(0), expected, 1e-6 * expected.abs());
+}
+
+#[test]
+fn case_c_with_blades_locks_at_the_same_instant() {
+    let changes = [("casing.damping_ratio", 0.0), ("operation.pulse_n", 51742.0)];
+    let mut motion = Event::new(&scene(&changes).checked().unwrap()).unwrap();
+    motion.advance(0.1).unwrap();
+    close(motion.contacts().since, 0.0580, 5e-5);
+    assert!(matches!(motion.contacts().touching, Touching::Corner(..)));
+    let residual = motion.checks().energy_residual_j.unwrap();
+    // The pulse does 1.7 J.
+    assert!(residual.abs() < 1e-11, "{residual:e}");
+}
+
+#[test]
+fn very_stiff_blades_follow_the_pushes() {
+    let mut scene = scene(&[("bladed_disk.stiffness_nm_per_rad", 1e12)]);
+    on_side_0(&mut scene, true, 0.0);
+    let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
+    motion.advance(1.0).unwrap();
+    let (machine, state) = (motion.machine(), motion.state());
+    // alpha = (1/K) sum_j -lambda_j A_j exp(i psi_j) with A_j = n_d y_j.
+    let mut expected = [0.0; 2];
+    for ((side, lambda), y) in motion.multipliers().into_iter().zip([-1.0, 1.0]) {
+        let (c, s) = machine.rim.direction(side);
+        let moment = -lambda * machine.nodal_diameters * y * machine.rim.half_side();
+        expected[0] += moment * c / machine.blade_modal_stiffness;
+        expected[1] += moment * s / machine.blade_modal_stiffness;
+    }
+    for (alpha, expected) in state.alpha.iter().zip(expected) {
+        close(*alpha, expected, 1e-12 * expected.abs());
+    }
+    assert!(motion.events() < Some(10));
+}
+
+#[test]
+fn stiff_and_light_blades_fail_plainly_or_arrive() {
+    for (inertia, stiffness) in [(0.20825, 1e12), (1e-9, 15_000.0), (1e-9, 1e-3), (1e3, 15e3)] {
+        let scene = scene(&[
+            ("bladed_disk.inertia_kg_m2", inertia),
+            ("bladed_disk.stiffness_nm_per_rad", stiffness),
+        ]);
+        let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
+        let result = motion.advance(0.005);
+        assert!(motion.state().u[0].is_finite() && motion.state().alpha[0].is_finite());
+        if let Err(failure) = result {
+            assert!(failure.to_string().contains("blade angle"), "{failure}");
+        }
+    }
+}
+
+#[test]
+fn halves_make_the_whole_and_no_gap_opens_inward() {
+    for (pulse, zeta, ramp) in [(51742.0, 0.01, 0.0), (2e5, 0.0, -3e3), (1e6, 0.05, 1e4)] {
+        let changes = [
+            ("operation.pulse_n", pulse),
+            ("casing.damping_ratio", zeta),
+            ("operation.speed_ramp_rad_s2", ramp),
+        ];
+        let mut whole = Event::new(&scene(&changes).checked().unwrap()).unwrap();
+        let mut parts = whole.clone();
+        whole.advance(0.02).unwrap();
+        for part in 1..=100 {
+            parts.advance(0.02 * f64::from(part) / 100.0).unwrap();
+            let state = parts.state();
+            let machine = parts.machine();
+            for side in 0..machine.rim.sides {
+                let (c, s) = machine.rim.direction(side);
+                let alpha = state.alpha[0] * c + state.alpha[1] * s;
+                let beta = machine.rim.phase(side) + 3.0 * (parts.rotor().angle(state.t_s) + alpha);
+                let gap = machine.clearance() + state.u[0] * beta.cos() + state.u[1] * beta.sin();
+                assert!(gap > -1e-12 * machine.clearance(), "{gap:e}");
+            }
+            assert!(parts.multipliers().iter().all(|&(_, multiplier)| multiplier <= 1e-9));
+        }
+        assert_eq!(phase(&whole.state()), phase(&parts.state()));
+        let residual = whole.checks().energy_residual_j.unwrap();
+        // The pulse does up to 625 J.
+        assert!(residual.abs() < 1e-10, "{residual:e}");
+    }
+}

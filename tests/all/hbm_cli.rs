@@ -1,0 +1,195 @@
+//! `rubscope hbm` as a user and a script meet it.
+
+use assert_cmd::Command;
+use serde_json::Value;
+
+fn hbm(args: &[&str]) -> Command {
+    let mut command = Command::cargo_bin("rubscope").unwrap();
+    command.arg("hbm").args(args);
+    command
+}
+
+fn json(args: &[&str]) -> Value {
+    let output = hbm(args).arg("--json").assert().success().get_output().stdout.clone();
+    serde_json::from_slice(&output).unwrap()
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap()
+}
+
+#[test]
+fn json_of_the_papers_sweep() {
+    let report = json(&["--speed", "0:500:501", "--blades", "6,21"]);
+    assert_eq!(report["schema"], "rubscope.hbm/1");
+    assert!((number(&report["omega_c_rad_s"]) - 292.878).abs() < 1e-3);
+    assert!((number(&report["omega_lock_rad_s"]) - 411.93).abs() < 5e-3);
+    assert!((number(&report["coincidence_rad_s"]) - 388.31).abs() < 5e-3);
+    let points = report["points"].as_array().unwrap();
+    assert_eq!(points.len(), 501);
+    let last = &points[500];
+    assert_eq!(last["groups"][0]["blades"][0], 6);
+    assert_eq!(last["groups"][1]["blades"][0], 21);
+    assert!((number(&last["groups"][0]["multiplier_n"]) + 150.855).abs() < 5e-4);
+    assert_eq!((&last["admissible"], &last["stable"]), (&true.into(), &true.into()));
+    assert!(number(&last["residual"]) < 1e-14);
+    assert_eq!(points[292]["admissible"], false);
+}
+
+#[test]
+fn forms_and_damping_are_options() {
+    for (form, alpha) in [("printed", 7.62e-7), ("blade", -3.81e-7), ("modal", -1.404e-9)] {
+        let report = json(&["--speed", "500", "--form", form]);
+        let found = number(&report["points"][0]["groups"][0]["alpha_rad"]);
+        assert!((found / alpha - 1.0).abs() < 2e-3, "{form}: {found}");
+    }
+    let damped = json(&["--speed", "500", "--damped"]);
+    let groups = &damped["points"][0]["groups"];
+    assert!((number(&groups[0]["multiplier_n"]) + 244.416).abs() < 1e-3);
+    assert!((number(&groups[1]["multiplier_n"]) + 57.295).abs() < 1e-3);
+    assert!((number(&damped["points"][0]["power_w"]) - 4.036).abs() < 5e-4);
+}
+
+#[test]
+fn slip_says_whether_it_exists() {
+    let report = json(&["--slip", "--zeta-casing", "0.01", "--speed", "400:500:2"]);
+    let slip = report["slip"].as_array().unwrap();
+    assert_eq!((&slip[0]["exists"], &slip[0]["reason"]), (&false.into(), &"lifts".into()));
+    assert!(slip[0]["wave_speed_rad_s"].is_null());
+    assert_eq!((&slip[1]["exists"], &slip[1]["stable"]), (&true.into(), &true.into()));
+    assert!((number(&slip[1]["wave_speed_rad_s"]) - 385.285_667_56).abs() < 1e-7);
+    assert!((number(&report["slip_limits_rad_s"][0]) - 433.524).abs() < 1e-3);
+}
+
+#[test]
+fn slip_lives_in_a_region_of_speed_and_damping() {
+    let report = json(&["--slip", "--speed", "0:2000:41", "--zetas", "0:0.01:2"]);
+    let region = report["slip_region"].as_array().unwrap();
+    assert!(region[0]["limits"].as_array().unwrap().is_empty(), "no drag, no slip");
+    let limits = region[1]["limits"].as_array().unwrap();
+    assert_eq!((&limits[0]["appears"], &limits[1]["appears"]), (&true.into(), &false.into()));
+    assert!((number(&limits[0]["speed_rad_s"]) - 433.524).abs() < 1e-3);
+    assert!((number(&limits[1]["speed_rad_s"]) - 1876.61).abs() < 5e-3);
+}
+
+#[test]
+fn slip_everywhere_and_slip_nowhere_are_told_apart() {
+    for (speeds, word, lowest) in
+        [("450:500:3", "everywhere", true), ("300:400:3", "nowhere", false)]
+    {
+        let options = ["--slip", "--speed", speeds, "--zetas", "0.01:0.01:1"];
+        let region = json(&options)["slip_region"][0].clone();
+        assert!(region["limits"].as_array().unwrap().is_empty(), "{region}");
+        assert_eq!(region["exists_at_lowest"], lowest);
+        let told = hbm(&options).assert().success().get_output().stdout.clone();
+        assert!(String::from_utf8(told).unwrap().contains(word), "{word}");
+    }
+}
+
+#[test]
+fn a_casing_that_hardly_springs_back_has_its_eigenvalues() {
+    let soft = "casing.modal_stiffness_n_per_m=6e-8";
+    let report = json(&["half-n", "--set", soft, "--branches", "--speed", "0:5578:2"]);
+    let states = report["branches"]["states"].as_array().unwrap();
+    // The side's saddle leaves at nu, as the casing has no stiffness to speak of;
+    // blades give way by their share of the mass, some 1e-7.
+    let last = states.last().unwrap();
+    assert_eq!(last["kind"], "side");
+    let growth = number(&last["growth_per_s"]);
+    assert!((growth / (11.0 * 5578.0) - 1.0).abs() < 1e-6, "{last}");
+}
+
+#[test]
+fn every_view_prints_a_table_and_json() {
+    let soft = "bladed_disk.stiffness_nm_per_rad=0.002";
+    let load = "excitation.amplitude_nm=10";
+    for (args, field, words) in [
+        (vec!["--branches", "--damped"], "branches", "411.934  corner  adhesive"),
+        (vec!["--campbell"], "campbell", "388.315       878.635      -286.309  yes"),
+        (vec!["--harmonics", "4"], "harmonics", "No slip at 500 rad/s (lifts)."),
+        (
+            vec!["--fold", "--set", soft, "--set", "bladed_disk.coupling_nm_per_rad=0"],
+            "fold",
+            "folds back at 657.872 rad/s",
+        ),
+        (vec!["--excitation", "--set", load], "excitation", "Engine order 3 with 10 N m"),
+    ] {
+        assert!(json(&args)[field].is_object() || json(&args)[field].is_array(), "{field}");
+        let text = hbm(&args).assert().success().get_output().stdout.clone();
+        let text = String::from_utf8(text).unwrap();
+        assert!(text.contains(words), "{field}: {text}");
+        assert!(!text.contains("NaN") && !text.contains("inf"), "{field}");
+    }
+}
+
+#[test]
+fn a_branch_asked_to_end_below_its_fold_prints_no_more_than_that() {
+    let soft = ["--fold", "--nd", "55", "--set", "bladed_disk.blades=14"];
+    let stiffness = ["--set", "bladed_disk.stiffness_nm_per_rad=5000"];
+    let ending = |range: &str| {
+        let args = [soft.as_slice(), &stiffness, &["--speed", range]].concat();
+        let text = hbm(&args).assert().success().get_output().stdout.clone();
+        (json(&args)["fold"].clone(), String::from_utf8(text).unwrap())
+    };
+    let (fold, text) = ending("0:1296.4987:2");
+    let last = fold["points"].as_array().unwrap().last().unwrap();
+    assert_eq!(number(&last["speed_rad_s"]), 1296.4987);
+    assert!(number(&last["opening_rad"]) < number(&fold["fold_opening_rad"]));
+    // An arc of 81.2 critical speeds in steps of 0.05, a line each.
+    assert!((1500..1700).contains(&text.lines().count()), "{}", text.lines().count());
+    let (fold, text) = ending("1300:1400:2");
+    assert_eq!(fold["points"].as_array().unwrap().len(), 0);
+    assert!(text.contains("folds back at 1296.5 rad/s, below all of these speeds."), "{text}");
+}
+
+#[test]
+fn the_branches_of_a_very_soft_casing_end() {
+    let soft = "casing.modal_stiffness_n_per_m=6e-8";
+    let output = assert_cmd::cargo::cargo_bin_cmd!("rubscope")
+        .args(["hbm", "half-n", "--set", soft, "--branches", "--speed", "0:5578:2"])
+        .timeout(std::time::Duration::from_secs(60))
+        .assert()
+        .success();
+    let text = String::from_utf8(output.get_output().stdout.clone()).unwrap();
+    assert!(text.contains("1.57459e-5  side   pulls  unstable"), "{text}");
+    assert!(!text.contains("rest   unstable"), "{text}");
+}
+
+#[test]
+fn what_has_no_meaning_ends_with_status_2_and_one_line() {
+    for (args, start) in [
+        (vec!["--nd", "0"], "rubscope: operation.nodal_diameters = 0: allowed is"),
+        (vec!["--nd", "11", "--slip"], "rubscope: operation.nodal_diameters = 11: allowed is"),
+        (vec!["--nd", "0", "--campbell"], "rubscope: operation.nodal_diameters = 0: allowed is"),
+        (vec!["--blades", "6,7"], "rubscope: --blades = 6,7: allowed is a pair of phase"),
+        (vec!["--blades", "6,99"], "rubscope: --blades = 6,99: allowed is two blades from 1"),
+        (vec!["--blades", "six"], "rubscope: --blades = six: allowed is I,J"),
+        (vec!["--form", "round"], "rubscope: --form = round: allowed is one of printed"),
+        (vec!["--excitation"], "rubscope: excitation.amplitude_nm = 0: allowed is above 0"),
+        (vec!["--harmonics", "9999"], "rubscope: harmonics = 9999: allowed is"),
+        (vec!["--slip", "--zetas", "0:99:2"], "rubscope: --zetas = 99: allowed is"),
+        (vec!["--zetas", "0:1:2"], "rubscope: the following required arguments"),
+        (vec!["--out", "a.txt"], "rubscope: --out = a.txt: allowed is"),
+        (vec!["--slip", "--fold"], "rubscope: the argument '--slip' cannot be used with"),
+    ] {
+        let output = hbm(&args).assert().code(2).get_output().clone();
+        let message = String::from_utf8(output.stderr).unwrap();
+        assert!(message.starts_with(start), "{args:?}: {message}");
+        assert_eq!(message.lines().count(), 1, "{message}");
+        assert!(output.stdout.is_empty());
+    }
+}
+
+#[test]
+fn a_file_holds_every_figure() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("locked.csv");
+    hbm(&["--speed", "0:500:11", "--out"]).arg(&path).assert().success();
+    let mut reader = csv::Reader::from_path(&path).unwrap();
+    let names = reader.headers().unwrap().clone();
+    assert!(names.iter().any(|name| name == "u_cc_m"));
+    let rows: Vec<_> = reader.records().map(Result::unwrap).collect();
+    assert_eq!(rows.len(), 11);
+    let multiplier: f64 = rows[10].get(1).unwrap().parse().unwrap();
+    assert!((multiplier + 150.855).abs() < 5e-4);
+}

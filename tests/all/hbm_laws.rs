@@ -1,0 +1,266 @@
+//! Laws of the frequency domain over random machines.
+
+use crate::hbm_support::keeps_to_its_laws;
+use proptest::prelude::*;
+use rubscope::harmonic::{
+    Character, Corner, Form, Kind, Locked, corner_branch, equilibria, slip_map, slip_over,
+};
+use rubscope::model::{BladedDisk, Casing, Machine};
+
+/// Machines with corners: 3 to 40 blades, any diameters that leave three sides,
+/// clearances of 10 um to 1 mm, blades from soft to stiff, damping up to 0.3.
+fn machines() -> impl Strategy<Value = Machine> {
+    machines_with(1e2..1e6)
+}
+
+fn machines_with(stiffness: std::ops::Range<f64>) -> impl Strategy<Value = Machine> {
+    let disk = (3..40_u32, 1e-5..1e-3, stiffness, 0.0..1e5, 0.01..10.0, 0.0..0.3);
+    let casing = (0.1..10.0, 1e4..1e8, 0.0..0.3);
+    (disk, casing, 1..60_u32)
+        .prop_map(|(disk, casing, diameters)| {
+            let (blades, clearance, stiffness, coupling, inertia, zeta_bd) = disk;
+            let (mass, k_c, zeta_c) = casing;
+            let disk = BladedDisk {
+                blades,
+                blade_length_m: 0.5 - clearance,
+                inertia_kg_m2: inertia,
+                stiffness_nm_per_rad: stiffness,
+                coupling_nm_per_rad: coupling,
+                damping_ratio: zeta_bd,
+            };
+            let casing = Casing {
+                radius_m: 0.5,
+                modal_mass_kg: mass,
+                modal_stiffness_n_per_m: k_c,
+                damping_ratio: zeta_c,
+            };
+            Machine::new(&disk, &casing, diameters)
+        })
+        .prop_filter("a corner needs three sides", |machine| machine.rim.has_corners())
+}
+
+/// The same machine with blades so many times stiffer.
+fn stiffened(machine: &Machine, times: f64) -> Machine {
+    let mut machine = machine.clone();
+    machine.omega_bd *= times.sqrt();
+    machine.omega_bd_max *= times.sqrt();
+    machine.blade_modal_stiffness *= times;
+    machine.blade_modal_damping *= times.sqrt();
+    machine
+}
+
+/// With blades so stiff that its corner folds at `ratio` times the critical
+/// speed and not at `fold` \[rad/s\]: `kappa` there is as their stiffness.
+fn folding(machine: &Machine, fold: f64, ratio: f64) -> Machine {
+    let now = fold / machine.critical_speed().unwrap_or(1.0);
+    stiffened(machine, (ratio * ratio - 1.0) / (now * now - 1.0))
+}
+
+/// Within a few digits of rounding: `value` against `expected`, of size `scale`.
+fn near(value: f64, expected: f64, scale: f64) -> bool {
+    (value - expected).abs() <= 1e-11 * scale
+}
+
+proptest! {
+    #![proptest_config(crate::drawn(256))]
+    #[test]
+    fn every_form_solves_its_equations(
+        machine in machines(), ratio in 0.0..4.0_f64, a in 0..1000_u32, damped: bool,
+    ) {
+        let speed = ratio * machine.critical_speed().unwrap_or(1.0);
+        let corner = Corner::after(&machine.rim, a).unwrap();
+        for form in Form::ALL {
+            let locked = Locked::new(&machine, corner, form, damped).unwrap();
+            if let Ok(point) = locked.at(speed) {
+                prop_assert!(point.residual < 1e-11, "{form}: {}", point.residual);
+                let pushes = point.multipliers.iter().all(|&multiplier| multiplier <= 0.0);
+                prop_assert!(!point.admissible || pushes);
+                prop_assert!(!point.stable || pushes);
+            }
+        }
+    }
+
+    /// What is found is a state that stiffer blades lead to, and no other that
+    /// happens to solve the equations at one speed.
+    #[test]
+    fn slightly_stiffer_blades_are_held_almost_alike(
+        machine in machines(), ratio in 0.0..4.0_f64, damped: bool,
+    ) {
+        let speed = ratio * machine.critical_speed().unwrap_or(1.0);
+        let corner = Corner::after(&machine.rim, 0).unwrap();
+        let stiffer = stiffened(&machine, 1.0 + 1e-6);
+        for form in Form::ALL {
+            let at = |machine| Locked::new(machine, corner, form, damped).unwrap().at(speed);
+            if let Ok(point) = at(&machine) {
+                let neighbour = at(&stiffer);
+                prop_assert!(neighbour.is_ok(), "{form}: lost by stiffer blades");
+                let neighbour = neighbour.unwrap();
+                let scale = point.multipliers.iter().fold(0.0_f64, |size, l| size.max(l.abs()));
+                for i in 0..2 {
+                    // As the root of the difference where the branch folds.
+                    let off = (point.multipliers[i] - neighbour.multipliers[i]).abs();
+                    prop_assert!(off <= 0.1 * scale, "{form}: {point:?} {neighbour:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn power_is_what_the_damper_takes(machine in machines(), ratio in -4.0..4.0_f64) {
+        let speed = ratio * machine.critical_speed().unwrap_or(1.0);
+        let nu = machine.nu(speed);
+        for state in equilibria(&machine, speed, true).unwrap() {
+            let dissipated = machine.casing_damping * nu * nu * state.amplitude().powi(2);
+            // The levers of a corner cancel but for their difference.
+            let k = machine.casing_stiffness - nu * nu * machine.casing_mass;
+            let scale = dissipated + (k * nu).abs() * state.amplitude().powi(2);
+            prop_assert!(near(state.power, dissipated, scale), "{:?}", state.kind);
+        }
+    }
+
+    /// Casings and blades over thirty powers of ten: work is bounded, and without
+    /// damping every motion that grows has one that decays as fast.
+    #[test]
+    fn every_state_has_its_eigenvalues_however_soft_the_machine(
+        blades in 1..40_u32, diameters in 1..60_u32, casing in -10.0..12.0_f64,
+        stiffness in -3.0..14.0_f64, decades in -3.0..6.0_f64, zeta in 0.0..0.3_f64, damped: bool,
+    ) {
+        let stiffness_nm_per_rad = 10_f64.powf(stiffness);
+        let disk = BladedDisk { blades, stiffness_nm_per_rad, ..BladedDisk::default() };
+        let modal_stiffness_n_per_m = 10_f64.powf(casing);
+        let casing =
+            Casing { modal_stiffness_n_per_m, damping_ratio: zeta, ..Casing::default() };
+        let machine = Machine::new(&disk, &casing, diameters);
+        let speed = 10_f64.powf(decades);
+        let states = equilibria(&machine, speed, damped);
+        prop_assert!(states.is_ok(), "{states:?}");
+        for state in states.unwrap() {
+            let values = &state.eigenvalues;
+            let fastest = values.iter().map(|value| value.norm()).fold(0.0, f64::max);
+            prop_assert!(!values.is_empty() && fastest.is_finite());
+            let sum: f64 = values.iter().map(|value| value.re).sum();
+            if !damped {
+                prop_assert!(sum.abs() <= 1e-12 * fastest, "{:?}: {sum:e} in {values:?}", state.kind);
+            }
+            if state.kind == Kind::Rest {
+                prop_assert_eq!(state.character, Character::Stable);
+            }
+        }
+    }
+
+    #[test]
+    fn turning_by_a_group_turns_the_state(machine in machines(), ratio in 1.0..3.0_f64, a in 0..1000_u32) {
+        let speed = ratio * machine.critical_speed().unwrap_or(1.0);
+        let at = |side| {
+            let corner = Corner::after(&machine.rim, side).unwrap();
+            Locked::new(&machine, corner, Form::Modal, true).unwrap().at(speed)
+        };
+        match (at(0), at(a)) {
+            (Ok(one), Ok(other)) => {
+                let scale = one.multipliers.iter().fold(0.0_f64, |size, l| size.max(l.abs()));
+                for i in 0..2 {
+                    prop_assert!(near(one.multipliers[i], other.multipliers[i], scale));
+                }
+                prop_assert!(near(one.amplitude(), other.amplitude(), one.amplitude()));
+                // z turns by the phase of the side.
+                let turn = machine.rim.phase(a % machine.rim.sides);
+                let (x, y) = (
+                    one.u_cc * turn.cos() - one.u_sc * turn.sin(),
+                    one.u_cc * turn.sin() + one.u_sc * turn.cos(),
+                );
+                prop_assert!(near(x, other.u_cc, one.amplitude()));
+                prop_assert!(near(y, other.u_sc, one.amplitude()));
+                prop_assert_eq!(one.admissible, other.admissible);
+            }
+            (Err(_), Err(_)) => {}
+            _ => prop_assert!(false, "a corner that exists in one place only"),
+        }
+    }
+
+    #[test]
+    fn the_other_sense_of_rotation_is_the_mirror(machine in machines(), ratio in 0.1..3.0_f64) {
+        let speed = ratio * machine.critical_speed().unwrap_or(1.0);
+        let corner = Corner::after(&machine.rim, 0).unwrap();
+        let locked = Locked::new(&machine, corner, Form::Modal, true).unwrap();
+        if let (Ok(one), Ok(mirror)) = (locked.at(speed), locked.at(-speed)) {
+            let scale = one.multipliers.iter().fold(0.0_f64, |size, l| size.max(l.abs()));
+            prop_assert!(near(one.multipliers[0], mirror.multipliers[1], scale));
+            // The levers cancel but for their difference, and round each.
+            let lever = machine.nodal_diameters * one.amplitude();
+            let size = one.torque.abs() + 1e-4 * scale * lever;
+            prop_assert!(near(one.torque, -mirror.torque, size));
+        }
+        let slip = |speed| slip_over(&machine, &[speed]).unwrap()[0];
+        if let (Ok(one), Ok(mirror)) = (slip(speed).outcome, slip(-speed).outcome) {
+            prop_assert_eq!(one.wave_speed, -mirror.wave_speed);
+            prop_assert_eq!(one.power, mirror.power);
+        }
+    }
+
+    /// Stiff enough blades do not move the thresholds: below `Omega_lock` some
+    /// multiplier pulls, above none, and the saddle stands on the side.
+    #[test]
+    fn signs_follow_the_thresholds(machine in machines_with(1e11..1e12), part in 0.5..2.0_f64) {
+        prop_assume!((part - 1.0).abs() > 1e-3);
+        let lock = machine.lock_speed().unwrap();
+        for state in equilibria(&machine, part * lock, true).unwrap() {
+            match state.kind {
+                Kind::Rest => prop_assert_eq!(state.character, Character::Stable),
+                Kind::Side => prop_assert!(!state.stable()),
+                Kind::Corner => prop_assert_eq!(state.admissible(), part > 1.0),
+            }
+            if state.kind == Kind::Side {
+                prop_assert_eq!(state.admissible(), part > 1.0);
+            }
+        }
+    }
+
+    #[test]
+    fn slip_is_a_fixed_point_that_attracts_and_closes_its_power(
+        machine in machines(), ratio in 1.0..8.0_f64,
+    ) {
+        let speed = ratio * machine.critical_speed().unwrap_or(1.0);
+        if let Ok(orbit) = slip_over(&machine, &[speed]).unwrap()[0].outcome {
+            prop_assert!(orbit.slope > 0.0 && orbit.slope < 1.0);
+            prop_assert!(orbit.wave_speed > 0.0 && orbit.wave_speed < speed);
+            prop_assert!(orbit.least_push >= 0.0);
+            prop_assert!(near(orbit.power, orbit.damper_power + orbit.corner_power, orbit.power));
+            let next = slip_map(&machine, speed, orbit.speed_after).unwrap();
+            // Close to the saddle a crossing takes long and forgets its digits.
+            let scale = orbit.speed_after * (1.0 + orbit.slope / (1.0 - orbit.slope));
+            prop_assert!((next.speed_after - orbit.speed_after).abs() < 1e-8 * scale);
+        }
+    }
+
+    /// One in two machines folds within the range, and one in two ranges ends a
+    /// part of 10^-1 to 10^-16 below or beyond a fold.
+    #[test]
+    fn a_branch_that_folds_never_leaves_its_equations(
+        machine in machines(), ratio in prop_oneof![1.5..12.0_f64, Just(0.0)],
+        from in prop_oneof![Just(0.0), 0.0..1.0_f64], limit in 1.1..20.0_f64,
+        close in prop_oneof![Just(None), (1.0..16.0_f64, any::<bool>()).prop_map(Some)],
+        steps in 0.0..1.0_f64, damped: bool,
+    ) {
+        let critical = machine.critical_speed().unwrap_or(1.0);
+        let fold = |machine: &Machine| {
+            let branch = corner_branch(machine, 0, damped, [0.0, 1.0], 1.0).unwrap();
+            branch.fold.map_or(f64::INFINITY, |fold| fold.speed)
+        };
+        let machine = if ratio > 0.0 { folding(&machine, fold(&machine), ratio) } else { machine };
+        let fold = fold(&machine);
+        let to = match close {
+            Some((past, true)) if ratio > 0.0 => fold * (1.0 + 10_f64.powf(-past)),
+            Some((past, false)) if ratio > 0.0 => fold * (1.0 - 10_f64.powf(-past)),
+            _ => limit * critical,
+        };
+        let from = from * to;
+        let step = 0.5 * 10_f64.powf(-steps);
+        let branch = corner_branch(&machine, 0, damped, [from, to], step).unwrap();
+        // Without it, no damper takes any power.
+        let mut machine = machine;
+        machine.casing_damping *= f64::from(u8::from(damped));
+        if let Err(what) = keeps_to_its_laws(&machine, &branch, [from, to], step) {
+            prop_assert!(false, "{from} to {to}, fold {fold}, by {step}: {what}");
+        }
+    }
+}

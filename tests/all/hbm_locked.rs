@@ -1,0 +1,275 @@
+//! Locked motion in the frequency domain against the closed forms, the paper's
+//! numbers, and the eight equations (27) written out as they are printed.
+
+use nalgebra::{SMatrix, SVector};
+use rubscope::harmonic::{Corner, Form, Locked, LockedPoint, locked_motion};
+use rubscope::model::{BladedDisk, Casing, Machine};
+
+fn machine(nodal_diameters: u32, zeta_c: f64) -> Machine {
+    let casing = Casing { damping_ratio: zeta_c, ..Casing::default() };
+    Machine::new(&BladedDisk::default(), &casing, nodal_diameters)
+}
+
+fn at(machine: &Machine, form: Form, damped: bool, speed: f64) -> LockedPoint {
+    locked_motion(machine, form, damped, None, &[speed]).unwrap().points[0]
+}
+
+fn close(value: f64, expected: f64, tolerance: f64) {
+    assert!((value - expected).abs() <= tolerance, "{value:e} is not {expected:e}");
+}
+
+#[test]
+fn the_papers_figures_9_and_10() {
+    let machine = machine(3, 0.05);
+    let speeds: Vec<f64> = (0..=500).map(f64::from).collect();
+    let critical = machine.critical_speed().unwrap();
+    for form in Form::ALL {
+        let sweep = locked_motion(&machine, form, false, Some([6, 21]), &speeds).unwrap();
+        assert_eq!((sweep.points.len(), sweep.missing.len()), (501, 0));
+        for point in &sweep.points {
+            // Blade angles of 1e-6 rad move the corner by 1e-6 of its half side,
+            // less in the modal form.
+            close(point.amplitude(), 1.010_283e-4, 1e-10);
+            close(point.u_cc, 2.846e-5, 1e-8);
+            close(point.u_sc, 9.694e-5, 1e-8);
+            assert_eq!((point.u_ss, point.u_cs), (point.u_cc, -point.u_sc));
+            assert_eq!(point.admissible, point.speed > critical, "{form} {}", point.speed);
+            assert!(point.residual < 1e-14, "{form}: {}", point.residual);
+            assert!(point.stable == point.admissible, "{form} {}", point.speed);
+        }
+    }
+}
+
+#[test]
+fn three_forms_three_blade_angles_one_multiplier() {
+    let machine = machine(3, 0.05);
+    // g0 K/(2 cos^2 delta) at 500 rad/s, to all digits printed.
+    let exact = machine.clearance() * (1.544e6 - 2.0 * 1500.0 * 1500.0)
+        / (2.0 * machine.rim.delta.cos().powi(2));
+    close(exact, -150.855_35, 5e-6);
+    for (form, alpha, alpha_tolerance, tolerance) in [
+        (Form::Printed, 7.62e-7, 1e-9, 2e-4),
+        (Form::Blade, -3.81e-7, 5e-10, 2e-4),
+        (Form::Modal, -1.404e-9, 1e-12, 1e-6),
+    ] {
+        let point = at(&machine, form, false, 500.0);
+        close(point.multipliers[0], exact, tolerance);
+        close(point.multipliers[1], exact, tolerance);
+        close(point.alpha[0], alpha, alpha_tolerance);
+        close(point.alpha[1], -alpha, alpha_tolerance);
+    }
+    let printed = at(&machine, Form::Printed, false, 500.0);
+    // "1.5e-4 N in 150.9 N" is what the wrong rows cost the multipliers.
+    let difference = (printed.multipliers[0] - exact).abs();
+    assert!((0.5e-4..2e-4).contains(&difference), "{difference}");
+}
+
+/// With blades as good as rigid every form is the closed form of the model.
+#[test]
+fn stiff_blades_meet_the_closed_forms_to_twelve_digits() {
+    let stiff = BladedDisk { stiffness_nm_per_rad: 1e15, ..BladedDisk::default() };
+    for (diameters, zeta) in [(3, 0.05), (3, 0.0), (4, 0.05), (1, 0.3), (10, 0.01)] {
+        let casing = Casing { damping_ratio: zeta, ..Casing::default() };
+        let machine = Machine::new(&stiff, &casing, diameters);
+        for form in Form::ALL {
+            for speed in [-430.0, 0.0, 100.0, 293.0, 411.0, 500.0, 2000.0] {
+                let point = at(&machine, form, true, speed);
+                let expected = machine.locked_multipliers(speed).unwrap();
+                let scale = machine.casing_stiffness * machine.clearance()
+                    + expected[0].abs().max(expected[1].abs());
+                for (value, exact) in point.multipliers.iter().zip(expected) {
+                    close(*value, exact, 1e-12 * scale);
+                }
+                let amplitude = machine.locked_amplitude().unwrap();
+                close(point.amplitude(), amplitude, 1e-12 * amplitude);
+                let nu = machine.nu(speed);
+                let dissipated = machine.casing_damping * nu * nu * amplitude * amplitude;
+                // The clearance itself is a difference of two numbers near 0.5 m,
+                // but both sides use the same one.
+                close(point.power, dissipated, 1e-12 * (dissipated + 1.0));
+            }
+        }
+    }
+}
+
+#[test]
+fn damped_multipliers_torque_and_threshold_of_the_paper_machine() {
+    let machine = machine(3, 0.05);
+    let point = at(&machine, Form::Modal, true, 500.0);
+    close(point.multipliers[0], -244.416, 1e-3);
+    close(point.multipliers[1], -57.295, 1e-3);
+    close(point.power, 4.036, 5e-4);
+    close(point.torque, 8.071e-3, 1e-6);
+    let lock = machine.lock_speed().unwrap();
+    assert!(!at(&machine, Form::Modal, true, lock * (1.0 - 1e-6)).admissible);
+    assert!(at(&machine, Form::Modal, true, lock * (1.0 + 1e-6)).admissible);
+}
+
+#[test]
+fn the_critical_speed_itself_is_an_ordinary_point() {
+    let machine = machine(3, 0.0);
+    let critical = machine.critical_speed().unwrap();
+    for form in Form::ALL {
+        let point = at(&machine, form, false, critical);
+        close(point.multipliers[0], 0.0, 1e-10);
+        close(point.amplitude(), machine.locked_amplitude().unwrap(), 1e-16);
+    }
+}
+
+#[test]
+fn every_corner_is_the_same_turned() {
+    for diameters in [3, 4] {
+        let machine = machine(diameters, 0.05);
+        let reference = at(&machine, Form::Modal, true, 470.0);
+        for a in 0..machine.rim.sides {
+            let corner = Corner::after(&machine.rim, a).unwrap();
+            let point =
+                Locked::new(&machine, corner, Form::Modal, true).unwrap().at(470.0).unwrap();
+            for i in 0..2 {
+                close(point.multipliers[i], reference.multipliers[i], 1e-10);
+                close(point.alpha[i], reference.alpha[i], 1e-20);
+            }
+            close(point.amplitude(), reference.amplitude(), 1e-17);
+            assert!(point.admissible && point.stable);
+        }
+    }
+}
+
+/// `[u_cc, u_cs, u_sc, u_ss, lambda_1, lambda_2, alpha_1, alpha_2]`
+type Eight = SVector<f64, 8>;
+
+/// Eq. (27) word for word, neighbours by Eq. (20); casing rows divided by 1e6
+/// and blade rows left in N m, so that they are of one size.
+fn printed_equations(disk: &BladedDisk, casing: &Casing, speed: f64, u: &Eight) -> Eight {
+    let n_d = 3.0;
+    let (i1, i2) = (6.0, 21.0);
+    let phase = |i: f64| n_d * std::f64::consts::TAU * (i - 1.0) / 22.0;
+    let (p_c, p_s) = (|i: f64| phase(i).cos(), |i: f64| phase(i).sin());
+    let [u_cc, u_cs, u_sc, u_ss, l1, l2, a1, a2]: [f64; 8] = (*u).into();
+    let pair = nalgebra::Matrix2::new(p_c(i1), p_s(i1), p_c(i2), p_s(i2)).try_inverse().unwrap();
+    let modes = pair * nalgebra::Vector2::new(a1, a2);
+    let angle = |i: f64| p_c(i) * modes[0] + p_s(i) * modes[1];
+    let (k_b, k_bb) = (disk.stiffness_nm_per_rad, disk.coupling_nm_per_rad);
+    let (c1, s1, c2, s2) = (p_c(i1), p_s(i1), p_c(i2), p_s(i2));
+    let g0 = casing.radius_m - disk.blade_length_m;
+    let k = casing.modal_stiffness_n_per_m - (n_d * speed).powi(2) * casing.modal_mass_kg;
+    let blade = |l: f64, a: f64, c: f64, s: f64, i: f64| {
+        l * n_d * s * (u_ss + u_cc + n_d * a * (u_sc - u_cs))
+            + l * n_d * c * (u_cs - u_sc + n_d * a * (u_ss + u_cc))
+            + (k_b + 2.0 * k_bb) * a
+            - k_bb * (angle(i - 1.0) + angle(i + 1.0))
+    };
+    let gap = |a: f64, c: f64, s: f64| {
+        2.0 * g0
+            + s * (u_sc - u_cs - n_d * a * (u_ss + u_cc))
+            + c * (u_ss + u_cc + n_d * a * (u_sc - u_cs))
+    };
+    let push_c = l1 * (c1 - n_d * a1 * s1) + l2 * (c2 - n_d * a2 * s2);
+    let push_s = l1 * (s1 + n_d * a1 * c1) + l2 * (s2 + n_d * a2 * c2);
+    Eight::from([
+        blade(l1, a1, c1, s1, i1),
+        blade(l2, a2, c2, s2, i2),
+        gap(a1, c1, s1),
+        gap(a2, c2, s2),
+        (k * u_cc + push_c) / 1e6,
+        (k * u_cs - push_s) / 1e6,
+        (k * u_sc + push_s) / 1e6,
+        (k * u_ss + push_c) / 1e6,
+    ])
+}
+
+#[test]
+fn the_eight_printed_equations_hold_and_their_own_newton_agrees() {
+    let (disk, casing) = (BladedDisk::default(), Casing::default());
+    let machine = machine(3, 0.05);
+    for speed in [50.0, 290.0, 400.0, 500.0] {
+        let point = at(&machine, Form::Printed, false, speed);
+        let found = Eight::from([
+            point.u_cc,
+            point.u_cs,
+            point.u_sc,
+            point.u_ss,
+            point.multipliers[0],
+            point.multipliers[1],
+            point.alpha[0],
+            point.alpha[1],
+        ]);
+        let residual = printed_equations(&disk, &casing, speed, &found);
+        // Terms of 1e-4 m and 1e-2 N m, so 1e-15 is a few units of rounding of
+        // the torque rows.
+        assert!(residual.amax() < 1e-15, "{residual}");
+        // A start with a backward wave and the wrong multipliers.
+        let scale = Eight::from([1e-4, 1e-4, 1e-4, 1e-4, 100.0, 100.0, 1e-6, 1e-6]);
+        let mut u =
+            found + scale.component_mul(&Eight::from([0.3, -0.2, 0.1, 0.4, 0.5, -0.4, 0.9, -0.7]));
+        for _ in 0..20 {
+            let residual = printed_equations(&disk, &casing, speed, &u);
+            let jacobian = SMatrix::<f64, 8, 8>::from_fn(|row, column| {
+                let mut moved = u;
+                moved[column] += scale[column] * 1e-3;
+                let step = printed_equations(&disk, &casing, speed, &moved) - residual;
+                step[row] / (scale[column] * 1e-3)
+            });
+            u -= jacobian.lu().solve(&residual).unwrap();
+        }
+        let error = (u - found).component_div(&scale).amax();
+        assert!(error < 1e-9, "{error} at {speed}");
+    }
+}
+
+#[test]
+fn what_has_no_meaning_is_refused_in_one_line_that_names_the_key() {
+    for (diameters, start) in [
+        (0, "operation.nodal_diameters = 0: allowed is one with N'"),
+        (11, "operation.nodal_diameters = 11: allowed is one with N'"),
+    ] {
+        let refused = locked_motion(&machine(diameters, 0.05), Form::Modal, false, None, &[500.0]);
+        let message = refused.unwrap_err().to_string();
+        assert!(message.starts_with(start), "{message}");
+        assert_eq!(message.lines().count(), 1);
+    }
+    let machine = machine(3, 0.05);
+    let message = locked_motion(&machine, Form::Modal, false, Some([6, 7]), &[500.0]).unwrap_err();
+    assert!(message.to_string().starts_with("blades = 6,7: allowed is a pair of phase"));
+    assert!(locked_motion(&machine, Form::Modal, false, None, &[f64::NAN]).is_err());
+}
+
+/// Blades that turn the wave by 0.8 rad: from the rigid corner Newton's method
+/// wandered, and came upon the solution at one of these speeds only.
+#[test]
+fn soft_blades_of_the_printed_form_are_followed_and_not_met_by_chance() {
+    let stiffness = 0.01 * 9_083.990_796_689_513_f64.powi(2);
+    let disk = BladedDisk {
+        blades: 5,
+        blade_length_m: 0.5 - 0.000_969_139_512_671_024_5,
+        inertia_kg_m2: 0.01,
+        stiffness_nm_per_rad: stiffness,
+        coupling_nm_per_rad: 0.0,
+        damping_ratio: 0.0,
+    };
+    let casing = Casing {
+        radius_m: 0.5,
+        modal_mass_kg: 0.1,
+        modal_stiffness_n_per_m: 92_754_544.609_138_88,
+        damping_ratio: 0.287_670_490_018_661_6,
+    };
+    let machine = Machine::new(&disk, &casing, 49);
+    let critical = machine.critical_speed().unwrap();
+    let speeds: Vec<f64> =
+        (-5..=5).map(|k| (2.894_076_755_376_282_5 + 1e-3 * f64::from(k)) * critical).collect();
+    let sweep = locked_motion(&machine, Form::Printed, true, None, &speeds).unwrap();
+    assert!(sweep.missing.is_empty(), "missed {:?}", sweep.missing);
+    assert!(sweep.points.iter().all(|point| point.residual < 1e-14));
+    // One branch: by equal steps of the speed, equal steps of the multipliers.
+    for three in sweep.points.windows(3) {
+        let [a, b, c] = [0, 1, 2].map(|k| three[k].multipliers[1]);
+        close(c - b, b - a, 1e-3 * (b - a).abs());
+    }
+    // The order of the speeds does not matter, nor does what was found before.
+    let mut down: Vec<f64> = (0..=300).map(|k| 0.01 * f64::from(k) * critical).collect();
+    let up = locked_motion(&machine, Form::Printed, true, None, &down).unwrap();
+    down.reverse();
+    let down = locked_motion(&machine, Form::Printed, true, None, &down).unwrap();
+    assert!(up.points.iter().eq(down.points.iter().rev()));
+    assert!((20..301).contains(&up.points.len()), "{}", up.points.len());
+}

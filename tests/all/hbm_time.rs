@@ -1,0 +1,245 @@
+//! The frequency domain against the time solvers: locked states in all four
+//! coordinates, the lock-in threshold by bisection, the speed of slip.
+
+use nalgebra::Complex;
+use rubscope::harmonic::{Corner, Form, Locked, SlipOrbit, excited_lock, slip_over};
+use rubscope::motion::{Event, Motion, Solver, Touching};
+use rubscope::scene::{ModelSize, Scene};
+
+/// Rigid blades unless a test changes it, as the closed forms have them.
+fn scene(changes: &[(&str, &str)]) -> Scene {
+    let mut scene = Scene::default();
+    scene.solver.model = ModelSize::Rigid;
+    scene.with(changes).unwrap().into_scene()
+}
+
+fn close(value: f64, expected: f64, relative: f64) {
+    assert!((value - expected).abs() <= relative * expected.abs(), "{value:e} is not {expected:e}");
+}
+
+/// The wave put into the corner of blades 6 and 21, turning with the rotor.
+fn in_corner(zeta: f64, speed: f64) -> Scene {
+    in_default_corner(3, zeta, speed)
+}
+
+/// The same for any number of diameters, in the default corner.
+fn in_default_corner(diameters: u32, zeta: f64, speed: f64) -> Scene {
+    let mut scene = scene(&[("operation.pulse_n", "0")]);
+    scene.operation.nodal_diameters = diameters;
+    scene.casing.damping_ratio = zeta;
+    scene.operation.speed_rad_s = speed;
+    let machine = scene.machine();
+    let corner = Corner::paper(&machine.rim).unwrap();
+    let middle = machine.rim.phase(corner.a) + machine.rim.delta;
+    let amplitude = machine.locked_amplitude().unwrap();
+    let nu = machine.nu(speed);
+    scene.initial.u_c_m = -amplitude * middle.cos();
+    scene.initial.u_s_m = -amplitude * middle.sin();
+    scene.initial.v_c_m_s = -nu * scene.initial.u_s_m;
+    scene.initial.v_s_m_s = nu * scene.initial.u_c_m;
+    scene.checked().unwrap();
+    scene
+}
+
+#[test]
+fn the_event_solver_holds_the_corner_from_the_lock_in_speed_on() {
+    for zeta in [0.01, 0.05] {
+        let holds = |speed: f64| {
+            let mut motion = Event::new(&in_corner(zeta, speed).checked().unwrap()).unwrap();
+            motion.advance(1e-3).unwrap();
+            motion.contacts().touching == Touching::Corner(15, 16)
+        };
+        let (mut below, mut above) = (293.0, 600.0);
+        assert!(!holds(below) && holds(above));
+        for _ in 0..60 {
+            let middle = 0.5 * (below + above);
+            if holds(middle) { above = middle } else { below = middle }
+        }
+        let machine = scene(&[("casing.damping_ratio", &zeta.to_string())]).machine();
+        // The event solver takes a push of 1e-15 of the motion for none.
+        close(above, machine.lock_speed().unwrap(), 1e-10);
+    }
+}
+
+/// Rotor speed of the wave over 100 sides, once neighbouring orbits have come
+/// together to 1e-12.
+fn long_wave_speed(scene: &Scene, orbit: &SlipOrbit) -> f64 {
+    let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
+    let settle = orbit.period * 1e-12_f64.ln() / orbit.slope.ln();
+    motion.advance(0.1 + settle).unwrap();
+    let mut sides = Vec::new();
+    while sides.len() < 102 {
+        let limit = 100.0 + settle;
+        let time = motion.next_event(limit).unwrap();
+        assert!(time < limit, "no slip: {:?}", motion.contacts().touching);
+        if let Touching::Side(side) = motion.contacts().touching
+            && sides.last().is_none_or(|&(last, _)| last != side)
+        {
+            sides.push((side, time));
+        }
+    }
+    let machine = motion.machine();
+    let period = (sides[101].1 - sides[1].1) / 100.0;
+    scene.operation.speed_rad_s - 2.0 * machine.rim.delta / period / machine.nodal_diameters
+}
+
+#[test]
+fn slip_of_the_map_is_the_long_motion_of_the_event_solver() {
+    let scene = scene(&[("casing.damping_ratio", "0.01"), ("operation.pulse_n", "51742")]);
+    let orbit = slip_over(&scene.machine(), &[500.0]).unwrap()[0].outcome.unwrap();
+    close(long_wave_speed(&scene, &orbit), orbit.wave_speed, 1e-10);
+    // Blades that give way change the corner and its impulse by some 1e-8.
+    let mut moving = scene;
+    moving.solver.model = ModelSize::Modal;
+    close(long_wave_speed(&moving, &orbit), orbit.wave_speed, 1e-7);
+}
+
+/// On side 0 just after its corner, with this part of the repeating speed.
+fn slipping(diameters: u32, zeta: f64, speed: f64, part: f64) -> (Scene, SlipOrbit) {
+    let mut scene = scene(&[("operation.pulse_n", "0")]);
+    scene.operation.nodal_diameters = diameters;
+    scene.casing.damping_ratio = zeta;
+    scene.operation.speed_rad_s = speed;
+    let machine = scene.machine();
+    let orbit = slip_over(&machine, &[speed]).unwrap()[0].outcome.unwrap();
+    // z = -(g0 - i y), z' = i y', u' = z' + i nu z. A little inside the corner.
+    let y = -machine.rim.half_side() * (1.0 - 1e-9);
+    let rate = part * orbit.speed_after;
+    let nu = machine.nu(speed);
+    scene.initial.u_c_m = -machine.clearance();
+    scene.initial.u_s_m = y;
+    scene.initial.v_c_m_s = -nu * y;
+    scene.initial.v_s_m_s = rate - nu * machine.clearance();
+    scene.checked().unwrap();
+    (scene, orbit)
+}
+
+#[test]
+fn slip_lives_where_the_event_solver_keeps_it() {
+    for (diameters, zeta, speed) in
+        [(3, 0.05, 900.0), (3, 0.01, 440.0), (4, 0.05, 600.0), (3, 0.01, 1800.0)]
+    {
+        let (scene, orbit) = slipping(diameters, zeta, speed, 1.01);
+        close(long_wave_speed(&scene, &orbit), orbit.wave_speed, 1e-9);
+    }
+}
+
+/// The explicit scheme looks at the forces a step late: locked, it turns
+/// `K + i D` by `-nu h`, which is the extra damping `nu h |K|` and a little less
+/// stiffness, `nu h D`. With that in the frequency domain all four coordinates
+/// and both multipliers agree to second order.
+#[test]
+fn explicit_locked_motion_is_the_modal_form_with_its_first_order_error() {
+    let step = 1e-6;
+    let mut scene = in_corner(0.05, 500.0);
+    scene.solver.step_s = step;
+    scene.solver.model = ModelSize::Modal;
+    // Blades that come to rest soon, on nothing but the contacts.
+    scene.bladed_disk.damping_ratio = 0.5;
+    let mut motion = Motion::new(&scene.checked().unwrap());
+    motion.advance(0.2).unwrap();
+    assert_eq!(motion.contacts().touching, Touching::Corner(15, 16));
+
+    let corner = Corner { a: 15, b: 16 };
+    let mut machine = scene.machine();
+    let exact = Locked::new(&machine, corner, Form::Modal, true).unwrap().at(500.0).unwrap();
+    let nu = machine.nu(500.0);
+    let stiff = machine.casing_stiffness - nu * nu * machine.casing_mass;
+    let drag = machine.casing_damping * nu;
+    machine.casing_stiffness += nu * step * drag;
+    machine.omega_c = (machine.casing_stiffness / machine.casing_mass).sqrt();
+    let damping = (drag - nu * step * stiff) / nu;
+    machine.casing_damping_ratio = damping / (2.0 * machine.casing_mass * machine.omega_c);
+    let point = Locked::new(&machine, corner, Form::Modal, true).unwrap().at(500.0).unwrap();
+
+    let state = motion.state();
+    let turn = Complex::new(0.0, -3.0 * motion.rotor().angle(state.t_s)).exp();
+    let z = Complex::new(state.u[0], state.u[1]) * turn;
+    let expected = Complex::new(point.u_cc, point.u_sc);
+    assert!((z - expected).norm() < 1e-10 * expected.norm());
+    // (nu h)^2 = 2e-6; the first-order error itself is 6e-3.
+    let second_order = 5e-6;
+    for (i, (_, multiplier)) in motion.multipliers().into_iter().enumerate() {
+        close(multiplier, point.multipliers[i], second_order);
+        assert!((multiplier - exact.multipliers[i]).abs() > 1e-3 * multiplier.abs());
+    }
+    for (i, side) in corner.sides().into_iter().enumerate() {
+        let (cos, sin) = machine.rim.direction(side);
+        let alpha = cos * state.alpha[0] + sin * state.alpha[1];
+        // Both blades bend the same way; what they share is a difference of
+        // the two torques, four times smaller than either.
+        close(alpha, point.alpha[i], 4.0 * second_order);
+    }
+}
+
+/// The event solver has no step: with moving blades it comes to rest in the
+/// exact form, in all four coordinates and both multipliers.
+#[test]
+fn event_locked_motion_is_the_modal_form() {
+    // Four diameters put two blades on each side.
+    for (diameters, speed) in [(3, 420.0), (3, 500.0), (3, 700.0), (4, 500.0), (7, 300.0)] {
+        let mut scene = in_default_corner(diameters, 0.05, speed);
+        scene.solver.model = ModelSize::Modal;
+        // The blades' start at rest is forgotten after 0.3 s.
+        scene.bladed_disk.damping_ratio = 0.5;
+        let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
+        motion.advance(0.3).unwrap();
+        let machine = scene.machine();
+        let corner = Corner::paper(&machine.rim).unwrap();
+        assert_eq!(motion.contacts().touching, Touching::of(&corner.sides()));
+        let point = Locked::new(&machine, corner, Form::Modal, true).unwrap().at(speed).unwrap();
+        let state = motion.state();
+        let turn =
+            Complex::new(0.0, -machine.nodal_diameters * motion.rotor().angle(state.t_s)).exp();
+        let z = Complex::new(state.u[0], state.u[1]) * turn;
+        let expected = Complex::new(point.u_cc, point.u_sc);
+        // An angle of 600 rad rounds off by 1e-13.
+        assert!((z - expected).norm() < 1e-12 * expected.norm());
+        for (i, (_, multiplier)) in motion.multipliers().into_iter().enumerate() {
+            close(multiplier, point.multipliers[i], 1e-12);
+        }
+        for (i, side) in corner.sides().into_iter().enumerate() {
+            let (cos, sin) = machine.rim.direction(side);
+            let alpha = cos * state.alpha[0] + sin * state.alpha[1];
+            close(alpha, point.alpha[i], 1e-12);
+        }
+    }
+}
+
+/// The linear response against the explicit solver, blade by blade amplitude:
+/// its Fourier coefficient over whole periods of the load.
+#[test]
+fn an_engine_order_moves_the_blades_as_the_frequency_domain_says() {
+    let speed = 500.0;
+    let mut scene = in_corner(0.05, speed);
+    scene.solver.model = ModelSize::Modal;
+    scene.solver.step_s = 1e-6;
+    scene.bladed_disk.damping_ratio = 0.2;
+    for order in [3, 19] {
+        scene.excitation.amplitude_nm = 10.0;
+        scene.excitation.order = order;
+        scene.checked().unwrap();
+        let machine = scene.machine();
+        let response = excited_lock(&machine, 15, &scene.excitation, &[speed]).unwrap().remove(0);
+        let mut motion = Motion::new(&scene.checked().unwrap());
+        let period = std::f64::consts::TAU / response.frequency;
+        let start = (0.25 / period).ceil() * period;
+        let (count, mut sums) = (64, [Complex::new(0.0, 0.0); 2]);
+        for sample in 0..count {
+            let time = start + period * f64::from(sample) / f64::from(count);
+            motion.advance(time).unwrap();
+            let state = motion.state();
+            let turn = Complex::new(0.0, -response.frequency * state.t_s).exp();
+            for (sum, alpha) in sums.iter_mut().zip(state.alpha) {
+                *sum += turn * (alpha * 2.0 / f64::from(count));
+            }
+        }
+        assert_eq!(motion.contacts().touching, Touching::Corner(15, 16));
+        for (found, expected) in sums.into_iter().zip(&response.response[2..]) {
+            println!(
+                "{order} {found} {expected} {:e}",
+                (found - expected).norm() / expected.norm()
+            );
+        }
+    }
+}

@@ -1,0 +1,137 @@
+//! Random scripts of live changes, seeded: whatever is done to a motion under
+//! way, the program stays with the plain stepper.
+
+use crate::plain::compare::Pair;
+use crate::plain::scenes::{in_corner, scene};
+use rubscope::scene::{ContactLaw, ModelSize, Scene};
+
+/// SplitMix64: the same scripts on every machine.
+struct Dice(u64);
+
+impl Dice {
+    fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// From 0 to 1.
+    fn share(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.share()
+    }
+
+    /// Uniform in the logarithm.
+    fn scale(&mut self, low: f64, high: f64) -> f64 {
+        low * (high / low).powf(self.share())
+    }
+
+    fn one_of<T: Copy>(&mut self, choices: &[T]) -> T {
+        choices[(self.bits() % choices.len() as u64) as usize]
+    }
+
+    fn chance(&mut self, part: f64) -> bool {
+        self.share() < part
+    }
+}
+
+/// A machine to begin with: one blade or several on a side, corners or none.
+fn first_scene(dice: &mut Dice) -> Scene {
+    let mut scene = scene(&[]);
+    scene.solver.model = dice.one_of(&[ModelSize::Rigid, ModelSize::Modal, ModelSize::Full]);
+    scene.solver.contact = dice.one_of(&[ContactLaw::Unilateral, ContactLaw::Bilateral]);
+    scene.solver.step_s = dice.one_of(&[1e-6, 1e-6, 3.7e-7, 4e-6]);
+    let machines =
+        [(22, 3), (22, 4), (22, 11), (22, 0), (12, 3), (12, 2), (7, 3), (5, 6), (3, 1), (1, 1)];
+    (scene.bladed_disk.blades, scene.operation.nodal_diameters) = dice.one_of(&machines);
+    scene.casing.damping_ratio = dice.one_of(&[0.0, 0.01, 0.05, 0.3]);
+    scene.operation.speed_rad_s = dice.one_of(&[500.0, 430.0, -500.0, 300.0, 0.0, 120.0]);
+    scene.operation.pulse_n = dice.scale(5e3, 1e5) * dice.one_of(&[1.0, -1.0]);
+    scene.operation.pulse_s = dice.scale(2e-6, 1e-4);
+    if dice.chance(0.25) {
+        scene.operation.speed_ramp_rad_s2 = dice.between(-2e4, 2e4);
+    }
+    if dice.chance(0.3) && scene.machine().rim.has_corners() { in_corner(scene) } else { scene }
+}
+
+/// Something else in the parameters.
+fn turn(dice: &mut Dice, scene: &mut Scene) {
+    match dice.bits() % 9 {
+        0 => scene.casing.damping_ratio = dice.one_of(&[0.0, 0.02, 0.05, 0.4]),
+        1 => scene.casing.modal_mass_kg = dice.scale(1.0, 4.0),
+        2 => scene.casing.modal_stiffness_n_per_m = dice.scale(8e5, 3e6),
+        3 => scene.bladed_disk.damping_ratio = dice.one_of(&[0.0, 0.04, 0.5]),
+        4 => scene.bladed_disk.inertia_kg_m2 = dice.scale(0.05, 1.0),
+        5 => scene.bladed_disk.stiffness_nm_per_rad = dice.scale(3e3, 1e5),
+        6 => scene.bladed_disk.coupling_nm_per_rad = dice.scale(1.0, 1e5),
+        7 if scene.solver.model != ModelSize::Rigid => {
+            scene.excitation.amplitude_nm = dice.one_of(&[0.0, 0.0, 0.5, 5.0]);
+            scene.excitation.order = dice.one_of(&[1, 3, 4, 19, 25]);
+        }
+        _ => {
+            scene.operation.pulse_n = dice.scale(5e2, 2e5) * dice.one_of(&[1.0, -1.0]);
+            scene.operation.pulse_s = dice.scale(2e-6, 1e-4);
+        }
+    }
+    let two_sides = scene.machine().rim.sides == 2;
+    if dice.chance(0.2) && !two_sides {
+        scene.solver.contact = dice.one_of(&[ContactLaw::Unilateral, ContactLaw::Bilateral]);
+    }
+}
+
+/// One script; how many changes were compared.
+fn play(seed: u64) -> u32 {
+    let mut dice = Dice(seed);
+    let first = first_scene(&mut dice);
+    let mut pair = Pair::new(&first);
+    let mut told = format!("script {seed}: {first:?}");
+    for done in 0..12 {
+        // From one step to long after the flight was decided on.
+        let wait = dice.scale(first.solver.step_s, 3e-3);
+        let until = pair.plain.time() + wait;
+        for look in 1..=4 {
+            let then = until - wait * (1.0 - f64::from(look) / 4.0);
+            if pair.advance(then).is_err() || pair.is_chaotic() {
+                return done;
+            }
+            pair.check(&told);
+        }
+        // Windows of a part of a casing period, and of one and more.
+        pair.check_verdict(&told, dice.scale(3e-4, 1e-2));
+        match dice.bits() % 4 {
+            0 | 1 => {
+                pair.fire();
+                told += &format!("\n at {until}: fire");
+            }
+            2 => {
+                let speed = dice.one_of(&[500.0, 450.0, 520.0, 0.0, -500.0, 200.0]);
+                let ramp = if dice.chance(0.7) { 0.0 } else { dice.between(-1e5, 1e5) };
+                pair.set_speed(speed, ramp);
+                told += &format!("\n at {until}: speed {speed} ramp {ramp}");
+            }
+            _ => {
+                let mut other = pair.scene().clone();
+                turn(&mut dice, &mut other);
+                if other.checked().is_ok() {
+                    pair.adopt(&other);
+                    told += &format!("\n at {until}: {other:?}");
+                }
+            }
+        }
+        pair.check(&told);
+    }
+    12
+}
+
+#[test]
+fn random_scripts() {
+    let compared: Vec<u32> = (1..=40).map(play).collect();
+    // Some end early, in chaos or in a failure both agree on; most do not.
+    let whole = compared.iter().filter(|&&count| count == 12).count();
+    assert!(whole >= 30, "{compared:?}");
+}

@@ -1,0 +1,55 @@
+//! All tests in one program: one link, and its tests share the cores. A part
+//! is run by its module's name, as in `cargo test event_laws`.
+
+#![expect(clippy::unwrap_used, clippy::panic, reason = "a test states what must hold")]
+
+use proptest::prelude::ProptestConfig;
+
+mod cases;
+mod cli_figures;
+mod cli_precision;
+mod cli_program;
+mod cli_readme;
+mod cli_run;
+mod cli_scene;
+mod cli_script;
+mod cli_support;
+mod event_cases;
+mod event_hard;
+mod event_laws;
+mod event_modal;
+mod explicit;
+mod explicit_hard;
+mod hbm_branches;
+mod hbm_cli;
+mod hbm_excitation;
+mod hbm_fold;
+mod hbm_laws;
+mod hbm_locked;
+mod hbm_slip;
+mod hbm_support;
+mod hbm_time;
+mod live_changes;
+mod live_event;
+mod live_random;
+mod map_adaptive;
+mod map_cli;
+mod map_parts;
+mod map_zone;
+mod order;
+mod plain;
+mod plain_self;
+mod plain_stepper;
+mod pty;
+mod scene_notes;
+mod scenes;
+mod tui_random;
+mod tui_screens;
+mod verdicts;
+
+/// So many random cases of a law, or as many as `PROPTEST_CASES` asks for.
+fn drawn(cases: u32) -> ProptestConfig {
+    let given = ProptestConfig::default();
+    let cases = if std::env::var_os("PROPTEST_CASES").is_some() { given.cases } else { cases };
+    ProptestConfig { cases, failure_persistence: None, max_shrink_iters: 200, ..given }
+}

@@ -1,0 +1,196 @@
+//! The command line of the map: axes, where results go and what happens when
+//! they cannot, the text in the terminal, and the parallel line of the README.
+
+use std::process::Output;
+
+use crate::cli_support::{refusal, rubscope};
+
+const MAP: &str =
+    "map --contact bilateral --model rigid --step 1e-6 --speed 250:500:11 --pulse 0:4e5:9";
+
+fn words<'a>(command: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+    command.split_whitespace().chain(more.iter().copied()).collect()
+}
+
+fn message(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+#[test]
+fn any_two_keys_are_axes() {
+    let command = "map slip --json --x casing.damping_ratio=log:1e-4:0.1:4 \
+                   --y operation.speed_rad_s=300:500:3";
+    let output = rubscope(&words(command, &[]));
+    assert_eq!(output.status.code(), Some(0), "{}", message(&output));
+    let map: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(map["schema"], "rubscope.map/1");
+    let values: Vec<f64> = serde_json::from_value(map["damping_ratio"].clone()).unwrap();
+    for (value, expected) in values.iter().zip([1e-4, 1e-3, 1e-2, 1e-1]) {
+        // Equal factors, to the round-off of a power.
+        assert!((value / expected - 1.0).abs() < 1e-12, "{values:?}");
+    }
+    assert_eq!(map["speed_rad_s"], serde_json::json!([300.0, 400.0, 500.0]));
+    assert_eq!(map["verdict"].as_array().unwrap().len(), 3);
+    assert_eq!(map["verdict"][0].as_array().unwrap().len(), 4);
+    assert_eq!(map["runs"], 12);
+}
+
+#[test]
+fn axes_are_refused_in_one_line_that_says_what_is_allowed() {
+    for (arguments, said) in [
+        (&["--x", "casing.damping=0:1:3"][..], "unknown key casing.damping"),
+        (&["--x", "solver.kind=0:1:3"], "axis solver.kind: allowed are keys that hold a number"),
+        (
+            &["--x", "casing.damping_ratio=0:0.1"],
+            "axis casing.damping_ratio=0:0.1: allowed is PATH=FROM:TO:COUNT",
+        ),
+        (
+            &["--x", "casing.damping_ratio=log:0:0.1:5"],
+            "axis casing.damping_ratio = log:0:0.1:5: allowed is log: with both ends above 0",
+        ),
+        (&["--y", "casing.damping_ratio=0:-0.1:5"], "casing.damping_ratio = -0.1: allowed is"),
+        (&["--y", "operation.pulse_n=0:nan:5"], "operation.pulse_n = NaN: allowed is"),
+        (
+            &["--y", "operation.pulse_n=0:1:0"],
+            "axis operation.pulse_n = 0:1:0: allowed is a count from 1",
+        ),
+        (
+            &["--speed", "0:500:100000", "--pulse", "0:1:100000"],
+            "map = 100000 x 100000 cells: allowed is from 1 to 100000000 cells",
+        ),
+        (&["--speed", "0:500:0"], "--speed = 0:500:0: allowed is FROM:TO:COUNT"),
+        (&["--shard", "3/2", "--out", "a.part"], "--shard = 3/2: allowed is K/COUNT with K from 1"),
+        (&["--shard", "1/2", "--out", "a.csv"], "--shard: allowed with --out FILE.part only"),
+        (&["--adaptive", "--out", "a.part"], "--adaptive: allowed with --out FILE.csv"),
+        (&["--out", "a.png"], "--out = a.png: allowed is a file name ending in .csv"),
+    ] {
+        let refused = refusal(&[&["map"], arguments].concat());
+        assert!(refused.starts_with(&format!("rubscope: {said}")), "{refused}");
+    }
+}
+
+#[test]
+fn a_place_that_takes_no_file_is_said_before_anything_is_computed() {
+    let directory = tempfile::tempdir().unwrap();
+    let file = directory.path().join("file");
+    std::fs::write(&file, "").unwrap();
+    let none = directory.path().join("none/map.csv");
+    // So many cells that a debug build would be at it for hours.
+    let large = "map --solver event --speed 0:500:9000 --pulse 1e5:1e6:9000";
+    for path in [none, file.join("map.csv"), file.join("map.part")] {
+        let output = rubscope(&words(large, &["--out", path.to_str().unwrap()]));
+        assert_eq!(output.status.code(), Some(1));
+        let said = message(&output);
+        let start = format!("rubscope: cannot write {}: ", path.display());
+        assert!(said.lines().any(|line| line.starts_with(&start)), "{said}");
+        assert!(output.stdout.is_empty());
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_loses_nothing() {
+    if !std::path::Path::new("/dev/full").exists() {
+        println!("skipped: no /dev/full on this system");
+        return;
+    }
+    let json: serde_json::Value = {
+        let output = rubscope(&words(MAP, &["--json"]));
+        serde_json::from_slice(&output.stdout).unwrap()
+    };
+    for format in ["csv", "json", "svg"] {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join(format!("map.{format}"));
+        std::os::unix::fs::symlink("/dev/full", &path).unwrap();
+        let output = rubscope(&words(MAP, &["--out", path.to_str().unwrap()]));
+        assert_eq!(output.status.code(), Some(1), "{}", message(&output));
+        let said = message(&output);
+        assert!(said.starts_with("rubscope: cannot write "), "{said}");
+        assert!(said.contains("standard output as JSON") && said.contains("No space"), "{said}");
+        let map: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert_eq!(map["verdict"], json["verdict"]);
+        assert_eq!(map["sensitive"], json["sensitive"]);
+        // The cells are noted beside it as well, and the next try takes them.
+        let noted = directory.path().join(format!("map.{format}.partial"));
+        assert_eq!(std::fs::read_to_string(noted).unwrap().lines().count(), 1 + 99);
+        std::fs::remove_file(&path).unwrap();
+        let again = rubscope(&words(MAP, &["--out", path.to_str().unwrap()]));
+        assert_eq!(again.status.code(), Some(0));
+        assert!(message(&again).starts_with("rubscope: going on from 99 cells"));
+    }
+    // A shard's cells come out as a part.
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("map.part");
+    std::os::unix::fs::symlink("/dev/full", &path).unwrap();
+    let output = rubscope(&words(MAP, &["--shard", "1/3", "--out", path.to_str().unwrap()]));
+    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(String::from_utf8(output.stdout).unwrap().lines().count(), 1 + 33);
+}
+
+#[test]
+fn the_text_map_fits_marks_the_two_speeds_and_explains_its_signs() {
+    let output = rubscope(&["map", "--step", "1e-6", "--pulse", "0:4e5:9", "--no-sensitivity"]);
+    let text = String::from_utf8(output.stdout).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    assert!(lines.iter().all(|line| line.chars().count() <= 80), "{text}");
+    let marked = |name: &str| lines.iter().find(|line| line.contains(name)).unwrap().find('^');
+    // 10 rad/s a column: 292.878 and 411.934 rad/s are nearest to 29 and 41.
+    assert_eq!(marked("Omega_c = 292.878"), Some(14 + 29));
+    assert_eq!(marked("Omega_lock = 411.934"), Some(14 + 41));
+    let legend = ["#  locked, ", "%  adhesive, ", ".  decay, "];
+    assert!(legend.iter().all(|sign| text.contains(sign)), "{text}");
+    let wide = rubscope(&["map", "--step", "1e-5", "--speed", "0:1:400", "--pulse", "0:0:1"]);
+    let text = String::from_utf8(wide.stdout).unwrap();
+    assert!(text.contains("Shown is 1 of 4 columns and 1 of 1 rows."), "{text}");
+}
+
+#[test]
+fn an_adaptive_map_says_what_it_saved() {
+    let map = "map --contact bilateral --model rigid --step 1e-6 --speed 0:500:51 \
+               --pulse 3e4:2e5:26 --no-sensitivity --adaptive";
+    let said = message(&rubscope(&words(map, &[])));
+    let numbers: Vec<u64> = said.split([' ', ',']).filter_map(|word| word.parse().ok()).collect();
+    let [runs, cells, saved, ..] = numbers[..] else { unreachable!("{said}") };
+    assert_eq!((cells, runs + saved), (1326, 1326), "{said}");
+    assert!(saved > 300, "{said}");
+}
+
+/// The line of the README, with the program in place of its name.
+#[cfg(unix)]
+#[test]
+fn the_parallel_line_of_the_readme_gives_the_map_of_one_run() {
+    use std::process::Command;
+    if Command::new("parallel").arg("--version").output().is_err() {
+        println!("skipped: GNU parallel is not installed");
+        return;
+    }
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
+    let readme = std::fs::read_to_string(path).unwrap();
+    let block = readme
+        .split("```sh\n")
+        .map(|rest| rest.split("```").next().unwrap())
+        .find(|block| block.starts_with("parallel "))
+        .unwrap();
+    let directory = tempfile::tempdir().unwrap();
+    let program = assert_cmd::cargo::cargo_bin!("rubscope");
+    std::os::unix::fs::symlink(program, directory.path().join("rubscope")).unwrap();
+    let search = format!("{}:{}", directory.path().display(), std::env::var("PATH").unwrap());
+    let run = |script: &str| {
+        let output = Command::new("sh")
+            .args(["-ec", script])
+            .env("PATH", &search)
+            // Where parallel keeps its notes.
+            .env("HOME", directory.path())
+            .current_dir(directory.path())
+            .output()
+            .unwrap();
+        assert!(output.status.success(), "{script}: {}", message(&output));
+    };
+    run(block);
+    // The same options without the share.
+    let line = block.replace("\\\n", " ");
+    let options = line.split("rubscope map ").nth(1).unwrap().split(" --shard").next().unwrap();
+    run(&format!("rubscope map {options} --out single.csv"));
+    let bytes = |name: &str| std::fs::read(directory.path().join(name)).unwrap();
+    assert_eq!(bytes("map.csv"), bytes("single.csv"));
+}

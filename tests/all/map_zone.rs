@@ -1,0 +1,174 @@
+//! What the map shows: no lock below the lock-in speed where contact can only
+//! push, the paper's zone with its adhesive part where it can pull, the same
+//! map on any number of threads, and what an adaptive map may leave out.
+
+use rubscope::motion::Verdict;
+use rubscope::scene::{ContactLaw, ModelSize, Scene, SolverKind};
+use rubscope::study::{Axis, Map, MapPlan, Progress};
+
+/// The paper's machine with rigid blades, cell by cell, without sensitivity.
+fn plan(speed: &str, pulse: &str) -> MapPlan {
+    let mut scene = Scene::default();
+    scene.casing.damping_ratio = 0.05;
+    scene.solver.kind = SolverKind::Event;
+    scene.solver.contact = ContactLaw::Unilateral;
+    scene.solver.model = ModelSize::Rigid;
+    let axis = |key: &str, range: &str| Axis::parse(&format!("operation.{key}={range}")).unwrap();
+    let (x, y) = (axis("speed_rad_s", speed), axis("pulse_n", pulse));
+    MapPlan { scene, x, y, sensitivity: false }
+}
+
+fn filled(plan: MapPlan) -> Map {
+    let mut map = Map::empty(plan);
+    let all: Vec<usize> = (0..map.cells.len()).collect();
+    map.fill(&all, &Progress::default(), &|_, _| {});
+    assert!(map.is_complete());
+    map
+}
+
+/// Speed, pulse and verdict of every cell.
+fn cells(map: &Map) -> Vec<(f64, f64, Verdict)> {
+    let columns = map.plan.x.count as usize;
+    let value = |index: usize| {
+        let (x, y) = ((index % columns) as u32, (index / columns) as u32);
+        (map.plan.x.value(x), map.plan.y.value(y), map.cells[index].unwrap().verdict)
+    };
+    (0..map.cells.len()).map(value).collect()
+}
+
+fn is_held(verdict: Verdict) -> bool {
+    matches!(verdict, Verdict::Locked | Verdict::Adhesive)
+}
+
+/// No cell holds at or below Omega_lock, 411.934 rad/s here, and none anywhere
+/// needs a pull; returns how many hold above.
+fn holds_only_above_lock_in(speed: &str, pulse: &str) -> usize {
+    let map = filled(plan(speed, pulse));
+    let lock_in = map.plan.scene.machine().lock_speed().unwrap();
+    assert!((lock_in - 411.934).abs() < 1e-3, "{lock_in}");
+    let held: Vec<_> = cells(&map).into_iter().filter(|cell| is_held(cell.2)).collect();
+    for &(speed, pulse, verdict) in &held {
+        assert!(speed > lock_in, "{verdict} at {speed} rad/s with {pulse} N");
+        assert_eq!(verdict, Verdict::Locked, "contact that only pushes cannot be adhesive");
+    }
+    held.len()
+}
+
+#[test]
+fn no_lock_at_or_below_the_lock_in_speed_where_contact_only_pushes() {
+    // Ends at Omega_lock to all digits given: "at" is in.
+    assert_eq!(holds_only_above_lock_in("0:411.934:60", "1e3:1e6:30"), 0);
+    // The default scene locks here, between 45 and 60 kN for one.
+    assert!(holds_only_above_lock_in("430:800:20", "1e4:1e6:30") > 0);
+}
+
+#[test]
+#[ignore = "40,000 cells, for release builds: cargo test --release -- --ignored"]
+fn no_lock_at_or_below_the_lock_in_speed_in_a_full_map() {
+    holds_only_above_lock_in("0:500:200", "0:1.2e6:200");
+}
+
+#[test]
+fn the_bilateral_map_shows_the_zone_of_the_paper() {
+    let mut plan = plan("0:500:51", "0:4e5:9");
+    plan.scene.solver.kind = SolverKind::Explicit;
+    plan.scene.solver.contact = ContactLaw::Bilateral;
+    plan.scene.solver.step_s = 1e-6;
+    let machine = plan.scene.machine();
+    let (critical, lock_in) = (machine.critical_speed().unwrap(), machine.lock_speed().unwrap());
+    // Omega_c [zeta_c tan delta + sqrt(1 + zeta_c^2 tan^2 delta)], delta the
+    // half corner, pi / 22 for these 22 sides.
+    let tan = 0.05 * (std::f64::consts::PI / 22.0).tan();
+    let adhesive_from = critical * (tan + (1.0 + tan * tan).sqrt());
+    assert!((adhesive_from - 294.99).abs() < 0.01, "{adhesive_from}");
+    let map = filled(plan);
+    let mut seen = [0; 2];
+    for (speed, pulse, verdict) in cells(&map) {
+        if is_held(verdict) {
+            assert!(speed > adhesive_from, "{verdict} at {speed} rad/s with {pulse} N");
+            let expected = if speed > lock_in { Verdict::Locked } else { Verdict::Adhesive };
+            assert_eq!(verdict, expected, "at {speed} rad/s with {pulse} N");
+            seen[usize::from(expected == Verdict::Locked)] += 1;
+        }
+    }
+    assert!(seen.iter().all(|&count| count > 20), "{seen:?} adhesive and locked cells");
+    // A threshold pulse: without one nothing holds, with more of it something.
+    for column in 0..map.plan.x.count {
+        assert_eq!(map.at(column, 0).unwrap().verdict, Verdict::Decay);
+    }
+    let at_500 = |row| is_held(map.at(50, row).unwrap().verdict);
+    assert!(at_500(4) && at_500(6), "200 and 300 kN hold at 500 rad/s");
+}
+
+#[test]
+fn strong_pulses_at_a_coarse_step_fail_plainly() {
+    let mut plan = plan("300:500:5", "1e6:1.2e6:3");
+    plan.scene.solver.model = ModelSize::Modal;
+    plan.scene.solver.kind = SolverKind::Explicit;
+    plan.scene.solver.contact = ContactLaw::Bilateral;
+    plan.scene.solver.step_s = 1e-6;
+    for (speed, pulse, verdict) in cells(&filled(plan)) {
+        assert_eq!(verdict, Verdict::Failed, "at {speed} rad/s with {pulse} N");
+    }
+}
+
+#[test]
+fn one_thread_and_two_give_the_same_map() {
+    let mut plan = plan("300:500:11", "1e4:1e6:11");
+    plan.sensitivity = true;
+    let on = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| filled(plan.clone())).cells
+    };
+    assert_eq!(on(1), on(2));
+}
+
+/// A map with large zones: the bilateral one where it does not fail.
+fn zones() -> MapPlan {
+    let mut plan = plan("200:500:61", "3e4:2e5:35");
+    plan.scene.solver.kind = SolverKind::Explicit;
+    plan.scene.solver.contact = ContactLaw::Bilateral;
+    plan.scene.solver.step_s = 1e-6;
+    plan
+}
+
+#[test]
+fn an_adaptive_map_runs_every_cell_beside_another_verdict() {
+    let full = filled(zones());
+    let mut adaptive = Map::empty(zones());
+    let ran = std::sync::Mutex::new(vec![false; adaptive.cells.len()]);
+    adaptive.fill_adaptively(&Progress::default(), &|index, cell| {
+        assert_eq!(Some(cell), full.cells[index]);
+        ran.lock().unwrap()[index] = true;
+    });
+    let ran = ran.into_inner().unwrap();
+    assert!(adaptive.is_complete());
+    let runs = ran.iter().filter(|ran| **ran).count();
+    assert_eq!(adaptive.runs as usize, runs);
+    assert!(3 * runs < 2 * ran.len(), "{runs} runs for {} cells", ran.len());
+    let (columns, rows) = (adaptive.plan.x.count, adaptive.plan.y.count);
+    let verdict = |column, row| adaptive.at(column, row).unwrap().verdict;
+    for (column, row) in (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row))) {
+        let right = column + 1 < columns && verdict(column + 1, row) != verdict(column, row);
+        let above = row + 1 < rows && verdict(column, row + 1) != verdict(column, row);
+        if right || above {
+            assert!(ran[(row * columns + column) as usize], "column {column}, row {row}");
+        }
+    }
+}
+
+#[test]
+fn a_stopped_adaptive_map_holds_runs_only_and_ends_as_one_that_was_not() {
+    let mut whole = Map::empty(zones());
+    whole.fill_adaptively(&Progress::default(), &|_, _| {});
+    let progress = Progress::default();
+    let mut stopped = Map::empty(zones());
+    stopped.fill_adaptively(&progress, &|_, _| {
+        let enough = progress.done.load(std::sync::atomic::Ordering::Relaxed) >= 200;
+        progress.stop.store(enough, std::sync::atomic::Ordering::Relaxed);
+    });
+    assert!(!stopped.is_complete());
+    assert_eq!(stopped.cells.iter().flatten().count() as u64, stopped.runs);
+    stopped.fill_adaptively(&Progress::default(), &|_, _| {});
+    assert_eq!((stopped.cells, stopped.runs), (whole.cells, whole.runs));
+}
