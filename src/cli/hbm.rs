@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use clap::Args;
+use strum::VariantNames;
 
 use super::Done;
 use super::hbm_views::{self as views, Asked, View};
@@ -116,13 +117,8 @@ impl Hbm {
     }
 
     fn form(&self) -> Result<Form, Refusal> {
-        Form::from_word(&self.form).ok_or_else(|| {
-            Refusal::of(
-                "--form",
-                &self.form,
-                format!("one of {}", Form::ALL.map(Form::word).join(", ")),
-            )
-        })
+        let allowed = || format!("one of {}", Form::VARIANTS.join(", "));
+        self.form.parse().map_err(|_| Refusal::of("--form", &self.form, allowed()))
     }
 
     fn pair(&self) -> Result<Option<[u32; 2]>, Refusal> {

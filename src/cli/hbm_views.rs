@@ -3,8 +3,9 @@
 
 use super::status::Refusal;
 use crate::harmonic::{
-    Branches, Campbell, Corner, Form, HarmonicError, NoSlip, SlipSpectrum, Sweep, corner_branch,
-    drives, excited_lock, locked_motion, slip_limits, slip_over, slip_spectrum,
+    Branches, Campbell, Corner, Form, HarmonicError, NoSlip, SlipPoint, SlipRegion, SlipSpectrum,
+    Sweep, corner_branch, drives, excited_lock, locked_motion, slip_limits, slip_over,
+    slip_spectrum,
 };
 use crate::model::Machine;
 use crate::report::hbm::{self as report, HbmReport};
@@ -114,7 +115,7 @@ fn all_branches(
     let states = report::branch_table(&branches);
     let damping = if damped { "with damping" } else { "without damping (see --damped)" };
     Ok(Answer {
-        json: json.with_branches(machine, &branches),
+        json: json.with("branches", &branches),
         tables: vec![
             (
                 format!("Where branches change between these speeds, {damping}:"),
@@ -140,7 +141,7 @@ fn campbell(
     let campbell = Campbell::of(machine, &orders)?;
     let lines = report::campbell_table(&campbell, speeds);
     Ok(Answer {
-        json: json.with_campbell(&campbell, speeds),
+        json: json.with("campbell", report::campbell(&campbell, speeds)),
         tables: vec![
             (
                 "Coincidences +-omega_c = n_d Omega +- omega_bd, Eq. (30):".to_string(),
@@ -164,8 +165,9 @@ fn slipping(
     let limits = slip_limits(&machine, speeds)?;
     let told: Vec<String> = limits
         .iter()
-        .map(|&(speed, appears)| {
-            format!("{} at {} rad/s", if appears { "appears" } else { "vanishes" }, short(speed))
+        .map(|limit| {
+            let change = if limit.appears { "appears" } else { "vanishes" };
+            format!("{change} at {} rad/s", short(limit.speed_rad_s))
         })
         .collect();
     let title = if told.is_empty() {
@@ -175,7 +177,10 @@ fn slipping(
     };
     let table = report::slip_table(&points);
     let mut answer = Answer {
-        json: json.with_slip(&points, &limits),
+        json: json.with("slip", points.iter().map(report::slip).collect::<Vec<_>>()).with(
+            "slip_limits_rad_s",
+            limits.iter().map(|limit| limit.speed_rad_s).collect::<Vec<_>>(),
+        ),
         tables: vec![(title, table.clone())],
         file: table,
         sweep: None,
@@ -190,12 +195,14 @@ fn slipping(
             })?;
             let machine = damped.machine();
             let lowest = speeds.iter().copied().fold(f64::INFINITY, f64::min);
-            let at_lowest = slip_over(&machine, &[lowest])?.iter().any(|at| at.outcome.is_ok());
-            let limits = slip_limits(&machine, speeds)?;
-            region.push(report::Region { zeta, at_lowest, limits });
+            region.push(SlipRegion {
+                casing_damping_ratio: zeta,
+                exists_at_lowest: slip_over(&machine, &[lowest])?.iter().any(SlipPoint::exists),
+                limits: slip_limits(&machine, speeds)?,
+            });
         }
         let table = report::region_table(&region);
-        answer.json = answer.json.with_slip_region(&region);
+        answer.json = answer.json.with("slip_region", &region);
         answer.tables.push(("Where slip lives between these speeds:".to_string(), table.clone()));
         answer.file = table;
     }
@@ -225,15 +232,15 @@ fn series(
                 tables.push((title, report::term_table(found)));
             }
             Err(reason) => {
-                let title = format!("No slip at {speed} rad/s ({}).", reason.word());
-                tables.push((title, Table::new(&[])));
+                let title = format!("No slip at {speed} rad/s ({}).", reason);
+                tables.push((title, Table::default()));
             }
         }
     }
     let file = series.iter().find_map(|(_, found)| found.as_ref().ok());
     Ok(Answer {
-        file: file.map_or_else(|| Table::new(&["number"]), report::term_table),
-        json: json.with_harmonics(&series),
+        file: file.map_or_else(|| Table::new(["number"]), report::term_table),
+        json: json.with("harmonics", series.iter().map(report::harmonics).collect::<Vec<_>>()),
         tables,
         sweep: None,
     })
@@ -252,19 +259,19 @@ fn folding(
     let title = match branch.fold {
         Some(fold) if branch.points.is_empty() => format!(
             "The corner branch folds back at {} rad/s, below all of these speeds.",
-            short(fold.speed)
+            short(fold.speed_rad_s)
         ),
         Some(fold) => format!(
             "The corner branch folds back at {} rad/s, opened to {} rad from {} rad.",
-            short(fold.speed),
-            short(fold.opening),
+            short(fold.speed_rad_s),
+            short(fold.opening_rad),
             short(machine.rim.delta)
         ),
         None => "The corner branch does not fold: the blades are as good as rigid.".to_string(),
     };
     let table = report::corner_table(&branch);
     Ok(Answer {
-        json: json.with_fold(&branch),
+        json: json.with("fold", report::fold(&branch)),
         tables: vec![(title, table.clone())],
         file: table,
         sweep: None,
@@ -300,7 +307,7 @@ fn excited(
     );
     let table = report::excitation_table(&found);
     Ok(Answer {
-        json: json.with_excitation(report::ExcitationReport::of(excitation, reaches, &found)),
+        json: json.with("excitation", report::excitation(excitation, reaches, &found)),
         tables: vec![(title, table.clone())],
         file: table,
         sweep: None,

@@ -147,7 +147,7 @@ fn acts_live(path: &str, scene: &Scene) -> bool {
 fn live_keys(scene: &Scene) -> String {
     let keys: Vec<&str> =
         KEYS.iter().map(|key| key.path).filter(|path| acts_live(path, scene)).collect();
-    let solver = scene.solver.kind.word();
+    let solver = scene.solver.kind;
     format!("{PULSE}, or a key that a running {solver} motion takes: {}", keys.join(", "))
 }
 

@@ -6,7 +6,7 @@ use std::fs::File;
 use std::io::{BufWriter, Error, ErrorKind, Result, Write};
 use std::path::{Path, PathBuf};
 
-use super::{History, csv, npz};
+use super::{History, npz};
 
 /// File formats of a history.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,7 +35,7 @@ impl HistoryFormat {
     /// What the writer refuses.
     pub fn write(self, history: &History, out: &mut dyn Write) -> Result<()> {
         match self {
-            Self::Csv => csv::write(history, out),
+            Self::Csv => history.write_csv(out),
             Self::Npz => npz::write(history, out),
         }
     }

@@ -6,6 +6,7 @@ use std::io::{Result, Write};
 use serde_json::{Map as Object, Value, json};
 
 use super::number::short;
+use super::table::{self, Table};
 use crate::motion::Verdict;
 use crate::study::{Axis, Cell, Map, overlay};
 
@@ -53,19 +54,20 @@ pub fn leaf(axis: &Axis) -> &str {
 /// # Errors
 /// What the writer says.
 pub fn write_csv(map: &Map, out: &mut dyn Write) -> Result<()> {
-    let mut csv = csv::Writer::from_writer(out);
-    csv.write_record([leaf(&map.plan.x), leaf(&map.plan.y), "verdict", "sensitive"])?;
-    for row in 0..map.plan.y.count {
-        for column in 0..map.plan.x.count {
-            let (verdict, sensitive) = match map.at(column, row) {
-                Some(cell) => (cell.verdict.word(), cell.sensitive.to_string()),
-                None => ("", String::new()),
-            };
-            let (x, y) = (map.plan.x.value(column), map.plan.y.value(row));
-            csv.write_record([&x.to_string(), &y.to_string(), verdict, &sensitive])?;
-        }
+    let (x, y) = (&map.plan.x, &map.plan.y);
+    let mut table = Table::new([leaf(x), leaf(y), "verdict", "sensitive"]);
+    for (row, column) in (0..y.count).flat_map(|row| (0..x.count).map(move |column| (row, column)))
+    {
+        let cell = map.at(column, row);
+        table.push(vec![
+            // Values of an axis are never written with a power of ten.
+            x.value(column).to_string().into(),
+            y.value(row).to_string().into(),
+            cell.map_or_else(String::new, |cell| cell.verdict.to_string()).into(),
+            cell.map_or(table::Cell::Empty, |cell| cell.sensitive.into()),
+        ]);
     }
-    csv.flush()
+    table.write_csv(out)
 }
 
 /// The character of a cell: a mark for the verdict, its first letter where it

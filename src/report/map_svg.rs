@@ -44,7 +44,7 @@ where
     area.fill(&WHITE).map_err(|error| error.to_string())?;
     let (right, top) = (f64::from(x.count) - 0.5, f64::from(y.count) - 0.5);
     let scene = &map.plan.scene;
-    let caption = format!("{} ({} contact)", scene.title, scene.solver.contact.word());
+    let caption = format!("{} ({} contact)", scene.title, scene.solver.contact);
     let mut chart = ChartBuilder::on(area)
         .caption(caption, ("sans-serif", 20))
         .margin(12)
@@ -72,7 +72,7 @@ where
                 Rectangle::new([(column - 0.5, row - 0.5), (column + 0.5, row + 0.5)], fill)
             }))
             .map_err(|error| error.to_string())?
-            .label(verdict.word())
+            .label(verdict.as_ref())
             .legend(move |(x, y)| Rectangle::new([(x, y - 5), (x + 12, y + 5)], fill));
     }
     let (dot, dots) = (RGBColor(120, 120, 120).filled(), places(map, |cell| cell.sensitive));

@@ -1,7 +1,6 @@
 //! Reports: one file per format. A report takes what a computation returned
 //! and a place to write to; it computes nothing itself.
 
-pub mod csv;
 pub mod figure;
 pub mod file;
 pub mod hbm;

@@ -28,6 +28,12 @@ pub fn short(x: f64) -> String {
     }
 }
 
+/// The shortest text that reads back as this number.
+#[must_use]
+pub fn exact(x: f64) -> String {
+    if x != 0.0 && !(1e-4..1e15).contains(&x.abs()) { format!("{x:e}") } else { x.to_string() }
+}
+
 /// A time \[s\] in the unit that suits it.
 #[must_use]
 pub fn time(seconds: f64) -> String {

@@ -33,7 +33,7 @@ pub fn letter(way: &Way) -> char {
 /// Name of a series.
 #[must_use]
 pub fn series(way: &Way) -> String {
-    format!("{} {} {}", way.solver.word(), way.contact.word(), way.model.word())
+    format!("{} {} {}", way.solver, way.contact, way.model)
 }
 
 /// What is to be said about the verdict of a row.
@@ -48,35 +48,22 @@ fn remark(row: &Row) -> &'static str {
 /// The rows with units, for people.
 #[must_use]
 pub fn summary_table(report: &Precision) -> Table {
-    let mut table = Table::new(&[
-        "",
-        "solver",
-        "contact",
-        "model",
-        "step or tol.",
-        "error [g0]",
-        "impact error [s]",
-        "time [us]",
-        "ns/step",
-        "verdict",
-        "",
-    ]);
-    for row in &report.rows {
-        table.push(vec![
-            letter(&row.way).to_string().into(),
-            row.way.solver.word().into(),
-            row.way.contact.word().into(),
-            row.way.model.word().into(),
-            row.way.step_s.or(row.way.tolerance).into(),
-            row.error_final.map(two_digits).into(),
-            row.error_impact_time_s.map(two_digits).into(),
-            three_digits(1e6 * row.wall_s).into(),
-            row.ns_per_step.map(three_digits).into(),
-            row.verdict.word().into(),
-            remark(row).into(),
-        ]);
-    }
-    table
+    Table::of(
+        &report.rows,
+        &[
+            ("", |row| letter(&row.way).to_string().into()),
+            ("solver", |row| row.way.solver.as_ref().into()),
+            ("contact", |row| row.way.contact.as_ref().into()),
+            ("model", |row| row.way.model.as_ref().into()),
+            ("step or tol.", |row| row.way.step_s.or(row.way.tolerance).into()),
+            ("error [g0]", |row| row.error_final.map(two_digits).into()),
+            ("impact error [s]", |row| row.error_impact_time_s.map(two_digits).into()),
+            ("time [us]", |row| three_digits(1e6 * row.wall_s).into()),
+            ("ns/step", |row| row.ns_per_step.map(three_digits).into()),
+            ("verdict", |row| row.verdict.as_ref().into()),
+            ("", |row| remark(row).into()),
+        ],
+    )
 }
 
 fn two_digits(x: f64) -> f64 {
@@ -90,44 +77,26 @@ fn three_digits(x: f64) -> f64 {
 /// Every figure, for files.
 #[must_use]
 pub fn table(report: &Precision) -> Table {
-    let mut table = Table::new(&[
-        "solver",
-        "contact",
-        "model",
-        "step_s",
-        "tolerance",
-        "error_final",
-        "error_impact_time_s",
-        "max_penetration_m",
-        "wall_s",
-        "ns_per_step",
-        "steps",
-        "events",
-        "verdict",
-        "verdict_right",
-        "other_law",
-    ]);
-    let whole = |n: Option<u64>| n.map(|n| n as f64);
-    for row in &report.rows {
-        table.push(vec![
-            row.way.solver.word().into(),
-            row.way.contact.word().into(),
-            row.way.model.word().into(),
-            row.way.step_s.into(),
-            row.way.tolerance.into(),
-            row.error_final.into(),
-            row.error_impact_time_s.into(),
-            row.max_penetration_m.into(),
-            row.wall_s.into(),
-            row.ns_per_step.into(),
-            whole(row.steps).into(),
-            whole(row.events).into(),
-            row.verdict.word().into(),
-            row.verdict_right.into(),
-            row.other_law.into(),
-        ]);
-    }
-    table
+    Table::of(
+        &report.rows,
+        &[
+            ("solver", |row| row.way.solver.as_ref().into()),
+            ("contact", |row| row.way.contact.as_ref().into()),
+            ("model", |row| row.way.model.as_ref().into()),
+            ("step_s", |row| row.way.step_s.into()),
+            ("tolerance", |row| row.way.tolerance.into()),
+            ("error_final", |row| row.error_final.into()),
+            ("error_impact_time_s", |row| row.error_impact_time_s.into()),
+            ("max_penetration_m", |row| row.max_penetration_m.into()),
+            ("wall_s", |row| row.wall_s.into()),
+            ("ns_per_step", |row| row.ns_per_step.into()),
+            ("steps", |row| row.steps.map(|n| n as f64).into()),
+            ("events", |row| row.events.map(|n| n as f64).into()),
+            ("verdict", |row| row.verdict.as_ref().into()),
+            ("verdict_right", |row| row.verdict_right.into()),
+            ("other_law", |row| row.other_law.into()),
+        ],
+    )
 }
 
 /// Table, chart and what they are measured against, for people.
@@ -140,7 +109,7 @@ pub fn write(report: &Precision, out: &mut dyn Write) -> Result<()> {
     writeln!(
         out,
         "Reference: event solver, unilateral, {} model: {}, {}, {}. {}",
-        reference.way.model.word(),
+        reference.way.model,
         reference.verdict,
         count(reference.impact_count, "impact"),
         time(reference.wall_s),

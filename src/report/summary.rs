@@ -62,9 +62,9 @@ fn how(report: &RunReport) -> String {
     };
     format!(
         "{} solver, {} contact, {} model{step}; {} at {} rad/s; pulse of {} N for {}{excitation}; simulated to {}.",
-        capital(report.solver.kind.word()),
-        report.solver.contact.word(),
-        report.solver.model.word(),
+        capital(report.solver.kind.as_ref()),
+        report.solver.contact,
+        report.solver.model,
         count(u64::from(scene.operation.nodal_diameters), "nodal diameter"),
         short(scene.operation.speed_rad_s),
         short(scene.operation.pulse_n),

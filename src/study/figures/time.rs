@@ -34,8 +34,8 @@ fn note(scene: &Scene, report: &RunReport) -> String {
         operation.speed_rad_s,
         operation.pulse_n,
         scene.casing.damping_ratio,
-        scene.solver.kind.word(),
-        scene.solver.contact.word(),
+        scene.solver.kind,
+        scene.solver.contact,
     )
 }
 

@@ -73,7 +73,7 @@ fn cells(scene: Scene) -> Vec<Series> {
                 found.filter(|found| found.verdict == verdict)?;
                 Some((*speeds.get(cell % speeds.len())?, *pulses.get(cell / speeds.len())?))
             });
-            Series::new(verdict.word(), Style::Cells(verdict), at)
+            Series::new(verdict.as_ref(), Style::Cells(verdict), at)
         })
         .filter(|series| !series.points.is_empty())
         .collect()

@@ -85,7 +85,7 @@ fn speeds(app: &App, buffer: &mut Buffer, area: Rect) {
         parts.push((" LIVE".into(), skin.style(Role::Focus)));
     }
     let solver = &app.scene.solver;
-    parts.push((format!("  {}", solver.kind.word()), text));
+    parts.push((format!("  {}", solver.kind), text));
     if let Some(step) = app.pace.step_s {
         parts.push((skin.spell(&format!(" {}/step", short(step))), text));
     }
@@ -93,7 +93,7 @@ fn speeds(app: &App, buffer: &mut Buffer, area: Rect) {
         let run = format!(", {} in {}", short(solver.end_s), short(run));
         parts.push((skin.spell(&run), quiet));
     }
-    parts.push((format!("  {} {}", solver.contact.word(), solver.model.word()), quiet));
+    parts.push((format!("  {} {}", solver.contact, solver.model), quiet));
     pieces(buffer, area, 1, &parts);
 }
 
