@@ -5,13 +5,15 @@ use clap::Args;
 
 use super::range::Range;
 use super::status::{Refusal, say};
+use super::words::Words;
 use crate::scene::{BUILTIN, ContactLaw, ModelSize, Scene, SolverKind};
+use crate::study::overlay::{PULSE, SPEED};
 
 /// The scene and the options that change it, on every command.
 #[derive(Args, Clone, Debug, Default)]
 pub struct SceneOptions {
     /// Built-in scene or path of a .toml file [default: paper-nd3]
-    #[arg(value_name = "SCENE")]
+    #[arg(value_name = "SCENE", value_parser = Words::scenes(), hide_possible_values = true)]
     scene: Option<String>,
     /// Rotor speed; negative turns the other way [rad/s]
     #[arg(long, value_name = "SPEED", allow_hyphen_values = true, help_heading = HEADING)]
@@ -29,13 +31,16 @@ pub struct SceneOptions {
     #[arg(long, value_name = "RATIO", allow_hyphen_values = true, help_heading = HEADING)]
     zeta_disk: Option<String>,
     /// explicit: the paper's time steps; event: closed forms between contacts
-    #[arg(long, value_name = "KIND", help_heading = HEADING)]
+    #[arg(long, value_name = "KIND", help_heading = HEADING,
+          value_parser = Words::of::<SolverKind>(), hide_possible_values = true)]
     solver: Option<String>,
     /// unilateral: contact only pushes; bilateral: the paper's equality, which may pull
-    #[arg(long, value_name = "LAW", help_heading = HEADING)]
+    #[arg(long, value_name = "LAW", help_heading = HEADING,
+          value_parser = Words::of::<ContactLaw>(), hide_possible_values = true)]
     contact: Option<String>,
     /// rigid: casing only; modal: the paper's four coordinates; full: every blade
-    #[arg(long, value_name = "SIZE", help_heading = HEADING)]
+    #[arg(long, value_name = "SIZE", help_heading = HEADING,
+          value_parser = Words::of::<ModelSize>(), hide_possible_values = true)]
     model: Option<String>,
     /// Time step of the explicit solver [s]
     #[arg(long, value_name = "SECONDS", allow_hyphen_values = true, help_heading = HEADING)]
@@ -49,11 +54,6 @@ pub struct SceneOptions {
 }
 
 const HEADING: &str = "Options that change the scene";
-
-/// Key of the rotor speed, which some commands sweep.
-const SPEED: &str = "operation.speed_rad_s";
-/// Key of the pulse, which some commands sweep.
-const PULSE: &str = "operation.pulse_n";
 
 /// Which options a command takes as a range `FROM:TO:COUNT`.
 #[derive(Clone, Copy, Debug, Default)]

@@ -73,7 +73,7 @@ pub struct Outcome {
     pub wave_speed_rad_s: Option<f64>,
 }
 
-/// What a run kept watch on.
+/// Largest errors of a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Checks {
     /// Deepest penetration of an accepted state \[m\].

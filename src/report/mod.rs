@@ -16,5 +16,4 @@ pub mod summary;
 pub mod svg;
 pub mod table;
 
-pub use file::HistoryFormat;
 pub use history::History;
