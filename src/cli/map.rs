@@ -16,7 +16,7 @@ use super::options::{SceneOptions, Swept};
 use super::range::Range;
 use super::status::{Refusal, Status, say};
 use super::{Done, output};
-use crate::report::{file, json, map as report, map_svg};
+use crate::report::{file, json, map as report, svg};
 use crate::study::{Axis, AxisError, Map, MapPlan, Shard, overlay, part};
 
 /// Columns and rows without other wishes: steps of 10 rad/s and 50 kN.
@@ -219,7 +219,7 @@ impl ResultOptions {
                 }
                 "the whole map is on standard output as JSON"
             };
-            return Err(error.context(format!("cannot write {shown}; {kept}")));
+            return Err(anyhow::Error::from(error).context(format!("cannot write {shown}; {kept}")));
         }
         say(&format!("rubscope: wrote {} cells to {shown}", map.cells.iter().flatten().count()));
         Ok(())
@@ -232,19 +232,11 @@ fn width() -> usize {
     size.map_or(WIDTH, |(columns, _)| usize::from(columns))
 }
 
-fn write_file(map: &Map, format: &str, path: &Path) -> anyhow::Result<()> {
-    let picture = match format {
-        "svg" => {
-            let curves = overlay::curves(&map.plan);
-            map_svg::draw(map, &curves).map_err(|reason| anyhow::anyhow!(reason))?
-        }
-        _ => String::new(),
-    };
+fn write_file(map: &Map, format: &str, path: &Path) -> std::io::Result<()> {
     file::replace(path, |out| match format {
         "csv" => report::write_csv(map, out),
         "json" => json::write(&report::to_json(map, false), out),
-        "svg" => out.write_all(picture.as_bytes()),
+        "svg" => svg::write(&report::figure(map, &overlay::curves(&map.plan)), out),
         _ => part::write(map, out),
-    })?;
-    Ok(())
+    })
 }

@@ -9,7 +9,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use super::options::SceneOptions;
 use super::status::{Refusal, Status};
 use super::{Done, output};
-use crate::report::{json, precision as report, precision_svg};
+use crate::report::{json, precision as report, svg};
 use crate::study::precision::{Effort, Measure, Precision, ways};
 
 /// Measure every solver's speed against its error on a scene.
@@ -69,8 +69,8 @@ impl PrecisionCommand {
         if let Some(path) = &self.out {
             let rows = format!("{} rows", measured.rows.len());
             if format == Some("svg") {
-                let picture = precision_svg::draw(measured).map_err(Refusal::because)?;
-                output::save(path, &rows, |out| out.write_all(picture.as_bytes()))?;
+                let figure = report::figure(measured).map_err(Refusal::because)?;
+                output::save(path, &rows, |out| svg::write(&figure, out))?;
             } else {
                 output::save(path, &rows, |out| report::table(measured).write_csv(out))?;
             }

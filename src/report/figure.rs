@@ -26,7 +26,7 @@ fn wide(panel: &Panel) -> Table {
 }
 
 fn long(panel: &Panel) -> Table {
-    let mut table = Table::new(["series", panel.x.column, panel.y.column]);
+    let mut table = Table::new(["series", &panel.x.column, &panel.y.column]);
     for series in &panel.series {
         for &(x, y) in &series.points {
             table.push(vec![series.label.as_str().into(), x.into(), y.into()]);

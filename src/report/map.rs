@@ -1,5 +1,5 @@
-//! The interaction map as JSON (`rubscope.map/1`), as CSV, and as text with
-//! one character a cell.
+//! The interaction map as JSON (`rubscope.map/1`), as CSV, as a figure with
+//! the curves that bound its zones, and as text with one character a cell.
 
 use std::io::{Result, Write};
 
@@ -8,6 +8,7 @@ use serde_json::{Map as Object, Value, json};
 use super::number::short;
 use super::table::{self, Table};
 use crate::motion::Verdict;
+use crate::study::figures::{Figure, Panel, Quantity, Series, Style};
 use crate::study::{Axis, Cell, Map, overlay};
 
 /// Rows the text map is thinned to.
@@ -68,6 +69,45 @@ pub fn write_csv(map: &Map, out: &mut dyn Write) -> Result<()> {
         ]);
     }
     table.write_csv(out)
+}
+
+/// The map as a figure, with these curves.
+#[must_use]
+pub fn figure(map: &Map, curves: &[overlay::Curve]) -> Figure {
+    let (scene, x, y) = (&map.plan.scene, &map.plan.x, &map.plan.y);
+    let quantity = |axis: &Axis| Quantity {
+        column: leaf(axis).to_string().into(),
+        label: axis.path.clone().into(),
+        factor: 1.0,
+        log: axis.log,
+    };
+    let columns = x.count as usize;
+    let places = |chosen: &dyn Fn(Cell) -> bool| -> Vec<(f64, f64)> {
+        let found = map.cells.iter().enumerate().filter(|(_, cell)| cell.is_some_and(chosen));
+        let at =
+            |index: usize| (x.value((index % columns) as u32), y.value((index / columns) as u32));
+        found.map(|(index, _)| at(index)).collect()
+    };
+    let mut series: Vec<Series> = Verdict::ALL
+        .iter()
+        .map(|verdict| {
+            let cells = places(&|cell| cell.verdict == *verdict);
+            Series::new(verdict.as_ref(), Style::Cells(*verdict), cells)
+        })
+        .collect();
+    series.push(Series::new("sensitive", Style::Dots, places(&|cell| cell.sensitive)));
+    let inside =
+        |axis: &Axis, value| (-0.5..=f64::from(axis.count) - 0.5).contains(&axis.place(value));
+    for (curve, colour) in curves.iter().zip([5, 2, 1]) {
+        let shown = curve.points.iter().copied().filter(|at| inside(x, at.0) && inside(y, at.1));
+        series.push(Series::new(curve.name, Style::Line(colour), shown));
+    }
+    series.retain(|series| !series.points.is_empty());
+    Figure {
+        title: format!("{} ({} contact)", scene.title, scene.solver.contact),
+        note: String::new(),
+        panels: vec![Panel::new("", quantity(x), quantity(y), series)],
+    }
 }
 
 /// The character of a cell: a mark for the verdict, its first letter where it

@@ -1,11 +1,12 @@
-//! Speed against error as a table, as CSV, and as a chart in text: log error
-//! against log time, one letter a series.
+//! Speed against error as a table, as CSV, as a figure, and as a chart in text:
+//! log error against log time, one letter a series.
 
 use std::io::{Result, Write};
 
 use super::number::{count, short, time};
 use super::table::Table;
 use crate::scene::{ContactLaw, ModelSize, SolverKind};
+use crate::study::figures::{Figure, Panel, Quantity, Series, Style};
 use crate::study::precision::{Precision, Row, Way};
 
 /// Size of the text chart.
@@ -171,6 +172,62 @@ pub fn decades(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
         (low.min(value), high.max(value))
     });
     (low <= high).then(|| (low.floor(), high.ceil().max(low.floor() + 1.0)))
+}
+
+/// The figure: log error against log time.
+///
+/// # Errors
+/// Why there is nothing to draw, in words.
+pub fn figure(report: &Precision) -> std::result::Result<Figure, String> {
+    let placed: Vec<&Row> = report.rows.iter().filter(|row| place(row).is_some()).collect();
+    let is_zero = |row: &Row| row.error_final == Some(0.0);
+    if placed.iter().all(|row| is_zero(row)) {
+        return Err(match (placed.is_empty(), report.reference.sensitive) {
+            (false, _) => "every error is 0: a logarithmic axis has no place for it",
+            (_, true) => "on a sensitive scene there are no errors to draw",
+            _ => "every run or the reference failed: there are no errors to draw",
+        }
+        .to_string());
+    }
+    let at = |row: &&Row| Some((row.wall_s, row.error_final?));
+    let mut all: Vec<Series> = Vec::new();
+    for group in placed.chunk_by(|a, b| name(a) == name(b)) {
+        let Some(first) = group.first() else { continue };
+        let points = group.iter().filter(|row| !is_zero(row)).filter_map(at);
+        all.push(Series::new(name(first), style(&first.way), points));
+    }
+    let zeros: Vec<_> = placed.iter().filter(|row| is_zero(row)).filter_map(at).collect();
+    if !zeros.is_empty() {
+        all.push(Series::new("error 0, off this scale", Style::Edge, zeros));
+    }
+    let x = Quantity::log("wall_s", "wall time [s]");
+    let y = Quantity::log("error_final", "error at the end [of the clearance]");
+    Ok(Figure {
+        title: format!("Speed against error: {}", report.scene.title),
+        note: String::new(),
+        panels: vec![Panel::new("", x, y, all)],
+    })
+}
+
+/// Name of a series, with a word on a law that is not the reference's.
+fn name(row: &Row) -> String {
+    let law = if row.other_law { ", other law" } else { "" };
+    format!("{}{law}", series(&row.way))
+}
+
+/// Colour by solver and law, size of the discs by that of the model.
+fn style(way: &Way) -> Style {
+    let colour = match (way.solver, way.contact) {
+        (SolverKind::Event, _) => 0,
+        (SolverKind::Explicit, ContactLaw::Unilateral) => 1,
+        (SolverKind::Explicit, ContactLaw::Bilateral) => 5,
+    };
+    let radius = match way.model {
+        ModelSize::Rigid => 3,
+        ModelSize::Modal => 5,
+        ModelSize::Full => 7,
+    };
+    Style::Discs(colour, radius)
 }
 
 /// Log error (up) against log time (right), a letter a row; errors of zero in

@@ -45,7 +45,6 @@ pub fn multipliers(scene: &Scene) -> Result<Figure, HarmonicError> {
     let marks = speed_marks(&machine);
     let panel = Panel { marks, ..Panel::new("", Quantity::SPEED, LAMBDA, lines) };
     Ok(Figure {
-        number: 9,
         title: "Contact multipliers of the locked motion against rotor speed".into(),
         note: note(&machine, &undamped),
         panels: vec![panel],
@@ -71,7 +70,6 @@ pub fn amplitudes(scene: &Scene) -> Result<Figure, HarmonicError> {
         Panel::new("(b) angle of the first blade, in three forms", Quantity::SPEED, ALPHA, blades);
     angles.marks.extend(machine.critical_speed().map(|x| Mark { x, label: "Omega_c" }));
     Ok(Figure {
-        number: 10,
         title: "Amplitudes of the locked motion against rotor speed".into(),
         note: note(&machine, &printed),
         panels: vec![Panel::new("(a) casing", Quantity::SPEED, AMPLITUDE, casing), angles],

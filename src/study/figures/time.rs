@@ -57,7 +57,6 @@ pub fn steps(scene: &Scene) -> Figure {
         told = note(&scene, &report);
     }
     Figure {
-        number: 4,
         title: "Casing displacement u_c at three time steps".into(),
         note: told,
         panels: vec![Panel::new("", Quantity::TIME, U_C, lines)],
@@ -81,7 +80,6 @@ pub fn gaps(scene: &Scene) -> Figure {
         })
         .collect();
     Figure {
-        number: 5,
         title: "Distances between the casing and the blade tips".into(),
         note: note(scene, &report),
         panels: vec![Panel::new("", Quantity::TIME, GAP, lines)],
@@ -89,7 +87,7 @@ pub fn gaps(scene: &Scene) -> Figure {
 }
 
 /// Figs. 6 and 7: the coordinates of casing and bladed disk.
-pub fn response(number: u32, scene: &Scene) -> Figure {
+pub fn response(scene: &Scene) -> Figure {
     let (report, samples) = sampled(scene, false);
     let casing = vec![
         series("u_c", Style::Line(0), &samples, |sample| sample.state.u[0]),
@@ -100,7 +98,6 @@ pub fn response(number: u32, scene: &Scene) -> Figure {
         series("alpha_s", Style::Dashed(1), &samples, |sample| sample.state.alpha[1]),
     ];
     Figure {
-        number,
         title: "Modal vibrations of casing and bladed disk".into(),
         note: note(scene, &report),
         panels: vec![
