@@ -3,7 +3,7 @@
 
 use std::io::{Result, Write};
 
-use super::number::{count, short, time};
+use super::number::{count, rounded, short, time};
 use super::table::Table;
 use crate::scene::{ContactLaw, ModelSize, SolverKind};
 use crate::study::figures::{Figure, Panel, Quantity, Series, Style};
@@ -57,22 +57,14 @@ pub fn summary_table(report: &Precision) -> Table {
             ("contact", |row| row.way.contact.as_ref().into()),
             ("model", |row| row.way.model.as_ref().into()),
             ("step or tol.", |row| row.way.step_s.or(row.way.tolerance).into()),
-            ("error [g0]", |row| row.error_final.map(two_digits).into()),
-            ("impact error [s]", |row| row.error_impact_time_s.map(two_digits).into()),
-            ("time [us]", |row| three_digits(1e6 * row.wall_s).into()),
-            ("ns/step", |row| row.ns_per_step.map(three_digits).into()),
+            ("error [g0]", |row| row.error_final.map(|x| rounded(x, 2)).into()),
+            ("impact error [s]", |row| row.error_impact_time_s.map(|x| rounded(x, 2)).into()),
+            ("time [us]", |row| rounded(1e6 * row.wall_s, 3).into()),
+            ("ns/step", |row| row.ns_per_step.map(|x| rounded(x, 3)).into()),
             ("verdict", |row| row.verdict.as_ref().into()),
             ("", |row| remark(row).into()),
         ],
     )
-}
-
-fn two_digits(x: f64) -> f64 {
-    format!("{x:.1e}").parse().unwrap_or(x)
-}
-
-fn three_digits(x: f64) -> f64 {
-    format!("{x:.2e}").parse().unwrap_or(x)
 }
 
 /// Every figure, for files.
@@ -117,7 +109,7 @@ pub fn write(report: &Precision, out: &mut dyn Write) -> Result<()> {
         match reference.error_halved {
             Some(moved) => format!(
                 "Halving its tolerance moves the end by {} of the clearance.",
-                short(two_digits(moved))
+                short(rounded(moved, 2))
             ),
             None => "It has no state at the end to compare with.".to_string(),
         },

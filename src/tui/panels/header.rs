@@ -3,6 +3,7 @@
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 
 use super::{pieces, print};
+use crate::report::number::trimmed;
 use crate::tui::app::App;
 use crate::tui::axis::readable;
 use crate::tui::theme::Role;
@@ -102,7 +103,5 @@ fn short(seconds: f64) -> String {
     let scale = crate::tui::axis::Scale::of(seconds);
     let shown = seconds / scale.factor;
     let decimals = usize::from(shown < 9.95);
-    let text = format!("{shown:.decimals$}");
-    let text = text.strip_suffix(".0").unwrap_or(&text);
-    format!("{text} {}s", scale.prefix)
+    format!("{} {}s", trimmed(&format!("{shown:.decimals$}")), scale.prefix)
 }
