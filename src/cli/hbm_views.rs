@@ -26,7 +26,7 @@ pub(super) enum View {
     Branches,
     /// The corner branch through its fold.
     Fold,
-    /// Slip, and where it lives over these damping ratios.
+    /// Slip, and where there is any over these damping ratios.
     Slip(Vec<f64>),
     /// The Fourier series of slip with so many harmonics.
     Harmonics(u32),
@@ -52,6 +52,14 @@ pub(super) struct Answer {
     pub file: Table,
     /// The locked motion, where it is the subject.
     pub sweep: Option<Sweep>,
+}
+
+impl Answer {
+    /// An answer whose last table is the one for files.
+    fn of(json: HbmReport, tables: Vec<(String, Table)>) -> Self {
+        let file = tables.last().map(|(_, table)| table.clone()).unwrap_or_default();
+        Self { json, tables, file, sweep: None }
+    }
 }
 
 /// Computes a view.
@@ -112,20 +120,13 @@ fn all_branches(
     damped: bool,
 ) -> Result<Answer, HarmonicError> {
     let branches = Branches::over(machine, speeds, damped)?;
-    let states = report::branch_table(&branches);
     let damping = if damped { "with damping" } else { "without damping (see --damped)" };
-    Ok(Answer {
-        json: json.with("branches", &branches),
-        tables: vec![
-            (
-                format!("Where branches change between these speeds, {damping}:"),
-                report::threshold_table(&branches),
-            ),
-            ("Equilibria of the blade frame:".to_string(), states.clone()),
-        ],
-        file: states,
-        sweep: None,
-    })
+    let changes = format!("Where branches change between these speeds, {damping}:");
+    let tables = vec![
+        (changes, report::threshold_table(&branches)),
+        ("Equilibria of the blade frame:".to_string(), report::branch_table(&branches)),
+    ];
+    Ok(Answer::of(json.with("branches", &branches), tables))
 }
 
 fn campbell(
@@ -139,19 +140,13 @@ fn campbell(
         orders.push(scene.excitation.order);
     }
     let campbell = Campbell::of(machine, &orders)?;
-    let lines = report::campbell_table(&campbell, speeds);
-    Ok(Answer {
-        json: json.with("campbell", report::campbell(&campbell, speeds)),
-        tables: vec![
-            (
-                "Coincidences +-omega_c = n_d Omega +- omega_bd, Eq. (30):".to_string(),
-                report::coincidence_table(&campbell),
-            ),
-            ("Frequencies in the standing frame [rad/s]:".to_string(), lines.clone()),
-        ],
-        file: lines,
-        sweep: None,
-    })
+    let coincidences = "Coincidences +-omega_c = n_d Omega +- omega_bd, Eq. (30):".to_string();
+    let lines = "Frequencies in the standing frame [rad/s]:".to_string();
+    let tables = vec![
+        (coincidences, report::coincidence_table(&campbell)),
+        (lines, report::campbell_table(&campbell, speeds)),
+    ];
+    Ok(Answer::of(json.with("campbell", report::campbell(&campbell, speeds)), tables))
 }
 
 fn slipping(
@@ -175,16 +170,11 @@ fn slipping(
     } else {
         format!("Slip {}.", told.join(", "))
     };
-    let table = report::slip_table(&points);
-    let mut answer = Answer {
-        json: json.with("slip", points.iter().map(report::slip).collect::<Vec<_>>()).with(
-            "slip_limits_rad_s",
-            limits.iter().map(|limit| limit.speed_rad_s).collect::<Vec<_>>(),
-        ),
-        tables: vec![(title, table.clone())],
-        file: table,
-        sweep: None,
-    };
+    let limit_speeds: Vec<f64> = limits.iter().map(|limit| limit.speed_rad_s).collect();
+    let mut json = json
+        .with("slip", points.iter().map(report::slip).collect::<Vec<_>>())
+        .with("slip_limits_rad_s", limit_speeds);
+    let mut tables = vec![(title, report::slip_table(&points))];
     if !zetas.is_empty() {
         let mut region = Vec::with_capacity(zetas.len());
         for &zeta in zetas {
@@ -201,12 +191,11 @@ fn slipping(
                 limits: slip_limits(&machine, speeds)?,
             });
         }
-        let table = report::region_table(&region);
-        answer.json = answer.json.with("slip_region", &region);
-        answer.tables.push(("Where slip lives between these speeds:".to_string(), table.clone()));
-        answer.file = table;
+        json = json.with("slip_region", &region);
+        let title = "Where slip lives between these speeds:".to_string();
+        tables.push((title, report::region_table(&region)));
     }
-    Ok(answer)
+    Ok(Answer::of(json, tables))
 }
 
 fn series(
@@ -269,13 +258,8 @@ fn folding(
         ),
         None => "The corner branch does not fold: the blades are as good as rigid.".to_string(),
     };
-    let table = report::corner_table(&branch);
-    Ok(Answer {
-        json: json.with("fold", report::fold(&branch)),
-        tables: vec![(title, table.clone())],
-        file: table,
-        sweep: None,
-    })
+    let tables = vec![(title, report::corner_table(&branch))];
+    Ok(Answer::of(json.with("fold", report::fold(&branch)), tables))
 }
 
 fn excited(
@@ -305,11 +289,6 @@ fn excited(
             " does not drive the modes of these diameters: E is not +-n_d modulo N."
         }
     );
-    let table = report::excitation_table(&found);
-    Ok(Answer {
-        json: json.with("excitation", report::excitation(excitation, reaches, &found)),
-        tables: vec![(title, table.clone())],
-        file: table,
-        sweep: None,
-    })
+    let json = json.with("excitation", report::excitation(excitation, reaches, &found));
+    Ok(Answer::of(json, vec![(title, report::excitation_table(&found))]))
 }

@@ -19,7 +19,7 @@ use super::{Done, output};
 use crate::report::{file, json, map as report, svg};
 use crate::study::{Axis, AxisError, Map, MapPlan, Shard, overlay, part};
 
-/// Columns and rows without other wishes: steps of 10 rad/s and 50 kN.
+/// Columns and rows of a map by default: steps of 10 rad/s and 50 kN.
 const COLUMNS: u32 = 51;
 const ROWS: u32 = 21;
 /// Width of a map where standard output is no terminal.

@@ -88,8 +88,8 @@ impl SceneOptions {
         self.speed.is_some()
     }
 
-    /// The scene these options describe. What had to be changed beside them is
-    /// said on standard error.
+    /// The scene these options describe. A key that had to be changed to go with
+    /// them is named on standard error.
     ///
     /// # Errors
     /// No such scene, or the first key, value or combination that is refused.
@@ -173,9 +173,9 @@ impl SceneOptions {
     }
 }
 
-/// Asked for one of solver, contact law and model, a file's choice of the
-/// others may not go with it: then they follow. What was asked for itself is
-/// never changed. Returns what to say about it.
+/// Where an option sets one of solver, contact law and model, and the scene's
+/// choice of the others is not possible with it, the others are changed. A key
+/// that an option sets is never changed. Returns the messages about it.
 fn follow(scene: &mut Scene, given: &[&str]) -> Vec<&'static str> {
     let asked = |key: &str| given.contains(&key);
     let mut said = Vec::new();

@@ -1,13 +1,23 @@
-//! Files that commands write: the format by the ending of the name, refused
-//! before anything is computed, and one line on what was written.
+//! What commands show and write beside their data: a progress bar, and files in
+//! the format that the ending of their name asks for.
 
 use std::io::Write;
 use std::path::Path;
 
 use anyhow::Context;
+use indicatif::{ProgressBar, ProgressStyle};
 
 use super::status::{Refusal, say};
 use crate::report::file;
+
+/// A progress bar on standard error of this length and form.
+pub fn bar(length: u64, template: &str) -> ProgressBar {
+    let bar = ProgressBar::new(length);
+    if let Ok(style) = ProgressStyle::with_template(template) {
+        bar.set_style(style);
+    }
+    bar
+}
 
 /// The ending of a file given with `--out`, which must be one of these.
 ///

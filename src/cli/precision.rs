@@ -4,7 +4,6 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
 
 use super::options::SceneOptions;
 use super::status::{Refusal, Status};
@@ -45,10 +44,7 @@ impl PrecisionCommand {
         };
         let effort = Effort { repeats: self.repeat, finest_s: self.finest, ..Effort::default() };
         let ways = ways(&scene, effort);
-        let bar = ProgressBar::new(ways.len() as u64);
-        if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}") {
-            bar.set_style(style);
-        }
+        let bar = output::bar(ways.len() as u64, "{bar:30} {pos}/{len} {msg}");
         let measure = Measure::new(&scene);
         let mut rows = Vec::with_capacity(ways.len());
         for way in ways {

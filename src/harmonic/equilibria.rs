@@ -30,7 +30,7 @@ impl Kind {
     pub const ALL: [Self; 3] = [Self::Rest, Self::Side, Self::Corner];
 }
 
-/// What an equilibrium is worth to a real contact.
+/// Whether a real contact can hold an equilibrium, and if not, why.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, AsRefStr)]
 #[serde(rename_all = "lowercase")]
 #[strum(serialize_all = "lowercase")]
@@ -46,7 +46,7 @@ pub enum Character {
     Penetrates,
     /// Admissible, but some motion that keeps the contacts grows.
     Unstable,
-    /// Admissible and lasting.
+    /// Admissible, and no motion that keeps the contacts grows.
     Stable,
 }
 
@@ -69,7 +69,7 @@ pub struct Equilibrium {
     pub speed_rad_s: f64,
     /// What is in contact.
     pub kind: Kind,
-    /// What it is worth.
+    /// Whether a contact can hold it.
     pub character: Character,
     /// Both signs right and every other gap open.
     pub admissible: bool,

@@ -39,7 +39,7 @@ pub fn zone(scene: &Scene, other: &Scene) -> Figure {
     }
 }
 
-/// The scene with this solver, where it can be had, and this contact law.
+/// The scene with this contact law, and with this solver where it is possible.
 fn with(scene: &Scene, kind: SolverKind, contact: ContactLaw) -> Scene {
     let mut scene = scene.clone();
     scene.solver.contact = contact;
