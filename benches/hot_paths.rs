@@ -82,7 +82,7 @@ fn harmonic(criterion: &mut Criterion) {
     let machine = Scene::default().machine();
     let speeds: Vec<f64> = (1..=500).map(f64::from).collect();
     for form in Form::ALL {
-        group.bench_function(form.word(), |bencher| {
+        group.bench_function(form.as_ref(), |bencher| {
             bencher
                 .iter(|| locked_motion(&machine, form, false, None, black_box(&speeds)).unwrap());
         });

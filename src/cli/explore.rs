@@ -1,11 +1,15 @@
 //! `rubscope [SCENE]`: the explorer, which needs a terminal.
 
 use std::io::IsTerminal;
+use std::str::FromStr;
 
+use clap::builder::TypedValueParser;
 use clap::{Args, CommandFactory};
+use strum::VariantNames;
 
 use super::options::SceneOptions;
 use super::status::{Refusal, Status};
+use super::words::Words;
 use super::{Cli, Done};
 use crate::tui;
 
@@ -18,10 +22,12 @@ pub struct Explore {
     #[arg(long, value_name = "COUNT", default_value_t = 10.0, value_parser = frames)]
     fps: f64,
     /// Colours: where the terminal has them, always, or never
-    #[arg(long, value_name = "WHEN", default_value = "auto", value_parser = color)]
+    #[arg(long, value_name = "WHEN", default_value = "auto",
+          value_parser = choice::<tui::Color>(), hide_possible_values = true)]
     color: tui::Color,
     /// How points are drawn: braille, octant, halfblock, dot or ascii
-    #[arg(long, value_name = "MARKER", default_value = "braille", value_parser = marker)]
+    #[arg(long, value_name = "MARKER", default_value = "braille",
+          value_parser = choice::<tui::Marker>(), hide_possible_values = true)]
     marker: tui::Marker,
 }
 
@@ -30,16 +36,14 @@ fn frames(text: &str) -> Result<f64, String> {
     fps.ok_or_else(|| "allowed is a number from 0.1 to 60".to_string())
 }
 
-fn color(text: &str) -> Result<tui::Color, String> {
-    tui::Color::from_word(text).ok_or_else(|| one_of(tui::Color::WORDS))
-}
-
-fn marker(text: &str) -> Result<tui::Marker, String> {
-    tui::Marker::from_word(text).ok_or_else(|| one_of(tui::Marker::WORDS))
-}
-
-fn one_of(words: &[&str]) -> String {
-    format!("allowed is one of {}", words.join(", "))
+/// One of the words of a choice.
+fn choice<T>() -> impl TypedValueParser<Value = T>
+where
+    T: FromStr + VariantNames + Clone + Send + Sync + 'static,
+{
+    Words::of::<T>().try_map(|text| {
+        text.parse().map_err(|_| format!("allowed is one of {}", T::VARIANTS.join(", ")))
+    })
 }
 
 impl Explore {

@@ -44,7 +44,7 @@ impl Figures {
             let drawn = figure(number, &scenes)
                 .map_err(|error| Refusal::because(format!("figure {number}: {error}")))?;
             if let Some(drawn) = drawn {
-                self.save(&drawn)?;
+                self.save(number, &drawn)?;
             }
         }
         Ok(Status::Done)
@@ -81,8 +81,8 @@ impl Figures {
         })
     }
 
-    fn save(&self, figure: &Figure) -> anyhow::Result<()> {
-        let stem = format!("fig{:02}", figure.number);
+    fn save(&self, number: u32, figure: &Figure) -> anyhow::Result<()> {
+        let stem = format!("fig{number:02}");
         let mut names = vec![format!("{stem}.svg")];
         write(&self.out.join(format!("{stem}.svg")), |out| svg::write(figure, out))?;
         for (panel, letter) in figure.panels.iter().zip('a'..='z') {

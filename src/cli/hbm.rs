@@ -1,20 +1,19 @@
 //! `rubscope hbm`: steady states against speed, in the frequency domain.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use anyhow::Context;
 use clap::Args;
+use strum::VariantNames;
 
-use super::Done;
 use super::hbm_views::{self as views, Asked, View};
 use super::options::{SceneOptions, Swept};
 use super::range::{Range, linspace};
 use super::status::{Refusal, Status, say};
+use super::words::Words;
+use super::{Done, output};
 use crate::harmonic::{Form, Sweep};
-use crate::report::hbm as report;
-use crate::report::table::Table;
-use crate::report::{file, json};
+use crate::report::{hbm as report, json};
 
 /// Speeds of a sweep when none are asked for.
 const SPEEDS: usize = 51;
@@ -28,7 +27,8 @@ pub struct Hbm {
     #[command(flatten)]
     options: SceneOptions,
     /// Blade equations: printed (Eq. 27), blade (Eq. 19) or modal (the time model's, exact)
-    #[arg(long, value_name = "FORM", default_value = "modal")]
+    #[arg(long, value_name = "FORM", default_value = "modal",
+          value_parser = Words::of::<Form>(), hide_possible_values = true)]
     form: String,
     /// Keep the damping of casing and blades, which the paper's equations drop
     #[arg(long)]
@@ -80,7 +80,9 @@ impl Hbm {
             Asked { scene: &resolved.scene, speeds: &speeds, form, damped: self.damped, pair };
         let answer = views::answer(&asked, &self.view()?)?;
         if let Some(path) = &self.out {
-            save(path, &answer.file)?;
+            output::format(path, &["csv"])?;
+            let rows = format!("{} rows", answer.file.len());
+            output::save(path, &rows, |out| answer.file.write_csv(out))?;
         }
         if self.json {
             json::write(&answer.json, out)?;
@@ -116,13 +118,8 @@ impl Hbm {
     }
 
     fn form(&self) -> Result<Form, Refusal> {
-        Form::from_word(&self.form).ok_or_else(|| {
-            Refusal::of(
-                "--form",
-                &self.form,
-                format!("one of {}", Form::ALL.map(Form::word).join(", ")),
-            )
-        })
+        let allowed = || format!("one of {}", Form::VARIANTS.join(", "));
+        self.form.parse().map_err(|_| Refusal::of("--form", &self.form, allowed()))
     }
 
     fn pair(&self) -> Result<Option<[u32; 2]>, Refusal> {
@@ -133,17 +130,6 @@ impl Hbm {
             _ => Err(Refusal::of("--blades", text, "I,J, the numbers of two blades")),
         }
     }
-}
-
-fn save(path: &Path, table: &Table) -> anyhow::Result<()> {
-    let shown = path.display();
-    if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv")) {
-        return Err(Refusal::of("--out", &shown, "a file name ending in .csv").into());
-    }
-    file::replace(path, |out| table.write_csv(out))
-        .with_context(|| format!("cannot write {shown}"))?;
-    say(&format!("rubscope: wrote {} rows to {shown}", table.len()));
-    Ok(())
 }
 
 fn warn_missing(sweep: &Sweep) {

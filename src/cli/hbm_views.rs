@@ -3,8 +3,9 @@
 
 use super::status::Refusal;
 use crate::harmonic::{
-    Branches, Campbell, Corner, Form, HarmonicError, NoSlip, SlipSpectrum, Sweep, corner_branch,
-    drives, excited_lock, locked_motion, slip_limits, slip_over, slip_spectrum,
+    Branches, Campbell, Corner, Form, HarmonicError, NoSlip, SlipPoint, SlipRegion, SlipSpectrum,
+    Sweep, corner_branch, drives, excited_lock, locked_motion, slip_limits, slip_over,
+    slip_spectrum,
 };
 use crate::model::Machine;
 use crate::report::hbm::{self as report, HbmReport};
@@ -25,7 +26,7 @@ pub(super) enum View {
     Branches,
     /// The corner branch through its fold.
     Fold,
-    /// Slip, and where it lives over these damping ratios.
+    /// Slip, and where there is any over these damping ratios.
     Slip(Vec<f64>),
     /// The Fourier series of slip with so many harmonics.
     Harmonics(u32),
@@ -51,6 +52,14 @@ pub(super) struct Answer {
     pub file: Table,
     /// The locked motion, where it is the subject.
     pub sweep: Option<Sweep>,
+}
+
+impl Answer {
+    /// An answer whose last table is the one for files.
+    fn of(json: HbmReport, tables: Vec<(String, Table)>) -> Self {
+        let file = tables.last().map(|(_, table)| table.clone()).unwrap_or_default();
+        Self { json, tables, file, sweep: None }
+    }
 }
 
 /// Computes a view.
@@ -111,20 +120,13 @@ fn all_branches(
     damped: bool,
 ) -> Result<Answer, HarmonicError> {
     let branches = Branches::over(machine, speeds, damped)?;
-    let states = report::branch_table(&branches);
     let damping = if damped { "with damping" } else { "without damping (see --damped)" };
-    Ok(Answer {
-        json: json.with_branches(machine, &branches),
-        tables: vec![
-            (
-                format!("Where branches change between these speeds, {damping}:"),
-                report::threshold_table(&branches),
-            ),
-            ("Equilibria of the blade frame:".to_string(), states.clone()),
-        ],
-        file: states,
-        sweep: None,
-    })
+    let changes = format!("Where branches change between these speeds, {damping}:");
+    let tables = vec![
+        (changes, report::threshold_table(&branches)),
+        ("Equilibria of the blade frame:".to_string(), report::branch_table(&branches)),
+    ];
+    Ok(Answer::of(json.with("branches", &branches), tables))
 }
 
 fn campbell(
@@ -138,19 +140,13 @@ fn campbell(
         orders.push(scene.excitation.order);
     }
     let campbell = Campbell::of(machine, &orders)?;
-    let lines = report::campbell_table(&campbell, speeds);
-    Ok(Answer {
-        json: json.with_campbell(&campbell, speeds),
-        tables: vec![
-            (
-                "Coincidences +-omega_c = n_d Omega +- omega_bd, Eq. (30):".to_string(),
-                report::coincidence_table(&campbell),
-            ),
-            ("Frequencies in the standing frame [rad/s]:".to_string(), lines.clone()),
-        ],
-        file: lines,
-        sweep: None,
-    })
+    let coincidences = "Coincidences +-omega_c = n_d Omega +- omega_bd, Eq. (30):".to_string();
+    let lines = "Frequencies in the standing frame [rad/s]:".to_string();
+    let tables = vec![
+        (coincidences, report::coincidence_table(&campbell)),
+        (lines, report::campbell_table(&campbell, speeds)),
+    ];
+    Ok(Answer::of(json.with("campbell", report::campbell(&campbell, speeds)), tables))
 }
 
 fn slipping(
@@ -164,8 +160,9 @@ fn slipping(
     let limits = slip_limits(&machine, speeds)?;
     let told: Vec<String> = limits
         .iter()
-        .map(|&(speed, appears)| {
-            format!("{} at {} rad/s", if appears { "appears" } else { "vanishes" }, short(speed))
+        .map(|limit| {
+            let change = if limit.appears { "appears" } else { "vanishes" };
+            format!("{change} at {} rad/s", short(limit.speed_rad_s))
         })
         .collect();
     let title = if told.is_empty() {
@@ -173,13 +170,11 @@ fn slipping(
     } else {
         format!("Slip {}.", told.join(", "))
     };
-    let table = report::slip_table(&points);
-    let mut answer = Answer {
-        json: json.with_slip(&points, &limits),
-        tables: vec![(title, table.clone())],
-        file: table,
-        sweep: None,
-    };
+    let limit_speeds: Vec<f64> = limits.iter().map(|limit| limit.speed_rad_s).collect();
+    let mut json = json
+        .with("slip", points.iter().map(report::slip).collect::<Vec<_>>())
+        .with("slip_limits_rad_s", limit_speeds);
+    let mut tables = vec![(title, report::slip_table(&points))];
     if !zetas.is_empty() {
         let mut region = Vec::with_capacity(zetas.len());
         for &zeta in zetas {
@@ -190,16 +185,17 @@ fn slipping(
             })?;
             let machine = damped.machine();
             let lowest = speeds.iter().copied().fold(f64::INFINITY, f64::min);
-            let at_lowest = slip_over(&machine, &[lowest])?.iter().any(|at| at.outcome.is_ok());
-            let limits = slip_limits(&machine, speeds)?;
-            region.push(report::Region { zeta, at_lowest, limits });
+            region.push(SlipRegion {
+                casing_damping_ratio: zeta,
+                exists_at_lowest: slip_over(&machine, &[lowest])?.iter().any(SlipPoint::exists),
+                limits: slip_limits(&machine, speeds)?,
+            });
         }
-        let table = report::region_table(&region);
-        answer.json = answer.json.with_slip_region(&region);
-        answer.tables.push(("Where slip lives between these speeds:".to_string(), table.clone()));
-        answer.file = table;
+        json = json.with("slip_region", &region);
+        let title = "Where slip lives between these speeds:".to_string();
+        tables.push((title, report::region_table(&region)));
     }
-    Ok(answer)
+    Ok(Answer::of(json, tables))
 }
 
 fn series(
@@ -225,15 +221,15 @@ fn series(
                 tables.push((title, report::term_table(found)));
             }
             Err(reason) => {
-                let title = format!("No slip at {speed} rad/s ({}).", reason.word());
-                tables.push((title, Table::new(&[])));
+                let title = format!("No slip at {speed} rad/s ({}).", reason);
+                tables.push((title, Table::default()));
             }
         }
     }
     let file = series.iter().find_map(|(_, found)| found.as_ref().ok());
     Ok(Answer {
-        file: file.map_or_else(|| Table::new(&["number"]), report::term_table),
-        json: json.with_harmonics(&series),
+        file: file.map_or_else(|| Table::new(["number"]), report::term_table),
+        json: json.with("harmonics", series.iter().map(report::harmonics).collect::<Vec<_>>()),
         tables,
         sweep: None,
     })
@@ -252,23 +248,18 @@ fn folding(
     let title = match branch.fold {
         Some(fold) if branch.points.is_empty() => format!(
             "The corner branch folds back at {} rad/s, below all of these speeds.",
-            short(fold.speed)
+            short(fold.speed_rad_s)
         ),
         Some(fold) => format!(
             "The corner branch folds back at {} rad/s, opened to {} rad from {} rad.",
-            short(fold.speed),
-            short(fold.opening),
+            short(fold.speed_rad_s),
+            short(fold.opening_rad),
             short(machine.rim.delta)
         ),
         None => "The corner branch does not fold: the blades are as good as rigid.".to_string(),
     };
-    let table = report::corner_table(&branch);
-    Ok(Answer {
-        json: json.with_fold(&branch),
-        tables: vec![(title, table.clone())],
-        file: table,
-        sweep: None,
-    })
+    let tables = vec![(title, report::corner_table(&branch))];
+    Ok(Answer::of(json.with("fold", report::fold(&branch)), tables))
 }
 
 fn excited(
@@ -298,11 +289,6 @@ fn excited(
             " does not drive the modes of these diameters: E is not +-n_d modulo N."
         }
     );
-    let table = report::excitation_table(&found);
-    Ok(Answer {
-        json: json.with_excitation(report::ExcitationReport::of(excitation, reaches, &found)),
-        tables: vec![(title, table.clone())],
-        file: table,
-        sweep: None,
-    })
+    let json = json.with("excitation", report::excitation(excitation, reaches, &found));
+    Ok(Answer::of(json, vec![(title, report::excitation_table(&found))]))
 }

@@ -11,15 +11,15 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 use clap::{Args, Subcommand};
 
-use super::Done;
 use super::map_run::{Kept, compute};
 use super::options::{SceneOptions, Swept};
 use super::range::Range;
 use super::status::{Refusal, Status, say};
-use crate::report::{file, json, map as report, map_svg};
+use super::{Done, output};
+use crate::report::{file, json, map as report, svg};
 use crate::study::{Axis, AxisError, Map, MapPlan, Shard, overlay, part};
 
-/// Columns and rows without other wishes: steps of 10 rad/s and 50 kN.
+/// Columns and rows of a map by default: steps of 10 rad/s and 50 kN.
 const COLUMNS: u32 = 51;
 const ROWS: u32 = 21;
 /// Width of a map where standard output is no terminal.
@@ -91,10 +91,10 @@ impl MapCommand {
         }
         let format = self.result.format()?;
         let shard = self.shard()?;
-        if self.shard.is_some() && format != Some(Format::Part) {
+        if self.shard.is_some() && format != Some("part") {
             return Err(Refusal::because("--shard: allowed with --out FILE.part only").into());
         }
-        if self.adaptive && format == Some(Format::Part) {
+        if self.adaptive && format == Some("part") {
             let reason = "--adaptive: allowed with --out FILE.csv, .json or .svg, since a part \
                           holds cells that were run";
             return Err(Refusal::because(reason).into());
@@ -129,8 +129,8 @@ impl MapCommand {
         };
         let scene = resolved.scene;
         let plan = MapPlan {
-            x: axis(&self.x, "operation.speed_rad_s", resolved.speeds, 0.0, 500.0, COLUMNS)?,
-            y: axis(&self.y, "operation.pulse_n", resolved.pulses, 0.0, 1e6, ROWS)?,
+            x: axis(&self.x, overlay::SPEED, resolved.speeds, 0.0, 500.0, COLUMNS)?,
+            y: axis(&self.y, overlay::PULSE, resolved.pulses, 0.0, 1e6, ROWS)?,
             scene: scene.into_scene(),
             sensitivity: !self.no_sensitivity,
         };
@@ -193,31 +193,10 @@ fn read_parts(files: &[PathBuf]) -> anyhow::Result<Map> {
     map.ok_or_else(|| Refusal::because("no part of a map was given").into())
 }
 
-/// The format of a result file, by its ending.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Format {
-    Csv,
-    Json,
-    Svg,
-    Part,
-}
-
 impl ResultOptions {
-    fn format(&self) -> anyhow::Result<Option<Format>> {
+    fn format(&self) -> anyhow::Result<Option<&'static str>> {
         let Some(path) = &self.out else { return Ok(None) };
-        let format = match path.extension().and_then(|end| end.to_str()) {
-            Some("csv") => Format::Csv,
-            Some("json") => Format::Json,
-            Some("svg") => Format::Svg,
-            Some("part") => Format::Part,
-            _ => {
-                let allowed = "a file name ending in .csv, .json, .svg or .part";
-                return Err(Refusal::of("--out", path.display(), allowed).into());
-            }
-        };
-        // Before the computation, which may take long.
-        file::check_place(path).with_context(|| format!("cannot write {}", path.display()))?;
-        Ok(Some(format))
+        output::format(path, &["csv", "json", "svg", "part"]).map(Some)
     }
 
     /// Prints and writes the finished map. If it cannot be written, it goes
@@ -231,7 +210,7 @@ impl ResultOptions {
         let (Some(path), Some(format)) = (&self.out, self.format()?) else { return Ok(()) };
         let shown = path.display();
         if let Err(error) = write_file(map, format, path) {
-            let kept = if format == Format::Part {
+            let kept = if format == "part" {
                 part::write(map, out)?;
                 "its cells are on standard output, to be saved as a part"
             } else {
@@ -240,7 +219,7 @@ impl ResultOptions {
                 }
                 "the whole map is on standard output as JSON"
             };
-            return Err(error.context(format!("cannot write {shown}; {kept}")));
+            return Err(anyhow::Error::from(error).context(format!("cannot write {shown}; {kept}")));
         }
         say(&format!("rubscope: wrote {} cells to {shown}", map.cells.iter().flatten().count()));
         Ok(())
@@ -253,19 +232,11 @@ fn width() -> usize {
     size.map_or(WIDTH, |(columns, _)| usize::from(columns))
 }
 
-fn write_file(map: &Map, format: Format, path: &Path) -> anyhow::Result<()> {
-    let picture = match format {
-        Format::Svg => {
-            let curves = overlay::curves(&map.plan);
-            map_svg::draw(map, &curves).map_err(|reason| anyhow::anyhow!(reason))?
-        }
-        _ => String::new(),
-    };
+fn write_file(map: &Map, format: &str, path: &Path) -> std::io::Result<()> {
     file::replace(path, |out| match format {
-        Format::Csv => report::write_csv(map, out),
-        Format::Json => json::write(&report::to_json(map, false), out),
-        Format::Svg => out.write_all(picture.as_bytes()),
-        Format::Part => part::write(map, out),
-    })?;
-    Ok(())
+        "csv" => report::write_csv(map, out),
+        "json" => json::write(&report::to_json(map, false), out),
+        "svg" => svg::write(&report::figure(map, &overlay::curves(&map.plan)), out),
+        _ => part::write(map, out),
+    })
 }

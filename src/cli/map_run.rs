@@ -9,9 +9,9 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use anyhow::Context;
-use indicatif::{ProgressBar, ProgressStyle};
 use signal_hook::consts::{SIGINT, SIGTERM};
 
+use super::output;
 use super::status::say;
 use crate::study::{Cell, Map, Progress, part};
 
@@ -129,12 +129,7 @@ fn stopped(map: &Map, complete: Option<&Path>, out: &mut dyn Write) -> anyhow::R
 
 /// Moves the bar and passes signals on, until the cells are done.
 fn watch(progress: &Progress, signal: &AtomicUsize, finished: &AtomicBool, cells: u64) {
-    let bar = ProgressBar::new(cells);
-    if let Ok(style) =
-        ProgressStyle::with_template("{bar:30} {pos}/{len} cells, {per_sec}, {eta} left")
-    {
-        bar.set_style(style);
-    }
+    let bar = output::bar(cells, "{bar:30} {pos}/{len} cells, {per_sec}, {eta} left");
     while !finished.load(Ordering::Relaxed) {
         if signal.load(Ordering::Relaxed) != 0 {
             progress.stop.store(true, Ordering::Relaxed);
@@ -152,7 +147,7 @@ struct Notes {
 }
 
 impl Notes {
-    /// Begins the file anew with the cells there are already, so that a line
+    /// Writes the file again with the cells that are known, so that a line
     /// cut short by a kill is gone.
     fn open(path: &Path, map: &Map) -> anyhow::Result<Self> {
         let cannot = || format!("cannot write {}", path.display());

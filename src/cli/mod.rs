@@ -12,12 +12,14 @@ mod man;
 mod map;
 mod map_run;
 pub mod options;
+mod output;
 mod precision;
 pub mod range;
 mod run;
 mod scenes;
 pub mod script;
 pub mod status;
+mod words;
 
 use std::ffi::OsString;
 use std::io::{BufWriter, Write};

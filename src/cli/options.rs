@@ -5,13 +5,15 @@ use clap::Args;
 
 use super::range::Range;
 use super::status::{Refusal, say};
+use super::words::Words;
 use crate::scene::{BUILTIN, CheckedScene, ContactLaw, ModelSize, Scene, SolverKind};
+use crate::study::overlay::{PULSE, SPEED};
 
 /// The scene and the options that change it, on every command.
 #[derive(Args, Clone, Debug, Default)]
 pub struct SceneOptions {
     /// Built-in scene or path of a .toml file [default: paper-nd3]
-    #[arg(value_name = "SCENE")]
+    #[arg(value_name = "SCENE", value_parser = Words::scenes(), hide_possible_values = true)]
     scene: Option<String>,
     /// Rotor speed; negative turns the other way [rad/s]
     #[arg(long, value_name = "SPEED", allow_hyphen_values = true, help_heading = HEADING)]
@@ -29,13 +31,16 @@ pub struct SceneOptions {
     #[arg(long, value_name = "RATIO", allow_hyphen_values = true, help_heading = HEADING)]
     zeta_disk: Option<String>,
     /// explicit: the paper's time steps; event: closed forms between contacts
-    #[arg(long, value_name = "KIND", help_heading = HEADING)]
+    #[arg(long, value_name = "KIND", help_heading = HEADING,
+          value_parser = Words::of::<SolverKind>(), hide_possible_values = true)]
     solver: Option<String>,
     /// unilateral: contact only pushes; bilateral: the paper's equality, which may pull
-    #[arg(long, value_name = "LAW", help_heading = HEADING)]
+    #[arg(long, value_name = "LAW", help_heading = HEADING,
+          value_parser = Words::of::<ContactLaw>(), hide_possible_values = true)]
     contact: Option<String>,
     /// rigid: casing only; modal: the paper's four coordinates; full: every blade
-    #[arg(long, value_name = "SIZE", help_heading = HEADING)]
+    #[arg(long, value_name = "SIZE", help_heading = HEADING,
+          value_parser = Words::of::<ModelSize>(), hide_possible_values = true)]
     model: Option<String>,
     /// Time step of the explicit solver [s]
     #[arg(long, value_name = "SECONDS", allow_hyphen_values = true, help_heading = HEADING)]
@@ -49,11 +54,6 @@ pub struct SceneOptions {
 }
 
 const HEADING: &str = "Options that change the scene";
-
-/// Key of the rotor speed, which some commands sweep.
-const SPEED: &str = "operation.speed_rad_s";
-/// Key of the pulse, which some commands sweep.
-const PULSE: &str = "operation.pulse_n";
 
 /// Which options a command takes as a range `FROM:TO:COUNT`.
 #[derive(Clone, Copy, Debug, Default)]
@@ -88,8 +88,8 @@ impl SceneOptions {
         self.speed.is_some()
     }
 
-    /// The scene these options describe. What had to be changed beside them is
-    /// said on standard error.
+    /// The scene these options describe. A key that had to be changed to go with
+    /// them is named on standard error.
     ///
     /// # Errors
     /// No such scene, or the first key, value or combination that is refused.
@@ -173,9 +173,9 @@ impl SceneOptions {
     }
 }
 
-/// Asked for one of solver, contact law and model, a file's choice of the
-/// others may not go with it: then they follow. What was asked for itself is
-/// never changed. Returns what to say about it.
+/// Where an option sets one of solver, contact law and model, and the scene's
+/// choice of the others is not possible with it, the others are changed. A key
+/// that an option sets is never changed. Returns the messages about it.
 fn follow(scene: &mut Scene, given: &[&str]) -> Vec<&'static str> {
     let asked = |key: &str| given.contains(&key);
     let mut said = Vec::new();

@@ -3,14 +3,12 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use anyhow::Context;
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
 
-use super::Done;
 use super::options::SceneOptions;
-use super::status::{Refusal, Status, say};
-use crate::report::{file, json, precision as report, precision_svg};
+use super::status::{Refusal, Status};
+use super::{Done, output};
+use crate::report::{json, precision as report, svg};
 use crate::study::precision::{Effort, Measure, Precision, ways};
 
 /// Measure every solver's speed against its error on a scene.
@@ -39,21 +37,13 @@ impl PrecisionCommand {
         if self.finest.is_nan() || self.finest <= 0.0 {
             return Err(Refusal::of("--finest", self.finest, "a time step above 0").into());
         }
-        let is_svg = match self.out.as_deref().map(|path| (path, path.extension())) {
-            None => false,
-            Some((_, Some(end))) if end == "csv" => false,
-            Some((_, Some(end))) if end == "svg" => true,
-            Some((path, _)) => {
-                let allowed = "a file name ending in .csv or .svg";
-                return Err(Refusal::of("--out", path.display(), allowed).into());
-            }
+        let format = match &self.out {
+            Some(path) => Some(output::format(path, &["csv", "svg"])?),
+            None => None,
         };
         let effort = Effort { repeats: self.repeat, finest_s: self.finest, ..Effort::default() };
         let ways = ways(&scene, effort);
-        let bar = ProgressBar::new(ways.len() as u64);
-        if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}") {
-            bar.set_style(style);
-        }
+        let bar = output::bar(ways.len() as u64, "{bar:30} {pos}/{len} {msg}");
         let measure = Measure::new(&scene)?;
         let mut rows = Vec::with_capacity(ways.len());
         for way in ways {
@@ -62,31 +52,23 @@ impl PrecisionCommand {
             bar.inc(1);
         }
         bar.finish_and_clear();
-        self.deliver(&measure.report(rows), is_svg, out)
+        self.deliver(&measure.report(rows), format, out)
     }
 
-    fn deliver(&self, measured: &Precision, is_svg: bool, out: &mut dyn Write) -> Done {
+    fn deliver(&self, measured: &Precision, format: Option<&str>, out: &mut dyn Write) -> Done {
         if self.json {
-            json::write(measured, out)?;
+            json::write_as("rubscope.precision/1", measured, out)?;
         } else {
             report::write(measured, out)?;
         }
         if let Some(path) = &self.out {
-            let shown = path.display();
-            let picture = if is_svg {
-                precision_svg::draw(measured).map_err(Refusal::because)?
+            let rows = format!("{} rows", measured.rows.len());
+            if format == Some("svg") {
+                let figure = report::figure(measured).map_err(Refusal::because)?;
+                output::save(path, &rows, |out| svg::write(&figure, out))?;
             } else {
-                String::new()
-            };
-            file::replace(path, |out| {
-                if is_svg {
-                    out.write_all(picture.as_bytes())
-                } else {
-                    report::table(measured).write_csv(out)
-                }
-            })
-            .with_context(|| format!("cannot write {shown}"))?;
-            say(&format!("rubscope: wrote {} rows to {shown}", measured.rows.len()));
+                output::save(path, &rows, |out| report::table(measured).write_csv(out))?;
+            }
         }
         Ok(Status::Done)
     }

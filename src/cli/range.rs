@@ -1,6 +1,7 @@
 //! `FROM:TO:COUNT`, a range of values that a command sweeps.
 
 use super::status::Refusal;
+use crate::study::parse_range;
 
 /// Most values of one range.
 const MOST: usize = 1_000_000;
@@ -29,17 +30,16 @@ impl Range {
     /// Text of another form, ends that are no finite numbers, or a count
     /// outside 1 to a million.
     pub fn parse(name: &str, text: &str) -> Result<Self, Refusal> {
-        let refused = || {
-            let form = format!("FROM:TO:COUNT, two numbers and a count from 1 to {MOST}");
-            Refusal::of(name, text, form)
-        };
-        let parts: Vec<&str> = text.split(':').map(str::trim).collect();
-        let [from, to, count] = parts.as_slice() else { return Err(refused()) };
-        let number = |text: &str| text.parse().ok().filter(|x: &f64| x.is_finite());
-        let count = count.parse().ok().filter(|n| (1..=MOST).contains(n));
-        match (number(from), number(to), count) {
-            (Some(from), Some(to), Some(count)) => Ok(Self { from, to, count }),
-            _ => Err(refused()),
+        match parse_range(text) {
+            Some((from, to, count))
+                if from.is_finite() && to.is_finite() && (1..=MOST).contains(&count) =>
+            {
+                Ok(Self { from, to, count })
+            }
+            _ => {
+                let form = format!("FROM:TO:COUNT, two numbers and a count from 1 to {MOST}");
+                Err(Refusal::of(name, text, form))
+            }
         }
     }
 

@@ -1,19 +1,17 @@
 //! `rubscope run`: one time simulation, as a summary, JSON or a file.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
+use std::time::Instant;
 
-use anyhow::Context;
 use clap::Args;
-use serde::Serialize;
 
-use super::Done;
 use super::options::SceneOptions;
 use super::script::{self, Script};
-use super::status::{Refusal, Status, say};
-use crate::motion::{RunReport, Sampling, Verdict, simulate_with};
-use crate::report::{self, History, HistoryFormat};
-use crate::scene::CheckedScene;
+use super::status::Status;
+use super::{Done, output};
+use crate::motion::{Sampling, Verdict, is_sensitive_with, run_to_end};
+use crate::report::{History, json, npz, summary};
 
 /// Simulate a scene in time and tell how it ends.
 #[derive(Args, Debug)]
@@ -38,28 +36,37 @@ pub struct Run {
     at: Vec<String>,
 }
 
-/// What `--json` prints: the report, and what was changed on the way.
-#[derive(Serialize)]
-struct Told<'a> {
-    #[serde(flatten)]
-    report: &'a RunReport,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    changes: Option<&'a Script>,
-}
-
 impl Run {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
         let scene = self.options.scene()?;
         let script = Script::resolve(&script::parse(&self.at)?, &scene)?;
-        let report = match &self.out {
-            None => simulate_with(&scene, &script.changes(), Sampling::default(), &mut |_| {}),
-            Some(path) => self.simulate_to(&scene, &script, path)?,
+        let acts = script.changes();
+        let path = match &self.out {
+            Some(path) => Some((path, output::format(path, &["csv", "npz"])?)),
+            None => None,
         };
+        let gaps = if self.gaps { scene.bladed_disk.blades } else { 0 };
+        let mut history = History::new(gaps);
+        // Both ends are samples. The smallest gap needs the gaps of all blades.
+        let sampling = match path {
+            Some(_) => Sampling { intervals: self.samples - 1, gaps: true },
+            None => Sampling::default(),
+        };
+        let started = Instant::now();
+        let mut report = run_to_end(&scene, &acts, sampling, &mut |sample| history.push(sample));
+        let wall_s = started.elapsed().as_secs_f64();
+        report.outcome.sensitive = is_sensitive_with(&scene, &acts, report.settled);
+        if let Some((path, format)) = path {
+            output::save(path, &format!("{} samples", history.len()), |out| match format {
+                "csv" => history.write_csv(out),
+                _ => npz::write(&history, out),
+            })?;
+        }
         let changes = Some(&script).filter(|script| !script.is_empty());
         if self.json {
-            report::json::write(&Told { report: &report, changes }, out)?;
+            json::write_run(&report, wall_s, changes, out)?;
         } else {
-            report::summary::write(&report, out)?;
+            summary::write(&report, wall_s, out)?;
             if let Some(script) = changes {
                 writeln!(out, "Changed on the way: {script}.")?;
             }
@@ -68,27 +75,5 @@ impl Run {
             Verdict::Failed => Status::Failed,
             _ => Status::Done,
         })
-    }
-
-    fn simulate_to(
-        &self,
-        scene: &CheckedScene,
-        script: &Script,
-        path: &Path,
-    ) -> anyhow::Result<RunReport> {
-        let shown = path.display();
-        let format = HistoryFormat::of(path)
-            .ok_or_else(|| Refusal::of("--out", &shown, "a file name ending in .csv or .npz"))?;
-        // Before the simulation, which may take long.
-        report::file::check_place(path).with_context(|| format!("cannot write {shown}"))?;
-        let mut history = History::new(if self.gaps { scene.bladed_disk.blades } else { 0 });
-        // Both ends are samples. The smallest gap needs the gaps of all blades.
-        let sampling = Sampling { intervals: self.samples - 1, gaps: true };
-        let report =
-            simulate_with(scene, &script.changes(), sampling, &mut |sample| history.push(sample));
-        report::file::replace(path, |out| format.write(&history, out))
-            .with_context(|| format!("cannot write {shown}"))?;
-        say(&format!("rubscope: wrote {} samples to {shown}", history.len()));
-        Ok(report)
     }
 }

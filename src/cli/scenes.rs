@@ -6,12 +6,14 @@ use clap::Args;
 
 use super::Done;
 use super::status::Status;
+use super::words::Words;
 use crate::scene::{BUILTIN, Scene};
 
 /// List the built-in scenes; with a name, print its file.
 #[derive(Args, Debug)]
 pub struct Scenes {
     /// Name of a built-in scene
+    #[arg(value_parser = Words::scenes(), hide_possible_values = true)]
     name: Option<String>,
 }
 

@@ -12,13 +12,13 @@ use super::status::Refusal;
 use crate::motion;
 use crate::report::number::time;
 use crate::scene::{CheckedScene, KEYS, SolverKind, Value, keys};
+use crate::study::overlay::SPEED;
 
 /// The option, as it is named in refusals.
 const OPTION: &str = "--at";
 /// What stands in place of a key to fire the pulse.
 const PULSE: &str = "pulse";
-/// Key of the rotor speed, and of its acceleration: every solver takes them.
-const SPEED: &str = "operation.speed_rad_s";
+/// Key of the acceleration: every solver takes it, as it takes the speed.
 const RAMP: &str = "operation.speed_ramp_rad_s2";
 /// Keys, or tables of keys, that a running motion cannot take: those of its
 /// start, of its steps and its end, of the polygon, and those for readers.
@@ -147,7 +147,7 @@ fn acts_live(path: &str, scene: &CheckedScene) -> bool {
 fn live_keys(scene: &CheckedScene) -> String {
     let keys: Vec<&str> =
         KEYS.iter().map(|key| key.path).filter(|path| acts_live(path, scene)).collect();
-    let solver = scene.solver.kind.word();
+    let solver = scene.solver.kind;
     format!("{PULSE}, or a key that a running {solver} motion takes: {}", keys.join(", "))
 }
 

@@ -49,7 +49,7 @@ pub fn exit(done: super::Done) -> u8 {
     };
     let closed = |error: &std::io::Error| error.kind() == ErrorKind::BrokenPipe;
     if error.downcast_ref::<std::io::Error>().is_some_and(closed) {
-        // Whoever read the output has seen enough: end as by SIGPIPE, silently.
+        // The reader of the output has closed it: end as by SIGPIPE, silently.
         return 128 + BROKEN_PIPE;
     }
     say(&format!("rubscope: {error:#}"));
@@ -84,7 +84,7 @@ fn in_one_line(message: &str) -> String {
     format!("{line} (see rubscope --help)")
 }
 
-/// One line on standard error. A closed standard error is no reason to fail.
+/// Writes one line on standard error; errors of writing are ignored.
 pub fn say(line: &str) {
     // Control characters in quoted input must not reach the terminal.
     let clean: String = line.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();

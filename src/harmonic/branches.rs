@@ -1,31 +1,33 @@
 //! The branches of equilibria over speed, and the speeds where one appears,
 //! vanishes, becomes tensile or changes its stability.
 
+use serde::Serialize;
+
 use super::equilibria::equilibrium;
 use super::{Character, Corner, Equilibrium, HarmonicError, Kind};
 use crate::model::Machine;
 
 /// A speed at which a branch changes its character.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Threshold {
+    /// Where, to the last digit \[rad/s\].
+    pub speed_rad_s: f64,
     /// Which branch.
     pub kind: Kind,
-    /// Where \[rad/s\], to the last digit.
-    pub speed: f64,
     /// What it is below.
-    pub from: Character,
+    pub below: Character,
     /// What it is above.
-    pub to: Character,
+    pub above: Character,
 }
 
 /// Equilibria over a list of speeds.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Branches {
-    /// Every equilibrium at every speed, in the order of the speeds.
-    pub states: Vec<Equilibrium>,
     /// Where branches change between the smallest and the largest speed, in
     /// order of speed.
     pub thresholds: Vec<Threshold>,
+    /// Every equilibrium at every speed, in the order of the speeds.
+    pub states: Vec<Equilibrium>,
 }
 
 /// Most changes looked for between two neighbouring speeds.
@@ -56,16 +58,13 @@ impl Branches {
             for pair in sorted.windows(2) {
                 if let [low, high] = *pair {
                     let found = changes(low, high, &character)?;
-                    thresholds.extend(found.into_iter().map(|(speed, from, to)| Threshold {
-                        kind,
-                        speed,
-                        from,
-                        to,
+                    thresholds.extend(found.into_iter().map(|(speed_rad_s, below, above)| {
+                        Threshold { speed_rad_s, kind, below, above }
                     }));
                 }
             }
         }
-        thresholds.sort_by(|a, b| a.speed.total_cmp(&b.speed));
+        thresholds.sort_by(|a, b| a.speed_rad_s.total_cmp(&b.speed_rad_s));
         Ok(Self { states, thresholds })
     }
 }

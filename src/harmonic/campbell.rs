@@ -1,16 +1,18 @@
 //! Campbell data: frequencies of both structures against rotor speed in the
 //! standing frame, engine-order lines, and the coincidences (30).
 
+use serde::Serialize;
+
 use super::HarmonicError;
 use crate::model::Machine;
 
-/// A straight line `frequency = intercept + slope * Omega`.
-#[derive(Clone, Debug, PartialEq)]
+/// A straight line `frequency = at_standstill + slope * Omega`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Line {
     /// What it is.
     pub name: String,
     /// At standstill \[rad/s\].
-    pub intercept: f64,
+    pub at_standstill_rad_s: f64,
     /// Change with the rotor speed.
     pub slope: f64,
 }
@@ -20,20 +22,20 @@ impl Line {
     /// backward in the standing frame.
     #[must_use]
     pub fn at(&self, speed: f64) -> f64 {
-        self.intercept + self.slope * speed
+        self.at_standstill_rad_s + self.slope * speed
     }
 }
 
 /// One of the four coincidences of Eq. (30), `casing = n_d Omega + blades`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Coincidence {
     /// `+omega_c` or `-omega_c` \[rad/s\].
-    pub casing: f64,
+    pub casing_rad_s: f64,
     /// `+omega_bd` or `-omega_bd` \[rad/s\].
-    pub blades: f64,
+    pub blades_rad_s: f64,
     /// Rotor speed where they coincide \[rad/s\]; negative for the other sense
     /// of rotation.
-    pub speed: f64,
+    pub speed_rad_s: f64,
     /// Whether it is the dangerous one, Eq. (31).
     pub dangerous: bool,
 }
@@ -56,7 +58,7 @@ impl Campbell {
     /// let machine = Scene::builtin("paper-nd3")?.machine();
     /// let campbell = Campbell::of(&machine, &[3])?;
     /// let dangerous = campbell.coincidences.iter().find(|c| c.dangerous).unwrap();
-    /// assert!((dangerous.speed - 388.31).abs() < 0.005);
+    /// assert!((dangerous.speed_rad_s - 388.31).abs() < 0.005);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
@@ -68,7 +70,11 @@ impl Campbell {
             return Err(HarmonicError::NoWave);
         }
         let (omega_c, omega_bd) = (machine.omega_c, machine.omega_bd);
-        let line = |name: &str, intercept, slope| Line { name: name.to_string(), intercept, slope };
+        let line = |name: &str, at_standstill_rad_s, slope| Line {
+            name: name.to_string(),
+            at_standstill_rad_s,
+            slope,
+        };
         let mut lines = vec![
             line("omega_c", omega_c, 0.0),
             line("-omega_c", -omega_c, 0.0),
@@ -79,9 +85,9 @@ impl Campbell {
             orders.iter().map(|&order| line(&format!("{order} Omega"), 0.0, f64::from(order))),
         );
         let coincidence = |casing: f64, blades: f64| Coincidence {
-            casing,
-            blades,
-            speed: (casing - blades) / n_d,
+            casing_rad_s: casing,
+            blades_rad_s: blades,
+            speed_rad_s: (casing - blades) / n_d,
             dangerous: casing > 0.0 && blades < 0.0,
         };
         let coincidences = [
@@ -105,17 +111,21 @@ mod tests {
         let campbell = Campbell::of(&machine, &[1, 3]).unwrap();
         assert_eq!(campbell.lines.len(), 6);
         for found in campbell.coincidences {
-            let casing = if found.casing > 0.0 { 0 } else { 1 };
-            let blades = if found.blades > 0.0 { 2 } else { 3 };
-            let gap =
-                campbell.lines[casing].at(found.speed) - campbell.lines[blades].at(found.speed);
+            let casing = if found.casing_rad_s > 0.0 { 0 } else { 1 };
+            let blades = if found.blades_rad_s > 0.0 { 2 } else { 3 };
+            let gap = campbell.lines[casing].at(found.speed_rad_s)
+                - campbell.lines[blades].at(found.speed_rad_s);
             assert!(gap.abs() < 1e-12 * machine.omega_c);
         }
         let dangerous: Vec<_> = campbell.coincidences.iter().filter(|c| c.dangerous).collect();
         assert_eq!(dangerous.len(), 1);
-        assert_eq!(Some(dangerous[0].speed), machine.dangerous_speed());
-        let mut positive: Vec<f64> =
-            campbell.coincidences.iter().map(|c| c.speed).filter(|&speed| speed > 0.0).collect();
+        assert_eq!(Some(dangerous[0].speed_rad_s), machine.dangerous_speed());
+        let mut positive: Vec<f64> = campbell
+            .coincidences
+            .iter()
+            .map(|c| c.speed_rad_s)
+            .filter(|&speed| speed > 0.0)
+            .collect();
         positive.sort_by(f64::total_cmp);
         assert_eq!(positive, machine.coincidence_speeds());
     }

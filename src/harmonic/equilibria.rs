@@ -4,6 +4,7 @@
 
 use nalgebra::Complex;
 use serde::Serialize;
+use strum::AsRefStr;
 
 use super::equations::{Equations, Scales, Unknowns, Wave};
 use super::posture::Posture;
@@ -12,8 +13,9 @@ use super::{Corner, Form, HarmonicError};
 use crate::model::Machine;
 
 /// What is in contact.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, AsRefStr)]
 #[serde(rename_all = "lowercase")]
+#[strum(serialize_all = "lowercase")]
 pub enum Kind {
     /// Nothing: the casing at rest.
     Rest,
@@ -26,21 +28,12 @@ pub enum Kind {
 impl Kind {
     /// Every kind.
     pub const ALL: [Self; 3] = [Self::Rest, Self::Side, Self::Corner];
-
-    /// The word used in reports.
-    #[must_use]
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Rest => "rest",
-            Self::Side => "side",
-            Self::Corner => "corner",
-        }
-    }
 }
 
-/// What an equilibrium is worth to a real contact.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+/// Whether a real contact can hold an equilibrium, and if not, why.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, AsRefStr)]
 #[serde(rename_all = "lowercase")]
+#[strum(serialize_all = "lowercase")]
 pub enum Character {
     /// There is no such equilibrium.
     Absent,
@@ -53,74 +46,62 @@ pub enum Character {
     Penetrates,
     /// Admissible, but some motion that keeps the contacts grows.
     Unstable,
-    /// Admissible and lasting.
+    /// Admissible, and no motion that keeps the contacts grows.
     Stable,
 }
 
-impl Character {
-    /// The word used in reports.
-    #[must_use]
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Absent => "absent",
-            Self::Pulls => "pulls",
-            Self::Adhesive => "adhesive",
-            Self::Penetrates => "penetrates",
-            Self::Unstable => "unstable",
-            Self::Stable => "stable",
-        }
-    }
+/// One phase group in contact.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct GroupContact {
+    /// Its side of the contact polygon.
+    #[serde(skip)]
+    pub side: u32,
+    /// Its blades, numbered from 1.
+    pub blades: Vec<u32>,
+    /// Sum of the group's multipliers; negative pushes \[N\].
+    pub multiplier_n: f64,
 }
 
 /// A steady state in the frame of the blades.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Equilibrium {
+    /// Rotor speed \[rad/s\].
+    pub speed_rad_s: f64,
     /// What is in contact.
     pub kind: Kind,
-    /// Rotor speed \[rad/s\].
-    pub speed: f64,
-    /// Sides in contact with their group multipliers; negative pushes \[N\].
-    pub contacts: Vec<(u32, f64)>,
-    /// `z = (u_c + i u_s) exp(-i n_d theta)` \[m\].
-    pub z: [f64; 2],
-    /// Blade coordinates `[alpha_c, alpha_s]` \[rad\].
-    pub alpha: [f64; 2],
-    /// Smallest gap of the groups not in contact \[m\].
-    pub smallest_gap: f64,
-    /// What it is worth.
+    /// Whether a contact can hold it.
     pub character: Character,
-    /// Eigenvalues of the motion that keeps the contacts \[1/s\].
-    pub eigenvalues: Vec<Complex<f64>>,
+    /// Both signs right and every other gap open.
+    pub admissible: bool,
+    /// Admissible, and no motion that keeps the contacts grows.
+    pub stable: bool,
+    /// The groups in contact.
+    pub contacts: Vec<GroupContact>,
+    /// `z = (u_c + i u_s) exp(-i n_d theta)` \[m\].
+    #[serde(skip)]
+    pub z_m: [f64; 2],
+    /// Amplitude `|z|` of the casing wave \[m\].
+    pub amplitude_m: f64,
+    /// Cosine coordinate of the blades \[rad\].
+    pub alpha_c_rad: f64,
+    /// Sine coordinate of the blades \[rad\].
+    pub alpha_s_rad: f64,
+    /// Smallest gap of the groups not in contact \[m\].
+    pub smallest_gap_m: f64,
     /// Torque the rotor must give, `sum Lambda A` \[N m\].
-    pub torque: f64,
+    pub torque_nm: f64,
     /// Power it takes; what the casing's damper takes, `d_c nu^2 |z|^2` \[W\].
-    pub power: f64,
+    pub power_w: f64,
+    /// Largest real part of the eigenvalues \[1/s\].
+    pub growth_per_s: f64,
+    /// Eigenvalues of the motion that keeps the contacts \[1/s\]; in reports
+    /// each is `[real, imaginary]`.
+    #[serde(serialize_with = "as_pairs")]
+    pub eigenvalues_per_s: Vec<Complex<f64>>,
 }
 
-impl Equilibrium {
-    /// Both signs right and every other gap open.
-    #[must_use]
-    pub fn admissible(&self) -> bool {
-        matches!(self.character, Character::Unstable | Character::Stable)
-    }
-
-    /// Admissible, and no motion that keeps the contacts grows.
-    #[must_use]
-    pub fn stable(&self) -> bool {
-        self.character == Character::Stable
-    }
-
-    /// Largest real part of its eigenvalues \[1/s\].
-    #[must_use]
-    pub fn growth(&self) -> f64 {
-        largest_growth(&self.eigenvalues)
-    }
-
-    /// Amplitude of the casing wave \[m\].
-    #[must_use]
-    pub fn amplitude(&self) -> f64 {
-        self.z[0].hypot(self.z[1])
-    }
+fn as_pairs<S: serde::Serializer>(values: &[Complex<f64>], out: S) -> Result<S::Ok, S::Error> {
+    out.collect_seq(values.iter().map(|value| [value.re, value.im]))
 }
 
 /// All equilibria at one speed \[rad/s\] that exist, rest first. The side is
@@ -265,16 +246,27 @@ pub(super) fn judged(
     };
     let torque = machine.nodal_diameters * scales.force * scales.length * lever;
     let angle = if scales.softness > 0.0 { scales.angle / scales.softness } else { 0.0 };
+    let contact = |&(side, multiplier, _): &(u32, f64, f64)| GroupContact {
+        side,
+        blades: rim.blades_of_side(side),
+        multiplier_n: multiplier * scales.force,
+    };
+    let z_m = [posture.z.0 * scales.length, posture.z.1 * scales.length];
     Ok(Equilibrium {
+        speed_rad_s: speed,
         kind,
-        speed,
-        contacts: loads.iter().map(|load| (load.0, load.1 * scales.force)).collect(),
-        z: [posture.z.0 * scales.length, posture.z.1 * scales.length],
-        alpha: [posture.turn.0 * angle, posture.turn.1 * angle],
-        smallest_gap: open * scales.length,
         character,
-        eigenvalues,
-        torque,
-        power: torque * speed,
+        admissible: matches!(character, Character::Unstable | Character::Stable),
+        stable: character == Character::Stable,
+        contacts: loads.iter().map(contact).collect(),
+        z_m,
+        amplitude_m: z_m[0].hypot(z_m[1]),
+        alpha_c_rad: posture.turn.0 * angle,
+        alpha_s_rad: posture.turn.1 * angle,
+        smallest_gap_m: open * scales.length,
+        torque_nm: torque,
+        power_w: torque * speed,
+        growth_per_s: largest_growth(&eigenvalues),
+        eigenvalues_per_s: eigenvalues,
     })
 }

@@ -21,19 +21,27 @@ pub struct ExcitedLock {
     /// The locked motion without the excitation.
     pub state: Equilibrium,
     /// Frequency in the blade frame, `E |Omega|` \[rad/s\].
-    pub frequency: f64,
+    pub frequency_rad_s: f64,
     /// Complex amplitudes of `x, y` (casing, blade frame) \[m\] and of `alpha_c`,
     /// `alpha_s` \[rad\], each the coefficient of `exp(i frequency t)`.
     pub response: [Complex<f64>; 4],
     /// Complex amplitudes of both group multipliers \[N\].
-    pub multipliers: [Complex<f64>; 2],
+    pub multipliers_n: [Complex<f64>; 2],
     /// Largest change of `|z|` over that of the locked motion.
     pub relative_amplitude: f64,
     /// Largest change of a multiplier over its mean.
     pub relative_multiplier: f64,
     /// The torque at which a multiplier would first reach zero, by the linear
     /// response \[N m\]; none where the excitation does not reach these modes.
-    pub release_torque: Option<f64>,
+    pub release_torque_nm: Option<f64>,
+}
+
+impl ExcitedLock {
+    /// Amplitude of the casing's response \[m\].
+    #[must_use]
+    pub fn casing_m(&self) -> f64 {
+        self.response[0].norm().hypot(self.response[1].norm())
+    }
 }
 
 /// Whether an engine order drives the modes of this machine.
@@ -101,19 +109,19 @@ fn at(
     let units = [scales.length, scales.length, angle, angle];
     let response = [0, 1, 2, 3].map(|i| shape[i] * units[i]);
     let multipliers = [0, 1].map(|i| pushes[i] * scales.force);
-    let means = [0, 1].map(|i| state.contacts.get(i).map_or(0.0, |contact| contact.1));
+    let means = [0, 1].map(|i| state.contacts.get(i).map_or(0.0, |contact| contact.multiplier_n));
     let over = |change: f64, whole: f64| if change == 0.0 { 0.0 } else { change / whole.abs() };
     let relative = [0, 1].map(|i| over(multipliers[i].norm(), means[i]));
     let relative_multiplier = relative[0].max(relative[1]);
     Ok(Some(ExcitedLock {
-        relative_amplitude: over(radial(&state, &response), state.amplitude()),
+        relative_amplitude: over(radial(&state, &response), state.amplitude_m),
         relative_multiplier,
-        release_torque: (relative_multiplier > 0.0)
+        release_torque_nm: (relative_multiplier > 0.0)
             .then(|| excitation.amplitude_nm / relative_multiplier),
         state,
-        frequency: frequency.abs(),
+        frequency_rad_s: frequency.abs(),
         response,
-        multipliers,
+        multipliers_n: multipliers,
     }))
 }
 
@@ -132,8 +140,8 @@ fn modal_load(machine: &Machine, order: u32) -> [Complex<f64>; 2] {
 
 /// Largest change of `|z|`: the part of the response along `z`.
 fn radial(state: &Equilibrium, response: &[Complex<f64>; 4]) -> f64 {
-    let amplitude = state.amplitude();
-    ((response[0] * state.z[0] + response[1] * state.z[1]) / amplitude).norm()
+    let amplitude = state.amplitude_m;
+    ((response[0] * state.z_m[0] + response[1] * state.z_m[1]) / amplitude).norm()
 }
 
 /// Coordinates and multipliers of a forced motion, scaled.

@@ -21,10 +21,10 @@ use crate::model::Machine;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fold {
     /// The largest speed with a corner state \[rad/s\].
-    pub speed: f64,
+    pub speed_rad_s: f64,
     /// Half the phase between the two bent contacts there \[rad\]; `delta` before
     /// they bend.
-    pub opening: f64,
+    pub opening_rad: f64,
 }
 
 /// The corner states, in order along their branch.
@@ -102,7 +102,8 @@ pub fn corner_branch(
     };
     Ok(CornerBranch {
         points: places.iter().map(state).collect::<Result<_, _>>()?,
-        fold: top.map(|top| Fold { speed: top.speed, opening: opening.delta + top.widening }),
+        fold: top
+            .map(|top| Fold { speed_rad_s: top.speed, opening_rad: opening.delta + top.widening }),
     })
 }
 

@@ -2,6 +2,8 @@
 //! corner of the blade frame, where it is an equilibrium (one harmonic is
 //! exact). Newton's method on Eq. (27), started from the closed form.
 
+use serde::Serialize;
+
 use super::equations::{Equations, Scales, Unknowns, Wave};
 use super::posture::Posture;
 use super::stability::Linearised;
@@ -9,24 +11,30 @@ use super::{Corner, Form, HarmonicError};
 use crate::model::Machine;
 
 /// The locked motion at one rotor speed.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct LockedPoint {
     /// Rotor speed `Omega` \[rad/s\].
-    pub speed: f64,
+    pub speed_rad_s: f64,
     /// `[Lambda_a, Lambda_b]`, summed over each group; negative is a push \[N\].
-    pub multipliers: [f64; 2],
+    pub multipliers_n: [f64; 2],
     /// Angle of one blade of each group, `[alpha_a, alpha_b]` \[rad\].
-    pub alpha: [f64; 2],
+    pub alpha_rad: [f64; 2],
     /// `u_cc`, cosine part of `u_c(t)`, Eq. (25) \[m\].
-    pub u_cc: f64,
+    pub u_cc_m: f64,
     /// `u_cs`, sine part of `u_c(t)` \[m\].
-    pub u_cs: f64,
+    pub u_cs_m: f64,
     /// `u_sc`, cosine part of `u_s(t)` \[m\].
-    pub u_sc: f64,
+    pub u_sc_m: f64,
     /// `u_ss`, sine part of `u_s(t)` \[m\].
-    pub u_ss: f64,
+    pub u_ss_m: f64,
+    /// Amplitude `|z|` of the casing wave \[m\].
+    pub amplitude_m: f64,
     /// Smallest gap of all groups not in contact \[m\]; infinite with none left.
-    pub smallest_gap: f64,
+    pub smallest_gap_m: f64,
+    /// Torque the rotor must give to hold the wave, `sum Lambda A` \[N m\].
+    pub torque_nm: f64,
+    /// Power it takes, `torque * Omega` \[W\].
+    pub power_w: f64,
     /// Whether contact can hold it: both multipliers push (or vanish) and
     /// every other gap is open.
     pub admissible: bool,
@@ -37,18 +45,6 @@ pub struct LockedPoint {
     /// Largest row of the eight equations (27), dimensionless: torques over
     /// `n_d k_c g0^2`, gaps over `g0`, forces over `k_c g0`.
     pub residual: f64,
-    /// Torque the rotor must give to hold the wave, `sum Lambda A` \[N m\].
-    pub torque: f64,
-    /// Power it takes, `torque * Omega` \[W\].
-    pub power: f64,
-}
-
-impl LockedPoint {
-    /// Amplitude `|z|` of the casing wave \[m\].
-    #[must_use]
-    pub fn amplitude(&self) -> f64 {
-        self.u_cc.hypot(self.u_sc)
-    }
 }
 
 /// Solver of the locked motion of one machine in one corner and one form.
@@ -159,19 +155,20 @@ impl Locked {
         };
         let torque = self.machine.nodal_diameters * self.scales.force * length * lever;
         LockedPoint {
-            speed,
-            multipliers: multipliers.map(|l| l * self.scales.force),
-            alpha: [alpha_a, alpha_b].map(|angle| angle * self.scales.angle),
-            u_cc: x * length,
-            u_cs: -y * length,
-            u_sc: y * length,
-            u_ss: x * length,
-            smallest_gap,
+            speed_rad_s: speed,
+            multipliers_n: multipliers.map(|l| l * self.scales.force),
+            alpha_rad: [alpha_a, alpha_b].map(|angle| angle * self.scales.angle),
+            u_cc_m: x * length,
+            u_cs_m: -y * length,
+            u_sc_m: y * length,
+            u_ss_m: x * length,
+            amplitude_m: (x * length).hypot(y * length),
+            smallest_gap_m: smallest_gap,
+            torque_nm: torque,
+            power_w: torque * speed,
             admissible,
             stable,
             residual: self.equations.printed_residual(wave, unknowns),
-            torque,
-            power: torque * speed,
         }
     }
 }
@@ -187,7 +184,7 @@ impl Locked {
 /// let speeds: Vec<f64> = (0..=500).map(f64::from).collect();
 /// let sweep = locked_motion(&machine, Form::Modal, false, Some([6, 21]), &speeds)?;
 /// let last = sweep.points[500];
-/// assert!((last.multipliers[0] - -150.85535).abs() < 1e-4);
+/// assert!((last.multipliers_n[0] - -150.85535).abs() < 1e-4);
 /// assert!(last.admissible && last.stable);
 /// assert!(!sweep.points[292].admissible && sweep.points[293].admissible);
 /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -33,11 +33,13 @@ mod stability;
 pub use branches::{Branches, Threshold};
 pub use campbell::{Campbell, Coincidence, Line};
 pub use corner::{Corner, PAPER_PAIR};
-pub use equilibria::{Character, Equilibrium, Kind, equilibria, equilibrium};
+pub use equilibria::{Character, Equilibrium, GroupContact, Kind, equilibria, equilibrium};
 pub use error::HarmonicError;
 pub use excitation::{ExcitedLock, drives, excited_lock};
 pub use fold::{CornerBranch, Fold, corner_branch};
 pub use form::Form;
 pub use locked::{Locked, LockedPoint, Sweep, locked_motion};
-pub use slip::{Crossing, NoSlip, SlipOrbit, SlipPoint, slip_limits, slip_map, slip_over};
+pub use slip::{
+    Crossing, NoSlip, SlipLimit, SlipOrbit, SlipPoint, SlipRegion, slip_limits, slip_map, slip_over,
+};
 pub use spectrum::{Harmonic, SlipSpectrum, Truncation, slip_spectrum};

@@ -3,14 +3,16 @@
 //! lasting slip is a fixed point of it.
 
 use serde::Serialize;
+use strum::{Display, IntoStaticStr};
 
 use super::slide::{Arc, Slide};
 use super::{HarmonicError, branches::changes};
 use crate::model::Machine;
 
 /// Why there is no lasting slip at some speed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Display, IntoStaticStr)]
 #[serde(rename_all = "kebab-case")]
+#[strum(serialize_all = "kebab-case")]
 pub enum NoSlip {
     /// Corners of a right angle or less (`N' <= 4`) stop the wave.
     StopsAtCorner,
@@ -23,53 +25,40 @@ pub enum NoSlip {
     Lifts,
 }
 
-impl NoSlip {
-    /// The word used in reports.
-    #[must_use]
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::StopsAtCorner => "stops-at-corner",
-            Self::BelowCritical => "below-critical",
-            Self::NoDrive => "no-drive",
-            Self::Lifts => "lifts",
-        }
-    }
-}
-
 /// A lasting slip.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct SlipOrbit {
     /// Angular speed of the casing wave over `n_d`; between zero and the
     /// rotor's \[rad/s\].
-    pub wave_speed: f64,
+    pub wave_speed_rad_s: f64,
     /// Time to cross one side \[s\].
-    pub period: f64,
+    pub period_s: f64,
     /// Speed along the side just after a corner \[m/s\].
-    pub speed_after: f64,
+    pub speed_after_corner_m_s: f64,
     /// Speed along the side just before the next corner \[m/s\].
-    pub speed_before: f64,
+    pub speed_before_corner_m_s: f64,
     /// Slope of the map at the fixed point, `cos^2(2 delta) exp(-2 zeta_c
     /// omega_c T)`; below one, so that slip is stable where it exists.
     pub slope: f64,
     /// Smallest push along a side; negative would be a pull \[N\].
-    pub least_push: f64,
+    pub least_push_n: f64,
     /// Impulse on the side met at a corner \[N s\].
-    pub corner_impulse: f64,
+    pub corner_impulse_ns: f64,
     /// Mean torque the rotor must give, impulses included \[N m\].
-    pub torque: f64,
+    pub torque_nm: f64,
     /// Mean power it takes \[W\].
-    pub power: f64,
+    pub power_w: f64,
     /// Mean power the casing's damper takes \[W\].
-    pub damper_power: f64,
+    pub damper_power_w: f64,
     /// Mean power lost at the corners \[W\].
-    pub corner_power: f64,
+    pub corner_power_w: f64,
 }
 
 /// Slip at one rotor speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SlipPoint {
     /// Rotor speed \[rad/s\].
-    pub speed: f64,
+    pub speed_rad_s: f64,
     /// The lasting slip, or why there is none.
     pub outcome: Result<SlipOrbit, NoSlip>,
 }
@@ -92,11 +81,11 @@ impl SlipPoint {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
     /// Speed just after the next corner \[m/s\].
-    pub speed_after: f64,
+    pub speed_after_corner_m_s: f64,
     /// Time it took \[s\].
-    pub time: f64,
+    pub time_s: f64,
     /// Smallest push on the way \[N\]; below zero the contact is lost.
-    pub least_push: f64,
+    pub least_push_n: f64,
     /// Derivative of `speed_after` by the speed it started with.
     pub slope: f64,
 }
@@ -113,11 +102,11 @@ pub struct Crossing {
 /// scene.set("casing.damping_ratio", "0.01")?;
 /// let machine = scene.machine();
 /// let orbit = slip_over(&machine, &[500.0])?[0].outcome.unwrap();
-/// let mut speed = 2.0 * orbit.speed_after;
+/// let mut speed = 2.0 * orbit.speed_after_corner_m_s;
 /// for _ in 0..2000 {
-///     speed = slip_map(&machine, 500.0, speed).unwrap().speed_after;
+///     speed = slip_map(&machine, 500.0, speed).unwrap().speed_after_corner_m_s;
 /// }
-/// assert!((speed / orbit.speed_after - 1.0).abs() < 1e-12);
+/// assert!((speed / orbit.speed_after_corner_m_s - 1.0).abs() < 1e-12);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[must_use]
@@ -127,9 +116,9 @@ pub fn slip_map(machine: &Machine, rotor_speed: f64, speed: f64) -> Option<Cross
     let arc = slide.cross(speed / units.speed)?;
     let [after, before] = slide.end_speeds(&arc);
     Some(Crossing {
-        speed_after: slide.kept * before * units.speed,
-        time: arc.time / machine.omega_c,
-        least_push: slide.least_push(&arc) * units.force,
+        speed_after_corner_m_s: slide.kept * before * units.speed,
+        time_s: arc.time / machine.omega_c,
+        least_push_n: slide.least_push(&arc) * units.force,
         slope: slide.kept * (after / before) * contraction(&slide, &arc),
     })
 }
@@ -148,12 +137,32 @@ pub fn slip_over(machine: &Machine, speeds: &[f64]) -> Result<Vec<SlipPoint>, Ha
     Ok(speeds.iter().map(|&speed| point(machine, speed)).collect())
 }
 
-/// The speeds between the least and the largest of a list where slip appears
-/// (`true`) or vanishes, to the last digit \[rad/s\].
+/// A speed where slip appears or vanishes.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct SlipLimit {
+    /// Where, to the last digit \[rad/s\].
+    pub speed_rad_s: f64,
+    /// Whether there is slip above it and none below.
+    pub appears: bool,
+}
+
+/// Where there is slip at one damping ratio.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SlipRegion {
+    /// Damping ratio of the casing.
+    pub casing_damping_ratio: f64,
+    /// Whether there is slip at the lowest speed.
+    pub exists_at_lowest: bool,
+    /// Speeds where slip appears and vanishes, in order.
+    pub limits: Vec<SlipLimit>,
+}
+
+/// The speeds between the least and the largest of a list \[rad/s\] where slip
+/// appears or vanishes.
 ///
 /// # Errors
 /// As `slip_over`.
-pub fn slip_limits(machine: &Machine, speeds: &[f64]) -> Result<Vec<(f64, bool)>, HarmonicError> {
+pub fn slip_limits(machine: &Machine, speeds: &[f64]) -> Result<Vec<SlipLimit>, HarmonicError> {
     slip_over(machine, speeds)?;
     let mut sorted = speeds.to_vec();
     sorted.sort_by(f64::total_cmp);
@@ -161,7 +170,10 @@ pub fn slip_limits(machine: &Machine, speeds: &[f64]) -> Result<Vec<(f64, bool)>
     let mut limits = Vec::new();
     for pair in sorted.windows(2) {
         if let [low, high] = *pair {
-            limits.extend(changes(low, high, &exists)?.iter().map(|&(speed, _, to)| (speed, to)));
+            let found = changes(low, high, &exists)?;
+            limits.extend(
+                found.iter().map(|&(speed_rad_s, _, appears)| SlipLimit { speed_rad_s, appears }),
+            );
         }
     }
     Ok(limits)
@@ -180,7 +192,7 @@ pub(super) fn repeating(machine: &Machine, speed: f64) -> Result<(Slide, Arc), N
 
 fn point(machine: &Machine, speed: f64) -> SlipPoint {
     let outcome = repeating(machine, speed).map(|(slide, arc)| orbit(machine, speed, &slide, &arc));
-    SlipPoint { speed, outcome }
+    SlipPoint { speed_rad_s: speed, outcome }
 }
 
 /// Units of speed \[m/s\] and force \[N\] behind the scaled flow.
@@ -213,17 +225,17 @@ fn orbit(machine: &Machine, speed: f64, slide: &Slide, arc: &Arc) -> SlipOrbit {
     let power = unit * machine.omega_c;
     let drift = 2.0 * machine.rim.delta * machine.omega_c / arc.time / machine.nodal_diameters;
     SlipOrbit {
-        wave_speed: speed - speed.signum() * drift,
-        period: arc.time / machine.omega_c,
-        speed_after: after * units.speed,
-        speed_before: before * units.speed,
+        wave_speed_rad_s: speed - speed.signum() * drift,
+        period_s: arc.time / machine.omega_c,
+        speed_after_corner_m_s: after * units.speed,
+        speed_before_corner_m_s: before * units.speed,
         slope: slide.kept * slide.kept * contraction(slide, arc),
-        least_push: slide.least_push(arc) * units.force,
-        corner_impulse: impulse * units.force / machine.omega_c,
-        torque,
-        power: torque * speed,
-        damper_power: power * 2.0 * slide.zeta * means.rate_square,
-        corner_power: power * 0.5 * impulse * impulse / arc.time,
+        least_push_n: slide.least_push(arc) * units.force,
+        corner_impulse_ns: impulse * units.force / machine.omega_c,
+        torque_nm: torque,
+        power_w: torque * speed,
+        damper_power_w: power * 2.0 * slide.zeta * means.rate_square,
+        corner_power_w: power * 0.5 * impulse * impulse / arc.time,
     }
 }
 

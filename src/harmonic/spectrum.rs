@@ -11,6 +11,7 @@
 use std::f64::consts::TAU;
 
 use nalgebra::Complex;
+use serde::Serialize;
 
 use super::slide::{Arc, Slide};
 use super::slip::repeating;
@@ -18,38 +19,38 @@ use super::{HarmonicError, NoSlip};
 use crate::model::Machine;
 
 /// One harmonic of the casing wave in the standing frame.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Harmonic {
     /// Its number; 0 is the travelling wave itself.
     pub number: i32,
     /// `omega_k` \[rad/s\]; negative turns backward.
-    pub frequency: f64,
+    pub frequency_rad_s: f64,
     /// `|Z_k|` \[m\].
-    pub amplitude: f64,
+    pub amplitude_m: f64,
 }
 
 /// What is left out with the numbers `-H..=H` only.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Truncation {
     /// `H`.
     pub harmonics: u32,
     /// Root mean square of what is left out \[m\].
-    pub rms_error: f64,
+    pub rms_error_m: f64,
     /// Largest distance from the exact orbit \[m\].
-    pub max_error: f64,
+    pub max_error_m: f64,
     /// Deepest penetration of the truncated orbit \[m\].
-    pub penetration: f64,
+    pub penetration_m: f64,
 }
 
 /// The Fourier series of a lasting slip.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SlipSpectrum {
     /// Rotor speed \[rad/s\].
-    pub speed: f64,
+    pub speed_rad_s: f64,
     /// Time to cross one side, after which the orbit repeats, turned \[s\].
-    pub period: f64,
+    pub period_s: f64,
     /// Root mean square amplitude of the whole wave \[m\].
-    pub amplitude: f64,
+    pub amplitude_m: f64,
     /// Coefficients in the order 0, 1, -1, 2, -2, ...
     pub terms: Vec<Harmonic>,
     /// Truncation errors for `H = 0, 1, 2, 4, 8, ...`.
@@ -140,20 +141,26 @@ impl Orbit {
                 let whirl = machine.nu(speed) + speed.signum() * self.turn(number) / period;
                 terms.push(Harmonic {
                     number,
-                    frequency: whirl,
-                    amplitude: length * coefficient.norm(),
+                    frequency_rad_s: whirl,
+                    amplitude_m: length * coefficient.norm(),
                 });
             }
             if harmonics == 0 || harmonics.is_power_of_two() || harmonics == most {
                 truncations.push(Truncation {
                     harmonics,
-                    rms_error: length * left.max(0.0).sqrt(),
-                    max_error: length * largest(&exact, &sum),
-                    penetration: length * self.penetration(&sum),
+                    rms_error_m: length * left.max(0.0).sqrt(),
+                    max_error_m: length * largest(&exact, &sum),
+                    penetration_m: length * self.penetration(&sum),
                 });
             }
         }
-        SlipSpectrum { speed, period, amplitude, terms, truncations }
+        SlipSpectrum {
+            speed_rad_s: speed,
+            period_s: period,
+            amplitude_m: amplitude,
+            terms,
+            truncations,
+        }
     }
 
     /// How deep these points lie outside the side slid on and its neighbours.
@@ -210,14 +217,14 @@ mod tests {
             // Coefficients like 1/k^2: the largest error falls like 1/H, the
             // root mean square like H^-3/2.
             let (now, next) = (at(h), at(2 * h));
-            let max_ratio = now.max_error / next.max_error;
-            let rms_ratio = now.rms_error / next.rms_error;
+            let max_ratio = now.max_error_m / next.max_error_m;
+            let rms_ratio = now.rms_error_m / next.rms_error_m;
             assert!((1.9..2.1).contains(&max_ratio), "{h}: {max_ratio}");
             assert!((2.6..3.05).contains(&rms_ratio), "{h}: {rms_ratio}");
         }
-        let total: f64 = spectrum.terms.iter().map(|term| term.amplitude.powi(2)).sum();
-        let left = at(256).rms_error.powi(2);
-        assert!((total + left - spectrum.amplitude.powi(2)).abs() < 1e-12 * total);
+        let total: f64 = spectrum.terms.iter().map(|term| term.amplitude_m.powi(2)).sum();
+        let left = at(256).rms_error_m.powi(2);
+        assert!((total + left - spectrum.amplitude_m.powi(2)).abs() < 1e-12 * total);
     }
 
     #[test]
@@ -225,15 +232,15 @@ mod tests {
         let machine = machine();
         let spectrum = slip_spectrum(&machine, 500.0, 8).unwrap().unwrap();
         let orbit = super::super::slip_over(&machine, &[500.0]).unwrap()[0].outcome.unwrap();
-        let wave = spectrum.terms[0].frequency / 3.0;
-        assert!((wave - orbit.wave_speed).abs() < 1e-10);
-        assert!(spectrum.terms[0].amplitude > 0.99 * spectrum.amplitude);
+        let wave = spectrum.terms[0].frequency_rad_s / 3.0;
+        assert!((wave - orbit.wave_speed_rad_s).abs() < 1e-10);
+        assert!(spectrum.terms[0].amplitude_m > 0.99 * spectrum.amplitude_m);
         // Far harmonics: |jump of z'| T/(2 pi k)^2, the jump along both normals.
-        let jump = orbit.corner_impulse / machine.casing_mass;
+        let jump = orbit.corner_impulse_ns / machine.casing_mass;
         let far = slip_spectrum(&machine, 500.0, 256).unwrap().unwrap();
         let last = far.terms.iter().find(|term| term.number == 256).unwrap();
-        let expected = jump * orbit.period / (TAU * 256.0).powi(2);
-        assert!((last.amplitude / expected - 1.0).abs() < 2e-2);
+        let expected = jump * orbit.period_s / (TAU * 256.0).powi(2);
+        assert!((last.amplitude_m / expected - 1.0).abs() < 2e-2);
     }
 
     #[test]

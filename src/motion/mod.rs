@@ -22,8 +22,8 @@ pub use drive::{Pulse, Rotor, State};
 pub use event::Event;
 pub use failure::{Failure, FailureReason};
 pub use run::{
-    FinalState, ImpactReport, RunReport, Sample, Sampling, Settled, SolverReport, settle, simulate,
-    simulate_with, verdict_of,
+    FinalState, ImpactReport, RunReport, Sample, Sampling, Settled, SolverReport, run_to_end,
+    settle, simulate, simulate_with, verdict_of,
 };
 pub use script::{Change, Script};
 pub use sensitivity::{is_sensitive, is_sensitive_with};

@@ -1,8 +1,7 @@
 //! One whole run: drive a motion to its end, sample it on the way, judge it,
-//! and report it in the shape of `rubscope.run/1`.
+//! and report it.
 
 use std::f64::consts::TAU;
-use std::time::Instant;
 
 use serde::Serialize;
 
@@ -41,7 +40,7 @@ pub struct Sampling {
     pub gaps: bool,
 }
 
-/// How the run was solved, and at what cost.
+/// How the run was solved, and in how many steps.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SolverReport {
     /// Which solver.
@@ -54,8 +53,6 @@ pub struct SolverReport {
     pub steps: Option<u64>,
     /// Changes of mode computed.
     pub events: Option<u64>,
-    /// Wall time, sampling included \[s\].
-    pub wall_s: f64,
 }
 
 /// One impact, with the blades of its group.
@@ -82,11 +79,9 @@ pub struct FinalState {
     pub alpha_s_rad: f64,
 }
 
-/// A whole run, as `run --json` prints it.
+/// A whole run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RunReport {
-    /// `rubscope.run/1`.
-    pub schema: &'static str,
     /// The resolved scene.
     pub scene: CheckedScene,
     /// How it was solved.
@@ -99,8 +94,11 @@ pub struct RunReport {
     pub impact_count: u64,
     /// The state at the end.
     pub r#final: FinalState,
-    /// What was kept watch on.
+    /// Largest errors of the run.
     pub checks: Checks,
+    /// What another run must agree with if this one is not sensitive.
+    #[serde(skip)]
+    pub settled: Settled,
 }
 
 /// How a run lasts, without its history.
@@ -187,7 +185,19 @@ pub fn simulate_with(
     sampling: Sampling,
     sink: &mut dyn FnMut(&Sample),
 ) -> RunReport {
-    let started = Instant::now();
+    let mut report = run_to_end(scene, script, sampling, sink);
+    report.outcome.sensitive = is_sensitive_with(scene, script, report.settled);
+    report
+}
+
+/// As `simulate_with`, without the runs that find out whether the outcome is
+/// sensitive: it is reported as not sensitive.
+pub fn run_to_end(
+    scene: &CheckedScene,
+    script: &Script,
+    sampling: Sampling,
+    sink: &mut dyn FnMut(&Sample),
+) -> RunReport {
     let mut scripted = Scripted::new(Motion::new(scene), script);
     let end = scene.solver.end_s;
     let mut wave = Wave::over(scene, script);
@@ -214,10 +224,7 @@ pub fn simulate_with(
             break;
         }
     }
-    let mut report = report(scene, &scripted.motion, &wave, started);
-    let settled = Settled::of(&scripted.motion, report.outcome.verdict);
-    report.outcome.sensitive = is_sensitive_with(scene, script, settled);
-    report
+    report(scene, &scripted.motion, &wave)
 }
 
 fn take_sample(motion: &mut Motion, gaps: bool) -> Sample {
@@ -231,7 +238,7 @@ fn take_sample(motion: &mut Motion, gaps: bool) -> Sample {
     }
 }
 
-fn report(scene: &CheckedScene, motion: &Motion, wave: &Wave, started: Instant) -> RunReport {
+fn report(scene: &CheckedScene, motion: &Motion, wave: &Wave) -> RunReport {
     let machine = motion.machine();
     let rim = &machine.rim;
     let (log, state) = (motion.contacts(), motion.state());
@@ -258,7 +265,6 @@ fn report(scene: &CheckedScene, motion: &Motion, wave: &Wave, started: Instant) 
         wave_speed_rad_s,
     };
     RunReport {
-        schema: "rubscope.run/1",
         scene: scene.clone(),
         solver: SolverReport {
             kind: scene.solver.kind,
@@ -266,7 +272,6 @@ fn report(scene: &CheckedScene, motion: &Motion, wave: &Wave, started: Instant) 
             model: scene.solver.model,
             steps: motion.steps(),
             events: motion.events(),
-            wall_s: started.elapsed().as_secs_f64(),
         },
         outcome,
         impacts: log
@@ -283,5 +288,6 @@ fn report(scene: &CheckedScene, motion: &Motion, wave: &Wave, started: Instant) 
             alpha_s_rad: state.alpha[1],
         },
         checks: motion.checks(),
+        settled: Settled::of(motion, verdict),
     }
 }

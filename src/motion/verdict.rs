@@ -10,6 +10,7 @@
 //! *decay*: no contact. *failed*: the run stopped early.
 
 use serde::Serialize;
+use strum::{AsRefStr, Display, EnumString};
 
 use super::{ContactLog, Touching};
 
@@ -17,8 +18,9 @@ use super::{ContactLog, Touching};
 pub const LAST_PART: f64 = 0.1;
 
 /// How a motion lasts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Display, EnumString, AsRefStr)]
 #[serde(rename_all = "lowercase")]
+#[strum(serialize_all = "lowercase")]
 pub enum Verdict {
     /// The motion dies away without further contact.
     Decay,
@@ -38,31 +40,6 @@ impl Verdict {
     /// Every verdict, in the order of the documentation.
     pub const ALL: [Self; 6] =
         [Self::Decay, Self::Bounce, Self::Slip, Self::Locked, Self::Adhesive, Self::Failed];
-
-    /// The word used in files and on screen.
-    #[must_use]
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Decay => "decay",
-            Self::Bounce => "bounce",
-            Self::Slip => "slip",
-            Self::Locked => "locked",
-            Self::Adhesive => "adhesive",
-            Self::Failed => "failed",
-        }
-    }
-
-    /// The verdict a word stands for.
-    #[must_use]
-    pub fn from_word(word: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|verdict| verdict.word() == word)
-    }
-}
-
-impl std::fmt::Display for Verdict {
-    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        out.pad(self.word())
-    }
 }
 
 /// One phase group in contact, with its multiplier.
@@ -96,7 +73,7 @@ pub struct Outcome {
     pub wave_speed_rad_s: Option<f64>,
 }
 
-/// What a run kept watch on.
+/// Largest errors of a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Checks {
     /// Deepest penetration of an accepted state \[m\].
@@ -183,12 +160,5 @@ mod tests {
             }),
             Verdict::Decay
         );
-    }
-
-    #[test]
-    fn words_name_every_verdict() {
-        for verdict in Verdict::ALL {
-            assert_eq!(Verdict::from_word(verdict.word()), Some(verdict));
-        }
     }
 }

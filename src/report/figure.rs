@@ -12,16 +12,11 @@ pub fn table(panel: &Panel) -> Table {
 
 fn wide(panel: &Panel) -> Table {
     let unit = panel.y.column.split_once('_').map_or("", |(_, unit)| unit);
-    let names: Vec<String> = panel
+    let names = panel
         .series
         .iter()
-        .map(|series| format!("{}_{unit}", series.label.replace(", ", "_").replace(' ', "_")))
-        .collect();
-    let mut table = Table::new(
-        &std::iter::once(panel.x.column)
-            .chain(names.iter().map(String::as_str))
-            .collect::<Vec<_>>(),
-    );
+        .map(|series| format!("{}_{unit}", series.label.replace(", ", "_").replace(' ', "_")));
+    let mut table = Table::new(std::iter::once(panel.x.column.to_string()).chain(names));
     let xs = panel.series.first().map(|series| series.points.as_slice()).unwrap_or_default();
     for (row, (x, _)) in xs.iter().enumerate() {
         let values = panel.series.iter().map(|series| series.points.get(row).map(|point| point.1));
@@ -31,7 +26,7 @@ fn wide(panel: &Panel) -> Table {
 }
 
 fn long(panel: &Panel) -> Table {
-    let mut table = Table::new(&["series", panel.x.column, panel.y.column]);
+    let mut table = Table::new(["series", &panel.x.column, &panel.y.column]);
     for series in &panel.series {
         for &(x, y) in &series.points {
             table.push(vec![series.label.as_str().into(), x.into(), y.into()]);

@@ -1,45 +1,9 @@
-//! Files: the format by the ending of the name, and writing beside the target
-//! first, so that a failure never leaves half a file in its place.
+//! Files: written beside their target first, so that a failure never leaves half a file in its place.
 
 use std::ffi::OsString;
 use std::fs::File;
 use std::io::{BufWriter, Error, ErrorKind, Result, Write};
 use std::path::{Path, PathBuf};
-
-use super::{History, csv, npz};
-
-/// File formats of a history.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum HistoryFormat {
-    /// Text, for everything.
-    Csv,
-    /// Arrays, for numpy.
-    Npz,
-}
-
-impl HistoryFormat {
-    /// The format a file name asks for by its ending.
-    #[must_use]
-    pub fn of(path: &Path) -> Option<Self> {
-        let ending = path.extension()?.to_str()?.to_ascii_lowercase();
-        match ending.as_str() {
-            "csv" => Some(Self::Csv),
-            "npz" => Some(Self::Npz),
-            _ => None,
-        }
-    }
-
-    /// Writes a history in this format.
-    ///
-    /// # Errors
-    /// What the writer refuses.
-    pub fn write(self, history: &History, out: &mut dyn Write) -> Result<()> {
-        match self {
-            Self::Csv => csv::write(history, out),
-            Self::Npz => npz::write(history, out),
-        }
-    }
-}
 
 /// Puts what `write` writes in the place of `path`, all of it or nothing. A
 /// link is followed, and a device or a pipe is written to as it is.
@@ -95,14 +59,6 @@ fn beside(path: &Path) -> PathBuf {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_ending_decides_the_format() {
-        assert_eq!(HistoryFormat::of(Path::new("a/b.CSV")), Some(HistoryFormat::Csv));
-        assert_eq!(HistoryFormat::of(Path::new("b.npz")), Some(HistoryFormat::Npz));
-        assert_eq!(HistoryFormat::of(Path::new("csv")), None);
-        assert_eq!(HistoryFormat::of(Path::new("b.xlsx")), None);
-    }
 
     #[test]
     fn a_failure_leaves_the_old_file_and_no_other() {

@@ -1,5 +1,8 @@
 //! The history of a run as named columns, the same in every file format.
 
+use std::io::{Result, Write};
+
+use super::table::{Cell, write_csv};
 use crate::motion::Sample;
 
 /// Columns before the gaps of the single blades.
@@ -87,6 +90,16 @@ impl History {
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
+
+    /// Writes CSV: a header line, then one line a sample.
+    ///
+    /// # Errors
+    /// What the writer refuses.
+    pub fn write_csv(&self, out: &mut dyn Write) -> Result<()> {
+        let value = |row: usize| move |column: &Column| column.values.get(row).copied().into();
+        let row = |row| self.columns.iter().map(value(row)).collect::<Vec<Cell>>();
+        write_csv(self.columns.iter().map(|column| &column.name), (0..self.len()).map(row), out)
+    }
 }
 
 #[cfg(test)]
@@ -126,5 +139,26 @@ pub(super) mod tests {
         history.push(&sample(f64::NAN));
         history.push(&Sample { rotor_angle_rad: f64::INFINITY, ..sample(0.1) });
         assert!(history.is_empty());
+    }
+
+    #[test]
+    fn every_number_reads_back_as_itself() {
+        let mut history = History::new(3);
+        history.push(&sample(0.1 + 0.2));
+        history.push(&sample(1.0 / 3.0 * 1e-9));
+        let mut text = Vec::new();
+        history.write_csv(&mut text).unwrap();
+        let mut reader = csv::Reader::from_reader(text.as_slice());
+        let names: Vec<String> = reader.headers().unwrap().iter().map(String::from).collect();
+        let mut rows = 0;
+        for (row, record) in reader.records().enumerate() {
+            for (index, cell) in record.unwrap().iter().enumerate() {
+                let column = &history.columns()[index];
+                assert_eq!(column.name, names[index]);
+                assert_eq!(cell.parse::<f64>().unwrap(), column.values[row]);
+            }
+            rows += 1;
+        }
+        assert_eq!(rows, 2);
     }
 }

@@ -4,6 +4,9 @@
 use std::io::Write;
 
 use serde::Serialize;
+use serde_json::{Value, json};
+
+use crate::motion::RunReport;
 
 /// Writes a report, indented, with a newline at its end.
 ///
@@ -12,6 +15,45 @@ use serde::Serialize;
 pub fn write(report: &impl Serialize, mut out: &mut dyn Write) -> std::io::Result<()> {
     serde_json::to_writer_pretty(&mut out, report)?;
     writeln!(out)
+}
+
+/// Writes a report under the name of its schema.
+///
+/// # Errors
+/// What the writer refuses.
+pub fn write_as(
+    schema: &'static str,
+    report: &impl Serialize,
+    out: &mut dyn Write,
+) -> std::io::Result<()> {
+    #[derive(Serialize)]
+    struct Named<'a, T> {
+        schema: &'static str,
+        #[serde(flatten)]
+        report: &'a T,
+    }
+    write(&Named { schema, report }, out)
+}
+
+/// Writes a run (`rubscope.run/1`) with the wall time it took \[s\], and the
+/// changes on the way where there are any.
+///
+/// # Errors
+/// What the writer refuses.
+pub fn write_run(
+    report: &RunReport,
+    wall_s: f64,
+    changes: Option<&impl Serialize>,
+    out: &mut dyn Write,
+) -> std::io::Result<()> {
+    let mut value = json!(report);
+    if let Some(Value::Object(solver)) = value.get_mut("solver") {
+        solver.insert("wall_s".to_string(), json!(wall_s));
+    }
+    if let (Some(changes), Some(report)) = (changes, value.as_object_mut()) {
+        report.insert("changes".to_string(), json!(changes));
+    }
+    write_as("rubscope.run/1", &value, out)
 }
 
 #[cfg(test)]

@@ -1,12 +1,14 @@
-//! The interaction map as JSON (`rubscope.map/1`), as CSV, and as text with
-//! one character a cell.
+//! The interaction map as JSON (`rubscope.map/1`), as CSV, as a figure with
+//! the curves that bound its zones, and as text with one character a cell.
 
 use std::io::{Result, Write};
 
 use serde_json::{Map as Object, Value, json};
 
 use super::number::short;
+use super::table::{self, Table};
 use crate::motion::Verdict;
+use crate::study::figures::{Figure, Panel, Quantity, Series, Style};
 use crate::study::{Axis, Cell, Map, overlay};
 
 /// Rows the text map is thinned to.
@@ -53,19 +55,59 @@ pub fn leaf(axis: &Axis) -> &str {
 /// # Errors
 /// What the writer says.
 pub fn write_csv(map: &Map, out: &mut dyn Write) -> Result<()> {
-    let mut csv = csv::Writer::from_writer(out);
-    csv.write_record([leaf(&map.plan.x), leaf(&map.plan.y), "verdict", "sensitive"])?;
-    for row in 0..map.plan.y.count {
-        for column in 0..map.plan.x.count {
-            let (verdict, sensitive) = match map.at(column, row) {
-                Some(cell) => (cell.verdict.word(), cell.sensitive.to_string()),
-                None => ("", String::new()),
-            };
-            let (x, y) = (map.plan.x.value(column), map.plan.y.value(row));
-            csv.write_record([&x.to_string(), &y.to_string(), verdict, &sensitive])?;
-        }
+    let (x, y) = (&map.plan.x, &map.plan.y);
+    let mut table = Table::new([leaf(x), leaf(y), "verdict", "sensitive"]);
+    for (row, column) in (0..y.count).flat_map(|row| (0..x.count).map(move |column| (row, column)))
+    {
+        let cell = map.at(column, row);
+        table.push(vec![
+            // Values of an axis are never written with a power of ten.
+            x.value(column).to_string().into(),
+            y.value(row).to_string().into(),
+            cell.map_or_else(String::new, |cell| cell.verdict.to_string()).into(),
+            cell.map_or(table::Cell::Empty, |cell| cell.sensitive.into()),
+        ]);
     }
-    csv.flush()
+    table.write_csv(out)
+}
+
+/// The map as a figure, with these curves.
+#[must_use]
+pub fn figure(map: &Map, curves: &[overlay::Curve]) -> Figure {
+    let (scene, x, y) = (&map.plan.scene, &map.plan.x, &map.plan.y);
+    let quantity = |axis: &Axis| Quantity {
+        column: leaf(axis).to_string().into(),
+        label: axis.path.clone().into(),
+        factor: 1.0,
+        log: axis.log,
+    };
+    let columns = x.count as usize;
+    let places = |chosen: &dyn Fn(Cell) -> bool| -> Vec<(f64, f64)> {
+        let found = map.cells.iter().enumerate().filter(|(_, cell)| cell.is_some_and(chosen));
+        let at =
+            |index: usize| (x.value((index % columns) as u32), y.value((index / columns) as u32));
+        found.map(|(index, _)| at(index)).collect()
+    };
+    let mut series: Vec<Series> = Verdict::ALL
+        .iter()
+        .map(|verdict| {
+            let cells = places(&|cell| cell.verdict == *verdict);
+            Series::new(verdict.as_ref(), Style::Cells(*verdict), cells)
+        })
+        .collect();
+    series.push(Series::new("sensitive", Style::Dots, places(&|cell| cell.sensitive)));
+    let inside =
+        |axis: &Axis, value| (-0.5..=f64::from(axis.count) - 0.5).contains(&axis.place(value));
+    for (curve, colour) in curves.iter().zip([5, 2, 1]) {
+        let shown = curve.points.iter().copied().filter(|at| inside(x, at.0) && inside(y, at.1));
+        series.push(Series::new(curve.name, Style::Line(colour), shown));
+    }
+    series.retain(|series| !series.points.is_empty());
+    Figure {
+        title: format!("{} ({} contact)", scene.title, scene.solver.contact),
+        note: String::new(),
+        panels: vec![Panel::new("", quantity(x), quantity(y), series)],
+    }
 }
 
 /// The character of a cell: a mark for the verdict, its first letter where it

@@ -1,21 +1,17 @@
 //! Reports: one file per format. A report takes what a computation returned
 //! and a place to write to; it computes nothing itself.
 
-pub mod csv;
 pub mod figure;
 pub mod file;
 pub mod hbm;
 pub mod history;
 pub mod json;
 pub mod map;
-pub mod map_svg;
 pub mod npz;
 pub mod number;
 pub mod precision;
-pub mod precision_svg;
 pub mod summary;
 pub mod svg;
 pub mod table;
 
-pub use file::HistoryFormat;
 pub use history::History;

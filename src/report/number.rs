@@ -28,6 +28,18 @@ pub fn short(x: f64) -> String {
     }
 }
 
+/// A number rounded to so many significant digits, at least one.
+#[must_use]
+pub fn rounded(x: f64, digits: usize) -> f64 {
+    format!("{x:.*e}", digits.saturating_sub(1)).parse().unwrap_or(x)
+}
+
+/// The shortest text that reads back as this number.
+#[must_use]
+pub fn exact(x: f64) -> String {
+    if x != 0.0 && !(1e-4..1e15).contains(&x.abs()) { format!("{x:e}") } else { x.to_string() }
+}
+
 /// A time \[s\] in the unit that suits it.
 #[must_use]
 pub fn time(seconds: f64) -> String {
@@ -54,7 +66,9 @@ pub fn count(n: u64, noun: &str) -> String {
     format!("{grouped} {noun}{}", if n == 1 { "" } else { "s" })
 }
 
-fn trimmed(digits: &str) -> &str {
+/// Decimal digits without zeros at the end.
+#[must_use]
+pub fn trimmed(digits: &str) -> &str {
     if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.') } else { digits }
 }
 

@@ -1,11 +1,12 @@
-//! Speed against error as a table, as CSV, and as a chart in text: log error
-//! against log time, one letter a series.
+//! Speed against error as a table, as CSV, as a figure, and as a chart in text:
+//! log error against log time, one letter a series.
 
 use std::io::{Result, Write};
 
-use super::number::{count, short, time};
+use super::number::{count, rounded, short, time};
 use super::table::Table;
 use crate::scene::{ContactLaw, ModelSize, SolverKind};
+use crate::study::figures::{Figure, Panel, Quantity, Series, Style};
 use crate::study::precision::{Precision, Row, Way};
 
 /// Size of the text chart.
@@ -33,7 +34,7 @@ pub fn letter(way: &Way) -> char {
 /// Name of a series.
 #[must_use]
 pub fn series(way: &Way) -> String {
-    format!("{} {} {}", way.solver.word(), way.contact.word(), way.model.word())
+    format!("{} {} {}", way.solver, way.contact, way.model)
 }
 
 /// What is to be said about the verdict of a row.
@@ -48,86 +49,47 @@ fn remark(row: &Row) -> &'static str {
 /// The rows with units, for people.
 #[must_use]
 pub fn summary_table(report: &Precision) -> Table {
-    let mut table = Table::new(&[
-        "",
-        "solver",
-        "contact",
-        "model",
-        "step or tol.",
-        "error [g0]",
-        "impact error [s]",
-        "time [us]",
-        "ns/step",
-        "verdict",
-        "",
-    ]);
-    for row in &report.rows {
-        table.push(vec![
-            letter(&row.way).to_string().into(),
-            row.way.solver.word().into(),
-            row.way.contact.word().into(),
-            row.way.model.word().into(),
-            row.way.step_s.or(row.way.tolerance).into(),
-            row.error_final.map(two_digits).into(),
-            row.error_impact_time_s.map(two_digits).into(),
-            three_digits(1e6 * row.wall_s).into(),
-            row.ns_per_step.map(three_digits).into(),
-            row.verdict.word().into(),
-            remark(row).into(),
-        ]);
-    }
-    table
-}
-
-fn two_digits(x: f64) -> f64 {
-    format!("{x:.1e}").parse().unwrap_or(x)
-}
-
-fn three_digits(x: f64) -> f64 {
-    format!("{x:.2e}").parse().unwrap_or(x)
+    Table::of(
+        &report.rows,
+        &[
+            ("", |row| letter(&row.way).to_string().into()),
+            ("solver", |row| row.way.solver.as_ref().into()),
+            ("contact", |row| row.way.contact.as_ref().into()),
+            ("model", |row| row.way.model.as_ref().into()),
+            ("step or tol.", |row| row.way.step_s.or(row.way.tolerance).into()),
+            ("error [g0]", |row| row.error_final.map(|x| rounded(x, 2)).into()),
+            ("impact error [s]", |row| row.error_impact_time_s.map(|x| rounded(x, 2)).into()),
+            ("time [us]", |row| rounded(1e6 * row.wall_s, 3).into()),
+            ("ns/step", |row| row.ns_per_step.map(|x| rounded(x, 3)).into()),
+            ("verdict", |row| row.verdict.as_ref().into()),
+            ("", |row| remark(row).into()),
+        ],
+    )
 }
 
 /// Every figure, for files.
 #[must_use]
 pub fn table(report: &Precision) -> Table {
-    let mut table = Table::new(&[
-        "solver",
-        "contact",
-        "model",
-        "step_s",
-        "tolerance",
-        "error_final",
-        "error_impact_time_s",
-        "max_penetration_m",
-        "wall_s",
-        "ns_per_step",
-        "steps",
-        "events",
-        "verdict",
-        "verdict_right",
-        "other_law",
-    ]);
-    let whole = |n: Option<u64>| n.map(|n| n as f64);
-    for row in &report.rows {
-        table.push(vec![
-            row.way.solver.word().into(),
-            row.way.contact.word().into(),
-            row.way.model.word().into(),
-            row.way.step_s.into(),
-            row.way.tolerance.into(),
-            row.error_final.into(),
-            row.error_impact_time_s.into(),
-            row.max_penetration_m.into(),
-            row.wall_s.into(),
-            row.ns_per_step.into(),
-            whole(row.steps).into(),
-            whole(row.events).into(),
-            row.verdict.word().into(),
-            row.verdict_right.into(),
-            row.other_law.into(),
-        ]);
-    }
-    table
+    Table::of(
+        &report.rows,
+        &[
+            ("solver", |row| row.way.solver.as_ref().into()),
+            ("contact", |row| row.way.contact.as_ref().into()),
+            ("model", |row| row.way.model.as_ref().into()),
+            ("step_s", |row| row.way.step_s.into()),
+            ("tolerance", |row| row.way.tolerance.into()),
+            ("error_final", |row| row.error_final.into()),
+            ("error_impact_time_s", |row| row.error_impact_time_s.into()),
+            ("max_penetration_m", |row| row.max_penetration_m.into()),
+            ("wall_s", |row| row.wall_s.into()),
+            ("ns_per_step", |row| row.ns_per_step.into()),
+            ("steps", |row| row.steps.map(|n| n as f64).into()),
+            ("events", |row| row.events.map(|n| n as f64).into()),
+            ("verdict", |row| row.verdict.as_ref().into()),
+            ("verdict_right", |row| row.verdict_right.into()),
+            ("other_law", |row| row.other_law.into()),
+        ],
+    )
 }
 
 /// Table, chart and what they are measured against, for people.
@@ -140,14 +102,14 @@ pub fn write(report: &Precision, out: &mut dyn Write) -> Result<()> {
     writeln!(
         out,
         "Reference: event solver, unilateral, {} model: {}, {}, {}. {}",
-        reference.way.model.word(),
+        reference.way.model,
         reference.verdict,
         count(reference.impact_count, "impact"),
         time(reference.wall_s),
         match reference.error_halved {
             Some(moved) => format!(
                 "Halving its tolerance moves the end by {} of the clearance.",
-                short(two_digits(moved))
+                short(rounded(moved, 2))
             ),
             None => "It has no state at the end to compare with.".to_string(),
         },
@@ -202,6 +164,62 @@ pub fn decades(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
         (low.min(value), high.max(value))
     });
     (low <= high).then(|| (low.floor(), high.ceil().max(low.floor() + 1.0)))
+}
+
+/// The figure: log error against log time.
+///
+/// # Errors
+/// Why there is nothing to draw, in words.
+pub fn figure(report: &Precision) -> std::result::Result<Figure, String> {
+    let placed: Vec<&Row> = report.rows.iter().filter(|row| place(row).is_some()).collect();
+    let is_zero = |row: &Row| row.error_final == Some(0.0);
+    if placed.iter().all(|row| is_zero(row)) {
+        return Err(match (placed.is_empty(), report.reference.sensitive) {
+            (false, _) => "every error is 0: a logarithmic axis has no place for it",
+            (_, true) => "on a sensitive scene there are no errors to draw",
+            _ => "every run or the reference failed: there are no errors to draw",
+        }
+        .to_string());
+    }
+    let at = |row: &&Row| Some((row.wall_s, row.error_final?));
+    let mut all: Vec<Series> = Vec::new();
+    for group in placed.chunk_by(|a, b| name(a) == name(b)) {
+        let Some(first) = group.first() else { continue };
+        let points = group.iter().filter(|row| !is_zero(row)).filter_map(at);
+        all.push(Series::new(name(first), style(&first.way), points));
+    }
+    let zeros: Vec<_> = placed.iter().filter(|row| is_zero(row)).filter_map(at).collect();
+    if !zeros.is_empty() {
+        all.push(Series::new("error 0, off this scale", Style::Edge, zeros));
+    }
+    let x = Quantity::log("wall_s", "wall time [s]");
+    let y = Quantity::log("error_final", "error at the end [of the clearance]");
+    Ok(Figure {
+        title: format!("Speed against error: {}", report.scene.title),
+        note: String::new(),
+        panels: vec![Panel::new("", x, y, all)],
+    })
+}
+
+/// Name of a series, with a word on a law that is not the reference's.
+fn name(row: &Row) -> String {
+    let law = if row.other_law { ", other law" } else { "" };
+    format!("{}{law}", series(&row.way))
+}
+
+/// Colour by solver and law, size of the discs by that of the model.
+fn style(way: &Way) -> Style {
+    let colour = match (way.solver, way.contact) {
+        (SolverKind::Event, _) => 0,
+        (SolverKind::Explicit, ContactLaw::Unilateral) => 1,
+        (SolverKind::Explicit, ContactLaw::Bilateral) => 5,
+    };
+    let radius = match way.model {
+        ModelSize::Rigid => 3,
+        ModelSize::Modal => 5,
+        ModelSize::Full => 7,
+    };
+    Style::Discs(colour, radius)
 }
 
 /// Log error (up) against log time (right), a letter a row; errors of zero in

@@ -15,11 +15,11 @@ const IMPACTS_TOLD: usize = 4;
 /// precision may leave: a few hundred units in the last place.
 const ROUND_OFF: f64 = 1e-13;
 
-/// Writes the summary of a run.
+/// Writes the summary of a run that took this wall time \[s\].
 ///
 /// # Errors
 /// What the writer refuses.
-pub fn write(report: &RunReport, out: &mut dyn Write) -> Result<()> {
+pub fn write(report: &RunReport, wall_s: f64, out: &mut dyn Write) -> Result<()> {
     let machine = report.scene.machine();
     if !report.scene.title.is_empty() {
         writeln!(out, "{}", report.scene.title)?;
@@ -42,7 +42,8 @@ pub fn write(report: &RunReport, out: &mut dyn Write) -> Result<()> {
     writeln!(out)?;
     motion(report, &machine, out)?;
     writeln!(out)?;
-    checks(report, &machine, out)
+    checks(report, &machine, out)?;
+    writeln!(out, "{}", cost(report, wall_s))
 }
 
 /// Solver, contact law, model, and the conditions of the run.
@@ -62,9 +63,9 @@ fn how(report: &RunReport) -> String {
     };
     format!(
         "{} solver, {} contact, {} model{step}; {} at {} rad/s; pulse of {} N for {}{excitation}; simulated to {}.",
-        capital(report.solver.kind.word()),
-        report.solver.contact.word(),
-        report.solver.model.word(),
+        capital(report.solver.kind.as_ref()),
+        report.solver.contact,
+        report.solver.model,
         count(u64::from(scene.operation.nodal_diameters), "nodal diameter"),
         short(scene.operation.speed_rad_s),
         short(scene.operation.pulse_n),
@@ -186,11 +187,10 @@ fn checks(report: &RunReport, machine: &Machine, out: &mut dyn Write) -> Result<
     if let Some(residual) = checks.energy_residual_j {
         writeln!(out, "Energy not accounted for: {} J.", short(residual))?;
     }
-    writeln!(out, "{}", cost(report))
+    Ok(())
 }
 
-fn cost(report: &RunReport) -> String {
-    let wall = report.solver.wall_s;
+fn cost(report: &RunReport, wall_s: f64) -> String {
     let mut parts = Vec::new();
     if let Some(steps) = report.solver.steps {
         parts.push(count(steps, "step"));
@@ -199,11 +199,11 @@ fn cost(report: &RunReport) -> String {
         parts.push(count(events, "event"));
     }
     let each = match report.solver.steps {
-        Some(steps) if steps > 0 => format!(", {} a step", time(wall / steps as f64)),
+        Some(steps) if steps > 0 => format!(", {} a step", time(wall_s / steps as f64)),
         _ => String::new(),
     };
     let what = if parts.is_empty() { String::new() } else { format!("{} in ", parts.join(", ")) };
-    format!("Cost: {what}{}{each}.", time(wall))
+    format!("Cost: {what}{}{each}.", time(wall_s))
 }
 
 /// "6", "6 and 17", "1, 2 and 3", "1, 3, 5 and 8 more".
@@ -245,7 +245,7 @@ mod tests {
 
     fn told(report: &RunReport) -> String {
         let mut text = Vec::new();
-        write(report, &mut text).unwrap();
+        write(report, 0.5, &mut text).unwrap();
         String::from_utf8(text).unwrap()
     }
 

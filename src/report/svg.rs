@@ -5,8 +5,8 @@ use std::io::{Error, Result, Write};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-use super::map_svg;
 use super::number::short;
+use crate::motion::Verdict;
 use crate::study::figures::{Figure, Panel, Quantity, Series, Style};
 
 /// Drawn this many times larger than shown: the backend knows whole numbers
@@ -16,8 +16,11 @@ const FINE: u32 = 4;
 const PANEL: (u32, u32) = (960, 400);
 /// Height of the title and the note above the panels.
 const HEAD: u32 = 60;
-/// Width of the names of the series, right of a panel.
+/// Width of the names of the series right of a panel, up to `SHORT` letters,
+/// and of each letter more.
 const NAMES: u32 = 130;
+const SHORT: usize = 16;
+const LETTER: u32 = 7;
 
 /// Colours that stay apart for colour-blind eyes (Okabe and Ito).
 const COLOURS: [RGBColor; 6] = [
@@ -48,11 +51,13 @@ fn draw(figure: &Figure, text: &mut String) -> Drawn<()> {
     let root = SVGBackend::with_string(text, (FINE * width, FINE * height)).into_drawing_area();
     root.fill(&WHITE)?;
     let (head, body) = root.split_vertically(FINE * HEAD);
-    let title = format!("Figure {}. {}", figure.number, figure.title);
-    write_at(&head, &title, (20, 10), 20)?;
+    write_at(&head, &figure.title, (20, 10), 20)?;
     write_at(&head, &figure.note, (20, 38), 13)?;
+    let labels = figure.panels.iter().flat_map(|panel| &panel.series);
+    let longest = labels.map(|series| series.label.chars().count()).max().unwrap_or(0);
+    let names = NAMES + LETTER * u32::try_from(longest.saturating_sub(SHORT))?;
     for (panel, area) in figure.panels.iter().zip(body.split_evenly((figure.panels.len(), 1))) {
-        draw_panel(panel, &area)?;
+        draw_panel(panel, &area, names)?;
     }
     root.present()?;
     drop((head, body, root));
@@ -74,17 +79,17 @@ fn write_at(area: &Area, text: &str, (x, y): (i32, i32), size: i32) -> Drawn<()>
     Ok(area.draw_text(text, &font(size).into_text_style(area), (px(x), px(y)))?)
 }
 
-fn draw_panel(panel: &Panel, area: &Area) -> Drawn<()> {
+fn draw_panel(panel: &Panel, area: &Area, names: u32) -> Drawn<()> {
     let (columns, rows) = tiles(panel);
-    let has_cells = panel.series.iter().any(|series| matches!(series.style, Style::Cells(_)));
     let half_tile = |count: usize| 0.5 / count as f64;
-    let margins = if has_cells { (half_tile(columns), half_tile(rows)) } else { (0.0, 0.05) };
-    let x = Scale::of(panel, panel.x, |point| point.0, margins.0);
-    let y = Scale::of(panel, panel.y, |point| point.1, margins.1);
+    let margins =
+        if has_cells(panel) { (half_tile(columns), half_tile(rows)) } else { (0.0, 0.05) };
+    let x = Scale::of(panel, &panel.x, |point| point.0, margins.0);
+    let y = Scale::of(panel, &panel.y, |point| point.1, margins.1);
     let mut chart = ChartBuilder::on(area)
         .caption(&panel.title, font(16))
         .margin(px(12))
-        .margin_right(FINE * NAMES)
+        .margin_right(FINE * names)
         .x_label_area_size(px(42))
         .y_label_area_size(px(78))
         .build_cartesian_2d(x.low..x.high, y.low..y.high)?;
@@ -97,8 +102,8 @@ fn draw_panel(panel: &Panel, area: &Area) -> Drawn<()> {
         .bold_line_style(BLACK.mix(0.15).stroke_width(FINE))
         .axis_style(BLACK.stroke_width(FINE))
         .set_all_tick_mark_size(px(4))
-        .x_desc(panel.x.label)
-        .y_desc(panel.y.label)
+        .x_desc(panel.x.label.as_ref())
+        .y_desc(panel.y.label.as_ref())
         .x_label_formatter(&|tick| x.label(*tick))
         .y_label_formatter(&|tick| y.label(*tick))
         .label_style(font(13))
@@ -126,6 +131,20 @@ fn draw_panel(panel: &Panel, area: &Area) -> Drawn<()> {
                 let tile = |at| EmptyElement::at(at) + Rectangle::new(corners, fill);
                 chart.draw_series(points.map(tile))?;
             }
+            Style::Discs(_, radius) => {
+                let pale = colour(series.style).mix(0.5).stroke_width(FINE);
+                chart.draw_series(LineSeries::new(points.clone(), pale))?;
+                let fill = colour(series.style).filled();
+                chart.draw_series(points.map(|at| Circle::new(at, px(radius), fill)))?;
+            }
+            Style::Dots => {
+                let fill = colour(series.style).filled();
+                chart.draw_series(points.map(|at| Circle::new(at, px(3) / 2, fill)))?;
+            }
+            Style::Edge => {
+                let edge = points.map(|at| (at.0, y.low));
+                chart.draw_series(edge.map(|at| TriangleMarker::new(at, px(5), ink)))?;
+            }
         }
     }
     for mark in &panel.marks {
@@ -138,12 +157,12 @@ fn draw_panel(panel: &Panel, area: &Area) -> Drawn<()> {
             chart.draw_series([Text::new(mark.label, (at, y.high), style)])?;
         }
     }
-    draw_names(&named, area)
+    draw_names(&named, area, names)
 }
 
 /// The names of the series, right of the panel.
-fn draw_names(named: &[&Series], area: &Area) -> Drawn<()> {
-    let left = i32::try_from(PANEL.0 - NAMES + 10)?;
+fn draw_names(named: &[&Series], area: &Area, names: u32) -> Drawn<()> {
+    let left = i32::try_from(PANEL.0.saturating_sub(names) + 10)?;
     for (series, row) in named.iter().zip(0..) {
         let top = 40 + 20 * row;
         let at = |dx: i32, dy: i32| (px(left + dx), px(top + dy));
@@ -156,7 +175,16 @@ fn draw_names(named: &[&Series], area: &Area) -> Drawn<()> {
                     area.draw(&Rectangle::new(bar, fill.filled()))?;
                 }
             }
-            _ => area.draw(&Rectangle::new([at(0, 5), at(18, 8)], fill.filled()))?,
+            Style::Discs(_, radius) => {
+                area.draw(&Circle::new(at(9, 6), px(radius), fill.filled()))?;
+            }
+            Style::Dots => area.draw(&Circle::new(at(9, 6), px(3) / 2, fill.filled()))?,
+            Style::Edge => {
+                area.draw(&TriangleMarker::new(at(9, 6), px(5), fill.stroke_width(FINE)))?;
+            }
+            Style::Line(_) | Style::Faint => {
+                area.draw(&Rectangle::new([at(0, 5), at(18, 8)], fill.filled()))?;
+            }
         }
         write_at(area, &series.label, (left + 24, top), 13)?;
     }
@@ -165,23 +193,31 @@ fn draw_names(named: &[&Series], area: &Area) -> Drawn<()> {
 
 /// One axis: its range in the units shown, powers of ten where logarithmic.
 #[derive(Clone, Copy, Debug)]
-struct Scale {
-    quantity: Quantity,
+struct Scale<'a> {
+    quantity: &'a Quantity,
     low: f64,
     high: f64,
 }
 
-impl Scale {
-    /// The range of all points, widened by this part of itself.
-    fn of(panel: &Panel, quantity: Quantity, of: fn(&(f64, f64)) -> f64, margin: f64) -> Self {
+impl<'a> Scale<'a> {
+    /// The range of the cells, or without any of all points, widened by this
+    /// part of itself; a logarithmic axis without cells has whole decades.
+    fn of(panel: &Panel, quantity: &'a Quantity, of: fn(&(f64, f64)) -> f64, margin: f64) -> Self {
         let mut scale = Self { quantity, low: f64::INFINITY, high: f64::NEG_INFINITY };
-        for point in panel.series.iter().flat_map(|series| &series.points) {
+        for point in ranging(panel) {
             let shown = scale.shown(of(point));
-            scale.low = scale.low.min(shown);
-            scale.high = scale.high.max(shown);
+            if shown.is_finite() {
+                scale.low = scale.low.min(shown);
+                scale.high = scale.high.max(shown);
+            }
         }
-        if !scale.low.is_finite() || !scale.high.is_finite() {
+        if scale.low > scale.high {
             (scale.low, scale.high) = (0.0, 1.0);
+        }
+        if quantity.log && !has_cells(panel) {
+            scale.low = scale.low.floor();
+            scale.high = scale.high.ceil().max(scale.low + 1.0);
+            return scale;
         }
         // A constant needs a range of its own, or there is no axis.
         let smallest = 1e-9 * scale.low.abs().max(scale.high.abs()).max(1e-3);
@@ -207,11 +243,22 @@ impl Scale {
     }
 }
 
+fn has_cells(panel: &Panel) -> bool {
+    panel.series.iter().any(|series| matches!(series.style, Style::Cells(_)))
+}
+
+/// The points that set the range of the axes: those of cells, where there are
+/// any.
+fn ranging(panel: &Panel) -> impl Iterator<Item = &(f64, f64)> {
+    let only_cells = has_cells(panel);
+    let chosen = move |series: &&Series| !only_cells || matches!(series.style, Style::Cells(_));
+    panel.series.iter().filter(chosen).flat_map(|series| &series.points)
+}
+
 /// Steps between the different values of x and of y, at least one each.
 fn tiles(panel: &Panel) -> (usize, usize) {
     let count = |of: fn(&(f64, f64)) -> f64| {
-        let points = panel.series.iter().flat_map(|series| &series.points);
-        let mut values: Vec<f64> = points.map(of).collect();
+        let mut values: Vec<f64> = ranging(panel).map(of).collect();
         values.sort_by(f64::total_cmp);
         values.dedup();
         values.len().max(2) - 1
@@ -222,27 +269,42 @@ fn tiles(panel: &Panel) -> (usize, usize) {
 fn colour(style: Style) -> RGBColor {
     let index = match style {
         Style::Faint => 0,
-        Style::Line(n) | Style::Dashed(n) => n,
-        Style::Cells(verdict) => return map_svg::colour(verdict),
+        Style::Line(n) | Style::Dashed(n) | Style::Discs(n, _) => n,
+        Style::Cells(verdict) => return colour_of(verdict),
+        Style::Dots => return RGBColor(120, 120, 120),
+        Style::Edge => return BLACK,
     };
     *COLOURS.get(index % COLOURS.len()).unwrap_or(&BLACK)
+}
+
+/// Colour of a verdict; verdicts differ in lightness as well, for eyes that do
+/// not tell colours apart.
+fn colour_of(verdict: Verdict) -> RGBColor {
+    match verdict {
+        Verdict::Decay => RGBColor(240, 240, 240),
+        Verdict::Bounce => RGBColor(190, 210, 235),
+        Verdict::Slip => RGBColor(240, 190, 70),
+        Verdict::Locked => RGBColor(40, 70, 140),
+        Verdict::Adhesive => RGBColor(200, 70, 90),
+        Verdict::Failed => RGBColor(0, 0, 0),
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::motion::Verdict;
     use crate::study::figures::Mark;
 
     fn drawn(points: Vec<(f64, f64)>, log: bool) -> String {
         let x = Quantity { log, ..Quantity::SPEED };
         let y = Quantity::new("u_m", "u < [um]", 1e6);
-        let styles = [Style::Faint, Style::Line(0), Style::Dashed(1), Style::Cells(Verdict::Slip)];
-        let series = styles.map(|style| Series::new("a & b", style, points.clone())).to_vec();
+        let lines = [Style::Faint, Style::Line(0), Style::Dashed(1)];
+        let others = [Style::Cells(Verdict::Slip), Style::Discs(2, 5), Style::Dots, Style::Edge];
+        let series = |style: &Style| Series::new("a & b", *style, points.clone());
+        let series = lines.iter().chain(&others).map(series).collect();
         let mut panel = Panel::new("(a)", x, y, series);
         panel.marks.push(Mark { x: 2.0, label: "Omega_c" });
-        let figure =
-            Figure { number: 9, title: "T".into(), note: "N".into(), panels: vec![panel; 2] };
+        let figure = Figure { title: "T".into(), note: "N".into(), panels: vec![panel; 2] };
         let mut out = Vec::new();
         write(&figure, &mut out).unwrap();
         String::from_utf8(out).unwrap()
@@ -252,7 +314,7 @@ mod tests {
     fn every_style_is_drawn_and_text_is_escaped() {
         let svg = drawn(vec![(1.0, 1e-6), (2.0, 3e-6), (4.0, -1e-6)], false);
         assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"));
-        assert!(svg.contains("Figure 9. T") && svg.contains("Omega_c"));
+        assert!(svg.contains(">\nT\n<") && svg.contains("Omega_c"));
         assert!(svg.contains("a &amp; b") && svg.contains("u &lt; [um]"));
         assert!(!svg.contains("NaN") && !svg.contains("inf"));
     }

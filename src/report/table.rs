@@ -2,8 +2,7 @@
 
 use std::io::{Result, Write};
 
-use super::csv::exact;
-use super::number::short;
+use super::number::{exact, short};
 
 /// One cell of a table.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,6 +45,28 @@ impl From<String> for Cell {
     }
 }
 
+/// Writes rows of cells as CSV, under a header line. Numbers are the shortest
+/// that read back as themselves, and what is no figure is left empty.
+pub(super) fn write_csv<R: IntoIterator<Item = Cell>>(
+    names: impl IntoIterator<Item = impl AsRef<[u8]>>,
+    rows: impl IntoIterator<Item = R>,
+    out: &mut dyn Write,
+) -> Result<()> {
+    let mut csv = csv::Writer::from_writer(out);
+    csv.write_record(names)?;
+    for row in rows {
+        csv.write_record(row.into_iter().map(|cell| match cell {
+            Cell::Number(x) => exact(x),
+            Cell::Word(word) => word,
+            Cell::Empty => String::new(),
+        }))?;
+    }
+    csv.flush()
+}
+
+/// A column of a table: its name, and what it shows of an item.
+pub type Column<'a, T> = (&'a str, fn(&T) -> Cell);
+
 /// Rows under named columns; names carry the unit, as in `speed_rad_s`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
@@ -56,8 +77,18 @@ pub struct Table {
 impl Table {
     /// An empty table with these columns.
     #[must_use]
-    pub fn new(names: &[&str]) -> Self {
-        Self { names: names.iter().map(ToString::to_string).collect(), rows: Vec::new() }
+    pub fn new<S: Into<String>>(names: impl IntoIterator<Item = S>) -> Self {
+        Self { names: names.into_iter().map(Into::into).collect(), rows: Vec::new() }
+    }
+
+    /// A row for each item, with these columns: a name, and what it shows.
+    #[must_use]
+    pub fn of<T>(items: &[T], columns: &[Column<'_, T>]) -> Self {
+        let mut table = Self::new(columns.iter().map(|column| column.0));
+        for item in items {
+            table.push(columns.iter().map(|column| (column.1)(item)).collect());
+        }
+        table
     }
 
     /// Adds a row, one cell for each column.
@@ -83,16 +114,7 @@ impl Table {
     /// # Errors
     /// What the writer refuses.
     pub fn write_csv(&self, out: &mut dyn Write) -> Result<()> {
-        let mut csv = csv::Writer::from_writer(out);
-        csv.write_record(&self.names)?;
-        for row in &self.rows {
-            csv.write_record(row.iter().map(|cell| match cell {
-                Cell::Number(x) => exact(*x),
-                Cell::Word(word) => word.clone(),
-                Cell::Empty => String::new(),
-            }))?;
-        }
-        csv.flush()
+        write_csv(&self.names, self.rows.iter().map(|row| row.iter().cloned()), out)
     }
 
     /// Writes aligned text: numbers of six digits to the right, words to the
@@ -142,7 +164,7 @@ mod tests {
     use super::*;
 
     fn table() -> Table {
-        let mut table = Table::new(&["speed_rad_s", "state"]);
+        let mut table = Table::new(["speed_rad_s", "state"]);
         table.push(vec![(1.0 / 3.0).into(), "locked, a".into()]);
         table.push(vec![f64::NAN.into()]);
         table

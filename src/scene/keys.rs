@@ -1,6 +1,8 @@
 //! The one table of scene keys: path, unit, meaning, bounds, and how to get
 //! and set each. The file reader, `--set` and the explorer's knobs all use it.
 
+use strum::VariantNames;
+
 use super::{ContactLaw, ModelSize, Scene, SceneError, SolverKind};
 
 /// A value of a key.
@@ -159,30 +161,6 @@ pub(super) fn unknown(path: &str) -> SceneError {
     SceneError::UnknownKey { key: path.to_string(), allowed: names.join(", ") }
 }
 
-/// A word of `Allowed::OneOf` as its enum, and back.
-macro_rules! words {
-    ($type:ident { $($variant:ident = $word:literal),+ }) => {
-        impl $type {
-            /// Every word for this choice, in the order of the enum.
-            pub const WORDS: &'static [&'static str] = &[$($word),+];
-            /// The word used in files and on the command line.
-            #[must_use]
-            pub fn word(self) -> &'static str {
-                match self { $(Self::$variant => $word),+ }
-            }
-            /// The choice a word stands for.
-            #[must_use]
-            pub fn from_word(word: &str) -> Option<Self> {
-                match word { $($word => Some(Self::$variant),)+ _ => None }
-            }
-        }
-    };
-}
-
-words!(SolverKind { Explicit = "explicit", Event = "event" });
-words!(ContactLaw { Unilateral = "unilateral", Bilateral = "bilateral" });
-words!(ModelSize { Rigid = "rigid", Modal = "modal", Full = "full" });
-
 /// Charts of the explorer, in the order of their digits.
 pub const CHARTS: &[&str] =
     &["response", "gaps", "locked", "frame", "map", "spectrum", "precision"];
@@ -211,10 +189,10 @@ macro_rules! whole {
 macro_rules! word {
     ($path:literal, $what:literal, $type:ident, $($field:ident).+) => {
         Key {
-            path: $path, unit: "-", what: $what, allowed: Allowed::OneOf($type::WORDS),
-            get: |scene| Value::Text(scene.$($field).+.word().to_string()),
+            path: $path, unit: "-", what: $what, allowed: Allowed::OneOf($type::VARIANTS),
+            get: |scene| Value::Text(scene.$($field).+.to_string()),
             set: |scene, value| if let Value::Text(text) = value
-                && let Some(choice) = $type::from_word(&text) { scene.$($field).+ = choice },
+                && let Ok(choice) = text.parse::<$type>() { scene.$($field).+ = choice },
         }
     };
 }

@@ -13,6 +13,7 @@ mod file;
 pub mod keys;
 
 use serde::Serialize;
+use strum::{AsRefStr, Display, EnumString, VariantNames};
 
 pub use builtin::{BUILTIN, Builtin};
 pub use checked::CheckedScene;
@@ -22,8 +23,11 @@ pub use keys::{Allowed, KEYS, Key, Value};
 use crate::model::{BladedDisk, Casing, Excitation, Initial, Machine, Operation};
 
 /// Which solver advances the motion.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, Serialize, Display, EnumString, AsRefStr, VariantNames,
+)]
 #[serde(rename_all = "lowercase")]
+#[strum(serialize_all = "lowercase")]
 pub enum SolverKind {
     /// Explicit central differences, Eqs. (8)-(16): first order in contact.
     Explicit,
@@ -32,8 +36,11 @@ pub enum SolverKind {
 }
 
 /// Which contact law closes the predicted penetrations.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, Serialize, Display, EnumString, AsRefStr, VariantNames,
+)]
 #[serde(rename_all = "lowercase")]
+#[strum(serialize_all = "lowercase")]
 pub enum ContactLaw {
     /// Signorini: multipliers may only push.
     Unilateral,
@@ -42,8 +49,11 @@ pub enum ContactLaw {
 }
 
 /// How much of the machine moves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, Serialize, Display, EnumString, AsRefStr, VariantNames,
+)]
 #[serde(rename_all = "lowercase")]
+#[strum(serialize_all = "lowercase")]
 pub enum ModelSize {
     /// Casing only; the blades are rigid.
     Rigid,

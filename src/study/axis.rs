@@ -39,6 +39,15 @@ pub enum AxisError {
     Scene(#[from] SceneError),
 }
 
+/// Reads `FROM:TO:COUNT`; none for text of another form.
+#[must_use]
+pub fn parse_range(text: &str) -> Option<(f64, f64, usize)> {
+    let mut parts = text.split(':').map(str::trim);
+    let (from, to) = (parts.next()?.parse().ok()?, parts.next()?.parse().ok()?);
+    let count = parts.next()?.parse().ok()?;
+    parts.next().is_none().then_some((from, to, count))
+}
+
 /// A key and the values it takes along one axis.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Axis {
@@ -93,11 +102,8 @@ impl Axis {
             Some(rest) => (true, rest),
             None => (false, range.trim()),
         };
-        let parts: Vec<&str> = range.split(':').map(str::trim).collect();
-        let [from, to, count] = parts.as_slice() else { return Err(form()) };
-        let number = |text: &str| text.parse::<f64>().map_err(|_| form());
-        let count = count.parse().map_err(|_| form())?;
-        Self::new(path.trim(), number(from)?, number(to)?, count, log)
+        let (from, to, count) = parse_range(range).ok_or_else(form)?;
+        Self::new(path.trim(), from, to, u32::try_from(count).map_err(|_| form())?, log)
     }
 
     /// Value number `index`, from 0; both ends are exact.

@@ -9,6 +9,6 @@ pub mod overlay;
 pub mod part;
 pub mod precision;
 
-pub use axis::{Axis, AxisError};
+pub use axis::{Axis, AxisError, parse_range};
 pub use map::{Cell, Map, MapPlan, Progress};
 pub use part::{PartError, Shard};

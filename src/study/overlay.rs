@@ -7,7 +7,8 @@ use crate::scene::{ModelSize, Scene};
 
 /// Key of the rotor speed.
 pub const SPEED: &str = "operation.speed_rad_s";
-const PULSE: &str = "operation.pulse_n";
+/// Key of the pulse.
+pub const PULSE: &str = "operation.pulse_n";
 
 /// A curve over a map, in the quantities of its axes.
 #[derive(Clone, Debug, PartialEq)]

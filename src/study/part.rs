@@ -8,7 +8,6 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::{Axis, AxisError, Cell, Map, MapPlan};
-use crate::motion::Verdict;
 use crate::scene::Scene;
 
 /// Version of the format and of the numbers in it.
@@ -225,7 +224,7 @@ fn read_cells(file: &str, mut part: impl BufRead, map: &mut Map) -> Result<(), P
 fn parse_cell(line: &str) -> Option<(usize, Cell)> {
     let mut words = line.split(' ');
     let index = words.next()?.parse().ok()?;
-    let verdict = Verdict::from_word(words.next()?)?;
+    let verdict = words.next()?.parse().ok()?;
     let sensitive = match words.next() {
         None => false,
         Some("!") => true,

@@ -98,9 +98,9 @@ fn locked(app: &App, out: &mut String) -> Rows {
     let sweep = app.locked.as_ref().and_then(|curves| curves.damped.as_ref());
     let points = sweep.map_or(&[][..], |sweep| &sweep.points);
     for point in points {
-        let [a, b] = point.multipliers;
+        let [a, b] = point.multipliers_n;
         let (admissible, stable) = (u8::from(point.admissible), u8::from(point.stable));
-        writeln!(out, "{:e},{a:e},{b:e},{admissible},{stable}", point.speed)?;
+        writeln!(out, "{:e},{a:e},{b:e},{admissible},{stable}", point.speed_rad_s)?;
     }
     Ok(points.len())
 }

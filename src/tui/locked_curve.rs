@@ -55,7 +55,7 @@ mod tests {
         assert!(curves.fastest > 500.0 && curves.fastest > machine.lock_speed().unwrap());
         let last = *curves.damped.unwrap().points.last().unwrap();
         let closed = machine.locked_multipliers(curves.fastest).unwrap();
-        for (lambda, exact) in last.multipliers.iter().zip(closed) {
+        for (lambda, exact) in last.multipliers_n.iter().zip(closed) {
             // Elastic blades move a multiplier by parts in a million.
             assert!((lambda - exact).abs() < 1e-4 * exact.abs(), "{lambda} {exact}");
         }

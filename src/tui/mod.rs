@@ -32,10 +32,13 @@ pub use raster::Marker;
 pub use run::run;
 pub use theme::Theme;
 
+use strum::{EnumString, VariantNames};
+
 use crate::scene::CheckedScene;
 
 /// When to use colour.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, EnumString, VariantNames)]
+#[strum(serialize_all = "lowercase")]
 pub enum Color {
     /// Where the terminal has it and `NO_COLOR` does not forbid it.
     #[default]
@@ -44,22 +47,6 @@ pub enum Color {
     Always,
     /// Never; bold, reverse and dim stay.
     Never,
-}
-
-impl Color {
-    /// The words of the command line.
-    pub const WORDS: &'static [&'static str] = &["auto", "always", "never"];
-
-    /// The choice a word stands for.
-    #[must_use]
-    pub fn from_word(word: &str) -> Option<Self> {
-        match word {
-            "auto" => Some(Self::Auto),
-            "always" => Some(Self::Always),
-            "never" => Some(Self::Never),
-            _ => None,
-        }
-    }
 }
 
 /// How the explorer looks.

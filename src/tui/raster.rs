@@ -8,9 +8,11 @@ use ratatui::{
     style::Style,
     symbols::{braille::BRAILLE, pixel::OCTANTS},
 };
+use strum::{Display, EnumString, VariantNames};
 
 /// How points are drawn.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Display, EnumString, VariantNames)]
+#[strum(serialize_all = "lowercase")]
 pub enum Marker {
     /// Two by four dots a cell.
     #[default]
@@ -26,25 +28,7 @@ pub enum Marker {
 }
 
 impl Marker {
-    /// The words of the command line, in the order `m` steps through them.
-    pub const WORDS: &'static [&'static str] = &["braille", "octant", "halfblock", "dot", "ascii"];
     const ALL: [Self; 5] = [Self::Braille, Self::Octant, Self::HalfBlock, Self::Dot, Self::Ascii];
-
-    /// The marker a word stands for.
-    #[must_use]
-    pub fn from_word(word: &str) -> Option<Self> {
-        Self::WORDS.iter().zip(Self::ALL).find(|(name, _)| **name == word).map(|(_, marker)| marker)
-    }
-
-    /// Its word.
-    #[must_use]
-    pub fn word(self) -> &'static str {
-        Self::WORDS
-            .iter()
-            .zip(Self::ALL)
-            .find(|(_, marker)| *marker == self)
-            .map_or("", |(word, _)| *word)
-    }
 
     /// The next marker.
     #[must_use]
@@ -214,13 +198,5 @@ mod tests {
         let mut buffer = Buffer::empty(area);
         raster.draw(&mut buffer);
         assert_eq!(buffer, Buffer::with_lines(["****  ****  "]));
-    }
-
-    #[test]
-    fn words_name_every_marker() {
-        for word in Marker::WORDS {
-            assert_eq!(Marker::from_word(word).unwrap().word(), *word);
-        }
-        assert_eq!(Marker::from_word("nothing"), None);
     }
 }

@@ -17,8 +17,8 @@ fn close(value: f64, expected: f64, relative: f64) {
 }
 
 fn threshold(branches: &Branches, kind: Kind, from: Character, to: Character) -> f64 {
-    let same = |t: &&Threshold| t.kind == kind && t.from == from && t.to == to;
-    branches.thresholds.iter().find(same).map_or(f64::NAN, |threshold| threshold.speed)
+    let same = |t: &&Threshold| t.kind == kind && t.below == from && t.above == to;
+    branches.thresholds.iter().find(same).map_or(f64::NAN, |threshold| threshold.speed_rad_s)
 }
 
 #[test]
@@ -49,8 +49,8 @@ fn without_damping_everything_happens_at_the_critical_speed() {
     let critical = machine.critical_speed().unwrap();
     assert_eq!(branches.thresholds.len(), 2, "{:?}", branches.thresholds);
     for threshold in &branches.thresholds {
-        close(threshold.speed, critical, 1e-12);
-        assert_eq!(threshold.from, Character::Pulls);
+        close(threshold.speed_rad_s, critical, 1e-12);
+        assert_eq!(threshold.below, Character::Pulls);
     }
 }
 
@@ -66,13 +66,13 @@ fn a_side_is_a_saddle_with_the_closed_forms_of_sliding() {
     let offset = 2.0 * zeta * omega * nu * machine.clearance() / square;
     let push =
         machine.casing_mass * (-square * machine.clearance() - 2.0 * zeta * omega * nu * offset);
-    close(side.contacts[0].1, -push, 1e-12);
-    close(side.amplitude(), machine.clearance().hypot(offset), 1e-12);
+    close(side.contacts[0].multiplier_n, -push, 1e-12);
+    close(side.amplitude_m, machine.clearance().hypot(offset), 1e-12);
     let root = (zeta * zeta * omega * omega - square).sqrt() - zeta * omega;
     // Eigenvalues are good to rounding of the largest, here blades at 1e5 omega_c.
-    close(side.growth(), root, 1e-7);
-    close(side.power, machine.casing_damping * nu * nu * side.amplitude().powi(2), 1e-12);
-    assert_eq!(side.eigenvalues.len(), 6);
+    close(side.growth_per_s, root, 1e-7);
+    close(side.power_w, machine.casing_damping * nu * nu * side.amplitude_m.powi(2), 1e-12);
+    assert_eq!(side.eigenvalues_per_s.len(), 6);
 }
 
 #[test]
@@ -82,9 +82,9 @@ fn rest_turns_backward_in_the_blade_frame_and_decays() {
         let states = equilibria(&machine, speed, true).unwrap();
         let rest = &states[0];
         assert_eq!((rest.kind, rest.character), (Kind::Rest, Character::Stable));
-        assert_eq!((rest.torque, rest.eigenvalues.len()), (0.0, 8));
+        assert_eq!((rest.torque_nm, rest.eigenvalues_per_s.len()), (0.0, 8));
         let slowest = (0.05 * machine.omega_c).min(0.04 * machine.omega_bd);
-        close(rest.growth(), -slowest, 1e-9);
+        close(rest.growth_per_s, -slowest, 1e-9);
     }
 }
 
@@ -94,10 +94,10 @@ fn the_corner_keeps_only_the_blades_moving() {
     let states = equilibria(&machine, 500.0, true).unwrap();
     let corner = states.last().unwrap();
     assert_eq!((corner.kind, corner.character), (Kind::Corner, Character::Stable));
-    assert_eq!(corner.eigenvalues.len(), 4);
+    assert_eq!(corner.eigenvalues_per_s.len(), 4);
     // The casing adds 1e-6 of the blades' inertia.
-    close(corner.growth(), -0.04 * machine.omega_bd, 1e-5);
-    for value in &corner.eigenvalues {
+    close(corner.growth_per_s, -0.04 * machine.omega_bd, 1e-5);
+    for value in &corner.eigenvalues_per_s {
         close(value.norm(), machine.omega_bd, 1e-5);
     }
 }
@@ -110,7 +110,7 @@ fn one_or_two_sides_have_no_corner_but_states_all_the_same() {
         let kinds: Vec<Kind> = states.iter().map(|state| state.kind).collect();
         let expected = [Kind::Rest, Kind::Side];
         assert_eq!(kinds, expected);
-        assert_eq!(states[0].eigenvalues.len(), count, "one blade mode");
+        assert_eq!(states[0].eigenvalues_per_s.len(), count, "one blade mode");
     }
     let machine = machine(15_000.0, 11, 0.05);
     let above = equilibria(&machine, 500.0, true).unwrap();
@@ -131,7 +131,7 @@ fn a_very_soft_casing_has_the_closed_forms_all_the_same() {
         let (rest, side) = (&branches.states[2], &branches.states[3]);
         assert_eq!((rest.kind, rest.character), (Kind::Rest, Character::Stable));
         let slowest = if damped { -0.05 * machine.omega_c } else { 0.0 };
-        close(rest.growth(), slowest, 1e-12);
+        close(rest.growth_per_s, slowest, 1e-12);
         assert_eq!((side.kind, side.character), (Kind::Side, Character::Unstable));
         // (s^2 + kappa)(s^2 + w^2 - kappa e) = kappa^2 e, kappa = w_c^2 - nu^2: along
         // the side the casing takes the blades with it. Damping is 1e-10 of it.
@@ -141,9 +141,9 @@ fn a_very_soft_casing_has_the_closed_forms_all_the_same() {
         let blade = machine.omega_bd.powi(2) - kappa * share;
         let (sum, product) = (kappa + blade, kappa * blade - kappa * kappa * share);
         let square = -0.5 * (sum - (sum * sum - 4.0 * product).sqrt());
-        close(side.growth(), square.sqrt(), 1e-9);
+        close(side.growth_per_s, square.sqrt(), 1e-9);
         assert!(branches.thresholds.iter().all(|threshold| threshold.kind == Kind::Side));
-        close(branches.thresholds[0].speed, machine.critical_speed().unwrap(), 1e-12);
+        close(branches.thresholds[0].speed_rad_s, machine.critical_speed().unwrap(), 1e-12);
     }
 }
 
@@ -155,7 +155,7 @@ fn a_side_next_to_the_critical_speed_keeps_its_eigenvalues() {
     for part in [-1e-6, -1e-10, -1e-14, 1e-14, 1e-10, 1e-6] {
         let states = equilibria(&machine, critical * (1.0 + part), true).unwrap();
         let side = states.iter().find(|state| state.kind == Kind::Side).unwrap();
-        assert_eq!(side.eigenvalues.len(), 6, "{part:e}");
-        assert!(side.eigenvalues.iter().all(|value| value.re.is_finite()));
+        assert_eq!(side.eigenvalues_per_s.len(), 6, "{part:e}");
+        assert!(side.eigenvalues_per_s.iter().all(|value| value.re.is_finite()));
     }
 }

@@ -19,7 +19,7 @@ fn only_orders_of_the_same_symmetry_reach_the_modes() {
     let driven: Vec<u32> = (1..=50).filter(|&order| drives(&machine(3), order)).collect();
     assert_eq!(driven, [3, 19, 25, 41, 47]);
     let other = lock(&machine(3), 500.0, 4, 1.0);
-    assert_eq!((other.relative_amplitude, other.release_torque), (0.0, None));
+    assert_eq!((other.relative_amplitude, other.release_torque_nm), (0.0, None));
 }
 
 #[test]
@@ -37,7 +37,7 @@ fn the_paper_is_right_that_it_changes_little() {
 fn residual(machine: &Machine, speed: f64, order: u32, torque: f64, t: f64) -> [f64; 6] {
     let excited = lock(machine, speed, order, torque);
     let state = &excited.state;
-    let omega = excited.frequency;
+    let omega = excited.frequency_rad_s;
     let turn = Complex::new(0.0, omega * t).exp();
     let i_omega = Complex::new(0.0, omega);
     let value = |k: usize, power: i32| (excited.response[k] * i_omega.powi(power) * turn).re;
@@ -45,7 +45,7 @@ fn residual(machine: &Machine, speed: f64, order: u32, torque: f64, t: f64) -> [
     let theta = speed * t;
     let nu = machine.nu(speed);
     let z = |p: i32| {
-        let mean = if p == 0 { Complex::new(state.z[0], state.z[1]) } else { 0.0.into() };
+        let mean = if p == 0 { Complex::new(state.z_m[0], state.z_m[1]) } else { 0.0.into() };
         mean + Complex::new(value(0, p), value(1, p))
     };
     let i_nu = Complex::new(0.0, nu);
@@ -54,7 +54,9 @@ fn residual(machine: &Machine, speed: f64, order: u32, torque: f64, t: f64) -> [
     let u = z(0) * frame;
     let u1 = (z(1) + i_nu * z(0)) * frame;
     let u2 = (z(2) + 2.0 * i_nu * z(1) - nu * nu * z(0)) * frame;
-    let alpha = |k: usize, p: i32| (if p == 0 { state.alpha[k] } else { 0.0 }) + value(2 + k, p);
+    let alpha = |k: usize, p: i32| {
+        (if p == 0 { [state.alpha_c_rad, state.alpha_s_rad][k] } else { 0.0 }) + value(2 + k, p)
+    };
     let mut casing =
         machine.casing_mass * u2 + machine.casing_damping * u1 + machine.casing_stiffness * u;
     let mut blades = [0, 1].map(|k| {
@@ -63,8 +65,9 @@ fn residual(machine: &Machine, speed: f64, order: u32, torque: f64, t: f64) -> [
             + machine.blade_modal_stiffness * alpha(k, 0)
     });
     let mut gaps = [0.0; 2];
-    for (n, &(side, mean)) in state.contacts.iter().enumerate() {
-        let multiplier = mean + (excited.multipliers[n] * turn).re;
+    for (n, contact) in state.contacts.iter().enumerate() {
+        let side = contact.side;
+        let multiplier = contact.multiplier_n + (excited.multipliers_n[n] * turn).re;
         let psi = machine.rim.phase(side);
         let (p_c, p_s) = (psi.cos(), psi.sin());
         let beta = n_d * theta + psi + n_d * (p_c * alpha(0, 0) + p_s * alpha(1, 0));

@@ -23,7 +23,7 @@ fn followed(machine: &Machine, range: [f64; 2], step: f64) -> CornerBranch {
 }
 
 fn fold_of(machine: &Machine) -> f64 {
-    corner_branch(machine, 0, true, [0.0, 1.0], 1.0).unwrap().fold.unwrap().speed
+    corner_branch(machine, 0, true, [0.0, 1.0], 1.0).unwrap().fold.unwrap().speed_rad_s
 }
 
 #[test]
@@ -33,8 +33,8 @@ fn a_branch_asked_to_end_just_below_its_fold_ends_there() {
         for top in tops {
             let branch = followed(&machine, [0.0, top], 0.05);
             let (opening, last) = branch.points.last().unwrap();
-            assert_eq!(last.speed, top);
-            assert!(*opening < branch.fold.unwrap().opening);
+            assert_eq!(last.speed_rad_s, top);
+            assert!(*opening < branch.fold.unwrap().opening_rad);
         }
     }
 }
@@ -48,13 +48,13 @@ fn the_fold_itself_and_its_neighbours_among_the_numbers() {
         for from in [0.0, 0.97 * fold, below.next_down()] {
             for (top, folds) in [(below, false), (fold, false), (fold.next_up(), true)] {
                 let branch = followed(&machine, [from, top], 1.0);
-                let top = branch.fold.unwrap().opening;
+                let top = branch.fold.unwrap().opening_rad;
                 let last = branch.points.last().unwrap();
                 // So close to the fold the numbers hold its two sides for one.
                 assert!(if folds { last.0 >= top } else { last.0 <= top }, "{from} {top}");
                 assert_eq!(
                     folds,
-                    branch.points.iter().any(|(_, state)| state.speed > last.1.speed)
+                    branch.points.iter().any(|(_, state)| state.speed_rad_s > last.1.speed_rad_s)
                 );
             }
         }
@@ -83,12 +83,16 @@ fn every_step_and_the_smallest_ranges() {
     // From a speed above the critical one the branch comes back to it.
     let from = 1.5 * critical;
     let back = followed(&machine, [from, 2.0 * fold], 0.3);
-    assert_eq!(back.points.last().unwrap().1.speed, from);
+    assert_eq!(back.points.last().unwrap().1.speed_rad_s, from);
     // From one below it, it ends wide open, just above the critical speed.
     let open = followed(&machine, [0.5 * critical, 2.0 * fold], 0.3);
     let (opening, last) = open.points.last().unwrap();
     assert!((opening + 1e-3 - FRAC_PI_2).abs() < 1e-15);
-    assert!(last.speed > critical && last.speed < 1.1 * critical, "{}", last.speed);
+    assert!(
+        last.speed_rad_s > critical && last.speed_rad_s < 1.1 * critical,
+        "{}",
+        last.speed_rad_s
+    );
 }
 
 /// Blades as good as rigid do not fold; the branch is the rigid corner. Blades
@@ -125,7 +129,7 @@ fn the_fold_is_the_largest_speed_of_the_branch() {
     for (stiffness, expected) in [(96_780.0, 5408.72), (5000.0, 1296.5)] {
         let machine = machine(stiffness);
         let fold = corner_branch(&machine, 0, true, [0.0, 1.0], 1.0).unwrap().fold.unwrap();
-        assert!((fold.speed - expected).abs() < 1e-2, "{}", fold.speed);
+        assert!((fold.speed_rad_s - expected).abs() < 1e-2, "{}", fold.speed_rad_s);
         let nd = machine.nodal_diameters;
         let softness = nd * nd * machine.casing_stiffness * machine.clearance().powi(2)
             / (machine.blade_inertia * machine.omega_bd * machine.omega_bd);
@@ -138,8 +142,8 @@ fn the_fold_is_the_largest_speed_of_the_branch() {
         };
         let grid = (1..1_000_000).map(|k| delta + 1.3e-6 * f64::from(k));
         let largest = grid.map(speed).fold(0.0, f64::max);
-        assert!((fold.speed / largest - 1.0).abs() < 1e-11, "{} {largest}", fold.speed);
-        assert!((speed(fold.opening) / fold.speed - 1.0).abs() < 1e-12);
+        assert!((fold.speed_rad_s / largest - 1.0).abs() < 1e-11, "{} {largest}", fold.speed_rad_s);
+        assert!((speed(fold.opening_rad) / fold.speed_rad_s - 1.0).abs() < 1e-12);
     }
 }
 
@@ -170,14 +174,15 @@ fn soft() -> Machine {
 fn the_fold_of_very_soft_blades_is_passed() {
     let branch = followed(&soft(), [100.0, 2000.0], 0.02);
     let fold = branch.fold.unwrap();
-    assert!((300.0..2000.0).contains(&fold.speed), "{}", fold.speed);
+    assert!((300.0..2000.0).contains(&fold.speed_rad_s), "{}", fold.speed_rad_s);
     // A fold exchanges stability: an eigenvalue passes through zero.
     let sign =
-        |state: &Equilibrium| state.eigenvalues.iter().product::<nalgebra::Complex<f64>>().re;
-    let top = branch.points.iter().position(|(_, state)| state.speed == fold.speed).unwrap();
+        |state: &Equilibrium| state.eigenvalues_per_s.iter().product::<nalgebra::Complex<f64>>().re;
+    let top =
+        branch.points.iter().position(|(_, state)| state.speed_rad_s == fold.speed_rad_s).unwrap();
     let (before, after) = (&branch.points[top - 1].1, &branch.points[top + 1].1);
     assert!(sign(before) > 0.0 && sign(after) < 0.0);
-    assert!(after.growth() > 0.0);
+    assert!(after.growth_per_s > 0.0);
 }
 
 #[test]
@@ -191,5 +196,5 @@ fn beyond_its_fold_a_speed_has_no_locked_motion() {
     // The paper's blades fold far beyond any rotor.
     let paper = Machine::new(&BladedDisk::default(), &Casing::default(), 3);
     let branch = followed(&paper, [0.0, 500.0], 0.05);
-    assert!(branch.fold.unwrap().speed > 1e6);
+    assert!(branch.fold.unwrap().speed_rad_s > 1e6);
 }

@@ -73,7 +73,7 @@ proptest! {
             let locked = Locked::new(&machine, corner, form, damped).unwrap();
             if let Ok(point) = locked.at(speed) {
                 prop_assert!(point.residual < 1e-11, "{form}: {}", point.residual);
-                let pushes = point.multipliers.iter().all(|&multiplier| multiplier <= 0.0);
+                let pushes = point.multipliers_n.iter().all(|&multiplier| multiplier <= 0.0);
                 prop_assert!(!point.admissible || pushes);
                 prop_assert!(!point.stable || pushes);
             }
@@ -95,10 +95,10 @@ proptest! {
                 let neighbour = at(&stiffer);
                 prop_assert!(neighbour.is_ok(), "{form}: lost by stiffer blades");
                 let neighbour = neighbour.unwrap();
-                let scale = point.multipliers.iter().fold(0.0_f64, |size, l| size.max(l.abs()));
+                let scale = point.multipliers_n.iter().fold(0.0_f64, |size, l| size.max(l.abs()));
                 for i in 0..2 {
                     // As the root of the difference where the branch folds.
-                    let off = (point.multipliers[i] - neighbour.multipliers[i]).abs();
+                    let off = (point.multipliers_n[i] - neighbour.multipliers_n[i]).abs();
                     prop_assert!(off <= 0.1 * scale, "{form}: {point:?} {neighbour:?}");
                 }
             }
@@ -110,11 +110,11 @@ proptest! {
         let speed = ratio * machine.critical_speed().unwrap_or(1.0);
         let nu = machine.nu(speed);
         for state in equilibria(&machine, speed, true).unwrap() {
-            let dissipated = machine.casing_damping * nu * nu * state.amplitude().powi(2);
+            let dissipated = machine.casing_damping * nu * nu * state.amplitude_m.powi(2);
             // The levers of a corner cancel but for their difference.
             let k = machine.casing_stiffness - nu * nu * machine.casing_mass;
-            let scale = dissipated + (k * nu).abs() * state.amplitude().powi(2);
-            prop_assert!(near(state.power, dissipated, scale), "{:?}", state.kind);
+            let scale = dissipated + (k * nu).abs() * state.amplitude_m.powi(2);
+            prop_assert!(near(state.power_w, dissipated, scale), "{:?}", state.kind);
         }
     }
 
@@ -135,7 +135,7 @@ proptest! {
         let states = equilibria(&machine, speed, damped);
         prop_assert!(states.is_ok(), "{states:?}");
         for state in states.unwrap() {
-            let values = &state.eigenvalues;
+            let values = &state.eigenvalues_per_s;
             let fastest = values.iter().map(|value| value.norm()).fold(0.0, f64::max);
             prop_assert!(!values.is_empty() && fastest.is_finite());
             let sum: f64 = values.iter().map(|value| value.re).sum();
@@ -157,19 +157,19 @@ proptest! {
         };
         match (at(0), at(a)) {
             (Ok(one), Ok(other)) => {
-                let scale = one.multipliers.iter().fold(0.0_f64, |size, l| size.max(l.abs()));
+                let scale = one.multipliers_n.iter().fold(0.0_f64, |size, l| size.max(l.abs()));
                 for i in 0..2 {
-                    prop_assert!(near(one.multipliers[i], other.multipliers[i], scale));
+                    prop_assert!(near(one.multipliers_n[i], other.multipliers_n[i], scale));
                 }
-                prop_assert!(near(one.amplitude(), other.amplitude(), one.amplitude()));
+                prop_assert!(near(one.amplitude_m, other.amplitude_m, one.amplitude_m));
                 // z turns by the phase of the side.
                 let turn = machine.rim.phase(a % machine.rim.sides);
                 let (x, y) = (
-                    one.u_cc * turn.cos() - one.u_sc * turn.sin(),
-                    one.u_cc * turn.sin() + one.u_sc * turn.cos(),
+                    one.u_cc_m * turn.cos() - one.u_sc_m * turn.sin(),
+                    one.u_cc_m * turn.sin() + one.u_sc_m * turn.cos(),
                 );
-                prop_assert!(near(x, other.u_cc, one.amplitude()));
-                prop_assert!(near(y, other.u_sc, one.amplitude()));
+                prop_assert!(near(x, other.u_cc_m, one.amplitude_m));
+                prop_assert!(near(y, other.u_sc_m, one.amplitude_m));
                 prop_assert_eq!(one.admissible, other.admissible);
             }
             (Err(_), Err(_)) => {}
@@ -183,17 +183,17 @@ proptest! {
         let corner = Corner::after(&machine.rim, 0).unwrap();
         let locked = Locked::new(&machine, corner, Form::Modal, true).unwrap();
         if let (Ok(one), Ok(mirror)) = (locked.at(speed), locked.at(-speed)) {
-            let scale = one.multipliers.iter().fold(0.0_f64, |size, l| size.max(l.abs()));
-            prop_assert!(near(one.multipliers[0], mirror.multipliers[1], scale));
+            let scale = one.multipliers_n.iter().fold(0.0_f64, |size, l| size.max(l.abs()));
+            prop_assert!(near(one.multipliers_n[0], mirror.multipliers_n[1], scale));
             // The levers cancel but for their difference, and round each.
-            let lever = machine.nodal_diameters * one.amplitude();
-            let size = one.torque.abs() + 1e-4 * scale * lever;
-            prop_assert!(near(one.torque, -mirror.torque, size));
+            let lever = machine.nodal_diameters * one.amplitude_m;
+            let size = one.torque_nm.abs() + 1e-4 * scale * lever;
+            prop_assert!(near(one.torque_nm, -mirror.torque_nm, size));
         }
         let slip = |speed| slip_over(&machine, &[speed]).unwrap()[0];
         if let (Ok(one), Ok(mirror)) = (slip(speed).outcome, slip(-speed).outcome) {
-            prop_assert_eq!(one.wave_speed, -mirror.wave_speed);
-            prop_assert_eq!(one.power, mirror.power);
+            prop_assert_eq!(one.wave_speed_rad_s, -mirror.wave_speed_rad_s);
+            prop_assert_eq!(one.power_w, mirror.power_w);
         }
     }
 
@@ -206,11 +206,11 @@ proptest! {
         for state in equilibria(&machine, part * lock, true).unwrap() {
             match state.kind {
                 Kind::Rest => prop_assert_eq!(state.character, Character::Stable),
-                Kind::Side => prop_assert!(!state.stable()),
-                Kind::Corner => prop_assert_eq!(state.admissible(), part > 1.0),
+                Kind::Side => prop_assert!(!state.stable),
+                Kind::Corner => prop_assert_eq!(state.admissible, part > 1.0),
             }
             if state.kind == Kind::Side {
-                prop_assert_eq!(state.admissible(), part > 1.0);
+                prop_assert_eq!(state.admissible, part > 1.0);
             }
         }
     }
@@ -222,13 +222,13 @@ proptest! {
         let speed = ratio * machine.critical_speed().unwrap_or(1.0);
         if let Ok(orbit) = slip_over(&machine, &[speed]).unwrap()[0].outcome {
             prop_assert!(orbit.slope > 0.0 && orbit.slope < 1.0);
-            prop_assert!(orbit.wave_speed > 0.0 && orbit.wave_speed < speed);
-            prop_assert!(orbit.least_push >= 0.0);
-            prop_assert!(near(orbit.power, orbit.damper_power + orbit.corner_power, orbit.power));
-            let next = slip_map(&machine, speed, orbit.speed_after).unwrap();
+            prop_assert!(orbit.wave_speed_rad_s > 0.0 && orbit.wave_speed_rad_s < speed);
+            prop_assert!(orbit.least_push_n >= 0.0);
+            prop_assert!(near(orbit.power_w, orbit.damper_power_w + orbit.corner_power_w, orbit.power_w));
+            let next = slip_map(&machine, speed, orbit.speed_after_corner_m_s).unwrap();
             // Close to the saddle a crossing takes long and forgets its digits.
-            let scale = orbit.speed_after * (1.0 + orbit.slope / (1.0 - orbit.slope));
-            prop_assert!((next.speed_after - orbit.speed_after).abs() < 1e-8 * scale);
+            let scale = orbit.speed_after_corner_m_s * (1.0 + orbit.slope / (1.0 - orbit.slope));
+            prop_assert!((next.speed_after_corner_m_s - orbit.speed_after_corner_m_s).abs() < 1e-8 * scale);
         }
     }
 
@@ -244,7 +244,7 @@ proptest! {
         let critical = machine.critical_speed().unwrap_or(1.0);
         let fold = |machine: &Machine| {
             let branch = corner_branch(machine, 0, damped, [0.0, 1.0], 1.0).unwrap();
-            branch.fold.map_or(f64::INFINITY, |fold| fold.speed)
+            branch.fold.map_or(f64::INFINITY, |fold| fold.speed_rad_s)
         };
         let machine = if ratio > 0.0 { folding(&machine, fold(&machine), ratio) } else { machine };
         let fold = fold(&machine);

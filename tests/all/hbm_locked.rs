@@ -29,13 +29,18 @@ fn the_papers_figures_9_and_10() {
         for point in &sweep.points {
             // Blade angles of 1e-6 rad move the corner by 1e-6 of its half side,
             // less in the modal form.
-            close(point.amplitude(), 1.010_283e-4, 1e-10);
-            close(point.u_cc, 2.846e-5, 1e-8);
-            close(point.u_sc, 9.694e-5, 1e-8);
-            assert_eq!((point.u_ss, point.u_cs), (point.u_cc, -point.u_sc));
-            assert_eq!(point.admissible, point.speed > critical, "{form} {}", point.speed);
+            close(point.amplitude_m, 1.010_283e-4, 1e-10);
+            close(point.u_cc_m, 2.846e-5, 1e-8);
+            close(point.u_sc_m, 9.694e-5, 1e-8);
+            assert_eq!((point.u_ss_m, point.u_cs_m), (point.u_cc_m, -point.u_sc_m));
+            assert_eq!(
+                point.admissible,
+                point.speed_rad_s > critical,
+                "{form} {}",
+                point.speed_rad_s
+            );
             assert!(point.residual < 1e-14, "{form}: {}", point.residual);
-            assert!(point.stable == point.admissible, "{form} {}", point.speed);
+            assert!(point.stable == point.admissible, "{form} {}", point.speed_rad_s);
         }
     }
 }
@@ -53,14 +58,14 @@ fn three_forms_three_blade_angles_one_multiplier() {
         (Form::Modal, -1.404e-9, 1e-12, 1e-6),
     ] {
         let point = at(&machine, form, false, 500.0);
-        close(point.multipliers[0], exact, tolerance);
-        close(point.multipliers[1], exact, tolerance);
-        close(point.alpha[0], alpha, alpha_tolerance);
-        close(point.alpha[1], -alpha, alpha_tolerance);
+        close(point.multipliers_n[0], exact, tolerance);
+        close(point.multipliers_n[1], exact, tolerance);
+        close(point.alpha_rad[0], alpha, alpha_tolerance);
+        close(point.alpha_rad[1], -alpha, alpha_tolerance);
     }
     let printed = at(&machine, Form::Printed, false, 500.0);
     // "1.5e-4 N in 150.9 N" is what the wrong rows cost the multipliers.
-    let difference = (printed.multipliers[0] - exact).abs();
+    let difference = (printed.multipliers_n[0] - exact).abs();
     assert!((0.5e-4..2e-4).contains(&difference), "{difference}");
 }
 
@@ -77,16 +82,16 @@ fn stiff_blades_meet_the_closed_forms_to_twelve_digits() {
                 let expected = machine.locked_multipliers(speed).unwrap();
                 let scale = machine.casing_stiffness * machine.clearance()
                     + expected[0].abs().max(expected[1].abs());
-                for (value, exact) in point.multipliers.iter().zip(expected) {
+                for (value, exact) in point.multipliers_n.iter().zip(expected) {
                     close(*value, exact, 1e-12 * scale);
                 }
                 let amplitude = machine.locked_amplitude().unwrap();
-                close(point.amplitude(), amplitude, 1e-12 * amplitude);
+                close(point.amplitude_m, amplitude, 1e-12 * amplitude);
                 let nu = machine.nu(speed);
                 let dissipated = machine.casing_damping * nu * nu * amplitude * amplitude;
                 // The clearance itself is a difference of two numbers near 0.5 m,
                 // but both sides use the same one.
-                close(point.power, dissipated, 1e-12 * (dissipated + 1.0));
+                close(point.power_w, dissipated, 1e-12 * (dissipated + 1.0));
             }
         }
     }
@@ -96,10 +101,10 @@ fn stiff_blades_meet_the_closed_forms_to_twelve_digits() {
 fn damped_multipliers_torque_and_threshold_of_the_paper_machine() {
     let machine = machine(3, 0.05);
     let point = at(&machine, Form::Modal, true, 500.0);
-    close(point.multipliers[0], -244.416, 1e-3);
-    close(point.multipliers[1], -57.295, 1e-3);
-    close(point.power, 4.036, 5e-4);
-    close(point.torque, 8.071e-3, 1e-6);
+    close(point.multipliers_n[0], -244.416, 1e-3);
+    close(point.multipliers_n[1], -57.295, 1e-3);
+    close(point.power_w, 4.036, 5e-4);
+    close(point.torque_nm, 8.071e-3, 1e-6);
     let lock = machine.lock_speed().unwrap();
     assert!(!at(&machine, Form::Modal, true, lock * (1.0 - 1e-6)).admissible);
     assert!(at(&machine, Form::Modal, true, lock * (1.0 + 1e-6)).admissible);
@@ -111,8 +116,8 @@ fn the_critical_speed_itself_is_an_ordinary_point() {
     let critical = machine.critical_speed().unwrap();
     for form in Form::ALL {
         let point = at(&machine, form, false, critical);
-        close(point.multipliers[0], 0.0, 1e-10);
-        close(point.amplitude(), machine.locked_amplitude().unwrap(), 1e-16);
+        close(point.multipliers_n[0], 0.0, 1e-10);
+        close(point.amplitude_m, machine.locked_amplitude().unwrap(), 1e-16);
     }
 }
 
@@ -126,10 +131,10 @@ fn every_corner_is_the_same_turned() {
             let point =
                 Locked::new(&machine, corner, Form::Modal, true).unwrap().at(470.0).unwrap();
             for i in 0..2 {
-                close(point.multipliers[i], reference.multipliers[i], 1e-10);
-                close(point.alpha[i], reference.alpha[i], 1e-20);
+                close(point.multipliers_n[i], reference.multipliers_n[i], 1e-10);
+                close(point.alpha_rad[i], reference.alpha_rad[i], 1e-20);
             }
-            close(point.amplitude(), reference.amplitude(), 1e-17);
+            close(point.amplitude_m, reference.amplitude_m, 1e-17);
             assert!(point.admissible && point.stable);
         }
     }
@@ -185,14 +190,14 @@ fn the_eight_printed_equations_hold_and_their_own_newton_agrees() {
     for speed in [50.0, 290.0, 400.0, 500.0] {
         let point = at(&machine, Form::Printed, false, speed);
         let found = Eight::from([
-            point.u_cc,
-            point.u_cs,
-            point.u_sc,
-            point.u_ss,
-            point.multipliers[0],
-            point.multipliers[1],
-            point.alpha[0],
-            point.alpha[1],
+            point.u_cc_m,
+            point.u_cs_m,
+            point.u_sc_m,
+            point.u_ss_m,
+            point.multipliers_n[0],
+            point.multipliers_n[1],
+            point.alpha_rad[0],
+            point.alpha_rad[1],
         ]);
         let residual = printed_equations(&disk, &casing, speed, &found);
         // Terms of 1e-4 m and 1e-2 N m, so 1e-15 is a few units of rounding of
@@ -262,7 +267,7 @@ fn soft_blades_of_the_printed_form_are_followed_and_not_met_by_chance() {
     assert!(sweep.points.iter().all(|point| point.residual < 1e-14));
     // One branch: by equal steps of the speed, equal steps of the multipliers.
     for three in sweep.points.windows(3) {
-        let [a, b, c] = [0, 1, 2].map(|k| three[k].multipliers[1]);
+        let [a, b, c] = [0, 1, 2].map(|k| three[k].multipliers_n[1]);
         close(c - b, b - a, 1e-3 * (b - a).abs());
     }
     // The order of the speeds does not matter, nor does what was found before.

@@ -1,7 +1,7 @@
 //! Slip in the frequency domain: the map from corner to corner, its fixed
 //! point, and the balance of power.
 
-use rubscope::harmonic::{NoSlip, slip_limits, slip_map, slip_over};
+use rubscope::harmonic::{NoSlip, SlipLimit, slip_limits, slip_map, slip_over};
 use rubscope::model::{BladedDisk, Casing, Machine};
 
 fn machine(nodal_diameters: u32, zeta_c: f64) -> Machine {
@@ -22,12 +22,16 @@ fn power_closes_and_the_multiplier_is_below_one_wherever_slip_lives() {
         for sign in [1.0, -1.0] {
             let point = slip_over(&machine, &[sign * speed]).unwrap()[0];
             let orbit = point.outcome.unwrap();
-            close(orbit.power, orbit.damper_power + orbit.corner_power, 1e-12);
+            close(orbit.power_w, orbit.damper_power_w + orbit.corner_power_w, 1e-12);
             assert!(orbit.slope > 0.0 && orbit.slope < 1.0 && point.stable());
-            assert!(orbit.least_push > 0.0 && orbit.power > 0.0);
-            let fraction = orbit.wave_speed / (sign * speed);
+            assert!(orbit.least_push_n > 0.0 && orbit.power_w > 0.0);
+            let fraction = orbit.wave_speed_rad_s / (sign * speed);
             assert!((0.0..1.0).contains(&fraction), "slower than the rotor: {fraction}");
-            close(orbit.speed_after, orbit.speed_before * (2.0 * machine.rim.delta).cos(), 1e-12);
+            close(
+                orbit.speed_after_corner_m_s,
+                orbit.speed_before_corner_m_s * (2.0 * machine.rim.delta).cos(),
+                1e-12,
+            );
         }
     }
 }
@@ -37,15 +41,20 @@ fn the_fixed_point_is_fixed_and_its_slope_is_the_slope() {
     let machine = machine(3, 0.01);
     let orbit = slip_over(&machine, &[500.0]).unwrap()[0].outcome.unwrap();
     let map = |speed| slip_map(&machine, 500.0, speed).unwrap();
-    let next = map(orbit.speed_after);
-    close(next.speed_after, orbit.speed_after, 1e-13);
-    close(next.time, orbit.period, 1e-13);
-    close(next.least_push, orbit.least_push, 1e-12);
+    let next = map(orbit.speed_after_corner_m_s);
+    close(next.speed_after_corner_m_s, orbit.speed_after_corner_m_s, 1e-13);
+    close(next.time_s, orbit.period_s, 1e-13);
+    close(next.least_push_n, orbit.least_push_n, 1e-12);
     close(next.slope, orbit.slope, 1e-12);
-    let step = 1e-5 * orbit.speed_after;
-    let (up, down) = (map(orbit.speed_after + step), map(orbit.speed_after - step));
+    let step = 1e-5 * orbit.speed_after_corner_m_s;
+    let (up, down) =
+        (map(orbit.speed_after_corner_m_s + step), map(orbit.speed_after_corner_m_s - step));
     // Second differences leave 1e-10 of the slope.
-    close((up.speed_after - down.speed_after) / (2.0 * step), orbit.slope, 1e-8);
+    close(
+        (up.speed_after_corner_m_s - down.speed_after_corner_m_s) / (2.0 * step),
+        orbit.slope,
+        1e-8,
+    );
 }
 
 /// Motion in the blade frame by small Runge-Kutta steps: side, position and
@@ -81,8 +90,8 @@ fn the_closed_flow_is_the_equation_of_motion() {
         let machine = machine(3, zeta);
         let crossing = slip_map(&machine, rotor, start).unwrap();
         let (time, before) = crossing_by_steps(&machine, rotor, start);
-        close(crossing.time, time, 1e-9);
-        close(crossing.speed_after, before * (2.0 * machine.rim.delta).cos(), 1e-9);
+        close(crossing.time_s, time, 1e-9);
+        close(crossing.speed_after_corner_m_s, before * (2.0 * machine.rim.delta).cos(), 1e-9);
     }
 }
 
@@ -90,11 +99,17 @@ fn the_closed_flow_is_the_equation_of_motion() {
 fn where_slip_lives() {
     let speeds: Vec<f64> = (0..=200).map(|k| 10.0 * f64::from(k)).collect();
     let limits = slip_limits(&machine(3, 0.01), &speeds).unwrap();
-    let [(from, true), (to, false)] = limits[..] else { panic!("{limits:?}") };
+    let [
+        SlipLimit { speed_rad_s: from, appears: true },
+        SlipLimit { speed_rad_s: to, appears: false },
+    ] = limits[..]
+    else {
+        panic!("{limits:?}")
+    };
     // Below, the wave lifts off: the smallest push is zero just there.
     let machine_at = machine(3, 0.01);
     let first = slip_over(&machine_at, &[from]).unwrap()[0].outcome.unwrap();
-    assert!(first.least_push < 1e-9, "{}", first.least_push);
+    assert!(first.least_push_n < 1e-9, "{}", first.least_push_n);
     let below = slip_over(&machine_at, &[from * (1.0 - 1e-9)]).unwrap()[0];
     assert_eq!(below.outcome, Err(NoSlip::Lifts));
     // Above, the wave no longer climbs over the saddle: the speed gained along
@@ -110,7 +125,7 @@ fn where_slip_lives() {
     assert_eq!(above.outcome, Err(NoSlip::NoDrive));
     // With more damping slip begins later: at the paper's 5 % not below 735 rad/s.
     let damped = slip_limits(&machine(3, 0.05), &speeds).unwrap();
-    assert!((735.0..736.0).contains(&damped[0].0));
+    assert!((735.0..736.0).contains(&damped[0].speed_rad_s));
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use rubscope::harmonic::{CornerBranch, Equilibrium};
+use rubscope::harmonic::{CornerBranch, Equilibrium, GroupContact};
 use rubscope::model::Machine;
 
 /// A right angle less what the widest corner leaves of it \[rad\].
@@ -20,36 +20,37 @@ pub fn keeps_to_its_laws(
 ) -> Result<(), String> {
     let must = |holds: bool, what: &str| if holds { Ok(()) } else { Err(what.to_string()) };
     let points = &branch.points;
-    let fold = branch.fold.map_or(f64::INFINITY, |fold| fold.speed);
+    let fold = branch.fold.map_or(f64::INFINITY, |fold| fold.speed_rad_s);
     if from > fold {
         return must(points.is_empty(), "no corner state beyond the fold");
     }
     let [(_, first), .., (widest, last)] = points.as_slice() else {
         return must(points.len() == 1 && from == fold, "only the fold itself is a single point");
     };
-    must(first.speed == from, "begins where it was asked to")?;
-    let rising = |pair: &[(f64, Equilibrium)]| pair[0].1.speed < pair[1].1.speed;
-    let falling = |pair: &[(f64, Equilibrium)]| pair[0].1.speed > pair[1].1.speed;
+    must(first.speed_rad_s == from, "begins where it was asked to")?;
+    let rising = |pair: &[(f64, Equilibrium)]| pair[0].1.speed_rad_s < pair[1].1.speed_rad_s;
+    let falling = |pair: &[(f64, Equilibrium)]| pair[0].1.speed_rad_s > pair[1].1.speed_rad_s;
     if to <= fold {
-        must(last.speed == to, "ends where it was asked to")?;
+        must(last.speed_rad_s == to, "ends where it was asked to")?;
         must(points.windows(2).all(rising), "speeds rise up to the end")?;
     } else {
-        let folded = branch.fold.map(|fold| (fold.speed, fold.opening));
-        let top =
-            points.iter().position(|(opening, state)| Some((state.speed, *opening)) == folded);
+        let folded = branch.fold.map(|fold| (fold.speed_rad_s, fold.opening_rad));
+        let top = points
+            .iter()
+            .position(|(opening, state)| Some((state.speed_rad_s, *opening)) == folded);
         let top = top.ok_or("the fold is a point of the branch")?;
         must(points[..=top].windows(2).all(rising), "speeds rise up to the fold")?;
         must(points[top..].windows(2).all(falling), "speeds fall behind the fold")?;
         let open = (widest - WIDEST).abs() <= 4.0 * f64::EPSILON;
-        must(last.speed == from || open, "ends where it began or wide open")?;
-        must(last.speed >= from, "does not go below where it began")?;
+        must(last.speed_rad_s == from || open, "ends where it began or wide open")?;
+        must(last.speed_rad_s >= from, "does not go below where it began")?;
     }
     let widens = |pair: &[(f64, Equilibrium)]| pair[0].0 <= pair[1].0;
     must(points.windows(2).all(widens), "the corner only widens")?;
     must(*widest <= WIDEST + 4.0 * f64::EPSILON, "the corner stays below a right angle")?;
     spacing(machine, points, step)?;
     points.iter().try_for_each(|(opening, state)| {
-        must(state.speed <= fold, "no state beyond the fold")?;
+        must(state.speed_rad_s <= fold, "no state beyond the fold")?;
         balance(machine, *opening, state)
     })
 }
@@ -59,12 +60,16 @@ fn spacing(machine: &Machine, points: &[(f64, Equilibrium)], step: f64) -> Resul
     let critical = machine.critical_speed().unwrap_or(f64::NAN);
     let arcs: Vec<f64> = points
         .windows(2)
-        .map(|pair| ((pair[1].1.speed - pair[0].1.speed) / critical).hypot(pair[1].0 - pair[0].0))
+        .map(|pair| {
+            ((pair[1].1.speed_rad_s - pair[0].1.speed_rad_s) / critical)
+                .hypot(pair[1].0 - pair[0].0)
+        })
         .collect();
     // Both coordinates go one way on each side of the fold, so that the sum of
     // their ways bounds the arc.
     let ways = points.windows(2).map(|pair| {
-        ((pair[1].1.speed - pair[0].1.speed) / critical).abs() + (pair[1].0 - pair[0].0).abs()
+        ((pair[1].1.speed_rad_s - pair[0].1.speed_rad_s) / critical).abs()
+            + (pair[1].0 - pair[0].0).abs()
     });
     let whole: f64 = ways.sum();
     if points.len() > MOST_POINTS || points.len() as f64 > 1.2 * whole / step + 4.0 {
@@ -82,19 +87,19 @@ fn spacing(machine: &Machine, points: &[(f64, Equilibrium)], step: f64) -> Resul
 /// the power what the damper takes.
 fn balance(machine: &Machine, opening: f64, state: &Equilibrium) -> Result<(), String> {
     let failed = |what: &str, by: f64| {
-        Err(format!("{what} by {by:e} at {} rad/s, open to {opening}", state.speed))
+        Err(format!("{what} by {by:e} at {} rad/s, open to {opening}", state.speed_rad_s))
     };
-    let amplitude = state.amplitude();
+    let amplitude = state.amplitude_m;
     let expected = machine.clearance() / opening.cos();
     let off = (amplitude / expected - 1.0).abs();
     if off > 1e-11 || off.is_nan() {
         return failed("amplitude is off", off);
     }
-    let nu = machine.nu(state.speed);
+    let nu = machine.nu(state.speed_rad_s);
     let ratio = nu / machine.omega_c;
     let k = machine.casing_stiffness * (1.0 - ratio) * (1.0 + ratio);
     let d = machine.casing_damping * nu;
-    let z = state.z;
+    let z = state.z_m;
     let mut force = [k * z[0] - d * z[1], k * z[1] + d * z[0]];
     // Multipliers are what the forces are made of: their rounding is the limit.
     let mut scale = force[0].hypot(force[1]);
@@ -102,9 +107,9 @@ fn balance(machine: &Machine, opening: f64, state: &Equilibrium) -> Result<(), S
     // and blades that turn by many radians have few digits left for the rest.
     let mut loads = 0.0;
     let inertia = machine.casing_stiffness * amplitude * ratio.max(1.0).powi(2);
-    for &(side, multiplier) in &state.contacts {
+    for &GroupContact { side, multiplier_n: multiplier, .. } in &state.contacts {
         let (cos, sin) = machine.rim.direction(side);
-        let turn = machine.nodal_diameters * (cos * state.alpha[0] + sin * state.alpha[1]);
+        let turn = machine.nodal_diameters * (cos * state.alpha_c_rad + sin * state.alpha_s_rad);
         let (sin_turn, cos_turn) = turn.sin_cos();
         let (cos, sin) = (cos * cos_turn - sin * sin_turn, sin * cos_turn + cos * sin_turn);
         let gap = 1.0 + (z[0] * cos + z[1] * sin) / machine.clearance();
@@ -127,7 +132,7 @@ fn balance(machine: &Machine, opening: f64, state: &Equilibrium) -> Result<(), S
     // The levers of the two contacts cancel but for their difference.
     let size = dissipated + (k * nu).abs() * amplitude * amplitude;
     let round = 16.0 * f64::EPSILON * loads * amplitude * nu;
-    let off = (state.power - dissipated).abs();
+    let off = (state.power_w - dissipated).abs();
     if off > 1e-11 * size + round || off.is_nan() {
         return failed("the power is not what the damper takes", off / size);
     }

@@ -65,7 +65,7 @@ fn the_event_solver_holds_the_corner_from_the_lock_in_speed_on() {
 /// together to 1e-12.
 fn long_wave_speed(scene: &Scene, orbit: &SlipOrbit) -> f64 {
     let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
-    let settle = orbit.period * 1e-12_f64.ln() / orbit.slope.ln();
+    let settle = orbit.period_s * 1e-12_f64.ln() / orbit.slope.ln();
     motion.advance(0.1 + settle).unwrap();
     let mut sides = Vec::new();
     while sides.len() < 102 {
@@ -87,11 +87,11 @@ fn long_wave_speed(scene: &Scene, orbit: &SlipOrbit) -> f64 {
 fn slip_of_the_map_is_the_long_motion_of_the_event_solver() {
     let scene = scene(&[("casing.damping_ratio", "0.01"), ("operation.pulse_n", "51742")]);
     let orbit = slip_over(&scene.machine(), &[500.0]).unwrap()[0].outcome.unwrap();
-    close(long_wave_speed(&scene, &orbit), orbit.wave_speed, 1e-10);
+    close(long_wave_speed(&scene, &orbit), orbit.wave_speed_rad_s, 1e-10);
     // Blades that give way change the corner and its impulse by some 1e-8.
     let mut moving = scene;
     moving.solver.model = ModelSize::Modal;
-    close(long_wave_speed(&moving, &orbit), orbit.wave_speed, 1e-7);
+    close(long_wave_speed(&moving, &orbit), orbit.wave_speed_rad_s, 1e-7);
 }
 
 /// On side 0 just after its corner, with this part of the repeating speed.
@@ -104,7 +104,7 @@ fn slipping(diameters: u32, zeta: f64, speed: f64, part: f64) -> (Scene, SlipOrb
     let orbit = slip_over(&machine, &[speed]).unwrap()[0].outcome.unwrap();
     // z = -(g0 - i y), z' = i y', u' = z' + i nu z. A little inside the corner.
     let y = -machine.rim.half_side() * (1.0 - 1e-9);
-    let rate = part * orbit.speed_after;
+    let rate = part * orbit.speed_after_corner_m_s;
     let nu = machine.nu(speed);
     scene.initial.u_c_m = -machine.clearance();
     scene.initial.u_s_m = y;
@@ -120,7 +120,7 @@ fn slip_lives_where_the_event_solver_keeps_it() {
         [(3, 0.05, 900.0), (3, 0.01, 440.0), (4, 0.05, 600.0), (3, 0.01, 1800.0)]
     {
         let (scene, orbit) = slipping(diameters, zeta, speed, 1.01);
-        close(long_wave_speed(&scene, &orbit), orbit.wave_speed, 1e-9);
+        close(long_wave_speed(&scene, &orbit), orbit.wave_speed_rad_s, 1e-9);
     }
 }
 
@@ -155,20 +155,20 @@ fn explicit_locked_motion_is_the_modal_form_with_its_first_order_error() {
     let state = motion.state();
     let turn = Complex::new(0.0, -3.0 * motion.rotor().angle(state.t_s)).exp();
     let z = Complex::new(state.u[0], state.u[1]) * turn;
-    let expected = Complex::new(point.u_cc, point.u_sc);
+    let expected = Complex::new(point.u_cc_m, point.u_sc_m);
     assert!((z - expected).norm() < 1e-10 * expected.norm());
     // (nu h)^2 = 2e-6; the first-order error itself is 6e-3.
     let second_order = 5e-6;
     for (i, (_, multiplier)) in motion.multipliers().into_iter().enumerate() {
-        close(multiplier, point.multipliers[i], second_order);
-        assert!((multiplier - exact.multipliers[i]).abs() > 1e-3 * multiplier.abs());
+        close(multiplier, point.multipliers_n[i], second_order);
+        assert!((multiplier - exact.multipliers_n[i]).abs() > 1e-3 * multiplier.abs());
     }
     for (i, side) in corner.sides().into_iter().enumerate() {
         let (cos, sin) = machine.rim.direction(side);
         let alpha = cos * state.alpha[0] + sin * state.alpha[1];
         // Both blades bend the same way; what they share is a difference of
         // the two torques, four times smaller than either.
-        close(alpha, point.alpha[i], 4.0 * second_order);
+        close(alpha, point.alpha_rad[i], 4.0 * second_order);
     }
 }
 
@@ -192,16 +192,16 @@ fn event_locked_motion_is_the_modal_form() {
         let turn =
             Complex::new(0.0, -machine.nodal_diameters * motion.rotor().angle(state.t_s)).exp();
         let z = Complex::new(state.u[0], state.u[1]) * turn;
-        let expected = Complex::new(point.u_cc, point.u_sc);
+        let expected = Complex::new(point.u_cc_m, point.u_sc_m);
         // An angle of 600 rad rounds off by 1e-13.
         assert!((z - expected).norm() < 1e-12 * expected.norm());
         for (i, (_, multiplier)) in motion.multipliers().into_iter().enumerate() {
-            close(multiplier, point.multipliers[i], 1e-12);
+            close(multiplier, point.multipliers_n[i], 1e-12);
         }
         for (i, side) in corner.sides().into_iter().enumerate() {
             let (cos, sin) = machine.rim.direction(side);
             let alpha = cos * state.alpha[0] + sin * state.alpha[1];
-            close(alpha, point.alpha[i], 1e-12);
+            close(alpha, point.alpha_rad[i], 1e-12);
         }
     }
 }
@@ -222,14 +222,14 @@ fn an_engine_order_moves_the_blades_as_the_frequency_domain_says() {
         let machine = scene.machine();
         let response = excited_lock(&machine, 15, &scene.excitation, &[speed]).unwrap().remove(0);
         let mut motion = Motion::new(&scene.checked().unwrap());
-        let period = std::f64::consts::TAU / response.frequency;
+        let period = std::f64::consts::TAU / response.frequency_rad_s;
         let start = (0.25 / period).ceil() * period;
         let (count, mut sums) = (64, [Complex::new(0.0, 0.0); 2]);
         for sample in 0..count {
             let time = start + period * f64::from(sample) / f64::from(count);
             motion.advance(time).unwrap();
             let state = motion.state();
-            let turn = Complex::new(0.0, -response.frequency * state.t_s).exp();
+            let turn = Complex::new(0.0, -response.frequency_rad_s * state.t_s).exp();
             for (sum, alpha) in sums.iter_mut().zip(state.alpha) {
                 *sum += turn * (alpha * 2.0 / f64::from(count));
             }

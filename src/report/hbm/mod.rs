@@ -1,159 +1,174 @@
 //! Reports of the frequency domain: JSON (`rubscope.hbm/1`), tables and a
-//! heading in sentences.
+//! heading in sentences. Results serialise themselves; here stand only the
+//! views that put several results, or parts of one, together.
 
 use std::io::Write;
 
 use serde::Serialize;
+use serde_json::{Map, Value, json};
 
-mod branches;
-mod campbell;
-mod excitation;
-mod locked;
-mod slip;
+mod tables;
 
-pub use branches::{BranchReport, FoldReport, branch_table, corner_table, threshold_table};
-pub use campbell::{CampbellReport, campbell_table, coincidence_table};
-pub use excitation::{ExcitationReport, excitation_table};
-pub use locked::{locked_table, summary_table};
-pub use slip::{
-    HarmonicsReport, Region, RegionReport, SlipReport, region_table, slip_table, term_table,
-    truncation_table,
-};
+pub use tables::*;
 
 use crate::harmonic::{
-    Branches, Campbell, CornerBranch, Form, NoSlip, SlipPoint, SlipSpectrum, Sweep,
+    Campbell, CornerBranch, ExcitedLock, Form, LockedPoint, NoSlip, SlipPoint, SlipSpectrum, Sweep,
 };
-use crate::model::{Machine, Rim};
+use crate::model::{Excitation, Machine, Rim};
 use crate::report::number::{count, short};
 
 /// The whole answer of `rubscope hbm --json`.
 #[derive(Clone, Debug, Serialize)]
-pub struct HbmReport {
-    schema: &'static str,
-    form: Form,
-    damped: bool,
-    /// Critical rotor speed `Omega_c = omega_c/n_d`, Eq. (17).
-    omega_c_rad_s: Option<f64>,
-    /// Speed above which both multipliers of the damped lock push.
-    omega_lock_rad_s: Option<f64>,
-    /// Speed above which the equality law holds a lock, one multiplier tensile.
-    omega_adhesive_rad_s: Option<f64>,
-    /// The dangerous coincidence, Eq. (31).
-    coincidence_rad_s: Option<f64>,
-    /// Frequency of the casing `omega_c`.
-    casing_frequency_rad_s: f64,
-    /// Frequency of the bladed disk `omega_bd`.
-    blade_frequency_rad_s: f64,
-    clearance_m: f64,
-    locked_amplitude_m: Option<f64>,
-    /// Speeds asked for at which there is no locked motion.
-    missing_rad_s: Vec<f64>,
-    points: Vec<locked::Point>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    branches: Option<BranchReport>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    fold: Option<FoldReport>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    slip: Option<Vec<SlipReport>>,
-    /// Speeds where slip appears or vanishes.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    slip_limits_rad_s: Option<Vec<f64>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    slip_region: Option<Vec<RegionReport>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    harmonics: Option<Vec<HarmonicsReport>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    campbell: Option<CampbellReport>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    excitation: Option<ExcitationReport>,
-}
+#[serde(transparent)]
+pub struct HbmReport(Map<String, Value>);
 
 impl HbmReport {
     /// The report of one machine, so far without any point.
     #[must_use]
     pub fn new(machine: &Machine, form: Form, damped: bool) -> Self {
-        Self {
-            schema: "rubscope.hbm/1",
-            form,
-            damped,
-            omega_c_rad_s: machine.critical_speed(),
-            omega_lock_rad_s: machine.lock_speed(),
-            omega_adhesive_rad_s: machine.adhesive_speed(),
-            coincidence_rad_s: machine.dangerous_speed(),
-            casing_frequency_rad_s: machine.omega_c,
-            blade_frequency_rad_s: machine.omega_bd,
-            clearance_m: machine.clearance(),
-            locked_amplitude_m: machine.locked_amplitude(),
-            missing_rad_s: Vec::new(),
-            points: Vec::new(),
-            branches: None,
-            fold: None,
-            slip: None,
-            slip_limits_rad_s: None,
-            slip_region: None,
-            harmonics: None,
-            campbell: None,
-            excitation: None,
-        }
+        Self(Map::new())
+            .with("schema", "rubscope.hbm/1")
+            .with("form", form)
+            .with("damped", damped)
+            .with("omega_c_rad_s", machine.critical_speed())
+            .with("omega_lock_rad_s", machine.lock_speed())
+            .with("omega_adhesive_rad_s", machine.adhesive_speed())
+            .with("coincidence_rad_s", machine.dangerous_speed())
+            .with("casing_frequency_rad_s", machine.omega_c)
+            .with("blade_frequency_rad_s", machine.omega_bd)
+            .with("clearance_m", machine.clearance())
+            .with("locked_amplitude_m", machine.locked_amplitude())
+            .with("missing_rad_s", [(); 0])
+            .with("points", [(); 0])
+    }
+
+    /// Adds a part, or replaces it in its place.
+    #[must_use]
+    pub fn with(mut self, name: &str, part: impl Serialize) -> Self {
+        self.0.insert(name.to_string(), json!(part));
+        self
     }
 
     /// Adds the locked motion over speed.
     #[must_use]
-    pub fn with_sweep(mut self, rim: &Rim, sweep: &Sweep) -> Self {
-        self.points = locked::points(rim, sweep);
-        self.missing_rad_s.clone_from(&sweep.missing);
-        self
+    pub fn with_sweep(self, rim: &Rim, sweep: &Sweep) -> Self {
+        let blades = sweep.corner.sides().map(|side| rim.blades_of_side(side));
+        let points = sweep.points.iter().map(|point| with_groups(point, &blades));
+        self.with("missing_rad_s", &sweep.missing).with("points", points.collect::<Value>())
     }
+}
 
-    /// Adds every equilibrium and the thresholds of the branches.
-    #[must_use]
-    pub fn with_branches(mut self, machine: &Machine, branches: &Branches) -> Self {
-        self.branches = Some(BranchReport::of(machine, branches));
-        self
+/// A locked motion with its multipliers and angles by phase group.
+fn with_groups(point: &LockedPoint, blades: &[Vec<u32>; 2]) -> Value {
+    let mut value = json!(point);
+    if let Some(map) = value.as_object_mut() {
+        let groups = [0, 1].map(|i| {
+            let (multiplier, alpha) = (point.multipliers_n[i], point.alpha_rad[i]);
+            json!({ "blades": blades[i], "multiplier_n": multiplier, "alpha_rad": alpha })
+        });
+        map.shift_remove("multipliers_n");
+        map.shift_remove("alpha_rad");
+        map.shift_insert(1, "groups".to_string(), json!(groups));
     }
+    value
+}
 
-    /// Adds the corner branch followed through its fold.
-    #[must_use]
-    pub fn with_fold(mut self, branch: &CornerBranch) -> Self {
-        self.fold = Some(FoldReport::of(branch));
-        self
-    }
+/// The corner branch in JSON.
+#[must_use]
+pub fn fold(branch: &CornerBranch) -> Value {
+    let points = branch.points.iter().map(|(opening, state)| {
+        let multipliers: Vec<f64> = state.contacts.iter().map(|at| at.multiplier_n).collect();
+        json!({
+            "speed_rad_s": state.speed_rad_s,
+            "opening_rad": opening,
+            "amplitude_m": state.amplitude_m,
+            "multipliers_n": multipliers,
+            "character": state.character,
+            "growth_per_s": state.growth_per_s,
+        })
+    });
+    json!({
+        "fold_rad_s": branch.fold.map(|fold| fold.speed_rad_s),
+        "fold_opening_rad": branch.fold.map(|fold| fold.opening_rad),
+        "points": points.collect::<Value>(),
+    })
+}
 
-    /// Adds slip over speed and the speeds where it appears or vanishes.
-    #[must_use]
-    pub fn with_slip(mut self, points: &[SlipPoint], limits: &[(f64, bool)]) -> Self {
-        self.slip = Some(points.iter().map(SlipReport::of).collect());
-        self.slip_limits_rad_s = Some(limits.iter().map(|limit| limit.0).collect());
-        self
+/// Slip at one speed in JSON, with `null` for each figure where there is none.
+#[must_use]
+pub fn slip(point: &SlipPoint) -> Value {
+    let mut value = json!({
+        "speed_rad_s": point.speed_rad_s,
+        "exists": point.exists(),
+        "stable": point.stable(),
+        "reason": point.outcome.err(),
+    });
+    let orbit = json!(point.outcome.unwrap_or_default());
+    if let (Some(map), Value::Object(orbit)) = (value.as_object_mut(), orbit) {
+        let null = |(name, figure)| (name, if point.exists() { figure } else { Value::Null });
+        map.extend(orbit.into_iter().map(null));
     }
+    value
+}
 
-    /// Adds where slip lives over damping ratios of the casing.
-    #[must_use]
-    pub fn with_slip_region(mut self, region: &[Region]) -> Self {
-        self.slip_region = Some(region.iter().map(RegionReport::of).collect());
-        self
-    }
+/// The Fourier series of slip at one speed in JSON.
+#[must_use]
+pub fn harmonics((speed, series): &(f64, Result<SlipSpectrum, NoSlip>)) -> Value {
+    let found = series.as_ref().ok();
+    json!({
+        "speed_rad_s": speed,
+        "exists": found.is_some(),
+        "reason": series.as_ref().err(),
+        "period_s": found.map(|series| series.period_s),
+        "amplitude_m": found.map(|series| series.amplitude_m),
+        "terms": found.map_or(&[][..], |series| &series.terms),
+        "truncation": found.map_or(&[][..], |series| &series.truncations),
+    })
+}
 
-    /// Adds the Fourier series of slip at each speed.
-    #[must_use]
-    pub fn with_harmonics(mut self, series: &[(f64, Result<SlipSpectrum, NoSlip>)]) -> Self {
-        self.harmonics = Some(series.iter().map(HarmonicsReport::of).collect());
-        self
-    }
+/// Campbell data at these speeds \[rad/s\] in JSON.
+#[must_use]
+pub fn campbell(campbell: &Campbell, speeds: &[f64]) -> Value {
+    let lines = campbell.lines.iter().map(|line| {
+        let frequencies: Vec<f64> = speeds.iter().map(|&speed| line.at(speed)).collect();
+        json!({
+            "name": line.name,
+            "at_standstill_rad_s": line.at_standstill_rad_s,
+            "slope": line.slope,
+            "frequency_rad_s": frequencies,
+        })
+    });
+    json!({
+        "speed_rad_s": speeds,
+        "lines": lines.collect::<Value>(),
+        "coincidences": campbell.coincidences,
+    })
+}
 
-    /// Adds Campbell data at these speeds.
-    #[must_use]
-    pub fn with_campbell(mut self, campbell: &Campbell, speeds: &[f64]) -> Self {
-        self.campbell = Some(CampbellReport::of(campbell, speeds));
-        self
-    }
-
-    /// Adds the response to an engine order.
-    #[must_use]
-    pub fn with_excitation(mut self, report: ExcitationReport) -> Self {
-        self.excitation = Some(report);
-        self
-    }
+/// The response of the lock to an engine order in JSON: amplitudes of
+/// oscillation, and whether this order drives the modes at all.
+#[must_use]
+pub fn excitation(excitation: &Excitation, drives: bool, found: &[ExcitedLock]) -> Value {
+    let point = |lock: &ExcitedLock| {
+        json!({
+            "speed_rad_s": lock.state.speed_rad_s,
+            "frequency_rad_s": lock.frequency_rad_s,
+            "character": lock.state.character,
+            "casing_m": lock.casing_m(),
+            "alpha_c_rad": lock.response[2].norm(),
+            "alpha_s_rad": lock.response[3].norm(),
+            "multipliers_n": lock.multipliers_n.map(|multiplier| multiplier.norm()),
+            "relative_amplitude": lock.relative_amplitude,
+            "relative_multiplier": lock.relative_multiplier,
+            "release_torque_nm": lock.release_torque_nm,
+        })
+    };
+    json!({
+        "amplitude_nm": excitation.amplitude_nm,
+        "order": excitation.order,
+        "drives": drives,
+        "points": found.iter().map(point).collect::<Value>(),
+    })
 }
 
 /// What machine this is and who holds the wave, a fact a line.

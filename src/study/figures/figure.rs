@@ -1,12 +1,12 @@
 //! A figure as data: panels of series over two quantities, all in SI units.
 
+use std::borrow::Cow;
+
 use crate::motion::Verdict;
 
 /// One figure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
-    /// Its number in the paper.
-    pub number: u32,
     /// One line that says what it shows.
     pub title: String,
     /// One line that says of what.
@@ -31,12 +31,12 @@ pub struct Panel {
 }
 
 /// What an axis measures.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Quantity {
     /// Name in files, with the SI unit.
-    pub column: &'static str,
+    pub column: Cow<'static, str>,
     /// Name on the axis, with the unit shown.
-    pub label: &'static str,
+    pub label: Cow<'static, str>,
     /// Shown units in one SI unit.
     pub factor: f64,
     /// Whether the axis is logarithmic.
@@ -65,6 +65,12 @@ pub enum Style {
     Faint,
     /// Cells of a map, in the colour of this verdict.
     Cells(Verdict),
+    /// Discs of this colour number and radius in pixels, joined by a pale line.
+    Discs(usize, i32),
+    /// Small grey dots.
+    Dots,
+    /// Triangles on the lower edge, for values that the axis cannot show.
+    Edge,
 }
 
 /// A vertical line.
@@ -85,7 +91,15 @@ impl Quantity {
     /// A quantity on a linear axis.
     #[must_use]
     pub const fn new(column: &'static str, label: &'static str, factor: f64) -> Self {
+        let (column, label) = (Cow::Borrowed(column), Cow::Borrowed(label));
         Self { column, label, factor, log: false }
+    }
+
+    /// A quantity on a logarithmic axis, shown in SI units.
+    #[must_use]
+    pub const fn log(column: &'static str, label: &'static str) -> Self {
+        let (column, label) = (Cow::Borrowed(column), Cow::Borrowed(label));
+        Self { column, label, factor: 1.0, log: true }
     }
 }
 

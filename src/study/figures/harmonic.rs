@@ -20,7 +20,7 @@ fn sweep(scene: &Scene, form: Form, damped: bool) -> Result<Sweep, HarmonicError
 }
 
 fn series(label: &str, style: Style, sweep: &Sweep, of: fn(&LockedPoint) -> f64) -> Series {
-    Series::new(label, style, sweep.points.iter().map(|point| (point.speed, of(point))))
+    Series::new(label, style, sweep.points.iter().map(|point| (point.speed_rad_s, of(point))))
 }
 
 fn note(machine: &Machine, sweep: &Sweep) -> String {
@@ -37,15 +37,14 @@ pub fn multipliers(scene: &Scene) -> Result<Figure, HarmonicError> {
     let undamped = sweep(scene, Form::Printed, false)?;
     let damped = sweep(scene, Form::Modal, true)?;
     let lines = vec![
-        series("lambda_1", Style::Line(0), &undamped, |point| point.multipliers[0]),
-        series("lambda_2", Style::Dashed(1), &undamped, |point| point.multipliers[1]),
-        series("lambda_1, damped", Style::Line(2), &damped, |point| point.multipliers[0]),
-        series("lambda_2, damped", Style::Dashed(3), &damped, |point| point.multipliers[1]),
+        series("lambda_1", Style::Line(0), &undamped, |point| point.multipliers_n[0]),
+        series("lambda_2", Style::Dashed(1), &undamped, |point| point.multipliers_n[1]),
+        series("lambda_1, damped", Style::Line(2), &damped, |point| point.multipliers_n[0]),
+        series("lambda_2, damped", Style::Dashed(3), &damped, |point| point.multipliers_n[1]),
     ];
     let marks = speed_marks(&machine);
     let panel = Panel { marks, ..Panel::new("", Quantity::SPEED, LAMBDA, lines) };
     Ok(Figure {
-        number: 9,
         title: "Contact multipliers of the locked motion against rotor speed".into(),
         note: note(&machine, &undamped),
         panels: vec![panel],
@@ -57,21 +56,20 @@ pub fn amplitudes(scene: &Scene) -> Result<Figure, HarmonicError> {
     let machine = scene.machine();
     let printed = sweep(scene, Form::Printed, false)?;
     let casing = vec![
-        series("u_cc", Style::Line(0), &printed, |point| point.u_cc),
-        series("u_ss", Style::Dashed(1), &printed, |point| point.u_ss),
-        series("u_sc", Style::Line(2), &printed, |point| point.u_sc),
-        series("u_cs", Style::Dashed(3), &printed, |point| point.u_cs),
+        series("u_cc", Style::Line(0), &printed, |point| point.u_cc_m),
+        series("u_ss", Style::Dashed(1), &printed, |point| point.u_ss_m),
+        series("u_sc", Style::Line(2), &printed, |point| point.u_sc_m),
+        series("u_cs", Style::Dashed(3), &printed, |point| point.u_cs_m),
     ];
     let mut blades = Vec::new();
     for (index, form) in Form::ALL.into_iter().enumerate() {
         let sweep = sweep(scene, form, false)?;
-        blades.push(series(form.word(), Style::Line(index), &sweep, |point| point.alpha[0]));
+        blades.push(series(form.as_ref(), Style::Line(index), &sweep, |point| point.alpha_rad[0]));
     }
     let mut angles =
         Panel::new("(b) angle of the first blade, in three forms", Quantity::SPEED, ALPHA, blades);
     angles.marks.extend(machine.critical_speed().map(|x| Mark { x, label: "Omega_c" }));
     Ok(Figure {
-        number: 10,
         title: "Amplitudes of the locked motion against rotor speed".into(),
         note: note(&machine, &printed),
         panels: vec![Panel::new("(a) casing", Quantity::SPEED, AMPLITUDE, casing), angles],

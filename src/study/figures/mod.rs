@@ -69,14 +69,16 @@ fn speed_marks(machine: &Machine) -> Vec<Mark> {
 /// # Errors
 /// A machine that has no locked motion (Figs. 9 and 10).
 pub fn figure(number: u32, scenes: &Scenes) -> Result<Option<Figure>, HarmonicError> {
-    Ok(match number {
-        4 => Some(time::steps(&scenes.three)),
-        5 => Some(time::gaps(&scenes.three)),
-        6 => Some(time::response(6, &scenes.three)),
-        7 => Some(time::response(7, &scenes.four)),
-        8 => Some(zone::zone(&scenes.machine, &scenes.three)),
-        9 => Some(harmonic::multipliers(&scenes.machine)?),
-        10 => Some(harmonic::amplitudes(&scenes.machine)?),
-        _ => None,
-    })
+    let mut figure = match number {
+        4 => time::steps(&scenes.three),
+        5 => time::gaps(&scenes.three),
+        6 => time::response(&scenes.three),
+        7 => time::response(&scenes.four),
+        8 => zone::zone(&scenes.machine, &scenes.three),
+        9 => harmonic::multipliers(&scenes.machine)?,
+        10 => harmonic::amplitudes(&scenes.machine)?,
+        _ => return Ok(None),
+    };
+    figure.title = format!("Figure {number}. {}", figure.title);
+    Ok(Some(figure))
 }

@@ -35,8 +35,8 @@ fn note(scene: &CheckedScene, report: &RunReport) -> String {
         operation.speed_rad_s,
         operation.pulse_n,
         scene.casing.damping_ratio,
-        scene.solver.kind.word(),
-        scene.solver.contact.word(),
+        scene.solver.kind,
+        scene.solver.contact,
     )
 }
 
@@ -59,7 +59,6 @@ pub fn steps(scene: &CheckedScene) -> Figure {
         told = note(&scene, &report);
     }
     Figure {
-        number: 4,
         title: "Casing displacement u_c at three time steps".into(),
         note: told,
         panels: vec![Panel::new("", Quantity::TIME, U_C, lines)],
@@ -83,7 +82,6 @@ pub fn gaps(scene: &CheckedScene) -> Figure {
         })
         .collect();
     Figure {
-        number: 5,
         title: "Distances between the casing and the blade tips".into(),
         note: note(scene, &report),
         panels: vec![Panel::new("", Quantity::TIME, GAP, lines)],
@@ -91,7 +89,7 @@ pub fn gaps(scene: &CheckedScene) -> Figure {
 }
 
 /// Figs. 6 and 7: the coordinates of casing and bladed disk.
-pub fn response(number: u32, scene: &CheckedScene) -> Figure {
+pub fn response(scene: &CheckedScene) -> Figure {
     let (report, samples) = sampled(scene, false);
     let casing = vec![
         series("u_c", Style::Line(0), &samples, |sample| sample.state.u[0]),
@@ -102,7 +100,6 @@ pub fn response(number: u32, scene: &CheckedScene) -> Figure {
         series("alpha_s", Style::Dashed(1), &samples, |sample| sample.state.alpha[1]),
     ];
     Figure {
-        number,
         title: "Modal vibrations of casing and bladed disk".into(),
         note: note(scene, &report),
         panels: vec![

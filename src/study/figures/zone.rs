@@ -12,7 +12,7 @@ const PULSES: u32 = 31;
 /// Smallest and largest pulse \[N\].
 const PULSE_RANGE: (f64, f64) = (1e3, 1e6);
 
-const PULSE: Quantity = Quantity { column: "pulse_n", label: "pulse [N]", factor: 1.0, log: true };
+const PULSE: Quantity = Quantity::log("pulse_n", "pulse [N]");
 
 /// Fig. 8 for one machine with each contact law, and with contact that only
 /// pushes for the machine of the figures in time, where its damping differs.
@@ -30,7 +30,6 @@ pub fn zone(scene: &Scene, other: &Scene) -> Figure {
         panels.push(panel(&title, other));
     }
     Figure {
-        number: 8,
         title: "How the motion lasts, against pulse and rotor speed".into(),
         note: format!(
             "n_d = {}, zeta_c = {}, {} s",
@@ -40,7 +39,7 @@ pub fn zone(scene: &Scene, other: &Scene) -> Figure {
     }
 }
 
-/// The scene with this solver, where it can be had, and this contact law.
+/// The scene with this contact law, and with this solver where it is possible.
 fn with(scene: &Scene, kind: SolverKind, contact: ContactLaw) -> Scene {
     let mut scene = scene.clone();
     scene.solver.contact = contact;
@@ -73,7 +72,7 @@ fn cells(scene: Scene) -> Vec<Series> {
                 found.filter(|found| found.verdict == verdict)?;
                 Some((*speeds.get(cell % speeds.len())?, *pulses.get(cell / speeds.len())?))
             });
-            Series::new(verdict.word(), Style::Cells(verdict), at)
+            Series::new(verdict.as_ref(), Style::Cells(verdict), at)
         })
         .filter(|series| !series.points.is_empty())
         .collect()

@@ -83,11 +83,9 @@ pub struct Reference {
     pub wall_s: f64,
 }
 
-/// The whole comparison, as `precision --json` prints it.
+/// The whole comparison.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Precision {
-    /// `rubscope.precision/1`.
-    pub schema: &'static str,
     /// The scene, its solver settings aside.
     pub scene: Scene,
     /// What everything is measured against.
@@ -212,7 +210,7 @@ impl Measure {
     #[must_use]
     pub fn report(self, rows: Vec<Row>) -> Precision {
         let Self { scene, reference, .. } = self;
-        Precision { schema: "rubscope.precision/1", scene, reference, rows }
+        Precision { scene, reference, rows }
     }
 }
 

@@ -109,7 +109,7 @@ impl App {
                     Some(Ahead::Done(forecast)) => Some(forecast.verdict),
                     _ => None,
                 };
-                now.is_some() && now == Verdict::from_word(word)
+                now.is_some() && now == word.parse::<Verdict>().ok()
             }
             Condition::View(word) => View::from_word(word) == Some(self.view),
             Condition::Compare(wanted) => self.compare == *wanted,

@@ -179,7 +179,7 @@ impl App {
             Action::FullScreen => self.full_screen = !self.full_screen,
             Action::Marker => {
                 self.skin.marker = self.skin.marker.next();
-                self.status = Some(format!("marker {}", self.skin.marker.word()));
+                self.status = Some(format!("marker {}", self.skin.marker));
             }
             Action::Live => {
                 self.live = !self.live;

@@ -72,7 +72,7 @@ impl App {
             );
         let detail =
             if pulls { format!("{detail}, {}", plural(tensile, "tensile step")) } else { detail };
-        Words { word: forecast.verdict.word().to_uppercase(), detail, role }
+        Words { word: forecast.verdict.as_ref().to_uppercase(), detail, role }
     }
 
     /// What the event solver under unilateral contact says, where it differs.

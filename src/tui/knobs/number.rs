@@ -1,6 +1,7 @@
 //! Numbers as people turn, type and read them: round mantissas over decades,
 //! SI prefixes, no trailing zeros.
 
+use crate::report::number::trimmed;
 use crate::tui::axis::Scale;
 
 /// Mantissas of fine turns, two digits; coarse turns use 1, 2 and 5.
@@ -70,11 +71,7 @@ pub fn number(x: f64, unit: &str) -> String {
         format!("{shown:e}")
     } else {
         let digits = 6 - shown.abs().max(1e-4).log10().floor() as i32;
-        let text = format!("{shown:.*}", digits.clamp(0, 9) as usize);
-        match text.contains('.') {
-            true => text.trim_end_matches('0').trim_end_matches('.').to_string(),
-            false => text,
-        }
+        trimmed(&format!("{shown:.*}", digits.clamp(0, 9) as usize)).to_string()
     };
     format!("{text} {}{unit}", scale.prefix).trim_end().to_string()
 }

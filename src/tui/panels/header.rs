@@ -3,6 +3,7 @@
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 
 use super::{pieces, print};
+use crate::report::number::trimmed;
 use crate::tui::app::App;
 use crate::tui::axis::readable;
 use crate::tui::theme::Role;
@@ -85,7 +86,7 @@ fn speeds(app: &App, buffer: &mut Buffer, area: Rect) {
         parts.push((" LIVE".into(), skin.style(Role::Focus)));
     }
     let solver = &app.scene.solver;
-    parts.push((format!("  {}", solver.kind.word()), text));
+    parts.push((format!("  {}", solver.kind), text));
     if let Some(step) = app.pace.step_s {
         parts.push((skin.spell(&format!(" {}/step", short(step))), text));
     }
@@ -93,7 +94,7 @@ fn speeds(app: &App, buffer: &mut Buffer, area: Rect) {
         let run = format!(", {} in {}", short(solver.end_s), short(run));
         parts.push((skin.spell(&run), quiet));
     }
-    parts.push((format!("  {} {}", solver.contact.word(), solver.model.word()), quiet));
+    parts.push((format!("  {} {}", solver.contact, solver.model), quiet));
     pieces(buffer, area, 1, &parts);
 }
 
@@ -102,7 +103,5 @@ fn short(seconds: f64) -> String {
     let scale = crate::tui::axis::Scale::of(seconds);
     let shown = seconds / scale.factor;
     let decimals = usize::from(shown < 9.95);
-    let text = format!("{shown:.decimals$}");
-    let text = text.strip_suffix(".0").unwrap_or(&text);
-    format!("{text} {}s", scale.prefix)
+    format!("{} {}s", trimmed(&format!("{shown:.decimals$}")), scale.prefix)
 }

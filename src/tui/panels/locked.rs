@@ -49,7 +49,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
         );
         return;
     };
-    let lambdas = damped.points.iter().flat_map(|point| point.multipliers);
+    let lambdas = damped.points.iter().flat_map(|point| point.multipliers_n);
     // The curves set the scale: the mean over an impact may be far beyond it.
     let (low, high) = lambdas
         .filter(|lambda| lambda.is_finite())
@@ -87,7 +87,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
 }
 
 fn curve(plot: &mut Plot, sweep: &Sweep, place: usize, pen: &Pen) {
-    let lambda = |point: &LockedPoint| Some((point.speed, *point.multipliers.get(place)?));
+    let lambda = |point: &LockedPoint| Some((point.speed_rad_s, *point.multipliers_n.get(place)?));
     plot.curve(sweep.points.iter().filter_map(lambda), pen);
 }
 

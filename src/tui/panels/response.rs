@@ -88,9 +88,9 @@ fn beside(app: &App, buffer: &mut Buffer, area: Rect) {
         ContactLaw::Unilateral => ContactLaw::Bilateral,
         ContactLaw::Bilateral => ContactLaw::Unilateral,
     };
-    let own = format!("{}: {}", law.word(), app.verdict().word);
+    let own = format!("{law}: {}", app.verdict().word);
     let word = app.beside.as_ref().map_or("...".to_string(), |f| app.words(f).word);
-    let theirs = format!("{}: {word}", other.word());
+    let theirs = format!("{other}: {word}");
     page(app, buffer, first, &Page::casing(app, own, &app.history, true));
     page(app, buffer, second, &Page::casing(app, theirs, &app.beside_history, false));
 }

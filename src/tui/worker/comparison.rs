@@ -62,7 +62,6 @@ impl Comparison {
         match rows.recv_timeout(patience) {
             Ok(Found::Reference(reference)) => {
                 self.report = Some(Arc::new(Precision {
-                    schema: "rubscope.precision/1",
                     scene: self.scene.clone(),
                     reference: *reference,
                     rows: Vec::new(),

@@ -1,0 +1,43 @@
+//! Words that a shell completes, for options and arguments whose text the
+//! scene, or the command, judges itself.
+
+use std::ffi::OsStr;
+
+use clap::builder::{PossibleValue, StringValueParser, TypedValueParser};
+use clap::{Arg, Command, Error};
+use strum::VariantNames;
+
+use crate::scene::BUILTIN;
+
+/// Takes any text, and lets a shell offer these words.
+#[derive(Clone, Debug)]
+pub struct Words(Vec<&'static str>);
+
+impl Words {
+    /// The words of a choice.
+    pub fn of<T: VariantNames>() -> Self {
+        Self(T::VARIANTS.to_vec())
+    }
+
+    /// The names of the built-in scenes.
+    pub fn scenes() -> Self {
+        Self(BUILTIN.iter().map(|scene| scene.name).collect())
+    }
+}
+
+impl TypedValueParser for Words {
+    type Value = String;
+
+    fn parse_ref(
+        &self,
+        command: &Command,
+        argument: Option<&Arg>,
+        value: &OsStr,
+    ) -> Result<String, Error> {
+        StringValueParser::new().parse_ref(command, argument, value)
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        Some(Box::new(self.0.iter().copied().map(PossibleValue::new)))
+    }
+}

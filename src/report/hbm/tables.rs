@@ -1,0 +1,246 @@
+//! Tables of the frequency domain: short ones for people, and those with every
+//! figure for files. Each column is a name, with its unit, and what it shows.
+
+use crate::harmonic::{
+    Branches, Campbell, CornerBranch, Equilibrium, ExcitedLock, Kind, LockedPoint, SlipPoint,
+    SlipRegion, SlipSpectrum, Sweep,
+};
+use crate::report::table::{Cell, Table};
+
+/// One word for a point: locked, pulls, penetrates or unstable.
+fn state(point: &LockedPoint) -> &'static str {
+    if point.stable && point.admissible {
+        "locked"
+    } else if point.multipliers_n.iter().any(|&multiplier| multiplier > 0.0) {
+        "pulls"
+    } else if !point.admissible {
+        "penetrates"
+    } else {
+        "unstable"
+    }
+}
+
+/// The locked motion as a short table for people.
+#[must_use]
+pub fn summary_table(sweep: &Sweep) -> Table {
+    Table::of(
+        &sweep.points,
+        &[
+            ("speed [rad/s]", |point| point.speed_rad_s.into()),
+            ("multiplier a [N]", |point| point.multipliers_n[0].into()),
+            ("multiplier b [N]", |point| point.multipliers_n[1].into()),
+            ("alpha a [rad]", |point| point.alpha_rad[0].into()),
+            ("amplitude [m]", |point| point.amplitude_m.into()),
+            ("power [W]", |point| point.power_w.into()),
+            ("state", |point| state(point).into()),
+        ],
+    )
+}
+
+/// The locked motion with every figure, for files.
+#[must_use]
+pub fn locked_table(sweep: &Sweep) -> Table {
+    Table::of(
+        &sweep.points,
+        &[
+            ("speed_rad_s", |point| point.speed_rad_s.into()),
+            ("multiplier_a_n", |point| point.multipliers_n[0].into()),
+            ("multiplier_b_n", |point| point.multipliers_n[1].into()),
+            ("alpha_a_rad", |point| point.alpha_rad[0].into()),
+            ("alpha_b_rad", |point| point.alpha_rad[1].into()),
+            ("u_cc_m", |point| point.u_cc_m.into()),
+            ("u_cs_m", |point| point.u_cs_m.into()),
+            ("u_sc_m", |point| point.u_sc_m.into()),
+            ("u_ss_m", |point| point.u_ss_m.into()),
+            ("amplitude_m", |point| point.amplitude_m.into()),
+            ("smallest_gap_m", |point| point.smallest_gap_m.into()),
+            ("torque_nm", |point| point.torque_nm.into()),
+            ("power_w", |point| point.power_w.into()),
+            ("admissible", |point| point.admissible.into()),
+            ("stable", |point| point.stable.into()),
+            ("residual", |point| point.residual.into()),
+        ],
+    )
+}
+
+/// The speeds where branches appear, vanish or change.
+#[must_use]
+pub fn threshold_table(branches: &Branches) -> Table {
+    Table::of(
+        &branches.thresholds,
+        &[
+            ("speed_rad_s", |threshold| threshold.speed_rad_s.into()),
+            ("state", |threshold| threshold.kind.as_ref().into()),
+            ("below", |threshold| threshold.below.as_ref().into()),
+            ("above", |threshold| threshold.above.as_ref().into()),
+        ],
+    )
+}
+
+fn multiplier(state: &Equilibrium, index: usize) -> Cell {
+    state.contacts.get(index).map(|contact| contact.multiplier_n).into()
+}
+
+/// Every equilibrium, a row each.
+#[must_use]
+pub fn branch_table(branches: &Branches) -> Table {
+    Table::of(
+        &branches.states,
+        &[
+            ("speed_rad_s", |state| state.speed_rad_s.into()),
+            ("state", |state| state.kind.as_ref().into()),
+            ("character", |state| state.character.as_ref().into()),
+            ("multiplier_a_n", |state| multiplier(state, 0)),
+            ("multiplier_b_n", |state| multiplier(state, 1)),
+            ("amplitude_m", |state| state.amplitude_m.into()),
+            // At rest nothing is driven.
+            ("power_w", |state| (state.kind != Kind::Rest).then_some(state.power_w).into()),
+            ("growth_per_s", |state| growth(state).into()),
+        ],
+    )
+}
+
+/// Growth for people: undamped motions neither grow nor decay but for rounding.
+fn growth(state: &Equilibrium) -> f64 {
+    let fastest = state.eigenvalues_per_s.iter().map(|value| value.norm()).fold(0.0, f64::max);
+    if state.growth_per_s.abs() > 1e-13 * fastest { state.growth_per_s } else { 0.0 }
+}
+
+/// The corner branch, point by point along it.
+#[must_use]
+pub fn corner_table(branch: &CornerBranch) -> Table {
+    Table::of(
+        &branch.points,
+        &[
+            ("speed_rad_s", |(_, state)| state.speed_rad_s.into()),
+            ("opening_rad", |(opening, _)| (*opening).into()),
+            ("amplitude_m", |(_, state)| state.amplitude_m.into()),
+            ("multiplier_a_n", |(_, state)| multiplier(state, 0)),
+            ("multiplier_b_n", |(_, state)| multiplier(state, 1)),
+            ("growth_per_s", |(_, state)| state.growth_per_s.into()),
+            ("character", |(_, state)| state.character.as_ref().into()),
+        ],
+    )
+}
+
+/// Slip over speed, a row each.
+#[must_use]
+pub fn slip_table(points: &[SlipPoint]) -> Table {
+    let word = |point: &SlipPoint| match point.outcome {
+        Ok(_) if point.stable() => "stable",
+        Ok(_) => "unstable",
+        Err(reason) => reason.into(),
+    };
+    let rows: Vec<_> =
+        points.iter().map(|point| (point.speed_rad_s, word(point), point.outcome.ok())).collect();
+    Table::of(
+        &rows,
+        &[
+            ("speed_rad_s", |row| row.0.into()),
+            ("slip", |row| row.1.into()),
+            ("wave_speed_rad_s", |row| row.2.map(|orbit| orbit.wave_speed_rad_s).into()),
+            ("period_s", |row| row.2.map(|orbit| orbit.period_s).into()),
+            ("slope", |row| row.2.map(|orbit| orbit.slope).into()),
+            ("least_push_n", |row| row.2.map(|orbit| orbit.least_push_n).into()),
+            ("torque_nm", |row| row.2.map(|orbit| orbit.torque_nm).into()),
+            ("power_w", |row| row.2.map(|orbit| orbit.power_w).into()),
+        ],
+    )
+}
+
+/// Where there is slip, a row for each damping ratio.
+#[must_use]
+pub fn region_table(regions: &[SlipRegion]) -> Table {
+    fn first(region: &SlipRegion, appears: bool) -> Cell {
+        let found = region.limits.iter().find(|limit| limit.appears == appears);
+        found.map(|limit| limit.speed_rad_s).into()
+    }
+    Table::of(
+        regions,
+        &[
+            ("casing_damping_ratio", |region| region.casing_damping_ratio.into()),
+            ("slip", |region| match (region.limits.is_empty(), region.exists_at_lowest) {
+                (true, true) => "everywhere".into(),
+                (true, false) => "nowhere".into(),
+                (false, _) => "in part".into(),
+            }),
+            ("appears_rad_s", |region| first(region, true)),
+            ("vanishes_rad_s", |region| first(region, false)),
+        ],
+    )
+}
+
+/// What is left out with `H` harmonics.
+#[must_use]
+pub fn truncation_table(series: &SlipSpectrum) -> Table {
+    let rows: Vec<_> = series.truncations.iter().map(|cut| (cut, series.amplitude_m)).collect();
+    Table::of(
+        &rows,
+        &[
+            ("harmonics", |(cut, _)| f64::from(cut.harmonics).into()),
+            ("rms_error_m", |(cut, _)| cut.rms_error_m.into()),
+            ("max_error_m", |(cut, _)| cut.max_error_m.into()),
+            ("part_of_amplitude", |(cut, whole)| (cut.max_error_m / whole).into()),
+            ("penetration_m", |(cut, _)| cut.penetration_m.into()),
+        ],
+    )
+}
+
+/// The coefficients, amplitude by amplitude.
+#[must_use]
+pub fn term_table(series: &SlipSpectrum) -> Table {
+    let rows: Vec<_> = series.terms.iter().map(|term| (term, series.amplitude_m)).collect();
+    Table::of(
+        &rows,
+        &[
+            ("number", |(term, _)| f64::from(term.number).into()),
+            ("frequency_rad_s", |(term, _)| term.frequency_rad_s.into()),
+            ("amplitude_m", |(term, _)| term.amplitude_m.into()),
+            ("part_of_amplitude", |(term, whole)| (term.amplitude_m / whole).into()),
+        ],
+    )
+}
+
+/// The Campbell lines over speed, a column each.
+#[must_use]
+pub fn campbell_table(campbell: &Campbell, speeds: &[f64]) -> Table {
+    let names = campbell.lines.iter().map(|line| line.name.as_str());
+    let mut table = Table::new(std::iter::once("speed_rad_s").chain(names));
+    for &speed in speeds {
+        let lines = campbell.lines.iter().map(|line| line.at(speed));
+        table.push(std::iter::once(speed).chain(lines).map(Cell::from).collect());
+    }
+    table
+}
+
+/// The four coincidences of Eq. (30).
+#[must_use]
+pub fn coincidence_table(campbell: &Campbell) -> Table {
+    Table::of(
+        &campbell.coincidences,
+        &[
+            ("speed_rad_s", |found| found.speed_rad_s.into()),
+            ("casing_rad_s", |found| found.casing_rad_s.into()),
+            ("blades_rad_s", |found| found.blades_rad_s.into()),
+            ("dangerous", |found| if found.dangerous { "yes" } else { "no" }.into()),
+        ],
+    )
+}
+
+/// The response to an engine order, a row for each speed.
+#[must_use]
+pub fn excitation_table(found: &[ExcitedLock]) -> Table {
+    Table::of(
+        found,
+        &[
+            ("speed_rad_s", |lock| lock.state.speed_rad_s.into()),
+            ("frequency_rad_s", |lock| lock.frequency_rad_s.into()),
+            ("alpha_c_rad", |lock| lock.response[2].norm().into()),
+            ("casing_m", |lock| lock.casing_m().into()),
+            ("change_of_amplitude", |lock| lock.relative_amplitude.into()),
+            ("change_of_multiplier", |lock| lock.relative_multiplier.into()),
+            ("release_torque_nm", |lock| lock.release_torque_nm.into()),
+            ("state", |lock| lock.state.character.as_ref().into()),
+        ],
+    )
+}
