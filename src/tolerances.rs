@@ -20,3 +20,27 @@ pub(crate) const MOST_EVENTS_AT_ONCE: u32 = 1000;
 /// solver: a few roundings. Larger: impacts come that much early. Smaller: a
 /// touch may be looked at again and again.
 pub(crate) const EVENT: f64 = 1e-15;
+
+/// Part of the terms of a sum that its round-off may make: some fifty roundings.
+/// Smaller: a side at rest counts as opening.
+pub(crate) const ROUND_OFF: f64 = 1e-14;
+
+/// A start this close to a side, in parts of the clearance, is on it. A scene may
+/// have computed coordinates; see its check.
+pub(crate) const ON_A_SIDE: f64 = 1e-12;
+
+/// A touch within this many tolerances of a corner meets both of its sides.
+/// Smaller: two impacts at one instant, in an order made by round-off.
+pub(crate) const AT_A_CORNER: f64 = 16.0;
+
+/// A closing speed below this part of `omega_c g0` is a touch and not counted as
+/// an impact: round-off of the rates of sides that stay in contact.
+pub(crate) const SOFT_TOUCH: f64 = 1e-12;
+
+/// Where blades move, rocking is summed once the rest of it takes less than this
+/// part of the time of one radian: the blades do not notice. Larger: they do.
+pub(crate) const BRIEF_ROCKING: f64 = 1e-6;
+
+/// Part of the way to a closed or a straight corner that blades may turn it.
+/// Larger: sides could pass each other within one series.
+pub(crate) const CORNER_ROOM: f64 = 0.9;

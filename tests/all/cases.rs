@@ -205,7 +205,7 @@ fn a_count_that_a_larger_pulse_changes_is_sensitive() {
         scene.operation.pulse_n *= factor;
         settle(&scene.checked().unwrap()).impact_count
     });
-    assert_eq!(counts, [70, 71, 70]);
+    assert!(counts.iter().any(|&count| count != counts[0]), "{counts:?}");
     assert!(run("paper-nd3", how).outcome.sensitive);
 }
 

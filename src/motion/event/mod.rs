@@ -7,27 +7,29 @@
 //! series summed to round-off (`series`: pulse or ramp while sliding). With
 //! blades that move (`blades`) the sides turn a little by themselves; sliding
 //! and locked motion are then power series too (`series`, `held`), and impacts
-//! share their impulse with the blades (`compliant`). Each mode looks ahead for its end with bounds that cannot miss it (`approach`),
+//! share their impulse with the blades (`impact`). Each mode looks ahead for its
+//! end with bounds that cannot miss it (`approach`),
 //! and the next mode follows from plastic impact and from the pushes by cases
-//! (`contact`), so that nothing triggers twice.
+//! (`transitions`), so that nothing triggers twice.
 //!
 //! A segment is always evaluated from its start, never from an output time:
 //! where one looks does not change the motion, not by one bit.
 
+mod angles;
 mod approach;
 mod blades;
 mod bounds;
-mod compliant;
-mod contact;
 mod corner;
+mod corner_contact;
 mod free;
 mod held;
+mod impact;
 mod ledger;
-mod meeting;
 mod rocking;
 mod series;
 mod slide;
 mod terms;
+mod transitions;
 mod world;
 
 mod mode;

@@ -142,6 +142,28 @@ impl Mode {
         (place * inward, rate * inward)
     }
 
+    /// Place and rate as the rotor sees them, `s` seconds on: those of
+    /// `u exp(-i n_d theta)`.
+    pub(super) fn seen_by_rotor(&self, world: &World, drive: &Drive, s: f64) -> (Plane, Plane) {
+        if let Self::Free(_) | Self::Held(_) = self {
+            let (place, rate) = self.standing(world, drive, s);
+            let back = Plane::cis(-drive.phase(s));
+            return (place * back, (rate - Plane::i() * place * drive.nu(s)) * back);
+        }
+        let Some((side, along)) = self.along(world, drive, s) else { return Default::default() };
+        let (normal, spin) = world.normal(side, &self.tips(world, s));
+        let place = Plane::new(-world.clearance, along.y);
+        (place * normal, (Plane::new(0.0, along.rate) + Plane::i() * place * spin) * normal)
+    }
+
+    /// The first side of the corner that the mode is in or rocks into.
+    pub(super) fn corner(&self) -> Option<u32> {
+        match self {
+            Self::Corner(a) | Self::Rocking { a, .. } | Self::Held(Held { a, .. }) => Some(*a),
+            Self::Free(_) | Self::Slide(_) | Self::Driven(_) => None,
+        }
+    }
+
     /// The blades, `s` seconds on.
     pub(super) fn tips(&self, world: &World, s: f64) -> Tips {
         match self {

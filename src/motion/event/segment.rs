@@ -4,6 +4,7 @@
 use std::f64::consts::TAU;
 
 use super::Event;
+use super::free::Free;
 use super::mode::{Mode, Next, What};
 use super::world::{Drive, Plane};
 use crate::motion::{Failure, FailureReason, Touching};
@@ -155,47 +156,31 @@ impl Event {
             return;
         }
         let s = self.elapsed(self.now);
-        let (place, mut rate) = self.mode.standing(&self.world, &self.drive, s);
-        let mut along = self.mode.along(&self.world, &self.drive, s);
-        match (&self.mode, &mut along) {
-            (Mode::Free(_), _) => rate *= factor,
-            (Mode::Slide(_) | Mode::Driven(_), Some((side, along))) => {
-                let tips = self.mode.tips(&self.world, s);
-                let (inward, _) = self.world.facing(&self.drive, *side, s, &tips);
-                rate += Plane::i() * inward * ((factor - 1.0) * along.rate);
-                along.rate *= factor;
-            }
-            _ => {}
+        let tips = self.mode.tips(&self.world, s);
+        let (place, mut rate) = self.mode.seen_by_rotor(&self.world, &self.drive, s);
+        let side = self.mode.along(&self.world, &self.drive, s);
+        if let (Mode::Slide(_) | Mode::Driven(_), Some((side, along))) = (&self.mode, side) {
+            let (normal, _) = self.world.normal(side, &tips);
+            rate += Plane::i() * normal * ((factor - 1.0) * along.rate);
         }
-        let corner = match &self.mode {
-            Mode::Corner(a) => Some(*a),
-            Mode::Held(held) => Some(held.a),
+        let flight = match &self.mode {
+            Mode::Free(free) => Some(free.at(&self.world, &self.drive, s)),
             _ => None,
         };
-        let tips = self.mode.tips(&self.world, s);
+        let corner = self.mode.corner().filter(|_| !matches!(self.mode, Mode::Rocking { .. }));
         self.rebase(s, None);
         self.tips = tips;
         self.start = (self.now, 0.0);
         let nu = self.drive.nu;
         change(self);
         self.drive = self.drive_now(self.drive.phase);
-        if let Some(blades) = self.world.blades {
-            let side = along.map(|(side, _)| side);
-            self.resume_compliant(&blades, (place, rate), side, corner);
-            return;
-        }
         // The rate against the blades jumps with the speed of the rotor.
-        let slip = nu - self.drive.nu;
-        if let Some((side, along)) = along {
-            let place = Plane::new(-self.world.clearance, along.y);
-            let rate = Plane::new(0.0, along.rate) + Plane::i() * place * slip;
-            if let Some(a) = corner {
-                self.meet_corner(a, rate);
-            } else {
-                self.meet_side(side, along.y, rate);
-            }
-        } else {
-            self.fly(place, rate);
+        let rate = rate + Plane::i() * place * (nu - self.drive.nu);
+        match (flight, corner, side) {
+            (Some((u, v)), ..) => self.enter(Mode::Free(Free::new(u, v * factor, tips))),
+            (_, Some(a), _) => self.meet_corner_at(a, rate),
+            (_, _, Some((side, _))) => self.touch(side, place, rate),
+            _ => {}
         }
     }
 }

@@ -4,14 +4,11 @@ use std::f64::consts::PI;
 
 use nalgebra::Complex;
 
-use super::blades::Blades;
+use super::blades::{Blades, Tips};
 use crate::model::Machine;
 use crate::motion::kernel::Kernel;
 use crate::scene::Scene;
-use crate::tolerances;
-
-/// Part of the terms of a sum that round-off may make of it.
-pub(super) const NOISE: f64 = 1e-14;
+use crate::tolerances::{self, ROUND_OFF};
 
 /// A point or vector of the plane of the two casing coordinates.
 pub(super) type Plane = Complex<f64>;
@@ -78,12 +75,42 @@ impl World {
         Plane::new(cos, sin)
     }
 
+    /// `exp(i (psi + n_d alpha))` of a side, the direction in which its gap opens as
+    /// the rotor sees it, and the rate `n_d alpha'`.
+    pub(super) fn normal(&self, side: u32, tips: &Tips) -> (Plane, f64) {
+        let direction = self.direction(side);
+        let Some(blades) = &self.blades else { return (direction, 0.0) };
+        let along = direction.conj() * blades.diameters;
+        (direction * Plane::cis((tips.angle * along).re), (tips.rate * along).re)
+    }
+
+    /// Half the length of the side `a` towards the next \[m\].
+    pub(super) fn half_length(&self, a: u32, tips: &Tips) -> f64 {
+        match self.blades {
+            None => self.half_side,
+            Some(_) => self.clearance * self.half_angle(a, tips).tan(),
+        }
+    }
+
+    /// `exp(2 i tau)`, the turn from a side to the next.
+    pub(super) fn turn_between(&self, a: u32, tips: &Tips) -> Plane {
+        match self.blades {
+            None => self.turn,
+            Some(_) => Plane::cis(2.0 * self.half_angle(a, tips)),
+        }
+    }
+
+    /// Mass ratio of a push: it opens its own gap by `1 + coupling y^2` \[1/m^2\].
+    pub(super) fn coupling(&self) -> f64 {
+        self.blades.map_or(0.0, |blades| blades.ratio)
+    }
+
     /// Round-off of the pushes of a corner: of the accelerations that cancel in
     /// them \[m/s^2\].
     pub(super) fn push_noise(&self, drive: &Drive) -> f64 {
         let square = (self.omega * self.omega).max(drive.nu * drive.nu);
         let spread = if self.corners { self.turn.im.abs() } else { 1.0 };
-        NOISE * (square * self.clearance + drive.pulse.abs()) / spread
+        ROUND_OFF * (square * self.clearance + drive.pulse.abs()) / spread
     }
 
     /// Push per unit mass that keeps the casing on a side at `y` with rate

@@ -1,0 +1,48 @@
+//! The watch on blade angles: small ones, and sides that keep their order.
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::Event;
+use super::blades::Tips;
+use crate::motion::{Failure, FailureReason};
+use crate::tolerances::{CORNER_ROOM, LARGEST_BLADE_ANGLE};
+
+impl Event {
+    /// Fails a motion whose blades go beyond small angles in the first `s` seconds
+    /// of the segment, at the instant they do.
+    ///
+    /// # Errors
+    /// They do.
+    pub(super) fn check_angles(&mut self, s: f64) -> Result<(), Failure> {
+        let beyond = |event: &Self, s: f64| {
+            let Self { mode, world, drive, .. } = event;
+            mode.largest_angle(world, drive, s, LARGEST_BLADE_ANGLE) > LARGEST_BLADE_ANGLE
+        };
+        if self.world.blades.is_none() || !beyond(self, s) {
+            return Ok(());
+        }
+        let (mut within, mut after) = (0.0, s);
+        for _ in 0..100 {
+            let middle = 0.5 * (within + after);
+            if middle <= within || middle >= after {
+                break;
+            }
+            if beyond(self, middle) { after = middle } else { within = middle }
+        }
+        let angle_rad = self.mode.largest_angle(&self.world, &self.drive, after, 0.0);
+        Err(self.fail(after, FailureReason::BladeAngle { angle_rad }))
+    }
+
+    /// Fails a motion whose blades have turned a corner so far that it nearly
+    /// closes or opens to a half turn. Half its angle is `delta`, give or take
+    /// `n_d sin(delta) |a|`.
+    pub(super) fn check_order(&mut self, tips: &Tips) {
+        let Some(blades) = self.world.blades.filter(|_| self.world.corners) else { return };
+        let delta = self.world.machine.rim.delta;
+        let room = CORNER_ROOM * delta.min(FRAC_PI_2 - delta);
+        let (size, most) = (tips.angle.norm(), room / (blades.diameters * delta.sin()));
+        if size > most {
+            self.fail(0.0, FailureReason::CornerAngle { angle_rad: size, most_rad: most });
+        }
+    }
+}

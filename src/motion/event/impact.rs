@@ -1,0 +1,118 @@
+//! Plastic impact on one or two sides, solved by cases: no gap may close faster
+//! than zero, impulses only push, and a side that gets one keeps no rate.
+//!
+//! A push on a side at `y` opens it by `1 + ratio y^2`, with the mass of the
+//! blades in the ratio; see `corner_contact` for two sides.
+
+use super::Event;
+use super::corner_contact::CornerContact;
+use super::mode::Mode;
+use super::world::Plane;
+use crate::motion::Touching;
+use crate::tolerances::{AT_A_CORNER, ROUND_OFF, SOFT_TOUCH};
+
+impl Event {
+    /// A side is met at a place and rate that the rotor sees.
+    pub(super) fn touch(&mut self, side: u32, place: Plane, rate: Plane) {
+        let world = &self.world;
+        let (normal, spin) = world.normal(side, &self.tips);
+        let met = place * normal.conj();
+        self.deepest = self.deepest.max(-(world.clearance + met.re));
+        let (y, size) = (met.im, world.clearance + rate.norm() / world.omega);
+        if world.corners {
+            let rim = &world.machine.rim;
+            let lower = if y > 0.0 { rim.previous(side) } else { side };
+            let half = world.half_length(lower, &self.tips);
+            if half - y.abs() <= AT_A_CORNER * world.tolerance * size {
+                // Within round-off of a corner: both sides are met at once.
+                self.meet_corner_at(lower, rate);
+                return;
+            }
+        }
+        let local = rate * normal.conj() + Plane::new(y, world.clearance) * spin;
+        if local.re > ROUND_OFF * (rate.norm() + size * self.drive.nu.abs()) {
+            self.enter(Mode::Free(self.flight(place, rate)));
+            return;
+        }
+        let (ratio, clearance) = (world.coupling(), world.clearance);
+        let closing = (-local.re).max(0.0);
+        let impulse = closing / (1.0 + ratio * y * y);
+        self.strike(&[(side, y, impulse, closing)]);
+        // The blades that it kicks turn the side away under the casing.
+        let along = local.im + ratio * y * impulse * clearance;
+        self.hold(side, y, along, rate + normal * impulse);
+    }
+
+    /// Both sides of the corner of `a` and the next are closed.
+    pub(super) fn meet_corner_at(&mut self, a: u32, rate: Plane) {
+        let contact = self.corner_contact(a);
+        let openings = self.clean_openings(&contact, rate);
+        self.meet_corner(&contact, rate, openings);
+    }
+
+    /// Both sides of a corner are closed, and open with these rates.
+    pub(super) fn meet_corner(
+        &mut self,
+        contact: &CornerContact,
+        rate: Plane,
+        [first, second]: [f64; 2],
+    ) {
+        let share = contact.share();
+        let (a, b, [ya, yb]) = (contact.a, contact.b, contact.y);
+        if first >= 0.0 && second >= 0.0 {
+            match (first == 0.0, second == 0.0) {
+                (true, true) => self.rest(a, rate),
+                (true, false) => self.hold_at_corner(a, rate, false, second),
+                (false, true) => self.hold_at_corner(b, rate, true, first),
+                (false, false) => {
+                    let flight = self.flight(contact.place(&self.world), rate);
+                    self.enter(Mode::Free(flight));
+                }
+            }
+        } else if first < 0.0 && second - share * first > 0.0 {
+            let impulse = -first / contact.own;
+            self.strike(&[(a, ya, impulse, -first)]);
+            let rate = contact.struck(rate, [impulse, 0.0]);
+            self.hold_at_corner(a, rate, false, second - share * first);
+        } else if second < 0.0 && first - share * second > 0.0 {
+            let impulse = -second / contact.own;
+            self.strike(&[(b, yb, impulse, -second)]);
+            let rate = contact.struck(rate, [0.0, impulse]);
+            self.hold_at_corner(b, rate, true, first - share * second);
+        } else {
+            let impulses = contact.cancelled(first, second);
+            self.strike(&[(a, ya, impulses[0], -first), (b, yb, impulses[1], -second)]);
+            self.rest(a, contact.struck(rate, impulses));
+        }
+    }
+
+    /// Turns the blades of a side by an impulse at `y`.
+    pub(super) fn kick(&mut self, side: u32, y: f64, impulse: f64) {
+        if let Some(blades) = &self.world.blades {
+            let direction = self.world.direction(side);
+            self.tips.rate += direction * (blades.ratio / blades.diameters * y * impulse);
+        }
+    }
+
+    /// Books impulses (per unit mass) on sides at their places, with the closing
+    /// speeds they end: each takes the work `-impulse nu y` from the rotor.
+    fn strike(&mut self, impulses: &[(u32, f64, f64, f64)]) {
+        let t = self.start.0;
+        for &(side, y, impulse, closing) in impulses {
+            self.kick(side, y, impulse);
+            self.ledger.rotor -= impulse * self.drive.nu * y;
+            self.ledger.lost += 0.5 * impulse * closing;
+            if let Some(blades) = &self.world.stiff {
+                self.widest = self.widest.max(blades.kicked(y, impulse));
+            }
+            if closing > SOFT_TOUCH * self.world.omega * self.world.clearance {
+                self.log.impact(t, side);
+            }
+        }
+        match *impulses {
+            [(side, ..)] => self.log.touch(t, Touching::Side(side)),
+            [(a, ..), (b, ..)] => self.log.touch(t, Touching::of(&[a, b])),
+            _ => {}
+        }
+    }
+}

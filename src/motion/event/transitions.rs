@@ -1,0 +1,280 @@
+//! What comes after an event: the choice of the next mode.
+//!
+//! Among the sides that touch without rate, accelerations decide which of them
+//! hold, as a small complementarity problem solved by cases. Where an event says
+//! that a push has vanished, that side is out; it is not asked again.
+//!
+//! Places and rates are those the rotor sees, `z = u exp(-i n_d theta)` and `z'`,
+//! so that a slow motion along a side keeps its digits. Rigid blades are moving
+//! ones with zero coupling: where they do not move, the closed forms of `corner`
+//! and `slide` take the place of the derivatives and series.
+
+use super::Event;
+use super::corner;
+use super::corner_contact::CornerContact;
+use super::free::{Free, Leaving};
+use super::held::Held;
+use super::mode::{Mode, What};
+use super::rocking;
+use super::series::{From, Series};
+use super::slide::Slide;
+use super::world::Plane;
+use crate::motion::{FailureReason, Touching};
+use crate::tolerances::{BRIEF_ROCKING, ON_A_SIDE};
+
+impl Event {
+    /// The first mode, from the initial state.
+    pub(super) fn begin(&mut self, place: Plane, rate: Plane) {
+        let rim = &self.world.machine.rim;
+        let side = rim.nearest_side(place.re, place.im);
+        if rim.gap(side, place.re, place.im) <= ON_A_SIDE * self.world.clearance {
+            // A rate against the blades that is round-off of its two parts is none.
+            let direction = self.world.direction(side);
+            let carried = Plane::i() * place * self.drive.nu;
+            let local = (rate - carried) * direction.conj();
+            let noise = ON_A_SIDE * (rate.norm() + carried.norm());
+            let clean = |x: f64| if x.abs() <= noise { 0.0 } else { x };
+            self.touch(side, place, Plane::new(clean(local.re), clean(local.im)) * direction);
+        } else {
+            self.enter(Mode::Free(Free::new(place, rate, self.tips)));
+        }
+    }
+
+    /// Passes the event `what`, `s` seconds into the segment.
+    pub(super) fn pass(&mut self, s: f64, what: What) {
+        let (place, rate) = self.mode.seen_by_rotor(&self.world, &self.drive, s);
+        let along = self.mode.along(&self.world, &self.drive, s);
+        let corner = self.mode.corner();
+        let flight = match &self.mode {
+            Mode::Free(free) => Some(free.at(&self.world, &self.drive, s)),
+            _ => None,
+        };
+        let tips = self.mode.tips(&self.world, s);
+        self.rebase(s, Some(what));
+        self.tips = tips;
+        let rim = &self.world.machine.rim;
+        match (what, along, corner) {
+            (What::Touch(side), ..) => self.touch(side, place, rate),
+            (What::Edge(upper), Some((side, along)), _) => {
+                let a = if upper { rim.previous(side) } else { side };
+                self.cross(a, upper, along.rate, rate);
+            }
+            (What::Release, Some((side, along)), _) => self.leave(&[side], along.y, rate),
+            (What::Yield(second), _, Some(a)) => {
+                let side = if second { a } else { rim.next(a) };
+                self.hold_at_corner(side, rate, !second, 0.0);
+            }
+            (What::Lock | What::SeriesEnd, _, Some(a)) => self.enter_corner(a),
+            (_, _, Some(a)) if !matches!(self.mode, Mode::Rocking { .. }) => self.rest(a, rate),
+            (_, Some((side, along)), _) => self.hold(side, along.y, along.rate, rate),
+            _ => {
+                if let Some((u, v)) = flight {
+                    self.enter(Mode::Free(Free::new(u, v, self.tips)));
+                }
+            }
+        }
+    }
+
+    /// A corner is reached along one of its sides, the second where `second`,
+    /// with the rate `along` that side.
+    fn cross(&mut self, a: u32, second: bool, along: f64, rate: Plane) {
+        let contact = self.corner_contact(a);
+        let mut openings = self.openings(&contact, rate);
+        openings[usize::from(second)] = 0.0;
+        if self.world.blades.is_none() {
+            // The closed form keeps all digits of a slow motion.
+            openings[usize::from(!second)] = -along.abs() * self.world.turn.im;
+        }
+        self.meet_corner(&contact, rate, openings);
+        // What goes on along one side may be the beginning of the end.
+        let Some((side, along)) = self.mode.along(&self.world, &self.drive, 0.0) else { return };
+        let second = side != a;
+        let speed = match &self.mode {
+            Mode::Driven(series) => series.parting(second),
+            Mode::Slide(_) => along.rate.abs(),
+            _ => return,
+        };
+        if speed <= 0.0 {
+            return;
+        }
+        let Some(limit) = rocking::limit(&self.world, &self.drive, a, second, speed) else {
+            return;
+        };
+        match self.world.blades {
+            None => {
+                let rocking::Limit { time, lost } = limit;
+                self.mode = Mode::Rocking { a, second, speed, time, lost };
+            }
+            Some(blades) => {
+                let rates = self.world.omega + self.drive.nu.abs() + blades.omega;
+                if limit.time * rates <= BRIEF_ROCKING {
+                    self.stop_rocking(a);
+                }
+            }
+        }
+    }
+
+    /// Ends a rocking so brief that the blades do not notice: the impulses that
+    /// stop it now are what the crossings to come add to the pushes of the corner
+    /// at rest.
+    fn stop_rocking(&mut self, a: u32) {
+        let (_, rate) = self.mode.seen_by_rotor(&self.world, &self.drive, 0.0);
+        let contact = self.corner_contact(a);
+        let [first, second] = self.openings(&contact, rate);
+        let impulses = contact.cancelled(first, second);
+        for (side, y, impulse) in contact.on_sides(impulses) {
+            self.kick(side, y, impulse);
+        }
+        self.ledger.lost -= 0.5 * (first * impulses[0] + second * impulses[1]);
+        let rotor = impulses[0] * contact.y[0] + impulses[1] * contact.y[1];
+        self.ledger.rotor -= rotor * self.drive.nu;
+        self.rest(a, contact.struck(rate, impulses));
+    }
+
+    /// At rest in a corner: which sides hold? Accelerations by cases.
+    pub(super) fn rest(&mut self, a: u32, rate: Plane) {
+        let contact = self.corner_contact(a);
+        let [first, second] = self.opening_accelerations(&contact, rate);
+        let share = contact.share();
+        if contact.cancelled(first, second).iter().all(|&push| push >= 0.0) {
+            self.enter_corner(a);
+        } else if first <= 0.0 && second - share * first > 0.0 {
+            self.slide_from_corner(contact.a, rate, false, 0.0);
+        } else if second <= 0.0 && first - share * second > 0.0 {
+            self.slide_from_corner(contact.b, rate, true, 0.0);
+        } else {
+            self.leave(&[contact.a, contact.b], contact.y[0], rate);
+        }
+    }
+
+    /// Second derivatives of both gaps of a corner at rest, without its pushes.
+    fn opening_accelerations(&self, contact: &CornerContact, rate: Plane) -> [f64; 2] {
+        let (world, drive) = (&self.world, &self.drive);
+        if world.blades.is_none() {
+            return corner::opening(world, drive, contact.a, 0.0).map(|opening| opening.0);
+        }
+        let flight = self.flight(contact.place(world), rate);
+        let noise = world.push_noise(drive);
+        [contact.a, contact.b].map(|side| {
+            let opening = flight.curvature(world, drive, side).0;
+            if opening.abs() <= noise { 0.0 } else { opening }
+        })
+    }
+
+    fn enter_corner(&mut self, a: u32) {
+        let mode = match &self.world.blades {
+            None => Mode::Corner(a),
+            Some(blades) => Mode::Held(Held::new(&self.world, &self.drive, blades, a, &self.tips)),
+        };
+        self.enter(mode);
+    }
+
+    /// One side of a corner touches without rate: it holds if it pushes. The
+    /// corner is at its upper (`true`) or lower end, and its other side opens with
+    /// the rate `opens`, zero or more.
+    pub(super) fn hold_at_corner(&mut self, side: u32, rate: Plane, upper: bool, opens: f64) {
+        let (y, along) = self.at_corner(side, rate, upper, opens);
+        if self.pushes(side, y, along, rate) {
+            self.slide_from_corner(side, rate, upper, opens);
+        } else {
+            self.leave(&[side], y, rate);
+        }
+    }
+
+    /// Place and rate along a side, as above.
+    fn at_corner(&self, side: u32, rate: Plane, upper: bool, opens: f64) -> (f64, f64) {
+        let world = &self.world;
+        let lower = if upper { world.machine.rim.previous(side) } else { side };
+        let half = world.half_length(lower, &self.tips);
+        let (y, away) = if upper { (half, -1.0) } else { (-half, 1.0) };
+        if world.blades.is_none() {
+            // The rate away from the corner keeps the digits of the opening.
+            return (y, away * opens / world.turn.im);
+        }
+        let (normal, spin) = world.normal(side, &self.tips);
+        // i (-g0 + i y) spin has the imaginary part -g0 spin.
+        (y, (rate * normal.conj()).im + world.clearance * spin)
+    }
+
+    fn slide_from_corner(&mut self, side: u32, rate: Plane, upper: bool, opens: f64) {
+        let (y, along) = self.at_corner(side, rate, upper, opens);
+        let resting = opens == 0.0;
+        let from = From { y, rate: along, tips: self.tips, edge: Some(upper), resting };
+        self.slide(side, &from);
+    }
+
+    /// One side touches without rate, away from its corners: it holds if it pushes.
+    pub(super) fn hold(&mut self, side: u32, y: f64, along: f64, rate: Plane) {
+        if self.pushes(side, y, along, rate) {
+            let from = From { y, rate: along, tips: self.tips, edge: None, resting: false };
+            self.slide(side, &from);
+        } else {
+            self.leave(&[side], y, rate);
+        }
+    }
+
+    /// Whether a side that touches without rate pushes.
+    fn pushes(&self, side: u32, y: f64, along: f64, rate: Plane) -> bool {
+        let (world, drive) = (&self.world, &self.drive);
+        let push = match &world.blades {
+            None => {
+                let pulse = drive.pulse * drive.inward(world, side, 0.0).re;
+                world.push(drive.nu, drive.nu_rate, y, along, pulse)
+            }
+            Some(blades) => {
+                let flight = self.flight(self.on_side(side, y), rate);
+                -flight.curvature(world, drive, side).0 / (1.0 + blades.ratio * y * y)
+            }
+        };
+        push >= 0.0
+    }
+
+    fn slide(&mut self, side: u32, from: &From) {
+        let (world, drive) = (&self.world, &self.drive);
+        if world.blades.is_none() && drive.steady() {
+            self.enter(Mode::Slide(Slide::new(world, drive, side, from.y, from.rate)));
+            return;
+        }
+        let series = Series::new(world, drive, side, from);
+        if series.may_meet_other(world) {
+            self.fail(0.0, FailureReason::TwoSides { angle_rad: from.tips.angle.norm() });
+        }
+        self.enter(Mode::Driven(series));
+    }
+
+    /// Free flight off these sides, from `y` along the first of them.
+    fn leave(&mut self, sides: &[u32], y: f64, rate: Plane) {
+        let Some(&first) = sides.first() else { return };
+        let flight = self.flight(self.on_side(first, y), rate);
+        let mut free = flight;
+        for (slot, &side) in free.leaving.iter_mut().zip(sides) {
+            let (bend, twist) = flight.curvature(&self.world, &self.drive, side);
+            *slot = Some(Leaving { side, bend: bend.max(0.0), twist });
+        }
+        self.enter(Mode::Free(free));
+    }
+
+    /// Place of a point on a side.
+    fn on_side(&self, side: u32, y: f64) -> Plane {
+        Plane::new(-self.world.clearance, y) * self.world.normal(side, &self.tips).0
+    }
+
+    /// Free flight from a place and rate that the rotor sees.
+    pub(super) fn flight(&self, place: Plane, rate: Plane) -> Free {
+        let turn = Plane::cis(self.drive.phase);
+        let rate = (rate + Plane::i() * place * self.drive.nu) * turn;
+        Free::new(place * turn, rate, self.tips)
+    }
+
+    pub(super) fn enter(&mut self, mode: Mode) {
+        let t = self.start.0;
+        let touching = mode.touching(&self.world);
+        let before = self.log.touching;
+        if before != Touching::Nothing && before != touching {
+            // The old contact lasted until now.
+            self.log.touch(t, before);
+        }
+        self.log.touch(t, touching);
+        self.mode = mode;
+    }
+}
