@@ -210,6 +210,21 @@ fn a_count_that_a_larger_pulse_changes_is_sensitive() {
 }
 
 #[test]
+fn a_count_that_noise_alone_changes_is_sensitive() {
+    // A billionth more or less pulse changes nothing; of the rate on the way, it does.
+    let how = "solver event model rigid contact unilateral zeta-casing 0.01 end 0.1 \
+               speed 315 pulse 554500";
+    let scene = scene("paper-nd3", how);
+    let counts = [1.0, 1.0 + 1e-9, 1.0 - 1e-9].map(|factor| {
+        let mut scene = scene.clone();
+        scene.operation.pulse_n *= factor;
+        settle(&scene.checked().unwrap()).impact_count
+    });
+    assert!(counts.iter().all(|&count| count == counts[0]), "{counts:?}");
+    assert!(run("paper-nd3", how).outcome.sensitive);
+}
+
+#[test]
 fn a_lock_whose_time_a_tiny_change_moves_is_sensitive() {
     // Locked with a billionth more or less pulse as well, but at other times.
     let how = "solver event model rigid contact unilateral nd 5 zeta-casing 0 speed 500 \

@@ -146,3 +146,16 @@ fn a_scene_that_the_reference_does_not_know_is_refused() {
     let start = "rubscope: excitation.amplitude_nm = 1: allowed is 0 with solver.kind = \"event\"";
     assert!(said.starts_with(start), "{said}");
 }
+
+#[test]
+fn a_sensitive_scene_has_no_errors_at_the_end() {
+    // It locks at other instants with a billionth more pulse.
+    let scene = ["--model", "rigid", "--nd", "5", "--set", "bladed_disk.blades=12"];
+    let run = ["--zeta-casing", "0", "--pulse", "5280.215591911308", "--end", "0.114584672293341"];
+    let sensitive = [&scene[..], &run].concat();
+    let report = compare(&sensitive);
+    assert_eq!(report["reference"]["sensitive"], true);
+    assert!(rows(&report).iter().all(|row| row["error_final"].is_null()), "{report}");
+    assert!(rows(&report).iter().any(|row| row["error_impact_time_s"].is_number()), "{report}");
+    assert!(text(&sensitive).contains("This scene is sensitive"));
+}

@@ -1,6 +1,9 @@
 //! `rubscope run`: verdicts, JSON, history files, exit status.
 
 use crate::cli_support::{refusal, rubscope};
+use rubscope::motion::simulate;
+use rubscope::report::summary;
+use rubscope::scene::Scene;
 
 /// A quick scene: few steps, a decay.
 const QUICK: [&str; 6] = ["--contact", "unilateral", "--pulse", "20000", "--end", "0.002"];
@@ -163,4 +166,19 @@ fn run_and_map_agree_on_a_lock_that_was_caught_by_a_pull() {
     assert_eq!(report["checks"]["tensile_steps"], 2);
     let map = json(&["map", "--speed", "500:500:1", "--pulse", "51742:51742:1", "--json"]);
     assert_eq!(map["verdict"], serde_json::json!([["locked"]]));
+}
+
+#[test]
+fn every_penetration_above_round_off_is_told() {
+    let mut scene = Scene::default();
+    scene.solver.end_s = 1e-4;
+    let mut report = simulate(&scene.checked().unwrap());
+    for (part, is_told) in [(0.0, false), (1e-14, false), (1e-12, true), (5e-3, true)] {
+        report.checks.max_penetration_m = part * scene.machine().clearance();
+        let mut text = Vec::new();
+        summary::write(&report, 0.0, &mut text).unwrap();
+        let text = String::from_utf8(text).unwrap();
+        let line = text.lines().find(|line| line.starts_with("Deepest penetration:")).unwrap();
+        assert_eq!(line.ends_with(" of the clearance."), is_told, "{part}: {line}");
+    }
 }

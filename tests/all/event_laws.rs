@@ -3,9 +3,10 @@
 
 use std::f64::consts::TAU;
 
+use crate::plain::scenes::{in_corner, scene};
 use proptest::prelude::*;
-use rubscope::motion::{Event, Solver, State};
-use rubscope::scene::{ModelSize, Scene};
+use rubscope::motion::{Event, Motion, Solver, State};
+use rubscope::scene::{ModelSize, Scene, SolverKind};
 
 /// A scene of every kind the event solver takes; one in three with moving blades.
 fn scenes() -> impl Strategy<Value = Scene> {
@@ -184,5 +185,25 @@ proptest! {
         let size = machine.clearance() + one.amplitude();
         prop_assert!((one.u[0] - back[0]).abs() < 1e-6 * size, "{one:?} {back:?}");
         prop_assert!((one.u[1] - back[1]).abs() < 1e-6 * size, "{one:?} {back:?}");
+    }
+}
+
+#[test]
+fn a_corner_under_a_pulse_lets_go_before_it_pulls() {
+    for speed in ["413", "420", "430", "500"] {
+        let rigid = [("solver.model", "rigid"), ("operation.speed_rad_s", speed)];
+        let mut scene = in_corner(scene(&rigid));
+        (scene.solver.kind, scene.operation.pulse_s) = (SolverKind::Event, 4e-3);
+        for force in [-300.0, -30.0, -10.0, -3.0, 3.0, 10.0, 30.0, 300.0] {
+            scene.operation.pulse_n = force;
+            for k in 1..=40 {
+                // Each instant by a run of its own: looking must not help.
+                let mut motion = Motion::new(&scene.checked().unwrap());
+                assert!(motion.advance(1e-4 * f64::from(k)).is_ok());
+                for (side, multiplier) in motion.multipliers() {
+                    assert!(multiplier <= 1e-6, "{force} N: {side} {multiplier} N, {k}");
+                }
+            }
+        }
     }
 }

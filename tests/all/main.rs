@@ -43,6 +43,7 @@ mod plain_stepper;
 mod pty;
 mod scene_notes;
 mod scenes;
+mod tui_loop;
 mod tui_random;
 mod tui_screens;
 mod verdicts;

@@ -2,8 +2,11 @@
 //! push, the paper's zone with its adhesive part where it can pull, the same
 //! map on any number of threads, and what an adaptive map may leave out.
 
-use rubscope::motion::Verdict;
+use std::f64::consts::TAU;
+
+use rubscope::motion::{Verdict, settle};
 use rubscope::scene::{ContactLaw, ModelSize, Scene, SolverKind};
+use rubscope::study::overlay::grazing_pulse;
 use rubscope::study::{Axis, Map, MapPlan, Progress};
 
 /// The paper's machine with rigid blades, cell by cell, without sensitivity.
@@ -171,4 +174,24 @@ fn a_stopped_adaptive_map_holds_runs_only_and_ends_as_one_that_was_not() {
     assert_eq!(stopped.cells.iter().flatten().count() as u64, stopped.runs);
     stopped.fill_adaptively(&Progress::default(), &|_, _| {});
     assert_eq!((stopped.cells, stopped.runs), (whole.cells, whole.runs));
+}
+
+#[test]
+fn the_grazing_pulse_is_where_blades_begin_to_be_met() {
+    for (speed, zeta, pulse_s) in [(500.0, 0.05, 50e-6), (50.0, 0.0, 1e-3), (-400.0, 0.3, 1e-2)] {
+        let mut scene = plan("300:500:5", "1e4:1e6:3").scene;
+        scene.operation.speed_rad_s = speed;
+        scene.casing.damping_ratio = zeta;
+        scene.operation.pulse_s = pulse_s;
+        scene.solver.end_s = pulse_s + TAU / scene.machine().omega_c;
+        let grazing = grazing_pulse(&scene, 1e5).unwrap();
+        for (part, touches) in [(1.0 - 1e-6, false), (1.0 + 1e-6, true)] {
+            scene.operation.pulse_n = part * grazing;
+            assert_eq!(
+                settle(&scene.checked().unwrap()).impact_count > 0,
+                touches,
+                "{part} of {grazing} N"
+            );
+        }
+    }
 }

@@ -195,6 +195,24 @@ fn three_sides_at_once_are_no_answer_for_rigid_blades() {
 }
 
 #[test]
+fn a_push_on_one_of_three_sides_closes_the_next() {
+    let three = [(BLADES, "3"), (DIAMETERS, "1"), (SPEED, "0")];
+    each(&["rigid", "modal"], &["unilateral"], &three, |scene| {
+        let mut scene = in_corner(scene);
+        let (step, rim) = (scene.solver.step_s, scene.machine().rim);
+        let [a, b] = [0, 1].map(|side| rim.direction(side));
+        let sine = a.0 * b.1 - a.1 * b.0;
+        let with_gaps = |p: f64, q: f64| ((p * b.1 - q * a.1) / sine, (q * a.0 - p * b.0) / sine);
+        // Half a step before side 0 at 1 m/s, along side 1 and close to it.
+        let place = with_gaps(0.5 * step, 0.1 * step);
+        scene.initial.u_c_m += place.0;
+        scene.initial.u_s_m += place.1;
+        (scene.initial.v_c_m_s, scene.initial.v_s_m_s) = with_gaps(-1.0, 0.0);
+        compare("three sides", &scene, 0.002);
+    });
+}
+
+#[test]
 fn decay_is_seen_as_soon_as_nothing_can_touch() {
     // The last contact loses nearly all that is too much; drag takes the rest.
     for pulse in ["5e3", "1e4", "1.5e4", "2e4", "3e4"] {

@@ -2,6 +2,7 @@
 //! verdict changes, and it leaves the terminal as it found it.
 
 #![cfg(unix)]
+
 use std::io::{Read, Write};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
@@ -21,11 +22,17 @@ struct Terminal {
 
 impl Terminal {
     fn open(arguments: &[&str]) -> Self {
+        Self::open_with(arguments, "")
+    }
+
+    /// Opens it with a value of `NO_COLOR`.
+    fn open_with(arguments: &[&str], no_color: &str) -> Self {
         let size = PtySize { rows: 24, cols: 80, pixel_width: 0, pixel_height: 0 };
         let pair = native_pty_system().openpty(size).unwrap();
         let mut command = CommandBuilder::new(env!("CARGO_BIN_EXE_rubscope"));
         command.args(arguments);
         command.env("TERM", "xterm-256color");
+        command.env("NO_COLOR", no_color);
         let child = pair.slave.spawn_command(command).unwrap();
         drop(pair.slave);
         let mut reader = pair.master.try_clone_reader().unwrap();
@@ -85,6 +92,13 @@ impl Terminal {
         status.exit_code()
     }
 
+    fn is_coloured(&self) -> bool {
+        let screen = self.parser.screen();
+        let colour = |row, column| screen.cell(row, column).map(vt100::Cell::fgcolor);
+        let mut cells = (0..24).flat_map(|row| (0..80).map(move |column| (row, column)));
+        cells.any(|(row, column)| colour(row, column) != Some(vt100::Color::Default))
+    }
+
     fn assert_restored(&self) {
         let screen = self.parser.screen();
         assert!(!screen.alternate_screen(), "still on the alternate screen");
@@ -127,4 +141,15 @@ fn a_refused_scene_never_takes_the_terminal() {
     let text = terminal.parser.screen().contents();
     assert!(text.contains("bladed_disk.blades = 0"), "{text}");
     terminal.assert_restored();
+}
+
+#[test]
+fn no_color_leaves_the_screen_without_colours_unless_it_is_empty() {
+    for (value, coloured) in [("", true), ("1", false)] {
+        let mut terminal = Terminal::open_with(&["--end", "1e-3"], value);
+        terminal.wait_for(" LOCKED ");
+        assert_eq!(terminal.is_coloured(), coloured, "NO_COLOR={value:?}");
+        terminal.send("q");
+        assert_eq!(terminal.wait(), 0);
+    }
 }

@@ -1,6 +1,7 @@
 //! Random keys at random sizes: no panic, no hang, and never a result of
 //! knobs that have been turned since.
 
+use std::collections::VecDeque;
 use std::sync::mpsc;
 use std::time::Duration;
 
@@ -9,10 +10,100 @@ use proptest::prelude::*;
 use ratatui::{Terminal, backend::TestBackend};
 use rubscope::scene::Scene;
 use rubscope::tui::bindings::BINDINGS;
+use rubscope::tui::engine::{Ahead, Engine, Order, Snapshot};
 use rubscope::tui::events::Event;
 use rubscope::tui::terminal::NoHost;
 use rubscope::tui::worker::Stepwise;
 use rubscope::tui::{App, Exit, Marker, Theme, run};
+
+/// Looks by which the answers of `Late` are late: more than one `press` has.
+const DELAY: usize = 3;
+
+/// An engine whose answers come late. The impact count of each result is
+/// replaced by the generation of the knobs it was computed for.
+struct Late {
+    engine: Stepwise,
+    kept: VecDeque<Snapshot>,
+}
+
+impl Late {
+    fn new() -> Self {
+        Self { engine: Stepwise::new(1e-4), kept: VecDeque::new() }
+    }
+}
+
+impl Engine for Late {
+    fn order(&mut self, order: &Order) {
+        self.engine.order(order);
+    }
+
+    fn take(&mut self) -> Option<Snapshot> {
+        if let Some(mut snapshot) = self.engine.take() {
+            let Snapshot { generation, ahead, reference, beside, .. } = &mut snapshot;
+            let ahead = match ahead {
+                Some(Ahead::Done(forecast)) => Some(forecast),
+                _ => None,
+            };
+            let results = [ahead, reference.as_mut(), beside.as_mut()];
+            results.into_iter().flatten().for_each(|result| result.impacts = *generation);
+            self.kept.push_back(snapshot);
+        }
+        if self.kept.len() > DELAY { self.kept.pop_front() } else { None }
+    }
+}
+
+/// The results on the screen, as the generations of the knobs they belong to.
+fn results(app: &App) -> Vec<u64> {
+    let ahead = match &app.ahead {
+        Some(Ahead::Done(forecast)) => Some(forecast),
+        _ => None,
+    };
+    let shown = [ahead, app.reference.as_ref(), app.beside.as_ref()];
+    shown.into_iter().flatten().map(|result| result.impacts).collect()
+}
+
+fn scene() -> Scene {
+    let mut scene = Scene::builtin("paper-nd3").unwrap();
+    scene.solver.step_s = 1e-6;
+    scene.solver.end_s = 2e-3;
+    // A motion that fails cannot be changed live.
+    scene.operation.pulse_n = 2e4;
+    scene
+}
+
+/// Sends keys and looks at the screen.
+fn press(
+    terminal: &mut Terminal<TestBackend>,
+    app: &mut App,
+    engine: &mut Late,
+    keys: impl IntoIterator<Item = KeyEvent>,
+) {
+    let (sender, events) = mpsc::channel();
+    sender.send(Event::Resize).unwrap();
+    keys.into_iter().for_each(|key| sender.send(Event::Key(key)).unwrap());
+    drop(sender);
+    let exit = run(terminal, &events, app, engine, &mut NoHost, Duration::ZERO);
+    assert_eq!(exit.unwrap(), Exit::Done);
+}
+
+#[test]
+fn a_live_knob_drops_every_result_of_the_knobs_before() {
+    let mut app = App::new(scene().checked().unwrap(), Theme::Dark, Marker::Braille);
+    (app.live, app.compare) = (true, true);
+    let mut terminal = Terminal::new(TestBackend::new(120, 40)).unwrap();
+    let mut engine = Late::new();
+    let mut look = |app: &mut App, key: Option<char>| {
+        let key = key.map(|letter| KeyEvent::new(KeyCode::Char(letter), KeyModifiers::NONE));
+        press(&mut terminal, app, &mut engine, key);
+        results(app)
+    };
+    assert!(look(&mut app, None).is_empty());
+    assert_eq!((0..DELAY).map(|_| look(&mut app, None)).last(), Some(vec![0, 0, 0]));
+    // The answers that come now are still to the knobs before.
+    assert!(look(&mut app, Some('h')).is_empty());
+    // The event solver says nothing about a motion that was changed on its way.
+    assert_eq!((0..DELAY).map(|_| look(&mut app, None)).last(), Some(vec![1, 1]));
+}
 
 /// Every key of the table, and the characters of typed values.
 fn any_key() -> impl Strategy<Value = KeyEvent> {
@@ -37,32 +128,23 @@ proptest! {
     #![proptest_config(crate::drawn(24))]
     #[test]
     fn random_keys_at_random_sizes(
+        live: bool,
         rounds in proptest::collection::vec(
             (0u16..140, 0u16..50, proptest::collection::vec(any_key(), 0..12)), 1..8),
     ) {
-        let mut scene = Scene::builtin("paper-nd3").unwrap();
-        scene.solver.step_s = 1e-6;
-        scene.solver.end_s = 2e-3;
-        let mut app = App::new(scene.checked().unwrap(), Theme::Dark, Marker::Braille);
+        let mut app = App::new(scene().checked().unwrap(), Theme::Dark, Marker::Braille);
+        (app.live, app.compare) = (live, live);
         // Keys at random save and export, too.
         let files = tempfile::tempdir().unwrap();
         app.directory = files.path().to_path_buf();
         let mut terminal = Terminal::new(TestBackend::new(80, 24)).unwrap();
-        let mut engine = Stepwise::new(1e-4);
+        let mut engine = Late::new();
         for (width, height, keys) in rounds {
             terminal.backend_mut().resize(width, height);
-            let (sender, events) = mpsc::channel();
-            sender.send(Event::Resize).unwrap();
-            for key in keys {
-                sender.send(Event::Key(key)).unwrap();
-            }
-            drop(sender);
-            let exit = run(&mut terminal, &events, &mut app, &mut engine, &mut NoHost, Duration::ZERO);
-            prop_assert_eq!(exit.unwrap(), Exit::Done);
+            press(&mut terminal, &mut app, &mut engine, keys);
             prop_assert!(app.scene.checked().is_ok(), "a scene that was refused came through");
-            if let Some(moment) = &app.moment {
-                prop_assert_eq!(moment.gaps.len(), app.scene.bladed_disk.blades as usize);
-            }
+            let now = app.order().generation();
+            prop_assert!(results(&app).iter().all(|&of| of == now), "{now}: {:?}", results(&app));
         }
     }
 }

@@ -1,8 +1,9 @@
 //! A verdict reached early is the verdict of the whole run, whatever drives it.
 
+use crate::plain::scenes::{in_corner, scene};
 use proptest::prelude::*;
 use rubscope::motion::verdict::LAST_PART;
-use rubscope::motion::{Motion, Settled, settle, verdict_of};
+use rubscope::motion::{Motion, Settled, Touching, Verdict, settle, verdict_of};
 use rubscope::scene::{ContactLaw, ModelSize, Scene, SolverKind};
 
 /// Scenes of every solver, law and model that decay, bounce, slip and lock, with
@@ -98,5 +99,61 @@ proptest! {
             }
             settled = now;
         }
+    }
+}
+
+/// Blades of the event solver in the corner of sides 0 and 1.
+fn cornered(model: &str, ramp: &str) -> Motion {
+    let ramp = [("operation.speed_ramp_rad_s2", ramp), ("solver.model", model)];
+    let mut scene = in_corner(scene(&ramp));
+    scene.solver.kind = SolverKind::Event;
+    Motion::new(&scene.checked().unwrap())
+}
+
+#[test]
+fn a_lock_is_for_good_at_constant_speed_only() {
+    for model in ["rigid", "modal"] {
+        let locked = |ramp| {
+            let mut motion = cornered(model, ramp);
+            assert!(motion.advance(2e-3).is_ok());
+            assert!(matches!(motion.contacts().touching, Touching::Corner(..)), "{model} {ramp}");
+            motion.settled()
+        };
+        assert_eq!(locked("0"), Some(Verdict::Locked), "{model}");
+        assert_eq!(locked("-3e3"), None, "{model}");
+    }
+}
+
+#[test]
+fn a_corner_held_for_a_casing_period_is_a_rest() {
+    for (periods, rested) in [(0.5, false), (1.5, true)] {
+        let mut motion = cornered("rigid", "0");
+        let period = std::f64::consts::TAU / motion.machine().omega_c;
+        assert!(motion.advance(periods * period).is_ok());
+        motion.set_speed(0.0, 0.0);
+        assert!(motion.advance((periods + 0.1) * period).is_ok());
+        assert_eq!(motion.contacts().touching, Touching::Nothing);
+        assert_eq!(Settled::of(&motion, Verdict::Bounce).rested, rested, "{periods}");
+    }
+}
+
+#[test]
+fn a_corner_that_the_first_swing_of_its_blades_opens_is_no_lock() {
+    // Undamped blades just below the lowest speed at which the corner holds them.
+    for (model, speed) in [("modal", "413.13737"), ("full", "413.14212")] {
+        let blades = [
+            ("bladed_disk.stiffness_nm_per_rad", "1e4"),
+            ("bladed_disk.coupling_nm_per_rad", "0"),
+            ("bladed_disk.inertia_kg_m2", "1e-3"),
+            ("bladed_disk.damping_ratio", "0"),
+        ];
+        let run = [
+            ("solver.model", model),
+            ("solver.contact", "unilateral"),
+            ("solver.end_s", "0.02"),
+            ("operation.speed_rad_s", speed),
+        ];
+        let settled = settle(&in_corner(scene(&[blades, run].concat())).checked().unwrap());
+        assert_eq!(settled.verdict, Verdict::Slip, "{model}: {settled:?}");
     }
 }

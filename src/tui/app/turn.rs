@@ -97,6 +97,7 @@ impl App {
             self.counters.changes += 1;
             self.ahead = None;
             self.reference = None;
+            self.beside = None;
         } else {
             self.restart();
         }

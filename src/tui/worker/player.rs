@@ -118,8 +118,9 @@ impl Player {
                 beside.ahead = Run::new(beside.motion.clone(), order.scene.solver.end_s);
             }
             self.studies.begin();
-            // The reference starts from rest; it says nothing about a changed run.
+            // Both start from rest; they say nothing about a changed run.
             self.reference = None;
+            self.sensitive = Some(false);
         }
         if order.beside != before.beside {
             self.beside = self.other_law();

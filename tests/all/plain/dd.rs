@@ -7,6 +7,7 @@
 
 use std::cmp::Ordering;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+use std::sync::LazyLock;
 
 /// `0 + 1`, the second part at most half a unit in the last place of the first.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -19,7 +20,12 @@ pub const PI: Dd = Dd(std::f64::consts::PI, 1.224_646_799_147_353_2e-16);
 pub const TAU: Dd = Dd(std::f64::consts::TAU, 2.449_293_598_294_706_4e-16);
 const HALF_PI: Dd = Dd(std::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17);
 
+/// `1/((j + 1)(j + 2))`: from each term of a sine or cosine to the next.
+static RATIOS: LazyLock<[Dd; 30]> =
+    LazyLock::new(|| std::array::from_fn(|j| ONE / Dd::from((j as f64 + 1.0) * (j as f64 + 2.0))));
+
 /// `a + b` exactly.
+#[inline(always)]
 fn two_sum(a: f64, b: f64) -> Dd {
     let s = a + b;
     let t = s - a;
@@ -27,12 +33,14 @@ fn two_sum(a: f64, b: f64) -> Dd {
 }
 
 /// `a + b` exactly where `|a| >= |b|`.
+#[inline(always)]
 fn quick_sum(a: f64, b: f64) -> Dd {
     let s = a + b;
     Dd(s, b - (s - a))
 }
 
 /// `a * b` exactly, by splitting both into halves of 26 digits.
+#[inline(always)]
 fn two_product(a: f64, b: f64) -> Dd {
     let split = |x: f64| {
         let t = 134_217_729.0 * x;
@@ -62,29 +70,22 @@ impl Dd {
         near + (self - near * near) / (near + near)
     }
 
-    /// Nearest whole number, for numbers below 2^52.
-    fn round(self) -> f64 {
-        let whole = self.0.round();
-        whole + (Dd(self.0 - whole, 0.0) + Dd(self.1, 0.0)).value().round()
-    }
-
-    /// Rest of an angle in `[-pi, pi]`.
+    /// Rest of an angle in `[-pi, pi]`, to round-off of its ends.
     pub fn reduced(self) -> Self {
-        self - TAU * Dd::from((self / TAU).round())
+        self - TAU * Dd::from((self.0 / TAU.0).round())
     }
 
     /// `(sin, cos)` by their Taylor series after reduction to an eighth of a
     /// turn, where 30 terms leave 1e-33.
     pub fn sin_cos(self) -> (Self, Self) {
         let angle = self.reduced();
-        let quarters = (angle / HALF_PI).round();
+        let quarters = (angle.0 / HALF_PI.0).round();
         let x = angle - HALF_PI * Dd::from(quarters);
         let square = x * x;
-        let series = |first: Dd, start: u32| {
+        let series = |first: Dd, start: usize| {
             let (mut sum, mut term) = (first, first);
-            for k in 0..15 {
-                let j = f64::from(start + 2 * k);
-                term = -(term * square) / Dd::from((j + 1.0) * (j + 2.0));
+            for ratio in RATIOS.iter().skip(start).step_by(2) {
+                term = -(term * square * *ratio);
                 sum += term;
                 if term.0.abs() < 1e-34 {
                     break;
@@ -126,6 +127,7 @@ impl PartialOrd for Dd {
 
 impl Neg for Dd {
     type Output = Self;
+    #[inline(always)]
     fn neg(self) -> Self {
         Dd(-self.0, -self.1)
     }
@@ -133,6 +135,7 @@ impl Neg for Dd {
 
 impl Add for Dd {
     type Output = Self;
+    #[inline(always)]
     fn add(self, other: Self) -> Self {
         let (high, low) = (two_sum(self.0, other.0), two_sum(self.1, other.1));
         let first = quick_sum(high.0, high.1 + low.0);
@@ -142,6 +145,7 @@ impl Add for Dd {
 
 impl Sub for Dd {
     type Output = Self;
+    #[inline(always)]
     fn sub(self, other: Self) -> Self {
         self + -other
     }
@@ -149,6 +153,7 @@ impl Sub for Dd {
 
 impl Mul for Dd {
     type Output = Self;
+    #[inline(always)]
     fn mul(self, other: Self) -> Self {
         let p = two_product(self.0, other.0);
         quick_sum(p.0, p.1 + (self.0 * other.1 + self.1 * other.0))
@@ -167,12 +172,14 @@ impl Div for Dd {
 }
 
 impl AddAssign for Dd {
+    #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
 impl SubAssign for Dd {
+    #[inline(always)]
     fn sub_assign(&mut self, other: Self) {
         *self = *self - other;
     }
