@@ -9,7 +9,7 @@
 use serde::{Serialize, Serializer};
 
 use super::status::Refusal;
-use crate::motion::{self, Motion};
+use crate::motion;
 use crate::report::number::time;
 use crate::scene::{KEYS, Scene, SolverKind, Value, keys};
 
@@ -120,7 +120,7 @@ impl Step {
         }
         let scene = before.clone().with(&[(path, value)]).map_err(refused)?;
         let of_rotor = path == SPEED || path == RAMP;
-        if !of_rotor && !Motion::new(before).adopt(&scene) {
+        if !of_rotor && !motion::can_adopt(before, &scene) {
             return Err(fixed());
         }
         let mut acts = motion::Change::between(before, &scene);

@@ -19,6 +19,7 @@ mod wave;
 pub use contacts::{ContactLog, Impact, Touching, in_phase_order};
 pub use drive::{Failure, Pulse, Rotor, State};
 pub use event::Event;
+pub use explicit::can_adopt;
 pub use run::{
     FinalState, ImpactReport, RunReport, Sample, Sampling, Settled, SolverReport, settle, simulate,
     simulate_with, verdict_of,

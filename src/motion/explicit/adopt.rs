@@ -5,8 +5,24 @@
 //! mean rates of the last step have no jump.
 
 use super::{Blades, Excitation, Explicit, Oscillator};
+use crate::model::Rim;
 use crate::motion::Pulse;
-use crate::scene::Scene;
+use crate::scene::{Scene, SolverKind};
+
+/// Whether a motion of one checked scene can take over the parameters of
+/// another while it runs. The same answer as `Motion::adopt`, without a motion.
+#[must_use]
+pub fn can_adopt(before: &Scene, after: &Scene) -> bool {
+    let (old, new) = (&before.solver, &after.solver);
+    [old, new].iter().all(|solver| solver.kind == SolverKind::Explicit)
+        && old.model == new.model
+        && old.step_s == new.step_s
+        && same_polygon(&before.machine().rim, &after.machine().rim)
+}
+
+fn same_polygon(a: &Rim, b: &Rim) -> bool {
+    a.blades == b.blades && a.nodal_diameters == b.nodal_diameters && a.clearance == b.clearance
+}
 
 impl<B: Blades> Explicit<B> {
     /// From the latest step on, moves with the parameters of a checked scene.
@@ -15,12 +31,7 @@ impl<B: Blades> Explicit<B> {
     /// number of blades or nodal diameters, another clearance or another step.
     pub fn adopt(&mut self, scene: &Scene) -> bool {
         let machine = scene.machine();
-        let (new, old) = (&machine.rim, &self.machine.rim);
-        let alike = new.blades == old.blades
-            && new.nodal_diameters == old.nodal_diameters
-            && new.clearance == old.clearance
-            && scene.solver.step_s == self.step;
-        if !alike {
+        if !same_polygon(&machine.rim, &self.machine.rim) || scene.solver.step_s != self.step {
             return false;
         }
         self.interrupt();
@@ -43,6 +54,7 @@ impl<B: Blades> Explicit<B> {
 
 #[cfg(test)]
 mod tests {
+    use super::can_adopt;
     use crate::motion::Motion;
     use crate::scene::{ModelSize, Scene, SolverKind};
 
@@ -131,8 +143,12 @@ mod tests {
         for turn in turns {
             let mut other = base.clone();
             turn(&mut other);
-            assert!(!Motion::new(&base).adopt(&other), "{other:?}");
-            assert!(!Motion::new(&other).adopt(&base), "{other:?}");
+            for (before, after) in [(&base, &other), (&other, &base)] {
+                assert!(!Motion::new(before).adopt(after) && !can_adopt(before, after));
+            }
         }
+        let mut softer = base.clone();
+        softer.casing.modal_stiffness_n_per_m *= 0.5;
+        assert!(Motion::new(&base).adopt(&softer) && can_adopt(&base, &softer));
     }
 }

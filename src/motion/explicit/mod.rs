@@ -18,6 +18,7 @@ mod oscillator;
 mod settled;
 mod watch;
 
+pub use adopt::can_adopt;
 pub use blades::{Blades, FullBlades, ModalBlades, RigidBlades};
 pub use excitation::Excitation;
 pub use oscillator::{Coordinate, Oscillator};
