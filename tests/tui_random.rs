@@ -60,7 +60,7 @@ proptest! {
             let exit = run(&mut terminal, &events, &mut app, &mut engine, &mut NoHost, Duration::ZERO);
             prop_assert_eq!(exit.unwrap(), Exit::Done);
             prop_assert!(app.scene.check().is_ok(), "a scene that was refused came through");
-            if let Some(moment) = &app.moment {
+            if let Some(moment) = &app.latest.moment {
                 prop_assert_eq!(moment.gaps.len(), app.scene.bladed_disk.blades as usize);
             }
         }

@@ -40,7 +40,7 @@ pub fn ticks(low: f64, high: f64, most: usize) -> (Vec<f64>, f64) {
 
 /// One SI prefix for a whole axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Scale {
+pub struct SiScale {
     /// What one shown unit is worth.
     pub factor: f64,
     /// The prefix in front of the unit.
@@ -60,7 +60,7 @@ const PREFIXES: &[(f64, &str)] = &[
     (1e9, "G"),
 ];
 
-impl Scale {
+impl SiScale {
     /// The prefix under which the largest magnitude reads as 1 to 999.
     #[must_use]
     pub fn of(magnitude: f64) -> Self {
@@ -93,21 +93,13 @@ impl Scale {
     }
 }
 
-impl Scale {
-    /// The label of a tick, as a power of ten where the axis is of exponents.
-    #[must_use]
-    pub fn tick(&self, value: f64, step: f64, power: bool) -> String {
-        if power { format!("1e{value:.0}") } else { self.label(value, step) }
-    }
-}
-
 /// A number with four significant digits and its SI prefix, such as `228.2 µ`.
 #[must_use]
 pub fn readable(value: f64, unit: &str) -> String {
     if !value.is_finite() {
         return format!("- {unit}").trim_end().to_string();
     }
-    let scale = Scale::of(value);
+    let scale = SiScale::of(value);
     let shown = value / scale.factor;
     let decimals = match shown.abs() {
         x if x >= 1000.0 => 0,
@@ -180,10 +172,10 @@ mod tests {
 
     #[test]
     fn labels_show_the_decimals_of_their_step() {
-        let micro = Scale::of(1.0e-4);
+        let micro = SiScale::of(1.0e-4);
         assert_eq!((micro.prefix, micro.label(5e-5, 5e-5).as_str()), ("µ", "50"));
-        assert_eq!(Scale::plain().label(0.25, 0.05), "0.25");
-        assert_eq!(Scale::of(0.02).label(5e-3, 5e-3), "5");
+        assert_eq!(SiScale::plain().label(0.25, 0.05), "0.25");
+        assert_eq!(SiScale::of(0.02).label(5e-3, 5e-3), "5");
         assert_eq!(readable(2.282e-4, "s"), "228.2 µs");
         assert_eq!(readable(0.0, "s"), "0.000 s");
         assert_eq!(readable(f64::NAN, "s"), "- s");

@@ -15,13 +15,13 @@ pub struct Lesson {
     pub scene: String,
     /// Its steps.
     #[serde(rename = "step")]
-    pub steps: Vec<Step>,
+    pub steps: Vec<LessonStep>,
 }
 
 /// One step of a lesson.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
-pub struct Step {
+pub struct LessonStep {
     /// What to see, and why.
     pub text: String,
     /// The equation behind it.

@@ -3,24 +3,24 @@
 //! its own (`worker`) behind two slots; one table of bindings feeds the keys,
 //! the footer, the help and the manual page.
 
-pub mod app;
-pub mod axis;
+mod app;
+mod appearance;
+mod axis;
 pub mod bindings;
 pub mod engine;
 pub mod events;
-pub mod export;
-pub mod history;
-pub mod knobs;
+mod export;
+mod history;
+mod knobs;
 pub mod lessons;
-pub mod locked_curve;
-pub mod panels;
-pub mod plot;
-pub mod raster;
+mod panels;
+mod plot;
+mod raster;
 mod run;
-pub mod skin;
-pub mod spectrum;
 pub mod terminal;
-pub mod theme;
+mod text;
+mod theme;
+mod views;
 pub mod worker;
 
 use std::io::IsTerminal;
@@ -115,12 +115,12 @@ pub fn explore(scene: Scene, options: ExploreOptions) -> anyhow::Result<u8> {
     terminal::install_panic_hook();
     let (sender, events) = mpsc::channel();
     events::watch_signals(sender.clone())?;
-    let nudges = Mutex::new(sender.clone());
-    let nudge: engine::Nudge = Arc::new(move || {
+    let senders = Mutex::new(sender.clone());
+    let wake: engine::Waker = Arc::new(move || {
         // If nobody listens any more, the program is about to end.
-        let _ = nudges.lock().unwrap_or_else(PoisonError::into_inner).send(events::Event::Fresh);
+        let _ = senders.lock().unwrap_or_else(PoisonError::into_inner).send(events::Event::Fresh);
     });
-    let mut worker = worker::Worker::spawn(nudge)?;
+    let mut worker = worker::Worker::spawn(wake)?;
     let mut app = App::new(scene, options.theme(), options.marker);
     app.source.clone_from(&options.source);
     let guard = terminal::Guard;

@@ -7,34 +7,55 @@ use ratatui::{
     style::Style,
 };
 
-use super::axis::{Scale, ticks};
+use super::appearance::Appearance;
+use super::axis::{SiScale, ticks};
 use super::history::Span;
 use super::raster::{DASH, DASH_ON, Pen, Raster};
-use super::skin::Skin;
 use super::theme::Role;
 
 /// One axis: range, prefix, and the largest number of ticks.
 #[derive(Clone, Copy, Debug)]
-pub struct Axis {
+pub struct ChartAxis {
     /// Lower end.
     pub low: f64,
     /// Upper end.
     pub high: f64,
     /// Prefix of the labels.
-    pub scale: Scale,
+    pub scale: SiScale,
+    /// Whether the range is that of the exponents of powers of ten.
+    powers: bool,
 }
 
-impl Axis {
+impl ChartAxis {
     /// An axis whose labels carry the prefix of its greatest magnitude.
     #[must_use]
     pub fn scaled(low: f64, high: f64) -> Self {
-        Self { low, high, scale: Scale::of(low.abs().max(high.abs())) }
+        Self { scale: SiScale::of(low.abs().max(high.abs())), ..Self::plain(low, high) }
     }
 
     /// An axis without a prefix.
     #[must_use]
     pub fn plain(low: f64, high: f64) -> Self {
-        Self { low, high, scale: Scale::plain() }
+        Self { low, high, scale: SiScale::plain(), powers: false }
+    }
+
+    /// An axis of powers of ten, from one exponent to another.
+    #[must_use]
+    pub fn powers(low: f64, high: f64) -> Self {
+        Self { powers: true, ..Self::plain(low, high) }
+    }
+
+    /// Round values and their spacing: of powers, the whole exponents only.
+    fn ticks(&self, most: usize) -> (Vec<f64>, f64) {
+        let (values, step) = ticks(self.low, self.high, most);
+        if !self.powers {
+            return (values, step);
+        }
+        (values.into_iter().filter(|v| (v - v.round()).abs() < 1e-9).collect(), 1.0)
+    }
+
+    fn label(&self, value: f64, step: f64) -> String {
+        if self.powers { format!("1e{value:.0}") } else { self.scale.label(value, step) }
     }
 
     fn is_sound(&self) -> bool {
@@ -48,59 +69,35 @@ pub struct Plot<'a> {
     raster: Raster,
     /// Where data goes.
     pub inner: Rect,
-    x: Axis,
-    y: Axis,
+    x: ChartAxis,
+    y: ChartAxis,
     rule: bool,
 }
 
 impl<'a> Plot<'a> {
-    /// Draws the frame in `area`; none where the area is too small or an axis
-    /// is not a proper range.
-    #[must_use]
-    pub fn new(buffer: &'a mut Buffer, area: Rect, x: Axis, y: Axis, skin: &Skin) -> Option<Self> {
-        Self::framed(buffer, area, x, y, skin, [false, false])
-    }
-
-    /// As `new`, with a y axis of powers of ten: its range is that of the
-    /// exponents.
-    #[must_use]
-    pub fn powers(
-        buffer: &'a mut Buffer,
-        area: Rect,
-        x: Axis,
-        y: Axis,
-        skin: &Skin,
-    ) -> Option<Self> {
-        Self::framed(buffer, area, x, y, skin, [false, true])
-    }
-
-    /// As `powers`, on both axes.
-    #[must_use]
-    pub fn powers_both(
-        buffer: &'a mut Buffer,
-        area: Rect,
-        x: Axis,
-        y: Axis,
-        skin: &Skin,
-    ) -> Option<Self> {
-        Self::framed(buffer, area, x, y, skin, [true, true])
-    }
-
     /// A chart without axes, for pictures.
     #[must_use]
-    pub fn bare(buffer: &'a mut Buffer, area: Rect, x: Axis, y: Axis, skin: &Skin) -> Option<Self> {
+    pub fn bare(
+        buffer: &'a mut Buffer,
+        area: Rect,
+        x: ChartAxis,
+        y: ChartAxis,
+        look: &Appearance,
+    ) -> Option<Self> {
         let sound = x.is_sound() && y.is_sound() && area.width > 1 && area.height > 1;
-        let raster = Raster::new(area, skin.marker);
+        let raster = Raster::new(area, look.marker);
         sound.then_some(Self { buffer, raster, inner: area, x, y, rule: false })
     }
 
-    fn framed(
+    /// Draws the frame in `area`; none where the area is too small or an axis
+    /// is not a proper range.
+    #[must_use]
+    pub fn new(
         buffer: &'a mut Buffer,
         area: Rect,
-        x: Axis,
-        y: Axis,
-        skin: &Skin,
-        powers: [bool; 2],
+        x: ChartAxis,
+        y: ChartAxis,
+        look: &Appearance,
     ) -> Option<Self> {
         if !x.is_sound() || !y.is_sound() || area.width < 10 || area.height < 3 {
             return None;
@@ -108,16 +105,14 @@ impl<'a> Plot<'a> {
         let rule = area.height >= 7;
         let below = if rule { 2 } else { 1 };
         let rows = area.height - below;
-        let (y_ticks, y_step) = ticks(y.low, y.high, usize::from(rows.div_ceil(2)).clamp(1, 7));
-        let (y_ticks, y_step) = if powers[1] { whole(y_ticks) } else { (y_ticks, y_step) };
-        let labels: Vec<String> =
-            y_ticks.iter().map(|v| y.scale.tick(*v, y_step, powers[1])).collect();
+        let (y_ticks, y_step) = y.ticks(usize::from(rows.div_ceil(2)).clamp(1, 7));
+        let labels: Vec<String> = y_ticks.iter().map(|v| y.label(*v, y_step)).collect();
         let gutter = labels.iter().map(|label| label.chars().count()).max().unwrap_or(1).max(2);
         let gutter = u16::try_from(gutter).unwrap_or(6).min(area.width / 2) + 1;
         let inner = Rect::new(area.x + gutter, area.y, area.width - gutter, rows);
-        let quiet = skin.style(Role::Quiet);
-        let mut plot = Self { buffer, raster: Raster::new(inner, skin.marker), inner, x, y, rule };
-        let signs = skin.axis_signs();
+        let quiet = look.style(Role::Quiet);
+        let mut plot = Self { buffer, raster: Raster::new(inner, look.marker), inner, x, y, rule };
+        let signs = look.axis_signs();
         for row in inner.y..inner.bottom() {
             plot.put(inner.x - 1, row, signs.side, quiet);
         }
@@ -128,13 +123,13 @@ impl<'a> Plot<'a> {
                 plot.put(inner.x - 1, row, signs.side_tick, quiet);
             }
         }
-        plot.x_axis(rule, skin, powers[0]);
+        plot.x_axis(rule, look);
         Some(plot)
     }
 
-    fn x_axis(&mut self, rule: bool, skin: &Skin, powers: bool) {
-        let quiet = skin.style(Role::Quiet);
-        let signs = skin.axis_signs();
+    fn x_axis(&mut self, rule: bool, look: &Appearance) {
+        let quiet = look.style(Role::Quiet);
+        let signs = look.axis_signs();
         let inner = self.inner;
         if rule {
             self.put(inner.x - 1, inner.bottom(), signs.corner, quiet);
@@ -144,15 +139,14 @@ impl<'a> Plot<'a> {
         }
         let labels_row = inner.bottom() + u16::from(rule);
         let most = usize::from(inner.width / 9).clamp(1, 10);
-        let (values, step) = ticks(self.x.low, self.x.high, most);
-        let (values, step) = if powers { whole(values) } else { (values, step) };
+        let (values, step) = self.x.ticks(most);
         let mut free = inner.x.saturating_sub(1);
         for value in values {
             let Some(column) = self.column(value) else { continue };
             if rule {
                 self.put(column, inner.bottom(), signs.floor_tick, quiet);
             }
-            let label = self.x.scale.tick(value, step, powers);
+            let label = self.x.label(value, step);
             let width = u16::try_from(label.chars().count()).unwrap_or(0);
             let start = column
                 .saturating_sub(width / 2)
@@ -328,27 +322,23 @@ impl<'a> Plot<'a> {
     }
 }
 
-/// Only the whole exponents among ticks, one apart or more.
-fn whole(values: Vec<f64>) -> (Vec<f64>, f64) {
-    (values.into_iter().filter(|v| (v - v.round()).abs() < 1e-9).collect(), 1.0)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::tui::{raster::Marker, theme::Theme};
     use proptest::prelude::*;
 
-    fn skin() -> Skin {
-        Skin { theme: Theme::Mono, marker: Marker::Ascii }
+    fn look() -> Appearance {
+        Appearance { theme: Theme::Mono, marker: Marker::Ascii }
     }
 
     #[test]
     fn ends_of_the_axes_are_the_ends_of_the_chart() {
         let mut buffer = Buffer::empty(Rect::new(0, 0, 40, 12));
         let area = *buffer.area();
-        let axis = Axis::plain(0.0, 500.0);
-        let plot = Plot::new(&mut buffer, area, axis, Axis::plain(-1.0, 1.0), &skin()).unwrap();
+        let axis = ChartAxis::plain(0.0, 500.0);
+        let plot =
+            Plot::new(&mut buffer, area, axis, ChartAxis::plain(-1.0, 1.0), &look()).unwrap();
         assert_eq!(plot.column(0.0), Some(plot.inner.x));
         assert_eq!(plot.column(500.0), Some(plot.inner.right() - 1));
         assert_eq!(plot.row(1.0), Some(plot.inner.y));
@@ -360,10 +350,14 @@ mod tests {
     fn axes_that_are_no_ranges_are_refused() {
         let mut buffer = Buffer::empty(Rect::new(0, 0, 40, 12));
         let area = *buffer.area();
-        let good = Axis::plain(0.0, 1.0);
-        for bad in [Axis::plain(1.0, 0.0), Axis::plain(f64::NAN, 1.0), Axis::plain(2.0, 2.0)] {
-            assert!(Plot::new(&mut buffer, area, bad, good, &skin()).is_none());
-            assert!(Plot::new(&mut buffer, area, good, bad, &skin()).is_none());
+        let good = ChartAxis::plain(0.0, 1.0);
+        for bad in [
+            ChartAxis::plain(1.0, 0.0),
+            ChartAxis::plain(f64::NAN, 1.0),
+            ChartAxis::plain(2.0, 2.0),
+        ] {
+            assert!(Plot::new(&mut buffer, area, bad, good, &look()).is_none());
+            assert!(Plot::new(&mut buffer, area, good, bad, &look()).is_none());
         }
     }
 
@@ -376,8 +370,8 @@ mod tests {
             let mut buffer = Buffer::empty(Rect::new(0, 0, width, height));
             let area = *buffer.area();
             let pen = Pen { style: Style::new(), sign: '*', dashed: true };
-            let skin = Skin { theme: Theme::Dark, marker: Marker::Braille };
-            if let Some(mut plot) = Plot::new(&mut buffer, area, Axis::scaled(low, high), Axis::plain(-1.0, 1.0), &skin) {
+            let look = Appearance { theme: Theme::Dark, marker: Marker::Braille };
+            if let Some(mut plot) = Plot::new(&mut buffer, area, ChartAxis::scaled(low, high), ChartAxis::plain(-1.0, 1.0), &look) {
                 plot.curve(xs.iter().map(|x| (*x, *x)), &pen);
                 plot.spans(&xs.iter().map(|x| Some((*x, *x))).collect::<Vec<_>>(), &pen);
                 for x in &xs {

@@ -103,7 +103,7 @@ fn show<B: Backend>(
     engine: &mut dyn Engine,
 ) -> Result<(), B::Error> {
     if let Some(snapshot) = engine.take() {
-        app.absorb(snapshot);
+        app.apply_snapshot(snapshot);
     }
     let size = terminal.size()?;
     app.size = (size.width, size.height);

@@ -50,7 +50,7 @@ impl App {
     /// Motion time now \[s\].
     #[must_use]
     pub fn now(&self) -> f64 {
-        self.moment.as_ref().map_or(0.0, |moment| moment.state.t_s)
+        self.latest.moment.as_ref().map_or(0.0, |moment| moment.state.t_s)
     }
 
     /// The page that is shown, from and to \[s\].

@@ -7,6 +7,8 @@ pub use table::BINDINGS;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
+use super::views::ViewId;
+
 /// What a key does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
@@ -25,7 +27,7 @@ pub enum Action {
     /// The view before this one.
     PreviousView,
     /// A view by its digit.
-    View(u8),
+    View(ViewId),
     /// Select the knob above.
     KnobAbove,
     /// Select the knob below.
@@ -86,9 +88,9 @@ pub enum Action {
     /// Copy the command line that repeats this run.
     Copy,
     /// Lessons, or the next step of the one under way.
-    Guide,
+    Lesson,
     /// Leave the lesson.
-    LeaveGuide,
+    LeaveLesson,
     /// Gaps against time, or of one instant.
     Heat,
     /// Fewer or more charts.
@@ -179,7 +181,7 @@ impl std::fmt::Display for Chord {
 }
 
 /// One line of the table.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Binding {
     /// Where it holds.
     pub context: Context,
@@ -229,7 +231,7 @@ mod tests {
 
     #[test]
     fn every_binding_says_what_it_does_and_every_context_can_be_left() {
-        for binding in BINDINGS {
+        for binding in BINDINGS.iter() {
             assert!(!binding.what.is_empty() && !binding.keys.is_empty());
         }
         for context in

@@ -1,8 +1,11 @@
 //! The table itself: which key does what, where, and in which words.
 
+use std::sync::LazyLock;
+
 use crossterm::event::KeyCode;
 
 use super::{Action, Binding, Chord, Context};
+use crate::tui::views::ViewId;
 
 pub(super) const fn letter(letter: char) -> Chord {
     Chord { code: KeyCode::Char(letter), ctrl: false, shift: false }
@@ -35,9 +38,35 @@ const fn turn(up: bool, coarse: bool) -> Action {
     Action::Turn { up, coarse }
 }
 
+/// The keys of the views.
+const DIGITS: [Chord; 9] = [
+    letter('1'),
+    letter('2'),
+    letter('3'),
+    letter('4'),
+    letter('5'),
+    letter('6'),
+    letter('7'),
+    letter('8'),
+    letter('9'),
+];
+
 /// Every binding, in the order of the help; those of the footer come in the
 /// order of their importance.
-pub const BINDINGS: &[Binding] = &[
+pub static BINDINGS: LazyLock<Vec<Binding>> = LazyLock::new(|| {
+    let views = ViewId::all().zip(DIGITS.chunks(1)).map(|(view, keys)| Binding {
+        context: Context::Main,
+        keys,
+        action: Action::View(view),
+        // Made once and kept, as the other texts are.
+        what: format!("view {}: {}", view.digit(), view.panel().what()).leak(),
+        footer: None,
+    });
+    BEFORE_VIEWS.iter().cloned().chain(views).chain(AFTER_VIEWS.iter().cloned()).collect()
+});
+
+/// The bindings before those of the views.
+const BEFORE_VIEWS: &[Binding] = &[
     bind!(Main, [key(KeyCode::Up), letter('k')], Action::KnobAbove, "select the knob above", "↑↓" "knob"),
     bind!(Main, [key(KeyCode::Down), letter('j')], Action::KnobBelow, "select the knob below"),
     bind!(Main, [key(KeyCode::Right), letter('l')], turn(true, false), "turn the knob up", "←→" "turn"),
@@ -70,8 +99,8 @@ pub const BINDINGS: &[Binding] = &[
         Action::Live,
         "knobs act on the running motion (live), or begin it anew"
     ),
-    bind!(Main, [letter('g')], Action::Guide, "guide: choose a lesson; in one, its next step", "g" "guide"),
-    bind!(Main, [letter('G')], Action::LeaveGuide, "leave the lesson"),
+    bind!(Main, [letter('g')], Action::Lesson, "guide: choose a lesson; in one, its next step", "g" "guide"),
+    bind!(Main, [letter('G')], Action::LeaveLesson, "leave the lesson"),
     bind!(Main, [letter('n')], Action::Jump, "on to the next change of contact (pauses)"),
     bind!(Main, [letter('b')], Action::Pin, "pin this run as a baseline behind the next, or let it go", "b" "pin"),
     bind!(Main, [letter('c')], Action::OtherLaw, "the other contact law beside this one", "c" "both laws"),
@@ -106,13 +135,10 @@ pub const BINDINGS: &[Binding] = &[
     bind!(Main, [letter(')')], cursor(true, false), "reading cursor to the right"),
     bind!(Main, [letter('{')], cursor(false, true), "reading cursor far to the left"),
     bind!(Main, [letter('}')], cursor(true, true), "reading cursor far to the right"),
-    bind!(Main, [letter('1')], Action::View(1), "view 1: response"),
-    bind!(Main, [letter('2')], Action::View(2), "view 2: gaps"),
-    bind!(Main, [letter('3')], Action::View(3), "view 3: locked motion"),
-    bind!(Main, [letter('4')], Action::View(4), "view 4: blade frame and wheel"),
-    bind!(Main, [letter('5')], Action::View(5), "view 5: map over speed and pulse"),
-    bind!(Main, [letter('6')], Action::View(6), "view 6: spectrum and Campbell lines"),
-    bind!(Main, [letter('7')], Action::View(7), "view 7: speed against error"),
+];
+
+/// The bindings after those of the views.
+const AFTER_VIEWS: &[Binding] = &[
     bind!(Main, [letter('+')], Action::ZoomIn, "a shorter page of time"),
     bind!(Main, [letter('-')], Action::ZoomOut, "a longer page of time"),
     bind!(Main, [letter('=')], Action::ZoomReset, "the first page of time"),

@@ -1,7 +1,7 @@
 //! Numbers as people turn, type and read them: round mantissas over decades,
 //! SI prefixes, no trailing zeros.
 
-use crate::tui::axis::Scale;
+use crate::tui::axis::SiScale;
 
 /// Mantissas of fine turns, two digits; coarse turns use 1, 2 and 5.
 pub(super) const FINE: &[f64] = &[
@@ -64,7 +64,7 @@ pub(super) fn prefixed(text: &str) -> Option<f64> {
 #[must_use]
 pub fn number(x: f64, unit: &str) -> String {
     let takes_prefix = matches!(unit, "m" | "s" | "N" | "N/m" | "m/s" | "N m/rad");
-    let scale = if takes_prefix { Scale::of(x) } else { Scale::plain() };
+    let scale = if takes_prefix { SiScale::of(x) } else { SiScale::plain() };
     let shown = x / scale.factor;
     let text = if shown != 0.0 && !(1e-4..1e7).contains(&shown.abs()) {
         format!("{shown:e}")

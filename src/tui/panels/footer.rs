@@ -3,38 +3,38 @@
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
-use super::{pieces, print};
-use crate::tui::app::{App, Mode, Purpose};
+use crate::tui::app::{App, InputMode, Purpose};
 use crate::tui::bindings;
+use crate::tui::text::{pieces, print};
 use crate::tui::theme::Role;
 
 /// Draws the line.
 pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
-    let skin = &app.skin;
+    let look = &app.appearance;
     let question = match &app.mode {
-        Mode::Naming(Purpose::Save, name) => Some(format!("save the scene as: {name}_")),
-        Mode::Naming(Purpose::Export, name) => {
+        InputMode::Naming(Purpose::Save, name) => Some(format!("save the scene as: {name}_")),
+        InputMode::Naming(Purpose::Export, name) => {
             Some(format!("export as (.csv data, .svg picture): {name}_"))
         }
-        Mode::Replacing(_, name) => Some(format!("{name} exists: y replaces it, n leaves it")),
+        InputMode::Replacing(_, name) => Some(format!("{name} exists: y replaces it, n leaves it")),
         _ => None,
     };
     if let Some(question) = question {
         // The end, where the cursor is, must be seen.
         let skip = question.chars().count().saturating_sub(usize::from(area.width));
         let shown: String = question.chars().skip(skip).collect();
-        print(buffer, area, 0, &shown, skin.style(Role::Focus));
+        print(buffer, area, 0, &shown, look.style(Role::Focus));
         return;
     }
     if let Some(status) = &app.status {
-        print(buffer, area, 0, &skin.spell(status), skin.style(Role::Good));
+        print(buffer, area, 0, &look.spell(status), look.style(Role::Good));
         return;
     }
     let mut parts = Vec::new();
     for (keys, word) in bindings::of(app.context()).filter_map(|binding| binding.footer) {
         let gap = if parts.is_empty() { "" } else { "  " };
-        parts.push((format!("{gap}{}", skin.spell(keys)), skin.style(Role::Focus)));
-        parts.push((format!(" {word}"), skin.style(Role::Quiet)));
+        parts.push((format!("{gap}{}", look.spell(keys)), look.style(Role::Focus)));
+        parts.push((format!(" {word}"), look.style(Role::Quiet)));
     }
     // A key without its word says nothing: cut in pairs.
     let mut room = usize::from(area.width);

@@ -2,7 +2,8 @@
 
 use ratatui::layout::{Constraint, Layout, Rect};
 
-use crate::tui::app::{App, View};
+use crate::tui::app::App;
+use crate::tui::views::ViewId;
 
 /// Narrowest screen.
 pub const LEAST_WIDTH: u16 = 40;
@@ -27,9 +28,9 @@ pub struct Places {
     /// The selected knob alone, where there is no column.
     pub strip: Option<Rect>,
     /// The charts.
-    pub charts: Vec<(View, Rect)>,
+    pub charts: Vec<(ViewId, Rect)>,
     /// The lesson under way.
-    pub guide: Option<Rect>,
+    pub lesson: Option<Rect>,
     /// Keys.
     pub footer: Rect,
 }
@@ -39,12 +40,12 @@ pub fn places(area: Rect, app: &App) -> Places {
     let [header, body, footer] =
         Layout::vertical([Constraint::Length(2), Constraint::Min(1), Constraint::Length(1)])
             .areas(area);
-    let (guide, body) = guide(body, app);
+    let (lesson, body) = lesson(body, app);
     if app.full_screen {
         let [strip, charts] =
             Layout::vertical([Constraint::Length(1), Constraint::Min(1)]).areas(body);
         let charts = vec![(app.view, charts)];
-        return Places { header, body, knobs: None, strip: Some(strip), charts, guide, footer };
+        return Places { header, body, knobs: None, strip: Some(strip), charts, lesson, footer };
     }
     let (knobs, strip, charts) = if area.width >= KNOBS_FROM {
         let columns = [Constraint::Length(KNOBS_WIDTH), Constraint::Min(1)];
@@ -55,15 +56,15 @@ pub fn places(area: Rect, app: &App) -> Places {
             Layout::vertical([Constraint::Length(1), Constraint::Min(1)]).areas(body);
         (None, Some(strip), charts)
     };
-    Places { header, body, knobs, strip, charts: split(charts, app), guide, footer }
+    Places { header, body, knobs, strip, charts: split(charts, app), lesson, footer }
 }
 
 /// Rows of the lesson under way, above the knobs and charts.
-fn guide(body: Rect, app: &App) -> (Option<Rect>, Rect) {
+fn lesson(body: Rect, app: &App) -> (Option<Rect>, Rect) {
     if app.lesson.is_none() || body.height < 9 {
         return (None, body);
     }
-    let wanted = super::guide::rows(app, usize::from(body.width));
+    let wanted = super::lesson::rows(app, usize::from(body.width));
     let read = app.lesson.as_ref().is_some_and(|progress| progress.read);
     let rows = match wanted <= body.height / 2 {
         true => wanted,
@@ -71,13 +72,13 @@ fn guide(body: Rect, app: &App) -> (Option<Rect>, Rect) {
         false if !read => body.height.saturating_sub(1),
         false => (body.height / 3).max(3),
     };
-    let [guide, body] =
+    let [lesson, body] =
         Layout::vertical([Constraint::Length(rows), Constraint::Min(1)]).areas(body);
-    (Some(guide), body)
+    (Some(lesson), body)
 }
 
 /// One large chart and as many beside it as are asked for and can be read.
-fn split(area: Rect, app: &App) -> Vec<(View, Rect)> {
+fn split(area: Rect, app: &App) -> Vec<(ViewId, Rect)> {
     let views = std::iter::once(app.view).chain(app.companions.iter().copied());
     let halves = || [Constraint::Percentage(50), Constraint::Percentage(50)];
     let readable = match area.height {
@@ -85,8 +86,8 @@ fn split(area: Rect, app: &App) -> Vec<(View, Rect)> {
         14..20 if area.width < PAIR_FROM => 1,
         _ => 3,
     };
-    let beside = app.charts_beside.min(readable);
-    let areas: Vec<Rect> = match (beside, area.width >= PAIR_FROM) {
+    let companions = app.companions_shown.min(readable);
+    let areas: Vec<Rect> = match (companions, area.width >= PAIR_FROM) {
         (0, _) => vec![area],
         (1, _) => Layout::vertical(LARGE).split(area).to_vec(),
         (2, true) => {
@@ -117,5 +118,5 @@ const LARGE: [Constraint; 2] = [Constraint::Percentage(55), Constraint::Percenta
 pub fn lesson_fills(app: &App) -> bool {
     // Header and footer take three rows.
     let body = app.size.1.saturating_sub(3);
-    app.lesson.is_some() && super::guide::rows(app, usize::from(app.size.0)) > body / 2
+    app.lesson.is_some() && super::lesson::rows(app, usize::from(app.size.0)) > body / 2
 }

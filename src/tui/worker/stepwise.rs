@@ -4,7 +4,7 @@
 
 use std::time::Duration;
 
-use super::Player;
+use super::Playback;
 use crate::tui::engine::{Engine, Order, Pace, Snapshot};
 
 /// The engine driven by hand.
@@ -13,7 +13,7 @@ pub struct Stepwise {
     /// Motion between two looks \[s\].
     pub stride: f64,
     order: Option<Order>,
-    player: Option<Player>,
+    playback: Option<Playback>,
     fresh: bool,
 }
 
@@ -21,7 +21,7 @@ impl Stepwise {
     /// An engine that plays `stride` seconds of motion between two looks.
     #[must_use]
     pub fn new(stride: f64) -> Self {
-        Self { stride, order: None, player: None, fresh: false }
+        Self { stride, order: None, playback: None, fresh: false }
     }
 }
 
@@ -33,28 +33,21 @@ impl Engine for Stepwise {
 
     fn take(&mut self) -> Option<Snapshot> {
         let order = self.order.as_ref()?;
-        let player = match &mut self.player {
-            Some(player) => {
-                player.apply(order);
-                player
-            }
-            None => self.player.insert(Player::patient(order.clone(), Duration::MAX)),
-        };
-        while player.is_computing() {
-            player.compute();
+        let start = || Playback::patient(order.clone(), Duration::MAX);
+        let playback = self.playback.get_or_insert_with(start);
+        playback.apply(order);
+        while playback.is_computing() {
+            playback.compute();
         }
         if order.playing {
-            player.play(self.stride);
+            playback.play(self.stride);
         } else if !self.fresh {
             return None;
         }
         self.fresh = false;
-        let mut snapshot = player.snapshot();
-        snapshot.pace = Pace {
-            step_s: snapshot.pace.step_s.map(|_| 42e-9),
-            run_s: Some(42e-3),
-            limited: false,
-        };
+        let mut snapshot = playback.snapshot();
+        let pace = &mut snapshot.results.pace;
+        *pace = Pace { step_s: pace.step_s.map(|_| 42e-9), run_s: Some(42e-3), limited: false };
         Some(snapshot)
     }
 }

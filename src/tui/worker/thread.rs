@@ -6,8 +6,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use super::Player;
-use crate::tui::engine::{Engine, Nudge, Order, Snapshot};
+use super::Playback;
+use crate::tui::engine::{Engine, Order, Snapshot, Waker};
 use crate::tui::history::{Bin, MOST_BINS, thin};
 
 /// Name of the thread: the panic hook leaves the screen alone for it.
@@ -44,17 +44,17 @@ pub struct Worker {
 }
 
 impl Worker {
-    /// Starts the thread. `nudge` is called when a first snapshot is ready
+    /// Starts the thread. `wake` is called when a first snapshot is ready
     /// after the last one was taken.
     ///
     /// # Errors
     /// The system gives no thread.
-    pub fn spawn(nudge: Nudge) -> std::io::Result<Self> {
+    pub fn spawn(wake: Waker) -> std::io::Result<Self> {
         let shared = Arc::new(Shared::default());
         let theirs = Arc::clone(&shared);
         std::thread::Builder::new()
             .name(WORKER_NAME.to_string())
-            .spawn(move || run(&theirs, &nudge))?;
+            .spawn(move || run(&theirs, &wake))?;
         Ok(Self { shared })
     }
 }
@@ -77,11 +77,11 @@ impl Drop for Worker {
     }
 }
 
-fn run(shared: &Shared, nudge: &Nudge) {
-    let mut player: Option<Player> = None;
+fn run(shared: &Shared, wake: &Waker) {
+    let mut playback: Option<Playback> = None;
     let mut playing = None;
     loop {
-        let busy = player.as_ref().is_some_and(Player::is_computing);
+        let busy = playback.as_ref().is_some_and(Playback::is_computing);
         let Some(order) = next_order(shared, busy, playing.is_some()) else { return };
         let beat = guarded(|| {
             let fresh = order.is_some();
@@ -89,34 +89,34 @@ fn run(shared: &Shared, nudge: &Nudge) {
                 playing = order
                     .playing
                     .then(|| (playing.map_or_else(Instant::now, |(at, _)| at), order.rate));
-                match &mut player {
-                    Some(player) => player.apply(&order),
-                    None => player = Some(Player::new(order)),
+                match &mut playback {
+                    Some(playback) => playback.apply(&order),
+                    None => playback = Some(Playback::new(order)),
                 }
             }
-            let player = player.as_mut()?;
+            let playback = playback.as_mut()?;
             let mut moved = fresh;
             if let Some((last, rate)) = playing.as_mut() {
                 let elapsed = last.elapsed();
                 if elapsed >= BEAT {
                     *last = Instant::now();
-                    player.play(elapsed.min(LONGEST_BEAT).as_secs_f64() * *rate);
+                    playback.play(elapsed.min(LONGEST_BEAT).as_secs_f64() * *rate);
                     moved = true;
                 }
             }
-            if player.is_computing() {
-                player.compute();
+            if playback.is_computing() {
+                playback.compute();
                 moved = true;
             }
-            moved.then(|| player.snapshot())
+            moved.then(|| playback.snapshot())
         });
         match beat {
             Ok(None) => {}
-            Ok(Some(snapshot)) => publish(shared, snapshot, nudge),
+            Ok(Some(snapshot)) => publish(shared, snapshot, wake),
             Err(trouble) => {
-                player = None;
+                playback = None;
                 playing = None;
-                publish(shared, Snapshot { trouble: Some(trouble), ..Snapshot::default() }, nudge);
+                publish(shared, Snapshot { trouble: Some(trouble), ..Snapshot::default() }, wake);
             }
         }
     }
@@ -136,7 +136,7 @@ fn next_order(shared: &Shared, busy: bool, playing: bool) -> Option<Option<Order
     if slots.quit { None } else { Some(slots.order.take()) }
 }
 
-fn publish(shared: &Shared, mut snapshot: Snapshot, nudge: &Nudge) {
+fn publish(shared: &Shared, mut snapshot: Snapshot, wake: &Waker) {
     let first = {
         let mut slots = shared.lock();
         let waiting = slots.snapshot.take();
@@ -152,14 +152,14 @@ fn publish(shared: &Shared, mut snapshot: Snapshot, nudge: &Nudge) {
                 *new = bins;
             };
             join(waiting.bins, &mut snapshot.bins);
-            join(waiting.beside_bins, &mut snapshot.beside_bins);
+            join(waiting.comparison_bins, &mut snapshot.comparison_bins);
             snapshot.trouble = snapshot.trouble.or(waiting.trouble);
         }
         slots.snapshot = Some(snapshot);
         first
     };
     if first {
-        nudge();
+        wake();
     }
 }
 
@@ -179,26 +179,14 @@ fn guarded<T>(work: impl FnOnce() -> T) -> Result<T, String> {
 mod tests {
     use super::*;
     use crate::scene::Scene;
-    use crate::tui::engine::Ahead;
+    use crate::tui::engine::FullRunState;
     use crate::tui::history::CHANNELS;
 
     fn order(speed: f64, restarts: u64) -> Order {
         let mut scene = Scene::default();
         scene.operation.speed_rad_s = speed;
         scene.solver.step_s = 1e-6;
-        Order {
-            scene,
-            restarts,
-            changes: 0,
-            steps: 0,
-            jumps: 0,
-            pulses: 0,
-            playing: false,
-            rate: 5e-3,
-            bin_s: 2e-5,
-            beside: false,
-            wants: crate::tui::engine::Wants::default(),
-        }
+        Order { scene, restarts, rate: 5e-3, bin_s: 2e-5, ..Order::default() }
     }
 
     #[test]
@@ -211,9 +199,9 @@ mod tests {
         for _ in 0..10_000 {
             if let Some(snapshot) = worker.take()
                 && snapshot.generation == 19
-                && matches!(snapshot.ahead, Some(Ahead::Done(_)))
+                && matches!(snapshot.results.full_run, Some(FullRunState::Done(_)))
             {
-                assert_eq!(snapshot.moment.speed, 419.0);
+                assert_eq!(snapshot.moment.unwrap().speed, 419.0);
                 return;
             }
             std::thread::sleep(Duration::from_millis(2));
@@ -230,13 +218,13 @@ mod tests {
     #[test]
     fn a_snapshot_nobody_took_keeps_its_bins() {
         let shared = Shared::default();
-        let nudge: Nudge = Arc::new(|| {});
+        let wake: Waker = Arc::new(|| {});
         let bin = crate::tui::history::Bin::of(0.0, [0.0; CHANNELS]);
         for _ in 0..3 {
-            publish(&shared, Snapshot { bins: vec![bin], ..Snapshot::default() }, &nudge);
+            publish(&shared, Snapshot { bins: vec![bin], ..Snapshot::default() }, &wake);
         }
         assert_eq!(shared.lock().snapshot.as_ref().unwrap().bins.len(), 3);
-        publish(&shared, Snapshot { restarts: 1, bins: vec![bin], ..Snapshot::default() }, &nudge);
+        publish(&shared, Snapshot { restarts: 1, bins: vec![bin], ..Snapshot::default() }, &wake);
         assert_eq!(shared.lock().snapshot.as_ref().unwrap().bins.len(), 1);
     }
 }

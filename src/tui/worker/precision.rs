@@ -20,14 +20,14 @@ enum Found {
 
 /// The comparison of the solvers on one scene. Dropping it ends the thread
 /// after the row it is at.
-pub struct Comparison {
+pub struct PrecisionJob {
     scene: Scene,
     rows: Option<Receiver<Found>>,
     report: Option<Arc<Precision>>,
 }
 
-impl Comparison {
-    /// Begins with a checked scene.
+impl PrecisionJob {
+    /// Starts on a checked scene.
     #[must_use]
     pub fn of(scene: &Scene) -> Self {
         let (sender, rows) = channel();
@@ -57,7 +57,7 @@ impl Comparison {
     }
 
     /// Takes the next row, waiting for it no longer than `patience`.
-    pub fn go_on(&mut self, patience: Duration) {
+    pub fn receive(&mut self, patience: Duration) {
         let Some(rows) = &self.rows else { return };
         match rows.recv_timeout(patience) {
             Ok(Found::Reference(reference)) => {
@@ -102,12 +102,12 @@ mod tests {
     fn rows_come_in_the_order_of_the_ways_and_nothing_waits_for_them() {
         let mut scene = Scene::default();
         scene.solver.end_s = 1e-3;
-        let mut comparison = Comparison::of(&scene);
-        assert!(comparison.is_of(&scene) && !comparison.is_done());
-        while !comparison.is_done() {
-            comparison.go_on(Duration::from_millis(50));
+        let mut job = PrecisionJob::of(&scene);
+        assert!(job.is_of(&scene) && !job.is_done());
+        while !job.is_done() {
+            job.receive(Duration::from_millis(50));
         }
-        let rows: Vec<_> = comparison.report().unwrap().rows.iter().map(|row| row.way).collect();
+        let rows: Vec<_> = job.report().unwrap().rows.iter().map(|row| row.way).collect();
         assert_eq!(rows, ways(&scene, EFFORT));
     }
 }

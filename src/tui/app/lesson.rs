@@ -1,15 +1,15 @@
 //! A lesson under way: which step, and whether it has been done.
 
-use super::{App, Mode, View};
+use super::{App, InputMode};
 use crate::motion::Verdict;
 use crate::scene::{Scene, Value, keys};
-use crate::tui::engine::Ahead;
 use crate::tui::lessons::{self, Condition, Lesson};
 use crate::tui::panels;
+use crate::tui::views::ViewId;
 
 /// How far a lesson has come.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Progress {
+pub struct LessonProgress {
     /// Which lesson.
     pub lesson: usize,
     /// Which step, from 0.
@@ -23,15 +23,15 @@ pub struct Progress {
 impl App {
     /// The lesson under way.
     #[must_use]
-    pub fn current_lesson(&self) -> Option<(&'static Lesson, &Progress)> {
+    pub fn current_lesson(&self) -> Option<(&'static Lesson, &LessonProgress)> {
         let progress = self.lesson.as_ref()?;
         Some((lessons::all().get(progress.lesson)?, progress))
     }
 
-    /// The key of the guide: the list, or the next step.
-    pub(super) fn guide(&mut self) {
+    /// The key of the lessons: the list, or the next step.
+    pub(super) fn lesson_key(&mut self) {
         let Some((lesson, progress)) = self.current_lesson() else {
-            self.mode = Mode::Lessons(0);
+            self.mode = InputMode::Lessons(0);
             return;
         };
         if !progress.read && panels::lesson_fills(self) {
@@ -51,7 +51,7 @@ impl App {
 
     /// Begins a lesson with its own scene.
     pub(super) fn begin_lesson(&mut self, place: usize) {
-        self.mode = Mode::Main;
+        self.mode = InputMode::Main;
         let Some(lesson) = lessons::all().get(place) else { return };
         match Scene::builtin(&lesson.scene) {
             Ok(scene) => {
@@ -66,7 +66,7 @@ impl App {
 
     /// Sets knobs and view for a step.
     fn begin_step(&mut self, lesson: usize, step: usize) {
-        self.lesson = Some(Progress { lesson, step, done: false, read: false });
+        self.lesson = Some(LessonProgress { lesson, step, done: false, read: false });
         let Some(found) = lessons::all().get(lesson).and_then(|l| l.steps.get(step)) else {
             return;
         };
@@ -79,7 +79,7 @@ impl App {
         if scene != self.scene && scene.check().is_ok() {
             self.take_scene(scene, false);
         }
-        if let Some(view) = found.view.as_deref().and_then(View::from_word) {
+        if let Some(view) = found.view.as_deref().and_then(ViewId::from_word) {
             self.show(view);
         }
         if let Some(live) = found.live {
@@ -103,13 +103,10 @@ impl App {
     fn meets(&self, condition: &Condition) -> bool {
         match condition {
             Condition::Verdict(word) => {
-                let now = match &self.ahead {
-                    Some(Ahead::Done(forecast)) => Some(forecast.verdict),
-                    _ => None,
-                };
+                let now = self.full_run().map(|run| run.verdict);
                 now.is_some() && now == Verdict::from_word(word)
             }
-            Condition::View(word) => View::from_word(word) == Some(self.view),
+            Condition::View(word) => ViewId::from_word(word) == Some(self.view),
             Condition::Compare(wanted) => self.compare == *wanted,
             Condition::Above(path, limit) => self.number(path).is_some_and(|x| x > *limit),
             Condition::Below(path, limit) => self.number(path).is_some_and(|x| x < *limit),

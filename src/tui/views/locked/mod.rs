@@ -1,52 +1,72 @@
 //! View 3: the multipliers of the locked motion against speed, the speeds
 //! where things change, the present speed, and what the running motion shows.
 
-use ratatui::{buffer::Buffer, layout::Rect};
+pub mod curves;
 
-use super::charts::{entry, title};
-use super::print;
+use ratatui::buffer::Buffer;
+
+use super::panel::{Slot, ViewPanel, csv, entry, fields, title};
 use crate::harmonic::{LockedPoint, Sweep};
 use crate::motion::Touching;
-use crate::tui::app::{App, View};
+use crate::tui::app::App;
 use crate::tui::axis::nice_step;
-use crate::tui::plot::{Axis, Plot};
+use crate::tui::plot::{ChartAxis, Plot};
 use crate::tui::raster::Pen;
+use crate::tui::text::print;
 use crate::tui::theme::Role;
 
 /// From this height on the undamped curve of the paper is shown as well.
 const ROOMY: u16 = 14;
 
-/// Draws the view.
-pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
-    let skin = &app.skin;
-    let quiet = skin.style(Role::Quiet);
-    let curves = app.locked.as_deref();
-    let roomy = area.height >= ROOMY;
+/// The view.
+pub struct Locked;
+
+impl ViewPanel for Locked {
+    fn what(&self) -> &'static str {
+        "locked motion"
+    }
+
+    fn draw(&self, app: &App, buffer: &mut Buffer, slot: Slot) {
+        draw(app, buffer, slot);
+    }
+
+    fn csv(&self, app: &App) -> Result<String, String> {
+        let damped = app.latest.results.locked.as_ref().and_then(|curves| curves.damped.as_ref());
+        let points = damped.map_or(&[][..], |sweep| &sweep.points);
+        let rows = points.iter().map(|point| {
+            let [a, b] = point.multipliers;
+            let (admissible, stable) = (u8::from(point.admissible), u8::from(point.stable));
+            format!("{},{admissible},{stable}", fields([point.speed, a, b]))
+        });
+        csv("speed_rad_s,multiplier_a_n,multiplier_b_n,admissible,stable", rows)
+    }
+}
+
+fn draw(app: &App, buffer: &mut Buffer, slot: Slot) {
+    let look = &app.appearance;
+    let quiet = look.style(Role::Quiet);
+    let curves = app.latest.results.locked.as_deref();
+    let roomy = slot.area.height >= ROOMY;
     let pair = curves.is_some_and(|curves| curves.undamped.is_some());
-    let point = skin.either('◆', '@');
-    let mut legend = vec![entry(skin, &skin.first(), if pair { "λ_a" } else { "λ" })];
+    let point = look.either('◆', '@');
+    let mut legend = vec![entry(look, &look.first(), if pair { "λ_a" } else { "λ" })];
     if pair {
-        legend.push(entry(skin, &skin.second(), "λ_b"));
+        legend.push(entry(look, &look.second(), "λ_b"));
     }
     let points = running(app);
     let forces: Vec<String> = points.iter().take(2).map(|force| short(*force)).collect();
     let now = if points.is_empty() { "running".to_string() } else { forces.join(" ") };
-    legend.push((format!("{point} {now}"), skin.style(Role::Contact)));
+    legend.push((format!("{point} {now}"), look.style(Role::Contact)));
     legend.push(("N over rad/s".into(), quiet));
     legend.push(("below 0 pushes".into(), quiet));
     if pair && roomy {
-        legend.push(entry(skin, &skin.quiet(), "undamped"));
+        legend.push(entry(look, &look.quiet(), "undamped"));
     }
-    let inside = title(app, buffer, area, View::Locked, "locked λ(Ω)", &legend);
+    let inside = title(app, buffer, slot, "locked λ(Ω)", &legend);
     let Some(curves) = curves else { return };
     let Some(damped) = &curves.damped else {
-        print(
-            buffer,
-            inside,
-            1,
-            "no corner between two blade groups: this wave never locks",
-            quiet,
-        );
+        let text = "no corner between two blade groups: this wave never locks";
+        print(buffer, inside, 1, text, quiet);
         return;
     };
     let lambdas = damped.points.iter().flat_map(|point| point.multipliers);
@@ -55,33 +75,33 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
         .filter(|lambda| lambda.is_finite())
         .fold((0.0_f64, 0.0_f64), |(a, b), v| (a.min(v), b.max(v)));
     let step = nice_step(high - low, 6).unwrap_or(1.0);
-    let y = Axis::scaled((low / step).floor() * step, (high / step).ceil() * step);
-    let x = Axis::plain(0.0, curves.fastest);
-    let Some(mut plot) = Plot::new(buffer, inside, x, y, skin) else { return };
+    let y = ChartAxis::scaled((low / step).floor() * step, (high / step).ceil() * step);
+    let x = ChartAxis::plain(0.0, curves.fastest);
+    let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
     let marks = thresholds(app);
-    plot.level(0.0, skin.either('┈', '.'), quiet);
+    plot.level(0.0, look.either('┈', '.'), quiet);
     for (speed, _) in &marks {
-        plot.upright(*speed, skin.either('┊', ':'), quiet);
+        plot.upright(*speed, look.either('┊', ':'), quiet);
     }
     let speed = app.speed().abs();
-    plot.upright(speed, skin.either('│', '|'), skin.style(Role::Focus));
+    plot.upright(speed, look.either('│', '|'), look.style(Role::Focus));
     if let Some(undamped) = &curves.undamped {
         if roomy {
-            curve(&mut plot, undamped, 0, &skin.quiet());
+            curve(&mut plot, undamped, 0, &look.quiet());
         }
-        curve(&mut plot, damped, 1, &skin.second());
+        curve(&mut plot, damped, 1, &look.second());
     }
-    curve(&mut plot, damped, 0, &skin.first());
+    curve(&mut plot, damped, 0, &look.first());
     plot.ink();
     for force in points {
         let (sign, shown) = if force < y.low {
-            (skin.either('▼', 'v'), y.low)
+            (look.either('▼', 'v'), y.low)
         } else if force > y.high {
-            (skin.either('▲', '^'), y.high)
+            (look.either('▲', '^'), y.high)
         } else {
             (point, force)
         };
-        plot.point(speed, shown, sign, skin.style(Role::Contact));
+        plot.point(speed, shown, sign, look.style(Role::Contact));
     }
     names(&mut plot, &marks, app);
 }
@@ -96,13 +116,13 @@ fn curve(plot: &mut Plot, sweep: &Sweep, place: usize, pen: &Pen) {
 fn names(plot: &mut Plot, marks: &[(f64, &str)], app: &App) {
     let mut free = [0_u16; 3];
     for (speed, name) in marks {
-        let name = app.skin.spell(name);
+        let name = app.appearance.spell(name);
         let Some(column) = plot.column(*speed) else { continue };
         let wide = u16::try_from(name.chars().count()).unwrap_or(u16::MAX);
         let column = column.min(plot.inner.right().saturating_sub(wide));
         for (row, free) in (plot.inner.y..plot.inner.bottom()).zip(&mut free) {
             if column >= *free {
-                plot.note(*speed, row, &name, app.skin.style(Role::Text));
+                plot.note(*speed, row, &name, app.appearance.style(Role::Text));
                 *free = column.saturating_add(wide + 1);
                 break;
             }
@@ -131,7 +151,7 @@ fn thresholds(app: &App) -> Vec<(f64, &'static str)> {
 
 /// Mean multipliers of the running motion, while something touches.
 fn running(app: &App) -> Vec<f64> {
-    let Some(moment) = &app.moment else { return Vec::new() };
+    let Some(moment) = &app.latest.moment else { return Vec::new() };
     if moment.touching == Touching::Nothing {
         return Vec::new();
     }

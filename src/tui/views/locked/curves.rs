@@ -1,9 +1,9 @@
 //! The locked motion against speed that view 3 draws: the harmonic balance
 //! with and without damping, over a round range of speeds.
 
-use super::axis::nice_step;
 use crate::harmonic::{Form, Sweep, locked_motion};
 use crate::scene::Scene;
+use crate::tui::axis::nice_step;
 
 /// Speeds of one curve.
 const POINTS: u32 = 161;

@@ -2,14 +2,14 @@
 //! page, the smallest gap as a shade and contact as a full block. It reads
 //! without any colour.
 
-use ratatui::{buffer::Buffer, layout::Rect};
+use ratatui::buffer::Buffer;
 
-use super::charts::title;
+use super::super::panel::{self, Slot, fields, title};
 use crate::model::Rim;
 use crate::motion::Touching;
-use crate::tui::app::{App, View};
-use crate::tui::history::Bin;
-use crate::tui::plot::{Axis, Plot};
+use crate::tui::app::App;
+use crate::tui::history::{Bin, Channel};
+use crate::tui::plot::{ChartAxis, Plot};
 use crate::tui::theme::Role;
 
 /// Signs of contact and of the shades, the nearest first.
@@ -30,10 +30,9 @@ struct Spot {
 
 /// The smallest gap of a side over a bin, blades unbent \[m\]. What is known
 /// of the wave is the box it stayed in, so this is a lower bound.
-#[must_use]
-pub fn least_gap(rim: &Rim, side: u32, bin: &Bin) -> f64 {
+fn least_gap(rim: &Rim, side: u32, bin: &Bin) -> f64 {
     let (c, s) = rim.direction(side);
-    let [(x0, x1), (y0, y1)] = bin.wave();
+    let [(x0, x1), (y0, y1)] = [Channel::X, Channel::Y].map(|channel| bin.span(channel));
     rim.clearance + (c * x0).min(c * x1) + (s * y0).min(s * y1)
 }
 
@@ -54,7 +53,7 @@ fn spots(app: &App, columns: usize) -> Vec<Vec<Option<Spot>>> {
     let mut out = vec![vec![None; columns]; rim.sides as usize];
     let place = |t: f64| (((t - from) / width).max(0.0) as usize).min(columns.saturating_sub(1));
     // Some columns at a time: every column by itself would flood a slow line.
-    let Some(until) = app.slow.as_ref().map(|moment| moment.state.t_s) else { return out };
+    let Some(until) = app.throttled.as_ref().map(|moment| moment.state.t_s) else { return out };
     for bin in app.history.between(from, to).iter().filter(|bin| bin.from <= until) {
         for (side, row) in (0..rim.sides).zip(&mut out) {
             let gap = least_gap(rim, side, bin) / rim.clearance;
@@ -88,23 +87,38 @@ fn sign(spots: &[Spot], signs: [char; 4], ascii: bool) -> Option<(char, bool)> {
     }
 }
 
-/// Draws the view.
-pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
-    let skin = &app.skin;
-    let (first, contact) = (skin.style(Role::First), skin.style(Role::Contact));
-    let signs = skin.either(SIGNS, ASCII);
+/// The smallest gap of every blade in each bin of the page, as CSV.
+///
+/// # Errors
+/// There is no data yet.
+pub fn csv(app: &App) -> Result<String, String> {
+    let rim = &app.machine.rim;
+    let names: String = (1..=rim.blades).map(|blade| format!(",least_gap_{blade}_m")).collect();
+    let (from, to) = app.page();
+    let rows = app.history.between(from, to).iter().map(|bin| {
+        let gaps = (1..=rim.blades).map(|blade| least_gap(rim, rim.side_of_blade(blade), bin));
+        fields([bin.from, bin.to].into_iter().chain(gaps))
+    });
+    panel::csv(&format!("from_s,to_s{names}"), rows)
+}
+
+/// Draws the gaps against time.
+pub fn draw(app: &App, buffer: &mut Buffer, slot: Slot) {
+    let look = &app.appearance;
+    let (first, contact) = (look.style(Role::First), look.style(Role::Contact));
+    let signs = look.either(SIGNS, ASCII);
     let (from, to) = app.page();
     let count = app.machine.rim.blades;
-    let x = Axis::scaled(from, to);
-    let y = Axis::plain(0.5, f64::from(count) + 0.5);
+    let x = ChartAxis::scaled(from, to);
+    let y = ChartAxis::plain(0.5, f64::from(count) + 0.5);
     let mut legend = vec![(format!("{} contact", signs[0]), contact)];
     for (sign, most) in signs.into_iter().skip(1).zip(SHADES) {
         legend.push((format!("{sign} <{:.0}%", 100.0 * most), first));
     }
-    let quiet = skin.style(Role::Quiet);
+    let quiet = look.style(Role::Quiet);
     legend.push((format!("of clearance; over {}s", x.scale.prefix), quiet));
-    let inside = title(app, buffer, area, View::Gaps, "gaps in time", &legend);
-    let Some(mut plot) = Plot::new(buffer, inside, x, y, skin) else { return };
+    let inside = title(app, buffer, slot, "gaps in time", &legend);
+    let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
     let inner = plot.inner;
     let spots = spots(app, usize::from(inner.width));
     let rim = &app.machine.rim;
@@ -120,21 +134,21 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
                 spots.get(side)?.get(place).copied().flatten()
             };
             let here: Vec<Spot> = (low..high).filter_map(of_blade).collect();
-            if let Some((sign, touched)) = sign(&here, signs, skin.ascii()) {
+            if let Some((sign, touched)) = sign(&here, signs, look.ascii()) {
                 let style = if touched { contact } else { first };
                 plot.text(column, row, sign.encode_utf8(&mut [0; 4]), style);
             }
         }
     }
     if let Some(t) = app.cursor_time() {
-        plot.upright(t, skin.either('┊', ':'), skin.style(Role::Focus));
+        plot.upright(t, look.either('┊', ':'), look.style(Role::Focus));
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tui::history::{CHANNELS, Channel};
+    use crate::tui::history::CHANNELS;
 
     fn bin(x: f64, y: f64) -> Bin {
         let mut values = [0.0; CHANNELS];

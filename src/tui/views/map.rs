@@ -1,26 +1,43 @@
 //! View 5: how the motion lasts over speed and pulse, a sign a run, with the
 //! present knobs as a cross.
 
-use ratatui::{buffer::Buffer, layout::Rect};
+use ratatui::buffer::Buffer;
 
-use super::charts::title;
-use super::print;
+use super::panel::{Slot, ViewPanel, not_yet, title};
 use crate::motion::Verdict;
-use crate::report::map::mark;
+use crate::report::map::{mark, write_csv};
 use crate::study::Cell;
-use crate::tui::app::{App, View};
-use crate::tui::axis::Scale;
-use crate::tui::plot::{Axis, Plot};
+use crate::tui::app::App;
+use crate::tui::plot::{ChartAxis, Plot};
 use crate::tui::theme::Role;
 
-/// Draws the view.
-pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
-    let skin = &app.skin;
-    let quiet = skin.style(Role::Quiet);
+/// The view.
+pub struct VerdictMap;
+
+impl ViewPanel for VerdictMap {
+    fn what(&self) -> &'static str {
+        "map over speed and pulse"
+    }
+
+    fn draw(&self, app: &App, buffer: &mut Buffer, slot: Slot) {
+        draw(app, buffer, slot);
+    }
+
+    fn csv(&self, app: &App) -> Result<String, String> {
+        let map = app.latest.results.map.as_ref().ok_or("there is no map yet")?;
+        let mut bytes = Vec::new();
+        write_csv(map, &mut bytes).map_err(|error| error.to_string())?;
+        String::from_utf8(bytes).map_err(|error| error.to_string())
+    }
+}
+
+fn draw(app: &App, buffer: &mut Buffer, slot: Slot) {
+    let look = &app.appearance;
+    let quiet = look.style(Role::Quiet);
     let legend_of = |verdict| {
         (
             format!("{} {verdict}", mark(Some(Cell { verdict, sensitive: false }))),
-            skin.style(role(verdict)),
+            look.style(role(verdict)),
         )
     };
     let mut legend = vec![
@@ -30,24 +47,22 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
         legend_of(Verdict::Decay),
         ("pulse [N] by speed [rad/s]; event solver, rigid, unilateral".to_string(), quiet),
     ];
-    if let Some(map) = &app.map {
+    let map = app.latest.results.map.as_ref();
+    if let Some(map) = map {
         let done = map.cells.iter().flatten().count();
         if done < map.cells.len() {
             legend.insert(
                 0,
-                (format!("{} %", 100 * done / map.cells.len().max(1)), skin.style(Role::Focus)),
+                (format!("{} %", 100 * done / map.cells.len().max(1)), look.style(Role::Focus)),
             );
         }
     }
-    let inside = title(app, buffer, area, View::Map, "map", &legend);
-    let Some(map) = &app.map else {
-        print(buffer, inside, 1, "computed while this view is open", quiet);
-        return;
-    };
+    let inside = title(app, buffer, slot, "map", &legend);
+    let Some(map) = map else { return not_yet(app, buffer, inside) };
     let (x_axis, y_axis) = (&map.plan.x, &map.plan.y);
-    let x = Axis { low: x_axis.from, high: x_axis.to, scale: Scale::plain() };
-    let y = Axis { low: y_axis.from.log10(), high: y_axis.to.log10(), scale: Scale::plain() };
-    let Some(mut plot) = Plot::powers(buffer, inside, x, y, skin) else { return };
+    let x = ChartAxis::plain(x_axis.from, x_axis.to);
+    let y = ChartAxis::powers(y_axis.from.log10(), y_axis.to.log10());
+    let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
     let inner = plot.inner;
     let nearest = |place: u16, cells: u16, count: u32| {
         let part = (f64::from(place) + 0.5) / f64::from(cells.max(1));
@@ -59,21 +74,17 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
             let across = nearest(column, inner.width, x_axis.count);
             if let Some(cell) = map.at(across, up) {
                 let sign = mark(Some(cell)).to_string();
-                plot.text(inner.x + column, inner.y + row, &sign, skin.style(role(cell.verdict)));
+                plot.text(inner.x + column, inner.y + row, &sign, look.style(role(cell.verdict)));
             }
         }
     }
     for speed in [app.machine.critical_speed(), app.machine.lock_speed()].into_iter().flatten() {
-        plot.upright(speed, skin.either('┊', ':'), skin.style(Role::Text));
+        plot.upright(speed, look.either('┊', ':'), look.style(Role::Text));
     }
     let pulse = app.scene.operation.pulse_n.abs();
     if pulse > 0.0 {
-        plot.point(
-            app.speed().abs(),
-            pulse.log10(),
-            skin.either('╋', '+'),
-            skin.style(Role::Focus),
-        );
+        let cross = look.either('╋', '+');
+        plot.point(app.speed().abs(), pulse.log10(), cross, look.style(Role::Focus));
     }
 }
 

@@ -3,60 +3,69 @@
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
-use super::charts::title;
-use super::print;
+use super::panel::{Slot, ViewPanel, not_yet, title};
 use crate::report::precision::{decades, letter, place};
 use crate::scene::SolverKind;
 use crate::study::precision::{Measure, Way};
-use crate::tui::app::{App, View};
-use crate::tui::plot::{Axis, Plot};
+use crate::tui::app::App;
+use crate::tui::plot::{ChartAxis, Plot};
+use crate::tui::text::print;
 use crate::tui::theme::Role;
 
-/// Draws the view.
-pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
-    let skin = &app.skin;
-    let quiet = skin.style(Role::Quiet);
+/// The view.
+pub struct PrecisionView;
+
+impl ViewPanel for PrecisionView {
+    fn what(&self) -> &'static str {
+        "speed against error"
+    }
+
+    fn draw(&self, app: &App, buffer: &mut Buffer, slot: Slot) {
+        draw(app, buffer, slot);
+    }
+
+    fn csv(&self, _: &App) -> Result<String, String> {
+        Err("`rubscope precision` writes these rows".into())
+    }
+}
+
+fn draw(app: &App, buffer: &mut Buffer, slot: Slot) {
+    let look = &app.appearance;
+    let quiet = look.style(Role::Quiet);
     let role = |way: &Way| match way.solver {
         SolverKind::Event => Role::First,
         SolverKind::Explicit => Role::Second,
     };
     let legend = [
-        ("e event".to_string(), skin.style(Role::First)),
+        ("e event".to_string(), look.style(Role::First)),
         (
             "u explicit, b other law (capital: modal, 1 2: full)".to_string(),
-            skin.style(Role::Second),
+            look.style(Role::Second),
         ),
         ("error |u-u_ref|/g0 by wall time [s]".to_string(), quiet),
     ];
-    let inside = title(app, buffer, area, View::Precision, "precision", &legend);
+    let inside = title(app, buffer, slot, "precision", &legend);
     if let Err(error) = Measure::check(&app.scene) {
-        print(buffer, inside, 1, "no reference for this scene:", skin.style(Role::Trouble));
+        print(buffer, inside, 1, "no reference for this scene:", look.style(Role::Trouble));
         print(buffer, inside, 2, &error.to_string(), quiet);
         return;
     }
-    let Some(report) = &app.precision else {
-        print(buffer, inside, 1, "computed while this view is open", quiet);
-        return;
+    let Some(report) = &app.latest.results.precision else {
+        return not_yet(app, buffer, inside);
     };
     if report.reference.sensitive {
-        print(
-            buffer,
-            inside,
-            0,
-            "sensitive scene: end states mean nothing, compare verdicts",
-            skin.style(Role::Trouble),
-        );
-    }
-    let inside = Rect { y: inside.y + 1, height: inside.height.saturating_sub(1), ..inside };
-    if !report.reference.sensitive {
+        let text = "sensitive scene: end states mean nothing, compare verdicts";
+        print(buffer, inside, 0, text, look.style(Role::Trouble));
+    } else {
         let same_law = report.rows.iter().filter(|row| !row.other_law).count();
         let wrong = report.rows.iter().filter(|row| row.is_wrong()).count();
         let note = format!(
             "reference {}; {wrong} of {same_law} runs under its contact law have another verdict (!)",
             report.reference.verdict,
         );
-        print(buffer, Rect { y: inside.y - 1, ..inside }, 0, &note, quiet);
+        print(buffer, inside, 0, &note, quiet);
     }
+    let inside = Rect { y: inside.y + 1, height: inside.height.saturating_sub(1), ..inside };
     let placed = || report.rows.iter().filter_map(|row| Some((place(row)?, row)));
     // An error of zero has no place on the axis: such rows have a line below.
     let mut zeros: Vec<char> =
@@ -73,14 +82,14 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
     let times = decades(points.iter().map(|((x, _), _)| *x));
     let errors = decades(points.iter().map(|((_, y), _)| *y));
     let (Some((left, right)), Some((bottom, top))) = (times, errors) else { return };
-    let (x, y) = (Axis::plain(left, right), Axis::plain(bottom, top));
-    let Some(mut plot) = Plot::powers_both(buffer, inside, x, y, skin) else { return };
+    let (x, y) = (ChartAxis::powers(left, right), ChartAxis::powers(bottom, top));
+    let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
     for ((x, y), row) in points {
-        plot.point(x, y, letter(&row.way), skin.style(role(&row.way)));
+        plot.point(x, y, letter(&row.way), look.style(role(&row.way)));
         if row.is_wrong()
             && let (Some(column), Some(line)) = (plot.column(x), plot.row(y))
         {
-            plot.text(column + 1, line, "!", skin.style(Role::Trouble));
+            plot.text(column + 1, line, "!", look.style(Role::Trouble));
         }
     }
 }

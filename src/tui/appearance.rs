@@ -8,7 +8,7 @@ use super::theme::{Role, Theme};
 
 /// Theme and marker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Skin {
+pub struct Appearance {
     /// Colours by role.
     pub theme: Theme,
     /// How points are drawn.
@@ -30,7 +30,7 @@ pub struct AxisSigns {
     pub floor_tick: char,
 }
 
-impl Skin {
+impl Appearance {
     /// Style of a role.
     #[must_use]
     pub fn style(&self, role: Role) -> Style {
@@ -120,8 +120,8 @@ mod tests {
 
     #[test]
     fn ascii_means_ascii() {
-        let skin = Skin { theme: Theme::Dark, marker: Marker::Ascii };
-        let text = skin.spell("Ω/Ωc λ ζ α 228 µs kg m² × – … ● ▲ ◄ ► ┄ é");
+        let look = Appearance { theme: Theme::Dark, marker: Marker::Ascii };
+        let text = look.spell("Ω/Ωc λ ζ α 228 µs kg m² × – … ● ▲ ◄ ► ┄ é");
         assert!(text.is_ascii(), "{text}");
         assert!(text.starts_with("Om/Omc lambda zeta alpha 228 us"));
     }
