@@ -15,42 +15,23 @@ pub struct Appearance {
     pub marker: Marker,
 }
 
-/// Signs of the axis lines.
-#[derive(Clone, Copy, Debug)]
-pub struct AxisSigns {
-    /// Upright axis.
-    pub side: char,
-    /// Tick on it.
-    pub side_tick: char,
-    /// Where the axes meet.
-    pub corner: char,
-    /// Level axis.
-    pub floor: char,
-    /// Tick on it.
-    pub floor_tick: char,
-}
-
 impl Appearance {
     /// Style of a role.
-    #[must_use]
     pub fn style(&self, role: Role) -> Style {
         self.theme.style(role)
     }
 
     /// Whether only ASCII may be written.
-    #[must_use]
     pub fn ascii(&self) -> bool {
         self.marker == Marker::Ascii
     }
 
     /// The Unicode or the ASCII way to write something.
-    #[must_use]
     pub fn either<T>(&self, unicode: T, ascii: T) -> T {
         if self.ascii() { ascii } else { unicode }
     }
 
     /// Text with Greek letters and signs spelled out where only ASCII is drawn.
-    #[must_use]
     pub fn spell(&self, text: &str) -> String {
         if !self.ascii() {
             return text.to_string();
@@ -83,32 +64,22 @@ impl Appearance {
         out
     }
 
-    /// Signs of the axis lines.
-    #[must_use]
-    pub fn axis_signs(&self) -> AxisSigns {
-        if self.ascii() {
-            AxisSigns { side: '|', side_tick: '+', corner: '+', floor: '-', floor_tick: '+' }
-        } else {
-            AxisSigns {
-                side: '│', side_tick: '┤', corner: '└', floor: '─', floor_tick: '┬'
-            }
-        }
+    /// Signs of the axis lines: upright, its tick, the corner, level, its tick.
+    pub fn axis_signs(&self) -> [char; 5] {
+        self.either(['│', '┤', '└', '─', '┬'], ['|', '+', '+', '-', '+'])
     }
 
     /// Solid pen of the first series.
-    #[must_use]
     pub fn first(&self) -> Pen {
         Pen { style: self.style(Role::First), sign: '*', dashed: false }
     }
 
     /// Dashed pen of the second series.
-    #[must_use]
     pub fn second(&self) -> Pen {
         Pen { style: self.style(Role::Second), sign: 'o', dashed: true }
     }
 
     /// Pen for what is only there to compare with.
-    #[must_use]
     pub fn quiet(&self) -> Pen {
         Pen { style: self.style(Role::Quiet), sign: '.', dashed: true }
     }

@@ -1,6 +1,6 @@
-//! What the screen and the solver tell each other. The screen states what it
-//! wants as one value, the latest one counts; the engine answers with
-//! snapshots that carry the generation of the knobs they belong to.
+//! Messages between the screen and the solver. The screen sends orders, of
+//! which the latest counts; the engine answers with snapshots. Both carry the
+//! generation of the knobs.
 
 use std::sync::Arc;
 
@@ -13,11 +13,11 @@ use crate::scene::Scene;
 use crate::study::Map;
 use crate::study::precision::Precision;
 
-/// Everything the screen wants. Counters only ever grow, so that an order
-/// that replaces another loses none of its presses.
+/// What the engine has to do. Counters only grow, so that no key press is lost
+/// when an order replaces an older one.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Order {
-    /// The scene as the knobs have it.
+    /// The scene with the present values of the knobs.
     pub scene: Scene,
     /// How often the run was started again.
     pub restarts: u64,
@@ -43,13 +43,11 @@ pub struct Order {
 
 impl Order {
     /// Whether a view is on the screen.
-    #[must_use]
     pub fn shows(&self, view: ViewId) -> bool {
         self.open.contains(&view)
     }
 
     /// Number of the knobs' state: grows with every restart and live change.
-    #[must_use]
     pub fn generation(&self) -> u64 {
         self.restarts + self.changes
     }
@@ -62,14 +60,14 @@ pub struct Pace {
     pub step_s: Option<f64>,
     /// Wall-clock time of the whole run to `solver.end_s` \[s\].
     pub run_s: Option<f64>,
-    /// Whether the motion plays slower than asked, the solver being at its limit.
+    /// Whether the motion plays slower than asked, because the solver is too slow.
     pub limited: bool,
 }
 
 /// How far the full run is.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FullRunState {
-    /// Under way: the part of the run that is done, 0 to 1.
+    /// The part of the run that is done, 0 to 1.
     Computing(f64),
     /// Done.
     Done(FullRun),
@@ -80,7 +78,7 @@ pub enum FullRunState {
 pub struct FullRun {
     /// How the motion lasts.
     pub verdict: Verdict,
-    /// Since when the final contact holds without a change \[s\].
+    /// Start of the final contact \[s\].
     pub since: Option<f64>,
     /// Sides in contact and their multipliers; negative is a push \[N\].
     pub multipliers: Vec<(u32, f64)>,
@@ -103,7 +101,7 @@ pub struct Moment {
     pub speed: f64,
     /// Sides in contact.
     pub touching: Touching,
-    /// Since when \[s\].
+    /// Start of this contact \[s\].
     pub since: f64,
     /// Gap of every blade; positive is open \[m\].
     pub gaps: Vec<f64>,
@@ -113,7 +111,7 @@ pub struct Moment {
     pub failure: Option<String>,
 }
 
-/// What is known of the present scene and knobs.
+/// Results for one generation of the knobs.
 #[derive(Clone, Debug, Default)]
 pub struct Results {
     /// The run to the scene's end.
@@ -137,7 +135,7 @@ pub struct Results {
     pub pace: Pace,
 }
 
-/// What the engine says.
+/// What the engine answers.
 #[derive(Clone, Debug, Default)]
 pub struct Snapshot {
     /// Generation of the knobs this belongs to.

@@ -14,7 +14,6 @@ use super::theme::Theme;
 const CELL: (u32, u32) = (8, 17);
 
 /// The screen as a picture: its size, on the ground its theme is made for.
-#[must_use]
 pub fn svg(app: &App) -> String {
     let area = Rect::new(0, 0, app.size.0, app.size.1);
     let (ground, ink) = match app.appearance.theme {

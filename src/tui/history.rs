@@ -1,5 +1,5 @@
-//! What a run has shown so far, as bins that keep the least and the greatest
-//! value of each channel: a contact peak one step long survives any zoom.
+//! The record of a run as bins with the least and the greatest value of each
+//! channel: a contact peak of one step is seen at any zoom.
 
 use crate::motion::Touching;
 
@@ -48,20 +48,17 @@ pub struct Bin {
 
 impl Bin {
     /// A bin of one sample.
-    #[must_use]
     pub fn of(t: f64, values: [f64; CHANNELS]) -> Self {
         let touched = Touching::Nothing;
         Self { from: t, to: t, low: values, high: values, contact: false, touched }
     }
 
     /// Least and greatest value of a channel.
-    #[must_use]
     pub fn span(&self, channel: Channel) -> (f64, f64) {
         (self.low[channel as usize], self.high[channel as usize])
     }
 
     /// The middle of the span of a channel.
-    #[must_use]
     pub fn middle(&self, channel: Channel) -> f64 {
         let (low, high) = self.span(channel);
         0.5 * (low + high)
@@ -81,7 +78,7 @@ impl Bin {
     }
 }
 
-/// Most bins kept; beyond, neighbours are joined and the resolution halves.
+/// Most bins kept; above, neighbours are joined and the resolution halves.
 pub const MOST_BINS: usize = 1 << 15;
 
 /// The bins of one run, in order of time.
@@ -108,7 +105,6 @@ impl BinHistory {
     }
 
     /// The bins that overlap `[from, to]`.
-    #[must_use]
     pub fn between(&self, from: f64, to: f64) -> &[Bin] {
         let start = self.bins.partition_point(|bin| bin.to < from);
         let end = self.bins.partition_point(|bin| bin.from <= to);
@@ -117,7 +113,6 @@ impl BinHistory {
 
     /// One channel over `[from, to]` as `columns` columns; `None` where
     /// nothing was recorded. Values that are not finite are left out.
-    #[must_use]
     pub fn columns(&self, channel: Channel, from: f64, to: f64, columns: usize) -> Vec<Span> {
         let mut out: Vec<Span> = vec![None; columns];
         let width = (to - from) / columns.max(1) as f64;
@@ -142,7 +137,6 @@ impl BinHistory {
     }
 
     /// Which of `columns` columns of `[from, to]` saw a contact.
-    #[must_use]
     pub fn contacts(&self, from: f64, to: f64, columns: usize) -> Vec<bool> {
         let mut out = vec![false; columns];
         let width = (to - from) / columns.max(1) as f64;
@@ -155,7 +149,6 @@ impl BinHistory {
     }
 
     /// The bin at an instant, for reading values under a cursor.
-    #[must_use]
     pub fn at(&self, t: f64) -> Option<&Bin> {
         self.bins.get(self.bins.partition_point(|bin| bin.to < t)).filter(|bin| bin.from <= t)
     }

@@ -1,7 +1,6 @@
-//! The explorer: a live screen on one motion. State and update (`app`) know no
-//! terminal; panels are functions of the state; the solver runs in a thread of
-//! its own (`worker`) behind two slots; one table of bindings feeds the keys,
-//! the footer, the help and the manual page.
+//! The explorer: a live screen of one motion. The state (`app`) knows no
+//! terminal; `panels` and `views` draw it; the solver runs in its own thread
+//! (`worker`). Tables: `views`, `knobs`, `lessons`, `bindings`.
 
 mod app;
 mod appearance;
@@ -24,7 +23,7 @@ mod views;
 pub mod worker;
 
 use std::io::IsTerminal;
-use std::sync::{Arc, Mutex, PoisonError, mpsc};
+use std::sync::{Arc, mpsc};
 use std::time::Duration;
 
 pub use app::{App, Exit};
@@ -51,14 +50,9 @@ impl Color {
     pub const WORDS: &'static [&'static str] = &["auto", "always", "never"];
 
     /// The choice a word stands for.
-    #[must_use]
     pub fn from_word(word: &str) -> Option<Self> {
-        match word {
-            "auto" => Some(Self::Auto),
-            "always" => Some(Self::Always),
-            "never" => Some(Self::Never),
-            _ => None,
-        }
+        let all = [Self::Auto, Self::Always, Self::Never];
+        Self::WORDS.iter().zip(all).find(|(name, _)| **name == word).map(|(_, color)| color)
     }
 }
 
@@ -98,12 +92,12 @@ impl ExploreOptions {
     }
 }
 
-/// Opens the explorer on a checked scene and stays until it is left. The
-/// result is the exit status: 0, or 128 + n after signal n.
+/// Runs the explorer on a checked scene until the user leaves. The result is
+/// the exit status: 0, or 128 + n after signal n.
 ///
 /// # Errors
 /// Standard output is no terminal that can show a screen, or threads or
-/// signals are not to be had.
+/// signals cannot be set up.
 pub fn explore(scene: Scene, options: ExploreOptions) -> anyhow::Result<u8> {
     let dumb = std::env::var("TERM").is_ok_and(|term| term == "dumb");
     if dumb || !std::io::stdout().is_terminal() {
@@ -115,11 +109,9 @@ pub fn explore(scene: Scene, options: ExploreOptions) -> anyhow::Result<u8> {
     terminal::install_panic_hook();
     let (sender, events) = mpsc::channel();
     events::watch_signals(sender.clone())?;
-    let senders = Mutex::new(sender.clone());
-    let wake: engine::Waker = Arc::new(move || {
-        // If nobody listens any more, the program is about to end.
-        let _ = senders.lock().unwrap_or_else(PoisonError::into_inner).send(events::Event::Fresh);
-    });
+    let fresh = sender.clone();
+    // Without a receiver the program is about to end.
+    let wake: engine::Waker = Arc::new(move || _ = fresh.send(events::Event::Fresh));
     let mut worker = worker::Worker::spawn(wake)?;
     let mut app = App::new(scene, options.theme(), options.marker);
     app.source.clone_from(&options.source);

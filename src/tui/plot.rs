@@ -8,60 +8,10 @@ use ratatui::{
 };
 
 use super::appearance::Appearance;
-use super::axis::{SiScale, ticks};
+use super::axis::ChartAxis;
 use super::history::Span;
 use super::raster::{DASH, DASH_ON, Pen, Raster};
 use super::theme::Role;
-
-/// One axis: range, prefix, and the largest number of ticks.
-#[derive(Clone, Copy, Debug)]
-pub struct ChartAxis {
-    /// Lower end.
-    pub low: f64,
-    /// Upper end.
-    pub high: f64,
-    /// Prefix of the labels.
-    pub scale: SiScale,
-    /// Whether the range is that of the exponents of powers of ten.
-    powers: bool,
-}
-
-impl ChartAxis {
-    /// An axis whose labels carry the prefix of its greatest magnitude.
-    #[must_use]
-    pub fn scaled(low: f64, high: f64) -> Self {
-        Self { scale: SiScale::of(low.abs().max(high.abs())), ..Self::plain(low, high) }
-    }
-
-    /// An axis without a prefix.
-    #[must_use]
-    pub fn plain(low: f64, high: f64) -> Self {
-        Self { low, high, scale: SiScale::plain(), powers: false }
-    }
-
-    /// An axis of powers of ten, from one exponent to another.
-    #[must_use]
-    pub fn powers(low: f64, high: f64) -> Self {
-        Self { powers: true, ..Self::plain(low, high) }
-    }
-
-    /// Round values and their spacing: of powers, the whole exponents only.
-    fn ticks(&self, most: usize) -> (Vec<f64>, f64) {
-        let (values, step) = ticks(self.low, self.high, most);
-        if !self.powers {
-            return (values, step);
-        }
-        (values.into_iter().filter(|v| (v - v.round()).abs() < 1e-9).collect(), 1.0)
-    }
-
-    fn label(&self, value: f64, step: f64) -> String {
-        if self.powers { format!("1e{value:.0}") } else { self.scale.label(value, step) }
-    }
-
-    fn is_sound(&self) -> bool {
-        self.low.is_finite() && self.high.is_finite() && self.high > self.low
-    }
-}
 
 /// A framed chart under construction.
 pub struct Plot<'a> {
@@ -76,7 +26,6 @@ pub struct Plot<'a> {
 
 impl<'a> Plot<'a> {
     /// A chart without axes, for pictures.
-    #[must_use]
     pub fn bare(
         buffer: &'a mut Buffer,
         area: Rect,
@@ -91,7 +40,6 @@ impl<'a> Plot<'a> {
 
     /// Draws the frame in `area`; none where the area is too small or an axis
     /// is not a proper range.
-    #[must_use]
     pub fn new(
         buffer: &'a mut Buffer,
         area: Rect,
@@ -112,15 +60,15 @@ impl<'a> Plot<'a> {
         let inner = Rect::new(area.x + gutter, area.y, area.width - gutter, rows);
         let quiet = look.style(Role::Quiet);
         let mut plot = Self { buffer, raster: Raster::new(inner, look.marker), inner, x, y, rule };
-        let signs = look.axis_signs();
+        let [side, side_tick, ..] = look.axis_signs();
         for row in inner.y..inner.bottom() {
-            plot.put(inner.x - 1, row, signs.side, quiet);
+            plot.put(inner.x - 1, row, side, quiet);
         }
         for (value, label) in y_ticks.iter().zip(&labels) {
             if let Some(row) = plot.row(*value) {
                 let start = inner.x - 1 - u16::try_from(label.chars().count()).unwrap_or(0);
                 plot.text(start.max(area.x), row, label, quiet);
-                plot.put(inner.x - 1, row, signs.side_tick, quiet);
+                plot.put(inner.x - 1, row, side_tick, quiet);
             }
         }
         plot.x_axis(rule, look);
@@ -129,12 +77,12 @@ impl<'a> Plot<'a> {
 
     fn x_axis(&mut self, rule: bool, look: &Appearance) {
         let quiet = look.style(Role::Quiet);
-        let signs = look.axis_signs();
+        let [.., corner, floor, floor_tick] = look.axis_signs();
         let inner = self.inner;
         if rule {
-            self.put(inner.x - 1, inner.bottom(), signs.corner, quiet);
+            self.put(inner.x - 1, inner.bottom(), corner, quiet);
             for column in inner.x..inner.right() {
-                self.put(column, inner.bottom(), signs.floor, quiet);
+                self.put(column, inner.bottom(), floor, quiet);
             }
         }
         let labels_row = inner.bottom() + u16::from(rule);
@@ -144,7 +92,7 @@ impl<'a> Plot<'a> {
         for value in values {
             let Some(column) = self.column(value) else { continue };
             if rule {
-                self.put(column, inner.bottom(), signs.floor_tick, quiet);
+                self.put(column, inner.bottom(), floor_tick, quiet);
             }
             let label = self.x.label(value, step);
             let width = u16::try_from(label.chars().count()).unwrap_or(0);
@@ -160,13 +108,11 @@ impl<'a> Plot<'a> {
     }
 
     /// The row of the level axis line, where there is room for one.
-    #[must_use]
     pub fn axis_row(&self) -> Option<u16> {
         self.rule.then(|| self.inner.bottom())
     }
 
     /// The column of an x value inside the chart.
-    #[must_use]
     pub fn column(&self, value: f64) -> Option<u16> {
         let across = (value - self.x.low) / (self.x.high - self.x.low);
         (-1e-9..=1.0 + 1e-9).contains(&across).then(|| {
@@ -176,7 +122,6 @@ impl<'a> Plot<'a> {
     }
 
     /// The row of a y value inside the chart.
-    #[must_use]
     pub fn row(&self, value: f64) -> Option<u16> {
         let up = (value - self.y.low) / (self.y.high - self.y.low);
         (-1e-9..=1.0 + 1e-9).contains(&up).then(|| {
@@ -187,75 +132,61 @@ impl<'a> Plot<'a> {
     }
 
     /// Sub-pixel columns across, for decimation by least and greatest value.
-    #[must_use]
     pub fn columns(&self) -> usize {
         self.raster.size().0
     }
 
     /// One x value per sub-pixel column, at its middle.
-    #[must_use]
     pub fn column_values(&self) -> Vec<f64> {
         let count = self.columns();
         let width = (self.x.high - self.x.low) / count.max(1) as f64;
         (0..count).map(|k| self.x.low + (k as f64 + 0.5) * width).collect()
     }
 
-    fn pixel_x(&self, value: f64) -> f64 {
+    /// The sub-pixel column of an x value, bounded so that it is a whole number.
+    fn pixel_x(&self, value: f64) -> Option<i64> {
         let across = (value - self.x.low) / (self.x.high - self.x.low);
-        across * (self.raster.size().0.saturating_sub(1)) as f64
+        whole(across * (self.raster.size().0.saturating_sub(1)) as f64)
     }
 
-    fn pixel_y(&self, value: f64) -> f64 {
+    /// The sub-pixel row of a y value.
+    fn pixel_y(&self, value: f64) -> Option<i64> {
         let up = (value - self.y.low) / (self.y.high - self.y.low);
-        (1.0 - up) * (self.raster.size().1.saturating_sub(1)) as f64
+        whole((1.0 - up) * (self.raster.size().1.saturating_sub(1)) as f64)
     }
 
     /// A polyline; a value that is not finite breaks it.
     pub fn curve(&mut self, points: impl IntoIterator<Item = (f64, f64)>, pen: &Pen) {
-        let mut last: Option<(i64, i64)> = None;
+        let mut last = None;
         for (x, y) in points {
-            let (x, y) = (self.pixel_x(x), self.pixel_y(y));
-            if !(x.is_finite() && y.is_finite()) {
-                last = None;
-                continue;
+            let here = self.pixel_x(x).zip(self.pixel_y(y));
+            if let Some(here) = here {
+                self.raster.line(last.unwrap_or(here), here, pen);
             }
-            // Rounded, and bounded so that the whole number exists.
-            let here = (x.round().clamp(-1e5, 1e5) as i64, y.round().clamp(-1e5, 1e5) as i64);
-            self.raster.line(last.unwrap_or(here), here, pen);
-            last = Some(here);
+            last = here;
         }
     }
 
     /// A decimated signal, one span per sub-pixel column, joined to the next.
     pub fn spans(&mut self, spans: &[Span], pen: &Pen) {
+        let solid = Pen { dashed: false, ..*pen };
         let mut last: Option<(i64, i64)> = None;
-        for (column, span) in spans.iter().enumerate() {
-            let Some((low, high)) = span else {
-                last = None;
-                continue;
-            };
-            let (bottom, top) = (self.pixel_y(*low), self.pixel_y(*high));
-            if !(bottom.is_finite() && top.is_finite()) {
-                last = None;
-                continue;
-            }
-            let (mut top, mut bottom) =
-                (top.round().clamp(-1e5, 1e5) as i64, bottom.round().clamp(-1e5, 1e5) as i64);
-            let shown = (top, bottom);
-            if let Some((last_top, last_bottom)) = last {
-                // Reach half way to the neighbour, so that steep parts do not break up.
-                if top > last_bottom + 1 {
-                    top = last_bottom + 1;
-                } else if bottom < last_top - 1 {
-                    bottom = last_top - 1;
+        for (x, span) in (0..).zip(spans) {
+            let shown = span.and_then(|(low, high)| self.pixel_y(high).zip(self.pixel_y(low)));
+            if let Some((mut top, mut bottom)) = shown {
+                if let Some((last_top, last_bottom)) = last {
+                    // Reach half way to the neighbour, so that steep parts do not break up.
+                    if top > last_bottom + 1 {
+                        top = last_bottom + 1;
+                    } else if bottom < last_top - 1 {
+                        bottom = last_top - 1;
+                    }
+                }
+                if !pen.dashed || x % DASH < DASH_ON {
+                    self.raster.line((x, top), (x, bottom), &solid);
                 }
             }
-            let x = i64::try_from(column).unwrap_or(0);
-            if !pen.dashed || x.rem_euclid(DASH) < DASH_ON {
-                let solid = Pen { dashed: false, ..*pen };
-                self.raster.line((x, top), (x, bottom), &solid);
-            }
-            last = Some(shown);
+            last = shown;
         }
     }
 
@@ -320,6 +251,10 @@ impl<'a> Plot<'a> {
             self.buffer.set_stringn(x, y, text, usize::from(area.right() - x), style);
         }
     }
+}
+
+fn whole(pixel: f64) -> Option<i64> {
+    pixel.is_finite().then(|| pixel.round().clamp(-1e5, 1e5) as i64)
 }
 
 #[cfg(test)]

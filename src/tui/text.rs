@@ -1,12 +1,6 @@
 //! Text on the screen: one row, pieces of one row, and wrapped lines.
 
-use ratatui::{
-    buffer::Buffer,
-    layout::Rect,
-    style::Style,
-    text::{Line, Span},
-    widgets::Widget,
-};
+use ratatui::{buffer::Buffer, layout::Rect, style::Style};
 
 /// Text in one row of an area; what does not fit is cut.
 pub fn print(buffer: &mut Buffer, area: Rect, row: u16, text: &str, style: Style) {
@@ -17,18 +11,14 @@ pub fn print(buffer: &mut Buffer, area: Rect, row: u16, text: &str, style: Style
 
 /// Pieces of text in one row, as many of them from the left as fit whole.
 pub fn pieces(buffer: &mut Buffer, area: Rect, row: u16, parts: &[(String, Style)]) {
-    let mut line = Vec::new();
-    let mut used = 0;
+    let mut x = area.x;
     for (text, style) in parts {
-        used += text.chars().count();
-        if used > usize::from(area.width) {
-            break;
+        let end = x.saturating_add(u16::try_from(text.chars().count()).unwrap_or(u16::MAX));
+        if end > area.right() || row >= area.height {
+            return;
         }
-        line.push(Span::styled(text.clone(), *style));
-    }
-    if row < area.height {
-        let area = Rect { y: area.y + row, height: 1, ..area };
-        Line::from(line).render(area, buffer);
+        buffer.set_string(x, area.y + row, text, *style);
+        x = end;
     }
 }
 

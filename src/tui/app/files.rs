@@ -1,5 +1,5 @@
-//! Taking things away: the scene as TOML, the large chart's data as CSV, the
-//! screen as SVG. Nothing is replaced without asking.
+//! Writing files: the scene as TOML, the data of the large chart as CSV, the
+//! screen as SVG. No file is replaced without asking.
 
 use std::fs::OpenOptions;
 use std::io::{ErrorKind, Write};

@@ -1,4 +1,4 @@
-//! A lesson under way: which step, and whether it has been done.
+//! The current lesson: its step, and whether its task is done.
 
 use super::{App, InputMode};
 use crate::motion::Verdict;
@@ -14,15 +14,14 @@ pub struct LessonProgress {
     pub lesson: usize,
     /// Which step, from 0.
     pub step: usize,
-    /// What each step asked has been done.
+    /// The task of the step is done.
     pub done: bool,
-    /// Its text has been read, where it takes the place of the charts.
+    /// Its text has been read, if it takes the place of the charts.
     pub read: bool,
 }
 
 impl App {
-    /// The lesson under way.
-    #[must_use]
+    /// The current lesson.
     pub fn current_lesson(&self) -> Option<(&'static Lesson, &LessonProgress)> {
         let progress = self.lesson.as_ref()?;
         Some((lessons::all().get(progress.lesson)?, progress))
@@ -49,7 +48,7 @@ impl App {
         }
     }
 
-    /// Begins a lesson with its own scene.
+    /// Starts a lesson with its own scene.
     pub(super) fn begin_lesson(&mut self, place: usize) {
         self.mode = InputMode::Main;
         let Some(lesson) = lessons::all().get(place) else { return };
@@ -57,7 +56,7 @@ impl App {
             Ok(scene) => {
                 self.opened = scene.clone();
                 self.source = Some(lesson.scene.clone());
-                self.take_scene(scene, false);
+                self.set_scene(scene, false);
                 self.begin_step(place, 0);
             }
             Err(error) => self.status = Some(error.to_string()),
@@ -77,7 +76,7 @@ impl App {
             }
         }
         if scene != self.scene && scene.check().is_ok() {
-            self.take_scene(scene, false);
+            self.set_scene(scene, false);
         }
         if let Some(view) = found.view.as_deref().and_then(ViewId::from_word) {
             self.show(view);
@@ -87,7 +86,7 @@ impl App {
         }
     }
 
-    /// Notes when what the step asks has been done.
+    /// Notes when the task of the step is done.
     pub fn check_lesson(&mut self) {
         let Some((lesson, progress)) = self.current_lesson() else { return };
         if progress.done {

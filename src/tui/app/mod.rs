@@ -13,7 +13,7 @@ mod verdict;
 pub use lesson::LessonProgress;
 pub use time::RATES;
 pub use update::Effect;
-pub use verdict::Words;
+pub use verdict::VerdictText;
 
 use super::appearance::Appearance;
 use super::axis::AutoRange;
@@ -26,13 +26,13 @@ use super::views::ViewId;
 use crate::model::Machine;
 use crate::scene::Scene;
 
-/// A run pinned behind the next ones.
+/// A pinned run, drawn behind the next ones.
 #[derive(Clone, Debug)]
 pub struct Baseline {
     /// What was recorded of it.
     pub history: BinHistory,
     /// Its verdict.
-    pub words: Words,
+    pub words: VerdictText,
 }
 
 /// What a file name is asked for.
@@ -84,8 +84,7 @@ pub struct Ranges {
 }
 
 impl Ranges {
-    /// Ranges to begin with: the clearance and a little more.
-    #[must_use]
+    /// Ranges at the start: the clearance and a little more.
     pub fn of(clearance: f64) -> Self {
         Self {
             casing: AutoRange::new(-1.25 * clearance, 1.25 * clearance),
@@ -99,7 +98,7 @@ impl Ranges {
 /// The explorer.
 #[derive(Clone, Debug)]
 pub struct App {
-    /// The scene as the knobs have it.
+    /// The scene with the present values of the knobs.
     pub scene: Scene,
     /// The scene as it was opened; `Backspace` goes back to its values.
     pub opened: Scene,
@@ -113,13 +112,13 @@ pub struct App {
     pub directory: std::path::PathBuf,
     /// Why the last value of the selected knob was refused.
     pub refusal: Option<String>,
-    /// What just happened.
+    /// What the last key did.
     pub status: Option<String>,
     /// The large chart.
     pub view: ViewId,
     /// The other views, in the order in which they take the places beside it.
     pub companions: Vec<ViewId>,
-    /// Whether the gaps stand against time.
+    /// Whether the gaps are drawn against time.
     pub heat: bool,
     /// Whether the large chart has the whole screen.
     pub full_screen: bool,
@@ -129,7 +128,7 @@ pub struct App {
     pub rate: usize,
     /// Page length relative to the usual one, in steps of about two.
     pub zoom: i32,
-    /// Whether the other contact law runs beside this one.
+    /// Whether the other contact law runs as well, to compare.
     pub compare: bool,
     /// Whether knobs act on the running motion.
     pub live: bool,
@@ -137,8 +136,8 @@ pub struct App {
     pub history: BinHistory,
     /// The latest snapshot of the engine, as far as it belongs to this scene.
     pub latest: Snapshot,
-    /// The instant that busy pictures show, a few times a second: a whole
-    /// wave that moves with every frame would flood a slow line.
+    /// The instant that whole waves are drawn of, a few times a second: a new
+    /// one with every frame is too much for a slow line.
     pub throttled: Option<Moment>,
     /// Width and height of the screen, in cells.
     pub size: (u16, u16),
@@ -146,11 +145,11 @@ pub struct App {
     pub comparison_history: BinHistory,
     /// A run pinned to compare with.
     pub baseline: Option<Baseline>,
-    /// How many charts stand beside the large one.
+    /// How many charts there are beside the large one.
     pub companions_shown: usize,
     /// Place of the reading cursor on the page, 0 to 1.
     pub cursor: Option<f64>,
-    /// Pages looked back from the present one.
+    /// Pages back from the present one.
     pub pages_back: i64,
     /// What the scene was opened by, for the command line that repeats it.
     pub source: Option<String>,
@@ -177,7 +176,6 @@ struct Counters {
 
 impl App {
     /// The explorer on a checked scene.
-    #[must_use]
     pub fn new(scene: Scene, theme: Theme, marker: Marker) -> Self {
         let mut views: Vec<ViewId> =
             scene.view.charts.iter().filter_map(|word| ViewId::from_word(word)).collect();
@@ -227,7 +225,6 @@ impl App {
     }
 
     /// What the keyboard acts on, as the table of bindings names it.
-    #[must_use]
     pub fn context(&self) -> Context {
         match self.mode {
             InputMode::Main => Context::Main,
@@ -239,8 +236,7 @@ impl App {
         }
     }
 
-    /// What the engine shall do.
-    #[must_use]
+    /// What the engine has to do.
     pub fn order(&self) -> Order {
         Order {
             scene: self.scene.clone(),
@@ -258,21 +254,18 @@ impl App {
     }
 
     /// Whether a view may be on the screen.
-    #[must_use]
     pub fn is_open(&self, view: ViewId) -> bool {
         let mut companions = self.companions.iter().take(self.companions_shown);
         view == self.view || (!self.full_screen && companions.any(|other| *other == view))
     }
 
     /// The present rotor speed \[rad/s\].
-    #[must_use]
     pub fn speed(&self) -> f64 {
         let moment = self.latest.moment.as_ref();
         moment.map_or(self.scene.operation.speed_rad_s, |moment| moment.speed)
     }
 
     /// Why the motion stopped.
-    #[must_use]
     pub fn failure(&self) -> Option<&String> {
         self.latest.moment.as_ref()?.failure.as_ref()
     }

@@ -1,4 +1,4 @@
-//! Takes in what the engine says. Results of an older run, or of other knob
+//! Applies a snapshot of the engine. Results of an older run, or of other knob
 //! positions, are dropped.
 
 use super::{App, Ranges};
@@ -7,11 +7,11 @@ use crate::tui::axis::AutoRange;
 use crate::tui::engine::{Results, Snapshot};
 use crate::tui::history::{Bin, Channel};
 
-/// Updates of the busy pictures on one page: about one a second.
+/// Updates of whole waves while a page fills: about one a second.
 const THROTTLED_PER_PAGE: f64 = 4.5;
 
 impl App {
-    /// Takes a snapshot in; false where it was too old to change anything.
+    /// Applies a snapshot; false where it is too old.
     pub fn apply_snapshot(&mut self, mut snapshot: Snapshot) -> bool {
         if snapshot.trouble.is_some() {
             self.latest.trouble = snapshot.trouble;
@@ -71,7 +71,7 @@ impl App {
         grow(gaps, amplitude.map(|(_, most)| (low, clearance + most)));
     }
 
-    /// At the turn of a page, ranges may shrink to what the old page held.
+    /// When a new page starts, ranges may shrink to the data of the old one.
     fn turn_page(&mut self) {
         let page = self.page_number();
         if page == self.page {
@@ -91,9 +91,8 @@ impl App {
         }
     }
 
-    /// Whether the wave stands still in the frame of the blades: paused, or a
-    /// corner has been held for a while.
-    #[must_use]
+    /// Whether the wave is fixed in the frame of the blades: the motion is
+    /// paused, or a corner has been held for a while.
     pub fn is_still(&self) -> bool {
         !self.playing
             || self.latest.moment.as_ref().is_some_and(|moment| {

@@ -12,7 +12,6 @@ const UNDO_KEPT: usize = 1000;
 
 impl App {
     /// The selected knob.
-    #[must_use]
     pub fn selected(&self) -> Option<&'static Knob> {
         KNOBS.get(self.knob)
     }
@@ -36,7 +35,7 @@ impl App {
         }
     }
 
-    /// Takes what was typed; a refusal leaves the text open to be mended.
+    /// Takes what was typed; after a refusal the text can be corrected.
     pub(super) fn accept(&mut self, text: &str) {
         let Some(knob) = self.selected() else { return };
         match knob.parse(text) {
@@ -63,7 +62,7 @@ impl App {
                         self.undo.remove(0);
                     }
                     self.redo.clear();
-                    self.take_turned(scene);
+                    self.set_turned_scene(scene);
                 }
                 true
             }
@@ -74,19 +73,19 @@ impl App {
         }
     }
 
-    /// Takes a scene some knobs further: live where that is on and can be.
-    fn take_turned(&mut self, scene: Scene) {
+    /// Takes a scene after a knob was turned: live if that is on and possible.
+    fn set_turned_scene(&mut self, scene: Scene) {
         let failed = self.failure().is_some();
         let live = self.live && !failed && acts_live(&self.scene, &scene);
         if self.live && !live && self.status.is_none() {
-            self.status = Some("this cannot act on a running motion: begun anew".into());
+            self.status = Some("this cannot act on a running motion: restarted".into());
         }
-        self.take_scene(scene, live);
+        self.set_scene(scene, live);
     }
 
-    /// Makes a scene the present one and begins its run, or lets it act on
-    /// the running motion.
-    pub fn take_scene(&mut self, scene: Scene, live: bool) {
+    /// Makes a scene the present one and starts its run, or, if live, applies
+    /// it to the running motion.
+    pub fn set_scene(&mut self, scene: Scene, live: bool) {
         let clearance = self.machine.clearance();
         self.scene = scene;
         self.machine = self.scene.machine();
@@ -125,7 +124,7 @@ impl App {
         if let Some(scene) = from.pop() {
             to.push(self.scene.clone());
             self.refusal = None;
-            self.take_turned(scene);
+            self.set_turned_scene(scene);
         } else {
             self.status = Some(format!("nothing to {word}"));
         }

@@ -1,4 +1,4 @@
-//! Keys and actions: each changes the state and says what must happen outside.
+//! Keys and actions: each changes the state and returns what must happen outside.
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
@@ -18,7 +18,7 @@ pub enum Effect {
     Quit,
     /// Suspend the job.
     Suspend,
-    /// Draw everything anew.
+    /// Draw everything again.
     Redraw,
     /// Put a text on the clipboard of the terminal.
     Copy(String),
@@ -40,8 +40,7 @@ impl App {
             self.check_lesson();
             return effect;
         }
-        if let (InputMode::Typing(text) | InputMode::Naming(_, text), KeyCode::Char(letter), false) =
-            (&mut self.mode, chord.code, chord.ctrl)
+        if let (Some(text), KeyCode::Char(letter), false) = (self.typed(), chord.code, chord.ctrl)
             && text.len() < LONGEST_TYPED
         {
             text.push(letter);
@@ -49,10 +48,18 @@ impl App {
         Effect::None
     }
 
+    /// The text that is being typed.
+    fn typed(&mut self) -> Option<&mut String> {
+        match &mut self.mode {
+            InputMode::Typing(text) | InputMode::Naming(_, text) => Some(text),
+            _ => None,
+        }
+    }
+
     /// Carries out an action.
     pub fn act(&mut self, action: Action) -> Effect {
         self.status = None;
-        match (&mut self.mode, action) {
+        match (self.mode.clone(), action) {
             (_, Action::Quit) => return Effect::Quit,
             (_, Action::Suspend) => return Effect::Suspend,
             (_, Action::Redraw) => return Effect::Redraw,
@@ -60,32 +67,25 @@ impl App {
                 self.appearance.theme = self.appearance.theme.next();
                 self.status = Some(format!("theme {}", self.appearance.theme.name()));
             }
-            (InputMode::Help(scroll), Action::KnobBelow) => *scroll = scroll.saturating_add(1),
-            (InputMode::Help(scroll), Action::KnobAbove) => *scroll = scroll.saturating_sub(1),
-            (InputMode::Typing(text) | InputMode::Naming(_, text), Action::Rub) => {
-                text.pop();
+            (InputMode::Help(scroll), Action::KnobBelow) => {
+                self.mode = InputMode::Help(scroll.saturating_add(1));
             }
-            (InputMode::Naming(purpose, name), Action::Accept) => {
-                let (purpose, name) = (*purpose, name.clone());
-                self.write(purpose, &name, false);
+            (InputMode::Help(scroll), Action::KnobAbove) => {
+                self.mode = InputMode::Help(scroll.saturating_sub(1));
             }
-            (InputMode::Replacing(purpose, name), Action::Yes) => {
-                let (purpose, name) = (*purpose, name.clone());
-                self.write(purpose, &name, true);
-            }
+            (_, Action::DeleteLast) => _ = self.typed().and_then(String::pop),
+            (InputMode::Naming(purpose, name), Action::Accept) => self.write(purpose, &name, false),
+            (InputMode::Replacing(purpose, name), Action::Yes) => self.write(purpose, &name, true),
             (InputMode::Lessons(place), Action::KnobBelow) => {
-                *place = (*place + 1).min(lessons::all().len().saturating_sub(1));
+                let last = lessons::all().len().saturating_sub(1);
+                self.mode = InputMode::Lessons((place + 1).min(last));
             }
-            (InputMode::Lessons(place), Action::KnobAbove) => *place = place.saturating_sub(1),
-            (InputMode::Lessons(place), Action::Accept) => {
-                let place = *place;
-                self.begin_lesson(place);
+            (InputMode::Lessons(place), Action::KnobAbove) => {
+                self.mode = InputMode::Lessons(place.saturating_sub(1));
             }
+            (InputMode::Lessons(place), Action::Accept) => self.begin_lesson(place),
             (_, Action::Copy) => return Effect::Copy(self.copied()),
-            (InputMode::Typing(text), Action::Accept) => {
-                let text = text.clone();
-                self.accept(&text);
-            }
+            (InputMode::Typing(text), Action::Accept) => self.accept(&text),
             (_, Action::Close) => self.close(),
             _ => self.act_main(action),
         }
@@ -154,7 +154,7 @@ impl App {
             Action::Cursor { right, coarse } => self.move_cursor(right, coarse),
             Action::Restart => {
                 self.restart();
-                self.status = Some("begun anew".into());
+                self.status = Some("restarted".into());
             }
             Action::Fire => {
                 self.counters.pulses += 1;
@@ -182,7 +182,7 @@ impl App {
                 self.status = Some(if self.live {
                     "live: knobs act on the running motion".into()
                 } else {
-                    "knobs begin the run anew".to_string()
+                    "a knob restarts the run".to_string()
                 });
             }
             _ => {}
@@ -197,11 +197,11 @@ impl App {
 
     fn pin(&mut self) {
         if self.baseline.take().is_some() {
-            self.status = Some("baseline let go".into());
+            self.status = Some("baseline removed".into());
             return;
         }
         self.baseline = Some(Baseline { history: self.history.clone(), words: self.verdict() });
-        self.status = Some("this run stays behind the next as a baseline".into());
+        self.status = Some("this run stays on the chart as a baseline".into());
     }
 
     /// Makes a view the large one; the one that was takes its place.

@@ -1,5 +1,5 @@
-//! The verdict in words: what the run comes to, since when, on which blades,
-//! and where another solver disagrees.
+//! The verdict in words: which it is, since when, on which blades, and where
+//! another solver disagrees.
 
 use super::App;
 use crate::motion::{Touching, Verdict};
@@ -9,7 +9,7 @@ use crate::tui::theme::Role;
 
 /// A verdict as the header shows it.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Words {
+pub struct VerdictText {
     /// The one word, in capitals.
     pub word: String,
     /// The rest of the line; may be left out where there is no room.
@@ -20,7 +20,6 @@ pub struct Words {
 
 impl App {
     /// The full run of the scene's own solver, once it is computed.
-    #[must_use]
     pub fn full_run(&self) -> Option<&FullRun> {
         match &self.latest.results.full_run {
             Some(FullRunState::Done(run)) => Some(run),
@@ -29,10 +28,13 @@ impl App {
     }
 
     /// The verdict of the running solver.
-    #[must_use]
-    pub fn verdict(&self) -> Words {
+    pub fn verdict(&self) -> VerdictText {
         if let Some(trouble) = &self.latest.trouble {
-            return Words { word: "STOPPED".into(), detail: trouble.clone(), role: Role::Trouble };
+            return VerdictText {
+                word: "STOPPED".into(),
+                detail: trouble.clone(),
+                role: Role::Trouble,
+            };
         }
         match &self.latest.results.full_run {
             Some(FullRunState::Done(run)) => {
@@ -42,16 +44,18 @@ impl App {
                 }
                 words
             }
-            Some(FullRunState::Computing(part)) => Words {
+            Some(FullRunState::Computing(part)) => VerdictText {
                 word: "computing".into(),
                 detail: format!("{:.0} %", 100.0 * part),
                 role: Role::Quiet,
             },
-            None => Words { word: "computing".into(), detail: String::new(), role: Role::Quiet },
+            None => {
+                VerdictText { word: "computing".into(), detail: String::new(), role: Role::Quiet }
+            }
         }
     }
 
-    pub(crate) fn words(&self, run: &FullRun) -> Words {
+    pub(crate) fn words(&self, run: &FullRun) -> VerdictText {
         let since = run.since.map_or(String::new(), |t| format!("since {}", readable(t, "s")));
         let tensile = run.checks.tensile_steps;
         let blades = self.blades_of(run.multipliers.iter().map(|(side, _)| *side));
@@ -76,11 +80,10 @@ impl App {
             );
         let detail =
             if pulls { format!("{detail}, {}", plural(tensile, "tensile step")) } else { detail };
-        Words { word: run.verdict.word().to_uppercase(), detail, role }
+        VerdictText { word: run.verdict.word().to_uppercase(), detail, role }
     }
 
-    /// What the event solver under unilateral contact says, where it differs.
-    #[must_use]
+    /// The verdict of the event solver under unilateral contact, if it differs.
     pub fn disagreement(&self) -> Option<String> {
         let own = self.full_run()?;
         let other = self.latest.results.reference.as_ref()?;
@@ -97,8 +100,7 @@ impl App {
         Some(format!("event solver, unilateral: {} ({why})", other.verdict))
     }
 
-    /// What touches now, in words.
-    #[must_use]
+    /// The blades in contact now, in words.
     pub fn contact_now(&self) -> String {
         let Some(moment) = &self.latest.moment else { return String::new() };
         if let Some(failure) = &moment.failure {
@@ -113,7 +115,6 @@ impl App {
     }
 
     /// The blades of some sides, `blades 6 + 21`.
-    #[must_use]
     pub fn blades_of(&self, sides: impl Iterator<Item = u32>) -> String {
         let mut groups: Vec<String> = Vec::new();
         let mut count = 0;
@@ -137,7 +138,6 @@ fn join(parts: &[&str]) -> String {
 }
 
 /// `1 impact`, `2 impacts`, `no impacts`.
-#[must_use]
 pub fn plural(count: u64, what: &str) -> String {
     match count {
         0 => format!("no {what}s"),

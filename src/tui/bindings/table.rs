@@ -58,7 +58,7 @@ pub static BINDINGS: LazyLock<Vec<Binding>> = LazyLock::new(|| {
         context: Context::Main,
         keys,
         action: Action::View(view),
-        // Made once and kept, as the other texts are.
+        // Leaked once: the other texts are static too.
         what: format!("view {}: {}", view.digit(), view.panel().what()).leak(),
         footer: None,
     });
@@ -97,12 +97,12 @@ const BEFORE_VIEWS: &[Binding] = &[
         Main,
         [letter('x')],
         Action::Live,
-        "knobs act on the running motion (live), or begin it anew"
+        "knobs act on the running motion (live), or restart it"
     ),
     bind!(Main, [letter('g')], Action::Lesson, "guide: choose a lesson; in one, its next step", "g" "guide"),
     bind!(Main, [letter('G')], Action::LeaveLesson, "leave the lesson"),
     bind!(Main, [letter('n')], Action::Jump, "on to the next change of contact (pauses)"),
-    bind!(Main, [letter('b')], Action::Pin, "pin this run as a baseline behind the next, or let it go", "b" "pin"),
+    bind!(Main, [letter('b')], Action::Pin, "pin this run as a baseline behind the next, or remove it", "b" "pin"),
     bind!(Main, [letter('c')], Action::OtherLaw, "the other contact law beside this one", "c" "both laws"),
     bind!(Main, [letter('s')], Action::Save, "save the scene"),
     bind!(
@@ -151,11 +151,11 @@ const AFTER_VIEWS: &[Binding] = &[
     ),
     bind!(Main, [letter('t')], Action::Theme, "next theme (dark, light, colour-blind, mono)"),
     bind!(Main, [ctrl('z')], Action::Suspend, "suspend"),
-    bind!(Main, [ctrl('l')], Action::Redraw, "draw the screen anew"),
+    bind!(Main, [ctrl('l')], Action::Redraw, "draw the screen again"),
     bind!(Main, [key(KeyCode::Esc)], Action::Close, "close what is open; never quits"),
     bind!(Typing, [key(KeyCode::Enter)], Action::Accept, "take the value", "Enter" "take"),
     bind!(Typing, [key(KeyCode::Esc)], Action::Close, "leave it as it was", "Esc" "leave"),
-    bind!(Typing, [key(KeyCode::Backspace)], Action::Rub, "delete the last character", "Backspace" "delete"),
+    bind!(Typing, [key(KeyCode::Backspace)], Action::DeleteLast, "delete the last character", "Backspace" "delete"),
     bind!(Typing, [ctrl('c')], Action::Quit, "quit", "Ctrl-C" "quit"),
     bind!(Help, [key(KeyCode::Esc), letter('?')], Action::Close, "close the help", "Esc" "close"),
     bind!(Help, [key(KeyCode::Down), letter('j'), letter(' ')], Action::KnobBelow, "scroll down", "↑↓" "scroll"),
@@ -163,7 +163,7 @@ const AFTER_VIEWS: &[Binding] = &[
     bind!(Help, [letter('q'), ctrl('c')], Action::Quit, "quit", "q" "quit"),
     bind!(Help, [letter('t')], Action::Theme, "next theme"),
     bind!(Help, [ctrl('z')], Action::Suspend, "suspend"),
-    bind!(Help, [ctrl('l')], Action::Redraw, "draw the screen anew"),
+    bind!(Help, [ctrl('l')], Action::Redraw, "draw the screen again"),
     bind!(Replacing, [letter('y')], Action::Yes, "replace the file", "y" "replace"),
     bind!(Replacing, [letter('n'), key(KeyCode::Esc)], Action::Close, "leave it as it is", "n" "leave it"),
     bind!(Replacing, [ctrl('c')], Action::Quit, "quit", "Ctrl-C" "quit"),

@@ -61,7 +61,6 @@ pub(super) fn prefixed(text: &str) -> Option<f64> {
 
 /// A number as people write it: up to seven digits, a prefix for units that
 /// take one, no trailing zeros.
-#[must_use]
 pub fn number(x: f64, unit: &str) -> String {
     let takes_prefix = matches!(unit, "m" | "s" | "N" | "N/m" | "m/s" | "N m/rad");
     let scale = if takes_prefix { SiScale::of(x) } else { SiScale::plain() };

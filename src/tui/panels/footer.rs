@@ -1,5 +1,5 @@
-//! The last line: what just happened, or the keys for where you are, from the
-//! table of bindings.
+//! The last line: what the last key did, or the keys that can be pressed now,
+//! from the table of bindings.
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
@@ -30,22 +30,18 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
         print(buffer, area, 0, &look.spell(status), look.style(Role::Good));
         return;
     }
-    let mut parts = Vec::new();
+    // A key and its word are shown together or not at all.
+    let mut rest = area;
     for (keys, word) in bindings::of(app.context()).filter_map(|binding| binding.footer) {
-        let gap = if parts.is_empty() { "" } else { "  " };
-        parts.push((format!("{gap}{}", look.spell(keys)), look.style(Role::Focus)));
-        parts.push((format!(" {word}"), look.style(Role::Quiet)));
-    }
-    // A key without its word says nothing: cut in pairs.
-    let mut room = usize::from(area.width);
-    let mut fitting = Vec::new();
-    for pair in parts.chunks(2) {
-        let wide: usize = pair.iter().map(|(text, _)| text.chars().count()).sum();
-        if wide > room {
-            break;
+        let gap = if rest == area { "" } else { "  " };
+        let keys = format!("{gap}{}", look.spell(keys));
+        let wide =
+            u16::try_from(keys.chars().count() + 1 + word.chars().count()).unwrap_or(u16::MAX);
+        if wide > rest.width {
+            return;
         }
-        room -= wide;
-        fitting.extend_from_slice(pair);
+        let word = (format!(" {word}"), look.style(Role::Quiet));
+        pieces(buffer, rest, 0, &[(keys, look.style(Role::Focus)), word]);
+        rest = Rect { x: rest.x + wide, width: rest.width - wide, ..rest };
     }
-    pieces(buffer, area, 0, &fitting);
 }

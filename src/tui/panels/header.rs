@@ -29,7 +29,7 @@ fn verdict(app: &App, buffer: &mut Buffer, area: Rect) {
         detail = format!("{detail} | pinned: {}", baseline.words.word);
     }
     let detail = look.spell(&detail);
-    // The word always stands; its detail, then the title, take what is left.
+    // The word is always shown; its detail, then the title, take the room left.
     let title = look.spell(&app.scene.title);
     let room = width.saturating_sub(word.chars().count() + 1);
     let detail = shorten(&detail, room, look.either("…", ".."));

@@ -7,7 +7,7 @@ use crate::tui::bindings::{self, Context};
 use crate::tui::text::{print, wrap};
 use crate::tui::theme::Role;
 
-/// What the screen shows, for someone who has not read the paper.
+/// The words of the screen, for a reader who does not know the paper.
 const WORDS: &[(&str, &str)] = &[
     (
         "the machine",

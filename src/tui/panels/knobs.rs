@@ -40,7 +40,7 @@ fn line(app: &App, buffer: &mut Buffer, area: Rect, place: usize, knob: &Knob) {
     };
     let width = usize::from(area.width);
     let room = width.saturating_sub(label.chars().count() + 1);
-    // The end of a typed value is where the eye is.
+    // The end of a typed value must be seen.
     let skip = shown.chars().count().saturating_sub(room);
     let shown: String = shown.chars().skip(skip).collect();
     let pad = width.saturating_sub(label.chars().count() + shown.chars().count());
@@ -66,9 +66,7 @@ fn notes(app: &App, width: usize) -> Vec<(String, Role)> {
     let unit = if knob.unit().is_empty() { String::new() } else { format!(" [{}]", knob.unit()) };
     let what = app.appearance.spell(&format!("{}{unit}", knob.what()));
     lines.extend(wrap(&what, width).into_iter().map(|l| (l, Role::Quiet)));
-    if let Some(allowed) = knob.allowed() {
-        lines.extend(wrap(&allowed.to_string(), width).into_iter().map(|l| (l, Role::Quiet)));
-    }
+    lines.extend(wrap(&knob.allowed().to_string(), width).into_iter().map(|l| (l, Role::Quiet)));
     lines
 }
 

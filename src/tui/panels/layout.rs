@@ -1,4 +1,4 @@
-//! Where everything goes at each size.
+//! The places of all panels at each screen size.
 
 use ratatui::layout::{Constraint, Layout, Rect};
 
@@ -23,13 +23,13 @@ pub struct Places {
     pub header: Rect,
     /// Everything between header and footer.
     pub body: Rect,
-    /// The column of knobs.
-    pub knobs: Option<Rect>,
-    /// The selected knob alone, where there is no column.
-    pub strip: Option<Rect>,
+    /// The knobs.
+    pub knobs: Rect,
+    /// Whether they are a column, not the selected one alone.
+    pub column: bool,
     /// The charts.
     pub charts: Vec<(ViewId, Rect)>,
-    /// The lesson under way.
+    /// The current lesson.
     pub lesson: Option<Rect>,
     /// Keys.
     pub footer: Rect,
@@ -41,25 +41,22 @@ pub fn places(area: Rect, app: &App) -> Places {
         Layout::vertical([Constraint::Length(2), Constraint::Min(1), Constraint::Length(1)])
             .areas(area);
     let (lesson, body) = lesson(body, app);
-    if app.full_screen {
-        let [strip, charts] =
-            Layout::vertical([Constraint::Length(1), Constraint::Min(1)]).areas(body);
-        let charts = vec![(app.view, charts)];
-        return Places { header, body, knobs: None, strip: Some(strip), charts, lesson, footer };
-    }
-    let (knobs, strip, charts) = if area.width >= KNOBS_FROM {
-        let columns = [Constraint::Length(KNOBS_WIDTH), Constraint::Min(1)];
-        let [knobs, charts] = Layout::horizontal(columns).areas(body);
-        (Some(knobs), None, charts)
+    let column = area.width >= KNOBS_FROM && !app.full_screen;
+    let [knobs, charts] = if column {
+        Layout::horizontal([Constraint::Length(KNOBS_WIDTH), Constraint::Min(1)]).areas(body)
     } else {
-        let [strip, charts] =
-            Layout::vertical([Constraint::Length(1), Constraint::Min(1)]).areas(body);
-        (None, Some(strip), charts)
+        below(body, 1)
     };
-    Places { header, body, knobs, strip, charts: split(charts, app), lesson, footer }
+    let charts = if app.full_screen { vec![(app.view, charts)] } else { split(charts, app) };
+    Places { header, body, knobs, column, charts, lesson, footer }
 }
 
-/// Rows of the lesson under way, above the knobs and charts.
+/// The first rows of an area, and the rest below.
+fn below(area: Rect, rows: u16) -> [Rect; 2] {
+    Layout::vertical([Constraint::Length(rows), Constraint::Min(1)]).areas(area)
+}
+
+/// Rows of the current lesson, above the knobs and charts.
 fn lesson(body: Rect, app: &App) -> (Option<Rect>, Rect) {
     if app.lesson.is_none() || body.height < 9 {
         return (None, body);
@@ -68,16 +65,15 @@ fn lesson(body: Rect, app: &App) -> (Option<Rect>, Rect) {
     let read = app.lesson.as_ref().is_some_and(|progress| progress.read);
     let rows = match wanted <= body.height / 2 {
         true => wanted,
-        // Too long to stand beside the charts: first the text, then its task.
+        // Too long to leave room for the charts: first the text, then its task.
         false if !read => body.height.saturating_sub(1),
         false => (body.height / 3).max(3),
     };
-    let [lesson, body] =
-        Layout::vertical([Constraint::Length(rows), Constraint::Min(1)]).areas(body);
+    let [lesson, body] = below(body, rows);
     (Some(lesson), body)
 }
 
-/// One large chart and as many beside it as are asked for and can be read.
+/// One large chart, and of the smaller ones asked for as many as can be read.
 fn split(area: Rect, app: &App) -> Vec<(ViewId, Rect)> {
     let views = std::iter::once(app.view).chain(app.companions.iter().copied());
     let halves = || [Constraint::Percentage(50), Constraint::Percentage(50)];

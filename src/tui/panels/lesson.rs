@@ -1,4 +1,4 @@
-//! The list of lessons, and the step under way.
+//! The list of lessons, and the current step.
 
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 
@@ -62,7 +62,7 @@ pub fn rows(app: &App, width: usize) -> u16 {
     u16::try_from(lines(app, width, false).len() + 1).unwrap_or(u16::MAX)
 }
 
-/// The step under way.
+/// Draws the current step.
 pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
     let look = &app.appearance;
     let page = app.lesson.as_ref().is_some_and(|progress| !progress.read);

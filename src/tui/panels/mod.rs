@@ -13,7 +13,7 @@ use ratatui::{Frame, buffer::Buffer, layout::Rect};
 use super::app::{App, InputMode};
 use super::text::print;
 use super::theme::Role;
-use super::views::Slot;
+use super::views::ViewArea;
 pub use layout::{LEAST_HEIGHT, LEAST_WIDTH, lesson_fills};
 
 /// Draws the whole screen.
@@ -42,15 +42,14 @@ pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
         if let Some(area) = places.lesson {
             lesson::draw(app, buffer, area);
         }
-        if let Some(area) = places.knobs {
-            knobs::panel(app, buffer, area);
-        }
-        if let Some(area) = places.strip {
-            knobs::strip(app, buffer, area);
+        if places.column {
+            knobs::panel(app, buffer, places.knobs);
+        } else {
+            knobs::strip(app, buffer, places.knobs);
         }
         for (view, area) in &places.charts {
-            let slot = Slot { area: *area, digit: view.digit(), large: *view == app.view };
-            view.panel().draw(app, buffer, slot);
+            let at = ViewArea { area: *area, digit: view.digit(), large: *view == app.view };
+            view.panel().draw(app, buffer, at);
         }
     }
     footer::draw(app, buffer, places.footer);

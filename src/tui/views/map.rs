@@ -1,14 +1,15 @@
-//! View 5: how the motion lasts over speed and pulse, a sign a run, with the
+//! View 5: the verdict over speed and pulse, one sign for each run, with the
 //! present knobs as a cross.
 
 use ratatui::buffer::Buffer;
 
-use super::panel::{Slot, ViewPanel, not_yet, title};
+use super::panel::{ViewArea, ViewPanel, not_yet, title};
 use crate::motion::Verdict;
 use crate::report::map::{mark, write_csv};
 use crate::study::Cell;
 use crate::tui::app::App;
-use crate::tui::plot::{ChartAxis, Plot};
+use crate::tui::axis::ChartAxis;
+use crate::tui::plot::Plot;
 use crate::tui::theme::Role;
 
 /// The view.
@@ -19,8 +20,8 @@ impl ViewPanel for VerdictMap {
         "map over speed and pulse"
     }
 
-    fn draw(&self, app: &App, buffer: &mut Buffer, slot: Slot) {
-        draw(app, buffer, slot);
+    fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
+        draw(app, buffer, at);
     }
 
     fn csv(&self, app: &App) -> Result<String, String> {
@@ -31,7 +32,7 @@ impl ViewPanel for VerdictMap {
     }
 }
 
-fn draw(app: &App, buffer: &mut Buffer, slot: Slot) {
+fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let look = &app.appearance;
     let quiet = look.style(Role::Quiet);
     let legend_of = |verdict| {
@@ -57,7 +58,7 @@ fn draw(app: &App, buffer: &mut Buffer, slot: Slot) {
             );
         }
     }
-    let inside = title(app, buffer, slot, "map", &legend);
+    let inside = title(app, buffer, at, "map", &legend);
     let Some(map) = map else { return not_yet(app, buffer, inside) };
     let (x_axis, y_axis) = (&map.plan.x, &map.plan.y);
     let x = ChartAxis::plain(x_axis.from, x_axis.to);

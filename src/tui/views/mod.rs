@@ -11,7 +11,7 @@ mod precision;
 mod response;
 pub mod spectrum;
 
-pub use panel::{Slot, ViewPanel};
+pub use panel::{ViewArea, ViewPanel};
 
 use crate::scene::keys::CHARTS;
 
@@ -52,25 +52,21 @@ impl ViewId {
     }
 
     /// What it draws and exports.
-    #[must_use]
     pub fn panel(self) -> &'static dyn ViewPanel {
         VIEWS[self as usize].1
     }
 
     /// Its word in scene files, lessons and file names.
-    #[must_use]
     pub fn word(self) -> &'static str {
         CHARTS[self as usize]
     }
 
     /// The view a word stands for.
-    #[must_use]
     pub fn from_word(word: &str) -> Option<Self> {
         Self::all().find(|view| view.word() == word)
     }
 
     /// The digit that opens it.
-    #[must_use]
     pub fn digit(self) -> u8 {
         self as u8 + 1
     }

@@ -10,7 +10,7 @@ use ratatui::{
 use crate::tui::app::App;
 use crate::tui::appearance::Appearance;
 use crate::tui::raster::Pen;
-use crate::tui::text::print;
+use crate::tui::text::{pieces, print};
 use crate::tui::theme::Role;
 
 /// A view: how it is drawn and exported.
@@ -19,7 +19,7 @@ pub trait ViewPanel: Sync {
     fn what(&self) -> &'static str;
 
     /// Draws it.
-    fn draw(&self, app: &App, buffer: &mut Buffer, slot: Slot);
+    fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea);
 
     /// Its data as CSV.
     ///
@@ -30,7 +30,7 @@ pub trait ViewPanel: Sync {
 
 /// Where a view is drawn, and how its title begins.
 #[derive(Clone, Copy, Debug)]
-pub struct Slot {
+pub struct ViewArea {
     /// The part of the screen.
     pub area: Rect,
     /// The key that opens the view.
@@ -39,7 +39,7 @@ pub struct Slot {
     pub large: bool,
 }
 
-impl Slot {
+impl ViewArea {
     /// Two slots, one above the other; the first takes `percent` of the height.
     pub fn rows(self, percent: u16) -> [Self; 2] {
         let parts = [Constraint::Percentage(percent), Constraint::Percentage(100 - percent)];
@@ -58,29 +58,24 @@ impl Slot {
 pub fn title(
     app: &App,
     buffer: &mut Buffer,
-    slot: Slot,
+    at: ViewArea,
     name: &str,
     legend: &[(String, Style)],
 ) -> Rect {
-    let (look, area) = (&app.appearance, slot.area);
+    let (look, area) = (&app.appearance, at.area);
     let rule = look.either("─", "-").repeat(usize::from(area.width));
     print(buffer, area, 0, &rule, look.style(Role::Quiet));
-    let style = if slot.large {
+    let style = if at.large {
         look.style(Role::Focus).add_modifier(Modifier::BOLD)
     } else {
         look.style(Role::Text)
     };
-    let head = (format!("{} {name}", slot.digit), style);
-    let mut column = 1;
-    for (text, style) in std::iter::once(&head).chain(legend) {
-        let text = format!(" {} ", look.spell(text));
-        let wide = u16::try_from(text.chars().count()).unwrap_or(u16::MAX);
-        if wide.saturating_add(column) > area.width {
-            break;
-        }
-        buffer.set_string(area.x + column, area.y, text, *style);
-        column += wide;
-    }
+    let head = (format!("{} {name}", at.digit), style);
+    let parts = std::iter::once(&head).chain(legend);
+    let parts: Vec<_> =
+        parts.map(|(text, style)| (format!(" {} ", look.spell(text)), *style)).collect();
+    let inside = Rect { x: area.x + 1, width: area.width.saturating_sub(1), ..area };
+    pieces(buffer, inside, 0, &parts);
     Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area }
 }
 
@@ -94,7 +89,7 @@ pub fn entry(look: &Appearance, pen: &Pen, name: &str) -> (String, Style) {
     (format!("{stroke} {name}"), pen.style)
 }
 
-/// A view whose study is not there yet says so.
+/// Says that the study of a view is not computed yet.
 pub fn not_yet(app: &App, buffer: &mut Buffer, inside: Rect) {
     let quiet = app.appearance.style(Role::Quiet);
     print(buffer, inside, 1, "computed while this view is open", quiet);

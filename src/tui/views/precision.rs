@@ -3,12 +3,13 @@
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
-use super::panel::{Slot, ViewPanel, not_yet, title};
+use super::panel::{ViewArea, ViewPanel, not_yet, title};
 use crate::report::precision::{decades, letter, place};
 use crate::scene::SolverKind;
 use crate::study::precision::{Measure, Way};
 use crate::tui::app::App;
-use crate::tui::plot::{ChartAxis, Plot};
+use crate::tui::axis::ChartAxis;
+use crate::tui::plot::Plot;
 use crate::tui::text::print;
 use crate::tui::theme::Role;
 
@@ -20,8 +21,8 @@ impl ViewPanel for PrecisionView {
         "speed against error"
     }
 
-    fn draw(&self, app: &App, buffer: &mut Buffer, slot: Slot) {
-        draw(app, buffer, slot);
+    fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
+        draw(app, buffer, at);
     }
 
     fn csv(&self, _: &App) -> Result<String, String> {
@@ -29,7 +30,7 @@ impl ViewPanel for PrecisionView {
     }
 }
 
-fn draw(app: &App, buffer: &mut Buffer, slot: Slot) {
+fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let look = &app.appearance;
     let quiet = look.style(Role::Quiet);
     let role = |way: &Way| match way.solver {
@@ -44,7 +45,7 @@ fn draw(app: &App, buffer: &mut Buffer, slot: Slot) {
         ),
         ("error |u-u_ref|/g0 by wall time [s]".to_string(), quiet),
     ];
-    let inside = title(app, buffer, slot, "precision", &legend);
+    let inside = title(app, buffer, at, "precision", &legend);
     if let Err(error) = Measure::check(&app.scene) {
         print(buffer, inside, 1, "no reference for this scene:", look.style(Role::Trouble));
         print(buffer, inside, 2, &error.to_string(), quiet);
@@ -67,7 +68,7 @@ fn draw(app: &App, buffer: &mut Buffer, slot: Slot) {
     }
     let inside = Rect { y: inside.y + 1, height: inside.height.saturating_sub(1), ..inside };
     let placed = || report.rows.iter().filter_map(|row| Some((place(row)?, row)));
-    // An error of zero has no place on the axis: such rows have a line below.
+    // A logarithmic axis has no zero: rows without error are listed below.
     let mut zeros: Vec<char> =
         placed().filter(|(at, _)| at.error.is_none()).map(|(_, row)| letter(&row.way)).collect();
     zeros.dedup();

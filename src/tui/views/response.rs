@@ -1,15 +1,15 @@
 //! View 1: the casing coordinates against time on a page that fills, and the
 //! blade coordinates below where there is room; with the other contact law or
-//! a pinned run beside or behind.
+//! a pinned run to compare with.
 
 use ratatui::buffer::Buffer;
 
-use super::panel::{Slot, ViewPanel, csv, entry, fields, title};
+use super::panel::{ViewArea, ViewPanel, csv, entry, fields, title};
 use crate::scene::ContactLaw;
 use crate::tui::app::App;
-use crate::tui::axis::{AutoRange, readable};
+use crate::tui::axis::{AutoRange, ChartAxis, readable};
 use crate::tui::history::{BinHistory, Channel};
-use crate::tui::plot::{ChartAxis, Plot};
+use crate::tui::plot::Plot;
 use crate::tui::text::wrap;
 use crate::tui::theme::Role;
 
@@ -24,12 +24,12 @@ impl ViewPanel for Response {
         "response"
     }
 
-    fn draw(&self, app: &App, buffer: &mut Buffer, slot: Slot) {
+    fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
         let casing = Page::casing("response, casing".into(), app);
         if app.compare {
-            both_laws(app, buffer, slot);
-        } else if slot.area.height >= TWO_FROM {
-            let [above, below] = slot.rows(60);
+            both_laws(app, buffer, at);
+        } else if at.area.height >= TWO_FROM {
+            let [above, below] = at.rows(60);
             page(app, buffer, above, &casing);
             let blades = Page {
                 name: "response, blades".into(),
@@ -41,7 +41,7 @@ impl ViewPanel for Response {
             };
             page(app, buffer, below, &blades);
         } else {
-            page(app, buffer, slot, &casing);
+            page(app, buffer, at, &casing);
         }
     }
 
@@ -99,8 +99,8 @@ impl<'a> Page<'a> {
 }
 
 /// The two contact laws side by side, or one above the other.
-fn both_laws(app: &App, buffer: &mut Buffer, slot: Slot) {
-    let [first, second] = if slot.area.width >= 70 { slot.columns() } else { slot.rows(50) };
+fn both_laws(app: &App, buffer: &mut Buffer, at: ViewArea) {
+    let [first, second] = if at.area.width >= 70 { at.columns() } else { at.rows(50) };
     let law = app.scene.solver.contact;
     let other = match law {
         ContactLaw::Unilateral => ContactLaw::Bilateral,
@@ -118,7 +118,7 @@ fn both_laws(app: &App, buffer: &mut Buffer, slot: Slot) {
     page(app, buffer, second, &theirs);
 }
 
-fn page(app: &App, buffer: &mut Buffer, slot: Slot, what: &Page) {
+fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
     let look = &app.appearance;
     let (from, to) = app.page();
     let (x, y) = (ChartAxis::scaled(from, to), ChartAxis::scaled(what.range.low, what.range.high));
@@ -136,7 +136,7 @@ fn page(app: &App, buffer: &mut Buffer, slot: Slot, what: &Page) {
         legend.push((baseline.words.detail.clone(), quiet));
     }
     legend.push((format!("{mark} contact"), look.style(Role::Contact)));
-    let inside = title(app, buffer, slot, &what.name, &legend);
+    let inside = title(app, buffer, at, &what.name, &legend);
     let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
     plot.level(0.0, look.either('┈', '.'), quiet);
     if let Some(t) = app.cursor_time() {
@@ -151,7 +151,7 @@ fn page(app: &App, buffer: &mut Buffer, slot: Slot, what: &Page) {
     }
     plot.ink();
     let cells = usize::from(plot.inner.width);
-    // On the time axis where there is one, so that no data is covered.
+    // On the time axis if there is one, so that no data is covered.
     let row = plot.axis_row().unwrap_or(plot.inner.bottom() - 1);
     let contacts = what.history.contacts(from, to, cells);
     for (column, _) in (plot.inner.x..).zip(contacts).filter(|(_, touched)| *touched) {
@@ -168,7 +168,7 @@ fn page(app: &App, buffer: &mut Buffer, slot: Slot, what: &Page) {
     }
 }
 
-/// What stands under the cursor.
+/// The values at the reading cursor.
 fn reading(app: &App, what: &Page) -> Option<String> {
     let t = app.cursor_time()?;
     let bin = what.history.at(t)?;

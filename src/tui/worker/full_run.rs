@@ -32,7 +32,6 @@ const SLICE: Duration = Duration::from_millis(5);
 
 impl FullRunJob {
     /// A run of `length` seconds from where the motion is.
-    #[must_use]
     pub fn new(motion: Motion, length: f64) -> Self {
         let start = motion.state().t_s;
         let steps = motion.steps().unwrap_or(0);
@@ -85,17 +84,16 @@ impl FullRunJob {
         }
         self.wall += began.elapsed();
         if failed || self.taken >= SAMPLES {
-            self.result = Some(self.judged());
+            self.result = Some(self.finished());
         }
     }
 
     /// `u_c` and `u_s` at equal intervals over the run so far \[m\].
-    #[must_use]
     pub fn signal(&self) -> &[[f64; 2]] {
         &self.signal
     }
 
-    fn judged(&self) -> FullRun {
+    fn finished(&self) -> FullRun {
         let motion = &self.motion;
         let log = motion.contacts();
         let verdict = verdict_of(motion, self.window);
@@ -111,7 +109,6 @@ impl FullRunJob {
     }
 
     /// How far it is, or its result.
-    #[must_use]
     pub fn state(&self) -> FullRunState {
         match &self.result {
             Some(run) => FullRunState::Done(run.clone()),
@@ -123,19 +120,16 @@ impl FullRunJob {
     }
 
     /// Whether it is over.
-    #[must_use]
     pub fn is_done(&self) -> bool {
         self.result.is_some()
     }
 
     /// Wall time so far \[s\].
-    #[must_use]
     pub fn wall_s(&self) -> f64 {
         self.wall.as_secs_f64()
     }
 
     /// Wall time of one step \[s\], for a solver that steps.
-    #[must_use]
     pub fn step_s(&self) -> Option<f64> {
         let steps = self.motion.steps()?.saturating_sub(self.steps);
         (steps > 0).then(|| self.wall_s() / steps as f64)

@@ -3,6 +3,7 @@
 
 use std::time::{Duration, Instant};
 
+use super::comparison::{Comparison, other_law};
 use super::full_run::FullRunJob;
 use super::recorder::Recorder;
 use super::studies::Studies;
@@ -14,18 +15,10 @@ use crate::tui::engine::{FullRun, FullRunState, Moment, Order, Pace, Results, Sn
 const SAMPLES: f64 = 4.0;
 /// Samples per turn of the wave, at least.
 const PER_TURN: f64 = 24.0;
-/// Longest wall time one call of `play` takes beside a screen.
+/// Longest wall time of one call of `play` in the explorer.
 const PLAY_LIMIT: Duration = Duration::from_millis(25);
 /// Samples a jump to the next change of contact looks through at most.
 const JUMP_SAMPLES: usize = 20_000;
-
-/// The same scene under the other contact law, played up to the same time.
-#[derive(Debug)]
-struct Comparison {
-    motion: Motion,
-    recorder: Recorder,
-    full_run: FullRunJob,
-}
 
 /// A motion being played, and its full runs.
 #[derive(Debug)]
@@ -40,37 +33,17 @@ pub struct Playback {
     comparison: Option<Comparison>,
     studies: Studies,
     sensitive: Option<bool>,
-    patience: Duration,
-}
-
-impl Comparison {
-    /// Plays to the time of the other motion.
-    fn catch_up(&mut self, until: f64, sample: f64, bin: f64) {
-        loop {
-            self.recorder.record(&mut self.motion, bin);
-            let before = self.motion.state().t_s;
-            let next = (before + sample).min(until);
-            // A failure stays in the motion; the full run tells of it.
-            if next <= before
-                || self.motion.advance(next).is_err()
-                || self.motion.state().t_s <= before
-            {
-                return;
-            }
-        }
-    }
+    time_limit: Duration,
 }
 
 impl Playback {
     /// Starts the scene of the order.
-    #[must_use]
     pub fn new(order: Order) -> Self {
-        Self::patient(order, PLAY_LIMIT)
+        Self::with_time_limit(order, PLAY_LIMIT)
     }
 
     /// As `new`; `play` may take this much wall time a call.
-    #[must_use]
-    pub fn patient(order: Order, patience: Duration) -> Self {
+    pub fn with_time_limit(order: Order, time_limit: Duration) -> Self {
         let scene = &order.scene;
         let motion = Motion::new(scene);
         let mut playback = Self {
@@ -82,7 +55,7 @@ impl Playback {
             comparison: None,
             studies: Studies::default(),
             sensitive: None,
-            patience,
+            time_limit,
             motion,
             order,
         };
@@ -96,8 +69,8 @@ impl Playback {
         let before = std::mem::replace(&mut self.order, order.clone());
         if order.restarts != before.restarts {
             let mut studies = std::mem::take(&mut self.studies);
-            studies.begin();
-            *self = Self { studies, ..Self::patient(order.clone(), self.patience) };
+            studies.forget_spectrum();
+            *self = Self { studies, ..Self::with_time_limit(order.clone(), self.time_limit) };
             return;
         }
         let other = other_law(&order.scene);
@@ -118,7 +91,7 @@ impl Playback {
             if let Some(comparison) = &mut self.comparison {
                 comparison.full_run = FullRunJob::new(comparison.motion.clone(), end);
             }
-            self.studies.begin();
+            self.studies.forget_spectrum();
             // The reference starts from rest; it says nothing about a changed run.
             self.reference = None;
         }
@@ -135,14 +108,7 @@ impl Playback {
 
     /// The same scene under the other contact law, if it is wanted.
     fn start_comparison(&self) -> Option<Comparison> {
-        if !self.order.compare {
-            return None;
-        }
-        let scene = other_law(&self.order.scene);
-        scene.check().ok()?;
-        let motion = Motion::new(&scene);
-        let full_run = FullRunJob::new(motion.clone(), scene.solver.end_s);
-        let mut comparison = Comparison { motion, recorder: Recorder::default(), full_run };
+        let mut comparison = self.order.compare.then(|| Comparison::of(&self.order.scene))??;
         comparison.catch_up(self.motion.state().t_s, self.sample_length(), self.order.bin_s);
         Some(comparison)
     }
@@ -159,7 +125,7 @@ impl Playback {
         self.recorder.record(&mut self.motion, self.order.bin_s);
     }
 
-    /// Plays `seconds` of motion, or as much as the solver can in good time.
+    /// Plays `seconds` of motion, or as much as the solver can in its time.
     pub fn play(&mut self, seconds: f64) {
         self.target += seconds;
         let began = Instant::now();
@@ -179,7 +145,7 @@ impl Playback {
                 self.one_step();
             }
             self.record();
-            if began.elapsed() > self.patience {
+            if began.elapsed() > self.time_limit {
                 self.limited = self.motion.state().t_s + sample <= self.target;
                 self.target = self.target.min(self.motion.state().t_s + sample);
                 break;
@@ -216,7 +182,7 @@ impl Playback {
         self.play_comparison();
     }
 
-    /// Goes on until the contact changes.
+    /// Plays until the contact changes.
     fn jump(&mut self) {
         let sample = self.sample_length();
         let (touching, impacts) =
@@ -237,7 +203,6 @@ impl Playback {
     }
 
     /// Whether anything is left to compute.
-    #[must_use]
     pub fn is_computing(&self) -> bool {
         let comparison = self.comparison.as_ref().map(|comparison| &comparison.full_run);
         let mut runs = std::iter::once(&self.full_run).chain(&self.reference).chain(comparison);
@@ -261,7 +226,7 @@ impl Playback {
         self.studies.compute(&self.order, self.full_run.signal(), length);
     }
 
-    /// What there is to see now, with the bins since the last call.
+    /// The present instant and results, and the bins since the last call.
     pub fn snapshot(&mut self) -> Snapshot {
         let (state, log) = (self.motion.state(), self.motion.contacts().clone());
         let moment = Moment {
@@ -300,17 +265,6 @@ impl Playback {
             trouble: None,
         }
     }
-}
-
-/// The scene under the other contact law, by the solver that knows both.
-fn other_law(scene: &Scene) -> Scene {
-    let mut scene = scene.clone();
-    scene.solver.kind = SolverKind::Explicit;
-    scene.solver.contact = match scene.solver.contact {
-        ContactLaw::Unilateral => ContactLaw::Bilateral,
-        ContactLaw::Bilateral => ContactLaw::Unilateral,
-    };
-    scene
 }
 
 /// The event solver under unilateral contact, where the scene's own solver is another.

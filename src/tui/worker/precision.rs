@@ -28,7 +28,6 @@ pub struct PrecisionJob {
 
 impl PrecisionJob {
     /// Starts on a checked scene.
-    #[must_use]
     pub fn of(scene: &Scene) -> Self {
         let (sender, rows) = channel();
         let theirs = scene.clone();
@@ -39,19 +38,16 @@ impl PrecisionJob {
     }
 
     /// Whether it belongs to this scene.
-    #[must_use]
     pub fn is_of(&self, scene: &Scene) -> bool {
         self.scene == *scene
     }
 
     /// Whether no row is to come.
-    #[must_use]
     pub fn is_done(&self) -> bool {
         self.rows.is_none()
     }
 
     /// The rows so far.
-    #[must_use]
     pub fn report(&self) -> Option<&Arc<Precision>> {
         self.report.as_ref()
     }
@@ -80,7 +76,7 @@ impl PrecisionJob {
     }
 }
 
-/// Measures until done, or until nobody listens any more.
+/// Measures until done, or until the receiver is gone.
 fn measure(scene: &Scene, found: &Sender<Found>) {
     let measure = Measure::new(scene);
     let reference = Found::Reference(Box::new(measure.reference().clone()));

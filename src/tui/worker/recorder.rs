@@ -5,7 +5,6 @@ use crate::motion::{Motion, Touching};
 use crate::tui::history::{Bin, CHANNELS, MOST_BINS, thin};
 
 /// `z = (u_c + i u_s) exp(-i n_d theta)` \[m\], with `turned = n_d theta`.
-#[must_use]
 pub fn in_blade_frame(u: [f64; 2], turned: f64) -> [f64; 2] {
     let (sin, cos) = turned.sin_cos();
     [u[0] * cos + u[1] * sin, u[1] * cos - u[0] * sin]

@@ -1,6 +1,6 @@
-//! An engine without thread and clock: every look moves the motion on by the
-//! same amount, and the solver's speed is a fixed figure. For tests and
-//! pictures that must come out the same on every machine.
+//! An engine without thread and clock: every snapshot advances the motion by
+//! the same time, and the speed of the solver is a fixed figure. For tests
+//! that must give the same screens on every machine.
 
 use std::time::Duration;
 
@@ -10,7 +10,7 @@ use crate::tui::engine::{Engine, Order, Pace, Snapshot};
 /// The engine driven by hand.
 #[derive(Debug)]
 pub struct Stepwise {
-    /// Motion between two looks \[s\].
+    /// Motion between two snapshots \[s\].
     pub stride: f64,
     order: Option<Order>,
     playback: Option<Playback>,
@@ -18,8 +18,7 @@ pub struct Stepwise {
 }
 
 impl Stepwise {
-    /// An engine that plays `stride` seconds of motion between two looks.
-    #[must_use]
+    /// An engine that plays `stride` seconds of motion between two snapshots.
     pub fn new(stride: f64) -> Self {
         Self { stride, order: None, playback: None, fresh: false }
     }
@@ -33,7 +32,7 @@ impl Engine for Stepwise {
 
     fn take(&mut self) -> Option<Snapshot> {
         let order = self.order.as_ref()?;
-        let start = || Playback::patient(order.clone(), Duration::MAX);
+        let start = || Playback::with_time_limit(order.clone(), Duration::MAX);
         let playback = self.playback.get_or_insert_with(start);
         playback.apply(order);
         while playback.is_computing() {

@@ -1,4 +1,4 @@
-//! What some views need beside the motion: the curves of the locked motion,
+//! What some views need besides the motion: the curves of the locked motion,
 //! the spectrum of the whole run, the map and the comparison of solvers. Each
 //! is computed only while its view is open, in slices, and kept as long as
 //! what it depends on stays the same.
@@ -38,12 +38,11 @@ impl std::fmt::Debug for Studies {
 
 impl Studies {
     /// The run has changed: its spectrum is another one.
-    pub fn begin(&mut self) {
+    pub fn forget_spectrum(&mut self) {
         self.spectrum = None;
     }
 
     /// Whether anything that is wanted is missing.
-    #[must_use]
     pub fn is_computing(&self, order: &Order) -> bool {
         self.locked_is_old(order)
             || (order.shows(ViewId::Spectrum) && self.spectrum.is_none())
@@ -127,7 +126,7 @@ fn plan(scene: &Scene) -> Option<MapPlan> {
     let speed = scene.operation.speed_rad_s.abs();
     let machine = scene.machine();
     let thresholds = [machine.lock_speed(), machine.dangerous_speed(), machine.critical_speed()];
-    // The range stays while the speed is turned, but for a speed far beyond.
+    // The range does not depend on the speed, unless that is far outside.
     scene.operation.speed_rad_s = 1.3 * thresholds.into_iter().flatten().fold(1.0, f64::max);
     let usual = speed_range(&scene);
     scene.operation.speed_rad_s = speed;

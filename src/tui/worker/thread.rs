@@ -1,6 +1,6 @@
 //! The worker thread: one slot with the latest order, one with the latest
 //! snapshot. Neither side waits for the other: a newer order replaces an older
-//! one, and a snapshot nobody took is joined with the next.
+//! one, and a snapshot that was not taken is joined with the next.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -14,9 +14,9 @@ use crate::tui::history::{Bin, MOST_BINS, thin};
 pub const WORKER_NAME: &str = "rubscope-worker";
 
 /// Time between two looks at the clock while the motion plays.
-const BEAT: Duration = Duration::from_millis(33);
-/// Most wall time one beat may make up for, after a suspension for instance.
-const LONGEST_BEAT: Duration = Duration::from_millis(100);
+const TICK: Duration = Duration::from_millis(33);
+/// Most wall time one tick may make up for, after a suspension for instance.
+const LONGEST_TICK: Duration = Duration::from_millis(100);
 
 #[derive(Default)]
 struct Slots {
@@ -38,7 +38,7 @@ impl Shared {
     }
 }
 
-/// A handle on the thread; dropping it ends the thread at its next beat.
+/// A handle on the thread; dropping it ends the thread at its next tick.
 pub struct Worker {
     shared: Arc<Shared>,
 }
@@ -83,7 +83,7 @@ fn run(shared: &Shared, wake: &Waker) {
     loop {
         let busy = playback.as_ref().is_some_and(Playback::is_computing);
         let Some(order) = next_order(shared, busy, playing.is_some()) else { return };
-        let beat = guarded(|| {
+        let tick = catch_panic(|| {
             let fresh = order.is_some();
             if let Some(order) = order {
                 playing = order
@@ -98,9 +98,9 @@ fn run(shared: &Shared, wake: &Waker) {
             let mut moved = fresh;
             if let Some((last, rate)) = playing.as_mut() {
                 let elapsed = last.elapsed();
-                if elapsed >= BEAT {
+                if elapsed >= TICK {
                     *last = Instant::now();
-                    playback.play(elapsed.min(LONGEST_BEAT).as_secs_f64() * *rate);
+                    playback.play(elapsed.min(LONGEST_TICK).as_secs_f64() * *rate);
                     moved = true;
                 }
             }
@@ -110,7 +110,7 @@ fn run(shared: &Shared, wake: &Waker) {
             }
             moved.then(|| playback.snapshot())
         });
-        match beat {
+        match tick {
             Ok(None) => {}
             Ok(Some(snapshot)) => publish(shared, snapshot, wake),
             Err(trouble) => {
@@ -123,12 +123,12 @@ fn run(shared: &Shared, wake: &Waker) {
 }
 
 /// The next order, if there is one; waits when there is nothing to do. The
-/// outer option is none when the thread shall end.
+/// outer option is none when the thread has to end.
 fn next_order(shared: &Shared, busy: bool, playing: bool) -> Option<Option<Order>> {
     let mut slots = shared.lock();
     if slots.order.is_none() && !slots.quit && !busy {
         slots = if playing {
-            shared.wake.wait_timeout(slots, BEAT).unwrap_or_else(PoisonError::into_inner).0
+            shared.wake.wait_timeout(slots, TICK).unwrap_or_else(PoisonError::into_inner).0
         } else {
             shared.wake.wait(slots).unwrap_or_else(PoisonError::into_inner)
         };
@@ -164,14 +164,14 @@ fn publish(shared: &Shared, mut snapshot: Snapshot, wake: &Waker) {
 }
 
 /// Runs `work`; a panic comes back as a line of text.
-fn guarded<T>(work: impl FnOnce() -> T) -> Result<T, String> {
+fn catch_panic<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(work)).map_err(|payload| {
         let what = payload
             .downcast_ref::<&str>()
             .map(ToString::to_string)
             .or_else(|| payload.downcast_ref::<String>().cloned())
             .unwrap_or_else(|| "unknown reason".to_string());
-        format!("the solver broke off ({what}); r begins anew")
+        format!("the solver stopped ({what}); r restarts")
     })
 }
 
@@ -211,7 +211,7 @@ mod tests {
 
     #[test]
     fn a_panic_becomes_a_line() {
-        let line = guarded(|| -> () { panic!("no {}", "blades") }).unwrap_err();
+        let line = catch_panic(|| -> () { panic!("no {}", "blades") }).unwrap_err();
         assert!(line.contains("no blades"), "{line}");
     }
 

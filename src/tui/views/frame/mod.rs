@@ -1,21 +1,22 @@
 //! View 4: the casing wave as a point in the frame that turns with the blades,
-//! inside the polygon of phase groups, with its trail; and the rim as a wheel.
+//! inside the polygon of phase groups, with its trail; and the wheel.
 
 mod wheel;
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
-use super::panel::{Slot, ViewPanel, title};
+use super::panel::{ViewArea, ViewPanel, title};
 use super::response::Response;
 use crate::motion::Touching;
 use crate::tui::app::App;
+use crate::tui::axis::ChartAxis;
 use crate::tui::history::Channel;
-use crate::tui::plot::{ChartAxis, Plot};
+use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
 use crate::tui::theme::Role;
 use crate::tui::worker::in_blade_frame;
 
-/// Beyond the corners, so that the outline has air around it.
+/// Half the width of the chart, in amplitudes of a corner.
 const MARGIN: f64 = 1.15;
 
 /// The view.
@@ -26,13 +27,13 @@ impl ViewPanel for BladeFrame {
         "blade frame and wheel"
     }
 
-    fn draw(&self, app: &App, buffer: &mut Buffer, slot: Slot) {
-        if slot.area.width >= 60 && slot.area.height >= 10 {
-            let [left, right] = slot.columns();
+    fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
+        if at.area.width >= 60 && at.area.height >= 10 {
+            let [left, right] = at.columns();
             polygon(app, buffer, left);
             wheel::draw(app, buffer, right);
         } else {
-            polygon(app, buffer, slot);
+            polygon(app, buffer, at);
         }
     }
 
@@ -57,19 +58,19 @@ pub fn square(area: Rect, reach: f64) -> (ChartAxis, ChartAxis) {
     (ChartAxis::scaled(-x, x), ChartAxis::scaled(-y, y))
 }
 
-fn polygon(app: &App, buffer: &mut Buffer, slot: Slot) {
+fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let look = &app.appearance;
     let quiet = look.style(Role::Quiet);
     let rim = &app.machine.rim;
     let corner = app.machine.locked_amplitude().unwrap_or(rim.clearance);
-    let (x, y) = square(slot.area, MARGIN * corner);
+    let (x, y) = square(at.area, MARGIN * corner);
     let point = look.either('●', 'O');
     let legend = [
         (format!("z, {}m", x.scale.prefix), quiet),
         (format!("{point} now"), look.style(Role::Focus)),
         (app.contact_now(), look.style(Role::Contact)),
     ];
-    let inside = title(app, buffer, slot, "blade frame", &legend);
+    let inside = title(app, buffer, at, "blade frame", &legend);
     let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
     let outline = Pen { dashed: false, ..look.quiet() };
     let touched = Pen { style: look.style(Role::Contact), sign: '#', dashed: false };

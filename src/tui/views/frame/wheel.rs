@@ -1,11 +1,11 @@
-//! The rim as a wheel, turning with the blades: blades as spokes, the casing
+//! The bladed disk as a wheel, in the frame of the blades: blades as spokes, the casing
 //! around them with its wave exaggerated by a stated factor.
 
 use std::f64::consts::TAU;
 
 use ratatui::buffer::Buffer;
 
-use super::super::panel::{Slot, title};
+use super::super::panel::{ViewArea, title};
 use super::square;
 use crate::motion::Touching;
 use crate::tui::app::App;
@@ -16,13 +16,13 @@ use crate::tui::worker::in_blade_frame;
 
 /// The clearance at rest, in radii of the wheel.
 const CLEARANCE: f64 = 0.12;
-/// Where blades begin, in radii.
+/// Inner end of the blades, in radii.
 const HUB: f64 = 0.55;
 /// Points of the casing outline.
 const OUTLINE: u32 = 240;
 
 /// Draws the wheel.
-pub fn draw(app: &App, buffer: &mut Buffer, slot: Slot) {
+pub fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let look = &app.appearance;
     let machine = &app.machine;
     let rim = &machine.rim;
@@ -32,8 +32,8 @@ pub fn draw(app: &App, buffer: &mut Buffer, slot: Slot) {
         (format!("gaps x {exaggeration:.0}"), look.style(Role::Quiet)),
         ("turning with the blades".to_string(), look.style(Role::Quiet)),
     ];
-    let inside = title(app, buffer, slot, "wheel", &legend);
-    let (x, y) = square(slot.area, 1.0 + 2.2 * CLEARANCE);
+    let inside = title(app, buffer, at, "wheel", &legend);
+    let (x, y) = square(at.area, 1.0 + 2.2 * CLEARANCE);
     let Some(mut plot) = Plot::bare(buffer, inside, x, y, look) else { return };
     let Some(moment) = &app.throttled else { return };
     let z = in_blade_frame(moment.state.u, machine.nodal_diameters * moment.angle);
@@ -51,7 +51,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, slot: Slot) {
     };
     let quiet = Pen { dashed: false, ..look.quiet() };
     let touched = Pen { style: look.style(Role::Contact), sign: '#', dashed: false };
-    // Spokes closer than a cell would only fill the wheel.
+    // Spokes closer than a cell cannot be told apart.
     let all = rim.blades <= u32::from(inside.width) * 2;
     let touches = |blade: u32| {
         moment.touching != Touching::Nothing && moment.touching.includes(rim.side_of_blade(blade))

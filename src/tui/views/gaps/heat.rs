@@ -1,15 +1,16 @@
-//! View 2 against time: a row for each blade, a column for each stretch of the
-//! page, the smallest gap as a shade and contact as a full block. It reads
-//! without any colour.
+//! View 2 against time: a row for each blade, a column for each part of the
+//! page, the smallest gap as a shade and contact as a full block. It can be
+//! read without colour.
 
 use ratatui::buffer::Buffer;
 
-use super::super::panel::{self, Slot, fields, title};
+use super::super::panel::{self, ViewArea, fields, title};
 use crate::model::Rim;
 use crate::motion::Touching;
 use crate::tui::app::App;
+use crate::tui::axis::ChartAxis;
 use crate::tui::history::{Bin, Channel};
-use crate::tui::plot::{ChartAxis, Plot};
+use crate::tui::plot::Plot;
 use crate::tui::theme::Role;
 
 /// Signs of contact and of the shades, the nearest first.
@@ -20,7 +21,7 @@ const ASCII: [char; 4] = ['#', '%', '+', '.'];
 /// casing is farther away than at rest.
 const SHADES: [f64; 3] = [0.1, 0.5, 1.0];
 
-/// What a blade has been through in one column.
+/// One blade in one column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Spot {
     /// Smallest gap, in clearances.
@@ -28,8 +29,8 @@ struct Spot {
     touched: bool,
 }
 
-/// The smallest gap of a side over a bin, blades unbent \[m\]. What is known
-/// of the wave is the box it stayed in, so this is a lower bound.
+/// The smallest gap of a side over a bin, rigid blades \[m\]. A bin keeps
+/// only the box of the wave, so this is a lower bound.
 fn least_gap(rim: &Rim, side: u32, bin: &Bin) -> f64 {
     let (c, s) = rim.direction(side);
     let [(x0, x1), (y0, y1)] = [Channel::X, Channel::Y].map(|channel| bin.span(channel));
@@ -37,7 +38,7 @@ fn least_gap(rim: &Rim, side: u32, bin: &Bin) -> f64 {
 }
 
 /// Whether a side was touched in a bin. Of more than two sides in one bin only
-/// their number is known: then those that came as near as a corner's sides.
+/// their number is known: then all that came as near as the sides of a corner.
 fn touches(rim: &Rim, side: u32, bin: &Bin) -> bool {
     match bin.touched {
         Touching::Many => least_gap(rim, side, bin) < rim.delta * rim.delta * rim.clearance,
@@ -52,7 +53,7 @@ fn spots(app: &App, columns: usize) -> Vec<Vec<Option<Spot>>> {
     let width = (to - from) / columns.max(1) as f64;
     let mut out = vec![vec![None; columns]; rim.sides as usize];
     let place = |t: f64| (((t - from) / width).max(0.0) as usize).min(columns.saturating_sub(1));
-    // Some columns at a time: every column by itself would flood a slow line.
+    // Some columns at a time: a frame for each column is too much for a slow line.
     let Some(until) = app.throttled.as_ref().map(|moment| moment.state.t_s) else { return out };
     for bin in app.history.between(from, to).iter().filter(|bin| bin.from <= until) {
         for (side, row) in (0..rim.sides).zip(&mut out) {
@@ -103,7 +104,7 @@ pub fn csv(app: &App) -> Result<String, String> {
 }
 
 /// Draws the gaps against time.
-pub fn draw(app: &App, buffer: &mut Buffer, slot: Slot) {
+pub fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let look = &app.appearance;
     let (first, contact) = (look.style(Role::First), look.style(Role::Contact));
     let signs = look.either(SIGNS, ASCII);
@@ -117,7 +118,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, slot: Slot) {
     }
     let quiet = look.style(Role::Quiet);
     legend.push((format!("of clearance; over {}s", x.scale.prefix), quiet));
-    let inside = title(app, buffer, slot, "gaps in time", &legend);
+    let inside = title(app, buffer, at, "gaps in time", &legend);
     let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
     let inner = plot.inner;
     let spots = spots(app, usize::from(inner.width));

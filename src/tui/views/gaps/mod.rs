@@ -5,10 +5,11 @@ mod heat;
 
 use ratatui::buffer::Buffer;
 
-use super::panel::{Slot, ViewPanel, csv, fields, title};
+use super::panel::{ViewArea, ViewPanel, csv, fields, title};
 use crate::motion::Touching;
 use crate::tui::app::App;
-use crate::tui::plot::{ChartAxis, Plot};
+use crate::tui::axis::ChartAxis;
+use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
 use crate::tui::theme::Role;
 
@@ -20,8 +21,8 @@ impl ViewPanel for Gaps {
         "gaps"
     }
 
-    fn draw(&self, app: &App, buffer: &mut Buffer, slot: Slot) {
-        if app.heat { heat::draw(app, buffer, slot) } else { draw(app, buffer, slot) }
+    fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
+        if app.heat { heat::draw(app, buffer, at) } else { draw(app, buffer, at) }
     }
 
     fn csv(&self, app: &App) -> Result<String, String> {
@@ -35,7 +36,7 @@ impl ViewPanel for Gaps {
 }
 
 /// The gaps of one instant.
-fn draw(app: &App, buffer: &mut Buffer, slot: Slot) {
+fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let look = &app.appearance;
     let quiet = look.style(Role::Quiet);
     let contact = look.style(Role::Contact);
@@ -52,13 +53,13 @@ fn draw(app: &App, buffer: &mut Buffer, slot: Slot) {
             if touching.is_empty() { quiet } else { contact },
         ),
     ];
-    let inside = title(app, buffer, slot, "gaps", &legend);
+    let inside = title(app, buffer, at, "gaps", &legend);
     let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
     plot.level(0.0, look.either('━', '='), look.style(Role::Text));
     plot.level(app.machine.clearance(), look.either('┈', '.'), quiet);
     let Some(moment) = &app.throttled else { return };
     let gaps = || (1..=count).map(f64::from).zip(moment.gaps.iter().copied());
-    // Between blades nothing is measured: the line only leads the eye.
+    // There are no values between blades: the line only joins the points.
     if app.is_still() || count > u32::from(plot.inner.width) {
         plot.curve(gaps(), &Pen { dashed: false, ..look.quiet() });
         plot.ink();

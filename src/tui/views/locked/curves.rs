@@ -21,7 +21,6 @@ pub struct LockedCurves {
 
 impl LockedCurves {
     /// The curves of a scene's machine.
-    #[must_use]
     pub fn of(scene: &Scene) -> Self {
         let machine = scene.machine();
         let fastest = speed_range(scene);
@@ -33,7 +32,7 @@ impl LockedCurves {
     }
 }
 
-/// From zero to a round speed beyond everything of interest \[rad/s\].
+/// A round speed above every threshold and the present speed \[rad/s\].
 pub fn speed_range(scene: &Scene) -> f64 {
     let machine = scene.machine();
     let of_interest =

@@ -1,16 +1,16 @@
 //! View 3: the multipliers of the locked motion against speed, the speeds
-//! where things change, the present speed, and what the running motion shows.
+//! of the thresholds, the present speed, and the forces of the running motion.
 
 pub mod curves;
 
 use ratatui::buffer::Buffer;
 
-use super::panel::{Slot, ViewPanel, csv, entry, fields, title};
+use super::panel::{ViewArea, ViewPanel, csv, entry, fields, title};
 use crate::harmonic::{LockedPoint, Sweep};
 use crate::motion::Touching;
 use crate::tui::app::App;
-use crate::tui::axis::nice_step;
-use crate::tui::plot::{ChartAxis, Plot};
+use crate::tui::axis::{ChartAxis, nice_step};
+use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
 use crate::tui::text::print;
 use crate::tui::theme::Role;
@@ -26,8 +26,8 @@ impl ViewPanel for Locked {
         "locked motion"
     }
 
-    fn draw(&self, app: &App, buffer: &mut Buffer, slot: Slot) {
-        draw(app, buffer, slot);
+    fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
+        draw(app, buffer, at);
     }
 
     fn csv(&self, app: &App) -> Result<String, String> {
@@ -42,11 +42,11 @@ impl ViewPanel for Locked {
     }
 }
 
-fn draw(app: &App, buffer: &mut Buffer, slot: Slot) {
+fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let look = &app.appearance;
     let quiet = look.style(Role::Quiet);
     let curves = app.latest.results.locked.as_deref();
-    let roomy = slot.area.height >= ROOMY;
+    let roomy = at.area.height >= ROOMY;
     let pair = curves.is_some_and(|curves| curves.undamped.is_some());
     let point = look.either('◆', '@');
     let mut legend = vec![entry(look, &look.first(), if pair { "λ_a" } else { "λ" })];
@@ -62,7 +62,7 @@ fn draw(app: &App, buffer: &mut Buffer, slot: Slot) {
     if pair && roomy {
         legend.push(entry(look, &look.quiet(), "undamped"));
     }
-    let inside = title(app, buffer, slot, "locked λ(Ω)", &legend);
+    let inside = title(app, buffer, at, "locked λ(Ω)", &legend);
     let Some(curves) = curves else { return };
     let Some(damped) = &curves.damped else {
         let text = "no corner between two blade groups: this wave never locks";
@@ -70,7 +70,7 @@ fn draw(app: &App, buffer: &mut Buffer, slot: Slot) {
         return;
     };
     let lambdas = damped.points.iter().flat_map(|point| point.multipliers);
-    // The curves set the scale: the mean over an impact may be far beyond it.
+    // The curves set the scale: the mean over an impact may be far outside.
     let (low, high) = lambdas
         .filter(|lambda| lambda.is_finite())
         .fold((0.0_f64, 0.0_f64), |(a, b), v| (a.min(v), b.max(v)));
@@ -111,8 +111,7 @@ fn curve(plot: &mut Plot, sweep: &Sweep, place: usize, pen: &Pen) {
     plot.curve(sweep.points.iter().filter_map(lambda), pen);
 }
 
-/// Names of the thresholds in the upper rows, one below the other where they
-/// are close.
+/// Names of the thresholds in the upper rows, one below the other if close.
 fn names(plot: &mut Plot, marks: &[(f64, &str)], app: &App) {
     let mut free = [0_u16; 3];
     for (speed, name) in marks {
@@ -130,7 +129,7 @@ fn names(plot: &mut Plot, marks: &[(f64, &str)], app: &App) {
     }
 }
 
-/// The speeds where things change, slowest first.
+/// The threshold speeds, slowest first.
 fn thresholds(app: &App) -> Vec<(f64, &'static str)> {
     let machine = &app.machine;
     let mut marks: Vec<(f64, &'static str)> = [
@@ -158,7 +157,7 @@ fn running(app: &App) -> Vec<f64> {
     moment.multipliers.iter().map(|(_, force)| *force).filter(|force| force.is_finite()).collect()
 }
 
-/// A force in as few characters as say it.
+/// A force in few characters.
 fn short(force: f64) -> String {
     if force.abs() < 1e4 { format!("{force:.0}") } else { format!("{:.0}k", force / 1e3) }
 }

@@ -1,14 +1,14 @@
 //! View 6: the spectrum of the casing motion over the whole run, and the
-//! Campbell lines that say where frequencies meet.
+//! Campbell lines that show where frequencies coincide.
 
 pub mod transform;
 
 use ratatui::buffer::Buffer;
 
-use super::panel::{Slot, ViewPanel, csv, entry, fields, not_yet, title};
+use super::panel::{ViewArea, ViewPanel, csv, entry, fields, not_yet, title};
 use crate::tui::app::App;
-use crate::tui::axis::nice_step;
-use crate::tui::plot::{ChartAxis, Plot};
+use crate::tui::axis::{ChartAxis, nice_step};
+use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
 use crate::tui::theme::Role;
 
@@ -25,13 +25,13 @@ impl ViewPanel for SpectrumView {
         "spectrum and Campbell lines"
     }
 
-    fn draw(&self, app: &App, buffer: &mut Buffer, slot: Slot) {
-        if slot.area.height >= TWO_FROM {
-            let [top, bottom] = slot.rows(50);
+    fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
+        if at.area.height >= TWO_FROM {
+            let [top, bottom] = at.rows(50);
             amplitudes(app, buffer, top);
             campbell(app, buffer, bottom);
         } else {
-            amplitudes(app, buffer, slot);
+            amplitudes(app, buffer, at);
         }
     }
 
@@ -52,7 +52,7 @@ fn highest(app: &App) -> f64 {
     (1.3 * most / step).ceil() * step
 }
 
-/// Frequencies of the standing frame, with their names \[rad/s\].
+/// Frequencies in the fixed frame, with their names \[rad/s\].
 fn lines(app: &App, speed: f64) -> [(f64, &'static str); 4] {
     let machine = &app.machine;
     let wave = machine.nu(speed);
@@ -64,7 +64,7 @@ fn lines(app: &App, speed: f64) -> [(f64, &'static str); 4] {
     ]
 }
 
-fn amplitudes(app: &App, buffer: &mut Buffer, slot: Slot) {
+fn amplitudes(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let look = &app.appearance;
     let quiet = look.style(Role::Quiet);
     let legend = [
@@ -72,7 +72,7 @@ fn amplitudes(app: &App, buffer: &mut Buffer, slot: Slot) {
         entry(look, &look.second(), "u_s"),
         ("m by rad/s, whole run, Hann window".to_string(), quiet),
     ];
-    let inside = title(app, buffer, slot, "spectrum", &legend);
+    let inside = title(app, buffer, at, "spectrum", &legend);
     let Some(spectrum) = &app.latest.results.spectrum else {
         return not_yet(app, buffer, inside);
     };
@@ -95,7 +95,7 @@ fn amplitudes(app: &App, buffer: &mut Buffer, slot: Slot) {
     }
 }
 
-fn campbell(app: &App, buffer: &mut Buffer, slot: Slot) {
+fn campbell(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let look = &app.appearance;
     let quiet = look.style(Role::Quiet);
     let meet = look.either('◆', '@');
@@ -105,7 +105,7 @@ fn campbell(app: &App, buffer: &mut Buffer, slot: Slot) {
         (format!("{meet} meets ω_c"), look.style(Role::Contact)),
         ("rad/s by rad/s".to_string(), quiet),
     ];
-    let inside = title(app, buffer, slot, "Campbell", &legend);
+    let inside = title(app, buffer, at, "Campbell", &legend);
     let fastest = app.latest.results.locked.as_ref().map_or(600.0, |curves| curves.fastest);
     let top = app.machine.nu(fastest).max(1.5 * app.machine.omega_c);
     let Some(mut plot) =

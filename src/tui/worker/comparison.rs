@@ -1,0 +1,55 @@
+//! The same scene under the other contact law, to compare with.
+
+use super::full_run::FullRunJob;
+use super::recorder::Recorder;
+use crate::motion::Motion;
+use crate::scene::{ContactLaw, Scene, SolverKind};
+
+/// The same scene under the other contact law, played up to the same time.
+#[derive(Debug)]
+pub struct Comparison {
+    /// The motion.
+    pub motion: Motion,
+    /// Its bins and forces.
+    pub recorder: Recorder,
+    /// Its full run.
+    pub full_run: FullRunJob,
+}
+
+impl Comparison {
+    /// Starts it; none where the scene cannot have the other law.
+    pub fn of(scene: &Scene) -> Option<Self> {
+        let scene = other_law(scene);
+        scene.check().ok()?;
+        let motion = Motion::new(&scene);
+        let full_run = FullRunJob::new(motion.clone(), scene.solver.end_s);
+        Some(Self { motion, recorder: Recorder::default(), full_run })
+    }
+
+    /// Plays to the time of the other motion.
+    pub fn catch_up(&mut self, until: f64, sample: f64, bin: f64) {
+        loop {
+            self.recorder.record(&mut self.motion, bin);
+            let before = self.motion.state().t_s;
+            let next = (before + sample).min(until);
+            // A failure stays in the motion; the full run tells of it.
+            if next <= before
+                || self.motion.advance(next).is_err()
+                || self.motion.state().t_s <= before
+            {
+                return;
+            }
+        }
+    }
+}
+
+/// The scene under the other contact law, by the solver that knows both.
+pub fn other_law(scene: &Scene) -> Scene {
+    let mut scene = scene.clone();
+    scene.solver.kind = SolverKind::Explicit;
+    scene.solver.contact = match scene.solver.contact {
+        ContactLaw::Unilateral => ContactLaw::Bilateral,
+        ContactLaw::Bilateral => ContactLaw::Unilateral,
+    };
+    scene
+}
