@@ -159,7 +159,8 @@ impl App {
             Action::Fire => {
                 self.counters.pulses += 1;
                 self.latest.results.full_run = None;
-                let pulse = KNOBS.get(1).map(|knob| knob.shown(&knob.get(&self.scene)));
+                let pulse = KNOBS.iter().find(|knob| knob.path == "operation.pulse_n");
+                let pulse = pulse.map(|knob| knob.shown(&knob.get(&self.scene)));
                 self.status = pulse.map(|pulse| format!("pulse of {pulse} fired"));
             }
             Action::Slower => self.rate = self.rate.saturating_sub(1),

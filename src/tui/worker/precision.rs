@@ -20,6 +20,7 @@ enum Found {
 
 /// The comparison of the solvers on one scene. Dropping it ends the thread
 /// after the row it is at.
+#[derive(Debug)]
 pub struct PrecisionJob {
     scene: Scene,
     rows: Option<Receiver<Found>>,

@@ -20,20 +20,15 @@ const CELLS: (u32, u32) = (60, 24);
 const PULSES: (f64, f64) = (1e3, 1e7);
 /// Wall time of one slice.
 const SLICE: Duration = Duration::from_millis(5);
+
 /// The studies of one scene.
-#[derive(Default)]
+#[derive(Debug, Default)]
 pub struct Studies {
     locked: Option<(Scene, Arc<LockedCurves>)>,
     spectrum: Option<Arc<Spectrum>>,
     map: Option<Arc<Map>>,
     map_next: usize,
     precision: Option<PrecisionJob>,
-}
-
-impl std::fmt::Debug for Studies {
-    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        out.debug_struct("Studies").finish_non_exhaustive()
-    }
 }
 
 impl Studies {

@@ -27,7 +27,67 @@ impl ViewPanel for Locked {
     }
 
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
-        draw(app, buffer, at);
+        let look = &app.appearance;
+        let quiet = look.style(Role::Quiet);
+        let curves = app.latest.results.locked.as_deref();
+        let roomy = at.area.height >= ROOMY;
+        let pair = curves.is_some_and(|curves| curves.undamped.is_some());
+        let point = look.either('◆', '@');
+        let mut legend = vec![entry(look, &look.first(), if pair { "λ_a" } else { "λ" })];
+        if pair {
+            legend.push(entry(look, &look.second(), "λ_b"));
+        }
+        let points = running(app);
+        let forces: Vec<String> = points.iter().take(2).map(|force| short(*force)).collect();
+        let now = if points.is_empty() { "running".to_string() } else { forces.join(" ") };
+        legend.push((format!("{point} {now}"), look.style(Role::Contact)));
+        legend.push(("N over rad/s".into(), quiet));
+        legend.push(("below 0 pushes".into(), quiet));
+        if pair && roomy {
+            legend.push(entry(look, &look.quiet(), "undamped"));
+        }
+        let inside = title(app, buffer, at, "locked λ(Ω)", &legend);
+        let Some(curves) = curves else { return };
+        let Some(damped) = &curves.damped else {
+            let text = "no corner between two blade groups: this wave never locks";
+            print(buffer, inside, 1, text, quiet);
+            return;
+        };
+        let lambdas = damped.points.iter().flat_map(|point| point.multipliers);
+        // The curves set the scale: the mean over an impact may be far outside.
+        let (low, high) = lambdas
+            .filter(|lambda| lambda.is_finite())
+            .fold((0.0_f64, 0.0_f64), |(a, b), v| (a.min(v), b.max(v)));
+        let step = nice_step(high - low, 6).unwrap_or(1.0);
+        let y = ChartAxis::scaled((low / step).floor() * step, (high / step).ceil() * step);
+        let x = ChartAxis::plain(0.0, curves.fastest);
+        let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
+        let marks = thresholds(app);
+        plot.level(0.0, look.either('┈', '.'), quiet);
+        for (speed, _) in &marks {
+            plot.upright(*speed, look.either('┊', ':'), quiet);
+        }
+        let speed = app.speed().abs();
+        plot.upright(speed, look.either('│', '|'), look.style(Role::Focus));
+        if let Some(undamped) = &curves.undamped {
+            if roomy {
+                curve(&mut plot, undamped, 0, &look.quiet());
+            }
+            curve(&mut plot, damped, 1, &look.second());
+        }
+        curve(&mut plot, damped, 0, &look.first());
+        plot.ink();
+        for force in points {
+            let (sign, shown) = if force < y.low {
+                (look.either('▼', 'v'), y.low)
+            } else if force > y.high {
+                (look.either('▲', '^'), y.high)
+            } else {
+                (point, force)
+            };
+            plot.point(speed, shown, sign, look.style(Role::Contact));
+        }
+        names(&mut plot, &marks, app);
     }
 
     fn csv(&self, app: &App) -> Result<String, String> {
@@ -40,70 +100,6 @@ impl ViewPanel for Locked {
         });
         csv("speed_rad_s,multiplier_a_n,multiplier_b_n,admissible,stable", rows)
     }
-}
-
-fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
-    let look = &app.appearance;
-    let quiet = look.style(Role::Quiet);
-    let curves = app.latest.results.locked.as_deref();
-    let roomy = at.area.height >= ROOMY;
-    let pair = curves.is_some_and(|curves| curves.undamped.is_some());
-    let point = look.either('◆', '@');
-    let mut legend = vec![entry(look, &look.first(), if pair { "λ_a" } else { "λ" })];
-    if pair {
-        legend.push(entry(look, &look.second(), "λ_b"));
-    }
-    let points = running(app);
-    let forces: Vec<String> = points.iter().take(2).map(|force| short(*force)).collect();
-    let now = if points.is_empty() { "running".to_string() } else { forces.join(" ") };
-    legend.push((format!("{point} {now}"), look.style(Role::Contact)));
-    legend.push(("N over rad/s".into(), quiet));
-    legend.push(("below 0 pushes".into(), quiet));
-    if pair && roomy {
-        legend.push(entry(look, &look.quiet(), "undamped"));
-    }
-    let inside = title(app, buffer, at, "locked λ(Ω)", &legend);
-    let Some(curves) = curves else { return };
-    let Some(damped) = &curves.damped else {
-        let text = "no corner between two blade groups: this wave never locks";
-        print(buffer, inside, 1, text, quiet);
-        return;
-    };
-    let lambdas = damped.points.iter().flat_map(|point| point.multipliers);
-    // The curves set the scale: the mean over an impact may be far outside.
-    let (low, high) = lambdas
-        .filter(|lambda| lambda.is_finite())
-        .fold((0.0_f64, 0.0_f64), |(a, b), v| (a.min(v), b.max(v)));
-    let step = nice_step(high - low, 6).unwrap_or(1.0);
-    let y = ChartAxis::scaled((low / step).floor() * step, (high / step).ceil() * step);
-    let x = ChartAxis::plain(0.0, curves.fastest);
-    let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
-    let marks = thresholds(app);
-    plot.level(0.0, look.either('┈', '.'), quiet);
-    for (speed, _) in &marks {
-        plot.upright(*speed, look.either('┊', ':'), quiet);
-    }
-    let speed = app.speed().abs();
-    plot.upright(speed, look.either('│', '|'), look.style(Role::Focus));
-    if let Some(undamped) = &curves.undamped {
-        if roomy {
-            curve(&mut plot, undamped, 0, &look.quiet());
-        }
-        curve(&mut plot, damped, 1, &look.second());
-    }
-    curve(&mut plot, damped, 0, &look.first());
-    plot.ink();
-    for force in points {
-        let (sign, shown) = if force < y.low {
-            (look.either('▼', 'v'), y.low)
-        } else if force > y.high {
-            (look.either('▲', '^'), y.high)
-        } else {
-            (point, force)
-        };
-        plot.point(speed, shown, sign, look.style(Role::Contact));
-    }
-    names(&mut plot, &marks, app);
 }
 
 fn curve(plot: &mut Plot, sweep: &Sweep, place: usize, pen: &Pen) {
