@@ -48,6 +48,17 @@ pub enum ContactLaw {
     Bilateral,
 }
 
+impl ContactLaw {
+    /// The other law.
+    #[must_use]
+    pub fn other(self) -> Self {
+        match self {
+            Self::Unilateral => Self::Bilateral,
+            Self::Bilateral => Self::Unilateral,
+        }
+    }
+}
+
 /// How much of the machine moves.
 #[derive(
     Clone, Copy, Debug, PartialEq, Eq, Serialize, Display, EnumString, AsRefStr, VariantNames,

@@ -1,9 +1,8 @@
 //! Axes: round ticks (1-2-5), labels under one SI prefix per axis, and ranges
-//! that follow the data with hysteresis, so that a chart does not breathe.
+//! that follow the data with hysteresis, so that the scale does not jump.
 
 /// A step of 1, 2 or 5 times a power of ten that puts at most `most` ticks in
 /// `span`; none for a span that is not a positive number.
-#[must_use]
 pub fn nice_step(span: f64, most: usize) -> Option<f64> {
     if !(span.is_finite() && span > 0.0) || most == 0 {
         return None;
@@ -20,7 +19,6 @@ pub fn nice_step(span: f64, most: usize) -> Option<f64> {
 
 /// Round values inside `[low, high]`, at most about `most` of them, with their
 /// spacing; empty where the range is empty, reversed or not finite.
-#[must_use]
 pub fn ticks(low: f64, high: f64, most: usize) -> (Vec<f64>, f64) {
     let Some(step) = nice_step(high - low, most.max(1)) else { return (Vec::new(), 1.0) };
     let slack = 1e-9 * step;
@@ -40,7 +38,7 @@ pub fn ticks(low: f64, high: f64, most: usize) -> (Vec<f64>, f64) {
 
 /// One SI prefix for a whole axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Scale {
+pub struct SiScale {
     /// What one shown unit is worth.
     pub factor: f64,
     /// The prefix in front of the unit.
@@ -60,9 +58,8 @@ const PREFIXES: &[(f64, &str)] = &[
     (1e9, "G"),
 ];
 
-impl Scale {
+impl SiScale {
     /// The prefix under which the largest magnitude reads as 1 to 999.
-    #[must_use]
     pub fn of(magnitude: f64) -> Self {
         let magnitude = magnitude.abs() * (1.0 + 1e-9);
         let (factor, prefix) = PREFIXES
@@ -75,13 +72,11 @@ impl Scale {
     }
 
     /// No prefix, for angles, speeds and counts.
-    #[must_use]
     pub const fn plain() -> Self {
         Self { factor: 1.0, prefix: "" }
     }
 
-    /// A tick's label with just the decimals its spacing needs.
-    #[must_use]
+    /// The label of a tick, with the decimals that its spacing needs.
     pub fn label(&self, value: f64, step: f64) -> String {
         let shown = step / self.factor;
         let decimals = if shown > 0.0 && shown.is_finite() {
@@ -93,21 +88,61 @@ impl Scale {
     }
 }
 
-impl Scale {
-    /// The label of a tick, as a power of ten where the axis is of exponents.
-    #[must_use]
-    pub fn tick(&self, value: f64, step: f64, power: bool) -> String {
-        if power { format!("1e{value:.0}") } else { self.label(value, step) }
+/// The axis of a chart: its range and the prefix of its labels.
+#[derive(Clone, Copy, Debug)]
+pub struct ChartAxis {
+    /// Lower end.
+    pub low: f64,
+    /// Upper end.
+    pub high: f64,
+    /// Prefix of the labels.
+    pub scale: SiScale,
+    /// Whether the range is that of the exponents of powers of ten.
+    powers: bool,
+}
+
+impl ChartAxis {
+    /// An axis whose labels carry the prefix of its greatest magnitude.
+    pub fn scaled(low: f64, high: f64) -> Self {
+        Self { scale: SiScale::of(low.abs().max(high.abs())), ..Self::plain(low, high) }
+    }
+
+    /// An axis without a prefix.
+    pub fn plain(low: f64, high: f64) -> Self {
+        Self { low, high, scale: SiScale::plain(), powers: false }
+    }
+
+    /// An axis of powers of ten, from one exponent to another.
+    pub fn powers(low: f64, high: f64) -> Self {
+        Self { powers: true, ..Self::plain(low, high) }
+    }
+
+    /// Round values and their spacing: of powers, the whole exponents only.
+    pub(super) fn ticks(&self, most: usize) -> (Vec<f64>, f64) {
+        let (values, step) = ticks(self.low, self.high, most);
+        if !self.powers {
+            return (values, step);
+        }
+        (values.into_iter().filter(|v| (v - v.round()).abs() < 1e-9).collect(), 1.0)
+    }
+
+    /// The label of a tick.
+    pub(super) fn label(&self, value: f64, step: f64) -> String {
+        if self.powers { format!("1e{value:.0}") } else { self.scale.label(value, step) }
+    }
+
+    /// Whether it is a proper range.
+    pub(super) fn is_sound(&self) -> bool {
+        self.low.is_finite() && self.high.is_finite() && self.high > self.low
     }
 }
 
 /// A number with four significant digits and its SI prefix, such as `228.2 µ`.
-#[must_use]
 pub fn readable(value: f64, unit: &str) -> String {
     if !value.is_finite() {
         return format!("- {unit}").trim_end().to_string();
     }
-    let scale = Scale::of(value);
+    let scale = SiScale::of(value);
     let shown = value / scale.factor;
     let decimals = match shown.abs() {
         x if x >= 1000.0 => 0,
@@ -133,7 +168,6 @@ const SHRINK_BELOW: f64 = 0.35;
 
 impl AutoRange {
     /// A range to begin with.
-    #[must_use]
     pub const fn new(low: f64, high: f64) -> Self {
         Self { low, high }
     }
@@ -180,10 +214,10 @@ mod tests {
 
     #[test]
     fn labels_show_the_decimals_of_their_step() {
-        let micro = Scale::of(1.0e-4);
+        let micro = SiScale::of(1.0e-4);
         assert_eq!((micro.prefix, micro.label(5e-5, 5e-5).as_str()), ("µ", "50"));
-        assert_eq!(Scale::plain().label(0.25, 0.05), "0.25");
-        assert_eq!(Scale::of(0.02).label(5e-3, 5e-3), "5");
+        assert_eq!(SiScale::plain().label(0.25, 0.05), "0.25");
+        assert_eq!(SiScale::of(0.02).label(5e-3, 5e-3), "5");
         assert_eq!(readable(2.282e-4, "s"), "228.2 µs");
         assert_eq!(readable(0.0, "s"), "0.000 s");
         assert_eq!(readable(f64::NAN, "s"), "- s");

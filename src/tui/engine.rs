@@ -1,24 +1,25 @@
-//! What the screen and the solver tell each other. The screen states what it
-//! wants as one value, the latest one counts; the engine answers with
-//! snapshots that carry the generation of the knobs they belong to.
+//! Messages between the screen and the solver. The screen sends orders, of
+//! which the latest counts; the engine answers with snapshots. Both carry the
+//! generation of the knobs.
 
 use std::sync::Arc;
 
 use super::history::Bin;
-use super::locked_curve::LockedCurves;
-use super::spectrum::Spectrum;
+use super::views::ViewId;
+use super::views::locked::curves::LockedCurves;
+use super::views::spectrum::transform::Spectrum;
 use crate::motion::{Checks, State, Touching, Verdict};
 use crate::scene::CheckedScene;
 use crate::study::Map;
 use crate::study::precision::Precision;
 
-/// Everything the screen wants. Counters only ever grow, so that an order
-/// that replaces another loses none of its presses.
+/// What the engine has to do. Counters only grow, so that no key press is lost
+/// when an order replaces an older one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Order {
-    /// The scene as the knobs have it.
+    /// The scene with the present values of the knobs.
     pub scene: CheckedScene,
-    /// How often the run was begun anew.
+    /// How often the run was started again.
     pub restarts: u64,
     /// How often a knob acted on the running motion.
     pub changes: u64,
@@ -34,26 +35,19 @@ pub struct Order {
     pub rate: f64,
     /// Length of one recorded bin \[s\].
     pub bin_s: f64,
-    /// Whether to run the other contact law beside this one.
-    pub beside: bool,
-    /// What the open views need.
-    pub wants: Wants,
-}
-
-/// Studies that are computed only while their view is open.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Wants {
-    /// The spectrum of the run.
-    pub spectrum: bool,
-    /// The map over speed and pulse.
-    pub map: bool,
-    /// Speed against error.
-    pub precision: bool,
+    /// Whether to run the other contact law as well, to compare.
+    pub compare: bool,
+    /// The views on the screen: their studies are computed.
+    pub open: Vec<ViewId>,
 }
 
 impl Order {
+    /// Whether a view is on the screen.
+    pub fn shows(&self, view: ViewId) -> bool {
+        self.open.contains(&view)
+    }
+
     /// Number of the knobs' state: grows with every restart and live change.
-    #[must_use]
     pub fn generation(&self) -> u64 {
         self.restarts + self.changes
     }
@@ -66,33 +60,31 @@ pub struct Pace {
     pub step_s: Option<f64>,
     /// Wall-clock time of the whole run to `solver.end_s` \[s\].
     pub run_s: Option<f64>,
-    /// Whether the motion plays slower than asked, the solver being at its limit.
+    /// Whether the motion plays slower than asked, because the solver is too slow.
     pub limited: bool,
 }
 
-/// The run to the scene's end, computed ahead of what is played.
+/// How far the full run is.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Ahead {
-    /// Under way: the part of the run that is done, 0 to 1.
+pub enum FullRunState {
+    /// The part of the run that is done, 0 to 1.
     Computing(f64),
     /// Done.
-    Done(Forecast),
+    Done(FullRun),
 }
 
-/// What the run comes to at `solver.end_s`.
+/// The result of the run to `solver.end_s`, computed ahead of the playback.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Forecast {
+pub struct FullRun {
     /// How the motion lasts.
     pub verdict: Verdict,
-    /// Since when the final contact holds without a change \[s\].
+    /// Start of the final contact \[s\].
     pub since: Option<f64>,
     /// Sides in contact and their multipliers; negative is a push \[N\].
     pub multipliers: Vec<(u32, f64)>,
-    /// Amplitude at the end \[m\].
-    pub amplitude: f64,
     /// Impacts in all.
     pub impacts: u64,
-    /// What was kept watch on.
+    /// Penetration, pulls and other checks.
     pub checks: Checks,
     /// Why the run failed.
     pub failure: Option<String>,
@@ -109,55 +101,56 @@ pub struct Moment {
     pub speed: f64,
     /// Sides in contact.
     pub touching: Touching,
-    /// Since when \[s\].
+    /// Start of this contact \[s\].
     pub since: f64,
-    /// Impacts so far.
-    pub impacts: u64,
     /// Gap of every blade; positive is open \[m\].
     pub gaps: Vec<f64>,
     /// Sides and their mean multipliers; negative is a push \[N\].
     pub multipliers: Vec<(u32, f64)>,
-    /// What was kept watch on.
-    pub checks: Checks,
-    /// Whether no contact can ever come again.
-    pub over: bool,
     /// Why the motion stopped.
     pub failure: Option<String>,
 }
 
-/// What the engine says.
+/// Results for one generation of the knobs.
+#[derive(Clone, Debug, Default)]
+pub struct Results {
+    /// The run to the scene's end.
+    pub full_run: Option<FullRunState>,
+    /// Whether a tiny change of the pulse changes the outcome under the event
+    /// solver; false until it is known.
+    pub sensitive: bool,
+    /// The event solver under unilateral contact, on the same scene.
+    pub reference: Option<FullRun>,
+    /// The same scene under the other contact law.
+    pub comparison: Option<FullRun>,
+    /// The locked motion against speed, once it is computed.
+    pub locked: Option<Arc<LockedCurves>>,
+    /// The spectrum of the run, while its view is open.
+    pub spectrum: Option<Arc<Spectrum>>,
+    /// The map, while its view is open; cells come one by one.
+    pub map: Option<Arc<Map>>,
+    /// Speed against error, while its view is open; rows come one by one.
+    pub precision: Option<Arc<Precision>>,
+    /// Solver speed.
+    pub pace: Pace,
+}
+
+/// What the engine answers.
 #[derive(Clone, Debug, Default)]
 pub struct Snapshot {
     /// Generation of the knobs this belongs to.
     pub generation: u64,
     /// Which run the bins belong to.
     pub restarts: u64,
-    /// The motion played.
-    pub moment: Moment,
+    /// The latest instant of the motion that is played.
+    pub moment: Option<Moment>,
     /// What was recorded since the last snapshot.
     pub bins: Vec<Bin>,
-    /// The run ahead.
-    pub ahead: Option<Ahead>,
-    /// Whether a tiny change of the pulse changes the outcome under the event
-    /// solver; false until it is known.
-    pub sensitive: bool,
-    /// The event solver under unilateral contact, on the same scene.
-    pub reference: Option<Forecast>,
-    /// The same scene under the other contact law.
-    pub beside: Option<Forecast>,
-    /// What was recorded of it since the last snapshot.
-    pub beside_bins: Vec<Bin>,
-    /// The locked motion against speed, once it is computed.
-    pub locked: Option<Arc<LockedCurves>>,
-    /// The spectrum of the run, while wanted.
-    pub spectrum: Option<Arc<Spectrum>>,
-    /// The map, while wanted; cells come one by one.
-    pub map: Option<Arc<Map>>,
-    /// Speed against error, while wanted; rows come one by one.
-    pub precision: Option<Arc<Precision>>,
-    /// Solver speed.
-    pub pace: Pace,
-    /// Something broke in the engine itself.
+    /// The same of the motion under the other contact law.
+    pub comparison_bins: Vec<Bin>,
+    /// Figures of the scene of this generation.
+    pub results: Results,
+    /// The engine itself failed: why.
     pub trouble: Option<String>,
 }
 
@@ -169,16 +162,5 @@ pub trait Engine {
     fn take(&mut self) -> Option<Snapshot>;
 }
 
-/// An engine that never answers, for screens without motion.
-#[derive(Debug, Default)]
-pub struct Silent;
-
-impl Engine for Silent {
-    fn order(&mut self, _: &Order) {}
-    fn take(&mut self) -> Option<Snapshot> {
-        None
-    }
-}
-
-/// Called by the engine when something new can be taken.
-pub type Nudge = Arc<dyn Fn() + Send + Sync>;
+/// Called by the engine when a new snapshot can be taken.
+pub type Waker = Arc<dyn Fn() + Send + Sync>;

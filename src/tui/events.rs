@@ -17,9 +17,9 @@ pub enum Event {
     Fresh,
     /// A signal that ends the program.
     Signal(u8),
-    /// The job shall be suspended.
+    /// The job is to be suspended.
     Suspend,
-    /// The job goes on.
+    /// The job was continued.
     Continued,
     /// No more keys will come: the terminal is gone.
     InputClosed,
@@ -69,7 +69,7 @@ pub fn watch_signals(to: Sender<Event>) -> std::io::Result<()> {
             let heard = to.send(event).is_ok();
             if deadly {
                 if heard {
-                    thread::sleep(PATIENCE);
+                    thread::sleep(GRACE);
                 }
                 super::terminal::leave();
                 std::process::exit(128 + signal);
@@ -88,7 +88,7 @@ pub fn watch_signals(_: Sender<Event>) -> std::io::Result<()> {
     Ok(())
 }
 
-/// How long the drawing thread may take to leave after a deadly signal: it may
-/// be held up by a terminal that takes no output.
+/// How long the drawing thread may take to leave after a deadly signal: a
+/// terminal that takes no output can block it.
 #[cfg(unix)]
-const PATIENCE: std::time::Duration = std::time::Duration::from_secs(2);
+const GRACE: std::time::Duration = std::time::Duration::from_secs(2);

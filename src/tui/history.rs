@@ -1,5 +1,5 @@
-//! What a run has shown so far, as bins that keep the least and the greatest
-//! value of each channel: a contact peak one step long survives any zoom.
+//! The record of a run as bins with the least and the greatest value of each
+//! channel: a contact peak of one step is seen at any zoom.
 
 use crate::motion::Touching;
 
@@ -20,8 +20,6 @@ pub enum Channel {
     Amplitude,
     /// Sum of all pushes, positive as a push \[N\].
     Push,
-    /// Rotor speed \[rad/s\].
-    Speed,
     /// The casing wave in the frame of the blades, `Re z` \[m\].
     X,
     /// `Im z` \[m\].
@@ -29,7 +27,7 @@ pub enum Channel {
 }
 
 /// How many channels there are.
-pub const CHANNELS: usize = 10;
+pub const CHANNELS: usize = 9;
 
 /// Least and greatest values over a stretch of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,23 +44,24 @@ pub struct Bin {
     pub contact: bool,
     /// The sides that touched.
     pub touched: Touching,
-    /// Whether any multiplier pulled.
-    pub tensile: bool,
 }
 
 impl Bin {
     /// A bin of one sample.
-    #[must_use]
     pub fn of(t: f64, values: [f64; CHANNELS]) -> Self {
         let touched = Touching::Nothing;
-        Self { from: t, to: t, low: values, high: values, contact: false, touched, tensile: false }
+        Self { from: t, to: t, low: values, high: values, contact: false, touched }
     }
 
-    /// The box the casing wave stayed in, in the frame of the blades \[m\].
-    #[must_use]
-    pub fn wave(&self) -> [(f64, f64); 2] {
-        [Channel::X, Channel::Y]
-            .map(|channel| (self.low[channel as usize], self.high[channel as usize]))
+    /// Least and greatest value of a channel.
+    pub fn span(&self, channel: Channel) -> (f64, f64) {
+        (self.low[channel as usize], self.high[channel as usize])
+    }
+
+    /// The middle of the span of a channel.
+    pub fn middle(&self, channel: Channel) -> f64 {
+        let (low, high) = self.span(channel);
+        0.5 * (low + high)
     }
 
     /// Joins a later bin to this one.
@@ -76,23 +75,22 @@ impl Bin {
         }
         self.contact |= later.contact;
         self.touched = self.touched.and(later.touched);
-        self.tensile |= later.tensile;
     }
 }
 
-/// Most bins kept; beyond, neighbours are joined and the resolution halves.
+/// Most bins kept; above, neighbours are joined and the resolution halves.
 pub const MOST_BINS: usize = 1 << 15;
 
 /// The bins of one run, in order of time.
 #[derive(Clone, Debug, Default)]
-pub struct History {
+pub struct BinHistory {
     bins: Vec<Bin>,
 }
 
 /// Least and greatest value of one column of a chart.
 pub type Span = Option<(f64, f64)>;
 
-impl History {
+impl BinHistory {
     /// Adds bins at the end.
     pub fn extend(&mut self, new: &[Bin]) {
         self.bins.extend(new.iter().filter(|bin| bin.from.is_finite()));
@@ -106,14 +104,7 @@ impl History {
         self.bins.clear();
     }
 
-    /// All bins.
-    #[must_use]
-    pub fn bins(&self) -> &[Bin] {
-        &self.bins
-    }
-
     /// The bins that overlap `[from, to]`.
-    #[must_use]
     pub fn between(&self, from: f64, to: f64) -> &[Bin] {
         let start = self.bins.partition_point(|bin| bin.to < from);
         let end = self.bins.partition_point(|bin| bin.from <= to);
@@ -122,7 +113,6 @@ impl History {
 
     /// One channel over `[from, to]` as `columns` columns; `None` where
     /// nothing was recorded. Values that are not finite are left out.
-    #[must_use]
     pub fn columns(&self, channel: Channel, from: f64, to: f64, columns: usize) -> Vec<Span> {
         let mut out: Vec<Span> = vec![None; columns];
         let width = (to - from) / columns.max(1) as f64;
@@ -131,7 +121,7 @@ impl History {
         }
         let last = columns.saturating_sub(1);
         for bin in self.between(from, to) {
-            let (low, high) = (bin.low[channel as usize], bin.high[channel as usize]);
+            let (low, high) = bin.span(channel);
             if !(low.is_finite() && high.is_finite()) {
                 continue;
             }
@@ -147,7 +137,6 @@ impl History {
     }
 
     /// Which of `columns` columns of `[from, to]` saw a contact.
-    #[must_use]
     pub fn contacts(&self, from: f64, to: f64, columns: usize) -> Vec<bool> {
         let mut out = vec![false; columns];
         let width = (to - from) / columns.max(1) as f64;
@@ -160,7 +149,6 @@ impl History {
     }
 
     /// The bin at an instant, for reading values under a cursor.
-    #[must_use]
     pub fn at(&self, t: f64) -> Option<&Bin> {
         self.bins.get(self.bins.partition_point(|bin| bin.to < t)).filter(|bin| bin.from <= t)
     }
@@ -191,8 +179,8 @@ mod tests {
         bin
     }
 
-    fn ramp(count: u32) -> History {
-        let mut history = History::default();
+    fn ramp(count: u32) -> BinHistory {
+        let mut history = BinHistory::default();
         for k in 0..count {
             history.extend(&[bin(f64::from(k), f64::from(k) + 0.999, f64::from(k))]);
         }
@@ -227,8 +215,8 @@ mod tests {
     #[test]
     fn a_long_run_keeps_its_extremes_in_bounded_memory() {
         let history = ramp(100_000);
-        assert!(history.bins().len() <= MOST_BINS);
-        assert_eq!(history.bins()[0].from, 0.0);
+        assert!(history.bins.len() <= MOST_BINS);
+        assert_eq!(history.bins[0].from, 0.0);
         let top = history.columns(Channel::US, 0.0, 1e5, 1)[0];
         assert_eq!(top, Some((0.0, 99_999.0)));
     }

@@ -15,18 +15,18 @@ pub struct Lesson {
     pub scene: String,
     /// Its steps.
     #[serde(rename = "step")]
-    pub steps: Vec<Step>,
+    pub steps: Vec<LessonStep>,
 }
 
 /// One step of a lesson.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
-pub struct Step {
-    /// What to see, and why.
+pub struct LessonStep {
+    /// What can be seen, and why.
     pub text: String,
     /// The equation behind it.
     pub equation: Option<String>,
-    /// What the viewer shall do.
+    /// The task of the reader.
     pub task: Option<String>,
     /// Keys of the scene that are set when the step begins.
     #[serde(default)]
@@ -43,11 +43,11 @@ pub struct Step {
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(rename_all = "lowercase", deny_unknown_fields)]
 pub enum Condition {
-    /// The run comes to this verdict.
+    /// The run has this verdict.
     Verdict(String),
     /// This view is the large one.
     View(String),
-    /// The other contact law stands beside this one, or not.
+    /// The other contact law is compared, or not.
     Compare(bool),
     /// A key is above a number.
     Above(String, f64),
@@ -68,7 +68,6 @@ const FILES: &[&str] = &[
 ];
 
 /// Every lesson, in the order of the list.
-#[must_use]
 pub fn all() -> &'static [Lesson] {
     static LESSONS: OnceLock<Vec<Lesson>> = OnceLock::new();
     // The files are part of the program, and a test reads each of them.

@@ -1,30 +1,29 @@
-//! The explorer: a live screen on one motion. State and update (`app`) know no
-//! terminal; panels are functions of the state; the solver runs in a thread of
-//! its own (`worker`) behind two slots; one table of bindings feeds the keys,
-//! the footer, the help and the manual page.
+//! The explorer: a live screen of one motion. The state (`app`) knows no
+//! terminal; `panels` and `views` draw it; the solver runs in its own thread
+//! (`worker`). Tables: `views`, `knobs`, `lessons`, `bindings`.
 
-pub mod app;
-pub mod axis;
+mod app;
+mod appearance;
+mod axis;
 pub mod bindings;
 pub mod engine;
 pub mod events;
-pub mod export;
+mod export;
 pub mod history;
-pub mod knobs;
+mod knobs;
 pub mod lessons;
-pub mod locked_curve;
-pub mod panels;
-pub mod plot;
-pub mod raster;
+mod panels;
+mod plot;
+mod raster;
 mod run;
-pub mod skin;
-pub mod spectrum;
 pub mod terminal;
-pub mod theme;
+mod text;
+mod theme;
+mod views;
 pub mod worker;
 
 use std::io::IsTerminal;
-use std::sync::{Arc, Mutex, PoisonError, mpsc};
+use std::sync::{Arc, mpsc};
 use std::time::Duration;
 
 pub use app::{App, Exit};
@@ -85,12 +84,12 @@ impl ExploreOptions {
     }
 }
 
-/// Opens the explorer on a checked scene and stays until it is left. The
-/// result is the exit status: 0, or 128 + n after signal n.
+/// Runs the explorer on a checked scene until the user leaves. The result is
+/// the exit status: 0, or 128 + n after signal n.
 ///
 /// # Errors
 /// Standard output is no terminal that can show a screen, or threads or
-/// signals are not to be had.
+/// signals cannot be set up.
 pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u8> {
     let dumb = std::env::var("TERM").is_ok_and(|term| term == "dumb");
     if dumb || !std::io::stdout().is_terminal() {
@@ -102,12 +101,10 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
     terminal::install_panic_hook();
     let (sender, events) = mpsc::channel();
     events::watch_signals(sender.clone())?;
-    let nudges = Mutex::new(sender.clone());
-    let nudge: engine::Nudge = Arc::new(move || {
-        // If nobody listens any more, the program is about to end.
-        let _ = nudges.lock().unwrap_or_else(PoisonError::into_inner).send(events::Event::Fresh);
-    });
-    let mut worker = worker::Worker::spawn(nudge)?;
+    let fresh = sender.clone();
+    // Without a receiver the program is about to end.
+    let wake: engine::Waker = Arc::new(move || _ = fresh.send(events::Event::Fresh));
+    let mut worker = worker::Worker::spawn(wake)?;
     let mut app = App::new(scene, options.theme(), options.marker);
     app.source.clone_from(&options.source);
     let guard = terminal::Guard;

@@ -7,40 +7,11 @@ use ratatui::{
     style::Style,
 };
 
-use super::axis::{Scale, ticks};
+use super::appearance::Appearance;
+use super::axis::ChartAxis;
 use super::history::Span;
 use super::raster::{DASH, DASH_ON, Pen, Raster};
-use super::skin::Skin;
 use super::theme::Role;
-
-/// One axis: range, prefix, and the largest number of ticks.
-#[derive(Clone, Copy, Debug)]
-pub struct Axis {
-    /// Lower end.
-    pub low: f64,
-    /// Upper end.
-    pub high: f64,
-    /// Prefix of the labels.
-    pub scale: Scale,
-}
-
-impl Axis {
-    /// An axis whose labels carry the prefix of its greatest magnitude.
-    #[must_use]
-    pub fn scaled(low: f64, high: f64) -> Self {
-        Self { low, high, scale: Scale::of(low.abs().max(high.abs())) }
-    }
-
-    /// An axis without a prefix.
-    #[must_use]
-    pub fn plain(low: f64, high: f64) -> Self {
-        Self { low, high, scale: Scale::plain() }
-    }
-
-    fn is_sound(&self) -> bool {
-        self.low.is_finite() && self.high.is_finite() && self.high > self.low
-    }
-}
 
 /// A framed chart under construction.
 pub struct Plot<'a> {
@@ -48,59 +19,33 @@ pub struct Plot<'a> {
     raster: Raster,
     /// Where data goes.
     pub inner: Rect,
-    x: Axis,
-    y: Axis,
+    x: ChartAxis,
+    y: ChartAxis,
     rule: bool,
 }
 
 impl<'a> Plot<'a> {
-    /// Draws the frame in `area`; none where the area is too small or an axis
-    /// is not a proper range.
-    #[must_use]
-    pub fn new(buffer: &'a mut Buffer, area: Rect, x: Axis, y: Axis, skin: &Skin) -> Option<Self> {
-        Self::framed(buffer, area, x, y, skin, [false, false])
-    }
-
-    /// As `new`, with a y axis of powers of ten: its range is that of the
-    /// exponents.
-    #[must_use]
-    pub fn powers(
-        buffer: &'a mut Buffer,
-        area: Rect,
-        x: Axis,
-        y: Axis,
-        skin: &Skin,
-    ) -> Option<Self> {
-        Self::framed(buffer, area, x, y, skin, [false, true])
-    }
-
-    /// As `powers`, on both axes.
-    #[must_use]
-    pub fn powers_both(
-        buffer: &'a mut Buffer,
-        area: Rect,
-        x: Axis,
-        y: Axis,
-        skin: &Skin,
-    ) -> Option<Self> {
-        Self::framed(buffer, area, x, y, skin, [true, true])
-    }
-
     /// A chart without axes, for pictures.
-    #[must_use]
-    pub fn bare(buffer: &'a mut Buffer, area: Rect, x: Axis, y: Axis, skin: &Skin) -> Option<Self> {
+    pub fn bare(
+        buffer: &'a mut Buffer,
+        area: Rect,
+        x: ChartAxis,
+        y: ChartAxis,
+        look: &Appearance,
+    ) -> Option<Self> {
         let sound = x.is_sound() && y.is_sound() && area.width > 1 && area.height > 1;
-        let raster = Raster::new(area, skin.marker);
+        let raster = Raster::new(area, look.marker);
         sound.then_some(Self { buffer, raster, inner: area, x, y, rule: false })
     }
 
-    fn framed(
+    /// Draws the frame in `area`; none where the area is too small or an axis
+    /// is not a proper range.
+    pub fn new(
         buffer: &'a mut Buffer,
         area: Rect,
-        x: Axis,
-        y: Axis,
-        skin: &Skin,
-        powers: [bool; 2],
+        x: ChartAxis,
+        y: ChartAxis,
+        look: &Appearance,
     ) -> Option<Self> {
         if !x.is_sound() || !y.is_sound() || area.width < 10 || area.height < 3 {
             return None;
@@ -108,51 +53,48 @@ impl<'a> Plot<'a> {
         let rule = area.height >= 7;
         let below = if rule { 2 } else { 1 };
         let rows = area.height - below;
-        let (y_ticks, y_step) = ticks(y.low, y.high, usize::from(rows.div_ceil(2)).clamp(1, 7));
-        let (y_ticks, y_step) = if powers[1] { whole(y_ticks) } else { (y_ticks, y_step) };
-        let labels: Vec<String> =
-            y_ticks.iter().map(|v| y.scale.tick(*v, y_step, powers[1])).collect();
+        let (y_ticks, y_step) = y.ticks(usize::from(rows.div_ceil(2)).clamp(1, 7));
+        let labels: Vec<String> = y_ticks.iter().map(|v| y.label(*v, y_step)).collect();
         let gutter = labels.iter().map(|label| label.chars().count()).max().unwrap_or(1).max(2);
         let gutter = u16::try_from(gutter).unwrap_or(6).min(area.width / 2) + 1;
         let inner = Rect::new(area.x + gutter, area.y, area.width - gutter, rows);
-        let quiet = skin.style(Role::Quiet);
-        let mut plot = Self { buffer, raster: Raster::new(inner, skin.marker), inner, x, y, rule };
-        let signs = skin.axis_signs();
+        let quiet = look.style(Role::Quiet);
+        let mut plot = Self { buffer, raster: Raster::new(inner, look.marker), inner, x, y, rule };
+        let [side, side_tick, ..] = look.axis_signs();
         for row in inner.y..inner.bottom() {
-            plot.put(inner.x - 1, row, signs.side, quiet);
+            plot.put(inner.x - 1, row, side, quiet);
         }
         for (value, label) in y_ticks.iter().zip(&labels) {
             if let Some(row) = plot.row(*value) {
                 let start = inner.x - 1 - u16::try_from(label.chars().count()).unwrap_or(0);
                 plot.text(start.max(area.x), row, label, quiet);
-                plot.put(inner.x - 1, row, signs.side_tick, quiet);
+                plot.put(inner.x - 1, row, side_tick, quiet);
             }
         }
-        plot.x_axis(rule, skin, powers[0]);
+        plot.x_axis(rule, look);
         Some(plot)
     }
 
-    fn x_axis(&mut self, rule: bool, skin: &Skin, powers: bool) {
-        let quiet = skin.style(Role::Quiet);
-        let signs = skin.axis_signs();
+    fn x_axis(&mut self, rule: bool, look: &Appearance) {
+        let quiet = look.style(Role::Quiet);
+        let [.., corner, floor, floor_tick] = look.axis_signs();
         let inner = self.inner;
         if rule {
-            self.put(inner.x - 1, inner.bottom(), signs.corner, quiet);
+            self.put(inner.x - 1, inner.bottom(), corner, quiet);
             for column in inner.x..inner.right() {
-                self.put(column, inner.bottom(), signs.floor, quiet);
+                self.put(column, inner.bottom(), floor, quiet);
             }
         }
         let labels_row = inner.bottom() + u16::from(rule);
         let most = usize::from(inner.width / 9).clamp(1, 10);
-        let (values, step) = ticks(self.x.low, self.x.high, most);
-        let (values, step) = if powers { whole(values) } else { (values, step) };
+        let (values, step) = self.x.ticks(most);
         let mut free = inner.x.saturating_sub(1);
         for value in values {
             let Some(column) = self.column(value) else { continue };
             if rule {
-                self.put(column, inner.bottom(), signs.floor_tick, quiet);
+                self.put(column, inner.bottom(), floor_tick, quiet);
             }
-            let label = self.x.scale.tick(value, step, powers);
+            let label = self.x.label(value, step);
             let width = u16::try_from(label.chars().count()).unwrap_or(0);
             let start = column
                 .saturating_sub(width / 2)
@@ -166,13 +108,11 @@ impl<'a> Plot<'a> {
     }
 
     /// The row of the level axis line, where there is room for one.
-    #[must_use]
     pub fn axis_row(&self) -> Option<u16> {
         self.rule.then(|| self.inner.bottom())
     }
 
     /// The column of an x value inside the chart.
-    #[must_use]
     pub fn column(&self, value: f64) -> Option<u16> {
         let across = (value - self.x.low) / (self.x.high - self.x.low);
         (-1e-9..=1.0 + 1e-9).contains(&across).then(|| {
@@ -182,7 +122,6 @@ impl<'a> Plot<'a> {
     }
 
     /// The row of a y value inside the chart.
-    #[must_use]
     pub fn row(&self, value: f64) -> Option<u16> {
         let up = (value - self.y.low) / (self.y.high - self.y.low);
         (-1e-9..=1.0 + 1e-9).contains(&up).then(|| {
@@ -193,75 +132,61 @@ impl<'a> Plot<'a> {
     }
 
     /// Sub-pixel columns across, for decimation by least and greatest value.
-    #[must_use]
     pub fn columns(&self) -> usize {
         self.raster.size().0
     }
 
     /// One x value per sub-pixel column, at its middle.
-    #[must_use]
     pub fn column_values(&self) -> Vec<f64> {
         let count = self.columns();
         let width = (self.x.high - self.x.low) / count.max(1) as f64;
         (0..count).map(|k| self.x.low + (k as f64 + 0.5) * width).collect()
     }
 
-    fn pixel_x(&self, value: f64) -> f64 {
+    /// The sub-pixel column of an x value, bounded so that it is a whole number.
+    fn pixel_x(&self, value: f64) -> Option<i64> {
         let across = (value - self.x.low) / (self.x.high - self.x.low);
-        across * (self.raster.size().0.saturating_sub(1)) as f64
+        whole(across * (self.raster.size().0.saturating_sub(1)) as f64)
     }
 
-    fn pixel_y(&self, value: f64) -> f64 {
+    /// The sub-pixel row of a y value.
+    fn pixel_y(&self, value: f64) -> Option<i64> {
         let up = (value - self.y.low) / (self.y.high - self.y.low);
-        (1.0 - up) * (self.raster.size().1.saturating_sub(1)) as f64
+        whole((1.0 - up) * (self.raster.size().1.saturating_sub(1)) as f64)
     }
 
     /// A polyline; a value that is not finite breaks it.
     pub fn curve(&mut self, points: impl IntoIterator<Item = (f64, f64)>, pen: &Pen) {
-        let mut last: Option<(i64, i64)> = None;
+        let mut last = None;
         for (x, y) in points {
-            let (x, y) = (self.pixel_x(x), self.pixel_y(y));
-            if !(x.is_finite() && y.is_finite()) {
-                last = None;
-                continue;
+            let here = self.pixel_x(x).zip(self.pixel_y(y));
+            if let Some(here) = here {
+                self.raster.line(last.unwrap_or(here), here, pen);
             }
-            // Rounded, and bounded so that the whole number exists.
-            let here = (x.round().clamp(-1e5, 1e5) as i64, y.round().clamp(-1e5, 1e5) as i64);
-            self.raster.line(last.unwrap_or(here), here, pen);
-            last = Some(here);
+            last = here;
         }
     }
 
     /// A decimated signal, one span per sub-pixel column, joined to the next.
     pub fn spans(&mut self, spans: &[Span], pen: &Pen) {
+        let solid = Pen { dashed: false, ..*pen };
         let mut last: Option<(i64, i64)> = None;
-        for (column, span) in spans.iter().enumerate() {
-            let Some((low, high)) = span else {
-                last = None;
-                continue;
-            };
-            let (bottom, top) = (self.pixel_y(*low), self.pixel_y(*high));
-            if !(bottom.is_finite() && top.is_finite()) {
-                last = None;
-                continue;
-            }
-            let (mut top, mut bottom) =
-                (top.round().clamp(-1e5, 1e5) as i64, bottom.round().clamp(-1e5, 1e5) as i64);
-            let shown = (top, bottom);
-            if let Some((last_top, last_bottom)) = last {
-                // Reach half way to the neighbour, so that steep parts do not break up.
-                if top > last_bottom + 1 {
-                    top = last_bottom + 1;
-                } else if bottom < last_top - 1 {
-                    bottom = last_top - 1;
+        for (x, span) in (0..).zip(spans) {
+            let shown = span.and_then(|(low, high)| self.pixel_y(high).zip(self.pixel_y(low)));
+            if let Some((mut top, mut bottom)) = shown {
+                if let Some((last_top, last_bottom)) = last {
+                    // Reach half way to the neighbour, so that steep parts do not break up.
+                    if top > last_bottom + 1 {
+                        top = last_bottom + 1;
+                    } else if bottom < last_top - 1 {
+                        bottom = last_top - 1;
+                    }
+                }
+                if !pen.dashed || x % DASH < DASH_ON {
+                    self.raster.line((x, top), (x, bottom), &solid);
                 }
             }
-            let x = i64::try_from(column).unwrap_or(0);
-            if !pen.dashed || x.rem_euclid(DASH) < DASH_ON {
-                let solid = Pen { dashed: false, ..*pen };
-                self.raster.line((x, top), (x, bottom), &solid);
-            }
-            last = Some(shown);
+            last = shown;
         }
     }
 
@@ -328,9 +253,8 @@ impl<'a> Plot<'a> {
     }
 }
 
-/// Only the whole exponents among ticks, one apart or more.
-fn whole(values: Vec<f64>) -> (Vec<f64>, f64) {
-    (values.into_iter().filter(|v| (v - v.round()).abs() < 1e-9).collect(), 1.0)
+fn whole(pixel: f64) -> Option<i64> {
+    pixel.is_finite().then(|| pixel.round().clamp(-1e5, 1e5) as i64)
 }
 
 #[cfg(test)]
@@ -339,16 +263,17 @@ mod tests {
     use crate::tui::{raster::Marker, theme::Theme};
     use proptest::prelude::*;
 
-    fn skin() -> Skin {
-        Skin { theme: Theme::Mono, marker: Marker::Ascii }
+    fn look() -> Appearance {
+        Appearance { theme: Theme::Mono, marker: Marker::Ascii }
     }
 
     #[test]
     fn ends_of_the_axes_are_the_ends_of_the_chart() {
         let mut buffer = Buffer::empty(Rect::new(0, 0, 40, 12));
         let area = *buffer.area();
-        let axis = Axis::plain(0.0, 500.0);
-        let plot = Plot::new(&mut buffer, area, axis, Axis::plain(-1.0, 1.0), &skin()).unwrap();
+        let axis = ChartAxis::plain(0.0, 500.0);
+        let plot =
+            Plot::new(&mut buffer, area, axis, ChartAxis::plain(-1.0, 1.0), &look()).unwrap();
         assert_eq!(plot.column(0.0), Some(plot.inner.x));
         assert_eq!(plot.column(500.0), Some(plot.inner.right() - 1));
         assert_eq!(plot.row(1.0), Some(plot.inner.y));
@@ -360,10 +285,14 @@ mod tests {
     fn axes_that_are_no_ranges_are_refused() {
         let mut buffer = Buffer::empty(Rect::new(0, 0, 40, 12));
         let area = *buffer.area();
-        let good = Axis::plain(0.0, 1.0);
-        for bad in [Axis::plain(1.0, 0.0), Axis::plain(f64::NAN, 1.0), Axis::plain(2.0, 2.0)] {
-            assert!(Plot::new(&mut buffer, area, bad, good, &skin()).is_none());
-            assert!(Plot::new(&mut buffer, area, good, bad, &skin()).is_none());
+        let good = ChartAxis::plain(0.0, 1.0);
+        for bad in [
+            ChartAxis::plain(1.0, 0.0),
+            ChartAxis::plain(f64::NAN, 1.0),
+            ChartAxis::plain(2.0, 2.0),
+        ] {
+            assert!(Plot::new(&mut buffer, area, bad, good, &look()).is_none());
+            assert!(Plot::new(&mut buffer, area, good, bad, &look()).is_none());
         }
     }
 
@@ -376,8 +305,8 @@ mod tests {
             let mut buffer = Buffer::empty(Rect::new(0, 0, width, height));
             let area = *buffer.area();
             let pen = Pen { style: Style::new(), sign: '*', dashed: true };
-            let skin = Skin { theme: Theme::Dark, marker: Marker::Braille };
-            if let Some(mut plot) = Plot::new(&mut buffer, area, Axis::scaled(low, high), Axis::plain(-1.0, 1.0), &skin) {
+            let look = Appearance { theme: Theme::Dark, marker: Marker::Braille };
+            if let Some(mut plot) = Plot::new(&mut buffer, area, ChartAxis::scaled(low, high), ChartAxis::plain(-1.0, 1.0), &look) {
                 plot.curve(xs.iter().map(|x| (*x, *x)), &pen);
                 plot.spans(&xs.iter().map(|x| Some((*x, *x))).collect::<Vec<_>>(), &pen);
                 for x in &xs {

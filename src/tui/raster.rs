@@ -31,14 +31,11 @@ impl Marker {
     const ALL: [Self; 5] = [Self::Braille, Self::Octant, Self::HalfBlock, Self::Dot, Self::Ascii];
 
     /// The next marker.
-    #[must_use]
     pub fn next(self) -> Self {
-        let place = Self::ALL.iter().position(|marker| *marker == self).unwrap_or(0);
-        Self::ALL.into_iter().cycle().nth(place + 1).unwrap_or(self)
+        Self::ALL[(self as usize + 1) % Self::ALL.len()]
     }
 
     /// Sub-pixels of one cell, across and down.
-    #[must_use]
     pub fn grain(self) -> (usize, usize) {
         match self {
             Self::Braille | Self::Octant => (2, 4),
@@ -55,7 +52,7 @@ pub struct Pen {
     pub style: Style,
     /// The sign of this series where only ASCII is drawn.
     pub sign: char,
-    /// Every other stretch is left out, so that two series differ without colour.
+    /// Drawn in dashes, so that two series differ without colour.
     pub dashed: bool,
 }
 
@@ -66,9 +63,9 @@ struct Dots {
     style: Style,
 }
 
-/// A dashed pen repeats after this many sub-pixels across,
+/// Period of a dashed pen in sub-pixels,
 pub(super) const DASH: i64 = 6;
-/// and draws so many of them.
+/// and how many of them are drawn.
 pub(super) const DASH_ON: i64 = 4;
 
 /// Sub-pixels over an area.
@@ -80,13 +77,11 @@ pub struct Raster {
 
 impl Raster {
     /// An empty raster over `area`.
-    #[must_use]
     pub fn new(area: Rect, marker: Marker) -> Self {
         Self { area, marker, dots: vec![Dots::default(); area.area() as usize] }
     }
 
     /// Width and height in sub-pixels.
-    #[must_use]
     pub fn size(&self) -> (usize, usize) {
         let (across, down) = self.marker.grain();
         (usize::from(self.area.width) * across, usize::from(self.area.height) * down)
@@ -110,7 +105,7 @@ impl Raster {
 
     /// A straight line, dashed where the pen says so.
     pub fn line(&mut self, from: (i64, i64), to: (i64, i64), pen: &Pen) {
-        // Ends far outside would make the walk long; nothing out there shows.
+        // Ends far outside cannot be seen, and would take many steps.
         let bound = |v: i64| v.clamp(-20_000, 20_000);
         let (x0, y0, x1, y1) = (bound(from.0), bound(from.1), bound(to.0), bound(to.1));
         let steps = (x1 - x0).abs().max((y1 - y0).abs()).max(1);

@@ -12,7 +12,7 @@ use super::events::Event;
 use super::panels;
 use super::terminal::Host;
 
-/// Draw at least this often: a terminal that is gone shows as an error.
+/// Draw at least this often: a terminal that is gone then gives an error.
 const HEARTBEAT: Duration = Duration::from_secs(1);
 /// Keys are answered at once, but not more often than this.
 const KEY_FRAME: Duration = Duration::from_millis(16);
@@ -26,6 +26,17 @@ enum Due {
     Frame,
     /// A key or another size: at once.
     Now,
+}
+
+impl Due {
+    /// Least time between two frames.
+    fn pause(self, frame: Duration) -> Duration {
+        match self {
+            Self::Later => HEARTBEAT,
+            Self::Frame => frame,
+            Self::Now => KEY_FRAME,
+        }
+    }
 }
 
 /// Runs the explorer until it is left. Draws only when something changed.
@@ -45,12 +56,7 @@ pub fn run<B: Backend>(
     let mut drawn: Option<Instant> = None;
     loop {
         order(app, engine, &mut ordered);
-        let pause = match due {
-            Due::Later => HEARTBEAT,
-            Due::Frame => frame,
-            Due::Now => KEY_FRAME,
-        };
-        let wait = drawn.map_or(Duration::ZERO, |at| pause.saturating_sub(at.elapsed()));
+        let wait = drawn.map_or(Duration::ZERO, |at| due.pause(frame).saturating_sub(at.elapsed()));
         let mut next = match events.recv_timeout(wait) {
             Ok(event) => Some(event),
             Err(RecvTimeoutError::Timeout) => None,
@@ -61,27 +67,20 @@ pub fn run<B: Backend>(
         };
         while let Some(event) = next {
             match handle(&event, app, host) {
-                Heard::Exit(exit) => return Ok(exit),
-                Heard::Draw(soon) => due = due.max(soon),
-                Heard::Anew => {
+                Reaction::Exit(exit) => return Ok(exit),
+                Reaction::Draw(soon) => due = due.max(soon),
+                Reaction::Redraw => {
                     // `Terminal::clear` would ask for the cursor and wait for the input thread.
                     let size = terminal.size()?;
                     terminal.resize(size.into())?;
                     due = Due::Now;
                 }
             }
-            // The last of twenty turns is computed, not all of them.
+            // Of many key presses only the last state is computed.
             next = events.try_recv().ok();
         }
         order(app, engine, &mut ordered);
-        let pause = if due == Due::Now {
-            KEY_FRAME
-        } else if due == Due::Frame {
-            frame
-        } else {
-            HEARTBEAT
-        };
-        if drawn.is_none_or(|at| at.elapsed() >= pause) {
+        if drawn.is_none_or(|at| at.elapsed() >= due.pause(frame)) {
             show(terminal, app, engine)?;
             drawn = Some(Instant::now());
             due = Due::Later;
@@ -103,7 +102,7 @@ fn show<B: Backend>(
     engine: &mut dyn Engine,
 ) -> Result<(), B::Error> {
     if let Some(snapshot) = engine.take() {
-        app.absorb(snapshot);
+        app.apply_snapshot(snapshot);
     }
     let size = terminal.size()?;
     app.size = (size.width, size.height);
@@ -111,36 +110,36 @@ fn show<B: Backend>(
 }
 
 /// What an event asks of the loop.
-enum Heard {
+enum Reaction {
     Exit(Exit),
     Draw(Due),
-    Anew,
+    Redraw,
 }
 
-fn handle(event: &Event, app: &mut App, host: &mut dyn Host) -> Heard {
+fn handle(event: &Event, app: &mut App, host: &mut dyn Host) -> Reaction {
     match event {
         Event::Key(key) => match app.key(key) {
-            Effect::None => Heard::Draw(Due::Now),
-            Effect::Quit => Heard::Exit(Exit::Done),
+            Effect::None => Reaction::Draw(Due::Now),
+            Effect::Quit => Reaction::Exit(Exit::Done),
             Effect::Suspend => resumed(host.suspend()),
-            Effect::Redraw => Heard::Anew,
+            Effect::Redraw => Reaction::Redraw,
             Effect::Copy(text) => {
-                // A terminal that cannot take it still shows it.
+                // The status line shows it even if the terminal refuses it.
                 let _ = host.copy(&text);
-                Heard::Draw(Due::Now)
+                Reaction::Draw(Due::Now)
             }
         },
-        Event::Resize => Heard::Draw(Due::Now),
-        Event::Fresh => Heard::Draw(Due::Frame),
-        Event::Signal(number) => Heard::Exit(Exit::Signal(*number)),
+        Event::Resize => Reaction::Draw(Due::Now),
+        Event::Fresh => Reaction::Draw(Due::Frame),
+        Event::Signal(number) => Reaction::Exit(Exit::Signal(*number)),
         Event::Suspend => resumed(host.suspend()),
         Event::Continued => resumed(host.resume()),
-        Event::InputClosed => Heard::Exit(Exit::Signal(HANGUP)),
+        Event::InputClosed => Reaction::Exit(Exit::Signal(HANGUP)),
     }
 }
 
-fn resumed(result: std::io::Result<()>) -> Heard {
-    if result.is_ok() { Heard::Anew } else { Heard::Exit(Exit::Signal(HANGUP)) }
+fn resumed(result: std::io::Result<()>) -> Reaction {
+    if result.is_ok() { Reaction::Redraw } else { Reaction::Exit(Exit::Signal(HANGUP)) }
 }
 
 /// SIGHUP: the terminal is gone.

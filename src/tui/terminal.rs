@@ -1,4 +1,4 @@
-//! Taking the terminal and giving it back, on every way out.
+//! Takes the terminal, and gives it back however the program ends.
 
 use std::io::{BufWriter, Stdout, Write, stdout};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -12,7 +12,7 @@ use ratatui::{Terminal, backend::CrosstermBackend};
 
 use super::worker::WORKER_NAME;
 
-/// Whether the terminal is ours now.
+/// Whether the terminal is taken.
 static TAKEN: AtomicBool = AtomicBool::new(false);
 
 /// A frame is written in one piece.
@@ -35,7 +35,7 @@ pub fn enter() -> std::io::Result<()> {
 /// on a terminal that is gone.
 pub fn leave() {
     if TAKEN.swap(false, Ordering::SeqCst) {
-        // There is nobody left to tell about an error here.
+        // An error cannot be reported any more.
         let mut out = stdout();
         let _ = execute!(out, LeaveAlternateScreen, Show);
         let _ = out.flush();
@@ -53,7 +53,7 @@ pub fn open() -> std::io::Result<Screen> {
 }
 
 /// A panic gives the terminal back before it is reported. The worker's panics
-/// are caught and shown on the screen: the hook keeps quiet about them.
+/// are caught and shown on the screen: the hook does not report them.
 pub fn install_panic_hook() {
     let report = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |info| {
@@ -74,7 +74,7 @@ impl Drop for Guard {
     }
 }
 
-/// What the run loop needs beside a backend: suspending the job.
+/// What the run loop needs besides a backend.
 pub trait Host {
     /// Gives the terminal to the shell until the job is continued.
     ///
@@ -127,7 +127,7 @@ impl Host for Shell {
     }
 
     fn resume(&mut self) -> std::io::Result<()> {
-        // Whatever the shell did to the terminal in between is undone.
+        // The shell may have changed the settings of the terminal.
         leave();
         enter()
     }

@@ -1,5 +1,5 @@
-//! Colours by role, never by place. Every theme names the same eight roles;
-//! whatever a colour says is also said by a sign, a word or a line style.
+//! Colours by role. Every theme has the same eight roles; no meaning is given
+//! by colour alone, but also by a sign, a word or a line style.
 
 use ratatui::style::{Color, Modifier, Style};
 
@@ -8,7 +8,7 @@ use ratatui::style::{Color, Modifier, Style};
 pub enum Role {
     /// Ordinary text.
     Text,
-    /// Axes, frames, units: there, but not in the way.
+    /// Axes, frames, units.
     Quiet,
     /// What the keyboard acts on.
     Focus,
@@ -31,10 +31,10 @@ pub enum Theme {
     Dark,
     /// Dark text on a light ground.
     Light,
-    /// No colours: bold, dim, reverse and underline only.
-    Mono,
     /// Blue and orange (yellow), safe for the common colour blindnesses.
     ColourBlind,
+    /// No colours: bold, dim, reverse and underline only.
+    Mono,
 }
 
 impl Theme {
@@ -42,50 +42,33 @@ impl Theme {
     pub const ALL: [Self; 4] = [Self::Dark, Self::Light, Self::ColourBlind, Self::Mono];
 
     /// The name on screen.
-    #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Dark => "dark",
-            Self::Light => "light",
-            Self::Mono => "mono",
-            Self::ColourBlind => "colour-blind",
-        }
+        ["dark", "light", "colour-blind", "mono"][self as usize]
     }
 
     /// The next theme.
-    #[must_use]
     pub fn next(self) -> Self {
-        let place = Self::ALL.iter().position(|theme| *theme == self).unwrap_or(0);
-        Self::ALL.into_iter().cycle().nth(place + 1).unwrap_or(self)
+        Self::ALL[(self as usize + 1) % Self::ALL.len()]
     }
 
     /// Style of a role. The sixteen named colours only: the user's palette
     /// decides what they look like.
-    #[must_use]
     pub fn style(self, role: Role) -> Style {
         let colour = match (self, role) {
             (Self::Mono, _) | (_, Role::Text) => Color::Reset,
-            (Self::Dark, Role::Quiet) => Color::DarkGray,
+            (_, Role::Quiet) => Color::DarkGray,
             (Self::Dark, Role::Focus) => Color::LightYellow,
             (Self::Dark, Role::First) => Color::LightCyan,
             (Self::Dark, Role::Second) => Color::LightMagenta,
-            (Self::Dark, Role::Contact) => Color::LightRed,
+            (Self::Dark, Role::Contact | Role::Trouble) => Color::LightRed,
             (Self::Dark, Role::Good) => Color::LightGreen,
-            (Self::Dark, Role::Trouble) => Color::LightRed,
-            (Self::Light, Role::Quiet) => Color::DarkGray,
-            (Self::Light, Role::Focus) => Color::Blue,
-            (Self::Light, Role::First) => Color::Blue,
+            (Self::Light, Role::Focus | Role::First) => Color::Blue,
             (Self::Light, Role::Second) => Color::Magenta,
-            (Self::Light, Role::Contact) => Color::Red,
+            (Self::Light, Role::Contact | Role::Trouble) => Color::Red,
             (Self::Light, Role::Good) => Color::Green,
-            (Self::Light, Role::Trouble) => Color::Red,
-            (Self::ColourBlind, Role::Quiet) => Color::DarkGray,
-            (Self::ColourBlind, Role::Focus) => Color::LightYellow,
-            (Self::ColourBlind, Role::First) => Color::LightBlue,
+            (Self::ColourBlind, Role::First | Role::Good) => Color::LightBlue,
             (Self::ColourBlind, Role::Second) => Color::Yellow,
-            (Self::ColourBlind, Role::Contact) => Color::LightYellow,
-            (Self::ColourBlind, Role::Good) => Color::LightBlue,
-            (Self::ColourBlind, Role::Trouble) => Color::LightYellow,
+            (Self::ColourBlind, _) => Color::LightYellow,
         };
         let weight = match role {
             Role::Quiet if self == Self::Mono => Modifier::DIM,

@@ -10,7 +10,7 @@ use proptest::prelude::*;
 use ratatui::{Terminal, backend::TestBackend};
 use rubscope::scene::Scene;
 use rubscope::tui::bindings::BINDINGS;
-use rubscope::tui::engine::{Ahead, Engine, Order, Snapshot};
+use rubscope::tui::engine::{Engine, FullRunState, Order, Results, Snapshot};
 use rubscope::tui::events::Event;
 use rubscope::tui::terminal::NoHost;
 use rubscope::tui::worker::Stepwise;
@@ -39,12 +39,13 @@ impl Engine for Late {
 
     fn take(&mut self) -> Option<Snapshot> {
         if let Some(mut snapshot) = self.engine.take() {
-            let Snapshot { generation, ahead, reference, beside, .. } = &mut snapshot;
-            let ahead = match ahead {
-                Some(Ahead::Done(forecast)) => Some(forecast),
+            let Snapshot { generation, results, .. } = &mut snapshot;
+            let Results { full_run, reference, comparison, .. } = results;
+            let full_run = match full_run {
+                Some(FullRunState::Done(run)) => Some(run),
                 _ => None,
             };
-            let results = [ahead, reference.as_mut(), beside.as_mut()];
+            let results = [full_run, reference.as_mut(), comparison.as_mut()];
             results.into_iter().flatten().for_each(|result| result.impacts = *generation);
             self.kept.push_back(snapshot);
         }
@@ -54,11 +55,12 @@ impl Engine for Late {
 
 /// The results on the screen, as the generations of the knobs they belong to.
 fn results(app: &App) -> Vec<u64> {
-    let ahead = match &app.ahead {
-        Some(Ahead::Done(forecast)) => Some(forecast),
+    let Results { full_run, reference, comparison, .. } = &app.latest.results;
+    let full_run = match full_run {
+        Some(FullRunState::Done(run)) => Some(run),
         _ => None,
     };
-    let shown = [ahead, app.reference.as_ref(), app.beside.as_ref()];
+    let shown = [full_run, reference.as_ref(), comparison.as_ref()];
     shown.into_iter().flatten().map(|result| result.impacts).collect()
 }
 

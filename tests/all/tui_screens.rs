@@ -331,7 +331,7 @@ fn a_damping_acts_on_the_running_motion_and_the_number_of_blades_begins_anew() {
     assert!(later > before && *session.app.scene == scene(), "undo began the run anew");
     session.press("jjjjl");
     assert_eq!(session.app.scene.bladed_disk.blades, 23);
-    assert!(session.app.now() < later && session.text().contains("begun anew"));
+    assert!(session.app.now() < later && session.text().contains("restarted"));
 }
 
 #[test]

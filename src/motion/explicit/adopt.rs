@@ -135,5 +135,8 @@ mod tests {
                 assert_eq!(format!("{motion:?}"), before);
             }
         }
+        let mut softer = base.clone();
+        softer.casing.modal_stiffness_n_per_m *= 0.5;
+        assert!(Change::is_live(&base, &softer));
     }
 }

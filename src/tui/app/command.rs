@@ -5,7 +5,6 @@ use crate::scene::{BUILTIN, KEYS, Scene, Value};
 
 impl App {
     /// `rubscope run SCENE` with every key that differs from it.
-    #[must_use]
     pub fn command(&self) -> String {
         let usual = BUILTIN.first().map_or("", |scene| scene.name);
         let source = self.source.as_deref().unwrap_or(usual);
@@ -25,7 +24,7 @@ impl App {
         command
     }
 
-    /// The command to copy, said in the status line as well.
+    /// The command to copy; the status line shows it too.
     pub(super) fn copied(&mut self) -> String {
         let command = self.command();
         self.status = Some(format!("copied: {command}"));

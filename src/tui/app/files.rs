@@ -1,10 +1,10 @@
-//! Taking things away: the scene as TOML, the large chart's data as CSV, the
-//! screen as SVG. Nothing is replaced without asking.
+//! Writing files: the scene as TOML, the data of the large chart as CSV, the
+//! screen as SVG. No file is replaced without asking.
 
 use std::fs::OpenOptions;
 use std::io::{ErrorKind, Write};
 
-use super::{App, Mode, Purpose};
+use super::{App, InputMode, Purpose};
 use crate::tui::export;
 
 impl App {
@@ -15,11 +15,11 @@ impl App {
             self.status = Some("a file name is needed; Esc leaves".into());
             return;
         }
-        self.mode = Mode::Main;
+        self.mode = InputMode::Main;
         let content = match purpose {
             Purpose::Save => Ok(self.scene.to_toml()),
             Purpose::Export if name.ends_with(".svg") => Ok(export::svg(self)),
-            Purpose::Export => export::csv(self),
+            Purpose::Export => self.view.panel().csv(self),
         };
         let content = match content {
             Ok(content) => content,
@@ -41,7 +41,7 @@ impl App {
         {
             Ok(()) => self.status = Some(format!("written: {name}")),
             Err(error) if error.kind() == ErrorKind::AlreadyExists => {
-                self.mode = Mode::Replacing(purpose, name.to_string());
+                self.mode = InputMode::Replacing(purpose, name.to_string());
             }
             Err(error) => self.status = Some(format!("cannot write {name}: {error}")),
         }

@@ -1,104 +1,38 @@
 //! The state of the explorer, without a terminal: what is shown is a function
 //! of this value, and only keys and snapshots change it.
 
-mod absorb;
 mod command;
 mod files;
-mod guide;
+mod lesson;
+mod snapshot;
 mod time;
 mod turn;
 mod update;
 mod verdict;
 
-pub use guide::Progress;
-pub use time::{RATES, page_length};
+pub use lesson::LessonProgress;
+pub use time::RATES;
 pub use update::Effect;
-pub use verdict::Words;
+pub use verdict::VerdictText;
 
-use std::sync::Arc;
-
+use super::appearance::Appearance;
 use super::axis::AutoRange;
 use super::bindings::Context;
-use super::engine::Wants;
-use super::engine::{Ahead, Forecast, Moment, Order, Pace};
-use super::history::History;
-use super::locked_curve::LockedCurves;
+use super::engine::{Moment, Order, Snapshot};
+use super::history::BinHistory;
 use super::raster::Marker;
-use super::skin::Skin;
-use super::spectrum::Spectrum;
 use super::theme::Theme;
+use super::views::ViewId;
 use crate::model::Machine;
-use crate::scene::{CheckedScene, keys::CHARTS};
-use crate::study::Map;
-use crate::study::precision::Precision;
+use crate::scene::CheckedScene;
 
-/// The views, in the order of their digits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum View {
-    /// `u_c`, `u_s`, `alpha_c`, `alpha_s` against time.
-    Response,
-    /// The gap of every blade.
-    Gaps,
-    /// Multipliers of the locked motion against speed.
-    Locked,
-    /// The wave as a point in the frame of the blades, and the rim as a wheel.
-    Frame,
-    /// How the motion lasts, over speed and pulse.
-    Map,
-    /// Spectrum of the run, and Campbell lines.
-    Spectrum,
-    /// Speed against error of every solver.
-    Precision,
-}
-
-impl View {
-    /// All views.
-    pub const ALL: [Self; 7] = [
-        Self::Response,
-        Self::Gaps,
-        Self::Locked,
-        Self::Frame,
-        Self::Map,
-        Self::Spectrum,
-        Self::Precision,
-    ];
-
-    /// The word of the scene file.
-    #[must_use]
-    pub fn word(self) -> &'static str {
-        CHARTS.get(usize::from(self.digit()) - 1).copied().unwrap_or("")
-    }
-
-    /// The view a word stands for.
-    #[must_use]
-    pub fn from_word(word: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|view| view.word() == word)
-    }
-
-    /// The digit that opens it.
-    #[must_use]
-    pub fn digit(self) -> u8 {
-        match self {
-            Self::Response => 1,
-            Self::Gaps => 2,
-            Self::Locked => 3,
-            Self::Frame => 4,
-            Self::Map => 5,
-            Self::Spectrum => 6,
-            Self::Precision => 7,
-        }
-    }
-}
-
-/// A run pinned behind the next ones.
+/// A pinned run, drawn behind the next ones.
 #[derive(Clone, Debug)]
 pub struct Baseline {
     /// What was recorded of it.
-    pub history: History,
+    pub history: BinHistory,
     /// Its verdict.
-    pub words: Words,
-    /// Its forces: sides and multipliers \[N\].
-    pub forces: Vec<(u32, f64)>,
+    pub words: VerdictText,
 }
 
 /// What a file name is asked for.
@@ -112,7 +46,7 @@ pub enum Purpose {
 
 /// What the keyboard acts on.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Mode {
+pub enum InputMode {
     /// Knobs and charts.
     Main,
     /// The value of the selected knob is being typed.
@@ -150,8 +84,7 @@ pub struct Ranges {
 }
 
 impl Ranges {
-    /// Ranges to begin with: the clearance and a little more.
-    #[must_use]
+    /// Ranges at the start: the clearance and a little more.
     pub fn of(clearance: f64) -> Self {
         Self {
             casing: AutoRange::new(-1.25 * clearance, 1.25 * clearance),
@@ -165,7 +98,7 @@ impl Ranges {
 /// The explorer.
 #[derive(Clone, Debug)]
 pub struct App {
-    /// The scene as the knobs have it.
+    /// The scene with the present values of the knobs.
     pub scene: CheckedScene,
     /// The scene as it was opened; `Backspace` goes back to its values.
     pub opened: CheckedScene,
@@ -174,18 +107,18 @@ pub struct App {
     /// The selected knob.
     pub knob: usize,
     /// What the keyboard acts on.
-    pub mode: Mode,
+    pub mode: InputMode,
     /// Where files are written; the working directory unless set.
     pub directory: std::path::PathBuf,
     /// Why the last value of the selected knob was refused.
     pub refusal: Option<String>,
-    /// What just happened.
+    /// What the last key did.
     pub status: Option<String>,
     /// The large chart.
-    pub view: View,
-    /// The charts beside it.
-    pub companions: Vec<View>,
-    /// Whether the gaps stand against time.
+    pub view: ViewId,
+    /// The other views, in the order in which they take the places beside it.
+    pub companions: Vec<ViewId>,
+    /// Whether the gaps are drawn against time.
     pub heat: bool,
     /// Whether the large chart has the whole screen.
     pub full_screen: bool,
@@ -195,58 +128,37 @@ pub struct App {
     pub rate: usize,
     /// Page length relative to the usual one, in steps of about two.
     pub zoom: i32,
-    /// Whether the other contact law runs beside this one.
+    /// Whether the other contact law runs as well, to compare.
     pub compare: bool,
     /// Whether knobs act on the running motion.
     pub live: bool,
     /// What was recorded of the running motion.
-    pub history: History,
-    /// The latest instant.
-    pub moment: Option<Moment>,
-    /// The instant that busy pictures show, a few times a second: a whole
-    /// wave that moves with every frame would flood a slow line.
-    pub slow: Option<Moment>,
-    /// What the run comes to.
-    pub ahead: Option<Ahead>,
-    /// What it comes to under the event solver and unilateral contact.
-    pub reference: Option<Forecast>,
-    /// Whether a tiny change of the pulse changes the outcome.
-    pub sensitive: bool,
+    pub history: BinHistory,
+    /// The latest snapshot of the engine, as far as it belongs to this scene.
+    pub latest: Snapshot,
+    /// The instant that whole waves are drawn of, a few times a second: a new
+    /// one with every frame is too much for a slow line.
+    pub throttled: Option<Moment>,
     /// Width and height of the screen, in cells.
     pub size: (u16, u16),
-    /// What it comes to under the other contact law.
-    pub beside: Option<Forecast>,
-    /// The locked motion against speed; that of the machine before until the
-    /// new one is computed.
-    pub locked: Option<Arc<LockedCurves>>,
-    /// The spectrum of the run.
-    pub spectrum: Option<Arc<Spectrum>>,
-    /// The map over speed and pulse.
-    pub map: Option<Arc<Map>>,
-    /// Speed against error.
-    pub precision: Option<Arc<Precision>>,
     /// What was recorded under the other contact law.
-    pub beside_history: History,
+    pub comparison_history: BinHistory,
     /// A run pinned to compare with.
     pub baseline: Option<Baseline>,
-    /// How many charts stand beside the large one.
-    pub charts_beside: usize,
+    /// How many charts there are beside the large one.
+    pub companions_shown: usize,
     /// Place of the reading cursor on the page, 0 to 1.
     pub cursor: Option<f64>,
-    /// Pages looked back from the present one.
+    /// Pages back from the present one.
     pub pages_back: i64,
     /// What the scene was opened by, for the command line that repeats it.
     pub source: Option<String>,
     /// The lesson under way.
-    pub lesson: Option<Progress>,
-    /// Solver speed.
-    pub pace: Pace,
-    /// Something broke in the engine.
-    pub trouble: Option<String>,
+    pub lesson: Option<LessonProgress>,
     /// Chart ranges.
     pub ranges: Ranges,
     /// Theme and marker.
-    pub skin: Skin,
+    pub appearance: Appearance,
     counters: Counters,
     undo: Vec<CheckedScene>,
     redo: Vec<CheckedScene>,
@@ -264,16 +176,15 @@ struct Counters {
 
 impl App {
     /// The explorer on a checked scene.
-    #[must_use]
     pub fn new(scene: CheckedScene, theme: Theme, marker: Marker) -> Self {
-        let mut views: Vec<View> =
-            scene.view.charts.iter().filter_map(|word| View::from_word(word)).collect();
-        for view in View::ALL {
+        let mut views: Vec<ViewId> =
+            scene.view.charts.iter().filter_map(|word| ViewId::from_word(word)).collect();
+        for view in ViewId::all() {
             if !views.contains(&view) {
                 views.push(view);
             }
         }
-        let view = views.first().copied().unwrap_or(View::Response);
+        let view = views.first().copied().unwrap_or(ViewId::Response);
         let machine = scene.machine();
         Self {
             opened: scene.clone(),
@@ -281,7 +192,7 @@ impl App {
             machine,
             scene,
             knob: 0,
-            mode: Mode::Main,
+            mode: InputMode::Main,
             directory: std::path::PathBuf::new(),
             refusal: None,
             status: None,
@@ -294,28 +205,18 @@ impl App {
             zoom: 0,
             compare: false,
             live: false,
-            history: History::default(),
-            moment: None,
-            slow: None,
-            ahead: None,
-            reference: None,
-            sensitive: false,
+            history: BinHistory::default(),
+            latest: Snapshot::default(),
+            throttled: None,
             size: (80, 24),
-            beside: None,
-            locked: None,
-            spectrum: None,
-            map: None,
-            precision: None,
-            beside_history: History::default(),
+            comparison_history: BinHistory::default(),
             baseline: None,
-            charts_beside: 2,
+            companions_shown: 2,
             cursor: None,
             pages_back: 0,
             source: None,
             lesson: None,
-            pace: Pace::default(),
-            trouble: None,
-            skin: Skin { theme, marker },
+            appearance: Appearance { theme, marker },
             counters: Counters::default(),
             undo: Vec::new(),
             redo: Vec::new(),
@@ -324,20 +225,18 @@ impl App {
     }
 
     /// What the keyboard acts on, as the table of bindings names it.
-    #[must_use]
     pub fn context(&self) -> Context {
         match self.mode {
-            Mode::Main => Context::Main,
-            Mode::Typing(_) => Context::Typing,
-            Mode::Help(_) => Context::Help,
-            Mode::Naming(..) => Context::Typing,
-            Mode::Replacing(..) => Context::Replacing,
-            Mode::Lessons(_) => Context::Lessons,
+            InputMode::Main => Context::Main,
+            InputMode::Typing(_) => Context::Typing,
+            InputMode::Help(_) => Context::Help,
+            InputMode::Naming(..) => Context::Typing,
+            InputMode::Replacing(..) => Context::Replacing,
+            InputMode::Lessons(_) => Context::Lessons,
         }
     }
 
-    /// What the engine shall do.
-    #[must_use]
+    /// What the engine has to do.
     pub fn order(&self) -> Order {
         Order {
             scene: self.scene.clone(),
@@ -349,26 +248,26 @@ impl App {
             playing: self.playing,
             rate: self.rate(),
             bin_s: self.page_s() / BINS_PER_PAGE,
-            beside: self.compare,
-            wants: Wants {
-                spectrum: self.is_open(View::Spectrum),
-                map: self.is_open(View::Map),
-                precision: self.is_open(View::Precision),
-            },
+            compare: self.compare,
+            open: ViewId::all().filter(|view| self.is_open(*view)).collect(),
         }
     }
 
     /// Whether a view may be on the screen.
-    #[must_use]
-    pub fn is_open(&self, view: View) -> bool {
-        let beside = self.companions.iter().take(self.charts_beside).any(|other| *other == view);
-        view == self.view || (beside && !self.full_screen)
+    pub fn is_open(&self, view: ViewId) -> bool {
+        let mut companions = self.companions.iter().take(self.companions_shown);
+        view == self.view || (!self.full_screen && companions.any(|other| *other == view))
     }
 
     /// The present rotor speed \[rad/s\].
-    #[must_use]
     pub fn speed(&self) -> f64 {
-        self.moment.as_ref().map_or(self.scene.operation.speed_rad_s, |moment| moment.speed)
+        let moment = self.latest.moment.as_ref();
+        moment.map_or(self.scene.operation.speed_rad_s, |moment| moment.speed)
+    }
+
+    /// Why the motion stopped.
+    pub fn failure(&self) -> Option<&String> {
+        self.latest.moment.as_ref()?.failure.as_ref()
     }
 }
 

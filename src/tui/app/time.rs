@@ -1,5 +1,5 @@
 //! Slow motion and pages of time: a page takes about four seconds to fill,
-//! whatever the rate, then a new one begins.
+//! at any rate, then a new one starts.
 
 use super::App;
 use crate::tui::axis::nice_step;
@@ -18,7 +18,6 @@ const PAGE_SECONDS: f64 = 4.0;
 pub(super) const MOST_ZOOM: i32 = 12;
 
 /// Length of a page at a rate and a zoom, a round number \[s\].
-#[must_use]
 pub fn page_length(rate: f64, zoom: i32) -> f64 {
     let usual = nice_step(PAGE_SECONDS * rate, 1).unwrap_or(PAGE_SECONDS * rate);
     // Every zoom is one place in the sequence 1, 2, 5, 10, 20, 50, ...
@@ -36,25 +35,21 @@ pub fn page_length(rate: f64, zoom: i32) -> f64 {
 
 impl App {
     /// Motion per wall-clock time.
-    #[must_use]
     pub fn rate(&self) -> f64 {
         RATES.get(self.rate).copied().unwrap_or(5e-3)
     }
 
     /// Length of a page \[s\].
-    #[must_use]
     pub fn page_s(&self) -> f64 {
         page_length(self.rate(), self.zoom)
     }
 
     /// Motion time now \[s\].
-    #[must_use]
     pub fn now(&self) -> f64 {
-        self.moment.as_ref().map_or(0.0, |moment| moment.state.t_s)
+        self.latest.moment.as_ref().map_or(0.0, |moment| moment.state.t_s)
     }
 
     /// The page that is shown, from and to \[s\].
-    #[must_use]
     pub fn page(&self) -> (f64, f64) {
         let length = self.page_s();
         let number = (self.page_number() - self.pages_back).max(0);
@@ -68,13 +63,12 @@ impl App {
     }
 
     /// The instant under the reading cursor \[s\].
-    #[must_use]
     pub fn cursor_time(&self) -> Option<f64> {
         let (from, to) = self.page();
         self.cursor.map(|part| from + part * (to - from))
     }
 
-    /// Looks a page back, or forward again.
+    /// Goes a page back, or forward again.
     pub(super) fn pan(&mut self, back: bool) {
         let most = self.page_number();
         self.pages_back = (self.pages_back + if back { 1 } else { -1 }).clamp(0, most);
@@ -90,7 +84,6 @@ impl App {
     }
 
     /// The rate in words: `1/200 of real time`.
-    #[must_use]
     pub fn rate_text(&self) -> String {
         let rate = self.rate();
         if rate >= 1.0 { "real time".into() } else { format!("1/{:.0}", 1.0 / rate) }

@@ -1,9 +1,10 @@
 //! Turning knobs: values are checked before they count, refused in place, and
 //! can be undone.
 
-use super::{App, Mode, Ranges};
+use super::{App, InputMode, Ranges};
 use crate::motion::Change;
 use crate::scene::{CheckedScene, Scene, Value};
+use crate::tui::engine::{Results, Snapshot};
 use crate::tui::knobs::{KNOBS, Knob};
 
 /// Turns that can be undone.
@@ -11,7 +12,6 @@ const UNDO_KEPT: usize = 1000;
 
 impl App {
     /// The selected knob.
-    #[must_use]
     pub fn selected(&self) -> Option<&'static Knob> {
         KNOBS.get(self.knob)
     }
@@ -35,13 +35,13 @@ impl App {
         }
     }
 
-    /// Takes what was typed; a refusal leaves the text open to be mended.
+    /// Takes what was typed; after a refusal the text can be corrected.
     pub(super) fn accept(&mut self, text: &str) {
         let Some(knob) = self.selected() else { return };
         match knob.parse(text) {
             Ok(value) => {
                 if self.set(knob, value) {
-                    self.mode = Mode::Main;
+                    self.mode = InputMode::Main;
                 }
             }
             Err(error) => self.refusal = Some(error.to_string()),
@@ -62,7 +62,7 @@ impl App {
                         self.undo.remove(0);
                     }
                     self.redo.clear();
-                    self.take_turned(scene);
+                    self.set_turned_scene(scene);
                 }
                 true
             }
@@ -73,19 +73,19 @@ impl App {
         }
     }
 
-    /// Takes a scene some knobs further: live where that is on and can be.
-    fn take_turned(&mut self, scene: CheckedScene) {
-        let failed = self.moment.as_ref().is_some_and(|moment| moment.failure.is_some());
+    /// Takes a scene after a knob was turned: live if that is on and possible.
+    fn set_turned_scene(&mut self, scene: CheckedScene) {
+        let failed = self.failure().is_some();
         let live = self.live && !failed && acts_live(&self.scene, &scene);
         if self.live && !live && self.status.is_none() {
-            self.status = Some("this cannot act on a running motion: begun anew".into());
+            self.status = Some("this cannot act on a running motion: restarted".into());
         }
-        self.take_scene(scene, live);
+        self.set_scene(scene, live);
     }
 
-    /// Makes a scene the present one and begins its run, or lets it act on
-    /// the running motion.
-    pub fn take_scene(&mut self, scene: CheckedScene, live: bool) {
+    /// Makes a scene the present one and starts its run, or, if live, applies
+    /// it to the running motion.
+    pub fn set_scene(&mut self, scene: CheckedScene, live: bool) {
         let clearance = self.machine.clearance();
         self.scene = scene;
         self.machine = self.scene.machine();
@@ -95,52 +95,46 @@ impl App {
         }
         if live {
             self.counters.changes += 1;
-            self.ahead = None;
-            self.reference = None;
-            self.beside = None;
+            self.latest.results.full_run = None;
+            self.latest.results.reference = None;
+            self.latest.results.comparison = None;
+            self.latest.results.sensitive = false;
         } else {
             self.restart();
         }
     }
 
-    /// Begins the run anew.
+    /// Starts the run again. Studies stay until there are newer ones.
     pub fn restart(&mut self) {
         self.counters.restarts += 1;
         self.history.clear();
-        self.beside_history.clear();
+        self.comparison_history.clear();
         self.pages_back = 0;
-        self.moment = None;
-        self.slow = None;
-        self.ahead = None;
-        self.reference = None;
-        self.beside = None;
-        self.trouble = None;
+        self.throttled = None;
+        let known = std::mem::take(&mut self.latest.results);
+        let results = Results { full_run: None, reference: None, comparison: None, ..known };
+        self.latest = Snapshot { results, ..Snapshot::default() };
         self.page = 0;
     }
 
-    pub(super) fn undo(&mut self) {
-        if let Some(scene) = self.undo.pop() {
-            self.redo.push(self.scene.clone());
+    /// Undoes the last turn of a knob, or redoes the last that was undone.
+    pub(super) fn step_back(&mut self, redo: bool) {
+        let (from, to, word) = match redo {
+            true => (&mut self.redo, &mut self.undo, "redo"),
+            false => (&mut self.undo, &mut self.redo, "undo"),
+        };
+        if let Some(scene) = from.pop() {
+            to.push(self.scene.clone());
             self.refusal = None;
-            self.take_turned(scene);
+            self.set_turned_scene(scene);
         } else {
-            self.status = Some("nothing to undo".into());
-        }
-    }
-
-    pub(super) fn redo(&mut self) {
-        if let Some(scene) = self.redo.pop() {
-            self.undo.push(self.scene.clone());
-            self.refusal = None;
-            self.take_turned(scene);
-        } else {
-            self.status = Some("nothing to redo".into());
+            self.status = Some(format!("nothing to {word}"));
         }
     }
 }
 
-/// Whether a change of scene can act on a motion that is under way: speed and
-/// ramp always can, the rest where the solver adopts it.
+/// Whether a change of scene can act on a running motion: speed and ramp
+/// always can, the rest where the solver can take it over.
 fn acts_live(before: &Scene, after: &Scene) -> bool {
     let mut turned = before.clone();
     turned.operation.speed_rad_s = after.operation.speed_rad_s;

@@ -1,13 +1,13 @@
-//! Keys and actions: each changes the state and says what must happen outside.
+//! Keys and actions: each changes the state and returns what must happen outside.
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 use super::time::MOST_ZOOM;
-use super::{App, Baseline, Mode, Purpose, RATES, View};
+use super::{App, Baseline, InputMode, Purpose, RATES};
 use crate::tui::bindings::{Action, Chord, lookup};
-use crate::tui::engine::Ahead;
 use crate::tui::knobs::KNOBS;
 use crate::tui::lessons;
+use crate::tui::views::ViewId;
 
 /// What must happen outside of the state.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -18,7 +18,7 @@ pub enum Effect {
     Quit,
     /// Suspend the job.
     Suspend,
-    /// Draw everything anew.
+    /// Draw everything again.
     Redraw,
     /// Put a text on the clipboard of the terminal.
     Copy(String),
@@ -40,8 +40,7 @@ impl App {
             self.check_lesson();
             return effect;
         }
-        if let (Mode::Typing(text) | Mode::Naming(_, text), KeyCode::Char(letter), false) =
-            (&mut self.mode, chord.code, chord.ctrl)
+        if let (Some(text), KeyCode::Char(letter), false) = (self.typed(), chord.code, chord.ctrl)
             && text.len() < LONGEST_TYPED
         {
             text.push(letter);
@@ -49,43 +48,44 @@ impl App {
         Effect::None
     }
 
+    /// The text that is being typed.
+    fn typed(&mut self) -> Option<&mut String> {
+        match &mut self.mode {
+            InputMode::Typing(text) | InputMode::Naming(_, text) => Some(text),
+            _ => None,
+        }
+    }
+
     /// Carries out an action.
     pub fn act(&mut self, action: Action) -> Effect {
         self.status = None;
-        match (&mut self.mode, action) {
+        match (self.mode.clone(), action) {
             (_, Action::Quit) => return Effect::Quit,
             (_, Action::Suspend) => return Effect::Suspend,
             (_, Action::Redraw) => return Effect::Redraw,
             (_, Action::Theme) => {
-                self.skin.theme = self.skin.theme.next();
-                self.status = Some(format!("theme {}", self.skin.theme.name()));
+                self.appearance.theme = self.appearance.theme.next();
+                self.status = Some(format!("theme {}", self.appearance.theme.name()));
             }
-            (Mode::Help(scroll), Action::KnobBelow) => *scroll = scroll.saturating_add(1),
-            (Mode::Help(scroll), Action::KnobAbove) => *scroll = scroll.saturating_sub(1),
-            (Mode::Typing(text) | Mode::Naming(_, text), Action::Rub) => {
-                text.pop();
+            (InputMode::Help(scroll), Action::KnobBelow) => {
+                self.mode = InputMode::Help(scroll.saturating_add(1));
             }
-            (Mode::Naming(purpose, name), Action::Accept) => {
-                let (purpose, name) = (*purpose, name.clone());
-                self.write(purpose, &name, false);
+            (InputMode::Help(scroll), Action::KnobAbove) => {
+                self.mode = InputMode::Help(scroll.saturating_sub(1));
             }
-            (Mode::Replacing(purpose, name), Action::Yes) => {
-                let (purpose, name) = (*purpose, name.clone());
-                self.write(purpose, &name, true);
+            (_, Action::DeleteLast) => _ = self.typed().and_then(String::pop),
+            (InputMode::Naming(purpose, name), Action::Accept) => self.write(purpose, &name, false),
+            (InputMode::Replacing(purpose, name), Action::Yes) => self.write(purpose, &name, true),
+            (InputMode::Lessons(place), Action::KnobBelow) => {
+                let last = lessons::all().len().saturating_sub(1);
+                self.mode = InputMode::Lessons((place + 1).min(last));
             }
-            (Mode::Lessons(place), Action::KnobBelow) => {
-                *place = (*place + 1).min(lessons::all().len().saturating_sub(1));
+            (InputMode::Lessons(place), Action::KnobAbove) => {
+                self.mode = InputMode::Lessons(place.saturating_sub(1));
             }
-            (Mode::Lessons(place), Action::KnobAbove) => *place = place.saturating_sub(1),
-            (Mode::Lessons(place), Action::Accept) => {
-                let place = *place;
-                self.begin_lesson(place);
-            }
+            (InputMode::Lessons(place), Action::Accept) => self.begin_lesson(place),
             (_, Action::Copy) => return Effect::Copy(self.copied()),
-            (Mode::Typing(text), Action::Accept) => {
-                let text = text.clone();
-                self.accept(&text);
-            }
+            (InputMode::Typing(text), Action::Accept) => self.accept(&text),
             (_, Action::Close) => self.close(),
             _ => self.act_main(action),
         }
@@ -94,8 +94,8 @@ impl App {
 
     fn close(&mut self) {
         self.refusal = None;
-        if self.mode != Mode::Main {
-            self.mode = Mode::Main;
+        if self.mode != InputMode::Main {
+            self.mode = InputMode::Main;
         } else if self.cursor.is_some() || self.pages_back > 0 {
             self.cursor = None;
             self.pages_back = 0;
@@ -106,24 +106,20 @@ impl App {
 
     fn act_main(&mut self, action: Action) {
         match action {
-            Action::Help => self.mode = Mode::Help(0),
+            Action::Help => self.mode = InputMode::Help(0),
             Action::NextView => self.show(self.neighbour(1)),
-            Action::PreviousView => self.show(self.neighbour(View::ALL.len() - 1)),
-            Action::View(digit) => {
-                if let Some(view) = View::ALL.into_iter().find(|view| view.digit() == digit) {
-                    self.show(view);
-                }
-            }
+            Action::PreviousView => self.show(self.neighbour(-1)),
+            Action::View(view) => self.show(view),
             Action::KnobAbove => self.select(true),
             Action::KnobBelow => self.select(false),
             Action::Turn { up, coarse } => self.turn(up, coarse),
             Action::Type => {
                 self.refusal = None;
-                self.mode = Mode::Typing(String::new());
+                self.mode = InputMode::Typing(String::new());
             }
             Action::Reset => self.reset(),
-            Action::Undo => self.undo(),
-            Action::Redo => self.redo(),
+            Action::Undo => self.step_back(false),
+            Action::Redo => self.step_back(true),
             Action::Pause => self.playing = !self.playing,
             Action::Step => {
                 self.playing = false;
@@ -136,34 +132,35 @@ impl App {
             Action::Pin => self.pin(),
             Action::OtherLaw => {
                 self.compare = !self.compare;
-                self.beside = None;
-                self.beside_history.clear();
+                self.latest.results.comparison = None;
+                self.comparison_history.clear();
             }
-            Action::Save => self.mode = Mode::Naming(Purpose::Save, "scene.toml".into()),
+            Action::Save => self.mode = InputMode::Naming(Purpose::Save, "scene.toml".into()),
             Action::Export => {
                 let name = format!("{}.csv", self.view.word());
-                self.mode = Mode::Naming(Purpose::Export, name);
+                self.mode = InputMode::Naming(Purpose::Export, name);
             }
-            Action::Guide => self.guide(),
-            Action::LeaveGuide => self.lesson = None,
+            Action::Lesson => self.lesson_key(),
+            Action::LeaveLesson => self.lesson = None,
             Action::Heat => {
                 self.heat = !self.heat;
-                self.show(View::Gaps);
+                self.show(ViewId::Gaps);
                 let how = if self.heat { "against time" } else { "of this instant" };
                 self.status = Some(format!("gaps {how}"));
             }
-            Action::Charts => self.charts_beside = (self.charts_beside + 1) % 4,
+            Action::Charts => self.companions_shown = (self.companions_shown + 1) % 4,
             Action::PageBack => self.pan(true),
             Action::PageForward => self.pan(false),
             Action::Cursor { right, coarse } => self.move_cursor(right, coarse),
             Action::Restart => {
                 self.restart();
-                self.status = Some("begun anew".into());
+                self.status = Some("restarted".into());
             }
             Action::Fire => {
                 self.counters.pulses += 1;
-                self.ahead = None;
-                let pulse = KNOBS.get(1).map(|knob| knob.shown(&knob.get(&self.scene)));
+                self.latest.results.full_run = None;
+                let pulse = KNOBS.iter().find(|knob| knob.path == "operation.pulse_n");
+                let pulse = pulse.map(|knob| knob.shown(&knob.get(&self.scene)));
                 self.status = pulse.map(|pulse| format!("pulse of {pulse} fired"));
             }
             Action::Slower => self.rate = self.rate.saturating_sub(1),
@@ -178,42 +175,38 @@ impl App {
             }
             Action::FullScreen => self.full_screen = !self.full_screen,
             Action::Marker => {
-                self.skin.marker = self.skin.marker.next();
-                self.status = Some(format!("marker {}", self.skin.marker));
+                self.appearance.marker = self.appearance.marker.next();
+                self.status = Some(format!("marker {}", self.appearance.marker));
             }
             Action::Live => {
                 self.live = !self.live;
                 self.status = Some(if self.live {
                     "live: knobs act on the running motion".into()
                 } else {
-                    "knobs begin the run anew".to_string()
+                    "a knob restarts the run".to_string()
                 });
             }
             _ => {}
         }
     }
 
-    fn neighbour(&self, by: usize) -> View {
-        let place = View::ALL.iter().position(|view| *view == self.view).unwrap_or(0);
-        View::ALL.get((place + by) % View::ALL.len()).copied().unwrap_or(self.view)
+    fn neighbour(&self, by: i64) -> ViewId {
+        let views: Vec<ViewId> = ViewId::all().collect();
+        let place = (self.view as i64 + by).rem_euclid(views.len() as i64);
+        views.get(place as usize).copied().unwrap_or(self.view)
     }
 
     fn pin(&mut self) {
         if self.baseline.take().is_some() {
-            self.status = Some("baseline let go".into());
+            self.status = Some("baseline removed".into());
             return;
         }
-        let forces = match &self.ahead {
-            Some(Ahead::Done(forecast)) => forecast.multipliers.clone(),
-            _ => Vec::new(),
-        };
-        self.baseline =
-            Some(Baseline { history: self.history.clone(), words: self.verdict(), forces });
-        self.status = Some("this run stays behind the next as a baseline".into());
+        self.baseline = Some(Baseline { history: self.history.clone(), words: self.verdict() });
+        self.status = Some("this run stays on the chart as a baseline".into());
     }
 
     /// Makes a view the large one; the one that was takes its place.
-    pub(super) fn show(&mut self, view: View) {
+    pub(super) fn show(&mut self, view: ViewId) {
         if view == self.view {
             return;
         }

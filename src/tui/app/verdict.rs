@@ -1,15 +1,15 @@
-//! The verdict in words: what the run comes to, since when, on which blades,
-//! and where another solver disagrees.
+//! The verdict in words: which it is, since when, on which blades, and where
+//! another solver disagrees.
 
 use super::App;
 use crate::motion::{Touching, Verdict};
 use crate::tui::axis::readable;
-use crate::tui::engine::{Ahead, Forecast};
+use crate::tui::engine::{FullRun, FullRunState};
 use crate::tui::theme::Role;
 
 /// A verdict as the header shows it.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Words {
+pub struct VerdictText {
     /// The one word, in capitals.
     pub word: String,
     /// The rest of the line; may be left out where there is no room.
@@ -19,71 +19,78 @@ pub struct Words {
 }
 
 impl App {
-    /// The verdict of the running solver.
-    #[must_use]
-    pub fn verdict(&self) -> Words {
-        if let Some(trouble) = &self.trouble {
-            return Words { word: "STOPPED".into(), detail: trouble.clone(), role: Role::Trouble };
+    /// The full run of the scene's own solver, once it is computed.
+    pub fn full_run(&self) -> Option<&FullRun> {
+        match &self.latest.results.full_run {
+            Some(FullRunState::Done(run)) => Some(run),
+            _ => None,
         }
-        match &self.ahead {
-            Some(Ahead::Done(forecast)) => {
-                let mut words = self.words(forecast);
-                if self.sensitive {
+    }
+
+    /// The verdict of the running solver.
+    pub fn verdict(&self) -> VerdictText {
+        if let Some(trouble) = &self.latest.trouble {
+            return VerdictText {
+                word: "STOPPED".into(),
+                detail: trouble.clone(),
+                role: Role::Trouble,
+            };
+        }
+        match &self.latest.results.full_run {
+            Some(FullRunState::Done(run)) => {
+                let mut words = self.words(run);
+                if self.latest.results.sensitive {
                     words.detail.push_str(", sensitive");
                 }
                 words
             }
-            Some(Ahead::Computing(part)) => Words {
+            Some(FullRunState::Computing(part)) => VerdictText {
                 word: "computing".into(),
                 detail: format!("{:.0} %", 100.0 * part),
                 role: Role::Quiet,
             },
-            None => Words { word: "computing".into(), detail: String::new(), role: Role::Quiet },
+            None => {
+                VerdictText { word: "computing".into(), detail: String::new(), role: Role::Quiet }
+            }
         }
     }
 
-    pub(crate) fn words(&self, forecast: &Forecast) -> Words {
-        let since = forecast.since.map_or(String::new(), |t| format!("since {}", readable(t, "s")));
-        let tensile = forecast.checks.tensile_steps;
-        let blades = self.blades_of(forecast.multipliers.iter().map(|(side, _)| *side));
-        let (detail, role) = match forecast.verdict {
+    pub(crate) fn words(&self, run: &FullRun) -> VerdictText {
+        let since = run.since.map_or(String::new(), |t| format!("since {}", readable(t, "s")));
+        let tensile = run.checks.tensile_steps;
+        let blades = self.blades_of(run.multipliers.iter().map(|(side, _)| *side));
+        let (detail, role) = match run.verdict {
             Verdict::Locked => (join(&[&blades, &since]), Role::Contact),
             Verdict::Adhesive => {
-                let pulled: Vec<u32> = forecast
-                    .multipliers
-                    .iter()
-                    .filter(|(_, l)| *l > 0.0)
-                    .map(|(s, _)| *s)
-                    .collect();
-                let pulled = self.blades_of(pulled.into_iter());
+                let pulled = run.multipliers.iter().filter(|(_, force)| *force > 0.0);
+                let pulled = self.blades_of(pulled.map(|(side, _)| *side));
                 (join(&["a lock that pulls, no contact can", &pulled, &since]), Role::Trouble)
             }
             Verdict::Slip => (join(&["contact without a break, side after side"]), Role::Contact),
             Verdict::Bounce => {
-                (format!("{} impacts, and more to come", forecast.impacts), Role::Contact)
+                (format!("{} impacts, and more to come", run.impacts), Role::Contact)
             }
-            Verdict::Decay => (plural(forecast.impacts, "impact"), Role::Good),
-            Verdict::Failed => (forecast.failure.clone().unwrap_or_default(), Role::Trouble),
+            Verdict::Decay => (plural(run.impacts, "impact"), Role::Good),
+            Verdict::Failed => (run.failure.clone().unwrap_or_default(), Role::Trouble),
         };
         let pulls = tensile > 0
             && matches!(
-                forecast.verdict,
+                run.verdict,
                 Verdict::Locked | Verdict::Decay | Verdict::Slip | Verdict::Bounce
             );
         let detail =
             if pulls { format!("{detail}, {}", plural(tensile, "tensile step")) } else { detail };
-        Words { word: forecast.verdict.as_ref().to_uppercase(), detail, role }
+        VerdictText { word: run.verdict.as_ref().to_uppercase(), detail, role }
     }
 
-    /// What the event solver under unilateral contact says, where it differs.
-    #[must_use]
+    /// The verdict of the event solver under unilateral contact, if it differs.
     pub fn disagreement(&self) -> Option<String> {
-        let Some(Ahead::Done(own)) = &self.ahead else { return None };
-        let other = self.reference.as_ref()?;
+        let own = self.full_run()?;
+        let other = self.latest.results.reference.as_ref()?;
         if other.verdict == own.verdict {
             return None;
         }
-        let why = if self.sensitive {
+        let why = if self.latest.results.sensitive {
             "the scene is sensitive".to_string()
         } else if own.checks.tensile_steps > 0 {
             format!("here {} pulled", plural(own.checks.tensile_steps, "step"))
@@ -93,10 +100,9 @@ impl App {
         Some(format!("event solver, unilateral: {} ({why})", other.verdict))
     }
 
-    /// What touches now, in words.
-    #[must_use]
+    /// The blades in contact now, in words.
     pub fn contact_now(&self) -> String {
-        let Some(moment) = &self.moment else { return String::new() };
+        let Some(moment) = &self.latest.moment else { return String::new() };
         if let Some(failure) = &moment.failure {
             return failure.clone();
         }
@@ -109,7 +115,6 @@ impl App {
     }
 
     /// The blades of some sides, `blades 6 + 21`.
-    #[must_use]
     pub fn blades_of(&self, sides: impl Iterator<Item = u32>) -> String {
         let mut groups: Vec<String> = Vec::new();
         let mut count = 0;
@@ -133,7 +138,6 @@ fn join(parts: &[&str]) -> String {
 }
 
 /// `1 impact`, `2 impacts`, `no impacts`.
-#[must_use]
 pub fn plural(count: u64, what: &str) -> String {
     match count {
         0 => format!("no {what}s"),

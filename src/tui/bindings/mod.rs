@@ -1,5 +1,5 @@
-//! The one table of key bindings. The handler looks keys up in it; the footer,
-//! the help and the manual page are printed from it.
+//! The one table of key bindings: the key handler, the footer, the help and
+//! the manual page use it.
 
 mod table;
 
@@ -7,109 +7,57 @@ pub use table::BINDINGS;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
+use super::views::ViewId;
+
 /// What a key does.
+#[expect(missing_docs, reason = "the table says what each action does")]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
-    /// Leave the program.
     Quit,
-    /// Stop as a job; the shell comes back.
     Suspend,
-    /// Draw the whole screen anew.
     Redraw,
-    /// Close what is open.
     Close,
-    /// Show or hide the help.
     Help,
-    /// The view after this one.
     NextView,
-    /// The view before this one.
     PreviousView,
-    /// A view by its digit.
-    View(u8),
-    /// Select the knob above.
+    View(ViewId),
     KnobAbove,
-    /// Select the knob below.
     KnobBelow,
-    /// Turn the selected knob; the sign is the direction.
-    Turn {
-        /// Up or down.
-        up: bool,
-        /// In large steps.
-        coarse: bool,
-    },
-    /// Type a value.
+    Turn { up: bool, coarse: bool },
     Type,
-    /// Back to the scene's value.
     Reset,
-    /// Undo a knob.
     Undo,
-    /// Redo a knob.
     Redo,
-    /// Stop and go.
     Pause,
-    /// One step.
     Step,
-    /// Begin the run anew.
     Restart,
-    /// Fire the pulse into the running motion.
     Fire,
-    /// Slower motion.
     Slower,
-    /// Faster motion.
     Faster,
-    /// A shorter page.
     ZoomIn,
-    /// A longer page.
     ZoomOut,
-    /// The first page length.
     ZoomReset,
-    /// Ranges follow the data, or stand still.
     Autoscale,
-    /// One chart only.
     FullScreen,
-    /// The next marker.
     Marker,
-    /// The next theme.
     Theme,
-    /// Knobs begin the run anew, or act on the running motion.
     Live,
-    /// On to the next change of contact.
     Jump,
-    /// Pin this run behind the next ones, or let it go.
     Pin,
-    /// The other contact law beside this one.
     OtherLaw,
-    /// Save the scene.
     Save,
-    /// Export what is seen.
     Export,
-    /// Copy the command line that repeats this run.
     Copy,
-    /// Lessons, or the next step of the one under way.
-    Guide,
-    /// Leave the lesson.
-    LeaveGuide,
-    /// Gaps against time, or of one instant.
+    Lesson,
+    LeaveLesson,
     Heat,
-    /// Fewer or more charts.
     Charts,
-    /// A page back.
     PageBack,
-    /// A page forward.
     PageForward,
-    /// The reading cursor.
-    Cursor {
-        /// To the right.
-        right: bool,
-        /// By a tenth of the page.
-        coarse: bool,
-    },
-    /// Yes.
+    Cursor { right: bool, coarse: bool },
     Yes,
-    /// Accept what was typed.
     Accept,
-    /// Delete the last character.
-    Rub,
+    DeleteLast,
 }
 
 /// Where a binding holds.
@@ -140,7 +88,6 @@ pub struct Chord {
 
 impl Chord {
     /// The chord of a key event.
-    #[must_use]
     pub fn of(event: &KeyEvent) -> Self {
         let shift = event.modifiers.contains(KeyModifiers::SHIFT);
         let ctrl = event.modifiers.contains(KeyModifiers::CONTROL);
@@ -179,7 +126,7 @@ impl std::fmt::Display for Chord {
 }
 
 /// One line of the table.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Binding {
     /// Where it holds.
     pub context: Context,
@@ -194,7 +141,6 @@ pub struct Binding {
 }
 
 /// What a key does in a context.
-#[must_use]
 pub fn lookup(context: Context, chord: Chord) -> Option<Action> {
     of(context).find(|binding| binding.keys.contains(&chord)).map(|binding| binding.action)
 }
@@ -205,7 +151,6 @@ pub fn of(context: Context) -> impl Iterator<Item = &'static Binding> {
 }
 
 /// The keys of a binding as text, such as `Up, k`.
-#[must_use]
 pub fn keys_text(binding: &Binding) -> String {
     binding.keys.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
 }
@@ -229,7 +174,7 @@ mod tests {
 
     #[test]
     fn every_binding_says_what_it_does_and_every_context_can_be_left() {
-        for binding in BINDINGS {
+        for binding in BINDINGS.iter() {
             assert!(!binding.what.is_empty() && !binding.keys.is_empty());
         }
         for context in

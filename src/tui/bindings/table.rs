@@ -1,8 +1,11 @@
 //! The table itself: which key does what, where, and in which words.
 
+use std::sync::LazyLock;
+
 use crossterm::event::KeyCode;
 
 use super::{Action, Binding, Chord, Context};
+use crate::tui::views::ViewId;
 
 pub(super) const fn letter(letter: char) -> Chord {
     Chord { code: KeyCode::Char(letter), ctrl: false, shift: false }
@@ -35,9 +38,35 @@ const fn turn(up: bool, coarse: bool) -> Action {
     Action::Turn { up, coarse }
 }
 
+/// The keys of the views.
+const DIGITS: [Chord; 9] = [
+    letter('1'),
+    letter('2'),
+    letter('3'),
+    letter('4'),
+    letter('5'),
+    letter('6'),
+    letter('7'),
+    letter('8'),
+    letter('9'),
+];
+
 /// Every binding, in the order of the help; those of the footer come in the
 /// order of their importance.
-pub const BINDINGS: &[Binding] = &[
+pub static BINDINGS: LazyLock<Vec<Binding>> = LazyLock::new(|| {
+    let views = ViewId::all().zip(DIGITS.chunks(1)).map(|(view, keys)| Binding {
+        context: Context::Main,
+        keys,
+        action: Action::View(view),
+        // Leaked once: the other texts are static too.
+        what: format!("view {}: {}", view.digit(), view.panel().what()).leak(),
+        footer: None,
+    });
+    BEFORE_VIEWS.iter().cloned().chain(views).chain(AFTER_VIEWS.iter().cloned()).collect()
+});
+
+/// The bindings before those of the views.
+const BEFORE_VIEWS: &[Binding] = &[
     bind!(Main, [key(KeyCode::Up), letter('k')], Action::KnobAbove, "select the knob above", "↑↓" "knob"),
     bind!(Main, [key(KeyCode::Down), letter('j')], Action::KnobBelow, "select the knob below"),
     bind!(Main, [key(KeyCode::Right), letter('l')], turn(true, false), "turn the knob up", "←→" "turn"),
@@ -68,12 +97,12 @@ pub const BINDINGS: &[Binding] = &[
         Main,
         [letter('x')],
         Action::Live,
-        "knobs act on the running motion (live), or begin it anew"
+        "knobs act on the running motion (live), or restart it"
     ),
-    bind!(Main, [letter('g')], Action::Guide, "guide: choose a lesson; in one, its next step", "g" "guide"),
-    bind!(Main, [letter('G')], Action::LeaveGuide, "leave the lesson"),
+    bind!(Main, [letter('g')], Action::Lesson, "guide: choose a lesson; in one, its next step", "g" "guide"),
+    bind!(Main, [letter('G')], Action::LeaveLesson, "leave the lesson"),
     bind!(Main, [letter('n')], Action::Jump, "on to the next change of contact (pauses)"),
-    bind!(Main, [letter('b')], Action::Pin, "pin this run as a baseline behind the next, or let it go", "b" "pin"),
+    bind!(Main, [letter('b')], Action::Pin, "pin this run as a baseline behind the next, or remove it", "b" "pin"),
     bind!(Main, [letter('c')], Action::OtherLaw, "the other contact law beside this one", "c" "both laws"),
     bind!(Main, [letter('s')], Action::Save, "save the scene"),
     bind!(
@@ -106,13 +135,10 @@ pub const BINDINGS: &[Binding] = &[
     bind!(Main, [letter(')')], cursor(true, false), "reading cursor to the right"),
     bind!(Main, [letter('{')], cursor(false, true), "reading cursor far to the left"),
     bind!(Main, [letter('}')], cursor(true, true), "reading cursor far to the right"),
-    bind!(Main, [letter('1')], Action::View(1), "view 1: response"),
-    bind!(Main, [letter('2')], Action::View(2), "view 2: gaps"),
-    bind!(Main, [letter('3')], Action::View(3), "view 3: locked motion"),
-    bind!(Main, [letter('4')], Action::View(4), "view 4: blade frame and wheel"),
-    bind!(Main, [letter('5')], Action::View(5), "view 5: map over speed and pulse"),
-    bind!(Main, [letter('6')], Action::View(6), "view 6: spectrum and Campbell lines"),
-    bind!(Main, [letter('7')], Action::View(7), "view 7: speed against error"),
+];
+
+/// The bindings after those of the views.
+const AFTER_VIEWS: &[Binding] = &[
     bind!(Main, [letter('+')], Action::ZoomIn, "a shorter page of time"),
     bind!(Main, [letter('-')], Action::ZoomOut, "a longer page of time"),
     bind!(Main, [letter('=')], Action::ZoomReset, "the first page of time"),
@@ -125,11 +151,11 @@ pub const BINDINGS: &[Binding] = &[
     ),
     bind!(Main, [letter('t')], Action::Theme, "next theme (dark, light, colour-blind, mono)"),
     bind!(Main, [ctrl('z')], Action::Suspend, "suspend"),
-    bind!(Main, [ctrl('l')], Action::Redraw, "draw the screen anew"),
+    bind!(Main, [ctrl('l')], Action::Redraw, "draw the screen again"),
     bind!(Main, [key(KeyCode::Esc)], Action::Close, "close what is open; never quits"),
     bind!(Typing, [key(KeyCode::Enter)], Action::Accept, "take the value", "Enter" "take"),
     bind!(Typing, [key(KeyCode::Esc)], Action::Close, "leave it as it was", "Esc" "leave"),
-    bind!(Typing, [key(KeyCode::Backspace)], Action::Rub, "delete the last character", "Backspace" "delete"),
+    bind!(Typing, [key(KeyCode::Backspace)], Action::DeleteLast, "delete the last character", "Backspace" "delete"),
     bind!(Typing, [ctrl('c')], Action::Quit, "quit", "Ctrl-C" "quit"),
     bind!(Help, [key(KeyCode::Esc), letter('?')], Action::Close, "close the help", "Esc" "close"),
     bind!(Help, [key(KeyCode::Down), letter('j'), letter(' ')], Action::KnobBelow, "scroll down", "↑↓" "scroll"),
@@ -137,7 +163,7 @@ pub const BINDINGS: &[Binding] = &[
     bind!(Help, [letter('q'), ctrl('c')], Action::Quit, "quit", "q" "quit"),
     bind!(Help, [letter('t')], Action::Theme, "next theme"),
     bind!(Help, [ctrl('z')], Action::Suspend, "suspend"),
-    bind!(Help, [ctrl('l')], Action::Redraw, "draw the screen anew"),
+    bind!(Help, [ctrl('l')], Action::Redraw, "draw the screen again"),
     bind!(Replacing, [letter('y')], Action::Yes, "replace the file", "y" "replace"),
     bind!(Replacing, [letter('n'), key(KeyCode::Esc)], Action::Close, "leave it as it is", "n" "leave it"),
     bind!(Replacing, [ctrl('c')], Action::Quit, "quit", "Ctrl-C" "quit"),

@@ -8,16 +8,11 @@ use number::{COARSE, FINE, decades, prefixed};
 
 use crate::scene::{
     Allowed, CheckedScene, ContactLaw, ModelSize, Scene, SceneError, SolverKind, Value, keys,
+    keys::Key,
 };
 
-/// What a knob sets.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Target {
-    /// A key of the scene.
-    Key(&'static str),
-    /// The clearance `g0`, by moving the casing radius.
-    Clearance,
-}
+/// The one knob that is no key: the clearance `g0`, by moving the casing radius.
+const CLEARANCE: &str = "clearance";
 
 /// How a knob turns.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,61 +32,62 @@ pub enum Turn {
 pub struct Knob {
     /// Short name.
     pub label: &'static str,
-    /// What it sets.
-    pub target: Target,
+    /// The key that it sets.
+    pub path: &'static str,
     /// How it turns.
     pub turn: Turn,
 }
 
-macro_rules! knob {
-    ($label:literal, $path:literal, $turn:expr) => {
-        Knob { label: $label, target: Target::Key($path), turn: $turn }
-    };
+const fn knob(label: &'static str, path: &'static str, turn: Turn) -> Knob {
+    Knob { label, path, turn }
 }
 
 /// Every knob, in the order of the panel.
 pub const KNOBS: &[Knob] = &[
-    knob!("speed Ω", "operation.speed_rad_s", Turn::Linear(5.0, 50.0)),
-    knob!("pulse F", "operation.pulse_n", Turn::Decades(1.0)),
-    knob!("diameters n_d", "operation.nodal_diameters", Turn::Whole(1, 4)),
-    knob!("damping ζ_c", "casing.damping_ratio", Turn::Linear(0.005, 0.05)),
-    knob!("damping ζ_bd", "bladed_disk.damping_ratio", Turn::Linear(0.005, 0.05)),
-    Knob { label: "clearance g0", target: Target::Clearance, turn: Turn::Decades(1e-9) },
-    knob!("pulse time t_p", "operation.pulse_s", Turn::Decades(1e-9)),
-    knob!("blades N", "bladed_disk.blades", Turn::Whole(1, 10)),
-    knob!("solver", "solver.kind", Turn::Words),
-    knob!("contact", "solver.contact", Turn::Words),
-    knob!("model", "solver.model", Turn::Words),
-    knob!("step h", "solver.step_s", Turn::Decades(1e-12)),
-    knob!("run end", "solver.end_s", Turn::Decades(1e-9)),
-    knob!("speed ramp", "operation.speed_ramp_rad_s2", Turn::Decades(1.0)),
-    knob!("casing k_c", "casing.modal_stiffness_n_per_m", Turn::Decades(1e-6)),
-    knob!("casing m_c", "casing.modal_mass_kg", Turn::Decades(1e-9)),
-    knob!("blade k_b", "bladed_disk.stiffness_nm_per_rad", Turn::Decades(1e-6)),
-    knob!("blade k_bb", "bladed_disk.coupling_nm_per_rad", Turn::Decades(1e-3)),
-    knob!("blade m_b", "bladed_disk.inertia_kg_m2", Turn::Decades(1e-9)),
-    knob!("blade l_b", "bladed_disk.blade_length_m", Turn::Linear(1e-6, 1e-5)),
-    knob!("casing R_c", "casing.radius_m", Turn::Linear(1e-6, 1e-5)),
-    knob!("start u_c", "initial.u_c_m", Turn::Linear(5e-6, 2e-5)),
-    knob!("start u_s", "initial.u_s_m", Turn::Linear(5e-6, 2e-5)),
-    knob!("start u_c'", "initial.v_c_m_s", Turn::Linear(5e-3, 5e-2)),
-    knob!("start u_s'", "initial.v_s_m_s", Turn::Linear(5e-3, 5e-2)),
-    knob!("EO torque", "excitation.amplitude_nm", Turn::Decades(1e-3)),
-    knob!("EO order", "excitation.order", Turn::Whole(1, 5)),
+    knob("speed Ω", "operation.speed_rad_s", Turn::Linear(5.0, 50.0)),
+    knob("pulse F", "operation.pulse_n", Turn::Decades(1.0)),
+    knob("diameters n_d", "operation.nodal_diameters", Turn::Whole(1, 4)),
+    knob("damping ζ_c", "casing.damping_ratio", Turn::Linear(0.005, 0.05)),
+    knob("damping ζ_bd", "bladed_disk.damping_ratio", Turn::Linear(0.005, 0.05)),
+    knob("clearance g0", CLEARANCE, Turn::Decades(1e-9)),
+    knob("pulse time t_p", "operation.pulse_s", Turn::Decades(1e-9)),
+    knob("blades N", "bladed_disk.blades", Turn::Whole(1, 10)),
+    knob("solver", "solver.kind", Turn::Words),
+    knob("contact", "solver.contact", Turn::Words),
+    knob("model", "solver.model", Turn::Words),
+    knob("step h", "solver.step_s", Turn::Decades(1e-12)),
+    knob("run end", "solver.end_s", Turn::Decades(1e-9)),
+    knob("speed ramp", "operation.speed_ramp_rad_s2", Turn::Decades(1.0)),
+    knob("casing k_c", "casing.modal_stiffness_n_per_m", Turn::Decades(1e-6)),
+    knob("casing m_c", "casing.modal_mass_kg", Turn::Decades(1e-9)),
+    knob("blade k_b", "bladed_disk.stiffness_nm_per_rad", Turn::Decades(1e-6)),
+    knob("blade k_bb", "bladed_disk.coupling_nm_per_rad", Turn::Decades(1e-3)),
+    knob("blade m_b", "bladed_disk.inertia_kg_m2", Turn::Decades(1e-9)),
+    knob("blade l_b", "bladed_disk.blade_length_m", Turn::Linear(1e-6, 1e-5)),
+    knob("casing R_c", "casing.radius_m", Turn::Linear(1e-6, 1e-5)),
+    knob("start u_c", "initial.u_c_m", Turn::Linear(5e-6, 2e-5)),
+    knob("start u_s", "initial.u_s_m", Turn::Linear(5e-6, 2e-5)),
+    knob("start u_c'", "initial.v_c_m_s", Turn::Linear(5e-3, 5e-2)),
+    knob("start u_s'", "initial.v_s_m_s", Turn::Linear(5e-3, 5e-2)),
+    knob("EO torque", "excitation.amplitude_nm", Turn::Decades(1e-3)),
+    knob("EO order", "excitation.order", Turn::Whole(1, 5)),
 ];
 
 impl Knob {
+    fn key(&self) -> Option<&'static Key> {
+        keys::KEYS.iter().find(|key| key.path == self.path)
+    }
+
     /// The value in a scene.
-    #[must_use]
     pub fn get(&self, scene: &Scene) -> Value {
-        match self.target {
-            Target::Key(path) => keys::find(path).map_or(Value::Whole(0), |key| (key.get)(scene)),
-            Target::Clearance => {
+        self.key().map_or_else(
+            || {
                 let clearance = scene.casing.radius_m - scene.bladed_disk.blade_length_m;
                 // Twelve digits: the difference of two lengths has no more.
                 Value::Real(format!("{clearance:.11e}").parse().unwrap_or(clearance))
-            }
-        }
+            },
+            |key| (key.get)(scene),
+        )
     }
 
     /// Sets it and checks the whole scene, which is unchanged on error. A
@@ -106,17 +102,14 @@ impl Knob {
         value: Value,
     ) -> Result<(CheckedScene, Option<String>), SceneError> {
         let mut changed = scene.clone();
-        match self.target {
-            Target::Key(path) => changed.set_value(keys::find(path)?, value)?,
-            Target::Clearance => {
-                let Value::Real(clearance) = value else {
-                    return Err(SceneError::refused("clearance", value, "a number"));
-                };
-                if !(clearance.is_finite() && clearance > 0.0) {
-                    return Err(SceneError::refused("clearance", value, "a number above 0"));
-                }
-                let radius = changed.bladed_disk.blade_length_m + clearance;
+        match (self.key(), value) {
+            (Some(key), value) => changed.set_value(key, value)?,
+            (None, Value::Real(g0)) if g0.is_finite() && g0 > 0.0 => {
+                let radius = changed.bladed_disk.blade_length_m + g0;
                 changed.set_value(keys::find("casing.radius_m")?, Value::Real(radius))?;
+            }
+            (None, value) => {
+                return Err(SceneError::refused(self.path, value, "a number above 0"));
             }
         }
         let said = self.make_compatible(&mut changed);
@@ -128,8 +121,8 @@ impl Knob {
         if solver.kind != SolverKind::Event {
             return None;
         }
-        match self.target {
-            Target::Key("solver.kind") => {
+        match self.path {
+            "solver.kind" => {
                 let mut said = Vec::new();
                 if solver.contact == ContactLaw::Bilateral {
                     solver.contact = ContactLaw::Unilateral;
@@ -142,11 +135,11 @@ impl Knob {
                 (!said.is_empty())
                     .then(|| format!("{}: the event solver knows no other", said.join(", ")))
             }
-            Target::Key("solver.contact") if solver.contact == ContactLaw::Bilateral => {
+            "solver.contact" if solver.contact == ContactLaw::Bilateral => {
                 solver.kind = SolverKind::Explicit;
                 Some("solver is now explicit: bilateral is a law of the time step".into())
             }
-            Target::Key("solver.model") if solver.model == ModelSize::Full => {
+            "solver.model" if solver.model == ModelSize::Full => {
                 solver.kind = SolverKind::Explicit;
                 Some("solver is now explicit: the event solver has no full model".into())
             }
@@ -155,7 +148,6 @@ impl Knob {
     }
 
     /// The value after one turn.
-    #[must_use]
     pub fn turned(&self, value: &Value, up: bool, coarse: bool, scene: &Scene) -> Value {
         match (value, self.turn) {
             (Value::Real(x), Turn::Linear(fine, large)) => {
@@ -173,11 +165,8 @@ impl Knob {
             ))),
             (Value::Whole(n), Turn::Whole(fine, large)) => {
                 let step = if coarse { large } else { fine };
-                let (min, mut max) = match self.allowed() {
-                    Some(Allowed::Whole { min, max }) => (min, max),
-                    _ => (0, u64::MAX),
-                };
-                if self.target == Target::Key("operation.nodal_diameters") {
+                let Allowed::Whole { min, mut max } = self.allowed() else { return value.clone() };
+                if self.path == "operation.nodal_diameters" {
                     // More than N/2 diameters look like fewer; they can be typed.
                     max = max.min(u64::from(scene.bladed_disk.blades / 2)).max(*n);
                 }
@@ -185,10 +174,7 @@ impl Knob {
                 Value::Whole(next.clamp(min, max.max(min)))
             }
             (Value::Text(word), Turn::Words) => {
-                let words = match self.allowed() {
-                    Some(Allowed::OneOf(words)) => words,
-                    _ => &[],
-                };
+                let Allowed::OneOf(words) = self.allowed() else { return value.clone() };
                 let place = words.iter().position(|w| w == word).unwrap_or(0);
                 let next = if up { place + 1 } else { place + words.len().saturating_sub(1) };
                 let next = words.get(next % words.len().max(1));
@@ -200,40 +186,27 @@ impl Knob {
 
     fn bounded(&self, x: f64) -> f64 {
         match self.allowed() {
-            Some(Allowed::Real { min, max, .. }) => x.clamp(min, max),
+            Allowed::Real { min, max, .. } => x.clamp(min, max),
             _ => x,
         }
     }
 
-    /// What the key may hold.
-    #[must_use]
-    pub fn allowed(&self) -> Option<Allowed> {
-        match self.target {
-            Target::Key(path) => keys::find(path).ok().map(|key| key.allowed),
-            Target::Clearance => Some(Allowed::Real { min: 0.0, max: 1e3, above: true }),
-        }
+    /// What it may hold.
+    pub fn allowed(&self) -> Allowed {
+        self.key().map_or(Allowed::Real { min: 0.0, max: 1e3, above: true }, |key| key.allowed)
     }
 
     /// The unit; empty for words and counts.
-    #[must_use]
     pub fn unit(&self) -> &'static str {
-        match self.target {
-            Target::Key(path) => keys::find(path).map_or("", |key| key.unit).trim_matches('-'),
-            Target::Clearance => "m",
-        }
+        self.key().map_or("m", |key| key.unit).trim_matches('-')
     }
 
     /// What it is, in a few words.
-    #[must_use]
     pub fn what(&self) -> &'static str {
-        match self.target {
-            Target::Key(path) => keys::find(path).map_or("", |key| key.what),
-            Target::Clearance => "clearance at rest g0 = R_c - l_b",
-        }
+        self.key().map_or("clearance at rest g0 = R_c - l_b", |key| key.what)
     }
 
     /// The value as shown, with prefix and unit.
-    #[must_use]
     pub fn shown(&self, value: &Value) -> String {
         match value {
             Value::Real(x) => number(*x, self.unit()),
@@ -249,24 +222,18 @@ impl Knob {
     /// The refusal, in one line.
     pub fn parse(&self, text: &str) -> Result<Value, SceneError> {
         let text = text.trim();
-        let refused = |allowed: String| {
-            let name = match self.target {
-                Target::Key(path) => path,
-                Target::Clearance => "clearance",
-            };
-            SceneError::refused(name, text, allowed)
-        };
+        let refused = |allowed: String| SceneError::refused(self.path, text, allowed);
         match self.allowed() {
-            Some(Allowed::Real { .. }) => {
+            Allowed::Real { .. } => {
                 let text = text.strip_suffix(self.unit()).unwrap_or(text).trim_end();
                 prefixed(text)
                     .map(Value::Real)
                     .ok_or_else(|| refused("a number, such as 500, 2.5e-7, 20k or 50u".into()))
             }
-            Some(Allowed::Whole { .. }) => {
+            Allowed::Whole { .. } => {
                 text.parse().map(Value::Whole).map_err(|_| refused("a whole number".into()))
             }
-            Some(Allowed::OneOf(words)) => {
+            Allowed::OneOf(words) => {
                 let found = words.iter().find(|word| !text.is_empty() && word.starts_with(text));
                 found
                     .map(|word| Value::Text((*word).to_string()))
@@ -282,10 +249,7 @@ mod tests {
     use super::*;
 
     fn knob(path: &str) -> &'static Knob {
-        KNOBS
-            .iter()
-            .find(|knob| knob.target == Target::Key(Box::leak(path.to_string().into_boxed_str())))
-            .unwrap()
+        KNOBS.iter().find(|knob| knob.path == path).unwrap()
     }
 
     #[test]
@@ -303,14 +267,12 @@ mod tests {
     fn every_number_of_a_scene_has_a_knob() {
         for key in keys::KEYS {
             let numeric = matches!(key.allowed, Allowed::Real { .. } | Allowed::Whole { .. });
-            let knobs = KNOBS.iter().filter(|knob| knob.target == Target::Key(key.path)).count();
-            assert_eq!(
-                knobs,
-                usize::from(numeric || matches!(key.allowed, Allowed::OneOf(_))),
-                "{}",
-                key.path
-            );
+            let knobs = KNOBS.iter().filter(|knob| knob.path == key.path).count();
+            let wanted = usize::from(numeric || matches!(key.allowed, Allowed::OneOf(_)));
+            assert_eq!(knobs, wanted, "{}", key.path);
         }
+        let no_key = KNOBS.iter().filter(|knob| knob.key().is_none()).map(|knob| knob.path);
+        assert_eq!(no_key.collect::<Vec<_>>(), [CLEARANCE]);
     }
 
     #[test]

@@ -1,51 +1,47 @@
-//! The last line: what just happened, or the keys for where you are, from the
-//! table of bindings.
+//! The last line: what the last key did, or the keys that can be pressed now,
+//! from the table of bindings.
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
-use super::{pieces, print};
-use crate::tui::app::{App, Mode, Purpose};
+use crate::tui::app::{App, InputMode, Purpose};
 use crate::tui::bindings;
+use crate::tui::text::{pieces, print};
 use crate::tui::theme::Role;
 
 /// Draws the line.
 pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
-    let skin = &app.skin;
+    let look = &app.appearance;
     let question = match &app.mode {
-        Mode::Naming(Purpose::Save, name) => Some(format!("save the scene as: {name}_")),
-        Mode::Naming(Purpose::Export, name) => {
+        InputMode::Naming(Purpose::Save, name) => Some(format!("save the scene as: {name}_")),
+        InputMode::Naming(Purpose::Export, name) => {
             Some(format!("export as (.csv data, .svg picture): {name}_"))
         }
-        Mode::Replacing(_, name) => Some(format!("{name} exists: y replaces it, n leaves it")),
+        InputMode::Replacing(_, name) => Some(format!("{name} exists: y replaces it, n leaves it")),
         _ => None,
     };
     if let Some(question) = question {
         // The end, where the cursor is, must be seen.
         let skip = question.chars().count().saturating_sub(usize::from(area.width));
         let shown: String = question.chars().skip(skip).collect();
-        print(buffer, area, 0, &shown, skin.style(Role::Focus));
+        print(buffer, area, 0, &shown, look.style(Role::Focus));
         return;
     }
     if let Some(status) = &app.status {
-        print(buffer, area, 0, &skin.spell(status), skin.style(Role::Good));
+        print(buffer, area, 0, &look.spell(status), look.style(Role::Good));
         return;
     }
-    let mut parts = Vec::new();
+    // A key and its word are shown together or not at all.
+    let mut rest = area;
     for (keys, word) in bindings::of(app.context()).filter_map(|binding| binding.footer) {
-        let gap = if parts.is_empty() { "" } else { "  " };
-        parts.push((format!("{gap}{}", skin.spell(keys)), skin.style(Role::Focus)));
-        parts.push((format!(" {word}"), skin.style(Role::Quiet)));
-    }
-    // A key without its word says nothing: cut in pairs.
-    let mut room = usize::from(area.width);
-    let mut fitting = Vec::new();
-    for pair in parts.chunks(2) {
-        let wide: usize = pair.iter().map(|(text, _)| text.chars().count()).sum();
-        if wide > room {
-            break;
+        let gap = if rest == area { "" } else { "  " };
+        let keys = format!("{gap}{}", look.spell(keys));
+        let wide =
+            u16::try_from(keys.chars().count() + 1 + word.chars().count()).unwrap_or(u16::MAX);
+        if wide > rest.width {
+            return;
         }
-        room -= wide;
-        fitting.extend_from_slice(pair);
+        let word = (format!(" {word}"), look.style(Role::Quiet));
+        pieces(buffer, rest, 0, &[(keys, look.style(Role::Focus)), word]);
+        rest = Rect { x: rest.x + wide, width: rest.width - wide, ..rest };
     }
-    pieces(buffer, area, 0, &fitting);
 }

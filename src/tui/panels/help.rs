@@ -2,12 +2,12 @@
 
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 
-use super::{print, wrap};
 use crate::tui::app::App;
 use crate::tui::bindings::{self, Context};
+use crate::tui::text::{print, wrap};
 use crate::tui::theme::Role;
 
-/// What the screen shows, for someone who has not read the paper.
+/// The words of the screen, for a reader who does not know the paper.
 const WORDS: &[(&str, &str)] = &[
     (
         "the machine",
@@ -33,7 +33,7 @@ const WORDS: &[(&str, &str)] = &[
 
 /// Draws the help, scrolled down by some lines.
 pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, scroll: u16) {
-    let skin = &app.skin;
+    let look = &app.appearance;
     let keys_width = if area.width >= 60 { 22 } else { 14 };
     let width = usize::from(area.width).saturating_sub(keys_width + 1);
     let mut lines: Vec<(String, String, bool)> = vec![("Keys".into(), String::new(), true)];
@@ -52,20 +52,20 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, scroll: u16) {
     }
     lines.push(("Words".into(), String::new(), true));
     for (word, meaning) in WORDS {
-        entry(&mut lines, &skin.spell(word), &skin.spell(meaning), width);
+        entry(&mut lines, &look.spell(word), &look.spell(meaning), width);
     }
     let most = lines.len().saturating_sub(usize::from(area.height));
     let first = usize::from(scroll).min(most);
     for (row, (keys, what, head)) in (0..area.height).zip(lines.iter().skip(first)) {
         let style = if *head {
-            skin.style(Role::Text).add_modifier(Modifier::BOLD)
+            look.style(Role::Text).add_modifier(Modifier::BOLD)
         } else {
-            skin.style(Role::Focus)
+            look.style(Role::Focus)
         };
         print(buffer, area, row, keys, style);
         let at = u16::try_from(keys_width).unwrap_or(0);
         let right = Rect { x: area.x + at, width: area.width.saturating_sub(at), ..area };
-        print(buffer, right, row, what, skin.style(Role::Text));
+        print(buffer, right, row, what, look.style(Role::Text));
     }
 }
 

@@ -3,9 +3,9 @@
 
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 
-use super::{print, wrap};
-use crate::tui::app::{App, Mode};
+use crate::tui::app::{App, InputMode};
 use crate::tui::knobs::{KNOBS, Knob};
+use crate::tui::text::{print, wrap};
 use crate::tui::theme::Role;
 
 /// Rows below the list that explain the selected knob.
@@ -23,32 +23,32 @@ pub fn panel(app: &App, buffer: &mut Buffer, area: Rect) {
         line(app, buffer, Rect { y: area.y + row, height: 1, ..area }, place, knob);
     }
     for (row, (text, role)) in (rows..area.height).zip(notes) {
-        print(buffer, area, row, &text, app.skin.style(role));
+        print(buffer, area, row, &text, app.appearance.style(role));
     }
 }
 
 fn line(app: &App, buffer: &mut Buffer, area: Rect, place: usize, knob: &Knob) {
-    let skin = &app.skin;
+    let look = &app.appearance;
     let selected = place == app.knob;
     let value = knob.get(&app.scene);
     let changed = if value == knob.get(&app.opened) { ' ' } else { '*' };
-    let sign = if selected { skin.either('▸', '>') } else { ' ' };
-    let label = skin.spell(&format!("{sign}{}{changed}", knob.label));
+    let sign = if selected { look.either('▸', '>') } else { ' ' };
+    let label = look.spell(&format!("{sign}{}{changed}", knob.label));
     let shown = match (&app.mode, selected) {
-        (Mode::Typing(text), true) => format!("{text}_"),
-        _ => skin.spell(&knob.shown(&value)),
+        (InputMode::Typing(text), true) => format!("{text}_"),
+        _ => look.spell(&knob.shown(&value)),
     };
     let width = usize::from(area.width);
     let room = width.saturating_sub(label.chars().count() + 1);
-    // The end of a typed value is where the eye is.
+    // The end of a typed value must be seen.
     let skip = shown.chars().count().saturating_sub(room);
     let shown: String = shown.chars().skip(skip).collect();
     let pad = width.saturating_sub(label.chars().count() + shown.chars().count());
     let text = format!("{label}{}{shown}", " ".repeat(pad));
     let style = match (selected, changed == '*') {
-        (true, _) => skin.style(Role::Focus).add_modifier(Modifier::REVERSED),
-        (false, true) => skin.style(Role::Text).add_modifier(Modifier::BOLD),
-        (false, false) => skin.style(Role::Text),
+        (true, _) => look.style(Role::Focus).add_modifier(Modifier::REVERSED),
+        (false, true) => look.style(Role::Text).add_modifier(Modifier::BOLD),
+        (false, false) => look.style(Role::Text),
     };
     print(buffer, area, 0, &text, style);
 }
@@ -58,32 +58,32 @@ fn notes(app: &App, width: usize) -> Vec<(String, Role)> {
     let Some(knob) = app.selected() else { return Vec::new() };
     let mut lines = Vec::new();
     if let Some(refusal) = &app.refusal {
-        lines.extend(wrap(&app.skin.spell(refusal), width).into_iter().map(|l| (l, Role::Trouble)));
+        lines.extend(
+            wrap(&app.appearance.spell(refusal), width).into_iter().map(|l| (l, Role::Trouble)),
+        );
         return lines;
     }
     let unit = if knob.unit().is_empty() { String::new() } else { format!(" [{}]", knob.unit()) };
-    let what = app.skin.spell(&format!("{}{unit}", knob.what()));
+    let what = app.appearance.spell(&format!("{}{unit}", knob.what()));
     lines.extend(wrap(&what, width).into_iter().map(|l| (l, Role::Quiet)));
-    if let Some(allowed) = knob.allowed() {
-        lines.extend(wrap(&allowed.to_string(), width).into_iter().map(|l| (l, Role::Quiet)));
-    }
+    lines.extend(wrap(&knob.allowed().to_string(), width).into_iter().map(|l| (l, Role::Quiet)));
     lines
 }
 
 /// Draws the selected knob alone.
 pub fn strip(app: &App, buffer: &mut Buffer, area: Rect) {
-    let skin = &app.skin;
+    let look = &app.appearance;
     if let Some(refusal) = &app.refusal {
-        print(buffer, area, 0, &skin.spell(refusal), skin.style(Role::Trouble));
+        print(buffer, area, 0, &look.spell(refusal), look.style(Role::Trouble));
         return;
     }
     let Some(knob) = app.selected() else { return };
     let shown = match &app.mode {
-        Mode::Typing(text) => format!("{text}_"),
+        InputMode::Typing(text) => format!("{text}_"),
         _ => knob.shown(&knob.get(&app.scene)),
     };
     let changed = if knob.get(&app.scene) == knob.get(&app.opened) { "" } else { "*" };
     let text = format!("◄ {}{changed} {shown} ►  {}/{}", knob.label, app.knob + 1, KNOBS.len());
-    let style = skin.style(Role::Focus).add_modifier(Modifier::REVERSED);
-    print(buffer, area, 0, &skin.spell(&text), style);
+    let style = look.style(Role::Focus).add_modifier(Modifier::REVERSED);
+    print(buffer, area, 0, &look.spell(&text), style);
 }

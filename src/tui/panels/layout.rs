@@ -1,8 +1,9 @@
-//! Where everything goes at each size.
+//! The places of all panels at each screen size.
 
 use ratatui::layout::{Constraint, Layout, Rect};
 
-use crate::tui::app::{App, View};
+use crate::tui::app::App;
+use crate::tui::views::ViewId;
 
 /// Narrowest screen.
 pub const LEAST_WIDTH: u16 = 40;
@@ -22,14 +23,14 @@ pub struct Places {
     pub header: Rect,
     /// Everything between header and footer.
     pub body: Rect,
-    /// The column of knobs.
-    pub knobs: Option<Rect>,
-    /// The selected knob alone, where there is no column.
-    pub strip: Option<Rect>,
+    /// The knobs.
+    pub knobs: Rect,
+    /// Whether they are a column, not the selected one alone.
+    pub column: bool,
     /// The charts.
-    pub charts: Vec<(View, Rect)>,
-    /// The lesson under way.
-    pub guide: Option<Rect>,
+    pub charts: Vec<(ViewId, Rect)>,
+    /// The current lesson.
+    pub lesson: Option<Rect>,
     /// Keys.
     pub footer: Rect,
 }
@@ -39,45 +40,41 @@ pub fn places(area: Rect, app: &App) -> Places {
     let [header, body, footer] =
         Layout::vertical([Constraint::Length(2), Constraint::Min(1), Constraint::Length(1)])
             .areas(area);
-    let (guide, body) = guide(body, app);
-    if app.full_screen {
-        let [strip, charts] =
-            Layout::vertical([Constraint::Length(1), Constraint::Min(1)]).areas(body);
-        let charts = vec![(app.view, charts)];
-        return Places { header, body, knobs: None, strip: Some(strip), charts, guide, footer };
-    }
-    let (knobs, strip, charts) = if area.width >= KNOBS_FROM {
-        let columns = [Constraint::Length(KNOBS_WIDTH), Constraint::Min(1)];
-        let [knobs, charts] = Layout::horizontal(columns).areas(body);
-        (Some(knobs), None, charts)
+    let (lesson, body) = lesson(body, app);
+    let column = area.width >= KNOBS_FROM && !app.full_screen;
+    let [knobs, charts] = if column {
+        Layout::horizontal([Constraint::Length(KNOBS_WIDTH), Constraint::Min(1)]).areas(body)
     } else {
-        let [strip, charts] =
-            Layout::vertical([Constraint::Length(1), Constraint::Min(1)]).areas(body);
-        (None, Some(strip), charts)
+        below(body, 1)
     };
-    Places { header, body, knobs, strip, charts: split(charts, app), guide, footer }
+    let charts = if app.full_screen { vec![(app.view, charts)] } else { split(charts, app) };
+    Places { header, body, knobs, column, charts, lesson, footer }
 }
 
-/// Rows of the lesson under way, above the knobs and charts.
-fn guide(body: Rect, app: &App) -> (Option<Rect>, Rect) {
+/// The first rows of an area, and the rest below.
+fn below(area: Rect, rows: u16) -> [Rect; 2] {
+    Layout::vertical([Constraint::Length(rows), Constraint::Min(1)]).areas(area)
+}
+
+/// Rows of the current lesson, above the knobs and charts.
+fn lesson(body: Rect, app: &App) -> (Option<Rect>, Rect) {
     if app.lesson.is_none() || body.height < 9 {
         return (None, body);
     }
-    let wanted = super::guide::rows(app, usize::from(body.width));
+    let wanted = super::lesson::rows(app, usize::from(body.width));
     let read = app.lesson.as_ref().is_some_and(|progress| progress.read);
     let rows = match wanted <= body.height / 2 {
         true => wanted,
-        // Too long to stand beside the charts: first the text, then its task.
+        // Too long to leave room for the charts: first the text, then its task.
         false if !read => body.height.saturating_sub(1),
         false => (body.height / 3).max(3),
     };
-    let [guide, body] =
-        Layout::vertical([Constraint::Length(rows), Constraint::Min(1)]).areas(body);
-    (Some(guide), body)
+    let [lesson, body] = below(body, rows);
+    (Some(lesson), body)
 }
 
-/// One large chart and as many beside it as are asked for and can be read.
-fn split(area: Rect, app: &App) -> Vec<(View, Rect)> {
+/// One large chart, and of the smaller ones asked for as many as can be read.
+fn split(area: Rect, app: &App) -> Vec<(ViewId, Rect)> {
     let views = std::iter::once(app.view).chain(app.companions.iter().copied());
     let halves = || [Constraint::Percentage(50), Constraint::Percentage(50)];
     let readable = match area.height {
@@ -85,8 +82,8 @@ fn split(area: Rect, app: &App) -> Vec<(View, Rect)> {
         14..20 if area.width < PAIR_FROM => 1,
         _ => 3,
     };
-    let beside = app.charts_beside.min(readable);
-    let areas: Vec<Rect> = match (beside, area.width >= PAIR_FROM) {
+    let companions = app.companions_shown.min(readable);
+    let areas: Vec<Rect> = match (companions, area.width >= PAIR_FROM) {
         (0, _) => vec![area],
         (1, _) => Layout::vertical(LARGE).split(area).to_vec(),
         (2, true) => {
@@ -117,5 +114,5 @@ const LARGE: [Constraint; 2] = [Constraint::Percentage(55), Constraint::Percenta
 pub fn lesson_fills(app: &App) -> bool {
     // Header and footer take three rows.
     let body = app.size.1.saturating_sub(3);
-    app.lesson.is_some() && super::guide::rows(app, usize::from(app.size.0)) > body / 2
+    app.lesson.is_some() && super::lesson::rows(app, usize::from(app.size.0)) > body / 2
 }

@@ -1,16 +1,16 @@
-//! The solver beside the screen: a player without clock or thread, the thread
-//! that drives it, and a stand-in that is driven by hand.
+//! The solver behind the screen: a playback without clock or thread, the
+//! thread that drives it, and a stand-in for tests.
 
 mod comparison;
-mod forecast;
-mod player;
+mod full_run;
+mod playback;
+mod precision;
 mod recorder;
 mod stepwise;
 mod studies;
 mod thread;
 
-pub use forecast::SAMPLES;
-pub use player::Player;
+pub use playback::Playback;
 pub use recorder::in_blade_frame;
 pub use stepwise::Stepwise;
 pub use thread::{WORKER_NAME, Worker};

@@ -1,11 +1,10 @@
-//! Turns a motion that is looked at now and then into bins of least and
-//! greatest values, and averages its contact forces between snapshots.
+//! Samples of a motion as bins of least and greatest values, and contact
+//! forces as means between snapshots.
 
 use crate::motion::{Motion, Touching};
 use crate::tui::history::{Bin, CHANNELS, MOST_BINS, thin};
 
 /// `z = (u_c + i u_s) exp(-i n_d theta)` \[m\], with `turned = n_d theta`.
-#[must_use]
 pub fn in_blade_frame(u: [f64; 2], turned: f64) -> [f64; 2] {
     let (sin, cos) = turned.sin_cos();
     [u[0] * cos + u[1] * sin, u[1] * cos - u[0] * sin]
@@ -17,7 +16,6 @@ pub struct Recorder {
     done: Vec<Bin>,
     open: Option<Bin>,
     impacts: u64,
-    tensile: u64,
     last: Option<f64>,
     sums: Vec<(u32, f64)>,
     over: f64,
@@ -25,17 +23,15 @@ pub struct Recorder {
 }
 
 impl Recorder {
-    /// Looks at the motion now; bins are closed after `length` seconds.
-    pub fn look(&mut self, motion: &mut Motion, length: f64) {
+    /// Records the motion as it is now; bins are closed after `length` seconds.
+    pub fn record(&mut self, motion: &mut Motion, length: f64) {
         let state = motion.state();
         let forces = motion.take_mean_forces();
         let push: f64 = forces.iter().map(|(_, force)| -force).sum();
-        let mut values = [0.0; CHANNELS];
         let gap = motion.blade_gaps().into_iter().fold(f64::INFINITY, f64::min);
-        let speed = motion.rotor().speed(state.t_s);
         let turned = motion.machine().nodal_diameters * motion.rotor().angle(state.t_s);
         let [x, y] = in_blade_frame(state.u, turned);
-        let seen = [
+        let values: [f64; CHANNELS] = [
             state.u[0],
             state.u[1],
             state.alpha[0],
@@ -43,13 +39,9 @@ impl Recorder {
             gap,
             state.amplitude(),
             push,
-            speed,
             x,
             y,
         ];
-        for (slot, value) in values.iter_mut().zip(seen) {
-            *slot = value;
-        }
         let mut bin = Bin::of(self.last.unwrap_or(state.t_s), values);
         bin.to = state.t_s;
         let log = motion.contacts();
@@ -58,8 +50,7 @@ impl Recorder {
         let met = log.impacts.iter().skip(impacts).map(|impact| impact.side);
         let pushed = forces.iter().map(|(side, _)| *side);
         bin.touched = met.chain(pushed).fold(log.touching, Touching::with);
-        bin.tensile = log.tensile_steps > self.tensile;
-        (self.impacts, self.tensile) = (log.impact_count, log.tensile_steps);
+        self.impacts = log.impact_count;
         self.average(&forces, bin.to - bin.from);
         self.last = Some(state.t_s);
         match &mut self.open {

@@ -1,27 +1,26 @@
-//! An engine without thread and clock: every look moves the motion on by the
-//! same amount, and the solver's speed is a fixed figure. For tests and
-//! pictures that must come out the same on every machine.
+//! An engine without thread and clock: every snapshot advances the motion by
+//! the same time, and the speed of the solver is a fixed figure. For tests
+//! that must give the same screens on every machine.
 
 use std::time::Duration;
 
-use super::Player;
+use super::Playback;
 use crate::tui::engine::{Engine, Order, Pace, Snapshot};
 
 /// The engine driven by hand.
 #[derive(Debug)]
 pub struct Stepwise {
-    /// Motion between two looks \[s\].
+    /// Motion between two snapshots \[s\].
     pub stride: f64,
     order: Option<Order>,
-    player: Option<Player>,
+    playback: Option<Playback>,
     fresh: bool,
 }
 
 impl Stepwise {
-    /// An engine that plays `stride` seconds of motion between two looks.
-    #[must_use]
+    /// An engine that plays `stride` seconds of motion between two snapshots.
     pub fn new(stride: f64) -> Self {
-        Self { stride, order: None, player: None, fresh: false }
+        Self { stride, order: None, playback: None, fresh: false }
     }
 }
 
@@ -33,28 +32,21 @@ impl Engine for Stepwise {
 
     fn take(&mut self) -> Option<Snapshot> {
         let order = self.order.as_ref()?;
-        let player = match &mut self.player {
-            Some(player) => {
-                player.apply(order);
-                player
-            }
-            None => self.player.insert(Player::patient(order.clone(), Duration::MAX)),
-        };
-        while player.is_computing() {
-            player.compute();
+        let start = || Playback::with_time_limit(order.clone(), Duration::MAX);
+        let playback = self.playback.get_or_insert_with(start);
+        playback.apply(order);
+        while playback.is_computing() {
+            playback.compute();
         }
         if order.playing {
-            player.play(self.stride);
+            playback.play(self.stride);
         } else if !self.fresh {
             return None;
         }
         self.fresh = false;
-        let mut snapshot = player.snapshot();
-        snapshot.pace = Pace {
-            step_s: snapshot.pace.step_s.map(|_| 42e-9),
-            run_s: Some(42e-3),
-            limited: false,
-        };
+        let mut snapshot = playback.snapshot();
+        let pace = &mut snapshot.results.pace;
+        *pace = Pace { step_s: pace.step_s.map(|_| 42e-9), run_s: Some(42e-3), limited: false };
         Some(snapshot)
     }
 }

@@ -1,4 +1,4 @@
-//! What some views need beside the motion: the curves of the locked motion,
+//! What some views need besides the motion: the curves of the locked motion,
 //! the spectrum of the whole run, the map and the comparison of solvers. Each
 //! is computed only while its view is open, in slices, and kept as long as
 //! what it depends on stays the same.
@@ -6,12 +6,13 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use super::comparison::Comparison;
-use crate::scene::{ModelSize, Scene};
+use super::precision::PrecisionJob;
+use crate::scene::{ContactLaw, ModelSize, Scene, SolverKind};
 use crate::study::{Axis, Map, MapPlan};
-use crate::tui::engine::{Order, Snapshot};
-use crate::tui::locked_curve::LockedCurves;
-use crate::tui::spectrum::Spectrum;
+use crate::tui::engine::{Order, Results};
+use crate::tui::views::ViewId;
+use crate::tui::views::locked::curves::{LockedCurves, speed_range};
+use crate::tui::views::spectrum::transform::Spectrum;
 
 /// Cells of the map, across and up.
 const CELLS: (u32, u32) = (60, 24);
@@ -19,35 +20,29 @@ const CELLS: (u32, u32) = (60, 24);
 const PULSES: (f64, f64) = (1e3, 1e7);
 /// Wall time of one slice.
 const SLICE: Duration = Duration::from_millis(5);
+
 /// The studies of one scene.
-#[derive(Default)]
+#[derive(Debug, Default)]
 pub struct Studies {
     locked: Option<(Scene, Arc<LockedCurves>)>,
     spectrum: Option<Arc<Spectrum>>,
     map: Option<Arc<Map>>,
     map_next: usize,
-    precision: Option<Comparison>,
-}
-
-impl std::fmt::Debug for Studies {
-    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        out.debug_struct("Studies").finish_non_exhaustive()
-    }
+    precision: Option<PrecisionJob>,
 }
 
 impl Studies {
-    /// The run has begun anew: its spectrum is another one.
-    pub fn begin(&mut self) {
+    /// The run has changed: its spectrum is another one.
+    pub fn forget_spectrum(&mut self) {
         self.spectrum = None;
     }
 
     /// Whether anything that is wanted is missing.
-    #[must_use]
     pub fn is_computing(&self, order: &Order) -> bool {
         self.locked_is_old(order)
-            || (order.wants.spectrum && self.spectrum.is_none())
-            || (order.wants.map && !self.map_is_done(order))
-            || (order.wants.precision && !self.precision_is_done(order))
+            || (order.shows(ViewId::Spectrum) && self.spectrum.is_none())
+            || (order.shows(ViewId::Map) && !self.map_is_done(order))
+            || (order.shows(ViewId::Precision) && !self.precision_is_done(order))
     }
 
     fn locked_is_old(&self, order: &Order) -> bool {
@@ -66,21 +61,21 @@ impl Studies {
         found.is_some_and(|found| found.is_of(&order.scene) && found.is_done())
     }
 
-    /// Goes one slice on. `signal` is the finished run, `length` its duration.
-    pub fn go_on(&mut self, order: &Order, signal: &[[f64; 2]], length: f64) {
+    /// Computes one slice. `signal` is the finished run, `length` its duration.
+    pub fn compute(&mut self, order: &Order, signal: &[[f64; 2]], length: f64) {
         if self.locked_is_old(order) {
             let curves = Arc::new(LockedCurves::of(&order.scene));
             self.locked = Some((order.scene.clone().into_scene(), curves));
-        } else if order.wants.spectrum && self.spectrum.is_none() {
+        } else if order.shows(ViewId::Spectrum) && self.spectrum.is_none() {
             self.spectrum = Some(Arc::new(Spectrum::of(signal, length)));
-        } else if order.wants.map && !self.map_is_done(order) {
-            self.go_on_with_map(&order.scene);
-        } else if order.wants.precision {
-            self.go_on_with_precision(&order.scene);
+        } else if order.shows(ViewId::Map) && !self.map_is_done(order) {
+            self.compute_map(&order.scene);
+        } else if order.shows(ViewId::Precision) {
+            self.compute_precision(&order.scene);
         }
     }
 
-    fn go_on_with_map(&mut self, scene: &Scene) {
+    fn compute_map(&mut self, scene: &Scene) {
         let Some(plan) = plan(scene) else { return };
         if self.map.as_ref().is_none_or(|map| map.plan != plan) {
             self.map = Some(Arc::new(Map::empty(plan)));
@@ -103,19 +98,19 @@ impl Studies {
         map.wall_s += began.elapsed().as_secs_f64();
     }
 
-    fn go_on_with_precision(&mut self, scene: &Scene) {
+    fn compute_precision(&mut self, scene: &Scene) {
         match self.precision.as_mut().filter(|found| found.is_of(scene)) {
-            Some(found) => found.go_on(SLICE),
-            None => self.precision = Some(Comparison::of(scene)),
+            Some(found) => found.receive(SLICE),
+            None => self.precision = Some(PrecisionJob::of(scene)),
         }
     }
 
-    /// Puts what there is into a snapshot.
-    pub fn show(&self, snapshot: &mut Snapshot) {
-        snapshot.locked = self.locked.as_ref().map(|(_, curves)| Arc::clone(curves));
-        snapshot.spectrum.clone_from(&self.spectrum);
-        snapshot.map.clone_from(&self.map);
-        snapshot.precision = self.precision.as_ref().and_then(Comparison::report).cloned();
+    /// Adds what is computed so far to the results.
+    pub fn show(&self, results: &mut Results) {
+        results.locked = self.locked.as_ref().map(|(_, curves)| Arc::clone(curves));
+        results.spectrum.clone_from(&self.spectrum);
+        results.map.clone_from(&self.map);
+        results.precision = self.precision.as_ref().and_then(PrecisionJob::report).cloned();
     }
 }
 
@@ -126,12 +121,13 @@ fn plan(scene: &Scene) -> Option<MapPlan> {
     let speed = scene.operation.speed_rad_s.abs();
     let machine = scene.machine();
     let thresholds = [machine.lock_speed(), machine.dangerous_speed(), machine.critical_speed()];
-    // The range stays while the speed is turned, but for a speed far beyond.
+    // The range does not depend on the speed, unless that is far outside.
     scene.operation.speed_rad_s = 1.3 * thresholds.into_iter().flatten().fold(1.0, f64::max);
-    let usual = crate::tui::locked_curve::speed_range(&scene);
+    let usual = speed_range(&scene);
     scene.operation.speed_rad_s = speed;
-    let fastest = if speed > usual { crate::tui::locked_curve::speed_range(&scene) } else { usual };
-    scene = scene.as_reference();
+    let fastest = if speed > usual { speed_range(&scene) } else { usual };
+    scene.solver.kind = SolverKind::Event;
+    scene.solver.contact = ContactLaw::Unilateral;
     scene.solver.model = ModelSize::Rigid;
     scene.operation.speed_rad_s = 0.0;
     scene.operation.pulse_n = 0.0;

@@ -1,22 +1,22 @@
 //! The worker thread: one slot with the latest order, one with the latest
 //! snapshot. Neither side waits for the other: a newer order replaces an older
-//! one, and a snapshot nobody took is joined with the next.
+//! one, and a snapshot that was not taken is joined with the next.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use super::Player;
-use crate::tui::engine::{Engine, Nudge, Order, Snapshot};
+use super::Playback;
+use crate::tui::engine::{Engine, Order, Snapshot, Waker};
 use crate::tui::history::{Bin, MOST_BINS, thin};
 
 /// Name of the thread: the panic hook leaves the screen alone for it.
 pub const WORKER_NAME: &str = "rubscope-worker";
 
 /// Time between two looks at the clock while the motion plays.
-const BEAT: Duration = Duration::from_millis(33);
-/// Most wall time one beat may make up for, after a suspension for instance.
-const LONGEST_BEAT: Duration = Duration::from_millis(100);
+const TICK: Duration = Duration::from_millis(33);
+/// Most wall time one tick may make up for, after a suspension for instance.
+const LONGEST_TICK: Duration = Duration::from_millis(100);
 
 #[derive(Default)]
 struct Slots {
@@ -38,23 +38,23 @@ impl Shared {
     }
 }
 
-/// A handle on the thread; dropping it ends the thread at its next beat.
+/// A handle on the thread; dropping it ends the thread at its next tick.
 pub struct Worker {
     shared: Arc<Shared>,
 }
 
 impl Worker {
-    /// Starts the thread. `nudge` is called when a first snapshot is ready
+    /// Starts the thread. `wake` is called when a first snapshot is ready
     /// after the last one was taken.
     ///
     /// # Errors
     /// The system gives no thread.
-    pub fn spawn(nudge: Nudge) -> std::io::Result<Self> {
+    pub fn spawn(wake: Waker) -> std::io::Result<Self> {
         let shared = Arc::new(Shared::default());
         let theirs = Arc::clone(&shared);
         std::thread::Builder::new()
             .name(WORKER_NAME.to_string())
-            .spawn(move || run(&theirs, &nudge))?;
+            .spawn(move || run(&theirs, &wake))?;
         Ok(Self { shared })
     }
 }
@@ -77,58 +77,58 @@ impl Drop for Worker {
     }
 }
 
-fn run(shared: &Shared, nudge: &Nudge) {
-    let mut player: Option<Player> = None;
+fn run(shared: &Shared, wake: &Waker) {
+    let mut playback: Option<Playback> = None;
     let mut playing = None;
     loop {
-        let busy = player.as_ref().is_some_and(Player::is_computing);
+        let busy = playback.as_ref().is_some_and(Playback::is_computing);
         let Some(order) = next_order(shared, busy, playing.is_some()) else { return };
-        let beat = guarded(|| {
+        let tick = catch_panic(|| {
             let fresh = order.is_some();
             if let Some(order) = order {
                 playing = order
                     .playing
                     .then(|| (playing.map_or_else(Instant::now, |(at, _)| at), order.rate));
-                match &mut player {
-                    Some(player) => player.apply(&order),
-                    None => player = Some(Player::new(order)),
+                match &mut playback {
+                    Some(playback) => playback.apply(&order),
+                    None => playback = Some(Playback::new(order)),
                 }
             }
-            let player = player.as_mut()?;
+            let playback = playback.as_mut()?;
             let mut moved = fresh;
             if let Some((last, rate)) = playing.as_mut() {
                 let elapsed = last.elapsed();
-                if elapsed >= BEAT {
+                if elapsed >= TICK {
                     *last = Instant::now();
-                    player.play(elapsed.min(LONGEST_BEAT).as_secs_f64() * *rate);
+                    playback.play(elapsed.min(LONGEST_TICK).as_secs_f64() * *rate);
                     moved = true;
                 }
             }
-            if player.is_computing() {
-                player.compute();
+            if playback.is_computing() {
+                playback.compute();
                 moved = true;
             }
-            moved.then(|| player.snapshot())
+            moved.then(|| playback.snapshot())
         });
-        match beat {
+        match tick {
             Ok(None) => {}
-            Ok(Some(snapshot)) => publish(shared, snapshot, nudge),
+            Ok(Some(snapshot)) => publish(shared, snapshot, wake),
             Err(trouble) => {
-                player = None;
+                playback = None;
                 playing = None;
-                publish(shared, Snapshot { trouble: Some(trouble), ..Snapshot::default() }, nudge);
+                publish(shared, Snapshot { trouble: Some(trouble), ..Snapshot::default() }, wake);
             }
         }
     }
 }
 
 /// The next order, if there is one; waits when there is nothing to do. The
-/// outer option is none when the thread shall end.
+/// outer option is none when the thread has to end.
 fn next_order(shared: &Shared, busy: bool, playing: bool) -> Option<Option<Order>> {
     let mut slots = shared.lock();
     if slots.order.is_none() && !slots.quit && !busy {
         slots = if playing {
-            shared.wake.wait_timeout(slots, BEAT).unwrap_or_else(PoisonError::into_inner).0
+            shared.wake.wait_timeout(slots, TICK).unwrap_or_else(PoisonError::into_inner).0
         } else {
             shared.wake.wait(slots).unwrap_or_else(PoisonError::into_inner)
         };
@@ -136,7 +136,7 @@ fn next_order(shared: &Shared, busy: bool, playing: bool) -> Option<Option<Order
     if slots.quit { None } else { Some(slots.order.take()) }
 }
 
-fn publish(shared: &Shared, mut snapshot: Snapshot, nudge: &Nudge) {
+fn publish(shared: &Shared, mut snapshot: Snapshot, wake: &Waker) {
     let first = {
         let mut slots = shared.lock();
         let waiting = slots.snapshot.take();
@@ -152,26 +152,26 @@ fn publish(shared: &Shared, mut snapshot: Snapshot, nudge: &Nudge) {
                 *new = bins;
             };
             join(waiting.bins, &mut snapshot.bins);
-            join(waiting.beside_bins, &mut snapshot.beside_bins);
+            join(waiting.comparison_bins, &mut snapshot.comparison_bins);
             snapshot.trouble = snapshot.trouble.or(waiting.trouble);
         }
         slots.snapshot = Some(snapshot);
         first
     };
     if first {
-        nudge();
+        wake();
     }
 }
 
 /// Runs `work`; a panic comes back as a line of text.
-fn guarded<T>(work: impl FnOnce() -> T) -> Result<T, String> {
+fn catch_panic<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(work)).map_err(|payload| {
         let what = payload
             .downcast_ref::<&str>()
             .map(ToString::to_string)
             .or_else(|| payload.downcast_ref::<String>().cloned())
             .unwrap_or_else(|| "unknown reason".to_string());
-        format!("the solver broke off ({what}); r begins anew")
+        format!("the solver stopped ({what}); r restarts")
     })
 }
 
@@ -179,26 +179,16 @@ fn guarded<T>(work: impl FnOnce() -> T) -> Result<T, String> {
 mod tests {
     use super::*;
     use crate::scene::Scene;
-    use crate::tui::engine::Ahead;
+    use crate::tui::engine::FullRunState;
     use crate::tui::history::CHANNELS;
+    use crate::tui::{App, Marker, Theme};
 
     fn order(speed: f64, restarts: u64) -> Order {
         let mut scene = Scene::default();
         scene.operation.speed_rad_s = speed;
         scene.solver.step_s = 1e-6;
-        Order {
-            scene: scene.checked().unwrap(),
-            restarts,
-            changes: 0,
-            steps: 0,
-            jumps: 0,
-            pulses: 0,
-            playing: false,
-            rate: 5e-3,
-            bin_s: 2e-5,
-            beside: false,
-            wants: crate::tui::engine::Wants::default(),
-        }
+        let app = App::new(scene.checked().unwrap(), Theme::Mono, Marker::Ascii);
+        Order { restarts, rate: 5e-3, bin_s: 2e-5, open: Vec::new(), ..app.order() }
     }
 
     #[test]
@@ -211,9 +201,9 @@ mod tests {
         for _ in 0..10_000 {
             if let Some(snapshot) = worker.take()
                 && snapshot.generation == 19
-                && matches!(snapshot.ahead, Some(Ahead::Done(_)))
+                && matches!(snapshot.results.full_run, Some(FullRunState::Done(_)))
             {
-                assert_eq!(snapshot.moment.speed, 419.0);
+                assert_eq!(snapshot.moment.unwrap().speed, 419.0);
                 return;
             }
             std::thread::sleep(Duration::from_millis(2));
@@ -223,20 +213,20 @@ mod tests {
 
     #[test]
     fn a_panic_becomes_a_line() {
-        let line = guarded(|| -> () { panic!("no {}", "blades") }).unwrap_err();
+        let line = catch_panic(|| -> () { panic!("no {}", "blades") }).unwrap_err();
         assert!(line.contains("no blades"), "{line}");
     }
 
     #[test]
     fn a_snapshot_nobody_took_keeps_its_bins() {
         let shared = Shared::default();
-        let nudge: Nudge = Arc::new(|| {});
+        let wake: Waker = Arc::new(|| {});
         let bin = crate::tui::history::Bin::of(0.0, [0.0; CHANNELS]);
         for _ in 0..3 {
-            publish(&shared, Snapshot { bins: vec![bin], ..Snapshot::default() }, &nudge);
+            publish(&shared, Snapshot { bins: vec![bin], ..Snapshot::default() }, &wake);
         }
         assert_eq!(shared.lock().snapshot.as_ref().unwrap().bins.len(), 3);
-        publish(&shared, Snapshot { restarts: 1, bins: vec![bin], ..Snapshot::default() }, &nudge);
+        publish(&shared, Snapshot { restarts: 1, bins: vec![bin], ..Snapshot::default() }, &wake);
         assert_eq!(shared.lock().snapshot.as_ref().unwrap().bins.len(), 1);
     }
 }

@@ -1,94 +1,67 @@
 //! The engine without clock or thread: takes orders, plays the motion,
-//! computes what it will come to, and says what there is to see.
+//! computes the full run and the studies, and makes snapshots.
 
 use std::time::{Duration, Instant};
 
-use super::forecast::Run;
+use super::comparison::{Comparison, other_law};
+use super::full_run::FullRunJob;
 use super::recorder::Recorder;
 use super::studies::Studies;
 use crate::motion::{Change, Motion, is_sensitive, settle};
-use crate::scene::{CheckedScene, ContactLaw, Scene, SolverKind};
-use crate::tui::engine::{Ahead, Forecast, Moment, Order, Pace, Snapshot};
+use crate::scene::{Scene, SolverKind};
+use crate::tui::engine::{FullRun, FullRunState, Moment, Order, Pace, Results, Snapshot};
 
 /// Samples per recorded bin.
 const SAMPLES: f64 = 4.0;
 /// Samples per turn of the wave, at least.
 const PER_TURN: f64 = 24.0;
-/// Longest wall time one call of `play` takes beside a screen.
+/// Longest wall time of one call of `play` in the explorer.
 const PLAY_LIMIT: Duration = Duration::from_millis(25);
 /// Samples a jump to the next change of contact looks through at most.
 const JUMP_SAMPLES: usize = 20_000;
 
-/// The same scene under the other contact law: played in step, and run ahead.
+/// A motion being played, and its full runs.
 #[derive(Debug)]
-struct Beside {
-    motion: Motion,
-    recorder: Recorder,
-    ahead: Run,
-}
-
-/// A motion being played, and its runs ahead.
-#[derive(Debug)]
-pub struct Player {
+pub struct Playback {
     order: Order,
     motion: Motion,
     recorder: Recorder,
     target: f64,
     limited: bool,
-    ahead: Run,
-    reference: Option<Run>,
-    beside: Option<Beside>,
+    full_run: FullRunJob,
+    reference: Option<FullRunJob>,
+    comparison: Option<Comparison>,
     studies: Studies,
     sensitive: Option<bool>,
-    patience: Duration,
+    time_limit: Duration,
 }
 
-impl Beside {
-    /// Plays to where the other motion is.
-    fn catch_up(&mut self, until: f64, sample: f64, bin: f64) {
-        loop {
-            self.recorder.look(&mut self.motion, bin);
-            let next = (self.motion.state().t_s + sample).min(until);
-            let before = self.motion.state().t_s;
-            // A failure stays in the motion; the run ahead tells of it.
-            if next <= before || self.motion.advance(next).is_err() {
-                return;
-            }
-            if self.motion.state().t_s <= before {
-                return;
-            }
-        }
-    }
-}
-
-impl Player {
-    /// Begins the order's scene.
-    #[must_use]
+impl Playback {
+    /// Starts the scene of the order.
     pub fn new(order: Order) -> Self {
-        Self::patient(order, PLAY_LIMIT)
+        Self::with_time_limit(order, PLAY_LIMIT)
     }
 
     /// As `new`; `play` may take this much wall time a call.
-    #[must_use]
-    pub fn patient(order: Order, patience: Duration) -> Self {
+    pub fn with_time_limit(order: Order, time_limit: Duration) -> Self {
         let scene = &order.scene;
         let motion = Motion::new(scene);
-        let mut player = Self {
+        let mut playback = Self {
             recorder: Recorder::default(),
             target: 0.0,
             limited: false,
-            ahead: Run::new(motion.clone(), scene.solver.end_s),
+            full_run: FullRunJob::new(motion.clone(), scene.solver.end_s),
             reference: reference(scene),
-            beside: None,
+            comparison: None,
             studies: Studies::default(),
             sensitive: None,
-            patience,
+            time_limit,
             motion,
             order,
         };
-        player.beside = player.other_law();
-        player.look();
-        player
+        playback.comparison = playback.start_comparison();
+        playback.record();
+        playback
     }
 
     /// Takes a newer order. Counters that grew are acted on.
@@ -96,13 +69,13 @@ impl Player {
         let before = std::mem::replace(&mut self.order, order.clone());
         if order.restarts != before.restarts {
             let mut studies = std::mem::take(&mut self.studies);
-            studies.begin();
-            *self = Self { studies, ..Self::patient(order.clone(), self.patience) };
+            studies.forget_spectrum();
+            *self = Self { studies, ..Self::with_time_limit(order.clone(), self.time_limit) };
             return;
         }
         let other = other_law(&order.scene);
-        let beside = self.beside.as_mut().map(|beside| &mut beside.motion).zip(other.as_ref());
-        for (motion, scene) in std::iter::once((&mut self.motion, &order.scene)).chain(beside) {
+        let theirs = self.comparison.as_mut().map(|theirs| &mut theirs.motion).zip(other.as_ref());
+        for (motion, scene) in std::iter::once((&mut self.motion, &order.scene)).chain(theirs) {
             if order.changes != before.changes {
                 for change in Change::between(&before.scene, scene) {
                     motion.apply(&change);
@@ -113,17 +86,18 @@ impl Player {
             }
         }
         if order.changes != before.changes || order.pulses != before.pulses {
-            self.ahead = Run::new(self.motion.clone(), order.scene.solver.end_s);
-            if let Some(beside) = &mut self.beside {
-                beside.ahead = Run::new(beside.motion.clone(), order.scene.solver.end_s);
+            let end = order.scene.solver.end_s;
+            self.full_run = FullRunJob::new(self.motion.clone(), end);
+            if let Some(comparison) = &mut self.comparison {
+                comparison.full_run = FullRunJob::new(comparison.motion.clone(), end);
             }
-            self.studies.begin();
-            // Both start from rest; they say nothing about a changed run.
+            self.studies.forget_spectrum();
+            // The reference starts from rest; it says nothing about a changed run.
             self.reference = None;
             self.sensitive = Some(false);
         }
-        if order.beside != before.beside {
-            self.beside = self.other_law();
+        if order.compare != before.compare {
+            self.comparison = self.start_comparison();
         }
         for _ in 0..order.steps.saturating_sub(before.steps).min(1000) {
             self.step();
@@ -134,16 +108,10 @@ impl Player {
     }
 
     /// The same scene under the other contact law, if it is wanted.
-    fn other_law(&self) -> Option<Beside> {
-        if !self.order.beside {
-            return None;
-        }
-        let scene = other_law(&self.order.scene)?;
-        let motion = Motion::new(&scene);
-        let ahead = Run::new(motion.clone(), scene.solver.end_s);
-        let mut beside = Beside { motion, recorder: Recorder::default(), ahead };
-        beside.catch_up(self.motion.state().t_s, self.sample_length(), self.order.bin_s);
-        Some(beside)
+    fn start_comparison(&self) -> Option<Comparison> {
+        let mut comparison = self.order.compare.then(|| Comparison::of(&self.order.scene))??;
+        comparison.catch_up(self.motion.state().t_s, self.sample_length(), self.order.bin_s);
+        Some(comparison)
     }
 
     fn sample_length(&self) -> f64 {
@@ -154,11 +122,11 @@ impl Player {
         length.max(1e-12)
     }
 
-    fn look(&mut self) {
-        self.recorder.look(&mut self.motion, self.order.bin_s);
+    fn record(&mut self) {
+        self.recorder.record(&mut self.motion, self.order.bin_s);
     }
 
-    /// Plays `seconds` of motion, or as much as the solver can in good time.
+    /// Plays `seconds` of motion, or as much as the solver can in its time.
     pub fn play(&mut self, seconds: f64) {
         self.target += seconds;
         let began = Instant::now();
@@ -177,8 +145,8 @@ impl Player {
                 // A sample shorter than a step: go to the next step.
                 self.one_step();
             }
-            self.look();
-            if began.elapsed() > self.patience {
+            self.record();
+            if began.elapsed() > self.time_limit {
                 self.limited = self.motion.state().t_s + sample <= self.target;
                 self.target = self.target.min(self.motion.state().t_s + sample);
                 break;
@@ -187,13 +155,13 @@ impl Player {
         if self.motion.failure().is_some() {
             self.target = self.motion.state().t_s;
         }
-        self.bring_beside();
+        self.play_comparison();
     }
 
-    fn bring_beside(&mut self) {
+    fn play_comparison(&mut self) {
         let (now, sample, bin) = (self.motion.state().t_s, self.sample_length(), self.order.bin_s);
-        if let Some(beside) = &mut self.beside {
-            beside.catch_up(now, sample, bin);
+        if let Some(comparison) = &mut self.comparison {
+            comparison.catch_up(now, sample, bin);
         }
     }
 
@@ -210,12 +178,12 @@ impl Player {
 
     fn step(&mut self) {
         self.one_step();
-        self.look();
+        self.record();
         self.target = self.motion.state().t_s;
-        self.bring_beside();
+        self.play_comparison();
     }
 
-    /// Goes on until the contact changes.
+    /// Plays until the contact changes.
     fn jump(&mut self) {
         let sample = self.sample_length();
         let (touching, impacts) =
@@ -225,48 +193,41 @@ impl Player {
             if self.motion.over() || self.motion.advance(until).is_err() {
                 break;
             }
-            self.look();
+            self.record();
             let log = self.motion.contacts();
             if log.touching != touching || log.impact_count != impacts {
                 break;
             }
         }
         self.target = self.motion.state().t_s;
-        self.bring_beside();
+        self.play_comparison();
     }
 
-    /// Whether a run ahead is not at its end.
-    #[must_use]
+    /// Whether anything is left to compute.
     pub fn is_computing(&self) -> bool {
-        self.runs().any(|run| !run.is_done())
+        let comparison = self.comparison.as_ref().map(|comparison| &comparison.full_run);
+        let mut runs = std::iter::once(&self.full_run).chain(&self.reference).chain(comparison);
+        runs.any(|run| !run.is_done())
             || self.sensitive.is_none()
             || self.studies.is_computing(&self.order)
     }
 
-    fn runs(&self) -> impl Iterator<Item = &Run> {
-        let beside = self.beside.as_ref().map(|beside| &beside.ahead);
-        std::iter::once(&self.ahead).chain(&self.reference).chain(beside)
-    }
-
-    /// Goes one slice on with the first run that is not at its end.
+    /// Computes one slice of the first job that is not done.
     pub fn compute(&mut self) {
-        let beside = self.beside.as_mut().map(|beside| &mut beside.ahead);
-        let runs = std::iter::once(&mut self.ahead).chain(&mut self.reference).chain(beside);
-        for run in runs {
-            if !run.is_done() {
-                run.go_on();
-                return;
-            }
+        let comparison = self.comparison.as_mut().map(|comparison| &mut comparison.full_run);
+        let runs = std::iter::once(&mut self.full_run).chain(&mut self.reference);
+        if let Some(run) = runs.chain(comparison).find(|run| !run.is_done()) {
+            return run.compute();
         }
         if self.sensitive.is_none() {
             self.sensitive = Some(sensitive(&self.order.scene));
             return;
         }
         let length = self.order.scene.solver.end_s;
-        self.studies.go_on(&self.order, self.ahead.signal(), length);
+        self.studies.compute(&self.order, self.full_run.signal(), length);
     }
 
-    /// What there is to see now, with the bins since the last call.
+    /// The present instant and results, and the bins since the last call.
     pub fn snapshot(&mut self) -> Snapshot {
         let (state, log) = (self.motion.state(), self.motion.contacts().clone());
         let moment = Moment {
@@ -275,57 +236,45 @@ impl Player {
             speed: self.motion.rotor().speed(state.t_s),
             touching: log.touching,
             since: log.since,
-            impacts: log.impact_count,
             gaps: self.motion.blade_gaps(),
             multipliers: self.recorder.mean_forces(),
-            checks: self.motion.checks(),
-            over: self.motion.over(),
             failure: self.motion.failure().map(ToString::to_string),
         };
-        let mut snapshot = Snapshot {
-            generation: self.order.generation(),
-            restarts: self.order.restarts,
-            moment,
-            bins: self.recorder.take_bins(),
-            ahead: Some(self.ahead.ahead()),
+        let comparison = self.comparison.as_mut();
+        let mut results = Results {
+            full_run: Some(self.full_run.state()),
             sensitive: self.sensitive.unwrap_or(false),
             reference: done(self.reference.as_ref()),
-            beside: done(self.beside.as_ref().map(|beside| &beside.ahead)),
-            beside_bins: self
-                .beside
-                .as_mut()
-                .map(|beside| beside.recorder.take_bins())
-                .unwrap_or_default(),
+            comparison: done(comparison.as_ref().map(|comparison| &comparison.full_run)),
             pace: Pace {
-                step_s: self.ahead.step_s(),
-                run_s: self.ahead.is_done().then(|| self.ahead.wall_s()),
+                step_s: self.full_run.step_s(),
+                run_s: self.full_run.is_done().then(|| self.full_run.wall_s()),
                 limited: self.limited,
             },
-            ..Snapshot::default()
+            ..Results::default()
         };
-        self.studies.show(&mut snapshot);
-        snapshot
+        self.studies.show(&mut results);
+        Snapshot {
+            generation: self.order.generation(),
+            restarts: self.order.restarts,
+            moment: Some(moment),
+            bins: self.recorder.take_bins(),
+            comparison_bins: comparison
+                .map(|comparison| comparison.recorder.take_bins())
+                .unwrap_or_default(),
+            results,
+            trouble: None,
+        }
     }
 }
 
-/// The scene under the other contact law, by the solver that knows both.
-fn other_law(scene: &Scene) -> Option<CheckedScene> {
-    let mut scene = scene.clone();
-    scene.solver.kind = SolverKind::Explicit;
-    scene.solver.contact = match scene.solver.contact {
-        ContactLaw::Unilateral => ContactLaw::Bilateral,
-        ContactLaw::Bilateral => ContactLaw::Unilateral,
-    };
-    scene.checked().ok()
-}
-
 /// The event solver under unilateral contact, where the scene's own solver is another.
-fn reference(scene: &Scene) -> Option<Run> {
+fn reference(scene: &Scene) -> Option<FullRunJob> {
     if scene.solver.kind == SolverKind::Event {
         return None;
     }
     let scene = scene.as_reference().checked().ok()?;
-    Some(Run::new(Motion::new(&scene), scene.solver.end_s))
+    Some(FullRunJob::new(Motion::new(&scene), scene.solver.end_s))
 }
 
 /// Whether a tiny change of the pulse changes the outcome.
@@ -333,9 +282,9 @@ fn sensitive(scene: &Scene) -> bool {
     scene.as_reference().checked().is_ok_and(|scene| is_sensitive(&scene, settle(&scene)))
 }
 
-fn done(run: Option<&Run>) -> Option<Forecast> {
-    match run?.ahead() {
-        Ahead::Done(forecast) => Some(forecast),
-        Ahead::Computing(_) => None,
+fn done(run: Option<&FullRunJob>) -> Option<FullRun> {
+    match run?.state() {
+        FullRunState::Done(run) => Some(run),
+        FullRunState::Computing(_) => None,
     }
 }

@@ -1,42 +1,41 @@
-//! The rim as a wheel, turning with the blades: blades as spokes, the casing
+//! The bladed disk as a wheel, in the frame of the blades: blades as spokes, the casing
 //! around them with its wave exaggerated by a stated factor.
 
 use std::f64::consts::TAU;
 
-use ratatui::{buffer::Buffer, layout::Rect};
+use ratatui::buffer::Buffer;
 
-use super::charts::title;
-use super::frame::square;
+use super::super::panel::{ViewArea, title};
+use super::square;
 use crate::motion::Touching;
-use crate::tui::app::{App, View};
-use crate::tui::plot::{Axis, Plot};
+use crate::tui::app::App;
+use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
 use crate::tui::theme::Role;
 use crate::tui::worker::in_blade_frame;
 
 /// The clearance at rest, in radii of the wheel.
 const CLEARANCE: f64 = 0.12;
-/// Where blades begin, in radii.
+/// Inner end of the blades, in radii.
 const HUB: f64 = 0.55;
 /// Points of the casing outline.
 const OUTLINE: u32 = 240;
 
 /// Draws the wheel.
-pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
-    let skin = &app.skin;
+pub fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
+    let look = &app.appearance;
     let machine = &app.machine;
     let rim = &machine.rim;
     let exaggeration =
         CLEARANCE * app.scene.bladed_disk.blade_length_m / rim.clearance.max(f64::MIN_POSITIVE);
     let legend = [
-        (format!("gaps x {exaggeration:.0}"), skin.style(Role::Quiet)),
-        ("turning with the blades".to_string(), skin.style(Role::Quiet)),
+        (format!("gaps x {exaggeration:.0}"), look.style(Role::Quiet)),
+        ("turning with the blades".to_string(), look.style(Role::Quiet)),
     ];
-    let inside = title(app, buffer, area, View::Frame, "wheel", &legend);
-    let (x, y) = square(area, 1.0 + 2.2 * CLEARANCE);
-    let (x, y) = (Axis::plain(x.low, x.high), Axis::plain(y.low, y.high));
-    let Some(mut plot) = Plot::bare(buffer, inside, x, y, skin) else { return };
-    let Some(moment) = &app.slow else { return };
+    let inside = title(app, buffer, at, "wheel", &legend);
+    let (x, y) = square(at.area, 1.0 + 2.2 * CLEARANCE);
+    let Some(mut plot) = Plot::bare(buffer, inside, x, y, look) else { return };
+    let Some(moment) = &app.throttled else { return };
     let z = in_blade_frame(moment.state.u, machine.nodal_diameters * moment.angle);
     let casing = (0..=OUTLINE).map(|k| {
         let angle = TAU * f64::from(k) / f64::from(OUTLINE);
@@ -50,9 +49,9 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
         let (sin, cos) = angle.sin_cos();
         plot.curve([(HUB * cos, HUB * sin), (cos, sin)], pen);
     };
-    let quiet = Pen { dashed: false, ..skin.quiet() };
-    let touched = Pen { style: skin.style(Role::Contact), sign: '#', dashed: false };
-    // Spokes closer than a cell would only fill the wheel.
+    let quiet = Pen { dashed: false, ..look.quiet() };
+    let touched = Pen { style: look.style(Role::Contact), sign: '#', dashed: false };
+    // Spokes closer than a cell cannot be told apart.
     let all = rim.blades <= u32::from(inside.width) * 2;
     let touches = |blade: u32| {
         moment.touching != Touching::Nothing && moment.touching.includes(rim.side_of_blade(blade))
@@ -60,7 +59,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
     for blade in (1..=rim.blades).filter(|blade| all && !touches(*blade)) {
         spoke(blade, &quiet, &mut plot);
     }
-    plot.curve(casing, &skin.first());
+    plot.curve(casing, &look.first());
     for blade in (1..=rim.blades).filter(|blade| touches(*blade)) {
         spoke(blade, &touched, &mut plot);
     }
@@ -68,6 +67,6 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
     for blade in (1..=rim.blades).filter(|blade| touches(*blade)).take(8) {
         let angle = TAU * f64::from(blade - 1) / f64::from(rim.blades);
         let (sin, cos) = angle.sin_cos();
-        plot.label(0.8 * HUB * cos, 0.8 * HUB * sin, &blade.to_string(), skin.style(Role::Contact));
+        plot.label(0.8 * HUB * cos, 0.8 * HUB * sin, &blade.to_string(), look.style(Role::Contact));
     }
 }

@@ -1,37 +1,35 @@
-//! A lesson under way: which step, and whether it has been done.
+//! The current lesson: its step, and whether its task is done.
 
-use super::{App, Mode, View};
-use crate::motion::Verdict;
+use super::{App, InputMode};
 use crate::scene::{Scene, Value, keys};
-use crate::tui::engine::Ahead;
 use crate::tui::lessons::{self, Condition, Lesson};
 use crate::tui::panels;
+use crate::tui::views::ViewId;
 
 /// How far a lesson has come.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Progress {
+pub struct LessonProgress {
     /// Which lesson.
     pub lesson: usize,
     /// Which step, from 0.
     pub step: usize,
-    /// What each step asked has been done.
+    /// The task of the step is done.
     pub done: bool,
-    /// Its text has been read, where it takes the place of the charts.
+    /// Its text has been read, if it takes the place of the charts.
     pub read: bool,
 }
 
 impl App {
-    /// The lesson under way.
-    #[must_use]
-    pub fn current_lesson(&self) -> Option<(&'static Lesson, &Progress)> {
+    /// The current lesson.
+    pub fn current_lesson(&self) -> Option<(&'static Lesson, &LessonProgress)> {
         let progress = self.lesson.as_ref()?;
         Some((lessons::all().get(progress.lesson)?, progress))
     }
 
-    /// The key of the guide: the list, or the next step.
-    pub(super) fn guide(&mut self) {
+    /// The key of the lessons: the list, or the next step.
+    pub(super) fn lesson_key(&mut self) {
         let Some((lesson, progress)) = self.current_lesson() else {
-            self.mode = Mode::Lessons(0);
+            self.mode = InputMode::Lessons(0);
             return;
         };
         if !progress.read && panels::lesson_fills(self) {
@@ -49,15 +47,15 @@ impl App {
         }
     }
 
-    /// Begins a lesson with its own scene.
+    /// Starts a lesson with its own scene.
     pub(super) fn begin_lesson(&mut self, place: usize) {
-        self.mode = Mode::Main;
+        self.mode = InputMode::Main;
         let Some(lesson) = lessons::all().get(place) else { return };
         match Scene::builtin(&lesson.scene).and_then(|scene| scene.checked()) {
             Ok(scene) => {
                 self.opened = scene.clone();
                 self.source = Some(lesson.scene.clone());
-                self.take_scene(scene, false);
+                self.set_scene(scene, false);
                 self.begin_step(place, 0);
             }
             Err(error) => self.status = Some(error.to_string()),
@@ -66,7 +64,7 @@ impl App {
 
     /// Sets knobs and view for a step.
     fn begin_step(&mut self, lesson: usize, step: usize) {
-        self.lesson = Some(Progress { lesson, step, done: false, read: false });
+        self.lesson = Some(LessonProgress { lesson, step, done: false, read: false });
         let Some(found) = lessons::all().get(lesson).and_then(|l| l.steps.get(step)) else {
             return;
         };
@@ -79,9 +77,9 @@ impl App {
         if scene != *self.scene
             && let Ok(scene) = scene.checked()
         {
-            self.take_scene(scene, false);
+            self.set_scene(scene, false);
         }
-        if let Some(view) = found.view.as_deref().and_then(View::from_word) {
+        if let Some(view) = found.view.as_deref().and_then(ViewId::from_word) {
             self.show(view);
         }
         if let Some(live) = found.live {
@@ -89,7 +87,7 @@ impl App {
         }
     }
 
-    /// Notes when what the step asks has been done.
+    /// Notes when the task of the step is done.
     pub fn check_lesson(&mut self) {
         let Some((lesson, progress)) = self.current_lesson() else { return };
         if progress.done {
@@ -105,13 +103,10 @@ impl App {
     fn meets(&self, condition: &Condition) -> bool {
         match condition {
             Condition::Verdict(word) => {
-                let now = match &self.ahead {
-                    Some(Ahead::Done(forecast)) => Some(forecast.verdict),
-                    _ => None,
-                };
-                now.is_some() && now == word.parse::<Verdict>().ok()
+                let now = self.full_run().map(|run| run.verdict);
+                now.is_some() && now == word.parse().ok()
             }
-            Condition::View(word) => View::from_word(word) == Some(self.view),
+            Condition::View(word) => ViewId::from_word(word) == Some(self.view),
             Condition::Compare(wanted) => self.compare == *wanted,
             Condition::Above(path, limit) => self.number(path).is_some_and(|x| x > *limit),
             Condition::Below(path, limit) => self.number(path).is_some_and(|x| x < *limit),

@@ -1,15 +1,15 @@
-//! Runs a motion ahead to its end, in slices short enough that a newer order
-//! never waits.
+//! Computes the run to its end ahead of the playback, in slices short enough
+//! that a newer order never waits.
 
 use std::time::{Duration, Instant};
 
 use crate::motion::verdict::LAST_PART;
 use crate::motion::{Motion, Verdict, verdict_of};
-use crate::tui::engine::{Ahead, Forecast};
+use crate::tui::engine::{FullRun, FullRunState};
 
-/// A motion on its way to an end.
+/// A full run that is being computed.
 #[derive(Debug)]
-pub struct Run {
+pub struct FullRunJob {
     motion: Motion,
     start: f64,
     end: f64,
@@ -21,18 +21,17 @@ pub struct Run {
     cut: Option<f64>,
     wall: Duration,
     steps: u64,
-    result: Option<Forecast>,
+    result: Option<FullRun>,
 }
 
 /// Samples of one run, for its spectrum.
-pub const SAMPLES: u32 = 2048;
+const SAMPLES: u32 = 2048;
 
 /// Wall time one slice should take.
 const SLICE: Duration = Duration::from_millis(5);
 
-impl Run {
+impl FullRunJob {
     /// A run of `length` seconds from where the motion is.
-    #[must_use]
     pub fn new(motion: Motion, length: f64) -> Self {
         let start = motion.state().t_s;
         let steps = motion.steps().unwrap_or(0);
@@ -51,8 +50,8 @@ impl Run {
         }
     }
 
-    /// Goes one slice on.
-    pub fn go_on(&mut self) {
+    /// Computes one slice.
+    pub fn compute(&mut self) {
         if self.result.is_some() {
             return;
         }
@@ -85,58 +84,52 @@ impl Run {
         }
         self.wall += began.elapsed();
         if failed || self.taken >= SAMPLES {
-            self.result = Some(self.judged());
+            self.result = Some(self.finished());
         }
     }
 
     /// `u_c` and `u_s` at equal intervals over the run so far \[m\].
-    #[must_use]
     pub fn signal(&self) -> &[[f64; 2]] {
         &self.signal
     }
 
-    fn judged(&self) -> Forecast {
+    fn finished(&self) -> FullRun {
         let motion = &self.motion;
-        let (log, state) = (motion.contacts(), motion.state());
+        let log = motion.contacts();
         let verdict = verdict_of(motion, self.window);
         let lasting = matches!(verdict, Verdict::Locked | Verdict::Adhesive | Verdict::Slip);
-        Forecast {
+        FullRun {
             verdict,
             since: lasting.then_some(log.since),
             multipliers: motion.multipliers(),
-            amplitude: state.amplitude(),
             impacts: log.impact_count,
             checks: motion.checks(),
             failure: motion.failure().map(ToString::to_string),
         }
     }
 
-    /// How far it is, or what it came to.
-    #[must_use]
-    pub fn ahead(&self) -> Ahead {
+    /// How far it is, or its result.
+    pub fn state(&self) -> FullRunState {
         match &self.result {
-            Some(forecast) => Ahead::Done(forecast.clone()),
+            Some(run) => FullRunState::Done(run.clone()),
             None => {
                 let part = (self.motion.state().t_s - self.start) / (self.end - self.start);
-                Ahead::Computing(part.clamp(0.0, 1.0))
+                FullRunState::Computing(part.clamp(0.0, 1.0))
             }
         }
     }
 
     /// Whether it is over.
-    #[must_use]
     pub fn is_done(&self) -> bool {
         self.result.is_some()
     }
 
     /// Wall time so far \[s\].
-    #[must_use]
     pub fn wall_s(&self) -> f64 {
         self.wall.as_secs_f64()
     }
 
     /// Wall time of one step \[s\], for a solver that steps.
-    #[must_use]
     pub fn step_s(&self) -> Option<f64> {
         let steps = self.motion.steps()?.saturating_sub(self.steps);
         (steps > 0).then(|| self.wall_s() / steps as f64)

@@ -8,49 +8,30 @@ use super::theme::{Role, Theme};
 
 /// Theme and marker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Skin {
+pub struct Appearance {
     /// Colours by role.
     pub theme: Theme,
     /// How points are drawn.
     pub marker: Marker,
 }
 
-/// Signs of the axis lines.
-#[derive(Clone, Copy, Debug)]
-pub struct AxisSigns {
-    /// Upright axis.
-    pub side: char,
-    /// Tick on it.
-    pub side_tick: char,
-    /// Where the axes meet.
-    pub corner: char,
-    /// Level axis.
-    pub floor: char,
-    /// Tick on it.
-    pub floor_tick: char,
-}
-
-impl Skin {
+impl Appearance {
     /// Style of a role.
-    #[must_use]
     pub fn style(&self, role: Role) -> Style {
         self.theme.style(role)
     }
 
     /// Whether only ASCII may be written.
-    #[must_use]
     pub fn ascii(&self) -> bool {
         self.marker == Marker::Ascii
     }
 
     /// The Unicode or the ASCII way to write something.
-    #[must_use]
     pub fn either<T>(&self, unicode: T, ascii: T) -> T {
         if self.ascii() { ascii } else { unicode }
     }
 
     /// Text with Greek letters and signs spelled out where only ASCII is drawn.
-    #[must_use]
     pub fn spell(&self, text: &str) -> String {
         if !self.ascii() {
             return text.to_string();
@@ -83,32 +64,22 @@ impl Skin {
         out
     }
 
-    /// Signs of the axis lines.
-    #[must_use]
-    pub fn axis_signs(&self) -> AxisSigns {
-        if self.ascii() {
-            AxisSigns { side: '|', side_tick: '+', corner: '+', floor: '-', floor_tick: '+' }
-        } else {
-            AxisSigns {
-                side: '│', side_tick: '┤', corner: '└', floor: '─', floor_tick: '┬'
-            }
-        }
+    /// Signs of the axis lines: upright, its tick, the corner, level, its tick.
+    pub fn axis_signs(&self) -> [char; 5] {
+        self.either(['│', '┤', '└', '─', '┬'], ['|', '+', '+', '-', '+'])
     }
 
     /// Solid pen of the first series.
-    #[must_use]
     pub fn first(&self) -> Pen {
         Pen { style: self.style(Role::First), sign: '*', dashed: false }
     }
 
     /// Dashed pen of the second series.
-    #[must_use]
     pub fn second(&self) -> Pen {
         Pen { style: self.style(Role::Second), sign: 'o', dashed: true }
     }
 
     /// Pen for what is only there to compare with.
-    #[must_use]
     pub fn quiet(&self) -> Pen {
         Pen { style: self.style(Role::Quiet), sign: '.', dashed: true }
     }
@@ -120,8 +91,8 @@ mod tests {
 
     #[test]
     fn ascii_means_ascii() {
-        let skin = Skin { theme: Theme::Dark, marker: Marker::Ascii };
-        let text = skin.spell("Ω/Ωc λ ζ α 228 µs kg m² × – … ● ▲ ◄ ► ┄ é");
+        let look = Appearance { theme: Theme::Dark, marker: Marker::Ascii };
+        let text = look.spell("Ω/Ωc λ ζ α 228 µs kg m² × – … ● ▲ ◄ ► ┄ é");
         assert!(text.is_ascii(), "{text}");
         assert!(text.starts_with("Om/Omc lambda zeta alpha 228 us"));
     }

@@ -1,16 +1,16 @@
-//! The guide: the list of lessons, and the step under way.
+//! The list of lessons, and the current step.
 
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 
-use super::{print, wrap};
 use crate::tui::app::App;
 use crate::tui::lessons;
+use crate::tui::text::{print, wrap};
 use crate::tui::theme::Role;
 
 /// The list of lessons, one of them selected.
 pub fn list(app: &App, buffer: &mut Buffer, area: Rect, place: usize) {
-    let skin = &app.skin;
-    let bold = skin.style(Role::Text).add_modifier(Modifier::BOLD);
+    let look = &app.appearance;
+    let bold = look.style(Role::Text).add_modifier(Modifier::BOLD);
     print(buffer, area, 0, "Lessons: Enter begins one, g goes from step to step", bold);
     let rows = usize::from(area.height.saturating_sub(2));
     let first = (place + 1).saturating_sub(rows);
@@ -18,14 +18,14 @@ pub fn list(app: &App, buffer: &mut Buffer, area: Rect, place: usize) {
         (2..area.height).zip(lessons::all().iter().enumerate().skip(first))
     {
         let selected = index == place;
-        let sign = if selected { skin.either("▸", ">") } else { " " };
+        let sign = if selected { look.either("▸", ">") } else { " " };
         let text = format!("{sign} {}. {} ({} steps)", index + 1, lesson.title, lesson.steps.len());
         let style = if selected {
-            skin.style(Role::Focus).add_modifier(Modifier::REVERSED)
+            look.style(Role::Focus).add_modifier(Modifier::REVERSED)
         } else {
-            skin.style(Role::Text)
+            look.style(Role::Text)
         };
-        print(buffer, area, row, &skin.spell(&text), style);
+        print(buffer, area, row, &look.spell(&text), style);
     }
 }
 
@@ -33,9 +33,9 @@ pub fn list(app: &App, buffer: &mut Buffer, area: Rect, place: usize) {
 fn lines(app: &App, width: usize, page: bool) -> Vec<(String, Role)> {
     let Some((lesson, progress)) = app.current_lesson() else { return Vec::new() };
     let Some(step) = lesson.steps.get(progress.step) else { return Vec::new() };
-    let skin = &app.skin;
+    let look = &app.appearance;
     let of = |text: &str, role: Role| -> Vec<(String, Role)> {
-        wrap(&skin.spell(text), width).into_iter().map(|line| (line, role)).collect()
+        wrap(&look.spell(text), width).into_iter().map(|line| (line, role)).collect()
     };
     let head = format!("{} - step {} of {}", lesson.title, progress.step + 1, lesson.steps.len());
     let mut lines = of(&head, Role::Focus);
@@ -62,9 +62,9 @@ pub fn rows(app: &App, width: usize) -> u16 {
     u16::try_from(lines(app, width, false).len() + 1).unwrap_or(u16::MAX)
 }
 
-/// The step under way.
+/// Draws the current step.
 pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
-    let skin = &app.skin;
+    let look = &app.appearance;
     let page = app.lesson.as_ref().is_some_and(|progress| !progress.read);
     let lines = lines(app, usize::from(area.width), page && super::lesson_fills(app));
     // Where it is too long for the screen its end, the task, must be seen.
@@ -72,8 +72,8 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
     let skip = lines.len().saturating_sub(room);
     let kept = lines.iter().take(1).chain(lines.iter().skip(1 + skip));
     for (row, (text, role)) in (0..area.height).zip(kept) {
-        print(buffer, area, row, text, skin.style(*role));
+        print(buffer, area, row, text, look.style(*role));
     }
-    let rule = skin.either("─", "-").repeat(usize::from(area.width));
-    print(buffer, area, area.height.saturating_sub(1), &rule, skin.style(Role::Quiet));
+    let rule = look.either("─", "-").repeat(usize::from(area.width));
+    print(buffer, area, area.height.saturating_sub(1), &rule, look.style(Role::Quiet));
 }

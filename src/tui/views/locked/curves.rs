@@ -1,9 +1,9 @@
 //! The locked motion against speed that view 3 draws: the harmonic balance
 //! with and without damping, over a round range of speeds.
 
-use super::axis::nice_step;
 use crate::harmonic::{Form, Sweep, locked_motion};
 use crate::scene::Scene;
+use crate::tui::axis::nice_step;
 
 /// Speeds of one curve.
 const POINTS: u32 = 161;
@@ -21,7 +21,6 @@ pub struct LockedCurves {
 
 impl LockedCurves {
     /// The curves of a scene's machine.
-    #[must_use]
     pub fn of(scene: &Scene) -> Self {
         let machine = scene.machine();
         let fastest = speed_range(scene);
@@ -33,7 +32,7 @@ impl LockedCurves {
     }
 }
 
-/// From zero to a round speed beyond everything of interest \[rad/s\].
+/// A round speed above every threshold and the present speed \[rad/s\].
 pub fn speed_range(scene: &Scene) -> f64 {
     let machine = scene.machine();
     let of_interest =

@@ -1,15 +1,16 @@
-//! View 2 against time: a row for each blade, a column for each stretch of the
-//! page, the smallest gap as a shade and contact as a full block. It reads
-//! without any colour.
+//! View 2 against time: a row for each blade, a column for each part of the
+//! page, the smallest gap as a shade and contact as a full block. It can be
+//! read without colour.
 
-use ratatui::{buffer::Buffer, layout::Rect};
+use ratatui::buffer::Buffer;
 
-use super::charts::title;
+use super::super::panel::{self, ViewArea, fields, title};
 use crate::model::Rim;
 use crate::motion::Touching;
-use crate::tui::app::{App, View};
-use crate::tui::history::Bin;
-use crate::tui::plot::{Axis, Plot};
+use crate::tui::app::App;
+use crate::tui::axis::ChartAxis;
+use crate::tui::history::{Bin, Channel};
+use crate::tui::plot::Plot;
 use crate::tui::theme::Role;
 
 /// Signs of contact and of the shades, the nearest first.
@@ -20,7 +21,7 @@ const ASCII: [char; 4] = ['#', '%', '+', '.'];
 /// casing is farther away than at rest.
 const SHADES: [f64; 3] = [0.1, 0.5, 1.0];
 
-/// What a blade has been through in one column.
+/// One blade in one column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Spot {
     /// Smallest gap, in clearances.
@@ -28,17 +29,16 @@ struct Spot {
     touched: bool,
 }
 
-/// The smallest gap of a side over a bin, blades unbent \[m\]. What is known
-/// of the wave is the box it stayed in, so this is a lower bound.
-#[must_use]
-pub fn least_gap(rim: &Rim, side: u32, bin: &Bin) -> f64 {
+/// The smallest gap of a side over a bin, rigid blades \[m\]. A bin keeps
+/// only the box of the wave, so this is a lower bound.
+fn least_gap(rim: &Rim, side: u32, bin: &Bin) -> f64 {
     let (c, s) = rim.direction(side);
-    let [(x0, x1), (y0, y1)] = bin.wave();
+    let [(x0, x1), (y0, y1)] = [Channel::X, Channel::Y].map(|channel| bin.span(channel));
     rim.clearance + (c * x0).min(c * x1) + (s * y0).min(s * y1)
 }
 
 /// Whether a side was touched in a bin. Of more than two sides in one bin only
-/// their number is known: then those that came as near as a corner's sides.
+/// their number is known: then all that came as near as the sides of a corner.
 fn touches(rim: &Rim, side: u32, bin: &Bin) -> bool {
     match bin.touched {
         Touching::Many => least_gap(rim, side, bin) < rim.delta * rim.delta * rim.clearance,
@@ -53,8 +53,8 @@ fn spots(app: &App, columns: usize) -> Vec<Vec<Option<Spot>>> {
     let width = (to - from) / columns.max(1) as f64;
     let mut out = vec![vec![None; columns]; rim.sides as usize];
     let place = |t: f64| (((t - from) / width).max(0.0) as usize).min(columns.saturating_sub(1));
-    // Some columns at a time: every column by itself would flood a slow line.
-    let Some(until) = app.slow.as_ref().map(|moment| moment.state.t_s) else { return out };
+    // Some columns at a time: a frame for each column is too much for a slow line.
+    let Some(until) = app.throttled.as_ref().map(|moment| moment.state.t_s) else { return out };
     for bin in app.history.between(from, to).iter().filter(|bin| bin.from <= until) {
         for (side, row) in (0..rim.sides).zip(&mut out) {
             let gap = least_gap(rim, side, bin) / rim.clearance;
@@ -88,23 +88,38 @@ fn sign(spots: &[Spot], signs: [char; 4], ascii: bool) -> Option<(char, bool)> {
     }
 }
 
-/// Draws the view.
-pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
-    let skin = &app.skin;
-    let (first, contact) = (skin.style(Role::First), skin.style(Role::Contact));
-    let signs = skin.either(SIGNS, ASCII);
+/// The smallest gap of every blade in each bin of the page, as CSV.
+///
+/// # Errors
+/// There is no data yet.
+pub fn csv(app: &App) -> Result<String, String> {
+    let rim = &app.machine.rim;
+    let names: String = (1..=rim.blades).map(|blade| format!(",least_gap_{blade}_m")).collect();
+    let (from, to) = app.page();
+    let rows = app.history.between(from, to).iter().map(|bin| {
+        let gaps = (1..=rim.blades).map(|blade| least_gap(rim, rim.side_of_blade(blade), bin));
+        fields([bin.from, bin.to].into_iter().chain(gaps))
+    });
+    panel::csv(&format!("from_s,to_s{names}"), rows)
+}
+
+/// Draws the gaps against time.
+pub fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
+    let look = &app.appearance;
+    let (first, contact) = (look.style(Role::First), look.style(Role::Contact));
+    let signs = look.either(SIGNS, ASCII);
     let (from, to) = app.page();
     let count = app.machine.rim.blades;
-    let x = Axis::scaled(from, to);
-    let y = Axis::plain(0.5, f64::from(count) + 0.5);
+    let x = ChartAxis::scaled(from, to);
+    let y = ChartAxis::plain(0.5, f64::from(count) + 0.5);
     let mut legend = vec![(format!("{} contact", signs[0]), contact)];
     for (sign, most) in signs.into_iter().skip(1).zip(SHADES) {
         legend.push((format!("{sign} <{:.0}%", 100.0 * most), first));
     }
-    let quiet = skin.style(Role::Quiet);
+    let quiet = look.style(Role::Quiet);
     legend.push((format!("of clearance; over {}s", x.scale.prefix), quiet));
-    let inside = title(app, buffer, area, View::Gaps, "gaps in time", &legend);
-    let Some(mut plot) = Plot::new(buffer, inside, x, y, skin) else { return };
+    let inside = title(app, buffer, at, "gaps in time", &legend);
+    let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
     let inner = plot.inner;
     let spots = spots(app, usize::from(inner.width));
     let rim = &app.machine.rim;
@@ -120,21 +135,21 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
                 spots.get(side)?.get(place).copied().flatten()
             };
             let here: Vec<Spot> = (low..high).filter_map(of_blade).collect();
-            if let Some((sign, touched)) = sign(&here, signs, skin.ascii()) {
+            if let Some((sign, touched)) = sign(&here, signs, look.ascii()) {
                 let style = if touched { contact } else { first };
                 plot.text(column, row, sign.encode_utf8(&mut [0; 4]), style);
             }
         }
     }
     if let Some(t) = app.cursor_time() {
-        plot.upright(t, skin.either('┊', ':'), skin.style(Role::Focus));
+        plot.upright(t, look.either('┊', ':'), look.style(Role::Focus));
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tui::history::{CHANNELS, Channel};
+    use crate::tui::history::CHANNELS;
 
     fn bin(x: f64, y: f64) -> Bin {
         let mut values = [0.0; CHANNELS];

@@ -18,7 +18,6 @@ pub struct Spectrum {
 
 impl Spectrum {
     /// Spectrum of samples at equal intervals over `length` seconds.
-    #[must_use]
     pub fn of(signal: &[[f64; 2]], length: f64) -> Self {
         let of = |place: usize| {
             let samples: Vec<f64> =

@@ -1,0 +1,98 @@
+//! View 4: the casing wave as a point in the frame that turns with the blades,
+//! inside the polygon of phase groups, with its trail; and the wheel.
+
+mod wheel;
+
+use ratatui::{buffer::Buffer, layout::Rect};
+
+use super::panel::{ViewArea, ViewPanel, title};
+use super::response::Response;
+use crate::motion::Touching;
+use crate::tui::app::App;
+use crate::tui::axis::ChartAxis;
+use crate::tui::history::Channel;
+use crate::tui::plot::Plot;
+use crate::tui::raster::Pen;
+use crate::tui::theme::Role;
+use crate::tui::worker::in_blade_frame;
+
+/// Half the width of the chart, in amplitudes of a corner.
+const MARGIN: f64 = 1.15;
+
+/// The view.
+pub struct BladeFrame;
+
+impl ViewPanel for BladeFrame {
+    fn what(&self) -> &'static str {
+        "blade frame and wheel"
+    }
+
+    fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
+        if at.area.width >= 60 && at.area.height >= 10 {
+            let [left, right] = at.columns();
+            polygon(app, buffer, left);
+            wheel::draw(app, buffer, right);
+        } else {
+            polygon(app, buffer, at);
+        }
+    }
+
+    /// The trail is among the columns of the response.
+    fn csv(&self, app: &App) -> Result<String, String> {
+        Response.csv(app)
+    }
+}
+
+/// A square of half side `reach` fitted into an area of cells twice as high as wide.
+pub fn square(area: Rect, reach: f64) -> (ChartAxis, ChartAxis) {
+    // The labels take about six columns and two rows.
+    let (width, height) = (
+        f64::from(area.width.saturating_sub(6).max(1)),
+        2.0 * f64::from(area.height.saturating_sub(2).max(1)),
+    );
+    let (x, y) = if width > height {
+        (reach * width / height, reach)
+    } else {
+        (reach, reach * height / width)
+    };
+    (ChartAxis::scaled(-x, x), ChartAxis::scaled(-y, y))
+}
+
+fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
+    let look = &app.appearance;
+    let quiet = look.style(Role::Quiet);
+    let rim = &app.machine.rim;
+    let corner = app.machine.locked_amplitude().unwrap_or(rim.clearance);
+    let (x, y) = square(at.area, MARGIN * corner);
+    let point = look.either('●', 'O');
+    let legend = [
+        (format!("z, {}m", x.scale.prefix), quiet),
+        (format!("{point} now"), look.style(Role::Focus)),
+        (app.contact_now(), look.style(Role::Contact)),
+    ];
+    let inside = title(app, buffer, at, "blade frame", &legend);
+    let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
+    let outline = Pen { dashed: false, ..look.quiet() };
+    let touched = Pen { style: look.style(Role::Contact), sign: '#', dashed: false };
+    let touching = app.latest.moment.as_ref().map_or(Touching::Nothing, |moment| moment.touching);
+    // An unbounded side is drawn as far as the chart reaches.
+    let half = rim.half_side().min(20.0 * rim.clearance);
+    for pass in [false, true] {
+        for side in (0..rim.sides).filter(|side| touching.includes(*side) == pass) {
+            let (cos, sin) = rim.direction(side);
+            let end = |along: f64| {
+                (-rim.clearance * cos - along * sin, -rim.clearance * sin + along * cos)
+            };
+            plot.curve([end(-half), end(half)], if pass { &touched } else { &outline });
+        }
+    }
+    let (from, to) = app.page();
+    let bins = app.history.between(from, to).iter();
+    let trail = bins.map(|bin| (bin.middle(Channel::X), bin.middle(Channel::Y)));
+    plot.curve(trail, &look.first());
+    plot.ink();
+    if let Some(moment) = &app.latest.moment {
+        let [x, y] = in_blade_frame(moment.state.u, app.machine.nodal_diameters * moment.angle);
+        plot.point(x, y, point, look.style(Role::Focus));
+    }
+}

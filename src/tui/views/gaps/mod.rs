@@ -1,0 +1,107 @@
+//! View 2: the gap of every blade now, over the fixed zero line that is the
+//! casing; blades in contact carry a sign and their number.
+
+mod heat;
+
+use ratatui::buffer::Buffer;
+
+use super::panel::{ViewArea, ViewPanel, csv, fields, title};
+use crate::motion::Touching;
+use crate::tui::app::App;
+use crate::tui::axis::ChartAxis;
+use crate::tui::plot::Plot;
+use crate::tui::raster::Pen;
+use crate::tui::theme::Role;
+
+/// The view.
+pub struct Gaps;
+
+impl ViewPanel for Gaps {
+    fn what(&self) -> &'static str {
+        "gaps"
+    }
+
+    fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
+        if app.heat { heat::draw(app, buffer, at) } else { draw(app, buffer, at) }
+    }
+
+    fn csv(&self, app: &App) -> Result<String, String> {
+        if app.heat {
+            return heat::csv(app);
+        }
+        let gaps = app.latest.moment.as_ref().map_or(&[][..], |moment| &moment.gaps);
+        let rows = (1..).zip(gaps).map(|(blade, gap)| format!("{blade},{}", fields([*gap])));
+        csv("blade,gap_m", rows)
+    }
+}
+
+/// The gaps of one instant.
+fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
+    let look = &app.appearance;
+    let quiet = look.style(Role::Quiet);
+    let contact = look.style(Role::Contact);
+    let range = app.ranges.gaps;
+    let y = ChartAxis::scaled(range.low, range.high);
+    let count = app.machine.rim.blades;
+    let x = ChartAxis::plain(0.5, f64::from(count) + 0.5);
+    let touching = touching_blades(app);
+    let mark = look.either('▲', '^');
+    let legend = [
+        (format!("{}m by blade", y.scale.prefix), quiet),
+        (
+            format!("{mark} {}", app.contact_now()),
+            if touching.is_empty() { quiet } else { contact },
+        ),
+    ];
+    let inside = title(app, buffer, at, "gaps", &legend);
+    let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
+    plot.level(0.0, look.either('━', '='), look.style(Role::Text));
+    plot.level(app.machine.clearance(), look.either('┈', '.'), quiet);
+    let Some(moment) = &app.throttled else { return };
+    let gaps = || (1..=count).map(f64::from).zip(moment.gaps.iter().copied());
+    // There are no values between blades: the line only joins the points.
+    if app.is_still() || count > u32::from(plot.inner.width) {
+        plot.curve(gaps(), &Pen { dashed: false, ..look.quiet() });
+        plot.ink();
+    }
+    let room = u32::from(plot.inner.width);
+    if count <= room {
+        let sign =
+            if 2 * count <= room { look.either('●', 'o') } else { look.either('•', 'o') };
+        for (blade, gap) in gaps() {
+            plot.point(blade, gap.min(range.high), sign, look.style(Role::First));
+        }
+    }
+    for blade in &touching {
+        plot.point(f64::from(*blade), 0.0, mark, contact);
+    }
+    label(&mut plot, &touching, app);
+}
+
+/// Numbers of the touching blades under the zero line.
+fn label(plot: &mut Plot, touching: &[u32], app: &App) {
+    let Some(row) = plot.row(0.0).map(|row| row + 1).filter(|row| *row < plot.inner.bottom())
+    else {
+        return;
+    };
+    for blade in touching.iter().take(16) {
+        plot.note(f64::from(*blade), row, &format!("{blade}"), app.appearance.style(Role::Contact));
+    }
+}
+
+/// The blades in contact now, numbered from 1.
+fn touching_blades(app: &App) -> Vec<u32> {
+    let Some(moment) = &app.throttled else { return Vec::new() };
+    let rim = &app.machine.rim;
+    let of = |sides: &[u32]| sides.iter().flat_map(|side| rim.blades_of_side(*side)).collect();
+    match moment.touching {
+        Touching::Nothing => Vec::new(),
+        Touching::Side(side) => of(&[side]),
+        Touching::Corner(a, b) => of(&[a, b]),
+        Touching::Many => (1..=rim.blades)
+            .zip(&moment.gaps)
+            .filter(|(_, gap)| **gap <= 1e-9 * rim.clearance)
+            .map(|(blade, _)| blade)
+            .collect(),
+    }
+}

@@ -1,0 +1,113 @@
+//! What a view must be able to do, and what all views have in common: the
+//! title row with its legend, and CSV text.
+
+use ratatui::{
+    buffer::Buffer,
+    layout::{Constraint, Layout, Rect},
+    style::{Modifier, Style},
+};
+
+use crate::tui::app::App;
+use crate::tui::appearance::Appearance;
+use crate::tui::raster::Pen;
+use crate::tui::text::{pieces, print};
+use crate::tui::theme::Role;
+
+/// A view: how it is drawn and exported.
+pub trait ViewPanel: Sync {
+    /// What it shows, for the help.
+    fn what(&self) -> &'static str;
+
+    /// Draws it.
+    fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea);
+
+    /// Its data as CSV.
+    ///
+    /// # Errors
+    /// There is nothing to export; the reason in words.
+    fn csv(&self, app: &App) -> Result<String, String>;
+}
+
+/// Where a view is drawn, and how its title begins.
+#[derive(Clone, Copy, Debug)]
+pub struct ViewArea {
+    /// The part of the screen.
+    pub area: Rect,
+    /// The key that opens the view.
+    pub digit: u8,
+    /// Whether it is the large chart.
+    pub large: bool,
+}
+
+impl ViewArea {
+    /// Two slots, one above the other; the first takes `percent` of the height.
+    pub fn rows(self, percent: u16) -> [Self; 2] {
+        let parts = [Constraint::Percentage(percent), Constraint::Percentage(100 - percent)];
+        Layout::vertical(parts).areas(self.area).map(|area| Self { area, ..self })
+    }
+
+    /// Two slots of equal width, side by side.
+    pub fn columns(self) -> [Self; 2] {
+        let halves = [Constraint::Percentage(50), Constraint::Percentage(50)];
+        Layout::horizontal(halves).spacing(1).areas(self.area).map(|area| Self { area, ..self })
+    }
+}
+
+/// The title row: a rule with the digit and name of the view and its legend,
+/// as much of it as fits whole. Returns the rest of the area.
+pub fn title(
+    app: &App,
+    buffer: &mut Buffer,
+    at: ViewArea,
+    name: &str,
+    legend: &[(String, Style)],
+) -> Rect {
+    let (look, area) = (&app.appearance, at.area);
+    let rule = look.either("─", "-").repeat(usize::from(area.width));
+    print(buffer, area, 0, &rule, look.style(Role::Quiet));
+    let style = if at.large {
+        look.style(Role::Focus).add_modifier(Modifier::BOLD)
+    } else {
+        look.style(Role::Text)
+    };
+    let head = (format!("{} {name}", at.digit), style);
+    let parts = std::iter::once(&head).chain(legend);
+    let parts: Vec<_> =
+        parts.map(|(text, style)| (format!(" {} ", look.spell(text)), *style)).collect();
+    let inside = Rect { x: area.x + 1, width: area.width.saturating_sub(1), ..area };
+    pieces(buffer, inside, 0, &parts);
+    Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area }
+}
+
+/// A legend entry: a stretch of the line and the name of what it shows.
+pub fn entry(look: &Appearance, pen: &Pen, name: &str) -> (String, Style) {
+    let stroke = match (look.ascii(), pen.dashed) {
+        (true, _) => pen.sign.to_string().repeat(2),
+        (false, true) => "╌╌".to_string(),
+        (false, false) => "──".to_string(),
+    };
+    (format!("{stroke} {name}"), pen.style)
+}
+
+/// Says that the study of a view is not computed yet.
+pub fn not_yet(app: &App, buffer: &mut Buffer, inside: Rect) {
+    let quiet = app.appearance.style(Role::Quiet);
+    print(buffer, inside, 1, "computed while this view is open", quiet);
+}
+
+/// A header and rows as CSV text.
+///
+/// # Errors
+/// There are no rows.
+pub fn csv(header: &str, rows: impl Iterator<Item = String>) -> Result<String, String> {
+    let rows: Vec<String> = rows.collect();
+    match rows.is_empty() {
+        true => Err("there is no data yet".into()),
+        false => Ok(format!("{header}\n{}\n", rows.join("\n"))),
+    }
+}
+
+/// Numbers with full precision, one CSV field each.
+pub fn fields(values: impl IntoIterator<Item = f64>) -> String {
+    values.into_iter().map(|value| format!("{value:e}")).collect::<Vec<_>>().join(",")
+}

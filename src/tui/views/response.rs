@@ -1,0 +1,172 @@
+//! View 1: the casing coordinates against time on a page that fills, and the
+//! blade coordinates below where there is room; with the other contact law or
+//! a pinned run to compare with.
+
+use ratatui::buffer::Buffer;
+
+use super::panel::{ViewArea, ViewPanel, csv, entry, fields, title};
+use crate::tui::app::App;
+use crate::tui::axis::{AutoRange, ChartAxis, readable};
+use crate::tui::history::{BinHistory, Channel};
+use crate::tui::plot::Plot;
+use crate::tui::text::wrap;
+use crate::tui::theme::Role;
+
+/// From this height on the blade coordinates have a chart of their own.
+const TWO_FROM: u16 = 18;
+
+/// The view.
+pub struct Response;
+
+impl ViewPanel for Response {
+    fn what(&self) -> &'static str {
+        "response"
+    }
+
+    fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
+        let casing = Page::casing("response, casing".into(), app);
+        if app.compare {
+            both_laws(app, buffer, at);
+        } else if at.area.height >= TWO_FROM {
+            let [above, below] = at.rows(60);
+            page(app, buffer, above, &casing);
+            let blades = Page {
+                name: "response, blades".into(),
+                names: ["α_c", "α_s"],
+                channels: [Channel::AlphaC, Channel::AlphaS],
+                range: app.ranges.blades,
+                unit: "rad",
+                ..casing
+            };
+            page(app, buffer, below, &blades);
+        } else {
+            page(app, buffer, at, &casing);
+        }
+    }
+
+    /// Least and greatest value of every channel in each bin of the page.
+    fn csv(&self, app: &App) -> Result<String, String> {
+        let channels = [
+            (Channel::UC, "u_c_m"),
+            (Channel::US, "u_s_m"),
+            (Channel::AlphaC, "alpha_c_rad"),
+            (Channel::AlphaS, "alpha_s_rad"),
+            (Channel::Gap, "smallest_gap_m"),
+            (Channel::Push, "push_n"),
+            (Channel::X, "z_real_m"),
+            (Channel::Y, "z_imaginary_m"),
+        ];
+        let names = channels.map(|(_, name)| format!(",{name}_least,{name}_greatest")).concat();
+        let (from, to) = app.page();
+        let rows = app.history.between(from, to).iter().map(|bin| {
+            let spans =
+                channels.iter().flat_map(|(channel, _)| <[f64; 2]>::from(bin.span(*channel)));
+            format!(
+                "{},{}",
+                fields([bin.from, bin.to].into_iter().chain(spans)),
+                u8::from(bin.contact)
+            )
+        });
+        csv(&format!("from_s,to_s{names},contact"), rows)
+    }
+}
+
+/// What one chart shows.
+struct Page<'a> {
+    name: String,
+    names: [&'static str; 2],
+    channels: [Channel; 2],
+    range: AutoRange,
+    unit: &'static str,
+    history: &'a BinHistory,
+    /// Whether this is the running motion, with what belongs to it.
+    own: bool,
+}
+
+impl<'a> Page<'a> {
+    fn casing(name: String, app: &'a App) -> Self {
+        Self {
+            name,
+            names: ["u_c", "u_s"],
+            channels: [Channel::UC, Channel::US],
+            range: app.ranges.casing,
+            unit: "m",
+            history: &app.history,
+            own: true,
+        }
+    }
+}
+
+/// The two contact laws side by side, or one above the other.
+fn both_laws(app: &App, buffer: &mut Buffer, at: ViewArea) {
+    let [first, second] = if at.area.width >= 70 { at.columns() } else { at.rows(50) };
+    let law = app.scene.solver.contact;
+    let own = format!("{}: {}", law, app.verdict().word);
+    let comparison = app.latest.results.comparison.as_ref();
+    let word = comparison.map_or("...".to_string(), |outcome| app.words(outcome).word);
+    let theirs = Page {
+        history: &app.comparison_history,
+        own: false,
+        ..Page::casing(format!("{}: {word}", law.other()), app)
+    };
+    page(app, buffer, first, &Page::casing(own, app));
+    page(app, buffer, second, &theirs);
+}
+
+fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
+    let look = &app.appearance;
+    let (from, to) = app.page();
+    let (x, y) = (ChartAxis::scaled(from, to), ChartAxis::scaled(what.range.low, what.range.high));
+    let pens = [look.first(), look.second()];
+    let quiet = look.style(Role::Quiet);
+    let mark = look.either('▪', '#');
+    let mut legend: Vec<_> =
+        pens.iter().zip(what.names).map(|(pen, name)| entry(look, pen, name)).collect();
+    if let Some(read) = reading(app, what) {
+        legend.push((read, look.style(Role::Focus)));
+    }
+    legend.push((format!("{}{} over {}s", y.scale.prefix, what.unit, x.scale.prefix), quiet));
+    if let Some(baseline) = app.baseline.as_ref().filter(|_| what.own) {
+        legend.push(entry(look, &look.quiet(), &format!("pinned: {}", baseline.words.word)));
+        legend.push((baseline.words.detail.clone(), quiet));
+    }
+    legend.push((format!("{mark} contact"), look.style(Role::Contact)));
+    let inside = title(app, buffer, at, &what.name, &legend);
+    let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
+    plot.level(0.0, look.either('┈', '.'), quiet);
+    if let Some(t) = app.cursor_time() {
+        plot.upright(t, look.either('┊', ':'), look.style(Role::Focus));
+    }
+    let columns = plot.columns();
+    if let Some(baseline) = app.baseline.as_ref().filter(|_| what.own) {
+        plot.spans(&baseline.history.columns(what.channels[0], from, to, columns), &look.quiet());
+    }
+    for (channel, pen) in what.channels.iter().zip(&pens).rev() {
+        plot.spans(&what.history.columns(*channel, from, to, columns), pen);
+    }
+    plot.ink();
+    let cells = usize::from(plot.inner.width);
+    // On the time axis if there is one, so that no data is covered.
+    let row = plot.axis_row().unwrap_or(plot.inner.bottom() - 1);
+    let contacts = what.history.contacts(from, to, cells);
+    for (column, _) in (plot.inner.x..).zip(contacts).filter(|(_, touched)| *touched) {
+        plot.text(column, row, &mark.to_string(), look.style(Role::Contact));
+    }
+    if let Some(failure) = app.failure()
+        && what.own
+    {
+        let inner = plot.inner;
+        let width = usize::from(inner.width).saturating_sub(2);
+        for (row, line) in (inner.y..inner.bottom()).zip(wrap(failure, width)) {
+            plot.text(inner.x + 1, row, &look.spell(&line), look.style(Role::Trouble));
+        }
+    }
+}
+
+/// The values at the reading cursor.
+fn reading(app: &App, what: &Page) -> Option<String> {
+    let t = app.cursor_time()?;
+    let bin = what.history.at(t)?;
+    let [first, second] = what.channels.map(|channel| readable(bin.middle(channel), what.unit));
+    Some(format!("at {}: {first}, {second}", readable(t, "s")))
+}

@@ -1,0 +1,136 @@
+//! View 6: the spectrum of the casing motion over the whole run, and the
+//! Campbell lines that show where frequencies coincide.
+
+pub mod transform;
+
+use ratatui::buffer::Buffer;
+
+use super::panel::{ViewArea, ViewPanel, csv, entry, fields, not_yet, title};
+use crate::tui::app::App;
+use crate::tui::axis::{ChartAxis, nice_step};
+use crate::tui::plot::Plot;
+use crate::tui::raster::Pen;
+use crate::tui::theme::Role;
+
+/// From this height on the Campbell lines have a chart of their own.
+const TWO_FROM: u16 = 16;
+/// Smallest amplitude shown, as a power of ten of a metre, and the greatest.
+const DECADES: (f64, f64) = (-10.0, -3.0);
+
+/// The view.
+pub struct SpectrumView;
+
+impl ViewPanel for SpectrumView {
+    fn what(&self) -> &'static str {
+        "spectrum and Campbell lines"
+    }
+
+    fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
+        if at.area.height >= TWO_FROM {
+            let [top, bottom] = at.rows(50);
+            amplitudes(app, buffer, top);
+            campbell(app, buffer, bottom);
+        } else {
+            amplitudes(app, buffer, at);
+        }
+    }
+
+    fn csv(&self, app: &App) -> Result<String, String> {
+        let spectrum = app.latest.results.spectrum.as_deref().cloned().unwrap_or_default();
+        let lines = (0..).zip(spectrum.cosine.iter().zip(&spectrum.sine));
+        let rows = lines.map(|(k, (cosine, sine))| {
+            fields([f64::from(k) * spectrum.resolution, *cosine, *sine])
+        });
+        csv("frequency_rad_s,u_c_m,u_s_m", rows)
+    }
+}
+
+fn highest(app: &App) -> f64 {
+    let machine = &app.machine;
+    let most = (machine.nu(app.speed().abs()) + machine.omega_bd).max(machine.omega_c);
+    let step = nice_step(1.3 * most, 5).unwrap_or(most);
+    (1.3 * most / step).ceil() * step
+}
+
+/// Frequencies in the fixed frame, with their names \[rad/s\].
+fn lines(app: &App, speed: f64) -> [(f64, &'static str); 4] {
+    let machine = &app.machine;
+    let wave = machine.nu(speed);
+    [
+        (wave, "n_d Ω"),
+        (machine.omega_c, "ω_c"),
+        ((wave - machine.omega_bd).abs(), "n_d Ω-ω_bd"),
+        (wave + machine.omega_bd, "n_d Ω+ω_bd"),
+    ]
+}
+
+fn amplitudes(app: &App, buffer: &mut Buffer, at: ViewArea) {
+    let look = &app.appearance;
+    let quiet = look.style(Role::Quiet);
+    let legend = [
+        entry(look, &look.first(), "u_c"),
+        entry(look, &look.second(), "u_s"),
+        ("m by rad/s, whole run, Hann window".to_string(), quiet),
+    ];
+    let inside = title(app, buffer, at, "spectrum", &legend);
+    let Some(spectrum) = &app.latest.results.spectrum else {
+        return not_yet(app, buffer, inside);
+    };
+    let x = ChartAxis::plain(0.0, highest(app));
+    let y = ChartAxis::powers(DECADES.0, DECADES.1);
+    let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
+    let marks = lines(app, app.speed().abs());
+    for (frequency, _) in marks {
+        plot.upright(frequency, look.either('┊', ':'), quiet);
+    }
+    for (series, pen) in [(&spectrum.sine, look.second()), (&spectrum.cosine, look.first())] {
+        let points = series.iter().enumerate().map(|(k, amplitude)| {
+            (k as f64 * spectrum.resolution, amplitude.max(1e-30).log10().max(DECADES.0))
+        });
+        plot.curve(points.take_while(|(w, _)| *w <= x.high), &pen);
+    }
+    plot.ink();
+    for ((frequency, name), row) in marks.iter().zip(plot.inner.y..) {
+        plot.note(*frequency, row, &look.spell(name), look.style(Role::Text));
+    }
+}
+
+fn campbell(app: &App, buffer: &mut Buffer, at: ViewArea) {
+    let look = &app.appearance;
+    let quiet = look.style(Role::Quiet);
+    let meet = look.either('◆', '@');
+    let legend = [
+        entry(look, &look.first(), "n_d Ω"),
+        entry(look, &look.second(), "n_d Ω±ω_bd"),
+        (format!("{meet} meets ω_c"), look.style(Role::Contact)),
+        ("rad/s by rad/s".to_string(), quiet),
+    ];
+    let inside = title(app, buffer, at, "Campbell", &legend);
+    let fastest = app.latest.results.locked.as_ref().map_or(600.0, |curves| curves.fastest);
+    let top = app.machine.nu(fastest).max(1.5 * app.machine.omega_c);
+    let Some(mut plot) =
+        Plot::new(buffer, inside, ChartAxis::plain(0.0, fastest), ChartAxis::plain(0.0, top), look)
+    else {
+        return;
+    };
+    plot.level(app.machine.omega_c, look.either('┈', '.'), look.style(Role::Text));
+    plot.upright(app.speed().abs(), look.either('│', '|'), look.style(Role::Focus));
+    let pens: [Pen; 4] = [look.first(), look.quiet(), look.second(), look.second()];
+    for (place, pen) in pens.iter().enumerate().filter(|(place, _)| *place != 1).rev() {
+        let speeds = plot.column_values();
+        let curve = speeds.iter().filter_map(|speed| {
+            let (frequency, _) = *lines(app, *speed).get(place)?;
+            (frequency <= top).then_some((*speed, frequency))
+        });
+        plot.curve(curve, pen);
+    }
+    plot.ink();
+    let crossings =
+        app.machine.coincidence_speeds().into_iter().chain(app.machine.critical_speed());
+    for speed in crossings {
+        plot.point(speed, app.machine.omega_c, meet, look.style(Role::Contact));
+    }
+    if let Some(row) = plot.row(app.machine.omega_c) {
+        plot.note(0.0, row, &look.spell("ω_c"), look.style(Role::Text));
+    }
+}
