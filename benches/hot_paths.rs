@@ -9,7 +9,7 @@ use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use rubscope::harmonic::{Form, locked_motion};
-use rubscope::motion::{Motion, Sample, Sampling, Script, settle, simulate, simulate_with};
+use rubscope::motion::{Motion, Sample, Sampling, Script, run_to_verdict, simulate, simulate_with};
 use rubscope::scene::{CheckedScene, Scene};
 
 fn scene(changes: &[(&str, &str)]) -> CheckedScene {
@@ -112,7 +112,7 @@ fn around(criterion: &mut Criterion) {
     });
     let cell = scene(&[EVENT[0], EVENT[1], ("operation.pulse_n", "4e5")]);
     group.bench_function("a cell of a map", |bencher| {
-        bencher.iter(|| settle(black_box(&cell)));
+        bencher.iter(|| run_to_verdict(black_box(&cell)));
     });
     group.finish();
 }

@@ -11,12 +11,12 @@ use super::{Cli, Done};
 
 /// Print completions for a shell.
 #[derive(Args, Debug)]
-pub struct Completions {
+pub struct CompletionsCommand {
     /// The shell
     shell: Shell,
 }
 
-impl Completions {
+impl CompletionsCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
         // Into memory first: clap_complete panics when it cannot write.
         let mut text = Vec::new();

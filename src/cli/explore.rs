@@ -15,7 +15,7 @@ use crate::tui;
 
 /// What the explorer opens with.
 #[derive(Args, Debug)]
-pub struct Explore {
+pub struct ExploreCommand {
     #[command(flatten)]
     options: SceneOptions,
     /// Most frames a second while the motion plays
@@ -46,7 +46,7 @@ where
     })
 }
 
-impl Explore {
+impl ExploreCommand {
     pub(super) fn run(&self) -> Done {
         self.refuse_command()?;
         let scene = self.options.scene()?;

@@ -22,7 +22,7 @@ use crate::study::figures::{Figure, NUMBERS, Scenes, figure};
 /// figure. Fig. 4 has its own time steps, Fig. 8 its own contact laws and
 /// pulses, and Figs. 8 to 10 range from standstill to the speed of the scene.
 #[derive(Args, Debug)]
-pub struct Figures {
+pub struct FiguresCommand {
     #[command(flatten)]
     options: SceneOptions,
     /// Directory of the files; made where there is none
@@ -33,7 +33,7 @@ pub struct Figures {
     only: Vec<u32>,
 }
 
-impl Figures {
+impl FiguresCommand {
     pub(super) fn run(&self) -> Done {
         let numbers = self.numbers()?;
         let scenes = self.scenes()?;

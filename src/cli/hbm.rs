@@ -23,7 +23,7 @@ const SPEEDS: usize = 51;
 /// none the range from standstill to the speed of the scene. Without one of
 /// the views below, the locked motion itself is shown.
 #[derive(Args, Debug)]
-pub struct Hbm {
+pub struct HbmCommand {
     #[command(flatten)]
     options: SceneOptions,
     /// Blade equations: printed (Eq. 27), blade (Eq. 19) or modal (the time model's, exact)
@@ -65,7 +65,7 @@ pub struct Hbm {
     out: Option<PathBuf>,
 }
 
-impl Hbm {
+impl HbmCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
         let resolved = self.options.resolve(Swept { speed: true, pulse: false })?;
         let speeds = match resolved.speeds {

@@ -72,7 +72,7 @@ pub(super) fn answer(asked: &Asked, view: &View) -> Result<Answer, Refusal> {
     let sweep = locked_motion(&machine, form, damped, pair, speeds);
     let json = HbmReport::new(&machine, form, damped);
     let json = match (&sweep, view) {
-        (Ok(sweep), _) => json.with_sweep(&machine.rim, sweep),
+        (Ok(sweep), _) => json.with_sweep(&machine.polygon, sweep),
         // These have a meaning without corners too.
         (Err(HarmonicError::NoCorner { .. }), View::Branches | View::Campbell) => json,
         (Err(error), _) => return Err(refused(error.clone())),
@@ -97,8 +97,8 @@ pub(super) fn answer(asked: &Asked, view: &View) -> Result<Answer, Refusal> {
 
 fn corner(asked: &Asked, machine: &Machine) -> Result<Corner, Refusal> {
     let corner = match asked.pair {
-        Some(pair) => Corner::of_blades(&machine.rim, pair),
-        None => Corner::paper(&machine.rim),
+        Some(pair) => Corner::of_blades(&machine.polygon, pair),
+        None => Corner::paper(&machine.polygon),
     };
     corner.map_err(refused)
 }
@@ -254,7 +254,7 @@ fn folding(
             "The corner branch folds back at {} rad/s, opened to {} rad from {} rad.",
             short(fold.speed_rad_s),
             short(fold.opening_rad),
-            short(machine.rim.delta)
+            short(machine.polygon.delta)
         ),
         None => "The corner branch does not fold: the blades are as good as rigid.".to_string(),
     };

@@ -13,12 +13,12 @@ use crate::tui::bindings::{self, Context, keys_text};
 
 /// Print the manual page, or that of one command.
 #[derive(Args, Debug)]
-pub struct Man {
+pub struct ManCommand {
     /// A command, for its own page
     command: Option<String>,
 }
 
-impl Man {
+impl ManCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
         let mut whole = Cli::command();
         whole.build();

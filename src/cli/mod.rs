@@ -42,19 +42,19 @@ pub struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
     #[command(flatten)]
-    explore: explore::Explore,
+    explore: explore::ExploreCommand,
 }
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    Run(Box<run::Run>),
-    Hbm(Box<hbm::Hbm>),
+    Run(Box<run::RunCommand>),
+    Hbm(Box<hbm::HbmCommand>),
     Map(Box<map::MapCommand>),
     Precision(Box<precision::PrecisionCommand>),
-    Figures(Box<figures::Figures>),
-    Scenes(scenes::Scenes),
-    Completions(completions::Completions),
-    Man(man::Man),
+    Figures(Box<figures::FiguresCommand>),
+    Scenes(scenes::ScenesCommand),
+    Completions(completions::CompletionsCommand),
+    Man(man::ManCommand),
 }
 
 /// Runs the program on these arguments and returns its exit status.

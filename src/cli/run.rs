@@ -7,7 +7,7 @@ use std::time::Instant;
 use clap::Args;
 
 use super::options::SceneOptions;
-use super::script::{self, Script};
+use super::script::{self, RequestedScript};
 use super::status::Status;
 use super::{Done, output};
 use crate::motion::{Sampling, Verdict, is_sensitive_with, run_to_end};
@@ -15,7 +15,7 @@ use crate::report::{History, json, npz, summary};
 
 /// Simulate a scene in time and tell how it ends.
 #[derive(Args, Debug)]
-pub struct Run {
+pub struct RunCommand {
     #[command(flatten)]
     options: SceneOptions,
     /// Print the report as JSON (rubscope.run/1)
@@ -36,10 +36,10 @@ pub struct Run {
     at: Vec<String>,
 }
 
-impl Run {
+impl RunCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
         let scene = self.options.scene()?;
-        let script = Script::resolve(&script::parse(&self.at)?, &scene)?;
+        let script = RequestedScript::resolve(&script::parse(&self.at)?, &scene)?;
         let acts = script.changes();
         let path = match &self.out {
             Some(path) => Some((path, output::format(path, &["csv", "npz"])?)),

@@ -11,13 +11,13 @@ use crate::scene::{BUILTIN, Scene};
 
 /// List the built-in scenes; with a name, print its file.
 #[derive(Args, Debug)]
-pub struct Scenes {
+pub struct ScenesCommand {
     /// Name of a built-in scene
     #[arg(value_parser = Words::scenes(), hide_possible_values = true)]
     name: Option<String>,
 }
 
-impl Scenes {
+impl ScenesCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
         match &self.name {
             Some(name) => {

@@ -2,8 +2,8 @@
 //! `--at TIME:pulse`, by the rules of the explorer when its knobs act live, so
 //! that what was done on the screen can be repeated without one.
 //!
-//! `parse` reads the options, `Script::resolve` checks them against a scene
-//! before anything is simulated, and `Script::changes` is what the motion goes
+//! `parse` reads the options, `RequestedScript::resolve` checks them against a scene
+//! before anything is simulated, and `RequestedScript::changes` is what the motion goes
 //! through.
 
 use serde::{Serialize, Serializer};
@@ -39,7 +39,7 @@ const FIXED: [&str; 12] = [
 
 /// One thing done to a running motion.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Change {
+pub enum RequestedChange {
     /// Fires the pulse.
     Pulse,
     /// Sets a key of the scene.
@@ -51,7 +51,7 @@ pub enum Change {
     },
 }
 
-impl std::fmt::Display for Change {
+impl std::fmt::Display for RequestedChange {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Pulse => out.write_str(PULSE),
@@ -65,13 +65,13 @@ impl std::fmt::Display for Change {
 ///
 /// # Errors
 /// An option of another form.
-pub fn parse(options: &[String]) -> Result<Vec<(f64, Change)>, Refusal> {
+pub fn parse(options: &[String]) -> Result<Vec<(f64, RequestedChange)>, Refusal> {
     let mut changes = options.iter().map(|text| parse_one(text)).collect::<Result<Vec<_>, _>>()?;
     changes.sort_by(|(one, _), (other, _)| one.total_cmp(other));
     Ok(changes)
 }
 
-fn parse_one(text: &str) -> Result<(f64, Change), Refusal> {
+fn parse_one(text: &str) -> Result<(f64, RequestedChange), Refusal> {
     let form = || {
         let allowed = "TIME:PATH=VALUE or TIME:pulse, with TIME in seconds";
         Refusal::of(OPTION, text, allowed)
@@ -79,8 +79,10 @@ fn parse_one(text: &str) -> Result<(f64, Change), Refusal> {
     let (time, change) = text.split_once(':').ok_or_else(form)?;
     let time: f64 = time.trim().parse().map_err(|_| form())?;
     let change = match change.split_once('=') {
-        Some((path, value)) => Change::Set { path: path.trim().into(), value: value.trim().into() },
-        None if change.trim() == PULSE => Change::Pulse,
+        Some((path, value)) => {
+            RequestedChange::Set { path: path.trim().into(), value: value.trim().into() }
+        }
+        None if change.trim() == PULSE => RequestedChange::Pulse,
         None => return Err(form()),
     };
     // A sum with zero, so that -0 and 0 are one instant.
@@ -93,7 +95,7 @@ pub struct Step {
     /// When \[s\].
     pub t_s: f64,
     /// What was asked.
-    pub change: Change,
+    pub change: RequestedChange,
     /// The scene from then on.
     pub scene: CheckedScene,
     /// What happens to the motion.
@@ -101,7 +103,7 @@ pub struct Step {
 }
 
 impl Step {
-    fn of(t_s: f64, change: &Change, before: &CheckedScene) -> Result<Self, Refusal> {
+    fn of(t_s: f64, change: &RequestedChange, before: &CheckedScene) -> Result<Self, Refusal> {
         let shown = format!("{t_s}:{change}");
         let end = before.solver.end_s;
         if !(0.0..=end).contains(&t_s) {
@@ -109,7 +111,7 @@ impl Step {
             return Err(Refusal::of(OPTION, shown, allowed));
         }
         let step = |scene, acts| Self { t_s, change: change.clone(), scene, acts };
-        let Change::Set { path, value } = change else {
+        let RequestedChange::Set { path, value } = change else {
             return Ok(step(before.clone(), vec![motion::Change::Pulse]));
         };
         let refused = |error| Refusal::because(format!("{OPTION} {shown}: {error}"));
@@ -153,16 +155,19 @@ fn live_keys(scene: &CheckedScene) -> String {
 
 /// Checked changes, in order of time.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Script(Vec<Step>);
+pub struct RequestedScript(Vec<Step>);
 
-impl Script {
+impl RequestedScript {
     /// Checks changes, in order of time, on the scene that the motion starts
     /// with; each sees the scene that those before it left.
     ///
     /// # Errors
     /// The first change that is refused: a time outside the run, a key that
     /// does not exist or needs another motion, or a value that is not allowed.
-    pub fn resolve(changes: &[(f64, Change)], scene: &CheckedScene) -> Result<Self, Refusal> {
+    pub fn resolve(
+        changes: &[(f64, RequestedChange)],
+        scene: &CheckedScene,
+    ) -> Result<Self, Refusal> {
         let mut steps: Vec<Step> = Vec::with_capacity(changes.len());
         for (t_s, change) in changes {
             let before = steps.last().map_or(scene, |step| &step.scene);
@@ -186,7 +191,7 @@ impl Script {
     }
 }
 
-impl std::fmt::Display for Script {
+impl std::fmt::Display for RequestedScript {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         for (index, step) in self.0.iter().enumerate() {
             let comma = if index == 0 { "" } else { ", " };
@@ -196,7 +201,7 @@ impl std::fmt::Display for Script {
     }
 }
 
-impl Serialize for Script {
+impl Serialize for RequestedScript {
     fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
         out.collect_seq(self.0.iter().map(told))
     }
@@ -206,8 +211,8 @@ impl Serialize for Script {
 fn told(step: &Step) -> serde_json::Value {
     let t_s = step.t_s;
     match &step.change {
-        Change::Pulse => serde_json::json!({ "t_s": t_s, "pulse": true }),
-        Change::Set { path, value } => {
+        RequestedChange::Pulse => serde_json::json!({ "t_s": t_s, "pulse": true }),
+        RequestedChange::Set { path, value } => {
             let value = match keys::find(path).map(|key| (key.get)(&step.scene)) {
                 Ok(Value::Real(x)) => serde_json::json!(x),
                 Ok(Value::Whole(n)) => serde_json::json!(n),

@@ -30,12 +30,12 @@ pub struct Repeat {
     /// Normal less that of the reference.
     pub turned: (f64, f64),
     /// `A = dg/dalpha` \[m\].
-    pub lever: f64,
+    pub moment_arm: f64,
 }
 
 /// The reference of one group.
 #[derive(Clone, Copy, Debug)]
-pub struct Reference {
+pub struct GroupReference {
     /// Its predicted gap \[m\].
     pub gap: f64,
     /// Its normal.
@@ -45,7 +45,7 @@ pub struct Reference {
 /// The rows of one step.
 pub struct Repeated<'a> {
     /// The groups, each with at least one row.
-    pub groups: &'a [Reference],
+    pub groups: &'a [GroupReference],
     /// The rows.
     pub rows: &'a [Repeat],
     /// Casing displacement by a unit force in one step \[m/N\].
@@ -99,7 +99,7 @@ impl Repeated<'_> {
 
     /// `B_rs` \[m/N\].
     fn bend(&self, row: usize, other: usize) -> f64 {
-        self.rows[row].lever * self.rows[other].lever * (self.blades)(row, other)
+        self.rows[row].moment_arm * self.rows[other].moment_arm * (self.blades)(row, other)
     }
 
     /// Whether an open row would be left penetrating.
@@ -191,9 +191,17 @@ mod tests {
 
     /// Two sides a corner apart with `each` rows, casing compliance one, blades
     /// `soft` of it with little coupling; rows of a side `apart` in angle.
-    fn corner(each: usize, soft: f64, apart: f64, gaps: [f64; 2]) -> (Vec<Reference>, Vec<Repeat>) {
-        let groups: Vec<Reference> = [(0.0, gaps[0]), (0.2856, gaps[1])]
-            .map(|(phase, gap): (f64, f64)| Reference { gap, normal: (phase.cos(), phase.sin()) })
+    fn corner(
+        each: usize,
+        soft: f64,
+        apart: f64,
+        gaps: [f64; 2],
+    ) -> (Vec<GroupReference>, Vec<Repeat>) {
+        let groups: Vec<GroupReference> = [(0.0, gaps[0]), (0.2856, gaps[1])]
+            .map(|(phase, gap): (f64, f64)| GroupReference {
+                gap,
+                normal: (phase.cos(), phase.sin()),
+            })
             .to_vec();
         let mut rows = Vec::new();
         for (group, sign) in [(0, -1.0), (1, 1.0)] {
@@ -203,10 +211,10 @@ mod tests {
                 let half = (0.5 * angle).sin();
                 let (cos, sin) = (-2.0 * half * half, angle.sin());
                 let turned = (c * cos - s * sin, s * cos + c * sin);
-                let lever = sign * soft.sqrt();
-                let gap = lever * angle;
+                let moment_arm = sign * soft.sqrt();
+                let gap = moment_arm * angle;
                 let normal = (c + turned.0, s + turned.1);
-                rows.push(Repeat { group, gap, normal, turned, lever });
+                rows.push(Repeat { group, gap, normal, turned, moment_arm });
             }
         }
         (groups, rows)

@@ -40,7 +40,7 @@ impl Branches {
     /// # Errors
     /// A speed that is not finite, or eigenvalues that cannot be computed.
     pub fn over(machine: &Machine, speeds: &[f64], damped: bool) -> Result<Self, HarmonicError> {
-        let side = Corner::paper(&machine.rim).map_or(0, |corner| corner.a);
+        let side = Corner::paper(&machine.polygon).map_or(0, |corner| corner.a);
         let at = |kind, speed| equilibrium(machine, kind, side, speed, damped);
         let mut states = Vec::new();
         for &speed in speeds {

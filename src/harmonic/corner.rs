@@ -2,7 +2,7 @@
 //! polygon of the blade frame, named by blades as the paper does (#6 and #21).
 
 use super::HarmonicError;
-use crate::model::Rim;
+use crate::model::ContactPolygon;
 
 /// The paper's pair of blades.
 pub const PAPER_PAIR: [u32; 2] = [6, 21];
@@ -20,13 +20,13 @@ impl Corner {
     /// The corner between side `a` and the next one in increasing phase.
     ///
     /// # Errors
-    /// The rim has no corners.
-    pub fn after(rim: &Rim, a: u32) -> Result<Self, HarmonicError> {
-        if !rim.has_corners() {
-            return Err(HarmonicError::no_corner(rim));
+    /// The polygon has no corners.
+    pub fn after(polygon: &ContactPolygon, a: u32) -> Result<Self, HarmonicError> {
+        if !polygon.has_corners() {
+            return Err(HarmonicError::no_corner(polygon));
         }
-        let a = a % rim.sides;
-        Ok(Self { a, b: rim.next(a) })
+        let a = a % polygon.sides;
+        Ok(Self { a, b: polygon.next(a) })
     }
 
     /// The default corner: that of the paper's blades 6 and 21 where these are
@@ -34,16 +34,16 @@ impl Corner {
     /// `15 N'/22` rounded.
     ///
     /// # Errors
-    /// The rim has no corners.
-    pub fn paper(rim: &Rim) -> Result<Self, HarmonicError> {
-        if rim.has_corners() && rim.blades >= PAPER_PAIR[1] {
-            let [a, b] = PAPER_PAIR.map(|blade| rim.side_of_blade(blade));
-            if rim.next(a) == b {
+    /// The polygon has no corners.
+    pub fn paper(polygon: &ContactPolygon) -> Result<Self, HarmonicError> {
+        if polygon.has_corners() && polygon.blades >= PAPER_PAIR[1] {
+            let [a, b] = PAPER_PAIR.map(|blade| polygon.side_of_blade(blade));
+            if polygon.next(a) == b {
                 return Ok(Self { a, b });
             }
         }
-        let nearest = (f64::from(rim.sides) * 15.0 / 22.0).round();
-        Self::after(rim, nearest as u32)
+        let nearest = (f64::from(polygon.sides) * 15.0 / 22.0).round();
+        Self::after(polygon, nearest as u32)
     }
 
     /// The corner between the groups of two blades, numbered from 1, given in
@@ -52,27 +52,35 @@ impl Corner {
     /// # Errors
     /// A blade that does not exist, or two whose groups are not neighbours in
     /// phase; the message names the neighbours.
-    pub fn of_blades(rim: &Rim, [first, second]: [u32; 2]) -> Result<Self, HarmonicError> {
-        if !rim.has_corners() {
-            return Err(HarmonicError::no_corner(rim));
+    pub fn of_blades(
+        polygon: &ContactPolygon,
+        [first, second]: [u32; 2],
+    ) -> Result<Self, HarmonicError> {
+        if !polygon.has_corners() {
+            return Err(HarmonicError::no_corner(polygon));
         }
         let refused = |allowed| Err(HarmonicError::Blades { first, second, allowed });
-        if ![first, second].iter().all(|blade| (1..=rim.blades).contains(blade)) {
-            return refused(format!("two blades from 1 to {}", rim.blades));
+        if ![first, second].iter().all(|blade| (1..=polygon.blades).contains(blade)) {
+            return refused(format!("two blades from 1 to {}", polygon.blades));
         }
-        let (a, b) = (rim.side_of_blade(first), rim.side_of_blade(second));
-        if rim.next(a) == b {
+        let (a, b) = (polygon.side_of_blade(first), polygon.side_of_blade(second));
+        if polygon.next(a) == b {
             Ok(Self { a, b })
-        } else if rim.next(b) == a {
+        } else if polygon.next(b) == a {
             Ok(Self { a: b, b: a })
         } else {
             let list = |side| {
-                rim.blades_of_side(side).iter().map(u32::to_string).collect::<Vec<_>>().join(" or ")
+                polygon
+                    .blades_of_side(side)
+                    .iter()
+                    .map(u32::to_string)
+                    .collect::<Vec<_>>()
+                    .join(" or ")
             };
             refused(format!(
                 "a pair of phase neighbours; those of blade {first} are {} and {}",
-                list(rim.previous(a)),
-                list(rim.next(a))
+                list(polygon.previous(a)),
+                list(polygon.next(a))
             ))
         }
     }
@@ -90,29 +98,29 @@ mod tests {
 
     #[test]
     fn the_paper_pair_in_either_order_and_the_22_corners() {
-        let rim = Rim::new(22, 3, 1e-4);
-        let paper = Corner::paper(&rim).unwrap();
+        let polygon = ContactPolygon::new(22, 3, 1e-4);
+        let paper = Corner::paper(&polygon).unwrap();
         assert_eq!(paper, Corner { a: 15, b: 16 });
-        assert_eq!(Corner::of_blades(&rim, [6, 21]), Ok(paper));
-        assert_eq!(Corner::of_blades(&rim, [21, 6]), Ok(paper));
+        assert_eq!(Corner::of_blades(&polygon, [6, 21]), Ok(paper));
+        assert_eq!(Corner::of_blades(&polygon, [21, 6]), Ok(paper));
         let pairs = (1..=22)
             .flat_map(|i| (i + 1..=22).map(move |j| [i, j]))
-            .filter(|&pair| Corner::of_blades(&rim, pair).is_ok());
+            .filter(|&pair| Corner::of_blades(&polygon, pair).is_ok());
         assert_eq!(pairs.count(), 22);
     }
 
     #[test]
     fn what_is_not_a_corner_is_refused_by_name() {
-        let rim = Rim::new(22, 3, 1e-4);
-        let message = Corner::of_blades(&rim, [6, 7]).unwrap_err().to_string();
+        let polygon = ContactPolygon::new(22, 3, 1e-4);
+        let message = Corner::of_blades(&polygon, [6, 7]).unwrap_err().to_string();
         assert!(message.starts_with("blades = 6,7: allowed is a pair of phase"), "{message}");
         assert!(message.ends_with("those of blade 6 are 13 and 21"), "{message}");
-        let message = Corner::of_blades(&rim, [6, 23]).unwrap_err().to_string();
+        let message = Corner::of_blades(&polygon, [6, 23]).unwrap_err().to_string();
         assert_eq!(message, "blades = 6,23: allowed is two blades from 1 to 22");
-        assert!(Corner::of_blades(&rim, [6, 6]).is_err());
+        assert!(Corner::of_blades(&polygon, [6, 6]).is_err());
         for diameters in [0, 11, 22] {
-            let rim = Rim::new(22, diameters, 1e-4);
-            let message = Corner::paper(&rim).unwrap_err().to_string();
+            let polygon = ContactPolygon::new(22, diameters, 1e-4);
+            let message = Corner::paper(&polygon).unwrap_err().to_string();
             let start = format!("operation.nodal_diameters = {diameters}: allowed is");
             assert!(message.starts_with(&start), "{message}");
             assert!(message.contains("a corner needs three sides"), "{message}");
@@ -123,13 +131,13 @@ mod tests {
     fn every_rim_with_corners_has_a_default() {
         for blades in 3..40 {
             for diameters in 1..12 {
-                let rim = Rim::new(blades, diameters, 1e-4);
-                match Corner::paper(&rim) {
-                    Ok(corner) => assert_eq!(rim.next(corner.a), corner.b),
-                    Err(_) => assert!(rim.sides < 3),
+                let polygon = ContactPolygon::new(blades, diameters, 1e-4);
+                match Corner::paper(&polygon) {
+                    Ok(corner) => assert_eq!(polygon.next(corner.a), corner.b),
+                    Err(_) => assert!(polygon.sides < 3),
                 }
             }
         }
-        assert_eq!(Corner::paper(&Rim::new(22, 4, 1.0)).unwrap().a, 8);
+        assert_eq!(Corner::paper(&ContactPolygon::new(22, 4, 1.0)).unwrap().a, 8);
     }
 }

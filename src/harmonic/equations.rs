@@ -18,7 +18,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::opening::Opening;
+use super::corner_angle::CornerAngle;
 use super::{Corner, Form};
 use crate::model::Machine;
 
@@ -67,7 +67,7 @@ impl Scales {
         let stiffness = machine.blade_inertia * machine.omega_bd * machine.omega_bd;
         let angle = machine.nodal_diameters * force * length / stiffness;
         let modes = if machine.has_sine_mode { 2.0 } else { 1.0 };
-        let share = modes / f64::from(machine.rim.blades);
+        let share = modes / f64::from(machine.polygon.blades);
         Self { length, force, angle, softness: machine.nodal_diameters * angle, share }
     }
 }
@@ -81,11 +81,11 @@ pub(super) struct Equations {
     share: [[f64; 2]; 2],
     /// With it the direction of a contact is exact in the blade angle; without
     /// it expanded to first order, Eq. (26).
-    opening: Option<Opening>,
+    corner_angle: Option<CornerAngle>,
 }
 
 /// A contact as its blades stand: direction, its derivative by the scaled
-/// angle, and the lever `y C - x S`.
+/// angle, and the moment arm `y C - x S`.
 struct Lever {
     cos: f64,
     sin: f64,
@@ -97,23 +97,23 @@ struct Lever {
 
 impl Equations {
     pub fn new(machine: &Machine, corner: Corner, form: Form) -> Self {
-        let rim = &machine.rim;
-        let each = 1.0 / f64::from(rim.blades_per_side);
+        let polygon = &machine.polygon;
+        let each = 1.0 / f64::from(polygon.blades_per_side);
         let share = match form {
             // Rows 1-2 as printed carry -2 times the torque that (19) has.
             Form::Printed => [[-2.0 * each, 0.0], [0.0, -2.0 * each]],
             Form::Blade => [[each, 0.0], [0.0, each]],
             Form::Modal => {
                 let own = Scales::of(machine).share;
-                let other = own * (2.0 * rim.delta).cos();
+                let other = own * (2.0 * polygon.delta).cos();
                 [[own, other], [other, own]]
             }
         };
         Self {
-            phases: corner.sides().map(|side| rim.direction(side)),
+            phases: corner.sides().map(|side| polygon.direction(side)),
             softness: Scales::of(machine).softness,
             share,
-            opening: (form == Form::Modal).then(|| Opening::of(machine)),
+            corner_angle: (form == Form::Modal).then(|| CornerAngle::of(machine)),
         }
     }
 
@@ -128,28 +128,28 @@ impl Equations {
 
     /// Whether the start that is predicted is the solution itself.
     pub fn is_exact(&self) -> bool {
-        self.opening.is_some()
+        self.corner_angle.is_some()
     }
 
     /// Where Newton starts: for the exact form the closed form of the corner
     /// with its bent blades, for the others that of rigid blades. `None` where
     /// the exact branch has folded back.
     pub fn predict(&self, wave: Wave) -> Option<Unknowns> {
-        match self.opening {
+        match self.corner_angle {
             None => Some(self.opened(wave, 0.0)),
-            Some(opening) => Some(self.opened(wave, opening.at(wave.kappa)?)),
+            Some(corner_angle) => Some(self.opened(wave, corner_angle.at(wave.kappa)?)),
         }
     }
 
     /// The closed form with the blades as far apart as if each side had been
-    /// turned by `-+widening` \[rad\]: levers, multipliers, blade angles, and `z`.
-    pub fn opened(&self, wave: Wave, widening: f64) -> Unknowns {
+    /// turned by `-+change of the corner angle` \[rad\]: moment arms, multipliers, blade angles, and `z`.
+    pub fn opened(&self, wave: Wave, angle_change: f64) -> Unknowns {
         let [(c_a, s_a), (c_b, s_b)] = self.phases;
         // c_a + c_b = 2 cos(delta) cos(middle phase), and so for the sines.
         let (c, s) = (c_a + c_b, s_a + s_b);
         let twice_cos = c.hypot(s);
         let half = (0.5 * (c_a * s_b - s_a * c_b) / (0.5 * twice_cos)).atan2(0.5 * twice_cos);
-        let (sin, cos) = (half + widening).sin_cos();
+        let (sin, cos) = (half + angle_change).sin_cos();
         let tangent = sin / cos;
         let (stiff, drag) = (wave.kappa / cos, wave.drag / sin);
         let multipliers = [(stiff - drag) / (2.0 * cos), (stiff + drag) / (2.0 * cos)];
@@ -164,11 +164,11 @@ impl Equations {
         Unknowns::from([x, y, multipliers[0], multipliers[1], alpha[0], alpha[1]])
     }
 
-    fn lever(&self, side: usize, unknowns: &Unknowns) -> Lever {
+    fn moment_arm(&self, side: usize, unknowns: &Unknowns) -> Lever {
         let (c, s) = self.phases[side];
         let turn = self.softness * unknowns[4 + side];
         let (x, y) = (unknowns[0], unknowns[1]);
-        let (cos, sin, (cos_slope, sin_slope)) = if self.opening.is_some() {
+        let (cos, sin, (cos_slope, sin_slope)) = if self.corner_angle.is_some() {
             let (sin_turn, cos_turn) = turn.sin_cos();
             let (cos, sin) = (c * cos_turn - s * sin_turn, s * cos_turn + c * sin_turn);
             (cos, sin, (-sin, cos))
@@ -188,12 +188,12 @@ impl Equations {
 
     /// The six equations (rows 1-2, 3-4, and the half sums of rows 5-8).
     pub fn residual(&self, wave: Wave, unknowns: &Unknowns) -> Unknowns {
-        let levers = [self.lever(0, unknowns), self.lever(1, unknowns)];
-        self.rows(wave, unknowns, &levers)
+        let moment_arms = [self.moment_arm(0, unknowns), self.moment_arm(1, unknowns)];
+        self.rows(wave, unknowns, &moment_arms)
     }
 
-    fn rows(&self, wave: Wave, u: &Unknowns, levers: &[Lever; 2]) -> Unknowns {
-        let [a, b] = levers;
+    fn rows(&self, wave: Wave, u: &Unknowns, moment_arms: &[Lever; 2]) -> Unknowns {
+        let [a, b] = moment_arms;
         let torque = [u[2] * a.arm, u[3] * b.arm];
         Unknowns::from([
             u[4] + self.share[0][0] * torque[0] + self.share[0][1] * torque[1],
@@ -207,30 +207,30 @@ impl Equations {
 
     /// Residual and Jacobian together.
     pub fn linearised(&self, wave: Wave, u: &Unknowns) -> (Unknowns, Jacobian) {
-        let levers = [self.lever(0, u), self.lever(1, u)];
-        let residual = self.rows(wave, u, &levers);
+        let moment_arms = [self.moment_arm(0, u), self.moment_arm(1, u)];
+        let residual = self.rows(wave, u, &moment_arms);
         let mut jacobian = Jacobian::zeros();
         jacobian[(4, 0)] = wave.kappa;
         jacobian[(4, 1)] = -wave.drag;
         jacobian[(5, 0)] = wave.drag;
         jacobian[(5, 1)] = wave.kappa;
-        for (j, lever) in levers.iter().enumerate() {
+        for (j, moment_arm) in moment_arms.iter().enumerate() {
             let multiplier = u[2 + j];
             for i in 0..2 {
                 let share = self.share[i][j];
-                jacobian[(i, 0)] -= share * multiplier * lever.sin;
-                jacobian[(i, 1)] += share * multiplier * lever.cos;
-                jacobian[(i, 2 + j)] = share * lever.arm;
+                jacobian[(i, 0)] -= share * multiplier * moment_arm.sin;
+                jacobian[(i, 1)] += share * multiplier * moment_arm.cos;
+                jacobian[(i, 2 + j)] = share * moment_arm.arm;
                 jacobian[(i, 4 + j)] =
-                    share * multiplier * lever.arm_slope + f64::from(u8::from(i == j));
+                    share * multiplier * moment_arm.arm_slope + f64::from(u8::from(i == j));
             }
-            jacobian[(2 + j, 0)] = lever.cos;
-            jacobian[(2 + j, 1)] = lever.sin;
-            jacobian[(2 + j, 4 + j)] = u[0] * lever.cos_slope + u[1] * lever.sin_slope;
-            jacobian[(4, 2 + j)] = lever.cos;
-            jacobian[(5, 2 + j)] = lever.sin;
-            jacobian[(4, 4 + j)] = multiplier * lever.cos_slope;
-            jacobian[(5, 4 + j)] = multiplier * lever.sin_slope;
+            jacobian[(2 + j, 0)] = moment_arm.cos;
+            jacobian[(2 + j, 1)] = moment_arm.sin;
+            jacobian[(2 + j, 4 + j)] = u[0] * moment_arm.cos_slope + u[1] * moment_arm.sin_slope;
+            jacobian[(4, 2 + j)] = moment_arm.cos;
+            jacobian[(5, 2 + j)] = moment_arm.sin;
+            jacobian[(4, 4 + j)] = multiplier * moment_arm.cos_slope;
+            jacobian[(5, 4 + j)] = multiplier * moment_arm.sin_slope;
         }
         (residual, jacobian)
     }
@@ -238,7 +238,7 @@ impl Equations {
     /// Largest of the eight rows of Eq. (27) as they are printed, for the eight
     /// unknowns `u_cc = u_ss = x`, `u_sc = -u_cs = y`.
     pub fn printed_residual(&self, wave: Wave, u: &Unknowns) -> f64 {
-        let [a, b] = [self.lever(0, u), self.lever(1, u)];
+        let [a, b] = [self.moment_arm(0, u), self.moment_arm(1, u)];
         let six = self.rows(wave, u, &[a, b]);
         let (u_cc, u_cs, u_sc, u_ss) = (u[0], -u[1], u[1], u[0]);
         let push_cos = six[4] - (wave.kappa * u[0] - wave.drag * u[1]);

@@ -6,8 +6,8 @@ use nalgebra::Complex;
 use serde::Serialize;
 use strum::AsRefStr;
 
+use super::configuration::Configuration;
 use super::equations::{Equations, Scales, Unknowns, Wave};
-use super::posture::Posture;
 use super::stability::{Linearised, at_rest, grows, largest_growth};
 use super::{Corner, Form, HarmonicError};
 use crate::model::Machine;
@@ -129,7 +129,7 @@ pub fn equilibria(
     speed: f64,
     damped: bool,
 ) -> Result<Vec<Equilibrium>, HarmonicError> {
-    let corner = Corner::paper(&machine.rim).ok();
+    let corner = Corner::paper(&machine.polygon).ok();
     let side = corner.map_or(0, |corner| corner.a);
     let all = Kind::ALL.map(|kind| equilibrium(machine, kind, side, speed, damped));
     let mut found = Vec::new();
@@ -163,15 +163,15 @@ pub fn equilibrium(
     };
     let Some((z, loads)) = loads else { return Ok(None) };
     let compliance = scales.softness * scales.share;
-    let posture = Posture::bent(&machine.rim, z, compliance, &loads);
-    judged(machine, kind, speed, damped, &posture, &loads).map(Some)
+    let configuration = Configuration::bent(&machine.polygon, z, compliance, &loads);
+    judged(machine, kind, speed, damped, &configuration, &loads).map(Some)
 }
 
-/// `z` and the loads (side, multiplier, lever) of an equilibrium, scaled.
+/// `z` and the loads (side, multiplier, moment arm) of an equilibrium, scaled.
 type Loaded = ((f64, f64), Vec<(u32, f64, f64)>);
 
 /// One side holds the wave: `(kappa + i drag) z = -Lambda exp(i phi)` and a
-/// closed gap give `Lambda = (kappa^2 + drag^2)/kappa`, lever `drag/kappa`; the
+/// closed gap give `Lambda = (kappa^2 + drag^2)/kappa`, moment arm `drag/kappa`; the
 /// blade only turns the whole picture.
 fn on_side(machine: &Machine, scales: &Scales, wave: Wave, side: u32) -> Option<Loaded> {
     let (kappa, drag) = (wave.kappa, wave.drag);
@@ -181,14 +181,15 @@ fn on_side(machine: &Machine, scales: &Scales, wave: Wave, side: u32) -> Option<
         return None;
     }
     let loads = vec![(side, multiplier, arm)];
-    let still = Posture::bent(&machine.rim, (0.0, 0.0), scales.softness * scales.share, &loads);
-    let (c, s) = still.direction(&machine.rim, side);
+    let still =
+        Configuration::bent(&machine.polygon, (0.0, 0.0), scales.softness * scales.share, &loads);
+    let (c, s) = still.direction(&machine.polygon, side);
     // z exp(-i phi) = -1 + i arm.
     Some(((-c - arm * s, -s + arm * c), loads))
 }
 
 fn in_corner(machine: &Machine, wave: Wave, side: u32) -> Option<Loaded> {
-    let corner = Corner::after(&machine.rim, side).ok()?;
+    let corner = Corner::after(&machine.polygon, side).ok()?;
     let equations = Equations::new(machine, corner, Form::Modal);
     let unknowns = equations.locked(wave)?;
     Some(loads_of(machine, corner, &unknowns))
@@ -199,8 +200,8 @@ pub(super) fn loads_of(machine: &Machine, corner: Corner, unknowns: &Unknowns) -
     let [x, y, lambda_a, lambda_b, alpha_a, alpha_b]: [f64; 6] = (*unknowns).into();
     let softness = Scales::of(machine).softness;
     let turns = [softness * alpha_a, softness * alpha_b];
-    let posture = Posture::of_pair(&machine.rim, (x, y), corner.sides(), turns);
-    let arm = |side, multiplier| posture.held(&machine.rim, side, multiplier).arm;
+    let configuration = Configuration::of_pair(&machine.polygon, (x, y), corner.sides(), turns);
+    let arm = |side, multiplier| configuration.held(&machine.polygon, side, multiplier).arm;
     let loads = vec![
         (corner.a, lambda_a, arm(corner.a, lambda_a)),
         (corner.b, lambda_b, arm(corner.b, lambda_b)),
@@ -208,7 +209,7 @@ pub(super) fn loads_of(machine: &Machine, corner: Corner, unknowns: &Unknowns) -
     ((x, y), loads)
 }
 
-/// Gaps, stability, torque and character of a posture under its loads.
+/// Gaps, stability, torque and character of a configuration under its loads.
 ///
 /// # Errors
 /// Eigenvalues that cannot be computed.
@@ -217,18 +218,19 @@ pub(super) fn judged(
     kind: Kind,
     speed: f64,
     damped: bool,
-    posture: &Posture,
+    configuration: &Configuration,
     loads: &[(u32, f64, f64)],
 ) -> Result<Equilibrium, HarmonicError> {
-    let (rim, scales) = (&machine.rim, Scales::of(machine));
+    let (polygon, scales) = (&machine.polygon, Scales::of(machine));
     let sides: Vec<u32> = loads.iter().map(|load| load.0).collect();
-    let held: Vec<_> = loads.iter().map(|load| posture.held(rim, load.0, load.1)).collect();
+    let held: Vec<_> =
+        loads.iter().map(|load| configuration.held(polygon, load.0, load.1)).collect();
     let motion = Linearised::about(machine, speed, damped, &held);
     let eigenvalues = match kind {
         Kind::Rest => at_rest(machine, speed, damped),
         _ => motion.eigenvalues().ok_or(HarmonicError::Unsettled { speed })?,
     };
-    let open = posture.smallest_gap(rim, &sides);
+    let open = configuration.smallest_gap(polygon, &sides);
     let character = if loads.iter().any(|load| load.1 > 0.0) {
         let equality = kind == Kind::Corner && motion.closes();
         if equality { Character::Adhesive } else { Character::Pulls }
@@ -239,19 +241,19 @@ pub(super) fn judged(
     } else {
         Character::Stable
     };
-    let lever: f64 = match Wave::at(machine, speed, damped).drag {
-        // Without drag the levers cancel, and their sum is rounding only.
+    let moment_arm: f64 = match Wave::at(machine, speed, damped).drag {
+        // Without drag the moment arms cancel, and their sum is rounding only.
         0.0 => 0.0,
         _ => held.iter().map(|side| side.multiplier * side.arm).sum(),
     };
-    let torque = machine.nodal_diameters * scales.force * scales.length * lever;
+    let torque = machine.nodal_diameters * scales.force * scales.length * moment_arm;
     let angle = if scales.softness > 0.0 { scales.angle / scales.softness } else { 0.0 };
     let contact = |&(side, multiplier, _): &(u32, f64, f64)| GroupContact {
         side,
-        blades: rim.blades_of_side(side),
+        blades: polygon.blades_of_side(side),
         multiplier_n: multiplier * scales.force,
     };
-    let z_m = [posture.z.0 * scales.length, posture.z.1 * scales.length];
+    let z_m = [configuration.z.0 * scales.length, configuration.z.1 * scales.length];
     Ok(Equilibrium {
         speed_rad_s: speed,
         kind,
@@ -261,8 +263,8 @@ pub(super) fn judged(
         contacts: loads.iter().map(contact).collect(),
         z_m,
         amplitude_m: z_m[0].hypot(z_m[1]),
-        alpha_c_rad: posture.turn.0 * angle,
-        alpha_s_rad: posture.turn.1 * angle,
+        alpha_c_rad: configuration.turn.0 * angle,
+        alpha_s_rad: configuration.turn.1 * angle,
         smallest_gap_m: open * scales.length,
         torque_nm: torque,
         power_w: torque * speed,

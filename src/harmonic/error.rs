@@ -3,7 +3,7 @@
 
 use thiserror::Error;
 
-use crate::model::Rim;
+use crate::model::ContactPolygon;
 
 /// What has no meaning, or was not found, in the frequency domain.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -75,12 +75,12 @@ pub enum HarmonicError {
 }
 
 impl HarmonicError {
-    /// The refusal of a rim without corners.
-    pub(super) fn no_corner(rim: &Rim) -> Self {
+    /// The refusal of a polygon without corners.
+    pub(super) fn no_corner(polygon: &ContactPolygon) -> Self {
         Self::NoCorner {
-            nodal_diameters: rim.nodal_diameters,
-            blades: rim.blades,
-            sides: rim.sides,
+            nodal_diameters: polygon.nodal_diameters,
+            blades: polygon.blades,
+            sides: polygon.sides,
         }
     }
 }

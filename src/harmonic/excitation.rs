@@ -8,10 +8,10 @@
 
 use nalgebra::{Complex, Matrix2, Vector2, Vector4};
 
+use super::configuration::Configuration;
 use super::equations::{Equations, Scales, Wave};
 use super::equilibria::{judged, loads_of};
-use super::posture::Posture;
-use super::stability::{Held, Linearised, blade_scale};
+use super::stability::{ClosedSide, Linearised, blade_scale};
 use super::{Corner, Equilibrium, Form, HarmonicError, Kind};
 use crate::model::{Excitation, Machine};
 
@@ -53,8 +53,8 @@ pub fn drives(machine: &Machine, order: u32) -> bool {
 
 /// Whether `n_d + E` and `n_d - E` are multiples of `N`.
 fn reach(machine: &Machine, order: u32) -> (bool, bool) {
-    let blades = u64::from(machine.rim.blades);
-    let diameters = u64::from(machine.rim.nodal_diameters) % blades;
+    let blades = u64::from(machine.polygon.blades);
+    let diameters = u64::from(machine.polygon.nodal_diameters) % blades;
     let order = u64::from(order) % blades;
     ((diameters + order).is_multiple_of(blades), diameters == order)
 }
@@ -63,7 +63,7 @@ fn reach(machine: &Machine, order: u32) -> (bool, bool) {
 /// `side` at each speed \[rad/s\]; speeds without a locked motion are left out.
 ///
 /// # Errors
-/// A rim without corners, a speed that is not finite, or eigenvalues that cannot
+/// A polygon without corners, a speed that is not finite, or eigenvalues that cannot
 /// be computed.
 pub fn excited_lock(
     machine: &Machine,
@@ -71,7 +71,7 @@ pub fn excited_lock(
     excitation: &Excitation,
     speeds: &[f64],
 ) -> Result<Vec<ExcitedLock>, HarmonicError> {
-    let corner = Corner::after(&machine.rim, side)?;
+    let corner = Corner::after(&machine.polygon, side)?;
     let mut found = Vec::with_capacity(speeds.len());
     for &speed in speeds {
         if !speed.is_finite() {
@@ -93,10 +93,10 @@ fn at(
     let Some(unknowns) = equations.locked(wave) else { return Ok(None) };
     let (z, loads) = loads_of(machine, corner, &unknowns);
     let turns = [4, 5].map(|i| equations.softness() * unknowns[i]);
-    let posture = Posture::of_pair(&machine.rim, z, corner.sides(), turns);
-    let held: Vec<Held> =
-        loads.iter().map(|load| posture.held(&machine.rim, load.0, load.1)).collect();
-    let state = judged(machine, Kind::Corner, speed, true, &posture, &loads)?;
+    let configuration = Configuration::of_pair(&machine.polygon, z, corner.sides(), turns);
+    let held: Vec<ClosedSide> =
+        loads.iter().map(|load| configuration.held(&machine.polygon, load.0, load.1)).collect();
+    let state = judged(machine, Kind::Corner, speed, true, &configuration, &loads)?;
     let motion = Linearised::about(machine, speed, true, &held);
 
     let scales = Scales::of(machine);
@@ -128,7 +128,7 @@ fn at(
 /// The load on `(alpha_c, alpha_s)` per unit torque on each blade, as the
 /// coefficients of `exp(i E Omega t)`.
 fn modal_load(machine: &Machine, order: u32) -> [Complex<f64>; 2] {
-    let half = 0.5 * f64::from(machine.rim.blades);
+    let half = 0.5 * f64::from(machine.polygon.blades);
     let (forward, backward) = reach(machine, order);
     let part = |reached: bool| if reached { half } else { 0.0 };
     // exp(i E theta) = cos + i sin: the sine coordinate lags or leads by a quarter.

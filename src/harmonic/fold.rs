@@ -3,17 +3,17 @@
 //! stiffness at some speed, and the branch turns back.
 //!
 //! Points are spaced by arc length in the plane of speed (over `Omega_c`) and
-//! opening, and each is exact: the branch is explicit in its opening. Up to the
+//! corner angle, and each is exact: the branch is explicit in its corner angle. Up to the
 //! fold both coordinates only grow, behind it the speed only falls, so that
 //! where each leg ends is known before it is walked: an end or a fold is landed
 //! on, and none is stepped over.
 
 use std::f64::consts::FRAC_PI_2;
 
+use super::configuration::Configuration;
+use super::corner_angle::CornerAngle;
 use super::equations::{Equations, Wave};
 use super::equilibria::{judged, loads_of};
-use super::opening::Opening;
-use super::posture::Posture;
 use super::{Corner, Equilibrium, Form, HarmonicError, Kind};
 use crate::model::Machine;
 
@@ -55,7 +55,7 @@ const FASTEST: f64 = 1e100;
 /// between points, more where these would be over 20,000.
 ///
 /// # Errors
-/// A rim without corners, speeds that are not `0 <= from < to`, a step outside
+/// A polygon without corners, speeds that are not `0 <= from < to`, a step outside
 /// 1e-4 to 1, or eigenvalues that cannot be computed.
 pub fn corner_branch(
     machine: &Machine,
@@ -64,7 +64,7 @@ pub fn corner_branch(
     [from, to]: [f64; 2],
     step: f64,
 ) -> Result<CornerBranch, HarmonicError> {
-    let corner = Corner::after(&machine.rim, side)?;
+    let corner = Corner::after(&machine.polygon, side)?;
     let Some(critical) = machine.critical_speed() else { return Err(HarmonicError::NoWave) };
     if !(from >= 0.0 && to > from && to / critical <= FASTEST) {
         let allowed = format!("two speeds with 0 <= from < to, up to {FASTEST:e} critical speeds");
@@ -78,32 +78,34 @@ pub fn corner_branch(
         let (key, allowed) = ("step", "an arc length from 1e-4 to 1".to_string());
         return Err(HarmonicError::Refused { key, value: step.to_string(), allowed });
     }
-    let opening = Opening::of(machine);
-    let widest = opening.at_fold();
-    let top = opening
+    let corner_angle = CornerAngle::of(machine);
+    let widest = corner_angle.at_fold();
+    let top = corner_angle
         .kappa(widest)
-        .map(|(kappa, _)| Place { speed: critical * (1.0 - kappa).sqrt(), widening: widest });
-    let walk = Walk { machine, critical, opening, top };
+        .map(|(kappa, _)| Place { speed: critical * (1.0 - kappa).sqrt(), angle_change: widest });
+    let walk = Walk { machine, critical, corner_angle, top };
     let places = walk.places([from, to], step);
     let equations = Equations::new(machine, corner, Form::Modal);
     let state = |place: &Place| {
         let mut wave = Wave::at(machine, place.speed, damped);
-        // Next to the fold, and with very soft blades, the opening says more of
+        // Next to the fold, and with very soft blades, the corner angle says more of
         // kappa than the digits of the speed do.
-        if let Some((kappa, _)) = opening.kappa(place.widening) {
+        if let Some((kappa, _)) = corner_angle.kappa(place.angle_change) {
             wave.kappa = kappa;
         }
-        let unknowns = equations.opened(wave, place.widening);
+        let unknowns = equations.opened(wave, place.angle_change);
         let (z, loads) = loads_of(machine, corner, &unknowns);
         let turns = [4, 5].map(|i| equations.softness() * unknowns[i]);
-        let posture = Posture::of_pair(&machine.rim, z, corner.sides(), turns);
-        let state = judged(machine, Kind::Corner, place.speed, damped, &posture, &loads)?;
-        Ok((opening.delta + place.widening, state))
+        let configuration = Configuration::of_pair(&machine.polygon, z, corner.sides(), turns);
+        let state = judged(machine, Kind::Corner, place.speed, damped, &configuration, &loads)?;
+        Ok((corner_angle.delta + place.angle_change, state))
     };
     Ok(CornerBranch {
         points: places.iter().map(state).collect::<Result<_, _>>()?,
-        fold: top
-            .map(|top| Fold { speed_rad_s: top.speed, opening_rad: opening.delta + top.widening }),
+        fold: top.map(|top| Fold {
+            speed_rad_s: top.speed,
+            opening_rad: corner_angle.delta + top.angle_change,
+        }),
     })
 }
 
@@ -111,13 +113,13 @@ pub fn corner_branch(
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Place {
     speed: f64,
-    widening: f64,
+    angle_change: f64,
 }
 
 struct Walk<'a> {
     machine: &'a Machine,
     critical: f64,
-    opening: Opening,
+    corner_angle: CornerAngle,
     /// The fold; none for blades as good as rigid.
     top: Option<Place>,
 }
@@ -135,7 +137,7 @@ impl Walk<'_> {
         let mut start = first;
         for &end in &ends {
             whole += (end.speed - start.speed).abs() / self.critical;
-            whole += (end.widening - start.widening).abs();
+            whole += (end.angle_change - start.angle_change).abs();
             start = end;
         }
         let step = step.max(1.2 * whole / MOST_POINTS as f64);
@@ -161,14 +163,14 @@ impl Walk<'_> {
             return self.rising(here.speed + step * self.critical);
         }
         // On one leg places farther on stand farther apart, too.
-        let (mut near, mut far) = (here.widening, end.widening);
+        let (mut near, mut far) = (here.angle_change, end.angle_change);
         for _ in 0..100 {
             let place = self.at(0.5 * (near + far))?;
             let apart = self.apart(here, place);
             if apart < least {
-                near = place.widening;
+                near = place.angle_change;
             } else if apart > most {
-                far = place.widening;
+                far = place.angle_change;
             } else {
                 return Some(place);
             }
@@ -178,27 +180,30 @@ impl Walk<'_> {
 
     /// Chord between two places, speeds over `Omega_c`.
     fn apart(&self, a: Place, b: Place) -> f64 {
-        ((b.speed - a.speed) / self.critical).hypot(b.widening - a.widening)
+        ((b.speed - a.speed) / self.critical).hypot(b.angle_change - a.angle_change)
     }
 
-    /// The place of this widening.
-    fn at(&self, widening: f64) -> Option<Place> {
-        let (kappa, _) = self.opening.kappa(widening)?;
+    /// The place of this change of the corner angle.
+    fn at(&self, angle_change: f64) -> Option<Place> {
+        let (kappa, _) = self.corner_angle.kappa(angle_change)?;
         // kappa = 1 - (Omega/Omega_c)^2.
-        Some(Place { speed: self.critical * (1.0 - kappa).max(0.0).sqrt(), widening })
+        Some(Place { speed: self.critical * (1.0 - kappa).max(0.0).sqrt(), angle_change })
     }
 
     /// The place of this speed on the way up to the fold; `None` beyond it.
     fn rising(&self, speed: f64) -> Option<Place> {
         let kappa = Wave::at(self.machine, speed, false).kappa;
-        let found = self.opening.at(kappa);
-        let Some(top) = self.top else { return found.map(|widening| Place { speed, widening }) };
+        let found = self.corner_angle.at(kappa);
+        let Some(top) = self.top else {
+            return found.map(|angle_change| Place { speed, angle_change });
+        };
         if speed >= top.speed {
             return (speed == top.speed).then_some(top);
         }
         // Newton gives up where rounding hides on which side of the fold it is.
-        let widening = found.unwrap_or_else(|| self.opening.between(kappa, [0.0, top.widening]));
-        Some(Place { speed, widening: widening.min(top.widening) })
+        let angle_change =
+            found.unwrap_or_else(|| self.corner_angle.between(kappa, [0.0, top.angle_change]));
+        Some(Place { speed, angle_change: angle_change.min(top.angle_change) })
     }
 
     /// Where the branch ends behind its fold: at this speed, or wide open.
@@ -206,11 +211,11 @@ impl Walk<'_> {
         if speed >= top.speed {
             return top;
         }
-        let widest = FRAC_PI_2 - LEFT_OPEN - self.opening.delta;
+        let widest = FRAC_PI_2 - LEFT_OPEN - self.corner_angle.delta;
         if let Some(open) = self.at(widest).filter(|open| open.speed >= speed) {
             return open;
         }
         let kappa = Wave::at(self.machine, speed, false).kappa;
-        Place { speed, widening: self.opening.between(kappa, [top.widening, widest]) }
+        Place { speed, angle_change: self.corner_angle.between(kappa, [top.angle_change, widest]) }
     }
 }

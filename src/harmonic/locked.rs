@@ -4,8 +4,8 @@
 
 use serde::Serialize;
 
+use super::configuration::Configuration;
 use super::equations::{Equations, Scales, Unknowns, Wave};
-use super::posture::Posture;
 use super::stability::Linearised;
 use super::{Corner, Form, HarmonicError};
 use crate::model::Machine;
@@ -80,14 +80,14 @@ impl Locked {
     /// `d_c` to its casing rows.
     ///
     /// # Errors
-    /// A rim without corners.
+    /// A polygon without corners.
     pub fn new(
         machine: &Machine,
         corner: Corner,
         form: Form,
         damped: bool,
     ) -> Result<Self, HarmonicError> {
-        let corner = Corner::after(&machine.rim, corner.a)?;
+        let corner = Corner::after(&machine.polygon, corner.a)?;
         Ok(Self {
             machine: machine.clone(),
             corner,
@@ -140,20 +140,20 @@ impl Locked {
         let [x, y, lambda_a, lambda_b, alpha_a, alpha_b]: [f64; 6] = (*unknowns).into();
         let length = self.scales.length;
         let multipliers = [lambda_a, lambda_b];
-        let (rim, sides) = (&self.machine.rim, self.corner.sides());
+        let (polygon, sides) = (&self.machine.polygon, self.corner.sides());
         let turns = [alpha_a, alpha_b].map(|angle| self.scales.softness * angle);
-        let posture = Posture::of_pair(rim, (x, y), sides, turns);
-        let held = [0, 1].map(|i| posture.held(rim, sides[i], multipliers[i]));
-        let smallest_gap = length * posture.smallest_gap(rim, &sides);
+        let configuration = Configuration::of_pair(polygon, (x, y), sides, turns);
+        let held = [0, 1].map(|i| configuration.held(polygon, sides[i], multipliers[i]));
+        let smallest_gap = length * configuration.smallest_gap(polygon, &sides);
         let admissible = multipliers.iter().all(|&l| l <= 0.0) && smallest_gap > 0.0;
         let stable = multipliers.iter().all(|&l| l <= 0.0)
             && Linearised::about(&self.machine, speed, self.damped, &held).is_stable();
-        // Without drag the two levers cancel, and their sum is rounding only.
-        let lever = match wave.drag {
+        // Without drag the two moment arms cancel, and their sum is rounding only.
+        let moment_arm = match wave.drag {
             0.0 => 0.0,
             _ => held.iter().map(|side| side.multiplier * side.arm).sum(),
         };
-        let torque = self.machine.nodal_diameters * self.scales.force * length * lever;
+        let torque = self.machine.nodal_diameters * self.scales.force * length * moment_arm;
         LockedPoint {
             speed_rad_s: speed,
             multipliers_n: multipliers.map(|l| l * self.scales.force),
@@ -191,7 +191,7 @@ impl Locked {
 /// ```
 ///
 /// # Errors
-/// A rim without corners, blades that are not phase neighbours, or a speed
+/// A polygon without corners, blades that are not phase neighbours, or a speed
 /// that is not finite.
 pub fn locked_motion(
     machine: &Machine,
@@ -201,8 +201,8 @@ pub fn locked_motion(
     speeds: &[f64],
 ) -> Result<Sweep, HarmonicError> {
     let corner = match blades {
-        Some(pair) => Corner::of_blades(&machine.rim, pair)?,
-        None => Corner::paper(&machine.rim)?,
+        Some(pair) => Corner::of_blades(&machine.polygon, pair)?,
+        None => Corner::paper(&machine.polygon)?,
     };
     Locked::new(machine, corner, form, damped)?.sweep(speeds)
 }

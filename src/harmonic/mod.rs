@@ -1,19 +1,21 @@
 //! Frequency domain: steady states of the frame that turns with the blades.
 //!
 //! There a locked motion is an equilibrium: the wave is a point in a corner of
-//! the polygon of `model::Rim`, one harmonic is exact, and stability needs
+//! the polygon of `model::ContactPolygon`, one harmonic is exact, and stability needs
 //! eigenvalues only. No time step, no initial condition.
 //!
 //! - the lock, Eq. (27) in three forms: `equations`, `newton`, `locked`
 //!   ([`locked_motion`])
 //! - every equilibrium, its stability and thresholds: `equilibria`, `stability`,
-//!   `branches`; very soft blades: `opening`, `fold`
+//!   `branches`; very soft blades: `corner angle`, `fold`
 //! - slip as a map and its Fourier series: `slide`, `slip`, `spectrum`
 //! - coincidences and excitation: `campbell`, `excitation`
 
 mod branches;
 mod campbell;
+mod configuration;
 mod corner;
+mod corner_angle;
 mod eigen;
 mod equations;
 mod equilibria;
@@ -23,8 +25,6 @@ mod fold;
 mod form;
 mod locked;
 mod newton;
-mod opening;
-mod posture;
 mod slide;
 mod slip;
 mod spectrum;

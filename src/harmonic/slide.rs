@@ -46,17 +46,17 @@ impl Slide {
         let zeta = machine.casing_damping_ratio;
         let ratio = machine.nu(speed).abs() / machine.omega_c;
         let excess = (ratio - 1.0) * (ratio + 1.0);
-        if !machine.rim.has_corners() || excess <= 0.0 {
+        if !machine.polygon.has_corners() || excess <= 0.0 {
             return None;
         }
-        let delta = machine.rim.delta;
+        let delta = machine.polygon.delta;
         let root = (zeta * zeta + excess).sqrt();
         // The growing root as a quotient, so that it keeps its digits.
         let roots = [excess / (root + zeta), -root - zeta];
         let saddle = -2.0 * zeta * ratio / excess;
         let (struck, kept) = (2.0 * delta).sin_cos();
         // Past a right angle the wave runs into the corner and stays.
-        let kept = if machine.rim.sides <= 4 { 0.0 } else { kept };
+        let kept = if machine.polygon.sides <= 4 { 0.0 } else { kept };
         let slide = Self { zeta, ratio, end: delta.tan(), saddle, roots, kept, struck };
         saddle.is_finite().then_some(slide)
     }

@@ -126,10 +126,10 @@ pub fn slip_map(machine: &Machine, rotor_speed: f64, speed: f64) -> Option<Cross
 /// Lasting slip over a list of rotor speeds \[rad/s\].
 ///
 /// # Errors
-/// A rim without corners, or a speed that is not finite.
+/// A polygon without corners, or a speed that is not finite.
 pub fn slip_over(machine: &Machine, speeds: &[f64]) -> Result<Vec<SlipPoint>, HarmonicError> {
-    if !machine.rim.has_corners() {
-        return Err(HarmonicError::no_corner(&machine.rim));
+    if !machine.polygon.has_corners() {
+        return Err(HarmonicError::no_corner(&machine.polygon));
     }
     if let Some(&speed) = speeds.iter().find(|speed| !speed.is_finite()) {
         return Err(HarmonicError::Speed(speed));
@@ -219,11 +219,11 @@ fn orbit(machine: &Machine, speed: f64, slide: &Slide, arc: &Arc) -> SlipOrbit {
     let impulse = before * slide.struck;
     let means = Means::of(slide, arc);
     // T = sum Lambda A with Lambda = -N, A = n_d y; the impulse comes at y = -end.
-    let lever = -means.push_lever + impulse * slide.end / arc.time;
+    let moment_arm = -means.push_lever + impulse * slide.end / arc.time;
     let unit = units.force * machine.clearance();
-    let torque = machine.nodal_diameters * unit * lever * speed.signum();
+    let torque = machine.nodal_diameters * unit * moment_arm * speed.signum();
     let power = unit * machine.omega_c;
-    let drift = 2.0 * machine.rim.delta * machine.omega_c / arc.time / machine.nodal_diameters;
+    let drift = 2.0 * machine.polygon.delta * machine.omega_c / arc.time / machine.nodal_diameters;
     SlipOrbit {
         wave_speed_rad_s: speed - speed.signum() * drift,
         period_s: arc.time / machine.omega_c,

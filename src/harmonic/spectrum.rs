@@ -65,15 +65,15 @@ const MOST: u32 = 512;
 /// The Fourier series of the slip at one speed \[rad/s\], up to `most` harmonics.
 ///
 /// # Errors
-/// A rim without corners, a speed that is not finite, more harmonics than 512.
+/// A polygon without corners, a speed that is not finite, more harmonics than 512.
 /// Inside: why there is no slip to expand.
 pub fn slip_spectrum(
     machine: &Machine,
     speed: f64,
     most: u32,
 ) -> Result<Result<SlipSpectrum, NoSlip>, HarmonicError> {
-    if !machine.rim.has_corners() {
-        return Err(HarmonicError::no_corner(&machine.rim));
+    if !machine.polygon.has_corners() {
+        return Err(HarmonicError::no_corner(&machine.polygon));
     }
     if !speed.is_finite() {
         return Err(HarmonicError::Speed(speed));
@@ -83,7 +83,7 @@ pub fn slip_spectrum(
         return Err(HarmonicError::Refused { key: "harmonics", value: most.to_string(), allowed });
     }
     Ok(repeating(machine, speed).map(|(slide, arc)| {
-        let orbit = Orbit { slide, arc, delta: machine.rim.delta };
+        let orbit = Orbit { slide, arc, delta: machine.polygon.delta };
         orbit.spectrum(machine, speed, most)
     }))
 }

@@ -15,10 +15,10 @@ use super::eigen::eigenvalues;
 use super::equations::{Scales, Wave};
 use crate::model::Machine;
 
-/// One side in contact: its phase, `(C, S)` of `psi + n_d alpha`, the lever
+/// One side in contact: its phase, `(C, S)` of `psi + n_d alpha`, the moment arm
 /// `y C - x S` and the multiplier, all scaled.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Held {
+pub(super) struct ClosedSide {
     pub phase: (f64, f64),
     pub direction: (f64, f64),
     pub arm: f64,
@@ -42,7 +42,7 @@ pub(super) struct Linearised {
 impl Linearised {
     /// About an equilibrium at rotor speed `speed` \[rad/s\]; `damped` includes
     /// the damping of casing and blades.
-    pub fn about(machine: &Machine, speed: f64, damped: bool, held: &[Held]) -> Self {
+    pub fn about(machine: &Machine, speed: f64, damped: bool, held: &[ClosedSide]) -> Self {
         let wave = Wave::at(machine, speed, damped);
         let whirl = 2.0 * machine.nu(speed) / machine.omega_c;
         let ratio = machine.omega_c / machine.omega_bd;

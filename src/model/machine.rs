@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use super::{BladedDisk, Casing, Rim};
+use super::{BladedDisk, Casing, ContactPolygon};
 
 /// The four-coordinate model of one machine at one number of nodal diameters.
 ///
@@ -13,7 +13,7 @@ use super::{BladedDisk, Casing, Rim};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Machine {
     /// Phase groups and the polygon in the frame of the blades.
-    pub rim: Rim,
+    pub polygon: ContactPolygon,
     /// `n_d` as a number.
     pub nodal_diameters: f64,
     /// Casing modal mass `m_c` \[kg\].
@@ -49,15 +49,15 @@ impl Machine {
     #[must_use]
     pub fn new(disk: &BladedDisk, casing: &Casing, nodal_diameters: u32) -> Self {
         let clearance = casing.radius_m - disk.blade_length_m;
-        let rim = Rim::new(disk.blades, nodal_diameters, clearance);
-        let has_sine_mode = rim.sides > 2;
+        let polygon = ContactPolygon::new(disk.blades, nodal_diameters, clearance);
+        let has_sine_mode = polygon.sides > 2;
         let blades = f64::from(disk.blades);
         let blade_modal_mass = blades * disk.inertia_kg_m2 / if has_sine_mode { 2.0 } else { 1.0 };
         let omega_bd = blade_frequency(disk, nodal_diameters);
         let omega_bd_max = blade_frequency(disk, disk.blades / 2);
         let omega_c = (casing.modal_stiffness_n_per_m / casing.modal_mass_kg).sqrt();
         Self {
-            rim,
+            polygon,
             nodal_diameters: f64::from(nodal_diameters),
             casing_mass: casing.modal_mass_kg,
             casing_stiffness: casing.modal_stiffness_n_per_m,
@@ -78,7 +78,7 @@ impl Machine {
     /// Clearance at rest `g0 = R_c - l_b` \[m\].
     #[must_use]
     pub fn clearance(&self) -> f64 {
-        self.rim.clearance
+        self.polygon.clearance
     }
 
     /// Wave frequency in the frame of the blades, `nu = n_d Omega` \[rad/s\].
@@ -98,27 +98,27 @@ impl Machine {
     /// \[rad/s\]; none without corners.
     #[must_use]
     pub fn lock_speed(&self) -> Option<f64> {
-        self.threshold(1.0 / self.rim.delta.tan())
+        self.threshold(1.0 / self.polygon.delta.tan())
     }
 
     /// Speed down to which the printed equality algorithm holds a lock, one
     /// multiplier tensile: as `lock_speed` with `tan delta` for `cot delta`.
     #[must_use]
     pub fn adhesive_speed(&self) -> Option<f64> {
-        self.threshold(self.rim.delta.tan())
+        self.threshold(self.polygon.delta.tan())
     }
 
     fn threshold(&self, slope: f64) -> Option<f64> {
         let x = self.casing_damping_ratio * slope;
         let factor = x + (1.0 + x * x).sqrt();
         let critical = self.critical_speed()?;
-        self.rim.has_corners().then_some(critical * factor)
+        self.polygon.has_corners().then_some(critical * factor)
     }
 
     /// Amplitude of the locked casing wave, `g0/cos delta` \[m\]; none without corners.
     #[must_use]
     pub fn locked_amplitude(&self) -> Option<f64> {
-        (self.rim.has_corners()).then(|| self.clearance() / self.rim.delta.cos())
+        (self.polygon.has_corners()).then(|| self.clearance() / self.polygon.delta.cos())
     }
 
     /// Group multipliers `[lambda_a, lambda_b]` of the locked motion at a
@@ -127,11 +127,11 @@ impl Machine {
     /// `D = d_c nu`. Negative is a push. None without corners.
     #[must_use]
     pub fn locked_multipliers(&self, speed: f64) -> Option<[f64; 2]> {
-        if !self.rim.has_corners() {
+        if !self.polygon.has_corners() {
             return None;
         }
         let nu = self.nu(speed);
-        let (sin, cos) = self.rim.delta.sin_cos();
+        let (sin, cos) = self.polygon.delta.sin_cos();
         let stiff = (self.casing_stiffness - nu * nu * self.casing_mass) / cos;
         let drag = self.casing_damping * nu / sin;
         let scale = self.clearance() / (2.0 * cos);

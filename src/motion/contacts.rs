@@ -2,14 +2,14 @@
 //! when, the impacts, and the steps that pulled. Constant memory but for the
 //! first thousand impacts.
 
-use crate::model::Rim;
+use crate::model::ContactPolygon;
 
 /// Impacts kept one by one; later ones are only counted.
 const IMPACTS_KEPT: usize = 1000;
 
 /// The phase groups in contact at one instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Touching {
+pub enum ActiveSet {
     /// No blade touches.
     #[default]
     Nothing,
@@ -21,11 +21,11 @@ pub enum Touching {
     Many,
 }
 
-impl Touching {
+impl ActiveSet {
     /// From the list of sides in contact, in any order and with repeats.
     #[must_use]
     pub fn of(sides: &[u32]) -> Self {
-        sides.iter().fold(Self::Nothing, |touching, &side| touching.with(side))
+        sides.iter().fold(Self::Nothing, |active_set, &side| active_set.with(side))
     }
 
     /// With one more side.
@@ -64,12 +64,12 @@ impl Touching {
 
 /// Puts sides in contact in phase order: at a corner `psi_a` before
 /// `psi_b = psi_a + 2 delta`, otherwise by index.
-pub fn in_phase_order(rim: &Rim, sides: &mut [(u32, f64)]) {
+pub fn in_phase_order(polygon: &ContactPolygon, sides: &mut [(u32, f64)]) {
     sides.sort_by_key(|&(side, _)| side);
     if let [first, second] = sides
-        && rim.has_corners()
-        && rim.next(first.0) != second.0
-        && rim.next(second.0) == first.0
+        && polygon.has_corners()
+        && polygon.next(first.0) != second.0
+        && polygon.next(second.0) == first.0
     {
         std::mem::swap(first, second);
     }
@@ -88,8 +88,8 @@ pub struct Impact {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ContactLog {
     /// The sides in contact now.
-    pub touching: Touching,
-    /// Since when `touching` has been what it is \[s\].
+    pub active_set: ActiveSet,
+    /// Since when `active_set` has been what it is \[s\].
     pub since: f64,
     /// The longest that a corner was held, before the contact of now \[s\].
     pub longest_corner: f64,
@@ -109,13 +109,13 @@ pub struct ContactLog {
 
 impl ContactLog {
     /// From `t` on, these sides touch.
-    pub fn touch(&mut self, t: f64, touching: Touching) {
-        if touching != self.touching {
+    pub fn touch(&mut self, t: f64, active_set: ActiveSet) {
+        if active_set != self.active_set {
             self.longest_corner = self.corner_time();
-            self.touching = touching;
+            self.active_set = active_set;
             self.since = t;
         }
-        if touching == Touching::Nothing {
+        if active_set == ActiveSet::Nothing {
             self.unbroken_since = None;
         } else {
             self.unbroken_since.get_or_insert(t);
@@ -126,8 +126,8 @@ impl ContactLog {
     /// The longest that a corner was held without a break, until now \[s\].
     #[must_use]
     pub fn corner_time(&self) -> f64 {
-        match (self.touching, self.last_contact) {
-            (Touching::Corner(..), Some(last)) => self.longest_corner.max(last - self.since),
+        match (self.active_set, self.last_contact) {
+            (ActiveSet::Corner(..), Some(last)) => self.longest_corner.max(last - self.since),
             _ => self.longest_corner,
         }
     }
@@ -153,34 +153,34 @@ mod tests {
 
     #[test]
     fn touching_is_the_set_of_sides() {
-        assert_eq!(Touching::of(&[]), Touching::Nothing);
-        assert_eq!(Touching::of(&[4, 4]), Touching::Side(4));
-        assert_eq!(Touching::of(&[16, 15, 16]), Touching::Corner(15, 16));
-        assert_eq!(Touching::of(&[1, 2, 3]), Touching::Many);
-        assert_eq!(Touching::Nothing.and(Touching::Corner(1, 2)), Touching::Corner(1, 2));
-        assert_eq!(Touching::Side(2).and(Touching::Corner(1, 2)), Touching::Corner(1, 2));
-        assert_eq!(Touching::Side(3).and(Touching::Corner(1, 2)), Touching::Many);
+        assert_eq!(ActiveSet::of(&[]), ActiveSet::Nothing);
+        assert_eq!(ActiveSet::of(&[4, 4]), ActiveSet::Side(4));
+        assert_eq!(ActiveSet::of(&[16, 15, 16]), ActiveSet::Corner(15, 16));
+        assert_eq!(ActiveSet::of(&[1, 2, 3]), ActiveSet::Many);
+        assert_eq!(ActiveSet::Nothing.and(ActiveSet::Corner(1, 2)), ActiveSet::Corner(1, 2));
+        assert_eq!(ActiveSet::Side(2).and(ActiveSet::Corner(1, 2)), ActiveSet::Corner(1, 2));
+        assert_eq!(ActiveSet::Side(3).and(ActiveSet::Corner(1, 2)), ActiveSet::Many);
     }
 
     #[test]
     fn a_break_ends_the_unbroken_contact_and_a_change_of_sides_does_not() {
         let mut log = ContactLog::default();
-        log.touch(1.0, Touching::Side(3));
-        log.touch(2.0, Touching::Corner(3, 4));
+        log.touch(1.0, ActiveSet::Side(3));
+        log.touch(2.0, ActiveSet::Corner(3, 4));
         assert_eq!((log.since, log.unbroken_since), (2.0, Some(1.0)));
-        log.touch(3.0, Touching::Nothing);
+        log.touch(3.0, ActiveSet::Nothing);
         assert_eq!((log.unbroken_since, log.last_contact), (None, Some(2.0)));
     }
 
     #[test]
     fn the_longest_corner_is_remembered() {
         let mut log = ContactLog::default();
-        log.touch(1.0, Touching::Corner(3, 4));
-        log.touch(3.0, Touching::Corner(3, 4));
+        log.touch(1.0, ActiveSet::Corner(3, 4));
+        log.touch(3.0, ActiveSet::Corner(3, 4));
         assert_eq!(log.corner_time(), 2.0);
-        log.touch(3.5, Touching::Side(4));
-        log.touch(4.0, Touching::Corner(4, 5));
-        log.touch(4.5, Touching::Corner(4, 5));
+        log.touch(3.5, ActiveSet::Side(4));
+        log.touch(4.0, ActiveSet::Corner(4, 5));
+        log.touch(4.5, ActiveSet::Corner(4, 5));
         assert_eq!(log.corner_time(), 2.0);
     }
 

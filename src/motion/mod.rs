@@ -9,7 +9,7 @@ mod drive;
 mod event;
 pub mod explicit;
 mod failure;
-mod kernel;
+mod propagator;
 mod run;
 mod script;
 mod sensitivity;
@@ -17,13 +17,13 @@ mod solver;
 pub mod verdict;
 mod wave;
 
-pub use contacts::{ContactLog, Impact, Touching, in_phase_order};
+pub use contacts::{ActiveSet, ContactLog, Impact, in_phase_order};
 pub use drive::{Pulse, Rotor, State};
 pub use event::Event;
 pub use failure::{Failure, FailureReason};
 pub use run::{
-    FinalState, ImpactReport, RunReport, Sample, Sampling, Settled, SolverReport, run_to_end,
-    settle, simulate, simulate_with, verdict_of,
+    FinalState, ImpactReport, RunReport, Sample, Sampling, SolverReport, VerdictReached,
+    run_to_end, run_to_verdict, simulate, simulate_with, verdict_of,
 };
 pub use script::{Change, Script};
 pub use sensitivity::{is_sensitive, is_sensitive_with};

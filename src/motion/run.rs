@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::script::{Script, Scripted};
 use super::sensitivity::{is_sensitive_with, sign};
 use super::verdict::{LAST_PART, judge};
-use super::wave::Wave;
+use super::wave::WaveTracker;
 use super::{Checks, Contact, Motion, Outcome, State, Verdict};
 use crate::scene::{CheckedScene, ContactLaw, ModelSize, SolverKind};
 
@@ -98,12 +98,12 @@ pub struct RunReport {
     pub checks: Checks,
     /// What another run must agree with if this one is not sensitive.
     #[serde(skip)]
-    pub settled: Settled,
+    pub settled: VerdictReached,
 }
 
 /// How a run lasts, without its history.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settled {
+pub struct VerdictReached {
     /// How the motion lasts.
     pub verdict: Verdict,
     /// Impacts until the verdict was settled.
@@ -115,7 +115,7 @@ pub struct Settled {
     pub locked_s: Option<f64>,
 }
 
-impl Settled {
+impl VerdictReached {
     /// Of a motion that has come to this verdict.
     #[must_use]
     pub fn of(motion: &Motion, verdict: Verdict) -> Self {
@@ -132,18 +132,18 @@ impl Settled {
 
 /// Runs a checked scene until its verdict is settled, at most to its end.
 #[must_use]
-pub fn settle(scene: &CheckedScene) -> Settled {
-    settle_motion(Motion::new(scene), &Script::default(), scene.solver.end_s, None)
+pub fn run_to_verdict(scene: &CheckedScene) -> VerdictReached {
+    run_motion_to_verdict(Motion::new(scene), &Script::default(), scene.solver.end_s, None)
 }
 
 /// Runs a motion through a script until its verdict is settled, at most to
 /// `end`; with `noise`, its rate changes by that part once a casing period.
-pub(super) fn settle_motion(
+pub(super) fn run_motion_to_verdict(
     motion: Motion,
     script: &Script,
     end: f64,
     noise: Option<f64>,
-) -> Settled {
+) -> VerdictReached {
     // Looking costs little against one casing period of motion.
     let interval = (TAU / motion.machine().omega_c).max(end / MOST_LOOKS);
     let mut scripted = Scripted::new(motion, script);
@@ -155,21 +155,21 @@ pub(super) fn settle_motion(
         verdict = match scripted.advance(until) {
             Err(_) => Some(Verdict::Failed),
             Ok(()) if until >= end => Some(verdict_of(&scripted.motion, LAST_PART * end)),
-            Ok(()) if scripted.is_through() => scripted.motion.settled(),
+            Ok(()) if scripted.is_through() => scripted.motion.final_verdict(),
             Ok(()) => None,
         };
         if let Some(part) = noise {
             scripted.motion.scale_rate(1.0 + part * sign(looks));
         }
     }
-    Settled::of(&scripted.motion, verdict.unwrap_or(Verdict::Failed))
+    VerdictReached::of(&scripted.motion, verdict.unwrap_or(Verdict::Failed))
 }
 
 /// The verdict on a motion now: what is known for good, or that over the last
 /// `window` seconds.
 #[must_use]
 pub fn verdict_of(motion: &Motion, window: f64) -> Verdict {
-    motion.settled().unwrap_or_else(|| judge(motion.contacts(), motion.state().t_s, window))
+    motion.final_verdict().unwrap_or_else(|| judge(motion.contacts(), motion.state().t_s, window))
 }
 
 /// Runs a scene to its end.
@@ -200,7 +200,7 @@ pub fn run_to_end(
 ) -> RunReport {
     let mut scripted = Scripted::new(Motion::new(scene), script);
     let end = scene.solver.end_s;
-    let mut wave = Wave::over(scene, script);
+    let mut wave = WaveTracker::over(scene, script);
     let mut sample = 0_u32;
     loop {
         let sample_time = match sampling.intervals {
@@ -238,9 +238,9 @@ fn take_sample(motion: &mut Motion, gaps: bool) -> Sample {
     }
 }
 
-fn report(scene: &CheckedScene, motion: &Motion, wave: &Wave) -> RunReport {
+fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) -> RunReport {
     let machine = motion.machine();
-    let rim = &machine.rim;
+    let polygon = &machine.polygon;
     let (log, state) = (motion.contacts(), motion.state());
     let window = LAST_PART * scene.solver.end_s;
     let verdict = verdict_of(motion, window);
@@ -259,7 +259,10 @@ fn report(scene: &CheckedScene, motion: &Motion, wave: &Wave) -> RunReport {
         contacts: motion
             .multipliers()
             .into_iter()
-            .map(|(side, multiplier_n)| Contact { blades: rim.blades_of_side(side), multiplier_n })
+            .map(|(side, multiplier_n)| Contact {
+                blades: polygon.blades_of_side(side),
+                multiplier_n,
+            })
             .collect(),
         amplitude_m: state.amplitude(),
         wave_speed_rad_s,
@@ -277,7 +280,7 @@ fn report(scene: &CheckedScene, motion: &Motion, wave: &Wave) -> RunReport {
         impacts: log
             .impacts
             .iter()
-            .map(|hit| ImpactReport { t_s: hit.t_s, blades: rim.blades_of_side(hit.side) })
+            .map(|hit| ImpactReport { t_s: hit.t_s, blades: polygon.blades_of_side(hit.side) })
             .collect(),
         impact_count: log.impact_count,
         r#final: FinalState {
@@ -288,6 +291,6 @@ fn report(scene: &CheckedScene, motion: &Motion, wave: &Wave) -> RunReport {
             alpha_s_rad: state.alpha[1],
         },
         checks: motion.checks(),
-        settled: Settled::of(motion, verdict),
+        settled: VerdictReached::of(motion, verdict),
     }
 }

@@ -11,18 +11,18 @@
 use super::Motion;
 use std::f64::consts::TAU;
 
-use super::run::{Settled, settle_motion};
+use super::run::{VerdictReached, run_motion_to_verdict};
 use super::script::{Change, Script};
 use crate::scene::CheckedScene;
 
 /// Relative change that no trustworthy verdict may notice.
-const NUDGE: f64 = 1e-9;
+const PERTURBATION: f64 = 1e-9;
 /// Part of a casing period by which a lock may come earlier or later.
 const LATER: f64 = 0.1;
 /// Part of its tolerance at which the event solver is tried again.
 const FINER: f64 = 0.1;
 
-impl Settled {
+impl VerdictReached {
     /// Whether two runs that should be the same are not, where `moment` \[s\] is
     /// how much later a wave may lock.
     fn differs_from(self, other: Self, moment: f64) -> bool {
@@ -37,37 +37,37 @@ impl Settled {
 /// Whether a tiny change makes another verdict or another number of impacts of
 /// a checked scene that settled so.
 #[must_use]
-pub fn is_sensitive(scene: &CheckedScene, settled: Settled) -> bool {
+pub fn is_sensitive(scene: &CheckedScene, settled: VerdictReached) -> bool {
     is_sensitive_with(scene, &Script::default(), settled)
 }
 
 /// As `is_sensitive`, for a run with changes on the way.
 #[must_use]
-pub fn is_sensitive_with(scene: &CheckedScene, script: &Script, settled: Settled) -> bool {
+pub fn is_sensitive_with(scene: &CheckedScene, script: &Script, settled: VerdictReached) -> bool {
     let end = scene.solver.end_s;
     let moment = LATER * TAU / scene.machine().omega_c;
     let driven = |factor: f64| {
         let script = script.mapped(|change| match change {
-            Change::Parameters(scene) => Change::Parameters(Box::new(nudged(&scene, factor))),
+            Change::Parameters(scene) => Change::Parameters(Box::new(perturbed(&scene, factor))),
             other => other,
         });
-        settle_motion(Motion::new(&nudged(scene, factor)), &script, end, None)
+        run_motion_to_verdict(Motion::new(&perturbed(scene, factor)), &script, end, None)
     };
     let noisy = || {
         let mut motion = Motion::new(scene);
         motion.scale_tolerance(FINER);
-        settle_motion(motion, script, end, Some(NUDGE))
+        run_motion_to_verdict(motion, script, end, Some(PERTURBATION))
     };
-    driven(1.0 + NUDGE).differs_from(settled, moment)
-        || driven(1.0 - NUDGE).differs_from(settled, moment)
+    driven(1.0 + PERTURBATION).differs_from(settled, moment)
+        || driven(1.0 - PERTURBATION).differs_from(settled, moment)
         || noisy().differs_from(settled, moment)
 }
 
 /// The scene with what drives it multiplied by `factor`: the pulse, or without
 /// one the start and the excitation. The start only moves inward, for it may
 /// touch.
-fn nudged(scene: &CheckedScene, factor: f64) -> CheckedScene {
-    scene.nudged(|scene| {
+fn perturbed(scene: &CheckedScene, factor: f64) -> CheckedScene {
+    scene.perturbed(|scene| {
         if scene.operation.pulse_n != 0.0 {
             scene.operation.pulse_n *= factor;
             return;

@@ -23,12 +23,12 @@ pub trait Solver: Debug + Send + Sync {
 
     /// The angle of every blade now \[rad\].
     fn blade_angles(&self) -> Vec<f64> {
-        let (rim, [c, s]) = (&self.machine().rim, self.state().alpha);
+        let (polygon, [c, s]) = (&self.machine().polygon, self.state().alpha);
         let angle = |blade| {
-            let (p_c, p_s) = rim.direction(rim.side_of_blade(blade));
+            let (p_c, p_s) = polygon.direction(polygon.side_of_blade(blade));
             p_c * c + p_s * s
         };
-        (1..=rim.blades).map(angle).collect()
+        (1..=polygon.blades).map(angle).collect()
     }
 
     /// The gap of every blade now, Eq. (14); positive means open \[m\].
@@ -36,10 +36,10 @@ pub trait Solver: Debug + Send + Sync {
         let (machine, state) = (self.machine(), self.state());
         let phase = machine.nodal_diameters * self.rotor().angle(state.t_s);
         let angles = self.blade_angles();
-        (1..=machine.rim.blades)
+        (1..=machine.polygon.blades)
             .zip(angles)
             .map(|(blade, angle)| {
-                let psi = machine.rim.phase(machine.rim.side_of_blade(blade));
+                let psi = machine.polygon.phase(machine.polygon.side_of_blade(blade));
                 let (sin, cos) = (phase + psi + machine.nodal_diameters * angle).sin_cos();
                 machine.clearance() + state.u[0] * cos + state.u[1] * sin
             })
@@ -63,7 +63,7 @@ pub trait Solver: Debug + Send + Sync {
 
     /// The verdict, once nothing to come can change it: no contact can come
     /// again, or a corner can never let go.
-    fn settled(&self) -> Option<Verdict>;
+    fn final_verdict(&self) -> Option<Verdict>;
 
     /// The pulse in force.
     fn pulse(&self) -> &Pulse;

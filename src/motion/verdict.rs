@@ -12,7 +12,7 @@
 use serde::Serialize;
 use strum::{AsRefStr, Display, EnumString};
 
-use super::{ContactLog, Touching};
+use super::{ActiveSet, ContactLog};
 
 /// Part of the run, at its end, over which the verdict is judged.
 pub const LAST_PART: f64 = 0.1;
@@ -92,7 +92,7 @@ pub struct Checks {
 #[must_use]
 pub fn judge(log: &ContactLog, now: f64, window: f64) -> Verdict {
     let start = now - window;
-    let corner = matches!(log.touching, Touching::Corner(..) | Touching::Many);
+    let corner = matches!(log.active_set, ActiveSet::Corner(..) | ActiveSet::Many);
     if corner && log.since <= start {
         if log.last_tensile.is_some_and(|t| t >= start) {
             Verdict::Adhesive
@@ -121,26 +121,26 @@ mod tests {
     #[test]
     fn the_five_ways_to_last() {
         assert_eq!(judged(|_| {}), Verdict::Decay);
-        assert_eq!(judged(|log| log.touch(0.01, Touching::Corner(15, 16))), Verdict::Locked);
+        assert_eq!(judged(|log| log.touch(0.01, ActiveSet::Corner(15, 16))), Verdict::Locked);
         assert_eq!(
             judged(|log| {
-                log.touch(0.01, Touching::Corner(15, 16));
+                log.touch(0.01, ActiveSet::Corner(15, 16));
                 log.tensile(0.0999);
             }),
             Verdict::Adhesive
         );
         assert_eq!(
             judged(|log| {
-                log.touch(0.01, Touching::Corner(15, 16));
+                log.touch(0.01, ActiveSet::Corner(15, 16));
                 log.tensile(0.0899);
             }),
             Verdict::Locked
         );
-        for last in [Touching::Side(2), Touching::Corner(2, 3)] {
+        for last in [ActiveSet::Side(2), ActiveSet::Corner(2, 3)] {
             // A corner held for half of the last part is not held all through it.
             assert_eq!(
                 judged(|log| {
-                    log.touch(0.01, Touching::Side(3));
+                    log.touch(0.01, ActiveSet::Side(3));
                     log.touch(0.095, last);
                 }),
                 Verdict::Slip
@@ -148,15 +148,15 @@ mod tests {
         }
         assert_eq!(
             judged(|log| {
-                log.touch(0.091, Touching::Side(3));
-                log.touch(0.095, Touching::Nothing);
+                log.touch(0.091, ActiveSet::Side(3));
+                log.touch(0.095, ActiveSet::Nothing);
             }),
             Verdict::Bounce
         );
         assert_eq!(
             judged(|log| {
-                log.touch(0.02, Touching::Side(3));
-                log.touch(0.03, Touching::Nothing);
+                log.touch(0.02, ActiveSet::Side(3));
+                log.touch(0.03, ActiveSet::Nothing);
             }),
             Verdict::Decay
         );

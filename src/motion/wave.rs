@@ -17,7 +17,7 @@ const LOOKS_A_TURN: f64 = 16.0;
 /// turn hides in them: over the last part of the run, or over so much of its end
 /// as can be looked at so closely.
 #[derive(Clone, Debug)]
-pub(super) struct Wave {
+pub(super) struct WaveTracker {
     end: f64,
     interval: f64,
     /// When to look next \[s\]; infinity after the end.
@@ -27,7 +27,7 @@ pub(super) struct Wave {
     turned: f64,
 }
 
-impl Wave {
+impl WaveTracker {
     pub fn over(scene: &CheckedScene, script: &Script) -> Self {
         let machine = scene.machine();
         let end = scene.solver.end_s;
@@ -92,7 +92,7 @@ mod tests {
 
     /// The speed found of a wave that turns at a constant rate to the end.
     fn found(scene: &CheckedScene, rate: f64) -> (f64, u32) {
-        let mut wave = Wave::over(scene, &Script::default());
+        let mut wave = WaveTracker::over(scene, &Script::default());
         let (machine, mut looks) = (scene.machine(), 0);
         while wave.next_look() <= scene.solver.end_s {
             let t_s = wave.next_look();

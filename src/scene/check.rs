@@ -55,8 +55,8 @@ fn frequencies(scene: &Scene) -> Result<(), SceneError> {
 fn initial_state(scene: &Scene) -> Result<(), SceneError> {
     let machine = scene.machine();
     let (x, y) = (scene.initial.u_c_m, scene.initial.u_s_m);
-    let side = machine.rim.nearest_side(x, y);
-    let gap = machine.rim.gap(side, x, y);
+    let side = machine.polygon.nearest_side(x, y);
+    let gap = machine.polygon.gap(side, x, y);
     // A point set on a side by a computed coordinate may miss it by round-off.
     if gap >= -1e-12 * machine.clearance() {
         return Ok(());

@@ -44,7 +44,7 @@ impl CheckedScene {
 
     /// This scene, changed by less than any of its bounds could notice: by
     /// round-off, or inward.
-    pub(crate) fn nudged(&self, change: impl FnOnce(&mut Scene)) -> Self {
+    pub(crate) fn perturbed(&self, change: impl FnOnce(&mut Scene)) -> Self {
         let mut scene = self.0.clone();
         change(&mut scene);
         Self(scene)

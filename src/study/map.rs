@@ -10,7 +10,7 @@ use std::time::Instant;
 use rayon::prelude::*;
 
 use super::Axis;
-use crate::motion::{Settled, Verdict, is_sensitive, settle};
+use crate::motion::{Verdict, VerdictReached, is_sensitive, run_to_verdict};
 use crate::scene::{CheckedScene, Scene, SceneError};
 
 /// Most cells of one map: they are all held in memory.
@@ -141,7 +141,7 @@ impl MapPlan {
         let Ok(scene) = self.scene_of(index) else {
             return Cell { verdict: Verdict::Failed, sensitive: false };
         };
-        let settled: Settled = settle(&scene);
+        let settled: VerdictReached = run_to_verdict(&scene);
         let sensitive = self.sensitivity && is_sensitive(&scene, settled);
         Cell { verdict: settled.verdict, sensitive }
     }

@@ -84,13 +84,13 @@ pub fn grazing_pulse(scene: &Scene, most: f64) -> Option<f64> {
     if most <= 0.0 || !touches(most) {
         return None;
     }
-    let (mut free, mut touching) = (0.0, most);
-    while touching - free > 1e-12 * touching {
-        let middle = 0.5 * (free + touching);
-        if middle <= free || middle >= touching {
+    let (mut free, mut active_set) = (0.0, most);
+    while active_set - free > 1e-12 * active_set {
+        let middle = 0.5 * (free + active_set);
+        if middle <= free || middle >= active_set {
             break;
         }
-        if touches(middle) { touching = middle } else { free = middle }
+        if touches(middle) { active_set = middle } else { free = middle }
     }
-    Some(touching)
+    Some(active_set)
 }

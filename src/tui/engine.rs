@@ -8,7 +8,7 @@ use super::history::Bin;
 use super::views::ViewId;
 use super::views::locked::curves::LockedCurves;
 use super::views::spectrum::transform::Spectrum;
-use crate::motion::{Checks, State, Touching, Verdict};
+use crate::motion::{ActiveSet, Checks, State, Verdict};
 use crate::scene::CheckedScene;
 use crate::study::Map;
 use crate::study::precision::Precision;
@@ -100,7 +100,7 @@ pub struct Moment {
     /// Rotor speed \[rad/s\].
     pub speed: f64,
     /// Sides in contact.
-    pub touching: Touching,
+    pub active_set: ActiveSet,
     /// Start of this contact \[s\].
     pub since: f64,
     /// Gap of every blade; positive is open \[m\].

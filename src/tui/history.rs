@@ -1,7 +1,7 @@
 //! The record of a run as bins with the least and the greatest value of each
 //! channel: a contact peak of one step is seen at any zoom.
 
-use crate::motion::Touching;
+use crate::motion::ActiveSet;
 
 /// The recorded quantities, in the order of `Bin::low`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,13 +43,13 @@ pub struct Bin {
     /// Whether any blade touched.
     pub contact: bool,
     /// The sides that touched.
-    pub touched: Touching,
+    pub touched: ActiveSet,
 }
 
 impl Bin {
     /// A bin of one sample.
     pub fn of(t: f64, values: [f64; CHANNELS]) -> Self {
-        let touched = Touching::Nothing;
+        let touched = ActiveSet::Nothing;
         Self { from: t, to: t, low: values, high: values, contact: false, touched }
     }
 

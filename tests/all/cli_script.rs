@@ -2,17 +2,18 @@
 //! anything is run, and that each does what the call on the motion does.
 
 use crate::cli_support::{refusal, rubscope};
-use rubscope::cli::script::{Change, Script, parse};
+use rubscope::cli::script::{RequestedChange, RequestedScript, parse};
 use rubscope::motion::{self, Motion};
 use rubscope::scene::{Allowed, ContactLaw, KEYS, Key, ModelSize, Scene, SolverKind, Value};
 
-fn parsed(options: &[&str]) -> Result<Vec<(f64, Change)>, String> {
+fn parsed(options: &[&str]) -> Result<Vec<(f64, RequestedChange)>, String> {
     let options: Vec<String> = options.iter().map(ToString::to_string).collect();
     parse(&options).map_err(|error| error.to_string())
 }
 
-fn script(options: &[&str], scene: &Scene) -> Result<Script, String> {
-    Script::resolve(&parsed(options)?, &scene.checked().unwrap()).map_err(|error| error.to_string())
+fn script(options: &[&str], scene: &Scene) -> Result<RequestedScript, String> {
+    RequestedScript::resolve(&parsed(options)?, &scene.checked().unwrap())
+        .map_err(|error| error.to_string())
 }
 
 fn explicit() -> Scene {
@@ -140,7 +141,7 @@ fn a_key_acts_live_just_where_the_motion_takes_it() {
 }
 
 /// The motion of a scene moved to `end` by a script.
-fn moved(scene: &Scene, script: &Script, end: f64) -> Motion {
+fn moved(scene: &Scene, script: &RequestedScript, end: f64) -> Motion {
     let mut motion = Motion::new(&scene.checked().unwrap());
     for (t_s, change) in script.changes().changes() {
         motion.advance(*t_s).unwrap();
@@ -188,7 +189,7 @@ fn a_script_does_what_the_calls_on_the_motion_do() {
         assert_eq!(by_script.contacts().impact_count, by_hand.contacts().impact_count);
         // Round-off of blocks that a scene without a change cuts.
         assert!((a.u[0] - b.u[0]).hypot(a.u[1] - b.u[1]) < 1e-12, "{a:?} {b:?}");
-        let without = moved(&scene, &Script::default(), 0.01).state();
+        let without = moved(&scene, &RequestedScript::default(), 0.01).state();
         assert!((a.u[0] - without.u[0]).abs() > 1e-6, "{a:?} {without:?}");
     }
 }

@@ -1,7 +1,7 @@
 //! The event solver on the motions whose numbers are known: the reference cases,
 //! the closed forms of locked motion, thresholds in speed and in pulse.
 
-use rubscope::motion::{Event, Solver, Touching, Verdict};
+use rubscope::motion::{ActiveSet, Event, Solver, Verdict};
 use rubscope::scene::Scene;
 
 fn scene(changes: &[(&str, f64)]) -> Scene {
@@ -39,12 +39,12 @@ fn case_a_has_its_two_impacts_and_decays() {
     close(impacts[0].t_s, 0.228_219e-3, 5e-10);
     close(impacts[1].t_s, 0.292_811e-3, 5e-10);
     let blades: Vec<_> =
-        impacts.iter().map(|impact| motion.machine().rim.blades_of_side(impact.side)).collect();
+        impacts.iter().map(|impact| motion.machine().polygon.blades_of_side(impact.side)).collect();
     assert_eq!(blades, [[19], [4]]);
     let state = motion.state();
     close(state.u[0], 1.228_513_3e-6, 5e-14);
     close(state.u[1], 1.310_205_9e-7, 5e-15);
-    assert_eq!(motion.settled(), Some(Verdict::Decay));
+    assert_eq!(motion.final_verdict(), Some(Verdict::Decay));
 }
 
 /// Casing in the standing frame: `[u_c, u_s, v_c, v_s]`.
@@ -120,7 +120,7 @@ fn case_a_agrees_with_small_runge_kutta_steps_and_bisection() {
     assert_eq!(impacts.len(), found.len());
     for ((t, blade), impact) in impacts.iter().zip(found) {
         close(impact.t_s, *t, 1e-10);
-        assert_eq!(motion.machine().rim.side_of_blade(*blade), impact.side);
+        assert_eq!(motion.machine().polygon.side_of_blade(*blade), impact.side);
     }
     // A step errs by (omega h)^5/120 = 4e-18: the rest is round-off of 1e5 steps.
     close(state.u[0], x[0], 1e-8 * x[0].abs());
@@ -131,8 +131,8 @@ fn case_a_agrees_with_small_runge_kutta_steps_and_bisection() {
 fn case_c_rocks_into_a_corner() {
     let motion = run(&[(ZETA, 0.0), (PULSE, 51742.0)], 0.1);
     close(motion.contacts().since, 0.0580, 5e-5);
-    assert!(matches!(motion.contacts().touching, Touching::Corner(..)));
-    assert_eq!(motion.settled(), Some(Verdict::Locked));
+    assert!(matches!(motion.contacts().active_set, ActiveSet::Corner(..)));
+    assert_eq!(motion.final_verdict(), Some(Verdict::Locked));
 }
 
 #[test]
@@ -152,7 +152,7 @@ fn the_summed_rocking_is_where_stepping_would_be() {
     }
     assert!(last < 1e-15 * corner, "{last:e}");
     motion.advance(lock + 1e-15).unwrap();
-    assert!(matches!(motion.contacts().touching, Touching::Corner(..)));
+    assert!(matches!(motion.contacts().active_set, ActiveSet::Corner(..)));
 }
 
 #[test]
@@ -162,7 +162,7 @@ fn light_damping_slips_and_a_strong_pulse_decays() {
     assert!(log.unbroken_since.unwrap() < 0.01);
     assert!(log.since > 0.49 && log.impact_count > 200);
     let decay = run(&[(PULSE, 1e6)], 0.1);
-    assert_eq!(decay.settled(), Some(Verdict::Decay));
+    assert_eq!(decay.final_verdict(), Some(Verdict::Decay));
 }
 
 /// Starts at rest against the blades in the corner of side 0 and the next.
@@ -170,7 +170,7 @@ fn in_a_corner(changes: &[(&str, f64)]) -> Event {
     let mut scene = scene(changes);
     scene.operation.pulse_n = 0.0;
     let machine = scene.machine();
-    let (sin, cos) = machine.rim.delta.sin_cos();
+    let (sin, cos) = machine.polygon.delta.sin_cos();
     let radius = machine.locked_amplitude().unwrap();
     let nu = machine.nu(scene.operation.speed_rad_s);
     scene.initial.u_c_m = -radius * cos;
@@ -192,7 +192,7 @@ fn locked_motion_has_the_closed_form() {
         for speed in [speed, -speed] {
             let mut motion = in_a_corner(&[(DIAMETERS, diameters), (ZETA, zeta), (SPEED, speed)]);
             motion.advance(0.05).unwrap();
-            assert_eq!(motion.settled(), Some(Verdict::Locked), "{diameters} {zeta} {speed}");
+            assert_eq!(motion.final_verdict(), Some(Verdict::Locked), "{diameters} {zeta} {speed}");
             let machine = motion.machine();
             let expected = machine.locked_multipliers(speed).unwrap();
             let scale = expected[0].abs().max(expected[1].abs());
@@ -204,7 +204,7 @@ fn locked_motion_has_the_closed_form() {
                     1e-12 * scale.max(machine.clearance() * machine.casing_stiffness),
                 );
             }
-            assert!(machine.rim.next(found[0].0) == found[1].0);
+            assert!(machine.polygon.next(found[0].0) == found[1].0);
             let radius = machine.locked_amplitude().unwrap();
             close(motion.state().amplitude(), radius, 1e-12 * radius);
             // Torque from the contact feeds the casing damping, T Omega = d nu^2 |z|^2.
@@ -213,7 +213,7 @@ fn locked_motion_has_the_closed_form() {
                 .multipliers()
                 .iter()
                 .zip([-1.0, 1.0])
-                .map(|((_, multiplier), sign)| multiplier * sign * machine.rim.half_side())
+                .map(|((_, multiplier), sign)| multiplier * sign * machine.polygon.half_side())
                 .sum();
             close(torque * machine.nu(speed), power, 1e-11 * scale);
         }
@@ -230,7 +230,7 @@ fn a_corner_lets_go_below_the_lock_speed() {
     for (zeta, diameters) in [(0.05, 3.0), (0.01, 3.0), (0.0, 3.0), (0.05, 4.0), (0.2, 5.0)] {
         let holds = |speed: f64| {
             let motion = in_a_corner(&[(ZETA, zeta), (DIAMETERS, diameters), (SPEED, speed)]);
-            motion.settled() == Some(Verdict::Locked)
+            motion.final_verdict() == Some(Verdict::Locked)
         };
         let (mut low, mut high) = (100.0, 900.0);
         while high - low > 1e-5 {
@@ -253,13 +253,13 @@ fn a_falling_speed_breaks_the_lock_where_a_push_vanishes() {
     let speed = 500.0 + ramp * t;
     let nu = machine.nu(speed);
     let drag = 2.0 * machine.casing_damping_ratio * machine.omega_c * nu + machine.nu(ramp);
-    let (sin, cos) = machine.rim.delta.sin_cos();
+    let (sin, cos) = machine.polygon.delta.sin_cos();
     let stiff = machine.omega_c.powi(2) - nu * nu;
     close(stiff / cos + drag / sin, 0.0, 1e-6 * stiff.abs().max(drag / sin));
     close(speed, machine.lock_speed().unwrap(), 3.0);
-    assert!(matches!(motion.contacts().touching, Touching::Side(_)));
+    assert!(matches!(motion.contacts().active_set, ActiveSet::Side(_)));
     motion.advance(1.0).unwrap();
-    assert_eq!(motion.settled(), Some(Verdict::Decay));
+    assert_eq!(motion.final_verdict(), Some(Verdict::Decay));
 }
 
 #[test]

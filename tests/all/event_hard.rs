@@ -3,7 +3,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use rubscope::motion::{Event, Failure, Solver, Touching, Verdict};
+use rubscope::motion::{ActiveSet, Event, Failure, Solver, Verdict};
 use rubscope::scene::{ModelSize, Scene};
 
 const ZETA: &str = "casing.damping_ratio";
@@ -46,7 +46,7 @@ fn arrives(changes: &[(&str, f64)], until: f64) -> Event {
 fn no_pulse_no_motion() {
     let motion = arrives(&[(PULSE, 0.0)], 100.0);
     assert_eq!((motion.state().u, motion.events()), ([0.0; 2], Some(0)));
-    assert_eq!(motion.settled(), Some(Verdict::Decay));
+    assert_eq!(motion.final_verdict(), Some(Verdict::Decay));
 }
 
 #[test]
@@ -97,12 +97,12 @@ fn at_the_critical_speed_a_slide_keeps_its_pace() {
     let pace = 1e-3;
     scene.initial.v_s_m_s = -nu * machine.clearance() - pace;
     let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
-    assert_eq!(motion.contacts().touching, Touching::Side(0));
+    assert_eq!(motion.contacts().active_set, ActiveSet::Side(0));
     let push = -motion.multipliers()[0].1 / machine.casing_mass;
     assert!((push - 2.0 * nu * pace).abs() < 1e-10 * push, "{push} {}", 2.0 * nu * pace);
     let t = motion.next_event(0.1).unwrap();
-    assert!((t * pace / machine.rim.half_side() - 1.0).abs() < 1e-9);
-    assert_eq!(motion.contacts().touching, Touching::Side(1));
+    assert!((t * pace / machine.polygon.half_side() - 1.0).abs() < 1e-9);
+    assert_eq!(motion.contacts().active_set, ActiveSet::Side(1));
     motion.advance(10.0).unwrap();
     assert!(motion.state().u[0].is_finite());
 }
@@ -110,7 +110,7 @@ fn at_the_critical_speed_a_slide_keeps_its_pace() {
 #[test]
 fn speeds_of_zero_and_below_and_every_alias() {
     let still = arrives(&[(SPEED, 0.0)], 0.1);
-    assert_eq!(still.settled(), Some(Verdict::Decay));
+    assert_eq!(still.final_verdict(), Some(Verdict::Decay));
     let (forward, backward) = (arrives(&[], 0.1), arrives(&[(SPEED, -500.0)], 0.1));
     let (a, b) = (forward.state(), backward.state());
     assert!((a.u[0] - b.u[0]).abs() < 1e-16 && (a.u[1] + b.u[1]).abs() < 1e-16);
@@ -122,7 +122,7 @@ fn speeds_of_zero_and_below_and_every_alias() {
     for diameters in [0.0, 2.0, 4.0, 11.0, 22.0, 33.0, 44.0, 4000.0] {
         for speed in [20.0, 500.0] {
             let (motion, result) = run(&[(DIAMETERS, diameters), (SPEED, speed)], 0.1);
-            let cornered = motion.machine().rim.has_corners();
+            let cornered = motion.machine().polygon.has_corners();
             assert!(result.is_ok() || !cornered, "{diameters} {result:?}");
         }
     }
@@ -135,7 +135,7 @@ fn a_side_without_corners_lets_the_wave_run_away_with_a_reason() {
     let failure = result.unwrap_err();
     assert!(failure.to_string().contains("casing radius"), "{failure}");
     assert!(failure.t_s > 0.0 && failure.t_s < 10.0);
-    assert_eq!(motion.settled(), Some(Verdict::Failed));
+    assert_eq!(motion.final_verdict(), Some(Verdict::Failed));
     assert_eq!(motion.clone().advance(11.0), Err(failure));
 }
 
@@ -145,7 +145,7 @@ fn any_number_of_blades() {
         for (diameters, speed) in [(1.0, 1000.0), (1.0, 100.0), (3.0, 500.0)] {
             let changes = [(BLADES, blades), (DIAMETERS, diameters), (SPEED, speed), (PULSE, 5e4)];
             let (motion, result) = run(&changes, 0.02);
-            assert!(result.is_ok() || !motion.machine().rim.has_corners());
+            assert!(result.is_ok() || !motion.machine().polygon.has_corners());
         }
     }
 }

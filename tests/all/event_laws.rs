@@ -45,7 +45,7 @@ fn scenes() -> impl Strategy<Value = Scene> {
 fn lawful(motion: &Event) -> Result<(), TestCaseError> {
     let state = motion.state();
     let machine = motion.machine();
-    let rim = &machine.rim;
+    let polygon = &machine.polygon;
     let phase = machine.nodal_diameters * motion.rotor().angle(state.t_s);
     let (sin, cos) = phase.sin_cos();
     let z = (state.u[0] * cos + state.u[1] * sin, state.u[1] * cos - state.u[0] * sin);
@@ -53,12 +53,12 @@ fn lawful(motion: &Event) -> Result<(), TestCaseError> {
     let size = machine.clearance() + state.amplitude();
     prop_assert!(size.is_finite());
     let gap = |side: u32| {
-        let (c, s) = rim.direction(side);
+        let (c, s) = polygon.direction(side);
         let alpha = machine.nodal_diameters * (state.alpha[0] * c + state.alpha[1] * s);
         let (sin, cos) = alpha.sin_cos();
-        rim.gap(side, z.0 * cos + z.1 * sin, z.1 * cos - z.0 * sin)
+        polygon.gap(side, z.0 * cos + z.1 * sin, z.1 * cos - z.0 * sin)
     };
-    for side in 0..rim.sides {
+    for side in 0..polygon.sides {
         let gap = gap(side);
         prop_assert!(gap > -1e-10 * size, "gap {gap:e} of side {side} at {}", state.t_s);
     }
@@ -75,7 +75,7 @@ fn lawful(motion: &Event) -> Result<(), TestCaseError> {
 /// Whether a motion may leave what the model describes: a wave that no corner
 /// holds, or blades that turn sides past each other.
 fn may_fail(scene: &Scene) -> bool {
-    !scene.machine().rim.has_corners() || scene.solver.model == ModelSize::Modal
+    !scene.machine().polygon.has_corners() || scene.solver.model == ModelSize::Modal
 }
 
 fn same(a: &State, b: &State) -> bool {
@@ -161,7 +161,7 @@ proptest! {
         let mut scene = scene;
         scene.operation.pulse_n = 0.0;
         let machine = scene.machine();
-        let angle = TAU / f64::from(machine.rim.sides);
+        let angle = TAU / f64::from(machine.polygon.sides);
         let (sin, cos) = angle.sin_cos();
         let mut turned = scene.clone();
         let start = &scene.initial;

@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 
 use rubscope::model::Machine;
-use rubscope::motion::{Event, Solver, State, Touching, Verdict};
+use rubscope::motion::{ActiveSet, Event, Solver, State, Verdict};
 use rubscope::scene::Scene;
 
 fn scene(changes: &[(&str, f64)]) -> Scene {
@@ -44,7 +44,7 @@ impl Plain {
     /// derivative that does not depend on accelerations.
     fn gap(&self, side: u32, x: &Phase, t: f64) -> (f64, [f64; 4], f64, f64) {
         let n = self.m.nodal_diameters;
-        let (pc, ps) = self.m.rim.direction(side);
+        let (pc, ps) = self.m.polygon.direction(side);
         let angle = (self.speed + 0.5 * self.ramp * t) * t;
         let beta = ps.atan2(pc) + n * (angle + pc * x[2] + ps * x[3]);
         let (sin, cos) = beta.sin_cos();
@@ -166,9 +166,9 @@ fn case_a_with_blades_agrees_with_runge_kutta_to_1e_9() {
     let mut plain = Plain::of(&scene);
     let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
     motion.advance(0.1).unwrap();
-    assert_eq!(motion.settled(), Some(Verdict::Decay));
+    assert_eq!(motion.final_verdict(), Some(Verdict::Decay));
     let impacts = motion.contacts().impacts.clone();
-    let sides: Vec<u32> = [19, 4].map(|blade| motion.machine().rim.side_of_blade(blade)).into();
+    let sides: Vec<u32> = [19, 4].map(|blade| motion.machine().polygon.side_of_blade(blade)).into();
     assert_eq!(impacts.iter().map(|impact| impact.side).collect::<Vec<_>>(), sides);
     // The pulse, then flights that end where the gap of the next side closes.
     let mut x = plain.run([0.0; 8], 0.0, 50e-6, 200, &[]);
@@ -195,7 +195,7 @@ fn case_a_with_blades_agrees_with_runge_kutta_to_1e_9() {
 fn on_side_0(scene: &mut Scene, corner: bool, pace: f64) {
     let machine = scene.machine();
     let nu = machine.nu(scene.operation.speed_rad_s);
-    let (x, y) = (-machine.clearance(), if corner { -machine.rim.half_side() } else { 0.0 });
+    let (x, y) = (-machine.clearance(), if corner { -machine.polygon.half_side() } else { 0.0 });
     scene.operation.pulse_n = 0.0;
     scene.initial.u_c_m = x;
     scene.initial.u_s_m = y;
@@ -216,7 +216,7 @@ fn sliding_with_blades_agrees_with_the_constrained_equations() {
         scene.operation.pulse_s = 1.0;
         let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
         let start = phase(&motion.state());
-        assert_eq!(motion.contacts().touching, Touching::Side(0));
+        assert_eq!(motion.contacts().active_set, ActiveSet::Side(0));
         let mut end = motion.clone();
         let until = 0.9 * end.next_event(1.0).unwrap();
         motion.advance(until).unwrap();
@@ -242,7 +242,7 @@ fn locked_with_blades_agrees_with_the_constrained_equations() {
         scene.operation.pulse_n = pulse;
         scene.operation.pulse_s = 1.0;
         let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
-        assert_eq!(motion.contacts().touching, Touching::Corner(0, 1), "{soft}");
+        assert_eq!(motion.contacts().active_set, ActiveSet::Corner(0, 1), "{soft}");
         let start = phase(&motion.state());
         let until = 0.02;
         motion.advance(until).unwrap();
@@ -266,17 +266,17 @@ fn locked_blade_angles_come_to_rest_at_the_modal_balance() {
     on_side_0(&mut scene, true, 0.0);
     let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
     motion.advance(2.0).unwrap();
-    assert_eq!(motion.settled(), Some(Verdict::Locked));
+    assert_eq!(motion.final_verdict(), Some(Verdict::Locked));
     let machine = motion.machine();
     let state = motion.state();
     let angle = |side: u32| {
-        let (c, s) = machine.rim.direction(side);
+        let (c, s) = machine.polygon.direction(side);
         state.alpha[0] * c + state.alpha[1] * s
     };
     close(angle(0).abs(), 1.404e-9, 5e-13);
     close(angle(0), -angle(1), 1e-6 * angle(0).abs());
     let [lambda, _] = machine.locked_multipliers(500.0).unwrap();
-    let moment = -lambda * machine.nodal_diameters * -machine.rim.half_side();
+    let moment = -lambda * machine.nodal_diameters * -machine.polygon.half_side();
     let share = 1.0 - (TAU / 22.0).cos();
     let expected = share * moment / machine.blade_modal_stiffness;
     // The blades turn the sides by 3e-9 rad of the 0.14 rad of a corner.
@@ -289,7 +289,7 @@ fn case_c_with_blades_locks_at_the_same_instant() {
     let mut motion = Event::new(&scene(&changes).checked().unwrap()).unwrap();
     motion.advance(0.1).unwrap();
     close(motion.contacts().since, 0.0580, 5e-5);
-    assert!(matches!(motion.contacts().touching, Touching::Corner(..)));
+    assert!(matches!(motion.contacts().active_set, ActiveSet::Corner(..)));
     let residual = motion.checks().energy_residual_j.unwrap();
     // The pulse does 1.7 J.
     assert!(residual.abs() < 1e-11, "{residual:e}");
@@ -305,8 +305,8 @@ fn very_stiff_blades_follow_the_pushes() {
     // alpha = (1/K) sum_j -lambda_j A_j exp(i psi_j) with A_j = n_d y_j.
     let mut expected = [0.0; 2];
     for ((side, lambda), y) in motion.multipliers().into_iter().zip([-1.0, 1.0]) {
-        let (c, s) = machine.rim.direction(side);
-        let moment = -lambda * machine.nodal_diameters * y * machine.rim.half_side();
+        let (c, s) = machine.polygon.direction(side);
+        let moment = -lambda * machine.nodal_diameters * y * machine.polygon.half_side();
         expected[0] += moment * c / machine.blade_modal_stiffness;
         expected[1] += moment * s / machine.blade_modal_stiffness;
     }
@@ -347,10 +347,11 @@ fn halves_make_the_whole_and_no_gap_opens_inward() {
             parts.advance(0.02 * f64::from(part) / 100.0).unwrap();
             let state = parts.state();
             let machine = parts.machine();
-            for side in 0..machine.rim.sides {
-                let (c, s) = machine.rim.direction(side);
+            for side in 0..machine.polygon.sides {
+                let (c, s) = machine.polygon.direction(side);
                 let alpha = state.alpha[0] * c + state.alpha[1] * s;
-                let beta = machine.rim.phase(side) + 3.0 * (parts.rotor().angle(state.t_s) + alpha);
+                let beta =
+                    machine.polygon.phase(side) + 3.0 * (parts.rotor().angle(state.t_s) + alpha);
                 let gap = machine.clearance() + state.u[0] * beta.cos() + state.u[1] * beta.sin();
                 assert!(gap > -1e-12 * machine.clearance(), "{gap:e}");
             }

@@ -86,7 +86,7 @@ fn locked_multipliers_carry_the_extra_damping_of_the_scheme() {
         let nu: f64 = machine.nu(500.0);
         let stiffness = machine.casing_stiffness - nu * nu * machine.casing_mass;
         let drag = machine.casing_damping * nu + nu * 1e-6 * stiffness.abs();
-        let (sin, cos) = machine.rim.delta.sin_cos();
+        let (sin, cos) = machine.polygon.delta.sin_cos();
         let scale = machine.clearance() / (2.0 * cos);
         let expected = [stiffness / cos - drag / sin, stiffness / cos + drag / sin];
         for (contact, expected) in report.outcome.contacts.iter().zip(expected) {
@@ -162,7 +162,7 @@ fn the_three_sizes_agree_where_blades_hardly_move() {
     let states =
         ["rigid", "modal", "full"].map(|model| run(&[(MODEL, model), (STEP, "1e-6")]).r#final);
     for state in &states[1..] {
-        // Blades turn by 1e-8 rad, 1e-8 of the clearance at the rim.
+        // Blades turn by 1e-8 rad, 1e-8 of the clearance at the polygon.
         assert!((state.u_c_m - states[0].u_c_m).abs() < 1e-6 * states[0].u_c_m.abs());
     }
     assert!(states[1].alpha_c_rad != 0.0);

@@ -147,7 +147,7 @@ fn a_very_soft_casing_has_the_closed_forms_all_the_same() {
     }
 }
 
-/// Next to the critical speed the lever of a damped side is 1e14 long.
+/// Next to the critical speed the moment arm of a damped side is 1e14 long.
 #[test]
 fn a_side_next_to_the_critical_speed_keeps_its_eigenvalues() {
     let machine = machine(15_000.0, 3, 0.05);

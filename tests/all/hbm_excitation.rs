@@ -68,7 +68,7 @@ fn residual(machine: &Machine, speed: f64, order: u32, torque: f64, t: f64) -> [
     for (n, contact) in state.contacts.iter().enumerate() {
         let side = contact.side;
         let multiplier = contact.multiplier_n + (excited.multipliers_n[n] * turn).re;
-        let psi = machine.rim.phase(side);
+        let psi = machine.polygon.phase(side);
         let (p_c, p_s) = (psi.cos(), psi.sin());
         let beta = n_d * theta + psi + n_d * (p_c * alpha(0, 0) + p_s * alpha(1, 0));
         let direction = Complex::new(0.0, beta).exp();
@@ -78,8 +78,8 @@ fn residual(machine: &Machine, speed: f64, order: u32, torque: f64, t: f64) -> [
         blades[1] += multiplier * a * p_s;
         gaps[n] = machine.clearance() + u.re * beta.cos() + u.im * beta.sin();
     }
-    for blade in 0..machine.rim.blades {
-        let phi = std::f64::consts::TAU * f64::from(blade) / f64::from(machine.rim.blades);
+    for blade in 0..machine.polygon.blades {
+        let phi = std::f64::consts::TAU * f64::from(blade) / f64::from(machine.polygon.blades);
         let load = torque * (f64::from(order) * (theta + phi)).cos();
         blades[0] -= load * (n_d * phi).cos();
         blades[1] -= load * (n_d * phi).sin();

@@ -133,7 +133,7 @@ fn the_fold_is_the_largest_speed_of_the_branch() {
         let nd = machine.nodal_diameters;
         let softness = nd * nd * machine.casing_stiffness * machine.clearance().powi(2)
             / (machine.blade_inertia * machine.omega_bd * machine.omega_bd);
-        let delta = machine.rim.delta;
+        let delta = machine.polygon.delta;
         let c = softness * 2.0 / 14.0 * delta.sin().powi(2);
         let speed = |opening: f64| {
             let (sin, cos) = opening.sin_cos();

@@ -36,7 +36,7 @@ fn machines_with(stiffness: std::ops::Range<f64>) -> impl Strategy<Value = Machi
             };
             Machine::new(&disk, &casing, diameters)
         })
-        .prop_filter("a corner needs three sides", |machine| machine.rim.has_corners())
+        .prop_filter("a corner needs three sides", |machine| machine.polygon.has_corners())
 }
 
 /// The same machine with blades so many times stiffer.
@@ -68,7 +68,7 @@ proptest! {
         machine in machines(), ratio in 0.0..4.0_f64, a in 0..1000_u32, damped: bool,
     ) {
         let speed = ratio * machine.critical_speed().unwrap_or(1.0);
-        let corner = Corner::after(&machine.rim, a).unwrap();
+        let corner = Corner::after(&machine.polygon, a).unwrap();
         for form in Form::ALL {
             let locked = Locked::new(&machine, corner, form, damped).unwrap();
             if let Ok(point) = locked.at(speed) {
@@ -87,7 +87,7 @@ proptest! {
         machine in machines(), ratio in 0.0..4.0_f64, damped: bool,
     ) {
         let speed = ratio * machine.critical_speed().unwrap_or(1.0);
-        let corner = Corner::after(&machine.rim, 0).unwrap();
+        let corner = Corner::after(&machine.polygon, 0).unwrap();
         let stiffer = stiffened(&machine, 1.0 + 1e-6);
         for form in Form::ALL {
             let at = |machine| Locked::new(machine, corner, form, damped).unwrap().at(speed);
@@ -111,7 +111,7 @@ proptest! {
         let nu = machine.nu(speed);
         for state in equilibria(&machine, speed, true).unwrap() {
             let dissipated = machine.casing_damping * nu * nu * state.amplitude_m.powi(2);
-            // The levers of a corner cancel but for their difference.
+            // The moment arms of a corner cancel but for their difference.
             let k = machine.casing_stiffness - nu * nu * machine.casing_mass;
             let scale = dissipated + (k * nu).abs() * state.amplitude_m.powi(2);
             prop_assert!(near(state.power_w, dissipated, scale), "{:?}", state.kind);
@@ -152,7 +152,7 @@ proptest! {
     fn turning_by_a_group_turns_the_state(machine in machines(), ratio in 1.0..3.0_f64, a in 0..1000_u32) {
         let speed = ratio * machine.critical_speed().unwrap_or(1.0);
         let at = |side| {
-            let corner = Corner::after(&machine.rim, side).unwrap();
+            let corner = Corner::after(&machine.polygon, side).unwrap();
             Locked::new(&machine, corner, Form::Modal, true).unwrap().at(speed)
         };
         match (at(0), at(a)) {
@@ -163,7 +163,7 @@ proptest! {
                 }
                 prop_assert!(near(one.amplitude_m, other.amplitude_m, one.amplitude_m));
                 // z turns by the phase of the side.
-                let turn = machine.rim.phase(a % machine.rim.sides);
+                let turn = machine.polygon.phase(a % machine.polygon.sides);
                 let (x, y) = (
                     one.u_cc_m * turn.cos() - one.u_sc_m * turn.sin(),
                     one.u_cc_m * turn.sin() + one.u_sc_m * turn.cos(),
@@ -180,14 +180,14 @@ proptest! {
     #[test]
     fn the_other_sense_of_rotation_is_the_mirror(machine in machines(), ratio in 0.1..3.0_f64) {
         let speed = ratio * machine.critical_speed().unwrap_or(1.0);
-        let corner = Corner::after(&machine.rim, 0).unwrap();
+        let corner = Corner::after(&machine.polygon, 0).unwrap();
         let locked = Locked::new(&machine, corner, Form::Modal, true).unwrap();
         if let (Ok(one), Ok(mirror)) = (locked.at(speed), locked.at(-speed)) {
             let scale = one.multipliers_n.iter().fold(0.0_f64, |size, l| size.max(l.abs()));
             prop_assert!(near(one.multipliers_n[0], mirror.multipliers_n[1], scale));
-            // The levers cancel but for their difference, and round each.
-            let lever = machine.nodal_diameters * one.amplitude_m;
-            let size = one.torque_nm.abs() + 1e-4 * scale * lever;
+            // The moment arms cancel but for their difference, and round each.
+            let moment_arm = machine.nodal_diameters * one.amplitude_m;
+            let size = one.torque_nm.abs() + 1e-4 * scale * moment_arm;
             prop_assert!(near(one.torque_nm, -mirror.torque_nm, size));
         }
         let slip = |speed| slip_over(&machine, &[speed]).unwrap()[0];

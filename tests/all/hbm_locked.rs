@@ -50,7 +50,7 @@ fn three_forms_three_blade_angles_one_multiplier() {
     let machine = machine(3, 0.05);
     // g0 K/(2 cos^2 delta) at 500 rad/s, to all digits printed.
     let exact = machine.clearance() * (1.544e6 - 2.0 * 1500.0 * 1500.0)
-        / (2.0 * machine.rim.delta.cos().powi(2));
+        / (2.0 * machine.polygon.delta.cos().powi(2));
     close(exact, -150.855_35, 5e-6);
     for (form, alpha, alpha_tolerance, tolerance) in [
         (Form::Printed, 7.62e-7, 1e-9, 2e-4),
@@ -126,8 +126,8 @@ fn every_corner_is_the_same_turned() {
     for diameters in [3, 4] {
         let machine = machine(diameters, 0.05);
         let reference = at(&machine, Form::Modal, true, 470.0);
-        for a in 0..machine.rim.sides {
-            let corner = Corner::after(&machine.rim, a).unwrap();
+        for a in 0..machine.polygon.sides {
+            let corner = Corner::after(&machine.polygon, a).unwrap();
             let point =
                 Locked::new(&machine, corner, Form::Modal, true).unwrap().at(470.0).unwrap();
             for i in 0..2 {

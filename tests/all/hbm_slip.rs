@@ -29,7 +29,7 @@ fn power_closes_and_the_multiplier_is_below_one_wherever_slip_lives() {
             assert!((0.0..1.0).contains(&fraction), "slower than the rotor: {fraction}");
             close(
                 orbit.speed_after_corner_m_s,
-                orbit.speed_before_corner_m_s * (2.0 * machine.rim.delta).cos(),
+                orbit.speed_before_corner_m_s * (2.0 * machine.polygon.delta).cos(),
                 1e-12,
             );
         }
@@ -62,7 +62,7 @@ fn the_fixed_point_is_fixed_and_its_slope_is_the_slope() {
 fn crossing_by_steps(machine: &Machine, rotor: f64, start: f64) -> (f64, f64) {
     let nu = machine.nu(rotor);
     let (omega, zeta) = (machine.omega_c, machine.casing_damping_ratio);
-    let end = machine.rim.half_side();
+    let end = machine.polygon.half_side();
     let rate = |y: f64, v: f64| {
         2.0 * zeta * omega * (nu * machine.clearance() - v) - (omega * omega - nu * nu) * y
     };
@@ -91,7 +91,7 @@ fn the_closed_flow_is_the_equation_of_motion() {
         let crossing = slip_map(&machine, rotor, start).unwrap();
         let (time, before) = crossing_by_steps(&machine, rotor, start);
         close(crossing.time_s, time, 1e-9);
-        close(crossing.speed_after_corner_m_s, before * (2.0 * machine.rim.delta).cos(), 1e-9);
+        close(crossing.speed_after_corner_m_s, before * (2.0 * machine.polygon.delta).cos(), 1e-9);
     }
 }
 
@@ -117,10 +117,10 @@ fn where_slip_lives() {
     let (omega, zeta, nu) = (machine_at.omega_c, 0.01, machine_at.nu(to));
     let root = (zeta * zeta * omega * omega + nu * nu - omega * omega).sqrt();
     let saddle = -2.0 * zeta * omega * nu * machine_at.clearance() / (nu * nu - omega * omega);
-    let end = machine_at.rim.half_side();
+    let end = machine_at.polygon.half_side();
     let gained = (root - zeta * omega) * (end - saddle);
     let needed = (root + zeta * omega) * (end + saddle);
-    close(gained * (2.0 * machine_at.rim.delta).cos(), needed, 1e-11);
+    close(gained * (2.0 * machine_at.polygon.delta).cos(), needed, 1e-11);
     let above = slip_over(&machine_at, &[to * (1.0 + 1e-9)]).unwrap()[0];
     assert_eq!(above.outcome, Err(NoSlip::NoDrive));
     // With more damping slip begins later: at the paper's 5 % not below 735 rad/s.

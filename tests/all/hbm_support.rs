@@ -108,7 +108,7 @@ fn balance(machine: &Machine, opening: f64, state: &Equilibrium) -> Result<(), S
     let mut loads = 0.0;
     let inertia = machine.casing_stiffness * amplitude * ratio.max(1.0).powi(2);
     for &GroupContact { side, multiplier_n: multiplier, .. } in &state.contacts {
-        let (cos, sin) = machine.rim.direction(side);
+        let (cos, sin) = machine.polygon.direction(side);
         let turn = machine.nodal_diameters * (cos * state.alpha_c_rad + sin * state.alpha_s_rad);
         let (sin_turn, cos_turn) = turn.sin_cos();
         let (cos, sin) = (cos * cos_turn - sin * sin_turn, sin * cos_turn + cos * sin_turn);
@@ -129,7 +129,7 @@ fn balance(machine: &Machine, opening: f64, state: &Equilibrium) -> Result<(), S
         return failed("forces are out of balance", left / scale);
     }
     let dissipated = d * nu * amplitude * amplitude;
-    // The levers of the two contacts cancel but for their difference.
+    // The moment arms of the two contacts cancel but for their difference.
     let size = dissipated + (k * nu).abs() * amplitude * amplitude;
     let round = 16.0 * f64::EPSILON * loads * amplitude * nu;
     let off = (state.power_w - dissipated).abs();

@@ -3,7 +3,7 @@
 
 use nalgebra::Complex;
 use rubscope::harmonic::{Corner, Form, Locked, SlipOrbit, excited_lock, slip_over};
-use rubscope::motion::{Event, Motion, Solver, Touching};
+use rubscope::motion::{ActiveSet, Event, Motion, Solver};
 use rubscope::scene::{ModelSize, Scene};
 
 /// Rigid blades unless a test changes it, as the closed forms have them.
@@ -29,8 +29,8 @@ fn in_default_corner(diameters: u32, zeta: f64, speed: f64) -> Scene {
     scene.casing.damping_ratio = zeta;
     scene.operation.speed_rad_s = speed;
     let machine = scene.machine();
-    let corner = Corner::paper(&machine.rim).unwrap();
-    let middle = machine.rim.phase(corner.a) + machine.rim.delta;
+    let corner = Corner::paper(&machine.polygon).unwrap();
+    let middle = machine.polygon.phase(corner.a) + machine.polygon.delta;
     let amplitude = machine.locked_amplitude().unwrap();
     let nu = machine.nu(speed);
     scene.initial.u_c_m = -amplitude * middle.cos();
@@ -47,7 +47,7 @@ fn the_event_solver_holds_the_corner_from_the_lock_in_speed_on() {
         let holds = |speed: f64| {
             let mut motion = Event::new(&in_corner(zeta, speed).checked().unwrap()).unwrap();
             motion.advance(1e-3).unwrap();
-            motion.contacts().touching == Touching::Corner(15, 16)
+            motion.contacts().active_set == ActiveSet::Corner(15, 16)
         };
         let (mut below, mut above) = (293.0, 600.0);
         assert!(!holds(below) && holds(above));
@@ -65,14 +65,14 @@ fn the_event_solver_holds_the_corner_from_the_lock_in_speed_on() {
 /// together to 1e-12.
 fn long_wave_speed(scene: &Scene, orbit: &SlipOrbit) -> f64 {
     let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
-    let settle = orbit.period_s * 1e-12_f64.ln() / orbit.slope.ln();
-    motion.advance(0.1 + settle).unwrap();
+    let steady = orbit.period_s * 1e-12_f64.ln() / orbit.slope.ln();
+    motion.advance(0.1 + steady).unwrap();
     let mut sides = Vec::new();
     while sides.len() < 102 {
-        let limit = 100.0 + settle;
+        let limit = 100.0 + steady;
         let time = motion.next_event(limit).unwrap();
-        assert!(time < limit, "no slip: {:?}", motion.contacts().touching);
-        if let Touching::Side(side) = motion.contacts().touching
+        assert!(time < limit, "no slip: {:?}", motion.contacts().active_set);
+        if let ActiveSet::Side(side) = motion.contacts().active_set
             && sides.last().is_none_or(|&(last, _)| last != side)
         {
             sides.push((side, time));
@@ -80,7 +80,7 @@ fn long_wave_speed(scene: &Scene, orbit: &SlipOrbit) -> f64 {
     }
     let machine = motion.machine();
     let period = (sides[101].1 - sides[1].1) / 100.0;
-    scene.operation.speed_rad_s - 2.0 * machine.rim.delta / period / machine.nodal_diameters
+    scene.operation.speed_rad_s - 2.0 * machine.polygon.delta / period / machine.nodal_diameters
 }
 
 #[test]
@@ -103,7 +103,7 @@ fn slipping(diameters: u32, zeta: f64, speed: f64, part: f64) -> (Scene, SlipOrb
     let machine = scene.machine();
     let orbit = slip_over(&machine, &[speed]).unwrap()[0].outcome.unwrap();
     // z = -(g0 - i y), z' = i y', u' = z' + i nu z. A little inside the corner.
-    let y = -machine.rim.half_side() * (1.0 - 1e-9);
+    let y = -machine.polygon.half_side() * (1.0 - 1e-9);
     let rate = part * orbit.speed_after_corner_m_s;
     let nu = machine.nu(speed);
     scene.initial.u_c_m = -machine.clearance();
@@ -138,7 +138,7 @@ fn explicit_locked_motion_is_the_modal_form_with_its_first_order_error() {
     scene.bladed_disk.damping_ratio = 0.5;
     let mut motion = Motion::new(&scene.checked().unwrap());
     motion.advance(0.2).unwrap();
-    assert_eq!(motion.contacts().touching, Touching::Corner(15, 16));
+    assert_eq!(motion.contacts().active_set, ActiveSet::Corner(15, 16));
 
     let corner = Corner { a: 15, b: 16 };
     let mut machine = scene.machine();
@@ -164,7 +164,7 @@ fn explicit_locked_motion_is_the_modal_form_with_its_first_order_error() {
         assert!((multiplier - exact.multipliers_n[i]).abs() > 1e-3 * multiplier.abs());
     }
     for (i, side) in corner.sides().into_iter().enumerate() {
-        let (cos, sin) = machine.rim.direction(side);
+        let (cos, sin) = machine.polygon.direction(side);
         let alpha = cos * state.alpha[0] + sin * state.alpha[1];
         // Both blades bend the same way; what they share is a difference of
         // the two torques, four times smaller than either.
@@ -185,8 +185,8 @@ fn event_locked_motion_is_the_modal_form() {
         let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
         motion.advance(0.3).unwrap();
         let machine = scene.machine();
-        let corner = Corner::paper(&machine.rim).unwrap();
-        assert_eq!(motion.contacts().touching, Touching::of(&corner.sides()));
+        let corner = Corner::paper(&machine.polygon).unwrap();
+        assert_eq!(motion.contacts().active_set, ActiveSet::of(&corner.sides()));
         let point = Locked::new(&machine, corner, Form::Modal, true).unwrap().at(speed).unwrap();
         let state = motion.state();
         let turn =
@@ -199,7 +199,7 @@ fn event_locked_motion_is_the_modal_form() {
             close(multiplier, point.multipliers_n[i], 1e-12);
         }
         for (i, side) in corner.sides().into_iter().enumerate() {
-            let (cos, sin) = machine.rim.direction(side);
+            let (cos, sin) = machine.polygon.direction(side);
             let alpha = cos * state.alpha[0] + sin * state.alpha[1];
             close(alpha, point.alpha_rad[i], 1e-12);
         }
@@ -234,7 +234,7 @@ fn an_engine_order_moves_the_blades_as_the_frequency_domain_says() {
                 *sum += turn * (alpha * 2.0 / f64::from(count));
             }
         }
-        assert_eq!(motion.contacts().touching, Touching::Corner(15, 16));
+        assert_eq!(motion.contacts().active_set, ActiveSet::Corner(15, 16));
         for (found, expected) in sums.into_iter().zip(&response.response[2..]) {
             println!(
                 "{order} {found} {expected} {:e}",

@@ -201,7 +201,7 @@ fn speed_changes_while_locked() {
 
 #[test]
 fn multipliers_right_after_a_change_of_a_held_lock() {
-    // Soft blades still settle when the lock is held: N' = 4 has long levers.
+    // Soft blades still settle when the lock is held: N' = 4 has long moment arms.
     let machine = [("bladed_disk.blades", "12"), (MODEL, "modal"), (LAW, "bilateral")];
     let changes: [fn(&mut Pair); 2] = [Pair::fire, |pair| pair.set_speed(500.0, 0.0)];
     for change in changes {
@@ -272,11 +272,11 @@ fn parameters_turned_in_flight_in_contact_and_locked() {
             go_on(&mut flying, &format!("{turn:?} in flight"), 0.0011);
             flying.fire();
             go_on(&mut flying, &format!("{turn:?}, fired"), 0.0017);
-            let mut touching = Pair::new(&scene);
-            until_impact(&mut touching, 1);
-            touching.adopt(&other);
-            let end = touching.plain.time() + 0.0005;
-            go_on(&mut touching, &format!("{turn:?} in contact"), end);
+            let mut active_set = Pair::new(&scene);
+            until_impact(&mut active_set, 1);
+            active_set.adopt(&other);
+            let end = active_set.plain.time() + 0.0005;
+            go_on(&mut active_set, &format!("{turn:?} in contact"), end);
             let mut locked = Pair::new(&in_corner(scene));
             assert!(locked.advance(0.0006).is_ok());
             let other = turned(locked.scene(), turn);

@@ -3,7 +3,7 @@
 
 use crate::plain::Plain;
 use crate::plain::scenes::{in_corner, scene};
-use rubscope::motion::{Motion, Touching};
+use rubscope::motion::{ActiveSet, Motion};
 use rubscope::scene::{Scene, SolverKind};
 
 /// Steps that divide every instant below.
@@ -74,7 +74,7 @@ fn converges(scene: &Scene, acts: &[(f64, Act)], end: f64, tolerance: f64) -> Mo
     let what = format!("{:?} {acts:?} until {end}", scene.solver.model);
     // Two gaps closed say where the casing is, with no step in it but through
     // the blades.
-    let pinned = matches!(motion.contacts().touching, Touching::Corner(..))
+    let pinned = matches!(motion.contacts().active_set, ActiveSet::Corner(..))
         && runs.iter().all(|run| run.multipliers().len() == 2 && run.in_contact());
     let found = slope(&apart);
     if pinned {
@@ -89,7 +89,7 @@ fn converges(scene: &Scene, acts: &[(f64, Act)], end: f64, tolerance: f64) -> Mo
             (alpha[0] - state.alpha[0]).hypot(alpha[1] - state.alpha[1]) / run.widest
         });
         let found = slope(&turned);
-        // An impact's lever is seen a step late: a tenth at the longest step.
+        // An impact's moment arm is seen a step late: a tenth at the longest step.
         assert!((found - 1.0).abs() < tolerance + 0.05, "{what}: blades {found} of {turned:?}");
         assert!(turned[3] < 0.02, "{what}: blades {turned:?}");
     }
@@ -130,7 +130,7 @@ fn sliding_along_a_side() {
         let changes = [(520.0, 0.0), (480.0, 0.0), (500.0, 2e4), (500.0, -2e4)];
         for (speed, ramp) in changes {
             let motion = converges(&scene, &[(2e-4, Speed(speed, ramp))], 4e-4, 0.05);
-            assert_eq!(motion.contacts().touching, Touching::Side(0));
+            assert_eq!(motion.contacts().active_set, ActiveSet::Side(0));
         }
         for speed in [-500.0, 0.0] {
             converges(&scene, &[(2e-4, Speed(speed, 0.0))], 4e-4, 0.4);
@@ -175,8 +175,8 @@ fn fired_while_locked() {
         for force in [20.0, -300.0, 150.0] {
             let mut scene = in_corner(scene.clone());
             (scene.operation.pulse_n, scene.operation.pulse_s) = (force, 1e-4);
-            let locked = exact(&scene, &[], 0.012).contacts().touching;
-            assert!(matches!(locked, Touching::Corner(..)), "{force}: {locked:?}");
+            let locked = exact(&scene, &[], 0.012).contacts().active_set;
+            assert!(matches!(locked, ActiveSet::Corner(..)), "{force}: {locked:?}");
             converges(&scene, &[(0.012, Fire)], 0.0124, 0.3);
         }
     });

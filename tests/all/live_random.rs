@@ -56,7 +56,7 @@ fn first_scene(dice: &mut Dice) -> Scene {
     if dice.chance(0.25) {
         scene.operation.speed_ramp_rad_s2 = dice.between(-2e4, 2e4);
     }
-    if dice.chance(0.3) && scene.machine().rim.has_corners() { in_corner(scene) } else { scene }
+    if dice.chance(0.3) && scene.machine().polygon.has_corners() { in_corner(scene) } else { scene }
 }
 
 /// Something else in the parameters.
@@ -78,7 +78,7 @@ fn turn(dice: &mut Dice, scene: &mut Scene) {
             scene.operation.pulse_s = dice.scale(2e-6, 1e-4);
         }
     }
-    let two_sides = scene.machine().rim.sides == 2;
+    let two_sides = scene.machine().polygon.sides == 2;
     if dice.chance(0.2) && !two_sides {
         scene.solver.contact = dice.one_of(&[ContactLaw::Unilateral, ContactLaw::Bilateral]);
     }

@@ -1,7 +1,7 @@
 //! The explicit solver against the event solver: its order, its thresholds,
 //! and where the two contact laws part.
 
-use rubscope::motion::{Motion, State, Verdict, settle, simulate};
+use rubscope::motion::{Motion, State, Verdict, run_to_verdict, simulate};
 use rubscope::scene::Scene;
 
 fn scene(changes: &[(&str, &str)]) -> Scene {
@@ -11,7 +11,7 @@ fn scene(changes: &[(&str, &str)]) -> Scene {
 /// Puts the wave into the corner of sides 15 and 16, turning with the rotor.
 fn start_in_corner(scene: &mut Scene, speed: f64) {
     let machine = scene.machine();
-    let angle = machine.rim.phase(15) + machine.rim.delta;
+    let angle = machine.polygon.phase(15) + machine.polygon.delta;
     let amplitude = machine.locked_amplitude().unwrap();
     let (x, y) = (-amplitude * angle.cos(), -amplitude * angle.sin());
     let nu = machine.nu(speed);
@@ -87,7 +87,7 @@ fn locked_multipliers_converge_with_the_known_coefficient() {
     let exact = machine.locked_multipliers(500.0).unwrap();
     let nu: f64 = machine.nu(500.0);
     let stiffness = machine.casing_stiffness - nu * nu * machine.casing_mass;
-    let (sin, cos) = machine.rim.delta.sin_cos();
+    let (sin, cos) = machine.polygon.delta.sin_cos();
     // The scheme turns K + iD by -nu h: an extra damping nu h |K|, and a
     // stiffness larger by nu h D.
     let drag = machine.casing_damping * nu;
@@ -121,7 +121,7 @@ fn the_lock_speed_by_bisection_of_runs() {
                 ("solver.end_s", end_s),
             ]);
             start_in_corner(&mut scene, speed);
-            settle(&scene.checked().unwrap()).verdict == Verdict::Locked
+            run_to_verdict(&scene.checked().unwrap()).verdict == Verdict::Locked
         };
         let (mut low, mut high) = (293.0, 500.0);
         while high - low > 1e-4 {
@@ -146,7 +146,10 @@ fn the_adhesive_threshold_of_the_equality_law() {
             ("solver.step_s", "1e-7"),
             ("solver.end_s", "0.05"),
         ]);
-        matches!(settle(&scene.checked().unwrap()).verdict, Verdict::Locked | Verdict::Adhesive)
+        matches!(
+            run_to_verdict(&scene.checked().unwrap()).verdict,
+            Verdict::Locked | Verdict::Adhesive
+        )
     };
     let (mut low, mut high) = (290.0, 300.0);
     while high - low > 0.02 {
@@ -175,7 +178,7 @@ fn blades_of_the_explicit_and_the_event_solver_agree() {
         let found = blades("explicit", step);
         (found[0] - exact[0]).hypot(found[1] - exact[1]) / size
     };
-    // An impact's lever is seen a step late: first order.
+    // An impact's moment arm is seen a step late: first order.
     let (coarse, fine) = (error("1e-6"), error("1e-8"));
     assert!(fine < 1e-3 && fine < coarse / 10.0, "{coarse} {fine}");
 }

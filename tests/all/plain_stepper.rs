@@ -199,8 +199,8 @@ fn a_push_on_one_of_three_sides_closes_the_next() {
     let three = [(BLADES, "3"), (DIAMETERS, "1"), (SPEED, "0")];
     each(&["rigid", "modal"], &["unilateral"], &three, |scene| {
         let mut scene = in_corner(scene);
-        let (step, rim) = (scene.solver.step_s, scene.machine().rim);
-        let [a, b] = [0, 1].map(|side| rim.direction(side));
+        let (step, polygon) = (scene.solver.step_s, scene.machine().polygon);
+        let [a, b] = [0, 1].map(|side| polygon.direction(side));
         let sine = a.0 * b.1 - a.1 * b.0;
         let with_gaps = |p: f64, q: f64| ((p * b.1 - q * a.1) / sine, (q * a.0 - p * b.0) / sine);
         // Half a step before side 0 at 1 m/s, along side 1 and close to it.

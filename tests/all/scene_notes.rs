@@ -1,7 +1,7 @@
 //! Figures in the notes of the scenes and in the README that no other test
 //! looks at: each is run.
 
-use rubscope::motion::{Motion, RunReport, Touching, Verdict, simulate};
+use rubscope::motion::{ActiveSet, Motion, RunReport, Verdict, simulate};
 use rubscope::scene::Scene;
 
 fn scene(name: &str, changes: &[(&str, &str)]) -> Scene {
@@ -22,7 +22,7 @@ fn first_break(mut motion: Motion, from: f64, until: f64) -> Option<f64> {
     let looks = ((until - from) / 1e-4).round() as u32;
     (1..=looks).map(|look| from + 1e-4 * f64::from(look)).find(|&t| {
         motion.advance(t).unwrap();
-        motion.contacts().touching == Touching::Nothing
+        motion.contacts().active_set == ActiveSet::Nothing
     })
 }
 
@@ -49,7 +49,7 @@ fn a_little_below_the_critical_speed_the_wave_slips_for_seconds() {
     // Slowed down while it is locked, it does the same.
     let mut locked = Motion::new(&scene("near-critical", &[]).checked().unwrap());
     locked.advance(0.05).unwrap();
-    assert!(matches!(locked.contacts().touching, Touching::Corner(..)));
+    assert!(matches!(locked.contacts().active_set, ActiveSet::Corner(..)));
     locked.set_speed(292.8, 0.0);
     let broken = first_break(locked, 0.05, 5.0).unwrap();
     assert!((broken - 0.05 - 3.25).abs() < 5e-3, "{broken}");

@@ -3,7 +3,7 @@
 use crate::plain::scenes::{in_corner, scene};
 use proptest::prelude::*;
 use rubscope::motion::verdict::LAST_PART;
-use rubscope::motion::{Motion, Settled, Touching, Verdict, settle, verdict_of};
+use rubscope::motion::{ActiveSet, Motion, Verdict, VerdictReached, run_to_verdict, verdict_of};
 use rubscope::scene::{ContactLaw, ModelSize, Scene, SolverKind};
 
 /// Scenes of every solver, law and model that decay, bounce, slip and lock, with
@@ -50,11 +50,11 @@ fn scenes() -> impl Strategy<Value = Scene> {
                 scene.excitation.amplitude_nm = torque;
                 scene.excitation.order = diameters;
             }
-            let rim = scene.machine().rim;
-            if let (Some((side, part)), true) = (start, rim.has_corners()) {
+            let polygon = scene.machine().polygon;
+            if let (Some((side, part)), true) = (start, polygon.has_corners()) {
                 // At rest in a corner, or turning a little faster or slower.
-                let (a, b) = (rim.direction(side), rim.direction(side + 1));
-                let scale = -rim.clearance / (1.0 + a.0 * b.0 + a.1 * b.1) * (1.0 - 1e-13);
+                let (a, b) = (polygon.direction(side), polygon.direction(side + 1));
+                let scale = -polygon.clearance / (1.0 + a.0 * b.0 + a.1 * b.1) * (1.0 - 1e-13);
                 let (x, y) = (scale * (a.0 + b.0), scale * (a.1 + b.1));
                 let nu: f64 = part * scene.machine().nu(scene.operation.speed_rad_s);
                 (scene.initial.u_c_m, scene.initial.u_s_m) = (x, y);
@@ -72,11 +72,11 @@ proptest! {
 
     #[test]
     fn a_verdict_reached_early_is_that_of_the_whole_run(scene in scenes()) {
-        let early = settle(&scene.checked().unwrap());
+        let early = run_to_verdict(&scene.checked().unwrap());
         let mut motion = Motion::new(&scene.checked().unwrap());
         let _ = motion.advance(scene.solver.end_s);
         let verdict = verdict_of(&motion, LAST_PART * scene.solver.end_s);
-        let whole = Settled::of(&motion, verdict);
+        let whole = VerdictReached::of(&motion, verdict);
         prop_assert_eq!(early.verdict, whole.verdict);
         // A lock that was settled has no impacts to come.
         prop_assert_eq!(early.impact_count, whole.impact_count);
@@ -93,7 +93,7 @@ proptest! {
                 prop_assert_eq!(settled, None);
                 break;
             }
-            let now = motion.settled();
+            let now = motion.final_verdict();
             if settled.is_some() {
                 prop_assert_eq!(now, settled, "at {} of 40", part);
             }
@@ -116,8 +116,11 @@ fn a_lock_is_for_good_at_constant_speed_only() {
         let locked = |ramp| {
             let mut motion = cornered(model, ramp);
             assert!(motion.advance(2e-3).is_ok());
-            assert!(matches!(motion.contacts().touching, Touching::Corner(..)), "{model} {ramp}");
-            motion.settled()
+            assert!(
+                matches!(motion.contacts().active_set, ActiveSet::Corner(..)),
+                "{model} {ramp}"
+            );
+            motion.final_verdict()
         };
         assert_eq!(locked("0"), Some(Verdict::Locked), "{model}");
         assert_eq!(locked("-3e3"), None, "{model}");
@@ -132,8 +135,8 @@ fn a_corner_held_for_a_casing_period_is_a_rest() {
         assert!(motion.advance(periods * period).is_ok());
         motion.set_speed(0.0, 0.0);
         assert!(motion.advance((periods + 0.1) * period).is_ok());
-        assert_eq!(motion.contacts().touching, Touching::Nothing);
-        assert_eq!(Settled::of(&motion, Verdict::Bounce).rested, rested, "{periods}");
+        assert_eq!(motion.contacts().active_set, ActiveSet::Nothing);
+        assert_eq!(VerdictReached::of(&motion, Verdict::Bounce).rested, rested, "{periods}");
     }
 }
 
@@ -153,7 +156,7 @@ fn a_corner_that_the_first_swing_of_its_blades_opens_is_no_lock() {
             ("solver.end_s", "0.02"),
             ("operation.speed_rad_s", speed),
         ];
-        let settled = settle(&in_corner(scene(&[blades, run].concat())).checked().unwrap());
+        let settled = run_to_verdict(&in_corner(scene(&[blades, run].concat())).checked().unwrap());
         assert_eq!(settled.verdict, Verdict::Slip, "{model}: {settled:?}");
     }
 }

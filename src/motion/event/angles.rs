@@ -15,10 +15,10 @@ impl Event {
     /// They do.
     pub(super) fn check_angles(&mut self, s: f64) -> Result<(), Failure> {
         let beyond = |event: &Self, s: f64| {
-            let Self { mode, world, drive, .. } = event;
-            mode.largest_angle(world, drive, s, LARGEST_BLADE_ANGLE) > LARGEST_BLADE_ANGLE
+            let Self { mode, parameters, drive, .. } = event;
+            mode.largest_angle(parameters, drive, s, LARGEST_BLADE_ANGLE) > LARGEST_BLADE_ANGLE
         };
-        if self.world.blades.is_none() || !beyond(self, s) {
+        if self.parameters.blades.is_none() || !beyond(self, s) {
             return Ok(());
         }
         let (mut within, mut after) = (0.0, s);
@@ -29,7 +29,7 @@ impl Event {
             }
             if beyond(self, middle) { after = middle } else { within = middle }
         }
-        let angle_rad = self.mode.largest_angle(&self.world, &self.drive, after, 0.0);
+        let angle_rad = self.mode.largest_angle(&self.parameters, &self.drive, after, 0.0);
         Err(self.fail(after, FailureReason::BladeAngle { angle_rad }))
     }
 
@@ -37,8 +37,10 @@ impl Event {
     /// closes or opens to a half turn. Half its angle is `delta`, give or take
     /// `n_d sin(delta) |a|`.
     pub(super) fn check_order(&mut self, tips: &Tips) {
-        let Some(blades) = self.world.blades.filter(|_| self.world.corners) else { return };
-        let delta = self.world.machine.rim.delta;
+        let Some(blades) = self.parameters.blades.filter(|_| self.parameters.corners) else {
+            return;
+        };
+        let delta = self.parameters.machine.polygon.delta;
         let room = CORNER_ROOM * delta.min(FRAC_PI_2 - delta);
         let (size, most) = (tips.angle.norm(), room / (blades.diameters * delta.sin()));
         if size > most {

@@ -7,15 +7,15 @@
 //! the blades by the moment `N n_d y` on the mode along `exp(i psi)`: the
 //! contact feels the mass ratio `ratio y^2`, `ratio = m_c n_d^2/M_blade`.
 
-use super::world::{Drive, Plane, World};
+use super::parameters::{Drive, Parameters, Plane};
 use crate::model::Machine;
-use crate::motion::kernel::Kernel;
+use crate::motion::propagator::Propagator;
 use crate::scene::{ModelSize, Scene};
 
 /// What the casing feels of the blades.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Blades {
-    pub kernel: Kernel,
+    pub propagator: Propagator,
     /// Blade frequency `omega_bd` \[rad/s\].
     pub omega: f64,
     /// `n_d`.
@@ -43,7 +43,7 @@ impl Blades {
         let (omega, diameters) = (machine.omega_bd, machine.nodal_diameters);
         let mass = machine.blade_modal_mass / machine.casing_mass;
         moving.then(|| Self {
-            kernel: Kernel::new(machine.blade_damping_ratio * omega, omega * omega),
+            propagator: Propagator::new(machine.blade_damping_ratio * omega, omega * omega),
             omega,
             diameters,
             ratio: diameters * diameters / mass,
@@ -60,14 +60,14 @@ impl Blades {
         let rates = machine.omega_c + nu;
         let clearance = machine.clearance();
         let half_side =
-            if machine.rim.has_corners() { machine.rim.half_side() } else { return false };
+            if machine.polygon.has_corners() { machine.polygon.half_side() } else { return false };
         // Largest push per unit mass that lasts, and largest impulse.
         let pulse = operation.pulse_n.abs() / machine.casing_mass;
         let start = scene.initial.v_c_m_s.hypot(scene.initial.v_s_m_s);
         let speed = pulse * operation.pulse_s + start + 10.0 * rates * clearance;
         let push = pulse + rates * rates * clearance + 2.0 * nu * speed;
-        let lever = self.ratio / self.diameters * half_side;
-        let angle = lever * (push / self.omega + speed) / self.omega;
+        let moment_arm = self.ratio / self.diameters * half_side;
+        let angle = moment_arm * (push / self.omega + speed) / self.omega;
         // Gaps shift by n_d times the angle and the place along the side.
         self.omega > 100.0 * rates && self.diameters * angle * half_side < 1e-9 * clearance
     }
@@ -75,14 +75,14 @@ impl Blades {
     /// Angles of blades that follow these pushes at once.
     pub(super) fn following(
         &self,
-        world: &World,
+        parameters: &Parameters,
         pushes: [Option<(u32, f64)>; 2],
         y: [f64; 2],
     ) -> Tips {
-        let lever = self.ratio / self.diameters / self.kernel.stiffness;
+        let moment_arm = self.ratio / self.diameters / self.propagator.stiffness;
         let mut tips = Tips::default();
         for ((side, push), y) in pushes.into_iter().flatten().zip(y) {
-            tips.angle += world.direction(side) * (lever * push * y);
+            tips.angle += parameters.direction(side) * (moment_arm * push * y);
         }
         tips
     }
@@ -90,7 +90,9 @@ impl Blades {
     /// Largest angle of blades at rest after this impulse at `y` \[rad\].
     pub(super) fn kicked(&self, y: f64, impulse: f64) -> f64 {
         let rate = self.ratio / self.diameters * (y * impulse).abs();
-        self.kernel.first_rest(0.0, rate).map_or(0.0, |time| rate * self.kernel.at(time).unit)
+        self.propagator
+            .first_rest(0.0, rate)
+            .map_or(0.0, |time| rate * self.propagator.at(time).unit)
     }
 
     /// Blade angles of the free blades, `s` seconds on.
@@ -98,10 +100,11 @@ impl Blades {
         if *tips == Tips::default() {
             return *tips;
         }
-        let response = self.kernel.at(s);
+        let response = self.propagator.at(s);
         Tips {
             angle: tips.angle * response.hold + tips.rate * response.unit,
-            rate: tips.rate * response.slope - tips.angle * (self.kernel.stiffness * response.unit),
+            rate: tips.rate * response.slope
+                - tips.angle * (self.propagator.stiffness * response.unit),
         }
     }
 
@@ -119,7 +122,7 @@ impl Blades {
     /// Bounds on the first four derivatives of `n_d alpha` from now on.
     pub(super) fn turning(&self, tips: &Tips) -> [f64; 4] {
         let first = self.diameters * self.amplitude(tips) * self.omega;
-        let factor = self.omega + 2.0 * self.kernel.damping;
+        let factor = self.omega + 2.0 * self.propagator.damping;
         [first, first * factor, first * factor * factor, first * factor * factor * factor]
     }
 }
@@ -130,10 +133,10 @@ impl PartialEq for Tips {
     }
 }
 
-impl World {
+impl Parameters {
     /// The largest angle of any blade \[rad\].
     pub(super) fn largest(&self, tips: &Tips) -> f64 {
-        self.machine.rim.largest_component(tips.angle.re, tips.angle.im)
+        self.machine.polygon.largest_component(tips.angle.re, tips.angle.im)
     }
 
     /// `exp(i gamma)` of a side, the direction that opens its gap, and `gamma'`.
@@ -148,8 +151,8 @@ impl World {
     /// Half the angle between a side and the next \[rad\].
     pub(super) fn half_angle(&self, a: u32, tips: &Tips) -> f64 {
         let diameters = self.blades.map_or(0.0, |blades| blades.diameters);
-        let between = self.direction(self.machine.rim.next(a)) - self.direction(a);
+        let between = self.direction(self.machine.polygon.next(a)) - self.direction(a);
         let shift = (tips.angle * between.conj()).re;
-        self.machine.rim.delta + 0.5 * diameters * shift
+        self.machine.polygon.delta + 0.5 * diameters * shift
     }
 }

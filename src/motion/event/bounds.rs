@@ -2,7 +2,7 @@
 //! can change, seen from sides that turn with the rotor and with their blades.
 
 use super::blades::{Blades, Tips};
-use super::world::{Drive, Plane, World};
+use super::parameters::{Drive, Parameters, Plane};
 
 /// Bounds over a stretch of flight ahead.
 pub(super) struct Bounds {
@@ -15,8 +15,15 @@ pub(super) struct Bounds {
 impl Bounds {
     /// From the state now, over `span` seconds in which the wave turns against
     /// the standing frame at rates between those of `nu`.
-    pub fn new(world: &World, drive: &Drive, u: Plane, v: Plane, span: f64, nu: [f64; 2]) -> Self {
-        let (omega, c) = (world.omega, world.damping);
+    pub fn new(
+        parameters: &Parameters,
+        drive: &Drive,
+        u: Plane,
+        v: Plane,
+        span: f64,
+        nu: [f64; 2],
+    ) -> Self {
+        let (omega, c) = (parameters.omega, parameters.damping);
         let centre = drive.pulse / (omega * omega);
         let from = u - Plane::new(centre, 0.0);
         let centre = centre.abs();
@@ -28,7 +35,7 @@ impl Bounds {
         let (swing, factor) = (top / omega, omega + 2.0 * c);
         let mut standing = [swing, top, top * factor];
         let mut turned = hermite(swing, factor + turning, ramp);
-        if let Some(exponents) = world.kernel.exponents() {
+        if let Some(exponents) = parameters.propagator.exponents() {
             // A sum of two exponentials, each bounded by its amplitude now: in
             // the turning frame one of them may be nearly at rest.
             let [p, q] = exponents.map(|(re, im)| Plane::new(re, im));
@@ -64,9 +71,9 @@ impl Bounds {
 
     /// Lowers the derivatives seen from the sides to what those in the standing
     /// frame, over the same span, and the turning make of them.
-    pub fn lower_locally(&mut self, world: &World, drive: &Drive, nu: [f64; 2]) {
+    pub fn lower_locally(&mut self, parameters: &Parameters, drive: &Drive, nu: [f64; 2]) {
         let [place, rate, bend] = self.standing;
-        let factor = world.omega + 2.0 * world.damping;
+        let factor = parameters.omega + 2.0 * parameters.damping;
         let standing = [place, rate, bend, bend * factor, bend * factor * factor];
         let turn = hermite(1.0, nu[0].abs().max(nu[1].abs()), drive.nu_rate.abs());
         lower(&mut self.turning, leibniz(standing, turn));

@@ -5,7 +5,7 @@
 //! `cos 2 tau + ratio y_a y_b cos 2 delta`, `tau` half the angle between the two.
 
 use super::Event;
-use super::world::{Plane, World};
+use super::parameters::{Parameters, Plane};
 use crate::tolerances::ROUND_OFF;
 
 /// The corner of side `a` and the next, `b`, as it stands now.
@@ -28,15 +28,15 @@ pub(super) struct CornerContact {
 impl Event {
     /// The corner of `a` and the next side as it stands now.
     pub(super) fn corner_contact(&self, a: u32) -> CornerContact {
-        let world = &self.world;
-        let b = world.machine.rim.next(a);
-        let [first, second] = [a, b].map(|side| world.normal(side, &self.tips));
-        let y = world.half_length(a, &self.tips);
-        let square = world.coupling() * y * y;
-        let turn = world.turn_between(a, &self.tips);
+        let parameters = &self.parameters;
+        let b = parameters.machine.polygon.next(a);
+        let [first, second] = [a, b].map(|side| parameters.normal(side, &self.tips));
+        let y = parameters.half_length(a, &self.tips);
+        let square = parameters.coupling() * y * y;
+        let turn = parameters.turn_between(a, &self.tips);
         // 1 - cos^2 = sin^2: corners of many sides keep their digits.
-        let less = turn.im * turn.im / (1.0 + turn.re) + square * (1.0 + world.turn.re);
-        let more = 1.0 + turn.re + square * (1.0 - world.turn.re);
+        let less = turn.im * turn.im / (1.0 + turn.re) + square * (1.0 + parameters.turn.re);
+        let more = 1.0 + turn.re + square * (1.0 - parameters.turn.re);
         CornerContact {
             a,
             b,
@@ -44,7 +44,7 @@ impl Event {
             spins: [first.1, second.1],
             y: [-y, y],
             own: 1.0 + square,
-            cross: turn.re - square * world.turn.re,
+            cross: turn.re - square * parameters.turn.re,
             determinant: less * more,
         }
     }
@@ -59,15 +59,15 @@ impl Event {
 
     /// As `openings`, where the round-off of a rate's two parts is none.
     pub(super) fn clean_openings(&self, contact: &CornerContact, rate: Plane) -> [f64; 2] {
-        let noise = ROUND_OFF * (rate.norm() + self.world.clearance * self.drive.nu.abs());
+        let noise = ROUND_OFF * (rate.norm() + self.parameters.clearance * self.drive.nu.abs());
         self.openings(contact, rate).map(|rate| if rate.abs() <= noise { 0.0 } else { rate })
     }
 }
 
 impl CornerContact {
     /// Where the casing is \[m\].
-    pub(super) fn place(&self, world: &World) -> Plane {
-        self.normals[0] * Plane::new(-world.clearance, self.y[0])
+    pub(super) fn place(&self, parameters: &Parameters) -> Plane {
+        self.normals[0] * Plane::new(-parameters.clearance, self.y[0])
     }
 
     /// What a push on one side opens of the other gap, in parts of its own.

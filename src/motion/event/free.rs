@@ -3,13 +3,13 @@
 //!
 //! While `|u| < g0` no side can touch, whatever the rotor does: that costs one
 //! comparison. Beyond, the gaps of the nearest sides are advanced on with a
-//! bound on their second derivative in the turning frame (`approach`); the rest
+//! bound on their second derivative in the turning frame (`advancement`); the rest
 //! are kept open by a bound on the speed.
 
-use super::approach::{leaving_step, safe_step};
+use super::advancement::{leaving_step, safe_step};
 use super::blades::Tips;
 use super::bounds::{Bounds, size};
-use super::world::{Drive, Plane, World};
+use super::parameters::{Drive, Parameters, Plane};
 
 /// Radians of all rates below which a look ahead asks for a better bound.
 const SHORT_LOOK: f64 = 1e-6;
@@ -56,36 +56,36 @@ impl Free {
     }
 
     /// The blades, `s` seconds on.
-    pub(super) fn tips(&self, world: &World, s: f64) -> Tips {
-        world.blades.map_or(self.tips, |blades| blades.free(&self.tips, s))
+    pub(super) fn tips(&self, parameters: &Parameters, s: f64) -> Tips {
+        parameters.blades.map_or(self.tips, |blades| blades.free(&self.tips, s))
     }
 
     /// The largest angle of any blade over the first `s` seconds, `least` where
     /// none is larger \[rad\].
-    pub(super) fn largest_angle(&self, world: &World, s: f64, least: f64) -> f64 {
-        let Some(blades) = &world.blades else { return least };
+    pub(super) fn largest_angle(&self, parameters: &Parameters, s: f64, least: f64) -> f64 {
+        let Some(blades) = &parameters.blades else { return least };
         if blades.amplitude(&self.tips) <= least {
             return least;
         }
-        let ends = [0.0, s].map(|t| world.largest(&self.tips(world, t)));
+        let ends = [0.0, s].map(|t| parameters.largest(&self.tips(parameters, t)));
         let mut most = least.max(ends[0]).max(ends[1]);
         // A blade's first turning point is its largest angle: later ones are
         // damped.
-        for side in 0..world.machine.rim.sides {
-            let direction = world.direction(side).conj();
+        for side in 0..parameters.machine.polygon.sides {
+            let direction = parameters.direction(side).conj();
             let (angle, rate) = ((self.tips.angle * direction).re, (self.tips.rate * direction).re);
-            let turning_point = blades.kernel.first_rest(angle, rate).filter(|&time| time < s);
+            let turning_point = blades.propagator.first_rest(angle, rate).filter(|&time| time < s);
             if let Some(time) = turning_point {
-                most = most.max((self.tips(world, time).angle * direction).re.abs());
+                most = most.max((self.tips(parameters, time).angle * direction).re.abs());
             }
         }
         most
     }
 
     /// Place and rate in the standing frame, `s` seconds on.
-    pub(super) fn at(&self, world: &World, drive: &Drive, s: f64) -> (Plane, Plane) {
-        let response = world.kernel.at(s);
-        let stiffness = world.kernel.stiffness;
+    pub(super) fn at(&self, parameters: &Parameters, drive: &Drive, s: f64) -> (Plane, Plane) {
+        let response = parameters.propagator.at(s);
+        let stiffness = parameters.propagator.stiffness;
         if drive.pulse == 0.0 {
             let place = self.place * response.hold + self.rate * response.unit;
             let rate = self.rate * response.slope - self.place * (stiffness * response.unit);
@@ -98,24 +98,29 @@ impl Free {
     }
 
     /// Whether the energy left cannot reach a side, with no pulse to come.
-    pub(super) fn spent(world: &World, place: Plane, rate: Plane) -> bool {
-        let reach = world.omega * world.clearance;
-        rate.norm_sqr() + world.omega * world.omega * place.norm_sqr() < reach * reach
+    pub(super) fn spent(parameters: &Parameters, place: Plane, rate: Plane) -> bool {
+        let reach = parameters.omega * parameters.clearance;
+        rate.norm_sqr() + parameters.omega * parameters.omega * place.norm_sqr() < reach * reach
     }
 
     /// Second and third derivative of the gap of `side` at the start.
-    pub(super) fn curvature(&self, world: &World, drive: &Drive, side: u32) -> (f64, f64) {
-        let (c, k) = (world.damping, world.kernel.stiffness);
+    pub(super) fn curvature(
+        &self,
+        parameters: &Parameters,
+        drive: &Drive,
+        side: u32,
+    ) -> (f64, f64) {
+        let (c, k) = (parameters.damping, parameters.propagator.stiffness);
         let (u, v) = (self.place, self.rate);
         let a = Plane::new(drive.pulse, 0.0) - v * (2.0 * c) - u * k;
         let jerk = -a * (2.0 * c) - v * k;
-        let (inward, nu) = world.facing(drive, side, 0.0, &self.tips);
+        let (inward, nu) = parameters.facing(drive, side, 0.0, &self.tips);
         let (mut nu_rate, mut nu_bend) = (drive.nu_rate, 0.0);
-        if let Some(blades) = &world.blades {
-            let (c, k) = (blades.kernel.damping, blades.kernel.stiffness);
+        if let Some(blades) = &parameters.blades {
+            let (c, k) = (blades.propagator.damping, blades.propagator.stiffness);
             let second = -self.tips.rate * (2.0 * c) - self.tips.angle * k;
             let third = -second * (2.0 * c) - self.tips.rate * k;
-            let along = world.direction(side).conj() * blades.diameters;
+            let along = parameters.direction(side).conj() * blades.diameters;
             nu_rate += (second * along).re;
             nu_bend += (third * along).re;
         }
@@ -127,17 +132,17 @@ impl Free {
     }
 
     /// Looks ahead from `s`, before which nothing happens, to at most `end`.
-    pub(super) fn look(&self, world: &World, drive: &Drive, s: f64, end: f64) -> Look {
-        let (u, v) = self.at(world, drive, s);
-        if drive.pulse == 0.0 && Self::spent(world, u, v) {
+    pub(super) fn look(&self, parameters: &Parameters, drive: &Drive, s: f64, end: f64) -> Look {
+        let (u, v) = self.at(parameters, drive, s);
+        if drive.pulse == 0.0 && Self::spent(parameters, u, v) {
             return Look::Never;
         }
         let radius = size(u);
-        if !world.corners && radius > world.reach {
+        if !parameters.corners && radius > parameters.reach {
             return Look::Gone;
         }
         // A ramp may change the turning rate by a tenth of all rates in one look.
-        let (nu, rates) = (drive.nu(s), world.omega + drive.nu(s).abs());
+        let (nu, rates) = (drive.nu(s), parameters.omega + drive.nu(s).abs());
         let change = drive.nu_rate.abs();
         let span = if change > 0.0 {
             0.1 * (rates * rates).max(change).sqrt() / change
@@ -145,12 +150,13 @@ impl Free {
             f64::INFINITY
         };
         let span = span.min(end - s);
-        let tips = self.tips(world, s);
-        let mut bounds = Bounds::new(world, drive, u, v, span, [nu, drive.nu(s + span.min(1e9))]);
-        if let Some(blades) = &world.blades {
+        let tips = self.tips(parameters, s);
+        let mut bounds =
+            Bounds::new(parameters, drive, u, v, span, [nu, drive.nu(s + span.min(1e9))]);
+        if let Some(blades) = &parameters.blades {
             bounds.shift(blades, &tips);
         }
-        let clearance = world.clearance;
+        let clearance = parameters.clearance;
         let mut stride: f64 = 0.0;
         if radius < clearance {
             let [place, rate, acceleration] = bounds.standing;
@@ -165,17 +171,17 @@ impl Free {
         }
         if radius > 0.9 * clearance {
             let mut near_span = span;
-            if world.omega < SOFT_CASING * rates {
+            if parameters.omega < SOFT_CASING * rates {
                 // It may swing so far that nothing bounds it over a whole period.
                 near_span = span.min(1.0 / rates);
                 let nu = [nu, drive.nu(s + near_span)];
-                bounds = Bounds::new(world, drive, u, v, near_span, nu);
-                bounds.lower_locally(world, drive, nu);
-                if let Some(blades) = &world.blades {
+                bounds = Bounds::new(parameters, drive, u, v, near_span, nu);
+                bounds.lower_locally(parameters, drive, nu);
+                if let Some(blades) = &parameters.blades {
                     bounds.shift(blades, &tips);
                 }
             }
-            match self.sides(world, drive, s, (u, v, tips), &bounds) {
+            match self.sides(parameters, drive, s, (u, v, tips), &bounds) {
                 Look::Until(near) => stride = stride.max(near.min(near_span)),
                 found => return found,
             }
@@ -186,46 +192,46 @@ impl Free {
     /// Time over which no side can close, or the side that touches now.
     fn sides(
         &self,
-        world: &World,
+        parameters: &Parameters,
         drive: &Drive,
         s: f64,
         (u, v, tips): (Plane, Plane, Tips),
         bounds: &Bounds,
     ) -> Look {
-        let rim = &world.machine.rim;
+        let polygon = &parameters.machine.polygon;
         let back = Plane::cis(-drive.phase(s));
         let z = u * back;
         let rate = (v - Plane::i() * u * drive.nu(s)) * back;
         // Round-off of the closed form: that of the terms it adds up.
-        let terms = size(self.place) + size(self.rate) * s.min(1.0 / world.omega) + size(u);
-        let noise = world.tolerance * (world.clearance + terms);
+        let terms = size(self.place) + size(self.rate) * s.min(1.0 / parameters.omega) + size(u);
+        let noise = parameters.tolerance * (parameters.clearance + terms);
         let [_, speed, bend, _, jounce] = bounds.turning;
         // Blades may turn sides by less than half a corner, or all are asked.
-        let shift = world.blades.map_or(0.0, |b| b.diameters * b.amplitude(&tips));
-        let nearest = rim.nearest_side(z.re, z.im);
-        let (first, count) = if rim.sides <= 6 || shift > 0.5 * rim.delta {
-            (0, rim.sides)
+        let shift = parameters.blades.map_or(0.0, |b| b.diameters * b.amplitude(&tips));
+        let nearest = polygon.nearest_side(z.re, z.im);
+        let (first, count) = if polygon.sides <= 6 || shift > 0.5 * polygon.delta {
+            (0, polygon.sides)
         } else {
-            (rim.previous(nearest), 3)
+            (polygon.previous(nearest), 3)
         };
         let mut stride = f64::INFINITY;
-        if count < rim.sides {
+        if count < polygon.sides {
             // The others lie at least three half corners away from `z`.
-            let open = world.clearance - size(z) * (3.0 * rim.delta - shift).cos();
+            let open = parameters.clearance - size(z) * (3.0 * polygon.delta - shift).cos();
             stride = open.max(0.0) / speed;
         }
         for k in 0..count {
-            let side = (first + k) % rim.sides;
-            let mut normal = world.direction(side);
+            let side = (first + k) % polygon.sides;
+            let mut normal = parameters.direction(side);
             let mut closing = rate.re * normal.re + rate.im * normal.im;
-            if let Some(blades) = &world.blades {
+            if let Some(blades) = &parameters.blades {
                 let turned = blades.diameters * (tips.angle * normal.conj()).re;
                 let spin = blades.diameters * (tips.rate * normal.conj()).re;
                 normal *= Plane::cis(turned);
                 let local = (rate - Plane::i() * z * spin) * normal.conj();
                 closing = local.re;
             }
-            let gap = world.clearance + z.re * normal.re + z.im * normal.im;
+            let gap = parameters.clearance + z.re * normal.re + z.im * normal.im;
             let leaving = self.leaving.iter().flatten().find(|leaving| leaving.side == side);
             let safe = match leaving {
                 Some(leaving) if s == 0.0 => leaving_step(leaving.bend, leaving.twist, jounce),

@@ -7,34 +7,34 @@
 use super::Event;
 use super::corner_contact::CornerContact;
 use super::mode::Mode;
-use super::world::Plane;
-use crate::motion::Touching;
+use super::parameters::Plane;
+use crate::motion::ActiveSet;
 use crate::tolerances::{AT_A_CORNER, ROUND_OFF, SOFT_TOUCH};
 
 impl Event {
     /// A side is met at a place and rate that the rotor sees.
     pub(super) fn touch(&mut self, side: u32, place: Plane, rate: Plane) {
-        let world = &self.world;
-        let (normal, spin) = world.normal(side, &self.tips);
+        let parameters = &self.parameters;
+        let (normal, spin) = parameters.normal(side, &self.tips);
         let met = place * normal.conj();
-        self.deepest = self.deepest.max(-(world.clearance + met.re));
-        let (y, size) = (met.im, world.clearance + rate.norm() / world.omega);
-        if world.corners {
-            let rim = &world.machine.rim;
-            let lower = if y > 0.0 { rim.previous(side) } else { side };
-            let half = world.half_length(lower, &self.tips);
-            if half - y.abs() <= AT_A_CORNER * world.tolerance * size {
+        self.deepest = self.deepest.max(-(parameters.clearance + met.re));
+        let (y, size) = (met.im, parameters.clearance + rate.norm() / parameters.omega);
+        if parameters.corners {
+            let polygon = &parameters.machine.polygon;
+            let lower = if y > 0.0 { polygon.previous(side) } else { side };
+            let half = parameters.half_length(lower, &self.tips);
+            if half - y.abs() <= AT_A_CORNER * parameters.tolerance * size {
                 // Within round-off of a corner: both sides are met at once.
                 self.meet_corner_at(lower, rate);
                 return;
             }
         }
-        let local = rate * normal.conj() + Plane::new(y, world.clearance) * spin;
+        let local = rate * normal.conj() + Plane::new(y, parameters.clearance) * spin;
         if local.re > ROUND_OFF * (rate.norm() + size * self.drive.nu.abs()) {
             self.enter(Mode::Free(self.flight(place, rate)));
             return;
         }
-        let (ratio, clearance) = (world.coupling(), world.clearance);
+        let (ratio, clearance) = (parameters.coupling(), parameters.clearance);
         let closing = (-local.re).max(0.0);
         let impulse = closing / (1.0 + ratio * y * y);
         self.strike(&[(side, y, impulse, closing)]);
@@ -65,7 +65,7 @@ impl Event {
                 (true, false) => self.hold_at_corner(a, rate, false, second),
                 (false, true) => self.hold_at_corner(b, rate, true, first),
                 (false, false) => {
-                    let flight = self.flight(contact.place(&self.world), rate);
+                    let flight = self.flight(contact.place(&self.parameters), rate);
                     self.enter(Mode::Free(flight));
                 }
             }
@@ -88,8 +88,8 @@ impl Event {
 
     /// Turns the blades of a side by an impulse at `y`.
     pub(super) fn kick(&mut self, side: u32, y: f64, impulse: f64) {
-        if let Some(blades) = &self.world.blades {
-            let direction = self.world.direction(side);
+        if let Some(blades) = &self.parameters.blades {
+            let direction = self.parameters.direction(side);
             self.tips.rate += direction * (blades.ratio / blades.diameters * y * impulse);
         }
     }
@@ -100,18 +100,18 @@ impl Event {
         let t = self.start.0;
         for &(side, y, impulse, closing) in impulses {
             self.kick(side, y, impulse);
-            self.ledger.rotor -= impulse * self.drive.nu * y;
-            self.ledger.lost += 0.5 * impulse * closing;
-            if let Some(blades) = &self.world.stiff {
+            self.energy_balance.rotor -= impulse * self.drive.nu * y;
+            self.energy_balance.lost += 0.5 * impulse * closing;
+            if let Some(blades) = &self.parameters.stiff {
                 self.widest = self.widest.max(blades.kicked(y, impulse));
             }
-            if closing > SOFT_TOUCH * self.world.omega * self.world.clearance {
+            if closing > SOFT_TOUCH * self.parameters.omega * self.parameters.clearance {
                 self.log.impact(t, side);
             }
         }
         match *impulses {
-            [(side, ..)] => self.log.touch(t, Touching::Side(side)),
-            [(a, ..), (b, ..)] => self.log.touch(t, Touching::of(&[a, b])),
+            [(side, ..)] => self.log.touch(t, ActiveSet::Side(side)),
+            [(a, ..), (b, ..)] => self.log.touch(t, ActiveSet::of(&[a, b])),
             _ => {}
         }
     }

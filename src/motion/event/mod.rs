@@ -1,36 +1,36 @@
 //! The event-driven solver: the true motion, mode by mode.
 //!
 //! With rigid blades the casing wave is a point in a polygon that turns with
-//! the rotor (`model::Rim`), and it moves in one of four modes: *free*,
+//! the rotor (`model::ContactPolygon`), and it moves in one of four modes: *free*,
 //! *sliding* along a side, *rocking* into a corner, or *locked* in a corner.
-//! Within a mode the motion is known in closed form (`kernel`) or as a power
+//! Within a mode the motion is known in closed form (`propagator`) or as a power
 //! series summed to round-off (`series`: pulse or ramp while sliding). With
 //! blades that move (`blades`) the sides turn a little by themselves; sliding
 //! and locked motion are then power series too (`series`, `held`), and impacts
 //! share their impulse with the blades (`impact`). Each mode looks ahead for its
-//! end with bounds that cannot miss it (`approach`),
+//! end with bounds that cannot miss it (`advancement`),
 //! and the next mode follows from plastic impact and from the pushes by cases
 //! (`transitions`), so that nothing triggers twice.
 //!
 //! A segment is always evaluated from its start, never from an output time:
 //! where one looks does not change the motion, not by one bit.
 
+mod advancement;
 mod angles;
-mod approach;
 mod blades;
 mod bounds;
 mod corner;
 mod corner_contact;
+mod corner_series;
+mod energy_balance;
 mod free;
-mod held;
 mod impact;
-mod ledger;
+mod parameters;
 mod rocking;
-mod series;
+mod side_series;
 mod slide;
 mod terms;
 mod transitions;
-mod world;
 
 mod mode;
 mod segment;
@@ -40,9 +40,9 @@ use crate::motion::{Checks, ContactLog, Failure, Pulse, Rotor, Solver, State, Ve
 use crate::scene::{CheckedScene, SceneError};
 
 use blades::Tips;
-use ledger::Ledger;
+use energy_balance::EnergyBalance;
 use mode::{Mode, What};
-use world::{Drive, Plane, World};
+use parameters::{Drive, Parameters, Plane};
 
 /// The event-driven solver of one scene, at some instant of its motion.
 ///
@@ -56,11 +56,11 @@ use world::{Drive, Plane, World};
 /// ```
 #[derive(Clone, Debug)]
 pub struct Event {
-    world: World,
+    parameters: Parameters,
     rotor: Rotor,
     pulse: Pulse,
     log: ContactLog,
-    ledger: Ledger,
+    energy_balance: EnergyBalance,
     /// Start of the segment; the second part holds what the first rounds off.
     start: (f64, f64),
     now: f64,
@@ -92,17 +92,20 @@ impl Event {
 
     /// As `new`, for a scene that names this solver or suits it.
     pub(super) fn of(scene: &CheckedScene) -> Self {
-        let world = World::new(scene);
+        let parameters = Parameters::new(scene);
         let place = Plane::new(scene.initial.u_c_m, scene.initial.u_s_m);
         let rate = Plane::new(scene.initial.v_c_m_s, scene.initial.v_s_m_s);
-        let ledger = Ledger { start: ledger::energy(&world, place, rate), ..Ledger::default() };
+        let energy_balance = EnergyBalance {
+            start: energy_balance::energy(&parameters, place, rate),
+            ..EnergyBalance::default()
+        };
         let mut event = Self {
             mode: Mode::Free(free::Free::new(place, rate, Tips::default())),
-            world,
+            parameters,
             rotor: Rotor::of(scene),
             pulse: Pulse::of(scene),
             log: ContactLog::default(),
-            ledger,
+            energy_balance,
             start: (0.0, 0.0),
             now: 0.0,
             drive: Drive::default(),
@@ -130,13 +133,13 @@ impl Event {
     }
 
     fn set_tolerance(&mut self, tolerance: f64) {
-        self.world.tolerance = tolerance.clamp(1e-16, 1e-3);
+        self.parameters.tolerance = tolerance.clamp(1e-16, 1e-3);
     }
 
     /// The tolerance in force.
     #[must_use]
     pub fn tolerance(&self) -> f64 {
-        self.world.tolerance
+        self.parameters.tolerance
     }
 
     /// Moves to the next change of mode, or to `limit` if none comes before
@@ -165,8 +168,8 @@ impl Solver for Event {
 
     fn state(&self) -> State {
         let s = self.elapsed(self.now);
-        let (u, v) = self.mode.standing(&self.world, &self.drive, s);
-        let Tips { angle, rate } = self.mode.reported(&self.world, &self.drive, s);
+        let (u, v) = self.mode.standing(&self.parameters, &self.drive, s);
+        let Tips { angle, rate } = self.mode.reported(&self.parameters, &self.drive, s);
         State {
             t_s: self.now,
             u: [u.re, u.im],
@@ -182,18 +185,18 @@ impl Solver for Event {
 
     fn multipliers(&self) -> Vec<(u32, f64)> {
         let s = self.elapsed(self.now);
-        let pushes = self.mode.pushes(&self.world, &self.drive, s);
-        let multiplier = |(side, push): (u32, f64)| (side, -push * self.world.mass);
+        let pushes = self.mode.pushes(&self.parameters, &self.drive, s);
+        let multiplier = |(side, push): (u32, f64)| (side, -push * self.parameters.mass);
         pushes.into_iter().flatten().map(multiplier).collect()
     }
 
     fn over(&self) -> bool {
         let Mode::Free(free) = &self.mode else { return false };
-        let (u, v) = free.at(&self.world, &self.drive, self.elapsed(self.now));
-        self.drive.pulse == 0.0 && free::Free::spent(&self.world, u, v)
+        let (u, v) = free.at(&self.parameters, &self.drive, self.elapsed(self.now));
+        self.drive.pulse == 0.0 && free::Free::spent(&self.parameters, u, v)
     }
 
-    fn settled(&self) -> Option<Verdict> {
+    fn final_verdict(&self) -> Option<Verdict> {
         if self.failed.is_some() {
             Some(Verdict::Failed)
         } else if self.over() {
@@ -201,14 +204,14 @@ impl Solver for Event {
         } else if let Mode::Corner(a) = self.mode
             && self.drive.steady()
         {
-            let pushes = corner::pushes(&self.world, &self.drive, a, 0.0);
+            let pushes = corner::pushes(&self.parameters, &self.drive, a, 0.0);
             pushes.iter().all(|&push| push > 0.0).then_some(Verdict::Locked)
         } else if let Mode::Held(held) = &self.mode
-            && let Some(blades) = &self.world.blades
+            && let Some(blades) = &self.parameters.blades
             && self.drive.steady()
         {
             let s = self.elapsed(self.now);
-            held.for_good(&self.world, &self.drive, blades, s).then_some(Verdict::Locked)
+            held.for_good(&self.parameters, &self.drive, blades, s).then_some(Verdict::Locked)
         } else {
             None
         }
@@ -227,18 +230,23 @@ impl Solver for Event {
     }
 
     fn machine(&self) -> &Machine {
-        &self.world.machine
+        &self.parameters.machine
     }
 
     fn checks(&self) -> Checks {
         let s = self.elapsed(self.now);
-        let mut ledger = self.ledger;
-        self.mode.book(&self.world, &self.drive, s, &mut ledger);
-        let residual = ledger.residual(self.mode.energy(&self.world, &self.drive, s));
+        let mut energy_balance = self.energy_balance;
+        self.mode.book(&self.parameters, &self.drive, s, &mut energy_balance);
+        let residual = energy_balance.residual(self.mode.energy(&self.parameters, &self.drive, s));
         Checks {
             max_penetration_m: self.deepest,
-            max_blade_angle_rad: self.mode.largest_angle(&self.world, &self.drive, s, self.widest),
-            energy_residual_j: Some(self.world.mass * residual),
+            max_blade_angle_rad: self.mode.largest_angle(
+                &self.parameters,
+                &self.drive,
+                s,
+                self.widest,
+            ),
+            energy_residual_j: Some(self.parameters.mass * residual),
             ..Checks::default()
         }
     }
@@ -267,7 +275,7 @@ impl Solver for Event {
     }
 
     fn scale_tolerance(&mut self, factor: f64) {
-        self.set_tolerance(factor * self.world.tolerance);
+        self.set_tolerance(factor * self.parameters.tolerance);
     }
 
     fn fork(&self) -> Box<dyn Solver> {

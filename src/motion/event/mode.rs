@@ -3,14 +3,14 @@
 
 use super::blades::Tips;
 use super::corner::{self, Hold};
+use super::corner_series::CornerSeries;
+use super::energy_balance::{self, EnergyBalance, quadrature};
 use super::free::{Free, Look};
-use super::held::Held;
-use super::ledger::{self, Ledger, quadrature};
+use super::parameters::{Drive, Parameters, Plane};
 use super::rocking;
-use super::series::Series;
+use super::side_series::SideSeries;
 use super::slide::{Ahead, Along, Slide};
-use super::world::{Drive, Plane, World};
-use crate::motion::Touching;
+use crate::motion::ActiveSet;
 
 /// How the casing moves until the next event.
 #[derive(Clone, Debug)]
@@ -21,14 +21,14 @@ pub(super) enum Mode {
     /// Along one side, at constant speed and without pulse.
     Slide(Slide),
     /// Along one side, while the pulse acts or the speed changes.
-    Driven(Series),
+    Driven(SideSeries),
     /// From the corner of `a` and the next side with `speed` along the first or
     /// second of them, into the rest that comes after `time`.
     Rocking { a: u32, second: bool, speed: f64, time: f64, lost: f64 },
     /// At rest in the corner of this side and the next.
     Corner(u32),
     /// In a corner whose sides move with their blades.
-    Held(Held),
+    Held(CornerSeries),
 }
 
 /// What ends a mode.
@@ -63,27 +63,27 @@ pub(super) enum Next {
 
 impl Mode {
     /// Looks ahead from `s` to at most `end`; events do not come before `s`.
-    pub(super) fn look(&self, world: &World, drive: &Drive, s: f64, end: f64) -> Next {
+    pub(super) fn look(&self, parameters: &Parameters, drive: &Drive, s: f64, end: f64) -> Next {
         let along = |ahead: Ahead| match ahead {
             Ahead::Until(later) => Next::Until(later),
-            Ahead::Edge(up) if world.corners => Next::Now(What::Edge(up)),
+            Ahead::Edge(up) if parameters.corners => Next::Now(What::Edge(up)),
             Ahead::Edge(_) => Next::Now(What::Gone),
             Ahead::Release => Next::Now(What::Release),
             Ahead::Lost => Next::Now(What::Lost),
         };
         match self {
-            Self::Free(free) => match free.look(world, drive, s, end) {
+            Self::Free(free) => match free.look(parameters, drive, s, end) {
                 Look::Until(later) => Next::Until(later),
                 Look::Touch(side) => Next::Now(What::Touch(side)),
                 Look::Never => Next::Until(end),
                 Look::Gone => Next::Now(What::Gone),
             },
-            Self::Slide(slide) => along(slide.look(world, drive, s)),
-            Self::Driven(series) => along(series.look(world, drive, s)),
+            Self::Slide(slide) => along(slide.look(parameters, drive, s)),
+            Self::Driven(series) => along(series.look(parameters, drive, s)),
             Self::Rocking { time, .. } if s < *time => Next::Until(*time),
             Self::Rocking { .. } => Next::Now(What::Lock),
-            Self::Corner(a) => hold(corner::look(world, drive, *a, s, end), end),
-            Self::Held(held) => hold(held.look(world, s), end),
+            Self::Corner(a) => hold(corner::look(parameters, drive, *a, s, end), end),
+            Self::Held(held) => hold(held.look(parameters, s), end),
         }
     }
 
@@ -98,99 +98,129 @@ impl Mode {
 
     /// The side slid along and the motion along it; a corner counts as its
     /// first side.
-    pub(super) fn along(&self, world: &World, drive: &Drive, s: f64) -> Option<(u32, Along)> {
+    pub(super) fn along(
+        &self,
+        parameters: &Parameters,
+        drive: &Drive,
+        s: f64,
+    ) -> Option<(u32, Along)> {
         match self {
             Self::Free(_) => None,
-            Self::Slide(slide) => Some((slide.side, slide.at(world, drive, s))),
+            Self::Slide(slide) => Some((slide.side, slide.at(parameters, drive, s))),
             Self::Driven(series) => Some((series.side, series.at(s))),
             Self::Rocking { a, time, .. } if s >= *time => {
-                Some((*a, Along { y: -world.half_side, rate: 0.0, push: 0.0 }))
+                Some((*a, Along { y: -parameters.half_side, rate: 0.0, push: 0.0 }))
             }
             Self::Rocking { a, second, speed, .. } => {
-                let swing = rocking::replay(world, drive, *a, *second, *speed, s);
-                let (side, sign) =
-                    if swing.second { (world.machine.rim.next(*a), 1.0) } else { (*a, -1.0) };
-                let y = sign * (world.half_side - swing.distance);
+                let swing = rocking::replay(parameters, drive, *a, *second, *speed, s);
+                let (side, sign) = if swing.second {
+                    (parameters.machine.polygon.next(*a), 1.0)
+                } else {
+                    (*a, -1.0)
+                };
+                let y = sign * (parameters.half_side - swing.distance);
                 let rate = -sign * swing.speed;
-                let pulse = drive.pulse * drive.inward(world, side, s).re;
-                let push = world.push(drive.nu(s), drive.nu_rate, y, rate, pulse);
+                let pulse = drive.pulse * drive.inward(parameters, side, s).re;
+                let push = parameters.push(drive.nu(s), drive.nu_rate, y, rate, pulse);
                 Some((side, Along { y, rate, push }))
             }
             Self::Corner(a) => {
-                let [push, _] = corner::pushes(world, drive, *a, s);
-                Some((*a, Along { y: -world.half_side, rate: 0.0, push }))
+                let [push, _] = corner::pushes(parameters, drive, *a, s);
+                Some((*a, Along { y: -parameters.half_side, rate: 0.0, push }))
             }
             Self::Held(held) => {
                 let [push, _] = held.pushes(s);
-                Some((held.a, Along { y: -held.half_side(world, s), rate: 0.0, push }))
+                Some((held.a, Along { y: -held.half_side(parameters, s), rate: 0.0, push }))
             }
         }
     }
 
     /// Place and rate in the standing frame, `s` seconds on.
-    pub(super) fn standing(&self, world: &World, drive: &Drive, s: f64) -> (Plane, Plane) {
+    pub(super) fn standing(
+        &self,
+        parameters: &Parameters,
+        drive: &Drive,
+        s: f64,
+    ) -> (Plane, Plane) {
         if let Self::Free(free) = self {
-            return free.at(world, drive, s);
+            return free.at(parameters, drive, s);
         }
         if let Self::Held(held) = self {
-            return held.standing(world, drive, s);
+            return held.standing(parameters, drive, s);
         }
-        let Some((side, along)) = self.along(world, drive, s) else { return Default::default() };
-        let (inward, spin) = world.facing(drive, side, s, &self.tips(world, s));
-        let place = Plane::new(-world.clearance, along.y);
+        let Some((side, along)) = self.along(parameters, drive, s) else {
+            return Default::default();
+        };
+        let (inward, spin) = parameters.facing(drive, side, s, &self.tips(parameters, s));
+        let place = Plane::new(-parameters.clearance, along.y);
         let rate = Plane::new(0.0, along.rate) + Plane::i() * place * spin;
         (place * inward, rate * inward)
     }
 
     /// Place and rate as the rotor sees them, `s` seconds on: those of
     /// `u exp(-i n_d theta)`.
-    pub(super) fn seen_by_rotor(&self, world: &World, drive: &Drive, s: f64) -> (Plane, Plane) {
+    pub(super) fn seen_by_rotor(
+        &self,
+        parameters: &Parameters,
+        drive: &Drive,
+        s: f64,
+    ) -> (Plane, Plane) {
         if let Self::Free(_) | Self::Held(_) = self {
-            let (place, rate) = self.standing(world, drive, s);
+            let (place, rate) = self.standing(parameters, drive, s);
             let back = Plane::cis(-drive.phase(s));
             return (place * back, (rate - Plane::i() * place * drive.nu(s)) * back);
         }
-        let Some((side, along)) = self.along(world, drive, s) else { return Default::default() };
-        let (normal, spin) = world.normal(side, &self.tips(world, s));
-        let place = Plane::new(-world.clearance, along.y);
+        let Some((side, along)) = self.along(parameters, drive, s) else {
+            return Default::default();
+        };
+        let (normal, spin) = parameters.normal(side, &self.tips(parameters, s));
+        let place = Plane::new(-parameters.clearance, along.y);
         (place * normal, (Plane::new(0.0, along.rate) + Plane::i() * place * spin) * normal)
     }
 
     /// The first side of the corner that the mode is in or rocks into.
     pub(super) fn corner(&self) -> Option<u32> {
         match self {
-            Self::Corner(a) | Self::Rocking { a, .. } | Self::Held(Held { a, .. }) => Some(*a),
+            Self::Corner(a) | Self::Rocking { a, .. } | Self::Held(CornerSeries { a, .. }) => {
+                Some(*a)
+            }
             Self::Free(_) | Self::Slide(_) | Self::Driven(_) => None,
         }
     }
 
     /// The blades, `s` seconds on.
-    pub(super) fn tips(&self, world: &World, s: f64) -> Tips {
+    pub(super) fn tips(&self, parameters: &Parameters, s: f64) -> Tips {
         match self {
-            Self::Free(free) => free.tips(world, s),
-            Self::Driven(series) => series.tips(world, s),
-            Self::Held(held) => held.tips(world, s),
+            Self::Free(free) => free.tips(parameters, s),
+            Self::Driven(series) => series.tips(parameters, s),
+            Self::Held(held) => held.tips(parameters, s),
             _ => Tips::default(),
         }
     }
 
     /// The blades as they are reported: stiff ones follow the pushes.
-    pub(super) fn reported(&self, world: &World, drive: &Drive, s: f64) -> Tips {
-        let Some(blades) = &world.stiff else { return self.tips(world, s) };
-        let Some((_, along)) = self.along(world, drive, s) else { return Tips::default() };
-        let pushes = self.pushes(world, drive, s);
-        blades.following(world, pushes, [along.y, world.half_side])
+    pub(super) fn reported(&self, parameters: &Parameters, drive: &Drive, s: f64) -> Tips {
+        let Some(blades) = &parameters.stiff else { return self.tips(parameters, s) };
+        let Some((_, along)) = self.along(parameters, drive, s) else { return Tips::default() };
+        let pushes = self.pushes(parameters, drive, s);
+        blades.following(parameters, pushes, [along.y, parameters.half_side])
     }
 
     /// The largest angle of any blade over the first `s` seconds, `least` where
     /// none is larger \[rad\].
-    pub(super) fn largest_angle(&self, world: &World, drive: &Drive, s: f64, least: f64) -> f64 {
-        let angle = |t: f64| world.largest(&self.reported(world, drive, t));
+    pub(super) fn largest_angle(
+        &self,
+        parameters: &Parameters,
+        drive: &Drive,
+        s: f64,
+        least: f64,
+    ) -> f64 {
+        let angle = |t: f64| parameters.largest(&self.reported(parameters, drive, t));
         let bound = match self {
-            Self::Free(free) => return free.largest_angle(world, s, least),
-            Self::Driven(series) if world.blades.is_some() => series.largest_bound(),
+            Self::Free(free) => return free.largest_angle(parameters, s, least),
+            Self::Driven(series) if parameters.blades.is_some() => series.largest_bound(),
             Self::Held(held) => held.largest_bound(),
-            _ if world.stiff.is_some() => f64::INFINITY,
+            _ if parameters.stiff.is_some() => f64::INFINITY,
             _ => 0.0,
         };
         if bound <= least {
@@ -205,73 +235,89 @@ impl Mode {
     }
 
     /// Kinetic and potential energy per unit casing mass, `s` seconds on.
-    pub(super) fn energy(&self, world: &World, drive: &Drive, s: f64) -> f64 {
-        let (u, v) = self.standing(world, drive, s);
-        let blades = world.blades.map_or(0.0, |blades| blades.energy(&self.tips(world, s)));
-        ledger::energy(world, u, v) + blades
+    pub(super) fn energy(&self, parameters: &Parameters, drive: &Drive, s: f64) -> f64 {
+        let (u, v) = self.standing(parameters, drive, s);
+        let blades =
+            parameters.blades.map_or(0.0, |blades| blades.energy(&self.tips(parameters, s)));
+        energy_balance::energy(parameters, u, v) + blades
     }
 
     /// Sides in contact with their pushes per unit mass, in phase order.
-    pub(super) fn pushes(&self, world: &World, drive: &Drive, s: f64) -> [Option<(u32, f64)>; 2] {
+    pub(super) fn pushes(
+        &self,
+        parameters: &Parameters,
+        drive: &Drive,
+        s: f64,
+    ) -> [Option<(u32, f64)>; 2] {
         let corner = match self {
-            Self::Corner(a) => Some((*a, corner::pushes(world, drive, *a, s))),
+            Self::Corner(a) => Some((*a, corner::pushes(parameters, drive, *a, s))),
             Self::Held(held) => Some((held.a, held.pushes(s))),
             _ => None,
         };
         if let Some((a, [first, second])) = corner {
-            return [Some((a, first)), Some((world.machine.rim.next(a), second))];
+            return [Some((a, first)), Some((parameters.machine.polygon.next(a), second))];
         }
-        [self.along(world, drive, s).map(|(side, along)| (side, along.push)), None]
+        [self.along(parameters, drive, s).map(|(side, along)| (side, along.push)), None]
     }
 
     /// The sides in contact as the log of contacts names them.
-    pub(super) fn touching(&self, world: &World) -> Touching {
+    pub(super) fn active_set(&self, parameters: &Parameters) -> ActiveSet {
         match self {
-            Self::Free(_) => Touching::Nothing,
-            Self::Slide(slide) => Touching::Side(slide.side),
-            Self::Driven(series) => Touching::Side(series.side),
-            Self::Rocking { a, second: false, .. } => Touching::Side(*a),
-            Self::Rocking { a, second: true, .. } => Touching::Side(world.machine.rim.next(*a)),
-            Self::Corner(a) | Self::Held(Held { a, .. }) => {
-                Touching::of(&[*a, world.machine.rim.next(*a)])
+            Self::Free(_) => ActiveSet::Nothing,
+            Self::Slide(slide) => ActiveSet::Side(slide.side),
+            Self::Driven(series) => ActiveSet::Side(series.side),
+            Self::Rocking { a, second: false, .. } => ActiveSet::Side(*a),
+            Self::Rocking { a, second: true, .. } => {
+                ActiveSet::Side(parameters.machine.polygon.next(*a))
+            }
+            Self::Corner(a) | Self::Held(CornerSeries { a, .. }) => {
+                ActiveSet::of(&[*a, parameters.machine.polygon.next(*a)])
             }
         }
     }
 
     /// Books the energies of the first `s` seconds of the mode.
-    pub(super) fn book(&self, world: &World, drive: &Drive, s: f64, ledger: &mut Ledger) {
-        let ends = || [0.0, s].map(|t| self.standing(world, drive, t));
+    pub(super) fn book(
+        &self,
+        parameters: &Parameters,
+        drive: &Drive,
+        s: f64,
+        energy_balance: &mut EnergyBalance,
+    ) {
+        let ends = || [0.0, s].map(|t| self.standing(parameters, drive, t));
         let mut pulse = 0.0;
         if drive.pulse != 0.0 {
             let [before, after] = ends();
             pulse = drive.pulse * (after.0.re - before.0.re);
         }
-        ledger.pulse += pulse;
-        let drag = 2.0 * world.damping;
+        energy_balance.pulse += pulse;
+        let drag = 2.0 * parameters.damping;
         let (nu, ramp) = (drive.nu.abs().max(drive.nu(s).abs()), drive.nu_rate.abs());
-        let rate = 2.0 * (world.omega + drag + nu + ramp.sqrt());
+        let rate = 2.0 * (parameters.omega + drag + nu + ramp.sqrt());
         let power = |t: f64, y: f64, rate: f64, push: f64| {
             let nu = drive.nu(t);
-            let (across, along) = (nu * y, rate - nu * world.clearance);
+            let (across, along) = (nu * y, rate - nu * parameters.clearance);
             [drag * (along * along + across * across), -nu * push * y]
         };
         // As above, where the side turns with its blades.
         let compliant = |t: f64, work: f64| {
-            let (_, rate) = self.standing(world, drive, t);
-            let blades = world.blades.map_or(0.0, |blades| {
-                2.0 * blades.kernel.damping * blades.mass * self.tips(world, t).rate.norm_sqr()
+            let (_, rate) = self.standing(parameters, drive, t);
+            let blades = parameters.blades.map_or(0.0, |blades| {
+                2.0 * blades.propagator.damping
+                    * blades.mass
+                    * self.tips(parameters, t).rate.norm_sqr()
             });
             [drag * rate.norm_sqr() + blades, -drive.nu(t) * work]
         };
         let [dissipated, work] = match self {
-            Self::Free(free) => [ledger::dissipated(world, drive, free, s), 0.0],
+            Self::Free(free) => [energy_balance::dissipated(parameters, drive, free, s), 0.0],
             Self::Slide(slide) => quadrature(s, 2.0 * slide.fastest(), |t| {
-                let Along { y, rate, push } = slide.at(world, drive, t);
+                let Along { y, rate, push } = slide.at(parameters, drive, t);
                 power(t, y, rate, push)
             }),
             Self::Driven(series) => quadrature(s, 2.0 / series.length, |t| {
                 let Along { y, rate, push } = series.at(t);
-                if world.blades.is_some() {
+                if parameters.blades.is_some() {
                     compliant(t, push * y)
                 } else {
                     power(t, y, rate, push)
@@ -279,31 +325,32 @@ impl Mode {
             }),
             Self::Held(held) => quadrature(s, 2.0 / held.length, |t| {
                 let [first, second] = held.pushes(t);
-                compliant(t, (second - first) * held.half_side(world, t))
+                compliant(t, (second - first) * held.half_side(parameters, t))
             }),
             Self::Rocking { a, second, speed, time, lost } => {
                 let lost = if s < *time {
-                    rocking::replay(world, drive, *a, *second, *speed, s).lost
+                    rocking::replay(parameters, drive, *a, *second, *speed, s).lost
                 } else {
                     *lost
                 };
-                ledger.lost += lost;
+                energy_balance.lost += lost;
                 let [before, after] = ends();
                 let dissipated = drag * drive.nu * drive.nu * before.0.norm_sqr() * s;
-                let [before, after] = [before, after].map(|(u, v)| ledger::energy(world, u, v));
+                let [before, after] =
+                    [before, after].map(|(u, v)| energy_balance::energy(parameters, u, v));
                 [dissipated, after - before + lost + dissipated - pulse]
             }
             Self::Corner(a) => {
                 let power = |t: f64| {
-                    let [first, second] = corner::pushes(world, drive, *a, t);
-                    let [dissipated, work] = power(t, -world.half_side, 0.0, first);
-                    [dissipated, work - drive.nu(t) * second * world.half_side]
+                    let [first, second] = corner::pushes(parameters, drive, *a, t);
+                    let [dissipated, work] = power(t, -parameters.half_side, 0.0, first);
+                    [dissipated, work - drive.nu(t) * second * parameters.half_side]
                 };
                 if drive.steady() { power(0.0).map(|x| x * s) } else { quadrature(s, rate, power) }
             }
         };
-        ledger.dissipated += dissipated;
-        ledger.rotor += work;
+        energy_balance.dissipated += dissipated;
+        energy_balance.rotor += work;
     }
 }
 

@@ -18,13 +18,13 @@
 //! the limit.
 
 use super::corner::opening;
+use super::parameters::{Drive, Parameters, Plane};
 use super::slide;
-use super::world::{Drive, Plane, World};
 
 /// Orders of the series.
 const ORDERS: usize = 10;
 
-type Series = [f64; ORDERS + 1];
+type SideSeries = [f64; ORDERS + 1];
 
 /// The limit of a rocking motion.
 #[derive(Clone, Copy, Debug)]
@@ -39,17 +39,17 @@ pub(super) struct Limit {
 /// `speed > 0` along `a` (`second` false) or along the next side can do nothing
 /// but rock into it.
 pub(super) fn limit(
-    world: &World,
+    parameters: &Parameters,
     drive: &Drive,
     a: u32,
     second: bool,
     speed: f64,
 ) -> Option<Limit> {
-    let cos = world.turn.re;
+    let cos = parameters.turn.re;
     // A side alone pushes with minus its own opening acceleration.
-    let [(qa, qa_rate), (qb, qb_rate)] = opening(world, drive, a, 0.0);
-    let sin = world.turn.im;
-    let pulls = pulls(world, qa, qb);
+    let [(qa, qa_rate), (qb, qb_rate)] = opening(parameters, drive, a, 0.0);
+    let sin = parameters.turn.im;
+    let pulls = pulls(parameters, qa, qb);
     let change = (qa_rate.abs() + qb_rate.abs()) / sin;
     let own = if second { pulls[1] } else { pulls[0] };
     let weakest = pulls[0].min(pulls[1]);
@@ -57,16 +57,16 @@ pub(super) fn limit(
         return None;
     }
     let margin = 4.0 * drive.nu.abs() * speed;
-    if -qa <= margin || -qb <= margin || speed * speed > weakest * world.half_side {
+    if -qa <= margin || -qb <= margin || speed * speed > weakest * parameters.half_side {
         return None;
     }
-    let kernel = slide::kernel(world, drive.nu);
-    let fastest = 2.0 * kernel.damping + kernel.stiffness.abs().sqrt();
+    let propagator = slide::propagator(parameters, drive.nu);
+    let fastest = 2.0 * propagator.damping + propagator.stiffness.abs().sqrt();
     let start = speed / own;
     if start * fastest > 0.03 {
         return None;
     }
-    let sums = Sums::new(kernel.damping, kernel.stiffness, cos, pulls);
+    let sums = Sums::new(propagator.damping, propagator.stiffness, cos, pulls);
     let times = if second { &sums.time[1] } else { &sums.time[0] };
     let time = exact(times, start)?;
     let losses = if second { &sums.lost[1] } else { &sums.lost[0] };
@@ -92,18 +92,18 @@ pub(super) struct Swing {
 
 /// Steps through the crossings that `limit` sums, up to the instant `s`.
 pub(super) fn replay(
-    world: &World,
+    parameters: &Parameters,
     drive: &Drive,
     a: u32,
     second: bool,
     speed: f64,
     s: f64,
 ) -> Swing {
-    let Plane { re: cos, im: sin } = world.turn;
-    let [(qa, _), (qb, _)] = opening(world, drive, a, 0.0);
-    let pulls = pulls(world, qa, qb);
-    let kernel = slide::kernel(world, drive.nu);
-    let (duration, back) = excursion(kernel.damping, kernel.stiffness);
+    let Plane { re: cos, im: sin } = parameters.turn;
+    let [(qa, _), (qb, _)] = opening(parameters, drive, a, 0.0);
+    let pulls = pulls(parameters, qa, qb);
+    let propagator = slide::propagator(parameters, drive.nu);
+    let (duration, back) = excursion(propagator.damping, propagator.stiffness);
     let mut swing = Swing { second, distance: 0.0, speed, lost: 0.0 };
     let mut left = s;
     loop {
@@ -111,7 +111,7 @@ pub(super) fn replay(
         let start = swing.speed / pull;
         let time = value(&duration, start);
         if time >= left {
-            let response = kernel.at(left);
+            let response = propagator.at(left);
             swing.distance = (swing.speed * response.unit - pull * response.ramp).max(0.0);
             swing.speed = swing.speed * response.slope - pull * response.unit;
             return swing;
@@ -129,17 +129,17 @@ pub(super) fn replay(
 }
 
 /// Accelerations towards the corner along either side, the other side open.
-fn pulls(world: &World, qa: f64, qb: f64) -> [f64; 2] {
-    let Plane { re: cos, im: sin } = world.turn;
+fn pulls(parameters: &Parameters, qa: f64, qb: f64) -> [f64; 2] {
+    let Plane { re: cos, im: sin } = parameters.turn;
     [-(qb - cos * qa) / sin, -(qa - cos * qb) / sin]
 }
 
-fn value(series: &Series, x: f64) -> f64 {
+fn value(series: &SideSeries, x: f64) -> f64 {
     series.iter().rev().fold(0.0, |sum, term| sum * x + term)
 }
 
 /// The series at `x`, if its last orders are round-off.
-fn exact(series: &Series, x: f64) -> Option<f64> {
+fn exact(series: &SideSeries, x: f64) -> Option<f64> {
     let sum = value(series, x);
     let last = x.powi(ORDERS as i32 - 1);
     let tail = (series[ORDERS - 1] * last).abs() + (series[ORDERS] * last * x).abs();
@@ -148,8 +148,8 @@ fn exact(series: &Series, x: f64) -> Option<f64> {
 
 /// Sums over all crossings to come, from either side, in powers of `v/A`.
 struct Sums {
-    time: [Series; 2],
-    lost: [Series; 2],
+    time: [SideSeries; 2],
+    lost: [SideSeries; 2],
 }
 
 impl Sums {
@@ -166,7 +166,11 @@ impl Sums {
 
 /// Solves `X_a(x) = F_a(x) + X_b(keep_a R(x))` and the same with `a` and `b`
 /// exchanged, order by order.
-fn accumulate(powers: &[Series; ORDERS + 1], keep: [f64; 2], each: [Series; 2]) -> [Series; 2] {
+fn accumulate(
+    powers: &[SideSeries; ORDERS + 1],
+    keep: [f64; 2],
+    each: [SideSeries; 2],
+) -> [SideSeries; 2] {
     let mut sums = [[0.0; ORDERS + 1]; 2];
     // The sums found so far, times the powers of what is kept.
     let mut scaled = [[0.0; ORDERS + 1]; 2];
@@ -189,7 +193,7 @@ fn accumulate(powers: &[Series; ORDERS + 1], keep: [f64; 2], each: [Series; 2]) 
 
 /// Duration and return speed (over `A`) of an excursion that starts with the
 /// speed `A x`, as series in `x`.
-fn excursion(c: f64, kappa: f64) -> (Series, Series) {
+fn excursion(c: f64, kappa: f64) -> (SideSeries, SideSeries) {
     // unit = sum a_n s^n with a_1 = 1, ramp its integral; x = ramp/unit.
     let mut unit = [0.0; ORDERS + 2];
     unit[1] = 1.0;
@@ -229,7 +233,7 @@ fn excursion(c: f64, kappa: f64) -> (Series, Series) {
 }
 
 /// Powers of a series without constant term, from the zeroth to the last order.
-fn powers(series: &Series) -> [Series; ORDERS + 1] {
+fn powers(series: &SideSeries) -> [SideSeries; ORDERS + 1] {
     let mut table = [[0.0; ORDERS + 1]; ORDERS + 1];
     table[0][0] = 1.0;
     for k in 1..=ORDERS {
@@ -243,35 +247,35 @@ fn powers(series: &Series) -> [Series; ORDERS + 1] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::motion::kernel::Kernel;
+    use crate::motion::propagator::Propagator;
 
     /// One excursion by bisection on the closed form.
-    fn stepped(kernel: &Kernel, pull: f64, speed: f64) -> (f64, f64) {
-        let place = |s: f64| speed * kernel.at(s).unit - pull * kernel.at(s).ramp;
+    fn stepped(propagator: &Propagator, pull: f64, speed: f64) -> (f64, f64) {
+        let place = |s: f64| speed * propagator.at(s).unit - pull * propagator.at(s).ramp;
         let (mut low, mut high) = (1e-3 * speed / pull, 3.0 * speed / pull);
         for _ in 0..200 {
             let middle = 0.5 * (low + high);
             if place(middle) > 0.0 { low = middle } else { high = middle }
         }
-        let response = kernel.at(low);
+        let response = propagator.at(low);
         (low, -(speed * response.slope - pull * response.unit))
     }
 
     #[test]
     fn one_excursion_and_the_sum_of_all_agree_with_stepping() {
         let (c, kappa) = (44.0, -1.5e6);
-        let kernel = Kernel::new(c, kappa);
+        let propagator = Propagator::new(c, kappa);
         let (duration, back) = excursion(c, kappa);
         let pulls = [20.0, 55.0];
         let cos = (std::f64::consts::PI / 5.5).cos();
         let sums = Sums::new(c, kappa, cos, pulls);
         let start = 4e-6;
-        let (time, speed) = stepped(&kernel, 1.0, start);
+        let (time, speed) = stepped(&propagator, 1.0, start);
         assert!((value(&duration, start) / time - 1.0).abs() < 1e-13);
         assert!((value(&back, start) / speed - 1.0).abs() < 1e-13);
         let (mut total, mut lost, mut speed) = (0.0, 0.0, start * pulls[0]);
         for n in 0..400 {
-            let (time, back) = stepped(&kernel, pulls[n % 2], speed);
+            let (time, back) = stepped(&propagator, pulls[n % 2], speed);
             total += time;
             lost += back * back;
             speed = cos * back;

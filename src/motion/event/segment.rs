@@ -6,8 +6,8 @@ use std::f64::consts::TAU;
 use super::Event;
 use super::free::Free;
 use super::mode::{Mode, Next, What};
-use super::world::{Drive, Plane};
-use crate::motion::{Failure, FailureReason, Touching};
+use super::parameters::{Drive, Plane};
+use crate::motion::{ActiveSet, Failure, FailureReason};
 use crate::tolerances::{MOST_EVENTS, MOST_EVENTS_AT_ONCE, MOST_LOOKS};
 
 impl Event {
@@ -30,7 +30,7 @@ impl Event {
             self.events += 1;
         }
         let reason = if what == What::Gone {
-            Some(FailureReason::NoCorner { radius_m: self.world.reach })
+            Some(FailureReason::NoCorner { radius_m: self.parameters.reach })
         } else if what == What::Lost {
             Some(FailureReason::Series)
         } else if self.events > MOST_EVENTS {
@@ -54,9 +54,9 @@ impl Event {
     pub(super) fn arrive(&mut self, until: f64) -> Result<(), Failure> {
         self.check_angles(self.elapsed(until))?;
         self.now = until.max(self.now);
-        let touching = self.mode.touching(&self.world);
-        if touching != Touching::Nothing {
-            self.log.touch(self.now, touching);
+        let active_set = self.mode.active_set(&self.parameters);
+        if active_set != ActiveSet::Nothing {
+            self.log.touch(self.now, active_set);
         }
         Ok(())
     }
@@ -93,7 +93,7 @@ impl Event {
                 self.fail(self.safe, FailureReason::Looks);
                 return None;
             }
-            match self.mode.look(&self.world, &self.drive, self.safe, end) {
+            match self.mode.look(&self.parameters, &self.drive, self.safe, end) {
                 Next::Until(later) => self.safe = later.min(end),
                 Next::Now(what) => self.found = Some((self.safe, what)),
             }
@@ -108,9 +108,9 @@ impl Event {
     /// Books the segment and moves its start by `s`; the mode is left to be
     /// replaced.
     pub(super) fn rebase(&mut self, s: f64, what: Option<What>) {
-        self.mode.book(&self.world, &self.drive, s, &mut self.ledger);
-        self.widest = self.mode.largest_angle(&self.world, &self.drive, s, self.widest);
-        let tips = self.mode.tips(&self.world, s);
+        self.mode.book(&self.parameters, &self.drive, s, &mut self.energy_balance);
+        self.widest = self.mode.largest_angle(&self.parameters, &self.drive, s, self.widest);
+        let tips = self.mode.tips(&self.parameters, s);
         let phase = self.drive.phase(s) % TAU;
         if what == Some(What::PulseEnd) {
             self.start = (self.pulse.end, 0.0);
@@ -133,13 +133,13 @@ impl Event {
     /// Rotor and pulse from the start of the segment on.
     pub(super) fn drive_now(&self, phase: f64) -> Drive {
         let t = self.start.0;
-        let diameters = self.world.machine.nodal_diameters;
+        let diameters = self.parameters.machine.nodal_diameters;
         let acting = (self.pulse.start..self.pulse.end).contains(&t);
         Drive {
             phase,
             nu: diameters * self.rotor.speed(t),
             nu_rate: diameters * self.rotor.ramp(),
-            pulse: if acting { self.pulse.force / self.world.mass } else { 0.0 },
+            pulse: if acting { self.pulse.force / self.parameters.mass } else { 0.0 },
         }
     }
 
@@ -156,15 +156,15 @@ impl Event {
             return;
         }
         let s = self.elapsed(self.now);
-        let tips = self.mode.tips(&self.world, s);
-        let (place, mut rate) = self.mode.seen_by_rotor(&self.world, &self.drive, s);
-        let side = self.mode.along(&self.world, &self.drive, s);
+        let tips = self.mode.tips(&self.parameters, s);
+        let (place, mut rate) = self.mode.seen_by_rotor(&self.parameters, &self.drive, s);
+        let side = self.mode.along(&self.parameters, &self.drive, s);
         if let (Mode::Slide(_) | Mode::Driven(_), Some((side, along))) = (&self.mode, side) {
-            let (normal, _) = self.world.normal(side, &tips);
+            let (normal, _) = self.parameters.normal(side, &tips);
             rate += Plane::i() * normal * ((factor - 1.0) * along.rate);
         }
         let flight = match &self.mode {
-            Mode::Free(free) => Some(free.at(&self.world, &self.drive, s)),
+            Mode::Free(free) => Some(free.at(&self.parameters, &self.drive, s)),
             _ => None,
         };
         let corner = self.mode.corner().filter(|_| !matches!(self.mode, Mode::Rocking { .. }));

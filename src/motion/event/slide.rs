@@ -6,9 +6,9 @@
 //! `y` grows backward, towards decreasing angle: `y = g0 tan delta` is the
 //! corner with the side of next lower phase.
 
-use super::approach::{curved_step, leaving_step};
-use super::world::{Drive, World};
-use crate::motion::kernel::Kernel;
+use super::advancement::{curved_step, leaving_step};
+use super::parameters::{Drive, Parameters};
+use crate::motion::propagator::Propagator;
 
 /// Sliding on `side` from `y` with rate `rate`.
 #[derive(Clone, Copy, Debug)]
@@ -18,7 +18,7 @@ pub(super) struct Slide {
     pub y: f64,
     /// Its rate \[m/s\].
     pub rate: f64,
-    kernel: Kernel,
+    propagator: Propagator,
     /// Acceleration at rest at the start \[m/s^2\].
     pull: f64,
 }
@@ -48,34 +48,40 @@ pub(super) enum Ahead {
 }
 
 impl Slide {
-    pub(super) fn new(world: &World, drive: &Drive, side: u32, y: f64, rate: f64) -> Self {
-        let kernel = kernel(world, drive.nu);
-        let drag = 2.0 * world.damping * drive.nu * world.clearance;
-        Self { side, y, rate, kernel, pull: drag - kernel.stiffness * y }
+    pub(super) fn new(
+        parameters: &Parameters,
+        drive: &Drive,
+        side: u32,
+        y: f64,
+        rate: f64,
+    ) -> Self {
+        let propagator = propagator(parameters, drive.nu);
+        let drag = 2.0 * parameters.damping * drive.nu * parameters.clearance;
+        Self { side, y, rate, propagator, pull: drag - propagator.stiffness * y }
     }
 
     /// Displacement from the start and rate, `s` seconds on.
     fn moved(&self, s: f64) -> (f64, f64) {
-        let response = self.kernel.at(s);
+        let response = self.propagator.at(s);
         let displacement = self.rate * response.unit + self.pull * response.ramp;
         (displacement, self.rate * response.slope + self.pull * response.unit)
     }
 
-    pub(super) fn at(&self, world: &World, drive: &Drive, s: f64) -> Along {
+    pub(super) fn at(&self, parameters: &Parameters, drive: &Drive, s: f64) -> Along {
         let (displacement, rate) = self.moved(s);
         let y = self.y + displacement;
-        Along { y, rate, push: world.push(drive.nu, 0.0, y, rate, 0.0) }
+        Along { y, rate, push: parameters.push(drive.nu, 0.0, y, rate, 0.0) }
     }
 
     /// Fastest rate of the motion along the side \[1/s\].
     pub(super) fn fastest(&self) -> f64 {
-        2.0 * self.kernel.damping + self.kernel.stiffness.abs().sqrt()
+        2.0 * self.propagator.damping + self.propagator.stiffness.abs().sqrt()
     }
 
     /// Looks ahead from `s`, before which nothing happens.
-    pub(super) fn look(&self, world: &World, drive: &Drive, s: f64) -> Ahead {
+    pub(super) fn look(&self, parameters: &Parameters, drive: &Drive, s: f64) -> Ahead {
         let (displacement, rate) = self.moved(s);
-        let (kappa, c, nu) = (self.kernel.stiffness, self.kernel.damping, drive.nu);
+        let (kappa, c, nu) = (self.propagator.stiffness, self.propagator.damping, drive.nu);
         let pull = self.pull - kappa * displacement;
         let acceleration = pull - 2.0 * c * rate;
         let third = -2.0 * c * acceleration - kappa * rate;
@@ -89,10 +95,10 @@ impl Slide {
         let mut stride = span;
         for up in [true, false] {
             let sign = if up { -1.0 } else { 1.0 };
-            let room = world.half_side + sign * self.y;
+            let room = parameters.half_side + sign * self.y;
             let gap = room + sign * displacement;
             let closing = sign * rate;
-            let noise = world.tolerance * (room + self.rate.abs() * s);
+            let noise = parameters.tolerance * (room + self.rate.abs() * s);
             if s == 0.0 && room == 0.0 && rate == 0.0 {
                 let jounce = jerk * fastest;
                 stride = stride.min(leaving_step(sign * acceleration, sign * third, jounce));
@@ -104,9 +110,9 @@ impl Slide {
             }
         }
         let y = self.y + displacement;
-        let push = world.push(nu, 0.0, y, rate, 0.0);
+        let push = parameters.push(nu, 0.0, y, rate, 0.0);
         let push_rate = -2.0 * nu * (acceleration + c * rate);
-        let noise = push_noise(world, nu, y, rate, 0.0);
+        let noise = push_noise(parameters, nu, y, rate, 0.0);
         if push <= noise && push_rate < 0.0 {
             return Ahead::Release;
         }
@@ -120,13 +126,13 @@ impl Slide {
 
 /// Response along a side at the wave frequency `nu`. The difference of squares
 /// is taken as a product, so that it is exactly zero at `nu = omega_c`.
-pub(super) fn kernel(world: &World, nu: f64) -> Kernel {
-    Kernel::new(world.damping, (world.omega - nu) * (world.omega + nu))
+pub(super) fn propagator(parameters: &Parameters, nu: f64) -> Propagator {
+    Propagator::new(parameters.damping, (parameters.omega - nu) * (parameters.omega + nu))
 }
 
 /// Round-off of the push \[m/s^2\].
-pub(super) fn push_noise(world: &World, nu: f64, y: f64, rate: f64, pulse: f64) -> f64 {
-    let square = (world.omega * world.omega).max(nu * nu);
-    world.tolerance
-        * (square * (world.clearance + y.abs()) + 2.0 * nu.abs() * rate.abs() + pulse.abs())
+pub(super) fn push_noise(parameters: &Parameters, nu: f64, y: f64, rate: f64, pulse: f64) -> f64 {
+    let square = (parameters.omega * parameters.omega).max(nu * nu);
+    parameters.tolerance
+        * (square * (parameters.clearance + y.abs()) + 2.0 * nu.abs() * rate.abs() + pulse.abs())
 }

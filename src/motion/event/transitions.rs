@@ -12,24 +12,24 @@
 use super::Event;
 use super::corner;
 use super::corner_contact::CornerContact;
+use super::corner_series::CornerSeries;
 use super::free::{Free, Leaving};
-use super::held::Held;
 use super::mode::{Mode, What};
+use super::parameters::Plane;
 use super::rocking;
-use super::series::{From, Series};
+use super::side_series::{From, SideSeries};
 use super::slide::Slide;
-use super::world::Plane;
-use crate::motion::{FailureReason, Touching};
+use crate::motion::{ActiveSet, FailureReason};
 use crate::tolerances::{BRIEF_ROCKING, ON_A_SIDE};
 
 impl Event {
     /// The first mode, from the initial state.
     pub(super) fn begin(&mut self, place: Plane, rate: Plane) {
-        let rim = &self.world.machine.rim;
-        let side = rim.nearest_side(place.re, place.im);
-        if rim.gap(side, place.re, place.im) <= ON_A_SIDE * self.world.clearance {
+        let polygon = &self.parameters.machine.polygon;
+        let side = polygon.nearest_side(place.re, place.im);
+        if polygon.gap(side, place.re, place.im) <= ON_A_SIDE * self.parameters.clearance {
             // A rate against the blades that is round-off of its two parts is none.
-            let direction = self.world.direction(side);
+            let direction = self.parameters.direction(side);
             let carried = Plane::i() * place * self.drive.nu;
             let local = (rate - carried) * direction.conj();
             let noise = ON_A_SIDE * (rate.norm() + carried.norm());
@@ -42,26 +42,26 @@ impl Event {
 
     /// Passes the event `what`, `s` seconds into the segment.
     pub(super) fn pass(&mut self, s: f64, what: What) {
-        let (place, rate) = self.mode.seen_by_rotor(&self.world, &self.drive, s);
-        let along = self.mode.along(&self.world, &self.drive, s);
+        let (place, rate) = self.mode.seen_by_rotor(&self.parameters, &self.drive, s);
+        let along = self.mode.along(&self.parameters, &self.drive, s);
         let corner = self.mode.corner();
         let flight = match &self.mode {
-            Mode::Free(free) => Some(free.at(&self.world, &self.drive, s)),
+            Mode::Free(free) => Some(free.at(&self.parameters, &self.drive, s)),
             _ => None,
         };
-        let tips = self.mode.tips(&self.world, s);
+        let tips = self.mode.tips(&self.parameters, s);
         self.rebase(s, Some(what));
         self.tips = tips;
-        let rim = &self.world.machine.rim;
+        let polygon = &self.parameters.machine.polygon;
         match (what, along, corner) {
             (What::Touch(side), ..) => self.touch(side, place, rate),
             (What::Edge(upper), Some((side, along)), _) => {
-                let a = if upper { rim.previous(side) } else { side };
+                let a = if upper { polygon.previous(side) } else { side };
                 self.cross(a, upper, along.rate, rate);
             }
             (What::Release, Some((side, along)), _) => self.leave(&[side], along.y, rate),
             (What::Yield(second), _, Some(a)) => {
-                let side = if second { a } else { rim.next(a) };
+                let side = if second { a } else { polygon.next(a) };
                 self.hold_at_corner(side, rate, !second, 0.0);
             }
             (What::Lock | What::SeriesEnd, _, Some(a)) => self.enter_corner(a),
@@ -81,13 +81,15 @@ impl Event {
         let contact = self.corner_contact(a);
         let mut openings = self.openings(&contact, rate);
         openings[usize::from(second)] = 0.0;
-        if self.world.blades.is_none() {
+        if self.parameters.blades.is_none() {
             // The closed form keeps all digits of a slow motion.
-            openings[usize::from(!second)] = -along.abs() * self.world.turn.im;
+            openings[usize::from(!second)] = -along.abs() * self.parameters.turn.im;
         }
         self.meet_corner(&contact, rate, openings);
         // What goes on along one side may be the beginning of the end.
-        let Some((side, along)) = self.mode.along(&self.world, &self.drive, 0.0) else { return };
+        let Some((side, along)) = self.mode.along(&self.parameters, &self.drive, 0.0) else {
+            return;
+        };
         let second = side != a;
         let speed = match &self.mode {
             Mode::Driven(series) => series.parting(second),
@@ -97,16 +99,16 @@ impl Event {
         if speed <= 0.0 {
             return;
         }
-        let Some(limit) = rocking::limit(&self.world, &self.drive, a, second, speed) else {
+        let Some(limit) = rocking::limit(&self.parameters, &self.drive, a, second, speed) else {
             return;
         };
-        match self.world.blades {
+        match self.parameters.blades {
             None => {
                 let rocking::Limit { time, lost } = limit;
                 self.mode = Mode::Rocking { a, second, speed, time, lost };
             }
             Some(blades) => {
-                let rates = self.world.omega + self.drive.nu.abs() + blades.omega;
+                let rates = self.parameters.omega + self.drive.nu.abs() + blades.omega;
                 if limit.time * rates <= BRIEF_ROCKING {
                     self.stop_rocking(a);
                 }
@@ -118,16 +120,16 @@ impl Event {
     /// stop it now are what the crossings to come add to the pushes of the corner
     /// at rest.
     fn stop_rocking(&mut self, a: u32) {
-        let (_, rate) = self.mode.seen_by_rotor(&self.world, &self.drive, 0.0);
+        let (_, rate) = self.mode.seen_by_rotor(&self.parameters, &self.drive, 0.0);
         let contact = self.corner_contact(a);
         let [first, second] = self.openings(&contact, rate);
         let impulses = contact.cancelled(first, second);
         for (side, y, impulse) in contact.on_sides(impulses) {
             self.kick(side, y, impulse);
         }
-        self.ledger.lost -= 0.5 * (first * impulses[0] + second * impulses[1]);
+        self.energy_balance.lost -= 0.5 * (first * impulses[0] + second * impulses[1]);
         let rotor = impulses[0] * contact.y[0] + impulses[1] * contact.y[1];
-        self.ledger.rotor -= rotor * self.drive.nu;
+        self.energy_balance.rotor -= rotor * self.drive.nu;
         self.rest(a, contact.struck(rate, impulses));
     }
 
@@ -149,22 +151,24 @@ impl Event {
 
     /// Second derivatives of both gaps of a corner at rest, without its pushes.
     fn opening_accelerations(&self, contact: &CornerContact, rate: Plane) -> [f64; 2] {
-        let (world, drive) = (&self.world, &self.drive);
-        if world.blades.is_none() {
-            return corner::opening(world, drive, contact.a, 0.0).map(|opening| opening.0);
+        let (parameters, drive) = (&self.parameters, &self.drive);
+        if parameters.blades.is_none() {
+            return corner::opening(parameters, drive, contact.a, 0.0).map(|opening| opening.0);
         }
-        let flight = self.flight(contact.place(world), rate);
-        let noise = world.push_noise(drive);
+        let flight = self.flight(contact.place(parameters), rate);
+        let noise = parameters.push_noise(drive);
         [contact.a, contact.b].map(|side| {
-            let opening = flight.curvature(world, drive, side).0;
+            let opening = flight.curvature(parameters, drive, side).0;
             if opening.abs() <= noise { 0.0 } else { opening }
         })
     }
 
     fn enter_corner(&mut self, a: u32) {
-        let mode = match &self.world.blades {
+        let mode = match &self.parameters.blades {
             None => Mode::Corner(a),
-            Some(blades) => Mode::Held(Held::new(&self.world, &self.drive, blades, a, &self.tips)),
+            Some(blades) => {
+                Mode::Held(CornerSeries::new(&self.parameters, &self.drive, blades, a, &self.tips))
+            }
         };
         self.enter(mode);
     }
@@ -183,17 +187,17 @@ impl Event {
 
     /// Place and rate along a side, as above.
     fn at_corner(&self, side: u32, rate: Plane, upper: bool, opens: f64) -> (f64, f64) {
-        let world = &self.world;
-        let lower = if upper { world.machine.rim.previous(side) } else { side };
-        let half = world.half_length(lower, &self.tips);
+        let parameters = &self.parameters;
+        let lower = if upper { parameters.machine.polygon.previous(side) } else { side };
+        let half = parameters.half_length(lower, &self.tips);
         let (y, away) = if upper { (half, -1.0) } else { (-half, 1.0) };
-        if world.blades.is_none() {
+        if parameters.blades.is_none() {
             // The rate away from the corner keeps the digits of the opening.
-            return (y, away * opens / world.turn.im);
+            return (y, away * opens / parameters.turn.im);
         }
-        let (normal, spin) = world.normal(side, &self.tips);
+        let (normal, spin) = parameters.normal(side, &self.tips);
         // i (-g0 + i y) spin has the imaginary part -g0 spin.
-        (y, (rate * normal.conj()).im + world.clearance * spin)
+        (y, (rate * normal.conj()).im + parameters.clearance * spin)
     }
 
     fn slide_from_corner(&mut self, side: u32, rate: Plane, upper: bool, opens: f64) {
@@ -215,28 +219,28 @@ impl Event {
 
     /// Whether a side that touches without rate pushes.
     fn pushes(&self, side: u32, y: f64, along: f64, rate: Plane) -> bool {
-        let (world, drive) = (&self.world, &self.drive);
-        let push = match &world.blades {
+        let (parameters, drive) = (&self.parameters, &self.drive);
+        let push = match &parameters.blades {
             None => {
-                let pulse = drive.pulse * drive.inward(world, side, 0.0).re;
-                world.push(drive.nu, drive.nu_rate, y, along, pulse)
+                let pulse = drive.pulse * drive.inward(parameters, side, 0.0).re;
+                parameters.push(drive.nu, drive.nu_rate, y, along, pulse)
             }
             Some(blades) => {
                 let flight = self.flight(self.on_side(side, y), rate);
-                -flight.curvature(world, drive, side).0 / (1.0 + blades.ratio * y * y)
+                -flight.curvature(parameters, drive, side).0 / (1.0 + blades.ratio * y * y)
             }
         };
         push >= 0.0
     }
 
     fn slide(&mut self, side: u32, from: &From) {
-        let (world, drive) = (&self.world, &self.drive);
-        if world.blades.is_none() && drive.steady() {
-            self.enter(Mode::Slide(Slide::new(world, drive, side, from.y, from.rate)));
+        let (parameters, drive) = (&self.parameters, &self.drive);
+        if parameters.blades.is_none() && drive.steady() {
+            self.enter(Mode::Slide(Slide::new(parameters, drive, side, from.y, from.rate)));
             return;
         }
-        let series = Series::new(world, drive, side, from);
-        if series.may_meet_other(world) {
+        let series = SideSeries::new(parameters, drive, side, from);
+        if series.may_meet_other(parameters) {
             self.fail(0.0, FailureReason::TwoSides { angle_rad: from.tips.angle.norm() });
         }
         self.enter(Mode::Driven(series));
@@ -248,7 +252,7 @@ impl Event {
         let flight = self.flight(self.on_side(first, y), rate);
         let mut free = flight;
         for (slot, &side) in free.leaving.iter_mut().zip(sides) {
-            let (bend, twist) = flight.curvature(&self.world, &self.drive, side);
+            let (bend, twist) = flight.curvature(&self.parameters, &self.drive, side);
             *slot = Some(Leaving { side, bend: bend.max(0.0), twist });
         }
         self.enter(Mode::Free(free));
@@ -256,7 +260,7 @@ impl Event {
 
     /// Place of a point on a side.
     fn on_side(&self, side: u32, y: f64) -> Plane {
-        Plane::new(-self.world.clearance, y) * self.world.normal(side, &self.tips).0
+        Plane::new(-self.parameters.clearance, y) * self.parameters.normal(side, &self.tips).0
     }
 
     /// Free flight from a place and rate that the rotor sees.
@@ -268,13 +272,13 @@ impl Event {
 
     pub(super) fn enter(&mut self, mode: Mode) {
         let t = self.start.0;
-        let touching = mode.touching(&self.world);
-        let before = self.log.touching;
-        if before != Touching::Nothing && before != touching {
+        let active_set = mode.active_set(&self.parameters);
+        let before = self.log.active_set;
+        if before != ActiveSet::Nothing && before != active_set {
             // The old contact lasted until now.
             self.log.touch(t, before);
         }
-        self.log.touch(t, touching);
+        self.log.touch(t, active_set);
         self.mode = mode;
     }
 }

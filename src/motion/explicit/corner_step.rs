@@ -16,7 +16,7 @@
 use nalgebra::Complex;
 
 use super::blades::ModalBlades;
-use super::held::Modes;
+use super::held_corner::Modes;
 use super::oscillator::{Coordinate, Oscillator};
 use crate::contact;
 use crate::model::Machine;
@@ -60,7 +60,7 @@ impl CornerStep {
         Self {
             sides,
             directions: sides.map(|side| {
-                let (c, s) = machine.rim.direction(side);
+                let (c, s) = machine.polygon.direction(side);
                 Plane::new(c, s)
             }),
             clearance: machine.clearance(),

@@ -6,18 +6,18 @@
 
 use nalgebra::DMatrix;
 
-use super::{BREAK_STEPS, Blades, Explicit, Row};
+use super::{BREAK_STEPS, BladeModel, ConstraintRow, Explicit};
 use crate::contact::{
     self,
-    repeated::{Reference, Repeat, Repeated},
+    repeated::{GroupReference, Repeat, Repeated},
 };
-use crate::motion::{FailureReason, Touching};
+use crate::motion::{ActiveSet, FailureReason};
 
 /// Part of their phases by which blades of one side that stand alike may differ:
 /// the round-off of the sums that their angles are.
 const SAME_TURN: f64 = 1e-13;
 
-impl<B: Blades> Explicit<B> {
+impl<B: BladeModel> Explicit<B> {
     /// A predicted step outside the circle of the clearance: find what
     /// penetrates and correct it. Returns a bound on what that does to any blade
     /// angle \[rad\].
@@ -36,7 +36,7 @@ impl<B: Blades> Explicit<B> {
             return Ok(0.0);
         }
         self.deepest_predicted = self.deepest_predicted.max(deepest);
-        let clearance = self.machine.rim.clearance;
+        let clearance = self.machine.polygon.clearance;
         if deepest > clearance {
             let (depth_m, clearance_m) = (deepest, clearance);
             return Err(FailureReason::Penetration { depth_m, clearance_m });
@@ -62,75 +62,83 @@ impl<B: Blades> Explicit<B> {
         self.near = near;
         self.rows.clear();
         let mut deepest = self.add_side(near, z);
-        let mut right = self.machine.rim.next(near);
+        let mut right = self.machine.polygon.next(near);
         while right != near && self.is_close(right, z) {
             let depth = self.add_side(right, z);
             deepest = deepest.max(depth);
             if depth <= 0.0 {
                 break;
             }
-            right = self.machine.rim.next(right);
+            right = self.machine.polygon.next(right);
         }
-        let mut left = self.machine.rim.previous(near);
+        let mut left = self.machine.polygon.previous(near);
         while left != near && left != right && self.is_close(left, z) {
             let depth = self.add_side(left, z);
             deepest = deepest.max(depth);
             if depth <= 0.0 {
                 break;
             }
-            left = self.machine.rim.previous(left);
+            left = self.machine.polygon.previous(left);
         }
         deepest
     }
 
     fn is_close(&self, side: u32, z: (f64, f64)) -> bool {
-        let rim = &self.machine.rim;
-        self.neighbours_matter || rim.gap(side, z.0, z.1) < self.look
+        let polygon = &self.machine.polygon;
+        self.neighbours_matter || polygon.gap(side, z.0, z.1) < self.look
     }
 
-    /// The side nearest to `z`, from the one found last: around the rim the
+    /// The side nearest to `z`, from the one found last: around the polygon the
     /// gap has a single minimum.
     fn follow(&self, z: (f64, f64)) -> u32 {
-        let rim = &self.machine.rim;
-        let gap = |side| rim.gap(side, z.0, z.1);
+        let polygon = &self.machine.polygon;
+        let gap = |side| polygon.gap(side, z.0, z.1);
         let here = gap(self.near);
-        // On the far side of the rim the gap has its maximum instead.
-        if here < self.machine.rim.clearance
-            && here <= gap(rim.previous(self.near))
-            && here <= gap(rim.next(self.near))
+        // On the far side of the polygon the gap has its maximum instead.
+        if here < self.machine.polygon.clearance
+            && here <= gap(polygon.previous(self.near))
+            && here <= gap(polygon.next(self.near))
         {
             self.near
         } else {
-            rim.nearest_side(z.0, z.1)
+            polygon.nearest_side(z.0, z.1)
         }
     }
 
     /// Appends the rows of a side that penetrate (or matter); its deepest
     /// penetration.
     fn add_side(&mut self, side: u32, z: (f64, f64)) -> f64 {
-        let rim = &self.machine.rim;
+        let polygon = &self.machine.polygon;
         let diameters = self.machine.nodal_diameters;
-        let (dir_c, dir_s) = rim.direction(side);
+        let (dir_c, dir_s) = polygon.direction(side);
         let mut deepest = 0.0_f64;
         for place in 0..self.blades.rows_of_side(side) {
             let index = self.blades.row(side, place);
             let turn = diameters * self.blades.angle(index);
             let normal = turned((dir_c, dir_s), turn);
-            let gap = rim.clearance + z.0 * normal.0 + z.1 * normal.1;
+            let gap = polygon.clearance + z.0 * normal.0 + z.1 * normal.1;
             deepest = deepest.max(-gap);
             if gap < 0.0 || self.neighbours_matter {
-                let lever = diameters * (z.1 * normal.0 - z.0 * normal.1);
-                self.rows.push(Row { index, side, gap, turn, normal, lever, lambda: 0.0 });
+                let moment_arm = diameters * (z.1 * normal.0 - z.0 * normal.1);
+                self.rows.push(ConstraintRow {
+                    index,
+                    side,
+                    gap,
+                    turn,
+                    normal,
+                    moment_arm,
+                    lambda: 0.0,
+                });
             }
         }
         deepest
     }
 
     /// Entry of `W = C^T [M/h^2 + D/2h]^-1 C` for two rows \[m/N\].
-    fn influence(&self, a: &Row, b: &Row) -> f64 {
+    fn influence(&self, a: &ConstraintRow, b: &ConstraintRow) -> f64 {
         let casing = a.normal.0 * b.normal.0 + a.normal.1 * b.normal.1;
         self.casing.compliance * casing
-            + a.lever * b.lever * self.blades.compliance(a.index, b.index)
+            + a.moment_arm * b.moment_arm * self.blades.compliance(a.index, b.index)
     }
 
     /// Multipliers of all rows by the chosen law.
@@ -169,19 +177,19 @@ impl<B: Blades> Explicit<B> {
     /// beside the first of its side.
     fn solve_repeated(&mut self) -> Result<(), FailureReason> {
         let diameters = self.machine.nodal_diameters;
-        let (mut groups, mut repeats): (Vec<Reference>, Vec<Repeat>) = Default::default();
+        let (mut groups, mut repeats): (Vec<GroupReference>, Vec<Repeat>) = Default::default();
         let mut first = &self.rows[0];
         for row in &self.rows {
             if groups.is_empty() || row.side != first.side {
                 first = row;
-                groups.push(Reference { gap: row.gap, normal: row.normal });
+                groups.push(GroupReference { gap: row.gap, normal: row.normal });
             }
             let mut repeat = Repeat {
                 group: groups.len() - 1,
                 gap: 0.0,
                 normal: first.normal,
                 turned: (0.0, 0.0),
-                lever: first.lever,
+                moment_arm: first.moment_arm,
             };
             let apart = row.turn - first.turn;
             // Blades that stand alike to round-off are one.
@@ -189,11 +197,11 @@ impl<B: Blades> Explicit<B> {
                 let half = (0.5 * apart).sin();
                 let (cos, sin) = (-2.0 * half * half, apart.sin());
                 let (c, s) = first.normal;
-                let reach = first.gap - self.machine.rim.clearance;
-                repeat.gap = reach * cos + first.lever / diameters * sin;
+                let reach = first.gap - self.machine.polygon.clearance;
+                repeat.gap = reach * cos + first.moment_arm / diameters * sin;
                 repeat.normal = row.normal;
                 repeat.turned = (c * cos - s * sin, s * cos + c * sin);
-                repeat.lever = row.lever;
+                repeat.moment_arm = row.moment_arm;
             }
             repeats.push(repeat);
         }
@@ -234,7 +242,7 @@ impl<B: Blades> Explicit<B> {
             if row.lambda != 0.0 {
                 shift.0 -= self.casing.compliance * row.lambda * row.normal.0;
                 shift.1 -= self.casing.compliance * row.lambda * row.normal.1;
-                let torque = -row.lever * row.lambda;
+                let torque = -row.moment_arm * row.lambda;
                 self.blades.correct(row.index, torque);
                 change += self.blades.compliance(row.index, row.index) * torque.abs();
             }
@@ -245,13 +253,13 @@ impl<B: Blades> Explicit<B> {
     /// Keeps what the step did: impulses, impacts, pulls, penetration left.
     fn record(&mut self, z: (f64, f64)) {
         let n = self.n;
-        let mut touching = Touching::Nothing;
+        let mut active_set = ActiveSet::Nothing;
         let mut pulls = false;
         for row in self.rows.iter().filter(|row| row.lambda != 0.0) {
             let angle = self.blades.angle(row.index);
-            let direction = self.machine.rim.direction(row.side);
+            let direction = self.machine.polygon.direction(row.side);
             let normal = turned(direction, self.machine.nodal_diameters * angle);
-            let gap = self.machine.rim.clearance + z.0 * normal.0 + z.1 * normal.1;
+            let gap = self.machine.polygon.clearance + z.0 * normal.0 + z.1 * normal.1;
             self.deepest = self.deepest.max(-gap);
             let last = &mut self.touched[row.side as usize];
             if *last == 0 || n > *last + BREAK_STEPS {
@@ -259,12 +267,12 @@ impl<B: Blades> Explicit<B> {
             }
             *last = n;
             self.impulses[row.side as usize] += row.lambda * self.step;
-            touching = touching.with(row.side);
+            active_set = active_set.with(row.side);
             pulls |= row.lambda > 0.0;
         }
         self.last_touch = n;
         let t = self.time_of(n);
-        self.log.touch(t, touching);
+        self.log.touch(t, active_set);
         if pulls {
             self.log.tensile(t);
         }
@@ -273,10 +281,10 @@ impl<B: Blades> Explicit<B> {
     /// Whether pushing on one side can push another into the casing: fewer
     /// than four sides, or blades soft enough to couple them.
     pub(super) fn neighbours_matter(&self) -> bool {
-        let rim = &self.machine.rim;
-        let turn = (2.0 * rim.delta).cos();
-        let lever = 2.0 * self.machine.nodal_diameters * rim.clearance;
-        let soft = lever * lever * self.blades.compliance(0, 0);
+        let polygon = &self.machine.polygon;
+        let turn = (2.0 * polygon.delta).cos();
+        let moment_arm = 2.0 * self.machine.nodal_diameters * polygon.clearance;
+        let soft = moment_arm * moment_arm * self.blades.compliance(0, 0);
         turn * self.casing.compliance < 2.0 * soft
     }
 }

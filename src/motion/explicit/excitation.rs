@@ -11,13 +11,13 @@ use crate::scene::Scene;
 
 /// The excitation of one scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Excitation {
+pub struct EngineOrderTorque {
     amplitude: f64,
     order: u32,
     blades: u32,
 }
 
-impl Excitation {
+impl EngineOrderTorque {
     /// The excitation of a scene; none where its amplitude is zero.
     #[must_use]
     pub fn of(scene: &Scene) -> Option<Self> {
@@ -61,7 +61,7 @@ mod tests {
         for blades in [1, 2, 5, 22] {
             for (diameters, order) in [(3, 3), (3, 19), (3, 25), (4, 3), (0, 22), (11, 11), (2, 0)]
             {
-                let excitation = Excitation { amplitude: 1.7, order, blades };
+                let excitation = EngineOrderTorque { amplitude: 1.7, order, blades };
                 let phase = 0.6;
                 let [c, s] = excitation.torque_on(diameters, phase);
                 let mut sum = [0.0; 2];

@@ -5,8 +5,8 @@
 //! form a *block*: it is decided on once, looked at wherever asked, and taken
 //! at its end. Looking never changes the trajectory.
 
-use super::{BREAK_STEPS, Blades, Coordinate, Explicit, Held};
-use crate::motion::{Rotor, Touching};
+use super::{BREAK_STEPS, BladeModel, Coordinate, Explicit, HeldCorner};
+use crate::motion::{ActiveSet, Rotor};
 use crate::tolerances::LARGEST_BLADE_ANGLE;
 
 /// Blocks shorter than this are stepped: deciding costs about as much.
@@ -33,14 +33,14 @@ impl Block {
     }
 }
 
-impl<B: Blades> Explicit<B> {
+impl<B: BladeModel> Explicit<B> {
     /// Whether a block of steps that cannot touch is open, deciding on one if
     /// it can be long enough to be worth it.
     pub(super) fn open_block(&mut self) -> bool {
         if self.block.is_open() {
             return true;
         }
-        let clearance = self.machine.rim.clearance;
+        let clearance = self.machine.polygon.clearance;
         let distance2 = self.u[0].x * self.u[0].x + self.u[1].x * self.u[1].x;
         if self.last_touch == self.n && self.hold() {
             self.block = Block { length: ENDLESS, used: 0 };
@@ -60,7 +60,7 @@ impl<B: Blades> Explicit<B> {
             return false;
         }
         // Such a block is longer than the pause that ends a contact.
-        if self.log.touching != Touching::Nothing {
+        if self.log.active_set != ActiveSet::Nothing {
             self.end_contact(self.n.max(self.last_touch + BREAK_STEPS + 1));
         }
         self.block = Block { length, used: 0 };
@@ -85,7 +85,7 @@ impl<B: Blades> Explicit<B> {
         }
         let skipped = |coordinate| self.casing.skip(coordinate, self.block.used);
         self.block.is_endless()
-            || self.casing.reach_of(self.u.map(skipped)).0 < self.machine.rim.clearance
+            || self.casing.reach_of(self.u.map(skipped)).0 < self.machine.polygon.clearance
     }
 
     /// Whether the pulse still acts on this step or a later one.
@@ -135,12 +135,12 @@ impl<B: Blades> Explicit<B> {
     }
 
     /// Keeps what the steps of a held corner did since `before`.
-    fn log_held(&mut self, held: &Held, before: u64) {
+    fn log_held(&mut self, held: &HeldCorner, before: u64) {
         let (used, t) = (self.block.used, self.time_of(self.steps_taken()));
         for (side, sum) in held.sides().into_iter().zip(held.sums(before, used)) {
             self.impulses[side as usize] += sum * self.step;
         }
-        self.log.touch(t, self.log.touching);
+        self.log.touch(t, self.log.active_set);
         if held.pulls {
             self.log.tensile_steps += used - before;
             self.log.last_tensile = Some(t);

@@ -6,32 +6,32 @@
 //! whatever its angle; a bound on how far the casing can travel says how many
 //! such steps are safe, and those are done at once (`flight`).
 
-mod adopt;
 mod blades;
 mod corner_step;
 mod correct;
+mod decided;
 mod excitation;
 mod flight;
-mod held;
+mod held_corner;
 mod leap;
 mod oscillator;
-mod settled;
+mod parameters;
 mod watch;
 
-pub use blades::{Blades, FullBlades, ModalBlades, RigidBlades};
-pub use excitation::Excitation;
+pub use blades::{BladeModel, FullBlades, ModalBlades, RigidBlades};
+pub use excitation::EngineOrderTorque;
 pub use oscillator::{Coordinate, Oscillator};
 
 use std::sync::Arc;
 
 use super::{
-    Checks, ContactLog, Failure, FailureReason, Pulse, Rotor, Solver, State, Touching, Verdict,
+    ActiveSet, Checks, ContactLog, Failure, FailureReason, Pulse, Rotor, Solver, State, Verdict,
 };
 use crate::contact::{self, StepLaw};
 use crate::model::Machine;
 use crate::scene::CheckedScene;
 use flight::{Block, Phasor};
-use held::Held;
+use held_corner::HeldCorner;
 use watch::Watch;
 
 /// Steps without contact before a contact counts as broken: the scheme's
@@ -40,7 +40,7 @@ const BREAK_STEPS: u64 = 2;
 
 /// The explicit solver on one size of bladed disk.
 #[derive(Clone, Debug)]
-pub struct Explicit<B: Blades> {
+pub struct Explicit<B: BladeModel> {
     scene: Arc<CheckedScene>,
     machine: Machine,
     law: &'static dyn StepLaw,
@@ -52,7 +52,7 @@ pub struct Explicit<B: Blades> {
     /// A step, and the mean force in it of a pulse that another has replaced
     /// \[N\].
     left_over: (u64, f64),
-    excitation: Option<Excitation>,
+    excitation: Option<EngineOrderTorque>,
     casing: Oscillator,
     /// Index of the step the coordinates belong to, `t = n h`.
     n: u64,
@@ -61,7 +61,7 @@ pub struct Explicit<B: Blades> {
     /// Free steps already decided on, not yet taken; see `flight`.
     block: Block,
     /// The corner that the open block holds, if it is one.
-    held: Option<Held>,
+    held: Option<HeldCorner>,
     /// Step before which a corner is not tried to be held.
     hold_tried: u64,
     phasor: Phasor,
@@ -71,7 +71,7 @@ pub struct Explicit<B: Blades> {
     /// Side to begin the search for the deepest penetration at.
     near: u32,
     /// Multipliers of the latest step in contact, by row.
-    rows: Vec<Row>,
+    rows: Vec<ConstraintRow>,
     /// Whether the sides beside a penetrating one always count; see `correct`.
     neighbours_matter: bool,
     /// Rigid gap beyond which no blade of a side can touch now \[m\].
@@ -88,7 +88,7 @@ pub struct Explicit<B: Blades> {
 
 /// One constraint of a step: a side or a blade with its predicted gap.
 #[derive(Clone, Copy, Debug)]
-struct Row {
+struct ConstraintRow {
     index: u32,
     side: u32,
     /// Predicted gap `g*` \[m\].
@@ -98,12 +98,12 @@ struct Row {
     /// `exp(i (psi + n_d alpha))`: the gap is `g0 + Re[z conj(normal)]`.
     normal: (f64, f64),
     /// `A = dg/dalpha` \[m\].
-    lever: f64,
+    moment_arm: f64,
     /// Multiplier \[N\].
     lambda: f64,
 }
 
-impl<B: Blades> Explicit<B> {
+impl<B: BladeModel> Explicit<B> {
     /// The motion of a scene at t = 0.
     pub(super) fn new(scene: &CheckedScene) -> Self {
         let machine = scene.machine();
@@ -122,7 +122,7 @@ impl<B: Blades> Explicit<B> {
             casing.start(initial.u_c_m, initial.v_c_m_s, first_force),
             casing.start(initial.u_s_m, initial.v_s_m_s, 0.0),
         ];
-        let sides = machine.rim.sides as usize;
+        let sides = machine.polygon.sides as usize;
         let mut motion = Self {
             scene: Arc::new(scene.clone()),
             blades: B::at_rest(scene, &machine),
@@ -130,7 +130,7 @@ impl<B: Blades> Explicit<B> {
             law: contact::law(scene.solver.contact),
             next_pulse: pulse,
             left_over: (0, 0.0),
-            excitation: Excitation::of(scene),
+            excitation: EngineOrderTorque::of(scene),
             touched: vec![0; sides],
             impulses: vec![0.0; sides],
             machine,
@@ -171,7 +171,7 @@ impl<B: Blades> Explicit<B> {
         let mut change = self.blades.predict(excitation);
         self.n = n + 1;
         let distance2 = self.u[0].x * self.u[0].x + self.u[1].x * self.u[1].x;
-        let clearance = self.machine.rim.clearance;
+        let clearance = self.machine.polygon.clearance;
         if distance2 < clearance * clearance {
             self.open_gap();
         } else {
@@ -185,14 +185,14 @@ impl<B: Blades> Explicit<B> {
 
     /// Bookkeeping of a step without contact.
     fn open_gap(&mut self) {
-        if self.log.touching != Touching::Nothing && self.n > self.last_touch + BREAK_STEPS {
+        if self.log.active_set != ActiveSet::Nothing && self.n > self.last_touch + BREAK_STEPS {
             self.end_contact(self.n);
         }
     }
 
     /// The contact is broken at step `n`.
     fn end_contact(&mut self, n: u64) {
-        self.log.touch(self.time_of(n), Touching::Nothing);
+        self.log.touch(self.time_of(n), ActiveSet::Nothing);
         self.rows.clear();
     }
 
@@ -225,7 +225,7 @@ impl<B: Blades> Explicit<B> {
     }
 }
 
-impl<B: Blades> Solver for Explicit<B> {
+impl<B: BladeModel> Solver for Explicit<B> {
     fn advance(&mut self, until: f64) -> Result<(), Failure> {
         if let Some(failure) = &self.failure {
             return Err(failure.clone());
@@ -241,7 +241,7 @@ impl<B: Blades> Solver for Explicit<B> {
             };
             if let Err(reason) = moved {
                 let failure = Failure { t_s: self.time_of(self.n), reason };
-                self.log.touch(failure.t_s, Touching::Nothing);
+                self.log.touch(failure.t_s, ActiveSet::Nothing);
                 self.failure = Some(failure.clone());
                 return Err(failure);
             }
@@ -252,7 +252,7 @@ impl<B: Blades> Solver for Explicit<B> {
     fn state(&self) -> State {
         let (u, blades) = self.materialized();
         let n = self.steps_taken();
-        let in_contact = self.log.touching != Touching::Nothing;
+        let in_contact = self.log.active_set != ActiveSet::Nothing;
         let rate = |coordinate: Coordinate, force: f64| {
             if in_contact {
                 coordinate.increment / self.step
@@ -275,13 +275,13 @@ impl<B: Blades> Solver for Explicit<B> {
     }
 
     fn multipliers(&self) -> Vec<(u32, f64)> {
-        if self.log.touching == Touching::Nothing {
+        if self.log.active_set == ActiveSet::Nothing {
             return Vec::new();
         }
         let mut sums: Vec<(u32, f64)> = Vec::new();
         if let Some(held) = self.held.as_ref().filter(|_| self.block.used() > 0) {
             sums.extend(held.sides().into_iter().zip(held.multipliers(self.block.used())));
-            super::contacts::in_phase_order(&self.machine.rim, &mut sums);
+            super::contacts::in_phase_order(&self.machine.polygon, &mut sums);
             return sums;
         }
         for row in self.rows.iter().filter(|row| row.lambda != 0.0) {
@@ -290,7 +290,7 @@ impl<B: Blades> Solver for Explicit<B> {
                 None => sums.push((row.side, row.lambda)),
             }
         }
-        super::contacts::in_phase_order(&self.machine.rim, &mut sums);
+        super::contacts::in_phase_order(&self.machine.polygon, &mut sums);
         sums
     }
 
@@ -304,7 +304,7 @@ impl<B: Blades> Solver for Explicit<B> {
                 *impulse = 0.0;
             }
         }
-        super::contacts::in_phase_order(&self.machine.rim, &mut means);
+        super::contacts::in_phase_order(&self.machine.polygon, &mut means);
         means
     }
 
@@ -312,8 +312,8 @@ impl<B: Blades> Solver for Explicit<B> {
         self.no_contact_to_come()
     }
 
-    fn settled(&self) -> Option<Verdict> {
-        self.settled_verdict()
+    fn final_verdict(&self) -> Option<Verdict> {
+        self.decided()
     }
 
     fn pulse(&self) -> &Pulse {

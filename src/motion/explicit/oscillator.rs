@@ -12,7 +12,7 @@
 use nalgebra::{Matrix2, Vector2};
 
 use super::leap::Leap;
-use crate::motion::kernel::Kernel;
+use crate::motion::propagator::Propagator;
 
 /// Coefficients of the recurrence for one mass, damping and stiffness.
 #[derive(Clone, Debug, PartialEq)]
@@ -103,10 +103,10 @@ impl Oscillator {
     #[must_use]
     pub fn turning_point(&self, at: Coordinate, steps: u64) -> f64 {
         let damping = 0.5 * self.damping / self.mass;
-        let kernel = Kernel::new(damping, self.stiffness / self.mass);
+        let propagator = Propagator::new(damping, self.stiffness / self.mass);
         // The time of a continuous coordinate; steps turn a part of a step
         // earlier or later, as far as their own angle squared.
-        let Some(time) = kernel.first_rest(at.x, self.rate(at, 0.0)) else { return 0.0 };
+        let Some(time) = propagator.first_rest(at.x, self.rate(at, 0.0)) else { return 0.0 };
         let nearest = time / self.step;
         if nearest >= steps as f64 + 1.0 {
             return 0.0;

@@ -14,7 +14,7 @@ pub use tables::*;
 use crate::harmonic::{
     Campbell, CornerBranch, ExcitedLock, Form, LockedPoint, NoSlip, SlipPoint, SlipSpectrum, Sweep,
 };
-use crate::model::{Excitation, Machine, Rim};
+use crate::model::{ContactPolygon, Excitation, Machine};
 use crate::report::number::{count, short};
 
 /// The whole answer of `rubscope hbm --json`.
@@ -51,8 +51,8 @@ impl HbmReport {
 
     /// Adds the locked motion over speed.
     #[must_use]
-    pub fn with_sweep(self, rim: &Rim, sweep: &Sweep) -> Self {
-        let blades = sweep.corner.sides().map(|side| rim.blades_of_side(side));
+    pub fn with_sweep(self, polygon: &ContactPolygon, sweep: &Sweep) -> Self {
+        let blades = sweep.corner.sides().map(|side| polygon.blades_of_side(side));
         let points = sweep.points.iter().map(|point| with_groups(point, &blades));
         self.with("missing_rad_s", &sweep.missing).with("points", points.collect::<Value>())
     }
@@ -184,14 +184,14 @@ pub fn write_heading(
     if !title.is_empty() {
         writeln!(out, "{title}")?;
     }
-    let rim = &machine.rim;
+    let polygon = &machine.polygon;
     writeln!(
         out,
         "{} blades, {}: {} phase groups of {}, clearance {} m.",
-        rim.blades,
-        count(u64::from(rim.nodal_diameters), "nodal diameter"),
-        rim.sides,
-        count(u64::from(rim.blades_per_side), "blade"),
+        polygon.blades,
+        count(u64::from(polygon.nodal_diameters), "nodal diameter"),
+        polygon.sides,
+        count(u64::from(polygon.blades_per_side), "blade"),
         short(machine.clearance())
     )?;
     if let Some(critical) = machine.critical_speed() {
@@ -208,7 +208,7 @@ pub fn write_heading(
     if let Some(sweep) = sweep {
         let name = |side| {
             let list: Vec<String> =
-                rim.blades_of_side(side).iter().map(|blade| format!("#{blade}")).collect();
+                polygon.blades_of_side(side).iter().map(|blade| format!("#{blade}")).collect();
             list.join(" ")
         };
         let damping = if sweep.damped { "damped" } else { "undamped" };

@@ -25,7 +25,7 @@ fn series(label: &str, style: Style, sweep: &Sweep, of: fn(&LockedPoint) -> f64)
 
 fn note(machine: &Machine, sweep: &Sweep) -> String {
     let [a, b] = sweep.corner.sides().map(|side| {
-        let blades = machine.rim.blades_of_side(side);
+        let blades = machine.polygon.blades_of_side(side);
         blades.iter().map(|blade| format!("#{blade}")).collect::<Vec<_>>().join(" ")
     });
     format!("n_d = {}, locked between {a} and {b}", machine.nodal_diameters)

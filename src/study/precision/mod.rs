@@ -14,7 +14,7 @@ use serde::Serialize;
 
 pub use ways::{Effort, Way, ways};
 
-use crate::motion::{Motion, Settled, State, Verdict, is_sensitive};
+use crate::motion::{Motion, State, Verdict, VerdictReached, is_sensitive};
 use crate::scene::{ContactLaw, ModelSize, Scene, SceneError, SolverKind};
 use crate::tolerances;
 use track::Track;
@@ -95,7 +95,7 @@ pub struct Precision {
 }
 
 /// One run to the end.
-struct Run {
+struct TimedRun {
     motion: Motion,
     verdict: Verdict,
     failed: bool,
@@ -147,7 +147,7 @@ impl Measure {
         let resolved = chosen.of(scene)?;
         let run = chosen.run(scene)?;
         let halved = by_events(model, 0.5 * finest).run(scene)?;
-        let settled = Settled::of(&run.motion, run.verdict);
+        let settled = VerdictReached::of(&run.motion, run.verdict);
         let reference = Reference {
             way: chosen,
             verdict: run.verdict,

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use serde::Serialize;
 
-use super::Run;
+use super::TimedRun;
 use crate::motion::{Event, Motion, verdict};
 use crate::scene::{CheckedScene, ContactLaw, ModelSize, Scene, SceneError, SolverKind};
 
@@ -96,12 +96,12 @@ impl Way {
     }
 
     /// Runs to the end and times it.
-    pub(super) fn run(&self, scene: &Scene) -> Result<Run, SceneError> {
+    pub(super) fn run(&self, scene: &Scene) -> Result<TimedRun, SceneError> {
         let started = Instant::now();
         let mut motion = self.start(scene)?;
         let failed = motion.advance(scene.solver.end_s).is_err();
         let wall_s = started.elapsed().as_secs_f64();
         let window = verdict::LAST_PART * scene.solver.end_s;
-        Ok(Run { verdict: crate::motion::verdict_of(&motion, window), failed, wall_s, motion })
+        Ok(TimedRun { verdict: crate::motion::verdict_of(&motion, window), failed, wall_s, motion })
     }
 }

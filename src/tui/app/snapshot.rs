@@ -2,7 +2,7 @@
 //! positions, are dropped.
 
 use super::{App, Ranges};
-use crate::motion::Touching;
+use crate::motion::ActiveSet;
 use crate::tui::axis::AutoRange;
 use crate::tui::engine::{Results, Snapshot};
 use crate::tui::history::{Bin, Channel};
@@ -97,7 +97,7 @@ impl App {
         !self.playing
             || self.latest.moment.as_ref().is_some_and(|moment| {
                 let held = moment.state.t_s - moment.since;
-                matches!(moment.touching, Touching::Corner(..))
+                matches!(moment.active_set, ActiveSet::Corner(..))
                     && held > self.page_s() / THROTTLED_PER_PAGE
             })
     }

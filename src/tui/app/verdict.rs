@@ -2,7 +2,7 @@
 //! another solver disagrees.
 
 use super::App;
-use crate::motion::{Touching, Verdict};
+use crate::motion::{ActiveSet, Verdict};
 use crate::tui::axis::readable;
 use crate::tui::engine::{FullRun, FullRunState};
 use crate::tui::theme::Role;
@@ -106,11 +106,11 @@ impl App {
         if let Some(failure) = &moment.failure {
             return failure.clone();
         }
-        match moment.touching {
-            Touching::Nothing => "no contact".into(),
-            Touching::Side(side) => self.blades_of([side].into_iter()),
-            Touching::Corner(a, b) => self.blades_of([a, b].into_iter()),
-            Touching::Many => "many blades".into(),
+        match moment.active_set {
+            ActiveSet::Nothing => "no contact".into(),
+            ActiveSet::Side(side) => self.blades_of([side].into_iter()),
+            ActiveSet::Corner(a, b) => self.blades_of([a, b].into_iter()),
+            ActiveSet::Many => "many blades".into(),
         }
     }
 
@@ -119,7 +119,7 @@ impl App {
         let mut groups: Vec<String> = Vec::new();
         let mut count = 0;
         for side in sides.take(4) {
-            let blades = self.machine.rim.blades_of_side(side);
+            let blades = self.machine.polygon.blades_of_side(side);
             count += blades.len();
             let names: Vec<String> = blades.iter().take(3).map(ToString::to_string).collect();
             let more = if blades.len() > 3 { ",.." } else { "" };

@@ -7,7 +7,7 @@ use super::comparison::{Comparison, other_law};
 use super::full_run::FullRunJob;
 use super::recorder::Recorder;
 use super::studies::Studies;
-use crate::motion::{Change, Motion, is_sensitive, settle};
+use crate::motion::{Change, Motion, is_sensitive, run_to_verdict};
 use crate::scene::{Scene, SolverKind};
 use crate::tui::engine::{FullRun, FullRunState, Moment, Order, Pace, Results, Snapshot};
 
@@ -186,8 +186,8 @@ impl Playback {
     /// Plays until the contact changes.
     fn jump(&mut self) {
         let sample = self.sample_length();
-        let (touching, impacts) =
-            (self.motion.contacts().touching, self.motion.contacts().impact_count);
+        let (active_set, impacts) =
+            (self.motion.contacts().active_set, self.motion.contacts().impact_count);
         for _ in 0..JUMP_SAMPLES {
             let until = self.motion.state().t_s + sample;
             if self.motion.over() || self.motion.advance(until).is_err() {
@@ -195,7 +195,7 @@ impl Playback {
             }
             self.record();
             let log = self.motion.contacts();
-            if log.touching != touching || log.impact_count != impacts {
+            if log.active_set != active_set || log.impact_count != impacts {
                 break;
             }
         }
@@ -234,7 +234,7 @@ impl Playback {
             state,
             angle: self.motion.rotor().angle(state.t_s),
             speed: self.motion.rotor().speed(state.t_s),
-            touching: log.touching,
+            active_set: log.active_set,
             since: log.since,
             gaps: self.motion.blade_gaps(),
             multipliers: self.recorder.mean_forces(),
@@ -279,7 +279,7 @@ fn reference(scene: &Scene) -> Option<FullRunJob> {
 
 /// Whether a tiny change of the pulse changes the outcome.
 fn sensitive(scene: &Scene) -> bool {
-    scene.as_reference().checked().is_ok_and(|scene| is_sensitive(&scene, settle(&scene)))
+    scene.as_reference().checked().is_ok_and(|scene| is_sensitive(&scene, run_to_verdict(&scene)))
 }
 
 fn done(run: Option<&FullRunJob>) -> Option<FullRun> {

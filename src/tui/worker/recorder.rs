@@ -1,7 +1,7 @@
 //! Samples of a motion as bins of least and greatest values, and contact
 //! forces as means between snapshots.
 
-use crate::motion::{Motion, Touching};
+use crate::motion::{ActiveSet, Motion};
 use crate::tui::history::{Bin, CHANNELS, MOST_BINS, thin};
 
 /// `z = (u_c + i u_s) exp(-i n_d theta)` \[m\], with `turned = n_d theta`.
@@ -45,11 +45,11 @@ impl Recorder {
         let mut bin = Bin::of(self.last.unwrap_or(state.t_s), values);
         bin.to = state.t_s;
         let log = motion.contacts();
-        bin.contact = log.touching != Touching::Nothing || log.impact_count > self.impacts;
+        bin.contact = log.active_set != ActiveSet::Nothing || log.impact_count > self.impacts;
         let impacts = usize::try_from(self.impacts).unwrap_or(usize::MAX);
         let met = log.impacts.iter().skip(impacts).map(|impact| impact.side);
         let pushed = forces.iter().map(|(side, _)| *side);
-        bin.touched = met.chain(pushed).fold(log.touching, Touching::with);
+        bin.touched = met.chain(pushed).fold(log.active_set, ActiveSet::with);
         self.impacts = log.impact_count;
         self.average(&forces, bin.to - bin.from);
         self.last = Some(state.t_s);

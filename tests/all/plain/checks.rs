@@ -1,6 +1,6 @@
 //! What the program and the plain stepper must agree on, each to its round-off.
 
-use rubscope::motion::{Touching, Verdict, verdict_of};
+use rubscope::motion::{ActiveSet, Verdict, verdict_of};
 use rubscope::scene::ModelSize;
 
 use super::compare::{Pair, ROOM, distance};
@@ -54,7 +54,7 @@ impl Pair {
     }
 
     /// Blades answer impulses: the same relative error, on their own scale. The
-    /// lever of an impulse adds the error of a position, and so does what the
+    /// moment arm of an impulse adds the error of a position, and so does what the
     /// latest few steps pushed too much, which the next ones take back.
     fn check_blades(&self, what: &str) {
         let relative = self.round_off() / self.clearance();
@@ -65,10 +65,10 @@ impl Pair {
             ModelSize::Full => machine.blade_inertia,
             ModelSize::Rigid | ModelSize::Modal => machine.blade_modal_mass,
         };
-        let lever = ROOM * self.amplified * machine.nodal_diameters * self.jitter();
-        let levers = lever * self.plain.impulse / (inertia * machine.omega_bd);
-        let push =
-            4.0 * lever * self.clearance() * machine.casing_mass / (inertia * self.acuteness());
+        let moment_arm = ROOM * self.amplified * machine.nodal_diameters * self.jitter();
+        let levers = moment_arm * self.plain.impulse / (inertia * machine.omega_bd);
+        let push = 4.0 * moment_arm * self.clearance() * machine.casing_mass
+            / (inertia * self.acuteness());
         // Levers of exactly zero are 1e-32 in double-double.
         let allowed = (relative + 1e-13) * self.plain.widest + levers + push + 1e-30;
         for (blade, (a, b)) in found.iter().zip(&expected).enumerate() {
@@ -175,8 +175,8 @@ impl Pair {
         );
         assert_eq!(log.tensile_steps, plain.tensile_steps, "{what}: tensile steps");
         let sides: Vec<u32> = plain.history().spans.last().map_or(Vec::new(), |s| s.sides.clone());
-        let expected = if plain.in_contact() { Touching::of(&sides) } else { Touching::Nothing };
-        assert_eq!(log.touching, expected, "{what}: sides in contact");
+        let expected = if plain.in_contact() { ActiveSet::of(&sides) } else { ActiveSet::Nothing };
+        assert_eq!(log.active_set, expected, "{what}: sides in contact");
         let kept = plain.kept_since();
         if let Some(since) = kept {
             assert!((log.since - since).abs() < half, "{what}: since {} {since}", log.since);
@@ -226,7 +226,8 @@ impl Pair {
     /// How the motion lasts, by contacts alone. What the program says to be for
     /// good, later looks must confirm.
     fn lasting(&self, window: f64) -> Verdict {
-        let locked = matches!(self.motion.settled(), Some(Verdict::Locked | Verdict::Adhesive));
+        let locked =
+            matches!(self.motion.final_verdict(), Some(Verdict::Locked | Verdict::Adhesive));
         let held = self.plain.window(if locked { 32.0 * self.h() } else { window });
         if held.kept.is_some_and(|sides| sides.len() > 1) {
             return if held.pulled { Verdict::Adhesive } else { Verdict::Locked };

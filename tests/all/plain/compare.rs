@@ -8,7 +8,7 @@ use super::{Failure, Plain, Why};
 
 /// Displacement of the second stepper that shows how the motion amplifies, as a
 /// part of the clearance: far above round-off, far below what changes contacts.
-const NUDGE: f64 = 1e-9;
+const PERTURBATION: f64 = 1e-9;
 /// Times the estimated round-off that is still taken as round-off.
 pub(super) const ROOM: f64 = 40.0;
 /// Amplification beyond which states say nothing any more.
@@ -19,8 +19,8 @@ pub const CHAOS: f64 = 1e5;
 pub struct Pair {
     pub motion: Motion,
     pub plain: Plain,
-    nudged: Plain,
-    /// Amplification when it was nudged.
+    perturbed: Plain,
+    /// Amplification when it was perturbed.
     amplified_before: f64,
     pub(super) scene: Scene,
     /// Sum of `n_d |speed| h` over all steps, a bound on `n_d theta`.
@@ -37,11 +37,11 @@ impl Pair {
     pub fn new(scene: &Scene) -> Self {
         let (plain, scene) = (Plain::new(scene), scene.clone());
         let motion = Motion::new(&scene.checked().unwrap());
-        let nudged = plain.clone();
+        let perturbed = plain.clone();
         let mut pair = Self {
             motion,
             plain,
-            nudged,
+            perturbed,
             amplified_before: 1.0,
             scene,
             turned: 0.0,
@@ -49,27 +49,27 @@ impl Pair {
             looked: 0.0,
             amplified: 1.0,
         };
-        pair.nudge();
+        pair.perturbation();
         pair
     }
 
     /// Sets the second stepper a little beside the first.
-    fn nudge(&mut self) {
-        self.nudged = self.plain.clone();
-        self.nudged.nudge(NUDGE * self.clearance());
+    fn perturbation(&mut self) {
+        self.perturbed = self.plain.clone();
+        self.perturbed.perturbation(PERTURBATION * self.clearance());
         self.amplified_before = self.amplified;
     }
 
-    /// How far the nudged motion is by now, in position and rate; nudges anew
+    /// How far the perturbed motion is by now, in position and rate; perturbations anew
     /// where a contact has made the difference vanish.
     fn watch(&mut self) {
         let time = 1.0 / (self.h() * self.scene.machine().omega_c);
-        let rates = time * distance(self.nudged.increments(), self.plain.increments());
-        let apart = distance(self.nudged.u(), self.plain.u()).hypot(rates);
-        let ratio = apart / (NUDGE * self.clearance());
+        let rates = time * distance(self.perturbed.increments(), self.plain.increments());
+        let apart = distance(self.perturbed.u(), self.plain.u()).hypot(rates);
+        let ratio = apart / (PERTURBATION * self.clearance());
         self.amplified = f64::max(1.0, self.amplified_before * ratio);
         if ratio < 0.1 {
-            self.nudge();
+            self.perturbation();
         }
     }
 
@@ -93,8 +93,8 @@ impl Pair {
             assert!((program.t_s - plain.t).abs() < 0.5 * self.h(), "{plain:?} {program:?}");
             return Err(plain);
         }
-        // A nudged motion may wreck itself a step earlier or later.
-        if self.nudged.advance(until).is_err() {
+        // A perturbed motion may wreck itself a step earlier or later.
+        if self.perturbed.advance(until).is_err() {
             self.amplified = f64::INFINITY;
         } else {
             self.watch();
@@ -107,20 +107,20 @@ impl Pair {
         let operation = &self.scene.operation;
         self.motion.fire();
         self.plain.fire(operation.pulse_n, operation.pulse_s);
-        self.nudged.fire(operation.pulse_n, operation.pulse_s);
+        self.perturbed.fire(operation.pulse_n, operation.pulse_s);
     }
 
     pub fn set_speed(&mut self, speed: f64, ramp: f64) {
         self.motion.set_speed(speed, ramp);
         self.plain.set_speed(speed, ramp);
-        self.nudged.set_speed(speed, ramp);
+        self.perturbed.set_speed(speed, ramp);
     }
 
     pub fn adopt(&mut self, scene: &Scene) {
         assert!(Change::is_live(&self.scene, scene), "refused: {scene:?}");
         self.motion.set_parameters(&scene.checked().unwrap());
         self.plain.set_parameters(scene);
-        self.nudged.set_parameters(scene);
+        self.perturbed.set_parameters(scene);
         self.scene = scene.clone();
     }
 
@@ -146,7 +146,7 @@ impl Pair {
 
     /// Sine of half the angle between neighbouring sides.
     pub(super) fn acuteness(&self) -> f64 {
-        self.scene.machine().rim.delta.sin().max(1e-3)
+        self.scene.machine().polygon.delta.sin().max(1e-3)
     }
 
     /// Distance of casing positions that round-off explains: the jitter as a

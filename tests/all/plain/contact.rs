@@ -12,7 +12,7 @@ const NEAR: f64 = 0.05;
 
 /// Phase groups of the blades.
 #[derive(Clone, Debug)]
-pub struct Rim {
+pub struct ContactPolygon {
     clearance: f64,
     diameters: Dd,
     pub sides: u32,
@@ -25,7 +25,7 @@ pub struct Rim {
     alone: bool,
 }
 
-impl Rim {
+impl ContactPolygon {
     pub fn new(scene: &Scene) -> Self {
         let blades = scene.bladed_disk.blades as usize;
         let n_d = u64::from(scene.operation.nodal_diameters);
@@ -70,7 +70,7 @@ struct Row {
     cos: Dd,
     sin: Dd,
     /// `A = n_d (u_s cos beta - u_c sin beta)`.
-    lever: Dd,
+    moment_arm: Dd,
 }
 
 impl Plain {
@@ -82,10 +82,10 @@ impl Plain {
             return Err(Why::Casing(distance));
         }
         // |u| < g0 leaves every gap open, whatever the angle.
-        if distance < self.rim.clearance * (1.0 - 1e-12) {
+        if distance < self.polygon.clearance * (1.0 - 1e-12) {
             return Ok(());
         }
-        let turned = (self.rim.diameters * self.angle_at(self.n)).reduced();
+        let turned = (self.polygon.diameters * self.angle_at(self.n)).reduced();
         let near: Vec<usize> = self.near(turned);
         let mut rows: Vec<Row> = near.into_iter().map(|blade| self.row(turned, blade)).collect();
         let deepest = rows.iter().fold(0.0_f64, |most, row| most.max(-row.gap.value()));
@@ -93,7 +93,7 @@ impl Plain {
             return Ok(());
         }
         self.deepest_predicted = self.deepest_predicted.max(deepest);
-        if deepest > self.rim.clearance {
+        if deepest > self.polygon.clearance {
             return Err(Why::Penetration(deepest));
         }
         let lambda = match self.law {
@@ -119,11 +119,11 @@ impl Plain {
             let gaps: Vec<Dd> = rows.iter().map(|row| row.gap).collect();
             let lambda =
                 law::unilateral(&self.influences(rows), &gaps).ok_or(Why::Rows(rows.len()))?;
-            if self.reach(rows, &lambda) < 0.9 * NEAR * self.rim.clearance {
+            if self.reach(rows, &lambda) < 0.9 * NEAR * self.polygon.clearance {
                 return Ok(lambda);
             }
             let mut joined = false;
-            for &blade in &self.rim.rows {
+            for &blade in &self.polygon.rows {
                 if rows.iter().any(|row| row.blade == blade) {
                     continue;
                 }
@@ -144,46 +144,46 @@ impl Plain {
 
     /// Bound on what these multipliers do to any gap \[m\].
     fn reach(&self, rows: &[Row], lambda: &[Dd]) -> f64 {
-        let farthest = self.rim.diameters.0 * self.u[0].x.0.hypot(self.u[1].x.0);
+        let farthest = self.polygon.diameters.0 * self.u[0].x.0.hypot(self.u[1].x.0);
         let part = |(row, value): (&Row, &Dd)| {
             // A compliance between two blades is at most that of one with itself.
             let blade = self.disk.compliance(row.blade, row.blade).0;
-            value.0.abs() * (self.casing.compliance.0 + farthest * row.lever.0.abs() * blade)
+            value.0.abs() * (self.casing.compliance.0 + farthest * row.moment_arm.0.abs() * blade)
         };
         rows.iter().zip(lambda).map(part).sum()
     }
 
     /// Rows whose gaps are small, by double precision.
     fn near(&self, turned: Dd) -> Vec<usize> {
-        let (angles, n_d) = (self.disk.angles(), self.rim.diameters.0);
+        let (angles, n_d) = (self.disk.angles(), self.polygon.diameters.0);
         let (x, y) = (self.u[0].x.0, self.u[1].x.0);
         let is_near = |&blade: &usize| {
-            let beta = turned.0 + self.rim.phases[blade].0 + n_d * angles[blade];
+            let beta = turned.0 + self.polygon.phases[blade].0 + n_d * angles[blade];
             let (sin, cos) = beta.sin_cos();
-            self.rim.clearance + x * cos + y * sin < NEAR * self.rim.clearance
+            self.polygon.clearance + x * cos + y * sin < NEAR * self.polygon.clearance
         };
-        self.rim.rows.iter().copied().filter(is_near).collect()
+        self.polygon.rows.iter().copied().filter(is_near).collect()
     }
 
     /// The row of a blade, to all digits.
     fn row(&self, turned: Dd, blade: usize) -> Row {
-        let n_d = self.rim.diameters;
-        let beta = turned + self.rim.phases[blade] + n_d * self.disk.angle(blade);
+        let n_d = self.polygon.diameters;
+        let beta = turned + self.polygon.phases[blade] + n_d * self.disk.angle(blade);
         let (sin, cos) = beta.sin_cos();
         let (x, y) = (self.u[0].x, self.u[1].x);
         Row {
             blade,
-            gap: Dd::from(self.rim.clearance) + x * cos + y * sin,
+            gap: Dd::from(self.polygon.clearance) + x * cos + y * sin,
             cos,
             sin,
-            lever: n_d * (y * cos - x * sin),
+            moment_arm: n_d * (y * cos - x * sin),
         }
     }
 
     /// Opening of one gap per unit pull on another: `C^T [M/h^2 + D/2h]^-1 C`.
     fn influence(&self, a: &Row, b: &Row) -> Dd {
         self.casing.compliance * (a.cos * b.cos + a.sin * b.sin)
-            + a.lever * b.lever * self.disk.compliance(a.blade, b.blade)
+            + a.moment_arm * b.moment_arm * self.disk.compliance(a.blade, b.blade)
     }
 
     fn influences(&self, rows: &[Row]) -> law::Matrix {
@@ -198,7 +198,7 @@ impl Plain {
                 coordinate.x -= shift * normal;
                 coordinate.increment -= shift * normal;
             }
-            self.disk.correct(row.blade, -(row.lever * value));
+            self.disk.correct(row.blade, -(row.moment_arm * value));
         }
     }
 
@@ -208,7 +208,7 @@ impl Plain {
         let mut sums: Vec<(u32, Dd)> = Vec::new();
         let mut pulled = false;
         for (row, &value) in rows.iter().zip(lambda).filter(|(_, value)| **value != ZERO) {
-            let side = self.rim.side_of[row.blade];
+            let side = self.polygon.side_of[row.blade];
             pulled |= value > ZERO;
             self.impulse += value.0.abs() * self.h.0;
             self.impulses[side as usize] += value.0 * self.h.0;

@@ -19,7 +19,7 @@
 //! plain.widest; plain.deepest_predicted;       // over all steps: blade angle, -g*
 //! plain.impulses;                              // of each side over all steps, N s
 //! plain.window(0.01);                          // the last 10 ms: touched, unbroken, sides kept, pulled
-//! plain.nudge(1e-12);                          // moves u by that many metres, to see how the motion amplifies
+//! plain.perturbation(1e-12);                          // moves u by that many metres, to see how the motion amplifies
 //! ```
 //!
 //! Every step is computed, in the standing frame: predict, evaluate the gaps of
@@ -102,7 +102,7 @@ pub struct Plain {
     pulses: Vec<Pulse>,
     /// Mean force that made `x[-1]`.
     first_force: Dd,
-    rim: contact::Rim,
+    polygon: contact::ContactPolygon,
     /// Step of the latest touch of each side, from 1; 0 for never.
     touched: Vec<u64>,
     last: Vec<(u32, f64)>,
@@ -135,9 +135,9 @@ impl Plain {
     pub fn new(scene: &Scene) -> Self {
         let h = Dd::from(scene.solver.step_s);
         let operation = &scene.operation;
-        let rim = contact::Rim::new(scene);
-        let touched = vec![0; rim.sides as usize];
-        let impulses = vec![0.0; rim.sides as usize];
+        let polygon = contact::ContactPolygon::new(scene);
+        let touched = vec![0; polygon.sides as usize];
+        let impulses = vec![0.0; polygon.sides as usize];
         let mut plain = Self {
             n: 0,
             h,
@@ -155,7 +155,7 @@ impl Plain {
             pulses: Vec::new(),
             first_force: ZERO,
             touched,
-            rim,
+            polygon,
             last: Vec::new(),
             last_touch: 0,
             history: History::default(),
@@ -274,7 +274,7 @@ impl Plain {
     }
 
     /// Moves the casing by so much, along `u_c` \[m\].
-    pub fn nudge(&mut self, by: f64) {
+    pub fn perturbation(&mut self, by: f64) {
         self.u[0].x += Dd::from(by);
     }
 
@@ -321,7 +321,7 @@ impl Plain {
     /// `[alpha_c, alpha_s]`: the angles projected on `(cos, sin)(n_d Phi_i)`
     /// \[rad\].
     pub fn modal(&self) -> [f64; 2] {
-        self.rim.project(&self.disk.angles())
+        self.polygon.project(&self.disk.angles())
     }
 
     /// Sums of the multipliers of each side in the latest step that touched,

@@ -15,8 +15,8 @@ pub fn scene(changes: &[(&str, &str)]) -> Scene {
 /// without a pulse.
 pub fn in_corner(mut scene: Scene) -> Scene {
     let machine = scene.machine();
-    let angle = machine.rim.delta;
-    let amplitude = machine.clearance() / machine.rim.delta.cos();
+    let angle = machine.polygon.delta;
+    let amplitude = machine.clearance() / machine.polygon.delta.cos();
     let (x, y) = (-amplitude * angle.cos(), -amplitude * angle.sin());
     let nu = machine.nu(scene.operation.speed_rad_s);
     scene.operation.pulse_n = 0.0;

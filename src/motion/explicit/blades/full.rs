@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use super::Blades;
+use super::BladeModel;
 use crate::model::{Machine, blade_frequency};
-use crate::motion::explicit::{Coordinate, Excitation, Oscillator};
+use crate::motion::explicit::{Coordinate, EngineOrderTorque, Oscillator};
 use crate::scene::Scene;
 
 /// Every blade its own coordinate, Eqs. (2)-(3), carried in the Fourier modes
@@ -39,7 +39,7 @@ struct Tables {
     shown: [(usize, f64); 2],
 }
 
-impl Blades for FullBlades {
+impl BladeModel for FullBlades {
     fn at_rest(scene: &Scene, machine: &Machine) -> Self {
         let disk = &scene.bladed_disk;
         let count = disk.blades as usize;
@@ -78,7 +78,7 @@ impl Blades for FullBlades {
                 (0..count).map(mode).sum()
             })
             .collect();
-        let alias = machine.rim.nodal_diameters as usize % count;
+        let alias = machine.polygon.nodal_diameters as usize % count;
         let folded = alias.min(count - alias);
         let cosine = diameters.iter().position(|&k| k == folded).unwrap_or(0);
         let scale = if machine.has_sine_mode { 2.0 / blades } else { 1.0 / blades }.sqrt();
@@ -90,8 +90,8 @@ impl Blades for FullBlades {
             (cosine + 1, -scale)
         };
         let tables = Tables {
-            sides: (0..machine.rim.sides)
-                .map(|side| machine.rim.blades_of_side(side).iter().map(|b| b - 1).collect())
+            sides: (0..machine.polygon.sides)
+                .map(|side| machine.polygon.blades_of_side(side).iter().map(|b| b - 1).collect())
                 .collect(),
             largest_shape: scales.iter().fold(0.0, |most: f64, &scale| most.max(scale)),
             oscillators,
@@ -112,7 +112,7 @@ impl Blades for FullBlades {
     fn row(&self, side: u32, place: usize) -> u32 {
         self.tables.sides[side as usize][place]
     }
-    fn predict(&mut self, excitation: Option<(&Excitation, f64)>) -> f64 {
+    fn predict(&mut self, excitation: Option<(&EngineOrderTorque, f64)>) -> f64 {
         let tables = &*self.tables;
         let mut change = 0.0;
         for (m, (mode, &k)) in self.modes.iter_mut().zip(&tables.diameters).enumerate() {

@@ -11,13 +11,13 @@ mod modal;
 pub use full::FullBlades;
 pub use modal::ModalBlades;
 
-use super::excitation::Excitation;
+use super::excitation::EngineOrderTorque;
 use super::oscillator::Coordinate;
 use crate::model::Machine;
 use crate::scene::Scene;
 
 /// What the explicit solver asks of the bladed disk.
-pub trait Blades: Clone + std::fmt::Debug + Send + Sync + 'static {
+pub trait BladeModel: Clone + std::fmt::Debug + Send + Sync + 'static {
     /// The disk at rest, for this scene.
     fn at_rest(scene: &Scene, machine: &Machine) -> Self;
     /// These blades with the displacements and rates of others of their kind.
@@ -29,7 +29,7 @@ pub trait Blades: Clone + std::fmt::Debug + Send + Sync + 'static {
     /// One step without contact, which corrects it afterwards, under an
     /// excitation at its phase. Returns a bound on the change of any blade
     /// angle \[rad\].
-    fn predict(&mut self, excitation: Option<(&Excitation, f64)>) -> f64;
+    fn predict(&mut self, excitation: Option<(&EngineOrderTorque, f64)>) -> f64;
     /// Blade angle of a row \[rad\].
     fn angle(&self, row: u32) -> f64;
     /// Angle of row `a` per unit torque on row `b` over one step
@@ -75,7 +75,7 @@ pub struct RigidBlades {
     blades: usize,
 }
 
-impl Blades for RigidBlades {
+impl BladeModel for RigidBlades {
     fn at_rest(scene: &Scene, _: &Machine) -> Self {
         Self { blades: scene.bladed_disk.blades as usize }
     }
@@ -88,7 +88,7 @@ impl Blades for RigidBlades {
     fn row(&self, side: u32, _: usize) -> u32 {
         side
     }
-    fn predict(&mut self, _: Option<(&Excitation, f64)>) -> f64 {
+    fn predict(&mut self, _: Option<(&EngineOrderTorque, f64)>) -> f64 {
         0.0
     }
     fn angle(&self, _: u32) -> f64 {

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use super::{Blades, HeldModes};
-use crate::model::{Machine, Rim};
-use crate::motion::explicit::{Coordinate, Excitation, Oscillator};
+use super::{BladeModel, HeldModes};
+use crate::model::{ContactPolygon, Machine};
+use crate::motion::explicit::{Coordinate, EngineOrderTorque, Oscillator};
 use crate::scene::Scene;
 
 /// The two `n_d`-diameter modes, Eq. (4). Blades of one phase group move
@@ -16,10 +16,10 @@ pub struct ModalBlades {
     has_sine_mode: bool,
     /// Mode shapes `(p_c, p_s)` of a side are its direction: where there is no
     /// sine mode, all of them are `(+-1, 0)`.
-    rim: Arc<Rim>,
+    polygon: Arc<ContactPolygon>,
 }
 
-impl Blades for ModalBlades {
+impl BladeModel for ModalBlades {
     fn at_rest(scene: &Scene, machine: &Machine) -> Self {
         Self {
             oscillator: Oscillator::new(
@@ -30,7 +30,7 @@ impl Blades for ModalBlades {
             ),
             modes: [Coordinate::default(); 2],
             has_sine_mode: machine.has_sine_mode,
-            rim: Arc::new(machine.rim.clone()),
+            polygon: Arc::new(machine.polygon.clone()),
         }
     }
     fn moving_as(self, other: &Self) -> Self {
@@ -42,10 +42,10 @@ impl Blades for ModalBlades {
     fn row(&self, side: u32, _: usize) -> u32 {
         side
     }
-    fn predict(&mut self, excitation: Option<(&Excitation, f64)>) -> f64 {
+    fn predict(&mut self, excitation: Option<(&EngineOrderTorque, f64)>) -> f64 {
         let torque = match excitation {
             None => [0.0; 2],
-            Some((excitation, phase)) => excitation.torque_on(self.rim.nodal_diameters, phase),
+            Some((excitation, phase)) => excitation.torque_on(self.polygon.nodal_diameters, phase),
         };
         for (mode, torque) in self.modes.iter_mut().zip(torque) {
             *mode = self.oscillator.step(*mode, torque);
@@ -56,15 +56,15 @@ impl Blades for ModalBlades {
         self.modes[0].increment.abs() + self.modes[1].increment.abs()
     }
     fn angle(&self, row: u32) -> f64 {
-        let (c, s) = self.rim.direction(row);
+        let (c, s) = self.polygon.direction(row);
         c * self.modes[0].x + s * self.modes[1].x
     }
     fn compliance(&self, a: u32, b: u32) -> f64 {
-        let ((ca, sa), (cb, sb)) = (self.rim.direction(a), self.rim.direction(b));
+        let ((ca, sa), (cb, sb)) = (self.polygon.direction(a), self.polygon.direction(b));
         self.oscillator.compliance * (ca * cb + sa * sb)
     }
     fn correct(&mut self, row: u32, torque: f64) {
-        let (c, s) = self.rim.direction(row);
+        let (c, s) = self.polygon.direction(row);
         for (mode, shape) in self.modes.iter_mut().zip([c, s]) {
             mode.x += self.oscillator.compliance * torque * shape;
             mode.increment += self.oscillator.compliance * torque * shape;
@@ -91,7 +91,7 @@ impl Blades for ModalBlades {
         let mut most = least.max(self.largest_now()).max(last.largest_now());
         // All blades swing alike but for their phases: a blade's first turning
         // point is its largest angle, as every later one is damped.
-        for (c, s) in (0..self.rim.sides).map(|side| self.rim.direction(side)) {
+        for (c, s) in (0..self.polygon.sides).map(|side| self.polygon.direction(side)) {
             let blade = Coordinate {
                 x: c * self.modes[0].x + s * self.modes[1].x,
                 increment: c * self.modes[0].increment + s * self.modes[1].increment,
@@ -106,8 +106,8 @@ impl Blades for ModalBlades {
         (self.modes.map(|mode| mode.x), self.modes.map(|mode| self.oscillator.rate(mode, 0.0)))
     }
     fn every_angle(&self, machine: &Machine) -> Vec<f64> {
-        let rim = &machine.rim;
-        (1..=rim.blades).map(|blade| self.angle(rim.side_of_blade(blade))).collect()
+        let polygon = &machine.polygon;
+        (1..=polygon.blades).map(|blade| self.angle(polygon.side_of_blade(blade))).collect()
     }
     fn held_modes(&self) -> Option<HeldModes<'_>> {
         Some(HeldModes { modes: self.modes, moving: Some(self) })
@@ -125,11 +125,11 @@ impl ModalBlades {
 
     /// `(p_c, p_s)` of a side.
     pub fn shape(&self, side: u32) -> (f64, f64) {
-        self.rim.direction(side)
+        self.polygon.direction(side)
     }
 
     /// The largest angle of any blade at these mode displacements \[rad\].
     pub fn largest(&self, [cosine, sine]: [f64; 2]) -> f64 {
-        self.rim.largest_component(cosine, sine)
+        self.polygon.largest_component(cosine, sine)
     }
 }

@@ -7,7 +7,7 @@ use ratatui::{buffer::Buffer, layout::Rect};
 
 use super::panel::{ViewArea, ViewPanel, title};
 use super::response::Response;
-use crate::motion::Touching;
+use crate::motion::ActiveSet;
 use crate::tui::app::App;
 use crate::tui::axis::ChartAxis;
 use crate::tui::history::Channel;
@@ -61,8 +61,8 @@ pub fn square(area: Rect, reach: f64) -> (ChartAxis, ChartAxis) {
 fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let look = &app.appearance;
     let quiet = look.style(Role::Quiet);
-    let rim = &app.machine.rim;
-    let corner = app.machine.locked_amplitude().unwrap_or(rim.clearance);
+    let polygon = &app.machine.polygon;
+    let corner = app.machine.locked_amplitude().unwrap_or(polygon.clearance);
     let (x, y) = square(at.area, MARGIN * corner);
     let point = look.either('●', 'O');
     let legend = [
@@ -74,14 +74,15 @@ fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
     let outline = Pen { dashed: false, ..look.quiet() };
     let touched = Pen { style: look.style(Role::Contact), sign: '#', dashed: false };
-    let touching = app.latest.moment.as_ref().map_or(Touching::Nothing, |moment| moment.touching);
+    let active_set =
+        app.latest.moment.as_ref().map_or(ActiveSet::Nothing, |moment| moment.active_set);
     // An unbounded side is drawn as far as the chart reaches.
-    let half = rim.half_side().min(20.0 * rim.clearance);
+    let half = polygon.half_side().min(20.0 * polygon.clearance);
     for pass in [false, true] {
-        for side in (0..rim.sides).filter(|side| touching.includes(*side) == pass) {
-            let (cos, sin) = rim.direction(side);
+        for side in (0..polygon.sides).filter(|side| active_set.includes(*side) == pass) {
+            let (cos, sin) = polygon.direction(side);
             let end = |along: f64| {
-                (-rim.clearance * cos - along * sin, -rim.clearance * sin + along * cos)
+                (-polygon.clearance * cos - along * sin, -polygon.clearance * sin + along * cos)
             };
             plot.curve([end(-half), end(half)], if pass { &touched } else { &outline });
         }

@@ -7,7 +7,7 @@ use ratatui::buffer::Buffer;
 
 use super::super::panel::{ViewArea, title};
 use super::square;
-use crate::motion::Touching;
+use crate::motion::ActiveSet;
 use crate::tui::app::App;
 use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
@@ -25,9 +25,9 @@ const OUTLINE: u32 = 240;
 pub fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let look = &app.appearance;
     let machine = &app.machine;
-    let rim = &machine.rim;
+    let polygon = &machine.polygon;
     let exaggeration =
-        CLEARANCE * app.scene.bladed_disk.blade_length_m / rim.clearance.max(f64::MIN_POSITIVE);
+        CLEARANCE * app.scene.bladed_disk.blade_length_m / polygon.clearance.max(f64::MIN_POSITIVE);
     let legend = [
         (format!("gaps x {exaggeration:.0}"), look.style(Role::Quiet)),
         ("turning with the blades".to_string(), look.style(Role::Quiet)),
@@ -40,32 +40,33 @@ pub fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let casing = (0..=OUTLINE).map(|k| {
         let angle = TAU * f64::from(k) / f64::from(OUTLINE);
         let (sin, cos) = (machine.nodal_diameters * angle).sin_cos();
-        let gap = 1.0 + (z[0] * cos + z[1] * sin) / rim.clearance;
+        let gap = 1.0 + (z[0] * cos + z[1] * sin) / polygon.clearance;
         let radius = 1.0 + CLEARANCE * gap;
         (radius * angle.cos(), radius * angle.sin())
     });
     let spoke = |blade: u32, pen: &Pen, plot: &mut Plot| {
-        let angle = TAU * f64::from(blade - 1) / f64::from(rim.blades);
+        let angle = TAU * f64::from(blade - 1) / f64::from(polygon.blades);
         let (sin, cos) = angle.sin_cos();
         plot.curve([(HUB * cos, HUB * sin), (cos, sin)], pen);
     };
     let quiet = Pen { dashed: false, ..look.quiet() };
     let touched = Pen { style: look.style(Role::Contact), sign: '#', dashed: false };
     // Spokes closer than a cell cannot be told apart.
-    let all = rim.blades <= u32::from(inside.width) * 2;
+    let all = polygon.blades <= u32::from(inside.width) * 2;
     let touches = |blade: u32| {
-        moment.touching != Touching::Nothing && moment.touching.includes(rim.side_of_blade(blade))
+        moment.active_set != ActiveSet::Nothing
+            && moment.active_set.includes(polygon.side_of_blade(blade))
     };
-    for blade in (1..=rim.blades).filter(|blade| all && !touches(*blade)) {
+    for blade in (1..=polygon.blades).filter(|blade| all && !touches(*blade)) {
         spoke(blade, &quiet, &mut plot);
     }
     plot.curve(casing, &look.first());
-    for blade in (1..=rim.blades).filter(|blade| touches(*blade)) {
+    for blade in (1..=polygon.blades).filter(|blade| touches(*blade)) {
         spoke(blade, &touched, &mut plot);
     }
     plot.ink();
-    for blade in (1..=rim.blades).filter(|blade| touches(*blade)).take(8) {
-        let angle = TAU * f64::from(blade - 1) / f64::from(rim.blades);
+    for blade in (1..=polygon.blades).filter(|blade| touches(*blade)).take(8) {
+        let angle = TAU * f64::from(blade - 1) / f64::from(polygon.blades);
         let (sin, cos) = angle.sin_cos();
         plot.label(0.8 * HUB * cos, 0.8 * HUB * sin, &blade.to_string(), look.style(Role::Contact));
     }

@@ -5,8 +5,8 @@
 use ratatui::buffer::Buffer;
 
 use super::super::panel::{self, ViewArea, fields, title};
-use crate::model::Rim;
-use crate::motion::Touching;
+use crate::model::ContactPolygon;
+use crate::motion::ActiveSet;
 use crate::tui::app::App;
 use crate::tui::axis::ChartAxis;
 use crate::tui::history::{Bin, Channel};
@@ -31,37 +31,39 @@ struct Spot {
 
 /// The smallest gap of a side over a bin, rigid blades \[m\]. A bin keeps
 /// only the box of the wave, so this is a lower bound.
-fn least_gap(rim: &Rim, side: u32, bin: &Bin) -> f64 {
-    let (c, s) = rim.direction(side);
+fn least_gap(polygon: &ContactPolygon, side: u32, bin: &Bin) -> f64 {
+    let (c, s) = polygon.direction(side);
     let [(x0, x1), (y0, y1)] = [Channel::X, Channel::Y].map(|channel| bin.span(channel));
-    rim.clearance + (c * x0).min(c * x1) + (s * y0).min(s * y1)
+    polygon.clearance + (c * x0).min(c * x1) + (s * y0).min(s * y1)
 }
 
 /// Whether a side was touched in a bin. Of more than two sides in one bin only
 /// their number is known: then all that came as near as the sides of a corner.
-fn touches(rim: &Rim, side: u32, bin: &Bin) -> bool {
+fn touches(polygon: &ContactPolygon, side: u32, bin: &Bin) -> bool {
     match bin.touched {
-        Touching::Many => least_gap(rim, side, bin) < rim.delta * rim.delta * rim.clearance,
+        ActiveSet::Many => {
+            least_gap(polygon, side, bin) < polygon.delta * polygon.delta * polygon.clearance
+        }
         touched => touched.includes(side),
     }
 }
 
 /// Every side in every column of the page.
 fn spots(app: &App, columns: usize) -> Vec<Vec<Option<Spot>>> {
-    let rim = &app.machine.rim;
+    let polygon = &app.machine.polygon;
     let (from, to) = app.page();
     let width = (to - from) / columns.max(1) as f64;
-    let mut out = vec![vec![None; columns]; rim.sides as usize];
+    let mut out = vec![vec![None; columns]; polygon.sides as usize];
     let place = |t: f64| (((t - from) / width).max(0.0) as usize).min(columns.saturating_sub(1));
     // Some columns at a time: a frame for each column is too much for a slow line.
     let Some(until) = app.throttled.as_ref().map(|moment| moment.state.t_s) else { return out };
     for bin in app.history.between(from, to).iter().filter(|bin| bin.from <= until) {
-        for (side, row) in (0..rim.sides).zip(&mut out) {
-            let gap = least_gap(rim, side, bin) / rim.clearance;
+        for (side, row) in (0..polygon.sides).zip(&mut out) {
+            let gap = least_gap(polygon, side, bin) / polygon.clearance;
             if !gap.is_finite() {
                 continue;
             }
-            let touched = touches(rim, side, bin);
+            let touched = touches(polygon, side, bin);
             for slot in row.iter_mut().take(place(bin.to) + 1).skip(place(bin.from)) {
                 *slot = Some(slot.map_or(Spot { gap, touched }, |spot: Spot| Spot {
                     gap: spot.gap.min(gap),
@@ -93,11 +95,12 @@ fn sign(spots: &[Spot], signs: [char; 4], ascii: bool) -> Option<(char, bool)> {
 /// # Errors
 /// There is no data yet.
 pub fn csv(app: &App) -> Result<String, String> {
-    let rim = &app.machine.rim;
-    let names: String = (1..=rim.blades).map(|blade| format!(",least_gap_{blade}_m")).collect();
+    let polygon = &app.machine.polygon;
+    let names: String = (1..=polygon.blades).map(|blade| format!(",least_gap_{blade}_m")).collect();
     let (from, to) = app.page();
     let rows = app.history.between(from, to).iter().map(|bin| {
-        let gaps = (1..=rim.blades).map(|blade| least_gap(rim, rim.side_of_blade(blade), bin));
+        let gaps =
+            (1..=polygon.blades).map(|blade| least_gap(polygon, polygon.side_of_blade(blade), bin));
         fields([bin.from, bin.to].into_iter().chain(gaps))
     });
     panel::csv(&format!("from_s,to_s{names}"), rows)
@@ -109,7 +112,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let (first, contact) = (look.style(Role::First), look.style(Role::Contact));
     let signs = look.either(SIGNS, ASCII);
     let (from, to) = app.page();
-    let count = app.machine.rim.blades;
+    let count = app.machine.polygon.blades;
     let x = ChartAxis::scaled(from, to);
     let y = ChartAxis::plain(0.5, f64::from(count) + 0.5);
     let mut legend = vec![(format!("{} contact", signs[0]), contact)];
@@ -122,7 +125,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
     let inner = plot.inner;
     let spots = spots(app, usize::from(inner.width));
-    let rim = &app.machine.rim;
+    let polygon = &app.machine.polygon;
     let rows = u64::from(inner.height.max(1));
     for up in 0..inner.height {
         let blade_at = |row: u64| (row * u64::from(count) / rows) as u32;
@@ -131,7 +134,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
         let row = inner.bottom() - 1 - up;
         for (place, column) in (inner.x..inner.right()).enumerate() {
             let of_blade = |blade: u32| {
-                let side = rim.side_of_blade(blade + 1) as usize;
+                let side = polygon.side_of_blade(blade + 1) as usize;
                 spots.get(side)?.get(place).copied().flatten()
             };
             let here: Vec<Spot> = (low..high).filter_map(of_blade).collect();
@@ -160,11 +163,11 @@ mod tests {
 
     #[test]
     fn the_gap_of_a_wave_that_stands_still_is_the_gap_of_the_rim() {
-        let rim = Rim::new(22, 3, 1e-4);
-        for side in 0..rim.sides {
-            let gap = least_gap(&rim, side, &bin(3e-5, -8e-5));
+        let polygon = ContactPolygon::new(22, 3, 1e-4);
+        for side in 0..polygon.sides {
+            let gap = least_gap(&polygon, side, &bin(3e-5, -8e-5));
             // Two sums of the same three terms.
-            assert!((gap - rim.gap(side, 3e-5, -8e-5)).abs() < 1e-18);
+            assert!((gap - polygon.gap(side, 3e-5, -8e-5)).abs() < 1e-18);
         }
     }
 

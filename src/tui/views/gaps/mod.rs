@@ -6,7 +6,7 @@ mod heat;
 use ratatui::buffer::Buffer;
 
 use super::panel::{ViewArea, ViewPanel, csv, fields, title};
-use crate::motion::Touching;
+use crate::motion::ActiveSet;
 use crate::tui::app::App;
 use crate::tui::axis::ChartAxis;
 use crate::tui::plot::Plot;
@@ -42,15 +42,15 @@ fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let contact = look.style(Role::Contact);
     let range = app.ranges.gaps;
     let y = ChartAxis::scaled(range.low, range.high);
-    let count = app.machine.rim.blades;
+    let count = app.machine.polygon.blades;
     let x = ChartAxis::plain(0.5, f64::from(count) + 0.5);
-    let touching = touching_blades(app);
+    let active_set = touching_blades(app);
     let mark = look.either('▲', '^');
     let legend = [
         (format!("{}m by blade", y.scale.prefix), quiet),
         (
             format!("{mark} {}", app.contact_now()),
-            if touching.is_empty() { quiet } else { contact },
+            if active_set.is_empty() { quiet } else { contact },
         ),
     ];
     let inside = title(app, buffer, at, "gaps", &legend);
@@ -72,19 +72,19 @@ fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
             plot.point(blade, gap.min(range.high), sign, look.style(Role::First));
         }
     }
-    for blade in &touching {
+    for blade in &active_set {
         plot.point(f64::from(*blade), 0.0, mark, contact);
     }
-    label(&mut plot, &touching, app);
+    label(&mut plot, &active_set, app);
 }
 
 /// Numbers of the touching blades under the zero line.
-fn label(plot: &mut Plot, touching: &[u32], app: &App) {
+fn label(plot: &mut Plot, active_set: &[u32], app: &App) {
     let Some(row) = plot.row(0.0).map(|row| row + 1).filter(|row| *row < plot.inner.bottom())
     else {
         return;
     };
-    for blade in touching.iter().take(16) {
+    for blade in active_set.iter().take(16) {
         plot.note(f64::from(*blade), row, &format!("{blade}"), app.appearance.style(Role::Contact));
     }
 }
@@ -92,15 +92,15 @@ fn label(plot: &mut Plot, touching: &[u32], app: &App) {
 /// The blades in contact now, numbered from 1.
 fn touching_blades(app: &App) -> Vec<u32> {
     let Some(moment) = &app.throttled else { return Vec::new() };
-    let rim = &app.machine.rim;
-    let of = |sides: &[u32]| sides.iter().flat_map(|side| rim.blades_of_side(*side)).collect();
-    match moment.touching {
-        Touching::Nothing => Vec::new(),
-        Touching::Side(side) => of(&[side]),
-        Touching::Corner(a, b) => of(&[a, b]),
-        Touching::Many => (1..=rim.blades)
+    let polygon = &app.machine.polygon;
+    let of = |sides: &[u32]| sides.iter().flat_map(|side| polygon.blades_of_side(*side)).collect();
+    match moment.active_set {
+        ActiveSet::Nothing => Vec::new(),
+        ActiveSet::Side(side) => of(&[side]),
+        ActiveSet::Corner(a, b) => of(&[a, b]),
+        ActiveSet::Many => (1..=polygon.blades)
             .zip(&moment.gaps)
-            .filter(|(_, gap)| **gap <= 1e-9 * rim.clearance)
+            .filter(|(_, gap)| **gap <= 1e-9 * polygon.clearance)
             .map(|(blade, _)| blade)
             .collect(),
     }

@@ -7,7 +7,7 @@ use ratatui::buffer::Buffer;
 
 use super::panel::{ViewArea, ViewPanel, csv, entry, fields, title};
 use crate::harmonic::{LockedPoint, Sweep};
-use crate::motion::Touching;
+use crate::motion::ActiveSet;
 use crate::tui::app::App;
 use crate::tui::axis::{ChartAxis, nice_step};
 use crate::tui::plot::Plot;
@@ -147,7 +147,7 @@ fn thresholds(app: &App) -> Vec<(f64, &'static str)> {
 /// Mean multipliers of the running motion, while something touches.
 fn running(app: &App) -> Vec<f64> {
     let Some(moment) = &app.latest.moment else { return Vec::new() };
-    if moment.touching == Touching::Nothing {
+    if moment.active_set == ActiveSet::Nothing {
         return Vec::new();
     }
     moment.multipliers.iter().map(|(_, force)| *force).filter(|force| force.is_finite()).collect()

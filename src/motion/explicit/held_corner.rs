@@ -13,8 +13,8 @@ use nalgebra::{SMatrix, SVector};
 
 use super::corner_step::CornerStep;
 use super::leap::Leap;
-use super::{Blades, Coordinate, Explicit};
-use crate::motion::Touching;
+use super::{BladeModel, Coordinate, Explicit};
+use crate::motion::ActiveSet;
 
 /// Steps a corner must have been closed before the map is made.
 pub(super) const SETTLED_STEPS: u64 = 64;
@@ -34,11 +34,11 @@ const LOOK: f64 = 0.125;
 
 /// `(alpha_c, alpha_s)` and their increments.
 pub(super) type Modes = SVector<f64, 4>;
-type Map = SMatrix<f64, 4, 4>;
+type StepMap = SMatrix<f64, 4, 4>;
 
 /// The map of a held corner, from one step on.
 #[derive(Clone, Debug)]
-pub(super) struct Held {
+pub(super) struct HeldCorner {
     step: CornerStep,
     /// Whether a multiplier pulls.
     pub pulls: bool,
@@ -49,14 +49,14 @@ pub(super) struct Held {
     /// Many steps of what is beside the rest.
     leap: Leap<4>,
     /// Inverse of what one step changes of it; zero for rigid blades.
-    unchanged: Map,
+    unchanged: StepMap,
     /// Multipliers of the step from `b`: value at rest and gradient \[N\].
     multipliers: [(f64, Modes); 2],
     /// Bounds on angle and increment of what is beside the rest.
     swing: (f64, f64),
 }
 
-impl Held {
+impl HeldCorner {
     /// The two sides, in the order of the contact log.
     pub fn sides(&self) -> [u32; 2] {
         self.step.sides()
@@ -129,7 +129,7 @@ fn top([mut low, mut high]: [u64; 2], value: impl Fn(u64) -> f64) -> f64 {
     (low..=high).map(value).fold(0.0, f64::max)
 }
 
-impl<B: Blades> Explicit<B> {
+impl<B: BladeModel> Explicit<B> {
     /// Makes the map, if a corner has been held long enough and the map can be
     /// trusted for good.
     pub(super) fn hold(&mut self) -> bool {
@@ -146,21 +146,21 @@ impl<B: Blades> Explicit<B> {
     /// The corner in contact in this step, if neither pulse nor ramp nor
     /// excitation acts on it.
     pub(super) fn steady_corner(&self) -> Option<[u32; 2]> {
-        let Touching::Corner(a, b) = self.log.touching else { return None };
+        let ActiveSet::Corner(a, b) = self.log.active_set else { return None };
         let steady = self.rotor.ramp() == 0.0 && self.excitation.is_none();
         let after_pulse =
             self.pulse.force == 0.0 || self.time_of(self.n) > self.pulse.end + self.step;
         (steady && after_pulse && self.last_touch == self.n).then_some([a, b])
     }
 
-    fn make_map(&self, sides: [u32; 2]) -> Option<Held> {
+    fn make_map(&self, sides: [u32; 2]) -> Option<HeldCorner> {
         let now = self.blades.held_modes()?;
         let turn = self.machine.nu(self.rotor.speed(self.time_of(self.n))) * self.step;
         let step = CornerStep::new(&self.machine, &self.casing, now.moving, sides, turn);
         let now = as_modes(now.modes);
         let mut rest = now;
         let (change, slopes) = slopes(&step, rest)?;
-        let mut unchanged = Map::zeros();
+        let mut unchanged = StepMap::zeros();
         if step.blades().is_some() {
             unchanged = change.try_inverse()?;
             for _ in 0..MOST_CORRECTIONS {
@@ -179,7 +179,7 @@ impl<B: Blades> Explicit<B> {
         let swing = step
             .blades()
             .map_or((0.0, 0.0), |blades| blades.oscillator().reach_of(as_coordinates(start)));
-        let held = Held {
+        let held = HeldCorner {
             pulls: a > 0.0 || b > 0.0,
             rest,
             start,
@@ -195,7 +195,7 @@ impl<B: Blades> Explicit<B> {
 
     /// Whether multipliers and predicted gaps never come near a change of sign:
     /// neither at rest nor by the swing on the way there.
-    fn is_kept(&self, held: &Held, rest: [f64; 4], slopes: [Modes; 4]) -> bool {
+    fn is_kept(&self, held: &HeldCorner, rest: [f64; 4], slopes: [Modes; 4]) -> bool {
         let (angle, increment) = held.swing;
         if self.machine.nodal_diameters * angle > LARGEST_PHASE {
             return false;
@@ -209,7 +209,7 @@ impl<B: Blades> Explicit<B> {
     }
 
     /// Coordinates `steps` steps into the held corner.
-    pub(super) fn held_at(&self, held: &Held, steps: u64) -> ([Coordinate; 2], B) {
+    pub(super) fn held_at(&self, held: &HeldCorner, steps: u64) -> ([Coordinate; 2], B) {
         let modes = held.modes(steps);
         let mut blades = self.blades.clone();
         blades.set_held_modes(as_coordinates(modes));
@@ -227,8 +227,8 @@ impl<B: Blades> Explicit<B> {
 
 /// The map of what is beside `at`, less one, and the gradients of multipliers
 /// and predicted gaps, by central differences.
-fn slopes(step: &CornerStep, at: Modes) -> Option<(Map, [Modes; 4])> {
-    let mut map = Map::zeros();
+fn slopes(step: &CornerStep, at: Modes) -> Option<(StepMap, [Modes; 4])> {
+    let mut map = StepMap::zeros();
     let mut slopes = [Modes::zeros(); 4];
     for j in 0..4 {
         let mut shift = Modes::zeros();

@@ -1,7 +1,7 @@
 //! Verdicts of the explicit solver that nothing to come can change.
 
-use super::held::SETTLED_STEPS;
-use super::{Blades, Explicit};
+use super::held_corner::SETTLED_STEPS;
+use super::{BladeModel, Explicit};
 use crate::motion::Verdict;
 
 /// Part of the least push that the blades' motion may take from it.
@@ -9,10 +9,10 @@ const ROOM: f64 = 0.5;
 /// What the contact may feel of the blades' own inertia, against the casing's.
 const LIGHT: f64 = 1e-3;
 
-impl<B: Blades> Explicit<B> {
+impl<B: BladeModel> Explicit<B> {
     /// The verdict, once nothing to come can change it: no contact can come
     /// again, or a corner can never let go.
-    pub(super) fn settled_verdict(&self) -> Option<Verdict> {
+    pub(super) fn decided(&self) -> Option<Verdict> {
         if self.failure.is_some() {
             Some(Verdict::Failed)
         } else if self.no_contact_to_come() {
@@ -33,7 +33,7 @@ impl<B: Blades> Explicit<B> {
         let sides = self.steady_corner()?;
         let since = (self.log.since / self.step) as u64;
         let machine = &self.machine;
-        if self.n < since + SETTLED_STEPS || !machine.rim.has_corners() {
+        if self.n < since + SETTLED_STEPS || !machine.polygon.has_corners() {
             return None;
         }
         let sum = |side| {
@@ -41,8 +41,8 @@ impl<B: Blades> Explicit<B> {
             rows.map(|row| row.lambda).sum::<f64>()
         };
         let [a, b] = sides.map(sum);
-        let (sin, cos) = machine.rim.delta.sin_cos();
-        let turn = (2.0 * machine.rim.delta).cos();
+        let (sin, cos) = machine.polygon.delta.sin_cos();
+        let turn = (2.0 * machine.polygon.delta).cos();
         let least = self.law.hold([a, b], turn);
         let damping = machine.casing_damping_ratio * machine.omega_c
             + machine.blade_damping_ratio * machine.omega_bd_max;
@@ -51,8 +51,9 @@ impl<B: Blades> Explicit<B> {
         let turned = machine.nodal_diameters * self.blades.reach();
         let distance = machine.clearance() / (sin * cos);
         let change = 2.0 * turned * rates * rates * distance * machine.casing_mass;
-        let lever = machine.nodal_diameters * machine.rim.half_side();
-        let light = lever * lever * self.blades.compliance(0, 0) < LIGHT * self.casing.compliance;
+        let moment_arm = machine.nodal_diameters * machine.polygon.half_side();
+        let light =
+            moment_arm * moment_arm * self.blades.compliance(0, 0) < LIGHT * self.casing.compliance;
         (light && change < ROOM * least).then(|| locked(a > 0.0 || b > 0.0))
     }
 }

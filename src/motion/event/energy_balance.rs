@@ -9,12 +9,12 @@
 //! balance.
 
 use super::free::Free;
-use super::world::{Drive, Plane, World};
-use crate::motion::kernel::Kernel;
+use super::parameters::{Drive, Parameters, Plane};
+use crate::motion::propagator::Propagator;
 
 /// Energies per unit casing mass \[m^2/s^2\].
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Ledger {
+pub(super) struct EnergyBalance {
     /// Kinetic and potential energy at the start.
     pub start: f64,
     /// Work of the pulse.
@@ -27,7 +27,7 @@ pub(super) struct Ledger {
     pub lost: f64,
 }
 
-impl Ledger {
+impl EnergyBalance {
     /// What is missing from the balance at a state of this energy.
     pub(super) fn residual(&self, energy: f64) -> f64 {
         self.pulse + self.rotor - (energy - self.start) - self.dissipated - self.lost
@@ -35,34 +35,34 @@ impl Ledger {
 }
 
 /// Kinetic and potential energy of the casing per unit mass.
-pub(super) fn energy(world: &World, u: Plane, v: Plane) -> f64 {
-    0.5 * (v.norm_sqr() + world.kernel.stiffness * u.norm_sqr())
+pub(super) fn energy(parameters: &Parameters, u: Plane, v: Plane) -> f64 {
+    0.5 * (v.norm_sqr() + parameters.propagator.stiffness * u.norm_sqr())
 }
 
 /// Energy dissipated in `s` seconds of free flight, by the casing and by the
 /// blades.
-pub(super) fn dissipated(world: &World, drive: &Drive, free: &Free, s: f64) -> f64 {
-    let centre = drive.pulse / world.kernel.stiffness;
+pub(super) fn dissipated(parameters: &Parameters, drive: &Drive, free: &Free, s: f64) -> f64 {
+    let centre = drive.pulse / parameters.propagator.stiffness;
     let from = free.place - Plane::new(centre, 0.0);
-    let casing = damped(&world.kernel, from, free.rate, s);
-    let blades = world.blades.map_or(0.0, |blades| {
-        blades.mass * damped(&blades.kernel, free.tips.angle, free.tips.rate, s)
+    let casing = damped(&parameters.propagator, from, free.rate, s);
+    let blades = parameters.blades.map_or(0.0, |blades| {
+        blades.mass * damped(&blades.propagator, free.tips.angle, free.tips.rate, s)
     });
     casing + blades
 }
 
 /// Energy per unit mass that a free damped oscillator loses in `s` seconds.
-fn damped(kernel: &Kernel, from: Plane, rate: Plane, s: f64) -> f64 {
-    if kernel.damping == 0.0 || (from.norm_sqr() == 0.0 && rate.norm_sqr() == 0.0) {
+fn damped(propagator: &Propagator, from: Plane, rate: Plane, s: f64) -> f64 {
+    if propagator.damping == 0.0 || (from.norm_sqr() == 0.0 && rate.norm_sqr() == 0.0) {
         return 0.0;
     }
-    let power = 2.0 * kernel.damping;
-    let Some(exponents) = kernel.exponents() else {
+    let power = 2.0 * propagator.damping;
+    let Some(exponents) = propagator.exponents() else {
         // Near critical damping all is over after some forty periods.
-        let omega = kernel.stiffness.sqrt();
+        let omega = propagator.stiffness.sqrt();
         let [sum, _] = quadrature(s.min(200.0 / omega), 2.0 * omega, |t| {
-            let response = kernel.at(t);
-            let rate = rate * response.slope - from * (kernel.stiffness * response.unit);
+            let response = propagator.at(t);
+            let rate = rate * response.slope - from * (propagator.stiffness * response.unit);
             [rate.norm_sqr(), 0.0]
         });
         return power * sum;

@@ -14,7 +14,7 @@ const TERMS: usize = 18;
 
 /// The equation's coefficients, ready to be evaluated at any time.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Kernel {
+pub(super) struct Propagator {
     /// Damping `c` \[1/s\], zero or more.
     pub damping: f64,
     /// Stiffness per unit mass `kappa` \[1/s^2\], of any sign.
@@ -38,7 +38,7 @@ pub(super) struct Response {
     pub ramp: f64,
 }
 
-impl Kernel {
+impl Propagator {
     pub(super) fn new(damping: f64, stiffness: f64) -> Self {
         let discriminant = damping * damping - stiffness;
         Self { damping, stiffness, discriminant, root: discriminant.abs().sqrt() }
@@ -206,9 +206,9 @@ mod tests {
             (0.0, -2.0),
             (2.0, 1e-3),
         ] {
-            let kernel = Kernel::new(c, kappa);
+            let propagator = Propagator::new(c, kappa);
             for s in [1e-9, 1e-3, 0.11, 0.3, 0.49, 0.51, 0.8, 1.7, 5.0] {
-                let response = kernel.at(s);
+                let response = propagator.at(s);
                 let [unit, slope] = integrated(c, kappa, [0.0, 1.0], 0.0, s);
                 let [ramp, same] = integrated(c, kappa, [0.0, 0.0], 1.0, s);
                 let [hold, _] = integrated(c, kappa, [1.0, 0.0], 0.0, s);
@@ -231,15 +231,15 @@ mod tests {
     #[test]
     fn a_turning_point_is_where_the_rate_vanishes_first() {
         for (c, kappa) in [(0.0, 2.0), (0.3, 1.0), (1.0, 1.0), (0.999_999, 1.0), (3.0, 1.0)] {
-            let kernel = Kernel::new(c, kappa);
+            let propagator = Propagator::new(c, kappa);
             for (place, rate) in [(1.0, 0.3), (1.0, -0.1), (-0.2, 1.0), (0.0, 1.0), (0.1, -7.0)] {
                 let rate_at = |s: f64| {
-                    let response = kernel.at(s);
+                    let response = propagator.at(s);
                     rate * response.slope - place * kappa * response.unit
                 };
                 let sampled = (1..40_000).map(|k| 1e-3 * f64::from(k));
                 let first = sampled.into_iter().find(|&s| rate_at(s) * rate < 0.0);
-                let found = kernel.first_rest(place, rate).filter(|&time| time < 39.0);
+                let found = propagator.first_rest(place, rate).filter(|&time| time < 39.0);
                 assert_eq!(found.is_some(), first.is_some(), "{c} {kappa} {place} {rate}");
                 if let (Some(time), Some(first)) = (found, first) {
                     assert!(time <= first && time > first - 1.001e-3, "{time} {first}");
@@ -251,8 +251,8 @@ mod tests {
 
     #[test]
     fn short_times_keep_relative_digits() {
-        let kernel = Kernel::new(40.0, 7e5);
-        let response = kernel.at(1e-12);
+        let propagator = Propagator::new(40.0, 7e5);
+        let response = propagator.at(1e-12);
         assert!((response.ramp / 5e-25 - 1.0).abs() < 1e-9);
         assert!((response.unit / 1e-12 - 1.0).abs() < 1e-9);
     }

@@ -6,7 +6,7 @@ use nalgebra::Complex;
 
 use super::blades::{Blades, Tips};
 use crate::model::Machine;
-use crate::motion::kernel::Kernel;
+use crate::motion::propagator::Propagator;
 use crate::scene::Scene;
 use crate::tolerances::{self, ROUND_OFF};
 
@@ -15,7 +15,7 @@ pub(super) type Plane = Complex<f64>;
 
 /// The machine in the units the solver works with: everything per unit mass.
 #[derive(Clone, Debug)]
-pub(super) struct World {
+pub(super) struct Parameters {
     pub machine: Machine,
     /// Clearance `g0` \[m\].
     pub clearance: f64,
@@ -27,7 +27,7 @@ pub(super) struct World {
     /// `zeta_c omega_c` \[1/s\].
     pub damping: f64,
     /// Response of the free casing.
-    pub kernel: Kernel,
+    pub propagator: Propagator,
     /// The blades, where they move.
     pub blades: Option<Blades>,
     /// Blades too stiff for the casing to notice: their angles follow the pushes.
@@ -44,20 +44,20 @@ pub(super) struct World {
     pub tolerance: f64,
 }
 
-impl World {
+impl Parameters {
     pub(super) fn new(scene: &Scene) -> Self {
         let machine = scene.machine();
-        let corners = machine.rim.has_corners();
+        let corners = machine.polygon.has_corners();
         let damping = machine.casing_damping_ratio * machine.omega_c;
         let blades = Blades::of(scene, &machine);
         let negligible = blades.is_some_and(|blades| blades.negligible(scene, &machine));
-        let twice = 2.0 * PI / f64::from(machine.rim.sides);
+        let twice = 2.0 * PI / f64::from(machine.polygon.sides);
         Self {
             clearance: machine.clearance(),
-            half_side: if corners { machine.rim.half_side() } else { scene.casing.radius_m },
+            half_side: if corners { machine.polygon.half_side() } else { scene.casing.radius_m },
             omega: machine.omega_c,
             damping,
-            kernel: Kernel::new(damping, machine.omega_c * machine.omega_c),
+            propagator: Propagator::new(damping, machine.omega_c * machine.omega_c),
             blades: if negligible { None } else { blades },
             stiff: if negligible { blades } else { None },
             mass: machine.casing_mass,
@@ -71,7 +71,7 @@ impl World {
 
     /// `exp(i psi)` of a side.
     pub(super) fn direction(&self, side: u32) -> Plane {
-        let (cos, sin) = self.machine.rim.direction(side);
+        let (cos, sin) = self.machine.polygon.direction(side);
         Plane::new(cos, sin)
     }
 
@@ -150,8 +150,8 @@ impl Drive {
     }
 
     /// `exp(i beta)` of a side, the direction that opens its gap, `s` seconds on.
-    pub(super) fn inward(&self, world: &World, side: u32, s: f64) -> Plane {
-        world.direction(side) * Plane::cis(self.phase(s))
+    pub(super) fn inward(&self, parameters: &Parameters, side: u32, s: f64) -> Plane {
+        parameters.direction(side) * Plane::cis(self.phase(s))
     }
 
     /// Whether neither pulse nor ramp acts.

@@ -1,4 +1,4 @@
-//! The rim seen in the frame of the blades: a regular polygon.
+//! The polygon seen in the frame of the blades: a regular polygon.
 //!
 //! With `z = (u_c + i u_s) exp(-i n_d theta)` and rigid blades, the gap of a
 //! blade of phase `psi` is `g = g0 + Re[z exp(-i psi)]`: the casing wave is a
@@ -10,7 +10,7 @@ use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4, PI, TAU};
 
 /// Phase groups of the blades and the polygon they bound.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Rim {
+pub struct ContactPolygon {
     /// Number of blades `N`.
     pub blades: u32,
     /// Nodal diameters `n_d`.
@@ -27,8 +27,8 @@ pub struct Rim {
     directions: Vec<(f64, f64)>,
 }
 
-impl Rim {
-    /// Rim of `blades >= 1` blades with `nodal_diameters` and `clearance` \[m\].
+impl ContactPolygon {
+    /// ContactPolygon of `blades >= 1` blades with `nodal_diameters` and `clearance` \[m\].
     #[must_use]
     pub fn new(blades: u32, nodal_diameters: u32, clearance: f64) -> Self {
         let blades = blades.max(1);
@@ -172,19 +172,19 @@ mod tests {
 
     #[test]
     fn paper_rim_has_one_blade_a_side_and_the_locked_pair_is_a_corner() {
-        let rim = Rim::new(22, 3, 1e-4);
-        assert_eq!((rim.sides, rim.blades_per_side), (22, 1));
-        assert_eq!(rim.side_of_blade(6), 15);
-        assert_eq!(rim.side_of_blade(21), 16);
-        assert!(rim.are_neighbours(15, 16));
+        let polygon = ContactPolygon::new(22, 3, 1e-4);
+        assert_eq!((polygon.sides, polygon.blades_per_side), (22, 1));
+        assert_eq!(polygon.side_of_blade(6), 15);
+        assert_eq!(polygon.side_of_blade(21), 16);
+        assert!(polygon.are_neighbours(15, 16));
     }
 
     #[test]
     fn four_diameters_put_two_blades_on_each_of_eleven_sides() {
-        let rim = Rim::new(22, 4, 1e-4);
-        assert_eq!((rim.sides, rim.blades_per_side), (11, 2));
+        let polygon = ContactPolygon::new(22, 4, 1e-4);
+        assert_eq!((polygon.sides, polygon.blades_per_side), (11, 2));
         for side in 0..11 {
-            let blades = rim.blades_of_side(side);
+            let blades = polygon.blades_of_side(side);
             assert_eq!(blades.len(), 2);
             assert_eq!(blades[1] - blades[0], 11);
         }
@@ -192,23 +192,23 @@ mod tests {
 
     #[test]
     fn degenerate_and_aliased_diameters() {
-        assert_eq!(Rim::new(22, 0, 1.0).sides, 1);
-        assert_eq!(Rim::new(22, 11, 1.0).sides, 2);
-        assert_eq!(Rim::new(22, 22, 1.0).sides, 1);
-        assert_eq!(Rim::new(22, 25, 1.0).side_of_blade(6), 15);
-        assert_eq!(Rim::new(1, 3, 1.0).sides, 1);
+        assert_eq!(ContactPolygon::new(22, 0, 1.0).sides, 1);
+        assert_eq!(ContactPolygon::new(22, 11, 1.0).sides, 2);
+        assert_eq!(ContactPolygon::new(22, 22, 1.0).sides, 1);
+        assert_eq!(ContactPolygon::new(22, 25, 1.0).side_of_blade(6), 15);
+        assert_eq!(ContactPolygon::new(1, 3, 1.0).sides, 1);
     }
 
     #[test]
     fn directions_agree_with_the_phase_and_mirror_exactly() {
         for sides in [1, 2, 3, 4, 7, 8, 11, 22, 500] {
-            let rim = Rim::new(sides, 1, 1.0);
+            let polygon = ContactPolygon::new(sides, 1, 1.0);
             for k in 0..sides {
-                let (c, s) = rim.direction(k);
+                let (c, s) = polygon.direction(k);
                 // The phase itself is rounded: up to half a unit in the last place of 2 pi.
-                assert!((c - rim.phase(k).cos()).abs() < 1.5e-15);
-                assert!((s - rim.phase(k).sin()).abs() < 1.5e-15);
-                let (cm, sm) = rim.direction((sides - k) % sides);
+                assert!((c - polygon.phase(k).cos()).abs() < 1.5e-15);
+                assert!((s - polygon.phase(k).sin()).abs() < 1.5e-15);
+                let (cm, sm) = polygon.direction((sides - k) % sides);
                 assert_eq!((c, s), (cm, -sm), "side {k} of {sides}");
             }
         }
@@ -216,28 +216,28 @@ mod tests {
 
     #[test]
     fn nearest_side_has_the_smallest_gap() {
-        let rim = Rim::new(22, 3, 1e-4);
+        let polygon = ContactPolygon::new(22, 3, 1e-4);
         for step in 0..1000 {
             let angle = 0.006_3 * f64::from(step);
             let (y, x) = angle.sin_cos();
-            let nearest = rim.nearest_side(x, y);
-            let smallest = (0..22).map(|k| rim.gap(k, x, y)).fold(f64::INFINITY, f64::min);
-            assert!(rim.gap(nearest, x, y) <= smallest + 1e-12);
+            let nearest = polygon.nearest_side(x, y);
+            let smallest = (0..22).map(|k| polygon.gap(k, x, y)).fold(f64::INFINITY, f64::min);
+            assert!(polygon.gap(nearest, x, y) <= smallest + 1e-12);
         }
     }
 
     #[test]
     fn largest_component_is_that_of_all_sides() {
         for sides in [1, 2, 3, 4, 7, 22] {
-            let rim = Rim::new(sides, 1, 1e-4);
+            let polygon = ContactPolygon::new(sides, 1, 1e-4);
             for step in 0..200 {
                 let (y, x) = (0.031_7 * f64::from(step)).sin_cos();
                 let each = (0..sides).map(|k| {
-                    let (c, s) = rim.direction(k);
+                    let (c, s) = polygon.direction(k);
                     (c * x + s * y).abs()
                 });
                 let all = each.fold(0.0, f64::max);
-                assert_eq!(rim.largest_component(x, y), all, "{sides} {step}");
+                assert_eq!(polygon.largest_component(x, y), all, "{sides} {step}");
             }
         }
     }

@@ -1,13 +1,13 @@
-//! A corner whose blades bend, exactly: one equation for its opening.
+//! A corner whose blades bend, exactly: one equation for its corner angle.
 //!
 //! Let the contacting blades stand `2 Delta` apart in phase, `2 delta` before
-//! they bend. Then `|z| = g0/cos Delta`, the levers are `-+tan Delta`, and the
+//! they bend. Then `|z| = g0/cos Delta`, the moment arms are `-+tan Delta`, and the
 //! multipliers are those of the closed form with `Delta` for `delta`. Their sum
 //! is `kappa/cos^2 Delta` whatever the damping, and the two blade modes give
 //!
 //! `Delta - delta = -c kappa tan Delta/cos^2 Delta`, `c = softness (2/N) sin^2 delta`.
 //!
-//! So the branch is explicit when followed by its opening, folds included:
+//! So the branch is explicit when followed by its corner angle, folds included:
 //! `kappa = -(Delta - delta) cos^3 Delta/(c sin Delta)`, which turns back where
 //! `sin Delta cos Delta = (Delta - delta)(1 + 2 sin^2 Delta)`.
 
@@ -20,20 +20,20 @@ use crate::model::Machine;
 /// number resolves, at any speed whose square a number holds.
 const AS_GOOD_AS_RIGID: f64 = 1e-290;
 
-/// The opening of one rim's corners.
+/// The corner angle of one polygon's corners.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Opening {
+pub(super) struct CornerAngle {
     /// Half angle of the unbent corner, `delta` \[rad\].
     pub delta: f64,
     /// `c` above.
     compliance: f64,
 }
 
-impl Opening {
+impl CornerAngle {
     /// Of a machine's corners.
     pub fn of(machine: &Machine) -> Self {
         let scales = Scales::of(machine);
-        Self::new(machine.rim.delta, scales.softness * scales.share)
+        Self::new(machine.polygon.delta, scales.softness * scales.share)
     }
 
     /// With the (dimensionless) softness of the blades times their share.
@@ -41,17 +41,17 @@ impl Opening {
         Self { delta, compliance: bend * delta.sin().powi(2) }
     }
 
-    /// The widening `Delta - delta` \[rad\] at `kappa`, on the branch of stiff
+    /// The change of the corner angle `Delta - delta` \[rad\] at `kappa`, on the branch of stiff
     /// blades; `None` beyond its fold.
     pub fn at(&self, kappa: f64) -> Option<f64> {
-        let mut widening = 0.0;
+        let mut angle_change = 0.0;
         // Steps shrink, to half at worst (at the fold), until they are rounding.
         let mut last = f64::INFINITY;
         for _ in 0..100 {
-            let angle = self.delta + widening;
+            let angle = self.delta + angle_change;
             let (sin, cos) = angle.sin_cos();
             let pull = self.compliance * kappa / (cos * cos);
-            let value = widening + pull * sin / cos;
+            let value = angle_change + pull * sin / cos;
             let slope = 1.0 + pull * (1.0 + 2.0 * sin * sin) / (cos * cos);
             // The slope vanishes at the fold. Newton's steps from delta stay on
             // the near side of the root: the equation is convex there.
@@ -59,26 +59,26 @@ impl Opening {
                 return None;
             }
             let step = value / slope;
-            widening -= step;
-            let angle = self.delta + widening;
+            angle_change -= step;
+            let angle = self.delta + angle_change;
             if !(angle > 0.0 && angle < FRAC_PI_2) {
                 return None;
             }
-            if step.abs() <= 2.0 * f64::EPSILON * widening.abs()
+            if step.abs() <= 2.0 * f64::EPSILON * angle_change.abs()
                 || (step.abs() >= last && step.abs() <= 1e-7 * angle)
             {
-                return Some(widening);
+                return Some(angle_change);
             }
             last = step.abs();
         }
         None
     }
 
-    /// The widening \[rad\] between two others where `kappa` is this, by
+    /// The change of the corner angle \[rad\] between two others where `kappa` is this, by
     /// halving: also next to the fold, where Newton's method has no slope, and
     /// behind it. `kappa` must change one way only between the two.
     pub fn between(&self, kappa: f64, [mut near, mut far]: [f64; 2]) -> f64 {
-        let at = |widening| self.kappa(widening).map_or(f64::NAN, |(kappa, _)| kappa);
+        let at = |angle_change| self.kappa(angle_change).map_or(f64::NAN, |(kappa, _)| kappa);
         let grows = at(near) < at(far);
         let mut middle = near;
         for _ in 0..200 {
@@ -95,29 +95,29 @@ impl Opening {
         middle
     }
 
-    /// `kappa` at a widening, and its slope; `None` for blades so stiff that
+    /// `kappa` at a change of the corner angle, and its slope; `None` for blades so stiff that
     /// the corner cannot open so far.
-    pub fn kappa(&self, widening: f64) -> Option<(f64, f64)> {
+    pub fn kappa(&self, angle_change: f64) -> Option<(f64, f64)> {
         if self.compliance < AS_GOOD_AS_RIGID {
             return None;
         }
-        let (sin, cos) = (self.delta + widening).sin_cos();
+        let (sin, cos) = (self.delta + angle_change).sin_cos();
         let scale = -cos * cos / (self.compliance * sin * sin);
-        let kappa = scale * widening * sin * cos;
-        let slope = scale * (sin * cos - widening * (1.0 + 2.0 * sin * sin));
+        let kappa = scale * angle_change * sin * cos;
+        let slope = scale * (sin * cos - angle_change * (1.0 + 2.0 * sin * sin));
         (kappa.is_finite() && slope.is_finite()).then_some((kappa, slope))
     }
 
-    /// The widening at the fold \[rad\]: a matter of `delta` alone.
+    /// The change of the corner angle at the fold \[rad\]: a matter of `delta` alone.
     pub fn at_fold(&self) -> f64 {
         let (mut below, mut above) = (0.0, FRAC_PI_2 - self.delta);
         for _ in 0..60 {
-            let widening = 0.5 * (below + above);
-            let (sin, cos) = (self.delta + widening).sin_cos();
-            if sin * cos > widening * (1.0 + 2.0 * sin * sin) {
-                below = widening;
+            let angle_change = 0.5 * (below + above);
+            let (sin, cos) = (self.delta + angle_change).sin_cos();
+            if sin * cos > angle_change * (1.0 + 2.0 * sin * sin) {
+                below = angle_change;
             } else {
-                above = widening;
+                above = angle_change;
             }
         }
         below
@@ -131,30 +131,30 @@ mod tests {
     #[test]
     fn the_branch_by_speed_is_the_branch_by_opening() {
         for (delta, bend) in [(0.1428, 1e-6), (0.1428, 40.0), (0.6, 3.0), (1.0, 0.3)] {
-            let opening = Opening::new(delta, bend);
-            let (limit, slope) = opening.kappa(opening.at_fold()).unwrap();
+            let corner_angle = CornerAngle::new(delta, bend);
+            let (limit, slope) = corner_angle.kappa(corner_angle.at_fold()).unwrap();
             assert!(slope.abs() < 1e-12 * (limit / delta).abs());
             for part in [-3.0, -0.5, 0.0, 1e-9, 0.1, 0.5, 0.9, 0.999] {
-                let widening = opening.at(part * limit).unwrap();
-                let (back, _) = opening.kappa(widening).unwrap();
+                let angle_change = corner_angle.at(part * limit).unwrap();
+                let (back, _) = corner_angle.kappa(angle_change).unwrap();
                 // Next to the fold an angle's rounding counts a hundredfold.
                 assert!((back - part * limit).abs() <= 1e-13 * limit.abs());
-                assert_eq!(widening > 0.0, part > 0.0);
+                assert_eq!(angle_change > 0.0, part > 0.0);
             }
-            assert_eq!(opening.at(1.001 * limit), None);
+            assert_eq!(corner_angle.at(1.001 * limit), None);
         }
     }
 
     #[test]
     fn the_slope_is_the_slope_and_the_fold_is_the_extreme() {
-        let opening = Opening::new(0.3, 2.0);
-        let at = |widening| opening.kappa(widening).unwrap().0;
-        for widening in [-0.1, 0.05, 0.7] {
-            let (_, slope) = opening.kappa(widening).unwrap();
-            let measured = (at(widening + 1e-5) - at(widening - 1e-5)) / 2e-5;
+        let corner_angle = CornerAngle::new(0.3, 2.0);
+        let at = |angle_change| corner_angle.kappa(angle_change).unwrap().0;
+        for angle_change in [-0.1, 0.05, 0.7] {
+            let (_, slope) = corner_angle.kappa(angle_change).unwrap();
+            let measured = (at(angle_change + 1e-5) - at(angle_change - 1e-5)) / 2e-5;
             assert!((measured - slope).abs() < 1e-7 * slope.abs().max(1.0));
         }
-        let fold = opening.at_fold();
+        let fold = corner_angle.at_fold();
         assert!(at(fold) < at(fold - 1e-4) && at(fold) < at(fold + 1e-4));
     }
 }

@@ -11,15 +11,15 @@
 //! `k = ratio g0/n_d`. The two unknown accelerations `xi''` and `eta''` are
 //! eliminated; what is left is summed as a power series, as in `series`.
 
-use super::approach::curved_step;
+use super::advancement::curved_step;
 use super::blades::{Blades, Tips};
 use super::corner::{self, Hold};
+use super::parameters::{Drive, Parameters, Plane};
 use super::terms::{STRETCH, TERMS, Terms, ended, jerk, product, quotient, slope, values};
-use super::world::{Drive, Plane, World};
 
 /// One stretch of locked motion in the corner of side `a` and the next.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Held {
+pub(super) struct CornerSeries {
     pub a: u32,
     /// Length of the stretch \[s\].
     pub length: f64,
@@ -33,23 +33,29 @@ pub(super) struct Held {
     noise: f64,
 }
 
-impl Held {
-    pub(super) fn new(world: &World, drive: &Drive, blades: &Blades, a: u32, tips: &Tips) -> Self {
-        let bisector = bisector(world, a);
+impl CornerSeries {
+    pub(super) fn new(
+        parameters: &Parameters,
+        drive: &Drive,
+        blades: &Blades,
+        a: u32,
+        tips: &Tips,
+    ) -> Self {
+        let bisector = bisector(parameters, a);
         let (local, turning) = (tips.angle * bisector.conj(), tips.rate * bisector.conj());
         let spin = drive.nu.abs() + blades.diameters * tips.rate.norm();
-        let fastest = world.omega
-            + 2.0 * world.damping
+        let fastest = parameters.omega
+            + 2.0 * parameters.damping
             + spin
             + drive.nu_rate.abs().sqrt()
             + blades.omega
-            + 2.0 * blades.kernel.damping;
+            + 2.0 * blades.propagator.damping;
         let mut held = Self {
             a,
             length: STRETCH / fastest,
             tips: [[0.0; TERMS]; 2],
             pushes: [[0.0; TERMS]; 2],
-            noise: world.push_noise(drive),
+            noise: parameters.push_noise(drive),
             lost: false,
         };
         for _ in 0..60 {
@@ -59,7 +65,7 @@ impl Held {
             {
                 (terms[0], terms[1]) = (angle, rate * h);
             }
-            held.expand(world, drive, blades, bisector);
+            held.expand(parameters, drive, blades, bisector);
             held.lost = !held.pushes.iter().all(|terms| ended(terms) || held.rests(terms));
             if !held.lost {
                 break;
@@ -69,12 +75,13 @@ impl Held {
         held
     }
 
-    fn expand(&mut self, world: &World, drive: &Drive, blades: &Blades, bisector: Plane) {
+    fn expand(&mut self, parameters: &Parameters, drive: &Drive, blades: &Blades, bisector: Plane) {
         let h = self.length;
         let (nu, ramp) = (drive.nu * h, drive.nu_rate * h * h);
-        let (omega2, c2) = (world.omega * world.omega * h * h, 2.0 * world.damping * h);
-        let (g0, pulse) = (world.clearance, drive.pulse * h * h);
-        let (sin_d, cos_d) = world.machine.rim.delta.sin_cos();
+        let (omega2, c2) =
+            (parameters.omega * parameters.omega * h * h, 2.0 * parameters.damping * h);
+        let (g0, pulse) = (parameters.clearance, drive.pulse * h * h);
+        let (sin_d, cos_d) = parameters.machine.polygon.delta.sin_cos();
         let (along, across) = (blades.diameters * cos_d, blades.diameters * sin_d);
         let k = blades.ratio * g0 / blades.diameters;
         let zero = [0.0; TERMS];
@@ -85,7 +92,7 @@ impl Held {
         // tau', sigma', their squares; tan, sec, their products.
         let (mut tau, mut sigma, mut tau2, mut sigma2) = (zero, zero, zero, zero);
         let (mut tan, mut sec, mut tan2, mut both, mut sec2) = (zero, zero, zero, zero, zero);
-        let tau_start = world.machine.rim.delta + across * eta[0];
+        let tau_start = parameters.machine.polygon.delta + across * eta[0];
         (tan[0], sec[0]) = (tau_start.tan(), 1.0 / tau_start.cos());
         let (mut radius_rate, mut curve, mut steep, mut bent) = (zero, zero, zero, zero);
         let (mut free_xi, mut free_eta) = (zero, zero);
@@ -147,16 +154,22 @@ impl Held {
     }
 
     /// Place and rate of the casing in the standing frame, `s` seconds on.
-    pub(super) fn standing(&self, world: &World, drive: &Drive, s: f64) -> (Plane, Plane) {
-        let diameters = world.blades.map_or(0.0, |blades| blades.diameters);
-        let (sin, cos) = world.machine.rim.delta.sin_cos();
+    pub(super) fn standing(
+        &self,
+        parameters: &Parameters,
+        drive: &Drive,
+        s: f64,
+    ) -> (Plane, Plane) {
+        let diameters = parameters.blades.map_or(0.0, |blades| blades.diameters);
+        let (sin, cos) = parameters.machine.polygon.delta.sin_cos();
         let [[xi, xi_rate, _], [eta, eta_rate, _]] =
             self.tips.map(|terms| values(&terms, s / self.length));
-        let tau = world.machine.rim.delta + diameters * sin * eta;
-        let radius = world.clearance / tau.cos();
+        let tau = parameters.machine.polygon.delta + diameters * sin * eta;
+        let radius = parameters.clearance / tau.cos();
         let growth = radius * tau.tan() * diameters * sin * eta_rate / self.length;
         let spin = drive.nu(s) + diameters * cos * xi_rate / self.length;
-        let turned = bisector(world, self.a) * Plane::cis(drive.phase(s) + diameters * cos * xi);
+        let turned =
+            bisector(parameters, self.a) * Plane::cis(drive.phase(s) + diameters * cos * xi);
         (-turned * radius, -turned * Plane::new(growth, spin * radius))
     }
 
@@ -166,10 +179,10 @@ impl Held {
     }
 
     /// The blades, `s` seconds on.
-    pub(super) fn tips(&self, world: &World, s: f64) -> Tips {
+    pub(super) fn tips(&self, parameters: &Parameters, s: f64) -> Tips {
         let [[xi, xi_rate, _], [eta, eta_rate, _]] =
             self.tips.map(|terms| values(&terms, s / self.length));
-        let bisector = bisector(world, self.a);
+        let bisector = bisector(parameters, self.a);
         Tips {
             angle: Plane::new(xi, eta) * bisector,
             rate: Plane::new(xi_rate, eta_rate) * bisector / self.length,
@@ -184,31 +197,37 @@ impl Held {
     }
 
     /// Distance of both contacts from the middle of their sides \[m\].
-    pub(super) fn half_side(&self, world: &World, s: f64) -> f64 {
-        world.clearance * world.half_angle(self.a, &self.tips(world, s)).tan()
+    pub(super) fn half_side(&self, parameters: &Parameters, s: f64) -> f64 {
+        parameters.clearance * parameters.half_angle(self.a, &self.tips(parameters, s)).tan()
     }
 
     /// Whether, at constant speed, no push can vanish any more: what is left of
     /// the blades' vibration about their rest moves the pushes by less than half
     /// of what they are.
-    pub(super) fn for_good(&self, world: &World, drive: &Drive, blades: &Blades, s: f64) -> bool {
-        let (sin, cos) = world.machine.rim.delta.sin_cos();
-        let rest = corner::pushes(world, drive, self.a, 0.0);
+    pub(super) fn for_good(
+        &self,
+        parameters: &Parameters,
+        drive: &Drive,
+        blades: &Blades,
+        s: f64,
+    ) -> bool {
+        let (sin, cos) = parameters.machine.polygon.delta.sin_cos();
+        let rest = corner::pushes(parameters, drive, self.a, 0.0);
         let least = rest[0].min(rest[1]);
-        let moment = blades.ratio / blades.diameters * world.half_side;
+        let moment = blades.ratio / blades.diameters * parameters.half_side;
         let offset = Plane::new((rest[1] - rest[0]) * cos, (rest[1] + rest[0]) * sin);
-        let rest = offset * bisector(world, self.a) * (moment / blades.kernel.stiffness);
-        let tips = self.tips(world, s);
+        let rest = offset * bisector(parameters, self.a) * (moment / blades.propagator.stiffness);
+        let tips = self.tips(parameters, s);
         let left = Tips { angle: tips.angle - rest, rate: tips.rate };
         // An angle, its rate and its acceleration enter the pushes with at most
         // these rates squared, times the distance of the corner over sin delta.
         let rates = drive.nu.abs()
-            + world.omega
+            + parameters.omega
             + blades.omega
-            + 2.0 * (world.damping + blades.kernel.damping);
+            + 2.0 * (parameters.damping + blades.propagator.damping);
         let turned = blades.diameters * blades.amplitude(&left);
-        let change = 2.0 * turned * rates * rates * world.clearance / (sin * cos);
-        let light = blades.ratio * world.half_side * world.half_side < 1e-3;
+        let change = 2.0 * turned * rates * rates * parameters.clearance / (sin * cos);
+        let light = blades.ratio * parameters.half_side * parameters.half_side < 1e-3;
         light && change < 0.5 * least
     }
 
@@ -218,7 +237,7 @@ impl Held {
     }
 
     /// Looks ahead from `s`, before which nothing happens, within the stretch.
-    pub(super) fn look(&self, world: &World, s: f64) -> Hold {
+    pub(super) fn look(&self, parameters: &Parameters, s: f64) -> Hold {
         if self.lost {
             return Hold::Lost;
         }
@@ -232,7 +251,7 @@ impl Held {
                 // itself, does not let go by round-off.
                 continue;
             }
-            let noise = world.tolerance * size;
+            let noise = parameters.tolerance * size;
             if push <= noise && rate < 0.0 {
                 return Hold::Yield(second);
             }
@@ -244,6 +263,6 @@ impl Held {
 }
 
 /// `exp(i psi_m)`, half-way between a side and the next.
-fn bisector(world: &World, a: u32) -> Plane {
-    world.direction(a) * Plane::cis(world.machine.rim.delta)
+fn bisector(parameters: &Parameters, a: u32) -> Plane {
+    parameters.direction(a) * Plane::cis(parameters.machine.polygon.delta)
 }

@@ -6,12 +6,12 @@
 
 use std::sync::Arc;
 
-use super::{Blades, Excitation, Explicit, Oscillator};
+use super::{BladeModel, EngineOrderTorque, Explicit, Oscillator};
 use crate::contact;
 use crate::motion::{Change, Pulse};
 use crate::scene::CheckedScene;
 
-impl<B: Blades> Explicit<B> {
+impl<B: BladeModel> Explicit<B> {
     /// From the latest step on, moves with the parameters of a scene, if that is
     /// live. Time, coordinates, rates, rotor, the pulse under way and the record
     /// of contacts stay.
@@ -31,7 +31,7 @@ impl<B: Blades> Explicit<B> {
         );
         self.machine = machine;
         self.law = contact::law(scene.solver.contact);
-        self.excitation = Excitation::of(scene);
+        self.excitation = EngineOrderTorque::of(scene);
         self.next_pulse = Pulse::of(scene);
         self.neighbours_matter = self.neighbours_matter();
     }
@@ -67,7 +67,7 @@ mod tests {
             // Round-off of blocks cut elsewhere, against a clearance of 1e-4.
             assert!((a.u[0] - b.u[0]).hypot(a.u[1] - b.u[1]) < 1e-12, "{a:?} {b:?}");
             assert_eq!(plain.contacts().impact_count, adopting.contacts().impact_count);
-            assert_eq!(plain.contacts().touching, adopting.contacts().touching);
+            assert_eq!(plain.contacts().active_set, adopting.contacts().active_set);
         }
     }
 

@@ -12,15 +12,15 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::approach::{curved_step, leaving_step};
+use super::advancement::{curved_step, leaving_step};
 use super::blades::{Blades, Tips};
+use super::parameters::{Drive, Parameters, Plane};
 use super::slide::{Ahead, Along, push_noise};
 use super::terms::{STRETCH, TERMS, Terms, ended, jerk, product, quotient, slope, values};
-use super::world::{Drive, Plane, World};
 
 /// One stretch of sliding on `side`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Series {
+pub(super) struct SideSeries {
     pub side: u32,
     /// Length of the stretch \[s\].
     pub length: f64,
@@ -49,16 +49,16 @@ pub(super) struct From {
     pub resting: bool,
 }
 
-impl Series {
-    pub(super) fn new(world: &World, drive: &Drive, side: u32, from: &From) -> Self {
-        let (inward, spin) = world.facing(drive, side, 0.0, &from.tips);
+impl SideSeries {
+    pub(super) fn new(parameters: &Parameters, drive: &Drive, side: u32, from: &From) -> Self {
+        let (inward, spin) = parameters.facing(drive, side, 0.0, &from.tips);
         let mut fastest =
-            world.omega + 2.0 * world.damping + spin.abs() + drive.nu_rate.abs().sqrt();
-        if let Some(blades) = &world.blades {
-            fastest += blades.omega + 2.0 * blades.kernel.damping;
+            parameters.omega + 2.0 * parameters.damping + spin.abs() + drive.nu_rate.abs().sqrt();
+        if let Some(blades) = &parameters.blades {
+            fastest += blades.omega + 2.0 * blades.propagator.damping;
         }
-        let local = from.tips.angle * world.direction(side).conj();
-        let turning = from.tips.rate * world.direction(side).conj();
+        let local = from.tips.angle * parameters.direction(side).conj();
+        let turning = from.tips.rate * parameters.direction(side).conj();
         let mut series = Self {
             side,
             length: STRETCH / fastest,
@@ -77,12 +77,12 @@ impl Series {
             {
                 (terms[0], terms[1]) = (angle, rate * h);
             }
-            series.expand(world, drive, inward);
-            series.enclose(world, from);
+            series.expand(parameters, drive, inward);
+            series.enclose(parameters, from);
             let exact = ended(&series.y) && ended(&series.push) && series.rooms.iter().all(ended);
-            series.lost = world.blades.is_some() && !exact;
+            series.lost = parameters.blades.is_some() && !exact;
             // Bounds over a short stretch are close ones.
-            let near = halvings < 10 && series.may_meet_other(world);
+            let near = halvings < 10 && series.may_meet_other(parameters);
             if !series.lost && !near {
                 break;
             }
@@ -93,12 +93,13 @@ impl Series {
 
     /// Fills the terms by the recurrence of the differential equations, with
     /// time counted in units of `length`.
-    fn expand(&mut self, world: &World, drive: &Drive, inward: Plane) {
+    fn expand(&mut self, parameters: &Parameters, drive: &Drive, inward: Plane) {
         let h = self.length;
         let (nu, ramp) = (drive.nu * h, drive.nu_rate * h * h);
-        let (omega2, c2) = (world.omega * world.omega * h * h, 2.0 * world.damping * h);
-        let (g0, pulse) = (world.clearance, drive.pulse * h * h);
-        let blades = world.blades.as_ref();
+        let (omega2, c2) =
+            (parameters.omega * parameters.omega * h * h, 2.0 * parameters.damping * h);
+        let (g0, pulse) = (parameters.clearance, drive.pulse * h * h);
+        let blades = parameters.blades.as_ref();
         let diameters = blades.map_or(0.0, |blades| blades.diameters);
         let (mut cos, mut sin) = ([0.0; TERMS], [0.0; TERMS]);
         (cos[0], sin[0]) = (inward.re, inward.im);
@@ -148,18 +149,18 @@ impl Series {
     }
 
     /// Fills the distances to both ends of the side.
-    fn enclose(&mut self, world: &World, from: &From) {
-        let (sin, cos) = world.machine.rim.delta.sin_cos();
+    fn enclose(&mut self, parameters: &Parameters, from: &From) {
+        let (sin, cos) = parameters.machine.polygon.delta.sin_cos();
         for (room, (upper, sign)) in self.rooms.iter_mut().zip([(true, -1.0), (false, 1.0)]) {
-            room[0] = world.half_side;
-            if let (Some(blades), true) = (&world.blades, world.corners) {
+            room[0] = parameters.half_side;
+            if let (Some(blades), true) = (&parameters.blades, parameters.corners) {
                 // Half the angle to the neighbour: delta, and what blades add.
                 let scale = blades.diameters * sin;
                 let mut angle: Terms = std::array::from_fn(|n| {
                     scale * (cos * self.tips[1][n] - sign * sin * self.tips[0][n])
                 });
-                angle[0] += world.machine.rim.delta;
-                *room = tangent(&angle).map(|term| world.clearance * term);
+                angle[0] += parameters.machine.polygon.delta;
+                *room = tangent(&angle).map(|term| parameters.clearance * term);
             }
             for (term, y) in room.iter_mut().zip(&self.y) {
                 *term += sign * y;
@@ -186,8 +187,9 @@ impl Series {
 
     /// Whether the other side of a polygon of two may be met within the stretch:
     /// blades that turn by `x` leave it open by `2 cos x (g0 cos x + y sin x)`.
-    pub(super) fn may_meet_other(&self, world: &World) -> bool {
-        let Some(blades) = world.blades.filter(|_| world.machine.rim.sides == 2) else {
+    pub(super) fn may_meet_other(&self, parameters: &Parameters) -> bool {
+        let Some(blades) = parameters.blades.filter(|_| parameters.machine.polygon.sides == 2)
+        else {
             return false;
         };
         let ends = |terms: &Terms| {
@@ -196,7 +198,9 @@ impl Series {
         };
         let turned = ends(&self.tips[0]).map(|angle| blades.diameters * angle);
         turned.iter().any(|x| x.abs() >= FRAC_PI_2)
-            || ends(&self.y).iter().any(|y| turned.iter().any(|x| y * x.tan() <= -world.clearance))
+            || ends(&self.y)
+                .iter()
+                .any(|y| turned.iter().any(|x| y * x.tan() <= -parameters.clearance))
     }
 
     /// A bound on every blade angle over the stretch \[rad\].
@@ -205,14 +209,14 @@ impl Series {
     }
 
     /// The blades, `s` seconds on.
-    pub(super) fn tips(&self, world: &World, s: f64) -> Tips {
-        if world.blades.is_none() {
+    pub(super) fn tips(&self, parameters: &Parameters, s: f64) -> Tips {
+        if parameters.blades.is_none() {
             return Tips::default();
         }
         let x = s / self.length;
         let [[along, along_rate, _], [across, across_rate, _]] =
             [values(&self.tips[0], x), values(&self.tips[1], x)];
-        let direction = world.direction(self.side);
+        let direction = parameters.direction(self.side);
         Tips {
             angle: Plane::new(along, across) * direction,
             rate: Plane::new(along_rate, across_rate) * direction / self.length,
@@ -220,7 +224,7 @@ impl Series {
     }
 
     /// Looks ahead from `s`, before which nothing happens, within the stretch.
-    pub(super) fn look(&self, world: &World, drive: &Drive, s: f64) -> Ahead {
+    pub(super) fn look(&self, parameters: &Parameters, drive: &Drive, s: f64) -> Ahead {
         if self.lost {
             return Ahead::Lost;
         }
@@ -230,7 +234,7 @@ impl Series {
         let mut stride = span;
         for (room, up) in self.rooms.iter().zip([true, false]) {
             let [gap, closing, bend] = values(room, x);
-            let noise = world.tolerance * (room[0].abs() + room[1].abs() * x);
+            let noise = parameters.tolerance * (room[0].abs() + room[1].abs() * x);
             if s == 0.0 && room[0] == 0.0 && room[1] == 0.0 {
                 let tail: f64 = room.iter().skip(4).map(|term| term.abs()).sum();
                 stride = stride.min(leaving_step(2.0 * room[2], 6.0 * room[3], 24.0 * tail));
@@ -242,7 +246,7 @@ impl Series {
             }
         }
         let [push, push_rate, push_bend] = values(&self.push, x);
-        let noise = push_noise(world, drive.nu(s), y, rate / self.length, drive.pulse);
+        let noise = push_noise(parameters, drive.nu(s), y, rate / self.length, drive.pulse);
         if push <= noise && push_rate < 0.0 {
             return Ahead::Release;
         }
@@ -256,7 +260,8 @@ impl Blades {
     /// Term `n` of the acceleration of a free blade coordinate, in units of the
     /// stretch `h`.
     pub(super) fn free_term(&self, angle: &Terms, n: usize, h: f64) -> f64 {
-        -2.0 * self.kernel.damping * h * slope(angle, n) - self.kernel.stiffness * h * h * angle[n]
+        -2.0 * self.propagator.damping * h * slope(angle, n)
+            - self.propagator.stiffness * h * h * angle[n]
     }
 }
 
