@@ -4,7 +4,8 @@
 //! Dependencies point one way: `cli` and `tui` use `report` and `study`, these
 //! use `motion` (time domain) and `harmonic` (frequency domain), these use
 //! `contact`, and all use `model`. A `scene` says what to solve and how.
-//! Everything below `cli` and `tui` knows no terminal and prints nothing.
+//! Everything below `cli` and `tui` knows no terminal and prints nothing; without
+//! the features `cli` and `explorer` the crate is that part alone.
 //!
 //! ```
 //! use rubscope::motion::{Verdict, simulate};
@@ -19,6 +20,7 @@
 //! # Ok::<(), rubscope::scene::SceneError>(())
 //! ```
 
+#[cfg(feature = "cli")]
 pub mod cli;
 pub mod contact;
 pub mod harmonic;
@@ -27,5 +29,7 @@ pub mod motion;
 pub mod report;
 pub mod scene;
 pub mod study;
+
 mod tolerances;
+#[cfg(feature = "explorer")]
 pub mod tui;

@@ -5,6 +5,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::StepLaw;
 use super::repeated::Repeated;
+use crate::tolerances::SINGULAR;
 
 /// `g = 0` on every row that was predicted to penetrate.
 #[derive(Debug)]
@@ -49,7 +50,3 @@ pub fn all_closed(w: DMatrix<f64>, gap: &[f64]) -> Option<Vec<f64>> {
     let left = (&w * &solution - &gap).amax();
     (left <= SINGULAR * gap.amax()).then(|| solution.as_slice().to_vec())
 }
-
-/// Part of the gaps that round-off may leave open before the equations count as
-/// singular.
-const SINGULAR: f64 = 1e-3;

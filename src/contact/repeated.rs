@@ -16,6 +16,7 @@
 //! where each equation is of one size. Rows that do not differ at all share
 //! their group's push evenly.
 
+use crate::tolerances::OPEN_ROW;
 use nalgebra::{DMatrix, DVector};
 
 /// One row, told by what it has beside the reference of its group.
@@ -64,9 +65,6 @@ struct Closed {
     remainders: Vec<Option<f64>>,
 }
 
-/// Part of the gap's terms that counts as zero in the test for an open row.
-const ROUND_OFF: f64 = 1e-12;
-
 impl Repeated<'_> {
     /// Every row closed as an equality, Eq. (13a). `None` where the rows are
     /// dependent and contradict each other.
@@ -113,7 +111,7 @@ impl Repeated<'_> {
             None => (self.groups[group].gap + gap, dot(normal, opening)),
         };
         let size = left.abs() + gap.abs() + shift.abs() + bent.abs();
-        left - shift - bent < -ROUND_OFF * size
+        left - shift - bent < -OPEN_ROW * size
     }
 
     /// Solves the equations above for the active rows.

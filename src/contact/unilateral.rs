@@ -5,6 +5,7 @@ use nalgebra::DMatrix;
 
 use super::repeated::Repeated;
 use super::{StepLaw, all_closed, pair, single};
+use crate::tolerances::PIVOT_GAP;
 
 /// A linear complementarity problem on the rows.
 #[derive(Debug)]
@@ -55,7 +56,7 @@ pub fn complementary_pair(w: [[f64; 2]; 2], gap: [f64; 2]) -> Option<[f64; 2]> {
 pub fn complementary(w: &DMatrix<f64>, gap: &[f64]) -> Option<Vec<f64>> {
     let rows = gap.len();
     let scale = gap.iter().fold(0.0_f64, |most, g| most.max(g.abs()));
-    let round_off = 1e-14 * scale;
+    let round_off = PIVOT_GAP * scale;
     let mut active = vec![false; rows];
     for _ in 0..(64 + 8 * rows * rows) {
         let chosen: Vec<usize> = (0..rows).filter(|&row| active[row]).collect();

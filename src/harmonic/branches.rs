@@ -6,6 +6,7 @@ use serde::Serialize;
 use super::equilibria::equilibrium;
 use super::{Character, Corner, Equilibrium, HarmonicError, Kind};
 use crate::model::Machine;
+use crate::tolerances::BRANCH_CHANGES;
 
 /// A speed at which a branch changes its character.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -29,9 +30,6 @@ pub struct Branches {
     /// Every equilibrium at every speed, in the order of the speeds.
     pub states: Vec<Equilibrium>,
 }
-
-/// Most changes looked for between two neighbouring speeds.
-const MOST_CHANGES: usize = 16;
 
 impl Branches {
     /// Over these speeds \[rad/s\]; changes are found between neighbouring
@@ -78,7 +76,7 @@ pub(super) fn changes<T: Copy + PartialEq>(
 ) -> Result<Vec<(f64, T, T)>, HarmonicError> {
     let mut found: Vec<(f64, T, T)> = Vec::new();
     let (mut start, mut before, last) = (low, what(low)?, what(high)?);
-    while before != last && found.len() < MOST_CHANGES {
+    while before != last && found.len() < BRANCH_CHANGES {
         let (mut below, mut above, mut after) = (start, high, last);
         // Halving a double's interval 200 times ends at neighbouring numbers.
         for _ in 0..200 {

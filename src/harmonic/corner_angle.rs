@@ -15,10 +15,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::equations::Scales;
 use crate::model::Machine;
-
-/// A compliance below which the corner cannot open by a part of itself that a
-/// number resolves, at any speed whose square a number holds.
-const AS_GOOD_AS_RIGID: f64 = 1e-290;
+use crate::tolerances::{AS_GOOD_AS_RIGID, CONVERGED};
 
 /// The corner angle of one polygon's corners.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,7 +62,7 @@ impl CornerAngle {
                 return None;
             }
             if step.abs() <= 2.0 * f64::EPSILON * angle_change.abs()
-                || (step.abs() >= last && step.abs() <= 1e-7 * angle)
+                || (step.abs() >= last && step.abs() <= CONVERGED * angle)
             {
                 return Some(angle_change);
             }

@@ -7,15 +7,9 @@
 //! matrix, exceptional ones where these stall, and a last resort where rounding
 //! keeps a coupling from vanishing.
 
+use crate::tolerances::{QR_EXCEPTIONAL, QR_LAST_RESORT, QR_STEPS};
 use nalgebra::linalg::balancing::balance_parlett_reinsch;
 use nalgebra::{Complex, DMatrix, Hessenberg};
-
-/// Iterations for one eigenvalue or pair; three are usual.
-const MOST_ITERATIONS: usize = 60;
-/// Each multiple of this has an exceptional shift.
-const EXCEPTIONAL: usize = 10;
-/// From here on a coupling is small if it is rounding of the whole matrix.
-const LAST_RESORT: usize = 40;
 
 /// The eigenvalues of a square matrix, in no order; `None` where an entry is no
 /// finite number or the iteration does not settle.
@@ -61,8 +55,8 @@ impl Iteration {
     /// Iterates until the last row, or the last two, stand alone; where they
     /// begin.
     fn deflate(&mut self, last: usize) -> Option<usize> {
-        for iteration in 0..MOST_ITERATIONS {
-            let whole = if iteration < LAST_RESORT { 0.0 } else { self.h.amax() };
+        for iteration in 0..QR_STEPS {
+            let whole = if iteration < QR_LAST_RESORT { 0.0 } else { self.h.amax() };
             let first = (1..=last).rev().find(|&row| self.is_small(row, last, whole)).unwrap_or(0);
             if first > 0 {
                 self.h[(first, first - 1)] = 0.0;
@@ -104,9 +98,9 @@ impl Iteration {
     /// The two shifts: a complex pair, or one real number twice.
     fn shift(&self, iteration: usize, first: usize, last: usize) -> [Complex<f64>; 2] {
         let h = &self.h;
-        let [a, b, c, d] = if iteration > 0 && iteration.is_multiple_of(EXCEPTIONAL) {
+        let [a, b, c, d] = if iteration > 0 && iteration.is_multiple_of(QR_EXCEPTIONAL) {
             // In turn from the first rows and from the last.
-            let even = (iteration / EXCEPTIONAL).is_multiple_of(2);
+            let even = (iteration / QR_EXCEPTIONAL).is_multiple_of(2);
             let (row, at) = if even { (last - 1, last) } else { (first + 1, first) };
             let size = h[(row, row - 1)].abs() + h[(row + 1, row)].abs();
             let middle = 0.75 * size + h[(at, at)];

@@ -16,6 +16,7 @@ use super::equations::{Equations, Wave};
 use super::equilibria::{judged, loads_of};
 use super::{Corner, Equilibrium, Form, HarmonicError, Kind};
 use crate::model::Machine;
+use crate::tolerances::{APART, BRANCH_POINTS, FASTEST, LEFT_OPEN};
 
 /// Where a branch turns back.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,18 +36,6 @@ pub struct CornerBranch {
     /// The fold; none for blades too stiff for one at any speed a number holds.
     pub fold: Option<Fold>,
 }
-
-/// Most points of one branch.
-const MOST_POINTS: usize = 20_000;
-/// What the widest corner leaves of a right angle, where the amplitude would be
-/// infinite \[rad\].
-const LEFT_OPEN: f64 = 1e-3;
-/// Neighbours are an arc from the first to the second of these steps apart, and
-/// the last two of a leg at most the third.
-const APART: [f64; 3] = [0.9, 1.1, 1.5];
-/// The largest speed over `Omega_c`: squares of it leave room for what they are
-/// multiplied with.
-const FASTEST: f64 = 1e100;
 
 /// Follows the corner states of the exact modal form from speed `from` to `to`
 /// \[rad/s\], both included; where the branch folds before `to`, through the
@@ -140,11 +129,11 @@ impl Walk<'_> {
             whole += (end.angle_change - start.angle_change).abs();
             start = end;
         }
-        let step = step.max(1.2 * whole / MOST_POINTS as f64);
+        let step = step.max(1.2 * whole / BRANCH_POINTS as f64);
         let mut places = vec![first];
         let mut here = first;
         for end in ends {
-            while here != end && places.len() < MOST_POINTS {
+            while here != end && places.len() < BRANCH_POINTS {
                 here = self.onward(here, end, step).unwrap_or(end);
                 places.push(here);
             }

@@ -8,21 +8,10 @@
 //! where that branch folds.
 
 use super::equations::{Equations, Unknowns, Wave};
-
-/// Newton steps from one start.
-const MOST_STEPS: usize = 40;
-/// How much a step must shrink: by half where the branch is about to fold, and
-/// a little room.
-const SHRINK: f64 = 0.75;
-/// Largest step, as a part of the unknowns, and of the turns \[rad\], in which
-/// alone the equations are not bilinear.
-const LARGEST: f64 = 0.1;
-/// How much the determinant may change from one softness to the next: it goes to
-/// zero at a fold, and is another one on another branch.
-const ALIKE: std::ops::Range<f64> = 0.5..2.0;
-/// Shortest stride of the softness, and most strides.
-const SHORTEST: f64 = 1e-6;
-const MOST_STRIDES: usize = 500;
+use crate::tolerances::{
+    NEAR_A_FOLD, NEWTON_ALIKE, NEWTON_LARGEST, NEWTON_SHRINK, NEWTON_STEPS, NEWTON_STRIDE,
+    NEWTON_STRIDES,
+};
 
 impl Equations {
     /// The corner that rigid blades grow into as they soften; `None` where it
@@ -36,16 +25,16 @@ impl Equations {
             |equations: &Self, at: &Unknowns| equations.linearised(wave, at).1.determinant();
         let (mut part, mut stride, mut here) = (0.0, 1.0, start);
         let mut last = slope(&self.stiffened(part), &here);
-        for _ in 0..MOST_STRIDES {
+        for _ in 0..NEWTON_STRIDES {
             let next = f64::min(part + stride, 1.0);
             let softer = self.stiffened(next);
             let found = softer.solve(wave, here).map(|found| (found, slope(&softer, &found)));
-            match found.filter(|(_, slope)| ALIKE.contains(&(slope / last))) {
+            match found.filter(|(_, slope)| NEWTON_ALIKE.contains(&(slope / last))) {
                 Some((found, _)) if next == 1.0 => return Some(found),
                 Some((found, slope)) => {
                     (part, stride, here, last) = (next, 2.0 * stride, found, slope);
                 }
-                None if stride < SHORTEST => return None,
+                None if stride < NEWTON_STRIDE => return None,
                 None => stride *= 0.5,
             }
         }
@@ -59,8 +48,8 @@ impl Equations {
         // place of the largest term is all that rounding leaves.
         let size = 1.0 + wave.kappa.abs() + wave.drag.abs();
         let mut unknowns = start;
-        let mut last = LARGEST * unknowns.amax() / SHRINK;
-        for _ in 0..MOST_STEPS {
+        let mut last = NEWTON_LARGEST * unknowns.amax() / NEWTON_SHRINK;
+        for _ in 0..NEWTON_STEPS {
             let (residual, jacobian) = self.linearised(wave, &unknowns);
             let norm = residual.amax();
             if !norm.is_finite() {
@@ -72,7 +61,7 @@ impl Equations {
             let step = jacobian.lu().solve(&residual)?;
             let length = step.amax();
             let turn = self.softness() * step[4].abs().max(step[5].abs());
-            if length > SHRINK * last || turn > LARGEST {
+            if length > NEWTON_SHRINK * last || turn > NEWTON_LARGEST {
                 break;
             }
             unknowns -= step;
@@ -82,6 +71,6 @@ impl Equations {
             last = length;
         }
         // Ill-conditioned, close to a fold: accept what is accurate enough.
-        (self.residual(wave, &unknowns).amax() <= 1e-11 * size).then_some(unknowns)
+        (self.residual(wave, &unknowns).amax() <= NEAR_A_FOLD * size).then_some(unknowns)
     }
 }

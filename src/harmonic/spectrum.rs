@@ -17,6 +17,7 @@ use super::slide::{Arc, Slide};
 use super::slip::repeating;
 use super::{HarmonicError, NoSlip};
 use crate::model::Machine;
+use crate::tolerances::{HARMONICS, SMALL_RATE, SPECTRUM_SAMPLES};
 
 /// One harmonic of the casing wave in the standing frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -57,11 +58,6 @@ pub struct SlipSpectrum {
     pub truncations: Vec<Truncation>,
 }
 
-/// Samples of one period on which the largest errors are looked for.
-const SAMPLES: usize = 2048;
-/// Most harmonics.
-const MOST: u32 = 512;
-
 /// The Fourier series of the slip at one speed \[rad/s\], up to `most` harmonics.
 ///
 /// # Errors
@@ -78,8 +74,8 @@ pub fn slip_spectrum(
     if !speed.is_finite() {
         return Err(HarmonicError::Speed(speed));
     }
-    if most > MOST {
-        let allowed = format!("a whole number from 0 to {MOST}");
+    if most > HARMONICS {
+        let allowed = format!("a whole number from 0 to {HARMONICS}");
         return Err(HarmonicError::Refused { key: "harmonics", value: most.to_string(), allowed });
     }
     Ok(repeating(machine, speed).map(|(slide, arc)| {
@@ -120,8 +116,9 @@ impl Orbit {
     fn spectrum(&self, machine: &Machine, speed: f64, most: u32) -> SlipSpectrum {
         let length = machine.clearance();
         let period = self.arc.time / machine.omega_c;
-        let times: Vec<f64> =
-            (0..=SAMPLES).map(|sample| self.arc.time * sample as f64 / SAMPLES as f64).collect();
+        let times: Vec<f64> = (0..=SPECTRUM_SAMPLES)
+            .map(|sample| self.arc.time * sample as f64 / SPECTRUM_SAMPLES as f64)
+            .collect();
         let exact: Vec<Complex<f64>> = times.iter().map(|&time| self.point(time)).collect();
         let mut sum = vec![Complex::new(0.0, 0.0); exact.len()];
         // The mean square of |z| = 1 + y^2, by Simpson's rule on the samples.
@@ -190,7 +187,7 @@ fn simpson(points: &[Complex<f64>]) -> f64 {
 
 /// Mean of `e^(rate t)` over `0 <= t <= 1`.
 fn mean_exponential(rate: Complex<f64>) -> Complex<f64> {
-    if rate.norm() < 1e-6 {
+    if rate.norm() < SMALL_RATE {
         // The series; the quotient would lose the digits of a small rate.
         Complex::new(1.0, 0.0) + rate * 0.5 + rate * rate / 6.0
     } else {

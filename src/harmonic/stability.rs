@@ -14,6 +14,7 @@ use nalgebra::{Complex, DMatrix, DVector, Matrix2, Matrix4, Matrix4x2, Vector4};
 use super::eigen::eigenvalues;
 use super::equations::{Scales, Wave};
 use crate::model::Machine;
+use crate::tolerances::{CLEAR_DAMPING, CLEAR_SIGN, EQUAL_ROOTS, NEUTRAL, NEUTRAL_OF_ALL};
 
 /// One side in contact: its phase, `(C, S)` of `psi + n_d alpha`, the moment arm
 /// `y C - x S` and the multiplier, all scaled.
@@ -194,7 +195,9 @@ impl Linearised {
 /// defective pair are known to half the digits, all to rounding of the largest.
 pub(super) fn grows(values: &[Complex<f64>], rate: f64) -> bool {
     let fastest = values.iter().map(|value| value.norm()).fold(0.0, f64::max);
-    values.iter().any(|value| value.re > (1e-8 * value.norm().max(rate)).max(1e-14 * fastest))
+    values
+        .iter()
+        .any(|value| value.re > (NEUTRAL * value.norm().max(rate)).max(NEUTRAL_OF_ALL * fastest))
 }
 
 /// Eigenvalues of the motion about rest \[1/s\], which keeps no contact: those of
@@ -262,9 +265,9 @@ fn characteristic([m, c, k]: &[Matrix2<f64>; 3]) -> [f64; 5] {
 fn hurwitz([a4, a3, a2, a1, a0]: [f64; 5]) -> Option<bool> {
     let last = a1 * (a2 * a3 - a1 * a4) - a3 * a3 * a0;
     let size = (a1 * a2 * a3).abs() + a1 * a1 * a4.abs() + a3 * a3 * a0.abs();
-    let clear = last.abs() > 1e-9 * size
-        && a3.abs() > 1e-6 * (a2 * a4).abs().sqrt()
-        && a1.abs() > 1e-6 * (a2 * a0).abs().sqrt();
+    let clear = last.abs() > CLEAR_SIGN * size
+        && a3.abs() > CLEAR_DAMPING * (a2 * a4).abs().sqrt()
+        && a1.abs() > CLEAR_DAMPING * (a2 * a0).abs().sqrt();
     let signs = [a4, a3, a2, a1, a0].iter().all(|&coefficient| coefficient > 0.0);
     clear.then_some(signs && last > 0.0)
 }
@@ -272,7 +275,7 @@ fn hurwitz([a4, a3, a2, a1, a0]: [f64; 5]) -> Option<bool> {
 /// Without damping the odd coefficients vanish and no motion grows where both
 /// roots in `s^2` are real and negative. Two equal ones differ by rounding.
 fn all_oscillate([a4, _, a2, _, a0]: [f64; 5]) -> bool {
-    a4 > 0.0 && a2 > 0.0 && a0 > 0.0 && a2 * a2 - 4.0 * a4 * a0 >= -1e-12 * a2 * a2
+    a4 > 0.0 && a2 > 0.0 && a0 > 0.0 && a2 * a2 - 4.0 * a4 * a0 >= -EQUAL_ROOTS * a2 * a2
 }
 
 #[cfg(test)]

@@ -3,9 +3,7 @@
 //! first thousand impacts.
 
 use crate::model::ContactPolygon;
-
-/// Impacts kept one by one; later ones are only counted.
-const IMPACTS_KEPT: usize = 1000;
+use crate::tolerances::IMPACTS_KEPT;
 
 /// The phase groups in contact at one instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -1,8 +1,7 @@
 //! Why a motion stopped before its end, in words made here alone.
 
-use thiserror::Error;
-
 use crate::tolerances::{LARGEST_BLADE_ANGLE, MOST_EVENTS, MOST_EVENTS_AT_ONCE, MOST_LOOKS};
+use thiserror::Error;
 
 /// Why a run stopped before its end.
 #[derive(Clone, Debug, Error, PartialEq)]

@@ -7,6 +7,7 @@
 //! from the blades) and `kappa < 0` are one case, only evaluated in different
 //! ways where round-off asks for it.
 
+use crate::tolerances::{DOUBLE_ROOT, SERIES_END, SHORT_TIME};
 use std::f64::consts::PI;
 
 /// Most terms of the power series; at `rate * s = 1/2` the last is below 1e-20.
@@ -48,7 +49,7 @@ impl Propagator {
     /// near a double root, where a sum of two exponentials is ill-conditioned.
     pub(super) fn exponents(&self) -> Option<[(f64, f64); 2]> {
         let (c, q) = (self.damping, self.root);
-        if q < 0.3 * c.max(self.stiffness.abs().sqrt()) {
+        if q < DOUBLE_ROOT * c.max(self.stiffness.abs().sqrt()) {
             None
         } else if self.discriminant < 0.0 {
             Some([(-c, q), (-c, -q)])
@@ -76,7 +77,7 @@ impl Propagator {
     /// The response `s >= 0` seconds on.
     pub(super) fn at(&self, s: f64) -> Response {
         let (c, q) = (self.damping, self.root);
-        if (c + q) * s < 0.5 {
+        if (c + q) * s < SHORT_TIME {
             self.series(s)
         } else if self.discriminant > 0.0 && q * s > 0.2 {
             self.real_roots(s)
@@ -132,7 +133,7 @@ impl Propagator {
             slope += row.next * next;
             unit += next;
             ramp += row.over_after * next;
-            if next.abs() + before.abs() < 1e-19 {
+            if next.abs() + before.abs() < SERIES_END {
                 break;
             }
         }

@@ -7,13 +7,11 @@ use serde::Serialize;
 
 use super::script::{Script, Scripted};
 use super::sensitivity::{is_sensitive_with, sign};
-use super::verdict::{LAST_PART, judge};
+use super::verdict::judge;
 use super::wave::WaveTracker;
 use super::{Checks, Contact, Motion, Outcome, State, Verdict};
 use crate::scene::{CheckedScene, ContactLaw, ModelSize, SolverKind};
-
-/// Looks at a run on the way to its verdict, at most.
-const MOST_LOOKS: f64 = 1e6;
+use crate::tolerances::{LAST_PART, RUN_LOOKS};
 
 /// What a recorder sees at one instant.
 #[derive(Clone, Debug)]
@@ -145,7 +143,7 @@ pub(super) fn run_motion_to_verdict(
     noise: Option<f64>,
 ) -> VerdictReached {
     // Looking costs little against one casing period of motion.
-    let interval = (TAU / motion.machine().omega_c).max(end / MOST_LOOKS);
+    let interval = (TAU / motion.machine().omega_c).max(end / RUN_LOOKS);
     let mut scripted = Scripted::new(motion, script);
     let mut verdict = None;
     let mut looks = 0;

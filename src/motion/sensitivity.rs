@@ -14,13 +14,7 @@ use std::f64::consts::TAU;
 use super::run::{VerdictReached, run_motion_to_verdict};
 use super::script::{Change, Script};
 use crate::scene::CheckedScene;
-
-/// Relative change that no trustworthy verdict may notice.
-const PERTURBATION: f64 = 1e-9;
-/// Part of a casing period by which a lock may come earlier or later.
-const LATER: f64 = 0.1;
-/// Part of its tolerance at which the event solver is tried again.
-const FINER: f64 = 0.1;
+use crate::tolerances::{FINER, LOCK_MOMENT, PERTURBATION};
 
 impl VerdictReached {
     /// Whether two runs that should be the same are not, where `moment` \[s\] is
@@ -45,7 +39,7 @@ pub fn is_sensitive(scene: &CheckedScene, settled: VerdictReached) -> bool {
 #[must_use]
 pub fn is_sensitive_with(scene: &CheckedScene, script: &Script, settled: VerdictReached) -> bool {
     let end = scene.solver.end_s;
-    let moment = LATER * TAU / scene.machine().omega_c;
+    let moment = LOCK_MOMENT * TAU / scene.machine().omega_c;
     let driven = |factor: f64| {
         let script = script.mapped(|change| match change {
             Change::Parameters(scene) => Change::Parameters(Box::new(perturbed(&scene, factor))),

@@ -14,9 +14,6 @@ use strum::{AsRefStr, Display, EnumString};
 
 use super::{ActiveSet, ContactLog};
 
-/// Part of the run, at its end, over which the verdict is judged.
-pub const LAST_PART: f64 = 0.1;
-
 /// How a motion lasts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Display, EnumString, AsRefStr)]
 #[serde(rename_all = "lowercase")]

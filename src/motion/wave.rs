@@ -4,14 +4,9 @@ use std::f64::consts::{PI, TAU};
 
 use super::State;
 use super::script::{Change, Script};
-use super::verdict::LAST_PART;
 use crate::model::Machine;
 use crate::scene::CheckedScene;
-
-/// Looks at the wave, at most.
-const MOST_LOOKS: f64 = 100_000.0;
-/// Looks for each turn of the fastest motion.
-const LOOKS_A_TURN: f64 = 16.0;
+use crate::tolerances::{LAST_PART, WAVE_LOOKS, WAVE_LOOKS_A_TURN};
 
 /// The angle the casing wave turns through, by differences so small that no half
 /// turn hides in them: over the last part of the run, or over so much of its end
@@ -48,8 +43,8 @@ impl WaveTracker {
             }
         }
         fastest = fastest.max(at(rotor, end).abs());
-        let interval = TAU / LOOKS_A_TURN / (machine.nu(fastest) + frequency);
-        let next = ((1.0 - LAST_PART) * end).max(end - MOST_LOOKS * interval);
+        let interval = TAU / WAVE_LOOKS_A_TURN / (machine.nu(fastest) + frequency);
+        let next = ((1.0 - LAST_PART) * end).max(end - WAVE_LOOKS * interval);
         Self { end, interval, next, first: None, last: (0.0, 0.0), turned: 0.0 }
     }
 

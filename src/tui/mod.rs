@@ -5,21 +5,28 @@
 mod app;
 mod appearance;
 mod axis;
+#[doc(hidden)]
 pub mod bindings;
+#[doc(hidden)]
 pub mod engine;
+#[doc(hidden)]
 pub mod events;
 mod export;
+#[doc(hidden)]
 pub mod history;
 mod knobs;
+#[doc(hidden)]
 pub mod lessons;
 mod panels;
 mod plot;
 mod raster;
 mod run;
+#[doc(hidden)]
 pub mod terminal;
 mod text;
 mod theme;
 mod views;
+#[doc(hidden)]
 pub mod worker;
 
 use std::io::IsTerminal;

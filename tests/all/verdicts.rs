@@ -2,9 +2,12 @@
 
 use crate::plain::scenes::{in_corner, scene};
 use proptest::prelude::*;
-use rubscope::motion::verdict::LAST_PART;
+
 use rubscope::motion::{ActiveSet, Motion, Verdict, VerdictReached, run_to_verdict, verdict_of};
 use rubscope::scene::{ContactLaw, ModelSize, Scene, SolverKind};
+
+/// Part of the run over which a verdict is judged: the last tenth.
+const LAST_PART: f64 = 0.1;
 
 /// Scenes of every solver, law and model that decay, bounce, slip and lock, with
 /// excitation, ramps, pulses that end late, and starts in a corner.

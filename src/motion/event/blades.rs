@@ -11,6 +11,7 @@ use super::parameters::{Drive, Parameters, Plane};
 use crate::model::Machine;
 use crate::motion::propagator::Propagator;
 use crate::scene::{ModelSize, Scene};
+use crate::tolerances::{CLEARANCES_A_RADIAN, FOLLOWING_GAP, FOLLOWING_RATES};
 
 /// What the casing feels of the blades.
 #[derive(Clone, Copy, Debug)]
@@ -64,12 +65,13 @@ impl Blades {
         // Largest push per unit mass that lasts, and largest impulse.
         let pulse = operation.pulse_n.abs() / machine.casing_mass;
         let start = scene.initial.v_c_m_s.hypot(scene.initial.v_s_m_s);
-        let speed = pulse * operation.pulse_s + start + 10.0 * rates * clearance;
+        let speed = pulse * operation.pulse_s + start + CLEARANCES_A_RADIAN * rates * clearance;
         let push = pulse + rates * rates * clearance + 2.0 * nu * speed;
         let moment_arm = self.ratio / self.diameters * half_side;
         let angle = moment_arm * (push / self.omega + speed) / self.omega;
         // Gaps shift by n_d times the angle and the place along the side.
-        self.omega > 100.0 * rates && self.diameters * angle * half_side < 1e-9 * clearance
+        self.omega > FOLLOWING_RATES * rates
+            && self.diameters * angle * half_side < FOLLOWING_GAP * clearance
     }
 
     /// Angles of blades that follow these pushes at once.

@@ -16,6 +16,7 @@ use super::blades::{Blades, Tips};
 use super::corner::{self, Hold};
 use super::parameters::{Drive, Parameters, Plane};
 use super::terms::{STRETCH, TERMS, Terms, ended, jerk, product, quotient, slope, values};
+use crate::tolerances::{LIGHT_BLADES, MOST_HALVINGS, ROOM_TO_CHANGE};
 
 /// One stretch of locked motion in the corner of side `a` and the next.
 #[derive(Clone, Copy, Debug)]
@@ -58,7 +59,7 @@ impl CornerSeries {
             noise: parameters.push_noise(drive),
             lost: false,
         };
-        for _ in 0..60 {
+        for _ in 0..MOST_HALVINGS {
             let h = held.length;
             for (terms, (angle, rate)) in
                 held.tips.iter_mut().zip([(local.re, turning.re), (local.im, turning.im)])
@@ -227,8 +228,8 @@ impl CornerSeries {
             + 2.0 * (parameters.damping + blades.propagator.damping);
         let turned = blades.diameters * blades.amplitude(&left);
         let change = 2.0 * turned * rates * rates * parameters.clearance / (sin * cos);
-        let light = blades.ratio * parameters.half_side * parameters.half_side < 1e-3;
-        light && change < 0.5 * least
+        let light = blades.ratio * parameters.half_side * parameters.half_side < LIGHT_BLADES;
+        light && change < ROOM_TO_CHANGE * least
     }
 
     /// Whether a push is nothing but round-off.

@@ -11,6 +11,7 @@
 use super::free::Free;
 use super::parameters::{Drive, Parameters, Plane};
 use crate::motion::propagator::Propagator;
+use crate::tolerances::{FEW_NODES, MOST_PANELS, SMALL_EXPONENT};
 
 /// Energies per unit casing mass \[m^2/s^2\].
 #[derive(Clone, Copy, Debug, Default)]
@@ -83,7 +84,7 @@ fn damped(propagator: &Propagator, from: Plane, rate: Plane, s: f64) -> f64 {
 /// Integral of `exp(r t)` from 0 to `s`.
 fn integral(r: Plane, s: f64) -> Plane {
     let x = r * s;
-    if x.norm_sqr() < 1e-8 {
+    if x.norm_sqr() < SMALL_EXPONENT {
         return (Plane::new(1.0, 0.0) + x * 0.5 + x * x / 6.0) * s;
     }
     // exp(x) - 1 with the digits of small x kept.
@@ -101,8 +102,8 @@ pub(super) fn quadrature(s: f64, rate: f64, integrand: impl Fn(f64) -> [f64; 2])
     }
     let turns = rate * s;
     // Four points err by 6e-10 of the ninth power of the angle.
-    let rule: &[(f64, f64)] = if turns < 0.3 { &GAUSS_4 } else { &GAUSS_8 };
-    let panels = (0.25 * turns).ceil().clamp(1.0, 1e7);
+    let rule: &[(f64, f64)] = if turns < FEW_NODES { &GAUSS_4 } else { &GAUSS_8 };
+    let panels = (0.25 * turns).ceil().clamp(1.0, MOST_PANELS);
     let half = 0.5 * s / panels;
     let mut panel = 0.0;
     while panel < panels {

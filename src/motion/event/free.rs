@@ -10,12 +10,7 @@ use super::advancement::{leaving_step, safe_step};
 use super::blades::Tips;
 use super::bounds::{Bounds, size};
 use super::parameters::{Drive, Parameters, Plane};
-
-/// Radians of all rates below which a look ahead asks for a better bound.
-const SHORT_LOOK: f64 = 1e-6;
-
-/// Part of all rates below which the casing's own is a soft casing's.
-const SOFT_CASING: f64 = 0.1;
+use crate::tolerances::{NEAR_SIDES, RAMP_CHANGE, SHORT_LOOK, SOFT_CASING};
 
 /// A side that the flight leaves with neither gap nor rate.
 #[derive(Clone, Copy, Debug)]
@@ -145,7 +140,7 @@ impl Free {
         let (nu, rates) = (drive.nu(s), parameters.omega + drive.nu(s).abs());
         let change = drive.nu_rate.abs();
         let span = if change > 0.0 {
-            0.1 * (rates * rates).max(change).sqrt() / change
+            RAMP_CHANGE * (rates * rates).max(change).sqrt() / change
         } else {
             f64::INFINITY
         };
@@ -169,7 +164,7 @@ impl Free {
                 stride = stride.max(safe_step(clearance - radius, -size(v), acceleration));
             }
         }
-        if radius > 0.9 * clearance {
+        if radius > NEAR_SIDES * clearance {
             let mut near_span = span;
             if parameters.omega < SOFT_CASING * rates {
                 // It may swing so far that nothing bounds it over a whole period.

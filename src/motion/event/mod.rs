@@ -39,6 +39,7 @@ use crate::model::Machine;
 use crate::motion::{Checks, ContactLog, Failure, Pulse, Rotor, Solver, State, Verdict};
 use crate::scene::{CheckedScene, SceneError};
 
+use crate::tolerances::EVENT_RANGE;
 use blades::Tips;
 use energy_balance::EnergyBalance;
 use mode::{Mode, What};
@@ -133,7 +134,7 @@ impl Event {
     }
 
     fn set_tolerance(&mut self, tolerance: f64) {
-        self.parameters.tolerance = tolerance.clamp(1e-16, 1e-3);
+        self.parameters.tolerance = tolerance.clamp(*EVENT_RANGE.start(), *EVENT_RANGE.end());
     }
 
     /// The tolerance in force.

@@ -11,6 +11,7 @@ use super::rocking;
 use super::side_series::SideSeries;
 use super::slide::{Ahead, Along, Slide};
 use crate::motion::ActiveSet;
+use crate::tolerances::PEAK_LOOKS;
 
 /// How the casing moves until the next event.
 #[derive(Clone, Debug)]
@@ -363,12 +364,9 @@ fn hold(hold: Hold, end: f64) -> Next {
     }
 }
 
-/// Looks at a function for its largest value, at most.
-const MOST_LOOKS: f64 = 10_000.0;
-
 /// The largest value over `[0, s]` of a function that changes at `rate`.
 fn peak(s: f64, rate: f64, value: impl Fn(f64) -> f64) -> f64 {
-    let parts = (8.0 * rate * s).ceil().clamp(2.0, MOST_LOOKS);
+    let parts = (8.0 * rate * s).ceil().clamp(2.0, PEAK_LOOKS);
     let at = |k: f64| s * (k / parts).clamp(0.0, 1.0);
     let (mut best, mut most, mut k) = (0.0, value(0.0), 1.0);
     while k <= parts {

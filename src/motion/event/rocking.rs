@@ -20,6 +20,7 @@
 use super::corner::opening;
 use super::parameters::{Drive, Parameters, Plane};
 use super::slide;
+use crate::tolerances::{ROCKING_MARGIN, ROCKING_STEADY, ROCKING_TAIL, ROCKING_TURN};
 
 /// Orders of the series.
 const ORDERS: usize = 10;
@@ -56,21 +57,21 @@ pub(super) fn limit(
     if weakest <= 0.0 || own <= 0.0 {
         return None;
     }
-    let margin = 4.0 * drive.nu.abs() * speed;
+    let margin = ROCKING_MARGIN * drive.nu.abs() * speed;
     if -qa <= margin || -qb <= margin || speed * speed > weakest * parameters.half_side {
         return None;
     }
     let propagator = slide::propagator(parameters, drive.nu);
     let fastest = 2.0 * propagator.damping + propagator.stiffness.abs().sqrt();
     let start = speed / own;
-    if start * fastest > 0.03 {
+    if start * fastest > ROCKING_TURN {
         return None;
     }
     let sums = Sums::new(propagator.damping, propagator.stiffness, cos, pulls);
     let times = if second { &sums.time[1] } else { &sums.time[0] };
     let time = exact(times, start)?;
     let losses = if second { &sums.lost[1] } else { &sums.lost[0] };
-    if !drive.steady() && change * time > 1e-9 * weakest {
+    if !drive.steady() && change * time > ROCKING_STEADY * weakest {
         return None;
     }
     let lost = value(losses, start);
@@ -143,7 +144,7 @@ fn exact(series: &SideSeries, x: f64) -> Option<f64> {
     let sum = value(series, x);
     let last = x.powi(ORDERS as i32 - 1);
     let tail = (series[ORDERS - 1] * last).abs() + (series[ORDERS] * last * x).abs();
-    (tail <= 1e-15 * sum && sum.is_finite()).then_some(sum)
+    (tail <= ROCKING_TAIL * sum && sum.is_finite()).then_some(sum)
 }
 
 /// Sums over all crossings to come, from either side, in powers of `v/A`.

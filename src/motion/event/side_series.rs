@@ -17,6 +17,7 @@ use super::blades::{Blades, Tips};
 use super::parameters::{Drive, Parameters, Plane};
 use super::slide::{Ahead, Along, push_noise};
 use super::terms::{STRETCH, TERMS, Terms, ended, jerk, product, quotient, slope, values};
+use crate::tolerances::MOST_HALVINGS;
 
 /// One stretch of sliding on `side`.
 #[derive(Clone, Copy, Debug)]
@@ -69,7 +70,7 @@ impl SideSeries {
             lost: false,
         };
         // Without moving blades the solution is entire and one try is enough.
-        for halvings in 0..60 {
+        for halvings in 0..MOST_HALVINGS {
             let h = series.length;
             (series.y[0], series.y[1]) = (from.y, from.rate * h);
             for (terms, (angle, rate)) in

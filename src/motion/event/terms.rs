@@ -1,6 +1,8 @@
 //! Truncated power series in time, counted in units of a stretch: what the
 //! motions without a closed form are made of.
 
+use crate::tolerances::SERIES_TAIL;
+
 /// Terms kept: over a stretch of 0.8 rad of the fastest rate the first one
 /// dropped is below `0.8^18/18!`, 3e-18.
 pub(super) const TERMS: usize = 18;
@@ -57,7 +59,7 @@ pub(super) fn jerk(terms: &Terms) -> f64 {
 pub(super) fn ended(terms: &Terms) -> bool {
     let largest = terms.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
     let last = terms.iter().rev().skip(2).take(2);
-    last.into_iter().all(|term| term.abs() <= 1e-12 * largest)
+    last.into_iter().all(|term| term.abs() <= SERIES_TAIL * largest)
 }
 
 #[cfg(test)]

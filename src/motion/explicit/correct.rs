@@ -6,16 +6,13 @@
 
 use nalgebra::DMatrix;
 
-use super::{BREAK_STEPS, BladeModel, ConstraintRow, Explicit};
+use super::{BladeModel, ConstraintRow, Explicit};
 use crate::contact::{
     self,
     repeated::{GroupReference, Repeat, Repeated},
 };
 use crate::motion::{ActiveSet, FailureReason};
-
-/// Part of their phases by which blades of one side that stand alike may differ:
-/// the round-off of the sums that their angles are.
-const SAME_TURN: f64 = 1e-13;
+use crate::tolerances::{BREAK_STEPS, SAME_ANGLE, SMALL_PHASE};
 
 impl<B: BladeModel> Explicit<B> {
     /// A predicted step outside the circle of the clearance: find what
@@ -193,7 +190,7 @@ impl<B: BladeModel> Explicit<B> {
             };
             let apart = row.turn - first.turn;
             // Blades that stand alike to round-off are one.
-            if apart.abs() > SAME_TURN * (row.turn.abs() + first.turn.abs()) {
+            if apart.abs() > SAME_ANGLE * (row.turn.abs() + first.turn.abs()) {
                 let half = (0.5 * apart).sin();
                 let (cos, sin) = (-2.0 * half * half, apart.sin());
                 let (c, s) = first.normal;
@@ -291,7 +288,7 @@ impl<B: BladeModel> Explicit<B> {
 
 /// A direction turned by a small blade phase, to round-off.
 pub(super) fn turned((c, s): (f64, f64), angle: f64) -> (f64, f64) {
-    let (sin, cos) = if angle.abs() < 1e-4 {
+    let (sin, cos) = if angle.abs() < SMALL_PHASE {
         let square = angle * angle;
         (angle * (1.0 - square * (1.0 / 6.0)), 1.0 - 0.5 * square)
     } else {

@@ -1,13 +1,8 @@
 //! Verdicts of the explicit solver that nothing to come can change.
 
-use super::held_corner::SETTLED_STEPS;
 use super::{BladeModel, Explicit};
 use crate::motion::Verdict;
-
-/// Part of the least push that the blades' motion may take from it.
-const ROOM: f64 = 0.5;
-/// What the contact may feel of the blades' own inertia, against the casing's.
-const LIGHT: f64 = 1e-3;
+use crate::tolerances::{HELD_AFTER, LIGHT_BLADES, ROOM_TO_CHANGE};
 
 impl<B: BladeModel> Explicit<B> {
     /// The verdict, once nothing to come can change it: no contact can come
@@ -33,7 +28,7 @@ impl<B: BladeModel> Explicit<B> {
         let sides = self.steady_corner()?;
         let since = (self.log.since / self.step) as u64;
         let machine = &self.machine;
-        if self.n < since + SETTLED_STEPS || !machine.polygon.has_corners() {
+        if self.n < since + HELD_AFTER || !machine.polygon.has_corners() {
             return None;
         }
         let sum = |side| {
@@ -52,9 +47,9 @@ impl<B: BladeModel> Explicit<B> {
         let distance = machine.clearance() / (sin * cos);
         let change = 2.0 * turned * rates * rates * distance * machine.casing_mass;
         let moment_arm = machine.nodal_diameters * machine.polygon.half_side();
-        let light =
-            moment_arm * moment_arm * self.blades.compliance(0, 0) < LIGHT * self.casing.compliance;
-        (light && change < ROOM * least).then(|| locked(a > 0.0 || b > 0.0))
+        let light = moment_arm * moment_arm * self.blades.compliance(0, 0)
+            < LIGHT_BLADES * self.casing.compliance;
+        (light && change < ROOM_TO_CHANGE * least).then(|| locked(a > 0.0 || b > 0.0))
     }
 }
 

@@ -5,12 +5,10 @@
 //! form a *block*: it is decided on once, looked at wherever asked, and taken
 //! at its end. Looking never changes the trajectory.
 
-use super::{BREAK_STEPS, BladeModel, Coordinate, Explicit, HeldCorner};
+use super::{BladeModel, Coordinate, Explicit, HeldCorner};
 use crate::motion::{ActiveSet, Rotor};
-use crate::tolerances::LARGEST_BLADE_ANGLE;
+use crate::tolerances::{BREAK_STEPS, LARGEST_BLADE_ANGLE, SHORTEST_BLOCK};
 
-/// Blocks shorter than this are stepped: deciding costs about as much.
-const SHORTEST_BLOCK: u64 = 8;
 /// A block without end: no contact can ever come again.
 const ENDLESS: u64 = u64::MAX;
 

@@ -15,22 +15,9 @@ use super::corner_step::CornerStep;
 use super::leap::Leap;
 use super::{BladeModel, Coordinate, Explicit};
 use crate::motion::ActiveSet;
-
-/// Steps a corner must have been closed before the map is made.
-pub(super) const SETTLED_STEPS: u64 = 64;
-/// Steps until it is tried again where it could not be used.
-const TRY_AGAIN: u64 = 4096;
-/// Change of a blade angle by which the step is differentiated \[rad\].
-const PROBE: f64 = 1e-6;
-/// Largest blade phase `n_d alpha` of a vibration whose square the affine map may
-/// leave out \[rad\]: it makes 1e-11 of the angles.
-const LARGEST_PHASE: f64 = 1e-5;
-/// Part of a multiplier or gap that its changes may not exceed.
-const ROOM: f64 = 0.5;
-/// Newton steps to the modes at rest; two reach round-off.
-const MOST_CORRECTIONS: usize = 6;
-/// Radians of the blades between two looks for the largest angle.
-const LOOK: f64 = 0.125;
+use crate::tolerances::{
+    ANGLE_LOOK, HELD_AFTER, HELD_AGAIN, HELD_CORRECTIONS, HELD_PHASE, HELD_PROBE, ROOM_TO_CHANGE,
+};
 
 /// `(alpha_c, alpha_s)` and their increments.
 pub(super) type Modes = SVector<f64, 4>;
@@ -97,7 +84,7 @@ impl HeldCorner {
             let modes = self.modes(k);
             blades.largest([modes[0], modes[1]])
         };
-        let stride = (LOOK / blades.oscillator().turn()).clamp(1.0, 1e12) as u64;
+        let stride = (ANGLE_LOOK / blades.oscillator().turn()).clamp(1.0, 1e12) as u64;
         let mut most = least.max(angle(0)).max(angle(steps));
         let (mut before, mut here, mut at) = (0.0, angle(0), 0);
         while at < steps {
@@ -109,7 +96,7 @@ impl HeldCorner {
             }
             let after = angle((at + stride).min(steps));
             // Between looks an angle rises by the square of half a look, at most.
-            if here >= before && here >= after && here * (1.0 + LOOK * LOOK) > most {
+            if here >= before && here >= after && here * (1.0 + ANGLE_LOOK * ANGLE_LOOK) > most {
                 let around = [at.saturating_sub(stride), (at + stride).min(steps)];
                 most = most.max(top(around, angle));
             }
@@ -135,10 +122,10 @@ impl<B: BladeModel> Explicit<B> {
     pub(super) fn hold(&mut self) -> bool {
         let Some(sides) = self.steady_corner() else { return false };
         let since = ((self.log.since / self.step) as u64).max(self.hold_tried);
-        if self.n < since + SETTLED_STEPS {
+        if self.n < since + HELD_AFTER {
             return false;
         }
-        self.hold_tried = self.n + TRY_AGAIN;
+        self.hold_tried = self.n + HELD_AGAIN;
         self.held = self.make_map(sides);
         self.held.is_some()
     }
@@ -163,7 +150,7 @@ impl<B: BladeModel> Explicit<B> {
         let mut unchanged = StepMap::zeros();
         if step.blades().is_some() {
             unchanged = change.try_inverse()?;
-            for _ in 0..MOST_CORRECTIONS {
+            for _ in 0..HELD_CORRECTIONS {
                 let correction = unchanged * step.from(rest)?.change;
                 rest -= correction;
                 if correction.amax() <= f64::EPSILON * rest.amax() {
@@ -197,14 +184,14 @@ impl<B: BladeModel> Explicit<B> {
     /// neither at rest nor by the swing on the way there.
     fn is_kept(&self, held: &HeldCorner, rest: [f64; 4], slopes: [Modes; 4]) -> bool {
         let (angle, increment) = held.swing;
-        if self.machine.nodal_diameters * angle > LARGEST_PHASE {
+        if self.machine.nodal_diameters * angle > HELD_PHASE {
             return false;
         }
         (0..4).all(|k| {
             let swing = angle * (slopes[k][0].hypot(slopes[k][1]))
                 + increment * (slopes[k][2].hypot(slopes[k][3]));
             let sign_fits = if k < 2 { self.law.pulls() || rest[k] < 0.0 } else { rest[k] < 0.0 };
-            sign_fits && rest[k].is_finite() && swing < ROOM * rest[k].abs()
+            sign_fits && rest[k].is_finite() && swing < ROOM_TO_CHANGE * rest[k].abs()
         })
     }
 
@@ -232,12 +219,12 @@ fn slopes(step: &CornerStep, at: Modes) -> Option<(StepMap, [Modes; 4])> {
     let mut slopes = [Modes::zeros(); 4];
     for j in 0..4 {
         let mut shift = Modes::zeros();
-        shift[j] = PROBE;
+        shift[j] = HELD_PROBE;
         let (up, down) = (step.from(at + shift)?, step.from(at - shift)?);
-        map.set_column(j, &((up.change - down.change) / (2.0 * PROBE)));
+        map.set_column(j, &((up.change - down.change) / (2.0 * HELD_PROBE)));
         for k in 0..2 {
-            slopes[k][j] = (up.multipliers[k] - down.multipliers[k]) / (2.0 * PROBE);
-            slopes[2 + k][j] = (up.gaps[k] - down.gaps[k]) / (2.0 * PROBE);
+            slopes[k][j] = (up.multipliers[k] - down.multipliers[k]) / (2.0 * HELD_PROBE);
+            slopes[2 + k][j] = (up.gaps[k] - down.gaps[k]) / (2.0 * HELD_PROBE);
         }
     }
     Some((map, slopes))

@@ -8,13 +8,11 @@
 
 use std::sync::Arc;
 
+use crate::tolerances::LEAP_SMALL;
 use nalgebra::{SMatrix, SVector};
 
 /// Largest number of steps that can be taken at once, as a power of two.
 const LARGEST: usize = 40;
-/// Largest entry on the diagonal of a change that still counts as small.
-const SMALL: f64 = 0.25;
-
 /// Powers of a map of `N` coordinates.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Leap<const N: usize> {
@@ -28,7 +26,7 @@ impl<const N: usize> Leap<N> {
     /// Of the map that adds `change` times the coordinates to them.
     pub fn new(change: SMatrix<f64, N, N>) -> Self {
         let mut changes = vec![change];
-        let is_small = |change: &SMatrix<f64, N, N>| change.diagonal().amax() < SMALL;
+        let is_small = |change: &SMatrix<f64, N, N>| change.diagonal().amax() < LEAP_SMALL;
         while changes.len() <= LARGEST
             && let Some(last) = changes.last().filter(|last| is_small(last))
         {

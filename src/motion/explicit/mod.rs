@@ -30,13 +30,10 @@ use super::{
 use crate::contact::{self, StepLaw};
 use crate::model::Machine;
 use crate::scene::CheckedScene;
+use crate::tolerances::BREAK_STEPS;
 use flight::{Block, Phasor};
 use held_corner::HeldCorner;
 use watch::Watch;
-
-/// Steps without contact before a contact counts as broken: the scheme's
-/// impact takes two steps, and its rounding may open one step between them.
-const BREAK_STEPS: u64 = 2;
 
 /// The explicit solver on one size of bladed disk.
 #[derive(Clone, Debug)]

@@ -6,8 +6,9 @@ use std::time::Instant;
 use serde::Serialize;
 
 use super::TimedRun;
-use crate::motion::{Event, Motion, verdict};
+use crate::motion::{Event, Motion};
 use crate::scene::{CheckedScene, ContactLaw, ModelSize, Scene, SceneError, SolverKind};
+use crate::tolerances::LAST_PART;
 
 /// Longest time step tried \[s\].
 pub(super) const LONGEST: f64 = 1e-5;
@@ -101,7 +102,7 @@ impl Way {
         let mut motion = self.start(scene)?;
         let failed = motion.advance(scene.solver.end_s).is_err();
         let wall_s = started.elapsed().as_secs_f64();
-        let window = verdict::LAST_PART * scene.solver.end_s;
+        let window = LAST_PART * scene.solver.end_s;
         Ok(TimedRun { verdict: crate::motion::verdict_of(&motion, window), failed, wall_s, motion })
     }
 }

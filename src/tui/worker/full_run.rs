@@ -3,8 +3,8 @@
 
 use std::time::{Duration, Instant};
 
-use crate::motion::verdict::LAST_PART;
 use crate::motion::{Motion, Verdict, verdict_of};
+use crate::tolerances::LAST_PART;
 use crate::tui::engine::{FullRun, FullRunState};
 
 /// A full run that is being computed.

@@ -7,6 +7,7 @@ use super::BladeModel;
 use crate::model::{Machine, blade_frequency};
 use crate::motion::explicit::{Coordinate, EngineOrderTorque, Oscillator};
 use crate::scene::Scene;
+use crate::tolerances::ANGLE_LOOK;
 
 /// Every blade its own coordinate, Eqs. (2)-(3), carried in the Fourier modes
 /// of the circulant matrices, where they are uncoupled. A row is a blade.
@@ -169,7 +170,7 @@ impl BladeModel for FullBlades {
     fn peak(&self, steps: u64, least: f64) -> f64 {
         let tables = &*self.tables;
         let fastest = tables.oscillators.iter().map(Oscillator::turn).fold(0.0, f64::max);
-        let stride = (LOOK / fastest).clamp(1.0, 1e12) as u64;
+        let stride = (ANGLE_LOOK / fastest).clamp(1.0, 1e12) as u64;
         let mut most = least.max(self.largest_now());
         let (mut here, mut taken) = (self.clone(), 0);
         while taken < steps && here.reach() > most {
@@ -201,9 +202,6 @@ impl BladeModel for FullBlades {
         (0..self.tables.basis.len() as u32).map(|blade| self.angle(blade)).collect()
     }
 }
-
-/// Radians of the fastest mode between two looks at the blades in free motion.
-const LOOK: f64 = 0.125;
 
 impl FullBlades {
     /// Angle and increment of a blade (from 0).
