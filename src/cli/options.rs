@@ -6,7 +6,7 @@ use clap::Args;
 use super::range::Range;
 use super::status::{Refusal, say};
 use super::words::Words;
-use crate::scene::{BUILTIN, CheckedScene, ContactLaw, ModelSize, Scene, SolverKind};
+use crate::scene::{Adjustment, BUILTIN, CheckedScene, ContactLaw, ModelSize, Scene, SolverKind};
 use crate::study::overlay::{PULSE, SPEED};
 
 /// The scene and the options that change it, on every command.
@@ -143,7 +143,7 @@ impl SceneOptions {
             scene.set(key, text)?;
             given.push(key);
         }
-        let followed = follow(&mut scene, &given);
+        let made = scene.make_compatible(|key| given.contains(&key));
         for (key, range) in [(SPEED, speeds), (PULSE, pulses)] {
             if let Some(range) = range {
                 let mut last = scene.clone();
@@ -152,7 +152,7 @@ impl SceneOptions {
             }
         }
         let scene = scene.checked()?;
-        followed.iter().for_each(|line| say(line));
+        made.iter().for_each(|made| say(&followed(made)));
         Ok(Resolved { scene, speeds, pulses })
     }
 
@@ -173,32 +173,14 @@ impl SceneOptions {
     }
 }
 
-/// Where an option sets one of solver, contact law and model, and the scene's
-/// choice of the others is not possible with it, the others are changed. A key
-/// that an option sets is never changed. Returns the messages about it.
-fn follow(scene: &mut Scene, given: &[&str]) -> Vec<&'static str> {
-    let asked = |key: &str| given.contains(&key);
-    let mut said = Vec::new();
-    let solver = &mut scene.solver;
-    if solver.kind != SolverKind::Event {
-        return said;
-    }
-    if asked("solver.kind") {
-        if solver.contact == ContactLaw::Bilateral && !asked("solver.contact") {
-            solver.contact = ContactLaw::Unilateral;
-            said.push("rubscope: took solver.contact = \"unilateral\" instead of the scene's \"bilateral\", which the event solver does not know");
-        }
-        if solver.model == ModelSize::Full && !asked("solver.model") {
-            solver.model = ModelSize::Modal;
-            said.push("rubscope: took solver.model = \"modal\" instead of the scene's \"full\", which the event solver does not know");
-        }
-    } else if (asked("solver.contact") && solver.contact == ContactLaw::Bilateral)
-        || (asked("solver.model") && solver.model == ModelSize::Full)
-    {
-        solver.kind = SolverKind::Explicit;
-        said.push("rubscope: took solver.kind = \"explicit\" instead of the scene's \"event\", which cannot do what the options ask");
-    }
-    said
+/// What to say about a key that follows the options.
+fn followed(made: &Adjustment) -> String {
+    let Adjustment { key, from, to } = made;
+    let why = match *key {
+        "solver.kind" => "cannot do what the options ask",
+        _ => "the event solver does not know",
+    };
+    format!("rubscope: took {key} = {to:?} instead of the scene's {from:?}, which {why}")
 }
 
 #[cfg(test)]
@@ -212,7 +194,7 @@ mod tests {
             scene.solver.kind = SolverKind::Event;
             scene.solver.contact = ContactLaw::Bilateral;
             let before = scene.clone();
-            assert!(follow(&mut scene, given).is_empty());
+            assert!(scene.make_compatible(|key| given.contains(&key)).is_empty());
             assert_eq!(scene, before);
         }
     }
@@ -255,7 +237,7 @@ mod tests {
         let mut scene = Scene::default();
         scene.solver.kind = SolverKind::Event;
         scene.solver.contact = ContactLaw::Bilateral;
-        assert_eq!(follow(&mut scene, &["solver.contact"]).len(), 1);
+        assert_eq!(scene.make_compatible(|key| key == "solver.contact").len(), 1);
         assert_eq!(scene.solver.kind, SolverKind::Explicit);
     }
 }

@@ -25,7 +25,7 @@ mod fold;
 mod form;
 mod locked;
 mod newton;
-mod slide;
+mod saddle_flow;
 mod slip;
 mod spectrum;
 mod stability;

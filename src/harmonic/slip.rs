@@ -5,7 +5,7 @@
 use serde::Serialize;
 use strum::{Display, IntoStaticStr};
 
-use super::slide::{Arc, Slide};
+use super::saddle_flow::{Arc, SaddleFlow};
 use super::{HarmonicError, branches::changes};
 use crate::model::Machine;
 
@@ -111,7 +111,7 @@ pub struct Crossing {
 /// ```
 #[must_use]
 pub fn slip_map(machine: &Machine, rotor_speed: f64, speed: f64) -> Option<Crossing> {
-    let slide = Slide::at(machine, rotor_speed)?;
+    let slide = SaddleFlow::at(machine, rotor_speed)?;
     let units = Units::of(machine);
     let arc = slide.cross(speed / units.speed)?;
     let [after, before] = slide.end_speeds(&arc);
@@ -180,8 +180,8 @@ pub fn slip_limits(machine: &Machine, speeds: &[f64]) -> Result<Vec<SlipLimit>, 
 }
 
 /// The repeating arc at a speed, held by contact all along.
-pub(super) fn repeating(machine: &Machine, speed: f64) -> Result<(Slide, Arc), NoSlip> {
-    let slide = Slide::at(machine, speed).ok_or(NoSlip::BelowCritical)?;
+pub(super) fn repeating(machine: &Machine, speed: f64) -> Result<(SaddleFlow, Arc), NoSlip> {
+    let slide = SaddleFlow::at(machine, speed).ok_or(NoSlip::BelowCritical)?;
     if slide.kept <= 0.0 {
         return Err(NoSlip::StopsAtCorner);
     }
@@ -209,11 +209,11 @@ impl Units {
 }
 
 /// How much areas of the sliding flow shrink along an arc.
-fn contraction(slide: &Slide, arc: &Arc) -> f64 {
+fn contraction(slide: &SaddleFlow, arc: &Arc) -> f64 {
     (-2.0 * slide.zeta * arc.time).exp()
 }
 
-fn orbit(machine: &Machine, speed: f64, slide: &Slide, arc: &Arc) -> SlipOrbit {
+fn orbit(machine: &Machine, speed: f64, slide: &SaddleFlow, arc: &Arc) -> SlipOrbit {
     let units = Units::of(machine);
     let [after, before] = slide.end_speeds(arc);
     let impulse = before * slide.struck;
@@ -248,7 +248,7 @@ struct Means {
 }
 
 impl Means {
-    fn of(slide: &Slide, arc: &Arc) -> Self {
+    fn of(slide: &SaddleFlow, arc: &Arc) -> Self {
         let [up, down] = slide.roots;
         let rates = [0.0, up, down];
         let y = [slide.saddle, arc.grow, arc.decay];

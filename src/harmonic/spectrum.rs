@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 use nalgebra::Complex;
 use serde::Serialize;
 
-use super::slide::{Arc, Slide};
+use super::saddle_flow::{Arc, SaddleFlow};
 use super::slip::repeating;
 use super::{HarmonicError, NoSlip};
 use crate::model::Machine;
@@ -85,7 +85,7 @@ pub fn slip_spectrum(
 }
 
 struct Orbit {
-    slide: Slide,
+    slide: SaddleFlow,
     arc: Arc,
     delta: f64,
 }

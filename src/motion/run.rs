@@ -47,6 +47,10 @@ pub struct SolverReport {
     pub contact: ContactLaw,
     /// Which model size.
     pub model: ModelSize,
+    /// Whether the blades are too stiff for the casing to feel, and were solved as
+    /// rigid ones whose angles follow the pushes at once; told where it is so.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub blades_follow: bool,
     /// Time steps taken.
     pub steps: Option<u64>,
     /// Changes of mode computed.
@@ -271,6 +275,7 @@ fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) -> RunRepor
             kind: scene.solver.kind,
             contact: scene.solver.contact,
             model: scene.solver.model,
+            blades_follow: motion.blades_follow(),
             steps: motion.steps(),
             events: motion.events(),
         },

@@ -87,6 +87,12 @@ pub trait Solver: Debug + Send + Sync {
         None
     }
 
+    /// Whether the blades of a scene with moving blades are so stiff that they are
+    /// solved as rigid ones, whose angles follow the pushes at once.
+    fn blades_follow(&self) -> bool {
+        false
+    }
+
     /// Why the run failed, if it did.
     fn failure(&self) -> Option<&Failure>;
 

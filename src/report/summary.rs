@@ -61,8 +61,13 @@ fn how(report: &RunReport) -> String {
             short(some.amplitude_nm)
         ),
     };
+    let follow = if report.solver.blades_follow {
+        " (blades too stiff to be felt: rigid, with angles that follow the pushes)"
+    } else {
+        ""
+    };
     format!(
-        "{} solver, {} contact, {} model{step}; {} at {} rad/s; pulse of {} N for {}{excitation}; simulated to {}.",
+        "{} solver, {} contact, {} model{follow}{step}; {} at {} rad/s; pulse of {} N for {}{excitation}; simulated to {}.",
         capital(report.solver.kind.as_ref()),
         report.solver.contact,
         report.solver.model,

@@ -4,7 +4,7 @@ use std::ops::Deref;
 
 use serde::Serialize;
 
-use super::{ContactLaw, KEYS, Scene, SceneError, SolverKind, check};
+use super::{ContactLaw, KEYS, ModelSize, Scene, SceneError, SolverKind, check};
 
 /// A scene whose keys and their combinations are all allowed.
 ///
@@ -51,6 +51,17 @@ impl CheckedScene {
     }
 }
 
+/// A key that was changed to suit another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Adjustment {
+    /// Dotted path.
+    pub key: &'static str,
+    /// The word it had.
+    pub from: &'static str,
+    /// The word it has.
+    pub to: &'static str,
+}
+
 impl Scene {
     /// This scene as one that can be solved.
     ///
@@ -63,6 +74,36 @@ impl Scene {
         }
         check::check(self)?;
         Ok(CheckedScene(self.clone()))
+    }
+
+    /// Where one of solver, contact law and model was asked for, and the others
+    /// are not possible with it, takes the nearest that are. What was asked for
+    /// itself stays. Returns what was changed.
+    pub fn make_compatible(&mut self, asked: impl Fn(&str) -> bool) -> Vec<Adjustment> {
+        const KIND: &str = "solver.kind";
+        const CONTACT: &str = "solver.contact";
+        const MODEL: &str = "solver.model";
+        let mut made = Vec::new();
+        let solver = &mut self.solver;
+        if solver.kind != SolverKind::Event {
+            return made;
+        }
+        let bilateral = solver.contact == ContactLaw::Bilateral;
+        let full = solver.model == ModelSize::Full;
+        if asked(KIND) {
+            if bilateral && !asked(CONTACT) {
+                made.push(Adjustment { key: CONTACT, from: "bilateral", to: "unilateral" });
+                solver.contact = ContactLaw::Unilateral;
+            }
+            if full && !asked(MODEL) {
+                made.push(Adjustment { key: MODEL, from: "full", to: "modal" });
+                solver.model = ModelSize::Modal;
+            }
+        } else if (asked(CONTACT) && bilateral) || (asked(MODEL) && full) {
+            made.push(Adjustment { key: KIND, from: "event", to: "explicit" });
+            solver.kind = SolverKind::Explicit;
+        }
+        made
     }
 
     /// This scene for the event solver, which knows one contact law.

@@ -16,7 +16,7 @@ use serde::Serialize;
 use strum::{AsRefStr, Display, EnumString, VariantNames};
 
 pub use builtin::{BUILTIN, Builtin};
-pub use checked::CheckedScene;
+pub use checked::{Adjustment, CheckedScene};
 pub use error::SceneError;
 pub use keys::{Allowed, KEYS, Key, Value};
 

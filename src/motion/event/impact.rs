@@ -102,7 +102,7 @@ impl Event {
             self.kick(side, y, impulse);
             self.energy_balance.rotor -= impulse * self.drive.nu * y;
             self.energy_balance.lost += 0.5 * impulse * closing;
-            if let Some(blades) = &self.parameters.stiff {
+            if let Some(blades) = &self.parameters.following {
                 self.widest = self.widest.max(blades.kicked(y, impulse));
             }
             if closing > SOFT_TOUCH * self.parameters.omega * self.parameters.clearance {

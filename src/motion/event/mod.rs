@@ -275,6 +275,10 @@ impl Solver for Event {
         Some(self.events)
     }
 
+    fn blades_follow(&self) -> bool {
+        self.parameters.following.is_some()
+    }
+
     fn scale_tolerance(&mut self, factor: f64) {
         self.set_tolerance(factor * self.parameters.tolerance);
     }

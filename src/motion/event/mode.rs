@@ -201,7 +201,7 @@ impl Mode {
 
     /// The blades as they are reported: stiff ones follow the pushes.
     pub(super) fn reported(&self, parameters: &Parameters, drive: &Drive, s: f64) -> Tips {
-        let Some(blades) = &parameters.stiff else { return self.tips(parameters, s) };
+        let Some(blades) = &parameters.following else { return self.tips(parameters, s) };
         let Some((_, along)) = self.along(parameters, drive, s) else { return Tips::default() };
         let pushes = self.pushes(parameters, drive, s);
         blades.following(parameters, pushes, [along.y, parameters.half_side])
@@ -221,7 +221,7 @@ impl Mode {
             Self::Free(free) => return free.largest_angle(parameters, s, least),
             Self::Driven(series) if parameters.blades.is_some() => series.largest_bound(),
             Self::Held(held) => held.largest_bound(),
-            _ if parameters.stiff.is_some() => f64::INFINITY,
+            _ if parameters.following.is_some() => f64::INFINITY,
             _ => 0.0,
         };
         if bound <= least {

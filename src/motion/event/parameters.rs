@@ -31,7 +31,7 @@ pub(super) struct Parameters {
     /// The blades, where they move.
     pub blades: Option<Blades>,
     /// Blades too stiff for the casing to notice: their angles follow the pushes.
-    pub stiff: Option<Blades>,
+    pub following: Option<Blades>,
     /// Casing modal mass \[kg\].
     pub mass: f64,
     /// Cosine and sine of the angle `2 delta` between neighbouring sides.
@@ -59,7 +59,7 @@ impl Parameters {
             damping,
             propagator: Propagator::new(damping, machine.omega_c * machine.omega_c),
             blades: if negligible { None } else { blades },
-            stiff: if negligible { blades } else { None },
+            following: if negligible { blades } else { None },
             mass: machine.casing_mass,
             turn: Plane::cis(twice),
             corners,

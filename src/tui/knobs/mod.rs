@@ -6,10 +6,7 @@ mod number;
 pub use number::number;
 use number::{COARSE, FINE, decades, prefixed};
 
-use crate::scene::{
-    Allowed, CheckedScene, ContactLaw, ModelSize, Scene, SceneError, SolverKind, Value, keys,
-    keys::Key,
-};
+use crate::scene::{Adjustment, Allowed, CheckedScene, Scene, SceneError, Value, keys, keys::Key};
 
 /// The one knob that is no key: the clearance `g0`, by moving the casing radius.
 const CLEARANCE: &str = "clearance";
@@ -112,39 +109,28 @@ impl Knob {
                 return Err(SceneError::refused(self.path, value, "a number above 0"));
             }
         }
-        let said = self.make_compatible(&mut changed);
-        Ok((changed.checked()?, said))
+        let made = changed.make_compatible(|key| key == self.path);
+        Ok((changed.checked()?, self.followed(&made)))
     }
 
-    fn make_compatible(&self, scene: &mut Scene) -> Option<String> {
-        let solver = &mut scene.solver;
-        if solver.kind != SolverKind::Event {
-            return None;
-        }
-        match self.path {
-            "solver.kind" => {
-                let mut said = Vec::new();
-                if solver.contact == ContactLaw::Bilateral {
-                    solver.contact = ContactLaw::Unilateral;
-                    said.push("contact is now unilateral");
-                }
-                if solver.model == ModelSize::Full {
-                    solver.model = ModelSize::Modal;
-                    said.push("model is now modal");
-                }
-                (!said.is_empty())
-                    .then(|| format!("{}: the event solver knows no other", said.join(", ")))
+    /// What to say about keys that follow this knob.
+    fn followed(&self, made: &[Adjustment]) -> Option<String> {
+        let first = made.first()?;
+        Some(match (first.key, self.path) {
+            ("solver.kind", "solver.contact") => {
+                "solver is now explicit: bilateral is a law of the time step".into()
             }
-            "solver.contact" if solver.contact == ContactLaw::Bilateral => {
-                solver.kind = SolverKind::Explicit;
-                Some("solver is now explicit: bilateral is a law of the time step".into())
+            ("solver.kind", _) => {
+                "solver is now explicit: the event solver has no full model".into()
             }
-            "solver.model" if solver.model == ModelSize::Full => {
-                solver.kind = SolverKind::Explicit;
-                Some("solver is now explicit: the event solver has no full model".into())
+            _ => {
+                let now = |made: &Adjustment| {
+                    format!("{} is now {}", made.key.trim_start_matches("solver."), made.to)
+                };
+                let now: Vec<String> = made.iter().map(now).collect();
+                format!("{}: the event solver knows no other", now.join(", "))
             }
-            _ => None,
-        }
+        })
     }
 
     /// The value after one turn.
@@ -247,6 +233,7 @@ impl Knob {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::{ContactLaw, SolverKind};
 
     fn knob(path: &str) -> &'static Knob {
         KNOBS.iter().find(|knob| knob.path == path).unwrap()

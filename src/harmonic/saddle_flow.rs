@@ -1,5 +1,7 @@
-//! The sliding flow in closed form: a rigid blade group holds the wave on one
-//! side of the polygon, and the wave drifts along it.
+//! Sliding above the critical speed as a saddle: a rigid blade group holds the
+//! wave on one side of the polygon, and the wave drifts along it. This form
+//! answers what repeats, from corner to corner; `motion::event::slide` has the
+//! form that starts from a state.
 //!
 //! With `z = -exp(i psi)(g0 - i y)`, `y` growing backward (towards decreasing
 //! angle), lengths in `g0`, time in `1/omega_c` and `f = nu/omega_c`:
@@ -15,7 +17,7 @@ use crate::model::Machine;
 
 /// One side above the critical speed, in numbers of order one.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Slide {
+pub(super) struct SaddleFlow {
     pub zeta: f64,
     /// `nu/omega_c`, above one.
     pub ratio: f64,
@@ -39,7 +41,7 @@ pub(super) struct Arc {
     pub time: f64,
 }
 
-impl Slide {
+impl SaddleFlow {
     /// At a rotor speed `speed` \[rad/s\], taken without its sign; `None` without
     /// corners or not above the critical speed.
     pub fn at(machine: &Machine, speed: f64) -> Option<Self> {
