@@ -13,7 +13,7 @@ use rubscope::motion::{Motion, Sample, Sampling, Script, run_to_verdict, simulat
 use rubscope::scene::{CheckedScene, Scene};
 
 fn scene(changes: &[(&str, &str)]) -> CheckedScene {
-    Scene::default().with(changes).unwrap()
+    Scene::base().with(changes).unwrap()
 }
 
 const EVENT: [(&str, &str); 2] = [("solver.kind", "event"), ("solver.model", "rigid")];
@@ -79,7 +79,7 @@ fn event(criterion: &mut Criterion) {
 
 fn harmonic(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("hbm, 500 speeds");
-    let machine = Scene::default().machine();
+    let machine = Scene::base().machine();
     let speeds: Vec<f64> = (1..=500).map(f64::from).collect();
     for form in Form::ALL {
         group.bench_function(form.as_ref(), |bencher| {

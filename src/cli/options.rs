@@ -6,7 +6,7 @@ use clap::Args;
 use super::range::Range;
 use super::status::{Refusal, say};
 use super::words::Words;
-use crate::scene::{Adjustment, BUILTIN, CheckedScene, ContactLaw, ModelSize, Scene, SolverKind};
+use crate::scene::{Adjustment, CheckedScene, ContactLaw, DEFAULT, ModelSize, Scene, SolverKind};
 use crate::study::overlay::{PULSE, SPEED};
 
 /// The scene and the options that change it, on every command.
@@ -102,8 +102,7 @@ impl SceneOptions {
     /// # Errors
     /// As `scene`; the scene is checked at both ends of each range.
     pub fn resolve(&self, swept: Swept) -> anyhow::Result<Resolved> {
-        let default = BUILTIN.first().map_or("paper-nd3", |scene| scene.name);
-        let scene = Scene::load_unchecked(self.scene.as_deref().unwrap_or(default))?;
+        let scene = Scene::load_unchecked(self.scene.as_deref().unwrap_or(DEFAULT))?;
         self.apply(scene, swept)
     }
 
@@ -190,7 +189,7 @@ mod tests {
     #[test]
     fn what_was_not_asked_for_is_left_alone() {
         for given in [&[][..], &["solver.step_s"], &["solver.kind", "solver.contact"]] {
-            let mut scene = Scene::default();
+            let mut scene = Scene::base();
             scene.solver.kind = SolverKind::Event;
             scene.solver.contact = ContactLaw::Bilateral;
             let before = scene.clone();
@@ -234,7 +233,7 @@ mod tests {
 
     #[test]
     fn the_solver_follows_what_only_the_explicit_one_can_do() {
-        let mut scene = Scene::default();
+        let mut scene = Scene::base();
         scene.solver.kind = SolverKind::Event;
         scene.solver.contact = ContactLaw::Bilateral;
         assert_eq!(scene.make_compatible(|key| key == "solver.contact").len(), 1);

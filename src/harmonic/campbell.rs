@@ -107,7 +107,7 @@ mod tests {
 
     #[test]
     fn lines_cross_at_the_coincidences() {
-        let machine = Scene::default().machine();
+        let machine = Scene::base().machine();
         let campbell = Campbell::of(&machine, &[1, 3]).unwrap();
         assert_eq!(campbell.lines.len(), 6);
         for found in campbell.coincidences {
@@ -132,7 +132,7 @@ mod tests {
 
     #[test]
     fn without_nodal_diameters_there_is_no_wave() {
-        let mut scene = Scene::default();
+        let mut scene = Scene::base();
         scene.set("operation.nodal_diameters", "0").unwrap();
         let message = Campbell::of(&scene.machine(), &[]).unwrap_err().to_string();
         assert!(message.starts_with("operation.nodal_diameters = 0: allowed is 1 or more"));

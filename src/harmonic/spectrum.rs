@@ -201,7 +201,7 @@ mod tests {
     use crate::scene::Scene;
 
     fn machine() -> Machine {
-        let mut scene = Scene::default();
+        let mut scene = Scene::base();
         scene.set("casing.damping_ratio", "0.01").unwrap();
         scene.machine()
     }

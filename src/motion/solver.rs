@@ -127,7 +127,7 @@ pub trait Solver: Debug + Send + Sync {
 ///
 /// ```
 /// use rubscope::{motion::Motion, scene::Scene};
-/// let mut motion = Motion::new(&Scene::default().checked()?);
+/// let mut motion = Motion::new(&Scene::base().checked()?);
 /// motion.advance(1e-3)?;
 /// assert_eq!(motion.contacts().impact_count, 2);
 /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -101,7 +101,7 @@ mod tests {
     #[test]
     fn no_half_turn_hides_in_a_long_run() {
         // Without steps there may be any end.
-        let mut scene = Scene::default().as_reference();
+        let mut scene = Scene::base().as_reference();
         for end in [1e-3, 0.1, 100.0, 1e4, 1e6] {
             scene.solver.end_s = end;
             for rate in [500.0, 385.3, -292.9] {

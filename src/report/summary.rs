@@ -238,7 +238,7 @@ mod tests {
     use crate::scene::Scene;
 
     fn report(settings: &[(&str, &str)]) -> RunReport {
-        let mut scene = Scene::default();
+        let mut scene = Scene::base();
         for (key, text) in [("solver.step_s", "1e-6"), ("solver.end_s", "2e-3")] {
             scene.set(key, text).unwrap();
         }

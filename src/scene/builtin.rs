@@ -17,7 +17,10 @@ macro_rules! builtin {
     };
 }
 
-/// All built-in scenes; the first one is the default.
+/// The scene the program opens when none is named.
+pub const DEFAULT: &str = "paper-nd3";
+
+/// All built-in scenes.
 pub const BUILTIN: &[Builtin] = builtin![
     "paper-nd3",
     "paper-nd4",

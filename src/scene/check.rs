@@ -190,7 +190,7 @@ mod tests {
                 for speed in [0.0, 10.0, 250.0, -500.0, 1e4, 9.7e5] {
                     for (end, ramp) in [(0.1, 0.0), (0.3, -77.7), (300.0, 0.0), (1e6, 0.0)] {
                         for step in [1e3, 0.01, 2.3e-3, 3.4e-4, 1e-7, 1.23e-11] {
-                            let mut scene = Scene::default();
+                            let mut scene = Scene::base();
                             scene.casing.modal_mass_kg = mass;
                             scene.operation.nodal_diameters = diameters;
                             scene.operation.speed_rad_s = speed;

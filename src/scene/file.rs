@@ -69,7 +69,7 @@ impl Scene {
             });
             SceneError::Syntax(format!("line {line}: {message}"))
         })?;
-        let mut scene = Self::default();
+        let mut scene = Self::base();
         for (name, value) in &table {
             if name == "schema" {
                 check_schema(value)?;

@@ -15,7 +15,7 @@ pub mod keys;
 use serde::Serialize;
 use strum::{AsRefStr, Display, EnumString, VariantNames};
 
-pub use builtin::{BUILTIN, Builtin};
+pub use builtin::{BUILTIN, Builtin, DEFAULT};
 pub use checked::{Adjustment, CheckedScene};
 pub use error::SceneError;
 pub use keys::{Allowed, KEYS, Key, Value};
@@ -125,7 +125,7 @@ impl Default for View {
 /// assert!(refused.to_string().starts_with("bladed_disk.blades = 0"));
 /// # Ok::<(), rubscope::scene::SceneError>(())
 /// ```
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Scene {
     /// Version of the file format; 1.
     #[serde(serialize_with = "schema_as_number")]
@@ -159,6 +159,24 @@ fn schema_as_number<S: serde::Serializer>(_: &Schema, out: S) -> Result<S::Ok, S
 }
 
 impl Scene {
+    /// What an empty file describes: the values of keys that a file leaves out. It
+    /// has the paper's machine, and no words.
+    #[must_use]
+    pub fn base() -> Self {
+        Self {
+            schema: Schema,
+            title: String::new(),
+            note: String::new(),
+            bladed_disk: BladedDisk::default(),
+            casing: Casing::default(),
+            operation: Operation::default(),
+            initial: Initial::default(),
+            excitation: Excitation::default(),
+            solver: SolverChoice::default(),
+            view: View::default(),
+        }
+    }
+
     /// The machine this scene describes, with all that is derived from it.
     #[must_use]
     pub fn machine(&self) -> Machine {
@@ -231,7 +249,7 @@ mod tests {
 
     #[test]
     fn every_key_is_in_the_struct_and_every_field_in_the_table() {
-        let scene = Scene::default();
+        let scene = Scene::base();
         let table = toml::Table::try_from(&scene).unwrap();
         let mut paths = Vec::new();
         for (name, value) in &table {
@@ -280,7 +298,7 @@ mod tests {
 
     #[test]
     fn options_read_numbers_of_any_sign_and_refuse_the_rest() {
-        let mut scene = Scene::default();
+        let mut scene = Scene::base();
         scene.set("operation.speed_rad_s", "-430").unwrap();
         assert_eq!(scene.operation.speed_rad_s, -430.0);
         let before = scene.clone();

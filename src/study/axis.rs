@@ -85,7 +85,7 @@ impl Axis {
         if log && !(from > 0.0 && to > 0.0) {
             return Err(refused("log: with both ends above 0"));
         }
-        let mut scene = Scene::default();
+        let mut scene = Scene::base();
         axis.apply(&mut scene, 0)?;
         axis.apply(&mut scene, count - 1)?;
         Ok(axis)
@@ -201,7 +201,7 @@ mod tests {
     #[test]
     fn whole_keys_take_whole_values() {
         let axis = Axis::parse("operation.nodal_diameters=2:6:5").unwrap();
-        let mut scene = Scene::default();
+        let mut scene = Scene::base();
         axis.apply(&mut scene, 3).unwrap();
         assert_eq!(scene.operation.nodal_diameters, 5);
     }

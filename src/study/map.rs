@@ -101,7 +101,7 @@ impl MapPlan {
     /// The scene without what decides no cell: title, note and view, and the
     /// keys on the axes, of which each cell has its own values.
     fn deciding(&self) -> Scene {
-        let Scene { title, note, view, .. } = Scene::default();
+        let Scene { title, note, view, .. } = Scene::base();
         let mut scene = Scene { title, note, view, ..self.scene.clone() };
         for axis in [&self.x, &self.y] {
             // An axis that no scene takes leaves both scenes as they are.

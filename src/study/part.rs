@@ -239,7 +239,7 @@ mod tests {
     use crate::study::Progress;
 
     fn plan() -> MapPlan {
-        let mut scene = Scene::default();
+        let mut scene = Scene::base();
         scene.solver.end_s = 2e-3;
         scene.solver.step_s = 1e-6;
         MapPlan {

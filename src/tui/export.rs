@@ -86,7 +86,7 @@ mod tests {
 
     #[test]
     fn a_picture_is_well_formed_and_says_what_the_screen_says() {
-        let app = App::new(Scene::default().checked().unwrap(), Theme::Dark, Marker::Braille);
+        let app = App::new(Scene::base().checked().unwrap(), Theme::Dark, Marker::Braille);
         let svg = svg(&app);
         assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
         assert_eq!(svg.matches("<text").count(), svg.matches("</text>").count());
@@ -95,7 +95,7 @@ mod tests {
 
     #[test]
     fn a_picture_has_the_size_and_the_ground_of_the_screen() {
-        let mut app = App::new(Scene::default().checked().unwrap(), Theme::Light, Marker::Braille);
+        let mut app = App::new(Scene::base().checked().unwrap(), Theme::Light, Marker::Braille);
         app.size = (100, 30);
         let light = svg(&app);
         assert!(light.contains("width=\"800\" height=\"510\""), "{}", &light[..200]);
@@ -106,7 +106,7 @@ mod tests {
 
     #[test]
     fn no_data_is_said_and_not_written() {
-        let app = App::new(Scene::default().checked().unwrap(), Theme::Dark, Marker::Braille);
+        let app = App::new(Scene::base().checked().unwrap(), Theme::Dark, Marker::Braille);
         assert_eq!(app.view.panel().csv(&app).unwrap_err(), "there is no data yet");
     }
 }

@@ -170,7 +170,7 @@ fn run_and_map_agree_on_a_lock_that_was_caught_by_a_pull() {
 
 #[test]
 fn every_penetration_above_round_off_is_told() {
-    let mut scene = Scene::default();
+    let mut scene = Scene::base();
     scene.solver.end_s = 1e-4;
     let mut report = simulate(&scene.checked().unwrap());
     for (part, is_told) in [(0.0, false), (1e-14, false), (1e-12, true), (5e-3, true)] {

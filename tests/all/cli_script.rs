@@ -17,13 +17,13 @@ fn script(options: &[&str], scene: &Scene) -> Result<RequestedScript, String> {
 }
 
 fn explicit() -> Scene {
-    let mut scene = Scene::default();
+    let mut scene = Scene::base();
     scene.solver.step_s = 1e-6;
     scene
 }
 
 fn event() -> Scene {
-    let mut scene = Scene::default();
+    let mut scene = Scene::base();
     scene.solver.kind = SolverKind::Event;
     scene
 }

@@ -5,7 +5,7 @@ use rubscope::motion::{ActiveSet, Event, Solver, Verdict};
 use rubscope::scene::Scene;
 
 fn scene(changes: &[(&str, f64)]) -> Scene {
-    let mut scene = Scene::default();
+    let mut scene = Scene::base();
     scene.set("solver.kind", "event").unwrap();
     scene.set("solver.model", "rigid").unwrap();
     for (key, value) in changes {

@@ -16,7 +16,7 @@ const BLADES: &str = "bladed_disk.blades";
 const BLADE: &str = "bladed_disk.blade_length_m";
 
 fn run(changes: &[(&str, f64)], until: f64) -> (Event, Result<(), Failure>) {
-    let mut scene = Scene::default();
+    let mut scene = Scene::base();
     scene.set("solver.kind", "event").unwrap();
     scene.set("solver.model", "rigid").unwrap();
     for (key, value) in changes {
@@ -84,7 +84,7 @@ fn a_hundred_seconds_without_damping_keep_the_energy_in_the_turning_frame() {
 #[test]
 fn at_the_critical_speed_a_slide_keeps_its_pace() {
     // omega_c^2 - nu^2 = 0 and no damping: y'' = 0 and the push is -2 nu y'.
-    let mut scene = Scene::default();
+    let mut scene = Scene::base();
     scene.set("solver.model", "rigid").unwrap();
     scene.casing.damping_ratio = 0.0;
     scene.operation.pulse_n = 0.0;
@@ -226,7 +226,7 @@ fn firing_again_and_changing_speed_keep_the_casing_where_it_is() {
 /// turn: a failure with a reason, not a motion through the other side.
 #[test]
 fn blades_that_turn_two_sides_onto_each_other_end_the_motion() {
-    let mut scene = Scene::default();
+    let mut scene = Scene::base();
     scene.bladed_disk.blades = 8;
     scene.bladed_disk.blade_length_m = scene.casing.radius_m - 0.008;
     scene.casing.damping_ratio = 1.0;

@@ -19,7 +19,7 @@ fn scenes() -> impl Strategy<Value = Scene> {
     let model = prop_oneof![2 => Just(ModelSize::Rigid), 1 => Just(ModelSize::Modal)];
     (sizes, zeta, ramp, speed, pulse, any::<bool>(), start, model).prop_map(
         |(sizes, zeta, ramp, speed, (decades, length), negative, start, model)| {
-            let mut scene = Scene::default();
+            let mut scene = Scene::base();
             scene.bladed_disk.blades = sizes.0;
             scene.operation.nodal_diameters = sizes.1;
             scene.bladed_disk.blade_length_m = scene.casing.radius_m - sizes.2;

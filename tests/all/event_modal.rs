@@ -8,7 +8,7 @@ use rubscope::motion::{ActiveSet, Event, Solver, State, Verdict};
 use rubscope::scene::Scene;
 
 fn scene(changes: &[(&str, f64)]) -> Scene {
-    let mut scene = Scene::default();
+    let mut scene = Scene::base();
     scene.set("solver.kind", "event").unwrap();
     scene.set("solver.model", "modal").unwrap();
     for (key, value) in changes {
@@ -368,7 +368,7 @@ fn halves_make_the_whole_and_no_gap_opens_inward() {
 #[test]
 fn blades_that_follow_are_reported() {
     for (stiffness, follow) in [(1e13, true), (15_000.0, false)] {
-        let mut scene = Scene::default().as_reference();
+        let mut scene = Scene::base().as_reference();
         scene.bladed_disk.stiffness_nm_per_rad = stiffness;
         let report = rubscope::motion::simulate(&scene.checked().unwrap());
         assert_eq!(report.solver.blades_follow, follow, "{stiffness:e}");

@@ -7,7 +7,7 @@ use rubscope::scene::Scene;
 
 /// Case A of the paper's machine: three diameters, 500 rad/s, 20 kN.
 fn scene(changes: &[(&str, &str)]) -> Scene {
-    Scene::default().with(changes).unwrap().into_scene()
+    Scene::base().with(changes).unwrap().into_scene()
 }
 
 fn run(changes: &[(&str, &str)]) -> RunReport {
@@ -50,7 +50,7 @@ fn case_b_locks_only_under_the_equality_law() {
     let locked = run(&[(PULSE, "1e6"), (LAW, "bilateral")]);
     assert_eq!(locked.outcome.verdict, Verdict::Locked);
     assert_eq!(locked.checks.tensile_steps, 2);
-    let exact = Scene::default().machine().locked_multipliers(500.0).unwrap();
+    let exact = Scene::base().machine().locked_multipliers(500.0).unwrap();
     for (contact, exact) in locked.outcome.contacts.iter().zip(exact) {
         assert!((contact.multiplier_n / exact - 1.0).abs() < 0.01, "{contact:?} {exact}");
     }

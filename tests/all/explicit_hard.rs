@@ -6,7 +6,7 @@ use rubscope::scene::{Scene, SceneError};
 
 /// Runs 2 ms of the paper's machine with changes, or says why it is refused.
 fn run(changes: &[(&str, &str)]) -> Result<RunReport, SceneError> {
-    let mut scene = Scene::default();
+    let mut scene = Scene::base();
     scene.set("solver.end_s", "2e-3")?;
     scene.set("solver.step_s", "1e-6")?;
     let scene = scene.with(changes)?;
@@ -123,7 +123,7 @@ fn clearances_and_blades_at_the_ends_of_the_scale() {
 
 #[test]
 fn steps_under_at_and_over_the_stability_limit() {
-    let limit = Scene::default().stable_step();
+    let limit = Scene::base().stable_step();
     let with = |step: f64| {
         run(&[
             ("solver.step_s", &step.to_string()),
@@ -151,7 +151,7 @@ fn undamped_flight_keeps_its_energy() {
     assert_eq!((report.outcome.verdict, report.impact_count), (Verdict::Decay, 0));
     // A standing vibration of u_c alone: |u| and its rate on one ellipse, to
     // the second order of the step.
-    let omega = Scene::default().machine().omega_c;
+    let omega = Scene::base().machine().omega_c;
     let amplitude = 3000.0 * 50e-6 / 2.0 / omega;
     assert!(report.r#final.u_s_m == 0.0 && report.r#final.u_c_m.abs() <= amplitude * (1.0 + 1e-3));
 }

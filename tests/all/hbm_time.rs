@@ -8,7 +8,7 @@ use rubscope::scene::{ModelSize, Scene};
 
 /// Rigid blades unless a test changes it, as the closed forms have them.
 fn scene(changes: &[(&str, &str)]) -> Scene {
-    let mut scene = Scene::default();
+    let mut scene = Scene::base();
     scene.solver.model = ModelSize::Rigid;
     scene.with(changes).unwrap().into_scene()
 }

@@ -280,7 +280,7 @@ fn parameters_turned_in_flight_in_contact_and_locked() {
             let mut locked = Pair::new(&in_corner(scene));
             assert!(locked.advance(0.0006).is_ok());
             let other = turned(locked.scene(), turn);
-            locked.adopt(&other.unwrap_or_default());
+            locked.adopt(&other.unwrap());
             go_on(&mut locked, &format!("{turn:?} while locked"), 0.0016);
         });
     }

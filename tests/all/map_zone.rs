@@ -11,7 +11,7 @@ use rubscope::study::{Axis, Map, MapPlan, Progress};
 
 /// The paper's machine with rigid blades, cell by cell, without sensitivity.
 fn plan(speed: &str, pulse: &str) -> MapPlan {
-    let mut scene = Scene::default();
+    let mut scene = Scene::base();
     scene.casing.damping_ratio = 0.05;
     scene.solver.kind = SolverKind::Event;
     scene.solver.contact = ContactLaw::Unilateral;

@@ -5,7 +5,7 @@ use rubscope::motion::{Motion, State, Verdict, run_to_verdict, simulate};
 use rubscope::scene::Scene;
 
 fn scene(changes: &[(&str, &str)]) -> Scene {
-    Scene::default().with(changes).unwrap().into_scene()
+    Scene::base().with(changes).unwrap().into_scene()
 }
 
 /// Puts the wave into the corner of sides 15 and 16, turning with the rotor.
@@ -59,7 +59,7 @@ fn first_order_in_contact_from_1e_5_to_1e_8() {
     // Locked from the start, slowly let go by no one: a smooth contact. The
     // slide along a side, begun in its middle, is smooth too.
     let smooth = |step: &str| {
-        let g0 = Scene::default().machine().clearance();
+        let g0 = Scene::base().machine().clearance();
         // On the side of blade 1 (phase 0), at rest in the frame of the blades.
         let (u, v) = ((-g0).to_string(), (-1500.0 * g0).to_string());
         let start = [("initial.u_c_m", u.as_str()), ("initial.v_s_m_s", v.as_str())];
@@ -83,7 +83,7 @@ fn first_order_in_contact_from_1e_5_to_1e_8() {
 
 #[test]
 fn locked_multipliers_converge_with_the_known_coefficient() {
-    let machine = Scene::default().machine();
+    let machine = Scene::base().machine();
     let exact = machine.locked_multipliers(500.0).unwrap();
     let nu: f64 = machine.nu(500.0);
     let stiffness = machine.casing_stiffness - nu * nu * machine.casing_mass;
@@ -156,7 +156,7 @@ fn the_adhesive_threshold_of_the_equality_law() {
         let middle = 0.5 * (low + high);
         if holds(middle) { high = middle } else { low = middle }
     }
-    let exact = Scene::default().machine().adhesive_speed().unwrap();
+    let exact = Scene::base().machine().adhesive_speed().unwrap();
     assert!((high - exact).abs() < 0.1, "{high} {exact}");
 }
 

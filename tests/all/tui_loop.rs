@@ -41,7 +41,7 @@ fn a_screen_without_news_is_drawn_again_to_notice_a_lost_terminal() {
         let _ = watchdog.send(Event::InputClosed);
     });
     let mut terminal = Terminal::new(TestBackend::new(80, 24)).unwrap();
-    let mut app = App::new(Scene::default().checked().unwrap(), Theme::Dark, Marker::Braille);
+    let mut app = App::new(Scene::base().checked().unwrap(), Theme::Dark, Marker::Braille);
     let mut engine = Second { pictures: 0, events: sender };
     let frame = Duration::from_millis(100);
     let exit = run(&mut terminal, &events, &mut app, &mut engine, &mut NoHost, frame);
@@ -51,7 +51,7 @@ fn a_screen_without_news_is_drawn_again_to_notice_a_lost_terminal() {
 #[test]
 fn a_bin_longer_than_a_turn_of_the_wave_shows_its_whole_swing() {
     // Free vibration without damping, in bins of five periods.
-    let mut scene = Scene::default();
+    let mut scene = Scene::base();
     scene.casing.damping_ratio = 0.0;
     scene.operation.pulse_n = 0.0;
     scene.initial.u_c_m = 5e-5;

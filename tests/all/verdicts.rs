@@ -37,7 +37,7 @@ fn scenes() -> impl Strategy<Value = Scene> {
     ];
     (machine, operation, excitation, start, kind, 0.01..0.06)
         .prop_map(|(machine, operation, torque, start, kind, end)| {
-            let mut scene = Scene::default();
+            let mut scene = Scene::base();
             let ((blades, diameters), zeta_c, zeta_bd) = machine;
             scene.bladed_disk.blades = blades;
             scene.operation.nodal_diameters = diameters;

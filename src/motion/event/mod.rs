@@ -49,7 +49,7 @@ use parameters::{Drive, Parameters, Plane};
 ///
 /// ```
 /// use rubscope::{motion::{Event, Solver}, scene::Scene};
-/// let mut motion = Event::new(&Scene::default().checked()?)?;
+/// let mut motion = Event::new(&Scene::base().checked()?)?;
 /// motion.advance(0.1)?;
 /// assert!(motion.over());
 /// assert_eq!(motion.contacts().impact_count, 2);

@@ -43,7 +43,7 @@ mod tests {
     use crate::scene::{ModelSize, Scene, SolverKind};
 
     fn scene(model: ModelSize) -> Scene {
-        let mut scene = Scene::default();
+        let mut scene = Scene::base();
         scene.solver.model = model;
         scene.solver.step_s = 1e-6;
         scene
@@ -105,7 +105,7 @@ mod tests {
         scene.operation.pulse_n = 5.0;
         scene.operation.pulse_s = 1e-4;
         motion.set_parameters(&scene.checked().unwrap());
-        assert_eq!(motion.pulse().force, Scene::default().operation.pulse_n);
+        assert_eq!(motion.pulse().force, Scene::base().operation.pulse_n);
         motion.advance(3e-3).unwrap();
         motion.fire();
         let pulse = motion.pulse();

@@ -263,7 +263,7 @@ mod tests {
 
     #[test]
     fn errors_of_the_explicit_solver_fall_with_its_step() {
-        let (reference, rows) = rows(&Scene::default(), |way| {
+        let (reference, rows) = rows(&Scene::base(), |way| {
             way.model == ModelSize::Rigid
                 && way.contact == ContactLaw::Unilateral
                 && way.solver == SolverKind::Explicit
@@ -279,7 +279,7 @@ mod tests {
 
     #[test]
     fn the_event_solver_is_exact_at_every_tolerance_that_is_tight() {
-        let (_, rows) = rows(&Scene::default(), |way| {
+        let (_, rows) = rows(&Scene::base(), |way| {
             way.solver == SolverKind::Event && way.tolerance <= Some(1e-9)
         });
         assert!(rows.iter().all(|row| row.error_final.unwrap() < 1e-8), "{rows:?}");
@@ -287,7 +287,7 @@ mod tests {
 
     #[test]
     fn a_step_too_long_is_left_out() {
-        let mut scene = Scene::default();
+        let mut scene = Scene::base();
         scene.casing.modal_mass_kg = 2e-6;
         assert!(ways(&scene, quick()).iter().all(|way| way.step_s.is_none_or(|h| h < 1e-5)));
     }

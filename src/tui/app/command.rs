@@ -1,14 +1,13 @@
 //! The command line that repeats the run on the screen.
 
 use super::App;
-use crate::scene::{BUILTIN, KEYS, Scene, Value};
+use crate::scene::{DEFAULT, KEYS, Scene, Value};
 
 impl App {
     /// `rubscope run SCENE` with every key that differs from it.
     pub fn command(&self) -> String {
-        let usual = BUILTIN.first().map_or("", |scene| scene.name);
-        let source = self.source.as_deref().unwrap_or(usual);
-        let base = Scene::load(source).unwrap_or_default();
+        let source = self.source.as_deref().unwrap_or(DEFAULT);
+        let base = Scene::load(source).unwrap_or_else(|_| Scene::base());
         let mut command = format!("rubscope run {}", quoted(source));
         for key in KEYS.iter().filter(|key| !key.path.starts_with("view.")) {
             let value = (key.get)(&self.scene);

@@ -241,7 +241,7 @@ mod tests {
 
     #[test]
     fn every_knob_reads_and_writes_a_scene() {
-        let scene = Scene::default();
+        let scene = Scene::base();
         for knob in KNOBS {
             let value = knob.get(&scene);
             let (again, _) = knob.set(&scene, value.clone()).unwrap();
@@ -264,7 +264,7 @@ mod tests {
 
     #[test]
     fn turning_up_and_down_again_comes_back() {
-        let scene = Scene::default();
+        let scene = Scene::base();
         for (path, values) in [
             ("operation.pulse_n", vec![20e3, 1e6, 5e-1 * 20e3]),
             ("operation.speed_rad_s", vec![500.0, -430.0, 0.0]),
@@ -287,7 +287,7 @@ mod tests {
     #[test]
     fn pulses_pass_through_zero() {
         let pulse = knob("operation.pulse_n");
-        let scene = Scene::default();
+        let scene = Scene::base();
         let zero = pulse.turned(&Value::Real(1.0), false, true, &scene);
         assert_eq!(zero, Value::Real(0.0));
         assert_eq!(pulse.turned(&zero, true, true, &scene), Value::Real(1.0));

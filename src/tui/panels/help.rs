@@ -83,7 +83,7 @@ mod tests {
 
     #[test]
     fn every_binding_of_the_main_screen_is_in_the_help() {
-        let app = App::new(Scene::default().checked().unwrap(), Theme::Mono, Marker::Braille);
+        let app = App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Braille);
         let area = Rect::new(0, 0, 100, 200);
         let mut buffer = Buffer::empty(area);
         draw(&app, &mut buffer, area, 0);

@@ -97,7 +97,7 @@ mod tests {
 
     #[test]
     fn rows_come_in_the_order_of_the_ways_and_nothing_waits_for_them() {
-        let mut scene = Scene::default();
+        let mut scene = Scene::base();
         scene.solver.end_s = 1e-3;
         let mut job = PrecisionJob::of(&scene);
         assert!(job.is_of(&scene) && !job.is_done());

@@ -164,7 +164,7 @@ mod tests {
 
     #[test]
     fn the_map_does_not_depend_on_the_knobs_it_sweeps() {
-        let mut scene = Scene::default();
+        let mut scene = Scene::base();
         let before = plan(&scene).unwrap();
         scene.operation.pulse_n = 5.0;
         scene.operation.speed_rad_s = 100.0;

@@ -184,7 +184,7 @@ mod tests {
     use crate::tui::{App, Marker, Theme};
 
     fn order(speed: f64, restarts: u64) -> Order {
-        let mut scene = Scene::default();
+        let mut scene = Scene::base();
         scene.operation.speed_rad_s = speed;
         scene.solver.step_s = 1e-6;
         let app = App::new(scene.checked().unwrap(), Theme::Mono, Marker::Ascii);

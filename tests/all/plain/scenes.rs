@@ -8,7 +8,7 @@ pub const MODELS: [&str; 3] = ["rigid", "modal", "full"];
 /// A millisecond of the paper's machine takes 1000 steps, unless changed.
 pub fn scene(changes: &[(&str, &str)]) -> Scene {
     let all = [&[("solver.step_s", "1e-6"), ("solver.end_s", "0.1")], changes].concat();
-    Scene::default().with(&all).unwrap_or_else(|error| panic!("{changes:?}: {error}")).into_scene()
+    Scene::base().with(&all).unwrap_or_else(|error| panic!("{changes:?}: {error}")).into_scene()
 }
 
 /// Puts the casing into the corner of sides 0 and 1, turning with the blades,

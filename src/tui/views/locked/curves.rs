@@ -48,7 +48,7 @@ mod tests {
 
     #[test]
     fn the_curves_reach_beyond_every_threshold_and_meet_the_closed_form() {
-        let scene = Scene::default();
+        let scene = Scene::base();
         let curves = LockedCurves::of(&scene);
         let machine = scene.machine();
         assert!(curves.fastest > 500.0 && curves.fastest > machine.lock_speed().unwrap());
@@ -62,7 +62,7 @@ mod tests {
 
     #[test]
     fn a_wave_without_corners_has_no_curves() {
-        let mut scene = Scene::default();
+        let mut scene = Scene::base();
         scene.operation.nodal_diameters = 11;
         assert_eq!(LockedCurves::of(&scene).damped, None);
     }
