@@ -3,8 +3,8 @@
 //!
 //! With casing compliance `c`, normals `n_r` and `B_rs = A_r A_s` times the
 //! blade compliance, the matrix of a step is `W = c n n^T + B`, and `B` is a
-//! billionth of the first part or less: solved as it stands, two such rows lose
-//! all digits. So each group of rows is told by one reference row, and what the
+//! billionth of the first part or less: solved directly, two such rows lose
+//! all digits. So each group of rows has one reference row, and what the
 //! others differ in is given apart. With the casing's opening `s = c sum n_r
 //! lambda_r` and the part `e_G` of the reference gap that the blades close,
 //!
@@ -19,7 +19,7 @@
 use crate::tolerances::OPEN_ROW;
 use nalgebra::{DMatrix, DVector};
 
-/// One row, told by what it has beside the reference of its group.
+/// One row, as its difference from the reference of its group.
 #[derive(Clone, Copy, Debug)]
 pub struct Repeat {
     /// Place of its group in the list of groups.

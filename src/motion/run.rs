@@ -1,4 +1,4 @@
-//! One whole run: drive a motion to its end, sample it on the way, judge it,
+//! One whole run: advance a motion to its end, sample it, judge it,
 //! and report it.
 
 use std::f64::consts::TAU;
@@ -167,7 +167,7 @@ pub(super) fn run_motion_to_verdict(
     VerdictReached::of(&scripted.motion, verdict.unwrap_or(Verdict::Failed))
 }
 
-/// The verdict on a motion now: what is known for good, or that over the last
+/// The verdict on a motion now: the proven one, or that over the last
 /// `window` seconds.
 #[must_use]
 pub fn verdict_of(motion: &Motion, window: f64) -> Verdict {
@@ -180,7 +180,7 @@ pub fn simulate(scene: &CheckedScene) -> RunReport {
     simulate_with(scene, &Script::default(), Sampling::default(), &mut |_| {})
 }
 
-/// As `simulate`, with changes on the way, and handing samples to `sink`.
+/// As `simulate`, with changes during the run, and handing samples to `sink`.
 pub fn simulate_with(
     scene: &CheckedScene,
     script: &Script,

@@ -1,4 +1,4 @@
-//! Changes on the way: what a user does to a running motion, as data, so that it
+//! Changes during a run: what a user does to a running motion, as data, so that it
 //! can be repeated without a screen.
 
 use super::{Failure, Motion};

@@ -6,7 +6,7 @@
 //! impact and yet amplify round-off later; so in a third run the rate of the
 //! casing is changed by one part in 1e9 once a casing period, up or down without
 //! a pattern, and the event solver closes gaps ten times finer. Each change has
-//! a run of its own, for two in one run may cancel.
+//! a separate run, because two in one run may cancel.
 
 use super::Motion;
 use std::f64::consts::TAU;
@@ -35,7 +35,7 @@ pub fn is_sensitive(scene: &CheckedScene, settled: VerdictReached) -> bool {
     is_sensitive_with(scene, &Script::default(), settled)
 }
 
-/// As `is_sensitive`, for a run with changes on the way.
+/// As `is_sensitive`, for a run with changes.
 #[must_use]
 pub fn is_sensitive_with(scene: &CheckedScene, script: &Script, settled: VerdictReached) -> bool {
     let end = scene.solver.end_s;

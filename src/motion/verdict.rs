@@ -1,6 +1,6 @@
 //! How a motion lasts, judged in one place for every solver.
 //!
-//! A verdict known for good, by proof (`Motion::settled`), counts at once:
+//! A proven verdict (`Solver::final_verdict`) counts at once:
 //! *decay* where no contact can ever come again, *locked* or *adhesive* where a
 //! corner can never let go. Otherwise the last part of the run is judged:
 //! *locked*: the same two sides (a corner) in contact all through it, without a

@@ -8,7 +8,7 @@ use super::Event;
 use super::parameters::{Parameters, Plane};
 use crate::tolerances::ROUND_OFF;
 
-/// The corner of side `a` and the next, `b`, as it stands now.
+/// The corner of side `a` and the next, `b`, at one instant.
 pub(super) struct CornerContact {
     pub a: u32,
     pub b: u32,
@@ -26,7 +26,7 @@ pub(super) struct CornerContact {
 }
 
 impl Event {
-    /// The corner of `a` and the next side as it stands now.
+    /// The corner of `a` and the next side now.
     pub(super) fn corner_contact(&self, a: u32) -> CornerContact {
         let parameters = &self.parameters;
         let b = parameters.machine.polygon.next(a);
@@ -70,7 +70,7 @@ impl CornerContact {
         self.normals[0] * Plane::new(-parameters.clearance, self.y[0])
     }
 
-    /// What a push on one side opens of the other gap, in parts of its own.
+    /// Opening of the other gap by a push, over the opening of its own gap.
     pub(super) fn share(&self) -> f64 {
         self.cross / self.own
     }

@@ -249,7 +249,7 @@ impl CornerSeries {
             let size: f64 = terms.iter().map(|term| term.abs()).sum();
             if self.rests(terms) {
                 // A side that holds without a push, as at the critical speed
-                // itself, does not let go by round-off.
+                // itself, is not opened by round-off.
                 continue;
             }
             let noise = parameters.tolerance * size;

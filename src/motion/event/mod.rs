@@ -10,7 +10,7 @@
 //! share their impulse with the blades (`impact`). Each mode looks ahead for its
 //! end with bounds that cannot miss it (`advancement`),
 //! and the next mode follows from plastic impact and from the pushes by cases
-//! (`transitions`), so that nothing triggers twice.
+//! (`transitions`), so that no event is found twice.
 //!
 //! A segment is always evaluated from its start, never from an output time:
 //! where one looks does not change the motion, not by one bit.

@@ -376,7 +376,7 @@ fn peak(s: f64, rate: f64, value: impl Fn(f64) -> f64) -> f64 {
         }
         k += 1.0;
     }
-    // The top lies beside the largest look, and there is one: thirds find it to
+    // The maximum lies next to the largest sample, and there is one: thirds find it to
     // the square root of round-off in time, which is round-off in value.
     let (mut low, mut high) = (at(best - 1.0), at(best + 1.0));
     for _ in 0..50 {

@@ -10,9 +10,9 @@
 //! by order, it is the geometric series with its corrections.
 //!
 //! The sum replaces the crossings once ten orders of it are exact to round-off
-//! and nothing else can happen on the way: both accelerations point to the
+//! and nothing else can happen before its limit: both accelerations point to the
 //! corner, both sides push at every speed still to come (speeds only shrink, as
-//! a crossing keeps less than all and damping gives nothing back), and every
+//! a crossing loses speed and damping adds none), and every
 //! excursion stays well short of the next corner. While the pulse or a ramp
 //! acts, the accelerations must also keep their values to one part in 1e9 until
 //! the limit.
@@ -118,7 +118,7 @@ pub(super) fn replay(
             return swing;
         }
         if left - time == left {
-            // The rest of the crossings takes no time that could be told apart.
+            // The other crossings take less time than round-off.
             return Swing { distance: 0.0, speed: 0.0, ..swing };
         }
         left -= time;

@@ -2,7 +2,7 @@
 //!
 //! Among the sides that touch without rate, accelerations decide which of them
 //! hold, as a small complementarity problem solved by cases. Where an event says
-//! that a push has vanished, that side is out; it is not asked again.
+//! that a push has vanished, that side opens and is not tested again.
 //!
 //! Places and rates are those the rotor sees, `z = u exp(-i n_d theta)` and `z'`,
 //! so that a slow motion along a side keeps its digits. Rigid blades are moving

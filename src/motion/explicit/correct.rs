@@ -170,8 +170,8 @@ impl<B: BladeModel> Explicit<B> {
         }
     }
 
-    /// As `solve`, where a side has several rows: each is told by what it has
-    /// beside the first of its side.
+    /// As `solve`, where a side has several rows: each is given by its difference
+    /// from the first row of its side.
     fn solve_repeated(&mut self) -> Result<(), FailureReason> {
         let diameters = self.machine.nodal_diameters;
         let (mut groups, mut repeats): (Vec<GroupReference>, Vec<Repeat>) = Default::default();

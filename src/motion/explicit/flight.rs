@@ -107,7 +107,7 @@ impl<B: BladeModel> Explicit<B> {
         }
     }
 
-    /// Takes the steps used so far for good.
+    /// Takes the steps used so far and closes the block.
     pub(super) fn close_block(&mut self) {
         let (u, blades) = self.materialized();
         if self.block.used > 0 {

@@ -33,13 +33,13 @@ pub(super) struct HeldCorner {
     rest: Modes,
     /// Blade modes at the start, less those at rest.
     start: Modes,
-    /// Many steps of what is beside the rest.
+    /// Many steps of the deviation from rest.
     leap: Leap<4>,
     /// Inverse of what one step changes of it; zero for rigid blades.
     unchanged: StepMap,
     /// Multipliers of the step from `b`: value at rest and gradient \[N\].
     multipliers: [(f64, Modes); 2],
-    /// Bounds on angle and increment of what is beside the rest.
+    /// Bounds on angle and increment of the deviation from rest.
     swing: (f64, f64),
 }
 
@@ -60,8 +60,8 @@ impl HeldCorner {
         // The step itself knows them to the last digit, at any vibration.
         self.step.from(self.modes(from)).map_or_else(
             || {
-                let beside = self.leap.apply(self.start, from);
-                self.multipliers.map(|(value, gradient)| value + gradient.dot(&beside))
+                let deviation = self.leap.apply(self.start, from);
+                self.multipliers.map(|(value, gradient)| value + gradient.dot(&deviation))
             },
             |step| step.multipliers,
         )
@@ -71,9 +71,9 @@ impl HeldCorner {
     pub fn sums(&self, before: u64, steps: u64) -> [f64; 2] {
         let [from, to] = [before, steps].map(|steps| self.leap.apply(self.start, steps));
         // The sum of T^k b is (T - 1)^-1 times what they change in all.
-        let beside = self.unchanged * (to - from);
+        let deviation = self.unchanged * (to - from);
         let count = (steps - before) as f64;
-        self.multipliers.map(|(value, gradient)| count * value + gradient.dot(&beside))
+        self.multipliers.map(|(value, gradient)| count * value + gradient.dot(&deviation))
     }
 
     /// The largest blade angle over the first `steps` steps, `least` where none
@@ -88,9 +88,9 @@ impl HeldCorner {
         let mut most = least.max(angle(0)).max(angle(steps));
         let (mut before, mut here, mut at) = (0.0, angle(0), 0);
         while at < steps {
-            // What is beside the rest never grows beyond its bound now.
-            let beside = self.leap.apply(self.start, at);
-            let bound = blades.oscillator().reach_of(as_coordinates(beside)).0;
+            // The deviation from rest never grows beyond its bound now.
+            let deviation = self.leap.apply(self.start, at);
+            let bound = blades.oscillator().reach_of(as_coordinates(deviation)).0;
             if self.rest[0].hypot(self.rest[1]) + bound <= most {
                 break;
             }
@@ -118,7 +118,7 @@ fn top([mut low, mut high]: [u64; 2], value: impl Fn(u64) -> f64) -> f64 {
 
 impl<B: BladeModel> Explicit<B> {
     /// Makes the map, if a corner has been held long enough and the map can be
-    /// trusted for good.
+    /// trusted for all later steps.
     pub(super) fn hold(&mut self) -> bool {
         let Some(sides) = self.steady_corner() else { return false };
         let since = ((self.log.since / self.step) as u64).max(self.hold_tried);
@@ -181,7 +181,7 @@ impl<B: BladeModel> Explicit<B> {
     }
 
     /// Whether multipliers and predicted gaps never come near a change of sign:
-    /// neither at rest nor by the swing on the way there.
+    /// neither at rest nor by the vibration before it.
     fn is_kept(&self, held: &HeldCorner, rest: [f64; 4], slopes: [Modes; 4]) -> bool {
         let (angle, increment) = held.swing;
         if self.machine.nodal_diameters * angle > HELD_PHASE {
@@ -212,7 +212,7 @@ impl<B: BladeModel> Explicit<B> {
     }
 }
 
-/// The map of what is beside `at`, less one, and the gradients of multipliers
+/// The map of the deviation from `at`, minus one, and the gradients of multipliers
 /// and predicted gaps, by central differences.
 fn slopes(step: &CornerStep, at: Modes) -> Option<(StepMap, [Modes; 4])> {
     let mut map = StepMap::zeros();

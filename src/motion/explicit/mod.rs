@@ -69,7 +69,7 @@ pub struct Explicit<B: BladeModel> {
     near: u32,
     /// Multipliers of the latest step in contact, by row.
     rows: Vec<ConstraintRow>,
-    /// Whether the sides beside a penetrating one always count; see `correct`.
+    /// Whether the neighbours of a penetrating side always count; see `correct`.
     neighbours_matter: bool,
     /// Rigid gap beyond which no blade of a side can touch now \[m\].
     look: f64,
@@ -371,7 +371,7 @@ impl<B: BladeModel> Solver for Explicit<B> {
         self.phasor = Phasor::new(&self.rotor, self.machine.nodal_diameters, self.step);
     }
 
-    /// A corner that is held for good has no rate of its own.
+    /// In a held corner the casing follows the blades: it has no free rate.
     fn scale_rate(&mut self, factor: f64) {
         if self.held.is_some() {
             return;

@@ -5,7 +5,7 @@
 //! (m/h^2 + d/2h) (x[n+1] - x[n]) = (m/h^2 - d/2h) (x[n] - x[n-1]) - k x[n] + F[n]
 //! ```
 //!
-//! which is Eq. (10) with `increment = x[n] - x[n-1]` carried beside `x`. The
+//! which is Eq. (10) with `increment = x[n] - x[n-1]` stored next to `x`. The
 //! scheme is a linear recurrence, so `2^j` free steps are one 2 x 2 matrix
 //! (`leap`).
 
