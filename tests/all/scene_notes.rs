@@ -1,5 +1,5 @@
-//! Figures in the notes of the scenes and in the README that no other test
-//! looks at: each is run.
+//! Runs the numbers in the scene notes and in the README that no other test
+//! checks.
 
 use rubscope::motion::{ActiveSet, Motion, RunReport, Verdict, simulate};
 use rubscope::scene::Scene;
@@ -17,7 +17,7 @@ fn says(name: &str, words: &str) {
     assert!(note.contains(words), "{name}: {note}");
 }
 
-/// The first instant without contact, looked for every 0.1 ms \[s\].
+/// The first time without contact, checked every 0.1 ms \[s\].
 fn first_break(mut motion: Motion, from: f64, until: f64) -> Option<f64> {
     let looks = ((until - from) / 1e-4).round() as u32;
     (1..=looks).map(|look| from + 1e-4 * f64::from(look)).find(|&t| {
@@ -46,7 +46,7 @@ fn a_little_below_the_critical_speed_the_wave_slips_for_seconds() {
     let started = Motion::new(&scene("near-critical", &[slower]).checked().unwrap());
     let broken = first_break(started, 0.0, 5.0).unwrap();
     assert!((broken - 3.25).abs() < 5e-3, "{broken}");
-    // Slowed down while it is locked, it does the same.
+    // The same when it is slowed down while locked.
     let mut locked = Motion::new(&scene("near-critical", &[]).checked().unwrap());
     locked.advance(0.05).unwrap();
     assert!(matches!(locked.contacts().active_set, ActiveSet::Corner(..)));
@@ -58,10 +58,10 @@ fn a_little_below_the_critical_speed_the_wave_slips_for_seconds() {
 #[test]
 fn the_smallest_pulse_that_touches_to_the_hundredth_of_a_newton() {
     says("grazing", "The smallest pulse that touches is 3795.03 N");
-    says("grazing", "with 3795.02 N no blade is ever met");
+    says("grazing", "with 3795.02 N no blade is touched");
     says("grazing", "one soft touch after 1.7 ms");
     let touches = |pulse: &str| {
-        // To a time by which it has decayed.
+        // Long enough for it to decay.
         run("grazing", &[("operation.pulse_n", pulse), ("solver.end_s", "0.3")])
     };
     assert_eq!((touches("3795.03").impact_count, touches("3795.02").impact_count), (1, 0));
@@ -97,7 +97,7 @@ fn round_off_of_a_multiplier_at_the_smallest_step() {
 
 #[test]
 fn without_damping_the_impacts_of_a_second_are_sensitive() {
-    says("undamped", "Over a second what happens is sensitive");
+    says("undamped", "A run of one second is sensitive");
     let changes = [("solver.kind", "event")];
     assert!(!run("undamped", &changes).outcome.sensitive);
     let changes = [("solver.kind", "event"), ("solver.end_s", "1")];
