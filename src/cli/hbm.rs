@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 use strum::VariantNames;
 
-use super::hbm_views::{self as views, Asked, View};
+use super::hbm_views::{self as views, Asked, HbmView};
 use super::options::{SceneOptions, Swept};
 use super::range::{Range, linspace};
 use super::status::{Refusal, Status, say};
@@ -36,25 +36,25 @@ pub struct HbmCommand {
     /// The two blades that hold the wave, phase neighbours [default: 6,21 where they are]
     #[arg(long, value_name = "I,J", allow_hyphen_values = true)]
     blades: Option<String>,
-    /// View: every equilibrium, its stability, and the thresholds of each branch
+    /// HbmView: every equilibrium, its stability, and the thresholds of each branch
     #[arg(long, group = "view")]
     branches: bool,
-    /// View: the corner branch followed through its fold (very soft blades)
+    /// HbmView: the corner branch followed through its fold (very soft blades)
     #[arg(long, group = "view")]
     fold: bool,
-    /// View: lasting slip, the fixed point of the map from corner to corner
+    /// HbmView: lasting slip, the fixed point of the map from corner to corner
     #[arg(long, group = "view")]
     slip: bool,
     /// With --slip: where slip lives over damping ratios of the casing too
     #[arg(long, value_name = "FROM:TO:COUNT", requires = "slip", allow_hyphen_values = true)]
     zetas: Option<String>,
-    /// View: Fourier series of slip and what is left out with up to COUNT harmonics
+    /// HbmView: Fourier series of slip and what is left out with up to COUNT harmonics
     #[arg(long, group = "view", value_name = "COUNT", num_args = 0..=1, default_missing_value = "16")]
     harmonics: Option<u32>,
-    /// View: frequencies against speed, engine orders, and the coincidences (30)
+    /// HbmView: frequencies against speed, engine orders, and the coincidences (30)
     #[arg(long, group = "view")]
     campbell: bool,
-    /// View: response of the damped lock to the scene's engine-order excitation
+    /// HbmView: response of the damped lock to the scene's engine-order excitation
     #[arg(long, group = "view")]
     excitation: bool,
     /// Print everything as JSON (rubscope.hbm/1)
@@ -101,19 +101,19 @@ impl HbmCommand {
         Ok(Status::Done)
     }
 
-    fn view(&self) -> Result<View, Refusal> {
+    fn view(&self) -> Result<HbmView, Refusal> {
         let zetas = match &self.zetas {
             Some(text) => Some(Range::parse("--zetas", text)?.values()),
             None => None,
         };
         Ok(match self {
-            Self { branches: true, .. } => View::Branches,
-            Self { fold: true, .. } => View::Fold,
-            Self { slip: true, .. } => View::Slip(zetas.unwrap_or_default()),
-            Self { harmonics: Some(most), .. } => View::Harmonics(*most),
-            Self { campbell: true, .. } => View::Campbell,
-            Self { excitation: true, .. } => View::Excitation,
-            _ => View::Locked,
+            Self { branches: true, .. } => HbmView::Branches,
+            Self { fold: true, .. } => HbmView::Fold,
+            Self { slip: true, .. } => HbmView::Slip(zetas.unwrap_or_default()),
+            Self { harmonics: Some(most), .. } => HbmView::Harmonics(*most),
+            Self { campbell: true, .. } => HbmView::Campbell,
+            Self { excitation: true, .. } => HbmView::Excitation,
+            _ => HbmView::Locked,
         })
     }
 

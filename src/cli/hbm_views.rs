@@ -19,7 +19,7 @@ const ARC: f64 = 0.05;
 const ORDERS: [u32; 4] = [1, 2, 3, 4];
 
 /// What is looked at.
-pub(super) enum View {
+pub(super) enum HbmView {
     /// The locked motion.
     Locked,
     /// Every equilibrium.
@@ -66,7 +66,7 @@ impl Answer {
 ///
 /// # Errors
 /// What has no meaning, refused by name.
-pub(super) fn answer(asked: &Asked, view: &View) -> Result<Answer, Refusal> {
+pub(super) fn answer(asked: &Asked, view: &HbmView) -> Result<Answer, Refusal> {
     let Asked { scene, speeds, form, damped, pair } = *asked;
     let machine = scene.machine();
     let sweep = locked_motion(&machine, form, damped, pair, speeds);
@@ -74,18 +74,18 @@ pub(super) fn answer(asked: &Asked, view: &View) -> Result<Answer, Refusal> {
     let json = match (&sweep, view) {
         (Ok(sweep), _) => json.with_sweep(&machine.polygon, sweep),
         // These have a meaning without corners too.
-        (Err(HarmonicError::NoCorner { .. }), View::Branches | View::Campbell) => json,
+        (Err(HarmonicError::NoCorner { .. }), HbmView::Branches | HbmView::Campbell) => json,
         (Err(error), _) => return Err(refused(error.clone())),
     };
     let answer = match (view, sweep) {
-        (View::Branches, _) => all_branches(json, &machine, speeds, damped),
-        (View::Campbell, _) => campbell(json, scene, &machine, speeds),
-        (View::Slip(zetas), _) => slipping(json, scene, speeds, zetas),
-        (View::Harmonics(most), _) => series(json, &machine, speeds, *most),
-        (View::Fold, _) => folding(json, &machine, corner(asked, &machine)?.a, speeds, damped),
-        (View::Excitation, _) => excited(json, scene, corner(asked, &machine)?.a, speeds),
-        (View::Locked, Err(error)) => Err(error),
-        (View::Locked, Ok(sweep)) => Ok(Answer {
+        (HbmView::Branches, _) => all_branches(json, &machine, speeds, damped),
+        (HbmView::Campbell, _) => campbell(json, scene, &machine, speeds),
+        (HbmView::Slip(zetas), _) => slipping(json, scene, speeds, zetas),
+        (HbmView::Harmonics(most), _) => series(json, &machine, speeds, *most),
+        (HbmView::Fold, _) => folding(json, &machine, corner(asked, &machine)?.a, speeds, damped),
+        (HbmView::Excitation, _) => excited(json, scene, corner(asked, &machine)?.a, speeds),
+        (HbmView::Locked, Err(error)) => Err(error),
+        (HbmView::Locked, Ok(sweep)) => Ok(Answer {
             json,
             tables: vec![(String::new(), report::summary_table(&sweep))],
             file: report::locked_table(&sweep),

@@ -91,7 +91,7 @@ fn parse_one(text: &str) -> Result<(f64, RequestedChange), Refusal> {
 
 /// A change, checked, with the scene as it is from then on.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Step {
+pub struct RequestedStep {
     /// When \[s\].
     pub t_s: f64,
     /// What was asked.
@@ -102,7 +102,7 @@ pub struct Step {
     acts: Vec<motion::Change>,
 }
 
-impl Step {
+impl RequestedStep {
     fn of(t_s: f64, change: &RequestedChange, before: &CheckedScene) -> Result<Self, Refusal> {
         let shown = format!("{t_s}:{change}");
         let end = before.solver.end_s;
@@ -155,7 +155,7 @@ fn live_keys(scene: &CheckedScene) -> String {
 
 /// Checked changes, in order of time.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct RequestedScript(Vec<Step>);
+pub struct RequestedScript(Vec<RequestedStep>);
 
 impl RequestedScript {
     /// Checks changes, in order of time, on the scene that the motion starts
@@ -168,10 +168,10 @@ impl RequestedScript {
         changes: &[(f64, RequestedChange)],
         scene: &CheckedScene,
     ) -> Result<Self, Refusal> {
-        let mut steps: Vec<Step> = Vec::with_capacity(changes.len());
+        let mut steps: Vec<RequestedStep> = Vec::with_capacity(changes.len());
         for (t_s, change) in changes {
             let before = steps.last().map_or(scene, |step| &step.scene);
-            let step = Step::of(*t_s, change, before)?;
+            let step = RequestedStep::of(*t_s, change, before)?;
             steps.push(step);
         }
         Ok(Self(steps))
@@ -186,7 +186,8 @@ impl RequestedScript {
     /// What the motion goes through.
     #[must_use]
     pub fn changes(&self) -> motion::Script {
-        let acts = |step: &Step| step.acts.iter().map(|act| (step.t_s, act.clone())).collect();
+        let acts =
+            |step: &RequestedStep| step.acts.iter().map(|act| (step.t_s, act.clone())).collect();
         motion::Script::new(self.0.iter().flat_map::<Vec<_>, _>(acts).collect())
     }
 }
@@ -208,7 +209,7 @@ impl Serialize for RequestedScript {
 }
 
 /// A step as JSON reports tell it.
-fn told(step: &Step) -> serde_json::Value {
+fn told(step: &RequestedStep) -> serde_json::Value {
     let t_s = step.t_s;
     match &step.change {
         RequestedChange::Pulse => serde_json::json!({ "t_s": t_s, "pulse": true }),

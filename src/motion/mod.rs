@@ -29,3 +29,6 @@ pub use script::{Change, Script};
 pub use sensitivity::{is_sensitive, is_sensitive_with};
 pub use solver::{Motion, Solver};
 pub use verdict::{Checks, Contact, Outcome, Verdict};
+
+/// A point or vector of the plane of the two casing coordinates.
+type Plane = nalgebra::Complex<f64>;

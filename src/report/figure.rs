@@ -1,6 +1,6 @@
 //! The data of a figure as a table, one for each panel.
 
-use super::table::{Cell, Table};
+use super::table::{Table, TableCell};
 use crate::study::figures::Panel;
 
 /// A column of x and one for each series where they share x; otherwise one row
@@ -20,7 +20,9 @@ fn wide(panel: &Panel) -> Table {
     let xs = panel.series.first().map(|series| series.points.as_slice()).unwrap_or_default();
     for (row, (x, _)) in xs.iter().enumerate() {
         let values = panel.series.iter().map(|series| series.points.get(row).map(|point| point.1));
-        table.push(std::iter::once(Cell::from(*x)).chain(values.map(Cell::from)).collect());
+        table.push(
+            std::iter::once(TableCell::from(*x)).chain(values.map(TableCell::from)).collect(),
+        );
     }
     table
 }

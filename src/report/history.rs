@@ -2,7 +2,7 @@
 
 use std::io::{Result, Write};
 
-use super::table::{Cell, write_csv};
+use super::table::{TableCell, write_csv};
 use crate::motion::Sample;
 
 /// Columns before the gaps of the single blades.
@@ -22,7 +22,7 @@ const COLUMNS: [&str; 11] = [
 
 /// One named column.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Column {
+pub struct HistoryColumn {
     /// Its name, with the unit.
     pub name: String,
     /// One value per sample.
@@ -33,7 +33,7 @@ pub struct Column {
 /// sample before; negative is a push.
 #[derive(Clone, Debug, PartialEq)]
 pub struct History {
-    columns: Vec<Column>,
+    columns: Vec<HistoryColumn>,
 }
 
 impl History {
@@ -42,7 +42,7 @@ impl History {
     pub fn new(blades: u32) -> Self {
         let gaps = (1..=blades).map(|blade| format!("gap_{blade}_m"));
         let names = COLUMNS.into_iter().map(String::from).chain(gaps);
-        Self { columns: names.map(|name| Column { name, values: Vec::new() }).collect() }
+        Self { columns: names.map(|name| HistoryColumn { name, values: Vec::new() }).collect() }
     }
 
     /// Adds a sample, which must carry the gaps of all blades. A sample that
@@ -75,7 +75,7 @@ impl History {
 
     /// The columns, all of one length.
     #[must_use]
-    pub fn columns(&self) -> &[Column] {
+    pub fn columns(&self) -> &[HistoryColumn] {
         &self.columns
     }
 
@@ -96,8 +96,9 @@ impl History {
     /// # Errors
     /// What the writer refuses.
     pub fn write_csv(&self, out: &mut dyn Write) -> Result<()> {
-        let value = |row: usize| move |column: &Column| column.values.get(row).copied().into();
-        let row = |row| self.columns.iter().map(value(row)).collect::<Vec<Cell>>();
+        let value =
+            |row: usize| move |column: &HistoryColumn| column.values.get(row).copied().into();
+        let row = |row| self.columns.iter().map(value(row)).collect::<Vec<TableCell>>();
         write_csv(self.columns.iter().map(|column| &column.name), (0..self.len()).map(row), out)
     }
 }

@@ -65,7 +65,7 @@ pub fn write_csv(map: &Map, out: &mut dyn Write) -> Result<()> {
             x.value(column).to_string().into(),
             y.value(row).to_string().into(),
             cell.map_or_else(String::new, |cell| cell.verdict.to_string()).into(),
-            cell.map_or(table::Cell::Empty, |cell| cell.sensitive.into()),
+            cell.map_or(table::TableCell::Empty, |cell| cell.sensitive.into()),
         ]);
     }
     table.write_csv(out)

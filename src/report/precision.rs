@@ -142,7 +142,7 @@ pub fn write(report: &Precision, out: &mut dyn Write) -> Result<()> {
 
 /// Where a row stands in a chart of two logarithmic axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct PlotPlace {
     /// log10 of the wall time in seconds.
     pub time: f64,
     /// log10 of the error; none for an error of zero, which no such axis has.
@@ -151,10 +151,10 @@ pub struct Place {
 
 /// The place of a row that has an error.
 #[must_use]
-pub fn place(row: &Row) -> Option<Place> {
+pub fn place(row: &Row) -> Option<PlotPlace> {
     let error = row.error_final?;
     let error = (error > 0.0).then(|| error.log10());
-    (row.wall_s > 0.0).then(|| Place { time: row.wall_s.log10(), error })
+    (row.wall_s > 0.0).then(|| PlotPlace { time: row.wall_s.log10(), error })
 }
 
 /// Whole powers of ten around some values; none where there is no value.
@@ -225,7 +225,7 @@ fn style(way: &Way) -> Style {
 /// Log error (up) against log time (right), a letter a row; errors of zero in
 /// a line of their own below.
 fn write_chart(report: &Precision, out: &mut dyn Write) -> Result<()> {
-    let placed: Vec<(Place, char)> =
+    let placed: Vec<(PlotPlace, char)> =
         report.rows.iter().filter_map(|row| Some((place(row)?, letter(&row.way)))).collect();
     let Some((left, right)) = decades(placed.iter().map(|(at, _)| at.time)) else { return Ok(()) };
     let column = |x: f64| ((x - left) / (right - left) * COLUMNS as f64).round() as usize;

@@ -6,7 +6,7 @@ use super::number::{exact, short};
 
 /// One cell of a table.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Cell {
+pub enum TableCell {
     /// A number; what is no finite number is left empty.
     Number(f64),
     /// A word or two.
@@ -15,31 +15,31 @@ pub enum Cell {
     Empty,
 }
 
-impl From<f64> for Cell {
+impl From<f64> for TableCell {
     fn from(x: f64) -> Self {
         if x.is_finite() { Self::Number(x) } else { Self::Empty }
     }
 }
 
-impl From<Option<f64>> for Cell {
+impl From<Option<f64>> for TableCell {
     fn from(x: Option<f64>) -> Self {
         x.map_or(Self::Empty, Self::from)
     }
 }
 
-impl From<bool> for Cell {
+impl From<bool> for TableCell {
     fn from(yes: bool) -> Self {
         Self::Word(yes.to_string())
     }
 }
 
-impl From<&str> for Cell {
+impl From<&str> for TableCell {
     fn from(word: &str) -> Self {
         Self::Word(word.to_string())
     }
 }
 
-impl From<String> for Cell {
+impl From<String> for TableCell {
     fn from(word: String) -> Self {
         Self::Word(word)
     }
@@ -47,7 +47,7 @@ impl From<String> for Cell {
 
 /// Writes rows of cells as CSV, under a header line. Numbers are the shortest
 /// that read back as themselves, and what is no figure is left empty.
-pub(super) fn write_csv<R: IntoIterator<Item = Cell>>(
+pub(super) fn write_csv<R: IntoIterator<Item = TableCell>>(
     names: impl IntoIterator<Item = impl AsRef<[u8]>>,
     rows: impl IntoIterator<Item = R>,
     out: &mut dyn Write,
@@ -56,22 +56,22 @@ pub(super) fn write_csv<R: IntoIterator<Item = Cell>>(
     csv.write_record(names)?;
     for row in rows {
         csv.write_record(row.into_iter().map(|cell| match cell {
-            Cell::Number(x) => exact(x),
-            Cell::Word(word) => word,
-            Cell::Empty => String::new(),
+            TableCell::Number(x) => exact(x),
+            TableCell::Word(word) => word,
+            TableCell::Empty => String::new(),
         }))?;
     }
     csv.flush()
 }
 
 /// A column of a table: its name, and what it shows of an item.
-pub type Column<'a, T> = (&'a str, fn(&T) -> Cell);
+pub type Column<'a, T> = (&'a str, fn(&T) -> TableCell);
 
 /// Rows under named columns; names carry the unit, as in `speed_rad_s`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
     names: Vec<String>,
-    rows: Vec<Vec<Cell>>,
+    rows: Vec<Vec<TableCell>>,
 }
 
 impl Table {
@@ -92,8 +92,8 @@ impl Table {
     }
 
     /// Adds a row, one cell for each column.
-    pub fn push(&mut self, mut row: Vec<Cell>) {
-        row.resize(self.names.len(), Cell::Empty);
+    pub fn push(&mut self, mut row: Vec<TableCell>) {
+        row.resize(self.names.len(), TableCell::Empty);
         self.rows.push(row);
     }
 
@@ -123,16 +123,16 @@ impl Table {
     /// # Errors
     /// What the writer refuses.
     pub fn write_text(&self, out: &mut dyn Write) -> Result<()> {
-        let text = |cell: &Cell| match cell {
-            Cell::Number(x) => short(*x),
-            Cell::Word(word) => word.clone(),
-            Cell::Empty => "-".to_string(),
+        let text = |cell: &TableCell| match cell {
+            TableCell::Number(x) => short(*x),
+            TableCell::Word(word) => word.clone(),
+            TableCell::Empty => "-".to_string(),
         };
         let shown: Vec<Vec<String>> =
             self.rows.iter().map(|row| row.iter().map(text).collect()).collect();
         let cells = |column: usize| self.rows.iter().filter_map(move |row| row.get(column));
         let words: Vec<bool> = (0..self.names.len())
-            .map(|column| cells(column).any(|cell| matches!(cell, Cell::Word(_))))
+            .map(|column| cells(column).any(|cell| matches!(cell, TableCell::Word(_))))
             .collect();
         let widths: Vec<usize> = (0..self.names.len())
             .map(|column| {

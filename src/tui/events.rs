@@ -8,7 +8,7 @@ use crossterm::event::{self, KeyEvent, KeyEventKind};
 
 /// Something that happened.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Event {
+pub enum ScreenEvent {
     /// A key was pressed.
     Key(KeyEvent),
     /// The terminal has another size.
@@ -29,17 +29,19 @@ pub enum Event {
 ///
 /// # Errors
 /// The system gives no thread.
-pub fn read_keys(to: Sender<Event>) -> std::io::Result<()> {
+pub fn read_keys(to: Sender<ScreenEvent>) -> std::io::Result<()> {
     let read = move || {
         loop {
             let event = match event::read() {
                 // Some terminals also report releases; repeats count as presses.
-                Ok(event::Event::Key(key)) if key.kind != KeyEventKind::Release => Event::Key(key),
-                Ok(event::Event::Resize(..)) => Event::Resize,
+                Ok(event::Event::Key(key)) if key.kind != KeyEventKind::Release => {
+                    ScreenEvent::Key(key)
+                }
+                Ok(event::Event::Resize(..)) => ScreenEvent::Resize,
                 Ok(_) => continue,
-                Err(_) => Event::InputClosed,
+                Err(_) => ScreenEvent::InputClosed,
             };
-            let last = event == Event::InputClosed;
+            let last = event == ScreenEvent::InputClosed;
             if to.send(event).is_err() || last {
                 return;
             }
@@ -54,18 +56,18 @@ pub fn read_keys(to: Sender<Event>) -> std::io::Result<()> {
 /// # Errors
 /// The system gives no thread, or no signals.
 #[cfg(unix)]
-pub fn watch_signals(to: Sender<Event>) -> std::io::Result<()> {
+pub fn watch_signals(to: Sender<ScreenEvent>) -> std::io::Result<()> {
     use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP};
     let mut signals =
         signal_hook::iterator::Signals::new([SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGTSTP, SIGCONT])?;
     let watch = move || {
         for signal in signals.forever() {
             let event = match signal {
-                SIGTSTP => Event::Suspend,
-                SIGCONT => Event::Continued,
-                deadly => Event::Signal(u8::try_from(deadly).unwrap_or(0)),
+                SIGTSTP => ScreenEvent::Suspend,
+                SIGCONT => ScreenEvent::Continued,
+                deadly => ScreenEvent::Signal(u8::try_from(deadly).unwrap_or(0)),
             };
-            let deadly = matches!(event, Event::Signal(_));
+            let deadly = matches!(event, ScreenEvent::Signal(_));
             let heard = to.send(event).is_ok();
             if deadly {
                 if heard {
@@ -84,7 +86,7 @@ pub fn watch_signals(to: Sender<Event>) -> std::io::Result<()> {
 /// # Errors
 /// None here.
 #[cfg(not(unix))]
-pub fn watch_signals(_: Sender<Event>) -> std::io::Result<()> {
+pub fn watch_signals(_: Sender<ScreenEvent>) -> std::io::Result<()> {
     Ok(())
 }
 

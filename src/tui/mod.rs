@@ -110,7 +110,7 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
     events::watch_signals(sender.clone())?;
     let fresh = sender.clone();
     // Without a receiver the program is about to end.
-    let wake: engine::Waker = Arc::new(move || _ = fresh.send(events::Event::Fresh));
+    let wake: engine::Waker = Arc::new(move || _ = fresh.send(events::ScreenEvent::Fresh));
     let mut worker = worker::Worker::spawn(wake)?;
     let mut app = App::new(scene, options.theme(), options.marker);
     app.source.clone_from(&options.source);

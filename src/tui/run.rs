@@ -8,7 +8,7 @@ use ratatui::{Terminal, backend::Backend};
 
 use super::app::{App, Effect, Exit};
 use super::engine::{Engine, Order};
-use super::events::Event;
+use super::events::ScreenEvent;
 use super::panels;
 use super::terminal::Host;
 
@@ -45,7 +45,7 @@ impl Due {
 /// The terminal cannot be written to.
 pub fn run<B: Backend>(
     terminal: &mut Terminal<B>,
-    events: &Receiver<Event>,
+    events: &Receiver<ScreenEvent>,
     app: &mut App,
     engine: &mut dyn Engine,
     host: &mut dyn Host,
@@ -116,9 +116,9 @@ enum Reaction {
     Redraw,
 }
 
-fn handle(event: &Event, app: &mut App, host: &mut dyn Host) -> Reaction {
+fn handle(event: &ScreenEvent, app: &mut App, host: &mut dyn Host) -> Reaction {
     match event {
-        Event::Key(key) => match app.key(key) {
+        ScreenEvent::Key(key) => match app.key(key) {
             Effect::None => Reaction::Draw(Due::Now),
             Effect::Quit => Reaction::Exit(Exit::Done),
             Effect::Suspend => resumed(host.suspend()),
@@ -129,12 +129,12 @@ fn handle(event: &Event, app: &mut App, host: &mut dyn Host) -> Reaction {
                 Reaction::Draw(Due::Now)
             }
         },
-        Event::Resize => Reaction::Draw(Due::Now),
-        Event::Fresh => Reaction::Draw(Due::Frame),
-        Event::Signal(number) => Reaction::Exit(Exit::Signal(*number)),
-        Event::Suspend => resumed(host.suspend()),
-        Event::Continued => resumed(host.resume()),
-        Event::InputClosed => Reaction::Exit(Exit::Signal(HANGUP)),
+        ScreenEvent::Resize => Reaction::Draw(Due::Now),
+        ScreenEvent::Fresh => Reaction::Draw(Due::Frame),
+        ScreenEvent::Signal(number) => Reaction::Exit(Exit::Signal(*number)),
+        ScreenEvent::Suspend => resumed(host.suspend()),
+        ScreenEvent::Continued => resumed(host.resume()),
+        ScreenEvent::InputClosed => Reaction::Exit(Exit::Signal(HANGUP)),
     }
 }
 

@@ -7,7 +7,7 @@ use std::time::Duration;
 use ratatui::{Terminal, backend::TestBackend};
 use rubscope::scene::Scene;
 use rubscope::tui::engine::{Engine, Order, Snapshot};
-use rubscope::tui::events::Event;
+use rubscope::tui::events::ScreenEvent;
 use rubscope::tui::history::Channel;
 use rubscope::tui::terminal::NoHost;
 use rubscope::tui::worker::Stepwise;
@@ -16,7 +16,7 @@ use rubscope::tui::{App, Exit, Marker, Theme, run};
 /// Ends the loop at the second picture.
 struct Second {
     pictures: u32,
-    events: Sender<Event>,
+    events: Sender<ScreenEvent>,
 }
 
 impl Engine for Second {
@@ -25,7 +25,7 @@ impl Engine for Second {
     fn take(&mut self) -> Option<Snapshot> {
         self.pictures += 1;
         if self.pictures == 2 {
-            self.events.send(Event::Signal(15)).unwrap();
+            self.events.send(ScreenEvent::Signal(15)).unwrap();
         }
         None
     }
@@ -38,7 +38,7 @@ fn a_screen_without_news_is_drawn_again_to_notice_a_lost_terminal() {
     // Patience, not a speed limit: a second is enough on a quiet machine.
     std::thread::spawn(move || {
         std::thread::sleep(Duration::from_secs(60));
-        let _ = watchdog.send(Event::InputClosed);
+        let _ = watchdog.send(ScreenEvent::InputClosed);
     });
     let mut terminal = Terminal::new(TestBackend::new(80, 24)).unwrap();
     let mut app = App::new(Scene::base().checked().unwrap(), Theme::Dark, Marker::Braille);

@@ -11,7 +11,7 @@ use ratatui::{Terminal, backend::TestBackend};
 use rubscope::scene::Scene;
 use rubscope::tui::bindings::BINDINGS;
 use rubscope::tui::engine::{Engine, FullRunState, Order, Results, Snapshot};
-use rubscope::tui::events::Event;
+use rubscope::tui::events::ScreenEvent;
 use rubscope::tui::terminal::NoHost;
 use rubscope::tui::worker::Stepwise;
 use rubscope::tui::{App, Exit, Marker, Theme, run};
@@ -81,8 +81,8 @@ fn press(
     keys: impl IntoIterator<Item = KeyEvent>,
 ) {
     let (sender, events) = mpsc::channel();
-    sender.send(Event::Resize).unwrap();
-    keys.into_iter().for_each(|key| sender.send(Event::Key(key)).unwrap());
+    sender.send(ScreenEvent::Resize).unwrap();
+    keys.into_iter().for_each(|key| sender.send(ScreenEvent::Key(key)).unwrap());
     drop(sender);
     let exit = run(terminal, &events, app, engine, &mut NoHost, Duration::ZERO);
     assert_eq!(exit.unwrap(), Exit::Done);

@@ -8,7 +8,7 @@ use std::time::Duration;
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::{Terminal, backend::TestBackend};
 use rubscope::scene::Scene;
-use rubscope::tui::events::Event;
+use rubscope::tui::events::ScreenEvent;
 use rubscope::tui::terminal::NoHost;
 use rubscope::tui::worker::Stepwise;
 use rubscope::tui::{App, Exit, Marker, Theme, run};
@@ -54,7 +54,7 @@ impl Session {
     fn keys(&mut self, keys: impl Iterator<Item = KeyCode>) -> Exit {
         let (sender, events) = mpsc::channel();
         for key in keys {
-            sender.send(Event::Key(KeyEvent::new(key, KeyModifiers::NONE))).unwrap();
+            sender.send(ScreenEvent::Key(KeyEvent::new(key, KeyModifiers::NONE))).unwrap();
         }
         drop(sender);
         let (app, engine) = (&mut self.app, &mut self.engine);
@@ -173,7 +173,7 @@ fn escape_and_a_key_in_one_go_are_both_heard() {
 
 #[test]
 fn signals_and_a_lost_terminal_end_with_their_number() {
-    for (event, number) in [(Event::Signal(15), 15), (Event::InputClosed, 1)] {
+    for (event, number) in [(ScreenEvent::Signal(15), 15), (ScreenEvent::InputClosed, 1)] {
         let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille);
         let (sender, events) = mpsc::channel();
         sender.send(event).unwrap();
@@ -355,8 +355,8 @@ fn a_storm_of_sizes_between_keys_leaves_one_picture_of_the_last() {
         let (sender, events) = mpsc::channel();
         for key in "\t[]fwf".chars().cycle().take(300) {
             let code = if key == '\t' { KeyCode::Tab } else { KeyCode::Char(key) };
-            (0..10).for_each(|_| sender.send(Event::Resize).unwrap());
-            sender.send(Event::Key(KeyEvent::new(code, KeyModifiers::NONE))).unwrap();
+            (0..10).for_each(|_| sender.send(ScreenEvent::Resize).unwrap());
+            sender.send(ScreenEvent::Key(KeyEvent::new(code, KeyModifiers::NONE))).unwrap();
         }
         drop(sender);
         let (app, engine) = (&mut session.app, &mut session.engine);

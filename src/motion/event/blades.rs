@@ -7,8 +7,9 @@
 //! the blades by the moment `N n_d y` on the mode along `exp(i psi)`: the
 //! contact feels the mass ratio `ratio y^2`, `ratio = m_c n_d^2/M_blade`.
 
-use super::parameters::{Drive, Parameters, Plane};
+use super::parameters::{Drive, Parameters};
 use crate::model::Machine;
+use crate::motion::Plane;
 use crate::motion::propagator::Propagator;
 use crate::scene::{ModelSize, Scene};
 use crate::tolerances::{CLEARANCES_A_RADIAN, FOLLOWING_GAP, FOLLOWING_RATES};

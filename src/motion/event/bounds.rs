@@ -2,7 +2,8 @@
 //! can change, seen from sides that turn with the rotor and with their blades.
 
 use super::blades::{Blades, Tips};
-use super::parameters::{Drive, Parameters, Plane};
+use super::parameters::{Drive, Parameters};
+use crate::motion::Plane;
 
 /// Bounds over a stretch of flight ahead.
 pub(super) struct Bounds {

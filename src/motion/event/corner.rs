@@ -7,7 +7,8 @@
 //! `q_b = f cos beta_b + (omega_c^2 - nu^2) g0 + D h`; the pushes cancel both.
 
 use super::advancement::safe_step;
-use super::parameters::{Drive, Parameters, Plane};
+use super::parameters::{Drive, Parameters};
+use crate::motion::Plane;
 
 /// What one look ahead in a corner finds.
 #[derive(Clone, Copy, Debug)]

@@ -5,7 +5,8 @@
 //! `cos 2 tau + ratio y_a y_b cos 2 delta`, `tau` half the angle between the two.
 
 use super::Event;
-use super::parameters::{Parameters, Plane};
+use super::parameters::Parameters;
+use crate::motion::Plane;
 use crate::tolerances::ROUND_OFF;
 
 /// The corner of side `a` and the next, `b`, at one instant.

@@ -14,8 +14,9 @@
 use super::advancement::curved_step;
 use super::blades::{Blades, Tips};
 use super::corner::{self, Hold};
-use super::parameters::{Drive, Parameters, Plane};
+use super::parameters::{Drive, Parameters};
 use super::terms::{STRETCH, TERMS, Terms, ended, jerk, product, quotient, slope, values};
+use crate::motion::Plane;
 use crate::tolerances::{LIGHT_BLADES, MOST_HALVINGS, ROOM_TO_CHANGE};
 
 /// One stretch of locked motion in the corner of side `a` and the next.

@@ -9,7 +9,8 @@
 //! balance.
 
 use super::free::Free;
-use super::parameters::{Drive, Parameters, Plane};
+use super::parameters::{Drive, Parameters};
+use crate::motion::Plane;
 use crate::motion::propagator::Propagator;
 use crate::tolerances::{FEW_NODES, MOST_PANELS, SMALL_EXPONENT};
 

@@ -9,7 +9,8 @@
 use super::advancement::{leaving_step, safe_step};
 use super::blades::Tips;
 use super::bounds::{Bounds, size};
-use super::parameters::{Drive, Parameters, Plane};
+use super::parameters::{Drive, Parameters};
+use crate::motion::Plane;
 use crate::tolerances::{NEAR_SIDES, RAMP_CHANGE, SHORT_LOOK, SOFT_CASING};
 
 /// A side that the flight leaves with neither gap nor rate.

@@ -7,8 +7,8 @@
 use super::Event;
 use super::corner_contact::CornerContact;
 use super::mode::Mode;
-use super::parameters::Plane;
 use crate::motion::ActiveSet;
+use crate::motion::Plane;
 use crate::tolerances::{AT_A_CORNER, ROUND_OFF, SOFT_TOUCH};
 
 impl Event {

@@ -39,11 +39,12 @@ use crate::model::Machine;
 use crate::motion::{Checks, ContactLog, Failure, Pulse, Rotor, Solver, State, Verdict};
 use crate::scene::{CheckedScene, SceneError};
 
+use crate::motion::Plane;
 use crate::tolerances::EVENT_RANGE;
 use blades::Tips;
 use energy_balance::EnergyBalance;
 use mode::{Mode, What};
-use parameters::{Drive, Parameters, Plane};
+use parameters::{Drive, Parameters};
 
 /// The event-driven solver of one scene, at some instant of its motion.
 ///

@@ -6,11 +6,12 @@ use super::corner::{self, Hold};
 use super::corner_series::CornerSeries;
 use super::energy_balance::{self, EnergyBalance, quadrature};
 use super::free::{Free, Look};
-use super::parameters::{Drive, Parameters, Plane};
+use super::parameters::{Drive, Parameters};
 use super::rocking;
 use super::side_series::SideSeries;
 use super::slide::{Ahead, Along, Slide};
 use crate::motion::ActiveSet;
+use crate::motion::Plane;
 use crate::tolerances::PEAK_LOOKS;
 
 /// How the casing moves until the next event.

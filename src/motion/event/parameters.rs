@@ -2,16 +2,12 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::Complex;
-
 use super::blades::{Blades, Tips};
 use crate::model::Machine;
+use crate::motion::Plane;
 use crate::motion::propagator::Propagator;
 use crate::scene::Scene;
 use crate::tolerances::{self, ROUND_OFF};
-
-/// A point or vector of the plane of the two casing coordinates.
-pub(super) type Plane = Complex<f64>;
 
 /// The machine in the units the solver works with: everything per unit mass.
 #[derive(Clone, Debug)]

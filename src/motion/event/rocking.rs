@@ -18,14 +18,15 @@
 //! the limit.
 
 use super::corner::opening;
-use super::parameters::{Drive, Parameters, Plane};
+use super::parameters::{Drive, Parameters};
 use super::slide;
+use crate::motion::Plane;
 use crate::tolerances::{ROCKING_MARGIN, ROCKING_STEADY, ROCKING_TAIL, ROCKING_TURN};
 
 /// Orders of the series.
 const ORDERS: usize = 10;
 
-type SideSeries = [f64; ORDERS + 1];
+type PowerSeries = [f64; ORDERS + 1];
 
 /// The limit of a rocking motion.
 #[derive(Clone, Copy, Debug)]
@@ -135,12 +136,12 @@ fn pulls(parameters: &Parameters, qa: f64, qb: f64) -> [f64; 2] {
     [-(qb - cos * qa) / sin, -(qa - cos * qb) / sin]
 }
 
-fn value(series: &SideSeries, x: f64) -> f64 {
+fn value(series: &PowerSeries, x: f64) -> f64 {
     series.iter().rev().fold(0.0, |sum, term| sum * x + term)
 }
 
 /// The series at `x`, if its last orders are round-off.
-fn exact(series: &SideSeries, x: f64) -> Option<f64> {
+fn exact(series: &PowerSeries, x: f64) -> Option<f64> {
     let sum = value(series, x);
     let last = x.powi(ORDERS as i32 - 1);
     let tail = (series[ORDERS - 1] * last).abs() + (series[ORDERS] * last * x).abs();
@@ -149,8 +150,8 @@ fn exact(series: &SideSeries, x: f64) -> Option<f64> {
 
 /// Sums over all crossings to come, from either side, in powers of `v/A`.
 struct Sums {
-    time: [SideSeries; 2],
-    lost: [SideSeries; 2],
+    time: [PowerSeries; 2],
+    lost: [PowerSeries; 2],
 }
 
 impl Sums {
@@ -168,10 +169,10 @@ impl Sums {
 /// Solves `X_a(x) = F_a(x) + X_b(keep_a R(x))` and the same with `a` and `b`
 /// exchanged, order by order.
 fn accumulate(
-    powers: &[SideSeries; ORDERS + 1],
+    powers: &[PowerSeries; ORDERS + 1],
     keep: [f64; 2],
-    each: [SideSeries; 2],
-) -> [SideSeries; 2] {
+    each: [PowerSeries; 2],
+) -> [PowerSeries; 2] {
     let mut sums = [[0.0; ORDERS + 1]; 2];
     // The sums found so far, times the powers of what is kept.
     let mut scaled = [[0.0; ORDERS + 1]; 2];
@@ -194,7 +195,7 @@ fn accumulate(
 
 /// Duration and return speed (over `A`) of an excursion that starts with the
 /// speed `A x`, as series in `x`.
-fn excursion(c: f64, kappa: f64) -> (SideSeries, SideSeries) {
+fn excursion(c: f64, kappa: f64) -> (PowerSeries, PowerSeries) {
     // unit = sum a_n s^n with a_1 = 1, ramp its integral; x = ramp/unit.
     let mut unit = [0.0; ORDERS + 2];
     unit[1] = 1.0;
@@ -234,7 +235,7 @@ fn excursion(c: f64, kappa: f64) -> (SideSeries, SideSeries) {
 }
 
 /// Powers of a series without constant term, from the zeroth to the last order.
-fn powers(series: &SideSeries) -> [SideSeries; ORDERS + 1] {
+fn powers(series: &PowerSeries) -> [PowerSeries; ORDERS + 1] {
     let mut table = [[0.0; ORDERS + 1]; ORDERS + 1];
     table[0][0] = 1.0;
     for k in 1..=ORDERS {

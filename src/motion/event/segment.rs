@@ -6,7 +6,8 @@ use std::f64::consts::TAU;
 use super::Event;
 use super::free::Free;
 use super::mode::{Mode, Next, What};
-use super::parameters::{Drive, Plane};
+use super::parameters::Drive;
+use crate::motion::Plane;
 use crate::motion::{ActiveSet, Failure, FailureReason};
 use crate::tolerances::{MOST_EVENTS, MOST_EVENTS_AT_ONCE, MOST_LOOKS};
 

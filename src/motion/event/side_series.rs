@@ -14,9 +14,10 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::advancement::{curved_step, leaving_step};
 use super::blades::{Blades, Tips};
-use super::parameters::{Drive, Parameters, Plane};
+use super::parameters::{Drive, Parameters};
 use super::slide::{Ahead, Along, push_noise};
 use super::terms::{STRETCH, TERMS, Terms, ended, jerk, product, quotient, slope, values};
+use crate::motion::Plane;
 use crate::tolerances::MOST_HALVINGS;
 
 /// One stretch of sliding on `side`.

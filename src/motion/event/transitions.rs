@@ -15,10 +15,10 @@ use super::corner_contact::CornerContact;
 use super::corner_series::CornerSeries;
 use super::free::{Free, Leaving};
 use super::mode::{Mode, What};
-use super::parameters::Plane;
 use super::rocking;
 use super::side_series::{From, SideSeries};
 use super::slide::Slide;
+use crate::motion::Plane;
 use crate::motion::{ActiveSet, FailureReason};
 use crate::tolerances::{BRIEF_ROCKING, ON_A_SIDE};
 

@@ -13,15 +13,12 @@
 //! where nothing is added up that cancels. A side turned by `tau` from where it
 //! touched at `y` opens by `2 g0 sin^2(tau/2) + y sin tau`.
 
-use nalgebra::Complex;
-
 use super::blades::ModalBlades;
 use super::held_corner::Modes;
 use super::oscillator::{Coordinate, Oscillator};
 use crate::contact;
 use crate::model::Machine;
-
-type Plane = Complex<f64>;
+use crate::motion::Plane;
 
 /// A step from one corner to the next.
 #[derive(Clone, Debug)]

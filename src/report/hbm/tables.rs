@@ -5,7 +5,7 @@ use crate::harmonic::{
     Branches, Campbell, CornerBranch, Equilibrium, ExcitedLock, Kind, LockedPoint, SlipPoint,
     SlipRegion, SlipSpectrum, Sweep,
 };
-use crate::report::table::{Cell, Table};
+use crate::report::table::{Table, TableCell};
 
 /// One word for a point: locked, pulls, penetrates or unstable.
 fn state(point: &LockedPoint) -> &'static str {
@@ -77,7 +77,7 @@ pub fn threshold_table(branches: &Branches) -> Table {
     )
 }
 
-fn multiplier(state: &Equilibrium, index: usize) -> Cell {
+fn multiplier(state: &Equilibrium, index: usize) -> TableCell {
     state.contacts.get(index).map(|contact| contact.multiplier_n).into()
 }
 
@@ -151,7 +151,7 @@ pub fn slip_table(points: &[SlipPoint]) -> Table {
 /// Where there is slip, a row for each damping ratio.
 #[must_use]
 pub fn region_table(regions: &[SlipRegion]) -> Table {
-    fn first(region: &SlipRegion, appears: bool) -> Cell {
+    fn first(region: &SlipRegion, appears: bool) -> TableCell {
         let found = region.limits.iter().find(|limit| limit.appears == appears);
         found.map(|limit| limit.speed_rad_s).into()
     }
@@ -208,7 +208,7 @@ pub fn campbell_table(campbell: &Campbell, speeds: &[f64]) -> Table {
     let mut table = Table::new(std::iter::once("speed_rad_s").chain(names));
     for &speed in speeds {
         let lines = campbell.lines.iter().map(|line| line.at(speed));
-        table.push(std::iter::once(speed).chain(lines).map(Cell::from).collect());
+        table.push(std::iter::once(speed).chain(lines).map(TableCell::from).collect());
     }
     table
 }

@@ -13,9 +13,9 @@ use crate::tui::plot::Plot;
 use crate::tui::theme::Role;
 
 /// The view.
-pub struct VerdictMap;
+pub struct MapView;
 
-impl ViewPanel for VerdictMap {
+impl ViewPanel for MapView {
     fn what(&self) -> &'static str {
         "map over speed and pulse"
     }

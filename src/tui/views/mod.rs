@@ -36,11 +36,11 @@ pub enum ViewId {
 
 /// The table of views.
 const VIEWS: [(ViewId, &dyn ViewPanel); CHARTS.len()] = [
-    (ViewId::Response, &response::Response),
-    (ViewId::Gaps, &gaps::Gaps),
-    (ViewId::Locked, &locked::Locked),
-    (ViewId::Frame, &frame::BladeFrame),
-    (ViewId::Map, &map::VerdictMap),
+    (ViewId::Response, &response::ResponseView),
+    (ViewId::Gaps, &gaps::GapsView),
+    (ViewId::Locked, &locked::LockedView),
+    (ViewId::Frame, &frame::FrameView),
+    (ViewId::Map, &map::MapView),
     (ViewId::Spectrum, &spectrum::SpectrumView),
     (ViewId::Precision, &precision::PrecisionView),
 ];

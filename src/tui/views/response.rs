@@ -16,9 +16,9 @@ use crate::tui::theme::Role;
 const TWO_FROM: u16 = 18;
 
 /// The view.
-pub struct Response;
+pub struct ResponseView;
 
-impl ViewPanel for Response {
+impl ViewPanel for ResponseView {
     fn what(&self) -> &'static str {
         "response"
     }

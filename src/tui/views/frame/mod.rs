@@ -6,7 +6,7 @@ mod wheel;
 use ratatui::{buffer::Buffer, layout::Rect};
 
 use super::panel::{ViewArea, ViewPanel, title};
-use super::response::Response;
+use super::response::ResponseView;
 use crate::motion::ActiveSet;
 use crate::tui::app::App;
 use crate::tui::axis::ChartAxis;
@@ -20,9 +20,9 @@ use crate::tui::worker::in_blade_frame;
 const MARGIN: f64 = 1.15;
 
 /// The view.
-pub struct BladeFrame;
+pub struct FrameView;
 
-impl ViewPanel for BladeFrame {
+impl ViewPanel for FrameView {
     fn what(&self) -> &'static str {
         "blade frame and wheel"
     }
@@ -39,7 +39,7 @@ impl ViewPanel for BladeFrame {
 
     /// The trail is among the columns of the response.
     fn csv(&self, app: &App) -> Result<String, String> {
-        Response.csv(app)
+        ResponseView.csv(app)
     }
 }
 

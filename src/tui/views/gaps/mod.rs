@@ -14,9 +14,9 @@ use crate::tui::raster::Pen;
 use crate::tui::theme::Role;
 
 /// The view.
-pub struct Gaps;
+pub struct GapsView;
 
-impl ViewPanel for Gaps {
+impl ViewPanel for GapsView {
     fn what(&self) -> &'static str {
         "gaps"
     }

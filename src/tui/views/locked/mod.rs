@@ -19,9 +19,9 @@ use crate::tui::theme::Role;
 const ROOMY: u16 = 14;
 
 /// The view.
-pub struct Locked;
+pub struct LockedView;
 
-impl ViewPanel for Locked {
+impl ViewPanel for LockedView {
     fn what(&self) -> &'static str {
         "locked motion"
     }
