@@ -3,8 +3,8 @@
 //!
 //! Dependencies point one way: `cli` and `tui` use `report` and `study`, these
 //! use `motion` (time domain) and `harmonic` (frequency domain), these use
-//! `contact`, and all use `model`. A `scene` says what to solve and how.
-//! Everything below `cli` and `tui` knows no terminal and prints nothing.
+//! `contact`, and all use `model`. A `scene` defines what to solve and how. The
+//! modules below `cli` and `tui` do not use a terminal and print nothing.
 //!
 //! ```
 //! use rubscope::motion::{Verdict, simulate};

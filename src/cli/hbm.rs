@@ -15,13 +15,13 @@ use super::{Done, output};
 use crate::harmonic::{Form, Sweep};
 use crate::report::{hbm as report, json};
 
-/// Speeds of a sweep when none are asked for.
+/// Default number of speeds of a sweep.
 const SPEEDS: usize = 51;
 /// Locked motion against speed, by harmonic balance.
 ///
-/// `--speed FROM:TO:COUNT` sweeps the speed; a single speed gives one point,
-/// none the range from standstill to the speed of the scene. Without one of
-/// the views below, the locked motion itself is shown.
+/// `--speed FROM:TO:COUNT` sweeps the speed; a single speed gives one point;
+/// without it the range is from standstill to the speed of the scene. Without
+/// one of the views below, the locked motion itself is shown.
 #[derive(Args, Debug)]
 pub struct HbmCommand {
     #[command(flatten)]
@@ -45,10 +45,11 @@ pub struct HbmCommand {
     /// View: lasting slip, the fixed point of the map from corner to corner
     #[arg(long, group = "view")]
     slip: bool,
-    /// With --slip: where slip lives over damping ratios of the casing too
+    /// With --slip: also the speeds where slip exists over damping ratios of
+    /// the casing
     #[arg(long, value_name = "FROM:TO:COUNT", requires = "slip", allow_hyphen_values = true)]
     zetas: Option<String>,
-    /// View: Fourier series of slip and what is left out with up to COUNT harmonics
+    /// View: Fourier series of slip, and its error with up to COUNT harmonics
     #[arg(long, group = "view", value_name = "COUNT", num_args = 0..=1, default_missing_value = "16")]
     harmonics: Option<u32>,
     /// View: frequencies against speed, engine orders, and the coincidences (30)
@@ -60,7 +61,7 @@ pub struct HbmCommand {
     /// Print everything as JSON (rubscope.hbm/1)
     #[arg(long)]
     json: bool,
-    /// Write the table with every figure to FILE (.csv)
+    /// Write the table with every number to FILE (.csv)
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
 }

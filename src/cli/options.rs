@@ -64,10 +64,10 @@ pub struct Swept {
     pub pulse: bool,
 }
 
-/// A scene ready to be used, with the ranges that were asked for.
+/// A checked scene, and the ranges among the options.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Resolved {
-    /// The scene, checked; a swept key holds the first value of its range.
+    /// The checked scene; a swept key has the first value of its range.
     pub scene: CheckedScene,
     /// The range given with `--speed`.
     pub speeds: Option<Range>,
@@ -88,8 +88,8 @@ impl SceneOptions {
         self.speed.is_some()
     }
 
-    /// The scene these options describe. A key that had to be changed to go with
-    /// them is named on standard error.
+    /// The scene that these options describe. A key that had to be changed to
+    /// fit them is named on standard error.
     ///
     /// # Errors
     /// No such scene, or the first key, value or combination that is refused.
@@ -107,7 +107,7 @@ impl SceneOptions {
         self.apply(scene, swept)
     }
 
-    /// Another scene than the one named, changed by these options.
+    /// The given scene, instead of the named one, changed by these options.
     ///
     /// # Errors
     /// As `scene`.
@@ -173,9 +173,9 @@ impl SceneOptions {
     }
 }
 
-/// Where an option sets one of solver, contact law and model, and the scene's
-/// choice of the others is not possible with it, the others are changed. A key
-/// that an option sets is never changed. Returns the messages about it.
+/// If an option sets one of solver, contact law and model, and the others of
+/// the scene are not possible with it, the others are changed. A key that an
+/// option sets is never changed. Returns the messages about the changes.
 fn follow(scene: &mut Scene, given: &[&str]) -> Vec<&'static str> {
     let asked = |key: &str| given.contains(&key);
     let mut said = Vec::new();
@@ -186,11 +186,11 @@ fn follow(scene: &mut Scene, given: &[&str]) -> Vec<&'static str> {
     if asked("solver.kind") {
         if solver.contact == ContactLaw::Bilateral && !asked("solver.contact") {
             solver.contact = ContactLaw::Unilateral;
-            said.push("rubscope: took solver.contact = \"unilateral\" instead of the scene's \"bilateral\", which the event solver does not know");
+            said.push("rubscope: took solver.contact = \"unilateral\" instead of the scene's \"bilateral\", which the event solver does not support");
         }
         if solver.model == ModelSize::Full && !asked("solver.model") {
             solver.model = ModelSize::Modal;
-            said.push("rubscope: took solver.model = \"modal\" instead of the scene's \"full\", which the event solver does not know");
+            said.push("rubscope: took solver.model = \"modal\" instead of the scene's \"full\", which the event solver does not support");
         }
     } else if (asked("solver.contact") && solver.contact == ContactLaw::Bilateral)
         || (asked("solver.model") && solver.model == ModelSize::Full)

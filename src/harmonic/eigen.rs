@@ -1,34 +1,35 @@
-//! Eigenvalues of small dense matrices, in bounded work.
+//! Eigenvalues of small dense matrices, with bounded work.
 //!
-//! The QR iteration of nalgebra has no exceptional shifts, and takes a coupling
-//! for small only next to the diagonal, which is zero where motions neither grow
-//! nor decay: on some matrices it never ends. So the iteration is written out
-//! here, after LAPACK's `dlahqr`: Francis' double shifts on a balanced Hessenberg
-//! matrix, exceptional ones where these stall, and a last resort where rounding
-//! keeps a coupling from vanishing.
+//! The QR iteration of nalgebra has no exceptional shifts, and it compares a
+//! coupling only with the diagonal, which is zero for motions that neither grow
+//! nor decay: on some matrices it never ends. This iteration follows LAPACK's
+//! `dlahqr`: Francis' double shifts on a balanced Hessenberg matrix, exceptional
+//! shifts if these stall, and a larger tolerance if rounding keeps a coupling
+//! from vanishing.
 
 use nalgebra::linalg::balancing::balance_parlett_reinsch;
 use nalgebra::{Complex, DMatrix, Hessenberg};
 
 /// Iterations for one eigenvalue or pair; three are usual.
 const MOST_ITERATIONS: usize = 60;
-/// Each multiple of this has an exceptional shift.
+/// Every iteration with a multiple of this number uses an exceptional shift.
 const EXCEPTIONAL: usize = 10;
-/// From here on a coupling is small if it is rounding of the whole matrix.
+/// From this iteration on a coupling counts as zero if it is rounding of the
+/// whole matrix.
 const LAST_RESORT: usize = 40;
 
-/// The eigenvalues of a square matrix, in no order; `None` where an entry is no
-/// finite number or the iteration does not settle.
+/// The eigenvalues of a square matrix, in no order; `None` if an entry is not
+/// finite or the iteration does not converge.
 pub(super) fn eigenvalues(mut matrix: DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
     let size = matrix.amax();
-    // Not seen by the largest entry: a comparison with NaN is false.
+    // The largest entry misses NaN, because a comparison with it is false.
     if !matrix.iter().all(|entry| entry.is_finite()) {
         return None;
     }
     if size == 0.0 || matrix.nrows() < 2 {
         return Some(matrix.diagonal().iter().map(|&value| value.into()).collect());
     }
-    // Balancing squares the entries: of order one they cannot overflow.
+    // Balancing squares the entries; scaled to order one they cannot overflow.
     matrix /= size;
     balance_parlett_reinsch(&mut matrix);
     let mut iteration = Iteration { h: Hessenberg::new(matrix).unpack_h() };
@@ -58,8 +59,8 @@ impl Iteration {
         Some(values)
     }
 
-    /// Iterates until the last row, or the last two, stand alone; where they
-    /// begin.
+    /// Iterates until the last row, or the last two, are decoupled; returns
+    /// their first row.
     fn deflate(&mut self, last: usize) -> Option<usize> {
         for iteration in 0..MOST_ITERATIONS {
             let whole = if iteration < LAST_RESORT { 0.0 } else { self.h.amax() };
@@ -92,7 +93,7 @@ impl Iteration {
         if coupling > f64::EPSILON * beside {
             return false;
         }
-        // The test of Ahues and Tisseur, which spares graded matrices.
+        // The test of Ahues and Tisseur, which is accurate for graded matrices.
         let back = h[(row - 1, row)].abs();
         let (large, small) = (coupling.max(back), coupling.min(back));
         let apart = (above - here).abs();
@@ -105,7 +106,7 @@ impl Iteration {
     fn shift(&self, iteration: usize, first: usize, last: usize) -> [Complex<f64>; 2] {
         let h = &self.h;
         let [a, b, c, d] = if iteration > 0 && iteration.is_multiple_of(EXCEPTIONAL) {
-            // In turn from the first rows and from the last.
+            // Alternately from the first rows and from the last.
             let even = (iteration / EXCEPTIONAL).is_multiple_of(2);
             let (row, at) = if even { (last - 1, last) } else { (first + 1, first) };
             let size = h[(row, row - 1)].abs() + h[(row + 1, row)].abs();
@@ -118,7 +119,7 @@ impl Iteration {
         if one.im != 0.0 {
             return [one, other];
         }
-        // Of two real ones twice the one nearer to the last row.
+        // Of two real shifts, twice the one closer to the last entry.
         let nearer = if (one.re - d).abs() <= (other.re - d).abs() { one } else { other };
         [nearer, nearer]
     }

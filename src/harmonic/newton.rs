@@ -1,32 +1,31 @@
 //! Newton's method on the equations of a corner, kept on the branch of its
 //! rigid blades.
 //!
-//! Far from the solution Newton's method wanders: it may miss the solution, or
-//! settle on another branch, at one speed and not at the next. So a start counts
-//! only where its steps are small and shrink. Where they are not, because blades
-//! are soft, the solution is followed from rigid blades to soft ones, and lost
-//! where that branch folds.
+//! Far from the solution Newton's method is unreliable: it may miss the solution
+//! or find another branch, at one speed and not at the next. So a start is
+//! accepted only if its steps are small and shrink. If not, because blades are
+//! soft, the solution is followed from rigid to soft blades; it ends where that
+//! branch folds.
 
 use super::equations::{Equations, Unknowns, Wave};
 
 /// Newton steps from one start.
 const MOST_STEPS: usize = 40;
-/// How much a step must shrink: by half where the branch is about to fold, and
-/// a little room.
+/// How much a step must shrink: by half close to a fold, with a small margin.
 const SHRINK: f64 = 0.75;
-/// Largest step, as a part of the unknowns, and of the turns \[rad\], in which
-/// alone the equations are not bilinear.
+/// Largest step, as a part of the unknowns, and of the turns \[rad\]; only in
+/// these the equations are not bilinear.
 const LARGEST: f64 = 0.1;
-/// How much the determinant may change from one softness to the next: it goes to
-/// zero at a fold, and is another one on another branch.
+/// How much the determinant may change from one softness to the next: it is zero
+/// at a fold, and differs on another branch.
 const ALIKE: std::ops::Range<f64> = 0.5..2.0;
 /// Shortest stride of the softness, and most strides.
 const SHORTEST: f64 = 1e-6;
 const MOST_STRIDES: usize = 500;
 
 impl Equations {
-    /// The corner that rigid blades grow into as they soften; `None` where it
-    /// folds before they are as soft as these.
+    /// The corner that rigid blades grow into as they soften; `None` if it
+    /// folds before they are this soft.
     pub fn locked(&self, wave: Wave) -> Option<Unknowns> {
         let start = self.predict(wave)?;
         if self.is_exact() {
@@ -55,8 +54,8 @@ impl Equations {
     /// Newton's method from `start`; `None` where its steps are large or do not
     /// shrink.
     fn solve(&self, wave: Wave, start: Unknowns) -> Option<Unknowns> {
-        // Rows are of order one, so a residual of a few units in the last
-        // place of the largest term is all that rounding leaves.
+        // Rows are of order one, so rounding leaves a residual of a few units
+        // in the last place of the largest term.
         let size = 1.0 + wave.kappa.abs() + wave.drag.abs();
         let mut unknowns = start;
         let mut last = LARGEST * unknowns.amax() / SHRINK;

@@ -1,4 +1,4 @@
-//! A table of named columns: aligned text for people, CSV for everything else.
+//! A table of named columns: written as aligned text or as CSV.
 
 use std::io::{Result, Write};
 
@@ -7,7 +7,7 @@ use super::number::{exact, short};
 /// One cell of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cell {
-    /// A number; what is no finite number is left empty.
+    /// A number; empty if not finite.
     Number(f64),
     /// A word or two.
     Word(String),
@@ -45,8 +45,9 @@ impl From<String> for Cell {
     }
 }
 
-/// Writes rows of cells as CSV, under a header line. Numbers are the shortest
-/// that read back as themselves, and what is no figure is left empty.
+/// Writes rows of cells as CSV, under a header line. Numbers have the shortest
+/// form that reads back to the same value; a number that is not finite is left
+/// empty.
 pub(super) fn write_csv<R: IntoIterator<Item = Cell>>(
     names: impl IntoIterator<Item = impl AsRef<[u8]>>,
     rows: impl IntoIterator<Item = R>,
@@ -112,16 +113,16 @@ impl Table {
     /// Writes CSV: a header line, then numbers that read back as themselves.
     ///
     /// # Errors
-    /// What the writer refuses.
+    /// An error of the writer.
     pub fn write_csv(&self, out: &mut dyn Write) -> Result<()> {
         write_csv(&self.names, self.rows.iter().map(|row| row.iter().cloned()), out)
     }
 
     /// Writes aligned text: numbers of six digits to the right, words to the
-    /// left, `-` where there is no figure.
+    /// left, `-` if there is no number.
     ///
     /// # Errors
-    /// What the writer refuses.
+    /// An error of the writer.
     pub fn write_text(&self, out: &mut dyn Write) -> Result<()> {
         let text = |cell: &Cell| match cell {
             Cell::Number(x) => short(*x),

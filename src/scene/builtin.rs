@@ -34,8 +34,7 @@ pub const BUILTIN: &[Builtin] = builtin![
 impl Scene {
     /// The built-in scene of this name.
     ///
-    /// # Errors
-    /// No such scene; the message lists those there are.
+    /// # Errors No such scene; the message lists the existing ones.
     pub fn builtin(name: &str) -> Result<Self, SceneError> {
         match BUILTIN.iter().find(|scene| scene.name == name) {
             Some(scene) => Self::from_toml(scene.toml),
