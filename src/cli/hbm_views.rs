@@ -64,7 +64,8 @@ impl Answer {
 
 /// Computes a view.
 ///
-/// # Errors An input that has no meaning, with its name.
+/// # Errors
+/// An input that has no meaning, with its name.
 pub(super) fn answer(asked: &Asked, view: &View) -> Result<Answer, Refusal> {
     let Asked { scene, speeds, form, damped, pair } = *asked;
     let machine = scene.machine();

@@ -39,8 +39,7 @@ pub struct MapCommand {
     /// Rows, in the same form [default: the pulse]
     #[arg(long, value_name = "AXIS", conflicts_with = "pulse")]
     y: Option<String>,
-    /// Coarse cells first, then only next to another verdict, down to single
-    /// cells
+    /// Coarse cells first, then only next to another verdict, down to single cells
     #[arg(long, conflicts_with = "shard")]
     adaptive: bool,
     /// Do not look for sensitive cells: takes a quarter of the runs

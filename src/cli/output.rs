@@ -21,7 +21,8 @@ pub fn bar(length: u64, template: &str) -> ProgressBar {
 
 /// The ending of a file given with `--out`, which must be one of these.
 ///
-/// # Errors Another ending, or a path where no file can be written.
+/// # Errors
+/// Another ending, or a path where no file can be written.
 pub fn format(path: &Path, endings: &[&'static str]) -> anyhow::Result<&'static str> {
     let given = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
     let Some(known) = endings.iter().find(|known| known.eq_ignore_ascii_case(given)) else {
@@ -40,7 +41,8 @@ pub fn format(path: &Path, endings: &[&'static str]) -> anyhow::Result<&'static 
 
 /// Writes a file, completely or not at all, and prints what is in it.
 ///
-/// # Errors An error of the system.
+/// # Errors
+/// An error of the system.
 pub fn save(
     path: &Path,
     what: &str,

@@ -62,7 +62,8 @@ impl Campbell {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
-    /// # Errors No nodal diameters, so no travelling waves.
+    /// # Errors
+    /// No nodal diameters, so no travelling waves.
     pub fn of(machine: &Machine, orders: &[u32]) -> Result<Self, HarmonicError> {
         let n_d = machine.nodal_diameters;
         if n_d == 0.0 {

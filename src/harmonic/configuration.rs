@@ -1,6 +1,5 @@
-//! The configuration of casing and blades in the blade frame: the point `z` and
-//! the two blade modes, in numbers of order one. They determine every contact
-//! and gap.
+//! The configuration of casing and blades in the blade frame: the point `z` and the
+//! two blade modes, in numbers of order one. They determine every contact and gap.
 
 use super::stability::ClosedSide;
 use crate::model::ContactPolygon;

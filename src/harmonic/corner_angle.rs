@@ -1,10 +1,9 @@
 //! A corner with flexible blades, exactly: one equation for its corner angle.
 //!
-//! Let the contacting blades be `2 Delta` apart in phase, `2 delta` when
-//! unbent. Then `|z| = g0/cos Delta`, the moment arms are `-+tan Delta`, and
-//! the multipliers are those of the closed form with `Delta` for `delta`. Their
-//! sum is `kappa/cos^2 Delta` whatever the damping, and the two blade modes
-//! give
+//! Let the contacting blades be `2 Delta` apart in phase, `2 delta` when unbent.
+//! Then `|z| = g0/cos Delta`, the moment arms are `-+tan Delta`, and the
+//! multipliers are those of the closed form with `Delta` for `delta`. Their sum
+//! is `kappa/cos^2 Delta` whatever the damping, and the two blade modes give
 //!
 //! `Delta - delta = -c kappa tan Delta/cos^2 Delta`, `c = softness (2/N) sin^2 delta`.
 //!

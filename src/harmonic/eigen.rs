@@ -1,11 +1,10 @@
 //! Eigenvalues of small dense matrices, with bounded work.
 //!
 //! The QR iteration of nalgebra has no exceptional shifts, and it compares a
-//! coupling only with the diagonal, which is zero for motions that neither grow
-//! nor decay: on some matrices it never ends. This iteration follows LAPACK's
-//! `dlahqr`: Francis' double shifts on a balanced Hessenberg matrix, exceptional
-//! shifts if these stall, and a larger tolerance if rounding keeps a coupling
-//! from vanishing.
+//! coupling only with the diagonal, which is zero for motions that neither grow nor
+//! decay: on some matrices it never ends. This iteration follows LAPACK's `dlahqr`:
+//! Francis' double shifts on a balanced Hessenberg matrix, exceptional shifts if
+//! these stall, and a larger tolerance if rounding keeps a coupling from vanishing.
 
 use nalgebra::linalg::balancing::balance_parlett_reinsch;
 use nalgebra::{Complex, DMatrix, Hessenberg};

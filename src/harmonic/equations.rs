@@ -155,8 +155,7 @@ impl Equations {
         let multipliers = [(stiff - drag) / (2.0 * cos), (stiff + drag) / (2.0 * cos)];
         let torque = [-multipliers[0] * tangent, multipliers[1] * tangent];
         let alpha = self.share.map(|[to_a, to_b]| -(to_a * torque[0] + to_b * torque[1]));
-        // The expansion (26) is of first order, which is enough for such small
-        // turns.
+        // The expansion (26) is of first order, which is enough for such small turns.
         let middle = 0.5 * self.softness * (alpha[0] + alpha[1]);
         let (sin_middle, cos_middle) = middle.sin_cos();
         let size = -1.0 / (twice_cos * cos);

@@ -5,8 +5,7 @@ use thiserror::Error;
 
 use crate::model::ContactPolygon;
 
-/// An input without meaning in the frequency domain, or a solution that was not
-/// found.
+/// An input without meaning in the frequency domain, or a solution that was not found.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum HarmonicError {
     /// Fewer than three sides: neighbouring sides never meet.

@@ -45,8 +45,7 @@ const LEFT_OPEN: f64 = 1e-3;
 /// Least and largest arc between neighbours, in steps, and the largest between
 /// the last two of a leg.
 const APART: [f64; 3] = [0.9, 1.1, 1.5];
-/// The largest speed over `Omega_c`: its square does not overflow when
-/// multiplied.
+/// The largest speed over `Omega_c`: its square does not overflow when multiplied.
 const FASTEST: f64 = 1e100;
 
 /// Follows the corner states of the exact modal form from speed `from` to `to`

@@ -29,8 +29,7 @@ pub struct LockedPoint {
     pub u_ss_m: f64,
     /// Amplitude `|z|` of the casing wave \[m\].
     pub amplitude_m: f64,
-    /// Smallest gap of all groups not in contact \[m\]; infinite if there are
-    /// none.
+    /// Smallest gap of all groups not in contact \[m\]; infinite if there are none.
     pub smallest_gap_m: f64,
     /// Torque the rotor must give to hold the wave, `sum Lambda A` \[N m\].
     pub torque_nm: f64,

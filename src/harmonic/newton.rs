@@ -1,11 +1,10 @@
 //! Newton's method on the equations of a corner, kept on the branch of its
 //! rigid blades.
 //!
-//! Far from the solution Newton's method is unreliable: it may miss the solution
-//! or find another branch, at one speed and not at the next. So a start is
-//! accepted only if its steps are small and shrink. If not, because blades are
-//! soft, the solution is followed from rigid to soft blades; it ends where that
-//! branch folds.
+//! Far from the solution Newton's method is unreliable: it may miss the solution or
+//! find another branch, at one speed and not at the next. So a start is accepted
+//! only if its steps are small and shrink. If not, because blades are soft, the
+//! solution is followed from rigid to soft blades; it ends where that branch folds.
 
 use super::equations::{Equations, Unknowns, Wave};
 

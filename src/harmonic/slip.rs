@@ -1,7 +1,6 @@
-//! Slip on a polygon with corners: permanent contact, side after side, with the
-//! wave turning slower than the rotor. Its state is one number, the speed just
-//! after a corner; a lasting slip is a fixed point of the map from corner to
-//! corner.
+//! Slip on a polygon with corners: permanent contact, side after side, with the wave
+//! turning slower than the rotor. Its state is one number, the speed just after a
+//! corner; a lasting slip is a fixed point of the map from corner to corner.
 
 use serde::Serialize;
 use strum::{Display, IntoStaticStr};

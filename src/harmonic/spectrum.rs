@@ -65,8 +65,9 @@ const MOST: u32 = 512;
 
 /// The Fourier series of the slip at one speed \[rad/s\], up to `most` harmonics.
 ///
-/// # Errors A polygon without corners, a speed that is not finite, more
-/// harmonics than 512. The inner error: why there is no slip.
+/// # Errors
+/// A polygon without corners, a speed that is not finite, more harmonics than
+/// 512. The inner error: why there is no slip.
 pub fn slip_spectrum(
     machine: &Machine,
     speed: f64,

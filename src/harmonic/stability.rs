@@ -177,10 +177,9 @@ impl Linearised {
         ])
     }
 
-    /// Whether no motion that keeps every contact grows. In a corner by the
-    /// signs of its characteristic polynomial, which needs no eigenvalues unless
-    /// the result is close; otherwise by the eigenvalues. False if these cannot
-    /// be computed.
+    /// Whether no motion that keeps every contact grows. In a corner by the signs of
+    /// its characteristic polynomial, which needs no eigenvalues unless the result
+    /// is close; otherwise by the eigenvalues. False if these cannot be computed.
     pub fn is_stable(&self) -> bool {
         let by_signs = self.corner_motion().and_then(|motion| {
             let polynomial = characteristic(&motion);

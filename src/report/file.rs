@@ -9,8 +9,8 @@ use std::path::{Path, PathBuf};
 /// Replaces the file at `path` by what `write` writes, completely or not at
 /// all. Links are followed; a device or a pipe is written to directly.
 ///
-/// # Errors An error of the system or of `write`; a file at `path` is then
-/// unchanged.
+/// # Errors
+/// An error of the system or of `write`; a file at `path` is then unchanged.
 pub fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<()> {
     let path = &path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
     if path.is_dir() {
@@ -35,8 +35,7 @@ pub fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) ->
     written
 }
 
-/// Whether a file can be written there, as far as this is known without
-/// writing.
+/// Whether a file can be written there, as far as this is known without writing.
 ///
 /// # Errors
 /// The directory does not exist, or the path is a directory itself.

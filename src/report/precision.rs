@@ -145,8 +145,7 @@ pub fn write(report: &Precision, out: &mut dyn Write) -> Result<()> {
 pub struct Place {
     /// log10 of the wall time in seconds.
     pub time: f64,
-    /// log10 of the error; none for an error of zero, which such an axis cannot
-    /// show.
+    /// log10 of the error; none for an error of zero, which such an axis cannot show.
     pub error: Option<f64>,
 }
 
@@ -169,7 +168,8 @@ pub fn decades(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
 
 /// The figure: log error against log time.
 ///
-/// # Errors The reason why there is nothing to draw.
+/// # Errors
+/// The reason why there is nothing to draw.
 pub fn figure(report: &Precision) -> std::result::Result<Figure, String> {
     let placed: Vec<&Row> = report.rows.iter().filter(|row| place(row).is_some()).collect();
     let is_zero = |row: &Row| row.error_final == Some(0.0);

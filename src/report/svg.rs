@@ -276,8 +276,7 @@ fn colour(style: Style) -> RGBColor {
     *COLOURS.get(index % COLOURS.len()).unwrap_or(&BLACK)
 }
 
-/// Colour of a verdict; verdicts differ in lightness too, for colour-blind
-/// readers.
+/// Colour of a verdict; verdicts differ in lightness too, for colour-blind readers.
 fn colour_of(verdict: Verdict) -> RGBColor {
     match verdict {
         Verdict::Decay => RGBColor(240, 240, 240),

@@ -45,9 +45,8 @@ impl From<String> for Cell {
     }
 }
 
-/// Writes rows of cells as CSV, under a header line. Numbers have the shortest
-/// form that reads back to the same value; a number that is not finite is left
-/// empty.
+/// Writes rows of cells as CSV, under a header line. Numbers have the shortest form
+/// that reads back to the same value; a number that is not finite is left empty.
 pub(super) fn write_csv<R: IntoIterator<Item = Cell>>(
     names: impl IntoIterator<Item = impl AsRef<[u8]>>,
     rows: impl IntoIterator<Item = R>,

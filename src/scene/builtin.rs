@@ -34,7 +34,8 @@ pub const BUILTIN: &[Builtin] = builtin![
 impl Scene {
     /// The built-in scene of this name.
     ///
-    /// # Errors No such scene; the message lists the existing ones.
+    /// # Errors
+    /// No such scene; the message lists the existing ones.
     pub fn builtin(name: &str) -> Result<Self, SceneError> {
         match BUILTIN.iter().find(|scene| scene.name == name) {
             Some(scene) => Self::from_toml(scene.toml),

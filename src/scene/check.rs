@@ -1,5 +1,4 @@
-//! Checks that need more than one key: combinations of values that have no
-//! meaning.
+//! Checks that need more than one key: combinations of values that have no meaning.
 
 use super::{ContactLaw, ModelSize, Scene, SceneError, SolverKind};
 
@@ -58,8 +57,7 @@ fn initial_state(scene: &Scene) -> Result<(), SceneError> {
     let (x, y) = (scene.initial.u_c_m, scene.initial.u_s_m);
     let side = machine.polygon.nearest_side(x, y);
     let gap = machine.polygon.gap(side, x, y);
-    // A point on a side, given by computed coordinates, may be outside by
-    // round-off.
+    // A point on a side, given by computed coordinates, may be outside by round-off.
     if gap >= -1e-12 * machine.clearance() {
         return Ok(());
     }

@@ -30,7 +30,8 @@ impl Deref for CheckedScene {
 impl CheckedScene {
     /// Whether the event solver supports the contact law and the model size.
     ///
-    /// # Errors It does not; the reason in one line.
+    /// # Errors
+    /// It does not; the reason in one line.
     pub fn suits_events(&self) -> Result<(), SceneError> {
         check::event(&self.0)
     }

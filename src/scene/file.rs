@@ -47,7 +47,8 @@ impl Scene {
 
     /// Reads a scene file and checks it completely.
     ///
-    /// # Errors The first error in it, in one line.
+    /// # Errors
+    /// The first error in it, in one line.
     pub fn from_toml(text: &str) -> Result<Self, SceneError> {
         let scene = Self::from_toml_unchecked(text)?;
         scene.checked()?;

@@ -13,8 +13,7 @@ use super::map::{Cell, Map, Progress};
 
 /// Coarsest stride between computed cells.
 const COARSEST: usize = 8;
-/// Least number of coarse cells along the shorter side, if the map has that
-/// many.
+/// Least number of coarse cells along the shorter side, if the map has that many.
 const FEWEST: usize = 6;
 
 type Keep<'a> = &'a (dyn Fn(usize, Cell) + Sync);

@@ -66,7 +66,8 @@ pub struct Axis {
 impl Axis {
     /// An axis over a numeric key, checked at both ends.
     ///
-    /// # Errors An unknown or non-numeric key, or an invalid range.
+    /// # Errors
+    /// An unknown or non-numeric key, or an invalid range.
     pub fn new(path: &str, from: f64, to: f64, count: u32, log: bool) -> Result<Self, AxisError> {
         let key = keys::find(path)?;
         if !matches!(key.allowed, Allowed::Real { .. } | Allowed::Whole { .. }) {
@@ -149,7 +150,8 @@ impl Axis {
     /// Sets the key of a scene to value number `index`; whole-numbered keys
     /// take the nearest whole number.
     ///
-    /// # Errors A value that the key does not allow.
+    /// # Errors
+    /// A value that the key does not allow.
     pub fn apply(&self, scene: &mut Scene, index: u32) -> Result<(), SceneError> {
         let key = keys::find(&self.path)?;
         let value = self.value(index);

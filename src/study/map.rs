@@ -25,8 +25,7 @@ pub struct MapPlan {
     pub x: Axis,
     /// Rows; pulse by default.
     pub y: Axis,
-    /// Whether to find the sensitive cells, which takes three more runs per
-    /// cell.
+    /// Whether to find the sensitive cells, which takes three more runs per cell.
     pub sensitivity: bool,
 }
 
@@ -76,7 +75,8 @@ impl MapPlan {
 
     /// The scene of a cell.
     ///
-    /// # Errors A combination of values that is not allowed.
+    /// # Errors
+    /// A combination of values that is not allowed.
     pub fn scene_of(&self, index: usize) -> Result<CheckedScene, SceneError> {
         let mut scene = self.scene.clone();
         let columns = self.x.count as usize;
@@ -122,8 +122,7 @@ impl MapPlan {
         Err(SceneError::refused("map", size, format!("from 1 to {MOST_CELLS} cells")))
     }
 
-    /// Refuses a plan with too many cells, or with a corner that is not a valid
-    /// scene.
+    /// Refuses a plan with too many cells, or with a corner that is not a valid scene.
     ///
     /// # Errors
     /// The number of cells, or the first corner that is refused.

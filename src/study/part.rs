@@ -315,8 +315,7 @@ mod tests {
         assert!(!other.contains("response") && other.contains("speed_rad_s = 320.0"), "{other}");
         let joined = read(&[first.clone(), other.into_bytes()]).unwrap().unwrap();
         require_complete(&joined).unwrap();
-        // A part from an older version with fewer keys: missing keys have
-        // defaults.
+        // A part from an older version with fewer keys: missing keys have defaults.
         let mut lines = text.replacen("\\norder = 3", "", 1);
         lines = lines.replacen("contact = \\\"unilateral\\\"\\n", "", 1);
         assert!(lines.len() < text.len() - 30);

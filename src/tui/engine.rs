@@ -31,8 +31,7 @@ pub struct Order {
     pub pulses: u64,
     /// Whether time passes.
     pub playing: bool,
-    /// Simulated time per wall-clock time: 5e-3 plays five milliseconds per
-    /// second.
+    /// Simulated time per wall-clock time: 5e-3 plays five milliseconds per second.
     pub rate: f64,
     /// Length of one recorded bin \[s\].
     pub bin_s: f64,
@@ -61,8 +60,7 @@ pub struct Pace {
     pub step_s: Option<f64>,
     /// Wall-clock time of the whole run to `solver.end_s` \[s\].
     pub run_s: Option<f64>,
-    /// Whether the motion plays slower than requested, because the solver is
-    /// too slow.
+    /// Whether the motion plays slower than requested, because the solver is too slow.
     pub limited: bool,
 }
 

@@ -27,7 +27,8 @@ pub enum Event {
 
 /// Starts the thread that reads keys.
 ///
-/// # Errors The system cannot start a thread.
+/// # Errors
+/// The system cannot start a thread.
 pub fn read_keys(to: Sender<Event>) -> std::io::Result<()> {
     let read = move || {
         loop {
@@ -50,7 +51,8 @@ pub fn read_keys(to: Sender<Event>) -> std::io::Result<()> {
 /// Starts the thread that waits for signals. If the drawing thread does not end
 /// the program soon after a signal to end, this thread does.
 ///
-/// # Errors The system cannot start a thread or watch signals.
+/// # Errors
+/// The system cannot start a thread or watch signals.
 #[cfg(unix)]
 pub fn watch_signals(to: Sender<Event>) -> std::io::Result<()> {
     use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP};

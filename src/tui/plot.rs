@@ -143,8 +143,7 @@ impl<'a> Plot<'a> {
         (0..count).map(|k| self.x.low + (k as f64 + 0.5) * width).collect()
     }
 
-    /// The sub-pixel column of an x value, limited so that it fits a whole
-    /// number.
+    /// The sub-pixel column of an x value, limited so that it fits a whole number.
     fn pixel_x(&self, value: f64) -> Option<i64> {
         let across = (value - self.x.low) / (self.x.high - self.x.low);
         whole(across * (self.raster.size().0.saturating_sub(1)) as f64)

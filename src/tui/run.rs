@@ -124,8 +124,7 @@ fn handle(event: &Event, app: &mut App, host: &mut dyn Host) -> Reaction {
             Effect::Suspend => resumed(host.suspend()),
             Effect::Redraw => Reaction::Redraw,
             Effect::Copy(text) => {
-                // The status line also shows it, in case the terminal refuses
-                // it.
+                // The status line also shows it, in case the terminal refuses it.
                 let _ = host.copy(&text);
                 Reaction::Draw(Due::Now)
             }

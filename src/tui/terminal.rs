@@ -78,11 +78,13 @@ impl Drop for Guard {
 pub trait Host {
     /// Gives the terminal to the shell until the job is continued.
     ///
-    /// # Errors The terminal cannot be set up again.
+    /// # Errors
+    /// The terminal cannot be set up again.
     fn suspend(&mut self) -> std::io::Result<()>;
     /// Sets up the terminal again after the job was continued from outside.
     ///
-    /// # Errors The terminal cannot be set up again.
+    /// # Errors
+    /// The terminal cannot be set up again.
     fn resume(&mut self) -> std::io::Result<()>;
     /// Puts a text on the clipboard of the terminal.
     ///

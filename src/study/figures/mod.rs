@@ -35,7 +35,8 @@ pub struct Scenes {
 impl Scenes {
     /// The paper's.
     ///
-    /// # Errors None, as the built-in scenes exist.
+    /// # Errors
+    /// None, as the built-in scenes exist.
     pub fn paper() -> Result<Self, SceneError> {
         let transient = |name: &str, pulse: &str| {
             Scene::builtin(name)?.with(&[

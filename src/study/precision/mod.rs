@@ -137,7 +137,8 @@ impl Measure {
 
     /// Solves the scene by the event solver, for rigid and for moving blades.
     ///
-    /// # Errors The key that the event solver does not support.
+    /// # Errors
+    /// The key that the event solver does not support.
     pub fn new(scene: &Scene) -> Result<Self, SceneError> {
         let model = size_of_reference(scene.solver.model);
         let finest = tolerances::EVENT;

@@ -1,6 +1,5 @@
 //! The reference motion at any time near the end. This is needed because an
-//! explicit run ends at its last step, up to one step before the end of the
-//! scene.
+//! explicit run ends at its last step, up to one step before the end of the scene.
 
 use super::ways::{LONGEST, Way};
 use crate::motion::{Motion, State};

@@ -1,5 +1,4 @@
-//! Turning knobs: values are checked first, refused at the knob, and can be
-//! undone.
+//! Turning knobs: values are checked first, refused at the knob, and can be undone.
 
 use super::{App, InputMode, Ranges};
 use crate::motion::Change;
@@ -73,8 +72,7 @@ impl App {
         }
     }
 
-    /// Uses the scene after a turn of a knob: live, if this is enabled and
-    /// possible.
+    /// Uses the scene after a turn of a knob: live, if this is enabled and possible.
     fn set_turned_scene(&mut self, scene: CheckedScene) {
         let failed = self.failure().is_some();
         let live = self.live && !failed && acts_live(&self.scene, &scene);

@@ -64,7 +64,7 @@ impl App {
             Verdict::Adhesive => {
                 let pulled = run.multipliers.iter().filter(|(_, force)| *force > 0.0);
                 let pulled = self.blades_of(pulled.map(|(side, _)| *side));
-                (join(&["held by a pull, not a real contact", &pulled, &since]), Role::Trouble)
+                (join(&["a lock that pulls, not a real contact", &pulled, &since]), Role::Trouble)
             }
             Verdict::Slip => (join(&["contact without a break, side after side"]), Role::Contact),
             Verdict::Bounce => {

@@ -11,8 +11,7 @@ use crate::scene::{
     keys::Key,
 };
 
-/// The only knob that is not a key: the clearance `g0`, set by the casing
-/// radius.
+/// The only knob that is not a key: the clearance `g0`, set by the casing radius.
 const CLEARANCE: &str = "clearance";
 
 /// How a knob turns.

@@ -19,7 +19,7 @@ const WORDS: &[(&str, &str)] = &[
         "multiplier λ",
         "contact force on a blade group: negative pushes; positive pulls, which a real contact cannot do",
     ),
-    ("locked", "the same blades stay in contact, all pushing: the casing wave turns with the rotor"),
+    ("locked", "the same blades stay in contact and push: the casing wave turns with the rotor"),
     ("adhesive", "looks locked, but a blade pulls: only the equality (bilateral) law allows it"),
     (
         "slip",

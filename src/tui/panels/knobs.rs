@@ -53,8 +53,7 @@ fn line(app: &App, buffer: &mut Buffer, area: Rect, place: usize, knob: &Knob) {
     print(buffer, area, 0, &text, style);
 }
 
-/// The meaning of the selected knob, its allowed values, and why a value was
-/// refused.
+/// The meaning of the selected knob, its allowed values, and why a value was refused.
 fn notes(app: &App, width: usize) -> Vec<(String, Role)> {
     let Some(knob) = app.selected() else { return Vec::new() };
     let mut lines = Vec::new();

@@ -23,7 +23,8 @@ pub trait ViewPanel: Sync {
 
     /// Its data as CSV.
     ///
-    /// # Errors There is nothing to export; the reason as text.
+    /// # Errors
+    /// There is nothing to export; the reason as text.
     fn csv(&self, app: &App) -> Result<String, String>;
 }
 

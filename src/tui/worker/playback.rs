@@ -92,8 +92,7 @@ impl Playback {
                 comparison.full_run = FullRunJob::new(comparison.motion.clone(), end);
             }
             self.studies.forget_spectrum();
-            // The reference starts from rest, so it does not apply to a changed
-            // run.
+            // The reference starts from rest, so it does not apply to a changed run.
             self.reference = None;
             self.sensitive = Some(false);
         }

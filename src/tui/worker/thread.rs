@@ -48,7 +48,8 @@ impl Worker {
     /// Starts the thread. `wake` is called when a first snapshot is ready
     /// after the last one was taken.
     ///
-    /// # Errors The system cannot start a thread.
+    /// # Errors
+    /// The system cannot start a thread.
     pub fn spawn(wake: Waker) -> std::io::Result<Self> {
         let shared = Arc::new(Shared::default());
         let theirs = Arc::clone(&shared);

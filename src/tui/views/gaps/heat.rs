@@ -1,6 +1,5 @@
-//! View 2 against time: a row for each blade, a column for each part of the
-//! page, the smallest gap as a shade and contact as a full block. It needs no
-//! colour.
+//! View 2 against time: a row for each blade, a column for each part of the page,
+//! the smallest gap as a shade and contact as a full block. It needs no colour.
 
 use ratatui::buffer::Buffer;
 

@@ -15,8 +15,7 @@ pub struct LockedCurves {
     pub fastest: f64,
     /// With the damping of the scene; none where there is no locked motion.
     pub damped: Option<Sweep>,
-    /// Without damping, as the paper has it; none if it equals the damped
-    /// curve.
+    /// Without damping, as in the paper; none for a machine without damping.
     pub undamped: Option<Sweep>,
 }
 

@@ -54,8 +54,7 @@ impl ViewPanel for Locked {
             return;
         };
         let lambdas = damped.points.iter().flat_map(|point| point.multipliers_n);
-        // The scale follows the curves: the mean over an impact may be far
-        // outside.
+        // The scale follows the curves: the mean over an impact may be far outside.
         let (low, high) = lambdas
             .filter(|lambda| lambda.is_finite())
             .fold((0.0_f64, 0.0_f64), |(a, b), v| (a.min(v), b.max(v)));
