@@ -1,6 +1,6 @@
 #!/bin/sh
 # The Slurm job array of the README on a real Slurm: one node on the loopback
-# interface, in a temporary directory, with daemons of its own. The parts it
+# interface, in a temporary directory, with its daemons started here. The parts it
 # computes must merge to the bytes of a single run.
 #
 #   tests/slurm.sh [path of rubscope, by default target/release or target/debug]
@@ -19,7 +19,7 @@ case $program in /*) ;; *) program=$PWD/$program ;; esac
 
 PATH=$PATH:/usr/sbin:/sbin
 missing() { ! command -v slurmctld || ! command -v slurmd || ! command -v munged; }
-[ "$(id -u)" = 0 ] || skip "the daemons of Slurm want to be started by root"
+[ "$(id -u)" = 0 ] || skip "the daemons of Slurm must be started by root"
 if missing > /dev/null; then
     command -v apt-get > /dev/null || skip "slurm-wlm and munge are not installed, and there is no apt-get"
     DEBIAN_FRONTEND=noninteractive apt-get install -y slurm-wlm munge > /dev/null 2>&1
@@ -91,7 +91,7 @@ node=$!
 is_idle() { [ "$(sinfo --noheader --format=%t)" = idle ]; }
 await is_idle || skip "Slurm does not start: $(grep -h -E 'error|fatal' "$work/slurmctld.log" "$work/slurmd.log" | head -1)"
 
-# The job of the README, as it stands there, and its options without the share.
+# The job of the README, unchanged, and its options without the share.
 cd "$work/job" || fail "no directory for the job"
 awk '/^```sh$/ { text = ""; inside = 1; next }
      /^```$/   { if (inside && text ~ /^#!\/bin\/sh\n#SBATCH/) { printf "%s", text; exit } inside = 0 }

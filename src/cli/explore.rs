@@ -69,7 +69,7 @@ impl ExploreCommand {
         }
     }
 
-    /// A command after options is read as a scene: say what was meant.
+    /// A command after options is read as a scene: explain the right order.
     fn refuse_command(&self) -> Result<(), Refusal> {
         let name = self.options.name().unwrap_or_default();
         if Cli::command().get_subcommands().any(|command| command.get_name() == name) {

@@ -1,4 +1,4 @@
-//! `rubscope figures`: the paper's Figs. 4 to 10, remade as SVG with their
+//! `rubscope figures`: the paper's Figs. 4 to 10, reproduced as SVG with their
 //! data as CSV.
 
 use std::path::{Path, PathBuf};
@@ -13,19 +13,19 @@ use crate::report::{figure::table, file, svg};
 use crate::scene::{CheckedScene, Scene};
 use crate::study::figures::{Figure, NUMBERS, Scenes, figure};
 
-/// Remake the paper's Figs. 4 to 10 as SVG, with their data as CSV.
+/// Reproduce the paper's Figs. 4 to 10 as SVG, with their data as CSV.
 ///
 /// Without a SCENE, Figs. 4 to 7 show a motion that locks late, as in the
 /// paper: without casing damping, with unilateral contact, and with a pulse
-/// that the paper does not print. With a SCENE, that is the scene of every
-/// figure, with four nodal diameters in Fig. 7. Other options change every
-/// figure. Fig. 4 has its own time steps, Fig. 8 its own contact laws and
-/// pulses, and Figs. 8 to 10 range from standstill to the speed of the scene.
+/// that the paper does not give. With a SCENE, every figure uses it, with four
+/// nodal diameters in Fig. 7. Other options change every figure. Fig. 4 has its
+/// own time steps, Fig. 8 its own contact laws and pulses, and Figs. 8 to 10
+/// range from standstill to the speed of the scene.
 #[derive(Args, Debug)]
 pub struct FiguresCommand {
     #[command(flatten)]
     options: SceneOptions,
-    /// Directory of the files; made where there is none
+    /// Directory of the files; created if missing
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     /// Only these figures, such as 4,9

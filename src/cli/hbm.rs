@@ -15,13 +15,13 @@ use super::{Done, output};
 use crate::harmonic::{Form, Sweep};
 use crate::report::{hbm as report, json};
 
-/// Speeds of a sweep when none are asked for.
+/// Default number of speeds of a sweep.
 const SPEEDS: usize = 51;
 /// Locked motion against speed, by harmonic balance.
 ///
-/// `--speed FROM:TO:COUNT` sweeps the speed; a single speed gives one point,
-/// none the range from standstill to the speed of the scene. Without one of
-/// the views below, the locked motion itself is shown.
+/// `--speed FROM:TO:COUNT` sweeps the speed; a single speed gives one point;
+/// without it the range is from standstill to the speed of the scene. Without
+/// one of the views below, the locked motion itself is shown.
 #[derive(Args, Debug)]
 pub struct HbmCommand {
     #[command(flatten)]
@@ -36,31 +36,32 @@ pub struct HbmCommand {
     /// The two blades that hold the wave, phase neighbours [default: 6,21 where they are]
     #[arg(long, value_name = "I,J", allow_hyphen_values = true)]
     blades: Option<String>,
-    /// HbmView: every equilibrium, its stability, and the thresholds of each branch
+    /// View: every equilibrium, its stability, and the thresholds of each branch
     #[arg(long, group = "view")]
     branches: bool,
-    /// HbmView: the corner branch followed through its fold (very soft blades)
+    /// View: the corner branch followed through its fold (very soft blades)
     #[arg(long, group = "view")]
     fold: bool,
-    /// HbmView: lasting slip, the fixed point of the map from corner to corner
+    /// View: lasting slip, the fixed point of the map from corner to corner
     #[arg(long, group = "view")]
     slip: bool,
-    /// With --slip: where slip lives over damping ratios of the casing too
+    /// With --slip: also the speeds where slip exists over damping ratios of
+    /// the casing
     #[arg(long, value_name = "FROM:TO:COUNT", requires = "slip", allow_hyphen_values = true)]
     zetas: Option<String>,
-    /// HbmView: Fourier series of slip and what is left out with up to COUNT harmonics
+    /// View: Fourier series of slip and what is left out with up to COUNT harmonics
     #[arg(long, group = "view", value_name = "COUNT", num_args = 0..=1, default_missing_value = "16")]
     harmonics: Option<u32>,
-    /// HbmView: frequencies against speed, engine orders, and the coincidences (30)
+    /// View: frequencies against speed, engine orders, and the coincidences (30)
     #[arg(long, group = "view")]
     campbell: bool,
-    /// HbmView: response of the damped lock to the scene's engine-order excitation
+    /// View: response of the damped lock to the scene's engine-order excitation
     #[arg(long, group = "view")]
     excitation: bool,
     /// Print everything as JSON (rubscope.hbm/1)
     #[arg(long)]
     json: bool,
-    /// Write the table with every figure to FILE (.csv)
+    /// Write the table with every number to FILE (.csv)
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
 }

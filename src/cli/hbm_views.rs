@@ -1,5 +1,5 @@
-//! The views of `rubscope hbm`: each computes, and gives back its JSON, its
-//! tables for people and the table for a file.
+//! The views of `rubscope hbm`: each computes its JSON, its tables to read and
+//! the table for a file.
 
 use super::status::Refusal;
 use crate::harmonic::{
@@ -15,7 +15,7 @@ use crate::scene::Scene;
 
 /// Arc length between points of a branch followed through its fold.
 const ARC: f64 = 0.05;
-/// Engine-order lines drawn beside those of the scene.
+/// Engine-order lines drawn in addition to those of the scene.
 const ORDERS: [u32; 4] = [1, 2, 3, 4];
 
 /// What is looked at.
@@ -26,9 +26,9 @@ pub(super) enum HbmView {
     Branches,
     /// The corner branch through its fold.
     Fold,
-    /// Slip, and where there is any over these damping ratios.
+    /// Slip, and the speeds where it exists over these damping ratios.
     Slip(Vec<f64>),
-    /// The Fourier series of slip with so many harmonics.
+    /// The Fourier series of slip with this many harmonics.
     Harmonics(u32),
     /// Campbell data.
     Campbell,
@@ -36,7 +36,7 @@ pub(super) enum HbmView {
     Excitation,
 }
 
-/// On what, and how.
+/// The input of a view.
 pub(super) struct Asked<'a> {
     pub scene: &'a Scene,
     pub speeds: &'a [f64],
@@ -45,7 +45,7 @@ pub(super) struct Asked<'a> {
     pub pair: Option<[u32; 2]>,
 }
 
-/// What a view has to say: JSON, tables with their titles, the table for files.
+/// The result of a view: JSON, tables with their titles, the table for files.
 pub(super) struct Answer {
     pub json: HbmReport,
     pub tables: Vec<(String, Table)>,
@@ -103,7 +103,7 @@ fn corner(asked: &Asked, machine: &Machine) -> Result<Corner, Refusal> {
     corner.map_err(refused)
 }
 
-/// What has no meaning is refused input, not a failure.
+/// An input that has no meaning is refused input, not a failure.
 fn refused(error: HarmonicError) -> Refusal {
     let message = error.to_string();
     // The option as typed, where the library names the argument.
@@ -192,7 +192,7 @@ fn slipping(
             });
         }
         json = json.with("slip_region", &region);
-        let title = "Where slip lives between these speeds:".to_string();
+        let title = "Where slip exists between these speeds:".to_string();
         tables.push((title, report::region_table(&region)));
     }
     Ok(Answer::of(json, tables))
@@ -256,7 +256,7 @@ fn folding(
             short(fold.opening_rad),
             short(machine.polygon.delta)
         ),
-        None => "The corner branch does not fold: the blades are as good as rigid.".to_string(),
+        None => "The corner branch does not fold: the blades are practically rigid.".to_string(),
     };
     let tables = vec![(title, report::corner_table(&branch))];
     Ok(Answer::of(json.with("fold", report::fold(&branch)), tables))

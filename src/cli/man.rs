@@ -1,5 +1,5 @@
-//! `rubscope man`: the manual pages, made from the same definition as the
-//! command line itself, with what that cannot know added here.
+//! `rubscope man`: the manual pages, made from the definition of the command
+//! line, with some sections added here.
 
 use std::io::Write;
 
@@ -52,7 +52,7 @@ fn page_of(whole: &clap::Command, name: &str) -> Result<clap::Command, Refusal> 
     })
 }
 
-/// What each exit status means.
+/// The meaning of each exit status.
 const EXIT_STATUS: &[(&str, &str)] = &[
     ("0", "Done."),
     ("1", "Failed: a file could not be written, or the computation broke down."),
@@ -60,15 +60,15 @@ const EXIT_STATUS: &[(&str, &str)] = &[
     ("128+n", "Ended by signal n."),
 ];
 
-/// What the explorer takes from its surroundings.
+/// The environment variables that the explorer reads.
 const ENVIRONMENT: &[(&str, &str)] = &[
-    ("NO_COLOR", "Not empty: no colours, unless --color says otherwise; bold and reverse stay."),
-    ("TERM", "dumb: there is no explorer; the other commands do not care."),
+    ("NO_COLOR", "Not empty: no colours, unless --color is given; bold and reverse are kept."),
+    ("TERM", "dumb: the explorer does not start; the other commands work as usual."),
 ];
 
 const EXAMPLES: &[(&str, &str)] = &[
     ("rubscope", "Open the explorer on the default scene."),
-    ("rubscope run adhesive", "Simulate a built-in scene and say how it ends."),
+    ("rubscope run adhesive", "Simulate a built-in scene and report how it ends."),
     (
         "rubscope run --contact unilateral --speed -430 --json",
         "The default scene with contact that only pushes, the rotor turning the other way, as JSON.",
@@ -82,7 +82,7 @@ const EXAMPLES: &[(&str, &str)] = &[
     ),
 ];
 
-/// The sections that the definition of the command line does not hold.
+/// The sections that are not in the definition of the command line.
 fn added() -> Roff {
     let mut page = Roff::new();
     page.control("SH", ["SCENES"]);

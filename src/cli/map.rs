@@ -1,7 +1,7 @@
 //! `rubscope map`: how the motion lasts over two quantities of a scene.
 //!
-//! What is computed is never lost: with `--out` or `--resume` cells are noted
-//! in a part file as they come, Ctrl-C keeps them and says how to go on, and a
+//! Computed cells are never lost: with `--out` or `--resume` they are saved in
+//! a part file at once, Ctrl-C keeps them and prints how to continue, and a
 //! result that cannot be written goes to standard output instead.
 
 use std::fs::File;
@@ -22,7 +22,7 @@ use crate::study::{Axis, AxisError, Map, MapPlan, Shard, overlay, part};
 /// Columns and rows of a map by default: steps of 10 rad/s and 50 kN.
 const COLUMNS: u32 = 51;
 const ROWS: u32 = 21;
-/// Width of a map where standard output is no terminal.
+/// Width of a map if standard output is not a terminal.
 const WIDTH: usize = 115;
 
 /// Map how the motion lasts over pulse and speed, or any two keys.
@@ -39,10 +39,10 @@ pub struct MapCommand {
     /// Rows, in the same form [default: the pulse]
     #[arg(long, value_name = "AXIS", conflicts_with = "pulse")]
     y: Option<String>,
-    /// Coarse cells first, then only beside another verdict, down to every cell
+    /// Coarse cells first, then only next to another verdict, down to single cells
     #[arg(long, conflicts_with = "shard")]
     adaptive: bool,
-    /// Do not look for sensitive cells: a quarter of the runs
+    /// Do not look for sensitive cells: takes a quarter of the runs
     #[arg(long)]
     no_sensitivity: bool,
     /// Number of threads [default: every core]
@@ -51,7 +51,7 @@ pub struct MapCommand {
     /// Compute only share K of COUNT, counted from 1, into --out FILE.part
     #[arg(long, value_name = "K/COUNT", requires = "out")]
     shard: Option<String>,
-    /// Go on from the cells in FILE, and note new ones there
+    /// Continue from the cells in FILE, and save new ones there
     #[arg(long, value_name = "FILE")]
     resume: Option<PathBuf>,
     #[command(flatten)]
@@ -106,7 +106,7 @@ impl MapCommand {
             return Ok(Status::Signal(signal));
         }
         self.result.deliver(&map, out)?;
-        // Its cells are in the result now.
+        // The result now has its cells.
         if let (Some(file), Some(_)) = (&kept.part, &self.result.out) {
             let _ = std::fs::remove_file(file);
         }
@@ -138,8 +138,8 @@ impl MapCommand {
         Ok(plan)
     }
 
-    /// The map to go on from: that of `--resume`, or what an earlier run of the
-    /// same command left.
+    /// The map to continue: that of `--resume`, or the one left by an earlier
+    /// run of the same command.
     fn start(&self, empty: Map) -> anyhow::Result<Map> {
         let Some(path) = self.part_file().filter(|path| path.exists()) else {
             return Ok(empty);
@@ -162,7 +162,7 @@ impl MapCommand {
             .ok_or_else(|| Refusal::of("--shard", text, "K/COUNT with K from 1 to COUNT"))
     }
 
-    /// Where cells are noted as they come.
+    /// Where cells are saved as soon as they are known.
     fn part_file(&self) -> Option<PathBuf> {
         self.resume.clone().or_else(|| {
             let mut name = self.result.out.clone()?.into_os_string();

@@ -1,5 +1,5 @@
 //! The computation behind `rubscope map`: threads, progress, signals, and the
-//! part file that keeps every cell from the moment it is known.
+//! part file that saves every cell as soon as it is known.
 
 use std::fs::{File, OpenOptions};
 use std::io::Write;
@@ -15,16 +15,16 @@ use super::output;
 use super::status::say;
 use crate::study::{Cell, Map, Progress, part};
 
-/// How often the bar and the signals are looked at.
+/// How often the bar and the signals are checked.
 const LOOK: Duration = Duration::from_millis(100);
 
-/// How a map is to be computed and kept.
+/// How a map is computed and saved.
 pub(super) struct Kept {
-    /// Refine only beside changes.
+    /// Refine only next to changes.
     pub adaptive: bool,
     /// Number of threads.
     pub threads: Option<usize>,
-    /// Where cells are noted as they come.
+    /// Where cells are saved as soon as they are known.
     pub part: Option<PathBuf>,
 }
 
@@ -69,7 +69,7 @@ pub(super) fn compute(
     });
     let trouble = notes.and_then(Notes::close);
     if let Some((path, error)) = &trouble {
-        say(&format!("rubscope: could not note cells in {}: {error}", path.display()));
+        say(&format!("rubscope: could not save cells in {}: {error}", path.display()));
     }
     match signal.load(Ordering::Relaxed) {
         0 => {
@@ -85,18 +85,18 @@ pub(super) fn compute(
     }
 }
 
-/// What an adaptive map cost against all of its cells.
+/// The cost of an adaptive map, compared with all its cells.
 fn say_what_was_saved(map: &Map) {
     let (runs, cells, stride) = (map.runs, map.cells.len() as u64, map.coarsest_stride());
     let saved = cells.saturating_sub(runs);
     let percent = 100 * saved / cells.max(1);
     say(&format!(
-        "rubscope: {runs} runs for {cells} cells, {saved} ({percent} %) saved; begun with 1 of \
+        "rubscope: {runs} runs for {cells} cells, {saved} ({percent} %) saved; started with 1 of \
          {stride} columns and rows, every border between verdicts run to the cell"
     ));
 }
 
-/// Where cells go if no file was named: never over those of another run.
+/// Where cells go if no file was named; never overwrites those of another run.
 fn unused_name() -> PathBuf {
     let path = PathBuf::from("rubscope-map.partial");
     if path.exists() {
@@ -106,8 +106,8 @@ fn unused_name() -> PathBuf {
     }
 }
 
-/// Keeps what is done and says how to go on. Without a part file that has all
-/// cells one is written; if that fails, the cells go to standard output.
+/// Saves what is done and prints how to continue. If no part file has all
+/// cells, one is written; if that fails, the cells go to standard output.
 fn stopped(map: &Map, complete: Option<&Path>, out: &mut dyn Write) -> anyhow::Result<()> {
     let path = complete.map_or_else(unused_name, Path::to_path_buf);
     let done = map.cells.iter().flatten().count();
@@ -127,7 +127,7 @@ fn stopped(map: &Map, complete: Option<&Path>, out: &mut dyn Write) -> anyhow::R
     Ok(())
 }
 
-/// Moves the bar and passes signals on, until the cells are done.
+/// Updates the bar and handles signals until the cells are done.
 fn watch(progress: &Progress, signal: &AtomicUsize, finished: &AtomicBool, cells: u64) {
     let bar = output::bar(cells, "{bar:30} {pos}/{len} cells, {per_sec}, {eta} left");
     while !finished.load(Ordering::Relaxed) {
@@ -140,15 +140,15 @@ fn watch(progress: &Progress, signal: &AtomicUsize, finished: &AtomicBool, cells
     bar.finish_and_clear();
 }
 
-/// The part file while cells come in.
+/// The part file during the computation.
 struct Notes {
     path: PathBuf,
     file: Mutex<(File, Option<std::io::Error>)>,
 }
 
 impl Notes {
-    /// Writes the file again with the cells that are known, so that a line
-    /// cut short by a kill is gone.
+    /// Writes the file again with the known cells, which removes a line that a
+    /// kill left incomplete.
     fn open(path: &Path, map: &Map) -> anyhow::Result<Self> {
         let cannot = || format!("cannot write {}", path.display());
         crate::report::file::replace(path, |out| part::write(map, out)).with_context(cannot)?;
@@ -160,13 +160,13 @@ impl Notes {
         self.file.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Notes one cell. A full disk must not stop the computation: the first
-    /// error is kept and told at the end.
+    /// Saves one cell. A full disk must not stop the computation: the first
+    /// error is stored and reported at the end.
     fn keep(&self, index: usize, cell: Cell) {
         let mut guard = self.lock();
         let (file, trouble) = &mut *guard;
         if trouble.is_none() {
-            // One write a line: a run that is killed leaves whole lines.
+            // One write per line: a run that is killed leaves whole lines.
             let mut line = Vec::with_capacity(24);
             let written = part::write_cell(index, cell, &mut line);
             *trouble = written.and_then(|()| file.write_all(&line)).err();

@@ -28,7 +28,7 @@ use clap::{Parser, Subcommand};
 
 use status::Status;
 
-/// What a command gives back: how it ended, or why it could not be done.
+/// The result of a command: how it ended, or why it could not run.
 pub type Done = anyhow::Result<Status>;
 
 /// See a flexible bladed disk rub against its flexible casing.

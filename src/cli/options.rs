@@ -64,10 +64,10 @@ pub struct Swept {
     pub pulse: bool,
 }
 
-/// A scene ready to be used, with the ranges that were asked for.
+/// A checked scene, and the ranges among the options.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Resolved {
-    /// The scene, checked; a swept key holds the first value of its range.
+    /// The checked scene; a swept key has the first value of its range.
     pub scene: CheckedScene,
     /// The range given with `--speed`.
     pub speeds: Option<Range>,
@@ -88,8 +88,8 @@ impl SceneOptions {
         self.speed.is_some()
     }
 
-    /// The scene these options describe. A key that had to be changed to go with
-    /// them is named on standard error.
+    /// The scene that these options describe. A key that had to be changed to
+    /// fit them is named on standard error.
     ///
     /// # Errors
     /// No such scene, or the first key, value or combination that is refused.
@@ -106,7 +106,7 @@ impl SceneOptions {
         self.apply(scene, swept)
     }
 
-    /// Another scene than the one named, changed by these options.
+    /// The given scene, instead of the named one, changed by these options.
     ///
     /// # Errors
     /// As `scene`.

@@ -1,5 +1,5 @@
-//! What commands show and write beside their data: a progress bar, and files in
-//! the format that the ending of their name asks for.
+//! What commands show and write besides their data: a progress bar, and files
+//! in the format of their ending.
 
 use std::io::Write;
 use std::path::Path;
@@ -22,7 +22,7 @@ pub fn bar(length: u64, template: &str) -> ProgressBar {
 /// The ending of a file given with `--out`, which must be one of these.
 ///
 /// # Errors
-/// Another ending, or a place where no file can be.
+/// Another ending, or a path where no file can be written.
 pub fn format(path: &Path, endings: &[&'static str]) -> anyhow::Result<&'static str> {
     let given = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
     let Some(known) = endings.iter().find(|known| known.eq_ignore_ascii_case(given)) else {
@@ -39,10 +39,10 @@ pub fn format(path: &Path, endings: &[&'static str]) -> anyhow::Result<&'static 
     Ok(known)
 }
 
-/// Writes a file, all of it or nothing, and says what is in it.
+/// Writes a file, completely or not at all, and prints what is in it.
 ///
 /// # Errors
-/// What the system refuses.
+/// An error of the system.
 pub fn save(
     path: &Path,
     what: &str,

@@ -27,7 +27,7 @@ impl Range {
     /// Reads `FROM:TO:COUNT`, given for `name` (an option as typed).
     ///
     /// # Errors
-    /// Text of another form, ends that are no finite numbers, or a count
+    /// Text of another form, ends that are not finite numbers, or a count
     /// outside 1 to a million.
     pub fn parse(name: &str, text: &str) -> Result<Self, Refusal> {
         match parse_range(text) {

@@ -13,7 +13,7 @@ use super::{Done, output};
 use crate::motion::{Sampling, Verdict, is_sensitive_with, run_to_end};
 use crate::report::{History, json, npz, summary};
 
-/// Simulate a scene in time and tell how it ends.
+/// Simulate a scene in time and report how it ends.
 #[derive(Args, Debug)]
 pub struct RunCommand {
     #[command(flatten)]
@@ -68,7 +68,7 @@ impl RunCommand {
         } else {
             summary::write(&report, wall_s, out)?;
             if let Some(script) = changes {
-                writeln!(out, "Changed on the way: {script}.")?;
+                writeln!(out, "Changed during the run: {script}.")?;
             }
         }
         Ok(match report.outcome.verdict {

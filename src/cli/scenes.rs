@@ -21,7 +21,7 @@ impl ScenesCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
         match &self.name {
             Some(name) => {
-                // Checked through the same door as any use of the scene.
+                // Uses the same checks as every other command.
                 Scene::builtin(name)?;
                 let file = BUILTIN.iter().find(|scene| scene.name == name).map(|scene| scene.toml);
                 writeln!(out, "{}", file.unwrap_or_default().trim_end())?;

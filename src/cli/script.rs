@@ -1,10 +1,10 @@
-//! What is done to a motion that is under way: `--at TIME:PATH=VALUE` and
-//! `--at TIME:pulse`, by the rules of the explorer when its knobs act live, so
-//! that what was done on the screen can be repeated without one.
+//! Changes of a running motion: `--at TIME:PATH=VALUE` and `--at TIME:pulse`.
+//! The rules are those of live knobs in the explorer, so that changes made on
+//! the screen can be repeated without it.
 //!
-//! `parse` reads the options, `RequestedScript::resolve` checks them against a scene
-//! before anything is simulated, and `RequestedScript::changes` is what the motion goes
-//! through.
+//! `parse` reads the options, `RequestedScript::resolve` checks them against a
+//! scene before anything is simulated, and `RequestedScript::changes` gives the
+//! changes of the motion.
 
 use serde::{Serialize, Serializer};
 
@@ -16,12 +16,12 @@ use crate::study::overlay::SPEED;
 
 /// The option, as it is named in refusals.
 const OPTION: &str = "--at";
-/// What stands in place of a key to fire the pulse.
+/// The word in place of a key that fires the pulse.
 const PULSE: &str = "pulse";
 /// Key of the acceleration: every solver takes it, as it takes the speed.
 const RAMP: &str = "operation.speed_ramp_rad_s2";
-/// Keys, or tables of keys, that a running motion cannot take: those of its
-/// start, of its steps and its end, of the polygon, and those for readers.
+/// Keys, or tables of keys, that cannot change in a running motion: initial
+/// state, time step, end, polygon, and the texts for readers.
 const FIXED: [&str; 12] = [
     "title",
     "note",
@@ -37,7 +37,7 @@ const FIXED: [&str; 12] = [
     "solver.end_s",
 ];
 
-/// One thing done to a running motion.
+/// One change of a running motion.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RequestedChange {
     /// Fires the pulse.
@@ -60,8 +60,8 @@ impl std::fmt::Display for RequestedChange {
     }
 }
 
-/// Reads the options into changes in order of time \[s\]; those of one instant
-/// keep the order in which they were given.
+/// Reads the options into changes in order of time \[s\]; changes at the same
+/// time stay in the given order.
 ///
 /// # Errors
 /// An option of another form.
@@ -85,18 +85,18 @@ fn parse_one(text: &str) -> Result<(f64, RequestedChange), Refusal> {
         None if change.trim() == PULSE => RequestedChange::Pulse,
         None => return Err(form()),
     };
-    // A sum with zero, so that -0 and 0 are one instant.
+    // Adding zero makes -0 and 0 the same time.
     Ok((time + 0.0, change))
 }
 
-/// A change, checked, with the scene as it is from then on.
+/// A checked change, and the scene after it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RequestedStep {
     /// When \[s\].
     pub t_s: f64,
-    /// What was asked.
+    /// The requested change.
     pub change: RequestedChange,
-    /// The scene from then on.
+    /// The scene after it.
     pub scene: CheckedScene,
     /// What happens to the motion.
     acts: Vec<motion::Change>,
@@ -127,7 +127,7 @@ impl RequestedStep {
         }
         let mut acts = motion::Change::between(before, &scene);
         if path == SPEED && before.operation.speed_rad_s == scene.operation.speed_rad_s {
-            // The same speed again is a change where the rotor ramps.
+            // Setting the same speed again is a change if the rotor ramps.
             let (speed, ramp) =
                 (Some(scene.operation.speed_rad_s), scene.operation.speed_ramp_rad_s2);
             acts.insert(0, motion::Change::Rotor { speed, ramp });
@@ -145,7 +145,7 @@ fn acts_live(path: &str, scene: &CheckedScene) -> bool {
         || (scene.solver.kind == SolverKind::Explicit && !FIXED.iter().any(fixed))
 }
 
-/// What can act on a running motion of this scene, for a refusal.
+/// What can act on a running motion of this scene, for error messages.
 fn live_keys(scene: &CheckedScene) -> String {
     let keys: Vec<&str> =
         KEYS.iter().map(|key| key.path).filter(|path| acts_live(path, scene)).collect();
@@ -159,7 +159,7 @@ pub struct RequestedScript(Vec<RequestedStep>);
 
 impl RequestedScript {
     /// Checks changes, in order of time, on the scene that the motion starts
-    /// with; each sees the scene that those before it left.
+    /// with; each is checked on the scene after those before it.
     ///
     /// # Errors
     /// The first change that is refused: a time outside the run, a key that
@@ -177,13 +177,13 @@ impl RequestedScript {
         Ok(Self(steps))
     }
 
-    /// Whether nothing is done.
+    /// Whether there are no changes.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// What the motion goes through.
+    /// The changes of the motion.
     #[must_use]
     pub fn changes(&self) -> motion::Script {
         let acts =

@@ -8,18 +8,18 @@ use thiserror::Error;
 
 use crate::scene::SceneError;
 
-/// How a command that could be carried out ended.
+/// How a command ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
-    /// It did what was asked.
+    /// Success.
     Done,
-    /// It was carried out, and what it computed failed; the output says why.
+    /// It ran, but the computation failed; the output gives the reason.
     Failed,
     /// It was ended by this signal.
     Signal(u8),
 }
 
-/// Input that is refused beyond the scene itself, in one line.
+/// Input other than the scene that is refused, in one line.
 #[derive(Debug, Error)]
 #[error("{0}")]
 pub struct Refusal(String);
@@ -30,13 +30,13 @@ impl Refusal {
         Self(format!("{name} = {value}: allowed is {allowed}"))
     }
 
-    /// A refusal in the words of its reason.
+    /// A refusal with this reason.
     pub fn because(reason: impl Into<String>) -> Self {
         Self(reason.into())
     }
 }
 
-/// SIGPIPE, by the number it has on every Unix.
+/// SIGPIPE, which has this number on every Unix.
 const BROKEN_PIPE: u8 = 13;
 
 /// The exit status of a command, after its message if it has one.
@@ -49,7 +49,7 @@ pub fn exit(done: super::Done) -> u8 {
     };
     let closed = |error: &std::io::Error| error.kind() == ErrorKind::BrokenPipe;
     if error.downcast_ref::<std::io::Error>().is_some_and(closed) {
-        // The reader of the output has closed it: end as by SIGPIPE, silently.
+        // The reader closed the output: end silently, as by SIGPIPE.
         return 128 + BROKEN_PIPE;
     }
     say(&format!("rubscope: {error:#}"));

@@ -1,5 +1,5 @@
-//! Words that a shell completes, for options and arguments whose text the
-//! scene, or the command, judges itself.
+//! Words for shell completion, for options and arguments that the scene or the
+//! command checks itself.
 
 use std::ffi::OsStr;
 
@@ -9,7 +9,7 @@ use strum::VariantNames;
 
 use crate::scene::BUILTIN;
 
-/// Takes any text, and lets a shell offer these words.
+/// Accepts any text; the shell offers these words.
 #[derive(Clone, Debug)]
 pub struct Words(Vec<&'static str>);
 

@@ -1,5 +1,5 @@
-//! The branches of equilibria over speed, and the speeds where one appears,
-//! vanishes, becomes tensile or changes its stability.
+//! The branches of equilibria over speed, and the speeds where a branch
+//! appears, vanishes, becomes tensile or changes its stability.
 
 use serde::Serialize;
 
@@ -67,8 +67,8 @@ impl Branches {
     }
 }
 
-/// The changes of `what` between two speeds, as far as bisection sees them:
-/// the speed, and what it is below and above.
+/// The changes of `what` between two speeds, as far as bisection finds them:
+/// the speed, and the values below and above.
 pub(super) fn changes<T: Copy + PartialEq>(
     low: f64,
     high: f64,
@@ -78,7 +78,7 @@ pub(super) fn changes<T: Copy + PartialEq>(
     let (mut start, mut before, last) = (low, what(low)?, what(high)?);
     while before != last && found.len() < BRANCH_CHANGES {
         let (mut below, mut above, mut after) = (start, high, last);
-        // Halving a double's interval 200 times ends at neighbouring numbers.
+        // Halving an interval 200 times ends at neighbouring doubles.
         for _ in 0..200 {
             let middle = 0.5 * (below + above);
             if middle <= below || middle >= above {
@@ -92,8 +92,8 @@ pub(super) fn changes<T: Copy + PartialEq>(
             }
         }
         match found.last_mut() {
-            // Something that is so at a single speed only, as the side's push
-            // that is infinite at the critical speed itself, is no branch.
+            // A state at a single speed is not a branch, such as the side at
+            // the critical speed, where its push is infinite.
             Some(last) if above - last.0 <= 4.0 * f64::EPSILON * above.abs() => last.2 = after,
             _ => found.push((above, before, after)),
         }

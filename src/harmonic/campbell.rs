@@ -18,7 +18,7 @@ pub struct Line {
 }
 
 impl Line {
-    /// Frequency at a rotor speed \[rad/s\]; negative is a wave that turns
+    /// Frequency at a rotor speed \[rad/s\]; negative for a wave that turns
     /// backward in the standing frame.
     #[must_use]
     pub fn at(&self, speed: f64) -> f64 {
@@ -63,7 +63,7 @@ impl Campbell {
     /// ```
     ///
     /// # Errors
-    /// No nodal diameters, hence no travelling waves.
+    /// No nodal diameters, so no travelling waves.
     pub fn of(machine: &Machine, orders: &[u32]) -> Result<Self, HarmonicError> {
         let n_d = machine.nodal_diameters;
         if n_d == 0.0 {

@@ -1,5 +1,5 @@
-//! How casing and blades stand in the blade frame: the point `z` and the two
-//! blade modes, in numbers of order one; from them every contact and gap.
+//! The configuration of casing and blades in the blade frame: the point `z` and the
+//! two blade modes, in numbers of order one. They determine every contact and gap.
 
 use super::stability::ClosedSide;
 use crate::model::ContactPolygon;
@@ -56,8 +56,8 @@ impl Configuration {
         1.0 + self.z.0 * c + self.z.1 * s
     }
 
-    /// Smallest gap over `g0` of the sides not in `contacts`; infinite with
-    /// none left.
+    /// Smallest gap over `g0` of the sides not in `contacts`; infinite if there
+    /// are none.
     pub fn smallest_gap(&self, polygon: &ContactPolygon, contacts: &[u32]) -> f64 {
         (0..polygon.sides)
             .filter(|side| !contacts.contains(side))

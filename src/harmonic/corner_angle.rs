@@ -1,7 +1,7 @@
-//! A corner whose blades bend, exactly: one equation for its corner angle.
+//! A corner with flexible blades, exactly: one equation for its corner angle.
 //!
-//! Let the contacting blades stand `2 Delta` apart in phase, `2 delta` before
-//! they bend. Then `|z| = g0/cos Delta`, the moment arms are `-+tan Delta`, and the
+//! Let the contacting blades be `2 Delta` apart in phase, `2 delta` when unbent.
+//! Then `|z| = g0/cos Delta`, the moment arms are `-+tan Delta`, and the
 //! multipliers are those of the closed form with `Delta` for `delta`. Their sum
 //! is `kappa/cos^2 Delta` whatever the damping, and the two blade modes give
 //!
@@ -42,7 +42,7 @@ impl CornerAngle {
     /// blades; `None` beyond its fold.
     pub fn at(&self, kappa: f64) -> Option<f64> {
         let mut angle_change = 0.0;
-        // Steps shrink, to half at worst (at the fold), until they are rounding.
+        // Steps shrink at least by half (at the fold), until they are rounding.
         let mut last = f64::INFINITY;
         for _ in 0..100 {
             let angle = self.delta + angle_change;
@@ -71,9 +71,9 @@ impl CornerAngle {
         None
     }
 
-    /// The change of the corner angle \[rad\] between two others where `kappa` is this, by
-    /// halving: also next to the fold, where Newton's method has no slope, and
-    /// behind it. `kappa` must change one way only between the two.
+    /// The change of the corner angle \[rad\] between two others where `kappa`
+    /// is this, by halving: also next to the fold, where Newton's method has no
+    /// slope, and behind it. `kappa` must be monotonic between the two.
     pub fn between(&self, kappa: f64, [mut near, mut far]: [f64; 2]) -> f64 {
         let at = |angle_change| self.kappa(angle_change).map_or(f64::NAN, |(kappa, _)| kappa);
         let grows = at(near) < at(far);
@@ -92,8 +92,8 @@ impl CornerAngle {
         middle
     }
 
-    /// `kappa` at a change of the corner angle, and its slope; `None` for blades so stiff that
-    /// the corner cannot open so far.
+    /// `kappa` at a change of the corner angle, and its slope; `None` if the
+    /// blades are too stiff for such an opening.
     pub fn kappa(&self, angle_change: f64) -> Option<(f64, f64)> {
         if self.compliance < AS_GOOD_AS_RIGID {
             return None;
@@ -105,7 +105,8 @@ impl CornerAngle {
         (kappa.is_finite() && slope.is_finite()).then_some((kappa, slope))
     }
 
-    /// The change of the corner angle at the fold \[rad\]: a matter of `delta` alone.
+    /// The change of the corner angle at the fold \[rad\]: it depends on
+    /// `delta` alone.
     pub fn at_fold(&self) -> f64 {
         let (mut below, mut above) = (0.0, FRAC_PI_2 - self.delta);
         for _ in 0..60 {
@@ -134,7 +135,8 @@ mod tests {
             for part in [-3.0, -0.5, 0.0, 1e-9, 0.1, 0.5, 0.9, 0.999] {
                 let angle_change = corner_angle.at(part * limit).unwrap();
                 let (back, _) = corner_angle.kappa(angle_change).unwrap();
-                // Next to the fold an angle's rounding counts a hundredfold.
+                // Next to the fold the rounding of an angle is amplified a
+                // hundred times.
                 assert!((back - part * limit).abs() <= 1e-13 * limit.abs());
                 assert_eq!(angle_change > 0.0, part > 0.0);
             }

@@ -1,11 +1,10 @@
-//! Eigenvalues of small dense matrices, in bounded work.
+//! Eigenvalues of small dense matrices, with bounded work.
 //!
-//! The QR iteration of nalgebra has no exceptional shifts, and takes a coupling
-//! for small only next to the diagonal, which is zero where motions neither grow
-//! nor decay: on some matrices it never ends. So the iteration is written out
-//! here, after LAPACK's `dlahqr`: Francis' double shifts on a balanced Hessenberg
-//! matrix, exceptional ones where these stall, and a last resort where rounding
-//! keeps a coupling from vanishing.
+//! The QR iteration of nalgebra has no exceptional shifts, and it compares a
+//! coupling only with the diagonal, which is zero for motions that neither grow nor
+//! decay: on some matrices it never ends. This iteration follows LAPACK's `dlahqr`:
+//! Francis' double shifts on a balanced Hessenberg matrix, exceptional shifts if
+//! these stall, and a larger tolerance if rounding keeps a coupling from vanishing.
 
 use crate::tolerances::{QR_EXCEPTIONAL, QR_LAST_RESORT, QR_STEPS};
 use nalgebra::linalg::balancing::balance_parlett_reinsch;
@@ -15,14 +14,14 @@ use nalgebra::{Complex, DMatrix, Hessenberg};
 /// finite number or the iteration does not settle.
 pub(super) fn eigenvalues(mut matrix: DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
     let size = matrix.amax();
-    // Not seen by the largest entry: a comparison with NaN is false.
+    // The largest entry misses NaN, because a comparison with it is false.
     if !matrix.iter().all(|entry| entry.is_finite()) {
         return None;
     }
     if size == 0.0 || matrix.nrows() < 2 {
         return Some(matrix.diagonal().iter().map(|&value| value.into()).collect());
     }
-    // Balancing squares the entries: of order one they cannot overflow.
+    // Balancing squares the entries; scaled to order one they cannot overflow.
     matrix /= size;
     balance_parlett_reinsch(&mut matrix);
     let mut iteration = Iteration { h: Hessenberg::new(matrix).unpack_h() };
@@ -52,8 +51,8 @@ impl Iteration {
         Some(values)
     }
 
-    /// Iterates until the last row, or the last two, stand alone; where they
-    /// begin.
+    /// Iterates until the last row, or the last two, are decoupled; returns
+    /// their first row.
     fn deflate(&mut self, last: usize) -> Option<usize> {
         for iteration in 0..QR_STEPS {
             let whole = if iteration < QR_LAST_RESORT { 0.0 } else { self.h.amax() };
@@ -86,7 +85,7 @@ impl Iteration {
         if coupling > f64::EPSILON * beside {
             return false;
         }
-        // The test of Ahues and Tisseur, which spares graded matrices.
+        // The test of Ahues and Tisseur, which is accurate for graded matrices.
         let back = h[(row - 1, row)].abs();
         let (large, small) = (coupling.max(back), coupling.min(back));
         let apart = (above - here).abs();
@@ -112,7 +111,7 @@ impl Iteration {
         if one.im != 0.0 {
             return [one, other];
         }
-        // Of two real ones twice the one nearer to the last row.
+        // Of two real shifts, twice the one closer to the last entry.
         let nearer = if (one.re - d).abs() <= (other.re - d).abs() { one } else { other };
         [nearer, nearer]
     }

@@ -11,10 +11,10 @@
 //! - rows 5, 8: `kappa u_cc + drag u_cs + sum Lambda C = 0`, the same for `u_ss, -u_sc`
 //! - rows 6, 7: `kappa u_cs - drag u_cc - sum Lambda S = 0`, the same for `-u_sc, u_ss`
 //!
-//! Half the differences of rows 5-8 say that the backward wave, `u_cc - u_ss`
-//! and `u_cs + u_sc`, vanishes; half their sums are one complex equation for
-//! `z`. So eight equations are six, and Newton is done on those; the residual
-//! reported is that of all eight.
+//! Half the differences of rows 5-8 give a zero backward wave, `u_cc - u_ss`
+//! and `u_cs + u_sc`; half their sums are one complex equation for `z`. So the
+//! eight equations reduce to six, which Newton's method solves; the reported
+//! residual is that of all eight.
 
 use nalgebra::{SMatrix, SVector};
 
@@ -55,8 +55,8 @@ pub(super) struct Scales {
     pub angle: f64,
     /// `n_d` times `angle`.
     pub softness: f64,
-    /// What the blade modes make of a torque on one blade: `2/N`, or `1/N`
-    /// where there is only one mode.
+    /// Response of the blade modes to a torque on one blade: `2/N`, or `1/N` if
+    /// there is only one mode.
     pub share: f64,
 }
 
@@ -79,12 +79,12 @@ pub(super) struct Equations {
     phases: [(f64, f64); 2],
     softness: f64,
     share: [[f64; 2]; 2],
-    /// With it the direction of a contact is exact in the blade angle; without
-    /// it expanded to first order, Eq. (26).
+    /// Whether the direction of a contact is exact in the blade angle, or
+    /// expanded to first order, Eq. (26).
     corner_angle: Option<CornerAngle>,
 }
 
-/// A contact as its blades stand: direction, its derivative by the scaled
+/// A contact at these blade angles: direction, its derivative by the scaled
 /// angle, and the moment arm `y C - x S`.
 struct Lever {
     cos: f64,
@@ -121,19 +121,19 @@ impl Equations {
         self.softness
     }
 
-    /// The same corner with blades a part as soft.
+    /// The same corner with this part of the softness of the blades.
     pub fn stiffened(&self, part: f64) -> Self {
         Self { softness: part * self.softness, ..self.clone() }
     }
 
-    /// Whether the start that is predicted is the solution itself.
+    /// Whether the predicted start is the solution itself.
     pub fn is_exact(&self) -> bool {
         self.corner_angle.is_some()
     }
 
-    /// Where Newton starts: for the exact form the closed form of the corner
-    /// with its bent blades, for the others that of rigid blades. `None` where
-    /// the exact branch has folded back.
+    /// The start of Newton's method: for the exact form the closed form of the
+    /// corner with its bent blades, for the others that of rigid blades. `None`
+    /// if the exact branch has folded back.
     pub fn predict(&self, wave: Wave) -> Option<Unknowns> {
         match self.corner_angle {
             None => Some(self.opened(wave, 0.0)),
@@ -141,8 +141,8 @@ impl Equations {
         }
     }
 
-    /// The closed form with the blades as far apart as if each side had been
-    /// turned by `-+change of the corner angle` \[rad\]: moment arms, multipliers, blade angles, and `z`.
+    /// The closed form with each side turned by `-+change of the corner angle`
+    /// \[rad\]: moment arms, multipliers, blade angles, and `z`.
     pub fn opened(&self, wave: Wave, angle_change: f64) -> Unknowns {
         let [(c_a, s_a), (c_b, s_b)] = self.phases;
         // c_a + c_b = 2 cos(delta) cos(middle phase), and so for the sines.
@@ -155,7 +155,7 @@ impl Equations {
         let multipliers = [(stiff - drag) / (2.0 * cos), (stiff + drag) / (2.0 * cos)];
         let torque = [-multipliers[0] * tangent, multipliers[1] * tangent];
         let alpha = self.share.map(|[to_a, to_b]| -(to_a * torque[0] + to_b * torque[1]));
-        // The expansion (26) turns by its first order; so little as it is here.
+        // The expansion (26) is of first order, which is enough for such small turns.
         let middle = 0.5 * self.softness * (alpha[0] + alpha[1]);
         let (sin_middle, cos_middle) = middle.sin_cos();
         let size = -1.0 / (twice_cos * cos);

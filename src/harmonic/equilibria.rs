@@ -1,6 +1,6 @@
 //! Every equilibrium of the blade frame at a constant speed: rest, a side that
 //! holds the wave alone, and a corner. By symmetry one side and one corner
-//! stand for all `N'` of them.
+//! represent all `N'`.
 
 use nalgebra::Complex;
 use serde::Serialize;
@@ -17,7 +17,7 @@ use crate::model::Machine;
 #[serde(rename_all = "lowercase")]
 #[strum(serialize_all = "lowercase")]
 pub enum Kind {
-    /// Nothing: the casing at rest.
+    /// No contact: the casing at rest.
     Rest,
     /// One phase group.
     Side,
@@ -30,19 +30,19 @@ impl Kind {
     pub const ALL: [Self; 3] = [Self::Rest, Self::Side, Self::Corner];
 }
 
-/// Whether a real contact can hold an equilibrium, and if not, why.
+/// Whether a real contact can hold an equilibrium, or the reason why not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, AsRefStr)]
 #[serde(rename_all = "lowercase")]
 #[strum(serialize_all = "lowercase")]
 pub enum Character {
     /// There is no such equilibrium.
     Absent,
-    /// Some multiplier pulls: no contact holds it.
+    /// Some multiplier pulls: no real contact holds it.
     Pulls,
     /// Some multiplier pulls, but both predicted gaps close, so that the
     /// paper's equality algorithm holds it.
     Adhesive,
-    /// Another blade would stand inside the casing.
+    /// Another blade would be inside the casing.
     Penetrates,
     /// Admissible, but some motion that keeps the contacts grows.
     Unstable,
@@ -90,12 +90,12 @@ pub struct Equilibrium {
     pub smallest_gap_m: f64,
     /// Torque the rotor must give, `sum Lambda A` \[N m\].
     pub torque_nm: f64,
-    /// Power it takes; what the casing's damper takes, `d_c nu^2 |z|^2` \[W\].
+    /// Its power, equal to that of the casing's damper, `d_c nu^2 |z|^2` \[W\].
     pub power_w: f64,
     /// Largest real part of the eigenvalues \[1/s\].
     pub growth_per_s: f64,
-    /// Eigenvalues of the motion that keeps the contacts \[1/s\]; in reports
-    /// each is `[real, imaginary]`.
+    /// Eigenvalues of the motion that keeps the contacts \[1/s\]; `[real,
+    /// imaginary]` in reports.
     #[serde(serialize_with = "as_pairs")]
     pub eigenvalues_per_s: Vec<Complex<f64>>,
 }
@@ -171,8 +171,8 @@ pub fn equilibrium(
 type Loaded = ((f64, f64), Vec<(u32, f64, f64)>);
 
 /// One side holds the wave: `(kappa + i drag) z = -Lambda exp(i phi)` and a
-/// closed gap give `Lambda = (kappa^2 + drag^2)/kappa`, moment arm `drag/kappa`; the
-/// blade only turns the whole picture.
+/// closed gap give `Lambda = (kappa^2 + drag^2)/kappa`, moment arm
+/// `drag/kappa`; the blade angle only turns the frame.
 fn on_side(machine: &Machine, scales: &Scales, wave: Wave, side: u32) -> Option<Loaded> {
     let (kappa, drag) = (wave.kappa, wave.drag);
     let (multiplier, arm) =
@@ -195,7 +195,7 @@ fn in_corner(machine: &Machine, wave: Wave, side: u32) -> Option<Loaded> {
     Some(loads_of(machine, corner, &unknowns))
 }
 
-/// The loads behind a solution of the corner's equations.
+/// The loads of a solution of the corner's equations.
 pub(super) fn loads_of(machine: &Machine, corner: Corner, unknowns: &Unknowns) -> Loaded {
     let [x, y, lambda_a, lambda_b, alpha_a, alpha_b]: [f64; 6] = (*unknowns).into();
     let softness = Scales::of(machine).softness;

@@ -1,11 +1,11 @@
-//! Why a question about steady states was refused, each in one line that names
-//! the key, its value and what is allowed.
+//! Errors of the frequency domain, each in one line with the key, its value and
+//! what is allowed.
 
 use thiserror::Error;
 
 use crate::model::ContactPolygon;
 
-/// What has no meaning, or was not found, in the frequency domain.
+/// An input without meaning in the frequency domain, or a solution that was not found.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum HarmonicError {
     /// Fewer than three sides: neighbouring sides never meet.
@@ -37,7 +37,7 @@ pub enum HarmonicError {
         /// What would be accepted.
         allowed: String,
     },
-    /// A speed that is no number.
+    /// A speed that is not a finite number.
     #[error("speed = {0}: allowed is a finite number of rad/s")]
     Speed(f64),
     /// A parameter of the frequency domain out of bounds.
@@ -62,8 +62,8 @@ pub enum HarmonicError {
         /// `n_d^2 k_c g0^2/(m_b omega_bd^2)`.
         softness: f64,
     },
-    /// The eigenvalues of a motion about an equilibrium are beyond numbers, or
-    /// their iteration does not settle.
+    /// The eigenvalues of a motion about an equilibrium overflow, or their
+    /// iteration does not converge.
     #[error(
         "speed = {speed}: allowed is one where the eigenvalues of the motion about a steady state \
          can be computed; here its stiffnesses differ by too many powers of ten"
@@ -75,7 +75,7 @@ pub enum HarmonicError {
 }
 
 impl HarmonicError {
-    /// The refusal of a polygon without corners.
+    /// The error for a polygon without corners.
     pub(super) fn no_corner(polygon: &ContactPolygon) -> Self {
         Self::NoCorner {
             nodal_diameters: polygon.nodal_diameters,

@@ -1,10 +1,10 @@
-//! What an engine-order excitation of the blades does to a locked motion: the
-//! linear response about it, both contacts kept.
+//! The linear response of a locked motion to an engine-order excitation of the
+//! blades, with both contacts kept.
 //!
 //! A load `Q cos(E (theta + Phi_i))`, fixed in the standing frame, drives the
 //! modes of `n_d` diameters only where `E` is `+-n_d` modulo `N`, at `E Omega` in
 //! the blade frame: `sum_i exp(i psi_i) Q_i = (N/2) Q exp(+-i E theta)`. In a
-//! corner the blades are all that is free to move, and the casing follows them.
+//! corner only the blades are free to move, and the casing follows them.
 
 use nalgebra::{Complex, Matrix2, Vector2, Vector4};
 
@@ -32,7 +32,7 @@ pub struct ExcitedLock {
     /// Largest change of a multiplier over its mean.
     pub relative_multiplier: f64,
     /// The torque at which a multiplier would first reach zero, by the linear
-    /// response \[N m\]; none where the excitation does not reach these modes.
+    /// response \[N m\]; none if the excitation does not drive these modes.
     pub release_torque_nm: Option<f64>,
 }
 
@@ -131,7 +131,8 @@ fn modal_load(machine: &Machine, order: u32) -> [Complex<f64>; 2] {
     let half = 0.5 * f64::from(machine.polygon.blades);
     let (forward, backward) = reach(machine, order);
     let part = |reached: bool| if reached { half } else { 0.0 };
-    // exp(i E theta) = cos + i sin: the sine coordinate lags or leads by a quarter.
+    // exp(i E theta) = cos + i sin: the sine coordinate lags or leads by a
+    // quarter period.
     [
         Complex::new(part(forward) + part(backward), 0.0),
         Complex::new(0.0, part(backward) - part(forward)),

@@ -1,12 +1,12 @@
-//! The corner branch followed by its own geometry, so that a fold is passed
-//! and not missed: blades so soft that the wave opens its corner run out of
-//! stiffness at some speed, and the branch turns back.
+//! Follows the corner branch by arc length, so that it passes a fold and does
+//! not miss it. With blades so soft that the wave opens its corner, the
+//! stiffness is exhausted at some speed, and the branch turns back.
 //!
 //! Points are spaced by arc length in the plane of speed (over `Omega_c`) and
-//! corner angle, and each is exact: the branch is explicit in its corner angle. Up to the
-//! fold both coordinates only grow, behind it the speed only falls, so that
-//! where each leg ends is known before it is walked: an end or a fold is landed
-//! on, and none is stepped over.
+//! corner angle, and each is exact: the branch is explicit in its corner angle.
+//! Up to the fold both coordinates only grow; behind it the speed only falls.
+//! So the end of each leg is known in advance: the points hit an end or a fold
+//! exactly and never step over it.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -23,8 +23,8 @@ use crate::tolerances::{APART, BRANCH_POINTS, FASTEST, LEFT_OPEN};
 pub struct Fold {
     /// The largest speed with a corner state \[rad/s\].
     pub speed_rad_s: f64,
-    /// Half the phase between the two bent contacts there \[rad\]; `delta` before
-    /// they bend.
+    /// Half the phase between the two bent contacts there \[rad\]; `delta` for
+    /// unbent blades.
     pub opening_rad: f64,
 }
 
@@ -33,15 +33,16 @@ pub struct Fold {
 pub struct CornerBranch {
     /// Half the phase between the contacts \[rad\], and the state.
     pub points: Vec<(f64, Equilibrium)>,
-    /// The fold; none for blades too stiff for one at any speed a number holds.
+    /// The fold; none for blades that are too stiff at any speed that a number
+    /// can represent.
     pub fold: Option<Fold>,
 }
 
 /// Follows the corner states of the exact modal form from speed `from` to `to`
 /// \[rad/s\], both included; where the branch folds before `to`, through the
-/// fold and back to `from` or until the corner stands open by nearly a half
-/// turn. Without a point where it folds before `from`. `step` is the arc length
-/// between points, more where these would be over 20,000.
+/// fold and back to `from` or until the corner is open by nearly a half turn.
+/// Without points if it folds before `from`. `step` is the arc length between
+/// points, more where these would be over 20,000.
 ///
 /// # Errors
 /// A polygon without corners, speeds that are not `0 <= from < to`, a step outside
@@ -77,8 +78,8 @@ pub fn corner_branch(
     let equations = Equations::new(machine, corner, Form::Modal);
     let state = |place: &Place| {
         let mut wave = Wave::at(machine, place.speed, damped);
-        // Next to the fold, and with very soft blades, the corner angle says more of
-        // kappa than the digits of the speed do.
+        // Next to the fold, and with very soft blades, the corner angle gives
+        // kappa to more digits than the speed does.
         if let Some((kappa, _)) = corner_angle.kappa(place.angle_change) {
             wave.kappa = kappa;
         }
@@ -98,7 +99,7 @@ pub fn corner_branch(
     })
 }
 
-/// Where a branch has got to: speed \[rad/s\] and `Delta - delta` \[rad\].
+/// A place on a branch: speed \[rad/s\] and `Delta - delta` \[rad\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Place {
     speed: f64,
@@ -109,19 +110,19 @@ struct Walk<'a> {
     machine: &'a Machine,
     critical: f64,
     corner_angle: CornerAngle,
-    /// The fold; none for blades as good as rigid.
+    /// The fold; none for practically rigid blades.
     top: Option<Place>,
 }
 
 impl Walk<'_> {
-    /// Both ends, the fold where it is passed, and what lies between, in order.
+    /// Both ends, the fold if it is passed, and the points between, in order.
     fn places(&self, [from, to]: [f64; 2], step: f64) -> Vec<Place> {
         let Some(first) = self.rising(from) else { return Vec::new() };
         let ends = match self.top {
             Some(top) if top.speed < to => vec![top, self.last(top, from)],
             _ => self.rising(to).into_iter().collect(),
         };
-        // A leg is no longer than its two ways together.
+        // A leg is not longer than the sum of its two coordinate changes.
         let mut whole = 0.0;
         let mut start = first;
         for &end in &ends {
@@ -141,8 +142,8 @@ impl Walk<'_> {
         places
     }
 
-    /// One step from `here` towards the end of its leg; `None` where that is so
-    /// near that it is the step.
+    /// One step from `here` towards the end of its leg; `None` if the end
+    /// itself is the next point.
     fn onward(&self, here: Place, end: Place, step: f64) -> Option<Place> {
         let [least, most, last] = APART.map(|part| part * step);
         if self.apart(here, end) <= last {
@@ -151,7 +152,7 @@ impl Walk<'_> {
         if self.top.is_none() {
             return self.rising(here.speed + step * self.critical);
         }
-        // On one leg places farther on stand farther apart, too.
+        // On one leg the distance from `here` only grows.
         let (mut near, mut far) = (here.angle_change, end.angle_change);
         for _ in 0..100 {
             let place = self.at(0.5 * (near + far))?;
@@ -189,7 +190,7 @@ impl Walk<'_> {
         if speed >= top.speed {
             return (speed == top.speed).then_some(top);
         }
-        // Newton gives up where rounding hides on which side of the fold it is.
+        // Newton's method stops if round-off hides the side of the fold.
         let angle_change =
             found.unwrap_or_else(|| self.corner_angle.between(kappa, [0.0, top.angle_change]));
         Some(Place { speed, angle_change: angle_change.min(top.angle_change) })

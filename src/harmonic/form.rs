@@ -3,8 +3,8 @@
 use serde::Serialize;
 use strum::{AsRefStr, Display, EnumString, VariantNames};
 
-/// Which equations bend the blades. Casing amplitudes and multipliers hardly
-/// notice; the blade angles do.
+/// The equations of the blade angles. Their choice hardly changes casing
+/// amplitudes and multipliers, but it changes the blade angles.
 #[derive(
     Clone,
     Copy,
@@ -22,8 +22,8 @@ use strum::{AsRefStr, Display, EnumString, VariantNames};
 #[serde(rename_all = "lowercase")]
 #[strum(serialize_all = "lowercase")]
 pub enum Form {
-    /// Eq. (27) as printed: its first two rows carry the contact torque with
-    /// the factor -2 against Eq. (19). Expansion (26).
+    /// Eq. (27) as printed: its first two rows have the contact torque of Eq.
+    /// (19) times -2. Expansion (26).
     Printed,
     /// From Eq. (19) with the neighbours eliminated by (20): every contacting
     /// blade on its own spring `m_b omega_bd^2`. Expansion (26).

@@ -29,11 +29,11 @@ pub struct LockedPoint {
     pub u_ss_m: f64,
     /// Amplitude `|z|` of the casing wave \[m\].
     pub amplitude_m: f64,
-    /// Smallest gap of all groups not in contact \[m\]; infinite with none left.
+    /// Smallest gap of all groups not in contact \[m\]; infinite if there are none.
     pub smallest_gap_m: f64,
     /// Torque the rotor must give to hold the wave, `sum Lambda A` \[N m\].
     pub torque_nm: f64,
-    /// Power it takes, `torque * Omega` \[W\].
+    /// Its power, `torque * Omega` \[W\].
     pub power_w: f64,
     /// Whether contact can hold it: both multipliers push (or vanish) and
     /// every other gap is open.
@@ -65,12 +65,11 @@ pub struct Sweep {
     pub corner: Corner,
     /// Which equations.
     pub form: Form,
-    /// Whether the damping of casing and blades is in them.
+    /// Whether they include the damping of casing and blades.
     pub damped: bool,
-    /// One point for each speed where there is a locked motion, in the order
-    /// given.
+    /// One point for each speed with a locked motion, in the given order.
     pub points: Vec<LockedPoint>,
-    /// The speeds where there is none: blades so soft that the branch has
+    /// The speeds without one: the blades are so soft that the branch has
     /// folded back \[rad/s\].
     pub missing: Vec<f64>,
 }

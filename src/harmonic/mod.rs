@@ -1,8 +1,8 @@
 //! Frequency domain: steady states of the frame that turns with the blades.
 //!
-//! There a locked motion is an equilibrium: the wave is a point in a corner of
-//! the polygon of `model::ContactPolygon`, one harmonic is exact, and stability needs
-//! eigenvalues only. No time step, no initial condition.
+//! In that frame a locked motion is an equilibrium: the wave is a point in a
+//! corner of the `model::ContactPolygon`, one harmonic is exact, and stability
+//! needs only eigenvalues. There is no time step and no initial condition.
 //!
 //! - the lock, Eq. (27) in three forms: `equations`, `newton`, `locked`
 //!   ([`locked_motion`])

@@ -1,11 +1,10 @@
 //! Newton's method on the equations of a corner, kept on the branch of its
 //! rigid blades.
 //!
-//! Far from the solution Newton's method wanders: it may miss the solution, or
-//! settle on another branch, at one speed and not at the next. So a start counts
-//! only where its steps are small and shrink. Where they are not, because blades
-//! are soft, the solution is followed from rigid blades to soft ones, and lost
-//! where that branch folds.
+//! Far from the solution Newton's method is unreliable: it may miss the solution or
+//! find another branch, at one speed and not at the next. So a start is accepted
+//! only if its steps are small and shrink. If not, because blades are soft, the
+//! solution is followed from rigid to soft blades; it ends where that branch folds.
 
 use super::equations::{Equations, Unknowns, Wave};
 use crate::tolerances::{
@@ -14,8 +13,8 @@ use crate::tolerances::{
 };
 
 impl Equations {
-    /// The corner that rigid blades grow into as they soften; `None` where it
-    /// folds before they are as soft as these.
+    /// The corner that rigid blades grow into as they soften; `None` if it
+    /// folds before they are this soft.
     pub fn locked(&self, wave: Wave) -> Option<Unknowns> {
         let start = self.predict(wave)?;
         if self.is_exact() {
@@ -44,8 +43,8 @@ impl Equations {
     /// Newton's method from `start`; `None` where its steps are large or do not
     /// shrink.
     fn solve(&self, wave: Wave, start: Unknowns) -> Option<Unknowns> {
-        // Rows are of order one, so a residual of a few units in the last
-        // place of the largest term is all that rounding leaves.
+        // Rows are of order one, so rounding leaves a residual of a few units
+        // in the last place of the largest term.
         let size = 1.0 + wave.kappa.abs() + wave.drag.abs();
         let mut unknowns = start;
         let mut last = NEWTON_LARGEST * unknowns.amax() / NEWTON_SHRINK;

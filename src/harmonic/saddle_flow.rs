@@ -27,7 +27,7 @@ pub(super) struct SaddleFlow {
     pub saddle: f64,
     /// The two roots, growing and decaying.
     pub roots: [f64; 2],
-    /// `cos 2 delta`, none where that is not positive.
+    /// `cos 2 delta`, none if not positive.
     pub kept: f64,
     /// `sin 2 delta`.
     pub struck: f64,
@@ -53,11 +53,11 @@ impl SaddleFlow {
         }
         let delta = machine.polygon.delta;
         let root = (zeta * zeta + excess).sqrt();
-        // The growing root as a quotient, so that it keeps its digits.
+        // The growing root as a quotient, which keeps its digits.
         let roots = [excess / (root + zeta), -root - zeta];
         let saddle = -2.0 * zeta * ratio / excess;
         let (struck, kept) = (2.0 * delta).sin_cos();
-        // Past a right angle the wave runs into the corner and stays.
+        // Beyond a right angle the wave runs into the corner and stays there.
         let kept = if machine.polygon.sides <= 4 { 0.0 } else { kept };
         let slide = Self { zeta, ratio, end: delta.tan(), saddle, roots, kept, struck };
         saddle.is_finite().then_some(slide)
@@ -133,12 +133,12 @@ impl SaddleFlow {
         [self.state(arc, 0.0).1, self.state(arc, arc.time).1]
     }
 
-    /// The arc that repeats itself: the speed lost at a corner is what drag
-    /// gives on a side. At most one, since the map from corner to corner has a
-    /// slope below one there; `None` where there is none.
+    /// The arc that repeats itself: the drag restores on a side the speed lost
+    /// at a corner. At most one exists, because the slope of the map from
+    /// corner to corner is below one there; `None` if there is none.
     pub fn repeating(&self) -> Option<Arc> {
         let [up, _] = self.roots;
-        // Slowest crossing of all: along the manifolds of the saddle.
+        // The slowest crossing is along the manifolds of the saddle.
         let slowest_gains = self.kept * up * (self.end - self.saddle) > self.least_speed();
         if self.kept <= 0.0 || self.zeta <= 0.0 || !slowest_gains {
             return None;
@@ -152,8 +152,8 @@ impl SaddleFlow {
     }
 }
 
-/// The first time from which a condition holds, to the last digit, searched
-/// by doubling from `guess` and then halving.
+/// The first time from which a condition holds, to the last digit, found by
+/// doubling from `guess` and then halving.
 fn first_time(holds: impl Fn(f64) -> bool, guess: f64) -> Option<f64> {
     let (mut below, mut above) = (0.0, guess);
     let mut doublings = 0;

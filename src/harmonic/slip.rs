@@ -1,6 +1,6 @@
-//! Slip on a polygon with corners: permanent contact, side after side, with the
-//! wave turning slower than the rotor. As a map it is one number, the speed just after a corner, and a
-//! lasting slip is a fixed point of it.
+//! Slip on a polygon with corners: permanent contact, side after side, with the wave
+//! turning slower than the rotor. Its state is one number, the speed just after a
+//! corner; a lasting slip is a fixed point of the map from corner to corner.
 
 use serde::Serialize;
 use strum::{Display, IntoStaticStr};
@@ -16,10 +16,11 @@ use crate::model::Machine;
 pub enum NoSlip {
     /// Corners of a right angle or less (`N' <= 4`) stop the wave.
     StopsAtCorner,
-    /// Not above the critical speed: nothing presses the wave on the sides.
+    /// Not above the critical speed: nothing presses the wave on the sides of
+    /// the polygon.
     BelowCritical,
-    /// Nothing makes up for what corners take: no drag, or too little of it to
-    /// climb over the saddle.
+    /// Nothing replaces the speed that corners take: the drag is zero, or too
+    /// small to pass the saddle.
     NoDrive,
     /// The wave would have to be pulled to stay on a side.
     Lifts,
@@ -48,7 +49,7 @@ pub struct SlipOrbit {
     pub torque_nm: f64,
     /// Mean power it takes \[W\].
     pub power_w: f64,
-    /// Mean power the casing's damper takes \[W\].
+    /// Mean power of the casing's damper \[W\].
     pub damper_power_w: f64,
     /// Mean power lost at the corners \[W\].
     pub corner_power_w: f64,
@@ -70,7 +71,7 @@ impl SlipPoint {
         self.outcome.is_ok()
     }
 
-    /// Whether it attracts its neighbours.
+    /// Whether neighbouring motions converge to it.
     #[must_use]
     pub fn stable(&self) -> bool {
         self.outcome.is_ok_and(|orbit| orbit.slope.abs() < 1.0)
@@ -86,7 +87,7 @@ pub struct Crossing {
     pub time_s: f64,
     /// Smallest push on the way \[N\]; below zero the contact is lost.
     pub least_push_n: f64,
-    /// Derivative of `speed_after` by the speed it started with.
+    /// Derivative of `speed_after` with respect to the initial speed.
     pub slope: f64,
 }
 
@@ -186,7 +187,7 @@ pub(super) fn repeating(machine: &Machine, speed: f64) -> Result<(SaddleFlow, Ar
         return Err(NoSlip::StopsAtCorner);
     }
     let arc = slide.repeating().ok_or(NoSlip::NoDrive)?;
-    // NaN, which overflow might leave, is no push either.
+    // NaN, from an overflow, is not a push either.
     if slide.least_push(&arc) >= 0.0 { Ok((slide, arc)) } else { Err(NoSlip::Lifts) }
 }
 
@@ -195,7 +196,7 @@ fn point(machine: &Machine, speed: f64) -> SlipPoint {
     SlipPoint { speed_rad_s: speed, outcome }
 }
 
-/// Units of speed \[m/s\] and force \[N\] behind the scaled flow.
+/// Units of speed \[m/s\] and force \[N\] of the scaled flow.
 struct Units {
     speed: f64,
     force: f64,

@@ -1,12 +1,12 @@
-//! How many harmonics (23) a steady state needs. A locked wave needs one,
-//! exactly. A slipping wave repeats itself side by side in the blade frame,
-//! `z(t + T) = exp(-2 i delta) z(t)`, so that in the standing frame
+//! The number of harmonics (23) that a steady state needs. A locked wave needs
+//! exactly one. A slipping wave repeats itself from side to side in the blade
+//! frame, `z(t + T) = exp(-2 i delta) z(t)`, so in the standing frame
 //!
 //! `u_c + i u_s = sum_k Z_k exp(i omega_k t)`, `omega_k = nu - 2 delta/T + 2 pi k/T`,
 //!
 //! with `Z_k` in closed form from the exact orbit. At a corner the velocity
 //! jumps, so `Z_k` falls like `1/k^2` and no finite number is exact; the push
-//! has an impulse there, whose coefficients do not fall at all.
+//! has an impulse there, and its coefficients do not fall.
 
 use std::f64::consts::TAU;
 
@@ -30,12 +30,12 @@ pub struct Harmonic {
     pub amplitude_m: f64,
 }
 
-/// What is left out with the numbers `-H..=H` only.
+/// The error with only the harmonics `-H..=H`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Truncation {
     /// `H`.
     pub harmonics: u32,
-    /// Root mean square of what is left out \[m\].
+    /// Root mean square of the error \[m\].
     pub rms_error_m: f64,
     /// Largest distance from the exact orbit \[m\].
     pub max_error_m: f64,
@@ -48,7 +48,8 @@ pub struct Truncation {
 pub struct SlipSpectrum {
     /// Rotor speed \[rad/s\].
     pub speed_rad_s: f64,
-    /// Time to cross one side, after which the orbit repeats, turned \[s\].
+    /// Time to cross one side, after which the orbit repeats, turned by one
+    /// side \[s\].
     pub period_s: f64,
     /// Root mean square amplitude of the whole wave \[m\].
     pub amplitude_m: f64,
@@ -61,8 +62,8 @@ pub struct SlipSpectrum {
 /// The Fourier series of the slip at one speed \[rad/s\], up to `most` harmonics.
 ///
 /// # Errors
-/// A polygon without corners, a speed that is not finite, more harmonics than 512.
-/// Inside: why there is no slip to expand.
+/// A polygon without corners, a speed that is not finite, more harmonics than
+/// 512. The inner error: why there is no slip.
 pub fn slip_spectrum(
     machine: &Machine,
     speed: f64,
@@ -91,12 +92,12 @@ struct Orbit {
 }
 
 impl Orbit {
-    /// `z exp(-i psi)` of the side slid on, over `g0`.
+    /// `z exp(-i psi)` of the side in contact, over `g0`.
     fn point(&self, time: f64) -> Complex<f64> {
         Complex::new(-1.0, self.slide.state(&self.arc, time).0)
     }
 
-    /// What turns with harmonic `k` in the blade frame, over `1/T` \[rad\].
+    /// Frequency of harmonic `k` in the blade frame, times `T` \[rad\].
     fn turn(&self, number: i32) -> f64 {
         TAU * f64::from(number) - 2.0 * self.delta
     }
@@ -160,7 +161,7 @@ impl Orbit {
         }
     }
 
-    /// How deep these points lie outside the side slid on and its neighbours.
+    /// How deep these points penetrate the side in contact and its neighbours.
     fn penetration(&self, points: &[Complex<f64>]) -> f64 {
         let neighbours = [-2.0, 0.0, 2.0].map(|k| Complex::new(0.0, -k * self.delta).exp());
         let gaps = points.iter().flat_map(|z| neighbours.map(|turn| 1.0 + (z * turn).re));

@@ -1,13 +1,13 @@
 //! Stability of an equilibrium of the blade frame: eigenvalues of the motion
-//! linearised about it, with the sides in contact kept in contact.
+//! linearised about it, with the contacts kept.
 //!
 //! Coordinates `(x, y, alpha_c, alpha_s)`, lengths in `g0`, blade coordinates
-//! in units that make their stiffness one, time in `1/omega_c`:
-//! `M w'' + C w' + K w + sum Lambda_k grad g_k(w) = 0` with `g_k(w) = 0`.
-//! Writing `w = w_0 + Z q + ...` with `Z` the null space of the constraint
-//! gradients leaves `Z^T M Z q'' + Z^T C Z q' + Z^T (K + sum Lambda_k H_k) Z q = 0`,
-//! `H_k` the second derivatives of the gap. The damping of the casing is at
-//! rest in the standing frame, so `K` holds its circulatory part.
+//! in units that make their stiffness one, time in `1/omega_c`: `M w'' + C w' +
+//! K w + sum Lambda_k grad g_k(w) = 0` with `g_k(w) = 0`. Writing `w = w_0 + Z
+//! q + ...` with `Z` the null space of the constraint gradients leaves `Z^T M Z
+//! q'' + Z^T C Z q' + Z^T (K + sum Lambda_k H_k) Z q = 0`, `H_k` the second
+//! derivatives of the gap. The damping of the casing is fixed in the standing
+//! frame, so `K` contains its circulatory part.
 
 use nalgebra::{Complex, DMatrix, DVector, Matrix2, Matrix4, Matrix4x2, Vector4};
 
@@ -89,12 +89,12 @@ impl Linearised {
     }
 
     /// Basis of the motions that keep every contact, one column each, in
-    /// coordinates of unit mass; of length one and at right angles.
+    /// coordinates of unit mass; orthonormal.
     fn free_motions(&self, weights: &[f64]) -> DMatrix<f64> {
         let mut basis = DMatrix::identity(weights.len(), weights.len());
         for gradient in &self.gradients {
-            // The motions left, reflected so that the first of them is all that
-            // moves this gap; the others keep it.
+            // The remaining motions, reflected so that only the first changes
+            // this gap.
             let gradient = DVector::from_fn(weights.len(), |row, _| gradient[row] / weights[row]);
             let mut seen = basis.tr_mul(&gradient);
             let length = seen.norm();
@@ -110,7 +110,7 @@ impl Linearised {
     }
 
     /// Whether without the contact forces every contact would close: then the
-    /// equality of Eq. (11) holds this state whatever the signs.
+    /// equality of Eq. (11) holds this state for any signs.
     pub fn closes(&self) -> bool {
         self.gradients.iter().all(|gradient| {
             let pushes = self.gradients.iter().zip(&self.multipliers);
@@ -123,11 +123,11 @@ impl Linearised {
         })
     }
 
-    /// Eigenvalues of the motion that keeps every contact \[1/s\]; `None` where
-    /// they are beyond numbers or do not settle.
+    /// Eigenvalues of the motion that keeps every contact \[1/s\]; `None` if
+    /// they overflow or do not converge.
     pub fn eigenvalues(&self) -> Option<Vec<Complex<f64>>> {
         // The last coordinate is the sine mode of the blades; blades whose rates
-        // are beyond numbers have no mass in these units, and do not move.
+        // overflow have no mass in these units, and do not move.
         let masses = self.mass.iter().take(if self.sine_mode { 4 } else { 3 });
         let weights: Vec<f64> = masses.map(|m| m.sqrt()).filter(|&weight| weight > 0.0).collect();
         let coordinates = weights.len();
@@ -160,13 +160,14 @@ impl Linearised {
         static_part.zip_map(&(self.damping * ratio), Complex::new)
     }
 
-    /// The two motions left in a corner: the blades', which the casing follows.
+    /// The two motions that remain in a corner: those of the blades, which the
+    /// casing follows.
     pub fn corner_basis(&self) -> Option<Matrix4x2<f64>> {
         let [a, b] = self.gradients.as_slice() else { return None };
         Some(follow(a, b))
     }
 
-    /// `M, C, K` of the two blade motions left in a corner.
+    /// `M, C, K` of the two blade motions in a corner.
     fn corner_motion(&self) -> Option<[Matrix2<f64>; 3]> {
         let basis = self.corner_basis()?;
         let across = basis.transpose();
@@ -177,10 +178,9 @@ impl Linearised {
         ])
     }
 
-    /// Whether no motion that keeps every contact grows. In a corner by the
-    /// signs of its characteristic polynomial, which needs no eigenvalues
-    /// unless the answer is close; elsewhere by the eigenvalues. Not where these
-    /// cannot be computed.
+    /// Whether no motion that keeps every contact grows. In a corner by the signs of
+    /// its characteristic polynomial, which needs no eigenvalues unless the result
+    /// is close; otherwise by the eigenvalues. False if these cannot be computed.
     pub fn is_stable(&self) -> bool {
         let by_signs = self.corner_motion().and_then(|motion| {
             let polynomial = characteristic(&motion);
@@ -191,8 +191,8 @@ impl Linearised {
 }
 
 /// Whether a motion with one of these eigenvalues grows. Real parts up to a small
-/// part of the eigenvalue, or of `rate`, are rounding: eigenvalues of a nearly
-/// defective pair are known to half the digits, all to rounding of the largest.
+/// part of the eigenvalue, or of `rate`, are rounding: a nearly defective pair
+/// has half the digits, and all eigenvalues have the rounding of the largest.
 pub(super) fn grows(values: &[Complex<f64>], rate: f64) -> bool {
     let fastest = values.iter().map(|value| value.norm()).fold(0.0, f64::max);
     values
@@ -260,8 +260,8 @@ fn characteristic([m, c, k]: &[Matrix2<f64>; 3]) -> [f64; 5] {
     std::array::from_fn(|i| diagonal[i] - other[i])
 }
 
-/// Hurwitz's criterion: every root has a negative real part. `None` too close
-/// to neutral for a clear answer.
+/// Hurwitz's criterion: every root has a negative real part. `None` if it is
+/// too close to neutral to decide.
 fn hurwitz([a4, a3, a2, a1, a0]: [f64; 5]) -> Option<bool> {
     let last = a1 * (a2 * a3 - a1 * a4) - a3 * a3 * a0;
     let size = (a1 * a2 * a3).abs() + a1 * a1 * a4.abs() + a3 * a3 * a0.abs();
@@ -290,7 +290,7 @@ mod tests {
         assert_eq!(hurwitz(polynomial(-0.01, 0.3)), Some(false));
         assert!(polynomial(-0.01, 0.3).iter().all(|&coefficient| coefficient > 0.0));
         assert_eq!(hurwitz(polynomial(0.3, -0.1)), Some(false));
-        // A pair that neither grows nor decays is left to the eigenvalues.
+        // A pair that neither grows nor decays is decided by the eigenvalues.
         assert_eq!(hurwitz(polynomial(0.0, 0.3)), None);
     }
 }

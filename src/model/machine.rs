@@ -1,5 +1,5 @@
-//! Everything that follows from the parameters and the nodal diameters alone:
-//! frequencies, modal masses and damping, and the speeds where things change.
+//! What follows from the parameters and the nodal diameters alone: frequencies,
+//! modal masses and damping, and the threshold speeds.
 
 use std::f64::consts::TAU;
 
@@ -45,7 +45,7 @@ pub struct Machine {
 }
 
 impl Machine {
-    /// Derives the model. The parameters are taken as checked (`scene`).
+    /// Derives the model. The parameters must be checked before (`scene`).
     #[must_use]
     pub fn new(disk: &BladedDisk, casing: &Casing, nodal_diameters: u32) -> Self {
         let clearance = casing.radius_m - disk.blade_length_m;

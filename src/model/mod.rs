@@ -1,5 +1,5 @@
-//! The machine, and nothing else: parameters, modes and derived speeds, and
-//! the polygon as a polygon of phase groups. No solver and no file format here.
+//! The machine: parameters, modes, derived speeds and the contact polygon of
+//! the phase groups. Solvers and file formats are elsewhere.
 
 mod machine;
 mod parameters;

@@ -1,5 +1,5 @@
 //! The quantities a user gives: bladed disk, casing and operation, as Table 1
-//! of the paper lists them. Plain data; `scene` says what each may hold.
+//! of the paper lists them. Plain data; `scene` defines the allowed values.
 
 use serde::Serialize;
 
@@ -59,7 +59,7 @@ impl Default for Casing {
     }
 }
 
-/// How the machine is run: the mode pair looked at, the rotor and the pulse.
+/// The operation of the machine: the mode pair, the rotor and the pulse.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Operation {
     /// Nodal diameters `n_d` of the retained modes.
@@ -87,7 +87,7 @@ impl Default for Operation {
     }
 }
 
-/// Casing state at t = 0; everything is at rest unless a scene says otherwise.
+/// Casing state at t = 0; at rest by default.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Initial {
     /// `u_c` \[m\].
@@ -106,7 +106,7 @@ pub struct Initial {
 pub struct Excitation {
     /// Torque on each blade \[N m\].
     pub amplitude_nm: f64,
-    /// Engine order: how often a turn the load rises and falls.
+    /// Engine order: number of load cycles per turn.
     pub order: u32,
 }
 

@@ -1,4 +1,4 @@
-//! The polygon seen in the frame of the blades: a regular polygon.
+//! The contact polygon: a regular polygon in the frame of the blades.
 //!
 //! With `z = (u_c + i u_s) exp(-i n_d theta)` and rigid blades, the gap of a
 //! blade of phase `psi` is `g = g0 + Re[z exp(-i psi)]`: the casing wave is a
@@ -8,7 +8,7 @@
 
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4, PI, TAU};
 
-/// Phase groups of the blades and the polygon they bound.
+/// Phase groups of the blades and the polygon that they form.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContactPolygon {
     /// Number of blades `N`.
@@ -28,7 +28,8 @@ pub struct ContactPolygon {
 }
 
 impl ContactPolygon {
-    /// ContactPolygon of `blades >= 1` blades with `nodal_diameters` and `clearance` \[m\].
+    /// The polygon of `blades >= 1` blades with `nodal_diameters` and
+    /// `clearance` \[m\].
     #[must_use]
     pub fn new(blades: u32, nodal_diameters: u32, clearance: f64) -> Self {
         let blades = blades.max(1);
@@ -69,7 +70,7 @@ impl ContactPolygon {
     /// `(cos psi_k, sin psi_k)` of side `k` (taken modulo `N'`).
     #[must_use]
     pub fn direction(&self, side: u32) -> (f64, f64) {
-        // Steps ask for this all the time, and a division is slow.
+        // Called in every step, and a division is slow.
         let side = if side < self.sides { side } else { side % self.sides };
         self.directions[side as usize]
     }

@@ -3,8 +3,8 @@
 use super::table::{Table, TableCell};
 use crate::study::figures::Panel;
 
-/// A column of x and one for each series where they share x; otherwise one row
-/// a point, with the name of its series.
+/// If all series share x, a column for x and one for each series; otherwise one
+/// row per point, with the name of its series.
 #[must_use]
 pub fn table(panel: &Panel) -> Table {
     if panel.shares_x() { wide(panel) } else { long(panel) }

@@ -1,15 +1,16 @@
-//! Files: written beside their target first, so that a failure never leaves half a file in its place.
+//! Writes files through a temporary file in the same directory, so that a
+//! failure never leaves half a file.
 
 use std::ffi::OsString;
 use std::fs::File;
 use std::io::{BufWriter, Error, ErrorKind, Result, Write};
 use std::path::{Path, PathBuf};
 
-/// Puts what `write` writes in the place of `path`, all of it or nothing. A
-/// link is followed, and a device or a pipe is written to as it is.
+/// Replaces the file at `path` by what `write` writes, completely or not at
+/// all. Links are followed; a device or a pipe is written to directly.
 ///
 /// # Errors
-/// What the system or `write` refuses; a file at `path` is then as it was before.
+/// An error of the system or of `write`; a file at `path` is then unchanged.
 pub fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<()> {
     let path = &path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
     if path.is_dir() {
@@ -34,7 +35,7 @@ pub fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) ->
     written
 }
 
-/// Whether a file can be put there, as far as can be told without writing.
+/// Whether a file can be written there, as far as this is known without writing.
 ///
 /// # Errors
 /// The directory does not exist, or the path is a directory itself.

@@ -30,7 +30,7 @@ pub struct HistoryColumn {
 }
 
 /// A run, sample by sample. Multipliers are group sums, averaged since the
-/// sample before; negative is a push.
+/// previous sample; negative is a push.
 #[derive(Clone, Debug, PartialEq)]
 pub struct History {
     columns: Vec<HistoryColumn>,
@@ -45,8 +45,8 @@ impl History {
         Self { columns: names.map(|name| HistoryColumn { name, values: Vec::new() }).collect() }
     }
 
-    /// Adds a sample, which must carry the gaps of all blades. A sample that
-    /// holds anything but finite numbers is left out.
+    /// Adds a sample, which must carry the gaps of all blades. A sample with a
+    /// number that is not finite is left out.
     pub fn push(&mut self, sample: &Sample) {
         let forces = || sample.mean_forces.iter().map(|(_, force)| *force);
         let gap_min = sample.gaps.iter().copied().fold(f64::INFINITY, f64::min);
@@ -94,7 +94,7 @@ impl History {
     /// Writes CSV: a header line, then one line a sample.
     ///
     /// # Errors
-    /// What the writer refuses.
+    /// An error of the writer.
     pub fn write_csv(&self, out: &mut dyn Write) -> Result<()> {
         let value =
             |row: usize| move |column: &HistoryColumn| column.values.get(row).copied().into();

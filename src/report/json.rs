@@ -11,7 +11,7 @@ use crate::motion::RunReport;
 /// Writes a report, indented, with a newline at its end.
 ///
 /// # Errors
-/// What the writer refuses.
+/// An error of the writer.
 pub fn write(report: &impl Serialize, mut out: &mut dyn Write) -> std::io::Result<()> {
     serde_json::to_writer_pretty(&mut out, report)?;
     writeln!(out)
@@ -20,7 +20,7 @@ pub fn write(report: &impl Serialize, mut out: &mut dyn Write) -> std::io::Resul
 /// Writes a report under the name of its schema.
 ///
 /// # Errors
-/// What the writer refuses.
+/// An error of the writer.
 pub fn write_as(
     schema: &'static str,
     report: &impl Serialize,
@@ -36,10 +36,10 @@ pub fn write_as(
 }
 
 /// Writes a run (`rubscope.run/1`) with the wall time it took \[s\], and the
-/// changes on the way where there are any.
+/// changes during the run, if there are any.
 ///
 /// # Errors
-/// What the writer refuses.
+/// An error of the writer.
 pub fn write_run(
     report: &RunReport,
     wall_s: f64,

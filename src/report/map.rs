@@ -11,14 +11,14 @@ use crate::motion::Verdict;
 use crate::study::figures::{Figure, Panel, Quantity, Series, Style};
 use crate::study::{Axis, Cell, Map, overlay};
 
-/// Rows the text map is thinned to.
+/// Most rows of the text map.
 const TEXT_ROWS: usize = 40;
-/// Signs left of the cells, and those left and right together.
+/// Number of characters left of the cells, and left and right together.
 const INDENT: usize = 14;
 const FRAME: usize = INDENT + 1;
 
-/// The map as JSON. Timing is given on standard output only: the same map is
-/// the same file.
+/// The map as JSON. The wall time is given on standard output only, so that the
+/// same map gives the same file.
 #[must_use]
 pub fn to_json(map: &Map, with_time: bool) -> Value {
     let mut object = Object::new();
@@ -53,7 +53,7 @@ pub fn leaf(axis: &Axis) -> &str {
 /// The map as CSV, a line a cell.
 ///
 /// # Errors
-/// What the writer says.
+/// An error of the writer.
 pub fn write_csv(map: &Map, out: &mut dyn Write) -> Result<()> {
     let (x, y) = (&map.plan.x, &map.plan.y);
     let mut table = Table::new([leaf(x), leaf(y), "verdict", "sensitive"]);
@@ -110,8 +110,8 @@ pub fn figure(map: &Map, curves: &[overlay::Curve]) -> Figure {
     }
 }
 
-/// The character of a cell: a mark for the verdict, its first letter where it
-/// is sensitive.
+/// The character of a cell: a mark for the verdict, its first letter if it is
+/// sensitive.
 #[must_use]
 pub fn mark(cell: Option<Cell>) -> char {
     let Some(cell) = cell else { return ' ' };
@@ -135,7 +135,7 @@ pub fn mark(cell: Option<Cell>) -> char {
 /// with a legend of what is in it.
 ///
 /// # Errors
-/// What the writer says.
+/// An error of the writer.
 pub fn write_text(map: &Map, width: usize, out: &mut dyn Write) -> Result<()> {
     let (x, y) = (&map.plan.x, &map.plan.y);
     let most = width.saturating_sub(FRAME).max(10);

@@ -12,7 +12,7 @@ use super::History;
 /// Writes a history.
 ///
 /// # Errors
-/// What the writer refuses.
+/// An error of the writer.
 pub fn write(history: &History, out: &mut dyn Write) -> Result<()> {
     let mut archive = ZipWriter::new_stream(out);
     // A fixed date, so that the same history gives the same file.

@@ -1,5 +1,5 @@
-//! Numbers for people: six significant digits, no trailing zeros, and powers
-//! of ten only where the plain form would be long.
+//! Numbers in readable form: six significant digits, no trailing zeros, and
+//! powers of ten only where the plain form would be long.
 
 /// A number in at most six significant digits.
 ///

@@ -37,7 +37,7 @@ pub fn series(way: &Way) -> String {
     format!("{} {} {}", way.solver, way.contact, way.model)
 }
 
-/// What is to be said about the verdict of a row.
+/// The remark on the verdict of a row.
 fn remark(row: &Row) -> &'static str {
     match row {
         Row { other_law: true, .. } => "other law",
@@ -46,7 +46,7 @@ fn remark(row: &Row) -> &'static str {
     }
 }
 
-/// The rows with units, for people.
+/// The rows with units, to read.
 #[must_use]
 pub fn summary_table(report: &Precision) -> Table {
     Table::of(
@@ -92,10 +92,10 @@ pub fn table(report: &Precision) -> Table {
     )
 }
 
-/// Table, chart and what they are measured against, for people.
+/// Table, chart and reference, to read.
 ///
 /// # Errors
-/// What the writer says.
+/// An error of the writer.
 pub fn write(report: &Precision, out: &mut dyn Write) -> Result<()> {
     let reference = &report.reference;
     writeln!(out, "{}", report.scene.title)?;
@@ -130,7 +130,7 @@ pub fn write(report: &Precision, out: &mut dyn Write) -> Result<()> {
     if report.rows.iter().any(|row| row.other_law) {
         writeln!(
             out,
-            "other law: another problem than that of the reference; a different answer is no error"
+            "other law: a different problem than the reference; a different answer is not an error"
         )?;
     }
     if report.rows.iter().any(|row| row.error_final.is_some()) {
@@ -140,12 +140,12 @@ pub fn write(report: &Precision, out: &mut dyn Write) -> Result<()> {
     Ok(())
 }
 
-/// Where a row stands in a chart of two logarithmic axes.
+/// The place of a row in a chart with two logarithmic axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlotPlace {
     /// log10 of the wall time in seconds.
     pub time: f64,
-    /// log10 of the error; none for an error of zero, which no such axis has.
+    /// log10 of the error; none for an error of zero, which such an axis cannot show.
     pub error: Option<f64>,
 }
 
@@ -169,13 +169,13 @@ pub fn decades(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
 /// The figure: log error against log time.
 ///
 /// # Errors
-/// Why there is nothing to draw, in words.
+/// The reason why there is nothing to draw.
 pub fn figure(report: &Precision) -> std::result::Result<Figure, String> {
     let placed: Vec<&Row> = report.rows.iter().filter(|row| place(row).is_some()).collect();
     let is_zero = |row: &Row| row.error_final == Some(0.0);
     if placed.iter().all(|row| is_zero(row)) {
         return Err(match (placed.is_empty(), report.reference.sensitive) {
-            (false, _) => "every error is 0: a logarithmic axis has no place for it",
+            (false, _) => "every error is 0, which a logarithmic axis cannot show",
             (_, true) => "on a sensitive scene there are no errors to draw",
             _ => "every run or the reference failed: there are no errors to draw",
         }
@@ -201,7 +201,7 @@ pub fn figure(report: &Precision) -> std::result::Result<Figure, String> {
     })
 }
 
-/// Name of a series, with a word on a law that is not the reference's.
+/// Name of a series, with a remark if its law is not that of the reference.
 fn name(row: &Row) -> String {
     let law = if row.other_law { ", other law" } else { "" };
     format!("{}{law}", series(&row.way))
@@ -222,8 +222,8 @@ fn style(way: &Way) -> Style {
     Style::Discs(colour, radius)
 }
 
-/// Log error (up) against log time (right), a letter a row; errors of zero in
-/// a line of their own below.
+/// Log error (up) against log time (right), a letter a row; errors of zero in a
+/// separate line below.
 fn write_chart(report: &Precision, out: &mut dyn Write) -> Result<()> {
     let placed: Vec<(PlotPlace, char)> =
         report.rows.iter().filter_map(|row| Some((place(row)?, letter(&row.way)))).collect();

@@ -1,5 +1,4 @@
-//! The summary of a run in plain sentences, one fact a line, so that it reads
-//! the same on a screen, on paper and aloud.
+//! The summary of a run in plain sentences, one fact per line.
 
 use std::io::{Result, Write};
 
@@ -8,7 +7,7 @@ use crate::model::Machine;
 use crate::motion::{Contact, RunReport, Verdict};
 use crate::scene::{ContactLaw, SolverKind};
 
-/// Impacts told one by one.
+/// Most impacts that are listed one by one.
 const IMPACTS_TOLD: usize = 4;
 
 /// Penetration, as a part of the clearance, that closing a gap in double
@@ -18,7 +17,7 @@ const ROUND_OFF: f64 = 1e-13;
 /// Writes the summary of a run that took this wall time \[s\].
 ///
 /// # Errors
-/// What the writer refuses.
+/// An error of the writer.
 pub fn write(report: &RunReport, wall_s: f64, out: &mut dyn Write) -> Result<()> {
     let machine = report.scene.machine();
     if !report.scene.title.is_empty() {
@@ -83,24 +82,24 @@ fn how(report: &RunReport) -> String {
 fn meaning(report: &RunReport) -> &'static str {
     match report.outcome.verdict {
         Verdict::Decay if report.impact_count == 0 => "No blade ever touched the casing.",
-        Verdict::Decay => "The contact ended and does not come again.",
+        Verdict::Decay => "The contact ended and does not return.",
         Verdict::Bounce => "Blades and casing meet and part again and again.",
         Verdict::Slip => "The contact is permanent, but the wave slips along the blades.",
         Verdict::Locked => "The same blades hold the casing without a break, and all of them push.",
         Verdict::Adhesive => {
             "The same blades hold the casing without a break, but some of them pull: \
-             it is held by a pull, which no contact can give."
+             a pull holds it, which a real contact cannot do."
         }
         Verdict::Failed => "The computation broke down; what follows is the state it stopped at.",
     }
 }
 
-/// What the equality of the bilateral law did that no contact can do.
+/// A warning if the bilateral law pulled.
 fn warning(report: &RunReport) -> Option<String> {
     let pulls = report.checks.tensile_steps;
     (report.solver.contact == ContactLaw::Bilateral && pulls > 0).then(|| {
         format!(
-            "Warning: the bilateral law pulled in {}, where a real contact lets go; compare with --contact unilateral.",
+            "Warning: the bilateral law pulled in {}, where a real contact would open; compare with --contact unilateral.",
             count(pulls, "step")
         )
     })
@@ -140,7 +139,7 @@ fn touch(contact: &Contact) -> String {
     format!("{who} {verb} with {} N at the end.", short(contact.multiplier_n.abs()))
 }
 
-/// The rotor speed beside the speeds where things change.
+/// The rotor speed, compared with the threshold speeds.
 fn speeds(report: &RunReport, machine: &Machine) -> String {
     let operation = &report.scene.operation;
     let speed = operation.speed_rad_s + operation.speed_ramp_rad_s2 * report.r#final.t_s;
@@ -258,11 +257,11 @@ mod tests {
     fn every_verdict_says_what_it_means() {
         let mut report = report(&[]);
         for (verdict, words) in [
-            (Verdict::Decay, "does not come again"),
+            (Verdict::Decay, "does not return"),
             (Verdict::Bounce, "again and again"),
             (Verdict::Slip, "slips along the blades"),
             (Verdict::Locked, "all of them push"),
-            (Verdict::Adhesive, "held by a pull, which no contact can give"),
+            (Verdict::Adhesive, "a pull holds it, which a real contact cannot do"),
             (Verdict::Failed, "broke down"),
         ] {
             report.outcome.verdict = verdict;

@@ -9,8 +9,8 @@ use super::number::short;
 use crate::motion::Verdict;
 use crate::study::figures::{Figure, Panel, Quantity, Series, Style};
 
-/// Drawn this many times larger than shown: the backend knows whole numbers
-/// only, which would make steps of smooth lines.
+/// Factor of the drawing size over the shown size: the backend has whole
+/// numbers only, and smooth lines would get steps.
 const FINE: u32 = 4;
 /// Size of one panel in pixels shown.
 const PANEL: (u32, u32) = (960, 400);
@@ -22,7 +22,7 @@ const NAMES: u32 = 130;
 const SHORT: usize = 16;
 const LETTER: u32 = 7;
 
-/// Colours that stay apart for colour-blind eyes (Okabe and Ito).
+/// Colours that colour-blind readers can distinguish (Okabe and Ito).
 const COLOURS: [RGBColor; 6] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
@@ -38,7 +38,7 @@ type Drawn<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 /// Writes a figure.
 ///
 /// # Errors
-/// What the writer refuses.
+/// An error of the writer.
 pub fn write(figure: &Figure, out: &mut dyn Write) -> Result<()> {
     let mut text = String::new();
     draw(figure, &mut text).map_err(|error| Error::other(error.to_string()))?;
@@ -108,7 +108,7 @@ fn draw_panel(panel: &Panel, area: &Area, names: u32) -> Drawn<()> {
         .y_label_formatter(&|tick| y.label(*tick))
         .label_style(font(13))
         .draw()?;
-    // What has a name of its own is drawn last, on top.
+    // A series with a name is drawn last, on top.
     let is_faint = |series: &&Series| series.style == Style::Faint;
     let (faint, named): (Vec<&Series>, Vec<&Series>) = panel.series.iter().partition(is_faint);
     for series in faint.into_iter().chain(named.iter().copied()) {
@@ -219,7 +219,7 @@ impl<'a> Scale<'a> {
             scale.high = scale.high.ceil().max(scale.low + 1.0);
             return scale;
         }
-        // A constant needs a range of its own, or there is no axis.
+        // A constant needs a range, or there is no axis.
         let smallest = 1e-9 * scale.low.abs().max(scale.high.abs()).max(1e-3);
         let widen = (margin * (scale.high - scale.low)).max(smallest);
         scale.low -= widen;
@@ -247,8 +247,7 @@ fn has_cells(panel: &Panel) -> bool {
     panel.series.iter().any(|series| matches!(series.style, Style::Cells(_)))
 }
 
-/// The points that set the range of the axes: those of cells, where there are
-/// any.
+/// The points that set the range of the axes: those of cells, if there are any.
 fn ranging(panel: &Panel) -> impl Iterator<Item = &(f64, f64)> {
     let only_cells = has_cells(panel);
     let chosen = move |series: &&Series| !only_cells || matches!(series.style, Style::Cells(_));
@@ -277,8 +276,7 @@ fn colour(style: Style) -> RGBColor {
     *COLOURS.get(index % COLOURS.len()).unwrap_or(&BLACK)
 }
 
-/// Colour of a verdict; verdicts differ in lightness as well, for eyes that do
-/// not tell colours apart.
+/// Colour of a verdict; verdicts differ in lightness too, for colour-blind readers.
 fn colour_of(verdict: Verdict) -> RGBColor {
     match verdict {
         Verdict::Decay => RGBColor(240, 240, 240),

@@ -1,4 +1,4 @@
-//! A table of named columns: aligned text for people, CSV for everything else.
+//! A table of named columns: written as aligned text or as CSV.
 
 use std::io::{Result, Write};
 
@@ -112,16 +112,16 @@ impl Table {
     /// Writes CSV: a header line, then numbers that read back as themselves.
     ///
     /// # Errors
-    /// What the writer refuses.
+    /// An error of the writer.
     pub fn write_csv(&self, out: &mut dyn Write) -> Result<()> {
         write_csv(&self.names, self.rows.iter().map(|row| row.iter().cloned()), out)
     }
 
     /// Writes aligned text: numbers of six digits to the right, words to the
-    /// left, `-` where there is no figure.
+    /// left, `-` if there is no number.
     ///
     /// # Errors
-    /// What the writer refuses.
+    /// An error of the writer.
     pub fn write_text(&self, out: &mut dyn Write) -> Result<()> {
         let text = |cell: &TableCell| match cell {
             TableCell::Number(x) => short(*x),

@@ -38,7 +38,7 @@ impl Scene {
     /// The built-in scene of this name.
     ///
     /// # Errors
-    /// No such scene; the message lists those there are.
+    /// No such scene; the message lists the existing ones.
     pub fn builtin(name: &str) -> Result<Self, SceneError> {
         match BUILTIN.iter().find(|scene| scene.name == name) {
             Some(scene) => Self::from_toml(scene.toml),

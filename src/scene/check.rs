@@ -1,4 +1,4 @@
-//! What single keys cannot say: combinations of a scene that have no meaning.
+//! Checks that need more than one key: combinations of values that have no meaning.
 
 use super::{ContactLaw, ModelSize, Scene, SceneError, SolverKind};
 
@@ -6,7 +6,7 @@ use super::{ContactLaw, ModelSize, Scene, SceneError, SolverKind};
 const MOST_STEPS: f64 = 1e10;
 /// Largest angle the wave may turn against the blades in one step \[rad\].
 const MOST_TURN: f64 = 0.5;
-/// What a product or a quotient at a bound may be above it.
+/// Relative margin of a product or quotient at a bound, for round-off.
 const ROUND_OFF: f64 = 1.0 + 1e-12;
 
 /// # Errors
@@ -34,7 +34,7 @@ fn clearance(scene: &Scene) -> Result<(), SceneError> {
     ))
 }
 
-/// Frequencies whose squares leave the range of numbers make no model.
+/// The squares of frequencies must stay in the range of numbers.
 fn frequencies(scene: &Scene) -> Result<(), SceneError> {
     let machine = scene.machine();
     for (key, value, frequency) in [
@@ -42,7 +42,7 @@ fn frequencies(scene: &Scene) -> Result<(), SceneError> {
         ("bladed_disk.inertia_kg_m2", scene.bladed_disk.inertia_kg_m2, machine.omega_bd),
     ] {
         if !(1e-6..=1e15).contains(&frequency) {
-            // Rounded away from what is allowed.
+            // Rounded to the outside of the allowed range.
             let given = if frequency > 1.0 { up(frequency) } else { down(frequency) };
             let allowed =
                 format!("one that gives a frequency from 1e-6 to 1e15 rad/s, not {given:e}");
@@ -57,7 +57,7 @@ fn initial_state(scene: &Scene) -> Result<(), SceneError> {
     let (x, y) = (scene.initial.u_c_m, scene.initial.u_s_m);
     let side = machine.polygon.nearest_side(x, y);
     let gap = machine.polygon.gap(side, x, y);
-    // A point set on a side by a computed coordinate may miss it by round-off.
+    // A point on a side, given by computed coordinates, may be outside by round-off.
     if gap >= -1e-12 * machine.clearance() {
         return Ok(());
     }
@@ -145,12 +145,12 @@ fn four_digits(x: f64) -> f64 {
     format!("{x:.3e}").parse().unwrap_or(x)
 }
 
-/// One in the last of four digits of a number.
+/// One unit of the fourth digit of a number.
 fn unit(x: f64) -> f64 {
     if x == 0.0 || !x.is_finite() { 0.0 } else { 10_f64.powf(x.abs().log10().floor() - 3.0) }
 }
 
-/// What the event solver does not know.
+/// What the event solver does not support.
 ///
 /// # Errors
 /// The bilateral law, or a disk of more than two modes.

@@ -1,4 +1,4 @@
-//! A scene that can be solved, as a type: what the solvers take.
+//! The type of a scene that can be solved; the solvers take only this.
 
 use std::ops::Deref;
 
@@ -28,10 +28,10 @@ impl Deref for CheckedScene {
 }
 
 impl CheckedScene {
-    /// Whether the event solver knows the contact law and the model size.
+    /// Whether the event solver supports the contact law and the model size.
     ///
     /// # Errors
-    /// It does not, in one line.
+    /// It does not; the reason in one line.
     pub fn suits_events(&self) -> Result<(), SceneError> {
         check::event(&self.0)
     }
@@ -42,8 +42,8 @@ impl CheckedScene {
         self.0
     }
 
-    /// This scene, changed by less than any of its bounds could notice: by
-    /// round-off, or inward.
+    /// This scene after a change that cannot break a bound: by round-off, or
+    /// away from all bounds.
     pub(crate) fn perturbed(&self, change: impl FnOnce(&mut Scene)) -> Self {
         let mut scene = self.0.clone();
         change(&mut scene);

@@ -1,4 +1,4 @@
-//! Why a scene was refused, each in one line.
+//! The reasons why a scene is refused, each in one line.
 
 use thiserror::Error;
 
@@ -42,12 +42,12 @@ pub enum SceneError {
         /// Names of the built-in scenes.
         allowed: String,
     },
-    /// A refusal, with the file it stands in.
+    /// An error in a file, with the name of the file.
     #[error("{path}: {error}")]
     InFile {
         /// The path as given.
         path: String,
-        /// What is wrong in it.
+        /// The error.
         error: Box<SceneError>,
     },
 }

@@ -1,5 +1,5 @@
-//! Scene files: TOML in, TOML out. Keys a file leaves out keep the documented
-//! default (the paper's machine); anything else in it must be a known key.
+//! Reads and writes scene files (TOML). Keys that a file does not contain have
+//! the documented default (the paper's machine); unknown keys are refused.
 
 use std::path::Path;
 
@@ -21,8 +21,8 @@ impl Scene {
         Ok(scene)
     }
 
-    /// As `load`, checking each key but not their combinations, so that
-    /// options can still change the scene before it is checked whole.
+    /// As `load`, but checks only each key, not the combinations, so that
+    /// options can still change the scene before the full check.
     ///
     /// # Errors
     /// No such scene, no such file, or a key in it that is refused.
@@ -45,18 +45,18 @@ impl Scene {
         Self::from_toml_unchecked(&text).map_err(|error| in_file(name_or_path, error))
     }
 
-    /// Reads a scene file and checks it whole.
+    /// Reads a scene file and checks it completely.
     ///
     /// # Errors
-    /// The first thing in it that is refused, in one line.
+    /// The first error in it, in one line.
     pub fn from_toml(text: &str) -> Result<Self, SceneError> {
         let scene = Self::from_toml_unchecked(text)?;
         scene.checked()?;
         Ok(scene)
     }
 
-    /// Reads a scene file, checking each key but not their combinations, so
-    /// that options can still change the scene before it is checked whole.
+    /// Reads a scene file and checks each key but not the combinations, so that
+    /// options can still change the scene before the full check.
     ///
     /// # Errors
     /// Text that is not TOML, unknown keys, values of the wrong type or out of
@@ -87,7 +87,7 @@ impl Scene {
         Ok(scene)
     }
 
-    /// The whole scene as a TOML file, every key written out.
+    /// The scene as a TOML file with every key.
     #[must_use]
     pub fn to_toml(&self) -> String {
         let mut out = String::from("schema = 1\n");

@@ -30,7 +30,7 @@ impl std::fmt::Display for Value {
     }
 }
 
-/// What a key may hold.
+/// The allowed values of a key.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Allowed {
     /// A finite number from `min` to `max`; above `min` where `above`.
@@ -79,11 +79,11 @@ impl std::fmt::Display for Allowed {
 pub struct Key {
     /// Dotted path, as in the file.
     pub path: &'static str,
-    /// Unit, for people.
+    /// Unit, as shown.
     pub unit: &'static str,
     /// What it is, in a few words.
     pub what: &'static str,
-    /// What it may hold.
+    /// Allowed values.
     pub allowed: Allowed,
     /// Reads it.
     pub get: fn(&Scene) -> Value,
@@ -143,7 +143,7 @@ pub fn find(path: &str) -> Result<&'static Key, SceneError> {
     KEYS.iter().find(|key| key.path == path).ok_or_else(|| unknown(path))
 }
 
-/// The refusal of a path that is no key, with the keys of its table.
+/// The error for an unknown key, with the keys of its table.
 pub(super) fn unknown(path: &str) -> SceneError {
     let table = path.split_once('.').map_or("", |(table, _)| table);
     let of_table = |key: &&Key| key.path.split_once('.').map_or("", |(t, _)| t) == table;

@@ -1,9 +1,9 @@
-//! Scenes: one machine, how it is run and how it is solved, in one value.
+//! Scenes: one machine, its operation and its solver in one value.
 //!
-//! A scene comes from a built-in preset or a TOML file, may be changed key by
-//! key (`Scene::set`), and is refused with one line that names the key, its
-//! value and what is allowed. `keys` is the one table of keys behind the file
-//! format, the command line and the knobs of the explorer.
+//! A scene comes from a built-in preset or a TOML file and can be changed key
+//! by key (`Scene::set`). An invalid value is refused in one line with the key,
+//! the value and what is allowed. The file format, the command line and the
+//! knobs of the explorer all use the table in `keys`.
 
 mod builtin;
 mod check;
@@ -59,7 +59,7 @@ impl ContactLaw {
     }
 }
 
-/// How much of the machine moves.
+/// Which parts of the machine can move.
 #[derive(
     Clone, Copy, Debug, PartialEq, Eq, Serialize, Display, EnumString, AsRefStr, VariantNames,
 )]
@@ -70,7 +70,7 @@ pub enum ModelSize {
     Rigid,
     /// The paper's four coordinates.
     Modal,
-    /// Every blade its own coordinate, Eqs. (2)-(3).
+    /// One coordinate per blade, Eqs. (2)-(3).
     Full,
 }
 
@@ -206,7 +206,7 @@ impl Scene {
         self.set_value(key, value)
     }
 
-    /// This scene with some keys set from text, checked whole.
+    /// This scene with some keys set from text, checked completely.
     ///
     /// # Errors
     /// The first key, value or combination that is refused.

@@ -1,11 +1,11 @@
-//! Adaptive maps: a coarse grid first, then only cells beside a change, down
-//! to the resolution of the plan; then every border found is followed to its
-//! ends. Cells that were not run take the value of the coarse cell they lie in.
+//! Adaptive maps: a coarse grid first, then only cells next to a change, down
+//! to the resolution of the plan; then each border is followed to its ends.
+//! Cells that were not run take the value of their coarse cell.
 //!
-//! In the result every cell beside another verdict was run, so a zone that any
-//! run hit is drawn as the full map draws it. A zone smaller than the coarse
-//! grid that no run hit is missed. Only verdicts count as a change: sensitive
-//! cells come as speckle, and following that would run every cell.
+//! In the result every cell next to another verdict was run, so a zone that any
+//! run hit has the same shape as in the full map. A zone smaller than the
+//! coarse grid that no run hit is missed. Only verdicts count as a change:
+//! sensitive cells are scattered, and following them would run every cell.
 
 use std::sync::atomic::Ordering;
 
@@ -13,14 +13,14 @@ use super::map::{Cell, Map, Progress};
 
 /// Coarsest stride between computed cells.
 const COARSEST: usize = 8;
-/// Least number of coarse cells along the shorter side, where there are as many.
+/// Least number of coarse cells along the shorter side, if the map has that many.
 const FEWEST: usize = 6;
 
 type Keep<'a> = &'a (dyn Fn(usize, Cell) + Sync);
 
 impl Map {
     /// Fills the map adaptively; cells inferred without a run are not counted
-    /// in `runs`. Stopped early, only cells that were run are left.
+    /// in `runs`. If stopped early, only cells that were run remain.
     pub fn fill_adaptively(&mut self, progress: &Progress, keep: Keep<'_>) {
         let mut stride = self.coarsest_stride();
         let mut inferred = vec![false; self.cells.len()];
@@ -44,8 +44,8 @@ impl Map {
         }
     }
 
-    /// The stride to begin with: the largest power of two, up to `COARSEST`,
-    /// that leaves `FEWEST` cells along the shorter side.
+    /// The first stride: the largest power of two, up to `COARSEST`, that
+    /// leaves `FEWEST` cells along the shorter side.
     #[must_use]
     pub fn coarsest_stride(&self) -> usize {
         let shorter = self.plan.x.count.min(self.plan.y.count) as usize;
@@ -56,7 +56,7 @@ impl Map {
         stride
     }
 
-    /// Runs inferred cells beside another verdict until there are none.
+    /// Runs inferred cells next to another verdict until there are none.
     fn follow_borders(&mut self, inferred: &mut [bool], progress: &Progress, keep: Keep<'_>) {
         while !progress.stop.load(Ordering::Relaxed) {
             let doubtful: Vec<usize> = (0..inferred.len())
@@ -83,8 +83,8 @@ impl Map {
             .any(|y| across.clone().any(|x| verdict(y * columns + x) != here))
     }
 
-    /// Whether the verdicts of the coarse cells around `index` differ, those
-    /// beside the coarse cell it lies in among them.
+    /// Whether the verdicts of the coarse cells around `index` differ,
+    /// including the neighbours of its own coarse cell.
     fn is_mixed(&self, index: usize, stride: usize) -> bool {
         let (columns, rows) = (self.plan.x.count as usize, self.plan.y.count as usize);
         let (column, row) = (index % columns, index / columns);

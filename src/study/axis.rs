@@ -24,7 +24,7 @@ pub enum AxisError {
         /// Dotted path.
         path: String,
     },
-    /// A range that makes no sense.
+    /// An invalid range.
     #[error("axis {path} = {range}: allowed is {allowed}")]
     Range {
         /// Dotted path.
@@ -34,7 +34,7 @@ pub enum AxisError {
         /// What would be accepted.
         allowed: String,
     },
-    /// A key that does not exist, or a value it may not hold.
+    /// A key that does not exist, or a value that it does not allow.
     #[error(transparent)]
     Scene(#[from] SceneError),
 }
@@ -67,7 +67,7 @@ impl Axis {
     /// An axis over a numeric key, checked at both ends.
     ///
     /// # Errors
-    /// An unknown or non-numeric key, or a range without meaning.
+    /// An unknown or non-numeric key, or an invalid range.
     pub fn new(path: &str, from: f64, to: f64, count: u32, log: bool) -> Result<Self, AxisError> {
         let key = keys::find(path)?;
         if !matches!(key.allowed, Allowed::Real { .. } | Allowed::Whole { .. }) {
@@ -151,7 +151,7 @@ impl Axis {
     /// take the nearest whole number.
     ///
     /// # Errors
-    /// A value the key may not hold.
+    /// A value that the key does not allow.
     pub fn apply(&self, scene: &mut Scene, index: u32) -> Result<(), SceneError> {
         let key = keys::find(&self.path)?;
         let value = self.value(index);

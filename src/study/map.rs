@@ -16,7 +16,7 @@ use crate::scene::{CheckedScene, Scene, SceneError};
 /// Most cells of one map: they are all held in memory.
 const MOST_CELLS: usize = 100_000_000;
 
-/// What a map is of: everything that decides its cells.
+/// The plan of a map: everything that determines its cells.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapPlan {
     /// The scene all cells start from.
@@ -25,7 +25,7 @@ pub struct MapPlan {
     pub x: Axis,
     /// Rows; pulse by default.
     pub y: Axis,
-    /// Whether to find out which cells are sensitive, at three runs a cell.
+    /// Whether to find the sensitive cells, which takes three more runs per cell.
     pub sensitivity: bool,
 }
 
@@ -41,22 +41,22 @@ pub struct Cell {
 /// A map, whole or in part.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Map {
-    /// What it is of.
+    /// Its plan.
     pub plan: MapPlan,
-    /// Cells in order; none where not computed.
+    /// Cells in order; none if not computed.
     pub cells: Vec<Option<Cell>>,
-    /// Cells computed by a run of their own.
+    /// Number of cells that were computed by a run.
     pub runs: u64,
     /// Wall time of this computation \[s\].
     pub wall_s: f64,
 }
 
-/// What a caller sees and says while a map is computed.
+/// Progress and stop flag of a map while it is computed.
 #[derive(Debug, Default)]
 pub struct Progress {
     /// Cells done so far.
     pub done: AtomicU64,
-    /// Set to stop early; what is done is kept.
+    /// Set to stop early; finished cells are kept.
     pub stop: AtomicBool,
 }
 
@@ -76,7 +76,7 @@ impl MapPlan {
     /// The scene of a cell.
     ///
     /// # Errors
-    /// Values that the scene may not hold together.
+    /// A combination of values that is not allowed.
     pub fn scene_of(&self, index: usize) -> Result<CheckedScene, SceneError> {
         let mut scene = self.scene.clone();
         let columns = self.x.count as usize;
@@ -85,7 +85,7 @@ impl MapPlan {
         scene.checked()
     }
 
-    /// The first thing in which two plans differ so that their cells may.
+    /// The first difference of two plans that can change their cells.
     #[must_use]
     pub fn difference(&self, other: &Self) -> Option<&'static str> {
         [
@@ -98,13 +98,13 @@ impl MapPlan {
         .find_map(|(what, differs)| differs.then_some(what))
     }
 
-    /// The scene without what decides no cell: title, note and view, and the
-    /// keys on the axes, of which each cell has its own values.
+    /// The scene without what no cell depends on: title, note and view, and the
+    /// keys on the axes, which each cell sets.
     fn deciding(&self) -> Scene {
         let Scene { title, note, view, .. } = Scene::base();
         let mut scene = Scene { title, note, view, ..self.scene.clone() };
         for axis in [&self.x, &self.y] {
-            // An axis that no scene takes leaves both scenes as they are.
+            // An axis with a key that does not exist changes neither scene.
             let _ = axis.apply(&mut scene, 0);
         }
         scene
@@ -122,7 +122,7 @@ impl MapPlan {
         Err(SceneError::refused("map", size, format!("from 1 to {MOST_CELLS} cells")))
     }
 
-    /// Refuses a plan of too many cells, or whose corners are not scenes.
+    /// Refuses a plan with too many cells, or with a corner that is not a valid scene.
     ///
     /// # Errors
     /// The number of cells, or the first corner that is refused.
@@ -155,8 +155,8 @@ impl Map {
         Self { plan, cells, runs: 0, wall_s: 0.0 }
     }
 
-    /// Computes the given cells that are still missing, in parallel, and hands
-    /// each to `keep` as it comes. Stops early when asked.
+    /// Computes the given cells that are still missing, in parallel, and passes
+    /// each to `keep` as soon as it is ready. Stops early on request.
     pub fn fill(
         &mut self,
         indices: &[usize],
@@ -187,7 +187,7 @@ impl Map {
         self.wall_s += started.elapsed().as_secs_f64();
     }
 
-    /// Whether every cell is there.
+    /// Whether every cell is computed.
     #[must_use]
     pub fn is_complete(&self) -> bool {
         self.cells.iter().all(Option::is_some)

@@ -41,7 +41,7 @@ pub fn speed_curves(plan: &MapPlan) -> Vec<Curve> {
     ]
 }
 
-/// A map with one axis over a given key, walked along the other axis.
+/// A map with one axis over a given key; curves go along the other axis.
 struct AlongOther<'a> {
     plan: &'a MapPlan,
     /// Whether the key is on the x axis.
@@ -76,7 +76,7 @@ pub fn grazing_pulse(scene: &Scene, most: f64) -> Option<f64> {
         scene.operation.pulse_n = force;
         let Ok(scene) = scene.checked() else { return false };
         let mut motion = Motion::new(&scene);
-        // A free casing swings out furthest within its first period.
+        // A free casing has its largest displacement within its first period.
         let period = std::f64::consts::TAU / motion.machine().omega_c;
         let until = (scene.operation.pulse_s + period).min(scene.solver.end_s);
         motion.advance(until).is_err() || motion.contacts().impact_count > 0

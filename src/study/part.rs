@@ -1,6 +1,6 @@
-//! Parts of a map on disk: what a stopped run leaves, what a shard computes,
-//! what `merge` joins. One header line of JSON that says what the map is of,
-//! then one line a cell: its number, verdict, and `!` where it is sensitive.
+//! Parts of a map on disk: a stopped run and a shard write them, `merge` joins
+//! them. A header line of JSON describes the map. Then each line is one cell:
+//! its number, verdict, and `!` if it is sensitive.
 
 use std::io::{BufRead, Write};
 
@@ -59,7 +59,7 @@ pub enum PartError {
         file: String,
         /// The first file.
         other: String,
-        /// In what they differ.
+        /// The difference.
         what: String,
     },
     /// Cells that no part has.
@@ -84,8 +84,8 @@ pub enum PartError {
     },
 }
 
-/// What the header line says: everything that decides the cells, with title
-/// and note of the scene for those who read the map.
+/// The header line: everything that determines the cells, and title and note of
+/// the scene for readers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Header {
     schema: String,
@@ -125,7 +125,7 @@ impl Header {
 /// Writes the header line of a part.
 ///
 /// # Errors
-/// What the writer says.
+/// An error of the writer.
 pub fn write_header(plan: &MapPlan, out: &mut dyn Write) -> std::io::Result<()> {
     serde_json::to_writer(&mut *out, &Header::of(plan))?;
     writeln!(out)
@@ -134,7 +134,7 @@ pub fn write_header(plan: &MapPlan, out: &mut dyn Write) -> std::io::Result<()> 
 /// Writes one cell.
 ///
 /// # Errors
-/// What the writer says.
+/// An error of the writer.
 pub fn write_cell(index: usize, cell: Cell, out: &mut dyn Write) -> std::io::Result<()> {
     let mark = if cell.sensitive { " !" } else { "" };
     writeln!(out, "{index} {}{mark}", cell.verdict)
@@ -143,7 +143,7 @@ pub fn write_cell(index: usize, cell: Cell, out: &mut dyn Write) -> std::io::Res
 /// Writes all computed cells of a map as one part.
 ///
 /// # Errors
-/// What the writer says.
+/// An error of the writer.
 pub fn write(map: &Map, out: &mut dyn Write) -> std::io::Result<()> {
     write_header(&map.plan, out)?;
     for (index, cell) in map.cells.iter().enumerate() {
@@ -185,7 +185,7 @@ pub fn read_all<R: BufRead>(
     Ok(joined.map(|(_, _, map)| map))
 }
 
-/// A missing cell, if there is one, as the error that says so.
+/// Returns an error if a cell is missing.
 ///
 /// # Errors
 /// The map is not complete.
@@ -315,12 +315,12 @@ mod tests {
         assert!(!other.contains("response") && other.contains("speed_rad_s = 320.0"), "{other}");
         let joined = read(&[first.clone(), other.into_bytes()]).unwrap().unwrap();
         require_complete(&joined).unwrap();
-        // A part of a time when the scene had fewer keys: the rest has defaults.
+        // A part from an older version with fewer keys: missing keys have defaults.
         let mut lines = text.replacen("\\norder = 3", "", 1);
         lines = lines.replacen("contact = \\\"unilateral\\\"\\n", "", 1);
         assert!(lines.len() < text.len() - 30);
         require_complete(&read(&[first.clone(), lines.into_bytes()]).unwrap().unwrap()).unwrap();
-        // What does decide them still counts.
+        // What determines the cells must still agree.
         let damped = text.replacen("damping_ratio = 0.05", "damping_ratio = 0.06", 1);
         assert_ne!(damped, text);
         assert!(read(&[first, damped.into_bytes()]).is_err());

@@ -1,5 +1,5 @@
-//! How everything looks: a theme and a marker together, and the signs that
-//! turn to plain ASCII when the marker does.
+//! The appearance: a theme and a marker, and the characters, which are plain
+//! ASCII if the marker is.
 
 use ratatui::style::Style;
 
@@ -79,7 +79,7 @@ impl Appearance {
         Pen { style: self.style(Role::Second), sign: 'o', dashed: true }
     }
 
-    /// Pen for what is only there to compare with.
+    /// Pen for data to compare with.
     pub fn quiet(&self) -> Pen {
         Pen { style: self.style(Role::Quiet), sign: '.', dashed: true }
     }

@@ -9,7 +9,7 @@ pub fn nice_step(span: f64, most: usize) -> Option<f64> {
     }
     let raw = span / most as f64;
     let power = 10f64.powf(raw.log10().floor());
-    // The logarithm of a power of ten may land on either side of it.
+    // The logarithm of a power of ten may round to either side.
     let step = [1.0, 2.0, 5.0, 10.0, 20.0]
         .into_iter()
         .map(|m| m * power)
@@ -24,7 +24,7 @@ pub fn ticks(low: f64, high: f64, most: usize) -> (Vec<f64>, f64) {
     let slack = 1e-9 * step;
     let first = ((low - slack) / step).ceil();
     let last = ((high + slack) / step).floor();
-    // A range far from zero and narrower than its own round-off has no ticks.
+    // A range far from zero and narrower than its round-off has no ticks.
     if !(last - first).is_finite() || last - first > 1e3 {
         return (Vec::new(), step);
     }
@@ -39,7 +39,7 @@ pub fn ticks(low: f64, high: f64, most: usize) -> (Vec<f64>, f64) {
 /// One SI prefix for a whole axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SiScale {
-    /// What one shown unit is worth.
+    /// Value of one shown unit.
     pub factor: f64,
     /// The prefix in front of the unit.
     pub prefix: &'static str,
@@ -117,7 +117,7 @@ impl ChartAxis {
         Self { powers: true, ..Self::plain(low, high) }
     }
 
-    /// Round values and their spacing: of powers, the whole exponents only.
+    /// Round values and their spacing; for powers only whole exponents.
     pub(super) fn ticks(&self, most: usize) -> (Vec<f64>, f64) {
         let (values, step) = ticks(self.low, self.high, most);
         if !self.powers {
@@ -153,8 +153,8 @@ pub fn readable(value: f64, unit: &str) -> String {
     format!("{shown:.decimals$} {}{unit}", scale.prefix).trim_end().to_string()
 }
 
-/// A range that grows at once and shrinks only when the data has become much
-/// smaller, always to round numbers.
+/// A range that grows at once, shrinks only when the data is much smaller, and
+/// always has round ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AutoRange {
     /// Lower end.
@@ -249,7 +249,7 @@ mod tests {
                 prop_assert!(pair[1] > pair[0]);
             }
             for value in values {
-                // Half a step: the ends carry the round-off of a large offset.
+                // Half a step: the ends have the round-off of a large offset.
                 prop_assert!(value >= low - 0.5 * step && value <= low + span + 0.5 * step);
             }
         }

@@ -1,5 +1,5 @@
-//! Messages between the screen and the solver. The screen sends orders, of
-//! which the latest counts; the engine answers with snapshots. Both carry the
+//! Messages between the screen and the solver. The screen sends orders, and
+//! only the latest counts; the engine answers with snapshots. Both contain the
 //! generation of the knobs.
 
 use std::sync::Arc;
@@ -13,29 +13,29 @@ use crate::scene::CheckedScene;
 use crate::study::Map;
 use crate::study::precision::Precision;
 
-/// What the engine has to do. Counters only grow, so that no key press is lost
+/// The task of the engine. Counters only grow, so that no key press is lost
 /// when an order replaces an older one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Order {
-    /// The scene with the present values of the knobs.
+    /// The scene with the current values of the knobs.
     pub scene: CheckedScene,
-    /// How often the run was started again.
+    /// Number of restarts of the run.
     pub restarts: u64,
-    /// How often a knob acted on the running motion.
+    /// Number of live changes of the running motion.
     pub changes: u64,
-    /// How often a single step was asked for.
+    /// Number of requests for a single step.
     pub steps: u64,
-    /// How often a jump to the next change of contact was asked for.
+    /// Number of requests to jump to the next change of contact.
     pub jumps: u64,
-    /// How often the pulse was fired again.
+    /// Number of times the pulse was fired again.
     pub pulses: u64,
     /// Whether time passes.
     pub playing: bool,
-    /// Motion per wall-clock time: 5e-3 plays five milliseconds a second.
+    /// Simulated time per wall-clock time: 5e-3 plays five milliseconds per second.
     pub rate: f64,
     /// Length of one recorded bin \[s\].
     pub bin_s: f64,
-    /// Whether to run the other contact law as well, to compare.
+    /// Whether to run the other contact law too, for comparison.
     pub compare: bool,
     /// The views on the screen: their studies are computed.
     pub open: Vec<ViewId>,
@@ -56,18 +56,18 @@ impl Order {
 /// How fast the solver is.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pace {
-    /// Wall-clock time of one step, where the solver steps \[s\].
+    /// Wall-clock time of one step, if the solver has steps \[s\].
     pub step_s: Option<f64>,
     /// Wall-clock time of the whole run to `solver.end_s` \[s\].
     pub run_s: Option<f64>,
-    /// Whether the motion plays slower than asked, because the solver is too slow.
+    /// Whether the motion plays slower than requested, because the solver is too slow.
     pub limited: bool,
 }
 
-/// How far the full run is.
+/// Progress of the full run.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FullRunState {
-    /// The part of the run that is done, 0 to 1.
+    /// The finished part of the run, 0 to 1.
     Computing(f64),
     /// Done.
     Done(FullRun),
@@ -127,9 +127,9 @@ pub struct Results {
     pub locked: Option<Arc<LockedCurves>>,
     /// The spectrum of the run, while its view is open.
     pub spectrum: Option<Arc<Spectrum>>,
-    /// The map, while its view is open; cells come one by one.
+    /// The map, while its view is open; cells arrive one by one.
     pub map: Option<Arc<Map>>,
-    /// Speed against error, while its view is open; rows come one by one.
+    /// Speed against error, while its view is open; rows arrive one by one.
     pub precision: Option<Arc<Precision>>,
     /// Solver speed.
     pub pace: Pace,
@@ -140,25 +140,25 @@ pub struct Results {
 pub struct Snapshot {
     /// Generation of the knobs this belongs to.
     pub generation: u64,
-    /// Which run the bins belong to.
+    /// The run that the bins belong to.
     pub restarts: u64,
-    /// The latest instant of the motion that is played.
+    /// The latest state of the motion that is played.
     pub moment: Option<Moment>,
     /// What was recorded since the last snapshot.
     pub bins: Vec<Bin>,
-    /// The same of the motion under the other contact law.
+    /// The same for the motion under the other contact law.
     pub comparison_bins: Vec<Bin>,
-    /// Figures of the scene of this generation.
+    /// Results for the scene of this generation.
     pub results: Results,
-    /// The engine itself failed: why.
+    /// The reason if the engine itself failed.
     pub trouble: Option<String>,
 }
 
-/// A solver in the background, or a stand-in for one.
+/// A solver in the background, or a replacement for tests.
 pub trait Engine {
     /// Replaces what is wanted.
     fn order(&mut self, order: &Order);
-    /// Takes what is new, if anything is.
+    /// Returns the new snapshot, if there is one.
     fn take(&mut self) -> Option<Snapshot>;
 }
 

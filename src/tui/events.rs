@@ -1,5 +1,5 @@
-//! What the drawing thread waits for, and the threads that bring it: one
-//! blocks in reading keys, one waits for signals.
+//! The events that the drawing thread waits for, and the threads that send
+//! them: one reads keys, one waits for signals.
 
 use std::sync::mpsc::Sender;
 use std::thread;
@@ -11,17 +11,17 @@ use crossterm::event::{self, KeyEvent, KeyEventKind};
 pub enum ScreenEvent {
     /// A key was pressed.
     Key(KeyEvent),
-    /// The terminal has another size.
+    /// The terminal has a new size.
     Resize,
-    /// The engine has something new.
+    /// The engine has a new snapshot.
     Fresh,
     /// A signal that ends the program.
     Signal(u8),
-    /// The job is to be suspended.
+    /// The job must be suspended.
     Suspend,
     /// The job was continued.
     Continued,
-    /// No more keys will come: the terminal is gone.
+    /// No more keys: the terminal is closed.
     InputClosed,
 }
 
@@ -50,11 +50,11 @@ pub fn read_keys(to: Sender<ScreenEvent>) -> std::io::Result<()> {
     thread::Builder::new().name("rubscope-input".into()).spawn(read).map(|_| ())
 }
 
-/// Starts the thread that waits for signals. If the drawing thread has not
-/// ended the program some time after a deadly signal, this thread does.
+/// Starts the thread that waits for signals. If the drawing thread does not end
+/// the program soon after a signal to end, this thread does.
 ///
 /// # Errors
-/// The system gives no thread, or no signals.
+/// The system cannot start a thread or watch signals.
 #[cfg(unix)]
 pub fn watch_signals(to: Sender<ScreenEvent>) -> std::io::Result<()> {
     use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP};
@@ -90,7 +90,7 @@ pub fn watch_signals(_: Sender<ScreenEvent>) -> std::io::Result<()> {
     Ok(())
 }
 
-/// How long the drawing thread may take to leave after a deadly signal: a
-/// terminal that takes no output can block it.
+/// How long the drawing thread may take to end after a signal: a terminal that
+/// accepts no output can block it.
 #[cfg(unix)]
 const GRACE: std::time::Duration = std::time::Duration::from_secs(2);

@@ -13,7 +13,7 @@ use super::theme::Theme;
 /// Size of a cell in the picture.
 const CELL: (u32, u32) = (8, 17);
 
-/// The screen as a picture: its size, on the ground its theme is made for.
+/// The screen as a picture: its size, and the background of its theme.
 pub fn svg(app: &App) -> String {
     let area = Rect::new(0, 0, app.size.0, app.size.1);
     let (ground, ink) = match app.appearance.theme {
@@ -62,8 +62,8 @@ pub fn svg(app: &App) -> String {
     out
 }
 
-/// A named colour on its ground: light on dark, dark on light. The text's own
-/// is none.
+/// A named colour for its background: light on dark, dark on light. None for
+/// the default colour of the text.
 fn hex(colour: Color, theme: Theme) -> Option<&'static str> {
     let [light, dark] = match colour {
         Color::DarkGray => ["#7f8790", "#6b7280"],

@@ -1,5 +1,5 @@
 //! The record of a run as bins with the least and the greatest value of each
-//! channel: a contact peak of one step is seen at any zoom.
+//! channel, so that a contact peak of one step is visible at any zoom.
 
 use crate::motion::ActiveSet;
 
@@ -136,7 +136,7 @@ impl BinHistory {
         out
     }
 
-    /// Which of `columns` columns of `[from, to]` saw a contact.
+    /// Which of `columns` columns of `[from, to]` have a contact.
     pub fn contacts(&self, from: f64, to: f64, columns: usize) -> Vec<bool> {
         let mut out = vec![false; columns];
         let width = (to - from) / columns.max(1) as f64;

@@ -1,5 +1,5 @@
-//! The lessons under `assets/lessons/`, embedded in the program: each a scene
-//! and a few steps of text that set knobs and say what to do.
+//! The lessons under `assets/lessons/`, embedded in the program: each has a
+//! scene and a few steps of text that set knobs and give tasks.
 
 use std::sync::OnceLock;
 
@@ -11,7 +11,7 @@ use serde::Deserialize;
 pub struct Lesson {
     /// What it is about.
     pub title: String,
-    /// The built-in scene it begins with.
+    /// The built-in scene at its start.
     pub scene: String,
     /// Its steps.
     #[serde(rename = "step")]
@@ -22,7 +22,7 @@ pub struct Lesson {
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct LessonStep {
-    /// What can be seen, and why.
+    /// What can be seen, and the reason.
     pub text: String,
     /// The equation behind it.
     pub equation: Option<String>,

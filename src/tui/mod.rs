@@ -46,7 +46,7 @@ use crate::scene::CheckedScene;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, EnumString, VariantNames)]
 #[strum(serialize_all = "lowercase")]
 pub enum Color {
-    /// Where the terminal has it and `NO_COLOR` does not forbid it.
+    /// If the terminal supports it and `NO_COLOR` does not forbid it.
     #[default]
     Auto,
     /// Always.
@@ -91,8 +91,8 @@ impl ExploreOptions {
     }
 }
 
-/// Runs the explorer on a checked scene until the user leaves. The result is
-/// the exit status: 0, or 128 + n after signal n.
+/// Runs the explorer on a checked scene until the user quits. The result is the
+/// exit status: 0, or 128 + n after signal n.
 ///
 /// # Errors
 /// Standard output is no terminal that can show a screen, or threads or
@@ -102,8 +102,8 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
     if dumb || !std::io::stdout().is_terminal() {
         anyhow::bail!("the explorer needs a terminal; use `rubscope run` without one");
     }
-    // crossterm would drop bold and reverse along with the colours; the mono
-    // theme has no colours to drop.
+    // With `NO_COLOR`, crossterm would drop bold and reverse too; the mono
+    // theme has no colours anyway.
     crossterm::style::force_color_output(true);
     terminal::install_panic_hook();
     let (sender, events) = mpsc::channel();

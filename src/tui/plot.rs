@@ -143,7 +143,7 @@ impl<'a> Plot<'a> {
         (0..count).map(|k| self.x.low + (k as f64 + 0.5) * width).collect()
     }
 
-    /// The sub-pixel column of an x value, bounded so that it is a whole number.
+    /// The sub-pixel column of an x value, limited so that it fits a whole number.
     fn pixel_x(&self, value: f64) -> Option<i64> {
         let across = (value - self.x.low) / (self.x.high - self.x.low);
         whole(across * (self.raster.size().0.saturating_sub(1)) as f64)
@@ -175,7 +175,8 @@ impl<'a> Plot<'a> {
             let shown = span.and_then(|(low, high)| self.pixel_y(high).zip(self.pixel_y(low)));
             if let Some((mut top, mut bottom)) = shown {
                 if let Some((last_top, last_bottom)) = last {
-                    // Reach half way to the neighbour, so that steep parts do not break up.
+                    // Extend half way to the neighbour, so that steep parts
+                    // stay connected.
                     if top > last_bottom + 1 {
                         top = last_bottom + 1;
                     } else if bottom < last_top - 1 {
@@ -208,7 +209,7 @@ impl<'a> Plot<'a> {
         }
     }
 
-    /// Puts the raster under whatever signs are drawn after.
+    /// Draws the raster below all later signs.
     pub fn ink(&mut self) {
         self.raster.draw(self.buffer);
     }

@@ -1,6 +1,6 @@
 //! A grid of sub-pixels over terminal cells: braille, octants, half blocks,
-//! dots or plain ASCII. It takes numbers only after they became whole pixels,
-//! so nothing that is not a number can reach the screen.
+//! dots or plain ASCII. It accepts whole pixels only, so NaN and infinities
+//! cannot reach the screen.
 
 use ratatui::{
     buffer::Buffer,
@@ -105,7 +105,7 @@ impl Raster {
 
     /// A straight line, dashed where the pen says so.
     pub fn line(&mut self, from: (i64, i64), to: (i64, i64), pen: &Pen) {
-        // Ends far outside cannot be seen, and would take many steps.
+        // Ends far outside are not visible, and would take many steps.
         let bound = |v: i64| v.clamp(-20_000, 20_000);
         let (x0, y0, x1, y1) = (bound(from.0), bound(from.1), bound(to.0), bound(to.1));
         let steps = (x1 - x0).abs().max((y1 - y0).abs()).max(1);

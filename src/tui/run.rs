@@ -12,12 +12,12 @@ use super::events::ScreenEvent;
 use super::panels;
 use super::terminal::Host;
 
-/// Draw at least this often: a terminal that is gone then gives an error.
+/// Draw at least this often, to detect a closed terminal by its error.
 const HEARTBEAT: Duration = Duration::from_secs(1);
-/// Keys are answered at once, but not more often than this.
+/// Least time between two answers to keys.
 const KEY_FRAME: Duration = Duration::from_millis(16);
 
-/// How soon the screen must be drawn.
+/// When the screen must be drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Due {
     /// Nothing has changed.
@@ -39,7 +39,7 @@ impl Due {
     }
 }
 
-/// Runs the explorer until it is left. Draws only when something changed.
+/// Runs the explorer until the user quits. Draws only when something changed.
 ///
 /// # Errors
 /// The terminal cannot be written to.
@@ -76,7 +76,7 @@ pub fn run<B: Backend>(
                     due = Due::Now;
                 }
             }
-            // Of many key presses only the last state is computed.
+            // After many key presses only the last state is computed.
             next = events.try_recv().ok();
         }
         order(app, engine, &mut ordered);
@@ -109,7 +109,7 @@ fn show<B: Backend>(
     terminal.draw(|frame| panels::draw(frame, app)).map(|_| ())
 }
 
-/// What an event asks of the loop.
+/// What the loop must do for an event.
 enum Reaction {
     Exit(Exit),
     Draw(Due),
@@ -124,7 +124,7 @@ fn handle(event: &ScreenEvent, app: &mut App, host: &mut dyn Host) -> Reaction {
             Effect::Suspend => resumed(host.suspend()),
             Effect::Redraw => Reaction::Redraw,
             Effect::Copy(text) => {
-                // The status line shows it even if the terminal refuses it.
+                // The status line also shows it, in case the terminal refuses it.
                 let _ = host.copy(&text);
                 Reaction::Draw(Due::Now)
             }
@@ -142,5 +142,5 @@ fn resumed(result: std::io::Result<()>) -> Reaction {
     if result.is_ok() { Reaction::Redraw } else { Reaction::Exit(Exit::Signal(HANGUP)) }
 }
 
-/// SIGHUP: the terminal is gone.
+/// SIGHUP: the terminal is closed.
 pub(super) const HANGUP: u8 = 1;

@@ -1,4 +1,4 @@
-//! Takes the terminal, and gives it back however the program ends.
+//! Sets up the terminal, and restores it however the program ends.
 
 use std::io::{BufWriter, Stdout, Write, stdout};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -12,7 +12,7 @@ use ratatui::{Terminal, backend::CrosstermBackend};
 
 use super::worker::WORKER_NAME;
 
-/// Whether the terminal is taken.
+/// Whether the terminal is set up.
 static TAKEN: AtomicBool = AtomicBool::new(false);
 
 /// A frame is written in one piece.
@@ -31,8 +31,8 @@ pub fn enter() -> std::io::Result<()> {
     execute!(stdout(), EnterAlternateScreen, Hide)
 }
 
-/// Gives the terminal back; may be called at any time, from any thread, and
-/// on a terminal that is gone.
+/// Restores the terminal; may be called at any time, from any thread, and on a
+/// closed terminal.
 pub fn leave() {
     if TAKEN.swap(false, Ordering::SeqCst) {
         // An error cannot be reported any more.
@@ -52,8 +52,8 @@ pub fn open() -> std::io::Result<Screen> {
     Terminal::new(CrosstermBackend::new(BufWriter::with_capacity(FRAME_BYTES, stdout())))
 }
 
-/// A panic gives the terminal back before it is reported. The worker's panics
-/// are caught and shown on the screen: the hook does not report them.
+/// A panic restores the terminal before it is reported. Panics of the worker
+/// are caught and shown on the screen, so the hook does not report them.
 pub fn install_panic_hook() {
     let report = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |info| {
@@ -65,7 +65,7 @@ pub fn install_panic_hook() {
     }));
 }
 
-/// Gives the terminal back when dropped.
+/// Restores the terminal when dropped.
 pub struct Guard;
 
 impl Drop for Guard {
@@ -79,12 +79,12 @@ pub trait Host {
     /// Gives the terminal to the shell until the job is continued.
     ///
     /// # Errors
-    /// The terminal cannot be taken back.
+    /// The terminal cannot be set up again.
     fn suspend(&mut self) -> std::io::Result<()>;
-    /// Takes the terminal again after the job was continued from outside.
+    /// Sets up the terminal again after the job was continued from outside.
     ///
     /// # Errors
-    /// The terminal cannot be taken back.
+    /// The terminal cannot be set up again.
     fn resume(&mut self) -> std::io::Result<()>;
     /// Puts a text on the clipboard of the terminal.
     ///

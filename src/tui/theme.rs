@@ -1,5 +1,5 @@
-//! Colours by role. Every theme has the same eight roles; no meaning is given
-//! by colour alone, but also by a sign, a word or a line style.
+//! Colours by role. Every theme has the same eight roles; a sign, a word or a
+//! line style always gives the same information as a colour.
 
 use ratatui::style::{Color, Modifier, Style};
 
@@ -20,16 +20,16 @@ pub enum Role {
     Contact,
     /// Good news.
     Good,
-    /// Trouble: refused values, pulls, failures.
+    /// Problems: refused values, pulls, failures.
     Trouble,
 }
 
 /// A named set of colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Theme {
-    /// Light text on a dark ground.
+    /// Light text on a dark background.
     Dark,
-    /// Dark text on a light ground.
+    /// Dark text on a light background.
     Light,
     /// Blue and orange (yellow), safe for the common colour blindnesses.
     ColourBlind,
@@ -51,8 +51,8 @@ impl Theme {
         Self::ALL[(self as usize + 1) % Self::ALL.len()]
     }
 
-    /// Style of a role. The sixteen named colours only: the user's palette
-    /// decides what they look like.
+    /// Style of a role. Only the sixteen named colours, which follow the user's
+    /// palette.
     pub fn style(self, role: Role) -> Style {
         let colour = match (self, role) {
             (Self::Mono, _) | (_, Role::Text) => Color::Reset,

@@ -1,6 +1,5 @@
-//! Scenes that once went wrong, with values from codes that share nothing with
-//! this one. Each is a whole command line of `run` or `map`, its options without
-//! their dashes.
+//! Scenes that once failed, with values from independent codes. Each is a whole
+//! command line of `run` or `map`, its options without their dashes.
 
 use rubscope::motion::{
     RunReport, Sampling, Script, Verdict, run_to_verdict, simulate, simulate_with,
@@ -31,7 +30,7 @@ fn scene(base: &str, options: &str) -> Scene {
     Scene::builtin(base).unwrap().with(&changes).unwrap().into_scene()
 }
 
-/// A start at rest in a corner of the paper's machine, but for the rate.
+/// A start in a corner of the paper's machine with this rate.
 const CORNER: &str =
     "initial.u_c_m -9.9999999999989e-05 initial.u_s_m -1.4377829399495726e-05 pulse 0";
 
@@ -66,7 +65,7 @@ fn three_blades_a_side_slip_as_their_modes() {
     assert_eq!(full.impact_count, modal.impact_count);
     assert_eq!(full.outcome.contacts[0].blades, modal.outcome.contacts[0].blades);
     let [a, b] = [&full, &modal].map(|report| report.outcome.contacts[0].multiplier_n);
-    // Blades of their own are lighter at an impact: some 1e-4 later in the motion.
+    // Separate blades are lighter at an impact: some 1e-4 later in the motion.
     assert!((a / b - 1.0).abs() < 1e-2, "{a} {b}");
 }
 
@@ -150,7 +149,7 @@ fn a_locked_wave_turns_with_the_rotor_however_long_the_run() {
 
 #[test]
 fn a_lock_under_excitation_is_not_taken_for_good() {
-    // A resonance of the blades breaks it after 85 ms.
+    // A resonance of the blades breaks the lock after 85 ms.
     let how = format!(
         "{CORNER} initial.v_c_m_s 0.017857264114173692 initial.v_s_m_s -0.12419999999998634 \
          speed 414 contact unilateral model modal step 1e-6 end 0.2 zeta-disk 0.002 \
@@ -216,7 +215,8 @@ fn a_count_that_a_larger_pulse_changes_is_sensitive() {
 
 #[test]
 fn a_count_that_noise_alone_changes_is_sensitive() {
-    // A billionth more or less pulse changes nothing; of the rate on the way, it does.
+    // A change of the pulse by one part in a billion has no effect; the same
+    // change of the rate has.
     let how = "solver event model rigid contact unilateral zeta-casing 0.01 end 0.1 \
                speed 319.5 pulse 553300";
     let scene = scene("paper-nd3", how);
@@ -231,7 +231,7 @@ fn a_count_that_noise_alone_changes_is_sensitive() {
 
 #[test]
 fn a_lock_whose_time_a_tiny_change_moves_is_sensitive() {
-    // Locked with a billionth more or less pulse as well, but at other times.
+    // Also locked with a pulse changed by one part in a billion, but at other times.
     let how = "solver event model rigid contact unilateral nd 5 zeta-casing 0 speed 500 \
                end 0.114584672293341 bladed_disk.blades 12 pulse 5280.215591911308";
     let report = run("paper-nd3", how);
@@ -297,12 +297,12 @@ fn a_corner_without_a_push_does_not_flicker() {
 
 #[test]
 fn a_strong_pulse_or_a_soft_casing_costs_no_more_looks() {
-    // Each took tens of seconds in one free flight; their results are known.
+    // Each once took tens of seconds in one free flight; their results are known.
     let how = "solver event model rigid contact unilateral nd 0 pulse 1e12 end 1e-6 \
                bladed_disk.blades 1 bladed_disk.blade_length_m 0.4999999997604368 \
                operation.pulse_s 0.0011";
     let thrown = run("paper-nd3", how);
-    // F t^2/2m, the casing as good as free.
+    // F t^2/2m, the casing practically free.
     assert!((thrown.r#final.u_c_m - 0.25).abs() < 1e-5, "{:?}", thrown.r#final);
     assert_eq!(thrown.impact_count, 0);
     let how = "nd 429 end 3.16e-4 casing.modal_stiffness_n_per_m 4.1e-5 casing.radius_m 0.499901";

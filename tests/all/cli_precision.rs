@@ -1,5 +1,5 @@
-//! `rubscope precision`: errors at the instants that were really reached, rows
-//! of another contact law, and errors of zero.
+//! `rubscope precision`: errors at the times that were really reached, rows of
+//! another contact law, and errors of zero.
 
 use crate::cli_support::{refusal, rubscope};
 use serde_json::Value;
@@ -13,7 +13,7 @@ fn compare(arguments: &[&str]) -> Value {
     serde_json::from_slice(&output.stdout).unwrap()
 }
 
-/// What a comparison prints for people.
+/// The readable output of a comparison.
 fn text(arguments: &[&str]) -> String {
     let command = ["precision", "--repeat", "1", "--finest", "1e-6"];
     String::from_utf8(rubscope(&[&command, arguments].concat()).stdout).unwrap()
@@ -38,8 +38,8 @@ fn rows(report: &Value) -> &Vec<Value> {
 
 #[test]
 fn the_reference_is_taken_at_the_instant_a_run_really_reached() {
-    // No blade touches; what is left is the error of central differences in
-    // free flight, second order in the step. The end is no multiple of a step.
+    // No blade touches; the only error is that of central differences in free
+    // flight, second order in the step. The end is no multiple of a step.
     let report = compare(&["--pulse", "1000", "--end", "0.0030037"]);
     assert_eq!(report["reference"]["impact_count"], 0);
     for (step, right) in [(1e-6, 4.03e-8), (1e-5, 4.06e-6)] {
@@ -78,7 +78,7 @@ fn a_finest_step_without_meaning_is_refused() {
 #[test]
 fn another_contact_law_is_no_wrong_answer() {
     // The default scene locks under the bilateral law and decays under the
-    // unilateral one: both are right about their own law.
+    // unilateral one: both results are right for their law.
     let short = ["--end", "0.02"];
     let report = compare(&short);
     assert_eq!(report["reference"]["contact"], "unilateral");
@@ -114,7 +114,7 @@ fn an_error_of_zero_is_called_zero_and_stays_off_the_logarithmic_axis() {
     assert!(marks.contains('e') || marks.contains('E'), "{marks}");
     let (_, picture) = files(&free);
     assert!(picture.contains("error 0, off this scale") && !picture.contains("1e-16"), "{picture}");
-    // Nothing at all to place on such an axis is said, not drawn.
+    // If no row can be on such an axis, a message says so.
     let still = ["--pulse", "0", "--end", "0.003"];
     let printed = text(&still);
     assert!(printed.contains("\n   0 |") && !printed.contains("inf"), "{printed}");
@@ -149,7 +149,7 @@ fn a_scene_that_the_reference_does_not_know_is_refused() {
 
 #[test]
 fn a_sensitive_scene_has_no_errors_at_the_end() {
-    // It locks at other instants with a billionth more pulse.
+    // It locks at other times with a pulse larger by one part in a billion.
     let scene = ["--model", "rigid", "--nd", "5", "--set", "bladed_disk.blades=12"];
     let run = ["--zeta-casing", "0", "--pulse", "5280.215591911308", "--end", "0.114584672293341"];
     let sensitive = [&scene[..], &run].concat();

@@ -1,5 +1,5 @@
-//! What the README shows is what the program prints: every command of its
-//! `console` blocks is run, and its output compared line by line.
+//! The README shows what the program prints: every command of its `console`
+//! blocks is run, and its output is compared line by line.
 
 use std::path::Path;
 
@@ -29,7 +29,7 @@ fn shown() -> Vec<Shown> {
     found
 }
 
-/// A line of a map: nine in ten of its signs the same, for the same reason.
+/// A line of a map: nine of ten characters must agree, for the same reason.
 fn same_picture(shown: &str, printed: &str) -> bool {
     let (shown, printed): (Vec<char>, Vec<char>) =
         (shown.chars().collect(), printed.chars().collect());
@@ -38,7 +38,7 @@ fn same_picture(shown: &str, printed: &str) -> bool {
 }
 
 /// The same words, and numbers within a thousandth: other processors round
-/// sines differently, and no fact the README states hangs on a fourth digit.
+/// sines differently, and no statement of the README depends on a fourth digit.
 fn same(shown: &str, printed: &str) -> bool {
     if shown.ends_with('|') {
         return same_picture(shown, printed);
@@ -55,7 +55,7 @@ fn same(shown: &str, printed: &str) -> bool {
         })
 }
 
-/// Compares line by line; "..." stands for any lines, and costs are not facts.
+/// Compares line by line; "..." matches any lines, and costs may differ.
 fn matches(shown: &[String], printed: &[&str]) -> bool {
     match (shown.first().map(String::as_str), printed.first()) {
         (None, None) => true,

@@ -84,7 +84,7 @@ fn the_summary_tells_a_lock_and_a_pull_apart() {
     assert!(text.contains("Warning: the bilateral law pulled in 2 steps"), "{text}");
     let text = String::from_utf8(rubscope(&["run", "adhesive", "--end", "0.005"]).stdout).unwrap();
     assert!(text.contains("Verdict: adhesive. "), "{text}");
-    assert!(text.contains("held by a pull, which no contact can give"), "{text}");
+    assert!(text.contains("a pull holds it, which a real contact cannot do"), "{text}");
 }
 
 #[test]

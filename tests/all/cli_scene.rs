@@ -1,5 +1,5 @@
-//! The options that change a scene, on the command line: each reaches its key,
-//! precedence, and what is refused.
+//! The options that change a scene: each sets its key, their precedence, and
+//! what is refused.
 
 use std::io::Write;
 
@@ -114,7 +114,7 @@ fn a_step_bound_is_printed_in_four_digits_and_accepted_as_printed() {
         let said = refusal(&[&short[..], &[step]].concat());
         let printed = said.split("at most ").nth(1).unwrap().split(',').next().unwrap();
         assert_eq!(printed, bound, "{said}");
-        // Coarse as it is, such a step may break down, but it is run.
+        // With such a coarse step the run may break down, but it is accepted.
         assert_ne!(rubscope(&[&short[..], &[printed]].concat()).status.code(), Some(2), "{said}");
     }
 }

@@ -1,5 +1,5 @@
-//! Changes of a running motion from the command line: order, refusals before
-//! anything is run, and that each does what the call on the motion does.
+//! Changes of a running motion from the command line: their order, errors
+//! before the run, and the same effect as the calls on the motion.
 
 use crate::cli_support::{refusal, rubscope};
 use rubscope::cli::script::{RequestedChange, RequestedScript, parse};
@@ -128,7 +128,7 @@ fn a_key_acts_live_just_where_the_motion_takes_it() {
                     let adopted = motion::Change::Parameters(Box::new(changed.checked().unwrap()));
                     assert!(takes && *last == adopted, "{text}");
                 }
-                // Taken without a trace: what a running motion has no use for.
+                // Accepted without effect: keys that a running motion does not use.
                 Err(_) if takes => assert!(
                     ["title", "note", "view.charts", "solver.end_s"].contains(&key.path)
                         || key.path.starts_with("initial."),
@@ -187,7 +187,7 @@ fn a_script_does_what_the_calls_on_the_motion_do() {
         let (a, b) = (by_script.state(), by_hand.state());
         assert_eq!(by_script.pulse(), by_hand.pulse());
         assert_eq!(by_script.contacts().impact_count, by_hand.contacts().impact_count);
-        // Round-off of blocks that a scene without a change cuts.
+        // Round-off of blocks that a scene without a change divides.
         assert!((a.u[0] - b.u[0]).hypot(a.u[1] - b.u[1]) < 1e-12, "{a:?} {b:?}");
         let without = moved(&scene, &RequestedScript::default(), 0.01).state();
         assert!((a.u[0] - without.u[0]).abs() > 1e-6, "{a:?} {without:?}");
@@ -212,7 +212,7 @@ fn the_event_solver_turns_its_rotor_and_fires_to_the_bit() {
     by_hand.fire();
     by_hand.advance(0.01).unwrap();
     assert_eq!(by_script.state(), by_hand.state());
-    // The same ramp again was no change: the speed has gone on falling.
+    // The same ramp again was no change: the speed continued to fall.
     assert_eq!(by_script.rotor().speed(0.01), 430.0 - 400.0 * 0.009);
     // The same speed again is one.
     let again = ["0.001:operation.speed_ramp_rad_s2=-400", "0.005:operation.speed_rad_s=500"];
@@ -236,7 +236,7 @@ fn json_names_each_change() {
 
 #[test]
 fn the_option_is_checked_before_the_simulation() {
-    // So many steps that a debug build would be at it for minutes.
+    // So many steps that a debug build would need minutes.
     let long = ["run", "slip", "--solver", "explicit", "--step", "1e-9", "--end", "10"];
     for (options, said) in [
         (&["--at", "11:pulse"][..], "--at = 11:pulse: allowed is a time from 0 to solver.end_s ="),

@@ -2,12 +2,12 @@
 
 use std::process::Output;
 
-/// Runs `rubscope` with these arguments, its output caught.
+/// Runs `rubscope` with these arguments and captures its output.
 pub fn rubscope(arguments: &[&str]) -> Output {
     assert_cmd::cargo::cargo_bin_cmd!("rubscope").args(arguments).output().unwrap()
 }
 
-/// The one line with which a command refuses its input.
+/// The one-line error of a command for refused input.
 pub fn refusal(arguments: &[&str]) -> String {
     let output = rubscope(arguments);
     let message = String::from_utf8(output.stderr).unwrap();

@@ -103,7 +103,7 @@ fn case_a_agrees_with_small_runge_kutta_steps_and_bisection() {
             next[2] -= closing * cos;
             next[3] -= closing * sin;
             impacts.push((t + step, blade));
-            // Past the instant of touch, so that it is not met again.
+            // After the time of touch, so that it is not found again.
             t += step;
             left -= step;
             x = runge_kutta(next, 0.0, 1e-9);
@@ -122,7 +122,8 @@ fn case_a_agrees_with_small_runge_kutta_steps_and_bisection() {
         close(impact.t_s, *t, 1e-10);
         assert_eq!(motion.machine().polygon.side_of_blade(*blade), impact.side);
     }
-    // A step errs by (omega h)^5/120 = 4e-18: the rest is round-off of 1e5 steps.
+    // The error of a step is (omega h)^5/120 = 4e-18: the rest is round-off of
+    // 1e5 steps.
     close(state.u[0], x[0], 1e-8 * x[0].abs());
     close(state.u[1], x[1], 1e-8 * x[1].abs());
 }
@@ -137,8 +138,8 @@ fn case_c_rocks_into_a_corner() {
 
 #[test]
 fn the_summed_rocking_is_where_stepping_would_be() {
-    // Looking into the window between the last stepped crossing and the limit
-    // replays the crossings; the corner is approached without a jump.
+    // A sample between the last computed crossing and the limit repeats the
+    // crossings; the corner is approached without a jump.
     let changes = [(ZETA, 0.0), (PULSE, 51742.0)];
     let lock = run(&changes, 0.1).contacts().since;
     let mut motion = Event::new(&scene(&changes).checked().unwrap()).unwrap();

@@ -1,5 +1,5 @@
-//! The hard cases of the event solver, each with its right answer or its plain
-//! refusal: no hang, no NaN, no silent nonsense.
+//! The hard cases of the event solver, each with its right answer or a clear
+//! error: no hang, no NaN, no silent wrong result.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -32,8 +32,8 @@ fn run(changes: &[(&str, f64)], until: f64) -> (Event, Result<(), Failure>) {
     (motion, result)
 }
 
-/// As `run`, for a motion that has to arrive; its largest allowed penetration
-/// is round-off of the clearance.
+/// As `run`, for a motion that must reach its end; its largest allowed
+/// penetration is round-off of the clearance.
 fn arrives(changes: &[(&str, f64)], until: f64) -> Event {
     let (motion, result) = run(changes, until);
     result.unwrap();
@@ -55,7 +55,7 @@ fn a_giganewton_is_borne() {
         let motion = arrives(&[(PULSE, 1e9), (ZETA, zeta)], 0.1);
         assert!(motion.contacts().impact_count > 0);
     }
-    // Long enough to hold the casing in whatever corner it is pressed into.
+    // Long enough to hold the casing in any corner it is pressed into.
     let motion = arrives(&[(PULSE, 1e9), (LENGTH, 0.01), (SPEED, 100.0)], 0.02);
     assert!(motion.contacts().impact_count > 0);
 }

@@ -1,5 +1,5 @@
 //! Laws that need no reference, over random scenes: nothing penetrates, nothing
-//! pulls, energy balances, and the motion does not depend on how it is looked at.
+//! pulls, energy balances, and the motion does not depend on when it is sampled.
 
 use std::f64::consts::TAU;
 
@@ -72,7 +72,7 @@ fn lawful(motion: &Event) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// Whether a motion may leave what the model describes: a wave that no corner
+/// Whether a motion may leave the range of the model: a wave that no corner
 /// holds, or blades that turn sides past each other.
 fn may_fail(scene: &Scene) -> bool {
     !scene.machine().polygon.has_corners() || scene.solver.model == ModelSize::Modal
@@ -107,7 +107,7 @@ proptest! {
                 if state.t_s >= until { break }
             }
         }
-        // The pulse does work of up to F^2 t^2/m, which comes in pieces.
+        // The pulse does work of up to F^2 t^2/m, in several pieces.
         let impulse = scene.operation.pulse_n * scene.operation.pulse_s;
         let scale = largest + impulse * impulse / motion.machine().casing_mass;
         let checks = motion.checks();
@@ -143,7 +143,8 @@ proptest! {
         mirrored.initial.u_s_m *= -1.0;
         mirrored.initial.v_s_m_s *= -1.0;
         let (mut left, mut right) = (Event::new(&scene.checked().unwrap()).unwrap(), Event::new(&mirrored.checked().unwrap()).unwrap());
-        // Skims amplify round-off: compare the first twenty changes of contact.
+        // Grazing contacts amplify round-off: compare the first twenty changes
+        // of contact.
         for _ in 0..20 {
             let both = (left.next_event(0.01), right.next_event(0.01));
             prop_assert_eq!(both.0.is_ok(), both.1.is_ok());
@@ -170,7 +171,8 @@ proptest! {
         turned.initial.v_c_m_s = start.v_c_m_s * cos - start.v_s_m_s * sin;
         turned.initial.v_s_m_s = start.v_c_m_s * sin + start.v_s_m_s * cos;
         let (mut one, mut other) = (Event::new(&scene.checked().unwrap()).unwrap(), Event::new(&turned.checked().unwrap()).unwrap());
-        // Impacts near corners and skims amplify round-off: compare the first few.
+        // Impacts near corners and grazing contacts amplify round-off: compare
+        // the first few.
         let mut until: f64 = 0.005;
         for _ in 0..4 {
             let next = one.next_event(0.005);
@@ -197,7 +199,7 @@ fn a_corner_under_a_pulse_lets_go_before_it_pulls() {
         for force in [-300.0, -30.0, -10.0, -3.0, 3.0, 10.0, 30.0, 300.0] {
             scene.operation.pulse_n = force;
             for k in 1..=40 {
-                // Each instant by a run of its own: looking must not help.
+                // A separate run for each time: sampling must not change the result.
                 let mut motion = Motion::new(&scene.checked().unwrap());
                 assert!(motion.advance(1e-4 * f64::from(k)).is_ok());
                 for (side, multiplier) in motion.multipliers() {

@@ -153,7 +153,7 @@ fn agree(found: &Phase, expected: &Phase, tolerance: f64) {
     }
 }
 
-/// Blades light and soft enough to be felt: a thousandth of Table 1's.
+/// Blades light and soft enough to have an effect: a thousandth of Table 1's.
 const SOFT: [(&str, f64); 3] = [
     ("bladed_disk.inertia_kg_m2", 2e-7),
     ("bladed_disk.stiffness_nm_per_rad", 0.15),

@@ -64,7 +64,7 @@ fn between_the_critical_and_the_lock_speed_the_equality_law_glues() {
     let report =
         run(&[(PULSE, "1e6"), (LAW, "bilateral"), (SPEED, "360"), ("solver.end_s", "0.02")]);
     assert_eq!(report.outcome.verdict, Verdict::Adhesive);
-    // Caught during the pulse; from its end on every step pulls.
+    // In contact during the pulse; from its end on every step pulls.
     assert!(report.outcome.lock_time_s.unwrap() < 50e-6);
     assert!(report.checks.tensile_steps as f64 >= (report.r#final.t_s - 50e-6) / 1e-7 - 1.0);
 }
@@ -142,8 +142,8 @@ fn mirror_turning_backwards() {
 
 #[test]
 fn blades_on_one_side_move_alike_in_the_full_model() {
-    // Four diameters put two blades a side; rows of equal blades are nearly
-    // dependent and must still share the force evenly.
+    // With four diameters each side has two blades; rows of equal blades are
+    // nearly dependent and must still share the force equally.
     let changes = [("operation.nodal_diameters", "4"), ("solver.end_s", "2e-3"), (STEP, "1e-6")];
     let mut full = scene(&changes);
     full.set(MODEL, "full").unwrap();
@@ -255,7 +255,7 @@ fn a_held_lock_is_the_same_stepped_or_skipped() {
         let scene = scene(&changes);
         let mut skipped = Motion::new(&scene.checked().unwrap());
         skipped.advance(0.012).unwrap();
-        // A speed set anew every 50 steps leaves no lock time to be held.
+        // If the speed is set every 50 steps, no lock has time to be held.
         let mut stepped = Motion::new(&scene.checked().unwrap());
         for chunk in 1..=1200 {
             stepped.set_speed(scene.operation.speed_rad_s, 0.0);

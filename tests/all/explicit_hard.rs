@@ -1,5 +1,5 @@
-//! Hard cases of the explicit solver: each has a right answer or a plain
-//! refusal; nothing hangs and no report holds a number that is none.
+//! Hard cases of the explicit solver: each has a right answer or a clear error;
+//! nothing hangs and no report contains NaN.
 
 use rubscope::motion::{RunReport, Verdict, simulate};
 use rubscope::scene::{Scene, SceneError};
@@ -47,8 +47,8 @@ fn diameters_of_every_kind_in_every_model_and_law() {
                     ])
                     .unwrap();
                     if law == "unilateral" && report.outcome.verdict != Verdict::Failed {
-                        // Eq. (15) is linear in shift and blade angle together:
-                        // their product is left, beside round-off.
+                        // Eq. (15) is linear in shift and blade angle: the
+                        // error is their product, besides round-off.
                         let checks = &report.checks;
                         let product = checks.max_predicted_penetration_m.unwrap()
                             * diameters.parse::<f64>().unwrap()
@@ -88,7 +88,7 @@ fn pulses_of_nothing_and_of_a_giganewton() {
     assert_eq!(quiet.r#final.u_c_m, 0.0);
     let wrecked = run(&[("operation.pulse_n", "1e9")]).unwrap();
     assert_eq!(wrecked.outcome.verdict, Verdict::Failed);
-    // At a step of a tenth of a microsecond the pulse pins the wave to a
+    // At a step of a tenth of a microsecond the pulse presses the wave into a
     // corner, where it stays.
     let pinned =
         [("operation.pulse_n", "1e9"), ("solver.step_s", "1e-7"), ("solver.end_s", "0.03")];
@@ -97,12 +97,12 @@ fn pulses_of_nothing_and_of_a_giganewton() {
 
 #[test]
 fn clearances_and_blades_at_the_ends_of_the_scale() {
-    // 1e-12 m cannot be told from the radius to better than 1e-4 of itself.
+    // Next to the radius, 1e-12 m has a relative round-off of 1e-4.
     let narrow = run(&[("casing.radius_m", "0.499900000001"), ("operation.pulse_n", "1e-4")]);
     assert!(narrow.unwrap().impact_count > 0);
     let wide = run(&[("casing.radius_m", "1.4999")]).unwrap();
     assert_eq!((wide.outcome.verdict, wide.impact_count), (Verdict::Decay, 0));
-    // Blades this stiff or light need steps shorter than they are worth.
+    // Blades this stiff or light need too short steps.
     for change in
         [("bladed_disk.stiffness_nm_per_rad", "1e12"), ("bladed_disk.inertia_kg_m2", "1e-9")]
     {
@@ -132,7 +132,7 @@ fn steps_under_at_and_over_the_stability_limit() {
         ])
     };
     let just_under = with(limit * (1.0 - 1e-9)).unwrap();
-    // Stable, if far from accurate: bounded, or plainly failed in contact.
+    // Stable but not accurate: bounded, or failed in contact.
     assert!(just_under.outcome.amplitude_m < 1.0);
     for step in [limit, limit * (1.0 + 1e-9), 10.0 * limit] {
         let refused = with(step).unwrap_err().to_string();

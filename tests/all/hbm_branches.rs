@@ -31,7 +31,7 @@ fn thresholds_of_rigid_blades_are_the_closed_forms() {
         let lock = machine.lock_speed().unwrap();
         let find = |kind, from, to| threshold(&branches, kind, from, to);
         use Character::{Adhesive, Penetrates, Pulls, Stable, Unstable};
-        // Struck blades give way by A^2/M_b, some 1e-9 of what the casing does.
+        // Blades yield to an impact by A^2/M_b, some 1e-9 of the casing's part.
         close(find(Kind::Corner, Pulls, Adhesive), machine.adhesive_speed().unwrap(), 1e-8);
         close(find(Kind::Corner, Adhesive, Stable), lock, 1e-12);
         close(find(Kind::Side, Pulls, Penetrates), critical, 1e-12);
@@ -133,8 +133,8 @@ fn a_very_soft_casing_has_the_closed_forms_all_the_same() {
         let slowest = if damped { -0.05 * machine.omega_c } else { 0.0 };
         close(rest.growth_per_s, slowest, 1e-12);
         assert_eq!((side.kind, side.character), (Kind::Side, Character::Unstable));
-        // (s^2 + kappa)(s^2 + w^2 - kappa e) = kappa^2 e, kappa = w_c^2 - nu^2: along
-        // the side the casing takes the blades with it. Damping is 1e-10 of it.
+        // (s^2 + kappa)(s^2 + w^2 - kappa e) = kappa^2 e, kappa = w_c^2 - nu^2:
+        // along the side the casing moves the blades. Damping is 1e-10 of it.
         let kappa = (machine.omega_c - machine.nu(speed)) * (machine.omega_c + machine.nu(speed));
         let moved = (11.0 * machine.clearance()).powi(2) * machine.casing_mass;
         let share = moved / (22.0 * machine.blade_inertia);

@@ -1,4 +1,4 @@
-//! `rubscope hbm` as a user and a script meet it.
+//! `rubscope hbm`: its output for users and for scripts.
 
 use assert_cmd::Command;
 use serde_json::Value;
@@ -91,8 +91,8 @@ fn a_casing_that_hardly_springs_back_has_its_eigenvalues() {
     let soft = "casing.modal_stiffness_n_per_m=6e-8";
     let report = json(&["half-n", "--set", soft, "--branches", "--speed", "0:5578:2"]);
     let states = report["branches"]["states"].as_array().unwrap();
-    // The side's saddle leaves at nu, as the casing has no stiffness to speak of;
-    // blades give way by their share of the mass, some 1e-7.
+    // The saddle of the side grows at the rate nu, because the casing has almost
+    // no stiffness; blades change it by their part of the mass, some 1e-7.
     let last = states.last().unwrap();
     assert_eq!(last["kind"], "side");
     let growth = number(&last["growth_per_s"]);

@@ -1,5 +1,5 @@
-//! The corner branch of soft blades: it ends where it was asked to, or passes
-//! its fold, and never leaves its equations.
+//! The corner branch of soft blades: it ends at the requested speed, or passes
+//! its fold, and always satisfies its equations.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -50,7 +50,7 @@ fn the_fold_itself_and_its_neighbours_among_the_numbers() {
                 let branch = followed(&machine, [from, top], 1.0);
                 let top = branch.fold.unwrap().opening_rad;
                 let last = branch.points.last().unwrap();
-                // So close to the fold the numbers hold its two sides for one.
+                // So close to the fold its two sides are the same numbers.
                 assert!(if folds { last.0 >= top } else { last.0 <= top }, "{from} {top}");
                 assert_eq!(
                     folds,
@@ -74,7 +74,7 @@ fn every_step_and_the_smallest_ranges() {
         let from = fold - 500.0 * step.min(0.05) * critical;
         followed(&machine, [from, fold - 1e-6], step);
         followed(&machine, [from, 1e6], step);
-        // Less than a step: the two ends are all there is.
+        // Less than a step: only the two ends.
         for from in [0.0, critical, 0.9 * fold] {
             let branch = followed(&machine, [from, from.next_up()], step);
             assert_eq!(branch.points.len(), 2);
@@ -95,8 +95,8 @@ fn every_step_and_the_smallest_ranges() {
     );
 }
 
-/// Blades as good as rigid do not fold; the branch is the rigid corner. Blades
-/// as soft as this have lost it at the critical speed.
+/// Practically rigid blades do not fold; the branch is the rigid corner. Blades
+/// as soft as these have no branch at the critical speed.
 #[test]
 fn blades_of_any_stiffness_end_where_they_were_asked_to() {
     for stiffness in [0.1, 10.0, 15_000.0, 1e15, 1e200, 1e290, 1e308] {
@@ -115,7 +115,7 @@ fn blades_of_any_stiffness_end_where_they_were_asked_to() {
     }
 }
 
-/// More points than a branch may have are spread over all of it.
+/// If a branch would have too many points, they are spread over all of it.
 #[test]
 fn a_long_branch_reaches_its_end_all_the_same() {
     let branch = followed(&machine(96_780.0), [0.0, 5000.0], 1e-3);

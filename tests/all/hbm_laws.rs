@@ -39,7 +39,7 @@ fn machines_with(stiffness: std::ops::Range<f64>) -> impl Strategy<Value = Machi
         .prop_filter("a corner needs three sides", |machine| machine.polygon.has_corners())
 }
 
-/// The same machine with blades so many times stiffer.
+/// The same machine with blades stiffer by this factor.
 fn stiffened(machine: &Machine, times: f64) -> Machine {
     let mut machine = machine.clone();
     machine.omega_bd *= times.sqrt();
@@ -80,8 +80,8 @@ proptest! {
         }
     }
 
-    /// What is found is a state that stiffer blades lead to, and no other that
-    /// happens to solve the equations at one speed.
+    /// The result is a state that stiffer blades lead to, not another one that
+    /// solves the equations at one speed.
     #[test]
     fn slightly_stiffer_blades_are_held_almost_alike(
         machine in machines(), ratio in 0.0..4.0_f64, damped: bool,
@@ -226,7 +226,7 @@ proptest! {
             prop_assert!(orbit.least_push_n >= 0.0);
             prop_assert!(near(orbit.power_w, orbit.damper_power_w + orbit.corner_power_w, orbit.power_w));
             let next = slip_map(&machine, speed, orbit.speed_after_corner_m_s).unwrap();
-            // Close to the saddle a crossing takes long and forgets its digits.
+            // Close to the saddle a crossing takes long and loses digits.
             let scale = orbit.speed_after_corner_m_s * (1.0 + orbit.slope / (1.0 - orbit.slope));
             prop_assert!((next.speed_after_corner_m_s - orbit.speed_after_corner_m_s).abs() < 1e-8 * scale);
         }

@@ -69,7 +69,7 @@ fn three_forms_three_blade_angles_one_multiplier() {
     assert!((0.5e-4..2e-4).contains(&difference), "{difference}");
 }
 
-/// With blades as good as rigid every form is the closed form of the model.
+/// With practically rigid blades every form is the closed form of the model.
 #[test]
 fn stiff_blades_meet_the_closed_forms_to_twelve_digits() {
     let stiff = BladedDisk { stiffness_nm_per_rad: 1e15, ..BladedDisk::default() };
@@ -143,8 +143,8 @@ fn every_corner_is_the_same_turned() {
 /// `[u_cc, u_cs, u_sc, u_ss, lambda_1, lambda_2, alpha_1, alpha_2]`
 type Eight = SVector<f64, 8>;
 
-/// Eq. (27) word for word, neighbours by Eq. (20); casing rows divided by 1e6
-/// and blade rows left in N m, so that they are of one size.
+/// Eq. (27) exactly as printed, neighbours by Eq. (20); casing rows divided by
+/// 1e6 and blade rows left in N m, so that they are of one size.
 fn printed_equations(disk: &BladedDisk, casing: &Casing, speed: f64, u: &Eight) -> Eight {
     let n_d = 3.0;
     let (i1, i2) = (6.0, 21.0);
@@ -239,8 +239,8 @@ fn what_has_no_meaning_is_refused_in_one_line_that_names_the_key() {
     assert!(locked_motion(&machine, Form::Modal, false, None, &[f64::NAN]).is_err());
 }
 
-/// Blades that turn the wave by 0.8 rad: from the rigid corner Newton's method
-/// wandered, and came upon the solution at one of these speeds only.
+/// Blades that turn the wave by 0.8 rad: from the rigid corner, Newton's method
+/// once found the solution at only one of these speeds.
 #[test]
 fn soft_blades_of_the_printed_form_are_followed_and_not_met_by_chance() {
     let stiffness = 0.01 * 9_083.990_796_689_513_f64.powi(2);
@@ -270,7 +270,7 @@ fn soft_blades_of_the_printed_form_are_followed_and_not_met_by_chance() {
         let [a, b, c] = [0, 1, 2].map(|k| three[k].multipliers_n[1]);
         close(c - b, b - a, 1e-3 * (b - a).abs());
     }
-    // The order of the speeds does not matter, nor does what was found before.
+    // The order of the speeds and earlier results do not matter.
     let mut down: Vec<f64> = (0..=300).map(|k| 0.01 * f64::from(k) * critical).collect();
     let up = locked_motion(&machine, Form::Printed, true, None, &down).unwrap();
     down.reverse();

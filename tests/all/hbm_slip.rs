@@ -49,7 +49,7 @@ fn the_fixed_point_is_fixed_and_its_slope_is_the_slope() {
     let step = 1e-5 * orbit.speed_after_corner_m_s;
     let (up, down) =
         (map(orbit.speed_after_corner_m_s + step), map(orbit.speed_after_corner_m_s - step));
-    // Second differences leave 1e-10 of the slope.
+    // Second differences have an error of 1e-10 of the slope.
     close(
         (up.speed_after_corner_m_s - down.speed_after_corner_m_s) / (2.0 * step),
         orbit.slope,
@@ -58,7 +58,7 @@ fn the_fixed_point_is_fixed_and_its_slope_is_the_slope() {
 }
 
 /// Motion in the blade frame by small Runge-Kutta steps: side, position and
-/// speed along it, from the equations of motion alone.
+/// speed along it, only from the equations of motion.
 fn crossing_by_steps(machine: &Machine, rotor: f64, start: f64) -> (f64, f64) {
     let nu = machine.nu(rotor);
     let (omega, zeta) = (machine.omega_c, machine.casing_damping_ratio);
@@ -142,13 +142,13 @@ fn no_slip_says_why() {
     assert!(slip_over(&machine(3, 0.01), &[f64::INFINITY]).is_err());
 }
 
-/// Too slow to pass the saddle is rocking, not slip.
+/// A motion too slow to pass the saddle is rocking, not slip.
 #[test]
 fn slow_waves_turn_back() {
     let machine = machine(3, 0.01);
     assert_eq!(slip_map(&machine, 500.0, 1e-3), None);
     assert!(slip_map(&machine, 500.0, 0.05).is_some());
     // Between the critical and the lock-in speed there is no saddle on the side
-    // and any drift goes on.
+    // and any drift continues.
     assert!(slip_map(&machine, 300.0, 1e-6).is_some());
 }

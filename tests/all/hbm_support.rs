@@ -1,11 +1,11 @@
-//! What every corner branch must keep to, whatever the machine.
+//! The properties of every corner branch, for any machine.
 
 use std::f64::consts::FRAC_PI_2;
 
 use rubscope::harmonic::{CornerBranch, Equilibrium, GroupContact};
 use rubscope::model::Machine;
 
-/// A right angle less what the widest corner leaves of it \[rad\].
+/// The widest corner angle: a right angle less a small margin \[rad\].
 const WIDEST: f64 = FRAC_PI_2 - 1e-3;
 /// Most points of one branch.
 const MOST_POINTS: usize = 20_000;
@@ -27,11 +27,11 @@ pub fn keeps_to_its_laws(
     let [(_, first), .., (widest, last)] = points.as_slice() else {
         return must(points.len() == 1 && from == fold, "only the fold itself is a single point");
     };
-    must(first.speed_rad_s == from, "begins where it was asked to")?;
+    must(first.speed_rad_s == from, "starts at the requested speed")?;
     let rising = |pair: &[(f64, Equilibrium)]| pair[0].1.speed_rad_s < pair[1].1.speed_rad_s;
     let falling = |pair: &[(f64, Equilibrium)]| pair[0].1.speed_rad_s > pair[1].1.speed_rad_s;
     if to <= fold {
-        must(last.speed_rad_s == to, "ends where it was asked to")?;
+        must(last.speed_rad_s == to, "ends at the requested speed")?;
         must(points.windows(2).all(rising), "speeds rise up to the end")?;
     } else {
         let folded = branch.fold.map(|fold| (fold.speed_rad_s, fold.opening_rad));
@@ -42,8 +42,8 @@ pub fn keeps_to_its_laws(
         must(points[..=top].windows(2).all(rising), "speeds rise up to the fold")?;
         must(points[top..].windows(2).all(falling), "speeds fall behind the fold")?;
         let open = (widest - WIDEST).abs() <= 4.0 * f64::EPSILON;
-        must(last.speed_rad_s == from || open, "ends where it began or wide open")?;
-        must(last.speed_rad_s >= from, "does not go below where it began")?;
+        must(last.speed_rad_s == from || open, "ends where it started or wide open")?;
+        must(last.speed_rad_s >= from, "does not go below its start")?;
     }
     let widens = |pair: &[(f64, Equilibrium)]| pair[0].0 <= pair[1].0;
     must(points.windows(2).all(widens), "the corner only widens")?;
@@ -84,7 +84,7 @@ fn spacing(machine: &Machine, points: &[(f64, Equilibrium)], step: f64) -> Resul
 }
 
 /// Both gaps closed, forces in balance, the amplitude that of the opening, and
-/// the power what the damper takes.
+/// the power that of the damper.
 fn balance(machine: &Machine, opening: f64, state: &Equilibrium) -> Result<(), String> {
     let failed = |what: &str, by: f64| {
         Err(format!("{what} by {by:e} at {} rad/s, open to {opening}", state.speed_rad_s))
@@ -101,7 +101,7 @@ fn balance(machine: &Machine, opening: f64, state: &Equilibrium) -> Result<(), S
     let d = machine.casing_damping * nu;
     let z = state.z_m;
     let mut force = [k * z[0] - d * z[1], k * z[1] + d * z[0]];
-    // Multipliers are what the forces are made of: their rounding is the limit.
+    // The forces are computed from the multipliers: their rounding is the limit.
     let mut scale = force[0].hypot(force[1]);
     // The speed is rounded, and with it the difference of stiffness and inertia;
     // and blades that turn by many radians have few digits left for the rest.
@@ -134,7 +134,7 @@ fn balance(machine: &Machine, opening: f64, state: &Equilibrium) -> Result<(), S
     let round = 16.0 * f64::EPSILON * loads * amplitude * nu;
     let off = (state.power_w - dissipated).abs();
     if off > 1e-11 * size + round || off.is_nan() {
-        return failed("the power is not what the damper takes", off / size);
+        return failed("the power is not that of the damper", off / size);
     }
     Ok(())
 }

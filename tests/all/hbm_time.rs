@@ -56,13 +56,13 @@ fn the_event_solver_holds_the_corner_from_the_lock_in_speed_on() {
             if holds(middle) { above = middle } else { below = middle }
         }
         let machine = scene(&[("casing.damping_ratio", &zeta.to_string())]).machine();
-        // The event solver takes a push of 1e-15 of the motion for none.
+        // The event solver takes a push of 1e-15 of the motion as zero.
         close(above, machine.lock_speed().unwrap(), 1e-10);
     }
 }
 
-/// Rotor speed of the wave over 100 sides, once neighbouring orbits have come
-/// together to 1e-12.
+/// Rotor speed of the wave over 100 sides, after neighbouring orbits have
+/// converged to 1e-12.
 fn long_wave_speed(scene: &Scene, orbit: &SlipOrbit) -> f64 {
     let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
     let steady = orbit.period_s * 1e-12_f64.ln() / orbit.slope.ln();
@@ -88,7 +88,7 @@ fn slip_of_the_map_is_the_long_motion_of_the_event_solver() {
     let scene = scene(&[("casing.damping_ratio", "0.01"), ("operation.pulse_n", "51742")]);
     let orbit = slip_over(&scene.machine(), &[500.0]).unwrap()[0].outcome.unwrap();
     close(long_wave_speed(&scene, &orbit), orbit.wave_speed_rad_s, 1e-10);
-    // Blades that give way change the corner and its impulse by some 1e-8.
+    // Flexible blades change the corner and its impulse by some 1e-8.
     let mut moving = scene;
     moving.solver.model = ModelSize::Modal;
     close(long_wave_speed(&moving, &orbit), orbit.wave_speed_rad_s, 1e-7);
@@ -124,8 +124,8 @@ fn slip_lives_where_the_event_solver_keeps_it() {
     }
 }
 
-/// The explicit scheme looks at the forces a step late: locked, it turns
-/// `K + i D` by `-nu h`, which is the extra damping `nu h |K|` and a little less
+/// The explicit scheme uses the forces one step late: when locked, it turns `K +
+/// i D` by `-nu h`, which is the extra damping `nu h |K|` and a little less
 /// stiffness, `nu h D`. With that in the frequency domain all four coordinates
 /// and both multipliers agree to second order.
 #[test]
@@ -166,8 +166,8 @@ fn explicit_locked_motion_is_the_modal_form_with_its_first_order_error() {
     for (i, side) in corner.sides().into_iter().enumerate() {
         let (cos, sin) = machine.polygon.direction(side);
         let alpha = cos * state.alpha[0] + sin * state.alpha[1];
-        // Both blades bend the same way; what they share is a difference of
-        // the two torques, four times smaller than either.
+        // Both blades bend the same way; their common angle comes from a
+        // difference of the two torques, four times smaller than either.
         close(alpha, point.alpha_rad[i], 4.0 * second_order);
     }
 }

@@ -1,6 +1,6 @@
-//! Changes while the motion is under way: another pulse, another speed, other
-//! parameters, at any step. The program, which skips flights and holds corners
-//! in closed form, against the plain stepper, which does neither.
+//! Changes of a running motion: another pulse, another speed, other parameters,
+//! at any step. The program, which skips flights and holds corners in closed
+//! form, against the plain stepper, which does neither.
 
 use crate::plain::compare::Pair;
 use crate::plain::scenes::{LAWS, MODELS, in_corner, scene};
@@ -20,7 +20,7 @@ fn each(changes: &[(&str, &str)], mut run: impl FnMut(Scene)) {
     }
 }
 
-/// Goes on until `end`, looking every 0.3 ms and at the end.
+/// Continues until `end`, with a check every 0.3 ms and at the end.
 fn go_on(pair: &mut Pair, what: &str, end: f64) {
     let begin = pair.plain.time();
     let solver = &pair.scene().solver;
@@ -36,7 +36,7 @@ fn go_on(pair: &mut Pair, what: &str, end: f64) {
     }
 }
 
-/// Steps on to the impact of this number, counted from 1.
+/// Steps to the impact with this number, counted from 1.
 fn until_impact(pair: &mut Pair, number: usize) {
     while pair.plain.impacts.len() < number {
         assert!(pair.plain.time() < 0.01, "{} impacts only", pair.plain.impacts.len());
@@ -47,7 +47,7 @@ fn until_impact(pair: &mut Pair, number: usize) {
 
 #[test]
 fn fired_again_in_flight() {
-    // On a step, between steps, and where nothing could touch any more.
+    // On a step, between steps, and when no contact is possible any more.
     for at in [0.0005, 0.001_037_5, 0.012] {
         each(&[], |scene| {
             let mut pair = Pair::new(&scene);
@@ -192,7 +192,7 @@ fn speed_changes_while_locked() {
             assert!(pair.advance(0.001).is_ok());
             pair.set_speed(speed, ramp);
             go_on(&mut pair, "speed while locked", 0.0025);
-            // A ramp that ends leaves the lock to be held again.
+            // After the end of a ramp the lock is held again.
             pair.set_speed(460.0, 0.0);
             go_on(&mut pair, "speed set again", 0.0035);
         });

@@ -1,5 +1,5 @@
 //! Live changes of the event solver against the plain stepper at decreasing
-//! steps: what is left between them must vanish in proportion to the step.
+//! steps: their difference must vanish in proportion to the step.
 
 use crate::plain::Plain;
 use crate::plain::scenes::{in_corner, scene};
@@ -9,7 +9,7 @@ use rubscope::scene::{Scene, SolverKind};
 /// Steps that divide every instant below.
 const STEPS: [f64; 4] = [4e-6, 1e-6, 2.5e-7, 1e-7];
 
-/// What is done to a motion.
+/// A change of a motion.
 #[derive(Clone, Copy, Debug)]
 enum Act {
     Fire,
@@ -17,7 +17,7 @@ enum Act {
 }
 use Act::{Fire, Speed};
 
-/// The event solver's motion of a scene at `end`, changed on the way.
+/// The event solver's motion of a scene at `end`, with these changes.
 fn exact(scene: &Scene, acts: &[(f64, Act)], end: f64) -> Motion {
     let mut event = scene.clone();
     event.solver.kind = SolverKind::Event;
@@ -89,7 +89,8 @@ fn converges(scene: &Scene, acts: &[(f64, Act)], end: f64, tolerance: f64) -> Mo
             (alpha[0] - state.alpha[0]).hypot(alpha[1] - state.alpha[1]) / run.widest
         });
         let found = slope(&turned);
-        // An impact's moment arm is seen a step late: a tenth at the longest step.
+        // The scheme uses the moment arm of an impact one step late: a tenth at
+        // the longest step.
         assert!((found - 1.0).abs() < tolerance + 0.05, "{what}: blades {found} of {turned:?}");
         assert!(turned[3] < 0.02, "{what}: blades {turned:?}");
     }
@@ -141,7 +142,7 @@ fn sliding_along_a_side() {
 #[test]
 fn fired_while_sliding() {
     each(|scene| {
-        // A second pulse where the first ends, and one in its midst.
+        // A second pulse at the end of the first, and one during it.
         for force in [300.0, -300.0] {
             let pressed = sliding(scene.clone(), force);
             converges(&pressed, &[(2e-4, Fire)], 4e-4, 0.1);
@@ -170,7 +171,7 @@ fn locked() {
 #[test]
 fn fired_while_locked() {
     each(|scene| {
-        // The first pulse falls on the corner too; it holds, or is found again
+        // The first pulse acts on the corner too; it holds, or closes again
         // well before the second.
         for force in [20.0, -300.0, 150.0] {
             let mut scene = in_corner(scene.clone());

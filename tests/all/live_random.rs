@@ -1,5 +1,5 @@
-//! Random scripts of live changes, seeded: whatever is done to a motion under
-//! way, the program stays with the plain stepper.
+//! Random scripts of live changes, seeded: after any change of a running motion
+//! the program agrees with the plain stepper.
 
 use crate::plain::compare::Pair;
 use crate::plain::scenes::{in_corner, scene};
@@ -40,7 +40,7 @@ impl Dice {
     }
 }
 
-/// A machine to begin with: one blade or several on a side, corners or none.
+/// The first machine: one blade or several on a side, corners or none.
 fn first_scene(dice: &mut Dice) -> Scene {
     let mut scene = scene(&[]);
     scene.solver.model = dice.one_of(&[ModelSize::Rigid, ModelSize::Modal, ModelSize::Full]);
@@ -84,14 +84,14 @@ fn turn(dice: &mut Dice, scene: &mut Scene) {
     }
 }
 
-/// One script; how many changes were compared.
+/// Runs one script; returns the number of compared changes.
 fn play(seed: u64) -> u32 {
     let mut dice = Dice(seed);
     let first = first_scene(&mut dice);
     let mut pair = Pair::new(&first);
     let mut told = format!("script {seed}: {first:?}");
     for done in 0..12 {
-        // From one step to long after the flight was decided on.
+        // From one step to a time far beyond the planned flight.
         let wait = dice.scale(first.solver.step_s, 3e-3);
         let until = pair.plain.time() + wait;
         for look in 1..=4 {

@@ -1,5 +1,5 @@
-//! All tests in one program: one link, and its tests share the cores. A part
-//! is run by its module's name, as in `cargo test event_laws`.
+//! All tests in one program: it links once, and its tests share the cores. One
+//! module is run by its name, as in `cargo test event_laws`.
 
 #![expect(clippy::unwrap_used, clippy::panic, reason = "a test states what must hold")]
 
@@ -48,7 +48,7 @@ mod tui_random;
 mod tui_screens;
 mod verdicts;
 
-/// So many random cases of a law, or as many as `PROPTEST_CASES` asks for.
+/// The number of random cases of a law; `PROPTEST_CASES` overrides it.
 fn drawn(cases: u32) -> ProptestConfig {
     let given = ProptestConfig::default();
     let cases = if std::env::var_os("PROPTEST_CASES").is_some() { given.cases } else { cases };

@@ -51,7 +51,7 @@ fn verdicts(map: &Value) -> Vec<&Value> {
 }
 
 /// Other processors round sines differently, and some of these cells are
-/// chaotic: a twentieth more or less, and five cells.
+/// chaotic: so runs may differ by a twentieth and five cells.
 fn near(found: u64, told: u64) -> bool {
     found.abs_diff(told) <= 5 + told / 20
 }

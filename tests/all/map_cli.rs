@@ -1,5 +1,5 @@
-//! The command line of the map: axes, where results go and what happens when
-//! they cannot, the text in the terminal, and the parallel line of the README.
+//! The command line of the map: axes, where results go, failures of writing,
+//! the text in the terminal, and the parallel line of the README.
 
 use std::process::Output;
 
@@ -75,7 +75,7 @@ fn a_place_that_takes_no_file_is_said_before_anything_is_computed() {
     let file = directory.path().join("file");
     std::fs::write(&file, "").unwrap();
     let none = directory.path().join("none/map.csv");
-    // So many cells that a debug build would be at it for hours.
+    // So many cells that a debug build would need hours.
     let large = "map --solver event --speed 0:500:9000 --pulse 1e5:1e6:9000";
     for path in [none, file.join("map.csv"), file.join("map.part")] {
         let output = rubscope(&words(large, &["--out", path.to_str().unwrap()]));
@@ -110,7 +110,7 @@ fn a_full_disk_loses_nothing() {
         let map: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
         assert_eq!(map["verdict"], json["verdict"]);
         assert_eq!(map["sensitive"], json["sensitive"]);
-        // The cells are noted beside it as well, and the next try takes them.
+        // The cells are also saved next to it, and the next run uses them.
         let noted = directory.path().join(format!("map.{format}.partial"));
         assert_eq!(std::fs::read_to_string(noted).unwrap().lines().count(), 1 + 99);
         std::fs::remove_file(&path).unwrap();
@@ -179,7 +179,7 @@ fn the_parallel_line_of_the_readme_gives_the_map_of_one_run() {
         let output = Command::new("sh")
             .args(["-ec", script])
             .env("PATH", &search)
-            // Where parallel keeps its notes.
+            // Directory for the files of parallel.
             .env("HOME", directory.path())
             .current_dir(directory.path())
             .output()

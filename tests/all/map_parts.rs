@@ -1,14 +1,14 @@
-//! Maps beyond one run and one machine: shards, merging, runs that are stopped
-//! or killed and go on, and the same bytes at the end of all of them.
+//! Maps in several runs: shards, merging, and runs that are stopped or killed
+//! and then continued all give the same bytes.
 
 use std::path::Path;
 
 use crate::cli_support::{refusal, rubscope};
 
-/// A map with several verdicts in it, quick in any build.
+/// A map with several verdicts, fast in any build.
 const MAP: &str =
     "map --contact bilateral --model rigid --step 1e-6 --speed 250:500:26 --pulse 0:4e5:9";
-/// A map that takes a debug build a second or two: it can be stopped on the way.
+/// A map that takes a debug build a second or two, so that it can be stopped.
 const SLOW: &str = "map --solver event --contact unilateral --model rigid --zeta-casing 0.05 \
                     --threads 1 --speed 300:500:21 --pulse 1e5:1e6:19";
 const FORMATS: [&str; 4] = ["csv", "json", "part", "svg"];
@@ -17,7 +17,7 @@ fn words<'a>(command: &'a str, more: &[&'a str]) -> Vec<&'a str> {
     command.split_whitespace().chain(more.iter().copied()).collect()
 }
 
-/// Runs a command that must succeed; what it said on standard error.
+/// Runs a command that must succeed; returns its standard error.
 fn done(arguments: &[&str]) -> String {
     let output = rubscope(arguments);
     let message = String::from_utf8(output.stderr).unwrap();
@@ -49,7 +49,7 @@ fn seven_shards_merge_to_the_bytes_of_one_run() {
         done(&words("map merge", &[&files[..], &["--out", &text(&merged)]].concat()));
         assert_same_bytes(&single, &merged);
     }
-    // Nothing is left beside the results and the parts.
+    // Only the results and the parts remain.
     assert_eq!(std::fs::read_dir(directory.path()).unwrap().count(), 7 + 2 * FORMATS.len());
 }
 
@@ -103,7 +103,7 @@ fn parts_with_another_title_note_or_view_belong_together() {
     done(&words(MAP, &["--out", &text(&single)]));
     // Title and note are those of the first part.
     assert_same_bytes(&merged, &single);
-    // A run under another title goes on from these cells, under its own.
+    // A run with another title continues from these cells and keeps its title.
     let resumed = at("resumed.json");
     let said = done(&words(
         MAP,
@@ -166,7 +166,7 @@ mod stopped {
         child
     }
 
-    /// Goes on in the directory of a stopped run; what was said.
+    /// Continues in the directory of a stopped run; returns the messages.
     fn goes_on(directory: &Path, more: &[&str]) -> String {
         let output = assert_cmd::cargo::cargo_bin_cmd!("rubscope")
             .args(words(SLOW, more))
@@ -187,7 +187,7 @@ mod stopped {
     #[test]
     fn a_killed_run_goes_on_and_ends_with_the_bytes_of_one_that_was_not() {
         let single = single();
-        // With --resume, and by the same command alone.
+        // With --resume, and with only the same command.
         for more in [&["--resume", "map.csv.partial"][..], &[]] {
             let directory = tempfile::tempdir().unwrap();
             let mut child = started(directory.path(), &[]);
@@ -219,7 +219,7 @@ mod stopped {
         let cells: usize =
             said["rubscope: stopped; ".len()..said.len() - advice.len()].parse().unwrap();
         assert_eq!(kept.lines().count(), 1 + cells);
-        // Another map does not take these cells, and does not throw them away.
+        // Another map does not use these cells, and does not delete them.
         let output = assert_cmd::cargo::cargo_bin_cmd!("rubscope")
             .args(words(MAP, &["--out", "map.csv"]))
             .current_dir(directory.path())

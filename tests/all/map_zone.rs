@@ -1,6 +1,6 @@
 //! What the map shows: no lock below the lock-in speed where contact can only
 //! push, the paper's zone with its adhesive part where it can pull, the same
-//! map on any number of threads, and what an adaptive map may leave out.
+//! map on any number of threads, and what an adaptive map may miss.
 
 use std::f64::consts::TAU;
 

@@ -1,5 +1,5 @@
-//! The explicit solver against the event solver: its order, its thresholds,
-//! and where the two contact laws part.
+//! The explicit solver against the event solver: its order, its thresholds, and
+//! where the two contact laws differ.
 
 use rubscope::motion::{Motion, State, Verdict, run_to_verdict, simulate};
 use rubscope::scene::Scene;
@@ -56,8 +56,8 @@ fn slope(steps: &[f64], errors: &[f64]) -> f64 {
 
 #[test]
 fn first_order_in_contact_from_1e_5_to_1e_8() {
-    // Locked from the start, slowly let go by no one: a smooth contact. The
-    // slide along a side, begun in its middle, is smooth too.
+    // Locked from the start and never released: a smooth contact. A slide that
+    // starts in the middle of a side is smooth too.
     let smooth = |step: &str| {
         let g0 = Scene::base().machine().clearance();
         // On the side of blade 1 (phase 0), at rest in the frame of the blades.
@@ -135,8 +135,8 @@ fn the_lock_speed_by_bisection_of_runs() {
 
 #[test]
 fn the_adhesive_threshold_of_the_equality_law() {
-    // 1 MN pins the wave to a corner; the printed algorithm then holds it,
-    // pulling, down to 294.99 rad/s.
+    // 1 MN presses the wave into a corner; the printed algorithm then holds it
+    // by pulling, down to 294.99 rad/s.
     let holds = |speed: f64| {
         let scene = scene(&[
             ("operation.pulse_n", "1e6"),
@@ -178,7 +178,7 @@ fn blades_of_the_explicit_and_the_event_solver_agree() {
         let found = blades("explicit", step);
         (found[0] - exact[0]).hypot(found[1] - exact[1]) / size
     };
-    // An impact's moment arm is seen a step late: first order.
+    // The scheme uses the moment arm of an impact one step late: first order.
     let (coarse, fine) = (error("1e-6"), error("1e-8"));
     assert!(fine < 1e-3 && fine < coarse / 10.0, "{coarse} {fine}");
 }

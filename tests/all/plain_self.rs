@@ -1,4 +1,4 @@
-//! The plain stepper against what can be said about it without the program.
+//! The plain stepper against results that do not need the program.
 
 use crate::plain::dd::{Dd, ONE, PI, ZERO};
 use crate::plain::disk::Disk;

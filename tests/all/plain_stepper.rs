@@ -78,7 +78,7 @@ fn locks_that_hold_pull_and_break() {
             assert_eq!(kept.is_some(), !(breaks && unilateral), "{speed} {kept:?}");
         });
     }
-    // Pinned by a pulse, pulling from then on.
+    // Pressed into a corner by a pulse, pulling from then on.
     let adhesive = [(PULSE, "1e6"), (SPEED, "360"), (STEP, "2e-7")];
     each(&MODELS, &["bilateral"], &adhesive, |scene| {
         let pair = compare("adhesive", &scene, 0.004);
@@ -214,7 +214,7 @@ fn a_push_on_one_of_three_sides_closes_the_next() {
 
 #[test]
 fn decay_is_seen_as_soon_as_nothing_can_touch() {
-    // The last contact loses nearly all that is too much; drag takes the rest.
+    // The last contact removes nearly all the excess speed; drag removes the rest.
     for pulse in ["5e3", "1e4", "1.5e4", "2e4", "3e4"] {
         each(&["rigid", "modal"], &["unilateral"], &[(PULSE, pulse), (ZETA, "0.3")], |scene| {
             let mut pair = Pair::new(&scene);
@@ -269,7 +269,7 @@ fn the_largest_blade_angle_is_that_of_some_step() {
         each(&["modal", "full"], &LAWS, changes, |scene| {
             let pair = compare("widest", &scene, 0.01);
             let widest = pair.motion.checks().max_blade_angle_rad;
-            // Looked at every step or at the peak of a closed form: the same to
+            // Sampled every step, or at the peak of a closed form: the same to
             // the square of the step times the fastest blade frequency.
             assert!((widest / pair.plain.widest - 1.0).abs() < 1e-5, "{widest} {changes:?}");
         });

@@ -1,5 +1,5 @@
-//! The built program in a pseudo-terminal: opens, a knob is turned, the
-//! verdict changes, and it leaves the terminal as it found it.
+//! The built program in a pseudo-terminal: it opens, a knob is turned, the
+//! verdict changes, and the terminal is restored.
 
 #![cfg(unix)]
 
@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use portable_pty::{Child, CommandBuilder, PtySize, native_pty_system};
 
-/// Patience, not a speed limit: a loaded machine may be slow.
+/// A long limit, not a speed test: a loaded machine may be slow.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 struct Terminal {
@@ -81,7 +81,7 @@ impl Terminal {
                 break status;
             }
             assert!(began.elapsed() < PATIENCE, "it does not end");
-            // Read on: a full pipe would hold it up.
+            // Continue to read: a full pipe would block the program.
             if let Ok(bytes) = self.output.recv_timeout(Duration::from_millis(20)) {
                 self.parser.process(&bytes);
             }

@@ -1,4 +1,4 @@
-//! Every built-in scene does what its note says, for as long as is asked.
+//! Every built-in scene does what its note says, also in longer runs.
 
 use rubscope::motion::{Motion, RunReport, Verdict, simulate};
 use rubscope::scene::Scene;

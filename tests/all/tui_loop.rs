@@ -1,4 +1,4 @@
-//! The loop of the explorer without news, and what its engine records.
+//! The loop of the explorer without new snapshots, and the record of its engine.
 
 use std::f64::consts::TAU;
 use std::sync::mpsc::{Sender, channel};
@@ -35,7 +35,7 @@ impl Engine for Second {
 fn a_screen_without_news_is_drawn_again_to_notice_a_lost_terminal() {
     let (sender, events) = channel();
     let watchdog = sender.clone();
-    // Patience, not a speed limit: a second is enough on a quiet machine.
+    // A long limit, not a speed test: a second is enough on a quiet machine.
     std::thread::spawn(move || {
         std::thread::sleep(Duration::from_secs(60));
         let _ = watchdog.send(ScreenEvent::InputClosed);

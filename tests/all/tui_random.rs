@@ -16,7 +16,7 @@ use rubscope::tui::terminal::NoHost;
 use rubscope::tui::worker::Stepwise;
 use rubscope::tui::{App, Exit, Marker, Theme, run};
 
-/// Looks by which the answers of `Late` are late: more than one `press` has.
+/// Number of looks that the answers of `Late` are delayed: more than one `press` has.
 const DELAY: usize = 3;
 
 /// An engine whose answers come late. The impact count of each result is
@@ -101,9 +101,9 @@ fn a_live_knob_drops_every_result_of_the_knobs_before() {
     };
     assert!(look(&mut app, None).is_empty());
     assert_eq!((0..DELAY).map(|_| look(&mut app, None)).last(), Some(vec![0, 0, 0]));
-    // The answers that come now are still to the knobs before.
+    // The answers that arrive now still belong to the earlier knobs.
     assert!(look(&mut app, Some('h')).is_empty());
-    // The event solver says nothing about a motion that was changed on its way.
+    // The event solver gives no verdict on a motion that was changed live.
     assert_eq!((0..DELAY).map(|_| look(&mut app, None)).last(), Some(vec![1, 1]));
 }
 
@@ -116,7 +116,8 @@ fn any_key() -> impl Strategy<Value = KeyEvent> {
         modifiers.set(KeyModifiers::SHIFT, chord.shift);
         keys.push(KeyEvent::new(chord.code, modifiers));
     }
-    // Typing is rare among the bindings and takes several keys: weigh it.
+    // Typing is rare among the bindings and takes several keys, so it has a
+    // larger weight.
     for letter in "0123456789.-ekMu".chars() {
         keys.push(KeyEvent::new(KeyCode::Char(letter), KeyModifiers::NONE));
     }
@@ -144,7 +145,7 @@ proptest! {
         for (width, height, keys) in rounds {
             terminal.backend_mut().resize(width, height);
             press(&mut terminal, &mut app, &mut engine, keys);
-            prop_assert!(app.scene.checked().is_ok(), "a scene that was refused came through");
+            prop_assert!(app.scene.checked().is_ok(), "a scene that was refused was accepted");
             let now = app.order().generation();
             prop_assert!(results(&app).iter().all(|&of| of == now), "{now}: {:?}", results(&app));
         }

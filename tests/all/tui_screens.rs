@@ -1,6 +1,6 @@
 //! Whole screens of the explorer: keys in, text out, without a terminal. The
-//! engine is driven by hand and its speed figure is fixed, so that a picture
-//! comes out the same on every machine.
+//! engine is driven by hand and its speed number is fixed, so that a screen is
+//! the same on every machine.
 
 use std::sync::mpsc;
 use std::time::Duration;
@@ -199,7 +199,7 @@ fn speed_against_error_shows_every_kind_of_solver() {
     scene.solver.contact = rubscope::scene::ContactLaw::Unilateral;
     scene.operation.pulse_n = 2e4;
     let mut session = Session::open(120, 40, scene, Theme::Dark, Marker::Braille);
-    // Wall times differ from run to run: only what must be there is looked at.
+    // Wall times differ from run to run: only the fixed parts are checked.
     session.press("7f");
     let text = session.text();
     assert!(text.contains("7 precision") && text.contains("reference"), "{text}");
@@ -217,8 +217,8 @@ fn every_lesson_begins_with_a_screen_of_its_own() {
         let lesson = &rubscope::tui::lessons::all()[place];
         let text = session.text();
         assert!(text.contains(&format!("{} - step 1 of", lesson.title)), "{text}");
-        // The key that goes from step to step ends it after the last one; a
-        // long text takes one press more.
+        // The key for the next step ends the lesson after the last one; a long
+        // text needs one more press.
         let mut presses = 0;
         while session.app.lesson.is_some() {
             session.press("g");
@@ -249,7 +249,7 @@ fn themes_differ_in_colour_only_and_mono_has_none() {
     let colours = session.terminal.backend().buffer().content.iter().map(|cell| cell.fg);
     assert!(colours.into_iter().all(|colour| colour == ratatui::style::Color::Reset));
     let body = |text: &str| text.lines().take(23).collect::<Vec<_>>().join("\n");
-    assert_eq!(body(&session.text()), body(&before), "a theme told something by itself");
+    assert_eq!(body(&session.text()), body(&before), "a theme changed the text");
 }
 
 #[test]
@@ -299,7 +299,7 @@ fn the_speed_acts_on_the_running_motion_when_live() {
     let before = session.app.now();
     session.press("x");
     session.press("HHHH");
-    assert!(session.app.now() > before, "the run began anew");
+    assert!(session.app.now() > before, "the run restarted");
     assert_eq!(session.app.speed(), 300.0);
     assert!(session.text().contains("LIVE"), "{}", session.text());
 }
@@ -324,11 +324,11 @@ fn a_damping_acts_on_the_running_motion_and_the_number_of_blades_begins_anew() {
     let mut session = Session::open(120, 40, scene(), Theme::Dark, Marker::Braille);
     let before = session.app.now();
     session.press("cxjjjL");
-    assert!(session.app.now() > before, "the run began anew");
+    assert!(session.app.now() > before, "the run restarted");
     assert!(session.app.scene.casing.damping_ratio > scene().casing.damping_ratio);
     session.press("u");
     let later = session.app.now();
-    assert!(later > before && *session.app.scene == scene(), "undo began the run anew");
+    assert!(later > before && *session.app.scene == scene(), "undo restarted the run");
     session.press("jjjjl");
     assert_eq!(session.app.scene.bladed_disk.blades, 23);
     assert!(session.app.now() < later && session.text().contains("restarted"));
@@ -366,7 +366,7 @@ fn a_storm_of_sizes_between_keys_leaves_one_picture_of_the_last() {
     assert!(session.text().contains(" LOCKED "), "{}", session.text());
 }
 
-/// Every stretch of one look: row, columns, colour, weight, and its text.
+/// Every run of one style: row, columns, colour, weight, and its text.
 fn styles(session: &Session) -> String {
     let buffer = session.terminal.backend().buffer();
     let mut out = String::new();

@@ -1,4 +1,4 @@
-//! A verdict reached early is the verdict of the whole run, whatever drives it.
+//! A verdict reached early is the verdict of the whole run, with any excitation.
 
 use crate::plain::scenes::{in_corner, scene};
 use proptest::prelude::*;
@@ -81,11 +81,11 @@ proptest! {
         let verdict = verdict_of(&motion, LAST_PART * scene.solver.end_s);
         let whole = VerdictReached::of(&motion, verdict);
         prop_assert_eq!(early.verdict, whole.verdict);
-        // A lock that was settled has no impacts to come.
+        // A lock that was decided has no more impacts.
         prop_assert_eq!(early.impact_count, whole.impact_count);
     }
 
-    /// What is said to be for good holds at any later time, too.
+    /// A verdict that is certain holds at any later time, too.
     #[test]
     fn what_is_settled_stays_so(scene in scenes()) {
         let end = scene.solver.end_s;

@@ -1,6 +1,6 @@
 //! Reports of the frequency domain: JSON (`rubscope.hbm/1`), tables and a
-//! heading in sentences. Results serialise themselves; here stand only the
-//! views that put several results, or parts of one, together.
+//! heading in sentences. Results serialise themselves; this file has only the
+//! views that combine several results or take parts of one.
 
 use std::io::Write;
 
@@ -23,7 +23,7 @@ use crate::report::number::{count, short};
 pub struct HbmReport(Map<String, Value>);
 
 impl HbmReport {
-    /// The report of one machine, so far without any point.
+    /// The report of one machine, without points.
     #[must_use]
     pub fn new(machine: &Machine, form: Form, damped: bool) -> Self {
         Self(Map::new())
@@ -146,7 +146,7 @@ pub fn campbell(campbell: &Campbell, speeds: &[f64]) -> Value {
 }
 
 /// The response of the lock to an engine order in JSON: amplitudes of
-/// oscillation, and whether this order drives the modes at all.
+/// oscillation, and whether this order drives the modes.
 #[must_use]
 pub fn excitation(excitation: &Excitation, drives: bool, found: &[ExcitedLock]) -> Value {
     let point = |lock: &ExcitedLock| {
@@ -171,10 +171,10 @@ pub fn excitation(excitation: &Excitation, drives: bool, found: &[ExcitedLock]) 
     })
 }
 
-/// What machine this is and who holds the wave, a fact a line.
+/// Describes the machine and the blades that hold the wave, one fact per line.
 ///
 /// # Errors
-/// What the writer refuses.
+/// An error of the writer.
 pub fn write_heading(
     machine: &Machine,
     title: &str,
@@ -214,7 +214,7 @@ pub fn write_heading(
         let damping = if sweep.damped { "damped" } else { "undamped" };
         writeln!(
             out,
-            "Locked motion held between a: {} and b: {}; form {}, {damping}. Negative pushes; a positive multiplier is a pull, which no contact can give.",
+            "Locked motion held between a: {} and b: {}; form {}, {damping}. A negative multiplier pushes; a positive one pulls, which a real contact cannot do.",
             name(sweep.corner.a),
             name(sweep.corner.b),
             sweep.form,

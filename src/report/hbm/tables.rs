@@ -1,5 +1,5 @@
-//! Tables of the frequency domain: short ones for people, and those with every
-//! figure for files. Each column is a name, with its unit, and what it shows.
+//! Tables of the frequency domain: short ones to read, and complete ones for
+//! files. Each column is a name, with its unit, and what it shows.
 
 use crate::harmonic::{
     Branches, Campbell, CornerBranch, Equilibrium, ExcitedLock, Kind, LockedPoint, SlipPoint,
@@ -20,7 +20,7 @@ fn state(point: &LockedPoint) -> &'static str {
     }
 }
 
-/// The locked motion as a short table for people.
+/// The locked motion as a short table to read.
 #[must_use]
 pub fn summary_table(sweep: &Sweep) -> Table {
     Table::of(
@@ -37,7 +37,7 @@ pub fn summary_table(sweep: &Sweep) -> Table {
     )
 }
 
-/// The locked motion with every figure, for files.
+/// The locked motion with every number, for files.
 #[must_use]
 pub fn locked_table(sweep: &Sweep) -> Table {
     Table::of(
@@ -81,7 +81,7 @@ fn multiplier(state: &Equilibrium, index: usize) -> TableCell {
     state.contacts.get(index).map(|contact| contact.multiplier_n).into()
 }
 
-/// Every equilibrium, a row each.
+/// Every equilibrium, one per row.
 #[must_use]
 pub fn branch_table(branches: &Branches) -> Table {
     Table::of(
@@ -100,7 +100,8 @@ pub fn branch_table(branches: &Branches) -> Table {
     )
 }
 
-/// Growth for people: undamped motions neither grow nor decay but for rounding.
+/// Growth rate to read: 0 for an undamped motion, which grows or decays only by
+/// round-off.
 fn growth(state: &Equilibrium) -> f64 {
     let fastest = state.eigenvalues_per_s.iter().map(|value| value.norm()).fold(0.0, f64::max);
     if state.growth_per_s.abs() > 1e-13 * fastest { state.growth_per_s } else { 0.0 }
@@ -123,7 +124,7 @@ pub fn corner_table(branch: &CornerBranch) -> Table {
     )
 }
 
-/// Slip over speed, a row each.
+/// Slip over speed, one row per speed.
 #[must_use]
 pub fn slip_table(points: &[SlipPoint]) -> Table {
     let word = |point: &SlipPoint| match point.outcome {
@@ -170,7 +171,7 @@ pub fn region_table(regions: &[SlipRegion]) -> Table {
     )
 }
 
-/// What is left out with `H` harmonics.
+/// The error with `H` harmonics.
 #[must_use]
 pub fn truncation_table(series: &SlipSpectrum) -> Table {
     let rows: Vec<_> = series.truncations.iter().map(|cut| (cut, series.amplitude_m)).collect();
@@ -186,7 +187,7 @@ pub fn truncation_table(series: &SlipSpectrum) -> Table {
     )
 }
 
-/// The coefficients, amplitude by amplitude.
+/// The amplitudes of the harmonics.
 #[must_use]
 pub fn term_table(series: &SlipSpectrum) -> Table {
     let rows: Vec<_> = series.terms.iter().map(|term| (term, series.amplitude_m)).collect();
@@ -201,7 +202,7 @@ pub fn term_table(series: &SlipSpectrum) -> Table {
     )
 }
 
-/// The Campbell lines over speed, a column each.
+/// The Campbell lines over speed, one per column.
 #[must_use]
 pub fn campbell_table(campbell: &Campbell, speeds: &[f64]) -> Table {
     let names = campbell.lines.iter().map(|line| line.name.as_str());

@@ -9,7 +9,7 @@ use crate::motion::Verdict;
 pub struct Figure {
     /// One line that says what it shows.
     pub title: String,
-    /// One line that says of what.
+    /// One line with the conditions.
     pub note: String,
     /// Its panels, from top to bottom.
     pub panels: Vec<Panel>,
@@ -18,7 +18,7 @@ pub struct Figure {
 /// One pair of axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panel {
-    /// What it shows, where there are several.
+    /// Title, used if there are several.
     pub title: String,
     /// Horizontal axis.
     pub x: Quantity,
@@ -26,7 +26,7 @@ pub struct Panel {
     pub y: Quantity,
     /// What is drawn, in order.
     pub series: Vec<Series>,
-    /// Values of x that mean something.
+    /// Special values of x.
     pub marks: Vec<Mark>,
 }
 
@@ -37,7 +37,7 @@ pub struct Quantity {
     pub column: Cow<'static, str>,
     /// Name on the axis, with the unit shown.
     pub label: Cow<'static, str>,
-    /// Shown units in one SI unit.
+    /// Number of shown units in one SI unit.
     pub factor: f64,
     /// Whether the axis is logarithmic.
     pub log: bool,
@@ -61,7 +61,7 @@ pub enum Style {
     Line(usize),
     /// A dashed line in the colour of this number.
     Dashed(usize),
-    /// A thin grey line without a legend of its own.
+    /// A thin grey line without a legend.
     Faint,
     /// Cells of a map, in the colour of this verdict.
     Cells(Verdict),

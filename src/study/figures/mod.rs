@@ -1,5 +1,5 @@
-//! The figures of the paper remade: Figs. 4 to 8 in the time domain, 9 and 10
-//! in the frequency domain, as data that `report` can draw and write.
+//! The figures of the paper: Figs. 4 to 8 in the time domain, 9 and 10 in the
+//! frequency domain, as data that `report` can draw and write.
 //!
 //! The paper does not print the pulse of its figures, and with the damping of
 //! its Table 1 no pulse gives the long transient they show. Without casing
@@ -18,10 +18,10 @@ use crate::harmonic::HarmonicError;
 use crate::model::Machine;
 use crate::scene::{CheckedScene, Scene, SceneError};
 
-/// The numbers of the figures there are.
+/// The numbers of the figures.
 pub const NUMBERS: [u32; 7] = [4, 5, 6, 7, 8, 9, 10];
 
-/// The scenes that the figures are of.
+/// The scenes of the figures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scenes {
     /// Figs. 4 to 6: three nodal diameters in time.
@@ -36,7 +36,7 @@ impl Scenes {
     /// The paper's.
     ///
     /// # Errors
-    /// None, as long as the built-in scenes are there.
+    /// None, as the built-in scenes exist.
     pub fn paper() -> Result<Self, SceneError> {
         let transient = |name: &str, pulse: &str| {
             Scene::builtin(name)?.with(&[
@@ -54,7 +54,7 @@ impl Scenes {
 }
 
 /// The speeds above which the wave is pushed outwards, and above which both
-/// multipliers of a lock push; one and the same without casing damping.
+/// multipliers of a lock push; equal without casing damping.
 fn speed_marks(machine: &Machine) -> Vec<Mark> {
     let critical = machine.critical_speed();
     let lock = machine.lock_speed().filter(|_| machine.casing_damping_ratio > 0.0);

@@ -14,8 +14,8 @@ const PULSE_RANGE: (f64, f64) = (1e3, 1e6);
 
 const PULSE: Quantity = Quantity::log("pulse_n", "pulse [N]");
 
-/// Fig. 8 for one machine with each contact law, and with contact that only
-/// pushes for the machine of the figures in time, where its damping differs.
+/// Fig. 8 for one machine with both contact laws, and with unilateral contact
+/// for the machine of the time-domain figures, if its damping differs.
 pub fn zone(scene: &Scene, other: &Scene) -> Figure {
     let bilateral = with(scene, SolverKind::Explicit, ContactLaw::Bilateral);
     let unilateral = with(scene, SolverKind::Event, ContactLaw::Unilateral);

@@ -2,10 +2,10 @@
 //! over its steps or tolerances, against the event solver as reference.
 //!
 //! An explicit run ends at its last step, up to a step before the end of the
-//! scene, so the reference is moved to the instant each run really reached.
-//! The reference is itself checked by halving its tolerance. Where a tiny
-//! change of the pulse changes the outcome (a *sensitive* scene) end states
-//! mean nothing, and only verdicts are compared.
+//! scene, so the reference is evaluated at the time that each run really
+//! reached. The reference itself is checked by halving its tolerance. Where a
+//! tiny change of the pulse changes the outcome (a *sensitive* scene) end
+//! states mean nothing, and only verdicts are compared.
 
 mod track;
 mod ways;
@@ -22,7 +22,7 @@ use track::Track;
 /// Impacts whose times are compared.
 const FIRST_IMPACTS: usize = 4;
 
-/// What one way gave, and at what cost.
+/// Result and cost of one way to solve the scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {
     /// How it was solved.
@@ -33,8 +33,8 @@ pub struct Row {
     /// not compared: in contact those of the explicit scheme are means over a
     /// step.
     pub error_final: Option<f64>,
-    /// Largest error in the times of the first impacts \[s\]; none where they
-    /// are not the same blades.
+    /// Largest error in the times of the first impacts \[s\]; none if the
+    /// blades differ.
     pub error_impact_time_s: Option<f64>,
     /// Deepest penetration of an accepted state \[m\].
     pub max_penetration_m: f64,
@@ -48,10 +48,10 @@ pub struct Row {
     pub events: Option<u64>,
     /// The verdict.
     pub verdict: Verdict,
-    /// Whether it is the verdict of the reference.
+    /// Whether it equals the verdict of the reference.
     pub verdict_right: bool,
-    /// Whether it has another contact law than the reference: a solution of
-    /// another problem, which may differ from the reference and be right.
+    /// Whether the contact law differs from that of the reference: a solution
+    /// of another problem, which may correctly differ.
     pub other_law: bool,
 }
 
@@ -86,7 +86,7 @@ pub struct Reference {
 /// The whole comparison.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Precision {
-    /// The scene, its solver settings aside.
+    /// The scene; its solver settings are not used.
     pub scene: Scene,
     /// What everything is measured against.
     pub reference: Reference,
@@ -102,7 +102,7 @@ struct TimedRun {
     wall_s: f64,
 }
 
-/// The reference for each model size, ready to measure rows against.
+/// The reference for each model size.
 pub struct Measure {
     scene: Scene,
     reference: Reference,
@@ -126,8 +126,8 @@ fn size_of_reference(model: ModelSize) -> ModelSize {
 }
 
 impl Measure {
-    /// Refuses a scene that the reference does not know: then there is nothing
-    /// to measure against.
+    /// Refuses a scene that the event solver does not support: then there is no
+    /// reference.
     ///
     /// # Errors
     /// The key that the event solver does not know.
@@ -138,8 +138,7 @@ impl Measure {
     /// Solves the scene by the event solver, for rigid and for moving blades.
     ///
     /// # Errors
-    /// The key that the event solver does not know: then there is nothing to
-    /// measure against.
+    /// The key that the event solver does not support.
     pub fn new(scene: &Scene) -> Result<Self, SceneError> {
         let model = size_of_reference(scene.solver.model);
         let finest = tolerances::EVENT;

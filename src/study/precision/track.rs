@@ -1,6 +1,5 @@
-//! The reference motion, kept so that it can be taken at any instant near the
-//! end: an explicit run ends at its last step, up to a step before the end of
-//! the scene.
+//! The reference motion at any time near the end. This is needed because an
+//! explicit run ends at its last step, up to one step before the end of the scene.
 
 use super::ways::{LONGEST, Way};
 use crate::motion::{Motion, State};
@@ -9,7 +8,7 @@ use crate::scene::{ModelSize, Scene, SceneError};
 /// The reference for one model size, at its end and a little before.
 pub(super) struct Track {
     pub(super) model: ModelSize,
-    /// Where every explicit run has at least one step to come.
+    /// A time after which every explicit run has at least one more step.
     before: Motion,
     pub(super) end: Motion,
 }
@@ -18,7 +17,7 @@ impl Track {
     pub(super) fn of(way: Way, scene: &Scene) -> Result<Self, SceneError> {
         let end_s = scene.solver.end_s;
         let mut before = way.start(scene)?;
-        // A failure stays in the motion, and `at` finds it.
+        // The motion stores a failure, and `at` returns none.
         let _ = before.advance((end_s - 1.01 * LONGEST).max(0.0));
         let mut end = before.clone();
         let _ = end.advance(end_s);

@@ -38,7 +38,7 @@ pub struct Effort {
     pub repeats: u32,
     /// Smallest time step tried \[s\].
     pub finest_s: f64,
-    /// Seconds after which a row is not repeated any more.
+    /// Seconds after which a row is no longer repeated.
     pub seconds: f64,
 }
 

@@ -31,7 +31,7 @@ impl App {
     }
 }
 
-/// A word as a shell takes it.
+/// A word, quoted for the shell.
 fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=+".contains(c);
     if !word.is_empty() && word.chars().all(plain) {

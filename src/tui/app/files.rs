@@ -1,5 +1,5 @@
 //! Writing files: the scene as TOML, the data of the large chart as CSV, the
-//! screen as SVG. No file is replaced without asking.
+//! screen as SVG. No file is replaced without a question.
 
 use std::fs::OpenOptions;
 use std::io::{ErrorKind, Write};

@@ -6,7 +6,7 @@ use crate::tui::lessons::{self, Condition, Lesson};
 use crate::tui::panels;
 use crate::tui::views::ViewId;
 
-/// How far a lesson has come.
+/// The progress of a lesson.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LessonProgress {
     /// Which lesson.
@@ -15,7 +15,7 @@ pub struct LessonProgress {
     pub step: usize,
     /// The task of the step is done.
     pub done: bool,
-    /// Its text has been read, if it takes the place of the charts.
+    /// Its text has been read, if it hides the charts.
     pub read: bool,
 }
 
@@ -87,7 +87,7 @@ impl App {
         }
     }
 
-    /// Notes when the task of the step is done.
+    /// Records when the task of the step is done.
     pub fn check_lesson(&mut self) {
         let Some((lesson, progress)) = self.current_lesson() else { return };
         if progress.done {

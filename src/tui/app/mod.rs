@@ -1,5 +1,5 @@
-//! The state of the explorer, without a terminal: what is shown is a function
-//! of this value, and only keys and snapshots change it.
+//! The state of the explorer, without a terminal: the screen is a function of
+//! this value, and only keys and snapshots change it.
 
 mod command;
 mod files;
@@ -29,13 +29,13 @@ use crate::scene::CheckedScene;
 /// A pinned run, drawn behind the next ones.
 #[derive(Clone, Debug)]
 pub struct Baseline {
-    /// What was recorded of it.
+    /// Its record.
     pub history: BinHistory,
     /// Its verdict.
     pub words: VerdictText,
 }
 
-/// What a file name is asked for.
+/// The purpose of a file name that is typed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
     /// The scene as a TOML file.
@@ -55,7 +55,7 @@ pub enum InputMode {
     Help(u16),
     /// A file name is being typed.
     Naming(Purpose, String),
-    /// A file exists: may it be replaced?
+    /// A question: replace the existing file?
     Replacing(Purpose, String),
     /// A lesson is being chosen.
     Lessons(usize),
@@ -98,9 +98,9 @@ impl Ranges {
 /// The explorer.
 #[derive(Clone, Debug)]
 pub struct App {
-    /// The scene with the present values of the knobs.
+    /// The scene with the current values of the knobs.
     pub scene: CheckedScene,
-    /// The scene as it was opened; `Backspace` goes back to its values.
+    /// The scene as it was opened; `Backspace` restores its values.
     pub opened: CheckedScene,
     /// Everything derived from `scene`.
     pub machine: Machine,
@@ -110,13 +110,13 @@ pub struct App {
     pub mode: InputMode,
     /// Where files are written; the working directory unless set.
     pub directory: std::path::PathBuf,
-    /// Why the last value of the selected knob was refused.
+    /// The reason if the last value of the selected knob was refused.
     pub refusal: Option<String>,
-    /// What the last key did.
+    /// The effect of the last key.
     pub status: Option<String>,
     /// The large chart.
     pub view: ViewId,
-    /// The other views, in the order in which they take the places beside it.
+    /// The other views, in the order of their places next to it.
     pub companions: Vec<ViewId>,
     /// Whether the gaps are drawn against time.
     pub heat: bool,
@@ -128,30 +128,30 @@ pub struct App {
     pub rate: usize,
     /// Page length relative to the usual one, in steps of about two.
     pub zoom: i32,
-    /// Whether the other contact law runs as well, to compare.
+    /// Whether the other contact law runs too, for comparison.
     pub compare: bool,
     /// Whether knobs act on the running motion.
     pub live: bool,
-    /// What was recorded of the running motion.
+    /// The record of the running motion.
     pub history: BinHistory,
-    /// The latest snapshot of the engine, as far as it belongs to this scene.
+    /// The parts of the latest snapshot that belong to this scene.
     pub latest: Snapshot,
-    /// The instant that whole waves are drawn of, a few times a second: a new
-    /// one with every frame is too much for a slow line.
+    /// The state of which whole waves are drawn. It changes a few times per
+    /// second: a new one in every frame is too much for a slow connection.
     pub throttled: Option<Moment>,
     /// Width and height of the screen, in cells.
     pub size: (u16, u16),
-    /// What was recorded under the other contact law.
+    /// The record under the other contact law.
     pub comparison_history: BinHistory,
     /// A run pinned to compare with.
     pub baseline: Option<Baseline>,
-    /// How many charts there are beside the large one.
+    /// Number of charts next to the large one.
     pub companions_shown: usize,
     /// Place of the reading cursor on the page, 0 to 1.
     pub cursor: Option<f64>,
-    /// Pages back from the present one.
+    /// Pages back from the current one.
     pub pages_back: i64,
-    /// What the scene was opened by, for the command line that repeats it.
+    /// Name or path of the scene, for the command line that repeats the run.
     pub source: Option<String>,
     /// The lesson under way.
     pub lesson: Option<LessonProgress>,
@@ -236,7 +236,7 @@ impl App {
         }
     }
 
-    /// What the engine has to do.
+    /// The order for the engine.
     pub fn order(&self) -> Order {
         Order {
             scene: self.scene.clone(),
@@ -253,13 +253,13 @@ impl App {
         }
     }
 
-    /// Whether a view may be on the screen.
+    /// Whether a view can be on the screen.
     pub fn is_open(&self, view: ViewId) -> bool {
         let mut companions = self.companions.iter().take(self.companions_shown);
         view == self.view || (!self.full_screen && companions.any(|other| *other == view))
     }
 
-    /// The present rotor speed \[rad/s\].
+    /// The current rotor speed \[rad/s\].
     pub fn speed(&self) -> f64 {
         let moment = self.latest.moment.as_ref();
         moment.map_or(self.scene.operation.speed_rad_s, |moment| moment.speed)

@@ -7,11 +7,11 @@ use crate::tui::axis::AutoRange;
 use crate::tui::engine::{Results, Snapshot};
 use crate::tui::history::{Bin, Channel};
 
-/// Updates of whole waves while a page fills: about one a second.
+/// Updates of whole waves while a page fills: about one per second.
 const THROTTLED_PER_PAGE: f64 = 4.5;
 
 impl App {
-    /// Applies a snapshot; false where it is too old.
+    /// Applies a snapshot; false if it is too old.
     pub fn apply_snapshot(&mut self, mut snapshot: Snapshot) -> bool {
         if snapshot.trouble.is_some() {
             self.latest.trouble = snapshot.trouble;
@@ -35,7 +35,7 @@ impl App {
         }
         let known = std::mem::take(&mut self.latest);
         let results = match snapshot.generation == self.order().generation() {
-            // A study stays on the screen until there is a newer one.
+            // An old study stays on the screen until there is a new one.
             true => Results {
                 locked: snapshot.results.locked.or(known.results.locked),
                 map: snapshot.results.map.or(known.results.map),

@@ -4,11 +4,11 @@
 use super::App;
 use crate::tui::axis::nice_step;
 
-/// Motion per wall-clock time, from 1e-5 to 1.
+/// Simulated time per wall-clock time, from 1e-5 to 1.
 pub const RATES: &[f64] =
     &[1e-5, 2e-5, 5e-5, 1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2, 0.1, 0.2, 0.5, 1.0];
 
-/// Five milliseconds of motion a second.
+/// Five milliseconds of motion per second.
 pub(super) const FIRST_RATE: usize = 8;
 
 /// Wall-clock seconds a page takes to fill.
@@ -20,7 +20,7 @@ pub(super) const MOST_ZOOM: i32 = 12;
 /// Length of a page at a rate and a zoom, a round number \[s\].
 pub fn page_length(rate: f64, zoom: i32) -> f64 {
     let usual = nice_step(PAGE_SECONDS * rate, 1).unwrap_or(PAGE_SECONDS * rate);
-    // Every zoom is one place in the sequence 1, 2, 5, 10, 20, 50, ...
+    // Every zoom step is one place in the sequence 1, 2, 5, 10, 20, 50, ...
     let power = (usual.log10() + 1e-9).floor();
     let digit = match usual / 10f64.powf(power) {
         x if x < 1.5 => 0,
@@ -58,7 +58,7 @@ impl App {
     }
 
     pub(super) fn page_number(&self) -> i64 {
-        // A page that has just been filled is shown full.
+        // A page that has just become full is shown full.
         ((self.now() / self.page_s()) - 1e-9).floor().max(0.0) as i64
     }
 
@@ -74,7 +74,7 @@ impl App {
         self.pages_back = (self.pages_back + if back { 1 } else { -1 }).clamp(0, most);
     }
 
-    /// Moves the reading cursor; it appears in the middle of what is shown.
+    /// Moves the reading cursor; it appears in the middle of the page.
     pub(super) fn move_cursor(&mut self, right: bool, coarse: bool) {
         let (from, to) = self.page();
         let now = ((self.now() - from) / (to - from)).clamp(0.0, 1.0);

@@ -1,5 +1,4 @@
-//! Turning knobs: values are checked before they count, refused in place, and
-//! can be undone.
+//! Turning knobs: values are checked first, refused at the knob, and can be undone.
 
 use super::{App, InputMode, Ranges};
 use crate::motion::Change;
@@ -7,7 +6,7 @@ use crate::scene::{CheckedScene, Scene, Value};
 use crate::tui::engine::{Results, Snapshot};
 use crate::tui::knobs::{KNOBS, Knob};
 
-/// Turns that can be undone.
+/// Number of turns that can be undone.
 const UNDO_KEPT: usize = 1000;
 
 impl App {
@@ -35,7 +34,7 @@ impl App {
         }
     }
 
-    /// Takes what was typed; after a refusal the text can be corrected.
+    /// Accepts the typed text; after a refusal it can be corrected.
     pub(super) fn accept(&mut self, text: &str) {
         let Some(knob) = self.selected() else { return };
         match knob.parse(text) {
@@ -73,7 +72,7 @@ impl App {
         }
     }
 
-    /// Takes a scene after a knob was turned: live if that is on and possible.
+    /// Uses the scene after a turn of a knob: live, if this is enabled and possible.
     fn set_turned_scene(&mut self, scene: CheckedScene) {
         let failed = self.failure().is_some();
         let live = self.live && !failed && acts_live(&self.scene, &scene);
@@ -83,7 +82,7 @@ impl App {
         self.set_scene(scene, live);
     }
 
-    /// Makes a scene the present one and starts its run, or, if live, applies
+    /// Makes a scene the current one and starts its run, or, if live, applies
     /// it to the running motion.
     pub fn set_scene(&mut self, scene: CheckedScene, live: bool) {
         let clearance = self.machine.clearance();
@@ -104,7 +103,7 @@ impl App {
         }
     }
 
-    /// Starts the run again. Studies stay until there are newer ones.
+    /// Restarts the run. Old studies stay until there are new ones.
     pub fn restart(&mut self) {
         self.counters.restarts += 1;
         self.history.clear();
@@ -133,12 +132,12 @@ impl App {
     }
 }
 
-/// Whether a change of scene can act on a running motion: speed and ramp
-/// always can, the rest where the solver can take it over.
+/// Whether a change of scene can act on a running motion: speed and ramp always
+/// can, other keys if the solver supports it.
 fn acts_live(before: &Scene, after: &Scene) -> bool {
     let mut turned = before.clone();
     turned.operation.speed_rad_s = after.operation.speed_rad_s;
     turned.operation.speed_ramp_rad_s2 = after.operation.speed_ramp_rad_s2;
-    // A start that is over cannot be changed any more.
+    // The initial state cannot be changed after the start.
     turned == *after || (before.initial == after.initial && Change::is_live(before, after))
 }

@@ -1,4 +1,4 @@
-//! Keys and actions: each changes the state and returns what must happen outside.
+//! Keys and actions: each changes the state and returns an effect outside it.
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
@@ -9,7 +9,7 @@ use crate::tui::knobs::KNOBS;
 use crate::tui::lessons;
 use crate::tui::views::ViewId;
 
-/// What must happen outside of the state.
+/// An effect outside the state.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Effect {
     /// Nothing but a redraw.
@@ -170,7 +170,7 @@ impl App {
             Action::ZoomReset => self.zoom = 0,
             Action::Autoscale => {
                 self.ranges.follow = !self.ranges.follow;
-                let how = if self.ranges.follow { "follow the data" } else { "stand still" };
+                let how = if self.ranges.follow { "follow the data" } else { "stay fixed" };
                 self.status = Some(format!("scales {how}"));
             }
             Action::FullScreen => self.full_screen = !self.full_screen,
@@ -205,7 +205,7 @@ impl App {
         self.status = Some("this run stays on the chart as a baseline".into());
     }
 
-    /// Makes a view the large one; the one that was takes its place.
+    /// Makes a view the large one; the former one takes its place.
     pub(super) fn show(&mut self, view: ViewId) {
         if view == self.view {
             return;

@@ -1,4 +1,4 @@
-//! The verdict in words: which it is, since when, on which blades, and where
+//! The verdict in words: the verdict, its start, its blades, and whether
 //! another solver disagrees.
 
 use super::App;
@@ -12,7 +12,7 @@ use crate::tui::theme::Role;
 pub struct VerdictText {
     /// The one word, in capitals.
     pub word: String,
-    /// The rest of the line; may be left out where there is no room.
+    /// The rest of the line; left out if there is no room.
     pub detail: String,
     /// How to colour it.
     pub role: Role,
@@ -64,7 +64,7 @@ impl App {
             Verdict::Adhesive => {
                 let pulled = run.multipliers.iter().filter(|(_, force)| *force > 0.0);
                 let pulled = self.blades_of(pulled.map(|(side, _)| *side));
-                (join(&["a lock that pulls, no contact can", &pulled, &since]), Role::Trouble)
+                (join(&["a lock that pulls, not a real contact", &pulled, &since]), Role::Trouble)
             }
             Verdict::Slip => (join(&["contact without a break, side after side"]), Role::Contact),
             Verdict::Bounce => {

@@ -69,13 +69,13 @@ pub enum Context {
     Typing,
     /// The help is open.
     Help,
-    /// A file exists: may it be replaced?
+    /// A question: replace the existing file?
     Replacing,
     /// A lesson is being chosen.
     Lessons,
 }
 
-/// A key with its modifiers. Shift is part of a letter, not beside it.
+/// A key with its modifiers. Shift is part of a letter, not a modifier of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Chord {
     /// The key.
@@ -92,7 +92,7 @@ impl Chord {
         let shift = event.modifiers.contains(KeyModifiers::SHIFT);
         let ctrl = event.modifiers.contains(KeyModifiers::CONTROL);
         let code = match event.code {
-            // Some terminals send the letter in lower case with Shift beside it.
+            // Some terminals send the lower case letter together with Shift.
             KeyCode::Char(c) if shift && c.is_ascii_lowercase() => {
                 KeyCode::Char(c.to_ascii_uppercase())
             }
@@ -134,9 +134,9 @@ pub struct Binding {
     pub keys: &'static [Chord],
     /// What they do.
     pub action: Action,
-    /// What they do, in a few words.
+    /// Their action, in a few words.
     pub what: &'static str,
-    /// Keys and word of the footer, where it has a place there.
+    /// Keys and word of the footer, if it is shown there.
     pub footer: Option<(&'static str, &'static str)>,
 }
 

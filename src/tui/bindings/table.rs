@@ -58,7 +58,7 @@ pub static BINDINGS: LazyLock<Vec<Binding>> = LazyLock::new(|| {
         context: Context::Main,
         keys,
         action: Action::View(view),
-        // Leaked once: the other texts are static too.
+        // Leaked once, because the other texts are static too.
         what: format!("view {}: {}", view.digit(), view.panel().what()).leak(),
         footer: None,
     });
@@ -84,7 +84,7 @@ const BEFORE_VIEWS: &[Binding] = &[
     bind!(Main, [key(KeyCode::BackTab)], Action::PreviousView, "previous view"),
     bind!(Main, [letter('?')], Action::Help, "this help", "?" "help"),
     bind!(Main, [letter('q'), ctrl('c')], Action::Quit, "quit", "q" "quit"),
-    bind!(Main, [letter('r')], Action::Restart, "begin the run anew", "r" "restart"),
+    bind!(Main, [letter('r')], Action::Restart, "start the run again", "r" "restart"),
     bind!(Main, [letter('p')], Action::Fire, "fire the pulse into the running motion", "p" "pulse"),
     bind!(Main, [letter('[')], Action::Slower, "slower motion", "[ ]" "slower, faster"),
     bind!(Main, [letter(']')], Action::Faster, "faster motion"),
@@ -103,7 +103,7 @@ const BEFORE_VIEWS: &[Binding] = &[
     bind!(Main, [letter('G')], Action::LeaveLesson, "leave the lesson"),
     bind!(Main, [letter('n')], Action::Jump, "on to the next change of contact (pauses)"),
     bind!(Main, [letter('b')], Action::Pin, "pin this run as a baseline behind the next, or remove it", "b" "pin"),
-    bind!(Main, [letter('c')], Action::OtherLaw, "the other contact law beside this one", "c" "both laws"),
+    bind!(Main, [letter('c')], Action::OtherLaw, "the other contact law next to this one", "c" "both laws"),
     bind!(Main, [letter('s')], Action::Save, "save the scene"),
     bind!(
         Main,
@@ -142,7 +142,7 @@ const AFTER_VIEWS: &[Binding] = &[
     bind!(Main, [letter('+')], Action::ZoomIn, "a shorter page of time"),
     bind!(Main, [letter('-')], Action::ZoomOut, "a longer page of time"),
     bind!(Main, [letter('=')], Action::ZoomReset, "the first page of time"),
-    bind!(Main, [letter('a')], Action::Autoscale, "scales follow the data, or stand still"),
+    bind!(Main, [letter('a')], Action::Autoscale, "scales follow the data, or stay fixed"),
     bind!(
         Main,
         [letter('m')],

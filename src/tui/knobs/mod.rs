@@ -8,7 +8,7 @@ use number::{COARSE, FINE, decades, prefixed};
 
 use crate::scene::{Adjustment, Allowed, CheckedScene, Scene, SceneError, Value, keys, keys::Key};
 
-/// The one knob that is no key: the clearance `g0`, by moving the casing radius.
+/// The only knob that is not a key: the clearance `g0`, set by the casing radius.
 const CLEARANCE: &str = "clearance";
 
 /// How a knob turns.
@@ -16,7 +16,7 @@ const CLEARANCE: &str = "clearance";
 pub enum Turn {
     /// By equal steps, fine and coarse.
     Linear(f64, f64),
-    /// By mantissas over decades, not below this magnitude but for zero.
+    /// By mantissas over decades; below this magnitude only zero.
     Decades(f64),
     /// By whole steps, fine and coarse.
     Whole(u64, u64),
@@ -87,9 +87,9 @@ impl Knob {
         )
     }
 
-    /// Sets it and checks the whole scene, which is unchanged on error. A
-    /// solver that does not know the contact law or the model takes the
-    /// nearest it knows; the second value says so.
+    /// Sets it and checks the whole scene, which is unchanged on error. If the
+    /// solver does not support the contact law or the model, the nearest
+    /// supported choice is taken; the second value is a message about it.
     ///
     /// # Errors
     /// The refusal, in one line.
@@ -139,7 +139,7 @@ impl Knob {
             (Value::Real(x), Turn::Linear(fine, large)) => {
                 let step = if coarse { large } else { fine };
                 let next = (x / step + if up { 1.0 } else { -1.0 }).round() * step;
-                // Decimal digits instead of the round-off of a multiple.
+                // Decimal digits, without the round-off of a multiple.
                 let digits = (-fine.log10()).ceil().clamp(0.0, 12.0) as usize + 1;
                 Value::Real(self.bounded(format!("{next:.digits$}").parse().unwrap_or(next)))
             }
@@ -153,7 +153,8 @@ impl Knob {
                 let step = if coarse { large } else { fine };
                 let Allowed::Whole { min, mut max } = self.allowed() else { return value.clone() };
                 if self.path == "operation.nodal_diameters" {
-                    // More than N/2 diameters look like fewer; they can be typed.
+                    // More than N/2 diameters are equivalent to fewer; they can
+                    // be typed.
                     max = max.min(u64::from(scene.bladed_disk.blades / 2)).max(*n);
                 }
                 let next = if up { n.saturating_add(step) } else { n.saturating_sub(step) };

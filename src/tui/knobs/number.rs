@@ -1,4 +1,4 @@
-//! Numbers as people turn, type and read them: round mantissas over decades,
+//! Numbers as they are turned, typed and shown: round mantissas over decades,
 //! SI prefixes, no trailing zeros.
 
 use crate::report::number::trimmed;
@@ -55,13 +55,13 @@ pub(super) fn prefixed(text: &str) -> Option<f64> {
         _ => return None,
     };
     let number = text.strip_suffix(last)?.trim_end();
-    // Read as one decimal number, so that 50u is exactly what 50e-6 is.
+    // Read as one decimal number, so that 50u equals 50e-6 exactly.
     let plain = number.bytes().all(|b| b.is_ascii_digit() || matches!(b, b'.' | b'-' | b'+'));
     if plain { format!("{number}{factor}").parse().ok() } else { None }
 }
 
-/// A number as people write it: up to seven digits, a prefix for units that
-/// take one, no trailing zeros.
+/// A number in readable form: up to seven digits, a prefix for units that take
+/// one, no trailing zeros.
 pub fn number(x: f64, unit: &str) -> String {
     let takes_prefix = matches!(unit, "m" | "s" | "N" | "N/m" | "m/s" | "N m/rad");
     let scale = if takes_prefix { SiScale::of(x) } else { SiScale::plain() };

@@ -1,5 +1,5 @@
-//! The last line: what the last key did, or the keys that can be pressed now,
-//! from the table of bindings.
+//! The last line: the effect of the last key, or the keys that can be pressed
+//! now, from the table of bindings.
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
@@ -20,7 +20,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
         _ => None,
     };
     if let Some(question) = question {
-        // The end, where the cursor is, must be seen.
+        // The end, where the cursor is, must be visible.
         let skip = question.chars().count().saturating_sub(usize::from(area.width));
         let shown: String = question.chars().skip(skip).collect();
         print(buffer, area, 0, &shown, look.style(Role::Focus));

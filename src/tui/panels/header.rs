@@ -30,7 +30,7 @@ fn verdict(app: &App, buffer: &mut Buffer, area: Rect) {
         detail = format!("{detail} | pinned: {}", baseline.words.word);
     }
     let detail = look.spell(&detail);
-    // The word is always shown; its detail, then the title, take the room left.
+    // The word is always shown; its detail, then the title, use the remaining room.
     let title = look.spell(&app.scene.title);
     let room = width.saturating_sub(word.chars().count() + 1);
     let detail = shorten(&detail, room, look.either("…", ".."));

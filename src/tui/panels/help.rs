@@ -1,4 +1,4 @@
-//! The help: every binding, and the words of the screen.
+//! The help: every binding, and a glossary.
 
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 
@@ -7,19 +7,19 @@ use crate::tui::bindings::{self, Context};
 use crate::tui::text::{print, wrap};
 use crate::tui::theme::Role;
 
-/// The words of the screen, for a reader who does not know the paper.
+/// The glossary, for a reader who does not know the paper.
 const WORDS: &[(&str, &str)] = &[
     (
         "the machine",
-        "a rotor of N flexible blades turns inside a flexible casing; both are looked at in one pattern of n_d nodal diameters",
+        "a rotor of N flexible blades turns inside a flexible casing; both vibrate in one pattern of n_d nodal diameters",
     ),
     ("pulse", "a short push on the casing that starts the motion"),
     ("gap", "distance from a blade tip to the casing; zero is contact"),
     (
         "multiplier λ",
-        "contact force on a blade group: negative pushes; positive pulls, which no contact can do",
+        "contact force on a blade group: negative pushes; positive pulls, which a real contact cannot do",
     ),
-    ("locked", "the same blades touch for good, all pushing: the casing wave turns with the rotor"),
+    ("locked", "the same blades stay in contact and push: the casing wave turns with the rotor"),
     ("adhesive", "looks locked, but a blade pulls: only the equality (bilateral) law allows it"),
     (
         "slip",

@@ -1,5 +1,5 @@
-//! The knobs: a column with the selected one explained below, or a single
-//! line where there is no room.
+//! The knobs: a column with the selected one explained below, or a single line
+//! if there is no room.
 
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 
@@ -40,7 +40,7 @@ fn line(app: &App, buffer: &mut Buffer, area: Rect, place: usize, knob: &Knob) {
     };
     let width = usize::from(area.width);
     let room = width.saturating_sub(label.chars().count() + 1);
-    // The end of a typed value must be seen.
+    // The end of a typed value must be visible.
     let skip = shown.chars().count().saturating_sub(room);
     let shown: String = shown.chars().skip(skip).collect();
     let pad = width.saturating_sub(label.chars().count() + shown.chars().count());
@@ -53,7 +53,7 @@ fn line(app: &App, buffer: &mut Buffer, area: Rect, place: usize, knob: &Knob) {
     print(buffer, area, 0, &text, style);
 }
 
-/// What the selected knob is, what it may hold, and why a value was refused.
+/// The meaning of the selected knob, its allowed values, and why a value was refused.
 fn notes(app: &App, width: usize) -> Vec<(String, Role)> {
     let Some(knob) = app.selected() else { return Vec::new() };
     let mut lines = Vec::new();

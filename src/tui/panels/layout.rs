@@ -10,11 +10,11 @@ pub const LEAST_WIDTH: u16 = 40;
 /// Lowest screen.
 pub const LEAST_HEIGHT: u16 = 12;
 
-/// From this width on the knobs have a column of their own.
+/// From this width on, the knobs have a separate column.
 const KNOBS_FROM: u16 = 66;
 /// Width of that column.
 const KNOBS_WIDTH: u16 = 27;
-/// Two charts go side by side from this width on.
+/// From this width on, two charts are side by side.
 const PAIR_FROM: u16 = 76;
 
 /// The places of one frame.
@@ -65,7 +65,8 @@ fn lesson(body: Rect, app: &App) -> (Option<Rect>, Rect) {
     let read = app.lesson.as_ref().is_some_and(|progress| progress.read);
     let rows = match wanted <= body.height / 2 {
         true => wanted,
-        // Too long to leave room for the charts: first the text, then its task.
+        // If it is too long to leave room for the charts: first the text, then
+        // its task.
         false if !read => body.height.saturating_sub(1),
         false => (body.height / 3).max(3),
     };
@@ -73,7 +74,7 @@ fn lesson(body: Rect, app: &App) -> (Option<Rect>, Rect) {
     (Some(lesson), body)
 }
 
-/// One large chart, and of the smaller ones asked for as many as can be read.
+/// One large chart, and as many of the requested smaller ones as can be read.
 fn split(area: Rect, app: &App) -> Vec<(ViewId, Rect)> {
     let views = std::iter::once(app.view).chain(app.companions.iter().copied());
     let halves = || [Constraint::Percentage(50), Constraint::Percentage(50)];
@@ -110,7 +111,7 @@ fn split(area: Rect, app: &App) -> Vec<(ViewId, Rect)> {
 /// The large chart above, a smaller one below.
 const LARGE: [Constraint; 2] = [Constraint::Percentage(55), Constraint::Percentage(45)];
 
-/// Whether the lesson's text takes the place of the charts on this screen.
+/// Whether the text of the lesson hides the charts on this screen.
 pub fn lesson_fills(app: &App) -> bool {
     // Header and footer take three rows.
     let body = app.size.1.saturating_sub(3);

@@ -29,7 +29,7 @@ pub fn list(app: &App, buffer: &mut Buffer, area: Rect, place: usize) {
     }
 }
 
-/// The lines of a step; `page` where its text is a page before the charts.
+/// The lines of a step; `page` if its text is a page in front of the charts.
 fn lines(app: &App, width: usize, page: bool) -> Vec<(String, Role)> {
     let Some((lesson, progress)) = app.current_lesson() else { return Vec::new() };
     let Some(step) = lesson.steps.get(progress.step) else { return Vec::new() };
@@ -67,7 +67,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
     let look = &app.appearance;
     let page = app.lesson.as_ref().is_some_and(|progress| !progress.read);
     let lines = lines(app, usize::from(area.width), page && super::lesson_fills(app));
-    // Where it is too long for the screen its end, the task, must be seen.
+    // If it is too long for the screen, its end, the task, must be visible.
     let room = usize::from(area.height.saturating_sub(1));
     let skip = lines.len().saturating_sub(room);
     let kept = lines.iter().take(1).chain(lines.iter().skip(1 + skip));

@@ -66,7 +66,7 @@ impl ViewId {
         Self::all().find(|view| view.word() == word)
     }
 
-    /// The digit that opens it.
+    /// The digit key that opens it.
     pub fn digit(self) -> u8 {
         self as u8 + 1
     }

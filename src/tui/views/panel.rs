@@ -1,5 +1,5 @@
-//! What a view must be able to do, and what all views have in common: the
-//! title row with its legend, and CSV text.
+//! The trait of a view, and what all views share: the title row with its
+//! legend, and CSV text.
 
 use ratatui::{
     buffer::Buffer,
@@ -24,7 +24,7 @@ pub trait ViewPanel: Sync {
     /// Its data as CSV.
     ///
     /// # Errors
-    /// There is nothing to export; the reason in words.
+    /// There is nothing to export; the reason as text.
     fn csv(&self, app: &App) -> Result<String, String>;
 }
 
@@ -53,8 +53,8 @@ impl ViewArea {
     }
 }
 
-/// The title row: a rule with the digit and name of the view and its legend,
-/// as much of it as fits whole. Returns the rest of the area.
+/// The title row: a rule with the digit and name of the view and its legend, as
+/// many whole entries as fit. Returns the rest of the area.
 pub fn title(
     app: &App,
     buffer: &mut Buffer,
@@ -89,7 +89,7 @@ pub fn entry(look: &Appearance, pen: &Pen, name: &str) -> (String, Style) {
     (format!("{stroke} {name}"), pen.style)
 }
 
-/// Says that the study of a view is not computed yet.
+/// Shows that the study of a view is not computed yet.
 pub fn not_yet(app: &App, buffer: &mut Buffer, inside: Rect) {
     let quiet = app.appearance.style(Role::Quiet);
     print(buffer, inside, 1, "computed while this view is open", quiet);

@@ -1,5 +1,5 @@
-//! View 7: speed against error of every solver on this scene, one letter a
-//! series as on the command line.
+//! View 7: speed against error of every solver on this scene, one letter per
+//! series, as on the command line.
 
 use ratatui::{buffer::Buffer, layout::Rect};
 

@@ -1,6 +1,6 @@
-//! View 1: the casing coordinates against time on a page that fills, and the
-//! blade coordinates below where there is room; with the other contact law or
-//! a pinned run to compare with.
+//! View 1: the casing coordinates against time on a page that fills, the blade
+//! coordinates below if there is room, and the other contact law or a pinned
+//! run for comparison.
 
 use ratatui::buffer::Buffer;
 
@@ -12,7 +12,7 @@ use crate::tui::plot::Plot;
 use crate::tui::text::wrap;
 use crate::tui::theme::Role;
 
-/// From this height on the blade coordinates have a chart of their own.
+/// From this height on, the blade coordinates have a separate chart.
 const TWO_FROM: u16 = 18;
 
 /// The view.
@@ -79,7 +79,7 @@ struct Page<'a> {
     range: AutoRange,
     unit: &'static str,
     history: &'a BinHistory,
-    /// Whether this is the running motion, with what belongs to it.
+    /// Whether this is the running motion, drawn with its marks.
     own: bool,
 }
 

@@ -17,7 +17,7 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Starts it; none where the scene cannot have the other law.
+    /// Starts it; none if the scene cannot have the other law.
     pub fn of(scene: &Scene) -> Option<Self> {
         let scene = other_law(scene)?;
         let motion = Motion::new(&scene);
@@ -31,7 +31,7 @@ impl Comparison {
             self.recorder.record(&mut self.motion, bin);
             let before = self.motion.state().t_s;
             let next = (before + sample).min(until);
-            // A failure stays in the motion; the full run tells of it.
+            // The motion stores a failure; the full run reports it.
             if next <= before
                 || self.motion.advance(next).is_err()
                 || self.motion.state().t_s <= before
@@ -42,7 +42,7 @@ impl Comparison {
     }
 }
 
-/// The scene under the other contact law, by the solver that knows both.
+/// The scene under the other contact law, with the solver that supports both.
 pub fn other_law(scene: &Scene) -> Option<CheckedScene> {
     let mut scene = scene.clone();
     scene.solver.kind = SolverKind::Explicit;

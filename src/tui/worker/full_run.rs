@@ -1,5 +1,5 @@
-//! Computes the run to its end ahead of the playback, in slices short enough
-//! that a newer order never waits.
+//! Computes the run to its end ahead of the playback, in slices so short that a
+//! newer order does not wait.
 
 use std::time::{Duration, Instant};
 
@@ -62,14 +62,14 @@ impl FullRunJob {
             let part = f64::from(self.taken + 1) / f64::from(SAMPLES);
             let sample =
                 if self.taken + 1 == SAMPLES { self.end } else { self.start + part * length };
-            // Steps so slow that a sample takes longer than a slice are cut up.
+            // If a sample takes longer than a slice, it is divided.
             let until = sample.min(self.cut.unwrap_or(f64::INFINITY));
             let before = self.motion.state().t_s;
             let step = Instant::now();
             failed = self.motion.advance(until).is_err();
             let took = step.elapsed();
-            // Shorter stretches where one took long, but never so short that
-            // a busy machine brings the run to a halt.
+            // Shorter intervals if one took long, but not so short that the run
+            // stops on a busy machine.
             let least = length / f64::from(SAMPLES) / 32.0;
             if took > SLICE * 4 {
                 self.stretch = (0.25 * self.stretch.min(until - before)).max(least);
@@ -108,7 +108,7 @@ impl FullRunJob {
         }
     }
 
-    /// How far it is, or its result.
+    /// Its progress or its result.
     pub fn state(&self) -> FullRunState {
         match &self.result {
             Some(run) => FullRunState::Done(run.clone()),

@@ -1,5 +1,5 @@
-//! The solver behind the screen: a playback without clock or thread, the
-//! thread that drives it, and a stand-in for tests.
+//! The solver behind the screen: a playback without clock or thread, the thread
+//! that drives it, and a replacement for tests.
 
 mod comparison;
 mod full_run;

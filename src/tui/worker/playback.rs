@@ -17,7 +17,7 @@ const SAMPLES: f64 = 4.0;
 const PER_TURN: f64 = 24.0;
 /// Longest wall time of one call of `play` in the explorer.
 const PLAY_LIMIT: Duration = Duration::from_millis(25);
-/// Samples a jump to the next change of contact looks through at most.
+/// Most samples that a jump to the next change of contact searches.
 const JUMP_SAMPLES: usize = 20_000;
 
 /// A motion being played, and its full runs.
@@ -42,7 +42,7 @@ impl Playback {
         Self::with_time_limit(order, PLAY_LIMIT)
     }
 
-    /// As `new`; `play` may take this much wall time a call.
+    /// As `new`; `play` may take this much wall time per call.
     pub fn with_time_limit(order: Order, time_limit: Duration) -> Self {
         let scene = &order.scene;
         let motion = Motion::new(scene);
@@ -64,7 +64,7 @@ impl Playback {
         playback
     }
 
-    /// Takes a newer order. Counters that grew are acted on.
+    /// Takes a newer order and does what its counters ask for.
     pub fn apply(&mut self, order: &Order) {
         let before = std::mem::replace(&mut self.order, order.clone());
         if order.restarts != before.restarts {
@@ -92,7 +92,7 @@ impl Playback {
                 comparison.full_run = FullRunJob::new(comparison.motion.clone(), end);
             }
             self.studies.forget_spectrum();
-            // The reference starts from rest; it says nothing about a changed run.
+            // The reference starts from rest, so it does not apply to a changed run.
             self.reference = None;
             self.sensitive = Some(false);
         }
@@ -126,7 +126,7 @@ impl Playback {
         self.recorder.record(&mut self.motion, self.order.bin_s);
     }
 
-    /// Plays `seconds` of motion, or as much as the solver can in its time.
+    /// Plays `seconds` of motion, or less if the solver is too slow.
     pub fn play(&mut self, seconds: f64) {
         self.target += seconds;
         let began = Instant::now();
@@ -172,7 +172,7 @@ impl Playback {
             None => self.sample_length(),
         };
         let now = self.motion.state().t_s;
-        // A failure stays in the motion, where every snapshot finds it.
+        // The motion stores a failure, and every snapshot reports it.
         let _ = self.motion.advance(now + step);
     }
 
@@ -203,7 +203,7 @@ impl Playback {
         self.play_comparison();
     }
 
-    /// Whether anything is left to compute.
+    /// Whether there is more to compute.
     pub fn is_computing(&self) -> bool {
         let comparison = self.comparison.as_ref().map(|comparison| &comparison.full_run);
         let mut runs = std::iter::once(&self.full_run).chain(&self.reference).chain(comparison);
@@ -268,7 +268,7 @@ impl Playback {
     }
 }
 
-/// The event solver under unilateral contact, where the scene's own solver is another.
+/// The event solver under unilateral contact, if the scene uses another solver.
 fn reference(scene: &Scene) -> Option<FullRunJob> {
     if scene.solver.kind == SolverKind::Event {
         return None;

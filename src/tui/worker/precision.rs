@@ -1,4 +1,4 @@
-//! Speed against error, row by row, in a thread of its own: a row can take
+//! Speed against error, row by row, in a separate thread: a row can take
 //! seconds, and neither the motion nor the next order waits for it.
 
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use super::thread::WORKER_NAME;
 use crate::scene::Scene;
 use crate::study::precision::{Effort, Measure, Precision, Reference, Row, ways};
 
-/// One run a row, and no step finer than the paper's: the picture comes soon.
+/// One run per row, and no step finer than the paper's, for a quick result.
 const EFFORT: Effort = Effort { repeats: 1, finest_s: 1e-7, seconds: 0.0 };
 
 /// What the thread finds.
@@ -19,7 +19,7 @@ enum Found {
 }
 
 /// The comparison of the solvers on one scene. Dropping it ends the thread
-/// after the row it is at.
+/// after the current row.
 #[derive(Debug)]
 pub struct PrecisionJob {
     scene: Scene,
@@ -43,7 +43,7 @@ impl PrecisionJob {
         self.scene == *scene
     }
 
-    /// Whether no row is to come.
+    /// Whether all rows are done.
     pub fn is_done(&self) -> bool {
         self.rows.is_none()
     }
@@ -70,13 +70,13 @@ impl PrecisionJob {
                 }
             }
             Err(RecvTimeoutError::Timeout) => {}
-            // Done, or the thread broke off: what there is stays.
+            // Done, or the thread ended early: the existing rows stay.
             Err(RecvTimeoutError::Disconnected) => self.rows = None,
         }
     }
 }
 
-/// Measures until done, or until the receiver is gone.
+/// Measures until done, or until the receiver is dropped.
 fn measure(scene: &Scene, found: &Sender<Found>) {
     let Ok(measure) = Measure::new(scene) else { return };
     let reference = Found::Reference(Box::new(measure.reference().clone()));

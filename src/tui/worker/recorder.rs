@@ -83,8 +83,8 @@ impl Recorder {
         std::mem::take(&mut self.done)
     }
 
-    /// Mean force on each side since last asked; the former means while
-    /// nothing has moved.
+    /// Mean force on each side since last asked; the former means if the motion
+    /// did not move since.
     pub fn mean_forces(&mut self) -> Vec<(u32, f64)> {
         if self.over > 0.0 {
             self.means = self.sums.iter().map(|(side, sum)| (*side, sum / self.over)).collect();

@@ -1,6 +1,6 @@
-//! An engine without thread and clock: every snapshot advances the motion by
-//! the same time, and the speed of the solver is a fixed figure. For tests
-//! that must give the same screens on every machine.
+//! An engine without thread and clock, for tests that must give the same
+//! screens on every machine: every snapshot advances the motion by the same
+//! time, and the speed of the solver is a fixed number.
 
 use std::time::Duration;
 

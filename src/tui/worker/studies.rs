@@ -1,7 +1,6 @@
-//! What some views need besides the motion: the curves of the locked motion,
-//! the spectrum of the whole run, the map and the comparison of solvers. Each
-//! is computed only while its view is open, in slices, and kept as long as
-//! what it depends on stays the same.
+//! Studies for the views: the curves of the locked motion, the spectrum of the
+//! whole run, the map and the comparison of solvers. Each is computed only
+//! while its view is open, in slices, and kept while its inputs stay the same.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -32,12 +31,12 @@ pub struct Studies {
 }
 
 impl Studies {
-    /// The run has changed: its spectrum is another one.
+    /// The run has changed, so its spectrum must be computed again.
     pub fn forget_spectrum(&mut self) {
         self.spectrum = None;
     }
 
-    /// Whether anything that is wanted is missing.
+    /// Whether a study that is needed is missing.
     pub fn is_computing(&self, order: &Order) -> bool {
         self.locked_is_old(order)
             || (order.shows(ViewId::Spectrum) && self.spectrum.is_none())
@@ -86,7 +85,8 @@ impl Studies {
         let began = Instant::now();
         let count = map.cells.len();
         while self.map_next < count && began.elapsed() < SLICE {
-            // A stride without a common divisor visits every cell, all over at once.
+            // A stride without a common divisor visits every cell, spread over
+            // the whole map.
             let index = (self.map_next * stride(count)) % count;
             let cell = map.plan.compute(index);
             if let Some(slot) = map.cells.get_mut(index) {
@@ -105,7 +105,7 @@ impl Studies {
         }
     }
 
-    /// Adds what is computed so far to the results.
+    /// Adds the studies computed so far to the results.
     pub fn show(&self, results: &mut Results) {
         results.locked = self.locked.as_ref().map(|(_, curves)| Arc::clone(curves));
         results.spectrum.clone_from(&self.spectrum);
@@ -114,14 +114,14 @@ impl Studies {
     }
 }
 
-/// The map of a scene: speed from zero to beyond everything of interest, pulse
-/// over four decades, by the event solver with rigid blades.
+/// The map of a scene: speed from zero to above all thresholds, pulse over four
+/// decades, by the event solver with rigid blades.
 fn plan(scene: &Scene) -> Option<MapPlan> {
     let mut scene = scene.clone();
     let speed = scene.operation.speed_rad_s.abs();
     let machine = scene.machine();
     let thresholds = [machine.lock_speed(), machine.dangerous_speed(), machine.critical_speed()];
-    // The range does not depend on the speed, unless that is far outside.
+    // The range does not depend on the speed, unless the speed is far outside.
     scene.operation.speed_rad_s = 1.3 * thresholds.into_iter().flatten().fold(1.0, f64::max);
     let usual = speed_range(&scene);
     scene.operation.speed_rad_s = speed;

@@ -1,6 +1,6 @@
 //! The worker thread: one slot with the latest order, one with the latest
 //! snapshot. Neither side waits for the other: a newer order replaces an older
-//! one, and a snapshot that was not taken is joined with the next.
+//! one, and a snapshot that was not taken is merged with the next.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -13,9 +13,9 @@ use crate::tui::history::{Bin, MOST_BINS, thin};
 /// Name of the thread: the panic hook leaves the screen alone for it.
 pub const WORKER_NAME: &str = "rubscope-worker";
 
-/// Time between two looks at the clock while the motion plays.
+/// Time between two readings of the clock while the motion plays.
 const TICK: Duration = Duration::from_millis(33);
-/// Most wall time one tick may make up for, after a suspension for instance.
+/// Most wall time that one tick catches up, for example after a suspension.
 const LONGEST_TICK: Duration = Duration::from_millis(100);
 
 #[derive(Default)]
@@ -32,7 +32,8 @@ struct Shared {
 }
 
 impl Shared {
-    /// A poisoned lock holds plain values that are replaced whole: still sound.
+    /// A poisoned lock contains plain values that are always replaced as a
+    /// whole, so they are valid.
     fn lock(&self) -> MutexGuard<'_, Slots> {
         self.slots.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -48,7 +49,7 @@ impl Worker {
     /// after the last one was taken.
     ///
     /// # Errors
-    /// The system gives no thread.
+    /// The system cannot start a thread.
     pub fn spawn(wake: Waker) -> std::io::Result<Self> {
         let shared = Arc::new(Shared::default());
         let theirs = Arc::clone(&shared);
@@ -123,7 +124,7 @@ fn run(shared: &Shared, wake: &Waker) {
 }
 
 /// The next order, if there is one; waits when there is nothing to do. The
-/// outer option is none when the thread has to end.
+/// outer option is none if the thread must end.
 fn next_order(shared: &Shared, busy: bool, playing: bool) -> Option<Option<Order>> {
     let mut slots = shared.lock();
     if slots.order.is_none() && !slots.quit && !busy {
@@ -197,7 +198,7 @@ mod tests {
         for turn in 0..20 {
             worker.order(&order(400.0 + f64::from(turn), u64::from(turn as u32)));
         }
-        // Bounded by patience, not by speed: the last order must come through.
+        // A long limit, not a speed test: the last order must arrive.
         for _ in 0..10_000 {
             if let Some(snapshot) = worker.take()
                 && snapshot.generation == 19
@@ -208,7 +209,7 @@ mod tests {
             }
             std::thread::sleep(Duration::from_millis(2));
         }
-        panic!("the last order never came through");
+        panic!("the last order never arrived");
     }
 
     #[test]

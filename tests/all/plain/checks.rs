@@ -54,8 +54,8 @@ impl Pair {
     }
 
     /// Blades answer impulses: the same relative error, on their own scale. The
-    /// moment arm of an impulse adds the error of a position, and so does what the
-    /// latest few steps pushed too much, which the next ones take back.
+    /// moment arm of an impulse adds the error of a position, and so does the
+    /// excess push of the latest few steps, which the next ones correct.
     fn check_blades(&self, what: &str) {
         let relative = self.round_off() / self.clearance();
         let (found, expected) = (self.motion.blade_angles(), self.plain.blade_angles());
@@ -90,8 +90,8 @@ impl Pair {
     }
 
     /// A multiplier is a second difference of positions; those of a corner push
-    /// against each other, which costs the sine of its angle once more, and three
-    /// sides are told apart by the blades alone.
+    /// against each other, which costs the sine of its angle once more, and only
+    /// the blades distinguish three sides.
     fn check_multipliers(&self, what: &str, allowed: f64) {
         let found = self.motion.multipliers();
         let mut expected = if self.plain.in_contact() { self.plain.multipliers() } else { &[] };
@@ -105,7 +105,7 @@ impl Pair {
             tolerance += allowed * mass / (h * h);
         }
         let mut sorted: Vec<(u32, f64)> = found.clone();
-        // Rows that ended with nothing to push are no contact.
+        // Rows that end with no push are no contact.
         sorted.retain(|(_, value)| *value != 0.0);
         sorted.sort_by_key(|&(side, _)| side);
         if expected.len() != sorted.len() {
@@ -214,8 +214,8 @@ impl Pair {
         assert!(expected.contains(&found), "{what}: {found}, expected {expected:?}");
     }
 
-    /// How far the casing can still go by its energy, in clearances; without
-    /// end while a pulse feeds it.
+    /// How far the casing can still move with its energy, in clearances;
+    /// infinite while a pulse acts.
     fn reach(&self) -> f64 {
         let (plain, m) = (&self.plain, self.scene.machine());
         let [u, v] = [plain.u(), plain.rates()].map(|x| x[0].hypot(x[1]));
@@ -223,8 +223,8 @@ impl Pair {
         if plain.is_pulsed() { f64::INFINITY } else { reach }
     }
 
-    /// How the motion lasts, by contacts alone. What the program says to be for
-    /// good, later looks must confirm.
+    /// The lasting motion, by contacts alone. Later checks must confirm a
+    /// verdict that the program calls certain.
     fn lasting(&self, window: f64) -> Verdict {
         let locked =
             matches!(self.motion.final_verdict(), Some(Verdict::Locked | Verdict::Adhesive));

@@ -1,5 +1,5 @@
-//! The program's explicit motion beside the plain stepper, and how far apart
-//! round-off alone may put them.
+//! Compares the explicit motion of the program with the plain stepper, and
+//! bounds the difference by round-off.
 
 use rubscope::motion::{Change, Motion};
 use rubscope::scene::Scene;
@@ -11,10 +11,10 @@ use super::{Failure, Plain, Why};
 const PERTURBATION: f64 = 1e-9;
 /// Times the estimated round-off that is still taken as round-off.
 pub(super) const ROOM: f64 = 40.0;
-/// Amplification beyond which states say nothing any more.
+/// Amplification above which states are not compared.
 pub const CHAOS: f64 = 1e5;
 
-/// The program, the plain stepper, and the plain stepper a little beside.
+/// The program, the plain stepper, and a slightly displaced plain stepper.
 #[derive(Clone)]
 pub struct Pair {
     pub motion: Motion,
@@ -53,15 +53,15 @@ impl Pair {
         pair
     }
 
-    /// Sets the second stepper a little beside the first.
+    /// Displaces the second stepper slightly from the first.
     fn perturbation(&mut self) {
         self.perturbed = self.plain.clone();
         self.perturbed.perturbation(PERTURBATION * self.clearance());
         self.amplified_before = self.amplified;
     }
 
-    /// How far the perturbed motion is by now, in position and rate; perturbations anew
-    /// where a contact has made the difference vanish.
+    /// How far the perturbed motion is by now, in position and rate; perturbs
+    /// it again if a contact has removed the difference.
     fn watch(&mut self) {
         let time = 1.0 / (self.h() * self.scene.machine().omega_c);
         let rates = time * distance(self.perturbed.increments(), self.plain.increments());
@@ -73,7 +73,7 @@ impl Pair {
         }
     }
 
-    /// Advances all; what fails must fail at the same step for the same reason.
+    /// Advances all; a failure must be at the same step for the same reason.
     pub fn advance(&mut self, until: f64) -> Result<(), Failure> {
         let before = self.plain.time();
         let met = self.plain.advance(until);
@@ -93,7 +93,7 @@ impl Pair {
             assert!((program.t_s - plain.t).abs() < 0.5 * self.h(), "{plain:?} {program:?}");
             return Err(plain);
         }
-        // A perturbed motion may wreck itself a step earlier or later.
+        // A perturbed motion may fail one step earlier or later.
         if self.perturbed.advance(until).is_err() {
             self.amplified = f64::INFINITY;
         } else {

@@ -112,8 +112,8 @@ impl Plain {
         Ok(())
     }
 
-    /// Multipliers over all rows: those near the casing first; whatever they
-    /// push in joins them.
+    /// Multipliers over all rows: those near the casing first; rows that these
+    /// close join them.
     fn complementary(&self, turned: Dd, rows: &mut Vec<Row>) -> Result<Vec<Dd>, Why> {
         loop {
             let gaps: Vec<Dd> = rows.iter().map(|row| row.gap).collect();

@@ -1,9 +1,9 @@
 //! Double-double arithmetic: a number as the unevaluated sum of two `f64`,
 //! good to about 32 digits (Dekker 1971, Knuth TAOCP 4.2.2).
 //!
-//! The plain stepper computes in it so that what is left between it and the
-//! program is the round-off of the program alone, even after a million steps
-//! and with contact rows that are equal to 20 digits.
+//! The plain stepper computes in it so that its difference from the program is
+//! the round-off of the program alone, even after a million steps and with
+//! contact rows that are equal to 20 digits.
 
 use std::cmp::Ordering;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};

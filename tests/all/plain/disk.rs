@@ -108,7 +108,7 @@ impl Disk {
         }
     }
 
-    /// Moves on as another disk of its kind moved.
+    /// Continues with the motion of another disk of the same kind.
     pub fn moving_as(mut self, other: &Self) -> Self {
         for (mode, was) in self.modes.iter_mut().zip(&other.modes) {
             mode.at = was.at;

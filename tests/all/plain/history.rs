@@ -1,4 +1,4 @@
-//! What touched when, step by step, in runs of equal steps.
+//! The contacts of each step, in runs of equal steps.
 
 use super::BREAK_STEPS;
 
@@ -19,7 +19,7 @@ pub struct History {
     pub spans: Vec<Span>,
 }
 
-/// What the last part of a run was like.
+/// The contacts in the last part of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Window {
     /// Something touched.

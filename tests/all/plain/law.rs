@@ -2,8 +2,8 @@
 //!
 //! Corrected gaps are `g = g* - W lambda` with `W = C^T [M/h^2 + D/2h]^-1 C`.
 //! Blades of one phase group at the same angle make rows of `W` that are equal
-//! to 8 to 20 digits: 32 digits tell them apart, and rows that even those do
-//! not tell apart are left out, because another row does their work.
+//! to 8 to 20 digits: 32 digits distinguish them, and rows that are equal even
+//! then are left out, because another row has the same effect.
 
 use super::dd::{Dd, ZERO};
 
@@ -79,11 +79,10 @@ fn after(w: &Matrix, gap: &[Dd], lambda: &[Dd], row: usize) -> Dd {
     gap[row] - lambda.iter().enumerate().map(|(j, &value)| w[row][j] * value).sum()
 }
 
-/// Signorini: `g >= 0`, `lambda <= 0`, `g lambda = 0`, by the active sets of
-/// Lawson and Hanson (1974, ch. 23) on pushes `-lambda >= 0`: the deepest row
-/// left is closed, and whatever would have to pull for it is let go on the way.
-/// The corrections are unique even where the multipliers are not. None where no
-/// correction opens all gaps.
+/// Signorini: `g >= 0`, `lambda <= 0`, `g lambda = 0`, by the active sets of Lawson
+/// and Hanson (1974, ch. 23) on pushes `-lambda >= 0`: the deepest row left is closed,
+/// and rows that would have to pull for it are released. The corrections are unique
+/// even where the multipliers are not. None where no correction opens all gaps.
 pub fn unilateral(w: &Matrix, gap: &[Dd]) -> Option<Vec<Dd>> {
     let rows = gap.len();
     let deepest = gap.iter().fold(0.0_f64, |most, g| most.max(-g.0));
@@ -98,7 +97,7 @@ pub fn unilateral(w: &Matrix, gap: &[Dd]) -> Option<Vec<Dd>> {
             return Some(lambda);
         };
         chosen.push(entering);
-        // Each turn lets go of one row at least.
+        // Each turn releases at least one row.
         loop {
             let target = aim(w, gap, &chosen)?;
             let stops = |&place: &usize| {
@@ -140,7 +139,7 @@ pub fn unilateral(w: &Matrix, gap: &[Dd]) -> Option<Vec<Dd>> {
     None
 }
 
-/// Where the multipliers of the chosen rows want to go.
+/// The target of the multipliers of the chosen rows.
 struct Target {
     values: Vec<Dd>,
     /// A direction without end instead of a point: the last row depends on the
@@ -158,7 +157,7 @@ fn aim(w: &Matrix, gap: &[Dd], chosen: &[usize]) -> Option<Target> {
             let (others, last) = (&chosen[..place], chosen[place]);
             let l = factor(w, others).ok()?;
             let b: Vec<Dd> = others.iter().map(|&row| w[row][last]).collect();
-            // -1 for the new row pushes; the others give way.
+            // -1 for the new row pushes; the others respond.
             let mut values = solve(&l, &b);
             values.push(Dd::from(-1.0));
             Some(Target { values, is_direction: true })

@@ -1,7 +1,7 @@
 //! The scheme of Eqs. (8)-(16) in its plainest form, as a reference for the
-//! program. It shares nothing with `src/motion` or `src/contact`: it reads a
-//! `Scene` and does the rest by itself, in double-double (`dd`), so what is
-//! left between it and the program is the program's round-off or a fault.
+//! program. It shares no code with `src/motion` or `src/contact`: it reads a
+//! `Scene` and computes the rest in double-double (`dd`), so a difference from
+//! the program is the round-off of the program or an error.
 //!
 //! ```text
 //! let mut plain = plain::Plain::new(&scene);   // any model, any law; solver.kind is not looked at
@@ -24,9 +24,9 @@
 //!
 //! Every step is computed, in the standing frame: predict, evaluate the gaps of
 //! all blades from sines and cosines of `n_d (theta + Phi_i + alpha_i)`, correct
-//! by one of two laws. *Bilateral* closes every `g* < 0` as an equality, nothing
-//! else; *unilateral* solves the complementarity problem over all rows. Rows are
-//! phase groups for rigid and modal blades, blades in the full model.
+//! by one of two laws. *Bilateral* closes every `g* < 0` as an equality and no
+//! other gap; *unilateral* solves the complementarity problem over all rows.
+//! Rows are phase groups for rigid and modal blades, blades in the full model.
 //!
 //! A side is `n_d i / q` modulo `N/q` for blade `i` from 0, `q = gcd(N, n_d)`:
 //! the program's numbering. A positive multiplier pulls.
@@ -48,10 +48,10 @@ use history::{History, Window};
 
 /// A contact lasts over this many steps without a touch.
 pub const BREAK_STEPS: u64 = 2;
-/// Blade angle that small-angle blades may not pass \[rad\].
+/// Largest allowed blade angle \[rad\].
 pub const LARGEST_ANGLE: f64 = 0.1;
 
-/// Why a run stopped, with the number that shows it.
+/// The reason why a run stopped, with its number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Why {
     /// A predicted penetration deeper than the clearance \[m\].
@@ -340,7 +340,7 @@ impl Plain {
         &self.history
     }
 
-    /// What the last `seconds` were like.
+    /// The contacts of the last `seconds`.
     pub fn window(&self, seconds: f64) -> Window {
         let steps = (seconds / self.h.0).round() as u64;
         self.history.window(self.n.saturating_sub(steps).max(1), self.n)

@@ -1,5 +1,5 @@
-//! The bladed disk as a wheel, in the frame of the blades: blades as spokes, the casing
-//! around them with its wave exaggerated by a stated factor.
+//! The bladed disk as a wheel, in the frame of the blades: blades as spokes,
+//! the casing around them with its wave magnified by a stated factor.
 
 use std::f64::consts::TAU;
 
@@ -51,7 +51,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
     };
     let quiet = Pen { dashed: false, ..look.quiet() };
     let touched = Pen { style: look.style(Role::Contact), sign: '#', dashed: false };
-    // Spokes closer than a cell cannot be told apart.
+    // Spokes closer than a cell cannot be distinguished.
     let all = polygon.blades <= u32::from(inside.width) * 2;
     let touches = |blade: u32| {
         moment.active_set != ActiveSet::Nothing

@@ -1,6 +1,5 @@
-//! View 2 against time: a row for each blade, a column for each part of the
-//! page, the smallest gap as a shade and contact as a full block. It can be
-//! read without colour.
+//! View 2 against time: a row for each blade, a column for each part of the page,
+//! the smallest gap as a shade and contact as a full block. It needs no colour.
 
 use ratatui::buffer::Buffer;
 
@@ -17,8 +16,8 @@ use crate::tui::theme::Role;
 const SIGNS: [char; 4] = ['█', '▓', '▒', '░'];
 /// The same in ASCII.
 const ASCII: [char; 4] = ['#', '%', '+', '.'];
-/// Gaps below which a shade is drawn, in clearances: beyond the last, the
-/// casing is farther away than at rest.
+/// Gaps below which a shade is drawn, in clearances. Above the last, the casing
+/// is farther away than at rest.
 const SHADES: [f64; 3] = [0.1, 0.5, 1.0];
 
 /// One blade in one column.
@@ -29,16 +28,17 @@ struct Spot {
     touched: bool,
 }
 
-/// The smallest gap of a side over a bin, rigid blades \[m\]. A bin keeps
-/// only the box of the wave, so this is a lower bound.
+/// The smallest gap of a side over a bin, rigid blades \[m\]. A bin stores only
+/// the least and greatest coordinates of the wave, so this is a lower bound.
 fn least_gap(polygon: &ContactPolygon, side: u32, bin: &Bin) -> f64 {
     let (c, s) = polygon.direction(side);
     let [(x0, x1), (y0, y1)] = [Channel::X, Channel::Y].map(|channel| bin.span(channel));
     polygon.clearance + (c * x0).min(c * x1) + (s * y0).min(s * y1)
 }
 
-/// Whether a side was touched in a bin. Of more than two sides in one bin only
-/// their number is known: then all that came as near as the sides of a corner.
+/// Whether a side was touched in a bin. If a bin has more than two sides, only
+/// their number is known; then these are all sides that came as near as the
+/// sides of a corner.
 fn touches(polygon: &ContactPolygon, side: u32, bin: &Bin) -> bool {
     match bin.touched {
         ActiveSet::Many => {
@@ -55,7 +55,8 @@ fn spots(app: &App, columns: usize) -> Vec<Vec<Option<Spot>>> {
     let width = (to - from) / columns.max(1) as f64;
     let mut out = vec![vec![None; columns]; polygon.sides as usize];
     let place = |t: f64| (((t - from) / width).max(0.0) as usize).min(columns.saturating_sub(1));
-    // Some columns at a time: a frame for each column is too much for a slow line.
+    // Several columns at a time: a frame for each column is too much for a slow
+    // connection.
     let Some(until) = app.throttled.as_ref().map(|moment| moment.state.t_s) else { return out };
     for bin in app.history.between(from, to).iter().filter(|bin| bin.from <= until) {
         for (side, row) in (0..polygon.sides).zip(&mut out) {
@@ -79,7 +80,7 @@ fn spots(app: &App, columns: usize) -> Vec<Vec<Option<Spot>>> {
 fn sign(spots: &[Spot], signs: [char; 4], ascii: bool) -> Option<(char, bool)> {
     let gap = spots.iter().map(|spot| spot.gap).fold(f64::INFINITY, f64::min);
     match spots {
-        // Two blades a row: half a block tells which of them touches.
+        // Two blades per row: half a block marks the one that touches.
         [Spot { touched: true, .. }, Spot { touched: false, .. }] if !ascii => Some(('▄', true)),
         [Spot { touched: false, .. }, Spot { touched: true, .. }] if !ascii => Some(('▀', true)),
         _ if spots.iter().any(|spot| spot.touched) => Some((signs[0], true)),

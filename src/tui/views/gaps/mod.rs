@@ -1,5 +1,5 @@
-//! View 2: the gap of every blade now, over the fixed zero line that is the
-//! casing; blades in contact carry a sign and their number.
+//! View 2: the gap of every blade now, over the fixed zero line of the casing;
+//! blades in contact have a mark and their number.
 
 mod heat;
 

@@ -15,7 +15,7 @@ pub struct LockedCurves {
     pub fastest: f64,
     /// With the damping of the scene; none where there is no locked motion.
     pub damped: Option<Sweep>,
-    /// Without damping, as the paper has it; none for a machine without any.
+    /// Without damping, as in the paper; none for a machine without damping.
     pub undamped: Option<Sweep>,
 }
 
@@ -55,7 +55,7 @@ mod tests {
         let last = *curves.damped.unwrap().points.last().unwrap();
         let closed = machine.locked_multipliers(curves.fastest).unwrap();
         for (lambda, exact) in last.multipliers_n.iter().zip(closed) {
-            // Elastic blades move a multiplier by parts in a million.
+            // Flexible blades change a multiplier by parts in a million.
             assert!((lambda - exact).abs() < 1e-4 * exact.abs(), "{lambda} {exact}");
         }
     }

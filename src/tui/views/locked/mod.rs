@@ -15,7 +15,7 @@ use crate::tui::raster::Pen;
 use crate::tui::text::print;
 use crate::tui::theme::Role;
 
-/// From this height on the undamped curve of the paper is shown as well.
+/// From this height on, the undamped curve of the paper is shown too.
 const ROOMY: u16 = 14;
 
 /// The view.
@@ -54,7 +54,7 @@ impl ViewPanel for LockedView {
             return;
         };
         let lambdas = damped.points.iter().flat_map(|point| point.multipliers_n);
-        // The curves set the scale: the mean over an impact may be far outside.
+        // The scale follows the curves: the mean over an impact may be far outside.
         let (low, high) = lambdas
             .filter(|lambda| lambda.is_finite())
             .fold((0.0_f64, 0.0_f64), |(a, b), v| (a.min(v), b.max(v)));

@@ -12,7 +12,7 @@ use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
 use crate::tui::theme::Role;
 
-/// From this height on the Campbell lines have a chart of their own.
+/// From this height on, the Campbell lines have a separate chart.
 const TWO_FROM: u16 = 16;
 /// Smallest amplitude shown, as a power of ten of a metre, and the greatest.
 const DECADES: (f64, f64) = (-10.0, -3.0);
