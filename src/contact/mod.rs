@@ -3,7 +3,8 @@
 //! One step predicts gaps `g*` and corrects the displacements by multipliers
 //! `lambda`: the corrected gaps are `g = g* - W lambda`, with
 //! `W = C^T [M/h^2 + D/2h]^-1 C`, Eqs. (12)-(13). A multiplier below zero
-//! pushes. A law is one file and one line of `law`.
+//! pushes. A law is one file, and one
+//! line each of `ContactLaw` and `law`.
 //!
 //! At most one corner of the polygon touches in every ordinary step, so a law
 //! solves two rows by cases; larger sets (very compliant blades, a step too
@@ -15,8 +16,9 @@ pub mod repeated;
 mod unilateral;
 
 use nalgebra::DMatrix;
+use serde::Serialize;
+use strum::{AsRefStr, Display, EnumString, VariantNames};
 
-use crate::scene::ContactLaw;
 pub use bilateral::{all_closed, pair};
 use repeated::Repeated;
 pub use unilateral::{complementary, complementary_pair};
@@ -35,6 +37,30 @@ pub trait StepLaw: std::fmt::Debug + Sync {
     /// Force that keeps a corner closed, for the multipliers of its sides and the
     /// cosine of the angle between them; the corner opens at zero \[N\].
     fn hold(&self, multipliers: [f64; 2], cos: f64) -> f64;
+}
+
+/// Which contact law closes the predicted penetrations.
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, Serialize, Display, EnumString, AsRefStr, VariantNames,
+)]
+#[serde(rename_all = "lowercase")]
+#[strum(serialize_all = "lowercase")]
+pub enum ContactLaw {
+    /// Signorini: multipliers may only push.
+    Unilateral,
+    /// The paper's Eqs. (11)-(13): every penetration is an equality, pull or push.
+    Bilateral,
+}
+
+impl ContactLaw {
+    /// The other law.
+    #[must_use]
+    pub fn other(self) -> Self {
+        match self {
+            Self::Unilateral => Self::Bilateral,
+            Self::Bilateral => Self::Unilateral,
+        }
+    }
 }
 
 /// The law of this name.

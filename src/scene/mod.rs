@@ -20,6 +20,7 @@ pub use checked::{Adjustment, CheckedScene};
 pub use error::SceneError;
 pub use keys::{Allowed, KEYS, Key, Value};
 
+pub use crate::contact::ContactLaw;
 use crate::model::{BladedDisk, Casing, Excitation, Initial, Machine, Operation};
 
 /// Which solver advances the motion.
@@ -33,30 +34,6 @@ pub enum SolverKind {
     Explicit,
     /// Event-driven closed forms: the reference.
     Event,
-}
-
-/// Which contact law closes the predicted penetrations.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, Serialize, Display, EnumString, AsRefStr, VariantNames,
-)]
-#[serde(rename_all = "lowercase")]
-#[strum(serialize_all = "lowercase")]
-pub enum ContactLaw {
-    /// Signorini: multipliers may only push.
-    Unilateral,
-    /// The paper's Eqs. (11)-(13): every penetration is an equality, pull or push.
-    Bilateral,
-}
-
-impl ContactLaw {
-    /// The other law.
-    #[must_use]
-    pub fn other(self) -> Self {
-        match self {
-            Self::Unilateral => Self::Bilateral,
-            Self::Bilateral => Self::Unilateral,
-        }
-    }
 }
 
 /// Which parts of the machine can move.
