@@ -82,6 +82,11 @@ pub(crate) const MOST_EVENTS: u64 = 50_000_000;
 /// Most looks ahead within one segment: minutes of work without an event.
 pub(crate) const MOST_LOOKS: u64 = 1_000_000_000;
 
+/// Looks of one segment after which free flight is bounded to higher order:
+/// ordinary flights take some dozens. It may graze a side with neither rate nor
+/// bend, as next to the critical speed; without this it looks a billion times.
+pub(crate) const STALLED_LOOKS: u64 = 1000;
+
 /// Most mode changes in a row that take no time. Physical ones are a few; more
 /// are a loop.
 pub(crate) const MOST_EVENTS_AT_ONCE: u32 = 1000;

@@ -72,7 +72,7 @@ fn excitation(scene: &Scene) -> Result<(), SceneError> {
     let allowed = if amplitude == 0.0 {
         return Ok(());
     } else if scene.solver.kind == SolverKind::Event {
-        "0 with solver.kind = \"event\""
+        return undriven(scene);
     } else if scene.solver.model == ModelSize::Rigid {
         "0 with solver.model = \"rigid\", whose blades do not move"
     } else {
@@ -150,11 +150,23 @@ fn unit(x: f64) -> f64 {
     if x == 0.0 || !x.is_finite() { 0.0 } else { 10_f64.powf(x.abs().log10().floor() - 3.0) }
 }
 
+/// The event solver drives no blades.
+fn undriven(scene: &Scene) -> Result<(), SceneError> {
+    match scene.excitation.amplitude_nm {
+        0.0 => Ok(()),
+        some => {
+            let allowed = "0 with solver.kind = \"event\"";
+            Err(SceneError::refused("excitation.amplitude_nm", some, allowed))
+        }
+    }
+}
+
 /// What the event solver does not support.
 ///
 /// # Errors
-/// The bilateral law, or a disk of more than two modes.
+/// An excitation, the bilateral law, or a disk of more than two modes.
 pub(super) fn event(scene: &Scene) -> Result<(), SceneError> {
+    undriven(scene)?;
     if scene.solver.contact == ContactLaw::Bilateral {
         return Err(SceneError::refused(
             "solver.contact",

@@ -28,7 +28,8 @@ impl Deref for CheckedScene {
 }
 
 impl CheckedScene {
-    /// Whether the event solver supports the contact law and the model size.
+    /// Whether the event solver supports the contact law, the model size and the
+    /// excitation.
     ///
     /// # Errors
     /// It does not; the reason in one line.

@@ -242,3 +242,51 @@ fn blades_that_turn_two_sides_onto_each_other_end_the_motion() {
     let turned = 28.0 * motion.state().alpha[0].abs();
     assert!((0.9..FRAC_PI_2).contains(&turned), "{turned} rad");
 }
+
+/// A slow motion that crosses a corner keeps what is round-off apart from what is
+/// a rate, also where blades move: no endless crossings, and energy balances.
+#[test]
+fn crossings_of_moving_blades_are_clean_of_round_off() {
+    let mut still = Scene::base();
+    still.bladed_disk.blades = 4;
+    still.bladed_disk.blade_length_m = 0.4999898089726025;
+    still.casing.modal_stiffness_n_per_m = 1709405.6704526693;
+    still.casing.modal_mass_kg = 1.8930829502420177;
+    still.casing.damping_ratio = 0.0;
+    still.operation.speed_rad_s = 1218.0002700696834;
+    still.operation.pulse_n = 0.0;
+    let initial = &mut still.initial;
+    (initial.u_c_m, initial.u_s_m) = (1.0191027381492726e-5, 1.019102739752132e-5);
+    (initial.v_c_m_s, initial.v_s_m_s) = (-0.03723802236740554, 0.03723802230883704);
+    let mut struck = Scene::base();
+    struck.bladed_disk.blades = 24;
+    struck.bladed_disk.blade_length_m = 0.35;
+    struck.bladed_disk.damping_ratio = 1.0;
+    struck.casing.modal_mass_kg = 30.0;
+    struck.casing.damping_ratio = 0.0;
+    struck.operation.nodal_diameters = 11;
+    struck.operation.speed_rad_s = 62.77;
+    struck.operation.pulse_s = 0.00119;
+    struck.operation.pulse_n = 47616673.0;
+    for (mut scene, end, events, scale) in [(still, 1e-5, 3, 1e-3), (struck, 5.8e-4, 20, 1e3)] {
+        scene.solver.model = ModelSize::Modal;
+        let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
+        motion.advance(end).unwrap();
+        assert!(motion.events() <= Some(events), "{:?}", motion.events());
+        let residual = motion.checks().energy_residual_j.unwrap();
+        assert!(residual.abs() < 1e-10 * scale, "{residual:e} J");
+    }
+}
+
+#[test]
+fn the_event_solver_refuses_what_it_does_not_know() {
+    for (key, value) in [
+        ("solver.contact", "bilateral"),
+        ("solver.model", "full"),
+        ("excitation.amplitude_nm", "1"),
+    ] {
+        let scene = Scene::base().with(&[(key, value)]).unwrap();
+        let refused = Event::new(&scene).unwrap_err().to_string();
+        assert!(refused.starts_with(key), "{refused}");
+    }
+}

@@ -6,7 +6,7 @@
 //! bound on their second derivative in the turning frame (`advancement`); the rest
 //! are kept open by a bound on the speed.
 
-use super::advancement::{leaving_step, safe_step};
+use super::advancement::{grazing_step, leaving_step, safe_step};
 use super::blades::Tips;
 use super::bounds::{Bounds, size};
 use super::parameters::{Drive, Parameters};
@@ -127,8 +127,16 @@ impl Free {
         ((second * out).re, (third * out).re)
     }
 
-    /// Looks ahead from `s`, before which nothing happens, to at most `end`.
-    pub(super) fn look(&self, parameters: &Parameters, drive: &Drive, s: f64, end: f64) -> Look {
+    /// Looks ahead from `s`, before which nothing happens, to at most `end`; with
+    /// bounds of higher order where it is `stalled` next to a side.
+    pub(super) fn look(
+        &self,
+        parameters: &Parameters,
+        drive: &Drive,
+        s: f64,
+        end: f64,
+        stalled: bool,
+    ) -> Look {
         let (u, v) = self.at(parameters, drive, s);
         if drive.pulse == 0.0 && Self::spent(parameters, u, v) {
             return Look::Never;
@@ -177,7 +185,7 @@ impl Free {
                     bounds.shift(blades, &tips);
                 }
             }
-            match self.sides(parameters, drive, s, (u, v, tips), &bounds) {
+            match self.sides(parameters, drive, s, (u, v, tips), &bounds, stalled) {
                 Look::Until(near) => stride = stride.max(near.min(near_span)),
                 found => return found,
             }
@@ -193,6 +201,7 @@ impl Free {
         s: f64,
         (u, v, tips): (Plane, Plane, Tips),
         bounds: &Bounds,
+        stalled: bool,
     ) -> Look {
         let polygon = &parameters.machine.polygon;
         let back = Plane::cis(-drive.phase(s));
@@ -232,6 +241,13 @@ impl Free {
             let safe = match leaving {
                 Some(leaving) if s == 0.0 => leaving_step(leaving.bend, leaving.twist, jounce),
                 _ if gap <= noise && closing < 0.0 => return Look::Touch(side),
+                _ if stalled => {
+                    let gap = gap.max(0.0) + noise;
+                    let now = Self::new(u, v, tips);
+                    let (bend_now, twist) = now.curvature(parameters, &drive.at(s), side);
+                    safe_step(gap, closing, bend)
+                        .max(grazing_step(gap, closing, bend_now, twist, jounce))
+                }
                 _ => safe_step(gap.max(0.0) + noise, closing, bend),
             };
             stride = stride.min(safe);

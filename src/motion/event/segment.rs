@@ -9,7 +9,7 @@ use super::mode::{Mode, Next, What};
 use super::parameters::Drive;
 use crate::motion::Plane;
 use crate::motion::{ActiveSet, Failure, FailureReason};
-use crate::tolerances::{MOST_EVENTS, MOST_EVENTS_AT_ONCE, MOST_LOOKS};
+use crate::tolerances::{MOST_EVENTS, MOST_EVENTS_AT_ONCE, MOST_LOOKS, STALLED_LOOKS};
 
 impl Event {
     /// Seconds from the start of the segment to `t`.
@@ -94,7 +94,8 @@ impl Event {
                 self.fail(self.safe, FailureReason::Looks);
                 return None;
             }
-            match self.mode.look(&self.parameters, &self.drive, self.safe, end) {
+            let stalled = self.looks > STALLED_LOOKS;
+            match self.mode.look(&self.parameters, &self.drive, self.safe, end, stalled) {
                 Next::Until(later) => self.safe = later.min(end),
                 Next::Now(what) => self.found = Some((self.safe, what)),
             }

@@ -79,7 +79,7 @@ impl Event {
     /// with the rate `along` that side.
     fn cross(&mut self, a: u32, second: bool, along: f64, rate: Plane) {
         let contact = self.corner_contact(a);
-        let mut openings = self.openings(&contact, rate);
+        let mut openings = self.clean_openings(&contact, rate);
         openings[usize::from(second)] = 0.0;
         if self.parameters.blades.is_none() {
             // The closed form keeps all digits of a slow motion.
