@@ -21,7 +21,14 @@ impl Event {
         if self.parameters.blades.is_none() || !beyond(self, s) {
             return Ok(());
         }
-        let (mut within, mut after) = (0.0, s);
+        // A bracket that does not depend on `s`: where one looks changes no bit.
+        let (mut within, mut after) = (0.0, self.mode.length());
+        if !after.is_finite() {
+            after = 1.0 / self.parameters.omega;
+            while after < s && !beyond(self, after) {
+                (within, after) = (after, 2.0 * after);
+            }
+        }
         for _ in 0..100 {
             let middle = 0.5 * (within + after);
             if middle <= within || middle >= after {
