@@ -1,6 +1,5 @@
-//! Whole screens of the explorer: keys in, text out, without a terminal. The
-//! engine is driven by hand and its speed number is fixed, so that a screen is
-//! the same on every machine.
+//! Whole screens of the explorer: keys in, text out, without a terminal. The test
+//! drives the engine, so that a screen is the same on every machine.
 
 use std::sync::mpsc;
 use std::time::Duration;
