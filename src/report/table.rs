@@ -47,7 +47,7 @@ impl From<String> for TableCell {
 
 /// Writes rows of cells as CSV, under a header line. Numbers are the shortest
 /// that read back as themselves, and what is no figure is left empty.
-pub(super) fn write_csv<R: IntoIterator<Item = TableCell>>(
+pub(crate) fn write_csv<R: IntoIterator<Item = TableCell>>(
     names: impl IntoIterator<Item = impl AsRef<[u8]>>,
     rows: impl IntoIterator<Item = R>,
     out: &mut dyn Write,

@@ -7,6 +7,7 @@ use ratatui::{
     style::{Modifier, Style},
 };
 
+use crate::report::table::{TableCell, write_csv};
 use crate::tui::app::App;
 use crate::tui::appearance::Appearance;
 use crate::tui::raster::Pen;
@@ -95,19 +96,24 @@ pub fn not_yet(app: &App, buffer: &mut Buffer, inside: Rect) {
     print(buffer, inside, 1, "computed while this view is open", quiet);
 }
 
-/// A header and rows as CSV text.
+/// Named columns of numbers as CSV text.
 ///
 /// # Errors
 /// There are no rows.
-pub fn csv(header: &str, rows: impl Iterator<Item = String>) -> Result<String, String> {
-    let rows: Vec<String> = rows.collect();
-    match rows.is_empty() {
-        true => Err("there is no data yet".into()),
-        false => Ok(format!("{header}\n{}\n", rows.join("\n"))),
+pub fn csv<R: IntoIterator<Item = f64>>(
+    names: &[String],
+    rows: impl Iterator<Item = R>,
+) -> Result<String, String> {
+    let mut rows = rows.map(|row| row.into_iter().map(TableCell::from)).peekable();
+    if rows.peek().is_none() {
+        return Err("there is no data yet".into());
     }
+    let mut bytes = Vec::new();
+    write_csv(names, rows, &mut bytes).map_err(|error| error.to_string())?;
+    String::from_utf8(bytes).map_err(|error| error.to_string())
 }
 
-/// Numbers with full precision, one CSV field each.
-pub fn fields(values: impl IntoIterator<Item = f64>) -> String {
-    values.into_iter().map(|value| format!("{value:e}")).collect::<Vec<_>>().join(",")
+/// The names of columns.
+pub fn names(names: &[&str]) -> Vec<String> {
+    names.iter().map(ToString::to_string).collect()
 }

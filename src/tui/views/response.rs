@@ -4,7 +4,7 @@
 
 use ratatui::buffer::Buffer;
 
-use super::panel::{ViewArea, ViewPanel, csv, entry, fields, title};
+use super::panel::{ViewArea, ViewPanel, csv, entry, names, title};
 use crate::tui::app::App;
 use crate::tui::axis::{AutoRange, ChartAxis, readable};
 use crate::tui::history::{BinHistory, Channel};
@@ -56,18 +56,21 @@ impl ViewPanel for ResponseView {
             (Channel::X, "z_real_m"),
             (Channel::Y, "z_imaginary_m"),
         ];
-        let names = channels.map(|(_, name)| format!(",{name}_least,{name}_greatest")).concat();
+        let mut columns = names(&["from_s", "to_s"]);
+        columns.extend(
+            channels
+                .iter()
+                .flat_map(|(_, name)| [format!("{name}_least"), format!("{name}_greatest")]),
+        );
+        columns.push("contact".into());
         let (from, to) = app.page();
         let rows = app.history.between(from, to).iter().map(|bin| {
             let spans =
                 channels.iter().flat_map(|(channel, _)| <[f64; 2]>::from(bin.span(*channel)));
-            format!(
-                "{},{}",
-                fields([bin.from, bin.to].into_iter().chain(spans)),
-                u8::from(bin.contact)
-            )
+            let contact = f64::from(u8::from(bin.contact));
+            [bin.from, bin.to].into_iter().chain(spans).chain([contact])
         });
-        csv(&format!("from_s,to_s{names},contact"), rows)
+        csv(&columns, rows)
     }
 }
 

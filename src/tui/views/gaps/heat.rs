@@ -3,7 +3,7 @@
 
 use ratatui::buffer::Buffer;
 
-use super::super::panel::{self, ViewArea, fields, title};
+use super::super::panel::{self, ViewArea, title};
 use crate::model::ContactPolygon;
 use crate::motion::ActiveSet;
 use crate::tui::app::App;
@@ -97,14 +97,15 @@ fn sign(spots: &[Spot], signs: [char; 4], ascii: bool) -> Option<(char, bool)> {
 /// There is no data yet.
 pub fn csv(app: &App) -> Result<String, String> {
     let polygon = &app.machine.polygon;
-    let names: String = (1..=polygon.blades).map(|blade| format!(",least_gap_{blade}_m")).collect();
+    let mut columns = panel::names(&["from_s", "to_s"]);
+    columns.extend((1..=polygon.blades).map(|blade| format!("least_gap_{blade}_m")));
     let (from, to) = app.page();
     let rows = app.history.between(from, to).iter().map(|bin| {
         let gaps =
             (1..=polygon.blades).map(|blade| least_gap(polygon, polygon.side_of_blade(blade), bin));
-        fields([bin.from, bin.to].into_iter().chain(gaps))
+        [bin.from, bin.to].into_iter().chain(gaps)
     });
-    panel::csv(&format!("from_s,to_s{names}"), rows)
+    panel::csv(&columns, rows)
 }
 
 /// Draws the gaps against time.

@@ -5,7 +5,7 @@ mod heat;
 
 use ratatui::buffer::Buffer;
 
-use super::panel::{ViewArea, ViewPanel, csv, fields, title};
+use super::panel::{ViewArea, ViewPanel, csv, title};
 use crate::motion::ActiveSet;
 use crate::tui::app::App;
 use crate::tui::axis::ChartAxis;
@@ -30,8 +30,8 @@ impl ViewPanel for GapsView {
             return heat::csv(app);
         }
         let gaps = app.latest.moment.as_ref().map_or(&[][..], |moment| &moment.gaps);
-        let rows = (1..).zip(gaps).map(|(blade, gap)| format!("{blade},{}", fields([*gap])));
-        csv("blade,gap_m", rows)
+        let rows = (1..).zip(gaps).map(|(blade, gap)| [f64::from(blade), *gap]);
+        csv(&["blade", "gap_m"].map(String::from), rows)
     }
 }
 

@@ -5,7 +5,7 @@ pub mod curves;
 
 use ratatui::buffer::Buffer;
 
-use super::panel::{ViewArea, ViewPanel, csv, entry, fields, title};
+use super::panel::{ViewArea, ViewPanel, csv, entry, title};
 use crate::harmonic::{LockedPoint, Sweep};
 use crate::motion::ActiveSet;
 use crate::tui::app::App;
@@ -95,10 +95,12 @@ impl ViewPanel for LockedView {
         let points = damped.map_or(&[][..], |sweep| &sweep.points);
         let rows = points.iter().map(|point| {
             let [a, b] = point.multipliers_n;
-            let (admissible, stable) = (u8::from(point.admissible), u8::from(point.stable));
-            format!("{},{admissible},{stable}", fields([point.speed_rad_s, a, b]))
+            let [admissible, stable] =
+                [point.admissible, point.stable].map(|is| f64::from(u8::from(is)));
+            [point.speed_rad_s, a, b, admissible, stable]
         });
-        csv("speed_rad_s,multiplier_a_n,multiplier_b_n,admissible,stable", rows)
+        let columns = ["speed_rad_s", "multiplier_a_n", "multiplier_b_n", "admissible", "stable"];
+        csv(&columns.map(String::from), rows)
     }
 }
 

@@ -5,7 +5,7 @@ pub mod transform;
 
 use ratatui::buffer::Buffer;
 
-use super::panel::{ViewArea, ViewPanel, csv, entry, fields, not_yet, title};
+use super::panel::{ViewArea, ViewPanel, csv, entry, not_yet, title};
 use crate::tui::app::App;
 use crate::tui::axis::{ChartAxis, nice_step};
 use crate::tui::plot::Plot;
@@ -38,10 +38,9 @@ impl ViewPanel for SpectrumView {
     fn csv(&self, app: &App) -> Result<String, String> {
         let spectrum = app.latest.results.spectrum.as_deref().cloned().unwrap_or_default();
         let lines = (0..).zip(spectrum.cosine.iter().zip(&spectrum.sine));
-        let rows = lines.map(|(k, (cosine, sine))| {
-            fields([f64::from(k) * spectrum.resolution, *cosine, *sine])
-        });
-        csv("frequency_rad_s,u_c_m,u_s_m", rows)
+        let rows =
+            lines.map(|(k, (cosine, sine))| [f64::from(k) * spectrum.resolution, *cosine, *sine]);
+        csv(&["frequency_rad_s", "u_c_m", "u_s_m"].map(String::from), rows)
     }
 }
 
