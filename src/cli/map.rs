@@ -19,6 +19,8 @@ use super::{Done, output};
 use crate::report::{file, json, map as report, svg};
 use crate::study::{Axis, AxisError, Map, MapPlan, Shard, overlay, part};
 
+/// Most threads: more than any machine has cores for.
+const MOST_THREADS: usize = 1024;
 /// Columns and rows of a map by default: steps of 10 rad/s and 50 kN.
 const COLUMNS: u32 = 51;
 const ROWS: u32 = 21;
@@ -89,6 +91,10 @@ impl MapCommand {
         if let Some(MapSubcommand::Merge(merge)) = &self.merge {
             return merge.run(out);
         }
+        if let Some(threads) = self.threads.filter(|count| !(1..=MOST_THREADS).contains(count)) {
+            let allowed = format!("a whole number from 1 to {MOST_THREADS}");
+            return Err(Refusal::of("--threads", threads, allowed).into());
+        }
         let format = self.result.format()?;
         let shard = self.shard()?;
         if self.shard.is_some() && format != Some("part") {
@@ -106,9 +112,10 @@ impl MapCommand {
             return Ok(Status::Signal(signal));
         }
         self.result.deliver(&map, out)?;
-        // The result now has its cells.
-        if let (Some(file), Some(_)) = (&kept.part, &self.result.out) {
-            let _ = std::fs::remove_file(file);
+        // The result now has the cells of its own part; another that the user named
+        // stays.
+        if let Some(own) = self.own_part().filter(|own| kept.part.as_ref() == Some(own)) {
+            let _ = std::fs::remove_file(own);
         }
         Ok(Status::Done)
     }
@@ -164,11 +171,14 @@ impl MapCommand {
 
     /// Where cells are saved as soon as they are known.
     fn part_file(&self) -> Option<PathBuf> {
-        self.resume.clone().or_else(|| {
-            let mut name = self.result.out.clone()?.into_os_string();
-            name.push(".partial");
-            Some(PathBuf::from(name))
-        })
+        self.resume.clone().or_else(|| self.own_part())
+    }
+
+    /// The part file next to the result.
+    fn own_part(&self) -> Option<PathBuf> {
+        let mut name = self.result.out.clone()?.into_os_string();
+        name.push(".partial");
+        Some(PathBuf::from(name))
     }
 }
 

@@ -1,11 +1,15 @@
 //! Reads and writes scene files (TOML). Keys that a file does not contain have
 //! the documented default (the paper's machine); unknown keys are refused.
 
+use std::io::Read;
 use std::path::Path;
 
 use toml::{Table, Value as Toml};
 
 use super::{Allowed, BUILTIN, Key, Scene, SceneError, Value, keys};
+
+/// Largest scene file \[bytes\]; the built-in ones have some hundreds.
+const LARGEST_FILE: u64 = 1 << 20;
 
 impl Scene {
     /// A built-in scene by name, or the scene of a `.toml` file.
@@ -38,10 +42,15 @@ impl Scene {
                 allowed: BUILTIN.iter().map(|scene| scene.name).collect::<Vec<_>>().join(", "),
             });
         }
-        let text = std::fs::read_to_string(path).map_err(|error| SceneError::File {
-            path: name_or_path.to_string(),
-            reason: error.to_string(),
-        })?;
+        let refused = |reason: String| SceneError::File { path: name_or_path.to_string(), reason };
+        let file = std::fs::File::open(path).map_err(|error| refused(error.to_string()))?;
+        let mut text = String::new();
+        // A device or a huge file ends here, not in memory.
+        let read = file.take(LARGEST_FILE + 1).read_to_string(&mut text);
+        read.map_err(|error| refused(error.to_string()))?;
+        if text.len() as u64 > LARGEST_FILE {
+            return Err(refused(format!("allowed are up to {LARGEST_FILE} bytes")));
+        }
         Self::from_toml_unchecked(&text).map_err(|error| in_file(name_or_path, error))
     }
 

@@ -141,3 +141,18 @@ fn the_event_solver_and_the_bilateral_law_asked_for_together_are_refused() {
     let message = refusal(&["run", "--solver", "event", "--model", "full"]);
     assert!(message.contains("solver.model = \"full\": allowed is"));
 }
+
+/// A device without end, or a huge file, is refused before it fills the memory.
+#[cfg(unix)]
+#[test]
+fn a_scene_file_has_a_largest_size() {
+    let folder = tempfile::tempdir().unwrap();
+    let link = folder.path().join("endless.toml");
+    std::os::unix::fs::symlink("/dev/zero", &link).unwrap();
+    let huge = folder.path().join("huge.toml");
+    std::fs::write(&huge, format!("title = \"{}\"", "x".repeat(2 << 20))).unwrap();
+    for path in [link, huge] {
+        let refused = rubscope::scene::Scene::load(path.to_str().unwrap()).unwrap_err();
+        assert!(refused.to_string().contains("up to 1048576 bytes"), "{refused}");
+    }
+}

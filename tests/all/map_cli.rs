@@ -194,3 +194,30 @@ fn the_parallel_line_of_the_readme_gives_the_map_of_one_run() {
     let bytes = |name: &str| std::fs::read(directory.path().join(name)).unwrap();
     assert_eq!(bytes("map.csv"), bytes("single.csv"));
 }
+
+/// A part that the user named stays, also where it is the result itself.
+#[test]
+fn a_file_that_the_user_named_is_never_removed() {
+    let folder = tempfile::tempdir().unwrap();
+    let [part, other] = ["m.part", "other.csv"].map(|name| folder.path().join(name));
+    let [part, other] = [&part, &other].map(|path| path.to_str().unwrap());
+    let small = "map --solver event --model rigid --contact unilateral --speed 250:500:3 \
+                 --pulse 1e5:4e5:2";
+    for (resume, out) in [(part, part), (part, part), (part, other)] {
+        let output = rubscope(&words(small, &["--resume", resume, "--out", out]));
+        assert_eq!(output.status.code(), Some(0), "{}", message(&output));
+        for file in [resume, out] {
+            assert!(std::fs::metadata(file).unwrap().len() > 0, "{file} is gone");
+        }
+    }
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2);
+}
+
+#[test]
+fn more_threads_than_any_machine_has_are_refused() {
+    for threads in ["0", "1025", "1000000000"] {
+        let line = refusal(&words(MAP, &["--threads", threads]));
+        let expected = format!("--threads = {threads}: allowed is a whole number from 1 to 1024");
+        assert!(line.contains(&expected), "{line}");
+    }
+}
