@@ -55,7 +55,7 @@ impl RunCommand {
         let started = Instant::now();
         let mut report = run_to_end(&scene, &acts, sampling, &mut |sample| history.push(sample));
         let wall_s = started.elapsed().as_secs_f64();
-        report.outcome.sensitive = is_sensitive_with(&scene, &acts, report.settled);
+        report.outcome.sensitive = is_sensitive_with(&scene, &acts, report.reached);
         if let Some((path, format)) = path {
             output::save(path, &format!("{} samples", history.len()), |out| match format {
                 "csv" => history.write_csv(out),

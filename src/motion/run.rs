@@ -100,7 +100,7 @@ pub struct RunReport {
     pub checks: Checks,
     /// What another run must agree with if this one is not sensitive.
     #[serde(skip)]
-    pub settled: VerdictReached,
+    pub reached: VerdictReached,
 }
 
 /// How a run lasts, without its history.
@@ -188,7 +188,7 @@ pub fn simulate_with(
     sink: &mut dyn FnMut(&Sample),
 ) -> RunReport {
     let mut report = run_to_end(scene, script, sampling, sink);
-    report.outcome.sensitive = is_sensitive_with(scene, script, report.settled);
+    report.outcome.sensitive = is_sensitive_with(scene, script, report.reached);
     report
 }
 
@@ -294,6 +294,6 @@ fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) -> RunRepor
             alpha_s_rad: state.alpha[1],
         },
         checks: motion.checks(),
-        settled: VerdictReached::of(motion, verdict),
+        reached: VerdictReached::of(motion, verdict),
     }
 }

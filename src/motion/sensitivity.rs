@@ -31,13 +31,13 @@ impl VerdictReached {
 /// Whether a tiny change makes another verdict or another number of impacts of
 /// a checked scene that settled so.
 #[must_use]
-pub fn is_sensitive(scene: &CheckedScene, settled: VerdictReached) -> bool {
-    is_sensitive_with(scene, &Script::default(), settled)
+pub fn is_sensitive(scene: &CheckedScene, reached: VerdictReached) -> bool {
+    is_sensitive_with(scene, &Script::default(), reached)
 }
 
 /// As `is_sensitive`, for a run with changes.
 #[must_use]
-pub fn is_sensitive_with(scene: &CheckedScene, script: &Script, settled: VerdictReached) -> bool {
+pub fn is_sensitive_with(scene: &CheckedScene, script: &Script, reached: VerdictReached) -> bool {
     let end = scene.solver.end_s;
     let moment = LOCK_MOMENT * TAU / scene.machine().omega_c;
     let driven = |factor: f64| {
@@ -52,9 +52,9 @@ pub fn is_sensitive_with(scene: &CheckedScene, script: &Script, settled: Verdict
         motion.scale_tolerance(FINER);
         run_motion_to_verdict(motion, script, end, Some(PERTURBATION))
     };
-    driven(1.0 + PERTURBATION).differs_from(settled, moment)
-        || driven(1.0 - PERTURBATION).differs_from(settled, moment)
-        || noisy().differs_from(settled, moment)
+    driven(1.0 + PERTURBATION).differs_from(reached, moment)
+        || driven(1.0 - PERTURBATION).differs_from(reached, moment)
+        || noisy().differs_from(reached, moment)
 }
 
 /// The scene with what drives it multiplied by `factor`: the pulse, or without

@@ -141,9 +141,9 @@ impl MapPlan {
         let Ok(scene) = self.scene_of(index) else {
             return Cell { verdict: Verdict::Failed, sensitive: false };
         };
-        let settled: VerdictReached = run_to_verdict(&scene);
-        let sensitive = self.sensitivity && is_sensitive(&scene, settled);
-        Cell { verdict: settled.verdict, sensitive }
+        let reached: VerdictReached = run_to_verdict(&scene);
+        let sensitive = self.sensitivity && is_sensitive(&scene, reached);
+        Cell { verdict: reached.verdict, sensitive }
     }
 }
 

@@ -4,10 +4,15 @@
 use rubscope::motion::{ActiveSet, Event, Solver, Verdict};
 use rubscope::scene::Scene;
 
-fn scene(changes: &[(&str, f64)]) -> Scene {
+pub fn scene(changes: &[(&str, f64)]) -> Scene {
+    scene_of("rigid", changes)
+}
+
+/// The paper's machine with some keys changed, for the event solver.
+pub fn scene_of(model: &str, changes: &[(&str, f64)]) -> Scene {
     let mut scene = Scene::base();
     scene.set("solver.kind", "event").unwrap();
-    scene.set("solver.model", "rigid").unwrap();
+    scene.set("solver.model", model).unwrap();
     for (key, value) in changes {
         scene.set(key, &value.to_string()).unwrap();
     }

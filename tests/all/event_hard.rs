@@ -3,6 +3,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use crate::event_cases::scene as event_scene;
 use rubscope::motion::{ActiveSet, Event, Failure, Solver, Verdict};
 use rubscope::scene::{ModelSize, Scene};
 
@@ -16,14 +17,8 @@ const BLADES: &str = "bladed_disk.blades";
 const BLADE: &str = "bladed_disk.blade_length_m";
 
 fn run(changes: &[(&str, f64)], until: f64) -> (Event, Result<(), Failure>) {
-    let mut scene = Scene::base();
-    scene.set("solver.kind", "event").unwrap();
-    scene.set("solver.model", "rigid").unwrap();
-    for (key, value) in changes {
-        scene.set(key, &value.to_string()).unwrap();
-    }
-    scene.checked().unwrap();
-    let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
+    let scene = event_scene(changes).checked().unwrap();
+    let mut motion = Event::new(&scene).unwrap();
     let result = motion.advance(until);
     let state = motion.state();
     let numbers = [state.u[0], state.u[1], state.v[0], state.v[1]];

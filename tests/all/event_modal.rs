@@ -3,19 +3,13 @@
 
 use std::f64::consts::TAU;
 
+use crate::event_cases::scene_of;
 use rubscope::model::Machine;
 use rubscope::motion::{ActiveSet, Event, Solver, State, Verdict};
 use rubscope::scene::Scene;
 
 fn scene(changes: &[(&str, f64)]) -> Scene {
-    let mut scene = Scene::base();
-    scene.set("solver.kind", "event").unwrap();
-    scene.set("solver.model", "modal").unwrap();
-    for (key, value) in changes {
-        scene.set(key, &value.to_string()).unwrap();
-    }
-    scene.checked().unwrap();
-    scene
+    scene_of("modal", changes)
 }
 
 fn close(value: f64, expected: f64, tolerance: f64) {

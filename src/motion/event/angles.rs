@@ -3,7 +3,6 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::Event;
-use super::blades::Tips;
 use crate::motion::{Failure, FailureReason};
 use crate::tolerances::{CORNER_ROOM, LARGEST_BLADE_ANGLE};
 
@@ -41,15 +40,15 @@ impl Event {
     }
 
     /// Fails a motion whose blades have turned a corner so far that it nearly
-    /// closes or opens to a half turn. Half its angle is `delta`, give or take
+    /// closes or opens to a half turn. Half its angle differs from `delta` by up to
     /// `n_d sin(delta) |a|`.
-    pub(super) fn check_order(&mut self, tips: &Tips) {
+    pub(super) fn check_order(&mut self) {
         let Some(blades) = self.parameters.blades.filter(|_| self.parameters.corners) else {
             return;
         };
         let delta = self.parameters.machine.polygon.delta;
         let room = CORNER_ROOM * delta.min(FRAC_PI_2 - delta);
-        let (size, most) = (tips.angle.norm(), room / (blades.diameters * delta.sin()));
+        let (size, most) = (self.tips.angle.norm(), room / (blades.diameters * delta.sin()));
         if size > most {
             self.fail(0.0, FailureReason::CornerAngle { angle_rad: size, most_rad: most });
         }

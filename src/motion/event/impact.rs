@@ -7,8 +7,7 @@
 use super::Event;
 use super::corner_contact::CornerContact;
 use super::mode::Mode;
-use crate::motion::ActiveSet;
-use crate::motion::Plane;
+use crate::motion::{ActiveSet, Plane};
 use crate::tolerances::{AT_A_CORNER, ROUND_OFF, SOFT_TOUCH};
 
 impl Event {

@@ -10,8 +10,7 @@ use super::parameters::{Drive, Parameters};
 use super::rocking;
 use super::side_series::SideSeries;
 use super::slide::{Ahead, Along, Slide};
-use crate::motion::ActiveSet;
-use crate::motion::Plane;
+use crate::motion::{ActiveSet, Plane};
 use crate::tolerances::PEAK_LOOKS;
 
 /// How the casing moves until the next event.
@@ -160,10 +159,22 @@ impl Mode {
         let Some((side, along)) = self.along(parameters, drive, s) else {
             return Default::default();
         };
-        let (inward, spin) = parameters.facing(drive, side, s, &self.tips(parameters, s));
-        let place = Plane::new(-parameters.clearance, along.y);
-        let rate = Plane::new(0.0, along.rate) + Plane::i() * place * spin;
-        (place * inward, rate * inward)
+        let facing = parameters.facing(drive, side, s, &self.tips(parameters, s));
+        along.seen(parameters.clearance, facing)
+    }
+
+    /// Place and rate of a free flight in the standing frame, `s` seconds on; none
+    /// in contact.
+    pub(super) fn flight(
+        &self,
+        parameters: &Parameters,
+        drive: &Drive,
+        s: f64,
+    ) -> Option<(Plane, Plane)> {
+        match self {
+            Self::Free(free) => Some(free.at(parameters, drive, s)),
+            _ => None,
+        }
     }
 
     /// Place and rate as the rotor sees them, `s` seconds on: those of
@@ -182,9 +193,8 @@ impl Mode {
         let Some((side, along)) = self.along(parameters, drive, s) else {
             return Default::default();
         };
-        let (normal, spin) = parameters.normal(side, &self.tips(parameters, s));
-        let place = Plane::new(-parameters.clearance, along.y);
-        (place * normal, (Plane::new(0.0, along.rate) + Plane::i() * place * spin) * normal)
+        let normal = parameters.normal(side, &self.tips(parameters, s));
+        along.seen(parameters.clearance, normal)
     }
 
     /// The first side of the corner that the mode is in or rocks into.

@@ -7,8 +7,7 @@ use super::Event;
 use super::free::Free;
 use super::mode::{Mode, Next, What};
 use super::parameters::Drive;
-use crate::motion::Plane;
-use crate::motion::{ActiveSet, Failure, FailureReason};
+use crate::motion::{ActiveSet, Failure, FailureReason, Plane};
 use crate::tolerances::{MOST_EVENTS, MOST_EVENTS_AT_ONCE, MOST_LOOKS, STALLED_LOOKS};
 
 impl Event {
@@ -112,7 +111,7 @@ impl Event {
     pub(super) fn rebase(&mut self, s: f64, what: Option<What>) {
         self.mode.book(&self.parameters, &self.drive, s, &mut self.energy_balance);
         self.widest = self.mode.largest_angle(&self.parameters, &self.drive, s, self.widest);
-        let tips = self.mode.tips(&self.parameters, s);
+        self.tips = self.mode.tips(&self.parameters, s);
         let phase = self.drive.phase(s) % TAU;
         if what == Some(What::PulseEnd) {
             self.start = (self.pulse.end, 0.0);
@@ -129,7 +128,7 @@ impl Event {
         self.safe = 0.0;
         self.found = None;
         self.looks = 0;
-        self.check_order(&tips);
+        self.check_order();
     }
 
     /// Rotor and pulse from the start of the segment on.
@@ -158,20 +157,16 @@ impl Event {
             return;
         }
         let s = self.elapsed(self.now);
-        let tips = self.mode.tips(&self.parameters, s);
         let (place, mut rate) = self.mode.seen_by_rotor(&self.parameters, &self.drive, s);
         let side = self.mode.along(&self.parameters, &self.drive, s);
         if let (Mode::Slide(_) | Mode::Driven(_), Some((side, along))) = (&self.mode, side) {
+            let tips = self.mode.tips(&self.parameters, s);
             let (normal, _) = self.parameters.normal(side, &tips);
             rate += Plane::i() * normal * ((factor - 1.0) * along.rate);
         }
-        let flight = match &self.mode {
-            Mode::Free(free) => Some(free.at(&self.parameters, &self.drive, s)),
-            _ => None,
-        };
+        let flight = self.mode.flight(&self.parameters, &self.drive, s);
         let corner = self.mode.corner().filter(|_| !matches!(self.mode, Mode::Rocking { .. }));
         self.rebase(s, None);
-        self.tips = tips;
         self.start = (self.now, 0.0);
         let nu = self.drive.nu;
         change(self);
@@ -179,7 +174,7 @@ impl Event {
         // The rate against the blades jumps with the speed of the rotor.
         let rate = rate + Plane::i() * place * (nu - self.drive.nu);
         match (flight, corner, side) {
-            (Some((u, v)), ..) => self.enter(Mode::Free(Free::new(u, v * factor, tips))),
+            (Some((u, v)), ..) => self.enter(Mode::Free(Free::new(u, v * factor, self.tips))),
             (_, Some(a), _) => self.meet_corner_at(a, rate),
             (_, _, Some((side, _))) => self.touch(side, place, rate),
             _ => {}

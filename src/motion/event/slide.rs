@@ -8,6 +8,7 @@
 
 use super::advancement::{curved_step, leaving_step};
 use super::parameters::{Drive, Parameters};
+use crate::motion::Plane;
 use crate::motion::propagator::Propagator;
 
 /// Sliding on `side` from `y` with rate `rate`.
@@ -32,6 +33,16 @@ pub(super) struct Along {
     pub rate: f64,
     /// Push per unit mass \[m/s^2\].
     pub push: f64,
+}
+
+impl Along {
+    /// Place and rate in a frame where the side's gap opens along `direction`, and
+    /// which sees the side turn with `spin` \[rad/s\].
+    pub(super) fn seen(&self, clearance: f64, (direction, spin): (Plane, f64)) -> (Plane, Plane) {
+        let place = Plane::new(-clearance, self.y);
+        let rate = Plane::new(0.0, self.rate) + Plane::i() * place * spin;
+        (place * direction, rate * direction)
+    }
 }
 
 /// What one look ahead along a side finds.

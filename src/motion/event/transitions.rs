@@ -18,8 +18,7 @@ use super::mode::{Mode, What};
 use super::rocking;
 use super::side_series::{From, SideSeries};
 use super::slide::Slide;
-use crate::motion::Plane;
-use crate::motion::{ActiveSet, FailureReason};
+use crate::motion::{ActiveSet, FailureReason, Plane};
 use crate::tolerances::{BRIEF_ROCKING, ON_A_SIDE};
 
 impl Event {
@@ -45,13 +44,12 @@ impl Event {
         let (place, rate) = self.mode.seen_by_rotor(&self.parameters, &self.drive, s);
         let along = self.mode.along(&self.parameters, &self.drive, s);
         let corner = self.mode.corner();
-        let flight = match &self.mode {
-            Mode::Free(free) => Some(free.at(&self.parameters, &self.drive, s)),
-            _ => None,
+        // Flight ends at a touch, and goes on from its own frame otherwise.
+        let flight = match what {
+            What::Touch(_) => None,
+            _ => self.mode.flight(&self.parameters, &self.drive, s),
         };
-        let tips = self.mode.tips(&self.parameters, s);
         self.rebase(s, Some(what));
-        self.tips = tips;
         let polygon = &self.parameters.machine.polygon;
         match (what, along, corner) {
             (What::Touch(side), ..) => self.touch(side, place, rate),

@@ -146,12 +146,12 @@ impl Measure {
         let resolved = chosen.of(scene)?;
         let run = chosen.run(scene)?;
         let halved = by_events(model, 0.5 * finest).run(scene)?;
-        let settled = VerdictReached::of(&run.motion, run.verdict);
+        let reached = VerdictReached::of(&run.motion, run.verdict);
         let reference = Reference {
             way: chosen,
             verdict: run.verdict,
-            impact_count: settled.impact_count,
-            sensitive: is_sensitive(&resolved, settled),
+            impact_count: reached.impact_count,
+            sensitive: is_sensitive(&resolved, reached),
             error_halved: (!run.failed && !halved.failed).then(|| {
                 distance(&run.motion.state(), &halved.motion.state())
                     / run.motion.machine().clearance()
