@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::Event;
 use crate::motion::{Failure, FailureReason};
-use crate::tolerances::{CORNER_ROOM, LARGEST_BLADE_ANGLE};
+use crate::tolerances::{CORNER_ROOM, LARGEST_BLADE_ANGLE, PEAK_LOOKS};
 
 impl Event {
     /// Fails a motion whose blades go beyond small angles in the first `s` seconds
@@ -53,4 +53,27 @@ impl Event {
             self.fail(0.0, FailureReason::CornerAngle { angle_rad: size, most_rad: most });
         }
     }
+}
+
+/// The largest value over `[0, s]` of a function that changes at `rate`.
+pub(super) fn peak(s: f64, rate: f64, value: impl Fn(f64) -> f64) -> f64 {
+    let parts = (8.0 * rate * s).ceil().clamp(2.0, PEAK_LOOKS);
+    let at = |k: f64| s * (k / parts).clamp(0.0, 1.0);
+    let (mut best, mut most, mut k) = (0.0, value(0.0), 1.0);
+    while k <= parts {
+        let here = value(at(k));
+        if here > most {
+            (best, most) = (k, here);
+        }
+        k += 1.0;
+    }
+    // The maximum lies next to the largest sample, and there is one: thirds find it to
+    // the square root of round-off in time, which is round-off in value.
+    let (mut low, mut high) = (at(best - 1.0), at(best + 1.0));
+    for _ in 0..50 {
+        let third = (high - low) / 3.0;
+        let [first, second] = [low + third, high - third];
+        if value(first) < value(second) { low = first } else { high = second }
+    }
+    most.max(value(0.5 * (low + high)))
 }

@@ -1,6 +1,7 @@
 //! The modes of motion, seen alike: where the casing is, what pushes, what the
 //! energy does, and what ends the mode.
 
+use super::angles::peak;
 use super::blades::Tips;
 use super::corner::{self, Hold};
 use super::corner_series::CornerSeries;
@@ -11,7 +12,6 @@ use super::rocking;
 use super::side_series::SideSeries;
 use super::slide::{Ahead, Along, Slide};
 use crate::motion::{ActiveSet, Plane};
-use crate::tolerances::PEAK_LOOKS;
 
 /// How the casing moves until the next event.
 #[derive(Clone, Debug)]
@@ -380,27 +380,4 @@ fn hold(hold: Hold, end: f64) -> Next {
         Hold::Always => Next::Until(end),
         Hold::Lost => Next::Now(What::Lost),
     }
-}
-
-/// The largest value over `[0, s]` of a function that changes at `rate`.
-fn peak(s: f64, rate: f64, value: impl Fn(f64) -> f64) -> f64 {
-    let parts = (8.0 * rate * s).ceil().clamp(2.0, PEAK_LOOKS);
-    let at = |k: f64| s * (k / parts).clamp(0.0, 1.0);
-    let (mut best, mut most, mut k) = (0.0, value(0.0), 1.0);
-    while k <= parts {
-        let here = value(at(k));
-        if here > most {
-            (best, most) = (k, here);
-        }
-        k += 1.0;
-    }
-    // The maximum lies next to the largest sample, and there is one: thirds find it to
-    // the square root of round-off in time, which is round-off in value.
-    let (mut low, mut high) = (at(best - 1.0), at(best + 1.0));
-    for _ in 0..50 {
-        let third = (high - low) / 3.0;
-        let [first, second] = [low + third, high - third];
-        if value(first) < value(second) { low = first } else { high = second }
-    }
-    most.max(value(0.5 * (low + high)))
 }
