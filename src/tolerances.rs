@@ -87,6 +87,10 @@ pub(crate) const MOST_LOOKS: u64 = 1_000_000_000;
 /// bend, as next to the critical speed; without this it looks a billion times.
 pub(crate) const STALLED_LOOKS: u64 = 1000;
 
+/// Looks between two questions whether to go on: a look takes a microsecond, on
+/// a polygon of thousands of sides some fifty.
+pub(crate) const LOOKS_UNASKED: u64 = 16;
+
 /// Most mode changes in a row that take no time. Physical ones are a few; more
 /// are a loop.
 pub(crate) const MOST_EVENTS_AT_ONCE: u32 = 1000;
@@ -179,6 +183,10 @@ pub(crate) const FEW_NODES: f64 = 0.3;
 pub(crate) const MOST_PANELS: f64 = 1e7;
 
 // The explicit solver.
+
+/// Updates of one coordinate between two questions whether to go on: some tens
+/// of microseconds.
+pub(crate) const UPDATES_UNASKED: usize = 4096;
 
 /// Steps without contact before a contact counts as broken: the impact of the
 /// scheme takes two steps, and its rounding may open one step between them.

@@ -10,7 +10,7 @@ use super::options::SceneOptions;
 use super::script::{self, RequestedScript};
 use super::status::Status;
 use super::{Done, output};
-use crate::motion::{Sampling, Verdict, is_sensitive_with, run_to_end};
+use crate::motion::{Sampling, Verdict, is_sensitive, run_to_end, to_the_end};
 use crate::report::{History, json, npz, summary};
 
 /// Simulate a scene in time and report how it ends.
@@ -55,7 +55,8 @@ impl RunCommand {
         let started = Instant::now();
         let mut report = run_to_end(&scene, &acts, sampling, &mut |sample| history.push(sample));
         let wall_s = started.elapsed().as_secs_f64();
-        report.outcome.sensitive = is_sensitive_with(&scene, &acts, report.reached);
+        let sensitive = is_sensitive(&scene, &acts, report.reached, &to_the_end);
+        report.outcome.sensitive = sensitive.unwrap_or(false);
         if let Some((path, format)) = path {
             output::save(path, &format!("{} samples", history.len()), |out| match format {
                 "csv" => history.write_csv(out),

@@ -10,7 +10,7 @@ use std::time::Instant;
 use rayon::prelude::*;
 
 use super::Axis;
-use crate::motion::{Verdict, VerdictReached, is_sensitive, run_to_verdict};
+use crate::motion::{GoOn, Script, Verdict, is_sensitive, run_to_verdict};
 use crate::scene::{CheckedScene, Scene, SceneError};
 
 /// Most cells of one map: they are all held in memory.
@@ -135,15 +135,17 @@ impl MapPlan {
         Ok(())
     }
 
-    /// Computes one cell. A scene that is refused counts as failed.
+    /// Computes one cell; none where `go_on` said no on the way. A scene that is
+    /// refused counts as failed.
     #[must_use]
-    pub fn compute(&self, index: usize) -> Cell {
+    pub fn compute(&self, index: usize, go_on: GoOn<'_>) -> Option<Cell> {
         let Ok(scene) = self.scene_of(index) else {
-            return Cell { verdict: Verdict::Failed, sensitive: false };
+            return Some(Cell { verdict: Verdict::Failed, sensitive: false });
         };
-        let reached: VerdictReached = run_to_verdict(&scene);
-        let sensitive = self.sensitivity && is_sensitive(&scene, reached);
-        Cell { verdict: reached.verdict, sensitive }
+        let reached = run_to_verdict(&scene, go_on)?;
+        let sensitive =
+            self.sensitivity && is_sensitive(&scene, &Script::default(), reached, go_on)?;
+        Some(Cell { verdict: reached.verdict, sensitive })
     }
 }
 
@@ -171,10 +173,8 @@ impl Map {
             .par_iter()
             .with_max_len(16)
             .filter_map(|&index| {
-                if progress.stop.load(Ordering::Relaxed) {
-                    return None;
-                }
-                let cell = plan.compute(index);
+                let go_on = || !progress.stop.load(Ordering::Relaxed);
+                let cell = go_on().then(|| plan.compute(index, &go_on))??;
                 keep(index, cell);
                 progress.done.fetch_add(1, Ordering::Relaxed);
                 Some((index, cell))

@@ -37,6 +37,7 @@ mod map_cli;
 mod map_parts;
 mod map_zone;
 mod order;
+mod pauses;
 mod plain;
 mod plain_self;
 mod plain_stepper;

@@ -25,12 +25,13 @@ pub use oscillator::{Coordinate, Oscillator};
 use std::sync::Arc;
 
 use super::{
-    ActiveSet, Checks, ContactLog, Failure, FailureReason, Pulse, Rotor, Solver, State, Verdict,
+    ActiveSet, Checks, ContactLog, Failure, FailureReason, GoOn, Pulse, Rotor, Solver, State,
+    Verdict,
 };
 use crate::contact::{self, StepLaw};
 use crate::model::Machine;
 use crate::scene::CheckedScene;
-use crate::tolerances::BREAK_STEPS;
+use crate::tolerances::{BREAK_STEPS, UPDATES_UNASKED};
 use flight::{Block, Phasor};
 use held_corner::HeldCorner;
 use watch::Watch;
@@ -223,13 +224,21 @@ impl<B: BladeModel> Explicit<B> {
 }
 
 impl<B: BladeModel> Solver for Explicit<B> {
-    fn advance(&mut self, until: f64) -> Result<(), Failure> {
+    fn advance_while(&mut self, until: f64, go_on: GoOn<'_>) -> Result<bool, Failure> {
         if let Some(failure) = &self.failure {
             return Err(failure.clone());
         }
         // A step that ends within a millionth of itself after `until` belongs to it.
         let target = (until / self.step + 1e-6).floor().max(0.0) as u64;
+        let mut asked = 0_usize;
         while self.steps_taken() < target {
+            asked += self.blades.coordinates();
+            if asked > UPDATES_UNASKED {
+                asked = 0;
+                if !go_on() {
+                    return Ok(false);
+                }
+            }
             let moved = if self.open_block() {
                 self.use_block(target);
                 Ok(())
@@ -243,7 +252,7 @@ impl<B: BladeModel> Solver for Explicit<B> {
                 return Err(failure);
             }
         }
-        Ok(())
+        Ok(true)
     }
 
     fn state(&self) -> State {

@@ -3,13 +3,16 @@
 
 use std::time::{Duration, Instant};
 
+use super::background::Background;
 use super::comparison::{Comparison, other_law};
-use super::full_run::FullRunJob;
+use super::full_run::{FullRunJob, SLICE};
 use super::recorder::Recorder;
 use super::studies::Studies;
-use crate::motion::{Change, Motion, is_sensitive, run_to_verdict};
+use crate::motion::{Change, GoOn, Motion, Script, is_sensitive, run_to_verdict};
 use crate::scene::{Scene, SolverKind};
-use crate::tui::engine::{FullRun, FullRunState, Moment, Order, Pace, Results, Snapshot};
+use crate::tui::engine::{
+    FORECAST_LIMIT, FullRun, FullRunState, Moment, Order, Pace, Results, Snapshot,
+};
 
 /// Samples per recorded bin.
 const SAMPLES: f64 = 4.0;
@@ -19,6 +22,8 @@ const PER_TURN: f64 = 24.0;
 const PLAY_LIMIT: Duration = Duration::from_millis(25);
 /// Most samples that a jump to the next change of contact searches.
 const JUMP_SAMPLES: usize = 20_000;
+/// Longest wall time of such a jump; a second press goes on from there.
+const JUMP_LIMIT: Duration = Duration::from_secs(1);
 
 /// A motion being played, and its full runs.
 #[derive(Debug)]
@@ -33,6 +38,7 @@ pub struct Playback {
     comparison: Option<Comparison>,
     studies: Studies,
     sensitive: Option<bool>,
+    sensitivity: Option<Background<bool>>,
     time_limit: Duration,
 }
 
@@ -55,11 +61,13 @@ impl Playback {
             comparison: None,
             studies: Studies::default(),
             sensitive: None,
+            sensitivity: None,
             time_limit,
             motion,
             order,
         };
         playback.comparison = playback.start_comparison();
+        playback.play_comparison();
         playback.record();
         playback
     }
@@ -94,10 +102,12 @@ impl Playback {
             self.studies.forget_spectrum();
             // The reference starts from rest, so it does not apply to a changed run.
             self.reference = None;
+            self.sensitivity = None;
             self.sensitive = Some(false);
         }
         if order.compare != before.compare {
             self.comparison = self.start_comparison();
+            self.play_comparison();
         }
         for _ in 0..order.steps.saturating_sub(before.steps).min(1000) {
             self.step();
@@ -109,9 +119,7 @@ impl Playback {
 
     /// The same scene under the other contact law, if it is wanted.
     fn start_comparison(&self) -> Option<Comparison> {
-        let mut comparison = self.order.compare.then(|| Comparison::of(&self.order.scene))??;
-        comparison.catch_up(self.motion.state().t_s, self.sample_length(), self.order.bin_s);
-        Some(comparison)
+        self.order.compare.then(|| Comparison::of(&self.order.scene))?
     }
 
     fn sample_length(&self) -> f64 {
@@ -129,24 +137,17 @@ impl Playback {
     /// Plays `seconds` of motion, or less if the solver is too slow.
     pub fn play(&mut self, seconds: f64) {
         self.target += seconds;
-        let began = Instant::now();
+        let (began, limit) = (Instant::now(), self.time_limit);
+        let go_on = || began.elapsed() < limit;
         let sample = self.sample_length();
         self.limited = false;
-        while self.motion.failure().is_none() {
-            let until = self.motion.state().t_s + sample;
-            if until > self.target {
+        loop {
+            let now = self.motion.state().t_s;
+            if now + sample > self.target || !self.next_sample(now + sample, &go_on) {
                 break;
-            }
-            let before = self.motion.state().t_s;
-            if self.motion.advance(until).is_err() {
-                break;
-            }
-            if self.motion.state().t_s <= before {
-                // A sample shorter than a step: go to the next step.
-                self.one_step();
             }
             self.record();
-            if began.elapsed() > self.time_limit {
+            if !go_on() {
                 self.limited = self.motion.state().t_s + sample <= self.target;
                 self.target = self.target.min(self.motion.state().t_s + sample);
                 break;
@@ -161,23 +162,34 @@ impl Playback {
     fn play_comparison(&mut self) {
         let (now, sample, bin) = (self.motion.state().t_s, self.sample_length(), self.order.bin_s);
         if let Some(comparison) = &mut self.comparison {
-            comparison.catch_up(now, sample, bin);
+            let began = Instant::now();
+            comparison.catch_up(now, sample, bin, &|| began.elapsed() < self.time_limit);
         }
     }
 
+    /// Plays to `until`, or to the next time step if that is later; false if the
+    /// motion has failed. It stays behind where `go_on` says no, which happens
+    /// only if this sample takes very long.
+    fn next_sample(&mut self, until: f64, go_on: GoOn<'_>) -> bool {
+        let before = self.motion.state().t_s;
+        // The motion stores a failure, and every snapshot reports it.
+        let reached = self.motion.advance_while(until, go_on);
+        if reached == Ok(true) && self.motion.state().t_s <= before {
+            let next = before + self.order.scene.solver.step_s;
+            return self.motion.advance_while(next, go_on).is_ok();
+        }
+        reached.is_ok()
+    }
+
     /// One time step, or one sample of a solver that does not step.
-    fn one_step(&mut self) {
+    fn step(&mut self) {
         let step = match self.motion.steps() {
             Some(_) => self.order.scene.solver.step_s,
             None => self.sample_length(),
         };
-        let now = self.motion.state().t_s;
-        // The motion stores a failure, and every snapshot reports it.
-        let _ = self.motion.advance(now + step);
-    }
-
-    fn step(&mut self) {
-        self.one_step();
+        let (began, limit) = (Instant::now(), self.time_limit);
+        let until = self.motion.state().t_s + step;
+        self.next_sample(until, &|| began.elapsed() < limit);
         self.record();
         self.target = self.motion.state().t_s;
         self.play_comparison();
@@ -185,12 +197,14 @@ impl Playback {
 
     /// Plays until the contact changes.
     fn jump(&mut self) {
+        let (began, limit) = (Instant::now(), self.time_limit.max(JUMP_LIMIT));
+        let go_on = || began.elapsed() < limit;
         let sample = self.sample_length();
         let (active_set, impacts) =
             (self.motion.contacts().active_set, self.motion.contacts().impact_count);
         for _ in 0..JUMP_SAMPLES {
             let until = self.motion.state().t_s + sample;
-            if self.motion.over() || self.motion.advance(until).is_err() {
+            if self.motion.over() || !go_on() || !self.next_sample(until, &go_on) {
                 break;
             }
             self.record();
@@ -220,7 +234,9 @@ impl Playback {
             return run.compute();
         }
         if self.sensitive.is_none() {
-            self.sensitive = Some(sensitive(&self.order.scene));
+            let scene = &self.order.scene;
+            let job = self.sensitivity.get_or_insert_with(|| sensitivity(scene));
+            self.sensitive = job.receive(SLICE).or(job.is_done().then_some(false));
             return;
         }
         let length = self.order.scene.solver.end_s;
@@ -277,14 +293,27 @@ fn reference(scene: &Scene) -> Option<FullRunJob> {
     Some(FullRunJob::new(Motion::new(&scene), scene.solver.end_s))
 }
 
-/// Whether a tiny change of the pulse changes the outcome.
-fn sensitive(scene: &Scene) -> bool {
-    scene.as_reference().checked().is_ok_and(|scene| is_sensitive(&scene, run_to_verdict(&scene)))
+/// Finds out whether a tiny change of the pulse changes the outcome; nothing
+/// comes where this takes too long.
+fn sensitivity(scene: &Scene) -> Background<bool> {
+    let scene = scene.as_reference().checked();
+    Background::start(move |to, go_on| {
+        let began = Instant::now();
+        let go_on = || go_on() && began.elapsed() < FORECAST_LIMIT;
+        let found = scene.ok().and_then(|scene| {
+            let reached = run_to_verdict(&scene, &go_on)?;
+            is_sensitive(&scene, &Script::default(), reached, &go_on)
+        });
+        if let Some(sensitive) = found {
+            // Without a receiver nobody asks any more.
+            let _ = to.send(sensitive);
+        }
+    })
 }
 
 fn done(run: Option<&FullRunJob>) -> Option<FullRun> {
     match run?.state() {
         FullRunState::Done(run) => Some(run),
-        FullRunState::Computing(_) => None,
+        FullRunState::Computing(_) | FullRunState::GivenUp(_) => None,
     }
 }
