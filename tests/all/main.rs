@@ -35,6 +35,7 @@ mod live_random;
 mod map_adaptive;
 mod map_cli;
 mod map_parts;
+mod map_signals;
 mod map_zone;
 mod order;
 mod pauses;

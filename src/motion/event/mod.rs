@@ -79,7 +79,9 @@ pub struct Event {
     found: Option<(f64, What)>,
     events: u64,
     idle: u32,
+    /// Looks ahead in this segment, and in the whole run.
     looks: u64,
+    all_looks: u64,
     deepest: f64,
     widest: f64,
     failed: Option<Failure>,
@@ -119,6 +121,7 @@ impl Event {
             events: 0,
             idle: 0,
             looks: 0,
+            all_looks: 0,
             deepest: 0.0,
             widest: 0.0,
             tips: Tips::default(),

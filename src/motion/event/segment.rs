@@ -9,7 +9,7 @@ use super::mode::{Mode, Next, What};
 use super::parameters::Drive;
 use crate::motion::{ActiveSet, Failure, FailureReason, GoOn, Plane};
 use crate::tolerances::{
-    LOOKS_UNASKED, MOST_EVENTS, MOST_EVENTS_AT_ONCE, MOST_LOOKS, STALLED_LOOKS,
+    AN_INSTANT, LOOKS_UNASKED, MOST_EVENTS, MOST_EVENTS_AT_ONCE, MOST_LOOKS, STALLED_LOOKS,
 };
 
 /// What a search for the event that ends a segment comes to.
@@ -50,7 +50,8 @@ impl Event {
             Sought::Paused => return Ok(Passage::Paused),
         };
         self.check_angles(s)?;
-        self.idle = if s > 0.0 { 0 } else { self.idle + 1 };
+        let rates = self.parameters.omega + self.drive.nu.abs();
+        self.idle = if s * rates > AN_INSTANT { 0 } else { self.idle + 1 };
         if what != What::SeriesEnd {
             self.events += 1;
         }
@@ -119,7 +120,8 @@ impl Event {
                 return Sought::Paused;
             }
             self.looks += 1;
-            if self.looks > MOST_LOOKS {
+            self.all_looks += 1;
+            if self.all_looks > MOST_LOOKS {
                 self.fail(self.safe, FailureReason::Looks);
                 return Sought::Nothing;
             }

@@ -12,7 +12,7 @@ use crate::contact::{
     repeated::{GroupReference, Repeat, Repeated},
 };
 use crate::motion::{ActiveSet, FailureReason};
-use crate::tolerances::{BREAK_STEPS, SAME_ANGLE, SMALL_PHASE};
+use crate::tolerances::{BREAK_STEPS, MOST_ROWS, SAME_ANGLE, SMALL_PHASE};
 
 impl<B: BladeModel> Explicit<B> {
     /// A predicted step outside the circle of the clearance: find what
@@ -145,6 +145,9 @@ impl<B: BladeModel> Explicit<B> {
             self.rows.retain(|row| row.gap < 0.0);
         }
         match self.rows.as_mut_slice() {
+            rows if rows.len() > MOST_ROWS => {
+                return Err(FailureReason::Rows { rows: rows.len() });
+            }
             [_] => {
                 let row = &self.rows[0];
                 self.rows[0].lambda = contact::single(self.influence(row, row), row.gap);
