@@ -122,3 +122,25 @@ impl FullRunJob {
         (steps > 0).then(|| self.wall_s() / steps as f64)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Scene, SolverKind};
+
+    #[test]
+    fn a_run_that_takes_too_long_is_given_up_with_what_it_reached() {
+        let mut scene = Scene::builtin("undamped").unwrap().as_reference();
+        scene.solver.kind = SolverKind::Event;
+        scene.solver.end_s = 1e6;
+        let mut job = FullRunJob::new(Motion::new(&scene.checked().unwrap()), 1e6);
+        job.limit = SLICE * 3;
+        while !job.is_done() {
+            job.compute();
+        }
+        let FullRunState::GivenUp(part) = job.state() else { panic!("{:?}", job.state()) };
+        assert!(part > 0.0 && part < 1.0, "{part}");
+        // One slice more than the limit, on a machine that does nothing else.
+        assert!(job.wall >= job.limit);
+    }
+}
