@@ -36,6 +36,8 @@ pub struct Playback {
     full_run: FullRunJob,
     reference: Option<FullRunJob>,
     comparison: Option<Comparison>,
+    /// Whether it has not caught up yet.
+    behind: bool,
     studies: Studies,
     sensitive: Option<bool>,
     sensitivity: Option<Background<bool>>,
@@ -59,6 +61,7 @@ impl Playback {
             full_run: FullRunJob::new(motion.clone(), scene.solver.end_s),
             reference: reference(scene),
             comparison: None,
+            behind: false,
             studies: Studies::default(),
             sensitive: None,
             sensitivity: None,
@@ -67,7 +70,7 @@ impl Playback {
             order,
         };
         playback.comparison = playback.start_comparison();
-        playback.play_comparison();
+        playback.play_comparison(time_limit);
         playback.record();
         playback
     }
@@ -81,6 +84,10 @@ impl Playback {
             *self = Self { studies, ..Self::with_time_limit(order.clone(), self.time_limit) };
             return;
         }
+        let changed = order.changes != before.changes || order.pulses != before.pulses;
+        if changed && self.behind {
+            self.level_comparison();
+        }
         let other = other_law(&order.scene);
         let theirs = self.comparison.as_mut().map(|theirs| &mut theirs.motion).zip(other.as_ref());
         for (motion, scene) in std::iter::once((&mut self.motion, &order.scene)).chain(theirs) {
@@ -93,7 +100,7 @@ impl Playback {
                 motion.fire();
             }
         }
-        if order.changes != before.changes || order.pulses != before.pulses {
+        if changed {
             let end = order.scene.solver.end_s;
             self.full_run = FullRunJob::new(self.motion.clone(), end);
             if let Some(comparison) = &mut self.comparison {
@@ -107,7 +114,7 @@ impl Playback {
         }
         if order.compare != before.compare {
             self.comparison = self.start_comparison();
-            self.play_comparison();
+            self.play_comparison(self.time_limit);
         }
         for _ in 0..order.steps.saturating_sub(before.steps).min(1000) {
             self.step();
@@ -156,14 +163,23 @@ impl Playback {
         if self.motion.failure().is_some() {
             self.target = self.motion.state().t_s;
         }
-        self.play_comparison();
+        self.play_comparison(self.time_limit);
     }
 
-    fn play_comparison(&mut self) {
+    fn play_comparison(&mut self, limit: Duration) {
         let (now, sample, bin) = (self.motion.state().t_s, self.sample_length(), self.order.bin_s);
-        if let Some(comparison) = &mut self.comparison {
+        self.behind = self.comparison.as_mut().is_some_and(|comparison| {
             let began = Instant::now();
-            comparison.catch_up(now, sample, bin, &|| began.elapsed() < self.time_limit);
+            !comparison.catch_up(now, sample, bin, &|| began.elapsed() < limit)
+        });
+    }
+
+    /// Before a change, which acts at one instant on both motions: the other
+    /// contact law is played up to it, or given up.
+    fn level_comparison(&mut self) {
+        self.play_comparison(self.time_limit.max(JUMP_LIMIT));
+        if std::mem::take(&mut self.behind) {
+            self.comparison = None;
         }
     }
 
@@ -192,7 +208,7 @@ impl Playback {
         self.next_sample(until, &|| began.elapsed() < limit);
         self.record();
         self.target = self.motion.state().t_s;
-        self.play_comparison();
+        self.play_comparison(self.time_limit);
     }
 
     /// Plays until the contact changes.
@@ -214,20 +230,24 @@ impl Playback {
             }
         }
         self.target = self.motion.state().t_s;
-        self.play_comparison();
+        self.play_comparison(self.time_limit);
     }
 
     /// Whether there is more to compute.
     pub fn is_computing(&self) -> bool {
         let comparison = self.comparison.as_ref().map(|comparison| &comparison.full_run);
         let mut runs = std::iter::once(&self.full_run).chain(&self.reference).chain(comparison);
-        runs.any(|run| !run.is_done())
+        self.behind
+            || runs.any(|run| !run.is_done())
             || self.sensitive.is_none()
             || self.studies.is_computing(&self.order)
     }
 
     /// Computes one slice of the first job that is not done.
     pub fn compute(&mut self) {
+        if self.behind {
+            return self.play_comparison(self.time_limit);
+        }
         let comparison = self.comparison.as_mut().map(|comparison| &mut comparison.full_run);
         let runs = std::iter::once(&mut self.full_run).chain(&mut self.reference);
         if let Some(run) = runs.chain(comparison).find(|run| !run.is_done()) {
@@ -315,5 +335,35 @@ fn done(run: Option<&FullRunJob>) -> Option<FullRun> {
     match run?.state() {
         FullRunState::Done(run) => Some(run),
         FullRunState::Computing(_) | FullRunState::GivenUp(_) => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tui::{App, Marker, Theme};
+
+    #[test]
+    fn a_comparison_that_is_slow_catches_up_before_a_change_acts_on_both() {
+        let mut scene = Scene::base();
+        scene.solver.step_s = 1e-6;
+        scene.solver.end_s = 1e-3;
+        let app = App::new(scene.checked().unwrap(), Theme::Mono, Marker::Ascii);
+        let mut order = Order { bin_s: 2e-5, ..app.order() };
+        let mut playback = Playback::with_time_limit(order.clone(), Duration::MAX);
+        playback.play(2e-3);
+        // Asked for late, and without time: one sample a call.
+        playback.time_limit = Duration::ZERO;
+        order.compare = true;
+        playback.apply(&order);
+        assert!(playback.behind && playback.is_computing());
+        order.pulses += 1;
+        playback.apply(&order);
+        let (now, theirs) = (playback.motion.state().t_s, playback.comparison.as_ref().unwrap());
+        assert!(!playback.behind && now - theirs.motion.state().t_s < 1.5e-6, "{now}");
+        assert_eq!(theirs.motion.pulse().start, playback.motion.pulse().start);
+        while playback.is_computing() {
+            playback.compute();
+        }
     }
 }
