@@ -9,7 +9,8 @@ use clap::Args;
 use super::Done;
 use super::options::SceneOptions;
 use super::status::{Refusal, Status, say};
-use crate::report::{figure::table, file, svg};
+use crate::file::{self, Written};
+use crate::report::{figure::table, svg};
 use crate::scene::{CheckedScene, Scene};
 use crate::study::figures::{Figure, NUMBERS, Scenes, figure};
 
@@ -83,15 +84,27 @@ impl FiguresCommand {
 
     fn save(&self, number: u32, figure: &Figure) -> anyhow::Result<()> {
         let stem = format!("fig{number:02}");
-        let mut names = vec![format!("{stem}.svg")];
-        write(&self.out.join(format!("{stem}.svg")), |out| svg::write(figure, out))?;
+        let (mut wrote, mut replaced) = (Vec::new(), Vec::new());
+        let mut note = |name: String, written| match written {
+            Written::New => wrote.push(name),
+            Written::Replaced => replaced.push(name),
+        };
+        let name = format!("{stem}.svg");
+        let written = write(&self.out.join(&name), |out| svg::write(figure, out))?;
+        note(name, written);
         for (panel, letter) in figure.panels.iter().zip('a'..='z') {
             let letter = if figure.panels.len() > 1 { letter.to_string() } else { String::new() };
             let name = format!("{stem}{letter}.csv");
-            write(&self.out.join(&name), |out| table(panel).write_csv(out))?;
-            names.push(name);
+            let written = write(&self.out.join(&name), |out| table(panel).write_csv(out))?;
+            note(name, written);
         }
-        say(&format!("rubscope: wrote {} to {}", names.join(", "), self.out.display()));
+        let shown = self.out.display();
+        for (names, done) in [(wrote, "wrote"), (replaced, "replaced")] {
+            if !names.is_empty() {
+                let place = if done == "wrote" { "to" } else { "in" };
+                say(&format!("rubscope: {done} {} {place} {shown}", names.join(", ")));
+            }
+        }
         Ok(())
     }
 }
@@ -99,6 +112,6 @@ impl FiguresCommand {
 fn write(
     path: &Path,
     content: impl FnOnce(&mut dyn std::io::Write) -> std::io::Result<()>,
-) -> anyhow::Result<()> {
+) -> anyhow::Result<Written> {
     file::replace(path, content).with_context(|| format!("cannot write {}", path.display()))
 }

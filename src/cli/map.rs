@@ -16,7 +16,8 @@ use super::options::{SceneOptions, Swept};
 use super::range::Range;
 use super::status::{Refusal, Status, say};
 use super::{Done, output};
-use crate::report::{file, json, map as report, svg};
+use crate::file::{self, Written};
+use crate::report::{json, map as report, svg};
 use crate::study::{Axis, AxisError, Map, MapPlan, Shard, overlay, part};
 
 /// Most threads: more than any machine has cores for.
@@ -219,20 +220,24 @@ impl ResultOptions {
         }
         let (Some(path), Some(format)) = (&self.out, self.format()?) else { return Ok(()) };
         let shown = path.display();
-        if let Err(error) = write_file(map, format, path) {
-            let kept = if format == "part" {
-                part::write(map, out)?;
-                "its cells are on standard output, to be saved as a part"
-            } else {
-                if !self.json {
-                    json::write(&report::to_json(map, false), out)?;
-                }
-                "the whole map is on standard output as JSON"
-            };
-            return Err(anyhow::Error::from(error).context(format!("cannot write {shown}; {kept}")));
-        }
-        say(&format!("rubscope: wrote {} cells to {shown}", map.cells.iter().flatten().count()));
-        Ok(())
+        let error = match write_file(map, format, path) {
+            Ok(written) => {
+                let cells = format!("{} cells", map.cells.iter().flatten().count());
+                output::say_written(written, &cells, &shown);
+                return Ok(());
+            }
+            Err(error) => error,
+        };
+        let kept = if format == "part" {
+            part::write(map, out)?;
+            "its cells are on standard output, to be saved as a part"
+        } else {
+            if !self.json {
+                json::write(&report::to_json(map, false), out)?;
+            }
+            "the whole map is on standard output as JSON"
+        };
+        Err(anyhow::Error::from(error).context(format!("cannot write {shown}; {kept}")))
     }
 }
 
@@ -242,7 +247,7 @@ fn width() -> usize {
     size.map_or(WIDTH, |(columns, _)| usize::from(columns))
 }
 
-fn write_file(map: &Map, format: &str, path: &Path) -> std::io::Result<()> {
+fn write_file(map: &Map, format: &str, path: &Path) -> std::io::Result<Written> {
     file::replace(path, |out| match format {
         "csv" => report::write_csv(map, out),
         "json" => json::write(&report::to_json(map, false), out),

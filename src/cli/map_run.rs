@@ -112,7 +112,7 @@ fn stopped(map: &Map, complete: Option<&Path>, out: &mut dyn Write) -> anyhow::R
     let path = complete.map_or_else(unused_name, Path::to_path_buf);
     let done = map.cells.iter().flatten().count();
     if complete.is_none()
-        && let Err(error) = crate::report::file::replace(&path, |out| part::write(map, out))
+        && let Err(error) = crate::file::replace(&path, |out| part::write(map, out))
     {
         part::write(map, out)?;
         let kept = "its cells are on standard output, to be saved as a part for --resume";
@@ -151,7 +151,7 @@ impl Notes {
     /// kill left incomplete.
     fn open(path: &Path, map: &Map) -> anyhow::Result<Self> {
         let cannot = || format!("cannot write {}", path.display());
-        crate::report::file::replace(path, |out| part::write(map, out)).with_context(cannot)?;
+        crate::file::replace(path, |out| part::write(map, out)).with_context(cannot)?;
         let file = OpenOptions::new().append(true).open(path).with_context(cannot)?;
         Ok(Self { path: path.to_path_buf(), file: Mutex::new((file, None)) })
     }

@@ -8,7 +8,7 @@ use anyhow::Context;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::status::{Refusal, say};
-use crate::report::file;
+use crate::file::{self, Written};
 
 /// A progress bar on standard error of this length and form.
 pub fn bar(length: u64, template: &str) -> ProgressBar {
@@ -39,7 +39,8 @@ pub fn format(path: &Path, endings: &[&'static str]) -> anyhow::Result<&'static 
     Ok(known)
 }
 
-/// Writes a file, completely or not at all, and prints what is in it.
+/// Writes a file, completely or not at all, and prints what is in it, and that it
+/// replaced another.
 ///
 /// # Errors
 /// An error of the system.
@@ -49,7 +50,15 @@ pub fn save(
     content: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
 ) -> anyhow::Result<()> {
     let shown = path.display();
-    file::replace(path, content).with_context(|| format!("cannot write {shown}"))?;
-    say(&format!("rubscope: wrote {what} to {shown}"));
+    let written = file::replace(path, content).with_context(|| format!("cannot write {shown}"))?;
+    say_written(written, what, &shown);
     Ok(())
+}
+
+/// Says what is in a file that was written.
+pub fn say_written(written: Written, what: &str, shown: &impl std::fmt::Display) {
+    say(&match written {
+        Written::New => format!("rubscope: wrote {what} to {shown}"),
+        Written::Replaced => format!("rubscope: replaced {shown} ({what})"),
+    });
 }

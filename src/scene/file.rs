@@ -1,7 +1,6 @@
 //! Reads and writes scene files (TOML). Keys that a file does not contain have
 //! the documented default (the paper's machine); unknown keys are refused.
 
-use std::io::Read;
 use std::path::Path;
 
 use toml::{Table, Value as Toml};
@@ -43,14 +42,8 @@ impl Scene {
             });
         }
         let refused = |reason: String| SceneError::File { path: name_or_path.to_string(), reason };
-        let file = std::fs::File::open(path).map_err(|error| refused(error.to_string()))?;
-        let mut text = String::new();
-        // A device or a huge file ends here, not in memory.
-        let read = file.take(LARGEST_FILE + 1).read_to_string(&mut text);
-        read.map_err(|error| refused(error.to_string()))?;
-        if text.len() as u64 > LARGEST_FILE {
-            return Err(refused(format!("allowed are up to {LARGEST_FILE} bytes")));
-        }
+        let text = crate::file::read_text(path, LARGEST_FILE)
+            .map_err(|error| refused(error.to_string()))?;
         Self::from_toml_unchecked(&text).map_err(|error| in_file(name_or_path, error))
     }
 

@@ -20,6 +20,8 @@ mod event_laws;
 mod event_modal;
 mod explicit;
 mod explicit_hard;
+mod file_places;
+mod file_writer;
 mod hbm_branches;
 mod hbm_cli;
 mod hbm_excitation;
