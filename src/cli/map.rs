@@ -107,9 +107,8 @@ impl MapCommand {
             return Err(Refusal::because(reason).into());
         }
         let mut map = self.start(Map::empty(self.plan()?))?;
-        let indices = shard.indices(map.cells.len());
         let kept = Kept { adaptive: self.adaptive, threads: self.threads, part: self.part_file() };
-        if let Some(signal) = compute(&mut map, &indices, &kept, out)? {
+        if let Some(signal) = compute(&mut map, shard, &kept, out)? {
             return Ok(Status::Signal(signal));
         }
         self.result.deliver(&map, out)?;

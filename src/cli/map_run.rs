@@ -9,11 +9,12 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use anyhow::Context;
+use rayon::prelude::*;
 use signal_hook::consts::{SIGINT, SIGTERM};
 
 use super::output;
 use super::status::say;
-use crate::study::{Cell, Map, Progress, part};
+use crate::study::{Cell, Map, Progress, Shard, part};
 
 /// How often the bar and the signals are checked.
 const LOOK: Duration = Duration::from_millis(100);
@@ -31,7 +32,7 @@ pub(super) struct Kept {
 /// Computes the cells of a map; the number of the signal that stopped it.
 pub(super) fn compute(
     map: &mut Map,
-    indices: &[usize],
+    shard: Shard,
     kept: &Kept,
     out: &mut dyn Write,
 ) -> anyhow::Result<Option<u8>> {
@@ -49,7 +50,8 @@ pub(super) fn compute(
         builder = builder.num_threads(threads);
     }
     let pool = builder.build()?;
-    let missing = indices.iter().filter(|&&index| map.cells[index].is_none()).count();
+    let indices = shard.indices(map.cells.len());
+    let missing = indices.clone().filter(|&index| map.cells[index].is_none()).count();
     let finished = AtomicBool::new(false);
     std::thread::scope(|scope| {
         scope.spawn(|| watch(&progress, &signal, &finished, missing as u64));

@@ -4,6 +4,7 @@
 
 use std::io::{BufRead, Write};
 
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -36,8 +37,8 @@ impl Shard {
 
     /// The cells of this share.
     #[must_use]
-    pub fn indices(self, cells: usize) -> Vec<usize> {
-        (self.shard as usize - 1..cells).step_by(self.count as usize).collect()
+    pub fn indices(self, cells: usize) -> impl IndexedParallelIterator<Item = usize> + Clone {
+        (self.shard as usize - 1..cells).into_par_iter().step_by(self.count as usize)
     }
 }
 
@@ -206,14 +207,14 @@ fn read_cells(file: &str, mut part: impl BufRead, map: &mut Map) -> Result<(), P
         let Some(line) = text.strip_suffix('\n') else { break };
         let (index, cell) = parse_cell(line).ok_or_else(|| form(format!("the line {line:?}")))?;
         text.clear();
-        match map.cells.get_mut(index) {
+        match map.cells.get(index) {
             None => return Err(form(format!("cell {index} outside the map"))),
             Some(Some(known)) if *known != cell => {
                 return Err(PartError::Conflict { file: file.to_string(), index });
             }
             Some(Some(_)) => {}
-            Some(place) => {
-                *place = Some(cell);
+            Some(None) => {
+                map.cells.set(index, Some(cell));
                 map.runs += 1;
             }
         }
@@ -252,7 +253,7 @@ mod tests {
 
     fn part(shard: Shard) -> Vec<u8> {
         let mut map = Map::empty(plan());
-        map.fill(&shard.indices(20), &Progress::default(), &|_, _| {});
+        map.fill(shard.indices(20), &Progress::default(), &|_, _| {});
         let mut out = Vec::new();
         write(&map, &mut out).unwrap();
         out
