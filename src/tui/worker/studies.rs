@@ -94,9 +94,7 @@ impl Studies {
             let cell = map.plan.compute(index, &|| cell_began.elapsed() < CELL_LIMIT);
             // A cell that takes too long stays empty.
             map.runs += u64::from(cell.is_some());
-            if let Some(slot) = map.cells.get_mut(index) {
-                *slot = cell;
-            }
+            map.cells.set(index, cell);
             self.map_next += 1;
         }
         map.wall_s += began.elapsed().as_secs_f64();
