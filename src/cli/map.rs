@@ -222,6 +222,8 @@ impl ResultOptions {
         }
         let (Some(path), Some(format)) = (&self.out, self.format()?) else { return Ok(()) };
         let shown = path.display();
+        // The file may be standard output itself, and comes after what is there.
+        out.flush()?;
         let error = match write_file(map, format, path) {
             Ok(written) => {
                 let cells = format!("{} cells", map.cells.iter().flatten().count());

@@ -80,6 +80,8 @@ pub fn replace_or_print(
     content: &dyn Fn(&mut dyn Write) -> std::io::Result<()>,
     text: &dyn Fn(&mut dyn Write) -> std::io::Result<()>,
 ) -> anyhow::Result<Written> {
+    // The file may be standard output itself, and comes after what is there.
+    out.flush()?;
     file::replace(path, content).or_else(|error| {
         text(out)?;
         out.flush()?;

@@ -39,8 +39,7 @@ pub enum Written {
 pub fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<Written> {
     match Place::of(path)? {
         Place::Stream(path) => {
-            let out = File::options().append(true).open(path)?;
-            fill(&out, write)?;
+            fill(&place::open_stream(&path)?, write)?;
             Ok(Written::New)
         }
         Place::New(path) => {
