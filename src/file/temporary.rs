@@ -2,7 +2,7 @@
 //! until it is complete, so that not even a kill leaves it behind.
 
 use std::fs::{File, Metadata};
-use std::io::{ErrorKind, Result};
+use std::io::{Error, ErrorKind, Result};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -53,8 +53,8 @@ pub(super) enum Temporary {
 }
 
 impl Temporary {
-    /// A file in the folder of `path`, with mode and owner of the file that it is
-    /// to replace, or those of a new file.
+    /// A file in the folder of `path`, no more readable than the one that it is to
+    /// replace.
     pub(super) fn beside(path: &Path, replaced: Option<&Metadata>) -> Result<Self> {
         let folder = place::folder(path);
         // A folder that is missing has the same word for every kind of file.
@@ -62,17 +62,17 @@ impl Temporary {
             return Err(ErrorKind::NotADirectory.into());
         }
         #[cfg(target_os = "linux")]
-        let temporary = match unnamed::open(folder) {
-            Ok(file) => Self::Unnamed(file),
-            Err(_) => Self::with_name(folder, replaced)?,
+        let first = match unnamed::open(folder) {
+            Ok(file) => return Ok(Self::Unnamed(file)),
+            Err(error) => error,
         };
         #[cfg(not(target_os = "linux"))]
-        let temporary = Self::with_name(folder, replaced)?;
-        if let Some(replaced) = replaced {
-            keep_owner(temporary.file(), replaced);
-            temporary.file().set_permissions(replaced.permissions())?;
-        }
-        Ok(temporary)
+        let first = Error::from(ErrorKind::Unsupported);
+        // Not every file system knows files without a name. The hidden name is of no
+        // interest to the reader of an error.
+        Self::with_name(folder, replaced).map_err(|error| {
+            if first.kind() == error.kind() { first } else { Error::from(error.kind()) }
+        })
     }
 
     fn with_name(folder: &Path, replaced: Option<&Metadata>) -> Result<Self> {
@@ -101,7 +101,13 @@ impl Temporary {
         }
     }
 
-    pub(super) fn sync(&self) -> Result<()> {
+    /// Gives the written file mode and owner of the one that it is to replace, and
+    /// waits until it is on the disk.
+    pub(super) fn finish(&self, replaced: Option<&Metadata>) -> Result<()> {
+        if let Some(replaced) = replaced {
+            keep_owner(self.file(), replaced);
+            self.file().set_permissions(replaced.permissions())?;
+        }
         self.file().sync_all()
     }
 
@@ -139,7 +145,7 @@ impl Temporary {
 }
 
 /// Whether the place is a file that is mounted there, which cannot be renamed.
-fn is_mounted(error: &std::io::Error) -> bool {
+fn is_mounted(error: &Error) -> bool {
     matches!(error.kind(), ErrorKind::ResourceBusy | ErrorKind::CrossesDevices)
 }
 
