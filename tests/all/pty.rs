@@ -155,3 +155,19 @@ fn the_question_whether_to_replace_a_file_is_asked_and_answered() {
     assert_eq!(terminal.wait(), 0);
     assert!(std::fs::read_to_string(&path).unwrap().starts_with("schema = 1"));
 }
+
+#[test]
+fn a_file_above_the_limit_of_the_system_is_refused_and_the_screen_lives() {
+    let folder = tempfile::tempdir().unwrap();
+    let script = "ulimit -f 0; \"$@\"; echo ended with $?";
+    let mut terminal = Start::shell(script, &SHORT).folder(folder.path()).open();
+    terminal.wait_for(" LOCKED ");
+    terminal.send("s\r");
+    terminal.wait_for("cannot write scene.toml: ");
+    terminal.send("?");
+    terminal.wait_for("select the knob above");
+    terminal.send("q");
+    terminal.wait_for("ended with 0");
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+    terminal.assert_restored();
+}

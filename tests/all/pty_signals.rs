@@ -124,6 +124,16 @@ fn a_hang_up_ends_it_with_its_own_status_in_every_state() {
 }
 
 #[test]
+fn a_hang_up_while_it_starts_is_never_a_failure() {
+    for step in 0..40 {
+        let moment = Duration::from_millis(step);
+        let status = Start::explorer(&SHORT).leading().abandoned(moment);
+        // Before it begins to listen, the hang-up ends it as any other program.
+        assert!(status.signal().is_some() || status.exit_code() == 129, "{status:?}");
+    }
+}
+
+#[test]
 fn a_hang_up_of_a_blocked_terminal_ends_it_too() {
     let mut terminal = Start::explorer(&SHORT).size(200, 50).leading().open();
     terminal.wait_for(" LOCKED ");

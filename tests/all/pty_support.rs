@@ -96,6 +96,26 @@ impl Start {
         self
     }
 
+    /// Starts it in a terminal that is closed after a moment; how it ends.
+    pub fn abandoned(self, moment: Duration) -> ExitStatus {
+        let pair = native_pty_system().openpty(self.size).unwrap();
+        let mut child = pair.slave.spawn_command(self.command).unwrap();
+        drop(pair.slave);
+        std::thread::sleep(moment);
+        drop(pair.master);
+        let began = Instant::now();
+        loop {
+            if let Some(status) = child.try_wait().unwrap() {
+                return status;
+            }
+            if began.elapsed() > PATIENCE {
+                child.kill().unwrap();
+                panic!("it does not end");
+            }
+            std::thread::sleep(Duration::from_millis(5));
+        }
+    }
+
     pub fn open(self) -> Terminal {
         let pair = native_pty_system().openpty(self.size).unwrap();
         let before = settings(&*pair.master);
