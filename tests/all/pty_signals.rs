@@ -202,6 +202,7 @@ fn a_signal_to_stop_is_heard_while_nobody_reads_and_the_screen_comes_back() {
     let mut terminal = large();
     terminal.block();
     terminal.signal("TSTP");
+    terminal.wait_for_stop();
     terminal.unblock();
     // Without a shell it stays stopped until it is told to go on.
     terminal.wait_for_main_screen();

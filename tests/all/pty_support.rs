@@ -210,6 +210,18 @@ impl Terminal {
         assert!(sent.success(), "kill -s {signal}");
     }
 
+    /// Waits until the program is stopped, where the system tells it in a file.
+    pub fn wait_for_stop(&self) {
+        let state = format!("/proc/{}/stat", self.child.process_id().unwrap());
+        let began = Instant::now();
+        while let Ok(state) = std::fs::read_to_string(&state)
+            && !state.contains(") T ")
+        {
+            assert!(began.elapsed() < PATIENCE, "it does not stop: {state}");
+            std::thread::sleep(Duration::from_millis(10));
+        }
+    }
+
     /// Nobody reads the terminal any more; the program writes until it is full.
     pub fn block(&mut self) {
         self.reader.store(PAUSES, Ordering::SeqCst);
