@@ -8,7 +8,7 @@ use clap::{Args, CommandFactory};
 use strum::VariantNames;
 
 use super::options::SceneOptions;
-use super::status::{Refusal, Status};
+use super::status::{self, Refusal, Status};
 use super::words::Words;
 use super::{Cli, Done};
 use crate::scene::{DEFAULT, Scene};
@@ -68,6 +68,7 @@ impl ExploreCommand {
             marker: self.marker,
             source: Some(tui::Source { name: name.to_string(), scene: read }),
         };
+        status::go_on();
         match tui::explore(scene, look)? {
             0 => Ok(Status::Done),
             code => Ok(Status::Signal(code.saturating_sub(128))),

@@ -2,6 +2,7 @@
 //! input, 128 + n on signal n. Every message is one line on standard error.
 
 use std::io::{ErrorKind, Write};
+use std::sync::{Mutex, PoisonError};
 
 use clap::error::ErrorKind as Usage;
 use thiserror::Error;
@@ -42,6 +43,9 @@ const BROKEN_PIPE: u8 = 13;
 
 /// The exit status of a command, after its message if it has one.
 pub fn exit(done: super::Done) -> u8 {
+    if done.is_ok() {
+        go_on();
+    }
     let error = match done {
         Ok(Status::Done) => return 0,
         Ok(Status::Failed) => return 1,
@@ -53,8 +57,36 @@ pub fn exit(done: super::Done) -> u8 {
         // The reader closed the output: end silently, as by SIGPIPE.
         return 128 + BROKEN_PIPE;
     }
+    if error.is::<SceneError>() || error.is::<Refusal>() {
+        // What would have been done is of no interest: the refusal stands alone.
+        noted().clear();
+        say(&format!("rubscope: {error:#}"));
+        return 2;
+    }
+    go_on();
     say(&format!("rubscope: {error:#}"));
-    if error.is::<SceneError>() || error.is::<Refusal>() { 2 } else { 1 }
+    1
+}
+
+/// Lines to be said once the command goes on.
+static NOTED: Mutex<Vec<String>> = Mutex::new(Vec::new());
+
+fn noted() -> std::sync::MutexGuard<'static, Vec<String>> {
+    NOTED.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Keeps a line until nothing in the input can be refused any more.
+pub fn note(line: String) {
+    let mut noted = noted();
+    if !noted.contains(&line) {
+        noted.push(line);
+    }
+}
+
+/// Says what was noted: the input is accepted.
+pub fn go_on() {
+    let lines = std::mem::take(&mut *noted());
+    lines.iter().for_each(|line| say(line));
 }
 
 /// The exit status of a command line that clap did not turn into a command:

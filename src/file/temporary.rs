@@ -20,7 +20,11 @@ fn named() -> MutexGuard<'static, Vec<PathBuf>> {
 /// Removes what unfinished writing would leave behind; for a program that ends
 /// while another thread writes. Files without a name need no removal.
 pub fn remove_temporaries() {
-    for path in named().drain(..) {
+    remove_where(|_| true);
+}
+
+fn remove_where(chosen: impl Fn(&Path) -> bool) {
+    for path in named().extract_if(.., |path| chosen(path)) {
         // It may just have taken its place.
         let _ = std::fs::remove_file(path);
     }
@@ -204,5 +208,63 @@ mod unnamed {
                 renamed => renamed,
             };
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs::read_to_string;
+    use std::io::Write;
+
+    use super::*;
+
+    /// As on a file system that knows no files without a name.
+    fn with_name(folder: &Path, content: &str) -> Temporary {
+        let temporary = Temporary::with_name(folder, None).unwrap();
+        temporary.file().write_all(content.as_bytes()).unwrap();
+        temporary
+    }
+
+    fn count(folder: &Path) -> usize {
+        folder.read_dir().unwrap().count()
+    }
+
+    #[test]
+    fn a_file_with_a_hidden_name_takes_its_place_too() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.csv");
+        with_name(folder.path(), "one").create(&path).unwrap();
+        let refused = with_name(folder.path(), "two").create(&path).unwrap_err();
+        assert_eq!(refused.kind(), ErrorKind::AlreadyExists);
+        assert_eq!(read_to_string(&path).unwrap(), "one");
+        with_name(folder.path(), "three").replace(&path).unwrap();
+        assert_eq!(read_to_string(&path).unwrap(), "three");
+        // One that is given up leaves nothing.
+        drop(with_name(folder.path(), "four"));
+        assert_eq!(count(folder.path()), 1);
+        assert!(!named().iter().any(|path| path.starts_with(folder.path())));
+    }
+
+    #[test]
+    fn hidden_names_are_known_to_who_ends_the_program() {
+        let folder = tempfile::tempdir().unwrap();
+        let _unfinished = with_name(folder.path(), "half");
+        assert_eq!(count(folder.path()), 1);
+        // Other tests write at the same time.
+        remove_where(|path| path.starts_with(folder.path()));
+        assert_eq!(count(folder.path()), 0);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_hidden_name_is_no_more_readable_than_what_it_replaces() {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.csv");
+        std::fs::write(&path, "secret").unwrap();
+        std::fs::set_permissions(&path, PermissionsExt::from_mode(0o600)).unwrap();
+        let temporary =
+            Temporary::with_name(folder.path(), Some(&path.metadata().unwrap())).unwrap();
+        assert_eq!(temporary.file().metadata().unwrap().permissions().mode() & 0o777, 0o600);
     }
 }

@@ -141,7 +141,9 @@ fn read(scene: &mut Scene, path: &str, toml: &Toml) -> Result<(), SceneError> {
         (Toml::Float(x), Allowed::Real { .. }) => Some(Value::Real(*x)),
         (Toml::Integer(n), Allowed::Real { .. }) => Some(Value::Real(*n as f64)),
         (Toml::Integer(n), Allowed::Whole { .. }) => u64::try_from(*n).ok().map(Value::Whole),
-        (Toml::String(text), Allowed::OneOf(_) | Allowed::Text) => Some(Value::Text(text.clone())),
+        (Toml::String(text), Allowed::OneOf(_) | Allowed::Text { .. }) => {
+            Some(Value::Text(text.clone()))
+        }
         (Toml::Array(items), Allowed::SomeOf(_)) => items
             .iter()
             .map(|item| item.as_str().map(String::from))
