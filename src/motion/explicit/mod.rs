@@ -32,6 +32,7 @@ use crate::contact::{self, StepLaw};
 use crate::model::Machine;
 use crate::scene::CheckedScene;
 use crate::tolerances::{BREAK_STEPS, UPDATES_UNASKED};
+use correct::ConstraintRow;
 use flight::{Block, Phasor};
 use held_corner::HeldCorner;
 use watch::Watch;
@@ -82,23 +83,6 @@ pub struct Explicit<B: BladeModel> {
     deepest_predicted: f64,
     watch: Watch,
     failure: Option<Failure>,
-}
-
-/// One constraint of a step: a side or a blade with its predicted gap.
-#[derive(Clone, Copy, Debug)]
-struct ConstraintRow {
-    index: u32,
-    side: u32,
-    /// Predicted gap `g*` \[m\].
-    gap: f64,
-    /// `n_d alpha` \[rad\].
-    turn: f64,
-    /// `exp(i (psi + n_d alpha))`: the gap is `g0 + Re[z conj(normal)]`.
-    normal: (f64, f64),
-    /// `A = dg/dalpha` \[m\].
-    moment_arm: f64,
-    /// Multiplier \[N\].
-    lambda: f64,
 }
 
 impl<B: BladeModel> Explicit<B> {
