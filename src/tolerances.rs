@@ -190,9 +190,9 @@ pub(crate) const MOST_PANELS: f64 = 1e7;
 
 // The explicit solver.
 
-/// Most rows that one step solves for: a few in an ordinary step, a hundred on a
-/// rim of thousands of blades. The work grows with their cube; more are a step
-/// too long for the blades.
+/// Most rows that one step closes together: a few in an ordinary step, a hundred
+/// on a rim of thousands of blades. The work grows with their cube; more are a
+/// step too long for the blades.
 pub(crate) const MOST_ROWS: usize = 512;
 
 /// Most multiplications of one step on its contact rows: a tenth of a second.

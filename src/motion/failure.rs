@@ -70,8 +70,8 @@ pub enum FailureReason {
     Looks,
     /// Too many penetrating rows in one step.
     #[error(
-        "{rows} rows penetrate in one step, and at most {MOST_ROWS} are solved for; a smaller step \
-         or stiffer blades are needed"
+        "{rows} rows penetrate in one step, and at most {MOST_ROWS} are closed together; a smaller \
+         step is needed"
     )]
     Rows {
         /// Number of rows.

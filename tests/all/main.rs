@@ -5,6 +5,7 @@
 
 use proptest::prelude::ProptestConfig;
 
+mod bounds;
 mod cases;
 mod cli_figures;
 mod cli_limits;

@@ -303,3 +303,28 @@ impl Solver for Event {
         Box::new(self.clone())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::FailureReason;
+    use crate::scene::Scene;
+    use crate::tolerances::{MOST_EVENTS, MOST_LOOKS};
+
+    #[test]
+    fn looks_and_events_of_one_run_are_bounded() {
+        let mut scene = Scene::builtin("undamped").unwrap().as_reference();
+        // Hours of bouncing.
+        scene.solver.end_s = 1e6;
+        let mut event = Event::new(&scene.checked().unwrap()).unwrap();
+        event.all_looks = MOST_LOOKS - 100;
+        let mut other = event.clone();
+        (other.all_looks, other.events) = (0, MOST_EVENTS - 10);
+        for (mut event, expected) in [(event, FailureReason::Looks), (other, FailureReason::Events)]
+        {
+            let failure = event.advance(1e6).unwrap_err();
+            assert_eq!(failure.reason, expected);
+            assert!(failure.t_s < 1.0 && event.final_verdict() == Some(Verdict::Failed));
+        }
+    }
+}

@@ -161,17 +161,17 @@ impl<B: BladeModel> Explicit<B> {
             // Rows that would be pulled shut are those that penetrate, no others.
             self.rows.retain(|row| row.gap < 0.0);
         }
+        let repeated = self.rows.windows(2).any(|pair| pair[0].side == pair[1].side);
+        // The rows of one side each that may only push are closed one by one.
+        if self.rows.len() > MOST_ROWS && (repeated || self.law.pulls()) {
+            return Err(FailureReason::Rows { rows: self.rows.len() });
+        }
         match self.rows.as_mut_slice() {
-            rows if rows.len() > MOST_ROWS => {
-                return Err(FailureReason::Rows { rows: rows.len() });
-            }
             [_] => {
                 let row = &self.rows[0];
                 self.rows[0].lambda = contact::single(self.influence(row, row), row.gap);
             }
-            rows if rows.windows(2).any(|pair| pair[0].side == pair[1].side) => {
-                self.solve_repeated()?;
-            }
+            _ if repeated => self.solve_repeated()?,
             [_, _] => {
                 let (a, b) = (&self.rows[0], &self.rows[1]);
                 let cross = self.influence(a, b);
