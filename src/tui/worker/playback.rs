@@ -277,16 +277,14 @@ impl Playback {
             failure: self.motion.failure().map(ToString::to_string),
         };
         let comparison = self.comparison.as_mut();
+        let full_run = self.full_run.state();
+        let done_in = matches!(full_run, FullRunState::Done(_)).then(|| self.full_run.wall_s());
         let mut results = Results {
-            full_run: Some(self.full_run.state()),
+            full_run: Some(full_run),
             sensitive: self.sensitive.unwrap_or(false),
             reference: done(self.reference.as_ref()),
             comparison: done(comparison.as_ref().map(|comparison| &comparison.full_run)),
-            pace: Pace {
-                step_s: self.full_run.step_s(),
-                run_s: self.full_run.is_done().then(|| self.full_run.wall_s()),
-                limited: self.limited,
-            },
+            pace: Pace { step_s: self.full_run.step_s(), run_s: done_in, limited: self.limited },
             ..Results::default()
         };
         self.studies.show(&mut results);
