@@ -107,6 +107,39 @@ fn a_live_knob_drops_every_result_of_the_knobs_before() {
     assert_eq!((0..DELAY).map(|_| look(&mut app, None)).last(), Some(vec![1, 1]));
 }
 
+#[test]
+fn a_pulse_drops_every_result_of_the_motion_before() {
+    let mut app = App::new(scene().checked().unwrap(), Theme::Dark, Marker::Braille);
+    app.compare = true;
+    let mut terminal = Terminal::new(TestBackend::new(120, 40)).unwrap();
+    let mut engine = Late::new();
+    let mut look = |app: &mut App, key: Option<char>| {
+        let key = key.map(|letter| KeyEvent::new(KeyCode::Char(letter), KeyModifiers::NONE));
+        press(&mut terminal, app, &mut engine, key);
+        results(app)
+    };
+    for _ in 0..=DELAY {
+        look(&mut app, None);
+    }
+    assert_eq!(results(&app), [0, 0, 0]);
+    // What arrives now was computed before the second pulse.
+    assert!(look(&mut app, Some('p')).is_empty());
+    assert_eq!((0..DELAY).map(|_| look(&mut app, None)).last(), Some(vec![1, 1]));
+}
+
+#[test]
+fn a_snapshot_of_a_run_before_a_restart_changes_nothing() {
+    let mut app = App::new(scene().checked().unwrap(), Theme::Dark, Marker::Braille);
+    let mut engine = Stepwise::new(1e-4);
+    engine.order(&app.order());
+    let old = engine.take().unwrap();
+    app.restart();
+    assert!(!app.apply_snapshot(old));
+    assert!(app.latest.moment.is_none() && results(&app).is_empty());
+    engine.order(&app.order());
+    assert!(app.apply_snapshot(engine.take().unwrap()) && !results(&app).is_empty());
+}
+
 /// Every key of the table, and the characters of typed values.
 fn any_key() -> impl Strategy<Value = KeyEvent> {
     let mut keys: Vec<KeyEvent> = Vec::new();
