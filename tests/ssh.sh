@@ -49,6 +49,7 @@ made_run_sshd=no
 sshd=''
 cleanup() {
     tmux -L rubscope kill-server 2>/dev/null || true
+    close_screen 2>/dev/null || true
     if [ -n "$sshd" ]; then kill "$sshd" 2>/dev/null || true; fi
     if [ $made_run_sshd = yes ]; then rmdir /run/sshd 2>/dev/null || true; fi
     rm -rf "$work"
@@ -123,10 +124,13 @@ expect_restored() {
 }
 # A full picture again and again, until the explorer cannot write any more:
 # whoever reads its terminal stands still. Another size makes it draw everything.
+# More than four million bytes are held nowhere: then somebody reads.
 fill_output() {
-    local tty before now=-1 still=0 turn
+    local tty start before now=-1 still=0 turn=0
     tty=$(readlink "/proc/$pid/fd/0")
-    for turn in $(seq 1200); do
+    start=$(written "$pid")
+    while [ "$now" -lt $((start + 4000000)) ]; do
+        turn=$((turn + 1))
         stty -F "$tty" rows $((100 + turn % 2)) cols 300
         sleep 0.05
         before=$now
@@ -134,7 +138,6 @@ fill_output() {
         if [ "$now" = "$before" ]; then still=$((still + 1)); else still=0; fi
         if [ $still -gt 30 ]; then return 0; fi
     done
-    say "  $now B written, and still more"
     return 1
 }
 # A signal to end must end it soon, whatever it is doing.

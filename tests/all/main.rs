@@ -46,6 +46,7 @@ mod plain_stepper;
 mod pty;
 mod scene_notes;
 mod scenes;
+mod soak;
 mod tui_loop;
 mod tui_random;
 mod tui_screens;
