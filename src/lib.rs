@@ -23,6 +23,7 @@
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod contact;
+pub mod file;
 pub mod harmonic;
 pub mod model;
 pub mod motion;

@@ -8,7 +8,7 @@ use clap::{Args, CommandFactory};
 use strum::VariantNames;
 
 use super::options::SceneOptions;
-use super::status::{Refusal, Status};
+use super::status::{self, Refusal, Status};
 use super::words::Words;
 use super::{Cli, Done};
 use crate::tui;
@@ -63,6 +63,7 @@ impl ExploreCommand {
             marker: self.marker,
             source: self.options.name().map(String::from),
         };
+        status::go_on();
         match tui::explore(scene, look)? {
             0 => Ok(Status::Done),
             code => Ok(Status::Signal(code.saturating_sub(128))),

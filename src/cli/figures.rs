@@ -1,15 +1,17 @@
 //! `rubscope figures`: the paper's Figs. 4 to 10, reproduced as SVG with their
 //! data as CSV.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use clap::Args;
 
-use super::Done;
 use super::options::SceneOptions;
-use super::status::{Refusal, Status, say};
-use crate::report::{figure::table, file, svg};
+use super::status::{self, Refusal, Status, say};
+use super::{Done, output};
+use crate::file::{self, Written};
+use crate::report::{figure::table, svg};
 use crate::scene::{CheckedScene, Scene};
 use crate::study::figures::{Figure, NUMBERS, Scenes, figure};
 
@@ -34,17 +36,21 @@ pub struct FiguresCommand {
 }
 
 impl FiguresCommand {
-    pub(super) fn run(&self) -> Done {
+    pub(super) fn run(&self, out: &mut dyn Write) -> Done {
         let numbers = self.numbers()?;
         let scenes = self.scenes()?;
         let shown = self.out.display();
         std::fs::create_dir_all(&self.out).with_context(|| format!("cannot make {shown}"))?;
+        for number in &numbers {
+            let path = self.out.join(format!("{}.svg", stem(*number)));
+            file::check_place(&path).with_context(|| format!("cannot write {}", path.display()))?;
+        }
         for number in numbers {
             // A machine that cannot lock has no Figs. 9 and 10: refused input.
             let drawn = figure(number, &scenes)
                 .map_err(|error| Refusal::because(format!("figure {number}: {error}")))?;
             if let Some(drawn) = drawn {
-                self.save(number, &drawn)?;
+                self.save(number, &drawn, out)?;
             }
         }
         Ok(Status::Done)
@@ -81,24 +87,44 @@ impl FiguresCommand {
         })
     }
 
-    fn save(&self, number: u32, figure: &Figure) -> anyhow::Result<()> {
-        let stem = format!("fig{number:02}");
-        let mut names = vec![format!("{stem}.svg")];
-        write(&self.out.join(format!("{stem}.svg")), |out| svg::write(figure, out))?;
+    fn save(&self, number: u32, figure: &Figure, out: &mut dyn Write) -> anyhow::Result<()> {
+        let stem = stem(number);
+        let (mut wrote, mut replaced) = (Vec::new(), Vec::new());
+        let mut note = |name: String, written| match written {
+            Written::New => wrote.push(name),
+            Written::Replaced => replaced.push(name),
+        };
+        let name = format!("{stem}.svg");
+        let written = write(&self.out.join(&name), out, |out| svg::write(figure, out))?;
+        note(name, written);
         for (panel, letter) in figure.panels.iter().zip('a'..='z') {
             let letter = if figure.panels.len() > 1 { letter.to_string() } else { String::new() };
             let name = format!("{stem}{letter}.csv");
-            write(&self.out.join(&name), |out| table(panel).write_csv(out))?;
-            names.push(name);
+            let written = write(&self.out.join(&name), out, |out| table(panel).write_csv(out))?;
+            note(name, written);
         }
-        say(&format!("rubscope: wrote {} to {}", names.join(", "), self.out.display()));
+        status::go_on();
+        let shown = self.out.display();
+        for (names, done) in [(wrote, "wrote"), (replaced, "replaced")] {
+            if !names.is_empty() {
+                let place = if done == "wrote" { "to" } else { "in" };
+                say(&format!("rubscope: {done} {} {place} {shown}", names.join(", ")));
+            }
+        }
         Ok(())
     }
 }
 
+/// The name of a figure's files, without their ending.
+fn stem(number: u32) -> String {
+    format!("fig{number:02}")
+}
+
+/// Writes a file; its content goes to standard output if that fails.
 fn write(
     path: &Path,
-    content: impl FnOnce(&mut dyn std::io::Write) -> std::io::Result<()>,
-) -> anyhow::Result<()> {
-    file::replace(path, content).with_context(|| format!("cannot write {}", path.display()))
+    out: &mut dyn Write,
+    content: impl Fn(&mut dyn Write) -> std::io::Result<()>,
+) -> anyhow::Result<Written> {
+    output::replace_or_print(path, out, &content, &content)
 }

@@ -9,7 +9,7 @@ use strum::VariantNames;
 use super::hbm_views::{self as views, Asked, HbmView};
 use super::options::{SceneOptions, Swept};
 use super::range::{Range, linspace};
-use super::status::{Refusal, Status, say};
+use super::status::{self, Refusal, Status, say};
 use super::words::Words;
 use super::{Done, output};
 use crate::harmonic::{Form, Sweep};
@@ -68,6 +68,9 @@ pub struct HbmCommand {
 
 impl HbmCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
+        if let Some(path) = &self.out {
+            output::format(path, &["csv"])?;
+        }
         let resolved = self.options.resolve(Swept { speed: true, pulse: false })?;
         let speeds = match resolved.speeds {
             Some(range) => range.values(),
@@ -80,14 +83,15 @@ impl HbmCommand {
         let asked =
             Asked { scene: &resolved.scene, speeds: &speeds, form, damped: self.damped, pair };
         let answer = views::answer(&asked, &self.view()?)?;
-        if let Some(path) = &self.out {
-            output::format(path, &["csv"])?;
-            let rows = format!("{} rows", answer.file.len());
-            output::save(path, &rows, |out| answer.file.write_csv(out))?;
-        }
+        status::go_on();
         if self.json {
             json::write(&answer.json, out)?;
-        } else {
+        }
+        if let Some(path) = &self.out {
+            let rows = format!("{} rows", answer.file.len());
+            output::save(path, &rows, out, |out| answer.file.write_csv(out))?;
+        }
+        if !self.json {
             let machine = resolved.scene.machine();
             report::write_heading(&machine, &resolved.scene.title, answer.sweep.as_ref(), out)?;
             for (title, table) in &answer.tables {

@@ -13,14 +13,18 @@ use clap::{Args, Subcommand};
 
 use super::map_run::{Kept, compute};
 use super::options::{SceneOptions, Swept};
+use super::part_file::PartFile;
 use super::range::Range;
-use super::status::{Refusal, Status, say};
+use super::status::{self, Refusal, Status};
 use super::{Done, output};
-use crate::report::{file, json, map as report, svg};
+use crate::file::{self, Written};
+use crate::report::{json, map as report, svg};
 use crate::study::{Axis, AxisError, Map, MapPlan, Shard, overlay, part};
 
 /// Most threads: more than any machine has cores for.
 const MOST_THREADS: usize = 1024;
+/// Most cells of a picture, which takes some hundred bytes a cell.
+const MOST_DRAWN: usize = 1_000_000;
 /// Columns and rows of a map by default: steps of 10 rad/s and 50 kN.
 const COLUMNS: u32 = 51;
 const ROWS: u32 = 21;
@@ -105,17 +109,24 @@ impl MapCommand {
                           holds cells that were run";
             return Err(Refusal::because(reason).into());
         }
-        let mut map = self.start(Map::empty(self.plan()?))?;
-        let indices = shard.indices(map.cells.len());
-        let kept = Kept { adaptive: self.adaptive, threads: self.threads, part: self.part_file() };
-        if let Some(signal) = compute(&mut map, &indices, &kept, out)? {
+        let plan = self.plan()?;
+        check_picture(&plan, format)?;
+        let mut map = Map::empty(plan);
+        let part = match self.part_file() {
+            Some(path) => Some(PartFile::open(&path, &mut map)?),
+            None => None,
+        };
+        status::go_on();
+        let kept = Kept { adaptive: self.adaptive, threads: self.threads, part };
+        if let Some(signal) = compute(&mut map, shard, &kept, out)? {
             return Ok(Status::Signal(signal));
         }
         self.result.deliver(&map, out)?;
         // The result now has the cells of its own part; another that the user named
         // stays.
-        if let Some(own) = self.own_part().filter(|own| kept.part.as_ref() == Some(own)) {
-            let _ = std::fs::remove_file(own);
+        if let Some(part) = kept.part.filter(|part| self.own_part().as_deref() == Some(part.path()))
+        {
+            part.remove();
         }
         Ok(Status::Done)
     }
@@ -145,24 +156,6 @@ impl MapCommand {
         Ok(plan)
     }
 
-    /// The map to continue: that of `--resume`, or the one left by an earlier
-    /// run of the same command.
-    fn start(&self, empty: Map) -> anyhow::Result<Map> {
-        let Some(path) = self.part_file().filter(|path| path.exists()) else {
-            return Ok(empty);
-        };
-        let kept = read_parts(std::slice::from_ref(&path))?;
-        let shown = path.display();
-        let done = kept.cells.iter().flatten().count();
-        if empty.plan.difference(&kept.plan).is_some() {
-            let allowed = "to finish that map first, or to remove the file";
-            let reason = format!("{shown} holds {done} cells of another map: allowed is {allowed}");
-            return Err(Refusal::because(reason).into());
-        }
-        say(&format!("rubscope: going on from {done} cells in {shown}"));
-        Ok(Map { plan: empty.plan, ..kept })
-    }
-
     fn shard(&self) -> Result<Shard, Refusal> {
         let Some(text) = &self.shard else { return Ok(Shard::WHOLE) };
         Shard::parse(text)
@@ -184,12 +177,22 @@ impl MapCommand {
 
 impl Merge {
     fn run(&self, out: &mut dyn Write) -> Done {
-        self.result.format()?;
+        let format = self.result.format()?;
         let map = read_parts(&self.files)?;
+        check_picture(&map.plan, format)?;
         part::require_complete(&map).map_err(|error| Refusal::because(error.to_string()))?;
         self.result.deliver(&map, out)?;
         Ok(Status::Done)
     }
+}
+
+/// Refuses a picture in which no cell could be seen.
+fn check_picture(plan: &MapPlan, format: Option<&str>) -> Result<(), Refusal> {
+    if format != Some("svg") || plan.len() <= MOST_DRAWN {
+        return Ok(());
+    }
+    let cells = format!("an .svg of {} cells", plan.len());
+    Err(Refusal::of("--out", cells, format!("up to {MOST_DRAWN} cells in a picture")))
 }
 
 fn read_parts(files: &[PathBuf]) -> anyhow::Result<Map> {
@@ -213,26 +216,30 @@ impl ResultOptions {
     /// to standard output as JSON, so that nothing computed is lost.
     fn deliver(&self, map: &Map, out: &mut dyn Write) -> anyhow::Result<()> {
         if self.json {
-            json::write(&report::to_json(map, true), out)?;
+            json::write(&report::MapJson { map, with_time: true }, out)?;
         } else if self.out.is_none() {
             report::write_text(map, width(), out)?;
         }
         let (Some(path), Some(format)) = (&self.out, self.format()?) else { return Ok(()) };
         let shown = path.display();
-        if let Err(error) = write_file(map, format, path) {
-            let kept = if format == "part" {
-                part::write(map, out)?;
-                "its cells are on standard output, to be saved as a part"
-            } else {
-                if !self.json {
-                    json::write(&report::to_json(map, false), out)?;
-                }
-                "the whole map is on standard output as JSON"
-            };
-            return Err(anyhow::Error::from(error).context(format!("cannot write {shown}; {kept}")));
-        }
-        say(&format!("rubscope: wrote {} cells to {shown}", map.cells.iter().flatten().count()));
-        Ok(())
+        let error = match write_file(map, format, path) {
+            Ok(written) => {
+                let cells = format!("{} cells", map.cells.iter().flatten().count());
+                output::say_written(written, &cells, &shown);
+                return Ok(());
+            }
+            Err(error) => error,
+        };
+        let kept = if format == "part" {
+            part::write(map, out)?;
+            "its cells are on standard output, to be saved as a part"
+        } else {
+            if !self.json {
+                json::write(&report::MapJson { map, with_time: false }, out)?;
+            }
+            "the whole map is on standard output as JSON"
+        };
+        Err(anyhow::Error::from(error).context(format!("cannot write {shown}; {kept}")))
     }
 }
 
@@ -242,11 +249,11 @@ fn width() -> usize {
     size.map_or(WIDTH, |(columns, _)| usize::from(columns))
 }
 
-fn write_file(map: &Map, format: &str, path: &Path) -> std::io::Result<()> {
+fn write_file(map: &Map, format: &str, path: &Path) -> std::io::Result<Written> {
     file::replace(path, |out| match format {
         "csv" => report::write_csv(map, out),
-        "json" => json::write(&report::to_json(map, false), out),
+        "json" => json::write(&report::MapJson { map, with_time: false }, out),
         "svg" => svg::write(&report::figure(map, &overlay::curves(&map.plan)), out),
-        _ => part::write(map, out),
+        _ => part::write(map, out).map(drop),
     })
 }

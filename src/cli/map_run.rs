@@ -1,19 +1,19 @@
 //! The computation behind `rubscope map`: threads, progress, signals, and the
 //! part file that saves every cell as soon as it is known.
 
-use std::fs::{File, OpenOptions};
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use anyhow::Context;
+use rayon::prelude::*;
 use signal_hook::consts::{SIGINT, SIGTERM};
 
 use super::output;
+use super::part_file::{PartFile, save_new};
 use super::status::say;
-use crate::study::{Cell, Map, Progress, part};
+use crate::study::{Cell, Map, Progress, Shard, part};
 
 /// How often the bar and the signals are checked.
 const LOOK: Duration = Duration::from_millis(100);
@@ -25,13 +25,13 @@ pub(super) struct Kept {
     /// Number of threads.
     pub threads: Option<usize>,
     /// Where cells are saved as soon as they are known.
-    pub part: Option<PathBuf>,
+    pub part: Option<PartFile>,
 }
 
 /// Computes the cells of a map; the number of the signal that stopped it.
 pub(super) fn compute(
     map: &mut Map,
-    indices: &[usize],
+    shard: Shard,
     kept: &Kept,
     out: &mut dyn Write,
 ) -> anyhow::Result<Option<u8>> {
@@ -40,21 +40,19 @@ pub(super) fn compute(
     for number in [SIGINT, SIGTERM] {
         signal_hook::flag::register_usize(number, Arc::clone(&signal), number as usize)?;
     }
-    let notes = match &kept.part {
-        Some(path) => Some(Notes::open(path, map)?),
-        None => None,
-    };
+    let notes = kept.part.as_ref();
     let mut builder = rayon::ThreadPoolBuilder::new();
     if let Some(threads) = kept.threads {
         builder = builder.num_threads(threads);
     }
     let pool = builder.build()?;
-    let missing = indices.iter().filter(|&&index| map.cells[index].is_none()).count();
+    let indices = shard.indices(map.cells.len());
+    let missing = indices.clone().filter(|&index| map.cells[index].is_none()).count();
     let finished = AtomicBool::new(false);
     std::thread::scope(|scope| {
         scope.spawn(|| watch(&progress, &signal, &finished, missing as u64));
         let keep = |index: usize, cell: Cell| {
-            if let Some(notes) = &notes {
+            if let Some(notes) = notes {
                 notes.keep(index, cell);
             }
         };
@@ -67,7 +65,7 @@ pub(super) fn compute(
         });
         finished.store(true, Ordering::Relaxed);
     });
-    let trouble = notes.and_then(Notes::close);
+    let trouble = notes.and_then(|notes| Some((notes.path(), notes.trouble()?)));
     if let Some((path, error)) = &trouble {
         say(&format!("rubscope: could not save cells in {}: {error}", path.display()));
     }
@@ -79,7 +77,7 @@ pub(super) fn compute(
             Ok(None)
         }
         number => {
-            stopped(map, kept.part.as_deref().filter(|_| trouble.is_none()), out)?;
+            stopped(map, notes.map(PartFile::path).filter(|_| trouble.is_none()), out)?;
             Ok(Some(u8::try_from(number).unwrap_or(1)))
         }
     }
@@ -96,29 +94,20 @@ fn say_what_was_saved(map: &Map) {
     ));
 }
 
-/// Where cells go if no file was named; never overwrites those of another run.
-fn unused_name() -> PathBuf {
-    let path = PathBuf::from("rubscope-map.partial");
-    if path.exists() {
-        PathBuf::from(format!("rubscope-map-{}.partial", std::process::id()))
-    } else {
-        path
-    }
-}
-
 /// Saves what is done and prints how to continue. If no part file has all
 /// cells, one is written; if that fails, the cells go to standard output.
 fn stopped(map: &Map, complete: Option<&Path>, out: &mut dyn Write) -> anyhow::Result<()> {
-    let path = complete.map_or_else(unused_name, Path::to_path_buf);
+    let saved = complete.map_or_else(|| save_new(map), |path| Ok(path.to_path_buf()));
+    let path = match saved {
+        Ok(path) => path,
+        Err((path, error)) => {
+            part::write(map, out)?;
+            let kept = "its cells are on standard output, to be saved as a part for --resume";
+            let shown = path.display();
+            return Err(anyhow::Error::from(error).context(format!("cannot write {shown}; {kept}")));
+        }
+    };
     let done = map.cells.iter().flatten().count();
-    if complete.is_none()
-        && let Err(error) = crate::report::file::replace(&path, |out| part::write(map, out))
-    {
-        part::write(map, out)?;
-        let kept = "its cells are on standard output, to be saved as a part for --resume";
-        let shown = path.display();
-        return Err(anyhow::Error::from(error).context(format!("cannot write {shown}; {kept}")));
-    }
     say(&format!(
         "rubscope: stopped; {done} of {} cells are kept: go on with the same command and --resume {}",
         map.cells.len(),
@@ -138,43 +127,4 @@ fn watch(progress: &Progress, signal: &AtomicUsize, finished: &AtomicBool, cells
         std::thread::sleep(LOOK.min(Duration::from_millis(1 + cells / 100)));
     }
     bar.finish_and_clear();
-}
-
-/// The part file during the computation.
-struct Notes {
-    path: PathBuf,
-    file: Mutex<(File, Option<std::io::Error>)>,
-}
-
-impl Notes {
-    /// Writes the file again with the known cells, which removes a line that a
-    /// kill left incomplete.
-    fn open(path: &Path, map: &Map) -> anyhow::Result<Self> {
-        let cannot = || format!("cannot write {}", path.display());
-        crate::report::file::replace(path, |out| part::write(map, out)).with_context(cannot)?;
-        let file = OpenOptions::new().append(true).open(path).with_context(cannot)?;
-        Ok(Self { path: path.to_path_buf(), file: Mutex::new((file, None)) })
-    }
-
-    fn lock(&self) -> MutexGuard<'_, (File, Option<std::io::Error>)> {
-        self.file.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    /// Saves one cell. A full disk must not stop the computation: the first
-    /// error is stored and reported at the end.
-    fn keep(&self, index: usize, cell: Cell) {
-        let mut guard = self.lock();
-        let (file, trouble) = &mut *guard;
-        if trouble.is_none() {
-            // One write per line: a run that is killed leaves whole lines.
-            let mut line = Vec::with_capacity(24);
-            let written = part::write_cell(index, cell, &mut line);
-            *trouble = written.and_then(|()| file.write_all(&line)).err();
-        }
-    }
-
-    fn close(self) -> Option<(PathBuf, std::io::Error)> {
-        let (_, trouble) = self.file.into_inner().unwrap_or_else(PoisonError::into_inner);
-        Some((self.path, trouble?))
-    }
 }

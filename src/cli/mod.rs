@@ -13,6 +13,7 @@ mod map;
 mod map_run;
 pub mod options;
 mod output;
+mod part_file;
 mod precision;
 pub mod range;
 mod run;
@@ -59,6 +60,7 @@ enum Command {
 
 /// Runs the program on these arguments and returns its exit status.
 pub fn main(args: impl IntoIterator<Item = OsString>) -> u8 {
+    output::outlive_size_limit();
     let cli = match Cli::try_parse_from(args) {
         Ok(cli) => cli,
         Err(error) => return status::usage(&error),
@@ -78,7 +80,7 @@ fn dispatch(cli: Cli, out: &mut dyn Write) -> Done {
         Some(Command::Hbm(command)) => command.run(out),
         Some(Command::Map(command)) => command.run(out),
         Some(Command::Precision(command)) => command.run(out),
-        Some(Command::Figures(command)) => command.run(),
+        Some(Command::Figures(command)) => command.run(out),
         Some(Command::Scenes(command)) => command.run(out),
         Some(Command::Completions(command)) => command.run(out),
         Some(Command::Man(command)) => command.run(out),

@@ -4,7 +4,7 @@
 use clap::Args;
 
 use super::range::Range;
-use super::status::{Refusal, say};
+use super::status::{Refusal, note};
 use super::words::Words;
 use crate::scene::{Adjustment, CheckedScene, ContactLaw, DEFAULT, ModelSize, Scene, SolverKind};
 use crate::study::overlay::{PULSE, SPEED};
@@ -151,7 +151,7 @@ impl SceneOptions {
             }
         }
         let scene = scene.checked()?;
-        made.iter().for_each(|made| say(&followed(made)));
+        made.iter().for_each(|made| note(followed(made)));
         Ok(Resolved { scene, speeds, pulses })
     }
 

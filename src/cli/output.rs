@@ -8,7 +8,7 @@ use anyhow::Context;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::status::{Refusal, say};
-use crate::report::file;
+use crate::file::{self, Written};
 
 /// A progress bar on standard error of this length and form.
 pub fn bar(length: u64, template: &str) -> ProgressBar {
@@ -39,17 +39,70 @@ pub fn format(path: &Path, endings: &[&'static str]) -> anyhow::Result<&'static 
     Ok(known)
 }
 
-/// Writes a file, completely or not at all, and prints what is in it.
+/// Writes a file, completely or not at all, and prints what is in it, and whether
+/// it replaced another. If it cannot be written, its text goes to standard output,
+/// so that nothing computed is lost.
 ///
 /// # Errors
 /// An error of the system.
 pub fn save(
     path: &Path,
     what: &str,
-    content: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
+    out: &mut dyn Write,
+    content: impl Fn(&mut dyn Write) -> std::io::Result<()>,
 ) -> anyhow::Result<()> {
-    let shown = path.display();
-    file::replace(path, content).with_context(|| format!("cannot write {shown}"))?;
-    say(&format!("rubscope: wrote {what} to {shown}"));
+    save_or(path, what, out, &content, &content)
+}
+
+/// As `save`, with a text in place of a file that is none.
+///
+/// # Errors
+/// As `save`.
+pub fn save_or(
+    path: &Path,
+    what: &str,
+    out: &mut dyn Write,
+    content: &dyn Fn(&mut dyn Write) -> std::io::Result<()>,
+    text: &dyn Fn(&mut dyn Write) -> std::io::Result<()>,
+) -> anyhow::Result<()> {
+    let written = replace_or_print(path, out, content, text)?;
+    say_written(written, what, &path.display());
     Ok(())
+}
+
+/// Writes a file; if that fails, its text goes to standard output.
+///
+/// # Errors
+/// An error of the system.
+pub fn replace_or_print(
+    path: &Path,
+    out: &mut dyn Write,
+    content: &dyn Fn(&mut dyn Write) -> std::io::Result<()>,
+    text: &dyn Fn(&mut dyn Write) -> std::io::Result<()>,
+) -> anyhow::Result<Written> {
+    file::replace(path, content).or_else(|error| {
+        text(out)?;
+        out.flush()?;
+        let reason = format!("cannot write {}; its text is on standard output", path.display());
+        Err(anyhow::Error::from(error).context(reason))
+    })
+}
+
+/// Says what is in a file that was written.
+pub fn say_written(written: Written, what: &str, shown: &impl std::fmt::Display) {
+    say(&match written {
+        Written::New => format!("rubscope: wrote {what} to {shown}"),
+        Written::Replaced => format!("rubscope: replaced {shown} ({what})"),
+    });
+}
+
+/// Lets a write beyond the limit of file sizes fail, as on a full disk. Without
+/// this the system ends the program there.
+pub fn outlive_size_limit() {
+    #[cfg(unix)]
+    {
+        let seen = std::sync::Arc::new(std::sync::atomic::AtomicBool::new(false));
+        // If it cannot be had, all else still works.
+        let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, seen);
+    }
 }

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::options::SceneOptions;
-use super::status::{Refusal, Status};
+use super::status::{self, Refusal, Status};
 use super::{Done, output};
 use crate::report::{json, precision as report, svg};
 use crate::study::precision::{Effort, Measure, Precision, ways};
@@ -45,6 +45,7 @@ impl PrecisionCommand {
         let ways = ways(&scene, effort);
         let bar = output::bar(ways.len() as u64, "{bar:30} {pos}/{len} {msg}");
         let measure = Measure::new(&scene)?;
+        status::go_on();
         let mut rows = Vec::with_capacity(ways.len());
         for way in ways {
             bar.set_message(report::series(&way));
@@ -58,17 +59,18 @@ impl PrecisionCommand {
     fn deliver(&self, measured: &Precision, format: Option<&str>, out: &mut dyn Write) -> Done {
         if self.json {
             json::write_as("rubscope.precision/1", measured, out)?;
-        } else {
-            report::write(measured, out)?;
         }
         if let Some(path) = &self.out {
             let rows = format!("{} rows", measured.rows.len());
             if format == Some("svg") {
                 let figure = report::figure(measured).map_err(Refusal::because)?;
-                output::save(path, &rows, |out| svg::write(&figure, out))?;
+                output::save(path, &rows, out, |out| svg::write(&figure, out))?;
             } else {
-                output::save(path, &rows, |out| report::table(measured).write_csv(out))?;
+                output::save(path, &rows, out, |out| report::table(measured).write_csv(out))?;
             }
+        }
+        if !self.json {
+            report::write(measured, out)?;
         }
         Ok(Status::Done)
     }

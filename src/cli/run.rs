@@ -8,7 +8,7 @@ use clap::Args;
 
 use super::options::SceneOptions;
 use super::script::{self, RequestedScript};
-use super::status::Status;
+use super::status::{self, Status};
 use super::{Done, output};
 use crate::motion::{Sampling, Verdict, is_sensitive_with, run_to_end};
 use crate::report::{History, json, npz, summary};
@@ -52,20 +52,23 @@ impl RunCommand {
             Some(_) => Sampling { intervals: self.samples - 1, gaps: true },
             None => Sampling::default(),
         };
+        status::go_on();
         let started = Instant::now();
         let mut report = run_to_end(&scene, &acts, sampling, &mut |sample| history.push(sample));
         let wall_s = started.elapsed().as_secs_f64();
         report.outcome.sensitive = is_sensitive_with(&scene, &acts, report.reached);
-        if let Some((path, format)) = path {
-            output::save(path, &format!("{} samples", history.len()), |out| match format {
-                "csv" => history.write_csv(out),
-                _ => npz::write(&history, out),
-            })?;
-        }
         let changes = Some(&script).filter(|script| !script.is_empty());
         if self.json {
             json::write_run(&report, wall_s, changes, out)?;
-        } else {
+        }
+        if let Some((path, format)) = path {
+            let samples = format!("{} samples", history.len());
+            let csv = |out: &mut dyn Write| history.write_csv(out);
+            let npz = |out: &mut dyn Write| npz::write(&history, out);
+            let content: &dyn Fn(&mut dyn Write) -> _ = if format == "csv" { &csv } else { &npz };
+            output::save_or(path, &samples, out, content, &csv)?;
+        }
+        if !self.json {
             summary::write(&report, wall_s, out)?;
             if let Some(script) = changes {
                 writeln!(out, "Changed during the run: {script}.")?;

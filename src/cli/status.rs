@@ -2,11 +2,13 @@
 //! input, 128 + n on signal n. Every message is one line on standard error.
 
 use std::io::{ErrorKind, Write};
+use std::sync::{Mutex, PoisonError};
 
 use clap::error::ErrorKind as Usage;
 use thiserror::Error;
 
 use crate::scene::SceneError;
+use crate::scene::keys::is_plain;
 
 /// How a command ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,6 +43,9 @@ const BROKEN_PIPE: u8 = 13;
 
 /// The exit status of a command, after its message if it has one.
 pub fn exit(done: super::Done) -> u8 {
+    if done.is_ok() {
+        go_on();
+    }
     let error = match done {
         Ok(Status::Done) => return 0,
         Ok(Status::Failed) => return 1,
@@ -52,8 +57,36 @@ pub fn exit(done: super::Done) -> u8 {
         // The reader closed the output: end silently, as by SIGPIPE.
         return 128 + BROKEN_PIPE;
     }
+    if error.is::<SceneError>() || error.is::<Refusal>() {
+        // What would have been done is of no interest: the refusal stands alone.
+        noted().clear();
+        say(&format!("rubscope: {error:#}"));
+        return 2;
+    }
+    go_on();
     say(&format!("rubscope: {error:#}"));
-    if error.is::<SceneError>() || error.is::<Refusal>() { 2 } else { 1 }
+    1
+}
+
+/// Lines to be said once the command goes on.
+static NOTED: Mutex<Vec<String>> = Mutex::new(Vec::new());
+
+fn noted() -> std::sync::MutexGuard<'static, Vec<String>> {
+    NOTED.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Keeps a line until nothing in the input can be refused any more.
+pub fn note(line: String) {
+    let mut noted = noted();
+    if !noted.contains(&line) {
+        noted.push(line);
+    }
+}
+
+/// Says what was noted: the input is accepted.
+pub fn go_on() {
+    let lines = std::mem::take(&mut *noted());
+    lines.iter().for_each(|line| say(line));
 }
 
 /// The exit status of a command line that clap did not turn into a command:
@@ -95,11 +128,7 @@ const SHOWN: usize = 800;
 /// A message without what quoted input must not do to a terminal: no control
 /// characters, no breaks of lines or of their direction, no endless text.
 fn clean(line: &str) -> String {
-    let unsafe_ones = |c: char| {
-        c.is_control()
-            || matches!(c, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
-    };
-    let plain = |c: char| if unsafe_ones(c) { ' ' } else { c };
+    let plain = |c: char| if is_plain(c) { c } else { ' ' };
     let count = line.chars().count();
     if count <= 2 * SHOWN {
         return line.chars().map(plain).collect();

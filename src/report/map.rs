@@ -3,10 +3,11 @@
 
 use std::io::{Result, Write};
 
-use serde_json::{Map as Object, Value, json};
+use serde::ser::{Serialize, SerializeMap, Serializer};
+use serde_json::json;
 
 use super::number::short;
-use super::table::{self, Table};
+use super::table;
 use crate::motion::Verdict;
 use crate::study::figures::{Figure, Panel, Quantity, Series, Style};
 use crate::study::{Axis, Cell, Map, overlay};
@@ -17,31 +18,58 @@ const TEXT_ROWS: usize = 40;
 const INDENT: usize = 14;
 const FRAME: usize = INDENT + 1;
 
-/// The map as JSON. The wall time is given on standard output only, so that the
-/// same map gives the same file.
-#[must_use]
-pub fn to_json(map: &Map, with_time: bool) -> Value {
-    let mut object = Object::new();
-    object.insert("schema".into(), json!("rubscope.map/1"));
-    object.insert("scene".into(), json!(map.plan.scene));
-    for (name, axis) in [("x", &map.plan.x), ("y", &map.plan.y)] {
-        object.insert(name.into(), json!({ "path": axis.path, "log": axis.log }));
-        object.insert(leaf(axis).into(), json!(axis.values()));
+/// The map as JSON, written cell by cell: it may be much larger than the map in
+/// memory. The wall time is given on standard output only, so that the same map
+/// gives the same file.
+#[derive(Clone, Copy, Debug)]
+pub struct MapJson<'a> {
+    /// The map.
+    pub map: &'a Map,
+    /// Whether to give the wall time.
+    pub with_time: bool,
+}
+
+impl Serialize for MapJson<'_> {
+    fn serialize<S: Serializer>(&self, out: S) -> std::result::Result<S::Ok, S::Error> {
+        let Self { map, with_time } = *self;
+        let mut object = out.serialize_map(None)?;
+        object.serialize_entry("schema", "rubscope.map/1")?;
+        object.serialize_entry("scene", &map.plan.scene)?;
+        let names = names(map);
+        for (short, name, axis) in [("x", names[0], &map.plan.x), ("y", names[1], &map.plan.y)] {
+            object.serialize_entry(short, &json!({ "path": axis.path, "log": axis.log }))?;
+            object.serialize_entry(name, &axis.values())?;
+        }
+        object.serialize_entry("verdict", &Rows { map, value: |cell| cell.verdict })?;
+        object.serialize_entry("sensitive", &Rows { map, value: |cell| cell.sensitive })?;
+        object.serialize_entry("wall_s", &with_time.then_some(map.wall_s))?;
+        object.serialize_entry("runs", &map.runs)?;
+        object.end()
     }
-    let rows = |value: &dyn Fn(Cell) -> Value| -> Value {
-        (0..map.plan.y.count)
-            .map(|row| {
-                (0..map.plan.x.count)
-                    .map(|column| map.at(column, row).map_or(Value::Null, value))
-                    .collect::<Value>()
-            })
-            .collect()
-    };
-    object.insert("verdict".into(), rows(&|cell| json!(cell.verdict)));
-    object.insert("sensitive".into(), rows(&|cell| json!(cell.sensitive)));
-    object.insert("wall_s".into(), if with_time { json!(map.wall_s) } else { Value::Null });
-    object.insert("runs".into(), json!(map.runs));
-    Value::Object(object)
+}
+
+/// A value of every cell, in rows; none where nothing is computed.
+struct Rows<'a, T> {
+    map: &'a Map,
+    value: fn(Cell) -> T,
+}
+
+impl<T: Serialize> Serialize for Rows<'_, T> {
+    fn serialize<S: Serializer>(&self, out: S) -> std::result::Result<S::Ok, S::Error> {
+        out.collect_seq((0..self.map.plan.y.count).map(|row| Row { rows: self, row }))
+    }
+}
+
+struct Row<'a, T> {
+    rows: &'a Rows<'a, T>,
+    row: u32,
+}
+
+impl<T: Serialize> Serialize for Row<'_, T> {
+    fn serialize<S: Serializer>(&self, out: S) -> std::result::Result<S::Ok, S::Error> {
+        let Rows { map, value } = self.rows;
+        out.collect_seq((0..map.plan.x.count).map(|column| map.at(column, self.row).map(value)))
+    }
 }
 
 /// The last part of an axis's key, such as `speed_rad_s`.
@@ -50,25 +78,31 @@ pub fn leaf(axis: &Axis) -> &str {
     axis.path.rsplit('.').next().unwrap_or(&axis.path)
 }
 
+/// The names of the two axes in a file: never the same one twice.
+fn names(map: &Map) -> [&str; 2] {
+    let (x, y) = (&map.plan.x, &map.plan.y);
+    if leaf(x) == leaf(y) { [&x.path, &y.path] } else { [leaf(x), leaf(y)] }
+}
+
 /// The map as CSV, a line a cell.
 ///
 /// # Errors
 /// An error of the writer.
 pub fn write_csv(map: &Map, out: &mut dyn Write) -> Result<()> {
     let (x, y) = (&map.plan.x, &map.plan.y);
-    let mut table = Table::new([leaf(x), leaf(y), "verdict", "sensitive"]);
-    for (row, column) in (0..y.count).flat_map(|row| (0..x.count).map(move |column| (row, column)))
-    {
+    let [first, second] = names(map);
+    let places = (0..y.count).flat_map(|row| (0..x.count).map(move |column| (row, column)));
+    let rows = places.map(|(row, column)| {
         let cell = map.at(column, row);
-        table.push(vec![
+        [
             // Values of an axis are never written with a power of ten.
             x.value(column).to_string().into(),
             y.value(row).to_string().into(),
             cell.map_or_else(String::new, |cell| cell.verdict.to_string()).into(),
             cell.map_or(table::TableCell::Empty, |cell| cell.sensitive.into()),
-        ]);
-    }
-    table.write_csv(out)
+        ]
+    });
+    table::write_csv([first, second, "verdict", "sensitive"], rows, out)
 }
 
 /// The map as a figure, with these curves.

@@ -2,7 +2,6 @@
 //! and a place to write to; it computes nothing itself.
 
 pub mod figure;
-pub mod file;
 pub mod hbm;
 pub mod history;
 pub mod json;

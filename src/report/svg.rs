@@ -7,6 +7,7 @@ use plotters::prelude::*;
 
 use super::number::short;
 use crate::motion::Verdict;
+use crate::scene::keys::is_plain;
 use crate::study::figures::{Figure, Panel, Quantity, Series, Style};
 
 /// Factor of the drawing size over the shown size: the backend has whole
@@ -76,7 +77,9 @@ fn font(size: i32) -> (&'static str, i32) {
 }
 
 fn write_at(area: &Area, text: &str, (x, y): (i32, i32), size: i32) -> Drawn<()> {
-    Ok(area.draw_text(text, &font(size).into_text_style(area), (px(x), px(y)))?)
+    // Text of a scene is plain, that of a caller of the library need not be.
+    let text: String = text.chars().filter(|c| is_plain(*c)).collect();
+    Ok(area.draw_text(&text, &font(size).into_text_style(area), (px(x), px(y)))?)
 }
 
 fn draw_panel(panel: &Panel, area: &Area, names: u32) -> Drawn<()> {

@@ -1,7 +1,6 @@
 //! Reads and writes scene files (TOML). Keys that a file does not contain have
 //! the documented default (the paper's machine); unknown keys are refused.
 
-use std::io::Read;
 use std::path::Path;
 
 use toml::{Table, Value as Toml};
@@ -43,14 +42,8 @@ impl Scene {
             });
         }
         let refused = |reason: String| SceneError::File { path: name_or_path.to_string(), reason };
-        let file = std::fs::File::open(path).map_err(|error| refused(error.to_string()))?;
-        let mut text = String::new();
-        // A device or a huge file ends here, not in memory.
-        let read = file.take(LARGEST_FILE + 1).read_to_string(&mut text);
-        read.map_err(|error| refused(error.to_string()))?;
-        if text.len() as u64 > LARGEST_FILE {
-            return Err(refused(format!("allowed are up to {LARGEST_FILE} bytes")));
-        }
+        let text = crate::file::read_text(path, LARGEST_FILE)
+            .map_err(|error| refused(error.to_string()))?;
         Self::from_toml_unchecked(&text).map_err(|error| in_file(name_or_path, error))
     }
 
@@ -148,7 +141,9 @@ fn read(scene: &mut Scene, path: &str, toml: &Toml) -> Result<(), SceneError> {
         (Toml::Float(x), Allowed::Real { .. }) => Some(Value::Real(*x)),
         (Toml::Integer(n), Allowed::Real { .. }) => Some(Value::Real(*n as f64)),
         (Toml::Integer(n), Allowed::Whole { .. }) => u64::try_from(*n).ok().map(Value::Whole),
-        (Toml::String(text), Allowed::OneOf(_) | Allowed::Text) => Some(Value::Text(text.clone())),
+        (Toml::String(text), Allowed::OneOf(_) | Allowed::Text { .. }) => {
+            Some(Value::Text(text.clone()))
+        }
         (Toml::Array(items), Allowed::SomeOf(_)) => items
             .iter()
             .map(|item| item.as_str().map(String::from))

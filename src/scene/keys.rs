@@ -53,8 +53,11 @@ pub enum Allowed {
     OneOf(&'static [&'static str]),
     /// One or more of these words.
     SomeOf(&'static [&'static str]),
-    /// Any line of text.
-    Text,
+    /// A line of text of up to so many characters.
+    Text {
+        /// Most characters.
+        most: usize,
+    },
 }
 
 impl std::fmt::Display for Allowed {
@@ -69,7 +72,7 @@ impl std::fmt::Display for Allowed {
             Self::Whole { min, max } => write!(out, "a whole number from {min} to {max}"),
             Self::OneOf(words) => write!(out, "one of {}", words.join(", ")),
             Self::SomeOf(words) => write!(out, "a list of {}", words.join(", ")),
-            Self::Text => write!(out, "a line of text"),
+            Self::Text { most } => write!(out, "a line of text of up to {most} characters"),
         }
     }
 }
@@ -106,7 +109,14 @@ impl Key {
             (Value::Words(list), Allowed::SomeOf(words)) => {
                 !list.is_empty() && list.iter().all(|word| words.contains(&word.as_str()))
             }
-            (Value::Text(text), Allowed::Text) => !text.chars().any(char::is_control),
+            (Value::Text(text), Allowed::Text { most }) => {
+                let length = text.chars().count();
+                if length > most {
+                    let given = format!("{length} characters");
+                    return Err(SceneError::refused(self.path, given, self.allowed.to_string()));
+                }
+                text.chars().all(is_plain)
+            }
             _ => false,
         };
         if fits {
@@ -127,12 +137,23 @@ impl Key {
             Allowed::Real { .. } => Value::Real(trimmed.parse().map_err(|_| refused())?),
             Allowed::Whole { .. } => Value::Whole(trimmed.parse().map_err(|_| refused())?),
             Allowed::OneOf(_) => Value::Text(trimmed.to_string()),
-            Allowed::Text => Value::Text(text.to_string()),
+            Allowed::Text { .. } => Value::Text(text.to_string()),
             Allowed::SomeOf(_) => {
                 Value::Words(trimmed.split(',').map(|word| word.trim().to_string()).collect())
             }
         })
     }
+}
+
+/// Whether a character may be in a line of text: none that moves the cursor of a
+/// terminal, breaks the line or its direction, or is none of XML.
+#[must_use]
+pub fn is_plain(c: char) -> bool {
+    let moves = matches!(
+        c,
+        '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}'
+    );
+    !c.is_control() && !moves && !matches!(c, '\u{fffe}' | '\u{ffff}')
 }
 
 /// The key with this dotted path.
@@ -197,12 +218,12 @@ macro_rules! word {
     };
 }
 macro_rules! text {
-    ($path:literal, $what:literal, $field:ident) => {
+    ($path:literal, $what:literal, $most:literal, $field:ident) => {
         Key {
             path: $path,
             unit: "-",
             what: $what,
-            allowed: Allowed::Text,
+            allowed: Allowed::Text { most: $most },
             get: |scene| Value::Text(scene.$field.clone()),
             set: |scene, value| {
                 if let Value::Text(text) = value {
@@ -215,8 +236,8 @@ macro_rules! text {
 
 /// Every key but `schema`, in the order of the file.
 pub const KEYS: &[Key] = &[
-    text!("title", "one line that names the scene", title),
-    text!("note", "what to look for", note),
+    text!("title", "one line that names the scene", 200, title),
+    text!("note", "what to look for", 4000, note),
     whole!("bladed_disk.blades", "number of blades N", 1..4096, bladed_disk.blades),
     real!("bladed_disk.blade_length_m", "m", "blade length l_b", true 0.0..1e3, bladed_disk.blade_length_m),
     real!("bladed_disk.inertia_kg_m2", "kg m^2", "blade inertia m_b", true 0.0..1e9, bladed_disk.inertia_kg_m2),

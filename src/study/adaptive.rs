@@ -9,7 +9,9 @@
 
 use std::sync::atomic::Ordering;
 
-use super::map::{Cell, Map, Progress};
+use rayon::prelude::*;
+
+use super::{Cell, Map, Progress};
 
 /// Coarsest stride between computed cells.
 const COARSEST: usize = 8;
@@ -24,13 +26,15 @@ impl Map {
     pub fn fill_adaptively(&mut self, progress: &Progress, keep: Keep<'_>) {
         let mut stride = self.coarsest_stride();
         let mut inferred = vec![false; self.cells.len()];
-        let coarse = self.grid(stride);
-        self.fill(&coarse, progress, keep);
+        let coarse: Vec<usize> = self.grid(stride).collect();
+        self.fill(coarse.into_par_iter(), progress, keep);
         while stride > 1 && !progress.stop.load(Ordering::Relaxed) {
             let half = stride / 2;
-            let mut wanted = self.grid(half);
-            wanted.retain(|&index| self.cells[index].is_none() && self.is_mixed(index, stride));
-            self.fill(&wanted, progress, keep);
+            let wanted: Vec<usize> = self
+                .grid(half)
+                .filter(|&index| self.cells[index].is_none() && self.is_mixed(index, stride))
+                .collect();
+            self.fill(wanted.into_par_iter(), progress, keep);
             if !progress.stop.load(Ordering::Relaxed) {
                 self.infer(half, stride, &mut inferred);
             }
@@ -38,8 +42,8 @@ impl Map {
         }
         self.follow_borders(&mut inferred, progress, keep);
         if progress.stop.load(Ordering::Relaxed) {
-            for (cell, _) in self.cells.iter_mut().zip(&inferred).filter(|(_, guess)| **guess) {
-                *cell = None;
+            for (index, _) in inferred.iter().enumerate().filter(|(_, guess)| **guess) {
+                self.cells.set(index, None);
             }
         }
     }
@@ -67,9 +71,9 @@ impl Map {
             }
             for &index in &doubtful {
                 inferred[index] = false;
-                self.cells[index] = None;
+                self.cells.set(index, None);
             }
-            self.fill(&doubtful, progress, keep);
+            self.fill(doubtful.into_par_iter(), progress, keep);
         }
     }
 
@@ -104,24 +108,23 @@ impl Map {
 
     /// Gives the cells of the finer grid that were not run the value of the
     /// coarse cell before them.
-    fn infer(&mut self, half: usize, stride: usize, inferred: &mut [bool]) {
+    fn infer(&self, half: usize, stride: usize, inferred: &mut [bool]) {
         let columns = self.plan.x.count as usize;
         for index in self.grid(half) {
             if self.cells[index].is_none() {
                 let (column, row) = (index % columns, index / columns);
                 let from = (row / stride * stride) * columns + column / stride * stride;
-                self.cells[index] = self.cells[from];
+                self.cells.set(index, self.cells[from]);
                 inferred[index] = true;
             }
         }
     }
 
     /// Cells on multiples of `stride`, with the last column and row always in.
-    fn grid(&self, stride: usize) -> Vec<usize> {
-        let line = |count: usize| (0..count).filter(move |&i| i % stride == 0 || i + 1 == count);
-        let columns = self.plan.x.count as usize;
-        line(self.plan.y.count as usize)
-            .flat_map(|row| line(columns).map(move |column| row * columns + column))
-            .collect()
+    fn grid(&self, stride: usize) -> impl Iterator<Item = usize> + use<> {
+        let line =
+            move |count: usize| (0..count).filter(move |&i| i % stride == 0 || i + 1 == count);
+        let (columns, rows) = (self.plan.x.count as usize, self.plan.y.count as usize);
+        line(rows).flat_map(move |row| line(columns).map(move |column| row * columns + column))
     }
 }

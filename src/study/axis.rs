@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::scene::{Allowed, Scene, SceneError, Value, keys};
+use crate::scene::{Allowed, Key, Scene, SceneError, Value, keys};
 
 /// Most values one axis may have.
 pub const MOST_VALUES: u32 = 100_000;
@@ -85,9 +85,10 @@ impl Axis {
         if log && !(from > 0.0 && to > 0.0) {
             return Err(refused("log: with both ends above 0"));
         }
-        let mut scene = Scene::base();
-        axis.apply(&mut scene, 0)?;
-        axis.apply(&mut scene, count - 1)?;
+        // Of a single value, the second end is shown and must have a meaning too.
+        for end in [from, to] {
+            key.check(&as_value(key, end))?;
+        }
         Ok(axis)
     }
 
@@ -154,12 +155,15 @@ impl Axis {
     /// A value that the key does not allow.
     pub fn apply(&self, scene: &mut Scene, index: u32) -> Result<(), SceneError> {
         let key = keys::find(&self.path)?;
-        let value = self.value(index);
-        let value = match key.allowed {
-            Allowed::Whole { .. } if value >= 0.0 => Value::Whole(value.round() as u64),
-            _ => Value::Real(value),
-        };
-        scene.set_value(key, value)
+        scene.set_value(key, as_value(key, self.value(index)))
+    }
+}
+
+/// A number as a value of this key.
+fn as_value(key: &Key, value: f64) -> Value {
+    match key.allowed {
+        Allowed::Whole { .. } if value >= 0.0 => Value::Whole(value.round() as u64),
+        _ => Value::Real(value),
     }
 }
 

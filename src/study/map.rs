@@ -9,12 +9,12 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
-use super::Axis;
+use super::{Axis, Cell, Cells};
 use crate::motion::{Verdict, VerdictReached, is_sensitive, run_to_verdict};
 use crate::scene::{CheckedScene, Scene, SceneError};
 
-/// Most cells of one map: they are all held in memory.
-const MOST_CELLS: usize = 100_000_000;
+/// Most cells of one map, about 4000 x 4000: a byte each in memory, and days of runs.
+const MOST_CELLS: usize = 16_000_000;
 
 /// The plan of a map: everything that determines its cells.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,22 +29,13 @@ pub struct MapPlan {
     pub sensitivity: bool,
 }
 
-/// One cell.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Cell {
-    /// How the motion lasts.
-    pub verdict: Verdict,
-    /// Whether a relative change of 1e-9 of the pulse changes it.
-    pub sensitive: bool,
-}
-
 /// A map, whole or in part.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Map {
     /// Its plan.
     pub plan: MapPlan,
     /// Cells in order; none if not computed.
-    pub cells: Vec<Option<Cell>>,
+    pub cells: Cells,
     /// Number of cells that were computed by a run.
     pub runs: u64,
     /// Wall time of this computation \[s\].
@@ -151,7 +142,7 @@ impl Map {
     /// A map with nothing computed.
     #[must_use]
     pub fn empty(plan: MapPlan) -> Self {
-        let cells = vec![None; plan.len()];
+        let cells = Cells::empty(plan.len());
         Self { plan, cells, runs: 0, wall_s: 0.0 }
     }
 
@@ -159,31 +150,23 @@ impl Map {
     /// each to `keep` as soon as it is ready. Stops early on request.
     pub fn fill(
         &mut self,
-        indices: &[usize],
+        indices: impl IndexedParallelIterator<Item = usize>,
         progress: &Progress,
         keep: &(dyn Fn(usize, Cell) + Sync),
     ) {
         let started = Instant::now();
-        let missing: Vec<usize> =
-            indices.iter().copied().filter(|&index| self.cells[index].is_none()).collect();
-        let plan = &self.plan;
-        let computed: Vec<(usize, Cell)> = missing
-            .par_iter()
+        let (plan, cells) = (&self.plan, &self.cells);
+        let computed = indices
             .with_max_len(16)
-            .filter_map(|&index| {
-                if progress.stop.load(Ordering::Relaxed) {
-                    return None;
-                }
+            .filter(|&index| cells[index].is_none() && !progress.stop.load(Ordering::Relaxed))
+            .map(|index| {
                 let cell = plan.compute(index);
+                cells.set(index, Some(cell));
                 keep(index, cell);
                 progress.done.fetch_add(1, Ordering::Relaxed);
-                Some((index, cell))
             })
-            .collect();
-        self.runs += computed.len() as u64;
-        for (index, cell) in computed {
-            self.cells[index] = Some(cell);
-        }
+            .count();
+        self.runs += computed as u64;
         self.wall_s += started.elapsed().as_secs_f64();
     }
 

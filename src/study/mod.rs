@@ -3,6 +3,7 @@
 
 mod adaptive;
 mod axis;
+mod cells;
 pub mod figures;
 pub mod map;
 pub mod overlay;
@@ -10,5 +11,6 @@ pub mod part;
 pub mod precision;
 
 pub use axis::{Axis, AxisError, parse_range};
-pub use map::{Cell, Map, MapPlan, Progress};
+pub use cells::{Cell, Cells};
+pub use map::{Map, MapPlan, Progress};
 pub use part::{PartError, Shard};

@@ -56,7 +56,7 @@ fn axes_are_refused_in_one_line_that_says_what_is_allowed() {
         ),
         (
             &["--speed", "0:500:100000", "--pulse", "0:1:100000"],
-            "map = 100000 x 100000 cells: allowed is from 1 to 100000000 cells",
+            "map = 100000 x 100000 cells: allowed is from 1 to 16000000 cells",
         ),
         (&["--speed", "0:500:0"], "--speed = 0:500:0: allowed is FROM:TO:COUNT"),
         (&["--shard", "3/2", "--out", "a.part"], "--shard = 3/2: allowed is K/COUNT with K from 1"),

@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use rubscope::motion::{Verdict, run_to_verdict};
 use rubscope::scene::{ContactLaw, ModelSize, Scene, SolverKind};
 use rubscope::study::overlay::grazing_pulse;
-use rubscope::study::{Axis, Map, MapPlan, Progress};
+use rubscope::study::{Axis, Map, MapPlan, Progress, Shard};
 
 /// The paper's machine with rigid blades, cell by cell, without sensitivity.
 fn plan(speed: &str, pulse: &str) -> MapPlan {
@@ -23,8 +23,8 @@ fn plan(speed: &str, pulse: &str) -> MapPlan {
 
 fn filled(plan: MapPlan) -> Map {
     let mut map = Map::empty(plan);
-    let all: Vec<usize> = (0..map.cells.len()).collect();
-    map.fill(&all, &Progress::default(), &|_, _| {});
+    let all = Shard::WHOLE.indices(map.cells.len());
+    map.fill(all, &Progress::default(), &|_, _| {});
     assert!(map.is_complete());
     map
 }

@@ -3,7 +3,7 @@
 use super::{Figure, Panel, Quantity, Series, Style, speed_marks};
 use crate::motion::Verdict;
 use crate::scene::{ContactLaw, Scene, SolverKind};
-use crate::study::{Axis, Map, MapPlan, Progress};
+use crate::study::{Axis, Map, MapPlan, Progress, Shard};
 
 /// Speeds, from standstill to that of the scene.
 const SPEEDS: u32 = 51;
@@ -62,8 +62,8 @@ fn cells(scene: Scene) -> Vec<Series> {
     let x = axis("operation.speed_rad_s", (0.0, scene.operation.speed_rad_s), SPEEDS, false);
     let y = axis("operation.pulse_n", PULSE_RANGE, PULSES, true);
     let mut map = Map::empty(MapPlan { scene, x, y, sensitivity: false });
-    let all: Vec<usize> = (0..map.plan.len()).collect();
-    map.fill(&all, &Progress::default(), &|_, _| {});
+    let all = Shard::WHOLE.indices(map.plan.len());
+    map.fill(all, &Progress::default(), &|_, _| {});
     let (speeds, pulses) = (map.plan.x.values(), map.plan.y.values());
     Verdict::ALL
         .into_iter()

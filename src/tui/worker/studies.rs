@@ -89,9 +89,7 @@ impl Studies {
             // the whole map.
             let index = (self.map_next * stride(count)) % count;
             let cell = map.plan.compute(index);
-            if let Some(slot) = map.cells.get_mut(index) {
-                *slot = Some(cell);
-            }
+            map.cells.set(index, Some(cell));
             map.runs += 1;
             self.map_next += 1;
         }

@@ -1,0 +1,107 @@
+//! Writing files completely or not at all, and reading them within a limit.
+//!
+//! A new file is written under no name (Linux) or a hidden one, and takes its
+//! place when it is complete and on the disk. So a full disk, a failure or a kill
+//! leaves the file that was there before, and no other.
+
+mod in_place;
+mod place;
+mod temporary;
+
+use std::fs::File;
+use std::io::{BufWriter, Error, ErrorKind, Read, Result, Write};
+use std::path::Path;
+
+use place::Place;
+pub use place::check_place;
+use temporary::Temporary;
+pub use temporary::remove_temporaries;
+
+/// What writing a file did.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Written {
+    /// There was no file, or it is a device or a pipe.
+    New,
+    /// A file was replaced.
+    Replaced,
+}
+
+/// Replaces the file at `path`, if there is one, by what `write` writes,
+/// completely or not at all.
+///
+/// Mode and, as far as permitted, owner stay; links are followed and stay links.
+/// A file of several hard links is complete before its content is exchanged, and
+/// stays one file. A device or a pipe is written to directly.
+///
+/// # Errors
+/// An error of the system or of `write`, or a file that is read-only; what was
+/// there is then unchanged.
+pub fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<Written> {
+    match Place::of(path)? {
+        Place::Stream(path) => {
+            let out = File::options().append(true).open(path)?;
+            fill(&out, write)?;
+            Ok(Written::New)
+        }
+        Place::New(path) => {
+            let temporary = Temporary::beside(&path, None)?;
+            fill(temporary.file(), write)?;
+            temporary.sync()?;
+            temporary.replace(&path)?;
+            Ok(Written::New)
+        }
+        Place::Existing { path, metadata } if place::has_other_names(&metadata) => {
+            let complete = tempfile::tempfile_in(place::folder(&path))?;
+            fill(&complete, write)?;
+            in_place::exchange(&complete, &path)?;
+            Ok(Written::Replaced)
+        }
+        Place::Existing { path, metadata } => {
+            let temporary = Temporary::beside(&path, Some(&metadata))?;
+            fill(temporary.file(), write)?;
+            temporary.sync()?;
+            temporary.replace(&path)?;
+            Ok(Written::Replaced)
+        }
+    }
+}
+
+/// Creates a file, completely or not at all.
+///
+/// # Errors
+/// `AlreadyExists` where there is anything of this name, also if it came while
+/// `write` was at work; an error of the system or of `write`.
+pub fn create(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<()> {
+    if path.symlink_metadata().is_ok() {
+        return Err(Error::from(ErrorKind::AlreadyExists));
+    }
+    let (Place::New(path) | Place::Stream(path) | Place::Existing { path, .. }) = Place::of(path)?;
+    let temporary = Temporary::beside(&path, None)?;
+    fill(temporary.file(), write)?;
+    temporary.sync()?;
+    temporary.create(&path)
+}
+
+fn fill(file: &File, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<()> {
+    let mut out = BufWriter::new(file);
+    write(&mut out)?;
+    out.flush()
+}
+
+/// The text of a file of at most this many bytes; no more are ever in memory.
+///
+/// # Errors
+/// An error of the system, a larger file, or bytes that are not UTF-8.
+pub fn read_text(path: &Path, most: u64) -> Result<String> {
+    let mut bytes = Vec::new();
+    // A device or a huge file ends here, not in memory.
+    File::open(path)?.take(most + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > most {
+        let reason = format!("allowed are up to {most} bytes");
+        return Err(Error::new(ErrorKind::FileTooLarge, reason));
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let place = error.utf8_error().valid_up_to();
+        Error::new(ErrorKind::InvalidData, format!("byte {place} is not UTF-8 text"))
+    })
+}

@@ -1,0 +1,173 @@
+//! Writing that is ended by a signal, by the limit of file sizes or by a full disk
+//! leaves what was there before, and no other file.
+
+#![cfg(unix)]
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+use crate::file_writer::names;
+
+/// A run with a history of some tens of megabytes.
+const LARGE: &str = "run --solver event --contact unilateral --model rigid --samples 200000";
+/// A run with a history of some hundred kilobytes.
+const SMALL: &str = "run --solver event --contact unilateral --model rigid --samples 2000";
+const MAP: &str = "map --contact bilateral --model rigid --step 1e-6 --speed 250:500:60 \
+                   --pulse 0:4e5:60 --no-sensitivity";
+const FIGURES: &str = "figures --only 9 --out .";
+
+fn program() -> String {
+    assert_cmd::cargo::cargo_bin!("rubscope").to_str().unwrap().to_string()
+}
+
+/// Whether the process has an unfinished file open in this folder.
+#[cfg(target_os = "linux")]
+fn writes_in(folder: &Path, process: u32) -> bool {
+    let Ok(open) = fs::read_dir(format!("/proc/{process}/fd")) else { return false };
+    let folder = folder.canonicalize().unwrap();
+    let at_work = |link: &Path| {
+        let name = link.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        link.starts_with(&folder) && (name.starts_with('#') || name.starts_with(".rubscope"))
+    };
+    open.flatten().any(|file| fs::read_link(file.path()).is_ok_and(|link| at_work(&link)))
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_signal_while_a_file_is_written_leaves_the_old_one_and_no_other() {
+    for (signal, code) in [("-TERM", 15), ("-INT", 2), ("-KILL", 9)] {
+        let mut met = 0;
+        for _ in 0..4 {
+            let folder = tempfile::tempdir().unwrap();
+            fs::write(folder.path().join("big.csv"), "old").unwrap();
+            let mut child = Command::new(program())
+                .args(LARGE.split_whitespace())
+                .args(["--out", "big.csv"])
+                .current_dir(folder.path())
+                .stdout(Stdio::null())
+                .stderr(Stdio::null())
+                .spawn()
+                .unwrap();
+            let since = Instant::now();
+            while !writes_in(folder.path(), child.id()) && child.try_wait().unwrap().is_none() {
+                assert!(since.elapsed() < Duration::from_secs(300), "nothing was written");
+                std::thread::sleep(Duration::from_micros(200));
+            }
+            let number = child.id().to_string();
+            let _ = Command::new("kill").args([signal, &number]).status();
+            let ended = child.wait().unwrap();
+            assert_eq!(names(folder.path()), ["big.csv"], "{signal}");
+            if !ended.success() {
+                use std::os::unix::process::ExitStatusExt;
+                let code_of_shell = ended.code().map(|status| status - 128);
+                assert_eq!(ended.signal().or(code_of_shell), Some(code), "{ended}");
+                assert_eq!(fs::read(folder.path().join("big.csv")).unwrap(), b"old");
+                met += 1;
+            }
+        }
+        assert!(met > 0, "no signal came while the file was written");
+    }
+}
+
+/// Runs a command under `sh` with files of at most `blocks` of 512 bytes.
+fn limited(folder: &Path, blocks: u32, command: &str) -> Output {
+    let script = format!("ulimit -f {blocks} && exec '{}' {command}", program());
+    Command::new("sh").args(["-c", &script]).current_dir(folder).output().unwrap()
+}
+
+/// The old file stands, no other came, and the text is on standard output.
+fn is_kept(output: &Output, folder: &Path, name: &str, start: &str) {
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    // A map says too that the file of its cells is not complete.
+    let lines: Vec<&str> =
+        said.lines().filter(|line| !line.starts_with("rubscope: could not save cells")).collect();
+    assert_eq!(lines.len(), 1, "{said}");
+    assert!(lines[0].starts_with(&format!("rubscope: cannot write {name}")), "{said}");
+    assert!(said.contains("standard output"), "{said}");
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert!(text.trim_start().starts_with(start), "{}", &text[..text.len().min(200)]);
+    assert_eq!(fs::read_to_string(folder.join(name.trim_start_matches("./"))).unwrap(), "old");
+}
+
+/// What is written, where, and how its text begins.
+const WRITERS: [(&str, &str, &str); 6] = [
+    (SMALL, "h.csv", "t_s,theta_rad"),
+    (SMALL, "h.npz", "t_s,theta_rad"),
+    ("hbm --speed 0:500:2000", "h.csv", "speed_rad_s"),
+    (MAP, "m.csv", "{"),
+    (MAP, "m.json", "{"),
+    (FIGURES, "./fig09.svg", "<svg"),
+];
+
+fn fails_in(folder: &Path, run: impl Fn(&str) -> Output) {
+    for (command, name, start) in WRITERS {
+        let path = folder.join(name.trim_start_matches("./"));
+        fs::write(&path, "old").unwrap();
+        let command = if command == FIGURES {
+            command.to_string()
+        } else {
+            format!("{command} --out {name}")
+        };
+        is_kept(&run(&command), folder, name, start);
+        fs::remove_file(&path).unwrap();
+        // The cells of a map stay for the next run.
+        let cells = folder.join(format!("{name}.partial"));
+        if command.starts_with("map") {
+            fs::remove_file(cells).unwrap();
+        }
+        assert!(names(folder).iter().all(|name| name == "full"), "{:?}", names(folder));
+    }
+}
+
+#[test]
+fn the_limit_of_file_sizes_is_a_full_disk_and_not_the_end() {
+    let folder = tempfile::tempdir().unwrap();
+    // Some 16 kB; the least that shells count is 512 or 1024 bytes.
+    fails_in(folder.path(), |command| limited(folder.path(), 16, command));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_leaves_the_old_file_and_no_other() {
+    let folder = tempfile::tempdir().unwrap();
+    let disk = folder.path().join("disk");
+    fs::create_dir(&disk).unwrap();
+    let mount = Command::new("mount")
+        .args(["-t", "tmpfs", "-o", "size=256k", "tmpfs"])
+        .arg(&disk)
+        .stderr(Stdio::null())
+        .status();
+    if !mount.is_ok_and(|status| status.success()) {
+        println!("skipped: mounting is not allowed here");
+        return;
+    }
+    struct Mounted<'a>(&'a Path);
+    impl Drop for Mounted<'_> {
+        fn drop(&mut self) {
+            let _ = Command::new("umount").arg(self.0).status();
+        }
+    }
+    let _mounted = Mounted(&disk);
+    fs::write(disk.join("full"), vec![b'x'; 240 << 10]).unwrap();
+    fails_in(&disk, |command| {
+        Command::new(program())
+            .args(command.split_whitespace())
+            .current_dir(&disk)
+            .output()
+            .unwrap()
+    });
+    // Also where several names lead to one file, which is exchanged in place.
+    fs::write(disk.join("full"), vec![b'x'; 180 << 10]).unwrap();
+    let (one, two) = (disk.join("one.csv"), disk.join("two.csv"));
+    fs::write(&one, "old").unwrap();
+    fs::hard_link(&one, &two).unwrap();
+    // Room for the complete copy, but not for a second.
+    let large = vec![b'y'; 40 << 10];
+    let failed = rubscope::file::replace(&one, |out| out.write_all(&large));
+    assert_eq!(failed.unwrap_err().kind(), std::io::ErrorKind::StorageFull);
+    assert_eq!(fs::read_to_string(&two).unwrap(), "old");
+    assert_eq!(names(&disk), ["full", "one.csv", "two.csv"]);
+}
