@@ -68,14 +68,16 @@ shown() { driver capture-pane -p -t pane; }
 type_in() { driver send-keys -t pane -l -- "$1"; }
 press() { driver send-keys -t pane "$@"; }
 resize() { driver resize-window -t pane -x "$1" -y "$2"; }
+# A session that stays: without one, the server of tmux ends.
+driver -f /dev/null new-session -d -s keeper
+# Without status line a window is as large as its pane.
+driver set-option -g status off
+driver set-option -g window-size manual
+driver set-option -g remain-on-exit on
 # Opens the pane, 120 x 40, with a command in it.
 open_pane() {
     driver kill-session -t pane 2>/dev/null || true
-    # Without status line a window is as large as its pane.
-    driver -f /dev/null new-session -d -s pane -x 120 -y 40 "exec $*"
-    driver set-option -g status off
-    driver set-option -g window-size manual
-    driver set-option -g remain-on-exit on
+    driver new-session -d -s pane -x 120 -y 40 "exec $*"
     resize 120 40
 }
 

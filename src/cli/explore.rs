@@ -11,6 +11,7 @@ use super::options::SceneOptions;
 use super::status::{self, Refusal, Status};
 use super::words::Words;
 use super::{Cli, Done};
+use crate::scene::{DEFAULT, Scene};
 use crate::tui;
 
 /// What the explorer opens with.
@@ -25,10 +26,12 @@ pub struct ExploreCommand {
     #[arg(long, value_name = "WHEN", default_value = "auto",
           value_parser = choice::<tui::Color>(), hide_possible_values = true)]
     color: tui::Color,
-    /// How points are drawn: braille, octant, halfblock, dot or ascii
-    #[arg(long, value_name = "MARKER", default_value = "braille",
+    /// How points are drawn: braille, octant, halfblock, dot or ascii [default:
+    /// ascii where TERM is linux, vt100 or alike or the locale is not UTF-8,
+    /// otherwise braille]
+    #[arg(long, value_name = "MARKER",
           value_parser = choice::<tui::Marker>(), hide_possible_values = true)]
-    marker: tui::Marker,
+    marker: Option<tui::Marker>,
 }
 
 fn frames(text: &str) -> Result<f64, String> {
@@ -49,7 +52,9 @@ where
 impl ExploreCommand {
     pub(super) fn run(&self) -> Done {
         self.refuse_command()?;
-        let scene = self.options.scene()?;
+        let name = self.options.name().unwrap_or(DEFAULT);
+        let read = Scene::load_unchecked(name)?;
+        let scene = self.options.change(read.clone())?;
         let dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
         if dumb || !std::io::stdout().is_terminal() {
             return Err(Refusal::because(
@@ -61,7 +66,7 @@ impl ExploreCommand {
             fps: self.fps,
             color: self.color,
             marker: self.marker,
-            source: self.options.name().map(String::from),
+            source: Some(tui::Source { name: name.to_string(), scene: read }),
         };
         status::go_on();
         match tui::explore(scene, look)? {

@@ -63,7 +63,16 @@ const EXIT_STATUS: &[(&str, &str)] = &[
 /// The environment variables that the explorer reads.
 const ENVIRONMENT: &[(&str, &str)] = &[
     ("NO_COLOR", "Not empty: no colours, unless --color is given; bold and reverse are kept."),
-    ("TERM", "dumb: the explorer does not start; the other commands work as usual."),
+    (
+        "TERM",
+        "dumb: the explorer does not start; the other commands work as usual. linux, vt100 and \
+         alike: the explorer draws with ASCII characters only, unless --marker is given.",
+    ),
+    (
+        "LC_ALL, LC_CTYPE, LANG",
+        "The first that is not empty is the locale. If it is not one of UTF-8, or none is set, \
+         the explorer draws with ASCII characters only, unless --marker is given.",
+    ),
 ];
 
 const EXAMPLES: &[(&str, &str)] = &[

@@ -65,7 +65,9 @@ pub fn main(args: impl IntoIterator<Item = OsString>) -> u8 {
         Ok(cli) => cli,
         Err(error) => return status::usage(&error),
     };
-    let mut out = BufWriter::new(std::io::stdout().lock());
+    // No lock for the whole program: it would stop every other thread that
+    // writes, for as long as the output is blocked.
+    let mut out = BufWriter::new(std::io::stdout());
     let done = dispatch(cli, &mut out).and_then(|status| {
         out.flush()?;
         Ok(status)

@@ -5,6 +5,7 @@ pub mod figure;
 pub mod hbm;
 pub mod history;
 pub mod json;
+pub mod line;
 pub mod map;
 pub mod npz;
 pub mod number;

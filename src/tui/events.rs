@@ -6,6 +6,8 @@ use std::thread;
 
 use crossterm::event::{self, KeyEvent, KeyEventKind};
 
+use super::files::FileResult;
+
 /// Something that happened.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ScreenEvent {
@@ -21,6 +23,10 @@ pub enum ScreenEvent {
     Suspend,
     /// The job was continued.
     Continued,
+    /// A text was pasted.
+    Pasted(String),
+    /// The file that was being written is done.
+    Written(FileResult),
     /// No more keys: the terminal is closed.
     InputClosed,
 }
@@ -38,6 +44,7 @@ pub fn read_keys(to: Sender<ScreenEvent>) -> std::io::Result<()> {
                     ScreenEvent::Key(key)
                 }
                 Ok(event::Event::Resize(..)) => ScreenEvent::Resize,
+                Ok(event::Event::Paste(text)) => ScreenEvent::Pasted(text),
                 Ok(_) => continue,
                 Err(_) => ScreenEvent::InputClosed,
             };
@@ -57,28 +64,57 @@ pub fn read_keys(to: Sender<ScreenEvent>) -> std::io::Result<()> {
 /// The system cannot start a thread or watch signals.
 #[cfg(unix)]
 pub fn watch_signals(to: Sender<ScreenEvent>) -> std::io::Result<()> {
-    use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP};
-    let mut signals =
-        signal_hook::iterator::Signals::new([SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGTSTP, SIGCONT])?;
+    use super::{files, terminal};
+    use signal_hook::consts::{SIGCONT, SIGTSTP, SIGXFSZ};
+    let watched = deadly_signals().into_iter().chain([SIGTSTP, SIGCONT, SIGXFSZ]);
+    let mut signals = signal_hook::iterator::Signals::new(watched)?;
     let watch = move || {
         for signal in signals.forever() {
-            let event = match signal {
-                SIGTSTP => ScreenEvent::Suspend,
-                SIGCONT => ScreenEvent::Continued,
-                deadly => ScreenEvent::Signal(u8::try_from(deadly).unwrap_or(0)),
-            };
-            let deadly = matches!(event, ScreenEvent::Signal(_));
-            let heard = to.send(event).is_ok();
-            if deadly {
-                if heard {
-                    thread::sleep(GRACE);
+            match signal {
+                SIGTSTP => {
+                    // The drawing thread must hear it even if its output is blocked.
+                    terminal::cut_frame();
+                    let _ = to.send(ScreenEvent::Suspend);
                 }
-                super::terminal::leave();
-                std::process::exit(128 + signal);
+                SIGCONT => _ = to.send(ScreenEvent::Continued),
+                // The file that became too large is refused with an error.
+                SIGXFSZ => {}
+                deadly => {
+                    let number = u8::try_from(deadly).unwrap_or(0);
+                    terminal::end(number);
+                    if to.send(ScreenEvent::Signal(number)).is_ok() {
+                        thread::sleep(GRACE);
+                    }
+                    terminal::leave();
+                    files::tidy_up();
+                    std::process::exit(128 + deadly);
+                }
             }
         }
     };
     thread::Builder::new().name("rubscope-signals".into()).spawn(watch).map(|_| ())
+}
+
+/// Every signal that ends a program which does not catch it, and can be caught;
+/// not those of faults in the program itself.
+#[cfg(unix)]
+fn deadly_signals() -> Vec<i32> {
+    use signal_hook::consts::{
+        SIGABRT, SIGALRM, SIGHUP, SIGINT, SIGPROF, SIGQUIT, SIGSYS, SIGTERM, SIGTRAP, SIGUSR1,
+        SIGUSR2, SIGVTALRM, SIGXCPU,
+    };
+    let mut signals = vec![
+        SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGALRM, SIGVTALRM, SIGPROF, SIGXCPU,
+        SIGABRT, SIGSYS, SIGTRAP,
+    ];
+    #[cfg(target_os = "linux")]
+    {
+        use rustix::process::Signal;
+        signals.extend([Signal::IO, Signal::POWER, Signal::STKFLT].map(Signal::as_raw));
+        // The real-time signals; the C library has the first two for itself.
+        signals.extend(34..=64);
+    }
+    signals
 }
 
 /// No signals to wait for.
@@ -90,7 +126,6 @@ pub fn watch_signals(_: Sender<ScreenEvent>) -> std::io::Result<()> {
     Ok(())
 }
 
-/// How long the drawing thread may take to end after a signal: a terminal that
-/// accepts no output can block it.
+/// How long the drawing thread may take to end after a signal.
 #[cfg(unix)]
-const GRACE: std::time::Duration = std::time::Duration::from_secs(2);
+const GRACE: std::time::Duration = std::time::Duration::from_millis(500);

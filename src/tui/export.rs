@@ -43,13 +43,11 @@ pub fn svg(app: &App) -> String {
                 "<rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\" fill=\"{colour}\"/>\n"
             ));
         }
-        let text = match cell.symbol() {
-            " " => continue,
-            "&" => "&amp;",
-            "<" => "&lt;",
-            ">" => "&gt;",
-            text => text,
-        };
+        if cell.symbol() == " " {
+            continue;
+        }
+        // A letter and its accents are one cell.
+        let text = cell.symbol().replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
         let fill = if reversed { ground } else { colour };
         let weight =
             if cell.modifier.contains(Modifier::BOLD) { " font-weight=\"bold\"" } else { "" };

@@ -2,9 +2,11 @@
 //! terminal; `panels` and `views` draw it; the solver runs in its own thread
 //! (`worker`). Tables: `views`, `knobs`, `lessons`, `bindings`.
 
+mod ability;
 mod app;
 mod appearance;
 mod axis;
+mod backend;
 #[doc(hidden)]
 pub mod bindings;
 #[doc(hidden)]
@@ -13,7 +15,10 @@ pub mod engine;
 pub mod events;
 mod export;
 #[doc(hidden)]
+pub mod files;
+#[doc(hidden)]
 pub mod history;
+mod host;
 mod knobs;
 #[doc(hidden)]
 pub mod lessons;
@@ -25,6 +30,8 @@ mod run;
 pub mod terminal;
 mod text;
 mod theme;
+#[cfg_attr(not(unix), path = "tty_other.rs")]
+mod tty;
 mod views;
 #[doc(hidden)]
 pub mod worker;
@@ -33,7 +40,7 @@ use std::io::IsTerminal;
 use std::sync::{Arc, mpsc};
 use std::time::Duration;
 
-pub use app::{App, Exit};
+pub use app::{App, Exit, Source};
 pub use raster::Marker;
 pub use run::run;
 pub use theme::Theme;
@@ -62,15 +69,15 @@ pub struct ExploreOptions {
     pub fps: f64,
     /// When to use colour.
     pub color: Color,
-    /// How points are drawn.
-    pub marker: Marker,
-    /// Name or path of the scene, for the command line that repeats the run.
-    pub source: Option<String>,
+    /// How points are drawn; by the terminal and the locale if not given.
+    pub marker: Option<Marker>,
+    /// Where the scene is from, for the command line that repeats the run.
+    pub source: Option<Source>,
 }
 
 impl Default for ExploreOptions {
     fn default() -> Self {
-        Self { fps: 10.0, color: Color::Auto, marker: Marker::Braille, source: None }
+        Self { fps: 10.0, color: Color::Auto, marker: None, source: None }
     }
 }
 
@@ -95,8 +102,8 @@ impl ExploreOptions {
 /// exit status: 0, or 128 + n after signal n.
 ///
 /// # Errors
-/// Standard output is no terminal that can show a screen, or threads or
-/// signals cannot be set up.
+/// Standard output is no terminal that can show a screen, threads or signals
+/// cannot be set up, or a file was still being written at the end.
 pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u8> {
     let dumb = std::env::var("TERM").is_ok_and(|term| term == "dumb");
     if dumb || !std::io::stdout().is_terminal() {
@@ -112,19 +119,29 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
     // Without a receiver the program is about to end.
     let wake: engine::Waker = Arc::new(move || _ = fresh.send(events::ScreenEvent::Fresh));
     let mut worker = worker::Worker::spawn(wake)?;
-    let mut app = App::new(scene, options.theme(), options.marker);
+    let marker = options.marker.unwrap_or_else(ability::marker);
+    let mut app = App::new(scene, options.theme(), marker);
     app.source.clone_from(&options.source);
     let guard = terminal::Guard;
-    let mut screen = terminal::open()?;
-    events::read_keys(sender)?;
-    let mut shell = terminal::Shell;
-    let ended = run(&mut screen, &events, &mut app, &mut worker, &mut shell, options.frame());
+    let ended = terminal::open().and_then(|mut screen| {
+        events::read_keys(sender.clone())?;
+        let mut shell = terminal::Shell { events: sender };
+        let ended = run(&mut screen, &events, &mut app, &mut worker, &mut shell, options.frame());
+        // Dropping the screen would write to standard error if the terminal is gone.
+        std::mem::forget(screen);
+        ended
+    });
     drop(guard);
-    // Dropping the screen would write to standard error if the terminal is gone.
-    std::mem::forget(screen);
-    Ok(match ended {
-        Ok(Exit::Done) => 0,
-        Ok(Exit::Signal(number)) => 128 + number,
-        Err(_) => 128 + run::HANGUP,
-    })
+    if app.writing.is_some() {
+        files::tidy_up();
+    }
+    match (terminal::ended_by(), ended) {
+        (Some(signal), _) | (None, Ok(Exit::Signal(signal))) => Ok(128 + signal),
+        (None, Ok(Exit::Done)) => match app.writing {
+            Some(writing) => anyhow::bail!("gave up writing {}: no answer", writing.name),
+            None => Ok(0),
+        },
+        // The terminal was there and is gone: nobody is left to read a message.
+        (None, Err(_)) => Ok(128 + run::HANGUP),
+    }
 }

@@ -9,13 +9,16 @@ use ratatui::{Terminal, backend::Backend};
 use super::app::{App, Effect, Exit};
 use super::engine::{Engine, Order};
 use super::events::ScreenEvent;
+use super::host::Host;
 use super::panels;
-use super::terminal::Host;
 
 /// Draw at least this often, to detect a closed terminal by its error.
 const HEARTBEAT: Duration = Duration::from_secs(1);
 /// Least time between two answers to keys.
 const KEY_FRAME: Duration = Duration::from_millis(16);
+
+/// How long quitting waits for a file that is being written.
+const LAST_FILE: Duration = Duration::from_secs(1);
 
 /// When the screen must be drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -54,6 +57,7 @@ pub fn run<B: Backend>(
     let mut ordered: Option<Order> = None;
     let mut due = Due::Now;
     let mut drawn: Option<Instant> = None;
+    let mut again = false;
     loop {
         order(app, engine, &mut ordered);
         let wait = drawn.map_or(Duration::ZERO, |at| due.pause(frame).saturating_sub(at.elapsed()));
@@ -66,21 +70,26 @@ pub fn run<B: Backend>(
             }
         };
         while let Some(event) = next {
-            match handle(&event, app, host) {
+            match handle(event, app, host) {
                 Reaction::Exit(exit) => return Ok(exit),
+                Reaction::Quit => match last_file(events, app) {
+                    Some(exit) => return Ok(exit),
+                    // It was not written: the user decides what to do.
+                    None => due = Due::Now,
+                },
                 Reaction::Draw(soon) => due = due.max(soon),
-                Reaction::Redraw => {
-                    // `Terminal::clear` would ask for the cursor and wait for the input thread.
-                    let size = terminal.size()?;
-                    terminal.resize(size.into())?;
-                    due = Due::Now;
-                }
+                Reaction::Redraw => (again, due) = (true, Due::Now),
             }
             // After many key presses only the last state is computed.
             next = events.try_recv().ok();
         }
         order(app, engine, &mut ordered);
         if drawn.is_none_or(|at| at.elapsed() >= due.pause(frame)) {
+            if std::mem::take(&mut again) {
+                // `Terminal::clear` would ask for the cursor and wait for the input thread.
+                let size = terminal.size()?;
+                terminal.resize(size.into())?;
+            }
             show(terminal, app, engine)?;
             drawn = Some(Instant::now());
             due = Due::Later;
@@ -112,15 +121,17 @@ fn show<B: Backend>(
 /// What the loop must do for an event.
 enum Reaction {
     Exit(Exit),
+    /// Exit, as soon as the file that is being written is complete.
+    Quit,
     Draw(Due),
     Redraw,
 }
 
-fn handle(event: &ScreenEvent, app: &mut App, host: &mut dyn Host) -> Reaction {
+fn handle(event: ScreenEvent, app: &mut App, host: &mut dyn Host) -> Reaction {
     match event {
-        ScreenEvent::Key(key) => match app.key(key) {
+        ScreenEvent::Key(key) => match app.key(&key) {
             Effect::None => Reaction::Draw(Due::Now),
-            Effect::Quit => Reaction::Exit(Exit::Done),
+            Effect::Quit => Reaction::Quit,
             Effect::Suspend => resumed(host.suspend()),
             Effect::Redraw => Reaction::Redraw,
             Effect::Copy(text) => {
@@ -128,14 +139,47 @@ fn handle(event: &ScreenEvent, app: &mut App, host: &mut dyn Host) -> Reaction {
                 let _ = host.copy(&text);
                 Reaction::Draw(Due::Now)
             }
+            Effect::Write(job) => {
+                if let Some(result) = host.write(job) {
+                    app.written(result);
+                }
+                Reaction::Draw(Due::Now)
+            }
         },
         ScreenEvent::Resize => Reaction::Draw(Due::Now),
+        ScreenEvent::Pasted(text) => {
+            app.paste(&text);
+            Reaction::Draw(Due::Now)
+        }
+        ScreenEvent::Written(result) => {
+            app.written(result);
+            Reaction::Draw(Due::Now)
+        }
         ScreenEvent::Fresh => Reaction::Draw(Due::Frame),
-        ScreenEvent::Signal(number) => Reaction::Exit(Exit::Signal(*number)),
+        ScreenEvent::Signal(number) => Reaction::Exit(Exit::Signal(number)),
         ScreenEvent::Suspend => resumed(host.suspend()),
         ScreenEvent::Continued => resumed(host.resume()),
         ScreenEvent::InputClosed => Reaction::Exit(Exit::Signal(HANGUP)),
     }
+}
+
+/// Waits a moment for the file that is being written. None if that says that
+/// the file could not be written, so that the user can do something about it.
+fn last_file(events: &Receiver<ScreenEvent>, app: &mut App) -> Option<Exit> {
+    let began = Instant::now();
+    while app.writing.is_some() {
+        match events.recv_timeout(LAST_FILE.saturating_sub(began.elapsed())) {
+            Ok(ScreenEvent::Written(result)) => {
+                if !app.written(result) {
+                    return None;
+                }
+            }
+            Ok(ScreenEvent::Signal(number)) => return Some(Exit::Signal(number)),
+            Ok(_) => {}
+            Err(_) => break,
+        }
+    }
+    Some(Exit::Done)
 }
 
 fn resumed(result: std::io::Result<()>) -> Reaction {

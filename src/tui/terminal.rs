@@ -1,63 +1,211 @@
-//! Sets up the terminal, and restores it however the program ends.
+//! Sets up the terminal, and restores it however the program ends. Restoring
+//! takes no lock that is held during output, never waits for the terminal, and
+//! may be done by any thread, more than once.
 
-use std::io::{BufWriter, Stdout, Write, stdout};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::io::{Error, Write};
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, AtomicU8, Ordering::SeqCst};
+use std::time::Duration;
 
-use crossterm::{
-    cursor::{Hide, Show},
-    execute,
-    terminal::{EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode},
-};
-use ratatui::{Terminal, backend::CrosstermBackend};
+use crossterm::cursor::{Hide, Show};
+use crossterm::event::{DisableBracketedPaste, EnableBracketedPaste};
+use crossterm::queue;
+use crossterm::style::{Attribute, SetAttribute};
+use crossterm::terminal::{EnterAlternateScreen, LeaveAlternateScreen};
+use ratatui::Terminal;
+use ratatui::layout::Size;
 
+use super::backend::ScreenBackend;
+use super::files::FILES_NAME;
+pub use super::host::{Host, NoHost, Shell};
+use super::tty::Tty;
 use super::worker::WORKER_NAME;
 
-/// Whether the terminal is set up.
-static TAKEN: AtomicBool = AtomicBool::new(false);
+/// The terminal, opened once.
+static TTY: OnceLock<Tty> = OnceLock::new();
+/// Whether the terminal is set up, completely or in part.
+static HELD: AtomicBool = AtomicBool::new(false);
+/// Whether the frame that is being written must be given up.
+static CUT: AtomicBool = AtomicBool::new(false);
+/// Whether a frame was given up in its middle, perhaps within a sequence.
+static TORN: AtomicBool = AtomicBool::new(false);
+/// The first signal that ends the program; 0 if there was none.
+static ENDED_BY: AtomicU8 = AtomicU8::new(0);
 
-/// A frame is written in one piece.
-const FRAME_BYTES: usize = 1 << 16;
+/// How long restoring waits for room on the terminal, before and after the
+/// frames that it has not taken are dropped.
+const ROOM: Duration = Duration::from_millis(200);
+
+/// How long a process that was continued in the background waits for a signal.
+const BACKGROUND: Duration = Duration::from_secs(1);
+
+/// Ends a sequence of which the terminal has only the beginning.
+const CANCEL: &[u8] = b"\x18\x1b\\";
+
+/// Most columns and rows that are drawn: two screens of this size take 50 MB.
+pub const MOST: (u16, u16) = (1000, 500);
+
+/// Columns and rows if the terminal does not know its own, like a serial line.
+const USUAL: (u16, u16) = (80, 24);
 
 /// The terminal of the explorer.
-pub type Screen = Terminal<CrosstermBackend<BufWriter<Stdout>>>;
+pub type Screen = Terminal<ScreenBackend>;
 
-/// Raw keys, the alternate screen, no cursor.
+fn tty() -> Result<&'static Tty, Error> {
+    if TTY.get().is_none() {
+        let _ = TTY.set(Tty::open()?);
+    }
+    TTY.get().ok_or_else(|| Error::other("no terminal"))
+}
+
+/// Raw keys, the alternate screen, no cursor, pasted text in one piece.
 ///
 /// # Errors
 /// The terminal refuses.
-pub fn enter() -> std::io::Result<()> {
-    enable_raw_mode()?;
-    TAKEN.store(true, Ordering::SeqCst);
-    execute!(stdout(), EnterAlternateScreen, Hide)
+fn enter() -> Result<(), Error> {
+    let tty = tty()?;
+    // First: a signal from here on restores.
+    let again = HELD.swap(true, SeqCst);
+    if let Err(error) = tty.make_raw(again) {
+        HELD.store(again, SeqCst);
+        return Err(error);
+    }
+    let mut bytes = Vec::new();
+    queue!(bytes, EnterAlternateScreen, Hide, EnableBracketedPaste)?;
+    write(&bytes)
 }
 
 /// Restores the terminal; may be called at any time, from any thread, and on a
 /// closed terminal.
 pub fn leave() {
-    if TAKEN.swap(false, Ordering::SeqCst) {
-        // An error cannot be reported any more.
-        let mut out = stdout();
-        let _ = execute!(out, LeaveAlternateScreen, Show);
-        let _ = out.flush();
-        let _ = disable_raw_mode();
+    let Some(tty) = TTY.get().filter(|_| HELD.load(SeqCst)) else { return };
+    let front = tty.in_foreground();
+    if front {
+        tty.put_back();
+    }
+    // In the background the settings belong to the shell.
+    if front || tty.may_write_from_background() {
+        let mut bytes = CANCEL.to_vec();
+        // A vector takes everything.
+        let _ = queue!(
+            bytes,
+            DisableBracketedPaste,
+            LeaveAlternateScreen,
+            Show,
+            SetAttribute(Attribute::Reset)
+        );
+        let from = if TORN.load(SeqCst) { 0 } else { CANCEL.len() };
+        if !tty.send_within(bytes.get(from..).unwrap_or(&bytes), ROOM) && front {
+            // What is dropped may end within a sequence.
+            tty.drop_pending();
+            tty.send_within(&bytes, ROOM);
+        }
+        TORN.store(false, SeqCst);
+    }
+    HELD.store(false, SeqCst);
+}
+
+/// Takes the terminal at the start, or again after the job was continued, as
+/// soon as it is in the foreground; until then the job is stopped. The system
+/// would stop it, too, but again and again, so that no signal could end it.
+///
+/// # Errors
+/// The terminal cannot be set up again.
+pub fn regain() -> Result<(), Error> {
+    while let Some(tty) = TTY.get().filter(|_| ended_by().is_none()) {
+        if tty.in_foreground() {
+            CUT.store(false, SeqCst);
+            return enter();
+        }
+        // A signal that came with the continuation ends the program here.
+        let began = std::time::Instant::now();
+        while began.elapsed() < BACKGROUND && ended_by().is_none() && !tty.in_foreground() {
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        if ended_by().is_none() && !tty.in_foreground() {
+            super::host::stop()?;
+        }
+    }
+    Ok(())
+}
+
+/// Gives up the frame that is being written and all that follow, until the
+/// terminal is set up again. The whole screen must be drawn afterwards.
+pub fn cut_frame() {
+    CUT.store(true, SeqCst);
+}
+
+/// Notes a signal that ends the program: nothing is drawn any more.
+pub fn end(signal: u8) {
+    let _ = ENDED_BY.compare_exchange(0, signal, SeqCst, SeqCst);
+}
+
+/// The signal that ends the program, if there was one.
+pub fn ended_by() -> Option<u8> {
+    Some(ENDED_BY.load(SeqCst)).filter(|signal| *signal != 0)
+}
+
+/// Writes a frame, or a sequence beside frames, unless it is given up.
+///
+/// # Errors
+/// The terminal is closed.
+pub fn write(bytes: &[u8]) -> Result<(), Error> {
+    let cut = || CUT.load(SeqCst) || ENDED_BY.load(SeqCst) != 0;
+    let sent = tty()?.send(bytes, cut)?;
+    if sent > 0 && sent < bytes.len() {
+        TORN.store(true, SeqCst);
+    }
+    Ok(())
+}
+
+/// The size of the screen: that of the terminal within bounds.
+///
+/// # Errors
+/// The terminal is closed.
+pub fn size() -> Result<Size, Error> {
+    tty()?.size().map(bounded)
+}
+
+fn bounded((columns, rows): (u16, u16)) -> Size {
+    let (columns, rows) = if columns == 0 || rows == 0 { USUAL } else { (columns, rows) };
+    Size::new(columns.min(MOST.0), rows.min(MOST.1))
+}
+
+/// Where frames go: each is written in one piece, when it is flushed.
+#[derive(Debug, Default)]
+pub struct Frames(Vec<u8>);
+
+impl Write for Frames {
+    fn write(&mut self, bytes: &[u8]) -> Result<usize, Error> {
+        self.0.extend_from_slice(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> Result<(), Error> {
+        let written = write(&self.0);
+        self.0.clear();
+        written
     }
 }
 
-/// Opens the screen on standard output.
+/// Opens the screen on the terminal of standard output.
 ///
 /// # Errors
 /// The terminal refuses.
-pub fn open() -> std::io::Result<Screen> {
-    enter()?;
-    Terminal::new(CrosstermBackend::new(BufWriter::with_capacity(FRAME_BYTES, stdout())))
+pub fn open() -> Result<Screen, Error> {
+    tty()?;
+    regain()?;
+    Terminal::new(ScreenBackend::default())
 }
 
 /// A panic restores the terminal before it is reported. Panics of the worker
-/// are caught and shown on the screen, so the hook does not report them.
+/// and of the thread for files are caught and shown on the screen, so the hook
+/// does not report them.
 pub fn install_panic_hook() {
     let report = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |info| {
-        if std::thread::current().name() == Some(WORKER_NAME) {
+        let thread = std::thread::current();
+        if thread.name().is_some_and(|name| [WORKER_NAME, FILES_NAME].contains(&name)) {
             return;
         }
         leave();
@@ -74,97 +222,17 @@ impl Drop for Guard {
     }
 }
 
-/// What the run loop needs besides a backend.
-pub trait Host {
-    /// Gives the terminal to the shell until the job is continued.
-    ///
-    /// # Errors
-    /// The terminal cannot be set up again.
-    fn suspend(&mut self) -> std::io::Result<()>;
-    /// Sets up the terminal again after the job was continued from outside.
-    ///
-    /// # Errors
-    /// The terminal cannot be set up again.
-    fn resume(&mut self) -> std::io::Result<()>;
-    /// Puts a text on the clipboard of the terminal.
-    ///
-    /// # Errors
-    /// The terminal cannot be written to.
-    fn copy(&mut self, text: &str) -> std::io::Result<()>;
-}
-
-/// A host without a terminal, for tests.
-#[derive(Debug, Default)]
-pub struct NoHost;
-
-impl Host for NoHost {
-    fn suspend(&mut self) -> std::io::Result<()> {
-        Ok(())
-    }
-    fn resume(&mut self) -> std::io::Result<()> {
-        Ok(())
-    }
-    fn copy(&mut self, _: &str) -> std::io::Result<()> {
-        Ok(())
-    }
-}
-
-/// The real terminal and its shell.
-#[derive(Debug, Default)]
-pub struct Shell;
-
-impl Host for Shell {
-    #[cfg(unix)]
-    fn suspend(&mut self) -> std::io::Result<()> {
-        leave();
-        signal_hook::low_level::emulate_default_handler(signal_hook::consts::SIGTSTP)?;
-        enter()
-    }
-
-    #[cfg(not(unix))]
-    fn suspend(&mut self) -> std::io::Result<()> {
-        Ok(())
-    }
-
-    fn resume(&mut self) -> std::io::Result<()> {
-        // The shell may have changed the settings of the terminal.
-        leave();
-        enter()
-    }
-
-    fn copy(&mut self, text: &str) -> std::io::Result<()> {
-        // OSC 52: the terminal, not this machine, owns the clipboard.
-        let mut out = stdout();
-        write!(out, "\x1b]52;c;{}\x07", base64(text.as_bytes()))?;
-        out.flush()
-    }
-}
-
-/// Base 64 with padding, as OSC 52 wants it.
-fn base64(bytes: &[u8]) -> String {
-    const SIGNS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut out = String::new();
-    for chunk in bytes.chunks(3) {
-        let byte = |k: usize| u32::from(chunk.get(k).copied().unwrap_or(0));
-        let bits = byte(0) << 16 | byte(1) << 8 | byte(2);
-        for k in 0..4 {
-            let sign = SIGNS.get((bits >> (18 - 6 * k) & 63) as usize).copied().unwrap_or(b'A');
-            out.push(if k <= chunk.len() { char::from(sign) } else { '=' });
-        }
-    }
-    out
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn base64_of_the_examples_of_rfc_4648() {
-        for (text, expected) in
-            [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foobar", "Zm9vYmFy")]
-        {
-            assert_eq!(base64(text.as_bytes()), expected);
-        }
+    fn a_terminal_of_any_size_is_drawn_within_bounds() {
+        assert_eq!(bounded((120, 40)), Size::new(120, 40));
+        assert_eq!(bounded((1, 1)), Size::new(1, 1));
+        assert_eq!(bounded((u16::MAX, u16::MAX)), Size::new(1000, 500));
+        assert_eq!(bounded((u16::MAX, 20)), Size::new(1000, 20));
+        assert_eq!(bounded((0, 0)), Size::new(80, 24));
+        assert_eq!(bounded((0, 30)), Size::new(80, 24));
     }
 }

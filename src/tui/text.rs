@@ -2,11 +2,42 @@
 
 use ratatui::{buffer::Buffer, layout::Rect, style::Style};
 
-/// Text in one row of an area; what does not fit is cut.
+use crate::report::line::harmless;
+
+/// Characters in a cell on average, at most: a letter may have several accents,
+/// but no cell a text of its own.
+const MOST_IN_CELL: usize = 4;
+
+/// Text in one row of an area; what does not fit is cut. Characters that act on
+/// the terminal are spaces.
 pub fn print(buffer: &mut Buffer, area: Rect, row: u16, text: &str, style: Style) {
     if row < area.height && area.width > 0 {
-        buffer.set_stringn(area.x, area.y + row, text, usize::from(area.width), style);
+        let width = usize::from(area.width);
+        let text: String = text.chars().take(MOST_IN_CELL * width).map(harmless).collect();
+        buffer.set_stringn(area.x, area.y + row, text, width, style);
     }
+}
+
+/// Columns that a text takes.
+pub fn columns(text: &str) -> usize {
+    ratatui::text::Span::raw(text).width()
+}
+
+/// Text of at most `width` columns, its end marked where it was cut.
+pub fn shorten(text: &str, width: usize, mark: &str) -> String {
+    // Its columns are counted only as far as they matter.
+    let text: String = text.chars().take(MOST_IN_CELL * (width + 1)).map(harmless).collect();
+    if columns(&text) <= width {
+        return text;
+    }
+    let room = width.saturating_sub(columns(mark));
+    let mut used = 0;
+    let fits = |letter: &char| {
+        used += columns(letter.encode_utf8(&mut [0; 4]));
+        used <= room
+    };
+    let kept = text.chars().take_while(fits);
+    kept.chain(mark.chars()).take(width).collect()
 }
 
 /// Pieces of text in one row, as many of them from the left as fit whole.

@@ -50,9 +50,13 @@ mod plain;
 mod plain_self;
 mod plain_stepper;
 mod pty;
+mod pty_signals;
+#[cfg(unix)]
+mod pty_support;
 mod scene_notes;
 mod scenes;
 mod soak;
+mod tui_hostile;
 mod tui_loop;
 mod tui_random;
 mod tui_screens;

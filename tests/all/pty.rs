@@ -3,112 +3,18 @@
 
 #![cfg(unix)]
 
-use std::io::{Read, Write};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
-use std::time::{Duration, Instant};
+use crate::pty_support::{SHORT, Start, Terminal};
 
-use portable_pty::{Child, CommandBuilder, PtySize, native_pty_system};
-
-/// A long limit, not a speed test: a loaded machine may be slow.
-const PATIENCE: Duration = Duration::from_secs(60);
-
-struct Terminal {
-    parser: vt100::Parser,
-    output: Receiver<Vec<u8>>,
-    input: Box<dyn Write + Send>,
-    child: Box<dyn Child + Send + Sync>,
-    _pair: Box<dyn portable_pty::MasterPty + Send>,
-}
-
-impl Terminal {
-    fn open(arguments: &[&str]) -> Self {
-        Self::open_with(arguments, "")
-    }
-
-    /// Opens it with a value of `NO_COLOR`.
-    fn open_with(arguments: &[&str], no_color: &str) -> Self {
-        let size = PtySize { rows: 24, cols: 80, pixel_width: 0, pixel_height: 0 };
-        let pair = native_pty_system().openpty(size).unwrap();
-        let mut command = CommandBuilder::new(env!("CARGO_BIN_EXE_rubscope"));
-        command.args(arguments);
-        command.env("TERM", "xterm-256color");
-        command.env("NO_COLOR", no_color);
-        let child = pair.slave.spawn_command(command).unwrap();
-        drop(pair.slave);
-        let mut reader = pair.master.try_clone_reader().unwrap();
-        let (sender, output) = channel();
-        std::thread::spawn(move || {
-            let mut buffer = [0; 4096];
-            while let Ok(count) = reader.read(&mut buffer) {
-                if count == 0 || sender.send(buffer[..count].to_vec()).is_err() {
-                    return;
-                }
-            }
-        });
-        let input = pair.master.take_writer().unwrap();
-        Self { parser: vt100::Parser::default(), output, input, child, _pair: pair.master }
-    }
-
-    fn send(&mut self, keys: &str) {
-        self.input.write_all(keys.as_bytes()).unwrap();
-        self.input.flush().unwrap();
-    }
-
-    /// Waits until the screen contains a text.
-    fn wait_for(&mut self, text: &str) {
-        let began = Instant::now();
-        while !self.parser.screen().contents().contains(text) {
-            assert!(
-                began.elapsed() < PATIENCE,
-                "no {text:?} in\n{}",
-                self.parser.screen().contents()
-            );
-            match self.output.recv_timeout(Duration::from_millis(100)) {
-                Ok(bytes) => self.parser.process(&bytes),
-                Err(RecvTimeoutError::Timeout) => {}
-                Err(RecvTimeoutError::Disconnected) => {
-                    panic!("ended without {text:?}:\n{}", self.parser.screen().contents())
-                }
-            }
-        }
-    }
-
-    /// Waits for the end; the exit status.
-    fn wait(&mut self) -> u32 {
-        let began = Instant::now();
-        let status = loop {
-            if let Some(status) = self.child.try_wait().unwrap() {
-                break status;
-            }
-            assert!(began.elapsed() < PATIENCE, "it does not end");
-            // Continue to read: a full pipe would block the program.
-            if let Ok(bytes) = self.output.recv_timeout(Duration::from_millis(20)) {
-                self.parser.process(&bytes);
-            }
-        };
-        while let Ok(bytes) = self.output.recv_timeout(Duration::from_millis(200)) {
-            self.parser.process(&bytes);
-        }
-        status.exit_code()
-    }
-
-    fn is_coloured(&self) -> bool {
-        let screen = self.parser.screen();
-        let colour = |row, column| screen.cell(row, column).map(vt100::Cell::fgcolor);
-        let mut cells = (0..24).flat_map(|row| (0..80).map(move |column| (row, column)));
-        cells.any(|(row, column)| colour(row, column) != Some(vt100::Color::Default))
-    }
-
-    fn assert_restored(&self) {
-        let screen = self.parser.screen();
-        assert!(!screen.alternate_screen(), "still on the alternate screen");
-        assert!(!screen.hide_cursor(), "the cursor is still hidden");
-    }
+fn is_coloured(terminal: &Terminal) -> bool {
+    let screen = terminal.parser.screen();
+    let colour = |row, column| screen.cell(row, column).map(vt100::Cell::fgcolor);
+    let mut cells = (0..24).flat_map(|row| (0..80).map(move |column| (row, column)));
+    cells.any(|(row, column)| colour(row, column) != Some(vt100::Color::Default))
 }
 
 #[test]
 fn opens_turns_a_knob_sees_the_verdict_change_and_quits() {
-    let mut terminal = Terminal::open(&["--step", "2e-7", "--end", "0.02"]);
+    let mut terminal = Start::explorer(&SHORT).open();
     terminal.wait_for(" LOCKED ");
     assert!(terminal.parser.screen().alternate_screen());
     // Nine knobs down is the contact law.
@@ -124,21 +30,10 @@ fn opens_turns_a_knob_sees_the_verdict_change_and_quits() {
 }
 
 #[test]
-fn a_termination_signal_restores_the_terminal_and_is_told_in_the_status() {
-    let mut terminal = Terminal::open(&["--step", "2e-7", "--end", "0.02"]);
-    terminal.wait_for(" LOCKED ");
-    let id = terminal.child.process_id().unwrap().to_string();
-    let sent = std::process::Command::new("kill").args(["-TERM", &id]).status().unwrap();
-    assert!(sent.success());
-    assert_eq!(terminal.wait(), 128 + 15);
-    terminal.assert_restored();
-}
-
-#[test]
 fn a_refused_scene_never_takes_the_terminal() {
-    let mut terminal = Terminal::open(&["--set", "bladed_disk.blades=0"]);
+    let mut terminal = Start::explorer(&["--set", "bladed_disk.blades=0"]).open();
     assert_eq!(terminal.wait(), 2);
-    let text = terminal.parser.screen().contents();
+    let text = terminal.text();
     assert!(text.contains("bladed_disk.blades = 0"), "{text}");
     terminal.assert_restored();
 }
@@ -146,10 +41,133 @@ fn a_refused_scene_never_takes_the_terminal() {
 #[test]
 fn no_color_leaves_the_screen_without_colours_unless_it_is_empty() {
     for (value, coloured) in [("", true), ("1", false)] {
-        let mut terminal = Terminal::open_with(&["--end", "1e-3"], value);
+        let mut terminal = Start::explorer(&["--end", "1e-3"]).env("NO_COLOR", value).open();
         terminal.wait_for(" LOCKED ");
-        assert_eq!(terminal.is_coloured(), coloured, "NO_COLOR={value:?}");
+        assert_eq!(is_coloured(&terminal), coloured, "NO_COLOR={value:?}");
         terminal.send("q");
         assert_eq!(terminal.wait(), 0);
     }
+}
+
+#[test]
+fn a_terminal_of_any_size_is_drawn_as_far_as_is_sensible() {
+    for (columns, rows) in [(u16::MAX, u16::MAX), (u16::MAX, 3), (1, 1), (0, 0)] {
+        let mut terminal = Start::explorer(&SHORT).size(columns, rows).open();
+        match (columns, rows) {
+            (0, 0) => terminal.wait_for(" LOCKED "),
+            (1, 1) => terminal.wait_for("r"),
+            (_, 3) => terminal.wait_for("rubscope needs 40x12; this is 1000x3"),
+            _ => terminal.wait_for("Locked motion, three nodal diameters"),
+        }
+        terminal.send("q");
+        assert_eq!(terminal.wait(), 0, "{columns}x{rows}");
+        terminal.assert_restored();
+    }
+}
+
+#[test]
+fn only_ascii_where_the_terminal_or_the_locale_has_no_more_unless_chosen() {
+    let cases = [
+        ("xterm", "C.UTF-8", None, false),
+        ("linux", "C.UTF-8", None, true),
+        ("vt100", "C.UTF-8", None, true),
+        ("xterm", "C", None, true),
+        ("xterm", "en_US.ISO-8859-1", None, true),
+        ("linux", "C", Some("braille"), false),
+        ("xterm", "C.UTF-8", Some("ascii"), true),
+    ];
+    for (term, locale, marker, ascii) in cases {
+        let mut arguments = SHORT.to_vec();
+        arguments.extend(marker.iter().flat_map(|marker| ["--marker", marker]));
+        let start = Start::explorer(&arguments).env("TERM", term).env("LC_ALL", locale);
+        let mut terminal = start.open();
+        terminal.wait_for(" LOCKED ");
+        assert_eq!(terminal.text().is_ascii(), ascii, "{term} {locale} {marker:?}");
+        terminal.send("q");
+        assert_eq!(terminal.wait(), 0);
+    }
+}
+
+#[test]
+fn a_pasted_block_lands_in_the_field_that_is_open_or_is_ignored() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut terminal = Start::explorer(&SHORT).folder(folder.path()).open();
+    terminal.wait_for(" LOCKED ");
+    assert!(terminal.parser.screen().bracketed_paste());
+    terminal.send("\u{1b}[200~echo hello\r\n\u{1b}[201~");
+    terminal.wait_for("the pasted text is ignored: no field is open");
+    terminal.send("s");
+    terminal.wait_for("save the scene as: scene.toml_");
+    terminal.send(&"\u{7f}".repeat(10));
+    terminal.wait_for("save the scene as: _");
+    terminal.send("\u{1b}[200~mi\r\nne\u{7}.toml\n\u{1b}[201~");
+    terminal.wait_for("save the scene as: mine.toml_");
+    terminal.send(&format!("\u{1b}[200~{}\u{1b}[201~", "x".repeat(2000)));
+    terminal.wait_for("the pasted text is ignored: it is too long");
+    terminal.send("\r");
+    terminal.wait_for("written: mine.toml");
+    terminal.send("q");
+    assert_eq!(terminal.wait(), 0);
+    let names = std::fs::read_dir(folder.path()).unwrap().map(|file| file.unwrap().file_name());
+    assert_eq!(names.collect::<Vec<_>>(), ["mine.toml"]);
+}
+
+#[test]
+fn a_pipe_a_device_or_a_folder_is_refused_as_a_file_and_the_screen_lives() {
+    let folder = tempfile::tempdir().unwrap();
+    let pipe = folder.path().join("pipe.toml");
+    assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    let mut terminal = Start::explorer(&SHORT).folder(folder.path()).open();
+    terminal.wait_for(" LOCKED ");
+    for (name, reason) in [
+        ("pipe.toml", "cannot write pipe.toml: it is a pipe or a device, not a file"),
+        ("/dev/tty", "cannot write /dev/tty: it is a pipe or a device, not a file"),
+        (".", "cannot write .: it is a directory"),
+    ] {
+        terminal.send("s");
+        terminal.wait_for("save the scene as: scene.toml_");
+        terminal.send(&format!("{}{name}\r", "\u{7f}".repeat(10)));
+        terminal.wait_for(reason);
+    }
+    terminal.send("?");
+    terminal.wait_for("select the knob above");
+    terminal.send("q");
+    assert_eq!(terminal.wait(), 0);
+    terminal.assert_restored();
+}
+
+#[test]
+fn the_question_whether_to_replace_a_file_is_asked_and_answered() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scene.toml");
+    std::fs::write(&path, "mine").unwrap();
+    let mut terminal = Start::explorer(&SHORT).folder(folder.path()).open();
+    terminal.wait_for(" LOCKED ");
+    // Quitting waits for the file, and stays for the question.
+    terminal.send("s\rq");
+    terminal.wait_for("scene.toml exists");
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), "mine");
+    terminal.send("\u{1b}");
+    terminal.wait_for("quit");
+    terminal.send("s\r");
+    terminal.wait_for("y replaces it");
+    terminal.send("yq");
+    assert_eq!(terminal.wait(), 0);
+    assert!(std::fs::read_to_string(&path).unwrap().starts_with("schema = 1"));
+}
+
+#[test]
+fn a_file_above_the_limit_of_the_system_is_refused_and_the_screen_lives() {
+    let folder = tempfile::tempdir().unwrap();
+    let script = "ulimit -f 0; \"$@\"; echo ended with $?";
+    let mut terminal = Start::shell(script, &SHORT).folder(folder.path()).open();
+    terminal.wait_for(" LOCKED ");
+    terminal.send("s\r");
+    terminal.wait_for("cannot write scene.toml: ");
+    terminal.send("?");
+    terminal.wait_for("select the knob above");
+    terminal.send("q");
+    terminal.wait_for("ended with 0");
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+    terminal.assert_restored();
 }

@@ -1,49 +1,110 @@
 //! Writing files: the scene as TOML, the data of the large chart as CSV, the
 //! screen as SVG. No file is replaced without a question.
 
-use std::fs::OpenOptions;
-use std::io::{ErrorKind, Write};
-
-use super::{App, InputMode, Purpose};
+use super::{App, Effect, InputMode, Purpose, Writing};
 use crate::tui::export;
+use crate::tui::files::{FileJob, FileResult};
 
 impl App {
-    /// Writes a file, or asks first where one exists.
-    pub(super) fn write(&mut self, purpose: Purpose, name: &str, replace: bool) {
+    /// Has a file written; where one exists, the result is a question.
+    pub(super) fn write(&mut self, purpose: Purpose, name: &str, replace: bool) -> Effect {
         let name = name.trim();
         if name.is_empty() {
             self.status = Some("a file name is needed; Esc leaves".into());
-            return;
+            return Effect::None;
         }
         self.mode = InputMode::Main;
+        if let Some(writing) = &self.writing {
+            self.status = Some(format!("{name} not written: still writing {}", writing.name));
+            return Effect::None;
+        }
         let content = match purpose {
             Purpose::Save => Ok(self.scene.to_toml()),
             Purpose::Export if name.ends_with(".svg") => Ok(export::svg(self)),
             Purpose::Export => self.view.panel().csv(self),
         };
-        let content = match content {
-            Ok(content) => content,
+        match content {
+            Ok(content) => {
+                self.status = Some(format!("writing {name} ..."));
+                self.writing = Some(Writing { name: name.into(), purpose, undisturbed: true });
+                Effect::Write(FileJob { path: self.directory.join(name), content, replace })
+            }
             Err(reason) => {
                 self.status = Some(format!("nothing exported: {reason}"));
-                return;
+                Effect::None
             }
+        }
+    }
+
+    /// Tells how the writing of the file went; whether it is written.
+    pub fn written(&mut self, result: FileResult) -> bool {
+        let Some(Writing { name, purpose, undisturbed }) = self.writing.take() else {
+            return true;
         };
-        let mut options = OpenOptions::new();
-        options.write(true);
-        if replace {
-            options.create(true).truncate(true);
-        } else {
-            options.create_new(true);
-        }
-        match options
-            .open(self.directory.join(name))
-            .and_then(|mut file| file.write_all(content.as_bytes()))
-        {
-            Ok(()) => self.status = Some(format!("written: {name}")),
-            Err(error) if error.kind() == ErrorKind::AlreadyExists => {
-                self.mode = InputMode::Replacing(purpose, name.to_string());
+        self.status = match &result {
+            FileResult::Written => Some(format!("written: {name}")),
+            FileResult::Failed(reason) => Some(format!("cannot write {name}: {reason}")),
+            FileResult::Exists if undisturbed => {
+                self.mode = InputMode::Replacing(purpose, name);
+                None
             }
-            Err(error) => self.status = Some(format!("cannot write {name}: {error}")),
+            // A key that was meant for something else must not be the answer.
+            FileResult::Exists => Some(format!("{name} exists and is as it was; save again")),
+        };
+        result == FileResult::Written
+    }
+
+    /// A key was pressed while a file is being written.
+    pub(super) fn disturb(&mut self) {
+        if let Some(writing) = &mut self.writing {
+            writing.undisturbed = false;
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+
+    use super::*;
+    use crate::scene::Scene;
+    use crate::tui::{Marker, Theme};
+
+    fn press(app: &mut App, code: KeyCode) -> Effect {
+        app.key(&KeyEvent::new(code, KeyModifiers::NONE))
+    }
+
+    fn app() -> App {
+        App::new(Scene::base().checked().unwrap(), Theme::Dark, Marker::Braille)
+    }
+
+    #[test]
+    fn a_file_that_takes_long_leaves_the_keys_alone_and_a_second_one_waits() {
+        let mut app = app();
+        press(&mut app, KeyCode::Char('s'));
+        assert!(matches!(press(&mut app, KeyCode::Enter), Effect::Write(_)));
+        assert_eq!(app.status.as_deref(), Some("writing scene.toml ..."));
+        press(&mut app, KeyCode::Char('s'));
+        assert_eq!(press(&mut app, KeyCode::Enter), Effect::None);
+        let refused = "scene.toml not written: still writing scene.toml";
+        assert_eq!(app.status.as_deref(), Some(refused));
+        assert!(app.written(FileResult::Written) && app.writing.is_none());
+        assert_eq!(app.status.as_deref(), Some("written: scene.toml"));
+    }
+
+    #[test]
+    fn the_question_whether_to_replace_takes_no_key_that_was_pressed_before_it() {
+        let mut app = app();
+        press(&mut app, KeyCode::Char('s'));
+        press(&mut app, KeyCode::Enter);
+        assert!(!app.written(FileResult::Exists));
+        assert!(matches!(app.mode, InputMode::Replacing(..)));
+        let Effect::Write(job) = press(&mut app, KeyCode::Char('y')) else { panic!() };
+        assert!(job.replace);
+        // Here a key comes before the answer: `y` copies, and is no answer.
+        press(&mut app, KeyCode::Char('j'));
+        assert!(!app.written(FileResult::Exists));
+        assert_eq!(app.mode, InputMode::Main);
+        assert!(matches!(press(&mut app, KeyCode::Char('y')), Effect::Copy(_)));
     }
 }

@@ -1,6 +1,6 @@
 //! The current lesson: its step, and whether its task is done.
 
-use super::{App, InputMode};
+use super::{App, InputMode, Source};
 use crate::scene::{Scene, Value, keys};
 use crate::tui::lessons::{self, Condition, Lesson};
 use crate::tui::panels;
@@ -54,7 +54,8 @@ impl App {
         match Scene::builtin(&lesson.scene).and_then(|scene| scene.checked()) {
             Ok(scene) => {
                 self.opened = scene.clone();
-                self.source = Some(lesson.scene.clone());
+                let read = scene.clone().into_scene();
+                self.source = Some(Source { name: lesson.scene.clone(), scene: read });
                 self.set_scene(scene, false);
                 self.begin_step(place, 0);
             }

@@ -24,7 +24,7 @@ use super::raster::Marker;
 use super::theme::Theme;
 use super::views::ViewId;
 use crate::model::Machine;
-use crate::scene::CheckedScene;
+use crate::scene::{CheckedScene, Scene};
 
 /// A pinned run, drawn behind the next ones.
 #[derive(Clone, Debug)]
@@ -42,6 +42,25 @@ pub enum Purpose {
     Save,
     /// The large chart's data as CSV, or the screen as SVG.
     Export,
+}
+
+/// Where a scene is from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Source {
+    /// Its name or path.
+    pub name: String,
+    /// The scene as it was read then; its file is never read again.
+    pub scene: Scene,
+}
+
+/// A file that is being written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Writing {
+    /// Its name, as typed.
+    pub name: String,
+    purpose: Purpose,
+    /// Whether no key was pressed since.
+    undisturbed: bool,
 }
 
 /// What the keyboard acts on.
@@ -151,8 +170,10 @@ pub struct App {
     pub cursor: Option<f64>,
     /// Pages back from the current one.
     pub pages_back: i64,
-    /// Name or path of the scene, for the command line that repeats the run.
-    pub source: Option<String>,
+    /// Where the scene is from, for the command line that repeats the run.
+    pub source: Option<Source>,
+    /// The file that is being written.
+    pub writing: Option<Writing>,
     /// The lesson under way.
     pub lesson: Option<LessonProgress>,
     /// Chart ranges.
@@ -215,6 +236,7 @@ impl App {
             cursor: None,
             pages_back: 0,
             source: None,
+            writing: None,
             lesson: None,
             appearance: Appearance { theme, marker },
             counters: Counters::default(),

@@ -2,6 +2,7 @@
 
 use super::{App, InputMode, Ranges};
 use crate::motion::Change;
+use crate::report::line::clean;
 use crate::scene::{CheckedScene, Scene, Value};
 use crate::tui::engine::{Results, Snapshot};
 use crate::tui::knobs::{KNOBS, Knob};
@@ -43,7 +44,7 @@ impl App {
                     self.mode = InputMode::Main;
                 }
             }
-            Err(error) => self.refusal = Some(error.to_string()),
+            Err(error) => self.refusal = Some(clean(&error.to_string())),
         }
     }
 
@@ -66,7 +67,7 @@ impl App {
                 true
             }
             Err(error) => {
-                self.refusal = Some(error.to_string());
+                self.refusal = Some(clean(&error.to_string()));
                 false
             }
         }

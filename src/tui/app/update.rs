@@ -4,7 +4,9 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 use super::time::MOST_ZOOM;
 use super::{App, Baseline, InputMode, Purpose, RATES};
+use crate::report::line;
 use crate::tui::bindings::{Action, Chord, lookup};
+use crate::tui::files::FileJob;
 use crate::tui::knobs::KNOBS;
 use crate::tui::lessons;
 use crate::tui::views::ViewId;
@@ -22,6 +24,8 @@ pub enum Effect {
     Redraw,
     /// Put a text on the clipboard of the terminal.
     Copy(String),
+    /// Write a file.
+    Write(FileJob),
 }
 
 /// Longest text of a typed value.
@@ -30,6 +34,7 @@ const LONGEST_TYPED: usize = 200;
 impl App {
     /// Handles a key press.
     pub fn key(&mut self, event: &KeyEvent) -> Effect {
+        self.disturb();
         if event.modifiers.contains(KeyModifiers::ALT) && event.code != KeyCode::Esc {
             // Escape and a key that arrive together look like Alt and that key.
             self.act(Action::Close);
@@ -42,10 +47,31 @@ impl App {
         }
         if let (Some(text), KeyCode::Char(letter), false) = (self.typed(), chord.code, chord.ctrl)
             && text.len() < LONGEST_TYPED
+            && line::harmless(letter) == letter
         {
             text.push(letter);
+            self.status = None;
         }
         Effect::None
+    }
+
+    /// Takes a pasted text into the field that is open. It never acts as keys.
+    pub fn paste(&mut self, text: &str) {
+        self.disturb();
+        // Breaks of lines and other characters that act have no place in a field.
+        let text: String =
+            text.chars().filter(|&letter| line::harmless(letter) == letter).collect();
+        let refused = match self.typed() {
+            None => Some("the pasted text is ignored: no field is open"),
+            Some(field) if field.len().saturating_add(text.len()) > LONGEST_TYPED => {
+                Some("the pasted text is ignored: it is too long")
+            }
+            Some(field) => {
+                field.push_str(&text);
+                None
+            }
+        };
+        self.status = refused.map(String::from);
     }
 
     /// The text that is being typed.
@@ -74,8 +100,12 @@ impl App {
                 self.mode = InputMode::Help(scroll.saturating_sub(1));
             }
             (_, Action::DeleteLast) => _ = self.typed().and_then(String::pop),
-            (InputMode::Naming(purpose, name), Action::Accept) => self.write(purpose, &name, false),
-            (InputMode::Replacing(purpose, name), Action::Yes) => self.write(purpose, &name, true),
+            (InputMode::Naming(purpose, name), Action::Accept) => {
+                return self.write(purpose, &name, false);
+            }
+            (InputMode::Replacing(purpose, name), Action::Yes) => {
+                return self.write(purpose, &name, true);
+            }
             (InputMode::Lessons(place), Action::KnobBelow) => {
                 let last = lessons::all().len().saturating_sub(1);
                 self.mode = InputMode::Lessons((place + 1).min(last));

@@ -183,6 +183,7 @@ mod tests {
             let interrupt = Chord { code: KeyCode::Char('c'), ctrl: true, shift: false };
             assert_eq!(lookup(context, interrupt), Some(Action::Quit));
             assert_eq!(lookup(context, key(KeyCode::Esc)), Some(Action::Close));
+            assert_eq!(lookup(context, table::ctrl('z')), Some(Action::Suspend));
         }
     }
 

@@ -19,7 +19,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
         InputMode::Replacing(_, name) => Some(format!("{name} exists: y replaces it, n leaves it")),
         _ => None,
     };
-    if let Some(question) = question {
+    if let Some(question) = question.filter(|_| app.status.is_none()) {
         // The end, where the cursor is, must be visible.
         let skip = question.chars().count().saturating_sub(usize::from(area.width));
         let shown: String = question.chars().skip(skip).collect();

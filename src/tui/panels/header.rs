@@ -5,7 +5,7 @@ use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 use crate::report::number::trimmed;
 use crate::tui::app::App;
 use crate::tui::axis::readable;
-use crate::tui::text::{pieces, print};
+use crate::tui::text::{columns, pieces, print, shorten};
 use crate::tui::theme::Role;
 
 /// Draws both lines.
@@ -32,9 +32,9 @@ fn verdict(app: &App, buffer: &mut Buffer, area: Rect) {
     let detail = look.spell(&detail);
     // The word is always shown; its detail, then the title, use the remaining room.
     let title = look.spell(&app.scene.title);
-    let room = width.saturating_sub(word.chars().count() + 1);
+    let room = width.saturating_sub(columns(&word) + 1);
     let detail = shorten(&detail, room, look.either("…", ".."));
-    let left = room.saturating_sub(detail.chars().count() + 2);
+    let left = room.saturating_sub(columns(&detail) + 2);
     let title =
         if left >= 8 { shorten(&title, left, look.either("…", "..")) } else { String::new() };
     print(buffer, area, 0, &word, style);
@@ -49,17 +49,8 @@ fn verdict(app: &App, buffer: &mut Buffer, area: Rect) {
     print(buffer, right, 0, &title, look.style(Role::Quiet));
 }
 
-/// Text of at most `width` characters, its end marked where it was cut.
-fn shorten(text: &str, width: usize, mark: &str) -> String {
-    if text.chars().count() <= width {
-        return text.to_string();
-    }
-    let kept = width.saturating_sub(mark.chars().count());
-    text.chars().take(kept).chain(mark.chars()).take(width).collect()
-}
-
 fn cells(text: &str) -> u16 {
-    u16::try_from(text.chars().count()).unwrap_or(u16::MAX)
+    u16::try_from(columns(text)).unwrap_or(u16::MAX)
 }
 
 fn speeds(app: &App, buffer: &mut Buffer, area: Rect) {

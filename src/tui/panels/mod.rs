@@ -53,4 +53,9 @@ pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
         }
     }
     footer::draw(app, buffer, places.footer);
+    if app.appearance.ascii() {
+        // Names and titles can have any letter.
+        let others = buffer.content.iter_mut().filter(|cell| !cell.symbol().is_ascii());
+        others.for_each(|cell| _ = cell.set_char('?'));
+    }
 }

@@ -1,0 +1,48 @@
+//! Text from outside (names, titles, refused values) made safe to show in one
+//! line of a terminal.
+
+/// Characters of a message that are shown at each end of a very long one.
+const SHOWN: usize = 800;
+
+/// A message without what quoted input must not do to a terminal: no control
+/// characters, no breaks of lines or of their direction, no endless text.
+#[must_use]
+pub fn clean(text: &str) -> String {
+    let count = text.chars().count();
+    if count <= 2 * SHOWN {
+        return text.chars().map(harmless).collect();
+    }
+    let head = text.chars().take(SHOWN).map(harmless);
+    let tail = text.chars().skip(count - SHOWN).map(harmless);
+    head.chain(" ... ".chars()).chain(tail).collect()
+}
+
+/// A character that takes its place in a line and does nothing else; a space
+/// in place of any other. Joiners and selectors are among the others: terminals
+/// do not agree on the width of what they make.
+#[must_use]
+pub fn harmless(c: char) -> char {
+    let acts = c.is_control()
+        || matches!(
+            c,
+            '\u{ad}' | '\u{61c}' | '\u{180e}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}'
+                | '\u{2060}'..='\u{206f}' | '\u{fe00}'..='\u{fe0f}' | '\u{feff}'
+                | '\u{fff9}'..='\u{fffb}' | '\u{e0000}'..='\u{e0fff}'
+        );
+    if acts { ' ' } else { c }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quoted_input_cannot_break_a_line_or_fill_the_screen() {
+        let tricky = "a\u{1b}[31m\u{202e}b\u{2028}c\u{2066}d\u{9b}e\u{feff}f";
+        assert_eq!(clean(tricky), "a [31m b c d e f");
+        assert_eq!(clean("Ω_lock, 50 µs, e\u{301}, 叶"), "Ω_lock, 50 µs, e\u{301}, 叶");
+        let long = clean(&format!("key = {}: allowed is 1", "x".repeat(1 << 20)));
+        assert!(long.starts_with("key = xxx") && long.ends_with("xxx: allowed is 1"));
+        assert!(long.contains(" ... ") && long.chars().count() < 1700);
+    }
+}

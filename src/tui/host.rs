@@ -1,0 +1,130 @@
+//! What the run loop needs besides a backend: the shell, the clipboard, files.
+
+use std::io::Result;
+use std::sync::mpsc::Sender;
+
+use super::events::ScreenEvent;
+use super::files::{FileJob, FileResult, write_aside};
+use super::terminal;
+
+/// What the run loop needs besides a backend.
+pub trait Host {
+    /// Gives the terminal to the shell until the job is continued.
+    ///
+    /// # Errors
+    /// The terminal cannot be set up again.
+    fn suspend(&mut self) -> Result<()>;
+    /// Sets up the terminal again after the job was continued from outside.
+    ///
+    /// # Errors
+    /// The terminal cannot be set up again.
+    fn resume(&mut self) -> Result<()>;
+    /// Puts a text on the clipboard of the terminal.
+    ///
+    /// # Errors
+    /// The terminal cannot be written to.
+    fn copy(&mut self, text: &str) -> Result<()>;
+    /// Writes a file. Without a result, that comes later as an event.
+    fn write(&mut self, job: FileJob) -> Option<FileResult>;
+}
+
+/// A host without a terminal, for tests; files are written at once.
+#[derive(Debug, Default)]
+pub struct NoHost;
+
+impl Host for NoHost {
+    fn suspend(&mut self) -> Result<()> {
+        Ok(())
+    }
+    fn resume(&mut self) -> Result<()> {
+        Ok(())
+    }
+    fn copy(&mut self, _: &str) -> Result<()> {
+        Ok(())
+    }
+    fn write(&mut self, job: FileJob) -> Option<FileResult> {
+        Some(job.run())
+    }
+}
+
+/// The real terminal, its shell, and a thread for files.
+#[derive(Debug)]
+pub struct Shell {
+    /// Where results of files go.
+    pub events: Sender<ScreenEvent>,
+}
+
+impl Host for Shell {
+    #[cfg(unix)]
+    fn suspend(&mut self) -> Result<()> {
+        terminal::leave();
+        stop()?;
+        terminal::regain()
+    }
+
+    #[cfg(not(unix))]
+    fn suspend(&mut self) -> Result<()> {
+        Ok(())
+    }
+
+    fn resume(&mut self) -> Result<()> {
+        // The shell may have changed the settings of the terminal.
+        terminal::regain()
+    }
+
+    fn copy(&mut self, text: &str) -> Result<()> {
+        // OSC 52: the terminal, not this machine, owns the clipboard.
+        terminal::write(format!("\x1b]52;c;{}\x07", base64(text.as_bytes())).as_bytes())
+    }
+
+    fn write(&mut self, job: FileJob) -> Option<FileResult> {
+        write_aside(job, self.events.clone())
+    }
+}
+
+/// Stops this job, as Ctrl-Z does for a program that does not catch it.
+///
+/// # Errors
+/// The system refuses.
+#[cfg(unix)]
+pub fn stop() -> Result<()> {
+    signal_hook::low_level::emulate_default_handler(signal_hook::consts::SIGTSTP)
+}
+
+/// There are no jobs to stop.
+///
+/// # Errors
+/// None here.
+#[cfg(not(unix))]
+pub fn stop() -> Result<()> {
+    Ok(())
+}
+
+/// Base 64 with padding, as OSC 52 wants it.
+fn base64(bytes: &[u8]) -> String {
+    const SIGNS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut out = String::new();
+    for chunk in bytes.chunks(3) {
+        let byte = |k: usize| u32::from(chunk.get(k).copied().unwrap_or(0));
+        let bits = byte(0) << 16 | byte(1) << 8 | byte(2);
+        for k in 0..4 {
+            let sign = SIGNS.get((bits >> (18 - 6 * k) & 63) as usize).copied().unwrap_or(b'A');
+            out.push(if k <= chunk.len() { char::from(sign) } else { '=' });
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn base64_of_the_examples_of_rfc_4648() {
+        for (text, expected) in
+            [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foobar", "Zm9vYmFy")]
+        {
+            assert_eq!(base64(text.as_bytes()), expected);
+        }
+    }
+}

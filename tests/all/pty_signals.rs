@@ -1,0 +1,216 @@
+//! Signals end the explorer in every state, with the terminal restored, even
+//! if nobody reads what it writes.
+
+#![cfg(unix)]
+
+use std::time::Duration;
+
+use crate::pty_support::{SHORT, Start, Terminal};
+
+/// An explorer with a large screen.
+fn large() -> Terminal {
+    let mut terminal = Start::explorer(&SHORT).size(200, 50).open();
+    terminal.wait_for(" LOCKED ");
+    terminal
+}
+
+/// Signals that end a program: name, number on Linux and on most other systems.
+const DEADLY: [(&str, u32); 7] =
+    [("INT", 2), ("TERM", 15), ("HUP", 1), ("QUIT", 3), ("ABRT", 6), ("ALRM", 14), ("PROF", 27)];
+
+/// Signals with numbers that differ between systems; these are of Linux.
+#[cfg(target_os = "linux")]
+const MORE: [(&str, u32); 10] = [
+    ("USR1", 10),
+    ("USR2", 12),
+    ("VTALRM", 26),
+    ("XCPU", 24),
+    ("SYS", 31),
+    ("TRAP", 5),
+    ("IO", 29),
+    ("PWR", 30),
+    ("34", 34),
+    ("64", 64),
+];
+#[cfg(not(target_os = "linux"))]
+const MORE: [(&str, u32); 0] = [];
+
+#[test]
+fn every_signal_ends_it_with_the_terminal_restored() {
+    for (name, number) in DEADLY.into_iter().chain(MORE) {
+        let mut terminal = Start::explorer(&SHORT).open();
+        terminal.wait_for("knob");
+        terminal.signal(name);
+        assert_eq!(terminal.wait(), 128 + number, "{name}");
+        terminal.assert_restored();
+    }
+}
+
+#[test]
+fn a_signal_ends_it_while_nobody_reads_the_terminal() {
+    for (name, number) in DEADLY.into_iter().chain(MORE) {
+        let mut terminal = large();
+        terminal.block();
+        terminal.signal(name);
+        // It ends although it is not read, and leaves what restores the terminal.
+        assert_eq!(terminal.ended().exit_code(), 128 + number, "{name}");
+        assert_eq!(terminal.wait(), 128 + number);
+        terminal.assert_restored();
+    }
+}
+
+#[test]
+fn a_signal_ends_it_in_every_state_read_or_not() {
+    let states = [
+        ("\r12", "12_"),
+        ("?", "Keys"),
+        ("g", "Lessons: Enter begins one"),
+        ("s", "save the scene as"),
+        (" ", "pause"),
+        ("c", "bilateral:"),
+        ("f5", "view"),
+    ];
+    for (keys, seen) in states {
+        for read in [true, false] {
+            let mut terminal = large();
+            terminal.send(keys);
+            terminal.wait_for(seen);
+            if !read {
+                terminal.block();
+            }
+            terminal.signal("TERM");
+            assert_eq!(terminal.ended().exit_code(), 143, "{keys:?} read: {read}");
+            assert_eq!(terminal.wait(), 143);
+            terminal.assert_restored();
+        }
+    }
+}
+
+#[test]
+fn a_signal_ends_it_while_it_starts_and_while_it_ends() {
+    for pause in [0, 1, 2, 3, 5, 8, 12, 20, 35] {
+        let mut terminal = Start::explorer(&SHORT).open();
+        std::thread::sleep(Duration::from_millis(pause));
+        terminal.signal("TERM");
+        let status = terminal.ended();
+        // Before it begins to listen, the signal ends it as any other program.
+        assert!(status.signal().is_some() || status.exit_code() == 143, "{status:?}");
+        if status.signal().is_none() {
+            terminal.wait();
+        }
+        terminal.assert_restored();
+    }
+    for pause in [0, 1, 3, 10] {
+        let mut terminal = large();
+        terminal.send("q");
+        std::thread::sleep(Duration::from_millis(pause));
+        terminal.signal("TERM");
+        let status = terminal.wait();
+        assert!([0, 143].contains(&status), "{status}");
+        terminal.assert_restored();
+    }
+}
+
+#[test]
+fn a_hang_up_ends_it_with_its_own_status_in_every_state() {
+    for keys in ["", " ", "?", "s", "\r12", "c", "f", "g", "\u{c}\u{c}"] {
+        let mut terminal = Start::explorer(&SHORT).leading().open();
+        terminal.wait_for(" LOCKED ");
+        terminal.send(keys);
+        terminal.hang_up();
+        let status = terminal.ended();
+        assert_eq!((status.exit_code(), status.signal()), (129, None), "{keys:?}");
+    }
+}
+
+#[test]
+fn a_hang_up_while_it_starts_is_never_a_failure() {
+    for step in 0..40 {
+        let moment = Duration::from_millis(step);
+        let status = Start::explorer(&SHORT).leading().abandoned(moment);
+        // Before it begins to listen, the hang-up ends it as any other program.
+        assert!(status.signal().is_some() || status.exit_code() == 129, "{status:?}");
+    }
+}
+
+#[test]
+fn a_hang_up_of_a_blocked_terminal_ends_it_too() {
+    let mut terminal = Start::explorer(&SHORT).size(200, 50).leading().open();
+    terminal.wait_for(" LOCKED ");
+    terminal.block();
+    terminal.hang_up();
+    let status = terminal.ended();
+    assert_eq!((status.exit_code(), status.signal()), (129, None));
+}
+
+/// Runs the explorer as a job of a shell that goes on when the job stops.
+fn job(then: &str) -> Terminal {
+    let script = format!("set -m; \"$@\"; echo is stopped; {then}");
+    Start::shell(&script, &SHORT).size(100, 30).open()
+}
+
+#[test]
+fn it_can_be_stopped_and_continued_in_every_dialog() {
+    for (keys, seen) in [
+        ("", "knob"),
+        ("\r12", "12_"),
+        ("s", "save the scene as"),
+        ("?", "Keys"),
+        ("g", "Lessons: Enter begins one"),
+    ] {
+        let mut terminal = job("read answer; fg; echo ended with $?");
+        terminal.wait_for(" LOCKED ");
+        terminal.send(keys);
+        terminal.wait_for(seen);
+        terminal.send("\u{1a}");
+        terminal.wait_for("is stopped");
+        assert!(!terminal.parser.screen().alternate_screen(), "{keys:?}");
+        assert!(!terminal.parser.screen().bracketed_paste(), "{keys:?}");
+        terminal.send("\r");
+        terminal.wait_for(seen);
+        assert!(terminal.parser.screen().alternate_screen(), "{keys:?}");
+        terminal.send("\u{3}");
+        terminal.wait_for("ended with 0");
+        terminal.assert_restored();
+    }
+}
+
+/// Ends the job and waits for its end; a status above that of TERM says that the
+/// job is stopped.
+const END: &str = "kill %1; kill -CONT %1; \
+                   while wait %1; s=$?; [ $s -gt 143 ]; do sleep 0.1; done; echo ended with $s";
+
+#[test]
+fn a_job_in_the_background_can_be_ended() {
+    let script = format!("set -m; \"$@\" & sleep 1.5; {END}");
+    let mut terminal = Start::shell(&script, &SHORT).open();
+    terminal.wait_for("ended with 143");
+    terminal.assert_restored();
+}
+
+#[test]
+fn a_stopped_job_can_be_ended() {
+    let mut terminal = job(END);
+    terminal.wait_for(" LOCKED ");
+    terminal.send("\u{1a}");
+    terminal.wait_for("ended with 143");
+    terminal.assert_restored();
+}
+
+#[test]
+fn a_signal_to_stop_is_heard_while_nobody_reads_and_the_screen_comes_back() {
+    let mut terminal = large();
+    terminal.block();
+    terminal.signal("TSTP");
+    terminal.wait_for_stop();
+    terminal.unblock();
+    // Without a shell it stays stopped until it is told to go on.
+    terminal.wait_for_main_screen();
+    terminal.signal("CONT");
+    terminal.wait_for(" LOCKED ");
+    terminal.block();
+    terminal.signal("TERM");
+    assert_eq!(terminal.ended().exit_code(), 143);
+    assert_eq!(terminal.wait(), 143);
+    terminal.assert_restored();
+}

@@ -1,0 +1,297 @@
+//! The built program in a pseudo-terminal whose reader can stop reading, and
+//! what its user can do: press keys, send signals, look, hang up.
+
+use std::io::{Read, Write};
+use std::num::NonZeroU16;
+use std::path::Path;
+use std::process::Command;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU8, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::time::{Duration, Instant};
+
+use portable_pty::{
+    Child, CommandBuilder, ExitStatus, MasterPty, PtySize, SlavePty, native_pty_system,
+};
+
+/// A long limit, not a speed test: a loaded machine may be slow.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// A short run, so that a verdict is there soon.
+pub const SHORT: [&str; 4] = ["--step", "2e-7", "--end", "0.02"];
+
+/// What the reader of the terminal does.
+const READS: u8 = 0;
+const PAUSES: u8 = 1;
+const GOES: u8 = 2;
+
+/// A pseudo-terminal with a program in it. Dropping it kills the program.
+pub struct Terminal {
+    pub parser: vt100::Parser,
+    output: Receiver<Vec<u8>>,
+    input: Option<Box<dyn Write + Send>>,
+    child: Box<dyn Child + Send + Sync>,
+    master: Option<Box<dyn MasterPty + Send>>,
+    /// Kept open: a terminal that nobody has open forgets its output.
+    slave: Option<Box<dyn SlavePty + Send>>,
+    reader: Arc<AtomicU8>,
+    before: String,
+}
+
+/// How a program is started.
+pub struct Start {
+    command: CommandBuilder,
+    size: PtySize,
+}
+
+impl Start {
+    /// The explorer with these arguments.
+    pub fn explorer(arguments: &[&str]) -> Self {
+        Self::program(env!("CARGO_BIN_EXE_rubscope"), arguments).detached()
+    }
+
+    /// A shell with job control that runs `script`; `"$@"` is the explorer.
+    pub fn shell(script: &str, arguments: &[&str]) -> Self {
+        let mut all = vec!["-c", script, "sh", env!("CARGO_BIN_EXE_rubscope")];
+        all.extend(arguments);
+        Self::program("sh", &all)
+    }
+
+    fn program(program: &str, arguments: &[&str]) -> Self {
+        let mut command = CommandBuilder::new(program);
+        command.args(arguments);
+        // What the machine of the test has set must not matter.
+        command.env("TERM", "xterm-256color");
+        command.env("LC_ALL", "C.UTF-8");
+        command.env("NO_COLOR", "");
+        let size = PtySize { rows: 24, cols: 80, pixel_width: 0, pixel_height: 0 };
+        Self { command, size }
+    }
+
+    /// Without the session's terminal, the terminal outlives the program, as it
+    /// does if a shell started it.
+    fn detached(mut self) -> Self {
+        self.command.set_controlling_tty(false);
+        self
+    }
+
+    /// The program is the one that the terminal hangs up on.
+    pub fn leading(mut self) -> Self {
+        self.command.set_controlling_tty(true);
+        self
+    }
+
+    pub fn env(mut self, name: &str, value: &str) -> Self {
+        self.command.env(name, value);
+        self
+    }
+
+    pub fn folder(mut self, folder: &Path) -> Self {
+        self.command.cwd(folder);
+        self
+    }
+
+    pub fn size(mut self, cols: u16, rows: u16) -> Self {
+        (self.size.cols, self.size.rows) = (cols, rows);
+        self
+    }
+
+    /// Starts it in a terminal that is closed after a moment; how it ends.
+    pub fn abandoned(self, moment: Duration) -> ExitStatus {
+        let pair = native_pty_system().openpty(self.size).unwrap();
+        let mut child = pair.slave.spawn_command(self.command).unwrap();
+        drop(pair.slave);
+        std::thread::sleep(moment);
+        drop(pair.master);
+        let began = Instant::now();
+        loop {
+            if let Some(status) = child.try_wait().unwrap() {
+                return status;
+            }
+            if began.elapsed() > PATIENCE {
+                child.kill().unwrap();
+                panic!("it does not end");
+            }
+            std::thread::sleep(Duration::from_millis(5));
+        }
+    }
+
+    pub fn open(self) -> Terminal {
+        let pair = native_pty_system().openpty(self.size).unwrap();
+        let before = settings(&*pair.master);
+        let child = pair.slave.spawn_command(self.command).unwrap();
+        let mut from = pair.master.try_clone_reader().unwrap();
+        let (sender, output) = channel();
+        let reader = Arc::new(AtomicU8::new(READS));
+        let state = Arc::clone(&reader);
+        std::thread::spawn(move || {
+            let mut buffer = [0; 4096];
+            loop {
+                match state.load(Ordering::SeqCst) {
+                    READS => {}
+                    PAUSES => {
+                        std::thread::sleep(Duration::from_millis(5));
+                        continue;
+                    }
+                    _ => return,
+                }
+                let Ok(count) = from.read(&mut buffer) else { return };
+                if count == 0 || sender.send(buffer[..count].to_vec()).is_err() {
+                    return;
+                }
+            }
+        });
+        // A terminal without a size has the usual one.
+        let of = |cells| NonZeroU16::new(cells).unwrap();
+        let (rows, cols) = match (self.size.rows, self.size.cols) {
+            (0, 0) => (24, 80),
+            (rows, cols) => (rows.min(500), cols.min(1000)),
+        };
+        let input = Some(pair.master.take_writer().unwrap());
+        Terminal {
+            parser: vt100::Parser::new(of(rows), of(cols), 0),
+            output,
+            input,
+            child,
+            master: Some(pair.master),
+            slave: Some(pair.slave),
+            reader,
+            before,
+        }
+    }
+}
+
+/// The settings of the terminal, as text to compare.
+fn settings(master: &dyn MasterPty) -> String {
+    format!("{:?}", master.get_termios().unwrap())
+}
+
+impl Terminal {
+    pub fn send(&mut self, keys: &str) {
+        let input = self.input.as_mut().unwrap();
+        input.write_all(keys.as_bytes()).unwrap();
+        input.flush().unwrap();
+    }
+
+    pub fn text(&self) -> String {
+        self.parser.screen().contents()
+    }
+
+    /// Waits until the screen contains a text.
+    pub fn wait_for(&mut self, text: &str) {
+        self.wait_until(text, |screen| screen.contents().contains(text));
+    }
+
+    /// Waits until the terminal is given back to the shell.
+    pub fn wait_for_main_screen(&mut self) {
+        self.wait_until("main screen", |screen| {
+            !screen.alternate_screen() && !screen.hide_cursor() && !screen.bracketed_paste()
+        });
+    }
+
+    fn wait_until(&mut self, what: &str, holds: impl Fn(&vt100::Screen) -> bool) {
+        let began = Instant::now();
+        while !holds(self.parser.screen()) {
+            assert!(began.elapsed() < PATIENCE, "no {what:?} in\n{}", self.text());
+            match self.output.recv_timeout(Duration::from_millis(100)) {
+                Ok(bytes) => self.parser.process(&bytes),
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => {
+                    panic!("ended without {what:?}:\n{}", self.text())
+                }
+            }
+        }
+    }
+
+    /// Sends a signal to the program.
+    pub fn signal(&self, signal: &str) {
+        let id = self.child.process_id().unwrap().to_string();
+        let sent = Command::new("kill").args(["-s", signal, &id]).status().unwrap();
+        assert!(sent.success(), "kill -s {signal}");
+    }
+
+    /// Waits until the program is stopped, where the system tells it in a file.
+    pub fn wait_for_stop(&self) {
+        let state = format!("/proc/{}/stat", self.child.process_id().unwrap());
+        let began = Instant::now();
+        while let Ok(state) = std::fs::read_to_string(&state)
+            && !state.contains(") T ")
+        {
+            assert!(began.elapsed() < PATIENCE, "it does not stop: {state}");
+            std::thread::sleep(Duration::from_millis(10));
+        }
+    }
+
+    /// Nobody reads the terminal any more; the program writes until it is full.
+    pub fn block(&mut self) {
+        self.reader.store(PAUSES, Ordering::SeqCst);
+        // Each of these is a whole screen, several times what the system keeps.
+        for _ in 0..25 {
+            self.send("\u{c}");
+            std::thread::sleep(Duration::from_millis(20));
+        }
+    }
+
+    /// The terminal is read again.
+    pub fn unblock(&mut self) {
+        self.reader.store(READS, Ordering::SeqCst);
+    }
+
+    /// Closes the terminal, like a window. Only a leading program is told.
+    pub fn hang_up(&mut self) {
+        self.reader.store(GOES, Ordering::SeqCst);
+        // The reader ends at the next output; the screen is drawn every second.
+        let began = Instant::now();
+        while !matches!(
+            self.output.recv_timeout(Duration::from_millis(20)),
+            Err(RecvTimeoutError::Disconnected)
+        ) {
+            assert!(began.elapsed() < PATIENCE, "nothing was drawn for a minute");
+        }
+        (self.slave, self.input, self.master) = (None, None, None);
+    }
+
+    /// Waits for the end of a program whose terminal nobody may be reading.
+    pub fn ended(&mut self) -> ExitStatus {
+        let began = Instant::now();
+        loop {
+            if let Some(status) = self.child.try_wait().unwrap() {
+                return status;
+            }
+            assert!(began.elapsed() < PATIENCE, "it does not end");
+            // If it is read, this must go on: a full terminal would block it.
+            if let Ok(bytes) = self.output.recv_timeout(Duration::from_millis(20)) {
+                self.parser.process(&bytes);
+            }
+        }
+    }
+
+    /// Waits for the end and reads the rest; the exit status.
+    pub fn wait(&mut self) -> u32 {
+        let status = self.ended();
+        self.unblock();
+        while let Ok(bytes) = self.output.recv_timeout(Duration::from_millis(300)) {
+            self.parser.process(&bytes);
+        }
+        assert_eq!(status.signal(), None, "killed");
+        status.exit_code()
+    }
+
+    pub fn assert_restored(&self) {
+        let screen = self.parser.screen();
+        assert!(!screen.alternate_screen(), "still on the alternate screen");
+        assert!(!screen.hide_cursor(), "the cursor is still hidden");
+        assert!(!screen.bracketed_paste(), "pasted text is still marked");
+        assert_eq!(screen.mouse_protocol_mode(), vt100::MouseProtocolMode::None);
+        let after = settings(&**self.master.as_ref().unwrap());
+        assert_eq!(after, self.before, "the settings of the terminal changed");
+    }
+}
+
+impl Drop for Terminal {
+    fn drop(&mut self) {
+        self.reader.store(GOES, Ordering::SeqCst);
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
