@@ -69,10 +69,9 @@ type_in() { driver send-keys -t pane -l -- "$1"; }
 press() { driver send-keys -t pane "$@"; }
 resize() { driver resize-window -t pane -x "$1" -y "$2"; }
 # A session that stays: without one, the server of tmux ends.
-driver -f /dev/null new-session -d -s keeper
+driver -f /dev/null new-session -d -s keeper 'exec sleep 100000'
 # Without status line a window is as large as its pane.
 driver set-option -g status off
-driver set-option -g window-size manual
 driver set-option -g remain-on-exit on
 # Opens the pane, 120 x 40, with a command in it.
 open_pane() {

@@ -55,6 +55,7 @@ mod pty_signals;
 mod pty_support;
 mod scene_notes;
 mod scenes;
+mod security;
 mod soak;
 mod tui_hostile;
 mod tui_loop;
