@@ -112,7 +112,7 @@ fn around(criterion: &mut Criterion) {
     });
     let cell = scene(&[EVENT[0], EVENT[1], ("operation.pulse_n", "4e5")]);
     group.bench_function("a cell of a map", |bencher| {
-        bencher.iter(|| run_to_verdict(black_box(&cell)));
+        bencher.iter(|| run_to_verdict(black_box(&cell), &|| true));
     });
     group.finish();
 }

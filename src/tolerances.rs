@@ -74,22 +74,32 @@ pub(crate) const SOFT_TOUCH: f64 = 1e-12;
 /// do.
 pub(crate) const BRIEF_ROCKING: f64 = 1e-6;
 
-/// Most mode changes of one run of the event solver. A million impacts take a
-/// second; fifty times that is a scene to be looked at. Smaller: long bounces
-/// fail.
-pub(crate) const MOST_EVENTS: u64 = 50_000_000;
+/// Most mode changes of one run of the event solver. A million take a second,
+/// ten where blades move; ten times that is a scene to be looked at. Smaller:
+/// long bounces fail.
+pub(crate) const MOST_EVENTS: u64 = 10_000_000;
 
-/// Most looks ahead within one segment: minutes of work without an event.
-pub(crate) const MOST_LOOKS: u64 = 1_000_000_000;
+/// Most looks ahead in one run: a minute or two of work. An undamped casing that
+/// bounces for hours asks for them.
+pub(crate) const MOST_LOOKS: u64 = 100_000_000;
 
 /// Looks of one segment after which free flight is bounded to higher order:
 /// ordinary flights take some dozens. It may graze a side with neither rate nor
 /// bend, as next to the critical speed; without this it looks a billion times.
 pub(crate) const STALLED_LOOKS: u64 = 1000;
 
+/// Looks between two questions whether to go on: a look takes a microsecond, on
+/// a polygon of thousands of sides some fifty.
+pub(crate) const LOOKS_UNASKED: u64 = 16;
+
 /// Most mode changes in a row that take no time. Physical ones are a few; more
 /// are a loop.
 pub(crate) const MOST_EVENTS_AT_ONCE: u32 = 1000;
+
+/// Radians of all rates that take no time: ten digits below what a clock of
+/// double precision resolves in one. Zero: a side that lets go and closes again
+/// by round-off, in steps as small as numbers are, does so for ever.
+pub(crate) const AN_INSTANT: f64 = 1e-26;
 
 /// Tolerances that may be chosen. Finer than round-off has no meaning; coarser
 /// moves impacts by more than the clearance resolves.
@@ -179,6 +189,20 @@ pub(crate) const FEW_NODES: f64 = 0.3;
 pub(crate) const MOST_PANELS: f64 = 1e7;
 
 // The explicit solver.
+
+/// Most rows that one step solves for: a few in an ordinary step, a hundred on a
+/// rim of thousands of blades. The work grows with their cube; more are a step
+/// too long for the blades.
+pub(crate) const MOST_ROWS: usize = 512;
+
+/// Most multiplications of one step on its contact rows: a tenth of a second.
+/// Least-index pivoting may need any number of tries, though one or two are
+/// usual.
+pub(crate) const MOST_PIVOTING: usize = 100_000_000;
+
+/// Updates of one coordinate between two questions whether to go on: some tens
+/// of microseconds.
+pub(crate) const UPDATES_UNASKED: usize = 4096;
 
 /// Steps without contact before a contact counts as broken: the impact of the
 /// scheme takes two steps, and its rounding may open one step between them.

@@ -27,7 +27,7 @@ pub struct ExploreCommand {
           value_parser = choice::<tui::Color>(), hide_possible_values = true)]
     color: tui::Color,
     /// How points are drawn: braille, octant, halfblock, dot or ascii [default:
-    /// ascii where TERM is linux, vt100 or alike or the locale is not UTF-8,
+    /// ascii where TERM is linux, vt100 or similar, or the locale is not UTF-8,
     /// otherwise braille]
     #[arg(long, value_name = "MARKER",
           value_parser = choice::<tui::Marker>(), hide_possible_values = true)]
@@ -68,7 +68,7 @@ impl ExploreCommand {
             marker: self.marker,
             source: Some(tui::Source { name: name.to_string(), scene: read }),
         };
-        status::go_on();
+        status::say_noted();
         match tui::explore(scene, look)? {
             0 => Ok(Status::Done),
             code => Ok(Status::Signal(code.saturating_sub(128))),

@@ -10,7 +10,7 @@ use clap::Args;
 use super::options::SceneOptions;
 use super::status::{self, Refusal, Status, say};
 use super::{Done, output};
-use crate::file::{self, Written};
+use crate::file::Written;
 use crate::report::{figure::table, svg};
 use crate::scene::{CheckedScene, Scene};
 use crate::study::figures::{Figure, NUMBERS, Scenes, figure};
@@ -43,7 +43,7 @@ impl FiguresCommand {
         std::fs::create_dir_all(&self.out).with_context(|| format!("cannot make {shown}"))?;
         for number in &numbers {
             let path = self.out.join(format!("{}.svg", stem(*number)));
-            file::check_place(&path).with_context(|| format!("cannot write {}", path.display()))?;
+            output::try_place(&path)?;
         }
         for number in numbers {
             // A machine that cannot lock has no Figs. 9 and 10: refused input.
@@ -103,7 +103,7 @@ impl FiguresCommand {
             let written = write(&self.out.join(&name), out, |out| table(panel).write_csv(out))?;
             note(name, written);
         }
-        status::go_on();
+        status::say_noted();
         let shown = self.out.display();
         for (names, done) in [(wrote, "wrote"), (replaced, "replaced")] {
             if !names.is_empty() {

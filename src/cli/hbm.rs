@@ -83,7 +83,7 @@ impl HbmCommand {
         let asked =
             Asked { scene: &resolved.scene, speeds: &speeds, form, damped: self.damped, pair };
         let answer = views::answer(&asked, &self.view()?)?;
-        status::go_on();
+        status::say_noted();
         if self.json {
             json::write(&answer.json, out)?;
         }

@@ -66,7 +66,7 @@ const ENVIRONMENT: &[(&str, &str)] = &[
     (
         "TERM",
         "dumb: the explorer does not start; the other commands work as usual. linux, vt100 and \
-         alike: the explorer draws with ASCII characters only, unless --marker is given.",
+         similar: the explorer draws with ASCII characters only, unless --marker is given.",
     ),
     (
         "LC_ALL, LC_CTYPE, LANG",

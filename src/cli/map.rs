@@ -111,12 +111,13 @@ impl MapCommand {
         }
         let plan = self.plan()?;
         check_picture(&plan, format)?;
+        self.result.try_place()?;
         let mut map = Map::empty(plan);
         let part = match self.part_file() {
             Some(path) => Some(PartFile::open(&path, &mut map)?),
             None => None,
         };
-        status::go_on();
+        status::say_noted();
         let kept = Kept { adaptive: self.adaptive, threads: self.threads, part };
         if let Some(signal) = compute(&mut map, shard, &kept, out)? {
             return Ok(Status::Signal(signal));
@@ -181,6 +182,7 @@ impl Merge {
         let map = read_parts(&self.files)?;
         check_picture(&map.plan, format)?;
         part::require_complete(&map).map_err(|error| Refusal::because(error.to_string()))?;
+        self.result.try_place()?;
         self.result.deliver(&map, out)?;
         Ok(Status::Done)
     }
@@ -207,9 +209,14 @@ fn read_parts(files: &[PathBuf]) -> anyhow::Result<Map> {
 }
 
 impl ResultOptions {
-    fn format(&self) -> anyhow::Result<Option<&'static str>> {
+    fn format(&self) -> Result<Option<&'static str>, Refusal> {
         let Some(path) = &self.out else { return Ok(None) };
-        output::format(path, &["csv", "json", "svg", "part"]).map(Some)
+        output::ending(path, &["csv", "json", "svg", "part"]).map(Some)
+    }
+
+    /// Tries the place of the result, before anything is computed.
+    fn try_place(&self) -> anyhow::Result<()> {
+        self.out.as_deref().map_or(Ok(()), output::try_place)
     }
 
     /// Prints and writes the finished map. If it cannot be written, it goes
@@ -222,6 +229,8 @@ impl ResultOptions {
         }
         let (Some(path), Some(format)) = (&self.out, self.format()?) else { return Ok(()) };
         let shown = path.display();
+        // The file may be standard output itself, and comes after what is there.
+        out.flush()?;
         let error = match write_file(map, format, path) {
             Ok(written) => {
                 let cells = format!("{} cells", map.cells.iter().flatten().count());

@@ -3,15 +3,14 @@
 
 use std::io::Write;
 use std::path::Path;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use rayon::prelude::*;
-use signal_hook::consts::{SIGINT, SIGTERM};
 
 use super::output;
 use super::part_file::{PartFile, save_new};
+use super::signals::StopRequest;
 use super::status::say;
 use crate::study::{Cell, Map, Progress, Shard, part};
 
@@ -36,10 +35,7 @@ pub(super) fn compute(
     out: &mut dyn Write,
 ) -> anyhow::Result<Option<u8>> {
     let progress = Progress::default();
-    let signal = Arc::new(AtomicUsize::new(0));
-    for number in [SIGINT, SIGTERM] {
-        signal_hook::flag::register_usize(number, Arc::clone(&signal), number as usize)?;
-    }
+    let request = StopRequest::watch()?;
     let notes = kept.part.as_ref();
     let mut builder = rayon::ThreadPoolBuilder::new();
     if let Some(threads) = kept.threads {
@@ -50,7 +46,7 @@ pub(super) fn compute(
     let missing = indices.clone().filter(|&index| map.cells[index].is_none()).count();
     let finished = AtomicBool::new(false);
     std::thread::scope(|scope| {
-        scope.spawn(|| watch(&progress, &signal, &finished, missing as u64));
+        scope.spawn(|| watch(&progress, &request, &finished, missing as u64));
         let keep = |index: usize, cell: Cell| {
             if let Some(notes) = notes {
                 notes.keep(index, cell);
@@ -69,18 +65,15 @@ pub(super) fn compute(
     if let Some((path, error)) = &trouble {
         say(&format!("rubscope: could not save cells in {}: {error}", path.display()));
     }
-    match signal.load(Ordering::Relaxed) {
-        0 => {
-            if kept.adaptive {
-                say_what_was_saved(map);
-            }
-            Ok(None)
-        }
-        number => {
-            stopped(map, notes.map(PartFile::path).filter(|_| trouble.is_none()), out)?;
-            Ok(Some(u8::try_from(number).unwrap_or(1)))
-        }
+    request.end_at_once();
+    if let Some(number) = request.received() {
+        stopped(map, notes.map(PartFile::path).filter(|_| trouble.is_none()), out)?;
+        return Ok(Some(number));
     }
+    if kept.adaptive {
+        say_what_was_saved(map);
+    }
+    Ok(None)
 }
 
 /// The cost of an adaptive map, compared with all its cells.
@@ -117,10 +110,10 @@ fn stopped(map: &Map, complete: Option<&Path>, out: &mut dyn Write) -> anyhow::R
 }
 
 /// Updates the bar and handles signals until the cells are done.
-fn watch(progress: &Progress, signal: &AtomicUsize, finished: &AtomicBool, cells: u64) {
+fn watch(progress: &Progress, request: &StopRequest, finished: &AtomicBool, cells: u64) {
     let bar = output::bar(cells, "{bar:30} {pos}/{len} cells, {per_sec}, {eta} left");
     while !finished.load(Ordering::Relaxed) {
-        if signal.load(Ordering::Relaxed) != 0 {
+        if request.received().is_some() {
             progress.stop.store(true, Ordering::Relaxed);
         }
         bar.set_position(progress.done.load(Ordering::Relaxed));

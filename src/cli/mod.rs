@@ -19,6 +19,7 @@ pub mod range;
 mod run;
 mod scenes;
 pub mod script;
+mod signals;
 pub mod status;
 mod words;
 

@@ -19,11 +19,30 @@ pub fn bar(length: u64, template: &str) -> ProgressBar {
     bar
 }
 
-/// The ending of a file given with `--out`, which must be one of these.
+/// The ending of a file given with `--out`, which must be one of these; the place
+/// is tried.
 ///
 /// # Errors
 /// Another ending, or a path where no file can be written.
 pub fn format(path: &Path, endings: &[&'static str]) -> anyhow::Result<&'static str> {
+    let known = ending(path, endings)?;
+    try_place(path)?;
+    Ok(known)
+}
+
+/// Tries whether a file can be written there.
+///
+/// # Errors
+/// It cannot.
+pub fn try_place(path: &Path) -> anyhow::Result<()> {
+    file::check_place(path).with_context(|| format!("cannot write {}", path.display()))
+}
+
+/// The ending of a file given with `--out`, which must be one of these.
+///
+/// # Errors
+/// Another ending.
+pub fn ending(path: &Path, endings: &[&'static str]) -> Result<&'static str, Refusal> {
     let given = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
     let Some(known) = endings.iter().find(|known| known.eq_ignore_ascii_case(given)) else {
         let names: Vec<String> = endings.iter().map(|known| format!(".{known}")).collect();
@@ -33,9 +52,8 @@ pub fn format(path: &Path, endings: &[&'static str]) -> anyhow::Result<&'static 
             None => String::new(),
         };
         let allowed = format!("a file name ending in {listed}");
-        return Err(Refusal::of("--out", path.display(), allowed).into());
+        return Err(Refusal::of("--out", path.display(), allowed));
     };
-    file::check_place(path).with_context(|| format!("cannot write {}", path.display()))?;
     Ok(known)
 }
 
@@ -80,6 +98,8 @@ pub fn replace_or_print(
     content: &dyn Fn(&mut dyn Write) -> std::io::Result<()>,
     text: &dyn Fn(&mut dyn Write) -> std::io::Result<()>,
 ) -> anyhow::Result<Written> {
+    // The file may be standard output itself, and comes after what is there.
+    out.flush()?;
     file::replace(path, content).or_else(|error| {
         text(out)?;
         out.flush()?;

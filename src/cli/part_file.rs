@@ -8,7 +8,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use anyhow::Context;
 
-use super::status::{Refusal, say};
+use super::status::{Refusal, note};
 use crate::file;
 use crate::study::part::{self, PartWriter};
 use crate::study::{Cell, Map};
@@ -116,7 +116,7 @@ fn lock(path: &Path) -> anyhow::Result<File> {
             Err(TryLockError::WouldBlock) => return Err(in_use(path, &file).into()),
             // Some file systems know no locks.
             Err(TryLockError::Error(error)) => {
-                say(&format!("rubscope: could not lock {}: {error}", path.display()));
+                note(format!("rubscope: could not lock {}: {error}", path.display()));
                 return Ok(file);
             }
         }
@@ -198,7 +198,7 @@ fn go_on(file: &File, path: &Path, map: &mut Map) -> anyhow::Result<PartWriter> 
         return Err(Refusal::because(reason).into());
     }
     file.set_len(part.whole).with_context(|| format!("cannot write {shown}"))?;
-    say(&format!("rubscope: going on from {done} cells in {shown}"));
+    note(format!("rubscope: going on from {done} cells in {shown}"));
     (map.cells, map.runs) = (part.map.cells, part.map.runs);
     Ok(part.writer)
 }

@@ -8,6 +8,7 @@ use clap::Args;
 use super::options::SceneOptions;
 use super::status::{self, Refusal, Status};
 use super::{Done, output};
+use crate::motion::to_the_end;
 use crate::report::{json, precision as report, svg};
 use crate::study::precision::{Effort, Measure, Precision, ways};
 
@@ -44,12 +45,12 @@ impl PrecisionCommand {
         let effort = Effort { repeats: self.repeat, finest_s: self.finest, ..Effort::default() };
         let ways = ways(&scene, effort);
         let bar = output::bar(ways.len() as u64, "{bar:30} {pos}/{len} {msg}");
-        let measure = Measure::new(&scene)?;
-        status::go_on();
+        let Some(measure) = Measure::new(&scene, &to_the_end)? else { return Ok(Status::Failed) };
+        status::say_noted();
         let mut rows = Vec::with_capacity(ways.len());
         for way in ways {
             bar.set_message(report::series(&way));
-            rows.push(measure.row(way, effort)?);
+            rows.extend(measure.row(way, effort, &to_the_end)?);
             bar.inc(1);
         }
         bar.finish_and_clear();

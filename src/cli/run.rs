@@ -10,7 +10,7 @@ use super::options::SceneOptions;
 use super::script::{self, RequestedScript};
 use super::status::{self, Status};
 use super::{Done, output};
-use crate::motion::{Sampling, Verdict, is_sensitive_with, run_to_end};
+use crate::motion::{Sampling, Verdict, is_sensitive, run_to_end, to_the_end};
 use crate::report::{History, json, npz, summary};
 
 /// Simulate a scene in time and report how it ends.
@@ -52,11 +52,12 @@ impl RunCommand {
             Some(_) => Sampling { intervals: self.samples - 1, gaps: true },
             None => Sampling::default(),
         };
-        status::go_on();
+        status::say_noted();
         let started = Instant::now();
         let mut report = run_to_end(&scene, &acts, sampling, &mut |sample| history.push(sample));
         let wall_s = started.elapsed().as_secs_f64();
-        report.outcome.sensitive = is_sensitive_with(&scene, &acts, report.reached);
+        let sensitive = is_sensitive(&scene, &acts, report.reached, &to_the_end);
+        report.outcome.sensitive = sensitive.unwrap_or(false);
         let changes = Some(&script).filter(|script| !script.is_empty());
         if self.json {
             json::write_run(&report, wall_s, changes, out)?;

@@ -44,7 +44,7 @@ const BROKEN_PIPE: u8 = 13;
 /// The exit status of a command, after its message if it has one.
 pub fn exit(done: super::Done) -> u8 {
     if done.is_ok() {
-        go_on();
+        say_noted();
     }
     let error = match done {
         Ok(Status::Done) => return 0,
@@ -63,7 +63,7 @@ pub fn exit(done: super::Done) -> u8 {
         say(&format!("rubscope: {error:#}"));
         return 2;
     }
-    go_on();
+    say_noted();
     say(&format!("rubscope: {error:#}"));
     1
 }
@@ -84,7 +84,7 @@ pub fn note(line: String) {
 }
 
 /// Says what was noted: the input is accepted.
-pub fn go_on() {
+pub fn say_noted() {
     let lines = std::mem::take(&mut *noted());
     lines.iter().for_each(|line| say(line));
 }

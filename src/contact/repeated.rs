@@ -16,7 +16,7 @@
 //! where each equation is of one size. Rows that do not differ at all share
 //! their group's push evenly.
 
-use crate::tolerances::OPEN_ROW;
+use crate::tolerances::{MOST_PIVOTING, OPEN_ROW};
 use nalgebra::{DMatrix, DVector};
 
 /// One row, as its difference from the reference of its group.
@@ -82,7 +82,9 @@ impl Repeated<'_> {
         let count = self.rows.len();
         let closes = |row: &Repeat| self.groups[row.group].gap + row.gap < 0.0;
         let mut active: Vec<bool> = self.rows.iter().map(closes).collect();
-        for _ in 0..(64 + 8 * count * count) {
+        let mut work = 0;
+        while work < MOST_PIVOTING {
+            work += count * count + active.iter().filter(|&&active| active).count().pow(3);
             let closed = self.close(&active)?;
             let wrong = (0..count).find(|&row| {
                 if active[row] { closed.multipliers[row] > 0.0 } else { self.is_shut(row, &closed) }

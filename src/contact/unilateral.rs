@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 
 use super::repeated::Repeated;
 use super::{StepLaw, all_closed, pair, single};
-use crate::tolerances::PIVOT_GAP;
+use crate::tolerances::{MOST_PIVOTING, PIVOT_GAP};
 
 /// A linear complementarity problem on the rows.
 #[derive(Debug)]
@@ -58,8 +58,10 @@ pub fn complementary(w: &DMatrix<f64>, gap: &[f64]) -> Option<Vec<f64>> {
     let scale = gap.iter().fold(0.0_f64, |most, g| most.max(g.abs()));
     let round_off = PIVOT_GAP * scale;
     let mut active = vec![false; rows];
-    for _ in 0..(64 + 8 * rows * rows) {
+    let mut work = 0;
+    while work < MOST_PIVOTING {
         let chosen: Vec<usize> = (0..rows).filter(|&row| active[row]).collect();
+        work += rows * rows + chosen.len().pow(3);
         let block = DMatrix::from_fn(chosen.len(), chosen.len(), |i, j| w[(chosen[i], chosen[j])]);
         let closed: Vec<f64> = chosen.iter().map(|&row| gap[row]).collect();
         let part = if chosen.is_empty() { Vec::new() } else { all_closed(block, &closed)? };

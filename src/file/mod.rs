@@ -39,14 +39,13 @@ pub enum Written {
 pub fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<Written> {
     match Place::of(path)? {
         Place::Stream(path) => {
-            let out = File::options().append(true).open(path)?;
-            fill(&out, write)?;
+            fill(&place::open_stream(&path)?, write)?;
             Ok(Written::New)
         }
         Place::New(path) => {
             let temporary = Temporary::beside(&path, None)?;
             fill(temporary.file(), write)?;
-            temporary.sync()?;
+            temporary.finish(None)?;
             temporary.replace(&path)?;
             Ok(Written::New)
         }
@@ -59,7 +58,7 @@ pub fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) ->
         Place::Existing { path, metadata } => {
             let temporary = Temporary::beside(&path, Some(&metadata))?;
             fill(temporary.file(), write)?;
-            temporary.sync()?;
+            temporary.finish(Some(&metadata))?;
             temporary.replace(&path)?;
             Ok(Written::Replaced)
         }
@@ -78,7 +77,7 @@ pub fn create(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> 
     let (Place::New(path) | Place::Stream(path) | Place::Existing { path, .. }) = Place::of(path)?;
     let temporary = Temporary::beside(&path, None)?;
     fill(temporary.file(), write)?;
-    temporary.sync()?;
+    temporary.finish(None)?;
     temporary.create(&path)
 }
 

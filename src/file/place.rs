@@ -40,7 +40,10 @@ impl Place {
         if metadata.is_dir() {
             return Err(Error::from(ErrorKind::IsADirectory));
         }
-        if !metadata.is_file() || is_open_here(path) {
+        if let Some(open) = open_here(path) {
+            return Ok(Self::Stream(open));
+        }
+        if !metadata.is_file() {
             return Ok(Self::Stream(path.to_path_buf()));
         }
         // A superuser could replace it all the same: the mode says what is wanted.
@@ -93,18 +96,31 @@ fn follow(path: &Path) -> Result<PathBuf> {
     Err(Error::other("too many links"))
 }
 
-/// Whether the path stands for a file that this program has open, as
+/// The last link of a path that stands for a file that this program has open, as
 /// `/dev/stdout` does: another file of that name would not reach its reader.
-fn is_open_here(path: &Path) -> bool {
+fn open_here(path: &Path) -> Option<PathBuf> {
     let mut path = path.to_path_buf();
     for _ in 0..MOST_LINKS {
         if path.starts_with("/proc") || path.starts_with("/dev/fd") {
-            return true;
+            return Some(path);
         }
         match path.read_link() {
             Ok(target) => path = folder(&path).join(target),
-            Err(_) => return false,
+            Err(_) => return None,
         }
     }
-    false
+    None
+}
+
+/// Opens what is written to directly. Standard output goes on where it is: opened
+/// again, a file behind it would be written from its start.
+pub(super) fn open_stream(path: &Path) -> Result<File> {
+    #[cfg(unix)]
+    if path.file_name().is_some_and(|name| name == "1")
+        && (path.starts_with("/proc/self/fd") || path.starts_with("/dev/fd"))
+    {
+        use std::os::fd::AsFd;
+        return Ok(File::from(std::io::stdout().as_fd().try_clone_to_owned()?));
+    }
+    File::options().append(true).open(path)
 }

@@ -2,7 +2,7 @@
 //! until it is complete, so that not even a kill leaves it behind.
 
 use std::fs::{File, Metadata};
-use std::io::{ErrorKind, Result};
+use std::io::{Error, ErrorKind, Result};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -20,7 +20,11 @@ fn named() -> MutexGuard<'static, Vec<PathBuf>> {
 /// Removes what unfinished writing would leave behind; for a program that ends
 /// while another thread writes. Files without a name need no removal.
 pub fn remove_temporaries() {
-    for path in named().drain(..) {
+    remove_where(|_| true);
+}
+
+fn remove_where(chosen: impl Fn(&Path) -> bool) {
+    for path in named().extract_if(.., |path| chosen(path)) {
         // It may just have taken its place.
         let _ = std::fs::remove_file(path);
     }
@@ -49,8 +53,8 @@ pub(super) enum Temporary {
 }
 
 impl Temporary {
-    /// A file in the folder of `path`, with mode and owner of the file that it is
-    /// to replace, or those of a new file.
+    /// A file in the folder of `path`, no more readable than the one that it is to
+    /// replace.
     pub(super) fn beside(path: &Path, replaced: Option<&Metadata>) -> Result<Self> {
         let folder = place::folder(path);
         // A folder that is missing has the same word for every kind of file.
@@ -58,17 +62,17 @@ impl Temporary {
             return Err(ErrorKind::NotADirectory.into());
         }
         #[cfg(target_os = "linux")]
-        let temporary = match unnamed::open(folder) {
-            Ok(file) => Self::Unnamed(file),
-            Err(_) => Self::with_name(folder, replaced)?,
+        let first = match unnamed::open(folder) {
+            Ok(file) => return Ok(Self::Unnamed(file)),
+            Err(error) => error,
         };
         #[cfg(not(target_os = "linux"))]
-        let temporary = Self::with_name(folder, replaced)?;
-        if let Some(replaced) = replaced {
-            keep_owner(temporary.file(), replaced);
-            temporary.file().set_permissions(replaced.permissions())?;
-        }
-        Ok(temporary)
+        let first = Error::from(ErrorKind::Unsupported);
+        // Not every file system knows files without a name. The hidden name is of no
+        // interest to the reader of an error.
+        Self::with_name(folder, replaced).map_err(|error| {
+            if first.kind() == error.kind() { first } else { Error::from(error.kind()) }
+        })
     }
 
     fn with_name(folder: &Path, replaced: Option<&Metadata>) -> Result<Self> {
@@ -97,7 +101,13 @@ impl Temporary {
         }
     }
 
-    pub(super) fn sync(&self) -> Result<()> {
+    /// Gives the written file mode and owner of the one that it is to replace, and
+    /// waits until it is on the disk.
+    pub(super) fn finish(&self, replaced: Option<&Metadata>) -> Result<()> {
+        if let Some(replaced) = replaced {
+            keep_owner(self.file(), replaced);
+            self.file().set_permissions(replaced.permissions())?;
+        }
         self.file().sync_all()
     }
 
@@ -135,7 +145,7 @@ impl Temporary {
 }
 
 /// Whether the place is a file that is mounted there, which cannot be renamed.
-fn is_mounted(error: &std::io::Error) -> bool {
+fn is_mounted(error: &Error) -> bool {
     matches!(error.kind(), ErrorKind::ResourceBusy | ErrorKind::CrossesDevices)
 }
 
@@ -204,5 +214,63 @@ mod unnamed {
                 renamed => renamed,
             };
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs::read_to_string;
+    use std::io::Write;
+
+    use super::*;
+
+    /// As on a file system that knows no files without a name.
+    fn with_name(folder: &Path, content: &str) -> Temporary {
+        let temporary = Temporary::with_name(folder, None).unwrap();
+        temporary.file().write_all(content.as_bytes()).unwrap();
+        temporary
+    }
+
+    fn count(folder: &Path) -> usize {
+        folder.read_dir().unwrap().count()
+    }
+
+    #[test]
+    fn a_file_with_a_hidden_name_takes_its_place_too() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.csv");
+        with_name(folder.path(), "one").create(&path).unwrap();
+        let refused = with_name(folder.path(), "two").create(&path).unwrap_err();
+        assert_eq!(refused.kind(), ErrorKind::AlreadyExists);
+        assert_eq!(read_to_string(&path).unwrap(), "one");
+        with_name(folder.path(), "three").replace(&path).unwrap();
+        assert_eq!(read_to_string(&path).unwrap(), "three");
+        // One that is given up leaves nothing.
+        drop(with_name(folder.path(), "four"));
+        assert_eq!(count(folder.path()), 1);
+        assert!(!named().iter().any(|path| path.starts_with(folder.path())));
+    }
+
+    #[test]
+    fn hidden_names_are_known_to_who_ends_the_program() {
+        let folder = tempfile::tempdir().unwrap();
+        let _unfinished = with_name(folder.path(), "half");
+        assert_eq!(count(folder.path()), 1);
+        // Other tests write at the same time.
+        remove_where(|path| path.starts_with(folder.path()));
+        assert_eq!(count(folder.path()), 0);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_hidden_name_is_no_more_readable_than_what_it_replaces() {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.csv");
+        std::fs::write(&path, "secret").unwrap();
+        std::fs::set_permissions(&path, PermissionsExt::from_mode(0o600)).unwrap();
+        let temporary =
+            Temporary::with_name(folder.path(), Some(&path.metadata().unwrap())).unwrap();
+        assert_eq!(temporary.file().metadata().unwrap().permissions().mode() & 0o777, 0o600);
     }
 }

@@ -1,6 +1,8 @@
 //! Why a motion stopped before its end, in words made here alone.
 
-use crate::tolerances::{LARGEST_BLADE_ANGLE, MOST_EVENTS, MOST_EVENTS_AT_ONCE, MOST_LOOKS};
+use crate::tolerances::{
+    LARGEST_BLADE_ANGLE, MOST_EVENTS, MOST_EVENTS_AT_ONCE, MOST_LOOKS, MOST_ROWS,
+};
 use thiserror::Error;
 
 /// Why a run stopped before its end.
@@ -63,9 +65,18 @@ pub enum FailureReason {
     /// Too many changes of contact that take no time.
     #[error("{MOST_EVENTS_AT_ONCE} changes of contact at one instant")]
     EventsAtOnce,
-    /// Too long a search for the next change of contact.
-    #[error("no change of contact within {MOST_LOOKS} looks")]
+    /// Too long a search for changes of contact.
+    #[error("more than {MOST_LOOKS} looks ahead for the next change of contact")]
     Looks,
+    /// Too many penetrating rows in one step.
+    #[error(
+        "{rows} rows penetrate in one step, and at most {MOST_ROWS} are solved for; a smaller step \
+         or stiffer blades are needed"
+    )]
+    Rows {
+        /// Number of rows.
+        rows: usize,
+    },
     /// The casing left its own size behind.
     #[error("the casing displacement {distance_m:.3e} m is beyond the casing radius {radius_m} m")]
     Displacement {

@@ -26,8 +26,8 @@ pub use run::{
     run_to_end, run_to_verdict, simulate, simulate_with, verdict_of,
 };
 pub use script::{Change, Script};
-pub use sensitivity::{is_sensitive, is_sensitive_with};
-pub use solver::{Motion, Solver};
+pub use sensitivity::is_sensitive;
+pub use solver::{GoOn, Motion, Solver, to_the_end};
 pub use verdict::{Checks, Contact, Outcome, Verdict};
 
 /// A point or vector of the plane of the two casing coordinates.

@@ -6,10 +6,10 @@ use std::f64::consts::TAU;
 use serde::Serialize;
 
 use super::script::{Script, Scripted};
-use super::sensitivity::{is_sensitive_with, sign};
+use super::sensitivity::{is_sensitive, sign};
 use super::verdict::judge;
 use super::wave::WaveTracker;
-use super::{Checks, Contact, Motion, Outcome, State, Verdict};
+use super::{Checks, Contact, GoOn, Motion, Outcome, State, Verdict, to_the_end};
 use crate::scene::{CheckedScene, ContactLaw, ModelSize, SolverKind};
 use crate::tolerances::{LAST_PART, RUN_LOOKS};
 
@@ -132,20 +132,23 @@ impl VerdictReached {
     }
 }
 
-/// Runs a checked scene until its verdict is settled, at most to its end.
+/// Runs a checked scene until its verdict is settled, at most to its end; none
+/// where `go_on` said no on the way.
 #[must_use]
-pub fn run_to_verdict(scene: &CheckedScene) -> VerdictReached {
-    run_motion_to_verdict(Motion::new(scene), &Script::default(), scene.solver.end_s, None)
+pub fn run_to_verdict(scene: &CheckedScene, go_on: GoOn<'_>) -> Option<VerdictReached> {
+    run_motion_to_verdict(Motion::new(scene), &Script::default(), scene.solver.end_s, None, go_on)
 }
 
 /// Runs a motion through a script until its verdict is settled, at most to
-/// `end`; with `noise`, its rate changes by that part once a casing period.
+/// `end`; with `noise`, its rate changes by that part once a casing period. None
+/// where `go_on` said no on the way.
 pub(super) fn run_motion_to_verdict(
     motion: Motion,
     script: &Script,
     end: f64,
     noise: Option<f64>,
-) -> VerdictReached {
+    go_on: GoOn<'_>,
+) -> Option<VerdictReached> {
     // Looking costs little against one casing period of motion.
     let interval = (TAU / motion.machine().omega_c).max(end / RUN_LOOKS);
     let mut scripted = Scripted::new(motion, script);
@@ -154,17 +157,18 @@ pub(super) fn run_motion_to_verdict(
     while verdict.is_none() {
         looks += 1;
         let until = (looks as f64 * interval).min(end);
-        verdict = match scripted.advance(until) {
+        verdict = match scripted.advance_while(until, go_on) {
             Err(_) => Some(Verdict::Failed),
-            Ok(()) if until >= end => Some(verdict_of(&scripted.motion, LAST_PART * end)),
-            Ok(()) if scripted.is_through() => scripted.motion.final_verdict(),
-            Ok(()) => None,
+            Ok(false) => return None,
+            Ok(true) if until >= end => Some(verdict_of(&scripted.motion, LAST_PART * end)),
+            Ok(true) if scripted.is_through() => scripted.motion.final_verdict(),
+            Ok(true) => None,
         };
         if let Some(part) = noise {
             scripted.motion.scale_rate(1.0 + part * sign(looks));
         }
     }
-    VerdictReached::of(&scripted.motion, verdict.unwrap_or(Verdict::Failed))
+    Some(VerdictReached::of(&scripted.motion, verdict?))
 }
 
 /// The verdict on a motion now: the proven one, or that over the last
@@ -188,7 +192,8 @@ pub fn simulate_with(
     sink: &mut dyn FnMut(&Sample),
 ) -> RunReport {
     let mut report = run_to_end(scene, script, sampling, sink);
-    report.outcome.sensitive = is_sensitive_with(scene, script, report.reached);
+    report.outcome.sensitive =
+        is_sensitive(scene, script, report.reached, &to_the_end).unwrap_or(false);
     report
 }
 
@@ -211,7 +216,7 @@ pub fn run_to_end(
             n => end * (f64::from(sample) / f64::from(n)),
         };
         let until = sample_time.min(wave.next_look()).min(end);
-        if scripted.advance(until).is_err() {
+        if scripted.advance_while(until, &to_the_end).is_err() {
             break;
         }
         if until >= wave.next_look() {

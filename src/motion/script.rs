@@ -1,7 +1,7 @@
 //! Changes during a run: what a user does to a running motion, as data, so that it
 //! can be repeated without a screen.
 
-use super::{Failure, Motion};
+use super::{Failure, GoOn, Motion};
 use crate::scene::{CheckedScene, Scene, SolverKind};
 
 /// One change of a running motion.
@@ -104,19 +104,22 @@ impl<'a> Scripted<'a> {
         Self { motion, to_come: &script.changes }
     }
 
-    /// Advances to `until` \[s\], through the changes due by then.
+    /// Advances to `until` \[s\], through the changes due by then; false where
+    /// `go_on` said no on the way.
     ///
     /// # Errors
     /// The run has failed, now or before.
-    pub fn advance(&mut self, until: f64) -> Result<(), Failure> {
+    pub fn advance_while(&mut self, until: f64, go_on: GoOn<'_>) -> Result<bool, Failure> {
         while let Some(((t, change), rest)) = self.to_come.split_first()
             && *t <= until
         {
-            self.motion.advance(*t)?;
+            if !self.motion.advance_while(*t, go_on)? {
+                return Ok(false);
+            }
             self.to_come = rest;
             self.motion.apply(change);
         }
-        self.motion.advance(until)
+        self.motion.advance_while(until, go_on)
     }
 
     /// Whether every change has been made.

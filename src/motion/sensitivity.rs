@@ -8,11 +8,11 @@
 //! a pattern, and the event solver closes gaps ten times finer. Each change has
 //! a separate run, because two in one run may cancel.
 
-use super::Motion;
 use std::f64::consts::TAU;
 
 use super::run::{VerdictReached, run_motion_to_verdict};
 use super::script::{Change, Script};
+use super::{GoOn, Motion};
 use crate::scene::CheckedScene;
 use crate::tolerances::{FINER, LOCK_MOMENT, PERTURBATION};
 
@@ -28,33 +28,33 @@ impl VerdictReached {
     }
 }
 
-/// Whether a tiny change makes another verdict or another number of impacts of
-/// a checked scene that settled so.
+/// Whether a tiny change makes another verdict, or another number of impacts, of
+/// a checked scene with changes that settled so; none where `go_on` said no on
+/// the way.
 #[must_use]
-pub fn is_sensitive(scene: &CheckedScene, reached: VerdictReached) -> bool {
-    is_sensitive_with(scene, &Script::default(), reached)
-}
-
-/// As `is_sensitive`, for a run with changes.
-#[must_use]
-pub fn is_sensitive_with(scene: &CheckedScene, script: &Script, reached: VerdictReached) -> bool {
+pub fn is_sensitive(
+    scene: &CheckedScene,
+    script: &Script,
+    reached: VerdictReached,
+    go_on: GoOn<'_>,
+) -> Option<bool> {
     let end = scene.solver.end_s;
     let moment = LOCK_MOMENT * TAU / scene.machine().omega_c;
-    let driven = |factor: f64| {
+    for factor in [1.0 + PERTURBATION, 1.0 - PERTURBATION] {
         let script = script.mapped(|change| match change {
             Change::Parameters(scene) => Change::Parameters(Box::new(perturbed(&scene, factor))),
             other => other,
         });
-        run_motion_to_verdict(Motion::new(&perturbed(scene, factor)), &script, end, None)
-    };
-    let noisy = || {
-        let mut motion = Motion::new(scene);
-        motion.scale_tolerance(FINER);
-        run_motion_to_verdict(motion, script, end, Some(PERTURBATION))
-    };
-    driven(1.0 + PERTURBATION).differs_from(reached, moment)
-        || driven(1.0 - PERTURBATION).differs_from(reached, moment)
-        || noisy().differs_from(reached, moment)
+        let motion = Motion::new(&perturbed(scene, factor));
+        let driven = run_motion_to_verdict(motion, &script, end, None, go_on)?;
+        if driven.differs_from(reached, moment) {
+            return Some(true);
+        }
+    }
+    let mut motion = Motion::new(scene);
+    motion.scale_tolerance(FINER);
+    let noisy = run_motion_to_verdict(motion, script, end, Some(PERTURBATION), go_on)?;
+    Some(noisy.differs_from(reached, moment))
 }
 
 /// The scene with what drives it multiplied by `factor`: the pulse, or without

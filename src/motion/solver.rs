@@ -9,6 +9,16 @@ use super::{Checks, ContactLog, Event, Failure, Pulse, Rotor, State, Verdict};
 use crate::model::Machine;
 use crate::scene::{CheckedScene, ModelSize, SolverKind};
 
+/// Asked on the way whether work shall go on: a flag that a signal sets, or a
+/// limit of time.
+pub type GoOn<'a> = &'a dyn Fn() -> bool;
+
+/// Goes on to the end, whatever the work.
+#[must_use]
+pub fn to_the_end() -> bool {
+    true
+}
+
 /// A solver of one scene, at some instant of the motion.
 pub trait Solver: Debug + Send + Sync {
     /// Advances to `until` \[s\] (the explicit solver: to its last step by then).
@@ -16,7 +26,17 @@ pub trait Solver: Debug + Send + Sync {
     ///
     /// # Errors
     /// The run has failed, now or before. The state stays where it failed.
-    fn advance(&mut self, until: f64) -> Result<(), Failure>;
+    fn advance(&mut self, until: f64) -> Result<(), Failure> {
+        self.advance_while(until, &to_the_end).map(|_| ())
+    }
+
+    /// As `advance`, asking `go_on` at least every millisecond of work. Where it
+    /// says no, the motion stays at an instant before `until`, from which it can
+    /// be advanced later as if nothing had happened, and the result is false.
+    ///
+    /// # Errors
+    /// As `advance`.
+    fn advance_while(&mut self, until: f64, go_on: GoOn<'_>) -> Result<bool, Failure>;
 
     /// The four coordinates and their rates now.
     fn state(&self) -> State;

@@ -1,6 +1,8 @@
 //! Text from outside (names, titles, refused values) made safe to show in one
 //! line of a terminal.
 
+use crate::scene::keys::is_plain;
+
 /// Characters of a message that are shown at each end of a very long one.
 const SHOWN: usize = 800;
 
@@ -22,14 +24,13 @@ pub fn clean(text: &str) -> String {
 /// do not agree on the width of what they make.
 #[must_use]
 pub fn harmless(c: char) -> char {
-    let acts = c.is_control()
-        || matches!(
-            c,
-            '\u{ad}' | '\u{61c}' | '\u{180e}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}'
-                | '\u{2060}'..='\u{206f}' | '\u{fe00}'..='\u{fe0f}' | '\u{feff}'
-                | '\u{fff9}'..='\u{fffb}' | '\u{e0000}'..='\u{e0fff}'
-        );
-    if acts { ' ' } else { c }
+    let joins = matches!(
+        c,
+        '\u{ad}' | '\u{61c}' | '\u{180e}' | '\u{200b}'..='\u{200d}' | '\u{2060}'..='\u{206f}'
+            | '\u{fe00}'..='\u{fe0f}' | '\u{feff}' | '\u{fff9}'..='\u{fffb}'
+            | '\u{e0000}'..='\u{e0fff}'
+    );
+    if joins || !is_plain(c) { ' ' } else { c }
 }
 
 #[cfg(test)]

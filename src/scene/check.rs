@@ -2,7 +2,10 @@
 
 use super::{ContactLaw, ModelSize, Scene, SceneError, SolverKind};
 
-/// Most steps one explicit run may take.
+/// Most updates of a coordinate that one explicit run may make: minutes of work
+/// where nothing is skipped.
+const MOST_UPDATES: f64 = 4e10;
+/// Most steps one explicit run may take, whatever its size.
 const MOST_STEPS: f64 = 1e10;
 /// Largest angle the wave may turn against the blades in one step \[rad\].
 const MOST_TURN: f64 = 0.5;
@@ -91,23 +94,24 @@ fn explicit(scene: &Scene) -> Result<(), SceneError> {
     let stable = scene.stable_step();
     let is_stable = step < stable;
     let turns_little = turn * step <= MOST_TURN * ROUND_OFF;
-    let is_affordable = end / step <= MOST_STEPS * ROUND_OFF;
+    let most_steps = most_steps(scene);
+    let is_affordable = end / step <= most_steps * ROUND_OFF;
     if is_stable && turns_little && is_affordable {
         return Ok(());
     }
     let refused =
         |allowed: String| SceneError::refused("solver.step_s", format!("{step:e}"), allowed);
-    let (most, least) = (below(stable).min(down(MOST_TURN / turn)), up(end / MOST_STEPS));
+    let (most, least) = (below(stable).min(down(MOST_TURN / turn)), up(end / most_steps));
     if least > most {
-        let until = below(most * MOST_STEPS);
+        let until = below(most * most_steps);
         let allowed = format!(
-            "at most {until:e}, for at most {MOST_STEPS:e} steps of solver.step_s = {most:e}, the longest allowed"
+            "at most {until:e}, for at most {most_steps:e} steps of solver.step_s = {most:e}, the longest allowed"
         );
         return Err(SceneError::refused("solver.end_s", format!("{end:e}"), allowed));
     }
     if !is_affordable {
         return Err(refused(format!(
-            "at least {least:e}, for at most {MOST_STEPS:e} steps to solver.end_s"
+            "at least {least:e}, for at most {most_steps:e} steps to solver.end_s"
         )));
     }
     let mut allowed = format!("at most {most:e}");
@@ -121,6 +125,16 @@ fn explicit(scene: &Scene) -> Result<(), SceneError> {
         ));
     }
     Err(refused(allowed))
+}
+
+/// Most steps of this scene, in four digits.
+fn most_steps(scene: &Scene) -> f64 {
+    match scene.solver.model {
+        ModelSize::Full => {
+            down(MOST_UPDATES / f64::from(scene.bladed_disk.blades + 2)).min(MOST_STEPS)
+        }
+        ModelSize::Rigid | ModelSize::Modal => MOST_STEPS,
+    }
 }
 
 /// A number in four digits, not above it.

@@ -10,7 +10,7 @@ use std::time::Instant;
 use rayon::prelude::*;
 
 use super::{Axis, Cell, Cells};
-use crate::motion::{Verdict, VerdictReached, is_sensitive, run_to_verdict};
+use crate::motion::{GoOn, Script, Verdict, is_sensitive, run_to_verdict};
 use crate::scene::{CheckedScene, Scene, SceneError};
 
 /// Most cells of one map, about 4000 x 4000: a byte each in memory, and days of runs.
@@ -126,15 +126,17 @@ impl MapPlan {
         Ok(())
     }
 
-    /// Computes one cell. A scene that is refused counts as failed.
+    /// Computes one cell; none where `go_on` said no on the way. A scene that is
+    /// refused counts as failed.
     #[must_use]
-    pub fn compute(&self, index: usize) -> Cell {
+    pub fn compute(&self, index: usize, go_on: GoOn<'_>) -> Option<Cell> {
         let Ok(scene) = self.scene_of(index) else {
-            return Cell { verdict: Verdict::Failed, sensitive: false };
+            return Some(Cell { verdict: Verdict::Failed, sensitive: false });
         };
-        let reached: VerdictReached = run_to_verdict(&scene);
-        let sensitive = self.sensitivity && is_sensitive(&scene, reached);
-        Cell { verdict: reached.verdict, sensitive }
+        let reached = run_to_verdict(&scene, go_on)?;
+        let sensitive =
+            self.sensitivity && is_sensitive(&scene, &Script::default(), reached, go_on)?;
+        Some(Cell { verdict: reached.verdict, sensitive })
     }
 }
 
@@ -156,14 +158,16 @@ impl Map {
     ) {
         let started = Instant::now();
         let (plan, cells) = (&self.plan, &self.cells);
+        let go_on = || !progress.stop.load(Ordering::Relaxed);
         let computed = indices
             .with_max_len(16)
-            .filter(|&index| cells[index].is_none() && !progress.stop.load(Ordering::Relaxed))
-            .map(|index| {
-                let cell = plan.compute(index);
+            .filter(|&index| cells[index].is_none() && go_on())
+            .filter_map(|index| {
+                let cell = plan.compute(index, &go_on)?;
                 cells.set(index, Some(cell));
                 keep(index, cell);
                 progress.done.fetch_add(1, Ordering::Relaxed);
+                Some(())
             })
             .count();
         self.runs += computed as u64;

@@ -3,6 +3,7 @@
 //! generation of the knobs.
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use super::history::Bin;
 use super::views::ViewId;
@@ -47,9 +48,9 @@ impl Order {
         self.open.contains(&view)
     }
 
-    /// Number of the knobs' state: grows with every restart and live change.
+    /// Number of the knobs' state: grows with every restart, live change and pulse.
     pub fn generation(&self) -> u64 {
-        self.restarts + self.changes
+        self.restarts + self.changes + self.pulses
     }
 }
 
@@ -64,11 +65,17 @@ pub struct Pace {
     pub limited: bool,
 }
 
+/// Wall time after which the full run is given up: nobody waits longer for it,
+/// and the motion itself goes on.
+pub const FORECAST_LIMIT: Duration = Duration::from_secs(20);
+
 /// Progress of the full run.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FullRunState {
     /// The finished part of the run, 0 to 1.
     Computing(f64),
+    /// Given up at this part: it takes too long.
+    GivenUp(f64),
     /// Done.
     Done(FullRun),
 }

@@ -65,8 +65,8 @@ pub fn read_keys(to: Sender<ScreenEvent>) -> std::io::Result<()> {
 #[cfg(unix)]
 pub fn watch_signals(to: Sender<ScreenEvent>) -> std::io::Result<()> {
     use super::{files, terminal};
-    use signal_hook::consts::{SIGCONT, SIGTSTP, SIGXFSZ};
-    let watched = deadly_signals().into_iter().chain([SIGTSTP, SIGCONT, SIGXFSZ]);
+    use signal_hook::consts::{SIGCONT, SIGTSTP};
+    let watched = deadly_signals().into_iter().chain([SIGTSTP, SIGCONT]);
     let mut signals = signal_hook::iterator::Signals::new(watched)?;
     let watch = move || {
         for signal in signals.forever() {
@@ -77,8 +77,6 @@ pub fn watch_signals(to: Sender<ScreenEvent>) -> std::io::Result<()> {
                     let _ = to.send(ScreenEvent::Suspend);
                 }
                 SIGCONT => _ = to.send(ScreenEvent::Continued),
-                // The file that became too large is refused with an error.
-                SIGXFSZ => {}
                 deadly => {
                     let number = u8::try_from(deadly).unwrap_or(0);
                     terminal::end(number);

@@ -72,10 +72,10 @@ pub fn run<B: Backend>(
         while let Some(event) = next {
             match handle(event, app, host) {
                 Reaction::Exit(exit) => return Ok(exit),
-                Reaction::Quit => match last_file(events, app) {
+                Reaction::Quit => match last_file(events, app, host) {
                     Some(exit) => return Ok(exit),
                     // It was not written: the user decides what to do.
-                    None => due = Due::Now,
+                    None => (again, due) = (true, Due::Now),
                 },
                 Reaction::Draw(soon) => due = due.max(soon),
                 Reaction::Redraw => (again, due) = (true, Due::Now),
@@ -165,7 +165,7 @@ fn handle(event: ScreenEvent, app: &mut App, host: &mut dyn Host) -> Reaction {
 
 /// Waits a moment for the file that is being written. None if that says that
 /// the file could not be written, so that the user can do something about it.
-fn last_file(events: &Receiver<ScreenEvent>, app: &mut App) -> Option<Exit> {
+fn last_file(events: &Receiver<ScreenEvent>, app: &mut App, host: &mut dyn Host) -> Option<Exit> {
     let began = Instant::now();
     while app.writing.is_some() {
         match events.recv_timeout(LAST_FILE.saturating_sub(began.elapsed())) {
@@ -174,8 +174,13 @@ fn last_file(events: &Receiver<ScreenEvent>, app: &mut App) -> Option<Exit> {
                     return None;
                 }
             }
-            Ok(ScreenEvent::Signal(number)) => return Some(Exit::Signal(number)),
-            Ok(_) => {}
+            // The keys after the one that quits are for nobody.
+            Ok(ScreenEvent::Key(_) | ScreenEvent::Pasted(_)) => {}
+            Ok(other) => {
+                if let Reaction::Exit(exit) = handle(other, app, host) {
+                    return Some(exit);
+                }
+            }
             Err(_) => break,
         }
     }

@@ -2,7 +2,7 @@
 //! command line of `run` or `map`, its options without their dashes.
 
 use rubscope::motion::{
-    RunReport, Sampling, Script, Verdict, run_to_verdict, simulate, simulate_with,
+    RunReport, Sampling, Script, Verdict, run_to_verdict, simulate, simulate_with, to_the_end,
 };
 use rubscope::scene::Scene;
 
@@ -157,7 +157,7 @@ fn a_lock_under_excitation_is_not_taken_for_good() {
          excitation.amplitude_nm 1"
     );
     assert_eq!(
-        run_to_verdict(&scene("paper-nd3", &how).checked().unwrap()).verdict,
+        run_to_verdict(&scene("paper-nd3", &how).checked().unwrap(), &to_the_end).unwrap().verdict,
         Verdict::Decay
     );
     let report = run("paper-nd3", &how);
@@ -178,7 +178,8 @@ fn a_corner_that_lets_go_again_and_again_is_no_lock() {
              initial.u_s_m -0.0013119784322271717 initial.v_c_m_s 1.2053754462529247 \
              initial.v_s_m_s -1.6590569716023988"
         );
-        let settled = run_to_verdict(&scene("paper-nd3", &how).checked().unwrap());
+        let settled =
+            run_to_verdict(&scene("paper-nd3", &how).checked().unwrap(), &to_the_end).unwrap();
         assert_eq!(settled.verdict, Verdict::Slip, "{end}: {settled:?}");
         assert!(settled.impact_count > 2000);
     }
@@ -207,7 +208,7 @@ fn a_count_that_a_larger_pulse_changes_is_sensitive() {
     let counts = [1.0, 1.0 + 1e-9, 1.0 - 1e-9].map(|factor| {
         let mut scene = scene.clone();
         scene.operation.pulse_n *= factor;
-        run_to_verdict(&scene.checked().unwrap()).impact_count
+        run_to_verdict(&scene.checked().unwrap(), &to_the_end).unwrap().impact_count
     });
     assert!(counts.iter().any(|&count| count != counts[0]), "{counts:?}");
     assert!(run("paper-nd3", how).outcome.sensitive);
@@ -223,7 +224,7 @@ fn a_count_that_noise_alone_changes_is_sensitive() {
     let counts = [1.0, 1.0 + 1e-9, 1.0 - 1e-9].map(|factor| {
         let mut scene = scene.clone();
         scene.operation.pulse_n *= factor;
-        run_to_verdict(&scene.checked().unwrap()).impact_count
+        run_to_verdict(&scene.checked().unwrap(), &to_the_end).unwrap().impact_count
     });
     assert!(counts.iter().all(|&count| count == counts[0]), "{counts:?}");
     assert!(run("paper-nd3", how).outcome.sensitive);

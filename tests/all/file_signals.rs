@@ -171,3 +171,29 @@ fn a_full_disk_leaves_the_old_file_and_no_other() {
     assert_eq!(fs::read_to_string(&two).unwrap(), "old");
     assert_eq!(names(&disk), ["full", "one.csv", "two.csv"]);
 }
+
+/// A link to standard output, which is a file: the report and the history are both
+/// in it, in order.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_file_that_is_standard_output_is_gone_on_with() {
+    let folder = tempfile::tempdir().unwrap();
+    std::os::unix::fs::symlink("/dev/stdout", folder.path().join("out.csv")).unwrap();
+    for (more, first, last) in [("", "t_s,", "verdict"), ("--json", "{", "\n0,0,")] {
+        let both = folder.path().join("both.txt");
+        let status = Command::new(program())
+            .args(SMALL.split_whitespace())
+            .args(["--out", "out.csv"])
+            .args(more.split_whitespace())
+            .current_dir(folder.path())
+            .stdout(fs::File::create(&both).unwrap())
+            .stderr(Stdio::null())
+            .status();
+        assert!(status.unwrap().success());
+        let text = fs::read_to_string(&both).unwrap();
+        assert!(text.starts_with(first), "{}", &text[..200]);
+        let lines = text.lines().filter(|line| line.split(',').count() == 11).count();
+        assert_eq!(lines, 2001);
+        assert!(text.to_lowercase().contains(last) && text.contains("t_s,theta_rad"));
+    }
+}

@@ -4,7 +4,7 @@
 
 use std::f64::consts::TAU;
 
-use rubscope::motion::{Verdict, run_to_verdict};
+use rubscope::motion::{Verdict, run_to_verdict, to_the_end};
 use rubscope::scene::{ContactLaw, ModelSize, Scene, SolverKind};
 use rubscope::study::overlay::grazing_pulse;
 use rubscope::study::{Axis, Map, MapPlan, Progress, Shard};
@@ -188,7 +188,7 @@ fn the_grazing_pulse_is_where_blades_begin_to_be_met() {
         for (part, touches) in [(1.0 - 1e-6, false), (1.0 + 1e-6, true)] {
             scene.operation.pulse_n = part * grazing;
             assert_eq!(
-                run_to_verdict(&scene.checked().unwrap()).impact_count > 0,
+                run_to_verdict(&scene.checked().unwrap(), &to_the_end).unwrap().impact_count > 0,
                 touches,
                 "{part} of {grazing} N"
             );

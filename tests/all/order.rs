@@ -1,7 +1,7 @@
 //! The explicit solver against the event solver: its order, its thresholds, and
 //! where the two contact laws differ.
 
-use rubscope::motion::{Motion, State, Verdict, run_to_verdict, simulate};
+use rubscope::motion::{Motion, State, Verdict, run_to_verdict, simulate, to_the_end};
 use rubscope::scene::Scene;
 
 fn scene(changes: &[(&str, &str)]) -> Scene {
@@ -121,7 +121,8 @@ fn the_lock_speed_by_bisection_of_runs() {
                 ("solver.end_s", end_s),
             ]);
             start_in_corner(&mut scene, speed);
-            run_to_verdict(&scene.checked().unwrap()).verdict == Verdict::Locked
+            run_to_verdict(&scene.checked().unwrap(), &to_the_end).unwrap().verdict
+                == Verdict::Locked
         };
         let (mut low, mut high) = (293.0, 500.0);
         while high - low > 1e-4 {
@@ -147,7 +148,7 @@ fn the_adhesive_threshold_of_the_equality_law() {
             ("solver.end_s", "0.05"),
         ]);
         matches!(
-            run_to_verdict(&scene.checked().unwrap()).verdict,
+            run_to_verdict(&scene.checked().unwrap(), &to_the_end).unwrap().verdict,
             Verdict::Locked | Verdict::Adhesive
         )
     };

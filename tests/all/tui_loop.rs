@@ -4,12 +4,14 @@ use std::f64::consts::TAU;
 use std::sync::mpsc::{Sender, channel};
 use std::time::Duration;
 
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::{Terminal, backend::TestBackend};
 use rubscope::scene::Scene;
 use rubscope::tui::engine::{Engine, Order, Snapshot};
 use rubscope::tui::events::ScreenEvent;
+use rubscope::tui::files::{FileJob, FileResult};
 use rubscope::tui::history::Channel;
-use rubscope::tui::terminal::NoHost;
+use rubscope::tui::terminal::{Host, NoHost};
 use rubscope::tui::worker::Stepwise;
 use rubscope::tui::{App, Exit, Marker, Theme, run};
 
@@ -46,6 +48,59 @@ fn a_screen_without_news_is_drawn_again_to_notice_a_lost_terminal() {
     let frame = Duration::from_millis(100);
     let exit = run(&mut terminal, &events, &mut app, &mut engine, &mut NoHost, frame);
     assert_eq!(exit.unwrap(), Exit::Signal(15), "nothing was drawn for a minute");
+}
+
+/// A host whose files take a while: the results come as events.
+struct Slow {
+    results: Vec<FileResult>,
+    events: Sender<ScreenEvent>,
+    suspended: u32,
+}
+
+impl Host for Slow {
+    fn suspend(&mut self) -> std::io::Result<()> {
+        self.suspended += 1;
+        Ok(())
+    }
+    fn resume(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+    fn copy(&mut self, _: &str) -> std::io::Result<()> {
+        Ok(())
+    }
+    fn write(&mut self, _: FileJob) -> Option<FileResult> {
+        self.events.send(ScreenEvent::Suspend).unwrap();
+        self.events.send(ScreenEvent::Written(self.results.remove(0))).unwrap();
+        // If the loop goes on, it is until this.
+        self.events.send(ScreenEvent::Signal(15)).unwrap();
+        None
+    }
+}
+
+#[test]
+fn quitting_waits_for_the_file_and_stays_if_it_was_not_written() {
+    let press = |code| ScreenEvent::Key(KeyEvent::new(code, KeyModifiers::NONE));
+    let (sender, events) = channel();
+    let mut app = App::new(Scene::base().checked().unwrap(), Theme::Dark, Marker::Braille);
+    let mut terminal = Terminal::new(TestBackend::new(80, 24)).unwrap();
+    let failed = FileResult::Failed("no room".into());
+    let results = vec![failed, FileResult::Written];
+    let mut host = Slow { results, events: sender.clone(), suspended: 0 };
+    for (status, end) in [
+        ("cannot write scene.toml: no room", Exit::Signal(15)),
+        ("written: scene.toml", Exit::Done),
+    ] {
+        for code in [KeyCode::Char('s'), KeyCode::Enter, KeyCode::Char('q'), KeyCode::Char('?')] {
+            sender.send(press(code)).unwrap();
+        }
+        let frame = Duration::from_millis(100);
+        let mut engine = Stepwise::new(1e-4);
+        let exit = run(&mut terminal, &events, &mut app, &mut engine, &mut host, frame).unwrap();
+        assert_eq!(app.status.as_deref(), Some(status));
+        assert_eq!(exit, end);
+        while events.try_recv().is_ok() {}
+    }
+    assert_eq!(host.suspended, 2, "a suspension was lost");
 }
 
 #[test]

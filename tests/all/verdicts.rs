@@ -3,7 +3,9 @@
 use crate::plain::scenes::{in_corner, scene};
 use proptest::prelude::*;
 
-use rubscope::motion::{ActiveSet, Motion, Verdict, VerdictReached, run_to_verdict, verdict_of};
+use rubscope::motion::{
+    ActiveSet, Motion, Verdict, VerdictReached, run_to_verdict, to_the_end, verdict_of,
+};
 use rubscope::scene::{ContactLaw, ModelSize, Scene, SolverKind};
 
 /// Part of the run over which a verdict is judged: the last tenth.
@@ -75,7 +77,7 @@ proptest! {
 
     #[test]
     fn a_verdict_reached_early_is_that_of_the_whole_run(scene in scenes()) {
-        let early = run_to_verdict(&scene.checked().unwrap());
+        let early = run_to_verdict(&scene.checked().unwrap(), &to_the_end).unwrap();
         let mut motion = Motion::new(&scene.checked().unwrap());
         let _ = motion.advance(scene.solver.end_s);
         let verdict = verdict_of(&motion, LAST_PART * scene.solver.end_s);
@@ -159,7 +161,11 @@ fn a_corner_that_the_first_swing_of_its_blades_opens_is_no_lock() {
             ("solver.end_s", "0.02"),
             ("operation.speed_rad_s", speed),
         ];
-        let settled = run_to_verdict(&in_corner(scene(&[blades, run].concat())).checked().unwrap());
+        let settled = run_to_verdict(
+            &in_corner(scene(&[blades, run].concat())).checked().unwrap(),
+            &to_the_end,
+        )
+        .unwrap();
         assert_eq!(settled.verdict, Verdict::Slip, "{model}: {settled:?}");
     }
 }

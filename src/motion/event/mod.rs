@@ -36,7 +36,9 @@ mod mode;
 mod segment;
 
 use crate::model::Machine;
-use crate::motion::{Checks, ContactLog, Failure, Pulse, Rotor, Solver, State, Verdict};
+use crate::motion::{
+    Checks, ContactLog, Failure, GoOn, Pulse, Rotor, Solver, State, Verdict, to_the_end,
+};
 use crate::scene::{CheckedScene, SceneError};
 
 use crate::motion::Plane;
@@ -45,6 +47,7 @@ use blades::Tips;
 use energy_balance::EnergyBalance;
 use mode::{Mode, What};
 use parameters::{Drive, Parameters};
+use segment::Passage;
 
 /// The event-driven solver of one scene, at some instant of its motion.
 ///
@@ -76,7 +79,9 @@ pub struct Event {
     found: Option<(f64, What)>,
     events: u64,
     idle: u32,
+    /// Looks ahead in this segment, and in the whole run.
     looks: u64,
+    all_looks: u64,
     deepest: f64,
     widest: f64,
     failed: Option<Failure>,
@@ -116,6 +121,7 @@ impl Event {
             events: 0,
             idle: 0,
             looks: 0,
+            all_looks: 0,
             deepest: 0.0,
             widest: 0.0,
             tips: Tips::default(),
@@ -152,7 +158,7 @@ impl Event {
     pub fn next_event(&mut self, limit: f64) -> Result<f64, Failure> {
         let events = self.events;
         while events == self.events {
-            if self.change(limit)?.is_none() {
+            if self.change(limit, &to_the_end)? == Passage::Later {
                 self.arrive(limit)?;
                 return Ok(self.now);
             }
@@ -163,9 +169,18 @@ impl Event {
 }
 
 impl Solver for Event {
-    fn advance(&mut self, until: f64) -> Result<(), Failure> {
-        while self.change(until)?.is_some() {}
-        self.arrive(until)
+    fn advance_while(&mut self, until: f64, go_on: GoOn<'_>) -> Result<bool, Failure> {
+        loop {
+            match self.change(until, go_on)? {
+                Passage::Passed => {}
+                Passage::Later => return self.arrive(until).map(|()| true),
+                // Nothing happens before `safe`.
+                Passage::Paused => {
+                    let reached = until.min(self.start.0 + self.safe);
+                    return self.arrive(reached).map(|()| false);
+                }
+            }
+        }
     }
 
     fn state(&self) -> State {

@@ -7,8 +7,31 @@ use super::Event;
 use super::free::Free;
 use super::mode::{Mode, Next, What};
 use super::parameters::Drive;
-use crate::motion::{ActiveSet, Failure, FailureReason, Plane};
-use crate::tolerances::{MOST_EVENTS, MOST_EVENTS_AT_ONCE, MOST_LOOKS, STALLED_LOOKS};
+use crate::motion::{ActiveSet, Failure, FailureReason, GoOn, Plane};
+use crate::tolerances::{
+    AN_INSTANT, LOOKS_UNASKED, MOST_EVENTS, MOST_EVENTS_AT_ONCE, MOST_LOOKS, STALLED_LOOKS,
+};
+
+/// What a search for the event that ends a segment comes to.
+enum Sought {
+    /// This event, so many seconds after its start.
+    Event(f64, What),
+    /// None by the limit.
+    Nothing,
+    /// It was told not to go on.
+    Paused,
+}
+
+/// What became of the next event.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Passage {
+    /// It is passed.
+    Passed,
+    /// It comes later.
+    Later,
+    /// The search for it was told not to go on.
+    Paused,
+}
 
 impl Event {
     /// Seconds from the start of the segment to `t`.
@@ -17,15 +40,18 @@ impl Event {
     }
 
     /// Goes through the next event, if it comes no later than `until`.
-    pub(super) fn change(&mut self, until: f64) -> Result<Option<What>, Failure> {
+    pub(super) fn change(&mut self, until: f64, go_on: GoOn<'_>) -> Result<Passage, Failure> {
         if let Some(failure) = &self.failed {
             return Err(failure.clone());
         }
-        let Some((s, what)) = self.seek(self.elapsed(until)) else {
-            return self.failed.clone().map_or(Ok(None), Err);
+        let (s, what) = match self.seek(self.elapsed(until), go_on) {
+            Sought::Event(s, what) => (s, what),
+            Sought::Nothing => return self.failed.clone().map_or(Ok(Passage::Later), Err),
+            Sought::Paused => return Ok(Passage::Paused),
         };
         self.check_angles(s)?;
-        self.idle = if s > 0.0 { 0 } else { self.idle + 1 };
+        let rates = self.parameters.omega + self.drive.nu.abs();
+        self.idle = if s * rates > AN_INSTANT { 0 } else { self.idle + 1 };
         if what != What::SeriesEnd {
             self.events += 1;
         }
@@ -44,7 +70,7 @@ impl Event {
             Some(reason) => _ = self.fail(s, reason),
             None => self.pass(s, what),
         }
-        self.failed.clone().map_or(Ok(Some(what)), Err)
+        self.failed.clone().map_or(Ok(Passage::Passed), Err)
     }
 
     /// Ends `advance` at `until`.
@@ -70,28 +96,34 @@ impl Event {
     }
 
     /// The event that ends the segment, if no later than `limit` seconds after
-    /// its start. The looks ahead do not depend on `limit`.
-    fn seek(&mut self, limit: f64) -> Option<(f64, What)> {
+    /// its start. The looks ahead depend neither on `limit` nor on pauses.
+    fn seek(&mut self, limit: f64, go_on: GoOn<'_>) -> Sought {
         let pulse_end = self.pulse_left();
         let series_end = self.mode.length();
         let end = pulse_end.min(series_end);
         loop {
             if let Some((s, what)) = self.found {
-                return (s <= limit).then_some((s, what));
+                return if s <= limit { Sought::Event(s, what) } else { Sought::Nothing };
             }
             if self.safe > limit {
-                return None;
+                return Sought::Nothing;
             }
             if self.safe >= end {
+                if !end.is_finite() {
+                    return Sought::Nothing;
+                }
                 let what = if pulse_end <= series_end { What::PulseEnd } else { What::SeriesEnd };
-                self.found = end.is_finite().then_some((end, what));
-                self.found?;
+                self.found = Some((end, what));
                 continue;
             }
+            if self.looks.is_multiple_of(LOOKS_UNASKED) && !go_on() {
+                return Sought::Paused;
+            }
             self.looks += 1;
-            if self.looks > MOST_LOOKS {
+            self.all_looks += 1;
+            if self.all_looks > MOST_LOOKS {
                 self.fail(self.safe, FailureReason::Looks);
-                return None;
+                return Sought::Nothing;
             }
             let stalled = self.looks > STALLED_LOOKS;
             match self.mode.look(&self.parameters, &self.drive, self.safe, end, stalled) {

@@ -6,13 +6,30 @@
 
 use nalgebra::DMatrix;
 
-use super::{BladeModel, ConstraintRow, Explicit};
+use super::{BladeModel, Explicit};
 use crate::contact::{
     self,
     repeated::{GroupReference, Repeat, Repeated},
 };
 use crate::motion::{ActiveSet, FailureReason};
-use crate::tolerances::{BREAK_STEPS, SAME_ANGLE, SMALL_PHASE};
+use crate::tolerances::{BREAK_STEPS, MOST_ROWS, SAME_ANGLE, SMALL_PHASE};
+
+/// One constraint of a step: a side or a blade with its predicted gap.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ConstraintRow {
+    pub index: u32,
+    pub side: u32,
+    /// Predicted gap `g*` \[m\].
+    pub gap: f64,
+    /// `n_d alpha` \[rad\].
+    pub turn: f64,
+    /// `exp(i (psi + n_d alpha))`: the gap is `g0 + Re[z conj(normal)]`.
+    pub normal: (f64, f64),
+    /// `A = dg/dalpha` \[m\].
+    pub moment_arm: f64,
+    /// Multiplier \[N\].
+    pub lambda: f64,
+}
 
 impl<B: BladeModel> Explicit<B> {
     /// A predicted step outside the circle of the clearance: find what
@@ -145,6 +162,9 @@ impl<B: BladeModel> Explicit<B> {
             self.rows.retain(|row| row.gap < 0.0);
         }
         match self.rows.as_mut_slice() {
+            rows if rows.len() > MOST_ROWS => {
+                return Err(FailureReason::Rows { rows: rows.len() });
+            }
             [_] => {
                 let row = &self.rows[0];
                 self.rows[0].lambda = contact::single(self.influence(row, row), row.gap);

@@ -25,12 +25,14 @@ pub use oscillator::{Coordinate, Oscillator};
 use std::sync::Arc;
 
 use super::{
-    ActiveSet, Checks, ContactLog, Failure, FailureReason, Pulse, Rotor, Solver, State, Verdict,
+    ActiveSet, Checks, ContactLog, Failure, FailureReason, GoOn, Pulse, Rotor, Solver, State,
+    Verdict,
 };
 use crate::contact::{self, StepLaw};
 use crate::model::Machine;
 use crate::scene::CheckedScene;
-use crate::tolerances::BREAK_STEPS;
+use crate::tolerances::{BREAK_STEPS, UPDATES_UNASKED};
+use correct::ConstraintRow;
 use flight::{Block, Phasor};
 use held_corner::HeldCorner;
 use watch::Watch;
@@ -81,23 +83,6 @@ pub struct Explicit<B: BladeModel> {
     deepest_predicted: f64,
     watch: Watch,
     failure: Option<Failure>,
-}
-
-/// One constraint of a step: a side or a blade with its predicted gap.
-#[derive(Clone, Copy, Debug)]
-struct ConstraintRow {
-    index: u32,
-    side: u32,
-    /// Predicted gap `g*` \[m\].
-    gap: f64,
-    /// `n_d alpha` \[rad\].
-    turn: f64,
-    /// `exp(i (psi + n_d alpha))`: the gap is `g0 + Re[z conj(normal)]`.
-    normal: (f64, f64),
-    /// `A = dg/dalpha` \[m\].
-    moment_arm: f64,
-    /// Multiplier \[N\].
-    lambda: f64,
 }
 
 impl<B: BladeModel> Explicit<B> {
@@ -223,13 +208,21 @@ impl<B: BladeModel> Explicit<B> {
 }
 
 impl<B: BladeModel> Solver for Explicit<B> {
-    fn advance(&mut self, until: f64) -> Result<(), Failure> {
+    fn advance_while(&mut self, until: f64, go_on: GoOn<'_>) -> Result<bool, Failure> {
         if let Some(failure) = &self.failure {
             return Err(failure.clone());
         }
         // A step that ends within a millionth of itself after `until` belongs to it.
         let target = (until / self.step + 1e-6).floor().max(0.0) as u64;
+        let mut asked = 0_usize;
         while self.steps_taken() < target {
+            asked += self.blades.coordinates();
+            if asked > UPDATES_UNASKED {
+                asked = 0;
+                if !go_on() {
+                    return Ok(false);
+                }
+            }
             let moved = if self.open_block() {
                 self.use_block(target);
                 Ok(())
@@ -243,7 +236,7 @@ impl<B: BladeModel> Solver for Explicit<B> {
                 return Err(failure);
             }
         }
-        Ok(())
+        Ok(true)
     }
 
     fn state(&self) -> State {

@@ -14,7 +14,7 @@ use serde::Serialize;
 
 pub use ways::{Effort, Way, ways};
 
-use crate::motion::{Motion, State, Verdict, VerdictReached, is_sensitive};
+use crate::motion::{GoOn, Motion, Script, State, Verdict, VerdictReached, is_sensitive};
 use crate::scene::{ContactLaw, ModelSize, Scene, SceneError, SolverKind};
 use crate::tolerances;
 use track::Track;
@@ -135,32 +135,43 @@ impl Measure {
         by_events(size_of_reference(scene.solver.model), 0.0).of(scene).map(|_| ())
     }
 
-    /// Solves the scene by the event solver, for rigid and for moving blades.
+    /// Solves the scene by the event solver, for rigid and for moving blades;
+    /// none where `go_on` said no on the way.
     ///
     /// # Errors
     /// The key that the event solver does not support.
-    pub fn new(scene: &Scene) -> Result<Self, SceneError> {
+    pub fn new(scene: &Scene, go_on: GoOn<'_>) -> Result<Option<Self>, SceneError> {
         let model = size_of_reference(scene.solver.model);
         let finest = tolerances::EVENT;
         let chosen = by_events(model, finest);
         let resolved = chosen.of(scene)?;
-        let run = chosen.run(scene)?;
-        let halved = by_events(model, 0.5 * finest).run(scene)?;
+        let halved = by_events(model, 0.5 * finest);
+        let (Some(run), Some(halved)) = (chosen.run(scene, go_on)?, halved.run(scene, go_on)?)
+        else {
+            return Ok(None);
+        };
         let reached = VerdictReached::of(&run.motion, run.verdict);
+        let Some(sensitive) = is_sensitive(&resolved, &Script::default(), reached, go_on) else {
+            return Ok(None);
+        };
         let reference = Reference {
             way: chosen,
             verdict: run.verdict,
             impact_count: reached.impact_count,
-            sensitive: is_sensitive(&resolved, reached),
+            sensitive,
             error_halved: (!run.failed && !halved.failed).then(|| {
                 distance(&run.motion.state(), &halved.motion.state())
                     / run.motion.machine().clearance()
             }),
             wall_s: run.wall_s,
         };
-        let track = |model| Track::of(by_events(model, finest), scene);
-        let tracks = [track(ModelSize::Rigid)?, track(ModelSize::Modal)?];
-        Ok(Self { scene: scene.clone(), reference, tracks })
+        let track = |model| Track::of(by_events(model, finest), scene, go_on);
+        let tracks = track(ModelSize::Rigid)?.zip(track(ModelSize::Modal)?);
+        Ok(tracks.map(|(rigid, modal)| Self {
+            scene: scene.clone(),
+            reference,
+            tracks: [rigid, modal],
+        }))
     }
 
     /// What everything is measured against.
@@ -169,15 +180,24 @@ impl Measure {
         &self.reference
     }
 
-    /// Solves the scene one way, repeatedly, and compares.
+    /// Solves the scene one way, repeatedly, and compares; none where `go_on`
+    /// said no on the way.
     ///
     /// # Errors
     /// This way does not suit the scene.
-    pub fn row(&self, way: Way, effort: Effort) -> Result<Row, SceneError> {
-        let first = way.run(&self.scene)?;
+    pub fn row(
+        &self,
+        way: Way,
+        effort: Effort,
+        go_on: GoOn<'_>,
+    ) -> Result<Option<Row>, SceneError> {
+        let Some(first) = way.run(&self.scene, go_on)? else { return Ok(None) };
         let mut walls = vec![first.wall_s];
-        while walls.len() < effort.repeats as usize && walls.iter().sum::<f64>() < effort.seconds {
-            walls.push(way.run(&self.scene)?.wall_s);
+        while walls.len() < effort.repeats as usize
+            && walls.iter().sum::<f64>() < effort.seconds
+            && let Some(again) = way.run(&self.scene, go_on)?
+        {
+            walls.push(again.wall_s);
         }
         let wall_s = median(&mut walls);
         let size = size_of_reference(way.model);
@@ -190,7 +210,7 @@ impl Measure {
             .and_then(|track| track.at(reached.t_s))
             .map(|exact| distance(&exact, &reached) / clearance);
         let steps = first.motion.steps();
-        Ok(Row {
+        Ok(Some(Row {
             way,
             error_final,
             error_impact_time_s: track.and_then(|track| impact_error(&track.end, &first.motion)),
@@ -202,7 +222,7 @@ impl Measure {
             verdict: first.verdict,
             verdict_right: first.verdict == self.reference.verdict,
             other_law: way.contact != self.reference.way.contact,
-        })
+        }))
     }
 
     /// Puts rows together.
@@ -245,17 +265,18 @@ fn median(values: &mut [f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::motion::to_the_end;
 
     fn quick() -> Effort {
         Effort { repeats: 1, finest_s: 1e-7, seconds: 0.0 }
     }
 
     fn rows(scene: &Scene, chosen: impl Fn(&Way) -> bool) -> (Reference, Vec<Row>) {
-        let measure = Measure::new(scene).unwrap();
+        let measure = Measure::new(scene, &to_the_end).unwrap().unwrap();
         let rows = ways(scene, quick())
             .into_iter()
             .filter(chosen)
-            .map(|way| measure.row(way, quick()).unwrap())
+            .map(|way| measure.row(way, quick(), &to_the_end).unwrap().unwrap())
             .collect();
         (measure.reference().clone(), rows)
     }

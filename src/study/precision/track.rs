@@ -2,7 +2,7 @@
 //! explicit run ends at its last step, up to one step before the end of the scene.
 
 use super::ways::{LONGEST, Way};
-use crate::motion::{Motion, State};
+use crate::motion::{GoOn, Motion, State};
 use crate::scene::{ModelSize, Scene, SceneError};
 
 /// The reference for one model size, at its end and a little before.
@@ -14,14 +14,17 @@ pub(super) struct Track {
 }
 
 impl Track {
-    pub(super) fn of(way: Way, scene: &Scene) -> Result<Self, SceneError> {
+    /// None where `go_on` said no on the way.
+    pub(super) fn of(way: Way, scene: &Scene, go_on: GoOn<'_>) -> Result<Option<Self>, SceneError> {
         let end_s = scene.solver.end_s;
         let mut before = way.start(scene)?;
         // The motion stores a failure, and `at` returns none.
-        let _ = before.advance((end_s - 1.01 * LONGEST).max(0.0));
+        let early = before.advance_while((end_s - 1.01 * LONGEST).max(0.0), go_on);
         let mut end = before.clone();
-        let _ = end.advance(end_s);
-        Ok(Self { model: way.model, before, end })
+        if early == Ok(false) || end.advance_while(end_s, go_on) == Ok(false) {
+            return Ok(None);
+        }
+        Ok(Some(Self { model: way.model, before, end }))
     }
 
     /// The state at the instant `t` near the end \[s\]; none if it failed by

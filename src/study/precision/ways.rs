@@ -6,7 +6,7 @@ use std::time::Instant;
 use serde::Serialize;
 
 use super::TimedRun;
-use crate::motion::{Event, Motion};
+use crate::motion::{Event, GoOn, Motion, verdict_of};
 use crate::scene::{CheckedScene, ContactLaw, ModelSize, Scene, SceneError, SolverKind};
 use crate::tolerances::LAST_PART;
 
@@ -96,13 +96,20 @@ impl Way {
         })
     }
 
-    /// Runs to the end and times it.
-    pub(super) fn run(&self, scene: &Scene) -> Result<TimedRun, SceneError> {
+    /// Runs to the end and times it; none where `go_on` said no on the way.
+    pub(super) fn run(
+        &self,
+        scene: &Scene,
+        go_on: GoOn<'_>,
+    ) -> Result<Option<TimedRun>, SceneError> {
         let started = Instant::now();
         let mut motion = self.start(scene)?;
-        let failed = motion.advance(scene.solver.end_s).is_err();
+        let reached = motion.advance_while(scene.solver.end_s, go_on);
+        if reached == Ok(false) {
+            return Ok(None);
+        }
         let wall_s = started.elapsed().as_secs_f64();
-        let window = LAST_PART * scene.solver.end_s;
-        Ok(TimedRun { verdict: crate::motion::verdict_of(&motion, window), failed, wall_s, motion })
+        let verdict = verdict_of(&motion, LAST_PART * scene.solver.end_s);
+        Ok(Some(TimedRun { verdict, failed: reached.is_err(), wall_s, motion }))
     }
 }

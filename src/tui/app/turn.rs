@@ -4,7 +4,7 @@ use super::{App, InputMode, Ranges};
 use crate::motion::Change;
 use crate::report::line::clean;
 use crate::scene::{CheckedScene, Scene, Value};
-use crate::tui::engine::{Results, Snapshot};
+use crate::tui::engine::Snapshot;
 use crate::tui::knobs::{KNOBS, Knob};
 
 /// Number of turns that can be undone.
@@ -95,13 +95,17 @@ impl App {
         }
         if live {
             self.counters.changes += 1;
-            self.latest.results.full_run = None;
-            self.latest.results.reference = None;
-            self.latest.results.comparison = None;
-            self.latest.results.sensitive = false;
+            self.forget_forecasts();
         } else {
             self.restart();
         }
+    }
+
+    /// Drops what was computed for the motion before it was changed.
+    pub(super) fn forget_forecasts(&mut self) {
+        let results = &mut self.latest.results;
+        (results.full_run, results.reference, results.comparison) = (None, None, None);
+        results.sensitive = false;
     }
 
     /// Restarts the run. Old studies stay until there are new ones.
@@ -111,8 +115,8 @@ impl App {
         self.comparison_history.clear();
         self.pages_back = 0;
         self.throttled = None;
-        let known = std::mem::take(&mut self.latest.results);
-        let results = Results { full_run: None, reference: None, comparison: None, ..known };
+        self.forget_forecasts();
+        let results = std::mem::take(&mut self.latest.results);
         self.latest = Snapshot { results, ..Snapshot::default() };
         self.page = 0;
     }

@@ -188,7 +188,7 @@ impl App {
             }
             Action::Fire => {
                 self.counters.pulses += 1;
-                self.latest.results.full_run = None;
+                self.forget_forecasts();
                 let pulse = KNOBS.iter().find(|knob| knob.path == "operation.pulse_n");
                 let pulse = pulse.map(|knob| knob.shown(&knob.get(&self.scene)));
                 self.status = pulse.map(|pulse| format!("pulse of {pulse} fired"));

@@ -4,7 +4,7 @@
 use super::App;
 use crate::motion::{ActiveSet, Verdict};
 use crate::tui::axis::readable;
-use crate::tui::engine::{FullRun, FullRunState};
+use crate::tui::engine::{FORECAST_LIMIT, FullRun, FullRunState};
 use crate::tui::theme::Role;
 
 /// A verdict as the header shows it.
@@ -48,6 +48,15 @@ impl App {
                 word: "computing".into(),
                 detail: format!("{:.0} %", 100.0 * part),
                 role: Role::Quiet,
+            },
+            Some(FullRunState::GivenUp(part)) => VerdictText {
+                word: "NO FORECAST".into(),
+                detail: format!(
+                    "{} s of work reached {:.0} % of the run",
+                    FORECAST_LIMIT.as_secs(),
+                    100.0 * part
+                ),
+                role: Role::Trouble,
             },
             None => {
                 VerdictText { word: "computing".into(), detail: String::new(), role: Role::Quiet }

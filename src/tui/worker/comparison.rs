@@ -2,7 +2,7 @@
 
 use super::full_run::FullRunJob;
 use super::recorder::Recorder;
-use crate::motion::Motion;
+use crate::motion::{GoOn, Motion};
 use crate::scene::{CheckedScene, Scene, SolverKind};
 
 /// The same scene under the other contact law, played up to the same time.
@@ -25,18 +25,22 @@ impl Comparison {
         Some(Self { motion, recorder: Recorder::default(), full_run })
     }
 
-    /// Plays to the time of the other motion.
-    pub fn catch_up(&mut self, until: f64, sample: f64, bin: f64) {
+    /// Plays to the time of the other motion; false where it stays behind for
+    /// now, because `go_on` said no.
+    pub fn catch_up(&mut self, until: f64, sample: f64, bin: f64, go_on: GoOn<'_>) -> bool {
         loop {
             self.recorder.record(&mut self.motion, bin);
             let before = self.motion.state().t_s;
             let next = (before + sample).min(until);
-            // The motion stores a failure; the full run reports it.
-            if next <= before
-                || self.motion.advance(next).is_err()
-                || self.motion.state().t_s <= before
-            {
-                return;
+            if next <= before {
+                return true;
+            }
+            match self.motion.advance_while(next, go_on) {
+                Ok(true) if self.motion.state().t_s > before && go_on() => {}
+                Ok(true) => return self.motion.state().t_s <= before,
+                Ok(false) => return false,
+                // The motion stores a failure; the full run reports it.
+                Err(_) => return true,
             }
         }
     }

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use crate::motion::{Motion, Verdict, verdict_of};
 use crate::tolerances::LAST_PART;
-use crate::tui::engine::{FullRun, FullRunState};
+use crate::tui::engine::{FORECAST_LIMIT, FullRun, FullRunState};
 
 /// A full run that is being computed.
 #[derive(Debug)]
@@ -16,10 +16,8 @@ pub struct FullRunJob {
     window: f64,
     taken: u32,
     signal: Vec<[f64; 2]>,
-    /// Longest stretch to advance at once \[s\].
-    stretch: f64,
-    cut: Option<f64>,
     wall: Duration,
+    limit: Duration,
     steps: u64,
     result: Option<FullRun>,
 }
@@ -27,8 +25,8 @@ pub struct FullRunJob {
 /// Samples of one run, for its spectrum.
 const SAMPLES: u32 = 2048;
 
-/// Wall time one slice should take.
-const SLICE: Duration = Duration::from_millis(5);
+/// Wall time of one slice.
+pub(super) const SLICE: Duration = Duration::from_millis(5);
 
 impl FullRunJob {
     /// A run of `length` seconds from where the motion is.
@@ -40,9 +38,8 @@ impl FullRunJob {
             window: LAST_PART * length,
             taken: 0,
             signal: Vec::with_capacity(SAMPLES as usize),
-            stretch: f64::INFINITY,
-            cut: None,
             wall: Duration::ZERO,
+            limit: FORECAST_LIMIT,
             result: None,
             motion,
             start,
@@ -56,34 +53,21 @@ impl FullRunJob {
             return;
         }
         let began = Instant::now();
+        let go_on = || began.elapsed() < SLICE;
         let length = self.end - self.start;
-        let mut failed = false;
-        while !failed && self.taken < SAMPLES && began.elapsed() < SLICE {
+        let mut reached = Ok(true);
+        while reached == Ok(true) && self.taken < SAMPLES && go_on() {
             let part = f64::from(self.taken + 1) / f64::from(SAMPLES);
             let sample =
                 if self.taken + 1 == SAMPLES { self.end } else { self.start + part * length };
-            // If a sample takes longer than a slice, it is divided.
-            let until = sample.min(self.cut.unwrap_or(f64::INFINITY));
-            let before = self.motion.state().t_s;
-            let step = Instant::now();
-            failed = self.motion.advance(until).is_err();
-            let took = step.elapsed();
-            // Shorter intervals if one took long, but not so short that the run
-            // stops on a busy machine.
-            let least = length / f64::from(SAMPLES) / 32.0;
-            if took > SLICE * 4 {
-                self.stretch = (0.25 * self.stretch.min(until - before)).max(least);
-            } else {
-                self.stretch *= 2.0;
-            }
-            if until >= sample {
+            reached = self.motion.advance_while(sample, &go_on);
+            if reached == Ok(true) {
                 self.taken += 1;
                 self.signal.push(self.motion.state().u);
             }
-            self.cut = self.stretch.is_finite().then_some(until + self.stretch);
         }
         self.wall += began.elapsed();
-        if failed || self.taken >= SAMPLES {
+        if reached.is_err() || self.taken >= SAMPLES {
             self.result = Some(self.finished());
         }
     }
@@ -110,18 +94,21 @@ impl FullRunJob {
 
     /// Its progress or its result.
     pub fn state(&self) -> FullRunState {
+        let part = (self.motion.state().t_s - self.start) / (self.end - self.start);
         match &self.result {
             Some(run) => FullRunState::Done(run.clone()),
-            None => {
-                let part = (self.motion.state().t_s - self.start) / (self.end - self.start);
-                FullRunState::Computing(part.clamp(0.0, 1.0))
-            }
+            None if self.is_given_up() => FullRunState::GivenUp(part.clamp(0.0, 1.0)),
+            None => FullRunState::Computing(part.clamp(0.0, 1.0)),
         }
     }
 
     /// Whether it is over.
     pub fn is_done(&self) -> bool {
-        self.result.is_some()
+        self.result.is_some() || self.is_given_up()
+    }
+
+    fn is_given_up(&self) -> bool {
+        self.result.is_none() && self.wall >= self.limit
     }
 
     /// Wall time so far \[s\].
@@ -133,5 +120,27 @@ impl FullRunJob {
     pub fn step_s(&self) -> Option<f64> {
         let steps = self.motion.steps()?.saturating_sub(self.steps);
         (steps > 0).then(|| self.wall_s() / steps as f64)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Scene, SolverKind};
+
+    #[test]
+    fn a_run_that_takes_too_long_is_given_up_with_what_it_reached() {
+        let mut scene = Scene::builtin("undamped").unwrap().as_reference();
+        scene.solver.kind = SolverKind::Event;
+        scene.solver.end_s = 1e6;
+        let mut job = FullRunJob::new(Motion::new(&scene.checked().unwrap()), 1e6);
+        job.limit = SLICE * 3;
+        while !job.is_done() {
+            job.compute();
+        }
+        let FullRunState::GivenUp(part) = job.state() else { panic!("{:?}", job.state()) };
+        assert!(part > 0.0 && part < 1.0, "{part}");
+        // One slice more than the limit, on a machine that does nothing else.
+        assert!(job.wall >= job.limit);
     }
 }

@@ -1,6 +1,7 @@
 //! The solver behind the screen: a playback without clock or thread, the thread
 //! that drives it, and a replacement for tests.
 
+mod background;
 mod comparison;
 mod full_run;
 mod playback;

@@ -1,11 +1,11 @@
-//! Speed against error, row by row, in a separate thread: a row can take
-//! seconds, and neither the motion nor the next order waits for it.
+//! Speed against error, row by row, in the background: a row can take seconds.
 
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::mpsc::Sender;
 use std::time::Duration;
 
-use super::thread::WORKER_NAME;
+use super::background::Background;
+use crate::motion::GoOn;
 use crate::scene::Scene;
 use crate::study::precision::{Effort, Measure, Precision, Reference, Row, ways};
 
@@ -18,24 +18,20 @@ enum Found {
     Row(Box<Row>),
 }
 
-/// The comparison of the solvers on one scene. Dropping it ends the thread
-/// after the current row.
+/// The comparison of the solvers on one scene. Dropping it ends its thread.
 #[derive(Debug)]
 pub struct PrecisionJob {
     scene: Scene,
-    rows: Option<Receiver<Found>>,
+    rows: Background<Found>,
     report: Option<Arc<Precision>>,
 }
 
 impl PrecisionJob {
     /// Starts on a checked scene.
     pub fn of(scene: &Scene) -> Self {
-        let (sender, rows) = channel();
         let theirs = scene.clone();
-        // The panic hook leaves the screen alone for threads of this name.
-        let thread = std::thread::Builder::new().name(WORKER_NAME.to_string());
-        let started = thread.spawn(move || measure(&theirs, &sender)).is_ok();
-        Self { scene: scene.clone(), rows: started.then_some(rows), report: None }
+        let rows = Background::start(move |found, go_on| measure(&theirs, found, go_on));
+        Self { scene: scene.clone(), rows, report: None }
     }
 
     /// Whether it belongs to this scene.
@@ -45,7 +41,7 @@ impl PrecisionJob {
 
     /// Whether all rows are done.
     pub fn is_done(&self) -> bool {
-        self.rows.is_none()
+        self.rows.is_done()
     }
 
     /// The rows so far.
@@ -55,38 +51,36 @@ impl PrecisionJob {
 
     /// Takes the next row, waiting for it no longer than `patience`.
     pub fn receive(&mut self, patience: Duration) {
-        let Some(rows) = &self.rows else { return };
-        match rows.recv_timeout(patience) {
-            Ok(Found::Reference(reference)) => {
+        match self.rows.receive(patience) {
+            Some(Found::Reference(reference)) => {
                 self.report = Some(Arc::new(Precision {
                     scene: self.scene.clone(),
                     reference: *reference,
                     rows: Vec::new(),
                 }));
             }
-            Ok(Found::Row(row)) => {
+            Some(Found::Row(row)) => {
                 if let Some(report) = &mut self.report {
                     Arc::make_mut(report).rows.push(*row);
                 }
             }
-            Err(RecvTimeoutError::Timeout) => {}
-            // Done, or the thread ended early: the existing rows stay.
-            Err(RecvTimeoutError::Disconnected) => self.rows = None,
+            None => {}
         }
     }
 }
 
-/// Measures until done, or until the receiver is dropped.
-fn measure(scene: &Scene, found: &Sender<Found>) {
-    let Ok(measure) = Measure::new(scene) else { return };
-    let reference = Found::Reference(Box::new(measure.reference().clone()));
-    if found.send(reference).is_err() {
-        return;
-    }
+/// Measures until done, or until told not to go on.
+fn measure(scene: &Scene, found: &Sender<Found>, go_on: GoOn<'_>) {
+    let Ok(Some(measure)) = Measure::new(scene, go_on) else { return };
+    // Without a receiver nothing is asked for any more, and `go_on` says so.
+    let _ = found.send(Found::Reference(Box::new(measure.reference().clone())));
     for way in ways(scene, EFFORT) {
-        let Ok(row) = measure.row(way, EFFORT) else { continue };
-        if found.send(Found::Row(Box::new(row))).is_err() {
+        let row = measure.row(way, EFFORT, go_on);
+        if !go_on() {
             return;
+        }
+        if let Ok(Some(row)) = row {
+            let _ = found.send(Found::Row(Box::new(row)));
         }
     }
 }

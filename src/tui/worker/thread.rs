@@ -213,6 +213,27 @@ mod tests {
     }
 
     #[test]
+    fn an_order_does_not_wait_for_a_forecast_of_minutes() {
+        let mut worker = Worker::spawn(Arc::new(|| {})).unwrap();
+        let mut endless = Scene::builtin("undamped").unwrap().as_reference();
+        endless.solver.end_s = 1e6;
+        let app = App::new(endless.checked().unwrap(), Theme::Mono, Marker::Ascii);
+        worker.order(&Order { restarts: 1, compare: true, ..app.order() });
+        std::thread::sleep(Duration::from_millis(50));
+        worker.order(&order(419.0, 2));
+        for _ in 0..10_000 {
+            if let Some(snapshot) = worker.take()
+                && snapshot.generation == 2
+                && matches!(snapshot.results.full_run, Some(FullRunState::Done(_)))
+            {
+                return;
+            }
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        panic!("the order still waits");
+    }
+
+    #[test]
     fn a_panic_becomes_a_line() {
         let line = catch_panic(|| -> () { panic!("no {}", "blades") }).unwrap_err();
         assert!(line.contains("no blades"), "{line}");

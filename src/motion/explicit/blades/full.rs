@@ -107,6 +107,9 @@ impl BladeModel for FullBlades {
     fn moving_as(self, other: &Self) -> Self {
         Self { modes: other.modes.clone(), ..self }
     }
+    fn coordinates(&self) -> usize {
+        2 + self.modes.len()
+    }
     fn rows_of_side(&self, side: u32) -> usize {
         self.tables.sides[side as usize].len()
     }

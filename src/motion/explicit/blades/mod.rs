@@ -22,6 +22,8 @@ pub trait BladeModel: Clone + std::fmt::Debug + Send + Sync + 'static {
     fn at_rest(scene: &Scene, machine: &Machine) -> Self;
     /// These blades with the displacements and rates of others of their kind.
     fn moving_as(self, other: &Self) -> Self;
+    /// How many coordinates one step updates, those of the casing included.
+    fn coordinates(&self) -> usize;
     /// How many constraint rows a side of the polygon has.
     fn rows_of_side(&self, side: u32) -> usize;
     /// One of the rows of a side.
@@ -81,6 +83,9 @@ impl BladeModel for RigidBlades {
     }
     fn moving_as(self, _: &Self) -> Self {
         self
+    }
+    fn coordinates(&self) -> usize {
+        2
     }
     fn rows_of_side(&self, _: u32) -> usize {
         1

@@ -36,6 +36,9 @@ impl BladeModel for ModalBlades {
     fn moving_as(self, other: &Self) -> Self {
         Self { modes: other.modes, ..self }
     }
+    fn coordinates(&self) -> usize {
+        4
+    }
     fn rows_of_side(&self, _: u32) -> usize {
         1
     }

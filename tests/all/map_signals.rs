@@ -1,0 +1,140 @@
+//! Signals while a map is computed: the first keeps the cells, the second ends
+//! the program at once, and neither waits for a cell.
+
+#![cfg(target_os = "linux")]
+
+use std::io::Write;
+use std::path::Path;
+use std::process::{Child, Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+/// A long limit, not a speed test: a loaded machine may be slow.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// One cell of minutes: an undamped casing that bounces for hours.
+const LONG_CELL: [&str; 12] = [
+    "map",
+    "undamped",
+    "--solver",
+    "event",
+    "--model",
+    "rigid",
+    "--end",
+    "1e6",
+    "--speed",
+    "500:500:1",
+    "--pulse",
+    "20000:20000:1",
+];
+
+/// A program under test, killed when the test ends.
+struct Running(Option<Child>);
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        if let Some(child) = &mut self.0 {
+            let _ = child.kill();
+        }
+    }
+}
+
+impl Running {
+    fn start(arguments: &[&str], directory: &Path) -> Self {
+        Self::start_with(arguments, directory, Stdio::piped())
+    }
+
+    fn start_with(arguments: &[&str], directory: &Path, errors: Stdio) -> Self {
+        let child = Command::new(env!("CARGO_BIN_EXE_rubscope"))
+            .args(arguments)
+            .current_dir(directory)
+            .stdout(Stdio::piped())
+            .stderr(errors)
+            .spawn()
+            .unwrap();
+        Self(Some(child))
+    }
+
+    fn signal(&self, name: &str) {
+        let id = self.0.as_ref().unwrap().id().to_string();
+        assert!(Command::new("kill").args([name, &id]).status().unwrap().success());
+    }
+
+    /// Whether it has told the system that it handles SIGHUP, the first signal.
+    fn catches_hangups(&self) -> bool {
+        let status = format!("/proc/{}/status", self.0.as_ref().unwrap().id());
+        let status = std::fs::read_to_string(status).unwrap();
+        let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:")).unwrap();
+        u64::from_str_radix(caught.trim(), 16).unwrap() & 1 == 1
+    }
+
+    /// Waits for a condition of the files it writes.
+    fn wait_until(&self, condition: impl Fn() -> bool) {
+        let began = Instant::now();
+        while !condition() {
+            assert!(began.elapsed() < PATIENCE, "it does not come to work");
+            std::thread::sleep(Duration::from_millis(10));
+        }
+    }
+
+    fn finish(self) -> Output {
+        self.finish_under("-0")
+    }
+
+    /// Sends a signal again and again until it ends.
+    fn finish_under(mut self, signal: &str) -> Output {
+        let began = Instant::now();
+        while self.0.as_mut().unwrap().try_wait().unwrap().is_none() {
+            assert!(began.elapsed() < PATIENCE, "it does not end");
+            self.signal(signal);
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        self.0.take().unwrap().wait_with_output().unwrap()
+    }
+}
+
+/// Starts a map of one long cell; its part file says that it is at work.
+fn long_map(directory: &Path) -> Running {
+    let arguments = [&LONG_CELL[..], &["--out", "map.csv"]].concat();
+    let map = Running::start(&arguments, directory);
+    map.wait_until(|| directory.join("map.csv.partial").exists());
+    map
+}
+
+#[test]
+fn a_signal_stops_a_map_in_the_middle_of_a_cell() {
+    for (signal, number) in [("-INT", 2), ("-TERM", 15), ("-HUP", 1)] {
+        let directory = tempfile::tempdir().unwrap();
+        let map = long_map(directory.path());
+        map.signal(signal);
+        let output = map.finish();
+        assert_eq!(output.status.code(), Some(128 + number), "{signal}");
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert!(said.contains("0 of 1 cells are kept"), "{said}");
+    }
+}
+
+#[test]
+fn a_second_signal_ends_a_map_at_once() {
+    // Nobody reads what it says, and the pipe is full: it waits there for ever.
+    let (_unread, mut full) = std::io::pipe().unwrap();
+    full.write_all(&[b' '; 1 << 16]).unwrap();
+    let directory = tempfile::tempdir().unwrap();
+    let arguments = [&LONG_CELL[..], &["--out", "map.csv"]].concat();
+    let map = Running::start_with(&arguments, directory.path(), full.into());
+    map.wait_until(|| directory.path().join("map.csv.partial").exists());
+    map.signal("-INT");
+    std::thread::sleep(Duration::from_millis(300));
+    assert_eq!(map.finish_under("-TERM").status.code(), Some(128 + 15));
+}
+
+#[test]
+fn a_map_without_a_file_keeps_its_cells_when_the_terminal_closes() {
+    let directory = tempfile::tempdir().unwrap();
+    let map = Running::start(&LONG_CELL, directory.path());
+    map.wait_until(|| map.catches_hangups());
+    map.signal("-HUP");
+    let output = map.finish();
+    assert_eq!(output.status.code(), Some(129));
+    let kept = std::fs::read_to_string(directory.path().join("rubscope-map.partial")).unwrap();
+    assert!(kept.contains("rubscope.map-part"), "{kept}");
+}

@@ -1,0 +1,110 @@
+//! Work that is told not to go on: it stops soon, and what is continued later
+//! comes to the same bits as what was never stopped.
+
+use std::cell::Cell;
+
+use rubscope::motion::{Motion, run_to_verdict};
+use rubscope::scene::{BUILTIN, CheckedScene, ModelSize, Scene, SolverKind};
+
+use crate::plain::scenes::scene;
+
+/// The scene by every solver that knows it.
+fn ways(scene: &Scene) -> Vec<CheckedScene> {
+    let mut ways = vec![scene.clone(), scene.as_reference()];
+    let mut full = scene.clone();
+    full.solver.kind = SolverKind::Explicit;
+    full.solver.model = ModelSize::Full;
+    full.solver.step_s = 1e-6;
+    ways.push(full);
+    ways.iter().filter_map(|scene| scene.checked().ok()).collect()
+}
+
+#[test]
+fn a_motion_that_is_stopped_again_and_again_reaches_the_same_bits() {
+    let mut pauses = 0;
+    for name in BUILTIN.iter().map(|scene| scene.name) {
+        let mut scene = Scene::builtin(name).unwrap();
+        scene.solver.end_s = scene.solver.end_s.min(0.03);
+        for scene in ways(&scene) {
+            let (mut plain, mut paused) = (Motion::new(&scene), Motion::new(&scene));
+            let straight = plain.advance(scene.solver.end_s);
+            let asked = Cell::new(0_u64);
+            // Two of three questions are answered with yes.
+            let go_on = || {
+                asked.set(asked.get() + 1);
+                !asked.get().is_multiple_of(3)
+            };
+            let broken = loop {
+                match paused.advance_while(scene.solver.end_s, &go_on) {
+                    Ok(true) => break Ok(()),
+                    Ok(false) => {
+                        pauses += 1;
+                        assert!(paused.state().t_s <= scene.solver.end_s);
+                        // Looking must not change it either.
+                        let _ = (paused.checks(), paused.multipliers(), paused.blade_gaps());
+                    }
+                    Err(failure) => break Err(failure),
+                }
+            };
+            assert_eq!(straight, broken, "{name}");
+            assert_eq!(plain.state(), paused.state(), "{name} {:?}", scene.solver);
+            assert_eq!(plain.contacts().impacts, paused.contacts().impacts, "{name}");
+            assert_eq!(plain.contacts().impact_count, paused.contacts().impact_count, "{name}");
+            assert_eq!(plain.events(), paused.events(), "{name}");
+        }
+    }
+    assert!(pauses > 300, "{pauses}");
+}
+
+#[test]
+fn a_solver_asks_within_a_bound_of_steps_or_looks() {
+    // An excitation leaves no flight to skip: every step is taken.
+    for (model, steps_a_question) in
+        [(ModelSize::Rigid, 2049), (ModelSize::Modal, 1025), (ModelSize::Full, 171)]
+    {
+        let mut scene = scene(&[("operation.pulse_n", "0")]);
+        scene.solver.model = model;
+        if model != ModelSize::Rigid {
+            scene.excitation.amplitude_nm = 1e-3;
+        } else {
+            scene.operation.pulse_n = 1.0;
+            scene.operation.pulse_s = 1.0;
+        }
+        let mut motion = Motion::new(&scene.checked().unwrap());
+        let asked = Cell::new(0_u64);
+        let go_on = || {
+            asked.set(asked.get() + 1);
+            true
+        };
+        assert_eq!(motion.advance_while(0.01, &go_on), Ok(true));
+        let steps = motion.steps().unwrap();
+        assert!(steps >= 10_000 && asked.get() >= steps / steps_a_question, "{model:?} {asked:?}");
+    }
+    let mut scene = scene(&[]);
+    scene.solver.kind = SolverKind::Event;
+    let mut motion = Motion::new(&scene.checked().unwrap());
+    let asked = Cell::new(0_u64);
+    let go_on = || {
+        asked.set(asked.get() + 1);
+        true
+    };
+    assert_eq!(motion.advance_while(0.1, &go_on), Ok(true));
+    assert!(asked.get() >= motion.events().unwrap(), "{asked:?}");
+}
+
+#[test]
+fn a_verdict_that_is_not_waited_for_is_none() {
+    for name in ["paper-nd3", "undamped", "slip"] {
+        let mut scene = Scene::builtin(name).unwrap();
+        scene.solver.end_s = 1e3;
+        scene.solver.step_s = 1e-6;
+        let scene = scene.as_reference().checked().unwrap();
+        let left = Cell::new(20);
+        let go_on = || {
+            left.set(left.get() - 1);
+            left.get() > 0
+        };
+        assert_eq!(run_to_verdict(&scene, &go_on), None, "{name}");
+        assert_eq!(left.get(), 0, "{name}: it asks no more after a no");
+    }
+}
