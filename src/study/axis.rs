@@ -9,6 +9,9 @@ use crate::scene::{Allowed, Key, Scene, SceneError, Value, keys};
 /// Most values one axis may have.
 pub const MOST_VALUES: u32 = 100_000;
 
+/// Largest factor between the ends of an axis spaced by equal factors.
+const MOST_FACTOR: f64 = 1e300;
+
 /// Why an axis was refused.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum AxisError {
@@ -84,6 +87,10 @@ impl Axis {
         }
         if log && !(from > 0.0 && to > 0.0) {
             return Err(refused("log: with both ends above 0"));
+        }
+        // Otherwise the factor between two values can be infinite, or zero.
+        if log && !(1.0 / MOST_FACTOR..=MOST_FACTOR).contains(&(to / from)) {
+            return Err(refused("log: with ends that differ by a factor of at most 1e300"));
         }
         // Of a single value, the second end is shown and must have a meaning too.
         for end in [from, to] {
@@ -193,6 +200,7 @@ mod tests {
                 "axis operation.speed_rad_s = 0:1:0: allowed is a count",
             ),
             ("operation.pulse_n=log:0:1:5", "axis operation.pulse_n = log:0:1:5: allowed is log:"),
+            ("operation.pulse_n=log:15e-324:6:4", "axis operation.pulse_n = log:0.000000000"),
             ("solver.model=0:1:5", "axis solver.model: allowed are keys"),
             ("nothing=0:1:5", "unknown key nothing"),
             ("casing.damping_ratio=-1:1:5", "casing.damping_ratio = -1"),
