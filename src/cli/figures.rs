@@ -42,8 +42,12 @@ impl FiguresCommand {
         let shown = self.out.display();
         std::fs::create_dir_all(&self.out).with_context(|| format!("cannot make {shown}"))?;
         for number in &numbers {
-            let path = self.out.join(format!("{}.svg", stem(*number)));
-            output::try_place(&path)?;
+            let stem = stem(*number);
+            // One letter for each of several panels.
+            let data = ["", "a", "b"].map(|letter| format!("{stem}{letter}.csv"));
+            for name in data.iter().chain([&format!("{stem}.svg")]) {
+                output::try_place(&self.out.join(name))?;
+            }
         }
         for number in numbers {
             // A machine that cannot lock has no Figs. 9 and 10: refused input.

@@ -8,12 +8,11 @@ use std::fs::File;
 use std::io::{BufReader, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
-use anyhow::Context;
 use clap::{Args, Subcommand};
 
 use super::map_run::{Kept, compute};
 use super::options::{SceneOptions, Swept};
-use super::part_file::PartFile;
+use super::part_file::{self, PartFile};
 use super::range::Range;
 use super::status::{self, Refusal, Status};
 use super::{Done, output};
@@ -52,7 +51,7 @@ pub struct MapCommand {
     #[arg(long)]
     no_sensitivity: bool,
     /// Number of threads [default: every core]
-    #[arg(long, value_name = "COUNT")]
+    #[arg(long, value_name = "COUNT", value_parser = threads)]
     threads: Option<usize>,
     /// Compute only share K of COUNT, counted from 1, into --out FILE.part
     #[arg(long, value_name = "K/COUNT", requires = "out")]
@@ -90,14 +89,15 @@ struct Merge {
     result: ResultOptions,
 }
 
+fn threads(text: &str) -> Result<usize, String> {
+    let count = text.parse().ok().filter(|count| (1..=MOST_THREADS).contains(count));
+    count.ok_or_else(|| format!("allowed is a whole number from 1 to {MOST_THREADS}"))
+}
+
 impl MapCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
         if let Some(MapSubcommand::Merge(merge)) = &self.merge {
             return merge.run(out);
-        }
-        if let Some(threads) = self.threads.filter(|count| !(1..=MOST_THREADS).contains(count)) {
-            let allowed = format!("a whole number from 1 to {MOST_THREADS}");
-            return Err(Refusal::of("--threads", threads, allowed).into());
         }
         let format = self.result.format()?;
         let shard = self.shard()?;
@@ -117,16 +117,17 @@ impl MapCommand {
             Some(path) => Some(PartFile::open(&path, &mut map)?),
             None => None,
         };
+        self.result.refuse_locked(part.as_ref())?;
         status::say_noted();
         let kept = Kept { adaptive: self.adaptive, threads: self.threads, part };
         if let Some(signal) = compute(&mut map, shard, &kept, out)? {
             return Ok(Status::Signal(signal));
         }
+        self.result.refuse_locked(kept.part.as_ref())?;
         self.result.deliver(&map, out)?;
-        // The result now has the cells of its own part; another that the user named
-        // stays.
-        if let Some(part) = kept.part.filter(|part| self.own_part().as_deref() == Some(part.path()))
-        {
+        // The result now has the cells of the part that this command made for it; one
+        // that the user named stays.
+        if let Some(part) = kept.part.filter(|_| self.resume.is_none()) {
             part.remove();
         }
         Ok(Status::Done)
@@ -201,7 +202,8 @@ fn read_parts(files: &[PathBuf]) -> anyhow::Result<Map> {
     let mut parts = Vec::new();
     for path in files {
         let shown = path.display().to_string();
-        let file = File::open(path).with_context(|| format!("cannot read {shown}"))?;
+        let file = File::open(path)
+            .map_err(|error| Refusal::because(format!("cannot read {shown}: {error}")))?;
         parts.push((shown, BufReader::new(file)));
     }
     let map = part::read_all(parts).map_err(|error| Refusal::because(error.to_string()))?;
@@ -217,6 +219,11 @@ impl ResultOptions {
     /// Tries the place of the result, before anything is computed.
     fn try_place(&self) -> anyhow::Result<()> {
         self.out.as_deref().map_or(Ok(()), output::try_place)
+    }
+
+    /// Refuses a result in the place of a part that another map writes.
+    fn refuse_locked(&self, own: Option<&PartFile>) -> Result<(), Refusal> {
+        self.out.as_deref().map_or(Ok(()), |path| part_file::refuse_locked(path, own))
     }
 
     /// Prints and writes the finished map. If it cannot be written, it goes
@@ -239,16 +246,19 @@ impl ResultOptions {
             }
             Err(error) => error,
         };
-        let kept = if format == "part" {
-            part::write(map, out)?;
-            "its cells are on standard output, to be saved as a part"
-        } else {
-            if !self.json {
-                json::write(&report::MapJson { map, with_time: false }, out)?;
-            }
-            "the whole map is on standard output as JSON"
+        let kept = match format {
+            "part" => "its cells are on standard output, to be saved as a part",
+            _ => "the whole map is on standard output as JSON",
         };
-        Err(anyhow::Error::from(error).context(format!("cannot write {shown}; {kept}")))
+        Err(output::print_instead(path, error, kept, || {
+            match format {
+                "part" => part::write(map, out).map(drop)?,
+                // It is there already.
+                _ if self.json => {}
+                _ => json::write(&report::MapJson { map, with_time: false }, out)?,
+            }
+            out.flush()
+        }))
     }
 }
 

@@ -35,7 +35,7 @@ pub(super) fn compute(
     out: &mut dyn Write,
 ) -> anyhow::Result<Option<u8>> {
     let progress = Progress::default();
-    let request = StopRequest::watch()?;
+    let request = StopRequest::expect();
     let notes = kept.part.as_ref();
     let mut builder = rayon::ThreadPoolBuilder::new();
     if let Some(threads) = kept.threads {
@@ -61,13 +61,15 @@ pub(super) fn compute(
         });
         finished.store(true, Ordering::Relaxed);
     });
-    let trouble = notes.and_then(|notes| Some((notes.path(), notes.trouble()?)));
+    let trouble = notes.and_then(|notes| Some((notes.name(), notes.trouble()?)));
     if let Some((path, error)) = &trouble {
         say(&format!("rubscope: could not save cells in {}: {error}", path.display()));
     }
-    request.end_at_once();
-    if let Some(number) = request.received() {
-        stopped(map, notes.map(PartFile::path).filter(|_| trouble.is_none()), out)?;
+    let received = request.received();
+    drop(request);
+    if let Some(number) = received {
+        let complete = notes.filter(|_| trouble.is_none()).and_then(PartFile::path);
+        stopped(map, complete, out)?;
         return Ok(Some(number));
     }
     if kept.adaptive {
@@ -90,23 +92,26 @@ fn say_what_was_saved(map: &Map) {
 /// Saves what is done and prints how to continue. If no part file has all
 /// cells, one is written; if that fails, the cells go to standard output.
 fn stopped(map: &Map, complete: Option<&Path>, out: &mut dyn Write) -> anyhow::Result<()> {
-    let saved = complete.map_or_else(|| save_new(map), |path| Ok(path.to_path_buf()));
-    let path = match saved {
-        Ok(path) => path,
-        Err((path, error)) => {
-            part::write(map, out)?;
-            let kept = "its cells are on standard output, to be saved as a part for --resume";
-            let shown = path.display();
-            return Err(anyhow::Error::from(error).context(format!("cannot write {shown}; {kept}")));
+    let (done, cells) = (map.cells.iter().flatten().count(), map.cells.len());
+    let stopped = format!("rubscope: stopped; {done} of {cells} cells are kept");
+    if let Some(path) = complete {
+        say(&format!("{stopped} in {}: go on with the same command", path.display()));
+        return Ok(());
+    }
+    match save_new(map) {
+        Ok(path) => {
+            let path = path.display();
+            say(&format!("{stopped}: go on with the same command and --resume {path}"));
+            Ok(())
         }
-    };
-    let done = map.cells.iter().flatten().count();
-    say(&format!(
-        "rubscope: stopped; {done} of {} cells are kept: go on with the same command and --resume {}",
-        map.cells.len(),
-        path.display()
-    ));
-    Ok(())
+        Err((path, error)) => {
+            let kept = "its cells are on standard output, to be saved as a part for --resume";
+            Err(output::print_instead(&path, error, kept, || {
+                part::write(map, out)?;
+                out.flush()
+            }))
+        }
+    }
 }
 
 /// Updates the bar and handles signals until the cells are done.

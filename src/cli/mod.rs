@@ -26,6 +26,7 @@ mod words;
 use std::ffi::OsString;
 use std::io::{BufWriter, Write};
 
+use anyhow::Context;
 use clap::{Parser, Subcommand};
 
 use status::Status;
@@ -77,6 +78,10 @@ pub fn main(args: impl IntoIterator<Item = OsString>) -> u8 {
 }
 
 fn dispatch(cli: Cli, out: &mut dyn Write) -> Done {
+    if cli.command.is_some() {
+        // The explorer has signals of its own.
+        signals::watch().context("cannot watch signals")?;
+    }
     match cli.command {
         None => cli.explore.run(),
         Some(Command::Run(command)) => command.run(out),

@@ -100,12 +100,29 @@ pub fn replace_or_print(
 ) -> anyhow::Result<Written> {
     // The file may be standard output itself, and comes after what is there.
     out.flush()?;
-    file::replace(path, content).or_else(|error| {
-        text(out)?;
-        out.flush()?;
-        let reason = format!("cannot write {}; its text is on standard output", path.display());
-        Err(anyhow::Error::from(error).context(reason))
+    file::replace(path, content).map_err(|error| {
+        print_instead(path, error, "its text is on standard output", || {
+            text(out)?;
+            out.flush()
+        })
     })
+}
+
+/// The error of a file that could not be written, after what was meant for it
+/// was printed; if that fails too, the error says so.
+pub fn print_instead(
+    path: &Path,
+    error: std::io::Error,
+    kept: &str,
+    print: impl FnOnce() -> std::io::Result<()>,
+) -> anyhow::Error {
+    let shown = path.display();
+    match print() {
+        Ok(()) => anyhow::Error::from(error).context(format!("cannot write {shown}; {kept}")),
+        Err(other) => {
+            anyhow::anyhow!("cannot write {shown}: {error}; nor standard output: {other}")
+        }
+    }
 }
 
 /// Says what is in a file that was written.

@@ -38,8 +38,16 @@ impl PartFile {
         Ok(Self { path: path.to_path_buf(), writer, file: Mutex::new((file, None)) })
     }
 
-    pub(super) fn path(&self) -> &Path {
+    /// The name it was opened with.
+    pub(super) fn name(&self) -> &Path {
         &self.path
+    }
+
+    /// Where the cells are; none once another program has put a file in that
+    /// place.
+    pub(super) fn path(&self) -> Option<&Path> {
+        let (there, ours) = (self.path.metadata().ok()?, self.file().0.metadata().ok()?);
+        same(&ours, &there).then_some(&self.path)
     }
 
     fn file(&self) -> MutexGuard<'_, (File, Option<Error>)> {
@@ -67,7 +75,9 @@ impl PartFile {
     /// Removes the file, while no other map can have it.
     pub(super) fn remove(self) {
         // The result has its cells: what stays is too much and no loss.
-        let _ = std::fs::remove_file(&self.path);
+        if let Some(path) = self.path() {
+            let _ = std::fs::remove_file(path);
+        }
     }
 }
 
@@ -125,6 +135,24 @@ fn lock(path: &Path) -> anyhow::Result<File> {
         {
             return Ok(file);
         }
+    }
+}
+
+/// Refuses a place where another map saves its cells; `own` may be there.
+///
+/// # Errors
+/// The file, and the process that has it.
+pub(super) fn refuse_locked(path: &Path, own: Option<&PartFile>) -> Result<(), Refusal> {
+    let Ok(found) = path.metadata() else { return Ok(()) };
+    let is_own = own.is_some_and(|part| part.file().0.metadata().is_ok_and(|m| same(&m, &found)));
+    if is_own || !found.is_file() {
+        return Ok(());
+    }
+    match File::open(path) {
+        Ok(file) if matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock)) => {
+            Err(in_use(path, &file))
+        }
+        _ => Ok(()),
     }
 }
 

@@ -4,7 +4,7 @@ use super::status::Refusal;
 use crate::study::parse_range;
 
 /// Most values of one range.
-const MOST: usize = 1_000_000;
+const MOST: usize = 100_000;
 
 /// Evenly spaced values, both ends included.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,7 +28,7 @@ impl Range {
     ///
     /// # Errors
     /// Text of another form, ends that are not finite numbers, or a count
-    /// outside 1 to a million.
+    /// outside 1 to 100,000.
     pub fn parse(name: &str, text: &str) -> Result<Self, Refusal> {
         match parse_range(text) {
             Some((from, to, count))

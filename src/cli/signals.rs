@@ -1,53 +1,82 @@
-//! Signals that ask a long computation to stop: the first is noted, so that what
-//! is computed can be kept; the second ends the program at once.
+//! Signals that end a command. What it is changing on the disk is finished first,
+//! and nothing unfinished stays. A command that can keep what it has computed
+//! asks for the first signal to be noted only; the second ends it at once.
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
 
-#[cfg(unix)]
-use signal_hook::consts::SIGHUP;
-use signal_hook::consts::{SIGINT, SIGTERM};
-use signal_hook::flag;
+/// Whether the next signal is only noted.
+static NOTING: AtomicBool = AtomicBool::new(false);
+/// The signal that was noted; 0 for none.
+static NOTED: AtomicU8 = AtomicU8::new(0);
 
-/// The signals that ask to stop: the user, the system, the terminal that closes.
-const ASKING: &[i32] = &[
-    SIGINT,
-    SIGTERM,
-    #[cfg(unix)]
-    SIGHUP,
-];
-
-/// Whether a signal has asked to stop.
-pub(super) struct StopRequest {
-    number: Arc<AtomicUsize>,
-    last: Arc<AtomicBool>,
-}
+/// Signals are noted while this value lives.
+pub(super) struct StopRequest(());
 
 impl StopRequest {
-    /// Notes signals from now on.
-    ///
-    /// # Errors
-    /// The system refuses.
-    pub(super) fn watch() -> std::io::Result<Self> {
-        let request =
-            Self { number: Arc::new(AtomicUsize::new(0)), last: Arc::new(AtomicBool::new(false)) };
-        for &number in ASKING {
-            // In this order: the signal that sets the flag does not see it set.
-            flag::register_conditional_shutdown(number, 128 + number, Arc::clone(&request.last))?;
-            flag::register(number, Arc::clone(&request.last))?;
-            let noted = usize::try_from(number).unwrap_or(0);
-            flag::register_usize(number, Arc::clone(&request.number), noted)?;
-        }
-        Ok(request)
+    /// Notes the next signal to stop.
+    pub(super) fn expect() -> Self {
+        NOTED.store(0, Ordering::SeqCst);
+        NOTING.store(true, Ordering::SeqCst);
+        Self(())
     }
 
     /// The number of the signal that asked to stop, if one did.
     pub(super) fn received(&self) -> Option<u8> {
-        u8::try_from(self.number.load(Ordering::Relaxed)).ok().filter(|&number| number != 0)
+        Some(NOTED.load(Ordering::SeqCst)).filter(|&number| number != 0)
     }
+}
 
-    /// There is nothing left to keep: the next signal ends the program at once.
-    pub(super) fn end_at_once(&self) {
-        self.last.store(true, Ordering::Relaxed);
+impl Drop for StopRequest {
+    fn drop(&mut self) {
+        NOTING.store(false, Ordering::SeqCst);
     }
+}
+
+/// Starts the thread that waits for signals; a signal that is ignored, as under
+/// `nohup`, stays so.
+///
+/// # Errors
+/// The system cannot start a thread or watch signals.
+#[cfg(unix)]
+pub(super) fn watch() -> std::io::Result<()> {
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGQUIT, SIGTERM};
+    let heard =
+        [SIGINT, SIGTERM, SIGHUP, SIGQUIT].into_iter().filter(|&signal| !is_ignored(signal));
+    let mut signals = signal_hook::iterator::Signals::new(heard)?;
+    let wait = move || {
+        for signal in signals.forever() {
+            if signal != SIGQUIT && NOTING.swap(false, Ordering::SeqCst) {
+                NOTED.store(u8::try_from(signal).unwrap_or(0), Ordering::SeqCst);
+                continue;
+            }
+            crate::file::settle(LONGEST_CHANGE);
+            // The shell sees that it was ended by the signal, and ends its loop.
+            let _ = signal_hook::low_level::emulate_default_handler(signal);
+            signal_hook::low_level::exit(128 + signal);
+        }
+    };
+    std::thread::Builder::new().name("rubscope-signals".into()).spawn(wait).map(|_| ())
+}
+
+/// How long an end waits for the change of a file: a disk may not answer.
+#[cfg(unix)]
+const LONGEST_CHANGE: std::time::Duration = std::time::Duration::from_secs(2);
+
+/// Whether the program was started with this signal ignored, where the system
+/// tells.
+#[cfg(unix)]
+fn is_ignored(signal: i32) -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let ignored = ignored.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    ignored.is_some_and(|mask| mask >> (signal - 1) & 1 == 1)
+}
+
+/// Without signals the system ends a command.
+///
+/// # Errors
+/// None here.
+#[cfg(not(unix))]
+pub(super) fn watch() -> std::io::Result<()> {
+    Ok(())
 }

@@ -64,7 +64,13 @@ pub fn exit(done: super::Done) -> u8 {
         return 2;
     }
     say_noted();
-    say(&format!("rubscope: {error:#}"));
+    // Files have a context: what has none is standard output.
+    let place = if error.chain().count() == 1 && error.is::<std::io::Error>() {
+        "cannot write standard output: "
+    } else {
+        ""
+    };
+    say(&format!("rubscope: {place}{error:#}"));
     1
 }
 

@@ -15,7 +15,7 @@ use std::path::Path;
 use place::Place;
 pub use place::check_place;
 use temporary::Temporary;
-pub use temporary::remove_temporaries;
+pub use temporary::settle;
 
 /// What writing a file did.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,8 +30,9 @@ pub enum Written {
 /// completely or not at all.
 ///
 /// Mode and, as far as permitted, owner stay; links are followed and stay links.
-/// A file of several hard links is complete before its content is exchanged, and
-/// stays one file. A device or a pipe is written to directly.
+/// A file of several hard links, or in a folder that takes no other, is complete
+/// before its content is exchanged, and stays one file; a kill at that moment can
+/// mix the two contents. A device or a pipe is written to directly.
 ///
 /// # Errors
 /// An error of the system or of `write`, or a file that is read-only; what was
@@ -49,17 +50,24 @@ pub fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) ->
             temporary.replace(&path)?;
             Ok(Written::New)
         }
-        Place::Existing { path, metadata } if place::has_other_names(&metadata) => {
-            let complete = tempfile::tempfile_in(place::folder(&path))?;
-            fill(&complete, write)?;
-            in_place::exchange(&complete, &path)?;
-            Ok(Written::Replaced)
-        }
         Place::Existing { path, metadata } => {
-            let temporary = Temporary::beside(&path, Some(&metadata))?;
-            fill(temporary.file(), write)?;
-            temporary.finish(Some(&metadata))?;
-            temporary.replace(&path)?;
+            let temporary = match Temporary::beside(&path, Some(&metadata)) {
+                _ if place::has_other_names(&metadata) => None,
+                // The file can be written, but its folder takes no other.
+                Err(error) if error.kind() == ErrorKind::PermissionDenied => None,
+                temporary => Some(temporary?),
+            };
+            if let Some(temporary) = temporary {
+                fill(temporary.file(), write)?;
+                temporary.finish(Some(&metadata))?;
+                temporary.replace(&path)?;
+            } else {
+                let beside = tempfile::tempfile_in(place::folder(&path));
+                let complete = beside.or_else(|_| tempfile::tempfile())?;
+                fill(&complete, write)?;
+                let _placing = temporary::placing();
+                in_place::exchange(&complete, &path)?;
+            }
             Ok(Written::Replaced)
         }
     }

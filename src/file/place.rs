@@ -63,8 +63,9 @@ impl Place {
 /// a file that is read-only.
 pub fn check_place(path: &Path) -> Result<()> {
     match Place::of(path)? {
-        Place::Stream(_) => Ok(()),
-        Place::New(path) | Place::Existing { path, .. } => Temporary::beside(&path, None).map(drop),
+        // A file that exists and can be written can also be exchanged in place.
+        Place::Stream(_) | Place::Existing { .. } => Ok(()),
+        Place::New(path) => Temporary::beside(&path, None).map(drop),
     }
 }
 

@@ -4,7 +4,8 @@
 use std::fs::{File, Metadata};
 use std::io::{Error, ErrorKind, Result};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
+use std::time::{Duration, Instant};
 
 use tempfile::NamedTempFile;
 
@@ -17,9 +18,25 @@ fn named() -> MutexGuard<'static, Vec<PathBuf>> {
     NAMED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Removes what unfinished writing would leave behind; for a program that ends
-/// while another thread writes. Files without a name need no removal.
-pub fn remove_temporaries() {
+/// Held while a complete file takes its place.
+static PLACING: Mutex<()> = Mutex::new(());
+
+/// Until this is dropped, `settle` waits: a file takes its place.
+pub(super) fn placing() -> MutexGuard<'static, ()> {
+    PLACING.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Before a program ends while another thread writes: waits until a file that is
+/// taking its place is there, though no longer than `limit`, and removes what
+/// unfinished writing would leave behind. No file takes its place any more.
+pub fn settle(limit: Duration) {
+    let began = Instant::now();
+    while let Err(TryLockError::WouldBlock) = PLACING.try_lock().map(std::mem::forget) {
+        if began.elapsed() >= limit {
+            break;
+        }
+        std::thread::sleep(Duration::from_millis(1));
+    }
     remove_where(|_| true);
 }
 
@@ -30,7 +47,7 @@ fn remove_where(chosen: impl Fn(&Path) -> bool) {
     }
 }
 
-/// A hidden name that `remove_temporaries` knows.
+/// A hidden name that `settle` knows.
 pub(super) struct Hidden(PathBuf);
 
 impl Hidden {
@@ -113,6 +130,7 @@ impl Temporary {
 
     /// Puts the file at `path`, where there must be none.
     pub(super) fn create(self, path: &Path) -> Result<()> {
+        let _placing = placing();
         match self {
             #[cfg(target_os = "linux")]
             Self::Unnamed(file) => unnamed::link(&file, path)?,
@@ -124,6 +142,7 @@ impl Temporary {
 
     /// Puts the file at `path`, in place of another where there is one.
     pub(super) fn replace(self, path: &Path) -> Result<()> {
+        let _placing = placing();
         match self {
             #[cfg(target_os = "linux")]
             Self::Unnamed(file) => match unnamed::link(&file, path) {
@@ -133,7 +152,7 @@ impl Temporary {
                 linked => linked?,
             },
             Self::Named(file, _hidden) => match file.persist(path) {
-                Err(failed) if is_mounted(&failed.error) => {
+                Err(failed) if must_stay(&failed.error) => {
                     in_place::exchange(failed.file.as_file(), path)?;
                 }
                 persisted => drop(persisted?),
@@ -144,9 +163,13 @@ impl Temporary {
     }
 }
 
-/// Whether the place is a file that is mounted there, which cannot be renamed.
-fn is_mounted(error: &Error) -> bool {
-    matches!(error.kind(), ErrorKind::ResourceBusy | ErrorKind::CrossesDevices)
+/// Whether the place is a file that cannot be renamed over, though it can be
+/// written: it is mounted there, or in a folder where all rename only their own.
+fn must_stay(error: &Error) -> bool {
+    matches!(
+        error.kind(),
+        ErrorKind::ResourceBusy | ErrorKind::CrossesDevices | ErrorKind::PermissionDenied
+    )
 }
 
 /// The owner stays as far as this is permitted.
@@ -210,7 +233,7 @@ mod unnamed {
                 let _ = std::fs::remove_file(&hidden.0);
             }
             return match renamed {
-                Err(error) if is_mounted(&error) => in_place::exchange(file, path),
+                Err(error) if must_stay(&error) => in_place::exchange(file, path),
                 renamed => renamed,
             };
         }

@@ -111,7 +111,8 @@ impl Axis {
             None => (false, range.trim()),
         };
         let (from, to, count) = parse_range(range).ok_or_else(form)?;
-        Self::new(path.trim(), from, to, u32::try_from(count).map_err(|_| form())?, log)
+        // A count beyond all bounds is refused as any other that is too large.
+        Self::new(path.trim(), from, to, u32::try_from(count).unwrap_or(u32::MAX), log)
     }
 
     /// Value number `index`, from 0; both ends are exact.

@@ -14,6 +14,9 @@ use crate::file;
 /// Name of the thread: the panic hook leaves the screen alone for it.
 pub const FILES_NAME: &str = "rubscope-files";
 
+/// How long the end of the program waits for files.
+const MOMENT: Duration = Duration::from_millis(500);
+
 /// A file to write.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FileJob {
@@ -76,17 +79,18 @@ pub fn write_aside(job: FileJob, events: Sender<ScreenEvent>) -> Option<FileResu
     started.err().map(|error| FileResult::Failed(error.to_string()))
 }
 
-/// Removes what an unfinished file would leave behind; waits only a moment for a
-/// disk or a network that does not answer.
+/// Finishes the change of a file that is under way, and removes what an
+/// unfinished one would leave behind; waits only a moment for a disk or a network
+/// that does not answer.
 pub fn tidy_up() {
     let (done, wait) = channel();
     let work = move || {
-        file::remove_temporaries();
+        file::settle(MOMENT);
         // Without a receiver the moment is over.
         let _ = done.send(());
     };
     if thread::Builder::new().name(FILES_NAME.into()).spawn(work).is_ok() {
-        let _ = wait.recv_timeout(Duration::from_millis(200));
+        let _ = wait.recv_timeout(MOMENT);
     }
 }
 

@@ -62,10 +62,16 @@ fn a_folder_that_takes_no_file_is_found_by_trying() {
     let folder = tempfile::tempdir().unwrap();
     let closed = folder.path().join("closed");
     fs::create_dir(&closed).unwrap();
+    fs::write(closed.join("open.csv"), "old").unwrap();
     fs::set_permissions(&closed, std::os::unix::fs::PermissionsExt::from_mode(0o555)).unwrap();
     if fs::write(closed.join("probe"), "").is_ok() {
         println!("skipped: a superuser writes into any folder");
         return;
     }
     assert_eq!(refused(&closed.join("a.csv")).kind(), ErrorKind::PermissionDenied);
+    // A file that is there and can be written is exchanged in place.
+    assert!(check_place(&closed.join("open.csv")).is_ok());
+    replace(&closed.join("open.csv"), |out| out.write_all(b"new and longer")).unwrap();
+    assert_eq!(fs::read(closed.join("open.csv")).unwrap(), b"new and longer");
+    assert_eq!(names(&closed), ["open.csv"]);
 }

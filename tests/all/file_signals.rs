@@ -169,7 +169,33 @@ fn a_full_disk_leaves_the_old_file_and_no_other() {
     let failed = rubscope::file::replace(&one, |out| out.write_all(&large));
     assert_eq!(failed.unwrap_err().kind(), std::io::ErrorKind::StorageFull);
     assert_eq!(fs::read_to_string(&two).unwrap(), "old");
+    // Nor where the old file has holes, which need room too.
+    let holes = fs::File::options().write(true).open(&one).unwrap();
+    holes.set_len(60 << 10).unwrap();
+    let failed = rubscope::file::replace(&one, |out| out.write_all(&large));
+    assert_eq!(failed.unwrap_err().kind(), std::io::ErrorKind::StorageFull);
+    let left = fs::read(&two).unwrap();
+    assert!(left.starts_with(b"old\0") && left.len() == 60 << 10);
     assert_eq!(names(&disk), ["full", "one.csv", "two.csv"]);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_result_that_can_go_nowhere_names_both_places() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = limited(folder.path(), 16, &format!("{SMALL} --out h.csv > /dev/full"));
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert_eq!(said.lines().count(), 1, "{said}");
+    assert!(said.starts_with("rubscope: cannot write h.csv: "), "{said}");
+    assert!(said.contains("; nor standard output: "), "{said}");
+    for command in ["run grazing", "hbm --speed 0:500:2000", "scenes", "man"] {
+        let script = format!("exec '{}' {command} > /dev/full", program());
+        let output = Command::new("sh").args(["-c", &script]).output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(1), "{command}: {said}");
+        assert!(said.starts_with("rubscope: cannot write standard output: "), "{said}");
+    }
 }
 
 /// A link to standard output, which is a file: the report and the history are both

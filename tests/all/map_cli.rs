@@ -211,13 +211,22 @@ fn a_file_that_the_user_named_is_never_removed() {
         }
     }
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2);
+    // Also where it has the name of the part that the command would make.
+    let out = folder.path().join("m.csv");
+    let (out, part) = (out.to_str().unwrap(), format!("{}.partial", out.to_str().unwrap()));
+    let output = rubscope(&words(small, &["--resume", &part, "--out", out]));
+    assert_eq!(output.status.code(), Some(0), "{}", message(&output));
+    assert!(std::fs::metadata(&part).is_ok(), "{part} is gone");
+    // Made by the command, it is removed once the result has its cells.
+    assert_eq!(rubscope(&words(small, &["--out", out])).status.code(), Some(0));
+    assert!(std::fs::metadata(&part).is_err(), "{part} stays");
 }
 
 #[test]
 fn more_threads_than_any_machine_has_are_refused() {
-    for threads in ["0", "1025", "1000000000"] {
+    for threads in ["0", "1025", "1000000000", "18446744073709551616", "two"] {
         let line = refusal(&words(MAP, &["--threads", threads]));
-        let expected = format!("--threads = {threads}: allowed is a whole number from 1 to 1024");
-        assert!(line.contains(&expected), "{line}");
+        let expected = "allowed is a whole number from 1 to 1024";
+        assert!(line.contains(&format!("'{threads}'")) && line.contains(expected), "{line}");
     }
 }

@@ -4,6 +4,7 @@
 #![cfg(target_os = "linux")]
 
 use std::io::Write;
+use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
@@ -124,7 +125,7 @@ fn a_second_signal_ends_a_map_at_once() {
     map.wait_until(|| directory.path().join("map.csv.partial").exists());
     map.signal("-INT");
     std::thread::sleep(Duration::from_millis(300));
-    assert_eq!(map.finish_under("-TERM").status.code(), Some(128 + 15));
+    assert_eq!(map.finish_under("-TERM").status.signal(), Some(15));
 }
 
 #[test]
@@ -137,4 +138,45 @@ fn a_map_without_a_file_keeps_its_cells_when_the_terminal_closes() {
     assert_eq!(output.status.code(), Some(129));
     let kept = std::fs::read_to_string(directory.path().join("rubscope-map.partial")).unwrap();
     assert!(kept.contains("rubscope.map-part"), "{kept}");
+}
+
+#[test]
+fn a_hang_up_that_was_ignored_at_the_start_stays_ignored() {
+    let directory = tempfile::tempdir().unwrap();
+    let program = env!("CARGO_BIN_EXE_rubscope");
+    let script = format!("trap '' HUP; exec {program} {} --out map.csv", LONG_CELL.join(" "));
+    let child = Command::new("sh")
+        .args(["-c", &script])
+        .current_dir(directory.path())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let map = Running(Some(child));
+    map.wait_until(|| directory.path().join("map.csv.partial").exists());
+    map.signal("-HUP");
+    map.signal("-INT");
+    assert_eq!(map.finish().status.code(), Some(128 + 2), "the hang-up came through");
+}
+
+#[test]
+fn a_result_in_the_place_of_the_cells_of_another_map_is_refused() {
+    let directory = tempfile::tempdir().unwrap();
+    let map = long_map(directory.path());
+    let short = "map --speed 300:500:2 --pulse 1e3:1e4:2 --end 1e-3 --out";
+    std::fs::hard_link(
+        directory.path().join("map.csv.partial"),
+        directory.path().join("cells.part"),
+    )
+    .unwrap();
+    let arguments: Vec<&str> = short.split(' ').chain(["cells.part"]).collect();
+    let output = Running::start(&arguments, directory.path()).finish();
+    assert_eq!(output.status.code(), Some(2));
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(said.starts_with("rubscope: cells.part is in use by another map"), "{said}");
+    // Another program can put a file there all the same: the cells are saved anew.
+    std::fs::remove_file(directory.path().join("map.csv.partial")).unwrap();
+    map.signal("-TERM");
+    let said = String::from_utf8(map.finish().stderr).unwrap();
+    assert!(said.contains("--resume rubscope-map.partial"), "{said}");
+    assert!(directory.path().join("rubscope-map.partial").exists());
 }

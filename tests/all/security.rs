@@ -4,8 +4,8 @@ use crate::cli_support::refusal;
 
 /// The last whole number of a message.
 fn last_number(message: &str) -> u64 {
-    let words = message.split(|c: char| !c.is_ascii_digit()).filter(|word| !word.is_empty());
-    words.last().unwrap().parse().unwrap()
+    let mut words = message.rsplit(|c: char| !c.is_ascii_digit());
+    words.find(|word| !word.is_empty()).unwrap().parse().unwrap()
 }
 
 #[test]
@@ -20,7 +20,7 @@ fn the_limits_of_the_page_are_those_of_the_program() {
         (scene.as_str(), " bytes"),
         (&refusal(&map), " cells"),
         (&refusal(&["map", "--x", "operation.speed_rad_s=0:1:100001"]), " values"),
-        (&refusal(&["hbm", "--speed", "0:500:1000001"]), ""),
+        (&refusal(&["hbm", "--speed", "0:500:100001"]), ""),
         (&refusal(&["map", "--threads", "1025"]), ""),
     ] {
         let limit = format!("{}{unit}", last_number(message));
