@@ -4,8 +4,8 @@ use crate::cli_support::refusal;
 
 /// The last whole number of a message.
 fn last_number(message: &str) -> u64 {
-    let words = message.split(|c: char| !c.is_ascii_digit()).filter(|word| !word.is_empty());
-    words.last().unwrap().parse().unwrap()
+    let mut words = message.rsplit(|c: char| !c.is_ascii_digit()).filter(|word| !word.is_empty());
+    words.next().unwrap().parse().unwrap()
 }
 
 #[test]
