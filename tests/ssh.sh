@@ -30,7 +30,8 @@ program=${1:-$here/target/release/rubscope}
 [ -x "$program" ] || fail "no rubscope at $program: run cargo build first"
 program=$(realpath "$program")
 
-if [ "$install" = yes ] && command -v apt-get >/dev/null; then
+have_all() { command -v sshd && command -v ssh && command -v tmux && command -v screen; }
+if [ "$install" = yes ] && ! have_all >/dev/null && command -v apt-get >/dev/null; then
     as_root=()
     [ "$(id -u)" -eq 0 ] || as_root=(sudo -n)
     { "${as_root[@]}" apt-get update &&
