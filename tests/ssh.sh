@@ -30,7 +30,8 @@ program=${1:-$here/target/release/rubscope}
 [ -x "$program" ] || fail "no rubscope at $program: run cargo build first"
 program=$(realpath "$program")
 
-if [ "$install" = yes ] && command -v apt-get >/dev/null; then
+have_all() { command -v sshd && command -v ssh && command -v tmux && command -v screen; }
+if [ "$install" = yes ] && ! have_all >/dev/null && command -v apt-get >/dev/null; then
     as_root=()
     [ "$(id -u)" -eq 0 ] || as_root=(sudo -n)
     { "${as_root[@]}" apt-get update &&
@@ -206,9 +207,10 @@ CONF
         sshd=$!
         printf '[127.0.0.1]:%s %s\n' "$port" "$(cut -d' ' -f1,2 "$work/host_key.pub")" >"$work/known_hosts"
         if patience=10 await is_listening; then return 0; fi
-        kill "$sshd" 2>/dev/null || true
-        sshd=''
+        # Another port only where this one was taken.
+        ! kill "$sshd" 2>/dev/null || break
     done
+    sshd=''
     return 1
 }
 client() {
@@ -216,7 +218,8 @@ client() {
         "$port" "$work/user_key" "$work/known_hosts"
     printf -- '-o IdentitiesOnly=yes -o IdentityAgent=none -o BatchMode=yes -o LogLevel=ERROR %s@127.0.0.1' "$(id -un)"
 }
-is_listening() { $(client) true; }
+# With a terminal: not every daemon of a normal user may give one.
+is_listening() { $(client) -tt true </dev/null; }
 # The client must not be a child of tmux, which wakes its stopped children.
 open_ssh() {
     cat >"$work/connect" <<SH
@@ -341,7 +344,8 @@ began=$SECONDS
 if ! command -v sshd >/dev/null || ! command -v ssh >/dev/null; then
     skip "openssh-server or openssh-client is not installed"
 elif ! start_sshd; then
-    skip "sshd does not start or lets nobody in: $(tail -n 1 "$work/sshd.log")"
+    reason=$(grep -m 1 -iE 'chown|error|denied|not allowed' "$work/sshd.log" || tail -n 1 "$work/sshd.log")
+    skip "sshd does not start or gives no terminal: $reason"
 else
     check ssh_opens
     check ssh_sends_little

@@ -51,7 +51,7 @@ pub enum Allowed {
     },
     /// One of these words.
     OneOf(&'static [&'static str]),
-    /// One or more of these words.
+    /// One or more of these words, each once.
     SomeOf(&'static [&'static str]),
     /// A line of text of up to so many characters.
     Text {
@@ -71,7 +71,7 @@ impl std::fmt::Display for Allowed {
             }
             Self::Whole { min, max } => write!(out, "a whole number from {min} to {max}"),
             Self::OneOf(words) => write!(out, "one of {}", words.join(", ")),
-            Self::SomeOf(words) => write!(out, "a list of {}", words.join(", ")),
+            Self::SomeOf(words) => write!(out, "a list of {}, each once", words.join(", ")),
             Self::Text { most } => write!(out, "a line of text of up to {most} characters"),
         }
     }
@@ -107,7 +107,11 @@ impl Key {
             (Value::Whole(n), Allowed::Whole { min, max }) => (min..=max).contains(n),
             (Value::Text(text), Allowed::OneOf(words)) => words.contains(&text.as_str()),
             (Value::Words(list), Allowed::SomeOf(words)) => {
-                !list.is_empty() && list.iter().all(|word| words.contains(&word.as_str()))
+                // A list of more words than there are is refused before it is searched.
+                let distinct = |(place, word): (usize, &String)| !list[..place].contains(word);
+                (1..=words.len()).contains(&list.len())
+                    && list.iter().all(|word| words.contains(&word.as_str()))
+                    && list.iter().enumerate().all(distinct)
             }
             (Value::Text(text), Allowed::Text { most }) => {
                 let length = text.chars().count();

@@ -264,6 +264,10 @@ mod tests {
                 "solver.contact = \"bilateral\"",
             ),
             ("[initial]\nu_c_m = 1.0", "initial.u_c_m = 1e0"),
+            (
+                "[view]\ncharts = [\"map\", \"gaps\", \"map\"]",
+                "view.charts = [\"map\", \"gaps\", \"map\"]",
+            ),
             ("casing = 3", "unknown key casing"),
             ("casing.radius_m.x = 3", "casing.radius_m = "),
             ("a = = 3", "not a TOML file: line 1"),

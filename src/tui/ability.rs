@@ -5,7 +5,7 @@ use super::raster::Marker;
 /// Whether only ASCII can be shown: by the kind of terminal, or because the
 /// locale is not one of UTF-8.
 fn only_ascii(variable: &dyn Fn(&str) -> String) -> bool {
-    let term = variable("TERM");
+    let term = variable("TERM").to_ascii_lowercase();
     let digital = term.strip_prefix("vt").is_some_and(|model| model.starts_with(char::is_numeric));
     if digital || term == "linux" || term.starts_with("linux-") || term == "ansi" {
         return true;
@@ -45,6 +45,7 @@ mod tests {
             ("linux-16color", "C.UTF-8", "", ""),
             ("vt100", "", "", "C.UTF-8"),
             ("vt220", "", "", "C.UTF-8"),
+            ("VT100", "", "", "C.UTF-8"),
             ("xterm", "", "", ""),
             ("xterm", "", "", "C"),
             ("xterm", "", "POSIX", "C.UTF-8"),

@@ -64,7 +64,7 @@ pub fn read_keys(to: Sender<ScreenEvent>) -> std::io::Result<()> {
 /// The system cannot start a thread or watch signals.
 #[cfg(unix)]
 pub fn watch_signals(to: Sender<ScreenEvent>) -> std::io::Result<()> {
-    use super::{files, terminal};
+    use super::{files, job, terminal};
     use signal_hook::consts::{SIGCONT, SIGTSTP};
     let watched = deadly_signals().into_iter().chain([SIGTSTP, SIGCONT]);
     let mut signals = signal_hook::iterator::Signals::new(watched)?;
@@ -72,11 +72,15 @@ pub fn watch_signals(to: Sender<ScreenEvent>) -> std::io::Result<()> {
         for signal in signals.forever() {
             match signal {
                 SIGTSTP => {
+                    job::want_stop(true);
                     // The drawing thread must hear it even if its output is blocked.
                     terminal::cut_frame();
                     let _ = to.send(ScreenEvent::Suspend);
                 }
-                SIGCONT => _ = to.send(ScreenEvent::Continued),
+                SIGCONT => {
+                    job::want_stop(false);
+                    let _ = to.send(ScreenEvent::Continued);
+                }
                 deadly => {
                     let number = u8::try_from(deadly).unwrap_or(0);
                     terminal::end(number);

@@ -5,15 +5,17 @@ use std::sync::mpsc::Sender;
 
 use super::events::ScreenEvent;
 use super::files::{FileJob, FileResult, write_aside};
+use super::job;
 use super::terminal;
 
 /// What the run loop needs besides a backend.
 pub trait Host {
-    /// Gives the terminal to the shell until the job is continued.
+    /// Gives the terminal to the shell until the job is continued; false where
+    /// there is none. A key asks for it now; a signal has asked before.
     ///
     /// # Errors
     /// The terminal cannot be set up again.
-    fn suspend(&mut self) -> Result<()>;
+    fn suspend(&mut self, by_key: bool) -> Result<bool>;
     /// Sets up the terminal again after the job was continued from outside.
     ///
     /// # Errors
@@ -33,8 +35,8 @@ pub trait Host {
 pub struct NoHost;
 
 impl Host for NoHost {
-    fn suspend(&mut self) -> Result<()> {
-        Ok(())
+    fn suspend(&mut self, _: bool) -> Result<bool> {
+        Ok(true)
     }
     fn resume(&mut self) -> Result<()> {
         Ok(())
@@ -55,16 +57,17 @@ pub struct Shell {
 }
 
 impl Host for Shell {
-    #[cfg(unix)]
-    fn suspend(&mut self) -> Result<()> {
+    fn suspend(&mut self, by_key: bool) -> Result<bool> {
+        if job::is_orphaned() {
+            // Nobody could continue it.
+            return terminal::regain().map(|()| false);
+        }
+        if by_key {
+            job::want_stop(true);
+        }
         terminal::leave();
-        stop()?;
-        terminal::regain()
-    }
-
-    #[cfg(not(unix))]
-    fn suspend(&mut self) -> Result<()> {
-        Ok(())
+        job::stop()?;
+        terminal::regain().map(|()| true)
     }
 
     fn resume(&mut self) -> Result<()> {
@@ -80,24 +83,6 @@ impl Host for Shell {
     fn write(&mut self, job: FileJob) -> Option<FileResult> {
         write_aside(job, self.events.clone())
     }
-}
-
-/// Stops this job, as Ctrl-Z does for a program that does not catch it.
-///
-/// # Errors
-/// The system refuses.
-#[cfg(unix)]
-pub fn stop() -> Result<()> {
-    signal_hook::low_level::emulate_default_handler(signal_hook::consts::SIGTSTP)
-}
-
-/// There are no jobs to stop.
-///
-/// # Errors
-/// None here.
-#[cfg(not(unix))]
-pub fn stop() -> Result<()> {
-    Ok(())
 }
 
 /// Base 64 with padding, as OSC 52 wants it.

@@ -19,6 +19,8 @@ pub mod files;
 #[doc(hidden)]
 pub mod history;
 mod host;
+#[cfg_attr(not(unix), path = "job_other.rs")]
+mod job;
 mod knobs;
 #[doc(hidden)]
 pub mod lessons;

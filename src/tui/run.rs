@@ -115,7 +115,9 @@ fn show<B: Backend>(
     }
     let size = terminal.size()?;
     app.size = (size.width, size.height);
-    terminal.draw(|frame| panels::draw(frame, app)).map(|_| ())
+    terminal.draw(|frame| panels::draw(frame, app))?;
+    app.drawn();
+    Ok(())
 }
 
 /// What the loop must do for an event.
@@ -132,7 +134,7 @@ fn handle(event: ScreenEvent, app: &mut App, host: &mut dyn Host) -> Reaction {
         ScreenEvent::Key(key) => match app.key(&key) {
             Effect::None => Reaction::Draw(Due::Now),
             Effect::Quit => Reaction::Quit,
-            Effect::Suspend => resumed(host.suspend()),
+            Effect::Suspend => suspended(app, host.suspend(true)),
             Effect::Redraw => Reaction::Redraw,
             Effect::Copy(text) => {
                 // The status line also shows it, in case the terminal refuses it.
@@ -157,7 +159,7 @@ fn handle(event: ScreenEvent, app: &mut App, host: &mut dyn Host) -> Reaction {
         }
         ScreenEvent::Fresh => Reaction::Draw(Due::Frame),
         ScreenEvent::Signal(number) => Reaction::Exit(Exit::Signal(number)),
-        ScreenEvent::Suspend => resumed(host.suspend()),
+        ScreenEvent::Suspend => suspended(app, host.suspend(false)),
         ScreenEvent::Continued => resumed(host.resume()),
         ScreenEvent::InputClosed => Reaction::Exit(Exit::Signal(HANGUP)),
     }
@@ -185,6 +187,13 @@ fn last_file(events: &Receiver<ScreenEvent>, app: &mut App, host: &mut dyn Host)
         }
     }
     Some(Exit::Done)
+}
+
+fn suspended(app: &mut App, result: std::io::Result<bool>) -> Reaction {
+    if let Ok(false) = result {
+        app.status = Some("not suspended: there is no shell to continue it".into());
+    }
+    resumed(result.map(|_| ()))
 }
 
 fn resumed(result: std::io::Result<()>) -> Reaction {

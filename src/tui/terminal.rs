@@ -123,7 +123,11 @@ pub fn regain() -> Result<(), Error> {
             std::thread::sleep(Duration::from_millis(10));
         }
         if ended_by().is_none() && !tty.in_foreground() {
-            super::host::stop()?;
+            if super::job::is_orphaned() {
+                return Err(Error::other("no shell could bring it to the foreground"));
+            }
+            super::job::want_stop(true);
+            super::job::stop()?;
         }
     }
     Ok(())

@@ -197,20 +197,58 @@ fn a_stopped_job_can_be_ended() {
     terminal.assert_restored();
 }
 
+#[cfg(target_os = "linux")]
 #[test]
 fn a_signal_to_stop_is_heard_while_nobody_reads_and_the_screen_comes_back() {
-    let mut terminal = large();
+    let mut terminal = job("read answer; fg; echo ended with $?");
+    terminal.wait_for(" LOCKED ");
+    terminal.follow_the_job();
     terminal.block();
     terminal.signal("TSTP");
     terminal.wait_for_stop();
     terminal.unblock();
-    // Without a shell it stays stopped until it is told to go on.
-    terminal.wait_for_main_screen();
-    terminal.signal("CONT");
+    terminal.wait_for("is stopped");
+    terminal.send("\r");
     terminal.wait_for(" LOCKED ");
     terminal.block();
     terminal.signal("TERM");
-    assert_eq!(terminal.ended().exit_code(), 143);
-    assert_eq!(terminal.wait(), 143);
+    terminal.unblock();
+    terminal.wait_for("ended with 143");
     terminal.assert_restored();
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_signal_that_comes_while_it_stops_is_not_lost() {
+    // A job that was told to stop, to end and to go on, in this order, ends.
+    for pause in [0, 20, 50, 150] {
+        let script = "set -m; \"$@\"; echo ended with $?; read answer";
+        let mut terminal = Start::shell(script, &SHORT).size(100, 30).open();
+        terminal.wait_for(" LOCKED ");
+        terminal.follow_the_job();
+        terminal.block();
+        terminal.signal("TSTP");
+        std::thread::sleep(Duration::from_millis(pause));
+        terminal.signal("TERM");
+        terminal.signal("CONT");
+        terminal.unblock();
+        terminal.wait_for("ended with 143");
+    }
+}
+
+#[test]
+fn without_a_shell_it_is_not_stopped() {
+    for leading in [false, true] {
+        let start = Start::explorer(&SHORT);
+        let mut terminal = if leading { start.leading() } else { start }.open();
+        terminal.wait_for(" LOCKED ");
+        terminal.send("\u{1a}");
+        terminal.wait_for("not suspended: there is no shell to continue it");
+        terminal.signal("TSTP");
+        terminal.send("?");
+        terminal.wait_for("Keys");
+        terminal.signal("TERM");
+        assert_eq!(terminal.wait(), 143);
+        terminal.assert_restored();
+    }
 }

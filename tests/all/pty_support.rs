@@ -27,6 +27,8 @@ const GOES: u8 = 2;
 
 /// A pseudo-terminal with a program in it. Dropping it kills the program.
 pub struct Terminal {
+    /// Whom signals are for.
+    process: u32,
     pub parser: vt100::Parser,
     output: Receiver<Vec<u8>>,
     input: Option<Box<dyn Write + Send>>,
@@ -149,6 +151,7 @@ impl Start {
         };
         let input = Some(pair.master.take_writer().unwrap());
         Terminal {
+            process: child.process_id().unwrap(),
             parser: vt100::Parser::new(of(rows), of(cols), 0),
             output,
             input,
@@ -182,13 +185,6 @@ impl Terminal {
         self.wait_until(text, |screen| screen.contents().contains(text));
     }
 
-    /// Waits until the terminal is given back to the shell.
-    pub fn wait_for_main_screen(&mut self) {
-        self.wait_until("main screen", |screen| {
-            !screen.alternate_screen() && !screen.hide_cursor() && !screen.bracketed_paste()
-        });
-    }
-
     fn wait_until(&mut self, what: &str, holds: impl Fn(&vt100::Screen) -> bool) {
         let began = Instant::now();
         while !holds(self.parser.screen()) {
@@ -203,16 +199,24 @@ impl Terminal {
         }
     }
 
+    /// Signals are for the job of the shell from now on, not for the shell.
+    #[cfg(target_os = "linux")]
+    pub fn follow_the_job(&mut self) {
+        let shell = self.process;
+        let children = std::fs::read_to_string(format!("/proc/{shell}/task/{shell}/children"));
+        self.process = children.unwrap().split_whitespace().next().unwrap().parse().unwrap();
+    }
+
     /// Sends a signal to the program.
     pub fn signal(&self, signal: &str) {
-        let id = self.child.process_id().unwrap().to_string();
+        let id = self.process.to_string();
         let sent = Command::new("kill").args(["-s", signal, &id]).status().unwrap();
         assert!(sent.success(), "kill -s {signal}");
     }
 
     /// Waits until the program is stopped, where the system tells it in a file.
     pub fn wait_for_stop(&self) {
-        let state = format!("/proc/{}/stat", self.child.process_id().unwrap());
+        let state = format!("/proc/{}/stat", self.process);
         let began = Instant::now();
         while let Ok(state) = std::fs::read_to_string(&state)
             && !state.contains(") T ")

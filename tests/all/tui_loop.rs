@@ -58,9 +58,9 @@ struct Slow {
 }
 
 impl Host for Slow {
-    fn suspend(&mut self) -> std::io::Result<()> {
+    fn suspend(&mut self, _: bool) -> std::io::Result<bool> {
         self.suspended += 1;
-        Ok(())
+        Ok(true)
     }
     fn resume(&mut self) -> std::io::Result<()> {
         Ok(())

@@ -46,12 +46,19 @@ impl App {
             FileResult::Failed(reason) => Some(format!("cannot write {name}: {reason}")),
             FileResult::Exists if undisturbed => {
                 self.mode = InputMode::Replacing(purpose, name);
+                self.asked = false;
                 None
             }
             // A key that was meant for something else must not be the answer.
             FileResult::Exists => Some(format!("{name} exists and is as it was; save again")),
         };
         result == FileResult::Written
+    }
+
+    /// The screen shows this state: from now on a key can be the answer to its
+    /// question.
+    pub fn drawn(&mut self) {
+        self.asked = true;
     }
 
     /// A key was pressed while a file is being written.
@@ -99,6 +106,10 @@ mod tests {
         press(&mut app, KeyCode::Enter);
         assert!(!app.written(FileResult::Exists));
         assert!(matches!(app.mode, InputMode::Replacing(..)));
+        // Nor one that came before the screen showed it.
+        assert_eq!(press(&mut app, KeyCode::Char('y')), Effect::None);
+        assert!(matches!(app.mode, InputMode::Replacing(..)));
+        app.drawn();
         let Effect::Write(job) = press(&mut app, KeyCode::Char('y')) else { panic!() };
         assert!(job.replace);
         // Here a key comes before the answer: `y` copies, and is no answer.

@@ -180,6 +180,8 @@ pub struct App {
     pub ranges: Ranges,
     /// Theme and marker.
     pub appearance: Appearance,
+    /// Whether the screen has shown the question that is open.
+    asked: bool,
     counters: Counters,
     undo: Vec<CheckedScene>,
     redo: Vec<CheckedScene>,
@@ -239,6 +241,7 @@ impl App {
             writing: None,
             lesson: None,
             appearance: Appearance { theme, marker },
+            asked: true,
             counters: Counters::default(),
             undo: Vec::new(),
             redo: Vec::new(),

@@ -103,6 +103,8 @@ impl App {
             (InputMode::Naming(purpose, name), Action::Accept) => {
                 return self.write(purpose, &name, false);
             }
+            // What was typed before the question was seen is no answer to it.
+            (InputMode::Replacing(..), Action::Yes) if !self.asked => {}
             (InputMode::Replacing(purpose, name), Action::Yes) => {
                 return self.write(purpose, &name, true);
             }
