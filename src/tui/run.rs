@@ -78,6 +78,7 @@ pub fn run<B: Backend>(
                     None => (again, due) = (true, Due::Now),
                 },
                 Reaction::Draw(soon) => due = due.max(soon),
+                Reaction::Look => due = due.max(look(app, engine)),
                 Reaction::Redraw => (again, due) = (true, Due::Now),
             }
             // After many key presses only the last state is computed.
@@ -105,14 +106,22 @@ fn order(app: &App, engine: &mut dyn Engine, ordered: &mut Option<Order>) {
     }
 }
 
+/// Takes the latest snapshot. A forecast is drawn as soon as it exists: while a key
+/// is held, the next one comes before the next frame.
+fn look(app: &mut App, engine: &mut dyn Engine) -> Due {
+    let known = app.full_run().is_some();
+    if let Some(snapshot) = engine.take() {
+        app.apply_snapshot(snapshot);
+    }
+    if !known && app.full_run().is_some() { Due::Now } else { Due::Frame }
+}
+
 fn show<B: Backend>(
     terminal: &mut Terminal<B>,
     app: &mut App,
     engine: &mut dyn Engine,
 ) -> Result<(), B::Error> {
-    if let Some(snapshot) = engine.take() {
-        app.apply_snapshot(snapshot);
-    }
+    look(app, engine);
     let size = terminal.size()?;
     app.size = (size.width, size.height);
     terminal.draw(|frame| panels::draw(frame, app))?;
@@ -127,6 +136,8 @@ enum Reaction {
     Quit,
     Draw(Due),
     Redraw,
+    /// Take what the engine has.
+    Look,
 }
 
 fn handle(event: ScreenEvent, app: &mut App, host: &mut dyn Host) -> Reaction {
@@ -157,7 +168,7 @@ fn handle(event: ScreenEvent, app: &mut App, host: &mut dyn Host) -> Reaction {
             app.written(result);
             Reaction::Draw(Due::Now)
         }
-        ScreenEvent::Fresh => Reaction::Draw(Due::Frame),
+        ScreenEvent::Fresh => Reaction::Look,
         ScreenEvent::Signal(number) => Reaction::Exit(Exit::Signal(number)),
         ScreenEvent::Suspend => suspended(app, host.suspend(false)),
         ScreenEvent::Continued => resumed(host.resume()),

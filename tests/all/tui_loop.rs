@@ -123,3 +123,77 @@ fn a_bin_longer_than_a_turn_of_the_wave_shows_its_whole_swing() {
         assert!((0.99..1.0 + 1e-9).contains(&high), "{high}");
     }
 }
+
+/// Its answer to an order comes after the frame that the key asked for.
+struct Later {
+    engine: Stepwise,
+    events: Sender<ScreenEvent>,
+    asked: u32,
+}
+
+impl Engine for Later {
+    fn order(&mut self, order: &Order) {
+        self.engine.order(order);
+        self.asked = 0;
+        self.events.send(ScreenEvent::Fresh).unwrap();
+    }
+
+    fn take(&mut self) -> Option<Snapshot> {
+        self.asked += 1;
+        match self.asked {
+            2 => self.engine.take(),
+            3 => {
+                // The picture that follows shows the answer.
+                self.events.send(ScreenEvent::Signal(15)).unwrap();
+                None
+            }
+            _ => None,
+        }
+    }
+}
+
+#[test]
+fn a_forecast_is_drawn_when_it_exists_and_not_at_the_next_frame() {
+    let (sender, events) = channel();
+    let watchdog = sender.clone();
+    // A long limit, not a speed test.
+    std::thread::spawn(move || {
+        std::thread::sleep(Duration::from_secs(60));
+        let _ = watchdog.send(ScreenEvent::InputClosed);
+    });
+    let mut scene = Scene::base();
+    scene.solver.end_s = 2e-3;
+    let mut app = App::new(scene.checked().unwrap(), Theme::Dark, Marker::Braille);
+    let mut terminal = Terminal::new(TestBackend::new(80, 24)).unwrap();
+    let mut engine = Later { engine: Stepwise::new(1e-4), events: sender, asked: 0 };
+    let frame = Duration::from_secs(3600);
+    let exit = run(&mut terminal, &events, &mut app, &mut engine, &mut NoHost, frame);
+    assert_eq!(exit.unwrap(), Exit::Signal(15), "it waits for the frame");
+    let line: String =
+        (0..80).map(|x| terminal.backend().buffer().cell((x, 0)).unwrap().symbol()).collect();
+    assert!(!line.contains("computing"), "{line}");
+    assert_eq!(line.split_whitespace().next().unwrap(), app.verdict().word);
+}
+
+#[test]
+fn the_verdict_before_a_change_stays_until_there_is_a_new_one() {
+    let mut scene = Scene::base();
+    scene.solver.end_s = 2e-3;
+    let mut app = App::new(scene.checked().unwrap(), Theme::Dark, Marker::Braille);
+    assert_eq!(app.verdict().word, "computing");
+    let mut engine = Stepwise::new(1e-4);
+    engine.order(&app.order());
+    app.apply_snapshot(engine.take().unwrap());
+    let before = app.verdict();
+    assert!(before.word != "computing" && !before.detail.contains("before this change"));
+    for _ in 0..2 {
+        let _ = app.key(&KeyEvent::new(KeyCode::Char('l'), KeyModifiers::NONE));
+        let dimmed = app.verdict();
+        assert_eq!(dimmed.word, before.word);
+        assert_eq!(dimmed.detail, "before this change; computing");
+        assert!(dimmed.role != before.role);
+    }
+    engine.order(&app.order());
+    app.apply_snapshot(engine.take().unwrap());
+    assert!(!app.verdict().detail.contains("before this change"));
+}

@@ -182,6 +182,8 @@ pub struct App {
     pub appearance: Appearance,
     /// Whether the screen has shown the question that is open.
     asked: bool,
+    /// The latest verdict of a motion that has been changed since, in one word.
+    verdict_before: Option<String>,
     counters: Counters,
     undo: Vec<CheckedScene>,
     redo: Vec<CheckedScene>,
@@ -242,6 +244,7 @@ impl App {
             lesson: None,
             appearance: Appearance { theme, marker },
             asked: true,
+            verdict_before: None,
             counters: Counters::default(),
             undo: Vec::new(),
             redo: Vec::new(),

@@ -103,6 +103,9 @@ impl App {
 
     /// Drops what was computed for the motion before it was changed.
     pub(super) fn forget_forecasts(&mut self) {
+        if let Some(run) = self.full_run() {
+            self.verdict_before = Some(self.words(run).word);
+        }
         let results = &mut self.latest.results;
         (results.full_run, results.reference, results.comparison) = (None, None, None);
         results.sensitive = false;

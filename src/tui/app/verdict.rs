@@ -44,11 +44,9 @@ impl App {
                 }
                 words
             }
-            Some(FullRunState::Computing(part)) => VerdictText {
-                word: "computing".into(),
-                detail: format!("{:.0} %", 100.0 * part),
-                role: Role::Quiet,
-            },
+            Some(FullRunState::Computing(part)) => {
+                self.computing(&format!("{:.0} %", 100.0 * part))
+            }
             Some(FullRunState::GivenUp(part)) => VerdictText {
                 word: "NO FORECAST".into(),
                 detail: format!(
@@ -58,9 +56,19 @@ impl App {
                 ),
                 role: Role::Trouble,
             },
-            None => {
-                VerdictText { word: "computing".into(), detail: String::new(), role: Role::Quiet }
+            None => self.computing(""),
+        }
+    }
+
+    /// While there is no verdict, the one before stays, dimmed.
+    fn computing(&self, part: &str) -> VerdictText {
+        let role = Role::Quiet;
+        match &self.verdict_before {
+            Some(word) => {
+                let detail = format!("before this change; computing {part}");
+                VerdictText { word: word.clone(), detail: detail.trim_end().into(), role }
             }
+            None => VerdictText { word: "computing".into(), detail: part.into(), role },
         }
     }
 
