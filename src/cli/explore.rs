@@ -1,5 +1,6 @@
 //! `rubscope [SCENE]`: the explorer, which needs a terminal.
 
+use std::fs::File;
 use std::io::IsTerminal;
 use std::str::FromStr;
 
@@ -61,6 +62,10 @@ impl ExploreCommand {
                 "the explorer needs a terminal on standard output; without one, use `rubscope run`",
             )
             .into());
+        }
+        if !std::io::stdin().is_terminal() && cfg!(unix) && File::open("/dev/tty").is_err() {
+            let reason = "the explorer needs a keyboard, and standard input is no terminal";
+            return Err(Refusal::because(reason).into());
         }
         let look = tui::ExploreOptions {
             fps: self.fps,

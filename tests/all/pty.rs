@@ -171,3 +171,12 @@ fn a_file_above_the_limit_of_the_system_is_refused_and_the_screen_lives() {
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
     terminal.assert_restored();
 }
+
+#[test]
+fn without_a_keyboard_it_says_so_and_leaves_the_terminal_alone() {
+    let script = "\"$@\" < /dev/null; echo ended with $?";
+    let mut terminal = Start::shell(script, &[]).detached().open();
+    terminal.wait_for("ended with 2");
+    assert!(terminal.text().contains("rubscope: the explorer needs a keyboard"));
+    terminal.assert_restored();
+}

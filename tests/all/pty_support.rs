@@ -72,7 +72,7 @@ impl Start {
 
     /// Without the session's terminal, the terminal outlives the program, as it
     /// does if a shell started it.
-    fn detached(mut self) -> Self {
+    pub fn detached(mut self) -> Self {
         self.command.set_controlling_tty(false);
         self
     }
