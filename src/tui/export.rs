@@ -8,6 +8,7 @@ use ratatui::{
 
 use super::app::{App, InputMode};
 use super::panels;
+use super::raster::sub_pixels;
 use super::theme::Theme;
 
 /// Size of a cell in the picture.
@@ -46,9 +47,19 @@ pub fn svg(app: &App) -> String {
         if cell.symbol() == " " {
             continue;
         }
+        let fill = if reversed { ground } else { colour };
+        if let Some(dots) = sub_pixels(cell.symbol()) {
+            for (across, down) in dots {
+                let cx = x + CELL.0 * (2 * across + 1) / 4;
+                let cy = f64::from(y) + f64::from(CELL.1 * (2 * down + 1)) / 8.0;
+                out.push_str(&format!(
+                    "<circle cx=\"{cx}\" cy=\"{cy}\" r=\"1.4\" fill=\"{fill}\"/>\n"
+                ));
+            }
+            continue;
+        }
         // A letter and its accents are one cell.
         let text = cell.symbol().replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
-        let fill = if reversed { ground } else { colour };
         let weight =
             if cell.modifier.contains(Modifier::BOLD) { " font-weight=\"bold\"" } else { "" };
         let base = y + CELL.1 - 4;
@@ -81,14 +92,22 @@ mod tests {
     use super::*;
     use crate::scene::Scene;
     use crate::tui::Marker;
+    use crate::tui::engine::Engine;
+    use crate::tui::worker::Stepwise;
 
     #[test]
     fn a_picture_is_well_formed_and_says_what_the_screen_says() {
-        let app = App::new(Scene::base().checked().unwrap(), Theme::Dark, Marker::Braille);
+        let mut app = App::new(Scene::base().checked().unwrap(), Theme::Dark, Marker::Braille);
+        let mut engine = Stepwise::new(5e-3);
+        engine.order(&app.order());
+        app.apply_snapshot(engine.take().unwrap());
         let svg = svg(&app);
         assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
         assert_eq!(svg.matches("<text").count(), svg.matches("</text>").count());
         assert!(!svg.contains("NaN"));
+        // The fonts of most viewers have no braille: curves are dots.
+        assert!(svg.contains("<circle "));
+        assert!(!svg.contains(|c: char| ('\u{2801}'..='\u{28ff}').contains(&c)));
     }
 
     #[test]

@@ -145,6 +145,20 @@ impl Raster {
     }
 }
 
+/// The sub-pixels of a sign of braille or octants, two across and four down, for
+/// viewers whose fonts have neither; none for any other sign.
+pub fn sub_pixels(sign: &str) -> Option<impl Iterator<Item = (u32, u32)>> {
+    let mut signs = sign.chars();
+    let (Some(sign), None) = (signs.next(), signs.next()) else { return None };
+    // A full or an empty cell is in every font.
+    if matches!(sign, '█' | ' ') {
+        return None;
+    }
+    let place = |table: &[char]| table.iter().position(|&other| other == sign);
+    let bits = place(&BRAILLE).or_else(|| place(&OCTANTS))?;
+    Some((0..8).filter(move |k| bits >> k & 1 == 1).map(|k| (k % 2, k / 2)))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -170,6 +184,23 @@ mod tests {
             drawn(Marker::Octant, |r| (0..8).for_each(|k| r.set(k % 2, k / 2, &PEN))),
             "█       "
         );
+    }
+
+    #[test]
+    fn a_sign_gives_back_the_dots_it_was_made_of() {
+        for marker in [Marker::Braille, Marker::Octant] {
+            for dots in [&[(0, 0)][..], &[(1, 3), (0, 2)], &[(1, 0), (1, 1), (0, 3)]] {
+                let sign = drawn(marker, |r| dots.iter().for_each(|&(x, y)| r.set(x, y, &PEN)));
+                let sign: String = sign.chars().take(1).collect();
+                let mut found: Vec<(i64, i64)> =
+                    sub_pixels(&sign).unwrap().map(|(x, y)| (x.into(), y.into())).collect();
+                let mut dots = dots.to_vec();
+                found.sort_unstable();
+                dots.sort_unstable();
+                assert_eq!(found, dots, "{marker} {sign}");
+            }
+        }
+        assert!(["a", "", " ", "ab", "█", "•"].iter().all(|sign| sub_pixels(sign).is_none()));
     }
 
     #[test]

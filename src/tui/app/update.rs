@@ -93,6 +93,12 @@ impl App {
                 self.appearance.theme = self.appearance.theme.next();
                 self.status = Some(format!("theme {}", self.appearance.theme.name()));
             }
+            (InputMode::Main, Action::Marker) => {
+                self.appearance.marker = self.appearance.marker.next();
+                self.status = Some(format!("marker {}", self.appearance.marker));
+                // Some terminals leave parts of octants behind.
+                return Effect::Redraw;
+            }
             (InputMode::Help(scroll), Action::KnobBelow) => {
                 self.mode = InputMode::Help(scroll.saturating_add(1));
             }
@@ -206,10 +212,6 @@ impl App {
                 self.status = Some(format!("scales {how}"));
             }
             Action::FullScreen => self.full_screen = !self.full_screen,
-            Action::Marker => {
-                self.appearance.marker = self.appearance.marker.next();
-                self.status = Some(format!("marker {}", self.appearance.marker));
-            }
             Action::Live => {
                 self.live = !self.live;
                 self.status = Some(if self.live {
