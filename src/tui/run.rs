@@ -10,7 +10,7 @@ use super::app::{App, Effect, Exit};
 use super::engine::{Engine, Order};
 use super::events::ScreenEvent;
 use super::host::Host;
-use super::panels;
+use super::panels::{self, LEAST_HEIGHT, LEAST_WIDTH};
 
 /// Draw at least this often, to detect a closed terminal by its error.
 const HEARTBEAT: Duration = Duration::from_secs(1);
@@ -125,7 +125,10 @@ fn show<B: Backend>(
     let size = terminal.size()?;
     app.size = (size.width, size.height);
     terminal.draw(|frame| panels::draw(frame, app))?;
-    app.drawn();
+    // A screen that is too small shows only that it is.
+    if size.width >= LEAST_WIDTH && size.height >= LEAST_HEIGHT {
+        app.drawn();
+    }
     Ok(())
 }
 

@@ -141,8 +141,13 @@ impl Engine for Later {
     fn take(&mut self) -> Option<Snapshot> {
         self.asked += 1;
         match self.asked {
-            2 => self.engine.take(),
-            3 => {
+            // For the first picture: the answer comes when it is drawn.
+            2 => {
+                self.events.send(ScreenEvent::Fresh).unwrap();
+                None
+            }
+            3 => self.engine.take(),
+            4 => {
                 // The picture that follows shows the answer.
                 self.events.send(ScreenEvent::Signal(15)).unwrap();
                 None
@@ -196,4 +201,31 @@ fn the_verdict_before_a_change_stays_until_there_is_a_new_one() {
     engine.order(&app.order());
     app.apply_snapshot(engine.take().unwrap());
     assert!(!app.verdict().detail.contains("before this change"));
+}
+
+#[test]
+fn a_screen_too_small_for_the_question_takes_no_answer() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = Scene::base().checked().unwrap();
+    for (height, replaced) in [(1, false), (24, true)] {
+        let path = folder.path().join("scene.toml");
+        std::fs::write(&path, "old").unwrap();
+        let mut app = App::new(scene.clone(), Theme::Dark, Marker::Braille);
+        app.directory = folder.path().to_path_buf();
+        let mut terminal = Terminal::new(TestBackend::new(80, height)).unwrap();
+        for keys in ["s\r", "y"] {
+            let (sender, events) = channel();
+            for key in keys.chars() {
+                let code = if key == '\r' { KeyCode::Enter } else { KeyCode::Char(key) };
+                let key = KeyEvent::new(code, KeyModifiers::NONE);
+                sender.send(ScreenEvent::Key(key)).unwrap();
+            }
+            drop(sender);
+            let mut engine = Stepwise::new(1e-4);
+            let exit =
+                run(&mut terminal, &events, &mut app, &mut engine, &mut NoHost, Duration::ZERO);
+            assert_eq!(exit.unwrap(), Exit::Done);
+        }
+        assert_eq!(std::fs::read_to_string(&path).unwrap() != "old", replaced, "{height}");
+    }
 }
