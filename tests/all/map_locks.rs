@@ -98,14 +98,6 @@ fn a_part_file_that_is_no_file_is_refused_at_once() {
     assert_ne!(output.status.code(), Some(0));
 }
 
-/// Whether the process has a handler of INT, which is signal 2.
-#[cfg(target_os = "linux")]
-fn catches_int(process: u32) -> bool {
-    let status = fs::read_to_string(format!("/proc/{process}/status")).unwrap();
-    let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:")).unwrap();
-    u64::from_str_radix(caught.trim(), 16).unwrap() & 0b10 != 0
-}
-
 #[cfg(target_os = "linux")]
 #[test]
 fn cells_saved_without_a_name_take_the_place_of_none() {
@@ -113,10 +105,10 @@ fn cells_saved_without_a_name_take_the_place_of_none() {
     fs::write(folder.path().join("rubscope-map.partial"), "of another run").unwrap();
     let child = command(folder.path(), "").spawn().unwrap();
     let number = child.id().to_string();
-    // Until its handler stands, INT would end it at once.
+    // Before it computes, INT ends it at once.
     let since = Instant::now();
-    while !catches_int(child.id()) {
-        assert!(since.elapsed() < Duration::from_secs(120), "no handler of INT");
+    while !crate::map_signals::computes(child.id()) {
+        assert!(since.elapsed() < Duration::from_secs(120), "it does not compute");
         std::thread::sleep(Duration::from_millis(5));
     }
     assert!(Command::new("kill").args(["-INT", &number]).status().unwrap().success());

@@ -60,12 +60,8 @@ impl Running {
         assert!(Command::new("kill").args([name, &id]).status().unwrap().success());
     }
 
-    /// Whether it has told the system that it handles SIGHUP, the first signal.
-    fn catches_hangups(&self) -> bool {
-        let status = format!("/proc/{}/status", self.0.as_ref().unwrap().id());
-        let status = std::fs::read_to_string(status).unwrap();
-        let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:")).unwrap();
-        u64::from_str_radix(caught.trim(), 16).unwrap() & 1 == 1
+    fn computes(&self) -> bool {
+        computes(self.0.as_ref().unwrap().id())
     }
 
     /// Waits for a condition of the files it writes.
@@ -93,11 +89,18 @@ impl Running {
     }
 }
 
-/// Starts a map of one long cell; its part file says that it is at work.
+/// Whether a map has begun to compute: beside its first thread and the one for
+/// signals there are those for cells, which start after signals are noted.
+pub fn computes(process: u32) -> bool {
+    let threads = std::fs::read_dir(format!("/proc/{process}/task"));
+    threads.is_ok_and(|threads| threads.count() >= 3)
+}
+
+/// Starts a map of one long cell, and waits until it is at work.
 fn long_map(directory: &Path) -> Running {
     let arguments = [&LONG_CELL[..], &["--out", "map.csv"]].concat();
     let map = Running::start(&arguments, directory);
-    map.wait_until(|| directory.join("map.csv.partial").exists());
+    map.wait_until(|| map.computes());
     map
 }
 
@@ -122,7 +125,7 @@ fn a_second_signal_ends_a_map_at_once() {
     let directory = tempfile::tempdir().unwrap();
     let arguments = [&LONG_CELL[..], &["--out", "map.csv"]].concat();
     let map = Running::start_with(&arguments, directory.path(), full.into());
-    map.wait_until(|| directory.path().join("map.csv.partial").exists());
+    map.wait_until(|| map.computes());
     map.signal("-INT");
     std::thread::sleep(Duration::from_millis(300));
     assert_eq!(map.finish_under("-TERM").status.signal(), Some(15));
@@ -132,7 +135,7 @@ fn a_second_signal_ends_a_map_at_once() {
 fn a_map_without_a_file_keeps_its_cells_when_the_terminal_closes() {
     let directory = tempfile::tempdir().unwrap();
     let map = Running::start(&LONG_CELL, directory.path());
-    map.wait_until(|| map.catches_hangups());
+    map.wait_until(|| map.computes());
     map.signal("-HUP");
     let output = map.finish();
     assert_eq!(output.status.code(), Some(129));
@@ -152,7 +155,7 @@ fn a_hang_up_that_was_ignored_at_the_start_stays_ignored() {
         .spawn()
         .unwrap();
     let map = Running(Some(child));
-    map.wait_until(|| directory.path().join("map.csv.partial").exists());
+    map.wait_until(|| map.computes());
     map.signal("-HUP");
     map.signal("-INT");
     assert_eq!(map.finish().status.code(), Some(128 + 2), "the hang-up came through");
