@@ -177,7 +177,9 @@ fn a_result_in_the_place_of_the_cells_of_another_map_is_refused() {
     let said = String::from_utf8(output.stderr).unwrap();
     assert!(said.starts_with("rubscope: cells.part is in use by another map"), "{said}");
     // Another program can put a file there all the same: the cells are saved anew.
-    std::fs::remove_file(directory.path().join("map.csv.partial")).unwrap();
+    let cells = directory.path().join("map.csv.partial");
+    std::fs::remove_file(&cells).unwrap();
+    std::fs::write(&cells, "of another program").unwrap();
     map.signal("-TERM");
     let said = String::from_utf8(map.finish().stderr).unwrap();
     assert!(said.contains("--resume rubscope-map.partial"), "{said}");
