@@ -1,7 +1,5 @@
 //! `rubscope [SCENE]`: the explorer, which needs a terminal.
 
-use std::fs::File;
-use std::io::IsTerminal;
 use std::str::FromStr;
 
 use clap::builder::TypedValueParser;
@@ -56,17 +54,7 @@ impl ExploreCommand {
         let name = self.options.name().unwrap_or(DEFAULT);
         let read = Scene::load_unchecked(name)?;
         let scene = self.options.change(read.clone())?;
-        let dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
-        if dumb || !std::io::stdout().is_terminal() {
-            return Err(Refusal::because(
-                "the explorer needs a terminal on standard output; without one, use `rubscope run`",
-            )
-            .into());
-        }
-        if !std::io::stdin().is_terminal() && cfg!(unix) && File::open("/dev/tty").is_err() {
-            let reason = "the explorer needs a keyboard, and standard input is no terminal";
-            return Err(Refusal::because(reason).into());
-        }
+        tui::check_terminal().map_err(Refusal::because)?;
         let look = tui::ExploreOptions {
             fps: self.fps,
             color: self.color,

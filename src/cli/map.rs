@@ -250,14 +250,11 @@ impl ResultOptions {
             "part" => "its cells are on standard output, to be saved as a part",
             _ => "the whole map is on standard output as JSON",
         };
-        Err(output::print_instead(path, error, kept, || {
-            match format {
-                "part" => part::write(map, out).map(drop)?,
-                // It is there already.
-                _ if self.json => {}
-                _ => json::write(&report::MapJson { map, with_time: false }, out)?,
-            }
-            out.flush()
+        Err(output::print_instead(path, error, kept, out, |out| match format {
+            "part" => part::write(map, out).map(drop),
+            // It is there already.
+            _ if self.json => Ok(()),
+            _ => json::write(&report::MapJson { map, with_time: false }, out),
         }))
     }
 }

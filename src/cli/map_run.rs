@@ -43,7 +43,8 @@ pub(super) fn compute(
     }
     let pool = builder.build()?;
     let indices = shard.indices(map.cells.len());
-    let missing = indices.clone().filter(|&index| map.cells[index].is_none()).count();
+    let is_missing = |&index: &usize| map.cells[index].is_none();
+    let missing = pool.install(|| indices.clone().filter(is_missing).count());
     let finished = AtomicBool::new(false);
     std::thread::scope(|scope| {
         scope.spawn(|| watch(&progress, &request, &finished, missing as u64));
@@ -106,10 +107,8 @@ fn stopped(map: &Map, complete: Option<&Path>, out: &mut dyn Write) -> anyhow::R
         }
         Err((path, error)) => {
             let kept = "its cells are on standard output, to be saved as a part for --resume";
-            Err(output::print_instead(&path, error, kept, || {
-                part::write(map, out)?;
-                out.flush()
-            }))
+            let print = |out: &mut dyn Write| part::write(map, out).map(drop);
+            Err(output::print_instead(&path, error, kept, out, print))
         }
     }
 }

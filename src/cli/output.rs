@@ -100,12 +100,8 @@ pub fn replace_or_print(
 ) -> anyhow::Result<Written> {
     // The file may be standard output itself, and comes after what is there.
     out.flush()?;
-    file::replace(path, content).map_err(|error| {
-        print_instead(path, error, "its text is on standard output", || {
-            text(out)?;
-            out.flush()
-        })
-    })
+    file::replace(path, content)
+        .map_err(|error| print_instead(path, error, "its text is on standard output", out, text))
 }
 
 /// The error of a file that could not be written, after what was meant for it
@@ -114,10 +110,11 @@ pub fn print_instead(
     path: &Path,
     error: std::io::Error,
     kept: &str,
-    print: impl FnOnce() -> std::io::Result<()>,
+    out: &mut dyn Write,
+    print: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
 ) -> anyhow::Error {
     let shown = path.display();
-    match print() {
+    match print(out).and_then(|()| out.flush()) {
         Ok(()) => anyhow::Error::from(error).context(format!("cannot write {shown}; {kept}")),
         Err(other) => {
             anyhow::anyhow!("cannot write {shown}: {error}; nor standard output: {other}")

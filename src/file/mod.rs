@@ -38,39 +38,35 @@ pub enum Written {
 /// An error of the system or of `write`, or a file that is read-only; what was
 /// there is then unchanged.
 pub fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<Written> {
-    match Place::of(path)? {
+    let (path, replaced) = match Place::of(path)? {
         Place::Stream(path) => {
             fill(&place::open_stream(&path)?, write)?;
-            Ok(Written::New)
+            return Ok(Written::New);
         }
-        Place::New(path) => {
-            let temporary = Temporary::beside(&path, None)?;
-            fill(temporary.file(), write)?;
-            temporary.finish(None)?;
-            temporary.replace(&path)?;
-            Ok(Written::New)
-        }
-        Place::Existing { path, metadata } => {
-            let temporary = match Temporary::beside(&path, Some(&metadata)) {
-                _ if place::has_other_names(&metadata) => None,
-                // The file can be written, but its folder takes no other.
-                Err(error) if error.kind() == ErrorKind::PermissionDenied => None,
-                temporary => Some(temporary?),
-            };
-            if let Some(temporary) = temporary {
-                fill(temporary.file(), write)?;
-                temporary.finish(Some(&metadata))?;
-                temporary.replace(&path)?;
-            } else {
-                let beside = tempfile::tempfile_in(place::folder(&path));
-                let complete = beside.or_else(|_| tempfile::tempfile())?;
-                fill(&complete, write)?;
-                let _placing = temporary::placing();
-                in_place::exchange(&complete, &path)?;
-            }
-            Ok(Written::Replaced)
-        }
+        Place::New(path) => (path, None),
+        Place::Existing { path, metadata } => (path, Some(metadata)),
+    };
+    let replaced = replaced.as_ref();
+    let beside = match replaced {
+        Some(metadata) if place::has_other_names(metadata) => None,
+        _ => match Temporary::beside(&path, replaced) {
+            // The file can be written, but its folder takes no other.
+            Err(error) if replaced.is_some() && error.kind() == ErrorKind::PermissionDenied => None,
+            temporary => Some(temporary?),
+        },
+    };
+    if let Some(temporary) = beside {
+        fill(temporary.file(), write)?;
+        temporary.finish(replaced)?;
+        temporary.replace(&path)?;
+    } else {
+        let beside = tempfile::tempfile_in(place::folder(&path));
+        let complete = beside.or_else(|_| tempfile::tempfile())?;
+        fill(&complete, write)?;
+        let _placing = temporary::placing();
+        in_place::exchange(&complete, &path)?;
     }
+    Ok(if replaced.is_some() { Written::Replaced } else { Written::New })
 }
 
 /// Creates a file, completely or not at all.

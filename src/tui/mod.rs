@@ -38,6 +38,7 @@ mod views;
 #[doc(hidden)]
 pub mod worker;
 
+use std::fs::File;
 use std::io::IsTerminal;
 use std::sync::{Arc, mpsc};
 use std::time::Duration;
@@ -100,17 +101,31 @@ impl ExploreOptions {
     }
 }
 
-/// Runs the explorer on a checked scene until the user quits. The result is the
-/// exit status: 0, or 128 + n after signal n.
+/// Whether there are a screen and a keyboard.
 ///
 /// # Errors
-/// Standard output is no terminal that can show a screen, threads or signals
-/// cannot be set up, or a file was still being written at the end.
-pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u8> {
-    let dumb = std::env::var("TERM").is_ok_and(|term| term == "dumb");
+/// What is missing.
+pub fn check_terminal() -> Result<(), &'static str> {
+    let dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
     if dumb || !std::io::stdout().is_terminal() {
-        anyhow::bail!("the explorer needs a terminal; use `rubscope run` without one");
+        return Err(
+            "the explorer needs a terminal on standard output; without one, use `rubscope run`",
+        );
     }
+    if !std::io::stdin().is_terminal() && cfg!(unix) && File::open("/dev/tty").is_err() {
+        return Err("the explorer needs a keyboard, and standard input is no terminal");
+    }
+    Ok(())
+}
+
+/// Runs the explorer on a checked scene until the user quits, where
+/// `check_terminal` found nothing missing. The result is the exit status: 0, or
+/// 128 + n after signal n.
+///
+/// # Errors
+/// Threads or signals cannot be set up, or a file was still being written at the
+/// end.
+pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u8> {
     // With `NO_COLOR`, crossterm would drop bold and reverse too; the mono
     // theme has no colours anyway.
     crossterm::style::force_color_output(true);

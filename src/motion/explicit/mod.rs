@@ -214,11 +214,12 @@ impl<B: BladeModel> Solver for Explicit<B> {
         }
         // A step that ends within a millionth of itself after `until` belongs to it.
         let target = (until / self.step + 1e-6).floor().max(0.0) as u64;
-        let mut asked = 0_usize;
+        let steps_unasked = UPDATES_UNASKED / self.blades.coordinates();
+        let mut unasked = 0;
         while self.steps_taken() < target {
-            asked += self.blades.coordinates();
-            if asked > UPDATES_UNASKED {
-                asked = 0;
+            unasked += 1;
+            if unasked > steps_unasked {
+                unasked = 0;
                 if !go_on() {
                     return Ok(false);
                 }

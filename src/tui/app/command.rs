@@ -6,13 +6,13 @@ use crate::scene::{DEFAULT, KEYS, Scene, Value};
 impl App {
     /// `rubscope run SCENE` with every key that differs from it.
     pub fn command(&self) -> String {
-        let known = self.source.clone().or_else(|| {
-            // Without a source it is the default scene, which is built in.
-            Some(Source { name: DEFAULT.into(), scene: Scene::builtin(DEFAULT).ok()? })
-        });
-        let base = known.as_ref().map_or_else(Scene::base, |known| known.scene.clone());
-        let name = known.as_ref().map_or(DEFAULT, |known| &known.name);
-        let mut command = format!("rubscope run {}", quoted(name));
+        // Without a source it is the default scene, which is built in.
+        let default = || Source {
+            name: DEFAULT.into(),
+            scene: Scene::builtin(DEFAULT).unwrap_or_else(|_| Scene::base()),
+        };
+        let Source { name, scene: base } = self.source.clone().unwrap_or_else(default);
+        let mut command = format!("rubscope run {}", quoted(&name));
         for key in KEYS.iter().filter(|key| !key.path.starts_with("view.")) {
             let value = (key.get)(&self.scene);
             if value != (key.get)(&base) {

@@ -94,21 +94,17 @@ impl FullRunJob {
 
     /// Its progress or its result.
     pub fn state(&self) -> FullRunState {
-        let part = (self.motion.state().t_s - self.start) / (self.end - self.start);
-        match &self.result {
-            Some(run) => FullRunState::Done(run.clone()),
-            None if self.is_given_up() => FullRunState::GivenUp(part.clamp(0.0, 1.0)),
-            None => FullRunState::Computing(part.clamp(0.0, 1.0)),
+        if let Some(run) = &self.result {
+            return FullRunState::Done(run.clone());
         }
+        let part = (self.motion.state().t_s - self.start) / (self.end - self.start);
+        let part = part.clamp(0.0, 1.0);
+        if self.is_done() { FullRunState::GivenUp(part) } else { FullRunState::Computing(part) }
     }
 
     /// Whether it is over.
     pub fn is_done(&self) -> bool {
-        self.result.is_some() || self.is_given_up()
-    }
-
-    fn is_given_up(&self) -> bool {
-        self.result.is_none() && self.wall >= self.limit
+        self.result.is_some() || self.wall >= self.limit
     }
 
     /// Wall time so far \[s\].

@@ -69,8 +69,7 @@ impl Playback {
             motion,
             order,
         };
-        playback.comparison = playback.start_comparison();
-        playback.play_comparison(time_limit);
+        playback.start_comparison();
         playback.record();
         playback
     }
@@ -113,8 +112,7 @@ impl Playback {
             self.sensitive = Some(false);
         }
         if order.compare != before.compare {
-            self.comparison = self.start_comparison();
-            self.play_comparison(self.time_limit);
+            self.start_comparison();
         }
         for _ in 0..order.steps.saturating_sub(before.steps).min(1000) {
             self.step();
@@ -124,9 +122,10 @@ impl Playback {
         }
     }
 
-    /// The same scene under the other contact law, if it is wanted.
-    fn start_comparison(&self) -> Option<Comparison> {
-        self.order.compare.then(|| Comparison::of(&self.order.scene))?
+    /// Plays the same scene under the other contact law too, if it is wanted.
+    fn start_comparison(&mut self) {
+        self.comparison = self.order.compare.then(|| Comparison::of(&self.order.scene)).flatten();
+        self.play_comparison(self.time_limit);
     }
 
     fn sample_length(&self) -> f64 {
