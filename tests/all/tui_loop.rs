@@ -33,15 +33,20 @@ impl Engine for Second {
     }
 }
 
+/// Closes the input of a loop that hangs. A long limit, not a speed test: a second
+/// is enough on a quiet machine.
+fn end_in_a_minute(events: &Sender<ScreenEvent>) {
+    let events = events.clone();
+    std::thread::spawn(move || {
+        std::thread::sleep(Duration::from_secs(60));
+        let _ = events.send(ScreenEvent::InputClosed);
+    });
+}
+
 #[test]
 fn a_screen_without_news_is_drawn_again_to_notice_a_lost_terminal() {
     let (sender, events) = channel();
-    let watchdog = sender.clone();
-    // A long limit, not a speed test: a second is enough on a quiet machine.
-    std::thread::spawn(move || {
-        std::thread::sleep(Duration::from_secs(60));
-        let _ = watchdog.send(ScreenEvent::InputClosed);
-    });
+    end_in_a_minute(&sender);
     let mut terminal = Terminal::new(TestBackend::new(80, 24)).unwrap();
     let mut app = App::new(Scene::base().checked().unwrap(), Theme::Dark, Marker::Braille);
     let mut engine = Second { pictures: 0, events: sender };
@@ -160,12 +165,7 @@ impl Engine for Later {
 #[test]
 fn a_forecast_is_drawn_when_it_exists_and_not_at_the_next_frame() {
     let (sender, events) = channel();
-    let watchdog = sender.clone();
-    // A long limit, not a speed test.
-    std::thread::spawn(move || {
-        std::thread::sleep(Duration::from_secs(60));
-        let _ = watchdog.send(ScreenEvent::InputClosed);
-    });
+    end_in_a_minute(&sender);
     let mut scene = Scene::base();
     scene.solver.end_s = 2e-3;
     let mut app = App::new(scene.checked().unwrap(), Theme::Dark, Marker::Braille);

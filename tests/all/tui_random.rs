@@ -88,17 +88,25 @@ fn press(
     assert_eq!(exit.unwrap(), Exit::Done);
 }
 
+/// Sends a key, or none, and looks: the generations of the results on the screen.
+fn look(
+    terminal: &mut Terminal<TestBackend>,
+    app: &mut App,
+    engine: &mut Late,
+    key: Option<char>,
+) -> Vec<u64> {
+    let key = key.map(|letter| KeyEvent::new(KeyCode::Char(letter), KeyModifiers::NONE));
+    press(terminal, app, engine, key);
+    results(app)
+}
+
 #[test]
 fn a_live_knob_drops_every_result_of_the_knobs_before() {
     let mut app = App::new(scene().checked().unwrap(), Theme::Dark, Marker::Braille);
     (app.live, app.compare) = (true, true);
     let mut terminal = Terminal::new(TestBackend::new(120, 40)).unwrap();
     let mut engine = Late::new();
-    let mut look = |app: &mut App, key: Option<char>| {
-        let key = key.map(|letter| KeyEvent::new(KeyCode::Char(letter), KeyModifiers::NONE));
-        press(&mut terminal, app, &mut engine, key);
-        results(app)
-    };
+    let mut look = |app: &mut App, key| look(&mut terminal, app, &mut engine, key);
     assert!(look(&mut app, None).is_empty());
     assert_eq!((0..DELAY).map(|_| look(&mut app, None)).last(), Some(vec![0, 0, 0]));
     // The answers that arrive now still belong to the earlier knobs.
@@ -113,11 +121,7 @@ fn a_pulse_drops_every_result_of_the_motion_before() {
     app.compare = true;
     let mut terminal = Terminal::new(TestBackend::new(120, 40)).unwrap();
     let mut engine = Late::new();
-    let mut look = |app: &mut App, key: Option<char>| {
-        let key = key.map(|letter| KeyEvent::new(KeyCode::Char(letter), KeyModifiers::NONE));
-        press(&mut terminal, app, &mut engine, key);
-        results(app)
-    };
+    let mut look = |app: &mut App, key| look(&mut terminal, app, &mut engine, key);
     for _ in 0..=DELAY {
         look(&mut app, None);
     }
