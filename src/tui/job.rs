@@ -4,7 +4,7 @@
 use std::io::Result;
 use std::sync::atomic::{AtomicBool, Ordering::SeqCst};
 
-use rustix::process::{Pid, getpgid, getpgrp, getpid, getsid};
+use nix::unistd::{Pid, getpgid, getpgrp, getpid, getppid, getsid};
 
 use super::terminal;
 
@@ -49,13 +49,18 @@ pub fn is_orphaned() -> bool {
     false
 }
 
-/// The parent of a process.
+/// The parent of a process, if it is in this container: the system gives
+/// processes, groups and sessions outside it the number 0.
 fn parent(process: Pid) -> Option<Pid> {
     if process == getpid() {
-        return rustix::process::getppid();
+        return seen(getppid());
     }
-    let number = process.as_raw_nonzero();
-    let status = std::fs::read_to_string(format!("/proc/{number}/status")).ok()?;
+    let status = std::fs::read_to_string(format!("/proc/{process}/status")).ok()?;
     let parent = status.lines().find_map(|line| line.strip_prefix("PPid:"))?;
-    Pid::from_raw(parent.trim().parse().ok()?)
+    seen(Pid::from_raw(parent.trim().parse().ok()?))
+}
+
+/// None for a process outside this container.
+fn seen(process: Pid) -> Option<Pid> {
+    Some(process).filter(|process| process.as_raw() != 0)
 }

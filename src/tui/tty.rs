@@ -152,7 +152,7 @@ impl Tty {
     /// the settings stops it.
     pub fn in_foreground(&self) -> bool {
         // Without job control on this terminal there is no background.
-        termios::tcgetpgrp(&self.keys).map_or(true, |front| front == rustix::process::getpgrp())
+        nix::unistd::tcgetpgrp(&self.keys).map_or(true, |front| front == nix::unistd::getpgrp())
     }
 
     /// Whether a process in the background may write.

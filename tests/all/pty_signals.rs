@@ -252,3 +252,24 @@ fn without_a_shell_it_is_not_stopped() {
         terminal.assert_restored();
     }
 }
+
+#[cfg(target_os = "linux")]
+#[test]
+fn in_a_container_the_groups_outside_have_no_number() {
+    let script =
+        "unshare --user --map-root-user --pid --fork true || { echo not allowed; read answer; }
+        exec unshare --user --map-root-user --pid --fork \"$@\"";
+    let mut terminal = Start::shell(script, &SHORT).open();
+    terminal.wait_until("a screen", |screen| {
+        ["LOCKED", "not allowed"].iter().any(|text| screen.contents().contains(text))
+    });
+    // Some machines let nobody but root make a container.
+    if terminal.text().contains("not allowed") {
+        return;
+    }
+    terminal.send("\u{1a}");
+    terminal.wait_for("not suspended: there is no shell to continue it");
+    terminal.send("q");
+    assert_eq!(terminal.wait(), 0);
+    terminal.assert_restored();
+}

@@ -185,7 +185,8 @@ impl Terminal {
         self.wait_until(text, |screen| screen.contents().contains(text));
     }
 
-    fn wait_until(&mut self, what: &str, holds: impl Fn(&vt100::Screen) -> bool) {
+    /// Waits until a condition on the screen holds.
+    pub fn wait_until(&mut self, what: &str, holds: impl Fn(&vt100::Screen) -> bool) {
         let began = Instant::now();
         while !holds(self.parser.screen()) {
             assert!(began.elapsed() < PATIENCE, "no {what:?} in\n{}", self.text());
