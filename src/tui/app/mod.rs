@@ -2,6 +2,7 @@
 //! this value, and only keys and snapshots change it.
 
 mod command;
+mod cursor;
 mod files;
 mod lesson;
 mod snapshot;
@@ -10,6 +11,7 @@ mod turn;
 mod update;
 mod verdict;
 
+pub use cursor::Cursor;
 pub use lesson::LessonProgress;
 pub use time::RATES;
 pub use update::Effect;
@@ -166,8 +168,10 @@ pub struct App {
     pub baseline: Option<Baseline>,
     /// Number of charts next to the large one.
     pub companions_shown: usize,
-    /// Place of the reading cursor on the page, 0 to 1.
-    pub cursor: Option<f64>,
+    /// The reading cursor in the large chart.
+    pub cursor: Option<Cursor>,
+    /// Whether the arrows move it, not the knobs.
+    pub reading: bool,
     /// Pages back from the current one.
     pub pages_back: i64,
     /// Where the scene is from, for the command line that repeats the run.
@@ -238,6 +242,7 @@ impl App {
             baseline: None,
             companions_shown: 2,
             cursor: None,
+            reading: false,
             pages_back: 0,
             source: None,
             writing: None,
@@ -255,6 +260,7 @@ impl App {
     /// What the keyboard acts on, as the table of bindings names it.
     pub fn context(&self) -> Context {
         match self.mode {
+            InputMode::Main if self.reading => Context::Reading,
             InputMode::Main => Context::Main,
             InputMode::Typing(_) => Context::Typing,
             InputMode::Help(_) => Context::Help,

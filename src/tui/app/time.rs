@@ -62,25 +62,16 @@ impl App {
         ((self.now() / self.page_s()) - 1e-9).floor().max(0.0) as i64
     }
 
-    /// The instant under the reading cursor \[s\].
-    pub fn cursor_time(&self) -> Option<f64> {
+    /// Part of the page that is behind the motion, 0 to 1.
+    pub fn part_of_page(&self) -> f64 {
         let (from, to) = self.page();
-        self.cursor.map(|part| from + part * (to - from))
+        ((self.now() - from) / (to - from)).clamp(0.0, 1.0)
     }
 
     /// Goes a page back, or forward again.
     pub(super) fn pan(&mut self, back: bool) {
         let most = self.page_number();
         self.pages_back = (self.pages_back + if back { 1 } else { -1 }).clamp(0, most);
-    }
-
-    /// Moves the reading cursor; it appears in the middle of the page.
-    pub(super) fn move_cursor(&mut self, right: bool, coarse: bool) {
-        let (from, to) = self.page();
-        let now = ((self.now() - from) / (to - from)).clamp(0.0, 1.0);
-        let step = if coarse { 0.1 } else { 0.01 };
-        let place = self.cursor.unwrap_or(now) + if right { step } else { -step };
-        self.cursor = Some(place.clamp(0.0, 1.0));
     }
 
     /// The rate in words: `1/200 of real time`.

@@ -48,6 +48,18 @@ impl App {
         }
     }
 
+    /// Makes a scene that differs in knobs the current one; it can be undone.
+    pub(super) fn turn_to(&mut self, scene: CheckedScene) {
+        if scene != self.scene {
+            self.undo.push(self.scene.clone());
+            if self.undo.len() > UNDO_KEPT {
+                self.undo.remove(0);
+            }
+            self.redo.clear();
+            self.set_turned_scene(scene);
+        }
+    }
+
     /// Sets a knob; false where the value was refused.
     fn set(&mut self, knob: &'static Knob, value: Value) -> bool {
         match knob.set(&self.scene, value) {
@@ -56,14 +68,7 @@ impl App {
                 if said.is_some() {
                     self.status = said;
                 }
-                if scene != self.scene {
-                    self.undo.push(self.scene.clone());
-                    if self.undo.len() > UNDO_KEPT {
-                        self.undo.remove(0);
-                    }
-                    self.redo.clear();
-                    self.set_turned_scene(scene);
-                }
+                self.turn_to(scene);
                 true
             }
             Err(error) => {

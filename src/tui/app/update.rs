@@ -134,8 +134,8 @@ impl App {
         self.refusal = None;
         if self.mode != InputMode::Main {
             self.mode = InputMode::Main;
-        } else if self.cursor.is_some() || self.pages_back > 0 {
-            self.cursor = None;
+        } else if self.reading || self.cursor.is_some() || self.pages_back > 0 {
+            (self.reading, self.cursor) = (false, None);
             self.pages_back = 0;
         } else {
             self.full_screen = false;
@@ -189,7 +189,9 @@ impl App {
             Action::Charts => self.companions_shown = (self.companions_shown + 1) % 4,
             Action::PageBack => self.pan(true),
             Action::PageForward => self.pan(false),
-            Action::Cursor { right, coarse } => self.move_cursor(right, coarse),
+            Action::Read => self.toggle_reading(),
+            Action::Cursor { right, up, coarse } => self.move_cursor(right, up, coarse),
+            Action::OpenPlace => self.open_cursor(),
             Action::Restart => {
                 self.restart();
                 self.status = Some("restarted".into());
@@ -250,5 +252,6 @@ impl App {
             }
         }
         self.view = view;
+        (self.reading, self.cursor) = (false, None);
     }
 }

@@ -54,7 +54,9 @@ pub enum Action {
     Charts,
     PageBack,
     PageForward,
-    Cursor { right: bool, coarse: bool },
+    Read,
+    Cursor { right: i64, up: i64, coarse: bool },
+    OpenPlace,
     Yes,
     Accept,
     DeleteLast,
@@ -65,6 +67,8 @@ pub enum Action {
 pub enum Context {
     /// Charts and knobs.
     Main,
+    /// The arrows move the reading cursor; otherwise as `Main`.
+    Reading,
     /// A value is being typed.
     Typing,
     /// The help is open.
@@ -142,7 +146,11 @@ pub struct Binding {
 
 /// What a key does in a context.
 pub fn lookup(context: Context, chord: Chord) -> Option<Action> {
-    of(context).find(|binding| binding.keys.contains(&chord)).map(|binding| binding.action)
+    let own = of(context).find(|binding| binding.keys.contains(&chord));
+    match (own, context) {
+        (None, Context::Reading) => lookup(Context::Main, chord),
+        (own, _) => own.map(|binding| binding.action),
+    }
 }
 
 /// The bindings of a context.
@@ -177,9 +185,14 @@ mod tests {
         for binding in BINDINGS.iter() {
             assert!(!binding.what.is_empty() && !binding.keys.is_empty());
         }
-        for context in
-            [Context::Main, Context::Typing, Context::Help, Context::Replacing, Context::Lessons]
-        {
+        for context in [
+            Context::Main,
+            Context::Reading,
+            Context::Typing,
+            Context::Help,
+            Context::Replacing,
+            Context::Lessons,
+        ] {
             let interrupt = Chord { code: KeyCode::Char('c'), ctrl: true, shift: false };
             assert_eq!(lookup(context, interrupt), Some(Action::Quit));
             assert_eq!(lookup(context, key(KeyCode::Esc)), Some(Action::Close));

@@ -30,8 +30,8 @@ macro_rules! bind {
     };
 }
 
-const fn cursor(right: bool, coarse: bool) -> Action {
-    Action::Cursor { right, coarse }
+const fn cursor(right: i64, up: i64, coarse: bool) -> Action {
+    Action::Cursor { right, up, coarse }
 }
 
 const fn turn(up: bool, coarse: bool) -> Action {
@@ -131,10 +131,11 @@ const BEFORE_VIEWS: &[Binding] = &[
         Action::PageForward,
         "a page of time forward"
     ),
-    bind!(Main, [letter('(')], cursor(false, false), "reading cursor to the left"),
-    bind!(Main, [letter(')')], cursor(true, false), "reading cursor to the right"),
-    bind!(Main, [letter('{')], cursor(false, true), "reading cursor far to the left"),
-    bind!(Main, [letter('}')], cursor(true, true), "reading cursor far to the right"),
+    bind!(Main, [letter('i')], Action::Read, "read the chart: the arrows move a cursor, or the knobs again", "i" "read"),
+    bind!(Main, [letter('(')], cursor(-1, 0, false), "reading cursor to the left"),
+    bind!(Main, [letter(')')], cursor(1, 0, false), "reading cursor to the right"),
+    bind!(Main, [letter('{')], cursor(-1, 0, true), "reading cursor far to the left"),
+    bind!(Main, [letter('}')], cursor(1, 0, true), "reading cursor far to the right"),
 ];
 
 /// The bindings after those of the views.
@@ -153,6 +154,21 @@ const AFTER_VIEWS: &[Binding] = &[
     bind!(Main, [ctrl('z')], Action::Suspend, "suspend"),
     bind!(Main, [ctrl('l')], Action::Redraw, "draw the screen again"),
     bind!(Main, [key(KeyCode::Esc)], Action::Close, "close what is open; never quits"),
+    bind!(Reading, [key(KeyCode::Left), letter('h')], cursor(-1, 0, false), "cursor to the left", "←→↑↓" "read"),
+    bind!(Reading, [key(KeyCode::Right), letter('l')], cursor(1, 0, false), "cursor to the right"),
+    bind!(Reading, [key(KeyCode::Up), letter('k')], cursor(0, 1, false), "cursor up"),
+    bind!(Reading, [key(KeyCode::Down), letter('j')], cursor(0, -1, false), "cursor down"),
+    bind!(Reading, [shift(KeyCode::Left), letter('H')], cursor(-1, 0, true), "cursor far to the left", "HJKL" "far"),
+    bind!(
+        Reading,
+        [shift(KeyCode::Right), letter('L')],
+        cursor(1, 0, true),
+        "cursor far to the right"
+    ),
+    bind!(Reading, [shift(KeyCode::Up), letter('K')], cursor(0, 1, true), "cursor far up"),
+    bind!(Reading, [shift(KeyCode::Down), letter('J')], cursor(0, -1, true), "cursor far down"),
+    bind!(Reading, [key(KeyCode::Enter)], Action::OpenPlace, "open the run at the cursor (map)", "Enter" "open"),
+    bind!(Reading, [key(KeyCode::Esc), letter('i')], Action::Close, "the arrows act on the knobs again", "Esc" "knobs"),
     bind!(Typing, [key(KeyCode::Enter)], Action::Accept, "take the value", "Enter" "take"),
     bind!(Typing, [key(KeyCode::Esc)], Action::Close, "leave it as it was", "Esc" "leave"),
     bind!(Typing, [key(KeyCode::Backspace)], Action::DeleteLast, "delete the last character", "Backspace" "delete"),

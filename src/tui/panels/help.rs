@@ -41,6 +41,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, scroll: u16) {
         entry(&mut lines, &bindings::keys_text(binding), binding.what, width);
     }
     for (head, context) in [
+        ("While a chart is read", Context::Reading),
         ("While typing", Context::Typing),
         ("Where a file exists", Context::Replacing),
         ("In the list of lessons", Context::Lessons),

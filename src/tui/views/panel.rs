@@ -8,7 +8,8 @@ use ratatui::{
 };
 
 use crate::report::table::{TableCell, write_csv};
-use crate::tui::app::App;
+use crate::scene::CheckedScene;
+use crate::tui::app::{App, Cursor};
 use crate::tui::appearance::Appearance;
 use crate::tui::raster::Pen;
 use crate::tui::text::{pieces, print};
@@ -27,6 +28,27 @@ pub trait ViewPanel: Sync {
     /// # Errors
     /// There is nothing to export; the reason as text.
     fn csv(&self, app: &App) -> Result<String, String>;
+
+    /// Whether it is drawn over the page of time.
+    fn is_over_time(&self, _: &App) -> bool {
+        false
+    }
+
+    /// Cells across and up that the reading cursor goes through one by one; 0
+    /// where it moves freely.
+    fn grid(&self, _: &App) -> [u32; 2] {
+        [0, 0]
+    }
+
+    /// Where the reading cursor appears.
+    fn here(&self, _: &App) -> Cursor {
+        Cursor { across: 0.5, up: 0.5 }
+    }
+
+    /// The scene that Enter opens at a place of the chart.
+    fn scene_at(&self, _: &App, _: Cursor) -> Option<CheckedScene> {
+        None
+    }
 }
 
 /// Where a view is drawn, and how its title begins.

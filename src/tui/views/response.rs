@@ -5,7 +5,7 @@
 use ratatui::buffer::Buffer;
 
 use super::panel::{ViewArea, ViewPanel, csv, entry, names, title};
-use crate::tui::app::App;
+use crate::tui::app::{App, Cursor};
 use crate::tui::axis::{AutoRange, ChartAxis, readable};
 use crate::tui::history::{BinHistory, Channel};
 use crate::tui::plot::Plot;
@@ -42,6 +42,14 @@ impl ViewPanel for ResponseView {
         } else {
             page(app, buffer, at, &casing);
         }
+    }
+
+    fn is_over_time(&self, _: &App) -> bool {
+        true
+    }
+
+    fn here(&self, app: &App) -> Cursor {
+        Cursor { across: app.part_of_page(), up: 0.5 }
     }
 
     /// Least and greatest value of every channel in each bin of the page.

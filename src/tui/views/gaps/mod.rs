@@ -7,7 +7,7 @@ use ratatui::buffer::Buffer;
 
 use super::panel::{ViewArea, ViewPanel, csv, title};
 use crate::motion::ActiveSet;
-use crate::tui::app::App;
+use crate::tui::app::{App, Cursor};
 use crate::tui::axis::ChartAxis;
 use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
@@ -23,6 +23,19 @@ impl ViewPanel for GapsView {
 
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
         if app.heat { heat::draw(app, buffer, at) } else { draw(app, buffer, at) }
+    }
+
+    fn is_over_time(&self, app: &App) -> bool {
+        app.heat
+    }
+
+    fn grid(&self, app: &App) -> [u32; 2] {
+        let blades = app.machine.polygon.blades;
+        if app.heat { [0, blades] } else { [blades, 0] }
+    }
+
+    fn here(&self, app: &App) -> Cursor {
+        Cursor { across: if app.heat { app.part_of_page() } else { 0.0 }, up: 1.0 }
     }
 
     fn csv(&self, app: &App) -> Result<String, String> {
