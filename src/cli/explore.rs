@@ -25,6 +25,11 @@ pub struct ExploreCommand {
     #[arg(long, value_name = "WHEN", default_value = "auto",
           value_parser = choice::<tui::Color>(), hide_possible_values = true)]
     color: tui::Color,
+    /// How much the terminal is sent: thin (5 kB/s while the motion plays), full,
+    /// or auto: thin over SSH and where the terminal is slow
+    #[arg(long, value_name = "LINE", default_value = "auto",
+          value_parser = choice::<tui::Line>(), hide_possible_values = true)]
+    line: tui::Line,
     /// How points are drawn: braille, octant, halfblock, dot or ascii [default:
     /// ascii where TERM is linux, vt100 or similar, or the locale is not UTF-8,
     /// otherwise braille]
@@ -58,6 +63,7 @@ impl ExploreCommand {
         let look = tui::ExploreOptions {
             fps: self.fps,
             color: self.color,
+            line: self.line,
             marker: self.marker,
             source: Some(tui::Source { name: name.to_string(), scene: read }),
         };

@@ -82,6 +82,27 @@ pub struct Impact {
     pub side: u32,
 }
 
+/// A corner that was held for a while and is not any more.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hold {
+    /// Its sides.
+    pub sides: ActiveSet,
+    /// Since when \[s\].
+    pub from: f64,
+    /// The last time that it was seen in contact \[s\].
+    pub until: f64,
+    /// When the contact became another \[s\].
+    pub ended: f64,
+}
+
+impl Hold {
+    /// How long it was held \[s\].
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        self.until - self.from
+    }
+}
+
 /// What touched, when, and how.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ContactLog {
@@ -89,8 +110,8 @@ pub struct ContactLog {
     pub active_set: ActiveSet,
     /// Since when `active_set` has been what it is \[s\].
     pub since: f64,
-    /// The longest that a corner was held, before the contact of now \[s\].
-    pub longest_corner: f64,
+    /// The longest that a corner was held, before the contact of now.
+    pub longest_hold: Option<Hold>,
     /// Since when something has touched without a break \[s\].
     pub unbroken_since: Option<f64>,
     /// The end of the latest contact, or now while in contact \[s\].
@@ -109,7 +130,12 @@ impl ContactLog {
     /// From `t` on, these sides touch.
     pub fn touch(&mut self, t: f64, active_set: ActiveSet) {
         if active_set != self.active_set {
-            self.longest_corner = self.corner_time();
+            if let (ActiveSet::Corner(..), Some(last)) = (self.active_set, self.last_contact)
+                && self.longest_hold.is_none_or(|hold| last - self.since > hold.length())
+            {
+                let sides = self.active_set;
+                self.longest_hold = Some(Hold { sides, from: self.since, until: last, ended: t });
+            }
             self.active_set = active_set;
             self.since = t;
         }
@@ -124,9 +150,10 @@ impl ContactLog {
     /// The longest that a corner was held without a break, until now \[s\].
     #[must_use]
     pub fn corner_time(&self) -> f64 {
+        let before = self.longest_hold.map_or(0.0, |hold| hold.length());
         match (self.active_set, self.last_contact) {
-            (ActiveSet::Corner(..), Some(last)) => self.longest_corner.max(last - self.since),
-            _ => self.longest_corner,
+            (ActiveSet::Corner(..), Some(last)) => before.max(last - self.since),
+            _ => before,
         }
     }
 

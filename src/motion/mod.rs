@@ -17,7 +17,7 @@ mod solver;
 pub mod verdict;
 mod wave;
 
-pub use contacts::{ActiveSet, ContactLog, Impact, in_phase_order};
+pub use contacts::{ActiveSet, ContactLog, Hold, Impact, in_phase_order};
 pub use drive::{Pulse, Rotor, State};
 pub use event::Event;
 pub use failure::{Failure, FailureReason};

@@ -6,10 +6,11 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::history::Bin;
+use super::trace::{Mark, Trace};
 use super::views::ViewId;
 use super::views::locked::curves::LockedCurves;
 use super::views::spectrum::transform::Spectrum;
-use crate::motion::{ActiveSet, Checks, State, Verdict};
+use crate::motion::{ActiveSet, Checks, Hold, State, Verdict};
 use crate::scene::CheckedScene;
 use crate::study::Map;
 use crate::study::precision::Precision;
@@ -32,12 +33,18 @@ pub struct Order {
     pub pulses: u64,
     /// Whether time passes.
     pub playing: bool,
+    /// Number of times the user went on after the end of the run.
+    pub extensions: u64,
     /// Simulated time per wall-clock time: 5e-3 plays five milliseconds per second.
     pub rate: f64,
     /// Length of one recorded bin \[s\].
     pub bin_s: f64,
     /// Whether to run the other contact law too, for comparison.
     pub compare: bool,
+    /// Whether the motion slows down at changes of contact and hurries between.
+    pub slow_at_events: bool,
+    /// The instant to compute again, for the reading cursor \[s\].
+    pub cursor_s: Option<f64>,
     /// The views on the screen: their studies are computed.
     pub open: Vec<ViewId>,
 }
@@ -61,8 +68,20 @@ pub struct Pace {
     pub step_s: Option<f64>,
     /// Wall-clock time of the whole run to `solver.end_s` \[s\].
     pub run_s: Option<f64>,
-    /// Whether the motion plays slower than requested, because the solver is too slow.
-    pub limited: bool,
+    /// Why the motion plays slower than requested.
+    pub limit: Limit,
+}
+
+/// What keeps the motion from playing as fast as requested.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Limit {
+    /// Nothing.
+    #[default]
+    None,
+    /// The solver is too slow.
+    Solver,
+    /// The wave would turn too far between two frames to be seen travelling.
+    Wave,
 }
 
 /// Wall time after which the full run is given up: nobody waits longer for it,
@@ -83,6 +102,13 @@ pub enum FullRunState {
 /// The result of the run to `solver.end_s`, computed ahead of the playback.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FullRun {
+    /// The coordinates over the run.
+    pub trace: Arc<Trace>,
+    /// Changes of contact, in order of time, the first of them.
+    pub marks: Arc<Vec<Mark>>,
+    /// The longest hold of a corner that ended on the way, if it was as long as a
+    /// casing period, and the rotor speed when it ended \[rad/s\].
+    pub broken: Option<(Hold, f64)>,
     /// How the motion lasts.
     pub verdict: Verdict,
     /// Start of the final contact \[s\].
@@ -116,6 +142,10 @@ pub struct Moment {
     pub multipliers: Vec<(u32, f64)>,
     /// Why the motion stopped.
     pub failure: Option<String>,
+    /// The latest jump to a change of contact: its number, and what it found.
+    pub met: (u64, Option<Mark>),
+    /// How often the motion has come to the end of its forecast, where it waits.
+    pub ends: u64,
 }
 
 /// Results for one generation of the knobs.
@@ -123,6 +153,8 @@ pub struct Moment {
 pub struct Results {
     /// The run to the scene's end.
     pub full_run: Option<FullRunState>,
+    /// The end of that run \[s\].
+    pub end_s: f64,
     /// Whether a tiny change of the pulse changes the outcome under the event
     /// solver; false until it is known.
     pub sensitive: bool,
@@ -140,6 +172,8 @@ pub struct Results {
     pub precision: Option<Arc<Precision>>,
     /// Solver speed.
     pub pace: Pace,
+    /// The motion at the reading cursor, computed for that instant.
+    pub reading: Option<Arc<Moment>>,
 }
 
 /// What the engine answers.
@@ -167,6 +201,8 @@ pub trait Engine {
     fn order(&mut self, order: &Order);
     /// Returns the new snapshot, if there is one.
     fn take(&mut self) -> Option<Snapshot>;
+    /// A frame has been drawn: a turning picture may turn on.
+    fn drawn(&mut self) {}
 }
 
 /// Called by the engine when a new snapshot can be taken.

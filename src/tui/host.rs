@@ -26,6 +26,14 @@ pub trait Host {
     /// # Errors
     /// The terminal cannot be written to.
     fn copy(&mut self, text: &str) -> Result<()>;
+    /// Bytes sent to the terminal so far.
+    fn sent(&self) -> u64 {
+        0
+    }
+    /// Whether a write had to wait for the terminal.
+    fn is_slow(&self) -> bool {
+        false
+    }
     /// Writes a file. Without a result, that comes later as an event.
     fn write(&mut self, job: FileJob) -> Option<FileResult>;
 }
@@ -78,6 +86,14 @@ impl Host for Shell {
     fn copy(&mut self, text: &str) -> Result<()> {
         // OSC 52: the terminal, not this machine, owns the clipboard.
         terminal::write(format!("\x1b]52;c;{}\x07", base64(text.as_bytes())).as_bytes())
+    }
+
+    fn sent(&self) -> u64 {
+        terminal::sent()
+    }
+
+    fn is_slow(&self) -> bool {
+        terminal::is_slow()
     }
 
     fn write(&mut self, job: FileJob) -> Option<FileResult> {

@@ -24,6 +24,7 @@ mod job;
 mod knobs;
 #[doc(hidden)]
 pub mod lessons;
+mod line;
 mod panels;
 mod plot;
 mod raster;
@@ -32,6 +33,8 @@ mod run;
 pub mod terminal;
 mod text;
 mod theme;
+#[doc(hidden)]
+pub mod trace;
 #[cfg_attr(not(unix), path = "tty_other.rs")]
 mod tty;
 mod views;
@@ -44,6 +47,7 @@ use std::sync::{Arc, mpsc};
 use std::time::Duration;
 
 pub use app::{App, Exit, Source};
+pub use line::Line;
 pub use raster::Marker;
 pub use run::run;
 pub use theme::Theme;
@@ -72,6 +76,8 @@ pub struct ExploreOptions {
     pub fps: f64,
     /// When to use colour.
     pub color: Color,
+    /// How much the terminal is sent.
+    pub line: Line,
     /// How points are drawn; by the terminal and the locale if not given.
     pub marker: Option<Marker>,
     /// Where the scene is from, for the command line that repeats the run.
@@ -80,7 +86,8 @@ pub struct ExploreOptions {
 
 impl Default for ExploreOptions {
     fn default() -> Self {
-        Self { fps: 10.0, color: Color::Auto, marker: None, source: None }
+        let (color, line) = (Color::Auto, Line::Auto);
+        Self { fps: 10.0, color, line, marker: None, source: None }
     }
 }
 
@@ -93,6 +100,12 @@ impl ExploreOptions {
             Color::Auto => !variable("NO_COLOR").is_empty() || variable("TERM") == "dumb",
         };
         if plain { Theme::Mono } else { Theme::Dark }
+    }
+
+    fn line(&self) -> Line {
+        let over_ssh =
+            ["SSH_CONNECTION", "SSH_TTY"].iter().any(|name| std::env::var_os(name).is_some());
+        if self.line == Line::Auto && over_ssh { Line::Thin } else { self.line }
     }
 
     fn frame(&self) -> Duration {
@@ -139,6 +152,7 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
     let marker = options.marker.unwrap_or_else(ability::marker);
     let mut app = App::new(scene, options.theme(), marker);
     app.source.clone_from(&options.source);
+    app.line = options.line();
     let guard = terminal::Guard;
     let ended = terminal::open().and_then(|mut screen| {
         events::read_keys(sender.clone())?;

@@ -167,6 +167,38 @@ impl<'a> Plot<'a> {
         }
     }
 
+    /// Single dots along a polyline from `from` on, evenly spaced.
+    pub fn dotted(&mut self, points: impl IntoIterator<Item = (f64, f64)>, from: f64, pen: &Pen) {
+        let grain = self.raster.size().0 as i64 / i64::from(self.inner.width.max(1));
+        let stride = DOTS * grain.max(1);
+        let mut last: Option<(f64, f64)> = None;
+        // On a grid of the chart, so that dots stay where they are while time passes.
+        let begin = self.pixel_x(from).unwrap_or(0);
+        let mut next = begin + (-begin).rem_euclid(stride);
+        let most = self.raster.size().0 as i64;
+        for (x, y) in points {
+            if let Some((x0, y0)) = last
+                && let Some(here) = self.pixel_x(x)
+            {
+                while next <= here.min(most) {
+                    let at = self.value_at(next);
+                    let part = ((at - x0) / (x - x0)).clamp(0.0, 1.0);
+                    if let Some(row) = self.pixel_y(y0 + part * (y - y0)) {
+                        self.raster.line((next, row), (next, row), pen);
+                    }
+                    next += stride;
+                }
+            }
+            last = Some((x, y));
+        }
+    }
+
+    /// The x value of a sub-pixel column.
+    fn value_at(&self, column: i64) -> f64 {
+        let last = self.raster.size().0.saturating_sub(1).max(1) as f64;
+        self.x.low + column as f64 / last * (self.x.high - self.x.low)
+    }
+
     /// A decimated signal, one span per sub-pixel column, joined to the next.
     pub fn spans(&mut self, spans: &[Span], pen: &Pen) {
         let solid = Pen { dashed: false, ..*pen };
@@ -253,6 +285,9 @@ impl<'a> Plot<'a> {
         }
     }
 }
+
+/// Cells between two dots of a dotted line.
+const DOTS: i64 = 1;
 
 fn whole(pixel: f64) -> Option<i64> {
     pixel.is_finite().then(|| pixel.round().clamp(-1e5, 1e5) as i64)

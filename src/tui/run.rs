@@ -10,12 +10,17 @@ use super::app::{App, Effect, Exit};
 use super::engine::{Engine, Order};
 use super::events::ScreenEvent;
 use super::host::Host;
+use super::line::Throttle;
 use super::panels::{self, LEAST_HEIGHT, LEAST_WIDTH};
 
 /// Draw at least this often, to detect a closed terminal by its error.
 const HEARTBEAT: Duration = Duration::from_secs(1);
 /// Least time between two answers to keys.
 const KEY_FRAME: Duration = Duration::from_millis(16);
+
+/// How long a frame waits for the forecast of a knob that was turned: most are
+/// there sooner, and then one frame shows both.
+const ANSWER: Duration = Duration::from_millis(15);
 
 /// How long quitting waits for a file that is being written.
 const LAST_FILE: Duration = Duration::from_secs(1);
@@ -58,9 +63,13 @@ pub fn run<B: Backend>(
     let mut due = Due::Now;
     let mut drawn: Option<Instant> = None;
     let mut again = false;
+    let mut answer: Option<Instant> = None;
+    let mut throttle = Throttle::new(app.line, Instant::now(), host.sent());
     loop {
         order(app, engine, &mut ordered);
         let wait = drawn.map_or(Duration::ZERO, |at| due.pause(frame).saturating_sub(at.elapsed()));
+        let wait = wait.max(throttle.wait(due == Due::Now, Instant::now()));
+        let wait = wait.max(until(answer));
         let mut next = match events.recv_timeout(wait) {
             Ok(event) => Some(event),
             Err(RecvTimeoutError::Timeout) => None,
@@ -84,26 +93,46 @@ pub fn run<B: Backend>(
             // After many key presses only the last state is computed.
             next = events.try_recv().ok();
         }
-        order(app, engine, &mut ordered);
-        if drawn.is_none_or(|at| at.elapsed() >= due.pause(frame)) {
+        if order(app, engine, &mut ordered) {
+            answer = Some(Instant::now() + ANSWER);
+        }
+        if app.full_run().is_some() {
+            answer = None;
+        }
+        let free = throttle.wait(due == Due::Now, Instant::now()).is_zero();
+        if free
+            && until(answer).is_zero()
+            && drawn.is_none_or(|at| at.elapsed() >= due.pause(frame))
+        {
             if std::mem::take(&mut again) {
                 // `Terminal::clear` would ask for the cursor and wait for the input thread.
                 let size = terminal.size()?;
                 terminal.resize(size.into())?;
             }
             show(terminal, app, engine)?;
-            drawn = Some(Instant::now());
+            answer = None;
+            let now = Instant::now();
+            throttle.spend(host.sent(), due == Due::Now, host.is_slow(), now);
+            drawn = Some(now);
             due = Due::Later;
         }
     }
 }
 
-fn order(app: &App, engine: &mut dyn Engine, ordered: &mut Option<Order>) {
+fn until(instant: Option<Instant>) -> Duration {
+    instant.map_or(Duration::ZERO, |at| at.saturating_duration_since(Instant::now()))
+}
+
+/// Gives a new order to the engine; whether it is about another motion.
+fn order(app: &App, engine: &mut dyn Engine, ordered: &mut Option<Order>) -> bool {
     let order = app.order();
+    let generation = order.generation();
+    let other = ordered.as_ref().is_none_or(|before| before.generation() != generation);
     if ordered.as_ref() != Some(&order) {
         engine.order(&order);
         *ordered = Some(order);
     }
+    other
 }
 
 /// Takes the latest snapshot. A forecast is drawn as soon as it exists: while a key
@@ -125,6 +154,7 @@ fn show<B: Backend>(
     let size = terminal.size()?;
     app.size = (size.width, size.height);
     terminal.draw(|frame| panels::draw(frame, app))?;
+    engine.drawn();
     // A screen that is too small shows only that it is.
     if size.width >= LEAST_WIDTH && size.height >= LEAST_HEIGHT {
         app.drawn();

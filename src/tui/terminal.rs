@@ -4,8 +4,8 @@
 
 use std::io::{Error, Write};
 use std::sync::OnceLock;
-use std::sync::atomic::{AtomicBool, AtomicU8, Ordering::SeqCst};
-use std::time::Duration;
+use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU64, Ordering::SeqCst};
+use std::time::{Duration, Instant};
 
 use crossterm::cursor::{Hide, Show};
 use crossterm::event::{DisableBracketedPaste, EnableBracketedPaste};
@@ -31,6 +31,14 @@ static CUT: AtomicBool = AtomicBool::new(false);
 static TORN: AtomicBool = AtomicBool::new(false);
 /// The first signal that ends the program; 0 if there was none.
 static ENDED_BY: AtomicU8 = AtomicU8::new(0);
+
+/// Bytes sent so far.
+static SENT: AtomicU64 = AtomicU64::new(0);
+/// Whether a write had to wait.
+static SLOW: AtomicBool = AtomicBool::new(false);
+
+/// A write that takes longer has waited for the terminal.
+const AT_ONCE: Duration = Duration::from_millis(60);
 
 /// How long restoring waits for room on the terminal, before and after the
 /// frames that it has not taken are dropped.
@@ -118,7 +126,7 @@ pub fn regain() -> Result<(), Error> {
             return enter();
         }
         // A signal that came with the continuation ends the program here.
-        let began = std::time::Instant::now();
+        let began = Instant::now();
         while began.elapsed() < BACKGROUND && ended_by().is_none() && !tty.in_foreground() {
             std::thread::sleep(Duration::from_millis(10));
         }
@@ -155,11 +163,26 @@ pub fn ended_by() -> Option<u8> {
 /// The terminal is closed.
 pub fn write(bytes: &[u8]) -> Result<(), Error> {
     let cut = || CUT.load(SeqCst) || ENDED_BY.load(SeqCst) != 0;
+    let began = Instant::now();
     let sent = tty()?.send(bytes, cut)?;
+    SENT.fetch_add(sent as u64, SeqCst);
+    if began.elapsed() > AT_ONCE {
+        SLOW.store(true, SeqCst);
+    }
     if sent > 0 && sent < bytes.len() {
         TORN.store(true, SeqCst);
     }
     Ok(())
+}
+
+/// Bytes sent to the terminal so far.
+pub fn sent() -> u64 {
+    SENT.load(SeqCst)
+}
+
+/// Whether a write had to wait for the terminal.
+pub fn is_slow() -> bool {
+    SLOW.load(SeqCst)
 }
 
 /// The size of the screen: that of the terminal within bounds.

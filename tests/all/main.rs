@@ -64,6 +64,7 @@ mod tui_hostile;
 mod tui_loop;
 mod tui_random;
 mod tui_screens;
+mod tui_time;
 mod verdicts;
 
 /// The number of random cases of a law; `PROPTEST_CASES` overrides it.

@@ -56,9 +56,10 @@ impl App {
     }
 
     /// The screen shows this state: from now on a key can be the answer to its
-    /// question.
+    /// question, and a sweep can go on.
     pub fn drawn(&mut self) {
         self.asked = true;
+        self.sweep_on();
     }
 
     /// A key was pressed while a file is being written.

@@ -6,13 +6,15 @@ mod cursor;
 mod files;
 mod lesson;
 mod snapshot;
+mod sweep;
 mod time;
 mod turn;
 mod update;
 mod verdict;
 
-pub use cursor::Cursor;
+pub use cursor::{Cursor, cell_of};
 pub use lesson::LessonProgress;
+pub use sweep::Sweep;
 pub use time::RATES;
 pub use update::Effect;
 pub use verdict::VerdictText;
@@ -22,6 +24,8 @@ use super::axis::AutoRange;
 use super::bindings::Context;
 use super::engine::{Moment, Order, Snapshot};
 use super::history::BinHistory;
+use super::knobs::{KNOBS, Knob};
+use super::line::Line;
 use super::raster::Marker;
 use super::theme::Theme;
 use super::views::ViewId;
@@ -35,6 +39,20 @@ pub struct Baseline {
     pub history: BinHistory,
     /// Its verdict.
     pub words: VerdictText,
+    /// Its scene.
+    pub scene: CheckedScene,
+}
+
+impl Baseline {
+    /// What was pinned: the knobs in which it differs from the present scene, and
+    /// its verdict.
+    pub fn what(&self, app: &App) -> String {
+        let differs = |knob: &&Knob| knob.get(&self.scene) != knob.get(&app.scene);
+        let shown = |knob: &Knob| format!("{} {}", knob.label, knob.shown(&knob.get(&self.scene)));
+        let mut parts: Vec<String> = KNOBS.iter().filter(differs).take(2).map(shown).collect();
+        parts.push(self.words.word.clone());
+        parts.join(", ")
+    }
 }
 
 /// The purpose of a file name that is typed.
@@ -74,6 +92,8 @@ pub enum InputMode {
     Typing(String),
     /// The help is open, scrolled down by some lines.
     Help(u16),
+    /// The end of a sweep of the selected knob is being typed.
+    Sweeping(String),
     /// A file name is being typed.
     Naming(Purpose, String),
     /// A question: replace the existing file?
@@ -157,9 +177,12 @@ pub struct App {
     pub history: BinHistory,
     /// The parts of the latest snapshot that belong to this scene.
     pub latest: Snapshot,
-    /// The state of which whole waves are drawn. It changes a few times per
-    /// second: a new one in every frame is too much for a slow connection.
-    pub throttled: Option<Moment>,
+    /// Whether the motion slows down at changes of contact and hurries between.
+    pub slow_at_events: bool,
+    /// The sweep of a knob that is under way.
+    pub sweep: Option<Sweep>,
+    /// How much the terminal is sent.
+    pub line: Line,
     /// Width and height of the screen, in cells.
     pub size: (u16, u16),
     /// The record under the other contact law.
@@ -201,6 +224,11 @@ struct Counters {
     steps: u64,
     jumps: u64,
     pulses: u64,
+    /// The latest jump whose result was told.
+    met: u64,
+    /// How often the end of the run was told.
+    ends: u64,
+    extensions: u64,
 }
 
 impl App {
@@ -236,7 +264,9 @@ impl App {
             live: false,
             history: BinHistory::default(),
             latest: Snapshot::default(),
-            throttled: None,
+            slow_at_events: true,
+            sweep: None,
+            line: Line::Auto,
             size: (80, 24),
             comparison_history: BinHistory::default(),
             baseline: None,
@@ -262,7 +292,7 @@ impl App {
         match self.mode {
             InputMode::Main if self.reading => Context::Reading,
             InputMode::Main => Context::Main,
-            InputMode::Typing(_) => Context::Typing,
+            InputMode::Typing(_) | InputMode::Sweeping(_) => Context::Typing,
             InputMode::Help(_) => Context::Help,
             InputMode::Naming(..) => Context::Typing,
             InputMode::Replacing(..) => Context::Replacing,
@@ -280,9 +310,12 @@ impl App {
             jumps: self.counters.jumps,
             pulses: self.counters.pulses,
             playing: self.playing,
+            extensions: self.counters.extensions,
             rate: self.rate(),
             bin_s: self.page_s() / BINS_PER_PAGE,
             compare: self.compare,
+            slow_at_events: self.slow_at_events,
+            cursor_s: self.cursor_time(),
             open: ViewId::all().filter(|view| self.is_open(*view)).collect(),
         }
     }
@@ -291,6 +324,13 @@ impl App {
     pub fn is_open(&self, view: ViewId) -> bool {
         let mut companions = self.companions.iter().take(self.companions_shown);
         view == self.view || (!self.full_screen && companions.any(|other| *other == view))
+    }
+
+    /// The instant that every panel shows: that under the reading cursor, or now.
+    pub fn shown(&self) -> Option<&Moment> {
+        let reading = self.latest.results.reading.as_deref();
+        let reading = reading.filter(|_| self.cursor_time().is_some());
+        reading.or(self.latest.moment.as_ref())
     }
 
     /// The current rotor speed \[rad/s\].

@@ -3,12 +3,12 @@
 
 use super::{App, Ranges};
 use crate::motion::ActiveSet;
-use crate::tui::axis::AutoRange;
+use crate::tui::axis::{AutoRange, readable};
 use crate::tui::engine::{Results, Snapshot};
 use crate::tui::history::{Bin, Channel};
 
-/// Updates of whole waves while a page fills: about one per second.
-const THROTTLED_PER_PAGE: f64 = 4.5;
+/// Part of a page for which a held corner counts as standing still.
+const STILL: f64 = 0.2;
 
 impl App {
     /// Applies a snapshot; false if it is too old.
@@ -23,16 +23,6 @@ impl App {
         self.grow_ranges(&snapshot.bins);
         self.history.extend(&std::mem::take(&mut snapshot.bins));
         self.comparison_history.extend(&std::mem::take(&mut snapshot.comparison_bins));
-        let due = match (&self.throttled, &snapshot.moment) {
-            (Some(shown), Some(now)) => {
-                let elapsed = now.state.t_s - shown.state.t_s;
-                !self.playing || elapsed < 0.0 || elapsed >= self.page_s() / THROTTLED_PER_PAGE
-            }
-            _ => true,
-        };
-        if due {
-            self.throttled.clone_from(&snapshot.moment);
-        }
         let known = std::mem::take(&mut self.latest);
         let results = match snapshot.generation == self.order().generation() {
             // An old study stays on the screen until there is a new one.
@@ -46,8 +36,45 @@ impl App {
         };
         self.latest = Snapshot { results, trouble: known.trouble, ..snapshot };
         self.turn_page();
+        self.grow_to_forecast();
+        self.tell_moment();
         self.check_lesson();
         true
+    }
+
+    /// Grows the ranges to hold the part of the forecast that is on the page.
+    fn grow_to_forecast(&mut self) {
+        let (from, to) = self.page();
+        let Some(run) = self.full_run().filter(|_| self.ranges.follow) else { return };
+        let span = |place: usize| {
+            let values = run.trace.between(place, from, to).map(|(_, value)| (value, value));
+            values.filter(|(value, _)| value.is_finite()).reduce(wider)
+        };
+        let [casing, blades] =
+            [[0, 1], [2, 3]].map(|places| places.into_iter().filter_map(span).reduce(wider));
+        for (range, data) in [(&mut self.ranges.casing, casing), (&mut self.ranges.blades, blades)]
+        {
+            grow(range, data);
+        }
+    }
+
+    /// Says what a jump has met, and that the run has come to its end.
+    fn tell_moment(&mut self) {
+        let Some(moment) = &self.latest.moment else { return };
+        let (jumps, met) = moment.met;
+        if jumps == self.counters.jumps && jumps > self.counters.met {
+            self.counters.met = jumps;
+            self.status = Some(match met {
+                Some(mark) => format!("{}: {}", readable(mark.t_s, "s"), self.happening(mark.what)),
+                None => "no change of contact comes soon".into(),
+            });
+        }
+        if moment.ends > self.counters.ends {
+            self.counters.ends = moment.ends;
+            if std::mem::take(&mut self.playing) {
+                self.status = Some("the end of the run; Space goes on".into());
+            }
+        }
     }
 
     /// Grows the ranges to hold new data at once.
@@ -55,13 +82,6 @@ impl App {
         if !self.ranges.follow {
             return;
         }
-        let grow = |range: &mut AutoRange, data: Option<(f64, f64)>| {
-            if let Some((low, high)) = data
-                && (low < range.low || high > range.high)
-            {
-                range.follow(low.min(range.low), high.max(range.high));
-            }
-        };
         let Ranges { casing, blades, gaps, .. } = &mut self.ranges;
         grow(casing, extremes(bins, CASING));
         grow(blades, extremes(bins, BLADES));
@@ -97,8 +117,7 @@ impl App {
         !self.playing
             || self.latest.moment.as_ref().is_some_and(|moment| {
                 let held = moment.state.t_s - moment.since;
-                matches!(moment.active_set, ActiveSet::Corner(..))
-                    && held > self.page_s() / THROTTLED_PER_PAGE
+                matches!(moment.active_set, ActiveSet::Corner(..)) && held > self.page_s() * STILL
             })
     }
 }
@@ -108,7 +127,18 @@ const BLADES: [Channel; 2] = [Channel::AlphaC, Channel::AlphaS];
 
 fn extremes(bins: &[Bin], channels: [Channel; 2]) -> Option<(f64, f64)> {
     let spans = bins.iter().flat_map(|bin| channels.map(|channel| bin.span(channel)));
-    spans
-        .filter(|(low, high)| low.is_finite() && high.is_finite())
-        .reduce(|(a, b), (low, high)| (a.min(low), b.max(high)))
+    spans.filter(|(low, high)| low.is_finite() && high.is_finite()).reduce(wider)
+}
+
+fn wider((a, b): (f64, f64), (low, high): (f64, f64)) -> (f64, f64) {
+    (a.min(low), b.max(high))
+}
+
+/// Grows a range at once to hold data.
+fn grow(range: &mut AutoRange, data: Option<(f64, f64)>) {
+    if let Some((low, high)) = data
+        && (low < range.low || high > range.high)
+    {
+        range.follow(low.min(range.low), high.max(range.high));
+    }
 }

@@ -49,6 +49,12 @@ impl App {
         self.latest.moment.as_ref().map_or(0.0, |moment| moment.state.t_s)
     }
 
+    /// The end of the forecast \[s\].
+    pub fn end_s(&self) -> f64 {
+        let end = self.latest.results.end_s;
+        if end > 0.0 { end } else { self.scene.solver.end_s }
+    }
+
     /// The page that is shown, from and to \[s\].
     pub fn page(&self) -> (f64, f64) {
         let length = self.page_s();
@@ -68,10 +74,12 @@ impl App {
         ((self.now() - from) / (to - from)).clamp(0.0, 1.0)
     }
 
-    /// Goes a page back, or forward again.
+    /// Goes a page back, or forward, as far as the forecast.
     pub(super) fn pan(&mut self, back: bool) {
-        let most = self.page_number();
-        self.pages_back = (self.pages_back + if back { 1 } else { -1 }).clamp(0, most);
+        let last = (self.end_s() / self.page_s() - 1e-9).floor().max(0.0) as i64;
+        let now = self.page_number();
+        let pages = self.pages_back + if back { 1 } else { -1 };
+        self.pages_back = pages.clamp((now - last).min(0), now);
     }
 
     /// The rate in words: `1/200 of real time`.

@@ -51,13 +51,18 @@ impl App {
     /// Makes a scene that differs in knobs the current one; it can be undone.
     pub(super) fn turn_to(&mut self, scene: CheckedScene) {
         if scene != self.scene {
-            self.undo.push(self.scene.clone());
-            if self.undo.len() > UNDO_KEPT {
-                self.undo.remove(0);
-            }
-            self.redo.clear();
+            self.remember();
             self.set_turned_scene(scene);
         }
+    }
+
+    /// Keeps the present scene, so that what follows can be undone.
+    pub(super) fn remember(&mut self) {
+        self.undo.push(self.scene.clone());
+        if self.undo.len() > UNDO_KEPT {
+            self.undo.remove(0);
+        }
+        self.redo.clear();
     }
 
     /// Sets a knob; false where the value was refused.
@@ -79,7 +84,7 @@ impl App {
     }
 
     /// Uses the scene after a turn of a knob: live, if this is enabled and possible.
-    fn set_turned_scene(&mut self, scene: CheckedScene) {
+    pub(super) fn set_turned_scene(&mut self, scene: CheckedScene) {
         let failed = self.failure().is_some();
         let live = self.live && !failed && acts_live(&self.scene, &scene);
         if self.live && !live && self.status.is_none() {
@@ -122,7 +127,7 @@ impl App {
         self.history.clear();
         self.comparison_history.clear();
         self.pages_back = 0;
-        self.throttled = None;
+        (self.counters.ends, self.counters.extensions) = (0, 0);
         self.forget_forecasts();
         let results = std::mem::take(&mut self.latest.results);
         self.latest = Snapshot { results, ..Snapshot::default() };

@@ -5,6 +5,7 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use super::time::MOST_ZOOM;
 use super::{App, Baseline, InputMode, Purpose, RATES};
 use crate::report::line;
+use crate::tui::axis::readable;
 use crate::tui::bindings::{Action, Chord, lookup};
 use crate::tui::files::FileJob;
 use crate::tui::knobs::KNOBS;
@@ -35,6 +36,7 @@ impl App {
     /// Handles a key press.
     pub fn key(&mut self, event: &KeyEvent) -> Effect {
         self.disturb();
+        self.stop_sweep();
         if event.modifiers.contains(KeyModifiers::ALT) && event.code != KeyCode::Esc {
             // Escape and a key that arrive together look like Alt and that key.
             self.act(Action::Close);
@@ -77,7 +79,9 @@ impl App {
     /// The text that is being typed.
     fn typed(&mut self) -> Option<&mut String> {
         match &mut self.mode {
-            InputMode::Typing(text) | InputMode::Naming(_, text) => Some(text),
+            InputMode::Typing(text) | InputMode::Sweeping(text) | InputMode::Naming(_, text) => {
+                Some(text)
+            }
             _ => None,
         }
     }
@@ -124,6 +128,7 @@ impl App {
             (InputMode::Lessons(place), Action::Accept) => self.begin_lesson(place),
             (_, Action::Copy) => return Effect::Copy(self.copied()),
             (InputMode::Typing(text), Action::Accept) => self.accept(&text),
+            (InputMode::Sweeping(text), Action::Accept) => self.begin_sweep(&text),
             (_, Action::Close) => self.close(),
             _ => self.act_main(action),
         }
@@ -134,7 +139,7 @@ impl App {
         self.refusal = None;
         if self.mode != InputMode::Main {
             self.mode = InputMode::Main;
-        } else if self.reading || self.cursor.is_some() || self.pages_back > 0 {
+        } else if self.reading || self.cursor.is_some() || self.pages_back != 0 {
             (self.reading, self.cursor) = (false, None);
             self.pages_back = 0;
         } else {
@@ -158,7 +163,13 @@ impl App {
             Action::Reset => self.reset(),
             Action::Undo => self.step_back(false),
             Action::Redo => self.step_back(true),
-            Action::Pause => self.playing = !self.playing,
+            Action::Pause => {
+                self.playing = !self.playing;
+                // Told more often than gone on: the motion waits at the end.
+                if self.playing && self.counters.ends > self.counters.extensions {
+                    self.counters.extensions = self.counters.ends;
+                }
+            }
             Action::Step => {
                 self.playing = false;
                 self.counters.steps += 1;
@@ -203,6 +214,14 @@ impl App {
                 let pulse = pulse.map(|knob| knob.shown(&knob.get(&self.scene)));
                 self.status = pulse.map(|pulse| format!("pulse of {pulse} fired"));
             }
+            Action::Sweep => self.ask_sweep(),
+            Action::SlowAtEvents => {
+                self.slow_at_events = !self.slow_at_events;
+                self.status = Some(match self.slow_at_events {
+                    true => "slower at changes of contact, faster between".into(),
+                    false => "the same pace all the time".to_string(),
+                });
+            }
             Action::Slower => self.rate = self.rate.saturating_sub(1),
             Action::Faster => self.rate = (self.rate + 1).min(RATES.len() - 1),
             Action::ZoomIn => self.zoom = (self.zoom + 1).min(MOST_ZOOM),
@@ -237,8 +256,11 @@ impl App {
             self.status = Some("baseline removed".into());
             return;
         }
-        self.baseline = Some(Baseline { history: self.history.clone(), words: self.verdict() });
-        self.status = Some("this run stays on the chart as a baseline".into());
+        let (history, scene) = (self.history.clone(), self.scene.clone());
+        let words = self.verdict();
+        let what = format!("{} at {}", words.word, readable(self.speed(), "rad/s"));
+        self.baseline = Some(Baseline { history, words, scene });
+        self.status = Some(format!("pinned behind the next runs: {what}"));
     }
 
     /// Makes a view the large one; the former one takes its place.

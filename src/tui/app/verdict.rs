@@ -6,6 +6,7 @@ use crate::motion::{ActiveSet, Verdict};
 use crate::tui::axis::readable;
 use crate::tui::engine::{FORECAST_LIMIT, FullRun, FullRunState};
 use crate::tui::theme::Role;
+use crate::tui::trace::{Happening, Mark};
 
 /// A verdict as the header shows it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -75,9 +76,9 @@ impl App {
     pub(crate) fn words(&self, run: &FullRun) -> VerdictText {
         let since = run.since.map_or(String::new(), |t| format!("since {}", readable(t, "s")));
         let tensile = run.checks.tensile_steps;
-        let blades = self.blades_of(run.multipliers.iter().map(|(side, _)| *side));
+        let blades = self.numbers_of(run.multipliers.iter().map(|(side, _)| *side));
         let (detail, role) = match run.verdict {
-            Verdict::Locked => (join(&[&blades, &since]), Role::Contact),
+            Verdict::Locked => (format!("on {blades} {since}"), Role::Contact),
             Verdict::Adhesive => {
                 let pulled = run.multipliers.iter().filter(|(_, force)| *force > 0.0);
                 let pulled = self.blades_of(pulled.map(|(side, _)| *side));
@@ -95,8 +96,16 @@ impl App {
                 run.verdict,
                 Verdict::Locked | Verdict::Decay | Verdict::Slip | Verdict::Bounce
             );
-        let detail =
-            if pulls { format!("{detail}, {}", plural(tensile, "tensile step")) } else { detail };
+        let mut parts = vec![detail];
+        if let Some((hold, speed)) = &run.broken {
+            let (at, speed) = (readable(hold.ended, "s"), readable(*speed, "rad/s"));
+            parts.push(format!("lock broken at {at}, {speed}"));
+        }
+        if pulls {
+            parts.push(plural(tensile, "tensile step"));
+        }
+        let parts: Vec<&str> = parts.iter().map(String::as_str).collect();
+        let detail = join(&parts);
         VerdictText { word: run.verdict.as_ref().to_uppercase(), detail, role }
     }
 
@@ -110,16 +119,16 @@ impl App {
         let why = if self.latest.results.sensitive {
             "the scene is sensitive".to_string()
         } else if own.checks.tensile_steps > 0 {
-            format!("here {} pulled", plural(own.checks.tensile_steps, "step"))
+            plural(own.checks.tensile_steps, "pull") + " here"
         } else {
             "step too large".to_string()
         };
-        Some(format!("event solver, unilateral: {} ({why})", other.verdict))
+        Some(format!("event, unilateral: {} ({why})", other.verdict))
     }
 
-    /// The blades in contact now, in words.
-    pub fn contact_now(&self) -> String {
-        let Some(moment) = &self.latest.moment else { return String::new() };
+    /// The blades in contact at the instant that is shown, in words.
+    pub fn contact_shown(&self) -> String {
+        let Some(moment) = self.shown() else { return String::new() };
         if let Some(failure) = &moment.failure {
             return failure.clone();
         }
@@ -131,22 +140,65 @@ impl App {
         }
     }
 
+    /// The state of the motion now: `free`, `touching 12`, `held on 6 + 21`.
+    pub fn state_now(&self) -> String {
+        let Some(moment) = &self.latest.moment else { return "starting".into() };
+        if moment.failure.is_some() {
+            return "failed".into();
+        }
+        self.state_of(moment.active_set)
+    }
+
+    fn state_of(&self, active_set: ActiveSet) -> String {
+        match active_set {
+            ActiveSet::Nothing => "free".into(),
+            ActiveSet::Side(side) => format!("touching {}", self.numbers_of([side].into_iter())),
+            ActiveSet::Corner(a, b) => format!("held on {}", self.numbers_of([a, b].into_iter())),
+            ActiveSet::Many => "touching many".into(),
+        }
+    }
+
+    /// A change of contact in words.
+    pub fn happening(&self, what: Happening) -> String {
+        match what {
+            Happening::Impact(side) => format!("impact on {}", self.numbers_of([side].into_iter())),
+            Happening::Contact(active_set) => self.state_of(active_set),
+            Happening::Release(ActiveSet::Side(side)) => {
+                format!("{} lets go", self.numbers_of([side].into_iter()))
+            }
+            Happening::Release(ActiveSet::Corner(a, b)) => {
+                format!("{} let go", self.numbers_of([a, b].into_iter()))
+            }
+            Happening::Release(_) => "all let go".into(),
+        }
+    }
+
+    /// The next change of contact: when, and what.
+    pub fn next_change(&self) -> Option<Mark> {
+        let now = self.now();
+        self.full_run()?.marks.iter().find(|mark| mark.t_s > now).copied()
+    }
+
     /// The blades of some sides, `blades 6 + 21`.
     pub fn blades_of(&self, sides: impl Iterator<Item = u32>) -> String {
+        let numbers = self.numbers_of(sides);
+        match numbers.chars().any(|letter| matches!(letter, '+' | ',')) {
+            _ if numbers.is_empty() => numbers,
+            true => format!("blades {numbers}"),
+            false => format!("blade {numbers}"),
+        }
+    }
+
+    /// The numbers of the blades of some sides, `6 + 21`.
+    pub fn numbers_of(&self, sides: impl Iterator<Item = u32>) -> String {
         let mut groups: Vec<String> = Vec::new();
-        let mut count = 0;
         for side in sides.take(4) {
             let blades = self.machine.polygon.blades_of_side(side);
-            count += blades.len();
             let names: Vec<String> = blades.iter().take(3).map(ToString::to_string).collect();
             let more = if blades.len() > 3 { ",.." } else { "" };
             groups.push(format!("{}{more}", names.join(",")));
         }
-        match count {
-            0 => String::new(),
-            1 => format!("blade {}", groups.join(" + ")),
-            _ => format!("blades {}", groups.join(" + ")),
-        }
+        groups.join(" + ")
     }
 }
 

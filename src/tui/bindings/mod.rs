@@ -32,6 +32,8 @@ pub enum Action {
     Step,
     Restart,
     Fire,
+    Sweep,
+    SlowAtEvents,
     Slower,
     Faster,
     ZoomIn,

@@ -88,6 +88,13 @@ const BEFORE_VIEWS: &[Binding] = &[
     bind!(Main, [letter('p')], Action::Fire, "fire the pulse into the running motion", "p" "pulse"),
     bind!(Main, [letter('[')], Action::Slower, "slower motion", "[ ]" "slower, faster"),
     bind!(Main, [letter(']')], Action::Faster, "faster motion"),
+    bind!(
+        Main,
+        [letter('z')],
+        Action::SlowAtEvents,
+        "slower at changes of contact and faster between, or not"
+    ),
+    bind!(Main, [letter('S')], Action::Sweep, "sweep the selected knob from its value to another"),
     bind!(Main, [letter('f')], Action::FullScreen, "one chart over the whole screen, or back", "f" "full"),
     bind!(Main, [letter('.')], Action::Step, "one step (pauses)", "." "step"),
     bind!(Main, [key(KeyCode::Backspace)], Action::Reset, "back to the scene's value"),

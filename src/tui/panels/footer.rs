@@ -16,6 +16,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
         InputMode::Naming(Purpose::Export, name) => {
             Some(format!("export as (.csv data, .svg picture): {name}_"))
         }
+        InputMode::Sweeping(text) => app.sweep_question(text),
         InputMode::Replacing(_, name) => Some(format!("{name} exists: y replaces it, n leaves it")),
         _ => None,
     };

@@ -1,98 +1,248 @@
-//! The two lines at the top: scene and verdict; speeds, solver, time.
+//! The two lines at the top. The first: what is now, and what will be at the end
+//! of the run. The second: where the limits are, whether another solver or a
+//! small change says otherwise, and the solver.
 
-use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
+use ratatui::{buffer::Buffer, layout::Rect, style::Modifier, style::Style};
 
 use crate::report::number::trimmed;
 use crate::tui::app::App;
 use crate::tui::axis::readable;
-use crate::tui::text::{columns, pieces, print, shorten};
+use crate::tui::engine::Limit;
+use crate::tui::text::{columns, print, shorten};
 use crate::tui::theme::Role;
+
+/// Columns that the words after the verdict should have, if there are any.
+const DETAIL: usize = 24;
+/// From this width on, the next change of contact is told.
+const ROOMY: usize = 110;
+/// From this width on, the second line has the limits in full and the solver,
+const WIDE: u16 = 100;
+/// and from this one on the limits beside a doubt.
+const MEDIUM: u16 = 60;
+/// Columns of a title that can be recognised.
+const LEAST_TITLE: u16 = 8;
+
+type Parts = Vec<(String, Style)>;
 
 /// Draws both lines.
 pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
-    verdict(app, buffer, area);
-    speeds(app, buffer, area);
+    let used = line(app, buffer, area, 0, &now_and_end(app, usize::from(area.width)));
+    title(app, buffer, area, used);
+    let mut parts = pace(app);
+    if area.width >= WIDE {
+        parts.extend(limits(app));
+        parts.extend(doubts(app));
+        parts.extend(solver(app));
+    } else {
+        let doubted = app.disagreement().is_some();
+        if !doubted || area.width >= MEDIUM {
+            parts.extend(short_limits(app));
+        }
+        parts.extend(doubts(app));
+        parts.extend(if doubted { Parts::new() } else { solver(app) });
+    }
+    line(app, buffer, area, 1, &parts);
 }
 
-fn verdict(app: &App, buffer: &mut Buffer, area: Rect) {
+/// The title of the scene at the right end, if there is room.
+fn title(app: &App, buffer: &mut Buffer, area: Rect, used: u16) {
     let look = &app.appearance;
-    let words = app.verdict();
-    let width = usize::from(area.width);
-    let word = format!(" {} ", words.word);
-    let style = look.style(words.role).add_modifier(Modifier::BOLD | Modifier::REVERSED);
-    let mut detail = words.detail;
-    if let Some(other) = app.disagreement() {
-        detail = format!("{detail} | {other}");
+    let left = area.width.saturating_sub(used.saturating_add(2));
+    if left < LEAST_TITLE {
+        return;
     }
+    let title = shorten(&look.spell(&app.scene.title), usize::from(left), look.either("…", ".."));
+    let wide = u16::try_from(columns(&title)).unwrap_or(u16::MAX).min(left);
+    let right = Rect { x: area.right() - wide, width: wide, ..area };
+    print(buffer, right, 0, &title, look.style(Role::Quiet));
+}
+
+/// Pieces of one row; the one that does not fit ends in an ellipsis. The columns
+/// that they take.
+fn line(app: &App, buffer: &mut Buffer, area: Rect, row: u16, parts: &Parts) -> u16 {
+    let look = &app.appearance;
+    let mut x = area.x;
+    for (text, style) in parts {
+        let left = usize::from(area.right().saturating_sub(x));
+        let text = shorten(&look.spell(text), left, look.either("…", ".."));
+        if left == 0 || row >= area.height {
+            break;
+        }
+        buffer.set_string(x, area.y + row, &text, *style);
+        x = x.saturating_add(u16::try_from(columns(&text)).unwrap_or(u16::MAX));
+    }
+    x - area.x
+}
+
+/// `NOW free ► 12.7 ms 430.2 rad/s | AT 100 ms LOCKED on 6 + 21 since 76.9 ms`.
+fn now_and_end(app: &App, width: usize) -> Parts {
+    let look = &app.appearance;
+    let quiet = look.style(Role::Quiet);
+    let words = app.verdict();
+    let word = format!(" {} ", words.word);
+    let mut detail = words.detail;
     if let Some(baseline) = &app.baseline
         && baseline.words.word != words.word
     {
         detail = format!("{detail} | pinned: {}", baseline.words.word);
     }
-    let detail = look.spell(&detail);
-    // The word is always shown; its detail, then the title, use the remaining room.
-    let title = look.spell(&app.scene.title);
-    let room = width.saturating_sub(columns(&word) + 1);
-    let detail = shorten(&detail, room, look.either("…", ".."));
-    let left = room.saturating_sub(columns(&detail) + 2);
-    let title =
-        if left >= 8 { shorten(&title, left, look.either("…", "..")) } else { String::new() };
-    print(buffer, area, 0, &word, style);
-    let after = Rect {
-        x: area.x + cells(&word) + 1,
-        width: area.width.saturating_sub(cells(&word) + 1),
-        ..area
+    let at = format!(" | AT {} ", duration(app.end_s()));
+    let needed = |now: &Parts, detail: usize| {
+        let now: usize = now.iter().map(|(text, _)| columns(text)).sum();
+        now + columns(&at) + columns(&word) + detail <= width
     };
-    print(buffer, after, 0, &detail, look.style(words.role));
-    let start = area.width.saturating_sub(cells(&title));
-    let right = Rect { x: area.x + start, width: area.width - start, ..area };
-    print(buffer, right, 0, &title, look.style(Role::Quiet));
+    let wanted = (columns(&detail) + 1).min(DETAIL);
+    let mut now = now(app, 3);
+    for much in [2, 1, 0] {
+        let room = if much == 2 { width >= ROOMY } else { true };
+        if room && needed(&now, if much == 0 { 0 } else { wanted }) {
+            break;
+        }
+        now = self::now(app, much);
+    }
+    now.push((at, quiet));
+    let loud = look.style(words.role).add_modifier(Modifier::BOLD | Modifier::REVERSED);
+    now.push((word, loud));
+    if !detail.is_empty() {
+        now.push((format!(" {detail}"), look.style(words.role)));
+    }
+    now
 }
 
-fn cells(text: &str) -> u16 {
-    u16::try_from(columns(text)).unwrap_or(u16::MAX)
+/// What is now: 3 all of it, 2 without the next change, 1 without speed, 0 in
+/// one word.
+fn now(app: &App, much: u8) -> Parts {
+    let look = &app.appearance;
+    let (text, quiet) = (look.style(Role::Text), look.style(Role::Quiet));
+    let state = app.state_now();
+    let touches = state != "free" && state != "starting";
+    let role = if touches { Role::Contact } else { Role::Text };
+    let state = match much {
+        0 => state.split(' ').next().unwrap_or_default().to_string(),
+        _ => state,
+    };
+    let go = if app.playing { look.either('►', '>') } else { look.either('‖', '=') };
+    let mut parts = vec![
+        ("NOW ".to_string(), quiet),
+        (state, look.style(role)),
+        (format!(" {go} "), look.style(Role::Focus)),
+        (readable(app.now(), "s"), text),
+    ];
+    if much >= 2 {
+        let ramp = app.scene.operation.speed_ramp_rad_s2;
+        let arrow = match ramp.total_cmp(&0.0) {
+            std::cmp::Ordering::Greater => "↑",
+            std::cmp::Ordering::Less => "↓",
+            std::cmp::Ordering::Equal => "",
+        };
+        let arrow = if ramp == 0.0 { "" } else { arrow };
+        parts.push((format!("  {}{arrow}", readable(app.speed(), "rad/s")), text));
+    }
+    if much >= 3
+        && let Some(next) = app.next_change()
+    {
+        let (what, after) = (app.happening(next.what), readable(next.t_s - app.now(), "s"));
+        parts.push((format!("  next: {what} in {after}"), quiet));
+    }
+    parts
 }
 
-fn speeds(app: &App, buffer: &mut Buffer, area: Rect) {
+/// How it plays.
+fn pace(app: &App) -> Parts {
+    let look = &app.appearance;
+    let (quiet, focus) = (look.style(Role::Quiet), look.style(Role::Focus));
+    let limit = match app.latest.results.pace.limit {
+        Limit::None => "",
+        Limit::Solver => " (solver's limit)",
+        Limit::Wave => " (slowed: the wave)",
+    };
+    let mut parts = vec![(format!("{}{limit}", app.rate_text()), quiet)];
+    if app.pages_back != 0 {
+        let (count, word) = (app.pages_back, if app.pages_back > 0 { "back" } else { "ahead" });
+        parts.push((format!(" {} {word}", count.abs()), focus));
+    }
+    if app.live {
+        parts.push((" LIVE".into(), focus));
+    }
+    parts
+}
+
+/// The limits as numbers, and the present speed in parts of them.
+fn limits(app: &App) -> Parts {
+    let look = &app.appearance;
+    let (text, quiet) = (look.style(Role::Text), look.style(Role::Quiet));
+    let speed = app.speed().abs();
+    let mut parts = Vec::new();
+    let limits = [("c", app.machine.critical_speed()), ("lock", app.machine.lock_speed())];
+    for (name, limit) in limits {
+        parts.push((format!("  Ω/Ω_{name} "), quiet));
+        match limit.filter(|limit| *limit > 0.0) {
+            Some(limit) => {
+                parts.push((format!("{:.3}", speed / limit), text));
+                parts.push((format!(" of {}", short(limit)), quiet));
+            }
+            None => parts.push(("-".into(), text)),
+        }
+    }
+    let coincidence = app.machine.dangerous_speed().map(|speed| (" · coincidence", speed));
+    parts.extend(coincidence.map(|(name, speed)| (format!("{name} {}", short(speed)), quiet)));
+    parts
+}
+
+/// The limits alone.
+fn short_limits(app: &App) -> Parts {
     let look = &app.appearance;
     let (text, quiet) = (look.style(Role::Text), look.style(Role::Quiet));
     let mut parts = Vec::new();
-    let speed = app.speed().abs();
-    let ratio = |of: Option<f64>| {
-        of.filter(|of| *of > 0.0).map_or("-".to_string(), |of| format!("{:.3}", speed / of))
-    };
-    parts.push((look.spell("Ω/Ω_c "), quiet));
-    parts.push((ratio(app.machine.critical_speed()), text));
-    parts.push((look.spell(" Ω/Ω_lock "), quiet));
-    parts.push((ratio(app.machine.lock_speed()), text));
-    let go = if app.playing { look.either("►", ">") } else { look.either("‖", "=") };
-    parts.push((format!("  {go} "), look.style(Role::Focus)));
-    parts.push((look.spell(&readable(app.now(), "s")), text));
-    let limited = if app.latest.results.pace.limited { " (solver's limit)" } else { "" };
-    parts.push((format!(" {}{limited}", app.rate_text()), quiet));
-    if app.pages_back > 0 {
-        parts.push((format!(" {} back", app.pages_back), look.style(Role::Focus)));
+    let limits = [("c", app.machine.critical_speed()), ("lock", app.machine.lock_speed())];
+    for (name, limit) in limits {
+        parts.push((format!("  Ω_{name} "), quiet));
+        parts.push((limit.map_or("-".into(), short), text));
     }
-    if app.live {
-        parts.push((" LIVE".into(), look.style(Role::Focus)));
-    }
-    let solver = &app.scene.solver;
-    parts.push((format!("  {}", solver.kind), text));
-    if let Some(step) = app.latest.results.pace.step_s {
-        parts.push((look.spell(&format!(" {}/step", short(step))), text));
-    }
-    if let Some(run) = app.latest.results.pace.run_s {
-        let run = format!(", {} in {}", short(solver.end_s), short(run));
-        parts.push((look.spell(&run), quiet));
-    }
-    parts.push((format!("  {} {}", solver.contact, solver.model), quiet));
-    pieces(buffer, area, 1, &parts);
+    parts.push((" rad/s".into(), quiet));
+    parts
 }
 
-/// Two or three digits are enough for a speed.
-fn short(seconds: f64) -> String {
+/// Four or five digits are enough for a limit.
+fn short(speed: f64) -> String {
+    let decimals = if speed < 10.0 { 3 } else { 1 };
+    trimmed(&format!("{speed:.decimals$}")).to_string()
+}
+
+/// Whether another solver, or a small change, says otherwise.
+fn doubts(app: &App) -> Parts {
+    let look = &app.appearance;
+    let known = app.full_run().zip(app.latest.results.reference.as_ref()).is_some();
+    match app.disagreement() {
+        Some(other) => vec![(format!("  | {other}"), look.style(Role::Trouble))],
+        None if known => vec![("  | event agrees".into(), look.style(Role::Quiet))],
+        None => Parts::new(),
+    }
+}
+
+/// The solver and its speed; the scene.
+fn solver(app: &App) -> Parts {
+    let look = &app.appearance;
+    let (text, quiet) = (look.style(Role::Text), look.style(Role::Quiet));
+    let solver = &app.scene.solver;
+    let mut parts = vec![
+        ("  ".to_string(), quiet),
+        (solver.kind.to_string(), text),
+        (format!(" {} {}", solver.contact, solver.model), quiet),
+    ];
+    if let Some(step) = app.latest.results.pace.step_s {
+        parts.push((format!(" {}/step", duration(step)), text));
+    }
+    if let Some(run) = app.latest.results.pace.run_s {
+        parts.push((format!(", {} in {}", duration(solver.end_s), duration(run)), quiet));
+    }
+    parts
+}
+
+/// Two or three digits are enough for a duration.
+fn duration(seconds: f64) -> String {
     let scale = crate::tui::axis::SiScale::of(seconds);
     let shown = seconds / scale.factor;
-    let decimals = usize::from(shown < 9.95);
+    let decimals = usize::from(shown < 99.95);
     format!("{} {}s", trimmed(&format!("{shown:.decimals$}")), scale.prefix)
 }

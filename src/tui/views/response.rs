@@ -5,15 +5,22 @@
 use ratatui::buffer::Buffer;
 
 use super::panel::{ViewArea, ViewPanel, csv, entry, names, title};
+use crate::motion::ActiveSet;
 use crate::tui::app::{App, Cursor};
 use crate::tui::axis::{AutoRange, ChartAxis, readable};
+use crate::tui::engine::{FullRun, Moment};
 use crate::tui::history::{BinHistory, Channel};
 use crate::tui::plot::Plot;
+use crate::tui::raster::Pen;
 use crate::tui::text::wrap;
 use crate::tui::theme::Role;
+use crate::tui::trace::Happening;
 
 /// From this height on, the blade coordinates have a separate chart.
 const TWO_FROM: u16 = 18;
+
+/// Most changes of contact on a page that are looked at for their names.
+const MOST_NAMES: usize = 500;
 
 /// The view.
 pub struct ResponseView;
@@ -90,6 +97,8 @@ struct Page<'a> {
     range: AutoRange,
     unit: &'static str,
     history: &'a BinHistory,
+    /// The run ahead of it.
+    forecast: Option<&'a FullRun>,
     /// Whether this is the running motion, drawn with its marks.
     own: bool,
 }
@@ -103,6 +112,7 @@ impl<'a> Page<'a> {
             range: app.ranges.casing,
             unit: "m",
             history: &app.history,
+            forecast: app.full_run(),
             own: true,
         }
     }
@@ -117,6 +127,7 @@ fn both_laws(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let word = comparison.map_or("...".to_string(), |outcome| app.words(outcome).word);
     let theirs = Page {
         history: &app.comparison_history,
+        forecast: comparison,
         own: false,
         ..Page::casing(format!("{}: {word}", law.other()), app)
     };
@@ -138,10 +149,12 @@ fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
     }
     legend.push((format!("{}{} over {}s", y.scale.prefix, what.unit, x.scale.prefix), quiet));
     if let Some(baseline) = app.baseline.as_ref().filter(|_| what.own) {
-        legend.push(entry(look, &look.quiet(), &format!("pinned: {}", baseline.words.word)));
-        legend.push((baseline.words.detail.clone(), quiet));
+        legend.push(entry(look, &look.quiet(), &format!("pinned: {}", baseline.what(app))));
     }
     legend.push((format!("{mark} contact"), look.style(Role::Contact)));
+    if what.forecast.is_some() {
+        legend.push((format!("{} to come", look.either("···", "...")), quiet));
+    }
     let inside = title(app, buffer, at, &what.name, &legend);
     let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
     plot.level(0.0, look.either('┈', '.'), quiet);
@@ -152,6 +165,7 @@ fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
     if let Some(baseline) = app.baseline.as_ref().filter(|_| what.own) {
         plot.spans(&baseline.history.columns(what.channels[0], from, to, columns), &look.quiet());
     }
+    ghost(app, &mut plot, what);
     for (channel, pen) in what.channels.iter().zip(&pens).rev() {
         plot.spans(&what.history.columns(*channel, from, to, columns), pen);
     }
@@ -163,6 +177,7 @@ fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
     for (column, _) in (plot.inner.x..).zip(contacts).filter(|(_, touched)| *touched) {
         plot.text(column, row, &mark.to_string(), look.style(Role::Contact));
     }
+    names_of_marks(app, &mut plot, what);
     if let Some(failure) = app.failure()
         && what.own
     {
@@ -174,10 +189,74 @@ fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
     }
 }
 
-/// The values at the reading cursor.
+/// The values at the reading cursor, computed for that instant.
 fn reading(app: &App, what: &Page) -> Option<String> {
-    let t = app.cursor_time()?;
-    let bin = what.history.at(t)?;
-    let [first, second] = what.channels.map(|channel| readable(bin.middle(channel), what.unit));
-    Some(format!("at {}: {first}, {second}", readable(t, "s")))
+    app.cursor_time()?;
+    let values = |moment: &Moment| match what.unit {
+        "rad" => moment.state.alpha,
+        _ => moment.state.u,
+    };
+    if !what.own {
+        // The other law is not computed again: its bin has least and greatest value.
+        let t = app.cursor_time()?;
+        let bin = what.history.at(t)?;
+        let [first, second] = what.channels.map(|channel| readable(bin.middle(channel), what.unit));
+        return Some(format!("near {}: {first}, {second}", readable(t, "s")));
+    }
+    let moment = app.latest.results.reading.as_deref()?;
+    let named = what.names.iter().zip(values(moment));
+    let named: Vec<String> =
+        named.map(|(name, value)| format!("{name} {}", readable(value, what.unit))).collect();
+    Some(format!("at {}: {}", readable(moment.state.t_s, "s"), named.join(", ")))
+}
+
+/// The run to come, in dots, and where nothing was recorded yet.
+fn ghost(app: &App, plot: &mut Plot, what: &Page) {
+    let Some(run) = what.forecast else { return };
+    let (from, to) = app.page();
+    let ahead = from.max(app.now());
+    let first = usize::from(what.unit == "rad") * 2;
+    let machine = &app.machine;
+    let fastest = machine.omega_c.max(machine.omega_bd).max(machine.nu(app.speed().abs()));
+    // A wave of which a point in many is known would be drawn as another wave.
+    if run.trace.step * fastest > 1.0 {
+        return;
+    }
+    let look = &app.appearance;
+    for (place, pen) in [(first + 1, look.second()), (first, look.first())] {
+        let pen = Pen { sign: '.', dashed: false, ..pen };
+        plot.dotted(run.trace.between(place, ahead, to), ahead, &pen);
+    }
+}
+
+/// The blades at the first contacts of the page, on the time axis.
+fn names_of_marks(app: &App, plot: &mut Plot, what: &Page) {
+    let Some(run) = what.forecast.filter(|_| what.own && what.unit == "m") else { return };
+    let (from, to) = app.page();
+    let look = &app.appearance;
+    let row = plot.inner.bottom().saturating_sub(1);
+    let sign = look.either('▲', '^');
+    let mut taken: Vec<(u16, u16)> = Vec::new();
+    let first = run.marks.partition_point(|mark| mark.t_s < from);
+    let on_page = || run.marks.iter().skip(first).take_while(|mark| mark.t_s <= to);
+    // Corners have their names first: they are what lasts.
+    for corners in [true, false] {
+        for mark in on_page().take(MOST_NAMES) {
+            let sides = match mark.what {
+                Happening::Contact(ActiveSet::Corner(a, b)) if corners => vec![a, b],
+                Happening::Contact(ActiveSet::Side(side)) if !corners => vec![side],
+                Happening::Impact(side) if !corners => vec![side],
+                _ => continue,
+            };
+            let name = app.numbers_of(sides.into_iter()).replace(' ', "");
+            let text = format!("{sign}{name}");
+            let wide = u16::try_from(text.chars().count()).unwrap_or(u16::MAX);
+            let Some(from) = plot.column(mark.t_s) else { continue };
+            let to = from.saturating_add(wide);
+            if to <= plot.inner.right() && taken.iter().all(|(a, b)| to < *a || from > *b) {
+                plot.text(from, row, &text, look.style(Role::Contact));
+                taken.push((from, to));
+            }
+        }
+    }
 }

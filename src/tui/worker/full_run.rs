@@ -1,11 +1,13 @@
 //! Computes the run to its end ahead of the playback, in slices so short that a
 //! newer order does not wait.
 
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use crate::motion::{Motion, Verdict, verdict_of};
 use crate::tolerances::LAST_PART;
 use crate::tui::engine::{FORECAST_LIMIT, FullRun, FullRunState};
+use crate::tui::trace::{Mark, Marks, Trace};
 
 /// A full run that is being computed.
 #[derive(Debug)]
@@ -15,7 +17,8 @@ pub struct FullRunJob {
     end: f64,
     window: f64,
     taken: u32,
-    signal: Vec<[f64; 2]>,
+    points: Vec<[f64; 4]>,
+    marks: Marks,
     wall: Duration,
     limit: Duration,
     steps: u64,
@@ -37,7 +40,8 @@ impl FullRunJob {
             end: start + length,
             window: LAST_PART * length,
             taken: 0,
-            signal: Vec::with_capacity(SAMPLES as usize),
+            points: vec![point(&motion)],
+            marks: Marks::from(motion.contacts()),
             wall: Duration::ZERO,
             limit: FORECAST_LIMIT,
             result: None,
@@ -63,7 +67,8 @@ impl FullRunJob {
             reached = self.motion.advance_while(sample, &go_on);
             if reached == Ok(true) {
                 self.taken += 1;
-                self.signal.push(self.motion.state().u);
+                self.points.push(point(&self.motion));
+                self.marks.look(self.motion.contacts());
             }
         }
         self.wall += began.elapsed();
@@ -73,8 +78,18 @@ impl FullRunJob {
     }
 
     /// `u_c` and `u_s` at equal intervals over the run so far \[m\].
-    pub fn signal(&self) -> &[[f64; 2]] {
-        &self.signal
+    pub fn signal(&self) -> Vec<[f64; 2]> {
+        self.points.iter().skip(1).map(|[u_c, u_s, ..]| [*u_c, *u_s]).collect()
+    }
+
+    /// The changes of contact so far, in order of time.
+    pub fn marks(&self) -> &[Mark] {
+        &self.marks.seen
+    }
+
+    /// The end of the run \[s\].
+    pub fn end(&self) -> f64 {
+        self.end
     }
 
     fn finished(&self) -> FullRun {
@@ -82,7 +97,13 @@ impl FullRunJob {
         let log = motion.contacts();
         let verdict = verdict_of(motion, self.window);
         let lasting = matches!(verdict, Verdict::Locked | Verdict::Adhesive | Verdict::Slip);
+        let period = std::f64::consts::TAU / motion.machine().omega_c;
+        let broken = log.longest_hold.filter(|hold| hold.length() >= period);
+        let step = (self.end - self.start) / f64::from(SAMPLES);
         FullRun {
+            trace: Arc::new(Trace { from: self.start, step, points: self.points.clone() }),
+            marks: Arc::new(self.marks.seen.clone()),
+            broken: broken.map(|hold| (hold, motion.rotor().speed(hold.ended))),
             verdict,
             since: lasting.then_some(log.since),
             multipliers: motion.multipliers(),
@@ -107,6 +128,11 @@ impl FullRunJob {
         self.result.is_some() || self.wall >= self.limit
     }
 
+    /// Wall time so far.
+    pub fn wall(&self) -> Duration {
+        self.wall
+    }
+
     /// Wall time so far \[s\].
     pub fn wall_s(&self) -> f64 {
         self.wall.as_secs_f64()
@@ -117,6 +143,12 @@ impl FullRunJob {
         let steps = self.motion.steps()?.saturating_sub(self.steps);
         (steps > 0).then(|| self.wall_s() / steps as f64)
     }
+}
+
+fn point(motion: &Motion) -> [f64; 4] {
+    let state = motion.state();
+    let ([u_c, u_s], [alpha_c, alpha_s]) = (state.u, state.alpha);
+    [u_c, u_s, alpha_c, alpha_s]
 }
 
 #[cfg(test)]

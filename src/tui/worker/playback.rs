@@ -1,29 +1,36 @@
-//! The engine without clock or thread: takes orders, plays the motion,
-//! computes the full run and the studies, and makes snapshots.
+//! The engine without clock or thread: takes orders, plays the motion, and makes
+//! snapshots.
 
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use super::background::Background;
 use super::comparison::{Comparison, other_law};
-use super::full_run::{FullRunJob, SLICE};
+use super::forecasts::Forecasts;
+use super::full_run::FullRunJob;
+use super::jump::{met, next_change};
+use super::pacing::{Turned, rate_at};
+use super::past::Past;
 use super::recorder::Recorder;
 use super::studies::Studies;
-use crate::motion::{Change, GoOn, Motion, Script, is_sensitive, run_to_verdict};
-use crate::scene::{Scene, SolverKind};
-use crate::tui::engine::{
-    FORECAST_LIMIT, FullRun, FullRunState, Moment, Order, Pace, Results, Snapshot,
-};
+use crate::motion::{Change, GoOn, Motion};
+use crate::tui::engine::{Limit, Moment, Order, Snapshot};
+use crate::tui::trace::{Mark, Marks};
+use crate::tui::views::ViewId;
 
 /// Samples per recorded bin.
 const SAMPLES: f64 = 4.0;
+/// Bins between two copies of the motion that are kept.
+const BINS: f64 = 1024.0;
 /// Samples per turn of the wave, at least.
 const PER_TURN: f64 = 24.0;
 /// Longest wall time of one call of `play` in the explorer.
 const PLAY_LIMIT: Duration = Duration::from_millis(25);
-/// Most samples that a jump to the next change of contact searches.
-const JUMP_SAMPLES: usize = 20_000;
+/// Most samples that a jump to the next change of contact records.
+const JUMP_SAMPLES: f64 = 20_000.0;
 /// Longest wall time of such a jump; a second press goes on from there.
 const JUMP_LIMIT: Duration = Duration::from_secs(1);
+/// Longest wall time to compute the instant of the reading cursor.
+const READING_LIMIT: Duration = Duration::from_millis(100);
 
 /// A motion being played, and its full runs.
 #[derive(Debug)]
@@ -32,15 +39,16 @@ pub struct Playback {
     motion: Motion,
     recorder: Recorder,
     target: f64,
-    limited: bool,
-    full_run: FullRunJob,
-    reference: Option<FullRunJob>,
+    limit: Limit,
+    turned: Turned,
+    past: Past,
+    reading: Option<Arc<Moment>>,
+    met: (u64, Option<Mark>),
+    ends: u64,
+    forecasts: Forecasts,
     comparison: Option<Comparison>,
     /// Whether it has not caught up yet.
     behind: bool,
-    studies: Studies,
-    sensitive: Option<bool>,
-    sensitivity: Option<Background<bool>>,
     time_limit: Duration,
 }
 
@@ -52,25 +60,31 @@ impl Playback {
 
     /// As `new`; `play` may take this much wall time per call.
     pub fn with_time_limit(order: Order, time_limit: Duration) -> Self {
+        Self::start(order, time_limit, Studies::default())
+    }
+
+    fn start(order: Order, time_limit: Duration, studies: Studies) -> Self {
         let scene = &order.scene;
         let motion = Motion::new(scene);
         let mut playback = Self {
             recorder: Recorder::default(),
             target: 0.0,
-            limited: false,
-            full_run: FullRunJob::new(motion.clone(), scene.solver.end_s),
-            reference: reference(scene),
+            limit: Limit::None,
+            turned: Turned::default(),
+            past: Past::of(&motion, order.bin_s * BINS),
+            reading: None,
+            met: (order.jumps, None),
+            ends: 0,
+            forecasts: Forecasts::of(&motion, scene, studies),
             comparison: None,
             behind: false,
-            studies: Studies::default(),
-            sensitive: None,
-            sensitivity: None,
             time_limit,
             motion,
             order,
         };
         playback.start_comparison();
         playback.record();
+        playback.read();
         playback
     }
 
@@ -78,9 +92,8 @@ impl Playback {
     pub fn apply(&mut self, order: &Order) {
         let before = std::mem::replace(&mut self.order, order.clone());
         if order.restarts != before.restarts {
-            let mut studies = std::mem::take(&mut self.studies);
-            studies.forget_spectrum();
-            *self = Self { studies, ..Self::with_time_limit(order.clone(), self.time_limit) };
+            let studies = self.forecasts.take_studies();
+            *self = Self::start(order.clone(), self.time_limit, studies);
             return;
         }
         let changed = order.changes != before.changes || order.pulses != before.pulses;
@@ -100,16 +113,12 @@ impl Playback {
             }
         }
         if changed {
-            let end = order.scene.solver.end_s;
-            self.full_run = FullRunJob::new(self.motion.clone(), end);
-            if let Some(comparison) = &mut self.comparison {
-                comparison.full_run = FullRunJob::new(comparison.motion.clone(), end);
-            }
-            self.studies.forget_spectrum();
-            // The reference starts from rest, so it does not apply to a changed run.
-            self.reference = None;
-            self.sensitivity = None;
-            self.sensitive = Some(false);
+            self.past.changed(&self.motion);
+            self.forecast();
+            self.forecasts.forget_sensitivity();
+        }
+        if order.extensions != before.extensions && self.is_at_end() {
+            self.forecast();
         }
         if order.compare != before.compare {
             self.start_comparison();
@@ -120,6 +129,26 @@ impl Playback {
         for _ in 0..order.jumps.saturating_sub(before.jumps).min(10) {
             self.jump();
         }
+        self.met.0 = order.jumps;
+        if order.cursor_s != before.cursor_s || changed {
+            self.read();
+        }
+    }
+
+    /// A new forecast, from here on.
+    fn forecast(&mut self) {
+        let length = self.order.scene.solver.end_s;
+        self.forecasts.again(&self.motion, length);
+        if let Some(comparison) = &mut self.comparison {
+            comparison.full_run = FullRunJob::new(comparison.motion.clone(), length);
+        }
+    }
+
+    /// Whether the motion has come to the end of its forecast.
+    fn is_at_end(&self) -> bool {
+        let step = self.motion.steps().map_or(0.0, |_| self.order.scene.solver.step_s);
+        // The explicit solver ends at its last step by then.
+        self.motion.state().t_s + step > self.forecasts.end() * (1.0 - f64::EPSILON)
     }
 
     /// Plays the same scene under the other contact law too, if it is wanted.
@@ -129,35 +158,85 @@ impl Playback {
     }
 
     fn sample_length(&self) -> f64 {
+        (self.order.bin_s / SAMPLES).min(self.longest_sample()).max(1e-12)
+    }
+
+    /// The longest sample in which no turn of the wave against the blades is lost.
+    fn longest_sample(&self) -> f64 {
         let machine = self.motion.machine();
-        let speed = self.order.scene.operation.speed_rad_s.abs();
-        let fastest = machine.omega_c.max(machine.nu(speed)).max(f64::MIN_POSITIVE);
-        let length = (self.order.bin_s / SAMPLES).min(std::f64::consts::TAU / fastest / PER_TURN);
-        length.max(1e-12)
+        let speed = self.motion.rotor().speed(self.motion.state().t_s).abs();
+        let fastest = machine.omega_c + machine.nu(speed);
+        std::f64::consts::TAU / fastest.max(f64::MIN_POSITIVE) / PER_TURN
     }
 
     fn record(&mut self) {
         self.recorder.record(&mut self.motion, self.order.bin_s);
+        self.past.follow(&self.motion);
+        self.turned.follow(&self.motion);
+    }
+
+    /// A frame was drawn: the wave may turn on.
+    pub fn drawn(&mut self) {
+        self.turned.drawn();
+    }
+
+    /// Plays what is due after `wall` seconds: at the requested rate, slower at
+    /// changes of contact if this is wanted, and never so far that a turning
+    /// picture on the screen could not be followed.
+    /// False where nothing moved.
+    pub fn play_paced(&mut self, wall: f64) -> bool {
+        let (now, rate) = (self.motion.state().t_s, self.order.rate);
+        let rate = match self.order.slow_at_events {
+            true => rate_at(now, rate, self.forecasts.marks()),
+            false => rate,
+        };
+        let turns = self.order.shows(ViewId::Frame) || self.order.shows(ViewId::Gaps);
+        self.play_within(wall * rate, turns);
+        self.motion.state().t_s != now
     }
 
     /// Plays `seconds` of motion, or less if the solver is too slow.
     pub fn play(&mut self, seconds: f64) {
+        self.play_within(seconds, false);
+    }
+
+    fn play_within(&mut self, seconds: f64, turns: bool) {
         self.target += seconds;
         let (began, limit) = (Instant::now(), self.time_limit);
         let go_on = || began.elapsed() < limit;
         let sample = self.sample_length();
-        self.limited = false;
+        let turn = std::f64::consts::TAU / PER_TURN;
+        self.limit = Limit::None;
+        let (end, before) = (self.forecasts.end(), self.motion.state().t_s);
         loop {
             let now = self.motion.state().t_s;
-            if now + sample > self.target || !self.next_sample(now + sample, &go_on) {
+            let next = if now + sample > end { end } else { now + sample };
+            if next > self.target || next <= now {
+                break;
+            }
+            if turns && self.turned.must_wait(turn) {
+                (self.limit, self.target) = (Limit::Wave, now);
+                break;
+            }
+            if !self.next_sample(next, &go_on) {
                 break;
             }
             self.record();
-            if !go_on() {
-                self.limited = self.motion.state().t_s + sample <= self.target;
-                self.target = self.target.min(self.motion.state().t_s + sample);
+            if self.is_at_end() {
                 break;
             }
+            if !go_on() {
+                let now = self.motion.state().t_s;
+                if now + sample <= self.target {
+                    self.limit = Limit::Solver;
+                }
+                self.target = self.target.min(now + sample);
+                break;
+            }
+        }
+        if self.is_at_end() {
+            self.target = self.motion.state().t_s;
+            self.ends += u64::from(self.target > before);
         }
         if self.motion.failure().is_some() {
             self.target = self.motion.state().t_s;
@@ -210,87 +289,75 @@ impl Playback {
         self.play_comparison(self.time_limit);
     }
 
-    /// Plays until the contact changes.
+    /// Plays to the next change of contact, exactly.
     fn jump(&mut self) {
         let (began, limit) = (Instant::now(), self.time_limit.max(JUMP_LIMIT));
         let go_on = || began.elapsed() < limit;
-        let sample = self.sample_length();
-        let (active_set, impacts) =
-            (self.motion.contacts().active_set, self.motion.contacts().impact_count);
-        for _ in 0..JUMP_SAMPLES {
-            let until = self.motion.state().t_s + sample;
-            if self.motion.over() || !go_on() || !self.next_sample(until, &go_on) {
-                break;
-            }
-            self.record();
-            let log = self.motion.contacts();
-            if log.active_set != active_set || log.impact_count != impacts {
-                break;
+        let marks = Marks::from(self.motion.contacts());
+        let found = next_change(&self.motion, self.longest_sample(), &go_on);
+        if let Some(until) = found {
+            let length = until - self.motion.state().t_s;
+            let sample = self.sample_length().max(length / JUMP_SAMPLES);
+            while self.motion.state().t_s < until {
+                let now = self.motion.state().t_s;
+                let moved = self.next_sample((now + sample).min(until), &go_on);
+                self.record();
+                // The explicit solver may be at its last step by then.
+                if !moved || self.motion.state().t_s <= now || !go_on() {
+                    break;
+                }
             }
         }
+        self.met.1 = found.and_then(|_| met(marks, &self.motion));
         self.target = self.motion.state().t_s;
+        if self.is_at_end() {
+            self.forecast();
+        }
         self.play_comparison(self.time_limit);
+    }
+
+    /// Computes the instant of the reading cursor.
+    fn read(&mut self) {
+        let (began, limit) = (Instant::now(), self.time_limit.min(READING_LIMIT));
+        let cursor = self.order.cursor_s;
+        self.reading = cursor.and_then(|t| {
+            let motion = self.past.at(t, &self.motion, &|| began.elapsed() < limit)?;
+            Some(Arc::new(moment(&motion)))
+        });
     }
 
     /// Whether there is more to compute.
     pub fn is_computing(&self) -> bool {
         let comparison = self.comparison.as_ref().map(|comparison| &comparison.full_run);
-        let mut runs = std::iter::once(&self.full_run).chain(&self.reference).chain(comparison);
-        self.behind
-            || runs.any(|run| !run.is_done())
-            || self.sensitive.is_none()
-            || self.studies.is_computing(&self.order)
+        self.behind || self.forecasts.is_computing(&self.order, comparison)
     }
 
-    /// Computes one slice of the first job that is not done.
+    /// Computes one slice of what is not done.
     pub fn compute(&mut self) {
         if self.behind {
             return self.play_comparison(self.time_limit);
         }
         let comparison = self.comparison.as_mut().map(|comparison| &mut comparison.full_run);
-        let runs = std::iter::once(&mut self.full_run).chain(&mut self.reference);
-        if let Some(run) = runs.chain(comparison).find(|run| !run.is_done()) {
-            return run.compute();
-        }
-        if self.sensitive.is_none() {
-            let scene = &self.order.scene;
-            let job = self.sensitivity.get_or_insert_with(|| sensitivity(scene));
-            self.sensitive = job.receive(SLICE).or(job.is_done().then_some(false));
-            return;
-        }
-        let length = self.order.scene.solver.end_s;
-        self.studies.compute(&self.order, self.full_run.signal(), length);
+        self.forecasts.compute(&self.order, comparison);
     }
 
     /// The present instant and results, and the bins since the last call.
     pub fn snapshot(&mut self) -> Snapshot {
-        let (state, log) = (self.motion.state(), self.motion.contacts().clone());
-        let moment = Moment {
-            state,
-            angle: self.motion.rotor().angle(state.t_s),
-            speed: self.motion.rotor().speed(state.t_s),
-            active_set: log.active_set,
-            since: log.since,
-            gaps: self.motion.blade_gaps(),
+        let now = Moment {
             multipliers: self.recorder.mean_forces(),
-            failure: self.motion.failure().map(ToString::to_string),
+            met: self.met,
+            ends: self.ends,
+            ..moment(&self.motion)
         };
         let comparison = self.comparison.as_mut();
-        let full_run = self.full_run.state();
-        let done_in = matches!(full_run, FullRunState::Done(_)).then(|| self.full_run.wall_s());
-        let mut results = Results {
-            full_run: Some(full_run),
-            sensitive: self.sensitive.unwrap_or(false),
-            reference: done(self.reference.as_ref()),
-            comparison: done(comparison.as_ref().map(|comparison| &comparison.full_run)),
-            pace: Pace { step_s: self.full_run.step_s(), run_s: done_in, limited: self.limited },
-            ..Results::default()
-        };
-        self.studies.show(&mut results);
+        let mut results =
+            self.forecasts.results(comparison.as_ref().map(|comparison| &comparison.full_run));
+        results.pace.limit = self.limit;
+        results.reading.clone_from(&self.reading);
         Snapshot {
             generation: self.order.generation(),
             restarts: self.order.restarts,
-            moment: Some(moment),
+            moment: Some(now),
             bins: self.recorder.take_bins(),
             comparison_bins: comparison
                 .map(|comparison| comparison.recorder.take_bins())
@@ -301,66 +368,22 @@ impl Playback {
     }
 }
 
-/// The event solver under unilateral contact, if the scene uses another solver.
-fn reference(scene: &Scene) -> Option<FullRunJob> {
-    if scene.solver.kind == SolverKind::Event {
-        return None;
-    }
-    let scene = scene.as_reference().checked().ok()?;
-    Some(FullRunJob::new(Motion::new(&scene), scene.solver.end_s))
-}
-
-/// Finds out whether a tiny change of the pulse changes the outcome; nothing
-/// comes where this takes too long.
-fn sensitivity(scene: &Scene) -> Background<bool> {
-    let scene = scene.as_reference().checked();
-    Background::start(move |to, go_on| {
-        let began = Instant::now();
-        let go_on = || go_on() && began.elapsed() < FORECAST_LIMIT;
-        let found = scene.ok().and_then(|scene| {
-            let reached = run_to_verdict(&scene, &go_on)?;
-            is_sensitive(&scene, &Script::default(), reached, &go_on)
-        });
-        if let Some(sensitive) = found {
-            // Without a receiver nobody asks any more.
-            let _ = to.send(sensitive);
-        }
-    })
-}
-
-fn done(run: Option<&FullRunJob>) -> Option<FullRun> {
-    match run?.state() {
-        FullRunState::Done(run) => Some(run),
-        FullRunState::Computing(_) | FullRunState::GivenUp(_) => None,
+/// The instant at which a motion is; forces are those of this instant.
+fn moment(motion: &Motion) -> Moment {
+    let (state, log) = (motion.state(), motion.contacts());
+    Moment {
+        state,
+        angle: motion.rotor().angle(state.t_s),
+        speed: motion.rotor().speed(state.t_s),
+        active_set: log.active_set,
+        since: log.since,
+        gaps: motion.blade_gaps(),
+        multipliers: motion.multipliers(),
+        failure: motion.failure().map(ToString::to_string),
+        ..Moment::default()
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::tui::{App, Marker, Theme};
-
-    #[test]
-    fn a_comparison_that_is_slow_catches_up_before_a_change_acts_on_both() {
-        let mut scene = Scene::base();
-        scene.solver.step_s = 1e-6;
-        scene.solver.end_s = 1e-3;
-        let app = App::new(scene.checked().unwrap(), Theme::Mono, Marker::Ascii);
-        let mut order = Order { bin_s: 2e-5, ..app.order() };
-        let mut playback = Playback::with_time_limit(order.clone(), Duration::MAX);
-        playback.play(2e-3);
-        // Asked for late, and without time: one sample a call.
-        playback.time_limit = Duration::ZERO;
-        order.compare = true;
-        playback.apply(&order);
-        assert!(playback.behind && playback.is_computing());
-        order.pulses += 1;
-        playback.apply(&order);
-        let (now, theirs) = (playback.motion.state().t_s, playback.comparison.as_ref().unwrap());
-        assert!(!playback.behind && now - theirs.motion.state().t_s < 1.5e-6, "{now}");
-        assert_eq!(theirs.motion.pulse().start, playback.motion.pulse().start);
-        while playback.is_computing() {
-            playback.compute();
-        }
-    }
-}
+#[path = "playback_tests.rs"]
+mod tests;

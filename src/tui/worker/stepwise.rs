@@ -5,7 +5,7 @@
 use std::time::Duration;
 
 use super::Playback;
-use crate::tui::engine::{Engine, Order, Pace, Snapshot};
+use crate::tui::engine::{Engine, Limit, Order, Pace, Snapshot};
 
 /// The engine driven by hand.
 #[derive(Debug)]
@@ -46,7 +46,8 @@ impl Engine for Stepwise {
         self.fresh = false;
         let mut snapshot = playback.snapshot();
         let pace = &mut snapshot.results.pace;
-        *pace = Pace { step_s: pace.step_s.map(|_| 42e-9), run_s: Some(42e-3), limited: false };
+        let step_s = pace.step_s.map(|_| 42e-9);
+        *pace = Pace { step_s, run_s: Some(42e-3), limit: Limit::None };
         Some(snapshot)
     }
 }

@@ -62,13 +62,13 @@ impl Studies {
         found.is_some_and(|found| found.is_of(&order.scene) && found.is_done())
     }
 
-    /// Computes one slice. `signal` is the finished run, `length` its duration.
-    pub fn compute(&mut self, order: &Order, signal: &[[f64; 2]], length: f64) {
+    /// Computes one slice. `signal` gives the finished run, `length` is its duration.
+    pub fn compute(&mut self, order: &Order, signal: impl FnOnce() -> Vec<[f64; 2]>, length: f64) {
         if self.locked_is_old(order) {
             let curves = Arc::new(LockedCurves::of(&order.scene));
             self.locked = Some((order.scene.clone().into_scene(), curves));
         } else if order.shows(ViewId::Spectrum) && self.spectrum.is_none() {
-            self.spectrum = Some(Arc::new(Spectrum::of(signal, length)));
+            self.spectrum = Some(Arc::new(Spectrum::of(&signal(), length)));
         } else if order.shows(ViewId::Map) && !self.map_is_done(order) {
             self.compute_map(&order.scene);
         } else if order.shows(ViewId::Precision) {

@@ -22,6 +22,8 @@ const LONGEST_TICK: Duration = Duration::from_millis(100);
 struct Slots {
     order: Option<Order>,
     snapshot: Option<Snapshot>,
+    /// A frame was drawn since the thread last looked.
+    drawn: bool,
     quit: bool,
 }
 
@@ -69,6 +71,10 @@ impl Engine for Worker {
     fn take(&mut self) -> Option<Snapshot> {
         self.shared.lock().snapshot.take()
     }
+
+    fn drawn(&mut self) {
+        self.shared.lock().drawn = true;
+    }
 }
 
 impl Drop for Worker {
@@ -83,13 +89,11 @@ fn run(shared: &Shared, wake: &Waker) {
     let mut playing = None;
     loop {
         let busy = playback.as_ref().is_some_and(Playback::is_computing);
-        let Some(order) = next_order(shared, busy, playing.is_some()) else { return };
+        let Some((order, drawn)) = next_order(shared, busy, playing.is_some()) else { return };
         let tick = catch_panic(|| {
             let fresh = order.is_some();
             if let Some(order) = order {
-                playing = order
-                    .playing
-                    .then(|| (playing.map_or_else(Instant::now, |(at, _)| at), order.rate));
+                playing = order.playing.then(|| playing.unwrap_or_else(Instant::now));
                 match &mut playback {
                     Some(playback) => playback.apply(&order),
                     None => playback = Some(Playback::new(order)),
@@ -97,12 +101,14 @@ fn run(shared: &Shared, wake: &Waker) {
             }
             let playback = playback.as_mut()?;
             let mut moved = fresh;
-            if let Some((last, rate)) = playing.as_mut() {
+            if drawn {
+                playback.drawn();
+            }
+            if let Some(last) = playing.as_mut() {
                 let elapsed = last.elapsed();
                 if elapsed >= TICK {
                     *last = Instant::now();
-                    playback.play(elapsed.min(LONGEST_TICK).as_secs_f64() * *rate);
-                    moved = true;
+                    moved |= playback.play_paced(elapsed.min(LONGEST_TICK).as_secs_f64());
                 }
             }
             if playback.is_computing() {
@@ -123,9 +129,9 @@ fn run(shared: &Shared, wake: &Waker) {
     }
 }
 
-/// The next order, if there is one; waits when there is nothing to do. The
-/// outer option is none if the thread must end.
-fn next_order(shared: &Shared, busy: bool, playing: bool) -> Option<Option<Order>> {
+/// The next order, if there is one, and whether a frame was drawn; waits when
+/// there is nothing to do. None if the thread must end.
+fn next_order(shared: &Shared, busy: bool, playing: bool) -> Option<(Option<Order>, bool)> {
     let mut slots = shared.lock();
     if slots.order.is_none() && !slots.quit && !busy {
         slots = if playing {
@@ -134,7 +140,7 @@ fn next_order(shared: &Shared, busy: bool, playing: bool) -> Option<Option<Order
             shared.wake.wait(slots).unwrap_or_else(PoisonError::into_inner)
         };
     }
-    if slots.quit { None } else { Some(slots.order.take()) }
+    (!slots.quit).then(|| (slots.order.take(), std::mem::take(&mut slots.drawn)))
 }
 
 fn publish(shared: &Shared, mut snapshot: Snapshot, wake: &Waker) {

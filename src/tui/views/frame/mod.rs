@@ -68,14 +68,13 @@ fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let legend = [
         (format!("z, {}m", x.scale.prefix), quiet),
         (format!("{point} now"), look.style(Role::Focus)),
-        (app.contact_now(), look.style(Role::Contact)),
+        (app.contact_shown(), look.style(Role::Contact)),
     ];
     let inside = title(app, buffer, at, "blade frame", &legend);
     let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
     let outline = Pen { dashed: false, ..look.quiet() };
     let touched = Pen { style: look.style(Role::Contact), sign: '#', dashed: false };
-    let active_set =
-        app.latest.moment.as_ref().map_or(ActiveSet::Nothing, |moment| moment.active_set);
+    let active_set = app.shown().map_or(ActiveSet::Nothing, |moment| moment.active_set);
     // An unbounded side is drawn as far as the chart reaches.
     let half = polygon.half_side().min(20.0 * polygon.clearance);
     for pass in [false, true] {
@@ -92,7 +91,7 @@ fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let trail = bins.map(|bin| (bin.middle(Channel::X), bin.middle(Channel::Y)));
     plot.curve(trail, &look.first());
     plot.ink();
-    if let Some(moment) = &app.latest.moment {
+    if let Some(moment) = app.shown() {
         let [x, y] = in_blade_frame(moment.state.u, app.machine.nodal_diameters * moment.angle);
         plot.point(x, y, point, look.style(Role::Focus));
     }

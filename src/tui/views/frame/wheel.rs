@@ -35,7 +35,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let inside = title(app, buffer, at, "wheel", &legend);
     let (x, y) = square(at.area, 1.0 + 2.2 * CLEARANCE);
     let Some(mut plot) = Plot::bare(buffer, inside, x, y, look) else { return };
-    let Some(moment) = &app.throttled else { return };
+    let Some(moment) = app.shown() else { return };
     let z = in_blade_frame(moment.state.u, machine.nodal_diameters * moment.angle);
     let casing = (0..=OUTLINE).map(|k| {
         let angle = TAU * f64::from(k) / f64::from(OUTLINE);

@@ -55,10 +55,7 @@ fn spots(app: &App, columns: usize) -> Vec<Vec<Option<Spot>>> {
     let width = (to - from) / columns.max(1) as f64;
     let mut out = vec![vec![None; columns]; polygon.sides as usize];
     let place = |t: f64| (((t - from) / width).max(0.0) as usize).min(columns.saturating_sub(1));
-    // Several columns at a time: a frame for each column is too much for a slow
-    // connection.
-    let Some(until) = app.throttled.as_ref().map(|moment| moment.state.t_s) else { return out };
-    for bin in app.history.between(from, to).iter().filter(|bin| bin.from <= until) {
+    for bin in app.history.between(from, to) {
         for (side, row) in (0..polygon.sides).zip(&mut out) {
             let gap = least_gap(polygon, side, bin) / polygon.clearance;
             if !gap.is_finite() {

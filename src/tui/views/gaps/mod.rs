@@ -5,10 +5,11 @@ mod heat;
 
 use ratatui::buffer::Buffer;
 
+use super::ViewId;
 use super::panel::{ViewArea, ViewPanel, csv, title};
 use crate::motion::ActiveSet;
-use crate::tui::app::{App, Cursor};
-use crate::tui::axis::ChartAxis;
+use crate::tui::app::{App, Cursor, cell_of};
+use crate::tui::axis::{ChartAxis, readable};
 use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
 use crate::tui::theme::Role;
@@ -59,18 +60,18 @@ fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let x = ChartAxis::plain(0.5, f64::from(count) + 0.5);
     let active_set = touching_blades(app);
     let mark = look.either('▲', '^');
-    let legend = [
-        (format!("{}m by blade", y.scale.prefix), quiet),
-        (
-            format!("{mark} {}", app.contact_now()),
-            if active_set.is_empty() { quiet } else { contact },
-        ),
-    ];
+    let shown = app.contact_shown();
+    let style = if active_set.is_empty() { quiet } else { contact };
+    let mut legend =
+        vec![(format!("{}m by blade", y.scale.prefix), quiet), (format!("{mark} {shown}"), style)];
+    if let Some(read) = reading(app) {
+        legend.insert(0, (read, look.style(Role::Focus)));
+    }
     let inside = title(app, buffer, at, "gaps", &legend);
     let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
     plot.level(0.0, look.either('━', '='), look.style(Role::Text));
     plot.level(app.machine.clearance(), look.either('┈', '.'), quiet);
-    let Some(moment) = &app.throttled else { return };
+    let Some(moment) = app.shown() else { return };
     let gaps = || (1..=count).map(f64::from).zip(moment.gaps.iter().copied());
     // There are no values between blades: the line only joins the points.
     if app.is_still() || count > u32::from(plot.inner.width) {
@@ -89,6 +90,21 @@ fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
         plot.point(f64::from(*blade), 0.0, mark, contact);
     }
     label(&mut plot, &active_set, app);
+    if let Some(cursor) = app.cursor.filter(|_| app.view == ViewId::Gaps) {
+        let blade = cell_of(cursor.across, count) + 1;
+        plot.upright(f64::from(blade), look.either('┊', ':'), look.style(Role::Focus));
+    }
+}
+
+/// The instant or the blade under the reading cursor.
+fn reading(app: &App) -> Option<String> {
+    if let Some(t) = app.cursor_time() {
+        return Some(format!("at {}", readable(t, "s")));
+    }
+    let cursor = app.cursor.filter(|_| app.view == ViewId::Gaps)?;
+    let blade = cell_of(cursor.across, app.machine.polygon.blades);
+    let gap = app.shown()?.gaps.get(blade as usize)?;
+    Some(format!("blade {}: {}", blade + 1, readable(*gap, "m")))
 }
 
 /// Numbers of the touching blades under the zero line.
@@ -104,7 +120,7 @@ fn label(plot: &mut Plot, active_set: &[u32], app: &App) {
 
 /// The blades in contact now, numbered from 1.
 fn touching_blades(app: &App) -> Vec<u32> {
-    let Some(moment) = &app.throttled else { return Vec::new() };
+    let Some(moment) = app.shown() else { return Vec::new() };
     let polygon = &app.machine.polygon;
     let of = |sides: &[u32]| sides.iter().flat_map(|side| polygon.blades_of_side(*side)).collect();
     match moment.active_set {

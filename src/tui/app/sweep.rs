@@ -1,0 +1,161 @@
+//! A sweep: the selected knob goes from its value to another by itself, one
+//! value after the verdict of the one before is on the screen.
+
+use super::{App, InputMode};
+use crate::report::line::clean;
+use crate::scene::Value;
+use crate::tui::engine::FullRunState;
+use crate::tui::knobs::Knob;
+
+/// Values of a sweep of a number that is not whole.
+const VALUES: u32 = 200;
+/// Most values of a whole number.
+const MOST_WHOLE: u64 = 1000;
+/// Stretches of one verdict that are told at the end.
+const TOLD: usize = 4;
+
+/// A sweep under way.
+#[derive(Clone, Debug)]
+pub struct Sweep {
+    knob: &'static Knob,
+    /// The values to come, the next one last.
+    rest: Vec<Value>,
+    /// Verdicts so far, with their first and last value.
+    found: Vec<(String, String, String)>,
+}
+
+impl App {
+    /// Asks for the end of the sweep.
+    pub(super) fn ask_sweep(&mut self) {
+        let Some(knob) = self.selected() else { return };
+        match knob.get(&self.scene) {
+            Value::Real(_) | Value::Whole(_) => {
+                self.refusal = None;
+                self.mode = InputMode::Sweeping(String::new());
+            }
+            _ => self.status = Some(format!("{} has no numbers to sweep", knob.label)),
+        }
+    }
+
+    /// The question in the last line.
+    pub fn sweep_question(&self, typed: &str) -> Option<String> {
+        let knob = self.selected()?;
+        let now = knob.shown(&knob.get(&self.scene));
+        Some(format!("sweep {} from {now} to: {typed}_", knob.label))
+    }
+
+    /// Starts the sweep to what was typed; it can be undone as one turn.
+    pub(super) fn begin_sweep(&mut self, text: &str) {
+        let Some(knob) = self.selected() else { return };
+        let to = match knob.parse(text).and_then(|to| knob.set(&self.scene, to.clone()).map(|_| to))
+        {
+            Ok(to) => to,
+            Err(error) => {
+                self.refusal = Some(clean(&error.to_string()));
+                self.status.clone_from(&self.refusal);
+                return;
+            }
+        };
+        self.mode = InputMode::Main;
+        let mut rest = values(&knob.get(&self.scene), &to);
+        rest.reverse();
+        self.remember();
+        self.sweep = Some(Sweep { knob, rest, found: Vec::new() });
+    }
+
+    /// A frame has been shown: if it had a verdict, the next value.
+    pub(super) fn sweep_on(&mut self) {
+        let done = match &self.latest.results.full_run {
+            None | Some(FullRunState::Computing(_)) => return,
+            Some(FullRunState::Done(_) | FullRunState::GivenUp(_)) => self.verdict().word,
+        };
+        let Some(sweep) = &mut self.sweep else { return };
+        let value = sweep.knob.shown(&sweep.knob.get(&self.scene));
+        match sweep.found.last_mut().filter(|(word, ..)| *word == done) {
+            Some((_, _, last)) => *last = value,
+            None => sweep.found.push((done, value.clone(), value)),
+        }
+        match sweep.rest.pop() {
+            Some(next) => {
+                let knob = sweep.knob;
+                // Both ends were checked; a value between them may be refused alone.
+                if let Ok((scene, _)) = knob.set(&self.scene, next) {
+                    self.set_turned_scene(scene);
+                }
+            }
+            None => {
+                let told = sweep.told();
+                self.status = Some(told);
+                self.sweep = None;
+            }
+        }
+    }
+
+    /// Ends a sweep where it is.
+    pub(super) fn stop_sweep(&mut self) {
+        if let Some(sweep) = self.sweep.take() {
+            self.status = Some(sweep.told());
+        }
+    }
+}
+
+impl Sweep {
+    /// The verdicts in one line: `speed: DECAY 300 to 411 rad/s, LOCKED 412 to ...`.
+    fn told(&self) -> String {
+        let stretch = |(word, from, to): &(String, String, String)| match from == to {
+            true => format!("{word} {from}"),
+            false => format!("{word} {from} to {to}"),
+        };
+        let mut parts: Vec<String> = self.found.iter().take(TOLD).map(stretch).collect();
+        if self.found.len() > TOLD {
+            parts.push(format!("and {} more", self.found.len() - TOLD));
+        }
+        format!("{}: {}", self.knob.label, parts.join(", "))
+    }
+}
+
+/// The values after the first, up to the last: even steps, or even ratios where
+/// both have one sign and are far apart.
+fn values(from: &Value, to: &Value) -> Vec<Value> {
+    match (from, to) {
+        (Value::Whole(from), Value::Whole(to)) => {
+            let count = from.abs_diff(*to).min(MOST_WHOLE);
+            let value = |k: u64| if to > from { from + k } else { from - k };
+            let mut values: Vec<Value> = (1..=count).map(|k| Value::Whole(value(k))).collect();
+            if let Some(last) = values.last_mut() {
+                *last = Value::Whole(*to);
+            }
+            values
+        }
+        (Value::Real(from), Value::Real(to)) => {
+            let ratio = to / from;
+            let far = ratio > 0.0 && ratio.is_finite() && !(0.1..=10.0).contains(&ratio);
+            let value = |k: u32| {
+                let part = f64::from(k) / f64::from(VALUES);
+                let x = if far { from * ratio.powf(part) } else { from + part * (to - from) };
+                // Few digits, as one would type them.
+                format!("{x:.5e}").parse().unwrap_or(x)
+            };
+            let between = (1..VALUES).map(value);
+            between.chain([*to]).map(Value::Real).collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_go_from_one_end_to_the_other() {
+        let reals = values(&Value::Real(300.0), &Value::Real(500.0));
+        assert_eq!((reals.len(), &reals[0]), (200, &Value::Real(301.0)));
+        assert_eq!(reals.last(), Some(&Value::Real(500.0)));
+        let powers = values(&Value::Real(1e3), &Value::Real(1e7));
+        assert_eq!(powers[99], Value::Real(1e5));
+        let down = values(&Value::Whole(5), &Value::Whole(2));
+        assert_eq!(down, [4, 3, 2].map(Value::Whole));
+        assert!(values(&Value::Whole(5), &Value::Whole(5)).is_empty());
+    }
+}

@@ -1,0 +1,139 @@
+//! What is computed beside the motion that plays: the run to its end, the same by
+//! the event solver, whether a small change would change it, and the studies.
+
+use std::time::Instant;
+
+use super::background::Background;
+use super::full_run::{FullRunJob, SLICE};
+use super::studies::Studies;
+use crate::motion::{Motion, Script, is_sensitive, run_to_verdict};
+use crate::scene::{Scene, SolverKind};
+use crate::tui::engine::{FORECAST_LIMIT, FullRun, FullRunState, Order, Pace, Results};
+use crate::tui::trace::Mark;
+
+/// The computations for one motion.
+#[derive(Debug)]
+pub struct Forecasts {
+    full_run: FullRunJob,
+    reference: Option<FullRunJob>,
+    sensitive: Option<bool>,
+    sensitivity: Option<Background<bool>>,
+    studies: Studies,
+}
+
+impl Forecasts {
+    /// For the motion of a scene at its start.
+    pub fn of(motion: &Motion, scene: &Scene, studies: Studies) -> Self {
+        Self {
+            full_run: FullRunJob::new(motion.clone(), scene.solver.end_s),
+            reference: reference(scene),
+            sensitive: None,
+            sensitivity: None,
+            studies,
+        }
+    }
+
+    /// The studies, for the next motion.
+    pub fn take_studies(&mut self) -> Studies {
+        self.studies.forget_spectrum();
+        std::mem::take(&mut self.studies)
+    }
+
+    /// A new run of `length` seconds from where the motion is. The reference
+    /// starts from rest, so it does not apply to it.
+    pub fn again(&mut self, motion: &Motion, length: f64) {
+        self.full_run = FullRunJob::new(motion.clone(), length);
+        self.reference = None;
+        self.studies.forget_spectrum();
+    }
+
+    /// Whether it is sensitive is not asked of a motion that was changed.
+    pub fn forget_sensitivity(&mut self) {
+        (self.sensitivity, self.sensitive) = (None, Some(false));
+    }
+
+    /// The end of the run \[s\].
+    pub fn end(&self) -> f64 {
+        self.full_run.end()
+    }
+
+    /// The changes of contact ahead, as far as they are known.
+    pub fn marks(&self) -> &[Mark] {
+        self.full_run.marks()
+    }
+
+    /// Whether there is more to compute.
+    pub fn is_computing(&self, order: &Order, comparison: Option<&FullRunJob>) -> bool {
+        let mut runs = std::iter::once(&self.full_run).chain(&self.reference).chain(comparison);
+        runs.any(|run| !run.is_done())
+            || self.sensitive.is_none()
+            || self.studies.is_computing(order)
+    }
+
+    /// Computes one slice.
+    pub fn compute(&mut self, order: &Order, comparison: Option<&mut FullRunJob>) {
+        // The run that had least time: the quick one does not wait for the slow one.
+        let runs = self.reference.iter_mut().chain([&mut self.full_run]).chain(comparison);
+        if let Some(run) = runs.filter(|run| !run.is_done()).min_by_key(|run| run.wall()) {
+            return run.compute();
+        }
+        if self.sensitive.is_none() {
+            let job = self.sensitivity.get_or_insert_with(|| sensitivity(&order.scene));
+            self.sensitive = job.receive(SLICE).or(job.is_done().then_some(false));
+            return;
+        }
+        let full_run = &self.full_run;
+        self.studies.compute(order, || full_run.signal(), order.scene.solver.end_s);
+    }
+
+    /// What is known so far.
+    pub fn results(&self, comparison: Option<&FullRunJob>) -> Results {
+        let full_run = self.full_run.state();
+        let done_in = matches!(full_run, FullRunState::Done(_)).then(|| self.full_run.wall_s());
+        let mut results = Results {
+            full_run: Some(full_run),
+            end_s: self.end(),
+            sensitive: self.sensitive.unwrap_or(false),
+            reference: done(self.reference.as_ref()),
+            comparison: done(comparison),
+            pace: Pace { step_s: self.full_run.step_s(), run_s: done_in, ..Pace::default() },
+            ..Results::default()
+        };
+        self.studies.show(&mut results);
+        results
+    }
+}
+
+/// The event solver under unilateral contact, if the scene uses another solver.
+fn reference(scene: &Scene) -> Option<FullRunJob> {
+    if scene.solver.kind == SolverKind::Event {
+        return None;
+    }
+    let scene = scene.as_reference().checked().ok()?;
+    Some(FullRunJob::new(Motion::new(&scene), scene.solver.end_s))
+}
+
+/// Finds out whether a tiny change of the pulse changes the outcome; nothing
+/// comes where this takes too long.
+fn sensitivity(scene: &Scene) -> Background<bool> {
+    let scene = scene.as_reference().checked();
+    Background::start(move |to, go_on| {
+        let began = Instant::now();
+        let go_on = || go_on() && began.elapsed() < FORECAST_LIMIT;
+        let found = scene.ok().and_then(|scene| {
+            let reached = run_to_verdict(&scene, &go_on)?;
+            is_sensitive(&scene, &Script::default(), reached, &go_on)
+        });
+        if let Some(sensitive) = found {
+            // Without a receiver nobody asks any more.
+            let _ = to.send(sensitive);
+        }
+    })
+}
+
+fn done(run: Option<&FullRunJob>) -> Option<FullRun> {
+    match run?.state() {
+        FullRunState::Done(run) => Some(run),
+        FullRunState::Computing(_) | FullRunState::GivenUp(_) => None,
+    }
+}

@@ -1,0 +1,121 @@
+//! How fast the motion plays: slower at changes of contact and faster between
+//! them, and never so far between two frames that a turning wave seems to stand
+//! still or to turn back.
+
+use std::f64::consts::TAU;
+
+use super::recorder::in_blade_frame;
+use crate::motion::Motion;
+use crate::tui::trace::Mark;
+
+/// Part of a turn of the wave that one frame may show.
+const TURN: f64 = 0.125;
+/// Amplitude below which nobody sees the wave turn, in clearances.
+const VISIBLE: f64 = 0.02;
+/// Wall time in which the distance to a change of contact is played \[s\].
+const APPROACH: f64 = 0.3;
+/// The slowest, in parts of the requested rate,
+const SLOWEST: f64 = 0.02;
+/// and the fastest.
+const FASTEST: f64 = 3.0;
+/// Changes that come faster than this are not slowed down for, in wall time at
+/// the requested rate \[s\].
+const SPARSE: f64 = 0.1;
+
+/// The turn of the wave against the blades since the last frame.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Turned {
+    by: f64,
+    phase: Option<f64>,
+}
+
+impl Turned {
+    /// A frame was drawn.
+    pub fn drawn(&mut self) {
+        self.by = 0.0;
+    }
+
+    /// Adds the turn to where the motion is now.
+    pub fn follow(&mut self, motion: &Motion) {
+        let (state, machine) = (motion.state(), motion.machine());
+        let turned = machine.nodal_diameters * motion.rotor().angle(state.t_s);
+        let [x, y] = in_blade_frame(state.u, turned);
+        let visible = state.amplitude() >= VISIBLE * machine.clearance();
+        let phase = visible.then(|| y.atan2(x));
+        if let (Some(before), Some(now)) = (self.phase, phase) {
+            let by = (now - before).rem_euclid(TAU);
+            self.by += by.min(TAU - by);
+        }
+        self.phase = phase;
+    }
+
+    /// Whether the wave must wait for a frame before it turns by `next` more.
+    pub fn must_wait(&self, next: f64) -> bool {
+        self.by > 0.0 && self.by + next > TURN * TAU
+    }
+}
+
+/// The rate of play at an instant, given the changes of contact ahead and behind.
+pub fn rate_at(now: f64, rate: f64, marks: &[Mark]) -> f64 {
+    let next = marks.partition_point(|mark| mark.t_s <= now);
+    let ahead = marks.get(next).map(|mark| mark.t_s - now);
+    let behind = next.checked_sub(1).and_then(|k| marks.get(k)).map(|mark| now - mark.t_s);
+    let around = [ahead, behind].into_iter().flatten();
+    // Where changes follow each other closely, nothing is gained by waiting at each.
+    let first = next.saturating_sub(2);
+    let near: Vec<f64> = marks.iter().skip(first).take(5).map(|mark| mark.t_s).collect();
+    let dense = near.len() == 5
+        && near.first().zip(near.last()).is_some_and(|(a, b)| b - a < 4.0 * SPARSE * rate);
+    if dense {
+        return rate;
+    }
+    let distance = around.fold(f64::INFINITY, f64::min);
+    (distance / APPROACH).clamp(SLOWEST * rate, FASTEST * rate)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::ActiveSet;
+    use crate::scene::Scene;
+    use crate::tui::trace::Happening;
+
+    fn marks(times: &[f64]) -> Vec<Mark> {
+        let what = Happening::Contact(ActiveSet::Side(1));
+        times.iter().map(|t_s| Mark { t_s: *t_s, what }).collect()
+    }
+
+    #[test]
+    fn it_slows_down_before_a_change_and_after_it_and_hurries_between() {
+        let marks = marks(&[1e-3, 50e-3]);
+        let at = |t| rate_at(t, 5e-3, &marks);
+        assert_eq!(at(25e-3), 15e-3);
+        assert_eq!(at(1e-3 - 1e-9), 1e-4);
+        assert_eq!(at(1e-3 + 1e-9), 1e-4);
+        assert!(at(0.7e-3) < at(0.4e-3) && at(1.3e-3) < at(1.6e-3));
+        assert_eq!(rate_at(0.0, 5e-3, &[]), 15e-3);
+    }
+
+    #[test]
+    fn the_lock_of_the_first_scene_takes_time_to_happen() {
+        let mut motion = Motion::new(&Scene::builtin("paper-nd3").unwrap().checked().unwrap());
+        let mut collected = crate::tui::trace::Marks::from(motion.contacts());
+        while motion.state().t_s < 1e-4 {
+            let next = motion.state().t_s + 2.5e-7;
+            motion.advance(next).unwrap();
+            collected.look(motion.contacts());
+        }
+        let (mut now, mut frames) = (0.0, 0);
+        while now < 4e-5 {
+            now += rate_at(now, 5e-3, &collected.seen) * 0.1;
+            frames += 1;
+        }
+        assert!((4..40).contains(&frames), "{frames} frames");
+    }
+
+    #[test]
+    fn impacts_like_hail_are_played_as_asked() {
+        let times: Vec<f64> = (0..100).map(|k| f64::from(k) * 1e-4).collect();
+        assert_eq!(rate_at(5.02e-3, 5e-3, &marks(&times)), 5e-3);
+    }
+}

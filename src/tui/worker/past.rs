@@ -1,0 +1,63 @@
+//! Copies of the motion at some instants, so that any instant of the run can be
+//! computed again exactly.
+
+use crate::motion::{GoOn, Motion};
+
+/// Most copies between changes; above, every second one goes.
+const MOST: usize = 128;
+/// Most changes from outside that are remembered.
+const MOST_CHANGES: usize = 500;
+/// Time between two copies at the start, in lengths of a page.
+const PART_OF_PAGE: f64 = 1.0 / 16.0;
+
+/// The motion at some instants.
+#[derive(Debug)]
+pub struct Past {
+    /// In order of time; whether the motion was changed from outside just then.
+    copies: Vec<(Motion, bool)>,
+    spacing: f64,
+}
+
+impl Past {
+    /// From the start of a motion of which pages of `page` seconds are shown.
+    pub fn of(motion: &Motion, page: f64) -> Self {
+        Self { copies: vec![(motion.clone(), true)], spacing: page * PART_OF_PAGE }
+    }
+
+    /// Keeps a copy if the last one is old.
+    pub fn follow(&mut self, motion: &Motion) {
+        let last = self.copies.last().map_or(f64::NEG_INFINITY, |(last, _)| last.state().t_s);
+        if motion.state().t_s - last < self.spacing {
+            return;
+        }
+        self.copies.push((motion.clone(), false));
+        if self.copies.iter().filter(|(_, changed)| !changed).count() > MOST {
+            self.spacing *= 2.0;
+            let mut odd = false;
+            self.copies.retain(|(_, changed)| {
+                odd = !odd;
+                *changed || odd
+            });
+        }
+    }
+
+    /// The motion was changed from outside: an earlier copy does not know it.
+    pub fn changed(&mut self, motion: &Motion) {
+        let now = motion.state().t_s;
+        self.copies.retain(|(copy, _)| copy.state().t_s < now);
+        self.copies.push((motion.clone(), true));
+        if self.copies.iter().filter(|(_, changed)| *changed).count() > MOST_CHANGES {
+            self.copies.remove(0);
+        }
+    }
+
+    /// The motion at `t`, computed again; the explicit solver: at its last step by
+    /// then. None before what is remembered, after a failure, or where `go_on`
+    /// says no.
+    pub fn at(&self, t: f64, now: &Motion, go_on: GoOn<'_>) -> Option<Motion> {
+        let copies = self.copies.iter().map(|(copy, _)| copy).chain([now]);
+        let mut motion = copies.take_while(|copy| copy.state().t_s <= t).last()?.clone();
+        // A motion that has failed cannot be looked at afterwards.
+        (motion.advance_while(t, go_on) == Ok(true)).then_some(motion)
+    }
+}

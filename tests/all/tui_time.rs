@@ -1,0 +1,192 @@
+//! Time on the screen: one instant in every panel, now and at the end, the run to
+//! come, changes of contact, and the sweep of a knob.
+
+use std::sync::mpsc;
+use std::time::Duration;
+
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+use ratatui::{Terminal, backend::TestBackend};
+use rubscope::motion::Motion;
+use rubscope::scene::Scene;
+use rubscope::tui::events::ScreenEvent;
+use rubscope::tui::terminal::NoHost;
+use rubscope::tui::worker::Stepwise;
+use rubscope::tui::{App, Marker, Theme, run};
+
+struct Session {
+    terminal: Terminal<TestBackend>,
+    app: App,
+    engine: Stepwise,
+}
+
+impl Session {
+    fn open(scene: Scene, stride: f64) -> Self {
+        let terminal = Terminal::new(TestBackend::new(170, 40)).unwrap();
+        let app = App::new(scene.checked().unwrap(), Theme::Mono, Marker::Braille);
+        let mut session = Self { terminal, app, engine: Stepwise::new(stride) };
+        session.press("");
+        session
+    }
+
+    /// Presses keys one by one; after each, the screen is drawn.
+    fn press(&mut self, keys: &str) {
+        let codes = keys.chars().map(|letter| match letter {
+            '\n' => KeyCode::Enter,
+            letter => KeyCode::Char(letter),
+        });
+        for code in codes.map(Some).chain([None]) {
+            let (sender, events) = mpsc::channel();
+            if let Some(code) = code {
+                sender.send(ScreenEvent::Key(KeyEvent::new(code, KeyModifiers::NONE))).unwrap();
+            }
+            drop(sender);
+            let (app, engine) = (&mut self.app, &mut self.engine);
+            run(&mut self.terminal, &events, app, engine, &mut NoHost, Duration::ZERO).unwrap();
+        }
+    }
+
+    fn row(&self, y: u16) -> String {
+        let buffer = self.terminal.backend().buffer();
+        (0..buffer.area.width).map(|x| buffer.cell((x, y)).unwrap().symbol()).collect()
+    }
+
+    fn text(&self) -> String {
+        (0..40).map(|y| self.row(y) + "\n").collect()
+    }
+}
+
+fn scene(name: &str) -> Scene {
+    Scene::builtin(name).unwrap()
+}
+
+#[test]
+fn the_first_line_says_what_is_now_and_what_will_be() {
+    let mut session = Session::open(scene("run-down"), 4e-3);
+    let line = session.row(0);
+    assert!(line.starts_with("NOW held on 6 + 21 ► "), "{line}");
+    assert!(line.contains("rad/s↓") && line.contains("| AT 100 ms  DECAY "), "{line}");
+    assert!(line.contains("lock broken at 48.91 ms, 410.4 rad/s"), "{line}");
+    // The speed that is shown is that of the ramp, with its sign.
+    session.press("....");
+    let speed = session.app.speed();
+    assert!(speed < 430.0 && session.row(0).contains(&format!("{speed:.1} rad/s↓")));
+    session.press("\n-430\n");
+    let line = session.row(0);
+    assert!(
+        line.contains(" -430.") || line.contains(" -431.") || line.contains(" -429."),
+        "{line}"
+    );
+    let limits = session.row(1);
+    for number in ["of 292.9", "of 411.9", "coincidence 388.3"] {
+        assert!(limits.contains(number), "{number}: {limits}");
+    }
+}
+
+#[test]
+fn the_reading_cursor_reads_the_run_and_not_a_bin() {
+    let mut session = Session::open(scene("paper-nd3"), 3e-3);
+    session.press("(((((((((");
+    let t = session.app.cursor_time().unwrap();
+    let mut motion = Motion::new(&session.app.scene);
+    motion.advance(t).unwrap();
+    let ([u_c, u_s], [alpha_c, _]) = (motion.state().u, motion.state().alpha);
+    let text = session.text();
+    for wanted in [
+        format!("u_c {:.2} µm", 1e6 * u_c),
+        format!("u_s {:.2} µm", 1e6 * u_s),
+        format!("α_c {:.3}", 1e9 * alpha_c).chars().take(9).collect(),
+        format!("at {:.2} ms", 1e3 * t),
+    ] {
+        assert!(text.contains(&wanted), "{wanted} is not in\n{text}");
+    }
+    // Every panel shows that instant.
+    let gaps = session.app.shown().unwrap().gaps.clone();
+    assert_eq!(gaps, motion.blade_gaps());
+    session.press("\u{1b}");
+    assert!(session.app.cursor.is_none() || !session.app.reading);
+}
+
+#[test]
+fn a_jump_says_what_happened_and_when() {
+    let mut session = Session::open(scene("rocking"), 1e-9);
+    let mut motion = Motion::new(&session.app.scene);
+    motion.advance(0.01).unwrap();
+    let first = motion.contacts().impacts[0].t_s;
+    assert!((first - 1.0304252344738236e-4).abs() < 1e-15, "{first:e}");
+    for zoom in ["", "++++++++", "--------"] {
+        session.press(&format!("r={zoom}n"));
+        let status = session.app.status.clone().unwrap();
+        assert_eq!(status, "103.0 µs: touching 19");
+    }
+}
+
+#[test]
+fn the_run_to_come_is_on_the_chart_before_it_is_played() {
+    let dots = |session: &Session| {
+        let braille = |letter: &char| ('\u{2801}'..='\u{28ff}').contains(letter);
+        (3..20).map(|y| session.row(y).chars().skip(30).filter(braille).count()).sum::<usize>()
+    };
+    let mut session = Session::open(scene("rocking"), 1e-9);
+    assert!(session.app.now() < 1e-6 && dots(&session) > 60, "{}", session.text());
+    // A page ahead, too.
+    session.press(">");
+    assert!(session.app.page().0 > 0.0 && dots(&session) > 60, "{}", session.text());
+}
+
+#[test]
+fn the_motion_stops_at_the_end_of_the_run_and_goes_on_when_asked() {
+    let mut scene = scene("rocking");
+    scene.solver.end_s = 5e-3;
+    let mut session = Session::open(scene, 5e-4);
+    while session.app.playing {
+        session.press("");
+    }
+    assert_eq!(session.app.now(), 5e-3);
+    assert!(session.row(39).contains("the end of the run; Space goes on"), "{}", session.row(39));
+    assert!(session.row(0).contains("| AT 5 ms "));
+    session.press(" ");
+    assert!(session.app.playing && session.row(0).contains("| AT 10 ms "), "{}", session.row(0));
+    assert!(session.app.now() > 5e-3);
+}
+
+#[test]
+fn a_sweep_goes_through_the_verdicts_by_itself_and_is_one_turn_to_undo() {
+    let mut scene = scene("adhesive");
+    scene.solver.end_s = 0.01;
+    let mut session = Session::open(scene, 1e-9);
+    let before = session.app.scene.clone();
+    session.press("S");
+    assert!(session.row(39).contains("sweep speed Ω from 360 rad/s to: _"), "{}", session.row(39));
+    session.press("460\n");
+    for _ in 0..400 {
+        if session.app.sweep.is_none() {
+            break;
+        }
+        session.press("");
+    }
+    assert_eq!(session.app.scene.operation.speed_rad_s, 460.0);
+    let told = session.app.status.clone().unwrap();
+    // Omega_lock is 411.86 rad/s; with this step the sign changes 0.2 rad/s later.
+    assert_eq!(told, "speed Ω: ADHESIVE 360 rad/s to 412 rad/s, LOCKED 412.5 rad/s to 460 rad/s");
+    session.press("u");
+    assert_eq!(session.app.scene, before);
+    // Any key stops one that is under way.
+    session.press("S460\n");
+    session.press(" ");
+    assert!(session.app.sweep.is_none() && session.app.scene.operation.speed_rad_s < 460.0);
+}
+
+#[test]
+fn a_pin_says_what_it_pinned() {
+    let mut session = Session::open(scene("rocking"), 1e-3);
+    session.press("1b");
+    let status = session.app.status.clone().unwrap();
+    assert!(status.starts_with("pinned behind the next runs: ") && status.contains("rad/s"));
+    let speed = session.app.scene.operation.speed_rad_s;
+    session.press("llll");
+    assert!(
+        session.text().contains(&format!("pinned: speed Ω {speed} rad/s")),
+        "{}",
+        session.text()
+    );
+}
