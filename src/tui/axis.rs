@@ -131,6 +131,11 @@ impl ChartAxis {
         if self.powers { format!("1e{value:.0}") } else { self.scale.label(value, step) }
     }
 
+    /// The value at a part of the axis, 0 to 1.
+    pub fn at(&self, part: f64) -> f64 {
+        self.low + part * (self.high - self.low)
+    }
+
     /// Whether it is a proper range.
     pub(super) fn is_sound(&self) -> bool {
         self.low.is_finite() && self.high.is_finite() && self.high > self.low

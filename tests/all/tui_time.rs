@@ -190,3 +190,25 @@ fn a_pin_says_what_it_pinned() {
         session.text()
     );
 }
+
+#[test]
+fn the_reading_cursor_reads_every_chart() {
+    let mut session = Session::open(scene("rocking"), 1e-3);
+    // View 6: the line of the spectrum under the cursor; view 4: the place.
+    session.press("6f i");
+    let text = session.text();
+    assert!(text.contains("rad/s: u_c ") && text.contains(", u_s "), "{text}");
+    let before = session.app.cursor.unwrap();
+    session.press("lllll");
+    assert!(session.app.cursor.unwrap().across > before.across);
+    session.press("4");
+    assert!(session.app.cursor.is_none());
+    session.press("i");
+    assert!(session.text().contains(" away "), "{}", session.text());
+    // View 2: the gap of one blade, as the motion has it.
+    session.press("2i");
+    session.press("lll");
+    let gap = session.app.shown().unwrap().gaps[3];
+    let wanted = format!("blade 4: {:.2}", 1e6 * gap);
+    assert!(session.text().contains(&wanted[..13]), "{wanted}\n{}", session.text());
+}

@@ -61,16 +61,18 @@ impl App {
         }
     }
 
-    /// While there is no verdict, the one before stays, dimmed.
+    /// While there is no verdict, the one before stays, dimmed; the event solver,
+    /// which is done sooner, is told beside it.
     fn computing(&self, part: &str) -> VerdictText {
-        let role = Role::Quiet;
-        match &self.verdict_before {
-            Some(word) => {
-                let detail = format!("before this change; computing {part}");
-                VerdictText { word: word.clone(), detail: detail.trim_end().into(), role }
-            }
-            None => VerdictText { word: "computing".into(), detail: part.into(), role },
-        }
+        let event = self.latest.results.reference.as_ref();
+        let event =
+            event.map_or(String::new(), |run| format!("event, unilateral: {}", run.verdict));
+        let (word, state) = match &self.verdict_before {
+            Some(word) => (word.clone(), format!("before this change; computing {part}")),
+            None => ("computing".into(), part.to_string()),
+        };
+        let detail = join(&[&event, state.trim_end()]);
+        VerdictText { word, detail, role: Role::Quiet }
     }
 
     pub(crate) fn words(&self, run: &FullRun) -> VerdictText {

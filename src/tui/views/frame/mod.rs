@@ -5,11 +5,12 @@ mod wheel;
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
+use super::ViewId;
 use super::panel::{ViewArea, ViewPanel, title};
 use super::response::ResponseView;
 use crate::motion::ActiveSet;
 use crate::tui::app::App;
-use crate::tui::axis::ChartAxis;
+use crate::tui::axis::{ChartAxis, readable};
 use crate::tui::history::Channel;
 use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
@@ -58,6 +59,18 @@ pub fn square(area: Rect, reach: f64) -> (ChartAxis, ChartAxis) {
     (ChartAxis::scaled(-x, x), ChartAxis::scaled(-y, y))
 }
 
+/// The place under the reading cursor, and how far the nearest blade is from it
+/// where blades are rigid.
+fn reading(app: &App, x: ChartAxis, y: ChartAxis) -> Option<String> {
+    let cursor = app.cursor.filter(|_| app.view == ViewId::Frame)?;
+    let (x, y) = (x.at(cursor.across), y.at(cursor.up));
+    let polygon = &app.machine.polygon;
+    let gaps = (0..polygon.sides).map(|side| (side, polygon.gap(side, x, y)));
+    let (side, gap) = gaps.min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let (blade, gap) = (app.blades_of([side].into_iter()), readable(gap, "m"));
+    Some(format!("at {}, {}: {blade} {gap} away", readable(x, "m"), readable(y, "m")))
+}
+
 fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let look = &app.appearance;
     let quiet = look.style(Role::Quiet);
@@ -65,11 +78,14 @@ fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let corner = app.machine.locked_amplitude().unwrap_or(polygon.clearance);
     let (x, y) = square(at.area, MARGIN * corner);
     let point = look.either('●', 'O');
-    let legend = [
+    let mut legend = vec![
         (format!("z, {}m", x.scale.prefix), quiet),
         (format!("{point} now"), look.style(Role::Focus)),
         (app.contact_shown(), look.style(Role::Contact)),
     ];
+    if let Some(read) = reading(app, x, y) {
+        legend.insert(0, (read, look.style(Role::Focus)));
+    }
     let inside = title(app, buffer, at, "blade frame", &legend);
     let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
     let outline = Pen { dashed: false, ..look.quiet() };
@@ -91,6 +107,9 @@ fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let trail = bins.map(|bin| (bin.middle(Channel::X), bin.middle(Channel::Y)));
     plot.curve(trail, &look.first());
     plot.ink();
+    if let Some(cursor) = app.cursor.filter(|_| app.view == ViewId::Frame) {
+        plot.point(x.at(cursor.across), y.at(cursor.up), '+', look.style(Role::Focus));
+    }
     if let Some(moment) = app.shown() {
         let [x, y] = in_blade_frame(moment.state.u, app.machine.nodal_diameters * moment.angle);
         plot.point(x, y, point, look.style(Role::Focus));

@@ -5,9 +5,11 @@ pub mod transform;
 
 use ratatui::buffer::Buffer;
 
+use self::transform::Spectrum;
+use super::ViewId;
 use super::panel::{ViewArea, ViewPanel, csv, entry, not_yet, title};
 use crate::tui::app::App;
-use crate::tui::axis::{ChartAxis, nice_step};
+use crate::tui::axis::{ChartAxis, nice_step, readable};
 use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
 use crate::tui::theme::Role;
@@ -66,21 +68,26 @@ fn lines(app: &App, speed: f64) -> [(f64, &'static str); 4] {
 fn amplitudes(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let look = &app.appearance;
     let quiet = look.style(Role::Quiet);
-    let legend = [
-        entry(look, &look.first(), "u_c"),
-        entry(look, &look.second(), "u_s"),
-        ("m by rad/s, whole run, Hann window".to_string(), quiet),
-    ];
+    let x = ChartAxis::plain(0.0, highest(app));
+    let cursor = app.cursor.filter(|_| app.view == ViewId::Spectrum).map(|at| x.at(at.across));
+    let spectrum = app.latest.results.spectrum.as_ref();
+    let mut legend = vec![entry(look, &look.first(), "u_c"), entry(look, &look.second(), "u_s")];
+    if let Some(read) = cursor.and_then(|frequency| reading(spectrum?, frequency)) {
+        legend.push((read, look.style(Role::Focus)));
+    }
+    legend.push(("m by rad/s, whole run, Hann window".to_string(), quiet));
     let inside = title(app, buffer, at, "spectrum", &legend);
-    let Some(spectrum) = &app.latest.results.spectrum else {
+    let Some(spectrum) = spectrum else {
         return not_yet(app, buffer, inside);
     };
-    let x = ChartAxis::plain(0.0, highest(app));
     let y = ChartAxis::powers(DECADES.0, DECADES.1);
     let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
     let marks = lines(app, app.speed().abs());
     for (frequency, _) in marks {
         plot.upright(frequency, look.either('┊', ':'), quiet);
+    }
+    if let Some(frequency) = cursor {
+        plot.upright(frequency, look.either('┊', ':'), look.style(Role::Focus));
     }
     for (series, pen) in [(&spectrum.sine, look.second()), (&spectrum.cosine, look.first())] {
         let points = series.iter().enumerate().map(|(k, amplitude)| {
@@ -92,6 +99,14 @@ fn amplitudes(app: &App, buffer: &mut Buffer, at: ViewArea) {
     for ((frequency, name), row) in marks.iter().zip(plot.inner.y..) {
         plot.note(*frequency, row, &look.spell(name), look.style(Role::Text));
     }
+}
+
+/// The line nearest to a frequency.
+fn reading(spectrum: &Spectrum, frequency: f64) -> Option<String> {
+    let line = (frequency / spectrum.resolution).round().max(0.0) as usize;
+    let (u_c, u_s) = (spectrum.cosine.get(line)?, spectrum.sine.get(line)?);
+    let at = readable(line as f64 * spectrum.resolution, "rad/s");
+    Some(format!("at {at}: u_c {}, u_s {}", readable(*u_c, "m"), readable(*u_s, "m")))
 }
 
 fn campbell(app: &App, buffer: &mut Buffer, at: ViewArea) {
