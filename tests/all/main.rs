@@ -61,8 +61,10 @@ mod scenes;
 mod security;
 mod soak;
 mod tui_hostile;
+mod tui_lessons;
 mod tui_loop;
 mod tui_random;
+mod tui_scenes;
 mod tui_screens;
 mod verdicts;
 

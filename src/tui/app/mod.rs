@@ -5,6 +5,8 @@ mod command;
 mod cursor;
 mod files;
 mod lesson;
+mod past;
+mod scenes;
 mod snapshot;
 mod time;
 mod turn;
@@ -13,16 +15,21 @@ mod verdict;
 
 pub use cursor::Cursor;
 pub use lesson::LessonProgress;
+pub use scenes::SceneEntry;
 pub use time::RATES;
 pub use update::Effect;
 pub use verdict::VerdictText;
+
+use past::Past;
 
 use super::appearance::Appearance;
 use super::axis::AutoRange;
 use super::bindings::Context;
 use super::engine::{Moment, Order, Snapshot};
 use super::history::BinHistory;
+use super::lessons::LessonsDone;
 use super::raster::Marker;
+use super::scenes::FoundScenes;
 use super::theme::Theme;
 use super::views::ViewId;
 use crate::model::Machine;
@@ -80,6 +87,8 @@ pub enum InputMode {
     Replacing(Purpose, String),
     /// A lesson is being chosen.
     Lessons(usize),
+    /// A scene is being chosen: its place in the list, or the open one.
+    Scenes(Option<usize>),
 }
 
 /// How the explorer ends.
@@ -180,6 +189,12 @@ pub struct App {
     pub writing: Option<Writing>,
     /// The lesson under way.
     pub lesson: Option<LessonProgress>,
+    /// The steps of the lessons that were done.
+    pub lessons_done: LessonsDone,
+    /// The scenes of the directory, as they were last read.
+    pub found_scenes: FoundScenes,
+    /// Page of the note of the selected scene, where it is long.
+    pub note_page: usize,
     /// Chart ranges.
     pub ranges: Ranges,
     /// Theme and marker.
@@ -189,8 +204,8 @@ pub struct App {
     /// The latest verdict of a motion that has been changed since, in one word.
     verdict_before: Option<String>,
     counters: Counters,
-    undo: Vec<CheckedScene>,
-    redo: Vec<CheckedScene>,
+    undo: Vec<Past>,
+    redo: Vec<Past>,
     page: i64,
 }
 
@@ -247,6 +262,9 @@ impl App {
             source: None,
             writing: None,
             lesson: None,
+            lessons_done: LessonsDone::default(),
+            found_scenes: FoundScenes::default(),
+            note_page: 0,
             appearance: Appearance { theme, marker },
             asked: true,
             verdict_before: None,
@@ -261,12 +279,14 @@ impl App {
     pub fn context(&self) -> Context {
         match self.mode {
             InputMode::Main if self.reading => Context::Reading,
+            InputMode::Main if self.is_asked() => Context::Question,
             InputMode::Main => Context::Main,
             InputMode::Typing(_) => Context::Typing,
             InputMode::Help(_) => Context::Help,
             InputMode::Naming(..) => Context::Typing,
             InputMode::Replacing(..) => Context::Replacing,
             InputMode::Lessons(_) => Context::Lessons,
+            InputMode::Scenes(_) => Context::Scenes,
         }
     }
 
