@@ -7,6 +7,7 @@ use std::thread;
 use crossterm::event::{self, KeyEvent, KeyEventKind};
 
 use super::files::FileResult;
+use super::scenes::FoundScenes;
 
 /// Something that happened.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +28,8 @@ pub enum ScreenEvent {
     Pasted(String),
     /// The file that was being written is done.
     Written(FileResult),
+    /// The scenes of the directory were read.
+    Scenes(FoundScenes),
     /// No more keys: the terminal is closed.
     InputClosed,
 }

@@ -9,6 +9,7 @@ use std::thread;
 use std::time::Duration;
 
 use super::events::ScreenEvent;
+use super::scenes::FoundScenes;
 use crate::file;
 
 /// Name of the thread: the panic hook leaves the screen alone for it.
@@ -77,6 +78,20 @@ pub fn write_aside(job: FileJob, events: Sender<ScreenEvent>) -> Option<FileResu
     };
     let started = thread::Builder::new().name(FILES_NAME.into()).spawn(work);
     started.err().map(|error| FileResult::Failed(error.to_string()))
+}
+
+/// Starts the thread that reads the scenes of a directory; they come as an event,
+/// unless there is no thread.
+pub fn find_aside(directory: PathBuf, events: Sender<ScreenEvent>) -> Option<FoundScenes> {
+    let failed = |reason: String| FoundScenes { missing: Some(reason), ..FoundScenes::default() };
+    let work = move || {
+        let found = catch_unwind(AssertUnwindSafe(|| FoundScenes::of(&directory)))
+            .unwrap_or_else(|_| failed("the program has an error".into()));
+        // Without a receiver the program is about to end.
+        let _ = events.send(ScreenEvent::Scenes(found));
+    };
+    let started = thread::Builder::new().name(FILES_NAME.into()).spawn(work);
+    started.err().map(|error| failed(error.to_string()))
 }
 
 /// Finishes the change of a file that is under way, and removes what an

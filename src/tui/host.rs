@@ -1,11 +1,13 @@
 //! What the run loop needs besides a backend: the shell, the clipboard, files.
 
 use std::io::Result;
+use std::path::PathBuf;
 use std::sync::mpsc::Sender;
 
 use super::events::ScreenEvent;
-use super::files::{FileJob, FileResult, write_aside};
+use super::files::{FileJob, FileResult, find_aside, write_aside};
 use super::job;
+use super::scenes::FoundScenes;
 use super::terminal;
 
 /// What the run loop needs besides a backend.
@@ -36,6 +38,11 @@ pub trait Host {
     }
     /// Writes a file. Without a result, that comes later as an event.
     fn write(&mut self, job: FileJob) -> Option<FileResult>;
+    /// Reads the scenes of a directory. Without a result, that comes later as an
+    /// event.
+    fn find_scenes(&mut self, directory: PathBuf) -> Option<FoundScenes> {
+        Some(FoundScenes::of(&directory))
+    }
 }
 
 /// A host without a terminal, for tests; files are written at once.
@@ -98,6 +105,10 @@ impl Host for Shell {
 
     fn write(&mut self, job: FileJob) -> Option<FileResult> {
         write_aside(job, self.events.clone())
+    }
+
+    fn find_scenes(&mut self, directory: PathBuf) -> Option<FoundScenes> {
+        find_aside(directory, self.events.clone())
     }
 }
 

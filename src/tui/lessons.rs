@@ -1,14 +1,21 @@
 //! The lessons under `assets/lessons/`, embedded in the program: each has a
-//! scene and a few steps of text that set knobs and give tasks.
+//! scene and a few steps. A step asks what will happen, sets knobs when it is
+//! answered, and gives the reason; or it has a task.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
+
+use crate::scene::{CheckedScene, Scene, SceneError};
 
 /// One lesson.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Lesson {
+    /// Its name in files: the name of its own file.
+    #[serde(skip)]
+    pub name: &'static str,
     /// What it is about.
     pub title: String,
     /// The built-in scene at its start.
@@ -18,25 +25,88 @@ pub struct Lesson {
     pub steps: Vec<LessonStep>,
 }
 
+/// Keys of a scene, and the text of their values.
+pub type Settings = Vec<(String, String)>;
+
 /// One step of a lesson.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct LessonStep {
-    /// What can be seen, and the reason.
+    /// What can be seen, and what one must know.
     pub text: String,
+    /// Keys that are set when the step begins, before the question.
+    #[serde(default)]
+    pub begin: Settings,
+    /// What will happen?
+    pub question: Option<String>,
+    /// The answers to choose from, a, b, c.
+    #[serde(default)]
+    pub answers: Vec<String>,
+    /// The letter of the right one.
+    pub right: Option<char>,
+    /// Why, shown with the run.
+    pub reason: Option<String>,
     /// The equation behind it.
     pub equation: Option<String>,
+    /// Keys that are set when the question is answered; without a question,
+    /// when the step begins.
+    #[serde(default)]
+    pub set: Settings,
     /// The task of the reader.
     pub task: Option<String>,
-    /// Keys of the scene that are set when the step begins.
-    #[serde(default)]
-    pub set: Vec<(String, String)>,
-    /// The view that is shown.
-    pub view: Option<String>,
-    /// Whether knobs act on the running motion.
-    pub live: Option<bool>,
     /// When the task is done.
     pub until: Option<Condition>,
+    /// Keys that a reader may set to do the task; the next step begins so.
+    #[serde(default)]
+    pub doing: Settings,
+    /// The view that is shown.
+    pub view: Option<String>,
+    /// The view that is shown with the answer, if another.
+    pub then_view: Option<String>,
+    /// The knob that is selected.
+    pub knob: Option<String>,
+    /// Whether knobs act on the running motion.
+    #[serde(default)]
+    pub live: bool,
+    /// Whether the other contact law is compared, from the answer on.
+    #[serde(default)]
+    pub compare: bool,
+    /// What must be true when the step is done. A test asks the solvers.
+    #[serde(default)]
+    pub check: Vec<Check>,
+}
+
+/// A number or a word of the text, and where it is from.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Check {
+    /// Something of the run to the end.
+    pub run: Option<String>,
+    /// Something of the locked motion, from the harmonic balance.
+    pub hbm: Option<String>,
+    /// Something of the machine.
+    pub model: Option<String>,
+    /// A key of the scene.
+    pub key: Option<String>,
+    /// The rotor speed for `hbm`, if not that of the scene \[rad/s\].
+    pub speed: Option<f64>,
+    /// Keys in which the scene differs from that of the step.
+    #[serde(default)]
+    pub with: Settings,
+    /// What it is.
+    pub is: Expected,
+    /// Largest difference; half of the last digit if not given.
+    pub within: Option<f64>,
+}
+
+/// What a check expects.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(untagged)]
+pub enum Expected {
+    /// A number, in SI units.
+    Number(f64),
+    /// A word.
+    Word(String),
 }
 
 /// When a task is done.
@@ -57,45 +127,137 @@ pub enum Condition {
     Is(String, String),
 }
 
-const FILES: &[&str] = &[
-    include_str!("../../assets/lessons/critical-speed.toml"),
-    include_str!("../../assets/lessons/lock.toml"),
-    include_str!("../../assets/lessons/sign.toml"),
-    include_str!("../../assets/lessons/time-step.toml"),
-    include_str!("../../assets/lessons/slip.toml"),
-    include_str!("../../assets/lessons/polygon.toml"),
-    include_str!("../../assets/lessons/speed-and-error.toml"),
+impl LessonStep {
+    /// The place of the right answer.
+    pub fn right_place(&self) -> Option<usize> {
+        let right = self.right?;
+        LETTERS.iter().position(|letter| *letter == right)
+    }
+}
+
+impl Lesson {
+    /// The scene of a step, before or after its question is answered: that of the
+    /// lesson, with what its steps have set and their tasks have changed so far.
+    ///
+    /// # Errors
+    /// A key or a value that is refused.
+    pub fn scene_at(&self, step: usize, answered: bool) -> Result<CheckedScene, SceneError> {
+        let mut scene = Scene::builtin(&self.scene)?;
+        for (place, found) in self.steps.iter().enumerate().take(step + 1) {
+            let before = place < step;
+            let acts = before || answered || found.question.is_none();
+            let set = found.set.iter().filter(|_| acts);
+            let done = found.doing.iter().filter(|_| before);
+            for (path, value) in found.begin.iter().chain(set).chain(done) {
+                scene.set(path, value)?;
+            }
+        }
+        scene.checked()
+    }
+}
+
+/// The letters of the answers, which are also their keys.
+pub const LETTERS: [char; 3] = ['a', 'b', 'c'];
+
+/// The steps that were done, by the name of the lesson; the first step is 1.
+#[derive(Clone, Debug, Default, Deserialize, PartialEq, Eq, Serialize)]
+#[serde(transparent)]
+pub struct LessonsDone(BTreeMap<String, BTreeSet<usize>>);
+
+impl LessonsDone {
+    /// Records a step, counted from 0.
+    pub fn add(&mut self, lesson: &Lesson, step: usize) {
+        self.0.entry(lesson.name.to_string()).or_default().insert(step + 1);
+    }
+
+    /// Whether a step, counted from 0, was done.
+    pub fn has(&self, lesson: &Lesson, step: usize) -> bool {
+        self.0.get(lesson.name).is_some_and(|steps| steps.contains(&(step + 1)))
+    }
+
+    /// How many steps of a lesson were done.
+    pub fn count(&self, lesson: &Lesson) -> usize {
+        (0..lesson.steps.len()).filter(|step| self.has(lesson, *step)).count()
+    }
+
+    /// The first step of a lesson that was not done.
+    pub fn next(&self, lesson: &Lesson) -> Option<usize> {
+        (0..lesson.steps.len()).find(|step| !self.has(lesson, *step))
+    }
+}
+
+macro_rules! lessons {
+    ($($name:literal),+ $(,)?) => {
+        &[$(($name, include_str!(concat!("../../assets/lessons/", $name, ".toml")))),+]
+    };
+}
+
+/// Names and texts, in the order of the list.
+const FILES: &[(&str, &str)] = lessons![
+    "critical-speed",
+    "lock",
+    "sign",
+    "run-down",
+    "rocking",
+    "slip",
+    "polygon",
+    "time-step",
+    "speed-and-error",
 ];
 
 /// Every lesson, in the order of the list.
 pub fn all() -> &'static [Lesson] {
     static LESSONS: OnceLock<Vec<Lesson>> = OnceLock::new();
     // The files are part of the program, and a test reads each of them.
-    LESSONS.get_or_init(|| FILES.iter().filter_map(|file| toml::from_str(file).ok()).collect())
+    let read = |(name, text): &(&'static str, &str)| {
+        toml::from_str(text).ok().map(|lesson| Lesson { name, ..lesson })
+    };
+    LESSONS.get_or_init(|| FILES.iter().filter_map(read).collect())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Scene, keys::CHARTS};
+    use crate::scene::keys::CHARTS;
+    use crate::tui::knobs::KNOBS;
 
     #[test]
     fn every_lesson_is_read_and_its_steps_make_sense() {
-        for file in FILES {
-            toml::from_str::<Lesson>(file).unwrap();
+        for (name, text) in FILES {
+            toml::from_str::<Lesson>(text).unwrap_or_else(|error| panic!("{name}: {error}"));
         }
         assert_eq!(all().len(), FILES.len());
         for lesson in all() {
-            let mut scene = Scene::builtin(&lesson.scene).unwrap();
             assert!(lesson.steps.len() >= 3, "{}", lesson.title);
-            for step in &lesson.steps {
-                for (path, value) in &step.set {
-                    scene.set(path, value).unwrap();
+            for (place, step) in lesson.steps.iter().enumerate() {
+                for answered in [false, true] {
+                    lesson.scene_at(place, answered).unwrap();
                 }
-                scene.checked().unwrap();
-                assert!(step.view.as_deref().is_none_or(|view| CHARTS.contains(&view)));
+                for view in [&step.view, &step.then_view].into_iter().flatten() {
+                    assert!(CHARTS.contains(&view.as_str()), "{view}");
+                }
+                let knobs = KNOBS.iter().map(|knob| knob.path);
+                assert!(step.knob.as_deref().is_none_or(|path| knobs.clone().any(|p| p == path)));
                 assert_eq!(step.task.is_some(), step.until.is_some(), "{}", step.text);
+                let asked = step.question.is_some();
+                assert_eq!(step.answers.len(), if asked { 3 } else { 0 }, "{}", step.text);
+                assert!(asked == step.right_place().is_some() && asked == step.reason.is_some());
             }
         }
+    }
+
+    #[test]
+    fn what_was_done_is_a_small_value_for_a_file() {
+        let mut done = LessonsDone::default();
+        let lesson = &all()[1];
+        assert_eq!(done.next(lesson), Some(0));
+        (0..2).for_each(|step| done.add(lesson, step));
+        assert_eq!((done.count(lesson), done.next(lesson)), (2, Some(2)));
+        let text = toml::to_string(&done).unwrap();
+        assert_eq!(text, "lock = [1, 2]\n");
+        assert_eq!(toml::from_str::<LessonsDone>(&text).unwrap(), done);
+        // Steps that a later version no longer has do no harm.
+        let old: LessonsDone = toml::from_str("lock = [77]\ngone = [1]").unwrap();
+        assert_eq!((old.count(lesson), old.next(lesson)), (0, Some(0)));
     }
 }

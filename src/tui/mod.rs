@@ -30,6 +30,8 @@ mod plot;
 mod raster;
 mod run;
 #[doc(hidden)]
+pub mod scenes;
+#[doc(hidden)]
 pub mod terminal;
 mod text;
 mod theme;

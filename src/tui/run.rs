@@ -191,6 +191,12 @@ fn handle(event: ScreenEvent, app: &mut App, host: &mut dyn Host) -> Reaction {
                 }
                 Reaction::Draw(Due::Now)
             }
+            Effect::FindScenes(directory) => {
+                if let Some(found) = host.find_scenes(directory) {
+                    app.scenes_found(found);
+                }
+                Reaction::Draw(Due::Now)
+            }
         },
         ScreenEvent::Resize => Reaction::Draw(Due::Now),
         ScreenEvent::Pasted(text) => {
@@ -199,6 +205,10 @@ fn handle(event: ScreenEvent, app: &mut App, host: &mut dyn Host) -> Reaction {
         }
         ScreenEvent::Written(result) => {
             app.written(result);
+            Reaction::Draw(Due::Now)
+        }
+        ScreenEvent::Scenes(found) => {
+            app.scenes_found(found);
             Reaction::Draw(Due::Now)
         }
         ScreenEvent::Fresh => Reaction::Look,

@@ -13,14 +13,14 @@ use rubscope::tui::worker::Stepwise;
 use rubscope::tui::{App, Exit, Marker, Theme, run};
 
 /// An explorer on a test backend.
-struct Session {
+pub struct Session {
     terminal: Terminal<TestBackend>,
-    app: App,
+    pub app: App,
     engine: Stepwise,
 }
 
 /// The paper's scene with a coarser step and a shorter run, for speed.
-fn scene() -> Scene {
+pub fn scene() -> Scene {
     let mut scene = Scene::builtin("paper-nd3").unwrap();
     scene.solver.step_s = 2e-7;
     scene.solver.end_s = 0.02;
@@ -28,7 +28,7 @@ fn scene() -> Scene {
 }
 
 impl Session {
-    fn open(width: u16, height: u16, scene: Scene, theme: Theme, marker: Marker) -> Self {
+    pub fn open(width: u16, height: u16, scene: Scene, theme: Theme, marker: Marker) -> Self {
         let terminal = Terminal::new(TestBackend::new(width, height)).unwrap();
         let mut session = Self {
             terminal,
@@ -40,7 +40,7 @@ impl Session {
     }
 
     /// Presses keys, one a letter; two frames later the screen is looked at.
-    fn press(&mut self, keys: &str) -> Exit {
+    pub fn press(&mut self, keys: &str) -> Exit {
         self.keys(keys.chars().map(|letter| match letter {
             '\n' => KeyCode::Enter,
             '\t' => KeyCode::Tab,
@@ -60,7 +60,7 @@ impl Session {
         run(&mut self.terminal, &events, app, engine, &mut NoHost, Duration::ZERO).unwrap()
     }
 
-    fn text(&self) -> String {
+    pub fn text(&self) -> String {
         let buffer = self.terminal.backend().buffer();
         let width = usize::from(buffer.area.width);
         buffer
@@ -205,35 +205,6 @@ fn speed_against_error_shows_every_kind_of_solver() {
     for letter in ["e", "U"] {
         assert!(text.contains(letter), "no {letter} in {text}");
     }
-}
-
-#[test]
-fn every_lesson_begins_with_a_screen_of_its_own() {
-    for place in 0..rubscope::tui::lessons::all().len() {
-        let mut session = Session::open(80, 24, scene(), Theme::Light, Marker::Braille);
-        let down = "j".repeat(place);
-        session.press(&format!("g{down}\n"));
-        let lesson = &rubscope::tui::lessons::all()[place];
-        let text = session.text();
-        assert!(text.contains(&format!("{} - step 1 of", lesson.title)), "{text}");
-        // The key for the next step ends the lesson after the last one; a long
-        // text needs one more press.
-        let mut presses = 0;
-        while session.app.lesson.is_some() {
-            session.press("g");
-            presses += 1;
-            assert!(presses <= 2 * lesson.steps.len(), "{}", session.text());
-        }
-    }
-}
-
-#[test]
-fn a_task_of_a_lesson_is_checked_off() {
-    let mut session = Session::open(100, 40, scene(), Theme::Dark, Marker::Braille);
-    session.press("g\ng");
-    assert!(session.text().contains("[ ] Turn the speed below 290"), "{}", session.text());
-    session.press("\n280\n");
-    assert!(session.text().contains("[x] Turn the speed below 290"), "{}", session.text());
 }
 
 #[test]

@@ -13,18 +13,23 @@ impl App {
         };
         let Source { name, scene: base } = self.source.clone().unwrap_or_else(default);
         let mut command = format!("rubscope run {}", quoted(&name));
-        for key in KEYS.iter().filter(|key| !key.path.starts_with("view.")) {
-            let value = (key.get)(&self.scene);
-            if value != (key.get)(&base) {
-                let text = match value {
-                    Value::Real(x) => format!("{x:?}"),
-                    Value::Text(text) => text,
-                    other => other.to_string(),
-                };
-                command.push_str(&format!(" --set {}", quoted(&format!("{}={text}", key.path))));
-            }
+        for (path, text) in self.changes_from(&base) {
+            command.push_str(&format!(" --set {}", quoted(&format!("{path}={text}"))));
         }
         command
+    }
+
+    /// Keys that differ from a scene, with their values as text; charts are not
+    /// counted.
+    pub(super) fn changes_from(&self, base: &Scene) -> Vec<(&'static str, String)> {
+        let counted = KEYS.iter().filter(|key| !key.path.starts_with("view."));
+        let changed = counted.filter(|key| (key.get)(&self.scene) != (key.get)(base));
+        let as_text = |value| match value {
+            Value::Real(x) => format!("{x:?}"),
+            Value::Text(text) => text,
+            other => other.to_string(),
+        };
+        changed.map(|key| (key.path, as_text((key.get)(&self.scene)))).collect()
     }
 
     /// The command to copy; the status line shows it too.

@@ -19,7 +19,7 @@ impl App {
             return Effect::None;
         }
         let content = match purpose {
-            Purpose::Save => Ok(self.scene.to_toml()),
+            Purpose::Save => Ok(self.scene_to_save().to_toml()),
             Purpose::Export if name.ends_with(".svg") => Ok(export::svg(self)),
             Purpose::Export => self.view.panel().csv(self),
         };

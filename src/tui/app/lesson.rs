@@ -1,8 +1,12 @@
-//! The current lesson: its step, and whether its task is done.
+//! The current lesson: its step, the answer, and whether its task is done.
 
+use std::sync::Arc;
+
+use super::past::Past;
 use super::{App, InputMode, Source};
 use crate::scene::{Scene, Value, keys};
-use crate::tui::lessons::{self, Condition, Lesson};
+use crate::tui::knobs::KNOBS;
+use crate::tui::lessons::{self, Condition, LETTERS, Lesson, LessonStep};
 use crate::tui::panels;
 use crate::tui::views::ViewId;
 
@@ -13,10 +17,34 @@ pub struct LessonProgress {
     pub lesson: usize,
     /// Which step, from 0.
     pub step: usize,
-    /// The task of the step is done.
-    pub done: bool,
-    /// Its text has been read, if it hides the charts.
+    /// Answers given, and tasks done, by step.
+    pub steps: Vec<StepProgress>,
+    /// Page of the text, if it hides the charts.
+    pub page: usize,
+    /// The last page has been read.
     pub read: bool,
+    /// What the user had before, and gets back.
+    own: Arc<Past>,
+}
+
+/// The progress of one step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct StepProgress {
+    /// The place of the answer given.
+    pub answer: Option<usize>,
+    /// The task is done.
+    pub done: bool,
+}
+
+impl LessonProgress {
+    /// The progress of the present step.
+    pub fn now(&self) -> StepProgress {
+        self.steps.get(self.step).copied().unwrap_or_default()
+    }
+
+    fn now_mut(&mut self) -> Option<&mut StepProgress> {
+        self.steps.get_mut(self.step)
+    }
 }
 
 impl App {
@@ -26,78 +54,159 @@ impl App {
         Some((lessons::all().get(progress.lesson)?, progress))
     }
 
-    /// The key of the lessons: the list, or the next step.
+    /// The present step of the lesson.
+    pub fn lesson_step(&self) -> Option<(&'static LessonStep, StepProgress)> {
+        let (lesson, progress) = self.current_lesson()?;
+        Some((lesson.steps.get(progress.step)?, progress.now()))
+    }
+
+    /// Whether a lesson waits for an answer.
+    pub fn is_asked(&self) -> bool {
+        let step = self.lesson_step();
+        step.is_some_and(|(step, now)| step.question.is_some() && now.answer.is_none())
+    }
+
+    /// The key of the lessons: the list, the next page, or the next step.
     pub(super) fn lesson_key(&mut self) {
         let Some((lesson, progress)) = self.current_lesson() else {
-            self.mode = InputMode::Lessons(0);
+            let done = &self.lessons_done;
+            let next = lessons::all().iter().position(|lesson| done.next(lesson).is_some());
+            self.mode = InputMode::Lessons(next.unwrap_or(0));
             return;
         };
+        let (number, step) = (progress.lesson, progress.step);
         if !progress.read && panels::lesson_fills(self) {
+            let pages = panels::lesson_pages(self);
             if let Some(progress) = &mut self.lesson {
-                progress.read = true;
+                progress.page += 1;
+                progress.read = progress.page >= pages;
             }
-            return;
-        }
-        let (steps, title) = (lesson.steps.len(), lesson.title.clone());
-        if progress.step + 1 >= steps {
-            self.lesson = None;
-            self.status = Some(format!("end of the lesson: {title}"));
+        } else if self.is_asked() {
+            self.status = Some("first your guess: a, b or c".into());
+        } else if step + 1 < lesson.steps.len() {
+            self.begin_step(number, step + 1);
         } else {
-            self.begin_step(progress.lesson, progress.step + 1);
+            self.leave_lesson();
+            self.status = Some(format!("end of the lesson: {}; your scene is back", lesson.title));
         }
     }
 
-    /// Starts a lesson with its own scene.
+    /// The step before.
+    pub(super) fn lesson_back(&mut self) {
+        match self.lesson.as_ref().map(|progress| (progress.lesson, progress.step)) {
+            None => self.status = Some("no lesson is open".into()),
+            Some((_, 0)) => self.status = Some("this is the first step".into()),
+            Some((lesson, step)) => self.begin_step(lesson, step - 1),
+        }
+    }
+
+    /// Starts a lesson where it was left, with a scene of its own.
     pub(super) fn begin_lesson(&mut self, place: usize) {
         self.mode = InputMode::Main;
+        if let Some(lesson) = lessons::all().get(place) {
+            let step = self.lessons_done.next(lesson).unwrap_or(0);
+            self.begin_step(place, step);
+        }
+    }
+
+    /// Gives the user's own scene back, as it was before the lesson.
+    pub(super) fn leave_lesson(&mut self) {
+        if let Some(own) = self.lesson.as_ref().map(|progress| Arc::clone(&progress.own)) {
+            self.give_back(Past::clone(&own));
+        }
+    }
+
+    /// Forgets the lesson, but not what it left on the screen.
+    pub(super) fn end_lesson(&mut self) {
+        if let Some(progress) = self.lesson.take() {
+            self.live = progress.own.live;
+            self.set_compare(progress.own.compare);
+        }
+    }
+
+    /// Shows a step, with the answer if one was given before.
+    fn begin_step(&mut self, place: usize, step: usize) {
         let Some(lesson) = lessons::all().get(place) else { return };
-        match Scene::builtin(&lesson.scene).and_then(|scene| scene.checked()) {
+        let past = self.past();
+        let begun = self.lesson.clone().filter(|progress| progress.lesson == place);
+        let begun = begun.unwrap_or_else(|| LessonProgress {
+            lesson: place,
+            step,
+            steps: vec![StepProgress::default(); lesson.steps.len()],
+            page: 0,
+            read: false,
+            own: match &self.lesson {
+                Some(other) => Arc::clone(&other.own),
+                None => Arc::new(past.clone()),
+            },
+        });
+        self.lesson = Some(LessonProgress { step, page: 0, read: false, ..begun });
+        let knob = lesson.steps.get(step).and_then(|found| found.knob.as_deref());
+        if let Some(knob) = KNOBS.iter().position(|known| Some(known.path) == knob) {
+            self.knob = knob;
+        }
+        self.show_step(past);
+    }
+
+    /// Takes an answer: now its scene is run.
+    pub(super) fn answer(&mut self, place: usize) {
+        if !self.is_asked() {
+            return;
+        }
+        let past = self.past();
+        if let Some(progress) = &mut self.lesson {
+            (progress.page, progress.read) = (0, false);
+            if let Some(now) = progress.now_mut() {
+                now.answer = Some(place.min(LETTERS.len() - 1));
+            }
+        }
+        self.show_step(past);
+    }
+
+    /// Makes scene and view those of the present step; undo comes back to `past`.
+    fn show_step(&mut self, past: Past) {
+        let Some((lesson, progress)) = self.current_lesson() else { return };
+        let Some(step) = lesson.steps.get(progress.step) else { return };
+        let answered = !self.is_asked();
+        match lesson.scene_at(progress.step, answered) {
             Ok(scene) => {
+                self.remember(past);
                 self.opened = scene.clone();
-                let read = scene.clone().into_scene();
-                self.source = Some(Source { name: lesson.scene.clone(), scene: read });
-                self.set_scene(scene, false);
-                self.begin_step(place, 0);
+                if let Ok(read) = Scene::builtin(&lesson.scene) {
+                    self.source = Some(Source { name: lesson.scene.clone(), scene: read });
+                }
+                if scene != self.scene {
+                    self.set_scene(scene, false);
+                }
             }
             Err(error) => self.status = Some(error.to_string()),
         }
-    }
-
-    /// Sets knobs and view for a step.
-    fn begin_step(&mut self, lesson: usize, step: usize) {
-        self.lesson = Some(LessonProgress { lesson, step, done: false, read: false });
-        let Some(found) = lessons::all().get(lesson).and_then(|l| l.steps.get(step)) else {
-            return;
-        };
-        let mut scene = self.scene.clone().into_scene();
-        for (path, value) in &found.set {
-            if let Err(error) = scene.set(path, value) {
-                self.status = Some(error.to_string());
-            }
-        }
-        if scene != *self.scene
-            && let Ok(scene) = scene.checked()
-        {
-            self.set_scene(scene, false);
-        }
-        if let Some(view) = found.view.as_deref().and_then(ViewId::from_word) {
+        self.refusal = None;
+        self.live = step.live;
+        self.set_compare(step.compare && answered);
+        let then = step.then_view.as_ref().filter(|_| answered);
+        let view = then.or(step.view.as_ref()).and_then(|word| ViewId::from_word(word));
+        if let Some(view) = view {
             self.show(view);
         }
-        if let Some(live) = found.live {
-            self.live = live;
-        }
     }
 
-    /// Records when the task of the step is done.
+    /// Records when the step is done: it is answered, and so is its task.
     pub fn check_lesson(&mut self) {
-        let Some((lesson, progress)) = self.current_lesson() else { return };
-        if progress.done {
+        let Some((step, now)) = self.lesson_step() else { return };
+        if now.done || self.is_asked() {
             return;
         }
-        let Some(step) = lesson.steps.get(progress.step) else { return };
         let done = step.until.as_ref().is_none_or(|condition| self.meets(condition));
-        if let Some(progress) = &mut self.lesson {
-            progress.done = done;
+        if !done {
+            return;
+        }
+        if let Some(now) = self.lesson.as_mut().and_then(LessonProgress::now_mut) {
+            now.done = true;
+        }
+        if let Some((lesson, progress)) = self.current_lesson() {
+            let step = progress.step;
+            self.lessons_done.add(lesson, step);
         }
     }
 

@@ -5,6 +5,8 @@ mod command;
 mod cursor;
 mod files;
 mod lesson;
+mod past;
+mod scenes;
 mod snapshot;
 mod sweep;
 mod time;
@@ -14,10 +16,13 @@ mod verdict;
 
 pub use cursor::{Cursor, cell_of};
 pub use lesson::LessonProgress;
+pub use scenes::SceneEntry;
 pub use sweep::Sweep;
 pub use time::RATES;
 pub use update::Effect;
 pub use verdict::VerdictText;
+
+use past::Past;
 
 use super::appearance::Appearance;
 use super::axis::AutoRange;
@@ -25,8 +30,10 @@ use super::bindings::Context;
 use super::engine::{Moment, Order, Snapshot};
 use super::history::BinHistory;
 use super::knobs::{KNOBS, Knob};
+use super::lessons::LessonsDone;
 use super::line::Line;
 use super::raster::Marker;
+use super::scenes::FoundScenes;
 use super::theme::Theme;
 use super::views::ViewId;
 use crate::model::Machine;
@@ -100,6 +107,8 @@ pub enum InputMode {
     Replacing(Purpose, String),
     /// A lesson is being chosen.
     Lessons(usize),
+    /// A scene is being chosen: its place in the list, or the open one.
+    Scenes(Option<usize>),
 }
 
 /// How the explorer ends.
@@ -203,6 +212,12 @@ pub struct App {
     pub writing: Option<Writing>,
     /// The lesson under way.
     pub lesson: Option<LessonProgress>,
+    /// The steps of the lessons that were done.
+    pub lessons_done: LessonsDone,
+    /// The scenes of the directory, as they were last read.
+    pub found_scenes: FoundScenes,
+    /// Page of the note of the selected scene, where it is long.
+    pub note_page: usize,
     /// Chart ranges.
     pub ranges: Ranges,
     /// Theme and marker.
@@ -212,8 +227,8 @@ pub struct App {
     /// The latest verdict of a motion that has been changed since, in one word.
     verdict_before: Option<String>,
     counters: Counters,
-    undo: Vec<CheckedScene>,
-    redo: Vec<CheckedScene>,
+    undo: Vec<Past>,
+    redo: Vec<Past>,
     page: i64,
 }
 
@@ -277,6 +292,9 @@ impl App {
             source: None,
             writing: None,
             lesson: None,
+            lessons_done: LessonsDone::default(),
+            found_scenes: FoundScenes::default(),
+            note_page: 0,
             appearance: Appearance { theme, marker },
             asked: true,
             verdict_before: None,
@@ -291,12 +309,14 @@ impl App {
     pub fn context(&self) -> Context {
         match self.mode {
             InputMode::Main if self.reading => Context::Reading,
+            InputMode::Main if self.is_asked() => Context::Question,
             InputMode::Main => Context::Main,
             InputMode::Typing(_) | InputMode::Sweeping(_) => Context::Typing,
             InputMode::Help(_) => Context::Help,
             InputMode::Naming(..) => Context::Typing,
             InputMode::Replacing(..) => Context::Replacing,
             InputMode::Lessons(_) => Context::Lessons,
+            InputMode::Scenes(_) => Context::Scenes,
         }
     }
 

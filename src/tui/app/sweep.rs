@@ -59,7 +59,7 @@ impl App {
         self.mode = InputMode::Main;
         let mut rest = values(&knob.get(&self.scene), &to);
         rest.reverse();
-        self.remember();
+        self.remember(self.past());
         self.sweep = Some(Sweep { knob, rest, found: Vec::new() });
     }
 

@@ -7,9 +7,6 @@ use crate::scene::{CheckedScene, Scene, Value};
 use crate::tui::engine::Snapshot;
 use crate::tui::knobs::{KNOBS, Knob};
 
-/// Number of turns that can be undone.
-const UNDO_KEPT: usize = 1000;
-
 impl App {
     /// The selected knob.
     pub fn selected(&self) -> Option<&'static Knob> {
@@ -51,18 +48,9 @@ impl App {
     /// Makes a scene that differs in knobs the current one; it can be undone.
     pub(super) fn turn_to(&mut self, scene: CheckedScene) {
         if scene != self.scene {
-            self.remember();
+            self.remember(self.past());
             self.set_turned_scene(scene);
         }
-    }
-
-    /// Keeps the present scene, so that what follows can be undone.
-    pub(super) fn remember(&mut self) {
-        self.undo.push(self.scene.clone());
-        if self.undo.len() > UNDO_KEPT {
-            self.undo.remove(0);
-        }
-        self.redo.clear();
     }
 
     /// Sets a knob; false where the value was refused.
@@ -132,21 +120,6 @@ impl App {
         let results = std::mem::take(&mut self.latest.results);
         self.latest = Snapshot { results, ..Snapshot::default() };
         self.page = 0;
-    }
-
-    /// Undoes the last turn of a knob, or redoes the last that was undone.
-    pub(super) fn step_back(&mut self, redo: bool) {
-        let (from, to, word) = match redo {
-            true => (&mut self.redo, &mut self.undo, "redo"),
-            false => (&mut self.undo, &mut self.redo, "undo"),
-        };
-        if let Some(scene) = from.pop() {
-            to.push(self.scene.clone());
-            self.refusal = None;
-            self.set_turned_scene(scene);
-        } else {
-            self.status = Some(format!("nothing to {word}"));
-        }
     }
 }
 

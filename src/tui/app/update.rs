@@ -1,5 +1,7 @@
 //! Keys and actions: each changes the state and returns an effect outside it.
 
+use std::path::PathBuf;
+
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 use super::time::MOST_ZOOM;
@@ -27,6 +29,8 @@ pub enum Effect {
     Copy(String),
     /// Write a file.
     Write(FileJob),
+    /// Read the scenes of a directory.
+    FindScenes(PathBuf),
 }
 
 /// Longest text of a typed value.
@@ -126,6 +130,13 @@ impl App {
                 self.mode = InputMode::Lessons(place.saturating_sub(1));
             }
             (InputMode::Lessons(place), Action::Accept) => self.begin_lesson(place),
+            (InputMode::Main, Action::Scenes) => return self.list_scenes(),
+            (InputMode::Scenes(_), Action::KnobBelow) => self.move_in_scenes(1),
+            (InputMode::Scenes(_), Action::KnobAbove) => self.move_in_scenes(-1),
+            (InputMode::Scenes(_), Action::PageForward) => {
+                self.note_page = self.note_page.wrapping_add(1);
+            }
+            (InputMode::Scenes(_), Action::Accept) => self.open_chosen_scene(),
             (_, Action::Copy) => return Effect::Copy(self.copied()),
             (InputMode::Typing(text), Action::Accept) => self.accept(&text),
             (InputMode::Sweeping(text), Action::Accept) => self.begin_sweep(&text),
@@ -179,18 +190,16 @@ impl App {
                 self.counters.jumps += 1;
             }
             Action::Pin => self.pin(),
-            Action::OtherLaw => {
-                self.compare = !self.compare;
-                self.latest.results.comparison = None;
-                self.comparison_history.clear();
-            }
+            Action::OtherLaw => self.set_compare(!self.compare),
             Action::Save => self.mode = InputMode::Naming(Purpose::Save, "scene.toml".into()),
             Action::Export => {
                 let name = format!("{}.csv", self.view.word());
                 self.mode = InputMode::Naming(Purpose::Export, name);
             }
             Action::Lesson => self.lesson_key(),
-            Action::LeaveLesson => self.lesson = None,
+            Action::LessonBack => self.lesson_back(),
+            Action::Answer(place) => self.answer(place),
+            Action::LeaveLesson => self.leave_lesson(),
             Action::Heat => {
                 self.heat = !self.heat;
                 self.show(ViewId::Gaps);

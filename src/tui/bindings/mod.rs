@@ -52,6 +52,9 @@ pub enum Action {
     Copy,
     Lesson,
     LeaveLesson,
+    LessonBack,
+    Answer(usize),
+    Scenes,
     Heat,
     Charts,
     PageBack,
@@ -79,6 +82,10 @@ pub enum Context {
     Replacing,
     /// A lesson is being chosen.
     Lessons,
+    /// A lesson waits for an answer; otherwise as `Main`.
+    Question,
+    /// A scene is being chosen.
+    Scenes,
 }
 
 /// A key with its modifiers. Shift is part of a letter, not a modifier of it.
@@ -150,7 +157,7 @@ pub struct Binding {
 pub fn lookup(context: Context, chord: Chord) -> Option<Action> {
     let own = of(context).find(|binding| binding.keys.contains(&chord));
     match (own, context) {
-        (None, Context::Reading) => lookup(Context::Main, chord),
+        (None, Context::Reading | Context::Question) => lookup(Context::Main, chord),
         (own, _) => own.map(|binding| binding.action),
     }
 }
@@ -194,6 +201,8 @@ mod tests {
             Context::Help,
             Context::Replacing,
             Context::Lessons,
+            Context::Question,
+            Context::Scenes,
         ] {
             let interrupt = Chord { code: KeyCode::Char('c'), ctrl: true, shift: false };
             assert_eq!(lookup(context, interrupt), Some(Action::Quit));

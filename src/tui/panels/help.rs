@@ -45,6 +45,8 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, scroll: u16) {
         ("While typing", Context::Typing),
         ("Where a file exists", Context::Replacing),
         ("In the list of lessons", Context::Lessons),
+        ("While a lesson asks", Context::Question),
+        ("In the list of scenes", Context::Scenes),
     ] {
         lines.push((head.into(), String::new(), true));
         for binding in bindings::of(context) {

@@ -63,11 +63,11 @@ fn lesson(body: Rect, app: &App) -> (Option<Rect>, Rect) {
     }
     let wanted = super::lesson::rows(app, usize::from(body.width));
     let read = app.lesson.as_ref().is_some_and(|progress| progress.read);
-    let rows = match wanted <= body.height / 2 {
+    let rows = match wanted <= most_rows(body.height) {
         true => wanted,
-        // If it is too long to leave room for the charts: first the text, then
-        // its task.
-        false if !read => body.height.saturating_sub(1),
+        // If it is too long to leave room for the charts: first the text, page by
+        // page, then its end.
+        false if !read => page_rows(body.height),
         false => (body.height / 3).max(3),
     };
     let [lesson, body] = below(body, rows);
@@ -111,9 +111,28 @@ fn split(area: Rect, app: &App) -> Vec<(ViewId, Rect)> {
 /// The large chart above, a smaller one below.
 const LARGE: [Constraint; 2] = [Constraint::Percentage(55), Constraint::Percentage(45)];
 
+/// Rows between header and footer, which take three.
+fn body_rows(app: &App) -> u16 {
+    app.size.1.saturating_sub(3)
+}
+
+/// Most rows of a lesson beside the charts.
+fn most_rows(body: u16) -> u16 {
+    body / 2
+}
+
+/// Rows of a page of a lesson in front of the charts.
+fn page_rows(body: u16) -> u16 {
+    body.saturating_sub(1)
+}
+
 /// Whether the text of the lesson hides the charts on this screen.
 pub fn lesson_fills(app: &App) -> bool {
-    // Header and footer take three rows.
-    let body = app.size.1.saturating_sub(3);
-    app.lesson.is_some() && super::lesson::rows(app, usize::from(app.size.0)) > body / 2
+    let rows = super::lesson::rows(app, usize::from(app.size.0));
+    app.lesson.is_some() && rows > most_rows(body_rows(app))
+}
+
+/// Pages of the text of the lesson where it hides the charts.
+pub fn lesson_pages(app: &App) -> usize {
+    super::lesson::pages(app, usize::from(app.size.0), page_rows(body_rows(app)))
 }

@@ -1,17 +1,24 @@
-//! The list of lessons, and the current step.
+//! The list of lessons, and the current step: its question, or the answer with
+//! the reason.
 
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 
 use crate::tui::app::App;
-use crate::tui::lessons;
-use crate::tui::text::{print, wrap};
+use crate::tui::lessons::{self, LETTERS, Lesson, LessonStep};
+use crate::tui::text::{columns, print, shorten, wrap};
 use crate::tui::theme::Role;
 
-/// The list of lessons, one of them selected.
+/// From this width on, the question stays beside its answer.
+const WIDE: usize = 110;
+
+/// The list of lessons, one of them selected, with what was done of each.
 pub fn list(app: &App, buffer: &mut Buffer, area: Rect, place: usize) {
     let look = &app.appearance;
+    let mark = look.either("…", "..");
+    let width = usize::from(area.width);
     let bold = look.style(Role::Text).add_modifier(Modifier::BOLD);
-    print(buffer, area, 0, "Lessons: Enter begins one, g goes from step to step", bold);
+    let head = "Lessons: Enter begins one, g goes on, B back, G leaves";
+    print(buffer, area, 0, &shorten(head, width, mark), bold);
     let rows = usize::from(area.height.saturating_sub(2));
     let first = (place + 1).saturating_sub(rows);
     for (row, (index, lesson)) in
@@ -19,61 +26,144 @@ pub fn list(app: &App, buffer: &mut Buffer, area: Rect, place: usize) {
     {
         let selected = index == place;
         let sign = if selected { look.either("▸", ">") } else { " " };
-        let text = format!("{sign} {}. {} ({} steps)", index + 1, lesson.title, lesson.steps.len());
+        let (done, steps) = (app.lessons_done.count(lesson), lesson.steps.len());
+        let done = if done == steps { "done".to_string() } else { format!("{done}/{steps}") };
+        let text = look.spell(&format!("{sign} {done:>4}  {}. {}", index + 1, lesson.title));
         let style = if selected {
             look.style(Role::Focus).add_modifier(Modifier::REVERSED)
         } else {
             look.style(Role::Text)
         };
-        print(buffer, area, row, &look.spell(&text), style);
+        print(buffer, area, row, &shorten(&text, width, mark), style);
     }
 }
 
-/// The lines of a step; `page` if its text is a page in front of the charts.
-fn lines(app: &App, width: usize, page: bool) -> Vec<(String, Role)> {
-    let Some((lesson, progress)) = app.current_lesson() else { return Vec::new() };
-    let Some(step) = lesson.steps.get(progress.step) else { return Vec::new() };
+/// A line and its colour.
+type Line = (String, Role);
+
+/// The lines of a step below its head.
+fn lines(app: &App, width: usize) -> Vec<Line> {
+    let Some((step, now)) = app.lesson_step() else { return Vec::new() };
     let look = &app.appearance;
-    let of = |text: &str, role: Role| -> Vec<(String, Role)> {
+    let of = |text: &str, role: Role| -> Vec<Line> {
         wrap(&look.spell(text), width).into_iter().map(|line| (line, role)).collect()
     };
-    let head = format!("{} - step {} of {}", lesson.title, progress.step + 1, lesson.steps.len());
-    let mut lines = of(&head, Role::Focus);
-    lines.extend(of(&step.text, Role::Text));
+    let mut lines = Vec::new();
+    match (&step.question, now.answer) {
+        (Some(question), None) => {
+            lines.extend(of(&step.text, Role::Text));
+            lines.extend(of(question, Role::Focus));
+            let named = LETTERS.iter().zip(&step.answers);
+            let named: Vec<String> =
+                named.map(|(letter, text)| look.spell(&format!("[{letter}] {text}"))).collect();
+            let one = named.join("   ");
+            // Side by side if they fit.
+            match columns(&one) <= width {
+                true => lines.push((one, Role::Focus)),
+                false => lines.extend(named.iter().flat_map(|line| of(line, Role::Focus))),
+            }
+            return lines;
+        }
+        (Some(question), Some(answer)) => {
+            if width >= WIDE {
+                lines.extend(of(question, Role::Quiet));
+            }
+            lines.extend(of(&judged(step, answer), Role::Good));
+            lines.extend(of(step.reason.as_deref().unwrap_or_default(), Role::Text));
+        }
+        (None, _) => lines.extend(of(&step.text, Role::Text)),
+    }
     if let Some(equation) = &step.equation {
         lines.extend(of(equation, Role::First));
     }
-    let last = progress.step + 1 == lesson.steps.len();
-    let next = if last { "g ends the lesson" } else { "g: next step" };
-    if page {
-        lines.extend(of("g: to the charts", Role::Good));
-        return lines;
-    }
     match &step.task {
-        Some(task) if progress.done => lines.extend(of(&format!("[x] {task}  {next}"), Role::Good)),
+        Some(task) if now.done => lines.extend(of(&format!("[x] {task}"), Role::Good)),
         Some(task) => lines.extend(of(&format!("[ ] {task}"), Role::Focus)),
-        None => lines.extend(of(next, Role::Good)),
+        None => {}
     }
     lines
 }
 
-/// Rows the step needs, with a rule below.
+/// Which answer is right.
+fn judged(step: &LessonStep, answer: usize) -> String {
+    let right = step.right_place().unwrap_or(0);
+    let text = step.answers.get(right).map_or("", String::as_str);
+    let [given, right_letter] =
+        [answer, right].map(|place| LETTERS.get(place).copied().unwrap_or('?'));
+    match answer == right {
+        true => format!("Your answer {given} is right: {text}."),
+        false => format!("Not {given}. Right is {right_letter}: {text}."),
+    }
+}
+
+/// The head: lesson, step, and the keys that lead on.
+fn head(app: &App, width: usize) -> (String, String) {
+    let Some((lesson, progress)) = app.current_lesson() else { return Default::default() };
+    let look = &app.appearance;
+    let count = lessons::all().len();
+    let left = format!("Lesson {} of {count} · {}", progress.lesson + 1, lesson.title);
+    let step = format!("step {} of {}", progress.step + 1, lesson.steps.len());
+    let keys = match (app.is_asked(), is_last(lesson, progress.step)) {
+        (true, _) => "a b c answer",
+        (false, false) => "g next",
+        (false, true) => "g ends",
+    };
+    let long = format!("{step} · {keys} · B back · G leave");
+    let short = format!("{step} · {keys}");
+    let (left, long, short) = (look.spell(&left), look.spell(&long), look.spell(&short));
+    let right = if columns(&left) + columns(&long) + 2 <= width { long } else { short };
+    let room = width.saturating_sub(columns(&right) + 2);
+    (shorten(&left, room, look.either("…", "..")), right)
+}
+
+fn is_last(lesson: &Lesson, step: usize) -> bool {
+    step + 1 == lesson.steps.len()
+}
+
+/// Rows the step needs, with its head and a rule below.
 pub fn rows(app: &App, width: usize) -> u16 {
-    u16::try_from(lines(app, width, false).len() + 1).unwrap_or(u16::MAX)
+    u16::try_from(lines(app, width).len() + 2).unwrap_or(u16::MAX)
+}
+
+/// Pages the step needs in so many rows, head and rule included.
+pub fn pages(app: &App, width: usize, rows: u16) -> usize {
+    lines(app, width).len().div_ceil(text_rows(rows))
+}
+
+fn text_rows(rows: u16) -> usize {
+    usize::from(rows.saturating_sub(2)).max(1)
 }
 
 /// Draws the current step.
 pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
+    let Some(progress) = &app.lesson else { return };
     let look = &app.appearance;
-    let page = app.lesson.as_ref().is_some_and(|progress| !progress.read);
-    let lines = lines(app, usize::from(area.width), page && super::lesson_fills(app));
-    // If it is too long for the screen, its end, the task, must be visible.
-    let room = usize::from(area.height.saturating_sub(1));
-    let skip = lines.len().saturating_sub(room);
-    let kept = lines.iter().take(1).chain(lines.iter().skip(1 + skip));
-    for (row, (text, role)) in (0..area.height).zip(kept) {
+    let width = usize::from(area.width);
+    let (left, right) = head(app, width);
+    let bold = look.style(Role::Focus).add_modifier(Modifier::BOLD);
+    print(buffer, area, 0, &left, bold);
+    let start = u16::try_from(width.saturating_sub(columns(&right))).unwrap_or(0);
+    let beside = Rect { x: area.x + start, width: area.width - start, ..area };
+    print(buffer, beside, 0, &right, look.style(Role::Good));
+    let all = lines(app, width);
+    let room = text_rows(area.height);
+    let pages = all.len().div_ceil(room);
+    let (skip, note) = if !progress.read && super::lesson_fills(app) {
+        let page = progress.page.min(pages.saturating_sub(1));
+        let on = if page + 1 < pages { "g goes on" } else { "g: to the charts" };
+        (page * room, Some(format!(" page {} of {pages}: {on} ", page + 1)))
+    } else {
+        // The end of the step, its answers or its task, must be visible.
+        (all.len().saturating_sub(room), None)
+    };
+    for (row, (text, role)) in (1..area.height).zip(all.iter().skip(skip).take(room)) {
         print(buffer, area, row, text, look.style(*role));
     }
-    let rule = look.either("─", "-").repeat(usize::from(area.width));
-    print(buffer, area, area.height.saturating_sub(1), &rule, look.style(Role::Quiet));
+    let last = area.height.saturating_sub(1);
+    let rule = look.either("─", "-").repeat(width);
+    print(buffer, area, last, &rule, look.style(Role::Quiet));
+    if let Some(note) = note {
+        let inside = Rect { x: area.x + 1, width: area.width.saturating_sub(1), ..area };
+        print(buffer, inside, last, &note, look.style(Role::Good));
+    }
 }

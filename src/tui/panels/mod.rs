@@ -7,6 +7,7 @@ mod help;
 mod knobs;
 mod layout;
 mod lesson;
+mod scenes;
 
 use ratatui::{Frame, buffer::Buffer, layout::Rect};
 
@@ -14,7 +15,7 @@ use super::app::{App, InputMode};
 use super::text::print;
 use super::theme::Role;
 use super::views::ViewArea;
-pub use layout::{LEAST_HEIGHT, LEAST_WIDTH, lesson_fills};
+pub use layout::{LEAST_HEIGHT, LEAST_WIDTH, lesson_fills, lesson_pages};
 
 /// Draws the whole screen.
 pub fn draw(frame: &mut Frame, app: &App) {
@@ -38,6 +39,8 @@ pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
         help::draw(app, buffer, places.body, scroll);
     } else if let InputMode::Lessons(place) = app.mode {
         lesson::list(app, buffer, places.body, place);
+    } else if let InputMode::Scenes(place) = app.mode {
+        scenes::draw(app, buffer, places.body, place);
     } else {
         if let Some(area) = places.lesson {
             lesson::draw(app, buffer, area);

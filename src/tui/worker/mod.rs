@@ -3,11 +3,11 @@
 
 mod background;
 mod comparison;
+mod copies;
 mod forecasts;
 mod full_run;
 mod jump;
 mod pacing;
-mod past;
 mod playback;
 mod precision;
 mod recorder;

@@ -5,11 +5,11 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::comparison::{Comparison, other_law};
+use super::copies::Copies;
 use super::forecasts::Forecasts;
 use super::full_run::FullRunJob;
 use super::jump::{met, next_change};
 use super::pacing::{Turned, rate_at};
-use super::past::Past;
 use super::recorder::Recorder;
 use super::studies::Studies;
 use crate::motion::{Change, GoOn, Motion};
@@ -41,7 +41,7 @@ pub struct Playback {
     target: f64,
     limit: Limit,
     turned: Turned,
-    past: Past,
+    copies: Copies,
     reading: Option<Arc<Moment>>,
     met: (u64, Option<Mark>),
     ends: u64,
@@ -71,7 +71,7 @@ impl Playback {
             target: 0.0,
             limit: Limit::None,
             turned: Turned::default(),
-            past: Past::of(&motion, order.bin_s * BINS),
+            copies: Copies::of(&motion, order.bin_s * BINS),
             reading: None,
             met: (order.jumps, None),
             ends: 0,
@@ -113,7 +113,7 @@ impl Playback {
             }
         }
         if changed {
-            self.past.changed(&self.motion);
+            self.copies.changed(&self.motion);
             self.forecast();
             self.forecasts.forget_sensitivity();
         }
@@ -171,7 +171,7 @@ impl Playback {
 
     fn record(&mut self) {
         self.recorder.record(&mut self.motion, self.order.bin_s);
-        self.past.follow(&self.motion);
+        self.copies.follow(&self.motion);
         self.turned.follow(&self.motion);
     }
 
@@ -321,7 +321,7 @@ impl Playback {
         let (began, limit) = (Instant::now(), self.time_limit.min(READING_LIMIT));
         let cursor = self.order.cursor_s;
         self.reading = cursor.and_then(|t| {
-            let motion = self.past.at(t, &self.motion, &|| began.elapsed() < limit)?;
+            let motion = self.copies.at(t, &self.motion, &|| began.elapsed() < limit)?;
             Some(Arc::new(moment(&motion)))
         });
     }

@@ -12,13 +12,13 @@ const PART_OF_PAGE: f64 = 1.0 / 16.0;
 
 /// The motion at some instants.
 #[derive(Debug)]
-pub struct Past {
+pub struct Copies {
     /// In order of time; whether the motion was changed from outside just then.
     copies: Vec<(Motion, bool)>,
     spacing: f64,
 }
 
-impl Past {
+impl Copies {
     /// From the start of a motion of which pages of `page` seconds are shown.
     pub fn of(motion: &Motion, page: f64) -> Self {
         Self { copies: vec![(motion.clone(), true)], spacing: page * PART_OF_PAGE }

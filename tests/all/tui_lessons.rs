@@ -1,0 +1,385 @@
+//! Every step of every lesson, through the explorer: answers, tasks, and what the
+//! text says against what the solvers find.
+
+use std::collections::BTreeMap;
+
+use rubscope::harmonic::{Form, locked_motion};
+use rubscope::motion::{RunReport, Sampling, Script, run_to_end, simulate};
+use rubscope::scene::{CheckedScene, Scene, Value, keys};
+use rubscope::tui::bindings::{Action, Context};
+use rubscope::tui::lessons::{self, Check, Expected, Lesson, LessonStep};
+use rubscope::tui::{App, Marker, Theme};
+
+use super::tui_screens::{Session, scene};
+
+/// Runs that were asked for, by their scene: several checks ask for the same.
+#[derive(Default)]
+struct Runs(BTreeMap<String, RunReport>);
+
+impl Runs {
+    fn of(&mut self, scene: &CheckedScene) -> &RunReport {
+        let run = || run_to_end(scene, &Script::default(), Sampling::default(), &mut |_| {});
+        self.0.entry(scene.to_toml()).or_insert_with(run)
+    }
+}
+
+/// Begins a lesson of a fresh explorer.
+fn begin(width: u16, height: u16, place: usize) -> Session {
+    let mut session = Session::open(width, height, scene(), Theme::Dark, Marker::Braille);
+    session.press(&format!("g{}\n", "j".repeat(place)));
+    session
+}
+
+/// Reads a long text to its end, where the screen has no room for it.
+fn read_on(session: &mut Session) -> String {
+    let mut all = session.text();
+    while session.text().contains(" page ") {
+        session.press("g");
+        all.push_str(&session.text());
+    }
+    all
+}
+
+fn do_task(session: &mut Session, step: &LessonStep) {
+    for (path, value) in &step.doing {
+        let mut turns = 0;
+        while session.app.selected().unwrap().path != path {
+            session.press("j");
+            turns += 1;
+            assert!(turns < 100, "no knob {path}");
+        }
+        session.press(&format!("\n{value}\n"));
+    }
+}
+
+/// The number that a check asks about, in SI units.
+fn found(check: &Check, app: &App, runs: &mut Runs) -> Vec<f64> {
+    let mut scene = app.scene.clone().into_scene();
+    for (path, value) in &check.with {
+        scene.set(path, value).unwrap();
+    }
+    let scene = scene.checked().unwrap();
+    let machine = scene.machine();
+    let speed = check.speed.unwrap_or(scene.operation.speed_rad_s);
+    if let Some(name) = &check.key {
+        return match (keys::find(name).unwrap().get)(&scene) {
+            Value::Real(x) => vec![x],
+            Value::Whole(n) => vec![n as f64],
+            other => panic!("{name} is {other}"),
+        };
+    }
+    if let Some(name) = &check.model {
+        return vec![match name.as_str() {
+            "omega_c" => machine.omega_c,
+            "critical_speed" => machine.critical_speed().unwrap(),
+            "lock_speed" => machine.lock_speed().unwrap(),
+            "adhesive_speed" => machine.adhesive_speed().unwrap(),
+            "amplitude_m" => machine.locked_amplitude().unwrap(),
+            "sides" => f64::from(machine.polygon.sides),
+            "corner_factor" => (2.0 * machine.polygon.delta).cos(),
+            _ => panic!("{name}"),
+        }];
+    }
+    if let Some(name) = &check.hbm {
+        let sweep = locked_motion(&machine, Form::Modal, true, None, &[speed]).unwrap();
+        let place = ["multiplier_a_n", "multiplier_b_n"].iter().position(|known| known == name);
+        return vec![sweep.points[0].multipliers_n[place.unwrap()]];
+    }
+    let run = runs.of(&scene).clone();
+    match check.run.as_deref().unwrap() {
+        "impacts" => vec![run.impact_count as f64],
+        "tensile" => vec![run.checks.tensile_steps as f64],
+        "impact_s" => run.impacts.iter().map(|impact| impact.t_s).collect(),
+        "impact_blade" => blades(run.impacts.iter().map(|impact| &impact.blades)),
+        "blade" => blades(run.outcome.contacts.iter().map(|contact| &contact.blades)),
+        "force_n" => run.outcome.contacts.iter().map(|contact| contact.multiplier_n).collect(),
+        "since_s" => run.outcome.lock_time_s.into_iter().collect(),
+        "wave_speed" => run.outcome.wave_speed_rad_s.into_iter().collect(),
+        "lag" => run.outcome.wave_speed_rad_s.into_iter().map(|wave| speed - wave).collect(),
+        "final_m" => vec![run.r#final.u_c_m.hypot(run.r#final.u_s_m)],
+        "end_speed" => vec![speed + scene.operation.speed_ramp_rad_s2 * scene.solver.end_s],
+        "break_s" => vec![break_time(&scene)],
+        "break_speed" => vec![speed + scene.operation.speed_ramp_rad_s2 * break_time(&scene)],
+        "error_u_s" => {
+            let right = runs.of(&scene.as_reference().checked().unwrap()).r#final.u_s_m;
+            vec![((run.r#final.u_s_m - right) / right).abs()]
+        }
+        name => panic!("{name}"),
+    }
+}
+
+fn blades<'a>(groups: impl Iterator<Item = &'a Vec<u32>>) -> Vec<f64> {
+    groups.flatten().map(|blade| f64::from(*blade)).collect()
+}
+
+/// When the two sides that are held at the start are no longer held \[s\].
+fn break_time(scene: &CheckedScene) -> f64 {
+    let (mut held, mut broken) = (0.0, scene.solver.end_s);
+    for _ in 0..30 {
+        let mut shorter = scene.clone().into_scene();
+        shorter.solver.end_s = 0.5 * (held + broken);
+        let run = run_to_end(
+            &shorter.checked().unwrap(),
+            &Script::default(),
+            Sampling::default(),
+            &mut |_| {},
+        );
+        let held_still = run.outcome.contacts.len() == 2;
+        *(if held_still { &mut held } else { &mut broken }) = shorter.solver.end_s;
+    }
+    held
+}
+
+/// Half of the last digit of a number as it is written.
+fn half_digit(x: f64) -> f64 {
+    let text = format!("{x:e}");
+    let (digits, power) = text.split_once('e').unwrap();
+    let decimals = digits.split_once('.').map_or(0, |(_, after)| after.len());
+    let last = 10f64.powi(power.parse::<i32>().unwrap() - decimals as i32);
+    // Zeros before the decimal point count.
+    0.5 * if x.abs() >= 1.0 { last.min(1.0) } else { last }
+}
+
+fn assert_true(check: &Check, session: &Session, runs: &mut Runs) {
+    let app = &session.app;
+    match &check.is {
+        Expected::Word(word) if check.run.as_deref() == Some("verdict") => {
+            if check.with.is_empty() {
+                let shown = app.verdict().word;
+                assert_eq!(shown, word.to_uppercase(), "{check:?}");
+                assert!(session.text().contains(&shown), "{}", session.text());
+                return;
+            }
+            let mut scene = app.scene.clone().into_scene();
+            check.with.iter().for_each(|(path, value)| scene.set(path, value).unwrap());
+            let run = runs.of(&scene.checked().unwrap());
+            assert_eq!(run.outcome.verdict.to_string(), *word, "{check:?}");
+        }
+        Expected::Word(word) => {
+            assert_eq!(check.run.as_deref(), Some("sensitive"), "{check:?}");
+            assert_eq!(simulate(&app.scene).outcome.sensitive.to_string(), *word, "{check:?}");
+        }
+        Expected::Number(is) => {
+            let found = found(check, app, runs);
+            let within = match check.key {
+                Some(_) => 1e-9 * is.abs(),
+                None => check.within.unwrap_or_else(|| half_digit(*is)),
+            };
+            assert!(within <= half_digit(*is), "{check:?}: looser than it is written");
+            let near = found.iter().any(|x| (x - is).abs() <= within);
+            assert!(near, "{check:?}: {:?}", found.iter().take(8).collect::<Vec<_>>());
+        }
+    }
+}
+
+/// The numbers of a text, each with the values it may stand for.
+fn numbers(text: &str) -> Vec<(String, Vec<f64>)> {
+    let letters: Vec<char> = text.chars().collect();
+    let mut found = Vec::new();
+    let mut at = 0;
+    while at < letters.len() {
+        let before = at.checked_sub(1).map_or(' ', |place| letters[place]);
+        let of_a_name = before.is_alphanumeric() || "_^'/".contains(before);
+        let after = letters.get(at + 1).copied().unwrap_or(' ');
+        if !letters[at].is_ascii_digit() || of_a_name || after == 'δ' {
+            at += 1;
+            continue;
+        }
+        let from = at;
+        let decimal = |at: usize| {
+            letters[at] == '.' && letters.get(at + 1).is_some_and(|next| next.is_ascii_digit())
+        };
+        while at < letters.len() && (letters[at].is_ascii_digit() || decimal(at)) {
+            at += 1;
+        }
+        let digits: String = letters[from..at].iter().collect();
+        let value: f64 = digits.parse().unwrap();
+        let rest: String = letters[at..].iter().take(4).collect();
+        let unit = rest.strip_prefix(' ').unwrap_or(&rest);
+        let mut values = vec![value];
+        for (prefix, factor) in
+            [('M', 1e6), ('k', 1e3), ('m', 1e-3), ('µ', 1e-6), ('u', 1e-6), ('n', 1e-9)]
+        {
+            let mut signs = unit.chars();
+            if signs.next() == Some(prefix) && signs.next().is_none_or(|unit| "Nsm)".contains(unit))
+            {
+                values = vec![value * factor];
+            }
+        }
+        if unit.starts_with('%') {
+            values = vec![value / 100.0];
+        }
+        found.push((digits, values));
+    }
+    found
+}
+
+fn assert_numbers_are_checked(lesson: &Lesson, step: &LessonStep) {
+    let right = step.right_place().and_then(|place| step.answers.get(place));
+    let prose = [Some(&step.text), step.question.as_ref(), right, step.reason.as_ref()];
+    let texts = prose.into_iter().chain([step.task.as_ref()]).flatten();
+    for (digits, values) in texts.flat_map(|text| numbers(text)) {
+        let checked = step.check.iter().any(|check| match check.is {
+            Expected::Number(is) => {
+                values.iter().any(|value| (is.abs() - value).abs() <= 1e-9 * value.abs())
+            }
+            Expected::Word(_) => false,
+        });
+        assert!(checked, "{}: {digits} is in the text, but nothing checks it", lesson.title);
+    }
+}
+
+#[test]
+fn every_step_says_what_the_solvers_find() {
+    let mut runs = Runs::default();
+    for (place, lesson) in lessons::all().iter().enumerate() {
+        let mut session = begin(120, 40, place);
+        for (number, step) in lesson.steps.iter().enumerate() {
+            let at = format!("{}, step {}", lesson.title, number + 1);
+            println!("{at}");
+            let text = session.text();
+            let head = format!("step {} of {}", number + 1, lesson.steps.len());
+            assert!(text.contains(&head), "{at}: {text}");
+            assert!(!text.contains("FAILED"), "{at}: {text}");
+            if let Some(knob) = &step.knob {
+                assert_eq!(session.app.selected().unwrap().path, knob, "{at}");
+            }
+            if step.question.is_some() {
+                assert_eq!(session.app.context(), Context::Question, "{at}");
+                assert_eq!(session.app.scene, lesson.scene_at(number, false).unwrap(), "{at}");
+                assert!(text.contains("[a] ") && text.contains("[c] "), "{at}: {text}");
+                session.press(&step.right.unwrap().to_string());
+                assert!(session.text().contains("is right"), "{at}: {}", session.text());
+            }
+            assert_eq!(session.app.scene, lesson.scene_at(number, true).unwrap(), "{at}");
+            let progress = |session: &Session| session.app.lesson.as_ref().unwrap().now();
+            if step.task.is_some() {
+                assert!(!progress(&session).done, "{at}: nothing to do");
+                do_task(&mut session, step);
+            }
+            session.press("");
+            assert!(progress(&session).done, "{at}: {}", session.text());
+            assert!(session.app.lessons_done.has(lesson, number));
+            assert!(!session.text().contains("FAILED"), "{at}: {}", session.text());
+            step.check.iter().for_each(|check| assert_true(check, &session, &mut runs));
+            let verdict = |check: &Check| check.run.as_deref() == Some("verdict");
+            assert!(step.check.iter().any(verdict) || number == 0, "{at}: no verdict is checked");
+            assert_numbers_are_checked(lesson, step);
+            session.press("g");
+        }
+        assert!(session.app.lesson.is_none());
+        assert_eq!(*session.app.scene, scene(), "{}", lesson.title);
+    }
+}
+
+#[test]
+fn a_number_of_a_text_is_found_with_its_unit() {
+    let found = numbers("Ω_c = 292.9, u_2 and N/2: 38.1 µs, 18 kN, 5u) 2.5 % -3 N, 500.");
+    let values: Vec<f64> = found.into_iter().map(|(_, values)| values[0]).collect();
+    let wanted = [292.9, 38.1e-6, 18e3, 5e-6, 0.025, 3.0, 500.0];
+    assert_eq!(values.len(), wanted.len(), "{values:?}");
+    for (value, wanted) in values.iter().zip(wanted) {
+        assert!((value - wanted).abs() < 1e-12 * wanted, "{values:?}");
+    }
+    assert_eq!([half_digit(292.9), half_digit(500.0), half_digit(38.1e-6)], [0.05, 0.5, 0.5e-7]);
+}
+
+#[test]
+fn a_step_leaves_room_for_a_chart_at_80_by_24_and_is_read_in_pages_at_40_by_12() {
+    for (place, lesson) in lessons::all().iter().enumerate() {
+        let mut session = begin(80, 24, place);
+        let mut small = begin(40, 12, place);
+        for step in &lesson.steps {
+            let states = if step.question.is_some() { &[false, true][..] } else { &[false] };
+            for &answered in states {
+                if answered && let Some(right) = step.right {
+                    session.press(&right.to_string());
+                    small.press(&right.to_string());
+                }
+                let text = session.text();
+                assert!(!text.contains(" page "), "{text}");
+                let shown = if answered { &step.reason } else { &step.question };
+                let shown = shown.as_ref().unwrap_or(&step.text);
+                let all = read_on(&mut small);
+                for word in shown.split_whitespace() {
+                    assert!(text.contains(word), "{word} is not in {text}");
+                    assert!(all.contains(word), "{word} is not in {all}");
+                }
+                // The charts are there at last.
+                let digit = small.app.view.digit();
+                assert!(small.text().contains(&format!(" {digit} ")), "{}", small.text());
+            }
+            session.press("g");
+            small.press("g");
+        }
+        assert!(session.app.lesson.is_none() && small.app.lesson.is_none());
+    }
+}
+
+#[test]
+fn an_open_question_shows_nothing_of_its_answer_and_a_wrong_one_is_explained() {
+    // The second lesson: a pulse that locks.
+    let mut session = begin(120, 40, 1);
+    assert!(!session.text().contains("LOCKED"), "{}", session.text());
+    session.press("g");
+    assert!(session.text().contains("first your guess"), "{}", session.text());
+    session.press("a");
+    let text = session.text();
+    assert!(text.contains("Not a. Right is b: in a corner of two walls."), "{text}");
+    assert!(text.contains("LOCKED"), "{text}");
+    // Answered, the letters have their usual meaning again.
+    session.press("c");
+    assert!(session.app.compare);
+}
+
+#[test]
+fn back_and_forward_keep_the_answers_and_the_list_knows_what_was_done() {
+    let mut session = begin(120, 40, 1);
+    session.press("bgb");
+    assert_eq!(session.app.lesson.as_ref().unwrap().step, 1);
+    session.press("B");
+    let progress = session.app.lesson.clone().unwrap();
+    assert_eq!((progress.step, progress.now().answer), (0, Some(1)));
+    assert!(session.text().contains("Your answer b is right"), "{}", session.text());
+    session.press("gG");
+    assert!(session.app.lesson.is_none());
+    session.press("g");
+    assert!(session.text().contains("2/5"), "{}", session.text());
+    // It goes on where it was left.
+    session.press("j\n");
+    assert_eq!(session.app.lesson.as_ref().unwrap().step, 2);
+}
+
+#[test]
+fn a_lesson_gives_back_what_was_there_and_undo_reaches_across() {
+    let mut session = Session::open(120, 40, scene(), Theme::Dark, Marker::Braille);
+    session.press("\n430\n6x]");
+    let own = session.app.clone();
+    session.press("g\n");
+    assert_ne!(session.app.scene, own.scene);
+    assert!(!session.app.live);
+    session.press("b[[");
+    session.press("G");
+    let same = |app: &App| {
+        let live = (app.live, app.view, app.companions.clone(), app.compare);
+        app.lesson.is_none()
+            && app.scene == own.scene
+            && app.opened == own.opened
+            && app.source == own.source
+            && live == (own.live, own.view, own.companions.clone(), own.compare)
+    };
+    assert!(same(&session.app) && session.app.rate == own.rate);
+    // Undo: the lesson with its answer, the open question, and the time before.
+    session.press("u");
+    assert_eq!(session.app.lesson.as_ref().unwrap().now().answer, Some(1));
+    session.press("u");
+    assert!(session.app.is_asked());
+    session.press("u");
+    assert!(same(&session.app));
+    session.press("u");
+    assert_eq!(*session.app.scene, Scene { operation: scene().operation, ..scene() });
+    for _ in 0..2 {
+        session.app.act(Action::Redo);
+    }
+    assert!(session.app.lesson.is_some() && session.app.is_asked());
+}

@@ -1,0 +1,133 @@
+//! The list of scenes on the screen, and what a saved scene says about itself.
+
+use rubscope::scene::{BUILTIN, Scene};
+use rubscope::tui::{App, Marker, Source, Theme};
+
+use super::tui_screens::{Session, scene};
+
+/// A folder with a scene that can be opened and one that cannot.
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let mut mine = scene();
+    (mine.title, mine.note) = ("My own blades".into(), "What I look for.".into());
+    mine.operation.speed_rad_s = 430.0;
+    std::fs::write(folder.path().join("mine.toml"), mine.to_toml()).unwrap();
+    std::fs::write(folder.path().join("broken.toml"), "[casing]\ncolour = 1").unwrap();
+    folder
+}
+
+fn open(width: u16, height: u16, folder: &tempfile::TempDir, marker: Marker) -> Session {
+    let mut session = Session::open(width, height, scene(), Theme::Mono, marker);
+    session.app.directory = folder.path().to_path_buf();
+    session.press("o");
+    session
+}
+
+#[test]
+fn the_list_shows_built_in_scenes_and_files_with_the_note_of_the_open_one() {
+    let folder = folder();
+    for (width, height) in [(120, 40), (80, 24)] {
+        let session = open(width, height, &folder, Marker::Braille);
+        let text = session.text();
+        for builtin in BUILTIN {
+            assert!(text.contains(builtin.name), "{text}");
+        }
+        assert!(text.contains("mine.toml") && text.contains("My own blades"), "{text}");
+        assert!(text.contains("* paper-nd3") && text.contains("paper-nd3 (open)"), "{text}");
+        // Its note, which no other part of the screen shows.
+        assert!(text.contains("The algorithm of the paper"), "{text}");
+        insta::assert_snapshot!(format!("scenes_{width}x{height}"), text);
+    }
+    // Where the note is longer than its place, it has pages.
+    let mut small = open(40, 12, &folder, Marker::Ascii);
+    let mut all = String::new();
+    for page in 1..=3 {
+        let text = small.text();
+        assert!(text.is_ascii() && text.contains(">* paper-nd3"), "{text}");
+        assert!(text.contains(&format!("{page}/3, Space: more")), "{text}");
+        all.push_str(&text);
+        small.press(" ");
+    }
+    for word in Scene::builtin("paper-nd3").unwrap().note.split_whitespace() {
+        assert!(all.contains(word), "{word} is not in {all}");
+    }
+}
+
+#[test]
+fn a_broken_file_says_why_and_is_not_opened() {
+    let folder = folder();
+    let mut session = open(100, 30, &folder, Marker::Braille);
+    // Below the built-in ones, in the order of their names.
+    session.press(&"j".repeat(BUILTIN.len()));
+    let text = session.text();
+    assert!(text.contains("unknown key casing.colour"), "{text}");
+    session.press("\n");
+    assert!(session.text().contains("broken.toml cannot be opened"), "{}", session.text());
+    session.press("\u{1b}");
+    assert_eq!(*session.app.scene, scene());
+}
+
+#[test]
+fn a_scene_is_opened_with_its_charts_and_undo_brings_the_former_back() {
+    let folder = folder();
+    let mut session = open(120, 40, &folder, Marker::Braille);
+    let before = session.app.clone();
+    session.press(&format!("{}\n", "j".repeat(BUILTIN.len() + 1)));
+    assert_eq!(session.app.scene.title, "My own blades");
+    // Now it is the scene whose values Backspace means, and the one marked.
+    session.press("\n300\n\u{8}");
+    assert_eq!(session.app.scene.operation.speed_rad_s, 430.0);
+    session.press("o");
+    assert!(session.text().contains("mine.toml (open)"), "{}", session.text());
+    session.press("\u{1b}uuu");
+    let same = |app: &App| app.scene == before.scene && app.opened == before.opened;
+    assert!(same(&session.app) && session.app.source == before.source);
+    // A built-in one begins with its own charts.
+    session.press("ojjjj\n");
+    assert_eq!(session.app.view.word(), Scene::builtin("rocking").unwrap().view.charts[0]);
+    assert!(session.app.command().starts_with("rubscope run rocking"), "{}", session.app.command());
+}
+
+#[test]
+fn a_scene_opened_in_a_lesson_ends_the_lesson() {
+    let folder = folder();
+    let mut session = Session::open(120, 40, scene(), Theme::Mono, Marker::Braille);
+    session.app.directory = folder.path().to_path_buf();
+    session.press("g\no");
+    session.press("j\n");
+    assert!(session.app.lesson.is_none());
+    session.press("u");
+    assert!(session.app.lesson.is_some() && session.app.is_asked());
+}
+
+/// What is in the file after the scene is saved.
+fn saved(session: &mut Session, folder: &tempfile::TempDir) -> Scene {
+    let path = folder.path().join("saved.toml");
+    let _ = std::fs::remove_file(&path);
+    session.press(&format!("s{}{}\n", "\u{8}".repeat(40), path.to_str().unwrap()));
+    Scene::load(path.to_str().unwrap()).unwrap()
+}
+
+#[test]
+fn a_saved_scene_keeps_no_note_that_its_values_made_false() {
+    let folder = tempfile::tempdir().unwrap();
+    let paper = Scene::builtin("paper-nd3").unwrap();
+    let mut session = Session::open(80, 24, paper.clone(), Theme::Mono, Marker::Braille);
+    session.app.source = Some(Source { name: "paper-nd3".into(), scene: paper.clone() });
+    assert_eq!(saved(&mut session, &folder), paper);
+    session.press("\n430\n");
+    let changed = saved(&mut session, &folder);
+    assert_eq!(changed.title, "changed from paper-nd3");
+    assert_eq!(changed.note, "changed from paper-nd3: operation.speed_rad_s = 430.0");
+    assert_eq!(changed.operation.speed_rad_s, 430.0);
+    session.press("u");
+    assert_eq!(saved(&mut session, &folder), paper);
+    // Words that the user gave stay.
+    let mut named = paper.clone();
+    (named.title, named.operation.speed_rad_s) = ("mine".into(), 430.0);
+    let mut session = Session::open(80, 24, named, Theme::Mono, Marker::Braille);
+    session.app.source = Some(Source { name: "paper-nd3".into(), scene: paper });
+    let kept = saved(&mut session, &folder);
+    assert_eq!(kept.title, "mine");
+    assert!(kept.note.starts_with("changed from paper-nd3"), "{}", kept.note);
+}
