@@ -61,6 +61,7 @@ mod scenes;
 mod security;
 mod soak;
 mod tui_hostile;
+mod tui_knobs;
 mod tui_loop;
 mod tui_random;
 mod tui_screens;

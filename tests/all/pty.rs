@@ -17,8 +17,8 @@ fn opens_turns_a_knob_sees_the_verdict_change_and_quits() {
     let mut terminal = Start::explorer(&SHORT).open();
     terminal.wait_for(" LOCKED ");
     assert!(terminal.parser.screen().alternate_screen());
-    // Nine knobs down is the contact law.
-    terminal.send("jjjjjjjjj");
+    // Eight knobs down is the contact law.
+    terminal.send("jjjjjjjj");
     terminal.wait_for("contact law");
     terminal.send("l");
     terminal.wait_for(" DECAY ");

@@ -247,7 +247,7 @@ impl App {
             source: None,
             writing: None,
             lesson: None,
-            appearance: Appearance { theme, marker },
+            appearance: Appearance { theme, marker, wide: false },
             asked: true,
             verdict_before: None,
             counters: Counters::default(),

@@ -5,7 +5,7 @@ use crate::motion::Change;
 use crate::report::line::clean;
 use crate::scene::{CheckedScene, Scene, Value};
 use crate::tui::engine::Snapshot;
-use crate::tui::knobs::{KNOBS, Knob};
+use crate::tui::knobs::{KNOBS, Knob, knob_of};
 
 /// Number of turns that can be undone.
 const UNDO_KEPT: usize = 1000;
@@ -14,6 +14,16 @@ impl App {
     /// The selected knob.
     pub fn selected(&self) -> Option<&'static Knob> {
         KNOBS.get(self.knob)
+    }
+
+    /// Selects the knob of a key; false if there is none.
+    pub fn select_path(&mut self, path: &str) -> bool {
+        let place = knob_of(path);
+        if let Some(place) = place {
+            self.knob = place;
+            self.refusal = None;
+        }
+        place.is_some()
     }
 
     pub(super) fn select(&mut self, up: bool) {

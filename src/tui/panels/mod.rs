@@ -1,6 +1,8 @@
 //! The screen as a function of the state: where each panel goes, and one file
 //! per panel.
 
+mod bar;
+mod column;
 mod footer;
 mod header;
 mod help;

@@ -106,7 +106,7 @@ pub fn title(
 pub fn entry(look: &Appearance, pen: &Pen, name: &str) -> (String, Style) {
     let stroke = match (look.ascii(), pen.dashed) {
         (true, _) => pen.sign.to_string().repeat(2),
-        (false, true) => "╌╌".to_string(),
+        (false, true) => "··".to_string(),
         (false, false) => "──".to_string(),
     };
     (format!("{stroke} {name}"), pen.style)
