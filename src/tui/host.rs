@@ -26,6 +26,8 @@ pub trait Host {
     /// # Errors
     /// The terminal cannot be written to.
     fn copy(&mut self, text: &str) -> Result<()>;
+    /// Asks the terminal for mouse events, or no longer.
+    fn mouse(&mut self, _on: bool) {}
     /// Writes a file. Without a result, that comes later as an event.
     fn write(&mut self, job: FileJob) -> Option<FileResult>;
 }
@@ -78,6 +80,11 @@ impl Host for Shell {
     fn copy(&mut self, text: &str) -> Result<()> {
         // OSC 52: the terminal, not this machine, owns the clipboard.
         terminal::write(format!("\x1b]52;c;{}\x07", base64(text.as_bytes())).as_bytes())
+    }
+
+    fn mouse(&mut self, on: bool) {
+        // A terminal that is lost shows itself at the next frame.
+        let _ = terminal::set_mouse(on);
     }
 
     fn write(&mut self, job: FileJob) -> Option<FileResult> {

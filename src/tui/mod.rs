@@ -43,7 +43,7 @@ use std::io::IsTerminal;
 use std::sync::{Arc, mpsc};
 use std::time::Duration;
 
-pub use app::{App, Exit, Source};
+pub use app::{App, Exit, Heard, Source};
 pub use raster::Marker;
 pub use run::run;
 pub use theme::Theme;
@@ -139,6 +139,7 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
     let marker = options.marker.unwrap_or_else(ability::marker);
     let mut app = App::new(scene, options.theme(), marker);
     app.source.clone_from(&options.source);
+    terminal::set_mouse(app.mouse)?;
     let guard = terminal::Guard;
     let ended = terminal::open().and_then(|mut screen| {
         events::read_keys(sender.clone())?;

@@ -72,8 +72,10 @@ pub struct Raster {
 }
 
 impl Raster {
-    /// An empty raster over `area`; lines are two sub-pixels thick if `wide`.
+    /// An empty raster over `area`; lines are two sub-pixels thick if `wide`, unless
+    /// those are whole cells.
     pub fn new(area: Rect, marker: Marker, wide: bool) -> Self {
+        let wide = wide && marker.grain() != (1, 1);
         Self { area, marker, wide, dots: vec![Dots::default(); area.area() as usize] }
     }
 

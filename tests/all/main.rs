@@ -63,6 +63,8 @@ mod soak;
 mod tui_hostile;
 mod tui_knobs;
 mod tui_loop;
+mod tui_mouse;
+mod tui_presentation;
 mod tui_random;
 mod tui_screens;
 mod verdicts;

@@ -5,6 +5,7 @@ mod command;
 mod cursor;
 mod files;
 mod lesson;
+mod mouse;
 mod snapshot;
 mod time;
 mod turn;
@@ -13,9 +14,14 @@ mod verdict;
 
 pub use cursor::Cursor;
 pub use lesson::LessonProgress;
+pub use mouse::Heard;
 pub use time::RATES;
 pub use update::Effect;
 pub use verdict::VerdictText;
+
+use std::cell::RefCell;
+
+use ratatui::layout::Rect;
 
 use super::appearance::Appearance;
 use super::axis::AutoRange;
@@ -143,6 +149,10 @@ pub struct App {
     pub heat: bool,
     /// Whether the large chart has the whole screen.
     pub full_screen: bool,
+    /// Whether the screen is for a projector.
+    pub presenting: bool,
+    /// Whether the mouse acts.
+    pub mouse: bool,
     /// Whether time passes.
     pub playing: bool,
     /// Place in `RATES`.
@@ -184,6 +194,12 @@ pub struct App {
     pub ranges: Ranges,
     /// Theme and marker.
     pub appearance: Appearance,
+    /// Where the data of the large chart was drawn last.
+    chart_places: RefCell<Vec<Rect>>,
+    /// The knob whose bar the mouse holds.
+    grip: Option<mouse::Grip>,
+    /// Where it clicked last, if it is still there.
+    clicked: Option<(u16, u16)>,
     /// Whether the screen has shown the question that is open.
     asked: bool,
     /// The latest verdict of a motion that has been changed since, in one word.
@@ -229,6 +245,8 @@ impl App {
             companions: views.into_iter().skip(1).collect(),
             heat: false,
             full_screen: false,
+            presenting: false,
+            mouse: true,
             playing: true,
             rate: time::FIRST_RATE,
             zoom: 0,
@@ -248,6 +266,9 @@ impl App {
             writing: None,
             lesson: None,
             appearance: Appearance { theme, marker, wide: false },
+            chart_places: RefCell::default(),
+            grip: None,
+            clicked: None,
             asked: true,
             verdict_before: None,
             counters: Counters::default(),
@@ -290,7 +311,17 @@ impl App {
     /// Whether a view can be on the screen.
     pub fn is_open(&self, view: ViewId) -> bool {
         let mut companions = self.companions.iter().take(self.companions_shown);
-        view == self.view || (!self.full_screen && companions.any(|other| *other == view))
+        view == self.view || (!self.is_alone() && companions.any(|other| *other == view))
+    }
+
+    /// Whether the large chart compares both contact laws, over the whole height.
+    pub fn compares(&self) -> bool {
+        self.compare && self.view == ViewId::Response
+    }
+
+    /// Whether only the large chart is on the screen.
+    pub fn is_alone(&self) -> bool {
+        self.full_screen || self.presenting || self.compares()
     }
 
     /// The current rotor speed \[rad/s\].

@@ -21,6 +21,8 @@ impl App {
             return false;
         }
         self.grow_ranges(&snapshot.bins);
+        // Both contact laws have the same axes.
+        self.grow_ranges(&snapshot.comparison_bins);
         self.history.extend(&std::mem::take(&mut snapshot.bins));
         self.comparison_history.extend(&std::mem::take(&mut snapshot.comparison_bins));
         let due = match (&self.throttled, &snapshot.moment) {

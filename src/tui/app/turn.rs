@@ -71,7 +71,7 @@ impl App {
     }
 
     /// Sets a knob; false where the value was refused.
-    fn set(&mut self, knob: &'static Knob, value: Value) -> bool {
+    pub(super) fn set(&mut self, knob: &'static Knob, value: Value) -> bool {
         match knob.set(&self.scene, value) {
             Ok((scene, said)) => {
                 self.refusal = None;

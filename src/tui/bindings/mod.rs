@@ -39,6 +39,8 @@ pub enum Action {
     ZoomReset,
     Autoscale,
     FullScreen,
+    Present,
+    Mouse,
     Marker,
     Theme,
     Live,

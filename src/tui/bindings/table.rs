@@ -89,6 +89,8 @@ const BEFORE_VIEWS: &[Binding] = &[
     bind!(Main, [letter('[')], Action::Slower, "slower motion", "[ ]" "slower, faster"),
     bind!(Main, [letter(']')], Action::Faster, "faster motion"),
     bind!(Main, [letter('f')], Action::FullScreen, "one chart over the whole screen, or back", "f" "full"),
+    bind!(Main, [letter('P')], Action::Present, "the screen for a projector, or back"),
+    bind!(Main, [letter('M')], Action::Mouse, "mouse on or off; Shift selects text while it is on"),
     bind!(Main, [letter('.')], Action::Step, "one step (pauses)", "." "step"),
     bind!(Main, [key(KeyCode::Backspace)], Action::Reset, "back to the scene's value"),
     bind!(Main, [letter('u')], Action::Undo, "undo the last turn of a knob", "u" "undo"),

@@ -2,7 +2,7 @@
 
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 
-use crate::tui::app::App;
+use crate::tui::app::{App, InputMode};
 use crate::tui::lessons;
 use crate::tui::text::{print, wrap};
 use crate::tui::theme::Role;
@@ -12,8 +12,7 @@ pub fn list(app: &App, buffer: &mut Buffer, area: Rect, place: usize) {
     let look = &app.appearance;
     let bold = look.style(Role::Text).add_modifier(Modifier::BOLD);
     print(buffer, area, 0, "Lessons: Enter begins one, g goes from step to step", bold);
-    let rows = usize::from(area.height.saturating_sub(2));
-    let first = (place + 1).saturating_sub(rows);
+    let first = first_listed(area, place);
     for (row, (index, lesson)) in
         (2..area.height).zip(lessons::all().iter().enumerate().skip(first))
     {
@@ -27,6 +26,19 @@ pub fn list(app: &App, buffer: &mut Buffer, area: Rect, place: usize) {
         };
         print(buffer, area, row, &look.spell(&text), style);
     }
+}
+
+/// The first lesson in sight, so that the selected one is.
+fn first_listed(area: Rect, place: usize) -> usize {
+    (place + 1).saturating_sub(usize::from(area.height.saturating_sub(2)))
+}
+
+/// The lesson in a row of the screen while the list is open in `area`.
+pub fn place_at(app: &App, area: Rect, y: u16) -> Option<usize> {
+    let InputMode::Lessons(place) = app.mode else { return None };
+    let row = y.checked_sub(area.y + 2)?;
+    let place = first_listed(area, place) + usize::from(row);
+    (place < lessons::all().len()).then_some(place)
 }
 
 /// The lines of a step; `page` if its text is a page in front of the charts.

@@ -78,6 +78,7 @@ fn amplitudes(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let x = ChartAxis::plain(0.0, highest(app));
     let y = ChartAxis::powers(DECADES.0, DECADES.1);
     let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
+    at.note(app, plot.inner);
     let marks = lines(app, app.speed().abs());
     for (frequency, _) in marks {
         plot.upright(frequency, look.either('┊', ':'), quiet);
@@ -112,6 +113,7 @@ fn campbell(app: &App, buffer: &mut Buffer, at: ViewArea) {
     else {
         return;
     };
+    at.note(app, plot.inner);
     plot.level(app.machine.omega_c, look.either('┈', '.'), look.style(Role::Text));
     plot.upright(app.speed().abs(), look.either('│', '|'), look.style(Role::Focus));
     let pens: [Pen; 4] = [look.first(), look.quiet(), look.second(), look.second()];
