@@ -123,3 +123,13 @@ fn the_line_of_the_selected_knob_has_a_bar_at_the_least_screen() {
     let text = session.text();
     assert!(text.contains("speed Ω 500 rad/s") && text.contains("▕▒"), "{text}");
 }
+
+#[test]
+fn the_operation_stays_open_beside_the_solver_on_a_usual_screen() {
+    let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille);
+    session.select("solver.contact");
+    session.press("");
+    let text = column(&session);
+    assert!(text.contains("speed Ω") && text.contains("run end"), "{text}");
+    assert!(text.contains("contact law: unilateral"), "{text}");
+}

@@ -92,7 +92,7 @@ mod tests {
                 [("solver.step_s", "1e-6"), ("solver.end_s", "5e-3"), ("operation.pulse_n", pulse)];
             Scene::builtin("paper-nd3").unwrap().with(&changes).unwrap()
         });
-        let runs = scenes.each_ref().map(|scene| simulate(scene));
+        let runs = scenes.each_ref().map(simulate);
         for knob in KNOBS.iter().filter(|knob| knob.inert(&scenes[0]).is_none()) {
             let changes = scenes.iter().zip(&runs).any(|(scene, before)| {
                 let turned = |up| {

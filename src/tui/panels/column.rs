@@ -18,7 +18,7 @@ pub enum ColumnLine {
 }
 
 /// Rows kept free for the note on the selected knob.
-pub const NOTES: u16 = 6;
+pub const NOTES: u16 = 5;
 
 /// Knobs whose bars have lines of their own where there is room.
 const BARS: [&str; 2] = ["operation.speed_rad_s", "operation.pulse_n"];
@@ -29,15 +29,18 @@ pub fn lines(app: &App, height: u16) -> Vec<ColumnLine> {
     let rows = usize::from(height - NOTES.min(height / 2));
     let chosen = app.selected().map_or(Group::Operation, |knob| knob.group);
     let mut open = Group::ALL.map(|group| group == chosen);
-    let bars = [true, false].into_iter().find(|bars| all(open, *bars).len() <= rows);
-    let bars = bars.unwrap_or(false);
+    let fits = |open, bars| all(open, bars).len() <= rows;
+    let mut bars = fits(open, true);
     for group in Group::ALL {
         let mut more = open;
         if let Some(open) = more.get_mut(group as usize) {
             *open = true;
         }
-        if all(more, bars).len() <= rows {
+        // The bars of the operation do without lines of their own where that opens it.
+        if fits(more, bars) {
             open = more;
+        } else if group == Group::Operation && fits(more, false) {
+            (open, bars) = (more, false);
         }
     }
     let lines = all(open, bars);
