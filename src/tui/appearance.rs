@@ -13,6 +13,8 @@ pub struct Appearance {
     pub theme: Theme,
     /// How points are drawn.
     pub marker: Marker,
+    /// Whether lines are two sub-pixels thick, for a projector.
+    pub wide: bool,
 }
 
 impl Appearance {
@@ -74,7 +76,7 @@ impl Appearance {
         Pen { style: self.style(Role::First), sign: '*', dashed: false }
     }
 
-    /// Dashed pen of the second series.
+    /// Dotted pen of the second series.
     pub fn second(&self) -> Pen {
         Pen { style: self.style(Role::Second), sign: 'o', dashed: true }
     }
@@ -91,7 +93,7 @@ mod tests {
 
     #[test]
     fn ascii_means_ascii() {
-        let look = Appearance { theme: Theme::Dark, marker: Marker::Ascii };
+        let look = Appearance { theme: Theme::Dark, marker: Marker::Ascii, wide: false };
         let text = look.spell("Ω/Ωc λ ζ α 228 µs kg m² × – … ● ▲ ◄ ► ┄ é");
         assert!(text.is_ascii(), "{text}");
         assert!(text.starts_with("Om/Omc lambda zeta alpha 228 us"));

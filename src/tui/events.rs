@@ -4,7 +4,7 @@
 use std::sync::mpsc::Sender;
 use std::thread;
 
-use crossterm::event::{self, KeyEvent, KeyEventKind};
+use crossterm::event::{self, KeyEvent, KeyEventKind, MouseEvent};
 
 use super::files::FileResult;
 use super::scenes::FoundScenes;
@@ -14,6 +14,8 @@ use super::scenes::FoundScenes;
 pub enum ScreenEvent {
     /// A key was pressed.
     Key(KeyEvent),
+    /// The mouse was moved, or a button or the wheel was used.
+    Mouse(MouseEvent),
     /// The terminal has a new size.
     Resize,
     /// The engine has a new snapshot.
@@ -46,6 +48,7 @@ pub fn read_keys(to: Sender<ScreenEvent>) -> std::io::Result<()> {
                 Ok(event::Event::Key(key)) if key.kind != KeyEventKind::Release => {
                     ScreenEvent::Key(key)
                 }
+                Ok(event::Event::Mouse(mouse)) => ScreenEvent::Mouse(mouse),
                 Ok(event::Event::Resize(..)) => ScreenEvent::Resize,
                 Ok(event::Event::Paste(text)) => ScreenEvent::Pasted(text),
                 Ok(_) => continue,

@@ -36,6 +36,8 @@ pub trait Host {
     fn is_slow(&self) -> bool {
         false
     }
+    /// Asks the terminal for mouse events, or no longer.
+    fn mouse(&mut self, _on: bool) {}
     /// Writes a file. Without a result, that comes later as an event.
     fn write(&mut self, job: FileJob) -> Option<FileResult>;
     /// Reads the scenes of a directory. Without a result, that comes later as an
@@ -101,6 +103,11 @@ impl Host for Shell {
 
     fn is_slow(&self) -> bool {
         terminal::is_slow()
+    }
+
+    fn mouse(&mut self, on: bool) {
+        // A terminal that is lost shows itself at the next frame.
+        let _ = terminal::set_mouse(on);
     }
 
     fn write(&mut self, job: FileJob) -> Option<FileResult> {

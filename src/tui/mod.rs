@@ -48,7 +48,7 @@ use std::io::IsTerminal;
 use std::sync::{Arc, mpsc};
 use std::time::Duration;
 
-pub use app::{App, Exit, Source};
+pub use app::{App, Exit, Heard, Source};
 pub use line::Line;
 pub use raster::Marker;
 pub use run::run;
@@ -155,6 +155,7 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
     let mut app = App::new(scene, options.theme(), marker);
     app.source.clone_from(&options.source);
     app.line = options.line();
+    terminal::set_mouse(app.mouse)?;
     let guard = terminal::Guard;
     let ended = terminal::open().and_then(|mut screen| {
         events::read_keys(sender.clone())?;

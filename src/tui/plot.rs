@@ -10,7 +10,7 @@ use ratatui::{
 use super::appearance::Appearance;
 use super::axis::ChartAxis;
 use super::history::Span;
-use super::raster::{DASH, DASH_ON, Pen, Raster};
+use super::raster::{Pen, Raster};
 use super::theme::Role;
 
 /// A framed chart under construction.
@@ -34,7 +34,7 @@ impl<'a> Plot<'a> {
         look: &Appearance,
     ) -> Option<Self> {
         let sound = x.is_sound() && y.is_sound() && area.width > 1 && area.height > 1;
-        let raster = Raster::new(area, look.marker);
+        let raster = Raster::new(area, look.marker, look.wide);
         sound.then_some(Self { buffer, raster, inner: area, x, y, rule: false })
     }
 
@@ -59,7 +59,8 @@ impl<'a> Plot<'a> {
         let gutter = u16::try_from(gutter).unwrap_or(6).min(area.width / 2) + 1;
         let inner = Rect::new(area.x + gutter, area.y, area.width - gutter, rows);
         let quiet = look.style(Role::Quiet);
-        let mut plot = Self { buffer, raster: Raster::new(inner, look.marker), inner, x, y, rule };
+        let raster = Raster::new(inner, look.marker, look.wide);
+        let mut plot = Self { buffer, raster, inner, x, y, rule };
         let [side, side_tick, ..] = look.axis_signs();
         for row in inner.y..inner.bottom() {
             plot.put(inner.x - 1, row, side, quiet);
@@ -112,23 +113,21 @@ impl<'a> Plot<'a> {
         self.rule.then(|| self.inner.bottom())
     }
 
-    /// The column of an x value inside the chart.
+    /// The column of an x value inside the chart: the one of its sub-pixel, so
+    /// that ticks, signs and curves agree.
     pub fn column(&self, value: f64) -> Option<u16> {
-        let across = (value - self.x.low) / (self.x.high - self.x.low);
-        (-1e-9..=1.0 + 1e-9).contains(&across).then(|| {
-            let cells = f64::from(self.inner.width.saturating_sub(1));
-            self.inner.x + (across * cells).round().clamp(0.0, cells) as u16
-        })
+        let (across, _) = self.raster.grain();
+        let pixel = self.pixel_x(value).filter(|_| is_inside(&self.x, value))?;
+        let column = u16::try_from(pixel.max(0) / across).ok()?;
+        Some(self.inner.x + column.min(self.inner.width.saturating_sub(1)))
     }
 
-    /// The row of a y value inside the chart.
+    /// The row of a y value inside the chart: the one of its sub-pixel.
     pub fn row(&self, value: f64) -> Option<u16> {
-        let up = (value - self.y.low) / (self.y.high - self.y.low);
-        (-1e-9..=1.0 + 1e-9).contains(&up).then(|| {
-            let cells = f64::from(self.inner.height);
-            let from_top = ((1.0 - up) * cells).floor().clamp(0.0, (cells - 1.0).max(0.0));
-            self.inner.y + from_top as u16
-        })
+        let (_, down) = self.raster.grain();
+        let pixel = self.pixel_y(value).filter(|_| is_inside(&self.y, value))?;
+        let row = u16::try_from(pixel.max(0) / down).ok()?;
+        Some(self.inner.y + row.min(self.inner.height.saturating_sub(1)))
     }
 
     /// Sub-pixel columns across, for decimation by least and greatest value.
@@ -201,7 +200,6 @@ impl<'a> Plot<'a> {
 
     /// A decimated signal, one span per sub-pixel column, joined to the next.
     pub fn spans(&mut self, spans: &[Span], pen: &Pen) {
-        let solid = Pen { dashed: false, ..*pen };
         let mut last: Option<(i64, i64)> = None;
         for (x, span) in (0..).zip(spans) {
             let shown = span.and_then(|(low, high)| self.pixel_y(high).zip(self.pixel_y(low)));
@@ -215,9 +213,7 @@ impl<'a> Plot<'a> {
                         bottom = last_top - 1;
                     }
                 }
-                if !pen.dashed || x % DASH < DASH_ON {
-                    self.raster.line((x, top), (x, bottom), &solid);
-                }
+                self.raster.line((x, top), (x, bottom), pen);
             }
             last = shown;
         }
@@ -288,6 +284,11 @@ impl<'a> Plot<'a> {
 
 /// Cells between two dots of a dotted line.
 const DOTS: i64 = 1;
+/// Whether a value is in the range of an axis, but for round-off.
+fn is_inside(axis: &ChartAxis, value: f64) -> bool {
+    let part = (value - axis.low) / (axis.high - axis.low);
+    (-1e-9..=1.0 + 1e-9).contains(&part)
+}
 
 fn whole(pixel: f64) -> Option<i64> {
     pixel.is_finite().then(|| pixel.round().clamp(-1e5, 1e5) as i64)
@@ -298,9 +299,10 @@ mod tests {
     use super::*;
     use crate::tui::{raster::Marker, theme::Theme};
     use proptest::prelude::*;
+    use ratatui::style::Modifier;
 
     fn look() -> Appearance {
-        Appearance { theme: Theme::Mono, marker: Marker::Ascii }
+        Appearance { theme: Theme::Mono, marker: Marker::Ascii, wide: false }
     }
 
     #[test]
@@ -334,6 +336,26 @@ mod tests {
 
     proptest! {
         #[test]
+        fn ticks_and_signs_are_in_the_cell_of_the_data(
+            width in 12u16..90, height in 4u16..50, part in 0.0f64..=1.0, other in 0.0f64..=1.0,
+            marker in 0usize..5, low in -1e6f64..1e6, span in 1e-6f64..1e6,
+        ) {
+            let marker = (0..marker).fold(Marker::Braille, |marker, _| marker.next());
+            let look = Appearance { theme: Theme::Dark, marker, wide: false };
+            let mut buffer = Buffer::empty(Rect::new(0, 0, width, height));
+            let area = *buffer.area();
+            let axis = ChartAxis::plain(low, low + span);
+            let mut plot = Plot::new(&mut buffer, area, axis, axis, &look).unwrap();
+            let (x, y) = (low + part * span, low + other * span);
+            let pen = Pen { style: Style::new().bold(), sign: '*', dashed: false };
+            plot.curve([(x, y)], &pen);
+            plot.ink();
+            let place = (plot.column(x).unwrap(), plot.row(y).unwrap());
+            let cell = plot.buffer.cell(place).unwrap();
+            prop_assert!(cell.modifier.contains(Modifier::BOLD), "{place:?} {marker}");
+        }
+
+        #[test]
         fn any_numbers_at_any_size_are_drawn_without_panic(
             width in 0u16..80, height in 0u16..40, xs in proptest::collection::vec(proptest::num::f64::ANY, 8),
             low in proptest::num::f64::ANY, high in proptest::num::f64::ANY,
@@ -341,7 +363,7 @@ mod tests {
             let mut buffer = Buffer::empty(Rect::new(0, 0, width, height));
             let area = *buffer.area();
             let pen = Pen { style: Style::new(), sign: '*', dashed: true };
-            let look = Appearance { theme: Theme::Dark, marker: Marker::Braille };
+            let look = Appearance { theme: Theme::Dark, marker: Marker::Braille, wide: false };
             if let Some(mut plot) = Plot::new(&mut buffer, area, ChartAxis::scaled(low, high), ChartAxis::plain(-1.0, 1.0), &look) {
                 plot.curve(xs.iter().map(|x| (*x, *x)), &pen);
                 plot.spans(&xs.iter().map(|x| Some((*x, *x))).collect::<Vec<_>>(), &pen);

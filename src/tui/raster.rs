@@ -52,7 +52,7 @@ pub struct Pen {
     pub style: Style,
     /// The sign of this series where only ASCII is drawn.
     pub sign: char,
-    /// Drawn in dashes, so that two series differ without colour.
+    /// Drawn in evenly spaced dots, so that two series differ without colour.
     pub dashed: bool,
 }
 
@@ -63,22 +63,34 @@ struct Dots {
     style: Style,
 }
 
-/// Period of a dashed pen in sub-pixels,
-pub(super) const DASH: i64 = 6;
-/// and how many of them are drawn.
-pub(super) const DASH_ON: i64 = 4;
-
 /// Sub-pixels over an area.
 pub struct Raster {
     area: Rect,
     marker: Marker,
+    wide: bool,
     dots: Vec<Dots>,
 }
 
 impl Raster {
-    /// An empty raster over `area`.
-    pub fn new(area: Rect, marker: Marker) -> Self {
-        Self { area, marker, dots: vec![Dots::default(); area.area() as usize] }
+    /// An empty raster over `area`; lines are two sub-pixels thick if `wide`, unless
+    /// those are whole cells.
+    pub fn new(area: Rect, marker: Marker, wide: bool) -> Self {
+        let wide = wide && marker.grain() != (1, 1);
+        Self { area, marker, wide, dots: vec![Dots::default(); area.area() as usize] }
+    }
+
+    /// Whether a dotted pen draws at this place along a line. In ASCII the sign of
+    /// a series tells it from others, and gaps would look like missing data.
+    fn is_dot(&self, along: i64, pen: &Pen) -> bool {
+        let period = if self.wide { 4 } else { 2 };
+        !pen.dashed || self.marker == Marker::Ascii || along.rem_euclid(period) == 0
+    }
+
+    /// Sub-pixels of one cell, across and down.
+    pub fn grain(&self) -> (i64, i64) {
+        let (across, down) = self.marker.grain();
+        // Two and four at most.
+        (across as i64, down as i64)
     }
 
     /// Width and height in sub-pixels.
@@ -103,17 +115,29 @@ impl Raster {
         }
     }
 
-    /// A straight line, dashed where the pen says so.
+    /// One sub-pixel of a line, or a block of four if lines are wide.
+    fn blot(&mut self, x: i64, y: i64, pen: &Pen) {
+        self.set(x, y, pen);
+        if self.wide {
+            for (right, down) in [(1, 0), (0, 1), (1, 1)] {
+                self.set(x + right, y + down, pen);
+            }
+        }
+    }
+
+    /// A straight line, dotted where the pen says so: by columns where it is flat,
+    /// by rows where it is steep, so that pieces of one curve have one spacing.
     pub fn line(&mut self, from: (i64, i64), to: (i64, i64), pen: &Pen) {
         // Ends far outside are not visible, and would take many steps.
         let bound = |v: i64| v.clamp(-20_000, 20_000);
         let (x0, y0, x1, y1) = (bound(from.0), bound(from.1), bound(to.0), bound(to.1));
         let steps = (x1 - x0).abs().max((y1 - y0).abs()).max(1);
+        let steep = (y1 - y0).abs() > (x1 - x0).abs();
         for k in 0..=steps {
             let x = x0 + ((x1 - x0) * k + (x1 - x0).signum() * steps / 2) / steps;
             let y = y0 + ((y1 - y0) * k + (y1 - y0).signum() * steps / 2) / steps;
-            if !pen.dashed || x.rem_euclid(DASH) < DASH_ON {
-                self.set(x, y, pen);
+            if self.is_dot(if steep { y } else { x }, pen) {
+                self.blot(x, y, pen);
             }
         }
     }
@@ -167,7 +191,7 @@ mod tests {
 
     fn drawn(marker: Marker, draw: impl Fn(&mut Raster)) -> String {
         let area = Rect::new(0, 0, 4, 2);
-        let mut raster = Raster::new(area, marker);
+        let mut raster = Raster::new(area, marker, false);
         draw(&mut raster);
         let mut buffer = Buffer::empty(area);
         raster.draw(&mut buffer);
@@ -213,16 +237,33 @@ mod tests {
     }
 
     #[test]
-    fn a_line_crosses_every_column_and_a_dashed_one_does_not() {
-        let full = drawn(Marker::Ascii, |r| r.line((0, 0), (3, 0), &PEN));
-        assert_eq!(full, "****    ");
-        let dashed = drawn(Marker::Ascii, |r| r.line((0, 0), (3, 0), &Pen { dashed: true, ..PEN }));
-        assert_eq!(dashed, "****    ");
-        let area = Rect::new(0, 0, 12, 1);
-        let mut raster = Raster::new(area, Marker::Ascii);
-        raster.line((0, 0), (11, 0), &Pen { dashed: true, ..PEN });
+    fn a_dotted_line_has_every_other_place_of_a_solid_one() {
+        let dotted = Pen { dashed: true, ..PEN };
+        assert_eq!(drawn(Marker::Dot, |r| r.line((0, 0), (3, 0), &PEN)), "••••    ");
+        assert_eq!(drawn(Marker::Dot, |r| r.line((0, 0), (3, 0), &dotted)), "• •     ");
+        assert_eq!(drawn(Marker::Ascii, |r| r.line((0, 0), (3, 0), &dotted)), "****    ");
+        // Also where it is steep, and whatever its pieces are.
+        for to in [(7, 0), (0, 7), (3, 7), (7, 3), (7, 7)] {
+            for mirror in [false, true] {
+                let area = Rect::new(0, 0, 4, 2);
+                let [mut solid, mut dots] =
+                    [0, 1].map(|_| Raster::new(area, Marker::Braille, false));
+                let place = |(x, y)| if mirror { (x, 7 - y) } else { (x, y) };
+                solid.line(place((0, 0)), place(to), &PEN);
+                dots.line(place((0, 0)), place(to), &dotted);
+                let count = |r: &Raster| r.dots.iter().map(|d| d.bits.count_ones()).sum::<u32>();
+                assert_eq!((count(&solid), count(&dots)), (8, 4), "{to:?} {mirror}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_wide_line_is_two_sub_pixels_thick() {
+        let area = Rect::new(0, 0, 4, 2);
+        let mut raster = Raster::new(area, Marker::HalfBlock, true);
+        raster.line((0, 1), (2, 1), &PEN);
         let mut buffer = Buffer::empty(area);
         raster.draw(&mut buffer);
-        assert_eq!(buffer, Buffer::with_lines(["****  ****  "]));
+        assert_eq!(buffer, Buffer::with_lines(["▄▄▄▄", "▀▀▀▀"]));
     }
 }

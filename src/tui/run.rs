@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use ratatui::{Terminal, backend::Backend};
 
-use super::app::{App, Effect, Exit};
+use super::app::{App, Effect, Exit, Heard};
 use super::engine::{Engine, Order};
 use super::events::ScreenEvent;
 use super::host::Host;
@@ -180,6 +180,10 @@ fn handle(event: ScreenEvent, app: &mut App, host: &mut dyn Host) -> Reaction {
             Effect::Quit => Reaction::Quit,
             Effect::Suspend => suspended(app, host.suspend(true)),
             Effect::Redraw => Reaction::Redraw,
+            Effect::Mouse(on) => {
+                host.mouse(on);
+                Reaction::Draw(Due::Now)
+            }
             Effect::Copy(text) => {
                 // The status line also shows it, in case the terminal refuses it.
                 let _ = host.copy(&text);
@@ -198,6 +202,11 @@ fn handle(event: ScreenEvent, app: &mut App, host: &mut dyn Host) -> Reaction {
                 Reaction::Draw(Due::Now)
             }
         },
+        ScreenEvent::Mouse(event) => Reaction::Draw(match app.mouse(&event) {
+            Heard::Nothing => Due::Later,
+            Heard::Pointed => Due::Frame,
+            Heard::Acted => Due::Now,
+        }),
         ScreenEvent::Resize => Reaction::Draw(Due::Now),
         ScreenEvent::Pasted(text) => {
             app.paste(&text);
@@ -231,7 +240,7 @@ fn last_file(events: &Receiver<ScreenEvent>, app: &mut App, host: &mut dyn Host)
                 }
             }
             // The keys after the one that quits are for nobody.
-            Ok(ScreenEvent::Key(_) | ScreenEvent::Pasted(_)) => {}
+            Ok(ScreenEvent::Key(_) | ScreenEvent::Pasted(_) | ScreenEvent::Mouse(_)) => {}
             Ok(other) => {
                 if let Reaction::Exit(exit) = handle(other, app, host) {
                     return Some(exit);

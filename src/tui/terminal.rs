@@ -8,7 +8,9 @@ use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU64, Ordering::SeqCst};
 use std::time::{Duration, Instant};
 
 use crossterm::cursor::{Hide, Show};
-use crossterm::event::{DisableBracketedPaste, EnableBracketedPaste};
+use crossterm::event::{
+    DisableBracketedPaste, DisableMouseCapture, EnableBracketedPaste, EnableMouseCapture,
+};
 use crossterm::queue;
 use crossterm::style::{Attribute, SetAttribute};
 use crossterm::terminal::{EnterAlternateScreen, LeaveAlternateScreen};
@@ -29,6 +31,8 @@ static HELD: AtomicBool = AtomicBool::new(false);
 static CUT: AtomicBool = AtomicBool::new(false);
 /// Whether a frame was given up in its middle, perhaps within a sequence.
 static TORN: AtomicBool = AtomicBool::new(false);
+/// Whether mouse events are asked for while the terminal is set up.
+static MOUSE: AtomicBool = AtomicBool::new(false);
 /// The first signal that ends the program; 0 if there was none.
 static ENDED_BY: AtomicU8 = AtomicU8::new(0);
 
@@ -80,6 +84,27 @@ fn enter() -> Result<(), Error> {
     }
     let mut bytes = Vec::new();
     queue!(bytes, EnterAlternateScreen, Hide, EnableBracketedPaste)?;
+    if MOUSE.load(SeqCst) {
+        queue!(bytes, EnableMouseCapture)?;
+    }
+    write(&bytes)
+}
+
+/// Asks for mouse events, now if the terminal is set up and whenever it will be, or
+/// no longer.
+///
+/// # Errors
+/// The terminal is closed.
+pub fn set_mouse(on: bool) -> Result<(), Error> {
+    MOUSE.store(on, SeqCst);
+    if !HELD.load(SeqCst) {
+        return Ok(());
+    }
+    let mut bytes = Vec::new();
+    match on {
+        true => queue!(bytes, EnableMouseCapture)?,
+        false => queue!(bytes, DisableMouseCapture)?,
+    }
     write(&bytes)
 }
 
@@ -97,6 +122,8 @@ pub fn leave() {
         // A vector takes everything.
         let _ = queue!(
             bytes,
+            // Also where it was never asked for: which frame was cut is not known.
+            DisableMouseCapture,
             DisableBracketedPaste,
             LeaveAlternateScreen,
             Show,

@@ -135,7 +135,7 @@ pub fn seeds() -> Vec<Vec<u8>> {
         "s\ns\nye\n",
         "?jjj?tm",
         "g\nggggG",
-        "jjjjjjjjlll",
+        "jjjjjjjlll",
         "xllxpp..n",
         "cvbwf[[]]++-=a",
         "(){}<>rb",

@@ -17,13 +17,34 @@ fn opens_turns_a_knob_sees_the_verdict_change_and_quits() {
     let mut terminal = Start::explorer(&SHORT).open();
     terminal.wait_for(" LOCKED ");
     assert!(terminal.parser.screen().alternate_screen());
-    // Nine knobs down is the contact law.
-    terminal.send("jjjjjjjjj");
+    // Eight knobs down is the contact law.
+    terminal.send("jjjjjjjj");
     terminal.wait_for("contact law");
     terminal.send("l");
     terminal.wait_for(" DECAY ");
     terminal.send("h");
     terminal.wait_for(" LOCKED ");
+    terminal.send("q");
+    assert_eq!(terminal.wait(), 0);
+    terminal.assert_restored();
+}
+
+#[test]
+fn the_mouse_acts_and_is_given_back() {
+    let mut terminal = Start::explorer(&SHORT).open();
+    terminal.wait_for(" LOCKED ");
+    assert!([1000, 1002, 1003, 1006].into_iter().all(|mode| terminal.has_mode(mode)));
+    // A click in the ninth row, on the damping of the casing.
+    terminal.send("\u{1b}[<0;5;9M\u{1b}[<0;5;9m");
+    terminal.wait_for("▸damping ζ_c");
+    terminal.send("\u{1b}[<64;5;9M");
+    terminal.wait_for("0.055");
+    terminal.send("M");
+    terminal.wait_for("mouse off");
+    assert!([1000, 1002, 1003, 1006].into_iter().all(|mode| !terminal.has_mode(mode)));
+    terminal.send("M");
+    terminal.wait_for("mouse on");
+    assert!(terminal.has_mode(1003));
     terminal.send("q");
     assert_eq!(terminal.wait(), 0);
     terminal.assert_restored();

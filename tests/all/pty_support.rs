@@ -38,6 +38,8 @@ pub struct Terminal {
     slave: Option<Box<dyn SlavePty + Send>>,
     reader: Arc<AtomicU8>,
     before: String,
+    /// Everything the program has written.
+    written: Vec<u8>,
 }
 
 /// How a program is started.
@@ -160,6 +162,7 @@ impl Start {
             slave: Some(pair.slave),
             reader,
             before,
+            written: Vec::new(),
         }
     }
 }
@@ -174,6 +177,20 @@ impl Terminal {
         let input = self.input.as_mut().unwrap();
         input.write_all(keys.as_bytes()).unwrap();
         input.flush().unwrap();
+    }
+
+    fn heard(&mut self, bytes: &[u8]) {
+        self.written.extend_from_slice(bytes);
+        self.parser.process(bytes);
+    }
+
+    /// Whether a private mode of the terminal is set, by its last change.
+    pub fn has_mode(&self, mode: u16) -> bool {
+        let last = |end: char| {
+            let change = format!("\u{1b}[?{mode}{end}");
+            self.written.windows(change.len()).rposition(|bytes| bytes == change.as_bytes())
+        };
+        last('h') > last('l')
     }
 
     pub fn text(&self) -> String {
@@ -191,7 +208,7 @@ impl Terminal {
         while !holds(self.parser.screen()) {
             assert!(began.elapsed() < PATIENCE, "no {what:?} in\n{}", self.text());
             match self.output.recv_timeout(Duration::from_millis(100)) {
-                Ok(bytes) => self.parser.process(&bytes),
+                Ok(bytes) => self.heard(&bytes),
                 Err(RecvTimeoutError::Timeout) => {}
                 Err(RecvTimeoutError::Disconnected) => {
                     panic!("ended without {what:?}:\n{}", self.text())
@@ -266,7 +283,7 @@ impl Terminal {
             assert!(began.elapsed() < PATIENCE, "it does not end");
             // If it is read, this must go on: a full terminal would block it.
             if let Ok(bytes) = self.output.recv_timeout(Duration::from_millis(20)) {
-                self.parser.process(&bytes);
+                self.heard(&bytes);
             }
         }
     }
@@ -276,7 +293,7 @@ impl Terminal {
         let status = self.ended();
         self.unblock();
         while let Ok(bytes) = self.output.recv_timeout(Duration::from_millis(300)) {
-            self.parser.process(&bytes);
+            self.heard(&bytes);
         }
         assert_eq!(status.signal(), None, "killed");
         status.exit_code()
@@ -288,6 +305,10 @@ impl Terminal {
         assert!(!screen.hide_cursor(), "the cursor is still hidden");
         assert!(!screen.bracketed_paste(), "pasted text is still marked");
         assert_eq!(screen.mouse_protocol_mode(), vt100::MouseProtocolMode::None);
+        // Clicks, drags, moves, and two ways to write them.
+        for mode in [1000, 1002, 1003, 1006, 1015] {
+            assert!(!self.has_mode(mode), "mouse mode {mode} is still on");
+        }
         let after = settings(&**self.master.as_ref().unwrap());
         assert_eq!(after, self.before, "the settings of the terminal changed");
     }

@@ -5,6 +5,7 @@ mod command;
 mod cursor;
 mod files;
 mod lesson;
+mod mouse;
 mod past;
 mod scenes;
 mod snapshot;
@@ -16,6 +17,7 @@ mod verdict;
 
 pub use cursor::{Cursor, cell_of};
 pub use lesson::LessonProgress;
+pub use mouse::Heard;
 pub use scenes::SceneEntry;
 pub use sweep::Sweep;
 pub use time::RATES;
@@ -23,6 +25,9 @@ pub use update::Effect;
 pub use verdict::VerdictText;
 
 use past::Past;
+use std::cell::RefCell;
+
+use ratatui::layout::Rect;
 
 use super::appearance::Appearance;
 use super::axis::AutoRange;
@@ -172,6 +177,10 @@ pub struct App {
     pub heat: bool,
     /// Whether the large chart has the whole screen.
     pub full_screen: bool,
+    /// Whether the screen is for a projector.
+    pub presenting: bool,
+    /// Whether the mouse acts.
+    pub mouse: bool,
     /// Whether time passes.
     pub playing: bool,
     /// Place in `RATES`.
@@ -222,6 +231,12 @@ pub struct App {
     pub ranges: Ranges,
     /// Theme and marker.
     pub appearance: Appearance,
+    /// Where the data of the large chart was drawn last.
+    chart_places: RefCell<Vec<Rect>>,
+    /// The knob whose bar the mouse holds.
+    grip: Option<mouse::Grip>,
+    /// Where it clicked last, if it is still there.
+    clicked: Option<(u16, u16)>,
     /// Whether the screen has shown the question that is open.
     asked: bool,
     /// The latest verdict of a motion that has been changed since, in one word.
@@ -272,6 +287,8 @@ impl App {
             companions: views.into_iter().skip(1).collect(),
             heat: false,
             full_screen: false,
+            presenting: false,
+            mouse: true,
             playing: true,
             rate: time::FIRST_RATE,
             zoom: 0,
@@ -295,7 +312,10 @@ impl App {
             lessons_done: LessonsDone::default(),
             found_scenes: FoundScenes::default(),
             note_page: 0,
-            appearance: Appearance { theme, marker },
+            appearance: Appearance { theme, marker, wide: false },
+            chart_places: RefCell::default(),
+            grip: None,
+            clicked: None,
             asked: true,
             verdict_before: None,
             counters: Counters::default(),
@@ -343,7 +363,17 @@ impl App {
     /// Whether a view can be on the screen.
     pub fn is_open(&self, view: ViewId) -> bool {
         let mut companions = self.companions.iter().take(self.companions_shown);
-        view == self.view || (!self.full_screen && companions.any(|other| *other == view))
+        view == self.view || (!self.is_alone() && companions.any(|other| *other == view))
+    }
+
+    /// Whether the large chart compares both contact laws, over the whole height.
+    pub fn compares(&self) -> bool {
+        self.compare && self.view == ViewId::Response
+    }
+
+    /// Whether only the large chart is on the screen.
+    pub fn is_alone(&self) -> bool {
+        self.full_screen || self.presenting || self.compares()
     }
 
     /// The instant that every panel shows: that under the reading cursor, or now.

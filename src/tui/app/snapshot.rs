@@ -21,6 +21,8 @@ impl App {
             return false;
         }
         self.grow_ranges(&snapshot.bins);
+        // Both contact laws have the same axes.
+        self.grow_ranges(&snapshot.comparison_bins);
         self.history.extend(&std::mem::take(&mut snapshot.bins));
         self.comparison_history.extend(&std::mem::take(&mut snapshot.comparison_bins));
         let known = std::mem::take(&mut self.latest);
@@ -71,7 +73,8 @@ impl App {
         }
         if moment.ends > self.counters.ends {
             self.counters.ends = moment.ends;
-            if std::mem::take(&mut self.playing) {
+            // An answer to a key is not covered.
+            if std::mem::take(&mut self.playing) && self.status.is_none() {
                 self.status = Some("the end of the run; Space goes on".into());
             }
         }

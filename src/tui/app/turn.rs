@@ -5,12 +5,22 @@ use crate::motion::Change;
 use crate::report::line::clean;
 use crate::scene::{CheckedScene, Scene, Value};
 use crate::tui::engine::Snapshot;
-use crate::tui::knobs::{KNOBS, Knob};
+use crate::tui::knobs::{KNOBS, Knob, knob_of};
 
 impl App {
     /// The selected knob.
     pub fn selected(&self) -> Option<&'static Knob> {
         KNOBS.get(self.knob)
+    }
+
+    /// Selects the knob of a key; false if there is none.
+    pub fn select_path(&mut self, path: &str) -> bool {
+        let place = knob_of(path);
+        if let Some(place) = place {
+            self.knob = place;
+            self.refusal = None;
+        }
+        place.is_some()
     }
 
     pub(super) fn select(&mut self, up: bool) {
@@ -54,7 +64,7 @@ impl App {
     }
 
     /// Sets a knob; false where the value was refused.
-    fn set(&mut self, knob: &'static Knob, value: Value) -> bool {
+    pub(super) fn set(&mut self, knob: &'static Knob, value: Value) -> bool {
         match knob.set(&self.scene, value) {
             Ok((scene, said)) => {
                 self.refusal = None;

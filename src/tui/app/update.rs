@@ -25,6 +25,8 @@ pub enum Effect {
     Suspend,
     /// Draw everything again.
     Redraw,
+    /// Ask the terminal for the mouse, or no longer.
+    Mouse(bool),
     /// Put a text on the clipboard of the terminal.
     Copy(String),
     /// Write a file.
@@ -107,6 +109,10 @@ impl App {
                 // Some terminals leave parts of octants behind.
                 return Effect::Redraw;
             }
+            (InputMode::Main, Action::Mouse) => {
+                self.toggle_mouse();
+                return Effect::Mouse(self.mouse);
+            }
             (InputMode::Help(scroll), Action::KnobBelow) => {
                 self.mode = InputMode::Help(scroll.saturating_add(1));
             }
@@ -153,6 +159,8 @@ impl App {
         } else if self.reading || self.cursor.is_some() || self.pages_back != 0 {
             (self.reading, self.cursor) = (false, None);
             self.pages_back = 0;
+        } else if self.presenting {
+            self.present(false);
         } else {
             self.full_screen = false;
         }
@@ -241,6 +249,7 @@ impl App {
                 let how = if self.ranges.follow { "follow the data" } else { "stay fixed" };
                 self.status = Some(format!("scales {how}"));
             }
+            Action::Present => self.present(!self.presenting),
             Action::FullScreen => self.full_screen = !self.full_screen,
             Action::Live => {
                 self.live = !self.live;
@@ -252,6 +261,12 @@ impl App {
             }
             _ => {}
         }
+    }
+
+    /// The screen for a projector, or the usual one.
+    fn present(&mut self, on: bool) {
+        (self.presenting, self.appearance.wide) = (on, on);
+        self.status = on.then(|| "P or Esc: back to the usual screen".into());
     }
 
     fn neighbour(&self, by: i64) -> ViewId {

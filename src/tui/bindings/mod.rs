@@ -41,6 +41,8 @@ pub enum Action {
     ZoomReset,
     Autoscale,
     FullScreen,
+    Present,
+    Mouse,
     Marker,
     Theme,
     Live,

@@ -96,6 +96,8 @@ const BEFORE_VIEWS: &[Binding] = &[
     ),
     bind!(Main, [letter('S')], Action::Sweep, "sweep the selected knob from its value to another"),
     bind!(Main, [letter('f')], Action::FullScreen, "one chart over the whole screen, or back", "f" "full"),
+    bind!(Main, [letter('P')], Action::Present, "the screen for a projector, or back"),
+    bind!(Main, [letter('M')], Action::Mouse, "mouse on or off; Shift selects text while it is on"),
     bind!(Main, [letter('.')], Action::Step, "one step (pauses)", "." "step"),
     bind!(Main, [key(KeyCode::Backspace)], Action::Reset, "back to the scene's value"),
     bind!(Main, [letter('u')], Action::Undo, "undo the last turn of a knob", "u" "undo"),

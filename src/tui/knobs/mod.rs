@@ -1,10 +1,16 @@
 //! The knobs: keys of the scene with a label and a sensible step. Names,
 //! units, bounds and meaning come from the table of keys.
 
+mod inert;
 mod number;
+mod range;
+mod table;
+mod touch;
 
 pub use number::number;
 use number::{COARSE, FINE, decades, prefixed};
+pub use range::knob_of;
+pub use table::KNOBS;
 
 use crate::scene::{Adjustment, Allowed, CheckedScene, Scene, SceneError, Value, keys, keys::Key};
 
@@ -24,51 +30,48 @@ pub enum Turn {
     Words,
 }
 
+/// What a knob belongs to, in the order of the panel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Group {
+    /// The mode pair, the rotor, the pulse and the dampings.
+    Operation,
+    /// How the motion is computed.
+    Solver,
+    /// Casing and bladed disk.
+    Machine,
+    /// State at t = 0, and the excitation.
+    Start,
+}
+
+impl Group {
+    /// Every group, in the order of the panel.
+    pub const ALL: [Self; 4] = [Self::Operation, Self::Solver, Self::Machine, Self::Start];
+
+    /// Its heading.
+    pub fn name(self) -> &'static str {
+        ["operation", "solver", "machine", "start"][self as usize]
+    }
+
+    /// Places of its knobs in the table.
+    pub fn places(self) -> impl Iterator<Item = usize> {
+        KNOBS.iter().enumerate().filter(move |(_, knob)| knob.group == self).map(|(place, _)| place)
+    }
+}
+
 /// One knob.
 #[derive(Debug)]
 pub struct Knob {
+    /// What it belongs to.
+    pub group: Group,
     /// Short name.
     pub label: &'static str,
     /// The key that it sets.
     pub path: &'static str,
     /// How it turns.
     pub turn: Turn,
+    /// What turning it does, in one sentence.
+    pub does: &'static str,
 }
-
-const fn knob(label: &'static str, path: &'static str, turn: Turn) -> Knob {
-    Knob { label, path, turn }
-}
-
-/// Every knob, in the order of the panel.
-pub const KNOBS: &[Knob] = &[
-    knob("speed Ω", "operation.speed_rad_s", Turn::Linear(5.0, 50.0)),
-    knob("pulse F", "operation.pulse_n", Turn::Decades(1.0)),
-    knob("diameters n_d", "operation.nodal_diameters", Turn::Whole(1, 4)),
-    knob("damping ζ_c", "casing.damping_ratio", Turn::Linear(0.005, 0.05)),
-    knob("damping ζ_bd", "bladed_disk.damping_ratio", Turn::Linear(0.005, 0.05)),
-    knob("clearance g0", CLEARANCE, Turn::Decades(1e-9)),
-    knob("pulse time t_p", "operation.pulse_s", Turn::Decades(1e-9)),
-    knob("blades N", "bladed_disk.blades", Turn::Whole(1, 10)),
-    knob("solver", "solver.kind", Turn::Words),
-    knob("contact", "solver.contact", Turn::Words),
-    knob("model", "solver.model", Turn::Words),
-    knob("step h", "solver.step_s", Turn::Decades(1e-12)),
-    knob("run end", "solver.end_s", Turn::Decades(1e-9)),
-    knob("speed ramp", "operation.speed_ramp_rad_s2", Turn::Decades(1.0)),
-    knob("casing k_c", "casing.modal_stiffness_n_per_m", Turn::Decades(1e-6)),
-    knob("casing m_c", "casing.modal_mass_kg", Turn::Decades(1e-9)),
-    knob("blade k_b", "bladed_disk.stiffness_nm_per_rad", Turn::Decades(1e-6)),
-    knob("blade k_bb", "bladed_disk.coupling_nm_per_rad", Turn::Decades(1e-3)),
-    knob("blade m_b", "bladed_disk.inertia_kg_m2", Turn::Decades(1e-9)),
-    knob("blade l_b", "bladed_disk.blade_length_m", Turn::Linear(1e-6, 1e-5)),
-    knob("casing R_c", "casing.radius_m", Turn::Linear(1e-6, 1e-5)),
-    knob("start u_c", "initial.u_c_m", Turn::Linear(5e-6, 2e-5)),
-    knob("start u_s", "initial.u_s_m", Turn::Linear(5e-6, 2e-5)),
-    knob("start u_c'", "initial.v_c_m_s", Turn::Linear(5e-3, 5e-2)),
-    knob("start u_s'", "initial.v_s_m_s", Turn::Linear(5e-3, 5e-2)),
-    knob("EO torque", "excitation.amplitude_nm", Turn::Decades(1e-3)),
-    knob("EO order", "excitation.order", Turn::Whole(1, 5)),
-];
 
 impl Knob {
     fn key(&self) -> Option<&'static Key> {
@@ -139,9 +142,7 @@ impl Knob {
             (Value::Real(x), Turn::Linear(fine, large)) => {
                 let step = if coarse { large } else { fine };
                 let next = (x / step + if up { 1.0 } else { -1.0 }).round() * step;
-                // Decimal digits, without the round-off of a multiple.
-                let digits = (-fine.log10()).ceil().clamp(0.0, 12.0) as usize + 1;
-                Value::Real(self.bounded(format!("{next:.digits$}").parse().unwrap_or(next)))
+                Value::Real(self.round_to(next, fine))
             }
             (Value::Real(x), Turn::Decades(least)) => Value::Real(self.bounded(decades(
                 *x,
@@ -171,6 +172,14 @@ impl Knob {
         }
     }
 
+    /// The nearest multiple of a step, within bounds.
+    fn round_to(&self, x: f64, step: f64) -> f64 {
+        let next = (x / step).round() * step;
+        // Decimal digits, without the round-off of a multiple.
+        let digits = (-step.log10()).ceil().clamp(0.0, 12.0) as usize + 1;
+        self.bounded(format!("{next:.digits$}").parse().unwrap_or(next))
+    }
+
     fn bounded(&self, x: f64) -> f64 {
         match self.allowed() {
             Allowed::Real { min, max, .. } => x.clamp(min, max),
@@ -186,11 +195,6 @@ impl Knob {
     /// The unit; empty for words and counts.
     pub fn unit(&self) -> &'static str {
         self.key().map_or("m", |key| key.unit).trim_matches('-')
-    }
-
-    /// What it is, in a few words.
-    pub fn what(&self) -> &'static str {
-        self.key().map_or("clearance at rest g0 = R_c - l_b", |key| key.what)
     }
 
     /// The value as shown, with prefix and unit.
@@ -247,8 +251,16 @@ mod tests {
             let value = knob.get(&scene);
             let (again, _) = knob.set(&scene, value.clone()).unwrap();
             assert_eq!(knob.get(&again), value, "{}", knob.label);
-            assert!(!knob.shown(&value).is_empty() && !knob.what().is_empty());
+            assert!(!knob.shown(&value).is_empty() && !knob.does.is_empty());
         }
+    }
+
+    #[test]
+    fn groups_follow_each_other_and_have_every_knob() {
+        let places: Vec<usize> = Group::ALL.into_iter().flat_map(Group::places).collect();
+        assert_eq!(places, (0..KNOBS.len()).collect::<Vec<_>>());
+        let first: Vec<&str> = KNOBS.iter().take(5).map(|knob| knob.label).collect();
+        assert_eq!(first, ["speed Ω", "pulse F", "diameters n_d", "damping ζ_c", "damping ζ_bd"]);
     }
 
     #[test]

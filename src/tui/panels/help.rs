@@ -13,6 +13,10 @@ const WORDS: &[(&str, &str)] = &[
         "the machine",
         "a rotor of N flexible blades turns inside a flexible casing; both vibrate in one pattern of n_d nodal diameters",
     ),
+    (
+        "mouse",
+        "click a knob or a chart, turn the wheel on a knob or over time, drag a bar, point in a chart to read it",
+    ),
     ("pulse", "a short push on the casing that starts the motion"),
     ("gap", "distance from a blade tip to the casing; zero is contact"),
     (

@@ -2,6 +2,7 @@
 
 use ratatui::layout::{Constraint, Layout, Rect};
 
+use super::presentation;
 use crate::tui::app::App;
 use crate::tui::views::ViewId;
 
@@ -14,6 +15,8 @@ pub const LEAST_HEIGHT: u16 = 12;
 const KNOBS_FROM: u16 = 66;
 /// Width of that column.
 const KNOBS_WIDTH: u16 = 27;
+/// From this width on, they stay beside two contact laws that are compared.
+const KNOBS_BESIDE_LAWS: u16 = 110;
 /// From this width on, two charts are side by side.
 const PAIR_FROM: u16 = 76;
 
@@ -29,6 +32,8 @@ pub struct Places {
     pub column: bool,
     /// The charts.
     pub charts: Vec<(ViewId, Rect)>,
+    /// The verdict in large letters, which only a screen for a projector has.
+    pub letters: Option<Rect>,
     /// The current lesson.
     pub lesson: Option<Rect>,
     /// Keys.
@@ -37,18 +42,32 @@ pub struct Places {
 
 /// Places for a screen of this size.
 pub fn places(area: Rect, app: &App) -> Places {
+    if presentation::is_shown(app, area) {
+        let [letters, chart, knobs, footer] = presentation::split(app, area);
+        return Places {
+            header: Rect::default(),
+            body: area,
+            knobs,
+            column: false,
+            charts: vec![(app.view, chart)],
+            letters: Some(letters),
+            lesson: None,
+            footer,
+        };
+    }
     let [header, body, footer] =
         Layout::vertical([Constraint::Length(2), Constraint::Min(1), Constraint::Length(1)])
             .areas(area);
     let (lesson, body) = lesson(body, app);
-    let column = area.width >= KNOBS_FROM && !app.full_screen;
+    let from = if app.compares() { KNOBS_BESIDE_LAWS } else { KNOBS_FROM };
+    let column = area.width >= from && !app.full_screen;
     let [knobs, charts] = if column {
         Layout::horizontal([Constraint::Length(KNOBS_WIDTH), Constraint::Min(1)]).areas(body)
     } else {
         below(body, 1)
     };
-    let charts = if app.full_screen { vec![(app.view, charts)] } else { split(charts, app) };
-    Places { header, body, knobs, column, charts, lesson, footer }
+    let charts = if app.is_alone() { vec![(app.view, charts)] } else { split(charts, app) };
+    Places { header, body, knobs, column, charts, letters: None, lesson, footer }
 }
 
 /// The first rows of an area, and the rest below.

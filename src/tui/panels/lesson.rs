@@ -3,7 +3,7 @@
 
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 
-use crate::tui::app::App;
+use crate::tui::app::{App, InputMode};
 use crate::tui::lessons::{self, LETTERS, Lesson, LessonStep};
 use crate::tui::text::{columns, print, shorten, wrap};
 use crate::tui::theme::Role;
@@ -19,8 +19,7 @@ pub fn list(app: &App, buffer: &mut Buffer, area: Rect, place: usize) {
     let bold = look.style(Role::Text).add_modifier(Modifier::BOLD);
     let head = "Lessons: Enter begins one, g goes on, B back, G leaves";
     print(buffer, area, 0, &shorten(head, width, mark), bold);
-    let rows = usize::from(area.height.saturating_sub(2));
-    let first = (place + 1).saturating_sub(rows);
+    let first = first_listed(area, place);
     for (row, (index, lesson)) in
         (2..area.height).zip(lessons::all().iter().enumerate().skip(first))
     {
@@ -36,6 +35,19 @@ pub fn list(app: &App, buffer: &mut Buffer, area: Rect, place: usize) {
         };
         print(buffer, area, row, &shorten(&text, width, mark), style);
     }
+}
+
+/// The first lesson in sight, so that the selected one is.
+fn first_listed(area: Rect, place: usize) -> usize {
+    (place + 1).saturating_sub(usize::from(area.height.saturating_sub(2)))
+}
+
+/// The lesson in a row of the screen while the list is open in `area`.
+pub fn place_at(app: &App, area: Rect, y: u16) -> Option<usize> {
+    let InputMode::Lessons(place) = app.mode else { return None };
+    let row = y.checked_sub(area.y + 2)?;
+    let place = first_listed(area, place) + usize::from(row);
+    (place < lessons::all().len()).then_some(place)
 }
 
 /// A line and its colour.

@@ -1,12 +1,16 @@
 //! The screen as a function of the state: where each panel goes, and one file
 //! per panel.
 
+mod bar;
+mod column;
 mod footer;
 mod header;
 mod help;
+mod hit;
 mod knobs;
 mod layout;
 mod lesson;
+mod presentation;
 mod scenes;
 
 use ratatui::{Frame, buffer::Buffer, layout::Rect};
@@ -15,6 +19,7 @@ use super::app::{App, InputMode};
 use super::text::print;
 use super::theme::Role;
 use super::views::ViewArea;
+pub use hit::{Target, lesson_at, part_of_bar, target};
 pub use layout::{LEAST_HEIGHT, LEAST_WIDTH, lesson_fills, lesson_pages};
 
 /// Draws the whole screen.
@@ -34,7 +39,10 @@ pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
         return;
     }
     let places = layout::places(area, app);
-    header::draw(app, buffer, places.header);
+    app.forget_charts();
+    if places.letters.is_none() {
+        header::draw(app, buffer, places.header);
+    }
     if let InputMode::Help(scroll) = app.mode {
         help::draw(app, buffer, places.body, scroll);
     } else if let InputMode::Lessons(place) = app.mode {
@@ -45,7 +53,10 @@ pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
         if let Some(area) = places.lesson {
             lesson::draw(app, buffer, area);
         }
-        if places.column {
+        if let Some(area) = places.letters {
+            presentation::letters(app, buffer, area);
+            presentation::knob(app, buffer, places.knobs);
+        } else if places.column {
             knobs::panel(app, buffer, places.knobs);
         } else {
             knobs::strip(app, buffer, places.knobs);
@@ -55,7 +66,9 @@ pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
             view.panel().draw(app, buffer, at);
         }
     }
-    footer::draw(app, buffer, places.footer);
+    if places.letters.is_none() || app.status.is_some() || app.mode != InputMode::Main {
+        footer::draw(app, buffer, places.footer);
+    }
     if app.appearance.ascii() {
         // Names and titles can have any letter.
         let others = buffer.content.iter_mut().filter(|cell| !cell.symbol().is_ascii());

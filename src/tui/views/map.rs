@@ -52,6 +52,7 @@ impl ViewPanel for MapView {
         let x = ChartAxis::plain(x_axis.from, x_axis.to);
         let y = ChartAxis::powers(y_axis.from.log10(), y_axis.to.log10());
         let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
+        at.note(app, plot.inner);
         let inner = plot.inner;
         let nearest = |place: u16, cells: u16, count: u32| {
             let part = (f64::from(place) + 0.5) / f64::from(cells.max(1));

@@ -63,6 +63,13 @@ pub struct ViewArea {
 }
 
 impl ViewArea {
+    /// Notes where data is drawn, so that the mouse can point at it.
+    pub fn note(self, app: &App, inner: Rect) {
+        if self.large {
+            app.note_chart(inner);
+        }
+    }
+
     /// Two slots, one above the other; the first takes `percent` of the height.
     pub fn rows(self, percent: u16) -> [Self; 2] {
         let parts = [Constraint::Percentage(percent), Constraint::Percentage(100 - percent)];
@@ -106,7 +113,7 @@ pub fn title(
 pub fn entry(look: &Appearance, pen: &Pen, name: &str) -> (String, Style) {
     let stroke = match (look.ascii(), pen.dashed) {
         (true, _) => pen.sign.to_string().repeat(2),
-        (false, true) => "╌╌".to_string(),
+        (false, true) => "··".to_string(),
         (false, false) => "──".to_string(),
     };
     (format!("{stroke} {name}"), pen.style)

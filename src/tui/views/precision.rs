@@ -78,6 +78,7 @@ impl ViewPanel for PrecisionView {
         let (Some((left, right)), Some((bottom, top))) = (times, errors) else { return };
         let (x, y) = (ChartAxis::powers(left, right), ChartAxis::powers(bottom, top));
         let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
+        at.note(app, plot.inner);
         for ((x, y), row) in points {
             plot.point(x, y, letter(&row.way), look.style(role(&row.way)));
             if row.is_wrong()

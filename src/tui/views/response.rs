@@ -21,6 +21,8 @@ const TWO_FROM: u16 = 18;
 
 /// Most changes of contact on a page that are looked at for their names.
 const MOST_NAMES: usize = 500;
+/// From this width on, two contact laws are side by side.
+const SIDE_BY_SIDE_FROM: u16 = 90;
 
 /// The view.
 pub struct ResponseView;
@@ -34,7 +36,7 @@ impl ViewPanel for ResponseView {
         let casing = Page::casing("response, casing".into(), app);
         if app.compare {
             both_laws(app, buffer, at);
-        } else if at.area.height >= TWO_FROM {
+        } else if at.area.height >= TWO_FROM && !app.presenting {
             let [above, below] = at.rows(60);
             page(app, buffer, above, &casing);
             let blades = Page {
@@ -120,7 +122,8 @@ impl<'a> Page<'a> {
 
 /// The two contact laws side by side, or one above the other.
 fn both_laws(app: &App, buffer: &mut Buffer, at: ViewArea) {
-    let [first, second] = if at.area.width >= 70 { at.columns() } else { at.rows(50) };
+    let [first, second] =
+        if at.area.width >= SIDE_BY_SIDE_FROM { at.columns() } else { at.rows(50) };
     let law = app.scene.solver.contact;
     let own = format!("{}: {}", law, app.verdict().word);
     let comparison = app.latest.results.comparison.as_ref();
@@ -157,6 +160,7 @@ fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
     }
     let inside = title(app, buffer, at, &what.name, &legend);
     let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
+    at.note(app, plot.inner);
     plot.level(0.0, look.either('┈', '.'), quiet);
     if let Some(t) = app.cursor_time() {
         plot.upright(t, look.either('┊', ':'), look.style(Role::Focus));

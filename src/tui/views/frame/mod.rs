@@ -88,6 +88,7 @@ fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
     }
     let inside = title(app, buffer, at, "blade frame", &legend);
     let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
+    at.note(app, plot.inner);
     let outline = Pen { dashed: false, ..look.quiet() };
     let touched = Pen { style: look.style(Role::Contact), sign: '#', dashed: false };
     let active_set = app.shown().map_or(ActiveSet::Nothing, |moment| moment.active_set);

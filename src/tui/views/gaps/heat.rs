@@ -122,6 +122,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
     legend.push((format!("of clearance; over {}s", x.scale.prefix), quiet));
     let inside = title(app, buffer, at, "gaps in time", &legend);
     let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
+    at.note(app, plot.inner);
     let inner = plot.inner;
     let spots = spots(app, usize::from(inner.width));
     let polygon = &app.machine.polygon;

@@ -69,6 +69,7 @@ fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
     }
     let inside = title(app, buffer, at, "gaps", &legend);
     let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
+    at.note(app, plot.inner);
     plot.level(0.0, look.either('━', '='), look.style(Role::Text));
     plot.level(app.machine.clearance(), look.either('┈', '.'), quiet);
     let Some(moment) = app.shown() else { return };

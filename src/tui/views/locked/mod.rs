@@ -62,6 +62,7 @@ impl ViewPanel for LockedView {
         let y = ChartAxis::scaled((low / step).floor() * step, (high / step).ceil() * step);
         let x = ChartAxis::plain(0.0, curves.fastest);
         let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
+        at.note(app, plot.inner);
         let marks = thresholds(app);
         plot.level(0.0, look.either('┈', '.'), quiet);
         for (speed, _) in &marks {

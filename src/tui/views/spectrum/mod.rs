@@ -82,6 +82,7 @@ fn amplitudes(app: &App, buffer: &mut Buffer, at: ViewArea) {
     };
     let y = ChartAxis::powers(DECADES.0, DECADES.1);
     let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
+    at.note(app, plot.inner);
     let marks = lines(app, app.speed().abs());
     for (frequency, _) in marks {
         plot.upright(frequency, look.either('┊', ':'), quiet);
@@ -127,6 +128,7 @@ fn campbell(app: &App, buffer: &mut Buffer, at: ViewArea) {
     else {
         return;
     };
+    at.note(app, plot.inner);
     plot.level(app.machine.omega_c, look.either('┈', '.'), look.style(Role::Text));
     plot.upright(app.speed().abs(), look.either('│', '|'), look.style(Role::Focus));
     let pens: [Pen; 4] = [look.first(), look.quiet(), look.second(), look.second()];

@@ -1,0 +1,219 @@
+//! Where the value of a knob stands: its usual range, the limits on it, and the
+//! value at a place of its bar.
+
+use super::touch::touching_pulse;
+use super::{KNOBS, Knob, Turn};
+use crate::model::Machine;
+use crate::report::number::rounded;
+use crate::scene::{Allowed, Scene, Value};
+
+/// The usual range of a knob, on which its bar is drawn. Values may be beyond it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct KnobRange {
+    low: f64,
+    high: f64,
+    /// Whether equal factors have equal widths.
+    log: bool,
+    /// Minus one where the bar shows magnitudes of negative values.
+    sign: f64,
+    /// Limits on it: a letter and a place, 0 to 1.
+    pub marks: Vec<(char, f64)>,
+}
+
+impl KnobRange {
+    fn linear(low: f64, high: f64) -> Self {
+        Self { low, high, log: false, sign: 1.0, marks: Vec::new() }
+    }
+
+    fn log(low: f64, high: f64) -> Self {
+        Self { log: true, ..Self::linear(low, high) }
+    }
+
+    fn signed(self, value: f64) -> Self {
+        Self { sign: if value < 0.0 { -1.0 } else { 1.0 }, ..self }
+    }
+
+    fn marked(mut self, marks: &[(char, Option<f64>)]) -> Self {
+        let inside = |at: f64| at.is_finite() && at > self.low && at < self.high;
+        let marks = marks.iter().filter_map(|(letter, at)| Some((*letter, (*at)?)));
+        let marks: Vec<_> = marks.filter(|(_, at)| inside(*at)).collect();
+        self.marks =
+            marks.into_iter().map(|(letter, at)| (letter, self.part(self.sign * at))).collect();
+        self
+    }
+
+    fn is_sound(&self) -> bool {
+        let ends = self.low.is_finite() && self.high.is_finite() && self.high > self.low;
+        ends && (!self.log || self.low > 0.0)
+    }
+
+    /// The place of a value on the bar, 0 to 1.
+    pub fn part(&self, value: f64) -> f64 {
+        let value = value * self.sign;
+        let part = match self.log {
+            true if value <= self.low => 0.0,
+            true => (value / self.low).ln() / (self.high / self.low).ln(),
+            false => (value - self.low) / (self.high - self.low),
+        };
+        if part.is_finite() { part.clamp(0.0, 1.0) } else { 0.0 }
+    }
+
+    /// Where a value stands; nowhere for 0 on a scale of factors.
+    pub fn place(&self, value: f64) -> Option<f64> {
+        (!self.log || value != 0.0).then(|| self.part(value))
+    }
+
+    /// The value at a place of the bar.
+    pub fn at(&self, part: f64) -> f64 {
+        let part = part.clamp(0.0, 1.0);
+        self.sign
+            * match self.log {
+                true => self.low * (self.high / self.low).powf(part),
+                false => self.low + part * (self.high - self.low),
+            }
+    }
+}
+
+/// How far beyond the greatest threshold the bar of the speed goes.
+const BEYOND: f64 = 1.5;
+/// Factor below and above the value of the opened scene.
+const AROUND: f64 = 10.0;
+
+impl Knob {
+    /// The usual range of this knob, and the limits on it; none for words. It
+    /// depends on the machine and on the scene as it was opened, not on the value:
+    /// a bar whose scale moves cannot be read.
+    pub fn range(&self, scene: &Scene, opened: &Scene, machine: &Machine) -> Option<KnobRange> {
+        let value = self.number(scene)?;
+        let (clearance, blades) = (machine.clearance(), f64::from(scene.bladed_disk.blades));
+        let range = match self.path {
+            "operation.speed_rad_s" => {
+                let limits =
+                    [machine.critical_speed(), machine.lock_speed(), machine.dangerous_speed()];
+                let most = limits.into_iter().flatten().fold(0.0, f64::max);
+                let most = if most > 0.0 { most } else { machine.omega_c };
+                KnobRange::linear(0.0, BEYOND * most)
+                    .signed(value)
+                    .marked(&[('c', limits[0]), ('L', limits[1])])
+            }
+            "operation.pulse_n" => {
+                let touch = touching_pulse(scene, machine);
+                let middle = touch.unwrap_or_else(|| self.usual(opened));
+                KnobRange::log(middle / 30.0, middle * 3000.0).signed(value).marked(&[('t', touch)])
+            }
+            "casing.damping_ratio" | "bladed_disk.damping_ratio" => KnobRange::linear(0.0, 0.2),
+            "operation.nodal_diameters" => KnobRange::linear(1.0, (blades / 2.0).floor().max(2.0)),
+            "excitation.order" => KnobRange::linear(1.0, blades.max(2.0)),
+            "bladed_disk.blade_length_m" => {
+                KnobRange::linear(scene.casing.radius_m - 4.0 * clearance, scene.casing.radius_m)
+            }
+            "casing.radius_m" => {
+                let length = scene.bladed_disk.blade_length_m;
+                KnobRange::linear(length, length + 4.0 * clearance)
+            }
+            "initial.u_c_m" | "initial.u_s_m" => KnobRange::linear(-clearance, clearance),
+            "initial.v_c_m_s" | "initial.v_s_m_s" => {
+                let most = 2.0 * clearance * machine.omega_c;
+                KnobRange::linear(-most, most)
+            }
+            _ => {
+                let usual = self.usual(opened);
+                KnobRange::log(usual / AROUND, usual * AROUND).signed(value)
+            }
+        };
+        Some(range).filter(KnobRange::is_sound)
+    }
+
+    /// The magnitude in the opened scene, or what is usual where it is 0 there.
+    fn usual(&self, opened: &Scene) -> f64 {
+        let value = self.number(opened).unwrap_or(0.0).abs();
+        match self.path {
+            _ if value > 0.0 => value,
+            "operation.speed_ramp_rad_s2" => {
+                opened.operation.speed_rad_s.abs().max(1.0) / opened.solver.end_s
+            }
+            "operation.pulse_n" => 1e4,
+            "operation.pulse_s" => 1e-4,
+            _ => 1.0,
+        }
+    }
+
+    /// The value as a number; none for words.
+    pub fn number(&self, scene: &Scene) -> Option<f64> {
+        match self.get(scene) {
+            Value::Real(x) => Some(x),
+            Value::Whole(n) => Some(n as f64),
+            _ => None,
+        }
+    }
+
+    /// The value that the knob would be turned to next to a number, for a bar that
+    /// is dragged.
+    pub fn near(&self, x: f64) -> Option<Value> {
+        match (self.turn, self.allowed()) {
+            (Turn::Linear(fine, _), _) => Some(Value::Real(self.round_to(x, fine))),
+            (Turn::Decades(_), _) => Some(Value::Real(self.bounded(rounded(x, 2)))),
+            (Turn::Whole(..), Allowed::Whole { min, max }) => {
+                // A negative or huge number is at a bound.
+                Some(Value::Whole((x.round() as u64).clamp(min, max)))
+            }
+            _ => None,
+        }
+    }
+}
+
+/// The knob of a key.
+pub fn knob_of(path: &str) -> Option<usize> {
+    KNOBS.iter().position(|knob| knob.path == path)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn range(path: &str, scene: &Scene) -> Option<KnobRange> {
+        KNOBS[knob_of(path).unwrap()].range(scene, scene, &scene.machine())
+    }
+
+    #[test]
+    fn every_number_has_a_bar_and_its_place_gives_it_back() {
+        for name in ["paper-nd3", "paper-nd4", "run-down", "half-n", "undamped"] {
+            let scene = Scene::builtin(name).unwrap();
+            for knob in KNOBS {
+                let Some(range) = knob.range(&scene, &scene, &scene.machine()) else {
+                    assert!(matches!(knob.turn, Turn::Words), "{name} {}", knob.label);
+                    continue;
+                };
+                for part in [0.0, 0.25, 0.5, 1.0] {
+                    let there = range.part(range.at(part));
+                    assert!((there - part).abs() < 1e-9, "{name} {} {part} {there}", knob.label);
+                }
+                assert!(range.marks.iter().all(|(_, at)| (0.0..=1.0).contains(at)));
+            }
+        }
+    }
+
+    #[test]
+    fn the_speed_shows_its_limits_whichever_way_it_turns() {
+        let mut scene = Scene::builtin("paper-nd3").unwrap();
+        let forward = range("operation.speed_rad_s", &scene).unwrap();
+        let letters: String = forward.marks.iter().map(|(letter, _)| *letter).collect();
+        assert_eq!(letters, "cL");
+        assert!((forward.at(forward.marks[0].1) - 292.878).abs() < 1e-2);
+        scene.operation.speed_rad_s = -430.0;
+        let back = range("operation.speed_rad_s", &scene).unwrap();
+        assert_eq!(back.marks, forward.marks);
+        assert!((back.at(back.part(-430.0)) + 430.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_dragged_bar_gives_round_values() {
+        let of = |path: &str, x| KNOBS[knob_of(path).unwrap()].near(x);
+        assert_eq!(of("operation.speed_rad_s", 431.7), Some(Value::Real(430.0)));
+        assert_eq!(of("casing.damping_ratio", 0.0512), Some(Value::Real(0.05)));
+        assert_eq!(of("operation.pulse_n", 43_423.0), Some(Value::Real(43_000.0)));
+        assert_eq!(of("operation.nodal_diameters", 2.6), Some(Value::Whole(3)));
+        assert_eq!(of("bladed_disk.blades", -5.0), Some(Value::Whole(1)));
+        assert_eq!(of("solver.kind", 0.5), None);
+    }
+}

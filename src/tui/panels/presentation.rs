@@ -1,0 +1,120 @@
+//! The screen for a projector: one chart, the verdict in large letters, why in one
+//! sentence, and the knob being turned as a wide bar. Nothing else.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::style::{Modifier, Style};
+use ratatui::widgets::Widget;
+use tui_big_text::{BigText, PixelSize};
+
+use super::bar;
+use crate::tui::app::{App, InputMode};
+use crate::tui::text::{columns, print, shorten};
+use crate::tui::theme::Role;
+
+/// Smaller screens have the usual panels.
+const LEAST: (u16, u16) = (60, 18);
+/// From this height on, letters and bar are twice as high.
+const TALL: u16 = 32;
+
+/// Whether the screen is drawn so.
+pub fn is_shown(app: &App, area: Rect) -> bool {
+    let open = matches!(
+        app.mode,
+        InputMode::Main | InputMode::Typing(_) | InputMode::Naming(..) | InputMode::Replacing(..)
+    );
+    app.presenting && open && area.width >= LEAST.0 && area.height >= LEAST.1
+}
+
+/// Letters with the sentence below them, the chart, the knob, and the line for
+/// questions and messages.
+pub fn split(app: &App, area: Rect) -> [Rect; 4] {
+    let tall = area.height >= TALL;
+    // Half blocks are no ASCII: there, each dot of a letter is a whole cell.
+    let letters = if tall || app.appearance.ascii() { 8 } else { 4 };
+    Layout::vertical([
+        Constraint::Length(letters + 1),
+        Constraint::Min(1),
+        Constraint::Length(if tall { 3 } else { 2 }),
+        Constraint::Length(1),
+    ])
+    .areas(area)
+}
+
+/// Draws the verdict and its reason.
+pub fn letters(app: &App, buffer: &mut Buffer, area: Rect) {
+    let look = &app.appearance;
+    let words = app.verdict();
+    let style = look.style(words.role).add_modifier(Modifier::BOLD);
+    let rows = area.height.saturating_sub(1);
+    let wide = u16::try_from(columns(&words.word)).unwrap_or(u16::MAX);
+    let sizes = [
+        (PixelSize::Full, 8, 8, true),
+        (PixelSize::HalfHeight, 8, 4, false),
+        (PixelSize::Quadrant, 4, 4, false),
+    ];
+    let size = sizes.into_iter().find(|(_, width, height, ascii)| {
+        wide.saturating_mul(*width) <= area.width && *height <= rows && (*ascii || !look.ascii())
+    });
+    match size {
+        Some((size, _, height, _)) => {
+            let text = BigText::builder()
+                .pixel_size(size)
+                .style(style)
+                .lines(vec![words.word.as_str().into()])
+                .centered()
+                .build();
+            let area = Rect { height: rows, ..area };
+            let area = Rect { y: area.y + (rows - height) / 2, height, ..area };
+            text.render(area, buffer);
+            if look.ascii() {
+                solid(buffer, area);
+            }
+        }
+        None => centred(app, buffer, area, rows / 2, &words.word, style),
+    }
+    centred(app, buffer, area, rows, &words.detail, look.style(words.role));
+}
+
+/// Blocks as ASCII.
+fn solid(buffer: &mut Buffer, area: Rect) {
+    for at in area.positions() {
+        if let Some(cell) = buffer.cell_mut(at)
+            && cell.symbol() != " "
+        {
+            cell.set_char('#');
+        }
+    }
+}
+
+fn centred(app: &App, buffer: &mut Buffer, area: Rect, row: u16, text: &str, style: Style) {
+    let look = &app.appearance;
+    let text = shorten(&look.spell(text), usize::from(area.width), look.either("…", ".."));
+    let left = area.width.saturating_sub(u16::try_from(columns(&text)).unwrap_or(0)) / 2;
+    print(buffer, Rect { x: area.x + left, width: area.width - left, ..area }, row, &text, style);
+}
+
+/// Draws the selected knob: its value, and a bar over the whole width.
+pub fn knob(app: &App, buffer: &mut Buffer, area: Rect) {
+    let Some(knob) = app.selected() else { return };
+    let focus = app.appearance.style(Role::Focus).add_modifier(Modifier::BOLD);
+    match (&app.refusal, &app.mode) {
+        (Some(refusal), _) => {
+            centred(app, buffer, area, 0, refusal, app.appearance.style(Role::Trouble));
+        }
+        (None, InputMode::Typing(text)) => {
+            centred(app, buffer, area, 0, &format!("{} = {text}_", knob.label), focus);
+        }
+        _ => {
+            let shown = knob.shown(&knob.get(&app.scene));
+            centred(app, buffer, area, 0, &format!("{} = {shown}", knob.label), focus);
+        }
+    }
+    bar::draw(app, buffer, bar_cells(area), knob);
+}
+
+/// The cells of the bar of the selected knob.
+pub fn bar_cells(area: Rect) -> Rect {
+    let height = area.height.saturating_sub(1);
+    Rect { x: area.x + 2, y: area.y + 1, width: area.width.saturating_sub(4), height }
+}

@@ -1,0 +1,135 @@
+//! The knobs of the explorer: turned, typed, in groups, with their bars.
+
+use rubscope::tui::{Marker, Theme};
+
+use crate::tui_screens::{Session, scene};
+
+#[test]
+fn a_knob_changes_the_verdict_and_undo_brings_it_back() {
+    let mut session = Session::open(100, 30, scene(), Theme::Dark, Marker::Braille);
+    assert!(session.text().contains(" LOCKED "), "{}", session.text());
+    session.select("solver.contact");
+    session.press("l");
+    assert!(session.text().contains(" DECAY "), "{}", session.text());
+    session.press("u");
+    assert!(session.text().contains(" LOCKED "), "{}", session.text());
+}
+
+#[test]
+fn a_typed_value_that_is_refused_says_so_in_place() {
+    let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille);
+    session.press("\nfast\n");
+    assert!(session.text().contains("operation.speed_rad_s ="), "{}", session.text());
+    assert_eq!(session.app.scene.operation.speed_rad_s, 500.0);
+    session.press("\u{1b}\n-430\n");
+    assert_eq!(session.app.scene.operation.speed_rad_s, -430.0);
+    session.select("bladed_disk.blades");
+    session.press("\n0\n");
+    assert!(session.text().contains("bladed_disk.blades = 0"), "{}", session.text());
+}
+
+#[test]
+fn a_damping_acts_on_the_running_motion_and_the_number_of_blades_begins_anew() {
+    let mut session = Session::open(120, 40, scene(), Theme::Dark, Marker::Braille);
+    let before = session.app.now();
+    session.select("casing.damping_ratio");
+    session.press("cxL");
+    assert!(session.app.now() > before, "the run restarted");
+    assert!(session.app.scene.casing.damping_ratio > scene().casing.damping_ratio);
+    session.press("u");
+    let later = session.app.now();
+    assert!(later > before && *session.app.scene == scene(), "undo restarted the run");
+    session.select("bladed_disk.blades");
+    session.press("l");
+    assert_eq!(session.app.scene.bladed_disk.blades, 23);
+    assert!(session.app.now() < later && session.text().contains("restarted"));
+}
+
+/// The column of knobs, without the charts.
+fn column(session: &Session) -> String {
+    let text = session.text();
+    let rows = text.lines().skip(2);
+    rows.map(|row| row.chars().take(26).collect::<String>().trim_end().to_string() + "\n").collect()
+}
+
+#[test]
+fn the_operation_is_whole_on_a_usual_screen_and_the_group_of_the_selected_knob_is_open() {
+    let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille);
+    let labels = ["speed", "pulse F", "n_d", "ζ_c", "ζ_bd", "pulse time", "speed ramp"];
+    let text = column(&session);
+    assert!(labels.iter().all(|label| text.contains(label)), "{text}");
+    for (group, path, label) in [
+        ("solver ▸ 5", "solver.step_s", "step h"),
+        ("machine ▸ 9", "casing.radius_m", "casing R_c"),
+        ("start ▸ 6", "excitation.order", "EO order"),
+        ("operation ▸ 7", "operation.speed_rad_s", "speed Ω"),
+    ] {
+        let text = column(&session);
+        assert!(text.contains(group) && !text.contains(&format!("▸{label}")), "{text}");
+        session.select(path);
+        session.press("");
+        let text = column(&session);
+        assert!(!text.contains(group) && text.contains(&format!("▸{label}")), "{text}");
+    }
+}
+
+#[test]
+fn the_selected_knob_is_in_sight_at_every_size() {
+    for (width, height) in [(66, 12), (80, 15), (80, 24), (120, 40), (200, 50)] {
+        let mut session = Session::open(width, height, scene(), Theme::Dark, Marker::Braille);
+        for _ in 0..27 {
+            let text = column(&session);
+            assert_eq!(
+                text.matches("\n▸").count() + usize::from(text.starts_with('▸')),
+                1,
+                "{text}"
+            );
+            session.press("j");
+        }
+        assert_eq!(session.app.knob, 0);
+    }
+}
+
+#[test]
+fn bars_show_the_value_and_its_limits_in_every_alphabet() {
+    let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille);
+    let text = column(&session);
+    assert!(text.contains("▕▒▒▒▒▒▒▒▒▒▒c▒▒▒▒L▒▒█▁▁▁▁▏"), "{text}");
+    assert!(text.contains("t▒▒▒▒▒▒▒▒▒█"), "{text}");
+    // Past the limit the letter stands in the part that is not filled.
+    session.press("\n350\n");
+    let text = column(&session);
+    assert!(text.contains("c▒█▁▁L"), "{text}");
+    let session = Session::open(80, 24, scene(), Theme::Mono, Marker::Ascii);
+    let text = column(&session);
+    assert!(text.contains("[==========c====L==#....]"), "{text}");
+}
+
+#[test]
+fn a_knob_without_effect_is_dim_says_why_and_stands_in_brackets() {
+    let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille);
+    assert!(!column(&session).contains("no effect"), "{}", column(&session));
+    session.select("solver.kind");
+    session.press("l");
+    session.select("solver.step_s");
+    session.press("");
+    let text = column(&session);
+    assert!(text.contains("(200 ns)") && text.contains("no effect now: the event"), "{text}");
+}
+
+#[test]
+fn the_line_of_the_selected_knob_has_a_bar_at_the_least_screen() {
+    let session = Session::open(40, 12, scene(), Theme::Dark, Marker::Braille);
+    let text = session.text();
+    assert!(text.contains("speed Ω 500 rad/s") && text.contains("▕▒"), "{text}");
+}
+
+#[test]
+fn the_operation_stays_open_beside_the_solver_on_a_usual_screen() {
+    let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille);
+    session.select("solver.contact");
+    session.press("");
+    let text = column(&session);
+    assert!(text.contains("speed Ω") && text.contains("run end"), "{text}");
+    assert!(text.contains("contact law: unilateral"), "{text}");
+}

@@ -1,0 +1,191 @@
+//! The mouse in the explorer: what a click, a wheel or a drag does at a place of
+//! the screen.
+
+use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
+use rubscope::tui::{Heard, Marker, Theme};
+
+use crate::tui_screens::{Session, scene};
+
+use MouseEventKind::{Down, Drag, Moved, ScrollDown, ScrollUp, Up};
+
+const LEFT: MouseEventKind = Down(MouseButton::Left);
+const HELD: MouseEventKind = Drag(MouseButton::Left);
+
+fn open(width: u16, height: u16) -> Session {
+    Session::open(width, height, scene(), Theme::Dark, Marker::Braille)
+}
+
+fn with(
+    session: &mut Session,
+    modifiers: KeyModifiers,
+    kind: MouseEventKind,
+    at: (u16, u16),
+) -> Heard {
+    session.app.mouse(&MouseEvent { kind, column: at.0, row: at.1, modifiers })
+}
+
+fn mouse(session: &mut Session, kind: MouseEventKind, at: (u16, u16)) -> Heard {
+    with(session, KeyModifiers::NONE, kind, at)
+}
+
+/// The place of the first letter of a text on the screen.
+fn find(session: &Session, text: &str) -> (u16, u16) {
+    let screen = session.text();
+    let row = screen.lines().position(|line| line.contains(text)).unwrap();
+    let line = screen.lines().nth(row).unwrap();
+    let column = line[..line.find(text).unwrap()].chars().count();
+    (column as u16, row as u16)
+}
+
+fn selected(session: &Session) -> &'static str {
+    session.app.selected().unwrap().path
+}
+
+#[test]
+fn a_click_selects_a_knob_and_the_wheel_turns_the_one_below_it() {
+    let mut session = open(80, 24);
+    let diameters = find(&session, "diameters n_d");
+    assert_eq!(mouse(&mut session, LEFT, diameters), Heard::Acted);
+    assert_eq!(selected(&session), "operation.nodal_diameters");
+    let damping = find(&session, "damping ζ_c");
+    mouse(&mut session, ScrollUp, damping);
+    assert_eq!(selected(&session), "casing.damping_ratio");
+    assert_eq!(session.app.scene.casing.damping_ratio, 0.055);
+    mouse(&mut session, ScrollDown, damping);
+    with(&mut session, KeyModifiers::SHIFT, ScrollUp, damping);
+    assert_eq!(session.app.scene.casing.damping_ratio, 0.1);
+    // A folded group opens at its first knob.
+    let machine = find(&session, "machine ▸ 9");
+    mouse(&mut session, LEFT, machine);
+    session.press("");
+    assert!(session.text().contains("▸clearance g0"), "{}", session.text());
+}
+
+#[test]
+fn a_bar_is_set_where_it_is_clicked_and_a_drag_is_undone_in_one_step() {
+    let mut session = open(80, 24);
+    let (left, row) = find(&session, "▕▒");
+    mouse(&mut session, LEFT, (left + 1, row));
+    assert_eq!(session.app.scene.operation.speed_rad_s, 0.0);
+    for column in [3, 9, 15, 70] {
+        mouse(&mut session, HELD, (left + column, row + 7));
+    }
+    // Past its end: 1.5 times the highest limit, in steps of 5 rad/s.
+    assert_eq!(session.app.scene.operation.speed_rad_s, 620.0);
+    mouse(&mut session, Up(MouseButton::Left), (0, 0));
+    assert_eq!(mouse(&mut session, HELD, (left + 3, row)), Heard::Nothing);
+    session.press("u");
+    assert_eq!(session.app.scene.operation.speed_rad_s, 500.0);
+    // A line without a bar of its own is one; a click only selects it.
+    let (_, row) = find(&session, "damping ζ_bd");
+    mouse(&mut session, LEFT, (5, row));
+    mouse(&mut session, HELD, (5, row + 1));
+    assert_eq!(session.app.scene.bladed_disk.damping_ratio, 0.04);
+    mouse(&mut session, HELD, (13, row + 1));
+    assert_eq!(session.app.scene.bladed_disk.damping_ratio, 0.105);
+    // Words have no bar.
+    session.select("solver.kind");
+    session.press("");
+    let place = find(&session, "solver ");
+    mouse(&mut session, LEFT, (place.0, place.1 + 1));
+    let before = session.app.scene.clone();
+    mouse(&mut session, HELD, (20, place.1 + 1));
+    assert_eq!(session.app.scene, before);
+}
+
+#[test]
+fn a_click_on_another_chart_makes_it_the_large_one() {
+    let mut session = open(80, 24);
+    let gaps = find(&session, "2 gaps");
+    mouse(&mut session, LEFT, gaps);
+    assert_eq!(session.app.view.word(), "gaps");
+    session.press("");
+    let response = find(&session, "1 response");
+    mouse(&mut session, LEFT, response);
+    assert_eq!(session.app.view.word(), "response");
+}
+
+#[test]
+fn a_click_reads_the_large_chart_and_the_pointer_moves_the_cursor() {
+    let mut session = open(80, 24);
+    let (left, row) = find(&session, "0┤");
+    let (first, last) = (left + 2, 79);
+    // Nothing is drawn while the pointer only passes.
+    assert_eq!(mouse(&mut session, Moved, (first + 5, row)), Heard::Nothing);
+    mouse(&mut session, LEFT, (first, row));
+    assert!(session.app.reading);
+    let (from, to) = session.app.page();
+    let cell = (to - from) / f64::from(last - first + 1);
+    assert!((session.app.cursor_time().unwrap() - (from + 0.5 * cell)).abs() < 1e-12);
+    assert_eq!(mouse(&mut session, Moved, (last, row)), Heard::Pointed);
+    assert!((session.app.cursor_time().unwrap() - (to - 0.5 * cell)).abs() < 1e-12);
+    assert_eq!(mouse(&mut session, Moved, (last, row)), Heard::Nothing);
+    // Outside the chart the cursor stays.
+    assert_eq!(mouse(&mut session, Moved, (3, 8)), Heard::Nothing);
+    assert!(session.app.cursor.is_some());
+    mouse(&mut session, Down(MouseButton::Right), (last, row));
+    assert!(session.app.cursor.is_none() && !session.app.reading);
+}
+
+#[test]
+fn the_wheel_zooms_time_and_nothing_else() {
+    let mut session = open(80, 24);
+    let (left, row) = find(&session, "0┤");
+    mouse(&mut session, ScrollUp, (left + 9, row));
+    assert_eq!(session.app.zoom, 1);
+    mouse(&mut session, ScrollDown, (left + 9, row));
+    mouse(&mut session, ScrollDown, (left + 9, row));
+    assert_eq!(session.app.zoom, -1);
+    session.press("3f");
+    assert_eq!(mouse(&mut session, ScrollUp, (40, 12)), Heard::Nothing);
+    assert_eq!(session.app.zoom, -1);
+}
+
+#[test]
+fn lists_are_chosen_from_and_scrolled() {
+    let mut session = open(80, 24);
+    session.press("g");
+    let second = find(&session, "2. ");
+    mouse(&mut session, LEFT, second);
+    session.press("");
+    let title = &rubscope::tui::lessons::all()[1].title;
+    let text = session.text();
+    assert!(text.contains(title.as_str()) && text.contains("step 1 of"), "{text}");
+    session.press("G?");
+    let before = session.text();
+    mouse(&mut session, ScrollDown, (10, 10));
+    session.press("");
+    assert_ne!(session.text(), before);
+}
+
+#[test]
+fn the_mouse_can_be_turned_off() {
+    let mut session = open(80, 24);
+    let damping = find(&session, "damping ζ_c");
+    session.press("M");
+    assert!(session.text().contains("mouse off"), "{}", session.text());
+    assert_eq!(mouse(&mut session, LEFT, damping), Heard::Nothing);
+    assert_eq!(session.app.knob, 0);
+    session.press("M");
+    assert_eq!(mouse(&mut session, LEFT, damping), Heard::Acted);
+}
+
+#[test]
+fn the_mouse_may_do_anything_anywhere_in_every_state() {
+    let kinds = [LEFT, HELD, Moved, ScrollUp, ScrollDown, Up(MouseButton::Left)];
+    let states = ["", "f", "c", "P", "?", "g", "\n12", "s", "i", "5", "2w", "4", "6", "P2"];
+    for (width, height) in [(1, 1), (40, 12), (66, 13), (80, 24), (120, 40)] {
+        for (place, keys) in states.iter().enumerate() {
+            let mut session = open(width, height);
+            session.press(keys);
+            for y in 0..=height {
+                for x in (0..=width).step_by(3) {
+                    let kind = kinds[(usize::from(x + 7 * y) + place) % kinds.len()];
+                    mouse(&mut session, kind, (x, y));
+                }
+            }
+            session.press("");
+            assert!(!session.text().contains("NaN"), "{}", session.text());
+        }
+    }
+}
