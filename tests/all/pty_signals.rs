@@ -166,9 +166,12 @@ fn it_can_be_stopped_and_continued_in_every_dialog() {
         terminal.wait_for("is stopped");
         assert!(!terminal.parser.screen().alternate_screen(), "{keys:?}");
         assert!(!terminal.parser.screen().bracketed_paste(), "{keys:?}");
+        // The shell gets no clicks while the job is stopped.
+        assert!([1000, 1002, 1003, 1006].into_iter().all(|mode| !terminal.has_mode(mode)));
         terminal.send("\r");
         terminal.wait_for(seen);
         assert!(terminal.parser.screen().alternate_screen(), "{keys:?}");
+        assert!(terminal.has_mode(1003) && terminal.has_mode(1006), "{keys:?}");
         terminal.send("\u{3}");
         terminal.wait_for("ended with 0");
         terminal.assert_restored();
