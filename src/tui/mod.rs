@@ -16,6 +16,7 @@ pub mod events;
 mod export;
 #[doc(hidden)]
 pub mod files;
+mod glossary;
 #[doc(hidden)]
 pub mod history;
 mod host;

@@ -42,14 +42,36 @@ pub fn shorten(text: &str, width: usize, mark: &str) -> String {
 
 /// Pieces of text in one row, as many of them from the left as fit whole.
 pub fn pieces(buffer: &mut Buffer, area: Rect, row: u16, parts: &[(String, Style)]) {
-    let mut x = area.x;
+    marked_pieces(buffer, area, row, parts, "");
+}
+
+/// As `pieces`; the mark at the end says that some are left out.
+pub fn marked_pieces(
+    buffer: &mut Buffer,
+    area: Rect,
+    row: u16,
+    parts: &[(String, Style)],
+    mark: &str,
+) {
+    let total: usize = parts.iter().map(|(text, _)| columns(text)).sum();
+    // A space at the end needs no room.
+    let spare = parts.last().map_or(0, |(text, _)| text.len() - text.trim_end_matches(' ').len());
+    let whole = total - spare <= usize::from(area.width);
+    let room = usize::from(area.width).saturating_sub(if whole { 0 } else { columns(mark) });
+    if row >= area.height {
+        return;
+    }
+    let mut used = 0;
     for (text, style) in parts {
-        let end = x.saturating_add(u16::try_from(text.chars().count()).unwrap_or(u16::MAX));
-        if end > area.right() || row >= area.height {
+        let end = used + columns(text);
+        let (mark, fits) = if whole || end <= room { (text.as_str(), true) } else { (mark, false) };
+        let x = area.x.saturating_add(u16::try_from(used).unwrap_or(u16::MAX));
+        let left = usize::from(area.right().saturating_sub(x));
+        buffer.set_stringn(x, area.y + row, mark, left, *style);
+        if !fits {
             return;
         }
-        buffer.set_string(x, area.y + row, text, *style);
-        x = end;
+        used = end;
     }
 }
 

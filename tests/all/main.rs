@@ -60,6 +60,7 @@ mod scene_notes;
 mod scenes;
 mod security;
 mod soak;
+mod tui_help;
 mod tui_hostile;
 mod tui_loop;
 mod tui_random;

@@ -4,7 +4,9 @@
 mod command;
 mod cursor;
 mod files;
+mod help;
 mod lesson;
+mod palette;
 mod snapshot;
 mod time;
 mod turn;
@@ -12,7 +14,9 @@ mod update;
 mod verdict;
 
 pub use cursor::Cursor;
+pub use help::HelpState;
 pub use lesson::LessonProgress;
+pub use palette::PaletteState;
 pub use time::RATES;
 pub use update::Effect;
 pub use verdict::VerdictText;
@@ -72,8 +76,10 @@ pub enum InputMode {
     Main,
     /// The value of the selected knob is being typed.
     Typing(String),
-    /// The help is open, scrolled down by some lines.
-    Help(u16),
+    /// The help is open.
+    Help(HelpState),
+    /// A command is being looked for.
+    Palette(PaletteState),
     /// A file name is being typed.
     Naming(Purpose, String),
     /// A question: replace the existing file?
@@ -184,6 +190,9 @@ pub struct App {
     pub ranges: Ranges,
     /// Theme and marker.
     pub appearance: Appearance,
+    /// Whether the user is new and has pressed no key yet: the last line says
+    /// what to try.
+    pub is_new: bool,
     /// Whether the screen has shown the question that is open.
     asked: bool,
     /// The latest verdict of a motion that has been changed since, in one word.
@@ -248,6 +257,7 @@ impl App {
             writing: None,
             lesson: None,
             appearance: Appearance { theme, marker },
+            is_new: false,
             asked: true,
             verdict_before: None,
             counters: Counters::default(),
@@ -263,7 +273,9 @@ impl App {
             InputMode::Main if self.reading => Context::Reading,
             InputMode::Main => Context::Main,
             InputMode::Typing(_) => Context::Typing,
-            InputMode::Help(_) => Context::Help,
+            InputMode::Help(ref help) if help.filter.is_empty() => Context::Help,
+            InputMode::Help(_) => Context::Filter,
+            InputMode::Palette(_) => Context::Palette,
             InputMode::Naming(..) => Context::Typing,
             InputMode::Replacing(..) => Context::Replacing,
             InputMode::Lessons(_) => Context::Lessons,

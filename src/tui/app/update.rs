@@ -3,7 +3,7 @@
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 use super::time::MOST_ZOOM;
-use super::{App, Baseline, InputMode, Purpose, RATES};
+use super::{App, Baseline, HelpState, InputMode, PaletteState, Purpose, RATES};
 use crate::report::line;
 use crate::tui::bindings::{Action, Chord, lookup};
 use crate::tui::files::FileJob;
@@ -35,6 +35,7 @@ impl App {
     /// Handles a key press.
     pub fn key(&mut self, event: &KeyEvent) -> Effect {
         self.disturb();
+        self.is_new = false;
         if event.modifiers.contains(KeyModifiers::ALT) && event.code != KeyCode::Esc {
             // Escape and a key that arrive together look like Alt and that key.
             self.act(Action::Close);
@@ -51,6 +52,7 @@ impl App {
         {
             text.push(letter);
             self.status = None;
+            self.look_again();
         }
         Effect::None
     }
@@ -71,6 +73,7 @@ impl App {
                 None
             }
         };
+        self.look_again();
         self.status = refused.map(String::from);
     }
 
@@ -78,7 +81,18 @@ impl App {
     fn typed(&mut self) -> Option<&mut String> {
         match &mut self.mode {
             InputMode::Typing(text) | InputMode::Naming(_, text) => Some(text),
+            InputMode::Help(help) => Some(&mut help.filter),
+            InputMode::Palette(palette) => Some(&mut palette.typed),
             _ => None,
+        }
+    }
+
+    /// After a change of what is looked for, the list begins at its top.
+    fn look_again(&mut self) {
+        match &mut self.mode {
+            InputMode::Help(help) => help.scroll = 0,
+            InputMode::Palette(palette) => palette.place = 0,
+            _ => {}
         }
     }
 
@@ -99,13 +113,13 @@ impl App {
                 // Some terminals leave parts of octants behind.
                 return Effect::Redraw;
             }
-            (InputMode::Help(scroll), Action::KnobBelow) => {
-                self.mode = InputMode::Help(scroll.saturating_add(1));
+            (InputMode::Help(help), action) if self.scroll_help(&help, action) => {}
+            (InputMode::Palette(palette), Action::Accept) => return self.choose(&palette),
+            (InputMode::Palette(palette), action) if self.move_choice(&palette, action) => {}
+            (_, Action::DeleteLast) => {
+                _ = self.typed().and_then(String::pop);
+                self.look_again();
             }
-            (InputMode::Help(scroll), Action::KnobAbove) => {
-                self.mode = InputMode::Help(scroll.saturating_sub(1));
-            }
-            (_, Action::DeleteLast) => _ = self.typed().and_then(String::pop),
             (InputMode::Naming(purpose, name), Action::Accept) => {
                 return self.write(purpose, &name, false);
             }
@@ -144,7 +158,8 @@ impl App {
 
     fn act_main(&mut self, action: Action) {
         match action {
-            Action::Help => self.mode = InputMode::Help(0),
+            Action::Help => self.mode = InputMode::Help(HelpState::default()),
+            Action::Palette => self.mode = InputMode::Palette(PaletteState::default()),
             Action::NextView => self.show(self.neighbour(1)),
             Action::PreviousView => self.show(self.neighbour(-1)),
             Action::View(view) => self.show(view),

@@ -40,12 +40,12 @@ pub fn places(area: Rect, app: &App) -> Places {
     let [header, body, footer] =
         Layout::vertical([Constraint::Length(2), Constraint::Min(1), Constraint::Length(1)])
             .areas(area);
-    let (lesson, body) = lesson(body, app);
+    let (lesson, rest) = lesson(body, app);
     let column = area.width >= KNOBS_FROM && !app.full_screen;
     let [knobs, charts] = if column {
-        Layout::horizontal([Constraint::Length(KNOBS_WIDTH), Constraint::Min(1)]).areas(body)
+        Layout::horizontal([Constraint::Length(KNOBS_WIDTH), Constraint::Min(1)]).areas(rest)
     } else {
-        below(body, 1)
+        below(rest, 1)
     };
     let charts = if app.full_screen { vec![(app.view, charts)] } else { split(charts, app) };
     Places { header, body, knobs, column, charts, lesson, footer }
@@ -116,4 +116,10 @@ pub fn lesson_fills(app: &App) -> bool {
     // Header and footer take three rows.
     let body = app.size.1.saturating_sub(3);
     app.lesson.is_some() && super::lesson::rows(app, usize::from(app.size.0)) > body / 2
+}
+
+/// The room between header and footer on this screen.
+pub fn body(app: &App) -> Rect {
+    let area = Rect::new(0, 0, app.size.0, app.size.1);
+    places(area, app).body
 }

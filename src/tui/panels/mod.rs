@@ -7,6 +7,7 @@ mod help;
 mod knobs;
 mod layout;
 mod lesson;
+mod palette;
 
 use ratatui::{Frame, buffer::Buffer, layout::Rect};
 
@@ -14,7 +15,8 @@ use super::app::{App, InputMode};
 use super::text::print;
 use super::theme::Role;
 use super::views::ViewArea;
-pub use layout::{LEAST_HEIGHT, LEAST_WIDTH, lesson_fills};
+pub use help::help_bottom;
+pub use layout::{LEAST_HEIGHT, LEAST_WIDTH, body, lesson_fills};
 
 /// Draws the whole screen.
 pub fn draw(frame: &mut Frame, app: &App) {
@@ -34,8 +36,10 @@ pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
     }
     let places = layout::places(area, app);
     header::draw(app, buffer, places.header);
-    if let InputMode::Help(scroll) = app.mode {
-        help::draw(app, buffer, places.body, scroll);
+    if let InputMode::Help(help) = &app.mode {
+        help::draw(app, buffer, places.body, help);
+    } else if let InputMode::Palette(palette) = &app.mode {
+        palette::draw(app, buffer, places.body, palette);
     } else if let InputMode::Lessons(place) = app.mode {
         lesson::list(app, buffer, places.body, place);
     } else {
