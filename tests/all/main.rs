@@ -53,6 +53,8 @@ mod plain;
 mod plain_self;
 mod plain_stepper;
 mod pty;
+#[cfg(unix)]
+mod pty_config;
 mod pty_signals;
 #[cfg(unix)]
 mod pty_support;

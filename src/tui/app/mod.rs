@@ -26,6 +26,7 @@ use super::axis::AutoRange;
 use super::bindings::Context;
 use super::engine::{Moment, Order, Snapshot};
 use super::history::BinHistory;
+use super::options::Line;
 use super::raster::Marker;
 use super::theme::Theme;
 use super::views::ViewId;
@@ -190,6 +191,12 @@ pub struct App {
     pub ranges: Ranges,
     /// Theme and marker.
     pub appearance: Appearance,
+    /// Whether `m` comes to octants.
+    pub octants: bool,
+    /// Whether the mouse is used.
+    pub mouse: bool,
+    /// How much the line to the terminal carries.
+    pub line: Line,
     /// Whether the user is new and has pressed no key yet: the last line says
     /// what to try.
     pub is_new: bool,
@@ -257,6 +264,9 @@ impl App {
             writing: None,
             lesson: None,
             appearance: Appearance { theme, marker },
+            octants: false,
+            mouse: true,
+            line: Line::Auto,
             is_new: false,
             asked: true,
             verdict_before: None,

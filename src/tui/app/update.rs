@@ -108,7 +108,7 @@ impl App {
                 self.status = Some(format!("theme {}", self.appearance.theme.name()));
             }
             (InputMode::Main, Action::Marker) => {
-                self.appearance.marker = self.appearance.marker.next();
+                self.appearance.marker = self.appearance.marker.next(self.octants);
                 self.status = Some(format!("marker {}", self.appearance.marker));
                 // Some terminals leave parts of octants behind.
                 return Effect::Redraw;

@@ -155,13 +155,13 @@ const AFTER_VIEWS: &[Binding] = &[
         Main,
         [letter('m')],
         Action::Marker,
-        "next marker (braille, octant, halfblock, dot, ascii)"
+        "next marker (braille, halfblock, dot, ascii; octant where the terminal draws it)"
     ),
     bind!(
         Main,
         [letter('t')],
         Action::Theme,
-        "next theme (dark, light, colour-blind, mono)"
+        "next theme (dark, light, colour-blind on dark or light, mono)"
     ),
     bind!(Main, [ctrl('z')], Action::Suspend, "suspend"),
     bind!(Main, [ctrl('l')], Action::Redraw, "draw the screen again"),
