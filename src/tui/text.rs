@@ -8,12 +8,15 @@ use crate::report::line::harmless;
 /// but no cell a text of its own.
 const MOST_IN_CELL: usize = 4;
 
-/// Text in one row of an area; what does not fit is cut. Characters that act on
-/// the terminal are spaces.
+/// Says that a text is cut, where nothing else was asked for.
+pub const CUT: char = '…';
+
+/// Text in one row of an area; what does not fit is cut, with a mark at the end.
+/// Characters that act on the terminal are spaces.
 pub fn print(buffer: &mut Buffer, area: Rect, row: u16, text: &str, style: Style) {
     if row < area.height && area.width > 0 {
         let width = usize::from(area.width);
-        let text: String = text.chars().take(MOST_IN_CELL * width).map(harmless).collect();
+        let text = shorten(text, width, CUT.encode_utf8(&mut [0; 4]));
         buffer.set_stringn(area.x, area.y + row, text, width, style);
     }
 }
@@ -91,4 +94,31 @@ pub fn wrap(text: &str, width: usize) -> Vec<String> {
         }
     }
     lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(draw: impl Fn(&mut Buffer, Rect)) -> String {
+        let area = Rect::new(0, 0, 10, 1);
+        let mut buffer = Buffer::empty(area);
+        draw(&mut buffer, area);
+        buffer.content.iter().map(|cell| cell.symbol()).collect()
+    }
+
+    #[test]
+    fn what_does_not_fit_ends_in_a_mark() {
+        let print = |text: &str| row(|buffer, area| print(buffer, area, 0, text, Style::new()));
+        assert_eq!(print("ten letter"), "ten letter");
+        assert_eq!(print("eleven lett"), "eleven le…");
+        let parts = |texts: &[&str]| {
+            let parts: Vec<_> = texts.iter().map(|text| (text.to_string(), Style::new())).collect();
+            row(|buffer, area| marked_pieces(buffer, area, 0, &parts, "… "))
+        };
+        assert_eq!(parts(&[" abc ", " def "]), " abc  def ");
+        assert_eq!(parts(&[" abc ", " defg "]), " abc  defg");
+        assert_eq!(parts(&[" abc ", " defgh "]), " abc …    ");
+        assert_eq!(parts(&["abcdefghijk", "l"]), "…         ");
+    }
 }

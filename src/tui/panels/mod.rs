@@ -12,7 +12,7 @@ mod palette;
 use ratatui::{Frame, buffer::Buffer, layout::Rect};
 
 use super::app::{App, InputMode};
-use super::text::print;
+use super::text::{CUT, print};
 use super::theme::Role;
 use super::views::ViewArea;
 pub use help::help_bottom;
@@ -60,6 +60,7 @@ pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
     if app.appearance.ascii() {
         // Names and titles can have any letter.
         let others = buffer.content.iter_mut().filter(|cell| !cell.symbol().is_ascii());
-        others.for_each(|cell| _ = cell.set_char('?'));
+        let plain = |sign: &str| if sign.starts_with(CUT) { '>' } else { '?' };
+        others.for_each(|cell| _ = cell.set_char(plain(cell.symbol())));
     }
 }

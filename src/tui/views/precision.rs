@@ -68,7 +68,7 @@ impl ViewPanel for PrecisionView {
             let same_law = report.rows.iter().filter(|row| !row.other_law).count();
             let wrong = report.rows.iter().filter(|row| row.is_wrong()).count();
             let note = format!(
-                "reference {}; {wrong} of {same_law} runs under its contact law have another verdict (!)",
+                "reference {}; {wrong} of {same_law} under its law differ (!)",
                 report.reference.verdict,
             );
             print(buffer, inside, 0, &note, quiet);
