@@ -16,7 +16,11 @@ pub const CUT: char = '…';
 pub fn print(buffer: &mut Buffer, area: Rect, row: u16, text: &str, style: Style) {
     if row < area.height && area.width > 0 {
         let width = usize::from(area.width);
-        let text = shorten(text, width, CUT.encode_utf8(&mut [0; 4]));
+        // On a screen of a few columns letters say more.
+        let text = match width {
+            0..4 => shorten(text, width, ""),
+            _ => shorten(text, width, CUT.encode_utf8(&mut [0; 4])),
+        };
         buffer.set_stringn(area.x, area.y + row, text, width, style);
     }
 }

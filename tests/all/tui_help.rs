@@ -125,7 +125,7 @@ fn the_help_scrolls_to_its_end_and_back_without_a_dead_key() {
         let place = read(&end);
         let (last, all) = place.split_once('/').unwrap();
         assert_eq!(last, all, "{end}");
-        assert!(end.contains("the run stopped early"), "{end}");
+        assert!(end.contains("begin the lesson"), "{end}");
         session.press("↑");
         assert_ne!(session.text(), end);
         session.press(&"⇞".repeat(200));

@@ -5,7 +5,7 @@ use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 use strum::IntoEnumIterator;
 
 use crate::tui::app::{App, HelpState};
-use crate::tui::bindings::{self, Binding, Context, Group};
+use crate::tui::bindings::{self, Action, Binding, Context, Group};
 use crate::tui::glossary;
 use crate::tui::text::{print, shorten, wrap};
 use crate::tui::theme::Role;
@@ -13,7 +13,8 @@ use crate::tui::theme::Role;
 /// Rows above the list: what is looked for.
 const ABOVE: u16 = 1;
 
-/// The headings of the keys that hold elsewhere than on the main screen.
+/// The headings of the keys that hold elsewhere than on the main screen, without
+/// those that do the same everywhere.
 const ELSEWHERE: &[(&str, &[Context])] = &[
     ("While a chart is read", &[Context::Reading]),
     ("While typing", &[Context::Typing]),
@@ -51,7 +52,20 @@ fn sections(app: &App) -> Vec<(&'static str, Vec<Entry>)> {
         (group.into(), own.map(Entry::of).collect())
     });
     let elsewhere = ELSEWHERE.iter().map(|(heading, contexts)| {
-        (*heading, contexts.iter().flat_map(|c| bindings::of(*c)).map(Entry::of).collect())
+        let own = contexts.iter().flat_map(|c| bindings::of(*c));
+        let own =
+            own.filter(|b| !matches!(b.action, Action::Quit | Action::Suspend | Action::Redraw));
+        let mut entries: Vec<Entry> = Vec::new();
+        for entry in own.map(Entry::of) {
+            // Two contexts under one heading have most keys in common.
+            if !entries
+                .iter()
+                .any(|known| (&known.left, &known.right) == (&entry.left, &entry.right))
+            {
+                entries.push(entry);
+            }
+        }
+        (*heading, entries)
     });
     let words = glossary::SECTIONS.iter().map(|(heading, terms)| {
         let entry = |term: &glossary::Term| Entry {
@@ -61,7 +75,7 @@ fn sections(app: &App) -> Vec<(&'static str, Vec<Entry>)> {
         };
         (*heading, terms.iter().map(entry).collect())
     });
-    keys.chain(elsewhere).chain(words).collect()
+    keys.chain(words).chain(elsewhere).collect()
 }
 
 /// A line of the list: left and right column, and whether it is a heading.
