@@ -96,7 +96,7 @@ is_gone() { ! readlink "/proc/$1/exe"; }
 written() { awk '/^wchar/ { print $2 }' "/proc/$1/io"; }
 received() { awk '/^rchar/ { print $2 }' "/proc/$1/io"; }
 
-shell="env PS1=ready: bash --norc --noprofile -i"
+shell="env PS1=ready: XDG_CONFIG_HOME=$work/config bash --norc --noprofile -i"
 # Types a command for the shell in the pane and waits until it is done.
 in_shell() {
     rm -f "$work/done"

@@ -25,17 +25,28 @@ pub struct ExploreCommand {
     #[arg(long, value_name = "WHEN", default_value = "auto",
           value_parser = choice::<tui::Color>(), hide_possible_values = true)]
     color: tui::Color,
-    /// How much the terminal is sent: thin (5 kB/s while the motion plays), full,
-    /// or auto: thin over SSH and where the terminal is slow
-    #[arg(long, value_name = "LINE", default_value = "auto",
-          value_parser = choice::<tui::Line>(), hide_possible_values = true)]
-    line: tui::Line,
+    /// Theme: auto (by the background of the terminal), dark, light, mono or
+    /// colorblind [default: the last one chosen with `t`, otherwise auto]
+    #[arg(long, value_name = "THEME",
+          value_parser = choice::<tui::ThemeChoice>(), hide_possible_values = true)]
+    theme: Option<tui::ThemeChoice>,
     /// How points are drawn: braille, octant, halfblock, dot or ascii [default:
     /// ascii where TERM is linux, vt100 or similar, or the locale is not UTF-8,
-    /// otherwise braille]
+    /// otherwise the last one chosen with `m`, or braille]
     #[arg(long, value_name = "MARKER",
           value_parser = choice::<tui::Marker>(), hide_possible_values = true)]
     marker: Option<tui::Marker>,
+    /// How much the line to the terminal carries: thin (a few kilobytes a second),
+    /// full, or auto: thin over SSH or where the terminal is slow
+    #[arg(long, value_name = "LINE", default_value = "auto",
+          value_parser = choice::<tui::Line>(), hide_possible_values = true)]
+    line: tui::Line,
+    /// Leave the mouse to the terminal
+    #[arg(long)]
+    no_mouse: bool,
+    /// Neither read nor write the config file
+    #[arg(long)]
+    no_config: bool,
 }
 
 fn frames(text: &str) -> Result<f64, String> {
@@ -63,8 +74,11 @@ impl ExploreCommand {
         let look = tui::ExploreOptions {
             fps: self.fps,
             color: self.color,
-            line: self.line,
+            theme: self.theme,
             marker: self.marker,
+            mouse: !self.no_mouse,
+            line: self.line,
+            config: !self.no_config,
             source: Some(tui::Source { name: name.to_string(), scene: read }),
         };
         status::say_noted();

@@ -62,7 +62,20 @@ const EXIT_STATUS: &[(&str, &str)] = &[
 
 /// The environment variables that the explorer reads.
 const ENVIRONMENT: &[(&str, &str)] = &[
-    ("NO_COLOR", "Not empty: no colours, unless --color is given; bold and reverse are kept."),
+    (
+        "NO_COLOR",
+        "Not empty: no colours, unless --color or --theme is given; bold and reverse are kept.",
+    ),
+    (
+        "COLORFGBG",
+        "Such as 0;15: the last number is the background, by which the explorer chooses its \
+         theme. Without it, the explorer asks the terminal, and waits a quarter of a second for \
+         its answer.",
+    ),
+    (
+        "XDG_CONFIG_HOME, HOME",
+        "The folder of rubscope/config.toml, or of .config/rubscope/config.toml.",
+    ),
     (
         "TERM",
         "dumb: the explorer does not start; the other commands work as usual. linux, vt100 and \
@@ -74,6 +87,14 @@ const ENVIRONMENT: &[(&str, &str)] = &[
          the explorer draws with ASCII characters only, unless --marker is given.",
     ),
 ];
+
+/// The files that the program knows by itself.
+const FILES: &[(&str, &str)] = &[(
+    "~/.config/rubscope/config.toml",
+    "What the explorer remembers: theme, marker, number of charts, mouse, and terminals that do \
+     not say their background. Options win over it; --no-config does without it. It may be \
+     removed at any time.",
+)];
 
 const EXAMPLES: &[(&str, &str)] = &[
     ("rubscope", "Open the explorer on the default scene."),
@@ -108,6 +129,7 @@ fn added() -> Roff {
     };
     list(&mut page, "EXIT STATUS", told(EXIT_STATUS));
     list(&mut page, "ENVIRONMENT", told(ENVIRONMENT));
+    list(&mut page, "FILES", told(FILES));
     list(&mut page, "EXAMPLES", told(EXAMPLES));
     page
 }

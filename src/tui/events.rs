@@ -3,10 +3,12 @@
 
 use std::sync::mpsc::Sender;
 use std::thread;
+use std::time::Instant;
 
 use crossterm::event::{self, KeyEvent, KeyEventKind, MouseEvent};
 
 use super::files::FileResult;
+use super::ground::{LATE, LateAnswer};
 use super::scenes::FoundScenes;
 
 /// Something that happened.
@@ -36,14 +38,22 @@ pub enum ScreenEvent {
     InputClosed,
 }
 
-/// Starts the thread that reads keys.
+/// Starts the thread that reads keys; the answer to an unanswered question may be
+/// among the first.
 ///
 /// # Errors
 /// The system gives no thread.
-pub fn read_keys(to: Sender<ScreenEvent>) -> std::io::Result<()> {
+pub fn read_keys(to: Sender<ScreenEvent>, unanswered: bool) -> std::io::Result<()> {
     let read = move || {
+        let began = Instant::now();
+        let mut late = LateAnswer::default();
         loop {
             let event = match event::read() {
+                Ok(event::Event::Key(key))
+                    if unanswered && began.elapsed() < LATE && late.takes(&key) =>
+                {
+                    continue;
+                }
                 // Some terminals also report releases; repeats count as presses.
                 Ok(event::Event::Key(key)) if key.kind != KeyEventKind::Release => {
                     ScreenEvent::Key(key)

@@ -9,6 +9,7 @@ mod axis;
 mod backend;
 #[doc(hidden)]
 pub mod bindings;
+mod config;
 #[doc(hidden)]
 pub mod engine;
 #[doc(hidden)]
@@ -16,6 +17,8 @@ pub mod events;
 mod export;
 #[doc(hidden)]
 pub mod files;
+mod glossary;
+mod ground;
 #[doc(hidden)]
 pub mod history;
 mod host;
@@ -25,6 +28,7 @@ mod knobs;
 #[doc(hidden)]
 pub mod lessons;
 mod line;
+mod options;
 mod panels;
 mod plot;
 mod raster;
@@ -46,75 +50,15 @@ pub mod worker;
 use std::fs::File;
 use std::io::IsTerminal;
 use std::sync::{Arc, mpsc};
-use std::time::Duration;
 
 pub use app::{App, Exit, Heard, Source};
 pub use line::Line;
+pub use options::{Color, ExploreOptions};
 pub use raster::Marker;
 pub use run::run;
-pub use theme::Theme;
-
-use strum::{EnumString, VariantNames};
+pub use theme::{Theme, ThemeChoice};
 
 use crate::scene::CheckedScene;
-
-/// When to use colour.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, EnumString, VariantNames)]
-#[strum(serialize_all = "lowercase")]
-pub enum Color {
-    /// If the terminal supports it and `NO_COLOR` does not forbid it.
-    #[default]
-    Auto,
-    /// Always.
-    Always,
-    /// Never; bold, reverse and dim stay.
-    Never,
-}
-
-/// How the explorer looks.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ExploreOptions {
-    /// Most frames a second while the motion plays.
-    pub fps: f64,
-    /// When to use colour.
-    pub color: Color,
-    /// How much the terminal is sent.
-    pub line: Line,
-    /// How points are drawn; by the terminal and the locale if not given.
-    pub marker: Option<Marker>,
-    /// Where the scene is from, for the command line that repeats the run.
-    pub source: Option<Source>,
-}
-
-impl Default for ExploreOptions {
-    fn default() -> Self {
-        let (color, line) = (Color::Auto, Line::Auto);
-        Self { fps: 10.0, color, line, marker: None, source: None }
-    }
-}
-
-impl ExploreOptions {
-    fn theme(&self) -> Theme {
-        let variable = |name| std::env::var(name).unwrap_or_default();
-        let plain = match self.color {
-            Color::Always => false,
-            Color::Never => true,
-            Color::Auto => !variable("NO_COLOR").is_empty() || variable("TERM") == "dumb",
-        };
-        if plain { Theme::Mono } else { Theme::Dark }
-    }
-
-    fn line(&self) -> Line {
-        let over_ssh =
-            ["SSH_CONNECTION", "SSH_TTY"].iter().any(|name| std::env::var_os(name).is_some());
-        if self.line == Line::Auto && over_ssh { Line::Thin } else { self.line }
-    }
-
-    fn frame(&self) -> Duration {
-        let fps = if self.fps.is_finite() { self.fps.clamp(0.1, 60.0) } else { 10.0 };
-        Duration::from_secs_f64(1.0 / fps)
-    }
-}
 
 /// Whether there are a screen and a keyboard.
 ///
@@ -151,14 +95,26 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
     // Without a receiver the program is about to end.
     let wake: engine::Waker = Arc::new(move || _ = fresh.send(events::ScreenEvent::Fresh));
     let mut worker = worker::Worker::spawn(wake)?;
-    let marker = options.marker.unwrap_or_else(ability::marker);
-    let mut app = App::new(scene, options.theme(), marker);
+    let variable = |name: &str| std::env::var(name).unwrap_or_default();
+    let mut memory = config::Memory::recall(options.config);
+    let name = config::terminal_name(&variable);
+    let mut found = ground::Found::default();
+    let ask = || {
+        found = ground::find(&variable, memory.config.is_silent(&name));
+        found.ground
+    };
+    let theme = options.theme(&memory.config, &variable, ask);
+    let ability = ability::Ability::of(&variable);
+    let mut app = App::new(scene, theme, options.marker(&memory.config, &ability));
     app.source.clone_from(&options.source);
-    app.line = options.line();
+    (app.mouse, app.line) = (options.mouse, options.line());
+    app.octants = ability.octants || options.marker == Some(Marker::Octant);
+    memory.silent = found.silent.then_some(name);
+    memory.prepare(&mut app);
     terminal::set_mouse(app.mouse)?;
     let guard = terminal::Guard;
     let ended = terminal::open().and_then(|mut screen| {
-        events::read_keys(sender.clone())?;
+        events::read_keys(sender.clone(), found.unanswered)?;
         let mut shell = terminal::Shell { events: sender };
         let ended = run(&mut screen, &events, &mut app, &mut worker, &mut shell, options.frame());
         // Dropping the screen would write to standard error if the terminal is gone.
@@ -166,6 +122,7 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
         ended
     });
     drop(guard);
+    memory.keep(&app);
     if app.writing.is_some() {
         files::tidy_up();
     }

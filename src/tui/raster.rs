@@ -8,11 +8,25 @@ use ratatui::{
     style::Style,
     symbols::{braille::BRAILLE, pixel::OCTANTS},
 };
+use serde::{Deserialize, Serialize};
 use strum::{Display, EnumString, VariantNames};
 
 /// How points are drawn.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Display, EnumString, VariantNames)]
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    Default,
+    PartialEq,
+    Eq,
+    Display,
+    EnumString,
+    VariantNames,
+    Serialize,
+    Deserialize,
+)]
 #[strum(serialize_all = "lowercase")]
+#[serde(rename_all = "lowercase")]
 pub enum Marker {
     /// Two by four dots a cell.
     #[default]
@@ -30,9 +44,12 @@ pub enum Marker {
 impl Marker {
     const ALL: [Self; 5] = [Self::Braille, Self::Octant, Self::HalfBlock, Self::Dot, Self::Ascii];
 
-    /// The next marker.
-    pub fn next(self) -> Self {
-        Self::ALL[(self as usize + 1) % Self::ALL.len()]
+    /// The next marker; octants only where they can be seen.
+    pub fn next(self, octants: bool) -> Self {
+        match Self::ALL[(self as usize + 1) % Self::ALL.len()] {
+            Self::Octant if !octants => Self::HalfBlock,
+            next => next,
+        }
     }
 
     /// Sub-pixels of one cell, across and down.

@@ -168,6 +168,11 @@ pub fn regain() -> Result<(), Error> {
     Ok(())
 }
 
+/// Whether the terminal may be asked something before the screen is set up.
+pub fn may_be_asked() -> bool {
+    tty().is_ok_and(Tty::may_be_asked)
+}
+
 /// Gives up the frame that is being written and all that follow, until the
 /// terminal is set up again. The whole screen must be drawn afterwards.
 pub fn cut_frame() {

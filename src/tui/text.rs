@@ -8,12 +8,19 @@ use crate::report::line::harmless;
 /// but no cell a text of its own.
 const MOST_IN_CELL: usize = 4;
 
-/// Text in one row of an area; what does not fit is cut. Characters that act on
-/// the terminal are spaces.
+/// Says that a text is cut, where nothing else was asked for.
+pub const CUT: char = '…';
+
+/// Text in one row of an area; what does not fit is cut, with a mark at the end.
+/// Characters that act on the terminal are spaces.
 pub fn print(buffer: &mut Buffer, area: Rect, row: u16, text: &str, style: Style) {
     if row < area.height && area.width > 0 {
         let width = usize::from(area.width);
-        let text: String = text.chars().take(MOST_IN_CELL * width).map(harmless).collect();
+        // On a screen of a few columns letters say more.
+        let text = match width {
+            0..4 => shorten(text, width, ""),
+            _ => shorten(text, width, CUT.encode_utf8(&mut [0; 4])),
+        };
         buffer.set_stringn(area.x, area.y + row, text, width, style);
     }
 }
@@ -42,14 +49,36 @@ pub fn shorten(text: &str, width: usize, mark: &str) -> String {
 
 /// Pieces of text in one row, as many of them from the left as fit whole.
 pub fn pieces(buffer: &mut Buffer, area: Rect, row: u16, parts: &[(String, Style)]) {
-    let mut x = area.x;
+    marked_pieces(buffer, area, row, parts, "");
+}
+
+/// As `pieces`; the mark at the end says that some are left out.
+pub fn marked_pieces(
+    buffer: &mut Buffer,
+    area: Rect,
+    row: u16,
+    parts: &[(String, Style)],
+    mark: &str,
+) {
+    let total: usize = parts.iter().map(|(text, _)| columns(text)).sum();
+    // A space at the end needs no room.
+    let spare = parts.last().map_or(0, |(text, _)| text.len() - text.trim_end_matches(' ').len());
+    let whole = total - spare <= usize::from(area.width);
+    let room = usize::from(area.width).saturating_sub(if whole { 0 } else { columns(mark) });
+    if row >= area.height {
+        return;
+    }
+    let mut used = 0;
     for (text, style) in parts {
-        let end = x.saturating_add(u16::try_from(text.chars().count()).unwrap_or(u16::MAX));
-        if end > area.right() || row >= area.height {
+        let end = used + columns(text);
+        let (mark, fits) = if whole || end <= room { (text.as_str(), true) } else { (mark, false) };
+        let x = area.x.saturating_add(u16::try_from(used).unwrap_or(u16::MAX));
+        let left = usize::from(area.right().saturating_sub(x));
+        buffer.set_stringn(x, area.y + row, mark, left, *style);
+        if !fits {
             return;
         }
-        buffer.set_string(x, area.y + row, text, *style);
-        x = end;
+        used = end;
     }
 }
 
@@ -69,4 +98,31 @@ pub fn wrap(text: &str, width: usize) -> Vec<String> {
         }
     }
     lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(draw: impl Fn(&mut Buffer, Rect)) -> String {
+        let area = Rect::new(0, 0, 10, 1);
+        let mut buffer = Buffer::empty(area);
+        draw(&mut buffer, area);
+        buffer.content.iter().map(|cell| cell.symbol()).collect()
+    }
+
+    #[test]
+    fn what_does_not_fit_ends_in_a_mark() {
+        let print = |text: &str| row(|buffer, area| print(buffer, area, 0, text, Style::new()));
+        assert_eq!(print("ten letter"), "ten letter");
+        assert_eq!(print("eleven lett"), "eleven le…");
+        let parts = |texts: &[&str]| {
+            let parts: Vec<_> = texts.iter().map(|text| (text.to_string(), Style::new())).collect();
+            row(|buffer, area| marked_pieces(buffer, area, 0, &parts, "… "))
+        };
+        assert_eq!(parts(&[" abc ", " def "]), " abc  def ");
+        assert_eq!(parts(&[" abc ", " defg "]), " abc  defg");
+        assert_eq!(parts(&[" abc ", " defgh "]), " abc …    ");
+        assert_eq!(parts(&["abcdefghijk", "l"]), "…         ");
+    }
 }

@@ -2,6 +2,10 @@
 //! line style always gives the same information as a colour.
 
 use ratatui::style::{Color, Modifier, Style};
+use serde::{Deserialize, Serialize};
+use strum::{EnumString, VariantNames};
+
+use super::ground::Ground;
 
 /// What a colour is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,6 +28,55 @@ pub enum Role {
     Trouble,
 }
 
+/// The choice of a theme, as it is written.
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, EnumString, VariantNames, Serialize, Deserialize,
+)]
+#[strum(serialize_all = "lowercase")]
+#[serde(rename_all = "lowercase")]
+pub enum ThemeChoice {
+    /// By the background of the terminal.
+    #[default]
+    Auto,
+    /// For a dark background.
+    Dark,
+    /// For a light background.
+    Light,
+    /// No colours.
+    Mono,
+    /// Safe for the common colour blindnesses, by the background.
+    ColorBlind,
+}
+
+impl ThemeChoice {
+    /// The theme; the ground is asked for only if it matters.
+    pub fn theme(self, ground: impl FnOnce() -> Ground) -> Theme {
+        match self {
+            Self::Dark => Theme::Dark,
+            Self::Light => Theme::Light,
+            Self::Mono => Theme::Mono,
+            Self::Auto => match ground() {
+                Ground::Dark => Theme::Dark,
+                Ground::Light => Theme::Light,
+            },
+            Self::ColorBlind => match ground() {
+                Ground::Dark => Theme::ColourBlind,
+                Ground::Light => Theme::ColourBlindLight,
+            },
+        }
+    }
+
+    /// The choice that stands for a theme.
+    pub fn of(theme: Theme) -> Self {
+        match theme {
+            Theme::Dark => Self::Dark,
+            Theme::Light => Self::Light,
+            Theme::Mono => Self::Mono,
+            Theme::ColourBlind | Theme::ColourBlindLight => Self::ColorBlind,
+        }
+    }
+}
+
 /// A named set of colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Theme {
@@ -31,24 +84,39 @@ pub enum Theme {
     Dark,
     /// Dark text on a light background.
     Light,
-    /// Blue and orange (yellow), safe for the common colour blindnesses.
+    /// Blue and yellow on a dark background, safe for the common colour
+    /// blindnesses.
     ColourBlind,
+    /// Blue and red on a light background, where yellow cannot be read: red looks
+    /// dark to those who do not see it, and blue does not.
+    ColourBlindLight,
     /// No colours: bold, dim, reverse and underline only.
     Mono,
 }
 
 impl Theme {
     /// All themes, in the order `t` steps through them.
-    pub const ALL: [Self; 4] = [Self::Dark, Self::Light, Self::ColourBlind, Self::Mono];
+    pub const ALL: [Self; 5] =
+        [Self::Dark, Self::Light, Self::ColourBlind, Self::ColourBlindLight, Self::Mono];
 
     /// The name on screen.
     pub fn name(self) -> &'static str {
-        ["dark", "light", "colour-blind", "mono"][self as usize]
+        ["dark", "light", "colour-blind on dark", "colour-blind on light", "mono"][self as usize]
     }
 
     /// The next theme.
     pub fn next(self) -> Self {
         Self::ALL[(self as usize + 1) % Self::ALL.len()]
+    }
+
+    /// The background that it is made for; none if it can be read on both.
+    #[cfg(test)]
+    fn ground(self) -> Option<Ground> {
+        match self {
+            Self::Dark | Self::ColourBlind => Some(Ground::Dark),
+            Self::Light | Self::ColourBlindLight => Some(Ground::Light),
+            Self::Mono => None,
+        }
     }
 
     /// Style of a role. Only the sixteen named colours, which follow the user's
@@ -65,10 +133,13 @@ impl Theme {
             (Self::Light, Role::Focus | Role::First) => Color::Blue,
             (Self::Light, Role::Second) => Color::Magenta,
             (Self::Light, Role::Contact | Role::Trouble) => Color::Red,
-            (Self::Light, Role::Good) => Color::Green,
+            // The green of most terminals cannot be read on white.
+            (Self::Light, Role::Good) => Color::Blue,
             (Self::ColourBlind, Role::First | Role::Good) => Color::LightBlue,
             (Self::ColourBlind, Role::Second) => Color::Yellow,
             (Self::ColourBlind, _) => Color::LightYellow,
+            (Self::ColourBlindLight, Role::First | Role::Good | Role::Focus) => Color::Blue,
+            (Self::ColourBlindLight, _) => Color::Red,
         };
         let weight = match role {
             Role::Quiet if self == Self::Mono => Modifier::DIM,
@@ -105,6 +176,83 @@ mod tests {
                 );
             }
         }
+    }
+
+    /// The sixteen colours of common terminals, as the terminal draws them: xterm,
+    /// the console of Linux and VGA, the Campbell colours of Windows, those of
+    /// GNOME.
+    const PALETTES: [[u32; 16]; 4] = [
+        [
+            0x000000, 0xcd0000, 0x00cd00, 0xcdcd00, 0x0000ee, 0xcd00cd, 0x00cdcd, 0xe5e5e5,
+            0x7f7f7f, 0xff0000, 0x00ff00, 0xffff00, 0x5c5cff, 0xff00ff, 0x00ffff, 0xffffff,
+        ],
+        [
+            0x000000, 0xaa0000, 0x00aa00, 0xaa5500, 0x0000aa, 0xaa00aa, 0x00aaaa, 0xaaaaaa,
+            0x555555, 0xff5555, 0x55ff55, 0xffff55, 0x5555ff, 0xff55ff, 0x55ffff, 0xffffff,
+        ],
+        [
+            0x0c0c0c, 0xc50f1f, 0x13a10e, 0xc19c00, 0x0037da, 0x881798, 0x3a96dd, 0xcccccc,
+            0x767676, 0xe74856, 0x16c60c, 0xf9f1a5, 0x3b78ff, 0xb4009e, 0x61d6d6, 0xf2f2f2,
+        ],
+        [
+            0x171421, 0xc01c28, 0x26a269, 0xa2734c, 0x12488b, 0xa347ba, 0x2aa1b3, 0xd0cfcc,
+            0x5e5c64, 0xf66151, 0x33d17a, 0xe9ad0c, 0x2a7bde, 0xc061cb, 0x33c7de, 0xffffff,
+        ],
+    ];
+
+    /// Relative luminance (WCAG).
+    fn luminance(colour: u32) -> f64 {
+        let part = |shift: u32| {
+            let x = f64::from(colour >> shift & 0xff) / 255.0;
+            if x <= 0.03928 { x / 12.92 } else { ((x + 0.055) / 1.055).powf(2.4) }
+        };
+        0.2126 * part(16) + 0.7152 * part(8) + 0.0722 * part(0)
+    }
+
+    fn place(colour: Color) -> Option<usize> {
+        Some(match colour {
+            Color::Red => 1,
+            Color::Green => 2,
+            Color::Yellow => 3,
+            Color::Blue => 4,
+            Color::Magenta => 5,
+            Color::Cyan => 6,
+            Color::DarkGray => 8,
+            Color::LightRed => 9,
+            Color::LightGreen => 10,
+            Color::LightYellow => 11,
+            Color::LightBlue => 12,
+            Color::LightMagenta => 13,
+            Color::LightCyan => 14,
+            Color::Reset => return None,
+            other => panic!("{other:?}"),
+        })
+    }
+
+    #[test]
+    fn every_theme_can_be_read_on_its_ground_in_common_palettes() {
+        for theme in Theme::ALL {
+            let Some(ground) = theme.ground() else { continue };
+            for (palette, role) in PALETTES.iter().flat_map(|p| ROLES.map(|role| (p, role))) {
+                let Some(place) = place(theme.style(role).fg.unwrap()) else { continue };
+                let ground = if ground == Ground::Light { 0xffffff } else { palette[0] };
+                let [a, b] = [luminance(ground), luminance(palette[place])];
+                let contrast = (a.max(b) + 0.05) / (a.min(b) + 0.05);
+                // What is quiet may be: its frames and units are no message.
+                let least = if role == Role::Quiet { 2.5 } else { 3.0 };
+                assert!(contrast >= least, "{theme:?} {role:?}: {contrast:.2} of {least}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_choice_stands_for_a_theme_and_asks_for_the_ground_only_if_it_matters() {
+        for theme in Theme::ALL {
+            let ground = || theme.ground().unwrap();
+            assert_eq!(ThemeChoice::of(theme).theme(ground), theme);
+        }
+        assert_eq!(ThemeChoice::Auto.theme(|| Ground::Light), Theme::Light);
+        assert_eq!(ThemeChoice::Auto.theme(|| Ground::Dark), Theme::Dark);
     }
 
     #[test]

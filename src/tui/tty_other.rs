@@ -61,6 +61,11 @@ impl Tty {
         true
     }
 
+    /// A console window is dark unless it is told otherwise.
+    pub fn may_be_asked(&self) -> bool {
+        false
+    }
+
     /// There is no background.
     pub fn may_write_from_background(&self) -> bool {
         true

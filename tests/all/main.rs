@@ -53,6 +53,8 @@ mod plain;
 mod plain_self;
 mod plain_stepper;
 mod pty;
+#[cfg(unix)]
+mod pty_config;
 mod pty_signals;
 #[cfg(unix)]
 mod pty_support;
@@ -60,6 +62,7 @@ mod scene_notes;
 mod scenes;
 mod security;
 mod soak;
+mod tui_help;
 mod tui_hostile;
 mod tui_knobs;
 mod tui_lessons;

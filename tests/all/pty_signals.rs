@@ -39,7 +39,7 @@ const MORE: [(&str, u32); 0] = [];
 fn every_signal_ends_it_with_the_terminal_restored() {
     for (name, number) in DEADLY.into_iter().chain(MORE) {
         let mut terminal = Start::explorer(&SHORT).open();
-        terminal.wait_for("knob");
+        terminal.wait_for("? help");
         terminal.signal(name);
         assert_eq!(terminal.wait(), 128 + number, "{name}");
         terminal.assert_restored();
@@ -63,7 +63,7 @@ fn a_signal_ends_it_while_nobody_reads_the_terminal() {
 fn a_signal_ends_it_in_every_state_read_or_not() {
     let states = [
         ("\r12", "12_"),
-        ("?", "Keys"),
+        ("?", "Type to find"),
         ("g", "Lessons: Enter begins one"),
         ("s", "save the scene as"),
         (" ", "pause"),
@@ -152,10 +152,10 @@ fn job(then: &str) -> Terminal {
 #[test]
 fn it_can_be_stopped_and_continued_in_every_dialog() {
     for (keys, seen) in [
-        ("", "knob"),
+        ("", "? help"),
         ("\r12", "12_"),
         ("s", "save the scene as"),
-        ("?", "Keys"),
+        ("?", "Type to find"),
         ("g", "Lessons: Enter begins one"),
     ] {
         let mut terminal = job("read answer; fg; echo ended with $?");
@@ -249,7 +249,7 @@ fn without_a_shell_it_is_not_stopped() {
         terminal.wait_for("not suspended: there is no shell to continue it");
         terminal.signal("TSTP");
         terminal.send("?");
-        terminal.wait_for("Keys");
+        terminal.wait_for("Type to find");
         terminal.signal("TERM");
         assert_eq!(terminal.wait(), 143);
         terminal.assert_restored();

@@ -46,6 +46,7 @@ pub struct Terminal {
 pub struct Start {
     command: CommandBuilder,
     size: PtySize,
+    typed: &'static str,
 }
 
 impl Start {
@@ -68,8 +69,11 @@ impl Start {
         command.env("TERM", "xterm-256color");
         command.env("LC_ALL", "C.UTF-8");
         command.env("NO_COLOR", "");
+        // Nothing is remembered, and the terminal is not asked for its background.
+        command.env("XDG_CONFIG_HOME", "/dev/null");
+        command.env("COLORFGBG", "15;0");
         let size = PtySize { rows: 24, cols: 80, pixel_width: 0, pixel_height: 0 };
-        Self { command, size }
+        Self { command, size, typed: "" }
     }
 
     /// Without the session's terminal, the terminal outlives the program, as it
@@ -87,6 +91,12 @@ impl Start {
 
     pub fn env(mut self, name: &str, value: &str) -> Self {
         self.command.env(name, value);
+        self
+    }
+
+    /// What has been typed before the program starts.
+    pub fn typed(mut self, text: &'static str) -> Self {
+        self.typed = text;
         self
     }
 
@@ -123,6 +133,8 @@ impl Start {
     pub fn open(self) -> Terminal {
         let pair = native_pty_system().openpty(self.size).unwrap();
         let before = settings(&*pair.master);
+        let mut input = pair.master.take_writer().unwrap();
+        input.write_all(self.typed.as_bytes()).unwrap();
         let child = pair.slave.spawn_command(self.command).unwrap();
         let mut from = pair.master.try_clone_reader().unwrap();
         let (sender, output) = channel();
@@ -151,12 +163,11 @@ impl Start {
             (0, 0) => (24, 80),
             (rows, cols) => (rows.min(500), cols.min(1000)),
         };
-        let input = Some(pair.master.take_writer().unwrap());
         Terminal {
             process: child.process_id().unwrap(),
             parser: vt100::Parser::new(of(rows), of(cols), 0),
             output,
-            input,
+            input: Some(input),
             child,
             master: Some(pair.master),
             slave: Some(pair.slave),

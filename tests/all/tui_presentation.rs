@@ -37,7 +37,7 @@ fn a_projector_shows_values_being_typed_refusals_lists_and_ends_with_escape() {
     assert!(session.text().contains("operation.speed_rad_s ="), "{}", session.text());
     session.press("\u{1b}");
     session.press("?");
-    assert!(session.text().contains("Keys"), "{}", session.text());
+    assert!(session.text().contains("Type to find"), "{}", session.text());
     session.press("\u{1b}");
     assert!(session.app.presenting);
     session.press("\u{1b}");

@@ -193,7 +193,7 @@ fn themes_differ_in_colour_only_and_mono_has_none() {
     let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille);
     session.press(" ");
     let before = session.text();
-    for theme in ["light", "colour-blind", "mono"] {
+    for theme in ["light", "colour-blind on dark", "colour-blind on light", "mono"] {
         session.press("t");
         assert!(session.text().contains(&format!("theme {theme}")));
     }

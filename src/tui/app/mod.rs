@@ -4,8 +4,10 @@
 mod command;
 mod cursor;
 mod files;
+mod help;
 mod lesson;
 mod mouse;
+mod palette;
 mod past;
 mod scenes;
 mod snapshot;
@@ -16,8 +18,10 @@ mod update;
 mod verdict;
 
 pub use cursor::{Cursor, cell_of};
+pub use help::HelpState;
 pub use lesson::LessonProgress;
 pub use mouse::Heard;
+pub use palette::PaletteState;
 pub use scenes::SceneEntry;
 pub use sweep::Sweep;
 pub use time::RATES;
@@ -102,8 +106,10 @@ pub enum InputMode {
     Main,
     /// The value of the selected knob is being typed.
     Typing(String),
-    /// The help is open, scrolled down by some lines.
-    Help(u16),
+    /// The help is open.
+    Help(HelpState),
+    /// A command is being looked for.
+    Palette(PaletteState),
     /// The end of a sweep of the selected knob is being typed.
     Sweeping(String),
     /// A file name is being typed.
@@ -237,6 +243,11 @@ pub struct App {
     grip: Option<mouse::Grip>,
     /// Where it clicked last, if it is still there.
     clicked: Option<(u16, u16)>,
+    /// Whether `m` comes to octants.
+    pub octants: bool,
+    /// Whether the user is new and has pressed no key yet: the last line says
+    /// what to try.
+    pub is_new: bool,
     /// Whether the screen has shown the question that is open.
     asked: bool,
     /// The latest verdict of a motion that has been changed since, in one word.
@@ -316,6 +327,8 @@ impl App {
             chart_places: RefCell::default(),
             grip: None,
             clicked: None,
+            octants: false,
+            is_new: false,
             asked: true,
             verdict_before: None,
             counters: Counters::default(),
@@ -332,7 +345,9 @@ impl App {
             InputMode::Main if self.is_asked() => Context::Question,
             InputMode::Main => Context::Main,
             InputMode::Typing(_) | InputMode::Sweeping(_) => Context::Typing,
-            InputMode::Help(_) => Context::Help,
+            InputMode::Help(ref help) if help.filter.is_empty() => Context::Help,
+            InputMode::Help(_) => Context::Filter,
+            InputMode::Palette(_) => Context::Palette,
             InputMode::Naming(..) => Context::Typing,
             InputMode::Replacing(..) => Context::Replacing,
             InputMode::Lessons(_) => Context::Lessons,

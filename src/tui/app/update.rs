@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 use super::time::MOST_ZOOM;
-use super::{App, Baseline, InputMode, Purpose, RATES};
+use super::{App, Baseline, HelpState, InputMode, PaletteState, Purpose, RATES};
 use crate::report::line;
 use crate::tui::axis::readable;
 use crate::tui::bindings::{Action, Chord, lookup};
@@ -43,6 +43,7 @@ impl App {
     pub fn key(&mut self, event: &KeyEvent) -> Effect {
         self.disturb();
         self.stop_sweep();
+        self.is_new = false;
         if event.modifiers.contains(KeyModifiers::ALT) && event.code != KeyCode::Esc {
             // Escape and a key that arrive together look like Alt and that key.
             self.act(Action::Close);
@@ -59,6 +60,7 @@ impl App {
         {
             text.push(letter);
             self.status = None;
+            self.look_again();
         }
         Effect::None
     }
@@ -79,6 +81,7 @@ impl App {
                 None
             }
         };
+        self.look_again();
         self.status = refused.map(String::from);
     }
 
@@ -88,7 +91,18 @@ impl App {
             InputMode::Typing(text) | InputMode::Sweeping(text) | InputMode::Naming(_, text) => {
                 Some(text)
             }
+            InputMode::Help(help) => Some(&mut help.filter),
+            InputMode::Palette(palette) => Some(&mut palette.typed),
             _ => None,
+        }
+    }
+
+    /// After a change of what is looked for, the list begins at its top.
+    fn look_again(&mut self) {
+        match &mut self.mode {
+            InputMode::Help(help) => help.scroll = 0,
+            InputMode::Palette(palette) => palette.place = 0,
+            _ => {}
         }
     }
 
@@ -104,7 +118,7 @@ impl App {
                 self.status = Some(format!("theme {}", self.appearance.theme.name()));
             }
             (InputMode::Main, Action::Marker) => {
-                self.appearance.marker = self.appearance.marker.next();
+                self.appearance.marker = self.appearance.marker.next(self.octants);
                 self.status = Some(format!("marker {}", self.appearance.marker));
                 // Some terminals leave parts of octants behind.
                 return Effect::Redraw;
@@ -113,13 +127,13 @@ impl App {
                 self.toggle_mouse();
                 return Effect::Mouse(self.mouse);
             }
-            (InputMode::Help(scroll), Action::KnobBelow) => {
-                self.mode = InputMode::Help(scroll.saturating_add(1));
+            (InputMode::Help(help), action) if self.scroll_help(&help, action) => {}
+            (InputMode::Palette(palette), Action::Accept) => return self.choose_command(&palette),
+            (InputMode::Palette(palette), action) if self.move_choice(&palette, action) => {}
+            (_, Action::DeleteLast) => {
+                _ = self.typed().and_then(String::pop);
+                self.look_again();
             }
-            (InputMode::Help(scroll), Action::KnobAbove) => {
-                self.mode = InputMode::Help(scroll.saturating_sub(1));
-            }
-            (_, Action::DeleteLast) => _ = self.typed().and_then(String::pop),
             (InputMode::Naming(purpose, name), Action::Accept) => {
                 return self.write(purpose, &name, false);
             }
@@ -168,7 +182,8 @@ impl App {
 
     fn act_main(&mut self, action: Action) {
         match action {
-            Action::Help => self.mode = InputMode::Help(0),
+            Action::Help => self.mode = InputMode::Help(HelpState::default()),
+            Action::Palette => self.mode = InputMode::Palette(PaletteState::default()),
             Action::NextView => self.show(self.neighbour(1)),
             Action::PreviousView => self.show(self.neighbour(-1)),
             Action::View(view) => self.show(view),

@@ -1,8 +1,10 @@
 //! The one table of key bindings: the key handler, the footer, the help and
 //! the manual page use it.
 
+mod group;
 mod table;
 
+pub use group::Group;
 pub use table::BINDINGS;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
@@ -18,6 +20,7 @@ pub enum Action {
     Redraw,
     Close,
     Help,
+    Palette,
     NextView,
     PreviousView,
     View(ViewId),
@@ -78,8 +81,12 @@ pub enum Context {
     Reading,
     /// A value is being typed.
     Typing,
-    /// The help is open.
+    /// The help is open, whole.
     Help,
+    /// The help is open and a filter is typed into it.
+    Filter,
+    /// A command is being looked for.
+    Palette,
     /// A question: replace the existing file?
     Replacing,
     /// A lesson is being chosen.
@@ -201,6 +208,8 @@ mod tests {
             Context::Reading,
             Context::Typing,
             Context::Help,
+            Context::Filter,
+            Context::Palette,
             Context::Replacing,
             Context::Lessons,
             Context::Question,

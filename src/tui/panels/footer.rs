@@ -1,16 +1,27 @@
 //! The last line: the effect of the last key, or the keys that can be pressed
-//! now, from the table of bindings.
+//! now, from the table of bindings. Help and the way out always have their place
+//! at its right end.
 
-use ratatui::{buffer::Buffer, layout::Rect};
+use ratatui::{buffer::Buffer, layout::Rect, style::Style};
 
 use crate::tui::app::{App, InputMode, Purpose};
-use crate::tui::bindings;
-use crate::tui::text::{pieces, print};
+use crate::tui::bindings::{self, Action, Binding, Context};
+use crate::tui::text::{columns, pieces, print, shorten};
 use crate::tui::theme::Role;
+
+/// Columns between two entries.
+const GAP: &str = "  ";
+
+/// From this width on there is room for the key of the palette.
+const PALETTE_FROM: u16 = 60;
+
+/// What somebody who is new can try.
+const TRY: &str = "new here? → turns Ω, g: lessons";
 
 /// Draws the line.
 pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
     let look = &app.appearance;
+    let mark = look.either("…", "..");
     let question = match &app.mode {
         InputMode::Naming(Purpose::Save, name) => Some(format!("save the scene as: {name}_")),
         InputMode::Naming(Purpose::Export, name) => {
@@ -21,28 +32,160 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
         _ => None,
     };
     if let Some(question) = question.filter(|_| app.status.is_none()) {
-        // The end, where the cursor is, must be visible.
-        let skip = question.chars().count().saturating_sub(usize::from(area.width));
-        let shown: String = question.chars().skip(skip).collect();
+        let shown = ending(&question, usize::from(area.width), mark);
         print(buffer, area, 0, &shown, look.style(Role::Focus));
         return;
     }
-    if let Some(status) = &app.status {
-        print(buffer, area, 0, &look.spell(status), look.style(Role::Good));
-        return;
+    let hint = (app.is_new && app.mode == InputMode::Main).then(|| TRY.to_string());
+    let message = match (&app.status, hint) {
+        (Some(status), _) => Some((look.spell(status), Role::Good)),
+        (None, hint) => hint.map(|hint| (look.spell(&hint), Role::Focus)),
+    };
+    let width = usize::from(area.width);
+    let wanted = message.as_ref().map(|(text, _)| columns(text));
+    let kept = kept(app, area.width, wanted);
+    let kept_width: usize = kept.iter().map(|(text, _)| columns(text)).sum();
+    let room = width.saturating_sub(kept_width + GAP.len());
+    if let Some((text, role)) = message {
+        print(buffer, area, 0, &shorten(&text, room, mark), look.style(role));
+    } else {
+        let room = Rect { width: u16::try_from(room).unwrap_or(0), ..area };
+        keys(app, buffer, room);
     }
-    // A key and its word are shown together or not at all.
+    let start = u16::try_from(width.saturating_sub(kept_width)).unwrap_or(0);
+    let right = Rect { x: area.x + start, width: area.width - start, ..area };
+    pieces(buffer, right, 0, &kept);
+}
+
+/// The end of a text, where its cursor is, with a mark where its beginning is
+/// left out.
+fn ending(text: &str, width: usize, mark: &str) -> String {
+    let count = text.chars().count();
+    if count <= width {
+        return text.to_string();
+    }
+    let skip = count + columns(mark) - width.min(count);
+    mark.chars().chain(text.chars().skip(skip)).collect()
+}
+
+/// The bindings that hold now, with what is left of those of the main screen.
+fn current(app: &App) -> impl Iterator<Item = &'static Binding> {
+    let context = app.context();
+    let main = (context == Context::Reading).then_some(Context::Main);
+    bindings::of(context).chain(main.into_iter().flat_map(bindings::of))
+}
+
+/// Whether a binding has its place at the right end.
+fn is_kept(binding: &Binding) -> bool {
+    matches!(binding.action, Action::Palette | Action::Help | Action::Quit)
+}
+
+/// What stands at the right end: words where a message leaves room for them,
+/// otherwise keys alone.
+fn kept(app: &App, width: u16, message: Option<usize>) -> Vec<(String, Style)> {
+    let look = &app.appearance;
+    let entries = |palette: bool, words: bool| {
+        let mut parts = Vec::new();
+        for binding in current(app).filter(|binding| is_kept(binding)) {
+            let Some((keys, word)) = binding.footer else { continue };
+            if binding.action == Action::Palette && !palette {
+                continue;
+            }
+            let gap = match (parts.is_empty(), words) {
+                (true, _) => "",
+                (false, true) => GAP,
+                (false, false) => " ",
+            };
+            parts.push((format!("{gap}{keys}"), look.style(Role::Focus)));
+            if words {
+                parts.push((format!(" {word}"), look.style(Role::Quiet)));
+            }
+        }
+        parts
+    };
+    let room = usize::from(width);
+    let fits = |parts: &Vec<(String, Style)>| {
+        let taken: usize = parts.iter().map(|(text, _)| columns(text)).sum();
+        message.is_none_or(|message| message + GAP.len() + taken <= room)
+    };
+    let ways = [(width >= PALETTE_FROM, true), (false, true), (false, false)];
+    let found = ways.into_iter().map(|(palette, words)| entries(palette, words)).find(fits);
+    found.unwrap_or_else(|| entries(false, false))
+}
+
+/// The other keys, those that matter most first. A key and its word are shown
+/// together or not at all.
+fn keys(app: &App, buffer: &mut Buffer, area: Rect) {
+    let look = &app.appearance;
     let mut rest = area;
-    for (keys, word) in bindings::of(app.context()).filter_map(|binding| binding.footer) {
-        let gap = if rest == area { "" } else { "  " };
+    let others = bindings::of(app.context()).filter(|binding| !is_kept(binding));
+    for (keys, word) in others.filter_map(|binding| binding.footer) {
+        let gap = if rest == area { "" } else { GAP };
         let keys = format!("{gap}{}", look.spell(keys));
-        let wide =
-            u16::try_from(keys.chars().count() + 1 + word.chars().count()).unwrap_or(u16::MAX);
+        let wide = u16::try_from(columns(&keys) + 1 + columns(word)).unwrap_or(u16::MAX);
         if wide > rest.width {
             return;
         }
         let word = (format!(" {word}"), look.style(Role::Quiet));
         pieces(buffer, rest, 0, &[(keys, look.style(Role::Focus)), word]);
         rest = Rect { x: rest.x + wide, width: rest.width - wide, ..rest };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+    use crate::tui::{raster::Marker, theme::Theme};
+
+    fn line(app: &App, width: u16) -> String {
+        let area = Rect::new(0, 0, width, 1);
+        let mut buffer = Buffer::empty(area);
+        draw(app, &mut buffer, area);
+        buffer.content.iter().map(|cell| cell.symbol()).collect()
+    }
+
+    fn app() -> App {
+        App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Braille)
+    }
+
+    #[test]
+    fn help_and_the_way_out_are_always_at_the_right_end() {
+        let mut app = app();
+        for width in [40, 66, 80, 200] {
+            app.status = None;
+            assert!(line(&app, width).ends_with("? help  q quit"), "{}", line(&app, width));
+            assert_eq!(line(&app, width).contains(": commands"), width >= 60);
+            app.status = Some("a status that is longer than any screen is wide ".repeat(6));
+            let text = line(&app, width);
+            assert!(text.ends_with("…  ? q"), "{text}");
+            app.status = Some("a knob restarts the run".into());
+            assert!(line(&app, width).starts_with("a knob restarts the run "), "{width}");
+            app.status = None;
+            app.act(Action::Read);
+            assert!(line(&app, width).ends_with("? help  q quit"), "{}", line(&app, width));
+            app.act(Action::Read);
+            app.mode = InputMode::Lessons(0);
+            assert!(line(&app, width).ends_with("q quit"), "{}", line(&app, width));
+            app.mode = InputMode::Main;
+        }
+    }
+
+    #[test]
+    fn a_new_user_reads_what_to_try_until_the_first_key() {
+        let mut app = app();
+        app.is_new = true;
+        for width in [40, 80] {
+            assert!(line(&app, width).starts_with(TRY), "{}", line(&app, width));
+        }
+        let code = crossterm::event::KeyCode::Char(' ');
+        app.key(&crossterm::event::KeyEvent::new(code, crossterm::event::KeyModifiers::NONE));
+        assert!(line(&app, 80).contains("knob"), "{}", line(&app, 80));
+    }
+
+    #[test]
+    fn the_end_of_a_long_name_is_visible_and_its_beginning_marked() {
+        assert_eq!(ending("short_", 10, "…"), "short_");
+        assert_eq!(ending("a/long/name_", 10, "…"), "…ong/name_");
     }
 }

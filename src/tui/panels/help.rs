@@ -1,84 +1,162 @@
-//! The help: every binding, and a glossary.
+//! The help: every key in groups, and the glossary. What is typed leaves only
+//! the entries that have these words.
 
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
+use strum::IntoEnumIterator;
 
-use crate::tui::app::App;
-use crate::tui::bindings::{self, Context};
-use crate::tui::text::{print, wrap};
+use crate::tui::app::{App, HelpState};
+use crate::tui::bindings::{self, Action, Binding, Context, Group};
+use crate::tui::glossary;
+use crate::tui::text::{print, shorten, wrap};
 use crate::tui::theme::Role;
 
-/// The glossary, for a reader who does not know the paper.
-const WORDS: &[(&str, &str)] = &[
-    (
-        "the machine",
-        "a rotor of N flexible blades turns inside a flexible casing; both vibrate in one pattern of n_d nodal diameters",
-    ),
-    (
-        "mouse",
-        "click a knob or a chart, turn the wheel on a knob or over time, drag a bar, point in a chart to read it",
-    ),
-    ("pulse", "a short push on the casing that starts the motion"),
-    ("gap", "distance from a blade tip to the casing; zero is contact"),
-    (
-        "multiplier λ",
-        "contact force on a blade group: negative pushes; positive pulls, which a real contact cannot do",
-    ),
-    ("locked", "the same blades stay in contact and push: the casing wave turns with the rotor"),
-    ("adhesive", "looks locked, but a blade pulls: only the equality (bilateral) law allows it"),
-    (
-        "slip",
-        "contact without a break that no corner holds: its sides change, or there is one side",
-    ),
-    ("bounce", "contacts that come and go"),
-    ("decay", "the motion dies away without further contact"),
-    ("Ω_c", "critical speed: above it the turning blades push the casing outward"),
-    ("Ω_lock", "above it both multipliers of a lock push"),
+/// Rows above the list: what is looked for.
+const ABOVE: u16 = 1;
+
+/// The headings of the keys that hold elsewhere than on the main screen, without
+/// those that do the same everywhere.
+const ELSEWHERE: &[(&str, &[Context])] = &[
+    ("While a chart is read", &[Context::Reading]),
+    ("While typing", &[Context::Typing]),
+    ("In this help", &[Context::Help, Context::Filter]),
+    ("While a command is looked for", &[Context::Palette]),
+    ("Where a file exists", &[Context::Replacing]),
+    ("In the list of lessons", &[Context::Lessons]),
+    ("While a lesson asks", &[Context::Question]),
+    ("In the list of scenes", &[Context::Scenes]),
 ];
 
-/// Draws the help, scrolled down by some lines.
-pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, scroll: u16) {
-    let look = &app.appearance;
-    let keys_width = if area.width >= 60 { 22 } else { 14 };
-    let width = usize::from(area.width).saturating_sub(keys_width + 1);
-    let mut lines: Vec<(String, String, bool)> = vec![("Keys".into(), String::new(), true)];
-    for binding in bindings::of(Context::Main) {
-        entry(&mut lines, &bindings::keys_text(binding), binding.what, width);
+/// A key or a word, and what it means.
+struct Entry {
+    left: String,
+    right: String,
+    /// Other words by which it can be found.
+    also: String,
+}
+
+impl Entry {
+    fn of(binding: &Binding) -> Self {
+        let (left, right) = (bindings::keys_text(binding), binding.what.to_string());
+        Self { left, right, also: String::new() }
     }
-    for (head, context) in [
-        ("While a chart is read", Context::Reading),
-        ("While typing", Context::Typing),
-        ("Where a file exists", Context::Replacing),
-        ("In the list of lessons", Context::Lessons),
-        ("While a lesson asks", Context::Question),
-        ("In the list of scenes", Context::Scenes),
-    ] {
-        lines.push((head.into(), String::new(), true));
-        for binding in bindings::of(context) {
-            entry(&mut lines, &bindings::keys_text(binding), binding.what, width);
-        }
-    }
-    lines.push(("Words".into(), String::new(), true));
-    for (word, meaning) in WORDS {
-        entry(&mut lines, &look.spell(word), &look.spell(meaning), width);
-    }
-    let most = lines.len().saturating_sub(usize::from(area.height));
-    let first = usize::from(scroll).min(most);
-    for (row, (keys, what, head)) in (0..area.height).zip(lines.iter().skip(first)) {
-        let style = if *head {
-            look.style(Role::Text).add_modifier(Modifier::BOLD)
-        } else {
-            look.style(Role::Focus)
-        };
-        print(buffer, area, row, keys, style);
-        let at = u16::try_from(keys_width).unwrap_or(0);
-        let right = Rect { x: area.x + at, width: area.width.saturating_sub(at), ..area };
-        print(buffer, right, row, what, look.style(Role::Text));
+
+    fn has(&self, heading: &str, words: &[String]) -> bool {
+        let text = format!("{heading} {} {} {}", self.left, self.right, self.also).to_lowercase();
+        words.iter().all(|word| text.contains(word))
     }
 }
 
-fn entry(lines: &mut Vec<(String, String, bool)>, keys: &str, what: &str, width: usize) {
-    for (place, part) in wrap(what, width).into_iter().enumerate() {
-        lines.push((if place == 0 { keys.to_string() } else { String::new() }, part, false));
+/// Every section of the help: its heading and its entries.
+fn sections(app: &App) -> Vec<(&'static str, Vec<Entry>)> {
+    let look = &app.appearance;
+    let keys = Group::iter().map(|group| {
+        let own = bindings::of(Context::Main).filter(move |b| b.action.group() == group);
+        (group.into(), own.map(Entry::of).collect())
+    });
+    let elsewhere = ELSEWHERE.iter().map(|(heading, contexts)| {
+        let own = contexts.iter().flat_map(|c| bindings::of(*c));
+        let own =
+            own.filter(|b| !matches!(b.action, Action::Quit | Action::Suspend | Action::Redraw));
+        let mut entries: Vec<Entry> = Vec::new();
+        for entry in own.map(Entry::of) {
+            // Two contexts under one heading have most keys in common.
+            if !entries
+                .iter()
+                .any(|known| (&known.left, &known.right) == (&entry.left, &entry.right))
+            {
+                entries.push(entry);
+            }
+        }
+        (*heading, entries)
+    });
+    let words = glossary::SECTIONS.iter().map(|(heading, terms)| {
+        let entry = |term: &glossary::Term| Entry {
+            left: look.either(term.symbol, term.name).to_string(),
+            right: look.spell(&term.text(app)),
+            also: format!("{} {}", term.name, term.meaning),
+        };
+        (*heading, terms.iter().map(entry).collect())
+    });
+    keys.chain(words).chain(elsewhere).collect()
+}
+
+/// A line of the list: left and right column, and whether it is a heading.
+type Line = (String, String, bool);
+
+fn keys_width(width: u16) -> u16 {
+    if width >= 60 { 22 } else { 14 }
+}
+
+/// The lines that the filter leaves, and the number of entries among them.
+fn lines(app: &App, area: Rect, filter: &str) -> (Vec<Line>, usize) {
+    let left = usize::from(keys_width(area.width));
+    let width = usize::from(area.width).saturating_sub(left + 1);
+    let words: Vec<String> = filter.split_whitespace().map(str::to_lowercase).collect();
+    let (mut lines, mut count) = (Vec::new(), 0);
+    for (heading, entries) in sections(app) {
+        let mut found = entries.iter().filter(|entry| entry.has(heading, &words)).peekable();
+        if found.peek().is_none() {
+            continue;
+        }
+        if !lines.is_empty() {
+            lines.push((String::new(), String::new(), false));
+        }
+        lines.push((heading.to_string(), String::new(), true));
+        for entry in found {
+            count += 1;
+            // The keys, too, may need more than one line.
+            let keys = wrap(&entry.left, left.saturating_sub(1));
+            let what = wrap(&entry.right, width);
+            for row in 0..keys.len().max(what.len()) {
+                let part = |of: &[String]| of.get(row).cloned().unwrap_or_default();
+                lines.push((part(&keys), part(&what), false));
+            }
+        }
+    }
+    (lines, count)
+}
+
+/// The rows of the list in the body of the screen.
+fn list(body: Rect) -> Rect {
+    Rect { y: body.y + ABOVE, height: body.height.saturating_sub(ABOVE), ..body }
+}
+
+/// The furthest that the help can be scrolled on this screen.
+pub fn help_bottom(app: &App, help: &HelpState) -> u16 {
+    let area = list(super::body(app));
+    let lines = lines(app, area, &help.filter).0.len();
+    u16::try_from(lines).unwrap_or(u16::MAX).saturating_sub(area.height)
+}
+
+/// Draws the help.
+pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, help: &HelpState) {
+    let look = &app.appearance;
+    let width = usize::from(area.width);
+    let below = list(area);
+    let (lines, count) = lines(app, below, &help.filter);
+    let first = usize::from(help.scroll).min(lines.len().saturating_sub(usize::from(below.height)));
+    let last = (first + usize::from(below.height)).min(lines.len());
+    let head = match (help.filter.is_empty(), count) {
+        (true, _) => "Type to find a key, a word or a symbol".to_string(),
+        (false, 0) => format!("find: {}_  nothing has these words", help.filter),
+        (false, _) => format!("find: {}_  {count} found", help.filter),
+    };
+    let place = format!("{last}/{}", lines.len());
+    let room = width.saturating_sub(place.len() + 1);
+    let head = shorten(&head, room, look.either("…", ".."));
+    print(buffer, area, 0, &head, look.style(Role::Focus));
+    let at = u16::try_from(place.len()).unwrap_or(0);
+    let right = Rect { x: area.right().saturating_sub(at), width: at, ..area };
+    print(buffer, right, 0, &place, look.style(Role::Quiet));
+    for (row, (keys, what, is_heading)) in (0..below.height).zip(lines.iter().skip(first)) {
+        let style = match is_heading {
+            true => look.style(Role::Text).add_modifier(Modifier::BOLD | Modifier::UNDERLINED),
+            false => look.style(Role::Focus),
+        };
+        print(buffer, below, row, keys, style);
+        let at = keys_width(area.width);
+        let right = Rect { x: area.x + at, width: area.width.saturating_sub(at), ..below };
+        print(buffer, right, row, what, look.style(Role::Text));
     }
 }
 
@@ -88,16 +166,44 @@ mod tests {
     use crate::scene::Scene;
     use crate::tui::{raster::Marker, theme::Theme};
 
-    #[test]
-    fn every_binding_of_the_main_screen_is_in_the_help() {
+    fn text(filter: &str) -> String {
         let app = App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Braille);
-        let area = Rect::new(0, 0, 100, 200);
+        let area = Rect::new(0, 0, 130, 400);
         let mut buffer = Buffer::empty(area);
-        draw(&app, &mut buffer, area, 0);
-        let text: String = buffer.content.iter().map(|cell| cell.symbol().to_string()).collect();
-        for binding in bindings::BINDINGS.iter().filter(|b| b.context != Context::Help) {
+        draw(&app, &mut buffer, area, &HelpState { filter: filter.into(), scroll: 0 });
+        buffer.content.iter().map(|cell| cell.symbol().to_string()).collect()
+    }
+
+    #[test]
+    fn every_binding_and_every_word_is_in_the_help() {
+        let text = text("");
+        for binding in bindings::BINDINGS.iter() {
             assert!(text.contains(binding.what), "{}", binding.what);
-            assert!(text.contains(&bindings::keys_text(binding)), "{}", binding.what);
+            for key in binding.keys {
+                assert!(text.contains(&key.to_string()), "{}", binding.what);
+            }
         }
+        for group in Group::iter() {
+            assert!(text.contains(<&str>::from(group)), "{group:?}");
+        }
+        for term in glossary::SECTIONS.iter().flat_map(|(_, terms)| *terms) {
+            assert!(text.contains(term.symbol), "{}", term.symbol);
+        }
+    }
+
+    #[test]
+    fn what_is_typed_finds_keys_words_and_symbols() {
+        for (filter, found, gone) in [
+            ("undo", "undo the last turn of a knob", "quit"),
+            ("CTRL-R", "redo it", "quit"),
+            ("omega_lock", "Ω_lock", "redo it"),
+            ("polygon corner", "δ", "redo it"),
+            ("files", "export the large chart", "redo it"),
+        ] {
+            let text = text(filter);
+            assert!(text.contains(found), "{filter}: {found}");
+            assert!(!text.contains(gone), "{filter}: {gone}");
+        }
+        assert!(text("no such thing").contains("nothing has these words"));
     }
 }

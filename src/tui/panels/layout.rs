@@ -58,13 +58,13 @@ pub fn places(area: Rect, app: &App) -> Places {
     let [header, body, footer] =
         Layout::vertical([Constraint::Length(2), Constraint::Min(1), Constraint::Length(1)])
             .areas(area);
-    let (lesson, body) = lesson(body, app);
+    let (lesson, rest) = lesson(body, app);
     let from = if app.compares() { KNOBS_BESIDE_LAWS } else { KNOBS_FROM };
     let column = area.width >= from && !app.full_screen;
     let [knobs, charts] = if column {
-        Layout::horizontal([Constraint::Length(KNOBS_WIDTH), Constraint::Min(1)]).areas(body)
+        Layout::horizontal([Constraint::Length(KNOBS_WIDTH), Constraint::Min(1)]).areas(rest)
     } else {
-        below(body, 1)
+        below(rest, 1)
     };
     let charts = if app.is_alone() { vec![(app.view, charts)] } else { split(charts, app) };
     Places { header, body, knobs, column, charts, letters: None, lesson, footer }
@@ -154,4 +154,10 @@ pub fn lesson_fills(app: &App) -> bool {
 /// Pages of the text of the lesson where it hides the charts.
 pub fn lesson_pages(app: &App) -> usize {
     super::lesson::pages(app, usize::from(app.size.0), page_rows(body_rows(app)))
+}
+
+/// The room between header and footer on this screen.
+pub fn body(app: &App) -> Rect {
+    let area = Rect::new(0, 0, app.size.0, app.size.1);
+    places(area, app).body
 }

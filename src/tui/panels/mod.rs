@@ -10,17 +10,19 @@ mod hit;
 mod knobs;
 mod layout;
 mod lesson;
+mod palette;
 mod presentation;
 mod scenes;
 
 use ratatui::{Frame, buffer::Buffer, layout::Rect};
 
 use super::app::{App, InputMode};
-use super::text::print;
+use super::text::{CUT, print};
 use super::theme::Role;
 use super::views::ViewArea;
+pub use help::help_bottom;
 pub use hit::{Target, lesson_at, part_of_bar, target};
-pub use layout::{LEAST_HEIGHT, LEAST_WIDTH, lesson_fills, lesson_pages};
+pub use layout::{LEAST_HEIGHT, LEAST_WIDTH, body, lesson_fills, lesson_pages};
 
 /// Draws the whole screen.
 pub fn draw(frame: &mut Frame, app: &App) {
@@ -43,8 +45,10 @@ pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
     if places.letters.is_none() {
         header::draw(app, buffer, places.header);
     }
-    if let InputMode::Help(scroll) = app.mode {
-        help::draw(app, buffer, places.body, scroll);
+    if let InputMode::Help(help) = &app.mode {
+        help::draw(app, buffer, places.body, help);
+    } else if let InputMode::Palette(palette) = &app.mode {
+        palette::draw(app, buffer, places.body, palette);
     } else if let InputMode::Lessons(place) = app.mode {
         lesson::list(app, buffer, places.body, place);
     } else if let InputMode::Scenes(place) = app.mode {
@@ -72,6 +76,7 @@ pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
     if app.appearance.ascii() {
         // Names and titles can have any letter.
         let others = buffer.content.iter_mut().filter(|cell| !cell.symbol().is_ascii());
-        others.for_each(|cell| _ = cell.set_char('?'));
+        let plain = |sign: &str| if sign.starts_with(CUT) { '>' } else { '?' };
+        others.for_each(|cell| _ = cell.set_char(plain(cell.symbol())));
     }
 }

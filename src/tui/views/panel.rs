@@ -12,7 +12,7 @@ use crate::scene::CheckedScene;
 use crate::tui::app::{App, Cursor};
 use crate::tui::appearance::Appearance;
 use crate::tui::raster::Pen;
-use crate::tui::text::{pieces, print};
+use crate::tui::text::{marked_pieces, print};
 use crate::tui::theme::Role;
 
 /// A view: how it is drawn and exported.
@@ -84,7 +84,7 @@ impl ViewArea {
 }
 
 /// The title row: a rule with the digit and name of the view and its legend, as
-/// many whole entries as fit. Returns the rest of the area.
+/// many whole entries as fit, and a mark where some do not. Returns the rest of the area.
 pub fn title(
     app: &App,
     buffer: &mut Buffer,
@@ -105,7 +105,7 @@ pub fn title(
     let parts: Vec<_> =
         parts.map(|(text, style)| (format!(" {} ", look.spell(text)), *style)).collect();
     let inside = Rect { x: area.x + 1, width: area.width.saturating_sub(1), ..area };
-    pieces(buffer, inside, 0, &parts);
+    marked_pieces(buffer, inside, 0, &parts, look.either("… ", ".. "));
     Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area }
 }
 

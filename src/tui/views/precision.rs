@@ -10,8 +10,13 @@ use crate::study::precision::{Measure, Way};
 use crate::tui::app::App;
 use crate::tui::axis::ChartAxis;
 use crate::tui::plot::Plot;
-use crate::tui::text::print;
+use crate::tui::text::{columns, print, wrap};
 use crate::tui::theme::Role;
+
+/// Columns of the title before its legend.
+const TITLE: usize = 14;
+/// From this height on there is room for a legend below the title.
+const LEGEND_FROM: u16 = 8;
 
 /// The view.
 pub struct PrecisionView;
@@ -28,15 +33,26 @@ impl ViewPanel for PrecisionView {
             SolverKind::Event => Role::First,
             SolverKind::Explicit => Role::Second,
         };
-        let legend = [
-            ("e event".to_string(), look.style(Role::First)),
-            (
-                "u explicit, b other law (capital: modal, 1 2: full)".to_string(),
-                look.style(Role::Second),
-            ),
-            ("error |u-u_ref|/g0 by wall time [s]".to_string(), quiet),
+        let series = [
+            ("e event", Role::First),
+            ("u explicit, b other law (capital: modal, 1 2: full)", Role::Second),
         ];
-        let inside = title(app, buffer, at, "precision", &legend);
+        let axes = [("error |u-u_ref|/g0 by wall time [s]".to_string(), quiet)];
+        let mut legend: Vec<_> =
+            series.iter().map(|(text, role)| (text.to_string(), look.style(*role))).collect();
+        legend.extend(axes.clone());
+        // What does not fit into the title has lines of its own.
+        let taken: usize = legend.iter().map(|(text, _)| columns(text) + 2).sum();
+        let fits = taken + TITLE <= usize::from(at.area.width);
+        let mut inside = title(app, buffer, at, "precision", if fits { &legend } else { &axes });
+        if !fits && inside.height >= LEGEND_FROM {
+            for (text, role) in series {
+                for line in wrap(text, usize::from(inside.width)) {
+                    print(buffer, inside, 0, &line, look.style(role));
+                    inside = below(inside);
+                }
+            }
+        }
         if let Err(error) = Measure::check(&app.scene) {
             print(buffer, inside, 1, "no reference for this scene:", look.style(Role::Trouble));
             print(buffer, inside, 2, &error.to_string(), quiet);
@@ -52,12 +68,12 @@ impl ViewPanel for PrecisionView {
             let same_law = report.rows.iter().filter(|row| !row.other_law).count();
             let wrong = report.rows.iter().filter(|row| row.is_wrong()).count();
             let note = format!(
-                "reference {}; {wrong} of {same_law} runs under its contact law have another verdict (!)",
+                "reference {}; {wrong} of {same_law} under its law differ (!)",
                 report.reference.verdict,
             );
             print(buffer, inside, 0, &note, quiet);
         }
-        let inside = Rect { y: inside.y + 1, height: inside.height.saturating_sub(1), ..inside };
+        let inside = below(inside);
         let placed = || report.rows.iter().filter_map(|row| Some((place(row)?, row)));
         // A logarithmic axis has no zero: rows without error are listed below.
         let mut zeros: Vec<char> = placed()
@@ -92,4 +108,9 @@ impl ViewPanel for PrecisionView {
     fn csv(&self, _: &App) -> Result<String, String> {
         Err("`rubscope precision` writes these rows".into())
     }
+}
+
+/// An area without its first row.
+fn below(area: Rect) -> Rect {
+    Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area }
 }

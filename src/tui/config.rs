@@ -1,0 +1,242 @@
+//! The config file: what the explorer remembers from one start to the next. It is
+//! written only when that changed; without a folder for it, nothing is
+//! remembered.
+
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::channel;
+use std::time::Duration;
+
+use etcetera::{BaseStrategy, choose_base_strategy};
+use serde::{Deserialize, Serialize};
+
+use super::app::App;
+use super::files::{FILES_NAME, FileJob, FileResult};
+use super::raster::Marker;
+use super::theme::{Theme, ThemeChoice};
+use crate::file;
+use crate::report::line::clean;
+
+/// Largest file that is read.
+const MOST_BYTES: u64 = 64 * 1024;
+/// Most terminals that are remembered as silent.
+const MOST_TERMINALS: usize = 16;
+/// Longest name of one.
+const LONGEST_NAME: usize = 64;
+/// Most charts next to the large one.
+const MOST_CHARTS: usize = 3;
+/// How long the end of the program waits for the file.
+const MOMENT: Duration = Duration::from_millis(400);
+
+/// What is remembered. A field that is missing in the file has its default;
+/// fields that are not known here are kept.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Config {
+    /// The theme, once one was chosen by key.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub theme: Option<ThemeChoice>,
+    /// The marker, once one was chosen by key.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub marker: Option<Marker>,
+    /// Charts next to the large one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub charts: Option<usize>,
+    /// Whether the mouse is used.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mouse: Option<bool>,
+    /// Whether a key was pressed below the line for new users.
+    pub introduced: bool,
+    /// Terminals that did not say their background in time.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub silent_terminals: Vec<String>,
+    /// What other versions remember.
+    #[serde(flatten)]
+    pub others: toml::Table,
+}
+
+impl Config {
+    /// Whether this terminal is known not to say its background.
+    pub fn is_silent(&self, terminal: &str) -> bool {
+        self.silent_terminals.iter().any(|known| known == terminal)
+    }
+
+    fn read(path: &Path) -> Result<Self, String> {
+        match path.metadata() {
+            // A pipe would keep the program waiting.
+            Ok(found) if !found.is_file() => return Err("it is not a file".into()),
+            Err(_) => return Ok(Self::default()),
+            Ok(_) => {}
+        }
+        let text = file::read_text(path, MOST_BYTES).map_err(|error| error.to_string())?;
+        let read: Self = toml::from_str(&text).map_err(|error| error.message().to_string())?;
+        Ok(Self { charts: read.charts.map(|count| count.min(MOST_CHARTS)), ..read })
+    }
+
+    fn write(&self, path: &Path) -> FileResult {
+        let failed = |error: &dyn std::fmt::Display| FileResult::Failed(error.to_string());
+        // Plain values come before tables in a table, as the format needs it.
+        let table = match toml::Table::try_from(self) {
+            Ok(table) => table,
+            Err(error) => return failed(&error),
+        };
+        let is_new = !path.exists();
+        if let Some(folder) = path.parent()
+            && let Err(error) = private_folder(folder)
+        {
+            return failed(&error);
+        }
+        let job = FileJob { path: path.into(), content: table.to_string(), replace: true };
+        let written = job.run();
+        if is_new && written == FileResult::Written {
+            // It is complete; whether others can read it is no reason to fail.
+            let _ = make_private(path);
+        }
+        written
+    }
+}
+
+#[cfg(unix)]
+fn private_folder(folder: &Path) -> std::io::Result<()> {
+    use std::os::unix::fs::DirBuilderExt;
+    std::fs::DirBuilder::new().recursive(true).mode(0o700).create(folder)
+}
+
+#[cfg(unix)]
+fn make_private(path: &Path) -> std::io::Result<()> {
+    use std::os::unix::fs::PermissionsExt;
+    std::fs::set_permissions(path, std::fs::Permissions::from_mode(0o600))
+}
+
+#[cfg(not(unix))]
+fn private_folder(folder: &Path) -> std::io::Result<()> {
+    std::fs::create_dir_all(folder)
+}
+
+#[cfg(not(unix))]
+fn make_private(_: &Path) -> std::io::Result<()> {
+    Ok(())
+}
+
+/// The name by which a terminal is remembered. The same terminal may answer at
+/// once here, and too late over a network.
+pub fn terminal_name(variable: &dyn Fn(&str) -> String) -> String {
+    let remote = ["SSH_CONNECTION", "SSH_TTY"].iter().any(|name| !variable(name).is_empty());
+    let name = [variable("TERM"), variable("TERM_PROGRAM")].join(" ");
+    let name: String = name.trim().chars().take(LONGEST_NAME).collect();
+    if remote { format!("{name} over ssh") } else { name }
+}
+
+/// What can be changed by keys.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Choices {
+    theme: Theme,
+    marker: Marker,
+    charts: usize,
+    mouse: bool,
+}
+
+impl Choices {
+    fn of(app: &App) -> Self {
+        let look = app.appearance;
+        let (charts, mouse) = (app.companions_shown, app.mouse);
+        Self { theme: look.theme, marker: look.marker, charts, mouse }
+    }
+}
+
+/// The config file of this start.
+#[derive(Debug)]
+pub struct Memory {
+    /// Where it is; none where nothing is remembered.
+    path: Option<PathBuf>,
+    /// What it held at the start.
+    pub config: Config,
+    /// Why it was not used.
+    pub complaint: Option<String>,
+    /// The choices at the start.
+    began: Option<Choices>,
+    /// This terminal, if it did not answer in time.
+    pub silent: Option<String>,
+}
+
+impl Memory {
+    /// Reads the file of the user, or does without.
+    pub fn recall(wanted: bool) -> Self {
+        let folder = choose_base_strategy().ok().map(|places| places.config_dir());
+        let path = folder.filter(|_| wanted).map(|folder| folder.join("rubscope/config.toml"));
+        Self::at(path)
+    }
+
+    fn at(path: Option<PathBuf>) -> Self {
+        let read = path.as_deref().map_or_else(|| Ok(Config::default()), Config::read);
+        let (config, complaint) = match read {
+            Ok(config) => (config, None),
+            Err(why) => {
+                (Config::default(), Some(clean(&format!("config.toml is not used: {why}"))))
+            }
+        };
+        // A file with a mistake in it is the user's to mend.
+        let path = path.filter(|_| complaint.is_none());
+        Self { path, config, complaint, began: None, silent: None }
+    }
+
+    /// Gives the state what is remembered, and notes where it began.
+    pub fn prepare(&mut self, app: &mut App) {
+        if let Some(charts) = self.config.charts {
+            app.companions_shown = charts;
+        }
+        app.mouse &= self.config.mouse.unwrap_or(true);
+        app.is_new = self.path.is_some() && !self.config.introduced;
+        app.status.clone_from(&self.complaint);
+        self.began = Some(Choices::of(app));
+    }
+
+    /// Remembers what was changed since the beginning, for the next start. Waits
+    /// only a moment for a disk that does not answer.
+    pub fn keep(self, app: &App) {
+        let Some(path) = self.path.clone() else { return };
+        let ended = Choices::of(app);
+        let introduced = !app.is_new;
+        let (done, wait) = channel();
+        let work = move || {
+            // Another explorer may have written it meanwhile.
+            if let Ok(config) = Config::read(&path) {
+                let changed = self.changed(config.clone(), ended, introduced);
+                if changed != config {
+                    // A folder that takes no file: nothing is remembered.
+                    let _ = changed.write(&path);
+                }
+            }
+            // Without a receiver the moment is over.
+            let _ = done.send(());
+        };
+        if std::thread::Builder::new().name(FILES_NAME.into()).spawn(work).is_ok() {
+            let _ = wait.recv_timeout(MOMENT);
+        }
+    }
+
+    fn changed(&self, mut config: Config, ended: Choices, introduced: bool) -> Config {
+        let Some(began) = self.began else { return config };
+        if ended.theme != began.theme {
+            config.theme = Some(ThemeChoice::of(ended.theme));
+        }
+        if ended.marker != began.marker {
+            config.marker = Some(ended.marker);
+        }
+        if ended.charts != began.charts {
+            config.charts = Some(ended.charts);
+        }
+        if ended.mouse != began.mouse {
+            config.mouse = Some(ended.mouse);
+        }
+        config.introduced |= introduced;
+        if let Some(terminal) = self.silent.clone().filter(|name| !config.is_silent(name)) {
+            config.silent_terminals.push(terminal);
+            let extra = config.silent_terminals.len().saturating_sub(MOST_TERMINALS);
+            config.silent_terminals.drain(..extra);
+        }
+        config
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,113 @@
+use super::*;
+use crate::scene::Scene;
+use crate::tui::bindings::Action;
+
+fn app() -> App {
+    App::new(Scene::base().checked().unwrap(), Theme::Dark, Marker::Braille)
+}
+
+/// Starts on this file, does this, and ends.
+fn session(path: &Path, does: impl FnOnce(&mut App)) -> App {
+    let mut memory = Memory::at(Some(path.into()));
+    let mut app = app();
+    memory.prepare(&mut app);
+    let state = app.clone();
+    does(&mut app);
+    memory.keep(&app);
+    state
+}
+
+fn read(path: &Path) -> Config {
+    Config::read(path).unwrap()
+}
+
+#[test]
+fn what_was_chosen_by_key_is_there_at_the_next_start() {
+    let home = tempfile::tempdir().unwrap();
+    let path = home.path().join("deep/rubscope/config.toml");
+    let first = session(&path, |_| {});
+    assert!(first.is_new && !path.exists(), "nothing has changed");
+    session(&path, |app| {
+        app.is_new = false;
+        app.act(Action::Theme);
+        app.act(Action::Marker);
+        app.act(Action::Charts);
+    });
+    let config = read(&path);
+    assert_eq!(config.theme, Some(ThemeChoice::Light));
+    assert!(config.marker.is_some() && config.introduced);
+    let next = session(&path, |_| {});
+    assert_eq!((next.companions_shown, next.is_new), (config.charts.unwrap(), false));
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        let mode = |path: &Path| path.metadata().unwrap().permissions().mode() & 0o777;
+        assert_eq!((mode(&path), mode(path.parent().unwrap())), (0o600, 0o700));
+    }
+}
+
+#[test]
+fn a_file_is_written_only_if_something_changed_and_keeps_what_is_not_known() {
+    let home = tempfile::tempdir().unwrap();
+    let path = home.path().join("config.toml");
+    let text = "later = 3\nintroduced=true\ncharts = 99\n[lessons]\ndone = [\"lock\"]\n";
+    std::fs::write(&path, text).unwrap();
+    assert_eq!(session(&path, |_| {}).companions_shown, MOST_CHARTS);
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), text);
+    session(&path, |app| _ = app.act(Action::Theme));
+    let text = std::fs::read_to_string(&path).unwrap();
+    for kept in ["later = 3", "[lessons]", "done = [\"lock\"]", "theme = \"light\""] {
+        assert!(text.contains(kept), "{text}");
+    }
+}
+
+#[test]
+fn a_file_that_cannot_be_used_is_named_and_left_alone() {
+    let home = tempfile::tempdir().unwrap();
+    let path = home.path().join("config.toml");
+    let long = "#".repeat(70_000);
+    for text in ["theme = \"pink\"", "charts = -1", "\u{1b}[2J", "[[", &long, "mouse = \u{1b}"] {
+        std::fs::write(&path, text).unwrap();
+        let started = session(&path, |app| _ = app.act(Action::Theme));
+        let status = started.status.unwrap();
+        assert!(status.starts_with("config.toml is not used: "), "{status}");
+        assert!(!status.contains(['\n', '\u{1b}']) && !started.is_new, "{status}");
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), text);
+    }
+    std::fs::write(&path, [0xff, 0xfe]).unwrap();
+    assert!(session(&path, |_| {}).status.is_some());
+    std::fs::remove_file(&path).unwrap();
+    std::fs::create_dir(&path).unwrap();
+    assert!(session(&path, |_| {}).status.is_some());
+}
+
+#[test]
+fn without_a_folder_nothing_is_remembered_and_nothing_is_said() {
+    let started = session(Path::new("/dev/null/rubscope/config.toml"), |app| {
+        app.act(Action::Theme);
+    });
+    assert_eq!(started.status, None);
+    let memory = Memory::at(None);
+    assert_eq!((memory.complaint, memory.path), (None, None));
+}
+
+#[test]
+fn a_silent_terminal_is_remembered_once_and_by_the_way_it_is_reached() {
+    let home = tempfile::tempdir().unwrap();
+    let path = home.path().join("config.toml");
+    for name in (0..20).flat_map(|k| [k, k]) {
+        let mut memory = Memory::at(Some(path.clone()));
+        let mut app = app();
+        memory.prepare(&mut app);
+        memory.silent = Some(format!("terminal {name}"));
+        memory.keep(&app);
+    }
+    let config = read(&path);
+    assert_eq!(config.silent_terminals.len(), MOST_TERMINALS);
+    assert!(config.is_silent("terminal 19") && !config.is_silent("terminal 0"));
+    let remote = |name: &str| if name == "TERM" { "xterm".to_string() } else { "x".repeat(900) };
+    let name = terminal_name(&remote);
+    assert!(name.ends_with(" over ssh") && name.len() < 100, "{name}");
+    let local = |name: &str| if name == "TERM" { "xterm".to_string() } else { String::new() };
+    assert_eq!(terminal_name(&local), "xterm");
+}

@@ -1,0 +1,153 @@
+//! How the explorer is started: its options, and what they, the environment and
+//! the config file together give.
+
+use std::time::Duration;
+
+use strum::{EnumString, VariantNames};
+
+use super::ability::Ability;
+use super::app::Source;
+use super::config::Config;
+use super::ground::Ground;
+use super::line::Line;
+use super::raster::Marker;
+use super::theme::{Theme, ThemeChoice};
+
+/// When to use colour.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, EnumString, VariantNames)]
+#[strum(serialize_all = "lowercase")]
+pub enum Color {
+    /// If the terminal supports it and `NO_COLOR` does not forbid it.
+    #[default]
+    Auto,
+    /// Always.
+    Always,
+    /// Never; bold, reverse and dim stay.
+    Never,
+}
+
+/// How the explorer looks and behaves.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ExploreOptions {
+    /// Most frames a second while the motion plays.
+    pub fps: f64,
+    /// When to use colour.
+    pub color: Color,
+    /// The colours; by the config file, or the terminal, if not given.
+    pub theme: Option<ThemeChoice>,
+    /// How points are drawn; by the config file, or the terminal and the locale,
+    /// if not given.
+    pub marker: Option<Marker>,
+    /// Whether the mouse is used.
+    pub mouse: bool,
+    /// How much the line carries.
+    pub line: Line,
+    /// Whether the config file is read and written.
+    pub config: bool,
+    /// Where the scene is from, for the command line that repeats the run.
+    pub source: Option<Source>,
+}
+
+impl Default for ExploreOptions {
+    fn default() -> Self {
+        Self {
+            fps: 10.0,
+            color: Color::Auto,
+            theme: None,
+            marker: None,
+            mouse: true,
+            line: Line::Auto,
+            config: true,
+            source: None,
+        }
+    }
+}
+
+impl ExploreOptions {
+    /// The theme: an option wins over the environment, and that over the config
+    /// file. The ground is asked for only where it matters.
+    pub(super) fn theme(
+        &self,
+        config: &Config,
+        variable: &dyn Fn(&str) -> String,
+        ground: impl FnOnce() -> Ground,
+    ) -> Theme {
+        let plain = match self.color {
+            Color::Always => false,
+            Color::Never => true,
+            Color::Auto => !variable("NO_COLOR").is_empty() || variable("TERM") == "dumb",
+        };
+        let given = self.theme.filter(|choice| *choice != ThemeChoice::Auto);
+        let choice = match given {
+            Some(choice) => choice,
+            None if plain => ThemeChoice::Mono,
+            // `auto` given as an option means: whatever the config file says.
+            None if self.theme.is_some() => ThemeChoice::Auto,
+            None => config.theme.unwrap_or_default(),
+        };
+        choice.theme(ground)
+    }
+
+    /// The marker: an option wins over what the terminal can show, and that over
+    /// the config file.
+    pub(super) fn marker(&self, config: &Config, ability: &Ability) -> Marker {
+        let remembered = config.marker.filter(|marker| ability.shows(*marker));
+        self.marker.or(remembered).unwrap_or_else(|| ability.marker())
+    }
+
+    /// The line: over SSH it is thin.
+    pub(super) fn line(&self) -> Line {
+        let over_ssh =
+            ["SSH_CONNECTION", "SSH_TTY"].iter().any(|name| std::env::var_os(name).is_some());
+        if self.line == Line::Auto && over_ssh { Line::Thin } else { self.line }
+    }
+
+    pub(super) fn frame(&self) -> Duration {
+        let fps = if self.fps.is_finite() { self.fps.clamp(0.1, 60.0) } else { 10.0 };
+        Duration::from_secs_f64(1.0 / fps)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn theme(options: ExploreOptions, config: Option<ThemeChoice>, no_color: &str) -> Theme {
+        let config = Config { theme: config, ..Config::default() };
+        let variable =
+            |name: &str| if name == "NO_COLOR" { no_color.to_string() } else { String::new() };
+        options.theme(&config, &variable, || Ground::Light)
+    }
+
+    #[test]
+    fn an_option_wins_over_the_environment_and_that_over_the_file() {
+        let with = |theme| ExploreOptions { theme, ..ExploreOptions::default() };
+        let never = || ExploreOptions { color: Color::Never, ..with(None) };
+        let always = || ExploreOptions { color: Color::Always, ..with(None) };
+        let (dark, auto) = (Some(ThemeChoice::Dark), Some(ThemeChoice::Auto));
+        let blind = Some(ThemeChoice::ColorBlind);
+        assert_eq!(theme(with(None), None, ""), Theme::Light);
+        assert_eq!(theme(with(None), dark, ""), Theme::Dark);
+        assert_eq!(theme(with(None), blind, ""), Theme::ColourBlindLight);
+        assert_eq!(theme(with(auto), dark, ""), Theme::Light);
+        assert_eq!(theme(with(dark), None, ""), Theme::Dark);
+        assert_eq!(theme(with(None), dark, "1"), Theme::Mono);
+        assert_eq!(theme(with(auto), dark, "1"), Theme::Mono);
+        assert_eq!(theme(with(dark), None, "1"), Theme::Dark);
+        assert_eq!(theme(never(), dark, ""), Theme::Mono);
+        assert_eq!(theme(always(), dark, "1"), Theme::Dark);
+    }
+
+    #[test]
+    fn a_remembered_marker_is_used_where_the_terminal_shows_it() {
+        let config = |marker| Config { marker: Some(marker), ..Config::default() };
+        let options = ExploreOptions::default();
+        let given = ExploreOptions { marker: Some(Marker::Octant), ..ExploreOptions::default() };
+        let plain = Ability { ascii_only: true, octants: false };
+        let usual = Ability { ascii_only: false, octants: false };
+        assert_eq!(options.marker(&config(Marker::Dot), &usual), Marker::Dot);
+        assert_eq!(options.marker(&config(Marker::Octant), &usual), Marker::Braille);
+        assert_eq!(options.marker(&config(Marker::Dot), &plain), Marker::Ascii);
+        assert_eq!(given.marker(&config(Marker::Dot), &plain), Marker::Octant);
+    }
+}
