@@ -101,7 +101,7 @@ impl App {
     }
 
     /// Starts a lesson where it was left, with a scene of its own.
-    pub(super) fn begin_lesson(&mut self, place: usize) {
+    pub fn begin_lesson(&mut self, place: usize) {
         self.mode = InputMode::Main;
         if let Some(lesson) = lessons::all().get(place) {
             let step = self.lessons_done.next(lesson).unwrap_or(0);
@@ -188,6 +188,11 @@ impl App {
         let view = then.or(step.view.as_ref()).and_then(|word| ViewId::from_word(word));
         if let Some(view) = view {
             self.show(view);
+        }
+        // A chart that gives the answer away waits for it.
+        let hidden = step.then_view.as_deref().filter(|_| !answered);
+        if let Some(hidden) = hidden.and_then(ViewId::from_word) {
+            self.companions.sort_by_key(|view| *view == hidden);
         }
     }
 
