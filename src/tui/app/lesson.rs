@@ -189,11 +189,15 @@ impl App {
         if let Some(view) = view {
             self.show(view);
         }
-        // A chart that gives the answer away waits for it.
+        // A chart that gives the answer away waits for it, and one that takes long
+        // to compute is not needed.
         let hidden = step.then_view.as_deref().filter(|_| !answered);
-        if let Some(hidden) = hidden.and_then(ViewId::from_word) {
-            self.companions.sort_by_key(|view| *view == hidden);
-        }
+        let hidden = hidden.and_then(ViewId::from_word);
+        self.companions.sort_by_key(|view| match view {
+            view if Some(*view) == hidden => 2,
+            ViewId::Map | ViewId::Precision => 1,
+            _ => 0,
+        });
     }
 
     /// Records when the step is done: it is answered, and so is its task.
