@@ -52,6 +52,7 @@ impl Appearance {
                 'ν' => out.push_str("nu"),
                 'Φ' => out.push_str("Phi"),
                 'ψ' => out.push_str("psi"),
+                'π' => out.push_str("pi"),
                 'µ' => out.push('u'),
                 '²' => out.push_str("^2"),
                 '·' => out.push('.'),

@@ -219,7 +219,9 @@ pub fn all() -> &'static [Lesson] {
 mod tests {
     use super::*;
     use crate::scene::keys::CHARTS;
+    use crate::tui::appearance::Appearance;
     use crate::tui::knobs::KNOBS;
+    use crate::tui::{Marker, Theme};
 
     #[test]
     fn every_lesson_is_read_and_its_steps_make_sense() {
@@ -243,6 +245,15 @@ mod tests {
                 assert_eq!(step.answers.len(), if asked { 3 } else { 0 }, "{}", step.text);
                 assert!(asked == step.right_place().is_some() && asked == step.reason.is_some());
             }
+        }
+    }
+
+    #[test]
+    fn every_letter_of_the_lessons_has_a_spelling_in_ascii() {
+        let look = Appearance { theme: Theme::Mono, marker: Marker::Ascii };
+        let others = FILES.iter().flat_map(|(_, text)| text.chars()).filter(|c| !c.is_ascii());
+        for letter in others {
+            assert_ne!(look.spell(&letter.to_string()), "?", "{letter}");
         }
     }
 

@@ -321,6 +321,13 @@ fn an_open_question_shows_nothing_of_its_answer_and_a_wrong_one_is_explained() {
     // The second lesson: a pulse that locks.
     let mut session = begin(120, 40, 1);
     assert!(!session.text().contains("LOCKED"), "{}", session.text());
+    // Its second step: the curves of the forces come with the answer.
+    let mut second = begin(120, 40, 1);
+    second.press("bg");
+    let text = second.text();
+    assert!(!text.contains("3 locked") && !text.contains("5 map"), "{text}");
+    second.press("b");
+    assert!(second.text().contains("3 locked"), "{}", second.text());
     session.press("g");
     assert!(session.text().contains("first your guess"), "{}", session.text());
     session.press("a");

@@ -101,7 +101,7 @@ impl App {
     }
 
     /// Starts a lesson where it was left, with a scene of its own.
-    pub(super) fn begin_lesson(&mut self, place: usize) {
+    pub fn begin_lesson(&mut self, place: usize) {
         self.mode = InputMode::Main;
         if let Some(lesson) = lessons::all().get(place) {
             let step = self.lessons_done.next(lesson).unwrap_or(0);
@@ -189,6 +189,15 @@ impl App {
         if let Some(view) = view {
             self.show(view);
         }
+        // A chart that gives the answer away waits for it, and one that takes long
+        // to compute is not needed.
+        let hidden = step.then_view.as_deref().filter(|_| !answered);
+        let hidden = hidden.and_then(ViewId::from_word);
+        self.companions.sort_by_key(|view| match view {
+            view if Some(*view) == hidden => 2,
+            ViewId::Map | ViewId::Precision => 1,
+            _ => 0,
+        });
     }
 
     /// Records when the step is done: it is answered, and so is its task.

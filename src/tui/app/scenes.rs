@@ -167,3 +167,40 @@ fn same_path(one: &Path, other: &Path) -> bool {
     };
     parts(one) == parts(other)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tui::bindings::Action;
+    use crate::tui::{Marker, Theme};
+
+    #[test]
+    fn a_folder_that_does_not_answer_is_asked_once_and_holds_nothing_up() {
+        let mut app = App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Ascii);
+        assert!(matches!(app.act(Action::Scenes), Effect::FindScenes(_)));
+        app.act(Action::Close);
+        assert_eq!(app.act(Action::Scenes), Effect::None);
+        app.act(Action::KnobBelow);
+        let chosen = app.scene_entries()[1].name.clone();
+        // A file that comes late leaves the selected scene selected.
+        let scene = Ok(Scene::base().checked().unwrap());
+        let files = vec![FoundScene { name: "late.toml".into(), scene }];
+        app.scenes_found(FoundScenes { files, ..FoundScenes::default() });
+        assert_eq!(app.scene_entries().last().unwrap().name, "late.toml");
+        app.act(Action::Accept);
+        assert_eq!(app.source.as_ref().unwrap().name, chosen);
+        // Now it is asked again.
+        assert!(matches!(app.act(Action::Scenes), Effect::FindScenes(_)));
+    }
+
+    #[test]
+    fn an_open_file_of_another_folder_is_in_the_list() {
+        let mut app = App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Ascii);
+        app.source = Some(Source { name: "other/mine.toml".into(), scene: Scene::base() });
+        let entries = app.scene_entries();
+        assert!(entries[0].open && entries[0].name == "other/mine.toml");
+        assert_eq!(app.scene_place(&entries, None), 0);
+        assert!(same_path(Path::new("./a.toml"), Path::new("a.toml")));
+        assert!(!same_path(Path::new("b/a.toml"), Path::new("a.toml")));
+    }
+}
