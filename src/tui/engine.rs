@@ -8,10 +8,11 @@ use std::time::Duration;
 use super::history::Bin;
 use super::views::ViewId;
 use super::views::locked::curves::LockedCurves;
+use super::views::map::{CellRun, LiveMap, MapChoice};
 use super::views::spectrum::transform::Spectrum;
 use crate::motion::{ActiveSet, Checks, State, Verdict};
 use crate::scene::CheckedScene;
-use crate::study::Map;
+use crate::study::MapPlan;
 use crate::study::precision::Precision;
 
 /// The task of the engine. Counters only grow, so that no key press is lost
@@ -40,12 +41,21 @@ pub struct Order {
     pub compare: bool,
     /// The views on the screen: their studies are computed.
     pub open: Vec<ViewId>,
+    /// What the map sweeps, and under which law.
+    pub map: MapChoice,
+    /// Column and row of the map's cell whose run is wanted.
+    pub cell: Option<[u32; 2]>,
 }
 
 impl Order {
     /// Whether a view is on the screen.
     pub fn shows(&self, view: ViewId) -> bool {
         self.open.contains(&view)
+    }
+
+    /// The map to compute, while its view is open and the scene has one.
+    pub fn map_plan(&self) -> Option<MapPlan> {
+        self.shows(ViewId::Map).then(|| self.map.plan(&self.scene).ok()).flatten()
     }
 
     /// Number of the knobs' state: grows with every restart, live change and pulse.
@@ -135,7 +145,9 @@ pub struct Results {
     /// The spectrum of the run, while its view is open.
     pub spectrum: Option<Arc<Spectrum>>,
     /// The map, while its view is open; cells arrive one by one.
-    pub map: Option<Arc<Map>>,
+    pub map: Option<Arc<LiveMap>>,
+    /// The run of the map's cell that was asked for.
+    pub cell: Option<Arc<CellRun>>,
     /// Speed against error, while its view is open; rows arrive one by one.
     pub precision: Option<Arc<Precision>>,
     /// Solver speed.

@@ -62,6 +62,7 @@ mod security;
 mod soak;
 mod tui_hostile;
 mod tui_loop;
+mod tui_map;
 mod tui_random;
 mod tui_screens;
 mod verdicts;

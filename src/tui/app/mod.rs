@@ -5,6 +5,7 @@ mod command;
 mod cursor;
 mod files;
 mod lesson;
+mod map;
 mod snapshot;
 mod time;
 mod turn;
@@ -25,6 +26,7 @@ use super::history::BinHistory;
 use super::raster::Marker;
 use super::theme::Theme;
 use super::views::ViewId;
+use super::views::map::MapChoice;
 use crate::model::Machine;
 use crate::scene::{CheckedScene, Scene};
 
@@ -155,6 +157,8 @@ pub struct App {
     pub live: bool,
     /// The record of the running motion.
     pub history: BinHistory,
+    /// What the map sweeps, and under which law.
+    pub map: MapChoice,
     /// The parts of the latest snapshot that belong to this scene.
     pub latest: Snapshot,
     /// The state of which whole waves are drawn. It changes a few times per
@@ -235,6 +239,7 @@ impl App {
             compare: false,
             live: false,
             history: BinHistory::default(),
+            map: MapChoice::default(),
             latest: Snapshot::default(),
             throttled: None,
             size: (80, 24),
@@ -284,6 +289,8 @@ impl App {
             bin_s: self.page_s() / BINS_PER_PAGE,
             compare: self.compare,
             open: ViewId::all().filter(|view| self.is_open(*view)).collect(),
+            map: self.map,
+            cell: self.map_cell(),
         }
     }
 

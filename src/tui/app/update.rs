@@ -145,9 +145,9 @@ impl App {
     fn act_main(&mut self, action: Action) {
         match action {
             Action::Help => self.mode = InputMode::Help(0),
-            Action::NextView => self.show(self.neighbour(1)),
-            Action::PreviousView => self.show(self.neighbour(-1)),
-            Action::View(view) => self.show(view),
+            Action::NextView => self.walk(self.neighbour(1)),
+            Action::PreviousView => self.walk(self.neighbour(-1)),
+            Action::View(view) => self.walk(view),
             Action::KnobAbove => self.select(true),
             Action::KnobBelow => self.select(false),
             Action::Turn { up, coarse } => self.turn(up, coarse),
@@ -168,6 +168,8 @@ impl App {
                 self.counters.jumps += 1;
             }
             Action::Pin => self.pin(),
+            Action::OtherLaw if self.view == ViewId::Map => self.other_map_law(),
+            Action::MapAxis { up } => self.next_map_axis(up),
             Action::OtherLaw => {
                 self.compare = !self.compare;
                 self.latest.results.comparison = None;

@@ -4,6 +4,7 @@
 mod background;
 mod comparison;
 mod full_run;
+mod map_job;
 mod playback;
 mod precision;
 mod recorder;

@@ -74,9 +74,15 @@ impl Playback {
         playback
     }
 
+    /// Limits the cells of a map.
+    pub fn limit_cells(&mut self, most: usize) {
+        self.studies.limit_cells(most);
+    }
+
     /// Takes a newer order and does what its counters ask for.
     pub fn apply(&mut self, order: &Order) {
         let before = std::mem::replace(&mut self.order, order.clone());
+        self.studies.stop_unwanted(order);
         if order.restarts != before.restarts {
             let mut studies = std::mem::take(&mut self.studies);
             studies.forget_spectrum();
