@@ -7,6 +7,7 @@ use std::time::Duration;
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::style::Color;
 use ratatui::{Terminal, backend::TestBackend};
+use rubscope::harmonic::{Form, locked_motion};
 use rubscope::motion::{Verdict, run_to_verdict, to_the_end};
 use rubscope::scene::{ContactLaw, Scene, SolverKind};
 use rubscope::study::{Map, MapPlan};
@@ -298,5 +299,51 @@ fn a_map_fits_every_size_and_progress_is_said_in_the_title() {
         assert!(text.contains("locked"), "the cell under the cursor, at {size:?}: {text}");
         let progress = if size.0 == 40 { "1 %" } else { "52 of 3,321 cells" };
         assert!(text.contains(progress), "{progress} at {size:?}: {text}");
+    }
+}
+
+#[test]
+fn view_3_reads_the_locked_motion_exactly_at_any_speed() {
+    let mut session = Session::open((120, 40), paper(), Theme::Dark, Marker::Braille);
+    session.press("3f");
+    let text = session.text();
+    for chart in ["locked λ(Ω)", "locked α(Ω)", "locked u(Ω)", "mean now -245 -57"] {
+        assert!(text.contains(chart), "no {chart} in {text}");
+    }
+    session.press("i");
+    // Seven hundredths of 600 rad/s to the left; the curves have no point there.
+    session.press("<<<<<<<");
+    let machine = session.app.scene.machine();
+    let at = session.app.cursor.unwrap().across * 600.0;
+    let sweep = locked_motion(&machine, Form::Modal, true, None, &[at]).unwrap();
+    let point = sweep.points[0];
+    let text = session.text();
+    assert!((at - 458.0).abs() < 1e-9, "{at}");
+    let [a, b] = point.multipliers_n;
+    let (a, b) = (format!("λ_a {a:.1} N"), format!("λ_b {b:.2} N"));
+    for part in
+        ["at 458.0 rad/s", &a, &b, "|u| 1.0103 g0", "α_a -39.63 nrad", "u_cs -96.94", "both push"]
+    {
+        assert!(text.contains(part), "no {part} in {text}");
+    }
+    session.press("{{");
+    assert!(session.text().contains("one pulls"), "{}", session.text());
+    let file = session.app.view.panel().csv(&session.app).unwrap();
+    assert!(file.starts_with("speed_rad_s,") && file.contains("u_ss_m,amplitude_m"));
+}
+
+#[test]
+fn view_3_of_a_rotor_that_turns_the_other_way_says_so() {
+    let mut scene = paper();
+    scene.operation.speed_rad_s = -430.0;
+    let mut session = Session::open((200, 50), scene, Theme::Dark, Marker::Braille);
+    session.press("3");
+    assert!(session.text().contains("a and b change places"), "{}", session.text());
+    // And they do.
+    let machine = session.app.scene.machine();
+    let sweep = locked_motion(&machine, Form::Modal, true, None, &[430.0, -430.0]).unwrap();
+    let [one, other] = [sweep.points[0], sweep.points[1]].map(|point| point.multipliers_n);
+    for (force, swapped) in one.into_iter().zip([other[1], other[0]]) {
+        assert!((force - swapped).abs() < 1e-9 * force.abs(), "{one:?} {other:?}");
     }
 }
