@@ -202,7 +202,14 @@ fn a_cell_opens_the_run_it_shows_and_undo_brings_the_other_back() {
         };
         assert_eq!((run.verdict, direct), (Verdict::Adhesive, Verdict::Adhesive));
         assert_eq!(session.app.live, live);
-        assert!(session.app.status.as_ref().unwrap().starts_with("opened 382.5 rad/s, 1.58"));
+        assert!(
+            session
+                .app
+                .status
+                .as_ref()
+                .unwrap()
+                .starts_with("opened speed Ω 382.5 rad/s, pulse F 1.58")
+        );
         session.press("u");
         assert_eq!(*session.app.scene, paper());
     }
@@ -240,6 +247,9 @@ fn any_two_knobs_are_on_the_axes_and_in_the_file() {
     session.press("5X");
     let plan = session.plan();
     assert_eq!((plan.x.path.as_str(), plan.x.count), ("operation.nodal_diameters", 11));
+    // The cursor is at the present knobs of the new map: n_d = 3.
+    assert_eq!(session.app.map_cell().unwrap()[0], 2);
+    assert!(session.text().contains("now n_d 3, 50 kN"), "{}", session.text());
     let text = session.text();
     assert!(text.contains("pulse F over diameters n_d"), "{text}");
     session.press("XY");

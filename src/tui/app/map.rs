@@ -7,7 +7,7 @@ use crate::study::MapPlan;
 use crate::tui::app::cursor::cell_of;
 use crate::tui::knobs::Knob;
 use crate::tui::views::ViewId;
-use crate::tui::views::map::{MapAxis, numeric, value_text};
+use crate::tui::views::map::{MapAxis, here, numeric, value_text};
 
 impl App {
     /// Makes a view the large one by a key. The map gives the arrows to its cell
@@ -80,8 +80,11 @@ impl App {
             }
             Err(reason) => format!("no map over {}: {reason}", knob.label),
         });
-        if self.cursor.is_some() {
-            self.cursor = Some(self.view.panel().here(self));
+        if self.cursor.is_some()
+            && let Ok(plan) = self.map_plan()
+        {
+            // The map on the screen is still the one before.
+            self.cursor = Some(here(self, &plan));
         }
     }
 
@@ -91,7 +94,9 @@ impl App {
         let opened = self.shown_plan().map(|plan| {
             let values = [&plan.x, &plan.y].map(|axis| {
                 let knob = numeric().find(|knob| knob.path == axis.path);
-                knob.map_or_else(String::new, |knob| knob.shown(&knob.get(&scene)))
+                let text =
+                    |knob: &Knob| format!("{} {}", knob.label, knob.shown(&knob.get(&scene)));
+                knob.map_or_else(String::new, text)
             });
             values.join(", ")
         });

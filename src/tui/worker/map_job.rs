@@ -203,3 +203,49 @@ fn run_of(plan: MapPlan, cell: [u32; 2], go_on: GoOn<'_>) -> Option<CellRun> {
         cell,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+    use crate::tui::views::map::MapChoice;
+
+    #[test]
+    fn a_map_that_was_stopped_goes_on_and_has_the_cells_of_its_plan() {
+        let mut scene = Scene::base().as_reference();
+        scene.solver.end_s = 5e-3;
+        let mut plan = MapChoice::default().plan(&scene).unwrap();
+        (plan.x.count, plan.y.count) = (7, 5);
+        let mut job = MapJob::new(&plan, usize::MAX);
+        while !job.is_done() {
+            job.receive(Duration::from_millis(5));
+            job.pause();
+        }
+        assert_eq!(job.live().tried, 35);
+        for index in 0..plan.len() {
+            assert_eq!(job.live().map.cells[index], plan.compute(index, &|| true), "{index}");
+        }
+        // Of a map that is too much for a test, only the coarse blocks.
+        let mut coarse = MapJob::new(&plan, 1);
+        while !coarse.is_done() {
+            coarse.receive(Duration::from_millis(5));
+        }
+        assert!(coarse.whole().is_some() && !coarse.live().is_complete());
+    }
+
+    #[test]
+    fn the_run_of_a_cell_says_what_holds_it() {
+        let scene = Scene::builtin("paper-nd3").unwrap();
+        let plan = MapChoice::default().plan(&scene).unwrap();
+        // 502.5 rad/s and 1 MN.
+        let mut job = CellJob::of(&plan, [67, 30]);
+        while !job.is_done() {
+            job.receive(Duration::from_millis(5));
+        }
+        let run = job.found().unwrap();
+        assert_eq!(run.verdict, Verdict::Locked);
+        let blades: Vec<_> = run.contacts.iter().map(|(blades, _)| blades.clone()).collect();
+        assert_eq!(blades, [[19], [12]]);
+        assert!(run.since.unwrap() < 1e-4 && run.contacts.iter().all(|(_, force)| *force < 0.0));
+    }
+}

@@ -3,6 +3,7 @@
 //! while its view is open, in slices, and kept while its inputs stay the same.
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use super::full_run::SLICE;
 use super::map_job::{CellJob, MapJob};
@@ -99,7 +100,11 @@ impl Studies {
         let Some(plan) = order.map_plan() else { return };
         if let Some(cell) = order.cell {
             match self.cell.as_mut().filter(|job| job.is_of(&plan, cell)) {
-                Some(job) => job.receive(SLICE),
+                // An order waits for one of the two only.
+                Some(job) => {
+                    let other = self.map.as_ref().is_some_and(|map| !map.is_done());
+                    job.receive(if other { Duration::ZERO } else { SLICE });
+                }
                 None => self.cell = Some(CellJob::of(&plan, cell)),
             }
         }

@@ -16,7 +16,7 @@ pub use words::value_text;
 use super::panel::{ViewArea, ViewPanel, not_yet, title};
 use crate::report::map::write_csv;
 use crate::scene::CheckedScene;
-use crate::study::Axis;
+use crate::study::{Axis, MapPlan};
 use crate::tui::app::{App, Cursor};
 use crate::tui::text::{print, shorten};
 use crate::tui::theme::Role;
@@ -57,18 +57,8 @@ impl ViewPanel for MapView {
         app.shown_plan().map_or([0, 0], |plan| [plan.x.count, plan.y.count])
     }
 
-    /// The cell nearest to the present knobs.
     fn here(&self, app: &App) -> Cursor {
-        let part = |axis: &Axis| {
-            let count = f64::from(axis.count.max(1));
-            let place = axis.place(words::present(app, axis));
-            let place = if place.is_finite() { place.round().clamp(0.0, count - 1.0) } else { 0.0 };
-            (place + 0.5) / count
-        };
-        app.shown_plan().map_or(Cursor { across: 0.5, up: 0.5 }, |plan| Cursor {
-            across: part(&plan.x),
-            up: part(&plan.y),
-        })
+        app.shown_plan().map_or(Cursor { across: 0.5, up: 0.5 }, |plan| here(app, &plan))
     }
 
     /// The run of the cell: its knobs, and the law and solver of the map.
@@ -83,6 +73,17 @@ impl ViewPanel for MapView {
         write_csv(&live.map, &mut bytes).map_err(|error| error.to_string())?;
         String::from_utf8(bytes).map_err(|error| error.to_string())
     }
+}
+
+/// The cell of a map nearest to the present knobs.
+pub fn here(app: &App, plan: &MapPlan) -> Cursor {
+    let part = |axis: &Axis| {
+        let count = f64::from(axis.count.max(1));
+        let place = axis.place(words::present(app, axis));
+        let place = if place.is_finite() { place.round().clamp(0.0, count - 1.0) } else { 0.0 };
+        (place + 0.5) / count
+    };
+    Cursor { across: part(&plan.x), up: part(&plan.y) }
 }
 
 /// Says what the signs mean and what the cursor reads, beside the map or above

@@ -39,6 +39,15 @@ pub fn value_text(path: &str, value: f64) -> String {
     number(rounded(value, 4), unit(path))
 }
 
+/// As `value_text`; a number without a unit with its symbol, such as `n_d 3`.
+fn named_value(axis: &Axis, value: f64) -> String {
+    let symbol = knob(&axis.path).and_then(|knob| knob.label.split(' ').next_back());
+    match symbol.filter(|_| unit(&axis.path).is_empty()) {
+        Some(symbol) => format!("{symbol} {}", value_text(&axis.path, value)),
+        None => value_text(&axis.path, value),
+    }
+}
+
 /// The present value of the key on an axis.
 pub fn present(app: &App, axis: &Axis) -> f64 {
     match knob(&axis.path).map(|knob| knob.get(&app.scene)) {
@@ -151,7 +160,7 @@ fn now(app: &App, live: &LiveMap) -> String {
             return format!("now {name} {}: {side} the map", value_text(&axis.path, value));
         }
     }
-    let [x, y] = [&plan.x, &plan.y].map(|axis| value_text(&axis.path, present(app, axis)));
+    let [x, y] = [&plan.x, &plan.y].map(|axis| named_value(axis, present(app, axis)));
     format!("{} now {x}, {y}", app.appearance.either('╋', '+'))
 }
 
@@ -161,9 +170,14 @@ pub fn row(app: &App, live: &LiveMap) -> Line {
     let Some([head, verdict, detail]) = cell(app, live) else {
         return vec![("i reads a cell; X Y choose the axes".into(), look.style(Role::Quiet))];
     };
+    let shown = app.map_cell().and_then(|[column, row]| live.shown(column, row));
+    let (sign, style) =
+        shown.map_or((' ', look.style(Role::Text)), |cell| sign(look, cell.verdict));
     vec![
         (format!("[ ] {head}: "), look.style(Role::Text)),
-        (verdict, look.style(Role::Focus)),
+        // Its colour too, where there is no room for a legend.
+        (sign.to_string(), style),
+        (format!(" {verdict}"), look.style(Role::Focus)),
         (format!(" {detail}"), look.style(Role::Text)),
     ]
 }
@@ -173,7 +187,7 @@ fn cell(app: &App, live: &LiveMap) -> Option<[String; 3]> {
     let [column, row] = app.map_cell()?;
     let plan = &live.map.plan;
     let values = [(&plan.x, column), (&plan.y, row)]
-        .map(|(axis, place)| value_text(&axis.path, axis.value(place)));
+        .map(|(axis, place)| named_value(axis, axis.value(place)));
     let run = app.latest.results.cell.as_deref();
     let run = run.filter(|run| run.cell == [column, row] && run.plan == *plan);
     let verdict = match (live.map.at(column, row), run) {
