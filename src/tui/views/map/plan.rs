@@ -241,17 +241,18 @@ mod tests {
                 let plans = [(across, usual.y.path), (up, usual.x.path)];
                 for (choice, other) in plans.into_iter().filter(|(_, path)| *path != knob.path) {
                     let plan = choice.plan(&scene);
-                    if knob.path == TORQUE && scene.solver.model == ModelSize::Rigid {
-                        // Rigid blades do not move under a torque: it says so.
-                        assert!(plan.unwrap_err().contains("do not move"));
-                        continue;
-                    }
-                    if scene.initial != Scene::base().initial && plan.is_err() {
-                        // The start of this scene is too far out for some cells.
-                        assert!(plan.unwrap_err().starts_with("initial."));
-                        continue;
-                    }
-                    let plan = plan.unwrap_or_else(|why| panic!("{} {other}: {why}", knob.path));
+                    let rigid = knob.path == TORQUE && scene.solver.model == ModelSize::Rigid;
+                    let plan = match plan {
+                        Ok(plan) => plan,
+                        // Rigid blades do not move under a torque, and the start of a
+                        // scene can be too far out for some cells: it says so.
+                        Err(why) if rigid && why.contains("do not move") => continue,
+                        Err(why) if why.starts_with("initial.") => {
+                            assert!(scene.initial != Scene::base().initial, "{why}");
+                            continue;
+                        }
+                        Err(why) => panic!("{} {other}: {why}", knob.path),
+                    };
                     assert!(plan.x.to > plan.x.from && plan.y.to > plan.y.from, "{plan:?}");
                     let whole = plan.x.path == "operation.nodal_diameters";
                     assert!(!whole || plan.x.values().iter().all(|n| n.fract() == 0.0));
