@@ -213,19 +213,25 @@ fn write_speeds(map: &Map, across: usize, columns: usize, out: &mut dyn Write) -
     Ok(())
 }
 
+/// What a verdict means, in a few words.
+#[must_use]
+pub fn means(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Decay => "contact ends",
+        Verdict::Bounce => "contacts come and go",
+        Verdict::Slip => "contact without a break, but not held",
+        Verdict::Locked => "held by the same blades, which push",
+        Verdict::Adhesive => "held by the same blades, some of which pull",
+        Verdict::Failed => "the computation broke down",
+    }
+}
+
 fn write_legend(map: &Map, out: &mut dyn Write) -> Result<()> {
     let (census, sensitive) = map.census();
     let cells = map.cells.len();
     for (verdict, count) in census.into_iter().filter(|&(_, count)| count > 0) {
         let plain = mark(Some(Cell { verdict, sensitive: false }));
-        let means = match verdict {
-            Verdict::Decay => "contact ends",
-            Verdict::Bounce => "contacts come and go",
-            Verdict::Slip => "contact without a break, but not held",
-            Verdict::Locked => "held by the same blades, which push",
-            Verdict::Adhesive => "held by the same blades, some of which pull",
-            Verdict::Failed => "the computation broke down",
-        };
+        let means = means(verdict);
         writeln!(out, "{plain}  {verdict}, {means}: {count} of {cells} cells")?;
     }
     if sensitive > 0 {

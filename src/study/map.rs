@@ -64,6 +64,12 @@ impl MapPlan {
         self.len() == 0
     }
 
+    /// The number of the cell in a column and a row.
+    #[must_use]
+    pub fn index(&self, column: u32, row: u32) -> usize {
+        row as usize * self.x.count as usize + column as usize
+    }
+
     /// The scene of a cell.
     ///
     /// # Errors
@@ -183,7 +189,7 @@ impl Map {
     /// The cell of a column and a row.
     #[must_use]
     pub fn at(&self, column: u32, row: u32) -> Option<Cell> {
-        *self.cells.get(row as usize * self.plan.x.count as usize + column as usize)?
+        *self.cells.get(self.plan.index(column, row))?
     }
 
     /// How many cells have each verdict, and how many are sensitive.

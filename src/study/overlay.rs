@@ -41,6 +41,17 @@ pub fn speed_curves(plan: &MapPlan) -> Vec<Curve> {
     ]
 }
 
+/// As `speed_curves`, and the dangerous coincidence.
+#[must_use]
+pub fn threshold_curves(plan: &MapPlan) -> Vec<Curve> {
+    let mut curves = speed_curves(plan);
+    if let Some(of_speed) = AlongOther::of(plan, SPEED) {
+        let speed = |scene: &Scene| scene.machine().dangerous_speed();
+        curves.push(of_speed.trace("coincidence", speed));
+    }
+    curves
+}
+
 /// A map with one axis over a given key; curves go along the other axis.
 struct AlongOther<'a> {
     plan: &'a MapPlan,

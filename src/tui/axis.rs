@@ -1,6 +1,8 @@
 //! Axes: round ticks (1-2-5), labels under one SI prefix per axis, and ranges
 //! that follow the data with hysteresis, so that the scale does not jump.
 
+use super::knobs::number;
+
 /// A step of 1, 2 or 5 times a power of ten that puts at most `most` ticks in
 /// `span`; none for a span that is not a positive number.
 pub fn nice_step(span: f64, most: usize) -> Option<f64> {
@@ -99,6 +101,8 @@ pub struct ChartAxis {
     pub scale: SiScale,
     /// Whether the range is that of the exponents of powers of ten.
     powers: bool,
+    /// The unit that these powers have.
+    unit: Option<&'static str>,
 }
 
 impl ChartAxis {
@@ -109,12 +113,17 @@ impl ChartAxis {
 
     /// An axis without a prefix.
     pub fn plain(low: f64, high: f64) -> Self {
-        Self { low, high, scale: SiScale::plain(), powers: false }
+        Self { low, high, scale: SiScale::plain(), powers: false, unit: None }
     }
 
     /// An axis of powers of ten, from one exponent to another.
     pub fn powers(low: f64, high: f64) -> Self {
         Self { powers: true, ..Self::plain(low, high) }
+    }
+
+    /// As `powers`, with a unit and its prefix: `100 kN` for `1e5`.
+    pub fn powers_of(low: f64, high: f64, unit: &'static str) -> Self {
+        Self { unit: Some(unit), ..Self::powers(low, high) }
     }
 
     /// Round values and their spacing; for powers only whole exponents.
@@ -128,7 +137,11 @@ impl ChartAxis {
 
     /// The label of a tick.
     pub(super) fn label(&self, value: f64, step: f64) -> String {
-        if self.powers { format!("1e{value:.0}") } else { self.scale.label(value, step) }
+        match (self.powers, self.unit) {
+            (true, Some(unit)) => number(10f64.powi(value.round() as i32), unit),
+            (true, None) => format!("1e{value:.0}"),
+            (false, _) => self.scale.label(value, step),
+        }
     }
 
     /// The value at a part of the axis, 0 to 1.

@@ -9,10 +9,11 @@ use super::history::Bin;
 use super::trace::{Mark, Trace};
 use super::views::ViewId;
 use super::views::locked::curves::LockedCurves;
+use super::views::map::{CellRun, LiveMap, MapChoice};
 use super::views::spectrum::transform::Spectrum;
 use crate::motion::{ActiveSet, Checks, Hold, State, Verdict};
 use crate::scene::CheckedScene;
-use crate::study::Map;
+use crate::study::MapPlan;
 use crate::study::precision::Precision;
 
 /// The task of the engine. Counters only grow, so that no key press is lost
@@ -47,12 +48,21 @@ pub struct Order {
     pub cursor_s: Option<f64>,
     /// The views on the screen: their studies are computed.
     pub open: Vec<ViewId>,
+    /// What the map sweeps, and under which law.
+    pub map: MapChoice,
+    /// Column and row of the map's cell whose run is wanted.
+    pub cell: Option<[u32; 2]>,
 }
 
 impl Order {
     /// Whether a view is on the screen.
     pub fn shows(&self, view: ViewId) -> bool {
         self.open.contains(&view)
+    }
+
+    /// The map to compute, while its view is open and the scene has one.
+    pub fn map_plan(&self) -> Option<MapPlan> {
+        self.shows(ViewId::Map).then(|| self.map.plan(&self.scene).ok()).flatten()
     }
 
     /// Number of the knobs' state: grows with every restart, live change and pulse.
@@ -167,7 +177,9 @@ pub struct Results {
     /// The spectrum of the run, while its view is open.
     pub spectrum: Option<Arc<Spectrum>>,
     /// The map, while its view is open; cells arrive one by one.
-    pub map: Option<Arc<Map>>,
+    pub map: Option<Arc<LiveMap>>,
+    /// The run of the map's cell that was asked for.
+    pub cell: Option<Arc<CellRun>>,
     /// Speed against error, while its view is open; rows arrive one by one.
     pub precision: Option<Arc<Precision>>,
     /// Solver speed.

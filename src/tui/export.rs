@@ -39,13 +39,24 @@ pub fn svg(app: &App) -> String {
         let colour = hex(cell.fg, app.appearance.theme).unwrap_or(ink);
         let reversed = cell.modifier.contains(Modifier::REVERSED);
         if reversed {
-            let (w, h) = CELL;
-            out.push_str(&format!(
-                "<rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\" fill=\"{colour}\"/>\n"
-            ));
+            out.push_str(&block(x, y, CELL.1, colour));
         }
-        if cell.symbol() == " " {
-            continue;
+        if let Some(behind) = hex(cell.bg, app.appearance.theme) {
+            out.push_str(&block(x, y, CELL.1, behind));
+        }
+        // The halves of a block meet; letters of most fonts do not.
+        let half = CELL.1 / 2;
+        match cell.symbol() {
+            " " => continue,
+            "▀" => {
+                out.push_str(&block(x, y, half, colour));
+                continue;
+            }
+            "▄" => {
+                out.push_str(&block(x, y + half, CELL.1 - half, colour));
+                continue;
+            }
+            _ => {}
         }
         let fill = if reversed { ground } else { colour };
         if let Some(dots) = sub_pixels(cell.symbol()) {
@@ -71,6 +82,12 @@ pub fn svg(app: &App) -> String {
     out
 }
 
+/// A filled part of a cell.
+fn block(x: u32, y: u32, height: u32, fill: &str) -> String {
+    let width = CELL.0;
+    format!("<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" fill=\"{fill}\"/>\n")
+}
+
 /// A named colour for its background: light on dark, dark on light. None for
 /// the default colour of the text.
 fn hex(colour: Color, theme: Theme) -> Option<&'static str> {
@@ -81,6 +98,8 @@ fn hex(colour: Color, theme: Theme) -> Option<&'static str> {
         Color::LightRed | Color::Red => ["#ff6b6b", "#c01c28"],
         Color::LightGreen | Color::Green => ["#7bd88f", "#1a7f37"],
         Color::LightYellow | Color::Yellow => ["#f5d76e", "#8a6d00"],
+        Color::Cyan => ["#2fa8b5", "#00707a"],
+        Color::White => ["#ffffff", "#9aa0a6"],
         Color::LightBlue | Color::Blue => ["#78a9ff", "#0b57d0"],
         _ => return None,
     };

@@ -54,7 +54,8 @@ impl<'a> Plot<'a> {
         let below = if rule { 2 } else { 1 };
         let rows = area.height - below;
         let (y_ticks, y_step) = y.ticks(usize::from(rows.div_ceil(2)).clamp(1, 7));
-        let labels: Vec<String> = y_ticks.iter().map(|v| y.label(*v, y_step)).collect();
+        let labels: Vec<String> =
+            y_ticks.iter().map(|v| look.spell(&y.label(*v, y_step))).collect();
         let gutter = labels.iter().map(|label| label.chars().count()).max().unwrap_or(1).max(2);
         let gutter = u16::try_from(gutter).unwrap_or(6).min(area.width / 2) + 1;
         let inner = Rect::new(area.x + gutter, area.y, area.width - gutter, rows);
@@ -95,7 +96,7 @@ impl<'a> Plot<'a> {
             if rule {
                 self.put(column, inner.bottom(), floor_tick, quiet);
             }
-            let label = self.x.label(value, step);
+            let label = look.spell(&self.x.label(value, step));
             let width = u16::try_from(label.chars().count()).unwrap_or(0);
             let start = column
                 .saturating_sub(width / 2)

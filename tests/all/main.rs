@@ -67,6 +67,7 @@ mod tui_hostile;
 mod tui_knobs;
 mod tui_lessons;
 mod tui_loop;
+mod tui_map;
 mod tui_mouse;
 mod tui_presentation;
 mod tui_random;

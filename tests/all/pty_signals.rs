@@ -68,7 +68,7 @@ fn a_signal_ends_it_in_every_state_read_or_not() {
         ("s", "save the scene as"),
         (" ", "pause"),
         ("c", "bilateral:"),
-        ("f5", "view"),
+        ("f5", "5 map"),
     ];
     for (keys, seen) in states {
         for read in [true, false] {

@@ -60,7 +60,7 @@ impl App {
         if let Some(cursor) = self.cursor
             && let Some(scene) = self.view.panel().scene_at(self, cursor)
         {
-            self.turn_to(scene);
+            self.open_run(scene);
         }
     }
 }

@@ -1,14 +1,18 @@
 //! The state of the explorer, without a terminal: the screen is a function of
 //! this value, and only keys and snapshots change it.
 
+mod baseline;
 mod command;
 mod cursor;
 mod files;
 mod help;
 mod lesson;
+mod map;
+mod mode;
 mod mouse;
 mod palette;
 mod past;
+mod ranges;
 mod scenes;
 mod snapshot;
 mod sweep;
@@ -17,68 +21,39 @@ mod turn;
 mod update;
 mod verdict;
 
+pub use baseline::Baseline;
 pub use cursor::{Cursor, cell_of};
 pub use help::HelpState;
 pub use lesson::LessonProgress;
+pub use mode::{InputMode, Purpose};
 pub use mouse::Heard;
 pub use palette::PaletteState;
+pub use ranges::Ranges;
 pub use scenes::SceneEntry;
 pub use sweep::Sweep;
 pub use time::RATES;
 pub use update::Effect;
 pub use verdict::VerdictText;
 
-use past::Past;
 use std::cell::RefCell;
 
 use ratatui::layout::Rect;
 
+use past::Past;
+
 use super::appearance::Appearance;
-use super::axis::AutoRange;
 use super::bindings::Context;
 use super::engine::{Moment, Order, Snapshot};
 use super::history::BinHistory;
-use super::knobs::{KNOBS, Knob};
 use super::lessons::LessonsDone;
 use super::line::Line;
 use super::raster::Marker;
 use super::scenes::FoundScenes;
 use super::theme::Theme;
 use super::views::ViewId;
+use super::views::map::MapChoice;
 use crate::model::Machine;
 use crate::scene::{CheckedScene, Scene};
-
-/// A pinned run, drawn behind the next ones.
-#[derive(Clone, Debug)]
-pub struct Baseline {
-    /// Its record.
-    pub history: BinHistory,
-    /// Its verdict.
-    pub words: VerdictText,
-    /// Its scene.
-    pub scene: CheckedScene,
-}
-
-impl Baseline {
-    /// What was pinned: the knobs in which it differs from the present scene, and
-    /// its verdict.
-    pub fn what(&self, app: &App) -> String {
-        let differs = |knob: &&Knob| knob.get(&self.scene) != knob.get(&app.scene);
-        let shown = |knob: &Knob| format!("{} {}", knob.label, knob.shown(&knob.get(&self.scene)));
-        let mut parts: Vec<String> = KNOBS.iter().filter(differs).take(2).map(shown).collect();
-        parts.push(self.words.word.clone());
-        parts.join(", ")
-    }
-}
-
-/// The purpose of a file name that is typed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Purpose {
-    /// The scene as a TOML file.
-    Save,
-    /// The large chart's data as CSV, or the screen as SVG.
-    Export,
-}
 
 /// Where a scene is from.
 #[derive(Clone, Debug, PartialEq)]
@@ -99,29 +74,6 @@ pub struct Writing {
     undisturbed: bool,
 }
 
-/// What the keyboard acts on.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum InputMode {
-    /// Knobs and charts.
-    Main,
-    /// The value of the selected knob is being typed.
-    Typing(String),
-    /// The help is open.
-    Help(HelpState),
-    /// A command is being looked for.
-    Palette(PaletteState),
-    /// The end of a sweep of the selected knob is being typed.
-    Sweeping(String),
-    /// A file name is being typed.
-    Naming(Purpose, String),
-    /// A question: replace the existing file?
-    Replacing(Purpose, String),
-    /// A lesson is being chosen.
-    Lessons(usize),
-    /// A scene is being chosen: its place in the list, or the open one.
-    Scenes(Option<usize>),
-}
-
 /// How the explorer ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Exit {
@@ -129,31 +81,6 @@ pub enum Exit {
     Done,
     /// A signal ended it.
     Signal(u8),
-}
-
-/// Ranges of the charts; they follow the data with hysteresis.
-#[derive(Clone, Copy, Debug)]
-pub struct Ranges {
-    /// `u_c`, `u_s` \[m\].
-    pub casing: AutoRange,
-    /// `alpha_c`, `alpha_s` \[rad\].
-    pub blades: AutoRange,
-    /// Gaps \[m\].
-    pub gaps: AutoRange,
-    /// Whether they follow.
-    pub follow: bool,
-}
-
-impl Ranges {
-    /// Ranges at the start: the clearance and a little more.
-    pub fn of(clearance: f64) -> Self {
-        Self {
-            casing: AutoRange::new(-1.25 * clearance, 1.25 * clearance),
-            blades: AutoRange::new(-1e-9, 1e-9),
-            gaps: AutoRange::new(-0.2 * clearance, 2.2 * clearance),
-            follow: true,
-        }
-    }
 }
 
 /// The explorer.
@@ -199,6 +126,8 @@ pub struct App {
     pub live: bool,
     /// The record of the running motion.
     pub history: BinHistory,
+    /// What the map sweeps, and under which law.
+    pub map: MapChoice,
     /// The parts of the latest snapshot that belong to this scene.
     pub latest: Snapshot,
     /// Whether the motion slows down at changes of contact and hurries between.
@@ -306,6 +235,7 @@ impl App {
             compare: false,
             live: false,
             history: BinHistory::default(),
+            map: MapChoice::default(),
             latest: Snapshot::default(),
             slow_at_events: true,
             sweep: None,
@@ -372,6 +302,8 @@ impl App {
             slow_at_events: self.slow_at_events,
             cursor_s: self.cursor_time(),
             open: ViewId::all().filter(|view| self.is_open(*view)).collect(),
+            map: self.map,
+            cell: self.map_cell(),
         }
     }
 

@@ -184,9 +184,9 @@ impl App {
         match action {
             Action::Help => self.mode = InputMode::Help(HelpState::default()),
             Action::Palette => self.mode = InputMode::Palette(PaletteState::default()),
-            Action::NextView => self.show(self.neighbour(1)),
-            Action::PreviousView => self.show(self.neighbour(-1)),
-            Action::View(view) => self.show(view),
+            Action::NextView => self.walk(self.neighbour(1)),
+            Action::PreviousView => self.walk(self.neighbour(-1)),
+            Action::View(view) => self.walk(view),
             Action::KnobAbove => self.select(true),
             Action::KnobBelow => self.select(false),
             Action::Turn { up, coarse } => self.turn(up, coarse),
@@ -213,6 +213,8 @@ impl App {
                 self.counters.jumps += 1;
             }
             Action::Pin => self.pin(),
+            Action::OtherLaw if self.view == ViewId::Map => self.other_map_law(),
+            Action::MapAxis { up } => self.next_map_axis(up),
             Action::OtherLaw => self.set_compare(!self.compare),
             Action::Save => self.mode = InputMode::Naming(Purpose::Save, "scene.toml".into()),
             Action::Export => {

@@ -63,6 +63,7 @@ impl Action {
             | Self::Autoscale
             | Self::Pin
             | Self::OtherLaw
+            | Self::MapAxis { .. }
             | Self::Read
             | Self::Cursor { .. }
             | Self::OpenPlace => Group::Views,

@@ -67,6 +67,7 @@ pub enum Action {
     Read,
     Cursor { right: i64, up: i64, coarse: bool },
     OpenPlace,
+    MapAxis { up: bool },
     Yes,
     Accept,
     DeleteLast,

@@ -121,7 +121,9 @@ const BEFORE_VIEWS: &[Binding] = &[
     bind!(Main, [letter('o')], Action::Scenes, "open a scene: built-in ones, and files of this folder", "o" "scenes"),
     bind!(Main, [letter('n')], Action::Jump, "on to the next change of contact (pauses)"),
     bind!(Main, [letter('b')], Action::Pin, "pin this run as a baseline behind the next, or remove it", "b" "pin"),
-    bind!(Main, [letter('c')], Action::OtherLaw, "the other contact law next to this one", "c" "both laws"),
+    bind!(Main, [letter('c')], Action::OtherLaw, "the other contact law next to this one; in the map, its law", "c" "both laws"),
+    bind!(Main, [letter('X')], Action::MapAxis { up: false }, "the next knob across the map"),
+    bind!(Main, [letter('Y')], Action::MapAxis { up: true }, "the next knob up the map"),
     bind!(Main, [letter('s')], Action::Save, "save the scene"),
     bind!(
         Main,

@@ -5,7 +5,7 @@
 mod frame;
 mod gaps;
 pub mod locked;
-mod map;
+pub mod map;
 mod panel;
 mod precision;
 mod response;

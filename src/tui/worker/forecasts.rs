@@ -33,6 +33,11 @@ impl Forecasts {
         }
     }
 
+    /// The studies.
+    pub fn studies(&mut self) -> &mut Studies {
+        &mut self.studies
+    }
+
     /// The studies, for the next motion.
     pub fn take_studies(&mut self) -> Studies {
         self.studies.forget_spectrum();

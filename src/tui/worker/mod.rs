@@ -7,6 +7,7 @@ mod copies;
 mod forecasts;
 mod full_run;
 mod jump;
+mod map_job;
 mod pacing;
 mod playback;
 mod precision;

@@ -88,9 +88,15 @@ impl Playback {
         playback
     }
 
+    /// Limits the cells of a map.
+    pub fn limit_cells(&mut self, most: usize) {
+        self.forecasts.studies().limit_cells(most);
+    }
+
     /// Takes a newer order and does what its counters ask for.
     pub fn apply(&mut self, order: &Order) {
         let before = std::mem::replace(&mut self.order, order.clone());
+        self.forecasts.studies().stop_unwanted(order);
         if order.restarts != before.restarts {
             let studies = self.forecasts.take_studies();
             *self = Self::start(order.clone(), self.time_limit, studies);

@@ -7,11 +7,16 @@ use std::time::Duration;
 use super::Playback;
 use crate::tui::engine::{Engine, Limit, Order, Pace, Snapshot};
 
+/// Cells of a map unless more are asked for: blocks of eight by eight.
+const MAP_CELLS: usize = 66;
+
 /// The engine driven by hand.
 #[derive(Debug)]
 pub struct Stepwise {
     /// Motion between two snapshots \[s\].
     pub stride: f64,
+    /// Most cells of a map, the coarsest ones.
+    pub map_cells: usize,
     order: Option<Order>,
     playback: Option<Playback>,
     fresh: bool,
@@ -20,7 +25,7 @@ pub struct Stepwise {
 impl Stepwise {
     /// An engine that plays `stride` seconds of motion between two snapshots.
     pub fn new(stride: f64) -> Self {
-        Self { stride, order: None, playback: None, fresh: false }
+        Self { stride, map_cells: MAP_CELLS, order: None, playback: None, fresh: false }
     }
 }
 
@@ -34,6 +39,7 @@ impl Engine for Stepwise {
         let order = self.order.as_ref()?;
         let start = || Playback::with_time_limit(order.clone(), Duration::MAX);
         let playback = self.playback.get_or_insert_with(start);
+        playback.limit_cells(self.map_cells);
         playback.apply(order);
         while playback.is_computing() {
             playback.compute();

@@ -3,32 +3,29 @@
 //! while its view is open, in slices, and kept while its inputs stay the same.
 
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::full_run::SLICE;
+use super::map_job::{CellJob, MapJob};
 use super::precision::PrecisionJob;
-use crate::scene::{ContactLaw, ModelSize, Scene, SolverKind};
-use crate::study::{Axis, Map, MapPlan};
+use crate::scene::Scene;
 use crate::tui::engine::{Order, Results};
 use crate::tui::views::ViewId;
-use crate::tui::views::locked::curves::{LockedCurves, speed_range};
+use crate::tui::views::locked::curves::LockedCurves;
+use crate::tui::views::map::LiveMap;
 use crate::tui::views::spectrum::transform::Spectrum;
-
-/// Cells of the map, across and up.
-const CELLS: (u32, u32) = (60, 24);
-/// Pulses of the map \[N\].
-const PULSES: (f64, f64) = (1e3, 1e7);
-/// Longest wall time of one cell of the map: an ordinary one takes a thousandth
-/// of it.
-const CELL_LIMIT: Duration = Duration::from_millis(100);
 
 /// The studies of one scene.
 #[derive(Debug, Default)]
 pub struct Studies {
     locked: Option<(Scene, Arc<LockedCurves>)>,
     spectrum: Option<Arc<Spectrum>>,
-    map: Option<Arc<Map>>,
-    map_next: usize,
+    map: Option<MapJob>,
+    /// The map before, until the whole of the new one can be seen.
+    map_before: Option<Arc<LiveMap>>,
+    cell: Option<CellJob>,
+    /// Most cells of a map; none for all of them.
+    most_cells: Option<usize>,
     precision: Option<PrecisionJob>,
 }
 
@@ -38,11 +35,32 @@ impl Studies {
         self.spectrum = None;
     }
 
+    /// Limits the cells of a map.
+    pub fn limit_cells(&mut self, most: usize) {
+        self.most_cells = Some(most);
+    }
+
+    /// Stops what the order does not want any more, so that its own work has the
+    /// processor.
+    pub fn stop_unwanted(&mut self, order: &Order) {
+        let plan = order.map_plan();
+        if let Some(job) = &mut self.map
+            && plan.as_ref() != Some(job.plan())
+        {
+            job.pause();
+        }
+        let cell = plan.as_ref().zip(order.cell);
+        if !self.cell.as_ref().is_some_and(|job| cell.is_some_and(|(plan, at)| job.is_of(plan, at)))
+        {
+            self.cell = None;
+        }
+    }
+
     /// Whether a study that is needed is missing.
     pub fn is_computing(&self, order: &Order) -> bool {
         self.locked_is_old(order)
             || (order.shows(ViewId::Spectrum) && self.spectrum.is_none())
-            || (order.shows(ViewId::Map) && !self.map_is_done(order))
+            || !self.map_is_done(order)
             || (order.shows(ViewId::Precision) && !self.precision_is_done(order))
     }
 
@@ -52,9 +70,11 @@ impl Studies {
 
     fn map_is_done(&self, order: &Order) -> bool {
         // A scene without a map has nothing left to compute.
-        let Some(plan) = plan(&order.scene) else { return true };
-        let complete = |map: &Arc<Map>| self.map_next >= map.cells.len() && plan == map.plan;
-        self.map.as_ref().is_some_and(complete)
+        let Some(plan) = order.map_plan() else { return true };
+        let map = self.map.as_ref().is_some_and(|job| job.is_done() && *job.plan() == plan);
+        let run =
+            |cell| self.cell.as_ref().is_some_and(|job| job.is_of(&plan, cell) && job.is_done());
+        map && order.cell.is_none_or(run)
     }
 
     fn precision_is_done(&self, order: &Order) -> bool {
@@ -69,35 +89,34 @@ impl Studies {
             self.locked = Some((order.scene.clone().into_scene(), curves));
         } else if order.shows(ViewId::Spectrum) && self.spectrum.is_none() {
             self.spectrum = Some(Arc::new(Spectrum::of(&signal(), length)));
-        } else if order.shows(ViewId::Map) && !self.map_is_done(order) {
-            self.compute_map(&order.scene);
+        } else if !self.map_is_done(order) {
+            self.compute_map(order);
         } else if order.shows(ViewId::Precision) {
             self.compute_precision(&order.scene);
         }
     }
 
-    fn compute_map(&mut self, scene: &Scene) {
-        let Some(plan) = plan(scene) else { return };
-        if self.map.as_ref().is_none_or(|map| map.plan != plan) {
-            self.map = Some(Arc::new(Map::empty(plan)));
-            self.map_next = 0;
+    fn compute_map(&mut self, order: &Order) {
+        let Some(plan) = order.map_plan() else { return };
+        if let Some(cell) = order.cell {
+            match self.cell.as_mut().filter(|job| job.is_of(&plan, cell)) {
+                // An order waits for one of the two only.
+                Some(job) => {
+                    let other = self.map.as_ref().is_some_and(|map| !map.is_done());
+                    job.receive(if other { Duration::ZERO } else { SLICE });
+                }
+                None => self.cell = Some(CellJob::of(&plan, cell)),
+            }
         }
-        let Some(map) = &mut self.map else { return };
-        let map = Arc::make_mut(map);
-        let began = Instant::now();
-        let count = map.cells.len();
-        while self.map_next < count && began.elapsed() < SLICE {
-            // A stride without a common divisor visits every cell, spread over
-            // the whole map.
-            let index = (self.map_next * stride(count)) % count;
-            let cell_began = Instant::now();
-            let cell = map.plan.compute(index, &|| cell_began.elapsed() < CELL_LIMIT);
-            // A cell that takes too long stays empty.
-            map.runs += u64::from(cell.is_some());
-            map.cells.set(index, cell);
-            self.map_next += 1;
+        if self.map.as_ref().is_none_or(|job| *job.plan() != plan) {
+            let job = MapJob::new(&plan, self.most_cells.unwrap_or(usize::MAX));
+            let before = self.map.replace(job);
+            let shown = before.as_ref().and_then(MapJob::whole).cloned();
+            self.map_before = shown.or(self.map_before.take());
         }
-        map.wall_s += began.elapsed().as_secs_f64();
+        if let Some(job) = &mut self.map {
+            job.receive(SLICE);
+        }
     }
 
     fn compute_precision(&mut self, scene: &Scene) {
@@ -111,65 +130,11 @@ impl Studies {
     pub fn show(&self, results: &mut Results) {
         results.locked = self.locked.as_ref().map(|(_, curves)| Arc::clone(curves));
         results.spectrum.clone_from(&self.spectrum);
-        results.map.clone_from(&self.map);
+        // The map before stays until the whole of the new one can be seen.
+        let job = self.map.as_ref();
+        let whole = job.and_then(MapJob::whole);
+        results.map = whole.or(self.map_before.as_ref()).or(job.map(MapJob::live)).cloned();
+        results.cell = self.cell.as_ref().and_then(CellJob::found).cloned();
         results.precision = self.precision.as_ref().and_then(PrecisionJob::report).cloned();
-    }
-}
-
-/// The map of a scene: speed from zero to above all thresholds, pulse over four
-/// decades, by the event solver with rigid blades.
-fn plan(scene: &Scene) -> Option<MapPlan> {
-    let mut scene = scene.clone();
-    let speed = scene.operation.speed_rad_s.abs();
-    let machine = scene.machine();
-    let thresholds = [machine.lock_speed(), machine.dangerous_speed(), machine.critical_speed()];
-    // The range does not depend on the speed, unless the speed is far outside.
-    scene.operation.speed_rad_s = 1.3 * thresholds.into_iter().flatten().fold(1.0, f64::max);
-    let usual = speed_range(&scene);
-    scene.operation.speed_rad_s = speed;
-    let fastest = if speed > usual { speed_range(&scene) } else { usual };
-    scene.solver.kind = SolverKind::Event;
-    scene.solver.contact = ContactLaw::Unilateral;
-    scene.solver.model = ModelSize::Rigid;
-    scene.operation.speed_rad_s = 0.0;
-    scene.operation.pulse_n = 0.0;
-    let x = Axis::new("operation.speed_rad_s", 0.0, fastest, CELLS.0, false).ok()?;
-    let y = Axis::new("operation.pulse_n", PULSES.0, PULSES.1, CELLS.1, true).ok()?;
-    let plan = MapPlan { scene, x, y, sensitivity: false };
-    plan.check().is_ok().then_some(plan)
-}
-
-/// A stride near the golden section of `count` without a common divisor.
-fn stride(count: usize) -> usize {
-    let gcd = |mut a: usize, mut b: usize| {
-        while b != 0 {
-            (a, b) = (b, a % b);
-        }
-        a
-    };
-    let start = (count as f64 * 0.618) as usize;
-    (start.max(1)..).find(|stride| gcd(*stride, count) == 1).unwrap_or(1)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_stride_visits_every_cell_once() {
-        for count in [1, 2, 60 * 24, 97] {
-            let mut seen = vec![false; count];
-            (0..count).for_each(|k| seen[(k * stride(count)) % count] = true);
-            assert!(seen.iter().all(|cell| *cell), "{count}");
-        }
-    }
-
-    #[test]
-    fn the_map_does_not_depend_on_the_knobs_it_sweeps() {
-        let mut scene = Scene::base();
-        let before = plan(&scene).unwrap();
-        scene.operation.pulse_n = 5.0;
-        scene.operation.speed_rad_s = 100.0;
-        assert_eq!(plan(&scene).unwrap(), before);
     }
 }

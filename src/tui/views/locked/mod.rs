@@ -1,22 +1,34 @@
 //! View 3: the multipliers of the locked motion against speed, the speeds
-//! of the thresholds, the present speed, and the forces of the running motion.
+//! of the thresholds, the present speed, and the forces of the running motion;
+//! blade angles and amplitudes below if there is room.
 
+mod charts;
 pub mod curves;
 
 use ratatui::buffer::Buffer;
+use ratatui::layout::{Constraint, Layout, Rect};
 
 use super::panel::{ViewArea, ViewPanel, csv, entry, title};
 use crate::harmonic::{LockedPoint, Sweep};
 use crate::motion::ActiveSet;
-use crate::tui::app::App;
-use crate::tui::axis::{ChartAxis, nice_step};
+use crate::tui::app::{App, Cursor};
+use crate::tui::axis::ChartAxis;
 use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
-use crate::tui::text::print;
+use crate::tui::text::{print, shorten, wrap};
 use crate::tui::theme::Role;
+use charts::{AMPLITUDES, ANGLES};
+use curves::LockedCurves;
 
 /// From this height on, the undamped curve of the paper is shown too.
 const ROOMY: u16 = 14;
+/// From these heights on, the blade angles, and the amplitudes too, have charts.
+const TWO_FROM: u16 = 18;
+const THREE_FROM: u16 = 27;
+/// From this width on, the legend names the forces of the running motion.
+const NAMED_FROM: u16 = 52;
+/// Most rows of what the reading cursor reads.
+const READ_ROWS: usize = 3;
 
 /// The view.
 pub struct LockedView;
@@ -27,68 +39,30 @@ impl ViewPanel for LockedView {
     }
 
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
-        let look = &app.appearance;
-        let quiet = look.style(Role::Quiet);
         let curves = app.latest.results.locked.as_deref();
-        let roomy = at.area.height >= ROOMY;
-        let pair = curves.is_some_and(|curves| curves.undamped.is_some());
-        let point = look.either('◆', '@');
-        let mut legend = vec![entry(look, &look.first(), if pair { "λ_a" } else { "λ" })];
-        if pair {
-            legend.push(entry(look, &look.second(), "λ_b"));
-        }
-        let points = running(app);
-        let forces: Vec<String> = points.iter().take(2).map(|force| short(*force)).collect();
-        let now = if points.is_empty() { "running".to_string() } else { forces.join(" ") };
-        legend.push((format!("{point} {now}"), look.style(Role::Contact)));
-        legend.push(("N over rad/s".into(), quiet));
-        legend.push(("below 0 pushes".into(), quiet));
-        if pair && roomy {
-            legend.push(entry(look, &look.quiet(), "undamped"));
-        }
-        let inside = title(app, buffer, at, "locked λ(Ω)", &legend);
-        let Some(curves) = curves else { return };
-        let Some(damped) = &curves.damped else {
-            let text = "no corner between two blade groups: this wave never locks";
-            print(buffer, inside, 1, text, quiet);
-            return;
+        let locks = curves.filter(|curves| curves.damped.is_some());
+        let below: &[charts::Chart] = match at.area.height {
+            THREE_FROM.. => &[ANGLES, AMPLITUDES],
+            TWO_FROM.. => &[ANGLES],
+            _ => &[],
         };
-        let lambdas = damped.points.iter().flat_map(|point| point.multipliers_n);
-        // The scale follows the curves: the mean over an impact may be far outside.
-        let (low, high) = lambdas
-            .filter(|lambda| lambda.is_finite())
-            .fold((0.0_f64, 0.0_f64), |(a, b), v| (a.min(v), b.max(v)));
-        let step = nice_step(high - low, 6).unwrap_or(1.0);
-        let y = ChartAxis::scaled((low / step).floor() * step, (high / step).ceil() * step);
-        let x = ChartAxis::plain(0.0, curves.fastest);
-        let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
-        at.note(app, plot.inner);
-        let marks = thresholds(app);
-        plot.level(0.0, look.either('┈', '.'), quiet);
-        for (speed, _) in &marks {
-            plot.upright(*speed, look.either('┊', ':'), quiet);
+        let Some(curves) = locks else { return multipliers(app, buffer, at) };
+        let mut rows = vec![Constraint::Fill(if below.len() > 1 { 5 } else { 6 })];
+        rows.extend(below.iter().map(|_| Constraint::Fill(if below.len() > 1 { 3 } else { 4 })));
+        let areas = Layout::vertical(rows).split(at.area);
+        let mut areas = areas.iter().map(|area| ViewArea { area: *area, ..at });
+        if let Some(first) = areas.next() {
+            multipliers(app, buffer, first);
         }
-        let speed = app.speed().abs();
-        plot.upright(speed, look.either('│', '|'), look.style(Role::Focus));
-        if let Some(undamped) = &curves.undamped {
-            if roomy {
-                curve(&mut plot, undamped, 0, &look.quiet());
-            }
-            curve(&mut plot, damped, 1, &look.second());
+        for (chart, at) in below.iter().zip(areas) {
+            chart.draw(app, curves, buffer, at);
         }
-        curve(&mut plot, damped, 0, &look.first());
-        plot.ink();
-        for force in points {
-            let (sign, shown) = if force < y.low {
-                (look.either('▼', 'v'), y.low)
-            } else if force > y.high {
-                (look.either('▲', '^'), y.high)
-            } else {
-                (point, force)
-            };
-            plot.point(speed, shown, sign, look.style(Role::Contact));
-        }
-        names(&mut plot, &marks, app);
+    }
+
+    /// The present speed.
+    fn here(&self, app: &App) -> Cursor {
+        let fastest = app.latest.results.locked.as_ref().map_or(1.0, |curves| curves.fastest);
+        Cursor { across: (app.speed().abs() / fastest).clamp(0.0, 1.0), up: 0.5 }
     }
 
     fn csv(&self, app: &App) -> Result<String, String> {
@@ -98,10 +72,120 @@ impl ViewPanel for LockedView {
             let [a, b] = point.multipliers_n;
             let [admissible, stable] =
                 [point.admissible, point.stable].map(|is| f64::from(u8::from(is)));
-            [point.speed_rad_s, a, b, admissible, stable]
+            let [turn_a, turn_b] = point.alpha_rad;
+            let waves = [point.u_cc_m, point.u_cs_m, point.u_sc_m, point.u_ss_m];
+            let first = [point.speed_rad_s, a, b, admissible, stable, turn_a, turn_b];
+            first.into_iter().chain(waves).chain([point.amplitude_m])
         });
-        let columns = ["speed_rad_s", "multiplier_a_n", "multiplier_b_n", "admissible", "stable"];
+        let columns = [
+            "speed_rad_s",
+            "multiplier_a_n",
+            "multiplier_b_n",
+            "admissible",
+            "stable",
+            "alpha_a_rad",
+            "alpha_b_rad",
+            "u_cc_m",
+            "u_cs_m",
+            "u_sc_m",
+            "u_ss_m",
+            "amplitude_m",
+        ];
         csv(&columns.map(String::from), rows)
+    }
+}
+
+/// The chart of the multipliers.
+fn multipliers(app: &App, buffer: &mut Buffer, at: ViewArea) {
+    let look = &app.appearance;
+    let quiet = look.style(Role::Quiet);
+    let curves = app.latest.results.locked.as_deref();
+    let roomy = at.area.height >= ROOMY;
+    let pair = curves.is_some_and(|curves| curves.undamped.is_some());
+    let point = look.either('◆', '@');
+    let mut legend = vec![entry(look, &look.first(), if pair { "λ_a" } else { "λ" })];
+    if pair {
+        legend.push(entry(look, &look.second(), "λ_b"));
+    }
+    let points = running(app);
+    let forces: Vec<String> = points.iter().take(2).map(|force| short(*force)).collect();
+    let now = if points.is_empty() { "no contact".to_string() } else { forces.join(" ") };
+    // Beside another chart there is room for the numbers only.
+    let mean = if at.area.width >= NAMED_FROM { "mean now " } else { "" };
+    legend.push((format!("{point} {mean}{now}"), look.style(Role::Contact)));
+    legend.push(("N over rad/s".into(), quiet));
+    legend.push(("below 0 pushes".into(), quiet));
+    if pair && roomy {
+        legend.push(entry(look, &look.quiet(), "undamped"));
+    }
+    if app.speed() < 0.0 {
+        legend.push(("over |Ω|: the other way round a and b change places".into(), quiet));
+    }
+    let inside = title(app, buffer, at, "locked λ(Ω)", &legend);
+    let Some(curves) = curves else { return };
+    let Some(damped) = &curves.damped else {
+        let text = "no corner between two blade groups: this wave never locks";
+        print(buffer, inside, 1, text, quiet);
+        return;
+    };
+    let inside = if at.large { read(app, curves, buffer, inside) } else { inside };
+    // The scale follows the curves: the mean over an impact may be far outside.
+    let y = charts::range(damped.points.iter().flat_map(|point| point.multipliers_n));
+    let x = ChartAxis::plain(0.0, curves.fastest);
+    let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
+    at.note(app, plot.inner);
+    plot.level(0.0, look.either('┈', '.'), quiet);
+    uprights(&mut plot, app, curves);
+    if let Some(undamped) = &curves.undamped {
+        if roomy {
+            curve(&mut plot, undamped, 0, &look.quiet());
+        }
+        curve(&mut plot, damped, 1, &look.second());
+    }
+    curve(&mut plot, damped, 0, &look.first());
+    plot.ink();
+    for force in points {
+        let (sign, shown) = if force < y.low {
+            (look.either('▼', 'v'), y.low)
+        } else if force > y.high {
+            (look.either('▲', '^'), y.high)
+        } else {
+            (point, force)
+        };
+        plot.point(app.speed().abs(), shown, sign, look.style(Role::Contact));
+    }
+    names(&mut plot, &thresholds(app), app);
+}
+
+/// What the reading cursor reads, above the chart; returns the rest.
+fn read(app: &App, curves: &LockedCurves, buffer: &mut Buffer, inside: Rect) -> Rect {
+    let look = &app.appearance;
+    let Some(speed) = charts::cursor_speed(app, curves) else { return inside };
+    let width = usize::from(inside.width).saturating_sub(1);
+    let mut lines = wrap(&look.spell(&charts::reading(app, speed)), width);
+    // The chart keeps at least half of the rows.
+    let most = READ_ROWS.min(usize::from(inside.height / 4)).max(1);
+    if lines.len() > most {
+        let rest = lines.split_off(most - 1).join(" ");
+        lines.push(shorten(&rest, width, look.either("…", "..")));
+    }
+    let rows = u16::try_from(lines.len()).unwrap_or(0).min(inside.height);
+    let area = Rect { x: inside.x + 1, width: inside.width.saturating_sub(1), ..inside };
+    for (row, line) in (0..rows).zip(&lines) {
+        print(buffer, area, row, line, look.style(Role::Focus));
+    }
+    Rect { y: inside.y + rows, height: inside.height - rows, ..inside }
+}
+
+/// The threshold speeds, the present speed and the reading cursor.
+fn uprights(plot: &mut Plot, app: &App, curves: &LockedCurves) {
+    let look = &app.appearance;
+    for (speed, _) in thresholds(app) {
+        plot.upright(speed, look.either('┊', ':'), look.style(Role::Quiet));
+    }
+    plot.upright(app.speed().abs(), look.either('│', '|'), look.style(Role::Focus));
+    if let Some(speed) = charts::cursor_speed(app, curves) {
+        plot.upright(speed, look.either('╎', '!'), look.style(Role::Focus));
     }
 }
 

@@ -1,0 +1,128 @@
+//! View 5: the verdict over two knobs, one block or letter for each run, with
+//! the threshold speeds, the present knobs as a cross, and a cursor whose cell
+//! can be read and opened.
+
+mod cells;
+mod picture;
+mod plan;
+mod words;
+
+use ratatui::{buffer::Buffer, layout::Rect};
+
+pub use cells::{CellRun, LiveMap, coarse_first};
+pub use plan::{MapAxis, MapChoice, numeric};
+pub use words::value_text;
+
+use super::panel::{ViewArea, ViewPanel, not_yet, title};
+use crate::report::map::write_csv;
+use crate::scene::CheckedScene;
+use crate::study::{Axis, MapPlan};
+use crate::tui::app::{App, Cursor};
+use crate::tui::text::{print, shorten};
+use crate::tui::theme::Role;
+use words::Line;
+
+/// From this width on, what the map means stands beside it.
+const BESIDE_FROM: u16 = 92;
+/// Width of that column.
+const BESIDE: u16 = 34;
+/// From this height on, there are two rows of words above the map.
+const TWO_ROWS_FROM: u16 = 14;
+/// From this height on, there is one.
+const ONE_ROW_FROM: u16 = 7;
+
+/// The view.
+pub struct MapView;
+
+impl ViewPanel for MapView {
+    fn what(&self) -> &'static str {
+        "map of the verdict over two knobs"
+    }
+
+    fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
+        let live = app.latest.results.map.as_deref();
+        let plan = app.map_plan();
+        let entries = words::title(app, live, plan.as_ref().ok(), at.area.width);
+        let inside = title(app, buffer, at, "map", &entries);
+        if let Err(reason) = plan {
+            let text = format!("no map: {reason}");
+            return print(buffer, inside, 1, &text, app.appearance.style(Role::Trouble));
+        }
+        let Some(live) = live else { return not_yet(app, buffer, inside) };
+        let chart = explain(app, live, buffer, inside, at.large);
+        picture::draw(app, live, buffer, chart, at);
+    }
+
+    fn grid(&self, app: &App) -> [u32; 2] {
+        app.shown_plan().map_or([0, 0], |plan| [plan.x.count, plan.y.count])
+    }
+
+    fn here(&self, app: &App) -> Cursor {
+        app.shown_plan().map_or(Cursor { across: 0.5, up: 0.5 }, |plan| here(app, &plan))
+    }
+
+    /// The run of the cell: its knobs, and the law and solver of the map.
+    fn scene_at(&self, app: &App, _: Cursor) -> Option<CheckedScene> {
+        let (plan, [column, row]) = (app.shown_plan()?, app.map_cell()?);
+        plan.scene_of(plan.index(column, row)).ok()
+    }
+
+    fn csv(&self, app: &App) -> Result<String, String> {
+        let live = app.latest.results.map.as_ref().ok_or("there is no map yet")?;
+        let mut bytes = Vec::new();
+        write_csv(&live.map, &mut bytes).map_err(|error| error.to_string())?;
+        String::from_utf8(bytes).map_err(|error| error.to_string())
+    }
+}
+
+/// The cell of a map nearest to the present knobs.
+pub fn here(app: &App, plan: &MapPlan) -> Cursor {
+    let part = |axis: &Axis| {
+        let count = f64::from(axis.count.max(1));
+        let place = axis.place(words::present(app, axis));
+        let place = if place.is_finite() { place.round().clamp(0.0, count - 1.0) } else { 0.0 };
+        (place + 0.5) / count
+    };
+    Cursor { across: part(&plan.x), up: part(&plan.y) }
+}
+
+/// Says what the signs mean and what the cursor reads, beside the map or above
+/// it; returns the rest of the area.
+fn explain(app: &App, live: &LiveMap, buffer: &mut Buffer, inside: Rect, large: bool) -> Rect {
+    let look = &app.appearance;
+    let dots = look.either("…", "..");
+    let mut put = |area: Rect, row: u16, line: &[(String, ratatui::style::Style)]| {
+        let mut x = area.x;
+        for (text, style) in line {
+            let room = area.right().saturating_sub(x);
+            let text = shorten(&look.spell(text), usize::from(room), dots);
+            print(buffer, Rect { x, width: room, ..area }, row, &text, *style);
+            x = x
+                .saturating_add(u16::try_from(text.chars().count()).unwrap_or(room))
+                .min(area.right());
+        }
+    };
+    if large && inside.width >= BESIDE_FROM {
+        let column = Rect { x: inside.right() - BESIDE + 1, width: BESIDE - 1, ..inside };
+        for (row, line) in
+            (0..inside.height).zip(words::column(app, live, usize::from(column.width)))
+        {
+            put(column, row, &line);
+        }
+        return Rect { width: inside.width - BESIDE, ..inside };
+    }
+    let reads = large && app.map_cell().is_some();
+    let lines: Vec<Line> = match inside.height {
+        TWO_ROWS_FROM.. if large => vec![words::legend(app, live), words::row(app, live)],
+        ONE_ROW_FROM.. if reads => vec![words::row(app, live)],
+        ONE_ROW_FROM.. => vec![words::legend(app, live)],
+        _ => Vec::new(),
+    };
+    let row = Rect { x: inside.x + 1, width: inside.width.saturating_sub(1), ..inside };
+    let mut rows = 0;
+    for line in &lines {
+        put(row, rows, line);
+        rows += 1;
+    }
+    Rect { y: inside.y + rows, height: inside.height.saturating_sub(rows), ..inside }
+}

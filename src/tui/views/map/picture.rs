@@ -1,0 +1,259 @@
+//! The picture of a map: two rows of cells a line by half blocks and colour, or
+//! one letter a cell where there is no colour, and what is drawn over it.
+
+use ratatui::style::{Color, Style};
+use ratatui::{buffer::Buffer, layout::Rect};
+
+use super::super::panel::ViewArea;
+use super::words::present;
+use super::{LiveMap, words};
+use crate::motion::Verdict;
+use crate::report::map::mark;
+use crate::study::overlay::{Curve, SPEED};
+use crate::study::{Axis, Cell};
+use crate::tui::app::App;
+use crate::tui::appearance::Appearance;
+use crate::tui::axis::ChartAxis;
+use crate::tui::plot::Plot;
+use crate::tui::theme::{Role, Theme};
+
+/// Whether cells are letters.
+pub fn letters(look: &Appearance) -> bool {
+    look.ascii() || look.theme == Theme::Mono
+}
+
+/// The colour of a verdict; none for the quiet one, which is a shade.
+pub fn colour(look: &Appearance, verdict: Verdict) -> Option<Color> {
+    let [dark, light, safe, safe_light] = match verdict {
+        Verdict::Decay => return None,
+        Verdict::Locked => [Color::LightGreen, Color::Green, Color::LightBlue, Color::Blue],
+        Verdict::Adhesive => [Color::LightRed, Color::Red, Color::LightYellow, Color::Red],
+        Verdict::Slip => [Color::LightMagenta, Color::Magenta, Color::White, Color::Black],
+        Verdict::Bounce => [Color::LightCyan, Color::Blue, Color::Cyan, Color::Cyan],
+        Verdict::Failed => [Color::LightYellow, Color::Yellow, Color::Magenta, Color::Magenta],
+    };
+    Some(match look.theme {
+        Theme::Light => light,
+        Theme::ColourBlind => safe,
+        Theme::ColourBlindLight => safe_light,
+        Theme::Dark | Theme::Mono => dark,
+    })
+}
+
+/// Draws the map in `area`.
+pub fn draw(app: &App, live: &LiveMap, buffer: &mut Buffer, area: Rect, at: ViewArea) {
+    let look = &app.appearance;
+    let plan = &live.map.plan;
+    let (x, y) = (chart_axis(&plan.x), chart_axis(&plan.y));
+    let Some(plot) = Plot::new(buffer, area, x, y, look) else { return };
+    let inner = plot.inner;
+    at.note(app, inner);
+    let mut picture = Picture { plot, look, live, inner, ground: Vec::new() };
+    picture.cells();
+    if plan.x.path == SPEED || plan.y.path == SPEED {
+        live.lines.iter().for_each(|line| picture.line(line));
+    }
+    picture.names();
+    let [across, up] = [&plan.x, &plan.y].map(|axis| axis.place(present(app, axis)));
+    if is_inside(&plan.x, across) && is_inside(&plan.y, up) {
+        let (column, row) = (picture.column(across), picture.row(up));
+        picture.over(column, row, look.either('╋', '+'), Role::Focus);
+    }
+    if let Some([column, row]) = app.map_cell().filter(|_| at.large) {
+        let (x, y) = (picture.column(f64::from(column)), picture.row(f64::from(row)));
+        for (x, sign) in [(x.checked_sub(1), '['), (x.checked_add(1), ']')] {
+            if let Some(x) = x.filter(|x| (inner.x..inner.right()).contains(x)) {
+                picture.over(x, y, sign, Role::Focus);
+            }
+        }
+    }
+}
+
+/// Whether a place on an axis has a cell.
+pub fn is_inside(axis: &Axis, place: f64) -> bool {
+    (-0.5..=f64::from(axis.count) - 0.5).contains(&place)
+}
+
+fn chart_axis(axis: &Axis) -> ChartAxis {
+    match axis.log {
+        true => ChartAxis::powers_of(axis.from.log10(), axis.to.log10(), words::unit(&axis.path)),
+        false => ChartAxis::scaled(axis.from, axis.to),
+    }
+}
+
+struct Picture<'a> {
+    plot: Plot<'a>,
+    look: &'a Appearance,
+    live: &'a LiveMap,
+    inner: Rect,
+    /// The colour behind each place.
+    ground: Vec<Option<Color>>,
+}
+
+impl Picture<'_> {
+    fn cells(&mut self) {
+        let (inner, look) = (self.inner, self.look);
+        let plan = &self.live.map.plan;
+        let cell_at = |place: u16, places: u16, count: u32| {
+            let part = f64::from(place) / f64::from(places.max(2) - 1);
+            ((part * f64::from(count.saturating_sub(1))).round() as u32)
+                .min(count.saturating_sub(1))
+        };
+        let columns: Vec<u32> =
+            (0..inner.width).map(|x| cell_at(x, inner.width, plan.x.count)).collect();
+        let shown = |column: u32, place: u16, places: u16| {
+            self.live.shown(column, cell_at(places - 1 - place, places, plan.y.count))
+        };
+        for row in 0..inner.height {
+            for (x, &column) in (inner.x..).zip(&columns) {
+                let (sign, style) = if letters(look) {
+                    let cell = shown(column, row, inner.height);
+                    (mark(cell), style(look, cell))
+                } else {
+                    let halves = 2 * inner.height;
+                    block(look, [2 * row, 2 * row + 1].map(|half| shown(column, half, halves)))
+                };
+                self.ground.push(style.bg);
+                self.plot.text(x, inner.y + row, sign.encode_utf8(&mut [0; 4]), style);
+            }
+        }
+    }
+
+    /// The column of a place on the axis across.
+    fn column(&self, place: f64) -> u16 {
+        let part = place / f64::from(self.live.map.plan.x.count.max(2) - 1);
+        self.inner.x + spread(part, self.inner.width)
+    }
+
+    /// The row of a place on the axis up.
+    fn row(&self, place: f64) -> u16 {
+        let part = 1.0 - place / f64::from(self.live.map.plan.y.count.max(2) - 1);
+        let from_top = match letters(self.look) {
+            true => spread(part, self.inner.height),
+            false => spread(part, 2 * self.inner.height) / 2,
+        };
+        self.inner.y + from_top
+    }
+
+    /// One sign over the cells, on the colour that is there.
+    fn over(&mut self, x: u16, y: u16, sign: char, role: Role) {
+        if !(self.inner.y..self.inner.bottom()).contains(&y) {
+            return;
+        }
+        let place = usize::from(y - self.inner.y) * usize::from(self.inner.width)
+            + usize::from(x.saturating_sub(self.inner.x));
+        let mut style = self.look.style(role);
+        if self.ground.get(place).copied().flatten().is_some() {
+            let ink = if self.look.theme == Theme::Light { Color::White } else { Color::Black };
+            style = style.fg(ink);
+        }
+        self.plot.text(x, y, sign.encode_utf8(&mut [0; 4]), style);
+    }
+
+    /// A threshold speed over the map.
+    fn line(&mut self, line: &Curve) {
+        let (live, inner) = (self.live, self.inner);
+        let (x, y) = (&live.map.plan.x, &live.map.plan.y);
+        for &(across, up) in &line.points {
+            let [across, up] = places(x, y, (across, up));
+            if x.path == SPEED && is_inside(x, across) {
+                // One cell up can be several rows.
+                let (low, high) = (self.row(up - 0.5), self.row(up + 0.5));
+                let column = self.column(across);
+                for row in high.max(inner.y)..=low.min(inner.bottom().saturating_sub(1)) {
+                    self.over(column, row, self.look.either('┊', ':'), Role::Text);
+                }
+            } else if x.path != SPEED && is_inside(y, up) {
+                let row = self.row(up);
+                let (left, right) = (self.column(across - 0.5), self.column(across + 0.5));
+                for column in left.max(inner.x)..=right.min(inner.right().saturating_sub(1)) {
+                    self.over(column, row, self.look.either('┈', '-'), Role::Text);
+                }
+            }
+        }
+    }
+
+    /// The names of the lines with their speeds, in the lowest rows, where most
+    /// maps are quiet.
+    fn names(&mut self) {
+        let (live, inner) = (self.live, self.inner);
+        let plan = &live.map.plan;
+        let mut free = [inner.x; 3];
+        for line in words::by_speed(live) {
+            let Some(&(across, up)) = line.points.first() else { continue };
+            let place = places(&plan.x, &plan.y, (across, up));
+            if !is_inside(&plan.x, place[0]) || !is_inside(&plan.y, place[1]) {
+                continue;
+            }
+            let name = self.look.spell(&words::line_name(line));
+            let width = u16::try_from(name.chars().count()).unwrap_or(u16::MAX);
+            if width >= inner.width {
+                continue;
+            }
+            let column = self.column(place[0]).saturating_add(1).min(inner.right() - width);
+            let lowest = if plan.x.path == SPEED { inner.bottom() - 1 } else { self.row(place[1]) };
+            for (row, free) in (inner.y..=lowest).rev().zip(&mut free) {
+                if column >= *free {
+                    for (x, sign) in (column..).zip(name.chars()) {
+                        self.over(x, row, sign, Role::Text);
+                    }
+                    *free = column + width + 1;
+                    break;
+                }
+            }
+        }
+    }
+}
+
+/// The places of a point of a line; a rotor that turns the other way has the
+/// same thresholds.
+fn places(x: &Axis, y: &Axis, (across, up): (f64, f64)) -> [f64; 2] {
+    let signed = |axis: &Axis, value: f64| match axis.path == SPEED && axis.from < 0.0 {
+        true => axis.place(-value),
+        false => axis.place(value),
+    };
+    [signed(x, across), signed(y, up)]
+}
+
+/// A part, 0 to 1, as one of so many places.
+fn spread(part: f64, places: u16) -> u16 {
+    let last = f64::from(places.saturating_sub(1));
+    (part * last).round().clamp(0.0, last) as u16
+}
+
+fn style(look: &Appearance, cell: Option<Cell>) -> Style {
+    let quiet = look.style(Role::Quiet);
+    match cell.map(|cell| (cell.verdict, colour(look, cell.verdict))) {
+        // Weights tell letters apart too.
+        Some((verdict, _)) if look.theme == Theme::Mono => match verdict {
+            Verdict::Decay | Verdict::Bounce => quiet,
+            _ => look.style(Role::Text),
+        },
+        Some((_, Some(colour))) => Style::new().fg(colour),
+        _ => quiet,
+    }
+}
+
+/// Two cells, one above the other, as one sign with two colours.
+fn block(look: &Appearance, [above, below]: [Option<Cell>; 2]) -> (char, Style) {
+    let of = |cell: Option<Cell>| cell.and_then(|cell| colour(look, cell.verdict));
+    let plain = Style::new();
+    match (of(above), of(below)) {
+        (Some(above), Some(below)) if above == below => (' ', plain.bg(above)),
+        (Some(above), Some(below)) => ('▀', plain.fg(above).bg(below)),
+        (Some(above), None) => ('▀', plain.fg(above)),
+        (None, Some(below)) => ('▄', plain.fg(below)),
+        (None, None) if above.or(below).is_some() => ('░', look.style(Role::Quiet)),
+        (None, None) => (' ', plain),
+    }
+}
+
+/// The sign of a verdict in the legend, as it is on the map.
+pub fn sign(look: &Appearance, verdict: Verdict) -> (char, Style) {
+    let cell = Some(Cell { verdict, sensitive: false });
+    match (letters(look), colour(look, verdict)) {
+        (true, _) => (mark(cell), style(look, cell)),
+        (false, None) => ('░', look.style(Role::Quiet)),
+        (false, Some(colour)) => ('█', Style::new().fg(colour)),
+    }
+}

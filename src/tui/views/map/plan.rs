@@ -1,0 +1,271 @@
+//! What the explorer's map sweeps: two knobs over sensible ranges, under the
+//! scene's own contact law, solver and model, or under the other law.
+
+use crate::scene::{Allowed, ContactLaw, Key, Scene, SolverKind, keys};
+use crate::study::overlay::{PULSE, SPEED};
+use crate::study::{Axis, MapPlan};
+use crate::tui::axis::nice_step;
+use crate::tui::knobs::{KNOBS, Knob};
+use crate::tui::views::locked::curves::speed_range;
+
+/// Most cells across and up. Usual ranges give round values: 7.5 rad/s for 600,
+/// a tenth of a decade for four.
+const CELLS: [u32; 2] = [81, 41];
+/// The key of the torque on the blades.
+const TORQUE: &str = "excitation.amplitude_nm";
+/// Pulses of the map \[N\].
+const PULSES: [f64; 2] = [1e3, 1e7];
+/// The greatest damping of a map, unless the present one is greater.
+const DAMPING: f64 = 0.2;
+
+/// What is chosen for the map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MapChoice {
+    /// The contact law, where it is not the scene's own.
+    pub law: Option<ContactLaw>,
+    /// The key across.
+    pub x: MapAxis,
+    /// The key up.
+    pub y: MapAxis,
+}
+
+impl Default for MapChoice {
+    fn default() -> Self {
+        let axis = |path| MapAxis { path, anchor: 0.0 };
+        Self { law: None, x: axis(SPEED), y: axis(PULSE) }
+    }
+}
+
+/// A key on an axis. Its range does not change while the knob is turned.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MapAxis {
+    /// Dotted path of the key.
+    pub path: &'static str,
+    /// The value of the key when it was put on the axis.
+    pub anchor: f64,
+}
+
+impl MapChoice {
+    /// The map of a scene.
+    ///
+    /// # Errors
+    /// The scene has no such map; the reason in one line.
+    pub fn plan(&self, scene: &Scene) -> Result<MapPlan, String> {
+        let mut scene = scene.clone();
+        if let Some(law) = self.law {
+            scene.solver.contact = law;
+            scene.make_compatible(|key| key == "solver.contact");
+        }
+        if [self.x, self.y].iter().any(|axis| axis.path == TORQUE) {
+            // The event solver knows no torque on the blades.
+            scene.solver.kind = SolverKind::Explicit;
+        }
+        let x = self.x.over(&scene, CELLS[0])?;
+        let y = self.y.over(&scene, CELLS[1])?;
+        for axis in [&x, &y] {
+            // The map stays the same while the knobs that it sweeps are turned.
+            axis.apply(&mut scene, 0).map_err(|error| error.to_string())?;
+        }
+        let plan = MapPlan { scene, x, y, sensitivity: false };
+        plan.check().map_err(|error| error.to_string())?;
+        Ok(plan)
+    }
+}
+
+/// The knobs that can be on an axis.
+pub fn numeric() -> impl Iterator<Item = &'static Knob> {
+    let is_number = |key: &Key| matches!(key.allowed, Allowed::Real { .. } | Allowed::Whole { .. });
+    KNOBS.iter().filter(move |knob| keys::find(knob.path).is_ok_and(is_number))
+}
+
+/// A range of values of a key.
+struct Range {
+    from: f64,
+    to: f64,
+    log: bool,
+}
+
+const fn even(from: f64, to: f64) -> Range {
+    Range { from, to, log: false }
+}
+
+impl MapAxis {
+    fn over(&self, scene: &Scene, most: u32) -> Result<Axis, String> {
+        let key = keys::find(self.path).map_err(|error| error.to_string())?;
+        let Range { from, to, log } = self.range(scene, key);
+        let count = match key.allowed {
+            // Each whole number once.
+            Allowed::Whole { .. } => ((to - from).max(0.0) as u32).saturating_add(1).min(most),
+            _ => most,
+        };
+        Axis::new(self.path, from, to, count, log).map_err(|error| error.to_string())
+    }
+
+    fn range(&self, scene: &Scene, key: &Key) -> Range {
+        let anchor = self.anchor;
+        let clearance = scene.casing.radius_m - scene.bladed_disk.blade_length_m;
+        match self.path {
+            SPEED => speeds(scene),
+            PULSE => Range { from: PULSES[0], to: PULSES[1], log: true },
+            "casing.damping_ratio" | "bladed_disk.damping_ratio" if anchor <= DAMPING => {
+                even(0.0, DAMPING)
+            }
+            "operation.nodal_diameters" => {
+                even(1.0, f64::from(scene.bladed_disk.blades / 2).max(1.0))
+            }
+            // The clearance from a tenth to four times the present one.
+            "casing.radius_m" => {
+                let length = scene.bladed_disk.blade_length_m;
+                even(length + 0.1 * clearance, length + 4.0 * clearance)
+            }
+            "bladed_disk.blade_length_m" => {
+                let radius = scene.casing.radius_m;
+                even((radius - 4.0 * clearance).max(0.5 * radius), radius - 0.1 * clearance)
+            }
+            // Every gap is open as long as the casing is within the clearance.
+            "initial.u_c_m" | "initial.u_s_m" => {
+                let initial = &scene.initial;
+                let (own, other) = match self.path {
+                    "initial.u_c_m" => (anchor, initial.u_s_m),
+                    _ => (anchor, initial.u_c_m),
+                };
+                let most = (0.95 * clearance).powi(2) - other.powi(2);
+                let most = most.max(0.0).sqrt().max(own.abs());
+                even(-most, most)
+            }
+            "solver.step_s" => {
+                let most = (10.0 * anchor).min(0.9 * scene.stable_step());
+                within(key, Range { from: 0.01 * most, to: most, log: true })
+            }
+            _ => within(key, around(key, anchor, usual(self.path, scene, clearance))),
+        }
+    }
+}
+
+/// From rest to above every threshold, and to the present speed if it is far
+/// outside, in the present sense of rotation.
+fn speeds(scene: &Scene) -> Range {
+    let mut scene = scene.clone();
+    let speed = scene.operation.speed_rad_s;
+    let machine = scene.machine();
+    let thresholds = [machine.lock_speed(), machine.dangerous_speed(), machine.critical_speed()];
+    scene.operation.speed_rad_s = 1.3 * thresholds.into_iter().flatten().fold(1.0, f64::max);
+    let usual = speed_range(&scene);
+    scene.operation.speed_rad_s = speed;
+    let fastest = if speed.abs() > usual { speed_range(&scene) } else { usual };
+    if speed < 0.0 { even(-fastest, 0.0) } else { even(0.0, fastest) }
+}
+
+/// A size to begin with for a key that is zero.
+fn usual(path: &str, scene: &Scene, clearance: f64) -> f64 {
+    match path {
+        "initial.v_c_m_s" | "initial.v_s_m_s" => clearance * scene.machine().omega_c,
+        "operation.speed_ramp_rad_s2" => 1e3,
+        "operation.pulse_s" => 1e-4,
+        "bladed_disk.coupling_nm_per_rad" => scene.bladed_disk.stiffness_nm_per_rad,
+        _ => 1.0,
+    }
+}
+
+/// A decade to either side of a positive value, both signs of a signed one.
+fn around(key: &Key, value: f64, usual: f64) -> Range {
+    let size = if value == 0.0 { usual } else { value.abs() };
+    let round = nice_step(2.0 * size, 1).unwrap_or(2.0 * size);
+    match key.allowed {
+        Allowed::Whole { min, .. } => even((0.5 * size).floor().max(min as f64), 2.0 * size),
+        Allowed::Real { min, .. } if min < 0.0 => even(-round, round),
+        _ if value == 0.0 => even(0.0, round),
+        _ => Range { from: 0.1 * size, to: 10.0 * size, log: true },
+    }
+}
+
+fn within(key: &Key, Range { from, to, log }: Range) -> Range {
+    let (min, max) = match key.allowed {
+        Allowed::Real { min, max, .. } => (min, max),
+        Allowed::Whole { min, max } => (min as f64, max as f64),
+        _ => (from, to),
+    };
+    Range { from: from.max(min), to: to.min(max), log }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{ModelSize, Value};
+
+    fn chosen(scene: &Scene, path: &'static str) -> MapAxis {
+        let key = keys::find(path).unwrap();
+        let anchor = match (key.get)(scene) {
+            Value::Real(x) => x,
+            Value::Whole(n) => n as f64,
+            _ => panic!("{path}"),
+        };
+        MapAxis { path, anchor }
+    }
+
+    #[test]
+    fn the_map_does_not_depend_on_the_knobs_it_sweeps() {
+        let mut scene = Scene::base();
+        let before = MapChoice::default().plan(&scene).unwrap();
+        scene.operation.pulse_n = 5.0;
+        scene.operation.speed_rad_s = 100.0;
+        assert_eq!(MapChoice::default().plan(&scene).unwrap(), before);
+        // The paper's range, in round steps.
+        assert_eq!((before.x.from, before.x.to, before.x.value(1)), (0.0, 600.0, 7.5));
+    }
+
+    #[test]
+    fn the_map_has_the_solver_of_its_scene_and_another_law_the_one_that_knows_it() {
+        let mut scene = Scene::builtin("paper-nd3").unwrap();
+        let mut choice = MapChoice::default();
+        assert_eq!(choice.plan(&scene).unwrap().scene.solver, scene.solver);
+        choice.law = Some(ContactLaw::Unilateral);
+        let solver = choice.plan(&scene).unwrap().scene.solver;
+        assert_eq!((solver.kind, solver.contact), (SolverKind::Explicit, ContactLaw::Unilateral));
+        scene = scene.as_reference();
+        assert_eq!(choice.plan(&scene).unwrap().scene.solver.kind, SolverKind::Event);
+        choice.law = Some(ContactLaw::Bilateral);
+        let solver = choice.plan(&scene).unwrap().scene.solver;
+        assert_eq!((solver.kind, solver.contact), (SolverKind::Explicit, ContactLaw::Bilateral));
+    }
+
+    #[test]
+    fn every_numeric_knob_can_be_on_either_axis_of_every_scene() {
+        for builtin in crate::scene::BUILTIN {
+            let scene = Scene::builtin(builtin.name).unwrap();
+            for knob in numeric() {
+                let usual = MapChoice::default();
+                let axis = chosen(&scene, knob.path);
+                let across = MapChoice { x: axis, ..usual };
+                let up = MapChoice { y: axis, ..usual };
+                let plans = [(across, usual.y.path), (up, usual.x.path)];
+                for (choice, other) in plans.into_iter().filter(|(_, path)| *path != knob.path) {
+                    let plan = choice.plan(&scene);
+                    let rigid = knob.path == TORQUE && scene.solver.model == ModelSize::Rigid;
+                    let plan = match plan {
+                        Ok(plan) => plan,
+                        // Rigid blades do not move under a torque, and the start of a
+                        // scene can be too far out for some cells: it says so.
+                        Err(why) if rigid && why.contains("do not move") => continue,
+                        Err(why) if why.starts_with("initial.") => {
+                            assert!(scene.initial != Scene::base().initial, "{why}");
+                            continue;
+                        }
+                        Err(why) => panic!("{} {other}: {why}", knob.path),
+                    };
+                    assert!(plan.x.to > plan.x.from && plan.y.to > plan.y.from, "{plan:?}");
+                    let whole = plan.x.path == "operation.nodal_diameters";
+                    assert!(!whole || plan.x.values().iter().all(|n| n.fract() == 0.0));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_rotor_that_turns_the_other_way_has_a_map_of_its_own() {
+        let mut scene = Scene::base();
+        scene.operation.speed_rad_s = -430.0;
+        let plan = MapChoice::default().plan(&scene).unwrap();
+        assert_eq!((plan.x.from, plan.x.to), (-600.0, 0.0));
+    }
+}

@@ -1,0 +1,277 @@
+//! The words around a map: what it is a map of, how far it is, what its signs
+//! mean, and what the cell under the cursor says.
+
+use ratatui::style::Style;
+
+use super::picture::{is_inside, sign};
+use super::{CellRun, LiveMap, numeric};
+use crate::motion::Verdict;
+use crate::report::map::means;
+use crate::report::number::{count, rounded};
+use crate::scene::Value;
+use crate::study::overlay::{Curve, SPEED};
+use crate::study::{Axis, MapPlan};
+use crate::tui::app::App;
+use crate::tui::axis::readable;
+use crate::tui::knobs::{Knob, number};
+use crate::tui::text::{columns, wrap};
+use crate::tui::theme::Role;
+
+/// One line: pieces with their styles.
+pub type Line = Vec<(String, Style)>;
+
+/// Steps of the progress: a title that changes with every cell is a lot to send.
+const PROGRESS_STEPS: usize = 64;
+/// Cells of the progress bar.
+const BAR: usize = 8;
+
+fn knob(path: &str) -> Option<&'static Knob> {
+    numeric().find(|knob| knob.path == path)
+}
+
+/// The unit of a key.
+pub fn unit(path: &str) -> &'static str {
+    knob(path).map_or("", Knob::unit)
+}
+
+/// A value of a key in four digits, with its unit.
+pub fn value_text(path: &str, value: f64) -> String {
+    number(rounded(value, 4), unit(path))
+}
+
+/// As `value_text`; a number without a unit with its symbol, such as `n_d 3`.
+fn named_value(axis: &Axis, value: f64) -> String {
+    let symbol = knob(&axis.path).and_then(|knob| knob.label.split(' ').next_back());
+    match symbol.filter(|_| unit(&axis.path).is_empty()) {
+        Some(symbol) => format!("{symbol} {}", value_text(&axis.path, value)),
+        None => value_text(&axis.path, value),
+    }
+}
+
+/// The present value of the key on an axis.
+pub fn present(app: &App, axis: &Axis) -> f64 {
+    match knob(&axis.path).map(|knob| knob.get(&app.scene)) {
+        Some(Value::Real(_)) if axis.path == SPEED => app.speed(),
+        Some(Value::Real(x)) => x,
+        Some(Value::Whole(n)) => n as f64,
+        _ => f64::NAN,
+    }
+}
+
+/// The name of an axis, with the unit that its ticks do not have.
+fn axis_name(axis: &Axis) -> String {
+    let name = knob(&axis.path).map_or(axis.path.as_str(), |knob| knob.label);
+    match unit(&axis.path) {
+        unit if axis.log || unit.is_empty() => name.to_string(),
+        unit => {
+            // The same prefix as the ticks.
+            let scale = crate::tui::axis::SiScale::of(axis.from.abs().max(axis.to.abs()));
+            format!("{name} [{}{unit}]", scale.prefix)
+        }
+    }
+}
+
+/// The title: what the map shows, and how far it is; as much as fits.
+pub fn title(app: &App, live: Option<&LiveMap>, wanted: Option<&MapPlan>, width: u16) -> Line {
+    let look = &app.appearance;
+    let Some(plan) = live.map(|live| &live.map.plan).or(wanted) else { return Vec::new() };
+    let solver = &plan.scene.solver;
+    let law = format!("{}, {}", solver.contact, solver.kind);
+    let key = format!("(c: {})", app.map_law().other());
+    let over = format!("{} over {}", axis_name(&plan.y), axis_name(&plan.x));
+    let subjects = [
+        format!("{over} · {law} {} {key}", solver.model),
+        format!("{over} · {law} {key}"),
+        format!("{law} {key}"),
+        law,
+    ];
+    let progress = match live {
+        Some(live) if wanted.is_some_and(|plan| *plan != live.map.plan) => {
+            ["the new map is under way".to_string(), "new map ..".to_string(), "..".to_string()]
+        }
+        Some(live) if !live.is_complete() => progress(app, live),
+        _ => Default::default(),
+    };
+    // Digit, name and the spaces around them.
+    let room = usize::from(width).saturating_sub(8);
+    let pairs =
+        subjects.iter().flat_map(|subject| progress.iter().map(move |part| (subject, part)));
+    let fits = |(subject, part): &(&String, &String)| {
+        columns(&look.spell(subject)) + columns(&look.spell(part)) + 5 <= room
+    };
+    let found = pairs.clone().find(fits).or_else(|| pairs.last());
+    let mut line = Vec::new();
+    if let Some((subject, part)) = found {
+        line.push((subject.clone(), look.style(Role::Text)));
+        if !part.is_empty() {
+            line.push((part.clone(), look.style(Role::Focus)));
+        }
+    }
+    line
+}
+
+/// How far the map is, long and short.
+fn progress(app: &App, live: &LiveMap) -> [String; 3] {
+    let all = live.map.cells.len().max(1);
+    let step = all.div_ceil(PROGRESS_STEPS);
+    let done = live.tried / step * step;
+    let full = BAR * done / all;
+    let [ends, on, off] = app
+        .appearance
+        .either([["▕", "▏"], ["█", ""], [" ", ""]], [["[", "]"], ["#", ""], [".", ""]]);
+    let bar = format!("{}{}{}{}", ends[0], on[0].repeat(full), off[0].repeat(BAR - full), ends[1]);
+    let of = format!("{} of {}", grouped(done), count(all as u64, "cell"));
+    [format!("{of} {bar}"), of, format!("{} %", 100 * done / all)]
+}
+
+fn grouped(n: usize) -> String {
+    let text = count(n as u64, "cell");
+    text.split(' ').next().unwrap_or_default().to_string()
+}
+
+/// The verdicts on the map, and the sign of the present knobs.
+pub fn legend(app: &App, live: &LiveMap) -> Line {
+    let look = &app.appearance;
+    let mut line: Line = Vec::new();
+    for verdict in occurring(live) {
+        let (sign, style) = sign(look, verdict);
+        line.push((sign.to_string(), style));
+        line.push((format!(" {verdict}  "), look.style(Role::Text)));
+    }
+    line.push((now(app, live), look.style(Role::Focus)));
+    line
+}
+
+fn occurring(live: &LiveMap) -> impl Iterator<Item = Verdict> {
+    let (census, _) = live.map.census();
+    census.into_iter().filter(|(_, count)| *count > 0).map(|(verdict, _)| verdict)
+}
+
+/// Where the present knobs are.
+fn now(app: &App, live: &LiveMap) -> String {
+    let plan = &live.map.plan;
+    let axes = [(&plan.x, ["left of", "right of"]), (&plan.y, ["below", "above"])];
+    for (axis, sides) in axes {
+        let value = present(app, axis);
+        let place = axis.place(value);
+        if !is_inside(axis, place) {
+            let side = if place > 0.0 { sides[1] } else { sides[0] };
+            let name = knob(&axis.path).map_or("", |knob| knob.label);
+            return format!("now {name} {}: {side} the map", value_text(&axis.path, value));
+        }
+    }
+    let [x, y] = [&plan.x, &plan.y].map(|axis| named_value(axis, present(app, axis)));
+    format!("{} now {x}, {y}", app.appearance.either('╋', '+'))
+}
+
+/// The cell under the cursor in one row, or the key that leads to it.
+pub fn row(app: &App, live: &LiveMap) -> Line {
+    let look = &app.appearance;
+    let Some([head, verdict, detail]) = cell(app, live) else {
+        return vec![("i reads a cell; X Y choose the axes".into(), look.style(Role::Quiet))];
+    };
+    let shown = app.map_cell().and_then(|[column, row]| live.shown(column, row));
+    let (sign, style) =
+        shown.map_or((' ', look.style(Role::Text)), |cell| sign(look, cell.verdict));
+    vec![
+        (format!("[ ] {head}: "), look.style(Role::Text)),
+        // Its colour too, where there is no room for a legend.
+        (sign.to_string(), style),
+        (format!(" {verdict}"), look.style(Role::Focus)),
+        (format!(" {detail}"), look.style(Role::Text)),
+    ]
+}
+
+/// Values, verdict and details of the cell under the cursor.
+fn cell(app: &App, live: &LiveMap) -> Option<[String; 3]> {
+    let [column, row] = app.map_cell()?;
+    let plan = &live.map.plan;
+    let values = [(&plan.x, column), (&plan.y, row)]
+        .map(|(axis, place)| named_value(axis, axis.value(place)));
+    let run = app.latest.results.cell.as_deref();
+    let run = run.filter(|run| run.cell == [column, row] && run.plan == *plan);
+    let verdict = match (live.map.at(column, row), run) {
+        (Some(cell), _) => cell.verdict.to_string(),
+        (None, Some(run)) => run.verdict.to_string(),
+        (None, None) if live.is_complete() => "takes too long".into(),
+        (None, None) => "not computed yet".into(),
+    };
+    Some([values.join(", "), verdict, run.map(detail).unwrap_or_default()])
+}
+
+/// Blades, start and forces of the run of a cell.
+fn detail(run: &CellRun) -> String {
+    let mut out = String::new();
+    if let Some(since) = run.since {
+        let few = |blades: &Vec<u32>| {
+            let names: Vec<String> = blades.iter().take(3).map(ToString::to_string).collect();
+            names.join(",")
+        };
+        let groups: Vec<String> =
+            run.contacts.iter().take(4).map(|(blades, _)| few(blades)).collect();
+        let forces: Vec<String> =
+            run.contacts.iter().take(4).map(|(_, force)| format!("{force:.0}")).collect();
+        out = format!(
+            "on {} since {}, λ {} N, ",
+            groups.join(" + "),
+            readable(since, "s"),
+            forces.join(" ")
+        );
+    }
+    out + &count(run.impacts, "impact")
+}
+
+/// The column beside the map.
+pub fn column(app: &App, live: &LiveMap, width: usize) -> Vec<Line> {
+    let look = &app.appearance;
+    let [text, quiet, focus] = [Role::Text, Role::Quiet, Role::Focus].map(|role| look.style(role));
+    let mut lines: Vec<Line> = Vec::new();
+    for verdict in occurring(live) {
+        let (sign, style) = sign(look, verdict);
+        let mut meaning =
+            wrap(&format!("{verdict}: {}", means(verdict)), width.saturating_sub(2)).into_iter();
+        let first = meaning.next().unwrap_or_default();
+        lines.push(vec![(format!("{sign} "), style), (first, text)]);
+        lines.extend(meaning.map(|rest| vec![(format!("  {rest}"), text)]));
+    }
+    lines.push(Vec::new());
+    let paragraph = |words: &str, style: Style| -> Vec<Line> {
+        wrap(words, width).into_iter().map(|line| vec![(line, style)]).collect()
+    };
+    lines.extend(paragraph(&now(app, live), focus));
+    lines.push(Vec::new());
+    match cell(app, live) {
+        Some([values, verdict, detail]) => {
+            lines.push(vec![("[ ] this cell:".into(), text)]);
+            lines.extend(paragraph(&values, text));
+            lines.push(vec![(verdict, focus)]);
+            lines.extend(paragraph(&detail, text));
+            lines.push(vec![("Enter opens this run".into(), quiet)]);
+        }
+        None => lines.push(vec![("i reads a cell".into(), quiet)]),
+    }
+    lines.push(vec![("X Y other axes, c other law".into(), quiet)]);
+    lines
+}
+
+/// The lines of a map, slowest first.
+pub fn by_speed(live: &LiveMap) -> Vec<&Curve> {
+    let on_x = live.map.plan.x.path == SPEED;
+    let speed = |line: &Curve| line.points.first().map_or(0.0, |(x, y)| if on_x { *x } else { *y });
+    let mut lines: Vec<&Curve> = live.lines.iter().collect();
+    lines.sort_by(|a, b| speed(a).total_cmp(&speed(b)));
+    lines
+}
+
+/// The name of a line, and its speed where that is the same all over the map.
+pub fn line_name(line: &Curve) -> String {
+    let name = line.name.replace("Omega", "Ω");
+    let Some(first) = line.points.first() else { return name };
+    let [on_x, on_y] = [|p: &(f64, f64)| p.0, |p: &(f64, f64)| p.1]
+        .map(|of| line.points.iter().all(|point| of(point) == of(first)));
+    match (on_x, on_y) {
+        (true, false) => format!("{name} {:.1}", first.0),
+        (false, true) => format!("{name} {:.1}", first.1),
+        _ => name,
+    }
+}

@@ -1,0 +1,251 @@
+//! The computation of the map and of the run of one cell, in threads of their
+//! own that stop within a millisecond when nobody wants them any more.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread::available_parallelism;
+use std::time::{Duration, Instant};
+
+use super::background::Background;
+use crate::motion::{GoOn, Motion, Verdict, verdict_of};
+use crate::study::{Cell, MapPlan};
+use crate::tolerances::LAST_PART;
+use crate::tui::engine::FORECAST_LIMIT;
+use crate::tui::views::map::{CellRun, LiveMap, coarse_first};
+
+/// Longest wall time of one cell: an ordinary one takes a hundredth of it.
+const CELL_LIMIT: Duration = Duration::from_secs(1);
+/// Most threads.
+const MOST_THREADS: usize = 16;
+/// Most cells that are taken over at once.
+const MOST_TAKEN: usize = 4096;
+
+type Computed = (usize, Option<Cell>);
+
+/// A map that is being computed.
+#[derive(Debug)]
+pub struct MapJob {
+    live: Arc<LiveMap>,
+    /// The cells to compute, in order.
+    order: Arc<Vec<usize>>,
+    /// Cells after which the whole map can be seen.
+    first: usize,
+    tried: Vec<bool>,
+    threads: Vec<Background<Computed>>,
+}
+
+impl MapJob {
+    /// A map of `plan`; of its cells at most the `most` coarsest are computed.
+    pub fn new(plan: &MapPlan, most: usize) -> Self {
+        let (mut order, first) = coarse_first(plan);
+        order.truncate(most.max(1));
+        let live = LiveMap::of(plan.clone());
+        Self {
+            tried: vec![false; live.map.cells.len()],
+            live: Arc::new(live),
+            first: first.min(order.len()),
+            order: Arc::new(order),
+            threads: Vec::new(),
+        }
+    }
+
+    /// Its plan.
+    pub fn plan(&self) -> &MapPlan {
+        &self.live.map.plan
+    }
+
+    /// The map so far.
+    pub fn live(&self) -> &Arc<LiveMap> {
+        &self.live
+    }
+
+    /// The map, once it can be seen as a whole.
+    pub fn whole(&self) -> Option<&Arc<LiveMap>> {
+        Some(&self.live).filter(|live| live.tried >= self.first)
+    }
+
+    /// Whether nothing is left to compute.
+    pub fn is_done(&self) -> bool {
+        self.live.tried >= self.order.len()
+    }
+
+    /// Stops the threads; the cells so far are kept.
+    pub fn pause(&mut self) {
+        self.threads.clear();
+    }
+
+    /// Takes the cells that are ready, and waits for some no longer than
+    /// `patience`.
+    pub fn receive(&mut self, patience: Duration) {
+        // A thread that ended early, or could not be started, leaves cells.
+        if self.threads.iter().all(Background::is_done) && !self.is_done() {
+            self.start();
+        }
+        let began = Instant::now();
+        let mut found = Vec::new();
+        for thread in &mut self.threads {
+            let mut wait = patience.saturating_sub(began.elapsed());
+            while found.len() < MOST_TAKEN
+                && let Some(computed) = thread.receive(wait)
+            {
+                found.push(computed);
+                wait = Duration::ZERO;
+            }
+        }
+        if found.is_empty() {
+            return;
+        }
+        let live = Arc::make_mut(&mut self.live);
+        for (index, cell) in found {
+            live.map.cells.set(index, cell);
+            live.map.runs += u64::from(cell.is_some());
+            if let Some(tried) = self.tried.get_mut(index).filter(|tried| !**tried) {
+                *tried = true;
+                live.tried += 1;
+            }
+        }
+        live.map.wall_s += began.elapsed().as_secs_f64();
+    }
+
+    fn start(&mut self) {
+        let left = |index: &usize| self.tried.get(*index) == Some(&false);
+        let left: Arc<Vec<usize>> = Arc::new(self.order.iter().copied().filter(left).collect());
+        let next = Arc::new(AtomicUsize::new(0));
+        // One core is for the screen and the motion.
+        let cores = available_parallelism().map_or(1, usize::from);
+        let count = cores.saturating_sub(1).clamp(1, MOST_THREADS);
+        let thread = |_| {
+            let (plan, left, next) = (self.plan().clone(), Arc::clone(&left), Arc::clone(&next));
+            Background::start(move |to, go_on| {
+                while let Some(&index) = left.get(next.fetch_add(1, Ordering::Relaxed))
+                    && go_on()
+                {
+                    let began = Instant::now();
+                    let cell = plan.compute(index, &|| go_on() && began.elapsed() < CELL_LIMIT);
+                    // A cell that takes too long stays empty; without a
+                    // receiver nobody asks any more.
+                    if to.send((index, cell)).is_err() {
+                        return;
+                    }
+                }
+            })
+        };
+        self.threads = (0..count).map(thread).collect();
+    }
+}
+
+/// The run of the cell under the cursor.
+#[derive(Debug)]
+pub struct CellJob {
+    plan: MapPlan,
+    cell: [u32; 2],
+    job: Background<CellRun>,
+    found: Option<Arc<CellRun>>,
+}
+
+impl CellJob {
+    /// Starts the run.
+    pub fn of(plan: &MapPlan, cell: [u32; 2]) -> Self {
+        let theirs = plan.clone();
+        let job = Background::start(move |to, go_on| {
+            let began = Instant::now();
+            let go_on = || go_on() && began.elapsed() < FORECAST_LIMIT;
+            if let Some(run) = run_of(theirs, cell, &go_on) {
+                // Without a receiver nobody asks any more.
+                let _ = to.send(run);
+            }
+        });
+        Self { plan: plan.clone(), cell, job, found: None }
+    }
+
+    /// Whether it is the run of this cell.
+    pub fn is_of(&self, plan: &MapPlan, cell: [u32; 2]) -> bool {
+        self.cell == cell && self.plan == *plan
+    }
+
+    /// Whether there is nothing to wait for.
+    pub fn is_done(&self) -> bool {
+        self.found.is_some() || self.job.is_done()
+    }
+
+    /// Waits for the result no longer than `patience`.
+    pub fn receive(&mut self, patience: Duration) {
+        if let Some(run) = self.job.receive(patience) {
+            self.found = Some(Arc::new(run));
+        }
+    }
+
+    /// The result.
+    pub fn found(&self) -> Option<&Arc<CellRun>> {
+        self.found.as_ref()
+    }
+}
+
+fn run_of(plan: MapPlan, cell: [u32; 2], go_on: GoOn<'_>) -> Option<CellRun> {
+    let index = plan.index(cell[0], cell[1]);
+    let scene = plan.scene_of(index).ok()?;
+    let end = scene.solver.end_s;
+    let mut motion = Motion::new(&scene);
+    if motion.advance_while(end, go_on) == Ok(false) {
+        return None;
+    }
+    let verdict = verdict_of(&motion, LAST_PART * end);
+    let lasting = matches!(verdict, Verdict::Locked | Verdict::Adhesive | Verdict::Slip);
+    let polygon = &motion.machine().polygon;
+    let contacts = motion.multipliers().into_iter();
+    let contacts = contacts.map(|(side, force)| (polygon.blades_of_side(side), force)).collect();
+    Some(CellRun {
+        verdict,
+        since: lasting.then_some(motion.contacts().since),
+        contacts,
+        impacts: motion.contacts().impact_count,
+        plan,
+        cell,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+    use crate::tui::views::map::MapChoice;
+
+    #[test]
+    fn a_map_that_was_stopped_goes_on_and_has_the_cells_of_its_plan() {
+        let mut scene = Scene::base().as_reference();
+        scene.solver.end_s = 5e-3;
+        let mut plan = MapChoice::default().plan(&scene).unwrap();
+        (plan.x.count, plan.y.count) = (7, 5);
+        let mut job = MapJob::new(&plan, usize::MAX);
+        while !job.is_done() {
+            job.receive(Duration::from_millis(5));
+            job.pause();
+        }
+        assert_eq!(job.live().tried, 35);
+        for index in 0..plan.len() {
+            assert_eq!(job.live().map.cells[index], plan.compute(index, &|| true), "{index}");
+        }
+        // Of a map that is too much for a test, only the coarse blocks.
+        let mut coarse = MapJob::new(&plan, 1);
+        while !coarse.is_done() {
+            coarse.receive(Duration::from_millis(5));
+        }
+        assert!(coarse.whole().is_some() && !coarse.live().is_complete());
+    }
+
+    #[test]
+    fn the_run_of_a_cell_says_what_holds_it() {
+        let scene = Scene::builtin("paper-nd3").unwrap();
+        let plan = MapChoice::default().plan(&scene).unwrap();
+        // 502.5 rad/s and 1 MN.
+        let mut job = CellJob::of(&plan, [67, 30]);
+        while !job.is_done() {
+            job.receive(Duration::from_millis(5));
+        }
+        let run = job.found().unwrap();
+        assert_eq!(run.verdict, Verdict::Locked);
+        let blades: Vec<_> = run.contacts.iter().map(|(blades, _)| blades.clone()).collect();
+        assert_eq!(blades, [[19], [12]]);
+        assert!(run.since.unwrap() < 1e-4 && run.contacts.iter().all(|(_, force)| *force < 0.0));
+    }
+}
