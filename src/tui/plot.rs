@@ -167,36 +167,44 @@ impl<'a> Plot<'a> {
         }
     }
 
-    /// Single dots along a polyline from `from` on, evenly spaced.
+    /// Single dots along a polyline, evenly spaced; those before `from` are left
+    /// out, so that the others stay where they are while `from` goes on.
     pub fn dotted(&mut self, points: impl IntoIterator<Item = (f64, f64)>, from: f64, pen: &Pen) {
-        let grain = self.raster.size().0 as i64 / i64::from(self.inner.width.max(1));
-        let stride = DOTS * grain.max(1);
-        let mut last: Option<(f64, f64)> = None;
-        // On a grid of the chart, so that dots stay where they are while time passes.
-        let begin = self.pixel_x(from).unwrap_or(0);
-        let mut next = begin + (-begin).rem_euclid(stride);
-        let most = self.raster.size().0 as i64;
+        let (width, height) = self.raster.size();
+        let (width, height) = (width as f64 - 1.0, height as f64 - 1.0);
+        let across = |x: f64| (x - self.x.low) / (self.x.high - self.x.low) * width;
+        // Far outside, only the direction matters.
+        let down = |y: f64| {
+            let part = (self.y.high - y) / (self.y.high - self.y.low);
+            (part * height).clamp(-2.0 * height, 3.0 * height)
+        };
+        let stride = DOTS * self.raster.grain().0 as f64;
+        let begin = across(from);
+        let (mut last, mut gone): (Option<(f64, f64)>, f64) = (None, 0.0);
+        let mut dots = Vec::new();
         for (x, y) in points {
-            if let Some((x0, y0)) = last
-                && let Some(here) = self.pixel_x(x)
-            {
-                while next <= here.min(most) {
-                    let at = self.value_at(next);
-                    let part = ((at - x0) / (x - x0)).clamp(0.0, 1.0);
-                    if let Some(row) = self.pixel_y(y0 + part * (y - y0)) {
-                        self.raster.line((next, row), (next, row), pen);
-                    }
-                    next += stride;
-                }
+            let here = (across(x), down(y));
+            if !(here.0.is_finite() && here.1.is_finite()) {
+                last = None;
+                continue;
             }
-            last = Some((x, y));
+            let there = last.replace(here).unwrap_or(here);
+            let (dx, dy) = (here.0 - there.0, here.1 - there.1);
+            let length = dx.hypot(dy);
+            let mut at = stride - gone;
+            while at <= length && dots.len() < MOST_DOTS {
+                let part = at / length;
+                let dot = (there.0 + part * dx, there.1 + part * dy);
+                if dot.0 >= begin {
+                    dots.push(dot);
+                }
+                at += stride;
+            }
+            gone = (length - (at - stride)).clamp(0.0, stride);
         }
-    }
-
-    /// The x value of a sub-pixel column.
-    fn value_at(&self, column: i64) -> f64 {
-        let last = self.raster.size().0.saturating_sub(1).max(1) as f64;
-        self.x.low + column as f64 / last * (self.x.high - self.x.low)
+        for (x, y) in dots {
+            self.raster.blot(x.round() as i64, y.round() as i64, pen);
+        }
     }
 
     /// A decimated signal, one span per sub-pixel column, joined to the next.
@@ -284,7 +292,9 @@ impl<'a> Plot<'a> {
 }
 
 /// Cells between two dots of a dotted line.
-const DOTS: i64 = 1;
+const DOTS: f64 = 1.5;
+/// Most dots of one such line.
+const MOST_DOTS: usize = 20_000;
 /// Whether a value is in the range of an axis, but for round-off.
 fn is_inside(axis: &ChartAxis, value: f64) -> bool {
     let part = (value - axis.low) / (axis.high - axis.low);

@@ -133,7 +133,7 @@ impl Raster {
     }
 
     /// One sub-pixel of a line, or a block of four if lines are wide.
-    fn blot(&mut self, x: i64, y: i64, pen: &Pen) {
+    pub fn blot(&mut self, x: i64, y: i64, pen: &Pen) {
         self.set(x, y, pen);
         if self.wide {
             for (right, down) in [(1, 0), (0, 1), (1, 1)] {

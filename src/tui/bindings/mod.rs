@@ -163,11 +163,18 @@ pub struct Binding {
     pub footer: Option<(&'static str, &'static str)>,
 }
 
+impl Context {
+    /// The context that has the keys which this one has not.
+    pub fn behind(self) -> Option<Self> {
+        matches!(self, Self::Reading | Self::Question).then_some(Self::Main)
+    }
+}
+
 /// What a key does in a context.
 pub fn lookup(context: Context, chord: Chord) -> Option<Action> {
     let own = of(context).find(|binding| binding.keys.contains(&chord));
-    match (own, context) {
-        (None, Context::Reading | Context::Question) => lookup(Context::Main, chord),
+    match (own, context.behind()) {
+        (None, Some(behind)) => lookup(behind, chord),
         (own, _) => own.map(|binding| binding.action),
     }
 }

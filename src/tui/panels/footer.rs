@@ -5,7 +5,7 @@
 use ratatui::{buffer::Buffer, layout::Rect, style::Style};
 
 use crate::tui::app::{App, InputMode, Purpose};
-use crate::tui::bindings::{self, Action, Binding, Context};
+use crate::tui::bindings::{self, Action, Binding};
 use crate::tui::text::{columns, pieces, print, shorten};
 use crate::tui::theme::Role;
 
@@ -17,6 +17,9 @@ const PALETTE_FROM: u16 = 60;
 
 /// What somebody who is new can try.
 const TRY: &str = "new here? → turns Ω, g: lessons";
+
+/// What is said during a sweep.
+const SWEEPS: &str = "sweeping; any key stops";
 
 /// Draws the line.
 pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
@@ -36,7 +39,10 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
         print(buffer, area, 0, &shown, look.style(Role::Focus));
         return;
     }
-    let hint = (app.is_new && app.mode == InputMode::Main).then(|| TRY.to_string());
+    let hint = match app.sweep {
+        Some(_) => Some(SWEEPS.to_string()),
+        None => (app.is_new && app.mode == InputMode::Main).then(|| TRY.to_string()),
+    };
     let message = match (&app.status, hint) {
         (Some(status), _) => Some((look.spell(status), Role::Good)),
         (None, hint) => hint.map(|hint| (look.spell(&hint), Role::Focus)),
@@ -71,8 +77,7 @@ fn ending(text: &str, width: usize, mark: &str) -> String {
 /// The bindings that hold now, with what is left of those of the main screen.
 fn current(app: &App) -> impl Iterator<Item = &'static Binding> {
     let context = app.context();
-    let main = (context == Context::Reading).then_some(Context::Main);
-    bindings::of(context).chain(main.into_iter().flat_map(bindings::of))
+    bindings::of(context).chain(context.behind().into_iter().flat_map(bindings::of))
 }
 
 /// Whether a binding has its place at the right end.

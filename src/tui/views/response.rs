@@ -229,7 +229,7 @@ fn ghost(app: &App, plot: &mut Plot, what: &Page) {
     let look = &app.appearance;
     for (place, pen) in [(first + 1, look.second()), (first, look.first())] {
         let pen = Pen { sign: '.', dashed: false, ..pen };
-        plot.dotted(run.trace.between(place, ahead, to), ahead, &pen);
+        plot.dotted(run.trace.between(place, from, to), ahead, &pen);
     }
 }
 
