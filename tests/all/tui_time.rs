@@ -212,3 +212,24 @@ fn the_reading_cursor_reads_every_chart() {
     let wanted = format!("blade 4: {:.2}", 1e6 * gap);
     assert!(session.text().contains(&wanted[..13]), "{wanted}\n{}", session.text());
 }
+
+#[test]
+fn a_lesson_slows_down_at_changes_and_gives_the_pace_back() {
+    let mut session = Session::open(scene("rocking"), 1e-3);
+    session.press("z");
+    assert!(!session.app.slow_at_events);
+    session.press("g\n");
+    assert!(session.app.slow_at_events);
+    session.press("G");
+    assert!(!session.app.slow_at_events && session.app.lesson.is_none());
+}
+
+#[test]
+fn the_reading_cursor_names_the_nearest_run_of_the_comparison() {
+    let mut scene = scene("rocking");
+    scene.solver.end_s = 2e-3;
+    let mut session = Session::open(scene, 1e-4);
+    session.press("7fi");
+    let text = session.text();
+    assert!(text.contains(": error ") && text.contains(" in "), "{text}");
+}

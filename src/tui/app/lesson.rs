@@ -120,6 +120,7 @@ impl App {
     pub(super) fn end_lesson(&mut self) {
         if let Some(progress) = self.lesson.take() {
             self.live = progress.own.live;
+            self.slow_at_events = progress.own.slow_at_events;
             self.set_compare(progress.own.compare);
         }
     }
@@ -183,6 +184,8 @@ impl App {
         }
         self.refusal = None;
         self.live = step.live;
+        // What happens in a few microseconds can be seen in a lesson.
+        self.slow_at_events = true;
         self.set_compare(step.compare && answered);
         let then = step.then_view.as_ref().filter(|_| answered);
         let view = then.or(step.view.as_ref()).and_then(|word| ViewId::from_word(word));

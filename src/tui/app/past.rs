@@ -17,6 +17,7 @@ pub struct Past {
     view: ViewId,
     companions: Vec<ViewId>,
     rate: usize,
+    pub(super) slow_at_events: bool,
     pub(super) live: bool,
     pub(super) compare: bool,
     lesson: Option<LessonProgress>,
@@ -32,6 +33,7 @@ impl App {
             view: self.view,
             companions: self.companions.clone(),
             rate: self.rate,
+            slow_at_events: self.slow_at_events,
             live: self.live,
             compare: self.compare,
             lesson: self.lesson.clone(),
@@ -66,7 +68,7 @@ impl App {
     /// Gives the user's own state back, as it was before a lesson.
     pub(super) fn give_back(&mut self, own: Past) {
         self.remember(self.past());
-        self.rate = own.rate;
+        (self.rate, self.slow_at_events) = (own.rate, own.slow_at_events);
         self.come_back(own);
     }
 

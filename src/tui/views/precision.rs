@@ -4,11 +4,11 @@
 use ratatui::{buffer::Buffer, layout::Rect};
 
 use super::panel::{ViewArea, ViewPanel, not_yet, title};
-use crate::report::precision::{decades, letter, place};
+use crate::report::precision::{decades, letter, place, series};
 use crate::scene::SolverKind;
-use crate::study::precision::{Measure, Way};
+use crate::study::precision::{Measure, Row, Way};
 use crate::tui::app::App;
-use crate::tui::axis::ChartAxis;
+use crate::tui::axis::{ChartAxis, readable};
 use crate::tui::plot::Plot;
 use crate::tui::text::{columns, print, wrap};
 use crate::tui::theme::Role;
@@ -33,20 +33,20 @@ impl ViewPanel for PrecisionView {
             SolverKind::Event => Role::First,
             SolverKind::Explicit => Role::Second,
         };
-        let series = [
+        let entries = [
             ("e event", Role::First),
             ("u explicit, b other law (capital: modal, 1 2: full)", Role::Second),
         ];
         let axes = [("error |u-u_ref|/g0 by wall time [s]".to_string(), quiet)];
         let mut legend: Vec<_> =
-            series.iter().map(|(text, role)| (text.to_string(), look.style(*role))).collect();
+            entries.iter().map(|(text, role)| (text.to_string(), look.style(*role))).collect();
         legend.extend(axes.clone());
         // What does not fit into the title has lines of its own.
         let taken: usize = legend.iter().map(|(text, _)| columns(text) + 2).sum();
         let fits = taken + TITLE <= usize::from(at.area.width);
         let mut inside = title(app, buffer, at, "precision", if fits { &legend } else { &axes });
         if !fits && inside.height >= LEGEND_FROM {
-            for (text, role) in series {
+            for (text, role) in entries {
                 for line in wrap(text, usize::from(inside.width)) {
                     print(buffer, inside, 0, &line, look.style(role));
                     inside = below(inside);
@@ -73,6 +73,7 @@ impl ViewPanel for PrecisionView {
             );
             print(buffer, inside, 0, &note, quiet);
         }
+        let words = inside;
         let inside = below(inside);
         let placed = || report.rows.iter().filter_map(|row| Some((place(row)?, row)));
         // A logarithmic axis has no zero: rows without error are listed below.
@@ -93,8 +94,20 @@ impl ViewPanel for PrecisionView {
         let errors = decades(points.iter().map(|((_, y), _)| *y));
         let (Some((left, right)), Some((bottom, top))) = (times, errors) else { return };
         let (x, y) = (ChartAxis::powers(left, right), ChartAxis::powers(bottom, top));
+        let mut reading = None;
         let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
         at.note(app, plot.inner);
+        let cursor = app.cursor.filter(|_| at.large).map(|at| (x.at(at.across), y.at(at.up)));
+        if let Some(cursor) = cursor {
+            plot.point(cursor.0, cursor.1, '+', look.style(Role::Focus));
+            // Both axes are as long.
+            let [wide, high] = [right - left, top - bottom];
+            let far = |(x, y): (f64, f64)| ((x - cursor.0) / wide).hypot((y - cursor.1) / high);
+            let nearest = points.iter().min_by(|a, b| far(a.0).total_cmp(&far(b.0)));
+            if let Some((_, row)) = nearest {
+                reading = Some(told(row));
+            }
+        }
         for ((x, y), row) in points {
             plot.point(x, y, letter(&row.way), look.style(role(&row.way)));
             if row.is_wrong()
@@ -103,11 +116,24 @@ impl ViewPanel for PrecisionView {
                 plot.text(column + 1, line, "!", look.style(Role::Trouble));
             }
         }
+        if let Some(reading) = reading {
+            let blank = " ".repeat(usize::from(words.width));
+            print(buffer, words, 0, &blank, quiet);
+            print(buffer, words, 0, &look.spell(&reading), look.style(Role::Focus));
+        }
     }
 
     fn csv(&self, _: &App) -> Result<String, String> {
         Err("`rubscope precision` writes these rows".into())
     }
+}
+
+/// A row in words: the nearest to the reading cursor.
+fn told(row: &Row) -> String {
+    let step = row.way.step_s.map_or(String::new(), |step| format!(", h {}", readable(step, "s")));
+    let error = row.error_final.map_or("-".to_string(), |error| format!("{error:.2e}"));
+    let (letter, series) = (letter(&row.way), series(&row.way));
+    format!("{letter} {series}{step}: error {error} in {}", readable(row.wall_s, "s"))
 }
 
 /// An area without its first row.
