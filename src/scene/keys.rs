@@ -238,6 +238,21 @@ macro_rules! text {
     };
 }
 
+/// Keys in which a scene differs from another, with their values as text; charts
+/// are not counted.
+pub fn differences(from: &Scene, to: &Scene) -> impl Iterator<Item = (&'static str, String)> {
+    let counted = KEYS.iter().filter(|key| !key.path.starts_with("view."));
+    let changed = counted.filter(move |key| (key.get)(from) != (key.get)(to));
+    changed.map(move |key| {
+        let text = match (key.get)(to) {
+            Value::Real(x) => format!("{x:?}"),
+            Value::Text(text) => text,
+            other => other.to_string(),
+        };
+        (key.path, text)
+    })
+}
+
 /// Every key but `schema`, in the order of the file.
 pub const KEYS: &[Key] = &[
     text!("title", "one line that names the scene", 200, title),

@@ -171,6 +171,14 @@ pub fn readable(value: f64, unit: &str) -> String {
     format!("{shown:.decimals$} {}{unit}", scale.prefix).trim_end().to_string()
 }
 
+/// An instant with six significant digits, enough to type it elsewhere.
+pub fn instant(t: f64) -> String {
+    let scale = SiScale::of(t);
+    let shown = t / scale.factor;
+    let before = shown.abs().max(1.0).log10().floor() as usize;
+    format!("{shown:.*} {}s", 5_usize.saturating_sub(before), scale.prefix)
+}
+
 /// A range that grows at once, shrinks only when the data is much smaller, and
 /// always has round ends.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -11,11 +11,14 @@ use super::terminal::{self, Frames};
 
 /// Draws on the terminal of the explorer.
 #[derive(Debug)]
-pub struct ScreenBackend(CrosstermBackend<Frames>);
+pub struct ScreenBackend {
+    inner: CrosstermBackend<Frames>,
+    hidden: bool,
+}
 
 impl Default for ScreenBackend {
     fn default() -> Self {
-        Self(CrosstermBackend::new(Frames::default()))
+        Self { inner: CrosstermBackend::new(Frames::default()), hidden: false }
     }
 }
 
@@ -26,31 +29,35 @@ impl Backend for ScreenBackend {
     where
         I: Iterator<Item = (u16, u16, &'a Cell)>,
     {
-        self.0.draw(content)
+        // Without a change nothing is sent, not even the usual reset of colours.
+        let mut content = content.peekable();
+        if content.peek().is_none() { Ok(()) } else { self.inner.draw(content) }
     }
 
     fn hide_cursor(&mut self) -> Result<(), Error> {
-        self.0.hide_cursor()
+        // It was hidden when the screen was opened, and nothing shows it.
+        if std::mem::replace(&mut self.hidden, true) { Ok(()) } else { self.inner.hide_cursor() }
     }
 
     fn show_cursor(&mut self) -> Result<(), Error> {
-        self.0.show_cursor()
+        self.hidden = false;
+        self.inner.show_cursor()
     }
 
     fn get_cursor_position(&mut self) -> Result<Position, Error> {
-        self.0.get_cursor_position()
+        self.inner.get_cursor_position()
     }
 
     fn set_cursor_position<P: Into<Position>>(&mut self, position: P) -> Result<(), Error> {
-        self.0.set_cursor_position(position)
+        self.inner.set_cursor_position(position)
     }
 
     fn clear(&mut self) -> Result<(), Error> {
-        self.0.clear()
+        self.inner.clear()
     }
 
     fn clear_region(&mut self, region: ClearType) -> Result<(), Error> {
-        self.0.clear_region(region)
+        self.inner.clear_region(region)
     }
 
     fn size(&self) -> Result<Size, Error> {
@@ -62,6 +69,6 @@ impl Backend for ScreenBackend {
     }
 
     fn flush(&mut self) -> Result<(), Error> {
-        std::io::Write::flush(&mut self.0)
+        std::io::Write::flush(&mut self.inner)
     }
 }

@@ -11,7 +11,7 @@ use super::views::ViewId;
 use super::views::locked::curves::LockedCurves;
 use super::views::map::{CellRun, LiveMap, MapChoice};
 use super::views::spectrum::transform::Spectrum;
-use crate::motion::{ActiveSet, Checks, Hold, State, Verdict};
+use crate::motion::{ActiveSet, Checks, Hold, Motion, State, Verdict};
 use crate::scene::CheckedScene;
 use crate::study::MapPlan;
 use crate::study::precision::Precision;
@@ -158,6 +158,24 @@ pub struct Moment {
     pub ends: u64,
 }
 
+impl Moment {
+    /// The instant at which a motion is; forces are those of this instant.
+    pub fn of(motion: &Motion) -> Self {
+        let (state, log) = (motion.state(), motion.contacts());
+        Self {
+            state,
+            angle: motion.rotor().angle(state.t_s),
+            speed: motion.rotor().speed(state.t_s),
+            active_set: log.active_set,
+            since: log.since,
+            gaps: motion.blade_gaps(),
+            multipliers: motion.multipliers(),
+            failure: motion.failure().map(ToString::to_string),
+            ..Self::default()
+        }
+    }
+}
+
 /// Results for one generation of the knobs.
 #[derive(Clone, Debug, Default)]
 pub struct Results {
@@ -184,6 +202,8 @@ pub struct Results {
     pub precision: Option<Arc<Precision>>,
     /// Solver speed.
     pub pace: Pace,
+    /// Live changes and pulses so far, as `run --at` takes them: when \[s\], what.
+    pub applied: Vec<(f64, String)>,
     /// The motion at the reading cursor, computed for that instant.
     pub reading: Option<Arc<Moment>>,
 }

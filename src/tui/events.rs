@@ -3,13 +3,18 @@
 
 use std::sync::mpsc::Sender;
 use std::thread;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
-use crossterm::event::{self, KeyEvent, KeyEventKind, MouseEvent};
+use crossterm::event::{self, KeyCode, KeyEvent, KeyEventKind, KeyModifiers, MouseEvent};
 
 use super::files::FileResult;
-use super::ground::{LATE, LateAnswer};
+use super::ground::{LATE, LateAnswer, is_part_of_answer};
 use super::scenes::FoundScenes;
+
+/// Keys that follow each other this closely are no typing.
+const BURST: Duration = Duration::from_millis(3);
+/// Most events that are taken together.
+const MOST_IN_BURST: usize = 64;
 
 /// Something that happened.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,29 +53,65 @@ pub fn read_keys(to: Sender<ScreenEvent>, unanswered: bool) -> std::io::Result<(
         let began = Instant::now();
         let mut late = LateAnswer::default();
         loop {
-            let event = match event::read() {
-                Ok(event::Event::Key(key))
-                    if unanswered && began.elapsed() < LATE && late.takes(&key) =>
+            let mut burst = vec![event::read()];
+            while unanswered && began.elapsed() < LATE && may_follow(&burst) {
+                burst.push(event::read());
+            }
+            let keys: Option<Vec<KeyEvent>> = burst.iter().map(key_of).collect();
+            if keys.is_some_and(|keys| is_part_of_answer(&keys)) {
+                continue;
+            }
+            for event in burst {
+                if let Ok(event::Event::Key(key)) = &event
+                    && unanswered
+                    && began.elapsed() < LATE
+                    && late.takes(key)
                 {
                     continue;
                 }
-                // Some terminals also report releases; repeats count as presses.
-                Ok(event::Event::Key(key)) if key.kind != KeyEventKind::Release => {
-                    ScreenEvent::Key(key)
+                let Some(event) = screen_event(event) else { continue };
+                let last = event == ScreenEvent::InputClosed;
+                if to.send(event).is_err() || last {
+                    return;
                 }
-                Ok(event::Event::Mouse(mouse)) => ScreenEvent::Mouse(mouse),
-                Ok(event::Event::Resize(..)) => ScreenEvent::Resize,
-                Ok(event::Event::Paste(text)) => ScreenEvent::Pasted(text),
-                Ok(_) => continue,
-                Err(_) => ScreenEvent::InputClosed,
-            };
-            let last = event == ScreenEvent::InputClosed;
-            if to.send(event).is_err() || last {
-                return;
             }
         }
     };
     thread::Builder::new().name("rubscope-input".into()).spawn(read).map(|_| ())
+}
+
+/// Whether more of what came last is there already: nobody types that fast.
+fn may_follow(burst: &[std::io::Result<event::Event>]) -> bool {
+    burst.last().and_then(key_of).is_some()
+        && burst.len() < MOST_IN_BURST
+        && event::poll(BURST).unwrap_or(false)
+}
+
+fn key_of(event: &std::io::Result<event::Event>) -> Option<KeyEvent> {
+    match event {
+        Ok(event::Event::Key(key)) => Some(*key),
+        _ => None,
+    }
+}
+
+/// What an event of the terminal is for the explorer, if it is anything.
+fn screen_event(event: std::io::Result<event::Event>) -> Option<ScreenEvent> {
+    Some(match event {
+        // Some terminals also report releases; repeats count as presses.
+        Ok(event::Event::Key(key)) if key.kind != KeyEventKind::Release => {
+            if key.code == KeyCode::Char('c') && key.modifiers == KeyModifiers::CONTROL {
+                // It quits everywhere; a frame that waits for the terminal must not
+                // keep the drawing thread from hearing it.
+                super::terminal::cut_frame();
+            }
+            ScreenEvent::Key(key)
+        }
+        Ok(event::Event::Mouse(mouse)) => ScreenEvent::Mouse(mouse),
+        Ok(event::Event::Resize(..)) => ScreenEvent::Resize,
+        Ok(event::Event::Paste(text)) => ScreenEvent::Pasted(text),
+        Ok(_) => return None,
+        Err(_) => ScreenEvent::InputClosed,
+    })
 }
 
 /// Starts the thread that waits for signals. If the drawing thread does not end

@@ -88,6 +88,23 @@ pub struct LateAnswer {
     escaped: bool,
 }
 
+/// Whether keys that came together are a piece of an answer whose other pieces
+/// went elsewhere: three or more, all of them signs of an answer, and one of them
+/// a sign that separates.
+pub fn is_part_of_answer(keys: &[KeyEvent]) -> bool {
+    let belongs = |key: &KeyEvent| match key.code {
+        KeyCode::Esc => true,
+        KeyCode::Char(letter) if key.modifiers.contains(KeyModifiers::ALT) => {
+            "]\\[".contains(letter)
+        }
+        KeyCode::Char(letter) if key.modifiers.contains(KeyModifiers::CONTROL) => letter == 'g',
+        KeyCode::Char(letter) => letter.is_ascii_hexdigit() || "rgb:/;?]\\[".contains(letter),
+        _ => false,
+    };
+    let separates = |key: &KeyEvent| matches!(key.code, KeyCode::Char('/' | ';' | ':'));
+    keys.len() >= 3 && keys.iter().all(belongs) && keys.iter().any(separates)
+}
+
 impl LateAnswer {
     /// Most characters of an answer.
     const MOST: usize = 40;
@@ -182,6 +199,20 @@ mod tests {
                 let kept = left(keys.concat());
                 assert_eq!(kept, [typed("abq?"), typed("\\")].concat(), "{colour}");
             }
+        }
+    }
+
+    #[test]
+    fn a_piece_of_an_answer_is_none_of_the_users_keys() {
+        let bell = vec![KeyEvent::new(KeyCode::Char('g'), KeyModifiers::CONTROL)];
+        let whole = [alt(']'), typed("11;rgb:1e1e/1e1e/1e1e"), bell.clone()].concat();
+        for from in 0..12 {
+            assert!(is_part_of_answer(&whole[from..]), "{from}");
+        }
+        assert!(is_part_of_answer(&[escape(), typed("]11;rgb:0/0/0"), bell].concat()));
+        assert!(is_part_of_answer(&typed("[?62;22c")));
+        for keys in ["g", "lll", "hhhh", ":", "430", "ab", ":speed", "5f?"] {
+            assert!(!is_part_of_answer(&typed(keys)), "{keys}");
         }
     }
 

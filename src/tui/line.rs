@@ -25,6 +25,8 @@ const THIN: f64 = 4500.0;
 const KEYS: f64 = 20_000.0;
 /// How long answers to keys may run ahead of that.
 const AHEAD: Duration = Duration::from_secs(1);
+/// Longest wait of an answer to a key.
+const SOON: Duration = Duration::from_millis(200);
 /// Longest pause between two frames, whatever the last one took.
 const LONGEST: Duration = Duration::from_secs(2);
 
@@ -35,18 +37,20 @@ pub struct Throttle {
     /// When the line is free again.
     free: Instant,
     sent: u64,
+    /// Whether writes have to wait.
+    slow: bool,
 }
 
 impl Throttle {
     /// An account that begins at `now`, with `sent` bytes sent already.
     pub fn new(line: Line, now: Instant, sent: u64) -> Self {
-        Self { line, free: now, sent }
+        Self { line, free: now, sent, slow: false }
     }
 
     /// A frame has been sent; `sent` is the number of bytes in all.
     pub fn spend(&mut self, sent: u64, by_key: bool, slow: bool, now: Instant) {
         let bytes = sent.saturating_sub(self.sent) as f64;
-        self.sent = sent;
+        (self.sent, self.slow) = (sent, slow);
         if self.line == Line::Full || (self.line == Line::Auto && !slow) {
             self.free = now;
             return;
@@ -59,7 +63,12 @@ impl Throttle {
     /// How long the next frame must wait from `now`.
     pub fn wait(&self, by_key: bool, now: Instant) -> Duration {
         let wait = self.free.saturating_duration_since(now);
-        if by_key { wait.saturating_sub(AHEAD) } else { wait }
+        // A key is answered soon, whatever was sent before.
+        match (by_key, self.slow) {
+            (true, false) => wait.saturating_sub(AHEAD).min(SOON),
+            (true, true) => wait.saturating_sub(AHEAD),
+            (false, _) => wait,
+        }
     }
 }
 
@@ -90,6 +99,11 @@ mod tests {
         }
         assert!(rate(Line::Thin, 1000, false, false) > 4000.0);
         assert!(rate(Line::Thin, 2000, true, false) < 22_000.0);
+        // The answer to a key does not wait for the frames before it.
+        let now = Instant::now();
+        let mut throttle = Throttle::new(Line::Thin, now, 0);
+        (1..9).for_each(|k| throttle.spend(k * 25_000, false, false, now));
+        assert!(throttle.wait(true, now) <= SOON);
         assert!(rate(Line::Full, 1000, false, true) > 60_000.0);
         assert!(rate(Line::Auto, 1000, false, false) > 60_000.0);
     }

@@ -84,7 +84,12 @@ pub fn run<B: Backend>(
                 Reaction::Quit => match last_file(events, app, host) {
                     Some(exit) => return Ok(exit),
                     // It was not written: the user decides what to do.
-                    None => (again, due) = (true, Due::Now),
+                    None => {
+                        (again, due) = (true, Due::Now);
+                        if let Reaction::Exit(exit) = resumed(host.resume()) {
+                            return Ok(exit);
+                        }
+                    }
                 },
                 Reaction::Draw(soon) => due = due.max(soon),
                 Reaction::Look => due = due.max(look(app, engine)),

@@ -241,6 +241,9 @@ impl Write for Frames {
     }
 
     fn flush(&mut self) -> Result<(), Error> {
+        if self.0.is_empty() {
+            return Ok(());
+        }
         let written = write(&self.0);
         self.0.clear();
         written

@@ -40,8 +40,8 @@ impl Trace {
 pub enum Happening {
     /// A blade group met the casing and left it at once.
     Impact(u32),
-    /// Other sides touch.
-    Contact(ActiveSet),
+    /// Other sides touch: those before, and now.
+    Contact(ActiveSet, ActiveSet),
     /// These sides let go, and nothing touches.
     Release(ActiveSet),
 }
@@ -86,7 +86,7 @@ impl Marks {
         if changed {
             let what = match log.active_set {
                 ActiveSet::Nothing => Happening::Release(self.active_set),
-                now => Happening::Contact(now),
+                now => Happening::Contact(self.active_set, now),
             };
             new.push(Mark { t_s: log.since, what });
         }

@@ -66,7 +66,7 @@ fn a_signal_ends_it_in_every_state_read_or_not() {
         ("?", "Type to find"),
         ("g", "Lessons: Enter begins one"),
         ("s", "save the scene as"),
-        (" ", "pause"),
+        (" ", "go on"),
         ("c", "bilateral:"),
         ("f5", "5 map"),
     ];

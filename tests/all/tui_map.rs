@@ -348,12 +348,16 @@ fn view_3_of_a_rotor_that_turns_the_other_way_says_so() {
     scene.operation.speed_rad_s = -430.0;
     let mut session = Session::open((200, 50), scene, Theme::Dark, Marker::Braille);
     session.press("3");
-    assert!(session.text().contains("a and b change places"), "{}", session.text());
-    // And they do.
+    assert!(session.text().contains("turning backwards"), "{}", session.text());
+    session.press("i");
+    let text = session.text();
+    assert!(text.contains("at -430.0 rad/s"), "{text}");
+    // Its groups are those of the other way, exchanged.
     let machine = session.app.scene.machine();
     let sweep = locked_motion(&machine, Form::Modal, true, None, &[430.0, -430.0]).unwrap();
     let [one, other] = [sweep.points[0], sweep.points[1]].map(|point| point.multipliers_n);
     for (force, swapped) in one.into_iter().zip([other[1], other[0]]) {
         assert!((force - swapped).abs() < 1e-9 * force.abs(), "{one:?} {other:?}");
     }
+    assert!(text.contains(&format!("λ_b {:.1} N", other[1])), "{other:?} {text}");
 }

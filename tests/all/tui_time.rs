@@ -11,7 +11,7 @@ use rubscope::scene::Scene;
 use rubscope::tui::events::ScreenEvent;
 use rubscope::tui::terminal::NoHost;
 use rubscope::tui::worker::Stepwise;
-use rubscope::tui::{App, Marker, Theme, run};
+use rubscope::tui::{App, Marker, Source, Theme, run};
 
 struct Session {
     terminal: Terminal<TestBackend>,
@@ -32,6 +32,7 @@ impl Session {
     fn press(&mut self, keys: &str) {
         let codes = keys.chars().map(|letter| match letter {
             '\n' => KeyCode::Enter,
+            '\u{1b}' => KeyCode::Esc,
             letter => KeyCode::Char(letter),
         });
         for code in codes.map(Some).chain([None]) {
@@ -65,7 +66,7 @@ fn the_first_line_says_what_is_now_and_what_will_be() {
     let line = session.row(0);
     assert!(line.starts_with("NOW held on 6 + 21 ► "), "{line}");
     assert!(line.contains("rad/s↓") && line.contains("| AT 100 ms  DECAY "), "{line}");
-    assert!(line.contains("lock broken at 48.91 ms, 410.4 rad/s"), "{line}");
+    assert!(line.contains("DECAY  lock broken at 48.91 ms, 410.4 rad/s"), "{line}");
     // The speed that is shown is that of the ramp, with its sign.
     session.press("....");
     let speed = session.app.speed();
@@ -95,7 +96,7 @@ fn the_reading_cursor_reads_the_run_and_not_a_bin() {
         format!("u_c {:.2} µm", 1e6 * u_c),
         format!("u_s {:.2} µm", 1e6 * u_s),
         format!("α_c {:.3}", 1e9 * alpha_c).chars().take(9).collect(),
-        format!("at {:.2} ms", 1e3 * t),
+        format!("at {:.4} ms", 1e3 * motion.state().t_s),
     ] {
         assert!(text.contains(&wanted), "{wanted} is not in\n{text}");
     }
@@ -116,7 +117,7 @@ fn a_jump_says_what_happened_and_when() {
     for zoom in ["", "++++++++", "--------"] {
         session.press(&format!("r={zoom}n"));
         let status = session.app.status.clone().unwrap();
-        assert_eq!(status, "103.0 µs: touching 19");
+        assert_eq!(status, "103.043 µs: touching 19");
     }
 }
 
@@ -204,7 +205,7 @@ fn the_reading_cursor_reads_every_chart() {
     session.press("4");
     assert!(session.app.cursor.is_none());
     session.press("i");
-    assert!(session.text().contains(" away "), "{}", session.text());
+    assert!(session.text().contains(" to blade "), "{}", session.text());
     // View 2: the gap of one blade, as the motion has it.
     session.press("2i");
     session.press("lll");
@@ -232,4 +233,92 @@ fn the_reading_cursor_names_the_nearest_run_of_the_comparison() {
     session.press("7fi");
     let text = session.text();
     assert!(text.contains(": error ") && text.contains(" in "), "{text}");
+}
+
+/// The words of a command line as the shell would give them.
+fn words(command: &str) -> Vec<String> {
+    assert!(!command.contains('\''), "{command}");
+    command.split_whitespace().map(String::from).collect()
+}
+
+#[test]
+fn the_copied_command_repeats_live_changes_at_their_instants() {
+    for name in ["rocking", "paper-nd3"] {
+        let mut scene = scene(name);
+        scene.solver.end_s = 0.02;
+        let mut session = Session::open(scene, 1e-4);
+        let opened = Scene::builtin(name).unwrap();
+        session.app.source = Some(Source { name: name.into(), scene: opened });
+        session.press(" x");
+        session.press("\n430\n");
+        session.press(" ");
+        session.press(" p");
+        session.press("\n505\n");
+        let app = &session.app;
+        let command = app.command();
+        assert_eq!(command.matches(" --at ").count(), 3, "{command}");
+        let run = app.full_run().unwrap();
+        let words = words(&command);
+        let output = assert_cmd::Command::cargo_bin("rubscope")
+            .unwrap()
+            .args(&words[1..])
+            .arg("--json")
+            .output()
+            .unwrap();
+        let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        let outcome = &report["outcome"];
+        assert_eq!(outcome["verdict"].as_str().unwrap(), run.verdict.as_ref(), "{command}");
+        assert_eq!(report["impact_count"].as_u64().unwrap(), run.impacts, "{command}");
+        let end = run.trace.points.last().unwrap();
+        let last = report["final"]["u_c_m"].as_f64().unwrap();
+        // The same instants, but for the step in which a change comes.
+        assert!((end[0] - last).abs() < 1e-9, "{name}: {} {last}", end[0]);
+    }
+}
+
+#[test]
+fn another_scene_has_scales_of_its_own() {
+    let mut session = Session::open(scene("half-n"), 1e-3);
+    let before = session.app.ranges.casing;
+    session.press(":paper-nd3\n");
+    let after = session.app.ranges.casing;
+    assert!(before.high > 1e-3 && after.high < 3e-4, "{before:?} {after:?}");
+}
+
+#[test]
+fn a_knob_goes_on_playing_after_the_end_of_a_run() {
+    let mut scene = scene("rocking");
+    scene.solver.end_s = 5e-3;
+    let mut session = Session::open(scene, 5e-4);
+    while session.app.playing {
+        session.press("");
+    }
+    assert!(session.row(39).contains("Space goes on"));
+    session.press("l");
+    assert!(session.app.playing && session.app.now() > 0.0);
+    // But not after a pause by hand.
+    session.press(" l");
+    assert!(!session.app.playing && session.row(39).contains("Space go on"), "{}", session.row(39));
+}
+
+#[test]
+fn a_blade_that_lets_go_is_named() {
+    let mut session = Session::open(scene("run-down"), 1e-3);
+    session.press(" n");
+    let status = session.app.status.clone().unwrap();
+    assert_eq!(status, "48.9136 ms: 21 lets go, 6 still touches");
+}
+
+#[test]
+fn a_reading_has_room_on_a_small_screen() {
+    let mut session = Session::open(scene("rocking"), 1e-3);
+    for (width, height) in [(80, 24), (60, 20)] {
+        session.terminal = Terminal::new(TestBackend::new(width, height)).unwrap();
+        for (view, wanted) in [("1", "u_c "), ("6", "u_c "), ("4", " to blade ")] {
+            session.press(&format!("{view}i"));
+            let rows: String = (0..height).map(|y| session.row(y) + "\n").collect();
+            assert!(rows.contains(wanted), "{view} at {width}x{height}\n{rows}");
+            session.press("\u{1b}");
+        }
+    }
 }

@@ -1,7 +1,8 @@
 //! The command line that repeats the run on the screen.
 
 use super::{App, Source};
-use crate::scene::{DEFAULT, KEYS, Scene, Value};
+use crate::scene::keys::differences;
+use crate::scene::{DEFAULT, Scene};
 
 impl App {
     /// `rubscope run SCENE` with every key that differs from it.
@@ -13,23 +14,22 @@ impl App {
         };
         let Source { name, scene: base } = self.source.clone().unwrap_or_else(default);
         let mut command = format!("rubscope run {}", quoted(&name));
-        for (path, text) in self.changes_from(&base) {
+        // Live changes come at their instants, after which the forecast is as long
+        // as the scene says.
+        let mut scene = self.started.clone().into_scene();
+        scene.solver.end_s = self.end_s();
+        for (path, text) in differences(&base, &scene) {
             command.push_str(&format!(" --set {}", quoted(&format!("{path}={text}"))));
+        }
+        for (t, what) in &self.latest.results.applied {
+            command.push_str(&format!(" --at {}", quoted(&format!("{t:?}:{what}"))));
         }
         command
     }
 
-    /// Keys that differ from a scene, with their values as text; charts are not
-    /// counted.
+    /// Keys that differ from a scene, with their values as text.
     pub(super) fn changes_from(&self, base: &Scene) -> Vec<(&'static str, String)> {
-        let counted = KEYS.iter().filter(|key| !key.path.starts_with("view."));
-        let changed = counted.filter(|key| (key.get)(&self.scene) != (key.get)(base));
-        let as_text = |value| match value {
-            Value::Real(x) => format!("{x:?}"),
-            Value::Text(text) => text,
-            other => other.to_string(),
-        };
-        changed.map(|key| (key.path, as_text((key.get)(&self.scene)))).collect()
+        differences(base, &self.scene).collect()
     }
 
     /// The command to copy; the status line shows it too.
@@ -42,7 +42,7 @@ impl App {
 
 /// A word, quoted for the shell.
 fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=+".contains(c);
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=+:".contains(c);
     if !word.is_empty() && word.chars().all(plain) {
         word.to_string()
     } else {

@@ -2,9 +2,12 @@
 
 use std::sync::Arc;
 
+use crossterm::event::KeyCode;
+
 use super::past::Past;
 use super::{App, InputMode, Source};
 use crate::scene::{Scene, Value, keys};
+use crate::tui::bindings::Chord;
 use crate::tui::knobs::KNOBS;
 use crate::tui::lessons::{self, Condition, LETTERS, Lesson, LessonStep};
 use crate::tui::panels;
@@ -64,6 +67,19 @@ impl App {
     pub fn is_asked(&self) -> bool {
         let step = self.lesson_step();
         step.is_some_and(|(step, now)| step.question.is_some() && now.answer.is_none())
+    }
+
+    /// Whether a key is the letter of an answer in a step that has its answer and
+    /// nothing to do: it would act on the charts by surprise.
+    pub(super) fn is_second_answer(&self, chord: Chord) -> bool {
+        let letters = || LETTERS.iter().any(|letter| chord.code == KeyCode::Char(*letter));
+        let answered = |(step, now): (&LessonStep, StepProgress)| {
+            step.question.is_some() && now.answer.is_some() && step.task.is_none()
+        };
+        self.mode == InputMode::Main
+            && !chord.ctrl
+            && letters()
+            && self.lesson_step().is_some_and(answered)
     }
 
     /// The key of the lessons: the list, the next page, or the next step.
@@ -152,6 +168,13 @@ impl App {
     /// Takes an answer: now its scene is run.
     pub(super) fn answer(&mut self, place: usize) {
         if !self.is_asked() {
+            return;
+        }
+        if self.lesson.as_ref().is_some_and(|progress| !progress.read)
+            && panels::lesson_fills(self)
+            && self.lesson.as_ref().is_some_and(|now| now.page + 1 < panels::lesson_pages(self))
+        {
+            self.status = Some("the question is on the next page: g".into());
             return;
         }
         let past = self.past();

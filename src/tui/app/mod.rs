@@ -90,6 +90,8 @@ pub struct App {
     pub scene: CheckedScene,
     /// The scene as it was opened; `Backspace` restores its values.
     pub opened: CheckedScene,
+    /// The scene with which the run started; knobs may have acted on it since.
+    pub started: CheckedScene,
     /// Everything derived from `scene`.
     pub machine: Machine,
     /// The selected knob.
@@ -116,6 +118,8 @@ pub struct App {
     pub mouse: bool,
     /// Whether time passes.
     pub playing: bool,
+    /// Whether it stopped because the run has come to its end.
+    stopped_by_end: bool,
     /// Place in `RATES`.
     pub rate: usize,
     /// Page length relative to the usual one, in steps of about two.
@@ -215,6 +219,7 @@ impl App {
         let machine = scene.machine();
         Self {
             opened: scene.clone(),
+            started: scene.clone(),
             ranges: Ranges::of(machine.clearance()),
             machine,
             scene,
@@ -230,6 +235,7 @@ impl App {
             presenting: false,
             mouse: true,
             playing: true,
+            stopped_by_end: false,
             rate: time::FIRST_RATE,
             zoom: 0,
             compare: false,

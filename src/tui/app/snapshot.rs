@@ -3,7 +3,7 @@
 
 use super::{App, Ranges};
 use crate::motion::ActiveSet;
-use crate::tui::axis::{AutoRange, readable};
+use crate::tui::axis::{AutoRange, instant};
 use crate::tui::engine::{Results, Snapshot};
 use crate::tui::history::{Bin, Channel};
 
@@ -25,6 +25,7 @@ impl App {
         self.grow_ranges(&snapshot.comparison_bins);
         self.history.extend(&std::mem::take(&mut snapshot.bins));
         self.comparison_history.extend(&std::mem::take(&mut snapshot.comparison_bins));
+        let had_forecast = self.full_run().is_some();
         let known = std::mem::take(&mut self.latest);
         let results = match snapshot.generation == self.order().generation() {
             // An old study stays on the screen until there is a new one.
@@ -38,14 +39,16 @@ impl App {
         };
         self.latest = Snapshot { results, trouble: known.trouble, ..snapshot };
         self.turn_page();
-        self.grow_to_forecast();
+        self.fit_to_forecast(!had_forecast);
         self.tell_moment();
         self.check_lesson();
         true
     }
 
-    /// Grows the ranges to hold the part of the forecast that is on the page.
-    fn grow_to_forecast(&mut self) {
+    /// Makes the ranges hold the part of the forecast that is on the page; for a
+    /// new one they may shrink, too, but not below the clearance.
+    fn fit_to_forecast(&mut self, is_new: bool) {
+        let clearance = self.machine.clearance();
         let (from, to) = self.page();
         let Some(run) = self.full_run().filter(|_| self.ranges.follow) else { return };
         let span = |place: usize| {
@@ -54,9 +57,13 @@ impl App {
         };
         let [casing, blades] =
             [[0, 1], [2, 3]].map(|places| places.into_iter().filter_map(span).reduce(wider));
-        for (range, data) in [(&mut self.ranges.casing, casing), (&mut self.ranges.blades, blades)]
-        {
-            grow(range, data);
+        let casing = casing.map(|data| wider(data, (-clearance, clearance)));
+        let Ranges { casing: of_casing, blades: of_blades, .. } = &mut self.ranges;
+        for (range, data) in [(of_casing, casing), (of_blades, blades)] {
+            match data {
+                Some((low, high)) if is_new && high > low => range.follow(low, high),
+                data => grow(range, data),
+            }
         }
     }
 
@@ -67,14 +74,15 @@ impl App {
         if jumps == self.counters.jumps && jumps > self.counters.met {
             self.counters.met = jumps;
             self.status = Some(match met {
-                Some(mark) => format!("{}: {}", readable(mark.t_s, "s"), self.happening(mark.what)),
+                Some(mark) => format!("{}: {}", instant(mark.t_s), self.happening(mark.what)),
                 None => "no change of contact comes soon".into(),
             });
         }
         if moment.ends > self.counters.ends {
             self.counters.ends = moment.ends;
             // An answer to a key is not covered.
-            if std::mem::take(&mut self.playing) && self.status.is_none() {
+            self.stopped_by_end = std::mem::take(&mut self.playing);
+            if self.stopped_by_end && self.status.is_none() {
                 self.status = Some("the end of the run; Space goes on".into());
             }
         }

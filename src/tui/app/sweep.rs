@@ -14,14 +14,25 @@ const MOST_WHOLE: u64 = 1000;
 /// Stretches of one verdict that are told at the end.
 const TOLD: usize = 4;
 
+/// Neighbouring values with one verdict.
+#[derive(Clone, Debug)]
+struct Stretch {
+    word: String,
+    from: String,
+    to: String,
+    count: usize,
+}
+
 /// A sweep under way.
 #[derive(Clone, Debug)]
 pub struct Sweep {
     knob: &'static Knob,
     /// The values to come, the next one last.
     rest: Vec<Value>,
-    /// Verdicts so far, with their first and last value.
-    found: Vec<(String, String, String)>,
+    /// How many values there are.
+    all: usize,
+    /// Stretches of one verdict so far.
+    found: Vec<Stretch>,
 }
 
 impl App {
@@ -60,7 +71,7 @@ impl App {
         let mut rest = values(&knob.get(&self.scene), &to);
         rest.reverse();
         self.remember(self.past());
-        self.sweep = Some(Sweep { knob, rest, found: Vec::new() });
+        self.sweep = Some(Sweep { knob, all: rest.len(), rest, found: Vec::new() });
     }
 
     /// A frame has been shown: if it had a verdict, the next value.
@@ -71,9 +82,12 @@ impl App {
         };
         let Some(sweep) = &mut self.sweep else { return };
         let value = sweep.knob.shown(&sweep.knob.get(&self.scene));
-        match sweep.found.last_mut().filter(|(word, ..)| *word == done) {
-            Some((_, _, last)) => *last = value,
-            None => sweep.found.push((done, value.clone(), value)),
+        match sweep.found.last_mut().filter(|stretch| stretch.word == done) {
+            Some(stretch) => (stretch.to, stretch.count) = (value, stretch.count + 1),
+            None => {
+                let (from, to) = (value.clone(), value);
+                sweep.found.push(Stretch { word: done, from, to, count: 1 });
+            }
         }
         match sweep.rest.pop() {
             Some(next) => {
@@ -100,15 +114,28 @@ impl App {
 }
 
 impl Sweep {
-    /// The verdicts in one line: `speed: DECAY 300 to 411 rad/s, LOCKED 412 to ...`.
+    /// How far it is, for the last line.
+    pub fn progress(&self) -> String {
+        let done = self.all.saturating_sub(self.rest.len());
+        let part = 100 * done / self.all.max(1);
+        format!("sweeping {}: {part} %; any key stops", self.knob.label)
+    }
+
+    /// The verdicts in one line, locks first, then the longest stretches:
+    /// `speed: LOCKED 412 to 460 rad/s, DECAY 300 to 411 rad/s`.
     fn told(&self) -> String {
-        let stretch = |(word, from, to): &(String, String, String)| match from == to {
-            true => format!("{word} {from}"),
-            false => format!("{word} {from} to {to}"),
+        let shown = |stretch: &Stretch| match stretch.from == stretch.to {
+            true => format!("{} {}", stretch.word, stretch.from),
+            false => format!("{} {} to {}", stretch.word, stretch.from, stretch.to),
         };
-        let mut parts: Vec<String> = self.found.iter().take(TOLD).map(stretch).collect();
-        if self.found.len() > TOLD {
-            parts.push(format!("and {} more", self.found.len() - TOLD));
+        let mut found: Vec<&Stretch> = self.found.iter().collect();
+        if found.len() > TOLD {
+            let locks = |stretch: &Stretch| stretch.word == "LOCKED";
+            found.sort_by_key(|stretch| (!locks(stretch), std::cmp::Reverse(stretch.count)));
+        }
+        let mut parts: Vec<String> = found.iter().take(TOLD).map(|found| shown(found)).collect();
+        if found.len() > TOLD {
+            parts.push(format!("and {} shorter stretches", found.len() - TOLD));
         }
         format!("{}: {}", self.knob.label, parts.join(", "))
     }

@@ -122,6 +122,10 @@ impl App {
     /// Restarts the run. Old studies stay until there are new ones.
     pub fn restart(&mut self) {
         self.counters.restarts += 1;
+        self.started = self.scene.clone();
+        if std::mem::take(&mut self.stopped_by_end) {
+            self.playing = true;
+        }
         self.history.clear();
         self.comparison_history.clear();
         self.pages_back = 0;

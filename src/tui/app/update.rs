@@ -49,6 +49,10 @@ impl App {
             self.act(Action::Close);
         }
         let chord = Chord::of(event);
+        if self.is_second_answer(chord) {
+            self.status = Some("answered already: g goes on, B goes back".into());
+            return Effect::None;
+        }
         if let Some(action) = lookup(self.context(), chord) {
             let effect = self.act(action);
             self.check_lesson();
@@ -199,6 +203,7 @@ impl App {
             Action::Redo => self.step_back(true),
             Action::Pause => {
                 self.playing = !self.playing;
+                self.stopped_by_end = false;
                 // Told more often than gone on: the motion waits at the end.
                 if self.playing && self.counters.ends > self.counters.extensions {
                     self.counters.extensions = self.counters.ends;
@@ -221,7 +226,10 @@ impl App {
                 let name = format!("{}.csv", self.view.word());
                 self.mode = InputMode::Naming(Purpose::Export, name);
             }
-            Action::Lesson => self.lesson_key(),
+            Action::Lesson => {
+                (self.presenting, self.appearance.wide) = (false, false);
+                self.lesson_key();
+            }
             Action::LessonBack => self.lesson_back(),
             Action::Answer(place) => self.answer(place),
             Action::LeaveLesson => self.leave_lesson(),
@@ -282,6 +290,10 @@ impl App {
 
     /// The screen for a projector, or the usual one.
     fn present(&mut self, on: bool) {
+        if on && self.lesson.is_some() {
+            self.status = Some("a lesson needs the usual screen; G leaves it".into());
+            return;
+        }
         (self.presenting, self.appearance.wide) = (on, on);
         self.status = on.then(|| "P or Esc: back to the usual screen".into());
     }

@@ -101,7 +101,7 @@ impl App {
         let mut parts = vec![detail];
         if let Some((hold, speed)) = &run.broken {
             let (at, speed) = (readable(hold.ended, "s"), readable(*speed, "rad/s"));
-            parts.push(format!("lock broken at {at}, {speed}"));
+            parts.insert(0, format!("lock broken at {at}, {speed}"));
         }
         if pulls {
             parts.push(plural(tensile, "tensile step"));
@@ -118,10 +118,10 @@ impl App {
         if other.verdict == own.verdict {
             return None;
         }
-        let why = if self.latest.results.sensitive {
-            "the scene is sensitive".to_string()
-        } else if own.checks.tensile_steps > 0 {
+        let why = if own.checks.tensile_steps > 0 {
             plural(own.checks.tensile_steps, "pull") + " here"
+        } else if self.latest.results.sensitive {
+            "the scene is sensitive".to_string()
         } else {
             "step too large".to_string()
         };
@@ -164,7 +164,14 @@ impl App {
     pub fn happening(&self, what: Happening) -> String {
         match what {
             Happening::Impact(side) => format!("impact on {}", self.numbers_of([side].into_iter())),
-            Happening::Contact(active_set) => self.state_of(active_set),
+            Happening::Contact(before, now) => match (before, now) {
+                (ActiveSet::Corner(a, b), ActiveSet::Side(kept)) if kept == a || kept == b => {
+                    let gone = if kept == a { b } else { a };
+                    let [gone, kept] = [gone, kept].map(|side| self.numbers_of([side].into_iter()));
+                    format!("{gone} lets go, {kept} still touches")
+                }
+                _ => self.state_of(now),
+            },
             Happening::Release(ActiveSet::Side(side)) => {
                 format!("{} lets go", self.numbers_of([side].into_iter()))
             }

@@ -18,9 +18,6 @@ const PALETTE_FROM: u16 = 60;
 /// What somebody who is new can try.
 const TRY: &str = "new here? → turns Ω, g: lessons";
 
-/// What is said during a sweep.
-const SWEEPS: &str = "sweeping; any key stops";
-
 /// Draws the line.
 pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
     let look = &app.appearance;
@@ -40,7 +37,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
         return;
     }
     let hint = match app.sweep {
-        Some(_) => Some(SWEEPS.to_string()),
+        Some(ref sweep) => Some(sweep.progress()),
         None => (app.is_new && app.mode == InputMode::Main).then(|| TRY.to_string()),
     };
     let message = match (&app.status, hint) {
@@ -124,7 +121,9 @@ fn keys(app: &App, buffer: &mut Buffer, area: Rect) {
     let look = &app.appearance;
     let mut rest = area;
     let others = bindings::of(app.context()).filter(|binding| !is_kept(binding));
-    for (keys, word) in others.filter_map(|binding| binding.footer) {
+    for (binding, (keys, word)) in others.filter_map(|binding| Some((binding, binding.footer?))) {
+        let paused = binding.action == Action::Pause && !app.playing;
+        let word = if paused { "go on" } else { word };
         let gap = if rest == area { "" } else { GAP };
         let keys = format!("{gap}{}", look.spell(keys));
         let wide = u16::try_from(columns(&keys) + 1 + columns(word)).unwrap_or(u16::MAX);

@@ -5,22 +5,22 @@
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier, style::Style};
 
 use crate::report::number::trimmed;
-use crate::tui::app::App;
+use crate::tui::app::{App, VerdictText};
 use crate::tui::axis::readable;
 use crate::tui::engine::Limit;
 use crate::tui::text::{columns, print, shorten};
 use crate::tui::theme::Role;
 
 /// Columns that the words after the verdict should have, if there are any.
-const DETAIL: usize = 24;
+const DETAIL: usize = 40;
 /// From this width on, the next change of contact is told.
 const ROOMY: usize = 110;
 /// From this width on, the second line has the limits in full and the solver,
 const WIDE: u16 = 100;
 /// and from this one on the limits beside a doubt.
 const MEDIUM: u16 = 60;
-/// Columns of a title that can be recognised.
-const LEAST_TITLE: u16 = 8;
+/// Most columns of a title.
+const MOST_TITLE: usize = 40;
 
 type Parts = Vec<(String, Style)>;
 
@@ -47,12 +47,13 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
 /// The title of the scene at the right end, if there is room.
 fn title(app: &App, buffer: &mut Buffer, area: Rect, used: u16) {
     let look = &app.appearance;
-    let left = area.width.saturating_sub(used.saturating_add(2));
-    if left < LEAST_TITLE {
+    let left = area.width.saturating_sub(used.saturating_add(3));
+    let title = shorten(&look.spell(&app.scene.title), MOST_TITLE, look.either("…", ".."));
+    let wide = u16::try_from(columns(&title)).unwrap_or(u16::MAX);
+    // A part of it beside the verdict would read as one sentence.
+    if wide > left {
         return;
     }
-    let title = shorten(&look.spell(&app.scene.title), usize::from(left), look.either("…", ".."));
-    let wide = u16::try_from(columns(&title)).unwrap_or(u16::MAX).min(left);
     let right = Rect { x: area.right() - wide, width: wide, ..area };
     print(buffer, right, 0, &title, look.style(Role::Quiet));
 }
@@ -78,7 +79,13 @@ fn line(app: &App, buffer: &mut Buffer, area: Rect, row: u16, parts: &Parts) -> 
 fn now_and_end(app: &App, width: usize) -> Parts {
     let look = &app.appearance;
     let quiet = look.style(Role::Quiet);
-    let words = app.verdict();
+    // The end would answer the question of a lesson.
+    let words = match app.is_asked() {
+        true => {
+            VerdictText { word: "?".into(), detail: "your answer first".into(), role: Role::Quiet }
+        }
+        false => app.verdict(),
+    };
     let word = format!(" {} ", words.word);
     let mut detail = words.detail;
     if let Some(baseline) = &app.baseline
@@ -156,7 +163,8 @@ fn pace(app: &App) -> Parts {
         Limit::Solver => " (solver's limit)",
         Limit::Wave => " (slowed: the wave)",
     };
-    let mut parts = vec![(format!("{}{limit}", app.rate_text()), quiet)];
+    let about = if app.slow_at_events { "about " } else { "" };
+    let mut parts = vec![(format!("{about}{}{limit}", app.rate_text()), quiet)];
     if app.pages_back != 0 {
         let (count, word) = (app.pages_back, if app.pages_back > 0 { "back" } else { "ahead" });
         parts.push((format!(" {} {word}", count.abs()), focus));

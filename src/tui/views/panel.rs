@@ -100,7 +100,7 @@ pub fn title(
     } else {
         look.style(Role::Text)
     };
-    let head = (format!("{} {name}", at.digit), style);
+    let head = (format!("{} {name}", at.digit).trim_end().to_string(), style);
     let parts = std::iter::once(&head).chain(legend);
     let parts: Vec<_> =
         parts.map(|(text, style)| (format!(" {} ", look.spell(text)), *style)).collect();

@@ -6,13 +6,14 @@ use ratatui::buffer::Buffer;
 
 use super::panel::{ViewArea, ViewPanel, csv, entry, names, title};
 use crate::motion::ActiveSet;
+use crate::scene::ModelSize;
 use crate::tui::app::{App, Cursor};
-use crate::tui::axis::{AutoRange, ChartAxis, readable};
+use crate::tui::axis::{AutoRange, ChartAxis, instant, readable};
 use crate::tui::engine::{FullRun, Moment};
 use crate::tui::history::{BinHistory, Channel};
 use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
-use crate::tui::text::wrap;
+use crate::tui::text::{columns, wrap};
 use crate::tui::theme::Role;
 use crate::tui::trace::Happening;
 
@@ -36,7 +37,7 @@ impl ViewPanel for ResponseView {
         let casing = Page::casing("response, casing".into(), app);
         if app.compare {
             both_laws(app, buffer, at);
-        } else if at.area.height >= TWO_FROM && !app.presenting {
+        } else if at.area.height >= TWO_FROM && !app.presenting && bends(app) {
             let [above, below] = at.rows(60);
             page(app, buffer, above, &casing);
             let blades = Page {
@@ -89,6 +90,11 @@ impl ViewPanel for ResponseView {
         });
         csv(&columns, rows)
     }
+}
+
+/// Whether blades bend at all: those of the rigid model would show round-off.
+fn bends(app: &App) -> bool {
+    app.scene.solver.model != ModelSize::Rigid
 }
 
 /// What one chart shows.
@@ -147,8 +153,11 @@ fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
     let mark = look.either('▪', '#');
     let mut legend: Vec<_> =
         pens.iter().zip(what.names).map(|(pen, name)| entry(look, pen, name)).collect();
-    if let Some(read) = reading(app, what) {
-        legend.push((read, look.style(Role::Focus)));
+    let read = reading(app, what, usize::from(at.area.width));
+    let name = if read.is_some() { "" } else { what.name.as_str() };
+    if let Some(read) = read {
+        // The values come first: names and units may have no room.
+        legend.insert(0, (read, look.style(Role::Focus)));
     }
     legend.push((format!("{}{} over {}s", y.scale.prefix, what.unit, x.scale.prefix), quiet));
     if let Some(baseline) = app.baseline.as_ref().filter(|_| what.own) {
@@ -158,7 +167,7 @@ fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
     if what.forecast.is_some() {
         legend.push((format!("{} to come", look.either("···", "...")), quiet));
     }
-    let inside = title(app, buffer, at, &what.name, &legend);
+    let inside = title(app, buffer, at, name, &legend);
     let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
     at.note(app, plot.inner);
     plot.level(0.0, look.either('┈', '.'), quiet);
@@ -194,7 +203,8 @@ fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
 }
 
 /// The values at the reading cursor, computed for that instant.
-fn reading(app: &App, what: &Page) -> Option<String> {
+/// It comes without the instant where that has no room.
+fn reading(app: &App, what: &Page, width: usize) -> Option<String> {
     app.cursor_time()?;
     let values = |moment: &Moment| match what.unit {
         "rad" => moment.state.alpha,
@@ -211,7 +221,10 @@ fn reading(app: &App, what: &Page) -> Option<String> {
     let named = what.names.iter().zip(values(moment));
     let named: Vec<String> =
         named.map(|(name, value)| format!("{name} {}", readable(value, what.unit))).collect();
-    Some(format!("at {}: {}", readable(moment.state.t_s, "s"), named.join(", ")))
+    let values = named.join(", ");
+    let whole = format!("at {}: {values}", instant(moment.state.t_s));
+    // The rule, the digit and the gaps of the title take seven.
+    Some(if columns(&whole) + 7 > width { values } else { whole })
 }
 
 /// The run to come, in dots, and where nothing was recorded yet.
@@ -247,8 +260,8 @@ fn names_of_marks(app: &App, plot: &mut Plot, what: &Page) {
     for corners in [true, false] {
         for mark in on_page().take(MOST_NAMES) {
             let sides = match mark.what {
-                Happening::Contact(ActiveSet::Corner(a, b)) if corners => vec![a, b],
-                Happening::Contact(ActiveSet::Side(side)) if !corners => vec![side],
+                Happening::Contact(_, ActiveSet::Corner(a, b)) if corners => vec![a, b],
+                Happening::Contact(_, ActiveSet::Side(side)) if !corners => vec![side],
                 Happening::Impact(side) if !corners => vec![side],
                 _ => continue,
             };

@@ -1,7 +1,7 @@
 //! Copies of the motion at some instants, so that any instant of the run can be
 //! computed again exactly.
 
-use crate::motion::{GoOn, Motion};
+use crate::motion::Motion;
 
 /// Most copies between changes; above, every second one goes.
 const MOST: usize = 128;
@@ -51,13 +51,10 @@ impl Copies {
         }
     }
 
-    /// The motion at `t`, computed again; the explicit solver: at its last step by
-    /// then. None before what is remembered, after a failure, or where `go_on`
-    /// says no.
-    pub fn at(&self, t: f64, now: &Motion, go_on: GoOn<'_>) -> Option<Motion> {
+    /// The last copy by `t`, to be advanced from there; none before what is
+    /// remembered.
+    pub fn before(&self, t: f64, now: &Motion) -> Option<Motion> {
         let copies = self.copies.iter().map(|(copy, _)| copy).chain([now]);
-        let mut motion = copies.take_while(|copy| copy.state().t_s <= t).last()?.clone();
-        // A motion that has failed cannot be looked at afterwards.
-        (motion.advance_while(t, go_on) == Ok(true)).then_some(motion)
+        copies.take_while(|copy| copy.state().t_s <= t).last().cloned()
     }
 }

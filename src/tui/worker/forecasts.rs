@@ -7,7 +7,7 @@ use super::background::Background;
 use super::full_run::{FullRunJob, SLICE};
 use super::studies::Studies;
 use crate::motion::{Motion, Script, is_sensitive, run_to_verdict};
-use crate::scene::{Scene, SolverKind};
+use crate::scene::{CheckedScene, Scene, SolverKind};
 use crate::tui::engine::{FORECAST_LIMIT, FullRun, FullRunState, Order, Pace, Results};
 use crate::tui::trace::Mark;
 
@@ -118,17 +118,15 @@ fn reference(scene: &Scene) -> Option<FullRunJob> {
     Some(FullRunJob::new(Motion::new(&scene), scene.solver.end_s))
 }
 
-/// Finds out whether a tiny change of the pulse changes the outcome; nothing
-/// comes where this takes too long.
-fn sensitivity(scene: &Scene) -> Background<bool> {
-    let scene = scene.as_reference().checked();
+/// Finds out whether a tiny change of the pulse changes the outcome, as
+/// `rubscope run` does; nothing comes where this takes too long.
+fn sensitivity(scene: &CheckedScene) -> Background<bool> {
+    let scene = scene.clone();
     Background::start(move |to, go_on| {
         let began = Instant::now();
         let go_on = || go_on() && began.elapsed() < FORECAST_LIMIT;
-        let found = scene.ok().and_then(|scene| {
-            let reached = run_to_verdict(&scene, &go_on)?;
-            is_sensitive(&scene, &Script::default(), reached, &go_on)
-        });
+        let found = run_to_verdict(&scene, &go_on)
+            .and_then(|reached| is_sensitive(&scene, &Script::default(), reached, &go_on));
         if let Some(sensitive) = found {
             // Without a receiver nobody asks any more.
             let _ = to.send(sensitive);

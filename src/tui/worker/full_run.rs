@@ -38,7 +38,8 @@ impl FullRunJob {
         let steps = motion.steps().unwrap_or(0);
         Self {
             end: start + length,
-            window: LAST_PART * length,
+            // As a run from the start to there is judged.
+            window: LAST_PART * (start + length),
             taken: 0,
             points: vec![point(&motion)],
             marks: Marks::from(motion.contacts()),

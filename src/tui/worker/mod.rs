@@ -11,6 +11,7 @@ mod map_job;
 mod pacing;
 mod playback;
 mod precision;
+mod reading;
 mod recorder;
 mod stepwise;
 mod studies;

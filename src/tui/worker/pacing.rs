@@ -81,7 +81,7 @@ mod tests {
     use crate::tui::trace::Happening;
 
     fn marks(times: &[f64]) -> Vec<Mark> {
-        let what = Happening::Contact(ActiveSet::Side(1));
+        let what = Happening::Contact(ActiveSet::Nothing, ActiveSet::Side(1));
         times.iter().map(|t_s| Mark { t_s: *t_s, what }).collect()
     }
 

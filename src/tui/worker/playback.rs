@@ -1,18 +1,19 @@
 //! The engine without clock or thread: takes orders, plays the motion, and makes
 //! snapshots.
 
-use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::comparison::{Comparison, other_law};
 use super::copies::Copies;
 use super::forecasts::Forecasts;
-use super::full_run::FullRunJob;
+use super::full_run::{FullRunJob, SLICE};
 use super::jump::{met, next_change};
 use super::pacing::{Turned, rate_at};
+use super::reading::Reading;
 use super::recorder::Recorder;
 use super::studies::Studies;
 use crate::motion::{Change, GoOn, Motion};
+use crate::scene::keys::differences;
 use crate::tui::engine::{Limit, Moment, Order, Snapshot};
 use crate::tui::trace::{Mark, Marks};
 use crate::tui::views::ViewId;
@@ -29,8 +30,6 @@ const PLAY_LIMIT: Duration = Duration::from_millis(25);
 const JUMP_SAMPLES: f64 = 20_000.0;
 /// Longest wall time of such a jump; a second press goes on from there.
 const JUMP_LIMIT: Duration = Duration::from_secs(1);
-/// Longest wall time to compute the instant of the reading cursor.
-const READING_LIMIT: Duration = Duration::from_millis(100);
 
 /// A motion being played, and its full runs.
 #[derive(Debug)]
@@ -42,7 +41,8 @@ pub struct Playback {
     limit: Limit,
     turned: Turned,
     copies: Copies,
-    reading: Option<Arc<Moment>>,
+    reading: Reading,
+    applied: Vec<(f64, String)>,
     met: (u64, Option<Mark>),
     ends: u64,
     forecasts: Forecasts,
@@ -72,7 +72,8 @@ impl Playback {
             limit: Limit::None,
             turned: Turned::default(),
             copies: Copies::of(&motion, order.bin_s * BINS),
-            reading: None,
+            reading: Reading::default(),
+            applied: Vec::new(),
             met: (order.jumps, None),
             ends: 0,
             forecasts: Forecasts::of(&motion, scene, studies),
@@ -119,6 +120,7 @@ impl Playback {
             }
         }
         if changed {
+            self.note_changes(&before);
             self.copies.changed(&self.motion);
             self.forecast();
             self.forecasts.forget_sensitivity();
@@ -138,6 +140,18 @@ impl Playback {
         self.met.0 = order.jumps;
         if order.cursor_s != before.cursor_s || changed {
             self.read();
+        }
+    }
+
+    /// Notes what the latest order changed, as `run --at` takes it.
+    fn note_changes(&mut self, before: &Order) {
+        let now = self.motion.state().t_s;
+        if self.order.changes != before.changes {
+            let keys = differences(&before.scene, &self.order.scene);
+            self.applied.extend(keys.map(|(path, text)| (now, format!("{path}={text}"))));
+        }
+        if self.order.pulses != before.pulses {
+            self.applied.push((now, "pulse".into()));
         }
     }
 
@@ -322,20 +336,20 @@ impl Playback {
         self.play_comparison(self.time_limit);
     }
 
-    /// Computes the instant of the reading cursor.
+    /// Begins to compute the instant of the reading cursor.
     fn read(&mut self) {
-        let (began, limit) = (Instant::now(), self.time_limit.min(READING_LIMIT));
-        let cursor = self.order.cursor_s;
-        self.reading = cursor.and_then(|t| {
-            let motion = self.copies.at(t, &self.motion, &|| began.elapsed() < limit)?;
-            Some(Arc::new(moment(&motion)))
-        });
+        let at = self.order.cursor_s;
+        let from = at.and_then(|t| Some((t, self.copies.before(t, &self.motion)?)));
+        self.reading.begin(from);
+        self.reading.go_on(self.time_limit.min(SLICE));
     }
 
     /// Whether there is more to compute.
     pub fn is_computing(&self) -> bool {
         let comparison = self.comparison.as_ref().map(|comparison| &comparison.full_run);
-        self.behind || self.forecasts.is_computing(&self.order, comparison)
+        self.behind
+            || !self.reading.is_done()
+            || self.forecasts.is_computing(&self.order, comparison)
     }
 
     /// Computes one slice of what is not done.
@@ -343,6 +357,7 @@ impl Playback {
         if self.behind {
             return self.play_comparison(self.time_limit);
         }
+        self.reading.go_on(self.time_limit.min(SLICE));
         let comparison = self.comparison.as_mut().map(|comparison| &mut comparison.full_run);
         self.forecasts.compute(&self.order, comparison);
     }
@@ -353,13 +368,14 @@ impl Playback {
             multipliers: self.recorder.mean_forces(),
             met: self.met,
             ends: self.ends,
-            ..moment(&self.motion)
+            ..Moment::of(&self.motion)
         };
         let comparison = self.comparison.as_mut();
         let mut results =
             self.forecasts.results(comparison.as_ref().map(|comparison| &comparison.full_run));
         results.pace.limit = self.limit;
-        results.reading.clone_from(&self.reading);
+        results.reading = self.reading.moment();
+        results.applied.clone_from(&self.applied);
         Snapshot {
             generation: self.order.generation(),
             restarts: self.order.restarts,
@@ -371,22 +387,6 @@ impl Playback {
             results,
             trouble: None,
         }
-    }
-}
-
-/// The instant at which a motion is; forces are those of this instant.
-fn moment(motion: &Motion) -> Moment {
-    let (state, log) = (motion.state(), motion.contacts());
-    Moment {
-        state,
-        angle: motion.rotor().angle(state.t_s),
-        speed: motion.rotor().speed(state.t_s),
-        active_set: log.active_set,
-        since: log.since,
-        gaps: motion.blade_gaps(),
-        multipliers: motion.multipliers(),
-        failure: motion.failure().map(ToString::to_string),
-        ..Moment::default()
     }
 }
 

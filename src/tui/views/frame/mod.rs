@@ -68,7 +68,7 @@ fn reading(app: &App, x: ChartAxis, y: ChartAxis) -> Option<String> {
     let gaps = (0..polygon.sides).map(|side| (side, polygon.gap(side, x, y)));
     let (side, gap) = gaps.min_by(|a, b| a.1.total_cmp(&b.1))?;
     let (blade, gap) = (app.blades_of([side].into_iter()), readable(gap, "m"));
-    Some(format!("at {}, {}: {blade} {gap} away", readable(x, "m"), readable(y, "m")))
+    Some(format!("{gap} to {blade} at {}, {}", readable(x, "m"), readable(y, "m")))
 }
 
 fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
@@ -83,10 +83,12 @@ fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
         (format!("{point} now"), look.style(Role::Focus)),
         (app.contact_shown(), look.style(Role::Contact)),
     ];
-    if let Some(read) = reading(app, x, y) {
+    let read = reading(app, x, y);
+    let name = if read.is_some() { "" } else { "blade frame" };
+    if let Some(read) = read {
         legend.insert(0, (read, look.style(Role::Focus)));
     }
-    let inside = title(app, buffer, at, "blade frame", &legend);
+    let inside = title(app, buffer, at, name, &legend);
     let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
     at.note(app, plot.inner);
     let outline = Pen { dashed: false, ..look.quiet() };

@@ -9,7 +9,7 @@ use super::ViewId;
 use super::panel::{ViewArea, ViewPanel, csv, title};
 use crate::motion::ActiveSet;
 use crate::tui::app::{App, Cursor, cell_of};
-use crate::tui::axis::{ChartAxis, readable};
+use crate::tui::axis::{ChartAxis, instant, readable};
 use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
 use crate::tui::theme::Role;
@@ -43,7 +43,7 @@ impl ViewPanel for GapsView {
         if app.heat {
             return heat::csv(app);
         }
-        let gaps = app.latest.moment.as_ref().map_or(&[][..], |moment| &moment.gaps);
+        let gaps = app.shown().map_or(&[][..], |moment| &moment.gaps);
         let rows = (1..).zip(gaps).map(|(blade, gap)| [f64::from(blade), *gap]);
         csv(&["blade", "gap_m"].map(String::from), rows)
     }
@@ -99,8 +99,8 @@ fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
 
 /// The instant or the blade under the reading cursor.
 fn reading(app: &App) -> Option<String> {
-    if let Some(t) = app.cursor_time() {
-        return Some(format!("at {}", readable(t, "s")));
+    if app.cursor_time().is_some() {
+        return Some(format!("at {}", instant(app.shown()?.state.t_s)));
     }
     let cursor = app.cursor.filter(|_| app.view == ViewId::Gaps)?;
     let blade = cell_of(cursor.across, app.machine.polygon.blades);

@@ -70,7 +70,7 @@ impl Chart {
         plot.level(0.0, look.either('┈', '.'), quiet);
         super::uprights(&mut plot, app, curves);
         for (pen, (_, of)) in pens.iter().zip(self.quantities).rev() {
-            plot.curve(points.iter().map(|point| (point.speed_rad_s, of(point))), pen);
+            plot.curve(points.iter().map(|point| (point.speed_rad_s.abs(), of(point))), pen);
         }
         plot.ink();
     }
@@ -84,6 +84,7 @@ pub fn cursor_speed(app: &App, curves: &LockedCurves) -> Option<f64> {
 
 /// The locked motion at one speed, solved there, in words.
 pub fn reading(app: &App, speed: f64) -> String {
+    let speed = speed.copysign(app.speed());
     let at = format!("at {}: ", readable(speed, "rad/s"));
     let sweep = locked_motion(&app.machine, Form::Modal, true, None, &[speed]);
     let Some(point) = sweep.ok().and_then(|sweep| sweep.points.first().copied()) else {

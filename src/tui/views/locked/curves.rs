@@ -25,7 +25,9 @@ impl LockedCurves {
         let machine = scene.machine();
         let fastest = speed_range(scene);
         let step = fastest / f64::from(POINTS - 1);
-        let speeds: Vec<f64> = (0..POINTS).map(|k| f64::from(k) * step).collect();
+        // A rotor that turns backwards has its own locked motion; it is drawn over |Ω|.
+        let sense = scene.operation.speed_rad_s.signum();
+        let speeds: Vec<f64> = (0..POINTS).map(|k| sense * f64::from(k) * step).collect();
         let curve = |damped| locked_motion(&machine, Form::Modal, damped, None, &speeds).ok();
         let has_damping = machine.casing_damping > 0.0;
         Self { fastest, damped: curve(true), undamped: has_damping.then(|| curve(false)).flatten() }

@@ -119,7 +119,7 @@ fn multipliers(app: &App, buffer: &mut Buffer, at: ViewArea) {
         legend.push(entry(look, &look.quiet(), "undamped"));
     }
     if app.speed() < 0.0 {
-        legend.push(("over |Ω|: the other way round a and b change places".into(), quiet));
+        legend.push(("over |Ω|, turning backwards".into(), quiet));
     }
     let inside = title(app, buffer, at, "locked λ(Ω)", &legend);
     let Some(curves) = curves else { return };
@@ -190,7 +190,8 @@ fn uprights(plot: &mut Plot, app: &App, curves: &LockedCurves) {
 }
 
 fn curve(plot: &mut Plot, sweep: &Sweep, place: usize, pen: &Pen) {
-    let lambda = |point: &LockedPoint| Some((point.speed_rad_s, *point.multipliers_n.get(place)?));
+    let lambda =
+        |point: &LockedPoint| Some((point.speed_rad_s.abs(), *point.multipliers_n.get(place)?));
     plot.curve(sweep.points.iter().filter_map(lambda), pen);
 }
 

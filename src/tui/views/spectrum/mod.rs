@@ -73,10 +73,11 @@ fn amplitudes(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let spectrum = app.latest.results.spectrum.as_ref();
     let mut legend = vec![entry(look, &look.first(), "u_c"), entry(look, &look.second(), "u_s")];
     if let Some(read) = cursor.and_then(|frequency| reading(spectrum?, frequency)) {
-        legend.push((read, look.style(Role::Focus)));
+        legend.insert(0, (read, look.style(Role::Focus)));
     }
     legend.push(("m by rad/s, whole run, Hann window".to_string(), quiet));
-    let inside = title(app, buffer, at, "spectrum", &legend);
+    let name = if cursor.is_some() { "" } else { "spectrum" };
+    let inside = title(app, buffer, at, name, &legend);
     let Some(spectrum) = spectrum else {
         return not_yet(app, buffer, inside);
     };
