@@ -117,6 +117,11 @@ fn make_private(_: &Path) -> std::io::Result<()> {
     Ok(())
 }
 
+/// Whether a folder may be made: not below a home that does not exist.
+fn is_at_home(folder: &Path, home: &Path) -> bool {
+    home.is_dir() || !folder.starts_with(home)
+}
+
 /// The name by which a terminal is remembered. The same terminal may answer at
 /// once here, and too late over a network.
 pub fn terminal_name(variable: &dyn Fn(&str) -> String) -> String {
@@ -161,8 +166,12 @@ pub struct Memory {
 impl Memory {
     /// Reads the file of the user, or does without.
     pub fn recall(wanted: bool) -> Self {
-        let folder = choose_base_strategy().ok().map(|places| places.config_dir());
-        let path = folder.filter(|_| wanted).map(|folder| folder.join("rubscope/config.toml"));
+        let places = choose_base_strategy().ok().filter(|_| wanted);
+        let folder = places.and_then(|places| {
+            let folder = places.config_dir();
+            is_at_home(&folder, places.home_dir()).then_some(folder)
+        });
+        let path = folder.map(|folder| folder.join("rubscope/config.toml"));
         Self::at(path)
     }
 

@@ -68,7 +68,8 @@ impl<'a> Plot<'a> {
         }
         for (value, label) in y_ticks.iter().zip(&labels) {
             if let Some(row) = plot.row(*value) {
-                let start = inner.x - 1 - u16::try_from(label.chars().count()).unwrap_or(0);
+                let wide = u16::try_from(label.chars().count()).unwrap_or(u16::MAX);
+                let start = (inner.x - 1).saturating_sub(wide);
                 plot.text(start.max(area.x), row, label, quiet);
                 plot.put(inner.x - 1, row, side_tick, quiet);
             }

@@ -131,7 +131,11 @@ impl App {
         self.pages_back = 0;
         (self.counters.ends, self.counters.extensions) = (0, 0);
         self.forget_forecasts();
-        let results = std::mem::take(&mut self.latest.results);
+        // Nobody waits for a jump of the motion before.
+        self.counters.met = self.counters.jumps;
+        let mut results = std::mem::take(&mut self.latest.results);
+        results.applied.clear();
+        (results.reading, results.end_s) = (None, 0.0);
         self.latest = Snapshot { results, ..Snapshot::default() };
         self.page = 0;
     }

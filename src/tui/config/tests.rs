@@ -111,3 +111,13 @@ fn a_silent_terminal_is_remembered_once_and_by_the_way_it_is_reached() {
     let local = |name: &str| if name == "TERM" { "xterm".to_string() } else { String::new() };
     assert_eq!(terminal_name(&local), "xterm");
 }
+
+#[test]
+fn a_home_that_does_not_exist_is_not_made() {
+    let home = tempfile::tempdir().unwrap();
+    let none = home.path().join("none");
+    assert!(is_at_home(&home.path().join(".config"), home.path()));
+    assert!(!is_at_home(&none.join(".config"), &none));
+    // A folder that the user names is.
+    assert!(is_at_home(&home.path().join("xdg"), &none));
+}
