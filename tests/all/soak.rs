@@ -69,7 +69,10 @@ impl Session {
         command.args(["paper-nd3", "--step", "2e-7", "--end", "0.01"]);
         command.cwd(folder);
         command.env("TERM", "xterm-256color");
+        command.env("LC_ALL", "C.UTF-8");
         command.env("NO_COLOR", "");
+        // Not the config file of the user, which may have another marker.
+        command.env("XDG_CONFIG_HOME", folder.join("config"));
         let child = pair.slave.spawn_command(command).unwrap();
         drop(pair.slave);
         let parser = Arc::new(Mutex::new(vt100::Parser::new(side(USUAL.1), side(USUAL.0), 0)));
