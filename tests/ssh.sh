@@ -154,7 +154,7 @@ expect_end() {
 }
 
 opens_and_follows() {
-    press j j j j j j j j j
+    press j j j j j j j j
     expect 'contact law'
     press l
     expect ' DECAY '
@@ -173,7 +173,7 @@ opens_and_follows() {
 # The terminal has the size and the last line has something in it.
 is_drawn() {
     [ "$(stty -F "$(readlink "/proc/$pid/fd/0")" size)" = "${1#* } ${1% *}" ] &&
-        shown | tail -n 1 | grep -q '[^ ]' && shows Ω
+        shown | tail -n 1 | grep -q '[^ ]' && shows 'NOW '
 }
 
 # --- SSH -----------------------------------------------------------------
