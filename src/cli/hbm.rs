@@ -13,7 +13,8 @@ use super::status::{self, Refusal, Status, say};
 use super::words::Words;
 use super::{Done, output};
 use crate::harmonic::{Form, Sweep};
-use crate::report::{hbm as report, json};
+use crate::report::{CommandLine, hbm as report, json};
+use crate::scene::Scene;
 
 /// Default number of speeds of a sweep.
 const SPEEDS: usize = 51;
@@ -74,7 +75,7 @@ impl HbmCommand {
         let resolved = self.options.resolve(Swept { speed: true, pulse: false })?;
         let speeds = match resolved.speeds {
             Some(range) => range.values(),
-            None if self.options.names_a_speed() || self.harmonics.is_some() => {
+            None if self.options.speed().is_some() || self.harmonics.is_some() => {
                 vec![resolved.scene.operation.speed_rad_s]
             }
             None => linspace(0.0, resolved.scene.operation.speed_rad_s, SPEEDS),
@@ -85,7 +86,7 @@ impl HbmCommand {
         let answer = views::answer(&asked, &self.view()?)?;
         status::say_noted();
         if self.json {
-            json::write(&answer.json, out)?;
+            json::write_as("rubscope.hbm/1", &self.command(&resolved.scene), &answer.json, out)?;
         }
         if let Some(path) = &self.out {
             let rows = format!("{} rows", answer.file.len());
@@ -104,6 +105,23 @@ impl HbmCommand {
         }
         answer.sweep.iter().for_each(warn_missing);
         Ok(Status::Done)
+    }
+
+    /// The command that gives the same table again.
+    fn command(&self, scene: &Scene) -> CommandLine {
+        let line = CommandLine::new("hbm", scene);
+        let named = |line: CommandLine, name, value: &Option<String>| match value {
+            Some(value) => line.option(name, value),
+            None => line,
+        };
+        let harmonics = self.harmonics.map(|most| most.to_string());
+        let line = named(line, "--speed", self.options.speed());
+        let line = line.option("--form", &self.form).flag("--damped", self.damped);
+        let line = named(line, "--blades", &self.blades);
+        let line = line.flag("--branches", self.branches).flag("--fold", self.fold);
+        let line = named(line.flag("--slip", self.slip), "--zetas", &self.zetas);
+        let line = named(line, "--harmonics", &harmonics);
+        line.flag("--campbell", self.campbell).flag("--excitation", self.excitation)
     }
 
     fn view(&self) -> Result<HbmView, Refusal> {

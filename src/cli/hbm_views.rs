@@ -70,7 +70,7 @@ pub(super) fn answer(asked: &Asked, view: &HbmView) -> Result<Answer, Refusal> {
     let Asked { scene, speeds, form, damped, pair } = *asked;
     let machine = scene.machine();
     let sweep = locked_motion(&machine, form, damped, pair, speeds);
-    let json = HbmReport::new(&machine, form, damped);
+    let json = HbmReport::new(scene, form, damped);
     let json = match (&sweep, view) {
         (Ok(sweep), _) => json.with_sweep(&machine.polygon, sweep),
         // These have a meaning without corners too.

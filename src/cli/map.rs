@@ -17,7 +17,7 @@ use super::range::Range;
 use super::status::{self, Refusal, Status};
 use super::{Done, output};
 use crate::file::{self, Written};
-use crate::report::{json, map as report, svg};
+use crate::report::{Provenance, json, map as report, svg};
 use crate::study::{Axis, AxisError, Map, MapPlan, Shard, overlay, part};
 
 /// Most threads: more than any machine has cores for.
@@ -269,7 +269,11 @@ fn write_file(map: &Map, format: &str, path: &Path) -> std::io::Result<Written> 
     file::replace(path, |out| match format {
         "csv" => report::write_csv(map, out),
         "json" => json::write(&report::MapJson { map, with_time: false }, out),
-        "svg" => svg::write(&report::figure(map, &overlay::curves(&map.plan)), out),
+        "svg" => {
+            let origin =
+                Provenance { command: report::command(&map.plan), scene: map.plan.scene.clone() };
+            svg::write(&report::figure(map, &overlay::curves(&map.plan)), &origin, out)
+        }
         _ => part::write(map, out).map(drop),
     })
 }

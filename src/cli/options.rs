@@ -82,10 +82,10 @@ impl SceneOptions {
         self.scene.as_deref()
     }
 
-    /// Whether `--speed` was given.
+    /// The speed or range given with `--speed`.
     #[must_use]
-    pub fn names_a_speed(&self) -> bool {
-        self.speed.is_some()
+    pub fn speed(&self) -> &Option<String> {
+        &self.speed
     }
 
     /// The scene that these options describe. A key that had to be changed to

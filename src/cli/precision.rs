@@ -9,7 +9,7 @@ use super::options::SceneOptions;
 use super::status::{self, Refusal, Status};
 use super::{Done, output};
 use crate::motion::to_the_end;
-use crate::report::{json, precision as report, svg};
+use crate::report::{CommandLine, Provenance, json, precision as report, svg};
 use crate::study::precision::{Effort, Measure, Precision, ways};
 
 /// Measure every solver's speed against its error on a scene.
@@ -58,14 +58,18 @@ impl PrecisionCommand {
     }
 
     fn deliver(&self, measured: &Precision, format: Option<&str>, out: &mut dyn Write) -> Done {
+        let command = CommandLine::new("precision", &measured.scene)
+            .option("--repeat", self.repeat)
+            .option("--finest", self.finest);
         if self.json {
-            json::write_as("rubscope.precision/1", measured, out)?;
+            json::write_as("rubscope.precision/1", &command, measured, out)?;
         }
         if let Some(path) = &self.out {
             let rows = format!("{} rows", measured.rows.len());
             if format == Some("svg") {
                 let figure = report::figure(measured).map_err(Refusal::because)?;
-                output::save(path, &rows, out, |out| svg::write(&figure, out))?;
+                let origin = Provenance { command, scene: measured.scene.clone() };
+                output::save(path, &rows, out, |out| svg::write(&figure, &origin, out))?;
             } else {
                 output::save(path, &rows, out, |out| report::table(measured).write_csv(out))?;
             }

@@ -11,7 +11,8 @@ use super::script::{self, RequestedScript};
 use super::status::{self, Status};
 use super::{Done, output};
 use crate::motion::{Sampling, Verdict, is_sensitive, run_to_end, to_the_end};
-use crate::report::{History, json, npz, summary};
+use crate::report::{CommandLine, History, Provenance, json, npz, summary};
+use crate::scene::Scene;
 
 /// Simulate a scene in time and report how it ends.
 #[derive(Args, Debug)]
@@ -59,13 +60,15 @@ impl RunCommand {
         let sensitive = is_sensitive(&scene, &acts, report.reached, &to_the_end);
         report.outcome.sensitive = sensitive.unwrap_or(false);
         let changes = Some(&script).filter(|script| !script.is_empty());
+        let command = self.command(&scene);
         if self.json {
-            json::write_run(&report, wall_s, changes, out)?;
+            json::write_run(&report, &command, wall_s, changes, out)?;
         }
         if let Some((path, format)) = path {
             let samples = format!("{} samples", history.len());
             let csv = |out: &mut dyn Write| history.write_csv(out);
-            let npz = |out: &mut dyn Write| npz::write(&history, out);
+            let origin = Provenance { command, scene: scene.clone().into_scene() };
+            let npz = |out: &mut dyn Write| npz::write(&history, &origin, out);
             let content: &dyn Fn(&mut dyn Write) -> _ = if format == "csv" { &csv } else { &npz };
             output::save_or(path, &samples, out, content, &csv)?;
         }
@@ -79,5 +82,15 @@ impl RunCommand {
             Verdict::Failed => Status::Failed,
             _ => Status::Done,
         })
+    }
+
+    /// The command that gives the same result again.
+    fn command(&self, scene: &Scene) -> CommandLine {
+        let start = CommandLine::new("run", scene);
+        let line = self.at.iter().fold(start, |line, change| line.option("--at", change));
+        match &self.out {
+            Some(_) => line.option("--samples", self.samples).flag("--gaps", self.gaps),
+            None => line,
+        }
     }
 }

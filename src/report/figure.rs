@@ -15,7 +15,7 @@ fn wide(panel: &Panel) -> Table {
     let names = panel
         .series
         .iter()
-        .map(|series| format!("{}_{unit}", series.label.replace(", ", "_").replace(' ', "_")));
+        .map(|series| format!("{}_{unit}", series.name.replace(", ", "_").replace(' ', "_")));
     let mut table = Table::new(std::iter::once(panel.x.column.to_string()).chain(names));
     let xs = panel.series.first().map(|series| series.points.as_slice()).unwrap_or_default();
     for (row, (x, _)) in xs.iter().enumerate() {
@@ -31,7 +31,7 @@ fn long(panel: &Panel) -> Table {
     let mut table = Table::new(["series", &panel.x.column, &panel.y.column]);
     for series in &panel.series {
         for &(x, y) in &series.points {
-            table.push(vec![series.label.as_str().into(), x.into(), y.into()]);
+            table.push(vec![series.name.as_str().into(), x.into(), y.into()]);
         }
     }
     table

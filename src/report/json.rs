@@ -6,6 +6,7 @@ use std::io::Write;
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use super::CommandLine;
 use crate::motion::RunReport;
 
 /// Writes a report, indented, with a newline at its end.
@@ -17,22 +18,25 @@ pub fn write(report: &impl Serialize, mut out: &mut dyn Write) -> std::io::Resul
     writeln!(out)
 }
 
-/// Writes a report under the name of its schema.
+/// Writes a report under the name of its schema, with the command that gives
+/// it again. The scene is part of the report.
 ///
 /// # Errors
 /// An error of the writer.
 pub fn write_as(
     schema: &'static str,
+    command: &CommandLine,
     report: &impl Serialize,
     out: &mut dyn Write,
 ) -> std::io::Result<()> {
     #[derive(Serialize)]
     struct Named<'a, T> {
         schema: &'static str,
+        program: Value,
         #[serde(flatten)]
         report: &'a T,
     }
-    write(&Named { schema, report }, out)
+    write(&Named { schema, program: command.program(), report }, out)
 }
 
 /// Writes a run (`rubscope.run/1`) with the wall time it took \[s\], and the
@@ -42,6 +46,7 @@ pub fn write_as(
 /// An error of the writer.
 pub fn write_run(
     report: &RunReport,
+    command: &CommandLine,
     wall_s: f64,
     changes: Option<&impl Serialize>,
     out: &mut dyn Write,
@@ -53,7 +58,7 @@ pub fn write_run(
     if let (Some(changes), Some(report)) = (changes, value.as_object_mut()) {
         report.insert("changes".to_string(), json!(changes));
     }
-    write_as("rubscope.run/1", &value, out)
+    write_as("rubscope.run/1", command, &value, out)
 }
 
 #[cfg(test)]

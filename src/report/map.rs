@@ -7,10 +7,11 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::json;
 
 use super::number::short;
-use super::table;
+use super::{CommandLine, table};
 use crate::motion::Verdict;
+use crate::scene::{Key, keys};
 use crate::study::figures::{Figure, Panel, Quantity, Series, Style};
-use crate::study::{Axis, Cell, Map, overlay};
+use crate::study::{Axis, Cell, Map, MapPlan, overlay};
 
 /// Most rows of the text map.
 const TEXT_ROWS: usize = 40;
@@ -34,6 +35,7 @@ impl Serialize for MapJson<'_> {
         let Self { map, with_time } = *self;
         let mut object = out.serialize_map(None)?;
         object.serialize_entry("schema", "rubscope.map/1")?;
+        object.serialize_entry("program", &command(&map.plan).program())?;
         object.serialize_entry("scene", &map.plan.scene)?;
         let names = names(map);
         for (short, name, axis) in [("x", names[0], &map.plan.x), ("y", names[1], &map.plan.y)] {
@@ -46,6 +48,15 @@ impl Serialize for MapJson<'_> {
         object.serialize_entry("runs", &map.runs)?;
         object.end()
     }
+}
+
+/// The command that gives a map of this plan, whoever computed its cells.
+#[must_use]
+pub fn command(plan: &MapPlan) -> CommandLine {
+    CommandLine::new("map", &plan.scene)
+        .option("--x", &plan.x)
+        .option("--y", &plan.y)
+        .flag("--no-sensitivity", !plan.sensitivity)
 }
 
 /// A value of every cell, in rows; none where nothing is computed.
@@ -111,7 +122,7 @@ pub fn figure(map: &Map, curves: &[overlay::Curve]) -> Figure {
     let (scene, x, y) = (&map.plan.scene, &map.plan.x, &map.plan.y);
     let quantity = |axis: &Axis| Quantity {
         column: leaf(axis).to_string().into(),
-        label: axis.path.clone().into(),
+        label: keys::find(&axis.path).map_or_else(|_| axis.path.clone(), Key::title).into(),
         factor: 1.0,
         log: axis.log,
     };
@@ -137,11 +148,8 @@ pub fn figure(map: &Map, curves: &[overlay::Curve]) -> Figure {
         series.push(Series::new(curve.name, Style::Line(colour), shown));
     }
     series.retain(|series| !series.points.is_empty());
-    Figure {
-        title: format!("{} ({} contact)", scene.title, scene.solver.contact),
-        note: String::new(),
-        panels: vec![Panel::new("", quantity(x), quantity(y), series)],
-    }
+    let title = format!("{} ({} contact)", scene.title, scene.solver.contact);
+    Figure::new(title, "", vec![Panel::new("", quantity(x), quantity(y), series)])
 }
 
 /// The character of a cell: a mark for the verdict, its first letter if it is

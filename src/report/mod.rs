@@ -1,6 +1,7 @@
 //! Reports: one file per format. A report takes what a computation returned
 //! and a place to write to; it computes nothing itself.
 
+pub mod command;
 pub mod figure;
 pub mod hbm;
 pub mod history;
@@ -13,5 +14,7 @@ pub mod precision;
 pub mod summary;
 pub mod svg;
 pub mod table;
+pub mod ticks;
 
+pub use command::{CommandLine, Provenance};
 pub use history::History;

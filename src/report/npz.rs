@@ -1,5 +1,6 @@
 //! A history for numpy: `numpy.load(file)["u_c_m"]` is the column of that
-//! name. An `.npz` is a zip of `.npy` arrays.
+//! name. An `.npz` is a zip of `.npy` arrays. The arrays `version`, `command`
+//! and `scene` (a scene file) are texts: `numpy.load(file)["scene"].item()`.
 
 use std::io::{Error, Result, Write};
 
@@ -7,22 +8,29 @@ use npyz::WriterBuilder;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
-use super::History;
+use super::command::VERSION;
+use super::{History, Provenance};
 
-/// Writes a history.
+/// Writes a history and where it comes from.
 ///
 /// # Errors
 /// An error of the writer.
-pub fn write(history: &History, out: &mut dyn Write) -> Result<()> {
+pub fn write(history: &History, origin: &Provenance, out: &mut dyn Write) -> Result<()> {
     let mut archive = ZipWriter::new_stream(out);
     // A fixed date, so that the same history gives the same file.
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Stored)
         .last_modified_time(DateTime::default());
+    let mut add = |name: &str, array: Vec<u8>| {
+        archive.start_file(format!("{name}.npy"), options).map_err(Error::other)?;
+        archive.write_all(&array)
+    };
     for column in history.columns() {
-        archive.start_file(format!("{}.npy", column.name), options).map_err(Error::other)?;
-        archive.write_all(&array(&column.values)?)?;
+        add(&column.name, array(&column.values)?)?;
     }
+    add("version", text(VERSION)?)?;
+    add("command", text(&origin.command.to_string())?)?;
+    add("scene", text(&origin.scene.to_toml())?)?;
     archive.finish().map_err(Error::other)?;
     Ok(())
 }
@@ -40,6 +48,21 @@ fn array(values: &[f64]) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
+/// A text as numpy's Unicode scalar: an array without dimensions.
+fn text(text: &str) -> Result<Vec<u8>> {
+    let length = text.chars().count();
+    let kind = format!("<U{length}").parse().map_err(Error::other)?;
+    let mut bytes = Vec::with_capacity(4 * length + 128);
+    let mut writer = npyz::WriteOptions::<str>::new()
+        .dtype(npyz::DType::Plain(kind))
+        .shape(&[])
+        .writer(&mut bytes)
+        .begin_nd()?;
+    writer.push(text)?;
+    writer.finish()?;
+    Ok(bytes)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -52,6 +75,16 @@ mod tests {
             let file = npyz::NpyFile::new(bytes.as_slice()).unwrap();
             assert_eq!(file.shape(), [u64::from(count)]);
             assert_eq!(file.into_vec::<f64>().unwrap(), values);
+        }
+    }
+
+    #[test]
+    fn a_text_reads_back_as_it_is() {
+        for words in ["", "rubscope run", "schema = 1\ntitle = \"Ω\"\n"] {
+            let bytes = text(words).unwrap();
+            let file = npyz::NpyFile::new(bytes.as_slice()).unwrap();
+            assert_eq!(file.shape(), [0_u64; 0]);
+            assert_eq!(file.into_vec::<String>().unwrap(), [words]);
         }
     }
 }

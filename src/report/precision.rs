@@ -194,11 +194,8 @@ pub fn figure(report: &Precision) -> std::result::Result<Figure, String> {
     }
     let x = Quantity::log("wall_s", "wall time [s]");
     let y = Quantity::log("error_final", "error at the end [of the clearance]");
-    Ok(Figure {
-        title: format!("Speed against error: {}", report.scene.title),
-        note: String::new(),
-        panels: vec![Panel::new("", x, y, all)],
-    })
+    let title = format!("Speed against error: {}", report.scene.title);
+    Ok(Figure::new(title, "", vec![Panel::new("", x, y, all)]))
 }
 
 /// Name of a series, with a remark if its law is not that of the reference.

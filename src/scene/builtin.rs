@@ -24,6 +24,9 @@ pub const DEFAULT: &str = "paper-nd3";
 pub const BUILTIN: &[Builtin] = builtin![
     "paper-nd3",
     "paper-nd4",
+    "paper-figs-4-6",
+    "paper-fig-7",
+    "paper-fig-8",
     "adhesive",
     "undamped",
     "rocking",

@@ -95,6 +95,16 @@ pub struct Key {
 }
 
 impl Key {
+    /// What it is, with its unit, as the title of an axis.
+    #[must_use]
+    pub fn title(&self) -> String {
+        if self.unit == "-" {
+            self.what.to_string()
+        } else {
+            format!("{} [{}]", self.what, self.unit)
+        }
+    }
+
     /// Refuses values of another kind or out of bounds.
     ///
     /// # Errors

@@ -66,6 +66,14 @@ pub struct Axis {
     pub log: bool,
 }
 
+/// As `parse` reads it.
+impl std::fmt::Display for Axis {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { path, from, to, count, log } = self;
+        write!(out, "{path}={}{from:?}:{to:?}:{count}", if *log { "log:" } else { "" })
+    }
+}
+
 impl Axis {
     /// An axis over a numeric key, checked at both ends.
     ///

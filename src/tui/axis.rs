@@ -2,41 +2,7 @@
 //! that follow the data with hysteresis, so that the scale does not jump.
 
 use super::knobs::number;
-
-/// A step of 1, 2 or 5 times a power of ten that puts at most `most` ticks in
-/// `span`; none for a span that is not a positive number.
-pub fn nice_step(span: f64, most: usize) -> Option<f64> {
-    if !(span.is_finite() && span > 0.0) || most == 0 {
-        return None;
-    }
-    let raw = span / most as f64;
-    let power = 10f64.powf(raw.log10().floor());
-    // The logarithm of a power of ten may round to either side.
-    let step = [1.0, 2.0, 5.0, 10.0, 20.0]
-        .into_iter()
-        .map(|m| m * power)
-        .find(|step| *step >= raw * (1.0 - 1e-9))?;
-    (step.is_finite() && step > 0.0).then_some(step)
-}
-
-/// Round values inside `[low, high]`, at most about `most` of them, with their
-/// spacing; empty where the range is empty, reversed or not finite.
-pub fn ticks(low: f64, high: f64, most: usize) -> (Vec<f64>, f64) {
-    let Some(step) = nice_step(high - low, most.max(1)) else { return (Vec::new(), 1.0) };
-    let slack = 1e-9 * step;
-    let first = ((low - slack) / step).ceil();
-    let last = ((high + slack) / step).floor();
-    // A range far from zero and narrower than its round-off has no ticks.
-    if !(last - first).is_finite() || last - first > 1e3 {
-        return (Vec::new(), step);
-    }
-    let count = (last - first).max(-1.0) as i64;
-    let values = (0..=count)
-        .map(|k| (first + k as f64) * step)
-        .map(|x| if x == 0.0 { 0.0 } else { x })
-        .collect();
-    (values, step)
-}
+pub use crate::report::ticks::{nice_step, ticks};
 
 /// One SI prefix for a whole axis.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! The screen as a picture (SVG).
 
 use ratatui::{
-    buffer::Buffer,
+    buffer::{Buffer, Cell},
     layout::Rect,
     style::{Color, Modifier},
 };
@@ -10,100 +10,170 @@ use super::app::{App, InputMode};
 use super::panels;
 use super::raster::sub_pixels;
 use super::theme::Theme;
+use crate::report::Provenance;
+use crate::report::svg::{describe, escaped};
 
 /// Size of a cell in the picture.
 const CELL: (u32, u32) = (8, 17);
+/// Diameter of a dot of a curve.
+const DOT: f64 = 2.8;
 
 /// The screen as a picture: its size, and the background of its theme.
 pub fn svg(app: &App) -> String {
     let area = Rect::new(0, 0, app.size.0, app.size.1);
-    let (ground, ink) = match app.appearance.theme {
-        Theme::Light => ("#ffffff", "#1a1a1a"),
-        _ => ("#101418", "#e6e6e6"),
-    };
+    let ink = Ink::of(app.appearance.theme);
     let mut buffer = Buffer::empty(area);
     let mut plain = app.clone();
     plain.mode = InputMode::Main;
     plain.status = None;
     panels::paint(&plain, &mut buffer, area);
     let (width, height) = (u32::from(area.width) * CELL.0, u32::from(area.height) * CELL.1);
+    let (ground, scene) = (ink.ground, app.started.clone().into_scene());
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
          viewBox=\"0 0 {width} {height}\" font-family=\"monospace\" font-size=\"13\">\n\
-         <rect width=\"{width}\" height=\"{height}\" fill=\"{ground}\"/>\n"
+         {}<rect width=\"{width}\" height=\"{height}\" fill=\"{ground}\"/>\n",
+        describe(&Provenance { command: app.command_line(), scene }),
     );
-    for (index, cell) in buffer.content.iter().enumerate() {
-        let column = u32::try_from(index % usize::from(area.width)).unwrap_or(0);
-        let row = u32::try_from(index / usize::from(area.width)).unwrap_or(0);
-        let (x, y) = (column * CELL.0, row * CELL.1);
-        let colour = hex(cell.fg, app.appearance.theme).unwrap_or(ink);
-        let reversed = cell.modifier.contains(Modifier::REVERSED);
-        if reversed {
-            out.push_str(&block(x, y, CELL.1, colour));
-        }
-        if let Some(behind) = hex(cell.bg, app.appearance.theme) {
-            out.push_str(&block(x, y, CELL.1, behind));
-        }
-        // The halves of a block meet; letters of most fonts do not.
-        let half = CELL.1 / 2;
-        match cell.symbol() {
-            " " => continue,
-            "▀" => {
-                out.push_str(&block(x, y, half, colour));
-                continue;
-            }
-            "▄" => {
-                out.push_str(&block(x, y + half, CELL.1 - half, colour));
-                continue;
-            }
-            _ => {}
-        }
-        let fill = if reversed { ground } else { colour };
-        if let Some(dots) = sub_pixels(cell.symbol()) {
-            for (across, down) in dots {
-                let cx = x + CELL.0 * (2 * across + 1) / 4;
-                let cy = f64::from(y) + f64::from(CELL.1 * (2 * down + 1)) / 8.0;
-                out.push_str(&format!(
-                    "<circle cx=\"{cx}\" cy=\"{cy}\" r=\"1.4\" fill=\"{fill}\"/>\n"
-                ));
-            }
-            continue;
-        }
-        // A letter and its accents are one cell.
-        let text = cell.symbol().replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
-        let weight =
-            if cell.modifier.contains(Modifier::BOLD) { " font-weight=\"bold\"" } else { "" };
-        let base = y + CELL.1 - 4;
-        out.push_str(&format!(
-            "<text x=\"{x}\" y=\"{base}\" fill=\"{fill}\"{weight}>{text}</text>\n"
-        ));
+    let columns = usize::from(area.width).max(1);
+    for (row, cells) in (0..).zip(buffer.content.chunks(columns)) {
+        draw_row(cells, row * CELL.1, &ink, &mut out);
     }
     out.push_str("</svg>\n");
     out
 }
 
-/// A filled part of a cell.
-fn block(x: u32, y: u32, height: u32, fill: &str) -> String {
-    let width = CELL.0;
+/// Draws one row of cells: what has the same look in one element.
+fn draw_row(cells: &[Cell], y: u32, ink: &Ink, out: &mut String) {
+    let mut x = 0;
+    for run in cells.chunk_by(|a, b| Look::of(a, ink) == Look::of(b, ink)) {
+        let Some(look) = run.first().map(|cell| Look::of(cell, ink)) else { continue };
+        let width = CELL.0 * u32::try_from(run.len()).unwrap_or(0);
+        if let Some(behind) = look.behind {
+            out.push_str(&block(x, y, width, CELL.1, behind));
+        }
+        match look.shape {
+            Shape::Blank => {}
+            // The halves of a block meet; letters of most fonts do not.
+            Shape::Full => out.push_str(&block(x, y, width, CELL.1, look.fill)),
+            Shape::Upper => out.push_str(&block(x, y, width, CELL.1 / 2, look.fill)),
+            Shape::Lower => {
+                let half = CELL.1 / 2;
+                out.push_str(&block(x, y + half, width, CELL.1 - half, look.fill));
+            }
+            Shape::Dots => out.push_str(&dots(run, x, y, look.fill)),
+            Shape::Letters => {
+                let text: String = run.iter().map(|cell| escaped(cell.symbol())).collect();
+                let weight = if look.bold { " font-weight=\"bold\"" } else { "" };
+                let (base, fill) = (y + CELL.1 - 4, look.fill);
+                // Letters keep to their cells where the font is wider or narrower.
+                out.push_str(&format!(
+                    "<text x=\"{x}\" y=\"{base}\" textLength=\"{width}\" fill=\"{fill}\"{weight}>{text}</text>\n"
+                ));
+            }
+        }
+        x += width;
+    }
+}
+
+/// The dots of a row of cells as one path of round points.
+fn dots(run: &[Cell], left: u32, top: u32, fill: &str) -> String {
+    let mut points = String::new();
+    for (index, cell) in (0..).zip(run) {
+        for (across, down) in sub_pixels(cell.symbol()).into_iter().flatten() {
+            let x = left + CELL.0 * index + CELL.0 * (2 * across + 1) / 4;
+            let y = f64::from(top) + f64::from(CELL.1 * (2 * down + 1)) / 8.0;
+            points.push_str(&format!("M{x} {y:.1}h0"));
+        }
+    }
+    format!(
+        "<path d=\"{points}\" stroke=\"{fill}\" stroke-width=\"{DOT}\" stroke-linecap=\"round\"/>\n"
+    )
+}
+
+/// A filled rectangle.
+fn block(x: u32, y: u32, width: u32, height: u32, fill: &str) -> String {
     format!("<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" fill=\"{fill}\"/>\n")
 }
 
-/// A named colour for its background: light on dark, dark on light. None for
-/// the default colour of the text.
-fn hex(colour: Color, theme: Theme) -> Option<&'static str> {
-    let [light, dark] = match colour {
-        Color::DarkGray => ["#7f8790", "#6b7280"],
-        Color::LightCyan => ["#5fd7e0", "#00707a"],
-        Color::LightMagenta | Color::Magenta => ["#e58fe0", "#a020a0"],
-        Color::LightRed | Color::Red => ["#ff6b6b", "#c01c28"],
-        Color::LightGreen | Color::Green => ["#7bd88f", "#1a7f37"],
-        Color::LightYellow | Color::Yellow => ["#f5d76e", "#8a6d00"],
-        Color::Cyan => ["#2fa8b5", "#00707a"],
-        Color::White => ["#ffffff", "#9aa0a6"],
-        Color::LightBlue | Color::Blue => ["#78a9ff", "#0b57d0"],
-        _ => return None,
-    };
-    Some(if theme == Theme::Light { dark } else { light })
+/// What a cell shows.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Shape {
+    Blank,
+    Full,
+    Upper,
+    Lower,
+    Dots,
+    Letters,
+}
+
+/// How a cell is drawn.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Look {
+    shape: Shape,
+    fill: &'static str,
+    behind: Option<&'static str>,
+    bold: bool,
+}
+
+impl Look {
+    fn of(cell: &Cell, ink: &Ink) -> Self {
+        let colour = ink.of_colour(cell.fg).unwrap_or(ink.text);
+        let reversed = cell.modifier.contains(Modifier::REVERSED);
+        let shape = match cell.symbol() {
+            " " => Shape::Blank,
+            "█" => Shape::Full,
+            "▀" => Shape::Upper,
+            "▄" => Shape::Lower,
+            symbol if sub_pixels(symbol).is_some() => Shape::Dots,
+            _ => Shape::Letters,
+        };
+        let behind = ink.of_colour(cell.bg).or(reversed.then_some(colour));
+        // Blank cells look the same in every colour.
+        let fill = match (shape, reversed) {
+            (Shape::Blank, _) => ink.text,
+            (Shape::Full | Shape::Upper | Shape::Lower, _) | (_, false) => colour,
+            _ => ink.ground,
+        };
+        let bold = shape == Shape::Letters && cell.modifier.contains(Modifier::BOLD);
+        Self { shape, fill, behind, bold }
+    }
+}
+
+/// The colours of a theme.
+struct Ink {
+    ground: &'static str,
+    text: &'static str,
+    light: bool,
+}
+
+impl Ink {
+    fn of(theme: Theme) -> Self {
+        match theme {
+            Theme::Light | Theme::ColourBlindLight => {
+                Self { ground: "#ffffff", text: "#1a1a1a", light: true }
+            }
+            _ => Self { ground: "#101418", text: "#e6e6e6", light: false },
+        }
+    }
+
+    /// A named colour for its background: light on dark, dark on light. None for
+    /// the default colour of the text.
+    fn of_colour(&self, colour: Color) -> Option<&'static str> {
+        let [on_dark, on_light] = match colour {
+            Color::DarkGray => ["#7f8790", "#6b7280"],
+            Color::LightCyan => ["#5fd7e0", "#00707a"],
+            Color::LightMagenta | Color::Magenta => ["#e58fe0", "#a020a0"],
+            Color::LightRed | Color::Red => ["#ff6b6b", "#c01c28"],
+            Color::LightGreen | Color::Green => ["#7bd88f", "#1a7f37"],
+            Color::LightYellow | Color::Yellow => ["#f5d76e", "#8a6d00"],
+            Color::Cyan => ["#2fa8b5", "#00707a"],
+            Color::White => ["#ffffff", "#9aa0a6"],
+            Color::LightBlue | Color::Blue => ["#78a9ff", "#0b57d0"],
+            _ => return None,
+        };
+        Some(if self.light { on_light } else { on_dark })
+    }
 }
 
 #[cfg(test)]
@@ -125,8 +195,9 @@ mod tests {
         assert_eq!(svg.matches("<text").count(), svg.matches("</text>").count());
         assert!(!svg.contains("NaN"));
         // The fonts of most viewers have no braille: curves are dots.
-        assert!(svg.contains("<circle "));
+        assert!(svg.contains("<path "));
         assert!(!svg.contains(|c: char| ('\u{2801}'..='\u{28ff}').contains(&c)));
+        assert!(svg.contains("[operation]") && svg.contains("rubscope run paper-nd3"));
     }
 
     #[test]

@@ -14,7 +14,7 @@ mod config;
 pub mod engine;
 #[doc(hidden)]
 pub mod events;
-mod export;
+pub mod export;
 #[doc(hidden)]
 pub mod files;
 mod glossary;

@@ -1,6 +1,11 @@
-//! `rubscope figures`: the files it writes and the numbers in them.
+//! `rubscope figures`: the files it writes, the numbers in them, and what the
+//! captions say.
 
 use std::path::Path;
+
+use rubscope::motion::{Verdict, simulate};
+use rubscope::scene::{CheckedScene, Scene};
+use rubscope::study::figures::{Figure, NUMBERS, figure, name_of, scene_of};
 
 use crate::cli_support::{refusal, rubscope};
 
@@ -14,13 +19,30 @@ fn figures(only: &str, more: &[&str]) -> tempfile::TempDir {
     directory
 }
 
+fn file(directory: &Path, name: &str) -> std::path::PathBuf {
+    directory.join("made/here").join(name)
+}
+
 /// A file as columns of numbers, by name; words are left out.
 fn columns(directory: &Path, name: &str) -> Vec<(String, Vec<f64>)> {
-    let mut reader = csv::Reader::from_path(directory.join("made/here").join(name)).unwrap();
+    let mut reader = csv::Reader::from_path(file(directory, name)).unwrap();
     let names: Vec<String> = reader.headers().unwrap().iter().map(String::from).collect();
     let records: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
     let column = |index| records.iter().filter_map(|row| row[index].parse().ok()).collect();
     names.into_iter().enumerate().map(|(index, name)| (name, column(index))).collect()
+}
+
+fn drawn(number: u32) -> Figure {
+    figure(number, &scene_of(number).unwrap()).unwrap().unwrap()
+}
+
+/// Whether the caption and the conditions of a figure say this.
+fn says(figure: &Figure, words: &str) -> bool {
+    figure.note.contains(words) || figure.caption.iter().any(|line| line.contains(words))
+}
+
+fn with(number: u32, changes: &[(&str, &str)]) -> CheckedScene {
+    Scene::builtin(name_of(number)).unwrap().with(changes).unwrap()
 }
 
 #[test]
@@ -32,20 +54,42 @@ fn figure_9_changes_sign_at_the_critical_speed() {
     assert!((lambda[500] - -150.855).abs() < 1e-3);
     // Omega_c = 292.88 rad/s.
     assert!(lambda[292] > 0.0 && lambda[293] < 0.0);
-    let svg = std::fs::read_to_string(directory.path().join("made/here/fig09.svg")).unwrap();
-    assert!(svg.starts_with("<svg") && svg.contains("Omega_lock"));
+    // What the caption says.
+    let last: Vec<f64> = columns[1..].iter().map(|column| column.1[500]).collect();
+    for (value, said) in last.iter().zip([-150.9, -150.9, -244.4, -57.3]) {
+        assert!((value - said).abs() < 0.05, "{value} {said}");
+        let said = format!("−{} N", -said);
+        assert!(says(&drawn(9), &said), "{said}");
+    }
+    assert!(columns[4].1[411] > 0.0 && columns[4].1[412] < 0.0 && says(&drawn(9), "411.9 rad/s"));
+    let svg = std::fs::read_to_string(file(directory.path(), "fig09.svg")).unwrap();
+    assert!(svg.starts_with("<svg") && svg.contains(">lock</tspan>"));
 }
 
 #[test]
-fn figure_10_has_a_casing_that_does_not_notice_the_speed() {
+fn figure_10_has_a_casing_that_does_not_notice_the_speed_and_three_forms() {
     let directory = figures("10", &[]);
     for (name, values) in &columns(directory.path(), "fig10a.csv")[1..] {
         // Blade angles of 1e-6 rad move the corner by about 1e-6 of its size.
         let change = values.iter().map(|x| (x / values[0] - 1.0).abs()).fold(0.0, f64::max);
         assert!(change < 1e-4, "{name} changes by {change}");
+        let said = format!("{:.2} µm", 1e6 * values[0].abs());
+        assert!(says(&drawn(10), &said), "{name} {said}");
     }
-    let angles = columns(directory.path(), "fig10b.csv");
-    assert!((angles[1].1[500] - 7.62e-7).abs() < 1e-9, "the printed form");
+    let in_one = columns(directory.path(), "fig10b.csv");
+    let in_modes = columns(directory.path(), "fig10c.csv");
+    let at_end = |of: &[(String, Vec<f64>)], index: usize| of[index].1[500];
+    for (value, expected, said) in [
+        (at_end(&in_one, 1), 7.62e-7, "+0.762 µrad"),
+        (at_end(&in_one, 2), -7.62e-7, "+0.762 µrad"),
+        (at_end(&in_one, 3), -3.81e-7, "−0.381 µrad"),
+        (at_end(&in_one, 4), 3.81e-7, "−0.381 µrad"),
+        (at_end(&in_modes, 1), -1.404e-9, "−1.404 nrad"),
+        (at_end(&in_modes, 2), 1.404e-9, "−1.404 nrad"),
+    ] {
+        assert!((value / expected - 1.0).abs() < 1e-3, "{value} {expected}");
+        assert!(says(&drawn(10), said), "{said}");
+    }
 }
 
 #[test]
@@ -53,16 +97,162 @@ fn figures_in_time_have_their_samples() {
     let directory = figures("4,5,6,7", &["--end", "1e-3"]);
     let gaps = columns(directory.path(), "fig05.csv");
     assert_eq!(gaps.len(), 1 + 22);
-    assert!(gaps.iter().all(|(_, values)| values.len() == 1501));
+    assert!(gaps.iter().all(|(_, values)| values.len() == 2001));
     assert_eq!(columns(directory.path(), "fig06a.csv")[1].0, "u_c_m");
-    let steps = columns(directory.path(), "fig04.csv");
-    assert_eq!(steps[2].1.len(), 3 * 1501);
+    assert!(columns(directory.path(), "fig04a.csv").len() > 2);
+    // A comparison with the paper stands only below the paper's own scenes.
+    for name in ["fig04.svg", "fig05.svg", "fig06.svg", "fig07.svg"] {
+        let svg = std::fs::read_to_string(file(directory.path(), name)).unwrap();
+        assert!(!svg.contains("Agrees"), "{name}");
+    }
+}
+
+/// The paper: locked from about 0.08 s, on blades #6 and #21.
+#[test]
+fn figures_4_to_6_lock_on_the_blades_of_the_paper() {
+    let run = |changes: &[(&str, &str)]| simulate(&with(4, changes)).outcome;
+    let held = |changes| run(changes).contacts.iter().map(|c| c.blades[0]).collect::<Vec<_>>();
+    let fine = run(&[]);
+    assert_eq!((fine.verdict, held(&[])), (Verdict::Locked, vec![6, 21]));
+    assert!((fine.lock_time_s.unwrap() - 0.0769).abs() < 5e-5);
+    let event = [("solver.kind", "event")];
+    assert!((run(&event).lock_time_s.unwrap() - 0.0773).abs() < 5e-5);
+    assert_eq!(held(&event), [6, 21]);
+    for (step, time) in [("1e-6", 0.0795), ("5e-7", 0.0759)] {
+        let coarse = run(&[("solver.step_s", step)]);
+        assert!((coarse.lock_time_s.unwrap() - time).abs() < 5e-5, "{step}");
+        assert!(says(&drawn(4), &format!("locked from {:.1} ms", 1e3 * time)));
+    }
+    assert!(says(&drawn(4), "locked from 76.9 ms on #6 and #21"));
+    assert!(says(&drawn(4), "event solver: locked from 77.3 ms on #6 and #21"));
+    // 40 kN, as the caption says.
+    let smaller = [("operation.pulse_n", "40000")];
+    assert!((run(&smaller).lock_time_s.unwrap() - 0.085).abs() < 5e-4);
+    assert_ne!(held(&smaller), [6, 21]);
+}
+
+/// The angles of the blades over the last tenth of the run, as a part of the
+/// largest of the whole run.
+fn swing(panel: &rubscope::study::figures::Panel) -> f64 {
+    let range = |points: &[(f64, f64)]| {
+        let values = points.iter().map(|point| point.1);
+        values.clone().fold(f64::MIN, f64::max) - values.fold(f64::MAX, f64::min)
+    };
+    let of = |last: bool| {
+        let points = panel
+            .series
+            .iter()
+            .map(|series| range(if last { &series.points[1800..] } else { &series.points }));
+        points.fold(0.0, f64::max)
+    };
+    of(true) / of(false)
 }
 
 #[test]
-fn figure_8_has_a_verdict_for_every_cell() {
+fn the_disk_of_figure_6_is_static_with_the_damping_taken_literally() {
+    let figure = drawn(6);
+    assert_eq!(figure.panels.len(), 3);
+    assert!(swing(&figure.panels[1]) > 0.1, "{}", swing(&figure.panels[1]));
+    assert!(swing(&figure.panels[2]) < 0.01, "{}", swing(&figure.panels[2]));
+    assert!(figure.panels[2].title.ends_with("ζ_bd = 0.192"));
+}
+
+/// With the damping of Table 1 no pulse locks as late as the paper says.
+#[test]
+fn with_the_damping_of_table_1_every_lock_is_early() {
+    let latest = |law: &str, kind: &str, step: &str, count: u32| {
+        let pulse = |n: u32| 3e3 * 1e4_f64.powf(f64::from(n) / f64::from(count - 1));
+        let times = (0..count).filter_map(|n| {
+            let changes = [
+                ("operation.pulse_n", pulse(n).to_string()),
+                ("solver.contact", law.to_string()),
+                ("solver.kind", kind.to_string()),
+                ("solver.step_s", step.to_string()),
+                ("solver.model", "rigid".to_string()),
+            ];
+            let changes: Vec<(&str, &str)> =
+                changes.iter().map(|(path, text)| (*path, text.as_str())).collect();
+            simulate(&Scene::builtin("paper-nd3").unwrap().with(&changes).unwrap())
+                .outcome
+                .lock_time_s
+        });
+        times.fold(0.0, f64::max)
+    };
+    let only_pushes = latest("unilateral", "event", "1e-7", 2000);
+    assert!(only_pushes > 0.035 && only_pushes < 0.036, "{only_pushes}");
+    let paper = latest("bilateral", "explicit", "1e-6", 200);
+    assert!(paper > 0.0 && paper < 0.010, "{paper}");
+    assert!(says(&drawn(4), "none of 2000 pulses from 3 kN to 30 MN locks later than 36 ms"));
+    assert!(says(&drawn(4), "none of 200 later than 10 ms"));
+}
+
+#[test]
+fn figure_7_locks_at_every_step_but_earlier_than_the_paper() {
+    for step in ["1e-6", "5e-7", "1e-7", "2e-8"] {
+        let outcome = simulate(&with(7, &[("solver.step_s", step)])).outcome;
+        assert_eq!(outcome.verdict, Verdict::Locked, "{step}");
+        assert!((0.024..0.033).contains(&outcome.lock_time_s.unwrap()), "{step}");
+        assert_eq!(outcome.contacts.iter().map(|c| c.blades.len()).sum::<usize>(), 4);
+    }
+    // 42 kN, as the caption says.
+    for (step, locks) in [("1e-6", true), ("2e-7", true), ("5e-8", true), ("1e-8", false)] {
+        let changes = [("solver.step_s", step), ("operation.pulse_n", "42000")];
+        let outcome = simulate(&with(7, &changes)).outcome;
+        assert_eq!(outcome.verdict == Verdict::Locked, locks, "{step}");
+        assert!(outcome.lock_time_s.is_none_or(|t| (0.032..0.059).contains(&t)), "{step}");
+    }
+}
+
+#[test]
+fn figure_8_has_a_verdict_for_every_cell_and_one_name_for_each() {
     let directory = figures("8", &["--end", "1e-3"]);
-    assert_eq!(columns(directory.path(), "fig08a.csv")[1].1.len(), 51 * 31);
+    let cells = columns(directory.path(), "fig08a.csv")[1].1.len();
+    assert!(cells >= 41 * 46 && cells <= 41 * 46 + 41, "{cells}");
+    let svg = std::fs::read_to_string(file(directory.path(), "fig08.svg")).unwrap();
+    assert_eq!(svg.matches("contact that only pushes").count(), 1);
+}
+
+/// The thresholds of the paper's zone, and where it begins.
+#[test]
+fn figure_8_has_the_zone_of_the_paper() {
+    let run = |speed: &str, pulse: &str| {
+        let changes = [("operation.speed_rad_s", speed), ("operation.pulse_n", pulse)];
+        simulate(&with(8, &changes)).outcome.verdict
+    };
+    for (speed, below, above, lasting) in [
+        ("300", "0.83e6", "0.86e6", Verdict::Adhesive),
+        ("400", "0.53e6", "0.55e6", Verdict::Adhesive),
+        ("500", "0.37e6", "0.385e6", Verdict::Locked),
+    ] {
+        assert_eq!(run(speed, below), Verdict::Decay, "{speed} {below}");
+        for pulse in [above, "1e6", "3e6", "1e7"] {
+            assert_eq!(run(speed, pulse), lasting, "{speed} {pulse}");
+        }
+    }
+    for pulse in ["1e5", "1e6", "1e7"] {
+        assert_eq!(run("290", pulse), Verdict::Decay);
+    }
+    assert_eq!((run("410", "1e7"), run("414", "1e7")), (Verdict::Adhesive, Verdict::Locked));
+}
+
+#[test]
+fn the_same_figure_is_the_same_file_wherever_it_is_written() {
+    let (one, other) = (figures("9", &[]), tempfile::tempdir().unwrap());
+    let again = other.path().join("elsewhere");
+    let output = rubscope(&["figures", "--only", "9", "--out", again.to_str().unwrap()]);
+    assert!(output.status.success());
+    for name in ["fig09.svg", "fig09.csv"] {
+        let first = std::fs::read(file(one.path(), name)).unwrap();
+        assert_eq!(first, std::fs::read(again.join(name)).unwrap());
+    }
+}
+
+#[test]
+fn every_figure_has_a_scene_and_its_number() {
+    for number in NUMBERS {
+        assert!(scene_of(number).is_ok());
+    }
+    assert!(drawn(9).title.starts_with("Figure 9. ") && drawn(10).caption.len() == 3);
 }
 
 #[test]

@@ -136,7 +136,58 @@ fn numpy_files_hold_one_array_a_column() {
     let bytes = std::fs::read(&path).unwrap();
     assert_eq!(&bytes[..4], b"PK\x03\x04");
     let entries = u16::from_le_bytes([bytes[bytes.len() - 12], bytes[bytes.len() - 11]]);
-    assert_eq!(entries, 11);
+    assert_eq!(entries, 11 + 3);
+    let mut archive = zip::ZipArchive::new(std::io::Cursor::new(bytes)).unwrap();
+    let mut text = |name: &str| {
+        let array = npyz::NpyFile::new(archive.by_name(name).unwrap()).unwrap();
+        array.into_vec::<String>().unwrap().remove(0)
+    };
+    assert_eq!(text("version.npy"), env!("CARGO_PKG_VERSION"));
+    // The scene is a scene file, and the command gives the same file again.
+    let scene = rubscope::scene::Scene::from_toml(&text("scene.npy")).unwrap();
+    assert_eq!(scene.operation.nodal_diameters, 3);
+    let command = text("command.npy");
+    let again = directory.path().join("again.npz");
+    let arguments: Vec<&str> = command.split(' ').skip(1).collect();
+    let output = rubscope(&[&arguments[..], &["--out", again.to_str().unwrap()]].concat());
+    assert!(output.status.success(), "{command}");
+    assert_eq!(std::fs::read(&path).unwrap(), std::fs::read(&again).unwrap(), "{command}");
+}
+
+/// Every report in JSON names the program and the command that gives it again.
+#[test]
+fn reports_say_where_they_come_from() {
+    for arguments in [
+        &["run", "slip", "--end", "1e-3", "--at", "5e-4:pulse", "--json"][..],
+        &["hbm", "--speed", "300:500:3", "--damped", "--form", "blade", "--json"],
+        &["hbm", "--speed", "-430", "--slip", "--json"],
+        &["map", "--speed", "400:500:2", "--pulse", "1e4:2e4:2", "--end", "1e-3", "--json"],
+        &["precision", "--end", "1e-3", "--repeat", "1", "--finest", "1e-6", "--json"],
+    ] {
+        let report = json(arguments);
+        let program = &report["program"];
+        assert_eq!(program["name"], "rubscope");
+        assert_eq!(program["version"], env!("CARGO_PKG_VERSION"));
+        assert!(report["scene"]["operation"]["pulse_n"].is_number());
+        let command = program["command"].as_str().unwrap();
+        let words: Vec<&str> = command.split(' ').skip(1).chain(["--json"]).collect();
+        assert_eq!(timeless(json(&words)), timeless(report.clone()), "{command}");
+    }
+}
+
+/// A report without the times it took.
+fn timeless(mut report: serde_json::Value) -> serde_json::Value {
+    fn clear(value: &mut serde_json::Value) {
+        if let Some(object) = value.as_object_mut() {
+            for name in ["wall_s", "ns_per_step"] {
+                object.remove(name);
+            }
+            object.values_mut().for_each(clear);
+        }
+        value.as_array_mut().into_iter().flatten().for_each(clear);
+    }
+    clear(&mut report);
+    report
 }
 
 #[test]

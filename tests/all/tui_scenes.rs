@@ -83,7 +83,8 @@ fn a_scene_is_opened_with_its_charts_and_undo_brings_the_former_back() {
     let same = |app: &App| app.scene == before.scene && app.opened == before.opened;
     assert!(same(&session.app) && session.app.source == before.source);
     // A built-in one begins with its own charts.
-    session.press("ojjjj\n");
+    let rocking = BUILTIN.iter().position(|scene| scene.name == "rocking").unwrap();
+    session.press(&format!("o{}\n", "j".repeat(rocking)));
     assert_eq!(session.app.view.word(), Scene::builtin("rocking").unwrap().view.charts[0]);
     assert!(session.app.command().starts_with("rubscope run rocking"), "{}", session.app.command());
 }

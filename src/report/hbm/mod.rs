@@ -16,6 +16,7 @@ use crate::harmonic::{
 };
 use crate::model::{ContactPolygon, Excitation, Machine};
 use crate::report::number::{count, short};
+use crate::scene::Scene;
 
 /// The whole answer of `rubscope hbm --json`.
 #[derive(Clone, Debug, Serialize)]
@@ -25,9 +26,10 @@ pub struct HbmReport(Map<String, Value>);
 impl HbmReport {
     /// The report of one machine, without points.
     #[must_use]
-    pub fn new(machine: &Machine, form: Form, damped: bool) -> Self {
+    pub fn new(scene: &Scene, form: Form, damped: bool) -> Self {
+        let machine = scene.machine();
         Self(Map::new())
-            .with("schema", "rubscope.hbm/1")
+            .with("scene", scene)
             .with("form", form)
             .with("damped", damped)
             .with("omega_c_rad_s", machine.critical_speed())

@@ -9,16 +9,20 @@ use crate::motion::Verdict;
 pub struct Figure {
     /// One line that says what it shows.
     pub title: String,
-    /// One line with the conditions.
+    /// The conditions.
     pub note: String,
-    /// Its panels, from top to bottom.
+    /// What it means, in paragraphs below it.
+    pub caption: Vec<String>,
+    /// How many panels stand in a row.
+    pub columns: usize,
+    /// Its panels, row by row.
     pub panels: Vec<Panel>,
 }
 
 /// One pair of axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panel {
-    /// Title, used if there are several.
+    /// Title; empty for the only panel of a figure.
     pub title: String,
     /// Horizontal axis.
     pub x: Quantity,
@@ -46,7 +50,9 @@ pub struct Quantity {
 /// One curve or set of points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
-    /// Name in files and in the legend.
+    /// Name in files.
+    pub name: String,
+    /// Name in the legend.
     pub label: String,
     /// How it is drawn.
     pub style: Style,
@@ -82,11 +88,20 @@ pub struct Mark {
     pub label: &'static str,
 }
 
+impl Figure {
+    /// A figure of panels below each other, without a caption.
+    #[must_use]
+    pub fn new(title: impl Into<String>, note: impl Into<String>, panels: Vec<Panel>) -> Self {
+        let (title, note) = (title.into(), note.into());
+        Self { title, note, caption: Vec::new(), columns: 1, panels }
+    }
+}
+
 impl Quantity {
     /// Time, shown in milliseconds.
-    pub const TIME: Self = Self::new("t_s", "time [ms]", 1e3);
+    pub const TIME: Self = Self::new("t_s", "time t [ms]", 1e3);
     /// Rotor speed.
-    pub const SPEED: Self = Self::new("speed_rad_s", "rotor speed [rad/s]", 1.0);
+    pub const SPEED: Self = Self::new("speed_rad_s", "rotor speed Ω [rad/s]", 1.0);
 
     /// A quantity on a linear axis.
     #[must_use]
@@ -112,7 +127,14 @@ impl Series {
         points: impl IntoIterator<Item = (f64, f64)>,
     ) -> Self {
         let points = points.into_iter().filter(|(x, y)| x.is_finite() && y.is_finite()).collect();
-        Self { label: label.into(), style, points }
+        let label = label.into();
+        Self { name: label.clone(), label, style, points }
+    }
+
+    /// With another name in files.
+    #[must_use]
+    pub fn named(self, name: impl Into<String>) -> Self {
+        Self { name: name.into(), ..self }
     }
 }
 

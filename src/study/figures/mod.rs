@@ -1,11 +1,10 @@
 //! The figures of the paper: Figs. 4 to 8 in the time domain, 9 and 10 in the
 //! frequency domain, as data that `report` can draw and write.
 //!
-//! The paper does not print the pulse of its figures, and with the damping of
-//! its Table 1 no pulse gives the long transient they show. Without casing
-//! damping, a pulse of 40 kN and contact that only pushes, the motion locks at
-//! 0.085 s at every time step of Fig. 4, as in the paper: Figs. 4 to 6 use
-//! that. Fig. 7 uses 42 kN, which locks at 0.038 s.
+//! Every figure is made of one scene. The built-in ones are those that give
+//! what the paper says, as far as one was found; their captions say what agrees,
+//! what differs, and what cannot be compared, because the paper prints neither
+//! its pulse nor the scales of its pictures in the text.
 
 mod figure;
 mod harmonic;
@@ -21,36 +20,23 @@ use crate::scene::{CheckedScene, Scene, SceneError};
 /// The numbers of the figures.
 pub const NUMBERS: [u32; 7] = [4, 5, 6, 7, 8, 9, 10];
 
-/// The scenes of the figures.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Scenes {
-    /// Figs. 4 to 6: three nodal diameters in time.
-    pub three: CheckedScene,
-    /// Fig. 7: four nodal diameters in time.
-    pub four: CheckedScene,
-    /// Figs. 8 to 10: the machine of Table 1.
-    pub machine: CheckedScene,
+/// The built-in scene of a figure.
+#[must_use]
+pub fn name_of(number: u32) -> &'static str {
+    match number {
+        4..=6 => "paper-figs-4-6",
+        7 => "paper-fig-7",
+        8 => "paper-fig-8",
+        _ => "paper-nd3",
+    }
 }
 
-impl Scenes {
-    /// The paper's.
-    ///
-    /// # Errors
-    /// None, as the built-in scenes exist.
-    pub fn paper() -> Result<Self, SceneError> {
-        let transient = |name: &str, pulse: &str| {
-            Scene::builtin(name)?.with(&[
-                ("casing.damping_ratio", "0"),
-                ("operation.pulse_n", pulse),
-                ("solver.contact", "unilateral"),
-            ])
-        };
-        Ok(Self {
-            three: transient("paper-nd3", "40000")?,
-            four: transient("paper-nd4", "42000")?,
-            machine: Scene::builtin("paper-nd3")?.checked()?,
-        })
-    }
+/// The built-in scene of a figure, checked.
+///
+/// # Errors
+/// None, as the built-in scenes exist.
+pub fn scene_of(number: u32) -> Result<CheckedScene, SceneError> {
+    Scene::builtin(name_of(number))?.checked()
 }
 
 /// The speeds above which the wave is pushed outwards, and above which both
@@ -58,25 +44,28 @@ impl Scenes {
 fn speed_marks(machine: &Machine) -> Vec<Mark> {
     let critical = machine.critical_speed();
     let lock = machine.lock_speed().filter(|_| machine.casing_damping_ratio > 0.0);
-    [("Omega_c", critical), ("Omega_lock", lock)]
+    [("Ω_c", critical), ("Ω_lock", lock)]
         .into_iter()
         .filter_map(|(label, speed)| Some(Mark { x: speed?, label }))
         .collect()
 }
 
-/// One figure by its number in the paper; none for a number not in `NUMBERS`.
+/// One figure by its number in the paper, of this scene; none for a number not
+/// in `NUMBERS`. With the built-in scene it has a caption that compares it with
+/// the paper.
 ///
 /// # Errors
 /// A machine that has no locked motion (Figs. 9 and 10).
-pub fn figure(number: u32, scenes: &Scenes) -> Result<Option<Figure>, HarmonicError> {
+pub fn figure(number: u32, scene: &CheckedScene) -> Result<Option<Figure>, HarmonicError> {
+    let as_paper = scene_of(number).is_ok_and(|paper| paper == *scene);
     let mut figure = match number {
-        4 => time::steps(&scenes.three),
-        5 => time::gaps(&scenes.three),
-        6 => time::response(&scenes.three),
-        7 => time::response(&scenes.four),
-        8 => zone::zone(&scenes.machine, &scenes.three),
-        9 => harmonic::multipliers(&scenes.machine)?,
-        10 => harmonic::amplitudes(&scenes.machine)?,
+        4 => time::steps(scene, as_paper),
+        5 => time::gaps(scene, as_paper),
+        6 => time::response(scene, as_paper),
+        7 => time::four_diameters(scene, as_paper),
+        8 => zone::zone(scene, as_paper),
+        9 => harmonic::multipliers(scene, as_paper)?,
+        10 => harmonic::amplitudes(scene, as_paper)?,
         _ => return Ok(None),
     };
     figure.title = format!("Figure {number}. {}", figure.title);

@@ -1,30 +1,33 @@
 //! The command line that repeats the run on the screen.
 
 use super::{App, Source};
+use crate::report::CommandLine;
 use crate::scene::keys::differences;
 use crate::scene::{DEFAULT, Scene};
 
 impl App {
-    /// `rubscope run SCENE` with every key that differs from it.
+    /// The command line as text.
     pub fn command(&self) -> String {
+        self.command_line().to_string()
+    }
+
+    /// `rubscope run SCENE` with every key that differs from it.
+    pub fn command_line(&self) -> CommandLine {
         // Without a source it is the default scene, which is built in.
         let default = || Source {
             name: DEFAULT.into(),
             scene: Scene::builtin(DEFAULT).unwrap_or_else(|_| Scene::base()),
         };
         let Source { name, scene: base } = self.source.clone().unwrap_or_else(default);
-        let mut command = format!("rubscope run {}", quoted(&name));
         // Live changes come at their instants, after which the forecast is as long
         // as the scene says.
         let mut scene = self.started.clone().into_scene();
         scene.solver.end_s = self.end_s();
-        for (path, text) in differences(&base, &scene) {
-            command.push_str(&format!(" --set {}", quoted(&format!("{path}={text}"))));
-        }
-        for (t, what) in &self.latest.results.applied {
-            command.push_str(&format!(" --at {}", quoted(&format!("{t:?}:{what}"))));
-        }
-        command
+        let start = CommandLine::from_base("run", &name, &base, &scene);
+        let live = &self.latest.results.applied;
+        let at =
+            |line: CommandLine, (t, what): &(f64, _)| line.option("--at", format!("{t:?}:{what}"));
+        live.iter().fold(start, at)
     }
 
     /// Keys that differ from a scene, with their values as text.
@@ -37,16 +40,6 @@ impl App {
         let command = self.command();
         self.status = Some(format!("copied: {command}"));
         command
-    }
-}
-
-/// A word, quoted for the shell.
-fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=+:".contains(c);
-    if !word.is_empty() && word.chars().all(plain) {
-        word.to_string()
-    } else {
-        format!("'{}'", word.replace('\'', "'\\''"))
     }
 }
 

@@ -1,0 +1,130 @@
+//! The command line that gives a result again, and what a file says of its
+//! origin: program, version, command and scene.
+
+use std::fmt::{Display, Formatter};
+
+use serde_json::{Value, json};
+
+use crate::scene::keys::differences;
+use crate::scene::{BUILTIN, DEFAULT, Scene};
+
+/// Name of the program in files.
+pub const PROGRAM: &str = "rubscope";
+/// Its version.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// A command line of this program, quoted for a shell.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CommandLine(String);
+
+impl CommandLine {
+    /// `rubscope COMMAND NAME`, with `--set` for every key in which the scene
+    /// differs from the one of that name; charts are not counted.
+    #[must_use]
+    pub fn from_base(command: &str, name: &str, base: &Scene, scene: &Scene) -> Self {
+        let start = Self(format!("{PROGRAM} {command} {}", quoted(name)));
+        let set = |(path, text)| format!("{path}={text}");
+        differences(base, scene).map(set).fold(start, |line, set| line.option("--set", set))
+    }
+
+    /// As `from_base` with the built-in scene that differs in the fewest keys,
+    /// so that the command needs no scene file. Title and note are left out:
+    /// they change nothing that is computed.
+    #[must_use]
+    pub fn new(command: &str, scene: &Scene) -> Self {
+        let known = |name| Scene::builtin(name).ok().map(|base| (name, base));
+        let nearest = BUILTIN
+            .iter()
+            .filter_map(|builtin| known(builtin.name))
+            .min_by_key(|(_, base)| differences(base, scene).count());
+        let (name, base) = nearest.unwrap_or_else(|| (DEFAULT, Scene::base()));
+        let (title, note) = (base.title.clone(), base.note.clone());
+        Self::from_base(command, name, &base, &Scene { title, note, ..scene.clone() })
+    }
+
+    /// With an option and its value.
+    #[must_use]
+    pub fn option(mut self, name: &str, value: impl Display) -> Self {
+        self.0.push_str(&format!(" {name} {}", quoted(&value.to_string())));
+        self
+    }
+
+    /// With an option that has no value, if it is given.
+    #[must_use]
+    pub fn flag(mut self, name: &str, given: bool) -> Self {
+        if given {
+            self.0.push_str(&format!(" {name}"));
+        }
+        self
+    }
+
+    /// The program, its version and the command, as `program` in JSON.
+    #[must_use]
+    pub fn program(&self) -> Value {
+        json!({ "name": PROGRAM, "version": VERSION, "command": self.0 })
+    }
+}
+
+impl Display for CommandLine {
+    fn fmt(&self, out: &mut Formatter<'_>) -> std::fmt::Result {
+        out.write_str(&self.0)
+    }
+}
+
+/// A word, quoted for the shell.
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=+:,".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        word.to_string()
+    } else {
+        format!("'{}'", word.replace('\'', "'\\''"))
+    }
+}
+
+/// Where a result comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Provenance {
+    /// The command that gives it again.
+    pub command: CommandLine,
+    /// The scene, with every key.
+    pub scene: Scene,
+}
+
+impl Provenance {
+    /// All of it as text: a line with program and version, the command, and the
+    /// scene as a scene file.
+    #[must_use]
+    pub fn text(&self) -> String {
+        format!("{PROGRAM} {VERSION}\n{}\n\n{}", self.command, self.scene.to_toml())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_command_names_what_differs_and_nothing_else() {
+        let mut scene = Scene::builtin("slip").unwrap();
+        assert_eq!(CommandLine::new("run", &scene).to_string(), "rubscope run slip");
+        scene.set("operation.speed_rad_s", "-430").unwrap();
+        scene.set("title", "it's mine").unwrap();
+        scene.set("note", "seen on Monday").unwrap();
+        let line =
+            CommandLine::new("run", &scene).option("--at", "0.05:pulse").flag("--gaps", true);
+        assert_eq!(
+            line.to_string(),
+            "rubscope run slip \
+             --set operation.speed_rad_s=-430.0 --at 0.05:pulse --gaps"
+        );
+    }
+
+    #[test]
+    fn every_built_in_scene_is_named_by_itself() {
+        for builtin in BUILTIN {
+            let scene = Scene::builtin(builtin.name).unwrap();
+            let line = CommandLine::new("map", &scene).to_string();
+            assert_eq!(line, format!("rubscope map {}", builtin.name));
+        }
+    }
+}

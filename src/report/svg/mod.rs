@@ -1,0 +1,165 @@
+//! A figure as SVG: title and conditions, panels in rows, and a caption.
+
+mod panel;
+mod paper;
+mod scale;
+
+use std::io::{Error, Result, Write};
+
+use plotters::prelude::*;
+
+use super::Provenance;
+use crate::study::figures::Figure;
+use paper::{Drawn, FINE, TEXT, wrapped, write_at};
+
+/// Width of a figure with one panel in a row, and of each panel more \[px\].
+const WIDTH: u32 = 960;
+const WIDTH_MORE: u32 = 240;
+/// Height of a panel.
+const PANEL: u32 = 400;
+/// Size of the title.
+const TITLE: i32 = 21;
+/// Height of a line of text.
+const LINE: u32 = 19;
+/// Left of the text.
+const LEFT: i32 = 20;
+
+/// Writes a figure, with where it comes from as its description.
+///
+/// # Errors
+/// An error of the writer.
+pub fn write(figure: &Figure, origin: &Provenance, out: &mut dyn Write) -> Result<()> {
+    let mut text = String::new();
+    draw(figure, &describe(origin), &mut text).map_err(|error| Error::other(error.to_string()))?;
+    out.write_all(text.as_bytes())
+}
+
+/// Where a picture comes from, as an element of SVG.
+#[must_use]
+pub fn describe(origin: &Provenance) -> String {
+    format!("<desc>{}</desc>\n", escaped(&origin.text()))
+}
+
+/// Text as it stands in XML.
+#[must_use]
+pub fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
+
+fn draw(figure: &Figure, description: &str, text: &mut String) -> Drawn<()> {
+    let columns = figure.columns.clamp(1, figure.panels.len().max(1));
+    let rows = figure.panels.len().div_ceil(columns);
+    let width = WIDTH + WIDTH_MORE * u32::try_from(columns - 1)?;
+    let note = wrapped(&figure.note, width);
+    let caption: Vec<String> =
+        figure.caption.iter().flat_map(|line| wrapped(line, width)).collect();
+    let head = 40 + LINE * u32::try_from(note.len())?;
+    let foot = if caption.is_empty() { 0 } else { 16 + LINE * u32::try_from(caption.len())? };
+    let body = PANEL * u32::try_from(rows)?;
+    let height = head + body + foot;
+    let root = SVGBackend::with_string(text, (FINE * width, FINE * height)).into_drawing_area();
+    root.fill(&WHITE)?;
+    let line = |index: usize| (LINE as usize * index) as i32;
+    write_at(&root, &figure.title, (LEFT, 10), TITLE)?;
+    for (index, words) in note.iter().enumerate() {
+        write_at(&root, words, (LEFT, 38 + line(index)), TEXT)?;
+    }
+    let (_, below) = root.split_vertically(FINE * head);
+    let (panels, _) = below.split_vertically(FINE * body);
+    for (panel, area) in figure.panels.iter().zip(panels.split_evenly((rows, columns))) {
+        panel::draw(panel, &area)?;
+    }
+    for (index, words) in caption.iter().enumerate() {
+        write_at(&root, words, (LEFT, (head + body) as i32 + line(index)), TEXT)?;
+    }
+    root.present()?;
+    drop((panels, below, root));
+    // The size shown, and where the picture comes from before anything drawn.
+    let fine = format!("width=\"{}\" height=\"{}\"", FINE * width, FINE * height);
+    *text = text.replacen(&fine, &format!("width=\"{width}\" height=\"{height}\""), 1);
+    *text = with_subscripts(text);
+    let start = text.find('>').map_or(0, |end| end + 1);
+    text.insert_str(start, &format!("\n{}", description.trim_end()));
+    Ok(())
+}
+
+/// Lowers what follows an underscore in the text of a picture: `u_c`, `n_d`. The
+/// drawing library writes every text as a line of its own.
+fn with_subscripts(svg: &str) -> String {
+    let lowered = |line: &str| {
+        let mut parts = line.split('_');
+        let mut out = parts.next().unwrap_or_default().to_string();
+        for part in parts {
+            let end = part.find(|c: char| !c.is_alphanumeric()).unwrap_or(part.len());
+            let (low, rest) = part.split_at(end);
+            // A space at the start of an element would be lost.
+            let rest = rest.replacen(' ', "\u{a0}", usize::from(rest.starts_with(' ')));
+            let depth = 3 * FINE;
+            out.push_str(&format!("<tspan dy=\"{depth}\" font-size=\"75%\">{low}</tspan>"));
+            out.push_str(&format!("<tspan dy=\"-{depth}\">{rest}</tspan>"));
+        }
+        out
+    };
+    svg.lines()
+        .map(|line| if line.starts_with('<') { line.to_string() } else { lowered(line) } + "\n")
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::Verdict;
+    use crate::report::CommandLine;
+    use crate::scene::Scene;
+    use crate::study::figures::{Mark, Panel, Quantity, Series, Style};
+
+    fn drawn(points: Vec<(f64, f64)>, log: bool) -> String {
+        let x = Quantity { log, ..Quantity::SPEED };
+        let y = Quantity::new("u_m", "u < [µm]", 1e6);
+        let lines = [Style::Faint, Style::Line(0), Style::Dashed(1)];
+        let others = [Style::Cells(Verdict::Slip), Style::Discs(2, 5), Style::Dots, Style::Edge];
+        let series = |style: &Style| Series::new("a & b", *style, points.clone());
+        let series = lines.iter().chain(&others).map(series).collect();
+        let mut panel = Panel::new("(a)", x, y, series);
+        panel.marks.push(Mark { x: 2.0, label: "Ω_c" });
+        let caption = vec!["words ".repeat(60), "the end".to_string()];
+        let panels = vec![panel; 3];
+        let figure = Figure { title: "T".into(), note: "N".into(), caption, columns: 2, panels };
+        let scene = Scene { title: "a < b".into(), ..Scene::base() };
+        let origin = Provenance { command: CommandLine::new("figures", &scene), scene };
+        let mut out = Vec::new();
+        write(&figure, &origin, &mut out).unwrap();
+        String::from_utf8(out).unwrap()
+    }
+
+    #[test]
+    fn every_style_is_drawn_and_text_is_escaped() {
+        let svg = drawn(vec![(1.0, 1e-6), (2.0, 3e-6), (4.0, -1e-6)], false);
+        assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"));
+        assert!(
+            svg.contains(">\nT\n<")
+                && svg.contains("Ω<tspan dy=\"12\" font-size=\"75%\">c</tspan>")
+                && svg.contains(">\nthe end\n<")
+        );
+        assert!(svg.contains("a &amp; b") && svg.contains("u &lt; [µm]"));
+        assert!(!svg.contains("NaN") && !svg.contains("inf"));
+    }
+
+    #[test]
+    fn a_picture_says_where_it_comes_from() {
+        let svg = drawn(vec![], false);
+        let told = svg.split_once("<desc>").unwrap().1.split_once("</desc>").unwrap().0;
+        let version = concat!("rubscope ", env!("CARGO_PKG_VERSION"), "\nrubscope figures ");
+        assert!(told.starts_with(version), "{told}");
+        assert!(told.contains("title = \"a &lt; b\"") && told.contains("[operation]"));
+    }
+
+    #[test]
+    fn nothing_and_constants_can_be_drawn() {
+        for points in [vec![], vec![(1.0, 0.0)], vec![(1.0, 5.0), (1.0, 5.0)]] {
+            for log in [false, true] {
+                assert!(!drawn(points.clone(), log).contains("NaN"));
+            }
+        }
+    }
+}

@@ -1,0 +1,161 @@
+//! One panel: its title, the names of its series above the axes, the axes, the
+//! series and the marks.
+
+use plotters::prelude::*;
+
+use super::paper::{Area, Drawn, FINE, TEXT, colour, font, px, width_of, write_at};
+use super::scale::{Scale, has_cells, tiles};
+use super::{LEFT, LINE};
+use crate::study::figures::{Mark, Panel, Series, Style};
+
+/// Height of a panel's title.
+const TITLE: u32 = 24;
+/// Width of the sample before the name of a series, and between two names.
+const SAMPLE: u32 = 26;
+const APART: u32 = 18;
+/// Left of the axes: their labels and their name.
+const LABELS: i32 = 72;
+
+/// Draws a panel.
+///
+/// # Errors
+/// What the drawing library reports.
+pub fn draw(panel: &Panel, area: &Area) -> Drawn<()> {
+    let (columns, rows) = tiles(panel);
+    let half_tile = |count: usize| 0.5 / count as f64;
+    let margins =
+        if has_cells(panel) { (half_tile(columns), half_tile(rows)) } else { (0.0, 0.05) };
+    let x = Scale::of(panel, &panel.x, |point| point.0, margins.0);
+    let y = Scale::of(panel, &panel.y, |point| point.1, margins.1);
+    write_at(area, &panel.title, (LEFT, 4), 17)?;
+    let top = if panel.title.is_empty() { 0 } else { TITLE };
+    let (_, rest) = area.split_vertically(FINE * top);
+    let names = draw_names(panel, &rest)?;
+    let (_, rest) = rest.split_vertically(FINE * names);
+    let mut chart = ChartBuilder::on(&rest)
+        .margin_top(px(if panel.marks.is_empty() { 6 } else { 22 }))
+        .margin_bottom(px(8))
+        .margin_left(px(16))
+        .margin_right(px(24))
+        .x_label_area_size(px(44))
+        .y_label_area_size(px(LABELS))
+        .build_cartesian_2d(x.axis(), y.axis())?;
+    let (width, height) = chart.plotting_area().dim_in_pixel();
+    let half =
+        |pixels: u32, count: usize| 1 + (f64::from(pixels) * half_tile(count + 1)).ceil() as i32;
+    let half = (half(width, columns), half(height, rows));
+    chart
+        .configure_mesh()
+        .bold_line_style(BLACK.mix(0.15).stroke_width(FINE))
+        .axis_style(BLACK.stroke_width(FINE))
+        .set_all_tick_mark_size(px(4))
+        .x_desc(panel.x.label.as_ref())
+        .y_desc(panel.y.label.as_ref())
+        .x_label_formatter(&|tick| x.label(*tick))
+        .y_label_formatter(&|tick| y.label(*tick))
+        .label_style(font(TEXT))
+        .draw()?;
+    // A series with a name is drawn last, on top.
+    let is_faint = |series: &&Series| series.style == Style::Faint;
+    let (faint, named): (Vec<&Series>, Vec<&Series>) = panel.series.iter().partition(is_faint);
+    for series in faint.into_iter().chain(named) {
+        let points = series.points.iter().map(|point| (x.shown(point.0), y.shown(point.1)));
+        let ink = colour(series.style).stroke_width(FINE + FINE / 2);
+        match series.style {
+            Style::Faint => {
+                let thin = colour(series.style).stroke_width(FINE / 2);
+                chart.draw_series(LineSeries::new(points, thin))?;
+            }
+            Style::Line(_) => {
+                chart.draw_series(LineSeries::new(points, ink))?;
+            }
+            Style::Dashed(_) => {
+                chart.draw_series(DashedLineSeries::new(points, px(6), px(3), ink))?;
+            }
+            Style::Cells(_) => {
+                let corners = [(-half.0, -half.1), half];
+                let fill = colour(series.style).filled();
+                let tile = |at| EmptyElement::at(at) + Rectangle::new(corners, fill);
+                chart.draw_series(points.map(tile))?;
+            }
+            Style::Discs(_, radius) => {
+                let pale = colour(series.style).mix(0.5).stroke_width(FINE);
+                chart.draw_series(LineSeries::new(points.clone(), pale))?;
+                let fill = colour(series.style).filled();
+                chart.draw_series(points.map(|at| Circle::new(at, px(radius), fill)))?;
+            }
+            Style::Dots => {
+                let fill = colour(series.style).filled();
+                chart.draw_series(points.map(|at| Circle::new(at, px(3) / 2, fill)))?;
+            }
+            Style::Edge => {
+                let edge = points.map(|at| (at.0, y.low));
+                chart.draw_series(edge.map(|at| TriangleMarker::new(at, px(5), ink)))?;
+            }
+        }
+    }
+    for mark in &panel.marks {
+        let at = x.shown(mark.x);
+        if (x.low..=x.high).contains(&at) {
+            let line = [(at, y.low), (at, y.high)];
+            let ink = BLACK.stroke_width(FINE);
+            chart.draw_series(DashedLineSeries::new(line, px(3), px(3), ink))?;
+            draw_mark(mark, &chart.backend_coord(&(at, y.high)), &rest)?;
+        }
+    }
+    Ok(())
+}
+
+/// The name of a mark, above the axes, in the middle over its line.
+fn draw_mark(mark: &Mark, at: &(i32, i32), area: &Area) -> Drawn<()> {
+    let (left, top) = area.get_base_pixel();
+    let half = px(width_of(mark.label) as i32) / 2;
+    let style = font(TEXT).into_text_style(area);
+    let place = (at.0 - left - half, at.1 - top - px(19));
+    Ok(area.draw_text(mark.label, &style, place)?)
+}
+
+/// The names of the series that have points, but for faint ones, in rows;
+/// returns their height.
+fn draw_names(panel: &Panel, area: &Area) -> Drawn<u32> {
+    let width = area.dim_in_pixel().0 / FINE;
+    let start = LABELS as u32 + 16;
+    let (mut left, mut row) = (start, 0);
+    let is_named = |series: &&Series| series.style != Style::Faint && !series.points.is_empty();
+    for series in panel.series.iter().filter(is_named) {
+        let long = SAMPLE + width_of(&series.label);
+        if left > start && left + long > width {
+            (left, row) = (start, row + 1);
+        }
+        let at = (i32::try_from(left)?, i32::try_from(4 + LINE * row)?);
+        draw_sample(series.style, at, area)?;
+        write_at(area, &series.label, (at.0 + SAMPLE as i32, at.1), TEXT)?;
+        left += long + APART;
+    }
+    Ok(if left == start { 0 } else { 4 + LINE * (row + 1) })
+}
+
+/// How a series is drawn, before its name.
+fn draw_sample(style: Style, (left, top): (i32, i32), area: &Area) -> Drawn<()> {
+    let at = |dx: i32, dy: i32| (px(left + dx), px(top + dy));
+    let fill = colour(style);
+    match style {
+        Style::Cells(_) => {
+            area.draw(&Rectangle::new([at(0, 2), at(18, 14)], fill.filled()))?;
+        }
+        Style::Dashed(_) => {
+            for dash in [0, 11] {
+                area.draw(&Rectangle::new([at(dash, 7), at(dash + 7, 10)], fill.filled()))?;
+            }
+        }
+        Style::Discs(_, radius) => area.draw(&Circle::new(at(9, 8), px(radius), fill.filled()))?,
+        Style::Dots => area.draw(&Circle::new(at(9, 8), px(3) / 2, fill.filled()))?,
+        Style::Edge => {
+            area.draw(&TriangleMarker::new(at(9, 9), px(5), fill.stroke_width(FINE)))?;
+        }
+        Style::Line(_) | Style::Faint => {
+            area.draw(&Rectangle::new([at(0, 7), at(18, 10)], fill.filled()))?;
+        }
+    }
+    Ok(())
+}

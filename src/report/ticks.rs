@@ -1,0 +1,105 @@
+//! Round ticks: steps of 1, 2 or 5 times a power of ten, and powers of ten on
+//! logarithmic axes.
+
+/// A step of 1, 2 or 5 times a power of ten that puts at most `most` ticks in
+/// `span`; none for a span that is not a positive number.
+#[must_use]
+pub fn nice_step(span: f64, most: usize) -> Option<f64> {
+    if !(span.is_finite() && span > 0.0) || most == 0 {
+        return None;
+    }
+    let raw = span / most as f64;
+    let power = 10f64.powf(raw.log10().floor());
+    // The logarithm of a power of ten may round to either side.
+    let step = [1.0, 2.0, 5.0, 10.0, 20.0]
+        .into_iter()
+        .map(|m| m * power)
+        .find(|step| *step >= raw * (1.0 - 1e-9))?;
+    (step.is_finite() && step > 0.0).then_some(step)
+}
+
+/// Round values inside `[low, high]`, at most about `most` of them, with their
+/// spacing; empty where the range is empty, reversed or not finite.
+#[must_use]
+pub fn ticks(low: f64, high: f64, most: usize) -> (Vec<f64>, f64) {
+    let Some(step) = nice_step(high - low, most.max(1)) else { return (Vec::new(), 1.0) };
+    let slack = 1e-9 * step;
+    let first = ((low - slack) / step).ceil();
+    let last = ((high + slack) / step).floor();
+    // A range far from zero and narrower than its round-off has no ticks.
+    if !(last - first).is_finite() || last - first > 1e3 {
+        return (Vec::new(), step);
+    }
+    let count = (last - first).max(-1.0) as i64;
+    let values = (0..=count)
+        .map(|k| (first + k as f64) * step)
+        .map(|x| if x == 0.0 { 0.0 } else { x })
+        .collect();
+    (values, step)
+}
+
+/// Ticks of a logarithmic axis between two exponents of ten: whole powers, every
+/// so many that about `most` remain; with less than a decade, also 2 and 5 times
+/// a power. Values are exponents.
+#[must_use]
+pub fn log_ticks(low: f64, high: f64, most: usize) -> Vec<f64> {
+    let decades = high - low;
+    if !(decades.is_finite() && (0.0..1e3).contains(&decades)) {
+        return Vec::new();
+    }
+    let every = (decades / most.max(1) as f64).ceil().max(1.0);
+    let first = (low / every).floor() as i64;
+    let last = (high / every).ceil() as i64;
+    let within = |x: &f64| (low - 1e-9..=high + 1e-9).contains(x);
+    let powers = (first..=last).map(|k| k as f64 * every);
+    let parts: &[f64] = if decades < 2.0 { &[1.0, 2.0, 5.0] } else { &[1.0] };
+    powers.flat_map(|power| parts.iter().map(move |m| power + m.log10())).filter(within).collect()
+}
+
+/// A value of a logarithmic axis, given by its exponent of ten: `10⁵`, and
+/// `2·10⁵` between whole powers.
+#[must_use]
+pub fn power_of_ten(exponent: f64) -> String {
+    let whole = (exponent + 1e-9).floor();
+    let digits: String = format!("{whole}").chars().map(raised).collect();
+    match 10_f64.powf(exponent - whole).round() {
+        1.0 => format!("10{digits}"),
+        factor => format!("{factor}·10{digits}"),
+    }
+}
+
+/// A digit or sign as an exponent.
+fn raised(c: char) -> char {
+    let digits = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    match c.to_digit(10).and_then(|digit| digits.get(digit as usize)) {
+        Some(digit) => *digit,
+        None => '⁻',
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_are_round() {
+        for (span, most, step) in [(10.0, 5, 2.0), (1.0, 1, 1.0), (0.7, 4, 0.2), (600.0, 7, 100.0)]
+        {
+            assert!((nice_step(span, most).unwrap() / step - 1.0).abs() < 1e-12, "{span} {most}");
+        }
+        assert_eq!(
+            (nice_step(0.0, 3), nice_step(f64::NAN, 3), nice_step(1.0, 0)),
+            (None, None, None)
+        );
+    }
+
+    #[test]
+    fn logarithmic_axes_have_powers_of_ten() {
+        assert_eq!(log_ticks(3.0, 7.0, 8), [3.0, 4.0, 5.0, 6.0, 7.0]);
+        assert_eq!(log_ticks(-10.0, 0.0, 5), [-10.0, -8.0, -6.0, -4.0, -2.0, 0.0]);
+        let names: Vec<String> = log_ticks(4.2, 5.4, 8).into_iter().map(power_of_ten).collect();
+        assert_eq!(names, ["2·10⁴", "5·10⁴", "10⁵", "2·10⁵"]);
+        assert_eq!(power_of_ten(-12.0), "10⁻¹²");
+        assert!(log_ticks(0.0, f64::INFINITY, 5).is_empty());
+    }
+}
