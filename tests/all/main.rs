@@ -49,6 +49,7 @@ mod map_signals;
 mod map_zone;
 mod order;
 mod pauses;
+mod pictures;
 mod plain;
 mod plain_self;
 mod plain_stepper;
