@@ -2,7 +2,7 @@
 
 use rubscope::tui::{Marker, Theme};
 
-use crate::tui_screens::{Session, scene};
+use crate::tui_support::{Session, scene};
 
 #[test]
 fn the_screen_for_a_projector_has_one_chart_large_letters_and_the_knob() {
