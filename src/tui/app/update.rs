@@ -10,7 +10,7 @@ use crate::report::line;
 use crate::tui::axis::readable;
 use crate::tui::bindings::{Action, Chord, lookup};
 use crate::tui::files::FileJob;
-use crate::tui::knobs::KNOBS;
+use crate::tui::knobs::knob_of;
 use crate::tui::lessons;
 use crate::tui::views::ViewId;
 
@@ -252,8 +252,7 @@ impl App {
             Action::Fire => {
                 self.counters.pulses += 1;
                 self.forget_forecasts();
-                let pulse = KNOBS.iter().find(|knob| knob.path == "operation.pulse_n");
-                let pulse = pulse.map(|knob| knob.shown(&knob.get(&self.scene)));
+                let pulse = knob_of("operation.pulse_n").map(|knob| knob.text(&self.scene));
                 self.status = pulse.map(|pulse| format!("pulse of {pulse} fired"));
             }
             Action::Sweep => self.ask_sweep(),

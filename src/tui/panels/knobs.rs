@@ -152,7 +152,7 @@ pub fn strip(app: &App, buffer: &mut Buffer, area: Rect) {
 fn strip_text(app: &App, knob: &Knob) -> String {
     let shown = match &app.mode {
         InputMode::Typing(text) => format!("{text}_"),
-        _ => knob.shown(&knob.get(&app.scene)),
+        _ => knob.text(&app.scene),
     };
     let changed = if knob.get(&app.scene) == knob.get(&app.opened) { "" } else { "*" };
     let text = format!("◄ {}{changed} {shown} ►  {}/{}", knob.label, app.knob + 1, KNOBS.len());

@@ -106,7 +106,7 @@ pub fn knob(app: &App, buffer: &mut Buffer, area: Rect) {
             centred(app, buffer, area, 0, &format!("{} = {text}_", knob.label), focus);
         }
         _ => {
-            let shown = knob.shown(&knob.get(&app.scene));
+            let shown = knob.text(&app.scene);
             centred(app, buffer, area, 0, &format!("{} = {shown}", knob.label), focus);
         }
     }
