@@ -145,6 +145,8 @@ impl App {
     fn begin_step(&mut self, place: usize, step: usize) {
         let Some(lesson) = lessons::all().get(place) else { return };
         let past = self.past();
+        // A screen for a projector has no room for a lesson.
+        self.present(false);
         let begun = self.lesson.clone().filter(|progress| progress.lesson == place);
         let begun = begun.unwrap_or_else(|| LessonProgress {
             lesson: place,

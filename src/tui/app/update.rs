@@ -226,10 +226,7 @@ impl App {
                 let name = format!("{}.csv", self.view.word());
                 self.mode = InputMode::Naming(Purpose::Export, name);
             }
-            Action::Lesson => {
-                (self.presenting, self.appearance.wide) = (false, false);
-                self.lesson_key();
-            }
+            Action::Lesson => self.lesson_key(),
             Action::LessonBack => self.lesson_back(),
             Action::Answer(place) => self.answer(place),
             Action::LeaveLesson => self.leave_lesson(),
@@ -288,7 +285,7 @@ impl App {
     }
 
     /// The screen for a projector, or the usual one.
-    fn present(&mut self, on: bool) {
+    pub(super) fn present(&mut self, on: bool) {
         if on && self.lesson.is_some() {
             self.status = Some("a lesson needs the usual screen; G leaves it".into());
             return;
