@@ -17,12 +17,17 @@ use crate::report::{hbm as report, json};
 
 /// Default number of speeds of a sweep.
 const SPEEDS: usize = 51;
+/// What `--speed` takes here.
+const SWEPT_SPEED: &str =
+    "Rotor speed, or speeds as FROM:TO:COUNT; negative turns the other way [rad/s]";
+
 /// Locked motion against speed, by harmonic balance.
 ///
 /// `--speed FROM:TO:COUNT` sweeps the speed; a single speed gives one point;
 /// without it the range is from standstill to the speed of the scene. Without
 /// one of the views below, the locked motion itself is shown.
 #[derive(Args, Debug)]
+#[command(mut_arg("speed", |speed| speed.help(SWEPT_SPEED)))]
 pub struct HbmCommand {
     #[command(flatten)]
     options: SceneOptions,

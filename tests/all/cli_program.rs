@@ -107,6 +107,25 @@ fn every_manual_page_has_a_full_title_line_and_a_name_section() {
 }
 
 #[test]
+fn the_ranges_of_a_map_and_of_a_sweep_are_in_their_help() {
+    let help = printed(&["map", "--help"]);
+    let line = |option: &str| {
+        let found = help.lines().find(|line| line.trim_start().starts_with(option));
+        found.unwrap_or_else(|| panic!("no {option} in {help}")).to_string()
+    };
+    for option in ["--x", "--y"] {
+        let forms = "PATH=FROM:TO:COUNT or PATH=log:FROM:TO:COUNT";
+        assert!(line(option).contains(forms), "{}", line(option));
+    }
+    for option in ["--speed", "--pulse"] {
+        assert!(line(option).contains("<FROM:TO:COUNT>"), "{}", line(option));
+    }
+    assert!(printed(&["hbm", "--help"]).contains("or speeds as FROM:TO:COUNT"));
+    // The other commands take one speed.
+    assert!(!printed(&["run", "--help"]).contains("FROM:TO:COUNT"));
+}
+
+#[test]
 fn a_closed_pipe_ends_the_program_quietly() {
     let program = assert_cmd::cargo::cargo_bin!("rubscope");
     for arguments in [&["scenes", "paper-nd3"][..], &["completions", "bash"], &["--help"]] {
