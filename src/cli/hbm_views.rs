@@ -165,10 +165,12 @@ fn slipping(
             format!("{change} at {} rad/s", short(limit.speed_rad_s))
         })
         .collect();
-    let title = if told.is_empty() {
-        "Slip neither appears nor vanishes between these speeds.".to_string()
-    } else {
-        format!("Slip {}.", told.join(", "))
+    let found = points.iter().filter(|point| point.exists()).count();
+    let title = match (told.is_empty(), found) {
+        (false, _) => format!("Slip {}.", told.join(", ")),
+        (true, 0) => "There is no slip at any of these speeds.".to_string(),
+        (true, all) if all == points.len() => "Slip exists at all of these speeds.".to_string(),
+        (true, _) => "Slip exists at some of these speeds.".to_string(),
     };
     let limit_speeds: Vec<f64> = limits.iter().map(|limit| limit.speed_rad_s).collect();
     let mut json = json

@@ -87,6 +87,19 @@ fn slip_everywhere_and_slip_nowhere_are_told_apart() {
 }
 
 #[test]
+fn slip_at_every_speed_and_at_none_are_told_apart_in_the_heading() {
+    for (speeds, told) in [
+        ("450:500:3", "Slip exists at all of these speeds."),
+        ("300:400:3", "There is no slip at any of these speeds."),
+        ("400:500:3", "Slip appears at 433.524 rad/s."),
+    ] {
+        let mut run = hbm(&["--slip", "--zeta-casing", "0.01", "--speed", speeds]);
+        let text = run.assert().success().get_output().stdout.clone();
+        assert!(String::from_utf8(text).unwrap().contains(told), "{speeds}");
+    }
+}
+
+#[test]
 fn a_casing_that_hardly_springs_back_has_its_eigenvalues() {
     let soft = "casing.modal_stiffness_n_per_m=6e-8";
     let report = json(&["half-n", "--set", soft, "--branches", "--speed", "0:5578:2"]);
