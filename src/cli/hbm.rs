@@ -98,7 +98,8 @@ impl HbmCommand {
         }
         if !self.json {
             let machine = resolved.scene.machine();
-            report::write_heading(&machine, &resolved.scene.title, answer.sweep.as_ref(), out)?;
+            let (title, sweep) = (&resolved.scene.title, answer.sweep.as_ref());
+            report::write_heading(&machine, title, asked.fastest(), sweep, out)?;
             for (title, table) in &answer.tables {
                 writeln!(out)?;
                 if !title.is_empty() {

@@ -80,6 +80,18 @@ fn the_paper_scene_has_the_zone_of_the_paper_with_its_two_halves() {
 }
 
 #[test]
+fn the_map_of_a_rotor_that_turns_backward_has_its_thresholds() {
+    let mut scene = event();
+    scene.operation.speed_rad_s = -500.0;
+    let mut session = open((120, 40), scene, Theme::Dark, Marker::Braille);
+    session.press("5");
+    let text = session.text();
+    for word in ["Ω_c -292.9", "Ω_lock -411.9", "coincidence -388.3"] {
+        assert!(text.contains(word), "no {word} in {text}");
+    }
+}
+
+#[test]
 fn cells_are_those_of_the_map_command() {
     let mut session = open((80, 24), paper(), Theme::Dark, Marker::Braille);
     session.press("5");

@@ -59,6 +59,29 @@ fn every_view_with_the_large_chart_at_120_by_40() {
 }
 
 #[test]
+fn a_rotor_that_turns_backward_has_campbell_lines_of_its_own() {
+    // The marks where lines meet that of the casing, by column from the left.
+    let marks = |speed: f64| {
+        let mut scene = scene();
+        scene.operation.speed_rad_s = speed;
+        let mut session = Session::open(120, 40, scene, Theme::Dark, Marker::Ascii);
+        session.press("6f ");
+        let text = session.text();
+        let row = text.lines().rfind(|line| line.matches('@').count() == 3);
+        let row = row.unwrap_or_else(|| panic!("no row with three marks in {text}")).to_string();
+        let at = |(place, _)| u32::try_from(place).unwrap();
+        (text, row.match_indices('@').map(at).collect::<Vec<u32>>())
+    };
+    let (forward, right) = marks(500.0);
+    let (backward, left) = marks(-500.0);
+    assert!(forward.contains(" 600") && !forward.contains("-600"), "{forward}");
+    assert!(backward.contains("-600") && !backward.contains(" 600"), "{backward}");
+    // One picture is the mirror image of the other.
+    let sums: Vec<u32> = right.iter().zip(left.iter().rev()).map(|(a, b)| a + b).collect();
+    assert!(sums.iter().all(|sum| sum.abs_diff(sums[0]) <= 1), "{right:?} {left:?}");
+}
+
+#[test]
 fn speed_against_error_shows_every_kind_of_solver() {
     let mut scene = scene();
     scene.solver.end_s = 2e-3;

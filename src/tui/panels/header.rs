@@ -178,8 +178,8 @@ fn limits(app: &App) -> Parts {
             None => parts.push(("-".into(), text)),
         }
     }
-    let coincidence = app.machine.dangerous_speed().map(|speed| (" · coincidence", speed));
-    parts.extend(coincidence.map(|(name, speed)| (format!("{name} {}", short(speed)), quiet)));
+    let coincidence = app.machine.dangerous_speed_toward(app.speed());
+    parts.extend(coincidence.map(|speed| (format!(" · coincidence {}", short(speed)), quiet)));
     parts
 }
 
@@ -198,7 +198,7 @@ fn short_limits(app: &App) -> Parts {
 
 /// Four or five digits are enough for a limit.
 fn short(speed: f64) -> String {
-    let decimals = if speed < 10.0 { 3 } else { 1 };
+    let decimals = if speed.abs() < 10.0 { 3 } else { 1 };
     trimmed(&format!("{speed:.decimals$}")).to_string()
 }
 

@@ -242,7 +242,7 @@ pub fn column(app: &App, live: &LiveMap, width: usize) -> Vec<Line> {
     lines
 }
 
-/// The lines of a map, slowest first.
+/// The lines of a map, in the order of their speeds on its axis.
 pub fn by_speed(live: &LiveMap) -> Vec<&Curve> {
     let on_x = live.map.plan.x.path == SPEED;
     let speed = |line: &Curve| line.points.first().map_or(0.0, |(x, y)| if on_x { *x } else { *y });
