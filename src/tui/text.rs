@@ -95,7 +95,7 @@ pub fn spelled_pieces(
     let mut x = area.x;
     for (text, style) in parts {
         let left = usize::from(area.right().saturating_sub(x));
-        let text = shorten(&look.spell(text), left, look.either("…", ".."));
+        let text = shorten(&look.spell(text), left, look.ellipsis());
         if left == 0 || row >= area.height {
             break;
         }

@@ -49,7 +49,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
 fn title(app: &App, buffer: &mut Buffer, area: Rect, used: u16) {
     let look = &app.appearance;
     let left = area.width.saturating_sub(used.saturating_add(3));
-    let title = shorten(&look.spell(&app.scene.title), MOST_TITLE, look.either("…", ".."));
+    let title = shorten(&look.spell(&app.scene.title), MOST_TITLE, look.ellipsis());
     let wide = u16::try_from(columns(&title)).unwrap_or(u16::MAX);
     // A part of it beside the verdict would read as one sentence.
     if wide > left {

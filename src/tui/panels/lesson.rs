@@ -15,7 +15,7 @@ const WIDE: usize = 110;
 /// The list of lessons, one of them selected, with what was done of each.
 pub fn list(app: &App, buffer: &mut Buffer, area: Rect, place: usize) {
     let look = &app.appearance;
-    let mark = look.either("…", "..");
+    let mark = look.ellipsis();
     let width = usize::from(area.width);
     let bold = look.style(Role::Text).add_modifier(Modifier::BOLD);
     let head = "Lessons: Enter begins one, g goes on, B back, G leaves";
@@ -120,7 +120,7 @@ fn head(app: &App, width: usize) -> (String, String) {
     let (left, long, short) = (look.spell(&left), look.spell(&long), look.spell(&short));
     let right = if columns(&left) + columns(&long) + 2 <= width { long } else { short };
     let room = width.saturating_sub(columns(&right) + 2);
-    (shorten(&left, room, look.either("…", "..")), right)
+    (shorten(&left, room, look.ellipsis()), right)
 }
 
 fn is_last(lesson: &Lesson, step: usize) -> bool {

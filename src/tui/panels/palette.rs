@@ -10,7 +10,7 @@ use crate::tui::theme::Role;
 /// Draws the palette.
 pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, palette: &PaletteState) {
     let look = &app.appearance;
-    let (width, mark) = (usize::from(area.width), look.either("…", ".."));
+    let (width, mark) = (usize::from(area.width), look.ellipsis());
     let found = app.palette_items(&palette.typed);
     let hint = match (palette.typed.is_empty(), found.is_empty()) {
         (true, _) => "  a command, scene, lesson, view, or knob and value",

@@ -18,7 +18,7 @@ const NAME_WIDTH: usize = 24;
 /// Draws the list with the chosen scene; the open one, if none was chosen.
 pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, chosen: Option<usize>) {
     let look = &app.appearance;
-    let mark = look.either("…", "..");
+    let mark = look.ellipsis();
     let entries = app.scene_entries();
     let place = app.scene_place(&entries, chosen);
     let found = &app.found_scenes;
@@ -51,7 +51,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, chosen: Option<usize>) {
 
 fn rows(app: &App, buffer: &mut Buffer, area: Rect, entries: &[SceneEntry], place: usize) {
     let look = &app.appearance;
-    let mark = look.either("…", "..");
+    let mark = look.ellipsis();
     let names = entries.iter().map(|entry| columns(&entry.name));
     let wide = names.max().unwrap_or(0).min(NAME_WIDTH);
     let first = first_in_sight(place, usize::from(area.height));
@@ -86,7 +86,7 @@ fn notes(app: &App, entry: &SceneEntry, width: usize) -> Vec<(String, Role)> {
 /// Prints a page of the lines below the name of their scene.
 fn note(app: &App, buffer: &mut Buffer, area: Rect, entry: &SceneEntry, lines: &[(String, Role)]) {
     let look = &app.appearance;
-    let (width, mark) = (usize::from(area.width), look.either("…", ".."));
+    let (width, mark) = (usize::from(area.width), look.ellipsis());
     let room = usize::from(area.height.saturating_sub(1)).max(1);
     let pages = lines.len().div_ceil(room).max(1);
     let page = app.note_page % pages;
