@@ -18,12 +18,17 @@ use crate::scene::Scene;
 
 /// Default number of speeds of a sweep.
 const SPEEDS: usize = 51;
+/// What `--speed` takes here.
+const SWEPT_SPEED: &str =
+    "Rotor speed, or speeds as FROM:TO:COUNT; negative turns the other way [rad/s]";
+
 /// Locked motion against speed, by harmonic balance.
 ///
 /// `--speed FROM:TO:COUNT` sweeps the speed; a single speed gives one point;
 /// without it the range is from standstill to the speed of the scene. Without
 /// one of the views below, the locked motion itself is shown.
 #[derive(Args, Debug)]
+#[command(mut_arg("speed", |speed| speed.help(SWEPT_SPEED)))]
 pub struct HbmCommand {
     #[command(flatten)]
     options: SceneOptions,
@@ -94,7 +99,8 @@ impl HbmCommand {
         }
         if !self.json {
             let machine = resolved.scene.machine();
-            report::write_heading(&machine, &resolved.scene.title, answer.sweep.as_ref(), out)?;
+            let (title, sweep) = (&resolved.scene.title, answer.sweep.as_ref());
+            report::write_heading(&machine, title, asked.fastest(), sweep, out)?;
             for (title, table) in &answer.tables {
                 writeln!(out)?;
                 if !title.is_empty() {

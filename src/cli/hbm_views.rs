@@ -45,6 +45,14 @@ pub(super) struct Asked<'a> {
     pub pair: Option<[u32; 2]>,
 }
 
+impl Asked<'_> {
+    /// The speed furthest from standstill, whose sense of rotation counts.
+    pub fn fastest(&self) -> f64 {
+        let further = |a: &f64, b: &f64| a.abs().total_cmp(&b.abs());
+        self.speeds.iter().copied().max_by(further).unwrap_or(self.scene.operation.speed_rad_s)
+    }
+}
+
 /// The result of a view: JSON, tables with their titles, the table for files.
 pub(super) struct Answer {
     pub json: HbmReport,
@@ -70,7 +78,7 @@ pub(super) fn answer(asked: &Asked, view: &HbmView) -> Result<Answer, Refusal> {
     let Asked { scene, speeds, form, damped, pair } = *asked;
     let machine = scene.machine();
     let sweep = locked_motion(&machine, form, damped, pair, speeds);
-    let json = HbmReport::new(scene, form, damped);
+    let json = HbmReport::new(scene, form, damped, asked.fastest());
     let json = match (&sweep, view) {
         (Ok(sweep), _) => json.with_sweep(&machine.polygon, sweep),
         // These have a meaning without corners too.
@@ -79,7 +87,7 @@ pub(super) fn answer(asked: &Asked, view: &HbmView) -> Result<Answer, Refusal> {
     };
     let answer = match (view, sweep) {
         (HbmView::Branches, _) => all_branches(json, &machine, speeds, damped),
-        (HbmView::Campbell, _) => campbell(json, scene, &machine, speeds),
+        (HbmView::Campbell, _) => campbell(json, asked, &machine),
         (HbmView::Slip(zetas), _) => slipping(json, scene, speeds, zetas),
         (HbmView::Harmonics(most), _) => series(json, &machine, speeds, *most),
         (HbmView::Fold, _) => folding(json, &machine, corner(asked, &machine)?.a, speeds, damped),
@@ -129,17 +137,13 @@ fn all_branches(
     Ok(Answer::of(json.with("branches", &branches), tables))
 }
 
-fn campbell(
-    json: HbmReport,
-    scene: &Scene,
-    machine: &Machine,
-    speeds: &[f64],
-) -> Result<Answer, HarmonicError> {
+fn campbell(json: HbmReport, asked: &Asked, machine: &Machine) -> Result<Answer, HarmonicError> {
+    let Asked { scene, speeds, .. } = *asked;
     let mut orders = ORDERS.to_vec();
     if scene.excitation.amplitude_nm > 0.0 && !orders.contains(&scene.excitation.order) {
         orders.push(scene.excitation.order);
     }
-    let campbell = Campbell::of(machine, &orders)?;
+    let campbell = Campbell::of(machine, &orders, asked.fastest())?;
     let coincidences = "Coincidences +-omega_c = n_d Omega +- omega_bd, Eq. (30):".to_string();
     let lines = "Frequencies in the standing frame [rad/s]:".to_string();
     let tables = vec![
@@ -165,10 +169,12 @@ fn slipping(
             format!("{change} at {} rad/s", short(limit.speed_rad_s))
         })
         .collect();
-    let title = if told.is_empty() {
-        "Slip neither appears nor vanishes between these speeds.".to_string()
-    } else {
-        format!("Slip {}.", told.join(", "))
+    let found = points.iter().filter(|point| point.exists()).count();
+    let title = match (told.is_empty(), found) {
+        (false, _) => format!("Slip {}.", told.join(", ")),
+        (true, 0) => "There is no slip at any of these speeds.".to_string(),
+        (true, all) if all == points.len() => "Slip exists at all of these speeds.".to_string(),
+        (true, _) => "Slip exists at some of these speeds.".to_string(),
     };
     let limit_speeds: Vec<f64> = limits.iter().map(|limit| limit.speed_rad_s).collect();
     let mut json = json

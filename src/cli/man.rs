@@ -11,6 +11,10 @@ use super::{Cli, Done};
 use crate::scene::BUILTIN;
 use crate::tui::bindings::{self, Context, keys_text};
 
+/// When the text of the pages last changed in more than its wording. A page without
+/// a date has its source in the place of the date.
+const DATE: &str = "2026-11-22";
+
 /// Print the manual page, or that of one command.
 #[derive(Args, Debug)]
 pub struct ManCommand {
@@ -26,7 +30,10 @@ impl ManCommand {
             None => whole,
             Some(name) => page_of(&whole, name)?,
         };
-        let page = clap_mangen::Man::new(command).manual("rubscope manual");
+        let page = clap_mangen::Man::new(command)
+            .date(DATE)
+            .source(concat!("rubscope ", env!("CARGO_PKG_VERSION")))
+            .manual("rubscope manual");
         if self.command.is_some() {
             page.render(out)?;
         } else {

@@ -27,12 +27,18 @@ const MOST_DRAWN: usize = 1_000_000;
 /// Columns and rows of a map by default: steps of 10 rad/s and 50 kN.
 const COLUMNS: u32 = 51;
 const ROWS: u32 = 21;
+/// What `--speed` and `--pulse` take here.
+const COLUMNS_OF_SPEED: &str =
+    "Columns: rotor speeds; negative turns the other way [rad/s] [default: 0:500:51]";
+const ROWS_OF_PULSE: &str = "Rows: forces of the pulse on the casing [N] [default: 0:1e6:21]";
 /// Width of a map if standard output is not a terminal.
 const WIDTH: usize = 115;
 
 /// Map how the motion lasts over pulse and speed, or any two keys.
 #[derive(Args, Debug)]
 #[command(args_conflicts_with_subcommands = true)]
+#[command(mut_arg("speed", |speed| speed.help(COLUMNS_OF_SPEED).value_name("FROM:TO:COUNT")))]
+#[command(mut_arg("pulse", |pulse| pulse.help(ROWS_OF_PULSE).value_name("FROM:TO:COUNT")))]
 pub struct MapCommand {
     #[command(subcommand)]
     merge: Option<MapSubcommand>,
@@ -41,7 +47,7 @@ pub struct MapCommand {
     /// Columns: PATH=FROM:TO:COUNT or PATH=log:FROM:TO:COUNT [default: the speed]
     #[arg(long, value_name = "AXIS", conflicts_with = "speed")]
     x: Option<String>,
-    /// Rows, in the same form [default: the pulse]
+    /// Rows: PATH=FROM:TO:COUNT or PATH=log:FROM:TO:COUNT [default: the pulse]
     #[arg(long, value_name = "AXIS", conflicts_with = "pulse")]
     y: Option<String>,
     /// Coarse cells first, then only next to another verdict, down to single cells

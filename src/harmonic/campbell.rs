@@ -36,7 +36,7 @@ pub struct Coincidence {
     /// Rotor speed where they coincide \[rad/s\]; negative for the other sense
     /// of rotation.
     pub speed_rad_s: f64,
-    /// Whether it is the dangerous one, Eq. (31).
+    /// Whether it is the dangerous one of the rotor's sense of rotation, Eq. (31).
     pub dangerous: bool,
 }
 
@@ -50,13 +50,14 @@ pub struct Campbell {
 }
 
 impl Campbell {
-    /// With the engine-order lines `order * Omega` of these orders.
+    /// With the engine-order lines `order * Omega` of these orders. The dangerous
+    /// coincidence is that of a rotor that turns in the sense of `speed`.
     ///
     /// ```
     /// use rubscope::harmonic::Campbell;
     /// use rubscope::scene::Scene;
     /// let machine = Scene::builtin("paper-nd3")?.machine();
-    /// let campbell = Campbell::of(&machine, &[3])?;
+    /// let campbell = Campbell::of(&machine, &[3], 500.0)?;
     /// let dangerous = campbell.coincidences.iter().find(|c| c.dangerous).unwrap();
     /// assert!((dangerous.speed_rad_s - 388.31).abs() < 0.005);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -64,12 +65,13 @@ impl Campbell {
     ///
     /// # Errors
     /// No nodal diameters, so no travelling waves.
-    pub fn of(machine: &Machine, orders: &[u32]) -> Result<Self, HarmonicError> {
+    pub fn of(machine: &Machine, orders: &[u32], speed: f64) -> Result<Self, HarmonicError> {
         let n_d = machine.nodal_diameters;
         if n_d == 0.0 {
             return Err(HarmonicError::NoWave);
         }
         let (omega_c, omega_bd) = (machine.omega_c, machine.omega_bd);
+        let sense = if speed < 0.0 { -1.0 } else { 1.0 };
         let line = |name: &str, at_standstill_rad_s, slope| Line {
             name: name.to_string(),
             at_standstill_rad_s,
@@ -88,7 +90,8 @@ impl Campbell {
             casing_rad_s: casing,
             blades_rad_s: blades,
             speed_rad_s: (casing - blades) / n_d,
-            dangerous: casing > 0.0 && blades < 0.0,
+            // The two directions of every wave exchange with the sense of rotation.
+            dangerous: casing * sense > 0.0 && blades * sense < 0.0,
         };
         let coincidences = [
             coincidence(omega_c, omega_bd),
@@ -108,7 +111,7 @@ mod tests {
     #[test]
     fn lines_cross_at_the_coincidences() {
         let machine = Scene::base().machine();
-        let campbell = Campbell::of(&machine, &[1, 3]).unwrap();
+        let campbell = Campbell::of(&machine, &[1, 3], 500.0).unwrap();
         assert_eq!(campbell.lines.len(), 6);
         for found in campbell.coincidences {
             let casing = if found.casing_rad_s > 0.0 { 0 } else { 1 };
@@ -117,9 +120,14 @@ mod tests {
                 - campbell.lines[blades].at(found.speed_rad_s);
             assert!(gap.abs() < 1e-12 * machine.omega_c);
         }
-        let dangerous: Vec<_> = campbell.coincidences.iter().filter(|c| c.dangerous).collect();
-        assert_eq!(dangerous.len(), 1);
-        assert_eq!(Some(dangerous[0].speed_rad_s), machine.dangerous_speed());
+        for speed in [500.0, -430.0] {
+            let campbell = Campbell::of(&machine, &[], speed).unwrap();
+            let dangerous: Vec<_> = campbell.coincidences.iter().filter(|c| c.dangerous).collect();
+            assert_eq!(dangerous.len(), 1);
+            let expected = machine.dangerous_speed_toward(speed);
+            assert_eq!(Some(dangerous[0].speed_rad_s), expected);
+            assert!(expected.unwrap() * speed > 0.0);
+        }
         let mut positive: Vec<f64> = campbell
             .coincidences
             .iter()
@@ -134,7 +142,7 @@ mod tests {
     fn without_nodal_diameters_there_is_no_wave() {
         let mut scene = Scene::base();
         scene.set("operation.nodal_diameters", "0").unwrap();
-        let message = Campbell::of(&scene.machine(), &[]).unwrap_err().to_string();
+        let message = Campbell::of(&scene.machine(), &[], 500.0).unwrap_err().to_string();
         assert!(message.starts_with("operation.nodal_diameters = 0: allowed is 1 or more"));
     }
 }

@@ -150,11 +150,19 @@ impl Machine {
         vec![difference / self.nodal_diameters, sum / self.nodal_diameters]
     }
 
-    /// The dangerous coincidence, `Omega = (omega_c + omega_bd)/n_d`, Eq. (31)
-    /// \[rad/s\]; none for `n_d = 0`.
+    /// The dangerous coincidence of a rotor that turns forward,
+    /// `Omega = (omega_c + omega_bd)/n_d`, Eq. (31) \[rad/s\]; none for `n_d = 0`.
     #[must_use]
     pub fn dangerous_speed(&self) -> Option<f64> {
         self.coincidence_speeds().last().copied()
+    }
+
+    /// As `dangerous_speed`, of a rotor that turns in the sense of this speed. For
+    /// one that turns backward the two directions of every wave exchange, and
+    /// `Omega = -(omega_c + omega_bd)/n_d`.
+    #[must_use]
+    pub fn dangerous_speed_toward(&self, speed: f64) -> Option<f64> {
+        self.dangerous_speed().map(|forward| if speed < 0.0 { -forward } else { forward })
     }
 }
 
@@ -188,6 +196,8 @@ mod tests {
         close(m.omega_bd, 286.3, 0.05);
         close(m.critical_speed().unwrap(), 292.878, 1e-3);
         close(m.dangerous_speed().unwrap(), 388.31, 5e-3);
+        close(m.dangerous_speed_toward(-1.0).unwrap(), -388.31, 5e-3);
+        assert_eq!(m.dangerous_speed_toward(0.0), m.dangerous_speed());
         close(m.lock_speed().unwrap(), 411.93, 5e-3);
         close(paper(3, 0.01).lock_speed().unwrap(), 313.96, 5e-3);
         close(m.adhesive_speed().unwrap(), 294.99, 5e-3);

@@ -48,6 +48,16 @@ impl ActiveSet {
         }
     }
 
+    /// The sides in contact; of many, none is known.
+    pub fn sides(self) -> impl Iterator<Item = u32> {
+        let sides = match self {
+            Self::Nothing | Self::Many => [None, None],
+            Self::Side(a) => [Some(a), None],
+            Self::Corner(a, b) => [Some(a), Some(b)],
+        };
+        sides.into_iter().flatten()
+    }
+
     /// Whether this side is among those in contact (unknown counts as yes).
     #[must_use]
     pub fn includes(self, side: u32) -> bool {
@@ -182,6 +192,10 @@ mod tests {
         assert_eq!(ActiveSet::of(&[4, 4]), ActiveSet::Side(4));
         assert_eq!(ActiveSet::of(&[16, 15, 16]), ActiveSet::Corner(15, 16));
         assert_eq!(ActiveSet::of(&[1, 2, 3]), ActiveSet::Many);
+        for sides in [&[][..], &[4], &[15, 16]] {
+            assert_eq!(ActiveSet::of(sides).sides().collect::<Vec<_>>(), sides);
+        }
+        assert_eq!(ActiveSet::Many.sides().count(), 0);
         assert_eq!(ActiveSet::Nothing.and(ActiveSet::Corner(1, 2)), ActiveSet::Corner(1, 2));
         assert_eq!(ActiveSet::Side(2).and(ActiveSet::Corner(1, 2)), ActiveSet::Corner(1, 2));
         assert_eq!(ActiveSet::Side(3).and(ActiveSet::Corner(1, 2)), ActiveSet::Many);

@@ -37,6 +37,12 @@ impl Verdict {
     /// Every verdict, in the order of the documentation.
     pub const ALL: [Self; 6] =
         [Self::Decay, Self::Bounce, Self::Slip, Self::Locked, Self::Adhesive, Self::Failed];
+
+    /// Whether the contact at the end has no break: it has a time since when.
+    #[must_use]
+    pub fn keeps_contact(self) -> bool {
+        matches!(self, Self::Locked | Self::Adhesive | Self::Slip)
+    }
 }
 
 /// One phase group in contact, with its multiplier.

@@ -55,6 +55,12 @@ pub fn time(seconds: f64) -> String {
 /// "1 step", "2 steps", "1,000,000 steps".
 #[must_use]
 pub fn count(n: u64, noun: &str) -> String {
+    format!("{} {noun}{}", grouped(n), if n == 1 { "" } else { "s" })
+}
+
+/// A whole number with a comma between thousands.
+#[must_use]
+pub fn grouped(n: u64) -> String {
     let digits = n.to_string();
     let mut grouped = String::new();
     for (index, digit) in digits.chars().enumerate() {
@@ -63,7 +69,7 @@ pub fn count(n: u64, noun: &str) -> String {
         }
         grouped.push(digit);
     }
-    format!("{grouped} {noun}{}", if n == 1 { "" } else { "s" })
+    grouped
 }
 
 /// Decimal digits without zeros at the end.

@@ -123,7 +123,7 @@ fn motion(report: &RunReport, machine: &Machine, out: &mut dyn Write) -> Result<
         writeln!(out, "The wave turns at {} rad/s.", short(wave))?;
     }
     writeln!(out, "{}", speeds(report, machine))?;
-    if let Some(dangerous) = machine.dangerous_speed() {
+    if let Some(dangerous) = machine.dangerous_speed_toward(speed_at_end(report)) {
         writeln!(out, "Dangerous coincidence speed: {} rad/s.", short(dangerous))?;
     }
     writeln!(out, "{}", impacts(report))
@@ -139,10 +139,14 @@ fn touch(contact: &Contact) -> String {
     format!("{who} {verb} with {} N at the end.", short(contact.multiplier_n.abs()))
 }
 
+fn speed_at_end(report: &RunReport) -> f64 {
+    let operation = &report.scene.operation;
+    operation.speed_rad_s + operation.speed_ramp_rad_s2 * report.r#final.t_s
+}
+
 /// The rotor speed, compared with the threshold speeds.
 fn speeds(report: &RunReport, machine: &Machine) -> String {
-    let operation = &report.scene.operation;
-    let speed = operation.speed_rad_s + operation.speed_ramp_rad_s2 * report.r#final.t_s;
+    let (operation, speed) = (&report.scene.operation, speed_at_end(report));
     let at_end = if operation.speed_ramp_rad_s2 == 0.0 { "" } else { " at the end" };
     let mut parts = vec![format!("Rotor speed{at_end}: {} rad/s", short(speed))];
     for (name, threshold) in

@@ -2,6 +2,7 @@
 //! pulse that makes any blade touch.
 
 use super::MapPlan;
+use crate::model::Machine;
 use crate::motion::Motion;
 use crate::scene::{ModelSize, Scene};
 
@@ -36,8 +37,8 @@ pub fn curves(plan: &MapPlan) -> Vec<Curve> {
 pub fn speed_curves(plan: &MapPlan) -> Vec<Curve> {
     let Some(of_speed) = AlongOther::of(plan, SPEED) else { return Vec::new() };
     vec![
-        of_speed.trace("Omega_c", |scene| scene.machine().critical_speed()),
-        of_speed.trace("Omega_lock", |scene| scene.machine().lock_speed()),
+        of_speed.trace_speed("Omega_c", Machine::critical_speed),
+        of_speed.trace_speed("Omega_lock", Machine::lock_speed),
     ]
 }
 
@@ -46,8 +47,7 @@ pub fn speed_curves(plan: &MapPlan) -> Vec<Curve> {
 pub fn threshold_curves(plan: &MapPlan) -> Vec<Curve> {
     let mut curves = speed_curves(plan);
     if let Some(of_speed) = AlongOther::of(plan, SPEED) {
-        let speed = |scene: &Scene| scene.machine().dangerous_speed();
-        curves.push(of_speed.trace("coincidence", speed));
+        curves.push(of_speed.trace_speed("coincidence", Machine::dangerous_speed));
     }
     curves
 }
@@ -63,6 +63,14 @@ impl<'a> AlongOther<'a> {
     fn of(plan: &'a MapPlan, path: &str) -> Option<Self> {
         let on_x = plan.x.path == path;
         (on_x || plan.y.path == path).then_some(Self { plan, on_x })
+    }
+
+    /// The line of a threshold, in the sense of rotation in which the map goes
+    /// further.
+    fn trace_speed(&self, name: &'static str, threshold: fn(&Machine) -> Option<f64>) -> Curve {
+        let axis = if self.on_x { &self.plan.x } else { &self.plan.y };
+        let sense = if axis.from + axis.to < 0.0 { -1.0 } else { 1.0 };
+        self.trace(name, |scene| threshold(&scene.machine()).map(|speed| sense * speed))
     }
 
     fn trace(&self, name: &'static str, value: impl Fn(&Scene) -> Option<f64>) -> Curve {

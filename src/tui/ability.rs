@@ -33,6 +33,11 @@ impl Ability {
     }
 }
 
+/// Whether the terminal is reached over SSH.
+pub fn is_remote(variable: &dyn Fn(&str) -> String) -> bool {
+    ["SSH_CONNECTION", "SSH_TTY"].iter().any(|name| !variable(name).is_empty())
+}
+
 /// Whether a kind of terminal is a console or an old terminal with little more
 /// than text.
 pub fn is_plain(term: &str) -> bool {

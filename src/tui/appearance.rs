@@ -33,6 +33,11 @@ impl Appearance {
         if self.ascii() { ascii } else { unicode }
     }
 
+    /// Says that a text is cut.
+    pub fn ellipsis(&self) -> &'static str {
+        self.either("…", "..")
+    }
+
     /// Text with Greek letters and signs spelled out where only ASCII is drawn.
     pub fn spell(&self, text: &str) -> String {
         if !self.ascii() {

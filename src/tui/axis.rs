@@ -123,26 +123,24 @@ impl ChartAxis {
 
 /// A number with four significant digits and its SI prefix, such as `228.2 µ`.
 pub fn readable(value: f64, unit: &str) -> String {
+    prefixed(value, 4, unit)
+}
+
+/// An instant with six significant digits, enough to type it elsewhere.
+pub fn instant(t: f64) -> String {
+    prefixed(t, 6, "s")
+}
+
+/// A number with so many significant digits and its SI prefix.
+fn prefixed(value: f64, digits: usize, unit: &str) -> String {
     if !value.is_finite() {
         return format!("- {unit}").trim_end().to_string();
     }
     let scale = SiScale::of(value);
     let shown = value / scale.factor;
-    let decimals = match shown.abs() {
-        x if x >= 1000.0 => 0,
-        x if x >= 100.0 => 1,
-        x if x >= 10.0 => 2,
-        _ => 3,
-    };
+    let before = 1 + [10.0, 100.0, 1000.0].iter().filter(|limit| shown.abs() >= **limit).count();
+    let decimals = digits.saturating_sub(before);
     format!("{shown:.decimals$} {}{unit}", scale.prefix).trim_end().to_string()
-}
-
-/// An instant with six significant digits, enough to type it elsewhere.
-pub fn instant(t: f64) -> String {
-    let scale = SiScale::of(t);
-    let shown = t / scale.factor;
-    let before = shown.abs().max(1.0).log10().floor() as usize;
-    format!("{shown:.*} {}s", 5_usize.saturating_sub(before), scale.prefix)
 }
 
 /// A range that grows at once, shrinks only when the data is much smaller, and
@@ -213,6 +211,11 @@ mod tests {
         assert_eq!(readable(2.282e-4, "s"), "228.2 µs");
         assert_eq!(readable(0.0, "s"), "0.000 s");
         assert_eq!(readable(f64::NAN, "s"), "- s");
+        assert_eq!(readable(1234.0, ""), "1.234 k");
+        assert_eq!(
+            (instant(4.890_912e-2), instant(0.0)),
+            ("48.9091 ms".into(), "0.00000 s".into())
+        );
     }
 
     #[test]

@@ -9,6 +9,7 @@ use std::time::Duration;
 use etcetera::{BaseStrategy, choose_base_strategy};
 use serde::{Deserialize, Serialize};
 
+use super::ability::is_remote;
 use super::app::App;
 use super::files::{FILES_NAME, FileJob, FileResult};
 use super::raster::Marker;
@@ -125,10 +126,9 @@ fn is_at_home(folder: &Path, home: &Path) -> bool {
 /// The name by which a terminal is remembered. The same terminal may answer at
 /// once here, and too late over a network.
 pub fn terminal_name(variable: &dyn Fn(&str) -> String) -> String {
-    let remote = ["SSH_CONNECTION", "SSH_TTY"].iter().any(|name| !variable(name).is_empty());
     let name = [variable("TERM"), variable("TERM_PROGRAM")].join(" ");
     let name: String = name.trim().chars().take(LONGEST_NAME).collect();
-    if remote { format!("{name} over ssh") } else { name }
+    if is_remote(variable) { format!("{name} over ssh") } else { name }
 }
 
 /// What can be changed by keys.

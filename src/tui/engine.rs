@@ -67,8 +67,13 @@ impl Order {
 
     /// Number of the knobs' state: grows with every restart, live change and pulse.
     pub fn generation(&self) -> u64 {
-        self.restarts + self.changes + self.pulses
+        generation(self.restarts, self.changes, self.pulses)
     }
+}
+
+/// The generation of the knobs after so many restarts, live changes and pulses.
+pub fn generation(restarts: u64, changes: u64, pulses: u64) -> u64 {
+    restarts + changes + pulses
 }
 
 /// How fast the solver is.

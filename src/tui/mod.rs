@@ -107,7 +107,7 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
     let ability = ability::Ability::of(&variable);
     let mut app = App::new(scene, theme, options.marker(&memory.config, &ability));
     app.source.clone_from(&options.source);
-    (app.mouse, app.line) = (options.mouse, options.line());
+    (app.mouse, app.line) = (options.mouse, options.line(&variable));
     app.octants = ability.octants || options.marker == Some(Marker::Octant);
     memory.silent = found.silent.then_some(name);
     memory.prepare(&mut app);

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use strum::{EnumString, VariantNames};
 
-use super::ability::Ability;
+use super::ability::{Ability, is_remote};
 use super::app::Source;
 use super::config::Config;
 use super::ground::Ground;
@@ -96,10 +96,8 @@ impl ExploreOptions {
     }
 
     /// The line: over SSH it is thin.
-    pub(super) fn line(&self) -> Line {
-        let over_ssh =
-            ["SSH_CONNECTION", "SSH_TTY"].iter().any(|name| std::env::var_os(name).is_some());
-        if self.line == Line::Auto && over_ssh { Line::Thin } else { self.line }
+    pub(super) fn line(&self, variable: &dyn Fn(&str) -> String) -> Line {
+        if self.line == Line::Auto && is_remote(variable) { Line::Thin } else { self.line }
     }
 
     pub(super) fn frame(&self) -> Duration {
@@ -136,6 +134,15 @@ mod tests {
         assert_eq!(theme(with(dark), None, "1"), Theme::Dark);
         assert_eq!(theme(never(), dark, ""), Theme::Mono);
         assert_eq!(theme(always(), dark, "1"), Theme::Dark);
+    }
+
+    #[test]
+    fn the_line_is_thin_over_ssh_unless_an_option_says_otherwise() {
+        let remote = |name: &str| if name == "SSH_TTY" { "/dev/pts/1" } else { "" }.to_string();
+        let options = |line| ExploreOptions { line, ..ExploreOptions::default() };
+        assert_eq!(options(Line::Auto).line(&remote), Line::Thin);
+        assert_eq!(options(Line::Full).line(&remote), Line::Full);
+        assert_eq!(options(Line::Auto).line(&|_| String::new()), Line::Auto);
     }
 
     #[test]

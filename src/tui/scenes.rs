@@ -3,9 +3,10 @@
 //! opened, and only so many.
 
 use std::path::Path;
+use std::sync::OnceLock;
 
 use crate::report::line::clean;
-use crate::scene::{CheckedScene, Scene};
+use crate::scene::{BUILTIN, CheckedScene, Scene};
 
 /// Most files that are read; a directory of scenes has some dozens.
 const MOST_FILES: usize = 200;
@@ -19,6 +20,17 @@ pub struct FoundScene {
     pub name: String,
     /// The scene; the reason in one line where the file holds none.
     pub scene: Result<CheckedScene, String>,
+}
+
+/// The built-in scenes, read once.
+pub fn builtin_scenes() -> &'static [FoundScene] {
+    static READ: OnceLock<Vec<FoundScene>> = OnceLock::new();
+    READ.get_or_init(|| {
+        let read = |name: &str| Scene::builtin(name).and_then(|scene| scene.checked());
+        let scene = |name: &str| read(name).map_err(|error| clean(&error.to_string()));
+        let found = |name: &str| FoundScene { name: name.into(), scene: scene(name) };
+        BUILTIN.iter().map(|builtin| found(builtin.name)).collect()
+    })
 }
 
 /// The scenes of a directory.

@@ -2,6 +2,7 @@
 
 use ratatui::{buffer::Buffer, layout::Rect, style::Style};
 
+use super::appearance::Appearance;
 use crate::report::line::harmless;
 
 /// Characters in a cell on average, at most: a letter may have several accents,
@@ -80,6 +81,28 @@ pub fn marked_pieces(
         }
         used = end;
     }
+}
+
+/// Pieces of text in one row, spelled as the screen writes them; the one that does
+/// not fit ends in an ellipsis. The columns that they take.
+pub fn spelled_pieces(
+    look: &Appearance,
+    buffer: &mut Buffer,
+    area: Rect,
+    row: u16,
+    parts: &[(String, Style)],
+) -> u16 {
+    let mut x = area.x;
+    for (text, style) in parts {
+        let left = usize::from(area.right().saturating_sub(x));
+        let text = shorten(&look.spell(text), left, look.ellipsis());
+        if left == 0 || row >= area.height {
+            break;
+        }
+        buffer.set_string(x, area.y + row, &text, *style);
+        x = x.saturating_add(u16::try_from(columns(&text)).unwrap_or(u16::MAX));
+    }
+    x - area.x
 }
 
 /// Words broken into lines no wider than `width`.

@@ -114,6 +114,7 @@ fn an_error_of_zero_is_called_zero_and_stays_off_the_logarithmic_axis() {
     assert!(marks.contains('e') || marks.contains('E'), "{marks}");
     let (_, picture) = files(&free);
     assert!(picture.contains("error 0, off this scale") && !picture.contains("1e-16"), "{picture}");
+    assert!(picture.contains("explicit bilateral modal, other law"), "{picture}");
     // If no row can be on such an axis, a message says so.
     let still = ["--pulse", "0", "--end", "0.003"];
     let printed = text(&still);

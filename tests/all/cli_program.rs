@@ -84,6 +84,48 @@ fn completions_and_manual_know_the_commands() {
 }
 
 #[test]
+fn every_manual_page_has_a_full_title_line_and_a_name_section() {
+    let refused = refusal(&["man", "nothing"]);
+    let names = refused.split("one of ").nth(1).unwrap().split(", ");
+    let pages = names.map(Some).chain([None]);
+    for name in pages {
+        let page = name.map_or_else(|| printed(&["man"]), |name| printed(&["man", name]));
+        let title = name.map_or("rubscope".to_string(), |name| format!("rubscope-{name}"));
+        // Title, section, date, source and manual, as man-pages(7) has them.
+        let line = page.lines().find(|line| line.starts_with(".TH ")).unwrap();
+        let rest = line.strip_prefix(&format!(".TH {title} 1 ")).unwrap();
+        let (date, rest) = rest.split_once(' ').unwrap();
+        let digits = date.split('-').map(|part| part.parse::<u32>().is_ok().then_some(part.len()));
+        assert_eq!(digits.collect::<Vec<_>>(), [Some(4), Some(2), Some(2)], "{line}");
+        let source = concat!("\"rubscope ", env!("CARGO_PKG_VERSION"), "\"");
+        assert_eq!(rest, format!("{source} \"rubscope manual\""), "{line}");
+        let mut lines = page.lines().skip_while(|line| *line != ".SH NAME").skip(1);
+        let said = lines.next().unwrap();
+        let start = format!("{} \\- ", title.replace('-', "\\-"));
+        assert!(said.starts_with(&start) && said.len() > start.len() + 10, "{said}");
+    }
+}
+
+#[test]
+fn the_ranges_of_a_map_and_of_a_sweep_are_in_their_help() {
+    let help = printed(&["map", "--help"]);
+    let line = |option: &str| {
+        let found = help.lines().find(|line| line.trim_start().starts_with(option));
+        found.unwrap_or_else(|| panic!("no {option} in {help}")).to_string()
+    };
+    for option in ["--x", "--y"] {
+        let forms = "PATH=FROM:TO:COUNT or PATH=log:FROM:TO:COUNT";
+        assert!(line(option).contains(forms), "{}", line(option));
+    }
+    for option in ["--speed", "--pulse"] {
+        assert!(line(option).contains("<FROM:TO:COUNT>"), "{}", line(option));
+    }
+    assert!(printed(&["hbm", "--help"]).contains("or speeds as FROM:TO:COUNT"));
+    // The other commands take one speed.
+    assert!(!printed(&["run", "--help"]).contains("FROM:TO:COUNT"));
+}
+
+#[test]
 fn a_closed_pipe_ends_the_program_quietly() {
     let program = assert_cmd::cargo::cargo_bin!("rubscope");
     for arguments in [&["scenes", "paper-nd3"][..], &["completions", "bash"], &["--help"]] {

@@ -87,6 +87,36 @@ fn slip_everywhere_and_slip_nowhere_are_told_apart() {
 }
 
 #[test]
+fn slip_at_every_speed_and_at_none_are_told_apart_in_the_heading() {
+    for (speeds, told) in [
+        ("450:500:3", "Slip exists at all of these speeds."),
+        ("300:400:3", "There is no slip at any of these speeds."),
+        ("400:500:3", "Slip appears at 433.524 rad/s."),
+    ] {
+        let mut run = hbm(&["--slip", "--zeta-casing", "0.01", "--speed", speeds]);
+        let text = run.assert().success().get_output().stdout.clone();
+        assert!(String::from_utf8(text).unwrap().contains(told), "{speeds}");
+    }
+}
+
+#[test]
+fn a_rotor_that_turns_backward_has_its_own_coincidence() {
+    for (speeds, at) in
+        [("-430", -388.315), ("0:-500:11", -388.315), ("-100:500:7", 388.315), ("430", 388.315)]
+    {
+        let report = json(&["--campbell", "--speed", speeds]);
+        assert!((number(&report["coincidence_rad_s"]) - at).abs() < 1e-3, "{speeds}");
+        let all = report["campbell"]["coincidences"].as_array().unwrap();
+        let dangerous: Vec<_> = all.iter().filter(|found| found["dangerous"] == true).collect();
+        assert_eq!(dangerous.len(), 1, "{speeds}");
+        assert!((number(&dangerous[0]["speed_rad_s"]) - at).abs() < 1e-3, "{speeds}");
+        let mut run = hbm(&["--campbell", "--speed", speeds]);
+        let text = String::from_utf8(run.assert().success().get_output().stdout.clone()).unwrap();
+        assert!(text.contains(&format!("dangerous coincidence {at} rad/s")), "{text}");
+    }
+}
+
+#[test]
 fn a_casing_that_hardly_springs_back_has_its_eigenvalues() {
     let soft = "casing.modal_stiffness_n_per_m=6e-8";
     let report = json(&["half-n", "--set", soft, "--branches", "--speed", "0:5578:2"]);

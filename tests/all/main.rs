@@ -65,6 +65,7 @@ mod security;
 mod soak;
 mod tui_help;
 mod tui_hostile;
+mod tui_keys;
 mod tui_knobs;
 mod tui_lessons;
 mod tui_loop;
@@ -74,6 +75,7 @@ mod tui_presentation;
 mod tui_random;
 mod tui_scenes;
 mod tui_screens;
+mod tui_support;
 mod tui_time;
 mod verdicts;
 

@@ -70,6 +70,60 @@ fn the_smallest_pulse_that_touches_to_the_hundredth_of_a_newton() {
 }
 
 #[test]
+fn every_number_of_the_other_notes_is_what_the_program_finds() {
+    let near = |found: f64, expected: f64, within: f64| {
+        assert!((found - expected).abs() <= within, "{found} is not {expected}");
+    };
+    let blades = |report: &RunReport| -> Vec<Vec<u32>> {
+        report.impacts.iter().map(|impact| impact.blades.clone()).collect()
+    };
+    says("half-n", "to 38.8 clearances after 12 ms");
+    near(run("half-n", &[]).outcome.amplitude_m / 1e-4, 38.8, 0.05);
+
+    says("run-down", "touches blades 13 and 20 once each, and decays");
+    let down = run("run-down", &[]);
+    assert_eq!((blades(&down), down.outcome.verdict), (vec![vec![13], vec![20]], Verdict::Decay));
+
+    says("rocking", "at 58.0 ms the wave is locked, and two blades push it with 150.9 N each");
+    says("rocking", "Each crossing reduces its speed by the factor cos(2 delta)");
+    let rocking = run("rocking", &[]).outcome;
+    near(rocking.lock_time_s.unwrap(), 58.0e-3, 5e-5);
+    rocking.contacts.iter().for_each(|contact| near(contact.multiplier_n, -150.9, 0.05));
+
+    says("slip", "turns at about 385 rad/s while the blades turn at 500 rad/s");
+    near(run("slip", &[]).outcome.wave_speed_rad_s.unwrap(), 385.0, 0.5);
+
+    says("near-critical", "vanish at Omega_c = 292.878 rad/s");
+    says("near-critical", "two blades still hold it, with 0.065 N each");
+    let critical = scene("near-critical", &[]).machine().critical_speed().unwrap();
+    near(critical, 292.878, 5e-4);
+    for contact in run("near-critical", &[]).outcome.contacts {
+        near(contact.multiplier_n, -0.065, 5e-4);
+    }
+
+    says("paper-nd3", "against blade 12, then 19");
+    says("paper-nd3", "The lock needs two steps that pull");
+    let paper = run("paper-nd3", &[("solver.end_s", "0.001")]);
+    assert_eq!((blades(&paper), paper.checks.tensile_steps), (vec![vec![12], vec![19]], 2));
+
+    says("paper-nd4", "Eleven sides with two blades each");
+    says(
+        "paper-nd4",
+        "Omega_c = 256.12 rad/s implies omega_c = 1024.48 rad/s, not the printed 878.63 rad/s",
+    );
+    let four = scene("paper-nd4", &[]).machine();
+    assert_eq!((four.polygon.sides, four.polygon.blades_per_side), (11, 2));
+    near(four.omega_c, 1024.48, 5e-3);
+    near(four.critical_speed().unwrap(), 256.12, 5e-3);
+    // The paper cuts its digits: 878.635.
+    near(scene("paper-nd3", &[]).machine().omega_c, 878.63, 1e-2);
+
+    says("adhesive", "with one tensile multiplier");
+    let held = run("adhesive", &[("solver.end_s", "0.02")]).outcome;
+    assert_eq!(held.contacts.iter().filter(|contact| contact.multiplier_n > 0.0).count(), 1);
+}
+
+#[test]
 fn slip_may_turn_slower_or_faster_and_along_one_side() {
     // Slower than the rotor, over the corners.
     let wave = run("slip", &[]).outcome.wave_speed_rad_s.unwrap();

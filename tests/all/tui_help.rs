@@ -1,90 +1,43 @@
 //! Finding things in the explorer: the help and its filter, the palette, and the
 //! last line, at every size.
 
-use std::sync::mpsc::channel;
-use std::time::Duration;
-
-use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
-use ratatui::{Terminal, backend::TestBackend};
 use rubscope::scene::Scene;
-use rubscope::tui::events::ScreenEvent;
-use rubscope::tui::terminal::NoHost;
-use rubscope::tui::worker::Stepwise;
-use rubscope::tui::{App, Exit, Marker, Theme, run};
+use rubscope::tui::{Exit, Marker, Theme};
+
+use crate::tui_support::Session;
 
 const SIZES: [(u16, u16); 4] = [(40, 12), (80, 24), (120, 40), (200, 50)];
 
-struct Session {
-    terminal: Terminal<TestBackend>,
-    app: App,
-    engine: Stepwise,
+fn open(size: (u16, u16), marker: Marker) -> Session {
+    let mut scene = Scene::builtin("paper-nd3").unwrap();
+    (scene.solver.step_s, scene.solver.end_s) = (1e-6, 5e-3);
+    Session::with_stride(size, 1e-3, scene, Theme::Mono, marker)
 }
 
-impl Session {
-    fn open((width, height): (u16, u16), marker: Marker) -> Self {
-        let mut scene = Scene::builtin("paper-nd3").unwrap();
-        (scene.solver.step_s, scene.solver.end_s) = (1e-6, 5e-3);
-        let app = App::new(scene.checked().unwrap(), Theme::Mono, marker);
-        let terminal = Terminal::new(TestBackend::new(width, height)).unwrap();
-        let mut session = Self { terminal, app, engine: Stepwise::new(1e-3) };
-        session.press("");
-        session
-    }
-
-    fn press(&mut self, keys: &str) -> Exit {
-        let (sender, events) = channel();
-        for letter in keys.chars() {
-            let code = match letter {
-                '\n' => KeyCode::Enter,
-                '\u{1b}' => KeyCode::Esc,
-                '\u{8}' => KeyCode::Backspace,
-                '↓' => KeyCode::Down,
-                '↑' => KeyCode::Up,
-                '⇟' => KeyCode::PageDown,
-                '⇞' => KeyCode::PageUp,
-                letter => KeyCode::Char(letter),
-            };
-            sender.send(ScreenEvent::Key(KeyEvent::new(code, KeyModifiers::NONE))).unwrap();
-        }
-        drop(sender);
-        let (app, engine) = (&mut self.app, &mut self.engine);
-        run(&mut self.terminal, &events, app, engine, &mut NoHost, Duration::ZERO).unwrap()
-    }
-
-    fn rows(&self) -> Vec<String> {
-        let buffer = self.terminal.backend().buffer();
-        let row = |row: &[ratatui::buffer::Cell]| row.iter().map(|cell| cell.symbol()).collect();
-        buffer.content.chunks(usize::from(buffer.area.width)).map(row).collect()
-    }
-
-    fn text(&self) -> String {
-        self.rows().join("\n")
-    }
-
-    fn last(&self) -> String {
-        self.rows().pop().unwrap().trim_end().to_string()
-    }
+/// The last row of the screen.
+fn last(session: &Session) -> String {
+    session.rows().pop().unwrap().trim_end().to_string()
 }
 
 #[test]
 fn the_way_to_help_and_out_is_on_every_screen() {
     for size in SIZES {
         for marker in [Marker::Braille, Marker::Ascii] {
-            let mut session = Session::open(size, marker);
+            let mut session = open(size, marker);
             for digit in '1'..='7' {
                 session.press(&digit.to_string());
-                assert!(session.last().ends_with("? help  q quit"), "{}", session.last());
+                assert!(last(&session).ends_with("? help  q quit"), "{}", last(&session));
             }
             session.press("y");
-            let status = session.last();
+            let status = last(&session);
             assert!(status.ends_with("? q") || status.ends_with("q quit"), "{status}");
             session.press("i");
-            assert!(session.last().ends_with("? help  q quit"), "{}", session.last());
+            assert!(last(&session).ends_with("? help  q quit"), "{}", last(&session));
             session.press("ig");
-            assert!(session.last().ends_with("q quit"), "{}", session.last());
+            assert!(last(&session).ends_with("q quit"), "{}", last(&session));
             session.press("\u{1b}?");
-            assert!(session.last().starts_with("? Esc close"), "{}", session.last());
-            assert!(session.last().ends_with("q quit"), "{}", session.last());
+            assert!(last(&session).starts_with("? Esc close"), "{}", last(&session));
+            assert!(last(&session).ends_with("q quit"), "{}", last(&session));
         }
     }
 }
@@ -92,7 +45,7 @@ fn the_way_to_help_and_out_is_on_every_screen() {
 #[test]
 fn typing_in_the_help_filters_it() {
     for size in SIZES {
-        let mut session = Session::open(size, Marker::Braille);
+        let mut session = open(size, Marker::Braille);
         session.press("?omega_lock");
         assert!(session.text().contains("Ω_lock"), "{}", session.text());
         assert!(session.text().contains("411.9 rad/s"), "{}", session.text());
@@ -113,7 +66,7 @@ fn typing_in_the_help_filters_it() {
 #[test]
 fn the_help_scrolls_to_its_end_and_back_without_a_dead_key() {
     for size in SIZES {
-        let mut session = Session::open(size, Marker::Braille);
+        let mut session = open(size, Marker::Braille);
         session.press("?");
         let top = session.text();
         session.press(&"⇟".repeat(200));
@@ -139,7 +92,7 @@ fn the_help_scrolls_to_its_end_and_back_without_a_dead_key() {
 #[test]
 fn the_palette_does_what_it_finds() {
     for size in SIZES {
-        let mut session = Session::open(size, Marker::Braille);
+        let mut session = open(size, Marker::Braille);
         session.press(":speed 430");
         assert!(session.text().contains("speed Ω = 430 rad/s"), "{}", session.text());
         session.press("\n");
@@ -168,7 +121,7 @@ fn the_palette_does_what_it_finds() {
 #[test]
 fn every_row_of_the_help_and_the_palette_is_ascii_if_the_marker_is() {
     for keys in ["?", "?omega", ":", ":lambda", ":n_d 4"] {
-        let mut session = Session::open((80, 50), Marker::Ascii);
+        let mut session = open((80, 50), Marker::Ascii);
         session.press(keys);
         assert!(session.text().is_ascii() && !session.text().contains('\u{fffd}'));
         session.press(&"⇟".repeat(3));
@@ -178,17 +131,17 @@ fn every_row_of_the_help_and_the_palette_is_ascii_if_the_marker_is() {
 
 #[test]
 fn what_does_not_fit_is_marked_where_it_ends() {
-    let mut session = Session::open((40, 12), Marker::Braille);
+    let mut session = open((40, 12), Marker::Braille);
     session.press("3");
     let title = session.rows().into_iter().find(|row| row.contains("3 locked")).unwrap();
     assert!(title.contains('…'), "{title}");
     session.press("y");
-    assert!(session.last().contains('…'), "{}", session.last());
+    assert!(last(&session).contains('…'), "{}", last(&session));
 }
 
 #[test]
 fn the_letters_of_speed_against_error_are_explained_at_80_columns() {
-    let mut session = Session::open((80, 24), Marker::Braille);
+    let mut session = open((80, 24), Marker::Braille);
     session.press("7");
     let text = session.text().split_whitespace().collect::<Vec<_>>().join(" ");
     for words in ["e event", "u explicit", "capital: modal", "error |u-u_ref|/g0 by wall time [s]"]

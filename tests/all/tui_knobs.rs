@@ -2,7 +2,7 @@
 
 use rubscope::tui::{Marker, Theme};
 
-use crate::tui_screens::{Session, scene};
+use crate::tui_support::{Session, scene};
 
 #[test]
 fn a_knob_changes_the_verdict_and_undo_brings_it_back() {

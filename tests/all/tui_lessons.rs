@@ -10,7 +10,7 @@ use rubscope::tui::bindings::{Action, Context};
 use rubscope::tui::lessons::{self, Check, Expected, Lesson, LessonStep};
 use rubscope::tui::{App, Marker, Theme};
 
-use super::tui_screens::{Session, scene};
+use super::tui_support::{Session, scene};
 
 /// Runs that were asked for, by their scene: several checks ask for the same.
 #[derive(Default)]

@@ -1,81 +1,35 @@
 //! The map of the explorer: it maps the scene's own law and solver, its cells
 //! are those of `rubscope map`, and a cell opens exactly the run it shows.
 
-use std::sync::mpsc;
-use std::time::Duration;
-
-use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::style::Color;
-use ratatui::{Terminal, backend::TestBackend};
 use rubscope::harmonic::{Form, locked_motion};
 use rubscope::motion::{Verdict, run_to_verdict, to_the_end};
 use rubscope::scene::{ContactLaw, Scene, SolverKind};
 use rubscope::study::{Map, MapPlan};
 use rubscope::tui::engine::FullRunState;
-use rubscope::tui::events::ScreenEvent;
-use rubscope::tui::terminal::NoHost;
-use rubscope::tui::worker::Stepwise;
-use rubscope::tui::{App, Marker, Theme, run};
+use rubscope::tui::{Marker, Theme};
 
 use crate::cli_support::rubscope;
+use crate::tui_support::Session;
 
-struct Session {
-    terminal: Terminal<TestBackend>,
-    app: App,
-    engine: Stepwise,
+fn open(size: (u16, u16), scene: Scene, theme: Theme, marker: Marker) -> Session {
+    Session::with_stride(size, 1e-3, scene, theme, marker)
 }
 
-impl Session {
-    fn open(size: (u16, u16), scene: Scene, theme: Theme, marker: Marker) -> Self {
-        let terminal = Terminal::new(TestBackend::new(size.0, size.1)).unwrap();
-        let app = App::new(scene.checked().unwrap(), theme, marker);
-        let mut session = Self { terminal, app, engine: Stepwise::new(1e-3) };
-        session.press("");
-        session
-    }
+fn shown_map(session: &Session) -> &Map {
+    &session.app.latest.results.map.as_ref().unwrap().map
+}
 
-    fn press(&mut self, keys: &str) {
-        let (sender, events) = mpsc::channel();
-        for letter in keys.chars() {
-            let code = match letter {
-                '\n' => KeyCode::Enter,
-                '\u{1b}' => KeyCode::Esc,
-                '<' => KeyCode::Left,
-                '>' => KeyCode::Right,
-                '^' => KeyCode::Up,
-                letter => KeyCode::Char(letter),
-            };
-            sender.send(ScreenEvent::Key(KeyEvent::new(code, KeyModifiers::NONE))).unwrap();
-        }
-        drop(sender);
-        let (app, engine) = (&mut self.app, &mut self.engine);
-        run(&mut self.terminal, &events, app, engine, &mut NoHost, Duration::ZERO).unwrap();
-    }
+fn shown_plan(session: &Session) -> MapPlan {
+    shown_map(session).plan.clone()
+}
 
-    /// The letters of the screen, a row a line.
-    fn text(&self) -> String {
-        let buffer = self.terminal.backend().buffer();
-        let rows = buffer.content.chunks(usize::from(buffer.area.width));
-        rows.map(|row| row.iter().map(|cell| cell.symbol()).collect::<String>() + "\n").collect()
-    }
-
-    fn map(&self) -> &Map {
-        &self.app.latest.results.map.as_ref().unwrap().map
-    }
-
-    fn plan(&self) -> MapPlan {
-        self.map().plan.clone()
-    }
-
-    /// Column, row and verdict of each cell that is computed.
-    fn cells(&self) -> Vec<(u32, u32, Verdict)> {
-        let map = self.map();
-        let (x, y) = (map.plan.x.count, map.plan.y.count);
-        let places = (0..y).flat_map(|row| (0..x).map(move |column| (column, row)));
-        places
-            .filter_map(|(column, row)| Some((column, row, map.at(column, row)?.verdict)))
-            .collect()
-    }
+/// Column, row and verdict of each cell that is computed.
+fn shown_cells(session: &Session) -> Vec<(u32, u32, Verdict)> {
+    let map = shown_map(session);
+    let (x, y) = (map.plan.x.count, map.plan.y.count);
+    let places = (0..y).flat_map(|row| (0..x).map(move |column| (column, row)));
+    places.filter_map(|(column, row)| Some((column, row, map.at(column, row)?.verdict))).collect()
 }
 
 /// The paper's scene, with a shorter run for speed.
@@ -93,16 +47,16 @@ fn event() -> Scene {
 
 #[test]
 fn the_paper_scene_has_the_zone_of_the_paper_with_its_two_halves() {
-    let mut session = Session::open((120, 40), paper(), Theme::Dark, Marker::Braille);
+    let mut session = open((120, 40), paper(), Theme::Dark, Marker::Braille);
     session.press("5");
-    let plan = session.plan();
+    let plan = shown_plan(&session);
     let machine = session.app.machine.clone();
     let [critical, lock] = [machine.critical_speed(), machine.lock_speed()].map(Option::unwrap);
     assert!((critical - 292.9).abs() < 0.1 && (lock - 411.9).abs() < 0.1, "{critical} {lock}");
     assert_eq!(plan.scene.solver.contact, ContactLaw::Bilateral);
     assert_eq!(plan.scene.solver.kind, SolverKind::Explicit);
     let (mut adhesive, mut locked) = (0, 0);
-    for (column, row, verdict) in session.cells() {
+    for (column, row, verdict) in shown_cells(&session) {
         let (speed, pulse) = (plan.x.value(column), plan.y.value(row));
         match verdict {
             Verdict::Adhesive => {
@@ -113,7 +67,7 @@ fn the_paper_scene_has_the_zone_of_the_paper_with_its_two_halves() {
                 locked += 1;
                 assert!(speed > lock, "locked at {speed}");
             }
-            // MODEL.md: nothing holds at or below 290; every pulse above does.
+            // Nothing holds at or below 290; every pulse above does.
             _ => assert!(speed < 300.0 || pulse < 1.05e6, "{verdict} at {speed}, {pulse}"),
         }
     }
@@ -126,11 +80,23 @@ fn the_paper_scene_has_the_zone_of_the_paper_with_its_two_halves() {
 }
 
 #[test]
-fn cells_are_those_of_the_map_command() {
-    let mut session = Session::open((80, 24), paper(), Theme::Dark, Marker::Braille);
+fn the_map_of_a_rotor_that_turns_backward_has_its_thresholds() {
+    let mut scene = event();
+    scene.operation.speed_rad_s = -500.0;
+    let mut session = open((120, 40), scene, Theme::Dark, Marker::Braille);
     session.press("5");
-    let plan = session.plan();
-    for (column, row, verdict) in session.cells().into_iter().step_by(13) {
+    let text = session.text();
+    for word in ["Ω_c -292.9", "Ω_lock -411.9", "coincidence -388.3"] {
+        assert!(text.contains(word), "no {word} in {text}");
+    }
+}
+
+#[test]
+fn cells_are_those_of_the_map_command() {
+    let mut session = open((80, 24), paper(), Theme::Dark, Marker::Braille);
+    session.press("5");
+    let plan = shown_plan(&session);
+    for (column, row, verdict) in shown_cells(&session).into_iter().step_by(13) {
         let (speed, pulse) = (plan.x.value(column), plan.y.value(row));
         let axis = |path: &str, value: f64| format!("operation.{path}={value:?}:{value:?}:1");
         let (x, y) = (axis("speed_rad_s", speed), axis("pulse_n", pulse));
@@ -153,18 +119,18 @@ fn cells_are_those_of_the_map_command() {
 
 #[test]
 fn a_key_switches_the_law_of_the_map_and_of_nothing_else() {
-    let mut session = Session::open((120, 40), event(), Theme::Dark, Marker::Braille);
+    let mut session = open((120, 40), event(), Theme::Dark, Marker::Braille);
     session.press("5");
     assert!(session.text().contains("unilateral, event"), "{}", session.text());
     session.press("c");
-    let solver = session.plan().scene.solver.clone();
+    let solver = shown_plan(&session).scene.solver.clone();
     // The event solver does not know this law.
     assert_eq!((solver.kind, solver.contact), (SolverKind::Explicit, ContactLaw::Bilateral));
     assert!(session.text().contains("bilateral, explicit"), "{}", session.text());
     assert!(session.text().contains("(c: unilateral)"), "{}", session.text());
     assert!(*session.app.scene == event() && !session.app.compare);
     session.press("c");
-    assert_eq!(session.plan().scene.solver, event().solver);
+    assert_eq!(shown_plan(&session).scene.solver, event().solver);
     // Elsewhere it compares laws.
     session.press("1c");
     assert!(session.app.compare && session.app.map.law.is_none());
@@ -173,16 +139,16 @@ fn a_key_switches_the_law_of_the_map_and_of_nothing_else() {
 #[test]
 fn a_cell_opens_the_run_it_shows_and_undo_brings_the_other_back() {
     for (keys, live) in [("", false), ("x", true)] {
-        let mut session = Session::open((120, 40), paper(), Theme::Dark, Marker::Braille);
+        let mut session = open((120, 40), paper(), Theme::Dark, Marker::Braille);
         session.press(keys);
         session.press("5");
         assert!(session.app.reading, "the arrows go to the cell at once");
-        let plan = session.plan();
+        let plan = shown_plan(&session);
         // It begins at the present knobs, and every arrow is one cell.
         let [column, row] = session.app.map_cell().unwrap();
         assert!((plan.x.value(column) - 500.0).abs() < 4.0, "{column}");
         assert!((plan.y.value(row) / 1e6 - 1.0).abs() < 0.1, "{row}");
-        session.press("<<<<<<<<<^^");
+        session.press("←←←←←←←←←↑↑");
         let cell = session.app.map_cell().unwrap();
         assert_eq!(cell, [column - 9, row + 2]);
         let text = session.text();
@@ -190,7 +156,7 @@ fn a_cell_opens_the_run_it_shows_and_undo_brings_the_other_back() {
         assert_eq!((run.cell, run.verdict), (cell, Verdict::Locked));
         assert!(text.contains("this cell:") && text.contains("435 rad/s, 1.585 MN"), "{text}");
         assert!(text.contains("locked") && text.contains("since"), "{text}");
-        session.press("<<<<<<<");
+        session.press("←←←←←←←");
         let [column, row] = session.app.map_cell().unwrap();
         session.press("\n");
         let scene = session.app.scene.clone();
@@ -217,22 +183,22 @@ fn a_cell_opens_the_run_it_shows_and_undo_brings_the_other_back() {
 
 #[test]
 fn the_law_of_the_map_goes_with_the_run_it_opens() {
-    let mut session = Session::open((100, 30), event(), Theme::Dark, Marker::Braille);
+    let mut session = open((100, 30), event(), Theme::Dark, Marker::Braille);
     session.press("5c\n");
     assert_eq!(session.app.scene.solver.contact, ContactLaw::Bilateral);
     assert_eq!(session.app.scene.solver.kind, SolverKind::Explicit);
-    let plan = session.plan();
+    let plan = shown_plan(&session);
     session.press("");
     // It is the same map: nothing is computed again.
-    assert_eq!(session.plan(), plan);
+    assert_eq!(shown_plan(&session), plan);
 }
 
 #[test]
 fn escape_gives_the_arrows_back_and_the_digit_takes_them_again() {
-    let mut session = Session::open((100, 30), event(), Theme::Dark, Marker::Braille);
+    let mut session = open((100, 30), event(), Theme::Dark, Marker::Braille);
     session.press("5\u{1b}");
     assert!(!session.app.reading && session.app.map_cell().is_none());
-    session.press(">");
+    session.press("→");
     assert_eq!(session.app.scene.operation.speed_rad_s, 505.0);
     session.press("5");
     assert!(session.app.reading);
@@ -242,10 +208,10 @@ fn escape_gives_the_arrows_back_and_the_digit_takes_them_again() {
 
 #[test]
 fn any_two_knobs_are_on_the_axes_and_in_the_file() {
-    let mut session = Session::open((120, 40), event(), Theme::Dark, Marker::Braille);
+    let mut session = open((120, 40), event(), Theme::Dark, Marker::Braille);
     // From the speed on: the diameters, as the pulse is on the other axis.
     session.press("5X");
-    let plan = session.plan();
+    let plan = shown_plan(&session);
     assert_eq!((plan.x.path.as_str(), plan.x.count), ("operation.nodal_diameters", 11));
     // The cursor is at the present knobs of the new map: n_d = 3.
     assert_eq!(session.app.map_cell().unwrap()[0], 2);
@@ -253,7 +219,7 @@ fn any_two_knobs_are_on_the_axes_and_in_the_file() {
     let text = session.text();
     assert!(text.contains("pulse F over diameters n_d"), "{text}");
     session.press("XY");
-    let plan = session.plan();
+    let plan = shown_plan(&session);
     assert_eq!(plan.x.path, "casing.damping_ratio");
     assert_eq!((plan.x.from, plan.x.to), (0.0, 0.2));
     assert_ne!(plan.y.path, "operation.pulse_n");
@@ -268,13 +234,13 @@ fn any_two_knobs_are_on_the_axes_and_in_the_file() {
 #[test]
 fn a_map_reads_without_colour_and_in_ascii() {
     for (theme, marker) in [(Theme::Mono, Marker::Braille), (Theme::Dark, Marker::Ascii)] {
-        let mut session = Session::open((100, 30), paper(), theme, marker);
+        let mut session = open((100, 30), paper(), theme, marker);
         session.press("5f");
         let text = session.text();
         assert!(text.contains('#') && text.contains('%') && text.contains("% adhesive"), "{text}");
         assert!(!text.contains('▀') && (marker != Marker::Ascii || text.is_ascii()), "{text}");
     }
-    let mut session = Session::open((100, 30), paper(), Theme::Dark, Marker::Braille);
+    let mut session = open((100, 30), paper(), Theme::Dark, Marker::Braille);
     session.press("5f");
     let buffer = session.terminal.backend().buffer().clone();
     let filled = |colour| buffer.content.iter().filter(|cell| cell.bg == colour).count();
@@ -286,14 +252,14 @@ fn a_map_reads_without_colour_and_in_ascii() {
 fn knobs_outside_the_map_are_said_to_be() {
     let mut scene = event();
     scene.operation.pulse_n = 2e8;
-    let mut session = Session::open((120, 40), scene, Theme::Dark, Marker::Braille);
+    let mut session = open((120, 40), scene, Theme::Dark, Marker::Braille);
     session.press("5");
     let text = session.text();
     assert!(text.contains("now pulse F 200 MN: above"), "{text}");
     assert!(!text.contains('╋'), "{text}");
     let mut scene = event();
     scene.operation.speed_rad_s = -430.0;
-    let mut session = Session::open((120, 40), scene, Theme::Dark, Marker::Braille);
+    let mut session = open((120, 40), scene, Theme::Dark, Marker::Braille);
     session.press("5");
     let text = session.text();
     assert!(text.contains("╋ now -430 rad/s, 50 kN") && text.contains("-600"), "{text}");
@@ -302,7 +268,7 @@ fn knobs_outside_the_map_are_said_to_be() {
 #[test]
 fn a_map_fits_every_size_and_progress_is_said_in_the_title() {
     for size in [(40, 12), (80, 24), (120, 40), (200, 50)] {
-        let mut session = Session::open(size, paper(), Theme::Dark, Marker::Braille);
+        let mut session = open(size, paper(), Theme::Dark, Marker::Braille);
         session.press("5f");
         let text = session.text();
         assert!(text.contains("5 map") && text.contains("bilateral"), "{text}");
@@ -314,7 +280,7 @@ fn a_map_fits_every_size_and_progress_is_said_in_the_title() {
 
 #[test]
 fn view_3_reads_the_locked_motion_exactly_at_any_speed() {
-    let mut session = Session::open((120, 40), paper(), Theme::Dark, Marker::Braille);
+    let mut session = open((120, 40), paper(), Theme::Dark, Marker::Braille);
     session.press("3f");
     let text = session.text();
     for chart in ["locked λ(Ω)", "locked α(Ω)", "locked u(Ω)", "mean now -245 -57"] {
@@ -322,7 +288,7 @@ fn view_3_reads_the_locked_motion_exactly_at_any_speed() {
     }
     session.press("i");
     // Seven hundredths of 600 rad/s to the left; the curves have no point there.
-    session.press("<<<<<<<");
+    session.press("←←←←←←←");
     let machine = session.app.scene.machine();
     let at = session.app.cursor.unwrap().across * 600.0;
     let sweep = locked_motion(&machine, Form::Modal, true, None, &[at]).unwrap();
@@ -346,7 +312,7 @@ fn view_3_reads_the_locked_motion_exactly_at_any_speed() {
 fn view_3_of_a_rotor_that_turns_the_other_way_says_so() {
     let mut scene = paper();
     scene.operation.speed_rad_s = -430.0;
-    let mut session = Session::open((200, 50), scene, Theme::Dark, Marker::Braille);
+    let mut session = open((200, 50), scene, Theme::Dark, Marker::Braille);
     session.press("3");
     assert!(session.text().contains("turning backwards"), "{}", session.text());
     session.press("i");

@@ -4,7 +4,7 @@
 use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 use rubscope::tui::{Heard, Marker, Theme};
 
-use crate::tui_screens::{Session, scene};
+use crate::tui_support::{Session, scene};
 
 use MouseEventKind::{Down, Drag, Moved, ScrollDown, ScrollUp, Up};
 

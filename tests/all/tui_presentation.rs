@@ -2,7 +2,7 @@
 
 use rubscope::tui::{Marker, Theme};
 
-use crate::tui_screens::{Session, scene};
+use crate::tui_support::{Session, scene};
 
 #[test]
 fn the_screen_for_a_projector_has_one_chart_large_letters_and_the_knob() {
@@ -42,6 +42,29 @@ fn a_projector_shows_values_being_typed_refusals_lists_and_ends_with_escape() {
     assert!(session.app.presenting);
     session.press("\u{1b}");
     assert!(!session.app.presenting && session.text().contains("2 gaps"), "{}", session.text());
+}
+
+#[test]
+fn a_lesson_has_the_usual_screen_however_it_begins() {
+    // By its key, from the palette, and by undoing the end of one.
+    for keys in ["g\n", ":polygon\n", "GPu"] {
+        let mut session = Session::open(120, 40, scene(), Theme::Dark, Marker::Braille);
+        if keys.starts_with('G') {
+            session.press("g\n");
+            session.press(keys);
+        } else {
+            session.press("P");
+            assert!(session.app.presenting && session.app.appearance.wide);
+            session.press(keys);
+        }
+        assert!(session.app.lesson.is_some(), "{keys:?}");
+        assert!(!session.app.presenting && !session.app.appearance.wide, "{keys:?}");
+        assert!(session.text().contains("Lesson "), "{}", session.text());
+    }
+    // The list alone changes nothing.
+    let mut session = Session::open(120, 40, scene(), Theme::Dark, Marker::Braille);
+    session.press("Pg\u{1b}");
+    assert!(session.app.presenting);
 }
 
 /// Rows of the screen that a chart's upright axis goes through, by its column.

@@ -3,7 +3,7 @@
 use rubscope::scene::{BUILTIN, Scene};
 use rubscope::tui::{App, Marker, Source, Theme};
 
-use super::tui_screens::{Session, scene};
+use super::tui_support::{Session, scene};
 
 /// A folder with a scene that can be opened and one that cannot.
 fn folder() -> tempfile::TempDir {

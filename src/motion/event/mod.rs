@@ -84,7 +84,7 @@ pub struct Event {
     all_looks: u64,
     deepest: f64,
     widest: f64,
-    failed: Option<Failure>,
+    failure: Option<Failure>,
 }
 
 impl Event {
@@ -125,7 +125,7 @@ impl Event {
             deepest: 0.0,
             widest: 0.0,
             tips: Tips::default(),
-            failed: None,
+            failure: None,
         };
         event.drive = event.drive_now(0.0);
         event.begin(place, rate);
@@ -214,7 +214,7 @@ impl Solver for Event {
     }
 
     fn final_verdict(&self) -> Option<Verdict> {
-        if self.failed.is_some() {
+        if self.failure.is_some() {
             Some(Verdict::Failed)
         } else if self.over() {
             Some(Verdict::Decay)
@@ -235,7 +235,7 @@ impl Solver for Event {
     }
 
     fn failure(&self) -> Option<&Failure> {
-        self.failed.as_ref()
+        self.failure.as_ref()
     }
 
     fn pulse(&self) -> &Pulse {

@@ -41,12 +41,12 @@ impl Event {
 
     /// Goes through the next event, if it comes no later than `until`.
     pub(super) fn change(&mut self, until: f64, go_on: GoOn<'_>) -> Result<Passage, Failure> {
-        if let Some(failure) = &self.failed {
+        if let Some(failure) = &self.failure {
             return Err(failure.clone());
         }
         let (s, what) = match self.seek(self.elapsed(until), go_on) {
             Sought::Event(s, what) => (s, what),
-            Sought::Nothing => return self.failed.clone().map_or(Ok(Passage::Later), Err),
+            Sought::Nothing => return self.failure.clone().map_or(Ok(Passage::Later), Err),
             Sought::Paused => return Ok(Passage::Paused),
         };
         self.check_angles(s)?;
@@ -70,7 +70,7 @@ impl Event {
             Some(reason) => _ = self.fail(s, reason),
             None => self.pass(s, what),
         }
-        self.failed.clone().map_or(Ok(Passage::Passed), Err)
+        self.failure.clone().map_or(Ok(Passage::Passed), Err)
     }
 
     /// Ends `advance` at `until`.
@@ -92,7 +92,7 @@ impl Event {
         let t_s = self.start.0 + s;
         self.now = t_s.max(self.now);
         let failure = Failure { t_s, reason };
-        self.failed.get_or_insert(failure).clone()
+        self.failure.get_or_insert(failure).clone()
     }
 
     /// The event that ends the segment, if no later than `limit` seconds after
@@ -185,7 +185,7 @@ impl Event {
     /// As `intervene`, with the rate of free flight or along a side multiplied
     /// by `factor`.
     pub(super) fn intervene_scaled(&mut self, factor: f64, change: impl FnOnce(&mut Self)) {
-        if self.failed.is_some() {
+        if self.failure.is_some() {
             return;
         }
         let s = self.elapsed(self.now);

@@ -24,9 +24,10 @@ use crate::scene::Scene;
 pub struct HbmReport(Map<String, Value>);
 
 impl HbmReport {
-    /// The report of one machine, without points.
+    /// The report of one machine, without points; the coincidence is that of a rotor
+    /// that turns in the sense of `speed`.
     #[must_use]
-    pub fn new(scene: &Scene, form: Form, damped: bool) -> Self {
+    pub fn new(scene: &Scene, form: Form, damped: bool, speed: f64) -> Self {
         let machine = scene.machine();
         Self(Map::new())
             .with("scene", scene)
@@ -35,7 +36,7 @@ impl HbmReport {
             .with("omega_c_rad_s", machine.critical_speed())
             .with("omega_lock_rad_s", machine.lock_speed())
             .with("omega_adhesive_rad_s", machine.adhesive_speed())
-            .with("coincidence_rad_s", machine.dangerous_speed())
+            .with("coincidence_rad_s", machine.dangerous_speed_toward(speed))
             .with("casing_frequency_rad_s", machine.omega_c)
             .with("blade_frequency_rad_s", machine.omega_bd)
             .with("clearance_m", machine.clearance())
@@ -180,6 +181,7 @@ pub fn excitation(excitation: &Excitation, drives: bool, found: &[ExcitedLock]) 
 pub fn write_heading(
     machine: &Machine,
     title: &str,
+    speed: f64,
     sweep: Option<&Sweep>,
     out: &mut dyn Write,
 ) -> std::io::Result<()> {
@@ -202,7 +204,7 @@ pub fn write_heading(
             let zeta = machine.casing_damping_ratio;
             write!(out, ", lock-in from {} rad/s (zeta_c = {})", short(lock), short(zeta))?;
         }
-        if let Some(dangerous) = machine.dangerous_speed() {
+        if let Some(dangerous) = machine.dangerous_speed_toward(speed) {
             write!(out, ", dangerous coincidence {} rad/s", short(dangerous))?;
         }
         writeln!(out, ".")?;

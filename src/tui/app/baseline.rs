@@ -21,7 +21,7 @@ impl Baseline {
     /// its verdict.
     pub fn what(&self, app: &App) -> String {
         let differs = |knob: &&Knob| knob.get(&self.scene) != knob.get(&app.scene);
-        let shown = |knob: &Knob| format!("{} {}", knob.label, knob.shown(&knob.get(&self.scene)));
+        let shown = |knob: &Knob| format!("{} {}", knob.label, knob.text(&self.scene));
         let mut parts: Vec<String> = KNOBS.iter().filter(differs).take(2).map(shown).collect();
         parts.push(self.words.word.clone());
         parts.join(", ")

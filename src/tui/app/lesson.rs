@@ -6,9 +6,9 @@ use crossterm::event::KeyCode;
 
 use super::past::Past;
 use super::{App, InputMode, Source};
-use crate::scene::{Scene, Value, keys};
+use crate::scene::{Scene, Value};
 use crate::tui::bindings::Chord;
-use crate::tui::knobs::KNOBS;
+use crate::tui::knobs::{knob_of, place_of};
 use crate::tui::lessons::{self, Condition, LETTERS, Lesson, LessonStep};
 use crate::tui::panels;
 use crate::tui::views::ViewId;
@@ -145,6 +145,8 @@ impl App {
     fn begin_step(&mut self, place: usize, step: usize) {
         let Some(lesson) = lessons::all().get(place) else { return };
         let past = self.past();
+        // A screen for a projector has no room for a lesson.
+        self.present(false);
         let begun = self.lesson.clone().filter(|progress| progress.lesson == place);
         let begun = begun.unwrap_or_else(|| LessonProgress {
             lesson: place,
@@ -159,8 +161,8 @@ impl App {
         });
         self.lesson = Some(LessonProgress { step, page: 0, read: false, ..begun });
         let knob = lesson.steps.get(step).and_then(|found| found.knob.as_deref());
-        if let Some(knob) = KNOBS.iter().position(|known| Some(known.path) == knob) {
-            self.knob = knob;
+        if let Some(place) = knob.and_then(place_of) {
+            self.knob = place;
         }
         self.show_step(past);
     }
@@ -246,6 +248,7 @@ impl App {
     }
 
     fn meets(&self, condition: &Condition) -> bool {
+        let number = |path: &str| knob_of(path)?.number(&self.scene);
         match condition {
             Condition::Verdict(word) => {
                 let now = self.full_run().map(|run| run.verdict);
@@ -253,20 +256,12 @@ impl App {
             }
             Condition::View(word) => ViewId::from_word(word) == Some(self.view),
             Condition::Compare(wanted) => self.compare == *wanted,
-            Condition::Above(path, limit) => self.number(path).is_some_and(|x| x > *limit),
-            Condition::Below(path, limit) => self.number(path).is_some_and(|x| x < *limit),
+            Condition::Above(path, limit) => number(path).is_some_and(|x| x > *limit),
+            Condition::Below(path, limit) => number(path).is_some_and(|x| x < *limit),
             Condition::Is(path, word) => {
-                let key = keys::find(path).ok();
-                key.is_some_and(|key| (key.get)(&self.scene) == Value::Text(word.clone()))
+                let word = Value::Text(word.clone());
+                knob_of(path).is_some_and(|knob| knob.get(&self.scene) == word)
             }
-        }
-    }
-
-    fn number(&self, path: &str) -> Option<f64> {
-        match (keys::find(path).ok()?.get)(&self.scene) {
-            Value::Real(x) => Some(x),
-            Value::Whole(n) => Some(n as f64),
-            Value::Text(_) | Value::Words(_) => None,
         }
     }
 }

@@ -2,10 +2,10 @@
 //! the run that this opens.
 
 use super::{App, InputMode};
-use crate::scene::{CheckedScene, ContactLaw, Value};
+use crate::scene::{CheckedScene, ContactLaw};
 use crate::study::MapPlan;
 use crate::tui::app::cursor::cell_of;
-use crate::tui::knobs::Knob;
+use crate::tui::knobs::{Knob, knob_of};
 use crate::tui::views::ViewId;
 use crate::tui::views::map::{MapAxis, here, numeric, value_text};
 
@@ -65,11 +65,7 @@ impl App {
         let knobs: Vec<&Knob> = numeric().filter(|knob| knob.path != other.path).collect();
         let place = knobs.iter().position(|knob| knob.path == axis.path).map_or(0, |at| at + 1);
         let Some(knob) = knobs.get(place % knobs.len().max(1)) else { return };
-        let anchor = match knob.get(&self.scene) {
-            Value::Real(x) => x,
-            Value::Whole(n) => n as f64,
-            _ => 0.0,
-        };
+        let anchor = knob.number(&self.scene).unwrap_or(0.0);
         *axis = MapAxis { path: knob.path, anchor };
         let place = if up { "up" } else { "across" };
         self.status = Some(match self.map_plan() {
@@ -93,10 +89,8 @@ impl App {
     pub(super) fn open_run(&mut self, scene: CheckedScene) {
         let opened = self.shown_plan().map(|plan| {
             let values = [&plan.x, &plan.y].map(|axis| {
-                let knob = numeric().find(|knob| knob.path == axis.path);
-                let text =
-                    |knob: &Knob| format!("{} {}", knob.label, knob.shown(&knob.get(&scene)));
-                knob.map_or_else(String::new, text)
+                let text = |knob: &Knob| format!("{} {}", knob.label, knob.text(&scene));
+                knob_of(&axis.path).map_or_else(String::new, text)
             });
             values.join(", ")
         });

@@ -43,7 +43,7 @@ use past::Past;
 
 use super::appearance::Appearance;
 use super::bindings::Context;
-use super::engine::{Moment, Order, Snapshot};
+use super::engine::{Moment, Order, Snapshot, generation};
 use super::history::BinHistory;
 use super::lessons::LessonsDone;
 use super::line::Line;
@@ -203,6 +203,13 @@ struct Counters {
     /// How often the end of the run was told.
     ends: u64,
     extensions: u64,
+}
+
+impl Counters {
+    /// The generation of the order that has these counts.
+    fn generation(&self) -> u64 {
+        generation(self.restarts, self.changes, self.pulses)
+    }
 }
 
 impl App {

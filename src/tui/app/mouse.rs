@@ -165,10 +165,6 @@ impl App {
         }
     }
 
-    fn select_place(&mut self, knob: usize) {
-        (self.knob, self.refusal) = (knob, None);
-    }
-
     /// Turns a knob to a place of its bar.
     fn set_part(&mut self, place: usize, part: f64) {
         let Some(knob) = KNOBS.get(place) else { return };

@@ -3,11 +3,12 @@
 
 use super::{App, Effect, InputMode};
 use crate::report::line::clean;
-use crate::scene::{BUILTIN, Scene};
+use crate::scene::Scene;
 use crate::tui::appearance::Appearance;
 use crate::tui::bindings::{self, Action, Context};
 use crate::tui::knobs::{KNOBS, Knob};
 use crate::tui::lessons;
+use crate::tui::scenes::builtin_scenes;
 use crate::tui::{Marker, Theme};
 
 /// The open palette.
@@ -70,18 +71,18 @@ impl App {
         let knobs = KNOBS.iter().enumerate().map(|(place, knob)| PaletteItem {
             kind: "knob",
             what: format!("{}: {}", knob.label, knob.does),
-            beside: knob.shown(&knob.get(&self.scene)),
+            beside: knob.text(&self.scene),
             command: Command::Select(place),
             also: format!("{} {}", knob.path, plain(knob.label)),
         });
-        let scenes = BUILTIN.iter().map(|scene| PaletteItem {
+        let scenes = builtin_scenes().iter().map(|scene| PaletteItem {
             kind: "scene",
-            what: match Scene::builtin(scene.name) {
+            what: match &scene.scene {
                 Ok(read) => format!("{}: {}", scene.name, read.title),
-                Err(_) => scene.name.to_string(),
+                Err(_) => scene.name.clone(),
             },
             beside: String::new(),
-            command: Command::Open(scene.name),
+            command: Command::Open(&scene.name),
             also: "open".into(),
         });
         let lessons = lessons::all().iter().enumerate().map(|(place, lesson)| PaletteItem {
@@ -113,7 +114,7 @@ impl App {
                 found.push(PaletteItem {
                     kind: "set",
                     what: format!("{} = {}", knob.label, knob.shown(&value)),
-                    beside: format!("now {}", knob.shown(&knob.get(&self.scene))),
+                    beside: format!("now {}", knob.text(&self.scene)),
                     command: Command::Set(place, text.join(" ")),
                     also: String::new(),
                 });
@@ -149,12 +150,9 @@ impl App {
             Command::Act(action) => return self.act(action),
             Command::Open(name) => self.open_builtin(name),
             Command::Learn(place) => self.begin_lesson(place),
-            Command::Select(place) => {
-                self.knob = place;
-                self.refusal = None;
-            }
+            Command::Select(place) => self.select_place(place),
             Command::Set(place, text) => {
-                self.knob = place;
+                self.select_place(place);
                 self.accept(&text);
                 if let Some(refusal) = &self.refusal {
                     self.status = Some(clean(refusal));
@@ -216,6 +214,7 @@ fn has_in_order(text: &str, word: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::BUILTIN;
 
     fn app() -> App {
         App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Braille)

@@ -85,6 +85,9 @@ impl App {
             return;
         }
         (self.opened, self.source, self.lesson) = (past.opened, past.source, past.lesson);
+        if self.lesson.is_some() {
+            self.present(false);
+        }
         if self.view != past.view {
             (self.reading, self.cursor) = (false, None);
         }

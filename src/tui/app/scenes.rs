@@ -5,8 +5,8 @@ use std::path::{Component, Path};
 
 use super::update::Effect;
 use super::{App, InputMode, Source};
-use crate::scene::{BUILTIN, CheckedScene, DEFAULT, Scene};
-use crate::tui::scenes::{FoundScene, FoundScenes};
+use crate::scene::{CheckedScene, DEFAULT, Scene};
+use crate::tui::scenes::{FoundScene, FoundScenes, builtin_scenes};
 use crate::tui::views::ViewId;
 
 /// One line of the list.
@@ -26,14 +26,11 @@ impl App {
     /// Every scene that can be opened. One from elsewhere that is open comes first.
     pub fn scene_entries(&self) -> Vec<SceneEntry> {
         let open = self.source.as_ref().map_or(DEFAULT, |source| source.name.as_str());
-        let builtin = BUILTIN.iter().map(|builtin| {
-            let read = Scene::builtin(builtin.name).and_then(|scene| scene.checked());
-            SceneEntry {
-                name: builtin.name.into(),
-                scene: read.map_err(|error| error.to_string()),
-                file: false,
-                open: builtin.name == open,
-            }
+        let builtin = builtin_scenes().iter().map(|FoundScene { name, scene }| SceneEntry {
+            name: name.clone(),
+            scene: scene.clone(),
+            file: false,
+            open: name == open,
         });
         let files = self.found_scenes.files.iter().map(|FoundScene { name, scene }| {
             let path = self.directory.join(name);

@@ -27,7 +27,7 @@ impl App {
         self.comparison_history.extend(&std::mem::take(&mut snapshot.comparison_bins));
         let had_forecast = self.full_run().is_some();
         let known = std::mem::take(&mut self.latest);
-        let results = match snapshot.generation == self.order().generation() {
+        let results = match snapshot.generation == self.counters.generation() {
             // An old study stays on the screen until there is a new one.
             true => Results {
                 locked: snapshot.results.locked.or(known.results.locked),

@@ -51,7 +51,7 @@ impl App {
     /// The question in the last line.
     pub fn sweep_question(&self, typed: &str) -> Option<String> {
         let knob = self.selected()?;
-        let now = knob.shown(&knob.get(&self.scene));
+        let now = knob.text(&self.scene);
         Some(format!("sweep {} from {now} to: {typed}_", knob.label))
     }
 

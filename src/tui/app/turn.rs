@@ -5,7 +5,7 @@ use crate::motion::Change;
 use crate::report::line::clean;
 use crate::scene::{CheckedScene, Scene, Value};
 use crate::tui::engine::Snapshot;
-use crate::tui::knobs::{KNOBS, Knob, knob_of};
+use crate::tui::knobs::{KNOBS, Knob, place_of};
 
 impl App {
     /// The selected knob.
@@ -15,18 +15,22 @@ impl App {
 
     /// Selects the knob of a key; false if there is none.
     pub fn select_path(&mut self, path: &str) -> bool {
-        let place = knob_of(path);
+        let place = place_of(path);
         if let Some(place) = place {
-            self.knob = place;
-            self.refusal = None;
+            self.select_place(place);
         }
         place.is_some()
     }
 
+    /// Selects the knob at a place of the table.
+    pub(super) fn select_place(&mut self, place: usize) {
+        (self.knob, self.refusal) = (place, None);
+    }
+
     pub(super) fn select(&mut self, up: bool) {
         let count = KNOBS.len();
-        self.knob = if up { self.knob + count - 1 } else { self.knob + 1 } % count;
-        self.refusal = None;
+        let next = if up { self.knob + count - 1 } else { self.knob + 1 };
+        self.select_place(next % count);
     }
 
     pub(super) fn turn(&mut self, up: bool, coarse: bool) {

@@ -10,7 +10,7 @@ use crate::report::line;
 use crate::tui::axis::readable;
 use crate::tui::bindings::{Action, Chord, lookup};
 use crate::tui::files::FileJob;
-use crate::tui::knobs::KNOBS;
+use crate::tui::knobs::knob_of;
 use crate::tui::lessons;
 use crate::tui::views::ViewId;
 
@@ -226,10 +226,7 @@ impl App {
                 let name = format!("{}.csv", self.view.word());
                 self.mode = InputMode::Naming(Purpose::Export, name);
             }
-            Action::Lesson => {
-                (self.presenting, self.appearance.wide) = (false, false);
-                self.lesson_key();
-            }
+            Action::Lesson => self.lesson_key(),
             Action::LessonBack => self.lesson_back(),
             Action::Answer(place) => self.answer(place),
             Action::LeaveLesson => self.leave_lesson(),
@@ -252,8 +249,7 @@ impl App {
             Action::Fire => {
                 self.counters.pulses += 1;
                 self.forget_forecasts();
-                let pulse = KNOBS.iter().find(|knob| knob.path == "operation.pulse_n");
-                let pulse = pulse.map(|knob| knob.shown(&knob.get(&self.scene)));
+                let pulse = knob_of("operation.pulse_n").map(|knob| knob.text(&self.scene));
                 self.status = pulse.map(|pulse| format!("pulse of {pulse} fired"));
             }
             Action::Sweep => self.ask_sweep(),
@@ -289,7 +285,7 @@ impl App {
     }
 
     /// The screen for a projector, or the usual one.
-    fn present(&mut self, on: bool) {
+    pub(super) fn present(&mut self, on: bool) {
         if on && self.lesson.is_some() {
             self.status = Some("a lesson needs the usual screen; G leaves it".into());
             return;

@@ -136,9 +136,8 @@ impl App {
         }
         match moment.active_set {
             ActiveSet::Nothing => "no contact".into(),
-            ActiveSet::Side(side) => self.blades_of([side].into_iter()),
-            ActiveSet::Corner(a, b) => self.blades_of([a, b].into_iter()),
             ActiveSet::Many => "many blades".into(),
+            touching => self.blades_of(touching.sides()),
         }
     }
 
@@ -152,32 +151,29 @@ impl App {
     }
 
     fn state_of(&self, active_set: ActiveSet) -> String {
+        let blades = self.numbers_of(active_set.sides());
         match active_set {
             ActiveSet::Nothing => "free".into(),
-            ActiveSet::Side(side) => format!("touching {}", self.numbers_of([side].into_iter())),
-            ActiveSet::Corner(a, b) => format!("held on {}", self.numbers_of([a, b].into_iter())),
+            ActiveSet::Side(_) => format!("touching {blades}"),
+            ActiveSet::Corner(..) => format!("held on {blades}"),
             ActiveSet::Many => "touching many".into(),
         }
     }
 
     /// A change of contact in words.
     pub fn happening(&self, what: Happening) -> String {
+        let blades = |sides: ActiveSet| self.numbers_of(sides.sides());
         match what {
-            Happening::Impact(side) => format!("impact on {}", self.numbers_of([side].into_iter())),
+            Happening::Impact(side) => format!("impact on {}", blades(ActiveSet::Side(side))),
             Happening::Contact(before, now) => match (before, now) {
                 (ActiveSet::Corner(a, b), ActiveSet::Side(kept)) if kept == a || kept == b => {
-                    let gone = if kept == a { b } else { a };
-                    let [gone, kept] = [gone, kept].map(|side| self.numbers_of([side].into_iter()));
-                    format!("{gone} lets go, {kept} still touches")
+                    let gone = blades(ActiveSet::Side(if kept == a { b } else { a }));
+                    format!("{gone} lets go, {} still touches", blades(now))
                 }
                 _ => self.state_of(now),
             },
-            Happening::Release(ActiveSet::Side(side)) => {
-                format!("{} lets go", self.numbers_of([side].into_iter()))
-            }
-            Happening::Release(ActiveSet::Corner(a, b)) => {
-                format!("{} let go", self.numbers_of([a, b].into_iter()))
-            }
+            Happening::Release(gone @ ActiveSet::Side(_)) => format!("{} lets go", blades(gone)),
+            Happening::Release(gone @ ActiveSet::Corner(..)) => format!("{} let go", blades(gone)),
             Happening::Release(_) => "all let go".into(),
         }
     }

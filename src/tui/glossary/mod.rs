@@ -6,7 +6,7 @@ mod terms;
 pub use terms::SECTIONS;
 
 use super::app::App;
-use super::knobs::{KNOBS, number};
+use super::knobs::{knob_of, number};
 
 /// The value of a symbol in the present scene.
 #[derive(Clone, Copy, Debug)]
@@ -52,10 +52,7 @@ impl Term {
     fn value(&self, app: &App) -> Option<String> {
         match self.here {
             Here::Nothing => None,
-            Here::Knob(path) => {
-                let knob = KNOBS.iter().find(|knob| knob.path == path)?;
-                Some(knob.shown(&knob.get(&app.scene)))
-            }
+            Here::Knob(path) => knob_of(path).map(|knob| knob.text(&app.scene)),
             Here::Of(value, unit) => {
                 let value = value(app).filter(|value| value.is_finite())?;
                 // Four digits are enough to know where one stands.

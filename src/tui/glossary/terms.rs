@@ -44,8 +44,8 @@ const SPEEDS: &[Term] = &[
         "coincidence",
         "coincidence",
         "the casing wave and the blade wave turn alike; the dangerous one of two",
-        "n_d Ω = ω_c + ω_bd, Eq. (31)",
-        Of(|app| app.machine.dangerous_speed(), "rad/s"),
+        "n_d |Ω| = ω_c + ω_bd, Eq. (31)",
+        Of(|app| app.machine.dangerous_speed_toward(app.speed()), "rad/s"),
     ),
     term(
         "ω_c",

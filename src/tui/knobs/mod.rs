@@ -9,7 +9,6 @@ mod touch;
 
 pub use number::number;
 use number::{COARSE, FINE, decades, prefixed};
-pub use range::knob_of;
 pub use table::KNOBS;
 
 use crate::scene::{Adjustment, Allowed, CheckedScene, Scene, SceneError, Value, keys, keys::Key};
@@ -56,6 +55,16 @@ impl Group {
     pub fn places(self) -> impl Iterator<Item = usize> {
         KNOBS.iter().enumerate().filter(move |(_, knob)| knob.group == self).map(|(place, _)| place)
     }
+}
+
+/// The place of the knob of a key in the table.
+pub fn place_of(path: &str) -> Option<usize> {
+    KNOBS.iter().position(|knob| knob.path == path)
+}
+
+/// The knob of a key.
+pub fn knob_of(path: &str) -> Option<&'static Knob> {
+    KNOBS.get(place_of(path)?)
 }
 
 /// One knob.
@@ -197,6 +206,11 @@ impl Knob {
         self.key().map_or("m", |key| key.unit).trim_matches('-')
     }
 
+    /// The value in a scene as shown.
+    pub fn text(&self, scene: &Scene) -> String {
+        self.shown(&self.get(scene))
+    }
+
     /// The value as shown, with prefix and unit.
     pub fn shown(&self, value: &Value) -> String {
         match value {
@@ -241,7 +255,7 @@ mod tests {
     use crate::scene::{ContactLaw, SolverKind};
 
     fn knob(path: &str) -> &'static Knob {
-        KNOBS.iter().find(|knob| knob.path == path).unwrap()
+        knob_of(path).unwrap()
     }
 
     #[test]

@@ -2,7 +2,7 @@
 //! value at a place of its bar.
 
 use super::touch::touching_pulse;
-use super::{KNOBS, Knob, Turn};
+use super::{Knob, Turn};
 use crate::model::Machine;
 use crate::report::number::rounded;
 use crate::scene::{Allowed, Scene, Value};
@@ -162,17 +162,13 @@ impl Knob {
     }
 }
 
-/// The knob of a key.
-pub fn knob_of(path: &str) -> Option<usize> {
-    KNOBS.iter().position(|knob| knob.path == path)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tui::knobs::{KNOBS, knob_of};
 
     fn range(path: &str, scene: &Scene) -> Option<KnobRange> {
-        KNOBS[knob_of(path).unwrap()].range(scene, scene, &scene.machine())
+        knob_of(path).unwrap().range(scene, scene, &scene.machine())
     }
 
     #[test]
@@ -208,7 +204,7 @@ mod tests {
 
     #[test]
     fn a_dragged_bar_gives_round_values() {
-        let of = |path: &str, x| KNOBS[knob_of(path).unwrap()].near(x);
+        let of = |path: &str, x| knob_of(path).unwrap().near(x);
         assert_eq!(of("operation.speed_rad_s", 431.7), Some(Value::Real(430.0)));
         assert_eq!(of("casing.damping_ratio", 0.0512), Some(Value::Real(0.05)));
         assert_eq!(of("operation.pulse_n", 43_423.0), Some(Value::Real(43_000.0)));

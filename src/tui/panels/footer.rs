@@ -21,7 +21,7 @@ const TRY: &str = "new here? → turns Ω, g: lessons";
 /// Draws the line.
 pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
     let look = &app.appearance;
-    let mark = look.either("…", "..");
+    let mark = look.ellipsis();
     let question = match &app.mode {
         InputMode::Naming(Purpose::Save, name) => Some(format!("save the scene as: {name}_")),
         InputMode::Naming(Purpose::Export, name) => {

@@ -8,7 +8,7 @@ use crate::report::number::trimmed;
 use crate::tui::app::{App, VerdictText};
 use crate::tui::axis::readable;
 use crate::tui::engine::Limit;
-use crate::tui::text::{columns, print, shorten};
+use crate::tui::text::{columns, print, shorten, spelled_pieces};
 use crate::tui::theme::Role;
 
 /// Columns that the words after the verdict should have, if there are any.
@@ -26,29 +26,30 @@ type Parts = Vec<(String, Style)>;
 
 /// Draws both lines.
 pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
-    let used = line(app, buffer, area, 0, &now_and_end(app, usize::from(area.width)));
+    let look = &app.appearance;
+    let first = now_and_end(app, usize::from(area.width));
+    let used = spelled_pieces(look, buffer, area, 0, &first);
     title(app, buffer, area, used);
     let mut parts = pace(app);
+    let doubt = app.disagreement();
+    let doubted = doubt.is_some();
     if area.width >= WIDE {
         parts.extend(limits(app));
-        parts.extend(doubts(app));
-        parts.extend(solver(app));
-    } else {
-        let doubted = app.disagreement().is_some();
-        if !doubted || area.width >= MEDIUM {
-            parts.extend(short_limits(app));
-        }
-        parts.extend(doubts(app));
-        parts.extend(if doubted { Parts::new() } else { solver(app) });
+    } else if !doubted || area.width >= MEDIUM {
+        parts.extend(short_limits(app));
     }
-    line(app, buffer, area, 1, &parts);
+    parts.extend(doubts(app, doubt));
+    if area.width >= WIDE || !doubted {
+        parts.extend(solver(app));
+    }
+    spelled_pieces(look, buffer, area, 1, &parts);
 }
 
 /// The title of the scene at the right end, if there is room.
 fn title(app: &App, buffer: &mut Buffer, area: Rect, used: u16) {
     let look = &app.appearance;
     let left = area.width.saturating_sub(used.saturating_add(3));
-    let title = shorten(&look.spell(&app.scene.title), MOST_TITLE, look.either("…", ".."));
+    let title = shorten(&look.spell(&app.scene.title), MOST_TITLE, look.ellipsis());
     let wide = u16::try_from(columns(&title)).unwrap_or(u16::MAX);
     // A part of it beside the verdict would read as one sentence.
     if wide > left {
@@ -56,23 +57,6 @@ fn title(app: &App, buffer: &mut Buffer, area: Rect, used: u16) {
     }
     let right = Rect { x: area.right() - wide, width: wide, ..area };
     print(buffer, right, 0, &title, look.style(Role::Quiet));
-}
-
-/// Pieces of one row; the one that does not fit ends in an ellipsis. The columns
-/// that they take.
-fn line(app: &App, buffer: &mut Buffer, area: Rect, row: u16, parts: &Parts) -> u16 {
-    let look = &app.appearance;
-    let mut x = area.x;
-    for (text, style) in parts {
-        let left = usize::from(area.right().saturating_sub(x));
-        let text = shorten(&look.spell(text), left, look.either("…", ".."));
-        if left == 0 || row >= area.height {
-            break;
-        }
-        buffer.set_string(x, area.y + row, &text, *style);
-        x = x.saturating_add(u16::try_from(columns(&text)).unwrap_or(u16::MAX));
-    }
-    x - area.x
 }
 
 /// `NOW free ► 12.7 ms 430.2 rad/s | AT 100 ms LOCKED on 6 + 21 since 76.9 ms`.
@@ -136,13 +120,11 @@ fn now(app: &App, much: u8) -> Parts {
         (readable(app.now(), "s"), text),
     ];
     if much >= 2 {
-        let ramp = app.scene.operation.speed_ramp_rad_s2;
-        let arrow = match ramp.total_cmp(&0.0) {
-            std::cmp::Ordering::Greater => "↑",
-            std::cmp::Ordering::Less => "↓",
-            std::cmp::Ordering::Equal => "",
+        let arrow = match app.scene.operation.speed_ramp_rad_s2 {
+            ramp if ramp > 0.0 => "↑",
+            ramp if ramp < 0.0 => "↓",
+            _ => "",
         };
-        let arrow = if ramp == 0.0 { "" } else { arrow };
         parts.push((format!("  {}{arrow}", readable(app.speed(), "rad/s")), text));
     }
     if much >= 3
@@ -175,14 +157,18 @@ fn pace(app: &App) -> Parts {
     parts
 }
 
+/// The limits of a lock, by the index of their symbol.
+fn thresholds(app: &App) -> [(&'static str, Option<f64>); 2] {
+    [("c", app.machine.critical_speed()), ("lock", app.machine.lock_speed())]
+}
+
 /// The limits as numbers, and the present speed in parts of them.
 fn limits(app: &App) -> Parts {
     let look = &app.appearance;
     let (text, quiet) = (look.style(Role::Text), look.style(Role::Quiet));
     let speed = app.speed().abs();
     let mut parts = Vec::new();
-    let limits = [("c", app.machine.critical_speed()), ("lock", app.machine.lock_speed())];
-    for (name, limit) in limits {
+    for (name, limit) in thresholds(app) {
         parts.push((format!("  Ω/Ω_{name} "), quiet));
         match limit.filter(|limit| *limit > 0.0) {
             Some(limit) => {
@@ -192,8 +178,8 @@ fn limits(app: &App) -> Parts {
             None => parts.push(("-".into(), text)),
         }
     }
-    let coincidence = app.machine.dangerous_speed().map(|speed| (" · coincidence", speed));
-    parts.extend(coincidence.map(|(name, speed)| (format!("{name} {}", short(speed)), quiet)));
+    let coincidence = app.machine.dangerous_speed_toward(app.speed());
+    parts.extend(coincidence.map(|speed| (format!(" · coincidence {}", short(speed)), quiet)));
     parts
 }
 
@@ -202,8 +188,7 @@ fn short_limits(app: &App) -> Parts {
     let look = &app.appearance;
     let (text, quiet) = (look.style(Role::Text), look.style(Role::Quiet));
     let mut parts = Vec::new();
-    let limits = [("c", app.machine.critical_speed()), ("lock", app.machine.lock_speed())];
-    for (name, limit) in limits {
+    for (name, limit) in thresholds(app) {
         parts.push((format!("  Ω_{name} "), quiet));
         parts.push((limit.map_or("-".into(), short), text));
     }
@@ -213,15 +198,15 @@ fn short_limits(app: &App) -> Parts {
 
 /// Four or five digits are enough for a limit.
 fn short(speed: f64) -> String {
-    let decimals = if speed < 10.0 { 3 } else { 1 };
+    let decimals = if speed.abs() < 10.0 { 3 } else { 1 };
     trimmed(&format!("{speed:.decimals$}")).to_string()
 }
 
 /// Whether another solver, or a small change, says otherwise.
-fn doubts(app: &App) -> Parts {
+fn doubts(app: &App, doubt: Option<String>) -> Parts {
     let look = &app.appearance;
     let known = app.full_run().zip(app.latest.results.reference.as_ref()).is_some();
-    match app.disagreement() {
+    match doubt {
         Some(other) => vec![(format!("  | {other}"), look.style(Role::Trouble))],
         None if known => vec![("  | event agrees".into(), look.style(Role::Quiet))],
         None => Parts::new(),

@@ -143,7 +143,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, help: &HelpState) {
     };
     let place = format!("{last}/{}", lines.len());
     let room = width.saturating_sub(place.len() + 1);
-    let head = shorten(&head, room, look.either("…", ".."));
+    let head = shorten(&head, room, look.ellipsis());
     print(buffer, area, 0, &head, look.style(Role::Focus));
     let at = u16::try_from(place.len()).unwrap_or(0);
     let right = Rect { x: area.right().saturating_sub(at), width: at, ..area };

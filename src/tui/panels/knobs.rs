@@ -40,7 +40,7 @@ pub fn panel(app: &App, buffer: &mut Buffer, area: Rect) {
     if notes.len() > room {
         notes.truncate(room);
         if let Some((text, _)) = notes.last_mut() {
-            let more = look.either("…", "..");
+            let more = look.ellipsis();
             *text = shorten(&format!("{text}{more}"), width, more);
         }
     }
@@ -136,14 +136,14 @@ pub fn strip(app: &App, buffer: &mut Buffer, area: Rect) {
     let look = &app.appearance;
     let width = usize::from(area.width);
     if let Some(refusal) = &app.refusal {
-        let refusal = shorten(&look.spell(refusal), width, look.either("…", ".."));
+        let refusal = shorten(&look.spell(refusal), width, look.ellipsis());
         print(buffer, area, 0, &refusal, look.style(Role::Trouble));
         return;
     }
     let Some(knob) = app.selected() else { return };
     let text = strip_text(app, knob);
     let style = look.style(Role::Focus).add_modifier(Modifier::REVERSED);
-    print(buffer, area, 0, &shorten(&text, width, look.either("…", "..")), style);
+    print(buffer, area, 0, &shorten(&text, width, look.ellipsis()), style);
     if let Some(cells) = strip_bar(app, area) {
         bar::draw(app, buffer, cells, knob);
     }
@@ -152,7 +152,7 @@ pub fn strip(app: &App, buffer: &mut Buffer, area: Rect) {
 fn strip_text(app: &App, knob: &Knob) -> String {
     let shown = match &app.mode {
         InputMode::Typing(text) => format!("{text}_"),
-        _ => knob.shown(&knob.get(&app.scene)),
+        _ => knob.text(&app.scene),
     };
     let changed = if knob.get(&app.scene) == knob.get(&app.opened) { "" } else { "*" };
     let text = format!("◄ {}{changed} {shown} ►  {}/{}", knob.label, app.knob + 1, KNOBS.len());

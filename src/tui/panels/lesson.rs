@@ -3,6 +3,7 @@
 
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 
+use super::list::{first_in_sight, look_of};
 use crate::tui::app::{App, InputMode};
 use crate::tui::lessons::{self, LETTERS, Lesson, LessonStep};
 use crate::tui::text::{columns, print, shorten, wrap};
@@ -14,7 +15,7 @@ const WIDE: usize = 110;
 /// The list of lessons, one of them selected, with what was done of each.
 pub fn list(app: &App, buffer: &mut Buffer, area: Rect, place: usize) {
     let look = &app.appearance;
-    let mark = look.either("…", "..");
+    let mark = look.ellipsis();
     let width = usize::from(area.width);
     let bold = look.style(Role::Text).add_modifier(Modifier::BOLD);
     let head = "Lessons: Enter begins one, g goes on, B back, G leaves";
@@ -23,23 +24,17 @@ pub fn list(app: &App, buffer: &mut Buffer, area: Rect, place: usize) {
     for (row, (index, lesson)) in
         (2..area.height).zip(lessons::all().iter().enumerate().skip(first))
     {
-        let selected = index == place;
-        let sign = if selected { look.either("▸", ">") } else { " " };
+        let (sign, style) = look_of(look, index == place, Role::Text);
         let (done, steps) = (app.lessons_done.count(lesson), lesson.steps.len());
         let done = if done == steps { "done".to_string() } else { format!("{done}/{steps}") };
         let text = look.spell(&format!("{sign} {done:>4}  {}. {}", index + 1, lesson.title));
-        let style = if selected {
-            look.style(Role::Focus).add_modifier(Modifier::REVERSED)
-        } else {
-            look.style(Role::Text)
-        };
         print(buffer, area, row, &shorten(&text, width, mark), style);
     }
 }
 
 /// The first lesson in sight, so that the selected one is.
 fn first_listed(area: Rect, place: usize) -> usize {
-    (place + 1).saturating_sub(usize::from(area.height.saturating_sub(2)))
+    first_in_sight(place, usize::from(area.height.saturating_sub(2)))
 }
 
 /// The lesson in a row of the screen while the list is open in `area`.
@@ -125,7 +120,7 @@ fn head(app: &App, width: usize) -> (String, String) {
     let (left, long, short) = (look.spell(&left), look.spell(&long), look.spell(&short));
     let right = if columns(&left) + columns(&long) + 2 <= width { long } else { short };
     let room = width.saturating_sub(columns(&right) + 2);
-    (shorten(&left, room, look.either("…", "..")), right)
+    (shorten(&left, room, look.ellipsis()), right)
 }
 
 fn is_last(lesson: &Lesson, step: usize) -> bool {

@@ -10,6 +10,7 @@ mod hit;
 mod knobs;
 mod layout;
 mod lesson;
+mod list;
 mod palette;
 mod presentation;
 mod scenes;

@@ -1,7 +1,8 @@
 //! The command palette: what is typed, and what fits it.
 
-use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
+use ratatui::{buffer::Buffer, layout::Rect};
 
+use super::list::{first_in_sight, look_of};
 use crate::tui::app::{App, PaletteState};
 use crate::tui::text::{columns, print, shorten};
 use crate::tui::theme::Role;
@@ -9,7 +10,7 @@ use crate::tui::theme::Role;
 /// Draws the palette.
 pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, palette: &PaletteState) {
     let look = &app.appearance;
-    let (width, mark) = (usize::from(area.width), look.either("…", ".."));
+    let (width, mark) = (usize::from(area.width), look.ellipsis());
     let found = app.palette_items(&palette.typed);
     let hint = match (palette.typed.is_empty(), found.is_empty()) {
         (true, _) => "  a command, scene, lesson, view, or knob and value",
@@ -23,14 +24,9 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, palette: &PaletteState) 
     print(buffer, area, 0, &head, look.style(Role::Focus));
     let rows = usize::from(area.height.saturating_sub(1));
     let place = palette.place.min(found.len().saturating_sub(1));
-    let first = (place + 1).saturating_sub(rows);
+    let first = first_in_sight(place, rows);
     for (row, (index, item)) in (1..area.height).zip(found.iter().enumerate().skip(first)) {
-        let is_chosen = index == place;
-        let style = match is_chosen {
-            true => look.style(Role::Focus).add_modifier(Modifier::REVERSED),
-            false => look.style(Role::Text),
-        };
-        let sign = if is_chosen { look.either("▸", ">") } else { " " };
+        let (sign, style) = look_of(look, index == place, Role::Text);
         let kind = if item.kind.is_empty() { String::new() } else { format!("{} ", item.kind) };
         let beside = look.spell(&item.beside);
         let room = width.saturating_sub(columns(&beside) + 1);

@@ -89,7 +89,7 @@ fn solid(buffer: &mut Buffer, area: Rect) {
 
 fn centred(app: &App, buffer: &mut Buffer, area: Rect, row: u16, text: &str, style: Style) {
     let look = &app.appearance;
-    let text = shorten(&look.spell(text), usize::from(area.width), look.either("…", ".."));
+    let text = shorten(&look.spell(text), usize::from(area.width), look.ellipsis());
     let left = area.width.saturating_sub(u16::try_from(columns(&text)).unwrap_or(0)) / 2;
     print(buffer, Rect { x: area.x + left, width: area.width - left, ..area }, row, &text, style);
 }
@@ -106,7 +106,7 @@ pub fn knob(app: &App, buffer: &mut Buffer, area: Rect) {
             centred(app, buffer, area, 0, &format!("{} = {text}_", knob.label), focus);
         }
         _ => {
-            let shown = knob.shown(&knob.get(&app.scene));
+            let shown = knob.text(&app.scene);
             centred(app, buffer, area, 0, &format!("{} = {shown}", knob.label), focus);
         }
     }

@@ -3,6 +3,7 @@
 
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 
+use super::list::{first_in_sight, look_of};
 use crate::tui::app::{App, SceneEntry};
 use crate::tui::text::{columns, print, shorten, wrap};
 use crate::tui::theme::Role;
@@ -17,7 +18,7 @@ const NAME_WIDTH: usize = 24;
 /// Draws the list with the chosen scene; the open one, if none was chosen.
 pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, chosen: Option<usize>) {
     let look = &app.appearance;
-    let mark = look.either("…", "..");
+    let mark = look.ellipsis();
     let entries = app.scene_entries();
     let place = app.scene_place(&entries, chosen);
     let found = &app.found_scenes;
@@ -50,13 +51,14 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, chosen: Option<usize>) {
 
 fn rows(app: &App, buffer: &mut Buffer, area: Rect, entries: &[SceneEntry], place: usize) {
     let look = &app.appearance;
-    let mark = look.either("…", "..");
+    let mark = look.ellipsis();
     let names = entries.iter().map(|entry| columns(&entry.name));
     let wide = names.max().unwrap_or(0).min(NAME_WIDTH);
-    let first = (place + 1).saturating_sub(usize::from(area.height));
+    let first = first_in_sight(place, usize::from(area.height));
     let shown = entries.iter().enumerate().skip(first);
     for (row, (index, entry)) in (0..area.height).zip(shown) {
-        let sign = if index == place { look.either('▸', '>') } else { ' ' };
+        let role = if entry.scene.is_ok() { Role::Text } else { Role::Trouble };
+        let (sign, style) = look_of(look, index == place, role);
         let open = if entry.open { '*' } else { ' ' };
         let name = shorten(&look.spell(&entry.name), wide, mark);
         let pad = " ".repeat(wide.saturating_sub(columns(&name)));
@@ -67,11 +69,6 @@ fn rows(app: &App, buffer: &mut Buffer, area: Rect, entries: &[SceneEntry], plac
         let title = look.spell(title);
         let text =
             shorten(&format!("{sign}{open} {name}{pad}  {title}"), usize::from(area.width), mark);
-        let style = match (index == place, &entry.scene) {
-            (true, _) => look.style(Role::Focus).add_modifier(Modifier::REVERSED),
-            (false, Ok(_)) => look.style(Role::Text),
-            (false, Err(_)) => look.style(Role::Trouble),
-        };
         print(buffer, area, row, &text, style);
     }
 }
@@ -89,7 +86,7 @@ fn notes(app: &App, entry: &SceneEntry, width: usize) -> Vec<(String, Role)> {
 /// Prints a page of the lines below the name of their scene.
 fn note(app: &App, buffer: &mut Buffer, area: Rect, entry: &SceneEntry, lines: &[(String, Role)]) {
     let look = &app.appearance;
-    let (width, mark) = (usize::from(area.width), look.either("…", ".."));
+    let (width, mark) = (usize::from(area.width), look.ellipsis());
     let room = usize::from(area.height.saturating_sub(1)).max(1);
     let pages = lines.len().div_ceil(room).max(1);
     let page = app.note_page % pages;

@@ -259,13 +259,17 @@ fn names_of_marks(app: &App, plot: &mut Plot, what: &Page) {
     // Corners have their names first: they are what lasts.
     for corners in [true, false] {
         for mark in on_page().take(MOST_NAMES) {
-            let sides = match mark.what {
-                Happening::Contact(_, ActiveSet::Corner(a, b)) if corners => vec![a, b],
-                Happening::Contact(_, ActiveSet::Side(side)) if !corners => vec![side],
-                Happening::Impact(side) if !corners => vec![side],
-                _ => continue,
+            let touching = match mark.what {
+                Happening::Contact(_, touching) => touching,
+                Happening::Impact(side) => ActiveSet::Side(side),
+                Happening::Release(_) => continue,
             };
-            let name = app.numbers_of(sides.into_iter()).replace(' ', "");
+            if touching.sides().next().is_none()
+                || matches!(touching, ActiveSet::Corner(..)) != corners
+            {
+                continue;
+            }
+            let name = app.numbers_of(touching.sides()).replace(' ', "");
             let text = format!("{sign}{name}");
             let wide = u16::try_from(text.chars().count()).unwrap_or(u16::MAX);
             let Some(from) = plot.column(mark.t_s) else { continue };

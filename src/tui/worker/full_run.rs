@@ -4,7 +4,7 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use crate::motion::{Motion, Verdict, verdict_of};
+use crate::motion::{Motion, verdict_of};
 use crate::tolerances::LAST_PART;
 use crate::tui::engine::{FORECAST_LIMIT, FullRun, FullRunState};
 use crate::tui::trace::{Mark, Marks, Trace};
@@ -97,7 +97,6 @@ impl FullRunJob {
         let motion = &self.motion;
         let log = motion.contacts();
         let verdict = verdict_of(motion, self.window);
-        let lasting = matches!(verdict, Verdict::Locked | Verdict::Adhesive | Verdict::Slip);
         let period = std::f64::consts::TAU / motion.machine().omega_c;
         let broken = log.longest_hold.filter(|hold| hold.length() >= period);
         let step = (self.end - self.start) / f64::from(SAMPLES);
@@ -106,7 +105,7 @@ impl FullRunJob {
             marks: Arc::new(self.marks.seen.clone()),
             broken: broken.map(|hold| (hold, motion.rotor().speed(hold.ended))),
             verdict,
-            since: lasting.then_some(log.since),
+            since: verdict.keeps_contact().then_some(log.since),
             multipliers: motion.multipliers(),
             impacts: log.impact_count,
             checks: motion.checks(),

@@ -7,7 +7,7 @@ use std::thread::available_parallelism;
 use std::time::{Duration, Instant};
 
 use super::background::Background;
-use crate::motion::{GoOn, Motion, Verdict, verdict_of};
+use crate::motion::{GoOn, Motion, verdict_of};
 use crate::study::{Cell, MapPlan};
 use crate::tolerances::LAST_PART;
 use crate::tui::engine::FORECAST_LIMIT;
@@ -190,13 +190,12 @@ fn run_of(plan: MapPlan, cell: [u32; 2], go_on: GoOn<'_>) -> Option<CellRun> {
         return None;
     }
     let verdict = verdict_of(&motion, LAST_PART * end);
-    let lasting = matches!(verdict, Verdict::Locked | Verdict::Adhesive | Verdict::Slip);
     let polygon = &motion.machine().polygon;
     let contacts = motion.multipliers().into_iter();
     let contacts = contacts.map(|(side, force)| (polygon.blades_of_side(side), force)).collect();
     Some(CellRun {
         verdict,
-        since: lasting.then_some(motion.contacts().since),
+        since: verdict.keeps_contact().then_some(motion.contacts().since),
         contacts,
         impacts: motion.contacts().impact_count,
         plan,
@@ -207,6 +206,7 @@ fn run_of(plan: MapPlan, cell: [u32; 2], go_on: GoOn<'_>) -> Option<CellRun> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::motion::Verdict;
     use crate::scene::Scene;
     use crate::tui::views::map::MapChoice;
 

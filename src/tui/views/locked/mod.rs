@@ -167,7 +167,7 @@ fn read(app: &App, curves: &LockedCurves, buffer: &mut Buffer, inside: Rect) -> 
     let most = READ_ROWS.min(usize::from(inside.height / 4)).max(1);
     if lines.len() > most {
         let rest = lines.split_off(most - 1).join(" ");
-        lines.push(shorten(&rest, width, look.either("…", "..")));
+        lines.push(shorten(&rest, width, look.ellipsis()));
     }
     let rows = u16::try_from(lines.len()).unwrap_or(0).min(inside.height);
     let area = Rect { x: inside.x + 1, width: inside.width.saturating_sub(1), ..inside };

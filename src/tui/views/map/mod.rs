@@ -18,7 +18,7 @@ use crate::report::map::write_csv;
 use crate::scene::CheckedScene;
 use crate::study::{Axis, MapPlan};
 use crate::tui::app::{App, Cursor};
-use crate::tui::text::{print, shorten};
+use crate::tui::text::{print, spelled_pieces};
 use crate::tui::theme::Role;
 use words::Line;
 
@@ -90,24 +90,12 @@ pub fn here(app: &App, plan: &MapPlan) -> Cursor {
 /// it; returns the rest of the area.
 fn explain(app: &App, live: &LiveMap, buffer: &mut Buffer, inside: Rect, large: bool) -> Rect {
     let look = &app.appearance;
-    let dots = look.either("…", "..");
-    let mut put = |area: Rect, row: u16, line: &[(String, ratatui::style::Style)]| {
-        let mut x = area.x;
-        for (text, style) in line {
-            let room = area.right().saturating_sub(x);
-            let text = shorten(&look.spell(text), usize::from(room), dots);
-            print(buffer, Rect { x, width: room, ..area }, row, &text, *style);
-            x = x
-                .saturating_add(u16::try_from(text.chars().count()).unwrap_or(room))
-                .min(area.right());
-        }
-    };
     if large && inside.width >= BESIDE_FROM {
         let column = Rect { x: inside.right() - BESIDE + 1, width: BESIDE - 1, ..inside };
         for (row, line) in
             (0..inside.height).zip(words::column(app, live, usize::from(column.width)))
         {
-            put(column, row, &line);
+            spelled_pieces(look, buffer, column, row, &line);
         }
         return Rect { width: inside.width - BESIDE, ..inside };
     }
@@ -121,7 +109,7 @@ fn explain(app: &App, live: &LiveMap, buffer: &mut Buffer, inside: Rect, large: 
     let row = Rect { x: inside.x + 1, width: inside.width.saturating_sub(1), ..inside };
     let mut rows = 0;
     for line in &lines {
-        put(row, rows, line);
+        spelled_pieces(look, buffer, row, rows, line);
         rows += 1;
     }
     Rect { y: inside.y + rows, height: inside.height.saturating_sub(rows), ..inside }

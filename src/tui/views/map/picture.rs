@@ -205,14 +205,9 @@ impl Picture<'_> {
     }
 }
 
-/// The places of a point of a line; a rotor that turns the other way has the
-/// same thresholds.
+/// The places of a point of a line.
 fn places(x: &Axis, y: &Axis, (across, up): (f64, f64)) -> [f64; 2] {
-    let signed = |axis: &Axis, value: f64| match axis.path == SPEED && axis.from < 0.0 {
-        true => axis.place(-value),
-        false => axis.place(value),
-    };
-    [signed(x, across), signed(y, up)]
+    [x.place(across), y.place(up)]
 }
 
 /// A part, 0 to 1, as one of so many places.

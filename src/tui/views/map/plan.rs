@@ -191,17 +191,7 @@ fn within(key: &Key, Range { from, to, log }: Range) -> Range {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{ModelSize, Value};
-
-    fn chosen(scene: &Scene, path: &'static str) -> MapAxis {
-        let key = keys::find(path).unwrap();
-        let anchor = match (key.get)(scene) {
-            Value::Real(x) => x,
-            Value::Whole(n) => n as f64,
-            _ => panic!("{path}"),
-        };
-        MapAxis { path, anchor }
-    }
+    use crate::scene::ModelSize;
 
     #[test]
     fn the_map_does_not_depend_on_the_knobs_it_sweeps() {
@@ -235,7 +225,8 @@ mod tests {
             let scene = Scene::builtin(builtin.name).unwrap();
             for knob in numeric() {
                 let usual = MapChoice::default();
-                let axis = chosen(&scene, knob.path);
+                let anchor = knob.number(&scene).unwrap();
+                let axis = MapAxis { path: knob.path, anchor };
                 let across = MapChoice { x: axis, ..usual };
                 let up = MapChoice { y: axis, ..usual };
                 let plans = [(across, usual.y.path), (up, usual.x.path)];

@@ -4,16 +4,15 @@
 use ratatui::style::Style;
 
 use super::picture::{is_inside, sign};
-use super::{CellRun, LiveMap, numeric};
+use super::{CellRun, LiveMap};
 use crate::motion::Verdict;
 use crate::report::map::means;
-use crate::report::number::{count, rounded};
-use crate::scene::Value;
+use crate::report::number::{count, grouped, rounded};
 use crate::study::overlay::{Curve, SPEED};
 use crate::study::{Axis, MapPlan};
 use crate::tui::app::App;
 use crate::tui::axis::readable;
-use crate::tui::knobs::{Knob, number};
+use crate::tui::knobs::{Knob, knob_of, number};
 use crate::tui::text::{columns, wrap};
 use crate::tui::theme::Role;
 
@@ -25,13 +24,9 @@ const PROGRESS_STEPS: usize = 64;
 /// Cells of the progress bar.
 const BAR: usize = 8;
 
-fn knob(path: &str) -> Option<&'static Knob> {
-    numeric().find(|knob| knob.path == path)
-}
-
 /// The unit of a key.
 pub fn unit(path: &str) -> &'static str {
-    knob(path).map_or("", Knob::unit)
+    knob_of(path).map_or("", Knob::unit)
 }
 
 /// A value of a key in four digits, with its unit.
@@ -41,7 +36,7 @@ pub fn value_text(path: &str, value: f64) -> String {
 
 /// As `value_text`; a number without a unit with its symbol, such as `n_d 3`.
 fn named_value(axis: &Axis, value: f64) -> String {
-    let symbol = knob(&axis.path).and_then(|knob| knob.label.split(' ').next_back());
+    let symbol = knob_of(&axis.path).and_then(|knob| knob.label.split(' ').next_back());
     match symbol.filter(|_| unit(&axis.path).is_empty()) {
         Some(symbol) => format!("{symbol} {}", value_text(&axis.path, value)),
         None => value_text(&axis.path, value),
@@ -50,17 +45,15 @@ fn named_value(axis: &Axis, value: f64) -> String {
 
 /// The present value of the key on an axis.
 pub fn present(app: &App, axis: &Axis) -> f64 {
-    match knob(&axis.path).map(|knob| knob.get(&app.scene)) {
-        Some(Value::Real(_)) if axis.path == SPEED => app.speed(),
-        Some(Value::Real(x)) => x,
-        Some(Value::Whole(n)) => n as f64,
-        _ => f64::NAN,
+    if axis.path == SPEED {
+        return app.speed();
     }
+    knob_of(&axis.path).and_then(|knob| knob.number(&app.scene)).unwrap_or(f64::NAN)
 }
 
 /// The name of an axis, with the unit that its ticks do not have.
 fn axis_name(axis: &Axis) -> String {
-    let name = knob(&axis.path).map_or(axis.path.as_str(), |knob| knob.label);
+    let name = knob_of(&axis.path).map_or(axis.path.as_str(), |knob| knob.label);
     match unit(&axis.path) {
         unit if axis.log || unit.is_empty() => name.to_string(),
         unit => {
@@ -120,13 +113,8 @@ fn progress(app: &App, live: &LiveMap) -> [String; 3] {
         .appearance
         .either([["▕", "▏"], ["█", ""], [" ", ""]], [["[", "]"], ["#", ""], [".", ""]]);
     let bar = format!("{}{}{}{}", ends[0], on[0].repeat(full), off[0].repeat(BAR - full), ends[1]);
-    let of = format!("{} of {}", grouped(done), count(all as u64, "cell"));
+    let of = format!("{} of {}", grouped(done as u64), count(all as u64, "cell"));
     [format!("{of} {bar}"), of, format!("{} %", 100 * done / all)]
-}
-
-fn grouped(n: usize) -> String {
-    let text = count(n as u64, "cell");
-    text.split(' ').next().unwrap_or_default().to_string()
 }
 
 /// The verdicts on the map, and the sign of the present knobs.
@@ -156,7 +144,7 @@ fn now(app: &App, live: &LiveMap) -> String {
         let place = axis.place(value);
         if !is_inside(axis, place) {
             let side = if place > 0.0 { sides[1] } else { sides[0] };
-            let name = knob(&axis.path).map_or("", |knob| knob.label);
+            let name = knob_of(&axis.path).map_or("", |knob| knob.label);
             return format!("now {name} {}: {side} the map", value_text(&axis.path, value));
         }
     }
@@ -254,7 +242,7 @@ pub fn column(app: &App, live: &LiveMap, width: usize) -> Vec<Line> {
     lines
 }
 
-/// The lines of a map, slowest first.
+/// The lines of a map, in the order of their speeds on its axis.
 pub fn by_speed(live: &LiveMap) -> Vec<&Curve> {
     let on_x = live.map.plan.x.path == SPEED;
     let speed = |line: &Curve| line.points.first().map_or(0.0, |(x, y)| if on_x { *x } else { *y });

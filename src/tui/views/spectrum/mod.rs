@@ -58,10 +58,10 @@ fn lines(app: &App, speed: f64) -> [(f64, &'static str); 4] {
     let machine = &app.machine;
     let wave = machine.nu(speed);
     [
-        (wave, "n_d Ω"),
+        (wave.abs(), "n_d Ω"),
         (machine.omega_c, "ω_c"),
         ((wave - machine.omega_bd).abs(), "n_d Ω-ω_bd"),
-        (wave + machine.omega_bd, "n_d Ω+ω_bd"),
+        ((wave + machine.omega_bd).abs(), "n_d Ω+ω_bd"),
     ]
 }
 
@@ -84,7 +84,7 @@ fn amplitudes(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let y = ChartAxis::powers(DECADES.0, DECADES.1);
     let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
     at.note(app, plot.inner);
-    let marks = lines(app, app.speed().abs());
+    let marks = lines(app, app.speed());
     for (frequency, _) in marks {
         plot.upright(frequency, look.either('┊', ':'), quiet);
     }
@@ -124,14 +124,15 @@ fn campbell(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let inside = title(app, buffer, at, "Campbell", &legend);
     let fastest = app.latest.results.locked.as_ref().map_or(600.0, |curves| curves.fastest);
     let top = app.machine.nu(fastest).max(1.5 * app.machine.omega_c);
-    let Some(mut plot) =
-        Plot::new(buffer, inside, ChartAxis::plain(0.0, fastest), ChartAxis::plain(0.0, top), look)
-    else {
+    // Over the speeds of the present sense of rotation.
+    let sense = if app.speed() < 0.0 { -1.0 } else { 1.0 };
+    let x = ChartAxis::plain((sense * fastest).min(0.0), (sense * fastest).max(0.0));
+    let Some(mut plot) = Plot::new(buffer, inside, x, ChartAxis::plain(0.0, top), look) else {
         return;
     };
     at.note(app, plot.inner);
     plot.level(app.machine.omega_c, look.either('┈', '.'), look.style(Role::Text));
-    plot.upright(app.speed().abs(), look.either('│', '|'), look.style(Role::Focus));
+    plot.upright(app.speed(), look.either('│', '|'), look.style(Role::Focus));
     let pens: [Pen; 4] = [look.first(), look.quiet(), look.second(), look.second()];
     for (place, pen) in pens.iter().enumerate().filter(|(place, _)| *place != 1).rev() {
         let speeds = plot.column_values();
@@ -145,9 +146,9 @@ fn campbell(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let crossings =
         app.machine.coincidence_speeds().into_iter().chain(app.machine.critical_speed());
     for speed in crossings {
-        plot.point(speed, app.machine.omega_c, meet, look.style(Role::Contact));
+        plot.point(sense * speed, app.machine.omega_c, meet, look.style(Role::Contact));
     }
     if let Some(row) = plot.row(app.machine.omega_c) {
-        plot.note(0.0, row, &look.spell("ω_c"), look.style(Role::Text));
+        plot.note(x.low, row, &look.spell("ω_c"), look.style(Role::Text));
     }
 }

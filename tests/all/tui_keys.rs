@@ -1,0 +1,117 @@
+//! Keys, signals and sizes that come to the explorer: pause and steps, files, the
+//! live speed, the cursor, and ways to leave.
+
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+use rubscope::scene::Scene;
+use rubscope::tui::events::ScreenEvent;
+use rubscope::tui::{Exit, Marker, Theme};
+
+use crate::tui_support::{Session, scene};
+
+#[test]
+fn pause_stops_time_and_a_step_is_one_step() {
+    let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille);
+    session.press(" ");
+    let before = session.app.now();
+    session.press("");
+    assert_eq!(session.app.now(), before);
+    session.press("...");
+    let steps = (session.app.now() - before) / session.app.scene.solver.step_s;
+    // Three steps, to the round-off of a time that is a multiple of a step.
+    assert!((steps - 3.0).abs() < 1e-6, "{steps}");
+}
+
+#[test]
+fn quitting_is_quitting_and_escape_is_not() {
+    let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille);
+    session.press("?\u{1b}\u{1b}\u{1b}");
+    assert!(session.text().contains(" LOCKED "));
+    assert_eq!(session.press("q"), Exit::Done);
+}
+
+#[test]
+fn escape_and_a_key_in_one_go_are_both_heard() {
+    let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille);
+    session.press("?");
+    session.app.key(&KeyEvent::new(KeyCode::Char('2'), KeyModifiers::ALT));
+    session.press("");
+    assert!(session.text().contains("2 gaps"), "{}", session.text());
+    assert_eq!(session.app.view.digit(), 2);
+}
+
+#[test]
+fn signals_and_a_lost_terminal_end_with_their_number() {
+    for (event, number) in [(ScreenEvent::Signal(15), 15), (ScreenEvent::InputClosed, 1)] {
+        let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille);
+        assert_eq!(session.send([event].into_iter()), Exit::Signal(number));
+    }
+}
+
+#[test]
+fn a_file_is_never_replaced_without_asking() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.toml");
+    let name = path.to_str().unwrap().to_string();
+    let erase = "\u{8}".repeat(40);
+    let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille);
+    session.press(&format!("s{erase}{name}\n"));
+    assert_eq!(Scene::load(&name).unwrap(), scene());
+    std::fs::write(&path, "mine").unwrap();
+    session.press(&format!("s{erase}{name}\n"));
+    assert!(session.text().contains("y replaces it"), "{}", session.text());
+    session.press("n");
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), "mine");
+    session.press(&format!("s{erase}{name}\n"));
+    session.press("y");
+    assert_eq!(Scene::load(&name).unwrap(), scene());
+    for (view, file) in [("1", "a.csv"), ("2", "b.csv"), ("3", "c.csv"), ("1", "d.svg")] {
+        let path = folder.path().join(file);
+        let name = path.to_str().unwrap();
+        session.press(view);
+        session.press(&format!("e{erase}{name}\n"));
+        let text = std::fs::read_to_string(&path).unwrap();
+        assert!(text.len() > 100 && !text.contains("NaN"), "{file}: {text}");
+    }
+}
+
+#[test]
+fn the_speed_acts_on_the_running_motion_when_live() {
+    let mut session = Session::open(120, 40, scene(), Theme::Dark, Marker::Braille);
+    let before = session.app.now();
+    session.press("x");
+    session.press("HHHH");
+    assert!(session.app.now() > before, "the run restarted");
+    assert_eq!(session.app.speed(), 300.0);
+    assert!(session.text().contains("LIVE"), "{}", session.text());
+}
+
+#[test]
+fn the_cursor_reads_values_and_pages_can_be_looked_back_at() {
+    let mut session = Session::open(120, 40, scene(), Theme::Dark, Marker::Braille);
+    // 33 ms of motion are on the second page of 20 ms.
+    for _ in 0..10 {
+        session.press("");
+    }
+    session.press(" ((((");
+    assert!(session.text().contains(" at "), "{}", session.text());
+    session.press("<");
+    assert!(session.text().contains("1 back"), "{}", session.text());
+    session.press("\u{1b}");
+    assert!(!session.text().contains("1 back"), "{}", session.text());
+}
+
+#[test]
+fn a_storm_of_sizes_between_keys_leaves_one_picture_of_the_last() {
+    let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Dot);
+    for (width, height) in [(40, 12), (1, 1), (200, 60), (0, 0), (39, 11), (97, 31)] {
+        session.terminal.backend_mut().resize(width, height);
+        let storm = "\t[]fwf".chars().cycle().take(300).flat_map(|key| {
+            let code = if key == '\t' { KeyCode::Tab } else { KeyCode::Char(key) };
+            let key = ScreenEvent::Key(KeyEvent::new(code, KeyModifiers::NONE));
+            std::iter::repeat_with(|| ScreenEvent::Resize).take(10).chain([key])
+        });
+        session.send(storm);
+        assert_eq!(session.app.size, (width, height));
+    }
+    assert!(session.text().contains(" LOCKED "), "{}", session.text());
+}

@@ -1,0 +1,106 @@
+//! An explorer on a test backend: keys in, text out. The test drives the engine,
+//! so that a screen is the same on every machine.
+
+use std::sync::mpsc;
+use std::time::Duration;
+
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+use ratatui::{Terminal, backend::TestBackend};
+use rubscope::scene::Scene;
+use rubscope::tui::events::ScreenEvent;
+use rubscope::tui::terminal::NoHost;
+use rubscope::tui::worker::Stepwise;
+use rubscope::tui::{App, Exit, Marker, Theme, run};
+
+/// An explorer, its screen and its engine.
+pub struct Session {
+    pub terminal: Terminal<TestBackend>,
+    pub app: App,
+    pub engine: Stepwise,
+}
+
+/// The paper's scene with a coarser step and a shorter run, for speed.
+pub fn scene() -> Scene {
+    let mut scene = Scene::builtin("paper-nd3").unwrap();
+    scene.solver.step_s = 2e-7;
+    scene.solver.end_s = 0.02;
+    scene
+}
+
+/// The key of a letter; arrows stand for the arrow keys.
+fn code(letter: char) -> KeyCode {
+    match letter {
+        '\n' => KeyCode::Enter,
+        '\t' => KeyCode::Tab,
+        '\u{1b}' => KeyCode::Esc,
+        '\u{8}' => KeyCode::Backspace,
+        '←' => KeyCode::Left,
+        '→' => KeyCode::Right,
+        '↑' => KeyCode::Up,
+        '↓' => KeyCode::Down,
+        '⇟' => KeyCode::PageDown,
+        '⇞' => KeyCode::PageUp,
+        letter => KeyCode::Char(letter),
+    }
+}
+
+impl Session {
+    /// With 3 ms of motion at each look of the engine.
+    pub fn open(width: u16, height: u16, scene: Scene, theme: Theme, marker: Marker) -> Self {
+        Self::with_stride((width, height), 3e-3, scene, theme, marker)
+    }
+
+    pub fn with_stride(
+        (width, height): (u16, u16),
+        stride: f64,
+        scene: Scene,
+        theme: Theme,
+        marker: Marker,
+    ) -> Self {
+        let terminal = Terminal::new(TestBackend::new(width, height)).unwrap();
+        let app = App::new(scene.checked().unwrap(), theme, marker);
+        let mut session = Self { terminal, app, engine: Stepwise::new(stride) };
+        session.press("");
+        session
+    }
+
+    /// Presses keys, one a letter; two frames later the screen is looked at.
+    pub fn press(&mut self, keys: &str) -> Exit {
+        let key = |letter| ScreenEvent::Key(KeyEvent::new(code(letter), KeyModifiers::NONE));
+        self.send(keys.chars().map(key))
+    }
+
+    /// Presses keys one by one; after each, the screen is drawn.
+    pub fn press_each(&mut self, keys: &str) {
+        for key in keys.chars() {
+            self.press(key.encode_utf8(&mut [0; 4]));
+        }
+        self.press("");
+    }
+
+    /// Sends events in one go.
+    pub fn send(&mut self, all: impl Iterator<Item = ScreenEvent>) -> Exit {
+        let (sender, events) = mpsc::channel();
+        all.for_each(|event| sender.send(event).unwrap());
+        drop(sender);
+        let (app, engine) = (&mut self.app, &mut self.engine);
+        run(&mut self.terminal, &events, app, engine, &mut NoHost, Duration::ZERO).unwrap()
+    }
+
+    /// Selects the knob of a key, wherever it stands.
+    pub fn select(&mut self, path: &str) {
+        assert!(self.app.select_path(path), "{path}");
+    }
+
+    /// The rows of the screen, over their whole width.
+    pub fn rows(&self) -> Vec<String> {
+        let buffer = self.terminal.backend().buffer();
+        let row = |row: &[ratatui::buffer::Cell]| row.iter().map(|cell| cell.symbol()).collect();
+        buffer.content.chunks(usize::from(buffer.area.width)).map(row).collect()
+    }
+
+    /// The rows of the screen without the space at their ends.
+    pub fn text(&self) -> String {
+        self.rows().iter().map(|row| row.trim_end().to_string() + "\n").collect()
+    }
+}
