@@ -80,7 +80,7 @@ impl HbmCommand {
         let resolved = self.options.resolve(Swept { speed: true, pulse: false })?;
         let speeds = match resolved.speeds {
             Some(range) => range.values(),
-            None if self.options.speed().is_some() || self.harmonics.is_some() => {
+            None if self.harmonics.is_some() => {
                 vec![resolved.scene.operation.speed_rad_s]
             }
             None => linspace(0.0, resolved.scene.operation.speed_rad_s, SPEEDS),

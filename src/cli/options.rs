@@ -6,6 +6,7 @@ use clap::Args;
 use super::range::Range;
 use super::status::{Refusal, note};
 use super::words::Words;
+use crate::model::Operation;
 use crate::scene::{Adjustment, CheckedScene, ContactLaw, DEFAULT, ModelSize, Scene, SolverKind};
 use crate::study::overlay::{PULSE, SPEED};
 
@@ -69,9 +70,9 @@ pub struct Swept {
 pub struct Resolved {
     /// The checked scene; a swept key has the first value of its range.
     pub scene: CheckedScene,
-    /// The range given with `--speed`.
+    /// The range given with `--speed`; of one value for a single one.
     pub speeds: Option<Range>,
-    /// The range given with `--pulse`.
+    /// The range given with `--pulse`, in the same way.
     pub pulses: Option<Range>,
 }
 
@@ -82,7 +83,7 @@ impl SceneOptions {
         self.scene.as_deref()
     }
 
-    /// The speed or range given with `--speed`.
+    /// The speed or range given with `--speed`, as it was typed.
     #[must_use]
     pub fn speed(&self) -> &Option<String> {
         &self.speed
@@ -120,17 +121,23 @@ impl SceneOptions {
         for (option, key, text) in self.named() {
             let Some(text) = text else { continue };
             let range = match key {
-                SPEED if swept.speed => &mut speeds,
-                PULSE if swept.pulse => &mut pulses,
-                _ => &mut None,
+                SPEED if swept.speed => Some(&mut speeds),
+                PULSE if swept.pulse => Some(&mut pulses),
+                _ => None,
             };
-            let sweeps = (key == SPEED && swept.speed) || (key == PULSE && swept.pulse);
-            if sweeps && Range::looks_like(text) {
-                let parsed = Range::parse(option, text)?;
-                *range = Some(parsed);
-                scene.set(key, &parsed.from.to_string())?;
-            } else {
-                scene.set(key, text)?;
+            match range {
+                Some(range) if Range::looks_like(text) => {
+                    let parsed = Range::parse(option, text)?;
+                    *range = Some(parsed);
+                    scene.set(key, &parsed.from.to_string())?;
+                }
+                Some(range) => {
+                    scene.set(key, text)?;
+                    let Operation { speed_rad_s, pulse_n, .. } = scene.operation;
+                    let value = if key == SPEED { speed_rad_s } else { pulse_n };
+                    *range = Some(Range { from: value, to: value, count: 1 });
+                }
+                None => scene.set(key, text)?,
             }
             given.push(key);
         }
@@ -209,6 +216,9 @@ mod tests {
         let resolved = options.resolve(swept).unwrap();
         assert_eq!(resolved.speeds.unwrap().count, 5);
         assert_eq!(resolved.scene.operation.speed_rad_s, 100.0);
+        let one = SceneOptions { speed: Some("-430".into()), ..Default::default() };
+        let one = one.resolve(swept).unwrap().speeds;
+        assert_eq!(one, Some(Range { from: -430.0, to: -430.0, count: 1 }));
         let refused = options.scene().unwrap_err().to_string();
         assert!(refused.starts_with("operation.speed_rad_s = 100:500:5: allowed is a number"));
     }
