@@ -49,7 +49,6 @@ mod map_signals;
 mod map_zone;
 mod order;
 mod pauses;
-mod pictures;
 mod plain;
 mod plain_self;
 mod plain_stepper;
@@ -59,6 +58,7 @@ mod pty_config;
 mod pty_signals;
 #[cfg(unix)]
 mod pty_support;
+mod readme;
 mod scene_notes;
 mod scenes;
 mod security;

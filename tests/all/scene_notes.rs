@@ -156,3 +156,31 @@ fn without_damping_the_impacts_of_a_second_are_sensitive() {
     let changes = [("solver.kind", "event"), ("solver.end_s", "1")];
     assert!(run("undamped", &changes).outcome.sensitive);
 }
+
+/// The tests of the figures check the numbers of these notes; here their words.
+#[test]
+fn the_scenes_of_the_figures_say_what_the_figures_find() {
+    says("paper-figs-4-6", "Locked at 76.9 ms on #6 and #21");
+    says("paper-figs-4-6", "43,400 N");
+    says("paper-fig-7", "50 kN without damping in the casing locks at 25 to 32 ms");
+    for (name, printed) in [("paper-fig-7", 256.12), ("paper-fig-8", 292.88)] {
+        let critical = scene(name, &[]).machine().critical_speed().unwrap();
+        assert!((critical - printed).abs() < 5e-3, "{name} {critical}");
+    }
+    says("paper-fig-7", "256.12 rad/s");
+    says("paper-fig-8", "0.85 MN at 300 rad/s, 0.54 MN at 400, 0.38 MN at 500");
+    for (speed, threshold) in [("300", 0.85e6), ("400", 0.54e6), ("500", 0.38e6)] {
+        let lasts = |pulse: f64| {
+            let pulse = pulse.to_string();
+            let changes = [("operation.speed_rad_s", speed), ("operation.pulse_n", &pulse)];
+            matches!(
+                run("paper-fig-8", &changes).outcome.verdict,
+                Verdict::Locked | Verdict::Adhesive
+            )
+        };
+        assert!(!lasts(threshold - 1e4) && lasts(threshold + 1e4), "{speed}");
+    }
+    let push_only = [("solver.contact", "unilateral")];
+    says("paper-fig-8", "the zone is gone");
+    assert_eq!(run("paper-fig-8", &push_only).outcome.verdict, Verdict::Decay);
+}
