@@ -58,6 +58,7 @@ mod pty_config;
 mod pty_signals;
 #[cfg(unix)]
 mod pty_support;
+mod python;
 mod scene_notes;
 mod scenes;
 mod security;
