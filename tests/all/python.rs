@@ -105,7 +105,7 @@ fn the_python_of_the_documents_runs() {
             _ => {}
         }
     }
-    assert!(count >= 3, "docs/python.md has {count} blocks of Python");
+    assert!(count >= 5, "docs/python.md has {count} blocks of Python");
     if python.plots {
         let picture = std::fs::read(folder.path().join("gaps.png")).unwrap();
         assert!(picture.starts_with(b"\x89PNG") && picture.len() > 10_000, "Fig. 5 is empty");
@@ -128,5 +128,8 @@ fn every_array_of_a_history_is_in_the_document() {
     let text = read("docs/python.md");
     for column in rubscope::report::History::new(2).columns() {
         assert!(text.contains(&format!("`{}`", column.name)), "{}", column.name);
+    }
+    for name in ["scene", "command", "version"] {
+        assert!(text.contains(&format!("`{name}`")), "{name}");
     }
 }
