@@ -59,6 +59,7 @@ mod pty_signals;
 #[cfg(unix)]
 mod pty_support;
 mod readme;
+mod python;
 mod scene_notes;
 mod scenes;
 mod security;

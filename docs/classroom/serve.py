@@ -1,0 +1,67 @@
+#!/usr/bin/env python3
+"""Shows a terminal program in a browser.
+
+    serve.py PORT [--write] -- COMMAND [ARGUMENT...]
+
+Listens on 127.0.0.1 only. Without --write nothing typed in the browser is
+passed on. Needs terminado from PyPI, and xterm.js from npm in the folder where
+it is started: npm install @xterm/xterm @xterm/addon-fit
+"""
+import json
+import sys
+
+import terminado
+import tornado.ioloop
+import tornado.web
+
+PAGE = """<!doctype html><meta charset="utf-8"><title>rubscope</title>
+<link rel="stylesheet" href="js/xterm/css/xterm.css">
+<style>html, body, #t { height: 100%; margin: 0; background: #000 }</style><div id="t"></div>
+<script src="js/xterm/lib/xterm.js"></script><script src="js/addon-fit/lib/addon-fit.js"></script>
+<script>
+const term = new Terminal({ fontFamily: "DejaVu Sans Mono, monospace" });
+const fit = new FitAddon.FitAddon();
+term.loadAddon(fit);
+term.open(document.getElementById("t"));
+const socket = new WebSocket(location.href.replace("http", "ws") + "socket");
+const send = (...message) => socket.send(JSON.stringify(message));
+socket.onopen = () => { fit.fit(); send("set_size", term.rows, term.cols); term.focus(); };
+socket.onmessage = (event) => {
+  const [kind, text] = JSON.parse(event.data);
+  if (kind === "stdout") term.write(text);
+};
+socket.onclose = () => term.write("\\r\\n[the session has ended]");
+term.onData((text) => send("stdin", text));
+term.onResize(({ rows, cols }) => send("set_size", rows, cols));
+window.onresize = () => fit.fit();
+</script>"""
+
+
+class Page(tornado.web.RequestHandler):
+    def get(self):
+        self.write(PAGE)
+
+
+class Socket(terminado.TermSocket):
+    """Tornado refuses the socket to pages from elsewhere."""
+
+    def on_message(self, message):
+        if write or json.loads(message)[0] == "set_size":
+            super().on_message(message)
+
+
+if "--" not in sys.argv[2:]:
+    sys.exit(__doc__.strip())
+split = sys.argv.index("--")
+port, *options = sys.argv[1:split]
+write = options == ["--write"]
+if options and not write:
+    sys.exit(__doc__.strip())
+terminals = terminado.UniqueTermManager(shell_command=sys.argv[split + 1 :])
+handlers = [
+    ("/", Page),
+    ("/socket", Socket, {"term_manager": terminals}),
+    ("/js/(.*)", tornado.web.StaticFileHandler, {"path": "node_modules/@xterm"}),
+]
+tornado.web.Application(handlers).listen(int(port), "127.0.0.1")
+tornado.ioloop.IOLoop.current().start()

@@ -1,0 +1,135 @@
+//! The Python of docs/python.md and of the README runs on what the program
+//! writes. `RUBSCOPE_PYTHON` names a Python with numpy and matplotlib, which
+//! then must have both; without the variable, `python3` runs what it can.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+/// A fenced block: its language and its text.
+type Block = (String, String);
+
+fn read(name: &str) -> String {
+    std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(name)).unwrap()
+}
+
+fn blocks(text: &str) -> Vec<Block> {
+    let mut found: Vec<Block> = Vec::new();
+    let mut inside = false;
+    for line in text.lines() {
+        if let Some(language) = line.strip_prefix("```") {
+            inside = !inside;
+            if inside {
+                found.push((language.to_string(), String::new()));
+            }
+        } else if inside {
+            let text = &mut found.last_mut().unwrap().1;
+            text.push_str(line);
+            text.push('\n');
+        }
+    }
+    found
+}
+
+/// A Python and the modules it has.
+struct Python {
+    program: String,
+    plots: bool,
+}
+
+impl Python {
+    /// `None`, with a line that says so, if there is no numpy.
+    fn find() -> Option<Self> {
+        let named = std::env::var("RUBSCOPE_PYTHON").ok();
+        let program = named.clone().unwrap_or_else(|| "python3".to_string());
+        let has = |module: &str| {
+            let import = format!("import {module}");
+            let tried = Command::new(&program).args(["-c", &import]).output();
+            let has = tried.is_ok_and(|output| output.status.success());
+            assert!(has || named.is_none(), "RUBSCOPE_PYTHON={program} has no {module}");
+            if !has {
+                eprintln!("skipped: {program} has no {module}");
+            }
+            has
+        };
+        has("numpy").then(|| Self { plots: has("matplotlib"), program: program.clone() })
+    }
+
+    /// Runs a text in a folder, with the program of this build first on the path.
+    fn run(&self, text: &str, folder: &Path) -> Output {
+        let built = Path::new(env!("CARGO_BIN_EXE_rubscope")).parent().unwrap().to_path_buf();
+        let path = std::env::var_os("PATH").unwrap_or_default();
+        let path = std::env::join_paths([built].into_iter().chain(std::env::split_paths(&path)));
+        let mut command = Command::new(&self.program);
+        command.args(["-X", "utf8", "-c", text]).current_dir(folder);
+        command.env("PATH", path.unwrap()).env("MPLBACKEND", "Agg").env("MPLCONFIGDIR", folder);
+        command.output().unwrap()
+    }
+
+    /// Runs the block, unless it plots and this Python cannot.
+    fn check(&self, text: &str, shown: Option<&str>, folder: &Path) {
+        if text.contains("matplotlib") && !self.plots {
+            return;
+        }
+        let output = self.run(text, folder);
+        let (printed, errors) = (output.stdout, String::from_utf8_lossy(&output.stderr));
+        assert!(output.status.success(), "{text}\n{errors}");
+        if let Some(shown) = shown {
+            let printed = String::from_utf8(printed).unwrap().replace("\r\n", "\n");
+            assert_eq!(printed, shown, "{text}");
+        }
+    }
+}
+
+#[test]
+fn the_python_of_the_documents_runs() {
+    let Some(python) = Python::find() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let blocks = blocks(&read("docs/python.md"));
+    let mut count = 0;
+    for (at, (language, text)) in blocks.iter().enumerate() {
+        match language.as_str() {
+            "sh" => {
+                let arguments = text.trim_end().strip_prefix("rubscope ").unwrap().split(' ');
+                let run = assert_cmd::cargo::cargo_bin_cmd!("rubscope")
+                    .args(arguments)
+                    .current_dir(folder.path())
+                    .output()
+                    .unwrap();
+                assert!(run.status.success(), "{text}{}", String::from_utf8_lossy(&run.stderr));
+            }
+            "python" => {
+                let after = blocks.get(at + 1).filter(|(language, _)| language == "text");
+                python.check(text, after.map(|(_, text)| text.as_str()), folder.path());
+                count += 1;
+            }
+            _ => {}
+        }
+    }
+    assert!(count >= 5, "docs/python.md has {count} blocks of Python");
+    if python.plots {
+        let picture = std::fs::read(folder.path().join("gaps.png")).unwrap();
+        assert!(picture.starts_with(b"\x89PNG") && picture.len() > 10_000, "Fig. 5 is empty");
+    }
+    // The README's Python reads the same history.
+    for (_, text) in self::blocks(&read("README.md")).iter().filter(|(word, _)| word == "python") {
+        python.check(text, None, folder.path());
+    }
+}
+
+#[test]
+fn the_plot_of_fig_5_has_at_most_six_lines() {
+    let blocks = blocks(&read("docs/python.md"));
+    let plot = blocks.iter().find(|(language, _)| language == "python").unwrap();
+    assert!(plot.1.contains("plt.plot(") && plot.1.lines().count() <= 6, "{}", plot.1);
+}
+
+#[test]
+fn every_array_of_a_history_is_in_the_document() {
+    let text = read("docs/python.md");
+    for column in rubscope::report::History::new(2).columns() {
+        assert!(text.contains(&format!("`{}`", column.name)), "{}", column.name);
+    }
+    for name in ["scene", "command", "version"] {
+        assert!(text.contains(&format!("`{name}`")), "{name}");
+    }
+}
