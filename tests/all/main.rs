@@ -20,6 +20,7 @@ mod event_cases;
 mod event_hard;
 mod event_laws;
 mod event_modal;
+mod examples;
 mod explicit;
 mod explicit_hard;
 mod file_places;
