@@ -76,6 +76,7 @@ mod tui_scenes;
 mod tui_screens;
 mod tui_time;
 mod verdicts;
+mod version;
 
 /// The number of random cases of a law; `PROPTEST_CASES` overrides it.
 fn drawn(cases: u32) -> ProptestConfig {
