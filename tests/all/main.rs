@@ -16,6 +16,7 @@ mod cli_run;
 mod cli_scene;
 mod cli_script;
 mod cli_support;
+mod dependencies;
 mod event_cases;
 mod event_hard;
 mod event_laws;
