@@ -39,6 +39,7 @@ mod hbm_locked;
 mod hbm_slip;
 mod hbm_support;
 mod hbm_time;
+mod house;
 mod live_changes;
 mod live_event;
 mod live_random;
