@@ -9,6 +9,9 @@ use std::process::Command;
 /// again, and makes no other program.
 const SOURCES: [&str; 6] = ["src", "presets", "assets", "build.rs", "Cargo.toml", "Cargo.lock"];
 
+/// Where `cargo package` tells the commit.
+const INFO: &str = ".cargo_vcs_info.json";
+
 /// Digits of a commit, as many as rustc prints.
 const DIGITS: usize = 9;
 
@@ -17,7 +20,8 @@ fn main() {
     let folder = Path::new(".");
     let commit = commit(folder).map_or_else(String::new, |commit| format!(" ({commit})"));
     println!("cargo::rustc-env=RUBSCOPE_VERSION={}{commit}", env!("CARGO_PKG_VERSION"));
-    let watched = SOURCES.iter().map(Into::into).chain(head(folder));
+    // Where it was and is no more, the package was built in the same target folder.
+    let watched = SOURCES.iter().chain([&INFO]).map(Into::into).chain(head(folder));
     for path in watched.filter(|path: &PathBuf| path.exists()) {
         println!("cargo::rerun-if-changed={}", path.display());
     }
@@ -25,7 +29,7 @@ fn main() {
 
 /// The commit of a folder: from the file that `cargo package` adds, else from git.
 pub fn commit(folder: &Path) -> Option<String> {
-    match std::fs::read_to_string(folder.join(".cargo_vcs_info.json")) {
+    match std::fs::read_to_string(folder.join(INFO)) {
         Ok(info) => packaged(&info),
         Err(_) => checked_out(folder),
     }
