@@ -24,7 +24,7 @@ pub struct ManCommand {
 
 impl ManCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
-        let mut whole = Cli::command();
+        let mut whole = Cli::command().version(env!("CARGO_PKG_VERSION"));
         whole.build();
         let command = match &self.command {
             None => whole,

@@ -31,6 +31,10 @@ use clap::{Parser, Subcommand};
 
 use status::Status;
 
+/// Version and, where it is known, commit of the program (`build.rs`), for
+/// `--version`. What is written to files has the version alone.
+const VERSION: &str = env!("RUBSCOPE_VERSION");
+
 /// The result of a command: how it ended, or why it could not run.
 pub type Done = anyhow::Result<Status>;
 
@@ -40,7 +44,7 @@ pub type Done = anyhow::Result<Status>;
 /// SCENE, which is the name of a built-in scene (see `rubscope scenes`) or the
 /// path of a .toml file, and options that change it.
 #[derive(Debug, Parser)]
-#[command(name = "rubscope", version, args_conflicts_with_subcommands = true)]
+#[command(name = "rubscope", version = VERSION, args_conflicts_with_subcommands = true)]
 pub struct Cli {
     #[command(subcommand)]
     command: Option<Command>,

@@ -16,10 +16,12 @@ mod cli_run;
 mod cli_scene;
 mod cli_script;
 mod cli_support;
+mod dependencies;
 mod event_cases;
 mod event_hard;
 mod event_laws;
 mod event_modal;
+mod examples;
 mod explicit;
 mod explicit_hard;
 mod file_places;
@@ -37,6 +39,7 @@ mod hbm_locked;
 mod hbm_slip;
 mod hbm_support;
 mod hbm_time;
+mod house;
 mod live_changes;
 mod live_event;
 mod live_random;
@@ -79,6 +82,7 @@ mod tui_screens;
 mod tui_support;
 mod tui_time;
 mod verdicts;
+mod version;
 
 /// The number of random cases of a law; `PROPTEST_CASES` overrides it.
 fn drawn(cases: u32) -> ProptestConfig {

@@ -1,0 +1,97 @@
+//! CONTRIBUTING.md draws the house; the code is built so, and the files that it
+//! names exist.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn contributing() -> String {
+    fs::read_to_string(root().join("CONTRIBUTING.md")).unwrap()
+}
+
+/// The row of each part of the library in the picture, from the top.
+fn rows() -> BTreeMap<String, usize> {
+    let text = contributing();
+    let picture = text.split("```text\n").nth(1).unwrap().split("```").next().unwrap();
+    let mut rows = BTreeMap::new();
+    for (row, line) in picture.lines().enumerate() {
+        let names = line
+            .split_whitespace()
+            .filter_map(|word| word.strip_suffix('/').or_else(|| word.strip_suffix(".rs")));
+        for name in names {
+            assert!(rows.insert(name.to_string(), row).is_none(), "{name} is drawn twice");
+        }
+    }
+    rows
+}
+
+fn sources(folder: &Path) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            found.extend(sources(&path));
+        } else if path.extension().is_some_and(|end| end == "rs") {
+            found.push(path);
+        }
+    }
+    found
+}
+
+/// The parts that a line of code names; a comment names none.
+fn named(line: &str) -> impl Iterator<Item = &str> {
+    let code = line.split("//").next().unwrap_or_default();
+    code.split("crate::").skip(1).map(|rest| {
+        let end = rest.find(|c: char| !c.is_alphanumeric() && c != '_');
+        &rest[..end.unwrap_or(rest.len())]
+    })
+}
+
+#[test]
+fn every_part_uses_only_what_is_drawn_below_it() {
+    let rows = rows();
+    let mut wrong = Vec::new();
+    let mut uses = 0;
+    for file in sources(&root().join("src")) {
+        let inside = file.strip_prefix(root().join("src")).unwrap();
+        let first = inside.components().next().unwrap().as_os_str().to_str().unwrap();
+        let part = first.trim_end_matches(".rs");
+        if ["main", "lib"].contains(&part) {
+            continue;
+        }
+        let row = *rows.get(part).unwrap_or_else(|| panic!("{part} is not in the picture"));
+        for line in fs::read_to_string(&file).unwrap().lines() {
+            for name in named(line).filter(|&name| name != part) {
+                uses += 1;
+                let below = rows.get(name).is_some_and(|&other| other > row);
+                if !below {
+                    wrong.push(format!("{}: {}", inside.display(), line.trim()));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "not below:\n{}", wrong.join("\n"));
+    assert!(uses > 100, "only {uses} uses were found");
+}
+
+#[test]
+fn every_file_that_is_named_exists() {
+    let text = contributing();
+    let mut seen = 0;
+    for word in text.split('`').skip(1).step_by(2) {
+        let path = word.split([':', ' ']).next().unwrap_or_default();
+        let inside = ["src/", "tests/", "presets/", "assets/", "examples/", "benches/", "fuzz/"]
+            .iter()
+            .any(|folder| path.starts_with(folder));
+        // In capitals: a name that the reader chooses.
+        if inside && !path.contains("NAME") {
+            seen += 1;
+            assert!(root().join(path).exists(), "{path}");
+        }
+    }
+    assert!(seen > 20, "only {seen} files are named");
+}
