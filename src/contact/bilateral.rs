@@ -1,5 +1,5 @@
 //! The paper's law, Eq. (13a): every predicted penetration is closed as an
-//! equality, by a push or by a pull.
+//! equality, by a push or by a pull (docs/theory.md, section 6).
 
 use nalgebra::{DMatrix, DVector};
 

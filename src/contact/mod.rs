@@ -1,10 +1,6 @@
-//! Contact laws, each a value that solves one step on predicted gaps.
-//!
-//! One step predicts gaps `g*` and corrects the displacements by multipliers
-//! `lambda`: the corrected gaps are `g = g* - W lambda`, with
-//! `W = C^T [M/h^2 + D/2h]^-1 C`, Eqs. (12)-(13). A multiplier below zero
-//! pushes. A law is one file, and one
-//! line each of `ContactLaw` and `law`.
+//! Contact laws, each a value that solves one step on predicted gaps: the
+//! corrected gaps are `g = g* - W lambda` (docs/theory.md, section 6). A multiplier
+//! below zero pushes. A law is one file, and one line each of `ContactLaw` and `law`.
 //!
 //! At most one corner of the polygon touches in every ordinary step, so a law
 //! solves two rows by cases; larger sets (very compliant blades, a step too

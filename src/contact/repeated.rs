@@ -1,5 +1,6 @@
 //! Contact rows that nearly repeat each other: the blades of one side of the
 //! polygon, whose gaps differ only as far as the blades bend apart.
+//! (docs/theory.md, section 6.)
 //!
 //! With casing compliance `c`, normals `n_r` and `B_rs = A_r A_s` times the
 //! blade compliance, the matrix of a step is `W = c n n^T + B`, and `B` is a

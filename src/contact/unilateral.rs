@@ -1,5 +1,5 @@
-//! Signorini's law: `g >= 0`, `lambda <= 0`, `g lambda = 0`. A multiplier only
-//! pushes, and only where the gap is closed.
+//! Signorini's law (docs/theory.md, section 2): `g >= 0`, `lambda <= 0`,
+//! `g lambda = 0`. A multiplier only pushes, and only where the gap is closed.
 
 use nalgebra::DMatrix;
 

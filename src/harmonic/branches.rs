@@ -1,5 +1,6 @@
 //! The branches of equilibria over speed, and the speeds where a branch
 //! appears, vanishes, becomes tensile or changes its stability.
+//! (docs/theory.md, section 8.)
 
 use serde::Serialize;
 

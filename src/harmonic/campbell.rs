@@ -1,5 +1,6 @@
 //! Campbell data: frequencies of both structures against rotor speed in the
 //! standing frame, engine-order lines, and the coincidences (30).
+//! (docs/theory.md, section 4.)
 
 use serde::Serialize;
 

@@ -1,5 +1,6 @@
 //! The two phase groups that hold a locked wave between them: a corner of the
-//! polygon of the blade frame, named by blades as the paper does (#6 and #21).
+//! polygon of the blade frame (docs/theory.md, section 3), named by blades as the
+//! paper does (#6 and #21).
 
 use super::HarmonicError;
 use crate::model::ContactPolygon;

@@ -1,15 +1,6 @@
-//! A corner with flexible blades, exactly: one equation for its corner angle.
-//!
-//! Let the contacting blades be `2 Delta` apart in phase, `2 delta` when unbent.
-//! Then `|z| = g0/cos Delta`, the moment arms are `-+tan Delta`, and the
-//! multipliers are those of the closed form with `Delta` for `delta`. Their sum
-//! is `kappa/cos^2 Delta` whatever the damping, and the two blade modes give
-//!
-//! `Delta - delta = -c kappa tan Delta/cos^2 Delta`, `c = softness (2/N) sin^2 delta`.
-//!
-//! So the branch is explicit when followed by its corner angle, folds included:
-//! `kappa = -(Delta - delta) cos^3 Delta/(c sin Delta)`, which turns back where
-//! `sin Delta cos Delta = (Delta - delta)(1 + 2 sin^2 Delta)`.
+//! A corner with flexible blades, exactly: one equation for its corner angle
+//! `Delta` (docs/theory.md, section 8), explicit in it, folds included:
+//! `kappa = -(Delta - delta) cos^3 Delta/(c sin Delta)`, `c` the theory's `chi`.
 
 use std::f64::consts::FRAC_PI_2;
 

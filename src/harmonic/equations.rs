@@ -1,5 +1,6 @@
 //! The harmonic balance equations of a corner, Eq. (27), and their Jacobian,
 //! in numbers of order one.
+//! (docs/theory.md, section 8.)
 //!
 //! Lengths are counted in `g0`, multipliers in `k_c g0` and blade angles in
 //! `n_d k_c g0^2/(m_b omega_bd^2)`, so that `n_d alpha = softness * alpha~`.

@@ -1,6 +1,7 @@
 //! Every equilibrium of the blade frame at a constant speed: rest, a side that
 //! holds the wave alone, and a corner. By symmetry one side and one corner
 //! represent all `N'`.
+//! (docs/theory.md, section 8.)
 
 use nalgebra::Complex;
 use serde::Serialize;

@@ -1,5 +1,6 @@
 //! The linear response of a locked motion to an engine-order excitation of the
 //! blades, with both contacts kept.
+//! (docs/theory.md, section 8.)
 //!
 //! A load `Q cos(E (theta + Phi_i))`, fixed in the standing frame, drives the
 //! modes of `n_d` diameters only where `E` is `+-n_d` modulo `N`, at `E Omega` in

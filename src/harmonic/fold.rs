@@ -1,6 +1,7 @@
 //! Follows the corner branch by arc length, so that it passes a fold and does
 //! not miss it. With blades so soft that the wave opens its corner, the
 //! stiffness is exhausted at some speed, and the branch turns back.
+//! (docs/theory.md, section 8.)
 //!
 //! Points are spaced by arc length in the plane of speed (over `Omega_c`) and
 //! corner angle, and each is exact: the branch is explicit in its corner angle.

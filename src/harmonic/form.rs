@@ -1,4 +1,5 @@
-//! The three forms of the harmonic balance equations of a corner.
+//! The three forms of the harmonic balance equations of a corner
+//! (docs/theory.md, section 8).
 
 use serde::Serialize;
 use strum::{AsRefStr, Display, EnumString, VariantNames};

@@ -1,6 +1,6 @@
 //! Locked motion against speed: two phase groups hold the casing wave in a
-//! corner of the blade frame, where it is an equilibrium (one harmonic is
-//! exact). Newton's method on Eq. (27), started from the closed form.
+//! corner of the blade frame, where it is an equilibrium (docs/theory.md, section 8).
+//! Newton's method on Eq. (27), started from the closed form.
 
 use serde::Serialize;
 

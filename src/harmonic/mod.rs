@@ -1,4 +1,5 @@
-//! Frequency domain: steady states of the frame that turns with the blades.
+//! Frequency domain: steady states of the frame that turns with the blades
+//! (docs/theory.md, section 8).
 //!
 //! In that frame a locked motion is an equilibrium: the wave is a point in a
 //! corner of the `model::ContactPolygon`, one harmonic is exact, and stability
@@ -7,8 +8,8 @@
 //! - the lock, Eq. (27) in three forms: `equations`, `newton`, `locked`
 //!   ([`locked_motion`])
 //! - every equilibrium, its stability and thresholds: `equilibria`, `stability`,
-//!   `branches`; very soft blades: `corner angle`, `fold`
-//! - slip as a map and its Fourier series: `slide`, `slip`, `spectrum`
+//!   `branches`; very soft blades: `corner_angle`, `fold`
+//! - slip as a map and its Fourier series: `saddle_flow`, `slip`, `spectrum`
 //! - coincidences and excitation: `campbell`, `excitation`
 
 mod branches;

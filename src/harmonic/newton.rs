@@ -1,5 +1,6 @@
 //! Newton's method on the equations of a corner, kept on the branch of its
 //! rigid blades.
+//! (docs/theory.md, section 8.)
 //!
 //! Far from the solution Newton's method is unreliable: it may miss the solution or
 //! find another branch, at one speed and not at the next. So a start is accepted

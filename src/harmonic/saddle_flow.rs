@@ -1,17 +1,12 @@
 //! Sliding above the critical speed as a saddle: a rigid blade group holds the
-//! wave on one side of the polygon, and the wave drifts along it. This form
-//! answers what repeats, from corner to corner; `motion::event::slide` has the
-//! form that starts from a state.
+//! wave on one side of the polygon, and the wave drifts along it
+//! (docs/theory.md, section 5). This form answers what repeats, from corner to corner;
+//! `motion::event::slide` has the form that starts from a state.
 //!
-//! With `z = -exp(i psi)(g0 - i y)`, `y` growing backward (towards decreasing
-//! angle), lengths in `g0`, time in `1/omega_c` and `f = nu/omega_c`:
+//! With lengths in `g0`, time in `1/omega_c` and `f = nu/omega_c`:
 //!
 //! - `y'' + 2 zeta y' + (1 - f^2) y = 2 zeta f`
 //! - push `N = f^2 - 1 - 2 f y' - 2 zeta f y`, in `k_c g0`
-//!
-//! Above the critical speed both roots are real, and the equilibrium `y*` is a
-//! saddle. The corners are at `y = -+tan delta`; a crossing keeps `cos 2 delta`
-//! of the speed (plastic impact on the next side).
 
 use crate::model::Machine;
 

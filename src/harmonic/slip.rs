@@ -1,6 +1,7 @@
-//! Slip on a polygon with corners: permanent contact, side after side, with the wave
-//! turning slower than the rotor. Its state is one number, the speed just after a
-//! corner; a lasting slip is a fixed point of the map from corner to corner.
+//! Slip on a polygon with corners: permanent contact, side after side
+//! (docs/theory.md, section 5). Its state is one number, the speed just after a
+//! corner; a lasting slip is a fixed point of the map from corner to corner, and its
+//! wave turns slower than the rotor.
 
 use serde::Serialize;
 use strum::{Display, IntoStaticStr};

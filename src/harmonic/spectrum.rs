@@ -1,12 +1,8 @@
 //! The number of harmonics (23) that a steady state needs. A locked wave needs
-//! exactly one. A slipping wave repeats itself from side to side in the blade
-//! frame, `z(t + T) = exp(-2 i delta) z(t)`, so in the standing frame
-//!
-//! `u_c + i u_s = sum_k Z_k exp(i omega_k t)`, `omega_k = nu - 2 delta/T + 2 pi k/T`,
-//!
-//! with `Z_k` in closed form from the exact orbit. At a corner the velocity
-//! jumps, so `Z_k` falls like `1/k^2` and no finite number is exact; the push
-//! has an impulse there, and its coefficients do not fall.
+//! exactly one; a slipping wave repeats itself from side to side and needs
+//! infinitely many (docs/theory.md, section 8). Its coefficients come in closed form
+//! from the exact orbit. The push has an impulse at a corner, and its coefficients
+//! do not fall.
 
 use std::f64::consts::TAU;
 

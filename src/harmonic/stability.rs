@@ -1,5 +1,6 @@
 //! Stability of an equilibrium of the blade frame: eigenvalues of the motion
 //! linearised about it, with the contacts kept.
+//! (docs/theory.md, section 8.)
 //!
 //! Coordinates `(x, y, alpha_c, alpha_s)`, lengths in `g0`, blade coordinates
 //! in units that make their stiffness one, time in `1/omega_c`: `M w'' + C w' +

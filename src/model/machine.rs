@@ -1,5 +1,6 @@
 //! What follows from the parameters and the nodal diameters alone: frequencies,
-//! modal masses and damping, and the threshold speeds.
+//! modal masses and damping (docs/theory.md, section 1), and the threshold speeds
+//! and multipliers of a lock (docs/theory.md, section 4).
 
 use std::f64::consts::TAU;
 

@@ -1,5 +1,6 @@
 //! The machine: parameters, modes, derived speeds and the contact polygon of
-//! the phase groups. Solvers and file formats are elsewhere.
+//! the phase groups. Solvers and file formats are elsewhere. Symbols and equations:
+//! docs/theory.md, section 1; signs and numbering: docs/theory.md, section 2.
 
 mod machine;
 mod parameters;

@@ -1,5 +1,6 @@
 //! The quantities a user gives: bladed disk, casing and operation, as Table 1
-//! of the paper lists them. Plain data; `scene` defines the allowed values.
+//! of the paper lists them (docs/theory.md, section 1). Plain data; `scene` defines
+//! the allowed values.
 
 use serde::Serialize;
 

@@ -1,10 +1,7 @@
-//! The contact polygon: a regular polygon in the frame of the blades.
-//!
-//! With `z = (u_c + i u_s) exp(-i n_d theta)` and rigid blades, the gap of a
-//! blade of phase `psi` is `g = g0 + Re[z exp(-i psi)]`: the casing wave is a
-//! point inside a polygon whose sides are the *phase groups*, the blades that
-//! share `psi = n_d Phi_i` modulo a turn. There are `N' = N/gcd(N, n_d)` sides,
-//! side `k` with phase `psi_k = 2 pi k/N'` and outward normal `-exp(i psi_k)`.
+//! The contact polygon: a regular polygon in the frame of the blades
+//! (docs/theory.md, section 3). Its sides are the *phase groups*, the blades that
+//! share `psi = n_d Phi_i` modulo a turn; side `k` has the phase `psi_k = 2 pi k/N'`
+//! and the outward normal `-exp(i psi_k)`.
 
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4, PI, TAU};
 

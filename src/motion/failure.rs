@@ -1,4 +1,5 @@
-//! Why a motion stopped before its end, in words made here alone.
+//! Why a motion stopped before its end, in words made here alone. The reasons:
+//! docs/theory.md, section 6.
 
 use crate::tolerances::{
     LARGEST_BLADE_ANGLE, MOST_EVENTS, MOST_EVENTS_AT_ONCE, MOST_LOOKS, MOST_ROWS,

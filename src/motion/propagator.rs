@@ -1,4 +1,5 @@
 //! Closed-form response of one damped coordinate: `y'' + 2 c y' + kappa y = a`.
+//! (docs/theory.md, section 7.)
 //!
 //! Everything follows from two functions: `unit`, the motion from rest with
 //! unit rate, and `ramp`, the motion from rest under `a = 1` (so

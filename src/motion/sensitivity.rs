@@ -1,12 +1,6 @@
 //! Can a verdict be trusted? It is asked three times more, with changes that no
-//! measurement could see.
-//!
-//! What drives the run (the pulse, or the start and the excitation) is made
-//! larger, then smaller, by one part in 1e9. A run may forget its start at a plastic
-//! impact and yet amplify round-off later; so in a third run the rate of the
-//! casing is changed by one part in 1e9 once a casing period, up or down without
-//! a pattern, and the event solver closes gaps ten times finer. Each change has
-//! a separate run, because two in one run may cancel.
+//! measurement could see (docs/theory.md, section 9). Each change has a separate run,
+//! because two in one run may cancel.
 
 use std::f64::consts::TAU;
 

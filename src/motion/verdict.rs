@@ -1,13 +1,6 @@
-//! How a motion lasts, judged in one place for every solver.
-//!
-//! A proven verdict (`Solver::final_verdict`) counts at once:
-//! *decay* where no contact can ever come again, *locked* or *adhesive* where a
-//! corner can never let go. Otherwise the last part of the run is judged:
-//! *locked*: the same two sides (a corner) in contact all through it, without a
-//! break and all compressive. *adhesive*: locked, but some multiplier pulls.
-//! *slip*: contact without a break while the sides change, or along one side,
-//! which nothing but a corner could hold. *bounce*: contacts that come and go.
-//! *decay*: no contact. *failed*: the run stopped early.
+//! How a motion lasts, judged in one place for every solver, as
+//! docs/theory.md, section 9, says: a proven verdict (`Solver::final_verdict`) counts
+//! at once, otherwise the last part of the run is judged.
 
 use serde::Serialize;
 use strum::{AsRefStr, Display, EnumString};

@@ -67,6 +67,7 @@ mod scene_notes;
 mod scenes;
 mod security;
 mod soak;
+mod theory;
 mod tui_help;
 mod tui_hostile;
 mod tui_keys;

@@ -1,9 +1,6 @@
-//! Conservative advancement: how far one may go before a gap can close.
-//!
-//! A gap `g` with rate `g'` and a bound `B >= |g''|` stays open for as long as
-//! `g + g' t - B t^2/2 > 0`. Going that far, looking again and repeating never
-//! passes a contact, however short; near a transversal contact it converges
-//! quadratically, from the open side. No sign is ever tested at samples.
+//! Conservative advancement: how far one may go before a gap can close
+//! (docs/theory.md, section 7). Going that far, looking again and repeating never
+//! passes a contact, however short. No sign is ever tested at samples.
 
 /// Longest time over which `gap + rate t - bend t^2/2` stays above zero, for
 /// `gap, bend >= 0` \[s\].

@@ -1,5 +1,6 @@
 //! The blades of the four-coordinate model: two damped oscillators in the
 //! turning frame, `a = alpha_c + i alpha_s`, that shift the phases of the sides.
+//! (docs/theory.md, section 4.)
 //!
 //! A blade of phase `psi` stands at the angle `alpha = Re[a exp(-i psi)]`, so a
 //! group's gap is `g0 + Re[u exp(-i gamma)]` with `gamma = n_d theta + psi +

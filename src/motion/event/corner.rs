@@ -1,4 +1,5 @@
 //! Locked in a corner: the casing wave turns with the rotor, two sides push.
+//! (docs/theory.md, section 4.)
 //!
 //! With `D = 2 c nu + nu'` and the side half-length `h = g0 tan delta`, a
 //! casing held at rest in the corner of sides `a` and `b` (`psi_b = psi_a +

@@ -1,4 +1,5 @@
 //! Locked in a corner whose two sides move with their blades.
+//! (docs/theory.md, section 7.)
 //!
 //! Both gaps are closed, so the casing follows the blades: with `a exp(-i
 //! psi_m) = xi + i eta` about the bisector `psi_m` of the corner, the wave is
@@ -9,7 +10,7 @@
 //! `D sin tau = -(2 sigma' R' + sigma'' R + 2 c sigma' R) + f sin sigma`, and
 //! turn the blades by `k tan tau (D cos delta + i S sin delta)`,
 //! `k = ratio g0/n_d`. The two unknown accelerations `xi''` and `eta''` are
-//! eliminated; what is left is summed as a power series, as in `series`.
+//! eliminated; what is left is summed as a power series, as in `side_series`.
 
 use super::advancement::curved_step;
 use super::blades::{Blades, Tips};

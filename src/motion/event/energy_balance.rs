@@ -1,5 +1,6 @@
 //! The energy balance: work of pulse and rotor against what is stored,
 //! dissipated and lost in impacts.
+//! (docs/theory.md, section 7.)
 //!
 //! Each part is integrated on its own from the closed-form motion, so that the
 //! balance can fail: dissipation from the exponentials of the flight or by

@@ -1,5 +1,6 @@
 //! Free flight: nothing touches. Two uncoupled oscillators in the standing
 //! frame, in closed form, and a search for the first touch that cannot miss.
+//! (docs/theory.md, section 7.)
 //!
 //! While `|u| < g0` no side can touch, whatever the rotor does: that costs one
 //! comparison. Beyond, the gaps of the nearest sides are advanced on with a

@@ -1,5 +1,6 @@
 //! Plastic impact on one or two sides, solved by cases: no gap may close faster
 //! than zero, impulses only push, and a side that gets one keeps no rate.
+//! (docs/theory.md, section 7.)
 //!
 //! A push on a side at `y` opens it by `1 + ratio y^2`, with the mass of the
 //! blades in the ratio; see `corner_contact` for two sides.

@@ -1,14 +1,14 @@
-//! The event-driven solver: the true motion, mode by mode.
+//! The event-driven solver: the true motion, mode by mode (docs/theory.md, section 7).
 //!
 //! With rigid blades the casing wave is a point in a polygon that turns with
 //! the rotor (`model::ContactPolygon`), and it moves in one of four modes: *free*,
 //! *sliding* along a side, *rocking* into a corner, or *locked* in a corner.
 //! Within a mode the motion is known in closed form (`propagator`) or as a power
-//! series summed to round-off (`series`: pulse or ramp while sliding). With
+//! series summed to round-off (`side_series`: pulse or ramp while sliding). With
 //! blades that move (`blades`) the sides turn a little by themselves; sliding
-//! and locked motion are then power series too (`series`, `held`), and impacts
-//! share their impulse with the blades (`impact`). Each mode looks ahead for its
-//! end with bounds that cannot miss it (`advancement`),
+//! and locked motion are then power series too (`side_series`, `corner_series`), and
+//! impacts share their impulse with the blades (`impact`). Each mode looks ahead for
+//! its end with bounds that cannot miss it (`advancement`),
 //! and the next mode follows from plastic impact and from the pushes by cases
 //! (`transitions`), so that no event is found twice.
 //!

@@ -1,4 +1,5 @@
 //! Rocking into a corner: crossings that accumulate, summed to their limit.
+//! (docs/theory.md, section 5.)
 //!
 //! Next to a corner the casing leaves along one side with speed `v`, is pulled
 //! back by the acceleration `A` of that side, and crosses to the other side,

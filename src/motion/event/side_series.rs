@@ -1,11 +1,5 @@
 //! Sliding while the pulse acts, the speed changes or the blades move, as power
-//! series in time.
-//!
-//! On a side that turns with `mu = nu + n_d alpha'` the motion is
-//! `y'' = (mu^2 - omega_c^2) y - 2 c y' + (2 c mu + mu') g0 - f sin gamma`, the
-//! push `N = (mu^2 - omega_c^2) g0 - 2 mu y' - 2 c mu y - mu' y - f cos gamma`,
-//! and the blades of the side answer with `alpha'' = -2 c_b alpha' - omega_b^2
-//! alpha + (ratio/n_d) N y`. The solutions are analytic; one stretch of them, no
+//! series in time of the equations of docs/theory.md, section 7. One stretch, no
 //! longer than the time of one radian of the fastest rate, is summed to
 //! round-off. A stretch is a polynomial: any instant of it can be asked for,
 //! and sums of its coefficients bound its derivatives.

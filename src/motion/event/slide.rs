@@ -1,10 +1,7 @@
-//! Sliding on one side of the polygon at a constant rotor speed, no pulse.
-//!
-//! With `z = -exp(i psi) (g0 - i y)` the motion along the side is
-//! `y'' + 2 c y' + (omega_c^2 - nu^2) y = 2 c nu g0`, `c = zeta_c omega_c`,
-//! and the side pushes with `N/m = -(omega_c^2 - nu^2) g0 - 2 nu y' - 2 c nu y`.
-//! `y` grows backward, towards decreasing angle: `y = g0 tan delta` is the
-//! corner with the side of next lower phase.
+//! Sliding on one side of the polygon at a constant rotor speed, no pulse: the
+//! motion and the push along a side of docs/theory.md, section 5. `y` grows backward,
+//! towards decreasing angle: `y = g0 tan delta` is the corner with the side of next
+//! lower phase.
 
 use super::advancement::{curved_step, leaving_step};
 use super::parameters::{Drive, Parameters};

@@ -1,4 +1,5 @@
 //! What comes after an event: the choice of the next mode.
+//! (docs/theory.md, section 7.)
 //!
 //! Among the sides that touch without rate, accelerations decide which of them
 //! hold, as a small complementarity problem solved by cases. Where an event says

@@ -1,4 +1,5 @@
-//! One step of a casing held in a corner, with its small parts kept apart.
+//! One step of a casing held in a corner, with its small parts kept apart
+//! (docs/theory.md, section 6).
 //!
 //! The prediction leaves the corner by some `h^2` of the clearance, and a gap
 //! taken from the clearance itself would round that off. In the frame of the

@@ -1,5 +1,6 @@
 //! The correction of one step, Eqs. (11)-(16): which rows penetrate, their
 //! multipliers by the chosen law, and the displacements they change.
+//! (docs/theory.md, section 6.)
 //!
 //! All of it happens in the frame of the blades, at `z = u exp(-i n_d theta)`,
 //! where the sides stand still and only small blade angles turn them.

@@ -1,4 +1,5 @@
-//! Verdicts of the explicit solver that nothing to come can change.
+//! Verdicts of the explicit solver that nothing to come can change
+//! (docs/theory.md, section 9).
 
 use super::{BladeModel, Explicit};
 use crate::motion::Verdict;

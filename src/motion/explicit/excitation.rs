@@ -1,10 +1,6 @@
 //! An engine-order excitation of the blades in the time domain: a torque
-//! `Q cos(E (theta + Phi_i))` on every blade, fixed in the standing frame.
-//!
-//! Only the mode pair whose diameters equal `E` modulo `N`, up to sign, feels
-//! it. With `psi_i = k Phi_i`, `sum_i exp(i psi_i) Q_i` is `(N/2) Q exp(i E theta)`
-//! where `k + E` is a multiple of `N`, plus `(N/2) Q exp(-i E theta)` where
-//! `k - E` is.
+//! `Q cos(E (theta + Phi_i))` on every blade, fixed in the standing frame, which
+//! only some modes feel (docs/theory.md, section 8).
 
 use crate::motion::Rotor;
 use crate::scene::Scene;

@@ -1,9 +1,9 @@
 //! Free flight in blocks, and the turning phase of the rotor.
 //!
-//! Free steps are a linear recurrence, and its discrete energy bounds how far
-//! `|u|` can travel in one step. So many steps as cannot reach the clearance
-//! form a *block*: it is decided on once, looked at wherever asked, and taken
-//! at its end. Looking never changes the trajectory.
+//! The discrete energy bounds how far `|u|` can travel in one step
+//! (docs/theory.md, section 6). So many steps as cannot reach the clearance form a
+//! *block*: it is decided on once, looked at wherever asked, and taken at its end.
+//! Looking never changes the trajectory.
 
 use super::{BladeModel, Coordinate, Explicit, HeldCorner};
 use crate::motion::{ActiveSet, Rotor};

@@ -1,4 +1,5 @@
 //! A lock held by both laws alike: step after step the same corner closes.
+//! (docs/theory.md, section 6.)
 //!
 //! In the frame of the blades the casing then follows from the blade angles
 //! alone (two gaps are zero), and at constant speed one step maps the blade

@@ -1,4 +1,5 @@
 //! Many steps of a linear map at once, by its powers `2^j`.
+//! (docs/theory.md, section 6.)
 //!
 //! A step changes its coordinates by little: `T = 1 + S`, where `S` is small. As
 //! `(1 + S)^2 = 1 + (2 S + S^2)`, squaring the change alone keeps its digits;

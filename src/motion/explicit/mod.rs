@@ -1,10 +1,10 @@
 //! The paper's time solver, Eqs. (8)-(16): explicit central differences with
-//! Lagrange-multiplier contact. First order in the step once contact happens.
+//! Lagrange-multiplier contact (docs/theory.md, section 6). First order in the step
+//! once contact happens.
 //!
 //! Each step predicts free motion, looks for penetrations and corrects them
-//! with one of the two contact laws. `|u*| < g0` means no blade can touch,
-//! whatever its angle; a bound on how far the casing can travel says how many
-//! such steps are safe, and those are done at once (`flight`).
+//! with one of the two contact laws. Free steps (`flight`) and those of a held lock
+//! (`held_corner`) are taken many at once, as plain stepping would take them.
 
 mod blades;
 mod corner_step;

@@ -1,13 +1,7 @@
-//! One linear coordinate under central differences, Eq. (8), in the summed
-//! form that keeps its digits at small steps:
-//!
-//! ```text
-//! (m/h^2 + d/2h) (x[n+1] - x[n]) = (m/h^2 - d/2h) (x[n] - x[n-1]) - k x[n] + F[n]
-//! ```
-//!
-//! which is Eq. (10) with `increment = x[n] - x[n-1]` stored next to `x`. The
-//! scheme is a linear recurrence, so `2^j` free steps are one 2 x 2 matrix
-//! (`leap`).
+//! One linear coordinate under central differences, Eq. (10), in the summed form
+//! that keeps its digits at small steps (docs/theory.md, section 6): the `increment`
+//! `x[n] - x[n-1]` is stored next to `x`. The scheme is a linear recurrence, so `2^j`
+//! free steps are one 2 x 2 matrix (`leap`).
 
 use nalgebra::{Matrix2, Vector2};
 

@@ -1,4 +1,4 @@
-//! Every blade its own coordinate.
+//! Every blade its own coordinate (docs/theory.md, section 1).
 
 use std::f64::consts::TAU;
 use std::sync::Arc;

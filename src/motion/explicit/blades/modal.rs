@@ -1,4 +1,5 @@
-//! The paper's four-coordinate model: the two blade modes of `n_d` diameters.
+//! The paper's four-coordinate model: the two blade modes of `n_d` diameters
+//! (docs/theory.md, section 1).
 
 use std::sync::Arc;
 

@@ -1,0 +1,279 @@
+//! The page of the theory, docs/theory.md: its numbers are those of the program,
+//! every number of its text stands in one of its tables, its formulas survive
+//! Markdown, and the sections that the source cites exist.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+use rubscope::harmonic::{Kind, equilibria, equilibrium};
+use rubscope::model::Machine;
+use rubscope::motion::{Event, Solver, run_to_verdict, to_the_end};
+use rubscope::scene::{ModelSize, Scene};
+use serde_json::Value;
+
+use crate::cli_support::rubscope;
+
+fn page() -> String {
+    std::fs::read_to_string(root().join("docs/theory.md")).unwrap()
+}
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).to_path_buf()
+}
+
+/// The rows, without their bars, of the table whose last column has this title.
+fn table(last: &str) -> Vec<Vec<String>> {
+    let page = page();
+    let cells = |line: &str| -> Vec<String> {
+        line.trim_matches('|').split('|').map(|cell| cell.trim().to_string()).collect()
+    };
+    let lines = page.lines().skip_while(|line| !line.ends_with(&format!("| {last} |")));
+    lines.skip(2).take_while(|line| line.starts_with('|')).map(cells).collect()
+}
+
+/// What stands between the backticks of a cell.
+fn code(cell: &str) -> &str {
+    cell.trim_matches('`')
+}
+
+#[test]
+fn every_command_gives_the_number_of_its_row() {
+    let rows = table("JSON pointer");
+    assert!(rows.len() > 100);
+    let mut printed: HashMap<String, Value> = HashMap::new();
+    for row in rows {
+        let [id, _, value, _, tolerance, command, pointer] = row.as_slice() else {
+            panic!("{row:?}");
+        };
+        let report = printed.entry(command.clone()).or_insert_with(|| {
+            let mut words: Vec<&str> = code(command).split(' ').skip(1).collect();
+            words.push("--json");
+            let output = rubscope(&words);
+            serde_json::from_slice(&output.stdout).unwrap()
+        });
+        let found = report.pointer(code(pointer)).unwrap_or_else(|| panic!("{id}: {pointer}"));
+        if tolerance == "exact" {
+            let stated: Value = serde_json::from_str(code(value)).unwrap();
+            assert_eq!(*found, stated, "{id}");
+        } else {
+            near(id, found.as_f64().unwrap(), value, tolerance);
+        }
+    }
+}
+
+fn near(id: &str, found: f64, value: &str, tolerance: &str) {
+    let (stated, tolerance): (f64, f64) = (value.parse().unwrap(), tolerance.parse().unwrap());
+    assert!((found - stated).abs() <= tolerance, "{id}: {found:e}, the page says {value}");
+}
+
+#[test]
+fn closed_forms_are_those_of_the_library() {
+    let rows = table("library");
+    assert!(rows.len() > 15);
+    for row in rows {
+        let [id, _, value, _, tolerance, _] = row.as_slice() else { panic!("{row:?}") };
+        near(id, closed_form(id), value, tolerance);
+    }
+}
+
+fn machine(diameters: u32, zeta_casing: f64) -> Machine {
+    let mut scene = Scene::base();
+    scene.operation.nodal_diameters = diameters;
+    scene.casing.damping_ratio = zeta_casing;
+    scene.machine()
+}
+
+/// What a row of the second table states, computed.
+fn closed_form(id: &str) -> f64 {
+    let paper = machine(3, 0.05);
+    let (delta, nu) = (paper.polygon.delta, paper.nu(500.0));
+    match id {
+        "delta-3" => delta,
+        "delta-4" => machine(4, 0.05).polygon.delta,
+        "half-side" => paper.polygon.half_side(),
+        "stable-step" => 2.0 / paper.omega_c,
+        "coupling" => {
+            let arm = paper.nodal_diameters * paper.polygon.half_side();
+            paper.casing_mass * arm * arm / paper.blade_modal_mass
+        }
+        "blade-shift" => {
+            let states = equilibria(&machine(3, 0.0), 388.3147, false).unwrap();
+            let corner = states.iter().find(|state| state.kind == Kind::Corner).unwrap();
+            let shifts = corner.eigenvalues_per_s.iter().map(|v| v.im.abs() - paper.omega_bd);
+            shifts.fold(0.0, |most, shift| shift.abs().max(most))
+        }
+        "scheme-closed-a" => scheme(&paper, 500.0, 1e-7)[0],
+        "scheme-closed-b" => scheme(&paper, 500.0, 1e-7)[1],
+        "scheme-closed-1e-6" => scheme(&machine(3, 0.0), 500.0, 1e-6)[0],
+        "largest-step" => delta / nu,
+        "run-down" => {
+            let scene = Scene::builtin("run-down").unwrap();
+            let mut event = Event::new(&scene.checked().unwrap()).unwrap();
+            event.advance(0.06).unwrap();
+            let ended = event.contacts().longest_hold.unwrap().until;
+            event.rotor().speed(ended)
+        }
+        "saddle-place" => {
+            let side = equilibrium(&paper, Kind::Side, 0, 500.0, true).unwrap().unwrap();
+            // Side 0 has the phase zero, and y is the imaginary part of z.
+            side.z_m[1]
+        }
+        "pull-a" | "pull-b" => {
+            let [a, b] = paper.locked_multipliers(500.0).unwrap();
+            let push = if id == "pull-a" { -b } else { -a };
+            push * (2.0 * delta).sin() / paper.casing_mass
+        }
+        "kept" => (2.0 * delta).cos(),
+        "literal-disk" => Scene::base().bladed_disk.damping_ratio / paper.blade_inertia,
+        "literal-casing" => Scene::base().casing.damping_ratio / paper.casing_mass,
+        _ => panic!("no closed form is known for {id}"),
+    }
+}
+
+/// Multipliers of a lock in the explicit scheme at this step, by the page's
+/// `K'` and `D'`.
+fn scheme(machine: &Machine, speed: f64, step: f64) -> [f64; 2] {
+    let turn = machine.nu(speed) * step;
+    let stiff = machine.casing_stiffness
+        - 4.0 * machine.casing_mass * (0.5 * turn).sin().powi(2) / (step * step);
+    let drag = machine.casing_damping * turn.sin() / step;
+    let (sin, cos) = turn.sin_cos();
+    let (stiff, drag) = (stiff * cos + drag * sin, drag * cos - stiff * sin);
+    let (sin, cos) = machine.polygon.delta.sin_cos();
+    let scale = machine.clearance() / (2.0 * cos);
+    [scale * (stiff / cos - drag / sin), scale * (stiff / cos + drag / sin)]
+}
+
+#[test]
+fn no_pulse_locks_late_with_the_damping_of_the_table() {
+    let mut scene = Scene::base().as_reference();
+    scene.solver.end_s = 0.1;
+    scene.solver.model = ModelSize::Rigid;
+    for (zeta, latest) in [(0.05, 0.04), (0.025, 0.06)] {
+        scene.casing.damping_ratio = zeta;
+        let mut locks = 0;
+        for k in 0..200 {
+            scene.operation.pulse_n = 3e3 * 1e4_f64.powf(f64::from(k) / 199.0);
+            let reached = run_to_verdict(&scene.checked().unwrap(), &to_the_end).unwrap();
+            if let Some(lock) = reached.locked_s {
+                locks += 1;
+                assert!(lock < latest, "{zeta}, {} N: {lock}", scene.operation.pulse_n);
+            }
+        }
+        assert!(locks < 40, "few lock, {locks}");
+    }
+}
+
+/// Numbers with three digits or more, without leading and, in whole numbers,
+/// final zeros: the number, and half a unit of its last digit.
+fn numbers(text: &str) -> Vec<(String, f64, f64)> {
+    let mut found = Vec::new();
+    let characters: Vec<char> = text.chars().collect();
+    let is = |at: usize, test: fn(&char) -> bool| characters.get(at).is_some_and(test);
+    let mut at = 0;
+    while at < characters.len() {
+        let start = at;
+        while is(at, |c| c.is_ascii_alphanumeric() || *c == '.')
+            || (at > start
+                && is(at - 1, |c| *c == 'e')
+                && is(at, |c| *c == '-')
+                && is(start, char::is_ascii_digit))
+        {
+            at += 1;
+        }
+        if at == start {
+            at += 1;
+            continue;
+        }
+        let word: String = characters[start..at].iter().collect();
+        let word = word.trim_end_matches('.');
+        let Ok(number) = word.parse::<f64>() else { continue };
+        let (mantissa, exponent) = word.split_once('e').unwrap_or((word, "0"));
+        let (whole, decimals) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+        let all = format!("{whole}{decimals}");
+        let digits = if decimals.is_empty() { all.trim_end_matches('0') } else { &all };
+        if digits.trim_start_matches('0').len() >= 3 {
+            let power = exponent.parse::<i32>().unwrap() - i32::try_from(decimals.len()).unwrap();
+            found.push((word.to_string(), number, 0.5 * 10f64.powi(power)));
+        }
+    }
+    found
+}
+
+#[test]
+fn every_number_of_the_text_is_in_a_table() {
+    let page = page();
+    let (text, tables) = page.split_once("\n## 11 ").unwrap();
+    let tables = tables.split_once("\n## 12 ").unwrap().0;
+    // Values in their unit, in milli, micro, kilo or mega; `half` a unit is that of
+    // the text.
+    let known: Vec<f64> = numbers(tables).into_iter().map(|(_, number, _)| number).collect();
+    let stands = |number: f64, half: f64| {
+        let units = [1.0, 1e-3, 1e-6, 1e3, 1e6];
+        units.iter().any(|unit| known.iter().any(|k| (k / unit - number).abs() <= 1.000_001 * half))
+    };
+    let (_, text) = text.split_once("\n## 1 ").unwrap();
+    let missing: Vec<String> = numbers(text)
+        .into_iter()
+        .filter(|&(_, number, half)| !stands(number, half))
+        .map(|(word, ..)| word)
+        .collect();
+    assert!(missing.is_empty(), "{missing:?}");
+    assert!(numbers(text).len() > 100);
+}
+
+#[test]
+fn formulas_survive_markdown() {
+    let page = page();
+    let mut blocks = 0;
+    for (place, part) in page.split("```").enumerate() {
+        if place % 2 == 1 {
+            blocks += 1;
+            assert!(part.starts_with("math\n"), "{part}");
+            assert_eq!(part.matches('{').count(), part.matches('}').count(), "{part}");
+            assert_eq!(part.matches("\\left").count(), part.matches("\\right").count(), "{part}");
+            continue;
+        }
+        for paragraph in part.split("\n\n") {
+            assert!(paragraph.matches('$').count().is_multiple_of(2), "{paragraph}");
+            for formula in paragraph.split('$').skip(1).step_by(2) {
+                // Markdown takes a backslash before punctuation for itself, and a
+                // formula neither starts nor ends with a space.
+                let mut pairs = formula.chars().zip(formula.chars().skip(1));
+                let eaten = pairs.any(|(a, b)| a == '\\' && b.is_ascii_punctuation());
+                assert!(!eaten && formula.trim() == formula, "{formula}");
+                // A star or an underscore after punctuation may begin emphasis.
+                let emphasis = ["*", "'_", ")_", "}_", "|"];
+                assert!(!emphasis.iter().any(|it| formula.contains(it)), "{formula}");
+            }
+        }
+    }
+    assert!(blocks > 25);
+    assert!(!page.contains("\\operatorname"), "GitHub refuses it");
+}
+
+#[test]
+fn sections_cited_in_the_source_exist() {
+    let page = page();
+    let mut cited = HashMap::new();
+    let mut folders = vec![root().join("src")];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+                continue;
+            }
+            let source = std::fs::read_to_string(&path).unwrap();
+            for citation in source.split("docs/theory.md, section ").skip(1) {
+                let number: String = citation.chars().take_while(char::is_ascii_digit).collect();
+                assert!(page.contains(&format!("\n## {number} ")), "{}: {number}", path.display());
+                *cited.entry(number).or_insert(0) += 1;
+            }
+            assert!(!source.contains("docs/theory.md section"), "{}", path.display());
+        }
+    }
+    for section in 1..=9 {
+        assert!(cited.contains_key(&section.to_string()), "no file cites section {section}");
+    }
+}
