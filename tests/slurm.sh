@@ -1,5 +1,5 @@
 #!/bin/sh
-# The Slurm job array of the README on a real Slurm: one node on the loopback
+# The Slurm job array of docs/commands.md on a real Slurm: one node on the loopback
 # interface, in a temporary directory, with its daemons started here. The parts it
 # computes must merge to the bytes of a single run.
 #
@@ -91,12 +91,12 @@ node=$!
 is_idle() { [ "$(sinfo --noheader --format=%t)" = idle ]; }
 await is_idle || skip "Slurm does not start: $(grep -h -E 'error|fatal' "$work/slurmctld.log" "$work/slurmd.log" | head -1)"
 
-# The job of the README, unchanged, and its options without the share.
+# The job of the document, unchanged, and its options without the share.
 cd "$work/job" || fail "no directory for the job"
 awk '/^```sh$/ { text = ""; inside = 1; next }
      /^```$/   { if (inside && text ~ /^#!\/bin\/sh\n#SBATCH/) { printf "%s", text; exit } inside = 0 }
-     inside    { text = text $0 "\n" }' "$here/README.md" > map.sbatch
-[ -s map.sbatch ] || fail "the README has no job array"
+     inside    { text = text $0 "\n" }' "$here/docs/commands.md" > map.sbatch
+[ -s map.sbatch ] || fail "docs/commands.md has no job array"
 options=$(tr -d '\\\n' < map.sbatch | sed 's/.*rubscope map \(.*\) --threads.*/\1/')
 mkdir bin
 ln -s "$program" bin/rubscope

@@ -93,6 +93,10 @@ const ENVIRONMENT: &[(&str, &str)] = &[
         "The first that is not empty is the locale. If it is not one of UTF-8, or none is set, \
          the explorer draws with ASCII characters only, unless --marker is given.",
     ),
+    (
+        "SSH_CONNECTION, SSH_TTY",
+        "Set: the explorer takes the line for a thin one, unless --line is given.",
+    ),
 ];
 
 /// The files that the program knows by itself.

@@ -162,6 +162,12 @@ impl SceneOptions {
         Ok(Resolved { scene, speeds, pulses })
     }
 
+    /// Every named option, and the key it sets.
+    #[must_use]
+    pub fn keys() -> [(&'static str, &'static str); 10] {
+        Self::default().named().map(|(option, key, _)| (option, key))
+    }
+
     /// Every named option, the key it sets, and its text.
     fn named(&self) -> [(&'static str, &'static str, Option<&String>); 10] {
         [

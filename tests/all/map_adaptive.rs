@@ -1,10 +1,12 @@
-//! The README's table on adaptive maps: each row is computed, in full and
-//! adaptively, with the options it names.
+//! The table of docs/commands.md on adaptive maps: each row is computed, in full
+//! and adaptively, with the options it names.
 
 use serde_json::Value;
 
-/// A row of the table: options, runs, cells, and cells that differ.
+/// A row of the table: options, what they solve with, runs, cells, and cells
+/// that differ.
 struct Row {
+    solver: String,
     options: Vec<String>,
     runs: u64,
     cells: u64,
@@ -17,12 +19,12 @@ fn leading(text: &str) -> u64 {
 }
 
 fn rows() -> Vec<Row> {
-    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
-    let readme = std::fs::read_to_string(path).unwrap();
-    let table = readme.split("| cells | options | runs |").nth(1).unwrap();
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/commands.md");
+    let text = std::fs::read_to_string(path).unwrap();
+    let table = text.split("| cells | solver, law, model, zeta_c | options |").nth(1).unwrap();
     let row = |line: &str| {
         let columns: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
-        let [size, options, runs, differ] = columns[..] else { unreachable!("{line}") };
+        let [size, solver, options, runs, differ] = columns[..] else { unreachable!("{line}") };
         let (across, down) = size.split_once(" x ").unwrap();
         let mut all = vec!["--speed".into(), format!("0:500:{across}")];
         all.extend(["--pulse".into(), format!("0:1e6:{down}")]);
@@ -30,7 +32,8 @@ fn rows() -> Vec<Row> {
         assert!(given.is_some() || options.starts_with("none"), "{line}");
         all.extend(given.unwrap_or_default().split_whitespace().map(String::from));
         let (runs, cells) = runs.split_once(" of ").unwrap();
-        Row { options: all, runs: leading(runs), cells: leading(cells), differ: leading(differ) }
+        let [runs, cells, differ] = [runs, cells, differ].map(leading);
+        Row { solver: solver.to_string(), options: all, runs, cells, differ }
     };
     table.lines().skip(2).take_while(|line| line.starts_with('|')).map(row).collect()
 }
@@ -62,8 +65,11 @@ fn check(row: &Row) {
     let differ = full_cells.iter().zip(&cells).filter(|(a, b)| a != b).count() as u64;
     let runs = adaptive["runs"].as_u64().unwrap();
     assert_eq!(cells.len() as u64, row.cells, "{:?}", row.options);
+    let (by, zeta) = (&full["scene"]["solver"], &full["scene"]["casing"]["damping_ratio"]);
+    let words = ["kind", "contact", "model"].map(|key| by[key].as_str().unwrap());
+    assert_eq!(row.solver, format!("{}, {zeta}", words.join(", ")));
     assert_eq!(full["runs"].as_u64(), Some(row.cells));
-    assert!(near(runs, row.runs), "{:?}: {runs} runs, the README says {}", row.options, row.runs);
+    assert!(near(runs, row.runs), "{:?}: {runs} runs, the document says {}", row.options, row.runs);
     assert!(near(differ, row.differ), "{:?}: {differ} cells differ", row.options);
     if row.options.iter().any(|option| option == "event") && row.differ < 20 {
         // "all the cells that lock": the adaptive map has none of them.
@@ -73,7 +79,7 @@ fn check(row: &Row) {
 }
 
 #[test]
-fn the_first_row_of_the_readme_is_what_the_program_does() {
+fn the_first_row_of_the_table_is_what_the_program_does() {
     let rows = rows();
     assert_eq!(rows.len(), 6);
     check(&rows[0]);
@@ -81,6 +87,6 @@ fn the_first_row_of_the_readme_is_what_the_program_does() {
 
 #[test]
 #[ignore = "80,000 cells, for release builds: cargo test --release -- --ignored"]
-fn every_row_of_the_readme_is_what_the_program_does() {
+fn every_row_of_the_table_is_what_the_program_does() {
     rows().iter().for_each(check);
 }

@@ -1,5 +1,5 @@
 //! The command line of the map: axes, where results go, failures of writing,
-//! the text in the terminal, and the parallel line of the README.
+//! the text in the terminal, and the parallel line of docs/commands.md.
 
 use std::process::Output;
 
@@ -155,18 +155,18 @@ fn an_adaptive_map_says_what_it_saved() {
     assert!(saved > 300, "{said}");
 }
 
-/// The line of the README, with the program in place of its name.
+/// The line of the document, with the program in place of its name.
 #[cfg(unix)]
 #[test]
-fn the_parallel_line_of_the_readme_gives_the_map_of_one_run() {
+fn the_parallel_line_of_the_document_gives_the_map_of_one_run() {
     use std::process::Command;
     if Command::new("parallel").arg("--version").output().is_err() {
         println!("skipped: GNU parallel is not installed");
         return;
     }
-    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
-    let readme = std::fs::read_to_string(path).unwrap();
-    let block = readme
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/commands.md");
+    let text = std::fs::read_to_string(path).unwrap();
+    let block = text
         .split("```sh\n")
         .map(|rest| rest.split("```").next().unwrap())
         .find(|block| block.starts_with("parallel "))

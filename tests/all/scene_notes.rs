@@ -1,4 +1,4 @@
-//! Runs the numbers in the scene notes and in the README that no other test checks.
+//! Runs the numbers in the scene notes and in docs/accuracy.md that no other test checks.
 
 use rubscope::motion::{ActiveSet, Motion, RunReport, Verdict, simulate};
 use rubscope::scene::Scene;

@@ -267,7 +267,7 @@ const VERDICTS: &[Term] = &[
     term(
         "slip",
         "slip",
-        "contact without a break that no corner holds: the groups change, and the wave turns slower than the rotor",
+        "contact without a break that no corner holds: the groups change, and the wave turns slower or faster than the rotor",
         "some g = 0 at every instant",
         Nothing,
     ),

@@ -1,0 +1,146 @@
+//! The fields of the JSON reports, and the columns of the files, in the tables
+//! of docs/commands.md: all of them, and none that is not there.
+
+use std::collections::BTreeSet;
+
+use serde_json::Value;
+
+use super::{Document, read};
+use crate::cli_support::rubscope;
+
+fn names(fields: &[&str]) -> BTreeSet<String> {
+    fields.iter().map(ToString::to_string).collect()
+}
+
+/// The dotted paths of all values; `[]` is each entry of an array.
+fn paths(value: &Value, path: &str, found: &mut BTreeSet<String>) {
+    match value {
+        // The scene has the keys of a scene file.
+        Value::Object(_) if path == "scene" => _ = found.insert(path.to_string()),
+        Value::Object(map) => {
+            for (name, inner) in map {
+                let dot = if path.is_empty() { "" } else { "." };
+                paths(inner, &format!("{path}{dot}{name}"), found);
+            }
+        }
+        Value::Array(entries) => {
+            // An empty one has no fields to tell.
+            entries.iter().for_each(|inner| paths(inner, &format!("{path}[]"), found));
+        }
+        _ => _ = found.insert(path.to_string()),
+    }
+}
+
+fn fields_of(commands: &[&str]) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    for command in commands {
+        let arguments: Vec<&str> = command.split(' ').collect();
+        let output = rubscope(&arguments);
+        let said = String::from_utf8_lossy(&output.stderr);
+        let value: Value = serde_json::from_slice(&output.stdout)
+            .unwrap_or_else(|error| panic!("{command}: {error} {said}"));
+        paths(&value, "", &mut found);
+    }
+    found
+}
+
+/// The names in the first column of the table with this header, without their
+/// code signs.
+fn told(document: &Document, header: &str) -> BTreeSet<String> {
+    let rows = document.table(header);
+    let names = rows.iter().flat_map(|row| row[0].split(", "));
+    names.map(|name| name.trim_matches('`').to_string()).collect()
+}
+
+#[test]
+fn every_field_of_the_reports_is_in_the_documents() {
+    let document = read("docs/commands.md");
+    let map = "map slip --speed 300:500:2 --pulse 2e4:5e4:2 --json";
+    let soft = "--set bladed_disk.stiffness_nm_per_rad=1e-3 --speed";
+    for (header, commands) in [
+        (
+            "| field of `rubscope.run/1` | what it is |",
+            vec![
+                "run --json --at 0.01:operation.pulse_n=10 --at 0.02:pulse --end 0.03",
+                "run half-n --end 0.02 --json",
+                "run --solver event --set bladed_disk.stiffness_nm_per_rad=1e12 --json",
+            ],
+        ),
+        ("| field of `rubscope.map/1` | what it is |", vec![map]),
+        (
+            "| field of `rubscope.precision/1` | what it is |",
+            vec!["precision grazing --finest 1e-6 --repeat 1 --json"],
+        ),
+        (
+            "| field of `rubscope.hbm/1` | what it is |",
+            // The second has a speed without a locked motion.
+            vec!["hbm --json", &format!("hbm {soft} 5e5:7e5:3 --json")],
+        ),
+    ] {
+        let commands: Vec<&str> = commands.to_vec();
+        assert_eq!(told(&document, header), fields_of(&commands), "{header}");
+    }
+    for (view, command) in [
+        ("branches", "--branches --damped".to_string()),
+        ("slip", "slip --slip --zetas 0.01:0.03:3 --speed 300:500:3".to_string()),
+        ("harmonics", "slip --harmonics 2".to_string()),
+        ("campbell", "--campbell --speed 0:500:2".to_string()),
+        ("excitation", "--excitation --set excitation.amplitude_nm=10 --speed 500".to_string()),
+        ("fold", format!("--fold {soft} 400:500:2")),
+    ] {
+        let all = fields_of(&[&format!("hbm {command} --json")]);
+        let base = told(&document, "| field of `rubscope.hbm/1` | what it is |");
+        let own: BTreeSet<String> = all.difference(&base).cloned().collect();
+        let header = format!("| field added by `--{view}` | what it is |");
+        assert_eq!(told(&document, &header), own, "{header}");
+    }
+}
+
+/// The first line of a file that a command writes.
+fn columns_of(arguments: &str, name: &str) -> BTreeSet<String> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(name);
+    let words: Vec<&str> = arguments.split(' ').collect();
+    let output = rubscope(&[&words[..], &["--out", path.to_str().unwrap()]].concat());
+    assert!(output.status.success(), "{arguments}: {}", String::from_utf8_lossy(&output.stderr));
+    let mut reader = csv::Reader::from_path(path).unwrap();
+    reader.headers().unwrap().iter().map(String::from).collect()
+}
+
+#[test]
+fn every_column_of_the_files_is_in_the_documents() {
+    let document = read("docs/commands.md");
+    let gaps: Vec<String> = (1..=22).map(|blade| format!("gap_{blade}_m")).collect();
+    let without_gaps = |columns: BTreeSet<String>| -> BTreeSet<String> {
+        let mut columns: BTreeSet<String> =
+            columns.into_iter().filter(|name| !gaps.contains(name)).collect();
+        columns.insert("gap_I_m".to_string());
+        columns
+    };
+    let history = columns_of("run --end 1e-3 --samples 3 --gaps", "a.csv");
+    assert!(gaps.iter().all(|name| history.contains(name)));
+    let header = "| column of the history | what it is |";
+    assert_eq!(told(&document, header), without_gaps(history));
+    let map = columns_of("map slip --speed 400:500:2 --pulse 1e4:2e4:2 --no-sensitivity", "a.csv");
+    let axes = names(&["speed_rad_s", "pulse_n"]);
+    assert!(axes.is_subset(&map));
+    let header = "| column of a map | what it is |";
+    let told_map = told(&document, header);
+    assert_eq!(told_map, &(&map - &axes) | &names(&["the keys of the two axes"]), "{header}");
+    for (what, command) in [
+        ("`hbm`", "hbm"),
+        ("`hbm --branches`", "hbm --branches"),
+        ("`hbm --fold`", "hbm --fold"),
+        ("`hbm --slip`", "hbm slip --slip"),
+        ("`hbm --slip --zetas`", "hbm slip --slip --zetas 0.01:0.02:2"),
+        ("`hbm --harmonics`", "hbm slip --harmonics 2"),
+        ("`hbm --excitation`", "hbm --excitation --set excitation.amplitude_nm=10"),
+        ("`precision`", "precision grazing --finest 1e-6 --repeat 1"),
+    ] {
+        let rows = document.table("| file of | columns |");
+        let row = rows.iter().find(|row| row[0] == what).unwrap();
+        let told: BTreeSet<String> =
+            row[1].split('`').skip(1).step_by(2).map(String::from).collect();
+        assert_eq!(told, columns_of(command, "a.csv"), "{what}");
+    }
+}

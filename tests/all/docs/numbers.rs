@@ -1,0 +1,153 @@
+//! The numbers of docs/accuracy.md that no other test checks: those outside its
+//! console blocks.
+
+use rubscope::motion::{RunReport, Verdict, simulate};
+use rubscope::scene::Scene;
+
+use super::read;
+use crate::cli_support::rubscope;
+
+fn run(name: &str, changes: &[(&str, &str)]) -> RunReport {
+    simulate(&Scene::builtin(name).unwrap().with(changes).unwrap())
+}
+
+/// The number at the start of a cell.
+fn number(cell: &str) -> f64 {
+    cell.trim_matches('`').split([' ', ',']).next().unwrap().parse().unwrap()
+}
+
+fn close(found: f64, told: f64, part: f64) {
+    assert!((found - told).abs() <= part * told.abs(), "{found}, the document says {told}");
+}
+
+#[test]
+fn impacts_of_the_explicit_solver_are_as_late_as_the_document_says() {
+    let weak = |step: &str| {
+        let changes = [("operation.pulse_n", "2e4"), ("solver.contact", "unilateral")];
+        run("paper-nd3", &[changes[0], changes[1], ("solver.step_s", step)])
+    };
+    let event = run(
+        "paper-nd3",
+        &[("operation.pulse_n", "2e4"), ("solver.contact", "unilateral"), ("solver.kind", "event")],
+    );
+    let header = "| time step | error of the two impact times | error of u_s at 0.1 s |";
+    let rows = read("docs/accuracy.md").table(header);
+    assert_eq!(rows.len(), 4);
+    for row in rows {
+        let found = weak(&number(&row[0]).to_string());
+        let told: Vec<f64> = row[1].split(", ").map(number).collect();
+        for ((one, other), told) in found.impacts.iter().zip(&event.impacts).zip(told) {
+            // One digit, and a tenth of a step is a digit of the last.
+            let late = (one.t_s - other.t_s).abs();
+            assert!((late - told).abs() <= 0.35 * told, "{late}, the document says {told}");
+        }
+        let (found, exact) = (found.r#final.u_s_m, event.r#final.u_s_m);
+        close(100.0 * (found / exact - 1.0).abs(), number(&row[2]), 0.04);
+    }
+}
+
+#[test]
+fn a_lock_of_the_explicit_solver_has_the_forces_of_the_document_and_its_formula() {
+    let scene = Scene::builtin("paper-nd3").unwrap();
+    let machine = scene.machine();
+    let speed = scene.operation.speed_rad_s;
+    let (g0, delta) = (machine.clearance(), machine.polygon.delta);
+    let nu = machine.nu(speed);
+    let (k, d) =
+        (machine.casing_stiffness - nu * nu * machine.casing_mass, machine.casing_damping * nu);
+    // (K + iD) exp(-i nu h).
+    let pushes = |step: f64| {
+        let (sin, cos) = (nu * step).sin_cos();
+        let (k, d) = (k * cos + d * sin, d * cos - k * sin);
+        let half = g0 / (2.0 * delta.cos());
+        [-1.0, 1.0].map(|sign| half * (k / delta.cos() + sign * d / delta.sin()))
+    };
+    let rows = read("docs/accuracy.md").table("| | larger push | smaller push |");
+    assert_eq!(rows.len(), 4);
+    for row in rows {
+        let step = row[0].split("h = ").nth(1).map(number);
+        let told = [number(&row[1]), number(&row[2])];
+        let formula = pushes(step.unwrap_or(0.0));
+        for (found, told) in formula.iter().zip(told) {
+            close(-found, told, 4e-6);
+        }
+        let Some(step) = step else { continue };
+        let changes = [("solver.step_s", &*step.to_string()), ("solver.end_s", "0.02")];
+        let report = run("paper-nd3", &changes);
+        assert_eq!(report.outcome.verdict, Verdict::Locked);
+        for (contact, told) in report.outcome.contacts.iter().zip(told) {
+            close(-contact.multiplier_n, told, 2e-5);
+        }
+    }
+    let step = 1e-7;
+    close(nu * step * k.abs() / d, 0.0017, 0.02);
+    close(pushes(0.0)[0] - pushes(step)[0], 0.155, 0.01);
+}
+
+#[test]
+fn the_bounds_of_the_step_are_those_of_the_document() {
+    let scene = Scene::builtin("paper-nd3").unwrap();
+    assert_eq!(scene.stable_step(), 2.276_257_268_029_927e-3);
+    let document = read("docs/accuracy.md");
+    assert!(document.says("2.276257e-3 s here"));
+    // 0.5 rad a step at this speed is the stability limit.
+    close(0.5 / 3.0 / scene.stable_step(), 73.2, 1e-3);
+    assert!(document.says("Below 73.2 rad/s"));
+    for (step, allowed) in [("2.2762e-3", true), ("2.2763e-3", false)] {
+        let set = [("solver.step_s", step), ("operation.speed_rad_s", "10")];
+        assert_eq!(scene.clone().with(&set).is_ok(), allowed, "{step}");
+    }
+}
+
+#[test]
+fn errors_at_the_end_are_those_of_the_document() {
+    let arguments = ["precision", "--pulse", "20e3", "--repeat", "1", "--json"];
+    let output = rubscope(&arguments);
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let rows = report["rows"].as_array().unwrap();
+    let header = "| solver | step or tolerance | error at the end, in clearances | time |";
+    let told = read("docs/accuracy.md").table(header);
+    assert_eq!(told.len(), 7);
+    for row in told {
+        let [solver, contact, model] = row[0].split(", ").collect::<Vec<_>>()[..] else {
+            unreachable!("{row:?}")
+        };
+        let finest = number(&row[1]);
+        let is = |found: &serde_json::Value| {
+            let by = found["step_s"].as_f64().or(found["tolerance"].as_f64());
+            found["solver"] == solver
+                && found["contact"] == contact
+                && found["model"] == model
+                && by == Some(finest)
+        };
+        let found = rows.iter().find(|found| is(found)).unwrap()["error_final"].as_f64().unwrap();
+        match row[2].as_str() {
+            "reference" => assert_eq!(found, 0.0),
+            told => close(found, number(told), 0.02),
+        }
+    }
+}
+
+#[test]
+fn grazing_pulses_are_sensitive_by_events() {
+    for pulse in ["1e5", "2e5", "3e5", "4e5"] {
+        let changes = [("operation.pulse_n", pulse), ("solver.contact", "unilateral")];
+        let event = [changes[0], changes[1], ("solver.kind", "event")];
+        assert!(run("paper-nd3", &event).outcome.sensitive, "{pulse}");
+    }
+}
+
+#[test]
+fn the_explorer_has_the_lessons_views_and_limits_of_the_document() {
+    let document = read("docs/explorer.md");
+    let text = &document.text;
+    for (place, lesson) in (1..).zip(rubscope::tui::lessons::all()) {
+        assert!(text.contains(&format!("\n{place}. {}\n", lesson.title)), "{}", lesson.title);
+    }
+    let views = text.lines().filter(|line| {
+        line.strip_prefix("### ").is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
+    });
+    assert_eq!(views.count(), rubscope::scene::keys::CHARTS.len());
+    let (columns, rows) = rubscope::tui::terminal::MOST;
+    assert!(document.says(&format!("at most {columns} x {rows}")));
+}
