@@ -42,6 +42,11 @@ impl FiguresCommand {
             .into_iter()
             .map(|number| Ok((number, self.scene(number)?)))
             .collect::<anyhow::Result<_>>()?;
+        // A machine that cannot lock has no Figs. 9 and 10: refused before anything
+        // is written. They cost next to nothing.
+        for (number, scene) in scenes.iter().filter(|(number, _)| *number >= 9) {
+            drawn(*number, scene)?;
+        }
         let shown = self.out.display();
         std::fs::create_dir_all(&self.out).with_context(|| format!("cannot make {shown}"))?;
         for (number, _) in &scenes {
@@ -55,10 +60,7 @@ impl FiguresCommand {
         let bar = output::bar(scenes.len() as u64, "{bar:30} {msg}");
         for (number, scene) in scenes {
             bar.set_message(format!("figure {number}"));
-            // A machine that cannot lock has no Figs. 9 and 10: refused input.
-            let drawn = figure(number, &scene)
-                .map_err(|error| Refusal::because(format!("figure {number}: {error}")))?;
-            if let Some(drawn) = drawn {
+            if let Some(drawn) = drawn(number, &scene)? {
                 bar.suspend(|| self.save(number, &drawn, scene.into_scene(), out))?;
             }
             bar.inc(1);
@@ -118,6 +120,11 @@ impl FiguresCommand {
         }
         Ok(())
     }
+}
+
+/// A figure of a scene.
+fn drawn(number: u32, scene: &CheckedScene) -> Result<Option<Figure>, Refusal> {
+    figure(number, scene).map_err(|error| Refusal::because(format!("figure {number}: {error}")))
 }
 
 /// The name of a figure's files, without their ending.

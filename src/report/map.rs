@@ -145,11 +145,22 @@ pub fn figure(map: &Map, curves: &[overlay::Curve]) -> Figure {
         |axis: &Axis, value| (-0.5..=f64::from(axis.count) - 0.5).contains(&axis.place(value));
     for (curve, colour) in curves.iter().zip([5, 2, 1]) {
         let shown = curve.points.iter().copied().filter(|at| inside(x, at.0) && inside(y, at.1));
-        series.push(Series::new(curve.name, Style::Line(colour), shown));
+        let label = curve.name.replace("Omega", "Ω");
+        series.push(Series::new(label, Style::Line(colour), shown).named(curve.name));
     }
     series.retain(|series| !series.points.is_empty());
     let title = format!("{} ({} contact)", scene.title, scene.solver.contact);
-    Figure::new(title, "", vec![Panel::new("", quantity(x), quantity(y), series)])
+    let conditions = [
+        ("operation.nodal_diameters", format!("n_d = {}", scene.operation.nodal_diameters)),
+        ("casing.damping_ratio", format!("ζ_c = {}", scene.casing.damping_ratio)),
+        ("bladed_disk.damping_ratio", format!("ζ_bd = {}", scene.bladed_disk.damping_ratio)),
+        ("solver.kind", format!("{} solver", scene.solver.kind)),
+        ("solver.model", format!("{} model", scene.solver.model)),
+        ("solver.end_s", format!("runs of {} s", scene.solver.end_s)),
+    ];
+    let fixed = conditions.into_iter().filter(|(path, _)| *path != x.path && *path != y.path);
+    let note = fixed.map(|(_, text)| text).collect::<Vec<_>>().join(", ");
+    Figure::new(title, note, vec![Panel::new("", quantity(x), quantity(y), series)])
 }
 
 /// The character of a cell: a mark for the verdict, its first letter if it is
@@ -243,10 +254,12 @@ fn write_legend(map: &Map, out: &mut dyn Write) -> Result<()> {
         writeln!(out, "{plain}  {verdict}, {means}: {count} of {cells} cells")?;
     }
     if sensitive > 0 {
-        writeln!(
-            out,
-            "A letter (d b s l a f) marks the {sensitive} sensitive cells, where a change of 1e-9"
-        )?;
+        let marked = if sensitive == 1 {
+            "the sensitive cell"
+        } else {
+            &format!("the {sensitive} sensitive cells")
+        };
+        writeln!(out, "A letter (d b s l a f) marks {marked}, where a change of 1e-9")?;
         writeln!(
             out,
             "of the pulse or of the motion changes the verdict or the number of impacts."

@@ -114,11 +114,17 @@ fn explicit(scene: &Scene) -> Result<(), SceneError> {
             "at least {least:e}, for at most {most_steps:e} steps to solver.end_s"
         )));
     }
-    let mut allowed = format!("at most {most:e}");
-    if !is_stable {
-        allowed = format!("above 0 and below the stability limit 2/omega_max, {allowed}");
-    }
-    if most < below(stable) {
+    let (limit, turns) = (below(stable), most < below(stable));
+    let mut allowed = match (is_stable, turns) {
+        (true, _) => format!("at most {most:e}"),
+        (false, false) => {
+            format!("above 0 and below the stability limit 2/omega_max, at most {most:e}")
+        }
+        (false, true) => format!(
+            "above 0 and below the stability limit 2/omega_max, {limit:e}, and at most {most:e}"
+        ),
+    };
+    if turns {
         let fastest = up(fastest);
         allowed.push_str(&format!(
             ", so that the wave turns at most {MOST_TURN} rad a step at {fastest} rad/s"

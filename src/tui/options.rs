@@ -81,7 +81,7 @@ impl ExploreOptions {
         let choice = match given {
             Some(choice) => choice,
             None if plain => ThemeChoice::Mono,
-            // `auto` given as an option means: whatever the config file says.
+            // `auto` given as an option wins over the config file too.
             None if self.theme.is_some() => ThemeChoice::Auto,
             None => config.theme.unwrap_or_default(),
         };

@@ -32,8 +32,8 @@ pub fn zone(scene: &CheckedScene, as_paper: bool) -> Figure {
         let told = panels.first().map(thresholds).unwrap_or_default();
         caption.push(format!(
             "Agrees with the paper: with its algorithm and its Table 1 (a), interaction needs a \
-             speed above Ω_c and a sufficiently large pulse: more than {told}. Nothing lasts at \
-             290 rad/s or below."
+             speed above Ω_c and a sufficiently large pulse: more than {told}. Nothing lasts \
+             below Ω_c."
         ));
         caption.extend(CAPTION.map(String::from));
     }
@@ -62,11 +62,12 @@ fn thresholds(panel: &Panel) -> String {
 }
 
 const CAPTION: [&str; 3] = [
-    "Differs: below Ω_lock everything that lasts is adhesive, held by a multiplier that pulls, which \
+    "Differs: with damping the zone begins a little above Ω_c, at 295 rad/s in (a) and 260 rad/s in \
+     (c); without damping of the casing it would begin at Ω_c, and all locks would push. With it, \
+     below Ω_lock everything that lasts is adhesive, held by a multiplier that pulls, which \
      no contact can do; the paper does not tell it from locked motion. With contact that only \
      pushes (b) the zone is gone, and single cells are left.",
-    "With four nodal diameters and the paper's algorithm (c) the zone begins at Ω_c = 256 rad/s too, \
-     with a threshold of 35 to 61 kN. With contact that only pushes (d) some pulses lock the wave and \
+    "With four nodal diameters and the paper's algorithm (c) the threshold is 35 to 61 kN. With contact that only pushes (d) some pulses lock the wave and \
      others do not, in bands.",
     "Cannot be compared: the scale of the paper's pulses. Figs. 4 to 7 need another setting, without \
      damping of the casing: no one setting gives all of them.",

@@ -13,7 +13,8 @@ use rubscope::scene::Scene;
 use super::{Block, Document, documents};
 
 /// Lines that begin so are in blocks which are not run, and why.
-const NOT_RUN: [(&str, &str); 4] = [
+const NOT_RUN: [(&str, &str); 5] = [
+    ("rubscope run again.toml", "needs what Python wrote; the tests of python run it"),
     ("parallel ", "needs GNU parallel; map_cli runs it where there is one"),
     ("#SBATCH", "needs Slurm; tests/slurm.sh runs it"),
     ("sbatch ", "needs Slurm; tests/slurm.sh runs it"),
