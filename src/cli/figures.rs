@@ -75,7 +75,10 @@ impl FiguresCommand {
         }
         match self.only.iter().find(|number| !NUMBERS.contains(number)) {
             Some(unknown) => Err(Refusal::of("--only", unknown, "numbers from 4 to 10")),
-            None => Ok(self.only.clone()),
+            None => {
+                let asked = |number: &u32| self.only.contains(number);
+                Ok(NUMBERS.into_iter().filter(asked).collect())
+            }
         }
     }
 

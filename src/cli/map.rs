@@ -276,8 +276,8 @@ fn write_file(map: &Map, format: &str, path: &Path) -> std::io::Result<Written> 
         "csv" => report::write_csv(map, out),
         "json" => json::write(&report::MapJson { map, with_time: false }, out),
         "svg" => {
-            let origin =
-                Provenance { command: report::command(&map.plan), scene: map.plan.scene.clone() };
+            let command = report::command(map).option("--out", "map.svg");
+            let origin = Provenance { command, scene: map.plan.scene.clone() };
             svg::write(&report::figure(map, &overlay::curves(&map.plan)), &origin, out)
         }
         _ => part::write(map, out).map(drop),

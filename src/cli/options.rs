@@ -13,7 +13,7 @@ use crate::study::overlay::{PULSE, SPEED};
 /// The scene and the options that change it, on every command.
 #[derive(Args, Clone, Debug, Default)]
 pub struct SceneOptions {
-    /// Built-in scene or path of a .toml file [default: paper-nd3]
+    /// Built-in scene or path of a .toml file [default: paper-nd3; each figure has its own]
     #[arg(value_name = "SCENE", value_parser = Words::scenes(), hide_possible_values = true)]
     scene: Option<String>,
     /// Rotor speed; negative turns the other way [rad/s]

@@ -68,6 +68,7 @@ impl PrecisionCommand {
             let rows = format!("{} rows", measured.rows.len());
             if format == Some("svg") {
                 let figure = report::figure(measured).map_err(Refusal::because)?;
+                let command = command.option("--out", "precision.svg");
                 let origin = Provenance { command, scene: measured.scene.clone() };
                 output::save(path, &rows, out, |out| svg::write(&figure, &origin, out))?;
             } else {

@@ -67,6 +67,10 @@ impl RunCommand {
         if let Some((path, format)) = path {
             let samples = format!("{} samples", history.len());
             let csv = |out: &mut dyn Write| history.write_csv(out);
+            let command = command
+                .option("--samples", self.samples)
+                .flag("--gaps", self.gaps)
+                .option("--out", "history.npz");
             let origin = Provenance { command, scene: scene.clone().into_scene() };
             let npz = |out: &mut dyn Write| npz::write(&history, &origin, out);
             let content: &dyn Fn(&mut dyn Write) -> _ = if format == "csv" { &csv } else { &npz };
@@ -87,10 +91,6 @@ impl RunCommand {
     /// The command that gives the same result again.
     fn command(&self, scene: &Scene) -> CommandLine {
         let start = CommandLine::new("run", scene);
-        let line = self.at.iter().fold(start, |line, change| line.option("--at", change));
-        match &self.out {
-            Some(_) => line.option("--samples", self.samples).flag("--gaps", self.gaps),
-            None => line,
-        }
+        self.at.iter().fold(start, |line, change| line.option("--at", change))
     }
 }

@@ -27,19 +27,21 @@ impl CommandLine {
         differences(base, scene).map(set).fold(start, |line, set| line.option("--set", set))
     }
 
-    /// As `from_base` with the built-in scene that differs in the fewest keys,
-    /// so that the command needs no scene file. Title and note are left out:
-    /// they change nothing that is computed.
+    /// As `from_base` with the built-in scene of the same title, or else the one
+    /// that differs in the fewest keys, so that the command needs no scene file.
+    /// Charts are set too: the scene is the same in every key.
     #[must_use]
     pub fn new(command: &str, scene: &Scene) -> Self {
         let known = |name| Scene::builtin(name).ok().map(|base| (name, base));
-        let nearest = BUILTIN
-            .iter()
-            .filter_map(|builtin| known(builtin.name))
-            .min_by_key(|(_, base)| differences(base, scene).count());
+        let far = |base: &Scene| (base.title != scene.title, differences(base, scene).count());
+        let nearest = BUILTIN.iter().filter_map(|builtin| known(builtin.name));
+        let nearest = nearest.min_by_key(|(_, base)| far(base));
         let (name, base) = nearest.unwrap_or_else(|| (DEFAULT, Scene::base()));
-        let (title, note) = (base.title.clone(), base.note.clone());
-        Self::from_base(command, name, &base, &Scene { title, note, ..scene.clone() })
+        let line = Self::from_base(command, name, &base, scene);
+        match base.view == scene.view {
+            true => line,
+            false => line.option("--set", format!("view.charts={}", scene.view.charts.join(","))),
+        }
     }
 
     /// With an option and its value.
@@ -114,7 +116,7 @@ mod tests {
             CommandLine::new("run", &scene).option("--at", "0.05:pulse").flag("--gaps", true);
         assert_eq!(
             line.to_string(),
-            "rubscope run slip \
+            "rubscope run slip --set 'title=it'\\''s mine' --set 'note=seen on Monday' \
              --set operation.speed_rad_s=-430.0 --at 0.05:pulse --gaps"
         );
     }

@@ -36,6 +36,7 @@ pub fn write_as(
         #[serde(flatten)]
         report: &'a T,
     }
+    let command = command.clone().flag("--json", true);
     write(&Named { schema, program: command.program(), report }, out)
 }
 

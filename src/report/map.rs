@@ -11,7 +11,7 @@ use super::{CommandLine, table};
 use crate::motion::Verdict;
 use crate::scene::{Key, keys};
 use crate::study::figures::{Figure, Panel, Quantity, Series, Style};
-use crate::study::{Axis, Cell, Map, MapPlan, overlay};
+use crate::study::{Axis, Cell, Map, overlay};
 
 /// Most rows of the text map.
 const TEXT_ROWS: usize = 40;
@@ -35,7 +35,7 @@ impl Serialize for MapJson<'_> {
         let Self { map, with_time } = *self;
         let mut object = out.serialize_map(None)?;
         object.serialize_entry("schema", "rubscope.map/1")?;
-        object.serialize_entry("program", &command(&map.plan).program())?;
+        object.serialize_entry("program", &command(map).flag("--json", true).program())?;
         object.serialize_entry("scene", &map.plan.scene)?;
         let names = names(map);
         for (short, name, axis) in [("x", names[0], &map.plan.x), ("y", names[1], &map.plan.y)] {
@@ -46,17 +46,20 @@ impl Serialize for MapJson<'_> {
         object.serialize_entry("sensitive", &Rows { map, value: |cell| cell.sensitive })?;
         object.serialize_entry("wall_s", &with_time.then_some(map.wall_s))?;
         object.serialize_entry("runs", &map.runs)?;
+        object.serialize_entry("adaptive", &map.adaptive)?;
         object.end()
     }
 }
 
-/// The command that gives a map of this plan, whoever computed its cells.
+/// The command that gives this map, whoever computed its cells.
 #[must_use]
-pub fn command(plan: &MapPlan) -> CommandLine {
+pub fn command(map: &Map) -> CommandLine {
+    let plan = &map.plan;
     CommandLine::new("map", &plan.scene)
         .option("--x", &plan.x)
         .option("--y", &plan.y)
         .flag("--no-sensitivity", !plan.sensitivity)
+        .flag("--adaptive", map.adaptive)
 }
 
 /// A value of every cell, in rows; none where nothing is computed.
@@ -206,7 +209,11 @@ pub fn write_text(map: &Map, width: usize, out: &mut dyn Write) -> Result<()> {
     writeln!(out, "{:>INDENT$}{first}{last:>1$}", "", columns.saturating_sub(first.len()))?;
     write_speeds(map, across, columns, out)?;
     if across > 1 || down > 1 {
-        writeln!(out, "Shown is 1 of {across} columns and 1 of {down} rows.")?;
+        let part = |of: usize, noun: &str| match of {
+            1 => format!("every {noun}"),
+            _ => format!("one {noun} of {of}"),
+        };
+        writeln!(out, "Shown is {} and {}.", part(across, "column"), part(down, "row"))?;
     }
     write_legend(map, out)
 }

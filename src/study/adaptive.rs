@@ -24,6 +24,7 @@ impl Map {
     /// Fills the map adaptively; cells inferred without a run are not counted
     /// in `runs`. If stopped early, only cells that were run remain.
     pub fn fill_adaptively(&mut self, progress: &Progress, keep: Keep<'_>) {
+        self.adaptive = true;
         let mut stride = self.coarsest_stride();
         let mut inferred = vec![false; self.cells.len()];
         let coarse: Vec<usize> = self.grid(stride).collect();

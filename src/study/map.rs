@@ -36,6 +36,8 @@ pub struct Map {
     pub plan: MapPlan,
     /// Cells in order; none if not computed.
     pub cells: Cells,
+    /// Whether cells were filled in between others without a run.
+    pub adaptive: bool,
     /// Number of cells that were computed by a run.
     pub runs: u64,
     /// Wall time of this computation \[s\].
@@ -151,7 +153,7 @@ impl Map {
     #[must_use]
     pub fn empty(plan: MapPlan) -> Self {
         let cells = Cells::empty(plan.len());
-        Self { plan, cells, runs: 0, wall_s: 0.0 }
+        Self { plan, cells, adaptive: false, runs: 0, wall_s: 0.0 }
     }
 
     /// Computes the given cells that are still missing, in parallel, and passes

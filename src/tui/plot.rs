@@ -302,8 +302,10 @@ fn is_inside(axis: &ChartAxis, value: f64) -> bool {
     (-1e-9..=1.0 + 1e-9).contains(&part)
 }
 
+/// The nearest sub-pixel. Values that differ by round-off, such as a clearance and
+/// the tick at it, are in the same one also half-way between two.
 fn whole(pixel: f64) -> Option<i64> {
-    pixel.is_finite().then(|| pixel.round().clamp(-1e5, 1e5) as i64)
+    pixel.is_finite().then(|| (pixel + 1e-6).round().clamp(-1e5, 1e5) as i64)
 }
 
 #[cfg(test)]

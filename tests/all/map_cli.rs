@@ -141,7 +141,7 @@ fn the_text_map_fits_marks_the_two_speeds_and_explains_its_signs() {
     assert!(legend.iter().all(|sign| text.contains(sign)), "{text}");
     let wide = rubscope(&["map", "--step", "1e-5", "--speed", "0:1:400", "--pulse", "0:0:1"]);
     let text = String::from_utf8(wide.stdout).unwrap();
-    assert!(text.contains("Shown is 1 of 4 columns and 1 of 1 rows."), "{text}");
+    assert!(text.contains("Shown is one column of 4 and every row."), "{text}");
 }
 
 #[test]

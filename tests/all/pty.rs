@@ -78,7 +78,7 @@ fn a_terminal_of_any_size_is_drawn_as_far_as_is_sensible() {
             (0, 0) => terminal.wait_for(" LOCKED "),
             (1, 1) => terminal.wait_for("r"),
             (_, 3) => terminal.wait_for("rubscope needs 40x12; this is 1000x3"),
-            _ => terminal.wait_for("Locked motion, three nodal diameters"),
+            _ => terminal.wait_for("The paper's scene, three nodal diameters"),
         }
         terminal.send("q");
         assert_eq!(terminal.wait(), 0, "{columns}x{rows}");

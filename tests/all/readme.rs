@@ -10,7 +10,7 @@ use crate::tui_support::Session;
 
 fn open(theme: Theme) -> Session {
     let scene = Scene::builtin("paper-nd3").unwrap();
-    Session::open(120, 36, scene, theme, Marker::Braille)
+    Session::open(120, 40, scene, theme, Marker::Braille)
 }
 
 /// The screen of the default scene some milliseconds after its start.
@@ -33,7 +33,10 @@ fn the_pictures_are_what_the_screen_shows() {
             std::fs::write(&path, &now).unwrap();
         }
         let kept = std::fs::read_to_string(&path).unwrap();
-        assert!(kept == now, "{file} is not what the screen shows: make it again");
+        assert!(
+            kept == now,
+            "{file} is not what the screen shows: RUBSCOPE_PICTURES=write cargo test readme makes it again"
+        );
     }
 }
 
@@ -52,12 +55,12 @@ fn the_first_minute_is_as_it_says() {
     session.press("\n400\n");
     session.press("");
     assert!(header(&session).contains("ADHESIVE"), "{}", header(&session));
-    session.press("uc");
+    session.press("ucr");
     session.press("");
     let both = session.text();
     assert_eq!(session.app.scene.operation.speed_rad_s, 500.0);
     assert!(both.contains("LOCKED") && both.contains("decay"), "{both}");
-    session.press("5");
+    session.press("c5");
     session.press("");
     assert_eq!(session.app.view.word(), "map");
     assert!(session.text().contains("5 map"), "{}", session.text());

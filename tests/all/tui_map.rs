@@ -244,7 +244,7 @@ fn a_map_reads_without_colour_and_in_ascii() {
     session.press("5f");
     let buffer = session.terminal.backend().buffer().clone();
     let filled = |colour| buffer.content.iter().filter(|cell| cell.bg == colour).count();
-    assert!(filled(Color::LightGreen) > 50 && filled(Color::LightRed) > 20);
+    assert!(filled(Color::LightBlue) > 50 && filled(Color::LightRed) > 20);
     assert!(session.text().contains("█ adhesive"), "{}", session.text());
 }
 

@@ -93,10 +93,13 @@ fn with_subscripts(svg: &str) -> String {
             let end = part.find(|c: char| !c.is_alphanumeric()).unwrap_or(part.len());
             let (low, rest) = part.split_at(end);
             // A space at the start of an element would be lost.
-            let rest = rest.replacen(' ', "\u{a0}", usize::from(rest.starts_with(' ')));
+            let (space, rest) = match rest.strip_prefix(' ') {
+                Some(rest) => (4 * FINE, rest),
+                None => (0, rest),
+            };
             let depth = 3 * FINE;
             out.push_str(&format!("<tspan dy=\"{depth}\" font-size=\"75%\">{low}</tspan>"));
-            out.push_str(&format!("<tspan dy=\"-{depth}\">{rest}</tspan>"));
+            out.push_str(&format!("<tspan dx=\"{space}\" dy=\"-{depth}\">{rest}</tspan>"));
         }
         out
     };
@@ -116,7 +119,7 @@ mod tests {
     fn drawn(points: Vec<(f64, f64)>, log: bool) -> String {
         let x = Quantity { log, ..Quantity::SPEED };
         let y = Quantity::new("u_m", "u < [µm]", 1e6);
-        let lines = [Style::Faint, Style::Line(0), Style::Dashed(1)];
+        let lines = [Style::Faint, Style::Line(0), Style::Dashed(1), Style::Dotted(2)];
         let others = [Style::Cells(Verdict::Slip), Style::Discs(2, 5), Style::Dots, Style::Edge];
         let series = |style: &Style| Series::new("a & b", *style, points.clone());
         let series = lines.iter().chain(&others).map(series).collect();

@@ -72,6 +72,9 @@ pub fn draw(panel: &Panel, area: &Area) -> Drawn<()> {
             Style::Dashed(_) => {
                 chart.draw_series(DashedLineSeries::new(points, px(6), px(3), ink))?;
             }
+            Style::Dotted(_) => {
+                chart.draw_series(DashedLineSeries::new(points, px(2), px(3), ink))?;
+            }
             Style::Cells(_) => {
                 let corners = [(-half.0, -half.1), half];
                 let fill = colour(series.style).filled();
@@ -146,6 +149,11 @@ fn draw_sample(style: Style, (left, top): (i32, i32), area: &Area) -> Drawn<()> 
         Style::Dashed(_) => {
             for dash in [0, 11] {
                 area.draw(&Rectangle::new([at(dash, 7), at(dash + 7, 10)], fill.filled()))?;
+            }
+        }
+        Style::Dotted(_) => {
+            for dot in [0, 6, 12] {
+                area.draw(&Rectangle::new([at(dot, 7), at(dot + 3, 10)], fill.filled()))?;
             }
         }
         Style::Discs(_, radius) => area.draw(&Circle::new(at(9, 8), px(radius), fill.filled()))?,

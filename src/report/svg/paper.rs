@@ -67,8 +67,8 @@ pub fn wrapped(text: &str, width: u32) -> Vec<String> {
 
 pub fn colour(style: Style) -> RGBColor {
     let index = match style {
-        Style::Faint => return RGBColor(170, 170, 170),
-        Style::Line(n) | Style::Dashed(n) | Style::Discs(n, _) => n,
+        Style::Faint => return RGBColor(130, 130, 130),
+        Style::Line(n) | Style::Dashed(n) | Style::Dotted(n) | Style::Discs(n, _) => n,
         Style::Cells(verdict) => return colour_of(verdict),
         Style::Dots => return RGBColor(120, 120, 120),
         Style::Edge => return BLACK,

@@ -67,6 +67,8 @@ pub enum Style {
     Line(usize),
     /// A dashed line in the colour of this number.
     Dashed(usize),
+    /// A dotted line in the colour of this number.
+    Dotted(usize),
     /// A thin grey line without a legend.
     Faint,
     /// Cells of a map, in the colour of this verdict.

@@ -34,6 +34,11 @@ fn names(machine: &Machine, sweep: &Sweep) -> [String; 2] {
     })
 }
 
+/// The numbers of a group in the name of a column: "6", "3_14".
+fn plain(group: &str) -> String {
+    group.replace('#', "").replace('+', "_")
+}
+
 /// Fig. 9: the multipliers, as the paper has them and with damping.
 pub fn multipliers(scene: &Scene, as_paper: bool) -> Result<Figure, HarmonicError> {
     let machine = scene.machine();
@@ -44,7 +49,7 @@ pub fn multipliers(scene: &Scene, as_paper: bool) -> Result<Figure, HarmonicErro
     let line = |sweep: &Sweep, group: usize, style: Style, words: &str| {
         let of = |point: &LockedPoint| point.multipliers_n[group];
         let label = format!("λ of {}, {words}", names[group]);
-        series(&label, style, sweep, of).named(format!("lambda_{}_{words}", ["a", "b"][group]))
+        series(&label, style, sweep, of).named(format!("lambda_{}_{words}", plain(&names[group])))
     };
     let lines = vec![
         line(&undamped, 0, Style::Line(0), "undamped"),
@@ -52,7 +57,7 @@ pub fn multipliers(scene: &Scene, as_paper: bool) -> Result<Figure, HarmonicErro
         line(&damped, 0, Style::Line(2), "damped"),
         line(&damped, 1, Style::Dashed(3), "damped"),
     ];
-    let marks = speed_marks(&machine);
+    let marks = speed_marks(scene);
     let panel = Panel { marks, ..Panel::new("", Quantity::SPEED, LAMBDA, lines) };
     let note = format!(
         "n_d = {}, locked between {a} and {b}. Undamped: the paper's equations as printed (27); \
@@ -96,12 +101,11 @@ pub fn amplitudes(scene: &Scene, as_paper: bool) -> Result<Figure, HarmonicError
         let line = |group: usize, label: &str, style| {
             let of = |point: &LockedPoint| point.alpha_rad[group];
             let line = series(&format!("α of {label}, {form}"), style, sweep, of);
-            line.named(format!("alpha_{}_{form}", ["a", "b"][group]))
+            line.named(format!("alpha_{}_{form}", plain(label)))
         };
         [line(0, &a, Style::Line(colour)), line(1, &b, Style::Dashed(colour))]
     };
-    let critical: Vec<Mark> =
-        machine.critical_speed().map(|x| Mark { x, label: "Ω_c" }).into_iter().collect();
+    let critical: Vec<Mark> = speed_marks(scene).into_iter().take(1).collect();
     let panel = |title: &str, y: Quantity, lines: Vec<Series>| Panel {
         marks: critical.clone(),
         ..Panel::new(title, Quantity::SPEED, y, lines)
@@ -129,8 +133,8 @@ pub fn amplitudes(scene: &Scene, as_paper: bool) -> Result<Figure, HarmonicError
             "Agrees with the paper: the amplitudes of the casing do not depend on the speed and \
              belong to one forward wave (u_cc = u_ss = 28.46 µm, u_sc = −u_cs = 96.94 µm); the \
              angles of the blades go through zero at Ω_c.",
-            "Differs: the paper's equation (27) contradicts its equation (19), from which it \
-             follows, in the first two rows: at 500 rad/s #6 is turned by +0.762 µrad in (27) and \
+            "Differs: the paper's equation (27) should follow from its equation (19), and \
+             contradicts it in the first two rows: at 500 rad/s #6 is turned by +0.762 µrad in (27) and \
              by −0.381 µrad in (19). With the two modes of the time-domain model it is \
              −1.404 nrad (c), and only this form agrees with the time-domain solvers.",
             "Cannot be compared: the scales of the paper's picture.",

@@ -14,7 +14,6 @@ mod zone;
 pub use figure::{Figure, Mark, Panel, Quantity, Series, Style};
 
 use crate::harmonic::HarmonicError;
-use crate::model::Machine;
 use crate::scene::{CheckedScene, Scene, SceneError};
 
 /// The numbers of the figures.
@@ -40,13 +39,16 @@ pub fn scene_of(number: u32) -> Result<CheckedScene, SceneError> {
 }
 
 /// The speeds above which the wave is pushed outwards, and above which both
-/// multipliers of a lock push; equal without casing damping.
-fn speed_marks(machine: &Machine) -> Vec<Mark> {
+/// multipliers of a lock push, in the sense in which the rotor turns; equal without
+/// casing damping.
+fn speed_marks(scene: &Scene) -> Vec<Mark> {
+    let machine = scene.machine();
+    let sense = 1_f64.copysign(scene.operation.speed_rad_s);
     let critical = machine.critical_speed();
     let lock = machine.lock_speed().filter(|_| machine.casing_damping_ratio > 0.0);
     [("Ω_c", critical), ("Ω_lock", lock)]
         .into_iter()
-        .filter_map(|(label, speed)| Some(Mark { x: speed?, label }))
+        .filter_map(|(label, speed)| Some(Mark { x: sense * speed?, label }))
         .collect()
 }
 

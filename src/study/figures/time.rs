@@ -110,9 +110,11 @@ pub fn steps(scene: &CheckedScene, as_paper: bool) -> Figure {
     let (mut lines, mut endings, mut told) = (Vec::new(), Vec::new(), String::new());
     for (index, (step, scene)) in at_steps(scene).enumerate() {
         let (report, samples) = sampled(&scene, false);
-        let style = if index + 1 < STEPS.len() { Style::Dashed(index) } else { Style::Line(index) };
+        // As in the paper: dotted, dashed and solid.
+        let style = [Style::Dotted(index), Style::Dashed(index)].get(index).copied();
+        let style = style.unwrap_or(Style::Line(index));
         let line = series(&step_words(step), style, &samples, |sample| sample.state.u[0]);
-        lines.push(line.named(format!("u_c_{step:e}")));
+        lines.push(line.named(format!("u_c_h{step:e}")));
         endings.push(format!("{}: {}", step_words(step), ending(&report)));
         told = note(&scene, &report);
     }
@@ -228,8 +230,8 @@ pub fn response(scene: &CheckedScene, as_paper: bool) -> Figure {
             "Agrees with the paper: from about 0.08 s a forward travelling wave turns with the \
              rotor in the casing, and the bladed disk goes to a static deformation. In (b) it \
              still swings at the end, since its damping is light. (c) has the d_bd = 2 ω_bd ζ_bd \
-             that the paper prints, taken literally beside m_b: the disk is static from the same \
-             instant, as in the paper's Fig. 6(b)."
+             that the paper prints, taken literally beside m_b: the disk comes to rest at about \
+             the same time, as in the paper's Fig. 6(b)."
                 .into(),
         ];
         figure.caption.extend([NOT_COMPARED, OTHER_DAMPING].map(String::from));
@@ -253,7 +255,8 @@ pub fn four_diameters(scene: &CheckedScene, as_paper: bool) -> Figure {
                 .to_string(),
             "Differs: the paper's lock begins at about 0.08 s. No setting that gives this was \
              found that does not depend on the step: 10 to 30 ms is typical. 42 kN locks at 32 to \
-             58 ms at steps of 1 to 0.05 µs and not at all at 0.01 µs; 50 kN locks at every step. \
+             58 ms at steps of 1 to 0.05 µs and not at all at 0.01 µs; 50 kN locks at every step from 1 \
+             to 0.01 µs. \
              The casing has no damping, and the modal stiffness that the printed Ω_c = 256.12 \
              rad/s implies."
                 .to_string(),

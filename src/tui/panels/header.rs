@@ -9,7 +9,8 @@ use crate::tui::app::{App, VerdictText};
 use crate::tui::axis::readable;
 use crate::tui::engine::Limit;
 use crate::tui::text::{columns, print, shorten, spelled_pieces};
-use crate::tui::theme::Role;
+use crate::tui::theme::{Role, Theme};
+use crate::tui::views::map::colour;
 
 /// Columns that the words after the verdict should have, if there are any.
 const DETAIL: usize = 40;
@@ -29,16 +30,22 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
     let look = &app.appearance;
     let first = now_and_end(app, usize::from(area.width));
     let used = spelled_pieces(look, buffer, area, 0, &first);
-    title(app, buffer, area, used);
     let mut parts = pace(app);
-    let doubt = app.disagreement();
+    // In a lesson the title, too, and what another solver finds would be an answer.
+    let asked = app.is_asked();
+    if !asked {
+        title(app, buffer, area, used);
+    }
+    let doubt = app.disagreement().filter(|_| !asked);
     let doubted = doubt.is_some();
     if area.width >= WIDE {
         parts.extend(limits(app));
     } else if !doubted || area.width >= MEDIUM {
         parts.extend(short_limits(app));
     }
-    parts.extend(doubts(app, doubt));
+    if !asked {
+        parts.extend(doubts(app, doubt));
+    }
     if area.width >= WIDE || !doubted {
         parts.extend(solver(app));
     }
@@ -92,7 +99,13 @@ fn now_and_end(app: &App, width: usize) -> Parts {
         now = self::now(app, much);
     }
     now.push((at, quiet));
-    let loud = look.style(words.role).add_modifier(Modifier::BOLD | Modifier::REVERSED);
+    // The colour of the verdict in the map, where it has one.
+    let verdict = app.full_run().map(|run| run.verdict);
+    let verdict = verdict.filter(|verdict| verdict.as_ref().to_uppercase() == words.word);
+    let own = verdict.filter(|_| look.theme != Theme::Mono);
+    let own = own.and_then(|verdict| colour(look, verdict));
+    let style = own.map_or(look.style(words.role), |colour| Style::new().fg(colour));
+    let loud = style.add_modifier(Modifier::BOLD | Modifier::REVERSED);
     now.push((word, loud));
     if !detail.is_empty() {
         now.push((format!(" {detail}"), look.style(words.role)));

@@ -25,8 +25,10 @@ fn anchors(document: &Document) -> Vec<String> {
 /// What the links of a line lead to; code is no link.
 fn targets(line: &str) -> Vec<String> {
     let prose: String = line.split('`').step_by(2).collect::<Vec<_>>().join("code");
-    let after = prose.split("](").skip(1);
-    after.filter_map(|rest| Some(rest.split_once(')')?.0.to_string())).collect()
+    let quoted = ["src=\"", "srcset=\""].map(|start| prose.split(start).skip(1));
+    let pictures = quoted.into_iter().flatten().filter_map(|rest| rest.split_once('"'));
+    let after = prose.split("](").skip(1).filter_map(|rest| rest.split_once(')'));
+    after.chain(pictures).map(|(target, _)| target.to_string()).collect()
 }
 
 #[test]

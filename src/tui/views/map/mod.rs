@@ -4,6 +4,7 @@
 
 mod cells;
 mod picture;
+pub use picture::colour;
 mod plan;
 mod words;
 

@@ -26,10 +26,10 @@ pub fn letters(look: &Appearance) -> bool {
 pub fn colour(look: &Appearance, verdict: Verdict) -> Option<Color> {
     let [dark, light, safe, safe_light] = match verdict {
         Verdict::Decay => return None,
-        Verdict::Locked => [Color::LightGreen, Color::Green, Color::LightBlue, Color::Blue],
+        Verdict::Locked => [Color::LightBlue, Color::Blue, Color::LightBlue, Color::Blue],
         Verdict::Adhesive => [Color::LightRed, Color::Red, Color::LightYellow, Color::Red],
         Verdict::Slip => [Color::LightMagenta, Color::Magenta, Color::White, Color::Black],
-        Verdict::Bounce => [Color::LightCyan, Color::Blue, Color::Cyan, Color::Cyan],
+        Verdict::Bounce => [Color::LightCyan, Color::Cyan, Color::Cyan, Color::Cyan],
         Verdict::Failed => [Color::LightYellow, Color::Yellow, Color::Magenta, Color::Magenta],
     };
     Some(match look.theme {
