@@ -1,5 +1,5 @@
-//! The numbers of docs/accuracy.md that no other test checks: those outside its
-//! console blocks.
+//! The numbers of docs/accuracy.md that no other test checks, those outside its
+//! console blocks, and of the README.
 
 use rubscope::motion::{RunReport, Verdict, simulate};
 use rubscope::scene::Scene;
@@ -150,4 +150,30 @@ fn the_explorer_has_the_lessons_views_and_limits_of_the_document() {
     assert_eq!(views.count(), rubscope::scene::keys::CHARTS.len());
     let (columns, rows) = rubscope::tui::terminal::MOST;
     assert!(document.says(&format!("at most {columns} x {rows}")));
+}
+
+/// The README repeats numbers that the tests above compare with the program.
+#[test]
+fn the_readme_has_the_numbers_of_the_page_on_accuracy() {
+    let (readme, accuracy) = (read("README.md"), read("docs/accuracy.md"));
+    let header = "| time step | error of the two impact times | error of u_s at 0.1 s |";
+    let known = accuracy.table(header);
+    let header = "| solver | step | error of the impact times | error of u_s at 0.1 s, of itself |";
+    let told = readme.table(header);
+    let explicit: Vec<_> = told.iter().filter(|row| row[0] == "explicit").collect();
+    assert_eq!(explicit.len(), 2);
+    for row in explicit {
+        assert!(known.iter().any(|other| other[..] == row[1..]), "{row:?}");
+    }
+    let forces = accuracy.table("| | larger push | smaller push |");
+    for (start, said) in [("explicit, h = 1e-7 s", "pushes of"), ("exact", "exact ones are")] {
+        let row = forces.iter().find(|row| row[0].starts_with(start)).unwrap();
+        let [larger, smaller] = [&row[1], &row[2]].map(|cell| number(cell));
+        assert!(readme.says(&format!("{said} {larger} and {smaller} N")), "{row:?}");
+    }
+    let machine = Scene::builtin("paper-nd3").unwrap().machine();
+    let rounded = |speed: Option<f64>| format!("{:.1} rad/s", speed.unwrap());
+    assert!(readme.says(&format!("**Omega_c**, {} here", rounded(machine.critical_speed()))));
+    assert!(readme.says(&format!("**Omega_lock**, {},", rounded(machine.lock_speed()))));
+    assert!(readme.says(&format!("({:.0} rad/s here)", machine.dangerous_speed().unwrap())));
 }
