@@ -115,19 +115,18 @@ impl HbmCommand {
 
     /// The command that gives the same table again.
     fn command(&self, scene: &Scene) -> CommandLine {
-        let line = CommandLine::new("hbm", scene);
-        let named = |line: CommandLine, name, value: &Option<String>| match value {
-            Some(value) => line.option(name, value),
-            None => line,
-        };
-        let harmonics = self.harmonics.map(|most| most.to_string());
-        let line = named(line, "--speed", self.options.speed());
-        let line = line.option("--form", &self.form).flag("--damped", self.damped);
-        let line = named(line, "--blades", &self.blades);
-        let line = line.flag("--branches", self.branches).flag("--fold", self.fold);
-        let line = named(line.flag("--slip", self.slip), "--zetas", &self.zetas);
-        let line = named(line, "--harmonics", &harmonics);
-        line.flag("--campbell", self.campbell).flag("--excitation", self.excitation)
+        CommandLine::new("hbm", scene)
+            .optional("--speed", self.options.speed())
+            .option("--form", &self.form)
+            .flag("--damped", self.damped)
+            .optional("--blades", self.blades.as_ref())
+            .flag("--branches", self.branches)
+            .flag("--fold", self.fold)
+            .flag("--slip", self.slip)
+            .optional("--zetas", self.zetas.as_ref())
+            .optional("--harmonics", self.harmonics)
+            .flag("--campbell", self.campbell)
+            .flag("--excitation", self.excitation)
     }
 
     fn view(&self) -> Result<HbmView, Refusal> {

@@ -85,8 +85,8 @@ impl SceneOptions {
 
     /// The speed or range given with `--speed`, as it was typed.
     #[must_use]
-    pub fn speed(&self) -> &Option<String> {
-        &self.speed
+    pub fn speed(&self) -> Option<&str> {
+        self.speed.as_deref()
     }
 
     /// The scene that these options describe. A key that had to be changed to

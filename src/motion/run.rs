@@ -122,7 +122,7 @@ impl VerdictReached {
     #[must_use]
     pub fn of(motion: &Motion, verdict: Verdict) -> Self {
         let (log, period) = (motion.contacts(), TAU / motion.machine().omega_c);
-        let locked = matches!(verdict, Verdict::Locked | Verdict::Adhesive);
+        let locked = verdict.is_held();
         Self {
             verdict,
             impact_count: log.impact_count,
@@ -251,7 +251,7 @@ fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) -> RunRepor
     let (log, state) = (motion.contacts(), motion.state());
     let window = LAST_PART * scene.solver.end_s;
     let verdict = verdict_of(motion, window);
-    let locked = matches!(verdict, Verdict::Locked | Verdict::Adhesive);
+    let locked = verdict.is_held();
     let wave_speed_rad_s = match verdict {
         Verdict::Failed | Verdict::Decay => None,
         // It turns with the blades.

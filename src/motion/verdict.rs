@@ -31,10 +31,16 @@ impl Verdict {
     pub const ALL: [Self; 6] =
         [Self::Decay, Self::Bounce, Self::Slip, Self::Locked, Self::Adhesive, Self::Failed];
 
+    /// Whether the same blades hold the wave, by pushes or by a pull.
+    #[must_use]
+    pub fn is_held(self) -> bool {
+        matches!(self, Self::Locked | Self::Adhesive)
+    }
+
     /// Whether the contact at the end has no break: it has a time since when.
     #[must_use]
     pub fn keeps_contact(self) -> bool {
-        matches!(self, Self::Locked | Self::Adhesive | Self::Slip)
+        self.is_held() || self == Self::Slip
     }
 }
 

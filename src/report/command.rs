@@ -51,6 +51,15 @@ impl CommandLine {
         self
     }
 
+    /// With an option and its value, if there is one.
+    #[must_use]
+    pub fn optional(self, name: &str, value: Option<impl Display>) -> Self {
+        match value {
+            Some(value) => self.option(name, value),
+            None => self,
+        }
+    }
+
     /// With an option that has no value, if it is given.
     #[must_use]
     pub fn flag(mut self, name: &str, given: bool) -> Self {

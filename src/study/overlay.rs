@@ -103,13 +103,23 @@ pub fn grazing_pulse(scene: &Scene, most: f64) -> Option<f64> {
     if most <= 0.0 || !touches(most) {
         return None;
     }
-    let (mut free, mut active_set) = (0.0, most);
-    while active_set - free > 1e-12 * active_set {
-        let middle = 0.5 * (free + active_set);
-        if middle <= free || middle >= active_set {
+    Some(bisect(0.0, most, 1e-12, touches))
+}
+
+/// The least value that is enough, between one that is not and one that is, to
+/// this part of itself or to the last bit.
+pub(super) fn bisect(
+    mut less: f64,
+    mut enough: f64,
+    part: f64,
+    mut is_enough: impl FnMut(f64) -> bool,
+) -> f64 {
+    while enough - less > part * enough {
+        let middle = 0.5 * (less + enough);
+        if middle <= less || middle >= enough {
             break;
         }
-        if touches(middle) { active_set = middle } else { free = middle }
+        if is_enough(middle) { enough = middle } else { less = middle }
     }
-    Some(active_set)
+    enough
 }

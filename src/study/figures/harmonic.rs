@@ -1,6 +1,6 @@
 //! Figs. 9 and 10: the locked motion by harmonic balance, against speed.
 
-use super::{Figure, Mark, Panel, Quantity, Series, Style, speed_marks};
+use super::{Figure, Mark, Panel, Quantity, Series, Style, group_name, speed_marks};
 use crate::harmonic::{Form, HarmonicError, LockedPoint, Sweep, locked_motion};
 use crate::model::Machine;
 use crate::scene::Scene;
@@ -28,10 +28,7 @@ fn series(label: &str, style: Style, sweep: &Sweep, of: impl Fn(&LockedPoint) ->
 
 /// The two groups of blades that hold the wave, such as "#6" and "#21".
 fn names(machine: &Machine, sweep: &Sweep) -> [String; 2] {
-    sweep.corner.sides().map(|side| {
-        let blades = machine.polygon.blades_of_side(side);
-        blades.iter().map(|blade| format!("#{blade}")).collect::<Vec<_>>().join("+")
-    })
+    sweep.corner.sides().map(|side| group_name(&machine.polygon.blades_of_side(side)))
 }
 
 /// The numbers of a group in the name of a column: "6", "3_14".

@@ -38,6 +38,11 @@ pub fn scene_of(number: u32) -> Result<CheckedScene, SceneError> {
     Scene::builtin(name_of(number))?.checked()
 }
 
+/// The blades of a phase group, such as "#6" or "#3+#14".
+fn group_name(blades: &[u32]) -> String {
+    blades.iter().map(|blade| format!("#{blade}")).collect::<Vec<_>>().join("+")
+}
+
 /// The speeds above which the wave is pushed outwards, and above which both
 /// multipliers of a lock push, in the sense in which the rotor turns; equal without
 /// casing damping.

@@ -1,6 +1,6 @@
 //! Figs. 4 to 7: one run, or the same run at three time steps.
 
-use super::{Figure, Panel, Quantity, Series, Style};
+use super::{Figure, Panel, Quantity, Series, Style, group_name};
 use crate::motion::{RunReport, Sample, Sampling, Script, simulate, simulate_with};
 use crate::scene::{CheckedScene, SolverKind};
 
@@ -36,11 +36,8 @@ fn sampled(scene: &CheckedScene, gaps: bool) -> (RunReport, Vec<Sample>) {
 
 /// How a run ended: "locked from 76.9 ms on #6 and #21".
 fn ending(report: &RunReport) -> String {
-    let group = |blades: &[u32]| {
-        blades.iter().map(|blade| format!("#{blade}")).collect::<Vec<_>>().join("+")
-    };
     let held: Vec<String> =
-        report.outcome.contacts.iter().map(|contact| group(&contact.blades)).collect();
+        report.outcome.contacts.iter().map(|contact| group_name(&contact.blades)).collect();
     let verdict = report.outcome.verdict;
     match report.outcome.lock_time_s {
         Some(since) => format!("{verdict} from {:.1} ms on {}", 1e3 * since, held.join(" and ")),

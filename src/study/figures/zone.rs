@@ -3,7 +3,7 @@
 use super::{Figure, Panel, Quantity, Series, Style, speed_marks};
 use crate::motion::{Verdict, run_to_verdict, to_the_end};
 use crate::scene::{CheckedScene, ContactLaw, Scene, SolverKind};
-use crate::study::overlay::{PULSE, SPEED};
+use crate::study::overlay::{PULSE, SPEED, bisect};
 use crate::study::{Axis, Map, MapPlan, Progress, Shard};
 
 /// Speeds, from a fifth of that of the scene up to it.
@@ -139,24 +139,19 @@ fn series(scene: Scene) -> Vec<Series> {
 /// by bisection between two cells; none where only few of the largest last, or
 /// every one does.
 fn threshold(map: &Map, column: u32) -> Option<f64> {
-    let lasts = |row: u32| map.at(column, row).is_some_and(|cell| is_lasting(cell.verdict));
+    let lasts = |row: u32| map.at(column, row).is_some_and(|cell| cell.verdict.is_held());
     let rows = map.plan.y.count;
     let lasting = (0..rows).rev().take_while(|row| lasts(*row));
     let above = lasting.skip(LASTING_ROWS - 1).last()?;
     let below = above.checked_sub(1)?;
-    let (mut short, mut enough) = (map.plan.y.value(below), map.plan.y.value(above));
+    let (short, enough) = (map.plan.y.value(below), map.plan.y.value(above));
     let mut scene = map.plan.scene.clone();
     map.plan.x.apply(&mut scene, column).ok()?;
-    while enough - short > THRESHOLD * enough {
-        scene.operation.pulse_n = 0.5 * (short + enough);
-        let reached = run_to_verdict(&scene.checked().ok()?, &to_the_end)?;
-        let end = if is_lasting(reached.verdict) { &mut enough } else { &mut short };
-        *end = scene.operation.pulse_n;
-    }
-    Some(enough)
-}
-
-/// Whether the same blades hold the wave.
-fn is_lasting(verdict: Verdict) -> bool {
-    matches!(verdict, Verdict::Locked | Verdict::Adhesive)
+    let lasts = |force: f64| {
+        scene.operation.pulse_n = force;
+        let scene = scene.checked().ok();
+        let reached = scene.and_then(|scene| run_to_verdict(&scene, &to_the_end));
+        reached.is_some_and(|reached| reached.verdict.is_held())
+    };
+    Some(bisect(short, enough, THRESHOLD, lasts))
 }
