@@ -239,6 +239,10 @@ pub(crate) const ANGLE_LOOK: f64 = 0.125;
 /// change. Beyond, digits are lost less in the map itself.
 pub(crate) const LEAP_SMALL: f64 = 0.25;
 
+/// Growths of a sliding wave, as powers of e, in one leap: beyond, it has gone from
+/// round-off to the clearance. Speed only.
+pub(crate) const LEAP_FOLDS: f64 = 8.0;
+
 /// Part of their phases by which blades of one side that stand alike may
 /// differ: the round-off of the sums that their angles are.
 pub(crate) const SAME_ANGLE: f64 = 1e-13;

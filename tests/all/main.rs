@@ -66,6 +66,7 @@ mod readme;
 mod scene_notes;
 mod scenes;
 mod security;
+mod sliding;
 mod soak;
 mod theory;
 mod tui_help;

@@ -288,6 +288,8 @@ impl<B: BladeModel> Explicit<B> {
             active_set = active_set.with(row.side);
             pulls |= row.lambda > 0.0;
         }
+        let goes_on = self.last_touch + 1 == n && active_set == self.log.active_set;
+        self.same_sides = if goes_on { self.same_sides + 1 } else { 1 };
         self.last_touch = n;
         let t = self.time_of(n);
         self.log.touch(t, active_set);

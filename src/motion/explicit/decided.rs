@@ -1,6 +1,7 @@
 //! Verdicts of the explicit solver that nothing to come can change
 //! (docs/theory.md, section 9).
 
+use super::flight::Held;
 use super::{BladeModel, Explicit};
 use crate::motion::Verdict;
 use crate::tolerances::{HELD_AFTER, LIGHT_BLADES, ROOM_TO_CHANGE};
@@ -13,7 +14,7 @@ impl<B: BladeModel> Explicit<B> {
             Some(Verdict::Failed)
         } else if self.no_contact_to_come() {
             Some(Verdict::Decay)
-        } else if let Some(held) = &self.held {
+        } else if let Some(Held::Corner(held)) = &self.held {
             Some(locked(held.pulls))
         } else if self.blades.held_modes().is_none() {
             self.corner_for_good()

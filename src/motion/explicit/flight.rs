@@ -5,7 +5,9 @@
 //! *block*: it is decided on once, looked at wherever asked, and taken at its end.
 //! Looking never changes the trajectory.
 
-use super::{BladeModel, Coordinate, Explicit, HeldCorner};
+use super::held_corner::HeldCorner;
+use super::held_side::HeldSide;
+use super::{BladeModel, Coordinate, Explicit};
 use crate::motion::{ActiveSet, Rotor};
 use crate::tolerances::{BREAK_STEPS, LARGEST_BLADE_ANGLE, SHORTEST_BLOCK};
 
@@ -31,6 +33,43 @@ impl Block {
     }
 }
 
+/// Sides that close in every step of the open block.
+#[derive(Clone, Debug)]
+pub(super) enum Held {
+    /// A lock.
+    Corner(HeldCorner),
+    /// A wave that slides along one side.
+    Side(HeldSide),
+}
+
+impl Held {
+    /// Multipliers of the step that led to `steps` steps from the start \[N\].
+    pub fn multipliers(&self, steps: u64) -> impl Iterator<Item = (u32, f64)> {
+        let pair = match self {
+            Self::Corner(corner) => {
+                let [a, b] = corner.multipliers(steps);
+                let [first, second] = corner.sides();
+                [Some((first, a)), Some((second, b))]
+            }
+            Self::Side(side) => [Some((side.side, side.multiplier(steps))), None],
+        };
+        pair.into_iter().flatten()
+    }
+
+    /// Sums of the multipliers of the steps after `before`, up to `steps` \[N\].
+    fn sums(&self, before: u64, steps: u64) -> impl Iterator<Item = (u32, f64)> {
+        let pair = match self {
+            Self::Corner(corner) => {
+                let [a, b] = corner.sums(before, steps);
+                let [first, second] = corner.sides();
+                [Some((first, a)), Some((second, b))]
+            }
+            Self::Side(side) => [Some((side.side, side.sum(before, steps))), None],
+        };
+        pair.into_iter().flatten()
+    }
+}
+
 impl<B: BladeModel> Explicit<B> {
     /// Whether a block of steps that cannot touch is open, deciding on one if
     /// it can be long enough to be worth it.
@@ -41,7 +80,6 @@ impl<B: BladeModel> Explicit<B> {
         let clearance = self.machine.polygon.clearance;
         let distance2 = self.u[0].x * self.u[0].x + self.u[1].x * self.u[1].x;
         if self.last_touch == self.n && self.hold() {
-            self.block = Block { length: ENDLESS, used: 0 };
             return true;
         }
         // Blades that are driven do not follow the free recurrence.
@@ -70,8 +108,8 @@ impl<B: BladeModel> Explicit<B> {
         let (used, least) = (self.block.used, self.watch.largest());
         match &self.held {
             _ if used == 0 => least,
-            Some(held) => held.largest_angle(used, least),
-            None => self.blades.peak(used, least),
+            Some(Held::Corner(held)) => held.largest_angle(used, least),
+            _ => self.blades.peak(used, least),
         }
     }
 
@@ -120,8 +158,7 @@ impl<B: BladeModel> Explicit<B> {
             && self.block.used > 0
         {
             self.last_touch = self.n;
-            let latest = held.sides().into_iter().zip(held.multipliers(self.block.used));
-            for (side, lambda) in latest {
+            for (side, lambda) in held.multipliers(self.block.used) {
                 self.touched[side as usize] = self.n;
                 for row in self.rows.iter_mut().filter(|row| row.side == side) {
                     row.lambda = lambda;
@@ -132,30 +169,63 @@ impl<B: BladeModel> Explicit<B> {
         self.block = Block::default();
     }
 
-    /// Keeps what the steps of a held corner did since `before`.
-    fn log_held(&mut self, held: &HeldCorner, before: u64) {
+    /// Begins a block of steps in which the same sides close, if there are enough.
+    fn hold(&mut self) -> bool {
+        if let Some(corner) = self.hold_corner() {
+            self.held = Some(Held::Corner(corner));
+            self.block = Block { length: ENDLESS, used: 0 };
+        } else if let Some(side) = self.hold_side() {
+            let length = side.length;
+            if length < SHORTEST_BLOCK {
+                self.slide_tried = self.n + length;
+                return false;
+            }
+            self.held = Some(Held::Side(side));
+            self.block = Block { length, used: 0 };
+        }
+        self.held.is_some()
+    }
+
+    /// Whether neither pulse nor ramp nor excitation acts from now on.
+    pub(super) fn is_steady(&self) -> bool {
+        let after_pulse =
+            self.pulse.force == 0.0 || self.time_of(self.n) > self.pulse.end + self.step;
+        after_pulse && self.rotor.ramp() == 0.0 && self.excitation.is_none()
+    }
+
+    /// Keeps what the steps of held sides did since `before`.
+    fn log_held(&mut self, held: &Held, before: u64) {
         let (used, t) = (self.block.used, self.time_of(self.steps_taken()));
-        for (side, sum) in held.sides().into_iter().zip(held.sums(before, used)) {
+        for (side, sum) in held.sums(before, used) {
             self.impulses[side as usize] += sum * self.step;
         }
         self.log.touch(t, self.log.active_set);
-        if held.pulls {
-            self.log.tensile_steps += used - before;
-            self.log.last_tensile = Some(t);
+        match held {
+            Held::Corner(corner) if corner.pulls => {
+                self.log.tensile_steps += used - before;
+                self.log.last_tensile = Some(t);
+            }
+            Held::Corner(_) => {}
+            Held::Side(side) => {
+                let deepest = side.deepest(before, used);
+                self.deepest_predicted = self.deepest_predicted.max(deepest);
+            }
         }
     }
 
     /// Coordinates at the latest step, inside a block or not.
     pub(super) fn materialized(&self) -> ([Coordinate; 2], B) {
-        if let Some(held) = self.held.as_ref().filter(|_| self.block.used > 0) {
-            return self.held_at(held, self.block.used);
-        }
         let mut blades = self.blades.clone();
-        if self.block.used == 0 {
-            return (self.u, blades);
+        let used = self.block.used;
+        match &self.held {
+            _ if used == 0 => (self.u, blades),
+            Some(Held::Corner(corner)) => self.held_at(corner, used),
+            Some(Held::Side(side)) => (self.along_side(side, used), blades),
+            None => {
+                blades.skip(used);
+                (self.u.map(|coordinate| self.casing.skip(coordinate, used)), blades)
+            }
         }
-        blades.skip(self.block.used);
-        (self.u.map(|coordinate| self.casing.skip(coordinate, self.block.used)), blades)
     }
 }
 
@@ -171,6 +241,11 @@ pub(super) struct Phasor {
 
 const TABLE: u64 = 64;
 
+fn direction(n: u64, rotor: &Rotor, diameters: f64, step: f64) -> (f64, f64) {
+    let (sin, cos) = (diameters * rotor.angle(n as f64 * step)).sin_cos();
+    (cos, sin)
+}
+
 impl Phasor {
     pub(super) fn new(rotor: &Rotor, diameters: f64, step: f64) -> Self {
         let entry = |j: u64| {
@@ -182,21 +257,23 @@ impl Phasor {
         Self { table, block: u64::MAX, at_block: (1.0, 0.0) }
     }
 
-    /// `(cos n_d theta, sin n_d theta)` at step `n`.
+    /// `(cos n_d theta, sin n_d theta)` at step `n`, for steps in a row.
     pub(super) fn at(&mut self, n: u64, rotor: &Rotor, diameters: f64, step: f64) -> (f64, f64) {
-        let exact = |n: u64| {
-            let (sin, cos) = (diameters * rotor.angle(n as f64 * step)).sin_cos();
-            (cos, sin)
-        };
-        if self.table.is_empty() {
-            return exact(n);
-        }
         if n / TABLE != self.block {
             self.block = n / TABLE;
-            self.at_block = exact(self.block * TABLE);
+            self.at_block = direction(self.block * TABLE, rotor, diameters, step);
         }
-        let (c, s) = self.at_block;
-        let (dc, ds) = self.table[(n % TABLE) as usize];
-        (c * dc - s * ds, s * dc + c * ds)
+        self.from_block(self.at_block, n).unwrap_or_else(|| direction(n, rotor, diameters, step))
+    }
+
+    /// The same, for a step anywhere.
+    pub(super) fn once(&self, n: u64, rotor: &Rotor, diameters: f64, step: f64) -> (f64, f64) {
+        let block = direction(n / TABLE * TABLE, rotor, diameters, step);
+        self.from_block(block, n).unwrap_or_else(|| direction(n, rotor, diameters, step))
+    }
+
+    fn from_block(&self, (c, s): (f64, f64), n: u64) -> Option<(f64, f64)> {
+        let &(dc, ds) = self.table.get((n % TABLE) as usize)?;
+        Some((c * dc - s * ds, s * dc + c * ds))
     }
 }

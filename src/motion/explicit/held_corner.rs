@@ -120,25 +120,21 @@ fn top([mut low, mut high]: [u64; 2], value: impl Fn(u64) -> f64) -> f64 {
 impl<B: BladeModel> Explicit<B> {
     /// Makes the map, if a corner has been held long enough and the map can be
     /// trusted for all later steps.
-    pub(super) fn hold(&mut self) -> bool {
-        let Some(sides) = self.steady_corner() else { return false };
+    pub(super) fn hold_corner(&mut self) -> Option<HeldCorner> {
+        let sides = self.steady_corner()?;
         let since = ((self.log.since / self.step) as u64).max(self.hold_tried);
         if self.n < since + HELD_AFTER {
-            return false;
+            return None;
         }
         self.hold_tried = self.n + HELD_AGAIN;
-        self.held = self.make_map(sides);
-        self.held.is_some()
+        self.make_map(sides)
     }
 
     /// The corner in contact in this step, if neither pulse nor ramp nor
     /// excitation acts on it.
     pub(super) fn steady_corner(&self) -> Option<[u32; 2]> {
         let ActiveSet::Corner(a, b) = self.log.active_set else { return None };
-        let steady = self.rotor.ramp() == 0.0 && self.excitation.is_none();
-        let after_pulse =
-            self.pulse.force == 0.0 || self.time_of(self.n) > self.pulse.end + self.step;
-        (steady && after_pulse && self.last_touch == self.n).then_some([a, b])
+        (self.is_steady() && self.last_touch == self.n).then_some([a, b])
     }
 
     fn make_map(&self, sides: [u32; 2]) -> Option<HeldCorner> {
@@ -201,9 +197,8 @@ impl<B: BladeModel> Explicit<B> {
         let modes = held.modes(steps);
         let mut blades = self.blades.clone();
         blades.set_held_modes(as_coordinates(modes));
-        let mut phasor = self.phasor.clone();
         let diameters = self.machine.nodal_diameters;
-        let (c, s) = phasor.at(self.n + steps, &self.rotor, diameters, self.step);
+        let (c, s) = self.phasor.once(self.n + steps, &self.rotor, diameters, self.step);
         let (place, change) = held.step.casing(modes);
         let u = [
             Coordinate { x: place.re * c - place.im * s, increment: change.re * c - change.im * s },

@@ -13,7 +13,7 @@ use crate::tolerances::LEAP_SMALL;
 use nalgebra::{SMatrix, SVector};
 
 /// Largest number of steps that can be taken at once, as a power of two.
-const LARGEST: usize = 40;
+pub(super) const LARGEST: usize = 40;
 /// Powers of a map of `N` coordinates.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Leap<const N: usize> {
@@ -42,6 +42,14 @@ impl<const N: usize> Leap<N> {
             powers.push(last * last);
         }
         Self { changes: changes.into(), powers: powers.into() }
+    }
+
+    /// The coordinates `2^exponent` steps on, for an exponent up to `LARGEST`.
+    pub fn doubled(&self, at: SVector<f64, N>, exponent: usize) -> SVector<f64, N> {
+        match self.changes.get(exponent) {
+            Some(change) => at + change * at,
+            None => self.powers[exponent + 1 - self.changes.len()] * at,
+        }
     }
 
     /// The coordinates `steps` steps on.

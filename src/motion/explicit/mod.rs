@@ -13,9 +13,11 @@ mod decided;
 mod excitation;
 mod flight;
 mod held_corner;
+mod held_side;
 mod leap;
 mod oscillator;
 mod parameters;
+mod side_map;
 mod watch;
 
 pub use blades::{BladeModel, FullBlades, ModalBlades, RigidBlades};
@@ -33,8 +35,8 @@ use crate::model::Machine;
 use crate::scene::CheckedScene;
 use crate::tolerances::{BREAK_STEPS, UPDATES_UNASKED};
 use correct::ConstraintRow;
-use flight::{Block, Phasor};
-use held_corner::HeldCorner;
+use flight::{Block, Held, Phasor};
+use side_map::SideMap;
 use watch::Watch;
 
 /// The explicit solver on one size of bladed disk.
@@ -59,10 +61,16 @@ pub struct Explicit<B: BladeModel> {
     blades: B,
     /// Free steps already decided on, not yet taken; see `flight`.
     block: Block,
-    /// The corner that the open block holds, if it is one.
-    held: Option<HeldCorner>,
+    /// The sides that the open block holds, if it is in contact.
+    held: Option<Held>,
     /// Step before which a corner is not tried to be held.
     hold_tried: u64,
+    /// The same for a side.
+    slide_tried: u64,
+    /// The map of a side at this speed, once asked for.
+    side_map: Option<Arc<SideMap>>,
+    /// Steps in a row until the latest contact with the same sides.
+    same_sides: u64,
     phasor: Phasor,
     /// Step of the latest contact of each side, from 1; 0 for never.
     touched: Vec<u64>,
@@ -125,6 +133,9 @@ impl<B: BladeModel> Explicit<B> {
             block: Block::default(),
             held: None,
             hold_tried: 0,
+            slide_tried: 0,
+            side_map: None,
+            same_sides: 0,
             last_touch: 0,
             near: 0,
             rows: Vec::with_capacity(8),
@@ -204,6 +215,8 @@ impl<B: BladeModel> Explicit<B> {
     fn interrupt(&mut self) {
         self.close_block();
         self.hold_tried = self.n;
+        self.slide_tried = self.n;
+        self.same_sides = 0;
     }
 }
 
@@ -271,7 +284,7 @@ impl<B: BladeModel> Solver for Explicit<B> {
         }
         let mut sums: Vec<(u32, f64)> = Vec::new();
         if let Some(held) = self.held.as_ref().filter(|_| self.block.used() > 0) {
-            sums.extend(held.sides().into_iter().zip(held.multipliers(self.block.used())));
+            sums.extend(held.multipliers(self.block.used()));
             super::contacts::in_phase_order(&self.machine.polygon, &mut sums);
             return sums;
         }
@@ -363,14 +376,16 @@ impl<B: BladeModel> Solver for Explicit<B> {
         self.interrupt();
         self.rotor.change(self.time(), speed, ramp);
         self.phasor = Phasor::new(&self.rotor, self.machine.nodal_diameters, self.step);
+        self.side_map = None;
     }
 
     /// In a held corner the casing follows the blades: it has no free rate.
     fn scale_rate(&mut self, factor: f64) {
-        if self.held.is_some() {
+        if matches!(self.held, Some(Held::Corner(_))) {
             return;
         }
         self.close_block();
+        self.same_sides = 0;
         for coordinate in &mut self.u {
             coordinate.increment *= factor;
         }

@@ -29,6 +29,7 @@ impl<B: BladeModel> Explicit<B> {
             machine.casing_stiffness,
             self.step,
         );
+        self.side_map = None;
         self.machine = machine;
         self.law = contact::law(scene.solver.contact);
         self.excitation = EngineOrderTorque::of(scene);

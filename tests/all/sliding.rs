@@ -1,0 +1,95 @@
+//! A wave that slides along rigid sides, taken in leaps, against plain stepping in
+//! twice the digits, over whole runs of random scenes.
+
+use crate::plain::compare::Pair;
+use crate::plain::scenes::scene;
+
+/// The `k`th number between 0 and 1 of a seed.
+fn random(seed: u64, k: u64) -> f64 {
+    let bits = (seed * 1000 + k).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    let bits = (bits ^ bits >> 29).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    (bits ^ bits >> 32) as f64 / u64::MAX as f64
+}
+
+fn pick<T: Copy>(values: &[T], part: f64) -> T {
+    values[((values.len() as f64 * part) as usize).min(values.len() - 1)]
+}
+
+/// Pulses that make contact, at any speed, with few and many sides.
+fn random_pair(seed: u64) -> Pair {
+    let part = |k| random(seed, k);
+    let diameters = pick(&[1_u32, 2, 3, 4], part(6));
+    let speed = (150.0 + 450.0 * part(1)) * 3.0 / f64::from(diameters);
+    let number = |value: f64| value.to_string();
+    Pair::new(&scene(&[
+        ("solver.model", "rigid"),
+        ("solver.contact", pick(&["unilateral", "bilateral"], part(7))),
+        ("bladed_disk.blades", pick(&["3", "5", "7", "13", "22", "40", "66"], part(5))),
+        ("operation.nodal_diameters", &diameters.to_string()),
+        ("operation.speed_rad_s", &number(if part(8) < 0.2 { -speed } else { speed })),
+        ("casing.damping_ratio", pick(&["0", "0.003", "0.01", "0.05"], part(2))),
+        ("operation.pulse_n", &number(4e3 * 50_f64.powf(part(3)))),
+        ("solver.step_s", &number(1e-6 * 5_f64.powf(part(4)))),
+    ]))
+}
+
+#[test]
+fn whole_runs_differ_by_round_off_alone() {
+    let mut slid = 0;
+    for seed in 0..80 {
+        let mut pair = random_pair(seed);
+        for look in 1..=24 {
+            if pair.advance(f64::from(look) * 4e-4).is_err() || pair.is_chaotic() {
+                break;
+            }
+            pair.check(&format!("seed {seed}"));
+            slid += pair.motion.contacts().active_set.sides().count() % 2;
+        }
+    }
+    assert!(slid > 100, "{slid}");
+}
+
+/// The same machine, put on a side, where it moves with `rate` clearances a radian of
+/// the casing against the blades.
+fn on_a_side(pair: &Pair, part: f64, rate: f64) -> Pair {
+    let mut scene = pair.scene().clone();
+    let machine = scene.machine();
+    let (clearance, omega) = (machine.clearance(), machine.omega_c);
+    // Side 0 has its inward normal along u_c at t = 0; y grows along u_s.
+    let y = part * machine.polygon.half_side().min(clearance);
+    let nu = machine.nu(scene.operation.speed_rad_s);
+    scene.operation.pulse_n = 0.0;
+    (scene.initial.u_c_m, scene.initial.u_s_m) = (-clearance, y);
+    // Sign of what the Coriolis force presses against the side.
+    let along = -rate * nu.signum() * omega * clearance;
+    (scene.initial.v_c_m_s, scene.initial.v_s_m_s) = (-nu * y, along - nu * clearance);
+    Pair::new(&scene)
+}
+
+#[test]
+fn leaps_along_a_side_are_plain_steps_to_thirteen_digits() {
+    let mut slid = 0;
+    for seed in 0..120 {
+        let part = |k: u64| random(seed, 20 + k);
+        let mut pair = on_a_side(&random_pair(seed), 1.8 * part(0) - 0.9, 2.0 * part(1) - 0.5);
+        let mut amplified = 1.0_f64;
+        for look in 1..=100 {
+            let until = f64::from(look) * 1e-4;
+            if pair.advance(until).is_err() || pair.motion.contacts().impact_count > 1 {
+                break;
+            }
+            let one_side = pair.motion.contacts().active_set.sides().count() == 1;
+            if !one_side || pair.motion.contacts().since > 0.9e-4 {
+                break;
+            }
+            amplified = amplified.max(pair.amplified);
+            let (u, plain) = (pair.motion.state().u, pair.plain.u());
+            let size = plain[0].hypot(plain[1]).max(pair.scene().machine().clearance());
+            let error = (u[0] - plain[0]).hypot(u[1] - plain[1]) / size;
+            assert!(error < 1e-13 * amplified, "{seed} at {until}: {error:e} of {amplified:e}");
+            pair.check(&format!("seed {seed}"));
+            slid += 1;
+        }
+    }
+    assert!(slid > 500, "{slid}");
+}
