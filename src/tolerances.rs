@@ -243,6 +243,14 @@ pub(crate) const LEAP_SMALL: f64 = 0.25;
 /// round-off to the clearance. Speed only.
 pub(crate) const LEAP_FOLDS: f64 = 8.0;
 
+/// Part of the clearance that a neighbour of a side has left, up to which a predicted
+/// penetration needs no look at the neighbour. Speed only.
+pub(crate) const SLIDING_DEPTH: f64 = 1e-2;
+
+/// Mass ratio of the blades of a side below which its third power is round-off of a
+/// push.
+pub(crate) const LIGHT_PUSH: f64 = 1e-6;
+
 /// Part of their phases by which blades of one side that stand alike may
 /// differ: the round-off of the sums that their angles are.
 pub(crate) const SAME_ANGLE: f64 = 1e-13;

@@ -116,7 +116,7 @@ impl<B: BladeModel> Explicit<B> {
     /// Whether no contact can ever come again: the casing, whatever the blades
     /// do, never reaches one.
     pub(super) fn no_contact_to_come(&self) -> bool {
-        if self.held.is_some() || self.pulse_to_come() {
+        if self.held.is_some() || self.sliding.is_some() || self.pulse_to_come() {
             return false;
         }
         let skipped = |coordinate| self.casing.skip(coordinate, self.block.used);
@@ -147,6 +147,7 @@ impl<B: BladeModel> Explicit<B> {
 
     /// Takes the steps used so far and closes the block.
     pub(super) fn close_block(&mut self) {
+        self.end_sliding();
         let (u, blades) = self.materialized();
         if self.block.used > 0 {
             self.watch.skipped(self.largest_angle(), blades.bound_now());
@@ -215,6 +216,9 @@ impl<B: BladeModel> Explicit<B> {
 
     /// Coordinates at the latest step, inside a block or not.
     pub(super) fn materialized(&self) -> ([Coordinate; 2], B) {
+        if let Some(sliding) = &self.sliding {
+            return self.slid(sliding);
+        }
         let mut blades = self.blades.clone();
         let used = self.block.used;
         match &self.held {

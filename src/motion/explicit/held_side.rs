@@ -1,12 +1,16 @@
-//! A wave that slides on one side of rigid blades: step after step the same
-//! side closes, and no other (docs/theory.md, section 6). Such a stretch is decided on
-//! once, up to the step that may end it, and looked at wherever asked.
+//! A wave that slides on one side: step after step the same side closes, and no other
+//! (docs/theory.md, section 6). Of rigid blades such a stretch is decided on once, up to
+//! the step that may end it, and looked at wherever asked (`side_map`); where blades
+//! move, its steps are taken one by one (`sliding`).
 
 use std::sync::Arc;
 
-use super::side_map::{Along, SideMap};
+use super::blades::HeldModes;
+use super::side_map::{Along, SideMap, SideStep};
+use super::sliding::{Rules, Sliding};
 use super::{BladeModel, Coordinate, Explicit};
 use crate::motion::{ActiveSet, Plane};
+use crate::tolerances::SHORTEST_BLOCK;
 
 /// A stretch of sliding, from the step it starts at.
 #[derive(Clone, Debug)]
@@ -45,26 +49,119 @@ impl HeldSide {
 }
 
 impl<B: BladeModel> Explicit<B> {
+    /// The side that has closed alone in the two latest steps, if nothing but the blades
+    /// acts on the wave.
+    fn steady_side(&self) -> Option<u32> {
+        let ActiveSet::Side(side) = self.log.active_set else { return None };
+        let alone = self.same_sides >= 2 && self.last_touch == self.n;
+        (alone && self.is_steady() && self.n >= self.slide_tried).then_some(side)
+    }
+
     /// The stretch of steps from now on that close this one side and no other.
     pub(super) fn hold_side(&mut self) -> Option<HeldSide> {
-        let ActiveSet::Side(side) = self.log.active_set else { return None };
-        let rigid = self.blades.held_modes().is_some_and(|blades| blades.moving.is_none());
-        if !rigid || self.same_sides < 2 || !self.is_steady() || self.n < self.slide_tried {
+        let side = self.steady_side()?;
+        if self.blades.held_modes()?.moving.is_some() {
             return None;
         }
         let map = self.side_map();
-        let back = self.standing_side(side, self.n).conj();
-        let [u_c, u_s] = self.u;
-        let y = (Plane::new(u_c.x, u_s.x) * back).im;
-        let moved = Plane::new(u_c.increment, u_s.increment) * back;
+        let [zeta, moved] = self.seen_from(side);
         let clearance = self.machine.polygon.clearance;
         // moved = zeta[n] - exp(-i nu h) zeta[n-1]
-        let before = Plane::new(-clearance, y) - moved;
-        let step = moved + map.turned.conj() * before;
-        let start = Along::new(y, step.im, clearance, 0.0);
+        let before = Plane::new(-clearance, zeta.im) - moved;
+        let step = moved + map.step.turned.conj() * before;
+        let start = Along::new(zeta.im, step.im, clearance, 0.0);
         let length = map.length(start);
         let compliance = self.casing.compliance;
         Some(HeldSide { map, side, start, length, compliance })
+    }
+
+    /// Whether the wave slides along a side of blades that move; it begins to, if it can.
+    pub(super) fn is_sliding(&mut self) -> bool {
+        if self.sliding.is_none() {
+            self.sliding = self.begin_sliding();
+        }
+        self.sliding.is_some()
+    }
+
+    fn begin_sliding(&self) -> Option<Sliding> {
+        let side = self.steady_side()?;
+        let HeldModes { modes, moving } = self.blades.held_modes()?;
+        if self.neighbours_matter || !self.machine.polygon.has_corners() {
+            return None;
+        }
+        let rules = Rules::new(&self.machine, &self.casing, moving?, self.side_step());
+        let mut sliding = Sliding::new(rules, moving?, side, self.seen_from(side), modes)?;
+        sliding.multiplier = self.rows.first().map_or(0.0, |row| row.lambda);
+        Some(sliding)
+    }
+
+    /// Slides on, by `steps` steps at most, until another kind of step must be taken.
+    pub(super) fn slide(&mut self, steps: u64) {
+        let moving = self.blades.held_modes().and_then(|blades| blades.moving);
+        let (Some(sliding), Some(moving)) = (&mut self.sliding, moving) else { return };
+        let done = sliding.advance(steps, &mut self.watch, moving);
+        let side = sliding.side as usize;
+        self.n += done.steps;
+        if done.steps > 0 {
+            self.impulses[side] += done.pushes * self.step;
+            self.deepest_predicted = self.deepest_predicted.max(done.predicted);
+            self.touched[side] = self.n;
+            self.last_touch = self.n;
+            self.log.touch(self.time_of(self.n), self.log.active_set);
+        }
+        if done.steps < steps {
+            self.end_sliding();
+            // Deciding costs as much as some steps.
+            self.slide_tried = self.n + SHORTEST_BLOCK;
+        }
+    }
+
+    /// Goes on by single steps.
+    pub(super) fn end_sliding(&mut self) {
+        if let Some(sliding) = self.sliding.take() {
+            (self.u, self.blades) = self.slid(&sliding);
+            for row in self.rows.iter_mut().filter(|row| row.side == sliding.side) {
+                row.lambda = sliding.multiplier;
+            }
+        }
+    }
+
+    /// Coordinates of a wave that slides.
+    pub(super) fn slid(&self, sliding: &Sliding) -> ([Coordinate; 2], B) {
+        let mut blades = self.blades.clone();
+        if let Some(moving) = self.blades.held_modes().and_then(|blades| blades.moving) {
+            blades.set_held_modes(sliding.modes(moving));
+        }
+        (self.standing(sliding.side, self.n, sliding.casing()), blades)
+    }
+
+    /// Coefficients of a step along a side at this speed.
+    fn side_step(&self) -> SideStep {
+        let turn = self.machine.nu(self.rotor.speed(self.time_of(self.n))) * self.step;
+        SideStep::new(&self.casing, turn)
+    }
+
+    /// The map of a side at this speed.
+    fn side_map(&mut self) -> Arc<SideMap> {
+        let (step, farthest) = (self.side_step(), 0.5 * self.scene.casing.radius_m);
+        let make = || Arc::new(SideMap::new(&self.machine.polygon, step, farthest));
+        self.side_map.get_or_insert_with(make).clone()
+    }
+
+    /// `zeta` and `zeta[n] - exp(-i nu h) zeta[n-1]` on a side.
+    fn seen_from(&self, side: u32) -> [Plane; 2] {
+        let back = self.standing_side(side, self.n).conj();
+        let [c, s] = self.u;
+        [Plane::new(c.x, s.x) * back, Plane::new(c.increment, s.increment) * back]
+    }
+
+    /// The coordinates of which `seen_from` gives these at step `n`.
+    fn standing(&self, side: u32, n: u64, seen: [Plane; 2]) -> [Coordinate; 2] {
+        let [place, moved] = seen.map(|seen| seen * self.standing_side(side, n));
+        [
+            Coordinate { x: place.re, increment: moved.re },
+            Coordinate { x: place.im, increment: moved.im },
+        ]
     }
 
     /// `exp(i (n_d theta + psi))` of a side at step `n`: its inward normal in the
@@ -76,26 +173,13 @@ impl<B: BladeModel> Explicit<B> {
         Plane::new(c, s) * Plane::new(cos, sin)
     }
 
-    /// The map of a side at this speed.
-    fn side_map(&mut self) -> Arc<SideMap> {
-        let turn = self.machine.nu(self.rotor.speed(self.time_of(self.n))) * self.step;
-        let (machine, farthest) = (&self.machine, 0.5 * self.scene.casing.radius_m);
-        let make = || Arc::new(SideMap::new(&machine.polygon, &self.casing, turn, farthest));
-        self.side_map.get_or_insert_with(make).clone()
-    }
-
     /// Coordinates of the casing `steps` steps into the stretch.
     pub(super) fn along_side(&self, held: &HeldSide, steps: u64) -> [Coordinate; 2] {
         let at = held.after(steps);
         let (y, step) = (at[0], at[1]);
         let before = Plane::new(-at[2], y - step);
         // zeta[n] - exp(-i nu h) zeta[n-1]
-        let moved = Plane::new(0.0, step) + held.map.turned * before;
-        let turn = self.standing_side(held.side, self.n + steps);
-        let (place, moved) = (Plane::new(-at[2], y) * turn, moved * turn);
-        [
-            Coordinate { x: place.re, increment: moved.re },
-            Coordinate { x: place.im, increment: moved.im },
-        ]
+        let moved = Plane::new(0.0, step) + held.map.step.turned * before;
+        self.standing(held.side, self.n + steps, [Plane::new(-at[2], y), moved])
     }
 }

@@ -18,6 +18,7 @@ mod leap;
 mod oscillator;
 mod parameters;
 mod side_map;
+mod sliding;
 mod watch;
 
 pub use blades::{BladeModel, FullBlades, ModalBlades, RigidBlades};
@@ -37,6 +38,7 @@ use crate::tolerances::{BREAK_STEPS, UPDATES_UNASKED};
 use correct::ConstraintRow;
 use flight::{Block, Held, Phasor};
 use side_map::SideMap;
+use sliding::Sliding;
 use watch::Watch;
 
 /// The explicit solver on one size of bladed disk.
@@ -69,6 +71,8 @@ pub struct Explicit<B: BladeModel> {
     slide_tried: u64,
     /// The map of a side at this speed, once asked for.
     side_map: Option<Arc<SideMap>>,
+    /// The wave on a side of blades that move; `u` and `blades` are then those before.
+    sliding: Option<Sliding>,
     /// Steps in a row until the latest contact with the same sides.
     same_sides: u64,
     phasor: Phasor,
@@ -135,6 +139,7 @@ impl<B: BladeModel> Explicit<B> {
             hold_tried: 0,
             slide_tried: 0,
             side_map: None,
+            sliding: None,
             same_sides: 0,
             last_touch: 0,
             near: 0,
@@ -237,7 +242,11 @@ impl<B: BladeModel> Solver for Explicit<B> {
                     return Ok(false);
                 }
             }
-            let moved = if self.open_block() {
+            let moved = if self.is_sliding() {
+                self.slide((target - self.n).min(steps_unasked as u64));
+                unasked = steps_unasked;
+                Ok(())
+            } else if self.open_block() {
                 self.use_block(target);
                 Ok(())
             } else {
@@ -281,6 +290,9 @@ impl<B: BladeModel> Solver for Explicit<B> {
     fn multipliers(&self) -> Vec<(u32, f64)> {
         if self.log.active_set == ActiveSet::Nothing {
             return Vec::new();
+        }
+        if let Some(sliding) = &self.sliding {
+            return vec![(sliding.side, sliding.multiplier)];
         }
         let mut sums: Vec<(u32, f64)> = Vec::new();
         if let Some(held) = self.held.as_ref().filter(|_| self.block.used() > 0) {

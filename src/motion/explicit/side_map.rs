@@ -1,30 +1,29 @@
 //! A step of a wave that slides on one side of rigid blades, as a map of one
 //! coordinate (docs/theory.md, section 6).
 //!
-//! In the frame of the blades the side stands still: with `zeta = z conj(normal)
-//! = -g0 + i y`, one step predicts, with `w = exp(-i nu h)`,
+//! In the frame of the blades the side stands still: with `zeta = z conj(normal)`
+//! one step predicts, where `w = exp(-i nu h)`, `E = w (1 - pull + ratio) - w^2 ratio - 1`,
 //!
 //! ```text
-//! zeta* = w (1 - pull + ratio) zeta[n] - w^2 ratio zeta[n-1]
+//! zeta* - zeta[n] = E zeta[n] + w^2 ratio (zeta[n] - zeta[n-1])
 //! ```
 //!
-//! and contact puts its real part back to `-g0`. So `y` obeys a linear recurrence
-//! with constant coefficients, and the predicted gap, the multiplier and the gaps of the
-//! neighbours are affine in `y` and its increment `d = y[n] - y[n-1]`:
+//! and contact puts its real part back to `-g0`. So `zeta = -g0 + i y`, and `y` obeys a
+//! linear recurrence with constant coefficients; the predicted gap, the multiplier and
+//! the gaps of the neighbours are affine in `y` and its increment `d = y[n] - y[n-1]`:
 //!
 //! ```text
 //! d[n+1] = e y + m d + k g0        gap* = -e g0 + k y + c d
 //! ```
 //!
-//! The coefficients are sums of small parts that do not cancel. Each condition of
-//! such a step is an affine function that must stay positive; one of them has at
-//! most one extremum in the stretch of a map power, so that its signs at both ends
-//! and its slopes there say whether it keeps its sign in between.
+//! Each condition of such a step is an affine function that must stay positive. It has
+//! at most one extremum in the stretch of a map power, so that its signs and slopes at
+//! both ends say whether it keeps its sign in between.
 
 use nalgebra::{SMatrix, SVector};
 
+use super::Oscillator;
 use super::leap::{LARGEST, Leap};
-use super::oscillator::Oscillator;
 use crate::model::ContactPolygon;
 use crate::motion::Plane;
 use crate::tolerances::LEAP_FOLDS;
@@ -32,14 +31,48 @@ use crate::tolerances::LEAP_FOLDS;
 /// `y`, `y[n] - y[n-1]`, `g0`, and the sum of the `y` of the steps before.
 pub(super) type Along = SVector<f64, 4>;
 
-/// A step along a side at one speed of the rotor.
+/// The coefficients of a step along a side at one speed of the rotor, sums of small
+/// parts that do not cancel.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SideStep {
+    /// `1 - exp(-i nu h)`.
+    pub turned: Plane,
+    /// `e`, the real part of `E` above.
+    pub stiff: f64,
+    /// `k`, less its imaginary part.
+    pub push: f64,
+    /// One less `m`, the real part of `w^2 ratio`.
+    pub lost: f64,
+    /// `c`, less its imaginary part.
+    pub coriolis: f64,
+}
+
+impl SideStep {
+    /// For a wave that turns by `turn` \[rad\] a step against the standing frame.
+    pub fn new(casing: &Oscillator, turn: f64) -> Self {
+        let half = (0.5 * turn).sin();
+        // 1 - cos and sin of the turn, and 1 - cos of its double.
+        let (versine, sine) = (2.0 * half * half, turn.sin());
+        let double = 2.0 * versine * (2.0 - versine);
+        let (loss, pull) = (casing.loss, casing.pull);
+        Self {
+            turned: Plane::new(versine, sine),
+            stiff: (1.0 - versine) * (2.0 * versine - pull)
+                - loss * versine * (3.0 - 2.0 * versine),
+            push: sine * (2.0 * versine + loss * (1.0 - 2.0 * versine) - pull),
+            lost: loss + double - loss * double,
+            coriolis: 2.0 * (1.0 - loss) * sine * (1.0 - versine),
+        }
+    }
+}
+
+/// Many steps along a side.
 #[derive(Clone, Debug)]
 pub(super) struct SideMap {
     leap: Leap<4>,
     /// Exponent of the longest leap in which a condition has one extremum.
     longest: usize,
-    /// `1 - exp(-i nu h)`.
-    pub turned: Plane,
+    pub step: SideStep,
     /// Predicted gap of the step that follows.
     gap: Affine,
     /// What must stay positive for the step that follows to close this side and no
@@ -55,20 +88,10 @@ struct Affine {
 }
 
 impl SideMap {
-    /// For a wave that turns by `turn` \[rad\] a step against the standing frame.
     /// A casing that goes beyond `farthest` \[m\] is left to single steps.
-    pub fn new(polygon: &ContactPolygon, casing: &Oscillator, turn: f64, farthest: f64) -> Self {
-        let half = (0.5 * turn).sin();
-        // 1 - cos and sin of the turn.
-        let (versine, sine) = (2.0 * half * half, turn.sin());
-        let (loss, pull) = (casing.loss, casing.pull);
-        let stiff =
-            (1.0 - versine) * (2.0 * versine - pull) - loss * versine * (3.0 - 2.0 * versine);
-        let push = sine * (2.0 * versine + loss * (1.0 - 2.0 * versine) - pull);
-        let double = 2.0 * versine * (2.0 - versine);
-        let lost = loss + double - loss * double;
+    pub fn new(polygon: &ContactPolygon, step: SideStep, farthest: f64) -> Self {
+        let SideStep { stiff, lost, push, coriolis, .. } = step;
         let keep = 1.0 - lost;
-        let coriolis = 2.0 * (1.0 - loss) * sine * (1.0 - versine);
         let change = SMatrix::<f64, 4, 4>::from_row_slice(&[
             stiff, keep, push, 0.0, //
             stiff, -lost, push, 0.0, //
@@ -95,7 +118,7 @@ impl SideMap {
         Self {
             leap: Leap::new(change),
             longest: longest(stiff, lost),
-            turned: Plane::new(versine, sine),
+            step,
             gap: affine(gap),
             conditions,
         }

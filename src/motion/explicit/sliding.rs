@@ -1,0 +1,223 @@
+//! A wave that slides on one side of blades that move, step by step, with nothing
+//! in the way: no search for sides, no angles, no other rows (docs/theory.md,
+//! section 6).
+//!
+//! The side's own blade phase `tau` multiplies the place along the side, so that there is
+//! no closed form. But only the blade mode `a` that turns this side feels the push; the
+//! one `across` it swings freely. In the frame of the blades at rest, with
+//! `zeta = z conj(normal) = -g0 + X + i Y`, all numbers of a step are small parts.
+
+use super::blades::ModalBlades;
+use super::side_map::SideStep;
+use super::watch::Watch;
+use super::{Coordinate, Oscillator};
+use crate::model::Machine;
+use crate::motion::Plane;
+use crate::tolerances::{LIGHT_PUSH, SLIDING_DEPTH, SMALL_PHASE};
+
+/// A wave under way along a side.
+#[derive(Clone, Debug)]
+pub(super) struct Sliding {
+    pub side: u32,
+    rules: Rules,
+    /// `X + i Y` above \[m\].
+    place: Plane,
+    /// Its change in the latest step \[m\].
+    change: Plane,
+    /// Angle of this side's blades.
+    along: Coordinate,
+    /// The mode that leaves them at rest.
+    across: Coordinate,
+    /// Multiplier of the latest step \[N\].
+    pub multiplier: f64,
+}
+
+/// What a step needs and what ends it.
+#[derive(Clone, Debug)]
+pub(super) struct Rules {
+    step: SideStep,
+    clearance: f64,
+    diameters: f64,
+    /// Displacement of the casing by a unit force in one step \[m/N\].
+    compliance: f64,
+    blades: Oscillator,
+    /// Whether the inertia of the blades is round-off squared of a push.
+    light: bool,
+    /// Place along the side, angle and depth up to which no other side can touch.
+    farthest: f64,
+    widest: f64,
+    depth: f64,
+    /// Tangent of half the angle between the directions that blades swing in.
+    spread: f64,
+}
+
+/// What some steps did.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Done {
+    pub steps: u64,
+    /// Sum of the multipliers \[N\].
+    pub pushes: f64,
+    /// Deepest predicted penetration \[m\].
+    pub predicted: f64,
+}
+
+impl Rules {
+    pub fn new(
+        machine: &Machine,
+        casing: &Oscillator,
+        blades: &ModalBlades,
+        step: SideStep,
+    ) -> Self {
+        let polygon = &machine.polygon;
+        let (clearance, diameters) = (polygon.clearance, machine.nodal_diameters);
+        let (sin, cos) = (2.0 * polygon.delta).sin_cos();
+        let depth = SLIDING_DEPTH * clearance * (1.0 - cos);
+        // Blade phases move the gap of a neighbour by less than this.
+        let turned = SMALL_PHASE * 2.0 * clearance / polygon.delta.cos();
+        let oscillator = blades.oscillator();
+        let moment_arm = 2.0 * diameters * polygon.half_side();
+        let soft = moment_arm * moment_arm * oscillator.compliance;
+        let interleaved = polygon.sides % 2 == 1;
+        Self {
+            step,
+            clearance,
+            diameters,
+            compliance: casing.compliance,
+            light: soft < LIGHT_PUSH * casing.compliance,
+            farthest: (clearance * (1.0 - cos) - depth - turned) / sin,
+            widest: 0.5 * SMALL_PHASE / diameters,
+            depth,
+            spread: if interleaved { 0.5 * polygon.delta } else { polygon.delta }.tan(),
+            blades: oscillator.clone(),
+        }
+    }
+
+    /// The largest angle of any blade, for a side's blades at `along`.
+    fn largest(&self, along: f64, across: f64, blades: &ModalBlades, side: u32) -> f64 {
+        if across.abs() <= self.spread * along.abs() {
+            return along.abs();
+        }
+        let (c, s) = blades.shape(side);
+        blades.largest([c * along - s * across, s * along + c * across])
+    }
+}
+
+impl Sliding {
+    /// From the coordinates in the frame of the blades at rest, turned so that the
+    /// inward normal of the side is real: `zeta`, and `zeta[n] - w zeta[n-1]`.
+    /// None where a neighbour is near.
+    pub fn new(
+        rules: Rules,
+        blades: &ModalBlades,
+        side: u32,
+        [zeta, moved]: [Plane; 2],
+        [cosine, sine]: [Coordinate; 2],
+    ) -> Option<Self> {
+        let (c, s) = blades.shape(side);
+        let combine = |p: f64, q: f64| Coordinate {
+            x: p * cosine.x + q * sine.x,
+            increment: p * cosine.increment + q * sine.increment,
+        };
+        let across = combine(-s, c);
+        let swing = rules.blades.reach_of([across, Coordinate::default()]).0;
+        let inside = zeta.im.abs() < rules.farthest && swing < rules.widest;
+        inside.then(|| Self {
+            side,
+            place: zeta + rules.clearance,
+            change: moved + rules.step.turned.conj() * (zeta - moved),
+            along: combine(c, s),
+            across,
+            multiplier: 0.0,
+            rules,
+        })
+    }
+
+    /// `zeta`, and `zeta[n] - w zeta[n-1]`.
+    pub fn casing(&self) -> [Plane; 2] {
+        let zeta = self.place - self.rules.clearance;
+        [zeta, self.change + self.rules.step.turned * (zeta - self.change)]
+    }
+
+    /// The blade modes.
+    pub fn modes(&self, blades: &ModalBlades) -> [Coordinate; 2] {
+        let (c, s) = blades.shape(self.side);
+        let combine = |p: f64, q: f64| Coordinate {
+            x: p * self.along.x + q * self.across.x,
+            increment: p * self.along.increment + q * self.across.increment,
+        };
+        [combine(c, -s), combine(s, c)]
+    }
+
+    /// Up to `steps` steps in which this side closes and no other can; fewer where the
+    /// next one must be looked at.
+    pub fn advance(&mut self, steps: u64, watch: &mut Watch, blades: &ModalBlades) -> Done {
+        let Rules { step, clearance, diameters, compliance, .. } = self.rules;
+        let Rules { light, farthest, widest, depth, .. } = self.rules;
+        let SideStep { stiff, push, lost, coriolis, .. } = step;
+        let (keep, stiffness) = (1.0 - lost, 1.0 / compliance);
+        let oscillator = &self.rules.blades;
+        let (pull, ratio, soft) = (oscillator.pull, oscillator.ratio, oscillator.compliance);
+        let Plane { re: mut x, im: mut y } = self.place;
+        let Plane { re: mut dx, im: mut dy } = self.change;
+        let Coordinate { x: mut a, increment: mut da } = self.along;
+        let Coordinate { x: mut b, increment: mut db } = self.across;
+        let mut done = Done::default();
+        let mut multiplier = self.multiplier;
+        let mut largest = watch.largest();
+        let mut largest2 = largest * largest;
+        while done.steps < steps {
+            // Prediction.
+            let out = x - clearance;
+            let ex = stiff * out + push * y + (keep * dx + coriolis * dy);
+            let ey = stiff * y - push * out + (keep * dy - coriolis * dx);
+            let (px, py) = (x + ex, y + ey);
+            let ea = ratio * da - pull * a;
+            let pa = a + ea;
+            // The gap of the side, turned by a small angle, and its slope.
+            let turn = diameters * pa;
+            let square = turn * turn;
+            let sine = turn * (1.0 - square * (1.0 / 6.0));
+            let versine = 0.5 * square * (1.0 - square * (1.0 / 12.0));
+            let gap = px + (py * sine + (clearance - px) * versine);
+            let inside = gap < 0.0 && gap > -depth && py.abs() < farthest && pa.abs() < widest;
+            if !inside {
+                break;
+            }
+            let moment_arm = diameters * (py - py * versine - (px - clearance) * sine);
+            let bent = soft * moment_arm;
+            let lambda = if light {
+                // 1/(1 + s) to the third power of s.
+                let share = moment_arm * bent * stiffness;
+                gap * stiffness * (1.0 - share * (1.0 - share))
+            } else {
+                gap / (compliance + moment_arm * bent)
+            };
+            // Contact.
+            let shift = -compliance * lambda;
+            let (sx, sy) = (shift - shift * versine, shift * sine);
+            let sa = -bent * lambda;
+            (dx, dy) = (ex + sx, ey + sy);
+            (x, y) = (px + sx, py + sy);
+            da = ea + sa;
+            a = pa + sa;
+            db = ratio * db - pull * b;
+            b += db;
+            multiplier = lambda;
+            done.steps += 1;
+            done.pushes += lambda;
+            done.predicted = done.predicted.max(-gap);
+            let size2 = a * a + b * b;
+            if size2 > largest2 {
+                largest = largest.max(self.rules.largest(a, b, blades, self.side));
+                largest2 = largest * largest;
+            }
+        }
+        self.place = Plane::new(x, y);
+        self.change = Plane::new(dx, dy);
+        self.along = Coordinate { x: a, increment: da };
+        self.across = Coordinate { x: b, increment: db };
+        self.multiplier = multiplier;
+        watch.skipped(largest, a.abs() + b.abs());
+        done
+    }
+}
