@@ -247,6 +247,10 @@ pub(crate) const LEAP_FOLDS: f64 = 8.0;
 /// penetration needs no look at the neighbour. Speed only.
 pub(crate) const SLIDING_DEPTH: f64 = 1e-2;
 
+/// Largest blade phase `n_d alpha` of a side that is slid on without sine and cosine
+/// \[rad\]: its cube is round-off of a gap, as any other step has it.
+pub(crate) const SLIDING_PHASE: f64 = 1e-5;
+
 /// Mass ratio of the blades of a side below which its third power is round-off of a
 /// push.
 pub(crate) const LIGHT_PUSH: f64 = 1e-6;

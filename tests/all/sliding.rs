@@ -1,5 +1,6 @@
-//! A wave that slides along rigid sides, taken in leaps, against plain stepping in
-//! twice the digits, over whole runs of random scenes.
+//! A wave that slides along a side, in leaps where blades are rigid and by short steps
+//! where they move, against plain stepping in twice the digits, over whole runs of
+//! random scenes.
 
 use crate::plain::compare::Pair;
 use crate::plain::scenes::scene;
@@ -16,13 +17,13 @@ fn pick<T: Copy>(values: &[T], part: f64) -> T {
 }
 
 /// Pulses that make contact, at any speed, with few and many sides.
-fn random_pair(seed: u64) -> Pair {
+fn random_pair(seed: u64, model: &str) -> Pair {
     let part = |k| random(seed, k);
     let diameters = pick(&[1_u32, 2, 3, 4], part(6));
     let speed = (150.0 + 450.0 * part(1)) * 3.0 / f64::from(diameters);
     let number = |value: f64| value.to_string();
     Pair::new(&scene(&[
-        ("solver.model", "rigid"),
+        ("solver.model", model),
         ("solver.contact", pick(&["unilateral", "bilateral"], part(7))),
         ("bladed_disk.blades", pick(&["3", "5", "7", "13", "22", "40", "66"], part(5))),
         ("operation.nodal_diameters", &diameters.to_string()),
@@ -36,8 +37,8 @@ fn random_pair(seed: u64) -> Pair {
 #[test]
 fn whole_runs_differ_by_round_off_alone() {
     let mut slid = 0;
-    for seed in 0..80 {
-        let mut pair = random_pair(seed);
+    for seed in 0..160 {
+        let mut pair = random_pair(seed, ["rigid", "modal"][seed as usize % 2]);
         for look in 1..=24 {
             if pair.advance(f64::from(look) * 4e-4).is_err() || pair.is_chaotic() {
                 break;
@@ -46,7 +47,7 @@ fn whole_runs_differ_by_round_off_alone() {
             slid += pair.motion.contacts().active_set.sides().count() % 2;
         }
     }
-    assert!(slid > 100, "{slid}");
+    assert!(slid > 200, "{slid}");
 }
 
 /// The same machine, put on a side, where it moves with `rate` clearances a radian of
@@ -67,11 +68,12 @@ fn on_a_side(pair: &Pair, part: f64, rate: f64) -> Pair {
 }
 
 #[test]
-fn leaps_along_a_side_are_plain_steps_to_thirteen_digits() {
+fn a_way_along_a_side_is_that_of_plain_steps_to_thirteen_digits() {
     let mut slid = 0;
-    for seed in 0..120 {
+    for seed in 0..240 {
         let part = |k: u64| random(seed, 20 + k);
-        let mut pair = on_a_side(&random_pair(seed), 1.8 * part(0) - 0.9, 2.0 * part(1) - 0.5);
+        let machine = random_pair(seed, ["rigid", "modal"][seed as usize % 2]);
+        let mut pair = on_a_side(&machine, 1.8 * part(0) - 0.9, 2.0 * part(1) - 0.5);
         let mut amplified = 1.0_f64;
         for look in 1..=100 {
             let until = f64::from(look) * 1e-4;
@@ -86,10 +88,32 @@ fn leaps_along_a_side_are_plain_steps_to_thirteen_digits() {
             let (u, plain) = (pair.motion.state().u, pair.plain.u());
             let size = plain[0].hypot(plain[1]).max(pair.scene().machine().clearance());
             let error = (u[0] - plain[0]).hypot(u[1] - plain[1]) / size;
-            assert!(error < 1e-13 * amplified, "{seed} at {until}: {error:e} of {amplified:e}");
+            // Where blades move, every step rounds.
+            let allowed = [1e-13, 1e-12][seed as usize % 2] * amplified;
+            assert!(error < allowed, "{seed} at {until}: {error:e} of {amplified:e}");
             pair.check(&format!("seed {seed}"));
             slid += 1;
         }
     }
-    assert!(slid > 500, "{slid}");
+    assert!(slid > 1000, "{slid}");
+}
+
+#[test]
+fn where_one_looks_does_not_change_a_bit_of_a_slide() {
+    for seed in 0..40 {
+        let pair = random_pair(seed, ["rigid", "modal"][seed as usize % 2]);
+        let (mut looked, mut plain) = (pair.motion.clone(), pair.motion);
+        for look in 1..=200 {
+            if looked.advance(f64::from(look) * 4.7e-5).is_err() {
+                break;
+            }
+            let copy = looked.clone();
+            assert_eq!(copy.state(), looked.state());
+        }
+        let end = looked.state().t_s;
+        if plain.advance(end).is_ok() {
+            assert_eq!(plain.state(), looked.state(), "seed {seed}");
+            assert_eq!(plain.contacts(), looked.contacts());
+        }
+    }
 }

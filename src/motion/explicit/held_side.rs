@@ -89,7 +89,7 @@ impl<B: BladeModel> Explicit<B> {
         if self.neighbours_matter || !self.machine.polygon.has_corners() {
             return None;
         }
-        let rules = Rules::new(&self.machine, &self.casing, moving?, self.side_step());
+        let rules = Rules::new(&self.machine, &self.casing, moving?, self.side_step())?;
         let mut sliding = Sliding::new(rules, moving?, side, self.seen_from(side), modes)?;
         sliding.multiplier = self.rows.first().map_or(0.0, |row| row.lambda);
         Some(sliding)

@@ -13,7 +13,7 @@ use super::watch::Watch;
 use super::{Coordinate, Oscillator};
 use crate::model::Machine;
 use crate::motion::Plane;
-use crate::tolerances::{LIGHT_PUSH, SLIDING_DEPTH, SMALL_PHASE};
+use crate::tolerances::{LIGHT_PUSH, SLIDING_DEPTH, SLIDING_PHASE};
 
 /// A wave under way along a side.
 #[derive(Clone, Debug)]
@@ -26,6 +26,10 @@ pub(super) struct Sliding {
     change: Plane,
     /// Angle of this side's blades.
     along: Coordinate,
+    /// The same a step later, before the push of that step; and its phase, which would
+    /// round otherwise if it were worked out anew where one looks.
+    ahead: Coordinate,
+    turn: f64,
     /// The mode that leaves them at rest.
     across: Coordinate,
     /// Multiplier of the latest step \[N\].
@@ -41,8 +45,6 @@ pub(super) struct Rules {
     /// Displacement of the casing by a unit force in one step \[m/N\].
     compliance: f64,
     blades: Oscillator,
-    /// Whether the inertia of the blades is round-off squared of a push.
-    light: bool,
     /// Place along the side, angle and depth up to which no other side can touch.
     farthest: f64,
     widest: f64,
@@ -62,34 +64,34 @@ pub(super) struct Done {
 }
 
 impl Rules {
+    /// None where blades are so light that a push moves them as it moves the casing.
     pub fn new(
         machine: &Machine,
         casing: &Oscillator,
         blades: &ModalBlades,
         step: SideStep,
-    ) -> Self {
+    ) -> Option<Self> {
         let polygon = &machine.polygon;
         let (clearance, diameters) = (polygon.clearance, machine.nodal_diameters);
         let (sin, cos) = (2.0 * polygon.delta).sin_cos();
         let depth = SLIDING_DEPTH * clearance * (1.0 - cos);
         // Blade phases move the gap of a neighbour by less than this.
-        let turned = SMALL_PHASE * 2.0 * clearance / polygon.delta.cos();
+        let turned = 2.0 * SLIDING_PHASE * clearance / polygon.delta.cos();
         let oscillator = blades.oscillator();
         let moment_arm = 2.0 * diameters * polygon.half_side();
-        let soft = moment_arm * moment_arm * oscillator.compliance;
+        let share = moment_arm * moment_arm * oscillator.compliance / casing.compliance;
         let interleaved = polygon.sides % 2 == 1;
-        Self {
+        (share < LIGHT_PUSH).then(|| Self {
             step,
             clearance,
             diameters,
             compliance: casing.compliance,
-            light: soft < LIGHT_PUSH * casing.compliance,
             farthest: (clearance * (1.0 - cos) - depth - turned) / sin,
-            widest: 0.5 * SMALL_PHASE / diameters,
+            widest: SLIDING_PHASE / diameters,
             depth,
             spread: if interleaved { 0.5 * polygon.delta } else { polygon.delta }.tan(),
             blades: oscillator.clone(),
-        }
+        })
     }
 
     /// The largest angle of any blade, for a side's blades at `along`.
@@ -121,11 +123,15 @@ impl Sliding {
         let across = combine(-s, c);
         let swing = rules.blades.reach_of([across, Coordinate::default()]).0;
         let inside = zeta.im.abs() < rules.farthest && swing < rules.widest;
+        let along = combine(c, s);
+        let ahead = rules.blades.step(along, 0.0);
         inside.then(|| Self {
             side,
             place: zeta + rules.clearance,
             change: moved + rules.step.turned.conj() * (zeta - moved),
-            along: combine(c, s),
+            along,
+            ahead,
+            turn: rules.diameters * ahead.x,
             across,
             multiplier: 0.0,
             rules,
@@ -152,7 +158,7 @@ impl Sliding {
     /// next one must be looked at.
     pub fn advance(&mut self, steps: u64, watch: &mut Watch, blades: &ModalBlades) -> Done {
         let Rules { step, clearance, diameters, compliance, .. } = self.rules;
-        let Rules { light, farthest, widest, depth, .. } = self.rules;
+        let Rules { farthest, widest, depth, .. } = self.rules;
         let SideStep { stiff, push, lost, coriolis, .. } = step;
         let (keep, stiffness) = (1.0 - lost, 1.0 / compliance);
         let oscillator = &self.rules.blades;
@@ -162,47 +168,48 @@ impl Sliding {
         let Coordinate { x: mut a, increment: mut da } = self.along;
         let Coordinate { x: mut b, increment: mut db } = self.across;
         let mut done = Done::default();
-        let mut multiplier = self.multiplier;
         let mut largest = watch.largest();
+        // Blade angle by a unit push at a unit lever, and what it adds to the compliance.
+        let soft = soft * diameters;
+        let inertia = soft * diameters * stiffness;
         let mut largest2 = largest * largest;
+        let mut lambda = self.multiplier;
+        let Coordinate { x: mut pa, increment: mut ea } = self.ahead;
+        let mut turn = self.turn;
         while done.steps < steps {
-            // Prediction.
             let out = x - clearance;
             let ex = stiff * out + push * y + (keep * dx + coriolis * dy);
             let ey = stiff * y - push * out + (keep * dy - coriolis * dx);
             let (px, py) = (x + ex, y + ey);
-            let ea = ratio * da - pull * a;
-            let pa = a + ea;
-            // The gap of the side, turned by a small angle, and its slope.
-            let turn = diameters * pa;
-            let square = turn * turn;
-            let sine = turn * (1.0 - square * (1.0 / 6.0));
-            let versine = 0.5 * square * (1.0 - square * (1.0 / 12.0));
-            let gap = px + (py * sine + (clearance - px) * versine);
-            let inside = gap < 0.0 && gap > -depth && py.abs() < farthest && pa.abs() < widest;
-            if !inside {
+            // The gap of the side, turned by an angle whose cube is round-off.
+            let bow = 0.5 * (turn * turn);
+            let reach = clearance - px;
+            let gap = px + (py * turn + reach * bow);
+            if !(gap < 0.0 && gap > -depth && py.abs() < farthest && pa.abs() < widest) {
                 break;
             }
-            let moment_arm = diameters * (py - py * versine - (px - clearance) * sine);
-            let bent = soft * moment_arm;
-            let lambda = if light {
-                // 1/(1 + s) to the third power of s.
-                let share = moment_arm * bent * stiffness;
-                gap * stiffness * (1.0 - share * (1.0 - share))
-            } else {
-                gap / (compliance + moment_arm * bent)
-            };
-            // Contact.
+            let lever = py + (reach * turn - py * bow);
+            // gap/(compliance (1 + share)), to the third power of a small share.
+            let share = inertia * (lever * lever);
+            let free = gap * stiffness;
+            lambda = free - free * (share - share * share);
+            let bent = soft * lever;
             let shift = -compliance * lambda;
-            let (sx, sy) = (shift - shift * versine, shift * sine);
-            let sa = -bent * lambda;
+            let (sx, sy) = (shift - shift * bow, shift * turn);
             (dx, dy) = (ex + sx, ey + sy);
             (x, y) = (px + sx, py + sy);
-            da = ea + sa;
-            a = pa + sa;
+            a = pa - bent * lambda;
+            da = ea - bent * lambda;
+            // The blades of the step after, without the push and by a unit of it: so that
+            // from one push to the next there are few operations in a row.
+            let kept = (ratio - pull) * bent;
+            ea = ratio * ea - pull * pa;
+            pa += ea;
+            turn = diameters * pa - diameters * (bent + kept) * lambda;
+            pa -= (bent + kept) * lambda;
+            ea -= kept * lambda;
             db = ratio * db - pull * b;
             b += db;
-            multiplier = lambda;
             done.steps += 1;
             done.pushes += lambda;
             done.predicted = done.predicted.max(-gap);
@@ -212,11 +219,13 @@ impl Sliding {
                 largest2 = largest * largest;
             }
         }
+        self.multiplier = lambda;
         self.place = Plane::new(x, y);
         self.change = Plane::new(dx, dy);
         self.along = Coordinate { x: a, increment: da };
+        self.ahead = Coordinate { x: pa, increment: ea };
+        self.turn = turn;
         self.across = Coordinate { x: b, increment: db };
-        self.multiplier = multiplier;
         watch.skipped(largest, a.abs() + b.abs());
         done
     }
