@@ -114,6 +114,7 @@ impl<B: BladeModel> Explicit<B> {
             self.watch.skipped(self.largest_angle(), blades.bound_now());
         }
         self.n += self.block.used;
+        self.skipped += self.block.used;
         self.u = u;
         self.blades = blades;
         if let Some(held) = self.held.take()
@@ -134,7 +135,7 @@ impl<B: BladeModel> Explicit<B> {
 
     /// Keeps what the steps of a held corner did since `before`.
     fn log_held(&mut self, held: &HeldCorner, before: u64) {
-        let (used, t) = (self.block.used, self.time_of(self.steps_taken()));
+        let (used, t) = (self.block.used, self.time_of(self.latest_step()));
         for (side, sum) in held.sides().into_iter().zip(held.sums(before, used)) {
             self.impulses[side as usize] += sum * self.step;
         }
