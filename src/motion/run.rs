@@ -51,8 +51,10 @@ pub struct SolverReport {
     /// rigid ones whose angles follow the pushes at once; told where it is so.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub blades_follow: bool,
-    /// Time steps taken.
+    /// Time steps taken: computed one by one.
     pub steps: Option<u64>,
+    /// Time steps skipped: done many at once; the run has the sum of both.
+    pub steps_skipped: Option<u64>,
     /// Changes of mode computed.
     pub events: Option<u64>,
 }
@@ -281,7 +283,8 @@ fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) -> RunRepor
             contact: scene.solver.contact,
             model: scene.solver.model,
             blades_follow: motion.blades_follow(),
-            steps: motion.steps(),
+            steps: motion.steps_taken(),
+            steps_skipped: motion.steps_skipped(),
             events: motion.events(),
         },
         outcome,

@@ -97,9 +97,20 @@ pub trait Solver: Debug + Send + Sync {
     /// The rotor.
     fn rotor(&self) -> &Rotor;
 
-    /// Time steps taken; none for a solver without steps.
+    /// Time steps from the start until now, taken or skipped; none for a solver
+    /// without steps.
     fn steps(&self) -> Option<u64> {
         None
+    }
+
+    /// The time steps skipped: done many at once, with the result of taking each.
+    fn steps_skipped(&self) -> Option<u64> {
+        None
+    }
+
+    /// The time steps taken: computed one by one.
+    fn steps_taken(&self) -> Option<u64> {
+        Some(self.steps()?.saturating_sub(self.steps_skipped()?))
     }
 
     /// Changes of mode computed; none for a solver that does not know them.

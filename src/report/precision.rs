@@ -60,6 +60,8 @@ pub fn summary_table(report: &Precision) -> Table {
             ("error [g0]", |row| row.error_final.map(|x| rounded(x, 2)).into()),
             ("impact error [s]", |row| row.error_impact_time_s.map(|x| rounded(x, 2)).into()),
             ("time [us]", |row| rounded(1e6 * row.wall_s, 3).into()),
+            ("taken", |row| row.steps.map(|n| n as f64).into()),
+            ("skipped", |row| row.steps_skipped.map(|n| n as f64).into()),
             ("ns/step", |row| row.ns_per_step.map(|x| rounded(x, 3)).into()),
             ("verdict", |row| row.verdict.as_ref().into()),
             ("", |row| remark(row).into()),
@@ -84,6 +86,7 @@ pub fn table(report: &Precision) -> Table {
             ("wall_s", |row| row.wall_s.into()),
             ("ns_per_step", |row| row.ns_per_step.into()),
             ("steps", |row| row.steps.map(|n| n as f64).into()),
+            ("steps_skipped", |row| row.steps_skipped.map(|n| n as f64).into()),
             ("events", |row| row.events.map(|n| n as f64).into()),
             ("verdict", |row| row.verdict.as_ref().into()),
             ("verdict_right", |row| row.verdict_right.into()),
@@ -127,6 +130,12 @@ pub fn write(report: &Precision, out: &mut dyn Write) -> Result<()> {
     }
     writeln!(out)?;
     summary_table(report).write_text(out)?;
+    if report.rows.iter().any(|row| row.steps.is_some()) {
+        writeln!(
+            out,
+            "taken, skipped: steps computed one by one, and steps done many at once; ns/step: time over those taken"
+        )?;
+    }
     if report.rows.iter().any(|row| row.other_law) {
         writeln!(
             out,

@@ -2,7 +2,7 @@
 
 use std::io::{Result, Write};
 
-use super::number::{count, short, time};
+use super::number::{count, grouped, short, time};
 use crate::model::Machine;
 use crate::motion::{Contact, RunReport, Verdict};
 use crate::scene::{ContactLaw, SolverKind};
@@ -200,14 +200,14 @@ fn checks(report: &RunReport, machine: &Machine, out: &mut dyn Write) -> Result<
 
 fn cost(report: &RunReport, wall_s: f64) -> String {
     let mut parts = Vec::new();
-    if let Some(steps) = report.solver.steps {
-        parts.push(count(steps, "step"));
+    if let Some((taken, skipped)) = report.solver.steps.zip(report.solver.steps_skipped) {
+        parts.push(format!("{} taken and {} skipped", count(taken, "step"), grouped(skipped)));
     }
     if let Some(events) = report.solver.events {
         parts.push(count(events, "event"));
     }
     let each = match report.solver.steps {
-        Some(steps) if steps > 0 => format!(", {} a step", time(wall_s / steps as f64)),
+        Some(steps) if steps > 0 => format!(", {} a step taken", time(wall_s / steps as f64)),
         _ => String::new(),
     };
     let what = if parts.is_empty() { String::new() } else { format!("{} in ", parts.join(", ")) };

@@ -79,8 +79,11 @@ pub fn generation(restarts: u64, changes: u64, pulses: u64) -> u64 {
 /// How fast the solver is.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pace {
-    /// Wall-clock time of one step, if the solver has steps \[s\].
+    /// Wall-clock time over the number of steps taken, if the solver has steps
+    /// \[s\].
     pub step_s: Option<f64>,
+    /// The part of the steps that was skipped, many at once.
+    pub skipped: Option<f64>,
     /// Wall-clock time of the whole run to `solver.end_s` \[s\].
     pub run_s: Option<f64>,
     /// Why the motion plays slower than requested.

@@ -134,11 +134,32 @@ fn a_wrong_verdict_under_the_same_law_is_called_wrong() {
     let text = text(&["slip", "--model", "rigid", "--end", "0.05"]);
     let ending = |start: &str| {
         let line = text.lines().find(|line| line.starts_with(start)).unwrap();
-        line.split_whitespace().skip(9).collect::<Vec<_>>().join(" ")
+        line.split_whitespace().skip(11).collect::<Vec<_>>().join(" ")
     };
     assert_eq!(ending("u  explicit  unilateral  rigid          1e-5"), "locked wrong", "{text}");
     assert_eq!(ending("b  explicit  bilateral   rigid          1e-6"), "locked other law");
     assert_eq!(ending("u  explicit  unilateral  rigid          1e-6"), "slip");
+    assert!(text.contains("\ntaken, skipped: "), "{text}");
+}
+
+#[test]
+fn steps_taken_and_skipped_are_all_steps_and_the_time_is_that_of_the_taken_ones() {
+    let report = compare(&["--end", "0.003"]);
+    let number = |row: &Value, name: &str| row[name].as_f64();
+    for row in rows(&report) {
+        let Some(step) = number(row, "step_s") else {
+            assert!(row["steps"].is_null() && row["steps_skipped"].is_null(), "{row}");
+            assert!(row["ns_per_step"].is_null(), "{row}");
+            continue;
+        };
+        let [taken, skipped] = ["steps", "steps_skipped"].map(|name| number(row, name).unwrap());
+        if row["verdict"] != "failed" {
+            assert_eq!(taken + skipped, (0.003 / step).round(), "{row}");
+        }
+        let each = 1e9 * number(row, "wall_s").unwrap() / taken;
+        let told = number(row, "ns_per_step").unwrap();
+        assert!((told / each - 1.0).abs() < 1e-12, "{row}");
+    }
 }
 
 #[test]

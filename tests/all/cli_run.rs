@@ -29,6 +29,7 @@ fn json_has_the_names_and_kinds_of_the_contract() {
         ("/solver/contact", "string"),
         ("/solver/model", "string"),
         ("/solver/steps", "number"),
+        ("/solver/steps_skipped", "number"),
         ("/solver/events", "null"),
         ("/solver/wall_s", "number"),
         ("/outcome/verdict", "string"),

@@ -26,6 +26,31 @@ const U_C: f64 = 1.228_513_3e-6;
 const U_S: f64 = 1.310_205_9e-7;
 
 #[test]
+fn steps_are_taken_where_something_acts_and_skipped_in_between() {
+    // A pulse too weak to reach a blade acts on the steps 0 to 500.
+    let scene = scene(&[(PULSE, "1000")]).checked().unwrap();
+    let mut motion = Motion::new(&scene);
+    let counted = |motion: &Motion| {
+        let [taken, skipped] = [motion.steps_taken(), motion.steps_skipped()].map(Option::unwrap);
+        assert_eq!(motion.steps(), Some(taken + skipped));
+        [taken, skipped]
+    };
+    for (t, steps) in [(4e-5, [400, 0]), (0.01, [501, 99_499]), (0.05, [501, 499_499])] {
+        motion.advance(t).unwrap();
+        assert_eq!(counted(&motion), steps, "{t}");
+    }
+    motion.fire();
+    assert_eq!(counted(&motion), [501, 499_499]);
+    motion.advance(0.1).unwrap();
+    assert_eq!(counted(&motion), [1002, 998_998]);
+    // A lock that holds is skipped, too.
+    let report = run(&[(PULSE, "1e6"), (LAW, "bilateral")]);
+    let [taken, skipped] = [report.solver.steps, report.solver.steps_skipped].map(Option::unwrap);
+    assert_eq!(taken + skipped, 1_000_000);
+    assert!(taken < 2000, "{taken}");
+}
+
+#[test]
 fn case_a_meets_the_reference_and_its_error_falls_with_the_step() {
     let report = run(&[]);
     assert_eq!(report.outcome.verdict, Verdict::Decay);

@@ -62,6 +62,8 @@ fn a_motion_that_is_stopped_again_and_again_reaches_the_same_bits() {
             assert_eq!(plain.contacts().impacts, paused.contacts().impacts, "{name}");
             assert_eq!(plain.contacts().impact_count, paused.contacts().impact_count, "{name}");
             assert_eq!(plain.events(), paused.events(), "{name}");
+            assert_eq!(plain.steps_taken(), paused.steps_taken(), "{name} {:?}", scene.solver);
+            assert_eq!(plain.steps_skipped(), paused.steps_skipped(), "{name}");
         }
     }
     assert!(pauses > 300, "{pauses}");
@@ -88,7 +90,8 @@ fn a_solver_asks_within_a_bound_of_steps_or_looks() {
             true
         };
         assert_eq!(motion.advance_while(0.01, &go_on), Ok(true));
-        let steps = motion.steps().unwrap();
+        let steps = motion.steps_taken().unwrap();
+        assert_eq!(motion.steps_skipped(), Some(0), "{model:?}");
         assert!(steps >= 10_000 && asked.get() >= steps / steps_a_question, "{model:?} {asked:?}");
     }
     let mut scene = scene(&[]);

@@ -82,6 +82,14 @@ fn a_rotor_that_turns_backward_has_campbell_lines_of_its_own() {
 }
 
 #[test]
+fn a_wide_first_line_has_the_cost_of_a_step_taken_and_the_part_skipped() {
+    let session = Session::open(220, 30, scene(), Theme::Dark, Marker::Braille);
+    let text = session.text();
+    let line = text.lines().nth(1).unwrap();
+    assert!(line.contains("42 ns/step taken, 99.") && line.contains(" % skipped, "), "{line}");
+}
+
+#[test]
 fn speed_against_error_shows_every_kind_of_solver() {
     let mut scene = scene();
     scene.solver.end_s = 2e-3;

@@ -153,6 +153,7 @@ impl<B: BladeModel> Explicit<B> {
             self.watch.skipped(self.largest_angle(), blades.bound_now());
         }
         self.n += self.block.used;
+        self.skipped += self.block.used;
         self.u = u;
         self.blades = blades;
         if let Some(held) = self.held.take()
@@ -196,7 +197,7 @@ impl<B: BladeModel> Explicit<B> {
 
     /// Keeps what the steps of held sides did since `before`.
     fn log_held(&mut self, held: &Held, before: u64) {
-        let (used, t) = (self.block.used, self.time_of(self.steps_taken()));
+        let (used, t) = (self.block.used, self.time_of(self.latest_step()));
         for (side, sum) in held.sums(before, used) {
             self.impulses[side as usize] += sum * self.step;
         }

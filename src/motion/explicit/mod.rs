@@ -63,6 +63,8 @@ pub struct Explicit<B: BladeModel> {
     blades: B,
     /// Free steps already decided on, not yet taken; see `flight`.
     block: Block,
+    /// Steps of the blocks closed so far.
+    skipped: u64,
     /// The sides that the open block holds, if it is in contact.
     held: Option<Held>,
     /// Step before which a corner is not tried to be held.
@@ -135,6 +137,7 @@ impl<B: BladeModel> Explicit<B> {
             n: 0,
             u,
             block: Block::default(),
+            skipped: 0,
             held: None,
             hold_tried: 0,
             slide_tried: 0,
@@ -206,14 +209,14 @@ impl<B: BladeModel> Explicit<B> {
         n as f64 * self.step
     }
 
-    /// Steps taken so far.
-    fn steps_taken(&self) -> u64 {
+    /// The latest step, that of an open block included.
+    fn latest_step(&self) -> u64 {
         self.n + self.block.used()
     }
 
     /// Time of the latest step \[s\].
     fn time(&self) -> f64 {
-        self.time_of(self.steps_taken())
+        self.time_of(self.latest_step())
     }
 
     /// Ends what was decided on ahead.
@@ -234,7 +237,7 @@ impl<B: BladeModel> Solver for Explicit<B> {
         let target = (until / self.step + 1e-6).floor().max(0.0) as u64;
         let steps_unasked = UPDATES_UNASKED / self.blades.coordinates();
         let mut unasked = 0;
-        while self.steps_taken() < target {
+        while self.latest_step() < target {
             unasked += 1;
             if unasked > steps_unasked {
                 unasked = 0;
@@ -264,7 +267,7 @@ impl<B: BladeModel> Solver for Explicit<B> {
 
     fn state(&self) -> State {
         let (u, blades) = self.materialized();
-        let n = self.steps_taken();
+        let n = self.latest_step();
         let in_contact = self.log.active_set != ActiveSet::Nothing;
         let rate = |coordinate: Coordinate, force: f64| {
             if in_contact {
@@ -311,8 +314,8 @@ impl<B: BladeModel> Solver for Explicit<B> {
     }
 
     fn take_mean_forces(&mut self) -> Vec<(u32, f64)> {
-        let span = self.steps_taken().saturating_sub(self.impulses_since) as f64 * self.step;
-        self.impulses_since = self.steps_taken();
+        let span = self.latest_step().saturating_sub(self.impulses_since) as f64 * self.step;
+        self.impulses_since = self.latest_step();
         let mut means = Vec::new();
         for (side, impulse) in self.impulses.iter_mut().enumerate() {
             if *impulse != 0.0 && span > 0.0 {
@@ -349,7 +352,11 @@ impl<B: BladeModel> Solver for Explicit<B> {
     }
 
     fn steps(&self) -> Option<u64> {
-        Some(self.steps_taken())
+        Some(self.latest_step())
+    }
+
+    fn steps_skipped(&self) -> Option<u64> {
+        Some(self.skipped + self.block.used())
     }
 
     fn failure(&self) -> Option<&Failure> {

@@ -40,10 +40,12 @@ pub struct Row {
     pub max_penetration_m: f64,
     /// Median wall time \[s\].
     pub wall_s: f64,
-    /// Wall time a step \[ns\].
+    /// Wall time over the number of steps taken \[ns\].
     pub ns_per_step: Option<f64>,
-    /// Time steps.
+    /// Time steps taken: computed one by one.
     pub steps: Option<u64>,
+    /// Time steps skipped: done many at once; the run has the sum of both.
+    pub steps_skipped: Option<u64>,
     /// Changes of mode.
     pub events: Option<u64>,
     /// The verdict.
@@ -209,7 +211,7 @@ impl Measure {
             .filter(|_| comparable)
             .and_then(|track| track.at(reached.t_s))
             .map(|exact| distance(&exact, &reached) / clearance);
-        let steps = first.motion.steps();
+        let steps = first.motion.steps_taken();
         Ok(Some(Row {
             way,
             error_final,
@@ -218,6 +220,7 @@ impl Measure {
             wall_s,
             ns_per_step: steps.filter(|&n| n > 0).map(|n| 1e9 * wall_s / n as f64),
             steps,
+            steps_skipped: first.motion.steps_skipped(),
             events: first.motion.events(),
             verdict: first.verdict,
             verdict_right: first.verdict == self.reference.verdict,

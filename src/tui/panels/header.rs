@@ -236,10 +236,16 @@ fn solver(app: &App) -> Parts {
         (solver.kind.to_string(), text),
         (format!(" {} {}", solver.contact, solver.model), quiet),
     ];
-    if let Some(step) = app.latest.results.pace.step_s {
-        parts.push((format!(" {}/step", duration(step)), text));
+    let pace = &app.latest.results.pace;
+    if let Some(step) = pace.step_s {
+        parts.push((format!(" {}/step taken", duration(step)), text));
     }
-    if let Some(run) = app.latest.results.pace.run_s {
+    if let Some(part) = pace.skipped {
+        // Rounded down: 100 % means that no step was taken.
+        let percent = (1e3 * part).floor() / 10.0;
+        parts.push((format!(", {} % skipped", trimmed(&format!("{percent:.1}"))), quiet));
+    }
+    if let Some(run) = pace.run_s {
         parts.push((format!(", {} in {}", duration(solver.end_s), duration(run)), quiet));
     }
     parts

@@ -101,7 +101,12 @@ impl Forecasts {
             sensitive: self.sensitive.unwrap_or(false),
             reference: done(self.reference.as_ref()),
             comparison: done(comparison),
-            pace: Pace { step_s: self.full_run.step_s(), run_s: done_in, ..Pace::default() },
+            pace: Pace {
+                step_s: self.full_run.step_s(),
+                skipped: self.full_run.skipped(),
+                run_s: done_in,
+                ..Pace::default()
+            },
             ..Results::default()
         };
         self.studies.show(&mut results);

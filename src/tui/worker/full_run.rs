@@ -21,7 +21,8 @@ pub struct FullRunJob {
     marks: Marks,
     wall: Duration,
     limit: Duration,
-    steps: u64,
+    /// Steps taken and skipped before the start.
+    before: [u64; 2],
     result: Option<FullRun>,
 }
 
@@ -35,7 +36,7 @@ impl FullRunJob {
     /// A run of `length` seconds from where the motion is.
     pub fn new(motion: Motion, length: f64) -> Self {
         let start = motion.state().t_s;
-        let steps = motion.steps().unwrap_or(0);
+        let before = steps(&motion).unwrap_or_default();
         Self {
             end: start + length,
             // As a run from the start to there is judged.
@@ -48,7 +49,7 @@ impl FullRunJob {
             result: None,
             motion,
             start,
-            steps,
+            before,
         }
     }
 
@@ -138,11 +139,29 @@ impl FullRunJob {
         self.wall.as_secs_f64()
     }
 
-    /// Wall time of one step \[s\], for a solver that steps.
+    /// Wall time over the number of steps taken \[s\], for a solver that steps.
     pub fn step_s(&self) -> Option<f64> {
-        let steps = self.motion.steps()?.saturating_sub(self.steps);
-        (steps > 0).then(|| self.wall_s() / steps as f64)
+        let [taken, _] = self.steps()?;
+        (taken > 0).then(|| self.wall_s() / taken as f64)
     }
+
+    /// The part of its steps that was skipped, for a solver that steps.
+    pub fn skipped(&self) -> Option<f64> {
+        let [taken, skipped] = self.steps()?;
+        (taken + skipped > 0).then(|| skipped as f64 / (taken + skipped) as f64)
+    }
+
+    /// Steps taken and skipped in this run.
+    fn steps(&self) -> Option<[u64; 2]> {
+        let [taken, skipped] = steps(&self.motion)?;
+        let [taken_before, skipped_before] = self.before;
+        Some([taken.saturating_sub(taken_before), skipped.saturating_sub(skipped_before)])
+    }
+}
+
+/// Steps of a motion taken and skipped so far.
+fn steps(motion: &Motion) -> Option<[u64; 2]> {
+    Some([motion.steps_taken()?, motion.steps_skipped()?])
 }
 
 fn point(motion: &Motion) -> [f64; 4] {
@@ -155,6 +174,25 @@ fn point(motion: &Motion) -> [f64; 4] {
 mod tests {
     use super::*;
     use crate::scene::{Scene, SolverKind};
+
+    #[test]
+    fn the_steps_of_a_run_are_those_since_its_start() {
+        let scene = Scene::base().checked().unwrap();
+        let mut motion = Motion::new(&scene);
+        motion.advance(1e-4).unwrap();
+        let before = motion.steps_taken().unwrap();
+        let mut job = FullRunJob::new(motion, 0.01);
+        assert_eq!((job.step_s(), job.skipped()), (None, None));
+        while !job.is_done() {
+            job.compute();
+        }
+        let [taken, skipped] = job.steps().unwrap();
+        assert_eq!(taken + skipped, 100_000);
+        assert_eq!(taken + before, job.motion.steps_taken().unwrap());
+        assert!(before > 0 && taken > 0 && taken < skipped, "{before} {taken} {skipped}");
+        assert_eq!(job.skipped(), Some(skipped as f64 / 1e5));
+        assert_eq!(job.step_s(), Some(job.wall_s() / taken as f64));
+    }
 
     #[test]
     fn a_run_that_takes_too_long_is_given_up_with_what_it_reached() {

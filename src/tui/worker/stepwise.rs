@@ -53,7 +53,7 @@ impl Engine for Stepwise {
         let mut snapshot = playback.snapshot();
         let pace = &mut snapshot.results.pace;
         let step_s = pace.step_s.map(|_| 42e-9);
-        *pace = Pace { step_s, run_s: Some(42e-3), limit: Limit::None };
+        *pace = Pace { step_s, run_s: Some(42e-3), limit: Limit::None, ..*pace };
         Some(snapshot)
     }
 }

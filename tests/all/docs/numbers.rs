@@ -100,6 +100,22 @@ fn the_bounds_of_the_step_are_those_of_the_document() {
 }
 
 #[test]
+fn steps_are_taken_and_skipped_as_the_document_counts() {
+    let rows = read("docs/accuracy.md").table("| command | steps taken | steps skipped |");
+    assert_eq!(rows.len(), 4);
+    for row in rows {
+        let command = row[0].trim_matches('`').strip_prefix("rubscope ").unwrap();
+        let arguments: Vec<&str> = command.split(' ').chain(["--json"]).collect();
+        let report: serde_json::Value =
+            serde_json::from_slice(&rubscope(&arguments).stdout).unwrap();
+        for (name, told) in [("steps", &row[1]), ("steps_skipped", &row[2])] {
+            // Round-off of another processor may move a leap.
+            close(report["solver"][name].as_f64().unwrap(), number(&told.replace(',', "")), 0.02);
+        }
+    }
+}
+
+#[test]
 fn errors_at_the_end_are_those_of_the_document() {
     let arguments = ["precision", "--pulse", "20e3", "--repeat", "1", "--json"];
     let output = rubscope(&arguments);
