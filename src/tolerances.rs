@@ -213,6 +213,18 @@ pub(crate) const BREAK_STEPS: u64 = 2;
 /// stepping. Speed only.
 pub(crate) const SHORTEST_BLOCK: u64 = 8;
 
+/// As `SHORTEST_BLOCK`, for blades that are coordinates of their own: a leap of
+/// them costs as much as some thirty steps. Speed only.
+pub(crate) const SHORTEST_BLOCK_OF_BLADES: u64 = 32;
+
+/// Most blades whose mode shapes are kept as a table, at most 128 KiB. Larger
+/// rings keep one turn of them. Speed only.
+pub(crate) const SHAPES_KEPT: u32 = 128;
+
+/// Most blades that are looked at one by one; more are looked at with all the
+/// others, at once. Speed only.
+pub(crate) const FEW_BLADES: usize = 8;
+
 /// Steps a corner must have been closed before it is held. Fewer: maps are made
 /// for contacts that end.
 pub(crate) const HELD_AFTER: u64 = 64;

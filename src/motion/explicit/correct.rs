@@ -71,7 +71,7 @@ impl<B: BladeModel> Explicit<B> {
     /// may push its neighbour in, the neighbours; the deepest penetration.
     fn gather(&mut self, z: (f64, f64)) -> f64 {
         // A blade angle moves a gap by at most |z| n_d alpha.
-        let reach = self.machine.nodal_diameters * self.blades.bound_now();
+        let reach = self.machine.nodal_diameters * self.watch.bound();
         self.look = reach * (z.0.abs() + z.1.abs());
         let near = self.follow(z);
         self.near = near;

@@ -7,7 +7,7 @@
 
 use super::{BladeModel, Coordinate, Explicit, HeldCorner};
 use crate::motion::{ActiveSet, Rotor};
-use crate::tolerances::{BREAK_STEPS, LARGEST_BLADE_ANGLE, SHORTEST_BLOCK};
+use crate::tolerances::{BREAK_STEPS, LARGEST_BLADE_ANGLE};
 
 /// A block without end: no contact can ever come again.
 const ENDLESS: u64 = u64::MAX;
@@ -54,7 +54,7 @@ impl<B: BladeModel> Explicit<B> {
         let length =
             if farthest < clearance { ENDLESS } else { ((clearance - distance) / longest) as u64 };
         // Blades that may swing too far are followed step by step.
-        if length < SHORTEST_BLOCK || self.blades.reach() > LARGEST_BLADE_ANGLE {
+        if length < self.blades.shortest_block() || self.blades.reach() > LARGEST_BLADE_ANGLE {
             return false;
         }
         // Such a block is longer than the pause that ends a contact.
@@ -109,13 +109,17 @@ impl<B: BladeModel> Explicit<B> {
 
     /// Takes the steps used so far and closes the block.
     pub(super) fn close_block(&mut self) {
-        let (u, blades) = self.materialized();
-        if self.block.used > 0 {
-            self.watch.skipped(self.largest_angle(), blades.bound_now());
+        let used = self.block.used;
+        if used > 0 && self.held.is_none() {
+            let (largest, bound) = self.blades.fly(used, self.watch.largest());
+            self.watch.skipped(largest, bound);
+            self.u = self.u.map(|coordinate| self.casing.skip(coordinate, used));
+        } else if used > 0 {
+            let largest = self.largest_angle();
+            (self.u, self.blades) = self.materialized();
+            self.watch.skipped(largest, self.blades.look(largest).1);
         }
-        self.n += self.block.used;
-        self.u = u;
-        self.blades = blades;
+        self.n += used;
         if let Some(held) = self.held.take()
             && self.block.used > 0
         {

@@ -150,17 +150,19 @@ impl<B: BladeModel> Explicit<B> {
             .excitation
             .as_ref()
             .map(|torque| (torque, torque.phase(&self.rotor, self.time_of(n))));
-        let mut change = self.blades.predict(excitation);
+        let change = self.blades.predict(excitation);
+        let mut unknown = self.watch.moved(change);
         self.n = n + 1;
         let distance2 = self.u[0].x * self.u[0].x + self.u[1].x * self.u[1].x;
         let clearance = self.machine.polygon.clearance;
         if distance2 < clearance * clearance {
             self.open_gap();
         } else {
-            change += self.meet(distance2)?;
+            let change = self.meet(distance2)?;
+            unknown = self.watch.moved(change);
         }
-        if self.watch.moved(change) {
-            self.watch.look(self.blades.largest_now())?;
+        if unknown {
+            self.watch.look(self.blades.look(self.watch.largest()))?;
         }
         Ok(())
     }

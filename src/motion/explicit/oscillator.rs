@@ -12,7 +12,7 @@ use crate::motion::propagator::Propagator;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Oscillator {
     /// `(m/h^2 - d/2h)/(m/h^2 + d/2h)`.
-    ratio: f64,
+    pub ratio: f64,
     /// `k/(m/h^2 + d/2h)`.
     pub pull: f64,
     /// One less `ratio`, with its own digits.

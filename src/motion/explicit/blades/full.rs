@@ -1,235 +1,249 @@
 //! Every blade its own coordinate (docs/theory.md, section 1).
 
-use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use super::BladeModel;
-use crate::model::{Machine, blade_frequency};
-use crate::motion::explicit::{Coordinate, EngineOrderTorque, Oscillator};
+use super::ring::Ring;
+use crate::model::{Machine, gcd};
+use crate::motion::explicit::{Coordinate, EngineOrderTorque};
 use crate::scene::Scene;
-use crate::tolerances::ANGLE_LOOK;
+use crate::tolerances::{ANGLE_LOOK, FEW_BLADES, SHORTEST_BLOCK_OF_BLADES};
 
 /// Every blade its own coordinate, Eqs. (2)-(3), carried in the Fourier modes
-/// of the circulant matrices, where they are uncoupled. A row is a blade.
+/// of the circulant matrices, where they are uncoupled. A row is a blade, or
+/// all the blades that nothing tells apart; see `Ring`.
 #[derive(Clone, Debug)]
 pub struct FullBlades {
-    tables: Arc<Tables>,
-    /// Coordinates in the order of the basis.
-    modes: Vec<Coordinate>,
-}
-
-/// What does not move.
-#[derive(Debug)]
-struct Tables {
-    /// One oscillator for each number of diameters `0 ..= N/2`.
-    oscillators: Vec<Oscillator>,
-    /// Number of diameters of each mode.
-    diameters: Vec<usize>,
-    /// Factor that makes the modes of each number of diameters orthonormal.
-    scales: Vec<f64>,
-    /// Largest entry of `basis`.
-    largest_shape: f64,
-    /// `basis[blade][mode]`, orthonormal.
-    basis: Vec<Vec<f64>>,
-    /// Angle of a blade per unit torque `distance` blades away.
-    influence: Vec<f64>,
-    /// Blades (from 0) of each side.
-    sides: Vec<Vec<u32>>,
-    /// Positions of the cosine and sine modes of `n_d` diameters, and the
-    /// factors that turn their coordinates into `alpha_c`, `alpha_s`.
-    shown: [(usize, f64); 2],
+    ring: Arc<Ring>,
+    /// Mode coordinates, and their last increments.
+    x: Vec<f64>,
+    increments: Vec<f64>,
+    /// Bounds on the angle of every member, `moved` ago \[rad\].
+    seen: Vec<f64>,
+    /// Bound on what every member has turned since \[rad\].
+    moved: f64,
 }
 
 impl BladeModel for FullBlades {
     fn at_rest(scene: &Scene, machine: &Machine) -> Self {
-        let disk = &scene.bladed_disk;
-        let count = disk.blades as usize;
-        let blades = f64::from(disk.blades);
-        let oscillators = (0..=disk.blades / 2)
-            .map(|diameters| {
-                let omega = blade_frequency(disk, diameters);
-                Oscillator::new(
-                    disk.inertia_kg_m2,
-                    2.0 * disk.damping_ratio * omega * disk.inertia_kg_m2,
-                    omega * omega * disk.inertia_kg_m2,
-                    scene.solver.step_s,
-                )
-            })
-            .collect::<Vec<_>>();
-        let mut diameters = Vec::with_capacity(count);
-        let mut basis = vec![Vec::with_capacity(count); count];
-        let mut scales = Vec::with_capacity(count / 2 + 1);
-        for k in 0..=count / 2 {
-            let alone = k == 0 || 2 * k == count;
-            let scale = if alone { 1.0 / blades } else { 2.0 / blades }.sqrt();
-            scales.push(scale);
-            for sine in [false, true].into_iter().take(if alone { 1 } else { 2 }) {
-                diameters.push(k);
-                for (blade, row) in basis.iter_mut().enumerate() {
-                    let angle = TAU * ((k * blade) % count) as f64 / blades;
-                    row.push(scale * if sine { angle.sin() } else { angle.cos() });
-                }
+        Self::resting(Ring::new(scene, machine, Ring::most_alike(scene, machine)))
+    }
+    fn with_parameters(&self, scene: &Scene, machine: &Machine) -> Self {
+        let old = &*self.ring;
+        // What was excited apart stays so.
+        let alike = gcd(old.alike, Ring::most_alike(scene, machine));
+        let mut new = Self::resting(Ring::new(scene, machine, alike));
+        let finer = (old.alike / alike) as usize;
+        for k in 0..old.oscillators.len() {
+            let factor = old.shapes.scale(k) / new.ring.shapes.scale(k * finer);
+            for (from, to) in old.pair(k).into_iter().zip(new.ring.pair(k * finer)) {
+                new.x[to] = factor * self.x[from];
+                new.increments[to] = factor * self.increments[from];
             }
         }
-        let influence = (0..count)
-            .map(|distance| {
-                let mode = |m: usize| {
-                    oscillators[diameters[m]].compliance * basis[0][m] * basis[distance][m]
-                };
-                (0..count).map(mode).sum()
-            })
-            .collect();
-        let alias = machine.polygon.nodal_diameters as usize % count;
-        let folded = alias.min(count - alias);
-        let cosine = diameters.iter().position(|&k| k == folded).unwrap_or(0);
-        let scale = if machine.has_sine_mode { 2.0 / blades } else { 1.0 / blades }.sqrt();
-        let sine = if !machine.has_sine_mode {
-            (cosine, 0.0)
-        } else if alias == folded {
-            (cosine + 1, scale)
-        } else {
-            (cosine + 1, -scale)
-        };
-        let tables = Tables {
-            sides: (0..machine.polygon.sides)
-                .map(|side| machine.polygon.blades_of_side(side).iter().map(|b| b - 1).collect())
-                .collect(),
-            largest_shape: scales.iter().fold(0.0, |most: f64, &scale| most.max(scale)),
-            oscillators,
-            diameters,
-            scales,
-            basis,
-            influence,
-            shown: [(cosine, scale), sine],
-        };
-        Self { tables: Arc::new(tables), modes: vec![Coordinate::default(); count] }
-    }
-    fn moving_as(self, other: &Self) -> Self {
-        Self { modes: other.modes.clone(), ..self }
+        new.seen = self.seen.repeat(finer);
+        new.moved = self.moved;
+        new
     }
     fn coordinates(&self) -> usize {
-        2 + self.modes.len()
+        2 + self.ring.shapes.count()
     }
     fn rows_of_side(&self, side: u32) -> usize {
-        self.tables.sides[side as usize].len()
+        self.ring.rows(side).len()
     }
     fn row(&self, side: u32, place: usize) -> u32 {
-        self.tables.sides[side as usize][place]
+        self.ring.rows(side)[place]
     }
     fn predict(&mut self, excitation: Option<(&EngineOrderTorque, f64)>) -> f64 {
-        let tables = &*self.tables;
-        let mut change = 0.0;
-        for (m, (mode, &k)) in self.modes.iter_mut().zip(&tables.diameters).enumerate() {
-            let torque = excitation.map_or(0.0, |(excitation, phase)| {
-                // Cosine modes stand before their sine partners.
-                let is_sine = m > 0 && self.tables.diameters[m - 1] == k;
-                let torque = excitation.torque_on(k as u32, phase);
-                self.tables.scales[k] * torque[usize::from(is_sine)]
-            });
-            *mode = self.tables.oscillators[k].step(*mode, torque);
-            change += mode.increment.abs();
+        let ring = &*self.ring;
+        let before = excitation.map(|(torque, _)| {
+            let place = |place: usize| self.coordinate_at(place);
+            ring.pair(ring.driven(torque)).map(place)
+        });
+        let mut change = ring.step(&mut self.x, &mut self.increments);
+        if let (Some(excitation), Some(before)) = (excitation, before) {
+            change += ring.drive(excitation, before, &mut self.x, &mut self.increments);
         }
-        self.tables.largest_shape * change
+        self.moved += change;
+        change
     }
     fn angle(&self, row: u32) -> f64 {
-        self.tables.basis[row as usize]
-            .iter()
-            .zip(&self.modes)
-            .map(|(shape, mode)| shape * mode.x)
-            .sum()
+        self.ring.shapes.at(row as usize, &self.x)
     }
     fn compliance(&self, a: u32, b: u32) -> f64 {
-        self.tables.influence[a.abs_diff(b) as usize]
+        self.ring.influence[a.abs_diff(b) as usize]
     }
     fn correct(&mut self, row: u32, torque: f64) {
-        let shapes = &self.tables.basis[row as usize];
-        for ((mode, &k), shape) in self.modes.iter_mut().zip(&self.tables.diameters).zip(shapes) {
-            let change = self.tables.oscillators[k].compliance * torque * shape;
-            mode.x += change;
-            mode.increment += change;
-        }
+        self.ring.correct(row, torque, &mut self.x, &mut self.increments);
+        self.moved += self.ring.influence[0] * torque.abs();
     }
     fn skip(&mut self, steps: u64) {
-        for (mode, &k) in self.modes.iter_mut().zip(&self.tables.diameters) {
-            *mode = self.tables.oscillators[k].skip(*mode, steps);
+        self.leap(steps);
+        self.seen.fill(f64::INFINITY);
+    }
+    fn shortest_block(&self) -> u64 {
+        SHORTEST_BLOCK_OF_BLADES
+    }
+    fn look(&mut self, largest: f64) -> (f64, f64) {
+        if !self.moved.is_finite() {
+            return (f64::INFINITY, f64::INFINITY);
         }
-    }
-    fn bound_now(&self) -> f64 {
-        // Any blade's angle is at most the norm of the orthonormal coordinates.
-        self.modes.iter().map(|mode| mode.x * mode.x).sum::<f64>().sqrt()
-    }
-    fn largest_now(&self) -> f64 {
-        let angle = |blade| self.angle(blade).abs();
-        (0..self.tables.basis.len() as u32).map(angle).fold(0.0, f64::max)
-    }
-    fn reach(&self) -> f64 {
-        let modes = self.modes.iter().zip(&self.tables.diameters);
-        let most = modes.map(|(&mode, &k)| {
-            let oscillator = &self.tables.oscillators[k];
-            oscillator.reach(oscillator.twice_energy(mode)).0
-        });
-        most.map(|x| x * x).sum::<f64>().sqrt()
-    }
-    fn peak(&self, steps: u64, least: f64) -> f64 {
-        let tables = &*self.tables;
-        let fastest = tables.oscillators.iter().map(Oscillator::turn).fold(0.0, f64::max);
-        let stride = (ANGLE_LOOK / fastest).clamp(1.0, 1e12) as u64;
-        let mut most = least.max(self.largest_now());
-        let (mut here, mut taken) = (self.clone(), 0);
-        while taken < steps && here.reach() > most {
-            let part = stride.min(steps - taken);
-            let mut next = here.clone();
-            next.skip(part);
-            most = most.max(next.largest_now());
-            for blade in 0..tables.basis.len() as u32 {
-                let [before, after] = [here.coordinate(blade), next.coordinate(blade)];
-                // Beyond both ends by at most what the steeper end reaches half-way.
-                let rise = before.increment.abs().max(after.increment.abs()) * part as f64;
-                let turns = before.increment * after.increment < 0.0;
-                if turns && before.x.abs().max(after.x.abs()) + 0.5 * rise > most {
-                    most = most.max(here.turning_point(blade, part));
+        for seen in &mut self.seen {
+            *seen += self.moved;
+        }
+        self.moved = 0.0;
+        let far = self.seen.iter().filter(|&&seen| seen > largest).count();
+        let mut now = 0.0_f64;
+        if far > FEW_BLADES {
+            self.seen = self.ring.shapes.all(&self.x);
+            for seen in &mut self.seen {
+                *seen = seen.abs();
+            }
+            now = top(&self.seen);
+        } else {
+            for (member, seen) in self.seen.iter_mut().enumerate() {
+                if *seen > largest {
+                    *seen = self.ring.shapes.at(member, &self.x).abs();
+                    now = now.max(*seen);
                 }
             }
-            (here, taken) = (next, taken + part);
         }
-        most
+        (now, top(&self.seen))
+    }
+    fn reach(&self) -> f64 {
+        self.reaches().0
+    }
+    fn peak(&self, steps: u64, least: f64) -> f64 {
+        self.clone().fly(steps, least).0
+    }
+    fn fly(&mut self, steps: u64, least: f64) -> (f64, f64) {
+        let (farthest, longest) = self.reaches();
+        let risen = longest * steps as f64;
+        let bound = farthest.min(top(&self.seen) + self.moved + risen);
+        if bound <= least {
+            self.leap(steps);
+            self.moved += risen;
+            return (least, bound);
+        }
+        let most = self.fly_looking(steps, least);
+        (most, top(&self.seen))
     }
     fn modal(&self) -> ([f64; 2], [f64; 2]) {
-        let value = |(m, scale): (usize, f64)| scale * self.modes[m].x;
-        let rate = |(m, scale): (usize, f64)| {
-            scale * self.tables.oscillators[self.tables.diameters[m]].rate(self.modes[m], 0.0)
+        let shown = self.ring.shown();
+        let rate = |(k, place, factor): (usize, usize, f64)| {
+            factor * self.ring.oscillators[k].rate(self.coordinate_at(place), 0.0)
         };
-        (self.tables.shown.map(value), self.tables.shown.map(rate))
+        (shown.map(|(_, place, factor)| factor * self.x[place]), shown.map(rate))
     }
     fn every_angle(&self, _: &Machine) -> Vec<f64> {
-        (0..self.tables.basis.len() as u32).map(|blade| self.angle(blade)).collect()
+        self.ring.shapes.all(&self.x).repeat(self.ring.alike as usize)
     }
 }
 
 impl FullBlades {
-    /// Angle and increment of a blade (from 0).
-    fn coordinate(&self, blade: u32) -> Coordinate {
-        let shapes = self.tables.basis[blade as usize].iter();
-        shapes.zip(&self.modes).fold(Coordinate::default(), |sum, (shape, mode)| Coordinate {
-            x: sum.x + shape * mode.x,
-            increment: sum.increment + shape * mode.increment,
-        })
+    fn resting(ring: Ring) -> Self {
+        let (coordinates, members) = (ring.len(), ring.shapes.count());
+        Self {
+            ring: Arc::new(ring),
+            x: vec![0.0; coordinates],
+            increments: vec![0.0; coordinates],
+            seen: vec![0.0; members],
+            moved: 0.0,
+        }
     }
 
-    /// Largest angle of a blade around the one turning point that it passes
+    fn coordinate_at(&self, place: usize) -> Coordinate {
+        Coordinate { x: self.x[place], increment: self.increments[place] }
+    }
+
+    /// Free steps of the modes alone.
+    fn leap(&mut self, steps: u64) {
+        for (k, oscillator) in self.ring.oscillators.iter().enumerate() {
+            for place in self.ring.pair(k) {
+                let ahead = oscillator.skip(self.coordinate_at(place), steps);
+                (self.x[place], self.increments[place]) = (ahead.x, ahead.increment);
+            }
+        }
+    }
+
+    /// Bounds on every angle and its increment over all free steps to come
+    /// \[rad\]: of modes that all add up, or of the norm, which a blade's angle
+    /// does not exceed as shapes are orthonormal.
+    fn reaches(&self) -> (f64, f64) {
+        let (mut sums, mut squares) = ((0.0, 0.0), (0.0, 0.0));
+        for (k, oscillator) in self.ring.oscillators.iter().enumerate() {
+            let pair = self.ring.pair(k).map(|place| self.coordinate_at(place));
+            let (x, increment) = oscillator.reach_of(pair);
+            let scale = self.ring.shapes.scale(k);
+            sums = (sums.0 + scale * x, sums.1 + scale * increment);
+            squares = (squares.0 + x * x, squares.1 + increment * increment);
+        }
+        (sums.0.min(squares.0.sqrt()), sums.1.min(squares.1.sqrt()))
+    }
+
+    /// Takes free steps and looks at every blade on the way; the largest angle,
+    /// or `least`.
+    fn fly_looking(&mut self, steps: u64, least: f64) -> f64 {
+        let stride = (ANGLE_LOOK / self.ring.fastest).clamp(1.0, 1e12) as u64;
+        let mut here = self.members();
+        let mut most = largest(&here).max(least);
+        let mut taken = 0;
+        while taken < steps && self.reach() > most {
+            let part = stride.min(steps - taken);
+            let before = self.clone();
+            self.leap(part);
+            let next = self.members();
+            most = most.max(largest(&next));
+            for (member, (a, b)) in here.iter().zip(&next).enumerate() {
+                // Beyond both ends by at most what the steeper end reaches half-way.
+                let rise = a.increment.abs().max(b.increment.abs()) * part as f64;
+                let turns = a.increment * b.increment < 0.0;
+                if turns && a.x.abs().max(b.x.abs()) + 0.5 * rise > most {
+                    most = most.max(before.turning_point(member, part));
+                }
+            }
+            (here, taken) = (next, taken + part);
+        }
+        self.moved = 0.0;
+        if taken < steps {
+            let bound = self.reach();
+            self.seen.fill(bound);
+            self.leap(steps - taken);
+        } else {
+            self.seen = here.iter().map(|at| at.x.abs()).collect();
+        }
+        most
+    }
+
+    /// Angle and increment of every member.
+    fn members(&self) -> Vec<Coordinate> {
+        self.ring.shapes.all_moving(&self.x, &self.increments)
+    }
+
+    /// Largest angle of a member around the one turning point that it passes
     /// within `steps` free steps \[rad\].
-    fn turning_point(&self, blade: u32, steps: u64) -> f64 {
-        let start = self.coordinate(blade).increment;
-        let (mut before, mut after) = (0, steps);
+    fn turning_point(&self, member: usize, steps: u64) -> f64 {
         let at = |steps| {
             let mut blades = self.clone();
-            blades.skip(steps);
-            blades.coordinate(blade)
+            blades.leap(steps);
+            [&blades.x, &blades.increments].map(|values| self.ring.shapes.at(member, values))
         };
+        let start = self.ring.shapes.at(member, &self.increments);
+        let (mut before, mut after) = (0, steps);
         while after - before > 1 {
             let middle = before + (after - before) / 2;
-            if at(middle).increment * start > 0.0 { before = middle } else { after = middle }
+            if at(middle)[1] * start > 0.0 { before = middle } else { after = middle }
         }
-        at(before).x.abs().max(at(after).x.abs())
+        at(before)[0].abs().max(at(after)[0].abs())
     }
+}
+
+/// The largest of some bounds.
+fn top(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most, &value| f64::max(most, value))
+}
+
+/// The largest angle.
+fn largest(members: &[Coordinate]) -> f64 {
+    members.iter().fold(0.0, |most, at| f64::max(most, at.x.abs()))
 }
