@@ -213,6 +213,25 @@ pub(crate) const BREAK_STEPS: u64 = 2;
 /// stepping. Speed only.
 pub(crate) const SHORTEST_BLOCK: u64 = 8;
 
+/// As `SHORTEST_BLOCK`, for blades that are coordinates of their own: a leap of
+/// them costs as much as some thirty steps. Speed only.
+pub(crate) const SHORTEST_BLOCK_OF_BLADES: u64 = 32;
+
+/// Most blades whose mode shapes are kept as a table, at most 128 KiB. Larger
+/// rings keep one turn of them. Speed only.
+pub(crate) const SHAPES_KEPT: u32 = 128;
+
+/// Rows of shapes that are kept of a larger ring, for the blades near contact.
+/// Fewer: they are made anew in every step. Speed only.
+pub(crate) const ROWS_NEAR: usize = 16;
+
+/// Blades that are looked at before the bound on all others, at most. Speed only.
+pub(crate) const BLADES_FIRST: usize = 8;
+
+/// Blades that cost as much one by one as all of them at once, for each unit of
+/// the sum of the prime factors of their number. Speed only.
+pub(crate) const FEW_BLADES: usize = 4;
+
 /// Steps a corner must have been closed before it is held. Fewer: maps are made
 /// for contacts that end.
 pub(crate) const HELD_AFTER: u64 = 64;

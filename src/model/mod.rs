@@ -9,3 +9,4 @@ mod polygon;
 pub use machine::{Machine, blade_frequency};
 pub use parameters::{BladedDisk, Casing, Excitation, Initial, Operation};
 pub use polygon::ContactPolygon;
+pub(crate) use polygon::{fraction_of_turn, gcd};

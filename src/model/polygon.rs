@@ -32,7 +32,7 @@ impl ContactPolygon {
         let blades = blades.max(1);
         let blades_per_side = gcd(blades, nodal_diameters);
         let sides = blades / blades_per_side;
-        let directions = (0..sides).map(|k| direction(k, sides)).collect();
+        let directions = (0..sides).map(|k| fraction_of_turn(k, sides)).collect();
         Self {
             blades,
             nodal_diameters,
@@ -135,10 +135,10 @@ impl ContactPolygon {
     }
 }
 
-/// `exp(i 2 pi k/sides)`, exact at multiples of a quarter turn.
-fn direction(k: u32, sides: u32) -> (f64, f64) {
-    // Reduce to the first octant, so that symmetric sides are exact mirrors.
-    let (k, n) = (u64::from(k) * 8, u64::from(sides));
+/// `exp(i 2 pi k/parts)` for `k < parts`, exact at multiples of a quarter turn.
+pub(crate) fn fraction_of_turn(k: u32, parts: u32) -> (f64, f64) {
+    // Reduce to the first octant, so that symmetric parts are exact mirrors.
+    let (k, n) = (u64::from(k) * 8, u64::from(parts));
     let octant = k / n;
     // Cosine and sine of a fraction of an octant; its end is its own mirror.
     let within = |numerator: u64| {
@@ -160,7 +160,7 @@ fn direction(k: u32, sides: u32) -> (f64, f64) {
 }
 
 /// Greatest common divisor, with `gcd(n, 0) = n`.
-fn gcd(a: u32, b: u32) -> u32 {
+pub(crate) fn gcd(a: u32, b: u32) -> u32 {
     if b == 0 { a } else { gcd(b, a % b) }
 }
 

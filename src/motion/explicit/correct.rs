@@ -71,7 +71,7 @@ impl<B: BladeModel> Explicit<B> {
     /// may push its neighbour in, the neighbours; the deepest penetration.
     fn gather(&mut self, z: (f64, f64)) -> f64 {
         // A blade angle moves a gap by at most |z| n_d alpha.
-        let reach = self.machine.nodal_diameters * self.blades.bound_now();
+        let reach = self.machine.nodal_diameters * self.watch.bound();
         self.look = reach * (z.0.abs() + z.1.abs());
         let near = self.follow(z);
         self.near = near;
@@ -274,9 +274,12 @@ impl<B: BladeModel> Explicit<B> {
         let mut active_set = ActiveSet::Nothing;
         let mut pulls = false;
         for row in self.rows.iter().filter(|row| row.lambda != 0.0) {
-            let angle = self.blades.angle(row.index);
+            let bent = self.rows.iter().fold(0.0, |bent, other| {
+                let torque = -other.moment_arm * other.lambda;
+                bent + self.blades.compliance(row.index, other.index) * torque
+            });
             let direction = self.machine.polygon.direction(row.side);
-            let normal = turned(direction, self.machine.nodal_diameters * angle);
+            let normal = turned(direction, row.turn + self.machine.nodal_diameters * bent);
             let gap = self.machine.polygon.clearance + z.0 * normal.0 + z.1 * normal.1;
             self.deepest = self.deepest.max(-gap);
             let last = &mut self.touched[row.side as usize];

@@ -92,7 +92,7 @@ impl<B: BladeModel> Explicit<B> {
         let length =
             if farthest < clearance { ENDLESS } else { ((clearance - distance) / longest) as u64 };
         // Blades that may swing too far are followed step by step.
-        if length < SHORTEST_BLOCK || self.blades.reach() > LARGEST_BLADE_ANGLE {
+        if length < self.blades.shortest_block() || self.blades.reach() > LARGEST_BLADE_ANGLE {
             return false;
         }
         // Such a block is longer than the pause that ends a contact.
@@ -148,14 +148,18 @@ impl<B: BladeModel> Explicit<B> {
     /// Takes the steps used so far and closes the block.
     pub(super) fn close_block(&mut self) {
         self.end_sliding();
-        let (u, blades) = self.materialized();
-        if self.block.used > 0 {
-            self.watch.skipped(self.largest_angle(), blades.bound_now());
+        let used = self.block.used;
+        if used > 0 && self.held.is_none() {
+            let (largest, bound) = self.blades.fly(used, self.watch.largest());
+            self.watch.skipped(largest, bound);
+            self.u = self.u.map(|coordinate| self.casing.skip(coordinate, used));
+        } else if used > 0 {
+            let largest = self.largest_angle();
+            (self.u, self.blades) = self.materialized();
+            self.watch.skipped(largest, self.blades.look(largest).1);
         }
-        self.n += self.block.used;
-        self.skipped += self.block.used;
-        self.u = u;
-        self.blades = blades;
+        self.n += used;
+        self.skipped += used;
         if let Some(held) = self.held.take()
             && self.block.used > 0
         {

@@ -54,14 +54,14 @@ impl<const N: usize> Leap<N> {
 
     /// The coordinates `steps` steps on.
     pub fn apply(&self, mut at: SVector<f64, N>, steps: u64) -> SVector<f64, N> {
-        let near = self.changes.len() - 1;
-        for (bit, change) in self.changes.iter().enumerate() {
-            if steps >> bit & 1 == 1 {
+        let near = self.changes.len();
+        let mut left = steps;
+        while left > 0 {
+            let bit = left.trailing_zeros() as usize;
+            left &= left - 1;
+            if let Some(change) = self.changes.get(bit) {
                 at += change * at;
-            }
-        }
-        for (place, power) in self.powers.iter().enumerate().skip(1) {
-            if steps >> (near + place) & 1 == 1 {
+            } else if let Some(power) = self.powers.get(bit + 1 - near) {
                 at = power * at;
             }
         }

@@ -19,6 +19,7 @@ mod oscillator;
 mod parameters;
 mod side_map;
 mod sliding;
+mod solver;
 mod watch;
 
 pub use blades::{BladeModel, FullBlades, ModalBlades, RigidBlades};
@@ -27,14 +28,11 @@ pub use oscillator::{Coordinate, Oscillator};
 
 use std::sync::Arc;
 
-use super::{
-    ActiveSet, Checks, ContactLog, Failure, FailureReason, GoOn, Pulse, Rotor, Solver, State,
-    Verdict,
-};
+use super::{ActiveSet, ContactLog, Failure, FailureReason, Pulse, Rotor};
 use crate::contact::{self, StepLaw};
 use crate::model::Machine;
 use crate::scene::CheckedScene;
-use crate::tolerances::{BREAK_STEPS, UPDATES_UNASKED};
+use crate::tolerances::BREAK_STEPS;
 use correct::ConstraintRow;
 use flight::{Block, Held, Phasor};
 use side_map::SideMap;
@@ -169,17 +167,19 @@ impl<B: BladeModel> Explicit<B> {
             .excitation
             .as_ref()
             .map(|torque| (torque, torque.phase(&self.rotor, self.time_of(n))));
-        let mut change = self.blades.predict(excitation);
+        let change = self.blades.predict(excitation);
+        let mut unknown = self.watch.moved(change);
         self.n = n + 1;
         let distance2 = self.u[0].x * self.u[0].x + self.u[1].x * self.u[1].x;
         let clearance = self.machine.polygon.clearance;
         if distance2 < clearance * clearance {
             self.open_gap();
         } else {
-            change += self.meet(distance2)?;
+            let change = self.meet(distance2)?;
+            unknown = self.watch.moved(change);
         }
-        if self.watch.moved(change) {
-            self.watch.look(self.blades.largest_now())?;
+        if unknown {
+            self.watch.look(self.blades.look(self.watch.largest()))?;
         }
         Ok(())
     }
@@ -225,196 +225,5 @@ impl<B: BladeModel> Explicit<B> {
         self.hold_tried = self.n;
         self.slide_tried = self.n;
         self.same_sides = 0;
-    }
-}
-
-impl<B: BladeModel> Solver for Explicit<B> {
-    fn advance_while(&mut self, until: f64, go_on: GoOn<'_>) -> Result<bool, Failure> {
-        if let Some(failure) = &self.failure {
-            return Err(failure.clone());
-        }
-        // A step that ends within a millionth of itself after `until` belongs to it.
-        let target = (until / self.step + 1e-6).floor().max(0.0) as u64;
-        let steps_unasked = UPDATES_UNASKED / self.blades.coordinates();
-        let mut unasked = 0;
-        while self.latest_step() < target {
-            unasked += 1;
-            if unasked > steps_unasked {
-                unasked = 0;
-                if !go_on() {
-                    return Ok(false);
-                }
-            }
-            let moved = if self.is_sliding() {
-                self.slide((target - self.n).min(steps_unasked as u64));
-                unasked = steps_unasked;
-                Ok(())
-            } else if self.open_block() {
-                self.use_block(target);
-                Ok(())
-            } else {
-                self.take_step()
-            };
-            if let Err(reason) = moved {
-                let failure = Failure { t_s: self.time_of(self.n), reason };
-                self.log.touch(failure.t_s, ActiveSet::Nothing);
-                self.failure = Some(failure.clone());
-                return Err(failure);
-            }
-        }
-        Ok(true)
-    }
-
-    fn state(&self) -> State {
-        let (u, blades) = self.materialized();
-        let n = self.latest_step();
-        let in_contact = self.log.active_set != ActiveSet::Nothing;
-        let rate = |coordinate: Coordinate, force: f64| {
-            if in_contact {
-                coordinate.increment / self.step
-            } else {
-                self.casing.rate(coordinate, force)
-            }
-        };
-        let (alpha, alpha_rate) = blades.modal();
-        State {
-            t_s: self.time_of(n),
-            u: u.map(|coordinate| coordinate.x),
-            v: [rate(u[0], self.force(n)), rate(u[1], 0.0)],
-            alpha,
-            alpha_rate,
-        }
-    }
-
-    fn blade_angles(&self) -> Vec<f64> {
-        self.materialized().1.every_angle(&self.machine)
-    }
-
-    fn multipliers(&self) -> Vec<(u32, f64)> {
-        if self.log.active_set == ActiveSet::Nothing {
-            return Vec::new();
-        }
-        if let Some(sliding) = &self.sliding {
-            return vec![(sliding.side, sliding.multiplier)];
-        }
-        let mut sums: Vec<(u32, f64)> = Vec::new();
-        if let Some(held) = self.held.as_ref().filter(|_| self.block.used() > 0) {
-            sums.extend(held.multipliers(self.block.used()));
-            super::contacts::in_phase_order(&self.machine.polygon, &mut sums);
-            return sums;
-        }
-        for row in self.rows.iter().filter(|row| row.lambda != 0.0) {
-            match sums.iter_mut().find(|(side, _)| *side == row.side) {
-                Some((_, sum)) => *sum += row.lambda,
-                None => sums.push((row.side, row.lambda)),
-            }
-        }
-        super::contacts::in_phase_order(&self.machine.polygon, &mut sums);
-        sums
-    }
-
-    fn take_mean_forces(&mut self) -> Vec<(u32, f64)> {
-        let span = self.latest_step().saturating_sub(self.impulses_since) as f64 * self.step;
-        self.impulses_since = self.latest_step();
-        let mut means = Vec::new();
-        for (side, impulse) in self.impulses.iter_mut().enumerate() {
-            if *impulse != 0.0 && span > 0.0 {
-                means.push((side as u32, *impulse / span));
-                *impulse = 0.0;
-            }
-        }
-        super::contacts::in_phase_order(&self.machine.polygon, &mut means);
-        means
-    }
-
-    fn over(&self) -> bool {
-        self.no_contact_to_come()
-    }
-
-    fn final_verdict(&self) -> Option<Verdict> {
-        self.decided()
-    }
-
-    fn pulse(&self) -> &Pulse {
-        &self.pulse
-    }
-
-    fn contacts(&self) -> &ContactLog {
-        &self.log
-    }
-
-    fn machine(&self) -> &Machine {
-        &self.machine
-    }
-
-    fn rotor(&self) -> &Rotor {
-        &self.rotor
-    }
-
-    fn steps(&self) -> Option<u64> {
-        Some(self.latest_step())
-    }
-
-    fn steps_skipped(&self) -> Option<u64> {
-        Some(self.skipped + self.block.used())
-    }
-
-    fn failure(&self) -> Option<&Failure> {
-        self.failure.as_ref()
-    }
-
-    fn checks(&self) -> Checks {
-        Checks {
-            max_penetration_m: self.deepest,
-            max_predicted_penetration_m: Some(self.deepest_predicted),
-            tensile_steps: self.log.tensile_steps,
-            max_blade_angle_rad: self.largest_angle(),
-            energy_residual_j: None,
-        }
-    }
-
-    /// What the pulse before gave in the half step until now is kept.
-    fn fire(&mut self) {
-        self.interrupt();
-        let (start, next) = (self.time(), self.next_pulse);
-        let half = 0.5 * self.step;
-        let old = self.pulse;
-        self.pulse = Pulse { start, end: start + next.end, force: next.force };
-        if self.n == 0 {
-            // The start knew the old force.
-            let change = self.pulse.mean(0.0, half) - old.mean(0.0, half);
-            self.u[0].increment -= 0.5 * self.step * self.step * change / self.machine.casing_mass;
-        } else {
-            let until_now = Pulse { end: old.end.min(start), ..old };
-            let before = if self.left_over.0 == self.n { self.left_over.1 } else { 0.0 };
-            self.left_over = (self.n, before + until_now.mean(start - half, start + half));
-        }
-    }
-
-    fn set_speed(&mut self, speed: f64, ramp: f64) {
-        self.interrupt();
-        self.rotor.change(self.time(), speed, ramp);
-        self.phasor = Phasor::new(&self.rotor, self.machine.nodal_diameters, self.step);
-        self.side_map = None;
-    }
-
-    /// In a held corner the casing follows the blades: it has no free rate.
-    fn scale_rate(&mut self, factor: f64) {
-        if matches!(self.held, Some(Held::Corner(_))) {
-            return;
-        }
-        self.close_block();
-        self.same_sides = 0;
-        for coordinate in &mut self.u {
-            coordinate.increment *= factor;
-        }
-    }
-
-    fn set_parameters(&mut self, scene: &CheckedScene) {
-        self.take_parameters(scene);
-    }
-
-    fn fork(&self) -> Box<dyn Solver> {
-        Box::new(self.clone())
     }
 }

@@ -22,7 +22,7 @@ impl<B: BladeModel> Explicit<B> {
         self.scene = Arc::new(scene.clone());
         let machine = scene.machine();
         self.interrupt();
-        self.blades = B::at_rest(scene, &machine).moving_as(&self.blades);
+        self.blades = self.blades.with_parameters(scene, &machine);
         self.casing = Oscillator::new(
             machine.casing_mass,
             machine.casing_damping,

@@ -22,19 +22,25 @@ impl Watch {
         self.largest
     }
 
+    /// A bound on every blade angle now \[rad\].
+    pub fn bound(self) -> f64 {
+        self.largest - self.room
+    }
+
     /// Blades have moved by no more than `change`; whether to look at them.
     pub fn moved(&mut self, change: f64) -> bool {
         self.room -= change;
         self.room < 0.0 || self.room.is_nan()
     }
 
-    /// The largest angle of any blade now.
+    /// The largest angle now of any blade that may be beyond `largest`, and a
+    /// bound on every angle.
     ///
     /// # Errors
     /// It is beyond what small angles allow, or not a number.
-    pub fn look(&mut self, now: f64) -> Result<(), FailureReason> {
+    pub fn look(&mut self, (now, bound): (f64, f64)) -> Result<(), FailureReason> {
         self.largest = self.largest.max(now);
-        self.room = self.largest - now;
+        self.room = self.largest - bound;
         let fits = now <= LARGEST_BLADE_ANGLE;
         if fits { Ok(()) } else { Err(FailureReason::BladeAngle { angle_rad: now }) }
     }

@@ -1,235 +1,408 @@
 //! Every blade its own coordinate (docs/theory.md, section 1).
 
-use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use super::BladeModel;
-use crate::model::{Machine, blade_frequency};
-use crate::motion::explicit::{Coordinate, EngineOrderTorque, Oscillator};
+use super::angle_bounds::AngleBounds;
+use super::near::NearRows;
+use super::ring::Ring;
+use super::shapes::product;
+use crate::model::{Machine, gcd};
+use crate::motion::explicit::{Coordinate, EngineOrderTorque};
 use crate::scene::Scene;
-use crate::tolerances::ANGLE_LOOK;
+use crate::tolerances::{ANGLE_LOOK, SHORTEST_BLOCK_OF_BLADES};
 
 /// Every blade its own coordinate, Eqs. (2)-(3), carried in the Fourier modes
-/// of the circulant matrices, where they are uncoupled. A row is a blade.
+/// of the circulant matrices, where they are uncoupled. A row is a blade, or
+/// all the blades that nothing tells apart; see `Ring`.
 #[derive(Clone, Debug)]
 pub struct FullBlades {
-    tables: Arc<Tables>,
-    /// Coordinates in the order of the basis.
-    modes: Vec<Coordinate>,
-}
-
-/// What does not move.
-#[derive(Debug)]
-struct Tables {
-    /// One oscillator for each number of diameters `0 ..= N/2`.
-    oscillators: Vec<Oscillator>,
-    /// Number of diameters of each mode.
-    diameters: Vec<usize>,
-    /// Factor that makes the modes of each number of diameters orthonormal.
-    scales: Vec<f64>,
-    /// Largest entry of `basis`.
-    largest_shape: f64,
-    /// `basis[blade][mode]`, orthonormal.
-    basis: Vec<Vec<f64>>,
-    /// Angle of a blade per unit torque `distance` blades away.
-    influence: Vec<f64>,
-    /// Blades (from 0) of each side.
-    sides: Vec<Vec<u32>>,
-    /// Positions of the cosine and sine modes of `n_d` diameters, and the
-    /// factors that turn their coordinates into `alpha_c`, `alpha_s`.
-    shown: [(usize, f64); 2],
+    ring: Arc<Ring>,
+    /// Mode coordinates, and their last increments.
+    x: Vec<f64>,
+    increments: Vec<f64>,
+    near: NearRows,
+    bounds: AngleBounds,
 }
 
 impl BladeModel for FullBlades {
     fn at_rest(scene: &Scene, machine: &Machine) -> Self {
-        let disk = &scene.bladed_disk;
-        let count = disk.blades as usize;
-        let blades = f64::from(disk.blades);
-        let oscillators = (0..=disk.blades / 2)
-            .map(|diameters| {
-                let omega = blade_frequency(disk, diameters);
-                Oscillator::new(
-                    disk.inertia_kg_m2,
-                    2.0 * disk.damping_ratio * omega * disk.inertia_kg_m2,
-                    omega * omega * disk.inertia_kg_m2,
-                    scene.solver.step_s,
-                )
-            })
-            .collect::<Vec<_>>();
-        let mut diameters = Vec::with_capacity(count);
-        let mut basis = vec![Vec::with_capacity(count); count];
-        let mut scales = Vec::with_capacity(count / 2 + 1);
-        for k in 0..=count / 2 {
-            let alone = k == 0 || 2 * k == count;
-            let scale = if alone { 1.0 / blades } else { 2.0 / blades }.sqrt();
-            scales.push(scale);
-            for sine in [false, true].into_iter().take(if alone { 1 } else { 2 }) {
-                diameters.push(k);
-                for (blade, row) in basis.iter_mut().enumerate() {
-                    let angle = TAU * ((k * blade) % count) as f64 / blades;
-                    row.push(scale * if sine { angle.sin() } else { angle.cos() });
-                }
+        Self::resting(Ring::new(scene, machine, Ring::most_alike(scene, machine)))
+    }
+    fn with_parameters(&self, scene: &Scene, machine: &Machine) -> Self {
+        let old = &*self.ring;
+        // What was excited apart stays so.
+        let alike = gcd(old.alike, Ring::most_alike(scene, machine));
+        let mut new = Self::resting(Ring::new(scene, machine, alike));
+        let finer = (old.alike / alike) as usize;
+        for k in 0..old.oscillators.len() {
+            let factor = old.shapes.scale(k) / new.ring.shapes.scale(k * finer);
+            for (from, to) in old.pair(k).into_iter().zip(new.ring.pair(k * finer)) {
+                new.x[to] = factor * self.x[from];
+                new.increments[to] = factor * self.increments[from];
             }
         }
-        let influence = (0..count)
-            .map(|distance| {
-                let mode = |m: usize| {
-                    oscillators[diameters[m]].compliance * basis[0][m] * basis[distance][m]
-                };
-                (0..count).map(mode).sum()
-            })
-            .collect();
-        let alias = machine.polygon.nodal_diameters as usize % count;
-        let folded = alias.min(count - alias);
-        let cosine = diameters.iter().position(|&k| k == folded).unwrap_or(0);
-        let scale = if machine.has_sine_mode { 2.0 / blades } else { 1.0 / blades }.sqrt();
-        let sine = if !machine.has_sine_mode {
-            (cosine, 0.0)
-        } else if alias == folded {
-            (cosine + 1, scale)
-        } else {
-            (cosine + 1, -scale)
-        };
-        let tables = Tables {
-            sides: (0..machine.polygon.sides)
-                .map(|side| machine.polygon.blades_of_side(side).iter().map(|b| b - 1).collect())
-                .collect(),
-            largest_shape: scales.iter().fold(0.0, |most: f64, &scale| most.max(scale)),
-            oscillators,
-            diameters,
-            scales,
-            basis,
-            influence,
-            shown: [(cosine, scale), sine],
-        };
-        Self { tables: Arc::new(tables), modes: vec![Coordinate::default(); count] }
-    }
-    fn moving_as(self, other: &Self) -> Self {
-        Self { modes: other.modes.clone(), ..self }
+        new.bounds.reset(f64::INFINITY);
+        new
     }
     fn coordinates(&self) -> usize {
-        2 + self.modes.len()
+        2 + self.ring.shapes.count()
     }
     fn rows_of_side(&self, side: u32) -> usize {
-        self.tables.sides[side as usize].len()
+        self.ring.rows(side).len()
     }
     fn row(&self, side: u32, place: usize) -> u32 {
-        self.tables.sides[side as usize][place]
+        self.ring.rows(side)[place]
     }
     fn predict(&mut self, excitation: Option<(&EngineOrderTorque, f64)>) -> f64 {
-        let tables = &*self.tables;
-        let mut change = 0.0;
-        for (m, (mode, &k)) in self.modes.iter_mut().zip(&tables.diameters).enumerate() {
-            let torque = excitation.map_or(0.0, |(excitation, phase)| {
-                // Cosine modes stand before their sine partners.
-                let is_sine = m > 0 && self.tables.diameters[m - 1] == k;
-                let torque = excitation.torque_on(k as u32, phase);
-                self.tables.scales[k] * torque[usize::from(is_sine)]
-            });
-            *mode = self.tables.oscillators[k].step(*mode, torque);
-            change += mode.increment.abs();
-        }
-        self.tables.largest_shape * change
+        let Self { ring, x, increments, .. } = self;
+        let driven = excitation.map(|(torque, _)| ring.driven(torque));
+        self.bounds.drive(driven);
+        let Some(((torque, phase), k)) = excitation.zip(driven) else {
+            let change = ring.step(x, increments);
+            self.bounds.turn(change);
+            return change;
+        };
+        let before = ring.take_pair(k, x, increments);
+        let rest = ring.step(x, increments);
+        self.bounds.turn(rest);
+        rest + ring.drive(k, torque.torque_on(k as u32 * ring.alike, phase), before, x, increments)
     }
-    fn angle(&self, row: u32) -> f64 {
-        self.tables.basis[row as usize]
-            .iter()
-            .zip(&self.modes)
-            .map(|(shape, mode)| shape * mode.x)
-            .sum()
+    fn angle(&mut self, row: u32) -> f64 {
+        product(self.near.row(&self.ring.shapes, row), &self.x)
     }
     fn compliance(&self, a: u32, b: u32) -> f64 {
-        self.tables.influence[a.abs_diff(b) as usize]
+        self.ring.influence[a.abs_diff(b) as usize]
     }
     fn correct(&mut self, row: u32, torque: f64) {
-        let shapes = &self.tables.basis[row as usize];
-        for ((mode, &k), shape) in self.modes.iter_mut().zip(&self.tables.diameters).zip(shapes) {
-            let change = self.tables.oscillators[k].compliance * torque * shape;
-            mode.x += change;
-            mode.increment += change;
-        }
+        let Self { ring, x, increments, near, .. } = self;
+        ring.correct(near.row(&ring.shapes, row), torque, x, increments);
+        self.bounds.turn(ring.influence[0] * torque.abs());
     }
     fn skip(&mut self, steps: u64) {
-        for (mode, &k) in self.modes.iter_mut().zip(&self.tables.diameters) {
-            *mode = self.tables.oscillators[k].skip(*mode, steps);
-        }
+        self.leap(steps);
+        self.bounds.reset(f64::INFINITY);
     }
-    fn bound_now(&self) -> f64 {
-        // Any blade's angle is at most the norm of the orthonormal coordinates.
-        self.modes.iter().map(|mode| mode.x * mode.x).sum::<f64>().sqrt()
+    fn shortest_block(&self) -> u64 {
+        SHORTEST_BLOCK_OF_BLADES
     }
-    fn largest_now(&self) -> f64 {
-        let angle = |blade| self.angle(blade).abs();
-        (0..self.tables.basis.len() as u32).map(angle).fold(0.0, f64::max)
+    fn look(&mut self, largest: f64) -> (f64, f64) {
+        self.bounds.look(&self.ring, &mut self.near, &self.x, largest)
     }
     fn reach(&self) -> f64 {
-        let modes = self.modes.iter().zip(&self.tables.diameters);
-        let most = modes.map(|(&mode, &k)| {
-            let oscillator = &self.tables.oscillators[k];
-            oscillator.reach(oscillator.twice_energy(mode)).0
-        });
-        most.map(|x| x * x).sum::<f64>().sqrt()
+        self.reaches().0
     }
     fn peak(&self, steps: u64, least: f64) -> f64 {
-        let tables = &*self.tables;
-        let fastest = tables.oscillators.iter().map(Oscillator::turn).fold(0.0, f64::max);
-        let stride = (ANGLE_LOOK / fastest).clamp(1.0, 1e12) as u64;
-        let mut most = least.max(self.largest_now());
-        let (mut here, mut taken) = (self.clone(), 0);
-        while taken < steps && here.reach() > most {
-            let part = stride.min(steps - taken);
-            let mut next = here.clone();
-            next.skip(part);
-            most = most.max(next.largest_now());
-            for blade in 0..tables.basis.len() as u32 {
-                let [before, after] = [here.coordinate(blade), next.coordinate(blade)];
-                // Beyond both ends by at most what the steeper end reaches half-way.
-                let rise = before.increment.abs().max(after.increment.abs()) * part as f64;
-                let turns = before.increment * after.increment < 0.0;
-                if turns && before.x.abs().max(after.x.abs()) + 0.5 * rise > most {
-                    most = most.max(here.turning_point(blade, part));
-                }
-            }
-            (here, taken) = (next, taken + part);
+        self.clone().fly(steps, least).0
+    }
+    fn fly(&mut self, steps: u64, least: f64) -> (f64, f64) {
+        self.bounds.drive(None);
+        let (farthest, longest) = self.reaches();
+        let turned = longest * steps as f64;
+        let bound = farthest.min(self.bounds.largest() + turned);
+        if bound <= least {
+            self.leap(steps);
+            self.bounds.turn(turned);
+            return (least, bound);
         }
-        most
+        let most = self.fly_looking(steps, least);
+        (most, self.bounds.largest())
     }
     fn modal(&self) -> ([f64; 2], [f64; 2]) {
-        let value = |(m, scale): (usize, f64)| scale * self.modes[m].x;
-        let rate = |(m, scale): (usize, f64)| {
-            scale * self.tables.oscillators[self.tables.diameters[m]].rate(self.modes[m], 0.0)
+        let shown = self.ring.shown();
+        let rate = |(k, place, factor): (usize, usize, f64)| {
+            factor * self.ring.oscillators[k].rate(self.coordinate_at(place), 0.0)
         };
-        (self.tables.shown.map(value), self.tables.shown.map(rate))
+        (shown.map(|(_, place, factor)| factor * self.x[place]), shown.map(rate))
     }
     fn every_angle(&self, _: &Machine) -> Vec<f64> {
-        (0..self.tables.basis.len() as u32).map(|blade| self.angle(blade)).collect()
+        self.ring.shapes.all(&self.x).repeat(self.ring.alike as usize)
     }
 }
 
 impl FullBlades {
-    /// Angle and increment of a blade (from 0).
-    fn coordinate(&self, blade: u32) -> Coordinate {
-        let shapes = self.tables.basis[blade as usize].iter();
-        shapes.zip(&self.modes).fold(Coordinate::default(), |sum, (shape, mode)| Coordinate {
-            x: sum.x + shape * mode.x,
-            increment: sum.increment + shape * mode.increment,
-        })
+    fn resting(ring: Ring) -> Self {
+        let (coordinates, members) = (ring.len(), ring.shapes.count());
+        Self {
+            ring: Arc::new(ring),
+            x: vec![0.0; coordinates],
+            increments: vec![0.0; coordinates],
+            near: NearRows::default(),
+            bounds: AngleBounds::at_rest(members),
+        }
     }
 
-    /// Largest angle of a blade around the one turning point that it passes
+    fn coordinate_at(&self, place: usize) -> Coordinate {
+        Coordinate { x: self.x[place], increment: self.increments[place] }
+    }
+
+    /// Free steps of the modes alone.
+    fn leap(&mut self, steps: u64) {
+        for (k, oscillator) in self.ring.oscillators.iter().enumerate() {
+            for place in self.ring.pair(k) {
+                let ahead = oscillator.skip(self.coordinate_at(place), steps);
+                (self.x[place], self.increments[place]) = (ahead.x, ahead.increment);
+            }
+        }
+    }
+
+    /// Bounds on every angle and its increment over all free steps to come
+    /// \[rad\]: of modes that all add up, or of the norm, which a blade's angle
+    /// does not exceed as shapes are orthonormal.
+    fn reaches(&self) -> (f64, f64) {
+        let (mut sums, mut squares) = ((0.0, 0.0), (0.0, 0.0));
+        for (k, oscillator) in self.ring.oscillators.iter().enumerate() {
+            let pair = self.ring.pair(k).map(|place| self.coordinate_at(place));
+            let (x, increment) = oscillator.reach_of(pair);
+            let scale = self.ring.shapes.scale(k);
+            sums = (sums.0 + scale * x, sums.1 + scale * increment);
+            squares = (squares.0 + x * x, squares.1 + increment * increment);
+        }
+        (sums.0.min(squares.0.sqrt()), sums.1.min(squares.1.sqrt()))
+    }
+
+    /// Takes free steps and looks at every blade on the way; the largest angle,
+    /// or `least`.
+    fn fly_looking(&mut self, steps: u64, least: f64) -> f64 {
+        let stride = (ANGLE_LOOK / self.ring.fastest).clamp(1.0, 1e12) as u64;
+        let mut here = self.members();
+        let mut most = largest(&here).max(least);
+        let mut taken = 0;
+        while taken < steps && self.reach() > most {
+            let part = stride.min(steps - taken);
+            let before = self.clone();
+            self.leap(part);
+            let next = self.members();
+            most = most.max(largest(&next));
+            for (member, (a, b)) in here.iter().zip(&next).enumerate() {
+                // Beyond both ends by at most what the steeper end reaches half-way.
+                let rise = a.increment.abs().max(b.increment.abs()) * part as f64;
+                let turns = a.increment * b.increment < 0.0;
+                if turns && a.x.abs().max(b.x.abs()) + 0.5 * rise > most {
+                    most = most.max(before.turning_point(member, part));
+                }
+            }
+            (here, taken) = (next, taken + part);
+        }
+        if taken < steps {
+            self.bounds.reset(self.reach());
+            self.leap(steps - taken);
+        } else {
+            self.bounds.set(&here);
+        }
+        most
+    }
+
+    /// Angle and increment of every member.
+    fn members(&self) -> Vec<Coordinate> {
+        self.ring.shapes.all_moving(&self.x, &self.increments)
+    }
+
+    /// Largest angle of a member around the one turning point that it passes
     /// within `steps` free steps \[rad\].
-    fn turning_point(&self, blade: u32, steps: u64) -> f64 {
-        let start = self.coordinate(blade).increment;
-        let (mut before, mut after) = (0, steps);
+    fn turning_point(&self, member: usize, steps: u64) -> f64 {
         let at = |steps| {
             let mut blades = self.clone();
-            blades.skip(steps);
-            blades.coordinate(blade)
+            blades.leap(steps);
+            [&blades.x, &blades.increments].map(|values| self.ring.shapes.at(member, values))
         };
+        let start = self.ring.shapes.at(member, &self.increments);
+        let (mut before, mut after) = (0, steps);
         while after - before > 1 {
             let middle = before + (after - before) / 2;
-            if at(middle).increment * start > 0.0 { before = middle } else { after = middle }
+            if at(middle)[1] * start > 0.0 { before = middle } else { after = middle }
         }
-        at(before).x.abs().max(at(after).x.abs())
+        at(before)[0].abs().max(at(after)[0].abs())
+    }
+}
+
+/// The largest angle.
+fn largest(members: &[Coordinate]) -> f64 {
+    members.iter().fold(0.0, |most, at| f64::max(most, at.x.abs()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::explicit::watch::Watch;
+
+    /// Blades of the paper, `count` of them, excited by an order or not.
+    fn scene(count: u32, order: Option<u32>) -> Scene {
+        let mut scene = Scene::base();
+        scene.bladed_disk.blades = count;
+        scene.solver.step_s = 1e-4;
+        if let Some(order) = order {
+            (scene.excitation.amplitude_nm, scene.excitation.order) = (0.3, order);
+        }
+        scene
+    }
+
+    fn at_rest(scene: &Scene) -> FullBlades {
+        FullBlades::at_rest(scene, &scene.machine())
+    }
+
+    fn angles(blades: &FullBlades) -> Vec<f64> {
+        let shapes = &blades.ring.shapes;
+        (0..shapes.count()).map(|member| shapes.at(member, &blades.x)).collect()
+    }
+
+    fn widest(blades: &FullBlades) -> f64 {
+        angles(blades).iter().fold(0.0, |most, angle| f64::max(most, angle.abs()))
+    }
+
+    #[test]
+    fn a_step_is_that_of_one_oscillator_for_each_mode() {
+        for (count, order) in [(22, None), (22, Some(5)), (131, Some(19)), (5, Some(0))] {
+            let scene = scene(count, order);
+            let torque = EngineOrderTorque::of(&scene);
+            let mut blades = at_rest(&scene);
+            blades.correct(1, 3.0);
+            blades.correct(3, -2.0);
+            let ring = blades.ring.clone();
+            for step in 0..100 {
+                let (phase, before) = (0.05 * f64::from(step), blades.clone());
+                let change = blades.predict(torque.as_ref().map(|torque| (torque, phase)));
+                for (k, oscillator) in ring.oscillators.iter().enumerate() {
+                    let force = torque.map_or([0.0; 2], |torque| torque.torque_on(k as u32, phase));
+                    for (place, force) in ring.pair(k).into_iter().zip(force) {
+                        let force = ring.shapes.scale(k) * force;
+                        let next = oscillator.step(before.coordinate_at(place), force);
+                        assert_eq!(blades.coordinate_at(place), next, "{count} {k}");
+                    }
+                }
+                for (a, b) in angles(&blades).iter().zip(angles(&before)) {
+                    assert!((a - b).abs() <= change * (1.0 + 1e-12), "{count}: {change}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_push_turns_every_blade_by_its_compliance() {
+        for count in [1, 2, 4, 22, 140] {
+            let scene = scene(count, None);
+            let mut blades = at_rest(&scene);
+            let pushed = count / 2;
+            blades.correct(pushed, 2.0);
+            let own = blades.compliance(pushed, pushed);
+            for blade in 0..count {
+                let expected = 2.0 * blades.compliance(blade, pushed);
+                assert!((blades.angle(blade) - expected).abs() < 1e-14 * own, "{count} {blade}");
+                assert!(expected <= 2.0 * own);
+            }
+        }
+    }
+
+    #[test]
+    fn the_largest_angle_of_all_steps_is_found_by_looks_and_flights() {
+        for (count, order) in
+            [(5, None), (22, None), (22, Some(5)), (131, None), (140, None), (140, Some(7))]
+        {
+            let scene = scene(count, order);
+            let torque = EngineOrderTorque::of(&scene);
+            let (mut blades, mut watch, mut most) = (at_rest(&scene), Watch::default(), 0.0_f64);
+            let mut looks = 0;
+            for step in 0..600_u32 {
+                let phase = 0.05 * f64::from(step);
+                let mut unknown =
+                    watch.moved(blades.predict(torque.as_ref().map(|torque| (torque, phase))));
+                // Pushes of one blade, of its neighbour, and one from far away.
+                if step % 97 < 20 {
+                    let (blade, push) = ((step / 97 * 7) % count, 1.0 + (0.1 * phase).sin());
+                    blades.correct(blade, push);
+                    unknown = watch.moved(blades.compliance(blade, blade) * push);
+                }
+                if unknown {
+                    looks += 1;
+                    watch.look(blades.look(watch.largest())).unwrap();
+                }
+                most = most.max(widest(&blades));
+                // Round-off of the transform, and of the sum of the bounds.
+                let error = (watch.largest() - most).abs();
+                assert!(error < 1e-13 * most, "{count} {order:?} {step}: {error:e} of {most:e}");
+                assert!(watch.bound() >= widest(&blades) * (1.0 - 1e-12), "{count} {step}");
+                if order.is_none() && step % 97 == 60 {
+                    let steps = u64::from(step % 30) + 1;
+                    let mut stepped = blades.clone();
+                    for _ in 0..steps {
+                        stepped.predict(None);
+                        most = most.max(widest(&stepped));
+                    }
+                    let (found, bound) = blades.fly(steps, watch.largest());
+                    watch.skipped(found, bound);
+                    assert!((found / most - 1.0).abs() < 1e-12, "{count} {step}: {found} {most}");
+                    for (a, b) in angles(&blades).iter().zip(angles(&stepped)) {
+                        assert!((a - b).abs() < 1e-13 * most, "{count} {step}: {a} {b}");
+                    }
+                }
+            }
+            assert!((10..550).contains(&looks), "{count} {order:?}: {looks} looks");
+        }
+    }
+
+    #[test]
+    fn blades_that_nothing_tells_apart_are_one() {
+        for (blades, diameters, order, alike) in [
+            (66, 3, None, 3),
+            (66, 3, Some(5), 1),
+            (66, 3, Some(63), 3),
+            (88, 4, Some(6), 2),
+            (22, 0, None, 22),
+            (22, 11, Some(0), 11),
+        ] {
+            let mut scene = scene(blades, order);
+            scene.operation.nodal_diameters = diameters;
+            let machine = scene.machine();
+            let one = at_rest(&scene);
+            assert_eq!(one.ring.alike, alike, "{blades} {diameters} {order:?}");
+            // Each on its own, and the same torque on all of a member.
+            let mut each = FullBlades::resting(Ring::new(&scene, &machine, 1));
+            let mut one = one;
+            let torque = EngineOrderTorque::of(&scene);
+            for step in 0..200 {
+                let excitation = torque.as_ref().map(|torque| (torque, 0.05 * f64::from(step)));
+                one.predict(excitation);
+                each.predict(excitation);
+                let side = step as u32 % machine.polygon.sides;
+                for place in 0..one.rows_of_side(side) {
+                    one.correct(one.row(side, place), 1.0);
+                }
+                for place in 0..each.rows_of_side(side) {
+                    each.correct(each.row(side, place), 1.0 / f64::from(alike));
+                }
+            }
+            let (a, b) = (one.every_angle(&machine), each.every_angle(&machine));
+            let size = widest(&each);
+            for (a, b) in a.iter().zip(&b) {
+                assert!((a - b).abs() < 1e-12 * size, "{blades} {diameters}: {a} {b}");
+            }
+            let ((a, b), (c, d)) = (one.modal(), each.modal());
+            for (found, expected) in a.into_iter().chain(b).zip(c.into_iter().chain(d)) {
+                assert!((found - expected).abs() < 1e-12 * size * 1e3, "{found} {expected}");
+            }
+            // Told apart from now on, they go on from where they are.
+            scene.excitation.amplitude_nm = 0.3;
+            scene.excitation.order = 1;
+            let apart = one.with_parameters(&scene, &machine);
+            assert_eq!(apart.ring.alike, 1);
+            for (a, b) in apart.every_angle(&machine).iter().zip(one.every_angle(&machine)) {
+                assert!((a - b).abs() < 1e-13 * size, "{blades} {diameters}: {a} {b}");
+            }
+            scene.excitation.amplitude_nm = 0.0;
+            assert_eq!(apart.with_parameters(&scene, &machine).ring.alike, 1);
+        }
+    }
+
+    #[test]
+    fn no_number_is_beyond_every_bound() {
+        for order in [None, Some(3)] {
+            let scene = scene(22, order);
+            let torque = EngineOrderTorque::of(&scene);
+            let mut blades = at_rest(&scene);
+            let mut watch = Watch::default();
+            blades.correct(3, f64::NAN);
+            assert!(watch.moved(blades.predict(torque.as_ref().map(|torque| (torque, 0.0)))));
+            assert!(watch.look(blades.look(watch.largest())).is_err());
+        }
     }
 }

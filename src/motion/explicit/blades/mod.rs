@@ -5,8 +5,12 @@
 //! angle, a side of the polygon, and the angle that torques on rows make in
 //! one step.
 
+mod angle_bounds;
 mod full;
 mod modal;
+mod near;
+mod ring;
+mod shapes;
 
 pub use full::FullBlades;
 pub use modal::ModalBlades;
@@ -15,13 +19,15 @@ use super::excitation::EngineOrderTorque;
 use super::oscillator::Coordinate;
 use crate::model::Machine;
 use crate::scene::Scene;
+use crate::tolerances::SHORTEST_BLOCK;
 
 /// What the explicit solver asks of the bladed disk.
 pub trait BladeModel: Clone + std::fmt::Debug + Send + Sync + 'static {
     /// The disk at rest, for this scene.
     fn at_rest(scene: &Scene, machine: &Machine) -> Self;
-    /// These blades with the displacements and rates of others of their kind.
-    fn moving_as(self, other: &Self) -> Self;
+    /// These displacements and rates with the parameters of another scene of as
+    /// many blades and diameters.
+    fn with_parameters(&self, scene: &Scene, machine: &Machine) -> Self;
     /// How many coordinates one step updates, those of the casing included.
     fn coordinates(&self) -> usize;
     /// How many constraint rows a side of the polygon has.
@@ -33,7 +39,7 @@ pub trait BladeModel: Clone + std::fmt::Debug + Send + Sync + 'static {
     /// angle \[rad\].
     fn predict(&mut self, excitation: Option<(&EngineOrderTorque, f64)>) -> f64;
     /// Blade angle of a row \[rad\].
-    fn angle(&self, row: u32) -> f64;
+    fn angle(&mut self, row: u32) -> f64;
     /// Angle of row `a` per unit torque on row `b` over one step
     /// \[rad/(N m)\]; for no pair larger than for a row itself.
     fn compliance(&self, a: u32, b: u32) -> f64;
@@ -41,15 +47,25 @@ pub trait BladeModel: Clone + std::fmt::Debug + Send + Sync + 'static {
     fn correct(&mut self, row: u32, torque: f64);
     /// `steps` free steps at once.
     fn skip(&mut self, steps: u64);
-    /// A bound on every blade angle now \[rad\].
-    fn bound_now(&self) -> f64;
-    /// The largest angle of any blade now \[rad\].
-    fn largest_now(&self) -> f64;
+    /// Fewest free steps that are worth a block.
+    fn shortest_block(&self) -> u64 {
+        SHORTEST_BLOCK
+    }
+    /// The largest angle now of the blades that may be beyond `largest`, and a
+    /// bound on that of every blade \[rad\].
+    fn look(&mut self, largest: f64) -> (f64, f64);
     /// A bound on every blade angle that free motion can still reach \[rad\].
     fn reach(&self) -> f64;
     /// The largest angle of any blade over the next `steps` free steps; `least`
     /// where none is larger \[rad\].
     fn peak(&self, steps: u64, least: f64) -> f64;
+    /// Takes that many free steps at once: their `peak`, and a bound on every
+    /// blade angle at their end \[rad\].
+    fn fly(&mut self, steps: u64, least: f64) -> (f64, f64) {
+        let most = self.peak(steps, least);
+        self.skip(steps);
+        (most, self.look(most).1)
+    }
     /// `[alpha_c, alpha_s]` and their rates.
     fn modal(&self) -> ([f64; 2], [f64; 2]);
     /// The angle of every blade \[rad\].
@@ -81,8 +97,8 @@ impl BladeModel for RigidBlades {
     fn at_rest(scene: &Scene, _: &Machine) -> Self {
         Self { blades: scene.bladed_disk.blades as usize }
     }
-    fn moving_as(self, _: &Self) -> Self {
-        self
+    fn with_parameters(&self, scene: &Scene, machine: &Machine) -> Self {
+        Self::at_rest(scene, machine)
     }
     fn coordinates(&self) -> usize {
         2
@@ -96,7 +112,7 @@ impl BladeModel for RigidBlades {
     fn predict(&mut self, _: Option<(&EngineOrderTorque, f64)>) -> f64 {
         0.0
     }
-    fn angle(&self, _: u32) -> f64 {
+    fn angle(&mut self, _: u32) -> f64 {
         0.0
     }
     fn compliance(&self, _: u32, _: u32) -> f64 {
@@ -104,11 +120,8 @@ impl BladeModel for RigidBlades {
     }
     fn correct(&mut self, _: u32, _: f64) {}
     fn skip(&mut self, _: u64) {}
-    fn bound_now(&self) -> f64 {
-        0.0
-    }
-    fn largest_now(&self) -> f64 {
-        0.0
+    fn look(&mut self, _: f64) -> (f64, f64) {
+        (0.0, 0.0)
     }
     fn reach(&self) -> f64 {
         0.0

@@ -34,8 +34,8 @@ impl BladeModel for ModalBlades {
             polygon: Arc::new(machine.polygon.clone()),
         }
     }
-    fn moving_as(self, other: &Self) -> Self {
-        Self { modes: other.modes, ..self }
+    fn with_parameters(&self, scene: &Scene, machine: &Machine) -> Self {
+        Self { modes: self.modes, ..Self::at_rest(scene, machine) }
     }
     fn coordinates(&self) -> usize {
         4
@@ -59,9 +59,8 @@ impl BladeModel for ModalBlades {
         }
         self.modes[0].increment.abs() + self.modes[1].increment.abs()
     }
-    fn angle(&self, row: u32) -> f64 {
-        let (c, s) = self.polygon.direction(row);
-        c * self.modes[0].x + s * self.modes[1].x
+    fn angle(&mut self, row: u32) -> f64 {
+        self.angle_of(row)
     }
     fn compliance(&self, a: u32, b: u32) -> f64 {
         let ((ca, sa), (cb, sb)) = (self.polygon.direction(a), self.polygon.direction(b));
@@ -77,11 +76,9 @@ impl BladeModel for ModalBlades {
     fn skip(&mut self, steps: u64) {
         self.modes = self.modes.map(|mode| self.oscillator.skip(mode, steps));
     }
-    fn bound_now(&self) -> f64 {
-        self.modes[0].x.abs() + self.modes[1].x.abs()
-    }
-    fn largest_now(&self) -> f64 {
-        self.largest(self.modes.map(|mode| mode.x))
+    fn look(&mut self, _: f64) -> (f64, f64) {
+        let now = self.largest(self.modes.map(|mode| mode.x));
+        (now, now)
     }
     fn reach(&self) -> f64 {
         self.oscillator.reach_of(self.modes).0
@@ -92,7 +89,9 @@ impl BladeModel for ModalBlades {
         }
         let mut last = self.clone();
         last.skip(steps);
-        let mut most = least.max(self.largest_now()).max(last.largest_now());
+        let [here, there] =
+            [self, &last].map(|blades| self.largest(blades.modes.map(|mode| mode.x)));
+        let mut most = least.max(here).max(there);
         // All blades swing alike but for their phases: a blade's first turning
         // point is its largest angle, as every later one is damped.
         for (c, s) in (0..self.polygon.sides).map(|side| self.polygon.direction(side)) {
@@ -111,7 +110,7 @@ impl BladeModel for ModalBlades {
     }
     fn every_angle(&self, machine: &Machine) -> Vec<f64> {
         let polygon = &machine.polygon;
-        (1..=polygon.blades).map(|blade| self.angle(polygon.side_of_blade(blade))).collect()
+        (1..=polygon.blades).map(|blade| self.angle_of(polygon.side_of_blade(blade))).collect()
     }
     fn held_modes(&self) -> Option<HeldModes<'_>> {
         Some(HeldModes { modes: self.modes, moving: Some(self) })
@@ -122,6 +121,12 @@ impl BladeModel for ModalBlades {
 }
 
 impl ModalBlades {
+    /// Angle of the blades of a side \[rad\].
+    fn angle_of(&self, side: u32) -> f64 {
+        let (c, s) = self.polygon.direction(side);
+        c * self.modes[0].x + s * self.modes[1].x
+    }
+
     /// The oscillator that both modes are.
     pub fn oscillator(&self) -> &Oscillator {
         &self.oscillator

@@ -1,0 +1,222 @@
+//! The bladed disk as a ring of equal blades in its Fourier modes, where the
+//! circulant matrices of Eqs. (2)-(3) are diagonal: what does not move.
+//!
+//! Blades `N/d` apart do the same for ever if `d` divides the number of blades,
+//! the nodal diameters and the order of the excitation: nothing tells them
+//! apart. So `d` such blades are one member of a ring of `N/d`, with the inertia
+//! of all of them, and a push on it is shared evenly.
+
+use super::shapes::{LANES, Shapes};
+use crate::model::{Machine, blade_frequency, gcd};
+use crate::motion::explicit::{Coordinate, EngineOrderTorque, Oscillator};
+use crate::scene::Scene;
+
+/// Members, modes and rows of a ring. A list of coefficients is laid out as the
+/// coordinates are; see `Shapes`.
+#[derive(Debug)]
+pub(super) struct Ring {
+    /// Blades that are one member.
+    pub alike: u32,
+    /// Mode shapes of the members.
+    pub shapes: Shapes,
+    /// One oscillator for each number of diameters: `d` times the place.
+    pub oscillators: Vec<Oscillator>,
+    /// Angle of a member per unit torque `distance` members away.
+    pub influence: Vec<f64>,
+    /// Members that are looked at one by one, at most.
+    pub few: usize,
+    /// Largest turn of a mode in a step \[rad\].
+    pub fastest: f64,
+    /// Coefficients of `Oscillator`, of every coordinate.
+    ratio: Vec<f64>,
+    pull: Vec<f64>,
+    compliance: Vec<f64>,
+    /// Largest entry of any shape.
+    largest_shape: f64,
+    /// Members of each side, side after side.
+    rows: Vec<u32>,
+    rows_of_side: usize,
+    /// Places of the cosine and sine coordinates of `n_d` diameters, and the
+    /// factors that turn them into `alpha_c`, `alpha_s`.
+    shown: [(usize, f64); 2],
+}
+
+impl Ring {
+    /// How many blades of a scene are one member, at most.
+    pub fn most_alike(scene: &Scene, machine: &Machine) -> u32 {
+        let group = machine.polygon.blades_per_side;
+        EngineOrderTorque::of(scene).map_or(group, |torque| gcd(group, torque.diameters()))
+    }
+
+    /// The ring of a scene with `alike` blades as one member.
+    pub fn new(scene: &Scene, machine: &Machine, alike: u32) -> Self {
+        let disk = &scene.bladed_disk;
+        let count = disk.blades / alike;
+        let inertia = disk.inertia_kg_m2 * f64::from(alike);
+        let shapes = Shapes::new(count);
+        let oscillators: Vec<Oscillator> = (0..=count / 2)
+            .map(|k| {
+                let omega = blade_frequency(disk, alike * k);
+                let damping = 2.0 * disk.damping_ratio * omega * inertia;
+                Oscillator::new(inertia, damping, omega * omega * inertia, scene.solver.step_s)
+            })
+            .collect();
+        let coefficients = |coefficient: fn(&Oscillator) -> f64| {
+            let mut half: Vec<f64> = oscillators.iter().map(coefficient).collect();
+            half.resize(shapes.width(), 0.0);
+            half.repeat(2)
+        };
+        let compliance = coefficients(|oscillator| oscillator.compliance);
+        // The shapes of member 0 are the scales of the cosine modes.
+        let mut torque = vec![0.0; compliance.len()];
+        for ((torque, compliance), scale) in torque.iter_mut().zip(&compliance).zip(shapes.scales())
+        {
+            *torque = compliance * scale;
+        }
+        let sides = machine.polygon.sides as usize;
+        let mut members = vec![Vec::new(); sides];
+        for member in 0..count {
+            members[machine.polygon.side_of_blade(member + 1) as usize].push(member);
+        }
+        Self {
+            alike,
+            few: shapes.few(),
+            influence: shapes.all(&torque),
+            fastest: oscillators.iter().map(Oscillator::turn).fold(0.0, f64::max),
+            ratio: coefficients(|oscillator| oscillator.ratio),
+            pull: coefficients(|oscillator| oscillator.pull),
+            compliance,
+            largest_shape: shapes.scales().iter().fold(0.0, |most, &scale| f64::max(most, scale)),
+            rows: members.concat(),
+            rows_of_side: count as usize / sides,
+            shown: shown(machine, &shapes, alike),
+            shapes,
+            oscillators,
+        }
+    }
+
+    /// How many coordinates a list of them has room for.
+    pub fn len(&self) -> usize {
+        self.ratio.len()
+    }
+
+    /// The members of a side.
+    pub fn rows(&self, side: u32) -> &[u32] {
+        let first = side as usize * self.rows_of_side;
+        &self.rows[first..first + self.rows_of_side]
+    }
+
+    /// One free step of every coordinate; a bound on what it does to any angle
+    /// \[rad\].
+    pub fn step(&self, x: &mut [f64], increments: &mut [f64]) -> f64 {
+        let mut sums = [0.0; LANES];
+        let moving = x.as_chunks_mut::<LANES>().0.iter_mut();
+        let moving = moving.zip(increments.as_chunks_mut::<LANES>().0);
+        let coefficients = self.ratio.as_chunks::<LANES>().0.iter();
+        let coefficients = coefficients.zip(self.pull.as_chunks::<LANES>().0);
+        for ((x, increment), (ratio, pull)) in moving.zip(coefficients) {
+            for lane in 0..LANES {
+                increment[lane] = ratio[lane] * increment[lane] - pull[lane] * x[lane];
+                x[lane] += increment[lane];
+                sums[lane] += increment[lane].abs();
+            }
+        }
+        self.largest_shape * sums.iter().sum::<f64>()
+    }
+
+    /// Takes the modes of `k` diameters out, for a step of the others.
+    pub fn take_pair(&self, k: usize, x: &mut [f64], increments: &mut [f64]) -> [Coordinate; 2] {
+        self.pair(k).map(|place| Coordinate {
+            x: std::mem::take(&mut x[place]),
+            increment: std::mem::take(&mut increments[place]),
+        })
+    }
+
+    /// The step of the modes of `k` diameters under the torques on them; a bound
+    /// on what it does to any angle \[rad\].
+    pub fn drive(
+        &self,
+        k: usize,
+        torques: [f64; 2],
+        before: [Coordinate; 2],
+        x: &mut [f64],
+        increments: &mut [f64],
+    ) -> f64 {
+        let mut change = 0.0;
+        for (place, (torque, at)) in self.pair(k).into_iter().zip(torques.into_iter().zip(before)) {
+            let driven = self.oscillators[k].step(at, self.shapes.scale(k) * torque);
+            (x[place], increments[place]) = (driven.x, driven.increment);
+            change += driven.increment.abs();
+        }
+        self.largest_shape * change
+    }
+
+    /// The diameters that an excitation drives, in those of the ring.
+    pub fn driven(&self, torque: &EngineOrderTorque) -> usize {
+        (torque.diameters() / self.alike) as usize
+    }
+
+    /// Places of the cosine and sine coordinates of `k` diameters of the ring.
+    pub fn pair(&self, k: usize) -> [usize; 2] {
+        [k, self.shapes.width() + k]
+    }
+
+    /// What a torque on the member with this row of shapes does to positions and
+    /// increments in a step.
+    pub fn correct(&self, row: &[f64], torque: f64, x: &mut [f64], increments: &mut [f64]) {
+        let moving = x.as_chunks_mut::<LANES>().0.iter_mut();
+        let moving = moving.zip(increments.as_chunks_mut::<LANES>().0);
+        let changes = self.compliance.as_chunks::<LANES>().0.iter();
+        let changes = changes.zip(row.as_chunks::<LANES>().0);
+        for ((x, increment), (compliance, shape)) in moving.zip(changes) {
+            for lane in 0..LANES {
+                let change = compliance[lane] * torque * shape[lane];
+                x[lane] += change;
+                increment[lane] += change;
+            }
+        }
+    }
+
+    /// Gives every member and what the modes of `k` diameters make of its angle
+    /// to `look`; nothing, where there are none such.
+    pub fn each_of_pair(&self, k: Option<usize>, x: &[f64], mut look: impl FnMut(usize, f64)) {
+        let Some(k) = k else {
+            (0..self.shapes.count()).for_each(|member| look(member, 0.0));
+            return;
+        };
+        let scale = self.shapes.scale(k);
+        let [a, b] = self.pair(k).map(|place| scale * x[place]);
+        let mut at = 0;
+        for member in 0..self.shapes.count() {
+            let (c, s) = self.shapes.turn()[at];
+            look(member, a * c + b * s);
+            at += k;
+            if at >= self.shapes.count() {
+                at -= self.shapes.count();
+            }
+        }
+    }
+
+    /// Coordinates of `alpha_c` and `alpha_s`: the diameters, the place in the
+    /// list and the factor.
+    pub fn shown(&self) -> [(usize, usize, f64); 2] {
+        self.shown.map(|(place, factor)| (place % self.shapes.width(), place, factor))
+    }
+}
+
+/// See `Ring::shown`: modes of `n_d` diameters are those of fewer, seen from
+/// blade to blade.
+fn shown(machine: &Machine, shapes: &Shapes, alike: u32) -> [(usize, f64); 2] {
+    let count = shapes.count();
+    let alias = (machine.polygon.nodal_diameters / alike) as usize % count;
+    let folded = alias.min(count - alias);
+    let scale = shapes.scale(folded);
+    let sign = if !machine.has_sine_mode {
+        0.0
+    } else if alias == folded {
+        1.0
+    } else {
+        -1.0
+    };
+    [(folded, scale), (shapes.width() + folded, sign * scale)]
+}

@@ -1,0 +1,288 @@
+//! Mode shapes of a ring of equal blades, `cos(k Phi_i)` and `sin(k Phi_i)`, made
+//! orthonormal: from mode coordinates to blade angles.
+//!
+//! Cosines of all pairs are multiples of one angle, so one turn of them is a
+//! table of all. One blade costs a sum over the modes. Every blade at once is a
+//! discrete Fourier transform: of a ring that divides into parts, one of each
+//! part is enough (Cooley and Tukey), which makes `N^2` into `N` times the sum of
+//! the prime factors of `N`.
+
+use crate::model::fraction_of_turn;
+use crate::motion::explicit::Coordinate;
+use crate::tolerances::{FEW_BLADES, SHAPES_KEPT};
+
+/// Numbers that are added side by side.
+pub(super) const LANES: usize = 4;
+
+/// Mode shapes of `N` blades. Coordinates are lists of twice `width` numbers:
+/// the cosine modes of `0 ..= N/2` diameters, then the sine modes, each filled
+/// up with zeros to a multiple of `LANES`.
+#[derive(Debug)]
+pub(super) struct Shapes {
+    /// `(cos, sin)` of `2 pi i/N`.
+    turn: Vec<(f64, f64)>,
+    /// Length of one half of a list of coordinates.
+    width: usize,
+    /// Factor that makes the modes of each number of diameters orthonormal.
+    scales: Vec<f64>,
+    /// `rows[blade]`, ready to be multiplied with coordinates, of a ring of few
+    /// blades; none of a larger one, where they would be `N^2` numbers.
+    rows: Vec<Vec<f64>>,
+}
+
+impl Shapes {
+    /// Of a ring of `count >= 1` blades.
+    pub fn new(count: u32) -> Self {
+        let blades = f64::from(count);
+        let turn: Vec<_> = (0..count).map(|blade| fraction_of_turn(blade, count)).collect();
+        let scale = |k: u32| {
+            let alone = k == 0 || 2 * k == count;
+            if alone { 1.0 / blades } else { 2.0 / blades }.sqrt()
+        };
+        let scales: Vec<f64> = (0..=count / 2).map(scale).collect();
+        let width = scales.len().next_multiple_of(LANES);
+        let mut shapes = Self { turn, width, scales, rows: Vec::new() };
+        if count <= SHAPES_KEPT {
+            shapes.rows = (0..count as usize).map(|blade| shapes.row(blade)).collect();
+        }
+        shapes
+    }
+
+    /// Both shapes of every mode at a blade (from 0), in the order of
+    /// coordinates.
+    pub fn row(&self, blade: usize) -> Vec<f64> {
+        let mut row = vec![0.0; 2 * self.width];
+        let (cosines, sines) = row.split_at_mut(self.width);
+        for ((c, s), (cos, sin)) in cosines.iter_mut().zip(sines).zip(self.along(blade)) {
+            (*c, *s) = (cos, sin);
+        }
+        row
+    }
+
+    /// `(cos, sin)` of `2 pi i/N`.
+    pub fn turn(&self) -> &[(f64, f64)] {
+        &self.turn
+    }
+
+    /// How many blades there are.
+    pub fn count(&self) -> usize {
+        self.turn.len()
+    }
+
+    /// Length of one half of a list of coordinates.
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Factor of the shapes of `k` diameters.
+    pub fn scale(&self, k: usize) -> f64 {
+        self.scales[k]
+    }
+
+    /// Factors of `0 ..= N/2` diameters.
+    pub fn scales(&self) -> &[f64] {
+        &self.scales
+    }
+
+    /// Both shapes at a blade (from 0), of each number of diameters.
+    fn along(&self, blade: usize) -> impl Iterator<Item = (f64, f64)> {
+        let mut at = 0;
+        self.scales.iter().map(move |scale| {
+            let (c, s) = self.turn[at];
+            at += blade;
+            if at >= self.turn.len() {
+                at -= self.turn.len();
+            }
+            (scale * c, scale * s)
+        })
+    }
+
+    /// The row of a blade (from 0), if it is kept.
+    pub fn kept(&self, blade: usize) -> Option<&[f64]> {
+        self.rows.get(blade).map(Vec::as_slice)
+    }
+
+    /// The value at a blade (from 0) of what has these coordinates.
+    pub fn at(&self, blade: usize, coordinates: &[f64]) -> f64 {
+        if let Some(row) = self.kept(blade) {
+            return product(row, coordinates);
+        }
+        let (cosines, sines) = coordinates.split_at(self.width);
+        let values = cosines.iter().zip(sines);
+        self.along(blade).zip(values).map(|((c, s), (x, y))| c * x + s * y).sum()
+    }
+
+    /// How many blades cost less one by one than all of them at once.
+    pub fn few(&self) -> usize {
+        if !self.rows.is_empty() {
+            return self.count();
+        }
+        let (mut left, mut factors) = (self.count(), 0);
+        while left > 1 {
+            let factor = smallest_factor(left);
+            (left, factors) = (left / factor, factors + factor);
+        }
+        FEW_BLADES * factors
+    }
+
+    /// The values at every blade.
+    pub fn all(&self, coordinates: &[f64]) -> Vec<f64> {
+        if self.rows.is_empty() {
+            let nothing = vec![0.0; coordinates.len()];
+            return self.all_moving(coordinates, &nothing).iter().map(|at| at.x).collect();
+        }
+        (0..self.count()).map(|blade| self.at(blade, coordinates)).collect()
+    }
+
+    /// Position and increment of every blade.
+    pub fn all_moving(&self, positions: &[f64], increments: &[f64]) -> Vec<Coordinate> {
+        if !self.rows.is_empty() {
+            let [x, increments] = [positions, increments].map(|values| self.all(values));
+            let both = x.into_iter().zip(increments);
+            return both.map(|(x, increment)| Coordinate { x, increment }).collect();
+        }
+        // Two real sums in one complex one.
+        let count = self.count();
+        let mut spectrum = vec![(0.0, 0.0); count];
+        for (k, &scale) in self.scales.iter().enumerate() {
+            let (a, b) = (scale * positions[k], scale * positions[self.width + k]);
+            let (c, d) = (scale * increments[k], scale * increments[self.width + k]);
+            if k == 0 || 2 * k == count {
+                spectrum[k] = (a, c);
+            } else {
+                spectrum[k] = (0.5 * (a + d), 0.5 * (c - b));
+                spectrum[count - k] = (0.5 * (a - d), 0.5 * (c + b));
+            }
+        }
+        let mut values = vec![(0.0, 0.0); count];
+        self.transform(&spectrum, 0, 1, &mut values, &mut vec![(0.0, 0.0); count]);
+        values.into_iter().map(|(x, increment)| Coordinate { x, increment }).collect()
+    }
+
+    /// `values[i] = sum_k spectrum[first + k stride] exp(2 pi i k stride/N)`, for
+    /// `k` and `i` below the number of values, which is `N/stride`.
+    fn transform(
+        &self,
+        spectrum: &[(f64, f64)],
+        first: usize,
+        stride: usize,
+        values: &mut [(f64, f64)],
+        room: &mut [(f64, f64)],
+    ) {
+        let count = values.len();
+        if count == 1 {
+            values[0] = spectrum[first];
+            return;
+        }
+        let parts = smallest_factor(count);
+        let each = count / parts;
+        for (part, values) in values.chunks_exact_mut(each).enumerate() {
+            self.transform(spectrum, first + part * stride, parts * stride, values, room);
+        }
+        let whole = self.turn.len();
+        for place in 0..each {
+            for (part, member) in room.iter_mut().take(parts).enumerate() {
+                *member = values[part * each + place];
+            }
+            for (row, value) in values.iter_mut().skip(place).step_by(each).enumerate() {
+                let turn = (row * each + place) * stride;
+                let (mut at, mut sum) = (0, (0.0, 0.0));
+                for member in room.iter().take(parts) {
+                    let (c, s) = self.turn[at];
+                    sum.0 += member.0 * c - member.1 * s;
+                    sum.1 += member.0 * s + member.1 * c;
+                    at += turn;
+                    if at >= whole {
+                        at -= whole;
+                    }
+                }
+                *value = sum;
+            }
+        }
+    }
+}
+
+/// The value of what has these coordinates where the shapes are those of `row`.
+pub(super) fn product(row: &[f64], coordinates: &[f64]) -> f64 {
+    let mut sums = [0.0; LANES];
+    let (shapes, values) = (row.as_chunks::<LANES>().0, coordinates.as_chunks::<LANES>().0);
+    for (shape, value) in shapes.iter().zip(values) {
+        for lane in 0..LANES {
+            sums[lane] += shape[lane] * value[lane];
+        }
+    }
+    (sums[0] + sums[2]) + (sums[1] + sums[3])
+}
+
+/// The smallest prime factor of `count >= 2`.
+fn smallest_factor(count: usize) -> usize {
+    let divides = |factor: &usize| count.is_multiple_of(*factor);
+    (2..).take_while(|factor| factor * factor <= count).find(divides).unwrap_or(count)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::TAU;
+
+    /// Some numbers of no structure, zero where no mode is.
+    fn coordinates(shapes: &Shapes, seed: f64) -> Vec<f64> {
+        let count = shapes.count();
+        let value = |place: usize| {
+            let (k, sine) = (place % shapes.width(), place >= shapes.width());
+            let alone = k == 0 || 2 * k == count;
+            let exists = 2 * k <= count && !(sine && alone);
+            if exists { (seed * (place as f64 + 1.0)).sin() } else { 0.0 }
+        };
+        (0..2 * shapes.width()).map(value).collect()
+    }
+
+    /// The sum over the modes, as it is written.
+    fn plain(shapes: &Shapes, blade: usize, coordinates: &[f64]) -> f64 {
+        let count = shapes.count();
+        let mode = |k: usize| {
+            let angle = TAU * ((k * blade) % count) as f64 / count as f64;
+            let alone = k == 0 || 2 * k == count;
+            let scale = (if alone { 1.0 } else { 2.0 } / count as f64).sqrt();
+            let (c, s) = (coordinates[k], coordinates[shapes.width() + k]);
+            scale * (c * angle.cos() + s * angle.sin())
+        };
+        (0..=count / 2).map(mode).sum()
+    }
+
+    #[test]
+    fn angles_of_blades_are_sums_over_modes() {
+        // One blade and two, primes, powers, mixed, and rings too large to keep.
+        for count in [1, 2, 3, 4, 5, 7, 8, 9, 22, 66, 97, 128, 129, 131, 180, 220, 243, 1001] {
+            let shapes = Shapes::new(count);
+            let (x, v) = (coordinates(&shapes, 0.7), coordinates(&shapes, 1.3));
+            let (all, moving) = (shapes.all(&x), shapes.all_moving(&x, &v));
+            assert_eq!((all.len(), moving.len()), (count as usize, count as usize));
+            // Round-off of a sum of N terms of one, and of phases of a turn.
+            let allowed = 1e-15 * f64::from(count + 4);
+            for blade in 0..count as usize {
+                let expected = plain(&shapes, blade, &x);
+                for found in [shapes.at(blade, &x), all[blade], moving[blade].x] {
+                    assert!((found - expected).abs() < allowed, "{count} {blade}: {found}");
+                }
+                let rate = moving[blade].increment - plain(&shapes, blade, &v);
+                assert!(rate.abs() < allowed, "{count} {blade}: {rate}");
+            }
+        }
+    }
+
+    #[test]
+    fn shapes_are_orthonormal() {
+        for count in [1, 2, 5, 22, 131, 140] {
+            let shapes = Shapes::new(count);
+            let rows: Vec<Vec<f64>> = (0..count as usize).map(|blade| shapes.row(blade)).collect();
+            for (i, a) in rows.iter().enumerate() {
+                for (j, b) in rows.iter().enumerate() {
+                    let product: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
+                    let expected = f64::from(u8::from(i == j));
+                    assert!((product - expected).abs() < 1e-13, "{count} {i} {j}: {product}");
+                }
+            }
+        }
+    }
+}
