@@ -1,7 +1,7 @@
 //! Verdicts of the explicit solver that nothing to come can change
 //! (docs/theory.md, section 9).
 
-use super::flight::Held;
+use super::held::Held;
 use super::{BladeModel, Explicit};
 use crate::motion::Verdict;
 use crate::tolerances::{HELD_AFTER, LIGHT_BLADES, ROOM_TO_CHANGE};

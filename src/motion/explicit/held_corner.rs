@@ -45,9 +45,10 @@ pub(super) struct HeldCorner {
 }
 
 impl HeldCorner {
-    /// The two sides, in the order of the contact log.
-    pub fn sides(&self) -> [u32; 2] {
-        self.step.sides()
+    /// Values of the two sides, each with its side.
+    pub fn by_side(&self, [a, b]: [f64; 2]) -> [Option<(u32, f64)>; 2] {
+        let [first, second] = self.step.sides();
+        [Some((first, a)), Some((second, b))]
     }
 
     /// Blade modes after `steps` steps.

@@ -3,20 +3,25 @@
 //! once contact happens.
 //!
 //! Each step predicts free motion, looks for penetrations and corrects them
-//! with one of the two contact laws. Free steps (`flight`) and those of a held lock
-//! (`held_corner`) are taken many at once, as plain stepping would take them.
+//! with one of the two contact laws. Free steps (`flight`), those of a held lock
+//! (`held_corner`) and those along one side of rigid blades (`held_side`) are taken many
+//! at once, as plain stepping would take them; along a side of blades that move a short
+//! step is enough (`sliding`).
 
 mod blades;
+mod block;
 mod corner_step;
 mod correct;
 mod decided;
 mod excitation;
 mod flight;
+mod held;
 mod held_corner;
 mod held_side;
 mod leap;
 mod oscillator;
 mod parameters;
+mod phasor;
 mod side_map;
 mod sliding;
 mod solver;
@@ -33,8 +38,10 @@ use crate::contact::{self, StepLaw};
 use crate::model::Machine;
 use crate::scene::CheckedScene;
 use crate::tolerances::BREAK_STEPS;
+use block::Block;
 use correct::ConstraintRow;
-use flight::{Block, Held, Phasor};
+use held::Held;
+use phasor::Phasor;
 use side_map::SideMap;
 use sliding::Sliding;
 use watch::Watch;
@@ -59,7 +66,7 @@ pub struct Explicit<B: BladeModel> {
     n: u64,
     u: [Coordinate; 2],
     blades: B,
-    /// Free steps already decided on, not yet taken; see `flight`.
+    /// Steps already decided on, not yet taken.
     block: Block,
     /// Steps of the blocks closed so far.
     skipped: u64,

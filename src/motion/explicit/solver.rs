@@ -1,7 +1,8 @@
 //! The explicit solver as every solver is seen: advanced, looked at, and changed on
 //! the way.
 
-use super::flight::{Held, Phasor};
+use super::held::Held;
+use super::phasor::Phasor;
 use super::{BladeModel, Coordinate, Explicit};
 use crate::model::Machine;
 use crate::motion::contacts::in_phase_order;
