@@ -117,6 +117,14 @@ pub(crate) const NEAR_SIDES: f64 = 0.9;
 /// only.
 pub(crate) const SHORT_LOOK: f64 = 1e-6;
 
+/// Radians of the motion along a side that one look ahead covers at most. Larger:
+/// the bound on what its third derivative leaves out is loose. Speed only.
+pub(crate) const SIDE_LOOK: f64 = 1.0;
+
+/// `exp(SIDE_LOOK)`, rounded up: how much a motion along a side can grow in one
+/// look. Smaller: a contact could be missed.
+pub(crate) const SIDE_GROWTH: f64 = 2.72;
+
 /// Part of all rates below which the casing is soft: it may swing so far that
 /// nothing bounds it over a whole period. Smaller: looks without number.
 pub(crate) const SOFT_CASING: f64 = 0.1;

@@ -85,6 +85,8 @@ pub struct Event {
     deepest: f64,
     widest: f64,
     failure: Option<Failure>,
+    /// Series of a rocking motion, once one was looked for.
+    tables: Option<Box<rocking::Tables>>,
 }
 
 impl Event {
@@ -126,6 +128,7 @@ impl Event {
             widest: 0.0,
             tips: Tips::default(),
             failure: None,
+            tables: None,
         };
         event.drive = event.drive_now(0.0);
         event.begin(place, rate);

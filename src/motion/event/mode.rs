@@ -128,7 +128,7 @@ impl Mode {
                 };
                 let y = sign * (parameters.half_side - swing.distance);
                 let rate = -sign * swing.speed;
-                let pulse = drive.pulse * drive.inward(parameters, side, s).re;
+                let pulse = drive.pulse_on(parameters, side, s).re;
                 let push = parameters.push(drive.nu(s), drive.nu_rate, y, rate, pulse);
                 Some((side, Along { y, rate, push }))
             }
@@ -177,20 +177,21 @@ impl Mode {
         }
     }
 
-    /// Place and rate as the rotor sees them, `s` seconds on: those of
-    /// `u exp(-i n_d theta)`.
+    /// Place and rate as the rotor sees them, `s` seconds on, those of
+    /// `u exp(-i n_d theta)`; from the motion along a side then, if there is one.
     pub(super) fn seen_by_rotor(
         &self,
         parameters: &Parameters,
         drive: &Drive,
         s: f64,
+        along: Option<(u32, Along)>,
     ) -> (Plane, Plane) {
         if let Self::Free(_) | Self::Held(_) = self {
             let (place, rate) = self.standing(parameters, drive, s);
             let back = Plane::cis(-drive.phase(s));
             return (place * back, (rate - Plane::i() * place * drive.nu(s)) * back);
         }
-        let Some((side, along)) = self.along(parameters, drive, s) else {
+        let Some((side, along)) = along else {
             return Default::default();
         };
         let normal = parameters.normal(side, &self.tips(parameters, s));
@@ -330,10 +331,7 @@ impl Mode {
         };
         let [dissipated, work] = match self {
             Self::Free(free) => [energy_balance::dissipated(parameters, drive, free, s), 0.0],
-            Self::Slide(slide) => quadrature(s, 2.0 * slide.fastest(), |t| {
-                let Along { y, rate, push } = slide.at(parameters, drive, t);
-                power(t, y, rate, push)
-            }),
+            Self::Slide(slide) => slide.energies(parameters, drive, s),
             Self::Driven(series) => quadrature(s, 2.0 / series.length, |t| {
                 let Along { y, rate, push } = series.at(t);
                 if parameters.blades.is_some() {

@@ -189,8 +189,8 @@ impl Event {
             return;
         }
         let s = self.elapsed(self.now);
-        let (place, mut rate) = self.mode.seen_by_rotor(&self.parameters, &self.drive, s);
         let side = self.mode.along(&self.parameters, &self.drive, s);
+        let (place, mut rate) = self.mode.seen_by_rotor(&self.parameters, &self.drive, s, side);
         if let (Mode::Slide(_) | Mode::Driven(_), Some((side, along))) = (&self.mode, side) {
             let tips = self.mode.tips(&self.parameters, s);
             let (normal, _) = self.parameters.normal(side, &tips);
