@@ -59,6 +59,12 @@ impl Propagator {
         }
     }
 
+    /// Its frequency with damping \[rad/s\]; none where it does not swing, or hardly.
+    pub(super) fn swing(&self) -> Option<f64> {
+        let swings = self.discriminant < 0.0 && self.root > DOUBLE_ROOT * self.damping;
+        swings.then_some(self.root)
+    }
+
     /// When a free motion from `place` with `rate` first comes to rest \[s\], for
     /// `kappa > 0`; none where it creeps back to zero without a turning point.
     pub(super) fn first_rest(&self, place: f64, rate: f64) -> Option<f64> {

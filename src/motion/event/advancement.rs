@@ -35,7 +35,7 @@ impl Gap {
 const TRIES: usize = 6;
 
 /// As `safe_step`, from three derivatives now and a bound `jounce` on the fourth
-/// that holds for `span` seconds; never longer than `span`.
+/// that holds for `span` seconds, which are finite; never longer than `span`.
 ///
 /// The gap stays above `gap + rate t + bend t^2/2 + twist t^3/6 - jounce t^4/24`,
 /// and its second derivative above `bend + twist t - jounce t^2/2`, which is
@@ -47,9 +47,12 @@ pub(super) fn curved_step(now: Gap, jounce: f64, span: f64) -> f64 {
     let (mut t, mut end) = (0.0, span);
     let (mut gap, mut rate) = (now.gap, now.rate);
     for _ in 0..TRIES {
-        let bend = bend_at(t).min(bend_at(end));
-        let step = safe_step(gap.max(0.0), rate, (-bend).max(0.0));
-        if t + step < end {
+        let bend = (-bend_at(t).min(bend_at(end))).max(0.0);
+        let left = end - t;
+        // A concave bound that is open at both ends is open between them.
+        let open = gap >= 0.0 && gap + left * (rate - 0.5 * bend * left) > 0.0;
+        let step = if open { left } else { safe_step(gap.max(0.0), rate, bend) };
+        if step < left {
             t += step;
             // What converges is not followed to its last digits.
             if step < 1e-3 * t {
@@ -75,39 +78,9 @@ pub(super) fn leaving_step(bend: f64, twist: f64, jounce: f64) -> f64 {
     safe_step(0.5 * bend.max(0.0), twist / 6.0, jounce / 12.0)
 }
 
-/// A time over which a gap stays open, from its first three derivatives now and a
-/// bound on the fourth \[s\]: no term takes more than a quarter of the gap. Longer
-/// than `safe_step` where gap, rate and bend nearly vanish at once.
-pub(super) fn grazing_step(gap: f64, rate: f64, bend: f64, twist: f64, jounce: f64) -> f64 {
-    let part = 0.25 * gap;
-    let closing = |term: f64, factorial: f64| {
-        if term < 0.0 { part * factorial / -term } else { f64::INFINITY }
-    };
-    closing(rate, 1.0)
-        .min(closing(bend, 2.0).sqrt())
-        .min(closing(twist, 6.0).cbrt())
-        .min(closing(-jounce, 24.0).sqrt().sqrt())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_grazing_step_keeps_the_gap_open() {
-        for (rate, bend, twist) in [(0.0, 0.0, 0.0), (-1e-9, 1e-6, -1.0), (1.0, -3.0, 2.0)] {
-            let (gap, jounce) = (1e-12, 5.0);
-            let t = grazing_step(gap, rate, bend, twist, jounce);
-            for part in [0.3, 0.7, 1.0] {
-                let s: f64 = part * t;
-                let ahead = rate * s + bend * s * s / 2.0 + twist * s.powi(3) / 6.0;
-                assert!(gap + ahead - jounce * s.powi(4) / 24.0 >= 0.0);
-            }
-        }
-        // Where all but the fourth derivative vanish it is far longer than without.
-        let long = grazing_step(1e-15, 0.0, 0.0, 0.0, 1.0);
-        assert!(long > 1e3 * safe_step(1e-15, 0.0, 1.0), "{long}");
-    }
 
     #[test]
     fn the_bound_is_zero_where_the_step_ends() {

@@ -26,6 +26,7 @@ mod energy_balance;
 mod free;
 mod impact;
 mod parameters;
+mod rise;
 mod rocking;
 mod side_series;
 mod slide;

@@ -64,14 +64,7 @@ pub(super) enum Next {
 
 impl Mode {
     /// Looks ahead from `s` to at most `end`; events do not come before `s`.
-    pub(super) fn look(
-        &self,
-        parameters: &Parameters,
-        drive: &Drive,
-        s: f64,
-        end: f64,
-        stalled: bool,
-    ) -> Next {
+    pub(super) fn look(&self, parameters: &Parameters, drive: &Drive, s: f64, end: f64) -> Next {
         let along = |ahead: Ahead| match ahead {
             Ahead::Until(later) => Next::Until(later),
             Ahead::Edge(up) if parameters.corners => Next::Now(What::Edge(up)),
@@ -80,7 +73,7 @@ impl Mode {
             Ahead::Lost => Next::Now(What::Lost),
         };
         match self {
-            Self::Free(free) => match free.look(parameters, drive, s, end, stalled) {
+            Self::Free(free) => match free.look(parameters, drive, s, end) {
                 Look::Until(later) => Next::Until(later),
                 Look::Touch(side) => Next::Now(What::Touch(side)),
                 Look::Never => Next::Until(end),

@@ -135,11 +135,6 @@ pub(super) struct Drive {
 }
 
 impl Drive {
-    /// The same, `s` seconds on.
-    pub(super) fn at(&self, s: f64) -> Self {
-        Self { phase: self.phase(s), nu: self.nu(s), ..*self }
-    }
-
     /// `n_d theta`, `s` seconds on \[rad\].
     pub(super) fn phase(&self, s: f64) -> f64 {
         self.phase + (self.nu + 0.5 * self.nu_rate * s) * s

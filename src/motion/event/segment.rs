@@ -8,9 +8,7 @@ use super::free::Free;
 use super::mode::{Mode, Next, What};
 use super::parameters::Drive;
 use crate::motion::{ActiveSet, Failure, FailureReason, GoOn, Plane};
-use crate::tolerances::{
-    AN_INSTANT, LOOKS_UNASKED, MOST_EVENTS, MOST_EVENTS_AT_ONCE, MOST_LOOKS, STALLED_LOOKS,
-};
+use crate::tolerances::{AN_INSTANT, LOOKS_UNASKED, MOST_EVENTS, MOST_EVENTS_AT_ONCE, MOST_LOOKS};
 
 /// What a search for the event that ends a segment comes to.
 enum Sought {
@@ -125,8 +123,7 @@ impl Event {
                 self.fail(self.safe, FailureReason::Looks);
                 return Sought::Nothing;
             }
-            let stalled = self.looks > STALLED_LOOKS;
-            match self.mode.look(&self.parameters, &self.drive, self.safe, end, stalled) {
+            match self.mode.look(&self.parameters, &self.drive, self.safe, end) {
                 Next::Until(later) => self.safe = later.min(end),
                 Next::Now(what) => self.found = Some((self.safe, what)),
             }

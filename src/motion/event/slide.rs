@@ -8,7 +8,7 @@ use super::energy_balance::GAUSS_8;
 use super::parameters::{Drive, Parameters};
 use crate::motion::Plane;
 use crate::motion::propagator::Propagator;
-use crate::tolerances::{MOST_PANELS, SERIES_END, SIDE_GROWTH, SIDE_LOOK};
+use crate::tolerances::{LONGEST_LOOK, MOST_PANELS, SERIES_END, SIDE_GROWTH, SIDE_LOOK};
 
 /// Pairs of terms of a panel: at one radian the first one dropped is `1/20!`.
 const PANEL_TERMS: usize = 10;
@@ -16,7 +16,7 @@ const PANEL_TERMS: usize = 10;
 /// What the recurrence of a panel's terms divides by: for the pair `n = 2k`, `n + 1`
 /// the factors `1/(n+1)`, `1/(n (n+1))`, and those of the next term.
 const OVER: [[f64; 4]; PANEL_TERMS] = {
-    let mut over = [[0.0; 4]; PANEL_TERMS];
+    let mut over = [[1.0, 0.0, 0.0, 0.0]; PANEL_TERMS];
     let mut k = 1;
     while k < PANEL_TERMS {
         let n = 2.0 * k as f64;
@@ -43,23 +43,32 @@ pub(super) struct Slide {
 /// Integrals over a time.
 #[derive(Clone, Copy, Debug, Default)]
 struct Moments {
+    /// Of the rate \[m\].
+    displacement: f64,
     /// Of the place \[m s\].
     place: f64,
     /// Of its square \[m^2 s\].
     square: f64,
-    /// Of the square of its rate \[m^2/s\].
+    /// Of the square of the rate \[m^2/s\].
     speed: f64,
 }
 
 impl Moments {
-    /// Adds a panel of this half length: even and odd terms of a power series, as
-    /// many of each as are used.
-    fn add(&mut self, terms: &[[f64; 2]; PANEL_TERMS], used: usize, half: f64) {
-        // Even and odd part of the place at every node, and of its rate but for a
-        // factor: four nodes side by side.
+    /// Adds a panel of this half length, from the even and odd terms of its power
+    /// series; the squares only where something is damped.
+    fn add(&mut self, terms: &[[f64; 2]], half: f64, damped: bool) {
+        for ([even, odd], over) in terms.iter().zip(&OVER) {
+            self.displacement += 2.0 * odd;
+            self.place += 2.0 * half * even * over[0];
+        }
+        if !damped {
+            return;
+        }
+        // By Gauss quadrature, four pairs of nodes side by side: even and odd part
+        // of the place, and of its rate but for a factor.
         let squares = GAUSS_8.map(|(node, _)| node * node);
         let (mut value, mut slope) = ([[0.0; 4]; 2], [[0.0; 4]; 2]);
-        for pair in terms.iter().take(used).rev() {
+        for pair in terms.iter().rev() {
             for k in [0, 1] {
                 for n in 0..4 {
                     slope[k][n] = slope[k][n] * squares[n] + value[k][n];
@@ -71,10 +80,8 @@ impl Moments {
             let (even, odd) = (value[0][n], value[1][n] * node);
             let (even_rate, odd_rate) =
                 (2.0 * slope[0][n] * node, value[1][n] + 2.0 * slope[1][n] * squares[n]);
-            let both = 2.0 * weight;
-            self.place += both * half * even;
-            self.square += both * half * (even * even + odd * odd);
-            self.speed += both / half * (even_rate * even_rate + odd_rate * odd_rate);
+            self.square += 2.0 * weight * half * (even * even + odd * odd);
+            self.speed += 2.0 * weight / half * (even_rate * even_rate + odd_rate * odd_rate);
         }
     }
 }
@@ -143,8 +150,7 @@ impl Slide {
     /// rotor, per unit casing mass.
     pub(super) fn energies(&self, parameters: &Parameters, drive: &Drive, s: f64) -> [f64; 2] {
         let (nu, g0, c) = (drive.nu, parameters.clearance, self.propagator.damping);
-        let (displacement, _) = self.moved(s);
-        let Moments { place, square, speed } = self.moments(s);
+        let Moments { displacement, place, square, speed } = self.moments(s);
         let end = self.y + displacement;
         // Of c |u'|^2 with u' = y' - nu g0 along the side and nu y across it.
         let along = speed - 2.0 * nu * g0 * displacement + nu * nu * g0 * g0 * s;
@@ -156,9 +162,8 @@ impl Slide {
         [dissipated, work]
     }
 
-    /// Integrals of the place, of its square and of the square of its rate over the
-    /// first `s` seconds: of the Taylor series about the middle of panels that are
-    /// so short that it ends in round-off, by Gauss quadrature.
+    /// Integrals over the first `s` seconds, of the Taylor series about the middle of
+    /// panels so short that it ends in round-off.
     fn moments(&self, s: f64) -> Moments {
         let (kappa, c) = (self.propagator.stiffness, self.propagator.damping);
         let panels = (0.5 * self.fastest() * s).ceil().clamp(1.0, MOST_PANELS);
@@ -187,7 +192,7 @@ impl Slide {
                     break;
                 }
             }
-            sums.add(&terms, used, half);
+            sums.add(terms.get(..used).unwrap_or(&terms), half, c > 0.0);
             panel += 1.0;
         }
         sums
@@ -208,11 +213,11 @@ impl Slide {
         // The acceleration from here on obeys the equation without forcing. Each
         // derivative costs a factor `fastest`, and the time ahead exp(fastest t).
         let fastest = self.fastest();
-        let span = if fastest > 0.0 { SIDE_LOOK / fastest } else { f64::INFINITY };
+        let span = (SIDE_LOOK / fastest).min(LONGEST_LOOK / parameters.omega);
         let jounce =
             SIDE_GROWTH * fastest * (third.abs() + acceleration.abs() * (fastest + 2.0 * c));
         let mut stride = span;
-        for up in [true, false] {
+        for up in [rate > 0.0, rate <= 0.0] {
             let sign = if up { -1.0 } else { 1.0 };
             let room = parameters.half_side + sign * self.y;
             let gap = room + sign * displacement;
@@ -259,4 +264,43 @@ pub(super) fn push_noise(parameters: &Parameters, nu: f64, y: f64, rate: f64, pu
     let square = (parameters.omega * parameters.omega).max(nu * nu);
     parameters.tolerance
         * (square * (parameters.clearance + y.abs()) + 2.0 * nu.abs() * rate.abs() + pulse.abs())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::event::energy_balance::quadrature;
+    use crate::scene::Scene;
+
+    #[test]
+    fn energies_of_the_series_are_those_of_a_plain_quadrature() {
+        for (zeta, speed) in
+            [("0", "500"), ("0.01", "500"), ("0.3", "450"), ("0.05", "200"), ("0.7", "293")]
+        {
+            let changes = [("casing.damping_ratio", zeta), ("operation.speed_rad_s", speed)];
+            let scene = Scene::base().with(&changes).unwrap();
+            let parameters = Parameters::new(&scene);
+            let drive = Drive { nu: 3.0 * scene.operation.speed_rad_s, ..Drive::default() };
+            for (y, rate, s) in
+                [(-1.4e-5, 0.05, 8e-4), (3e-6, -0.02, 1e-9), (1e-6, 0.0, 5e-3), (1e-5, 0.01, 3e-5)]
+            {
+                let slide = Slide::new(&parameters, &drive, 4, y, rate);
+                let (drag, nu) = (2.0 * parameters.damping, drive.nu);
+                let mut size = 0.0_f64;
+                for k in 0..=100 {
+                    let Along { y, push, .. } =
+                        slide.at(&parameters, &drive, 0.01 * s * f64::from(k));
+                    size = size.max((nu * push * y * s).abs());
+                }
+                let [dissipated, work] = quadrature(s, 20.0 * slide.fastest(), |t| {
+                    let Along { y, rate, push } = slide.at(&parameters, &drive, t);
+                    let (across, along) = (nu * y, rate - nu * parameters.clearance);
+                    [drag * (along * along + across * across), -nu * push * y]
+                });
+                let found = slide.energies(&parameters, &drive, s);
+                assert!((found[0] - dissipated).abs() <= 1e-13 * dissipated, "{changes:?} {s}");
+                assert!((found[1] - work).abs() <= 1e-12 * size, "{changes:?} {s} {size}: {work}");
+            }
+        }
+    }
 }
