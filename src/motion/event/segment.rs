@@ -138,8 +138,10 @@ impl Event {
     /// Books the segment and moves its start by `s`; the mode is left to be
     /// replaced.
     pub(super) fn rebase(&mut self, s: f64, what: Option<What>) {
-        self.mode.book(&self.parameters, &self.drive, s, &mut self.energy_balance);
-        self.widest = self.mode.largest_angle(&self.parameters, &self.drive, s, self.widest);
+        if self.checked {
+            self.mode.book(&self.parameters, &self.drive, s, &mut self.energy_balance);
+            self.widest = self.mode.largest_angle(&self.parameters, &self.drive, s, self.widest);
+        }
         self.tips = self.mode.tips(&self.parameters, s);
         let phase = self.drive.phase(s) % TAU;
         if what == Some(What::PulseEnd) {
