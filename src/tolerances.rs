@@ -83,11 +83,6 @@ pub(crate) const MOST_EVENTS: u64 = 10_000_000;
 /// bounces for hours asks for them.
 pub(crate) const MOST_LOOKS: u64 = 100_000_000;
 
-/// Looks of one segment after which free flight is bounded to higher order:
-/// ordinary flights take some dozens. It may graze a side with neither rate nor
-/// bend, as next to the critical speed; without this it looks a billion times.
-pub(crate) const STALLED_LOOKS: u64 = 1000;
-
 /// Looks between two questions whether to go on: a look takes a microsecond, on
 /// a polygon of thousands of sides some fifty.
 pub(crate) const LOOKS_UNASKED: u64 = 16;
@@ -116,6 +111,31 @@ pub(crate) const NEAR_SIDES: f64 = 0.9;
 /// Radians of all rates below which a look ahead asks for a better bound. Speed
 /// only.
 pub(crate) const SHORT_LOOK: f64 = 1e-6;
+
+/// Radians of the motion along a side that one look ahead covers at most. Larger:
+/// the bound on what its third derivative leaves out is loose. Speed only.
+pub(crate) const SIDE_LOOK: f64 = 1.0;
+
+/// `exp(SIDE_LOOK)`, rounded up: how much a motion along a side can grow in one
+/// look. Smaller: a contact could be missed.
+pub(crate) const SIDE_GROWTH: f64 = 2.72;
+
+/// Radians of all rates beyond which a look ahead need not ask single sides: the
+/// casing stays away from all of them. Speed only.
+pub(crate) const LONG_LOOK: f64 = 0.1;
+
+/// Radians of the casing that one look ahead covers at most, where nothing else bounds
+/// it: next to a side that seems to rest. Infinite: sums of infinities.
+pub(crate) const LONGEST_LOOK: f64 = 1e6;
+
+/// Part of the largest swing by which the casing counts as reaching the blades too
+/// early: a thousand roundings. Smaller: where it just rises to them round-off could
+/// take it for falling, and a whole period would be passed.
+pub(crate) const RISE_MARGIN: f64 = 1e-13;
+
+/// Part of its frequency up to which damping is light: two waves then bound the motion
+/// well. Speed only.
+pub(crate) const LIGHT_DAMPING: f64 = 0.3;
 
 /// Part of all rates below which the casing is soft: it may swing so far that
 /// nothing bounds it over a whole period. Smaller: looks without number.

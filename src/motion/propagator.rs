@@ -59,6 +59,12 @@ impl Propagator {
         }
     }
 
+    /// Its frequency with damping \[rad/s\]; none where it does not swing, or hardly.
+    pub(super) fn swing(&self) -> Option<f64> {
+        let swings = self.discriminant < 0.0 && self.root > DOUBLE_ROOT * self.damping;
+        swings.then_some(self.root)
+    }
+
     /// When a free motion from `place` with `rate` first comes to rest \[s\], for
     /// `kappa > 0`; none where it creeps back to zero without a turning point.
     pub(super) fn first_rest(&self, place: f64, rate: f64) -> Option<f64> {
@@ -78,10 +84,10 @@ impl Propagator {
     /// The response `s >= 0` seconds on.
     pub(super) fn at(&self, s: f64) -> Response {
         let (c, q) = (self.damping, self.root);
-        if (c + q) * s < SHORT_TIME {
-            self.series(s)
-        } else if self.discriminant > 0.0 && q * s > 0.2 {
+        if self.discriminant > 0.0 && q * s > 0.2 {
             self.real_roots(s)
+        } else if (c + q) * s < SHORT_TIME {
+            self.series(s)
         } else {
             // Here kappa s^2 > 0.05, so that the division below keeps its digits.
             let (cos, sin) = if self.discriminant > 0.0 {
@@ -107,16 +113,16 @@ impl Propagator {
     fn real_roots(&self, s: f64) -> Response {
         let (c, q) = (self.damping, self.root);
         let (slow, fast) = (-self.stiffness / (c + q), -(c + q));
-        let (late, early) = ((slow * s).exp(), (fast * s).exp());
+        let ([late, later], [early, earlier]) = (exponential(slow * s), exponential(fast * s));
         // Integral of exp(r s) from 0, smooth through r = 0.
-        let integral = |r: f64| if r == 0.0 { s } else { (r * s).exp_m1() / r };
-        let unit = -late * (-2.0 * q * s).exp_m1() / (2.0 * q);
+        let integral = |r: f64, less: f64| if r == 0.0 { s } else { less / r };
+        let unit = (later - earlier) / (2.0 * q);
         let slope = (slow * late - fast * early) / (2.0 * q);
         Response {
             hold: slope + 2.0 * c * unit,
             unit,
             slope,
-            ramp: (integral(slow) - integral(fast)) / (2.0 * q),
+            ramp: (integral(slow, later) - integral(fast, earlier)) / (2.0 * q),
         }
     }
 
@@ -139,6 +145,17 @@ impl Propagator {
             }
         }
         Response { hold: 1.0 - spring * ramp, unit: unit * s, slope, ramp: ramp * s * s }
+    }
+}
+
+/// `exp(x)` and `exp(x) - 1`, each with its own digits: one exponential for both.
+fn exponential(x: f64) -> [f64; 2] {
+    if x < -0.5 {
+        let value = x.exp();
+        [value, value - 1.0]
+    } else {
+        let less = x.exp_m1();
+        [less + 1.0, less]
     }
 }
 

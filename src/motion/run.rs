@@ -154,6 +154,7 @@ pub(super) fn run_motion_to_verdict(
     // Looking costs little against one casing period of motion.
     let interval = (TAU / motion.machine().omega_c).max(end / RUN_LOOKS);
     let mut scripted = Scripted::new(motion, script);
+    scripted.motion.forgo_checks();
     let mut verdict = None;
     let mut looks = 0;
     while verdict.is_none() {

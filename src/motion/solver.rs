@@ -130,6 +130,10 @@ pub trait Solver: Debug + Send + Sync {
     /// Largest penetration, blade angle and other checks so far.
     fn checks(&self) -> Checks;
 
+    /// From now on keeps no account of `checks` that costs time; for a run of which
+    /// only the verdict is asked. The motion is the same.
+    fn forgo_checks(&mut self) {}
+
     /// Fires the pulse again, from now on.
     fn fire(&mut self);
 

@@ -62,8 +62,8 @@ fn a_side_that_lets_go_and_closes_by_round_off_does_not_hang() {
     ]);
     let outcome = simulate(&scene.checked().unwrap()).outcome;
     assert_eq!(outcome.verdict, Verdict::Decay, "{outcome:?}");
-    // A run that noise makes fail is one that noise changes.
-    assert!(outcome.sensitive);
+    // None of those runs fails.
+    assert!(!outcome.sensitive);
 }
 
 #[test]

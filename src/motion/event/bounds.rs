@@ -4,6 +4,7 @@
 use super::blades::{Blades, Tips};
 use super::parameters::{Drive, Parameters};
 use crate::motion::Plane;
+use crate::tolerances::LIGHT_DAMPING;
 
 /// Bounds over a stretch of flight ahead.
 pub(super) struct Bounds {
@@ -68,6 +69,32 @@ impl Bounds {
         turned[0] = turned[0].min(standing[0]);
         turned[1] = turned[1].min(standing[1] + turning * standing[0]);
         Self { standing, turning: turned }
+    }
+
+    /// As `new` without pulse and ramp, of the two waves that a lightly damped casing
+    /// is made of, each bounded by its amplitude now.
+    pub fn of_waves(parameters: &Parameters, nu: f64, u: Plane, v: Plane) -> Option<Self> {
+        let (c, swing) = (parameters.damping, parameters.propagator.swing()?);
+        if c > LIGHT_DAMPING * swing {
+            return None;
+        }
+        let (scale, own) = (0.5 / swing, c * c + swing * swing);
+        let w = v + u * c;
+        let (mut standing, mut turning) = ([0.0; 3], [0.0; 5]);
+        let quarter = Plane::new(-u.im, u.re) * swing;
+        for (wave, spin) in [(w + quarter, swing - nu), (w - quarter, -swing - nu)] {
+            let amplitude = scale * size(wave);
+            for (sum, factor) in standing.iter_mut().zip([1.0, own.sqrt(), own]) {
+                *sum += amplitude * factor;
+            }
+            let square = c * c + spin * spin;
+            let rate = square.sqrt();
+            let factors = [1.0, rate, square, square * rate, square * square];
+            for (sum, factor) in turning.iter_mut().zip(factors) {
+                *sum += amplitude * factor;
+            }
+        }
+        Some(Self { standing, turning })
     }
 
     /// Lowers the derivatives seen from the sides to what those in the standing

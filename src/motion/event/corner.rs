@@ -29,16 +29,16 @@ pub(super) enum Hold {
 pub(super) fn opening(parameters: &Parameters, drive: &Drive, a: u32, s: f64) -> [(f64, f64); 2] {
     let (nu, ramp, c2) = (drive.nu(s), drive.nu_rate, 2.0 * parameters.damping);
     let (g0, h) = (parameters.clearance, parameters.half_side);
-    let inward = drive.inward(parameters, a, s);
+    let pulse = drive.pulse_on(parameters, a, s);
     let centred = (parameters.omega - nu) * (parameters.omega + nu) * g0;
     let slack = -2.0 * nu * ramp * g0;
     let mut openings = [(0.0, 0.0); 2];
-    for (opening, (direction, sign)) in
-        openings.iter_mut().zip([(inward, -1.0), (inward * parameters.turn, 1.0)])
+    for (opening, (pulse, sign)) in
+        openings.iter_mut().zip([(pulse, -1.0), (pulse * parameters.turn, 1.0)])
     {
         *opening = (
-            drive.pulse * direction.re + centred + sign * (c2 * nu + ramp) * h,
-            slack - drive.pulse * nu * direction.im + sign * c2 * ramp * h,
+            pulse.re + centred + sign * (c2 * nu + ramp) * h,
+            slack - nu * pulse.im + sign * c2 * ramp * h,
         );
     }
     openings

@@ -16,7 +16,7 @@ use super::advancement::curved_step;
 use super::blades::{Blades, Tips};
 use super::corner::{self, Hold};
 use super::parameters::{Drive, Parameters};
-use super::terms::{STRETCH, TERMS, Terms, ended, jerk, product, quotient, slope, values};
+use super::terms::{STRETCH, TERMS, Terms, ended, gap, jounce, product, quotient, slope, values};
 use crate::motion::Plane;
 use crate::tolerances::{LIGHT_BLADES, MOST_HALVINGS, ROOM_TO_CHANGE};
 
@@ -247,7 +247,7 @@ impl CornerSeries {
         let x = s / self.length;
         let mut stride = 1.0 - x;
         for (terms, second) in self.pushes.iter().zip([false, true]) {
-            let [push, rate, bend] = values(terms, x);
+            let now = gap(terms, x);
             let size: f64 = terms.iter().map(|term| term.abs()).sum();
             if self.rests(terms) {
                 // A side that holds without a push, as at the critical speed
@@ -255,11 +255,10 @@ impl CornerSeries {
                 continue;
             }
             let noise = parameters.tolerance * size;
-            if push <= noise && rate < 0.0 {
+            if now.gap <= noise && now.rate < 0.0 {
                 return Hold::Yield(second);
             }
-            let push = push.max(0.0) + noise;
-            stride = stride.min(curved_step(push, rate, bend, jerk(terms), 1.0 - x));
+            stride = stride.min(curved_step(now.above(noise), jounce(terms), stride));
         }
         Hold::Until((s + stride * self.length).max(s.next_up()))
     }

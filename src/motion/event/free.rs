@@ -7,12 +7,18 @@
 //! bound on their second derivative in the turning frame (`advancement`); the rest
 //! are kept open by a bound on the speed.
 
-use super::advancement::{grazing_step, leaving_step, safe_step};
+use super::advancement::{Gap, curved_step, leaving_step, safe_step};
 use super::blades::Tips;
 use super::bounds::{Bounds, size};
 use super::parameters::{Drive, Parameters};
+use super::rise::rise;
 use crate::motion::Plane;
-use crate::tolerances::{NEAR_SIDES, RAMP_CHANGE, SHORT_LOOK, SOFT_CASING};
+use crate::tolerances::{
+    LONG_LOOK, LONGEST_LOOK, NEAR_SIDES, RAMP_CHANGE, SHORT_LOOK, SOFT_CASING,
+};
+
+/// Sides whose gaps are looked at one by one, those next to the casing wave.
+const NEAREST: u32 = 7;
 
 /// A side that the flight leaves with neither gap nor rate.
 #[derive(Clone, Copy, Debug)]
@@ -32,6 +38,63 @@ pub(super) struct Free {
     /// Blades at the start.
     pub tips: Tips,
     pub leaving: [Option<Leaving>; 2],
+}
+
+/// Second and third derivative of a flight in the standing frame, ready to be seen
+/// from sides that turn.
+struct Bends {
+    u: Plane,
+    v: Plane,
+    second: Plane,
+    third: Plane,
+}
+
+impl Bends {
+    fn new(parameters: &Parameters, drive: &Drive, u: Plane, v: Plane) -> Self {
+        let (c, k) = (parameters.damping, parameters.propagator.stiffness);
+        let second = Plane::new(drive.pulse, 0.0) - v * (2.0 * c) - u * k;
+        Self { u, v, second, third: -second * (2.0 * c) - v * k }
+    }
+
+    /// As a frame sees them that turns with `nu` and its next two derivatives, in the
+    /// directions of the standing frame.
+    fn turned(&self, nu: f64, nu_rate: f64, nu_bend: f64) -> [Plane; 2] {
+        let Self { u, v, second: a, third } = *self;
+        let i = Plane::i();
+        let second = a - i * v * (2.0 * nu) - u * Plane::new(nu * nu, nu_rate);
+        let jerk = third - i * a * (3.0 * nu) - v * Plane::new(nu * nu, nu_rate) * 3.0
+            + u * Plane::new(-3.0 * nu * nu_rate, nu * nu * nu - nu_bend);
+        [second, jerk]
+    }
+
+    /// Those of the gap of a side which faces along `inward` and turns with `nu`,
+    /// of that `nu_rate` \[rad/s^2\] with the rotor.
+    fn of(
+        &self,
+        parameters: &Parameters,
+        side: u32,
+        tips: &Tips,
+        inward: Plane,
+        nu: f64,
+        mut nu_rate: f64,
+    ) -> (f64, f64) {
+        let mut nu_bend = 0.0;
+        if let Some(blades) = &parameters.blades {
+            let (c, k) = (blades.propagator.damping, blades.propagator.stiffness);
+            let second = -tips.rate * (2.0 * c) - tips.angle * k;
+            let third = -second * (2.0 * c) - tips.rate * k;
+            let along = parameters.direction(side).conj() * blades.diameters;
+            nu_rate += (second * along).re;
+            nu_bend = (third * along).re;
+        }
+        let [second, jerk] = self.turned(nu, nu_rate, nu_bend);
+        (dot(second, inward), dot(jerk, inward))
+    }
+}
+
+/// Part of a vector along a direction.
+pub(super) fn dot(a: Plane, direction: Plane) -> f64 {
+    a.re * direction.re + a.im * direction.im
 }
 
 /// What one look ahead finds.
@@ -107,37 +170,13 @@ impl Free {
         drive: &Drive,
         side: u32,
     ) -> (f64, f64) {
-        let (c, k) = (parameters.damping, parameters.propagator.stiffness);
-        let (u, v) = (self.place, self.rate);
-        let a = Plane::new(drive.pulse, 0.0) - v * (2.0 * c) - u * k;
-        let jerk = -a * (2.0 * c) - v * k;
+        let bends = Bends::new(parameters, drive, self.place, self.rate);
         let (inward, nu) = parameters.facing(drive, side, 0.0, &self.tips);
-        let (mut nu_rate, mut nu_bend) = (drive.nu_rate, 0.0);
-        if let Some(blades) = &parameters.blades {
-            let (c, k) = (blades.propagator.damping, blades.propagator.stiffness);
-            let second = -self.tips.rate * (2.0 * c) - self.tips.angle * k;
-            let third = -second * (2.0 * c) - self.tips.rate * k;
-            let along = parameters.direction(side).conj() * blades.diameters;
-            nu_rate += (second * along).re;
-            nu_bend += (third * along).re;
-        }
-        let (out, i) = (inward.conj(), Plane::i());
-        let second = a - i * v * (2.0 * nu) - u * Plane::new(nu * nu, nu_rate);
-        let third = jerk - i * a * (3.0 * nu) - v * Plane::new(nu * nu, nu_rate) * 3.0
-            + u * Plane::new(-3.0 * nu * nu_rate, nu * nu * nu - nu_bend);
-        ((second * out).re, (third * out).re)
+        bends.of(parameters, side, &self.tips, inward, nu, drive.nu_rate)
     }
 
-    /// Looks ahead from `s`, before which nothing happens, to at most `end`; with
-    /// bounds of higher order where it is `stalled` next to a side.
-    pub(super) fn look(
-        &self,
-        parameters: &Parameters,
-        drive: &Drive,
-        s: f64,
-        end: f64,
-        stalled: bool,
-    ) -> Look {
+    /// Looks ahead from `s`, before which nothing happens, to at most `end`.
+    pub(super) fn look(&self, parameters: &Parameters, drive: &Drive, s: f64, end: f64) -> Look {
         let (u, v) = self.at(parameters, drive, s);
         if drive.pulse == 0.0 && Self::spent(parameters, u, v) {
             return Look::Never;
@@ -154,16 +193,27 @@ impl Free {
         } else {
             f64::INFINITY
         };
+        let clearance = parameters.clearance;
+        let mut stride: f64 = 0.0;
+        let swing = if drive.pulse == 0.0 { parameters.propagator.swing() } else { None };
+        if let Some(swing) = swing.filter(|_| radius < clearance) {
+            stride = rise(parameters, swing, u, v);
+            if stride * rates > LONG_LOOK {
+                return Look::Until((s + stride.min(end - s)).max(s.next_up()));
+            }
+        }
         let span = span.min(end - s);
         let tips = self.tips(parameters, s);
-        let mut bounds =
-            Bounds::new(parameters, drive, u, v, span, [nu, drive.nu(s + span.min(1e9))]);
+        let soft = parameters.omega < SOFT_CASING * rates;
+        let waves =
+            if drive.steady() && !soft { Bounds::of_waves(parameters, nu, u, v) } else { None };
+        let mut bounds = waves.unwrap_or_else(|| {
+            Bounds::new(parameters, drive, u, v, span, [nu, drive.nu(s + span.min(1e9))])
+        });
         if let Some(blades) = &parameters.blades {
             bounds.shift(blades, &tips);
         }
-        let clearance = parameters.clearance;
-        let mut stride: f64 = 0.0;
-        if radius < clearance {
+        if radius < clearance && swing.is_none() {
             let [place, rate, acceleration] = bounds.standing;
             let margin = (clearance - radius) * (clearance + radius);
             let closing = -2.0 * (u.re * v.re + u.im * v.im);
@@ -176,7 +226,7 @@ impl Free {
         }
         if radius > NEAR_SIDES * clearance {
             let mut near_span = span;
-            if parameters.omega < SOFT_CASING * rates {
+            if soft {
                 // It may swing so far that nothing bounds it over a whole period.
                 near_span = span.min(1.0 / rates);
                 let nu = [nu, drive.nu(s + near_span)];
@@ -186,15 +236,16 @@ impl Free {
                     bounds.shift(blades, &tips);
                 }
             }
-            match self.sides(parameters, drive, s, (u, v, tips), &bounds, stalled) {
-                Look::Until(near) => stride = stride.max(near.min(near_span)),
+            match self.sides(parameters, drive, s, (u, v, tips), &bounds, near_span) {
+                Look::Until(near) => stride = stride.max(near),
                 found => return found,
             }
         }
         Look::Until((s + stride.min(span)).max(s.next_up()))
     }
 
-    /// Time over which no side can close, or the side that touches now.
+    /// Time over which no side can close, `span` at most, or the side that touches
+    /// now.
     fn sides(
         &self,
         parameters: &Parameters,
@@ -202,12 +253,15 @@ impl Free {
         s: f64,
         (u, v, tips): (Plane, Plane, Tips),
         bounds: &Bounds,
-        stalled: bool,
+        span: f64,
     ) -> Look {
         let polygon = &parameters.machine.polygon;
-        let back = Plane::cis(-drive.phase(s));
-        let z = u * back;
-        let rate = (v - Plane::i() * u * drive.nu(s)) * back;
+        let nu = drive.nu(s);
+        let turn = Plane::cis(drive.phase(s));
+        let z = u * turn.conj();
+        let rate = (v - Plane::i() * u * nu) * turn.conj();
+        let bends = Bends::new(parameters, drive, u, v);
+        let [second, third] = bends.turned(nu, drive.nu_rate, 0.0).map(|x| x * turn.conj());
         // Round-off of the closed form: that of the terms it adds up.
         let terms = size(self.place) + size(self.rate) * s.min(1.0 / parameters.omega) + size(u);
         let noise = parameters.tolerance * (parameters.clearance + terms);
@@ -215,44 +269,120 @@ impl Free {
         // Blades may turn sides by less than half a corner, or all are asked.
         let shift = parameters.blades.map_or(0.0, |b| b.diameters * b.amplitude(&tips));
         let nearest = polygon.nearest_side(z.re, z.im);
-        let (first, count) = if polygon.sides <= 6 || shift > 0.5 * polygon.delta {
-            (0, polygon.sides)
-        } else {
-            (polygon.previous(nearest), 3)
-        };
-        let mut stride = f64::INFINITY;
-        if count < polygon.sides {
-            // The others lie at least three half corners away from `z`.
-            let open = parameters.clearance - size(z) * (3.0 * polygon.delta - shift).cos();
-            stride = open.max(0.0) / speed;
+        let all = polygon.sides <= NEAREST || shift > 0.5 * polygon.delta;
+        let count = if all { polygon.sides } else { NEAREST };
+        // Beyond, what the fourth derivative may do is more than any gap there is.
+        let most = (48.0 * (parameters.clearance + size(u)) / jounce).sqrt().sqrt();
+        let mut stride = span.min(most).min(LONGEST_LOOK / parameters.omega);
+        if !all {
+            // The others lie at least so many half corners away from `z`.
+            let angle = f64::from(NEAREST) * polygon.delta - shift;
+            let open = parameters.clearance - size(z) * angle.cos();
+            stride = stride.min(open.max(0.0) / speed);
         }
         for k in 0..count {
-            let side = (first + k) % polygon.sides;
+            // The nearest first: what it leaves of the stride, others rarely shorten.
+            let offset = if k % 2 == 1 { k.div_ceil(2) } else { polygon.sides - k / 2 };
+            let side = (nearest + offset) % polygon.sides;
             let mut normal = parameters.direction(side);
-            let mut closing = rate.re * normal.re + rate.im * normal.im;
+            let mut closing = dot(rate, normal);
+            let mut spin = 0.0;
             if let Some(blades) = &parameters.blades {
-                let turned = blades.diameters * (tips.angle * normal.conj()).re;
-                let spin = blades.diameters * (tips.rate * normal.conj()).re;
+                let turned = blades.diameters * dot(tips.angle, normal);
+                spin = blades.diameters * dot(tips.rate, normal);
                 normal *= Plane::cis(turned);
-                let local = (rate - Plane::i() * z * spin) * normal.conj();
-                closing = local.re;
+                closing = dot(rate - Plane::i() * z * spin, normal);
             }
-            let gap = parameters.clearance + z.re * normal.re + z.im * normal.im;
+            let gap = parameters.clearance + dot(z, normal);
             let leaving = self.leaving.iter().flatten().find(|leaving| leaving.side == side);
             let safe = match leaving {
                 Some(leaving) if s == 0.0 => leaving_step(leaving.bend, leaving.twist, jounce),
                 _ if gap <= noise && closing < 0.0 => return Look::Touch(side),
-                _ if stalled => {
-                    let gap = gap.max(0.0) + noise;
-                    let now = Self::new(u, v, tips);
-                    let (bend_now, twist) = now.curvature(parameters, &drive.at(s), side);
-                    safe_step(gap, closing, bend)
-                        .max(grazing_step(gap, closing, bend_now, twist, jounce))
+                _ if gap + stride * (closing - 0.5 * bend * stride) > 0.0 && gap > 0.0 => stride,
+                _ => {
+                    let (bend, twist) = if parameters.blades.is_none() {
+                        (dot(second, normal), dot(third, normal))
+                    } else {
+                        let (inward, nu_rate) = (normal * turn, drive.nu_rate);
+                        bends.of(parameters, side, &tips, inward, nu + spin, nu_rate)
+                    };
+                    let now = Gap { gap, rate: closing, bend, twist };
+                    curved_step(now.above(noise), jounce, stride)
                 }
-                _ => safe_step(gap.max(0.0) + noise, closing, bend),
             };
             stride = stride.min(safe);
         }
         Look::Until(stride)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    /// Looks until something touches, whether it does, and the least gap of any side on
+    /// the way there, sampled plainly.
+    fn flight(changes: &[(&str, &str)], place: Plane, rate: Plane) -> (usize, bool, f64) {
+        let event = [("solver.kind", "event"), ("solver.contact", "unilateral")];
+        let rigid = [("solver.model", "rigid")];
+        let scene = Scene::base().with(&[&event[..], &rigid, changes].concat()).unwrap();
+        let parameters = Parameters::new(&scene);
+        let diameters = parameters.machine.nodal_diameters;
+        let nu = diameters * scene.operation.speed_rad_s;
+        let nu_rate = diameters * scene.operation.speed_ramp_rad_s2;
+        let drive = Drive { phase: 0.3, nu, nu_rate, pulse: 0.0 };
+        let free = Free::new(place, rate, Tips::default());
+        let (mut s, mut looks, mut touches, end) = (0.0, 0, false, 0.02);
+        while s < end && looks < 10_000 {
+            looks += 1;
+            match free.look(&parameters, &drive, s, end) {
+                Look::Until(later) => s = later,
+                Look::Never => s = end,
+                Look::Touch(_) | Look::Gone => {
+                    touches = true;
+                    break;
+                }
+            }
+        }
+        let mut least = f64::INFINITY;
+        for k in 0..=4000 {
+            let t = s.min(end) * f64::from(k) / 4000.0;
+            let z = free.at(&parameters, &drive, t).0 * Plane::cis(-drive.phase(t));
+            for side in 0..parameters.machine.polygon.sides {
+                least = least.min(parameters.machine.polygon.gap(side, z.re, z.im));
+            }
+        }
+        (looks, touches, least)
+    }
+
+    #[test]
+    fn no_look_passes_a_contact_and_looks_are_few() {
+        let (mut all, mut touched, mut most) = (0, 0, 0);
+        for zeta in ["0", "0.05", "0.6", "1.4"] {
+            for (speed, ramp) in [("0", "0"), ("292.9", "0"), ("500", "0"), ("480", "3e3")] {
+                for (blades, diameters) in [("3", "1"), ("22", "3"), ("101", "3")] {
+                    let changes = [
+                        ("casing.damping_ratio", zeta),
+                        ("operation.speed_rad_s", speed),
+                        ("operation.speed_ramp_rad_s2", ramp),
+                        ("bladed_disk.blades", blades),
+                        ("operation.nodal_diameters", diameters),
+                    ];
+                    for k in 0..12 {
+                        let turn = Plane::cis(2.4 * f64::from(k));
+                        let speed = 0.02 * f64::from(1 + k * k);
+                        let rate = turn * Plane::cis(1.1 * f64::from(k)) * speed;
+                        let (looks, touches, least) = flight(&changes, turn * 9.3e-5, rate);
+                        assert!(least > -1e-18, "{changes:?} {k}: {least}");
+                        all += looks;
+                        most = most.max(looks);
+                        touched += usize::from(touches);
+                    }
+                }
+            }
+        }
+        assert!(touched > 200, "{touched}");
+        assert!(most < 300 && all < 15 * touched, "{most}, {all} looks for {touched} touches");
     }
 }

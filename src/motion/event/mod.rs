@@ -26,6 +26,7 @@ mod energy_balance;
 mod free;
 mod impact;
 mod parameters;
+mod rise;
 mod rocking;
 mod side_series;
 mod slide;
@@ -84,7 +85,11 @@ pub struct Event {
     all_looks: u64,
     deepest: f64,
     widest: f64,
+    /// Whether energies and the widest angle are followed.
+    checked: bool,
     failure: Option<Failure>,
+    /// Series of a rocking motion, once one was looked for.
+    tables: Option<Box<rocking::Tables>>,
 }
 
 impl Event {
@@ -124,8 +129,10 @@ impl Event {
             all_looks: 0,
             deepest: 0.0,
             widest: 0.0,
+            checked: true,
             tips: Tips::default(),
             failure: None,
+            tables: None,
         };
         event.drive = event.drive_now(0.0);
         event.begin(place, rate);
@@ -268,6 +275,10 @@ impl Solver for Event {
         }
     }
 
+    fn forgo_checks(&mut self) {
+        self.checked = false;
+    }
+
     fn fire(&mut self) {
         let length = self.pulse.end - self.pulse.start;
         self.intervene(|event| {
@@ -310,6 +321,24 @@ mod tests {
     use crate::motion::FailureReason;
     use crate::scene::Scene;
     use crate::tolerances::{MOST_EVENTS, MOST_LOOKS};
+
+    #[test]
+    fn a_motion_without_checks_is_the_same_to_the_bit() {
+        for name in ["slip", "rocking", "undamped", "run-down"] {
+            let scene = Scene::builtin(name).unwrap().as_reference().checked().unwrap();
+            let mut full = Event::new(&scene).unwrap();
+            let mut bare = full.clone();
+            bare.forgo_checks();
+            for k in 1..=10 {
+                let t = 0.1 * scene.solver.end_s * f64::from(k);
+                full.advance(t).unwrap();
+                bare.advance(t).unwrap();
+                assert_eq!(full.state(), bare.state(), "{name}");
+                assert_eq!(full.contacts(), bare.contacts(), "{name}");
+            }
+            assert!(bare.energy_balance.dissipated == 0.0 && full.events > 3, "{name}");
+        }
+    }
 
     #[test]
     fn looks_and_events_of_one_run_are_bounded() {

@@ -64,14 +64,7 @@ pub(super) enum Next {
 
 impl Mode {
     /// Looks ahead from `s` to at most `end`; events do not come before `s`.
-    pub(super) fn look(
-        &self,
-        parameters: &Parameters,
-        drive: &Drive,
-        s: f64,
-        end: f64,
-        stalled: bool,
-    ) -> Next {
+    pub(super) fn look(&self, parameters: &Parameters, drive: &Drive, s: f64, end: f64) -> Next {
         let along = |ahead: Ahead| match ahead {
             Ahead::Until(later) => Next::Until(later),
             Ahead::Edge(up) if parameters.corners => Next::Now(What::Edge(up)),
@@ -80,7 +73,7 @@ impl Mode {
             Ahead::Lost => Next::Now(What::Lost),
         };
         match self {
-            Self::Free(free) => match free.look(parameters, drive, s, end, stalled) {
+            Self::Free(free) => match free.look(parameters, drive, s, end) {
                 Look::Until(later) => Next::Until(later),
                 Look::Touch(side) => Next::Now(What::Touch(side)),
                 Look::Never => Next::Until(end),
@@ -128,7 +121,7 @@ impl Mode {
                 };
                 let y = sign * (parameters.half_side - swing.distance);
                 let rate = -sign * swing.speed;
-                let pulse = drive.pulse * drive.inward(parameters, side, s).re;
+                let pulse = drive.pulse_on(parameters, side, s).re;
                 let push = parameters.push(drive.nu(s), drive.nu_rate, y, rate, pulse);
                 Some((side, Along { y, rate, push }))
             }
@@ -177,20 +170,21 @@ impl Mode {
         }
     }
 
-    /// Place and rate as the rotor sees them, `s` seconds on: those of
-    /// `u exp(-i n_d theta)`.
+    /// Place and rate as the rotor sees them, `s` seconds on, those of
+    /// `u exp(-i n_d theta)`; from the motion along a side then, if there is one.
     pub(super) fn seen_by_rotor(
         &self,
         parameters: &Parameters,
         drive: &Drive,
         s: f64,
+        along: Option<(u32, Along)>,
     ) -> (Plane, Plane) {
         if let Self::Free(_) | Self::Held(_) = self {
             let (place, rate) = self.standing(parameters, drive, s);
             let back = Plane::cis(-drive.phase(s));
             return (place * back, (rate - Plane::i() * place * drive.nu(s)) * back);
         }
-        let Some((side, along)) = self.along(parameters, drive, s) else {
+        let Some((side, along)) = along else {
             return Default::default();
         };
         let normal = parameters.normal(side, &self.tips(parameters, s));
@@ -330,10 +324,7 @@ impl Mode {
         };
         let [dissipated, work] = match self {
             Self::Free(free) => [energy_balance::dissipated(parameters, drive, free, s), 0.0],
-            Self::Slide(slide) => quadrature(s, 2.0 * slide.fastest(), |t| {
-                let Along { y, rate, push } = slide.at(parameters, drive, t);
-                power(t, y, rate, push)
-            }),
+            Self::Slide(slide) => slide.energies(parameters, drive, s),
             Self::Driven(series) => quadrature(s, 2.0 / series.length, |t| {
                 let Along { y, rate, push } = series.at(t);
                 if parameters.blades.is_some() {

@@ -135,11 +135,6 @@ pub(super) struct Drive {
 }
 
 impl Drive {
-    /// The same, `s` seconds on.
-    pub(super) fn at(&self, s: f64) -> Self {
-        Self { phase: self.phase(s), nu: self.nu(s), ..*self }
-    }
-
     /// `n_d theta`, `s` seconds on \[rad\].
     pub(super) fn phase(&self, s: f64) -> f64 {
         self.phase + (self.nu + 0.5 * self.nu_rate * s) * s
@@ -150,9 +145,14 @@ impl Drive {
         self.nu + self.nu_rate * s
     }
 
-    /// `exp(i beta)` of a side, the direction that opens its gap, `s` seconds on.
-    pub(super) fn inward(&self, parameters: &Parameters, side: u32, s: f64) -> Plane {
-        parameters.direction(side) * Plane::cis(self.phase(s))
+    /// The pulse times `exp(i beta)` of a side, the direction that opens its gap,
+    /// `s` seconds on \[m/s^2\].
+    pub(super) fn pulse_on(&self, parameters: &Parameters, side: u32, s: f64) -> Plane {
+        // Nearly always there is none: no sine then.
+        if self.pulse == 0.0 {
+            return Plane::default();
+        }
+        parameters.direction(side) * Plane::cis(self.phase(s)) * self.pulse
     }
 
     /// Whether neither pulse nor ramp acts.

@@ -44,6 +44,7 @@ pub(super) struct Limit {
 pub(super) fn limit(
     parameters: &Parameters,
     drive: &Drive,
+    tables: &mut Option<Box<Tables>>,
     a: u32,
     second: bool,
     speed: f64,
@@ -69,7 +70,7 @@ pub(super) fn limit(
     if start * fastest > ROCKING_TURN {
         return None;
     }
-    let sums = Sums::new(propagator.damping, propagator.stiffness, cos, pulls);
+    let sums = Tables::of(tables, propagator.damping, propagator.stiffness).sums(cos, pulls);
     let times = if second { &sums.time[1] } else { &sums.time[0] };
     let time = exact(times, start)?;
     let losses = if second { &sums.lost[1] } else { &sums.lost[0] };
@@ -149,21 +150,40 @@ fn exact(series: &PowerSeries, x: f64) -> Option<f64> {
     (tail <= ROCKING_TAIL * sum && sum.is_finite()).then_some(sum)
 }
 
+/// Series of one excursion: they depend on damping and stiffness along a side
+/// alone, so at one speed of the rotor they are the same at every corner.
+#[derive(Clone, Debug)]
+pub(super) struct Tables {
+    equation: [f64; 2],
+    duration: PowerSeries,
+    /// Powers of the return speed.
+    powers: [PowerSeries; ORDERS + 1],
+}
+
 /// Sums over all crossings to come, from either side, in powers of `v/A`.
 struct Sums {
     time: [PowerSeries; 2],
     lost: [PowerSeries; 2],
 }
 
-impl Sums {
-    fn new(c: f64, kappa: f64, cos: f64, pulls: [f64; 2]) -> Self {
+impl Tables {
+    /// Those kept from before, or new ones where damping or stiffness are others.
+    fn of(kept: &mut Option<Box<Self>>, c: f64, kappa: f64) -> &Self {
+        let old = kept.take().filter(|tables| tables.equation == [c, kappa]);
+        kept.insert(old.unwrap_or_else(|| Box::new(Self::new(c, kappa))))
+    }
+
+    fn new(c: f64, kappa: f64) -> Self {
         let (duration, back) = excursion(c, kappa);
-        let powers = powers(&back);
+        Self { equation: [c, kappa], duration, powers: powers(&back) }
+    }
+
+    fn sums(&self, cos: f64, pulls: [f64; 2]) -> Sums {
         let ratio = pulls[0] / pulls[1];
         let keep = [cos * ratio, cos / ratio];
-        let time = accumulate(&powers, keep, [duration; 2]);
-        let lost = accumulate(&powers, keep, pulls.map(|pull| powers[2].map(|x| pull * pull * x)));
-        Self { time, lost }
+        let time = accumulate(&self.powers, keep, [self.duration; 2]);
+        let lost = pulls.map(|pull| self.powers[2].map(|x| pull * pull * x));
+        Sums { time, lost: accumulate(&self.powers, keep, lost) }
     }
 }
 
@@ -271,7 +291,10 @@ mod tests {
         let (duration, back) = excursion(c, kappa);
         let pulls = [20.0, 55.0];
         let cos = (std::f64::consts::PI / 5.5).cos();
-        let sums = Sums::new(c, kappa, cos, pulls);
+        let mut kept = None;
+        // Tables of another speed are not used again.
+        let _ = Tables::of(&mut kept, c, 0.9 * kappa);
+        let sums = Tables::of(&mut kept, c, kappa).sums(cos, pulls);
         let start = 4e-6;
         let (time, speed) = stepped(&propagator, 1.0, start);
         assert!((value(&duration, start) / time - 1.0).abs() < 1e-13);

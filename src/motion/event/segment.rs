@@ -8,9 +8,7 @@ use super::free::Free;
 use super::mode::{Mode, Next, What};
 use super::parameters::Drive;
 use crate::motion::{ActiveSet, Failure, FailureReason, GoOn, Plane};
-use crate::tolerances::{
-    AN_INSTANT, LOOKS_UNASKED, MOST_EVENTS, MOST_EVENTS_AT_ONCE, MOST_LOOKS, STALLED_LOOKS,
-};
+use crate::tolerances::{AN_INSTANT, LOOKS_UNASKED, MOST_EVENTS, MOST_EVENTS_AT_ONCE, MOST_LOOKS};
 
 /// What a search for the event that ends a segment comes to.
 enum Sought {
@@ -125,8 +123,7 @@ impl Event {
                 self.fail(self.safe, FailureReason::Looks);
                 return Sought::Nothing;
             }
-            let stalled = self.looks > STALLED_LOOKS;
-            match self.mode.look(&self.parameters, &self.drive, self.safe, end, stalled) {
+            match self.mode.look(&self.parameters, &self.drive, self.safe, end) {
                 Next::Until(later) => self.safe = later.min(end),
                 Next::Now(what) => self.found = Some((self.safe, what)),
             }
@@ -141,8 +138,10 @@ impl Event {
     /// Books the segment and moves its start by `s`; the mode is left to be
     /// replaced.
     pub(super) fn rebase(&mut self, s: f64, what: Option<What>) {
-        self.mode.book(&self.parameters, &self.drive, s, &mut self.energy_balance);
-        self.widest = self.mode.largest_angle(&self.parameters, &self.drive, s, self.widest);
+        if self.checked {
+            self.mode.book(&self.parameters, &self.drive, s, &mut self.energy_balance);
+            self.widest = self.mode.largest_angle(&self.parameters, &self.drive, s, self.widest);
+        }
         self.tips = self.mode.tips(&self.parameters, s);
         let phase = self.drive.phase(s) % TAU;
         if what == Some(What::PulseEnd) {
@@ -189,8 +188,8 @@ impl Event {
             return;
         }
         let s = self.elapsed(self.now);
-        let (place, mut rate) = self.mode.seen_by_rotor(&self.parameters, &self.drive, s);
         let side = self.mode.along(&self.parameters, &self.drive, s);
+        let (place, mut rate) = self.mode.seen_by_rotor(&self.parameters, &self.drive, s, side);
         if let (Mode::Slide(_) | Mode::Driven(_), Some((side, along))) = (&self.mode, side) {
             let tips = self.mode.tips(&self.parameters, s);
             let (normal, _) = self.parameters.normal(side, &tips);

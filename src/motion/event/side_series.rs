@@ -10,7 +10,7 @@ use super::advancement::{curved_step, leaving_step};
 use super::blades::{Blades, Tips};
 use super::parameters::{Drive, Parameters};
 use super::slide::{Ahead, Along, push_noise};
-use super::terms::{STRETCH, TERMS, Terms, ended, jerk, product, quotient, slope, values};
+use super::terms::{STRETCH, TERMS, Terms, ended, gap, jounce, product, quotient, slope, values};
 use crate::motion::Plane;
 use crate::tolerances::MOST_HALVINGS;
 
@@ -226,28 +226,25 @@ impl SideSeries {
         }
         let x = s / self.length;
         let [y, rate, _] = values(&self.y, x);
-        let span = 1.0 - x;
-        let mut stride = span;
+        let mut stride = 1.0 - x;
         for (room, up) in self.rooms.iter().zip([true, false]) {
-            let [gap, closing, bend] = values(room, x);
+            let now = gap(room, x);
             let noise = parameters.tolerance * (room[0].abs() + room[1].abs() * x);
             if s == 0.0 && room[0] == 0.0 && room[1] == 0.0 {
                 let tail: f64 = room.iter().skip(4).map(|term| term.abs()).sum();
                 stride = stride.min(leaving_step(2.0 * room[2], 6.0 * room[3], 24.0 * tail));
-            } else if gap <= noise && closing < 0.0 {
+            } else if now.gap <= noise && now.rate < 0.0 {
                 return Ahead::Edge(up);
             } else {
-                let gap = gap.max(0.0) + noise;
-                stride = stride.min(curved_step(gap, closing, bend, jerk(room), span));
+                stride = stride.min(curved_step(now.above(noise), jounce(room), stride));
             }
         }
-        let [push, push_rate, push_bend] = values(&self.push, x);
+        let now = gap(&self.push, x);
         let noise = push_noise(parameters, drive.nu(s), y, rate / self.length, drive.pulse);
-        if push <= noise && push_rate < 0.0 {
+        if now.gap <= noise && now.rate < 0.0 {
             return Ahead::Release;
         }
-        let push = push.max(0.0) + noise;
-        stride = stride.min(curved_step(push, push_rate, push_bend, jerk(&self.push), span));
+        stride = stride.min(curved_step(now.above(noise), jounce(&self.push), stride));
         Ahead::Until((s + stride * self.length).max(s.next_up()))
     }
 }

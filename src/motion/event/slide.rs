@@ -3,10 +3,29 @@
 //! towards decreasing angle: `y = g0 tan delta` is the corner with the side of next
 //! lower phase.
 
-use super::advancement::{curved_step, leaving_step};
+use super::advancement::{Gap, curved_step, leaving_step};
+use super::energy_balance::GAUSS_8;
 use super::parameters::{Drive, Parameters};
 use crate::motion::Plane;
 use crate::motion::propagator::Propagator;
+use crate::tolerances::{LONGEST_LOOK, MOST_PANELS, SERIES_END, SIDE_GROWTH, SIDE_LOOK};
+
+/// Pairs of terms of a panel: at one radian the first one dropped is `1/20!`.
+const PANEL_TERMS: usize = 10;
+
+/// What the recurrence of a panel's terms divides by: for the pair `n = 2k`, `n + 1`
+/// the factors `1/(n+1)`, `1/(n (n+1))`, and those of the next term.
+const OVER: [[f64; 4]; PANEL_TERMS] = {
+    let mut over = [[1.0, 0.0, 0.0, 0.0]; PANEL_TERMS];
+    let mut k = 1;
+    while k < PANEL_TERMS {
+        let n = 2.0 * k as f64;
+        over[k] = [1.0 / (n + 1.0), 1.0 / (n * (n + 1.0)), 1.0 / (n + 2.0), 0.0];
+        over[k][3] = over[k][2] / (n + 1.0);
+        k += 1;
+    }
+    over
+};
 
 /// Sliding on `side` from `y` with rate `rate`.
 #[derive(Clone, Copy, Debug)]
@@ -19,6 +38,52 @@ pub(super) struct Slide {
     propagator: Propagator,
     /// Acceleration at rest at the start \[m/s^2\].
     pull: f64,
+}
+
+/// Integrals over a time.
+#[derive(Clone, Copy, Debug, Default)]
+struct Moments {
+    /// Of the rate \[m\].
+    displacement: f64,
+    /// Of the place \[m s\].
+    place: f64,
+    /// Of its square \[m^2 s\].
+    square: f64,
+    /// Of the square of the rate \[m^2/s\].
+    speed: f64,
+}
+
+impl Moments {
+    /// Adds a panel of this half length, from the even and odd terms of its power
+    /// series; the squares only where something is damped.
+    fn add(&mut self, terms: &[[f64; 2]], half: f64, damped: bool) {
+        for ([even, odd], over) in terms.iter().zip(&OVER) {
+            self.displacement += 2.0 * odd;
+            self.place += 2.0 * half * even * over[0];
+        }
+        if !damped {
+            return;
+        }
+        // By Gauss quadrature, four pairs of nodes side by side: even and odd part
+        // of the place, and of its rate but for a factor.
+        let squares = GAUSS_8.map(|(node, _)| node * node);
+        let (mut value, mut slope) = ([[0.0; 4]; 2], [[0.0; 4]; 2]);
+        for pair in terms.iter().rev() {
+            for k in [0, 1] {
+                for n in 0..4 {
+                    slope[k][n] = slope[k][n] * squares[n] + value[k][n];
+                    value[k][n] = value[k][n] * squares[n] + pair[k];
+                }
+            }
+        }
+        for (n, (node, weight)) in GAUSS_8.into_iter().enumerate() {
+            let (even, odd) = (value[0][n], value[1][n] * node);
+            let (even_rate, odd_rate) =
+                (2.0 * slope[0][n] * node, value[1][n] + 2.0 * slope[1][n] * squares[n]);
+            self.square += 2.0 * weight * half * (even * even + odd * odd);
+            self.speed += 2.0 * weight / half * (even_rate * even_rate + odd_rate * odd_rate);
+        }
+    }
 }
 
 /// Position, rate and push at one instant.
@@ -81,6 +146,58 @@ impl Slide {
         Along { y, rate, push: parameters.push(drive.nu, 0.0, y, rate, 0.0) }
     }
 
+    /// What the casing dissipates in the first `s` seconds, and the work of the
+    /// rotor, per unit casing mass.
+    pub(super) fn energies(&self, parameters: &Parameters, drive: &Drive, s: f64) -> [f64; 2] {
+        let (nu, g0, c) = (drive.nu, parameters.clearance, self.propagator.damping);
+        let Moments { displacement, place, square, speed } = self.moments(s);
+        let end = self.y + displacement;
+        // Of c |u'|^2 with u' = y' - nu g0 along the side and nu y across it.
+        let along = speed - 2.0 * nu * g0 * displacement + nu * nu * g0 * g0 * s;
+        let dissipated = 2.0 * c * (along + nu * nu * square);
+        // A push p takes the power -p nu y from the rotor.
+        let centred = parameters.push(nu, 0.0, 0.0, 0.0, 0.0);
+        let coriolis = nu * displacement * (end + self.y);
+        let work = -nu * (centred * place - coriolis - 2.0 * c * nu * square);
+        [dissipated, work]
+    }
+
+    /// Integrals over the first `s` seconds, of the Taylor series about the middle of
+    /// panels so short that it ends in round-off.
+    fn moments(&self, s: f64) -> Moments {
+        let (kappa, c) = (self.propagator.stiffness, self.propagator.damping);
+        let panels = (0.5 * self.fastest() * s).ceil().clamp(1.0, MOST_PANELS);
+        let half = 0.5 * s / panels;
+        let (drag, spring) = (2.0 * c * half, kappa * half * half);
+        let size = self.fastest() * half;
+        let mut sums = Moments::default();
+        let mut panel = 0.0;
+        while panel < panels {
+            let (displacement, rate) = self.moved((2.0 * panel + 1.0) * half);
+            let bend = (self.pull - kappa * displacement - 2.0 * c * rate) * half * half;
+            // Even and odd terms apart: nodes come in pairs of both signs.
+            let mut terms = [[0.0; 2]; PANEL_TERMS];
+            terms[0] = [self.y + displacement, rate * half];
+            let (mut before, mut term) = (terms[0][1], 0.5 * bend);
+            // A bound on the terms, against the first.
+            let (mut bound, mut used) = (size * size, 1);
+            for (pair, over) in terms.iter_mut().zip(&OVER).skip(1) {
+                let next = -(drag * term * over[0] + spring * before * over[1]);
+                *pair = [term, next];
+                term = -(drag * next * over[2] + spring * term * over[3]);
+                before = next;
+                bound *= size * size * over[1];
+                used += 1;
+                if bound < SERIES_END {
+                    break;
+                }
+            }
+            sums.add(terms.get(..used).unwrap_or(&terms), half, c > 0.0);
+            panel += 1.0;
+        }
+        sums
+    }
+
     /// Fastest rate of the motion along the side \[1/s\].
     pub(super) fn fastest(&self) -> f64 {
         2.0 * self.propagator.damping + self.propagator.stiffness.abs().sqrt()
@@ -93,28 +210,27 @@ impl Slide {
         let pull = self.pull - kappa * displacement;
         let acceleration = pull - 2.0 * c * rate;
         let third = -2.0 * c * acceleration - kappa * rate;
-        // The motion from here on, relative to here, and its derivatives are
-        // bounded by their scale now times exp(fastest * t), one more factor
-        // `fastest` each; over `span` the exponential is below 1.65.
+        // The acceleration from here on obeys the equation without forcing. Each
+        // derivative costs a factor `fastest`, and the time ahead exp(fastest t).
         let fastest = self.fastest();
-        let span = if fastest > 0.0 { 0.5 / fastest } else { f64::INFINITY };
-        let bend = 1.65 * (rate.abs() * fastest + pull.abs());
-        let jerk = bend * fastest;
+        let span = (SIDE_LOOK / fastest).min(LONGEST_LOOK / parameters.omega);
+        let jounce =
+            SIDE_GROWTH * fastest * (third.abs() + acceleration.abs() * (fastest + 2.0 * c));
         let mut stride = span;
-        for up in [true, false] {
+        for up in [rate > 0.0, rate <= 0.0] {
             let sign = if up { -1.0 } else { 1.0 };
             let room = parameters.half_side + sign * self.y;
             let gap = room + sign * displacement;
-            let closing = sign * rate;
+            let rate = sign * rate;
             let noise = parameters.tolerance * (room + self.rate.abs() * s);
+            let (bend, twist) = (sign * acceleration, sign * third);
             if s == 0.0 && room == 0.0 && rate == 0.0 {
-                let jounce = jerk * fastest;
-                stride = stride.min(leaving_step(sign * acceleration, sign * third, jounce));
-            } else if gap <= noise && closing < 0.0 {
+                stride = stride.min(leaving_step(bend, twist, jounce));
+            } else if gap <= noise && rate < 0.0 {
                 return Ahead::Edge(up);
             } else {
-                let gap = gap.max(0.0) + noise;
-                stride = stride.min(curved_step(gap, closing, sign * acceleration, jerk, span));
+                let now = Gap { gap, rate, bend, twist };
+                stride = stride.min(curved_step(now.above(noise), jounce, stride));
             }
         }
         let y = self.y + displacement;
@@ -124,10 +240,15 @@ impl Slide {
         if push <= noise && push_rate < 0.0 {
             return Ahead::Release;
         }
-        let push_bend = -2.0 * nu * (third + c * acceleration);
-        let push_jerk = 2.0 * nu.abs() * jerk * (fastest + c);
-        let push = push.max(0.0) + noise;
-        stride = stride.min(curved_step(push, push_rate, push_bend, push_jerk, span));
+        let fourth = -2.0 * c * third - kappa * acceleration;
+        let now = Gap {
+            gap: push,
+            rate: push_rate,
+            bend: -2.0 * nu * (third + c * acceleration),
+            twist: -2.0 * nu * (fourth + c * third),
+        };
+        let push_jounce = 2.0 * nu.abs() * jounce * (fastest + c);
+        stride = stride.min(curved_step(now.above(noise), push_jounce, stride));
         Ahead::Until((s + stride).max(s.next_up()))
     }
 }
@@ -143,4 +264,43 @@ pub(super) fn push_noise(parameters: &Parameters, nu: f64, y: f64, rate: f64, pu
     let square = (parameters.omega * parameters.omega).max(nu * nu);
     parameters.tolerance
         * (square * (parameters.clearance + y.abs()) + 2.0 * nu.abs() * rate.abs() + pulse.abs())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::event::energy_balance::quadrature;
+    use crate::scene::Scene;
+
+    #[test]
+    fn energies_of_the_series_are_those_of_a_plain_quadrature() {
+        for (zeta, speed) in
+            [("0", "500"), ("0.01", "500"), ("0.3", "450"), ("0.05", "200"), ("0.7", "293")]
+        {
+            let changes = [("casing.damping_ratio", zeta), ("operation.speed_rad_s", speed)];
+            let scene = Scene::base().with(&changes).unwrap();
+            let parameters = Parameters::new(&scene);
+            let drive = Drive { nu: 3.0 * scene.operation.speed_rad_s, ..Drive::default() };
+            for (y, rate, s) in
+                [(-1.4e-5, 0.05, 8e-4), (3e-6, -0.02, 1e-9), (1e-6, 0.0, 5e-3), (1e-5, 0.01, 3e-5)]
+            {
+                let slide = Slide::new(&parameters, &drive, 4, y, rate);
+                let (drag, nu) = (2.0 * parameters.damping, drive.nu);
+                let mut size = 0.0_f64;
+                for k in 0..=100 {
+                    let Along { y, push, .. } =
+                        slide.at(&parameters, &drive, 0.01 * s * f64::from(k));
+                    size = size.max((nu * push * y * s).abs());
+                }
+                let [dissipated, work] = quadrature(s, 20.0 * slide.fastest(), |t| {
+                    let Along { y, rate, push } = slide.at(&parameters, &drive, t);
+                    let (across, along) = (nu * y, rate - nu * parameters.clearance);
+                    [drag * (along * along + across * across), -nu * push * y]
+                });
+                let found = slide.energies(&parameters, &drive, s);
+                assert!((found[0] - dissipated).abs() <= 1e-13 * dissipated, "{changes:?} {s}");
+                assert!((found[1] - work).abs() <= 1e-12 * size, "{changes:?} {s} {size}: {work}");
+            }
+        }
+    }
 }

@@ -1,6 +1,7 @@
 //! Truncated power series in time, counted in units of a stretch: what the
 //! motions without a closed form are made of.
 
+use super::advancement::Gap;
 use crate::tolerances::SERIES_TAIL;
 
 /// Terms kept: over a stretch of 0.8 rad of the fastest rate the first one
@@ -47,10 +48,22 @@ pub(super) fn values(terms: &Terms, x: f64) -> [f64; 3] {
     [value, rate, 2.0 * bend]
 }
 
-/// Bound on the third derivative over the stretch.
-pub(super) fn jerk(terms: &Terms) -> f64 {
-    let factor = |n: f64| n * (n - 1.0) * (n - 2.0);
-    terms.iter().enumerate().skip(3).map(|(n, term)| factor(n as f64) * term.abs()).sum()
+/// Value and three derivatives as those of a gap.
+pub(super) fn gap(terms: &Terms, x: f64) -> Gap {
+    let (mut gap, mut rate, mut bend, mut twist) = (0.0, 0.0, 0.0, 0.0);
+    for &term in terms.iter().rev() {
+        twist = twist * x + bend;
+        bend = bend * x + rate;
+        rate = rate * x + gap;
+        gap = gap * x + term;
+    }
+    Gap { gap, rate, bend: 2.0 * bend, twist: 6.0 * twist }
+}
+
+/// Bound on the fourth derivative over the stretch.
+pub(super) fn jounce(terms: &Terms) -> f64 {
+    let factor = |n: f64| n * (n - 1.0) * (n - 2.0) * (n - 3.0);
+    terms.iter().enumerate().skip(4).map(|(n, term)| factor(n as f64) * term.abs()).sum()
 }
 
 /// Whether the terms fall fast enough that those dropped are round-off. The last
@@ -89,6 +102,10 @@ mod tests {
         }
         let scaled: Terms = std::array::from_fn(|n| exp[n] * STRETCH.powi(n as i32));
         assert!(ended(&scaled) && !ended(&square) && !ended(&[1.0; TERMS]));
-        assert!((jerk(&exp) - 1.0_f64.exp()).abs() < 1e-11);
+        assert!((jounce(&exp) - 1.0_f64.exp()).abs() < 1e-9);
+        let Gap { gap, rate, bend, twist } = gap(&exp, 0.3);
+        for derivative in [gap, rate, bend, twist] {
+            assert!((derivative - 0.3_f64.exp()).abs() < 1e-13);
+        }
     }
 }

@@ -42,8 +42,8 @@ impl Event {
 
     /// Passes the event `what`, `s` seconds into the segment.
     pub(super) fn pass(&mut self, s: f64, what: What) {
-        let (place, rate) = self.mode.seen_by_rotor(&self.parameters, &self.drive, s);
         let along = self.mode.along(&self.parameters, &self.drive, s);
+        let (place, rate) = self.mode.seen_by_rotor(&self.parameters, &self.drive, s, along);
         let corner = self.mode.corner();
         // Flight ends at a touch, and goes on from its own frame otherwise.
         let flight = match what {
@@ -98,7 +98,8 @@ impl Event {
         if speed <= 0.0 {
             return;
         }
-        let Some(limit) = rocking::limit(&self.parameters, &self.drive, a, second, speed) else {
+        let Self { parameters, drive, tables, .. } = self;
+        let Some(limit) = rocking::limit(parameters, drive, tables, a, second, speed) else {
             return;
         };
         match self.parameters.blades {
@@ -119,7 +120,8 @@ impl Event {
     /// stop it now are what the crossings to come add to the pushes of the corner
     /// at rest.
     fn stop_rocking(&mut self, a: u32) {
-        let (_, rate) = self.mode.seen_by_rotor(&self.parameters, &self.drive, 0.0);
+        let along = self.mode.along(&self.parameters, &self.drive, 0.0);
+        let (_, rate) = self.mode.seen_by_rotor(&self.parameters, &self.drive, 0.0, along);
         let contact = self.corner_contact(a);
         let [first, second] = self.openings(&contact, rate);
         let impulses = contact.cancelled(first, second);
@@ -221,7 +223,7 @@ impl Event {
         let (parameters, drive) = (&self.parameters, &self.drive);
         let push = match &parameters.blades {
             None => {
-                let pulse = drive.pulse * drive.inward(parameters, side, 0.0).re;
+                let pulse = drive.pulse_on(parameters, side, 0.0).re;
                 parameters.push(drive.nu, drive.nu_rate, y, along, pulse)
             }
             Some(blades) => {
