@@ -177,7 +177,7 @@ pub(super) fn run_motion_to_verdict(
 /// `window` seconds.
 #[must_use]
 pub fn verdict_of(motion: &Motion, window: f64) -> Verdict {
-    motion.final_verdict().unwrap_or_else(|| judge(motion.contacts(), motion.state().t_s, window))
+    motion.final_verdict().unwrap_or_else(|| judge(motion.contacts(), motion.t_s(), window))
 }
 
 /// Runs a scene to its end.

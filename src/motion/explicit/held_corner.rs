@@ -201,9 +201,8 @@ impl<B: BladeModel> Explicit<B> {
         let modes = held.modes(steps);
         let mut blades = self.blades.clone();
         blades.set_held_modes(as_coordinates(modes));
-        let mut phasor = self.phasor.clone();
         let diameters = self.machine.nodal_diameters;
-        let (c, s) = phasor.at(self.n + steps, &self.rotor, diameters, self.step);
+        let (c, s) = self.phasor.look(self.n + steps, &self.rotor, diameters, self.step);
         let (place, change) = held.step.casing(modes);
         let u = [
             Coordinate { x: place.re * c - place.im * s, increment: change.re * c - change.im * s },

@@ -198,11 +198,6 @@ impl<B: BladeModel> Explicit<B> {
         self.n + self.block.used()
     }
 
-    /// Time of the latest step \[s\].
-    fn time(&self) -> f64 {
-        self.time_of(self.latest_step())
-    }
-
     /// Ends what was decided on ahead.
     fn interrupt(&mut self) {
         self.close_block();
@@ -241,6 +236,10 @@ impl<B: BladeModel> Solver for Explicit<B> {
             }
         }
         Ok(true)
+    }
+
+    fn t_s(&self) -> f64 {
+        self.time_of(self.latest_step())
     }
 
     fn state(&self) -> State {
@@ -351,7 +350,7 @@ impl<B: BladeModel> Solver for Explicit<B> {
     /// What the pulse before gave in the half step until now is kept.
     fn fire(&mut self) {
         self.interrupt();
-        let (start, next) = (self.time(), self.next_pulse);
+        let (start, next) = (self.t_s(), self.next_pulse);
         let half = 0.5 * self.step;
         let old = self.pulse;
         self.pulse = Pulse { start, end: start + next.end, force: next.force };
@@ -368,7 +367,7 @@ impl<B: BladeModel> Solver for Explicit<B> {
 
     fn set_speed(&mut self, speed: f64, ramp: f64) {
         self.interrupt();
-        self.rotor.change(self.time(), speed, ramp);
+        self.rotor.change(self.t_s(), speed, ramp);
         self.phasor = Phasor::new(&self.rotor, self.machine.nodal_diameters, self.step);
     }
 
