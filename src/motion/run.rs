@@ -222,7 +222,11 @@ pub fn run_to_end(
             break;
         }
         if until >= wave.next_look() {
-            wave.look(scripted.motion.state());
+            // What is certain to decay has no wave, and what is locked turns with the rotor.
+            let decided = !wave.has_looked()
+                && scripted.is_through()
+                && scripted.motion.final_verdict().is_some();
+            if decided { wave.stop() } else { wave.look(scripted.motion.state()) }
         }
         if until >= sample_time {
             sink(&take_sample(&mut scripted.motion, sampling.gaps));
