@@ -1,54 +1,65 @@
-//! The hot paths: a step in flight and in contact, whole runs of the reference
-//! cases by both solvers, a sweep of the harmonic balance, a cell of a map.
+//! The hot paths: whole runs by both solvers, a sweep of the harmonic balance,
+//! cells of a map, and what recording a history adds.
 //!
 //! `cargo bench` prints medians; compare numbers of one run only.
+//! `benches/table` puts them into the documents, whose tables name these
+//! benchmarks as `group/name`. Where a time is given of one step, it is of a step
+//! taken, not of one that was skipped.
 
 #![expect(clippy::unwrap_used, reason = "a benchmark states what must hold")]
 
 use std::hint::black_box;
+use std::time::Duration;
 
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use rubscope::harmonic::{Form, locked_motion};
-use rubscope::motion::{Motion, Sample, Sampling, Script, run_to_verdict, simulate, simulate_with};
+use rubscope::motion::{
+    Event, Motion, Sample, Sampling, Script, is_sensitive, run_to_end, run_to_verdict, to_the_end,
+};
 use rubscope::scene::{CheckedScene, Scene};
 
-fn scene(changes: &[(&str, &str)]) -> CheckedScene {
+type Changes = &'static [(&'static str, &'static str)];
+
+/// The default of a scene is case A of the paper's machine: 20 kN, unilateral.
+fn scene(changes: Changes) -> CheckedScene {
     Scene::base().with(changes).unwrap()
 }
 
-const EVENT: [(&str, &str); 2] = [("solver.kind", "event"), ("solver.model", "rigid")];
+const SLIP: [(&str, &str); 2] = [("casing.damping_ratio", "0.01"), ("operation.pulse_n", "51742")];
+const MICROSECOND: (&str, &str) = ("solver.step_s", "1e-6");
+const EVENT: (&str, &str) = ("solver.kind", "event");
+const RIGID: (&str, &str) = ("solver.model", "rigid");
+const FULL: (&str, &str) = ("solver.model", "full");
 
-fn to_the_end(scene: &CheckedScene) -> f64 {
-    let mut motion = Motion::new(scene);
+fn to_the_end_of(scene: &CheckedScene, mut motion: Motion) -> Motion {
     motion.advance(scene.solver.end_s).unwrap();
-    motion.state().u[0]
+    motion
 }
 
-/// Steps of the explicit solver: case A is nearly all flight, slip is contact
-/// without a break, case B under the equality law is a held lock.
+/// Whole runs of the explicit solver: case A is nearly all flight, the default
+/// scene nearly all lock, slip is contact without a break.
 fn explicit(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("explicit");
-    for (name, changes) in [
-        ("case A, flight", vec![]),
-        (
-            "slip, contact",
-            vec![
-                ("casing.damping_ratio", "0.01"),
-                ("operation.pulse_n", "51742"),
-                ("solver.step_s", "1e-6"),
-            ],
-        ),
-        ("case B, lock", vec![("operation.pulse_n", "1e6"), ("solver.contact", "bilateral")]),
-        (
-            "case B, full model",
-            vec![("operation.pulse_n", "1e6"), ("solver.step_s", "1e-6"), ("solver.model", "full")],
-        ),
-    ] {
-        let scene = scene(&changes);
-        let steps = (scene.solver.end_s / scene.solver.step_s).round() as u64;
-        group.throughput(Throughput::Elements(steps));
-        group.bench_with_input(BenchmarkId::from_parameter(name), &scene, |bencher, scene| {
-            bencher.iter(|| to_the_end(black_box(scene)));
+    let cases: [(&str, Changes); 9] = [
+        ("default scene", &[("operation.pulse_n", "1e6"), ("solver.contact", "bilateral")]),
+        ("default scene, unilateral", &[("operation.pulse_n", "1e6")]),
+        ("case A, 1e-5 s", &[("solver.step_s", "1e-5")]),
+        ("case A, 1e-6 s", &[MICROSECOND]),
+        ("case A, 1e-7 s", &[]),
+        ("case A, 1e-8 s", &[("solver.step_s", "1e-8")]),
+        ("case A, full", &[FULL]),
+        ("slip, rigid", &[SLIP[0], SLIP[1], MICROSECOND, RIGID]),
+        ("slip, modal", &[SLIP[0], SLIP[1], MICROSECOND]),
+    ];
+    let full: (&str, Changes) = ("full, contact", &[SLIP[0], SLIP[1], MICROSECOND, FULL]);
+    for (name, changes) in cases.into_iter().chain([full]) {
+        let scene = scene(changes);
+        let motion = to_the_end_of(&scene, Motion::new(&scene));
+        let (taken, skipped) = (motion.steps_taken().unwrap(), motion.steps_skipped().unwrap());
+        // Where most steps are skipped, the time over those taken tells nothing.
+        group.throughput(Throughput::Elements(if taken > skipped { taken } else { 0 }));
+        group.bench_with_input(name, &scene, |bencher, scene| {
+            bencher.iter(|| to_the_end_of(scene, Motion::new(black_box(scene))).state().u[0]);
         });
     }
     group.finish();
@@ -57,32 +68,38 @@ fn explicit(criterion: &mut Criterion) {
 /// Whole runs of the event solver.
 fn event(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("event");
-    for (name, pulse, zeta, model) in [
-        ("case A", "20000", "0.05", "rigid"),
-        ("case A, moving blades", "20000", "0.05", "modal"),
-        ("case C, rocking", "51742", "0", "rigid"),
-        ("slip", "51742", "0.01", "rigid"),
-        ("case B", "1e6", "0.05", "rigid"),
-    ] {
-        let scene = scene(&[
-            EVENT[0],
-            ("solver.model", model),
-            ("operation.pulse_n", pulse),
-            ("casing.damping_ratio", zeta),
-        ]);
-        group.bench_with_input(BenchmarkId::from_parameter(name), &scene, |bencher, scene| {
-            bencher.iter(|| to_the_end(black_box(scene)));
+    let cases: [(&str, f64, Changes); 6] = [
+        ("case A, 1e-6", 1e-6, &[EVENT]),
+        ("case A, 1e-15", 1e-15, &[EVENT]),
+        ("case A, rigid", 1e-15, &[EVENT, RIGID]),
+        ("case C, rocking", 1e-15, &[EVENT, RIGID, SLIP[1], ("casing.damping_ratio", "0")]),
+        ("slip", 1e-15, &[EVENT, RIGID, SLIP[0], SLIP[1]]),
+        ("case B", 1e-15, &[EVENT, RIGID, ("operation.pulse_n", "1e6")]),
+    ];
+    for (name, tolerance, changes) in cases {
+        let scene = scene(changes);
+        group.bench_with_input(name, &scene, |bencher, scene| {
+            bencher.iter(|| {
+                let motion = Event::new(black_box(scene)).unwrap().with_tolerance(tolerance);
+                to_the_end_of(scene, motion.into()).state().u[0]
+            });
         });
     }
     group.finish();
 }
 
+/// The locked motion at 500 speeds.
 fn harmonic(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("hbm, 500 speeds");
+    let mut group = criterion.benchmark_group("hbm");
     let machine = Scene::base().machine();
     let speeds: Vec<f64> = (1..=500).map(f64::from).collect();
-    for form in Form::ALL {
-        group.bench_function(form.as_ref(), |bencher| {
+    group.throughput(Throughput::Elements(500));
+    for (name, form) in [
+        ("500 speeds, printed", Form::Printed),
+        ("500 speeds, blade", Form::Blade),
+        ("500 speeds, modal", Form::Modal),
+    ] {
+        group.bench_function(name, |bencher| {
             bencher
                 .iter(|| locked_motion(&machine, form, false, None, black_box(&speeds)).unwrap());
         });
@@ -90,32 +107,51 @@ fn harmonic(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// What recording a history adds to solving, and what a cell of a map costs.
-fn around(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("around");
-    let slip = scene(&[
-        ("casing.damping_ratio", "0.01"),
-        ("operation.pulse_n", "51742"),
-        ("solver.step_s", "1e-6"),
-    ]);
-    group.bench_function("slip without history", |bencher| {
-        bencher.iter(|| simulate(black_box(&slip)));
+/// A cell of a map, alone and with the three runs that find out whether it is
+/// sensitive.
+fn map(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("map");
+    let cell = scene(&[EVENT, RIGID, ("operation.pulse_n", "4e5")]);
+    group.throughput(Throughput::Elements(1));
+    group.bench_function("a cell", |bencher| {
+        bencher.iter(|| run_to_verdict(black_box(&cell), &to_the_end));
     });
-    group.bench_function("slip with 2000 samples", |bencher| {
-        let sampling = Sampling { intervals: 2000, gaps: false };
+    group.bench_function("a cell with certainty", |bencher| {
         bencher.iter(|| {
-            let mut sum = 0.0;
-            let mut add = |sample: &Sample| sum += sample.state.u[0];
-            simulate_with(black_box(&slip), &Script::default(), sampling, &mut add);
-            sum
+            let reached = run_to_verdict(black_box(&cell), &to_the_end).unwrap();
+            is_sensitive(&cell, &Script::default(), reached, &to_the_end)
         });
-    });
-    let cell = scene(&[EVENT[0], EVENT[1], ("operation.pulse_n", "4e5")]);
-    group.bench_function("a cell of a map", |bencher| {
-        bencher.iter(|| run_to_verdict(black_box(&cell), &|| true));
     });
     group.finish();
 }
 
-criterion_group!(hot_paths, explicit, event, harmonic, around);
+/// What recording a history adds to solving.
+fn record(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("record");
+    let slip = scene(&[SLIP[0], SLIP[1], MICROSECOND]);
+    group.bench_function("slip, no history", |bencher| {
+        let none = Sampling::default();
+        bencher.iter(|| run_to_end(black_box(&slip), &Script::default(), none, &mut |_| {}));
+    });
+    group.bench_function("slip, 2000 samples", |bencher| {
+        let sampling = Sampling { intervals: 2000, gaps: true };
+        bencher.iter(|| {
+            let mut sum = 0.0;
+            let mut add = |sample: &Sample| sum += sample.state.u[0];
+            run_to_end(black_box(&slip), &Script::default(), sampling, &mut add);
+            sum
+        });
+    });
+    group.finish();
+}
+
+/// Short, so that all of it takes a minute; the options of criterion make it longer.
+fn short() -> Criterion {
+    Criterion::default()
+        .sample_size(20)
+        .warm_up_time(Duration::from_millis(200))
+        .measurement_time(Duration::from_millis(1200))
+}
+
+criterion_group! { name = hot_paths; config = short(); targets = explicit, event, harmonic, map, record }
 criterion_main!(hot_paths);

@@ -178,7 +178,7 @@ pub(super) fn run_motion_to_verdict(
 /// `window` seconds.
 #[must_use]
 pub fn verdict_of(motion: &Motion, window: f64) -> Verdict {
-    motion.final_verdict().unwrap_or_else(|| judge(motion.contacts(), motion.state().t_s, window))
+    motion.final_verdict().unwrap_or_else(|| judge(motion.contacts(), motion.t_s(), window))
 }
 
 /// Runs a scene to its end.
@@ -223,7 +223,11 @@ pub fn run_to_end(
             break;
         }
         if until >= wave.next_look() {
-            wave.look(scripted.motion.state());
+            // What is certain to decay has no wave, and what is locked turns with the rotor.
+            let decided = !wave.has_looked()
+                && scripted.is_through()
+                && scripted.motion.final_verdict().is_some();
+            if decided { wave.stop() } else { wave.look(scripted.motion.state()) }
         }
         if until >= sample_time {
             sink(&take_sample(&mut scripted.motion, sampling.gaps));

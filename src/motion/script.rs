@@ -55,7 +55,7 @@ impl Motion {
         match change {
             Change::Pulse => self.fire(),
             Change::Rotor { speed, ramp } => {
-                let now = self.rotor().speed(self.state().t_s);
+                let now = self.rotor().speed(self.t_s());
                 self.set_speed(speed.unwrap_or(now), *ramp);
             }
             Change::Parameters(scene) => self.set_parameters(scene),

@@ -5,7 +5,7 @@ use std::fmt::Debug;
 use std::ops::{Deref, DerefMut};
 
 use super::explicit::{Explicit, FullBlades, ModalBlades, RigidBlades};
-use super::{Checks, ContactLog, Event, Failure, Pulse, Rotor, State, Verdict};
+use super::{Checks, ContactLog, Event, Failure, Plane, Pulse, Rotor, State, Verdict};
 use crate::model::Machine;
 use crate::scene::{CheckedScene, ModelSize, SolverKind};
 
@@ -38,6 +38,10 @@ pub trait Solver: Debug + Send + Sync {
     /// As `advance`.
     fn advance_while(&mut self, until: f64, go_on: GoOn<'_>) -> Result<bool, Failure>;
 
+    /// Time \[s\]; of the explicit solver, that of its latest step. It costs nothing,
+    /// where `state` may have to take a power of a matrix.
+    fn t_s(&self) -> f64;
+
     /// The four coordinates and their rates now.
     fn state(&self) -> State;
 
@@ -54,16 +58,16 @@ pub trait Solver: Debug + Send + Sync {
     /// The gap of every blade now, Eq. (14); positive means open \[m\].
     fn blade_gaps(&self) -> Vec<f64> {
         let (machine, state) = (self.machine(), self.state());
-        let phase = machine.nodal_diameters * self.rotor().angle(state.t_s);
-        let angles = self.blade_angles();
-        (1..=machine.polygon.blades)
-            .zip(angles)
-            .map(|(blade, angle)| {
-                let psi = machine.polygon.phase(machine.polygon.side_of_blade(blade));
-                let (sin, cos) = (phase + psi + machine.nodal_diameters * angle).sin_cos();
-                machine.clearance() + state.u[0] * cos + state.u[1] * sin
-            })
-            .collect()
+        let (polygon, diameters) = (&machine.polygon, machine.nodal_diameters);
+        // In the frame of the blades only their small angles differ from blade to blade.
+        let z = Plane::new(state.u[0], state.u[1])
+            * Plane::cis(-diameters * self.rotor().angle(state.t_s));
+        let gap = |(blade, angle): (u32, f64)| {
+            let (c, s) = polygon.direction(polygon.side_of_blade(blade));
+            let normal = Plane::new(c, s) * Plane::cis(diameters * angle);
+            machine.clearance() + (z * normal.conj()).re
+        };
+        (1..=polygon.blades).zip(self.blade_angles()).map(gap).collect()
     }
 
     /// Group multipliers of the sides in contact now, in phase order (`psi_a`,

@@ -53,6 +53,16 @@ impl WaveTracker {
         self.next
     }
 
+    /// Whether it has looked before.
+    pub fn has_looked(&self) -> bool {
+        self.first.is_some()
+    }
+
+    /// Looks no more: nobody will ask for the speed.
+    pub fn stop(&mut self) {
+        self.next = f64::INFINITY;
+    }
+
     /// Looks at the state at the instant asked for.
     pub fn look(&mut self, state: State) {
         self.next = if self.next < self.end {

@@ -51,6 +51,32 @@ fn steps_are_taken_where_something_acts_and_skipped_in_between() {
 }
 
 #[test]
+fn gaps_of_all_blades_are_those_of_equation_14() {
+    for (model, diameters) in [("rigid", 3), ("modal", 3), ("full", 4), ("full", 5)] {
+        let set = [(MODEL, model), ("operation.nodal_diameters", &*diameters.to_string())];
+        let scene = scene(&set).checked().unwrap();
+        let mut motion = Motion::new(&scene);
+        for t in [1.1e-4, 2.4e-4, 7.7e-3] {
+            motion.advance(t).unwrap();
+            let (state, angles) = (motion.state(), motion.blade_angles());
+            let theta = scene.operation.speed_rad_s * state.t_s;
+            let gaps = motion.blade_gaps();
+            assert_eq!((gaps.len(), state.t_s), (22, motion.t_s()));
+            for (i, (gap, alpha)) in gaps.into_iter().zip(angles).enumerate() {
+                let turned = theta + std::f64::consts::TAU * i as f64 / 22.0 + alpha;
+                let (sin, cos) = (f64::from(diameters) * turned).sin_cos();
+                let expected = motion.machine().clearance() + state.u[0] * cos + state.u[1] * sin;
+                // Round-off of an angle of some tens of radians, at 1e-4 m.
+                assert!(
+                    (gap - expected).abs() < 2e-18,
+                    "{model} {diameters} {i}: {gap} {expected}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
 fn case_a_meets_the_reference_and_its_error_falls_with_the_step() {
     let report = run(&[]);
     assert_eq!(report.outcome.verdict, Verdict::Decay);

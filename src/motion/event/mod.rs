@@ -190,6 +190,10 @@ impl Solver for Event {
         }
     }
 
+    fn t_s(&self) -> f64 {
+        self.now
+    }
+
     fn state(&self) -> State {
         let s = self.elapsed(self.now);
         let (u, v) = self.mode.standing(&self.parameters, &self.drive, s);

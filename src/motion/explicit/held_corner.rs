@@ -199,7 +199,7 @@ impl<B: BladeModel> Explicit<B> {
         let mut blades = self.blades.clone();
         blades.set_held_modes(as_coordinates(modes));
         let diameters = self.machine.nodal_diameters;
-        let (c, s) = self.phasor.once(self.n + steps, &self.rotor, diameters, self.step);
+        let (c, s) = self.phasor.look(self.n + steps, &self.rotor, diameters, self.step);
         let (place, change) = held.step.casing(modes);
         let u = [
             Coordinate { x: place.re * c - place.im * s, increment: change.re * c - change.im * s },

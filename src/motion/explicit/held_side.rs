@@ -168,7 +168,7 @@ impl<B: BladeModel> Explicit<B> {
     /// standing frame.
     fn standing_side(&self, side: u32, n: u64) -> Plane {
         let diameters = self.machine.nodal_diameters;
-        let (c, s) = self.phasor.once(n, &self.rotor, diameters, self.step);
+        let (c, s) = self.phasor.look(n, &self.rotor, diameters, self.step);
         let (cos, sin) = self.machine.polygon.direction(side);
         Plane::new(c, s) * Plane::new(cos, sin)
     }

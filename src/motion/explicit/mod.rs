@@ -221,11 +221,6 @@ impl<B: BladeModel> Explicit<B> {
         self.n + self.block.used()
     }
 
-    /// Time of the latest step \[s\].
-    fn time(&self) -> f64 {
-        self.time_of(self.latest_step())
-    }
-
     /// Ends what was decided on ahead.
     fn interrupt(&mut self) {
         self.close_block();

@@ -49,6 +49,10 @@ impl<B: BladeModel> Solver for Explicit<B> {
         Ok(true)
     }
 
+    fn t_s(&self) -> f64 {
+        self.time_of(self.latest_step())
+    }
+
     fn state(&self) -> State {
         let (u, blades) = self.materialized();
         let n = self.latest_step();
@@ -160,7 +164,7 @@ impl<B: BladeModel> Solver for Explicit<B> {
     /// What the pulse before gave in the half step until now is kept.
     fn fire(&mut self) {
         self.interrupt();
-        let (start, next) = (self.time(), self.next_pulse);
+        let (start, next) = (self.t_s(), self.next_pulse);
         let half = 0.5 * self.step;
         let old = self.pulse;
         self.pulse = Pulse { start, end: start + next.end, force: next.force };
@@ -177,7 +181,7 @@ impl<B: BladeModel> Solver for Explicit<B> {
 
     fn set_speed(&mut self, speed: f64, ramp: f64) {
         self.interrupt();
-        self.rotor.change(self.time(), speed, ramp);
+        self.rotor.change(self.t_s(), speed, ramp);
         self.phasor = Phasor::new(&self.rotor, self.machine.nodal_diameters, self.step);
         self.side_map = None;
     }

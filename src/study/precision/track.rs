@@ -30,7 +30,7 @@ impl Track {
     /// The state at the instant `t` near the end \[s\]; none if it failed by
     /// then, or if that instant is not near the end.
     pub(super) fn at(&self, t: f64) -> Option<State> {
-        if t < self.before.state().t_s {
+        if t < self.before.t_s() {
             return None;
         }
         let mut motion = self.before.clone();

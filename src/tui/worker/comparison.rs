@@ -29,15 +29,16 @@ impl Comparison {
     /// now, because `go_on` said no.
     pub fn catch_up(&mut self, until: f64, sample: f64, bin: f64, go_on: GoOn<'_>) -> bool {
         loop {
-            self.recorder.record(&mut self.motion, bin);
-            let before = self.motion.state().t_s;
+            let state = self.motion.state();
+            self.recorder.record(&mut self.motion, &state, bin);
+            let before = self.motion.t_s();
             let next = (before + sample).min(until);
             if next <= before {
                 return true;
             }
             match self.motion.advance_while(next, go_on) {
-                Ok(true) if self.motion.state().t_s > before && go_on() => {}
-                Ok(true) => return self.motion.state().t_s <= before,
+                Ok(true) if self.motion.t_s() > before && go_on() => {}
+                Ok(true) => return self.motion.t_s() <= before,
                 Ok(false) => return false,
                 // The motion stores a failure; the full run reports it.
                 Err(_) => return true,

@@ -26,8 +26,8 @@ impl Copies {
 
     /// Keeps a copy if the last one is old.
     pub fn follow(&mut self, motion: &Motion) {
-        let last = self.copies.last().map_or(f64::NEG_INFINITY, |(last, _)| last.state().t_s);
-        if motion.state().t_s - last < self.spacing {
+        let last = self.copies.last().map_or(f64::NEG_INFINITY, |(last, _)| last.t_s());
+        if motion.t_s() - last < self.spacing {
             return;
         }
         self.copies.push((motion.clone(), false));
@@ -43,8 +43,8 @@ impl Copies {
 
     /// The motion was changed from outside: an earlier copy does not know it.
     pub fn changed(&mut self, motion: &Motion) {
-        let now = motion.state().t_s;
-        self.copies.retain(|(copy, _)| copy.state().t_s < now);
+        let now = motion.t_s();
+        self.copies.retain(|(copy, _)| copy.t_s() < now);
         self.copies.push((motion.clone(), true));
         if self.copies.iter().filter(|(_, changed)| *changed).count() > MOST_CHANGES {
             self.copies.remove(0);
@@ -55,6 +55,6 @@ impl Copies {
     /// remembered.
     pub fn before(&self, t: f64, now: &Motion) -> Option<Motion> {
         let copies = self.copies.iter().map(|(copy, _)| copy).chain([now]);
-        copies.take_while(|copy| copy.state().t_s <= t).last().cloned()
+        copies.take_while(|copy| copy.t_s() <= t).last().cloned()
     }
 }

@@ -35,7 +35,7 @@ pub(super) const SLICE: Duration = Duration::from_millis(5);
 impl FullRunJob {
     /// A run of `length` seconds from where the motion is.
     pub fn new(motion: Motion, length: f64) -> Self {
-        let start = motion.state().t_s;
+        let start = motion.t_s();
         let before = steps(&motion).unwrap_or_default();
         Self {
             end: start + length,
@@ -119,7 +119,7 @@ impl FullRunJob {
         if let Some(run) = &self.result {
             return FullRunState::Done(run.clone());
         }
-        let part = (self.motion.state().t_s - self.start) / (self.end - self.start);
+        let part = (self.motion.t_s() - self.start) / (self.end - self.start);
         let part = part.clamp(0.0, 1.0);
         if self.is_done() { FullRunState::GivenUp(part) } else { FullRunState::Computing(part) }
     }

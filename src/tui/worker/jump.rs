@@ -19,7 +19,7 @@ pub fn next_change(motion: &Motion, step: f64, go_on: GoOn<'_>) -> Option<f64> {
         (log.active_set, log.impact_count) != before
     };
     let mut at = motion.clone();
-    let mut now = motion.state().t_s;
+    let mut now = motion.t_s();
     for _ in 0..MOST_STEPS {
         if at.over() || at.final_verdict().is_some() {
             return None;

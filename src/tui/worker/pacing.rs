@@ -5,7 +5,7 @@
 use std::f64::consts::TAU;
 
 use super::recorder::in_blade_frame;
-use crate::motion::Motion;
+use crate::motion::{Motion, State};
 use crate::tui::trace::Mark;
 
 /// Part of a turn of the wave that one frame may show.
@@ -35,9 +35,9 @@ impl Turned {
         self.by = 0.0;
     }
 
-    /// Adds the turn to where the motion is now.
-    pub fn follow(&mut self, motion: &Motion) {
-        let (state, machine) = (motion.state(), motion.machine());
+    /// Adds the turn to where the motion is now, in this state.
+    pub fn follow(&mut self, motion: &Motion, state: &State) {
+        let machine = motion.machine();
         let turned = machine.nodal_diameters * motion.rotor().angle(state.t_s);
         let [x, y] = in_blade_frame(state.u, turned);
         let visible = state.amplitude() >= VISIBLE * machine.clearance();
@@ -100,8 +100,8 @@ mod tests {
     fn the_lock_of_the_first_scene_takes_time_to_happen() {
         let mut motion = Motion::new(&Scene::builtin("paper-nd3").unwrap().checked().unwrap());
         let mut collected = crate::tui::trace::Marks::from(motion.contacts());
-        while motion.state().t_s < 1e-4 {
-            let next = motion.state().t_s + 2.5e-7;
+        while motion.t_s() < 1e-4 {
+            let next = motion.t_s() + 2.5e-7;
             motion.advance(next).unwrap();
             collected.look(motion.contacts());
         }

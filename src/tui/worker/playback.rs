@@ -145,7 +145,7 @@ impl Playback {
 
     /// Notes what the latest order changed, as `run --at` takes it.
     fn note_changes(&mut self, before: &Order) {
-        let now = self.motion.state().t_s;
+        let now = self.motion.t_s();
         if self.order.changes != before.changes {
             let keys = differences(&before.scene, &self.order.scene);
             self.applied.extend(keys.map(|(path, text)| (now, format!("{path}={text}"))));
@@ -168,7 +168,7 @@ impl Playback {
     fn is_at_end(&self) -> bool {
         let step = self.motion.steps().map_or(0.0, |_| self.order.scene.solver.step_s);
         // The explicit solver ends at its last step by then.
-        self.motion.state().t_s + step > self.forecasts.end() * (1.0 - f64::EPSILON)
+        self.motion.t_s() + step > self.forecasts.end() * (1.0 - f64::EPSILON)
     }
 
     /// Plays the same scene under the other contact law too, if it is wanted.
@@ -184,15 +184,16 @@ impl Playback {
     /// The longest sample in which no turn of the wave against the blades is lost.
     fn longest_sample(&self) -> f64 {
         let machine = self.motion.machine();
-        let speed = self.motion.rotor().speed(self.motion.state().t_s).abs();
+        let speed = self.motion.rotor().speed(self.motion.t_s()).abs();
         let fastest = machine.omega_c + machine.nu(speed);
         std::f64::consts::TAU / fastest.max(f64::MIN_POSITIVE) / PER_TURN
     }
 
     fn record(&mut self) {
-        self.recorder.record(&mut self.motion, self.order.bin_s);
+        let state = self.motion.state();
+        self.recorder.record(&mut self.motion, &state, self.order.bin_s);
         self.copies.follow(&self.motion);
-        self.turned.follow(&self.motion);
+        self.turned.follow(&self.motion, &state);
     }
 
     /// A frame was drawn: the wave may turn on.
@@ -205,14 +206,14 @@ impl Playback {
     /// picture on the screen could not be followed.
     /// False where nothing moved.
     pub fn play_paced(&mut self, wall: f64) -> bool {
-        let (now, rate) = (self.motion.state().t_s, self.order.rate);
+        let (now, rate) = (self.motion.t_s(), self.order.rate);
         let rate = match self.order.slow_at_events {
             true => rate_at(now, rate, self.forecasts.marks()),
             false => rate,
         };
         let turns = self.order.shows(ViewId::Frame) || self.order.shows(ViewId::Gaps);
         self.play_within(wall * rate, turns);
-        self.motion.state().t_s != now
+        self.motion.t_s() != now
     }
 
     /// Plays `seconds` of motion, or less if the solver is too slow.
@@ -227,9 +228,9 @@ impl Playback {
         let sample = self.sample_length();
         let turn = std::f64::consts::TAU / PER_TURN;
         self.limit = Limit::None;
-        let (end, before) = (self.forecasts.end(), self.motion.state().t_s);
+        let (end, before) = (self.forecasts.end(), self.motion.t_s());
         loop {
-            let now = self.motion.state().t_s;
+            let now = self.motion.t_s();
             let next = if now + sample > end { end } else { now + sample };
             if next > self.target || next <= now {
                 break;
@@ -246,7 +247,7 @@ impl Playback {
                 break;
             }
             if !go_on() {
-                let now = self.motion.state().t_s;
+                let now = self.motion.t_s();
                 if now + sample <= self.target {
                     self.limit = Limit::Solver;
                 }
@@ -255,17 +256,17 @@ impl Playback {
             }
         }
         if self.is_at_end() {
-            self.target = self.motion.state().t_s;
+            self.target = self.motion.t_s();
             self.ends += u64::from(self.target > before);
         }
         if self.motion.failure().is_some() {
-            self.target = self.motion.state().t_s;
+            self.target = self.motion.t_s();
         }
         self.play_comparison(self.time_limit);
     }
 
     fn play_comparison(&mut self, limit: Duration) {
-        let (now, sample, bin) = (self.motion.state().t_s, self.sample_length(), self.order.bin_s);
+        let (now, sample, bin) = (self.motion.t_s(), self.sample_length(), self.order.bin_s);
         self.behind = self.comparison.as_mut().is_some_and(|comparison| {
             let began = Instant::now();
             !comparison.catch_up(now, sample, bin, &|| began.elapsed() < limit)
@@ -285,10 +286,10 @@ impl Playback {
     /// motion has failed. It stays behind where `go_on` says no, which happens
     /// only if this sample takes very long.
     fn next_sample(&mut self, until: f64, go_on: GoOn<'_>) -> bool {
-        let before = self.motion.state().t_s;
+        let before = self.motion.t_s();
         // The motion stores a failure, and every snapshot reports it.
         let reached = self.motion.advance_while(until, go_on);
-        if reached == Ok(true) && self.motion.state().t_s <= before {
+        if reached == Ok(true) && self.motion.t_s() <= before {
             let next = before + self.order.scene.solver.step_s;
             return self.motion.advance_while(next, go_on).is_ok();
         }
@@ -302,10 +303,10 @@ impl Playback {
             None => self.sample_length(),
         };
         let (began, limit) = (Instant::now(), self.time_limit);
-        let until = self.motion.state().t_s + step;
+        let until = self.motion.t_s() + step;
         self.next_sample(until, &|| began.elapsed() < limit);
         self.record();
-        self.target = self.motion.state().t_s;
+        self.target = self.motion.t_s();
         self.play_comparison(self.time_limit);
     }
 
@@ -316,20 +317,20 @@ impl Playback {
         let marks = Marks::from(self.motion.contacts());
         let found = next_change(&self.motion, self.longest_sample(), &go_on);
         if let Some(until) = found {
-            let length = until - self.motion.state().t_s;
+            let length = until - self.motion.t_s();
             let sample = self.sample_length().max(length / JUMP_SAMPLES);
-            while self.motion.state().t_s < until {
-                let now = self.motion.state().t_s;
+            while self.motion.t_s() < until {
+                let now = self.motion.t_s();
                 let moved = self.next_sample((now + sample).min(until), &go_on);
                 self.record();
                 // The explicit solver may be at its last step by then.
-                if !moved || self.motion.state().t_s <= now || !go_on() {
+                if !moved || self.motion.t_s() <= now || !go_on() {
                     break;
                 }
             }
         }
         self.met.1 = found.and_then(|_| met(marks, &self.motion));
-        self.target = self.motion.state().t_s;
+        self.target = self.motion.t_s();
         if self.is_at_end() {
             self.forecast();
         }

@@ -30,7 +30,7 @@ fn a_turning_picture_turns_an_eighth_between_two_frames_at_most() {
         (y.atan2(x), state.amplitude() > 0.05 * machine.clearance())
     };
     let (mut frames, mut limited) = (0, 0);
-    while playback.motion.state().t_s < 0.02 {
+    while playback.motion.t_s() < 0.02 {
         let (before, shown) = phase(&playback);
         // Several ticks of the clock for one frame.
         for _ in 0..5 {
@@ -50,7 +50,7 @@ fn a_turning_picture_turns_an_eighth_between_two_frames_at_most() {
     order.open = vec![ViewId::Response];
     let mut playback = computed(&order);
     (0..5).for_each(|_| _ = playback.play_paced(0.033));
-    assert!((playback.motion.state().t_s - 0.0165).abs() < 1e-4);
+    assert!((playback.motion.t_s() - 0.0165).abs() < 1e-4);
 }
 
 #[test]
@@ -69,7 +69,7 @@ fn the_motion_waits_at_the_end_of_its_forecast_and_goes_on_when_asked() {
         playback.apply(&order);
         assert!((playback.forecasts.end() - 1e-2).abs() < 3e-7);
         playback.play(1e-3);
-        assert!(playback.motion.state().t_s > 5.9e-3);
+        assert!(playback.motion.t_s() > 5.9e-3);
     }
 }
 
@@ -87,7 +87,7 @@ fn a_jump_stops_at_the_change_of_contact_at_any_zoom() {
             order.jumps = number;
             order.playing = false;
             playback.apply(&order);
-            let now = playback.motion.state().t_s;
+            let now = playback.motion.t_s();
             assert!((now - impact).abs() <= 1e-12 * impact.max(1e-6), "{now} {impact}");
             let (told, met) = playback.snapshot().moment.unwrap().met;
             assert_eq!((told, met.unwrap().t_s), (number, *impact));
@@ -146,8 +146,8 @@ fn a_comparison_that_is_slow_catches_up_before_a_change_acts_on_both() {
     assert!(playback.behind && playback.is_computing());
     order.pulses += 1;
     playback.apply(&order);
-    let (now, theirs) = (playback.motion.state().t_s, playback.comparison.as_ref().unwrap());
-    assert!(!playback.behind && now - theirs.motion.state().t_s < 1.5e-6, "{now}");
+    let (now, theirs) = (playback.motion.t_s(), playback.comparison.as_ref().unwrap());
+    assert!(!playback.behind && now - theirs.motion.t_s() < 1.5e-6, "{now}");
     assert_eq!(theirs.motion.pulse().start, playback.motion.pulse().start);
     while playback.is_computing() {
         playback.compute();

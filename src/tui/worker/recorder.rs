@@ -1,7 +1,7 @@
 //! Samples of a motion as bins of least and greatest values, and contact
 //! forces as means between snapshots.
 
-use crate::motion::{ActiveSet, Motion};
+use crate::motion::{ActiveSet, Motion, State};
 use crate::tui::history::{Bin, CHANNELS, MOST_BINS, thin};
 
 /// `z = (u_c + i u_s) exp(-i n_d theta)` \[m\], with `turned = n_d theta`.
@@ -23,9 +23,9 @@ pub struct Recorder {
 }
 
 impl Recorder {
-    /// Records the motion as it is now; bins are closed after `length` seconds.
-    pub fn record(&mut self, motion: &mut Motion, length: f64) {
-        let state = motion.state();
+    /// Records the motion as it is now, in this state; bins are closed after
+    /// `length` seconds.
+    pub fn record(&mut self, motion: &mut Motion, state: &State, length: f64) {
         let forces = motion.take_mean_forces();
         let push: f64 = forces.iter().map(|(_, force)| -force).sum();
         let gap = motion.blade_gaps().into_iter().fold(f64::INFINITY, f64::min);

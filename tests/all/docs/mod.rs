@@ -9,6 +9,7 @@ mod blocks;
 mod fields;
 mod links;
 mod numbers;
+mod speed;
 mod tables;
 
 use std::path::{Path, PathBuf};

@@ -121,7 +121,7 @@ fn errors_at_the_end_are_those_of_the_document() {
     let output = rubscope(&arguments);
     let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     let rows = report["rows"].as_array().unwrap();
-    let header = "| solver | step or tolerance | error at the end, in clearances | time |";
+    let header = "| solver | step or tolerance | error at the end, in clearances | time | bench |";
     let told = read("docs/accuracy.md").table(header);
     assert_eq!(told.len(), 7);
     for row in told {
