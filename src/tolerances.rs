@@ -221,9 +221,16 @@ pub(crate) const SHORTEST_BLOCK_OF_BLADES: u64 = 32;
 /// rings keep one turn of them. Speed only.
 pub(crate) const SHAPES_KEPT: u32 = 128;
 
-/// Most blades that are looked at one by one; more are looked at with all the
-/// others, at once. Speed only.
-pub(crate) const FEW_BLADES: usize = 8;
+/// Rows of shapes that are kept of a larger ring, for the blades near contact.
+/// Fewer: they are made anew in every step. Speed only.
+pub(crate) const ROWS_NEAR: usize = 16;
+
+/// Blades that are looked at before the bound on all others, at most. Speed only.
+pub(crate) const BLADES_FIRST: usize = 8;
+
+/// Blades that cost as much one by one as all of them at once, for each unit of
+/// the sum of the prime factors of their number. Speed only.
+pub(crate) const FEW_BLADES: usize = 4;
 
 /// Steps a corner must have been closed before it is held. Fewer: maps are made
 /// for contacts that end.

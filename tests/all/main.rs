@@ -27,6 +27,7 @@ mod explicit_hard;
 mod file_places;
 mod file_signals;
 mod file_writer;
+mod full_disk;
 mod fuzz_cases;
 mod fuzz_keys;
 mod fuzz_laws;

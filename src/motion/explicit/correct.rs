@@ -10,7 +10,7 @@ use nalgebra::DMatrix;
 use super::{BladeModel, Explicit};
 use crate::contact::{
     self,
-    repeated::{GroupReference, Repeat, Repeated},
+    repeated::{GroupReference, Repeat},
 };
 use crate::motion::{ActiveSet, FailureReason};
 use crate::tolerances::{BREAK_STEPS, MOST_ROWS, SAME_ANGLE, SMALL_PHASE};
@@ -195,15 +195,16 @@ impl<B: BladeModel> Explicit<B> {
     /// from the first row of its side.
     fn solve_repeated(&mut self) -> Result<(), FailureReason> {
         let diameters = self.machine.nodal_diameters;
-        let (mut groups, mut repeats): (Vec<GroupReference>, Vec<Repeat>) = Default::default();
+        let repeated = &mut self.repeated;
+        repeated.begin(self.casing.compliance);
         let mut first = &self.rows[0];
         for row in &self.rows {
-            if groups.is_empty() || row.side != first.side {
+            if repeated.groups.is_empty() || row.side != first.side {
                 first = row;
-                groups.push(GroupReference { gap: row.gap, normal: row.normal });
+                repeated.groups.push(GroupReference { gap: row.gap, normal: row.normal });
             }
             let mut repeat = Repeat {
-                group: groups.len() - 1,
+                group: repeated.groups.len() - 1,
                 gap: 0.0,
                 normal: first.normal,
                 turned: (0.0, 0.0),
@@ -221,22 +222,15 @@ impl<B: BladeModel> Explicit<B> {
                 repeat.turned = (c * cos - s * sin, s * cos + c * sin);
                 repeat.moment_arm = row.moment_arm;
             }
-            repeats.push(repeat);
+            repeated.rows.push(repeat);
         }
         let compliance =
             |a: usize, b: usize| self.blades.compliance(self.rows[a].index, self.rows[b].index);
-        let repeated = Repeated {
-            groups: &groups,
-            rows: &repeats,
-            casing: self.casing.compliance,
-            blades: &compliance,
-        };
-        let lambda = self
-            .law
-            .repeated(&repeated)
-            .ok_or(FailureReason::Singular { rows: self.rows.len() })?;
+        repeated.bend_by(compliance);
+        let rows = self.rows.len();
+        let lambda = self.law.repeated(repeated).ok_or(FailureReason::Singular { rows })?;
         for (row, value) in self.rows.iter_mut().zip(lambda) {
-            row.lambda = value;
+            row.lambda = *value;
         }
         Ok(())
     }
@@ -274,9 +268,12 @@ impl<B: BladeModel> Explicit<B> {
         let mut active_set = ActiveSet::Nothing;
         let mut pulls = false;
         for row in self.rows.iter().filter(|row| row.lambda != 0.0) {
-            let angle = self.blades.angle(row.index);
+            let bent = self.rows.iter().fold(0.0, |bent, other| {
+                let torque = -other.moment_arm * other.lambda;
+                bent + self.blades.compliance(row.index, other.index) * torque
+            });
             let direction = self.machine.polygon.direction(row.side);
-            let normal = turned(direction, self.machine.nodal_diameters * angle);
+            let normal = turned(direction, row.turn + self.machine.nodal_diameters * bent);
             let gap = self.machine.polygon.clearance + z.0 * normal.0 + z.1 * normal.1;
             self.deepest = self.deepest.max(-gap);
             let last = &mut self.touched[row.side as usize];

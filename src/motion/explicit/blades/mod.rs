@@ -5,8 +5,11 @@
 //! angle, a side of the polygon, and the angle that torques on rows make in
 //! one step.
 
+mod angle_bounds;
 mod full;
+mod full_flight;
 mod modal;
+mod near;
 mod ring;
 mod shapes;
 
@@ -37,7 +40,7 @@ pub trait BladeModel: Clone + std::fmt::Debug + Send + Sync + 'static {
     /// angle \[rad\].
     fn predict(&mut self, excitation: Option<(&EngineOrderTorque, f64)>) -> f64;
     /// Blade angle of a row \[rad\].
-    fn angle(&self, row: u32) -> f64;
+    fn angle(&mut self, row: u32) -> f64;
     /// Angle of row `a` per unit torque on row `b` over one step
     /// \[rad/(N m)\]; for no pair larger than for a row itself.
     fn compliance(&self, a: u32, b: u32) -> f64;
@@ -110,7 +113,7 @@ impl BladeModel for RigidBlades {
     fn predict(&mut self, _: Option<(&EngineOrderTorque, f64)>) -> f64 {
         0.0
     }
-    fn angle(&self, _: u32) -> f64 {
+    fn angle(&mut self, _: u32) -> f64 {
         0.0
     }
     fn compliance(&self, _: u32, _: u32) -> f64 {

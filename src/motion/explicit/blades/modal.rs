@@ -59,9 +59,8 @@ impl BladeModel for ModalBlades {
         }
         self.modes[0].increment.abs() + self.modes[1].increment.abs()
     }
-    fn angle(&self, row: u32) -> f64 {
-        let (c, s) = self.polygon.direction(row);
-        c * self.modes[0].x + s * self.modes[1].x
+    fn angle(&mut self, row: u32) -> f64 {
+        self.angle_of(row)
     }
     fn compliance(&self, a: u32, b: u32) -> f64 {
         let ((ca, sa), (cb, sb)) = (self.polygon.direction(a), self.polygon.direction(b));
@@ -91,7 +90,7 @@ impl BladeModel for ModalBlades {
         let mut last = self.clone();
         last.skip(steps);
         let [here, there] =
-            [&*self, &last].map(|blades| self.largest(blades.modes.map(|mode| mode.x)));
+            [self, &last].map(|blades| self.largest(blades.modes.map(|mode| mode.x)));
         let mut most = least.max(here).max(there);
         // All blades swing alike but for their phases: a blade's first turning
         // point is its largest angle, as every later one is damped.
@@ -111,7 +110,7 @@ impl BladeModel for ModalBlades {
     }
     fn every_angle(&self, machine: &Machine) -> Vec<f64> {
         let polygon = &machine.polygon;
-        (1..=polygon.blades).map(|blade| self.angle(polygon.side_of_blade(blade))).collect()
+        (1..=polygon.blades).map(|blade| self.angle_of(polygon.side_of_blade(blade))).collect()
     }
     fn held_modes(&self) -> Option<HeldModes<'_>> {
         Some(HeldModes { modes: self.modes, moving: Some(self) })
@@ -122,6 +121,12 @@ impl BladeModel for ModalBlades {
 }
 
 impl ModalBlades {
+    /// Angle of the blades of a side \[rad\].
+    fn angle_of(&self, side: u32) -> f64 {
+        let (c, s) = self.polygon.direction(side);
+        c * self.modes[0].x + s * self.modes[1].x
+    }
+
     /// The oscillator that both modes are.
     pub fn oscillator(&self) -> &Oscillator {
         &self.oscillator

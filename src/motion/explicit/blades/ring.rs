@@ -23,6 +23,8 @@ pub(super) struct Ring {
     pub oscillators: Vec<Oscillator>,
     /// Angle of a member per unit torque `distance` members away.
     pub influence: Vec<f64>,
+    /// Members that are looked at one by one, at most.
+    pub few: usize,
     /// Largest turn of a mode in a step \[rad\].
     pub fastest: f64,
     /// Coefficients of `Oscillator`, of every coordinate.
@@ -78,6 +80,7 @@ impl Ring {
         }
         Self {
             alike,
+            few: shapes.few(),
             influence: shapes.all(&torque),
             fastest: oscillators.iter().map(Oscillator::turn).fold(0.0, f64::max),
             ratio: coefficients(|oscillator| oscillator.ratio),
@@ -121,19 +124,26 @@ impl Ring {
         self.largest_shape * sums.iter().sum::<f64>()
     }
 
-    /// What a driven step does otherwise: the one pair of modes that feels the
-    /// torque, from where it was. A bound on what that does to any angle \[rad\].
+    /// Takes the modes of `k` diameters out, for a step of the others.
+    pub fn take_pair(&self, k: usize, x: &mut [f64], increments: &mut [f64]) -> [Coordinate; 2] {
+        self.pair(k).map(|place| Coordinate {
+            x: std::mem::take(&mut x[place]),
+            increment: std::mem::take(&mut increments[place]),
+        })
+    }
+
+    /// The step of the modes of `k` diameters under the torques on them; a bound
+    /// on what it does to any angle \[rad\].
     pub fn drive(
         &self,
-        (torque, phase): (&EngineOrderTorque, f64),
+        k: usize,
+        torques: [f64; 2],
         before: [Coordinate; 2],
         x: &mut [f64],
         increments: &mut [f64],
     ) -> f64 {
-        let k = self.driven(torque);
-        let torque = torque.torque_on(k as u32 * self.alike, phase);
         let mut change = 0.0;
-        for (place, (torque, at)) in self.pair(k).into_iter().zip(torque.into_iter().zip(before)) {
+        for (place, (torque, at)) in self.pair(k).into_iter().zip(torques.into_iter().zip(before)) {
             let driven = self.oscillators[k].step(at, self.shapes.scale(k) * torque);
             (x[place], increments[place]) = (driven.x, driven.increment);
             change += driven.increment.abs();
@@ -151,9 +161,40 @@ impl Ring {
         [k, self.shapes.width() + k]
     }
 
-    /// What a torque on one member does to positions and increments in a step.
-    pub fn correct(&self, member: u32, torque: f64, x: &mut [f64], increments: &mut [f64]) {
-        self.shapes.add(member as usize, torque, &self.compliance, [x, increments]);
+    /// What a torque on the member with this row of shapes does to positions and
+    /// increments in a step.
+    pub fn correct(&self, row: &[f64], torque: f64, x: &mut [f64], increments: &mut [f64]) {
+        let moving = x.as_chunks_mut::<LANES>().0.iter_mut();
+        let moving = moving.zip(increments.as_chunks_mut::<LANES>().0);
+        let changes = self.compliance.as_chunks::<LANES>().0.iter();
+        let changes = changes.zip(row.as_chunks::<LANES>().0);
+        for ((x, increment), (compliance, shape)) in moving.zip(changes) {
+            for lane in 0..LANES {
+                let change = compliance[lane] * torque * shape[lane];
+                x[lane] += change;
+                increment[lane] += change;
+            }
+        }
+    }
+
+    /// Gives every member and what the modes of `k` diameters make of its angle
+    /// to `look`; nothing, where there are none such.
+    pub fn each_of_pair(&self, k: Option<usize>, x: &[f64], mut look: impl FnMut(usize, f64)) {
+        let Some(k) = k else {
+            (0..self.shapes.count()).for_each(|member| look(member, 0.0));
+            return;
+        };
+        let scale = self.shapes.scale(k);
+        let [a, b] = self.pair(k).map(|place| scale * x[place]);
+        let mut at = 0;
+        for member in 0..self.shapes.count() {
+            let (c, s) = self.shapes.turn()[at];
+            look(member, a * c + b * s);
+            at += k;
+            if at >= self.shapes.count() {
+                at -= self.shapes.count();
+            }
+        }
     }
 
     /// Coordinates of `alpha_c` and `alpha_s`: the diameters, the place in the

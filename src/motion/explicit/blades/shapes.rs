@@ -9,7 +9,7 @@
 
 use crate::model::fraction_of_turn;
 use crate::motion::explicit::Coordinate;
-use crate::tolerances::SHAPES_KEPT;
+use crate::tolerances::{FEW_BLADES, SHAPES_KEPT};
 
 /// Numbers that are added side by side.
 pub(super) const LANES: usize = 4;
@@ -48,13 +48,20 @@ impl Shapes {
         shapes
     }
 
-    fn row(&self, blade: usize) -> Vec<f64> {
+    /// Both shapes of every mode at a blade (from 0), in the order of
+    /// coordinates.
+    pub fn row(&self, blade: usize) -> Vec<f64> {
         let mut row = vec![0.0; 2 * self.width];
         let (cosines, sines) = row.split_at_mut(self.width);
         for ((c, s), (cos, sin)) in cosines.iter_mut().zip(sines).zip(self.along(blade)) {
             (*c, *s) = (cos, sin);
         }
         row
+    }
+
+    /// `(cos, sin)` of `2 pi i/N`.
+    pub fn turn(&self) -> &[(f64, f64)] {
+        &self.turn
     }
 
     /// How many blades there are.
@@ -90,44 +97,32 @@ impl Shapes {
         })
     }
 
+    /// The row of a blade (from 0), if it is kept.
+    pub fn kept(&self, blade: usize) -> Option<&[f64]> {
+        self.rows.get(blade).map(Vec::as_slice)
+    }
+
     /// The value at a blade (from 0) of what has these coordinates.
     pub fn at(&self, blade: usize, coordinates: &[f64]) -> f64 {
-        if let Some(row) = self.rows.get(blade) {
-            let mut sums = [0.0; LANES];
-            let (shapes, values) = (row.as_chunks::<LANES>().0, coordinates.as_chunks::<LANES>().0);
-            for (shape, value) in shapes.iter().zip(values) {
-                for lane in 0..LANES {
-                    sums[lane] += shape[lane] * value[lane];
-                }
-            }
-            return (sums[0] + sums[2]) + (sums[1] + sums[3]);
+        if let Some(row) = self.kept(blade) {
+            return product(row, coordinates);
         }
         let (cosines, sines) = coordinates.split_at(self.width);
         let values = cosines.iter().zip(sines);
         self.along(blade).zip(values).map(|((c, s), (x, y))| c * x + s * y).sum()
     }
 
-    /// Adds the shapes at a blade (from 0), times an amount and the weight of
-    /// each coordinate, to two lists of coordinates.
-    pub fn add(&self, blade: usize, amount: f64, weights: &[f64], [x, y]: [&mut [f64]; 2]) {
-        let mut add = |place: usize, shape: f64| {
-            let change = weights[place] * amount * shape;
-            x[place] += change;
-            y[place] += change;
-        };
-        if self.rows.is_empty() {
-            for (k, (c, s)) in self.along(blade).enumerate() {
-                add(k, c);
-                add(self.width + k, s);
-            }
-            return;
+    /// How many blades cost less one by one than all of them at once.
+    pub fn few(&self) -> usize {
+        if !self.rows.is_empty() {
+            return self.count();
         }
-        let both = x.iter_mut().zip(y);
-        for (((x, y), weight), shape) in both.zip(weights).zip(&self.rows[blade]) {
-            let change = weight * amount * shape;
-            *x += change;
-            *y += change;
+        let (mut left, mut factors) = (self.count(), 0);
+        while left > 1 {
+            let factor = smallest_factor(left);
+            (left, factors) = (left / factor, factors + factor);
         }
+        FEW_BLADES * factors
     }
 
     /// The values at every blade.
@@ -207,6 +202,18 @@ impl Shapes {
     }
 }
 
+/// The value of what has these coordinates where the shapes are those of `row`.
+pub(super) fn product(row: &[f64], coordinates: &[f64]) -> f64 {
+    let mut sums = [0.0; LANES];
+    let (shapes, values) = (row.as_chunks::<LANES>().0, coordinates.as_chunks::<LANES>().0);
+    for (shape, value) in shapes.iter().zip(values) {
+        for lane in 0..LANES {
+            sums[lane] += shape[lane] * value[lane];
+        }
+    }
+    (sums[0] + sums[2]) + (sums[1] + sums[3])
+}
+
 /// The smallest prime factor of `count >= 2`.
 fn smallest_factor(count: usize) -> usize {
     let divides = |factor: &usize| count.is_multiple_of(*factor);
@@ -268,15 +275,7 @@ mod tests {
     fn shapes_are_orthonormal() {
         for count in [1, 2, 5, 22, 131, 140] {
             let shapes = Shapes::new(count);
-            let rows: Vec<Vec<f64>> = (0..count as usize)
-                .map(|blade| {
-                    let mut row = vec![0.0; 2 * shapes.width()];
-                    let (ones, mut twice) = (vec![1.0; row.len()], row.clone());
-                    shapes.add(blade, 1.0, &ones, [&mut row, &mut twice]);
-                    assert_eq!(row, twice);
-                    row
-                })
-                .collect();
+            let rows: Vec<Vec<f64>> = (0..count as usize).map(|blade| shapes.row(blade)).collect();
             for (i, a) in rows.iter().enumerate() {
                 for (j, b) in rows.iter().enumerate() {
                     let product: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
