@@ -29,7 +29,7 @@ pub trait StepLaw: std::fmt::Debug + Sync {
     /// Any number of rows of different sides.
     fn dense(&self, w: DMatrix<f64>, gap: &[f64]) -> Option<Vec<f64>>;
     /// Rows of which several belong to one side.
-    fn repeated(&self, rows: &Repeated<'_>) -> Option<Vec<f64>>;
+    fn repeated<'a>(&self, rows: &'a mut Repeated) -> Option<&'a [f64]>;
     /// Force that keeps a corner closed, for the multipliers of its sides and the
     /// cosine of the angle between them; the corner opens at zero \[N\].
     fn hold(&self, multipliers: [f64; 2], cos: f64) -> f64;

@@ -18,7 +18,6 @@
 //! their group's push evenly.
 
 use crate::tolerances::{MOST_PIVOTING, OPEN_ROW};
-use nalgebra::{DMatrix, DVector};
 
 /// One row, as its difference from the reference of its group.
 #[derive(Clone, Copy, Debug)]
@@ -44,20 +43,27 @@ pub struct GroupReference {
     pub normal: (f64, f64),
 }
 
-/// The rows of one step.
-pub struct Repeated<'a> {
+/// The rows of one step. It is filled anew in each and keeps its memory, as the
+/// steps are many and their rows few.
+#[derive(Clone, Debug, Default)]
+pub struct Repeated {
     /// The groups, each with at least one row.
-    pub groups: &'a [GroupReference],
+    pub groups: Vec<GroupReference>,
     /// The rows.
-    pub rows: &'a [Repeat],
+    pub rows: Vec<Repeat>,
     /// Casing displacement by a unit force in one step \[m/N\].
     pub casing: f64,
-    /// Blade angle of one row by a unit torque on another in one step.
-    pub blades: &'a dyn Fn(usize, usize) -> f64,
-}
-
-/// Multipliers of some closed rows, and what they do to the rest.
-struct Closed {
+    /// `B`, row by row \[m/N\].
+    bends: Vec<f64>,
+    /// The rows that are closed.
+    active: Vec<bool>,
+    chosen: Vec<usize>,
+    /// The groups with closed rows.
+    held: Vec<usize>,
+    /// Size of `B` in each group.
+    scales: Vec<f64>,
+    /// The equations, and behind each its right side.
+    equations: Vec<f64>,
     /// Of every row; zero where it is open \[N\].
     multipliers: Vec<f64>,
     /// `s` above \[m\].
@@ -66,120 +72,179 @@ struct Closed {
     remainders: Vec<Option<f64>>,
 }
 
-impl Repeated<'_> {
+impl Repeated {
+    /// No rows, for a casing that a unit force displaces by `casing` in one step
+    /// \[m/N\].
+    pub fn begin(&mut self, casing: f64) {
+        self.casing = casing;
+        self.groups.clear();
+        self.rows.clear();
+    }
+
+    /// All rows are there. `blades` is the angle of one row by a unit torque on
+    /// another in one step.
+    pub fn bend_by(&mut self, blades: impl Fn(usize, usize) -> f64) {
+        self.bends.clear();
+        for (i, row) in self.rows.iter().enumerate() {
+            for (j, other) in self.rows.iter().enumerate() {
+                self.bends.push(row.moment_arm * other.moment_arm * blades(i, j));
+            }
+        }
+    }
+
     /// Every row closed as an equality, Eq. (13a). `None` where the rows are
     /// dependent and contradict each other.
-    #[must_use]
-    pub fn all_closed(&self) -> Option<Vec<f64>> {
-        let closed = self.close(&vec![true; self.rows.len()])?;
-        Some(closed.multipliers)
+    pub fn all_closed(&mut self) -> Option<&[f64]> {
+        self.active.clear();
+        self.active.resize(self.rows.len(), true);
+        self.close()?;
+        Some(&self.multipliers)
     }
 
     /// The complementarity problem of these rows, by principal pivoting with
     /// the least index (Murty) from all penetrations closed, which is nearly
     /// always the answer. `None` where it does not end within its bound of work.
-    #[must_use]
-    pub fn complementary(&self) -> Option<Vec<f64>> {
+    pub fn complementary(&mut self) -> Option<&[f64]> {
         let count = self.rows.len();
         let closes = |row: &Repeat| self.groups[row.group].gap + row.gap < 0.0;
-        let mut active: Vec<bool> = self.rows.iter().map(closes).collect();
+        self.active.clear();
+        self.active.extend(self.rows.iter().map(closes));
         let mut work = 0;
         while work < MOST_PIVOTING {
-            work += count * count + active.iter().filter(|&&active| active).count().pow(3);
-            let closed = self.close(&active)?;
+            self.close()?;
+            work += count * count + self.chosen.len().pow(3);
             let wrong = (0..count).find(|&row| {
-                if active[row] { closed.multipliers[row] > 0.0 } else { self.is_shut(row, &closed) }
+                if self.active[row] { self.multipliers[row] > 0.0 } else { self.is_shut(row) }
             });
             match wrong {
-                None => return Some(closed.multipliers),
-                Some(row) => active[row] = !active[row],
+                None => return Some(&self.multipliers),
+                Some(row) => self.active[row] = !self.active[row],
             }
         }
         None
     }
 
-    /// `B_rs` \[m/N\].
-    fn bend(&self, row: usize, other: usize) -> f64 {
-        self.rows[row].moment_arm * self.rows[other].moment_arm * (self.blades)(row, other)
+    /// `B_rs` of one row and all others \[m/N\].
+    fn bends(&self, row: usize) -> &[f64] {
+        let count = self.rows.len();
+        &self.bends[row * count..(row + 1) * count]
     }
 
     /// Whether an open row would be left penetrating.
-    fn is_shut(&self, row: usize, closed: &Closed) -> bool {
+    fn is_shut(&self, row: usize) -> bool {
         let Repeat { group, gap, turned, normal, .. } = self.rows[row];
-        let multipliers = closed.multipliers.iter().enumerate();
-        let bent: f64 = multipliers.map(|(other, lambda)| self.bend(row, other) * lambda).sum();
-        let opening = closed.opening;
-        let (left, shift) = match closed.remainders[group] {
-            Some(remainder) => (remainder + gap, dot(turned, opening)),
-            None => (self.groups[group].gap + gap, dot(normal, opening)),
+        let bends = self.bends(row).iter().zip(&self.multipliers);
+        let bent: f64 = bends.map(|(bend, lambda)| bend * lambda).sum();
+        let (left, shift) = match self.remainders[group] {
+            Some(remainder) => (remainder + gap, dot(turned, self.opening)),
+            None => (self.groups[group].gap + gap, dot(normal, self.opening)),
         };
         let size = left.abs() + gap.abs() + shift.abs() + bent.abs();
         left - shift - bent < -OPEN_ROW * size
     }
 
     /// Solves the equations above for the active rows.
-    fn close(&self, active: &[bool]) -> Option<Closed> {
-        let chosen: Vec<usize> = (0..self.rows.len()).filter(|&row| active[row]).collect();
+    fn close(&mut self) -> Option<()> {
         let of = |row: usize| self.rows[row].group;
-        let held: Vec<usize> = (0..self.groups.len())
-            .filter(|&group| chosen.iter().any(|&row| of(row) == group))
-            .collect();
-        // Size of B in each group; blades without a moment arm share evenly.
-        let scales: Vec<f64> = (0..self.groups.len())
-            .map(|group| {
-                let own = chosen.iter().filter(|&&row| of(row) == group);
-                own.map(|&row| self.bend(row, row)).fold(0.0, f64::max)
-            })
-            .collect();
-        let count = chosen.len();
-        let size = count + held.len();
-        let mut matrix = DMatrix::zeros(size, size);
-        let mut right = DVector::zeros(size);
+        self.chosen.clear();
+        self.chosen.extend((0..self.rows.len()).filter(|&row| self.active[row]));
+        self.scales.clear();
+        self.scales.resize(self.groups.len(), 0.0);
+        self.held.clear();
+        for &row in &self.chosen {
+            let group = of(row);
+            // Rows of a group stand together.
+            if self.held.last() != Some(&group) {
+                self.held.push(group);
+            }
+            // Blades without a moment arm share evenly.
+            let own = self.bends[row * self.rows.len() + row];
+            self.scales[group] = self.scales[group].max(own);
+        }
+        self.fill();
+        let count = self.chosen.len();
+        let size = count + self.held.len();
+        eliminate(&mut self.equations, size)?;
+        let solution = |place: usize| self.equations[place * (size + 1) + size];
+        self.multipliers.clear();
+        self.multipliers.resize(self.rows.len(), 0.0);
+        self.opening = (0.0, 0.0);
+        for (i, &row) in self.chosen.iter().enumerate() {
+            let (lambda, normal) = (solution(i), self.rows[row].normal);
+            self.multipliers[row] = lambda;
+            self.opening.0 += self.casing * lambda * normal.0;
+            self.opening.1 += self.casing * lambda * normal.1;
+        }
+        self.remainders.clear();
+        self.remainders.resize(self.groups.len(), None);
+        for (k, &group) in self.held.iter().enumerate() {
+            self.remainders[group] = Some(self.scales[group] * solution(count + k));
+        }
+        self.multipliers.iter().all(|lambda| lambda.is_finite()).then_some(())
+    }
+
+    /// Writes the equations of the chosen rows, and of their groups.
+    fn fill(&mut self) {
+        let Self { rows, chosen, held, scales, equations, .. } = self;
+        equations.clear();
+        let count = rows.len();
         for (i, &row) in chosen.iter().enumerate() {
-            let Repeat { group, gap, turned, .. } = self.rows[row];
+            let Repeat { group, gap, turned, .. } = rows[row];
             let scale = scales[group];
             for (j, &other) in chosen.iter().enumerate() {
-                matrix[(i, j)] = if scale > 0.0 {
-                    let shift = self.casing * dot(turned, self.rows[other].normal);
-                    (self.bend(row, other) + shift) / scale
+                equations.push(if scale > 0.0 {
+                    let shift = self.casing * dot(turned, rows[other].normal);
+                    (self.bends[row * count + other] + shift) / scale
                 } else {
                     f64::from(u8::from(i == j))
-                };
+                });
             }
-            right[i] = if scale > 0.0 { gap / scale } else { 0.0 };
-            let place = held.iter().position(|&held| held == group)?;
-            matrix[(i, count + place)] = -1.0;
+            equations.extend(held.iter().map(|&held| -f64::from(u8::from(held == group))));
+            equations.push(if scale > 0.0 { gap / scale } else { 0.0 });
         }
-        for (k, &group) in held.iter().enumerate() {
+        for &group in held.iter() {
             let reference = self.groups[group];
-            for (j, &other) in chosen.iter().enumerate() {
-                matrix[(count + k, j)] = dot(reference.normal, self.rows[other].normal);
-            }
-            matrix[(count + k, count + k)] = scales[group] / self.casing;
-            right[count + k] = reference.gap / self.casing;
+            let normals = chosen.iter().map(|&other| dot(reference.normal, rows[other].normal));
+            equations.extend(normals);
+            let own = scales[group] / self.casing;
+            equations.extend(held.iter().map(|&held| if held == group { own } else { 0.0 }));
+            equations.push(reference.gap / self.casing);
         }
-        let mut multipliers = vec![0.0; self.rows.len()];
-        let mut opening = (0.0, 0.0);
-        if chosen.is_empty() {
-            return Some(Closed {
-                multipliers,
-                opening,
-                remainders: vec![None; self.groups.len()],
-            });
-        }
-        let solution = matrix.lu().solve(&right)?;
-        for (i, &row) in chosen.iter().enumerate() {
-            multipliers[row] = solution[i];
-            opening.0 += self.casing * solution[i] * self.rows[row].normal.0;
-            opening.1 += self.casing * solution[i] * self.rows[row].normal.1;
-        }
-        let mut remainders = vec![None; self.groups.len()];
-        for (k, &group) in held.iter().enumerate() {
-            remainders[group] = Some(scales[group] * solution[count + k]);
-        }
-        let finite = multipliers.iter().all(|lambda| lambda.is_finite());
-        finite.then_some(Closed { multipliers, opening, remainders })
     }
+}
+
+/// Gauss elimination with partial pivoting of `size` equations, each followed by
+/// its right side, where the solution is afterwards. `None` where they are
+/// singular.
+fn eliminate(equations: &mut [f64], size: usize) -> Option<()> {
+    let width = size + 1;
+    for k in 0..size {
+        let entry = |row: usize| equations[row * width + k].abs();
+        let pivot = (k..size).max_by(|&a, &b| entry(a).total_cmp(&entry(b)))?;
+        if pivot != k {
+            let (above, below) = equations.split_at_mut(pivot * width);
+            above[k * width..(k + 1) * width].swap_with_slice(&mut below[..width]);
+        }
+        let (above, below) = equations.split_at_mut((k + 1) * width);
+        let row = &above[k * width..];
+        if row[k] == 0.0 {
+            return None;
+        }
+        for other in below.chunks_exact_mut(width) {
+            let factor = other[k] / row[k];
+            for (value, above) in other[k..].iter_mut().zip(&row[k..]) {
+                *value -= factor * above;
+            }
+        }
+    }
+    for k in (0..size).rev() {
+        let (above, below) = equations.split_at_mut((k + 1) * width);
+        let row = &mut above[k * width..];
+        let later = row[k + 1..size].iter().zip(below.chunks_exact(width));
+        let known: f64 = later.map(|(factor, other)| factor * other[size]).sum();
+        row[size] = (row[size] - known) / row[k];
+    }
+    Some(())
 }
 
 fn dot(a: (f64, f64), b: (f64, f64)) -> f64 {
@@ -192,12 +257,7 @@ mod tests {
 
     /// Two sides a corner apart with `each` rows, casing compliance one, blades
     /// `soft` of it with little coupling; rows of a side `apart` in angle.
-    fn corner(
-        each: usize,
-        soft: f64,
-        apart: f64,
-        gaps: [f64; 2],
-    ) -> (Vec<GroupReference>, Vec<Repeat>) {
+    fn corner(each: usize, soft: f64, apart: f64, gaps: [f64; 2]) -> Repeated {
         let groups: Vec<GroupReference> = [(0.0, gaps[0]), (0.2856, gaps[1])]
             .map(|(phase, gap): (f64, f64)| GroupReference {
                 gap,
@@ -218,7 +278,9 @@ mod tests {
                 rows.push(Repeat { group, gap, normal, turned, moment_arm });
             }
         }
-        (groups, rows)
+        let mut repeated = Repeated { groups, rows, casing: 1.0, ..Repeated::default() };
+        repeated.bend_by(blades(each));
+        repeated
     }
 
     fn blades(each: usize) -> impl Fn(usize, usize) -> f64 {
@@ -233,17 +295,15 @@ mod tests {
     fn rows_that_repeat_each_other_share_the_push_of_one() {
         for each in [2, 3, 8] {
             for soft in [0.0, 1e-30, 1e-16, 1e-9, 1e-2] {
-                let (groups, rows) = corner(each, soft, 0.0, [-1e-6, -0.98e-6]);
-                let repeated =
-                    Repeated { groups: &groups, rows: &rows, casing: 1.0, blades: &blades(each) };
-                let lambda = repeated.complementary().unwrap();
+                let mut repeated = corner(each, soft, 0.0, [-1e-6, -0.98e-6]);
+                let lambda = repeated.complementary().unwrap().to_vec();
                 let closed = repeated.all_closed().unwrap();
                 // One row a side, with the mean of what its rows give.
                 let own = soft * (1.0 + 0.1 * (each - 1) as f64) / each as f64;
                 let cross = 0.2856_f64.cos() - 0.02 * soft;
                 let w = [[1.0 + own, cross], [cross, 1.0 + own]];
                 let sums = super::super::pair(w, [-1e-6, -0.98e-6]);
-                for (row, (a, b)) in lambda.iter().zip(&closed).enumerate() {
+                for (row, (a, b)) in lambda.iter().zip(closed).enumerate() {
                     let expected = sums[row / each] / each as f64;
                     assert!((a / expected - 1.0).abs() < 1e-13, "{each} {soft}: {a} {expected}");
                     assert_eq!(a, b);
@@ -255,13 +315,12 @@ mod tests {
     #[test]
     fn rows_that_differ_are_solved_to_the_last_digits() {
         for (soft, apart) in [(1e-6, 1e-9), (1e-9, 1e-12), (1e-12, 1e-16), (1e-4, 1e-3)] {
-            let (groups, rows) = corner(3, soft, apart, [-1e-6, -0.98e-6]);
-            let repeated =
-                Repeated { groups: &groups, rows: &rows, casing: 1.0, blades: &blades(3) };
-            let lambda = repeated.all_closed().unwrap();
+            let mut repeated = corner(3, soft, apart, [-1e-6, -0.98e-6]);
+            let lambda = repeated.all_closed().unwrap().to_vec();
+            let rows = repeated.rows.clone();
             // Differences within a side: (B lambda)_r - (B lambda)_0 + turned s = gap.
             let bent = |row: usize| -> f64 {
-                (0..6).map(|other| repeated.bend(row, other) * lambda[other]).sum()
+                (0..6).map(|other| repeated.bends(row)[other] * lambda[other]).sum()
             };
             let s = lambda.iter().zip(&rows).fold((0.0, 0.0), |sum, (lambda, row)| {
                 (sum.0 + lambda * row.normal.0, sum.1 + lambda * row.normal.1)
@@ -278,16 +337,26 @@ mod tests {
     #[test]
     fn a_row_that_a_push_beside_it_opens_is_left_alone() {
         // The third row of the first side stands deepest, the first of the second.
-        let (groups, rows) = corner(3, 1e-6, 1e-6, [-1e-6, -0.98e-6]);
-        let repeated = Repeated { groups: &groups, rows: &rows, casing: 1.0, blades: &blades(3) };
-        let lambda = repeated.complementary().unwrap();
+        let mut repeated = corner(3, 1e-6, 1e-6, [-1e-6, -0.98e-6]);
+        let lambda = repeated.complementary().unwrap().to_vec();
         assert!(lambda.iter().all(|&value| value <= 0.0));
         let pushing: Vec<bool> = lambda.iter().map(|&value| value < 0.0).collect();
         assert_eq!(pushing, [false, false, true, true, false, false], "{lambda:?}");
-        let closed = repeated.close(&pushing);
-        let closed = closed.unwrap();
         for row in 0..6 {
-            assert!(lambda[row] < 0.0 || !repeated.is_shut(row, &closed), "{row}: {lambda:?}");
+            assert!(lambda[row] < 0.0 || !repeated.is_shut(row), "{row}: {lambda:?}");
         }
+    }
+
+    #[test]
+    fn equations_are_solved_and_singular_ones_are_not() {
+        let solved = |mut equations: Vec<f64>, size: usize| {
+            eliminate(&mut equations, size)?;
+            Some((0..size).map(|k| equations[k * (size + 1) + size]).collect::<Vec<f64>>())
+        };
+        assert_eq!(solved(Vec::new(), 0), Some(Vec::new()));
+        // A pivot of zero and one that is small beside the others.
+        let equations = vec![0.0, 2.0, 1.0, 7.0, 1e-20, 1.0, 1.0, 5.0, 4.0, 1.0, -1.0, 3.0];
+        assert_eq!(solved(equations, 3), Some(vec![1.0, 2.0, 3.0]));
+        assert_eq!(solved(vec![1.0, 2.0, 3.0, 2.0, 4.0, 6.0], 2), None);
     }
 }

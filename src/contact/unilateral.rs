@@ -21,7 +21,7 @@ impl StepLaw for Unilateral {
     fn dense(&self, w: DMatrix<f64>, gap: &[f64]) -> Option<Vec<f64>> {
         complementary(&w, gap)
     }
-    fn repeated(&self, rows: &Repeated<'_>) -> Option<Vec<f64>> {
+    fn repeated<'a>(&self, rows: &'a mut Repeated) -> Option<&'a [f64]> {
         rows.complementary()
     }
     /// It lasts while both sides push.

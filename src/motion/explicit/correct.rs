@@ -10,7 +10,7 @@ use nalgebra::DMatrix;
 use super::{BladeModel, Explicit};
 use crate::contact::{
     self,
-    repeated::{GroupReference, Repeat, Repeated},
+    repeated::{GroupReference, Repeat},
 };
 use crate::motion::{ActiveSet, FailureReason};
 use crate::tolerances::{BREAK_STEPS, MOST_ROWS, SAME_ANGLE, SMALL_PHASE};
@@ -195,15 +195,16 @@ impl<B: BladeModel> Explicit<B> {
     /// from the first row of its side.
     fn solve_repeated(&mut self) -> Result<(), FailureReason> {
         let diameters = self.machine.nodal_diameters;
-        let (mut groups, mut repeats): (Vec<GroupReference>, Vec<Repeat>) = Default::default();
+        let repeated = &mut self.repeated;
+        repeated.begin(self.casing.compliance);
         let mut first = &self.rows[0];
         for row in &self.rows {
-            if groups.is_empty() || row.side != first.side {
+            if repeated.groups.is_empty() || row.side != first.side {
                 first = row;
-                groups.push(GroupReference { gap: row.gap, normal: row.normal });
+                repeated.groups.push(GroupReference { gap: row.gap, normal: row.normal });
             }
             let mut repeat = Repeat {
-                group: groups.len() - 1,
+                group: repeated.groups.len() - 1,
                 gap: 0.0,
                 normal: first.normal,
                 turned: (0.0, 0.0),
@@ -221,22 +222,15 @@ impl<B: BladeModel> Explicit<B> {
                 repeat.turned = (c * cos - s * sin, s * cos + c * sin);
                 repeat.moment_arm = row.moment_arm;
             }
-            repeats.push(repeat);
+            repeated.rows.push(repeat);
         }
         let compliance =
             |a: usize, b: usize| self.blades.compliance(self.rows[a].index, self.rows[b].index);
-        let repeated = Repeated {
-            groups: &groups,
-            rows: &repeats,
-            casing: self.casing.compliance,
-            blades: &compliance,
-        };
-        let lambda = self
-            .law
-            .repeated(&repeated)
-            .ok_or(FailureReason::Singular { rows: self.rows.len() })?;
+        repeated.bend_by(compliance);
+        let rows = self.rows.len();
+        let lambda = self.law.repeated(repeated).ok_or(FailureReason::Singular { rows })?;
         for (row, value) in self.rows.iter_mut().zip(lambda) {
-            row.lambda = value;
+            row.lambda = *value;
         }
         Ok(())
     }

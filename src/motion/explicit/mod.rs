@@ -34,7 +34,7 @@ pub use oscillator::{Coordinate, Oscillator};
 use std::sync::Arc;
 
 use super::{ActiveSet, ContactLog, Failure, FailureReason, Pulse, Rotor};
-use crate::contact::{self, StepLaw};
+use crate::contact::{self, StepLaw, repeated::Repeated};
 use crate::model::Machine;
 use crate::scene::CheckedScene;
 use crate::tolerances::BREAK_STEPS;
@@ -90,6 +90,8 @@ pub struct Explicit<B: BladeModel> {
     near: u32,
     /// Multipliers of the latest step in contact, by row.
     rows: Vec<ConstraintRow>,
+    /// Rows of which several belong to one side; see `solve_repeated`.
+    repeated: Repeated,
     /// Whether the neighbours of a penetrating side always count; see `correct`.
     neighbours_matter: bool,
     /// Rigid gap beyond which no blade of a side can touch now \[m\].
@@ -152,6 +154,7 @@ impl<B: BladeModel> Explicit<B> {
             last_touch: 0,
             near: 0,
             rows: Vec::with_capacity(8),
+            repeated: Repeated::default(),
             neighbours_matter: false,
             look: 0.0,
             impulses_since: 0,

@@ -7,6 +7,7 @@
 
 mod angle_bounds;
 mod full;
+mod full_flight;
 mod modal;
 mod near;
 mod ring;
