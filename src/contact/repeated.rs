@@ -348,6 +348,24 @@ mod tests {
     }
 
     #[test]
+    fn a_row_stays_open_where_the_blade_of_a_closed_one_gives_way() {
+        // The first row bends by 1e-12, its neighbour by a tenth of that, and
+        // stands 0.95e-12 back.
+        let mut repeated = corner(2, 1e-6, 0.0, [-1e-6, 1e-6]);
+        repeated.rows[1].gap = 0.95e-12;
+        let alone = -1e-6 / (1.0 + 1e-6);
+        let lambda = repeated.complementary().unwrap();
+        assert!((lambda[0] / alone - 1.0).abs() < 1e-14, "{lambda:?}");
+        assert_eq!(lambda[1..], [0.0; 3]);
+        // A little less, and both are closed.
+        repeated.rows[1].gap = 0.85e-12;
+        let lambda = repeated.complementary().unwrap();
+        assert!(lambda[0] < lambda[1] && lambda[1] < 0.0, "{lambda:?}");
+        let bent = 1e-6 * (1.0 - 0.1) * (lambda[0] - lambda[1]);
+        assert!((bent / -0.85e-12 - 1.0).abs() < 1e-12, "{bent:e}");
+    }
+
+    #[test]
     fn equations_are_solved_and_singular_ones_are_not() {
         let solved = |mut equations: Vec<f64>, size: usize| {
             eliminate(&mut equations, size)?;
