@@ -233,9 +233,10 @@ pub(crate) const BREAK_STEPS: u64 = 2;
 /// stepping. Speed only.
 pub(crate) const SHORTEST_BLOCK: u64 = 8;
 
-/// As `SHORTEST_BLOCK`, for blades that are coordinates of their own: a leap of
-/// them costs as much as some thirty steps. Speed only.
-pub(crate) const SHORTEST_BLOCK_OF_BLADES: u64 = 32;
+/// As `SHORTEST_BLOCK`, for many blades that are coordinates of their own: a
+/// leap of them and the look for their largest angle cost as much as a hundred
+/// steps, of few blades less. Speed only.
+pub(crate) const SHORTEST_BLOCK_OF_BLADES: u64 = 128;
 
 /// Most blades whose mode shapes are kept as a table, at most 128 KiB. Larger
 /// rings keep one turn of them. Speed only.

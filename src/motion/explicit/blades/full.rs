@@ -10,7 +10,7 @@ use super::shapes::product;
 use crate::model::{Machine, gcd};
 use crate::motion::explicit::{Coordinate, EngineOrderTorque};
 use crate::scene::Scene;
-use crate::tolerances::SHORTEST_BLOCK_OF_BLADES;
+use crate::tolerances::{SHORTEST_BLOCK, SHORTEST_BLOCK_OF_BLADES};
 
 /// Every blade its own coordinate, Eqs. (2)-(3), carried in the Fourier modes
 /// of the circulant matrices, where they are uncoupled. A row is a blade, or
@@ -84,7 +84,7 @@ impl BladeModel for FullBlades {
         self.bounds.reset(f64::INFINITY);
     }
     fn shortest_block(&self) -> u64 {
-        SHORTEST_BLOCK_OF_BLADES
+        (self.ring.shapes.count() as u64).clamp(SHORTEST_BLOCK, SHORTEST_BLOCK_OF_BLADES)
     }
     fn look(&mut self, largest: f64) -> (f64, f64) {
         self.bounds.look(&self.ring, &mut self.near, &self.x, largest)
