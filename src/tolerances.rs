@@ -46,6 +46,45 @@ pub(crate) const WAVE_LOOKS: f64 = 100_000.0;
 /// taken for its opposite.
 pub(crate) const WAVE_LOOKS_A_TURN: f64 = 16.0;
 
+/// How many times the effect of a tiny change a decision must be away from a tie
+/// for the run to be certain. One: three in a hundred thousand runs are taken for
+/// certain that are not, at 0.3 thirty times as many. More: runs are made that find
+/// nothing.
+pub(crate) const TIE: f64 = 5.0;
+
+/// Part of its size up to which the sign of a value decides nothing certain: the
+/// round-off of two runs, with four digits in hand.
+pub(crate) const RIGID_TIE: f64 = 1e-11;
+
+/// As `RIGID_TIE`, where blades move, of which the derivative takes no notice: in
+/// the paper's scenes they shift gaps and pushes by 1e-7 of themselves. Smaller: a
+/// decision that the blades make is missed.
+pub(crate) const MOVING_TIE: f64 = 1e-6;
+
+/// Part of a change that a corner does not make forgotten: blades keep some of it,
+/// and round-off is as much. Zero: a run that bounces out of a corner, and is
+/// sensitive, is taken for certain.
+pub(crate) const KEPT_IN_A_CORNER: f64 = 1e-6;
+
+/// Part of an excursion along a side up to which its end is a tie.
+pub(crate) const TIE_EXCURSION: f64 = 1e-9;
+
+/// Mass ratio of the blades in a corner up to which the casing is followed as if
+/// they were rigid.
+pub(crate) const LIGHTEST_BLADES: f64 = 1e-6;
+
+/// Phase of the blades up to which it is \[rad\].
+pub(crate) const TIE_BLADES: f64 = 1e-4;
+
+/// Gaps up to this many times the reach of a change are asked for a near miss.
+/// Less: a look may not come as near.
+pub(crate) const NEAR_MISS_REACH: f64 = 30.0;
+
+/// Part of `omega_c^2 g0` that bends a flight past a side at least, as seen from
+/// the side, where the wave does not turn with the rotor. Larger: a near miss next
+/// to the critical speed is not seen.
+pub(crate) const NEAR_MISS_BEND: f64 = 1e-4;
+
 // The event solver.
 
 /// Gaps below this part of the motion's size count as closed in the event

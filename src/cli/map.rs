@@ -53,7 +53,7 @@ pub struct MapCommand {
     /// Coarse cells first, then only next to another verdict, down to single cells
     #[arg(long, conflicts_with = "shard")]
     adaptive: bool,
-    /// Do not look for sensitive cells: takes a quarter of the runs
+    /// Do not look for sensitive cells: takes fewer runs
     #[arg(long)]
     no_sensitivity: bool,
     /// Number of threads [default: every core]

@@ -9,7 +9,7 @@ use super::script::{Script, Scripted};
 use super::sensitivity::{is_sensitive, sign};
 use super::verdict::judge;
 use super::wave::WaveTracker;
-use super::{Checks, Contact, GoOn, Motion, Outcome, State, Verdict, to_the_end};
+use super::{Certainty, Checks, Contact, GoOn, Motion, Outcome, State, Verdict, to_the_end};
 use crate::scene::{CheckedScene, ContactLaw, ModelSize, SolverKind};
 use crate::tolerances::{LAST_PART, RUN_LOOKS};
 
@@ -138,19 +138,32 @@ impl VerdictReached {
 /// where `go_on` said no on the way.
 #[must_use]
 pub fn run_to_verdict(scene: &CheckedScene, go_on: GoOn<'_>) -> Option<VerdictReached> {
-    run_motion_to_verdict(Motion::new(scene), &Script::default(), scene.solver.end_s, None, go_on)
+    let end = scene.solver.end_s;
+    run_motion_to_verdict(Motion::new(scene), &Script::default(), end, Noise::None, go_on)
+        .map(|(reached, _)| reached)
+}
+
+/// What happens to the rate of a run once a casing period.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Noise {
+    /// Nothing.
+    None,
+    /// It changes by this part.
+    Rate(f64),
+    /// Nothing, but the run tells whether it would matter.
+    Carried,
 }
 
 /// Runs a motion through a script until its verdict is settled, at most to
-/// `end`; with `noise`, its rate changes by that part once a casing period. None
+/// `end`, with `noise` up or down once a casing period; and how certain it is. None
 /// where `go_on` said no on the way.
 pub(super) fn run_motion_to_verdict(
     motion: Motion,
     script: &Script,
     end: f64,
-    noise: Option<f64>,
+    noise: Noise,
     go_on: GoOn<'_>,
-) -> Option<VerdictReached> {
+) -> Option<(VerdictReached, Certainty)> {
     // Looking costs little against one casing period of motion.
     let interval = (TAU / motion.machine().omega_c).max(end / RUN_LOOKS);
     let mut scripted = Scripted::new(motion, script);
@@ -167,11 +180,15 @@ pub(super) fn run_motion_to_verdict(
             Ok(true) if scripted.is_through() => scripted.motion.final_verdict(),
             Ok(true) => None,
         };
-        if let Some(part) = noise {
-            scripted.motion.scale_rate(1.0 + part * sign(looks));
+        match noise {
+            Noise::None => {}
+            Noise::Rate(part) => scripted.motion.scale_rate(1.0 + part * sign(looks)),
+            Noise::Carried if verdict.is_none() => scripted.motion.vary_rate(sign(looks)),
+            Noise::Carried => {}
         }
     }
-    Some(VerdictReached::of(&scripted.motion, verdict?))
+    let motion = &scripted.motion;
+    Some((VerdictReached::of(motion, verdict?), motion.certainty()))
 }
 
 /// The verdict on a motion now: the proven one, or that over the last

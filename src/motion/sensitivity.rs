@@ -4,7 +4,7 @@
 
 use std::f64::consts::TAU;
 
-use super::run::{VerdictReached, run_motion_to_verdict};
+use super::run::{Noise, VerdictReached, run_motion_to_verdict};
 use super::script::{Change, Script};
 use super::{GoOn, Motion};
 use crate::scene::CheckedScene;
@@ -32,23 +32,120 @@ pub fn is_sensitive(
     reached: VerdictReached,
     go_on: GoOn<'_>,
 ) -> Option<bool> {
+    differs(scene, script, reached, Suspect::ALL, go_on)
+}
+
+/// The verdict of a checked scene, and whether it is sensitive: as by
+/// `run_to_verdict` and `is_sensitive`, but a run that tells that no tiny change can
+/// matter is the only one.
+#[must_use]
+pub fn run_with_sensitivity(
+    scene: &CheckedScene,
+    go_on: GoOn<'_>,
+) -> Option<(VerdictReached, bool)> {
+    let (reached, certainty) = run_with_certainty(scene, go_on)?;
+    let suspects = match certainty {
+        Certainty::Certain => return Some((reached, false)),
+        Certainty::Doubtful(suspects) => suspects,
+        Certainty::Unknown => Suspect::ALL,
+    };
+    let sensitive = differs(scene, &Script::default(), reached, suspects, go_on)?;
+    Some((reached, sensitive))
+}
+
+/// As `run_to_verdict`, and whether a tiny change could make another verdict, as the
+/// run itself tells.
+#[must_use]
+pub fn run_with_certainty(
+    scene: &CheckedScene,
+    go_on: GoOn<'_>,
+) -> Option<(VerdictReached, Certainty)> {
+    let (mut motion, end) = (Motion::new(scene), scene.solver.end_s);
+    motion.carry_variation(end);
+    run_motion_to_verdict(motion, &Script::default(), end, Noise::Carried, go_on)
+}
+
+/// Whether one of these changes, tried in this order, makes another run.
+fn differs(
+    scene: &CheckedScene,
+    script: &Script,
+    reached: VerdictReached,
+    suspects: [Suspect; 3],
+    go_on: GoOn<'_>,
+) -> Option<bool> {
     let end = scene.solver.end_s;
     let moment = LOCK_MOMENT * TAU / scene.machine().omega_c;
-    for factor in [1.0 + PERTURBATION, 1.0 - PERTURBATION] {
-        let script = script.mapped(|change| match change {
-            Change::Parameters(scene) => Change::Parameters(Box::new(perturbed(&scene, factor))),
-            other => other,
-        });
-        let motion = Motion::new(&perturbed(scene, factor));
-        let driven = run_motion_to_verdict(motion, &script, end, None, go_on)?;
-        if driven.differs_from(reached, moment) {
+    for suspect in suspects {
+        let (noise, script) = match suspect {
+            Suspect::Noise => (Noise::Rate(PERTURBATION), script.clone()),
+            _ => (Noise::None, script.mapped(|change| suspect.change(change))),
+        };
+        let (other, _) =
+            run_motion_to_verdict(Motion::changed(scene, suspect), &script, end, noise, go_on)?;
+        if other.differs_from(reached, moment) {
             return Some(true);
         }
     }
-    let mut motion = Motion::new(scene);
-    motion.scale_tolerance(FINER);
-    let noisy = run_motion_to_verdict(motion, script, end, Some(PERTURBATION), go_on)?;
-    Some(noisy.differs_from(reached, moment))
+    Some(false)
+}
+
+impl Motion {
+    /// The motion of a scene at t = 0 with a tiny change.
+    fn changed(scene: &CheckedScene, suspect: Suspect) -> Self {
+        if suspect == Suspect::Noise {
+            let mut motion = Self::new(scene);
+            motion.scale_tolerance(FINER);
+            motion
+        } else {
+            Self::new(&perturbed(scene, suspect.factor()))
+        }
+    }
+}
+
+impl Suspect {
+    /// Every change that a certain run does not notice.
+    pub const ALL: [Self; 3] = [Self::Stronger, Self::Weaker, Self::Noise];
+
+    /// What drives the run is multiplied by this.
+    fn factor(self) -> f64 {
+        match self {
+            Self::Stronger => 1.0 + PERTURBATION,
+            Self::Weaker => 1.0 - PERTURBATION,
+            Self::Noise => 1.0,
+        }
+    }
+
+    /// The same change of a change during the run.
+    fn change(self, change: Change) -> Change {
+        match change {
+            Change::Parameters(scene) => {
+                Change::Parameters(Box::new(perturbed(&scene, self.factor())))
+            }
+            other => other,
+        }
+    }
+}
+
+/// A tiny change of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Suspect {
+    /// A stronger pulse.
+    Stronger,
+    /// A weaker pulse.
+    Weaker,
+    /// The noise.
+    Noise,
+}
+
+/// Whether a tiny change of a run could make another verdict.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Certainty {
+    /// It was not asked, or the run is not of a kind that can tell.
+    Unknown,
+    /// It cannot.
+    Certain,
+    /// One of these may, the first before the others.
+    Doubtful([Suspect; 3]),
 }
 
 /// The scene with what drives it multiplied by `factor`: the pulse, or without

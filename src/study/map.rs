@@ -10,7 +10,7 @@ use std::time::Instant;
 use rayon::prelude::*;
 
 use super::{Axis, Cell, Cells};
-use crate::motion::{GoOn, Script, Verdict, is_sensitive, run_to_verdict};
+use crate::motion::{GoOn, Verdict, run_to_verdict, run_with_sensitivity};
 use crate::scene::{CheckedScene, Scene, SceneError};
 
 /// Most cells of one map, about 4000 x 4000: a byte each in memory, and days of runs.
@@ -25,7 +25,7 @@ pub struct MapPlan {
     pub x: Axis,
     /// Rows; pulse by default.
     pub y: Axis,
-    /// Whether to find the sensitive cells, which takes three more runs per cell.
+    /// Whether to find the sensitive cells, which takes up to three more runs per cell.
     pub sensitivity: bool,
 }
 
@@ -141,9 +141,11 @@ impl MapPlan {
         let Ok(scene) = self.scene_of(index) else {
             return Some(Cell { verdict: Verdict::Failed, sensitive: false });
         };
-        let reached = run_to_verdict(&scene, go_on)?;
-        let sensitive =
-            self.sensitivity && is_sensitive(&scene, &Script::default(), reached, go_on)?;
+        let (reached, sensitive) = if self.sensitivity {
+            run_with_sensitivity(&scene, go_on)?
+        } else {
+            (run_to_verdict(&scene, go_on)?, false)
+        };
         Some(Cell { verdict: reached.verdict, sensitive })
     }
 }

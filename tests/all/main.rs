@@ -45,6 +45,7 @@ mod live_changes;
 mod live_event;
 mod live_random;
 mod map_adaptive;
+mod map_certain;
 mod map_cli;
 mod map_hostile;
 mod map_locks;

@@ -12,6 +12,10 @@
 //! and the next mode follows from plastic impact and from the pushes by cases
 //! (`transitions`), so that no event is found twice.
 //!
+//! Where it is asked, the derivative of the motion is carried along (`variation`),
+//! and each decision is asked how nearly it was another one (`decisions`, `misses`,
+//! `ties`).
+//!
 //! A segment is always evaluated from its start, never from an output time:
 //! where one looks does not change the motion, not by one bit.
 
@@ -22,23 +26,27 @@ mod bounds;
 mod corner;
 mod corner_contact;
 mod corner_series;
+mod decisions;
 mod energy_balance;
 mod free;
 mod impact;
+mod misses;
 mod parameters;
 mod rise;
 mod rocking;
 mod side_series;
 mod slide;
 mod terms;
+mod ties;
 mod transitions;
+mod variation;
 
 mod mode;
 mod segment;
 
 use crate::model::Machine;
 use crate::motion::{
-    Checks, ContactLog, Failure, GoOn, Pulse, Rotor, Solver, State, Verdict, to_the_end,
+    Certainty, Checks, ContactLog, Failure, GoOn, Pulse, Rotor, Solver, State, Verdict, to_the_end,
 };
 use crate::scene::{CheckedScene, SceneError};
 
@@ -49,6 +57,7 @@ use energy_balance::EnergyBalance;
 use mode::{Mode, What};
 use parameters::{Drive, Parameters};
 use segment::Passage;
+use variation::Variation;
 
 /// The event-driven solver of one scene, at some instant of its motion.
 ///
@@ -90,6 +99,8 @@ pub struct Event {
     failure: Option<Failure>,
     /// Series of a rocking motion, once one was looked for.
     tables: Option<Box<rocking::Tables>>,
+    /// How the run would change, where that is asked.
+    variation: Option<Box<Variation>>,
 }
 
 impl Event {
@@ -133,6 +144,7 @@ impl Event {
             tips: Tips::default(),
             failure: None,
             tables: None,
+            variation: None,
         };
         event.drive = event.drive_now(0.0);
         event.begin(place, rate);
@@ -300,6 +312,20 @@ impl Solver for Event {
         if free && !self.over() {
             self.intervene_scaled(factor, |_| {});
         }
+    }
+
+    fn carry_variation(&mut self, end: f64) {
+        self.carry(end);
+    }
+
+    fn vary_rate(&mut self, sign: f64) {
+        if !self.over() {
+            self.add_noise(sign);
+        }
+    }
+
+    fn certainty(&self) -> Certainty {
+        self.certain()
     }
 
     fn events(&self) -> Option<u64> {

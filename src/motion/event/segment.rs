@@ -66,7 +66,11 @@ impl Event {
         };
         match reason {
             Some(reason) => _ = self.fail(s, reason),
-            None => self.pass(s, what),
+            None => {
+                let crossing = self.before_event(s, what);
+                self.pass(s, what);
+                self.after_event(crossing);
+            }
         }
         self.failure.clone().map_or(Ok(Passage::Passed), Err)
     }
@@ -124,7 +128,10 @@ impl Event {
                 return Sought::Nothing;
             }
             match self.mode.look(&self.parameters, &self.drive, self.safe, end) {
-                Next::Until(later) => self.safe = later.min(end),
+                Next::Until(later) => {
+                    self.at_look(self.safe, later);
+                    self.safe = later.min(end);
+                }
                 Next::Now(what) => self.found = Some((self.safe, what)),
             }
         }
@@ -187,6 +194,7 @@ impl Event {
         if self.failure.is_some() {
             return;
         }
+        self.variation = None;
         let s = self.elapsed(self.now);
         let side = self.mode.along(&self.parameters, &self.drive, s);
         let (place, mut rate) = self.mode.seen_by_rotor(&self.parameters, &self.drive, s, side);

@@ -1,0 +1,186 @@
+//! What did not happen in a run, asked how nearly it did: a side that a flight just
+//! misses, an end or a release on the way along a side, and a contact at the instant
+//! at which the run ends.
+
+use std::f64::consts::TAU;
+
+use super::Event;
+use super::bounds::size;
+use super::decisions::{acceleration, least, push_rates, side_of};
+use super::mode::Mode;
+use super::parameters::{Drive, Parameters};
+use super::slide::Along;
+use super::variation::{Column, Columns, Local, Variation, floor};
+use crate::motion::{Plane, Solver, Verdict};
+use crate::tolerances::{LOCK_MOMENT, NEAR_MISS_REACH, PERTURBATION, TIE, TIE_BLADES};
+
+impl Variation {
+    /// On the way along a side: no end and no release but nearly.
+    pub(super) fn passed(&mut self, event: &Event, s: f64, side: u32, columns: &Columns) {
+        let Event { parameters, drive, mode, .. } = event;
+        let at = |t: f64| {
+            let (_, along) = mode.along(parameters, drive, t)?;
+            let inward = drive.inward(parameters, side, t);
+            let bend = acceleration(parameters, drive, inward, along.y, along.rate);
+            let [fall, _] = push_rates(parameters, drive, inward, along.rate, bend);
+            Some((along, fall))
+        };
+        let (Some((before, fall_before)), Some((after, fall_after))) = (at(0.0), at(s)) else {
+            return;
+        };
+        let half = parameters.half_side;
+        let turn = |rate: &dyn Fn(&(Along, f64)) -> f64| {
+            let (mut low, mut high) = (0.0, s);
+            for _ in 0..40 {
+                let middle = 0.5 * (low + high);
+                let here = at(middle)?;
+                if rate(&here) * rate(&(before, fall_before)) > 0.0 {
+                    low = middle;
+                } else {
+                    high = middle;
+                }
+            }
+            at(high)
+        };
+        let places = columns.map(|column| size(column.place) + size(column.rate) * s);
+        let room = half - before.y * before.rate.signum();
+        if before.rate * after.rate < 0.0
+            && room - before.rate.abs() * s < 0.1 * half
+            && let Some((there, _)) = turn(&|(along, _)| along.rate)
+        {
+            self.ties.tell(half - there.y.abs(), places, floor(parameters) * half);
+        }
+        let small = 0.1 * (before.push.abs() + after.push.abs());
+        if fall_before < 0.0
+            && fall_after > 0.0
+            && before.push + fall_before * s < small
+            && let Some((there, _)) = turn(&|(_, fall)| *fall)
+        {
+            let rates = parameters.omega + drive.nu.abs();
+            let pushes = places.map(|y| 4.0 * rates * rates * y);
+            self.ties.tell(there.push, pushes, least(parameters));
+        }
+    }
+
+    /// Near the sides: a flight that just misses one. It comes within reach of it,
+    /// and looks come near enough to that instant to find it from there.
+    pub(super) fn near_miss(&mut self, event: &Event, s: f64) {
+        let Event { parameters, drive, mode, .. } = event;
+        let Mode::Free(free) = mode else { return };
+        let seen_at = |s: f64| {
+            let now = free.at(parameters, drive, s);
+            seen(parameters, drive, s, now, Plane::new(1.0, 0.0))
+        };
+        let gap = |local: &Local, normal: Plane| {
+            let along = [local.place, local.rate, local.bend].map(|p| (p * normal.conj()).re);
+            (parameters.clearance + along[0], along[1], along[2])
+        };
+        let now = seen_at(s);
+        for side in nearest(parameters, now.place) {
+            let leaves = |side| free.leaving.iter().flatten().any(|leaving| leaving.side == side);
+            if s == 0.0 && leaves(side) {
+                continue;
+            }
+            let normal = parameters.direction(side);
+            let (mut least, mut rate, mut bend) = gap(&now, normal);
+            if rate >= 0.0 || bend <= 0.0 || least > NEAR_MISS_REACH * self.reach {
+                continue;
+            }
+            let mut at = s;
+            for _ in 0..2 {
+                let later = (at - rate / bend).max(s);
+                (least, rate, bend) = gap(&seen_at(later), normal);
+                at = later;
+            }
+            least -= 0.5 * rate * rate / bend;
+            let back = (normal * Plane::cis(drive.phase(at))).conj();
+            let shifts = self.carried(event, at).map(|column| (column.place * back).re);
+            self.ties.tell(least, shifts, floor(parameters) * parameters.clearance);
+        }
+    }
+
+    /// Where the run ends.
+    pub(super) fn conclude(&mut self, event: &Event) {
+        let Event { parameters, drive, mode, .. } = event;
+        let s = event.elapsed(event.now);
+        let columns = self.carried(event, s);
+        let delays = columns.map(|column| column.delay);
+        let verdict = event.final_verdict();
+        if let Some(blades) = &parameters.blades
+            && blades.diameters * event.widest > TIE_BLADES
+        {
+            self.ties.give_up();
+        }
+        match (mode, verdict) {
+            (_, Some(Verdict::Locked)) => {
+                let period = TAU / parameters.omega;
+                let later = delays[0].abs().max(delays[1].abs()) * PERTURBATION * TIE;
+                if later > LOCK_MOMENT * period {
+                    self.ties.give_up();
+                }
+            }
+            (Mode::Free(free), verdict) => {
+                let (u, v) = free.at(parameters, drive, s);
+                let square = parameters.omega * parameters.omega;
+                let top = square * parameters.clearance * parameters.clearance;
+                let energy = v.norm_sqr() + square * u.norm_sqr();
+                let drag = -4.0 * parameters.damping * v.norm_sqr();
+                let shifts = columns.map(|Column { place, rate, delay }| {
+                    2.0 * ((v.conj() * rate).re + square * (u.conj() * place).re) - drag * delay
+                });
+                self.ties.tell(top - energy, shifts, floor(parameters) * top);
+                if verdict.is_none() {
+                    let all = seen(parameters, drive, s, (u, v), Plane::new(1.0, 0.0));
+                    let fast = delays[0].abs().max(delays[1].abs()) * size(all.rate);
+                    let near = self.reach + TIE * PERTURBATION * fast;
+                    for side in nearest(parameters, all.place) {
+                        let back = parameters.direction(side).conj();
+                        let gap = parameters.clearance + (all.place * back).re;
+                        self.ties.tell(gap, [0.0; 2], near);
+                    }
+                }
+            }
+            (Mode::Slide(_) | Mode::Driven(_), _) => {
+                let side = side_of(mode).unwrap_or_default();
+                self.passed(event, s, side, &columns);
+                let inward = drive.inward(parameters, side, s);
+                if let Some((_, along)) = mode.along(parameters, drive, s) {
+                    let fixed = columns.map(|column| column.place.im - along.rate * column.delay);
+                    let least = floor(parameters) * parameters.half_side;
+                    self.ties.tell(parameters.half_side - along.y, fixed.map(|y| -y), least);
+                    self.ties.tell(parameters.half_side + along.y, fixed, least);
+                    self.push(parameters, drive, inward, (along.y, along.rate), &columns);
+                }
+            }
+            (Mode::Rocking { time, .. }, _) => {
+                self.ties.tell(time - s, delays, floor(parameters) / parameters.omega);
+            }
+            _ => self.ties.give_up(),
+        }
+    }
+}
+
+/// The nearest side and its neighbours.
+fn nearest(parameters: &Parameters, place: Plane) -> [u32; 3] {
+    let polygon = &parameters.machine.polygon;
+    let side = polygon.nearest_side(place.re, place.im);
+    [side, polygon.previous(side), polygon.next(side)]
+}
+
+/// A flight as the direction `normal` of the rotor sees it.
+pub(super) fn seen(
+    parameters: &Parameters,
+    drive: &Drive,
+    s: f64,
+    (u, v): (Plane, Plane),
+    normal: Plane,
+) -> Local {
+    let back = Plane::cis(-drive.phase(s)) * normal.conj();
+    let (c, omega, nu, i) = (parameters.damping, parameters.omega, drive.nu, Plane::i());
+    let bend = Plane::new(drive.pulse, 0.0) - v * (2.0 * c) - u * (omega * omega);
+    Local {
+        place: u * back,
+        rate: (v - i * u * nu) * back,
+        bend: (bend - i * v * (2.0 * nu) - u * (nu * nu)) * back,
+    }
+}
