@@ -76,14 +76,13 @@ pub(crate) const LIGHTEST_BLADES: f64 = 1e-6;
 /// Phase of the blades up to which it is \[rad\].
 pub(crate) const TIE_BLADES: f64 = 1e-4;
 
-/// Gaps up to this many times the reach of a change are asked for a near miss.
-/// Less: a look may not come as near.
+/// Gaps up to this many times the reach of a change, as they are foreseen at a look, are
+/// asked for a near miss. Smaller: what a look foresees may be a little more.
 pub(crate) const NEAR_MISS_REACH: f64 = 30.0;
 
-/// Part of `omega_c^2 g0` that bends a flight past a side at least, as seen from
-/// the side, where the wave does not turn with the rotor. Larger: a near miss next
-/// to the critical speed is not seen.
-pub(crate) const NEAR_MISS_BEND: f64 = 1e-4;
+/// Steps from a look to the least gap of a side that is nearly missed: each has twice
+/// the digits.
+pub(crate) const NEAR_MISS_STEPS: usize = 3;
 
 // The event solver.
 

@@ -12,7 +12,9 @@ use super::parameters::{Drive, Parameters};
 use super::slide::Along;
 use super::variation::{Column, Columns, Local, Variation, floor};
 use crate::motion::{Plane, Solver, Verdict};
-use crate::tolerances::{LOCK_MOMENT, NEAR_MISS_REACH, PERTURBATION, TIE, TIE_BLADES};
+use crate::tolerances::{
+    LOCK_MOMENT, NEAR_MISS_REACH, NEAR_MISS_STEPS, NEAR_SIDES, PERTURBATION, TIE, TIE_BLADES,
+};
 
 impl Variation {
     /// On the way along a side: no end and no release but nearly.
@@ -62,40 +64,52 @@ impl Variation {
         }
     }
 
-    /// Near the sides: a flight that just misses one. It comes within reach of it,
-    /// and looks come near enough to that instant to find it from there.
-    pub(super) fn near_miss(&mut self, event: &Event, s: f64) {
+    /// In the part of a flight from `s` to `later`: a side that it just misses, or the
+    /// circle of the clearance, within which there is none.
+    pub(super) fn near_miss(&mut self, event: &Event, s: f64, later: f64) {
         let Event { parameters, drive, mode, .. } = event;
         let Mode::Free(free) = mode else { return };
-        let seen_at = |s: f64| {
-            let now = free.at(parameters, drive, s);
-            seen(parameters, drive, s, now, Plane::new(1.0, 0.0))
-        };
-        let gap = |local: &Local, normal: Plane| {
-            let along = [local.place, local.rate, local.bend].map(|p| (p * normal.conj()).re);
-            (parameters.clearance + along[0], along[1], along[2])
-        };
-        let now = seen_at(s);
+        let clearance = parameters.clearance;
+        let (u, v) = free.at(parameters, drive, s);
+        let radius = size(u);
+        if radius < clearance
+            && drive.pulse == 0.0
+            && let Some(swing) = parameters.propagator.swing()
+        {
+            let farthest = farthest(parameters, swing, u, v);
+            if farthest < clearance {
+                self.ties.tell(clearance - farthest, [0.0; 2], self.reach);
+            }
+        }
+        if radius < NEAR_SIDES * clearance {
+            return;
+        }
+        let (omega, rates) = (parameters.omega, parameters.omega + drive.nu.abs());
+        let jounce = rates.powi(4) * (radius + size(v) / omega + drive.pulse.abs() / omega.powi(2));
+        let now = Approach::new(parameters, drive, s, (u, v));
         for side in nearest(parameters, now.place) {
             let leaves = |side| free.leaving.iter().flatten().any(|leaving| leaving.side == side);
             if s == 0.0 && leaves(side) {
                 continue;
             }
             let normal = parameters.direction(side);
-            let (mut least, mut rate, mut bend) = gap(&now, normal);
-            if rate >= 0.0 || bend <= 0.0 || least > NEAR_MISS_REACH * self.reach {
+            let Some(time) = now.turns(normal).filter(|time| s + 0.5 * time < later) else {
+                continue;
+            };
+            let unknown = jounce * time.powi(4) / 24.0;
+            if clearance + now.ahead(normal, time) > NEAR_MISS_REACH * self.reach + unknown {
                 continue;
             }
-            let mut at = s;
-            for _ in 0..2 {
-                let later = (at - rate / bend).max(s);
-                (least, rate, bend) = gap(&seen_at(later), normal);
-                at = later;
+            let (mut at, mut time, mut least) = (s, time, f64::INFINITY);
+            for _ in 0..NEAR_MISS_STEPS {
+                at = (at + time).clamp(s, later);
+                let there = Approach::new(parameters, drive, at, free.at(parameters, drive, at));
+                time = there.to_rest(normal);
+                least = clearance + there.ahead(normal, time);
             }
-            least -= 0.5 * rate * rate / bend;
             let back = (normal * Plane::cis(drive.phase(at))).conj();
             let shifts = self.carried(event, at).map(|column| (column.place * back).re);
-            self.ties.tell(least, shifts, floor(parameters) * parameters.clearance);
+            self.ties.tell(least, shifts, floor(parameters) * clearance);
         }
     }
 
@@ -157,6 +171,60 @@ impl Variation {
             }
             _ => self.ties.give_up(),
         }
+    }
+}
+
+/// How far a casing that swings freely from here can come \[m\].
+fn farthest(parameters: &Parameters, swing: f64, u: Plane, v: Plane) -> f64 {
+    let w = (v + u * parameters.damping) / swing;
+    let (place, rate) = (u.norm_sqr(), w.norm_sqr());
+    let wave = (0.5 * (place - rate)).hypot(u.re * w.re + u.im * w.im);
+    (0.5 * (place + rate) + wave).sqrt()
+}
+
+/// A flight as the rotor sees it, with three derivatives.
+struct Approach {
+    place: Plane,
+    rate: Plane,
+    bend: Plane,
+    twist: Plane,
+}
+
+impl Approach {
+    fn new(parameters: &Parameters, drive: &Drive, s: f64, now: (Plane, Plane)) -> Self {
+        let Local { place, rate, bend } = seen(parameters, drive, s, now, Plane::new(1.0, 0.0));
+        let (c, omega, nu) = (parameters.damping, parameters.omega, drive.nu);
+        let (u, v) = now;
+        let third = Plane::new(drive.pulse, 0.0) - v * (2.0 * c) - u * (omega * omega);
+        let fourth = -third * (2.0 * c) - v * (omega * omega);
+        let turned = fourth - Plane::i() * third * (3.0 * nu) - v * (3.0 * nu * nu)
+            + Plane::i() * u * nu.powi(3);
+        Self { place, rate, bend, twist: turned * Plane::cis(-drive.phase(s)) }
+    }
+
+    /// The derivatives of the gap of the side of this normal.
+    fn derivatives(&self, normal: Plane) -> [f64; 3] {
+        [self.rate, self.bend, self.twist].map(|p| (p * normal.conj()).re)
+    }
+
+    /// Time until a gap that falls begins to rise, by its three derivatives \[s\].
+    fn turns(&self, normal: Plane) -> Option<f64> {
+        let [rate, bend, twist] = self.derivatives(normal);
+        let root = bend * bend - 2.0 * twist * rate;
+        let slope = bend + root.max(0.0).sqrt();
+        (rate < 0.0 && root >= 0.0 && slope > 0.0).then(|| -2.0 * rate / slope)
+    }
+
+    /// Time to or from the instant at which a gap turns, close to it \[s\].
+    fn to_rest(&self, normal: Plane) -> f64 {
+        let [rate, bend, _] = self.derivatives(normal);
+        if bend > 0.0 { -rate / bend } else { 0.0 }
+    }
+
+    /// The gap some time on, less the clearance \[m\].
+    fn ahead(&self, normal: Plane, time: f64) -> f64 {
+        let [rate, bend, twist] = self.derivatives(normal);
+        (self.place * normal.conj()).re + time * (rate + time * (0.5 * bend + time * twist / 6.0))
     }
 }
 

@@ -20,8 +20,7 @@ use super::slide;
 use super::ties::Ties;
 use crate::motion::{Certainty, Plane};
 use crate::tolerances::{
-    KEPT_IN_A_CORNER, LAST_PART, LIGHTEST_BLADES, MOVING_TIE, NEAR_MISS_BEND, PERTURBATION,
-    RIGID_TIE, TIE,
+    KEPT_IN_A_CORNER, LAST_PART, LIGHTEST_BLADES, MOVING_TIE, PERTURBATION, RIGID_TIE, TIE,
 };
 
 /// Changes by the logarithm of the pulse and by the noise.
@@ -77,8 +76,6 @@ pub(super) struct Variation {
     pub epoch: f64,
     /// How far a changed flight may be from this one \[m\].
     pub reach: f64,
-    /// Looks ahead shorter than this are near enough to a side to be asked \[s\].
-    short: f64,
     pub ties: Ties,
 }
 
@@ -86,8 +83,7 @@ impl Event {
     /// Carries the columns from here, the start of a flight, on to `end`.
     pub(super) fn carry(&mut self, end: f64) {
         let ties = Ties::new(end - LAST_PART * end, end);
-        let mut variation =
-            Variation { columns: Columns::default(), epoch: 0.0, reach: 0.0, short: 0.0, ties };
+        let mut variation = Variation { columns: Columns::default(), epoch: 0.0, reach: 0.0, ties };
         variation.widen(self);
         self.variation = self.is_followed().then(|| Box::new(variation));
     }
@@ -130,10 +126,8 @@ impl Event {
 
     /// At a look ahead from `s` seconds into the segment to `later`.
     pub(super) fn at_look(&mut self, s: f64, later: f64) {
-        if self.variation.as_ref().is_some_and(|variation| later - s < variation.short)
-            && let Some(mut variation) = self.open_variation()
-        {
-            variation.near_miss(self, s);
+        if let Some(mut variation) = self.open_variation() {
+            variation.near_miss(self, s, later);
             self.variation = Some(variation);
         }
     }
@@ -263,11 +257,10 @@ impl Variation {
         self.widen(event);
     }
 
-    /// Finds how far changed flights may be, and how near looks must come for
-    /// that to matter.
+    /// Finds how far changed flights may be.
     fn widen(&mut self, event: &Event) {
         let Event { parameters, drive, mode, .. } = event;
-        (self.reach, self.short) = (0.0, 0.0);
+        self.reach = 0.0;
         if !matches!(mode, Mode::Free(_)) {
             return;
         }
@@ -284,12 +277,6 @@ impl Variation {
             most = most.max(large);
         }
         self.reach = TIE * PERTURBATION * most + floor(parameters) * clearance;
-        // A changed flight that touches where this one does not has a least gap
-        // within reach here. Looks come within a few times that, and so short,
-        // before they pass it: bounds on the bend ahead are no smaller than this.
-        let turning = 1.0 - drive.nu.abs() / omega;
-        let bend = NEAR_MISS_BEND.max((0.5 * turning * turning).min(1.0));
-        self.short = (2.0 * self.reach / (bend * clearance)).sqrt() / omega;
     }
 }
 
