@@ -61,11 +61,6 @@ pub(crate) const RIGID_TIE: f64 = 1e-11;
 /// decision that the blades make is missed.
 pub(crate) const MOVING_TIE: f64 = 1e-6;
 
-/// Part of a change that a corner does not make forgotten: blades keep some of it,
-/// and round-off is as much. Zero: a run that bounces out of a corner, and is
-/// sensitive, is taken for certain.
-pub(crate) const KEPT_IN_A_CORNER: f64 = 1e-6;
-
 /// Part of an excursion along a side up to which its end is a tie.
 pub(crate) const TIE_EXCURSION: f64 = 1e-9;
 

@@ -19,9 +19,7 @@ use super::parameters::Parameters;
 use super::slide;
 use super::ties::Ties;
 use crate::motion::{Certainty, Plane};
-use crate::tolerances::{
-    KEPT_IN_A_CORNER, LAST_PART, LIGHTEST_BLADES, MOVING_TIE, PERTURBATION, RIGID_TIE, TIE,
-};
+use crate::tolerances::{LAST_PART, LIGHTEST_BLADES, MOVING_TIE, PERTURBATION, RIGID_TIE, TIE};
 
 /// Changes by the logarithm of the pulse and by the noise.
 pub(super) type Columns = [Column; 2];
@@ -228,12 +226,6 @@ impl Variation {
             _ => parameters.direction(crossing.side),
         };
         self.columns = crossing.columns;
-        if crossing.from == From::Corner {
-            // What blades keep of the motion before a corner, and round-off, is a
-            // change too, and may grow.
-            let speed = parameters.omega * parameters.clearance;
-            self.columns[1].rate = Plane::new(0.0, KEPT_IN_A_CORNER * speed);
-        }
         for column in &mut self.columns {
             if crossing.from != From::Flight {
                 // A side that was touched keeps no gap and no rate of it.
