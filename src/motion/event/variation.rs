@@ -5,7 +5,7 @@
 //! noise. It is taken at equal times since the last event, in the frame that the
 //! blades then see, and with it how much later that event comes. So an event
 //! changes a column by the map of the impact alone, and a corner, in which the
-//! motion forgets, leaves the delay and a trace.
+//! motion forgets, leaves only the delay.
 //!
 //! The blades are taken as rigid ones also where they move: light ones change the
 //! columns by their mass ratio, and only the size of a column is asked for.
