@@ -1,0 +1,94 @@
+//! Those of the explicit solver.
+
+/// Most rows that one step closes together: a few in an ordinary step, a hundred
+/// on a rim of thousands of blades. The work grows with their cube; more are a
+/// step too long for the blades.
+pub(crate) const MOST_ROWS: usize = 512;
+
+/// Most multiplications of one step on its contact rows: a tenth of a second.
+/// Least-index pivoting may need any number of tries, though one or two are
+/// usual.
+pub(crate) const MOST_PIVOTING: usize = 100_000_000;
+
+/// Updates of one coordinate between two questions whether to go on: some tens
+/// of microseconds.
+pub(crate) const UPDATES_UNASKED: usize = 4096;
+
+/// Steps without contact before a contact counts as broken: the impact of the
+/// scheme takes two steps, and its rounding may open one step between them.
+/// More: two impacts count as one.
+pub(crate) const BREAK_STEPS: u64 = 2;
+
+/// Free steps that are worth a block; below, deciding costs as much as
+/// stepping. Speed only.
+pub(crate) const SHORTEST_BLOCK: u64 = 8;
+
+/// As `SHORTEST_BLOCK`, for many blades that are coordinates of their own: a
+/// leap of them and the look for their largest angle cost as much as a hundred
+/// steps, of few blades less. Speed only.
+pub(crate) const SHORTEST_BLOCK_OF_BLADES: u64 = 128;
+
+/// Most blades whose mode shapes are kept as a table, at most 128 KiB. Larger
+/// rings keep one turn of them. Speed only.
+pub(crate) const SHAPES_KEPT: u32 = 128;
+
+/// Rows of shapes that are kept of a larger ring, for the blades near contact.
+/// Fewer: they are made anew in every step. Speed only.
+pub(crate) const ROWS_NEAR: usize = 16;
+
+/// Blades that are looked at before the bound on all others, at most. Speed only.
+pub(crate) const BLADES_FIRST: usize = 8;
+
+/// Blades that cost as much one by one as all of them at once, for each unit of
+/// the sum of the prime factors of their number. Speed only.
+pub(crate) const FEW_BLADES: usize = 4;
+
+/// Steps a corner must have been closed before it is held. Fewer: maps are made
+/// for contacts that end.
+pub(crate) const HELD_AFTER: u64 = 64;
+
+/// Steps until a corner that could not be held is tried again. Speed only.
+pub(crate) const HELD_AGAIN: u64 = 4096;
+
+/// Change of a blade angle by which the step of a corner is differentiated
+/// \[rad\]: the cube of it and round-off over it are both 1e-12 of the map.
+pub(crate) const HELD_PROBE: f64 = 1e-6;
+
+/// Largest blade phase `n_d alpha` of a vibration whose square the affine map
+/// may leave out \[rad\]: it makes 1e-11 of the angles.
+pub(crate) const HELD_PHASE: f64 = 1e-5;
+
+/// Newton steps to the modes at rest; two reach round-off.
+pub(crate) const HELD_CORRECTIONS: usize = 6;
+
+/// Radians of the blades between two looks for the largest angle: its square is
+/// the largest part missed, and then searched for.
+pub(crate) const ANGLE_LOOK: f64 = 0.125;
+
+/// Largest entry on the diagonal of the change of a leap that is kept as a
+/// change. Beyond, digits are lost less in the map itself.
+pub(crate) const LEAP_SMALL: f64 = 0.25;
+
+/// Growths of a sliding wave, as powers of e, in one leap: beyond, it has gone from
+/// round-off to the clearance. Speed only.
+pub(crate) const LEAP_FOLDS: f64 = 8.0;
+
+/// Part of the clearance that a neighbour of a side has left, up to which a predicted
+/// penetration needs no look at the neighbour. Speed only.
+pub(crate) const SLIDING_DEPTH: f64 = 1e-2;
+
+/// Largest blade phase `n_d alpha` of a side that is slid on without sine and cosine
+/// \[rad\]: its cube is round-off of a gap, as any other step has it.
+pub(crate) const SLIDING_PHASE: f64 = 1e-5;
+
+/// Mass ratio of the blades of a side below which its third power is round-off of a
+/// push.
+pub(crate) const LIGHT_PUSH: f64 = 1e-6;
+
+/// Part of their phases by which blades of one side that stand alike may
+/// differ: the round-off of the sums that their angles are.
+pub(crate) const SAME_ANGLE: f64 = 1e-13;
+
+/// Blade phase below which sine and cosine are two terms of their series
+/// \[rad\]: exact to round-off.
+pub(crate) const SMALL_PHASE: f64 = 1e-4;

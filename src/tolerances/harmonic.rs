@@ -1,0 +1,87 @@
+//! Those of the harmonic balance.
+
+/// Newton steps from one start; five are usual.
+pub(crate) const NEWTON_STEPS: usize = 40;
+
+/// How much a Newton step must shrink: by half where the branch is about to
+/// fold, and a little room. Larger: a start may end on another branch.
+pub(crate) const NEWTON_SHRINK: f64 = 0.75;
+
+/// Largest Newton step, as a part of the unknowns, and of the turns \[rad\], in
+/// which alone the equations are not bilinear.
+pub(crate) const NEWTON_LARGEST: f64 = 0.1;
+
+/// How much the determinant may change from one softness to the next: it goes
+/// to zero at a fold, and is another one on another branch.
+pub(crate) const NEWTON_ALIKE: std::ops::Range<f64> = 0.5..2.0;
+
+/// Shortest stride of the softness.
+pub(crate) const NEWTON_STRIDE: f64 = 1e-6;
+
+/// Most strides of the softness.
+pub(crate) const NEWTON_STRIDES: usize = 500;
+
+/// Residual that is accepted close to a fold, where the equations are ill-
+/// conditioned.
+pub(crate) const NEAR_A_FOLD: f64 = 1e-11;
+
+/// Part of an angle at which Newton steps that no longer shrink have converged.
+pub(crate) const CONVERGED: f64 = 1e-7;
+
+/// A compliance below which the corner cannot open by a part of itself that a
+/// number resolves, at any speed whose square a number holds.
+pub(crate) const AS_GOOD_AS_RIGID: f64 = 1e-290;
+
+/// Most points of one branch.
+pub(crate) const BRANCH_POINTS: usize = 20_000;
+
+/// What the widest corner leaves of a right angle, where the amplitude would be
+/// infinite \[rad\].
+pub(crate) const LEFT_OPEN: f64 = 1e-3;
+
+/// Neighbours on a branch are an arc from the first to the second of these
+/// steps apart, and the last two of a leg at most the third.
+pub(crate) const APART: [f64; 3] = [0.9, 1.1, 1.5];
+
+/// The largest speed over `Omega_c`: squares of it leave room for what they are
+/// multiplied with.
+pub(crate) const FASTEST: f64 = 1e100;
+
+/// Most changes of character looked for between two neighbouring speeds.
+pub(crate) const BRANCH_CHANGES: usize = 16;
+
+/// Real parts of eigenvalues up to this part of the rate are round-off: a
+/// nearly defective pair is known to half its digits.
+pub(crate) const NEUTRAL: f64 = 1e-8;
+
+/// As `NEUTRAL`, as a part of the fastest eigenvalue.
+pub(crate) const NEUTRAL_OF_ALL: f64 = 1e-14;
+
+/// Part of its terms that the last Hurwitz determinant must be for its sign to
+/// be clear; else eigenvalues are asked.
+pub(crate) const CLEAR_SIGN: f64 = 1e-9;
+
+/// As `CLEAR_SIGN`, for the coefficients of odd order.
+pub(crate) const CLEAR_DAMPING: f64 = 1e-6;
+
+/// Part by which the discriminant of two equal roots may be negative.
+pub(crate) const EQUAL_ROOTS: f64 = 1e-12;
+
+/// QR steps for one eigenvalue or pair; three are usual.
+pub(crate) const QR_STEPS: usize = 60;
+
+/// Each multiple of this many QR steps has an exceptional shift, as in LAPACK.
+pub(crate) const QR_EXCEPTIONAL: usize = 10;
+
+/// From this QR step on a coupling is small if it is round-off of the whole
+/// matrix.
+pub(crate) const QR_LAST_RESORT: usize = 40;
+
+/// Samples of one period on which the largest truncation errors are looked for.
+pub(crate) const SPECTRUM_SAMPLES: usize = 2048;
+
+/// Most harmonics of a spectrum.
+pub(crate) const HARMONICS: u32 = 512;
+
+/// Exponent below which the mean of an exponential is a power series.
+pub(crate) const SMALL_RATE: f64 = 1e-6;
