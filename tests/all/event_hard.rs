@@ -285,3 +285,31 @@ fn the_event_solver_refuses_what_it_does_not_know() {
         assert!(refused.starts_with(key), "{refused}");
     }
 }
+
+/// Two parallel sides of blades that move, and pulses so strong that the series along a
+/// side is tried on shorter and shorter stretches.
+#[test]
+fn strong_pulses_between_two_sides() {
+    for pulse in ["1e5", "5e5", "-1e6", "5e6"] {
+        let run = |changes: &[(&str, &str)]| {
+            let fixed = [
+                ("operation.nodal_diameters", "11"),
+                ("operation.speed_rad_s", "100"),
+                ("operation.pulse_n", pulse),
+                ("solver.contact", "unilateral"),
+                ("solver.model", "modal"),
+                ("solver.end_s", "3e-4"),
+            ];
+            let scene = Scene::base().with(&[&fixed[..], changes].concat()).unwrap();
+            rubscope::motion::simulate(&scene)
+        };
+        let event = run(&[("solver.kind", "event")]);
+        let steps = run(&[("solver.kind", "explicit"), ("solver.step_s", "1e-8")]);
+        assert_eq!(event.outcome.message, None, "{pulse}");
+        assert_eq!(event.impact_count, steps.impact_count, "{pulse}");
+        let (here, there) = (&event.r#final, &steps.r#final);
+        // First order in the step, of motions of a tenth of a millimetre and more.
+        let far = (here.u_c_m - there.u_c_m).hypot(here.u_s_m - there.u_s_m);
+        assert!(far < 2e-3 * event.outcome.amplitude_m, "{pulse}: {far:e}");
+    }
+}

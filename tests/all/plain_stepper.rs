@@ -275,3 +275,24 @@ fn the_largest_blade_angle_is_that_of_some_step() {
         });
     }
 }
+
+/// Blades turned by more than the angle between two sides: the side that penetrates is
+/// not the one nearest to the casing, and open ones lie between.
+#[test]
+fn blades_turned_past_their_neighbours() {
+    let driven = [
+        ("operation.pulse_s", "1"),
+        (PULSE, "400"),
+        (SPEED, "31"),
+        (DIAMETERS, "9"),
+        ("excitation.order", "9"),
+    ];
+    for (model, torque) in [("modal", "900"), ("modal", "850"), ("full", "900")] {
+        let changes = [&driven[..], &[("excitation.amplitude_nm", torque)]].concat();
+        each(&[model], &LAWS, &changes, |scene| {
+            let pair = compare("turned", &scene, 0.02);
+            assert!(pair.plain.impacts.len() > 5, "{:?}", pair.plain.impacts);
+            assert!(9.0 * pair.plain.widest > 0.5, "{}", pair.plain.widest);
+        });
+    }
+}

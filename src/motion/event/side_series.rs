@@ -148,6 +148,7 @@ impl SideSeries {
     fn enclose(&mut self, parameters: &Parameters, from: &From) {
         let (sin, cos) = parameters.machine.polygon.delta.sin_cos();
         for (room, (upper, sign)) in self.rooms.iter_mut().zip([(true, -1.0), (false, 1.0)]) {
+            *room = [0.0; TERMS];
             room[0] = parameters.half_side;
             if let (Some(blades), true) = (&parameters.blades, parameters.corners) {
                 // Half the angle to the neighbour: delta, and what blades add.

@@ -77,30 +77,32 @@ impl<B: BladeModel> Explicit<B> {
         self.near = near;
         self.rows.clear();
         let mut deepest = self.add_side(near, z);
-        let mut right = self.machine.polygon.next(near);
-        while right != near && self.is_close(right, z) {
-            let depth = self.add_side(right, z);
-            deepest = deepest.max(depth);
-            if depth <= 0.0 {
+        // Not up to the first open side: beyond it, blades may be turned into the casing.
+        let (mut end, mut matters) = (near, self.neighbours_matter);
+        loop {
+            let side = self.machine.polygon.next(end);
+            if side == near || !(matters || self.is_close(side, z)) {
                 break;
             }
-            right = self.machine.polygon.next(right);
+            let depth = self.add_side(side, z);
+            deepest = deepest.max(depth);
+            matters = self.neighbours_matter && depth > 0.0;
+            end = side;
         }
-        let mut left = self.machine.polygon.previous(near);
-        while left != near && left != right && self.is_close(left, z) {
-            let depth = self.add_side(left, z);
+        let mut side = self.machine.polygon.previous(near);
+        matters = self.neighbours_matter;
+        while side != end && (matters || self.is_close(side, z)) {
+            let depth = self.add_side(side, z);
             deepest = deepest.max(depth);
-            if depth <= 0.0 {
-                break;
-            }
-            left = self.machine.polygon.previous(left);
+            matters = self.neighbours_matter && depth > 0.0;
+            side = self.machine.polygon.previous(side);
         }
         deepest
     }
 
+    /// Whether a blade of this side may penetrate, however it is turned.
     fn is_close(&self, side: u32, z: (f64, f64)) -> bool {
-        let polygon = &self.machine.polygon;
-        self.neighbours_matter || polygon.gap(side, z.0, z.1) < self.look
+        self.machine.polygon.gap(side, z.0, z.1) < self.look
     }
 
     /// The side nearest to `z`, from the one found last: around the polygon the
