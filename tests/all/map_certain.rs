@@ -83,6 +83,71 @@ fn ten_thousand_cells_have_the_flags_of_the_three_runs() {
     compare(2500, ModelSize::Modal, 2027);
 }
 
+/// Scene, model, casing damping, speed, pulse \[N\], its duration and the end of the run,
+/// next to where one decision turns, which nothing else in the run tells of: each is found
+/// by one of the questions asked of a run.
+const NEXT_TO_A_TIE: [(&str, &str, f64, f64, f64, f64, f64); 13] = [
+    // By the noise alone, and a flight that just misses a side.
+    ("nd4", "rigid", 0.01, 65.72992660818522, 566032.1785792182, 7.58215672111019e-5, 0.1),
+    // A contact at the instant from which the verdict is judged.
+    ("nd4", "rigid", 0.1, 330.45902299843203, 61146.35228112918, 5e-5, 0.0045043657009875395),
+    // A touch without speed.
+    ("nd4", "rigid", 0.05, 455.99248566353714, 83007.2792051798, 5e-5, 0.052218603092444485),
+    // A slide that turns back at the end of a side.
+    ("nd3", "rigid", 0.002, 56.84431874956247, 3781.6961074429337, 0.009533864774670822, 0.1),
+    // A touch in a corner.
+    ("nd4", "rigid", 0.05, 430.76247315478327, 5355.5824796969355, 5e-5, 0.1),
+    // A touch at the end of the run, and an end of a side there.
+    ("nd4", "rigid", 0.0, 244.97428034835488, 99591.47303916822, 5e-5, 0.1),
+    ("nd4", "rigid", 0.0, 344.98807902730937, 76622.81877967434, 5e-5, 0.00592876052757539),
+    // A touch that nearly turns back before.
+    ("nd4", "modal", 0.1, 249.40416560101676, 472017.2705265101, 5e-5, 0.1),
+    // Crossings that are summed one earlier or later, and such a sum at the end of the run.
+    ("nd4", "rigid", 0.002, 40.45981229092181, 39152.217858829106, 0.001592240427415285, 0.1),
+    (
+        "nd4",
+        "rigid",
+        0.002,
+        445.087009799069,
+        55196.25399612782,
+        9.021777412190821e-5,
+        0.017093503844238318,
+    ),
+    // The time of a lock.
+    ("nd4", "rigid", 0.002, 417.5514431972515, 156068.0220737322, 8.937094224936591e-5, 0.1),
+    // A touch without a push.
+    ("nd3", "modal", 0.01, 464.16520578970784, 21298.028698751703, 0.0054639211027116144, 0.1),
+    // Energy that just reaches a side, at the end of the run.
+    (
+        "nd4",
+        "modal",
+        0.002,
+        427.27523050186187,
+        1374.1923081582381,
+        0.0004323663502656503,
+        0.012500655620308262,
+    ),
+];
+
+#[test]
+fn each_kind_of_tie_is_found() {
+    for (name, model, zeta, speed, pulse, duration, end) in NEXT_TO_A_TIE {
+        let mut scene = Scene::builtin(&format!("paper-{name}")).unwrap();
+        scene.set("solver.model", model).unwrap();
+        scene.solver.kind = SolverKind::Event;
+        scene.solver.contact = ContactLaw::Unilateral;
+        scene.solver.end_s = end;
+        scene.casing.damping_ratio = zeta;
+        (scene.operation.speed_rad_s, scene.operation.pulse_n) = (speed, pulse);
+        scene.operation.pulse_s = duration;
+        let scene = scene.checked().unwrap();
+        let plain = run_to_verdict(&scene, &to_the_end).unwrap();
+        let three = is_sensitive(&scene, &Script::default(), plain, &to_the_end).unwrap();
+        assert!(three, "{speed} {pulse}: next to no tie");
+        assert!(run_with_sensitivity(&scene, &to_the_end).unwrap().1, "{speed} {pulse}: missed");
+    }
+}
+
 #[test]
 fn what_is_not_followed_is_run_three_times() {
     let base = cell(0, ModelSize::Rigid, &mut 1);

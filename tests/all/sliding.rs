@@ -99,6 +99,46 @@ fn a_way_along_a_side_is_that_of_plain_steps_to_thirteen_digits() {
 }
 
 #[test]
+fn what_changes_during_a_slide_counts_from_then_on() {
+    let mut changed = [0; 4];
+    for seed in 0..160 {
+        let part = |k: u64| random(seed, 40 + k);
+        let machine = random_pair(seed, ["rigid", "modal"][seed as usize / 4 % 2]);
+        let mut pair = on_a_side(&machine, 1.2 * part(0) - 0.6, 0.6 * part(1) - 0.1);
+        if pair.advance(1.5e-4).is_err() {
+            continue;
+        }
+        let log = pair.motion.contacts();
+        if log.active_set.sides().count() != 1 || log.since > 1e-4 {
+            continue;
+        }
+        let (kind, speed) = (seed as usize % 4, pair.scene().operation.speed_rad_s);
+        let mut scene = pair.scene().clone();
+        match kind {
+            0 => pair.set_speed(1.1 * speed, 0.0),
+            1 => pair.set_speed(speed, -300.0 * speed),
+            2 => {
+                scene.casing.damping_ratio += 0.1;
+                pair.adopt(&scene);
+            }
+            _ => {
+                (scene.operation.pulse_n, scene.operation.pulse_s) = (-300.0, 1e-4);
+                pair.adopt(&scene);
+                pair.fire();
+            }
+        }
+        changed[kind] += 1;
+        for look in 1..=8 {
+            if pair.advance(1.5e-4 + 5e-5 * f64::from(look)).is_err() || pair.is_chaotic() {
+                break;
+            }
+            pair.check(&format!("seed {seed}, change {kind}"));
+        }
+    }
+    assert!(changed.iter().all(|&count| count > 8), "{changed:?}");
+}
+
+#[test]
 fn where_one_looks_does_not_change_a_bit_of_a_slide() {
     for seed in 0..40 {
         let pair = random_pair(seed, ["rigid", "modal"][seed as usize % 2]);
