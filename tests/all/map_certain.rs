@@ -99,6 +99,31 @@ fn a_side_that_a_long_look_nearly_meets_is_not_passed_over() {
 }
 
 #[test]
+fn round_off_that_outlives_the_pulse_is_not_taken_for_certain() {
+    // Some fifty touches, of which the first let a change of the pulse die out, and the
+    // later ones amplify what is left, which is round-off.
+    for (diameters, blades, zeta, end, speed, pulse) in [
+        (4, 22, 0.006132129827678246, 0.03817438146651537, 293.125735240716, 1014434.519717906),
+        (2, 54, 0.08651578589583678, 0.029440380967940397, 146.69527545731594, 1135617.4110960308),
+    ] {
+        let mut scene = Scene::base();
+        scene.solver.kind = SolverKind::Event;
+        scene.solver.contact = ContactLaw::Unilateral;
+        scene.solver.model = ModelSize::Rigid;
+        scene.solver.end_s = end;
+        scene.bladed_disk.blades = blades;
+        scene.casing.damping_ratio = zeta;
+        scene.operation.nodal_diameters = diameters;
+        scene.operation.speed_rad_s = speed;
+        scene.operation.pulse_n = pulse;
+        let scene = scene.checked().unwrap();
+        let (reached, sensitive) = run_with_sensitivity(&scene, &to_the_end).unwrap();
+        let three = is_sensitive(&scene, &Script::default(), reached, &to_the_end).unwrap();
+        assert_eq!((sensitive, three), (true, true), "{diameters} {blades} {speed}");
+    }
+}
+
+#[test]
 fn what_is_not_followed_is_run_three_times() {
     let base = cell(0, ModelSize::Rigid, &mut 1);
     let certainty = |change: &dyn Fn(&mut Scene)| {

@@ -18,9 +18,11 @@ use super::mode::{Mode, What};
 use super::parameters::Parameters;
 use super::slide;
 use super::ties::Ties;
+use crate::motion::sensitivity::sign;
 use crate::motion::{Certainty, Plane};
 use crate::tolerances::{
-    KEPT_IN_A_CORNER, LAST_PART, LIGHTEST_BLADES, MOVING_TIE, PERTURBATION, RIGID_TIE, TIE,
+    KEPT_IN_A_CORNER, LAST_PART, LIGHTEST_BLADES, MOVING_TIE, PERTURBATION, RIGID_TIE, ROUND_OFF,
+    TIE,
 };
 
 /// Changes by the logarithm of the pulse and by the noise.
@@ -233,6 +235,11 @@ impl Variation {
             // change too, and may grow.
             let speed = parameters.omega * parameters.clearance;
             self.columns[1].rate = Plane::new(0.0, KEPT_IN_A_CORNER * speed);
+        } else if crossing.from != From::Flight {
+            // So is the round-off of a touch. It outlives changes that die out over many
+            // touches, before later ones amplify what is left.
+            let speed = parameters.omega * parameters.clearance + crossing.along.abs();
+            self.columns[1].rate.im += ROUND_OFF / PERTURBATION * speed * sign(event.events);
         }
         for column in &mut self.columns {
             if crossing.from != From::Flight {
