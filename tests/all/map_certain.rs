@@ -148,6 +148,56 @@ fn each_kind_of_tie_is_found() {
     }
 }
 
+/// A rigid run by events of the paper's scene with these changes.
+fn rigid(changes: &[(&str, &str)]) -> CheckedScene {
+    let mut scene = Scene::builtin("paper-nd4").unwrap();
+    scene.solver.kind = SolverKind::Event;
+    scene.solver.contact = ContactLaw::Unilateral;
+    scene.solver.model = ModelSize::Rigid;
+    scene.with(changes).unwrap()
+}
+
+#[test]
+fn a_side_that_a_long_look_nearly_meets_is_not_passed_over() {
+    // Its last flight swings 2e-5 of the clearance beyond it, past sides that are 1e-5 away.
+    let scene = rigid(&[
+        ("casing.modal_stiffness_n_per_m", "1.544e6"),
+        ("casing.damping_ratio", "0"),
+        ("operation.speed_rad_s", "-358.64251275435083"),
+        ("operation.pulse_n", "17754.761817879782"),
+        ("operation.pulse_s", "0.0003593499359369136"),
+        ("solver.end_s", "0.22530933587419094"),
+    ]);
+    let (reached, sensitive) = run_with_sensitivity(&scene, &to_the_end).unwrap();
+    let three = is_sensitive(&scene, &Script::default(), reached, &to_the_end).unwrap();
+    assert_eq!((sensitive, three), (true, true));
+}
+
+#[test]
+fn round_off_that_outlives_the_pulse_is_not_taken_for_certain() {
+    // Some fifty touches, of which the first let a change of the pulse die out, and the
+    // later ones amplify what is left, which is round-off.
+    for (diameters, blades, zeta, end, speed, pulse) in [
+        (4, 22, 0.006132129827678246, 0.03817438146651537, 293.125735240716, 1014434.519717906),
+        (2, 54, 0.08651578589583678, 0.029440380967940397, 146.69527545731594, 1135617.4110960308),
+    ] {
+        let mut scene = Scene::base();
+        scene.solver.kind = SolverKind::Event;
+        scene.solver.contact = ContactLaw::Unilateral;
+        scene.solver.model = ModelSize::Rigid;
+        scene.solver.end_s = end;
+        scene.bladed_disk.blades = blades;
+        scene.casing.damping_ratio = zeta;
+        scene.operation.nodal_diameters = diameters;
+        scene.operation.speed_rad_s = speed;
+        scene.operation.pulse_n = pulse;
+        let scene = scene.checked().unwrap();
+        let (reached, sensitive) = run_with_sensitivity(&scene, &to_the_end).unwrap();
+        let three = is_sensitive(&scene, &Script::default(), reached, &to_the_end).unwrap();
+        assert_eq!((sensitive, three), (true, true), "{diameters} {blades} {speed}");
+    }
+}
+
 #[test]
 fn what_is_not_followed_is_run_three_times() {
     let base = cell(0, ModelSize::Rigid, &mut 1);

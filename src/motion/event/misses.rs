@@ -81,26 +81,31 @@ impl Variation {
                 self.ties.tell(clearance - farthest, [0.0; 2], self.reach);
             }
         }
-        if radius < NEAR_SIDES * clearance {
+        // A look from far within ends where the clearance is reached, and may have passed
+        // a side that nearly lay in the way: it is sought back from there.
+        let (from, way) = if radius < NEAR_SIDES * clearance { (later, -1.0) } else { (s, 1.0) };
+        let there = free.at(parameters, drive, from);
+        if size(there.0) < NEAR_SIDES * clearance {
             return;
         }
         let (omega, rates) = (parameters.omega, parameters.omega + drive.nu.abs());
         let jounce = rates.powi(4) * (radius + size(v) / omega + drive.pulse.abs() / omega.powi(2));
-        let now = Approach::new(parameters, drive, s, (u, v));
+        let now = Approach::new(parameters, drive, from, there);
         for side in nearest(parameters, now.place) {
             let leaves = |side| free.leaving.iter().flatten().any(|leaving| leaving.side == side);
             if s == 0.0 && leaves(side) {
                 continue;
             }
             let normal = parameters.direction(side);
-            let Some(time) = now.turns(normal).filter(|time| s + 0.5 * time < later) else {
+            let within = |time: &f64| (s..later).contains(&(from + 0.5 * time));
+            let Some(time) = now.turns(normal, way).filter(within) else {
                 continue;
             };
             let unknown = jounce * time.powi(4) / 24.0;
             if clearance + now.ahead(normal, time) > NEAR_MISS_REACH * self.reach + unknown {
                 continue;
             }
-            let (mut at, mut time, mut least) = (s, time, f64::INFINITY);
+            let (mut at, mut time, mut least) = (from, time, f64::INFINITY);
             for _ in 0..NEAR_MISS_STEPS {
                 at = (at + time).clamp(s, later);
                 let there = Approach::new(parameters, drive, at, free.at(parameters, drive, at));
@@ -207,12 +212,14 @@ impl Approach {
         [self.rate, self.bend, self.twist].map(|p| (p * normal.conj()).re)
     }
 
-    /// Time until a gap that falls begins to rise, by its three derivatives \[s\].
-    fn turns(&self, normal: Plane) -> Option<f64> {
+    /// Time until a gap that falls begins to rise, by its three derivatives, or with
+    /// `way` -1 from where one that rises did \[s\].
+    fn turns(&self, normal: Plane, way: f64) -> Option<f64> {
         let [rate, bend, twist] = self.derivatives(normal);
+        let (rate, twist) = (way * rate, way * twist);
         let root = bend * bend - 2.0 * twist * rate;
         let slope = bend + root.max(0.0).sqrt();
-        (rate < 0.0 && root >= 0.0 && slope > 0.0).then(|| -2.0 * rate / slope)
+        (rate < 0.0 && root >= 0.0 && slope > 0.0).then(|| -2.0 * way * rate / slope)
     }
 
     /// Time to or from the instant at which a gap turns, close to it \[s\].

@@ -18,8 +18,11 @@ use super::mode::{Mode, What};
 use super::parameters::Parameters;
 use super::slide;
 use super::ties::Ties;
+use crate::motion::sensitivity::sign;
 use crate::motion::{Certainty, Plane};
-use crate::tolerances::{LAST_PART, LIGHTEST_BLADES, MOVING_TIE, PERTURBATION, RIGID_TIE, TIE};
+use crate::tolerances::{
+    LAST_PART, LIGHTEST_BLADES, MOVING_TIE, PERTURBATION, RIGID_TIE, ROUND_OFF, TIE,
+};
 
 /// Changes by the logarithm of the pulse and by the noise.
 pub(super) type Columns = [Column; 2];
@@ -226,6 +229,12 @@ impl Variation {
             _ => parameters.direction(crossing.side),
         };
         self.columns = crossing.columns;
+        if crossing.from != From::Flight {
+            // The round-off of a touch is a change too. It outlives changes that die out
+            // over many touches, before later ones amplify what is left.
+            let speed = parameters.omega * parameters.clearance + crossing.along.abs();
+            self.columns[1].rate.im += ROUND_OFF / PERTURBATION * speed * sign(event.events);
+        }
         for column in &mut self.columns {
             if crossing.from != From::Flight {
                 // A side that was touched keeps no gap and no rate of it.
