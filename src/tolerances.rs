@@ -69,8 +69,16 @@ pub(crate) const RIGID_TIE: f64 = 1e-11;
 /// decision that the blades make is missed.
 pub(crate) const MOVING_TIE: f64 = 1e-6;
 
+/// As a part of the clearance, how much further than their phase blades may move what
+/// decides at the end of a run. Smaller: a contact there is taken for certain.
+pub(crate) const TURNED_TIE: f64 = 4.0;
+
 /// Part of an excursion along a side up to which its end is a tie.
 pub(crate) const TIE_EXCURSION: f64 = 1e-9;
+
+/// Parts of half a radian, at most, of a way along a side in which it is asked where the
+/// motion turns. Fewer: of two turns under a pulse the nearer to an end may be missed.
+pub(crate) const TURNS_SOUGHT: f64 = 1000.0;
 
 /// Mass ratio of the blades in a corner up to which the casing is followed as if
 /// they were rigid.

@@ -86,7 +86,19 @@ fn ten_thousand_cells_have_the_flags_of_the_three_runs() {
 /// Scene, model, casing damping, speed, pulse \[N\], its duration and the end of the run,
 /// next to where one decision turns, which nothing else in the run tells of: each is found
 /// by one of the questions asked of a run.
-const NEXT_TO_A_TIE: [(&str, &str, f64, f64, f64, f64, f64); 13] = [
+const NEXT_TO_A_TIE: [(&str, &str, f64, f64, f64, f64, f64); 15] = [
+    // A slide under a pulse that turns twice, the second time close to an end of the side.
+    (
+        "nd3",
+        "rigid",
+        0.1,
+        503.6196746995487,
+        26387.344079809252,
+        0.0012115702254965983,
+        0.05403068050602293,
+    ),
+    // A contact at the end of the run that blades bring forward.
+    ("nd4", "modal", 0.01, 395.538496937232, 94149.88672950112, 5e-5, 0.003992155772344817),
     // By the noise alone, and a flight that just misses a side.
     ("nd4", "rigid", 0.01, 65.72992660818522, 566032.1785792182, 7.58215672111019e-5, 0.1),
     // A contact at the instant from which the verdict is judged.

@@ -14,6 +14,7 @@ use super::variation::{Column, Columns, Local, Variation, floor};
 use crate::motion::{Plane, Solver, Verdict};
 use crate::tolerances::{
     LOCK_MOMENT, NEAR_MISS_REACH, NEAR_MISS_STEPS, NEAR_SIDES, PERTURBATION, TIE, TIE_BLADES,
+    TURNED_TIE, TURNS_SOUGHT,
 };
 
 impl Variation {
@@ -27,40 +28,47 @@ impl Variation {
             let [fall, _] = push_rates(parameters, drive, inward, along.rate, bend);
             Some((along, fall))
         };
-        let (Some((before, fall_before)), Some((after, fall_after))) = (at(0.0), at(s)) else {
-            return;
-        };
         let half = parameters.half_side;
-        let turn = |rate: &dyn Fn(&(Along, f64)) -> f64| {
-            let (mut low, mut high) = (0.0, s);
-            for _ in 0..40 {
-                let middle = 0.5 * (low + high);
-                let here = at(middle)?;
-                if rate(&here) * rate(&(before, fall_before)) > 0.0 {
-                    low = middle;
-                } else {
-                    high = middle;
-                }
-            }
-            at(high)
-        };
+        let rates = parameters.omega + drive.nu.abs();
         let places = columns.map(|column| size(column.place) + size(column.rate) * s);
-        let room = half - before.y * before.rate.signum();
-        if before.rate * after.rate < 0.0
-            && room - before.rate.abs() * s < 0.1 * half
-            && let Some((there, _)) = turn(&|(along, _)| along.rate)
-        {
-            self.ties.tell(half - there.y.abs(), places, floor(parameters) * half);
-        }
-        let small = 0.1 * (before.push.abs() + after.push.abs());
-        if fall_before < 0.0
-            && fall_after > 0.0
-            && before.push + fall_before * s < small
-            && let Some((there, _)) = turn(&|(_, fall)| *fall)
-        {
-            let rates = parameters.omega + drive.nu.abs();
-            let pushes = places.map(|y| 4.0 * rates * rates * y);
-            self.ties.tell(there.push, pushes, least(parameters));
+        // A pulse may turn the motion more than once: each part has one turn at most.
+        let parts = (2.0 * rates * s).ceil().clamp(1.0, TURNS_SOUGHT);
+        let Some(mut start) = at(0.0) else { return };
+        let (mut from, mut part) = (0.0, 0.0);
+        while part < parts {
+            part += 1.0;
+            let to = s * (part / parts);
+            let Some(end) = at(to) else { return };
+            let turn = |rate: &dyn Fn(&(Along, f64)) -> f64| {
+                let (mut low, mut high) = (from, to);
+                for _ in 0..40 {
+                    let middle = 0.5 * (low + high);
+                    let here = at(middle)?;
+                    if rate(&here) * rate(&start) > 0.0 {
+                        low = middle;
+                    } else {
+                        high = middle;
+                    }
+                }
+                at(high)
+            };
+            let ((before, fall_before), (after, fall_after)) = (start, end);
+            if before.rate * after.rate < 0.0
+                && before.y.abs().max(after.y.abs()) > 0.5 * half
+                && let Some((there, _)) = turn(&|(along, _)| along.rate)
+            {
+                self.ties.tell(half - there.y.abs(), places, floor(parameters) * half);
+            }
+            let small = 0.1 * (before.push.abs() + after.push.abs());
+            if fall_before < 0.0
+                && fall_after > 0.0
+                && before.push + fall_before * (to - from) < small
+                && let Some((there, _)) = turn(&|(_, fall)| *fall)
+            {
+                let pushes = places.map(|y| 4.0 * rates * rates * y);
+                self.ties.tell(there.push, pushes, least(parameters));
+            }
+            (start, from) = (end, to);
         }
     }
 
@@ -125,9 +133,9 @@ impl Variation {
         let columns = self.carried(event, s);
         let delays = columns.map(|column| column.delay);
         let verdict = event.final_verdict();
-        if let Some(blades) = &parameters.blades
-            && blades.diameters * event.widest > TIE_BLADES
-        {
+        // Rigid sides stand elsewhere by what blades turn them.
+        let part = floor(parameters).max(TURNED_TIE * self.turned);
+        if self.turned > TIE_BLADES {
             self.ties.give_up();
         }
         match (mode, verdict) {
@@ -147,7 +155,7 @@ impl Variation {
                 let shifts = columns.map(|Column { place, rate, delay }| {
                     2.0 * ((v.conj() * rate).re + square * (u.conj() * place).re) - drag * delay
                 });
-                self.ties.tell(top - energy, shifts, floor(parameters) * top);
+                self.ties.tell(top - energy, shifts, part * top);
                 if verdict.is_none() {
                     let all = seen(parameters, drive, s, (u, v), Plane::new(1.0, 0.0));
                     let fast = delays[0].abs().max(delays[1].abs()) * size(all.rate);
@@ -165,14 +173,14 @@ impl Variation {
                 let inward = drive.inward(parameters, side, s);
                 if let Some((_, along)) = mode.along(parameters, drive, s) {
                     let fixed = columns.map(|column| column.place.im - along.rate * column.delay);
-                    let least = floor(parameters) * parameters.half_side;
+                    let least = part * parameters.half_side;
                     self.ties.tell(parameters.half_side - along.y, fixed.map(|y| -y), least);
                     self.ties.tell(parameters.half_side + along.y, fixed, least);
                     self.push(parameters, drive, inward, (along.y, along.rate), &columns);
                 }
             }
             (Mode::Rocking { time, .. }, _) => {
-                self.ties.tell(time - s, delays, floor(parameters) / parameters.omega);
+                self.ties.tell(time - s, delays, part / parameters.omega);
             }
             _ => self.ties.give_up(),
         }

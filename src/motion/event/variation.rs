@@ -77,6 +77,8 @@ pub(super) struct Variation {
     pub epoch: f64,
     /// How far a changed flight may be from this one \[m\].
     pub reach: f64,
+    /// Largest phase that blades have turned a side by so far, about \[rad\].
+    pub turned: f64,
     pub ties: Ties,
 }
 
@@ -84,7 +86,8 @@ impl Event {
     /// Carries the columns from here, the start of a flight, on to `end`.
     pub(super) fn carry(&mut self, end: f64) {
         let ties = Ties::new(end - LAST_PART * end, end);
-        let mut variation = Variation { columns: Columns::default(), epoch: 0.0, reach: 0.0, ties };
+        let mut variation =
+            Variation { columns: Columns::default(), epoch: 0.0, reach: 0.0, turned: 0.0, ties };
         variation.widen(self);
         self.variation = self.is_followed().then(|| Box::new(variation));
     }
@@ -222,8 +225,11 @@ impl Variation {
 
     /// The columns after an event, from those before it.
     fn land(&mut self, event: &Event, crossing: &Crossing) {
-        let Event { parameters, drive, mode, .. } = event;
+        let Event { parameters, drive, mode, tips, .. } = event;
         self.epoch = 0.0;
+        if let Some(blades) = &parameters.blades {
+            self.turned = self.turned.max(blades.diameters * blades.amplitude(tips));
+        }
         let direction = match crossing.from {
             From::Flight => Plane::new(1.0, 0.0),
             _ => parameters.direction(crossing.side),
