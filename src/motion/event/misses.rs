@@ -7,8 +7,10 @@ use std::f64::consts::TAU;
 use super::Event;
 use super::bounds::size;
 use super::decisions::{acceleration, least, push_rates, side_of};
+use super::free::Bends;
 use super::mode::Mode;
 use super::parameters::{Drive, Parameters};
+use super::rise::farthest;
 use super::slide::Along;
 use super::variation::{Column, Columns, Local, Variation, floor};
 use crate::motion::{Plane, Solver, Verdict};
@@ -34,10 +36,9 @@ impl Variation {
         // A pulse may turn the motion more than once: each part has one turn at most.
         let parts = (2.0 * rates * s).ceil().clamp(1.0, TURNS_SOUGHT);
         let Some(mut start) = at(0.0) else { return };
-        let (mut from, mut part) = (0.0, 0.0);
-        while part < parts {
-            part += 1.0;
-            let to = s * (part / parts);
+        let mut from = 0.0;
+        for part in 1..=parts as u32 {
+            let to = s * (f64::from(part) / parts);
             let Some(end) = at(to) else { return };
             let turn = |rate: &dyn Fn(&(Along, f64)) -> f64| {
                 let (mut low, mut high) = (from, to);
@@ -187,14 +188,6 @@ impl Variation {
     }
 }
 
-/// How far a casing that swings freely from here can come \[m\].
-fn farthest(parameters: &Parameters, swing: f64, u: Plane, v: Plane) -> f64 {
-    let w = (v + u * parameters.damping) / swing;
-    let (place, rate) = (u.norm_sqr(), w.norm_sqr());
-    let wave = (0.5 * (place - rate)).hypot(u.re * w.re + u.im * w.im);
-    (0.5 * (place + rate) + wave).sqrt()
-}
-
 /// A flight as the rotor sees it, with three derivatives.
 struct Approach {
     place: Plane,
@@ -206,13 +199,8 @@ struct Approach {
 impl Approach {
     fn new(parameters: &Parameters, drive: &Drive, s: f64, now: (Plane, Plane)) -> Self {
         let Local { place, rate, bend } = seen(parameters, drive, s, now, Plane::new(1.0, 0.0));
-        let (c, omega, nu) = (parameters.damping, parameters.omega, drive.nu);
-        let (u, v) = now;
-        let third = Plane::new(drive.pulse, 0.0) - v * (2.0 * c) - u * (omega * omega);
-        let fourth = -third * (2.0 * c) - v * (omega * omega);
-        let turned = fourth - Plane::i() * third * (3.0 * nu) - v * (3.0 * nu * nu)
-            + Plane::i() * u * nu.powi(3);
-        Self { place, rate, bend, twist: turned * Plane::cis(-drive.phase(s)) }
+        let [_, third] = Bends::new(parameters, drive, now.0, now.1).turned(drive.nu, 0.0, 0.0);
+        Self { place, rate, bend, twist: third * Plane::cis(-drive.phase(s)) }
     }
 
     /// The derivatives of the gap of the side of this normal.
@@ -259,11 +247,6 @@ pub(super) fn seen(
     normal: Plane,
 ) -> Local {
     let back = Plane::cis(-drive.phase(s)) * normal.conj();
-    let (c, omega, nu, i) = (parameters.damping, parameters.omega, drive.nu, Plane::i());
-    let bend = Plane::new(drive.pulse, 0.0) - v * (2.0 * c) - u * (omega * omega);
-    Local {
-        place: u * back,
-        rate: (v - i * u * nu) * back,
-        bend: (bend - i * v * (2.0 * nu) - u * (nu * nu)) * back,
-    }
+    let [second, _] = Bends::new(parameters, drive, u, v).turned(drive.nu, 0.0, 0.0);
+    Local { place: u * back, rate: (v - Plane::i() * u * drive.nu) * back, bend: second * back }
 }
