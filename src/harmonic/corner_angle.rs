@@ -5,30 +5,52 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::equations::Scales;
-use crate::model::Machine;
+use crate::model::{Machine, Number};
 use crate::tolerances::{AS_GOOD_AS_RIGID, CONVERGED};
 
 /// The corner angle of one polygon's corners.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct CornerAngle {
+pub(super) struct CornerAngle<T = f64> {
     /// Half angle of the unbent corner, `delta` \[rad\].
     pub delta: f64,
     /// `c` above.
-    compliance: f64,
+    compliance: T,
 }
 
-impl CornerAngle {
+impl<T: Number> CornerAngle<T> {
     /// Of a machine's corners.
-    pub fn of(machine: &Machine) -> Self {
+    pub fn of(machine: &Machine<T>) -> Self {
         let scales = Scales::of(machine);
         Self::new(machine.polygon.delta, scales.softness * scales.share)
     }
 
     /// With the (dimensionless) softness of the blades times their share.
-    fn new(delta: f64, bend: f64) -> Self {
+    fn new(delta: f64, bend: T) -> Self {
         Self { delta, compliance: bend * delta.sin().powi(2) }
     }
 
+    /// As `CornerAngle::at`, with its derivative by the implicit function theorem:
+    /// one more step of Newton's method, whose slope needs none.
+    pub fn derived(&self, kappa: T) -> Option<T> {
+        let plain = CornerAngle { delta: self.delta, compliance: self.compliance.re() };
+        let angle_change = plain.at(kappa.re())?;
+        let (sin, cos) = (self.delta + angle_change).sin_cos();
+        let pull = self.compliance * kappa / (cos * cos);
+        let value = pull * sin / cos + angle_change;
+        let slope = pull.re() * (1.0 + 2.0 * sin * sin) / (cos * cos) + 1.0;
+        Some(-value / slope + angle_change)
+    }
+
+    /// `kappa` at the fold, where the branch turns back: `at_fold` depends on `delta`
+    /// alone, so `kappa` goes with one over the compliance.
+    pub fn fold_kappa(&self) -> Option<T> {
+        let plain = CornerAngle { delta: self.delta, compliance: self.compliance.re() };
+        let (kappa, _) = plain.kappa(plain.at_fold())?;
+        Some(self.compliance.recip() * (kappa * plain.compliance))
+    }
+}
+
+impl CornerAngle {
     /// The change of the corner angle `Delta - delta` \[rad\] at `kappa`, on the branch of stiff
     /// blades; `None` beyond its fold.
     pub fn at(&self, kappa: f64) -> Option<f64> {

@@ -21,7 +21,7 @@ use nalgebra::{SMatrix, SVector};
 
 use super::corner_angle::CornerAngle;
 use super::{Corner, Form};
-use crate::model::Machine;
+use crate::model::{Machine, Number};
 
 /// `[x, y, Lambda_a, Lambda_b, alpha_a, alpha_b]`, scaled.
 pub(super) type Unknowns = SVector<f64, 6>;
@@ -30,46 +30,46 @@ type Jacobian = SMatrix<f64, 6, 6>;
 /// The casing at one speed: `kappa = 1 - (nu/omega_c)^2` and
 /// `drag = 2 zeta_c nu/omega_c`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Wave {
-    pub kappa: f64,
-    pub drag: f64,
+pub(super) struct Wave<T = f64> {
+    pub kappa: T,
+    pub drag: T,
 }
 
-impl Wave {
+impl<T: Number> Wave<T> {
     /// At rotor speed `speed` \[rad/s\], with or without the casing's damping.
-    pub fn at(machine: &Machine, speed: f64, damped: bool) -> Self {
+    pub fn at(machine: &Machine<T>, speed: T, damped: bool) -> Self {
         let ratio = machine.nu(speed) / machine.omega_c;
-        let damping = if damped { machine.casing_damping_ratio } else { 0.0 };
+        let damping = if damped { machine.casing_damping_ratio } else { T::zero() };
         // The factored difference keeps its digits near the critical speed.
-        Self { kappa: (1.0 - ratio) * (1.0 + ratio), drag: 2.0 * damping * ratio }
+        Self { kappa: (-ratio + 1.0) * (ratio + 1.0), drag: damping * 2.0 * ratio }
     }
 }
 
 /// Units that make the equations dimensionless.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Scales {
+pub(super) struct Scales<T = f64> {
     /// `g0` \[m\].
-    pub length: f64,
+    pub length: T,
     /// `k_c g0` \[N\].
-    pub force: f64,
+    pub force: T,
     /// `n_d k_c g0^2/(m_b omega_bd^2)` \[rad\].
-    pub angle: f64,
+    pub angle: T,
     /// `n_d` times `angle`.
-    pub softness: f64,
+    pub softness: T,
     /// Response of the blade modes to a torque on one blade: `2/N`, or `1/N` if
     /// there is only one mode.
     pub share: f64,
 }
 
-impl Scales {
-    pub fn of(machine: &Machine) -> Self {
+impl<T: Number> Scales<T> {
+    pub fn of(machine: &Machine<T>) -> Self {
         let length = machine.clearance();
         let force = machine.casing_stiffness * length;
         let stiffness = machine.blade_inertia * machine.omega_bd * machine.omega_bd;
-        let angle = machine.nodal_diameters * force * length / stiffness;
+        let angle = force * machine.nodal_diameters * length / stiffness;
         let modes = if machine.has_sine_mode { 2.0 } else { 1.0 };
         let share = modes / f64::from(machine.polygon.blades);
-        Self { length, force, angle, softness: machine.nodal_diameters * angle, share }
+        Self { length, force, angle, softness: angle * machine.nodal_diameters, share }
     }
 }
 

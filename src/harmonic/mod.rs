@@ -6,7 +6,8 @@
 //! needs only eigenvalues. There is no time step and no initial condition.
 //!
 //! - the lock, Eq. (27) in three forms: `equations`, `newton`, `locked`
-//!   ([`locked_motion`])
+//!   ([`locked_motion`]); its loads and the end of its branch, with their
+//!   derivatives: `lock_loads`
 //! - every equilibrium, its stability and thresholds: `equilibria`, `stability`,
 //!   `branches`; very soft blades: `corner_angle`, `fold`
 //! - slip as a map and its Fourier series: `saddle_flow`, `slip`, `spectrum`
@@ -24,6 +25,7 @@ mod error;
 mod excitation;
 mod fold;
 mod form;
+mod lock_loads;
 mod locked;
 mod newton;
 mod saddle_flow;
@@ -39,6 +41,7 @@ pub use error::HarmonicError;
 pub use excitation::{ExcitedLock, drives, excited_lock};
 pub use fold::{CornerBranch, Fold, corner_branch};
 pub use form::Form;
+pub use lock_loads::{LockLoads, lock_fold_speed, lock_loads};
 pub use locked::{Locked, LockedPoint, Sweep, locked_motion};
 pub use slip::{
     Crossing, NoSlip, SlipLimit, SlipOrbit, SlipPoint, SlipRegion, slip_limits, slip_map, slip_over,

@@ -4,7 +4,7 @@
 
 use std::f64::consts::TAU;
 
-use super::{BladedDisk, Casing, ContactPolygon};
+use super::{BladedDisk, Casing, ContactPolygon, Number};
 
 /// The four-coordinate model of one machine at one number of nodal diameters.
 ///
@@ -12,62 +12,64 @@ use super::{BladedDisk, Casing, ContactPolygon};
 /// normalised, so the blade modal mass is `N m_b/2` (`N m_b` where `p_s`
 /// vanishes and one blade mode is left).
 #[derive(Clone, Debug, PartialEq)]
-pub struct Machine {
+pub struct Machine<T = f64> {
     /// Phase groups and the polygon in the frame of the blades.
     pub polygon: ContactPolygon,
+    clearance: T,
     /// `n_d` as a number.
     pub nodal_diameters: f64,
     /// Casing modal mass `m_c` \[kg\].
-    pub casing_mass: f64,
+    pub casing_mass: T,
     /// Casing modal stiffness `k_c` \[N/m\].
-    pub casing_stiffness: f64,
+    pub casing_stiffness: T,
     /// Casing modal damping `d_c = 2 m_c omega_c zeta_c` \[N s/m\].
-    pub casing_damping: f64,
+    pub casing_damping: T,
     /// Casing damping ratio `zeta_c`.
-    pub casing_damping_ratio: f64,
+    pub casing_damping_ratio: T,
     /// Casing frequency `omega_c = sqrt(k_c/m_c)` \[rad/s\].
-    pub omega_c: f64,
+    pub omega_c: T,
     /// Inertia of one blade `m_b` \[kg m^2\].
-    pub blade_inertia: f64,
+    pub blade_inertia: T,
     /// Modal mass of each blade mode \[kg m^2\].
-    pub blade_modal_mass: f64,
+    pub blade_modal_mass: T,
     /// Modal damping of each blade mode \[N m s/rad\].
-    pub blade_modal_damping: f64,
+    pub blade_modal_damping: T,
     /// Modal stiffness of each blade mode \[N m/rad\].
-    pub blade_modal_stiffness: f64,
+    pub blade_modal_stiffness: T,
     /// Damping ratio of the blade modes `zeta_bd`.
-    pub blade_damping_ratio: f64,
+    pub blade_damping_ratio: T,
     /// Blade frequency of `n_d` diameters, `omega_bd` \[rad/s\].
-    pub omega_bd: f64,
+    pub omega_bd: T,
     /// Largest frequency of any nodal diameter of the bladed disk \[rad/s\].
-    pub omega_bd_max: f64,
+    pub omega_bd_max: T,
     /// Whether `p_s` exists: false for `2 n_d` a multiple of `N`.
     pub has_sine_mode: bool,
 }
 
-impl Machine {
+impl<T: Number> Machine<T> {
     /// Derives the model. The parameters must be checked before (`scene`).
     #[must_use]
-    pub fn new(disk: &BladedDisk, casing: &Casing, nodal_diameters: u32) -> Self {
+    pub fn new(disk: &BladedDisk<T>, casing: &Casing<T>, nodal_diameters: u32) -> Self {
         let clearance = casing.radius_m - disk.blade_length_m;
-        let polygon = ContactPolygon::new(disk.blades, nodal_diameters, clearance);
+        let polygon = ContactPolygon::new(disk.blades, nodal_diameters, clearance.re());
         let has_sine_mode = polygon.sides > 2;
         let blades = f64::from(disk.blades);
-        let blade_modal_mass = blades * disk.inertia_kg_m2 / if has_sine_mode { 2.0 } else { 1.0 };
+        let blade_modal_mass = disk.inertia_kg_m2 * blades / if has_sine_mode { 2.0 } else { 1.0 };
         let omega_bd = blade_frequency(disk, nodal_diameters);
         let omega_bd_max = blade_frequency(disk, disk.blades / 2);
         let omega_c = (casing.modal_stiffness_n_per_m / casing.modal_mass_kg).sqrt();
         Self {
             polygon,
+            clearance,
             nodal_diameters: f64::from(nodal_diameters),
             casing_mass: casing.modal_mass_kg,
             casing_stiffness: casing.modal_stiffness_n_per_m,
-            casing_damping: 2.0 * casing.modal_mass_kg * omega_c * casing.damping_ratio,
+            casing_damping: casing.modal_mass_kg * 2.0 * omega_c * casing.damping_ratio,
             casing_damping_ratio: casing.damping_ratio,
             omega_c,
             blade_inertia: disk.inertia_kg_m2,
             blade_modal_mass,
-            blade_modal_damping: 2.0 * omega_bd * disk.damping_ratio * blade_modal_mass,
+            blade_modal_damping: omega_bd * 2.0 * disk.damping_ratio * blade_modal_mass,
             blade_modal_stiffness: omega_bd * omega_bd * blade_modal_mass,
             blade_damping_ratio: disk.damping_ratio,
             omega_bd,
@@ -78,19 +80,19 @@ impl Machine {
 
     /// Clearance at rest `g0 = R_c - l_b` \[m\].
     #[must_use]
-    pub fn clearance(&self) -> f64 {
-        self.polygon.clearance
+    pub fn clearance(&self) -> T {
+        self.clearance
     }
 
     /// Wave frequency in the frame of the blades, `nu = n_d Omega` \[rad/s\].
     #[must_use]
-    pub fn nu(&self, speed: f64) -> f64 {
-        self.nodal_diameters * speed
+    pub fn nu(&self, speed: T) -> T {
+        speed * self.nodal_diameters
     }
 
     /// Critical speed `Omega_c = omega_c/n_d`, Eq. (17) \[rad/s\]; none for `n_d = 0`.
     #[must_use]
-    pub fn critical_speed(&self) -> Option<f64> {
+    pub fn critical_speed(&self) -> Option<T> {
         (self.nodal_diameters > 0.0).then(|| self.omega_c / self.nodal_diameters)
     }
 
@@ -98,27 +100,27 @@ impl Machine {
     /// `Omega_lock = Omega_c [zeta cot delta + sqrt(1 + zeta^2 cot^2 delta)]`
     /// \[rad/s\]; none without corners.
     #[must_use]
-    pub fn lock_speed(&self) -> Option<f64> {
+    pub fn lock_speed(&self) -> Option<T> {
         self.threshold(1.0 / self.polygon.delta.tan())
     }
 
     /// Speed down to which the printed equality algorithm holds a lock, one
     /// multiplier tensile: as `lock_speed` with `tan delta` for `cot delta`.
     #[must_use]
-    pub fn adhesive_speed(&self) -> Option<f64> {
+    pub fn adhesive_speed(&self) -> Option<T> {
         self.threshold(self.polygon.delta.tan())
     }
 
-    fn threshold(&self, slope: f64) -> Option<f64> {
+    fn threshold(&self, slope: f64) -> Option<T> {
         let x = self.casing_damping_ratio * slope;
-        let factor = x + (1.0 + x * x).sqrt();
+        let factor = x + (x * x + 1.0).sqrt();
         let critical = self.critical_speed()?;
-        self.polygon.has_corners().then_some(critical * factor)
+        self.polygon.has_corners().then(|| critical * factor)
     }
 
     /// Amplitude of the locked casing wave, `g0/cos delta` \[m\]; none without corners.
     #[must_use]
-    pub fn locked_amplitude(&self) -> Option<f64> {
+    pub fn locked_amplitude(&self) -> Option<T> {
         (self.polygon.has_corners()).then(|| self.clearance() / self.polygon.delta.cos())
     }
 
@@ -127,7 +129,7 @@ impl Machine {
     /// `(g0/2 cos delta)(K/cos delta -+ D/sin delta)` with `K = k_c - nu^2 m_c`,
     /// `D = d_c nu`. Negative is a push. None without corners.
     #[must_use]
-    pub fn locked_multipliers(&self, speed: f64) -> Option<[f64; 2]> {
+    pub fn locked_multipliers(&self, speed: T) -> Option<[T; 2]> {
         if !self.polygon.has_corners() {
             return None;
         }
@@ -142,7 +144,7 @@ impl Machine {
     /// The positive speeds of Eq. (30), `+-omega_c = n_d Omega +- omega_bd`, in
     /// increasing order \[rad/s\]; empty for `n_d = 0`.
     #[must_use]
-    pub fn coincidence_speeds(&self) -> Vec<f64> {
+    pub fn coincidence_speeds(&self) -> Vec<T> {
         if self.nodal_diameters == 0.0 {
             return Vec::new();
         }
@@ -154,7 +156,7 @@ impl Machine {
     /// The dangerous coincidence of a rotor that turns forward,
     /// `Omega = (omega_c + omega_bd)/n_d`, Eq. (31) \[rad/s\]; none for `n_d = 0`.
     #[must_use]
-    pub fn dangerous_speed(&self) -> Option<f64> {
+    pub fn dangerous_speed(&self) -> Option<T> {
         self.coincidence_speeds().last().copied()
     }
 
@@ -162,7 +164,7 @@ impl Machine {
     /// one that turns backward the two directions of every wave exchange, and
     /// `Omega = -(omega_c + omega_bd)/n_d`.
     #[must_use]
-    pub fn dangerous_speed_toward(&self, speed: f64) -> Option<f64> {
+    pub fn dangerous_speed_toward(&self, speed: f64) -> Option<T> {
         self.dangerous_speed().map(|forward| if speed < 0.0 { -forward } else { forward })
     }
 }
@@ -170,10 +172,10 @@ impl Machine {
 /// `omega_bd` of `n_d` diameters from
 /// `omega_bd^2 = (k_b + 2 k_bb (1 - cos(2 pi n_d/N)))/m_b` \[rad/s\].
 #[must_use]
-pub fn blade_frequency(disk: &BladedDisk, nodal_diameters: u32) -> f64 {
+pub fn blade_frequency<T: Number>(disk: &BladedDisk<T>, nodal_diameters: u32) -> T {
     let angle = TAU * f64::from(nodal_diameters % disk.blades.max(1)) / f64::from(disk.blades);
     let stiffness =
-        disk.stiffness_nm_per_rad + 2.0 * disk.coupling_nm_per_rad * (1.0 - angle.cos());
+        disk.stiffness_nm_per_rad + disk.coupling_nm_per_rad * 2.0 * (1.0 - angle.cos());
     (stiffness / disk.inertia_kg_m2).sqrt()
 }
 

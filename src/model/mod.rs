@@ -3,10 +3,12 @@
 //! docs/theory.md, section 1; signs and numbering: docs/theory.md, section 2.
 
 mod machine;
+mod number;
 mod parameters;
 mod polygon;
 
 pub use machine::{Machine, blade_frequency};
+pub use number::Number;
 pub use parameters::{BladedDisk, Casing, Excitation, Initial, Operation};
 pub use polygon::ContactPolygon;
 pub(crate) use polygon::{fraction_of_turn, gcd};

@@ -1,24 +1,25 @@
 //! The quantities a user gives: bladed disk, casing and operation, as Table 1
 //! of the paper lists them (docs/theory.md, section 1). Plain data; `scene` defines
-//! the allowed values.
+//! the allowed values. Each number is one of a type `T`: `f64`, or one that carries
+//! its derivative along (`Number`).
 
 use serde::Serialize;
 
 /// A tuned bladed disk of rigid blades on angular springs, Eqs. (2)-(3).
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct BladedDisk {
+pub struct BladedDisk<T = f64> {
     /// Number of blades `N`.
     pub blades: u32,
     /// Blade length `l_b`, from the axis to the tip \[m\].
-    pub blade_length_m: f64,
+    pub blade_length_m: T,
     /// Moment of inertia of one blade about the axis, the paper's `m_b` \[kg m^2\].
-    pub inertia_kg_m2: f64,
+    pub inertia_kg_m2: T,
     /// Blade-to-disk stiffness `k_b` \[N m/rad\].
-    pub stiffness_nm_per_rad: f64,
+    pub stiffness_nm_per_rad: T,
     /// Blade-to-blade stiffness `k_bb` \[N m/rad\].
-    pub coupling_nm_per_rad: f64,
+    pub coupling_nm_per_rad: T,
     /// Viscous damping ratio of every blade mode, `zeta_bd`.
-    pub damping_ratio: f64,
+    pub damping_ratio: T,
 }
 
 impl Default for BladedDisk {
@@ -37,15 +38,15 @@ impl Default for BladedDisk {
 
 /// The casing, reduced to its two `n_d`-diameter modes, Eqs. (5)-(6).
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Casing {
+pub struct Casing<T = f64> {
     /// Inner radius `R_c` \[m\].
-    pub radius_m: f64,
+    pub radius_m: T,
     /// Modal mass `m_c` \[kg\].
-    pub modal_mass_kg: f64,
+    pub modal_mass_kg: T,
     /// Modal stiffness `k_c` \[N/m\].
-    pub modal_stiffness_n_per_m: f64,
+    pub modal_stiffness_n_per_m: T,
     /// Viscous damping ratio `zeta_c`.
-    pub damping_ratio: f64,
+    pub damping_ratio: T,
 }
 
 impl Default for Casing {
@@ -62,17 +63,17 @@ impl Default for Casing {
 
 /// The operation of the machine: the mode pair, the rotor and the pulse.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Operation {
+pub struct Operation<T = f64> {
     /// Nodal diameters `n_d` of the retained modes.
     pub nodal_diameters: u32,
     /// Rotor speed `Omega` at the start; positive turns counter-clockwise \[rad/s\].
-    pub speed_rad_s: f64,
+    pub speed_rad_s: T,
     /// Constant angular acceleration of the rotor \[rad/s^2\].
-    pub speed_ramp_rad_s2: f64,
+    pub speed_ramp_rad_s2: T,
     /// Force of the rectangular pulse on the `u_c` equation \[N\].
-    pub pulse_n: f64,
+    pub pulse_n: T,
     /// Duration `t_p` of the pulse, from t = 0 \[s\].
-    pub pulse_s: f64,
+    pub pulse_s: T,
 }
 
 impl Default for Operation {
@@ -90,15 +91,15 @@ impl Default for Operation {
 
 /// Casing state at t = 0; at rest by default.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Initial {
+pub struct Initial<T = f64> {
     /// `u_c` \[m\].
-    pub u_c_m: f64,
+    pub u_c_m: T,
     /// `u_s` \[m\].
-    pub u_s_m: f64,
+    pub u_s_m: T,
     /// Rate of `u_c` \[m/s\].
-    pub v_c_m_s: f64,
+    pub v_c_m_s: T,
     /// Rate of `u_s` \[m/s\].
-    pub v_s_m_s: f64,
+    pub v_s_m_s: T,
 }
 
 /// An engine-order excitation: a torque `amplitude * cos(order (theta + Phi_i))`

@@ -9,6 +9,7 @@ mod drive;
 mod event;
 pub mod explicit;
 mod failure;
+mod free_flight;
 mod propagator;
 mod run;
 mod script;
@@ -21,6 +22,7 @@ pub use contacts::{ActiveSet, ContactLog, Hold, Impact, in_phase_order};
 pub use drive::{Pulse, Rotor, State};
 pub use event::Event;
 pub use failure::{Failure, FailureReason};
+pub use free_flight::FreeFlight;
 pub use run::{
     FinalState, ImpactReport, RunReport, Sample, Sampling, SolverReport, VerdictReached,
     run_to_end, run_to_verdict, simulate, simulate_with, verdict_of,

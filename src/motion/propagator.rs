@@ -8,6 +8,7 @@
 //! from the blades) and `kappa < 0` are one case, only evaluated in different
 //! ways where round-off asks for it.
 
+use crate::model::Number;
 use crate::tolerances::{DOUBLE_ROOT, SERIES_END, SHORT_TIME};
 use std::f64::consts::PI;
 
@@ -16,36 +17,106 @@ const TERMS: usize = 18;
 
 /// The equation's coefficients, ready to be evaluated at any time.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Propagator {
+pub(super) struct Propagator<T = f64> {
     /// Damping `c` \[1/s\], zero or more.
-    pub damping: f64,
+    pub damping: T,
     /// Stiffness per unit mass `kappa` \[1/s^2\], of any sign.
-    pub stiffness: f64,
+    pub stiffness: T,
     /// `c^2 - kappa`: negative where the roots are complex.
-    discriminant: f64,
+    discriminant: T,
     /// Square root of its magnitude.
-    root: f64,
+    root: T,
 }
 
 /// The response at one instant.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Response {
+pub(super) struct Response<T = f64> {
     /// Motion from unit displacement at rest, `1 - kappa ramp`.
-    pub hold: f64,
+    pub hold: T,
     /// Motion from rest with unit rate \[s\].
-    pub unit: f64,
+    pub unit: T,
     /// Rate of `unit`.
-    pub slope: f64,
+    pub slope: T,
     /// Motion from rest under unit forcing \[s^2\].
-    pub ramp: f64,
+    pub ramp: T,
 }
 
-impl Propagator {
-    pub(super) fn new(damping: f64, stiffness: f64) -> Self {
+impl<T: Number> Propagator<T> {
+    pub(super) fn new(damping: T, stiffness: T) -> Self {
         let discriminant = damping * damping - stiffness;
         Self { damping, stiffness, discriminant, root: discriminant.abs().sqrt() }
     }
 
+    /// The response `s >= 0` seconds on.
+    pub(super) fn at(&self, s: T) -> Response<T> {
+        let (c, q) = (self.damping, self.root);
+        if self.discriminant > 0.0 && q * s > 0.2 {
+            self.real_roots(s)
+        } else if (c + q) * s < SHORT_TIME {
+            self.series(s)
+        } else {
+            // Here kappa s^2 > 0.05, so that the division below keeps its digits.
+            let (cos, sin) = if self.discriminant > 0.0 {
+                ((q * s).cosh(), (q * s).sinh() / q)
+            } else if q > 0.0 {
+                let (sin, cos) = (q * s).sin_cos();
+                (cos, sin / q)
+            } else {
+                // Next to a double root the derivative is that of its series.
+                let part = self.discriminant * s * s;
+                (part * 0.5 + 1.0, s * (part / 6.0 + 1.0))
+            };
+            let decay = (-c * s).exp();
+            let unit = decay * sin;
+            let hold = decay * cos + c * unit;
+            Response {
+                hold,
+                unit,
+                slope: decay * cos - c * unit,
+                ramp: (-hold + 1.0) / self.stiffness,
+            }
+        }
+    }
+
+    fn real_roots(&self, s: T) -> Response<T> {
+        let (c, q) = (self.damping, self.root);
+        let (slow, fast) = (-self.stiffness / (c + q), -(c + q));
+        let ([late, later], [early, earlier]) = (exponential(slow * s), exponential(fast * s));
+        // Integral of exp(r s) from 0, smooth through r = 0.
+        let integral = |r: T, less: T| if r == 0.0 { s } else { less / r };
+        let unit = (later - earlier) / (q * 2.0);
+        let slope = (slow * late - fast * early) / (q * 2.0);
+        Response {
+            hold: slope + c * 2.0 * unit,
+            unit,
+            slope,
+            ramp: (integral(slow, later) - integral(fast, earlier)) / (q * 2.0),
+        }
+    }
+
+    /// Power series of the entire solution, for short times.
+    fn series(&self, s: T) -> Response<T> {
+        let drag = self.damping * 2.0 * s;
+        let spring = self.stiffness * s * s;
+        // `term` is the coefficient of s^n times s^(n-1), from n = 1.
+        let (mut before, mut term) = (T::zero(), T::one());
+        let (mut slope, mut unit, mut ramp) = (T::one(), T::one(), T::from(0.5));
+        for row in &STEPS {
+            let next = -(drag * term + spring * before * row.over_n) * row.over_next;
+            before = term;
+            term = next;
+            slope += next * row.next;
+            unit += next;
+            ramp += next * row.over_after;
+            if next.abs() + before.abs() < SERIES_END {
+                break;
+            }
+        }
+        Response { hold: -(spring * ramp) + 1.0, unit: unit * s, slope, ramp: ramp * s * s }
+    }
+}
+
+impl Propagator {
     /// The exponents `-c +- sqrt(c^2 - kappa)` as `(re, im)` of the first; none
     /// near a double root, where a sum of two exponentials is ill-conditioned.
     pub(super) fn exponents(&self) -> Option<[(f64, f64); 2]> {
@@ -80,76 +151,10 @@ impl Propagator {
         };
         (time >= 0.0 && time.is_finite()).then_some(time)
     }
-
-    /// The response `s >= 0` seconds on.
-    pub(super) fn at(&self, s: f64) -> Response {
-        let (c, q) = (self.damping, self.root);
-        if self.discriminant > 0.0 && q * s > 0.2 {
-            self.real_roots(s)
-        } else if (c + q) * s < SHORT_TIME {
-            self.series(s)
-        } else {
-            // Here kappa s^2 > 0.05, so that the division below keeps its digits.
-            let (cos, sin) = if self.discriminant > 0.0 {
-                ((q * s).cosh(), (q * s).sinh() / q)
-            } else if q > 0.0 {
-                let (sin, cos) = (q * s).sin_cos();
-                (cos, sin / q)
-            } else {
-                (1.0, s)
-            };
-            let decay = (-c * s).exp();
-            let unit = decay * sin;
-            let hold = decay * cos + c * unit;
-            Response {
-                hold,
-                unit,
-                slope: decay * cos - c * unit,
-                ramp: (1.0 - hold) / self.stiffness,
-            }
-        }
-    }
-
-    fn real_roots(&self, s: f64) -> Response {
-        let (c, q) = (self.damping, self.root);
-        let (slow, fast) = (-self.stiffness / (c + q), -(c + q));
-        let ([late, later], [early, earlier]) = (exponential(slow * s), exponential(fast * s));
-        // Integral of exp(r s) from 0, smooth through r = 0.
-        let integral = |r: f64, less: f64| if r == 0.0 { s } else { less / r };
-        let unit = (later - earlier) / (2.0 * q);
-        let slope = (slow * late - fast * early) / (2.0 * q);
-        Response {
-            hold: slope + 2.0 * c * unit,
-            unit,
-            slope,
-            ramp: (integral(slow, later) - integral(fast, earlier)) / (2.0 * q),
-        }
-    }
-
-    /// Power series of the entire solution, for short times.
-    fn series(&self, s: f64) -> Response {
-        let drag = 2.0 * self.damping * s;
-        let spring = self.stiffness * s * s;
-        // `term` is the coefficient of s^n times s^(n-1), from n = 1.
-        let (mut before, mut term) = (0.0, 1.0);
-        let (mut slope, mut unit, mut ramp) = (1.0, 1.0, 0.5);
-        for row in &STEPS {
-            let next = -(drag * term + spring * before * row.over_n) * row.over_next;
-            before = term;
-            term = next;
-            slope += row.next * next;
-            unit += next;
-            ramp += row.over_after * next;
-            if next.abs() + before.abs() < SERIES_END {
-                break;
-            }
-        }
-        Response { hold: 1.0 - spring * ramp, unit: unit * s, slope, ramp: ramp * s * s }
-    }
 }
 
 /// `exp(x)` and `exp(x) - 1`, each with its own digits: one exponential for both.
-fn exponential(x: f64) -> [f64; 2] {
+fn exponential<T: Number>(x: T) -> [T; 2] {
     if x < -0.5 {
         let value = x.exp();
         [value, value - 1.0]
@@ -270,8 +275,8 @@ mod tests {
 
     #[test]
     fn short_times_keep_relative_digits() {
-        let propagator = Propagator::new(40.0, 7e5);
-        let response = propagator.at(1e-12);
+        let propagator: Propagator = Propagator::new(40.0, 7e5);
+        let response: Response = propagator.at(1e-12);
         assert!((response.ramp / 5e-25 - 1.0).abs() < 1e-9);
         assert!((response.unit / 1e-12 - 1.0).abs() < 1e-9);
     }

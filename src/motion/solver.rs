@@ -11,7 +11,7 @@ use crate::scene::{CheckedScene, ModelSize, SolverKind};
 
 /// Asked on the way whether work shall go on: a flag that a signal sets, or a
 /// limit of time.
-pub type GoOn<'a> = &'a dyn Fn() -> bool;
+pub type GoOn<'a> = &'a (dyn Fn() -> bool + Sync);
 
 /// Goes on to the end, whatever the work.
 #[must_use]

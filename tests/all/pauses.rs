@@ -1,7 +1,7 @@
 //! Work that is told not to go on: it stops soon, and what is continued later
 //! comes to the same bits as what was never stopped.
 
-use std::cell::Cell;
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 use rubscope::motion::{Motion, run_to_verdict};
 use rubscope::scene::{BUILTIN, CheckedScene, ModelSize, Scene, SolverKind};
@@ -29,12 +29,9 @@ fn a_motion_that_is_stopped_again_and_again_reaches_the_same_bits() {
             let (mut plain, mut paused) = (Motion::new(&scene), Motion::new(&scene));
             let mut looked_at = 0;
             let straight = plain.advance(scene.solver.end_s);
-            let asked = Cell::new(0_u64);
+            let asked = AtomicU64::new(0);
             // Two of three questions are answered with yes.
-            let go_on = || {
-                asked.set(asked.get() + 1);
-                !asked.get().is_multiple_of(3)
-            };
+            let go_on = || !(asked.fetch_add(1, Relaxed) + 1).is_multiple_of(3);
             let broken = loop {
                 match paused.advance_while(scene.solver.end_s, &go_on) {
                     Ok(true) => break Ok(()),
@@ -84,26 +81,29 @@ fn a_solver_asks_within_a_bound_of_steps_or_looks() {
             scene.operation.pulse_s = 1.0;
         }
         let mut motion = Motion::new(&scene.checked().unwrap());
-        let asked = Cell::new(0_u64);
+        let asked = AtomicU64::new(0);
         let go_on = || {
-            asked.set(asked.get() + 1);
+            asked.fetch_add(1, Relaxed);
             true
         };
         assert_eq!(motion.advance_while(0.01, &go_on), Ok(true));
         let steps = motion.steps_taken().unwrap();
         assert_eq!(motion.steps_skipped(), Some(0), "{model:?}");
-        assert!(steps >= 10_000 && asked.get() >= steps / steps_a_question, "{model:?} {asked:?}");
+        assert!(
+            steps >= 10_000 && asked.load(Relaxed) >= steps / steps_a_question,
+            "{model:?} {asked:?}"
+        );
     }
     let mut scene = scene(&[]);
     scene.solver.kind = SolverKind::Event;
     let mut motion = Motion::new(&scene.checked().unwrap());
-    let asked = Cell::new(0_u64);
+    let asked = AtomicU64::new(0);
     let go_on = || {
-        asked.set(asked.get() + 1);
+        asked.fetch_add(1, Relaxed);
         true
     };
     assert_eq!(motion.advance_while(0.1, &go_on), Ok(true));
-    assert!(asked.get() >= motion.events().unwrap(), "{asked:?}");
+    assert!(asked.load(Relaxed) >= motion.events().unwrap(), "{asked:?}");
 }
 
 #[test]
@@ -113,12 +113,9 @@ fn a_verdict_that_is_not_waited_for_is_none() {
         scene.solver.end_s = 1e3;
         scene.solver.step_s = 1e-6;
         let scene = scene.as_reference().checked().unwrap();
-        let left = Cell::new(20);
-        let go_on = || {
-            left.set(left.get() - 1);
-            left.get() > 0
-        };
+        let left = AtomicU64::new(20);
+        let go_on = || left.fetch_sub(1, Relaxed) > 1;
         assert_eq!(run_to_verdict(&scene, &go_on), None, "{name}");
-        assert_eq!(left.get(), 0, "{name}: it asks no more after a no");
+        assert_eq!(left.load(Relaxed), 0, "{name}: it asks no more after a no");
     }
 }

@@ -1,0 +1,141 @@
+//! What a lock takes, in closed form: pushes, torque, power, blade angle and energy,
+//! and the speed at which its branch ends, of any kind of number, so that each comes
+//! with its derivatives (docs/theory.md, sections 4 and 8).
+
+use super::corner_angle::CornerAngle;
+use super::equations::{Scales, Wave};
+use crate::model::{Machine, Number};
+
+/// The loads of the damped lock at one speed, exact for blades that move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LockLoads<T = f64> {
+    /// Pushes of the groups a and b, minus their multipliers; negative pulls \[N\].
+    pub pushes_n: [T; 2],
+    /// Angle of one blade of each group \[rad\].
+    pub alpha_rad: [T; 2],
+    /// Largest angle of any blade, in size: those a quarter of the wave away from the
+    /// contacts bend most \[rad\].
+    pub largest_alpha_rad: T,
+    /// Amplitude `|z|` of the casing wave \[m\].
+    pub amplitude_m: T,
+    /// Torque the rotor must give, `n_d d_c nu |z|^2` \[N m\].
+    pub torque_nm: T,
+    /// Its power \[W\].
+    pub power_w: T,
+    /// Energy of the casing wave, `(k_c + m_c nu^2) |z|^2/2` \[J\].
+    pub energy_j: T,
+}
+
+/// The loads of the lock of a machine at a speed \[rad/s\]; none without corners, and
+/// beyond the fold of very soft blades.
+#[must_use]
+pub fn lock_loads<T: Number>(machine: &Machine<T>, speed: T) -> Option<LockLoads<T>> {
+    if !machine.polygon.has_corners() {
+        return None;
+    }
+    let (wave, scales) = (Wave::at(machine, speed, true), Scales::of(machine));
+    let delta = machine.polygon.delta;
+    let (sin, cos) = (CornerAngle::of(machine).derived(wave.kappa)? + delta).sin_cos();
+    let (stiff, drag) = (wave.kappa / cos, wave.drag / sin);
+    let pushes = [(drag - stiff) / (cos * 2.0), -(stiff + drag) / (cos * 2.0)];
+    let arms = [pushes[0] * sin / cos, -pushes[1] * sin / cos];
+    // Of a blade at a phase from the middle of the corner; side `k` after group a.
+    let bent = |side: u32| {
+        let phase = delta * (2.0 * f64::from(side) - 1.0);
+        let torque = arms[0] * (phase + delta).cos() + arms[1] * (phase - delta).cos();
+        -torque * scales.share * scales.angle
+    };
+    let angles = (0..machine.polygon.sides).map(|side| bent(side).abs());
+    let largest = angles.fold(T::zero(), |most, angle| if angle > most { angle } else { most });
+    let amplitude = scales.length / cos;
+    let nu = machine.nu(speed);
+    let torque = machine.casing_damping * nu * amplitude * amplitude * machine.nodal_diameters;
+    let stored = machine.casing_stiffness + machine.casing_mass * nu * nu;
+    Some(LockLoads {
+        pushes_n: pushes.map(|push| push * scales.force),
+        alpha_rad: [bent(0), bent(1)],
+        largest_alpha_rad: largest,
+        amplitude_m: amplitude,
+        torque_nm: torque,
+        power_w: torque * speed,
+        energy_j: stored * amplitude * amplitude * 0.5,
+    })
+}
+
+/// The largest speed with a lock \[rad/s\]: blades that are soft give way above it.
+/// None without corners, and where it is beyond any speed that a number can square.
+#[must_use]
+pub fn lock_fold_speed<T: Number>(machine: &Machine<T>) -> Option<T> {
+    let critical = machine.critical_speed()?;
+    let kappa = CornerAngle::of(machine).fold_kappa().filter(|_| machine.polygon.has_corners())?;
+    Some(critical * (-kappa + 1.0).sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::harmonic::{Form, Kind, corner_branch, equilibria, locked_motion};
+    use crate::scene::Scene;
+
+    fn machine(set: &[(&str, &str)]) -> Machine {
+        let mut scene = Scene::base();
+        set.iter().for_each(|(path, value)| scene.set(path, value).unwrap());
+        scene.machine()
+    }
+
+    fn close(value: f64, expected: f64, part: f64) {
+        assert!((value - expected).abs() <= part * expected.abs(), "{value} is not {expected}");
+    }
+
+    /// The two blade coordinates of the lock.
+    fn blade_modes(machine: &Machine, speed: f64) -> [f64; 2] {
+        let states = equilibria(machine, speed, true).unwrap();
+        let corner = states.iter().find(|state| state.kind == Kind::Corner).unwrap();
+        [corner.alpha_c_rad, corner.alpha_s_rad]
+    }
+
+    #[test]
+    fn loads_are_those_of_the_harmonic_balance() {
+        for (set, part) in [
+            (&[][..], 1e-12),
+            (&[("operation.nodal_diameters", "4")], 1e-12),
+            (
+                &[
+                    ("bladed_disk.stiffness_nm_per_rad", "0.02"),
+                    ("bladed_disk.coupling_nm_per_rad", "0"),
+                ],
+                1e-10,
+            ),
+        ] {
+            let machine = machine(set);
+            for speed in [320.0, 500.0, -430.0] {
+                let sweep = locked_motion(&machine, Form::Modal, true, None, &[speed]).unwrap();
+                let point = sweep.points[0];
+                let loads = lock_loads(&machine, speed).unwrap();
+                for i in [0, 1] {
+                    close(-loads.pushes_n[i], point.multipliers_n[i], part);
+                    close(loads.alpha_rad[i], point.alpha_rad[i], 1e-7);
+                }
+                close(loads.torque_nm, point.torque_nm, 1e-9);
+                close(loads.power_w, point.power_w, 1e-9);
+                close(loads.amplitude_m, point.amplitude_m, part);
+                let polygon = &machine.polygon;
+                let modes = blade_modes(&machine, speed);
+                close(loads.largest_alpha_rad, polygon.largest_component(modes[0], modes[1]), 1e-7);
+            }
+        }
+    }
+
+    #[test]
+    fn the_branch_ends_at_the_fold() {
+        let machine = machine(&[
+            ("bladed_disk.stiffness_nm_per_rad", "0.02"),
+            ("bladed_disk.coupling_nm_per_rad", "0"),
+        ]);
+        let fold = lock_fold_speed(&machine).unwrap();
+        let branch = corner_branch(&machine, 0, true, [0.0, 2.0 * fold], 0.02).unwrap();
+        close(fold, branch.fold.unwrap().speed_rad_s, 1e-12);
+        assert!(lock_loads(&machine, 0.999 * fold).is_some());
+        assert_eq!(lock_loads(&machine, 1.001 * fold), None);
+    }
+}
