@@ -5,10 +5,12 @@
 mod event;
 mod explicit;
 mod harmonic;
+mod margins;
 
 pub(crate) use event::*;
 pub(crate) use explicit::*;
 pub(crate) use harmonic::*;
+pub(crate) use margins::*;
 
 // The model.
 

@@ -11,6 +11,7 @@ mod hbm_views;
 mod man;
 mod map;
 mod map_run;
+mod margins;
 pub mod options;
 mod output;
 mod part_file;
@@ -57,6 +58,7 @@ enum Command {
     Run(Box<run::RunCommand>),
     Hbm(Box<hbm::HbmCommand>),
     Map(Box<map::MapCommand>),
+    Margins(Box<margins::MarginsCommand>),
     Precision(Box<precision::PrecisionCommand>),
     Figures(Box<figures::FiguresCommand>),
     Scenes(scenes::ScenesCommand),
@@ -91,6 +93,7 @@ fn dispatch(cli: Cli, out: &mut dyn Write) -> Done {
         Some(Command::Run(command)) => command.run(out),
         Some(Command::Hbm(command)) => command.run(out),
         Some(Command::Map(command)) => command.run(out),
+        Some(Command::Margins(command)) => command.run(out),
         Some(Command::Precision(command)) => command.run(out),
         Some(Command::Figures(command)) => command.run(out),
         Some(Command::Scenes(command)) => command.run(out),

@@ -33,6 +33,49 @@ pub fn harmless(c: char) -> char {
     if joins || !is_plain(c) { ' ' } else { c }
 }
 
+/// A text in lines of at most so many columns, broken at spaces, and within words that
+/// are longer than a line.
+#[must_use]
+pub fn wrapped(text: &str, most: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    let mut used = 0;
+    for word in text.split_whitespace() {
+        let long: usize = word.chars().map(columns).sum();
+        match lines.last_mut() {
+            Some(line) if used + 1 + long <= most => {
+                line.push(' ');
+                used += 1;
+            }
+            _ => {
+                lines.push(String::new());
+                used = 0;
+            }
+        }
+        for c in word.chars() {
+            if used > 0 && used + columns(c) > most {
+                lines.push(String::new());
+                used = 0;
+            }
+            if let Some(line) = lines.last_mut() {
+                line.push(c);
+            }
+            used += columns(c);
+        }
+    }
+    lines
+}
+
+/// Columns that a character takes: two in the scripts of East Asia, and of pictures.
+fn columns(c: char) -> usize {
+    let wide = matches!(
+        c,
+        '\u{1100}'..='\u{115f}' | '\u{2e80}'..='\u{a4cf}' | '\u{ac00}'..='\u{d7a3}'
+            | '\u{f900}'..='\u{faff}' | '\u{fe30}'..='\u{fe6f}' | '\u{ff00}'..='\u{ff60}'
+            | '\u{1f300}'..='\u{1faff}' | '\u{20000}'..='\u{3fffd}'
+    );
+    if wide { 2 } else { 1 }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -45,5 +88,13 @@ mod tests {
         let long = clean(&format!("key = {}: allowed is 1", "x".repeat(1 << 20)));
         assert!(long.starts_with("key = xxx") && long.ends_with("xxx: allowed is 1"));
         assert!(long.contains(" ... ") && long.chars().count() < 1700);
+    }
+    #[test]
+    fn lines_are_no_longer_than_asked() {
+        assert_eq!(wrapped("one two  three", 7), ["one two", "three"]);
+        assert_eq!(wrapped("a sesquipedalian b", 6), ["a", "sesqui", "pedali", "an b"]);
+        assert_eq!(wrapped("a 叶叶叶叶 b", 6), ["a", "叶叶叶", "叶 b"]);
+        assert_eq!(wrapped("ab", 0), ["a", "b"]);
+        assert!(wrapped("  ", 7).is_empty());
     }
 }

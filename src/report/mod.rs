@@ -8,11 +8,14 @@ pub mod history;
 pub mod json;
 pub mod line;
 pub mod map;
+pub mod margins;
 pub mod npz;
 pub mod number;
 pub mod precision;
+pub mod prefix;
 pub mod summary;
 pub mod svg;
+pub mod symbols;
 pub mod table;
 pub mod ticks;
 

@@ -1,6 +1,8 @@
 //! Numbers in readable form: six significant digits, no trailing zeros, and
 //! powers of ten only where the plain form would be long.
 
+use super::prefix::SiScale;
+
 /// A number in at most six significant digits.
 ///
 /// ```
@@ -52,6 +54,15 @@ pub fn time(seconds: f64) -> String {
     format!("{} {unit}", short(seconds * factor))
 }
 
+/// A number in at most so many significant digits, in its unit with the prefix that
+/// suits it; in letters of ASCII.
+#[must_use]
+pub fn with_unit(x: f64, digits: usize, unit: &str) -> String {
+    let scale = SiScale::before(unit, x);
+    let shown = short(rounded(x / scale.factor, digits));
+    format!("{shown} {}{unit}", scale.in_ascii()).trim_end().to_string()
+}
+
 /// "1 step", "2 steps", "1,000,000 steps".
 #[must_use]
 pub fn count(n: u64, noun: &str) -> String {
@@ -96,6 +107,21 @@ mod tests {
             (f64::NAN, "not a number"),
         ] {
             assert_eq!(short(x), text);
+        }
+    }
+
+    #[test]
+    fn units_take_the_prefix_that_suits() {
+        for (x, digits, unit, text) in [
+            (3_795.024_727, 6, "N", "3.79502 kN"),
+            (-1e6, 6, "N", "-1 MN"),
+            (411.933_517, 4, "rad/s", "411.9 rad/s"),
+            (4.351_543e-8, 6, "rad", "4.35154e-8 rad"),
+            (1e-4, 6, "m", "100 um"),
+            (0.05, 6, "", "0.05"),
+            (0.0, 6, "N", "0 N"),
+        ] {
+            assert_eq!(with_unit(x, digits, unit), text);
         }
     }
 

@@ -1,11 +1,13 @@
-//! Many runs of one scene: the interaction map, speed against error, and the
-//! paper's figures.
+//! Many runs of one scene: the interaction map, speed against error, the margins to
+//! every limit, and the paper's figures.
 
 mod adaptive;
 mod axis;
+mod bisection;
 mod cells;
 pub mod figures;
 pub mod map;
+pub mod margins;
 pub mod overlay;
 pub mod part;
 pub mod precision;

@@ -2,9 +2,9 @@
 //! pulse that makes any blade touch.
 
 use super::MapPlan;
+use super::margins::grazing_pulse;
 use crate::model::Machine;
-use crate::motion::Motion;
-use crate::scene::{ModelSize, Scene};
+use crate::scene::Scene;
 
 /// Key of the rotor speed.
 pub const SPEED: &str = "operation.speed_rad_s";
@@ -83,43 +83,4 @@ impl<'a> AlongOther<'a> {
         });
         Curve { name, points: points.collect() }
     }
-}
-
-/// The smallest pulse force of the scene's duration that makes a blade touch,
-/// up to `most` \[N\], by bisection on the event solver with rigid blades.
-#[must_use]
-pub fn grazing_pulse(scene: &Scene, most: f64) -> Option<f64> {
-    let touches = |force: f64| {
-        let mut scene = scene.as_reference();
-        scene.solver.model = ModelSize::Rigid;
-        scene.operation.pulse_n = force;
-        let Ok(scene) = scene.checked() else { return false };
-        let mut motion = Motion::new(&scene);
-        // A free casing has its largest displacement within its first period.
-        let period = std::f64::consts::TAU / motion.machine().omega_c;
-        let until = (scene.operation.pulse_s + period).min(scene.solver.end_s);
-        motion.advance(until).is_err() || motion.contacts().impact_count > 0
-    };
-    if most <= 0.0 || !touches(most) {
-        return None;
-    }
-    Some(bisect(0.0, most, 1e-12, touches))
-}
-
-/// The least value that is enough, between one that is not and one that is, to
-/// this part of itself or to the last bit.
-pub(super) fn bisect(
-    mut less: f64,
-    mut enough: f64,
-    part: f64,
-    mut is_enough: impl FnMut(f64) -> bool,
-) -> f64 {
-    while enough - less > part * enough {
-        let middle = 0.5 * (less + enough);
-        if middle <= less || middle >= enough {
-            break;
-        }
-        if is_enough(middle) { enough = middle } else { less = middle }
-    }
-    enough
 }

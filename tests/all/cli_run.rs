@@ -166,6 +166,20 @@ fn reports_say_where_they_come_from() {
         &["map", "slip", "--speed", "430", "--adaptive", "--end", "1e-3", "--json"],
         &["map", "--set", "title=mine", "--set", "view.charts=map,gaps", "--end", "1e-3", "--json"],
         &["precision", "--end", "1e-3", "--repeat", "1", "--finest", "1e-6", "--json"],
+        &["margins", "slip", "--end", "1e-2", "--json"],
+        &[
+            "margins",
+            "--no-search",
+            "--tolerance",
+            "clearance=5",
+            "--tolerance",
+            "casing.damping_ratio=1",
+            "--target",
+            "omega_lock=350",
+            "--by",
+            "casing.damping_ratio",
+            "--json",
+        ],
     ] {
         let report = json(arguments);
         let program = &report["program"];
@@ -182,7 +196,7 @@ fn reports_say_where_they_come_from() {
 fn timeless(mut report: serde_json::Value) -> serde_json::Value {
     fn clear(value: &mut serde_json::Value) {
         if let Some(object) = value.as_object_mut() {
-            for name in ["wall_s", "ns_per_step"] {
+            for name in ["wall_s", "search_wall_s", "ns_per_step"] {
                 object.remove(name);
             }
             object.values_mut().for_each(clear);

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 
 use rubscope::motion::{Verdict, run_to_verdict, to_the_end};
 use rubscope::scene::{ContactLaw, ModelSize, Scene, SolverKind};
-use rubscope::study::overlay::grazing_pulse;
+use rubscope::study::margins::grazing_pulse;
 use rubscope::study::{Axis, Map, MapPlan, Progress, Shard};
 
 /// The paper's machine with rigid blades, cell by cell, without sensitivity.

@@ -1,5 +1,6 @@
 //! A figure as SVG: title and conditions, panels in rows, and a caption.
 
+mod margins;
 mod panel;
 mod paper;
 mod scale;
@@ -10,7 +11,9 @@ use plotters::prelude::*;
 
 use super::Provenance;
 use crate::study::figures::Figure;
-use paper::{Drawn, FINE, TEXT, wrapped, write_at};
+use paper::{Drawn, FINE, TEXT, UNDERSCORE, wrapped, write_at};
+
+pub use margins::write_margins;
 
 /// Width of a figure with one panel in a row, and of each panel more \[px\].
 const WIDTH: u32 = 960;
@@ -74,13 +77,17 @@ fn draw(figure: &Figure, description: &str, text: &mut String) -> Drawn<()> {
     }
     root.present()?;
     drop((panels, below, root));
-    // The size shown, and where the picture comes from before anything drawn.
+    finish(text, [width, height], description);
+    Ok(())
+}
+
+/// The size shown, subscripts, and where the picture comes from before anything drawn.
+fn finish(text: &mut String, [width, height]: [u32; 2], description: &str) {
     let fine = format!("width=\"{}\" height=\"{}\"", FINE * width, FINE * height);
     *text = text.replacen(&fine, &format!("width=\"{width}\" height=\"{height}\""), 1);
-    *text = with_subscripts(text);
+    *text = with_subscripts(text).replace(UNDERSCORE, "_");
     let start = text.find('>').map_or(0, |end| end + 1);
     text.insert_str(start, &format!("\n{}", description.trim_end()));
-    Ok(())
 }
 
 /// Lowers what follows an underscore in the text of a picture: `u_c`, `n_d`. The

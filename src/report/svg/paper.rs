@@ -2,6 +2,7 @@
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use crate::motion::Verdict;
 use crate::scene::keys::is_plain;
@@ -39,10 +40,29 @@ pub fn font(size: i32) -> (&'static str, i32) {
     ("sans-serif", px(size))
 }
 
-pub fn write_at(area: &Area, text: &str, (x, y): (i32, i32), size: i32) -> Drawn<()> {
+pub fn write_at(area: &Area, text: &str, at: (i32, i32), size: i32) -> Drawn<()> {
+    write_from(area, text, at, size, HPos::Left)
+}
+
+/// Text with its left end, its middle or its right end there.
+pub fn write_from(area: &Area, text: &str, (x, y): (i32, i32), size: i32, end: HPos) -> Drawn<()> {
     // Text of a scene is plain, that of a caller of the library need not be.
     let text: String = text.chars().filter(|c| is_plain(*c)).collect();
-    Ok(area.draw_text(&text, &font(size).into_text_style(area), (px(x), px(y)))?)
+    let style = font(size).into_text_style(area).pos(Pos::new(end, VPos::Top));
+    Ok(area.draw_text(&text, &style, (px(x), px(y)))?)
+}
+
+/// Stands for an underscore that is one, in a name as it is typed.
+pub const UNDERSCORE: char = '\u{e000}';
+
+/// Text whose underscores are no subscripts.
+pub fn typed(text: &str) -> String {
+    text.replace('_', UNDERSCORE.encode_utf8(&mut [0; 4]))
+}
+
+/// How many letters of a size fit into a width.
+pub fn letters_in(width: u32, size: i32) -> usize {
+    (f64::from(width) / (LETTER * f64::from(size))) as usize
 }
 
 /// About how wide a text of the usual size is \[px\].

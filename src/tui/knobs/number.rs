@@ -2,7 +2,7 @@
 //! SI prefixes, no trailing zeros.
 
 use crate::report::number::trimmed;
-use crate::tui::axis::SiScale;
+use crate::report::prefix::SiScale;
 
 /// Mantissas of fine turns, two digits; coarse turns use 1, 2 and 5.
 pub(super) const FINE: &[f64] = &[
@@ -63,8 +63,7 @@ pub(super) fn prefixed(text: &str) -> Option<f64> {
 /// A number in readable form: up to seven digits, a prefix for units that take
 /// one, no trailing zeros.
 pub fn number(x: f64, unit: &str) -> String {
-    let takes_prefix = matches!(unit, "m" | "s" | "N" | "N/m" | "m/s" | "N m/rad");
-    let scale = if takes_prefix { SiScale::of(x) } else { SiScale::plain() };
+    let scale = SiScale::before(unit, x);
     let shown = x / scale.factor;
     let text = if shown != 0.0 && !(1e-4..1e7).contains(&shown.abs()) {
         format!("{shown:e}")

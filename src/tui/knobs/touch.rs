@@ -39,7 +39,7 @@ pub fn touching_pulse(scene: &Scene, machine: &Machine) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::overlay::grazing_pulse;
+    use crate::study::margins::grazing_pulse;
 
     #[test]
     fn it_is_the_least_pulse_that_makes_contact_but_for_the_angle_between_blades() {

@@ -3,6 +3,7 @@
 
 use std::collections::BTreeSet;
 
+use rubscope::study::margins::CLEARANCE;
 use serde_json::Value;
 
 use super::{Document, read};
@@ -15,8 +16,10 @@ fn names(fields: &[&str]) -> BTreeSet<String> {
 /// The dotted paths of all values; `[]` is each entry of an array.
 fn paths(value: &Value, path: &str, found: &mut BTreeSet<String>) {
     match value {
-        // The scene has the keys of a scene file.
-        Value::Object(_) if path == "scene" => _ = found.insert(path.to_string()),
+        // The scene has the keys of a scene file, and so have sensitivities.
+        Value::Object(_) if path == "scene" || path.ends_with(".sensitivities") => {
+            _ = found.insert(path.to_string())
+        }
         Value::Object(map) => {
             for (name, inner) in map {
                 let dot = if path.is_empty() { "" } else { "." };
@@ -70,6 +73,13 @@ fn every_field_of_the_reports_is_in_the_documents() {
         (
             "| field of `rubscope.precision/1` | what it is |",
             vec!["precision grazing --finest 1e-6 --repeat 1 --json"],
+        ),
+        (
+            "| field of `rubscope.margins/1` | what it is |",
+            vec![
+                "margins --no-search --nd 11 --json",
+                "margins --end 0.02 --json --tolerance clearance=5 --target omega_c=300 --by casing.modal_mass_kg",
+            ],
         ),
         (
             "| field of `rubscope.hbm/1` | what it is |",
@@ -127,6 +137,13 @@ fn every_column_of_the_files_is_in_the_documents() {
     let header = "| column of a map | what it is |";
     let told_map = told(&document, header);
     assert_eq!(told_map, &(&map - &axes) | &names(&["the keys of the two axes"]), "{header}");
+    let margins = columns_of("margins --no-search", "a.csv");
+    let paths: BTreeSet<String> =
+        margins.iter().filter(|name| name.contains('.') || *name == CLEARANCE).cloned().collect();
+    let header = "| column of the margins | what it is |";
+    let told_margins = told(&document, header);
+    let every = names(&["the path of every parameter"]);
+    assert_eq!(told_margins, &(&margins - &paths) | &every, "{header}");
     for (what, command) in [
         ("`hbm`", "hbm"),
         ("`hbm --branches`", "hbm --branches"),

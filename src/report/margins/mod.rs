@@ -1,0 +1,69 @@
+//! The margins of a scene as a table of every number (CSV), and as aligned text for
+//! people: a row for each limit (`rows`), then what more was asked for (`more`).
+
+mod more;
+mod rows;
+pub mod words;
+
+use std::io::{Result, Write};
+
+use serde_json::json;
+
+use super::line::wrapped;
+use super::table::{Table, TableCell};
+use crate::study::margins::{Limit, Margins, PARAMETERS};
+
+/// Widest line of the text; a command to copy stays in one line.
+pub const WIDTH: usize = 100;
+
+/// Every limit with its sensitivities, one row a limit.
+#[must_use]
+pub fn table(margins: &Margins) -> Table {
+    let own = ["name", "quantity", "contact", "value", "present", "margin"];
+    let parameters = PARAMETERS.iter().map(|parameter| parameter.path);
+    let mut table = Table::new(own.into_iter().chain(parameters));
+    for limit in &margins.limits {
+        let contact = limit.contact.map(|law| law.to_string());
+        let own = [
+            limit.name.to_string().into(),
+            // The same word as in JSON.
+            json!(limit.quantity).as_str().map_or(TableCell::Empty, TableCell::from),
+            contact.map_or(TableCell::Empty, TableCell::from),
+            limit.value.into(),
+            limit.present.into(),
+            limit.margin.into(),
+        ];
+        let by = |path| TableCell::from(limit.sensitivities.by(path));
+        let all = own.into_iter().chain(PARAMETERS.iter().map(|parameter| by(parameter.path)));
+        table.push(all.collect());
+    }
+    table
+}
+
+/// Writes the limits for people.
+///
+/// # Errors
+/// An error of the writer.
+pub fn write(margins: &Margins, out: &mut dyn Write) -> Result<()> {
+    tell(&margins.scene.title, out)?;
+    tell(&words::conditions(margins), out)?;
+    rows::write(margins, out)?;
+    for limit in margins.limits.iter().filter(|limit| has_bands(limit)) {
+        writeln!(out)?;
+        more::bands(limit, out)?;
+    }
+    more::spread(margins, out)?;
+    more::target(margins, out)?;
+    writeln!(out)?;
+    tell(&words::cost(margins), out)
+}
+
+/// Whether something is known of where pulses last.
+fn has_bands(limit: &Limit) -> bool {
+    limit.value.is_some() && limit.contact.is_some()
+}
+
+/// Writes a text in lines that are not too wide.
+fn tell(text: &str, out: &mut dyn Write) -> Result<()> {
+    wrapped(text, WIDTH).iter().try_for_each(|line| writeln!(out, "{line}"))
+}

@@ -1,0 +1,225 @@
+//! What text and picture say of margins in the same words.
+
+use crate::report::CommandLine;
+use crate::report::number::{count, grouped, rounded, short, time, with_unit};
+use crate::report::prefix::SiScale;
+use crate::scene::{ContactLaw, Scene};
+use crate::study::margins::{Found, Limit, LimitName, Margins, Quantity, parameter};
+
+/// A margin from which on it is told as a factor.
+const FACTORS: f64 = 9.0;
+/// Parameters that are told of a limit.
+pub const TOLD: usize = 3;
+
+/// The value of a limit with its unit, in so many digits.
+#[must_use]
+pub fn value(x: f64, digits: usize, quantity: Quantity) -> String {
+    with_unit(x, digits, quantity.unit())
+}
+
+/// How far beyond a limit the scene is: in per cent, and as a factor where it is far
+/// beyond.
+#[must_use]
+pub fn margin(part: f64) -> String {
+    if part >= FACTORS {
+        return format!("{} times", short(rounded(1.0 + part, 4)));
+    }
+    let percent = 100.0 * part;
+    if percent.abs() < 99.95 { format!("{percent:+.1} %") } else { format!("{percent:+.0} %") }
+}
+
+/// A change in per cent, of one per cent of a parameter.
+#[must_use]
+pub fn change(by: f64) -> String {
+    if (0.095..99.995).contains(&by.abs()) {
+        return format!("{by:+.2} %");
+    }
+    let digits = if by.abs() < 1.0 { 2 } else { 4 };
+    let sign = if by < 0.0 { "" } else { "+" };
+    format!("{sign}{} %", short(rounded(by, digits)))
+}
+
+/// Which way a load of the lock acts, and on which side of another limit the scene is.
+#[must_use]
+pub fn side(limit: &Limit) -> String {
+    match (limit.quantity, limit.value) {
+        (Quantity::Push, Some(push)) if push < 0.0 => "pulls".to_string(),
+        (Quantity::Push, Some(_)) => "pushes".to_string(),
+        _ => limit.side().map_or_else(String::new, |side| side.to_string()),
+    }
+}
+
+/// Speed, pulse, law and solver of the scene.
+#[must_use]
+pub fn conditions(margins: &Margins) -> String {
+    let (operation, solver) = (&margins.scene.operation, &margins.scene.solver);
+    format!(
+        "{} rad/s, pulse of {} for {}, {}; {} law, {} solver, {} model.",
+        short(operation.speed_rad_s),
+        value(operation.pulse_n, 6, Quantity::Pulse),
+        time(operation.pulse_s),
+        count(u64::from(operation.nodal_diameters), "nodal diameter"),
+        solver.contact,
+        solver.kind,
+        solver.model,
+    )
+}
+
+/// How well parameters are known, and what that was tried with.
+#[must_use]
+pub fn tolerances(margins: &Margins) -> String {
+    let known = margins.tolerances.iter();
+    let known = known.map(|one| format!("{} within {} %", one.path, short(one.percent)));
+    let known: Vec<String> = known.collect();
+    let sampled = margins.limits.iter().find_map(|limit| limit.spread?.sampled);
+    let tried = sampled.map_or_else(String::new, |sampled| {
+        let samples = count(sampled.samples as u64, "sample");
+        format!(" ({samples}, seed {})", sampled.seed)
+    });
+    format!("Spread with {}{tried}:", known.join(", "))
+}
+
+/// Heads of what `spread` gives, after the name of the limit.
+pub const SPREAD: [&str; 5] = ["sd, linear", "worst, linear", "sd, sampled", "95 % from", "to"];
+
+/// The spread of a limit, in a unit with its prefix: by the first derivatives the
+/// standard deviation and the worst case, by samples the standard deviation and the
+/// middle 95 %; a dash where there is none.
+#[must_use]
+pub fn spread(limit: &Limit) -> Option<(String, [String; 5])> {
+    let (value, spread) = (limit.value?, limit.spread?);
+    let unit = limit.quantity.unit();
+    let scale = SiScale::before(unit, value);
+    let told = |x: Option<f64>, digits| {
+        x.map_or_else(|| "-".to_string(), |x| short(rounded(x / scale.factor, digits)))
+    };
+    let sampled = spread.sampled;
+    let numbers = [
+        told(spread.linear_sd, 4),
+        told(spread.linear_worst, 4),
+        told(sampled.map(|sampled| without_round_off(sampled.sd, sampled.mean)), 4),
+        told(sampled.map(|sampled| sampled.low), 5),
+        told(sampled.map(|sampled| sampled.high), 5),
+    ];
+    Some((format!("{}{unit}", scale.in_ascii()), numbers))
+}
+
+/// A standard deviation; zero where it is only round-off of the mean.
+fn without_round_off(sd: f64, mean: f64) -> f64 {
+    if sd > ROUND_OFF * mean.abs() { sd } else { 0.0 }
+}
+
+/// Part of a mean that summing up samples may be wrong by: thousands of units in the
+/// last place.
+const ROUND_OFF: f64 = 1e-12;
+
+/// What is to be said of samples besides their numbers, of all limits of which it is
+/// the same.
+#[must_use]
+pub fn sampling(margins: &Margins) -> Vec<String> {
+    let mut said: Vec<(String, String)> = Vec::new();
+    for limit in &margins.limits {
+        let Some(spread) = limit.spread else { continue };
+        let what = match spread.sampled {
+            None if limit.contact.is_some() => "not sampled: each sample is a search".to_string(),
+            None => "no sample has one".to_string(),
+            Some(sampled) if sampled.missing > 0 => {
+                let all = count(sampled.samples as u64, "sample");
+                format!("{} of {all} have none", grouped(sampled.missing as u64))
+            }
+            Some(_) => continue,
+        };
+        match said.iter_mut().find(|(_, known)| *known == what) {
+            Some((names, _)) => names.push_str(&format!(", {}", limit.name)),
+            None => said.push((limit.name.to_string(), what)),
+        }
+    }
+    said.iter().map(|(names, what)| format!("{names}: {what}.")).collect()
+}
+
+/// The parameter that puts a limit where it is wanted, in a sentence.
+#[must_use]
+pub fn target(found: &Found, margins: &Margins) -> String {
+    let Found { name, by, .. } = *found;
+    let (quantity, unit) = (name.quantity(), parameter(by).map_or("", |by| by.unit()));
+    let unit = if unit == "-" { "" } else { unit };
+    let wanted = value(found.wanted, 6, quantity);
+    let parameter = |x: f64| format!("{} {unit}", short(x)).trim_end().to_string();
+    let Some(to) = found.to else {
+        let [least, most] = found.tried.map(parameter);
+        let met = match found.met {
+            Some([least, most]) => {
+                format!(
+                    "it goes from {} to {}",
+                    value(least, 6, quantity),
+                    value(most, 6, quantity)
+                )
+            }
+            None => "there is no such limit with any of them".to_string(),
+        };
+        return format!("No value of {by} from {least} to {most} puts {name} at {wanted}: {met}.");
+    };
+    let before = margins.limit(name).and_then(|limit| limit.value);
+    let gives = match before {
+        Some(before) => format!("{} gives {}", parameter(found.from), value(before, 6, quantity)),
+        None => format!("the scene has {}", parameter(found.from)),
+    };
+    format!("{by} = {} puts {name} at {wanted} ({gives}).", parameter(to))
+}
+
+/// The command that shows the limit with the parameter found, by another way than the
+/// one that found it where there is one; none where no parameter was found.
+#[must_use]
+pub fn check(found: &Found, scene: &Scene) -> Option<CommandLine> {
+    let (to, reached) = found.to.zip(found.reached)?;
+    let mut changed = parameter(found.by)?.set(scene, to).ok()?;
+    let law = found.name.law(scene.solver.contact);
+    if found.name.quantity() == Quantity::Pulse {
+        changed.operation.pulse_n = reached * BEYOND;
+        if let Some(law) = law {
+            changed.solver.contact = law;
+        }
+        // As the limit was sought, where the event solver knows the scene.
+        let by_events = law != Some(ContactLaw::Bilateral);
+        if let Some(checked) = changed.clone().checked().ok().filter(|_| by_events)
+            && let Ok(reference) = checked.as_reference().checked()
+        {
+            changed = reference.into_scene();
+        }
+        return Some(CommandLine::new("run", &changed));
+    }
+    let hbm = CommandLine::new("hbm", &changed);
+    let speed = changed.operation.speed_rad_s;
+    Some(match found.name {
+        LimitName::OmegaC | LimitName::OmegaLock | LimitName::Coincidence => hbm,
+        LimitName::OmegaAdhesive => hbm.flag("--json", true),
+        LimitName::Torque | LimitName::Power => {
+            hbm.option("--speed", speed).flag("--damped", true).flag("--json", true)
+        }
+        LimitName::CoincidenceDifference => hbm.flag("--campbell", true),
+        LimitName::LockFold => hbm
+            .option("--speed", format!("0:{reached}:2"))
+            .flag("--damped", true)
+            .flag("--fold", true),
+        LimitName::LockEnergy => CommandLine::new("margins", &changed).flag("--no-search", true),
+        _ => hbm.option("--speed", speed).flag("--damped", true),
+    })
+}
+
+/// How far beyond the smallest pulse a run is shown: at the edge itself round-off
+/// decides.
+const BEYOND: f64 = 1.001;
+
+/// What the answer took.
+#[must_use]
+pub fn cost(margins: &Margins) -> String {
+    let cost = &margins.cost;
+    let wall = |seconds: f64| time(rounded(seconds, 2));
+    let search = match cost.search_wall_s {
+        Some(seconds) => {
+            format!("lasting pulses {}, {}", wall(seconds), count(cost.search_runs, "run"))
+        }
+        None => "lasting pulses not searched".to_string(),
+    };
+    format!("Cost: closed forms and the touching pulse {}; {search}.", wall(cost.wall_s))
+}

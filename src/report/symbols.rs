@@ -1,0 +1,56 @@
+//! The symbols of parameters, as the paper and the documents write them: taken from
+//! what the table of keys says of each.
+
+use crate::scene::keys;
+use crate::study::margins::CLEARANCE;
+
+/// What a key says at its end where it is a value of the start.
+const AT_START: &str = " at t = 0";
+
+/// The symbol of a parameter, in letters of ASCII: `zeta_c`, `Omega`, `u_c(0)`. The
+/// path itself of what is no key.
+#[must_use]
+pub fn symbol(path: &str) -> String {
+    match path {
+        CLEARANCE => return "g0".to_string(),
+        // These are told in words.
+        "operation.pulse_n" => return "F".to_string(),
+        "operation.speed_ramp_rad_s2" => return "ramp".to_string(),
+        "solver.step_s" => return "h".to_string(),
+        _ => {}
+    }
+    let Ok(key) = keys::find(path) else { return path.to_string() };
+    if let Some(start) = key.what.strip_suffix(AT_START) {
+        return match start.strip_prefix("rate of ") {
+            Some(moving) => format!("{moving}'(0)"),
+            None => format!("{start}(0)"),
+        };
+    }
+    key.what.rsplit(' ').next().unwrap_or(path).to_string()
+}
+
+/// Symbols in Greek letters and with the signs of print: `Ω_c`, `ζ_c`, `−0.5`.
+#[must_use]
+pub fn in_print(text: &str) -> String {
+    let text = text.replace("Omega", "Ω").replace("zeta", "ζ").replace("g0", "g_0");
+    text.replace('-', "−")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::margins::PARAMETERS;
+
+    #[test]
+    fn every_parameter_has_its_own_symbol() {
+        let parameters = PARAMETERS.iter().filter(|one| !one.path.starts_with("initial."));
+        let found: Vec<String> = parameters.map(|one| symbol(one.path)).collect();
+        let known = "g0 l_b m_b k_b k_bb zeta_bd R_c m_c k_c zeta_c Omega ramp F t_p";
+        assert_eq!(found.join(" "), known);
+        assert_eq!(symbol("initial.u_c_m"), "u_c(0)");
+        assert_eq!(symbol("initial.v_s_m_s"), "u_s'(0)");
+        assert_eq!(symbol("bladed_disk.blades"), "N");
+        assert_eq!(symbol("operation.nodal_diameters"), "n_d");
+        assert_eq!(in_print("Omega -0.5 zeta_c g0"), "Ω −0.5 ζ_c g_0");
+    }
+}

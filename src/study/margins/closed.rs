@@ -1,0 +1,120 @@
+//! The limits in closed form, with their derivatives by dual numbers through the same
+//! functions.
+
+use num_dual::Dual64;
+
+use super::limit::{Limit, LimitName, Sensitivities};
+use super::parameters::{PARAMETERS, Parameters, sensitivity};
+use crate::harmonic::{lock_fold_speed, lock_loads};
+use crate::model::{Machine, Number};
+use crate::scene::CheckedScene;
+
+/// How far beyond the speeds of interest the end of the branch of a lock is told, as a
+/// factor: stiff blades give way at speeds that no rotor has.
+const FAR: f64 = 10.0;
+
+/// The closed forms, in the order in which they are shown.
+pub(super) const CLOSED: [LimitName; 12] = [
+    LimitName::OmegaC,
+    LimitName::OmegaAdhesive,
+    LimitName::OmegaLock,
+    LimitName::LockFold,
+    LimitName::Coincidence,
+    LimitName::CoincidenceDifference,
+    LimitName::PushA,
+    LimitName::PushB,
+    LimitName::Torque,
+    LimitName::Power,
+    LimitName::BladeAngle,
+    LimitName::LockEnergy,
+];
+
+/// Every closed form of these parameters, in the order of `CLOSED`; none where the
+/// machine has no such limit.
+pub(super) fn values<T: Number>(parameters: &Parameters<T>) -> [Option<T>; CLOSED.len()] {
+    let machine = parameters.machine();
+    let speed = parameters.operation.speed_rad_s;
+    let coincidences = machine.coincidence_speeds();
+    let loads = lock_loads(&machine, speed);
+    let of = |get: fn(&crate::harmonic::LockLoads<T>) -> T| loads.as_ref().map(get);
+    [
+        machine.critical_speed(),
+        machine.adhesive_speed(),
+        machine.lock_speed(),
+        fold(&machine, speed),
+        coincidences.last().copied(),
+        coincidences.first().copied(),
+        of(|loads| loads.pushes_n[0]),
+        of(|loads| loads.pushes_n[1]),
+        of(|loads| loads.torque_nm),
+        of(|loads| loads.power_w),
+        of(|loads| loads.largest_alpha_rad),
+        of(|loads| loads.energy_j),
+    ]
+}
+
+/// The end of the branch of the lock, where a rotor may come near it.
+fn fold<T: Number>(machine: &Machine<T>, speed: T) -> Option<T> {
+    let far = machine.lock_speed()?.re().max(speed.re().abs()) * FAR;
+    lock_fold_speed(machine).filter(|fold| fold.re() < far)
+}
+
+/// The limits of a scene in closed form.
+pub(super) fn limits(scene: &CheckedScene) -> Vec<Limit> {
+    let parameters = Parameters::<f64>::of(scene);
+    let found = values(&parameters);
+    let derived: Vec<[Option<Dual64>; CLOSED.len()]> =
+        PARAMETERS.iter().map(|parameter| values(&parameter.seeded(scene))).collect();
+    let reason = why_none(scene);
+    let limits = CLOSED.into_iter().enumerate().map(|(place, name)| {
+        let value = found[place];
+        let present = name.quantity().path().map(|_| scene.operation.speed_rad_s.abs());
+        let mut limit = Limit::new(name, value, present);
+        if let Some(value) = value {
+            let by = PARAMETERS.iter().zip(&derived).map(|(parameter, derived)| {
+                let slope = derived[place].map_or(f64::NAN, |dual| dual.eps);
+                (parameter.path, sensitivity(value, slope, parameter.of(scene)))
+            });
+            limit.sensitivities = Sensitivities(by.collect());
+            limit.note = note(scene, name);
+        } else {
+            limit.note = Some(reason.clone());
+        }
+        limit
+    });
+    limits.filter(|limit| limit.name != LimitName::LockFold || limit.value.is_some()).collect()
+}
+
+/// What a closed form leaves out, where that matters.
+fn note(scene: &CheckedScene, name: LimitName) -> Option<String> {
+    let machine = scene.machine();
+    let lock = machine.lock_speed()?;
+    let of_speeds = [LimitName::OmegaLock, LimitName::OmegaAdhesive].contains(&name);
+    let of_lock = of_speeds || name.quantity().path().is_none();
+    if of_lock && scene.operation.speed_ramp_rad_s2 != 0.0 {
+        return Some("at a constant speed; a ramp adds a force along the blades".to_string());
+    }
+    // Blades that bend leave a push where rigid ones have none.
+    let left = lock_loads(&machine, lock).is_none_or(|loads| {
+        let [a, b] = loads.pushes_n.map(f64::abs);
+        a.min(b) > BENDING * (a + b)
+    });
+    (of_speeds && left && machine.casing_damping_ratio > 0.0)
+        .then(|| "for rigid blades; these bend so much that it is another".to_string())
+}
+
+/// Part of the pushes that soft blades may leave at the lock speed of rigid ones.
+const BENDING: f64 = 1e-3;
+
+/// Why a machine has no lock, or no critical speed.
+fn why_none(scene: &CheckedScene) -> String {
+    let machine = scene.machine();
+    let (polygon, diameters) = (&machine.polygon, scene.operation.nodal_diameters);
+    if diameters == 0 {
+        "no wave turns without nodal diameters".to_string()
+    } else if !polygon.has_corners() {
+        format!("{diameters} nodal diameters make no corner of blades")
+    } else {
+        "the blades are so soft that no lock is left at this speed".to_string()
+    }
+}

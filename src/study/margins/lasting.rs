@@ -1,0 +1,217 @@
+//! The smallest pulse after which contact lasts without a break, under one law: runs over
+//! pulses at equal factors, and bisection where lasting begins and ends.
+//!
+//! Lasting pulses come in bands. Where every larger pulse that was tried lasts too,
+//! that last band is the *zone*, and the limit is its beginning; bands below it are
+//! *islands*. Without a zone the limit is the beginning of the first island. A band
+//! thinner than the factor between two pulses is missed.
+
+use rayon::prelude::*;
+use serde::Serialize;
+
+use super::edge::{Edges, lasts};
+use super::limit::{Limit, LimitName, Sensitivities};
+use super::parameters::{CLEARANCE, PARAMETERS, Parameter, is_length, parameter};
+use super::touching;
+use crate::motion::{GoOn, Verdict};
+use crate::scene::{CheckedScene, ContactLaw};
+use crate::tolerances::{LASTING_EDGE, LASTING_PART, LASTING_ZONE};
+
+/// Pulses tried in each decade.
+pub const PULSES_PER_DECADE: u32 = 32;
+/// Decades above the touching pulse that are searched; further where the pulse of the
+/// scene is.
+const DECADES: f64 = 3.5;
+/// Most decades, where the scene has a pulse far from touching.
+const MOST_DECADES: f64 = 6.0;
+
+/// Pulses in a row that last.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Band {
+    /// The smallest \[N\].
+    pub from_n: f64,
+    /// The largest; none for the zone, up to the largest that was tried \[N\].
+    pub to_n: Option<f64>,
+    /// How they last.
+    pub verdicts: Vec<Verdict>,
+    /// Whether a tiny change makes another verdict in its middle.
+    pub sensitive: bool,
+}
+
+impl Band {
+    /// Whether a pulse is in it.
+    #[must_use]
+    pub fn holds(&self, pulse: f64) -> bool {
+        let size = pulse.abs();
+        pulse * self.from_n > 0.0
+            && size >= self.from_n.abs()
+            && self.to_n.is_none_or(|to| size <= to.abs())
+    }
+}
+
+/// The name of the limit under a law, in a scene of some law.
+fn name(law: ContactLaw, own: ContactLaw) -> LimitName {
+    match law {
+        _ if law == own => LimitName::LastingPulse,
+        ContactLaw::Unilateral => LimitName::LastingPulseUnilateral,
+        ContactLaw::Bilateral => LimitName::LastingPulseBilateral,
+    }
+}
+
+/// The smallest pulse that lasts under a law, as a limit, and the runs it took; none
+/// where `go_on` said no on the way.
+pub fn lasting_pulse(
+    scene: &CheckedScene,
+    law: ContactLaw,
+    go_on: GoOn<'_>,
+) -> Option<(Limit, u64)> {
+    let present = scene.operation.pulse_n;
+    let name = name(law, scene.solver.contact);
+    let none = |note: String| {
+        let mut limit = Limit::new(name, None, Some(present));
+        (limit.contact, limit.note) = (Some(law), Some(note));
+        limit
+    };
+    let edges = match Edges::of(scene, law, go_on) {
+        Ok(edges) => edges,
+        Err(why) => return Some((none(why), 0)),
+    };
+    let Some(pulses) = pulses(scene) else {
+        return Some((none(touching::why_none(scene).to_string()), 0));
+    };
+    let bands = bands(&edges, &pulses)?;
+    let Some(place) = beginning(&bands) else {
+        let times = pulses.last().zip(pulses.first()).map_or(1.0, |(last, first)| last / first);
+        let note = format!(
+            "nothing lasts among {} pulses up to {times:.0} times the touching one",
+            pulses.len()
+        );
+        return Some((none(note), edges.runs()));
+    };
+    let mut limit = Limit::new(name, bands.get(place).map(|band| band.from_n), Some(present));
+    limit.contact = Some(law);
+    let by = sensitivities(&edges, &bands, place)?;
+    limit.sensitivities = Sensitivities(by);
+    limit.note = Some(told(&bands, place));
+    limit.bands = bands;
+    Some((limit, edges.runs()))
+}
+
+/// The band with which the limit begins: the zone, or else the first.
+fn beginning(bands: &[Band]) -> Option<usize> {
+    let zone = bands.iter().rposition(|band| band.to_n.is_none());
+    zone.or((!bands.is_empty()).then_some(0))
+}
+
+/// What the bands are, in words.
+fn told(bands: &[Band], place: usize) -> String {
+    let zone = bands.get(place).is_some_and(|band| band.to_n.is_none());
+    match (zone, bands.len()) {
+        (true, 1) => "every larger pulse that was tried lasts".to_string(),
+        (true, 2) => {
+            "every larger pulse that was tried lasts; smaller ones in one island".to_string()
+        }
+        (true, count) => {
+            format!(
+                "every larger pulse that was tried lasts; smaller ones in {} islands",
+                count - 1
+            )
+        }
+        (false, 1) => "one island; larger pulses do not last".to_string(),
+        (false, count) => format!("the first of {count} islands; between them pulses do not last"),
+    }
+}
+
+/// The pulses that are tried, from just below the one that touches.
+fn pulses(scene: &CheckedScene) -> Option<Vec<f64>> {
+    let present = scene.operation.pulse_n;
+    let touch = touching::limit(scene).value?;
+    let start = touch * (1.0 - LASTING_EDGE);
+    let reach = (1.5 * present / start).log10();
+    let decades = if reach.is_finite() { reach.clamp(DECADES, MOST_DECADES) } else { DECADES };
+    let count = (decades * f64::from(PULSES_PER_DECADE)).ceil();
+    let step = |k: u32| 10_f64.powf(f64::from(k) / f64::from(PULSES_PER_DECADE));
+    Some((0..=count as u32).map(|k| start * step(k)).collect())
+}
+
+/// Where pulses last; the edge at which the limit begins to its last digits, the
+/// others to `LASTING_PART`. None where told to stop.
+fn bands(edges: &Edges<'_>, pulses: &[f64]) -> Option<Vec<Band>> {
+    let mut found: Vec<Band> = Vec::new();
+    let mut before: Option<(f64, bool)> = None;
+    let verdicts: Option<Vec<Verdict>> =
+        pulses.par_iter().map(|pulse| edges.verdict(*pulse, None)).collect();
+    for (&pulse, verdict) in pulses.iter().zip(verdicts?) {
+        let now = lasts(verdict);
+        match (before, now) {
+            (Some((_, true)), true) => {
+                if let Some(band) = found.last_mut()
+                    && !band.verdicts.contains(&verdict)
+                {
+                    band.verdicts.push(verdict);
+                }
+            }
+            (less, true) => {
+                let less = less.map_or(pulse, |(less, _)| less);
+                let from_n = edges.between([less, pulse], LASTING_PART, None)?;
+                let verdicts = vec![verdict];
+                found.push(Band { from_n, to_n: None, verdicts, sensitive: false });
+            }
+            (Some((less, true)), false) => {
+                let to_n = edges.between([pulse, less], LASTING_PART, None)?;
+                if let Some(band) = found.last_mut() {
+                    band.to_n = Some(to_n);
+                }
+            }
+            (_, false) => {}
+        }
+        before = Some((pulse, now));
+    }
+    for band in &mut found {
+        let to = band.to_n.or(pulses.last().copied()).unwrap_or(band.from_n);
+        let middle = (band.from_n * to).sqrt().copysign(to);
+        band.sensitive = edges.is_sensitive(middle)?;
+    }
+    // A few of the largest pulses are no zone, but an island at the end of the search.
+    let (first, largest) = (pulses.len().saturating_sub(LASTING_ZONE), pulses.last());
+    if let Some((band, largest)) = found.last_mut().zip(largest)
+        && band.to_n.is_none()
+        && pulses.get(first).is_none_or(|pulse| !band.holds(*pulse))
+    {
+        band.to_n = Some(*largest);
+    }
+    if let Some(band) = beginning(&found).and_then(|place| found.get_mut(place)) {
+        // The edge is known to a part that the pulse just below it does not last.
+        let less = band.from_n * (1.0 - LASTING_PART);
+        band.from_n = edges.between([less, band.from_n], edges.finest(), None)?;
+    }
+    Some(found)
+}
+
+/// How the edge with which a band begins moves with every parameter.
+fn sensitivities(
+    edges: &Edges<'_>,
+    bands: &[Band],
+    place: usize,
+) -> Option<Vec<(&'static str, Option<f64>)>> {
+    let Some(band) = bands.get(place) else { return Some(Vec::new()) };
+    // The next edge on each side must not be taken for this one.
+    let before = place.checked_sub(1).and_then(|place| bands.get(place)?.to_n);
+    let room = |other: Option<f64>| other.map_or(1.0, |other| (other / band.from_n - 1.0).abs());
+    let most = 0.3 * room(before).min(room(band.to_n));
+    let by = |parameter: &Parameter| {
+        // The lengths matter by their clearance alone, whose sensitivity says theirs.
+        let found = match is_length(parameter.path) {
+            true => None,
+            false => edges.sensitivity(parameter, band.from_n, most)?,
+        };
+        Some((parameter.path, found))
+    };
+    let mut found: Vec<_> = PARAMETERS.par_iter().map(by).collect::<Option<_>>()?;
+    let of_clearance = found.iter().find(|(path, _)| *path == CLEARANCE).and_then(|(_, by)| *by);
+    for (path, by) in found.iter_mut().filter(|(path, _)| is_length(path)) {
+        *by =
+            of_clearance.zip(parameter(path)).map(|(by, length)| by * length.lever(edges.scene()));
+    }
+    Some(found)
+}

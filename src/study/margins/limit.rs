@@ -1,0 +1,283 @@
+//! One limit: what it is, its value, where the scene stands, and what moves it.
+
+use serde::{Deserialize, Serialize};
+use strum::{AsRefStr, Display, EnumIter, EnumString, VariantNames};
+
+use super::lasting::Band;
+use super::parameters::is_length;
+use super::tolerance::Spread;
+use crate::scene::ContactLaw;
+
+/// Which limit.
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    PartialEq,
+    Eq,
+    Deserialize,
+    Serialize,
+    AsRefStr,
+    Display,
+    EnumIter,
+    EnumString,
+    VariantNames,
+)]
+#[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case")]
+pub enum LimitName {
+    /// The critical speed.
+    OmegaC,
+    /// The speed above which a lock holds by pushes alone.
+    OmegaLock,
+    /// The speed down to which the paper's equality algorithm holds one.
+    OmegaAdhesive,
+    /// The dangerous coincidence (31).
+    Coincidence,
+    /// The other coincidence of (30), of the difference of the frequencies.
+    CoincidenceDifference,
+    /// The speed above which very soft blades give way.
+    LockFold,
+    /// The smallest pulse that touches.
+    TouchingPulse,
+    /// The smallest pulse that lasts, under the law of the scene.
+    LastingPulse,
+    /// The smallest pulse that lasts under the unilateral law, where the scene has
+    /// the other.
+    LastingPulseUnilateral,
+    /// The same under the bilateral law.
+    LastingPulseBilateral,
+    /// Push of the group a of the lock.
+    PushA,
+    /// Push of the group b.
+    PushB,
+    /// Torque that holds the lock.
+    Torque,
+    /// Its power.
+    Power,
+    /// Largest angle of a blade in the lock.
+    BladeAngle,
+    /// Energy of the casing wave in the lock.
+    LockEnergy,
+}
+
+/// What a limit is a value of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub enum Quantity {
+    /// Rotor speed.
+    #[serde(rename = "speed_rad_s")]
+    Speed,
+    /// Pulse.
+    #[serde(rename = "pulse_n")]
+    Pulse,
+    /// Force.
+    #[serde(rename = "push_n")]
+    Push,
+    /// Torque.
+    #[serde(rename = "torque_nm")]
+    Torque,
+    /// Power.
+    #[serde(rename = "power_w")]
+    Power,
+    /// Angle.
+    #[serde(rename = "angle_rad")]
+    Angle,
+    /// Energy.
+    #[serde(rename = "energy_j")]
+    Energy,
+}
+
+/// On which side of a limit the scene stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Display)]
+#[strum(serialize_all = "lowercase")]
+pub enum Side {
+    /// The scene has less than the limit.
+    Below,
+    /// It has as much or more.
+    Beyond,
+    /// It has less, but stands in an island of lasting pulses.
+    Inside,
+}
+
+/// One limit of a scene.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Limit {
+    /// Which.
+    pub name: LimitName,
+    /// What it is a value of.
+    pub quantity: Quantity,
+    /// The contact law that it is of, if it depends on one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contact: Option<ContactLaw>,
+    /// Its value in SI units; none where there is no such limit.
+    pub value: Option<f64>,
+    /// The value of the scene that it limits; none for loads of the lock. Speeds are
+    /// magnitudes.
+    pub present: Option<f64>,
+    /// `present/value - 1`: how far beyond the limit the scene is, as a part of it;
+    /// below zero it is not there yet.
+    pub margin: Option<f64>,
+    /// `d ln(value)/d ln(parameter)` of every parameter of the scene.
+    pub sensitivities: Sensitivities,
+    /// Where lasting pulses are, of what was searched.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub bands: Vec<Band>,
+    /// What else is to be said, such as why there is no value.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub note: Option<String>,
+    /// How far it spreads with the tolerances given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spread: Option<Spread>,
+}
+
+/// The sensitivities of one limit, by the path of the parameter; none where there is
+/// no derivative.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Sensitivities(pub Vec<(&'static str, Option<f64>)>);
+
+impl Serialize for Sensitivities {
+    fn serialize<S: serde::Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
+        out.collect_map(self.0.iter().copied())
+    }
+}
+
+impl Sensitivities {
+    /// That by one parameter.
+    #[must_use]
+    pub fn by(&self, path: &str) -> Option<f64> {
+        self.0.iter().find(|(by, _)| *by == path)?.1
+    }
+
+    /// The parameters that move the limit most, up to `count`, most first. The two
+    /// lengths are not among them, but the clearance that they leave: one per cent of
+    /// a radius is many clearances.
+    #[must_use]
+    pub fn strongest(&self, count: usize) -> Vec<(&'static str, f64)> {
+        let own = |path| !is_length(path);
+        let moving = self.0.iter().filter_map(|&(path, by)| Some((path, by?)));
+        let mut moving: Vec<_> =
+            moving.filter(|&(path, by)| own(path) && by.abs() > LEAST).collect();
+        // Equal ones stay in their order, whatever their last digits.
+        moving.sort_by_key(|(_, by)| std::cmp::Reverse((by.abs() / LEAST).round() as u64));
+        moving.truncate(count);
+        moving
+    }
+}
+
+/// A sensitivity below which a parameter does not move a limit: a change of a tenth
+/// in it is less than the last digit shown.
+const LEAST: f64 = 1e-4;
+
+impl Limit {
+    /// A limit of this value, at which the scene has `present`.
+    pub(super) fn new(name: LimitName, value: Option<f64>, present: Option<f64>) -> Self {
+        let value = value.filter(|value| value.is_finite());
+        let margin = present.zip(value).map(|(present, value)| present / value - 1.0);
+        Self {
+            name,
+            quantity: name.quantity(),
+            contact: None,
+            value,
+            present,
+            margin: margin.filter(|margin| margin.is_finite()),
+            sensitivities: Sensitivities::default(),
+            bands: Vec::new(),
+            note: None,
+            spread: None,
+        }
+    }
+
+    /// On which side of it the scene stands.
+    #[must_use]
+    pub fn side(&self) -> Option<Side> {
+        let (margin, present) = self.margin.zip(self.present)?;
+        if self.bands.iter().any(|band| band.holds(present)) && margin < 0.0 {
+            return Some(Side::Inside);
+        }
+        Some(if margin < 0.0 { Side::Below } else { Side::Beyond })
+    }
+}
+
+impl LimitName {
+    /// The law under which it is searched by runs, in a scene of some law; none for
+    /// the other limits.
+    #[must_use]
+    pub fn law(self, own: ContactLaw) -> Option<ContactLaw> {
+        match self {
+            Self::LastingPulse => Some(own),
+            Self::LastingPulseUnilateral => Some(ContactLaw::Unilateral),
+            Self::LastingPulseBilateral => Some(ContactLaw::Bilateral),
+            _ => None,
+        }
+    }
+
+    /// What it is a value of.
+    #[must_use]
+    pub fn quantity(self) -> Quantity {
+        match self {
+            Self::OmegaC
+            | Self::OmegaLock
+            | Self::OmegaAdhesive
+            | Self::Coincidence
+            | Self::CoincidenceDifference
+            | Self::LockFold => Quantity::Speed,
+            Self::TouchingPulse
+            | Self::LastingPulse
+            | Self::LastingPulseUnilateral
+            | Self::LastingPulseBilateral => Quantity::Pulse,
+            Self::PushA | Self::PushB => Quantity::Push,
+            Self::Torque => Quantity::Torque,
+            Self::Power => Quantity::Power,
+            Self::BladeAngle => Quantity::Angle,
+            Self::LockEnergy => Quantity::Energy,
+        }
+    }
+
+    /// What it is, in a few words.
+    #[must_use]
+    pub fn what(self) -> &'static str {
+        match self {
+            Self::OmegaC => "critical speed: above it the wave is pushed outward",
+            Self::OmegaLock => "above it both blades of a lock push",
+            Self::OmegaAdhesive => "above it the bilateral law holds, if one blade pulls",
+            Self::Coincidence => "dangerous coincidence (31), of the sum of frequencies",
+            Self::CoincidenceDifference => "coincidence (30) of their difference",
+            Self::LockFold => "above it soft blades give way, and no lock is left",
+            Self::TouchingPulse => "smallest pulse that touches",
+            Self::LastingPulse => "smallest pulse that lasts",
+            Self::LastingPulseUnilateral => "smallest that lasts, unilateral law",
+            Self::LastingPulseBilateral => "smallest that lasts, bilateral law",
+            Self::PushA => "push of group a in the lock",
+            Self::PushB => "push of group b in the lock",
+            Self::Torque => "torque that holds the lock",
+            Self::Power => "power that the lock takes",
+            Self::BladeAngle => "largest angle of a blade in the lock",
+            Self::LockEnergy => "energy of the locked wave",
+        }
+    }
+}
+
+impl Quantity {
+    /// Its unit.
+    #[must_use]
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Speed => "rad/s",
+            Self::Pulse | Self::Push => "N",
+            Self::Torque => "N m",
+            Self::Power => "W",
+            Self::Angle => "rad",
+            Self::Energy => "J",
+        }
+    }
+
+    /// The key of the scene that it limits.
+    #[must_use]
+    pub fn path(self) -> Option<&'static str> {
+        match self {
+            Self::Speed => Some("operation.speed_rad_s"),
+            Self::Pulse => Some("operation.pulse_n"),
+            _ => None,
+        }
+    }
+}

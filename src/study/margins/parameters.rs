@@ -1,0 +1,197 @@
+//! The parameters of a scene as numbers that may carry a derivative, and how each is
+//! read and changed.
+
+use num_dual::Dual64;
+
+use crate::model::{BladedDisk, Casing, Machine, Number, Operation};
+use crate::motion::FreeFlight;
+use crate::scene::{Key, Scene, SceneError, Value, keys};
+
+/// The one parameter that is no key: the clearance `g0`, changed by the radius.
+pub const CLEARANCE: &str = "clearance";
+
+const RADIUS: &str = "casing.radius_m";
+const LENGTH: &str = "bladed_disk.blade_length_m";
+/// The two lengths whose difference is the clearance.
+pub(super) const LENGTHS: [&str; 2] = [LENGTH, RADIUS];
+
+/// Whether this is the path of one of them.
+pub(super) fn is_length(path: &str) -> bool {
+    LENGTHS.contains(&path)
+}
+
+/// Everything in a scene that is a real number and that a limit may depend on. The
+/// state at t = 0 is not among them: limits of the pulse are those of a start at rest.
+#[derive(Clone, Debug)]
+pub(super) struct Parameters<T> {
+    pub disk: BladedDisk<T>,
+    pub casing: Casing<T>,
+    pub operation: Operation<T>,
+}
+
+/// A parameter of a scene that is a real number.
+#[derive(Clone, Copy)]
+pub struct Parameter {
+    /// Path of its key, or `clearance`.
+    pub path: &'static str,
+    place: fn(&mut Parameters<Dual64>) -> &mut Dual64,
+}
+
+impl std::fmt::Debug for Parameter {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(out, "Parameter({})", self.path)
+    }
+}
+
+macro_rules! at {
+    ($path:expr, $($field:ident).+) => {
+        Parameter { path: $path, place: |all| &mut all.$($field).+ }
+    };
+}
+
+/// Every parameter, in the order of the scene file.
+pub const PARAMETERS: &[Parameter] = &[
+    at!(CLEARANCE, casing.radius_m),
+    at!(LENGTH, disk.blade_length_m),
+    at!("bladed_disk.inertia_kg_m2", disk.inertia_kg_m2),
+    at!("bladed_disk.stiffness_nm_per_rad", disk.stiffness_nm_per_rad),
+    at!("bladed_disk.coupling_nm_per_rad", disk.coupling_nm_per_rad),
+    at!("bladed_disk.damping_ratio", disk.damping_ratio),
+    at!(RADIUS, casing.radius_m),
+    at!("casing.modal_mass_kg", casing.modal_mass_kg),
+    at!("casing.modal_stiffness_n_per_m", casing.modal_stiffness_n_per_m),
+    at!("casing.damping_ratio", casing.damping_ratio),
+    at!("operation.speed_rad_s", operation.speed_rad_s),
+    at!("operation.speed_ramp_rad_s2", operation.speed_ramp_rad_s2),
+    at!("operation.pulse_n", operation.pulse_n),
+    at!("operation.pulse_s", operation.pulse_s),
+];
+
+/// The parameter of this path; none for a key that holds no real number of the
+/// machine or its operation.
+#[must_use]
+pub fn parameter(path: &str) -> Option<&'static Parameter> {
+    PARAMETERS.iter().find(|parameter| parameter.path == path)
+}
+
+impl Parameter {
+    /// The key that it changes.
+    fn key(&self) -> Result<&'static Key, SceneError> {
+        keys::find(if self.path == CLEARANCE { RADIUS } else { self.path })
+    }
+
+    /// Its value in a scene.
+    #[must_use]
+    pub fn of(&self, scene: &Scene) -> f64 {
+        if self.path == CLEARANCE {
+            return scene.casing.radius_m - scene.bladed_disk.blade_length_m;
+        }
+        match self.key().map(|key| (key.get)(scene)) {
+            Ok(Value::Real(value)) => value,
+            _ => f64::NAN,
+        }
+    }
+
+    /// A scene with another value of it, not yet checked as a whole.
+    ///
+    /// # Errors
+    /// A value that its key does not allow.
+    pub fn set(&self, scene: &Scene, value: f64) -> Result<Scene, SceneError> {
+        let mut changed = scene.clone();
+        let of_key =
+            if self.path == CLEARANCE { scene.bladed_disk.blade_length_m + value } else { value };
+        changed.set_value(self.key()?, Value::Real(of_key))?;
+        Ok(changed)
+    }
+
+    /// What is walked over for a target, and its value in a scene: the parameter
+    /// itself, or for a length the clearance that it leaves, as one step of a length is
+    /// many clearances.
+    pub(super) fn walked(&self, scene: &Scene) -> (&'static str, f64) {
+        let path = if is_length(self.path) { CLEARANCE } else { self.path };
+        (path, parameter(path).map_or(f64::NAN, |walked| walked.of(scene)))
+    }
+
+    /// Of a length: `d ln(clearance)/d ln(length)`.
+    pub(super) fn lever(&self, scene: &Scene) -> f64 {
+        let sign = if self.path == LENGTH { -1.0 } else { 1.0 };
+        sign * self.of(scene) / (scene.casing.radius_m - scene.bladed_disk.blade_length_m)
+    }
+
+    /// Whether it is one of the blades, but not their length: rigid ones have none.
+    pub(super) fn is_of_blades(&self) -> bool {
+        self.path.starts_with("bladed_disk.") && self.path != LENGTH
+    }
+
+    /// Its value where what is walked over has this one.
+    pub(super) fn value_at(&self, scene: &Scene, walked: f64) -> f64 {
+        match self.path {
+            RADIUS => scene.bladed_disk.blade_length_m + walked,
+            LENGTH => scene.casing.radius_m - walked,
+            _ => walked,
+        }
+    }
+
+    /// Its unit.
+    #[must_use]
+    pub fn unit(&self) -> &'static str {
+        self.key().map_or("", |key| key.unit)
+    }
+
+    /// The parameters of a scene, with the derivative of this one.
+    pub(super) fn seeded(&self, scene: &Scene) -> Parameters<Dual64> {
+        let mut all = Parameters::of(scene);
+        (self.place)(&mut all).eps = 1.0;
+        all
+    }
+}
+
+impl<T: Number> Parameters<T> {
+    /// Of a scene, without derivatives.
+    pub(super) fn of(scene: &Scene) -> Self {
+        let (disk, casing) = (&scene.bladed_disk, &scene.casing);
+        let operation = &scene.operation;
+        Self {
+            disk: BladedDisk {
+                blades: disk.blades,
+                blade_length_m: disk.blade_length_m.into(),
+                inertia_kg_m2: disk.inertia_kg_m2.into(),
+                stiffness_nm_per_rad: disk.stiffness_nm_per_rad.into(),
+                coupling_nm_per_rad: disk.coupling_nm_per_rad.into(),
+                damping_ratio: disk.damping_ratio.into(),
+            },
+            casing: Casing {
+                radius_m: casing.radius_m.into(),
+                modal_mass_kg: casing.modal_mass_kg.into(),
+                modal_stiffness_n_per_m: casing.modal_stiffness_n_per_m.into(),
+                damping_ratio: casing.damping_ratio.into(),
+            },
+            operation: Operation {
+                nodal_diameters: operation.nodal_diameters,
+                speed_rad_s: operation.speed_rad_s.into(),
+                speed_ramp_rad_s2: operation.speed_ramp_rad_s2.into(),
+                pulse_n: operation.pulse_n.into(),
+                pulse_s: operation.pulse_s.into(),
+            },
+        }
+    }
+
+    /// The casing before any contact.
+    pub(super) fn flight<'a>(&'a self, machine: &'a Machine<T>) -> FreeFlight<'a, T> {
+        FreeFlight { machine, operation: &self.operation }
+    }
+
+    /// The machine of these parameters.
+    pub(super) fn machine(&self) -> Machine<T> {
+        Machine::new(&self.disk, &self.casing, self.operation.nodal_diameters)
+    }
+}
+
+/// The sensitivity of a value by a parameter of this value, from its derivative; none
+/// where there is none.
+pub(super) fn sensitivity(value: f64, derivative: f64, parameter: f64) -> Option<f64> {
+    // A change in per cent of nothing is nothing, whatever the derivative.
+    let by = if parameter == 0.0 { 0.0 } else { derivative * parameter / value };
+    // There is no minus zero.
+    by.is_finite().then_some(by + 0.0)
+}

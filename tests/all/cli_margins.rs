@@ -1,0 +1,261 @@
+//! `rubscope margins` for people and files: the text and the table say what the library
+//! gives, and the command of a target shows it.
+
+use rubscope::motion::Verdict;
+use rubscope::report::margins as report;
+use rubscope::scene::{CheckedScene, ContactLaw, Scene};
+use rubscope::study::margins::{
+    Band, Limit, LimitName, Margins, PARAMETERS, Quantity, Target, Tolerance,
+};
+
+use crate::cli_support::rubscope;
+
+pub fn scene(name: &str, changes: &[(&str, &str)]) -> CheckedScene {
+    Scene::builtin(name).unwrap().with(changes).unwrap()
+}
+
+/// Margins with all that can be in them.
+pub fn full(scene: &CheckedScene) -> Margins {
+    let mut margins = unsampled(scene);
+    let known: Vec<String> = PARAMETERS
+        .iter()
+        .filter(|parameter| ["clearance", "casing.damping_ratio"].contains(&parameter.path))
+        .filter(|parameter| parameter.of(scene) != 0.0)
+        .map(|parameter| format!("{}=10", parameter.path))
+        .collect();
+    margins.spread(Tolerance::parse_all(&known, scene).unwrap());
+    margins
+}
+
+/// The same without samples, which take a second. Lasting pulses are made up: a search
+/// is slow.
+pub fn unsampled(scene: &CheckedScene) -> Margins {
+    let mut margins = Margins::of(scene);
+    let touching = margins.limit(LimitName::TouchingPulse).unwrap().clone();
+    let pulse = touching.value.filter(|value| *value != 0.0).unwrap_or(1e3);
+    let bands = [[1.5, 2.0], [20.0, 20.1], [100.0, f64::NAN]].map(|[from, to]| Band {
+        from_n: pulse * from,
+        to_n: Some(pulse * to).filter(|to| to.is_finite()),
+        verdicts: vec![Verdict::Bounce, Verdict::Locked],
+        sensitive: from == 20.0,
+    });
+    let lasting = Limit {
+        name: LimitName::LastingPulse,
+        contact: Some(ContactLaw::Bilateral),
+        value: Some(pulse * 100.0),
+        margin: Some(scene.operation.pulse_n / (pulse * 100.0) - 1.0),
+        bands: bands.to_vec(),
+        note: Some("every larger pulse that was tried lasts; smaller ones in 2 islands".into()),
+        ..touching.clone()
+    };
+    let none = Limit {
+        name: LimitName::LastingPulseUnilateral,
+        contact: Some(ContactLaw::Unilateral),
+        value: None,
+        margin: None,
+        note: Some("nothing lasts among 113 pulses from 3.7950e3 to 1.2001e7 N".into()),
+        ..touching
+    };
+    margins.limits.extend([lasting, none]);
+    let target = Target::parse("omega_lock=450", "casing.damping_ratio").unwrap();
+    margins.target = target.solve(scene, &|| true);
+    (margins.cost.search_wall_s, margins.cost.search_runs) = (Some(2.134), 1378);
+    margins
+}
+
+pub fn text(margins: &Margins) -> String {
+    let mut out = Vec::new();
+    report::write(margins, &mut out).unwrap();
+    String::from_utf8(out).unwrap()
+}
+
+/// A number with its unit, read by another way than it was written.
+fn read(words: &str, unit: &str) -> f64 {
+    let (number, rest) = words.trim().split_once(' ').unwrap();
+    let prefix = rest.strip_suffix(unit).unwrap_or_else(|| panic!("{words} in {unit}"));
+    let exponent = match prefix {
+        "" => 0,
+        "k" => 3,
+        "M" => 6,
+        "G" => 9,
+        "m" => -3,
+        "u" => -6,
+        "n" => -9,
+        other => panic!("{other}"),
+    };
+    number.parse::<f64>().unwrap() * 10_f64.powi(exponent)
+}
+
+fn close(said: f64, is: f64, part: f64) {
+    assert!((said - is).abs() <= part * is.abs(), "{said} is not {is}");
+}
+
+/// Columns of a row of the text: two spaces or more are between them.
+fn cells(line: &str) -> Vec<&str> {
+    line.split("  ").map(str::trim).filter(|cell| !cell.is_empty()).collect()
+}
+
+#[test]
+fn rows_of_the_text_are_the_limits() {
+    for name in ["paper-nd3", "rocking"] {
+        let margins = full(&scene(name, &[]));
+        let text = text(&margins);
+        assert!(text.starts_with(&margins.scene.title), "{text}");
+        for limit in &margins.limits {
+            let start = format!("{} ", limit.name);
+            let row = text.lines().find(|line| line.starts_with(&start)).unwrap();
+            let cells = cells(row);
+            let Some(value) = limit.value else {
+                assert_eq!(cells[1], limit.note.as_ref().unwrap());
+                continue;
+            };
+            close(read(cells[1], limit.quantity.unit()), value, 5.1e-6);
+            let mut next = 2;
+            if let Some(margin) = limit.margin {
+                match cells[2].strip_suffix(" times") {
+                    Some(factor) => close(factor.parse().unwrap(), 1.0 + margin, 5.1e-4),
+                    None => {
+                        let percent: f64 = cells[2].strip_suffix(" %").unwrap().parse().unwrap();
+                        assert!(cells[2].starts_with(['+', '-']), "{row}");
+                        assert!((percent - 100.0 * margin).abs() < 0.51, "{row}");
+                    }
+                }
+                assert_eq!(cells[3], limit.side().unwrap().to_string());
+                next = 4;
+            } else if limit.quantity == Quantity::Push {
+                assert_eq!(cells[2], if value < 0.0 { "pulls" } else { "pushes" });
+                next = 3;
+            }
+            let strongest = limit.sensitivities.strongest(3);
+            assert_eq!(cells.len() - next, strongest.len(), "{row}");
+            for (cell, (_, by)) in cells[next..].iter().zip(strongest) {
+                let percent = cell.split(' ').nth(1).unwrap();
+                close(percent.parse().unwrap(), by, 0.051);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_text_names_the_knobs_that_matter() {
+    let text = text(&full(&scene("paper-nd3", &[])));
+    let row = |name: &str| text.lines().find(|line| line.starts_with(name)).unwrap();
+    assert!(row("omega_lock ").contains("411.934 rad/s"), "{text}");
+    assert!(row("omega_lock ").ends_with("m_c -0.50 %  k_c +0.50 %  zeta_c +0.33 %"), "{text}");
+    assert!(row("touching_pulse ").contains("3.79502 kN  263.5 times  beyond  g0 +1.00 %"));
+    assert!(row("push_b ").contains("57.2948 N  pushes  Omega +6.38 %"), "{text}");
+}
+
+#[test]
+fn bands_spread_target_and_cost_are_told() {
+    let margins = full(&scene("paper-nd3", &[]));
+    let text = text(&margins);
+    assert!(text.contains("lasting_pulse (bilateral law): every larger pulse that was tried"));
+    let sensitive = text.lines().find(|line| line.contains("sensitive")).unwrap();
+    assert!(sensitive.starts_with("75.9 kN ") && sensitive.contains("bounce, locked"), "{text}");
+    assert!(text.contains("379.5 kN   the largest tried  bounce, locked"), "{text}");
+    // The spread is the second row of this name.
+    let row = text.lines().find(|line| line.starts_with("omega_lock [rad/s] ")).unwrap();
+    let spread = margins.limit(LimitName::OmegaLock).unwrap().spread.unwrap();
+    let sampled = spread.sampled.unwrap();
+    let is = [
+        spread.linear_sd.unwrap(),
+        spread.linear_worst.unwrap(),
+        sampled.sd,
+        sampled.low,
+        sampled.high,
+    ];
+    for (said, is) in cells(row)[1..].iter().zip(is) {
+        close(said.parse().unwrap(), is, 5.1e-4);
+    }
+    assert!(text.contains("Spread with clearance within 10 %, casing.damping_ratio within 10 %"));
+    assert!(text.contains("(10,000 samples, seed 2010):"), "{text}");
+    assert!(text.contains("lasting_pulse: not sampled: each sample is a search."), "{text}");
+    // A limit that does not move has no spread, not even round-off.
+    let still = text.lines().find(|line| line.starts_with("omega_c [rad/s] ")).unwrap();
+    assert_eq!(cells(still)[1..4], ["0"; 3]);
+    assert!(
+        text.contains("casing.damping_ratio = 0.0636674 puts omega_lock at 450 rad/s (0.05 gives")
+    );
+    assert!(text.contains("lasting pulses 2.1 s, 1,378 runs."), "{text}");
+}
+
+#[test]
+fn the_command_of_a_target_shows_the_limit_there() {
+    let scene = scene("paper-nd3", &[("title", "it's mine")]);
+    let said_by = |command: &str| {
+        let words = command.replace("'title=it'\\''s mine'", "title=mine");
+        let output = rubscope(&words.split(' ').skip(1).collect::<Vec<_>>());
+        assert!(output.status.success(), "{command}");
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let has = |said: &str, number: f64| {
+        let outside = |c: char| !c.is_ascii_digit();
+        let words = said.split_whitespace().map(|word| word.trim_matches(outside));
+        let numbers = words.filter_map(|word| word.parse::<f64>().ok());
+        numbers.into_iter().any(|said| (said / number - 1.0).abs() < 1e-5)
+    };
+    for (target, by, shown) in [
+        ("omega_lock=450", "casing.damping_ratio", 450.0),
+        ("omega_c=310", "casing.modal_mass_kg", 310.0),
+        ("coincidence=402", "bladed_disk.stiffness_nm_per_rad", 402.0),
+        ("omega_adhesive=307", "casing.damping_ratio", 307.0),
+        ("coincidence_difference=203", "casing.modal_mass_kg", 203.0),
+        ("push_b=66", "casing.damping_ratio", 66.0),
+        ("torque=0.0123", "clearance", 0.0123),
+        // In millijoules.
+        ("lock_energy=0.0234", "clearance", 23.4),
+    ] {
+        let mut margins = Margins::of(&scene);
+        let before = text(&margins).split_once("Cost: ").unwrap().0.to_string();
+        margins.target = Target::parse(target, by).unwrap().solve(&scene, &|| true);
+        let text = text(&margins);
+        let command = text.lines().find_map(|line| line.strip_prefix("Check it: ")).unwrap();
+        let said = said_by(command);
+        assert!(has(&said, shown) && !has(&before, shown), "{target}: {command}\n{said}");
+    }
+    // A pulse a little beyond the smallest touches, one a little below does not.
+    let mut margins = Margins::of(&scene);
+    let target = Target::parse("touching_pulse=5000", "clearance").unwrap();
+    margins.target = target.solve(&scene, &|| true);
+    let told = text(&margins);
+    let command = told.lines().find_map(|line| line.strip_prefix("Check it: ")).unwrap();
+    assert!(
+        command.contains("operation.pulse_n=5005.0") && !said_by(command).contains("No impact")
+    );
+    assert!(
+        said_by(&command.replace("pulse_n=5005", "pulse_n=4995")).contains("No impact"),
+        "{command}"
+    );
+    // One that no value of the parameter gives.
+    let mut margins = Margins::of(&scene);
+    let target = Target::parse("omega_lock=200", "casing.damping_ratio").unwrap();
+    margins.target = target.solve(&scene, &|| true);
+    let text = text(&margins).replace('\n', " ");
+    assert!(text.contains("No value of casing.damping_ratio from 0 to "), "{text}");
+    assert!(text.contains("puts omega_lock at 200 rad/s: it goes from 292.8"), "{text}");
+    assert!(!text.contains("Check it"), "{text}");
+}
+
+#[test]
+fn the_table_has_every_number() {
+    let margins = full(&scene("paper-nd3", &[("operation.speed_rad_s", "-430")]));
+    let mut out = Vec::new();
+    report::table(&margins).write_csv(&mut out).unwrap();
+    let mut reader = csv::Reader::from_reader(out.as_slice());
+    let names: Vec<String> = reader.headers().unwrap().iter().map(String::from).collect();
+    assert_eq!(names[..6], ["name", "quantity", "contact", "value", "present", "margin"]);
+    let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
+    assert_eq!(rows.len(), margins.limits.len());
+    let json = serde_json::to_value(&margins).unwrap();
+    for (place, (row, limit)) in rows.iter().zip(&margins.limits).enumerate() {
+        let word = |name: &str| json["limits"][place][name].as_str().unwrap_or("").to_string();
+        assert_eq!([&row[0], &row[1], &row[2]], [word("name"), word("quantity"), word("contact")]);
+        let number = |column: usize| row[column].parse::<f64>().ok();
+        assert_eq!([number(3), number(4), number(5)], [limit.value, limit.present, limit.margin]);
+        for (column, path) in names.iter().enumerate().skip(6) {
+            assert_eq!(number(column), limit.sensitivities.by(path), "{path}");
+        }
+    }
+    assert_eq!(names.len(), 6 + PARAMETERS.len());
+}

@@ -1,0 +1,434 @@
+//! Margins: sensitivities against closed forms and differences, the smallest pulses
+//! against runs, targets and tolerances, and the command that tells them.
+
+use rubscope::model::Machine;
+use rubscope::motion::{run_to_verdict, to_the_end};
+use rubscope::scene::{CheckedScene, ContactLaw, Scene};
+use rubscope::study::margins::{
+    CLEARANCE, Limit, LimitName, Margins, Quantity, Target, Tolerance, first_touch, grazing_pulse,
+    parameter,
+};
+use serde_json::Value;
+
+use crate::cli_support::{refusal, rubscope};
+
+const STIFFNESS: &str = "casing.modal_stiffness_n_per_m";
+const MASS: &str = "casing.modal_mass_kg";
+const DAMPING: &str = "casing.damping_ratio";
+const SPEED: &str = "operation.speed_rad_s";
+const LENGTH: &str = "operation.pulse_s";
+
+/// The answer of a command as JSON.
+fn json(arguments: &[&str]) -> Value {
+    let out = rubscope(arguments);
+    assert!(out.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&out.stderr));
+    serde_json::from_slice(&out.stdout).unwrap()
+}
+
+/// A scene of another machine than the paper's, at rest.
+fn random_scene(random: &mut fastrand::Rng) -> CheckedScene {
+    let mut between = |low: f64, high: f64| low + (high - low) * random.f64();
+    let mut scene = Scene::base();
+    let disk = &mut scene.bladed_disk;
+    disk.blades = between(5.0, 45.0) as u32;
+    disk.inertia_kg_m2 *= between(0.3, 3.0);
+    disk.stiffness_nm_per_rad *= between(0.3, 3.0);
+    disk.coupling_nm_per_rad *= between(0.0, 3.0);
+    disk.damping_ratio = between(0.0, 0.2);
+    scene.casing.modal_mass_kg *= between(0.3, 3.0);
+    scene.casing.modal_stiffness_n_per_m *= between(0.3, 3.0);
+    scene.casing.damping_ratio = between(0.001, 0.3);
+    scene.casing.radius_m = scene.bladed_disk.blade_length_m + between(3e-5, 3e-4);
+    scene.operation.nodal_diameters = between(1.0, 5.0) as u32;
+    scene.operation.speed_rad_s = between(-700.0, 700.0);
+    scene.operation.pulse_s = 10_f64.powf(between(-5.0, -2.0));
+    scene.solver.contact = ContactLaw::Unilateral;
+    scene.checked().unwrap()
+}
+
+fn of(scene: &CheckedScene, name: LimitName) -> Limit {
+    Margins::of(scene).limit(name).unwrap().clone()
+}
+
+fn close(found: Option<f64>, expected: f64, most: f64, what: &str) {
+    let found = found.unwrap_or_else(|| panic!("{what}: none"));
+    let error = (found - expected).abs();
+    assert!(error <= most * expected.abs().max(1.0), "{what}: {found} is not {expected}");
+}
+
+#[test]
+fn speeds_have_the_sensitivities_of_their_closed_forms() {
+    let mut random = fastrand::Rng::with_seed(16);
+    for _ in 0..50 {
+        let scene = random_scene(&mut random);
+        let machine = scene.machine();
+        let margins = Margins::of(&scene);
+        let by = |name, path| margins.limit(name).unwrap().sensitivities.by(path);
+        for name in [LimitName::OmegaC, LimitName::OmegaLock, LimitName::OmegaAdhesive] {
+            close(by(name, STIFFNESS), 0.5, 1e-12, "k_c");
+            close(by(name, MASS), -0.5, 1e-12, "m_c");
+            close(by(name, SPEED), 0.0, 0.0, "speed");
+            close(by(name, CLEARANCE), 0.0, 0.0, "clearance");
+        }
+        close(by(LimitName::OmegaC, DAMPING), 0.0, 0.0, "zeta_c");
+        // Omega_lock = Omega_c exp(asinh x), x in proportion to zeta_c.
+        let tangent = machine.polygon.delta.tan();
+        for (name, slope) in
+            [(LimitName::OmegaLock, 1.0 / tangent), (LimitName::OmegaAdhesive, tangent)]
+        {
+            let x = machine.casing_damping_ratio * slope;
+            close(by(name, DAMPING), x / x.hypot(1.0), 1e-12, "zeta_c");
+        }
+        let Machine { omega_c, omega_bd, .. } = machine;
+        let disk = &scene.bladed_disk;
+        let diameters = f64::from(scene.operation.nodal_diameters);
+        let angle = std::f64::consts::TAU * diameters / f64::from(disk.blades);
+        let coupling = 2.0 * disk.coupling_nm_per_rad * (1.0 - angle.cos());
+        let part = disk.stiffness_nm_per_rad / (disk.stiffness_nm_per_rad + coupling);
+        for (name, other) in
+            [(LimitName::Coincidence, omega_bd), (LimitName::CoincidenceDifference, -omega_bd)]
+        {
+            let (casing, blades) = (omega_c / (omega_c + other), other / (omega_c + other));
+            let scale = 1e-12 * (1.0 + casing.abs());
+            close(by(name, STIFFNESS), 0.5 * casing, scale, "k_c");
+            close(by(name, MASS), -0.5 * casing, scale, "m_c");
+            close(by(name, "bladed_disk.inertia_kg_m2"), -0.5 * blades, scale, "m_b");
+            let of_blade = 0.5 * blades * part;
+            close(by(name, "bladed_disk.stiffness_nm_per_rad"), of_blade, scale, "k_b");
+            let of_coupling = 0.5 * blades * (1.0 - part);
+            close(by(name, "bladed_disk.coupling_nm_per_rad"), of_coupling, scale, "k_bb");
+        }
+    }
+}
+
+/// The sensitivity by a central difference of fourth order.
+fn differenced(scene: &CheckedScene, path: &str, value: &dyn Fn(&CheckedScene) -> f64) -> f64 {
+    let parameter = parameter(path).unwrap();
+    let clearance = scene.machine().clearance();
+    let size = parameter.of(scene);
+    let lengths = ["casing.radius_m", "bladed_disk.blade_length_m"];
+    let step = 1e-3 * if lengths.contains(&path) { clearance / size } else { 1.0 };
+    let at = |part: f64| {
+        value(&parameter.set(scene, size * (1.0 + part * step)).unwrap().checked().unwrap())
+    };
+    let slope = |part: f64| (at(part) - at(-part)) / (2.0 * part * step * at(0.0));
+    (4.0 * slope(0.5) - slope(1.0)) / 3.0
+}
+
+#[test]
+fn every_derivative_is_that_of_central_differences() {
+    let mut random = fastrand::Rng::with_seed(2010);
+    let mut compared = 0;
+    for _ in 0..20 {
+        let scene = random_scene(&mut random);
+        let margins = Margins::of(&scene);
+        for limit in &margins.limits {
+            let Some(found) = limit.value else { continue };
+            let value = |scene: &CheckedScene| match limit.name {
+                LimitName::TouchingPulse => grazing_pulse(scene, 3.0 * found).unwrap(),
+                name => of(scene, name).value.unwrap(),
+            };
+            for (path, by) in &limit.sensitivities.0 {
+                // A limit of this size in g0 loses that many digits to the lengths.
+                let lengths = path.ends_with("_m") && *path != CLEARANCE;
+                let scale = if lengths { 1e4 } else { 1.0 };
+                let expected = differenced(&scene, path, &value);
+                let error = (by.unwrap() - expected).abs();
+                let most = 1e-6 * (1.0 + expected.abs()).max(scale);
+                assert!(error < most, "{} by {path}: {by:?} is not {expected}", limit.name);
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared > 2000, "{compared}");
+}
+
+#[test]
+fn the_touching_pulse_is_the_smallest_that_touches() {
+    let scene = Scene::base().checked().unwrap();
+    let limit = of(&scene, LimitName::TouchingPulse);
+    assert_eq!(limit.quantity, Quantity::Pulse);
+    close(limit.value, 3_795.024_727, 1e-9, "MODEL.md has 3795.03");
+    let impacts = |pulse: f64| {
+        let mut scene = scene.as_reference();
+        scene.operation.pulse_n = pulse;
+        run_to_verdict(&scene.checked().unwrap(), &to_the_end).unwrap().impact_count
+    };
+    let value = limit.value.unwrap();
+    assert_eq!((impacts(value * (1.0 - 1e-9)), impacts(value * (1.0 + 1e-9)) > 0), (0, true));
+    // The clearance is the scale of the motion, and the pulse that of the force.
+    close(limit.sensitivities.by(CLEARANCE), 1.0, 1e-12, "clearance");
+    let [stiffness, mass] = [STIFFNESS, MASS].map(|path| limit.sensitivities.by(path).unwrap());
+    close(Some(stiffness + mass), 1.0, 1e-12, "force");
+}
+
+#[test]
+fn a_touch_after_many_swings_is_found_where_nothing_is_damped() {
+    // Without damping a later swing may meet a blade better than the first one.
+    let mut scene = Scene::builtin("undamped").unwrap();
+    scene.solver.end_s = 0.1;
+    let first = first_touch(&scene, 1e6).unwrap();
+    assert!(first.t_s > std::f64::consts::TAU / scene.machine().omega_c, "{first:?}");
+    scene.solver.end_s = 2e-3;
+    let early = first_touch(&scene, 1e6).unwrap();
+    assert!(early.pulse_n > first.pulse_n * 1.001, "{early:?} {first:?}");
+}
+
+/// The scene with the bilateral law at a speed.
+fn paper(speed: f64) -> CheckedScene {
+    let mut scene = Scene::builtin("paper-nd3").unwrap();
+    scene.operation.speed_rad_s = speed;
+    scene.checked().unwrap()
+}
+
+#[test]
+fn the_lasting_pulses_are_the_edges_of_the_papers_zone() {
+    for (speed, threshold, paper_has) in
+        [(300.0, 847_676.0, 1.0e6), (400.0, 537_576.0, 0.63e6), (500.0, 376_620.0, 0.40e6)]
+    {
+        let scene = paper(speed);
+        let mut margins = Margins::of(&scene);
+        assert!(margins.search(ContactLaw::Bilateral, &to_the_end));
+        let limit = margins.limit(LimitName::LastingPulse).unwrap();
+        let value = limit.value.unwrap();
+        // The rows of the paper's coarser map are up to a fifth apart.
+        assert!((value / threshold - 1.0).abs() < 1e-5, "{speed}: {value}");
+        assert!((value / paper_has - 1.0).abs() < 0.2, "{speed}: {value}");
+        let lasts = |pulse: f64| {
+            let scene = scene.clone().into_scene();
+            let operation = rubscope::model::Operation { pulse_n: pulse, ..scene.operation };
+            let scene = Scene { operation, ..scene }.checked().unwrap();
+            run_to_verdict(&scene, &to_the_end).unwrap().verdict.keeps_contact()
+        };
+        assert!(lasts(value) && !lasts(value * (1.0 - 1e-6)), "{speed}");
+        let zone = limit.bands.last().unwrap();
+        assert_eq!((zone.from_n, zone.to_n), (value, None));
+        assert_eq!(limit.bands.len(), 2, "an island below the zone: {:?}", limit.bands);
+        let by = |path| limit.sensitivities.by(path);
+        // The problem has no scale of force and length, and one of time: 2 k_c + speed
+        // - pulse length = 2. The scheme keeps this up to its step.
+        close(by(CLEARANCE), 1.0, 1e-3, "clearance");
+        let [stiffness, mass] = [STIFFNESS, MASS].map(|path| by(path).unwrap());
+        close(Some(stiffness + mass), 1.0, 2e-3, "force");
+        let [speed, length] = [SPEED, LENGTH].map(|path| by(path).unwrap());
+        close(Some(2.0 * stiffness + speed - length), 2.0, 2e-2, "time");
+    }
+}
+
+#[test]
+fn islands_by_the_event_solver_keep_the_laws_of_scale() {
+    let mut scene = Scene::builtin("slip").unwrap();
+    scene.solver.end_s = 0.05;
+    let scene = scene.checked().unwrap();
+    let mut margins = Margins::of(&scene);
+    assert!(margins.search(ContactLaw::Unilateral, &to_the_end));
+    let limit = margins.limit(LimitName::LastingPulse).unwrap();
+    let by = |path| limit.sensitivities.by(path).unwrap();
+    close(Some(by(CLEARANCE)), 1.0, 1e-6, "clearance");
+    close(Some(by(STIFFNESS) + by(MASS)), 1.0, 1e-6, "force");
+    assert!(limit.bands.len() > 1 && limit.bands.iter().all(|band| band.to_n.is_some()));
+    let inside = 0.5 * (limit.bands[0].from_n + limit.bands[0].to_n.unwrap());
+    assert!(limit.bands[0].holds(inside) && !limit.bands[0].holds(-inside));
+}
+
+#[test]
+fn a_target_is_reached_and_the_harmonic_balance_says_so() {
+    let text = "omega_lock=450";
+    let answer = json(&["margins", "--no-search", "--json", "--target", text, "--by", DAMPING]);
+    let damping = answer["target"]["to"].as_f64().unwrap();
+    close(Some(damping), 0.063_667_378_559, 1e-9, "zeta_c");
+    assert_eq!(answer["target"]["from"], 0.05);
+    let set = format!("{DAMPING}={damping}");
+    let hbm = json(&["hbm", "--json", "--set", &set]);
+    close(hbm["omega_lock_rad_s"].as_f64(), 450.0, 1e-12, "hbm");
+}
+
+#[test]
+fn targets_of_every_kind() {
+    let scene = Scene::base().checked().unwrap();
+    let solve =
+        |text: &str, by: &str| Target::parse(text, by).unwrap().solve(&scene, &to_the_end).unwrap();
+    for (text, by) in [
+        ("omega_c=300", MASS),
+        ("coincidence=400", "bladed_disk.stiffness_nm_per_rad"),
+        ("touching_pulse=5000", CLEARANCE),
+        ("touching_pulse=5000", LENGTH),
+        ("push_b=0", SPEED),
+        ("torque=0.01", "casing.radius_m"),
+    ] {
+        let found = solve(text, by);
+        let parameter = parameter(by).unwrap();
+        let there = parameter.set(&scene, found.to.unwrap()).unwrap().checked().unwrap();
+        let size = of(&scene, found.name).value.unwrap().abs();
+        let error = of(&there, found.name).value.unwrap() - found.wanted;
+        assert!(error.abs() < 1e-8 * size.max(found.wanted.abs()), "{text} by {by}: {error}");
+    }
+    // None: damping does not lower it, and a clearance does not move it.
+    for (text, by) in [("omega_lock=200", DAMPING), ("omega_lock=450", CLEARANCE)] {
+        let found = solve(text, by);
+        assert_eq!((found.to, found.reached), (None, None), "{text} by {by}");
+        assert!(found.tried[0] < found.from && found.tried[1] > found.from);
+    }
+    // From zero upward.
+    let undamped = Scene::builtin("undamped").unwrap().checked().unwrap();
+    let target = Target::parse("omega_lock=300", DAMPING).unwrap();
+    let found = target.solve(&undamped, &to_the_end).unwrap();
+    close(found.reached, 300.0, 1e-12, "from zero");
+}
+
+#[test]
+fn a_lasting_pulse_is_put_where_it_is_wanted_along_its_edge() {
+    let target = Target::parse("lasting_pulse=5e5", CLEARANCE).unwrap();
+    let found = target.solve(&paper(500.0), &to_the_end).unwrap();
+    // The pulse goes with the clearance.
+    close(found.to, 1e-4 * 5e5 / 376_620.0, 1e-4, "clearance");
+    close(found.reached, 5e5, 2e-6, "pulse");
+}
+
+#[test]
+fn spreads_of_samples_are_those_of_the_derivatives_for_small_tolerances() {
+    let scene = Scene::base().checked().unwrap();
+    let texts = ["casing.damping_ratio=1", "clearance=0.5", "operation.speed_rad_s=0.2"];
+    let texts = texts.map(String::from);
+    let tolerances = Tolerance::parse_all(&texts, &scene).unwrap();
+    let mut margins = Margins::of(&scene);
+    margins.spread(tolerances);
+    for limit in &margins.limits {
+        let spread = limit.spread.unwrap();
+        let (linear, sampled) = (spread.linear_sd.unwrap(), spread.sampled.unwrap());
+        assert_eq!((sampled.samples, sampled.missing), (10_000, 0));
+        let error = (sampled.sd - linear).abs();
+        assert!(error <= 0.02 * linear, "{}: {linear} {}", limit.name, sampled.sd);
+        let worst = spread.linear_worst.unwrap() * 1.01;
+        let value = limit.value.unwrap();
+        assert!(sampled.low >= value - worst && sampled.high <= value + worst);
+        assert!(sampled.low <= sampled.mean && sampled.mean <= sampled.high);
+    }
+}
+
+#[test]
+fn the_answer_does_not_depend_on_threads() {
+    let arguments = ["margins", "--json", "--tolerance", "clearance=5", "--end", "0.02"];
+    let answers = ["1", "3"].map(|threads| {
+        let mut program = assert_cmd::cargo::cargo_bin_cmd!("rubscope");
+        let out = program.args(arguments).env("RAYON_NUM_THREADS", threads).output().unwrap();
+        let mut answer: Value = serde_json::from_slice(&out.stdout).unwrap();
+        // What it took differs.
+        answer["cost"] = Value::Null;
+        answer
+    });
+    assert_eq!(answers[0], answers[1]);
+}
+
+#[test]
+fn the_json_has_every_limit_with_every_parameter() {
+    let answer = json(&["margins", "--json", "--contact", "unilateral", "--end", "0.02"]);
+    assert_eq!(answer["schema"], "rubscope.margins/1");
+    let limits = answer["limits"].as_array().unwrap();
+    let names: Vec<&str> = limits.iter().map(|limit| limit["name"].as_str().unwrap()).collect();
+    assert_eq!(
+        names,
+        [
+            "omega_c",
+            "omega_adhesive",
+            "omega_lock",
+            "coincidence",
+            "coincidence_difference",
+            "touching_pulse",
+            "lasting_pulse",
+            "lasting_pulse_bilateral",
+            "push_a",
+            "push_b",
+            "torque",
+            "power",
+            "blade_angle",
+            "lock_energy",
+        ]
+    );
+    let lock = &limits[2];
+    assert_eq!(lock["quantity"], "speed_rad_s");
+    let [value, present, margin] =
+        ["value", "present", "margin"].map(|field| lock[field].as_f64().unwrap());
+    close(Some(value), 411.933_517, 1e-9, "omega_lock");
+    close(Some(margin), present / value - 1.0, 1e-15, "margin");
+    assert_eq!(lock["sensitivities"].as_object().unwrap().len(), 14);
+    let pushes = [8, 9].map(|place| limits[place]["value"].as_f64().unwrap());
+    let hbm = json(&["hbm", "--json", "--damped", "--speed", "500"]);
+    for (place, push) in pushes.iter().enumerate() {
+        let multiplier = &hbm["points"][0]["groups"][place]["multiplier_n"];
+        close(multiplier.as_f64(), -push, 1e-12, "push");
+    }
+    assert_eq!(limits[8]["present"], Value::Null);
+}
+
+#[test]
+fn what_has_no_meaning_is_refused_in_one_line() {
+    for (arguments, start) in [
+        (
+            &["--target", "omega=1", "--by", DAMPING][..],
+            "rubscope: target omega=1: allowed is NAME=VALUE",
+        ),
+        (
+            &["--target", "omega_c=inf", "--by", DAMPING],
+            "rubscope: target omega_c=inf: allowed is NAME=VALUE",
+        ),
+        (
+            &["--target", "omega_c=1", "--by", "solver.kind"],
+            "rubscope: parameter solver.kind: allowed is one of clearance,",
+        ),
+        (&["--target", "omega_c=1"], "rubscope: "),
+        (&["--tolerance", "clearance"], "rubscope: tolerance clearance: allowed is PATH=PERCENT"),
+        (
+            &["--tolerance", "clearance=0"],
+            "rubscope: tolerance clearance=0: allowed is PATH=PERCENT",
+        ),
+        (&["--tolerance", "clearance=NaN"], "rubscope: tolerance clearance=NaN: allowed is"),
+        (&["--tolerance", "x=1"], "rubscope: tolerance x: allowed is one of clearance,"),
+        (
+            &["--tolerance", "operation.speed_ramp_rad_s2=1"],
+            "rubscope: tolerance operation.speed_ramp_rad_s2: the scene has 0",
+        ),
+        (
+            &["--tolerance", "clearance=1", "--tolerance", "clearance=2"],
+            "rubscope: tolerance clearance is given twice",
+        ),
+        (&["--out", "a.txt"], "rubscope: --out = a.txt"),
+    ] {
+        let told = refusal(&[&["margins", "--no-search"], arguments].concat());
+        assert!(told.starts_with(start), "{told}");
+    }
+}
+
+#[test]
+fn odd_scenes_have_reasons_instead_of_values() {
+    for (arguments, name, reason) in [
+        (&["--nd", "0"][..], "omega_c", "no wave turns without nodal diameters"),
+        (&["--nd", "11"], "omega_lock", "11 nodal diameters make no corner of blades"),
+        (&["--nd", "11"], "push_a", "11 nodal diameters make no corner of blades"),
+        (
+            &["--set", "initial.u_c_m=1e-5"],
+            "touching_pulse",
+            "only for a casing that starts at rest",
+        ),
+        (
+            &["--set", "operation.pulse_s=0"],
+            "touching_pulse",
+            "no pulse of this length touches within the run",
+        ),
+        (
+            &["--end", "100", "--contact", "unilateral"],
+            "lasting_pulse_bilateral",
+            "not searched: the run is too long for a thousand runs",
+        ),
+    ] {
+        let mut all = vec!["margins", "--json"];
+        let searched = name.starts_with("lasting");
+        all.extend(if searched { &[][..] } else { &["--no-search"] });
+        all.extend(arguments);
+        let answer = json(&all);
+        let limits = answer["limits"].as_array().unwrap();
+        let limit = limits.iter().find(|limit| limit["name"] == name).unwrap();
+        assert_eq!(limit["note"], reason, "{arguments:?}");
+        assert_eq!((&limit["value"], &limit["margin"]), (&Value::Null, &Value::Null));
+    }
+}
