@@ -198,7 +198,7 @@ pub(super) fn unknown(path: &str) -> SceneError {
 
 /// Charts of the explorer, in the order of their digits.
 pub const CHARTS: &[&str] =
-    &["response", "gaps", "locked", "frame", "map", "spectrum", "precision"];
+    &["response", "gaps", "locked", "frame", "map", "spectrum", "precision", "margins"];
 
 macro_rules! real {
     ($path:literal, $unit:literal, $what:literal, $above:literal $min:literal .. $max:literal, $($field:ident).+) => {

@@ -10,6 +10,7 @@ use super::trace::{Mark, Trace};
 use super::views::ViewId;
 use super::views::locked::curves::LockedCurves;
 use super::views::map::{CellRun, LiveMap, MapChoice};
+use super::views::margins::LiveMargins;
 use super::views::spectrum::transform::Spectrum;
 use crate::motion::{ActiveSet, Checks, Hold, Motion, State, Verdict};
 use crate::scene::CheckedScene;
@@ -208,6 +209,8 @@ pub struct Results {
     pub cell: Option<Arc<CellRun>>,
     /// Speed against error, while its view is open; rows arrive one by one.
     pub precision: Option<Arc<Precision>>,
+    /// The margins, while their view is open; what is searched arrives later.
+    pub margins: Option<Arc<LiveMargins>>,
     /// Solver speed.
     pub pace: Pace,
     /// Live changes and pulses so far, as `run --at` takes them: when \[s\], what.

@@ -8,6 +8,7 @@ use std::sync::OnceLock;
 use serde::{Deserialize, Serialize};
 
 use crate::scene::{CheckedScene, Scene, SceneError};
+use crate::study::margins::LimitName;
 
 /// One lesson.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -86,6 +87,10 @@ pub struct Check {
     pub hbm: Option<String>,
     /// Something of the machine.
     pub model: Option<String>,
+    /// A limit of the scene.
+    pub margins: Option<String>,
+    /// The parameter of which one per cent more changes that limit by a part of it.
+    pub by: Option<String>,
     /// A key of the scene.
     pub key: Option<String>,
     /// The rotor speed for `hbm`, if not that of the scene \[rad/s\].
@@ -123,6 +128,8 @@ pub enum Condition {
     Above(String, f64),
     /// A key is below a number.
     Below(String, f64),
+    /// A limit is above a number.
+    Limit(LimitName, f64),
     /// A key holds a word.
     Is(String, String),
 }
@@ -203,6 +210,7 @@ const FILES: &[(&str, &str)] = lessons![
     "polygon",
     "time-step",
     "speed-and-error",
+    "what-if",
 ];
 
 /// Every lesson, in the order of the list.

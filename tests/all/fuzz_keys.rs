@@ -131,7 +131,7 @@ pub fn seeds() -> Vec<Vec<u8>> {
     let texts = [
         "jjlLhHkuu",
         "\n20k\n\u{8}\n1e-7\n",
-        "\t\t\t\t\t\t\t1234567",
+        "\t\t\t\t\t\t\t\t12345678ijl\n",
         "s\ns\nye\n",
         "?jjj?tm",
         "g\nggggG",

@@ -81,6 +81,7 @@ mod tui_knobs;
 mod tui_lessons;
 mod tui_loop;
 mod tui_map;
+mod tui_margins;
 mod tui_mouse;
 mod tui_presentation;
 mod tui_random;

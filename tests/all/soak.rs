@@ -32,7 +32,7 @@ const USUAL: (u16, u16) = (100, 40);
 const LARGEST_FILE: u32 = 16;
 
 /// Keys of the charts and knobs, frequent ones several times.
-const KEYS: &str = "jjjjkklllllhhhhLLHHuuu123456777\t\tfvwcxmta[[]]++-=pprn..  b<>(){}y";
+const KEYS: &str = "jjjjkklllllhhhhLLHHuuu1234567778\t\tfvwcxmta[[]]++-=pprn..  b<>(){}y";
 /// Texts that are typed as values.
 const VALUES: [&str; 12] =
     ["20k", "1e-7", "0", "-5", "1e99", "nan", "abc", "500", "3", "50u", "1e6", "0.02"];

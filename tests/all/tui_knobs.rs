@@ -94,15 +94,18 @@ fn the_selected_knob_is_in_sight_at_every_size() {
 fn bars_show_the_value_and_its_limits_in_every_alphabet() {
     let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille);
     let text = column(&session);
-    assert!(text.contains("▕▒▒▒▒▒▒▒▒▒▒c▒▒▒▒L▒▒█▁▁▁▁▏"), "{text}");
+    assert!(text.contains("▕▒▒▒▒▒▒▒▒▒▒ca▒▒xL▒▒█▁▁▁▁▏"), "{text}");
     assert!(text.contains("t▒▒▒▒▒▒▒▒▒█"), "{text}");
     // Past the limit the letter stands in the part that is not filled.
     session.press("\n350\n");
     let text = column(&session);
-    assert!(text.contains("c▒█▁▁L"), "{text}");
+    assert!(text.contains("ca█▁xL"), "{text}");
+    // Two in one cell: the more important one is seen.
+    session.press("f");
+    assert!(session.text().contains("▒c▒▒▒█▁▁x▁L▁"), "{}", session.text());
     let session = Session::open(80, 24, scene(), Theme::Mono, Marker::Ascii);
     let text = column(&session);
-    assert!(text.contains("[==========c====L==#....]"), "{text}");
+    assert!(text.contains("[==========ca==xL==#....]"), "{text}");
 }
 
 #[test]

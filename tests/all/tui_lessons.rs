@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use rubscope::harmonic::{Form, locked_motion};
 use rubscope::motion::{RunReport, Sampling, Script, run_to_end, simulate};
 use rubscope::scene::{CheckedScene, Scene, Value, keys};
+use rubscope::study::margins::Margins;
 use rubscope::tui::bindings::{Action, Context};
 use rubscope::tui::lessons::{self, Check, Expected, Lesson, LessonStep};
 use rubscope::tui::{App, Marker, Theme};
@@ -79,6 +80,12 @@ fn found(check: &Check, app: &App, runs: &mut Runs) -> Vec<f64> {
             "corner_factor" => (2.0 * machine.polygon.delta).cos(),
             _ => panic!("{name}"),
         }];
+    }
+    if let Some(name) = &check.margins {
+        let margins = Margins::of(&scene);
+        let limit = margins.limit(name.parse().unwrap()).unwrap();
+        let change = |path: &String| limit.sensitivities.by(path).unwrap() / 100.0;
+        return vec![check.by.as_ref().map_or_else(|| limit.value.unwrap(), change)];
     }
     if let Some(name) = &check.hbm {
         let sweep = locked_motion(&machine, Form::Modal, true, None, &[speed]).unwrap();

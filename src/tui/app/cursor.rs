@@ -2,6 +2,7 @@
 //! What it reads there is up to the view.
 
 use super::App;
+use crate::tui::views::Opening;
 
 /// A place in the large chart, as parts of its width from the left and of its
 /// height from below, 0 to 1.
@@ -57,11 +58,18 @@ impl App {
 
     /// Does what the large chart does at the cursor.
     pub(super) fn open_cursor(&mut self) {
-        if let Some(cursor) = self.cursor
-            && let Some(scene) = self.view.panel().scene_at(self, cursor)
-        {
-            self.open_run(scene);
+        match self.opening() {
+            None => {}
+            Some(Opening::Run(scene)) => self.open_run(*scene),
+            Some(Opening::Jump { path, value, to }) => self.jump_to_limit(path, value, &to),
+            Some(Opening::Select(path)) => self.select_to_turn(path),
+            Some(Opening::Nothing(reason)) => self.status = Some(reason),
         }
+    }
+
+    /// What Enter does at the reading cursor.
+    pub fn opening(&self) -> Option<Opening> {
+        self.view.panel().opening(self, self.cursor?)
     }
 }
 

@@ -223,7 +223,7 @@ impl App {
         let hidden = hidden.and_then(ViewId::from_word);
         self.companions.sort_by_key(|view| match view {
             view if Some(*view) == hidden => 2,
-            ViewId::Map | ViewId::Precision => 1,
+            ViewId::Map | ViewId::Precision | ViewId::Margins => 1,
             _ => 0,
         });
     }
@@ -258,6 +258,10 @@ impl App {
             Condition::Compare(wanted) => self.compare == *wanted,
             Condition::Above(path, limit) => number(path).is_some_and(|x| x > *limit),
             Condition::Below(path, limit) => number(path).is_some_and(|x| x < *limit),
+            Condition::Limit(name, least) => self.margins().is_some_and(|(live, old)| {
+                let value = live.margins.limit(*name).and_then(|limit| limit.value);
+                !old && value.is_some_and(|value| value > *least)
+            }),
             Condition::Is(path, word) => {
                 let word = Value::Text(word.clone());
                 knob_of(path).is_some_and(|knob| knob.get(&self.scene) == word)

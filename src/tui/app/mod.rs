@@ -8,6 +8,7 @@ mod files;
 mod help;
 mod lesson;
 mod map;
+mod margins;
 mod mode;
 mod mouse;
 mod palette;
@@ -37,8 +38,7 @@ pub use verdict::VerdictText;
 
 use std::cell::RefCell;
 
-use ratatui::layout::Rect;
-
+use mouse::NotedChart;
 use past::Past;
 
 use super::appearance::Appearance;
@@ -170,8 +170,8 @@ pub struct App {
     pub ranges: Ranges,
     /// Theme and marker.
     pub appearance: Appearance,
-    /// Where the data of the large chart was drawn last.
-    chart_places: RefCell<Vec<Rect>>,
+    /// Where the data of the large chart was drawn last, and which part of it.
+    chart_places: RefCell<Vec<NotedChart>>,
     /// The knob whose bar the mouse holds.
     grip: Option<mouse::Grip>,
     /// Where it clicked last, if it is still there.

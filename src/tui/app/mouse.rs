@@ -2,6 +2,7 @@
 //! Nothing needs it; a key does the same.
 
 use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
+use ratatui::layout::Rect;
 
 use super::{App, Cursor, InputMode};
 use crate::tui::bindings::Action;
@@ -27,6 +28,14 @@ pub struct Grip {
     x: u16,
     /// Whether it has been turned since: one drag is undone in one step.
     turned: bool,
+}
+
+/// Where data of the large chart is drawn, and which part of it: from where to where
+/// across, and up.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct NotedChart {
+    area: Rect,
+    parts: [(f64, f64); 2],
 }
 
 impl App {
@@ -181,22 +190,25 @@ impl App {
         }
     }
 
-    /// Notes where the data of the large chart is drawn, for the mouse.
-    pub fn note_chart(&self, inner: ratatui::layout::Rect) {
+    /// Notes where the data of the large chart is drawn, for the mouse, and which
+    /// part of it: from where to where across, and up.
+    pub fn note_chart(&self, inner: Rect, parts: [(f64, f64); 2]) {
         if let Ok(mut places) = self.chart_places.try_borrow_mut() {
-            places.push(inner);
+            places.push(NotedChart { area: inner, parts });
         }
     }
 
     /// The place in the large chart that is drawn in a cell of the screen.
     pub fn cursor_at(&self, (x, y): (u16, u16)) -> Option<Cursor> {
         let places = self.chart_places.try_borrow().ok()?;
-        let inner = places.iter().find(|inner| inner.contains((x, y).into()))?;
-        let middle =
-            |from: u16, to: u16, width: u16| (f64::from(to - from) + 0.5) / f64::from(width);
+        let noted = places.iter().find(|noted| noted.area.contains((x, y).into()))?;
+        let (inner, parts) = (noted.area, noted.parts);
+        let middle = |(low, high): (f64, f64), cells: u16, width: u16| {
+            low + (high - low) * (f64::from(cells) + 0.5) / f64::from(width)
+        };
         Some(Cursor {
-            across: middle(inner.x, x, inner.width),
-            up: middle(y, inner.bottom() - 1, inner.height),
+            across: middle(parts[0], x - inner.x, inner.width),
+            up: middle(parts[1], inner.bottom() - 1 - y, inner.height),
         })
     }
 }

@@ -33,6 +33,7 @@ impl App {
                 locked: snapshot.results.locked.or(known.results.locked),
                 map: snapshot.results.map.or(known.results.map),
                 precision: snapshot.results.precision.or(known.results.precision),
+                margins: snapshot.results.margins.or(known.results.margins),
                 ..snapshot.results
             },
             false => known.results,

@@ -183,6 +183,7 @@ const AFTER_VIEWS: &[Binding] = &[
     bind!(Reading, [key(KeyCode::Right), letter('l')], cursor(1, 0, false), "cursor to the right"),
     bind!(Reading, [key(KeyCode::Up), letter('k')], cursor(0, 1, false), "cursor up"),
     bind!(Reading, [key(KeyCode::Down), letter('j')], cursor(0, -1, false), "cursor down"),
+    bind!(Reading, [key(KeyCode::Enter)], Action::OpenPlace, "open the run at the cursor (map), jump to a limit or select its knob (margins)", "Enter" "open"),
     bind!(Reading, [shift(KeyCode::Left), letter('H')], cursor(-1, 0, true), "cursor far to the left", "HJKL" "far"),
     bind!(
         Reading,
@@ -192,7 +193,6 @@ const AFTER_VIEWS: &[Binding] = &[
     ),
     bind!(Reading, [shift(KeyCode::Up), letter('K')], cursor(0, 1, true), "cursor far up"),
     bind!(Reading, [shift(KeyCode::Down), letter('J')], cursor(0, -1, true), "cursor far down"),
-    bind!(Reading, [key(KeyCode::Enter)], Action::OpenPlace, "open the run at the cursor (map)", "Enter" "open"),
     bind!(Reading, [key(KeyCode::Esc), letter('i')], Action::Close, "the arrows act on the knobs again", "Esc" "knobs"),
     bind!(Typing, [key(KeyCode::Enter)], Action::Accept, "take the value", "Enter" "take"),
     bind!(Typing, [key(KeyCode::Esc)], Action::Close, "leave it as it was", "Esc" "leave"),

@@ -16,7 +16,7 @@ pub struct KnobRange {
     log: bool,
     /// Minus one where the bar shows magnitudes of negative values.
     sign: f64,
-    /// Limits on it: a letter and a place, 0 to 1.
+    /// Limits on it, the most important last: a letter and a place, 0 to 1.
     pub marks: Vec<(char, f64)>,
 }
 
@@ -92,9 +92,13 @@ impl Knob {
                     [machine.critical_speed(), machine.lock_speed(), machine.dangerous_speed()];
                 let most = limits.into_iter().flatten().fold(0.0, f64::max);
                 let most = if most > 0.0 { most } else { machine.omega_c };
-                KnobRange::linear(0.0, BEYOND * most)
-                    .signed(value)
-                    .marked(&[('c', limits[0]), ('L', limits[1])])
+                // The most important one last: it covers the others in its cell.
+                KnobRange::linear(0.0, BEYOND * most).signed(value).marked(&[
+                    ('a', machine.adhesive_speed()),
+                    ('x', limits[2]),
+                    ('c', limits[0]),
+                    ('L', limits[1]),
+                ])
             }
             "operation.pulse_n" => {
                 let touch = touching_pulse(scene, machine);
@@ -194,8 +198,11 @@ mod tests {
         let mut scene = Scene::builtin("paper-nd3").unwrap();
         let forward = range("operation.speed_rad_s", &scene).unwrap();
         let letters: String = forward.marks.iter().map(|(letter, _)| *letter).collect();
-        assert_eq!(letters, "cL");
-        assert!((forward.at(forward.marks[0].1) - 292.878).abs() < 1e-2);
+        // A later one covers an earlier one.
+        assert_eq!(letters, "axcL");
+        for (mark, speed) in forward.marks.iter().zip([294.990, 388.311, 292.878, 411.928]) {
+            assert!((forward.at(mark.1) - speed).abs() < 1e-2, "{mark:?} {speed}");
+        }
         scene.operation.speed_rad_s = -430.0;
         let back = range("operation.speed_rad_s", &scene).unwrap();
         assert_eq!(back.marks, forward.marks);

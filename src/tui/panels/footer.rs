@@ -122,8 +122,15 @@ fn keys(app: &App, buffer: &mut Buffer, area: Rect) {
     let mut rest = area;
     let others = bindings::of(app.context()).filter(|binding| !is_kept(binding));
     for (binding, (keys, word)) in others.filter_map(|binding| Some((binding, binding.footer?))) {
-        let paused = binding.action == Action::Pause && !app.playing;
-        let word = if paused { "go on" } else { word };
+        let word = match binding.action {
+            Action::Pause if !app.playing => "go on",
+            // Most charts have nothing to open.
+            Action::OpenPlace => match app.opening().and_then(|opening| opening.word()) {
+                Some(word) => word,
+                None => continue,
+            },
+            _ => word,
+        };
         let gap = if rest == area { "" } else { GAP };
         let keys = format!("{gap}{}", look.spell(keys));
         let wide = u16::try_from(columns(&keys) + 1 + columns(word)).unwrap_or(u16::MAX);

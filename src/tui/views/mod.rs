@@ -6,12 +6,13 @@ mod frame;
 mod gaps;
 pub mod locked;
 pub mod map;
+pub mod margins;
 mod panel;
 mod precision;
 mod response;
 pub mod spectrum;
 
-pub use panel::{ViewArea, ViewPanel};
+pub use panel::{Opening, ViewArea, ViewPanel};
 
 use crate::scene::keys::CHARTS;
 
@@ -32,6 +33,8 @@ pub enum ViewId {
     Spectrum,
     /// Speed against error of every solver.
     Precision,
+    /// How far the scene is from every limit, and what moves it.
+    Margins,
 }
 
 /// The table of views.
@@ -43,6 +46,7 @@ const VIEWS: [(ViewId, &dyn ViewPanel); CHARTS.len()] = [
     (ViewId::Map, &map::MapView),
     (ViewId::Spectrum, &spectrum::SpectrumView),
     (ViewId::Precision, &precision::PrecisionView),
+    (ViewId::Margins, &margins::MarginsView),
 ];
 
 impl ViewId {

@@ -45,9 +45,41 @@ pub trait ViewPanel: Sync {
         Cursor { across: 0.5, up: 0.5 }
     }
 
-    /// The scene that Enter opens at a place of the chart.
-    fn scene_at(&self, _: &App, _: Cursor) -> Option<CheckedScene> {
+    /// What Enter does at a place of the chart.
+    fn opening(&self, _: &App, _: Cursor) -> Option<Opening> {
         None
+    }
+}
+
+/// What Enter does at a place of a chart.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Opening {
+    /// Opens the run of a scene.
+    Run(Box<CheckedScene>),
+    /// Gives a knob the value of a limit.
+    Jump {
+        /// The key of the knob.
+        path: &'static str,
+        /// The value.
+        value: f64,
+        /// The name of the limit.
+        to: String,
+    },
+    /// Selects the knob of a key.
+    Select(&'static str),
+    /// Nothing, for this reason.
+    Nothing(String),
+}
+
+impl Opening {
+    /// It in one word, for the last line.
+    pub fn word(&self) -> Option<&'static str> {
+        match self {
+            Self::Run(_) => Some("open"),
+            Self::Jump { .. } => Some("jump"),
+            Self::Select(_) => Some("select"),
+            Self::Nothing(_) => None,
+        }
     }
 }
 
@@ -66,7 +98,15 @@ impl ViewArea {
     /// Notes where data is drawn, so that the mouse can point at it.
     pub fn note(self, app: &App, inner: Rect) {
         if self.large {
-            app.note_chart(inner);
+            app.note_chart(inner, [(0.0, 1.0); 2]);
+        }
+    }
+
+    /// As `note`, of an area that has only a part of the chart: from where to where
+    /// across, and up.
+    pub fn note_part(self, app: &App, inner: Rect, parts: [(f64, f64); 2]) {
+        if self.large && inner.area() > 0 {
+            app.note_chart(inner, parts);
         }
     }
 

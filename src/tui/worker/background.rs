@@ -6,6 +6,7 @@ use std::fmt;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::thread::available_parallelism;
 use std::time::Duration;
 
 use super::thread::WORKER_NAME;
@@ -15,6 +16,15 @@ use crate::motion::GoOn;
 pub struct Background<T> {
     results: Option<Receiver<T>>,
     dropped: Arc<AtomicBool>,
+}
+
+/// Most threads for one purpose.
+const MOST_THREADS: usize = 16;
+
+/// Threads for work in the background: one core is for the screen and the motion.
+pub fn spare_threads() -> usize {
+    let cores = available_parallelism().map_or(1, usize::from);
+    cores.saturating_sub(1).clamp(1, MOST_THREADS)
 }
 
 impl<T: Send + 'static> Background<T> {

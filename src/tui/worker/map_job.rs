@@ -3,10 +3,9 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread::available_parallelism;
 use std::time::{Duration, Instant};
 
-use super::background::Background;
+use super::background::{Background, spare_threads};
 use crate::motion::{GoOn, Motion, verdict_of};
 use crate::study::{Cell, MapPlan};
 use crate::tolerances::LAST_PART;
@@ -15,8 +14,6 @@ use crate::tui::views::map::{CellRun, LiveMap, coarse_first};
 
 /// Longest wall time of one cell: an ordinary one takes a hundredth of it.
 const CELL_LIMIT: Duration = Duration::from_secs(1);
-/// Most threads.
-const MOST_THREADS: usize = 16;
 /// Most cells that are taken over at once.
 const MOST_TAKEN: usize = 4096;
 
@@ -111,9 +108,6 @@ impl MapJob {
         let left = |index: &usize| self.tried.get(*index) == Some(&false);
         let left: Arc<Vec<usize>> = Arc::new(self.order.iter().copied().filter(left).collect());
         let next = Arc::new(AtomicUsize::new(0));
-        // One core is for the screen and the motion.
-        let cores = available_parallelism().map_or(1, usize::from);
-        let count = cores.saturating_sub(1).clamp(1, MOST_THREADS);
         let thread = |_| {
             let (plan, left, next) = (self.plan().clone(), Arc::clone(&left), Arc::clone(&next));
             Background::start(move |to, go_on| {
@@ -130,7 +124,7 @@ impl MapJob {
                 }
             })
         };
-        self.threads = (0..count).map(thread).collect();
+        self.threads = (0..spare_threads()).map(thread).collect();
     }
 }
 

@@ -8,6 +8,7 @@ mod forecasts;
 mod full_run;
 mod jump;
 mod map_job;
+mod margins;
 mod pacing;
 mod playback;
 mod precision;

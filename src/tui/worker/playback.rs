@@ -89,9 +89,9 @@ impl Playback {
         playback
     }
 
-    /// Limits the cells of a map.
-    pub fn limit_cells(&mut self, most: usize) {
-        self.forecasts.studies().limit_cells(most);
+    /// Limits the cells of a map, and whether lasting pulses are searched.
+    pub fn limit_studies(&mut self, most_cells: usize, searches: bool) {
+        self.forecasts.studies().limit(most_cells, searches);
     }
 
     /// Takes a newer order and does what its counters ask for.

@@ -17,6 +17,8 @@ pub struct Stepwise {
     pub stride: f64,
     /// Most cells of a map, the coarsest ones.
     pub map_cells: usize,
+    /// Whether lasting pulses are searched, which takes seconds.
+    pub searches: bool,
     order: Option<Order>,
     playback: Option<Playback>,
     fresh: bool,
@@ -25,7 +27,14 @@ pub struct Stepwise {
 impl Stepwise {
     /// An engine that plays `stride` seconds of motion between two snapshots.
     pub fn new(stride: f64) -> Self {
-        Self { stride, map_cells: MAP_CELLS, order: None, playback: None, fresh: false }
+        Self {
+            stride,
+            map_cells: MAP_CELLS,
+            searches: false,
+            order: None,
+            playback: None,
+            fresh: false,
+        }
     }
 }
 
@@ -39,7 +48,7 @@ impl Engine for Stepwise {
         let order = self.order.as_ref()?;
         let start = || Playback::with_time_limit(order.clone(), Duration::MAX);
         let playback = self.playback.get_or_insert_with(start);
-        playback.limit_cells(self.map_cells);
+        playback.limit_studies(self.map_cells, self.searches);
         playback.apply(order);
         while playback.is_computing() {
             playback.compute();

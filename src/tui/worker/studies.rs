@@ -1,5 +1,5 @@
 //! Studies for the views: the curves of the locked motion, the spectrum of the
-//! whole run, the map and the comparison of solvers. Each is computed only
+//! whole run, the map, the margins and the comparison of solvers. Each is computed only
 //! while its view is open, in slices, and kept while its inputs stay the same.
 
 use std::sync::Arc;
@@ -7,12 +7,14 @@ use std::time::Duration;
 
 use super::full_run::SLICE;
 use super::map_job::{CellJob, MapJob};
+use super::margins::MarginsJob;
 use super::precision::PrecisionJob;
 use crate::scene::Scene;
 use crate::tui::engine::{Order, Results};
 use crate::tui::views::ViewId;
 use crate::tui::views::locked::curves::LockedCurves;
 use crate::tui::views::map::LiveMap;
+use crate::tui::views::margins::LiveMargins;
 use crate::tui::views::spectrum::transform::Spectrum;
 
 /// The studies of one scene.
@@ -26,7 +28,12 @@ pub struct Studies {
     cell: Option<CellJob>,
     /// Most cells of a map; none for all of them.
     most_cells: Option<usize>,
+    /// Whether lasting pulses stay unknown.
+    no_searches: bool,
     precision: Option<PrecisionJob>,
+    margins: Option<MarginsJob>,
+    /// The margins before, until there are new ones.
+    margins_before: Option<Arc<LiveMargins>>,
 }
 
 impl Studies {
@@ -35,9 +42,9 @@ impl Studies {
         self.spectrum = None;
     }
 
-    /// Limits the cells of a map.
-    pub fn limit_cells(&mut self, most: usize) {
-        self.most_cells = Some(most);
+    /// Limits the cells of a map, and whether lasting pulses are searched.
+    pub fn limit(&mut self, most_cells: usize, searches: bool) {
+        (self.most_cells, self.no_searches) = (Some(most_cells), !searches);
     }
 
     /// Stops what the order does not want any more, so that its own work has the
@@ -54,6 +61,17 @@ impl Studies {
         {
             self.cell = None;
         }
+        let wanted = |job: &MarginsJob| order.shows(ViewId::Margins) && job.is_of(&order.scene);
+        if self.margins.as_ref().is_some_and(|job| !job.is_done() && !wanted(job)) {
+            self.drop_margins();
+        }
+    }
+
+    /// Ends the search; what it found stays to be seen.
+    fn drop_margins(&mut self) {
+        if let Some(live) = self.margins.take().as_ref().and_then(MarginsJob::live) {
+            self.margins_before = Some(Arc::clone(live));
+        }
     }
 
     /// Whether a study that is needed is missing.
@@ -61,6 +79,7 @@ impl Studies {
         self.locked_is_old(order)
             || (order.shows(ViewId::Spectrum) && self.spectrum.is_none())
             || !self.map_is_done(order)
+            || !self.margins_are_done(order)
             || (order.shows(ViewId::Precision) && !self.precision_is_done(order))
     }
 
@@ -77,6 +96,11 @@ impl Studies {
         map && order.cell.is_none_or(run)
     }
 
+    fn margins_are_done(&self, order: &Order) -> bool {
+        let done = |job: &MarginsJob| job.is_of(&order.scene) && job.is_done();
+        !order.shows(ViewId::Margins) || self.margins.as_ref().is_some_and(done)
+    }
+
     fn precision_is_done(&self, order: &Order) -> bool {
         let found = self.precision.as_ref();
         found.is_some_and(|found| found.is_of(&order.scene) && found.is_done())
@@ -89,6 +113,8 @@ impl Studies {
             self.locked = Some((order.scene.clone().into_scene(), curves));
         } else if order.shows(ViewId::Spectrum) && self.spectrum.is_none() {
             self.spectrum = Some(Arc::new(Spectrum::of(&signal(), length)));
+        } else if !self.margins_are_done(order) {
+            self.compute_margins(order);
         } else if !self.map_is_done(order) {
             self.compute_map(order);
         } else if order.shows(ViewId::Precision) {
@@ -119,6 +145,21 @@ impl Studies {
         }
     }
 
+    fn compute_margins(&mut self, order: &Order) {
+        // A map that is not done has its own threads to wait for.
+        let patience = if self.map_is_done(order) { SLICE } else { Duration::ZERO };
+        match self.margins.as_mut().filter(|job| job.is_of(&order.scene)) {
+            Some(job) => job.receive(patience),
+            None => {
+                self.drop_margins();
+                self.margins = Some(MarginsJob::of(&order.scene, !self.no_searches));
+            }
+        }
+        if !self.map_is_done(order) {
+            self.compute_map(order);
+        }
+    }
+
     fn compute_precision(&mut self, scene: &Scene) {
         match self.precision.as_mut().filter(|found| found.is_of(scene)) {
             Some(found) => found.receive(SLICE),
@@ -135,6 +176,47 @@ impl Studies {
         let whole = job.and_then(MapJob::whole);
         results.map = whole.or(self.map_before.as_ref()).or(job.map(MapJob::live)).cloned();
         results.cell = self.cell.as_ref().and_then(CellJob::found).cloned();
+        let margins = self.margins.as_ref().and_then(MarginsJob::live);
+        results.margins = margins.or(self.margins_before.as_ref()).cloned();
         results.precision = self.precision.as_ref().and_then(PrecisionJob::report).cloned();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tui::{App, Marker, Theme};
+
+    #[test]
+    fn a_search_ends_with_its_view_and_what_was_known_stays() {
+        let scene = Scene::base().checked().unwrap();
+        let app = App::new(scene, Theme::Mono, Marker::Ascii);
+        let mut order = Order { open: vec![ViewId::Margins], ..app.order() };
+        let mut studies = Studies::default();
+        let shown = |studies: &Studies| {
+            let mut results = Results::default();
+            studies.show(&mut results);
+            results.margins
+        };
+        while shown(&studies).is_none() {
+            studies.compute(&order, Vec::new, 1.0);
+        }
+        assert!(studies.is_computing(&order));
+        order.open.clear();
+        studies.stop_unwanted(&order);
+        assert!(studies.margins.is_none() && !studies.is_computing(&order));
+        assert!(shown(&studies).is_some());
+        // Of another scene the old ones stay until there are new ones.
+        order.open.push(ViewId::Margins);
+        let mut other = order.scene.clone().into_scene();
+        other.casing.damping_ratio = 0.1;
+        order.scene = other.checked().unwrap();
+        studies.compute(&order, Vec::new, 1.0);
+        studies.compute(&order, Vec::new, 1.0);
+        assert!(shown(&studies).is_some());
+        while shown(&studies).is_none_or(|live| live.margins.scene != order.scene) {
+            studies.compute(&order, Vec::new, 1.0);
+        }
+        assert!(studies.is_computing(&order));
     }
 }

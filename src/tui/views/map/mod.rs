@@ -14,9 +14,8 @@ pub use cells::{CellRun, LiveMap, coarse_first};
 pub use plan::{MapAxis, MapChoice, numeric};
 pub use words::value_text;
 
-use super::panel::{ViewArea, ViewPanel, not_yet, title};
+use super::panel::{Opening, ViewArea, ViewPanel, not_yet, title};
 use crate::report::map::write_csv;
-use crate::scene::CheckedScene;
 use crate::study::{Axis, MapPlan};
 use crate::tui::app::{App, Cursor};
 use crate::tui::text::{print, spelled_pieces};
@@ -63,9 +62,10 @@ impl ViewPanel for MapView {
     }
 
     /// The run of the cell: its knobs, and the law and solver of the map.
-    fn scene_at(&self, app: &App, _: Cursor) -> Option<CheckedScene> {
+    fn opening(&self, app: &App, _: Cursor) -> Option<Opening> {
         let (plan, [column, row]) = (app.shown_plan()?, app.map_cell()?);
-        plan.scene_of(plan.index(column, row)).ok()
+        let scene = plan.scene_of(plan.index(column, row)).ok()?;
+        Some(Opening::Run(Box::new(scene)))
     }
 
     fn csv(&self, app: &App) -> Result<String, String> {

@@ -1,0 +1,179 @@
+//! View 8: how far the scene is from every limit, and what moves each of them most.
+
+mod bar;
+mod columns;
+mod rows;
+mod table;
+mod words;
+
+use ratatui::{buffer::Buffer, layout::Rect};
+
+use super::panel::{Opening, ViewArea, ViewPanel, not_yet, title};
+use crate::report::margins;
+use crate::scene::ContactLaw;
+use crate::study::margins::Margins;
+use crate::tui::app::{App, Cursor};
+use crate::tui::text::{print, shorten, wrap};
+pub use rows::DIGITS;
+use table::Table;
+
+/// Columns of the reading cursor: the limit, and the knobs that matter most.
+pub const COLUMNS: u32 = KNOBS as u32 + 1;
+/// Knobs that are shown beside a limit.
+const KNOBS: usize = 3;
+/// From this height on, a sentence says what the row under the cursor is,
+const TOLD_FROM: u16 = 6;
+/// and from this one on it has two lines.
+const TOLD_TWICE_FROM: u16 = 16;
+
+/// Margins of which something may still be searched.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LiveMargins {
+    /// What is known.
+    pub margins: Margins,
+    /// The laws whose smallest lasting pulse is still searched.
+    pub awaited: Vec<ContactLaw>,
+}
+
+/// The view.
+pub struct MarginsView;
+
+impl ViewPanel for MarginsView {
+    fn what(&self) -> &'static str {
+        "margins: how far from every limit, and what moves it"
+    }
+
+    fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
+        let look = &app.appearance;
+        let inside = title(app, buffer, at, "margins", &words::title(app, at.area.width));
+        let Some((live, old)) = app.margins() else { return not_yet(app, buffer, inside) };
+        let cell = app.margins_cell().filter(|_| at.large);
+        let told = match (at.large, inside.height) {
+            (true, TOLD_TWICE_FROM..) => 2,
+            (true, TOLD_FROM..) => 1,
+            _ => 0,
+        };
+        let above = Rect { height: inside.height - told, ..inside };
+        let rows = live.rows();
+        let left = Table::new(app, &rows, old, at, above, cell).draw(buffer, above, cell);
+        // One row below the table, where there is room.
+        let y = left.y + left.height.min(1);
+        let below = Rect { y, height: told, ..inside };
+        let (text, role) = words::told(app, &rows, cell);
+        let width = usize::from(below.width.saturating_sub(1));
+        let mut lines = wrap(&look.spell(&text), width);
+        if lines.len() > usize::from(told) {
+            lines.truncate(usize::from(told));
+            if let Some(last) = lines.last_mut() {
+                let more = look.ellipsis();
+                *last = shorten(&format!("{last} {more}"), width, more);
+            }
+        }
+        let below = Rect { x: below.x + 1, width: below.width.saturating_sub(1), ..below };
+        for (row, line) in (0..told).zip(lines) {
+            print(buffer, below, row, &line, look.style(role));
+        }
+    }
+
+    fn grid(&self, app: &App) -> [u32; 2] {
+        let rows = app.margins().map_or(0, |(live, _)| live.rows().len());
+        u32::try_from(rows).ok().filter(|rows| *rows > 0).map_or([0, 0], |rows| [COLUMNS, rows])
+    }
+
+    fn here(&self, app: &App) -> Cursor {
+        let rows = f64::from(self.grid(app)[1].max(1));
+        Cursor { across: 0.5 / f64::from(COLUMNS), up: 1.0 - 0.5 / rows }
+    }
+
+    fn opening(&self, app: &App, _: Cursor) -> Option<Opening> {
+        let ((live, old), [column, row]) = (app.margins()?, app.margins_cell()?);
+        if old {
+            let reason = "these margins are of the knobs before; new ones are under way";
+            return Some(Opening::Nothing(reason.into()));
+        }
+        Some(live.rows().get(row)?.opening(column, app))
+    }
+
+    fn csv(&self, app: &App) -> Result<String, String> {
+        let (live, _) = app.margins().ok_or("there are no margins yet")?;
+        let mut bytes = Vec::new();
+        margins::table(&live.margins).write_csv(&mut bytes).map_err(|error| error.to_string())?;
+        String::from_utf8(bytes).map_err(|error| error.to_string())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::scene::Scene;
+    use crate::tui::views::ViewId;
+    use crate::tui::{Marker, Theme};
+
+    fn app() -> App {
+        let scene = Scene::base().checked().unwrap();
+        let mut app = App::new(scene.clone(), Theme::Dark, Marker::Braille);
+        app.view = ViewId::Margins;
+        app.latest.results.margins = Some(Arc::new(LiveMargins::of(Margins::of(&scene))));
+        app
+    }
+
+    fn text(app: &App) -> String {
+        let area = Rect::new(0, 0, 100, 24);
+        let mut buffer = Buffer::empty(area);
+        MarginsView.draw(app, &mut buffer, ViewArea { area, digit: 8, large: true });
+        let line = |row: &[ratatui::buffer::Cell]| {
+            row.iter().map(|cell| cell.symbol()).collect::<String>() + "\n"
+        };
+        buffer.content.chunks(100).map(line).collect()
+    }
+
+    #[test]
+    fn what_is_searched_says_so_in_its_row() {
+        let app = app();
+        let text = text(&app);
+        for symbol in ["F lasts, bilateral  searching ...", "F lasts, unilateral searching ..."] {
+            assert!(text.contains(symbol), "{text}");
+        }
+        // As many rows as when both are found: a cursor stays on its row.
+        let (live, _) = app.margins().unwrap();
+        assert_eq!(live.rows().len(), live.margins.limits.len() + 2);
+    }
+
+    #[test]
+    fn margins_of_other_knobs_are_marked_and_nothing_jumps_there() {
+        let mut app = app();
+        app.cursor = Some(MarginsView.here(&app));
+        assert!(!text(&app).contains("of the knobs before"));
+        assert!(matches!(app.opening(), Some(Opening::Jump { .. })));
+        let mut other = app.scene.clone().into_scene();
+        other.casing.damping_ratio = 0.1;
+        app.set_scene(other.checked().unwrap(), false);
+        assert!(text(&app).contains("of the knobs before"), "{}", text(&app));
+        assert!(matches!(app.opening(), Some(Opening::Nothing(_))));
+    }
+
+    #[test]
+    fn the_export_is_the_table_of_the_report() {
+        let mut app = app();
+        let (live, _) = app.margins().unwrap();
+        let mut bytes = Vec::new();
+        margins::table(&live.margins).write_csv(&mut bytes).unwrap();
+        assert_eq!(MarginsView.csv(&app).unwrap().into_bytes(), bytes);
+        app.latest.results.margins = None;
+        assert_eq!(MarginsView.csv(&app), Err("there are no margins yet".into()));
+    }
+
+    #[test]
+    fn a_change_has_its_sign_on_its_side() {
+        let look = crate::tui::appearance::Appearance {
+            theme: Theme::Mono,
+            marker: Marker::Ascii,
+            wide: false,
+        };
+        for (part, bar) in [(1.0, "  |=="), (-1.0, "==|  "), (0.3, "  |- "), (-0.01, " -|  ")] {
+            assert_eq!(bar::signed(part, 5, &look), bar);
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! The words around the margins: what its signs mean, and what the cell under the
+//! cursor says.
+
+use ratatui::style::Style;
+
+use super::bar::signs;
+use super::rows::{Row, change_text};
+use crate::study::margins::Side;
+use crate::tui::app::App;
+use crate::tui::knobs::knob_of;
+use crate::tui::theme::Role;
+use crate::tui::views::Opening;
+
+/// The colour of a side.
+pub fn role(side: Side) -> Role {
+    match side {
+        Side::Below => Role::Good,
+        Side::Beyond | Side::Inside => Role::Contact,
+    }
+}
+
+/// The title: whether the margins are old, and what the signs of the bars mean.
+pub fn title(app: &App, width: u16) -> Vec<(String, Style)> {
+    let look = &app.appearance;
+    let mut line = Vec::new();
+    if app.margins().is_some_and(|(_, old)| old) {
+        let text = if width < 50 { "old" } else { "of the knobs before" };
+        line.push((text.to_string(), look.style(Role::Focus)));
+    }
+    let [_, now, _, limit, _, lasting] = signs(look);
+    // Not by `spell`: these signs are ASCII already where they must be.
+    line.push((format!("{now} now"), look.style(Role::Focus)));
+    line.push((format!("{limit} limit"), look.style(Role::Text)));
+    line.push((format!("{lasting} lasts"), look.style(Role::Contact)));
+    line
+}
+
+/// The cell under the cursor in words, or the key that leads to it.
+pub fn told(app: &App, rows: &[Row], cell: Option<[usize; 2]>) -> (String, Role) {
+    let found = cell.and_then(|[column, row]| Some((column, rows.get(row)?)));
+    let Some((column, row)) = found else {
+        return ("i reads a row: Enter jumps to its limit, or selects a knob".into(), Role::Quiet);
+    };
+    let text = match column.checked_sub(1) {
+        None => limit(app, row),
+        Some(place) => match row.strongest().get(place) {
+            Some((path, by)) => knob(row, path, *by),
+            None => format!("{}: no more knobs move it", row.symbol(false)),
+        },
+    };
+    (text, Role::Focus)
+}
+
+/// A limit: its value, what it is, and where the scene is.
+fn limit(app: &App, row: &Row) -> String {
+    let mut parts = vec![match row.value() {
+        Some(value) => format!("{} {}", row.symbol(false), row.with_unit(value)),
+        None => row.symbol(false).to_string(),
+    }];
+    parts.push(format!(": {}", row.name().what()));
+    if let Some(side) = row.side() {
+        parts.push(format!("; now {} {side}", row.percent_text().trim_start_matches(['+', '-'])));
+    }
+    if let Some(note) = row.reason().as_deref().or(row.note()) {
+        parts.push(format!("; {note}"));
+    }
+    // The last line says what Enter does, but not with which knob.
+    if let Opening::Select(path) = row.opening(0, app) {
+        let knob = knob_of(path).map_or(path, |knob| knob.label);
+        parts.push(format!(". Enter selects {knob}"));
+    }
+    parts.concat()
+}
+
+/// A knob: its present value, and what one per cent more of it does.
+fn knob(row: &Row, path: &'static str, by: f64) -> String {
+    let label = knob_of(path).map_or(path, |knob| knob.label);
+    let part = row.value().map(|value| row.with_unit(value * by / 100.0));
+    let part = part.map_or(String::new(), |part| format!(" ({part})"));
+    let symbol = row.symbol(false);
+    format!("1 % more of {label}: {symbol} {} %{part}", change_text(by))
+}

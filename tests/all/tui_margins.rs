@@ -1,0 +1,297 @@
+//! The margins of the explorer: its rows are those of `Margins`, Enter jumps to a
+//! limit or selects a knob, and no scene and no size is too odd for it.
+
+use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
+use rubscope::scene::Scene;
+use rubscope::study::margins::{LimitName, Margins};
+use rubscope::tui::bindings::Action;
+use rubscope::tui::events::ScreenEvent;
+use rubscope::tui::{Heard, Marker, Theme};
+
+use crate::tui_support::{Session, scene};
+
+/// A short run: the search for lasting pulses has hundreds of them.
+fn short() -> Scene {
+    let mut scene = scene();
+    scene.solver.end_s = 5e-3;
+    scene
+}
+
+fn open(size: (u16, u16), scene: Scene) -> Session {
+    let mut session = Session::open(size.0, size.1, scene, Theme::Dark, Marker::Braille);
+    session.press("8");
+    session
+}
+
+/// As `open`, with the lasting pulses.
+fn search(size: (u16, u16), scene: Scene) -> Session {
+    let mut session = Session::open(size.0, size.1, scene, Theme::Dark, Marker::Braille);
+    session.engine.searches = true;
+    session.press("8");
+    session
+}
+
+fn resize(session: &mut Session, (width, height): (u16, u16)) {
+    session.terminal.backend_mut().resize(width, height);
+    session.send(std::iter::once(ScreenEvent::Resize));
+    session.press("");
+}
+
+/// The line of a limit.
+fn line(session: &Session, symbol: &str) -> String {
+    let text = session.text();
+    let beginning = [format!("▸{symbol} "), format!(" {symbol} ")];
+    let chart = |line: &str| {
+        let at = beginning.iter().find_map(|start| line.find(start.as_str()))?;
+        let knobs = usize::from(session.app.size.0 >= 66) * 27;
+        (line[..at].chars().count() == knobs).then(|| line[at..].to_string())
+    };
+    text.lines().find_map(chart).unwrap_or_else(|| panic!("no {symbol} in {text}"))
+}
+
+/// The cell under the cursor.
+fn cell(session: &Session) -> [usize; 2] {
+    session.app.margins_cell().unwrap()
+}
+
+fn selected(session: &Session) -> &'static str {
+    session.app.selected().unwrap().path
+}
+
+#[test]
+fn the_rows_are_the_margins_of_the_scene_with_their_knobs() {
+    let session = search((120, 40), short());
+    let (live, old) = session.app.margins().unwrap();
+    assert!(!old && live.awaited.is_empty());
+    let mut margins = Margins::of(&session.app.scene);
+    assert!(margins.laws().into_iter().all(|law| margins.search(law, &|| true)));
+    assert_eq!(live.margins.limits, margins.limits);
+    for (symbol, parts) in [
+        ("Ω_c", ["292.88", "+70.7 % beyond", "k_c", "+0.500"]),
+        ("Ω_lock", ["411.93", "+21.4 % beyond", "ζ_c", "+0.328"]),
+        ("coincidence", ["388.31", "+28.8 % beyond", "m_b", "-0.123"]),
+        ("F touches", ["3.795 kN", " % beyond", "g0", "+1.000"]),
+        ("push a", [" N ", "", "Ω", "+2.2"]),
+    ] {
+        let line = line(&session, symbol);
+        assert!(parts.iter().all(|part| line.contains(part)), "{parts:?} in {line}");
+    }
+    let lasting = margins.limit(LimitName::LastingPulse).unwrap();
+    let percent = format!("{:+.0} %", 100.0 * lasting.margin.unwrap());
+    assert!(line(&session, "F lasts bil").contains(&percent), "{percent}: {}", session.text());
+    // A load has no place on a bar, and no side.
+    assert!(!line(&session, "torque").contains('%'), "{}", session.text());
+    assert!(line(&session, "Ω_c").contains('┃') && line(&session, "Ω_c").contains('█'));
+}
+
+#[test]
+fn the_margins_follow_the_knobs_and_nothing_is_computed_while_they_are_closed() {
+    let mut session = Session::open(120, 40, short(), Theme::Dark, Marker::Braille);
+    session.press("");
+    assert!(session.app.margins().is_none());
+    session.press("8");
+    session.select("casing.damping_ratio");
+    session.press("\n0.1\n");
+    session.press("");
+    let lock = session.app.machine.lock_speed().unwrap();
+    assert!(line(&session, "Ω_lock").contains(&format!("{lock:.2}")), "{}", session.text());
+    assert!(line(&session, "Ω_lock").contains(" below"), "{}", session.text());
+    session.press("1");
+    session.press("\n0.02\n");
+    let (live, old) = session.app.margins().unwrap();
+    assert!(old && live.margins.scene.casing.damping_ratio == 0.1);
+}
+
+#[test]
+fn enter_jumps_to_a_limit_and_undo_comes_back() {
+    let mut session = open((120, 40), short());
+    session.press("i");
+    assert_eq!(cell(&session), [0, 0]);
+    assert!(session.text().contains("Enter jump  "), "{}", session.text());
+    session.press("jj\n");
+    let lock = session.app.machine.lock_speed().unwrap();
+    assert_eq!(session.app.scene.operation.speed_rad_s, lock);
+    assert!(session.text().contains("speed 411.93 rad/s: Ω_lock"), "{}", session.text());
+    assert_eq!(selected(&session), "operation.speed_rad_s");
+    session.press("");
+    // Exactly there is as much as the limit.
+    assert!(line(&session, "Ω_lock").contains("+0.0 % beyond"), "{}", session.text());
+    assert!(line(&session, "Ω_lock").contains('╋'), "{}", session.text());
+    session.press("u");
+    assert_eq!(session.app.scene.operation.speed_rad_s, 500.0);
+    session.press("");
+    session.press("jjj\n");
+    let touching = Margins::of(&session.app.scene).limit(LimitName::TouchingPulse).unwrap().value;
+    assert_eq!(Some(session.app.scene.operation.pulse_n), touching);
+    assert!(session.text().contains("pulse 3.795 kN: F that touches"), "{}", session.text());
+}
+
+#[test]
+fn a_rotor_that_turns_backward_jumps_backward() {
+    let mut scene = short();
+    scene.operation.speed_rad_s = -430.0;
+    let mut session = open((120, 40), scene);
+    assert!(line(&session, "Ω_lock").contains("+4.4 % beyond"), "{}", session.text());
+    session.press("i\n");
+    let critical = session.app.machine.critical_speed().unwrap();
+    assert_eq!(session.app.scene.operation.speed_rad_s, -critical);
+    assert!(session.text().contains("speed -292.88 rad/s: Ω_c"), "{}", session.text());
+}
+
+#[test]
+fn enter_on_a_knob_selects_it_and_enter_elsewhere_types_a_value() {
+    let mut session = open((120, 40), short());
+    session.press("ijjlll");
+    assert_eq!(cell(&session), [3, 2]);
+    assert!(
+        session.text().contains("1 % more of damping ζ_c: Ω_lock +0.328 % (1.3"),
+        "{}",
+        session.text()
+    );
+    assert!(session.text().contains("Enter select  "), "{}", session.text());
+    session.press("\n");
+    assert_eq!(selected(&session), "casing.damping_ratio");
+    assert!(session.text().contains("damping ζ_c selected"), "{}", session.text());
+    // The last row is a load: Enter selects what moves it most, from a folded group.
+    session.press("hhhJJJ\n");
+    assert_eq!(selected(&session), "clearance");
+    session.press("i\n150u\n");
+    assert!((session.app.machine.clearance() - 150e-6).abs() < 1e-12);
+}
+
+#[test]
+fn a_click_reads_a_row_and_a_second_one_jumps() {
+    let mut session = open((120, 40), short());
+    let find = |session: &Session, text: &str| {
+        let screen = session.text();
+        let row = screen.lines().position(|line| line.contains(text)).unwrap();
+        let line = screen.lines().nth(row).unwrap();
+        (line[..line.find(text).unwrap()].chars().count() as u16, row as u16)
+    };
+    let click = |session: &mut Session, (column, row)| {
+        let kind = MouseEventKind::Down(MouseButton::Left);
+        let heard =
+            session.app.mouse(&MouseEvent { kind, column, row, modifiers: KeyModifiers::NONE });
+        session.press("");
+        heard
+    };
+    let coincidence = find(&session, "388.31");
+    assert_eq!(click(&mut session, coincidence), Heard::Acted);
+    assert_eq!(cell(&session), [0, 3]);
+    click(&mut session, coincidence);
+    let speed = session.app.machine.dangerous_speed().unwrap();
+    assert_eq!(session.app.scene.operation.speed_rad_s, speed);
+    let (_, row) = find(&session, "411.93");
+    click(&mut session, (118, row));
+    assert_eq!(cell(&session), [3, 2]);
+    click(&mut session, (118, row));
+    assert_eq!(selected(&session), "casing.damping_ratio");
+}
+
+#[test]
+fn the_columns_and_rows_that_have_no_room_are_said_or_left_out() {
+    let mut session = search((80, 24), short());
+    session.press("ij ");
+    session.press("kj");
+    for (width, height) in [(80, 24), (120, 40), (40, 12), (200, 50)] {
+        resize(&mut session, (width, height));
+        insta::assert_snapshot!(format!("margins_{width}x{height}"), session.text());
+        assert!(session.text().contains("Enter jump  "), "{}", session.text());
+    }
+    resize(&mut session, (80, 24));
+    session.press("i");
+    assert!(session.text().contains("+8 more"), "{}", session.text());
+    session.press("i");
+    session.press(&"j".repeat(20));
+    assert_eq!(cell(&session), [0, 13]);
+    assert!(session.text().contains("before"), "{}", session.text());
+    assert!(line(&session, "wave energy").contains("mJ"), "{}", session.text());
+}
+
+#[test]
+fn a_companion_has_the_symbols_per_cents_and_words_and_mono_needs_no_colour() {
+    let mut scene = short();
+    scene.view.charts = vec!["response".into(), "margins".into(), "gaps".into()];
+    let mut session = Session::open(120, 40, scene.clone(), Theme::Dark, Marker::Braille);
+    session.press(" ");
+    assert!(session.text().contains("Ω_lock ") && session.text().contains("+21.4 % beyond"));
+    insta::assert_snapshot!("margins_companion", session.text());
+    let mut plain = Session::open(120, 40, short(), Theme::Mono, Marker::Ascii);
+    plain.press("8 i");
+    let text = plain.text();
+    assert!(text.is_ascii() && text.contains("Om_lock"), "{text}");
+    insta::assert_snapshot!("margins_ascii", text);
+}
+
+#[test]
+fn no_scene_is_too_odd() {
+    let with = |set: &[(&str, &str)]| {
+        let mut scene = short();
+        set.iter().for_each(|(path, value)| scene.set(path, value).unwrap());
+        scene
+    };
+    let half = Scene { solver: short().solver, ..Scene::builtin("half-n").unwrap() };
+    let scenes = [
+        half,
+        with(&[("operation.nodal_diameters", "0")]),
+        with(&[("operation.nodal_diameters", "11")]),
+        with(&[("casing.damping_ratio", "0"), ("bladed_disk.damping_ratio", "0")]),
+        with(&[("operation.pulse_n", "0")]),
+        with(&[("operation.pulse_n", "-50000")]),
+        with(&[("operation.pulse_n", "1e-9")]),
+        with(&[("operation.pulse_n", "1e12")]),
+        with(&[("operation.speed_rad_s", "-500")]),
+        with(&[("operation.speed_rad_s", "0")]),
+        with(&[("operation.speed_rad_s", "1e5")]),
+        with(&[("casing.modal_mass_kg", "1e-4"), ("casing.modal_stiffness_n_per_m", "1e7")]),
+        with(&[("casing.damping_ratio", "3")]),
+        with(&[("solver.end_s", "1e-7")]),
+        with(&[("initial.u_c_m", "5e-5"), ("operation.pulse_n", "0")]),
+    ];
+    for (place, scene) in scenes.into_iter().enumerate() {
+        if let Err(error) = scene.checked() {
+            panic!("scene {place}: {error}");
+        }
+        let mut session = open((120, 40), scene);
+        assert!(session.app.margins().is_some(), "scene {place}");
+        session.press("i");
+        for size in [(40, 12), (80, 24), (200, 50), (120, 40)] {
+            resize(&mut session, size);
+            for keys in ["JJJJJ", "LLL", "KK", "HHH", "KKK"] {
+                session.press(keys);
+                let text = session.text();
+                assert!(!text.contains("NaN") && !text.contains("inf"), "scene {place}: {text}");
+            }
+        }
+        // Every row and every knob, from the first to the last.
+        let rows = session.app.margins().unwrap().0.rows().len();
+        let step = |right, up| Action::Cursor { right, up, coarse: false };
+        for _ in 0..rows {
+            for _ in 0..4 {
+                let before = session.app.scene.clone();
+                session.app.act(Action::OpenPlace);
+                assert!(session.app.scene.checked().is_ok(), "scene {place}");
+                if session.app.scene != before {
+                    session.app.act(Action::Undo);
+                }
+                assert_eq!(session.app.scene, before, "scene {place}");
+                session.app.act(step(1, 0));
+            }
+            session.app.act(step(-4, -1));
+        }
+        session.press("");
+    }
+}
+
+#[test]
+fn where_there_is_no_limit_the_row_says_why() {
+    let mut scene = short();
+    scene.operation.nodal_diameters = 0;
+    let mut session = open((120, 40), scene);
+    assert!(line(&session, "Ω_c").contains("none: no wave turns"), "{}", session.text());
+    session.press("i");
+    assert!(!session.text().contains("Enter"), "{}", session.text());
+    session.press("\n");
+    assert!(session.text().contains("Ω_c: none: no wave turns"), "{}", session.text());
+    assert_eq!(session.app.scene.operation.speed_rad_s, 500.0);
+}
