@@ -39,9 +39,9 @@ pub(crate) const LASTING_CHANGE: f64 = 0.05;
 /// Part by which the two differences may disagree for an edge to be smooth.
 pub(crate) const LASTING_SMOOTH: f64 = 0.05;
 
-/// How many of the largest pulses must last for them to be a zone: a quarter of a
-/// decade. Fewer: an island at the end of the search is taken for it.
-pub(crate) const LASTING_ZONE: usize = 8;
+/// Factor between the first and the largest pulse that last for them to be a zone: a
+/// quarter of a decade. Smaller: an island at the end of the search is taken for it.
+pub(crate) const LASTING_ZONE: f64 = 1.78;
 
 /// Most work of one of the runs of a search: updates of a coordinate. A search makes
 /// some thousand runs, so more of them are many minutes.

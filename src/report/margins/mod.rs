@@ -52,6 +52,7 @@ pub fn write(margins: &Margins, out: &mut dyn Write) -> Result<()> {
         writeln!(out)?;
         more::bands(limit, out)?;
     }
+    more::notes(margins, out)?;
     more::spread(margins, out)?;
     more::target(margins, out)?;
     writeln!(out)?;

@@ -33,6 +33,23 @@ pub(super) fn bands(limit: &Limit, out: &mut dyn Write) -> Result<()> {
     }
 }
 
+/// What closed forms leave out in this scene, once for all limits of which it is so.
+pub(super) fn notes(margins: &Margins, out: &mut dyn Write) -> Result<()> {
+    let noted = |limit: &&Limit| limit.value.is_some() && limit.contact.is_none();
+    let mut said: Vec<(&str, String)> = Vec::new();
+    for limit in margins.limits.iter().filter(noted) {
+        let Some(note) = limit.note.as_deref() else { continue };
+        match said.iter_mut().find(|(known, _)| *known == note) {
+            Some((_, names)) => names.push_str(&format!(", {}", limit.name)),
+            None => said.push((note, limit.name.to_string())),
+        }
+    }
+    if !said.is_empty() {
+        writeln!(out)?;
+    }
+    said.iter().try_for_each(|(note, names)| tell(&format!("{names}: {note}."), out))
+}
+
 /// How far limits spread with the tolerances given.
 pub(super) fn spread(margins: &Margins, out: &mut dyn Write) -> Result<()> {
     if margins.tolerances.is_empty() {

@@ -3,7 +3,7 @@
 use crate::report::CommandLine;
 use crate::report::number::{count, grouped, rounded, short, time, with_unit};
 use crate::report::prefix::SiScale;
-use crate::scene::{ContactLaw, Scene};
+use crate::scene::{ContactLaw, Scene, SolverKind};
 use crate::study::margins::{Found, Limit, LimitName, Margins, Quantity, parameter};
 
 /// A margin from which on it is told as a factor.
@@ -147,7 +147,13 @@ pub fn target(found: &Found, margins: &Margins) -> String {
     let parameter = |x: f64| format!("{} {unit}", short(x)).trim_end().to_string();
     let Some(to) = found.to else {
         let [least, most] = found.tried.map(parameter);
+        if found.tried[0] == found.tried[1] {
+            return format!(
+                "No value of {by} was found for {name}: it could not be followed from that of the scene, {least}."
+            );
+        }
         let met = match found.met {
+            Some([least, most]) if least == most => "it does not depend on it".to_string(),
             Some([least, most]) => {
                 format!(
                     "it goes from {} to {}",
@@ -178,6 +184,8 @@ pub fn check(found: &Found, scene: &Scene) -> Option<CommandLine> {
         changed.operation.pulse_n = reached * BEYOND;
         if let Some(law) = law {
             changed.solver.contact = law;
+            // It knows both laws; the event solver knows one.
+            changed.solver.kind = SolverKind::Explicit;
         }
         // As the limit was sought, where the event solver knows the scene.
         let by_events = law != Some(ContactLaw::Bilateral);

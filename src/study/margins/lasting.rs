@@ -14,11 +14,13 @@ use super::limit::{Limit, LimitName, Sensitivities};
 use super::parameters::{CLEARANCE, PARAMETERS, Parameter, is_length, parameter};
 use super::touching;
 use crate::motion::{GoOn, Verdict};
-use crate::scene::{CheckedScene, ContactLaw};
+use crate::scene::{CheckedScene, ContactLaw, SolverKind};
 use crate::tolerances::{LASTING_EDGE, LASTING_PART, LASTING_ZONE};
 
-/// Pulses tried in each decade.
-pub const PULSES_PER_DECADE: u32 = 32;
+/// Pulses tried in each decade by the explicit solver: every 7.5 %.
+const PULSES_PER_DECADE: u32 = 32;
+/// The same by the event solver, whose runs take a hundredth of the time: every 0.45 %.
+const PULSES_PER_DECADE_BY_EVENTS: u32 = 512;
 /// Decades above the touching pulse that are searched; further where the pulse of the
 /// scene is.
 const DECADES: f64 = 3.5;
@@ -76,15 +78,15 @@ pub fn lasting_pulse(
         Ok(edges) => edges,
         Err(why) => return Some((none(why), 0)),
     };
-    let Some(pulses) = pulses(scene) else {
+    let Some(pulses) = pulses(scene, &edges) else {
         return Some((none(touching::why_none(scene).to_string()), 0));
     };
     let bands = bands(&edges, &pulses)?;
     let Some(place) = beginning(&bands) else {
         let times = pulses.last().zip(pulses.first()).map_or(1.0, |(last, first)| last / first);
         let note = format!(
-            "nothing lasts among {} pulses up to {times:.0} times the touching one",
-            pulses.len()
+            "nothing lasts up to {times:.0} times the touching pulse, tried every {:.2} %",
+            100.0 * step(&pulses)
         );
         return Some((none(note), edges.runs()));
     };
@@ -92,7 +94,7 @@ pub fn lasting_pulse(
     limit.contact = Some(law);
     let by = sensitivities(&edges, &bands, place)?;
     limit.sensitivities = Sensitivities(by);
-    limit.note = Some(told(&bands, place));
+    limit.note = Some(told(&bands, place, &pulses));
     limit.bands = bands;
     Some((limit, edges.runs()))
 }
@@ -103,35 +105,45 @@ fn beginning(bands: &[Band]) -> Option<usize> {
     zone.or((!bands.is_empty()).then_some(0))
 }
 
-/// What the bands are, in words.
-fn told(bands: &[Band], place: usize) -> String {
+/// What the bands are, in words: what was tried, and not more.
+fn told(bands: &[Band], place: usize, pulses: &[f64]) -> String {
     let zone = bands.get(place).is_some_and(|band| band.to_n.is_none());
+    let tried = format!("tried every {:.2} %", 100.0 * step(pulses));
+    let count = |count: usize| match count {
+        1 => "one island".to_string(),
+        count => format!("{count} islands"),
+    };
     match (zone, bands.len()) {
-        (true, 1) => "every larger pulse that was tried lasts".to_string(),
-        (true, 2) => {
-            "every larger pulse that was tried lasts; smaller ones in one island".to_string()
+        (true, 1) => format!("every larger pulse lasts, {tried}"),
+        (true, all) => {
+            format!("every larger pulse lasts, {tried}, and smaller ones in {}", count(all - 1))
         }
-        (true, count) => {
-            format!(
-                "every larger pulse that was tried lasts; smaller ones in {} islands",
-                count - 1
-            )
-        }
-        (false, 1) => "one island; larger pulses do not last".to_string(),
-        (false, count) => format!("the first of {count} islands; between them pulses do not last"),
+        (false, 1) => format!("one island was found, {tried}"),
+        (false, all) => format!("the first of {} that were found, {tried}", count(all)),
+    }
+}
+
+/// How much larger each pulse is than the one before, as a part of it.
+fn step(pulses: &[f64]) -> f64 {
+    match pulses {
+        [first, second, ..] => second / first - 1.0,
+        _ => 0.0,
     }
 }
 
 /// The pulses that are tried, from just below the one that touches.
-fn pulses(scene: &CheckedScene) -> Option<Vec<f64>> {
+fn pulses(scene: &CheckedScene, edges: &Edges<'_>) -> Option<Vec<f64>> {
     let present = scene.operation.pulse_n;
     let touch = touching::limit(scene).value?;
     let start = touch * (1.0 - LASTING_EDGE);
     let reach = (1.5 * present / start).log10();
     let decades = if reach.is_finite() { reach.clamp(DECADES, MOST_DECADES) } else { DECADES };
-    let count = (decades * f64::from(PULSES_PER_DECADE)).ceil();
-    let step = |k: u32| 10_f64.powf(f64::from(k) / f64::from(PULSES_PER_DECADE));
-    Some((0..=count as u32).map(|k| start * step(k)).collect())
+    let each = f64::from(match edges.scene().solver.kind {
+        SolverKind::Explicit => PULSES_PER_DECADE,
+        SolverKind::Event => PULSES_PER_DECADE_BY_EVENTS,
+    });
+    let count = (decades * each).ceil() as u32;
+    Some((0..=count).map(|k| start * 10_f64.powf(f64::from(k) / each)).collect())
 }
 
 /// Where pulses last; the edge at which the limit begins to its last digits, the
@@ -173,10 +185,9 @@ fn bands(edges: &Edges<'_>, pulses: &[f64]) -> Option<Vec<Band>> {
         band.sensitive = edges.is_sensitive(middle)?;
     }
     // A few of the largest pulses are no zone, but an island at the end of the search.
-    let (first, largest) = (pulses.len().saturating_sub(LASTING_ZONE), pulses.last());
-    if let Some((band, largest)) = found.last_mut().zip(largest)
+    if let Some((band, largest)) = found.last_mut().zip(pulses.last())
         && band.to_n.is_none()
-        && pulses.get(first).is_none_or(|pulse| !band.holds(*pulse))
+        && (largest / band.from_n) < LASTING_ZONE
     {
         band.to_n = Some(*largest);
     }

@@ -93,7 +93,9 @@ pub enum Quantity {
 pub enum Side {
     /// The scene has less than the limit.
     Below,
-    /// It has as much or more.
+    /// It is at the limit, to nine digits.
+    At,
+    /// It has more.
     Beyond,
     /// It has less, but stands in an island of lasting pulses.
     Inside,
@@ -168,6 +170,9 @@ impl Sensitivities {
 /// in it is less than the last digit shown.
 const LEAST: f64 = 1e-4;
 
+/// Part of a limit within which a scene is at it.
+const AT: f64 = 1e-9;
+
 impl Limit {
     /// A limit of this value, at which the scene has `present`.
     pub(super) fn new(name: LimitName, value: Option<f64>, present: Option<f64>) -> Self {
@@ -191,10 +196,14 @@ impl Limit {
     #[must_use]
     pub fn side(&self) -> Option<Side> {
         let (margin, present) = self.margin.zip(self.present)?;
-        if self.bands.iter().any(|band| band.holds(present)) && margin < 0.0 {
+        if margin < -AT && self.bands.iter().any(|band| band.holds(present)) {
             return Some(Side::Inside);
         }
-        Some(if margin < 0.0 { Side::Below } else { Side::Beyond })
+        Some(match margin {
+            _ if margin.abs() < AT => Side::At,
+            _ if margin < 0.0 => Side::Below,
+            _ => Side::Beyond,
+        })
     }
 }
 

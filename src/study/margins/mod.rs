@@ -23,7 +23,7 @@ use serde::Serialize;
 use crate::motion::GoOn;
 use crate::scene::{CheckedScene, ContactLaw};
 
-pub use lasting::{Band, PULSES_PER_DECADE, lasting_pulse};
+pub use lasting::{Band, lasting_pulse};
 pub use limit::{Limit, LimitName, Quantity, Sensitivities, Side};
 pub use parameters::{CLEARANCE, PARAMETERS, Parameter, parameter};
 pub use target::{Found, Target, TargetError};

@@ -5,7 +5,7 @@ use num_dual::Dual64;
 
 use crate::model::{BladedDisk, Casing, Machine, Number, Operation};
 use crate::motion::FreeFlight;
-use crate::scene::{Key, Scene, SceneError, Value, keys};
+use crate::scene::{Allowed, Key, Scene, SceneError, Value, keys};
 
 /// The one parameter that is no key: the clearance `g0`, changed by the radius.
 pub const CLEARANCE: &str = "clearance";
@@ -110,6 +110,14 @@ impl Parameter {
     pub(super) fn walked(&self, scene: &Scene) -> (&'static str, f64) {
         let path = if is_length(self.path) { CLEARANCE } else { self.path };
         (path, parameter(path).map_or(f64::NAN, |walked| walked.of(scene)))
+    }
+
+    /// The largest value that its key allows, in size.
+    pub(super) fn largest(&self) -> f64 {
+        match self.key().map(|key| key.allowed) {
+            Ok(Allowed::Real { max, .. }) => max,
+            _ => f64::MAX,
+        }
     }
 
     /// Of a length: `d ln(clearance)/d ln(length)`.

@@ -155,6 +155,7 @@ impl Walk<'_> {
         let (start, span) =
             if up_only { (1.0 / TARGET_SPAN, TARGET_SPAN.powi(3)) } else { (from, TARGET_SPAN) };
         let steps = (span.ln() / TARGET_FACTOR.ln()).ceil() as i32;
+        let largest = self.target.by.largest();
         let first = self.at(from)?;
         let mut ends = [1, -1].map(|sign| (sign, first.map(|value| (from, value))));
         for step in 1..=steps + 1 {
@@ -166,7 +167,7 @@ impl Walk<'_> {
                 let value = match (*sign, step > steps) {
                     (-1, true) => 0.0,
                     (_, true) => continue,
-                    _ => start * TARGET_FACTOR.powi(*sign * step),
+                    _ => (start * TARGET_FACTOR.powi(*sign * step)).clamp(-largest, largest),
                 };
                 let now = self.at(value)?.map(|excess| (value, excess));
                 if let Some(((_, one), (_, other))) = before.zip(now)

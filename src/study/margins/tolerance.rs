@@ -8,7 +8,7 @@ use thiserror::Error;
 
 use super::closed::{CLOSED, values};
 use super::limit::{Limit, LimitName};
-use super::parameters::{Parameter, Parameters, parameter};
+use super::parameters::{CLEARANCE, Parameter, Parameters, is_length, parameter};
 use super::target::paths;
 use super::{Margins, touching};
 use crate::scene::CheckedScene;
@@ -45,6 +45,18 @@ pub enum ToleranceError {
     Twice {
         /// As given.
         path: String,
+    },
+    /// A length that may be off by more than the clearance.
+    #[error(
+        "tolerance {path} = {percent}: allowed is less than {most:.3} %, the clearance as a part of it; or give clearance=PERCENT"
+    )]
+    Length {
+        /// As given.
+        path: String,
+        /// As given \\[%\\].
+        percent: f64,
+        /// The clearance \\[%\\].
+        most: f64,
     },
     /// A parameter that is zero.
     #[error("tolerance {path}: the scene has 0 there, and per cents of it are 0")]
@@ -117,6 +129,12 @@ impl Tolerance {
             if known.of(scene) == 0.0 {
                 return Err(ToleranceError::Zero { path });
             }
+            if is_length(known.path) {
+                let most = 100.0 / known.lever(scene).abs();
+                if percent >= most {
+                    return Err(ToleranceError::Length { path, percent, most });
+                }
+            }
             found.push(Self { path: known.path, percent });
         }
         Ok(found)
@@ -179,7 +197,8 @@ impl Samples {
             let mut all = [None; CLOSED.len() + 1];
             let closed = values(&Parameters::<f64>::of(&changed));
             all[..CLOSED.len()].copy_from_slice(&closed);
-            all[CLOSED.len()] = touching.and_then(|limit| touch(limit, &known, changes, &changed));
+            all[CLOSED.len()] =
+                touching.and_then(|limit| touch(limit, &known, changes, [scene, &changed]));
             all
         };
         Self(changes.par_iter().map(sample).collect())
@@ -219,12 +238,16 @@ fn touch(
     limit: &Limit,
     known: &[(&Parameter, f64)],
     changes: &[f64],
-    scene: &CheckedScene,
+    [before, scene]: [&CheckedScene; 2],
 ) -> Option<f64> {
     let value = limit.value.filter(|value| *value != 0.0)?;
     let moved = known.iter().zip(changes).map(|((parameter, _), change)| {
-        limit.sensitivities.by(parameter.path).unwrap_or(0.0) * change
+        // The pulse goes with the clearance exactly, however much that changes.
+        let own = parameter.path != CLEARANCE && !is_length(parameter.path);
+        let by = limit.sensitivities.by(parameter.path).filter(|_| own);
+        by.unwrap_or(0.0) * change
     });
-    let guess = value * moved.sum::<f64>().exp();
+    let wider = scene.machine().clearance() / before.machine().clearance();
+    let guess = value * wider * moved.sum::<f64>().exp();
     touching::near(scene, guess, SAMPLED_TOUCH)
 }

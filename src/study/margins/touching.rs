@@ -6,10 +6,10 @@ use std::f64::consts::TAU;
 use num_dual::Dual64;
 
 use super::limit::{Limit, LimitName, Sensitivities};
-use super::parameters::{PARAMETERS, Parameters, sensitivity};
+use super::parameters::{PARAMETERS, Parameter, Parameters, parameter, sensitivity};
 use crate::model::{Excitation, Initial, Number};
 use crate::motion::{FreeFlight, Motion};
-use crate::scene::{Allowed, CheckedScene, ModelSize, Scene, keys};
+use crate::scene::{CheckedScene, ModelSize, Scene};
 use crate::study::bisection::bisect;
 use crate::study::overlay::PULSE;
 use crate::tolerances::{TOUCHING_PART, TOUCHING_PERIODS};
@@ -175,10 +175,7 @@ fn enough(scene: &CheckedScene) -> Option<f64> {
     let impulse = machine.clearance() * machine.omega_c * machine.casing_mass;
     let force = impulse / scene.operation.pulse_s + machine.clearance() * machine.casing_stiffness;
     let sense = if scene.operation.pulse_n < 0.0 { -1.0 } else { 1.0 };
-    let most = match keys::find(PULSE).map(|key| key.allowed) {
-        Ok(Allowed::Real { max, .. }) => max,
-        _ => f64::MAX,
-    };
+    let most = parameter(PULSE).map_or(f64::MAX, Parameter::largest);
     let doubled = (0..=DOUBLINGS).map(|k| sense * (force * 2_f64.powi(k)).min(most));
     doubled.into_iter().find(|pulse| pulse.is_finite() && touch_of(&reference, *pulse).is_some())
 }

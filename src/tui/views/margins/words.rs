@@ -15,7 +15,7 @@ use crate::tui::views::Opening;
 pub fn role(side: Side) -> Role {
     match side {
         Side::Below => Role::Good,
-        Side::Beyond | Side::Inside => Role::Contact,
+        Side::At | Side::Beyond | Side::Inside => Role::Contact,
     }
 }
 
