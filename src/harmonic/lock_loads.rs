@@ -138,4 +138,30 @@ mod tests {
         assert!(lock_loads(&machine, 0.999 * fold).is_some());
         assert_eq!(lock_loads(&machine, 1.001 * fold), None);
     }
+
+    #[test]
+    fn energy_is_that_of_two_modes_which_turn_the_wave() {
+        let machine = machine(&[]);
+        for speed in [0.0, 320.0, -430.0] {
+            let loads = lock_loads(&machine, speed).unwrap();
+            // At any instant, such as one where the wave is at 0.7 rad.
+            let (y, x) = 0.7_f64.sin_cos();
+            let nu = machine.nu(speed);
+            let modes = [(x, -nu * y), (y, nu * x)].map(|(place, rate)| {
+                let (place, rate) = (loads.amplitude_m * place, loads.amplitude_m * rate);
+                let stretched = 0.5 * machine.casing_stiffness * place * place;
+                stretched + 0.5 * machine.casing_mass * rate * rate
+            });
+            close(loads.energy_j, modes[0] + modes[1], 1e-12);
+        }
+    }
+
+    #[test]
+    fn nothing_is_loaded_without_corners() {
+        for diameters in ["0", "11"] {
+            let machine = machine(&[("operation.nodal_diameters", diameters)]);
+            assert_eq!(lock_loads(&machine, 500.0), None);
+            assert_eq!(lock_fold_speed(&machine), None);
+        }
+    }
 }

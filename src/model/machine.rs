@@ -247,4 +247,16 @@ mod tests {
         assert_eq!(paper(0, 0.05).critical_speed(), None);
         assert_eq!(paper(11, 0.05).lock_speed(), None);
     }
+
+    #[test]
+    fn coincidences_are_positive_and_in_order_whichever_is_stiffer() {
+        for stiffness in [2e3, 1e5, 1e9] {
+            let casing = Casing { modal_stiffness_n_per_m: stiffness, ..Casing::default() };
+            let m = Machine::new(&BladedDisk::default(), &casing, 3);
+            let speeds = m.coincidence_speeds();
+            assert!(speeds[0] > 0.0 && speeds[0] < speeds[1], "{speeds:?}");
+            let apart = 2.0 / 3.0 * m.omega_c.min(m.omega_bd);
+            close(speeds[1] - speeds[0], apart, 1e-9 * speeds[1]);
+        }
+    }
 }

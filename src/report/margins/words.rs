@@ -231,3 +231,66 @@ pub fn cost(margins: &Margins) -> String {
     };
     format!("Cost: closed forms and the touching pulse {}; {search}.", wall(cost.wall_s))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn margins_and_changes_have_the_digits_that_are_known() {
+        for (part, told) in [
+            (0.0, "+0.0 %"),
+            (-0.1234, "-12.3 %"),
+            (0.9994, "+99.9 %"),
+            (-0.9996, "-100 %"),
+            (8.99, "+899 %"),
+            (9.0, "10 times"),
+            (262.5, "263.5 times"),
+        ] {
+            assert_eq!(margin(part), told);
+        }
+        for (by, told) in [
+            (0.333, "+0.33 %"),
+            (-0.5, "-0.50 %"),
+            (0.01234, "+0.012 %"),
+            (-0.01234, "-0.012 %"),
+            (99.99, "+99.99 %"),
+            (1234.56, "+1235 %"),
+            (-1234.56, "-1235 %"),
+        ] {
+            assert_eq!(change(by), told);
+        }
+    }
+
+    #[test]
+    fn a_pulse_is_shown_under_its_law_and_by_its_solver() {
+        let events = "--set solver.kind=event";
+        let unilateral = "--set solver.contact=unilateral";
+        let bilateral = "--set solver.contact=bilateral";
+        // The first scene is of the explicit solver and the bilateral law, the other
+        // of the event solver and the unilateral law.
+        for (scene, name, has, has_not) in [
+            ("paper-nd3", LimitName::TouchingPulse, &[events, unilateral][..], &[bilateral][..]),
+            ("paper-nd3", LimitName::LastingPulse, &[], &[events, unilateral]),
+            ("paper-nd3", LimitName::LastingPulseUnilateral, &[events, unilateral], &[]),
+            ("slip", LimitName::LastingPulse, &[], &[bilateral, "solver.kind"]),
+            ("slip", LimitName::LastingPulseBilateral, &[bilateral], &[unilateral]),
+        ] {
+            let found = Found {
+                name,
+                wanted: 1e5,
+                by: "casing.damping_ratio",
+                from: 0.01,
+                to: Some(0.02),
+                reached: Some(1e5),
+                met: None,
+                tried: [0.01, 0.02],
+            };
+            let told = check(&found, &Scene::builtin(scene).unwrap()).unwrap().to_string();
+            assert!(told.starts_with(&format!("rubscope run {scene} ")), "{told}");
+            assert!(told.contains("casing.damping_ratio=0.02"), "{told}");
+            assert!(has.iter().all(|words| told.contains(words)), "{name}: {told}");
+            assert!(!has_not.iter().any(|words| told.contains(words)), "{name}: {told}");
+        }
+    }
+}

@@ -210,3 +210,55 @@ impl<'a> Edges<'a> {
         self.between([not, lasting], part, changed).map(Some)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::to_the_end;
+    use crate::study::margins::{CLEARANCE, parameter, touching};
+
+    fn scene(name: &str, changes: &[(&str, &str)]) -> CheckedScene {
+        Scene::builtin(name).unwrap().with(changes).unwrap()
+    }
+
+    #[test]
+    fn work_goes_with_the_length_of_the_run() {
+        let base = scene("paper-nd3", &[("solver.end_s", "0.1"), ("solver.step_s", "1e-6")]);
+        let full = scene(
+            "paper-nd3",
+            &[("solver.model", "full"), ("solver.end_s", "0.1"), ("solver.step_s", "1e-6")],
+        );
+        let events = scene("slip", &[("solver.end_s", "2")]);
+        let expected = 200.0 * events.machine().omega_c;
+        for (scene, expected) in [(base, 4e5), (full, 22e5), (events, expected)] {
+            assert!((work(&scene) / expected - 1.0).abs() < 1e-12, "{}", work(&scene));
+        }
+        // Some of them are too long.
+        let of = |end| {
+            let scene = scene("slip", &[("solver.end_s", end)]);
+            Edges::of(&scene, ContactLaw::Unilateral, &to_the_end).is_ok()
+        };
+        assert!(of("100") && !of("1000"));
+    }
+
+    #[test]
+    fn a_pulse_at_the_touch_is_sensitive_and_one_far_from_it_is_not() {
+        let scene = scene("slip", &[("solver.end_s", "0.02"), ("operation.pulse_n", "1000")]);
+        let edges = Edges::of(&scene, ContactLaw::Unilateral, &to_the_end).unwrap();
+        let touch = touching::limit(&scene).value.unwrap();
+        assert_eq!(edges.is_sensitive(touch), Some(true));
+        assert_eq!(edges.is_sensitive(0.5 * touch), Some(false));
+    }
+    #[test]
+    fn an_edge_is_near_only_between_a_pulse_that_does_not_last_and_one_that_does() {
+        let scene = scene("paper-nd3", &[]);
+        let edges = Edges::of(&scene, ContactLaw::Bilateral, &to_the_end).unwrap();
+        let clearance = parameter(CLEARANCE).unwrap();
+        let near =
+            |edge: f64| edges.near(clearance, clearance.of(&scene), edge, LASTING_REACH).unwrap();
+        // The zone of the paper begins at 376,620 N.
+        let found = near(3.75e5).unwrap();
+        assert!((found / 376_620.0 - 1.0).abs() < 1e-5, "{found}");
+        assert_eq!((near(3.6e5), near(3.95e5)), (None, None));
+    }
+}

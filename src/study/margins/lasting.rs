@@ -226,3 +226,84 @@ fn sensitivities(
     }
     Some(found)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::to_the_end;
+    use crate::scene::Scene;
+
+    fn scene(name: &str, changes: &[(&str, &str)]) -> CheckedScene {
+        Scene::builtin(name).unwrap().with(changes).unwrap()
+    }
+
+    fn band(from_n: f64, to_n: Option<f64>) -> Band {
+        Band { from_n, to_n, verdicts: vec![Verdict::Slip], sensitive: false }
+    }
+
+    #[test]
+    fn the_limit_begins_with_the_zone_or_else_with_the_first_island() {
+        let islands = [band(1.0, Some(2.0)), band(3.0, Some(4.0))];
+        let zone = [band(1.0, Some(2.0)), band(3.0, Some(4.0)), band(5.0, None)];
+        for (bands, place, words) in [
+            (&zone[..], 2, "every larger pulse that was tried lasts; smaller ones in 2 islands"),
+            (&zone[1..], 1, "every larger pulse that was tried lasts; smaller ones in one island"),
+            (&zone[2..], 0, "every larger pulse that was tried lasts"),
+            (&islands[..], 0, "the first of 2 islands; between them pulses do not last"),
+            (&islands[1..], 0, "one island; larger pulses do not last"),
+        ] {
+            assert_eq!(beginning(bands), Some(place));
+            assert_eq!(told(bands, place), words);
+        }
+        assert_eq!(beginning(&[]), None);
+    }
+
+    #[test]
+    fn pulses_go_from_the_touch_beyond_that_of_the_scene() {
+        let tried = |pulse| pulses(&scene("paper-nd3", &[("operation.pulse_n", pulse)])).unwrap();
+        let touch = touching::limit(&scene("paper-nd3", &[])).value.unwrap();
+        for (pulse, count) in [("1e6", 113), ("1e8", 149), ("1e12", 193), ("-1e8", 149)] {
+            let all = tried(pulse);
+            assert_eq!(all.len(), count, "{pulse}");
+            let start = all[0].abs();
+            assert!(start < touch && start > touch * (1.0 - 1e-9), "{pulse}: {start}");
+            assert!(all.iter().all(|tried| (*tried < 0.0) == pulse.starts_with('-')));
+            let factor = all[1] / all[0];
+            assert!((factor.powi(32) - 10.0).abs() < 1e-9, "{pulse}: {factor}");
+        }
+    }
+
+    #[test]
+    fn the_last_pulses_are_a_zone_only_where_they_are_many() {
+        // The zone of the paper begins at 376,620 N.
+        let scene = scene("paper-nd3", &[]);
+        let edges = Edges::of(&scene, ContactLaw::Bilateral, &to_the_end).unwrap();
+        for lasting in [LASTING_ZONE - 1, LASTING_ZONE] {
+            let all = (0..lasting + 2).map(|k| 3.5e5 * 1.05_f64.powi(k as i32));
+            let all: Vec<f64> = all.collect();
+            let found = bands(&edges, &all).unwrap();
+            let [band] = found.as_slice() else { panic!("{found:?}") };
+            let largest = all.last().copied();
+            assert_eq!(band.to_n, if lasting < LASTING_ZONE { largest } else { None });
+            assert!(!lasts(edges.verdict(band.from_n * (1.0 - 1e-6), None).unwrap()));
+        }
+    }
+
+    #[test]
+    fn a_band_lasts_from_its_beginning_to_its_end_and_no_further() {
+        let scene = scene("slip", &[("solver.end_s", "0.02")]);
+        let edges = Edges::of(&scene, ContactLaw::Unilateral, &to_the_end).unwrap();
+        let found = bands(&edges, &pulses(&scene).unwrap()).unwrap();
+        let lasts = |pulse| lasts(edges.verdict(pulse, None).unwrap());
+        let place = beginning(&found).unwrap();
+        for (at, band) in found.iter().enumerate() {
+            // The edge of the limit itself is known better.
+            let part = if at == place { 1.1 * LASTING_EDGE } else { 1.1 * LASTING_PART };
+            assert!(lasts(band.from_n) && !lasts(band.from_n * (1.0 - part)), "{band:?}");
+            if let Some(to) = band.to_n {
+                assert!(to > band.from_n && lasts(to), "{band:?}");
+                assert!(!lasts(to * (1.0 + 1.1 * LASTING_PART)), "{band:?}");
+            }
+        }
+    }
+}

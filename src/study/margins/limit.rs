@@ -290,3 +290,63 @@ impl Quantity {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::Verdict;
+
+    fn limit(value: f64, present: f64) -> Limit {
+        Limit::new(LimitName::LastingPulse, Some(value), Some(present))
+    }
+
+    fn band(from_n: f64, to_n: Option<f64>) -> Band {
+        Band { from_n, to_n, verdicts: vec![Verdict::Slip], sensitive: false }
+    }
+
+    #[test]
+    fn the_strongest_are_those_that_are_seen_to_move_it() {
+        let by = [
+            ("casing.radius_m", Some(2e3)),
+            ("a", Some(0.5)),
+            ("b", Some(-0.500_000_001)),
+            ("c", None),
+            ("d", Some(-2.0)),
+            ("e", Some(2e-4)),
+            ("f", Some(0.9e-4)),
+        ];
+        let all = Sensitivities(by.to_vec());
+        let told: Vec<&str> = all.strongest(9).iter().map(|(path, _)| *path).collect();
+        assert_eq!(told, ["d", "a", "b", "e"]);
+        assert_eq!(all.strongest(1), [("d", -2.0)]);
+    }
+
+    #[test]
+    fn a_scene_is_below_beyond_or_in_an_island() {
+        let mut all = limit(100.0, 50.0);
+        assert_eq!((all.margin, all.side()), (Some(-0.5), Some(Side::Below)));
+        all.bands = vec![band(20.0, Some(30.0)), band(100.0, None)];
+        for (present, side) in [
+            (19.0, Side::Below),
+            (20.0, Side::Inside),
+            (30.0, Side::Inside),
+            (31.0, Side::Below),
+            (-25.0, Side::Below),
+            (100.0, Side::Beyond),
+            (1e9, Side::Beyond),
+        ] {
+            let Limit { margin, present, .. } = limit(100.0, present);
+            assert_eq!(Limit { margin, present, ..all.clone() }.side(), Some(side), "{present:?}");
+        }
+        // Pulses that pull are the mirror image.
+        let pull = band(-20.0, Some(-30.0));
+        assert!(pull.holds(-25.0) && !pull.holds(25.0) && !pull.holds(-31.0));
+    }
+
+    #[test]
+    fn what_is_no_number_is_no_margin() {
+        assert_eq!(limit(0.0, 1.0).margin, None);
+        assert_eq!(limit(f64::NAN, 1.0).value, None);
+        assert_eq!(limit(f64::INFINITY, 1.0).side(), None);
+    }
+}
