@@ -46,11 +46,11 @@ fn random_scene(random: &mut fastrand::Rng) -> CheckedScene {
     scene.checked().unwrap()
 }
 
-fn of(scene: &CheckedScene, name: LimitName) -> Limit {
+pub fn of(scene: &CheckedScene, name: LimitName) -> Limit {
     Margins::of(scene).limit(name).unwrap().clone()
 }
 
-fn close(found: Option<f64>, expected: f64, most: f64, what: &str) {
+pub fn close(found: Option<f64>, expected: f64, most: f64, what: &str) {
     let found = found.unwrap_or_else(|| panic!("{what}: none"));
     let error = (found - expected).abs();
     assert!(error <= most * expected.abs().max(1.0), "{what}: {found} is not {expected}");
@@ -102,7 +102,7 @@ fn speeds_have_the_sensitivities_of_their_closed_forms() {
 }
 
 /// The sensitivity by a central difference of fourth order.
-fn differenced(scene: &CheckedScene, path: &str, value: &dyn Fn(&CheckedScene) -> f64) -> f64 {
+pub fn differenced(scene: &CheckedScene, path: &str, value: &dyn Fn(&CheckedScene) -> f64) -> f64 {
     let parameter = parameter(path).unwrap();
     let clearance = scene.machine().clearance();
     let size = parameter.of(scene);
@@ -226,6 +226,12 @@ fn islands_by_the_event_solver_keep_the_laws_of_scale() {
     let by = |path| limit.sensitivities.by(path).unwrap();
     close(Some(by(CLEARANCE)), 1.0, 1e-6, "clearance");
     close(Some(by(STIFFNESS) + by(MASS)), 1.0, 1e-6, "force");
+    // A length is many clearances.
+    for (path, sign) in [("casing.radius_m", 1.0), ("bladed_disk.blade_length_m", -1.0)] {
+        let many = parameter(path).unwrap().of(&scene) / scene.machine().clearance();
+        close(Some(by(path) / many), sign, 1e-5, path);
+    }
+    assert_eq!((by("operation.pulse_n"), by("operation.speed_ramp_rad_s2")), (0.0, 0.0));
     assert!(limit.bands.len() > 1 && limit.bands.iter().all(|band| band.to_n.is_some()));
     let inside = 0.5 * (limit.bands[0].from_n + limit.bands[0].to_n.unwrap());
     assert!(limit.bands[0].holds(inside) && !limit.bands[0].holds(-inside));

@@ -1,0 +1,312 @@
+//! Margins of scenes that others leave out: soft blades, a ramp, pulses that pull, a
+//! rotor that turns backward, and tolerances that depend on each other.
+
+use rubscope::harmonic::{lock_fold_speed, lock_loads};
+use rubscope::motion::{run_to_verdict, to_the_end};
+use rubscope::scene::{CheckedScene, ContactLaw};
+use rubscope::study::margins::{
+    CLEARANCE, LimitName, Margins, Side, Target, Tolerance, first_touch, grazing_pulse,
+    lasting_pulse,
+};
+
+use crate::cli_margins::{scene, text, unsampled};
+use crate::cli_support::rubscope;
+use crate::margins::{close, differenced, of};
+
+const LENGTH: &str = "bladed_disk.blade_length_m";
+const RADIUS: &str = "casing.radius_m";
+
+/// Blades that give way at speeds that a rotor may have.
+fn soft(stiffness: &str, speed: &str) -> CheckedScene {
+    scene(
+        "paper-nd3",
+        &[
+            ("bladed_disk.stiffness_nm_per_rad", stiffness),
+            ("bladed_disk.coupling_nm_per_rad", "0"),
+            ("operation.speed_rad_s", speed),
+        ],
+    )
+}
+
+fn spread(scene: &CheckedScene, texts: &[&str]) -> Margins {
+    let texts: Vec<String> = texts.iter().map(ToString::to_string).collect();
+    let mut margins = Margins::of(scene);
+    margins.spread(Tolerance::parse_all(&texts, scene).unwrap());
+    margins
+}
+
+#[test]
+fn soft_blades_have_an_end_of_the_branch_with_exact_derivatives() {
+    for (scene, places) in [(soft("0.02", "500"), 1e-6), (soft("0.02", "1500"), 1e-5)] {
+        let margins = Margins::of(&scene);
+        let fold = margins.limit(LimitName::LockFold).unwrap();
+        assert_eq!(fold.value, lock_fold_speed(&scene.machine()));
+        for limit in &margins.limits {
+            if limit.name == LimitName::TouchingPulse {
+                continue;
+            }
+            let value = |scene: &CheckedScene| of(scene, limit.name).value.unwrap();
+            for (path, by) in &limit.sensitivities.0 {
+                if [LENGTH, RADIUS].contains(path) {
+                    continue;
+                }
+                let expected = differenced(&scene, path, &value);
+                close(*by, expected, places, &format!("{} by {path}", limit.name));
+            }
+        }
+        let by = |path| fold.sensitivities.by(path).unwrap();
+        assert!(by("bladed_disk.stiffness_nm_per_rad") > 0.4 && by(CLEARANCE) < -0.8);
+    }
+}
+
+#[test]
+fn the_end_of_the_branch_is_told_where_a_rotor_may_come_near_it() {
+    // It is at 8,200 rad/s; the threshold of the lock at 412 rad/s.
+    let has = |speed: &str| Margins::of(&soft("0.4", speed)).limit(LimitName::LockFold).is_some();
+    assert!(!has("500") && has("-1000") && has("1000"));
+}
+
+#[test]
+fn the_blade_angle_is_the_larger_of_both() {
+    for speed in ["300", "500", "-500"] {
+        let scene = scene("paper-nd3", &[("operation.speed_rad_s", speed)]);
+        let loads = lock_loads(&scene.machine(), scene.operation.speed_rad_s).unwrap();
+        let [a, b] = loads.alpha_rad.map(f64::abs);
+        assert_eq!(of(&scene, LimitName::BladeAngle).value, Some(a.max(b)));
+    }
+}
+
+#[test]
+fn a_ramp_moves_the_touching_pulse() {
+    for ramp in ["3e5", "-2e5"] {
+        let scene = scene("slip", &[("operation.speed_ramp_rad_s2", ramp)]);
+        let limit = of(&scene, LimitName::TouchingPulse);
+        let found = limit.value.unwrap();
+        let value = |scene: &CheckedScene| grazing_pulse(scene, 3.0 * found).unwrap();
+        for path in ["operation.speed_ramp_rad_s2", "operation.speed_rad_s", "operation.pulse_s"] {
+            let expected = differenced(&scene, path, &value);
+            assert!(expected.abs() > 1e-4, "{path}: {expected}");
+            close(limit.sensitivities.by(path), expected, 1e-6, path);
+        }
+    }
+}
+
+#[test]
+fn the_touching_pulse_keeps_the_law_of_time() {
+    // Exact at the instant at which the gap is least, and at no other.
+    for (name, pulse) in [("paper-nd3", "1e6"), ("slip", "-1e6"), ("paper-nd4", "-1e6")] {
+        let scene = scene(name, &[("operation.pulse_n", pulse)]);
+        let limit = of(&scene, LimitName::TouchingPulse);
+        let by = |path| limit.sensitivities.by(path).unwrap();
+        let force = 2.0 * by("casing.modal_stiffness_n_per_m");
+        let time = by("operation.speed_rad_s") - by("operation.pulse_s");
+        close(Some(force + time), 2.0, 1e-10, name);
+    }
+}
+
+#[test]
+fn a_pulse_that_pulls_touches_and_lasts_below_zero() {
+    let scene = scene("slip", &[("operation.pulse_n", "-51742"), ("solver.end_s", "0.02")]);
+    let limit = of(&scene, LimitName::TouchingPulse);
+    let value = limit.value.unwrap();
+    let impacts = |pulse: f64| {
+        let mut scene = scene.clone().into_scene();
+        scene.operation.pulse_n = pulse;
+        run_to_verdict(&scene.checked().unwrap(), &to_the_end).unwrap().impact_count
+    };
+    assert!(value < 0.0);
+    assert_eq!((impacts(value * (1.0 - 1e-9)), impacts(value * (1.0 + 1e-9)) > 0), (0, true));
+    let found = |scene: &CheckedScene| grazing_pulse(scene, 3.0 * value).unwrap();
+    for path in ["operation.pulse_s", "operation.speed_rad_s"] {
+        close(limit.sensitivities.by(path), differenced(&scene, path, &found), 1e-6, path);
+    }
+    let (lasting, _) = lasting_pulse(&scene, ContactLaw::Unilateral, &to_the_end).unwrap();
+    assert!(lasting.value.unwrap() < value && !lasting.bands.is_empty());
+    for band in &lasting.bands {
+        assert!(band.from_n < 0.0 && band.holds(band.from_n) && !band.holds(-band.from_n));
+    }
+}
+
+#[test]
+fn a_sure_pulse_is_found_however_strong_the_first_guess_is() {
+    let usual = of(&scene("paper-nd3", &[]), LimitName::TouchingPulse).value;
+    // A run under this pulse ends at its first contact.
+    close(grazing_pulse(&scene("paper-nd3", &[]), 1e12), usual.unwrap(), 1e-12, "1e12 N");
+    // What drives the blades moves nothing before they touch.
+    let driven = scene("paper-nd3", &[("excitation.amplitude_nm", "5")]);
+    assert_eq!(of(&driven, LimitName::TouchingPulse).value, usual);
+    // Ten times the critical damping: it creeps outward.
+    let creeping = [("casing.damping_ratio", "10"), ("operation.pulse_s", "1e-6")];
+    assert!(of(&scene("paper-nd3", &creeping), LimitName::TouchingPulse).value.is_some());
+    // So heavy that it takes more than the key of the pulse allows.
+    let heavy = [("casing.modal_mass_kg", "1e9"), ("casing.modal_stiffness_n_per_m", "1e15")];
+    assert_eq!(of(&scene("slip", &heavy), LimitName::TouchingPulse).value, None);
+}
+
+#[test]
+fn a_later_swing_is_waited_for_where_little_is_damped() {
+    let touch = |damping: &str| {
+        let changes = [("casing.damping_ratio", damping), ("solver.end_s", "0.1")];
+        let scene = scene("undamped", &changes);
+        let period = std::f64::consts::TAU / scene.machine().omega_c;
+        (first_touch(&scene, 1e6).unwrap(), scene.operation.pulse_s + period)
+    };
+    let ((little, swing), (much, _)) = (touch("1e-6"), touch("0.02"));
+    assert!(little.t_s > swing && much.t_s < swing, "{little:?} {much:?}");
+}
+
+#[test]
+fn a_search_stops_where_it_is_told_to() {
+    let scene = scene("slip", &[("solver.end_s", "0.01")]);
+    let mut margins = Margins::of(&scene);
+    let before = margins.clone();
+    assert!(!margins.search(ContactLaw::Unilateral, &|| false));
+    assert_eq!(margins, before);
+    for text in ["omega_lock=450", "lasting_pulse=1e5"] {
+        let target = Target::parse(text, "casing.damping_ratio").unwrap();
+        assert_eq!(target.solve(&scene, &|| false), None, "{text}");
+    }
+}
+
+#[test]
+fn two_searches_cost_what_both_cost() {
+    let scene = scene("slip", &[("solver.end_s", "0.01"), ("solver.step_s", "5e-6")]);
+    let mut margins = Margins::of(&scene);
+    assert_eq!(margins.laws(), [ContactLaw::Unilateral, ContactLaw::Bilateral]);
+    let (mut runs, mut before) = (0, 0.0);
+    for law in margins.laws() {
+        assert!(margins.search(law, &to_the_end));
+        runs += lasting_pulse(&scene, law, &to_the_end).unwrap().1;
+        let wall_s = margins.cost.search_wall_s.unwrap();
+        assert!(wall_s > before);
+        before = wall_s;
+    }
+    assert_eq!(margins.cost.search_runs, runs);
+    let pulses: Vec<LimitName> = margins.limits[5..8].iter().map(|limit| limit.name).collect();
+    let [touching, own] = [LimitName::TouchingPulse, LimitName::LastingPulse];
+    assert_eq!(pulses, [touching, own, LimitName::LastingPulseBilateral]);
+}
+
+#[test]
+fn targets_far_away_and_at_zero() {
+    let scene = scene("paper-nd3", &[]);
+    let solve =
+        |text: &str, by: &str| Target::parse(text, by).unwrap().solve(&scene, &to_the_end).unwrap();
+    // A mass of a ten thousandth.
+    let critical = of(&scene, LimitName::OmegaC).value.unwrap();
+    let found = solve(&format!("omega_c={}", 100.0 * critical), "casing.modal_mass_kg");
+    close(found.to, found.from * 1e-4, 1e-12, "mass");
+    let (met, tried) = (found.met.unwrap(), found.tried);
+    assert!(met[0] <= critical && met[1] >= 100.0 * critical && tried[1] >= found.from);
+    // Damping of nearly nothing lowers the threshold to nearly the critical speed.
+    let found = solve(&format!("omega_lock={}", critical * (1.0 + 1e-9)), "casing.damping_ratio");
+    let to = found.to.unwrap();
+    assert!(to > 0.0 && to < 1e-8, "{to}");
+}
+
+#[test]
+fn tolerances_have_a_largest() {
+    let scene = scene("paper-nd3", &[]);
+    let read = |text: &str| Tolerance::parse_all(&[text.to_string()], &scene);
+    assert_eq!(read("clearance=50").unwrap()[0].percent, 50.0);
+    assert!(read("clearance=50.1").is_err() && read("clearance=-1").is_err());
+}
+
+#[test]
+fn spreads_hold_the_middle_of_the_samples_and_are_never_below_zero() {
+    // The limits of a rotor that turns backward: torque and push are below zero.
+    let scene = scene("paper-nd3", &[("operation.speed_rad_s", "-500")]);
+    let mass = "casing.modal_mass_kg=1";
+    let stiffness = "casing.modal_stiffness_n_per_m=1";
+    let margins = spread(&scene, &[mass, stiffness]);
+    for limit in &margins.limits {
+        let (Some(value), Some(spread)) = (limit.value, limit.spread) else { continue };
+        let (sd, worst) = (spread.linear_sd.unwrap(), spread.linear_worst.unwrap());
+        assert!(sd >= 0.0 && worst >= sd, "{}: {sd} {worst}", limit.name);
+        assert!(limit.name != LimitName::Torque || value < 0.0);
+    }
+    // Equal and opposite: the worst is where both are against it.
+    let critical = margins.limit(LimitName::OmegaC).unwrap();
+    let worst = critical.spread.unwrap().linear_worst;
+    close(worst, 0.01 * critical.value.unwrap(), 1e-12, "worst");
+    // Of one parameter the samples are even, and 95 % of them are in 95 % of the range.
+    let margins = spread(&scene, &[stiffness]);
+    let critical = margins.limit(LimitName::OmegaC).unwrap();
+    let (value, sampled) = (critical.value.unwrap(), critical.spread.unwrap().sampled.unwrap());
+    for (end, part) in [(sampled.low, -0.95), (sampled.high, 0.95)] {
+        close(Some((end / value - 1.0) / 0.005), part, 0.015, "end of the range");
+    }
+}
+
+#[test]
+fn a_pulse_at_the_limit_is_beyond_it() {
+    let base = scene("slip", &[]);
+    let value = of(&base, LimitName::TouchingPulse).value.unwrap();
+    let there = scene("slip", &[("operation.pulse_n", &format!("{value:?}"))]);
+    assert_eq!(of(&there, LimitName::TouchingPulse).side(), Some(Side::Beyond));
+}
+
+#[test]
+fn the_command_has_every_option_again() {
+    let arguments = [
+        "margins",
+        "paper-nd3",
+        "--target",
+        "omega_c=300",
+        "--by",
+        "casing.modal_mass_kg",
+        "--tolerance",
+        "clearance=1",
+        "--tolerance",
+        "casing.damping_ratio=2",
+        "--no-search",
+        "--json",
+    ];
+    let answer: serde_json::Value = serde_json::from_slice(&rubscope(&arguments).stdout).unwrap();
+    let command = answer["program"]["command"].as_str().unwrap();
+    assert_eq!(command, format!("rubscope {}", arguments.join(" ")));
+}
+
+#[test]
+fn the_command_of_the_end_of_the_branch_goes_up_to_it() {
+    let scene = soft("0.02", "500");
+    let mut margins = Margins::of(&scene);
+    let target = Target::parse("lock_fold=2000", "bladed_disk.stiffness_nm_per_rad").unwrap();
+    margins.target = target.solve(&scene, &to_the_end);
+    let told = text(&margins);
+    let command = told.lines().find_map(|line| line.strip_prefix("Check it: rubscope ")).unwrap();
+    let range = command.split_once("--speed 0:").unwrap().1.split(':').next().unwrap();
+    close(range.parse().ok(), 2000.0, 1e-9, command);
+    let output = rubscope(&command.split(' ').collect::<Vec<_>>());
+    let said = String::from_utf8(output.stdout).unwrap();
+    assert!(said.contains("The corner branch folds back at 2000 rad/s"), "{command}: {said}");
+}
+
+#[test]
+fn many_bands_are_cut_and_counted() {
+    let mut margins = unsampled(&scene("paper-nd3", &[]));
+    let limit = margins.limits.iter_mut().find(|limit| !limit.bands.is_empty()).unwrap();
+    let first = limit.bands[0].clone();
+    limit.bands = (0..13).map(|_| first.clone()).collect();
+    let told = text(&margins);
+    let rows = told.lines().filter(|line| line.ends_with("bounce, locked")).count();
+    assert_eq!((rows, told.contains("... and 3 more, see --json")), (10, true), "{told}");
+}
+
+#[test]
+fn rows_and_titles_of_scenes_without_a_lock_or_that_turn_backward() {
+    let told = text(&unsampled(&scene("paper-nd3", &[("operation.speed_rad_s", "-430")])));
+    assert!(told.contains("\nSpeeds; the scene has 430 rad/s:\nlimit "), "{told}");
+    assert!(told.contains("\nThe locked motion at -430 rad/s:\nload "), "{told}");
+    // What was not found has no list of bands, but its reason in its row.
+    assert!(told.contains("\nlasting_pulse (bilateral law): "), "{told}");
+    assert!(!told.contains("\nlasting_pulse_unilateral (unilateral law)"), "{told}");
+    assert!(told.contains("\nlasting_pulse_unilateral  nothing lasts among"), "{told}");
+    // Speeds keep their rows; loads of no lock are one line.
+    let told = text(&Margins::of(&scene("paper-nd3", &[("operation.nodal_diameters", "0")])));
+    let reason = "no wave turns without nodal diameters";
+    assert!(told.contains("\nSpeeds; the scene has 500 rad/s:\n"), "{told}");
+    let rows = told.lines().filter(|line| line.starts_with("omega_") && line.ends_with(reason));
+    assert_eq!(rows.count(), 3, "{told}");
+    assert!(told.contains(&format!("\nThe locked motion at 500 rad/s: none: {reason}.\n")));
+}
