@@ -5,7 +5,7 @@ use rubscope::harmonic::{lock_fold_speed, lock_loads};
 use rubscope::motion::{run_to_verdict, to_the_end};
 use rubscope::scene::{CheckedScene, ContactLaw};
 use rubscope::study::margins::{
-    CLEARANCE, LimitName, Margins, Side, Target, Tolerance, first_touch, grazing_pulse,
+    CLEARANCE, LimitName, Margins, SAMPLES, Side, Target, Tolerance, first_touch, grazing_pulse,
     lasting_pulse,
 };
 
@@ -235,6 +235,26 @@ fn spreads_hold_the_middle_of_the_samples_and_are_never_below_zero() {
     let (value, sampled) = (critical.value.unwrap(), critical.spread.unwrap().sampled.unwrap());
     for (end, part) in [(sampled.low, -0.95), (sampled.high, 0.95)] {
         close(Some((end / value - 1.0) / 0.005), part, 0.015, "end of the range");
+    }
+}
+
+#[test]
+fn the_clearance_and_its_lengths_vary_together_in_any_order() {
+    let scene = scene("paper-nd3", &[]);
+    // Each length within a tenth of the clearance, and the clearance by itself.
+    let each = ["clearance=10", "bladed_disk.blade_length_m=0.002", "casing.radius_m=0.002"];
+    for turn in 0..3 {
+        let texts = [each[turn], each[(turn + 1) % 3], each[(turn + 2) % 3]];
+        let margins = spread(&scene, &texts);
+        let limit = margins.limit(LimitName::LockEnergy).unwrap();
+        let spread = limit.spread.unwrap();
+        let sampled = spread.sampled.unwrap();
+        assert_eq!((sampled.samples, sampled.missing), (SAMPLES, 0));
+        // The energy goes with the square of the clearance.
+        let part = (0.1_f64.powi(2) + 2.0 * (0.002e-2 * 0.5 / 1e-4_f64).powi(2)) / 3.0;
+        close(spread.linear_sd.map(|sd| sd / limit.value.unwrap()), 2.0 * part.sqrt(), 1e-3, "sd");
+        let error = sampled.sd / spread.linear_sd.unwrap() - 1.0;
+        assert!(error.abs() < 0.03, "{texts:?}: {error}");
     }
 }
 

@@ -187,7 +187,8 @@ impl Samples {
         let sample = |changes: &Vec<f64>| {
             let mut changed = scene.clone().into_scene();
             for ((parameter, _), change) in known.iter().zip(changes) {
-                let value = parameter.of(scene) * (1.0 + change);
+                // The clearance and its lengths each keep what the one before changed.
+                let value = parameter.of(&changed) * (1.0 + change);
                 match parameter.set(&changed, value) {
                     Ok(scene) => changed = scene,
                     Err(_) => return [None; CLOSED.len() + 1],
