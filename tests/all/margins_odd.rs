@@ -259,11 +259,13 @@ fn the_clearance_and_its_lengths_vary_together_in_any_order() {
 }
 
 #[test]
-fn a_pulse_at_the_limit_is_beyond_it() {
+fn a_pulse_is_below_at_or_beyond_its_limit() {
     let base = scene("slip", &[]);
     let value = of(&base, LimitName::TouchingPulse).value.unwrap();
-    let there = scene("slip", &[("operation.pulse_n", &format!("{value:?}"))]);
-    assert_eq!(of(&there, LimitName::TouchingPulse).side(), Some(Side::Beyond));
+    for (part, side) in [(1.0, Side::At), (1.0 + 1e-8, Side::Beyond), (1.0 - 1e-8, Side::Below)] {
+        let there = scene("slip", &[("operation.pulse_n", &format!("{:?}", part * value))]);
+        assert_eq!(of(&there, LimitName::TouchingPulse).side(), Some(side), "{part}");
+    }
 }
 
 #[test]

@@ -114,8 +114,7 @@ fn enter_jumps_to_a_limit_and_undo_comes_back() {
     assert!(session.text().contains("speed 411.93 rad/s: Ω_lock"), "{}", session.text());
     assert_eq!(selected(&session), "operation.speed_rad_s");
     session.press("");
-    // Exactly there is as much as the limit.
-    assert!(line(&session, "Ω_lock").contains("+0.0 % beyond"), "{}", session.text());
+    assert!(line(&session, "Ω_lock").contains("+0.0 % at "), "{}", session.text());
     assert!(line(&session, "Ω_lock").contains('╋'), "{}", session.text());
     session.press("u");
     assert_eq!(session.app.scene.operation.speed_rad_s, 500.0);

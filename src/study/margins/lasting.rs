@@ -78,7 +78,7 @@ pub fn lasting_pulse(
         Ok(edges) => edges,
         Err(why) => return Some((none(why), 0)),
     };
-    let Some(pulses) = pulses(scene, &edges) else {
+    let Some(pulses) = pulses(scene, edges.scene().solver.kind) else {
         return Some((none(touching::why_none(scene).to_string()), 0));
     };
     let bands = bands(&edges, &pulses)?;
@@ -132,13 +132,13 @@ fn step(pulses: &[f64]) -> f64 {
 }
 
 /// The pulses that are tried, from just below the one that touches.
-fn pulses(scene: &CheckedScene, edges: &Edges<'_>) -> Option<Vec<f64>> {
+fn pulses(scene: &CheckedScene, kind: SolverKind) -> Option<Vec<f64>> {
     let present = scene.operation.pulse_n;
     let touch = touching::limit(scene).value?;
     let start = touch * (1.0 - LASTING_EDGE);
     let reach = (1.5 * present / start).log10();
     let decades = if reach.is_finite() { reach.clamp(DECADES, MOST_DECADES) } else { DECADES };
-    let each = f64::from(match edges.scene().solver.kind {
+    let each = f64::from(match kind {
         SolverKind::Explicit => PULSES_PER_DECADE,
         SolverKind::Event => PULSES_PER_DECADE_BY_EVENTS,
     });
@@ -246,24 +246,36 @@ mod tests {
         let islands = [band(1.0, Some(2.0)), band(3.0, Some(4.0))];
         let zone = [band(1.0, Some(2.0)), band(3.0, Some(4.0)), band(5.0, None)];
         for (bands, place, words) in [
-            (&zone[..], 2, "every larger pulse that was tried lasts; smaller ones in 2 islands"),
-            (&zone[1..], 1, "every larger pulse that was tried lasts; smaller ones in one island"),
-            (&zone[2..], 0, "every larger pulse that was tried lasts"),
-            (&islands[..], 0, "the first of 2 islands; between them pulses do not last"),
-            (&islands[1..], 0, "one island; larger pulses do not last"),
+            (
+                &zone[..],
+                2,
+                "every larger pulse lasts, tried every 7.00 %, and smaller ones in 2 islands",
+            ),
+            (
+                &zone[1..],
+                1,
+                "every larger pulse lasts, tried every 7.00 %, and smaller ones in one island",
+            ),
+            (&zone[2..], 0, "every larger pulse lasts, tried every 7.00 %"),
+            (&islands[..], 0, "the first of 2 islands that were found, tried every 7.00 %"),
+            (&islands[1..], 0, "one island was found, tried every 7.00 %"),
         ] {
             assert_eq!(beginning(bands), Some(place));
-            assert_eq!(told(bands, place), words);
+            assert_eq!(told(bands, place, &[100.0, 107.0, 114.49]), words);
         }
         assert_eq!(beginning(&[]), None);
     }
 
     #[test]
     fn pulses_go_from_the_touch_beyond_that_of_the_scene() {
-        let tried = |pulse| pulses(&scene("paper-nd3", &[("operation.pulse_n", pulse)])).unwrap();
+        let of = |pulse| scene("paper-nd3", &[("operation.pulse_n", pulse)]);
+        let tried = |pulse, kind| pulses(&of(pulse), kind).unwrap();
         let touch = touching::limit(&scene("paper-nd3", &[])).value.unwrap();
         for (pulse, count) in [("1e6", 113), ("1e8", 149), ("1e12", 193), ("-1e8", 149)] {
-            let all = tried(pulse);
+            let all = tried(pulse, SolverKind::Explicit);
+            let finer = tried(pulse, SolverKind::Event);
+            assert!((16 * (count - 2) + 2..=16 * (count - 1) + 1).contains(&finer.len()));
+            assert_eq!(finer[0], all[0], "{pulse}");
             assert_eq!(all.len(), count, "{pulse}");
             let start = all[0].abs();
             assert!(start < touch && start > touch * (1.0 - 1e-9), "{pulse}: {start}");
@@ -278,14 +290,12 @@ mod tests {
         // The zone of the paper begins at 376,620 N.
         let scene = scene("paper-nd3", &[]);
         let edges = Edges::of(&scene, ContactLaw::Bilateral, &to_the_end).unwrap();
-        for lasting in [LASTING_ZONE - 1, LASTING_ZONE] {
-            let all = (0..lasting + 2).map(|k| 3.5e5 * 1.05_f64.powi(k as i32));
-            let all: Vec<f64> = all.collect();
+        for (factor, is_zone) in [(0.99 * LASTING_ZONE, false), (1.01 * LASTING_ZONE, true)] {
+            let all = [3.5e5, 376_621.0, 5e5, factor * 376_621.0];
             let found = bands(&edges, &all).unwrap();
             let [band] = found.as_slice() else { panic!("{found:?}") };
-            let largest = all.last().copied();
-            assert_eq!(band.to_n, if lasting < LASTING_ZONE { largest } else { None });
-            assert!(!lasts(edges.verdict(band.from_n * (1.0 - 1e-6), None).unwrap()));
+            assert_eq!(band.to_n, (!is_zone).then_some(all[3]));
+            assert!(!lasts(edges.verdict(band.from_n * (1.0 - 1e-5), None).unwrap()));
         }
     }
 
@@ -293,7 +303,8 @@ mod tests {
     fn a_band_lasts_from_its_beginning_to_its_end_and_no_further() {
         let scene = scene("slip", &[("solver.end_s", "0.02")]);
         let edges = Edges::of(&scene, ContactLaw::Unilateral, &to_the_end).unwrap();
-        let found = bands(&edges, &pulses(&scene).unwrap()).unwrap();
+        let pulses = pulses(&scene, SolverKind::Event).unwrap();
+        let found = bands(&edges, &pulses).unwrap();
         let lasts = |pulse| lasts(edges.verdict(pulse, None).unwrap());
         let place = beginning(&found).unwrap();
         for (at, band) in found.iter().enumerate() {

@@ -332,7 +332,9 @@ mod tests {
             (30.0, Side::Inside),
             (31.0, Side::Below),
             (-25.0, Side::Below),
-            (100.0, Side::Beyond),
+            (100.0, Side::At),
+            (100.0 * (1.0 - 1e-8), Side::Below),
+            (100.0 * (1.0 + 1e-8), Side::Beyond),
             (1e9, Side::Beyond),
         ] {
             let Limit { margin, present, .. } = limit(100.0, present);
