@@ -55,6 +55,7 @@ mod map_parts;
 mod map_signals;
 mod map_zone;
 mod margins;
+mod margins_command;
 mod margins_odd;
 mod order;
 mod pauses;

@@ -1,0 +1,155 @@
+//! `rubscope margins`: its JSON, targets that `hbm` confirms, what it refuses, and what
+//! it says of odd scenes.
+
+use serde_json::Value;
+
+use crate::cli_support::{refusal, rubscope};
+use crate::margins::close;
+
+const DAMPING: &str = "casing.damping_ratio";
+
+/// The answer of a command as JSON.
+fn json(arguments: &[&str]) -> Value {
+    let out = rubscope(arguments);
+    assert!(out.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&out.stderr));
+    serde_json::from_slice(&out.stdout).unwrap()
+}
+
+#[test]
+fn a_target_is_reached_and_the_harmonic_balance_says_so() {
+    let text = "omega_lock=450";
+    let answer = json(&["margins", "--no-search", "--json", "--target", text, "--by", DAMPING]);
+    let damping = answer["target"]["to"].as_f64().unwrap();
+    close(Some(damping), 0.063_667_378_559, 1e-9, "zeta_c");
+    assert_eq!(answer["target"]["from"], 0.05);
+    let set = format!("{DAMPING}={damping}");
+    let hbm = json(&["hbm", "--json", "--set", &set]);
+    close(hbm["omega_lock_rad_s"].as_f64(), 450.0, 1e-12, "hbm");
+}
+
+#[test]
+fn the_answer_does_not_depend_on_threads() {
+    let arguments = ["margins", "--json", "--tolerance", "clearance=5", "--end", "0.02"];
+    let answers = ["1", "3"].map(|threads| {
+        let mut program = assert_cmd::cargo::cargo_bin_cmd!("rubscope");
+        let out = program.args(arguments).env("RAYON_NUM_THREADS", threads).output().unwrap();
+        let mut answer: Value = serde_json::from_slice(&out.stdout).unwrap();
+        // What it took differs.
+        answer["cost"] = Value::Null;
+        answer
+    });
+    assert_eq!(answers[0], answers[1]);
+}
+
+#[test]
+fn the_json_has_every_limit_with_every_parameter() {
+    let answer = json(&["margins", "--json", "--contact", "unilateral", "--end", "0.02"]);
+    assert_eq!(answer["schema"], "rubscope.margins/1");
+    let limits = answer["limits"].as_array().unwrap();
+    let names: Vec<&str> = limits.iter().map(|limit| limit["name"].as_str().unwrap()).collect();
+    assert_eq!(
+        names,
+        [
+            "omega_c",
+            "omega_adhesive",
+            "omega_lock",
+            "coincidence",
+            "coincidence_difference",
+            "touching_pulse",
+            "lasting_pulse",
+            "lasting_pulse_bilateral",
+            "push_a",
+            "push_b",
+            "torque",
+            "power",
+            "blade_angle",
+            "lock_energy",
+        ]
+    );
+    let lock = &limits[2];
+    assert_eq!(lock["quantity"], "speed_rad_s");
+    let [value, present, margin] =
+        ["value", "present", "margin"].map(|field| lock[field].as_f64().unwrap());
+    close(Some(value), 411.933_517, 1e-9, "omega_lock");
+    close(Some(margin), present / value - 1.0, 1e-15, "margin");
+    assert_eq!(lock["sensitivities"].as_object().unwrap().len(), 14);
+    let pushes = [8, 9].map(|place| limits[place]["value"].as_f64().unwrap());
+    let hbm = json(&["hbm", "--json", "--damped", "--speed", "500"]);
+    for (place, push) in pushes.iter().enumerate() {
+        let multiplier = &hbm["points"][0]["groups"][place]["multiplier_n"];
+        close(multiplier.as_f64(), -push, 1e-12, "push");
+    }
+    assert_eq!(limits[8]["present"], Value::Null);
+}
+
+#[test]
+fn what_has_no_meaning_is_refused_in_one_line() {
+    for (arguments, start) in [
+        (
+            &["--target", "omega=1", "--by", DAMPING][..],
+            "rubscope: target omega=1: allowed is NAME=VALUE",
+        ),
+        (
+            &["--target", "omega_c=inf", "--by", DAMPING],
+            "rubscope: target omega_c=inf: allowed is NAME=VALUE",
+        ),
+        (
+            &["--target", "omega_c=1", "--by", "solver.kind"],
+            "rubscope: parameter solver.kind: allowed is one of clearance,",
+        ),
+        (&["--target", "omega_c=1"], "rubscope: "),
+        (&["--tolerance", "clearance"], "rubscope: tolerance clearance: allowed is PATH=PERCENT"),
+        (
+            &["--tolerance", "clearance=0"],
+            "rubscope: tolerance clearance=0: allowed is PATH=PERCENT",
+        ),
+        (&["--tolerance", "clearance=NaN"], "rubscope: tolerance clearance=NaN: allowed is"),
+        (&["--tolerance", "x=1"], "rubscope: tolerance x: allowed is one of clearance,"),
+        (
+            &["--tolerance", "operation.speed_ramp_rad_s2=1"],
+            "rubscope: tolerance operation.speed_ramp_rad_s2: the scene has 0",
+        ),
+        (
+            &["--tolerance", "clearance=1", "--tolerance", "clearance=2"],
+            "rubscope: tolerance clearance is given twice",
+        ),
+        (&["--out", "a.txt"], "rubscope: --out = a.txt"),
+    ] {
+        let told = refusal(&[&["margins", "--no-search"], arguments].concat());
+        assert!(told.starts_with(start), "{told}");
+    }
+}
+
+#[test]
+fn odd_scenes_have_reasons_instead_of_values() {
+    for (arguments, name, reason) in [
+        (&["--nd", "0"][..], "omega_c", "no wave turns without nodal diameters"),
+        (&["--nd", "11"], "omega_lock", "11 nodal diameters make no corner of blades"),
+        (&["--nd", "11"], "push_a", "11 nodal diameters make no corner of blades"),
+        (
+            &["--set", "initial.u_c_m=1e-5"],
+            "touching_pulse",
+            "only for a casing that starts at rest",
+        ),
+        (
+            &["--set", "operation.pulse_s=0"],
+            "touching_pulse",
+            "no pulse of this length touches within the run",
+        ),
+        (
+            &["--end", "100", "--contact", "unilateral"],
+            "lasting_pulse_bilateral",
+            "not searched: the run is too long for a thousand runs",
+        ),
+    ] {
+        let mut all = vec!["margins", "--json"];
+        let searched = name.starts_with("lasting");
+        all.extend(if searched { &[][..] } else { &["--no-search"] });
+        all.extend(arguments);
+        let answer = json(&all);
+        let limits = answer["limits"].as_array().unwrap();
+        let limit = limits.iter().find(|limit| limit["name"] == name).unwrap();
+        assert_eq!(limit["note"], reason, "{arguments:?}");
+        assert_eq!((&limit["value"], &limit["margin"]), (&Value::Null, &Value::Null));
+    }
+}
