@@ -152,8 +152,11 @@ fn bands_spread_target_and_cost_are_told() {
     let text = text(&margins);
     assert!(text.contains("lasting_pulse (bilateral law): every larger pulse that was tried"));
     let sensitive = text.lines().find(|line| line.contains("sensitive")).unwrap();
-    assert!(sensitive.starts_with("75.9 kN ") && sensitive.contains("bounce, locked"), "{text}");
-    assert!(text.contains("379.5 kN   the largest tried  bounce, locked"), "{text}");
+    assert!(
+        sensitive.starts_with("75.9 kN ") && sensitive.contains("13.18 times  bounce, locked"),
+        "{text}"
+    );
+    assert!(text.contains("379.5 kN   the largest tried  inside       bounce, locked"), "{text}");
     // The spread is the second row of this name.
     let row = text.lines().find(|line| line.starts_with("omega_lock [rad/s] ")).unwrap();
     let spread = margins.limit(LimitName::OmegaLock).unwrap().spread.unwrap();

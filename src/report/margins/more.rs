@@ -15,13 +15,14 @@ pub(super) fn bands(limit: &Limit, out: &mut dyn Write) -> Result<()> {
     let note = limit.note.as_deref().unwrap_or_default();
     let law = limit.contact.map_or_else(String::new, |law| format!(" ({law} law)"));
     tell(&format!("{}{law}: {note}.", limit.name), out)?;
-    let mut table = Table::new(["from", "to", "verdicts", ""]);
+    let mut table = Table::new(["from", "to", "the scene", "verdicts", ""]);
     for band in limit.bands.iter().take(BANDS) {
         let pulse = |pulse: f64| words::value(pulse, 5, limit.quantity);
         let verdicts: Vec<&str> = band.verdicts.iter().map(AsRef::as_ref).collect();
         table.push(vec![
             pulse(band.from_n).into(),
             band.to_n.map_or_else(|| "the largest tried".to_string(), pulse).into(),
+            words::place(band, limit.present).into(),
             verdicts.join(", ").into(),
             if band.sensitive { "sensitive" } else { "" }.into(),
         ]);

@@ -4,7 +4,7 @@ use crate::report::CommandLine;
 use crate::report::number::{count, grouped, rounded, short, time, with_unit};
 use crate::report::prefix::SiScale;
 use crate::scene::{ContactLaw, Scene, SolverKind};
-use crate::study::margins::{Found, Limit, LimitName, Margins, Quantity, parameter};
+use crate::study::margins::{Band, Found, Limit, LimitName, Margins, Quantity, parameter};
 
 /// A margin from which on it is told as a factor.
 const FACTORS: f64 = 9.0;
@@ -26,6 +26,16 @@ pub fn margin(part: f64) -> String {
     }
     let percent = 100.0 * part;
     if percent.abs() < 99.95 { format!("{percent:+.1} %") } else { format!("{percent:+.0} %") }
+}
+
+/// Where a pulse is beside a band: inside it, or how far from its beginning.
+#[must_use]
+pub fn place(band: &Band, pulse: Option<f64>) -> String {
+    match pulse {
+        Some(pulse) if band.holds(pulse) => "inside".to_string(),
+        Some(pulse) => margin(pulse / band.from_n - 1.0),
+        None => String::new(),
+    }
 }
 
 /// A change in per cent, of one per cent of a parameter.
