@@ -87,20 +87,21 @@ pub(super) fn limits(scene: &CheckedScene) -> Vec<Limit> {
 
 /// What a closed form leaves out, where that matters.
 fn note(scene: &CheckedScene, name: LimitName) -> Option<String> {
-    let machine = scene.machine();
-    let lock = machine.lock_speed()?;
     let of_speeds = [LimitName::OmegaLock, LimitName::OmegaAdhesive].contains(&name);
     let of_lock = of_speeds || name.quantity().path().is_none();
     if of_lock && scene.operation.speed_ramp_rad_s2 != 0.0 {
         return Some("at a constant speed; a ramp adds a force along the blades".to_string());
     }
+    if !of_speeds || scene.casing.damping_ratio == 0.0 {
+        return None;
+    }
     // Blades that bend leave a push where rigid ones have none.
-    let left = lock_loads(&machine, lock).is_none_or(|loads| {
+    let machine = scene.machine();
+    let left = lock_loads(&machine, machine.lock_speed()?).is_none_or(|loads| {
         let [a, b] = loads.pushes_n.map(f64::abs);
         a.min(b) > BENDING * (a + b)
     });
-    (of_speeds && left && machine.casing_damping_ratio > 0.0)
-        .then(|| "for rigid blades; these bend so much that it is another".to_string())
+    left.then(|| "for rigid blades; these bend so much that it is another".to_string())
 }
 
 /// Part of the pushes that soft blades may leave at the lock speed of rigid ones.

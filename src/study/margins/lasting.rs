@@ -51,15 +51,6 @@ impl Band {
     }
 }
 
-/// The name of the limit under a law, in a scene of some law.
-fn name(law: ContactLaw, own: ContactLaw) -> LimitName {
-    match law {
-        _ if law == own => LimitName::LastingPulse,
-        ContactLaw::Unilateral => LimitName::LastingPulseUnilateral,
-        ContactLaw::Bilateral => LimitName::LastingPulseBilateral,
-    }
-}
-
 /// The smallest pulse that lasts under a law, as a limit, and the runs it took; none
 /// where `go_on` said no on the way.
 pub fn lasting_pulse(
@@ -68,7 +59,7 @@ pub fn lasting_pulse(
     go_on: GoOn<'_>,
 ) -> Option<(Limit, u64)> {
     let present = scene.operation.pulse_n;
-    let name = name(law, scene.solver.contact);
+    let name = LimitName::lasting(law, scene.solver.contact);
     let none = |note: String| {
         let mut limit = Limit::new(name, None, Some(present));
         (limit.contact, limit.note) = (Some(law), Some(note));
@@ -134,7 +125,7 @@ fn step(pulses: &[f64]) -> f64 {
 /// The pulses that are tried, from just below the one that touches.
 fn pulses(scene: &CheckedScene, kind: SolverKind) -> Option<Vec<f64>> {
     let present = scene.operation.pulse_n;
-    let touch = touching::limit(scene).value?;
+    let touch = touching::smallest(scene)?.pulse_n;
     let start = touch * (1.0 - LASTING_EDGE);
     let reach = (1.5 * present / start).log10();
     let decades = if reach.is_finite() { reach.clamp(DECADES, MOST_DECADES) } else { DECADES };

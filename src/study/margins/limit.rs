@@ -220,6 +220,16 @@ impl LimitName {
         }
     }
 
+    /// The smallest lasting pulse under a law, in a scene of some law.
+    #[must_use]
+    pub fn lasting(law: ContactLaw, own: ContactLaw) -> Self {
+        match law {
+            _ if law == own => Self::LastingPulse,
+            ContactLaw::Unilateral => Self::LastingPulseUnilateral,
+            ContactLaw::Bilateral => Self::LastingPulseBilateral,
+        }
+    }
+
     /// What it is a value of.
     #[must_use]
     pub fn quantity(self) -> Quantity {

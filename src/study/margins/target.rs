@@ -130,7 +130,7 @@ impl Walk<'_> {
         let Ok(scene) = scene else { return Some(None) };
         let limit = match CLOSED.iter().position(|closed| *closed == self.target.name) {
             Some(place) => values(&Parameters::<f64>::of(&scene))[place],
-            None => touching::limit(&scene).value,
+            None => touching::smallest(&scene).map(|touch| touch.pulse_n),
         };
         if let Some(limit) = limit {
             self.meet(value, limit);

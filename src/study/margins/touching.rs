@@ -138,10 +138,15 @@ fn polished(scene: &Scene, touch: FirstTouch) -> FirstTouch {
     if agrees { FirstTouch { pulse_n, t_s, ..touch } } else { touch }
 }
 
+/// The smallest pulse of the sense of the scene's that touches, if one does.
+pub(super) fn smallest(scene: &CheckedScene) -> Option<FirstTouch> {
+    first_touch(scene, enough(scene)?)
+}
+
 /// The limit, with its derivatives by the implicit function theorem: the gap of the
 /// side that touches is zero at an instant at which it does not change.
 pub(super) fn limit(scene: &CheckedScene) -> Limit {
-    let found = enough(scene).and_then(|most| first_touch(scene, most));
+    let found = smallest(scene);
     let present = Some(scene.operation.pulse_n);
     let mut limit = Limit::new(LimitName::TouchingPulse, found.map(|touch| touch.pulse_n), present);
     let Some(touch) = found else {

@@ -9,6 +9,7 @@ mod touch;
 
 pub use number::number;
 use number::{COARSE, FINE, decades, prefixed};
+pub use range::KnobRange;
 pub use table::KNOBS;
 
 use crate::scene::{Adjustment, Allowed, CheckedScene, Scene, SceneError, Value, keys, keys::Key};

@@ -7,7 +7,8 @@ use crate::model::Machine;
 use crate::report::number::rounded;
 use crate::scene::{Allowed, Scene, Value};
 
-/// The usual range of a knob, on which its bar is drawn. Values may be beyond it.
+/// The usual range of a knob, or of a limit, on which its bar is drawn. Values may be
+/// beyond it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KnobRange {
     low: f64,
@@ -21,11 +22,13 @@ pub struct KnobRange {
 }
 
 impl KnobRange {
-    fn linear(low: f64, high: f64) -> Self {
+    /// With equal widths of equal differences.
+    pub fn linear(low: f64, high: f64) -> Self {
         Self { low, high, log: false, sign: 1.0, marks: Vec::new() }
     }
 
-    fn log(low: f64, high: f64) -> Self {
+    /// With equal widths of equal factors.
+    pub fn log(low: f64, high: f64) -> Self {
         Self { log: true, ..Self::linear(low, high) }
     }
 
@@ -42,7 +45,8 @@ impl KnobRange {
         self
     }
 
-    fn is_sound(&self) -> bool {
+    /// Whether there are places on it.
+    pub fn is_sound(&self) -> bool {
         let ends = self.low.is_finite() && self.high.is_finite() && self.high > self.low;
         ends && (!self.log || self.low > 0.0)
     }

@@ -6,6 +6,7 @@ use ratatui::{buffer::Buffer, layout::Position, layout::Rect, style::Modifier};
 use super::rows::Row;
 use crate::study::margins::{Band, Limit, Quantity};
 use crate::tui::appearance::Appearance;
+use crate::tui::knobs::KnobRange;
 use crate::tui::theme::Role;
 
 /// How far the scale of a pulse goes below and above what is on it, as a factor: it
@@ -24,9 +25,7 @@ pub struct LimitBar<'a> {
     limit: &'a Limit,
     value: f64,
     present: f64,
-    low: f64,
-    high: f64,
-    log: bool,
+    range: KnobRange,
 }
 
 impl<'a> LimitBar<'a> {
@@ -42,30 +41,11 @@ impl<'a> LimitBar<'a> {
         let ends = ends.flatten().map(|end| sign * end);
         let all = || ends.clone().chain([value, present]).filter(|x| *x > 0.0);
         let most = all().fold(0.0, f64::max);
-        let (low, high) = match log {
-            true => (all().fold(most, f64::min) / AROUND, most * AROUND),
-            false => (0.0, most),
+        let range = match log {
+            true => KnobRange::log(all().fold(most, f64::min) / AROUND, most * AROUND),
+            false => KnobRange::linear(0.0, most),
         };
-        let sound = high.is_finite() && high > low && (!log || low > 0.0) && value > 0.0;
-        sound.then_some(Self { limit, value, present, low, high, log })
-    }
-
-    /// The place of a value, 0 to 1.
-    fn part(&self, x: f64) -> f64 {
-        let part = match self.log {
-            true if x <= 0.0 => 0.0,
-            true => (x / self.low).ln() / (self.high / self.low).ln(),
-            false => (x - self.low) / (self.high - self.low),
-        };
-        if part.is_finite() { part.clamp(0.0, 1.0) } else { 0.0 }
-    }
-
-    /// The value at a place.
-    fn at(&self, part: f64) -> f64 {
-        match self.log {
-            true => self.low * (self.high / self.low).powf(part),
-            false => self.low + part * (self.high - self.low),
-        }
+        (range.is_sound() && value > 0.0).then_some(Self { limit, value, present, range })
     }
 
     /// Draws it over the cells of one row.
@@ -75,10 +55,10 @@ impl<'a> LimitBar<'a> {
         }
         let [full, now, empty, limit, both, lasting] = signs(look);
         let width = f64::from(cells.width);
-        let cell = |x: f64| ((self.part(x) * width) as u16).min(cells.width - 1);
+        let cell = |x: f64| ((self.range.part(x) * width) as u16).min(cells.width - 1);
         let (here, there) = (cell(self.present), cell(self.value));
         for k in 0..cells.width {
-            let ends = [k, k + 1].map(|k| self.at(f64::from(k) / width));
+            let ends = [k, k + 1].map(|k| self.range.at(f64::from(k) / width));
             let lasts = self.limit.bands.iter().any(|band| reaches(band, ends));
             let (sign, role) = match () {
                 () if k == here && k == there => (both, Role::Focus),

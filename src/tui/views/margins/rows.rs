@@ -32,15 +32,8 @@ impl LiveMargins {
     pub fn rows(&self) -> Vec<Row<'_>> {
         let limits = &self.margins.limits;
         let own = self.margins.scene.solver.contact;
-        let names = [
-            LimitName::LastingPulse,
-            LimitName::LastingPulseUnilateral,
-            LimitName::LastingPulseBilateral,
-        ];
-        let searched = self.awaited.iter().filter_map(|law| {
-            let name = names.into_iter().find(|name| name.law(own) == Some(*law));
-            Some(Row::Searched(name?, *law))
-        });
+        let searched =
+            self.awaited.iter().map(|law| Row::Searched(LimitName::lasting(*law, own), *law));
         let place = limits.iter().rposition(|limit| limit.quantity == Quantity::Pulse);
         let (before, after) = limits.split_at(place.map_or(0, |place| place + 1));
         before.iter().map(Row::Limit).chain(searched).chain(after.iter().map(Row::Limit)).collect()
