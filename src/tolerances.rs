@@ -5,11 +5,15 @@
 mod event;
 mod explicit;
 mod harmonic;
+mod joined;
+mod lining;
 mod margins;
 
 pub(crate) use event::*;
 pub(crate) use explicit::*;
 pub(crate) use harmonic::*;
+pub(crate) use joined::*;
+pub(crate) use lining::*;
 pub(crate) use margins::*;
 
 // The model.
@@ -27,6 +31,22 @@ pub(crate) const CORNER_ROOM: f64 = 0.9;
 /// Part of the run, at its end, over which the verdict is judged. Shorter: a
 /// pause in a bounce is taken for decay or lock.
 pub(crate) const LAST_PART: f64 = 0.1;
+
+/// Swing of the blade tips, as a part of the clearance, above which a slip is a whirl:
+/// blades that move contact rather than follow it. Smaller: blades that friction shakes
+/// count.
+pub(crate) const WHIRL_SWING: f64 = 0.25;
+
+/// Part of the clearance below which a wave on a lining is at rest.
+pub(crate) const WAVE_AT_REST: f64 = 1e-3;
+
+/// Part of a wave on a lining now to which it must fall, as it goes, to be dying. Larger: a
+/// wave that comes down to its limit cycle is said to die.
+pub(crate) const WAVE_DYING: f64 = 0.5;
+
+/// Part of the wave of half a last part before, below which it dies where too little was
+/// seen of it since a change: above it by the round-off of extremes.
+pub(crate) const WAVE_FALLS_SOON: f64 = 1.0 - 1e-6;
 
 /// Relative change that no trustworthy verdict may notice: below any
 /// measurement, above round-off by six digits. Smaller: a sensitive run is not

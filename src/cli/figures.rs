@@ -13,7 +13,7 @@ use super::{Done, output};
 use crate::file::Written;
 use crate::report::{CommandLine, Provenance, figure::table, svg};
 use crate::scene::{CheckedScene, Scene};
-use crate::study::figures::{Figure, NUMBERS, figure, name_of};
+use crate::study::figures::{Figure, Which};
 
 /// Reproduce the paper's Figs. 4 to 10 as SVG, with their data as CSV.
 ///
@@ -22,7 +22,8 @@ use crate::study::figures::{Figure, NUMBERS, figure, name_of};
 /// caption that says what agrees and what differs. With a SCENE, every figure
 /// uses it. Other options change every figure. Fig. 4 has its own time steps,
 /// Fig. 8 its own contact laws, pulses and speeds up to that of the scene, and
-/// Figs. 9 and 10 range from standstill to the speed of the scene.
+/// Figs. 9 and 10 range from standstill to the speed of the scene. The figure
+/// "coincidence" is not of the paper, and drawn where --only names it.
 #[derive(Args, Debug)]
 pub struct FiguresCommand {
     #[command(flatten)]
@@ -30,27 +31,27 @@ pub struct FiguresCommand {
     /// Directory of the files; created if missing
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Only these figures, such as 4,9
-    #[arg(long, value_name = "NUMBERS", value_delimiter = ',')]
-    only: Vec<u32>,
+    /// Only these figures, such as 4,9; or coincidence, which is not of the paper
+    #[arg(long, value_name = "FIGURES", value_delimiter = ',')]
+    only: Vec<String>,
 }
 
 impl FiguresCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
-        let numbers = self.numbers()?;
-        let scenes: Vec<(u32, CheckedScene)> = numbers
+        let scenes: Vec<(Which, CheckedScene)> = self
+            .asked()?
             .into_iter()
-            .map(|number| Ok((number, self.scene(number)?)))
+            .map(|which| Ok((which, self.scene(which)?)))
             .collect::<anyhow::Result<_>>()?;
         // A machine that cannot lock has no Figs. 9 and 10: refused before anything
         // is written. They cost next to nothing.
-        for (number, scene) in scenes.iter().filter(|(number, _)| *number >= 9) {
-            drawn(*number, scene)?;
+        for (which, scene) in scenes.iter().filter(|(which, _)| which.is_quick()) {
+            drawn(*which, scene)?;
         }
         let shown = self.out.display();
         std::fs::create_dir_all(&self.out).with_context(|| format!("cannot make {shown}"))?;
-        for (number, _) in &scenes {
-            let stem = stem(*number);
+        for (which, _) in &scenes {
+            let stem = which.stem();
             // One letter for each of several panels.
             let data = ["", "a", "b", "c", "d"].map(|letter| format!("{stem}{letter}.csv"));
             for name in data.iter().chain([&format!("{stem}.svg")]) {
@@ -58,10 +59,10 @@ impl FiguresCommand {
             }
         }
         let bar = output::bar(scenes.len() as u64, "{bar:30} {msg}");
-        for (number, scene) in scenes {
-            bar.set_message(format!("figure {number}"));
-            if let Some(drawn) = drawn(number, &scene)? {
-                bar.suspend(|| self.save(number, &drawn, scene.into_scene(), out))?;
+        for (which, scene) in scenes {
+            bar.set_message(format!("figure {which}"));
+            if let Some(drawn) = drawn(which, &scene)? {
+                bar.suspend(|| self.save(which, &drawn, scene.into_scene(), out))?;
             }
             bar.inc(1);
         }
@@ -69,36 +70,40 @@ impl FiguresCommand {
         Ok(Status::Done)
     }
 
-    fn numbers(&self) -> Result<Vec<u32>, Refusal> {
+    fn asked(&self) -> Result<Vec<Which>, Refusal> {
         if self.only.is_empty() {
-            return Ok(NUMBERS.to_vec());
+            return Ok(Which::of_paper());
         }
-        match self.only.iter().find(|number| !NUMBERS.contains(number)) {
-            Some(unknown) => Err(Refusal::of("--only", unknown, "numbers from 4 to 10")),
-            None => {
-                let asked = |number: &u32| self.only.contains(number);
-                Ok(NUMBERS.into_iter().filter(asked).collect())
-            }
+        let mut asked = Vec::new();
+        for word in &self.only {
+            let allowed = "numbers from 4 to 10, or coincidence";
+            let which = word.parse().map_err(|()| Refusal::of("--only", word, allowed))?;
+            asked.push(which);
         }
+        let every = Which::of_paper().into_iter().chain([Which::Coincidence]);
+        Ok(every.filter(|which| asked.contains(which)).collect())
     }
 
-    fn scene(&self, number: u32) -> anyhow::Result<CheckedScene> {
-        let name = self.options.name().unwrap_or_else(|| name_of(number));
-        self.options.change(Scene::load_unchecked(name)?)
+    fn scene(&self, which: Which) -> anyhow::Result<CheckedScene> {
+        let scene = match self.options.name() {
+            Some(name) => Scene::load_unchecked(name)?,
+            None => which.scene()?,
+        };
+        self.options.change(scene)
     }
 
     fn save(
         &self,
-        number: u32,
+        which: Which,
         figure: &Figure,
         scene: Scene,
         out: &mut dyn Write,
     ) -> anyhow::Result<()> {
         // The folder is the user's; the same figure is the same file in each.
         let command =
-            CommandLine::new("figures", &scene).option("--only", number).option("--out", "figures");
+            CommandLine::new("figures", &scene).option("--only", which).option("--out", "figures");
         let origin = Provenance { command, scene };
-        let stem = stem(number);
+        let stem = which.stem();
         let (mut wrote, mut replaced) = (Vec::new(), Vec::new());
         let mut note = |name: String, written| match written {
             Written::New => wrote.push(name),
@@ -126,13 +131,8 @@ impl FiguresCommand {
 }
 
 /// A figure of a scene.
-fn drawn(number: u32, scene: &CheckedScene) -> Result<Option<Figure>, Refusal> {
-    figure(number, scene).map_err(|error| Refusal::because(format!("figure {number}: {error}")))
-}
-
-/// The name of a figure's files, without their ending.
-fn stem(number: u32) -> String {
-    format!("fig{number:02}")
+fn drawn(which: Which, scene: &CheckedScene) -> Result<Option<Figure>, Refusal> {
+    which.of(scene).map_err(|error| Refusal::because(format!("figure {which}: {error}")))
 }
 
 /// Writes a file; its content goes to standard output if that fails.

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 use strum::VariantNames;
 
+use super::hbm_lining::LiningOptions;
 use super::hbm_views::{self as views, Asked, HbmView};
 use super::options::{SceneOptions, Swept};
 use super::range::{Range, linspace};
@@ -14,7 +15,7 @@ use super::words::Words;
 use super::{Done, output};
 use crate::harmonic::{Form, Sweep};
 use crate::report::{CommandLine, hbm as report, json};
-use crate::scene::Scene;
+use crate::scene::{ContactLaw, Scene};
 
 /// Default number of speeds of a sweep.
 const SPEEDS: usize = 51;
@@ -64,6 +65,20 @@ pub struct HbmCommand {
     /// View: response of the damped lock to the scene's engine-order excitation
     #[arg(long, group = "view")]
     excitation: bool,
+    #[command(flatten)]
+    lining: LiningOptions,
+    /// View: whirl of inclined tips on the polygon and on a rim, where it begins, and
+    /// where a lock flutters
+    #[arg(long, group = "view")]
+    whirl: bool,
+    /// View: the joint compliance B(omega) in the complex plane; a whirl is where it
+    /// crosses the negative real axis
+    #[arg(long, group = "view")]
+    compliance: bool,
+    /// With --compliance: casing frequencies of the table [default: beyond every
+    /// resonance]
+    #[arg(long, value_name = "FROM:TO:COUNT", requires = "compliance", allow_hyphen_values = true)]
+    omegas: Option<String>,
     /// Print everything as JSON (rubscope.hbm/1)
     #[arg(long)]
     json: bool,
@@ -80,7 +95,7 @@ impl HbmCommand {
         let resolved = self.options.resolve(Swept { speed: true, pulse: false })?;
         let speeds = match resolved.speeds {
             Some(range) => range.values(),
-            None if self.harmonics.is_some() => {
+            None if self.harmonics.is_some() || self.compliance => {
                 vec![resolved.scene.operation.speed_rad_s]
             }
             None => linspace(0.0, resolved.scene.operation.speed_rad_s, SPEEDS),
@@ -90,6 +105,10 @@ impl HbmCommand {
             Asked { scene: &resolved.scene, speeds: &speeds, form, damped: self.damped, pair };
         let answer = views::answer(&asked, &self.view()?)?;
         status::say_noted();
+        let of_rigid = self.lining.view()?.is_none();
+        if of_rigid && resolved.scene.solver.contact == ContactLaw::Smooth {
+            say("rubscope: this view has rigid contact; --smooth has the lining of the scene");
+        }
         if self.json {
             json::write_as("rubscope.hbm/1", &self.command(&resolved.scene), &answer.json, out)?;
         }
@@ -115,7 +134,7 @@ impl HbmCommand {
 
     /// The command that gives the same table again.
     fn command(&self, scene: &Scene) -> CommandLine {
-        CommandLine::new("hbm", scene)
+        let command = CommandLine::new("hbm", scene)
             .optional("--speed", self.options.speed())
             .option("--form", &self.form)
             .flag("--damped", self.damped)
@@ -127,13 +146,22 @@ impl HbmCommand {
             .optional("--harmonics", self.harmonics)
             .flag("--campbell", self.campbell)
             .flag("--excitation", self.excitation)
+            .flag("--whirl", self.whirl)
+            .flag("--compliance", self.compliance)
+            .optional("--omegas", self.omegas.as_ref());
+        self.lining.add_to(command)
     }
 
     fn view(&self) -> Result<HbmView, Refusal> {
-        let zetas = match &self.zetas {
-            Some(text) => Some(Range::parse("--zetas", text)?.values()),
-            None => None,
+        let values = |option: &str, text: &Option<String>| match text {
+            Some(text) => Range::parse(option, text).map(|range| Some(range.values())),
+            None => Ok(None),
         };
+        if let Some(view) = self.lining.view()? {
+            return Ok(HbmView::Lining(view));
+        }
+        let zetas = values("--zetas", &self.zetas)?;
+        let omegas = values("--omegas", &self.omegas)?;
         Ok(match self {
             Self { branches: true, .. } => HbmView::Branches,
             Self { fold: true, .. } => HbmView::Fold,
@@ -141,6 +169,8 @@ impl HbmCommand {
             Self { harmonics: Some(most), .. } => HbmView::Harmonics(*most),
             Self { campbell: true, .. } => HbmView::Campbell,
             Self { excitation: true, .. } => HbmView::Excitation,
+            Self { whirl: true, .. } => HbmView::Whirl,
+            Self { compliance: true, .. } => HbmView::Compliance(omegas),
             _ => HbmView::Locked,
         })
     }

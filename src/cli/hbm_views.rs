@@ -1,6 +1,8 @@
 //! The views of `rubscope hbm`: each computes its JSON, its tables to read and
 //! the table for a file.
 
+use super::hbm_joined as joined;
+use super::hbm_lining::{self, LiningView};
 use super::status::Refusal;
 use crate::harmonic::{
     Branches, Campbell, Corner, Form, HarmonicError, NoSlip, SlipPoint, SlipRegion, SlipSpectrum,
@@ -34,6 +36,12 @@ pub(super) enum HbmView {
     Campbell,
     /// The response to the scene's engine order.
     Excitation,
+    /// Blades on a lining, and what the coincidences do.
+    Lining(LiningView),
+    /// Whirl of inclined tips.
+    Whirl,
+    /// The joint compliance, at these casing frequencies.
+    Compliance(Option<Vec<f64>>),
 }
 
 /// The input of a view.
@@ -64,7 +72,7 @@ pub(super) struct Answer {
 
 impl Answer {
     /// An answer whose last table is the one for files.
-    fn of(json: HbmReport, tables: Vec<(String, Table)>) -> Self {
+    pub fn of(json: HbmReport, tables: Vec<(String, Table)>) -> Self {
         let file = tables.last().map(|(_, table)| table.clone()).unwrap_or_default();
         Self { json, tables, file, sweep: None }
     }
@@ -76,6 +84,11 @@ impl Answer {
 /// What has no meaning, refused by name.
 pub(super) fn answer(asked: &Asked, view: &HbmView) -> Result<Answer, Refusal> {
     let Asked { scene, speeds, form, damped, pair } = *asked;
+    match view {
+        HbmView::Lining(view) => return hbm_lining::answer(asked, view),
+        HbmView::Campbell | HbmView::Compliance(_) => {}
+        _ => hbm_lining::clear(scene)?,
+    }
     let machine = scene.machine();
     let sweep = locked_motion(&machine, form, damped, pair, speeds);
     let json = HbmReport::new(scene, form, damped, asked.fastest());
@@ -83,6 +96,9 @@ pub(super) fn answer(asked: &Asked, view: &HbmView) -> Result<Answer, Refusal> {
         (Ok(sweep), _) => json.with_sweep(&machine.polygon, sweep),
         // These have a meaning without corners too.
         (Err(HarmonicError::NoCorner { .. }), HbmView::Branches | HbmView::Campbell) => json,
+        // These ask no rigid contact and no balance of one harmonic.
+        (Err(HarmonicError::Refused { .. }), HbmView::Campbell) => json,
+        (Err(HarmonicError::Refused { key: "clearance", .. }), HbmView::Compliance(_)) => json,
         (Err(error), _) => return Err(refused(error.clone())),
     };
     let answer = match (view, sweep) {
@@ -90,10 +106,14 @@ pub(super) fn answer(asked: &Asked, view: &HbmView) -> Result<Answer, Refusal> {
         (HbmView::Campbell, _) => campbell(json, asked, &machine),
         (HbmView::Slip(zetas), _) => slipping(json, scene, speeds, zetas),
         (HbmView::Harmonics(most), _) => series(json, &machine, speeds, *most),
+        (HbmView::Whirl, _) => joined::whirling(json, &machine, speeds, asked.fastest()),
+        (HbmView::Compliance(omegas), _) => {
+            joined::compliance(json, &machine, asked.fastest(), omegas.as_deref())
+        }
         (HbmView::Fold, _) => folding(json, &machine, corner(asked, &machine)?.a, speeds, damped),
         (HbmView::Excitation, _) => excited(json, scene, corner(asked, &machine)?.a, speeds),
-        (HbmView::Locked, Err(error)) => Err(error),
-        (HbmView::Locked, Ok(sweep)) => Ok(Answer {
+        (HbmView::Locked | HbmView::Lining(_), Err(error)) => Err(error),
+        (HbmView::Locked | HbmView::Lining(_), Ok(sweep)) => Ok(Answer {
             json,
             tables: vec![(String::new(), report::summary_table(&sweep))],
             file: report::locked_table(&sweep),

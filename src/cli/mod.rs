@@ -7,6 +7,8 @@ mod completions;
 mod explore;
 mod figures;
 mod hbm;
+mod hbm_joined;
+mod hbm_lining;
 mod hbm_views;
 mod man;
 mod map;

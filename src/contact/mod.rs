@@ -8,6 +8,7 @@
 //! `repeated`, which keeps the digits that such rows lose here.
 
 mod bilateral;
+mod lining;
 pub mod repeated;
 mod unilateral;
 
@@ -16,6 +17,7 @@ use serde::Serialize;
 use strum::{AsRefStr, Display, EnumString, VariantNames};
 
 pub use bilateral::{all_closed, pair};
+pub use lining::LiningLaw;
 use repeated::Repeated;
 pub use unilateral::{complementary, complementary_pair};
 
@@ -46,24 +48,27 @@ pub enum ContactLaw {
     Unilateral,
     /// The paper's Eqs. (11)-(13): every penetration is an equality, pull or push.
     Bilateral,
+    /// A lining that gives way: pushes grow with the depth (MODEL: docs/theory.md,
+    /// section 10).
+    Smooth,
 }
 
 impl ContactLaw {
-    /// The other law.
+    /// The law to compare with: the paper's two are each other's.
     #[must_use]
     pub fn other(self) -> Self {
         match self {
             Self::Unilateral => Self::Bilateral,
-            Self::Bilateral => Self::Unilateral,
+            Self::Bilateral | Self::Smooth => Self::Unilateral,
         }
     }
 }
 
-/// The law of this name.
+/// The rigid law of this name; where a lining gives way, the law of its limit.
 #[must_use]
 pub fn law(name: ContactLaw) -> &'static dyn StepLaw {
     match name {
-        ContactLaw::Unilateral => &unilateral::Unilateral,
+        ContactLaw::Unilateral | ContactLaw::Smooth => &unilateral::Unilateral,
         ContactLaw::Bilateral => &bilateral::Bilateral,
     }
 }

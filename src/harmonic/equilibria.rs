@@ -10,7 +10,7 @@ use strum::AsRefStr;
 use super::configuration::Configuration;
 use super::equations::{Equations, Scales, Unknowns, Wave};
 use super::stability::{Linearised, at_rest, grows, largest_growth};
-use super::{Corner, Form, HarmonicError};
+use super::{Corner, Form, HarmonicError, error};
 use crate::model::Machine;
 
 /// What is in contact.
@@ -155,6 +155,8 @@ pub fn equilibrium(
     if !speed.is_finite() {
         return Err(HarmonicError::Speed(speed));
     }
+    error::refuse_other_diameters(machine)?;
+    error::refuse_joined(machine, "0 where every equilibrium is asked; the lock takes it")?;
     let wave = Wave::at(machine, speed, damped);
     let scales = Scales::of(machine);
     let loads = match kind {

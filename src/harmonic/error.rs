@@ -3,7 +3,7 @@
 
 use thiserror::Error;
 
-use crate::model::ContactPolygon;
+use crate::model::{ContactPolygon, Machine};
 
 /// An input without meaning in the frequency domain, or a solution that was not found.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -50,6 +50,9 @@ pub enum HarmonicError {
         /// What would be accepted.
         allowed: String,
     },
+    /// A value of a key that its table or another key does not allow.
+    #[error("{0}")]
+    Scene(String),
     /// Newton's method found no equilibrium: blades so soft that the branch
     /// has folded back before this speed.
     #[error(
@@ -83,4 +86,57 @@ impl HarmonicError {
             sides: polygon.sides,
         }
     }
+}
+
+/// Refuses tips that are inclined or rub, where only the paper's are taken.
+pub(super) fn refuse_joined(machine: &Machine, allowed: &str) -> Result<(), HarmonicError> {
+    let (key, value) = if machine.radial_coupling != 0.0 {
+        ("bladed_disk.radial_coupling", machine.radial_coupling)
+    } else if machine.friction != 0.0 {
+        ("contact.friction", machine.friction)
+    } else {
+        return Ok(());
+    };
+    let allowed = allowed.to_string();
+    Err(HarmonicError::Refused { key, value: value.to_string(), allowed })
+}
+
+/// Refuses what acts on the casing otherwise than the paper's tips; friction that only
+/// bends blades is no matter there.
+pub(super) fn refuse_joined_casing(machine: &Machine, what: &str) -> Result<(), HarmonicError> {
+    if !machine.casing_is_joined() {
+        return Ok(());
+    }
+    refuse_joined(
+        machine,
+        &format!("0 with {what}, which is of tips that move with the casing alone"),
+    )
+}
+
+/// Refuses an interference fit, in which rigid blades have no place.
+pub(super) fn refuse_preload(machine: &Machine) -> Result<(), HarmonicError> {
+    if machine.clearance() > 0.0 {
+        return Ok(());
+    }
+    Err(HarmonicError::Refused {
+        key: "clearance",
+        value: machine.clearance().to_string(),
+        allowed: "above 0 for rigid contact (casing.radius_m above bladed_disk.blade_length_m)"
+            .to_string(),
+    })
+}
+
+/// Refuses modes of the disk of other diameters than those of the casing: no single
+/// harmonic balances them.
+pub(super) fn refuse_other_diameters(machine: &Machine) -> Result<(), HarmonicError> {
+    if !machine.has_other_diameters() {
+        return Ok(());
+    }
+    Err(HarmonicError::Refused {
+        key: "bladed_disk.nodal_diameters",
+        value: machine.blade_diameters.to_string(),
+        allowed: "0 or the nodal diameters of the casing; with others no single harmonic \
+                  balances blades and casing"
+            .to_string(),
+    })
 }

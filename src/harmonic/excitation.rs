@@ -13,7 +13,7 @@ use super::configuration::Configuration;
 use super::equations::{Equations, Scales, Wave};
 use super::equilibria::{judged, loads_of};
 use super::stability::{ClosedSide, Linearised, blade_scale};
-use super::{Corner, Equilibrium, Form, HarmonicError, Kind};
+use super::{Corner, Equilibrium, Form, HarmonicError, Kind, error};
 use crate::model::{Excitation, Machine};
 
 /// The locked motion with its response to an engine order at one speed.
@@ -73,6 +73,8 @@ pub fn excited_lock(
     speeds: &[f64],
 ) -> Result<Vec<ExcitedLock>, HarmonicError> {
     let corner = Corner::after(&machine.polygon, side)?;
+    error::refuse_other_diameters(machine)?;
+    error::refuse_joined(machine, "0 where a lock is excited")?;
     let mut found = Vec::with_capacity(speeds.len());
     for &speed in speeds {
         if !speed.is_finite() {

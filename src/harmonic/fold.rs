@@ -15,7 +15,7 @@ use super::configuration::Configuration;
 use super::corner_angle::CornerAngle;
 use super::equations::{Equations, Wave};
 use super::equilibria::{judged, loads_of};
-use super::{Corner, Equilibrium, Form, HarmonicError, Kind};
+use super::{Corner, Equilibrium, Form, HarmonicError, Kind, error};
 use crate::model::Machine;
 use crate::tolerances::{APART, BRANCH_POINTS, FASTEST, LEFT_OPEN};
 
@@ -46,8 +46,8 @@ pub struct CornerBranch {
 /// points, more where these would be over 20,000.
 ///
 /// # Errors
-/// A polygon without corners, speeds that are not `0 <= from < to`, a step outside
-/// 1e-4 to 1, or eigenvalues that cannot be computed.
+/// A polygon without corners, tips that are inclined or rub, speeds that are not
+/// `0 <= from < to`, a step outside 1e-4 to 1, or eigenvalues that cannot be computed.
 pub fn corner_branch(
     machine: &Machine,
     side: u32,
@@ -56,6 +56,8 @@ pub fn corner_branch(
     step: f64,
 ) -> Result<CornerBranch, HarmonicError> {
     let corner = Corner::after(&machine.polygon, side)?;
+    error::refuse_other_diameters(machine)?;
+    error::refuse_joined(machine, "0 where the corner branch is followed; the lock takes it")?;
     let Some(critical) = machine.critical_speed() else { return Err(HarmonicError::NoWave) };
     if !(from >= 0.0 && to > from && to / critical <= FASTEST) {
         let allowed = format!("two speeds with 0 <= from < to, up to {FASTEST:e} critical speeds");

@@ -4,6 +4,7 @@
 
 use super::corner_angle::CornerAngle;
 use super::equations::{Scales, Wave};
+use super::{Corner, joined_lock};
 use crate::model::{Machine, Number};
 
 /// The loads of the damped lock at one speed, exact for blades that move.
@@ -18,7 +19,8 @@ pub struct LockLoads<T = f64> {
     pub largest_alpha_rad: T,
     /// Amplitude `|z|` of the casing wave \[m\].
     pub amplitude_m: T,
-    /// Torque the rotor must give, `n_d d_c nu |z|^2` \[N m\].
+    /// Torque the rotor must give to hold the wave, `n_d d_c nu |z|^2` without friction,
+    /// beside the torque of friction itself \[N m\].
     pub torque_nm: T,
     /// Its power \[W\].
     pub power_w: T,
@@ -30,8 +32,12 @@ pub struct LockLoads<T = f64> {
 /// beyond the fold of very soft blades.
 #[must_use]
 pub fn lock_loads<T: Number>(machine: &Machine<T>, speed: T) -> Option<LockLoads<T>> {
-    if !machine.polygon.has_corners() {
+    let clear = machine.clearance().re() > 0.0;
+    if !machine.polygon.has_corners() || machine.has_other_diameters() || !clear {
         return None;
+    }
+    if machine.is_joined() {
+        return joined(machine, speed);
     }
     let (wave, scales) = (Wave::at(machine, speed, true), Scales::of(machine));
     let delta = machine.polygon.delta;
@@ -62,10 +68,42 @@ pub fn lock_loads<T: Number>(machine: &Machine<T>, speed: T) -> Option<LockLoads
     })
 }
 
+/// With tips that are inclined or rub.
+fn joined<T: Number>(machine: &Machine<T>, speed: T) -> Option<LockLoads<T>> {
+    let corner = Corner::paper(&machine.polygon).ok()?;
+    let (equations, held) = joined_lock::held(machine, corner, speed)?;
+    let [x, y, alpha_c, alpha_s, push_a, push_b] = held;
+    let touches = equations.phases.map(|phase| equations.touch(phase, &held));
+    let bent = |side: u32| {
+        let (c, s) = machine.polygon.direction(side);
+        ((alpha_c * c + alpha_s * s) * equations.angle).abs()
+    };
+    let larger = |most: T, angle: T| if angle > most { angle } else { most };
+    let Scales { length, force, .. } = Scales::of(machine);
+    let amplitude = (x * x + y * y).sqrt() * length;
+    let arms = push_a * touches[0].across + push_b * touches[1].across;
+    let torque = -arms * force * length * machine.nodal_diameters;
+    let nu = machine.nu(speed);
+    let stored = machine.casing_stiffness + machine.casing_mass * nu * nu;
+    Some(LockLoads {
+        pushes_n: [push_a * force, push_b * force],
+        alpha_rad: touches.map(|touch| touch.alpha),
+        largest_alpha_rad: (0..machine.polygon.sides).map(bent).fold(T::zero(), larger),
+        amplitude_m: amplitude,
+        torque_nm: torque,
+        power_w: torque * speed,
+        energy_j: stored * amplitude * amplitude * 0.5,
+    })
+}
+
 /// The largest speed with a lock \[rad/s\]: blades that are soft give way above it.
-/// None without corners, and where it is beyond any speed that a number can square.
+/// None without corners, with tips that are inclined or rub, and where it is beyond any
+/// speed that a number can square.
 #[must_use]
 pub fn lock_fold_speed<T: Number>(machine: &Machine<T>) -> Option<T> {
+    if machine.is_joined() || machine.has_other_diameters() {
+        return None;
+    }
     let critical = machine.critical_speed()?;
     let kappa = CornerAngle::of(machine).fold_kappa().filter(|_| machine.polygon.has_corners())?;
     Some(critical * (-kappa + 1.0).sqrt())

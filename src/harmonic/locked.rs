@@ -6,8 +6,8 @@ use serde::Serialize;
 
 use super::configuration::Configuration;
 use super::equations::{Equations, Scales, Unknowns, Wave};
-use super::stability::Linearised;
-use super::{Corner, Form, HarmonicError};
+use super::stability::{Linearised, grows};
+use super::{Corner, Form, HarmonicError, error, joined_lock, joined_stability};
 use crate::model::Machine;
 
 /// The locked motion at one rotor speed.
@@ -31,7 +31,8 @@ pub struct LockedPoint {
     pub amplitude_m: f64,
     /// Smallest gap of all groups not in contact \[m\]; infinite if there are none.
     pub smallest_gap_m: f64,
-    /// Torque the rotor must give to hold the wave, `sum Lambda A` \[N m\].
+    /// Torque the rotor must give to hold the wave, `sum Lambda A`, beside the torque of
+    /// friction itself, `mu sum P R_c` \[N m\].
     pub torque_nm: f64,
     /// Its power, `torque * Omega` \[W\].
     pub power_w: f64,
@@ -79,7 +80,9 @@ impl Locked {
     /// `d_c` to its casing rows.
     ///
     /// # Errors
-    /// A polygon without corners.
+    /// A polygon without corners, disk modes of other diameters than the casing, an
+    /// interference fit, and a
+    /// form other than modal where tips are inclined or rub.
     pub fn new(
         machine: &Machine,
         corner: Corner,
@@ -87,6 +90,12 @@ impl Locked {
         damped: bool,
     ) -> Result<Self, HarmonicError> {
         let corner = Corner::after(&machine.polygon, corner.a)?;
+        error::refuse_other_diameters(machine)?;
+        error::refuse_preload(machine)?;
+        if form != Form::Modal {
+            let allowed = format!("0 with the form {form}; the form modal has it");
+            error::refuse_joined(machine, &allowed)?;
+        }
         Ok(Self {
             machine: machine.clone(),
             corner,
@@ -111,6 +120,10 @@ impl Locked {
         if !speed.is_finite() {
             return Err(HarmonicError::Speed(speed));
         }
+        if self.machine.is_joined() {
+            let softness = self.equations.softness();
+            return self.joined(speed).ok_or(HarmonicError::NotFound { speed, softness });
+        }
         let wave = Wave::at(&self.machine, speed, self.damped);
         match self.equations.locked(wave) {
             Some(unknowns) => Ok(self.point(speed, wave, &unknowns)),
@@ -133,6 +146,50 @@ impl Locked {
             }
         }
         Ok(Sweep { corner: self.corner, form: self.form, damped: self.damped, points, missing })
+    }
+
+    /// With tips that are inclined or rub.
+    fn joined(&self, speed: f64) -> Option<LockedPoint> {
+        let undamped;
+        let machine = if self.damped {
+            &self.machine
+        } else {
+            undamped = self.machine.clone().undamped();
+            &undamped
+        };
+        let (equations, held) = joined_lock::held(machine, self.corner, speed)?;
+        let [x, y, .., push_a, push_b] = held;
+        let Scales { length, force, .. } = self.scales;
+        let touches = equations.phases.map(|phase| equations.touch(phase, &held));
+        let polygon = &machine.polygon;
+        let smallest_gap = (0..polygon.sides)
+            .filter(|side| !self.corner.sides().contains(side))
+            .map(|side| equations.gap(polygon.direction(side), &held))
+            .fold(f64::INFINITY, f64::min);
+        let pushes = push_a >= 0.0 && push_b >= 0.0;
+        let stable = pushes
+            && joined_stability::lock_eigenvalues(machine, speed, &equations, &held)
+                .is_some_and(|values| !grows(&values, machine.omega_c));
+        let moment_arm = -(push_a * touches[0].across + push_b * touches[1].across);
+        let torque = machine.nodal_diameters * force * length * moment_arm;
+        let residual =
+            equations.residual(&held).iter().fold(0.0, |most: f64, row| most.max(row.abs()));
+        Some(LockedPoint {
+            speed_rad_s: speed,
+            multipliers_n: [-push_a * force, -push_b * force],
+            alpha_rad: touches.map(|touch| touch.alpha),
+            u_cc_m: x * length,
+            u_cs_m: -y * length,
+            u_sc_m: y * length,
+            u_ss_m: x * length,
+            amplitude_m: (x * length).hypot(y * length),
+            smallest_gap_m: length * smallest_gap,
+            torque_nm: torque,
+            power_w: torque * speed,
+            admissible: pushes && smallest_gap > 0.0,
+            stable,
+            residual,
+        })
     }
 
     fn point(&self, speed: f64, wave: Wave, unknowns: &Unknowns) -> LockedPoint {

@@ -7,7 +7,7 @@ use serde::Serialize;
 use strum::{Display, IntoStaticStr};
 
 use super::saddle_flow::{Arc, SaddleFlow};
-use super::{HarmonicError, branches::changes};
+use super::{HarmonicError, branches::changes, error};
 use crate::model::Machine;
 
 /// Why there is no lasting slip at some speed.
@@ -113,6 +113,9 @@ pub struct Crossing {
 /// ```
 #[must_use]
 pub fn slip_map(machine: &Machine, rotor_speed: f64, speed: f64) -> Option<Crossing> {
+    if machine.casing_is_joined() {
+        return None;
+    }
     let slide = SaddleFlow::at(machine, rotor_speed)?;
     let units = Units::of(machine);
     let arc = slide.cross(speed / units.speed)?;
@@ -130,6 +133,8 @@ pub fn slip_map(machine: &Machine, rotor_speed: f64, speed: f64) -> Option<Cross
 /// # Errors
 /// A polygon without corners, or a speed that is not finite.
 pub fn slip_over(machine: &Machine, speeds: &[f64]) -> Result<Vec<SlipPoint>, HarmonicError> {
+    error::refuse_joined_casing(machine, "slip")?;
+    error::refuse_preload(machine)?;
     if !machine.polygon.has_corners() {
         return Err(HarmonicError::no_corner(&machine.polygon));
     }

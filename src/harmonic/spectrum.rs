@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use super::saddle_flow::{Arc, SaddleFlow};
 use super::slip::repeating;
-use super::{HarmonicError, NoSlip};
+use super::{HarmonicError, NoSlip, error};
 use crate::model::Machine;
 use crate::tolerances::{HARMONICS, SMALL_RATE, SPECTRUM_SAMPLES};
 
@@ -71,6 +71,7 @@ pub fn slip_spectrum(
     if !speed.is_finite() {
         return Err(HarmonicError::Speed(speed));
     }
+    error::refuse_joined_casing(machine, "the series of slip")?;
     if most > HARMONICS {
         let allowed = format!("a whole number from 0 to {HARMONICS}");
         return Err(HarmonicError::Refused { key: "harmonics", value: most.to_string(), allowed });

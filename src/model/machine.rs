@@ -1,6 +1,6 @@
 //! What follows from the parameters and the nodal diameters alone: frequencies,
-//! modal masses and damping (docs/theory.md, section 1), and the threshold speeds
-//! and multipliers of a lock (docs/theory.md, section 4).
+//! modal masses and damping (docs/theory.md, section 1), and the coincidences of both
+//! structures (docs/theory.md, section 4).
 
 use std::f64::consts::TAU;
 
@@ -42,8 +42,18 @@ pub struct Machine<T = f64> {
     pub omega_bd: T,
     /// Largest frequency of any nodal diameter of the bladed disk \[rad/s\].
     pub omega_bd_max: T,
-    /// Whether `p_s` exists: false for `2 n_d` a multiple of `N`.
+    /// Whether `p_s` of the disk exists: false for `2 n_b` a multiple of `N`.
     pub has_sine_mode: bool,
+    /// Blade length `l_b` \[m\].
+    pub blade_length: T,
+    /// Slope of the path of a blade tip, `kappa`.
+    pub radial_coupling: T,
+    /// Nodal diameters `n_b` of the modes of the disk, as a number.
+    pub blade_diameters: f64,
+    /// Tangential over radial amplitude of the casing mode, `tau`.
+    pub tangential_ratio: T,
+    /// Friction coefficient `mu` of a rotor that turns forward; 0 from `new`.
+    pub friction: T,
 }
 
 impl<T: Number> Machine<T> {
@@ -52,10 +62,11 @@ impl<T: Number> Machine<T> {
     pub fn new(disk: &BladedDisk<T>, casing: &Casing<T>, nodal_diameters: u32) -> Self {
         let clearance = casing.radius_m - disk.blade_length_m;
         let polygon = ContactPolygon::new(disk.blades, nodal_diameters, clearance.re());
-        let has_sine_mode = polygon.sides > 2;
+        let blade_diameters = disk.diameters_beside(nodal_diameters);
+        let has_sine_mode = (2 * u64::from(blade_diameters)) % u64::from(disk.blades.max(1)) != 0;
         let blades = f64::from(disk.blades);
         let blade_modal_mass = disk.inertia_kg_m2 * blades / if has_sine_mode { 2.0 } else { 1.0 };
-        let omega_bd = blade_frequency(disk, nodal_diameters);
+        let omega_bd = blade_frequency(disk, blade_diameters);
         let omega_bd_max = blade_frequency(disk, disk.blades / 2);
         let omega_c = (casing.modal_stiffness_n_per_m / casing.modal_mass_kg).sqrt();
         Self {
@@ -75,7 +86,106 @@ impl<T: Number> Machine<T> {
             omega_bd,
             omega_bd_max,
             has_sine_mode,
+            blade_length: disk.blade_length_m,
+            radial_coupling: disk.radial_coupling,
+            blade_diameters: f64::from(blade_diameters),
+            tangential_ratio: casing.tangential_ratio,
+            friction: T::from(0.0),
         }
+    }
+
+    /// This machine with a friction coefficient `mu` between blades and casing.
+    #[must_use]
+    pub fn with_friction(self, mu: T) -> Self {
+        Self { friction: mu, ..self }
+    }
+
+    /// This machine without the damping of casing and blades.
+    #[must_use]
+    pub fn undamped(self) -> Self {
+        let zero = T::from(0.0);
+        Self {
+            casing_damping: zero,
+            casing_damping_ratio: zero,
+            blade_modal_damping: zero,
+            blade_damping_ratio: zero,
+            ..self
+        }
+    }
+
+    /// The friction coefficient at a speed: the blades slide the other way over the
+    /// casing where the rotor turns backward, and not at all where it stands.
+    #[must_use]
+    pub fn friction_at(&self, speed: T) -> T {
+        if speed.re() < 0.0 {
+            -self.friction
+        } else if speed.re() > 0.0 {
+            self.friction
+        } else {
+            T::from(0.0)
+        }
+    }
+
+    /// The friction that the casing mode feels, `mu_c = mu tau`.
+    #[must_use]
+    pub fn casing_friction_at(&self, speed: T) -> T {
+        self.friction_at(speed) * self.tangential_ratio
+    }
+
+    /// Product by which blades and casing are coupled in contact, beside the small
+    /// angles of the paper: `c2 = kappa (kappa + mu) l_b^2` \[m^2\].
+    #[must_use]
+    pub fn coupling_product_at(&self, speed: T) -> T {
+        let kappa = self.radial_coupling;
+        kappa * (kappa + self.friction_at(speed)) * self.blade_length * self.blade_length
+    }
+
+    /// This machine in plain numbers, without derivatives.
+    #[must_use]
+    pub fn plain(&self) -> Machine {
+        Machine {
+            polygon: self.polygon.clone(),
+            clearance: self.clearance.re(),
+            nodal_diameters: self.nodal_diameters,
+            casing_mass: self.casing_mass.re(),
+            casing_stiffness: self.casing_stiffness.re(),
+            casing_damping: self.casing_damping.re(),
+            casing_damping_ratio: self.casing_damping_ratio.re(),
+            omega_c: self.omega_c.re(),
+            blade_inertia: self.blade_inertia.re(),
+            blade_modal_mass: self.blade_modal_mass.re(),
+            blade_modal_damping: self.blade_modal_damping.re(),
+            blade_modal_stiffness: self.blade_modal_stiffness.re(),
+            blade_damping_ratio: self.blade_damping_ratio.re(),
+            omega_bd: self.omega_bd.re(),
+            omega_bd_max: self.omega_bd_max.re(),
+            has_sine_mode: self.has_sine_mode,
+            blade_length: self.blade_length.re(),
+            radial_coupling: self.radial_coupling.re(),
+            blade_diameters: self.blade_diameters,
+            tangential_ratio: self.tangential_ratio.re(),
+            friction: self.friction.re(),
+        }
+    }
+
+    /// Whether tips that are inclined or rub join blades and casing beyond the small
+    /// angles of the paper.
+    #[must_use]
+    pub fn is_joined(&self) -> bool {
+        self.radial_coupling.re() != 0.0 || self.friction.re() != 0.0
+    }
+
+    /// Whether pushes take another way into the casing than in the paper's model;
+    /// friction alone, of a casing without tangential motion, only bends the blades.
+    #[must_use]
+    pub fn casing_is_joined(&self) -> bool {
+        self.radial_coupling.re() != 0.0 || self.casing_friction_at(T::one()).re() != 0.0
+    }
+
+    /// Whether the modes of the disk have other diameters than those of the casing.
+    #[must_use]
+    pub fn has_other_diameters(&self) -> bool {
+        self.blade_diameters != self.nodal_diameters
     }
 
     /// Clearance at rest `g0 = R_c - l_b` \[m\].
@@ -96,51 +206,6 @@ impl<T: Number> Machine<T> {
         (self.nodal_diameters > 0.0).then(|| self.omega_c / self.nodal_diameters)
     }
 
-    /// Speed above which both multipliers of the locked motion are compressive,
-    /// `Omega_lock = Omega_c [zeta cot delta + sqrt(1 + zeta^2 cot^2 delta)]`
-    /// \[rad/s\]; none without corners.
-    #[must_use]
-    pub fn lock_speed(&self) -> Option<T> {
-        self.threshold(1.0 / self.polygon.delta.tan())
-    }
-
-    /// Speed down to which the printed equality algorithm holds a lock, one
-    /// multiplier tensile: as `lock_speed` with `tan delta` for `cot delta`.
-    #[must_use]
-    pub fn adhesive_speed(&self) -> Option<T> {
-        self.threshold(self.polygon.delta.tan())
-    }
-
-    fn threshold(&self, slope: f64) -> Option<T> {
-        let x = self.casing_damping_ratio * slope;
-        let factor = x + (x * x + 1.0).sqrt();
-        let critical = self.critical_speed()?;
-        self.polygon.has_corners().then(|| critical * factor)
-    }
-
-    /// Amplitude of the locked casing wave, `g0/cos delta` \[m\]; none without corners.
-    #[must_use]
-    pub fn locked_amplitude(&self) -> Option<T> {
-        (self.polygon.has_corners()).then(|| self.clearance() / self.polygon.delta.cos())
-    }
-
-    /// Group multipliers `[lambda_a, lambda_b]` of the locked motion at a
-    /// constant speed, `psi_b = psi_a + 2 delta`, for rigid blades \[N\]:
-    /// `(g0/2 cos delta)(K/cos delta -+ D/sin delta)` with `K = k_c - nu^2 m_c`,
-    /// `D = d_c nu`. Negative is a push. None without corners.
-    #[must_use]
-    pub fn locked_multipliers(&self, speed: T) -> Option<[T; 2]> {
-        if !self.polygon.has_corners() {
-            return None;
-        }
-        let nu = self.nu(speed);
-        let (sin, cos) = self.polygon.delta.sin_cos();
-        let stiff = (self.casing_stiffness - nu * nu * self.casing_mass) / cos;
-        let drag = self.casing_damping * nu / sin;
-        let scale = self.clearance() / (2.0 * cos);
-        Some([scale * (stiff - drag), scale * (stiff + drag)])
-    }
-
     /// The positive speeds of Eq. (30), `+-omega_c = n_d Omega +- omega_bd`, in
     /// increasing order \[rad/s\]; empty for `n_d = 0`.
     #[must_use]
@@ -158,6 +223,16 @@ impl<T: Number> Machine<T> {
     #[must_use]
     pub fn dangerous_speed(&self) -> Option<T> {
         self.coincidence_speeds().last().copied()
+    }
+
+    /// The coincidence that the tips of this machine make dangerous at a speed: (31), or
+    /// the difference of (30) where they dig in, `kappa (kappa + mu) < 0` \[rad/s\].
+    #[must_use]
+    pub fn coincidence_felt_at(&self, speed: T) -> Option<T> {
+        let speeds = self.coincidence_speeds();
+        let digs_in = self.coupling_product_at(speed).re() < 0.0;
+        let felt = if digs_in { speeds.first() } else { speeds.last() }.copied()?;
+        Some(if speed.re() < 0.0 { -felt } else { felt })
     }
 
     /// As `dangerous_speed`, of a rotor that turns in the sense of this speed. For

@@ -2,13 +2,16 @@
 //! the phase groups. Solvers and file formats are elsewhere. Symbols and equations:
 //! docs/theory.md, section 1; signs and numbering: docs/theory.md, section 2.
 
+mod lock;
 mod machine;
 mod number;
 mod parameters;
 mod polygon;
+pub(crate) mod real_roots;
 
+pub use lock::LockWindow;
 pub use machine::{Machine, blade_frequency};
 pub use number::Number;
-pub use parameters::{BladedDisk, Casing, Excitation, Initial, Operation};
+pub use parameters::{BladedDisk, Casing, ContactSurface, Excitation, Initial, Operation};
 pub use polygon::ContactPolygon;
 pub(crate) use polygon::{fraction_of_turn, gcd};

@@ -20,6 +20,23 @@ pub struct BladedDisk<T = f64> {
     pub coupling_nm_per_rad: T,
     /// Viscous damping ratio of every blade mode, `zeta_bd`.
     pub damping_ratio: T,
+    /// Slope of the path of a blade tip, `kappa`: it moves outward by
+    /// `kappa l_b alpha`; 0 for the paper's tips.
+    pub radial_coupling: T,
+    /// Nodal diameters `n_b` of the modes of the disk; 0 for those of the casing.
+    pub nodal_diameters: u32,
+    /// Standard deviation of the stiffness `k_b` of single blades, a part of it.
+    pub mistuning: T,
+    /// Number of the draw of the stiffnesses.
+    pub mistuning_seed: u32,
+}
+
+impl<T> BladedDisk<T> {
+    /// Nodal diameters of its modes, beside a casing of `n_d`.
+    #[must_use]
+    pub fn diameters_beside(&self, casing: u32) -> u32 {
+        if self.nodal_diameters == 0 { casing } else { self.nodal_diameters }
+    }
 }
 
 impl Default for BladedDisk {
@@ -32,6 +49,10 @@ impl Default for BladedDisk {
             stiffness_nm_per_rad: 15_000.0,
             coupling_nm_per_rad: 3_000.0,
             damping_ratio: 0.04,
+            radial_coupling: 0.0,
+            nodal_diameters: 0,
+            mistuning: 0.0,
+            mistuning_seed: 1,
         }
     }
 }
@@ -47,6 +68,9 @@ pub struct Casing<T = f64> {
     pub modal_stiffness_n_per_m: T,
     /// Viscous damping ratio `zeta_c`.
     pub damping_ratio: T,
+    /// Tangential over radial amplitude of the mode at the inner face, `tau`: 0 for
+    /// the paper's radial casing, `1/n_d` for a ring that does not stretch.
+    pub tangential_ratio: T,
 }
 
 impl Default for Casing {
@@ -57,7 +81,28 @@ impl Default for Casing {
             modal_mass_kg: 2.0,
             modal_stiffness_n_per_m: 1.544e6,
             damping_ratio: 0.05,
+            tangential_ratio: 0.0,
         }
+    }
+}
+
+/// What blade tips and casing do to each other where they touch, beyond the paper.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ContactSurface<T = f64> {
+    /// Coulomb friction coefficient `mu`; the blades always slide forward.
+    pub friction: T,
+    /// Coefficient of restitution `e` of an impact.
+    pub restitution: T,
+    /// Stiffness `k_p` of a lining under one blade, for the smooth law \[N/m\].
+    pub stiffness_n_per_m: T,
+    /// Depth `eps` over which that stiffness sets in \[m\].
+    pub smoothing_m: T,
+}
+
+impl Default for ContactSurface {
+    /// The paper's contact, and the estimate of a sprayed metal lining.
+    fn default() -> Self {
+        Self { friction: 0.0, restitution: 0.0, stiffness_n_per_m: 1e7, smoothing_m: 1e-6 }
     }
 }
 

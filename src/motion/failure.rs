@@ -1,6 +1,7 @@
 //! Why a motion stopped before its end, in words made here alone. The reasons:
 //! docs/theory.md, section 6.
 
+use super::{Pulse, Verdict};
 use crate::tolerances::{
     LARGEST_BLADE_ANGLE, MOST_EVENTS, MOST_EVENTS_AT_ONCE, MOST_LOOKS, MOST_ROWS,
 };
@@ -14,6 +15,35 @@ pub struct Failure {
     pub t_s: f64,
     /// What happened.
     pub reason: FailureReason,
+}
+
+impl Failure {
+    /// The verdict on a motion beyond the paper that stopped so: growth that nothing
+    /// bounds is what such a machine does, and no breakdown of the computation. What the
+    /// pulse itself throws so far is not growth.
+    #[must_use]
+    pub fn verdict_beyond(&self, pulse: &Pulse) -> Verdict {
+        if self.reason.is_growth() && self.t_s > pulse.end {
+            Verdict::Divergent
+        } else {
+            Verdict::Failed
+        }
+    }
+}
+
+impl FailureReason {
+    /// Whether the motion grew beyond what the model describes.
+    #[must_use]
+    pub fn is_growth(&self) -> bool {
+        matches!(
+            self,
+            Self::BladeAngle { .. }
+                | Self::NoCorner { .. }
+                | Self::Displacement { .. }
+                | Self::CasingSpeed { .. }
+                | Self::LongStep { .. }
+        )
+    }
 }
 
 /// What a motion did that the model does not describe, or the solver cannot
@@ -54,6 +84,9 @@ pub enum FailureReason {
         /// Casing radius \[m\].
         radius_m: f64,
     },
+    /// The equations of a solver are for a constant speed.
+    #[error("this solver of what goes beyond the paper's model needs a constant speed")]
+    Ramp,
     /// The power series of a motion in contact does not converge.
     #[error(
         "blades and casing in contact move each other ever faster, beyond what their series can \
@@ -85,6 +118,28 @@ pub enum FailureReason {
         distance_m: f64,
         /// Casing radius \[m\].
         radius_m: f64,
+    },
+    /// The casing outruns the blades: friction would turn round.
+    #[error(
+        "the casing moves along its rim with {speed_m_s:.3e} m/s, faster than the blade tips, \
+         {tip_m_s:.3e} m/s, and friction has one direction"
+    )]
+    CasingSpeed {
+        /// Tangential speed of the casing \[m/s\].
+        speed_m_s: f64,
+        /// Speed of the blade tips \[m/s\].
+        tip_m_s: f64,
+    },
+    /// The wave runs along the blades too fast for the step, and goes on so.
+    #[error(
+        "the casing runs along the blades by {moved_m:.3e} m a step, much of the {side_m:.3e} m \
+         from blade to blade, and faster than this step can follow"
+    )]
+    LongStep {
+        /// Way of the casing in a step \[m\].
+        moved_m: f64,
+        /// Length of a side of the polygon \[m\].
+        side_m: f64,
     },
     /// A step went through more than the clearance.
     #[error(

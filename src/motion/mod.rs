@@ -5,24 +5,29 @@
 //! on, `clone` forks it, nothing is global.
 
 mod contacts;
+mod coupled;
 mod drive;
 mod event;
 pub mod explicit;
 mod failure;
 mod free_flight;
+mod joined;
 mod propagator;
 mod run;
 mod script;
 mod sensitivity;
 mod solver;
+mod trend;
 pub mod verdict;
 mod wave;
 
 pub use contacts::{ActiveSet, ContactLog, Hold, Impact, in_phase_order};
+pub use coupled::EnergyLedger;
 pub use drive::{Pulse, Rotor, State};
 pub use event::Event;
 pub use failure::{Failure, FailureReason};
 pub use free_flight::FreeFlight;
+pub use joined::Joined;
 pub use run::{
     FinalState, ImpactReport, RunReport, Sample, Sampling, SolverReport, VerdictReached,
     run_to_end, run_to_verdict, simulate, simulate_with, verdict_of,

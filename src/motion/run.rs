@@ -7,9 +7,10 @@ use serde::Serialize;
 
 use super::script::{Script, Scripted};
 use super::sensitivity::{is_sensitive, sign};
-use super::verdict::judge;
 use super::wave::WaveTracker;
-use super::{Certainty, Checks, Contact, GoOn, Motion, Outcome, State, Verdict, to_the_end};
+use super::{
+    Certainty, Checks, Contact, EnergyLedger, GoOn, Motion, Outcome, State, Verdict, to_the_end,
+};
 use crate::scene::{CheckedScene, ContactLaw, ModelSize, SolverKind};
 use crate::tolerances::{LAST_PART, RUN_LOOKS};
 
@@ -51,6 +52,10 @@ pub struct SolverReport {
     /// rigid ones whose angles follow the pushes at once; told where it is so.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub blades_follow: bool,
+    /// Whether the angles of the blades are left out of the phases of the gaps; told
+    /// where it is so.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub linearised: bool,
     /// Time steps taken: computed one by one.
     pub steps: Option<u64>,
     /// Time steps skipped: done many at once; the run has the sum of both.
@@ -100,6 +105,9 @@ pub struct RunReport {
     pub r#final: FinalState,
     /// Largest errors of the run.
     pub checks: Checks,
+    /// Where energy came from and went to, beyond the paper.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub energy: Option<EnergyLedger>,
     /// What another run must agree with if this one is not sensitive.
     #[serde(skip)]
     pub reached: VerdictReached,
@@ -174,7 +182,7 @@ pub(super) fn run_motion_to_verdict(
         looks += 1;
         let until = (looks as f64 * interval).min(end);
         verdict = match scripted.advance_while(until, go_on) {
-            Err(_) => Some(Verdict::Failed),
+            Err(_) => scripted.motion.final_verdict().or(Some(Verdict::Failed)),
             Ok(false) => return None,
             Ok(true) if until >= end => Some(verdict_of(&scripted.motion, LAST_PART * end)),
             Ok(true) if scripted.is_through() => scripted.motion.final_verdict(),
@@ -195,7 +203,7 @@ pub(super) fn run_motion_to_verdict(
 /// `window` seconds.
 #[must_use]
 pub fn verdict_of(motion: &Motion, window: f64) -> Verdict {
-    motion.final_verdict().unwrap_or_else(|| judge(motion.contacts(), motion.t_s(), window))
+    motion.final_verdict().unwrap_or_else(|| motion.lasting(window))
 }
 
 /// Runs a scene to its end.
@@ -277,10 +285,10 @@ fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) -> RunRepor
     let verdict = verdict_of(motion, window);
     let locked = verdict.is_held();
     let wave_speed_rad_s = match verdict {
-        Verdict::Failed | Verdict::Decay => None,
+        Verdict::Failed | Verdict::Divergent | Verdict::Decay => None,
         // It turns with the blades.
         Verdict::Locked | Verdict::Adhesive => Some(motion.rotor().mean_speed(state.t_s, window)),
-        Verdict::Slip | Verdict::Bounce => wave.speed(machine),
+        Verdict::Slip | Verdict::Whirl | Verdict::Bounce => wave.speed(machine),
     };
     let outcome = Outcome {
         verdict,
@@ -305,6 +313,7 @@ fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) -> RunRepor
             contact: scene.solver.contact,
             model: scene.solver.model,
             blades_follow: motion.blades_follow(),
+            linearised: motion.linearised(),
             steps: motion.steps_taken(),
             steps_skipped: motion.steps_skipped(),
             events: motion.events(),
@@ -324,6 +333,7 @@ fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) -> RunRepor
             alpha_s_rad: state.alpha[1],
         },
         checks: motion.checks(),
+        energy: motion.energy_ledger(),
         reached: VerdictReached::of(motion, verdict),
     }
 }

@@ -2,7 +2,7 @@
 //! can be repeated without a screen.
 
 use super::{Failure, GoOn, Motion};
-use crate::scene::{CheckedScene, Scene, SolverKind};
+use crate::scene::{CheckedScene, ContactLaw, Scene, SolverKind};
 
 /// One change of a running motion.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,15 +23,19 @@ pub enum Change {
 
 impl Change {
     /// Whether a running motion of one scene can go on with the parameters of
-    /// another: not with another solver or model, number of blades or diameters,
-    /// clearance or step. The event solver takes none.
+    /// another: not with another solver or model, number of blades or diameters, draw
+    /// of blades, clearance or step, nor where one goes beyond the paper or has a lining
+    /// and the other has not. The event solver takes none.
     #[must_use]
     pub fn is_live(before: &Scene, now: &Scene) -> bool {
         let fixed = |scene: &Scene| {
             let (disk, solver) = (&scene.bladed_disk, &scene.solver);
             let clearance = scene.casing.radius_m - disk.blade_length_m;
             let diameters = scene.operation.nodal_diameters;
-            (solver.kind, solver.model, disk.blades, diameters, clearance, solver.step_s)
+            let draw = (disk.nodal_diameters, disk.mistuning, disk.mistuning_seed);
+            let lining = solver.contact == ContactLaw::Smooth;
+            let paper = (solver.kind, solver.model, disk.blades, diameters, clearance);
+            (paper, solver.step_s, draw, lining, scene.goes_beyond())
         };
         now.solver.kind == SolverKind::Explicit && fixed(before) == fixed(now)
     }

@@ -4,10 +4,16 @@
 use std::fmt::Debug;
 use std::ops::{Deref, DerefMut};
 
+use super::coupled::{Coupled, FullTips, ModalTips, RigidTips};
 use super::explicit::{Explicit, FullBlades, ModalBlades, RigidBlades};
-use super::{Certainty, Checks, ContactLog, Event, Failure, Plane, Pulse, Rotor, State, Verdict};
+use super::verdict::judge;
+use super::{
+    Certainty, Checks, ContactLog, EnergyLedger, Event, Failure, Joined, Plane, Pulse, Rotor,
+    State, Verdict,
+};
 use crate::model::Machine;
 use crate::scene::{CheckedScene, ModelSize, SolverKind};
+use crate::tolerances::WHIRL_SWING;
 
 /// Asked on the way whether work shall go on: a flag that a signal sets, or a
 /// limit of time.
@@ -55,17 +61,19 @@ pub trait Solver: Debug + Send + Sync {
         (1..=polygon.blades).map(angle).collect()
     }
 
-    /// The gap of every blade now, Eq. (14); positive means open \[m\].
+    /// The gap of every blade now, Eq. (14), with the slope of the tips; positive means
+    /// open \[m\].
     fn blade_gaps(&self) -> Vec<f64> {
         let (machine, state) = (self.machine(), self.state());
         let (polygon, diameters) = (&machine.polygon, machine.nodal_diameters);
         // In the frame of the blades only their small angles differ from blade to blade.
         let z = Plane::new(state.u[0], state.u[1])
             * Plane::cis(-diameters * self.rotor().angle(state.t_s));
+        let rise = machine.radial_coupling * machine.blade_length;
         let gap = |(blade, angle): (u32, f64)| {
             let (c, s) = polygon.direction(polygon.side_of_blade(blade));
             let normal = Plane::new(c, s) * Plane::cis(diameters * angle);
-            machine.clearance() + (z * normal.conj()).re
+            machine.clearance() + (z * normal.conj()).re - rise * angle
         };
         (1..=polygon.blades).zip(self.blade_angles()).map(gap).collect()
     }
@@ -88,6 +96,21 @@ pub trait Solver: Debug + Send + Sync {
     /// The verdict, once nothing to come can change it: no contact can come
     /// again, or a corner can never let go.
     fn final_verdict(&self) -> Option<Verdict>;
+
+    /// The verdict over the last `window` seconds.
+    fn lasting(&self, window: f64) -> Verdict {
+        let clearance = self.machine().clearance().abs();
+        match judge(self.contacts(), self.t_s(), window) {
+            Verdict::Slip if self.swing() > WHIRL_SWING * clearance => Verdict::Whirl,
+            other => other,
+        }
+    }
+
+    /// How far blade tips swing outward over the last part of the run,
+    /// `|kappa| l_b |a|` \[m\].
+    fn swing(&self) -> f64 {
+        0.0
+    }
 
     /// The pulse in force.
     fn pulse(&self) -> &Pulse;
@@ -128,11 +151,21 @@ pub trait Solver: Debug + Send + Sync {
         false
     }
 
+    /// Whether the angles of the blades are left out of the phases of the gaps.
+    fn linearised(&self) -> bool {
+        false
+    }
+
     /// Why the run failed, if it did.
     fn failure(&self) -> Option<&Failure>;
 
     /// Largest penetration, blade angle and other checks so far.
     fn checks(&self) -> Checks;
+
+    /// Where energy came from and went to, beyond the paper.
+    fn energy_ledger(&self) -> Option<EnergyLedger> {
+        None
+    }
 
     /// From now on keeps no account of `checks` that costs time; for a run of which
     /// only the verdict is asked. The motion is the same.
@@ -192,6 +225,12 @@ impl Motion {
     #[must_use]
     pub fn new(scene: &CheckedScene) -> Self {
         match (scene.solver.kind, scene.solver.model) {
+            (SolverKind::Explicit, model) if scene.goes_beyond() => match model {
+                ModelSize::Rigid => Coupled::<RigidTips>::new(scene).into(),
+                ModelSize::Modal => Coupled::<ModalTips>::new(scene).into(),
+                ModelSize::Full => Coupled::<FullTips>::new(scene).into(),
+            },
+            (SolverKind::Event, _) if scene.goes_beyond() => Joined::new(scene).into(),
             (SolverKind::Event, _) => Event::of(scene).into(),
             (SolverKind::Explicit, ModelSize::Rigid) => Explicit::<RigidBlades>::new(scene).into(),
             (SolverKind::Explicit, ModelSize::Modal) => Explicit::<ModalBlades>::new(scene).into(),

@@ -12,24 +12,41 @@ use super::{ActiveSet, ContactLog};
 #[serde(rename_all = "lowercase")]
 #[strum(serialize_all = "lowercase")]
 pub enum Verdict {
-    /// The motion dies away without further contact.
+    /// The motion dies away without further contact; where all blades press on a lining
+    /// at rest, the wave does.
     Decay,
     /// Contacts that come and go.
     Bounce,
-    /// Contact without a break while its sides change, or along one side.
+    /// Contact without a break while its sides change, or along one side. On a lining
+    /// that all blades press, also under a wave that does not die away and swings the
+    /// blades little.
     Slip,
-    /// Permanent contact of the same sides, all pushing.
+    /// Contact without a break that passes from blade to blade and swings the blades:
+    /// `|kappa| l_b |a|` is above a quarter of the clearance (of the interference). In
+    /// the model of single blades `a` is the largest angle about the mean of all blades.
+    Whirl,
+    /// Permanent contact of the same sides, not all there are, all pushing.
     Locked,
     /// Permanent contact of the same sides, some of them pulling.
     Adhesive,
+    /// Nothing bounds the growth of the motion: the run left the range of the model.
+    Divergent,
     /// The run stopped early, with a reason.
     Failed,
 }
 
 impl Verdict {
     /// Every verdict, in the order of the documentation.
-    pub const ALL: [Self; 6] =
-        [Self::Decay, Self::Bounce, Self::Slip, Self::Locked, Self::Adhesive, Self::Failed];
+    pub const ALL: [Self; 8] = [
+        Self::Decay,
+        Self::Bounce,
+        Self::Slip,
+        Self::Whirl,
+        Self::Locked,
+        Self::Adhesive,
+        Self::Divergent,
+        Self::Failed,
+    ];
 
     /// Whether the same blades hold the wave, by pushes or by a pull.
     #[must_use]
@@ -40,7 +57,7 @@ impl Verdict {
     /// Whether the contact at the end has no break: it has a time since when.
     #[must_use]
     pub fn keeps_contact(self) -> bool {
-        self.is_held() || self == Self::Slip
+        self.is_held() || matches!(self, Self::Slip | Self::Whirl)
     }
 }
 

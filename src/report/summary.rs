@@ -11,6 +11,8 @@ use crate::scene::{ContactLaw, SolverKind};
 const IMPACTS_TOLD: usize = 4;
 
 /// Penetration, as a part of the clearance, that closing a gap in double
+/// Contacts told one by one.
+const CONTACTS_TOLD: usize = 4;
 /// precision may leave: a few hundred units in the last place.
 const ROUND_OFF: f64 = 1e-13;
 
@@ -24,6 +26,9 @@ pub fn write(report: &RunReport, wall_s: f64, out: &mut dyn Write) -> Result<()>
         writeln!(out, "{}", report.scene.title)?;
     }
     writeln!(out, "{}", how(report))?;
+    if report.solver.linearised {
+        writeln!(out, "Blade angles inside the gap's phase are left out (linearised).")?;
+    }
     writeln!(out)?;
     writeln!(out, "Verdict: {}. {}", report.outcome.verdict, meaning(report))?;
     if let Some(message) = &report.outcome.message {
@@ -81,10 +86,19 @@ fn how(report: &RunReport) -> String {
 /// What a verdict means, in one sentence.
 fn meaning(report: &RunReport) -> &'static str {
     match report.outcome.verdict {
+        Verdict::Decay if report.scene.clearance() < 0.0 => {
+            "The wave died away; the blades rub the lining as at rest."
+        }
         Verdict::Decay if report.impact_count == 0 => "No blade ever touched the casing.",
         Verdict::Decay => "The contact ended and does not return.",
         Verdict::Bounce => "Blades and casing meet and part again and again.",
         Verdict::Slip => "The contact is permanent, but the wave slips along the blades.",
+        Verdict::Whirl => {
+            "The contact is permanent, passes from blade to blade and keeps the blades swinging."
+        }
+        Verdict::Divergent => {
+            "Nothing bounds the growth of the motion; what follows is the last state."
+        }
         Verdict::Locked => "The same blades hold the casing without a break, and all of them push.",
         Verdict::Adhesive => {
             "The same blades hold the casing without a break, but some of them pull: \
@@ -110,23 +124,47 @@ fn motion(report: &RunReport, machine: &Machine, out: &mut dyn Write) -> Result<
     if let Some(since) = outcome.lock_time_s {
         writeln!(out, "Held by the same blades since {}.", time(since))?;
     }
-    for contact in &outcome.contacts {
-        writeln!(out, "{}", touch(contact))?;
+    if outcome.contacts.len() > CONTACTS_TOLD {
+        writeln!(out, "{}", many_touch(&outcome.contacts))?;
+    } else {
+        for contact in &outcome.contacts {
+            writeln!(out, "{}", touch(contact))?;
+        }
     }
     writeln!(
         out,
-        "Amplitude of the casing wave at the end: {} m, {} of the clearance.",
+        "Amplitude of the casing wave at the end: {} m, {}.",
         short(outcome.amplitude_m),
-        short(outcome.amplitude_m / machine.clearance())
+        of_clearance(outcome.amplitude_m, machine)
     )?;
     if let Some(wave) = outcome.wave_speed_rad_s {
         writeln!(out, "The wave turns at {} rad/s.", short(wave))?;
     }
     writeln!(out, "{}", speeds(report, machine))?;
-    if let Some(dangerous) = machine.dangerous_speed_toward(speed_at_end(report)) {
+    if let Some(dangerous) = machine.coincidence_felt_at(speed_at_end(report)) {
         writeln!(out, "Dangerous coincidence speed: {} rad/s.", short(dangerous))?;
     }
     writeln!(out, "{}", impacts(report))
+}
+
+/// A length as a part of the clearance, or of the interference where there is none.
+fn of_clearance(length: f64, machine: &Machine) -> String {
+    let g0 = machine.clearance();
+    let what = if g0 < 0.0 { "interference" } else { "clearance" };
+    format!("{} of the {what}", short(length / g0.abs()))
+}
+
+/// Contacts on a lining, where many blades touch at once.
+fn many_touch(contacts: &[Contact]) -> String {
+    let force = |contact: &Contact| contact.multiplier_n.abs();
+    let sum: f64 = contacts.iter().map(force).sum();
+    let most = contacts.iter().max_by(|a, b| force(a).total_cmp(&force(b)));
+    let most = most.map_or(String::new(), |most| {
+        let noun = if most.blades.len() == 1 { "blade" } else { "blades" };
+        format!(", {noun} {} most, with {} N", listed(&most.blades), short(force(most)))
+    });
+    let blades: usize = contacts.iter().map(|contact| contact.blades.len()).sum();
+    format!("{blades} blades push with {} N at the end{most}.", short(sum))
 }
 
 fn touch(contact: &Contact) -> String {
@@ -147,10 +185,13 @@ fn speed_at_end(report: &RunReport) -> f64 {
 /// The rotor speed, compared with the threshold speeds.
 fn speeds(report: &RunReport, machine: &Machine) -> String {
     let (operation, speed) = (&report.scene.operation, speed_at_end(report));
+    // A lining has a window of its own (`hbm --smooth`).
+    let rigid = report.solver.contact != ContactLaw::Smooth;
+    let lock = machine.lock_speed_toward(speed);
     let at_end = if operation.speed_ramp_rad_s2 == 0.0 { "" } else { " at the end" };
     let mut parts = vec![format!("Rotor speed{at_end}: {} rad/s", short(speed))];
     for (name, threshold) in
-        [("Omega_c", machine.critical_speed()), ("Omega_lock", machine.lock_speed())]
+        [("Omega_c", machine.critical_speed()), ("Omega_lock", lock.filter(|_| rigid))]
     {
         if let Some(threshold) = threshold {
             let ratio = short(speed.abs() / threshold);
@@ -180,12 +221,14 @@ fn impacts(report: &RunReport) -> String {
 
 fn checks(report: &RunReport, machine: &Machine, out: &mut dyn Write) -> Result<()> {
     let checks = &report.checks;
-    let part = checks.max_penetration_m / machine.clearance();
-    if part < ROUND_OFF {
-        writeln!(out, "Deepest penetration: none beyond round-off.")?;
+    let smooth = report.solver.contact == ContactLaw::Smooth;
+    let name = if smooth { "Deepest in the lining" } else { "Deepest penetration" };
+    if checks.max_penetration_m < ROUND_OFF * machine.clearance().abs() {
+        writeln!(out, "{name}: none beyond round-off.")?;
     } else {
         let deepest = short(checks.max_penetration_m);
-        writeln!(out, "Deepest penetration: {deepest} m, {} of the clearance.", short(part))?;
+        let part = of_clearance(checks.max_penetration_m, machine);
+        writeln!(out, "{name}: {deepest} m, {part}.")?;
     }
     if let Some(predicted) = checks.max_predicted_penetration_m {
         writeln!(out, "Deepest penetration predicted before correction: {} m.", short(predicted))?;
@@ -264,6 +307,8 @@ mod tests {
             (Verdict::Decay, "does not return"),
             (Verdict::Bounce, "again and again"),
             (Verdict::Slip, "slips along the blades"),
+            (Verdict::Whirl, "keeps the blades swinging"),
+            (Verdict::Divergent, "Nothing bounds the growth"),
             (Verdict::Locked, "all of them push"),
             (Verdict::Adhesive, "a pull holds it, which a real contact cannot do"),
             (Verdict::Failed, "broke down"),

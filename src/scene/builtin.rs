@@ -35,6 +35,11 @@ pub const BUILTIN: &[Builtin] = builtin![
     "near-critical",
     "run-down",
     "half-n",
+    "coincidence",
+    "rub",
+    "digs-in",
+    "friction-lock",
+    "soft-lining",
 ];
 
 impl Scene {

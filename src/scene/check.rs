@@ -1,5 +1,6 @@
 //! Checks that need more than one key: combinations of values that have no meaning.
 
+use super::beyond;
 use super::{ContactLaw, ModelSize, Scene, SceneError, SolverKind};
 
 /// Most updates of a coordinate that one explicit run may make: minutes of work
@@ -19,6 +20,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     frequencies(scene)?;
     initial_state(scene)?;
     excitation(scene)?;
+    beyond::check(scene)?;
     match scene.solver.kind {
         SolverKind::Explicit => explicit(scene),
         SolverKind::Event => event(scene),
@@ -27,14 +29,16 @@ pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
 
 fn clearance(scene: &Scene) -> Result<(), SceneError> {
     let length = scene.bladed_disk.blade_length_m;
-    if scene.casing.radius_m > length {
+    let smooth = scene.solver.contact == ContactLaw::Smooth;
+    if scene.clearance() > 0.0 || (smooth && scene.clearance() < 0.0) {
         return Ok(());
     }
-    Err(SceneError::refused(
-        "casing.radius_m",
-        scene.casing.radius_m,
-        format!("above bladed_disk.blade_length_m = {length}, so that there is a clearance"),
-    ))
+    let allowed = if smooth {
+        format!("other than bladed_disk.blade_length_m = {length}")
+    } else {
+        format!("above bladed_disk.blade_length_m = {length}, so that there is a clearance")
+    };
+    Err(SceneError::refused("casing.radius_m", scene.casing.radius_m, allowed))
 }
 
 /// The squares of frequencies must stay in the range of numbers.
@@ -56,6 +60,10 @@ fn frequencies(scene: &Scene) -> Result<(), SceneError> {
 }
 
 fn initial_state(scene: &Scene) -> Result<(), SceneError> {
+    // A lining may be pressed at the start.
+    if scene.solver.contact == ContactLaw::Smooth {
+        return Ok(());
+    }
     let machine = scene.machine();
     let (x, y) = (scene.initial.u_c_m, scene.initial.u_s_m);
     let side = machine.polygon.nearest_side(x, y);
@@ -135,11 +143,13 @@ fn explicit(scene: &Scene) -> Result<(), SceneError> {
 
 /// Most steps of this scene, in four digits.
 fn most_steps(scene: &Scene) -> f64 {
-    match scene.solver.model {
-        ModelSize::Full => {
-            down(MOST_UPDATES / f64::from(scene.bladed_disk.blades + 2)).min(MOST_STEPS)
-        }
-        ModelSize::Rigid | ModelSize::Modal => MOST_STEPS,
+    // Of these, a step may look at every blade.
+    let lining = scene.solver.contact == ContactLaw::Smooth;
+    let other = scene.solver.model == ModelSize::Modal && scene.has_other_diameters();
+    if scene.solver.model == ModelSize::Full || lining || other {
+        down(MOST_UPDATES / f64::from(scene.bladed_disk.blades + 2)).min(MOST_STEPS)
+    } else {
+        MOST_STEPS
     }
 }
 
@@ -187,12 +197,14 @@ fn undriven(scene: &Scene) -> Result<(), SceneError> {
 /// An excitation, the bilateral law, or a disk of more than two modes.
 pub(super) fn event(scene: &Scene) -> Result<(), SceneError> {
     undriven(scene)?;
-    if scene.solver.contact == ContactLaw::Bilateral {
-        return Err(SceneError::refused(
-            "solver.contact",
-            "\"bilateral\"",
-            "\"unilateral\" with solver.kind = \"event\" (bilateral is a law of the time step)",
-        ));
+    let law = match scene.solver.contact {
+        ContactLaw::Unilateral => None,
+        ContactLaw::Bilateral => Some(("\"bilateral\"", "bilateral is a law of the time step")),
+        ContactLaw::Smooth => Some(("\"smooth\"", "a lining has no events")),
+    };
+    if let Some((given, why)) = law {
+        let allowed = format!("\"unilateral\" with solver.kind = \"event\" ({why})");
+        return Err(SceneError::refused("solver.contact", given, allowed));
     }
     if scene.solver.model == ModelSize::Full {
         return Err(SceneError::refused(

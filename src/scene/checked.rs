@@ -37,6 +37,18 @@ impl CheckedScene {
         check::event(&self.0)
     }
 
+    /// Whether nothing in it goes beyond the paper's model.
+    ///
+    /// # Errors
+    /// It does, in one line.
+    pub fn is_of_the_paper(&self) -> Result<(), SceneError> {
+        if !self.goes_beyond() {
+            return Ok(());
+        }
+        let allowed = "one without what goes beyond the paper, for the paper's own solver";
+        Err(SceneError::refused("scene", &self.title, allowed))
+    }
+
     /// The scene, to be changed.
     #[must_use]
     pub fn into_scene(self) -> Scene {
@@ -89,18 +101,24 @@ impl Scene {
         if solver.kind != SolverKind::Event {
             return made;
         }
-        let bilateral = solver.contact == ContactLaw::Bilateral;
+        let law = match solver.contact {
+            ContactLaw::Unilateral => None,
+            ContactLaw::Bilateral => Some("bilateral"),
+            ContactLaw::Smooth => Some("smooth"),
+        };
         let full = solver.model == ModelSize::Full;
         if asked(KIND) {
-            if bilateral && !asked(CONTACT) {
-                made.push(Adjustment { key: CONTACT, from: "bilateral", to: "unilateral" });
+            if let Some(from) = law
+                && !asked(CONTACT)
+            {
+                made.push(Adjustment { key: CONTACT, from, to: "unilateral" });
                 solver.contact = ContactLaw::Unilateral;
             }
             if full && !asked(MODEL) {
                 made.push(Adjustment { key: MODEL, from: "full", to: "modal" });
                 solver.model = ModelSize::Modal;
             }
-        } else if (asked(CONTACT) && bilateral) || (asked(MODEL) && full) {
+        } else if (asked(CONTACT) && law.is_some()) || (asked(MODEL) && full) {
             made.push(Adjustment { key: KIND, from: "event", to: "explicit" });
             solver.kind = SolverKind::Explicit;
         }

@@ -197,8 +197,17 @@ pub(super) fn unknown(path: &str) -> SceneError {
 }
 
 /// Charts of the explorer, in the order of their digits.
-pub const CHARTS: &[&str] =
-    &["response", "gaps", "locked", "frame", "map", "spectrum", "precision", "margins"];
+pub const CHARTS: &[&str] = &[
+    "response",
+    "gaps",
+    "locked",
+    "frame",
+    "map",
+    "spectrum",
+    "precision",
+    "margins",
+    "coincidence",
+];
 
 macro_rules! real {
     ($path:literal, $unit:literal, $what:literal, $above:literal $min:literal .. $max:literal, $($field:ident).+) => {
@@ -273,10 +282,35 @@ pub const KEYS: &[Key] = &[
     real!("bladed_disk.stiffness_nm_per_rad", "N m/rad", "blade-to-disk stiffness k_b", true 0.0..1e15, bladed_disk.stiffness_nm_per_rad),
     real!("bladed_disk.coupling_nm_per_rad", "N m/rad", "blade-to-blade stiffness k_bb", false 0.0..1e15, bladed_disk.coupling_nm_per_rad),
     real!("bladed_disk.damping_ratio", "-", "blade damping zeta_bd", false 0.0..10.0, bladed_disk.damping_ratio),
+    real!(
+        "bladed_disk.radial_coupling",
+        "-",
+        "slope of the path of a blade tip kappa",
+        false - 10.0..10.0,
+        bladed_disk.radial_coupling
+    ),
+    whole!(
+        "bladed_disk.nodal_diameters",
+        "nodal diameters of the disk, 0 as the casing, n_b",
+        0..4096,
+        bladed_disk.nodal_diameters
+    ),
+    real!("bladed_disk.mistuning", "-", "standard deviation of single k_b (full model), sd", false 0.0..0.2, bladed_disk.mistuning),
+    whole!(
+        "bladed_disk.mistuning_seed",
+        "draw of the single k_b",
+        0..1_000_000,
+        bladed_disk.mistuning_seed
+    ),
     real!("casing.radius_m", "m", "casing radius R_c", true 0.0..1e3, casing.radius_m),
     real!("casing.modal_mass_kg", "kg", "casing modal mass m_c", true 0.0..1e9, casing.modal_mass_kg),
     real!("casing.modal_stiffness_n_per_m", "N/m", "casing modal stiffness k_c", true 0.0..1e15, casing.modal_stiffness_n_per_m),
     real!("casing.damping_ratio", "-", "casing damping zeta_c", false 0.0..10.0, casing.damping_ratio),
+    real!("casing.tangential_ratio", "-", "tangential over radial casing amplitude tau", false 0.0..10.0, casing.tangential_ratio),
+    real!("contact.friction", "-", "friction coefficient mu", false 0.0..5.0, contact.friction),
+    real!("contact.restitution", "-", "coefficient of restitution e", false 0.0..0.95, contact.restitution),
+    real!("contact.stiffness_n_per_m", "N/m", "stiffness of the lining under a blade (smooth only) k_p", true 0.0..1e15, contact.stiffness_n_per_m),
+    real!("contact.smoothing_m", "m", "depth over which that stiffness sets in (smooth only) eps", false 0.0..1.0, contact.smoothing_m),
     whole!("operation.nodal_diameters", "nodal diameters n_d", 0..4096, operation.nodal_diameters),
     real!(
         "operation.speed_rad_s",

@@ -5,6 +5,7 @@
 //! the value and what is allowed. The file format, the command line and the
 //! knobs of the explorer all use the table in `keys`.
 
+mod beyond;
 mod builtin;
 mod check;
 mod checked;
@@ -21,7 +22,7 @@ pub use error::SceneError;
 pub use keys::{Allowed, KEYS, Key, Value};
 
 pub use crate::contact::ContactLaw;
-use crate::model::{BladedDisk, Casing, Excitation, Initial, Machine, Operation};
+use crate::model::{BladedDisk, Casing, ContactSurface, Excitation, Initial, Machine, Operation};
 
 /// Which solver advances the motion.
 #[derive(
@@ -115,6 +116,8 @@ pub struct Scene {
     pub bladed_disk: BladedDisk,
     /// The casing.
     pub casing: Casing,
+    /// Friction, restitution and lining where they touch.
+    pub contact: ContactSurface,
     /// Speed, pulse and nodal diameters.
     pub operation: Operation,
     /// Casing state at t = 0.
@@ -146,6 +149,7 @@ impl Scene {
             note: String::new(),
             bladed_disk: BladedDisk::default(),
             casing: Casing::default(),
+            contact: ContactSurface::default(),
             operation: Operation::default(),
             initial: Initial::default(),
             excitation: Excitation::default(),
@@ -157,7 +161,14 @@ impl Scene {
     /// The machine this scene describes, with all that is derived from it.
     #[must_use]
     pub fn machine(&self) -> Machine {
-        Machine::new(&self.bladed_disk, &self.casing, self.operation.nodal_diameters)
+        let mut machine =
+            Machine::new(&self.bladed_disk, &self.casing, self.operation.nodal_diameters)
+                .with_friction(self.contact.friction);
+        if self.solver.model == ModelSize::Rigid {
+            // Blades that do not bend do not move their tips outward.
+            machine.radial_coupling = 0.0;
+        }
+        machine
     }
 
     /// Largest step the explicit solver is stable for, `2/omega_max`, Eq. (9) \[s\].
@@ -169,7 +180,23 @@ impl Scene {
             ModelSize::Modal => machine.omega_c.max(machine.omega_bd),
             ModelSize::Full => machine.omega_c.max(machine.omega_bd_max),
         };
-        2.0 / fastest
+        if self.solver.contact != ContactLaw::Smooth {
+            return 2.0 / fastest;
+        }
+        // All blades on the lining.
+        let (lining, blades) = (self.contact.stiffness_n_per_m, f64::from(self.bladed_disk.blades));
+        let speed = self.operation.speed_rad_s;
+        let turn = machine.casing_friction_at(speed).hypot(1.0);
+        let tips = match self.solver.model {
+            ModelSize::Rigid => 0.0,
+            ModelSize::Modal => machine.coupling_product_at(speed).abs() / machine.blade_modal_mass,
+            ModelSize::Full => {
+                2.0 * machine.coupling_product_at(speed).abs() / machine.blade_inertia / blades
+            }
+        };
+        let joined = lining * blades * (turn / machine.casing_mass + tips)
+            / if machine.polygon.sides > 2 { 2.0 } else { 1.0 };
+        2.0 / fastest.hypot(joined.sqrt())
     }
 
     /// Sets one key from text, as `--set` and the knobs do, and checks the

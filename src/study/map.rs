@@ -198,7 +198,7 @@ impl Map {
 
     /// How many cells have each verdict, and how many are sensitive.
     #[must_use]
-    pub fn census(&self) -> ([(Verdict, usize); 6], usize) {
+    pub fn census(&self) -> ([(Verdict, usize); 8], usize) {
         let cells = || self.cells.iter().flatten();
         let count = Verdict::ALL
             .map(|verdict| (verdict, cells().filter(|cell| cell.verdict == verdict).count()));

@@ -37,8 +37,8 @@ pub fn curves(plan: &MapPlan) -> Vec<Curve> {
 pub fn speed_curves(plan: &MapPlan) -> Vec<Curve> {
     let Some(of_speed) = AlongOther::of(plan, SPEED) else { return Vec::new() };
     vec![
-        of_speed.trace_speed("Omega_c", Machine::critical_speed),
-        of_speed.trace_speed("Omega_lock", Machine::lock_speed),
+        of_speed.trace_speed("Omega_c", |machine, _| machine.critical_speed()),
+        of_speed.trace_speed("Omega_lock", Machine::lock_speed_toward),
     ]
 }
 
@@ -47,7 +47,7 @@ pub fn speed_curves(plan: &MapPlan) -> Vec<Curve> {
 pub fn threshold_curves(plan: &MapPlan) -> Vec<Curve> {
     let mut curves = speed_curves(plan);
     if let Some(of_speed) = AlongOther::of(plan, SPEED) {
-        curves.push(of_speed.trace_speed("coincidence", Machine::dangerous_speed));
+        curves.push(of_speed.trace_speed("coincidence", |machine, _| machine.dangerous_speed()));
     }
     curves
 }
@@ -67,10 +67,14 @@ impl<'a> AlongOther<'a> {
 
     /// The line of a threshold, in the sense of rotation in which the map goes
     /// further.
-    fn trace_speed(&self, name: &'static str, threshold: fn(&Machine) -> Option<f64>) -> Curve {
+    fn trace_speed(
+        &self,
+        name: &'static str,
+        threshold: fn(&Machine, f64) -> Option<f64>,
+    ) -> Curve {
         let axis = if self.on_x { &self.plan.x } else { &self.plan.y };
         let sense = if axis.from + axis.to < 0.0 { -1.0 } else { 1.0 };
-        self.trace(name, |scene| threshold(&scene.machine()).map(|speed| sense * speed))
+        self.trace(name, |scene| threshold(&scene.machine(), sense).map(|speed| sense * speed))
     }
 
     fn trace(&self, name: &'static str, value: impl Fn(&Scene) -> Option<f64>) -> Curve {

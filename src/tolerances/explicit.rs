@@ -92,3 +92,21 @@ pub(crate) const SAME_ANGLE: f64 = 1e-13;
 /// Blade phase below which sine and cosine are two terms of their series
 /// \[rad\]: exact to round-off.
 pub(crate) const SMALL_PHASE: f64 = 1e-4;
+
+/// Depths of the deepest penetration up to which another gap is looked at beyond the
+/// paper, as a push may close it: of two modes one push closes it by at most
+/// `|T|/Re T`, `sqrt(1 + mu_c^2)` of its own depth where `kappa (kappa + mu) >= 0`.
+/// Smaller: a neighbour is closed a step late. Larger: speed only.
+pub(crate) const NEIGHBOUR_DEPTHS: f64 = 4.0;
+
+/// Part of a side that the casing may move in one step in contact beyond the paper. A
+/// single longer step is an impact; see `MOST_LONG_STEPS`.
+pub(crate) const LONG_STEP: f64 = 0.25;
+
+/// Longer steps in a row after which the run has failed: what a wave does that friction
+/// drives so fast is the step's doing.
+pub(crate) const MOST_LONG_STEPS: u32 = 2000;
+
+/// Part of the clearance that a single blade may rise or sink until all are looked at.
+/// Speed only.
+pub(crate) const TIP_SLACK: f64 = 0.02;

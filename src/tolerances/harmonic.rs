@@ -85,3 +85,41 @@ pub(crate) const HARMONICS: u32 = 512;
 
 /// Exponent below which the mean of an exponential is a power series.
 pub(crate) const SMALL_RATE: f64 = 1e-6;
+
+/// Imaginary part of the joint compliance at a root, as a part of the real part, up to
+/// which it is round-off. Larger: an undamped resonance is taken for a whirl.
+pub(crate) const REAL_COMPLIANCE: f64 = 1e-6;
+
+/// Ratio of neighbouring speeds at which the waves on a rim are counted, before the
+/// speeds where their number changes are halved in. Larger: a pair that lives for less
+/// than this is missed.
+pub(crate) const ONSET_STRIDE: f64 = 1.05;
+
+/// Onsets are looked for up to this many times the dangerous coincidence.
+pub(crate) const ONSET_FURTHEST: f64 = 20.0;
+
+/// Part of the speed beside a fold at which its two waves are told apart for certain.
+/// Smaller: round-off of the double root is taken for a change.
+pub(crate) const BESIDE_A_FOLD: f64 = 1e-10;
+
+/// Part of the unknowns of a lock at which steps of Newton's method that no longer
+/// shrink are round-off.
+pub(crate) const POLISHED: f64 = 1e-11;
+
+/// Part of the speed beside a limit of stability at which growth is asked. Larger: a
+/// limit close by is taken for it. Smaller: growth is round-off.
+pub(crate) const BESIDE_A_LIMIT: f64 = 1e-6;
+
+/// Rates between which a whirl is looked for, how fast its contact passes over the
+/// blades, as parts of the frequency of these: where it is born they are equal.
+pub(crate) const WHIRL_RATES: [f64; 2] = [0.1, 30.0];
+
+/// Looks at passing times between these. Fewer: of two whirls that are born together
+/// none is found further from the fold.
+pub(crate) const WHIRL_LOOKS: usize = 400;
+
+/// Part of half a side by which a whirl may miss its end by round-off.
+pub(crate) const WHIRL_ENDS: f64 = 1e-9;
+
+/// Samples of an arc of whirl, for its extremes.
+pub(crate) const WHIRL_SAMPLES: usize = 128;

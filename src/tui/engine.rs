@@ -8,6 +8,7 @@ use std::time::Duration;
 use super::history::Bin;
 use super::trace::{Mark, Trace};
 use super::views::ViewId;
+use super::views::coincidence::curves::CoincidenceCurves;
 use super::views::locked::curves::LockedCurves;
 use super::views::map::{CellRun, LiveMap, MapChoice};
 use super::views::margins::LiveMargins;
@@ -211,6 +212,9 @@ pub struct Results {
     pub precision: Option<Arc<Precision>>,
     /// The margins, while their view is open; what is searched arrives later.
     pub margins: Option<Arc<LiveMargins>>,
+    /// What a coincidence does, while its view is open; none within where there is no
+    /// coincidence.
+    pub coincidence: Option<Arc<Option<CoincidenceCurves>>>,
     /// Solver speed.
     pub pace: Pace,
     /// Live changes and pulses so far, as `run --at` takes them: when \[s\], what.

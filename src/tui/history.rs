@@ -16,7 +16,7 @@ pub enum Channel {
     AlphaS,
     /// The smallest gap of all blades \[m\].
     Gap,
-    /// Amplitude of the casing wave `|u|` \[m\].
+    /// Amplitude of the casing wave as the tips of the blades see it, `|w|` \[m\].
     Amplitude,
     /// Sum of all pushes, positive as a push \[N\].
     Push,
@@ -24,10 +24,14 @@ pub enum Channel {
     X,
     /// `Im z` \[m\].
     Y,
+    /// The same as the tips of the blades see it, `Re w` \[m\].
+    RimX,
+    /// `Im w` \[m\].
+    RimY,
 }
 
 /// How many channels there are.
-pub const CHANNELS: usize = 9;
+pub const CHANNELS: usize = 11;
 
 /// Least and greatest values over a stretch of time.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -83,7 +83,7 @@ pub struct LessonStep {
 pub struct Check {
     /// Something of the run to the end.
     pub run: Option<String>,
-    /// Something of the locked motion, from the harmonic balance.
+    /// Something of the steady states, from the harmonic balance.
     pub hbm: Option<String>,
     /// Something of the machine.
     pub model: Option<String>,
@@ -211,6 +211,8 @@ const FILES: &[(&str, &str)] = lessons![
     "time-step",
     "speed-and-error",
     "what-if",
+    "coincidence",
+    "friction",
 ];
 
 /// Every lesson, in the order of the list.

@@ -3,9 +3,10 @@
 
 use std::path::Path;
 
+use rubscope::harmonic::coincidence;
 use rubscope::motion::{Verdict, simulate};
 use rubscope::scene::{CheckedScene, Scene};
-use rubscope::study::figures::{Figure, NUMBERS, figure, name_of, scene_of};
+use rubscope::study::figures::{Figure, NUMBERS, Which, figure, name_of, scene_of};
 
 use crate::cli_support::{refusal, rubscope};
 
@@ -287,13 +288,41 @@ fn every_figure_has_a_scene_and_its_number() {
     assert!(drawn(9).title.starts_with("Figure 9. ") && drawn(10).caption.len() == 3);
 }
 
+/// Not of the paper: the peak that the coincidence gives, and runs in time on it.
+#[test]
+fn the_coincidence_is_drawn_where_it_is_named() {
+    let directory = figures("coincidence", &[]);
+    let figure = Which::Coincidence.of(&Which::Coincidence.scene().unwrap().checked().unwrap());
+    let figure = figure.unwrap().unwrap();
+    assert!(says(&figure, "Not a figure of the paper") && !figure.title.contains("Figure"));
+    let panel = &figure.panels[0];
+    let highest = |index: usize| {
+        let points = panel.series[index].points.iter();
+        points.fold((0.0, 0.0), |most, at| if at.1 > most.1 { *at } else { most })
+    };
+    let (damped, light) = (highest(0), highest(1));
+    assert!((damped.0 - 406.5).abs() < 1.0 && (damped.1 - 1.82e-4).abs() < 1e-6, "{damped:?}");
+    assert!((light.0 - 392.5).abs() < 0.3 && (light.1 - 1.313e-4).abs() < 2e-6, "{light:?}");
+    // The runs have full angles; the curve is linearised.
+    let scene = Which::Coincidence.scene().unwrap();
+    for (speed, amplitude) in &panel.series[2].points {
+        let point = coincidence(&scene, &[*speed]).unwrap()[0];
+        let curve = point.blade_amplitude_rad.unwrap();
+        assert!((amplitude / curve - 1.0).abs() < 0.01, "{speed}: {amplitude} {curve}");
+    }
+    assert!(panel.series[2].points.len() == 6 && panel.marks.len() == 3);
+    let svg = std::fs::read_to_string(file(directory.path(), "coincidence.svg")).unwrap();
+    assert!(svg.starts_with("<svg") && svg.contains("blade amplitude"));
+    assert!(file(directory.path(), "coincidence.csv").exists());
+}
+
 #[test]
 fn what_cannot_be_drawn_is_refused() {
     assert!(refusal(&["figures"]).contains("--out <DIR>"));
     let nowhere = ["figures", "--out", "unused", "--only"];
     assert_eq!(
         refusal(&[&nowhere[..], &["3"]].concat()),
-        "rubscope: --only = 3: allowed is numbers from 4 to 10"
+        "rubscope: --only = 3: allowed is numbers from 4 to 10, or coincidence"
     );
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().to_str().unwrap();

@@ -223,3 +223,69 @@ fn a_file_holds_every_figure() {
     let multiplier: f64 = rows[10].get(1).unwrap().parse().unwrap();
     assert!((multiplier + 150.855).abs() < 5e-4);
 }
+
+const INCLINED: [&str; 2] = ["--set", "bladed_disk.radial_coupling=0.3"];
+
+#[test]
+fn whirl_has_its_onset_its_rim_and_its_limits() {
+    let report = json(&[&INCLINED[..], &["--whirl", "--speed", "400:450:2"]].concat());
+    assert!((number(&report["whirl_onset_rad_s"]) - 414.3).abs() < 0.05);
+    assert!((number(&report["lock_window_rad_s"][0]) - 472.117).abs() < 5e-4);
+    assert!((number(&report["lock_window_rad_s"][1]) - 566.259).abs() < 5e-4);
+    assert!((number(&report["flutter_undamped_rad_s"]) - 748.6).abs() < 0.05);
+    assert!(number(&report["flutter_speed_rad_s"]) < number(&report["flutter_undamped_rad_s"]));
+    let [below, above] = &report["whirl"].as_array().unwrap()[..] else { panic!("{report}") };
+    assert_eq!((&below["exists"], &below["reason"]), (&false.into(), &"no-balance".into()));
+    assert!(below["rim"].is_null() && below["omega_rad_s"].is_null());
+    assert!((number(&above["omega_rad_s"]) - 1089.050407).abs() < 1e-6);
+    assert!((number(&above["rim"]["omega_rad_s"]) - 1088.520).abs() < 5e-4);
+    let told = hbm(&[&INCLINED[..], &["--whirl", "--speed", "450"]].concat());
+    let told = { told }.assert().success().get_output().stdout.clone();
+    let told = String::from_utf8(told).unwrap();
+    assert!(told.contains("whirl begins at 414.339 rad/s; a lock holds from 472.117"), "{told}");
+    // The paper's tips: said, not failed.
+    let paper = json(&["--whirl", "--speed", "450"]);
+    assert_eq!(paper["whirl"][0]["reason"], "not-joined");
+    assert!(paper["whirl_onset_rad_s"].is_null() && paper["flutter_speed_rad_s"].is_null());
+}
+
+#[test]
+fn the_compliance_crosses_the_negative_axis_where_the_waves_are() {
+    let asked = ["--compliance", "--speed", "450", "--omegas", "1000:1100:101"];
+    let report = json(&[&INCLINED[..], &asked].concat());
+    let [omega, im] = ["omega_rad_s", "im_m_per_n"].map(|name| {
+        let list = report["compliance"][name].as_array().unwrap();
+        list.iter().map(number).collect::<Vec<f64>>()
+    });
+    let waves = report["compliance"]["waves"].as_array().unwrap();
+    let crossings = im.windows(2).filter(|pair| pair[0] * pair[1] < 0.0).count();
+    assert_eq!((waves.len(), crossings), (2, 2));
+    for wave in waves {
+        let at = number(&wave["omega_rad_s"]);
+        let place = omega.windows(2).position(|pair| pair[0] <= at && at < pair[1]).unwrap();
+        assert!(im[place] * im[place + 1] < 0.0, "{at}");
+    }
+    let chart = hbm(&[&INCLINED[..], &asked].concat()).assert().success().get_output().clone();
+    let chart = String::from_utf8(chart.stdout).unwrap();
+    assert!(chart.contains('*') && chart.contains('o') && chart.contains("attracts"), "{chart}");
+}
+
+#[test]
+fn inclined_tips_have_a_lock_and_no_view_that_is_of_the_paper_alone() {
+    let report = json(&[&INCLINED[..], &["--damped", "--speed", "500"]].concat());
+    let point = &report["points"][0];
+    assert!((number(&point["groups"][0]["multiplier_n"]) + 455.70527497).abs() < 1e-8);
+    assert_eq!((&point["admissible"], &point["stable"]), (&true.into(), &true.into()));
+    assert!((number(&report["omega_lock_rad_s"]) - 472.117).abs() < 5e-4);
+    for view in [&["--branches"][..], &["--fold"], &["--slip"], &["--form", "printed"]] {
+        let refused = hbm(&[&INCLINED[..], view].concat()).assert().code(2).get_output().clone();
+        let said = String::from_utf8(refused.stderr).unwrap();
+        assert!(said.contains("bladed_disk.radial_coupling = 0.3: allowed is 0 "), "{said}");
+        assert_eq!(said.lines().count(), 1, "{said}");
+    }
+    let other = ["--set", "bladed_disk.nodal_diameters=4"];
+    hbm(&[&other[..], &["--campbell"]].concat()).assert().success();
+    let refused = hbm(&[&other[..], &["--whirl"]].concat()).assert().code(2).get_output().clone();
+    let said = String::from_utf8(refused.stderr).unwrap();
+    assert!(said.contains("bladed_disk.nodal_diameters = 4: allowed is 0 or"), "{said}");
+}

@@ -27,12 +27,14 @@ fn machines_with(stiffness: std::ops::Range<f64>) -> impl Strategy<Value = Machi
                 stiffness_nm_per_rad: stiffness,
                 coupling_nm_per_rad: coupling,
                 damping_ratio: zeta_bd,
+                ..BladedDisk::default()
             };
             let casing = Casing {
                 radius_m: 0.5,
                 modal_mass_kg: mass,
                 modal_stiffness_n_per_m: k_c,
                 damping_ratio: zeta_c,
+                ..Casing::default()
             };
             Machine::new(&disk, &casing, diameters)
         })

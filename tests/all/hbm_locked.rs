@@ -251,12 +251,14 @@ fn soft_blades_of_the_printed_form_are_followed_and_not_met_by_chance() {
         stiffness_nm_per_rad: stiffness,
         coupling_nm_per_rad: 0.0,
         damping_ratio: 0.0,
+        ..BladedDisk::default()
     };
     let casing = Casing {
         radius_m: 0.5,
         modal_mass_kg: 0.1,
         modal_stiffness_n_per_m: 92_754_544.609_138_88,
         damping_ratio: 0.287_670_490_018_661_6,
+        ..Casing::default()
     };
     let machine = Machine::new(&disk, &casing, 49);
     let critical = machine.critical_speed().unwrap();

@@ -72,7 +72,7 @@ fn the_json_has_every_limit_with_every_parameter() {
         ["value", "present", "margin"].map(|field| lock[field].as_f64().unwrap());
     close(Some(value), 411.933_517, 1e-9, "omega_lock");
     close(Some(margin), present / value - 1.0, 1e-15, "margin");
-    assert_eq!(lock["sensitivities"].as_object().unwrap().len(), 14);
+    assert_eq!(lock["sensitivities"].as_object().unwrap().len(), 17);
     let pushes = [8, 9].map(|place| limits[place]["value"].as_f64().unwrap());
     let hbm = json(&["hbm", "--json", "--damped", "--speed", "500"]);
     for (place, push) in pushes.iter().enumerate() {

@@ -77,13 +77,17 @@ fn the_operation_is_whole_on_a_usual_screen_and_the_group_of_the_selected_knob_i
 fn the_selected_knob_is_in_sight_at_every_size() {
     for (width, height) in [(66, 12), (80, 15), (80, 24), (120, 40), (200, 50)] {
         let mut session = Session::open(width, height, scene(), Theme::Dark, Marker::Braille);
-        for _ in 0..27 {
+        // Nobody has a hundred knobs: the selection comes back to the first.
+        for turn in 0..100 {
             let text = column(&session);
             assert_eq!(
                 text.matches("\n▸").count() + usize::from(text.starts_with('▸')),
                 1,
                 "{text}"
             );
+            if turn > 0 && session.app.knob == 0 {
+                break;
+            }
             session.press("j");
         }
         assert_eq!(session.app.knob, 0);

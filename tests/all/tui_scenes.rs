@@ -29,10 +29,12 @@ fn the_list_shows_built_in_scenes_and_files_with_the_note_of_the_open_one() {
     for (width, height) in [(120, 40), (80, 24)] {
         let session = open(width, height, &folder, Marker::Braille);
         let text = session.text();
-        for builtin in BUILTIN {
+        // A low screen has the part of the list around the chosen one.
+        for builtin in BUILTIN.iter().filter(|_| height == 40) {
             assert!(text.contains(builtin.name), "{text}");
         }
-        assert!(text.contains("mine.toml") && text.contains("My own blades"), "{text}");
+        let files = text.contains("mine.toml") && text.contains("My own blades");
+        assert!(files == (height == 40), "{text}");
         assert!(text.contains("* paper-nd3") && text.contains("paper-nd3 (open)"), "{text}");
         // Its note, which no other part of the screen shows.
         assert!(text.contains("The algorithm of the paper"), "{text}");

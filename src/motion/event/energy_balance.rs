@@ -55,7 +55,7 @@ pub(super) fn dissipated(parameters: &Parameters, drive: &Drive, free: &Free, s:
 }
 
 /// Energy per unit mass that a free damped oscillator loses in `s` seconds.
-fn damped(propagator: &Propagator, from: Plane, rate: Plane, s: f64) -> f64 {
+pub(in crate::motion) fn damped(propagator: &Propagator, from: Plane, rate: Plane, s: f64) -> f64 {
     if propagator.damping == 0.0 || (from.norm_sqr() == 0.0 && rate.norm_sqr() == 0.0) {
         return 0.0;
     }
@@ -128,7 +128,7 @@ const GAUSS_4: [(f64, f64); 2] = [
     (0.339_981_043_584_856_26, 0.652_145_154_862_546_1),
     (0.861_136_311_594_052_6, 0.347_854_845_137_453_85),
 ];
-pub(super) const GAUSS_8: [(f64, f64); 4] = [
+pub(in crate::motion) const GAUSS_8: [(f64, f64); 4] = [
     (0.183_434_642_495_649_8, 0.362_683_783_378_362),
     (0.525_532_409_916_329, 0.313_706_645_877_887_3),
     (0.796_666_477_413_626_7, 0.222_381_034_453_374_48),

@@ -19,7 +19,7 @@
 //! A segment is always evaluated from its start, never from an output time:
 //! where one looks does not change the motion, not by one bit.
 
-mod advancement;
+pub(in crate::motion) mod advancement;
 mod angles;
 mod blades;
 mod bounds;
@@ -27,7 +27,7 @@ mod corner;
 mod corner_contact;
 mod corner_series;
 mod decisions;
-mod energy_balance;
+pub(in crate::motion) mod energy_balance;
 mod free;
 mod impact;
 mod misses;
@@ -36,7 +36,7 @@ mod rise;
 mod rocking;
 mod side_series;
 mod slide;
-mod terms;
+pub(in crate::motion) mod terms;
 mod ties;
 mod transitions;
 mod variation;
@@ -107,9 +107,11 @@ impl Event {
     /// The motion of a scene at t = 0, whichever solver the scene names.
     ///
     /// # Errors
-    /// The contact law or the model size is one that this solver does not know.
+    /// The contact law, the model size or what goes beyond the paper is nothing that
+    /// this solver knows.
     pub fn new(scene: &CheckedScene) -> Result<Self, SceneError> {
         scene.suits_events()?;
+        scene.is_of_the_paper()?;
         Ok(Self::of(scene))
     }
 

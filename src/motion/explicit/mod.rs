@@ -28,8 +28,10 @@ mod solver;
 mod watch;
 
 pub use blades::{BladeModel, FullBlades, ModalBlades, RigidBlades};
+pub(in crate::motion) use blades::{NearRows, Ring, product};
 pub use excitation::EngineOrderTorque;
 pub use oscillator::{Coordinate, Oscillator};
+pub(in crate::motion) use phasor::Phasor;
 
 use std::sync::Arc;
 
@@ -41,7 +43,6 @@ use crate::tolerances::BREAK_STEPS;
 use block::Block;
 use correct::ConstraintRow;
 use held::Held;
-use phasor::Phasor;
 use side_map::SideMap;
 use sliding::Sliding;
 use watch::Watch;

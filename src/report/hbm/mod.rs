@@ -7,8 +7,14 @@ use std::io::Write;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
+mod joined;
+mod lining;
 mod tables;
 
+pub use joined::{
+    WhirlRow, compliance, compliance_chart, compliance_table, wave_table, whirl, whirl_table,
+};
+pub use lining::*;
 pub use tables::*;
 
 use crate::harmonic::{
@@ -34,7 +40,7 @@ impl HbmReport {
             .with("form", form)
             .with("damped", damped)
             .with("omega_c_rad_s", machine.critical_speed())
-            .with("omega_lock_rad_s", machine.lock_speed())
+            .with("omega_lock_rad_s", machine.lock_speed_toward(speed))
             .with("omega_adhesive_rad_s", machine.adhesive_speed())
             .with("coincidence_rad_s", machine.dangerous_speed_toward(speed))
             .with("casing_frequency_rad_s", machine.omega_c)
@@ -200,9 +206,13 @@ pub fn write_heading(
     )?;
     if let Some(critical) = machine.critical_speed() {
         write!(out, "Critical speed {} rad/s", short(critical))?;
-        if let Some(lock) = machine.lock_speed() {
+        if let Some(lock) = machine.lock_window(speed).filter(|_| machine.clearance() > 0.0) {
             let zeta = machine.casing_damping_ratio;
-            write!(out, ", lock-in from {} rad/s (zeta_c = {})", short(lock), short(zeta))?;
+            write!(out, ", lock-in from {}", short(lock.from))?;
+            if let Some(to) = lock.to {
+                write!(out, " to {}", short(to))?;
+            }
+            write!(out, " rad/s (zeta_c = {})", short(zeta))?;
         }
         if let Some(dangerous) = machine.dangerous_speed_toward(speed) {
             write!(out, ", dangerous coincidence {} rad/s", short(dangerous))?;

@@ -215,6 +215,9 @@ pub fn check(found: &Found, scene: &Scene) -> Option<CommandLine> {
             hbm.option("--speed", speed).flag("--damped", true).flag("--json", true)
         }
         LimitName::CoincidenceDifference => hbm.flag("--campbell", true),
+        LimitName::WhirlOnset | LimitName::FlutterSpeed => {
+            hbm.option("--speed", speed).flag("--whirl", true)
+        }
         LimitName::LockFold => hbm
             .option("--speed", format!("0:{reached}:2"))
             .flag("--damped", true)

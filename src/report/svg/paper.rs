@@ -102,6 +102,8 @@ fn colour_of(verdict: Verdict) -> RGBColor {
         Verdict::Decay => RGBColor(240, 240, 240),
         Verdict::Bounce => RGBColor(190, 210, 235),
         Verdict::Slip => RGBColor(240, 190, 70),
+        Verdict::Whirl => RGBColor(60, 150, 90),
+        Verdict::Divergent => RGBColor(110, 60, 130),
         Verdict::Locked => RGBColor(40, 70, 140),
         Verdict::Adhesive => RGBColor(200, 70, 90),
         Verdict::Failed => RGBColor(0, 0, 0),

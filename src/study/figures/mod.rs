@@ -1,17 +1,21 @@
 //! The figures of the paper: Figs. 4 to 8 in the time domain, 9 and 10 in the
-//! frequency domain, as data that `report` can draw and write.
+//! frequency domain, as data that `report` can draw and write; and one of the
+//! coincidence, which the paper only names.
 //!
 //! Every figure is made of one scene. The built-in ones are those that give
 //! what the paper says, as far as one was found; their captions say what agrees,
 //! what differs, and what cannot be compared, because the paper prints neither
 //! its pulse nor the scales of its pictures in the text.
 
+mod coincidence;
 mod figure;
 mod harmonic;
 mod time;
+mod which;
 mod zone;
 
 pub use figure::{Figure, Mark, Panel, Quantity, Series, Style};
+pub use which::Which;
 
 use crate::harmonic::HarmonicError;
 use crate::scene::{CheckedScene, Scene, SceneError};
@@ -50,7 +54,7 @@ fn speed_marks(scene: &Scene) -> Vec<Mark> {
     let machine = scene.machine();
     let sense = 1_f64.copysign(scene.operation.speed_rad_s);
     let critical = machine.critical_speed();
-    let lock = machine.lock_speed().filter(|_| machine.casing_damping_ratio > 0.0);
+    let lock = machine.lock_speed_toward(sense).filter(|_| machine.casing_damping_ratio > 0.0);
     [("Ω_c", critical), ("Ω_lock", lock)]
         .into_iter()
         .filter_map(|(label, speed)| Some(Mark { x: sense * speed?, label }))

@@ -5,7 +5,7 @@ use num_dual::Dual64;
 
 use super::limit::{Limit, LimitName, Sensitivities};
 use super::parameters::{PARAMETERS, Parameters, sensitivity};
-use crate::harmonic::{lock_fold_speed, lock_loads};
+use crate::harmonic::{flutter_speed, lock_fold_speed, lock_loads, whirl_onset};
 use crate::model::{Machine, Number};
 use crate::scene::CheckedScene;
 
@@ -14,13 +14,15 @@ use crate::scene::CheckedScene;
 const FAR: f64 = 10.0;
 
 /// The closed forms, in the order in which they are shown.
-pub(super) const CLOSED: [LimitName; 12] = [
+pub(super) const CLOSED: [LimitName; 14] = [
     LimitName::OmegaC,
     LimitName::OmegaAdhesive,
     LimitName::OmegaLock,
     LimitName::LockFold,
     LimitName::Coincidence,
     LimitName::CoincidenceDifference,
+    LimitName::WhirlOnset,
+    LimitName::FlutterSpeed,
     LimitName::PushA,
     LimitName::PushB,
     LimitName::Torque,
@@ -29,21 +31,28 @@ pub(super) const CLOSED: [LimitName; 12] = [
     LimitName::LockEnergy,
 ];
 
+/// Those that few machines have, shown where they are.
+const SELDOM: [LimitName; 3] =
+    [LimitName::LockFold, LimitName::WhirlOnset, LimitName::FlutterSpeed];
+
 /// Every closed form of these parameters, in the order of `CLOSED`; none where the
 /// machine has no such limit.
 pub(super) fn values<T: Number>(parameters: &Parameters<T>) -> [Option<T>; CLOSED.len()] {
     let machine = parameters.machine();
     let speed = parameters.operation.speed_rad_s;
+    let sense = 1_f64.copysign(speed.re());
     let coincidences = machine.coincidence_speeds();
     let loads = lock_loads(&machine, speed);
     let of = |get: fn(&crate::harmonic::LockLoads<T>) -> T| loads.as_ref().map(get);
     [
         machine.critical_speed(),
         machine.adhesive_speed(),
-        machine.lock_speed(),
+        machine.lock_speed_toward(speed.re()),
         fold(&machine, speed),
         coincidences.last().copied(),
         coincidences.first().copied(),
+        whirl_onset(&machine, speed.re()).map(|onset| onset * sense),
+        flutter_speed(&machine, speed.re()),
         of(|loads| loads.pushes_n[0]),
         of(|loads| loads.pushes_n[1]),
         of(|loads| loads.torque_nm),
@@ -55,14 +64,26 @@ pub(super) fn values<T: Number>(parameters: &Parameters<T>) -> [Option<T>; CLOSE
 
 /// The end of the branch of the lock, where a rotor may come near it.
 fn fold<T: Number>(machine: &Machine<T>, speed: T) -> Option<T> {
-    let far = machine.lock_speed()?.re().max(speed.re().abs()) * FAR;
+    let far = machine.lock_speed_toward(speed.re())?.re().max(speed.re().abs()) * FAR;
     lock_fold_speed(machine).filter(|fold| fold.re() < far)
 }
+
+/// Limits that need no contact.
+const OF_NO_CONTACT: [LimitName; 3] =
+    [LimitName::OmegaC, LimitName::Coincidence, LimitName::CoincidenceDifference];
 
 /// The limits of a scene in closed form.
 pub(super) fn limits(scene: &CheckedScene) -> Vec<Limit> {
     let parameters = Parameters::<f64>::of(scene);
-    let found = values(&parameters);
+    let mut found = values(&parameters);
+    if scene.clearance() <= 0.0 {
+        // Of rigid contact; a lining that is pressed at rest has others (`hbm --smooth`).
+        for (value, name) in found.iter_mut().zip(CLOSED) {
+            if !OF_NO_CONTACT.contains(&name) {
+                *value = None;
+            }
+        }
+    }
     let derived: Vec<[Option<Dual64>; CLOSED.len()]> =
         PARAMETERS.iter().map(|parameter| values(&parameter.seeded(scene))).collect();
     let reason = why_none(scene);
@@ -82,7 +103,7 @@ pub(super) fn limits(scene: &CheckedScene) -> Vec<Limit> {
         }
         limit
     });
-    limits.filter(|limit| limit.name != LimitName::LockFold || limit.value.is_some()).collect()
+    limits.filter(|limit| !SELDOM.contains(&limit.name) || limit.value.is_some()).collect()
 }
 
 /// What a closed form leaves out, where that matters.
@@ -97,7 +118,9 @@ fn note(scene: &CheckedScene, name: LimitName) -> Option<String> {
     }
     // Blades that bend leave a push where rigid ones have none.
     let machine = scene.machine();
-    let left = lock_loads(&machine, machine.lock_speed()?).is_none_or(|loads| {
+    let sense = 1_f64.copysign(scene.operation.speed_rad_s);
+    let lock = machine.lock_speed_toward(sense)?;
+    let left = lock_loads(&machine, sense * lock).is_none_or(|loads| {
         let [a, b] = loads.pushes_n.map(f64::abs);
         a.min(b) > BENDING * (a + b)
     });
@@ -116,6 +139,12 @@ fn why_none(scene: &CheckedScene) -> String {
     } else if !polygon.has_corners() {
         format!("{diameters} nodal diameters make no corner of blades")
     } else {
-        "the blades are so soft that no lock is left at this speed".to_string()
+        let joined = machine.is_joined();
+        match scene.clearance() <= 0.0 {
+            true => "all blades rub at rest: nothing locks",
+            false if joined => "friction or the slope of the tips leaves no lock here",
+            false => "the blades are so soft that no lock is left at this speed",
+        }
+        .to_string()
     }
 }

@@ -38,6 +38,10 @@ pub enum LimitName {
     CoincidenceDifference,
     /// The speed above which very soft blades give way.
     LockFold,
+    /// The speed from which inclined tips whirl with the casing.
+    WhirlOnset,
+    /// The speed above which a lock of inclined tips flutters.
+    FlutterSpeed,
     /// The smallest pulse that touches.
     TouchingPulse,
     /// The smallest pulse that lasts, under the law of the scene.
@@ -225,7 +229,7 @@ impl LimitName {
     pub fn lasting(law: ContactLaw, own: ContactLaw) -> Self {
         match law {
             _ if law == own => Self::LastingPulse,
-            ContactLaw::Unilateral => Self::LastingPulseUnilateral,
+            ContactLaw::Unilateral | ContactLaw::Smooth => Self::LastingPulseUnilateral,
             ContactLaw::Bilateral => Self::LastingPulseBilateral,
         }
     }
@@ -239,7 +243,9 @@ impl LimitName {
             | Self::OmegaAdhesive
             | Self::Coincidence
             | Self::CoincidenceDifference
-            | Self::LockFold => Quantity::Speed,
+            | Self::LockFold
+            | Self::WhirlOnset
+            | Self::FlutterSpeed => Quantity::Speed,
             Self::TouchingPulse
             | Self::LastingPulse
             | Self::LastingPulseUnilateral
@@ -262,6 +268,8 @@ impl LimitName {
             Self::Coincidence => "dangerous coincidence (31), of the sum of frequencies",
             Self::CoincidenceDifference => "coincidence (30) of their difference",
             Self::LockFold => "above it soft blades give way, and no lock is left",
+            Self::WhirlOnset => "above it blades and casing whirl, on a rim of many blades",
+            Self::FlutterSpeed => "above it a lock of inclined tips flutters",
             Self::TouchingPulse => "smallest pulse that touches",
             Self::LastingPulse => "smallest pulse that lasts",
             Self::LastingPulseUnilateral => "smallest that lasts, unilateral law",

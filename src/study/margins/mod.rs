@@ -88,7 +88,7 @@ impl Margins {
     pub fn laws(&self) -> [ContactLaw; 2] {
         match self.scene.solver.contact {
             ContactLaw::Unilateral => [ContactLaw::Unilateral, ContactLaw::Bilateral],
-            ContactLaw::Bilateral => [ContactLaw::Bilateral, ContactLaw::Unilateral],
+            own => [own, ContactLaw::Unilateral],
         }
     }
 

@@ -5,7 +5,7 @@ use num_dual::Dual64;
 
 use crate::model::{BladedDisk, Casing, Machine, Number, Operation};
 use crate::motion::FreeFlight;
-use crate::scene::{Allowed, Key, Scene, SceneError, Value, keys};
+use crate::scene::{Allowed, Key, ModelSize, Scene, SceneError, Value, keys};
 
 /// The one parameter that is no key: the clearance `g0`, changed by the radius.
 pub const CLEARANCE: &str = "clearance";
@@ -26,6 +26,7 @@ pub(super) fn is_length(path: &str) -> bool {
 pub(super) struct Parameters<T> {
     pub disk: BladedDisk<T>,
     pub casing: Casing<T>,
+    pub friction: T,
     pub operation: Operation<T>,
 }
 
@@ -57,10 +58,13 @@ pub const PARAMETERS: &[Parameter] = &[
     at!("bladed_disk.stiffness_nm_per_rad", disk.stiffness_nm_per_rad),
     at!("bladed_disk.coupling_nm_per_rad", disk.coupling_nm_per_rad),
     at!("bladed_disk.damping_ratio", disk.damping_ratio),
+    at!("bladed_disk.radial_coupling", disk.radial_coupling),
     at!(RADIUS, casing.radius_m),
     at!("casing.modal_mass_kg", casing.modal_mass_kg),
     at!("casing.modal_stiffness_n_per_m", casing.modal_stiffness_n_per_m),
     at!("casing.damping_ratio", casing.damping_ratio),
+    at!("casing.tangential_ratio", casing.tangential_ratio),
+    at!("contact.friction", friction),
     at!("operation.speed_rad_s", operation.speed_rad_s),
     at!("operation.speed_ramp_rad_s2", operation.speed_ramp_rad_s2),
     at!("operation.pulse_n", operation.pulse_n),
@@ -167,13 +171,23 @@ impl<T: Number> Parameters<T> {
                 stiffness_nm_per_rad: disk.stiffness_nm_per_rad.into(),
                 coupling_nm_per_rad: disk.coupling_nm_per_rad.into(),
                 damping_ratio: disk.damping_ratio.into(),
+                // Rigid blades do not move their tips outward, as in `Scene::machine`.
+                radial_coupling: match scene.solver.model {
+                    ModelSize::Rigid => T::from(0.0),
+                    _ => disk.radial_coupling.into(),
+                },
+                nodal_diameters: disk.nodal_diameters,
+                mistuning: disk.mistuning.into(),
+                mistuning_seed: disk.mistuning_seed,
             },
             casing: Casing {
                 radius_m: casing.radius_m.into(),
                 modal_mass_kg: casing.modal_mass_kg.into(),
                 modal_stiffness_n_per_m: casing.modal_stiffness_n_per_m.into(),
                 damping_ratio: casing.damping_ratio.into(),
+                tangential_ratio: casing.tangential_ratio.into(),
             },
+            friction: scene.contact.friction.into(),
             operation: Operation {
                 nodal_diameters: operation.nodal_diameters,
                 speed_rad_s: operation.speed_rad_s.into(),
@@ -192,6 +206,7 @@ impl<T: Number> Parameters<T> {
     /// The machine of these parameters.
     pub(super) fn machine(&self) -> Machine<T> {
         Machine::new(&self.disk, &self.casing, self.operation.nodal_diameters)
+            .with_friction(self.friction)
     }
 }
 

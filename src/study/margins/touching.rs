@@ -76,6 +76,9 @@ const NEAR: f64 = 0.01;
 /// The scene as the event solver takes it with rigid blades, and no motion but that
 /// of the casing; none where it does not start at rest.
 fn reference(scene: &Scene) -> Option<CheckedScene> {
+    if scene.clearance() <= 0.0 {
+        return None;
+    }
     if scene.initial != Initial::default() {
         return None;
     }
@@ -165,7 +168,9 @@ pub(super) fn limit(scene: &CheckedScene) -> Limit {
 
 /// Why no pulse touches.
 pub(super) fn why_none(scene: &CheckedScene) -> &'static str {
-    if scene.initial == Initial::default() {
+    if scene.clearance() <= 0.0 {
+        "all blades touch without a pulse"
+    } else if scene.initial == Initial::default() {
         "no pulse of this length touches within the run"
     } else {
         "only for a casing that starts at rest"

@@ -134,6 +134,10 @@ impl Measure {
     /// # Errors
     /// The key that the event solver does not know.
     pub fn check(scene: &Scene) -> Result<(), SceneError> {
+        if scene.solver.contact == ContactLaw::Smooth {
+            let allowed = "\"unilateral\" or \"bilateral\": the reference has rigid contact";
+            return Err(SceneError::refused("solver.contact", "\"smooth\"", allowed));
+        }
         by_events(size_of_reference(scene.solver.model), 0.0).of(scene).map(|_| ())
     }
 
@@ -143,6 +147,7 @@ impl Measure {
     /// # Errors
     /// The key that the event solver does not support.
     pub fn new(scene: &Scene, go_on: GoOn<'_>) -> Result<Option<Self>, SceneError> {
+        Self::check(scene)?;
         let model = size_of_reference(scene.solver.model);
         let finest = tolerances::EVENT;
         let chosen = by_events(model, finest);

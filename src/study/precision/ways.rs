@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::TimedRun;
 use crate::motion::{Event, GoOn, Motion, verdict_of};
 use crate::scene::{CheckedScene, ContactLaw, ModelSize, Scene, SceneError, SolverKind};
-use crate::tolerances::LAST_PART;
+use crate::tolerances::{self, LAST_PART};
 
 /// Longest time step tried \[s\].
 pub(super) const LONGEST: f64 = 1e-5;
@@ -68,7 +68,13 @@ pub fn ways(scene: &Scene, effort: Effort) -> Vec<Way> {
             ways.push(Way { solver, contact, model, step_s: None, tolerance: Some(tolerance) });
         }
     }
-    ways.retain(|way| way.of(scene).is_ok());
+    ways.retain(|way| match way.of(scene) {
+        // Beyond the paper the event solver has one tolerance, its own.
+        Ok(scene) if scene.goes_beyond() => {
+            way.tolerance.is_none_or(|tolerance| tolerance <= tolerances::EVENT)
+        }
+        found => found.is_ok(),
+    });
     ways
 }
 
@@ -91,8 +97,10 @@ impl Way {
     pub(super) fn start(&self, scene: &Scene) -> Result<Motion, SceneError> {
         let scene = self.of(scene)?;
         Ok(match self.tolerance {
-            Some(tolerance) => Event::new(&scene)?.with_tolerance(tolerance).into(),
-            None => Motion::new(&scene),
+            Some(tolerance) if !scene.goes_beyond() => {
+                Event::new(&scene)?.with_tolerance(tolerance).into()
+            }
+            _ => Motion::new(&scene),
         })
     }
 

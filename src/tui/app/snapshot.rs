@@ -34,6 +34,7 @@ impl App {
                 map: snapshot.results.map.or(known.results.map),
                 precision: snapshot.results.precision.or(known.results.precision),
                 margins: snapshot.results.margins.or(known.results.margins),
+                coincidence: snapshot.results.coincidence.or(known.results.coincidence),
                 ..snapshot.results
             },
             false => known.results,
@@ -49,7 +50,8 @@ impl App {
     /// Makes the ranges hold the part of the forecast that is on the page; for a
     /// new one they may shrink, too, but not below the clearance.
     fn fit_to_forecast(&mut self, is_new: bool) {
-        let clearance = self.machine.clearance();
+        // Where blades rub at rest there is no play to be seen.
+        let clearance = self.machine.clearance().max(0.0);
         let (from, to) = self.page();
         let Some(run) = self.full_run().filter(|_| self.ranges.follow) else { return };
         let span = |place: usize| {
@@ -94,13 +96,19 @@ impl App {
         if !self.ranges.follow {
             return;
         }
-        let Ranges { casing, blades, gaps, .. } = &mut self.ranges;
+        let (clearance, usual) = (self.machine.clearance(), self.usual_reach());
+        let lining = self.has_lining();
+        let Ranges { casing, blades, gaps, rim, .. } = &mut self.ranges;
         grow(casing, extremes(bins, CASING));
         grow(blades, extremes(bins, BLADES));
-        // The greatest gap is about as far above g0 as the amplitude.
-        let clearance = self.machine.clearance();
-        let (low, amplitude) = (gaps.low, extremes(bins, [Channel::Amplitude; 2]));
-        grow(gaps, amplitude.map(|(_, most)| (low, clearance + most)));
+        let most = extremes(bins, [Channel::Amplitude; 2]).map(|(_, most)| most);
+        // The rim passes the clearance where the tips move with it.
+        grow(rim, most.filter(|most| *most > usual).map(|most| (-most, most)));
+        // The greatest gap is about as far above g0 as the amplitude; in a lining the
+        // smallest is as far below.
+        let low = if lining { extremes(bins, [Channel::Gap; 2]) } else { None };
+        let low = low.map_or(gaps.low, |(low, _)| low.min(gaps.low));
+        grow(gaps, most.map(|most| (low, clearance + most)));
     }
 
     /// When a new page starts, ranges may shrink to the data of the old one.
@@ -115,8 +123,8 @@ impl App {
         }
         let (from, _) = self.page();
         let bins = self.history.between(from - self.page_s(), from);
-        let Ranges { casing, blades, .. } = &mut self.ranges;
-        for (range, channels) in [(casing, CASING), (blades, BLADES)] {
+        let Ranges { casing, blades, rim, .. } = &mut self.ranges;
+        for (range, channels) in [(casing, CASING), (blades, BLADES), (rim, RIM)] {
             if let Some((low, high)) = extremes(bins, channels) {
                 range.follow(low, high);
             }
@@ -135,6 +143,7 @@ impl App {
 }
 
 const CASING: [Channel; 2] = [Channel::UC, Channel::US];
+const RIM: [Channel; 2] = [Channel::RimX, Channel::RimY];
 const BLADES: [Channel; 2] = [Channel::AlphaC, Channel::AlphaS];
 
 fn extremes(bins: &[Bin], channels: [Channel; 2]) -> Option<(f64, f64)> {

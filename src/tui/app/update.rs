@@ -6,13 +6,14 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 use super::time::MOST_ZOOM;
 use super::{App, Baseline, HelpState, InputMode, PaletteState, Purpose, RATES};
-use crate::report::line;
+use crate::report::line::{self, clean};
 use crate::tui::axis::readable;
 use crate::tui::bindings::{Action, Chord, lookup};
 use crate::tui::files::FileJob;
 use crate::tui::knobs::knob_of;
 use crate::tui::lessons;
 use crate::tui::views::ViewId;
+use crate::tui::worker::other_law;
 
 /// An effect outside the state.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -220,7 +221,13 @@ impl App {
             Action::Pin => self.pin(),
             Action::OtherLaw if self.view == ViewId::Map => self.other_map_law(),
             Action::MapAxis { up } => self.next_map_axis(up),
-            Action::OtherLaw => self.set_compare(!self.compare),
+            Action::OtherLaw => match other_law(&self.scene) {
+                Err(why) if !self.compare => {
+                    let law = self.scene.solver.contact.other();
+                    self.status = Some(clean(&format!("no {law} law beside this: {why}")));
+                }
+                _ => self.set_compare(!self.compare),
+            },
             Action::Save => self.mode = InputMode::Naming(Purpose::Save, "scene.toml".into()),
             Action::Export => {
                 let name = format!("{}.csv", self.view.word());

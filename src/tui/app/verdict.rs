@@ -87,6 +87,10 @@ impl App {
                 (join(&["a lock that pulls, not a real contact", &pulled, &since]), Role::Trouble)
             }
             Verdict::Slip => (join(&["contact without a break, side after side"]), Role::Contact),
+            Verdict::Whirl => {
+                ("the contact goes round and swings the blades".into(), Role::Trouble)
+            }
+            Verdict::Divergent => (run.failure.clone().unwrap_or_default(), Role::Trouble),
             Verdict::Bounce => {
                 (format!("{} impacts, and more to come", run.impacts), Role::Contact)
             }
@@ -96,7 +100,7 @@ impl App {
         let pulls = tensile > 0
             && matches!(
                 run.verdict,
-                Verdict::Locked | Verdict::Decay | Verdict::Slip | Verdict::Bounce
+                Verdict::Locked | Verdict::Decay | Verdict::Slip | Verdict::Whirl | Verdict::Bounce
             );
         let mut parts = vec![detail];
         if let Some((hold, speed)) = &run.broken {
@@ -122,6 +126,8 @@ impl App {
             plural(own.checks.tensile_steps, "pull") + " here"
         } else if self.latest.results.sensitive {
             "the scene is sensitive".to_string()
+        } else if self.scene.goes_beyond() {
+            "step too large, or its angles left out".to_string()
         } else {
             "step too large".to_string()
         };
@@ -134,6 +140,9 @@ impl App {
         if let Some(failure) = &moment.failure {
             return failure.clone();
         }
+        if self.has_lining() {
+            return self.in_the_lining();
+        }
         match moment.active_set {
             ActiveSet::Nothing => "no contact".into(),
             ActiveSet::Many => "many blades".into(),
@@ -145,7 +154,15 @@ impl App {
     pub fn state_now(&self) -> String {
         let Some(moment) = &self.latest.moment else { return "starting".into() };
         if moment.failure.is_some() {
-            return "failed".into();
+            let grown = self.full_run().is_some_and(|run| run.verdict == Verdict::Divergent);
+            return if grown { "diverged" } else { "failed" }.into();
+        }
+        if self.has_lining() && moment.active_set == ActiveSet::Many {
+            let touching = moment.gaps.iter().filter(|gap| **gap < 0.0).count();
+            return match touching == moment.gaps.len() {
+                true => "touching all".into(),
+                false => format!("touching {touching} blades"),
+            };
         }
         self.state_of(moment.active_set)
     }

@@ -1,6 +1,7 @@
 //! The glossary: every symbol and every verdict, with its equation and, where
 //! it has one, its value in the present scene.
 
+mod beyond;
 mod terms;
 
 pub use terms::SECTIONS;

@@ -1,9 +1,11 @@
 //! The terms of the glossary.
 
+use super::App;
 use super::Here::{self, Knob, Nothing, Of};
 use super::Term;
+use super::beyond::BEYOND;
 
-const fn term(
+pub(super) const fn term(
     symbol: &'static str,
     name: &'static str,
     meaning: &'static str,
@@ -14,8 +16,13 @@ const fn term(
 }
 
 /// The sections of the glossary and their terms.
-pub const SECTIONS: &[(&str, &[Term])] =
-    &[("Speeds", SPEEDS), ("Symbols", SYMBOLS), ("Words", WORDS), ("Verdicts", VERDICTS)];
+pub const SECTIONS: &[(&str, &[Term])] = &[
+    ("Speeds", SPEEDS),
+    ("Symbols", SYMBOLS),
+    ("Beyond the paper", BEYOND),
+    ("Words", WORDS),
+    ("Verdicts", VERDICTS),
+];
 
 const SPEEDS: &[Term] = &[
     term("Ω", "Omega", "rotor speed", "", Of(|app| Some(app.speed()), "rad/s")),
@@ -31,7 +38,7 @@ const SPEEDS: &[Term] = &[
         "Omega_lock",
         "above it both blade groups of a lock push (L on the bar of the speed)",
         "Ω_lock = Ω_c [ζ_c cot δ + sqrt(1 + ζ_c² cot² δ)]",
-        Of(|app| app.machine.lock_speed(), "rad/s"),
+        Of(App::lock_speed, "rad/s"),
     ),
     term(
         "adhesive limit",
@@ -294,6 +301,20 @@ const VERDICTS: &[Term] = &[
         Nothing,
     ),
     term("bounce", "bounce", "contacts come and go", "", Nothing),
+    term(
+        "whirl",
+        "whirl",
+        "as slip, but the blades swing with it: the wave lasts because tips that move outward as they bend feed it",
+        "|κ| l_b |a| > |g0|/4",
+        Nothing,
+    ),
+    term(
+        "divergent",
+        "divergent",
+        "nothing bounds the growth of the motion, which left the range of the model",
+        "|α_i| > 0.1 rad, or the casing as fast as the tips",
+        Nothing,
+    ),
     term(
         "decay",
         "decay",

@@ -1,16 +1,47 @@
 //! Knobs that cannot change the run as the others stand, and why.
 
 use super::Knob;
-use crate::scene::{ModelSize, Scene, SolverKind};
+use crate::scene::{ContactLaw, ModelSize, Scene, SolverKind};
 
 impl Knob {
     /// The reason why this knob does not change the run of a scene, if it does not.
     pub fn inert(&self, scene: &Scene) -> Option<&'static str> {
         let rigid = scene.solver.model == ModelSize::Rigid;
         let event = scene.solver.kind == SolverKind::Event;
-        let uncoupled = scene.operation.nodal_diameters == 0;
         let modal = scene.solver.model == ModelSize::Modal;
+        let law = scene.solver.contact;
+        let smooth = law == ContactLaw::Smooth;
+        let alike = scene.bladed_disk.diameters_beside(scene.operation.nodal_diameters) == 0;
         match self.path {
+            "contact.stiffness_n_per_m" | "contact.smoothing_m" if !smooth => {
+                Some("only the smooth law has a lining")
+            }
+            "bladed_disk.radial_coupling" if rigid => {
+                Some("the blades of the rigid model do not move")
+            }
+            "bladed_disk.nodal_diameters" if !modal => {
+                Some("only the modal model chooses the diameters of the disk")
+            }
+            "contact.friction" if law == ContactLaw::Bilateral => {
+                Some("a pull has no friction: choose another contact law")
+            }
+            "contact.restitution" if law != ContactLaw::Unilateral => {
+                Some("only the unilateral law rebounds")
+            }
+            "bladed_disk.mistuning" | "bladed_disk.mistuning_seed"
+                if scene.solver.model != ModelSize::Full =>
+            {
+                Some("only the full model has single blades")
+            }
+            "casing.tangential_ratio" if scene.contact.friction == 0.0 => {
+                Some("without friction nothing pulls the casing along")
+            }
+            "contact.friction" if rigid && scene.casing.tangential_ratio == 0.0 => {
+                Some("rigid blades and a radial casing do not feel friction")
+            }
+            "bladed_disk.mistuning_seed" if scene.bladed_disk.mistuning == 0.0 => {
+                Some("the mistuning is 0")
+            }
             "solver.step_s" if event => Some("the event solver has no steps"),
             "operation.pulse_n" if scene.operation.pulse_s == 0.0 => Some("the pulse time is 0"),
             "operation.pulse_s" if scene.operation.pulse_n == 0.0 => Some("the pulse is 0"),
@@ -22,7 +53,7 @@ impl Knob {
             {
                 Some("the blades of the rigid model do not move")
             }
-            "bladed_disk.coupling_nm_per_rad" if modal && uncoupled => {
+            "bladed_disk.coupling_nm_per_rad" if modal && alike => {
                 Some("with n_d = 0 all blades move alike")
             }
             "excitation.amplitude_nm" | "excitation.order" if rigid => {
@@ -41,12 +72,12 @@ impl Knob {
 
 #[cfg(test)]
 mod tests {
-    use super::super::KNOBS;
+    use super::super::{Group, KNOBS};
     use super::*;
     use crate::motion::simulate;
 
     /// Scenes of which each has other inert knobs.
-    const CASES: [&[(&str, &str)]; 7] = [
+    const CASES: [&[(&str, &str)]; 8] = [
         &[],
         &[("solver.kind", "event"), ("solver.contact", "unilateral")],
         &[("solver.kind", "event"), ("solver.contact", "unilateral"), ("solver.model", "rigid")],
@@ -54,6 +85,7 @@ mod tests {
         &[("operation.pulse_n", "0"), ("initial.v_c_m_s", "0.2")],
         &[("operation.pulse_s", "0"), ("initial.v_c_m_s", "0.2"), ("solver.model", "full")],
         &[("operation.nodal_diameters", "0")],
+        &[("solver.contact", "smooth"), ("contact.stiffness_n_per_m", "1e8")],
     ];
 
     #[test]
@@ -81,7 +113,7 @@ mod tests {
                 seen.insert(knob.path);
             }
         }
-        assert_eq!(seen.len(), 9, "{seen:?}");
+        assert_eq!(seen.len(), 18, "{seen:?}");
     }
 
     #[test]
@@ -93,7 +125,8 @@ mod tests {
             Scene::builtin("paper-nd3").unwrap().with(&changes).unwrap()
         });
         let runs = scenes.each_ref().map(simulate);
-        for knob in KNOBS.iter().filter(|knob| knob.inert(&scenes[0]).is_none()) {
+        let papers = |knob: &&Knob| knob.group != Group::Beyond;
+        for knob in KNOBS.iter().filter(papers).filter(|knob| knob.inert(&scenes[0]).is_none()) {
             let changes = scenes.iter().zip(&runs).any(|(scene, before)| {
                 let turned = |up| {
                     let value = knob.turned(&knob.get(scene), up, true, scene);
@@ -105,5 +138,38 @@ mod tests {
             });
             assert!(changes || knob.path == "solver.kind", "{}", knob.label);
         }
+    }
+
+    #[test]
+    fn what_is_beyond_the_paper_changes_a_run_unless_it_is_inert() {
+        let common = [
+            ("solver.step_s", "1e-6"),
+            ("solver.end_s", "3e-3"),
+            ("solver.contact", "unilateral"),
+            ("operation.pulse_n", "1e5"),
+            ("operation.speed_rad_s", "450"),
+            ("bladed_disk.radial_coupling", "0.3"),
+            ("contact.friction", "0.15"),
+            ("casing.tangential_ratio", "0.3"),
+        ];
+        let cases: [&[(&str, &str)]; 3] = [
+            &[],
+            &[("solver.contact", "smooth")],
+            &[("solver.model", "full"), ("bladed_disk.mistuning", "0.02")],
+        ];
+        let mut seen = std::collections::BTreeSet::new();
+        for case in cases {
+            let changes: Vec<_> = common.iter().chain(case).copied().collect();
+            let scene = Scene::base().with(&changes).unwrap();
+            let before = simulate(&scene);
+            let beyond = |knob: &&Knob| knob.group == Group::Beyond && knob.inert(&scene).is_none();
+            for knob in KNOBS.iter().filter(beyond) {
+                let value = knob.turned(&knob.get(&scene), true, true, &scene);
+                let after = simulate(&knob.set(&scene, value).unwrap().0);
+                assert_ne!(after.r#final, before.r#final, "{} {case:?}", knob.label);
+                seen.insert(knob.path);
+            }
+        }
+        assert_eq!(seen.len(), Group::Beyond.places().count(), "{seen:?}");
     }
 }

@@ -1,21 +1,27 @@
 //! The knobs: keys of the scene with a label and a sensible step. Names,
 //! units, bounds and meaning come from the table of keys.
 
+mod clearance;
 mod inert;
 mod number;
+mod paper;
 mod range;
 mod table;
 mod touch;
 
+use clearance::CLEARANCE;
 pub use number::number;
-use number::{COARSE, FINE, decades, prefixed};
+use number::{decades, mantissas, prefixed};
 pub use range::KnobRange;
 pub use table::KNOBS;
 
-use crate::scene::{Adjustment, Allowed, CheckedScene, Scene, SceneError, Value, keys, keys::Key};
+use crate::scene::{
+    Adjustment, Allowed, CheckedScene, ContactLaw, Scene, SceneError, Value, keys, keys::Key,
+};
 
-/// The only knob that is not a key: the clearance `g0`, set by the casing radius.
-const CLEARANCE: &str = "clearance";
+/// The contact laws as their knob turns through them: from the paper's law one step up is
+/// the law of contact that only pushes.
+const LAWS: [&str; 3] = ["bilateral", "unilateral", "smooth"];
 
 /// How a knob turns.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,17 +45,25 @@ pub enum Group {
     Solver,
     /// Casing and bladed disk.
     Machine,
+    /// What the paper's model leaves out: coupled tips, friction, linings.
+    Beyond,
     /// State at t = 0, and the excitation.
     Start,
 }
 
 impl Group {
     /// Every group, in the order of the panel.
-    pub const ALL: [Self; 4] = [Self::Operation, Self::Solver, Self::Machine, Self::Start];
+    pub const ALL: [Self; 5] =
+        [Self::Operation, Self::Solver, Self::Machine, Self::Beyond, Self::Start];
 
     /// Its heading.
     pub fn name(self) -> &'static str {
-        ["operation", "solver", "machine", "start"][self as usize]
+        ["operation", "solver", "machine", "beyond the paper", "start"][self as usize]
+    }
+
+    /// Its heading where two folded groups share a line.
+    pub fn short_name(self) -> &'static str {
+        self.name().split(' ').next().unwrap_or_default()
     }
 
     /// Places of its knobs in the table.
@@ -92,7 +106,7 @@ impl Knob {
     pub fn get(&self, scene: &Scene) -> Value {
         self.key().map_or_else(
             || {
-                let clearance = scene.casing.radius_m - scene.bladed_disk.blade_length_m;
+                let clearance = scene.clearance();
                 // Twelve digits: the difference of two lengths has no more.
                 Value::Real(format!("{clearance:.11e}").parse().unwrap_or(clearance))
             },
@@ -114,22 +128,30 @@ impl Knob {
         let mut changed = scene.clone();
         match (self.key(), value) {
             (Some(key), value) => changed.set_value(key, value)?,
-            (None, Value::Real(g0)) if g0.is_finite() && g0 > 0.0 => {
+            (None, Value::Real(g0)) if g0.is_finite() && g0 != 0.0 => {
                 let radius = changed.bladed_disk.blade_length_m + g0;
                 changed.set_value(keys::find("casing.radius_m")?, Value::Real(radius))?;
             }
             (None, value) => {
-                return Err(SceneError::refused(self.path, value, "a number above 0"));
+                return Err(SceneError::refused(
+                    self.path,
+                    value,
+                    "a number above 0, or below 0 with solver.contact = \"smooth\"",
+                ));
             }
         }
         let made = changed.make_compatible(|key| key == self.path);
-        Ok((changed.checked()?, self.followed(&made)))
+        let said = self.followed(&made, changed.solver.contact);
+        Ok((changed.checked()?, said))
     }
 
     /// What to say about keys that follow this knob.
-    fn followed(&self, made: &[Adjustment]) -> Option<String> {
+    fn followed(&self, made: &[Adjustment], law: ContactLaw) -> Option<String> {
         let first = made.first()?;
         Some(match (first.key, self.path) {
+            ("solver.kind", "solver.contact") if law == ContactLaw::Smooth => {
+                "solver is now explicit: a lining has no events".into()
+            }
             ("solver.kind", "solver.contact") => {
                 "solver is now explicit: bilateral is a law of the time step".into()
             }
@@ -154,12 +176,12 @@ impl Knob {
                 let next = (x / step + if up { 1.0 } else { -1.0 }).round() * step;
                 Value::Real(self.round_to(next, fine))
             }
-            (Value::Real(x), Turn::Decades(least)) => Value::Real(self.bounded(decades(
-                *x,
-                up,
-                if coarse { COARSE } else { FINE },
-                least,
-            ))),
+            (Value::Real(x), Turn::Decades(_)) if self.path == CLEARANCE => {
+                Value::Real(clearance::turned(*x, up, coarse, scene))
+            }
+            (Value::Real(x), Turn::Decades(least)) => {
+                Value::Real(self.bounded(decades(*x, up, mantissas(coarse), least)))
+            }
             (Value::Whole(n), Turn::Whole(fine, large)) => {
                 let step = if coarse { large } else { fine };
                 let Allowed::Whole { min, mut max } = self.allowed() else { return value.clone() };
@@ -172,7 +194,10 @@ impl Knob {
                 Value::Whole(next.clamp(min, max.max(min)))
             }
             (Value::Text(word), Turn::Words) => {
-                let Allowed::OneOf(words) = self.allowed() else { return value.clone() };
+                let Allowed::OneOf(mut words) = self.allowed() else { return value.clone() };
+                if self.path == "solver.contact" {
+                    words = &LAWS;
+                }
                 let place = words.iter().position(|w| w == word).unwrap_or(0);
                 let next = if up { place + 1 } else { place + words.len().saturating_sub(1) };
                 let next = words.get(next % words.len().max(1));
@@ -199,7 +224,7 @@ impl Knob {
 
     /// What it may hold.
     pub fn allowed(&self) -> Allowed {
-        self.key().map_or(Allowed::Real { min: 0.0, max: 1e3, above: true }, |key| key.allowed)
+        self.key().map_or(clearance::ALLOWED, |key| key.allowed)
     }
 
     /// The unit; empty for words and counts.
@@ -253,7 +278,7 @@ impl Knob {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{ContactLaw, SolverKind};
+    use crate::scene::SolverKind;
 
     fn knob(path: &str) -> &'static Knob {
         knob_of(path).unwrap()

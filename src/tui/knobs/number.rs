@@ -5,11 +5,16 @@ use crate::report::number::trimmed;
 use crate::report::prefix::SiScale;
 
 /// Mantissas of fine turns, two digits; coarse turns use 1, 2 and 5.
-pub(super) const FINE: &[f64] = &[
+const FINE: &[f64] = &[
     1.0, 1.1, 1.2, 1.3, 1.5, 1.6, 1.8, 2.0, 2.2, 2.4, 2.7, 3.0, 3.3, 3.6, 3.9, 4.3, 4.7, 5.0, 5.6,
     6.2, 6.8, 7.5, 8.2, 9.1,
 ];
-pub(super) const COARSE: &[f64] = &[1.0, 2.0, 5.0];
+const COARSE: &[f64] = &[1.0, 2.0, 5.0];
+
+/// The mantissas of a turn.
+pub(super) fn mantissas(coarse: bool) -> &'static [f64] {
+    if coarse { COARSE } else { FINE }
+}
 
 /// The next number up or down whose mantissa is in the list.
 pub(super) fn decades(x: f64, up: bool, mantissas: &[f64], least: f64) -> f64 {

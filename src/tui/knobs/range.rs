@@ -1,11 +1,12 @@
 //! Where the value of a knob stands: its usual range, the limits on it, and the
 //! value at a place of its bar.
 
+use super::clearance::CLEARANCE;
 use super::touch::touching_pulse;
 use super::{Knob, Turn};
 use crate::model::Machine;
 use crate::report::number::rounded;
-use crate::scene::{Allowed, Scene, Value};
+use crate::scene::{Allowed, ContactLaw, Scene, Value};
 
 /// The usual range of a knob, or of a limit, on which its bar is drawn. Values may be
 /// beyond it.
@@ -89,7 +90,8 @@ impl Knob {
     /// a bar whose scale moves cannot be read.
     pub fn range(&self, scene: &Scene, opened: &Scene, machine: &Machine) -> Option<KnobRange> {
         let value = self.number(scene)?;
-        let (clearance, blades) = (machine.clearance(), f64::from(scene.bladed_disk.blades));
+        let (clearance, blades) = (machine.clearance().abs(), f64::from(scene.bladed_disk.blades));
+        let lining = scene.solver.contact == ContactLaw::Smooth;
         let range = match self.path {
             "operation.speed_rad_s" => {
                 let limits =
@@ -113,17 +115,41 @@ impl Knob {
             "operation.nodal_diameters" => KnobRange::linear(1.0, (blades / 2.0).floor().max(2.0)),
             "excitation.order" => KnobRange::linear(1.0, blades.max(2.0)),
             "bladed_disk.blade_length_m" => {
-                KnobRange::linear(scene.casing.radius_m - 4.0 * clearance, scene.casing.radius_m)
+                let radius = scene.casing.radius_m;
+                let most = if lining { radius + 4.0 * clearance } else { radius };
+                KnobRange::linear(radius - 4.0 * clearance, most)
             }
             "casing.radius_m" => {
                 let length = scene.bladed_disk.blade_length_m;
-                KnobRange::linear(length, length + 4.0 * clearance)
+                let least = if lining { length - 4.0 * clearance } else { length };
+                KnobRange::linear(least, length + 4.0 * clearance)
+            }
+            CLEARANCE if lining => {
+                let most = 0.5 * AROUND * self.usual(opened);
+                KnobRange::linear(-most, most).marked(&[('0', Some(0.0))])
             }
             "initial.u_c_m" | "initial.u_s_m" => KnobRange::linear(-clearance, clearance),
             "initial.v_c_m_s" | "initial.v_s_m_s" => {
                 let most = 2.0 * clearance * machine.omega_c;
                 KnobRange::linear(-most, most)
             }
+            "bladed_disk.radial_coupling" => {
+                // Between 0 and -mu the blades dig in.
+                let dig = Some(-scene.contact.friction).filter(|dig| *dig < 0.0);
+                KnobRange::linear(-1.0, 1.0).marked(&[('d', dig), ('0', Some(0.0))])
+            }
+            "contact.friction" => KnobRange::linear(0.0, 0.5),
+            "casing.tangential_ratio" => {
+                // A ring that does not stretch.
+                KnobRange::linear(0.0, 1.0).marked(&[('r', Some(1.0 / machine.nodal_diameters))])
+            }
+            "contact.restitution" => KnobRange::linear(0.0, 0.95),
+            "bladed_disk.nodal_diameters" => {
+                let own = Some(machine.nodal_diameters).filter(|own| *own > 0.0);
+                KnobRange::linear(0.0, (blades / 2.0).floor().max(2.0)).marked(&[('n', own)])
+            }
+            "bladed_disk.mistuning" => KnobRange::linear(0.0, 0.05),
+            "bladed_disk.mistuning_seed" => KnobRange::linear(0.0, 20.0),
             _ => {
                 let usual = self.usual(opened);
                 KnobRange::log(usual / AROUND, usual * AROUND).signed(value)

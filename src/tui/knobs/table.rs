@@ -1,7 +1,8 @@
 //! The table of knobs, in the order of the panel, group after group.
 
-use super::{CLEARANCE, Group, Knob, Turn};
-use Group::{Machine, Operation, Solver, Start};
+use super::clearance::{CLEARANCE, LEAST};
+use super::{Group, Knob, Turn};
+use Group::{Beyond, Machine, Operation, Solver, Start};
 use Turn::{Decades, Linear, Whole, Words};
 
 const fn knob(
@@ -78,7 +79,7 @@ pub const KNOBS: &[Knob] = &[
         "contact",
         "solver.contact",
         Words,
-        "contact law: unilateral only pushes; bilateral, the paper's, may also pull",
+        "contact law: unilateral pushes; bilateral, the paper's, pulls too; smooth gives way",
     ),
     knob(
         Solver,
@@ -105,8 +106,8 @@ pub const KNOBS: &[Knob] = &[
         Machine,
         "clearance g0",
         CLEARANCE,
-        Decades(1e-9),
-        "clearance at rest g0 = R_c - l_b, set by the casing radius",
+        Decades(LEAST),
+        "clearance at rest g0 = R_c - l_b; below 0, with the smooth law, all blades rub",
     ),
     knob(
         Machine,
@@ -163,6 +164,69 @@ pub const KNOBS: &[Knob] = &[
         "casing.radius_m",
         Linear(1e-6, 1e-5),
         "inner radius of the casing; larger opens the clearance",
+    ),
+    knob(
+        Beyond,
+        "tip slope κ",
+        "bladed_disk.radial_coupling",
+        Linear(0.05, 0.1),
+        "radial coupling: a blade tip moves outward by κ l_b α; 0 in the paper",
+    ),
+    knob(
+        Beyond,
+        "friction μ",
+        "contact.friction",
+        Linear(0.05, 0.1),
+        "Coulomb friction of the blades, which slide forward; 0 in the paper",
+    ),
+    knob(
+        Beyond,
+        "tangential τ",
+        "casing.tangential_ratio",
+        Linear(0.05, 0.1),
+        "tangential over radial motion of the casing: 1/n_d for a ring (r)",
+    ),
+    knob(
+        Beyond,
+        "lining k_p",
+        "contact.stiffness_n_per_m",
+        Decades(1e-3),
+        "stiffness of the lining under one blade, for the smooth law",
+    ),
+    knob(
+        Beyond,
+        "lining eps",
+        "contact.smoothing_m",
+        Decades(1e-9),
+        "depth over which the stiffness of the lining sets in, for the smooth law",
+    ),
+    knob(
+        Beyond,
+        "restitution e",
+        "contact.restitution",
+        Linear(0.05, 0.1),
+        "part of the speed that an impact gives back; 0 in the paper",
+    ),
+    knob(
+        Beyond,
+        "diameters n_b",
+        "bladed_disk.nodal_diameters",
+        Whole(1, 4),
+        "nodal diameters of the disk; 0 for those of the casing (n)",
+    ),
+    knob(
+        Beyond,
+        "mistuning",
+        "bladed_disk.mistuning",
+        Linear(0.005, 0.01),
+        "standard deviation of the stiffness of single blades, in the full model",
+    ),
+    knob(
+        Beyond,
+        "draw",
+        "bladed_disk.mistuning_seed",
+        Whole(1, 10),
+        "number of the draw of the single stiffnesses",
     ),
     knob(
         Start,

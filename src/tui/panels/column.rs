@@ -1,5 +1,7 @@
 //! Which lines the column of knobs has: groups with headings, some of them folded
-//! where there is no room, and bars with their own lines. The mouse asks it too.
+//! where there is no room, and bars with their own lines. What goes beyond the paper
+//! is folded longest, but the knobs by which a scene leaves the paper are shown. The
+//! mouse asks it too.
 
 use ratatui::layout::Rect;
 
@@ -9,13 +11,18 @@ use crate::tui::knobs::{Group, KNOBS};
 /// A line of the column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ColumnLine {
-    /// The heading of a group, and whether its knobs follow.
+    /// The heading of a group, and whether all its knobs follow.
     Heading(Group, bool),
+    /// The headings of two folded groups; the second begins at `SECOND`.
+    Folded(Group, Group),
     /// A knob.
     Knob(usize),
     /// The bar of the knob above.
     Bar(usize),
 }
+
+/// The column of the second of two headings in one line.
+pub const SECOND: u16 = 13;
 
 /// Rows kept free for the note on the selected knob.
 pub const NOTES: u16 = 5;
@@ -23,37 +30,73 @@ pub const NOTES: u16 = 5;
 /// Knobs whose bars have lines of their own where there is room.
 const BARS: [&str; 2] = ["operation.speed_rad_s", "operation.pulse_n"];
 
+/// How much of a group is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Shown {
+    Heading,
+    /// The knobs by which the scene leaves the paper.
+    Telling,
+    All,
+}
+
+/// Groups in the order in which they get what room there is.
+const ORDER: [(Group, Shown); 6] = [
+    (Group::Operation, Shown::All),
+    (Group::Beyond, Shown::Telling),
+    (Group::Solver, Shown::All),
+    (Group::Machine, Shown::All),
+    (Group::Start, Shown::All),
+    (Group::Beyond, Shown::All),
+];
+
 /// The lines of the column in an area of this height, with the selected knob in
 /// sight.
 pub fn lines(app: &App, height: u16) -> Vec<ColumnLine> {
     let rows = usize::from(height - NOTES.min(height / 2));
     let chosen = app.selected().map_or(Group::Operation, |knob| knob.group);
-    let mut open = Group::ALL.map(|group| group == chosen);
-    let fits = |open, bars| all(open, bars).len() <= rows;
-    let mut bars = fits(open, true);
-    for group in Group::ALL {
-        let mut more = open;
-        if let Some(open) = more.get_mut(group as usize) {
-            *open = true;
+    let mut shown =
+        Group::ALL.map(|group| if group == chosen { Shown::All } else { Shown::Heading });
+    let fits = |shown, bars| all(app, shown, bars).len() <= rows;
+    let mut bars = fits(shown, true);
+    for (group, how) in ORDER {
+        let mut more = shown;
+        if let Some(shown) = more.get_mut(group as usize) {
+            *shown = how.max(*shown);
         }
-        // The bars of the operation do without lines of their own where that opens it.
+        // The bars of the operation do without lines of their own where that shows it,
+        // and what the scene has beyond the paper.
+        let worth = group == Group::Operation || how == Shown::Telling;
         if fits(more, bars) {
-            open = more;
-        } else if group == Group::Operation && fits(more, false) {
-            (open, bars) = (more, false);
+            shown = more;
+        } else if worth && fits(more, false) {
+            (shown, bars) = (more, false);
         }
     }
-    let lines = all(open, bars);
+    let lines = all(app, shown, bars);
     let selected = lines.iter().position(|line| *line == ColumnLine::Knob(app.knob)).unwrap_or(0);
     let first = if lines.len() > rows { (selected + 1).saturating_sub(rows) } else { 0 };
     lines.into_iter().skip(first).take(rows).collect()
 }
 
-fn all(open: [bool; Group::ALL.len()], bars: bool) -> Vec<ColumnLine> {
+fn all(app: &App, shown: [Shown; Group::ALL.len()], bars: bool) -> Vec<ColumnLine> {
     let mut lines = Vec::new();
-    for (group, open) in Group::ALL.into_iter().zip(open) {
-        lines.push(ColumnLine::Heading(group, open));
-        for place in group.places().filter(|_| open) {
+    for (group, shown) in Group::ALL.into_iter().zip(shown) {
+        let knobs: Vec<usize> = match shown {
+            Shown::All => group.places().collect(),
+            Shown::Telling => {
+                group.places().filter(|place| leaves_the_paper(app, *place)).collect()
+            }
+            Shown::Heading => Vec::new(),
+        };
+        match lines.last_mut() {
+            Some(last)
+                if *last == ColumnLine::Heading(Group::Beyond, false) && knobs.is_empty() =>
+            {
+                *last = ColumnLine::Folded(Group::Beyond, group);
+            }
+            _ => lines.push(ColumnLine::Heading(group, shown == Shown::All)),
+        }
+        for place in knobs {
             lines.push(ColumnLine::Knob(place));
             if bars && KNOBS.get(place).is_some_and(|knob| BARS.contains(&knob.path)) {
                 lines.push(ColumnLine::Bar(place));
@@ -61,6 +104,10 @@ fn all(open: [bool; Group::ALL.len()], bars: bool) -> Vec<ColumnLine> {
         }
     }
     lines
+}
+
+fn leaves_the_paper(app: &App, place: usize) -> bool {
+    KNOBS.get(place).is_some_and(|knob| knob.leaves_the_paper(&app.scene))
 }
 
 /// The columns of the cells of a bar in a line of the panel.

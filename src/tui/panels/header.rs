@@ -172,7 +172,7 @@ fn pace(app: &App) -> Parts {
 
 /// The limits of a lock, by the index of their symbol.
 fn thresholds(app: &App) -> [(&'static str, Option<f64>); 2] {
-    [("c", app.machine.critical_speed()), ("lock", app.machine.lock_speed())]
+    [("c", app.machine.critical_speed()), ("lock", app.lock_speed())]
 }
 
 /// The limits as numbers, and the present speed in parts of them.
@@ -181,18 +181,30 @@ fn limits(app: &App) -> Parts {
     let (text, quiet) = (look.style(Role::Text), look.style(Role::Quiet));
     let speed = app.speed().abs();
     let mut parts = Vec::new();
-    for (name, limit) in thresholds(app) {
-        parts.push((format!("  Ω/Ω_{name} "), quiet));
-        match limit.filter(|limit| *limit > 0.0) {
-            Some(limit) => {
-                parts.push((format!("{:.3}", speed / limit), text));
-                parts.push((format!(" of {}", short(limit)), quiet));
-            }
-            None => parts.push(("-".into(), text)),
+    let mut ratio = |name: &str, limit: f64| {
+        parts.push((format!("  Ω/{name} "), quiet));
+        parts.push((format!("{:.3}", speed / limit), text));
+        parts.push((format!(" of {}", short(limit)), quiet));
+    };
+    let (coupled, coincidence) = (app.is_coupled(), app.coincidence());
+    let [critical, lock] = thresholds(app).map(|(name, limit)| {
+        if let Some(limit) = limit.filter(|limit| *limit > 0.0) {
+            ratio(&format!("Ω_{name}"), limit);
         }
+        limit
+    });
+    if let Some(coincidence) = coincidence.filter(|_| coupled) {
+        ratio("coincidence", coincidence);
     }
-    let coincidence = app.machine.dangerous_speed_toward(app.speed());
-    parts.extend(coincidence.map(|speed| (format!(" · coincidence {}", short(speed)), quiet)));
+    if critical.is_none() || lock.is_none() {
+        let what = if critical.is_none() { "no Ω_c" } else { "no lock at any speed" };
+        parts.push((format!("  {what}"), quiet));
+    }
+    if let Some(coincidence) = app.machine.dangerous_speed_toward(app.speed())
+        && !coupled
+    {
+        parts.push((format!(" · coincidence {}", short(coincidence)), quiet));
+    }
     parts
 }
 
@@ -201,9 +213,21 @@ fn short_limits(app: &App) -> Parts {
     let look = &app.appearance;
     let (text, quiet) = (look.style(Role::Text), look.style(Role::Quiet));
     let mut parts = Vec::new();
+    let coupled = app.is_coupled();
     for (name, limit) in thresholds(app) {
-        parts.push((format!("  Ω_{name} "), quiet));
-        parts.push((limit.map_or("-".into(), short), text));
+        match limit {
+            // Where the coincidence matters, Ω_c makes room for it.
+            _ if coupled && name == "c" => {}
+            None if name == "lock" => parts.push(("  no lock".into(), quiet)),
+            limit => {
+                parts.push((format!("  Ω_{name} "), quiet));
+                parts.push((limit.map_or("-".into(), short), text));
+            }
+        }
+    }
+    if let Some(coincidence) = app.coincidence().filter(|_| coupled) {
+        parts.push(("  coincidence ".into(), quiet));
+        parts.push((short(coincidence), text));
     }
     parts.push((" rad/s".into(), quiet));
     parts

@@ -55,6 +55,10 @@ fn knob_target(app: &App, places: &Places, (x, y): (u16, u16)) -> Option<Target>
     let line = *column::lines(app, area.height).get(usize::from(y - area.y))?;
     Some(match line {
         ColumnLine::Heading(group, _) => Target::Group(group.places().next()?),
+        ColumnLine::Folded(first, second) => {
+            let chosen = if x < area.x + column::SECOND { first } else { second };
+            Target::Group(chosen.places().next()?)
+        }
         ColumnLine::Knob(place) => Target::Knob(place),
         ColumnLine::Bar(place) => Target::Bar(place, bar::part(column::bar_cells(area), x)),
     })

@@ -20,6 +20,7 @@ pub fn panel(app: &App, buffer: &mut Buffer, area: Rect) {
         let row = Rect { y, height: 1, ..area };
         match *line {
             ColumnLine::Heading(group, open) => heading(app, buffer, row, group, open),
+            ColumnLine::Folded(first, second) => folded(app, buffer, row, [first, second]),
             ColumnLine::Knob(place) => {
                 let own = lines.contains(&ColumnLine::Bar(place));
                 if let Some(knob) = KNOBS.get(place) {
@@ -59,6 +60,26 @@ fn heading(app: &App, buffer: &mut Buffer, row: Rect, group: Group, open: bool) 
     };
     let rest = rule.repeat(usize::from(row.width).saturating_sub(1 + columns(&text)));
     let parts = [(rule.to_string(), quiet), (text, look.style(Role::Text)), (rest, quiet)];
+    pieces(buffer, row, 0, &parts);
+}
+
+/// A rule with the names of two folded groups.
+fn folded(app: &App, buffer: &mut Buffer, row: Rect, groups: [Group; 2]) {
+    let look = &app.appearance;
+    let (rule, quiet) = (look.either("─", "-"), look.style(Role::Quiet));
+    let [first, second] = groups
+        .map(|group| look.spell(&format!(" {} ▸ {} ", group.short_name(), group.places().count())));
+    let between = usize::from(column::SECOND).saturating_sub(columns(&first)).max(1);
+    let used = between + columns(&first) + 1 + columns(&second);
+    let rest = rule.repeat(usize::from(row.width).saturating_sub(used));
+    let text = look.style(Role::Text);
+    let parts = [
+        (rule.repeat(between), quiet),
+        (first, text),
+        (rule.to_string(), quiet),
+        (second, text),
+        (rest, quiet),
+    ];
     pieces(buffer, row, 0, &parts);
 }
 

@@ -2,11 +2,13 @@
 //! view, write its file, add it to the two lists here, and add its word to
 //! `CHARTS`, the words that a scene file may hold.
 
+pub mod coincidence;
 mod frame;
 mod gaps;
 pub mod locked;
 pub mod map;
 pub mod margins;
+mod marks;
 mod panel;
 mod precision;
 mod response;
@@ -35,6 +37,8 @@ pub enum ViewId {
     Precision,
     /// How far the scene is from every limit, and what moves it.
     Margins,
+    /// What the coincidence of blades and casing does while they touch.
+    Coincidence,
 }
 
 /// The table of views.
@@ -47,6 +51,7 @@ const VIEWS: [(ViewId, &dyn ViewPanel); CHARTS.len()] = [
     (ViewId::Spectrum, &spectrum::SpectrumView),
     (ViewId::Precision, &precision::PrecisionView),
     (ViewId::Margins, &margins::MarginsView),
+    (ViewId::Coincidence, &coincidence::CoincidenceView),
 ];
 
 impl ViewId {

@@ -11,6 +11,8 @@ use crate::report::table::{TableCell, write_csv};
 use crate::scene::CheckedScene;
 use crate::tui::app::{App, Cursor};
 use crate::tui::appearance::Appearance;
+use crate::tui::axis::ChartAxis;
+use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
 use crate::tui::text::{marked_pieces, print};
 use crate::tui::theme::Role;
@@ -157,6 +159,13 @@ pub fn entry(look: &Appearance, pen: &Pen, name: &str) -> (String, Style) {
         (false, false) => "──".to_string(),
     };
     (format!("{stroke} {name}"), pen.style)
+}
+
+/// The name of a level, at its right end.
+pub fn name_level(plot: &mut Plot, x: ChartAxis, level: f64, name: &str, style: Style) {
+    if let Some(row) = plot.row(level) {
+        plot.note(x.high, row, name, style);
+    }
 }
 
 /// Shows that the study of a view is not computed yet.

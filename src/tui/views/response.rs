@@ -4,8 +4,9 @@
 
 use ratatui::buffer::Buffer;
 
-use super::panel::{ViewArea, ViewPanel, csv, entry, names, title};
+use super::panel::{ViewArea, ViewPanel, csv, entry, name_level, names, title};
 use crate::motion::ActiveSet;
+use crate::report::line::clean;
 use crate::scene::ModelSize;
 use crate::tui::app::{App, Cursor};
 use crate::tui::axis::{AutoRange, ChartAxis, instant, readable};
@@ -13,9 +14,10 @@ use crate::tui::engine::{FullRun, Moment};
 use crate::tui::history::{BinHistory, Channel};
 use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
-use crate::tui::text::{columns, wrap};
+use crate::tui::text::{columns, print, wrap};
 use crate::tui::theme::Role;
 use crate::tui::trace::Happening;
+use crate::tui::worker::other_law;
 
 /// From this height on, the blade coordinates have a separate chart.
 const TWO_FROM: u16 = 18;
@@ -141,7 +143,20 @@ fn both_laws(app: &App, buffer: &mut Buffer, at: ViewArea) {
         ..Page::casing(format!("{}: {word}", law.other()), app)
     };
     page(app, buffer, first, &Page::casing(own, app));
+    if let Err(why) = other_law(&app.scene) {
+        return refused(app, buffer, second, &theirs.name, &clean(&why.to_string()));
+    }
     page(app, buffer, second, &theirs);
+}
+
+/// Why the scene cannot have the other law.
+fn refused(app: &App, buffer: &mut Buffer, at: ViewArea, name: &str, why: &str) {
+    let look = &app.appearance;
+    let inside = title(app, buffer, at, name, &[]);
+    let lines = wrap(&look.spell(why), usize::from(inside.width));
+    for (row, line) in (1..inside.height).zip(lines) {
+        print(buffer, inside, row, &line, look.style(Role::Trouble));
+    }
 }
 
 fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
@@ -171,6 +186,10 @@ fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
     let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
     at.note(app, plot.inner);
     plot.level(0.0, look.either('┈', '.'), quiet);
+    let levels = clearance_levels(app, what);
+    for (level, _) in &levels {
+        plot.level(*level, look.either('┈', '.'), quiet);
+    }
     if let Some(t) = app.cursor_time() {
         plot.upright(t, look.either('┊', ':'), look.style(Role::Focus));
     }
@@ -183,6 +202,9 @@ fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
         plot.spans(&what.history.columns(*channel, from, to, columns), pen);
     }
     plot.ink();
+    for (level, name) in levels {
+        name_level(&mut plot, x, level, name, quiet);
+    }
     let cells = usize::from(plot.inner.width);
     // On the time axis if there is one, so that no data is covered.
     let row = plot.axis_row().unwrap_or(plot.inner.bottom() - 1);
@@ -200,6 +222,16 @@ fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
             plot.text(inner.x + 1, row, &look.spell(&line), look.style(Role::Trouble));
         }
     }
+}
+
+/// The clearance, which the casing may pass where the tips move with it, and its name.
+fn clearance_levels(app: &App, what: &Page) -> Vec<(f64, &'static str)> {
+    if !app.scene.goes_beyond() || what.unit != "m" {
+        return Vec::new();
+    }
+    let clearance = app.machine.clearance().abs();
+    let names = if app.is_pressed() { ["|g0|", "-|g0|"] } else { ["g0", "-g0"] };
+    [clearance, -clearance].into_iter().zip(names).collect()
 }
 
 /// The values at the reading cursor, computed for that instant.

@@ -3,7 +3,7 @@
 use super::full_run::FullRunJob;
 use super::recorder::Recorder;
 use crate::motion::{GoOn, Motion};
-use crate::scene::{CheckedScene, Scene, SolverKind};
+use crate::scene::{CheckedScene, Scene, SceneError, SolverKind};
 
 /// The same scene under the other contact law, played up to the same time.
 #[derive(Debug)]
@@ -19,7 +19,7 @@ pub struct Comparison {
 impl Comparison {
     /// Starts it; none if the scene cannot have the other law.
     pub fn of(scene: &Scene) -> Option<Self> {
-        let scene = other_law(scene)?;
+        let scene = other_law(scene).ok()?;
         let motion = Motion::new(&scene);
         let full_run = FullRunJob::new(motion.clone(), scene.solver.end_s);
         Some(Self { motion, recorder: Recorder::default(), full_run })
@@ -48,9 +48,12 @@ impl Comparison {
 }
 
 /// The scene under the other contact law, with the solver that supports both.
-pub fn other_law(scene: &Scene) -> Option<CheckedScene> {
+///
+/// # Errors
+/// The scene cannot have that law; the reason in one line.
+pub fn other_law(scene: &Scene) -> Result<CheckedScene, SceneError> {
     let mut scene = scene.clone();
     scene.solver.kind = SolverKind::Explicit;
     scene.solver.contact = scene.solver.contact.other();
-    scene.checked().ok()
+    scene.checked()
 }

@@ -7,7 +7,7 @@ use super::background::Background;
 use super::full_run::{FullRunJob, SLICE};
 use super::studies::Studies;
 use crate::motion::{Motion, Script, is_sensitive, run_to_verdict};
-use crate::scene::{CheckedScene, Scene, SolverKind};
+use crate::scene::{CheckedScene, ContactLaw, Scene, SolverKind};
 use crate::tui::engine::{FORECAST_LIMIT, FullRun, FullRunState, Order, Pace, Results};
 use crate::tui::trace::Mark;
 
@@ -114,9 +114,10 @@ impl Forecasts {
     }
 }
 
-/// The event solver under unilateral contact, if the scene uses another solver.
+/// The event solver under unilateral contact, if the scene uses another solver. A
+/// lining that gives way is another machine.
 fn reference(scene: &Scene) -> Option<FullRunJob> {
-    if scene.solver.kind == SolverKind::Event {
+    if scene.solver.kind == SolverKind::Event || scene.solver.contact == ContactLaw::Smooth {
         return None;
     }
     let scene = scene.as_reference().checked().ok()?;

@@ -2,6 +2,7 @@
 //! that drives it, and a replacement for tests.
 
 mod background;
+mod coincidence;
 mod comparison;
 mod copies;
 mod forecasts;
@@ -18,7 +19,8 @@ mod stepwise;
 mod studies;
 mod thread;
 
+pub use comparison::other_law;
 pub use playback::Playback;
-pub use recorder::in_blade_frame;
+pub use recorder::{in_blade_frame, rim_point};
 pub use stepwise::Stepwise;
 pub use thread::{WORKER_NAME, Worker};

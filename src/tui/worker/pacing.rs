@@ -40,7 +40,7 @@ impl Turned {
         let machine = motion.machine();
         let turned = machine.nodal_diameters * motion.rotor().angle(state.t_s);
         let [x, y] = in_blade_frame(state.u, turned);
-        let visible = state.amplitude() >= VISIBLE * machine.clearance();
+        let visible = state.amplitude() >= VISIBLE * machine.clearance().abs();
         let phase = visible.then(|| y.atan2(x));
         if let (Some(before), Some(now)) = (self.phase, phase) {
             let by = (now - before).rem_euclid(TAU);

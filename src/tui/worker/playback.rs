@@ -107,7 +107,7 @@ impl Playback {
         if changed && self.behind {
             self.level_comparison();
         }
-        let other = other_law(&order.scene);
+        let other = other_law(&order.scene).ok();
         let theirs = self.comparison.as_mut().map(|theirs| &mut theirs.motion).zip(other.as_ref());
         for (motion, scene) in std::iter::once((&mut self.motion, &order.scene)).chain(theirs) {
             if order.changes != before.changes {

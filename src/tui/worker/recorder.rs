@@ -1,6 +1,7 @@
 //! Samples of a motion as bins of least and greatest values, and contact
 //! forces as means between snapshots.
 
+use crate::model::Machine;
 use crate::motion::{ActiveSet, Motion, State};
 use crate::tui::history::{Bin, CHANNELS, MOST_BINS, thin};
 
@@ -8,6 +9,19 @@ use crate::tui::history::{Bin, CHANNELS, MOST_BINS, thin};
 pub fn in_blade_frame(u: [f64; 2], turned: f64) -> [f64; 2] {
     let (sin, cos) = turned.sin_cos();
     [u[0] * cos + u[1] * sin, u[1] * cos - u[0] * sin]
+}
+
+/// The casing as the tips of the blades see it, `w = z - kappa l_b a` \[m\]: the point
+/// in the polygon, with `turned = n_d theta`. It is `z` where tips do not move outward,
+/// and where the disk has other diameters, so that no one point stands for all blades.
+pub fn rim_point(machine: &Machine, state: &State, turned: f64) -> [f64; 2] {
+    let z = in_blade_frame(state.u, turned);
+    let outward = machine.radial_coupling * machine.blade_length;
+    if outward == 0.0 || machine.blade_diameters != machine.nodal_diameters {
+        return z;
+    }
+    let [a_c, a_s] = state.alpha;
+    [z[0] - outward * a_c, z[1] - outward * a_s]
 }
 
 /// Records one motion.
@@ -31,16 +45,19 @@ impl Recorder {
         let gap = motion.blade_gaps().into_iter().fold(f64::INFINITY, f64::min);
         let turned = motion.machine().nodal_diameters * motion.rotor().angle(state.t_s);
         let [x, y] = in_blade_frame(state.u, turned);
+        let [rim_x, rim_y] = rim_point(motion.machine(), state, turned);
         let values: [f64; CHANNELS] = [
             state.u[0],
             state.u[1],
             state.alpha[0],
             state.alpha[1],
             gap,
-            state.amplitude(),
+            rim_x.hypot(rim_y),
             push,
             x,
             y,
+            rim_x,
+            rim_y,
         ];
         let mut bin = Bin::of(self.last.unwrap_or(state.t_s), values);
         bin.to = state.t_s;

@@ -5,6 +5,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use super::coincidence::{CoincidenceJob, Found};
 use super::full_run::SLICE;
 use super::map_job::{CellJob, MapJob};
 use super::margins::MarginsJob;
@@ -34,6 +35,9 @@ pub struct Studies {
     margins: Option<MarginsJob>,
     /// The margins before, until there are new ones.
     margins_before: Option<Arc<LiveMargins>>,
+    coincidence: Option<CoincidenceJob>,
+    /// The curves before, until there are new ones.
+    coincidence_before: Option<Found>,
 }
 
 impl Studies {
@@ -80,6 +84,7 @@ impl Studies {
             || (order.shows(ViewId::Spectrum) && self.spectrum.is_none())
             || !self.map_is_done(order)
             || !self.margins_are_done(order)
+            || !self.coincidence_is_done(order)
             || (order.shows(ViewId::Precision) && !self.precision_is_done(order))
     }
 
@@ -101,6 +106,11 @@ impl Studies {
         !order.shows(ViewId::Margins) || self.margins.as_ref().is_some_and(done)
     }
 
+    fn coincidence_is_done(&self, order: &Order) -> bool {
+        let done = |job: &CoincidenceJob| job.is_of(&order.scene) && job.is_done();
+        !order.shows(ViewId::Coincidence) || self.coincidence.as_ref().is_some_and(done)
+    }
+
     fn precision_is_done(&self, order: &Order) -> bool {
         let found = self.precision.as_ref();
         found.is_some_and(|found| found.is_of(&order.scene) && found.is_done())
@@ -113,6 +123,8 @@ impl Studies {
             self.locked = Some((order.scene.clone().into_scene(), curves));
         } else if order.shows(ViewId::Spectrum) && self.spectrum.is_none() {
             self.spectrum = Some(Arc::new(Spectrum::of(&signal(), length)));
+        } else if !self.coincidence_is_done(order) {
+            self.compute_coincidence(&order.scene);
         } else if !self.margins_are_done(order) {
             self.compute_margins(order);
         } else if !self.map_is_done(order) {
@@ -160,6 +172,17 @@ impl Studies {
         }
     }
 
+    fn compute_coincidence(&mut self, scene: &Scene) {
+        match self.coincidence.as_mut().filter(|job| job.is_of(scene)) {
+            Some(job) => job.receive(SLICE),
+            None => {
+                let before = self.coincidence.replace(CoincidenceJob::of(scene));
+                let found = before.as_ref().and_then(CoincidenceJob::found).cloned();
+                self.coincidence_before = found.or(self.coincidence_before.take());
+            }
+        }
+    }
+
     fn compute_precision(&mut self, scene: &Scene) {
         match self.precision.as_mut().filter(|found| found.is_of(scene)) {
             Some(found) => found.receive(SLICE),
@@ -178,6 +201,8 @@ impl Studies {
         results.cell = self.cell.as_ref().and_then(CellJob::found).cloned();
         let margins = self.margins.as_ref().and_then(MarginsJob::live);
         results.margins = margins.or(self.margins_before.as_ref()).cloned();
+        let coincidence = self.coincidence.as_ref().and_then(CoincidenceJob::found);
+        results.coincidence = coincidence.or(self.coincidence_before.as_ref()).cloned();
         results.precision = self.precision.as_ref().and_then(PrecisionJob::report).cloned();
     }
 }

@@ -59,6 +59,7 @@ fn told(document: &Document, header: &str) -> BTreeSet<String> {
 fn every_field_of_the_reports_is_in_the_documents() {
     let document = read("docs/commands.md");
     let map = "map slip --speed 300:500:2 --pulse 2e4:5e4:2 --json";
+    let pressed = "--contact smooth --set casing.radius_m=0.49988 --set bladed_disk.radial_coupling=0.5 --set contact.stiffness_n_per_m=27e3";
     let soft = "--set bladed_disk.stiffness_nm_per_rad=1e-3 --speed";
     for (header, commands) in [
         (
@@ -66,7 +67,9 @@ fn every_field_of_the_reports_is_in_the_documents() {
             vec![
                 "run --json --at 0.01:operation.pulse_n=10 --at 0.02:pulse --end 0.03",
                 "run half-n --end 0.02 --json",
+                "run --contact unilateral --set contact.restitution=0.3 --end 0.002 --json",
                 "run --solver event --set bladed_disk.stiffness_nm_per_rad=1e12 --json",
+                "run --solver event --set bladed_disk.radial_coupling=0.1 --json",
             ],
         ),
         ("| field of `rubscope.map/1` | what it is |", vec![map]),
@@ -90,6 +93,7 @@ fn every_field_of_the_reports_is_in_the_documents() {
         let commands: Vec<&str> = commands.to_vec();
         assert_eq!(told(&document, header), fields_of(&commands), "{header}");
     }
+    let inclined = "--set bladed_disk.radial_coupling=0.3 --speed";
     for (view, command) in [
         ("branches", "--branches --damped".to_string()),
         ("slip", "slip --slip --zetas 0.01:0.03:3 --speed 300:500:3".to_string()),
@@ -97,6 +101,11 @@ fn every_field_of_the_reports_is_in_the_documents() {
         ("campbell", "--campbell --speed 0:500:2".to_string()),
         ("excitation", "--excitation --set excitation.amplitude_nm=10 --speed 500".to_string()),
         ("fold", format!("--fold {soft} 400:500:2")),
+        ("smooth", format!("--smooth {pressed} --speed 390:440:6")),
+        ("follow", format!("--follow casing.damping_ratio --over 0.05:0.1 {pressed}")),
+        ("coincidence", format!("--coincidence {pressed} --speed 390:440:6")),
+        ("whirl", format!("--whirl {inclined} 300:450:2")),
+        ("compliance", format!("--compliance {inclined} 450")),
     ] {
         let all = fields_of(&[&format!("hbm {command} --json")]);
         let base = told(&document, "| field of `rubscope.hbm/1` | what it is |");
@@ -144,6 +153,7 @@ fn every_column_of_the_files_is_in_the_documents() {
     let told_margins = told(&document, header);
     let every = names(&["the path of every parameter"]);
     assert_eq!(told_margins, &(&margins - &paths) | &every, "{header}");
+    let pressed = "hbm --smooth --contact smooth --set casing.radius_m=0.49988";
     for (what, command) in [
         ("`hbm`", "hbm"),
         ("`hbm --branches`", "hbm --branches"),
@@ -152,6 +162,15 @@ fn every_column_of_the_files_is_in_the_documents() {
         ("`hbm --slip --zetas`", "hbm slip --slip --zetas 0.01:0.02:2"),
         ("`hbm --harmonics`", "hbm slip --harmonics 2"),
         ("`hbm --excitation`", "hbm --excitation --set excitation.amplitude_nm=10"),
+        ("`hbm --smooth`, blades pressed in", pressed),
+        ("`hbm --smooth`, a clearance", "hbm --smooth --contact smooth"),
+        (
+            "`hbm --follow`",
+            "hbm --follow casing.damping_ratio --over 0.05:0.06 --contact smooth --set contact.stiffness_n_per_m=1e9",
+        ),
+        ("`hbm --coincidence`", "hbm --coincidence --speed 300:500:3"),
+        ("`hbm --whirl`", "hbm --whirl --speed 400:500:2"),
+        ("`hbm --compliance`", "hbm --compliance --set bladed_disk.radial_coupling=0.3"),
         ("`precision`", "precision grazing --finest 1e-6 --repeat 1"),
     ] {
         let rows = document.table("| file of | columns |");

@@ -102,7 +102,7 @@ impl Plain {
                 let gaps: Vec<Dd> = rows.iter().map(|row| row.gap).collect();
                 law::bilateral(&self.influences(&rows), &gaps).ok_or(Why::Rows(rows.len()))?
             }
-            ContactLaw::Unilateral => self.complementary(turned, &mut rows)?,
+            ContactLaw::Unilateral | ContactLaw::Smooth => self.complementary(turned, &mut rows)?,
         };
         if lambda.iter().any(|value| !value.is_finite()) {
             return Err(Why::Rows(rows.len()));

@@ -15,6 +15,9 @@ mod shapes;
 
 pub use full::FullBlades;
 pub use modal::ModalBlades;
+pub(in crate::motion) use near::NearRows;
+pub(in crate::motion) use ring::Ring;
+pub(in crate::motion) use shapes::product;
 
 use super::excitation::EngineOrderTorque;
 use super::oscillator::Coordinate;

@@ -8,7 +8,7 @@ use crate::tolerances::ROWS_NEAR;
 
 /// The rows asked for last.
 #[derive(Clone, Debug, Default)]
-pub(super) struct NearRows {
+pub(in crate::motion) struct NearRows {
     rows: Vec<(u32, Arc<[f64]>)>,
     /// Place of the oldest, once there are enough.
     oldest: usize,

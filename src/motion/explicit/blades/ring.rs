@@ -14,7 +14,7 @@ use crate::scene::Scene;
 /// Members, modes and rows of a ring. A list of coefficients is laid out as the
 /// coordinates are; see `Shapes`.
 #[derive(Debug)]
-pub(super) struct Ring {
+pub(in crate::motion) struct Ring {
     /// Blades that are one member.
     pub alike: u32,
     /// Mode shapes of the members.

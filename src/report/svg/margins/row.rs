@@ -52,6 +52,8 @@ pub(super) fn sign(name: LimitName) -> &'static str {
         LimitName::Coincidence => "Ω_coincidence",
         LimitName::CoincidenceDifference => "Ω_difference",
         LimitName::LockFold => "Ω_fold",
+        LimitName::WhirlOnset => "Ω_whirl",
+        LimitName::FlutterSpeed => "Ω_flutter",
         LimitName::TouchingPulse => "F_touches",
         LimitName::LastingPulse => "F_lasts",
         LimitName::LastingPulseUnilateral => "F_unilateral",

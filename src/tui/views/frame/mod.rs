@@ -15,10 +15,7 @@ use crate::tui::history::Channel;
 use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
 use crate::tui::theme::Role;
-use crate::tui::worker::in_blade_frame;
-
-/// Half the width of the chart, in amplitudes of a corner.
-const MARGIN: f64 = 1.15;
+use crate::tui::worker::rim_point;
 
 /// The view.
 pub struct FrameView;
@@ -67,22 +64,47 @@ fn reading(app: &App, x: ChartAxis, y: ChartAxis) -> Option<String> {
     let polygon = &app.machine.polygon;
     let gaps = (0..polygon.sides).map(|side| (side, polygon.gap(side, x, y)));
     let (side, gap) = gaps.min_by(|a, b| a.1.total_cmp(&b.1))?;
-    let (blade, gap) = (app.blades_of([side].into_iter()), readable(gap, "m"));
-    Some(format!("{gap} to {blade} at {}, {}", readable(x, "m"), readable(y, "m")))
+    let to = if app.has_lining() && gap < 0.0 { "," } else { " to" };
+    let (blade, gap) = (app.blades_of([side].into_iter()), app.gap_words(gap));
+    Some(format!("{gap}{to} {blade} at {}, {}", readable(x, "m"), readable(y, "m")))
+}
+
+/// What the point is: the casing, as the tips of the blades see it.
+fn named(app: &App) -> &'static str {
+    let machine = &app.machine;
+    match machine.radial_coupling == 0.0 {
+        true => "z",
+        false if machine.blade_diameters == machine.nodal_diameters => "w",
+        // No one point stands for all blades.
+        false => "z, blades not bent",
+    }
+}
+
+/// Which sides touch at the instant that is shown. In a lining the gaps say it.
+fn touching_sides(app: &App) -> impl Fn(u32) -> bool {
+    let polygon = &app.machine.polygon;
+    let active_set = app.shown().map_or(ActiveSet::Nothing, |moment| moment.active_set);
+    let deep: Option<Vec<u32>> = app
+        .has_lining()
+        .then(|| app.touching_blades().iter().map(|blade| polygon.side_of_blade(*blade)).collect());
+    move |side| deep.as_ref().map_or(active_set.includes(side), |deep| deep.contains(&side))
 }
 
 fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let look = &app.appearance;
     let quiet = look.style(Role::Quiet);
     let polygon = &app.machine.polygon;
-    let corner = app.machine.locked_amplitude().unwrap_or(polygon.clearance);
-    let (x, y) = square(at.area, MARGIN * corner);
+    let (x, y) = square(at.area, app.usual_reach().max(app.ranges.rim.high));
     let point = look.either('●', 'O');
     let mut legend = vec![
-        (format!("z, {}m", x.scale.prefix), quiet),
+        (format!("{}, {}m", named(app), x.scale.prefix), quiet),
         (format!("{point} now"), look.style(Role::Focus)),
         (app.contact_shown(), look.style(Role::Contact)),
     ];
+    if app.is_pressed() {
+        // A side is where its blade lifts off.
+        legend.insert(1, ("inside all rub".into(), look.style(Role::Text)));
+    }
     let read = reading(app, x, y);
     let name = if read.is_some() { "" } else { "blade frame" };
     if let Some(read) = read {
@@ -93,11 +115,11 @@ fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
     at.note(app, plot.inner);
     let outline = Pen { dashed: false, ..look.quiet() };
     let touched = Pen { style: look.style(Role::Contact), sign: '#', dashed: false };
-    let active_set = app.shown().map_or(ActiveSet::Nothing, |moment| moment.active_set);
+    let touching = touching_sides(app);
     // An unbounded side is drawn as far as the chart reaches.
-    let half = polygon.half_side().min(20.0 * polygon.clearance);
+    let half = polygon.half_side().abs().min(20.0 * polygon.clearance.abs());
     for pass in [false, true] {
-        for side in (0..polygon.sides).filter(|side| active_set.includes(*side) == pass) {
+        for side in (0..polygon.sides).filter(|side| touching(*side) == pass) {
             let (cos, sin) = polygon.direction(side);
             let end = |along: f64| {
                 (-polygon.clearance * cos - along * sin, -polygon.clearance * sin + along * cos)
@@ -107,14 +129,15 @@ fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
     }
     let (from, to) = app.page();
     let bins = app.history.between(from, to).iter();
-    let trail = bins.map(|bin| (bin.middle(Channel::X), bin.middle(Channel::Y)));
+    let trail = bins.map(|bin| (bin.middle(Channel::RimX), bin.middle(Channel::RimY)));
     plot.curve(trail, &look.first());
     plot.ink();
     if let Some(cursor) = app.cursor.filter(|_| app.view == ViewId::Frame) {
         plot.point(x.at(cursor.across), y.at(cursor.up), '+', look.style(Role::Focus));
     }
     if let Some(moment) = app.shown() {
-        let [x, y] = in_blade_frame(moment.state.u, app.machine.nodal_diameters * moment.angle);
+        let turned = app.machine.nodal_diameters * moment.angle;
+        let [x, y] = rim_point(&app.machine, &moment.state, turned);
         plot.point(x, y, point, look.style(Role::Focus));
     }
 }

@@ -7,7 +7,6 @@ use ratatui::buffer::Buffer;
 
 use super::super::panel::{ViewArea, title};
 use super::square;
-use crate::motion::ActiveSet;
 use crate::tui::app::App;
 use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
@@ -16,6 +15,8 @@ use crate::tui::worker::in_blade_frame;
 
 /// The clearance at rest, in radii of the wheel.
 const CLEARANCE: f64 = 0.12;
+/// The largest wave of the wheel, in clearances.
+const MOST: f64 = 1.2;
 /// Inner end of the blades, in radii.
 const HUB: f64 = 0.55;
 /// Points of the casing outline.
@@ -26,8 +27,9 @@ pub fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let look = &app.appearance;
     let machine = &app.machine;
     let polygon = &machine.polygon;
-    let exaggeration =
-        CLEARANCE * app.scene.bladed_disk.blade_length_m / polygon.clearance.max(f64::MIN_POSITIVE);
+    // A wave that passes the clearance is less magnified, so that it stays on the chart.
+    let unit = polygon.clearance.abs().max(app.ranges.rim.high / MOST).max(f64::MIN_POSITIVE);
+    let exaggeration = CLEARANCE * app.scene.bladed_disk.blade_length_m / unit;
     let legend = [
         (format!("gaps x {exaggeration:.0}"), look.style(Role::Quiet)),
         ("turning with the blades".to_string(), look.style(Role::Quiet)),
@@ -40,23 +42,29 @@ pub fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let casing = (0..=OUTLINE).map(|k| {
         let angle = TAU * f64::from(k) / f64::from(OUTLINE);
         let (sin, cos) = (machine.nodal_diameters * angle).sin_cos();
-        let gap = 1.0 + (z[0] * cos + z[1] * sin) / polygon.clearance;
+        let gap = (polygon.clearance + z[0] * cos + z[1] * sin) / unit;
         let radius = 1.0 + CLEARANCE * gap;
         (radius * angle.cos(), radius * angle.sin())
     });
+    // A tip that moves outward meets the casing there.
+    let outward = machine.radial_coupling * machine.blade_length * CLEARANCE / unit;
     let spoke = |blade: u32, pen: &Pen, plot: &mut Plot| {
         let angle = TAU * f64::from(blade - 1) / f64::from(polygon.blades);
         let (sin, cos) = angle.sin_cos();
-        plot.curve([(HUB * cos, HUB * sin), (cos, sin)], pen);
+        let (b_sin, b_cos) = (machine.blade_diameters * angle).sin_cos();
+        let [a_c, a_s] = moment.state.alpha;
+        let tip = match outward == 0.0 {
+            true => 1.0,
+            false => 1.0 + outward * (a_c * b_cos + a_s * b_sin),
+        };
+        plot.curve([(HUB * cos, HUB * sin), (tip * cos, tip * sin)], pen);
     };
     let quiet = Pen { dashed: false, ..look.quiet() };
     let touched = Pen { style: look.style(Role::Contact), sign: '#', dashed: false };
     // Spokes closer than a cell cannot be distinguished.
     let all = polygon.blades <= u32::from(inside.width) * 2;
-    let touches = |blade: u32| {
-        moment.active_set != ActiveSet::Nothing
-            && moment.active_set.includes(polygon.side_of_blade(blade))
-    };
+    let touching = app.touching_blades();
+    let touches = |blade: u32| touching.contains(&blade);
     for blade in (1..=polygon.blades).filter(|blade| all && !touches(*blade)) {
         spoke(blade, &quiet, &mut plot);
     }
@@ -65,7 +73,9 @@ pub fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
         spoke(blade, &touched, &mut plot);
     }
     plot.ink();
-    for blade in (1..=polygon.blades).filter(|blade| touches(*blade)).take(8) {
+    // The names of nearly all say nothing.
+    let named = if 2 * touching.len() > polygon.blades as usize { &[][..] } else { &touching };
+    for blade in named.iter().copied().take(8) {
         let angle = TAU * f64::from(blade - 1) / f64::from(polygon.blades);
         let (sin, cos) = angle.sin_cos();
         plot.label(0.8 * HUB * cos, 0.8 * HUB * sin, &blade.to_string(), look.style(Role::Contact));

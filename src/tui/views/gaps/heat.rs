@@ -19,6 +19,9 @@ const ASCII: [char; 4] = ['#', '%', '+', '.'];
 /// Gaps below which a shade is drawn, in clearances. Above the last, the casing
 /// is farther away than at rest.
 const SHADES: [f64; 3] = [0.1, 0.5, 1.0];
+/// The same where all blades rub at rest, in interferences at rest, below which blades
+/// are deeper than then, in the lining, hardly in it, and near it.
+const DEPTHS: [f64; 4] = [-1.0, -0.5, 0.0, 1.0];
 
 /// One blade in one column.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,19 +31,22 @@ struct Spot {
     touched: bool,
 }
 
-/// The smallest gap of a side over a bin, rigid blades \[m\]. A bin stores only
+/// The smallest gap of a side over a bin \[m\], of blades whose modes are those of the
+/// casing, without their small angles. A bin stores only
 /// the least and greatest coordinates of the wave, so this is a lower bound.
 fn least_gap(polygon: &ContactPolygon, side: u32, bin: &Bin) -> f64 {
     let (c, s) = polygon.direction(side);
-    let [(x0, x1), (y0, y1)] = [Channel::X, Channel::Y].map(|channel| bin.span(channel));
+    let [(x0, x1), (y0, y1)] = [Channel::RimX, Channel::RimY].map(|channel| bin.span(channel));
     polygon.clearance + (c * x0).min(c * x1) + (s * y0).min(s * y1)
 }
 
 /// Whether a side was touched in a bin. If a bin has more than two sides, only
 /// their number is known; then these are all sides that came as near as the
 /// sides of a corner.
-fn touches(polygon: &ContactPolygon, side: u32, bin: &Bin) -> bool {
+fn touches(polygon: &ContactPolygon, lining: bool, side: u32, bin: &Bin) -> bool {
     match bin.touched {
+        // In a lining many blades touch: the gaps say which.
+        ActiveSet::Many if lining => least_gap(polygon, side, bin) < 0.0,
         ActiveSet::Many => {
             least_gap(polygon, side, bin) < polygon.delta * polygon.delta * polygon.clearance
         }
@@ -57,11 +63,11 @@ fn spots(app: &App, columns: usize) -> Vec<Vec<Option<Spot>>> {
     let place = |t: f64| (((t - from) / width).max(0.0) as usize).min(columns.saturating_sub(1));
     for bin in app.history.between(from, to) {
         for (side, row) in (0..polygon.sides).zip(&mut out) {
-            let gap = least_gap(polygon, side, bin) / polygon.clearance;
+            let gap = least_gap(polygon, side, bin) / polygon.clearance.abs();
             if !gap.is_finite() {
                 continue;
             }
-            let touched = touches(polygon, side, bin);
+            let touched = touches(polygon, app.has_lining(), side, bin);
             for slot in row.iter_mut().take(place(bin.to) + 1).skip(place(bin.from)) {
                 *slot = Some(slot.map_or(Spot { gap, touched }, |spot: Spot| Spot {
                     gap: spot.gap.min(gap),
@@ -73,9 +79,22 @@ fn spots(app: &App, columns: usize) -> Vec<Vec<Option<Spot>>> {
     out
 }
 
+fn smallest(spots: &[Spot]) -> f64 {
+    spots.iter().map(|spot| spot.gap).fold(f64::INFINITY, f64::min)
+}
+
+/// The sign of the blades of one row where all rub at rest: the deeper, the darker,
+/// and the lightest where they are off the lining.
+fn sign_in_lining(spots: &[Spot], signs: [char; 4]) -> Option<(char, bool)> {
+    let gap = smallest(spots);
+    let place = DEPTHS.iter().position(|most| gap < *most)?;
+    let sign = signs.get(place)?;
+    Some((*sign, gap < 0.0))
+}
+
 /// The sign of the blades of one row, lower blade first.
 fn sign(spots: &[Spot], signs: [char; 4], ascii: bool) -> Option<(char, bool)> {
-    let gap = spots.iter().map(|spot| spot.gap).fold(f64::INFINITY, f64::min);
+    let gap = smallest(spots);
     match spots {
         // Two blades per row: half a block marks the one that touches.
         [Spot { touched: true, .. }, Spot { touched: false, .. }] if !ascii => Some(('▄', true)),
@@ -114,12 +133,23 @@ pub fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let count = app.machine.polygon.blades;
     let x = ChartAxis::scaled(from, to);
     let y = ChartAxis::plain(0.5, f64::from(count) + 0.5);
-    let mut legend = vec![(format!("{} contact", signs[0]), contact)];
-    for (sign, most) in signs.into_iter().skip(1).zip(SHADES) {
-        legend.push((format!("{sign} <{:.0}%", 100.0 * most), first));
-    }
     let quiet = look.style(Role::Quiet);
-    legend.push((format!("of clearance; over {}s", x.scale.prefix), quiet));
+    let pressed = app.is_pressed();
+    let mut legend = Vec::new();
+    if pressed {
+        for (sign, what) in signs.into_iter().zip(["deeper than at rest", ">50%", "in the lining"])
+        {
+            legend.push((format!("{sign} {what}"), contact));
+        }
+        legend.push((format!("{} off it", signs[3]), first));
+        legend.push((format!("over {}s", x.scale.prefix), quiet));
+    } else {
+        legend.push((format!("{} contact", signs[0]), contact));
+        for (sign, most) in signs.into_iter().skip(1).zip(SHADES) {
+            legend.push((format!("{sign} <{:.0}%", 100.0 * most), first));
+        }
+        legend.push((format!("of clearance; over {}s", x.scale.prefix), quiet));
+    }
     let inside = title(app, buffer, at, "gaps in time", &legend);
     let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
     at.note(app, plot.inner);
@@ -138,7 +168,11 @@ pub fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
                 spots.get(side)?.get(place).copied().flatten()
             };
             let here: Vec<Spot> = (low..high).filter_map(of_blade).collect();
-            if let Some((sign, touched)) = sign(&here, signs, look.ascii()) {
+            let found = match pressed {
+                true => sign_in_lining(&here, signs),
+                false => sign(&here, signs, look.ascii()),
+            };
+            if let Some((sign, touched)) = found {
                 let style = if touched { contact } else { first };
                 plot.text(column, row, sign.encode_utf8(&mut [0; 4]), style);
             }
@@ -156,8 +190,8 @@ mod tests {
 
     fn bin(x: f64, y: f64) -> Bin {
         let mut values = [0.0; CHANNELS];
-        values[Channel::X as usize] = x;
-        values[Channel::Y as usize] = y;
+        values[Channel::RimX as usize] = x;
+        values[Channel::RimY as usize] = y;
         Bin::of(0.0, values)
     }
 
@@ -169,6 +203,29 @@ mod tests {
             // Two sums of the same three terms.
             assert!((gap - polygon.gap(side, 3e-5, -8e-5)).abs() < 1e-18);
         }
+    }
+
+    #[test]
+    fn blades_that_rub_at_rest_are_darker_the_deeper_they_are() {
+        let of = |gap| sign_in_lining(&[Spot { gap, touched: true }], SIGNS);
+        assert_eq!(of(-1.2), Some(('█', true)));
+        assert_eq!(of(-0.7), Some(('▓', true)));
+        assert_eq!(of(-0.2), Some(('▒', true)));
+        assert_eq!(of(0.2), Some(('░', false)));
+        assert_eq!(of(1.2), None);
+        // Two blades in a row: the deeper one counts.
+        let two = [0.2, -0.7].map(|gap| Spot { gap, touched: gap < 0.0 });
+        assert_eq!(sign_in_lining(&two, SIGNS), Some(('▓', true)));
+        // A side in a bin of many touches where its gap says so.
+        let polygon = ContactPolygon::new(22, 3, -2e-5);
+        let mut bin = bin(3e-5, 0.0);
+        bin.touched = ActiveSet::Many;
+        let touched: Vec<u32> =
+            (0..22).filter(|side| touches(&polygon, true, *side, &bin)).collect();
+        assert!(
+            !touched.contains(&0) && touched.contains(&11) && touched.len() > 11,
+            "{touched:?}"
+        );
     }
 
     #[test]

@@ -6,10 +6,9 @@ mod heat;
 use ratatui::buffer::Buffer;
 
 use super::ViewId;
-use super::panel::{ViewArea, ViewPanel, csv, title};
-use crate::motion::ActiveSet;
+use super::panel::{ViewArea, ViewPanel, csv, name_level, title};
 use crate::tui::app::{App, Cursor, cell_of};
-use crate::tui::axis::{ChartAxis, instant, readable};
+use crate::tui::axis::{ChartAxis, instant};
 use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
 use crate::tui::theme::Role;
@@ -58,7 +57,7 @@ fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let y = ChartAxis::scaled(range.low, range.high);
     let count = app.machine.polygon.blades;
     let x = ChartAxis::plain(0.5, f64::from(count) + 0.5);
-    let active_set = touching_blades(app);
+    let active_set = app.touching_blades();
     let mark = look.either('▲', '^');
     let shown = app.contact_shown();
     let style = if active_set.is_empty() { quiet } else { contact };
@@ -84,11 +83,18 @@ fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
         let sign =
             if 2 * count <= room { look.either('●', 'o') } else { look.either('•', 'o') };
         for (blade, gap) in gaps() {
-            plot.point(blade, gap.min(range.high), sign, look.style(Role::First));
+            plot.point(blade, gap.clamp(range.low, range.high), sign, look.style(Role::First));
         }
     }
+    if app.has_lining() {
+        // What the level means must be said where it can be below the other.
+        name_level(&mut plot, x, app.machine.clearance(), "g0", quiet);
+    }
+    let deep = |blade: u32| moment.gaps.get(blade.saturating_sub(1) as usize).copied();
     for blade in &active_set {
-        plot.point(f64::from(*blade), 0.0, mark, contact);
+        // A rigid casing is touched at zero, a lining somewhere inside.
+        let gap = deep(*blade).filter(|_| app.has_lining()).unwrap_or(0.0);
+        plot.point(f64::from(*blade), gap.clamp(range.low, range.high), mark, contact);
     }
     label(&mut plot, &active_set, app);
     if let Some(cursor) = app.cursor.filter(|_| app.view == ViewId::Gaps) {
@@ -105,7 +111,7 @@ fn reading(app: &App) -> Option<String> {
     let cursor = app.cursor.filter(|_| app.view == ViewId::Gaps)?;
     let blade = cell_of(cursor.across, app.machine.polygon.blades);
     let gap = app.shown()?.gaps.get(blade as usize)?;
-    Some(format!("blade {}: {}", blade + 1, readable(*gap, "m")))
+    Some(format!("blade {}: {}", blade + 1, app.gap_words(*gap)))
 }
 
 /// Numbers of the touching blades under the zero line.
@@ -114,24 +120,10 @@ fn label(plot: &mut Plot, active_set: &[u32], app: &App) {
     else {
         return;
     };
+    if app.has_lining() && 2 * active_set.len() > app.machine.polygon.blades as usize {
+        return;
+    }
     for blade in active_set.iter().take(16) {
         plot.note(f64::from(*blade), row, &format!("{blade}"), app.appearance.style(Role::Contact));
-    }
-}
-
-/// The blades in contact now, numbered from 1.
-fn touching_blades(app: &App) -> Vec<u32> {
-    let Some(moment) = app.shown() else { return Vec::new() };
-    let polygon = &app.machine.polygon;
-    let of = |sides: &[u32]| sides.iter().flat_map(|side| polygon.blades_of_side(*side)).collect();
-    match moment.active_set {
-        ActiveSet::Nothing => Vec::new(),
-        ActiveSet::Side(side) => of(&[side]),
-        ActiveSet::Corner(a, b) => of(&[a, b]),
-        ActiveSet::Many => (1..=polygon.blades)
-            .zip(&moment.gaps)
-            .filter(|(_, gap)| **gap <= 1e-9 * polygon.clearance)
-            .map(|(blade, _)| blade)
-            .collect(),
     }
 }

@@ -57,7 +57,8 @@ impl Chart {
         let quiet = look.style(Role::Quiet);
         let Some(damped) = &curves.damped else { return };
         let points = &damped.points;
-        let values = self.quantities.iter().flat_map(|(_, of)| points.iter().map(of));
+        let scaled = || points.iter().filter(|point| curves.scales(point.speed_rad_s));
+        let values = self.quantities.iter().flat_map(|(_, of)| scaled().map(of));
         let (x, y) = (ChartAxis::plain(0.0, curves.fastest), range(values));
         let pens: [Pen; 3] = [look.first(), look.second(), look.quiet()];
         let named = pens.iter().zip(self.quantities);

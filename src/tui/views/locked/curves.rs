@@ -1,8 +1,12 @@
-//! The locked motion against speed that view 3 draws: the harmonic balance
-//! with and without damping, over a round range of speeds.
+//! What view 3 draws over a round range of speeds: the locked motion, from the
+//! harmonic balance with and without damping, and beyond the paper the push of the
+//! whirl that can last instead.
 
-use crate::harmonic::{Form, Sweep, locked_motion};
-use crate::scene::Scene;
+use crate::harmonic::{
+    Form, Joint, Lining, RimWave, Sweep, flutter_speed, locked_motion, rim_waves,
+};
+use crate::model::{LockWindow, Machine};
+use crate::scene::{ContactLaw, ModelSize, Scene};
 use crate::tui::axis::nice_step;
 
 /// Speeds of one curve.
@@ -17,6 +21,15 @@ pub struct LockedCurves {
     pub damped: Option<Sweep>,
     /// Without damping, as in the paper; none for a machine without damping.
     pub undamped: Option<Sweep>,
+    /// Mean multiplier of the whirl that lasts on a rim of many blades, below 0 for a
+    /// push \[N\], against speed \[rad/s\]. Empty for the paper's machine, and on a
+    /// lining.
+    pub whirl: Vec<(f64, f64)>,
+    /// The scales hold the values up to this speed: joined to the blades, the casing has
+    /// a resonance of the lock further on \[rad/s\].
+    pub scaled_to: f64,
+    /// The marked speeds and their names, slowest first \[rad/s\].
+    pub marks: Vec<(f64, &'static str)>,
 }
 
 impl LockedCurves {
@@ -28,11 +41,103 @@ impl LockedCurves {
         // A rotor that turns backwards has its own locked motion; it is drawn over |Ω|.
         let sense = scene.operation.speed_rad_s.signum();
         let speeds: Vec<f64> = (0..POINTS).map(|k| sense * f64::from(k) * step).collect();
-        let curve = |damped| locked_motion(&machine, Form::Modal, damped, None, &speeds).ok();
-        let has_damping = machine.casing_damping > 0.0;
-        Self { fastest, damped: curve(true), undamped: has_damping.then(|| curve(false)).flatten() }
+        let open = machine.clearance() > 0.0;
+        let curve = |damped| {
+            open.then(|| locked_motion(&machine, Form::Modal, damped, None, &speeds).ok()).flatten()
+        };
+        let has_damping = machine.casing_damping > 0.0 || machine.is_joined();
+        Self {
+            fastest,
+            damped: curve(true),
+            undamped: has_damping.then(|| curve(false)).flatten(),
+            whirl: whirl(scene, &machine, &speeds),
+            scaled_to: scaled_to(scene, &machine).unwrap_or(fastest),
+            marks: marks(scene, &machine),
+        }
     }
 }
+
+impl LockedCurves {
+    /// Whether the scales hold the values at a speed \[rad/s\].
+    pub fn scales(&self, speed: f64) -> bool {
+        speed.abs() <= self.scaled_to
+    }
+}
+
+/// The push of the whirl at every speed that has one.
+fn whirl(scene: &Scene, machine: &Machine, speeds: &[f64]) -> Vec<(f64, f64)> {
+    let clearance = machine.clearance();
+    let rigid = scene.solver.contact != ContactLaw::Smooth && clearance > 0.0;
+    if !rigid || !is_coupled(scene) {
+        return Vec::new();
+    }
+    let push = |speed: &f64| {
+        let wave = RimWave::lasting(&rim_waves(&Joint::at(machine, *speed)))?;
+        Some((speed.abs(), -wave.stiffness_n_per_m * clearance))
+    };
+    speeds.iter().filter_map(push).collect()
+}
+
+/// Whether the tips of blades that can move drive the casing.
+fn is_coupled(scene: &Scene) -> bool {
+    scene.bladed_disk.radial_coupling != 0.0 && scene.solver.model != ModelSize::Rigid
+}
+
+/// The speeds between which a lock only pushes, on the lining of the scene where it has
+/// one; none where nothing locks, as where all blades rub.
+pub fn lock_window(scene: &Scene, machine: &Machine, toward: f64) -> Option<LockWindow> {
+    let rigid = machine.lock_window(toward).filter(|_| machine.clearance() > 0.0)?;
+    if scene.solver.contact != ContactLaw::Smooth {
+        return Some(rigid);
+    }
+    let lining = Lining::of(machine, &scene.contact).ok();
+    match lining.map(|lining| lining.lock_window()) {
+        Some(Ok(window)) => window.map(|[from, to]| LockWindow { from, to: Some(to) }),
+        // Of tips that are inclined or rub there is no closed form.
+        _ => Some(rigid),
+    }
+}
+
+/// The threshold speeds of a scene; beyond the paper a lock has an upper one, too, and
+/// flutters above another.
+fn marks(scene: &Scene, machine: &Machine) -> Vec<(f64, &'static str)> {
+    let toward = scene.operation.speed_rad_s;
+    let window = lock_window(scene, machine, toward);
+    let smooth = scene.solver.contact == ContactLaw::Smooth;
+    let held = window.filter(|_| smooth || is_coupled(scene));
+    let mut marks: Vec<(f64, &'static str)> = [
+        (machine.critical_speed(), "Ω_c"),
+        (window.map(|window| window.from), "Ω_lock"),
+        (held.and_then(|window| window.to), "lock ends"),
+        (held.and_then(|_| flutter_speed(machine, toward)), "Ω_f"),
+        (machine.dangerous_speed(), "coincidence"),
+    ]
+    .into_iter()
+    .filter_map(|(speed, name)| Some((speed?, name)))
+    .collect();
+    if machine.casing_damping == 0.0 && !machine.casing_is_joined() {
+        // Without damping the two thresholds are one.
+        marks.retain(|(_, name)| *name != "Ω_lock");
+    }
+    marks.sort_by(|a, b| a.0.total_cmp(&b.0));
+    marks
+}
+
+/// Just beyond the lock and the present speed, where tips move outward.
+fn scaled_to(scene: &Scene, machine: &Machine) -> Option<f64> {
+    if machine.radial_coupling == 0.0 {
+        return None;
+    }
+    let ends = marks(scene, machine).into_iter().filter(|(_, name)| *name != "Ω_f");
+    let present = scene.operation.speed_rad_s.abs();
+    Some(BESIDE * ends.map(|(speed, _)| speed).fold(present, f64::max))
+}
+
+/// How far beyond them.
+const BESIDE: f64 = 1.05;
+/// How far the range goes for the end of a lock, in parts of what is of interest
+/// without it.
+const FURTHER: f64 = 1.6;
 
 /// A round speed above every threshold and the present speed \[rad/s\].
 pub fn speed_range(scene: &Scene) -> f64 {
@@ -40,6 +145,9 @@ pub fn speed_range(scene: &Scene) -> f64 {
     let of_interest =
         [machine.lock_speed(), machine.dangerous_speed(), Some(scene.operation.speed_rad_s.abs())];
     let most = of_interest.into_iter().flatten().filter(|s| s.is_finite()).fold(1.0, f64::max);
+    // The end of a lock can be far away.
+    let ends = marks(scene, &machine).into_iter().map(|(speed, _)| speed);
+    let most = ends.filter(|speed| *speed <= FURTHER * most).fold(most, f64::max);
     let step = nice_step(most * 1.1, 6).unwrap_or(most);
     (most * 1.05 / step).ceil() * step
 }
@@ -63,9 +171,46 @@ mod tests {
     }
 
     #[test]
+    fn a_lock_of_tips_that_move_outward_ends_and_a_whirl_can_last_beside_it() {
+        let mut scene = Scene::base();
+        assert!(LockedCurves::of(&scene).whirl.is_empty());
+        scene.bladed_disk.radial_coupling = 0.3;
+        let curves = LockedCurves::of(&scene);
+        let mark = |name| curves.marks.iter().find(|(_, known)| *known == name).unwrap().0;
+        // The window of docs/theory.md, section 12.
+        assert!((mark("Ω_lock") - 472.117).abs() < 1e-3, "{:?}", curves.marks);
+        assert!((mark("lock ends") - 566.259).abs() < 1e-3, "{:?}", curves.marks);
+        assert!(curves.fastest > 566.259);
+        // The fold where whirl begins, within one step of the speeds.
+        let step = curves.fastest / f64::from(POINTS - 1);
+        let first = curves.whirl.first().unwrap().0;
+        assert!((414.3 - 0.1..414.3 + step + 0.1).contains(&first), "{first}");
+        assert!(curves.whirl.iter().all(|(_, push)| *push < 0.0));
+        // Rigid blades do not drive it.
+        scene.solver.model = ModelSize::Rigid;
+        assert!(LockedCurves::of(&scene).whirl.is_empty());
+    }
+
+    #[test]
     fn a_wave_without_corners_has_no_curves() {
         let mut scene = Scene::base();
         scene.operation.nodal_diameters = 11;
         assert_eq!(LockedCurves::of(&scene).damped, None);
+    }
+
+    #[test]
+    fn a_soft_lining_has_a_window_of_its_own_and_the_softest_none() {
+        let mut scene = Scene::base();
+        scene.solver.contact = ContactLaw::Smooth;
+        scene.contact.stiffness_n_per_m = 3e8;
+        let machine = scene.machine();
+        // docs/theory.md, section 12.
+        let window = lock_window(&scene, &machine, 1.0).unwrap();
+        assert!((window.from - 438.1581).abs() < 1e-3, "{window:?}");
+        assert!((window.to.unwrap() - 732.355).abs() < 1e-2, "{window:?}");
+        scene.contact.stiffness_n_per_m = 1e8;
+        assert_eq!(lock_window(&scene, &machine, 1.0), None);
+        scene.solver.contact = ContactLaw::Unilateral;
+        assert_eq!(lock_window(&scene, &machine, 1.0), machine.lock_window(1.0));
     }
 }

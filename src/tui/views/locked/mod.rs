@@ -8,6 +8,7 @@ pub mod curves;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Rect};
 
+use super::marks;
 use super::panel::{ViewArea, ViewPanel, csv, entry, title};
 use crate::harmonic::{LockedPoint, Sweep};
 use crate::motion::ActiveSet;
@@ -110,13 +111,22 @@ fn multipliers(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let points = running(app);
     let forces: Vec<String> = points.iter().take(2).map(|force| short(*force)).collect();
     let now = if points.is_empty() { "no contact".to_string() } else { forces.join(" ") };
+    let going_round = Pen { style: look.style(Role::Contact), sign: 'w', dashed: true };
+    if curves.is_some_and(|curves| !curves.whirl.is_empty()) {
+        legend.push(entry(look, &going_round, "whirl"));
+    }
     // Beside another chart there is room for the numbers only.
     let mean = if at.area.width >= NAMED_FROM { "mean now " } else { "" };
     legend.push((format!("{point} {mean}{now}"), look.style(Role::Contact)));
-    legend.push(("N over rad/s".into(), quiet));
+    let prefix = curves.and_then(|curves| Some(force_axis(curves, curves.damped.as_ref()?)));
+    let prefix = prefix.map_or("", |y| y.scale.prefix);
+    legend.push((format!("{prefix}N over rad/s"), quiet));
     legend.push(("below 0 pushes".into(), quiet));
     if pair && roomy {
         legend.push(entry(look, &look.quiet(), "undamped"));
+    }
+    if app.has_lining() {
+        legend.push(("of a rigid casing".into(), quiet));
     }
     if app.speed() < 0.0 {
         legend.push(("over |Ω|, turning backwards".into(), quiet));
@@ -124,18 +134,25 @@ fn multipliers(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let inside = title(app, buffer, at, "locked λ(Ω)", &legend);
     let Some(curves) = curves else { return };
     let Some(damped) = &curves.damped else {
-        let text = "no corner between two blade groups: this wave never locks";
+        let text = if app.is_pressed() {
+            "all blades rub at rest: nothing locks; view 9 has what grows"
+        } else if app.machine.has_other_diameters() {
+            "the disk has other diameters than the casing: no pair of blades locks"
+        } else {
+            "no corner between two blade groups: this wave never locks"
+        };
         print(buffer, inside, 1, text, quiet);
         return;
     };
     let inside = if at.large { read(app, curves, buffer, inside) } else { inside };
     // The scale follows the curves: the mean over an impact may be far outside.
-    let y = charts::range(damped.points.iter().flat_map(|point| point.multipliers_n));
+    let y = force_axis(curves, damped);
     let x = ChartAxis::plain(0.0, curves.fastest);
     let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
     at.note(app, plot.inner);
     plot.level(0.0, look.either('┈', '.'), quiet);
     uprights(&mut plot, app, curves);
+    plot.curve(curves.whirl.iter().copied(), &going_round);
     if let Some(undamped) = &curves.undamped {
         if roomy {
             curve(&mut plot, undamped, 0, &look.quiet());
@@ -154,7 +171,15 @@ fn multipliers(app: &App, buffer: &mut Buffer, at: ViewArea) {
         };
         plot.point(app.speed().abs(), shown, sign, look.style(Role::Contact));
     }
-    names(&mut plot, &thresholds(app), app);
+    marks::names(&mut plot, &curves.marks, app);
+}
+
+/// The axis of the forces of locks and whirls.
+fn force_axis(curves: &LockedCurves, damped: &Sweep) -> ChartAxis {
+    let points = damped.points.iter().filter(|point| curves.scales(point.speed_rad_s));
+    let whirl = curves.whirl.iter().filter(|(speed, _)| curves.scales(*speed));
+    let locks = points.flat_map(|point| point.multipliers_n);
+    charts::range(locks.chain(whirl.map(|(_, push)| *push)))
 }
 
 /// What the reading cursor reads, above the chart; returns the rest.
@@ -179,57 +204,13 @@ fn read(app: &App, curves: &LockedCurves, buffer: &mut Buffer, inside: Rect) -> 
 
 /// The threshold speeds, the present speed and the reading cursor.
 fn uprights(plot: &mut Plot, app: &App, curves: &LockedCurves) {
-    let look = &app.appearance;
-    for (speed, _) in thresholds(app) {
-        plot.upright(speed, look.either('┊', ':'), look.style(Role::Quiet));
-    }
-    plot.upright(app.speed().abs(), look.either('│', '|'), look.style(Role::Focus));
-    if let Some(speed) = charts::cursor_speed(app, curves) {
-        plot.upright(speed, look.either('╎', '!'), look.style(Role::Focus));
-    }
+    marks::uprights(plot, app, &curves.marks, charts::cursor_speed(app, curves));
 }
 
 fn curve(plot: &mut Plot, sweep: &Sweep, place: usize, pen: &Pen) {
     let lambda =
         |point: &LockedPoint| Some((point.speed_rad_s.abs(), *point.multipliers_n.get(place)?));
     plot.curve(sweep.points.iter().filter_map(lambda), pen);
-}
-
-/// Names of the thresholds in the upper rows, one below the other if close.
-fn names(plot: &mut Plot, marks: &[(f64, &str)], app: &App) {
-    let mut free = [0_u16; 3];
-    for (speed, name) in marks {
-        let name = app.appearance.spell(name);
-        let Some(column) = plot.column(*speed) else { continue };
-        let wide = u16::try_from(name.chars().count()).unwrap_or(u16::MAX);
-        let column = column.min(plot.inner.right().saturating_sub(wide));
-        for (row, free) in (plot.inner.y..plot.inner.bottom()).zip(&mut free) {
-            if column >= *free {
-                plot.note(*speed, row, &name, app.appearance.style(Role::Text));
-                *free = column.saturating_add(wide + 1);
-                break;
-            }
-        }
-    }
-}
-
-/// The threshold speeds, slowest first.
-fn thresholds(app: &App) -> Vec<(f64, &'static str)> {
-    let machine = &app.machine;
-    let mut marks: Vec<(f64, &'static str)> = [
-        (machine.critical_speed(), "Ω_c"),
-        (machine.lock_speed(), "Ω_lock"),
-        (machine.dangerous_speed(), "coincidence"),
-    ]
-    .into_iter()
-    .filter_map(|(speed, name)| Some((speed?, name)))
-    .collect();
-    if machine.casing_damping == 0.0 {
-        // Without damping the two thresholds are one.
-        marks.retain(|(_, name)| *name != "Ω_lock");
-    }
-    marks.sort_by(|a, b| a.0.total_cmp(&b.0));
-    marks
 }
 
 /// Mean multipliers of the running motion, while something touches.

@@ -29,6 +29,8 @@ pub fn colour(look: &Appearance, verdict: Verdict) -> Option<Color> {
         Verdict::Locked => [Color::LightBlue, Color::Blue, Color::LightBlue, Color::Blue],
         Verdict::Adhesive => [Color::LightRed, Color::Red, Color::LightYellow, Color::Red],
         Verdict::Slip => [Color::LightMagenta, Color::Magenta, Color::White, Color::Black],
+        Verdict::Whirl => [Color::LightGreen, Color::Green, Color::LightGreen, Color::Green],
+        Verdict::Divergent => [Color::White, Color::Black, Color::LightRed, Color::Red],
         Verdict::Bounce => [Color::LightCyan, Color::Cyan, Color::Cyan, Color::Cyan],
         Verdict::Failed => [Color::LightYellow, Color::Yellow, Color::Magenta, Color::Magenta],
     };

@@ -13,6 +13,10 @@ use crate::tui::views::locked::curves::speed_range;
 const CELLS: [u32; 2] = [81, 41];
 /// The key of the torque on the blades.
 const TORQUE: &str = "excitation.amplitude_nm";
+/// The key of the friction of blades and casing.
+const FRICTION: &str = "contact.friction";
+/// The slowest speed of a map with friction, in parts of the fastest.
+const SLOWEST: f64 = 0.1;
 /// Pulses of the map \[N\].
 const PULSES: [f64; 2] = [1e3, 1e7];
 /// The greatest damping of a map, unless the present one is greater.
@@ -60,8 +64,11 @@ impl MapChoice {
             // The event solver knows no torque on the blades.
             scene.solver.kind = SolverKind::Explicit;
         }
-        let x = self.x.over(&scene, CELLS[0])?;
-        let y = self.y.over(&scene, CELLS[1])?;
+        // Friction has no direction while the rotor stands.
+        let slides = scene.contact.friction != 0.0
+            || [self.x, self.y].iter().any(|axis| axis.path == FRICTION);
+        let x = self.x.over(&scene, CELLS[0], slides)?;
+        let y = self.y.over(&scene, CELLS[1], slides)?;
         for axis in [&x, &y] {
             // The map stays the same while the knobs that it sweeps are turned.
             axis.apply(&mut scene, 0).map_err(|error| error.to_string())?;
@@ -90,9 +97,12 @@ const fn even(from: f64, to: f64) -> Range {
 }
 
 impl MapAxis {
-    fn over(&self, scene: &Scene, most: u32) -> Result<Axis, String> {
+    fn over(&self, scene: &Scene, most: u32, slides: bool) -> Result<Axis, String> {
         let key = keys::find(self.path).map_err(|error| error.to_string())?;
-        let Range { from, to, log } = self.range(scene, key);
+        let Range { mut from, mut to, log } = self.range(scene, key);
+        if slides && self.path == SPEED {
+            (from, to) = if to > 0.0 { (SLOWEST * to, to) } else { (from, SLOWEST * from) };
+        }
         let count = match key.allowed {
             // Each whole number once.
             Allowed::Whole { .. } => ((to - from).max(0.0) as u32).saturating_add(1).min(most),
@@ -103,7 +113,8 @@ impl MapAxis {
 
     fn range(&self, scene: &Scene, key: &Key) -> Range {
         let anchor = self.anchor;
-        let clearance = scene.casing.radius_m - scene.bladed_disk.blade_length_m;
+        let clearance = scene.clearance().abs();
+        let lining = scene.solver.contact == ContactLaw::Smooth;
         match self.path {
             SPEED => speeds(scene),
             PULSE => Range { from: PULSES[0], to: PULSES[1], log: true },
@@ -112,6 +123,19 @@ impl MapAxis {
             }
             "operation.nodal_diameters" => {
                 even(1.0, f64::from(scene.bladed_disk.blades / 2).max(1.0))
+            }
+            "bladed_disk.nodal_diameters" => {
+                even(1.0, f64::from(scene.bladed_disk.blades / 2).max(1.0))
+            }
+            // A lining may be pressed at rest, but not to a clearance of zero: that is
+            // between two cells.
+            "casing.radius_m" if lining => {
+                let length = scene.bladed_disk.blade_length_m;
+                even(length - 2.0 * clearance, length + 1.9 * clearance)
+            }
+            "bladed_disk.blade_length_m" if lining => {
+                let radius = scene.casing.radius_m;
+                even(radius - 1.9 * clearance, radius + 2.0 * clearance)
             }
             // The clearance from a tenth to four times the present one.
             "casing.radius_m" => {
@@ -162,6 +186,11 @@ fn usual(path: &str, scene: &Scene, clearance: f64) -> f64 {
         "initial.v_c_m_s" | "initial.v_s_m_s" => clearance * scene.machine().omega_c,
         "operation.speed_ramp_rad_s2" => 1e3,
         "operation.pulse_s" => 1e-4,
+        "bladed_disk.radial_coupling" | FRICTION => 0.25,
+        "contact.restitution" | "casing.tangential_ratio" => 0.5,
+        "bladed_disk.mistuning" => 0.025,
+        "bladed_disk.mistuning_seed" => 10.0,
+        "contact.smoothing_m" => 1e-6,
         "bladed_disk.coupling_nm_per_rad" => scene.bladed_disk.stiffness_nm_per_rad,
         _ => 1.0,
     }
@@ -192,6 +221,7 @@ fn within(key: &Key, Range { from, to, log }: Range) -> Range {
 mod tests {
     use super::*;
     use crate::scene::ModelSize;
+    use crate::tui::knobs::Group;
 
     #[test]
     fn the_map_does_not_depend_on_the_knobs_it_sweeps() {
@@ -240,6 +270,18 @@ mod tests {
                         Err(why) if rigid && why.contains("do not move") => continue,
                         Err(why) if why.starts_with("initial.") => {
                             assert!(scene.initial != Scene::base().initial, "{why}");
+                            continue;
+                        }
+                        // Each law and model leaves out some of what goes beyond the
+                        // paper, and the event solver its ramps.
+                        Err(why) if knob.group == Group::Beyond => {
+                            assert!(why.contains("solver."), "{} {why}", knob.path);
+                            continue;
+                        }
+                        // The direction of friction is fixed.
+                        Err(why) if why.contains("where a ramp stops the rotor") => continue,
+                        Err(why) if why.starts_with("operation.speed_ramp") => {
+                            assert!(scene.goes_beyond(), "{why}");
                             continue;
                         }
                         Err(why) => panic!("{} {other}: {why}", knob.path),

@@ -82,6 +82,8 @@ impl<'a> Row<'a> {
             LimitName::OmegaLock => ["Ω_lock"; 2],
             LimitName::OmegaAdhesive => ["adhesive limit", "adhesive"],
             LimitName::LockFold => ["end of the lock", "end of lock"],
+            LimitName::WhirlOnset => ["whirl begins", "whirl"],
+            LimitName::FlutterSpeed => ["lock flutters", "flutter"],
             LimitName::Coincidence => ["coincidence"; 2],
             LimitName::CoincidenceDifference => ["coincidence (30)", "coinc. (30)"],
             LimitName::TouchingPulse => ["F that touches", "F touches"],
@@ -89,6 +91,7 @@ impl<'a> Row<'a> {
             | LimitName::LastingPulseUnilateral
             | LimitName::LastingPulseBilateral => match law {
                 Some(ContactLaw::Bilateral) => ["F lasts, bilateral", "F lasts bil"],
+                Some(ContactLaw::Smooth) => ["F lasts, smooth", "F lasts smo"],
                 _ => ["F lasts, unilateral", "F lasts uni"],
             },
             LimitName::PushA => ["push of group a", "push a"],

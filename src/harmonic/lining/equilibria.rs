@@ -1,0 +1,257 @@
+//! Steady states on a lining in the frame of the blades: rest, and waves that one, two,
+//! three or more neighbouring groups of blades hold (docs/theory.md, section 10).
+//!
+//! Both structures stand in that frame, so two equations are left for `w = z - kappa l_b
+//! a`: `L_c w = [(1 + i mu_c) + c2 L_c/k_a] p(w)`, `L_c` at `omega = nu`. Where `eps = 0`
+//! each set of groups has a linear one, and all of them are tried; from there, and from
+//! a grid of places, Newton's method goes on for `eps > 0`.
+
+use nalgebra::{Complex, Matrix2, Vector2};
+use serde::Serialize;
+
+use super::Lining;
+use super::flow::{self, Tangent};
+use crate::harmonic::{HarmonicError, Joint};
+use crate::tolerances::{LINING_ALIKE, LINING_NEUTRAL, LINING_SETTLED, NEWTON_STEPS};
+
+/// Places of a grid of starts: over half a corner, and over the amplitude in clearances.
+const GRID: ([f64; 5], [f64; 6]) =
+    ([-1.0, -0.5, 0.01, 0.5, 1.0], [1.001, 1.02, 1.1, 1.5, 3.0, 10.0]);
+
+/// A steady state on a lining.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LiningState {
+    /// Rotor speed \[rad/s\].
+    pub speed_rad_s: f64,
+    /// Number of groups of blades that push.
+    pub pushing: usize,
+    /// Those groups and the push of each, the strongest first.
+    pub pushes: Vec<GroupPush>,
+    /// The point `w` of the gaps in the frame of the blades, `[Re w, Im w]` \[m\].
+    pub gap_m: [f64; 2],
+    /// Amplitude of the casing wave \[m\].
+    pub casing_m: f64,
+    /// Amplitude of the two blade modes \[rad\].
+    pub blade_rad: f64,
+    /// Growth of the least stable motion about it \[1/s\].
+    pub growth_1_s: f64,
+    /// Frequency of that motion in the frame of the blades; 0 for one that only grows
+    /// or decays \[rad/s\].
+    pub frequency_rad_s: f64,
+    /// Whether no motion grows.
+    pub stable: bool,
+}
+
+/// The push of a phase group.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct GroupPush {
+    /// Its blades, numbered from 1.
+    pub blades: Vec<u32>,
+    /// Sum of their pushes \[N\].
+    pub push_n: f64,
+}
+
+/// The two equations at one speed.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Balance<'a> {
+    pub lining: Lining<'a>,
+    pub joint: Joint<'a>,
+    speed: f64,
+    /// `L_c` at `nu`, and what multiplies the pushes.
+    casing: Complex<f64>,
+    pushed: Complex<f64>,
+    /// Size of both terms for one unit of `w` \[N/m\].
+    scale: f64,
+}
+
+/// A product of two complex numbers as a matrix that acts on the second.
+fn as_matrix(number: Complex<f64>) -> Matrix2<f64> {
+    Matrix2::new(number.re, -number.im, number.im, number.re)
+}
+
+impl<'a> Balance<'a> {
+    pub fn at(lining: Lining<'a>, speed: f64) -> Self {
+        let machine = lining.machine;
+        let joint = Joint::at(machine, speed);
+        let casing = joint.casing_stiffness(joint.nu);
+        let turned = Complex::new(1.0, joint.casing_friction);
+        let pushed = turned + casing * (joint.coupling_product / machine.blade_modal_stiffness);
+        let together = lining.stiffness_n_per_m * f64::from(machine.polygon.blades_per_side);
+        let scale = casing.norm() + pushed.norm() * together;
+        Self { lining, joint, speed, casing, pushed, scale }
+    }
+
+    /// Rotor speed \[rad/s\].
+    pub fn speed(&self) -> f64 {
+        self.speed
+    }
+
+    /// Of all sides: phase, and gap at a place.
+    fn gaps(&self, w: Vector2<f64>) -> impl Iterator<Item = (u32, Vector2<f64>, f64)> {
+        let machine = self.lining.machine;
+        let clearance = machine.clearance();
+        (0..machine.polygon.sides).map(move |side| {
+            let (cos, sin) = machine.polygon.direction(side);
+            (side, Vector2::new(cos, sin), clearance + w.x * cos + w.y * sin)
+        })
+    }
+
+    /// The push of all blades at a place, and how it changes: `dp = -tangent dw`.
+    fn pushes(&self, w: Vector2<f64>) -> (Vector2<f64>, Matrix2<f64>) {
+        let each = f64::from(self.lining.machine.polygon.blades_per_side);
+        self.gaps(w).fold((Vector2::zeros(), Matrix2::zeros()), |(push, slope), (_, n, gap)| {
+            if gap >= 0.0 {
+                return (push, slope);
+            }
+            let (here, stiff) = (self.lining.push(gap) * each, self.lining.slope(gap) * each);
+            (push + n * here, slope + n * n.transpose() * stiff)
+        })
+    }
+
+    /// Residual of the two equations and its derivative by `w`, both dimensionless but
+    /// for the length of `w`.
+    pub fn residual(&self, w: Vector2<f64>) -> (Vector2<f64>, Matrix2<f64>) {
+        let (push, slope) = self.pushes(w);
+        let (casing, pushed) = (as_matrix(self.casing), as_matrix(self.pushed));
+        ((casing * w - pushed * push) / self.scale, (casing + pushed * slope) / self.scale)
+    }
+
+    /// Newton's method; `None` where it does not settle.
+    pub fn solve(&self, start: Vector2<f64>) -> Option<Vector2<f64>> {
+        let length = self.length();
+        let mut w = start;
+        let (mut residual, mut jacobian) = self.residual(w);
+        for _ in 0..NEWTON_STEPS {
+            let step = jacobian.lu().solve(&residual)?;
+            // Halved where it overshoots, over a kink of the law.
+            let mut part = 1.0;
+            let mut next = self.residual(w - step);
+            while next.0.norm() > residual.norm() && part > 1.0 / 64.0 {
+                part *= 0.5;
+                next = self.residual(w - step * part);
+            }
+            w -= step * part;
+            (residual, jacobian) = next;
+            let size = w.norm().max(length);
+            if !size.is_finite() {
+                return None;
+            }
+            if step.norm() * part <= 4.0 * f64::EPSILON * size {
+                break;
+            }
+        }
+        (residual.norm() <= LINING_SETTLED * w.norm().max(length)).then_some(w)
+    }
+
+    /// Clearance and smoothing, as the length of this contact \[m\].
+    pub fn length(&self) -> f64 {
+        self.lining.machine.clearance().abs() + self.lining.smoothing_m
+    }
+
+    /// The place that neighbouring sides from the first on would hold if they were
+    /// springs, `eps = 0`.
+    fn sprung(&self, sides: u32) -> Option<Vector2<f64>> {
+        let machine = self.lining.machine;
+        let each = self.lining.stiffness_n_per_m * f64::from(machine.polygon.blades_per_side);
+        let clearance = machine.clearance() + 0.5 * self.lining.smoothing_m;
+        let (mut push, mut slope) = (Vector2::zeros(), Matrix2::zeros());
+        for side in 0..sides {
+            let (cos, sin) = machine.polygon.direction(side);
+            let n = Vector2::new(cos, sin);
+            push -= n * (each * clearance);
+            slope += n * n.transpose() * each;
+        }
+        let (casing, pushed) = (as_matrix(self.casing), as_matrix(self.pushed));
+        (casing + pushed * slope).lu().solve(&(pushed * push))
+    }
+
+    /// Starts of Newton's method.
+    fn starts(&self) -> Vec<Vector2<f64>> {
+        let polygon = &self.lining.machine.polygon;
+        let mut starts: Vec<Vector2<f64>> =
+            (1..=polygon.sides).filter_map(|sides| self.sprung(sides)).collect();
+        let (angles, sizes) = GRID;
+        for angle in angles {
+            // The first side pushes where w points against it.
+            let (sin, cos) = (polygon.delta * angle).sin_cos();
+            starts.extend(sizes.map(|size| Vector2::new(-cos, -sin) * (size * self.length())));
+        }
+        starts
+    }
+
+    /// Whether two places are the same up to a turn by whole sides.
+    fn alike(&self, one: Vector2<f64>, other: Vector2<f64>) -> bool {
+        let polygon = &self.lining.machine.polygon;
+        let length = one.norm().max(self.length());
+        (0..polygon.sides).any(|side| {
+            let (cos, sin) = polygon.direction(side);
+            let turned = Vector2::new(cos * other.x - sin * other.y, sin * other.x + cos * other.y);
+            (one - turned).norm() <= LINING_ALIKE * length
+        })
+    }
+
+    /// The state at a place.
+    pub fn state(&self, w: Vector2<f64>) -> Result<LiningState, HarmonicError> {
+        let machine = self.lining.machine;
+        let unsettled = HarmonicError::Unsettled { speed: self.speed };
+        let (push, slope) = self.pushes(w);
+        let tangent: Tangent = [[slope[(0, 0)], slope[(0, 1)]], [slope[(1, 0)], slope[(1, 1)]]];
+        let values = flow::eigenvalues(&self.joint, [self.joint.nu, 0.0], tangent)
+            .ok_or(unsettled.clone())?;
+        let worst = values.iter().copied().max_by(|a, b| a.re.total_cmp(&b.re)).ok_or(unsettled)?;
+        let fastest = values.iter().map(|value| value.norm()).fold(0.0, f64::max);
+        let each = f64::from(machine.polygon.blades_per_side);
+        let mut pushes: Vec<GroupPush> = self
+            .gaps(w)
+            .filter(|(_, _, gap)| *gap < 0.0)
+            .map(|(side, _, gap)| GroupPush {
+                blades: machine.polygon.blades_of_side(side),
+                push_n: self.lining.push(gap) * each,
+            })
+            .collect();
+        pushes.sort_by(|a, b| b.push_n.total_cmp(&a.push_n));
+        let push = Complex::new(push.x, push.y);
+        let lead = machine.radial_coupling + machine.friction_at(self.speed);
+        let bent = push * (lead * machine.blade_length / machine.blade_modal_stiffness);
+        // z = w + kappa l_b a, a = -(kappa + mu) l_b p/k_a.
+        let arm = machine.radial_coupling * machine.blade_length;
+        let casing = Complex::new(w.x, w.y) - bent * arm;
+        Ok(LiningState {
+            speed_rad_s: self.speed,
+            pushing: pushes.len(),
+            pushes,
+            gap_m: [w.x, w.y],
+            casing_m: casing.norm(),
+            blade_rad: bent.norm(),
+            growth_1_s: worst.re,
+            frequency_rad_s: worst.im.abs(),
+            stable: worst.re <= LINING_NEUTRAL * fastest,
+        })
+    }
+}
+
+impl Lining<'_> {
+    /// Every steady state at a speed \[rad/s\], by the number of groups that push; of
+    /// those that differ by a turn by whole groups, one.
+    ///
+    /// # Errors
+    /// A speed that is not finite, or stiffnesses that differ by too many powers of ten.
+    pub fn states(&self, speed: f64) -> Result<Vec<LiningState>, HarmonicError> {
+        if !speed.is_finite() {
+            return Err(HarmonicError::Speed(speed));
+        }
+        let balance = Balance::at(*self, speed);
+        let mut places: Vec<Vector2<f64>> = vec![Vector2::zeros()];
+        for start in balance.starts() {
+            if let Some(w) = balance.solve(start)
+                && !places.iter().any(|&known| balance.alike(known, w))
+            {
+                places.push(w);
+            }
+        }
+        let mut states =
+            places.into_iter().map(|w| balance.state(w)).collect::<Result<Vec<_>, _>>()?;
+        states.sort_by_key(|state| state.pushing);
+        Ok(states)
+    }
+}

@@ -1,0 +1,222 @@
+//! The push of a lining under one blade, its slope, and the stiffness of all blades
+//! together against a wave that runs round the rim (docs/theory.md, section 10).
+//!
+//! `P = 0` for `g >= 0`, `k_p g^2/(2 eps)` for `-eps < g < 0`, `k_p (-g - eps/2)` below.
+//! A wave of amplitude `r` in the gaps meets the stiffness
+//! `S(r) = (N/(2 pi r)) int P(g0 - r cos f) cos f df`, here without quadrature error.
+
+use std::f64::consts::TAU;
+
+use super::share::{mean, mean_change};
+use crate::contact::LiningLaw;
+use crate::harmonic::{HarmonicError, Joint};
+use crate::model::{ContactSurface, Machine};
+use crate::tolerances::{LINING_NARROWEST, LINING_STRIDES, LINING_WIDEST};
+
+/// A machine whose casing has a lining under the blades.
+#[derive(Clone, Copy, Debug)]
+pub struct Lining<'a> {
+    /// The machine, with its friction and its clearance, negative with preload.
+    pub machine: &'a Machine,
+    /// Stiffness `k_p` under one blade \[N/m\].
+    pub stiffness_n_per_m: f64,
+    /// Depth `eps` over which it sets in \[m\].
+    pub smoothing_m: f64,
+}
+
+impl<'a> Lining<'a> {
+    /// Of a machine and the surface of its contact.
+    ///
+    /// # Errors
+    /// A machine whose blades do not all share in one travelling wave: without corners,
+    /// or with modes of the disk whose diameters are not `+-n_d` modulo `N`.
+    pub fn of(machine: &'a Machine, surface: &ContactSurface) -> Result<Self, HarmonicError> {
+        let polygon = &machine.polygon;
+        if machine.nodal_diameters == 0.0 {
+            return Err(HarmonicError::NoWave);
+        }
+        if !polygon.has_corners() {
+            return Err(HarmonicError::no_corner(polygon));
+        }
+        if !Joint::has_one_wave(machine) {
+            return Err(HarmonicError::Refused {
+                key: "bladed_disk.nodal_diameters",
+                value: machine.blade_diameters.to_string(),
+                allowed: "those of the casing, or n_b = +-n_d modulo N, for one wave of both"
+                    .to_string(),
+            });
+        }
+        Ok(Self {
+            machine,
+            stiffness_n_per_m: surface.stiffness_n_per_m,
+            smoothing_m: surface.smoothing_m,
+        })
+    }
+
+    /// Depth to which every blade is pressed in at rest, `-g0` \[m\]; negative where there
+    /// is a clearance.
+    #[must_use]
+    pub fn preload_m(&self) -> f64 {
+        -self.machine.clearance()
+    }
+
+    /// Push at a gap `g` \[N\].
+    #[must_use]
+    pub fn push(&self, gap: f64) -> f64 {
+        self.law().push(gap)
+    }
+
+    /// How much the push grows as the gap closes, `-dP/dg` \[N/m\].
+    #[must_use]
+    pub fn slope(&self, gap: f64) -> f64 {
+        self.law().slope(gap)
+    }
+
+    fn law(&self) -> LiningLaw {
+        let Self { stiffness_n_per_m, smoothing_m, .. } = *self;
+        LiningLaw { stiffness_n_per_m, smoothing_m }
+    }
+
+    /// Stiffness of all blades against a small wave at rest: `S0 = N k_p/2`, zero with a
+    /// clearance \[N/m\].
+    #[must_use]
+    pub fn stiffness_at_rest(&self) -> f64 {
+        0.5 * f64::from(self.machine.polygon.blades) * self.slope(self.machine.clearance())
+    }
+
+    /// Stiffness against a wave so large that blades lift off for half of each turn,
+    /// `N k_p/4` \[N/m\].
+    #[must_use]
+    pub fn stiffness_far_out(&self) -> f64 {
+        0.25 * f64::from(self.machine.polygon.blades) * self.stiffness_n_per_m
+    }
+
+    /// Stiffness `S(r)` of all blades against a wave of amplitude `r > 0` in the gaps,
+    /// on a rim with many blades \[N/m\].
+    #[must_use]
+    pub fn stiffness_of_wave(&self, r: f64) -> f64 {
+        let depth = self.preload_m() / r;
+        let scale = f64::from(self.machine.polygon.blades) * self.stiffness_n_per_m / TAU;
+        scale * mean(depth, self.smoothing_m / r)
+    }
+
+    /// How fast that stiffness changes with the amplitude, `r dS/dr` \[N/m\].
+    ///
+    /// The mean of `d(x/r)` over the lining depends on `r` through its two ends only.
+    #[must_use]
+    pub fn stiffness_change(&self, r: f64) -> f64 {
+        let (depth, width) = (self.preload_m() / r, self.smoothing_m / r);
+        let scale = f64::from(self.machine.polygon.blades) * self.stiffness_n_per_m / TAU;
+        scale * mean_change(depth, width)
+    }
+
+    /// Every amplitude of a wave that meets this stiffness, in increasing order \[m\].
+    #[must_use]
+    pub fn amplitudes(&self, stiffness: f64) -> Vec<f64> {
+        let length = self.preload_m().abs() + self.smoothing_m;
+        let apart = |r: f64| self.stiffness_of_wave(r) - stiffness;
+        let ratio = (LINING_WIDEST / LINING_NARROWEST).powf(1.0 / LINING_STRIDES);
+        let mut found = Vec::new();
+        let (mut near, mut far) = (length * LINING_NARROWEST, length * LINING_NARROWEST * ratio);
+        while far < length * LINING_WIDEST {
+            if apart(near) * apart(far) < 0.0 || apart(far) == 0.0 {
+                found.push(between([near, far], apart));
+            }
+            (near, far) = (far, far * ratio);
+        }
+        found
+    }
+}
+
+/// The place between two of different sign where a function changes its sign.
+pub(super) fn between([mut low, mut high]: [f64; 2], of: impl Fn(f64) -> f64) -> f64 {
+    let (start, end) = (of(low), of(high));
+    if start == 0.0 || end == 0.0 {
+        return if start == 0.0 { low } else { high };
+    }
+    // Two hundred halvings exhaust any bracket of two numbers of like size.
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if middle == low || middle == high {
+            break;
+        }
+        let value = of(middle);
+        if (value > 0.0) == (start > 0.0) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    0.5 * (low + high)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    fn machine(radius: &str) -> Machine {
+        let mut scene = Scene::base();
+        scene.set("casing.radius_m", radius).unwrap();
+        scene.machine()
+    }
+
+    fn lining(machine: &Machine, smoothing_m: f64) -> Lining<'_> {
+        let surface = ContactSurface { stiffness_n_per_m: 27e3, smoothing_m, ..Default::default() };
+        Lining::of(machine, &surface).unwrap()
+    }
+
+    /// The definition, by the midpoint rule.
+    fn plain(lining: &Lining, r: f64, parts: u32) -> f64 {
+        let sum: f64 = (0..parts)
+            .map(|k| {
+                let cos = (TAU * (f64::from(k) + 0.5) / f64::from(parts)).cos();
+                lining.push(lining.machine.clearance() - r * cos) * cos
+            })
+            .sum();
+        f64::from(lining.machine.polygon.blades) * sum / (f64::from(parts) * r)
+    }
+
+    #[test]
+    fn stiffness_of_a_wave_is_its_definition() {
+        for radius in ["0.49988", "0.4999002", "0.50"] {
+            let machine = machine(radius);
+            for smoothing in [0.0, 1e-12, 1e-9, 1e-7, 1e-6, 3e-5, 1e-3] {
+                let lining = lining(&machine, smoothing);
+                for r in [1e-5, 2.1e-5, 5e-5, 1.2e-4, 1e-3] {
+                    let (value, plain) = (lining.stiffness_of_wave(r), plain(&lining, r, 40_000));
+                    assert!(
+                        (value - plain).abs() < 1e-6 * 297e3,
+                        "{smoothing} {r}: {value} {plain}"
+                    );
+                    let step = 1e-5 * r;
+                    let slope = (lining.stiffness_of_wave(r + step)
+                        - lining.stiffness_of_wave(r - step))
+                        * r
+                        / (2.0 * step);
+                    let change = lining.stiffness_change(r);
+                    assert!(
+                        (change - slope).abs() < 1e-4 * 297e3,
+                        "{smoothing} {r}: {change} {slope}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn amplitudes_are_found_and_limits_kept() {
+        let machine = machine("0.49988");
+        let lining = lining(&machine, 1e-6);
+        assert_eq!(lining.stiffness_at_rest(), 297e3);
+        for r in [2.2e-5, 6.8e-5, 1e-2] {
+            let found = lining.amplitudes(lining.stiffness_of_wave(r));
+            assert_eq!(found.len(), 1);
+            assert!((found[0] / r - 1.0).abs() < 1e-9, "{found:?} {r}");
+        }
+        assert!(lining.amplitudes(0.999 * lining.stiffness_far_out()).is_empty());
+        assert!(lining.amplitudes(1.001 * lining.stiffness_at_rest()).is_empty());
+        let step = (lining.push(-1e-6) - lining.push(-1e-6 - 1e-15)).abs();
+        assert!(step < 1e-10 && lining.push(1e-9) == 0.0);
+    }
+}

@@ -1,0 +1,232 @@
+//! Whirl on a rim of many blades (docs/theory.md, section 10): a travelling wave of
+//! pushes that both structures carry, each at its own frequency.
+//!
+//! The distance between tips and casing, `w = z - kappa l_b a`, has constant size and
+//! turns at `s` in the frame of the blades; `p = w/B(omega)` must point against it, so
+//! `Im B = 0` and `Re B < 0`. `Im B |casing|^2 |blades|^2` is a polynomial of degree six
+//! in `omega`; all its roots are found.
+
+use nalgebra::{Complex, DMatrix};
+use serde::Serialize;
+
+use super::eigen::eigenvalues;
+use super::joint::Joint;
+use crate::model::real_roots::{Coefficients, Point, product, real_roots, sum};
+use crate::tolerances::REAL_COMPLIANCE;
+
+/// A wave that blades and casing carry round together, for one unit of `|w|`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct RimWave {
+    /// Casing frequency in the standing frame; negative turns backward \[rad/s\].
+    pub omega_rad_s: f64,
+    /// What the blades feel, `s = omega - nu`; negative where the contact passes
+    /// backward over the blades of a rotor that turns forward \[rad/s\].
+    pub s_rad_s: f64,
+    /// Push over amplitude, `S = |p|/|w| = -1/Re B` \[N/m\].
+    pub stiffness_n_per_m: f64,
+    /// Amplitude of the casing over that of `w`, `|z|/|w|`.
+    pub casing_per_w: f64,
+    /// Amplitude of the blades over that of `w`, `|a|/|w|` \[rad/m\].
+    pub blades_per_w: f64,
+    /// Whether neighbouring motions on a rigid rim converge to it. Of a pair it is the
+    /// one of larger stiffness; the other is the threshold between it and rest.
+    pub attracts: bool,
+    /// Growth of the least stable motion about it on a rigid rim, beside a mere shift of
+    /// the wave; below zero where it attracts \[1/s\].
+    pub growth_per_s: f64,
+}
+
+/// Every whirl on the rim at one speed, by increasing stiffness. Empty where blades and
+/// casing do not meet in one wave ([`Joint::has_one_wave`]), and where nothing is lost, so that any frequency would do.
+#[must_use]
+pub fn rim_waves(joint: &Joint) -> Vec<RimWave> {
+    let machine = joint.machine;
+    if !Joint::has_one_wave(machine) {
+        return Vec::new();
+    }
+    let scaled = Scaled::of(joint);
+    let breaks = [
+        0.0,
+        1.0,
+        -1.0,
+        scaled.turn,
+        scaled.turn + scaled.blade_rate,
+        scaled.turn - scaled.blade_rate,
+    ];
+    let roots = real_roots(&|from, to| scaled.imaginary(from, to), &breaks);
+    let waves = roots.iter().filter_map(|root| scaled.wave(joint, root * machine.omega_c));
+    let mut waves: Vec<RimWave> = waves.collect();
+    waves.sort_by(|a, b| a.stiffness_n_per_m.total_cmp(&b.stiffness_n_per_m));
+    waves
+}
+
+/// What a wave on the rim takes and gives, where rigid contact holds `|w| = g0`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct RimLoads {
+    /// Push of all blades \[N\].
+    pub push_n: f64,
+    /// Amplitude `|z|` of the casing \[m\].
+    pub casing_m: f64,
+    /// Amplitude `|a|` of the blades \[rad\].
+    pub blade_rad: f64,
+    /// Power of the damper of the casing, `d_c omega^2 |z|^2` \[W\].
+    pub casing_w: f64,
+    /// Power of the damping of the blades, `d_a s^2 |a|^2` \[W\].
+    pub blades_w: f64,
+    /// Heat of tips that slide over a casing at rest, `mu |p| |Omega| R_c` \[W\].
+    pub friction_w: f64,
+}
+
+impl RimWave {
+    /// Its loads at the clearance of the machine. Without friction the rotor gives the
+    /// sum of the two dampers, of which the casing takes `omega/nu` and the blades
+    /// `|s|/nu` (Manley and Rowe).
+    #[must_use]
+    pub fn loads(&self, joint: &Joint) -> RimLoads {
+        let machine = joint.machine;
+        let clearance = machine.clearance();
+        let push = self.stiffness_n_per_m * clearance;
+        let (casing, blades) = (self.casing_per_w * clearance, self.blades_per_w * clearance);
+        let radius = machine.blade_length + clearance;
+        let sliding = joint.nu.abs() / machine.nodal_diameters * radius;
+        RimLoads {
+            push_n: push,
+            casing_m: casing,
+            blade_rad: blades,
+            casing_w: machine.casing_damping * (self.omega_rad_s * casing).powi(2),
+            blades_w: machine.blade_modal_damping * (self.s_rad_s * blades).powi(2),
+            friction_w: machine.friction * push * sliding,
+        }
+    }
+
+    /// The stable wave of a speed that is stiffest.
+    #[must_use]
+    pub fn lasting(waves: &[Self]) -> Option<Self> {
+        waves.iter().rev().find(|wave| wave.attracts).copied()
+    }
+}
+
+/// Both structures in units of their stiffness, frequencies in `omega_c`.
+struct Scaled {
+    /// `nu/omega_c`.
+    turn: f64,
+    /// `omega_bd/omega_c`.
+    blade_rate: f64,
+    casing_damping: f64,
+    blade_damping: f64,
+    casing_friction: f64,
+    /// `c2 k_c/k_a`.
+    coupling: f64,
+}
+
+impl Scaled {
+    fn of(joint: &Joint) -> Self {
+        let machine = joint.machine;
+        Self {
+            turn: joint.nu / machine.omega_c,
+            blade_rate: machine.omega_bd / machine.omega_c,
+            casing_damping: 2.0 * machine.casing_damping_ratio,
+            blade_damping: 2.0 * machine.blade_damping_ratio,
+            casing_friction: joint.casing_friction,
+            coupling: joint.coupling_product * machine.casing_stiffness
+                / machine.blade_modal_stiffness,
+        }
+    }
+
+    /// `Im B |casing|^2 |blades|^2` from one frequency to another.
+    fn imaginary(&self, from: Point, to: Point) -> Coefficients {
+        // The place of a frequency among those of the blades, y = s/omega_bd.
+        let seen = |u: Point| (u.p - self.turn * u.q) / self.blade_rate;
+        let stiff = |x: f64, y: f64, u: Point, v: Point| u.q * v.q - x * y;
+        let drag = |x: f64, y: f64, u: Point, v: Point| 0.5 * (x * v.q + y * u.q);
+        let quadratic =
+            |of: &dyn Fn(Point, Point) -> f64| vec![of(from, from), 2.0 * of(from, to), of(to, to)];
+        let casing = [
+            quadratic(&|u, v| stiff(u.p, v.p, u, v)),
+            quadratic(&|u, v| self.casing_damping * drag(u.p, v.p, u, v)),
+        ];
+        let blades = [
+            quadratic(&|u, v| stiff(seen(u), seen(v), u, v)),
+            quadratic(&|u, v| self.blade_damping * drag(seen(u), seen(v), u, v)),
+        ];
+        let square =
+            |[re, im]: &[Coefficients; 2]| sum(1.0, &product(re, re), 1.0, &product(im, im));
+        let driven = sum(self.casing_friction, &casing[0], -1.0, &casing[1]);
+        let casing_part = product(&driven, &square(&blades));
+        let blade_part = product(&blades[1], &square(&casing));
+        sum(1.0, &casing_part, -self.coupling, &blade_part)
+    }
+
+    /// The wave of one root \[rad/s\], if it pushes.
+    fn wave(&self, joint: &Joint, omega: f64) -> Option<RimWave> {
+        let compliance = joint.compliance(omega);
+        // At an undamped resonance both parts change their sign through infinity.
+        let real = compliance.im.abs() <= REAL_COMPLIANCE * compliance.re.abs();
+        if !(real && compliance.re < 0.0 && compliance.re.is_finite()) {
+            return None;
+        }
+        let stiffness = -compliance.re.recip();
+        let s = omega - joint.nu;
+        let turned = Complex::new(1.0, joint.casing_friction);
+        let growth = self.growth(joint, omega / joint.machine.omega_c)?;
+        Some(RimWave {
+            omega_rad_s: omega,
+            s_rad_s: s,
+            stiffness_n_per_m: stiffness,
+            casing_per_w: stiffness * (turned / joint.casing_stiffness(omega)).norm(),
+            blades_per_w: stiffness * joint.blade_lever() / joint.blade_stiffness(s).norm(),
+            attracts: growth < 0.0,
+            growth_per_s: growth * joint.machine.omega_c,
+        })
+    }
+
+    /// Growth of small motions about a wave, in `omega_c`. The wave turns a little
+    /// ahead, the push stays in its direction: with `G = 1/B` and growth `l`,
+    /// `G(x - i l) + conj G(x - i conj l) = 2 G(x)`. One root is zero, a mere shift.
+    fn growth(&self, joint: &Joint, x: f64) -> Option<f64> {
+        let y = (x - self.turn) / self.blade_rate;
+        let i = Complex::i();
+        // Both stiffnesses at x - i l, in powers of l.
+        let structure = |x: f64, rate: f64, damping: f64| {
+            [
+                Complex::new(1.0 - x * x, damping * x),
+                (i * 2.0 * x + damping) / rate,
+                Complex::new(1.0 / (rate * rate), 0.0),
+            ]
+        };
+        let casing = structure(x, 1.0, self.casing_damping);
+        let blades = structure(y, self.blade_rate, self.blade_damping);
+        let turned = Complex::new(1.0, self.casing_friction);
+        let both = |j: usize| blades[j] * turned + casing[j] * self.coupling;
+        let over = convolved(&casing, &blades);
+        let under = [both(0), both(1), both(2)];
+        let mirror: Vec<_> = under.iter().map(Complex::conj).collect();
+        let (crossed, square) = (convolved(&over, &mirror), convolved(&under, &mirror));
+        let here = (joint.compliance(x * joint.machine.omega_c) * joint.machine.casing_stiffness)
+            .re
+            .recip();
+        let size = crossed.len() - 1;
+        let row = |power: usize| {
+            let squared = square.get(power).map_or(0.0, |value| value.re);
+            2.0 * (crossed[power].re - here * squared)
+        };
+        let leading = row(size);
+        // The companion matrix of what is left without the root at zero.
+        let matrix = DMatrix::from_fn(size - 1, size - 1, |r, c| match (r, c) {
+            (0, c) => -row(size - 1 - c) / leading,
+            (r, c) => f64::from(u8::from(r == c + 1)),
+        });
+        let values = eigenvalues(matrix)?;
+        Some(values.iter().map(|value| value.re).fold(f64::NEG_INFINITY, f64::max))
+    }
+}
+
+fn convolved(a: &[Complex<f64>], b: &[Complex<f64>]) -> Vec<Complex<f64>> {
+    let mut product = vec![Complex::new(0.0, 0.0); (a.len() + b.len()).saturating_sub(1)];
+    for (i, x) in a.iter().enumerate() {
+        for (slot, y) in product.iter_mut().skip(i).zip(b) {
+            *slot += x * y;
+        }
+    }
+    product
+}

@@ -1,0 +1,272 @@
+//! Whirl on the polygon of the blades (docs/theory.md, section 10): the wave slides along
+//! one side, strikes the next group at the corner and passes on, for ever. A fixed point
+//! of the map from corner to corner, in the linearised frame of the blades.
+//!
+//! For a given passing time the map is linear, so its fixed point is the solution of five
+//! linear equations; one equation is left for the time itself, that the side ends.
+
+use nalgebra::{DMatrix, SMatrix};
+use serde::Serialize;
+use strum::{Display, IntoStaticStr};
+
+use super::eigen::eigenvalues;
+use super::joint::Joint;
+use super::whirl_arc::{Free, States, WhirlArc};
+use super::{HarmonicError, error};
+use crate::model::Machine;
+use crate::tolerances::{WHIRL_ENDS, WHIRL_LOOKS, WHIRL_RATES, WHIRL_SAMPLES};
+
+/// Why there is no whirl at some speed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Display, IntoStaticStr)]
+#[serde(rename_all = "kebab-case")]
+#[strum(serialize_all = "kebab-case")]
+pub enum NoWhirl {
+    /// Tips that are not inclined, or whose blades give nothing back: `c2 = 0`.
+    NotJoined,
+    /// Corners of a right angle or less stop the wave.
+    StopsAtCorner,
+    /// No motion that the blades push repeats from corner to corner.
+    NoBalance,
+    /// One repeats, but the wave would have to be pulled to stay on a side.
+    Lifts,
+    /// One repeats, but neighbouring motions leave it.
+    Unstable,
+}
+
+/// A lasting whirl.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct WhirlOrbit {
+    /// Time from corner to corner \[s\].
+    pub passing_time_s: f64,
+    /// Casing frequency in the standing frame \[rad/s\].
+    pub omega_rad_s: f64,
+    /// What the blades feel, `s = omega - nu`; negative where the contact passes against
+    /// the phase \[rad/s\].
+    pub s_rad_s: f64,
+    /// Mean push of all blades, impulses included \[N\].
+    pub mean_push_n: f64,
+    /// Smallest push along a side \[N\].
+    pub least_push_n: f64,
+    /// Impulse on the group that is struck at a corner \[N s\].
+    pub corner_impulse_n_s: f64,
+    /// Largest `|z|` of the casing \[m\].
+    pub casing_m: f64,
+    /// Largest `|a|` of the blades \[rad\].
+    pub blade_rad: f64,
+    /// Size of the largest multiplier of the map; below one it is stable.
+    pub multiplier: f64,
+}
+
+/// Whirl at one rotor speed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WhirlPoint {
+    /// Rotor speed \[rad/s\].
+    pub speed_rad_s: f64,
+    /// The lasting whirl, or why there is none.
+    pub outcome: Result<WhirlOrbit, NoWhirl>,
+}
+
+/// Lasting whirl over a list of rotor speeds \[rad/s\].
+///
+/// # Errors
+/// A polygon without corners, modes of the disk of other diameters than the casing, or a
+/// speed that is not finite.
+pub fn whirl_over(machine: &Machine, speeds: &[f64]) -> Result<Vec<WhirlPoint>, HarmonicError> {
+    if !machine.polygon.has_corners() {
+        return Err(HarmonicError::no_corner(&machine.polygon));
+    }
+    error::refuse_other_diameters(machine)?;
+    error::refuse_preload(machine)?;
+    if let Some(&speed) = speeds.iter().find(|speed| !speed.is_finite()) {
+        return Err(HarmonicError::Speed(speed));
+    }
+    let point = |&speed: &f64| WhirlPoint { speed_rad_s: speed, outcome: at(machine, speed) };
+    Ok(speeds.iter().map(point).collect())
+}
+
+/// Of all motions that repeat the one that lasts, or what is wrong with the best.
+fn at(machine: &Machine, speed: f64) -> Result<WhirlOrbit, NoWhirl> {
+    let joint = Joint::at(machine, speed);
+    if joint.coupling_product == 0.0 {
+        return Err(NoWhirl::NotJoined);
+    }
+    // A wave that is slower than the rotor passes against the phase.
+    let sense = if speed < 0.0 { -1.0 } else { 1.0 };
+    let direction = -sense * joint.coupling_product.signum();
+    let arc = WhirlArc::of(&joint, direction);
+    if !arc.passes() {
+        return Err(NoWhirl::StopsAtCorner);
+    }
+    let mut reason = NoWhirl::NoBalance;
+    for (time, free) in repeating(&arc, &joint) {
+        match orbit(&joint, &arc, time, &free) {
+            Ok(orbit) => return Ok(orbit),
+            Err(NoWhirl::Unstable) => reason = NoWhirl::Unstable,
+            Err(other) if reason == NoWhirl::NoBalance => reason = other,
+            Err(_) => {}
+        }
+    }
+    Err(reason)
+}
+
+/// Every motion that repeats, with the time of its arc, the fastest first.
+fn repeating(arc: &WhirlArc, joint: &Joint) -> Vec<(f64, Free)> {
+    let machine = joint.machine;
+    let side = 2.0 * machine.polygon.delta;
+    // Passing times of waves that turn this fast in the frame of the blades.
+    let [slow, fast] = WHIRL_RATES.map(|part| part * machine.omega_bd / machine.omega_c);
+    let step = (fast / slow).powf(1.0 / WHIRL_LOOKS as f64);
+    let mut found = Vec::new();
+    let miss = |time: f64| balanced(arc, time).map(|(miss, _)| miss);
+    let mut last = (side / fast, miss(side / fast));
+    for _ in 0..WHIRL_LOOKS {
+        let next = (last.0 * step, miss(last.0 * step));
+        if let (Some(before), Some(after)) = (last.1, next.1)
+            && (before > 0.0) != (after > 0.0)
+        {
+            let time = halved(&miss, last.0, next.0, before > 0.0);
+            // A change of sign through infinity is no balance.
+            if let Some((left, free)) = balanced(arc, time)
+                && left.abs() <= WHIRL_ENDS * arc.half().abs()
+            {
+                found.push((time, free));
+            }
+        }
+        last = next;
+    }
+    found
+}
+
+fn halved(miss: &impl Fn(f64) -> Option<f64>, low: f64, high: f64, above: bool) -> f64 {
+    let (mut low, mut high) = (low, high);
+    // Halving an interval 200 times ends at neighbouring doubles.
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            break;
+        }
+        match miss(middle) {
+            Some(left) if (left > 0.0) == above => low = middle,
+            _ => high = middle,
+        }
+    }
+    0.5 * (low + high)
+}
+
+/// The motion that repeats after this time, and how far from the end of the side it is
+/// then.
+fn balanced(arc: &WhirlArc, time: f64) -> Option<(f64, Free)> {
+    let motion = arc.over(time);
+    let map = |free: &Free| arc.free(&arc.end(&motion, free).states);
+    let still = map(&Free::zeros());
+    let mut slope = SMatrix::<f64, 5, 5>::zeros();
+    for k in 0..5 {
+        let mut unit = Free::zeros();
+        unit[k] = 1.0;
+        slope.set_column(k, &(map(&unit) - still));
+    }
+    let free = (SMatrix::identity() - slope).lu().solve(&still)?;
+    let miss = arc.end(&motion, &free).place + arc.half();
+    miss.is_finite().then_some((miss, free))
+}
+
+/// The orbit of a fixed point, judged.
+fn orbit(joint: &Joint, arc: &WhirlArc, time: f64, free: &Free) -> Result<WhirlOrbit, NoWhirl> {
+    let machine = joint.machine;
+    let end = arc.end(&arc.over(time), free);
+    let samples = Samples::along(arc, time, &arc.start(free));
+    let least = samples.extreme(|states| -arc.push(states)).map(|most| -most);
+    // Along the side there is no way back over the corner behind.
+    let half = arc.half().abs();
+    let inside = |states: &States| arc.place(states).abs() <= half * (1.0 + WHIRL_ENDS);
+    if end.pushed + end.impulse <= 0.0 {
+        // It would hang on the blades as a whole.
+        return Err(NoWhirl::NoBalance);
+    }
+    let least = least.filter(|least| *least >= 0.0 && end.impulse >= 0.0 && samples.all(inside));
+    let least = least.ok_or(NoWhirl::Lifts)?;
+    let multiplier = multiplier(arc, time, free).ok_or(NoWhirl::Unstable)?;
+    if multiplier >= 1.0 {
+        return Err(NoWhirl::Unstable);
+    }
+    let size =
+        |k: usize| move |states: &States| states[k] * states[k] + states[k + 1] * states[k + 1];
+    let largest = |k: usize| samples.extreme(size(k)).map_or(f64::NAN, f64::sqrt);
+    let length = machine.clearance();
+    let force = machine.casing_stiffness * length;
+    let passing_time = time / machine.omega_c;
+    let s = 2.0 * machine.polygon.delta * arc.half().signum() / passing_time;
+    Ok(WhirlOrbit {
+        passing_time_s: passing_time,
+        omega_rad_s: joint.nu + s,
+        s_rad_s: s,
+        mean_push_n: (end.pushed + end.impulse) / time * force,
+        least_push_n: least * force,
+        corner_impulse_n_s: end.impulse * force / machine.omega_c,
+        casing_m: largest(0) * length,
+        blade_rad: largest(2) * length / machine.blade_length,
+        multiplier,
+    })
+}
+
+/// Size of the largest multiplier of the map from corner to corner; the time of an arc
+/// changes so that it ends at the corner.
+fn multiplier(arc: &WhirlArc, time: f64, free: &Free) -> Option<f64> {
+    let motion = arc.over(time);
+    let here = arc.end(&motion, free);
+    let (before, _) = WhirlArc::moved(&motion, &arc.start(free));
+    let rates = arc.rates(&before);
+    // Both are linear in the states before the corner.
+    let by_time = arc.free(&arc.corner(&rates, 0.0).states);
+    let place_by_time = arc.place(&rates);
+    let base = arc.free(&here.states);
+    let mut map = DMatrix::zeros(5, 5);
+    for k in 0..5 {
+        let mut changed = *free;
+        changed[k] += 1.0;
+        let end = arc.end(&motion, &changed);
+        let later = -(end.place - here.place) / place_by_time;
+        let column = arc.free(&end.states) - base + by_time * later;
+        for row in 0..5 {
+            map[(row, k)] = column[row];
+        }
+    }
+    let values = eigenvalues(map)?;
+    Some(values.iter().map(|value| value.norm()).fold(0.0, f64::max))
+}
+
+/// States at equal times along an arc.
+struct Samples(Vec<States>);
+
+impl Samples {
+    fn along(arc: &WhirlArc, time: f64, start: &States) -> Self {
+        let motion = arc.over(time / WHIRL_SAMPLES as f64);
+        let mut states = Vec::with_capacity(WHIRL_SAMPLES + 1);
+        let mut here = *start;
+        states.push(here);
+        for _ in 0..WHIRL_SAMPLES {
+            here = WhirlArc::moved(&motion, &here).0;
+            states.push(here);
+        }
+        Self(states)
+    }
+
+    fn all(&self, holds: impl Fn(&States) -> bool) -> bool {
+        self.0.iter().all(holds)
+    }
+
+    /// The largest of a smooth quantity, between samples by a parabola.
+    fn extreme(&self, of: impl Fn(&States) -> f64) -> Option<f64> {
+        let values: Vec<f64> = self.0.iter().map(of).collect();
+        let (place, most) =
+            values.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let neighbours =
+            place.checked_sub(1).and_then(|i| values.get(i)).zip(values.get(place + 1));
+        let Some((before, after)) = neighbours else { return Some(most) };
+        let bend = before - 2.0 * most + after;
+        if bend >= 0.0 {
+            return Some(most);
+        }
+        Some(most - (after - before).powi(2) / (8.0 * bend))
+    }
+}

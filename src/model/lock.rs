@@ -1,0 +1,228 @@
+//! The lock of a machine in closed form, for blades that do not turn the gap: the speeds
+//! at which pushes alone hold it, and the pushes (docs/theory.md, sections 4 and 10).
+//!
+//! Two neighbouring phase groups push with `q = -(g0/cos delta)/H`, `H = B(nu)` the joint
+//! compliance; both push where `|arg(-1/H)| <= delta`. With `K = k_c - nu^2 m_c`,
+//! `D = d_c nu` and `c = c2/k_a`, `1/H` is a positive number times
+//! `K + c (K^2 + D^2) + mu_c D + i (D - mu_c K)`.
+
+use super::real_roots::{Coefficients, Point, product, real_roots, sum};
+use super::{Machine, Number};
+
+/// Speeds at which a lock is held by pushes alone, as magnitudes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LockWindow<T = f64> {
+    /// The lowest; 0 where a lock holds at standstill \[rad/s\].
+    pub from: T,
+    /// The highest, where there is one \[rad/s\].
+    pub to: Option<T>,
+}
+
+impl<T: Number> Machine<T> {
+    /// Speed above which both multipliers of the locked motion are compressive for a
+    /// rotor that turns forward; without friction and inclined tips
+    /// `Omega_lock = Omega_c [zeta cot delta + sqrt(1 + zeta^2 cot^2 delta)]`
+    /// \[rad/s\]; none without corners, and where no speed has a lock.
+    #[must_use]
+    pub fn lock_speed(&self) -> Option<T> {
+        self.lock_window(1.0).map(|window| window.from)
+    }
+
+    /// As `lock_speed`, of a rotor that turns in the sense of this speed, as a magnitude.
+    #[must_use]
+    pub fn lock_speed_toward(&self, speed: f64) -> Option<T> {
+        self.lock_window(speed).map(|window| window.from)
+    }
+
+    /// The lowest window of speeds with a lock, for a rotor that turns in the sense of
+    /// `toward`.
+    #[must_use]
+    pub fn lock_window(&self, toward: f64) -> Option<LockWindow<T>> {
+        self.lock_windows(toward).into_iter().next()
+    }
+
+    /// Every window of speeds with a lock, in order, for a rotor that turns in the sense
+    /// of `toward`. Empty where inclined tips have modes of other diameters than the
+    /// casing: no single wave then holds the pair.
+    #[must_use]
+    pub fn lock_windows(&self, toward: f64) -> Vec<LockWindow<T>> {
+        let slope = self.polygon.delta.tan();
+        if !self.casing_is_joined() {
+            let from = self.threshold(1.0 / slope);
+            return from.map(|from| LockWindow { from, to: None }).into_iter().collect();
+        }
+        self.windows(slope, toward)
+    }
+
+    /// Speed down to which the printed equality algorithm holds a lock, one
+    /// multiplier tensile: as `lock_speed` with `tan delta` for `cot delta`. None with
+    /// friction, which no pull has.
+    #[must_use]
+    pub fn adhesive_speed(&self) -> Option<T> {
+        if !self.is_joined() {
+            return self.threshold(self.polygon.delta.tan());
+        }
+        let slope = 1.0 / self.polygon.delta.tan();
+        let windows = if self.friction.re() == 0.0 { self.windows(slope, 1.0) } else { Vec::new() };
+        windows.first().map(|window| window.from)
+    }
+
+    fn threshold(&self, slope: f64) -> Option<T> {
+        let x = self.casing_damping_ratio * slope;
+        let factor = x + (x * x + 1.0).sqrt();
+        let critical = self.critical_speed()?;
+        self.polygon.has_corners().then(|| critical * factor)
+    }
+
+    /// The windows in which `|tan arg(-1/H)|` is not above a slope.
+    fn windows(&self, slope: f64, toward: f64) -> Vec<LockWindow<T>> {
+        let Some(critical) = self.critical_speed() else { return Vec::new() };
+        if !self.polygon.has_corners() || self.has_other_diameters() {
+            return Vec::new();
+        }
+        let balance = Balance {
+            slope,
+            damping: self.casing_damping_ratio * 2.0,
+            // In a mirrored machine both the drag and the friction change their sign.
+            friction: self.casing_friction_at(T::one()),
+            coupling: self.coupling_product_at(T::from(toward)) * self.casing_stiffness
+                / self.blade_modal_stiffness,
+        };
+        let speed = |(x, sign): (f64, f64)| balance.derived(x, sign) * critical;
+        let mut windows: Vec<LockWindow<T>> = Vec::new();
+        // Whether the interval before this end has a lock.
+        let mut inside = false;
+        let mut below = None;
+        let ends = balance.ends();
+        for place in 0..=ends.len() {
+            let end = ends.get(place).copied();
+            let from = below.map_or(0.0, |(x, _)| x);
+            let middle = end.map_or(2.0 * from + 1.0, |(x, _): (f64, f64)| 0.5 * (from + x));
+            let holds = balance.holds(middle);
+            if holds && !inside {
+                windows.push(LockWindow { from: below.map_or(T::zero(), speed), to: None });
+            }
+            if let Some(window) = windows.last_mut().filter(|_| inside && !holds) {
+                window.to = below.map(speed);
+            }
+            (inside, below) = (holds, end);
+        }
+        windows
+    }
+
+    /// Amplitude of the locked casing wave, `g0/cos delta` \[m\]; none without corners,
+    /// and where inclined tips give way, so that it depends on the speed.
+    #[must_use]
+    pub fn locked_amplitude(&self) -> Option<T> {
+        let still = self.polygon.has_corners() && self.radial_coupling.re() == 0.0;
+        still.then(|| self.clearance() / self.polygon.delta.cos())
+    }
+
+    /// Group multipliers `[lambda_a, lambda_b]` of the locked motion at a
+    /// constant speed, `psi_b = psi_a + 2 delta`, for blades that do not turn the gap
+    /// \[N\]: `(g0/2 cos delta)(Re(1/H)/cos delta -+ Im(1/H)/sin delta)`; without
+    /// friction and inclined tips `1/H = K + i D` with `K = k_c - nu^2 m_c`,
+    /// `D = d_c nu`. Negative is a push. None without corners, with an interference fit, and where inclined tips
+    /// have modes of other diameters than the casing.
+    #[must_use]
+    pub fn locked_multipliers(&self, speed: T) -> Option<[T; 2]> {
+        if !self.polygon.has_corners() || self.clearance().re() <= 0.0 {
+            return None;
+        }
+        let nu = self.nu(speed);
+        let (sin, cos) = self.polygon.delta.sin_cos();
+        let mut stiff = self.casing_stiffness - nu * nu * self.casing_mass;
+        let mut drag = self.casing_damping * nu;
+        if self.casing_is_joined() {
+            if self.has_other_diameters() {
+                return None;
+            }
+            [stiff, drag] = self.joined(stiff, drag, speed);
+        }
+        let (stiff, drag) = (stiff / cos, drag / sin);
+        let scale = self.clearance() / (2.0 * cos);
+        Some([scale * (stiff - drag), scale * (stiff + drag)])
+    }
+
+    /// Real and imaginary part of `1/H` from those of the casing alone \[N/m\].
+    fn joined(&self, stiff: T, drag: T, speed: T) -> [T; 2] {
+        let friction = self.casing_friction_at(speed);
+        let c = self.coupling_product_at(speed) / self.blade_modal_stiffness;
+        let (real, imaginary) = (c * stiff + 1.0, c * drag + friction);
+        let size = real * real + imaginary * imaginary;
+        let along = stiff + c * (stiff * stiff + drag * drag) + friction * drag;
+        [along / size, (drag - friction * stiff) / size]
+    }
+}
+
+/// Where both push: `slope Re +- Im <= 0` of `1/H`, in units of the casing and `omega_c`.
+struct Balance<T> {
+    slope: f64,
+    damping: T,
+    friction: T,
+    coupling: T,
+}
+
+impl<T: Number> Balance<T> {
+    /// `slope Re + sign Im` at a frequency, and its slope there.
+    fn at(&self, x: T, sign: f64) -> (T, T) {
+        let (stiff, drag) = (-(x * x) + 1.0, self.damping * x);
+        let (stiff_slope, drag_slope) = (x * -2.0, self.damping);
+        let square = stiff * stiff + drag * drag;
+        let along = stiff + self.coupling * square + self.friction * drag;
+        let across = drag - self.friction * stiff;
+        let square_slope = (stiff * stiff_slope + drag * drag_slope) * 2.0;
+        let along_slope = stiff_slope + self.coupling * square_slope + self.friction * drag_slope;
+        let across_slope = drag_slope - self.friction * stiff_slope;
+        (along * self.slope + across * sign, along_slope * self.slope + across_slope * sign)
+    }
+
+    /// Whether both push at a frequency.
+    fn holds(&self, x: f64) -> bool {
+        [1.0, -1.0].iter().all(|&sign| self.at(T::from(x), sign).0.re() <= 0.0)
+    }
+
+    /// A root with its derivatives: each step of Newton's method adds an order.
+    fn derived(&self, root: f64, sign: f64) -> T {
+        let mut x = T::from(root);
+        for _ in 0..2 {
+            let (value, slope) = self.at(x, sign);
+            let step = value / slope;
+            if step.re().is_finite() {
+                x -= step;
+            }
+        }
+        x
+    }
+
+    /// Every positive frequency where one of the two pushes vanishes, with its sign.
+    fn ends(&self) -> Vec<(f64, f64)> {
+        let (damping, friction, coupling) =
+            (self.damping.re(), self.friction.re(), self.coupling.re());
+        let on = |sign: f64| {
+            move |from: Point, to: Point| -> Coefficients {
+                let quadratic = |of: &dyn Fn(Point, Point) -> f64| {
+                    vec![of(from, from), 2.0 * of(from, to), of(to, to)]
+                };
+                let one = quadratic(&|u, v| u.q * v.q);
+                let stiff = quadratic(&|u, v| u.q * v.q - u.p * v.p);
+                let drag = quadratic(&|u, v| 0.5 * damping * (u.p * v.q + v.p * u.q));
+                let square = sum(1.0, &product(&stiff, &stiff), 1.0, &product(&drag, &drag));
+                let alone = sum(
+                    self.slope - sign * friction,
+                    &product(&stiff, &one),
+                    self.slope * friction + sign,
+                    &product(&drag, &one),
+                );
+                sum(1.0, &alone, self.slope * coupling, &square)
+            }
+        };
+        let mut ends = Vec::new();
+        for sign in [1.0, -1.0] {
+            let roots = real_roots(&on(sign), &[0.0, 1.0]);
+            ends.extend(roots.into_iter().filter(|x| *x > 0.0).map(|x| (x, sign)));
+        }
+        ends.sort_by(|a, b| a.0.total_cmp(&b.0));
+        ends
+    }
+}

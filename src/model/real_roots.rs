@@ -1,0 +1,171 @@
+//! Every real root of a polynomial that is a product of quadratics, found surely: by
+//! signs of its Bernstein coefficients (Descartes' rule on an interval).
+//!
+//! The coefficients are made afresh on every interval from the factors, so that they
+//! keep their digits next to lightly damped resonances, where the polynomial is tiny.
+//! Points are homogeneous, `x = p/q`, so that an interval may end at infinity.
+
+/// Most halvings of an interval on the way to a root: more end at neighbouring
+/// numbers, from any scale to any other that occurs.
+const MOST_HALVINGS: usize = 200;
+
+/// A point `x = p/q` of the real line, `q >= 0`; infinite for `q = 0`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Point {
+    pub p: f64,
+    pub q: f64,
+}
+
+impl Point {
+    pub fn finite(x: f64) -> Self {
+        Self { p: x, q: 1.0 }
+    }
+
+    fn middle(self, other: Self) -> Self {
+        Self { p: 0.5 * (self.p + other.p), q: 0.5 * (self.q + other.q) }
+    }
+
+    fn value(self) -> f64 {
+        self.p / self.q
+    }
+}
+
+/// Bernstein coefficients times binomials: products are convolutions.
+pub(crate) type Coefficients = Vec<f64>;
+
+/// The product of two polynomials on one interval.
+pub(crate) fn product(a: &[f64], b: &[f64]) -> Coefficients {
+    let mut product = vec![0.0; (a.len() + b.len()).saturating_sub(1)];
+    for (i, x) in a.iter().enumerate() {
+        for (slot, y) in product.iter_mut().skip(i).zip(b) {
+            *slot += x * y;
+        }
+    }
+    product
+}
+
+/// `first a + second b` of two polynomials of one degree.
+pub(crate) fn sum(first: f64, a: &[f64], second: f64, b: &[f64]) -> Coefficients {
+    a.iter().zip(b).map(|(x, y)| first * x + second * y).collect()
+}
+
+/// The real roots of a polynomial in no order. `on` gives its coefficients from one
+/// point to another, `breaks` are finite points where it may change its scale. Of two
+/// roots that round-off does not tell apart none is found.
+pub(crate) fn real_roots(on: &impl Fn(Point, Point) -> Coefficients, breaks: &[f64]) -> Vec<f64> {
+    let mut finite: Vec<f64> = breaks.iter().copied().filter(|x| x.is_finite()).collect();
+    finite.sort_by(f64::total_cmp);
+    finite.dedup();
+    let mut points = vec![Point { p: -1.0, q: 0.0 }];
+    points.extend(finite.into_iter().map(Point::finite));
+    points.push(Point { p: 1.0, q: 0.0 });
+    let mut roots = Vec::new();
+    let mut work: Vec<(Point, Point, usize)> = Vec::new();
+    for pair in points.windows(2) {
+        if let [from, to] = *pair {
+            work.push((from, to, 0));
+            vanishes(on, to, &mut roots);
+        }
+    }
+    while let Some((from, to, halvings)) = work.pop() {
+        let changes = sign_changes(&on(from, to));
+        let middle = from.middle(to);
+        let narrow = halvings == MOST_HALVINGS || middle == from || middle == to;
+        match changes {
+            0 => {}
+            1 => roots.push(bisected(on, from, to).value()),
+            odd if narrow => roots.extend((odd % 2 == 1).then(|| middle.value())),
+            _ => {
+                vanishes(on, middle, &mut roots);
+                work.push((from, middle, halvings + 1));
+                work.push((middle, to, halvings + 1));
+            }
+        }
+    }
+    roots.retain(|root| root.is_finite());
+    roots
+}
+
+/// A finite point where the polynomial is zero is a root.
+fn vanishes(on: &impl Fn(Point, Point) -> Coefficients, at: Point, roots: &mut Vec<f64>) {
+    if at.q > 0.0 && end(on, at) == 0.0 {
+        roots.push(at.value());
+    }
+}
+
+/// The value at a point, with the same rounding as at the end of any interval there.
+fn end(on: &impl Fn(Point, Point) -> Coefficients, at: Point) -> f64 {
+    on(at, at).first().copied().unwrap_or(0.0)
+}
+
+/// Sign changes among the coefficients that are not zero.
+fn sign_changes(coefficients: &[f64]) -> usize {
+    let mut signs = coefficients.iter().filter(|value| **value != 0.0).map(|value| *value > 0.0);
+    let Some(mut last) = signs.next() else { return 0 };
+    let mut changes = 0;
+    for sign in signs {
+        changes += usize::from(sign != last);
+        last = sign;
+    }
+    changes
+}
+
+/// The one root inside an interval.
+fn bisected(on: &impl Fn(Point, Point) -> Coefficients, from: Point, to: Point) -> Point {
+    // The sign next to the first end, where the value itself may be zero.
+    let first = on(from, to).iter().copied().find(|value| *value != 0.0).unwrap_or(0.0) > 0.0;
+    let (mut low, mut high) = (from, to);
+    // Halving more often than this ends at neighbouring numbers.
+    for _ in 0..MOST_HALVINGS {
+        let middle = low.middle(high);
+        if middle == low || middle == high {
+            break;
+        }
+        let value = end(on, middle);
+        if value == 0.0 {
+            return middle;
+        }
+        if (value > 0.0) == first { low = middle } else { high = middle }
+    }
+    low.middle(high)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `(x - a)(x - b)` from one point to another.
+    fn pair(a: f64, b: f64) -> impl Fn(Point, Point) -> Coefficients {
+        move |from, to| {
+            let at = |u: Point, v: Point| {
+                0.5 * ((u.p - a * u.q) * (v.p - b * v.q) + (v.p - a * v.q) * (u.p - b * u.q))
+            };
+            vec![at(from, from), 2.0 * at(from, to), at(to, to)]
+        }
+    }
+
+    #[test]
+    fn roots_far_away_close_together_and_at_breaks() {
+        for (a, b) in [(1.0, 2.0), (-3.0, 1e9), (1.0, 1.0 + 1e-12), (0.0, 5.0), (-1e-9, 1e-9)] {
+            let mut found = real_roots(&pair(a, b), &[0.0, 1.0, 2.0]);
+            found.sort_by(f64::total_cmp);
+            assert_eq!(found.len(), 2, "{a} {b}: {found:?}");
+            for (root, expected) in found.iter().zip([a, b]) {
+                let error = (root - expected).abs();
+                assert!(error <= 1e-15 * (1.0 + expected.abs()), "{root} is not {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_has_no_real_root_gives_none() {
+        // x^2 + e^2 for smaller and smaller e.
+        for e in [1.0, 1e-4, 1e-8, 1e-12] {
+            let on = |u: Point, v: Point| {
+                let at = |u: Point, v: Point| u.p * v.p + e * e * u.q * v.q;
+                vec![at(u, u), 2.0 * at(u, v), at(v, v)]
+            };
+            assert_eq!(real_roots(&on, &[-0.3, 1.0]), Vec::<f64>::new());
+        }
+    }
+}

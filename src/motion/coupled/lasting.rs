@@ -1,0 +1,183 @@
+//! How a motion beyond the paper lasts: what the verdict needs of the last part of the
+//! run, kept as it goes (docs/theory.md, section 10).
+
+use crate::motion::trend::Trend;
+use crate::motion::{ActiveSet, ContactLog, Plane, Verdict};
+use crate::tolerances::{LAST_PART, WAVE_AT_REST, WAVE_DYING, WAVE_FALLS_SOON, WHIRL_SWING};
+
+/// Extremes over one stretch of time.
+#[derive(Clone, Copy, Debug)]
+struct Stretch {
+    /// Largest swing of a tip, `|kappa| l_b |a|` \[m\].
+    swing: f64,
+    /// Ends of the two parts of the casing wave in the frame of the blades, and of the
+    /// blades' own \[m\].
+    ends: [(f64, f64); 4],
+}
+
+impl Default for Stretch {
+    fn default() -> Self {
+        Self { swing: 0.0, ends: [(f64::INFINITY, f64::NEG_INFINITY); 4] }
+    }
+}
+
+impl Stretch {
+    /// Half the size of the box that the wave has kept to \[m\].
+    fn wave(&self) -> f64 {
+        let [a, b, ..] = self.ends.map(half);
+        a.hypot(b) + self.tips()
+    }
+
+    /// The same of the tips alone \[m\].
+    fn tips(&self) -> f64 {
+        let [_, _, c, d] = self.ends.map(half);
+        c.hypot(d)
+    }
+}
+
+fn half((low, high): (f64, f64)) -> f64 {
+    if high > low { 0.5 * (high - low) } else { 0.0 }
+}
+
+/// What has lasted since when.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lasting {
+    /// Length of a stretch: half of the last part of the run \[s\].
+    length: f64,
+    since: f64,
+    now: Stretch,
+    before: Stretch,
+    /// Of the swing of the tips, of what the modes move them, and of the whole wave.
+    trends: [Trend; 3],
+    /// A number for the set of rows that touch, and since when it is the same \[s\].
+    set: u64,
+    set_since: f64,
+    /// Since when every row has touched \[s\].
+    all_since: Option<f64>,
+}
+
+impl Lasting {
+    pub fn new(end: f64) -> Self {
+        Self {
+            length: 0.5 * LAST_PART * end,
+            since: 0.0,
+            now: Stretch::default(),
+            before: Stretch::default(),
+            trends: [Trend::over(end); 3],
+            set: 0,
+            set_since: 0.0,
+            all_since: None,
+        }
+    }
+
+    /// The wave now: the casing in the frame of the blades, what the modes move the
+    /// tips outward, and how far the tips swing \[m\].
+    pub fn look(&mut self, t: f64, casing: Plane, tips: Plane, swing: f64) {
+        if t > self.since + self.length {
+            self.before = self.now;
+            let seen = [self.before.swing, self.before.tips(), self.before.wave()];
+            self.trends.iter_mut().zip(seen).for_each(|(trend, value)| trend.see(t, value));
+            self.now = Stretch::default();
+            self.since = t;
+        }
+        let values = [casing.re, casing.im, tips.re, tips.im];
+        for ((low, high), value) in self.now.ends.iter_mut().zip(values) {
+            *low = low.min(value);
+            *high = high.max(value);
+        }
+        self.now.swing = self.now.swing.max(swing);
+    }
+
+    /// The rows that touch now, as the sum of `mark` of each, and whether all do; since
+    /// when they are the same \[s\].
+    pub fn touch(&mut self, t: f64, set: u64, all: bool) -> f64 {
+        if set != self.set {
+            (self.set, self.set_since) = (set, t);
+        }
+        if all {
+            self.all_since.get_or_insert(t);
+        } else {
+            self.all_since = None;
+        }
+        self.set_since
+    }
+
+    /// The largest swing of the last stretches \[m\].
+    pub fn swing(&self) -> f64 {
+        self.now.swing.max(self.before.swing)
+    }
+
+    /// Forgets what was before a change on the way.
+    pub fn forget(&mut self) {
+        self.trends.iter_mut().for_each(Trend::forget);
+    }
+
+    /// The swing that lasts, as it goes \[m\].
+    pub fn lasting_swing(&self) -> f64 {
+        self.trends[0].falls_to(self.swing()).unwrap_or_else(|| self.swing())
+    }
+
+    /// The verdict over the last `window` seconds, of a machine with this clearance, on
+    /// a lining or not.
+    pub fn verdict(
+        &self,
+        log: &ContactLog,
+        now: f64,
+        window: f64,
+        clearance: f64,
+        lining: bool,
+    ) -> Verdict {
+        let start = now - window;
+        let lasted = |since: Option<f64>| since.is_some_and(|t| t <= start);
+        let size = clearance.abs();
+        let whirls = self.lasting_swing() > WHIRL_SWING * size;
+        if !lasted(log.unbroken_since) {
+            let touched = log.last_contact.is_some_and(|t| t >= start);
+            return if touched { Verdict::Bounce } else { Verdict::Decay };
+        }
+        // A stretch that has hardly begun has seen no full swing.
+        let young = self.is_young(now);
+        let stretch = if young { self.before } else { self.now };
+        // What the casing does by itself dies soon; the wave that both have is in the tips.
+        let (trend, size_now, size_before) = match stretch.tips() > 0.0 {
+            true => (self.trends[1], stretch.tips(), self.before.tips()),
+            false => (self.trends[2], stretch.wave(), self.before.wave()),
+        };
+        let falls = match trend.falls_to(size_now) {
+            Some(left) => left < WAVE_DYING * size_now,
+            None => !trend.is_known() && !young && size_now < WAVE_FALLS_SOON * size_before,
+        };
+        let dies = stretch.wave() < WAVE_AT_REST * size || falls;
+        let held = match log.active_set {
+            ActiveSet::Corner(..) | ActiveSet::Many => true,
+            ActiveSet::Side(_) => lining,
+            ActiveSet::Nothing => false,
+        };
+        if lining && lasted(self.all_since) {
+            match (dies, whirls) {
+                (true, _) => Verdict::Decay,
+                (false, true) => Verdict::Whirl,
+                (false, false) => Verdict::Slip,
+            }
+        } else if held && self.set_since <= start {
+            let pulled = log.last_tensile.is_some_and(|t| t >= start);
+            if pulled { Verdict::Adhesive } else { Verdict::Locked }
+        } else if whirls {
+            Verdict::Whirl
+        } else {
+            Verdict::Slip
+        }
+    }
+
+    fn is_young(&self, now: f64) -> bool {
+        now - self.since < 0.5 * self.length
+    }
+}
+
+/// A number of one row, so that sums of them differ for different sets (the finisher of
+/// SplitMix64).
+pub(super) fn mark(row: u32) -> u64 {
+    let mut x = (u64::from(row) + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    x ^ (x >> 27)
+}

@@ -1,0 +1,146 @@
+//! The pushes of one step: `g = g* - W lambda` with a contact matrix that friction and
+//! the slope of the tips make unsymmetric, `W = C A^-1 G^T` (docs/theory.md, section 10).
+
+use nalgebra::DMatrix;
+
+use super::blades::TipModel;
+use super::rows::{Row, TipLaw};
+use crate::contact::{StepLaw, single};
+use crate::motion::FailureReason;
+use crate::tolerances::MOST_ROWS;
+
+/// Entry of `W`: how far a unit multiplier of `b` closes the gap of `a` \[m/N\].
+pub(super) fn influence<B: TipModel>(
+    tips: &TipLaw,
+    casing_compliance: f64,
+    blades: &B,
+    a: &Row,
+    b: &Row,
+) -> f64 {
+    let push = tips.push_on_casing(b.place.normal);
+    let casing = a.place.normal.re * push.re + a.place.normal.im * push.im;
+    let levers = (a.place.moment_arm - tips.rise) * (b.place.moment_arm - tips.pushed);
+    casing_compliance * casing + levers * blades.compliance(a.index, b.index)
+}
+
+/// Solves the rows for their multipliers; `gaps` are their distances to the target.
+///
+/// # Errors
+/// Too many rows, or rows without a unique answer.
+pub(super) fn solve<B: TipModel>(
+    tips: &TipLaw,
+    law: &dyn StepLaw,
+    casing_compliance: f64,
+    blades: &B,
+    rows: &mut [Row],
+    gaps: &[f64],
+) -> Result<(), FailureReason> {
+    let count = rows.len();
+    if count > MOST_ROWS {
+        return Err(FailureReason::Rows { rows: count });
+    }
+    let entry = |a: &Row, b: &Row| influence(tips, casing_compliance, blades, a, b);
+    match rows {
+        [row] => row.lambda = single(entry(row, row), gaps[0]),
+        [a, b] => {
+            let w = [[entry(a, a), entry(a, b)], [entry(b, a), entry(b, b)]];
+            let lambda = law.pair(w, [gaps[0], gaps[1]]);
+            [a.lambda, b.lambda] = lambda.ok_or(FailureReason::Singular { rows: 2 })?;
+        }
+        _ => {
+            let w = DMatrix::from_fn(count, count, |i, j| entry(&rows[i], &rows[j]));
+            let lambda = law.dense(w, gaps).ok_or(FailureReason::Singular { rows: count })?;
+            for (row, value) in rows.iter_mut().zip(lambda) {
+                row.lambda = value;
+            }
+        }
+    }
+    // A single row that gives way to its own push has no answer either.
+    let good = |row: &Row| row.lambda.is_finite() && (law.pulls() || row.lambda <= 0.0);
+    if rows.iter().all(good) { Ok(()) } else { Err(FailureReason::Singular { rows: count }) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact;
+    use crate::motion::Plane;
+    use crate::motion::coupled::blades::{FullTips, ModalTips, RigidTips};
+    use crate::motion::coupled::lining_step::push;
+    use crate::motion::explicit::{Coordinate, Oscillator};
+    use crate::scene::{ContactLaw, Scene};
+
+    /// Rows beside the wave at some place, and the change of each gap by a unit
+    /// multiplier of another: as it is moved, and as `W` says.
+    fn compare<B: TipModel>(scene: &Scene) {
+        let machine = scene.machine();
+        let tips = TipLaw::at(&machine, 450.0);
+        let mut blades = B::at_rest(scene, &machine, None);
+        let m = &machine;
+        let casing = Oscillator::new(m.casing_mass, m.casing_damping, m.casing_stiffness, 1e-6);
+        let z = Plane::new(-0.9e-4, 0.5e-4);
+        let count = blades.table().count().min(5) as u32;
+        let rows: Vec<Row> = (0..count)
+            .map(|index| {
+                let side = blades.table().side[index as usize];
+                let angle = 1e-3 * f64::from(index);
+                let place = tips.place(machine.polygon.direction(side), z, angle);
+                Row { index, side, place, lambda: 0.0 }
+            })
+            .collect();
+        for b in &rows {
+            let mut u = [Coordinate::default(); 2];
+            let mut pushed = blades.clone();
+            let unit = Row { lambda: 1.0, ..*b };
+            push(&[unit], &tips, Plane::new(1.0, 0.0), &casing, &mut u, &mut pushed);
+            for a in &rows {
+                let turned = pushed.angle(a.index) - blades.angle(a.index);
+                let normal = a.place.normal;
+                let opened = u[0].x * normal.re
+                    + u[1].x * normal.im
+                    + (a.place.moment_arm - tips.rise) * turned;
+                let entry = influence(&tips, casing.compliance, &blades, a, b);
+                let size = casing.compliance;
+                assert!((opened + entry).abs() < 1e-12 * size, "{opened:e} {entry:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_matrix_is_that_of_the_step() {
+        for (blades, diameters, of_disk, kappa) in
+            [(22, 3, 0, 0.3), (22, 4, 0, 0.3), (22, 4, 0, 0.0), (22, 3, 6, 0.2), (12, 4, 2, 0.2)]
+        {
+            let mut scene = Scene::base();
+            scene.bladed_disk.blades = blades;
+            scene.operation.nodal_diameters = diameters;
+            scene.bladed_disk.nodal_diameters = of_disk;
+            scene.bladed_disk.radial_coupling = kappa;
+            scene.contact.friction = 0.15;
+            scene.casing.tangential_ratio = 0.3;
+            scene.solver.step_s = 1e-6;
+            compare::<RigidTips>(&scene);
+            compare::<ModalTips>(&scene);
+            compare::<FullTips>(&scene);
+        }
+    }
+
+    #[test]
+    fn a_row_that_gives_way_to_its_own_push_is_refused() {
+        let mut scene = Scene::base();
+        // 1 + c2 m_c/m_a < 0.
+        (scene.bladed_disk.radial_coupling, scene.contact.friction) = (-2.4, 5.0);
+        scene.bladed_disk.inertia_kg_m2 *= 0.5;
+        let machine = scene.machine();
+        let tips = TipLaw::at(&machine, 450.0);
+        let blades = ModalTips::at_rest(&scene, &machine, None);
+        let mut row =
+            Row { place: tips.place((1.0, 0.0), Plane::default(), 0.0), ..Row::default() };
+        row.place.moment_arm = 0.0;
+        let mut rows = [row];
+        let law = contact::law(ContactLaw::Unilateral);
+        let compliance = 1e-14 / machine.casing_mass;
+        let solved = solve(&tips, law, compliance, &blades, &mut rows, &[-1e-9]);
+        assert_eq!(solved, Err(FailureReason::Singular { rows: 1 }));
+    }
+}

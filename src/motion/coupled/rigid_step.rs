@@ -1,0 +1,165 @@
+//! Rigid contact of one step: which rows penetrate their target, the pushes that bring
+//! them back, and what these do (docs/theory.md, section 10).
+//!
+//! The target is `g[n+1] >= -e g[n-1]`, which gives back the part `e` of the closing
+//! speed (Paoli and Schatzman); for `e = 0` it is the paper's.
+
+use super::Coupled;
+use super::blades::TipModel;
+use super::lining_step::push;
+use super::pushes;
+use super::rows::{Row, TipLaw};
+use crate::motion::{FailureReason, Plane};
+use crate::tolerances::{LONG_STEP, MOST_LONG_STEPS, NEIGHBOUR_DEPTHS};
+
+impl<B: TipModel> Coupled<B> {
+    /// Corrects a predicted step that may touch.
+    ///
+    /// # Errors
+    /// It went through more than the clearance, or its rows have no answer.
+    pub(super) fn meet(&mut self, tips: &TipLaw, bound: f64) -> Result<(), FailureReason> {
+        let (z, turn) = self.in_blade_frame();
+        let restitution = self.scene.contact.restitution;
+        let dipped = restitution * self.dips[0].max(self.dips[1]);
+        self.find_candidates(z, tips, bound, dipped);
+        let deepest = self.gather(z, tips, restitution);
+        if deepest <= 0.0 {
+            let dip = self.rows.iter().fold(0.0, |dip: f64, row| dip.max(-row.place.gap));
+            self.rows.clear();
+            self.part();
+            self.dips[0] = dip;
+            return Ok(());
+        }
+        self.deepest_predicted = self.deepest_predicted.max(deepest);
+        if deepest > tips.clearance {
+            let (depth_m, clearance_m) = (deepest, tips.clearance);
+            return Err(FailureReason::Penetration { depth_m, clearance_m });
+        }
+        // A push may close the gap beside it, by as much as is asked of it.
+        let reach = NEIGHBOUR_DEPTHS * deepest;
+        if !self.law.pulls() {
+            let found = self.candidates.len();
+            self.find_candidates(z, tips, bound, reach + dipped);
+            if self.candidates.len() > found {
+                self.gather(z, tips, restitution);
+            }
+        }
+        let limit = if self.law.pulls() { 0.0 } else { reach };
+        self.keep_below(limit);
+        let Self { blades, rows, gaps, casing, law, .. } = self;
+        pushes::solve(tips, *law, casing.compliance, blades, rows, gaps)?;
+        let Self { rows, casing, u, blades, .. } = self;
+        let z = z + push(rows, tips, turn, casing, u, blades);
+        self.settle(z, turn, tips);
+        self.record();
+        self.look_at_swing();
+        self.look_at_speed(tips)
+    }
+
+    /// # Errors
+    /// The wave passes the blades too fast for the step, and has for long.
+    fn look_at_speed(&mut self, tips: &TipLaw) -> Result<(), FailureReason> {
+        let moved_m = self.u[0].increment.hypot(self.u[1].increment);
+        let side_m = 2.0 * tips.clearance * self.machine.polygon.delta.tan();
+        let long = self.machine.polygon.has_corners() && moved_m > LONG_STEP * side_m;
+        self.long_steps = if long { self.long_steps + 1 } else { 0 };
+        if self.long_steps > MOST_LONG_STEPS {
+            return Err(FailureReason::LongStep { moved_m, side_m });
+        }
+        Ok(())
+    }
+
+    /// Makes rows of the candidates, with their distances to the target; how far the
+    /// deepest is beyond its own.
+    fn gather(&mut self, z: Plane, tips: &TipLaw, restitution: f64) -> f64 {
+        self.rows.clear();
+        self.gaps.clear();
+        let mut deepest = 0.0_f64;
+        for place in 0..self.candidates.len() {
+            let row = self.row_at(self.candidates[place], z, tips);
+            let mut gap = row.place.gap;
+            if restitution != 0.0 {
+                gap += restitution * self.gap_before(&row, tips);
+            }
+            deepest = deepest.max(-gap);
+            self.rows.push(row);
+            self.gaps.push(gap);
+        }
+        deepest
+    }
+
+    /// Leaves only the rows whose distance to the target is below a limit.
+    fn keep_below(&mut self, limit: f64) {
+        let mut kept = 0;
+        for place in 0..self.rows.len() {
+            if self.gaps[place] < limit {
+                self.rows.swap(kept, place);
+                self.gaps.swap(kept, place);
+                kept += 1;
+            }
+        }
+        self.rows.truncate(kept);
+        self.gaps.truncate(kept);
+    }
+
+    /// The gap of a row two steps before.
+    fn gap_before(&mut self, row: &Row, tips: &TipLaw) -> f64 {
+        let [c, s] = self.moved();
+        let u = Plane::new(self.u[0].x - c, self.u[1].x - s);
+        let z = u * self.turn_before().conj();
+        let angle = self.blades.angle_before(row.index);
+        tips.place(self.machine.polygon.direction(row.side), z, angle).gap
+    }
+
+    /// The turn of the frame of the blades two steps before.
+    fn turn_before(&self) -> Plane {
+        let diameters = self.machine.nodal_diameters;
+        let (c, s) = match self.n.checked_sub(2) {
+            Some(n) => self.phasor.look(n, &self.rotor, diameters, self.step),
+            None => {
+                let (sin, cos) = (diameters * self.rotor.angle(-self.step)).sin_cos();
+                (cos, sin)
+            }
+        };
+        Plane::new(c, s)
+    }
+
+    /// Penetration left, and the flows of energy of the pushes.
+    fn settle(&mut self, z: Plane, turn: Plane, tips: &TipLaw) {
+        let mut dip = 0.0_f64;
+        for place in 0..self.rows.len() {
+            let row = self.rows[place];
+            let direction = self.machine.polygon.direction(row.side);
+            let angle = self.blades.angle(row.index);
+            let gap = tips.place(direction, z, angle).gap;
+            dip = dip.max(-gap);
+            if row.lambda != 0.0 && !self.account.forgone {
+                let closed = 0.5 * (gap - self.gap_before(&row, tips));
+                self.account.sums.impact_loss_j += row.lambda * closed;
+                self.count_push(&row, turn, tips);
+            }
+        }
+        self.deepest = self.deepest.max(dip);
+        self.dips = [dip, self.dips[0]];
+    }
+
+    /// Work of the rotor and heat of one push over the last two half steps.
+    pub(super) fn count_push(&mut self, row: &Row, turn: Plane, tips: &TipLaw) {
+        let (push, normal) = (-row.lambda, row.place.normal);
+        let rotor = self.rotor.speed(self.time_of(self.n) - self.step) * self.step;
+        self.account.sums.rotor_work_j -= push * row.place.moment_arm * rotor;
+        if tips.friction == 0.0 {
+            return;
+        }
+        let [c, s] = self.moved();
+        let moved = Plane::new(0.5 * c, 0.5 * s) * turn.conj();
+        let along = moved.im * normal.re - moved.re * normal.im;
+        let turned = 0.5 * (self.blades.angle(row.index) - self.blades.angle_before(row.index));
+        let radius = self.scene.casing.radius_m;
+        let bent = self.machine.blade_length * turned;
+        let sums = &mut self.account.sums;
+        sums.rotor_work_j += push * tips.friction * radius * rotor;
+        sums.friction_heat_j +=
+            push * (tips.friction * (radius * rotor + bent) - tips.casing_friction * along);
+    }
+}

@@ -1,0 +1,172 @@
+//! Constraint rows of blade tips beyond the paper (docs/theory.md, section 10): which
+//! blades are one row, and the gap, constraint and force direction of a row.
+//!
+//! All of it is in the frame of the blades, at `z = u exp(-i n_d theta)`. With
+//! `n = exp(i (psi + n_d alpha))` the gap is `g0 + Re[z conj(n)] - kappa l_b alpha`. Its
+//! derivatives, the constraint row, are `n` and the lever `A - kappa l_b`; friction
+//! turns the force column to `(1 + i mu_c) n` and `A - (kappa + mu) l_b`.
+
+use crate::model::Machine;
+use crate::motion::Plane;
+
+/// Which blades make one row: those that nothing tells apart.
+#[derive(Clone, Debug)]
+pub(in crate::motion) struct RowTable {
+    /// Side of the polygon of each row.
+    pub side: Vec<u32>,
+    /// Row of each side, where a side has one row.
+    pub row_of_side: Vec<u32>,
+    /// Blades of each row: `row`, `row + rows`, `row + 2 rows` and so on, from 0.
+    pub blades_per_row: u32,
+}
+
+impl RowTable {
+    /// Rows of `blades_per_row` blades, which divides the blades of a side.
+    pub fn new(machine: &Machine, blades_per_row: u32) -> Self {
+        let polygon = &machine.polygon;
+        let count = polygon.blades / blades_per_row.max(1);
+        let side: Vec<u32> = (0..count).map(|row| polygon.side_of_blade(row + 1)).collect();
+        let mut row_of_side = vec![0; polygon.sides as usize];
+        for (row, &side) in side.iter().enumerate() {
+            row_of_side[side as usize] = row as u32;
+        }
+        Self { side, row_of_side, blades_per_row }
+    }
+
+    pub fn count(&self) -> usize {
+        self.side.len()
+    }
+
+    /// Whether a side is one row.
+    pub fn is_by_side(&self) -> bool {
+        self.side.len() == self.row_of_side.len()
+    }
+}
+
+/// What the tips do at the rotor speed of now.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct TipLaw {
+    pub clearance: f64,
+    pub diameters: f64,
+    /// `kappa l_b` \[m\].
+    pub rise: f64,
+    /// `(kappa + mu) l_b` \[m\].
+    pub pushed: f64,
+    /// `mu_c`.
+    pub casing_friction: f64,
+    /// `mu`, with the sign of the rotor speed.
+    pub friction: f64,
+}
+
+impl TipLaw {
+    pub fn at(machine: &Machine, speed: f64) -> Self {
+        let friction = machine.friction_at(speed);
+        Self {
+            clearance: machine.clearance(),
+            diameters: machine.nodal_diameters,
+            rise: machine.radial_coupling * machine.blade_length,
+            pushed: (machine.radial_coupling + friction) * machine.blade_length,
+            casing_friction: machine.casing_friction_at(speed),
+            friction,
+        }
+    }
+
+    /// The row of a blade of this direction, at this casing place and blade angle.
+    pub fn place(&self, direction: (f64, f64), z: Plane, angle: f64) -> Place {
+        let normal = turned(direction, self.diameters * angle);
+        let gap = self.clearance + z.re * normal.re + z.im * normal.im - self.rise * angle;
+        let moment_arm = self.diameters * (z.im * normal.re - z.re * normal.im);
+        Place { gap, normal, moment_arm }
+    }
+
+    /// The direction of a push on the casing, with its friction.
+    pub fn push_on_casing(&self, normal: Plane) -> Plane {
+        Plane::new(
+            normal.re - self.casing_friction * normal.im,
+            normal.im + self.casing_friction * normal.re,
+        )
+    }
+}
+
+/// Where a blade tip is.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Place {
+    /// \[m\]
+    pub gap: f64,
+    /// `n` above.
+    pub normal: Plane,
+    /// `A`, the change of the gap with the phase that an angle turns \[m\].
+    pub moment_arm: f64,
+}
+
+/// One row of a step.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Row {
+    pub index: u32,
+    pub side: u32,
+    pub place: Place,
+    /// Multiplier; negative is a push \[N\].
+    pub lambda: f64,
+}
+
+/// A direction turned by a small blade phase, to round-off.
+fn turned((c, s): (f64, f64), phase: f64) -> Plane {
+    let (sin, cos) = if phase.abs() < SERIES_PHASE {
+        let q = phase * phase;
+        (
+            phase * (1.0 - q * (1.0 / 6.0) * (1.0 - q * (1.0 / 20.0) * (1.0 - q * (1.0 / 42.0)))),
+            1.0 - q
+                * 0.5
+                * (1.0 - q * (1.0 / 12.0) * (1.0 - q * (1.0 / 30.0) * (1.0 - q * (1.0 / 56.0)))),
+        )
+    } else {
+        phase.sin_cos()
+    };
+    Plane::new(c * cos - s * sin, s * cos + c * sin)
+}
+
+/// Phase up to which the series above is exact to round-off \[rad\].
+const SERIES_PHASE: f64 = 0.03;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    #[test]
+    fn a_row_is_the_derivative_of_its_gap() {
+        let mut scene = Scene::base();
+        (scene.bladed_disk.radial_coupling, scene.contact.friction) = (0.3, 0.15);
+        let machine = scene.machine();
+        let law = TipLaw::at(&machine, 500.0);
+        let (z, step) = (Plane::new(-1.3e-4, 0.4e-4), 1e-7);
+        for angle in [0.0, 1e-3, -0.02, 0.05] {
+            let direction = machine.polygon.direction(7);
+            let place = law.place(direction, z, angle);
+            let gap = |z: Plane, angle: f64| law.place(direction, z, angle).gap;
+            let by_angle = (gap(z, angle + step) - gap(z, angle - step)) / (2.0 * step);
+            assert!((by_angle - (place.moment_arm - law.rise)).abs() < 1e-9, "{angle}");
+            let length = 1e-6;
+            let by_x = (gap(z + length, angle) - gap(z - length, angle)) / (2.0 * length);
+            assert!((by_x - place.normal.re).abs() < 1e-9, "{angle}");
+            assert!((place.normal.norm() - 1.0).abs() < 1e-15, "{angle}");
+        }
+    }
+
+    #[test]
+    fn blades_that_nothing_tells_apart_share_their_side() {
+        for (diameters, per_row) in [(3, 1), (4, 2), (4, 1), (0, 22), (11, 11)] {
+            let mut scene = Scene::base();
+            scene.operation.nodal_diameters = diameters;
+            let machine = scene.machine();
+            let table = RowTable::new(&machine, per_row);
+            assert_eq!(table.count() as u32 * per_row, 22);
+            for row in 0..table.count() {
+                for member in 0..per_row {
+                    let blade = row as u32 + member * table.count() as u32 + 1;
+                    assert_eq!(machine.polygon.side_of_blade(blade), table.side[row]);
+                }
+            }
+        }
+    }
+}

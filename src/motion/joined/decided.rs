@@ -1,0 +1,183 @@
+//! What nothing to come can change: a lock whose blades have come to rest, or nearly.
+//!
+//! While the same rows are held the motion is linear, so what is left of it about its
+//! equilibrium obeys `x' = M x`. With `Q` from `M^T Q + Q M = -1`, `x^T Q x` never
+//! grows if `Q` is positive, and bounds every push and gap to come.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::parameters::{Parameters, Point};
+use super::stretch::Held;
+use crate::motion::Plane;
+use crate::tolerances::LARGEST_BLADE_ANGLE;
+
+/// What is known for good of the motion that holds some rows.
+#[derive(Clone, Debug)]
+pub(super) struct Rest {
+    /// The equilibrium.
+    point: Point,
+    /// `Q`, in the scaled states of `Scales`.
+    bound: DMatrix<f64>,
+    /// What each push and gap has in hand, and how much of it a unit of
+    /// `sqrt(x^T Q x)` may take.
+    rooms: Vec<(f64, f64)>,
+}
+
+/// The units that make all states of one size.
+struct Scales {
+    z: f64,
+    a: f64,
+    rate: f64,
+}
+
+impl Scales {
+    fn of(parameters: &Parameters) -> Self {
+        let g0 = parameters.clearance();
+        Self { z: g0, a: g0 / parameters.machine.blade_length, rate: parameters.rates() }
+    }
+
+    fn states(&self, point: &Point, size: usize) -> DVector<f64> {
+        let Point { z, dz, a, da } = point;
+        let all = [
+            z.re / self.z,
+            z.im / self.z,
+            dz.re / self.z / self.rate,
+            dz.im / self.z / self.rate,
+            a.re / self.a,
+            a.im / self.a,
+            da.re / self.a / self.rate,
+            da.im / self.a / self.rate,
+        ];
+        DVector::from_iterator(size, all.into_iter().take(size))
+    }
+
+    fn point(&self, x: &DVector<f64>) -> Point {
+        let at = |n: usize| x.get(n).copied().unwrap_or(0.0);
+        Point {
+            z: Plane::new(at(0), at(1)) * self.z,
+            dz: Plane::new(at(2), at(3)) * (self.z * self.rate),
+            a: Plane::new(at(4), at(5)) * self.a,
+            da: Plane::new(at(6), at(7)) * (self.a * self.rate),
+        }
+    }
+}
+
+impl Rest {
+    /// Of the motion that holds these rows; none where it has no equilibrium that it
+    /// comes to, or one that would not hold.
+    pub(super) fn of(parameters: &Parameters, held: &Held) -> Option<Self> {
+        let scales = Scales::of(parameters);
+        // Where the tips have no slope, nothing of the blades comes back.
+        let size = if parameters.arm() == 0.0 { 4 } else { 8 };
+        let none = Point::default();
+        let offset = scales.states(&slope(parameters, held, &none, 1.0).0, size) / scales.rate;
+        let mut matrix = DMatrix::zeros(size, size);
+        let unit = |n: usize| DVector::from_fn(size, |k, _| if k == n { 1.0 } else { 0.0 });
+        for n in 0..size {
+            let at = scales.point(&unit(n));
+            let change = slope(parameters, held, &at, 0.0).0;
+            matrix.set_column(n, &(scales.states(&change, size) / scales.rate));
+        }
+        let states = matrix.clone().lu().solve(&-offset)?;
+        let bound = lyapunov(&matrix)?;
+        let inverse = bound.clone().cholesky()?.inverse();
+        let mut point = scales.point(&states);
+        if size == 4 {
+            point.a = resting_blades(parameters, held, &point);
+        }
+        let per_unit = |row: &DVector<f64>| row.dot(&(&inverse * row)).max(0.0).sqrt();
+        let pushes = slope(parameters, held, &point, 1.0).1;
+        let mut rooms = Vec::new();
+        for (k, push) in pushes.into_iter().take(held.rows.len()).enumerate() {
+            let row = DVector::from_fn(size, |n, _| {
+                slope(parameters, held, &scales.point(&unit(n)), 0.0).1[k]
+            });
+            rooms.push((push, per_unit(&row)));
+        }
+        // A wave held in a corner of the polygon is away from all other sides.
+        let fixed = held.rows.len() == 2
+            && parameters.tips.nodal_diameters == parameters.machine.polygon.nodal_diameters;
+        for row in (0..parameters.rows.len()).filter(|row| !fixed && !held.rows.contains(row)) {
+            let along = DVector::from_fn(size, |n, _| {
+                let at = scales.point(&unit(n));
+                parameters.along(row, at.z, at.a)
+            });
+            rooms.push((parameters.gap(row, &point), per_unit(&along)));
+        }
+        let bent = parameters.largest_angle(point.a);
+        let turn = DVector::from_fn(size, |n, _| if n == 4 || n == 5 { scales.a } else { 0.0 });
+        rooms.push((LARGEST_BLADE_ANGLE - bent, 2.0 * per_unit(&turn)));
+        let holds = rooms.iter().all(|&(room, _)| room > 0.0);
+        holds.then_some(Self { point, bound, rooms })
+    }
+
+    /// Whether, from this point on, the same rows are held for ever.
+    pub(super) fn for_good(&self, parameters: &Parameters, point: &Point) -> bool {
+        let left = Point {
+            z: point.z - self.point.z,
+            dz: point.dz,
+            a: point.a - self.point.a,
+            da: point.da,
+        };
+        let x = Scales::of(parameters).states(&left, self.bound.nrows());
+        let size = x.dot(&(&self.bound * &x)).max(0.0).sqrt();
+        self.rooms.iter().all(|&(room, share)| share * size < room)
+    }
+}
+
+/// The rates of change of a point (as a point of rates), and the held pushes; with
+/// `full` 1 the gaps have their clearance, with 0 they are those of a difference. What
+/// is left of a held gap is driven out at the rate of the casing, so that the equations
+/// have no motion of their own where nothing may move.
+fn slope(
+    parameters: &Parameters,
+    held: &Held,
+    point: &Point,
+    full: f64,
+) -> (Point, [f64; crate::tolerances::MOST_HELD]) {
+    let rate = parameters.machine.omega_c;
+    let (z, a) = parameters.free(point, Plane::default());
+    let pushes = held.pushes(&held.each(|row| {
+        let gap = full * parameters.clearance() + parameters.along(row, point.z, point.a);
+        let opening = parameters.along(row, point.dz, point.da);
+        parameters.along(row, z, a) + rate * (2.0 * opening + rate * gap)
+    }));
+    let (casing, tips) = parameters.pushed(held.with(pushes));
+    (Point { z: point.dz, dz: z + casing, a: point.da, da: a + tips }, pushes)
+}
+
+/// Blades at rest under the pushes of a casing at rest, which does not feel them.
+fn resting_blades(parameters: &Parameters, held: &Held, point: &Point) -> Plane {
+    let pushes = slope(parameters, held, point, 1.0).1;
+    let (_, tips) = parameters.pushed(held.with(pushes));
+    parameters.blades.map_or_else(Plane::default, |blades| tips / blades.propagator.stiffness)
+}
+
+/// The solution of `M^T Q + Q M = -1`; none where it is singular.
+fn lyapunov(matrix: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    let n = matrix.nrows();
+    let one = DMatrix::<f64>::identity(n, n);
+    let transposed = matrix.transpose();
+    let sum = one.kronecker(&transposed) + transposed.kronecker(&one);
+    let right = DVector::from_iterator(n * n, one.iter().map(|entry| -entry));
+    let found = sum.lu().solve(&right)?;
+    let bound = DMatrix::from_iterator(n, n, found.iter().copied());
+    let symmetric = (&bound + bound.transpose()) * 0.5;
+    symmetric.iter().all(|entry| entry.is_finite()).then_some(symmetric)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_bound_falls_along_every_stable_motion() {
+        let matrix = DMatrix::from_row_slice(2, 2, &[0.0, 1.0, -3.0, -0.2]);
+        let bound = lyapunov(&matrix).unwrap();
+        let falls = matrix.transpose() * &bound + &bound * &matrix;
+        assert!((falls + DMatrix::identity(2, 2)).norm() < 1e-13);
+        assert!(bound.clone().cholesky().is_some());
+        let growing = DMatrix::from_row_slice(2, 2, &[0.0, 1.0, -3.0, 0.2]);
+        assert!(lyapunov(&growing).unwrap().cholesky().is_none());
+    }
+}

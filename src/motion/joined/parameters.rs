@@ -1,0 +1,232 @@
+//! What does not change between two changes of speed: the machine in the frame of the
+//! blades, everything per unit casing mass (docs/theory.md, section 10).
+//!
+//! With `z = u exp(-i n_d theta)`, `a = alpha_c + i alpha_s` and the pushes `Q_j` per
+//! unit casing mass,
+//!
+//! `z'' + drag z' + spring z = f exp(-i n_d theta) + (1 + i mu_c) sum Q_j exp(i psi_j)`,
+//! `a'' + 2 c a' + omega_bd^2 a = -lever sum Q_j tip_j`.
+
+use super::rows::{Row, rows};
+use crate::model::{ContactPolygon, Machine};
+use crate::motion::Plane;
+use crate::motion::propagator::Propagator;
+use crate::scene::{ModelSize, Scene};
+use crate::tolerances;
+
+/// The blade modes, where they move.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Blades {
+    /// Response of the free blades.
+    pub propagator: Propagator,
+    /// Modal mass over casing mass \[m^2\].
+    pub mass: f64,
+    /// How far outward a blade angle of 1 rad moves the tip, `kappa l_b` \[m\].
+    pub arm: f64,
+    /// Moment arm of a push, `(kappa + mu) l_b` \[m\].
+    pub moment: f64,
+    /// That over the mass ratio \[1/m\].
+    pub lever: f64,
+}
+
+/// Place and rates in the frame of the blades.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Point {
+    /// `z` \[m\] and `z'` \[m/s\].
+    pub z: Plane,
+    pub dz: Plane,
+    /// `a` \[rad\] and `a'` \[rad/s\].
+    pub a: Plane,
+    pub da: Plane,
+}
+
+/// The machine at one speed.
+#[derive(Clone, Debug)]
+pub(super) struct Parameters {
+    pub machine: Machine,
+    /// Rotor speed \[rad/s\], and `nu = n_d` times it.
+    pub speed: f64,
+    pub nu: f64,
+    /// `2 zeta_c omega_c + 2 i nu`.
+    pub drag: Plane,
+    /// `omega_c^2 - nu^2 + 2 i nu zeta_c omega_c`.
+    pub spring: Plane,
+    /// `1 + i mu_c`.
+    pub turn: Plane,
+    /// Friction coefficient in the direction of increasing angle.
+    pub friction: f64,
+    /// Response of the free casing in the standing frame.
+    pub casing: Propagator,
+    pub blades: Option<Blades>,
+    /// What can touch.
+    pub rows: Vec<Row>,
+    /// Phases of the blades in their own modes.
+    pub tips: ContactPolygon,
+    pub restitution: f64,
+    /// Casing radius \[m\].
+    pub radius: f64,
+    /// Gaps below this part of the motion's size count as closed.
+    pub tolerance: f64,
+}
+
+impl Parameters {
+    pub(super) fn new(scene: &Scene) -> Self {
+        let machine = scene.machine();
+        let tips = ContactPolygon::new(
+            machine.polygon.blades,
+            scene.bladed_disk.diameters_beside(scene.operation.nodal_diameters),
+            machine.clearance(),
+        );
+        let moving = scene.solver.model != ModelSize::Rigid;
+        let (omega, omega_bd) = (machine.omega_c, machine.omega_bd);
+        let blades = moving.then(|| Blades {
+            propagator: Propagator::new(
+                machine.blade_damping_ratio * omega_bd,
+                omega_bd * omega_bd,
+            ),
+            mass: machine.blade_modal_mass / machine.casing_mass,
+            arm: machine.radial_coupling * machine.blade_length,
+            moment: 0.0,
+            lever: 0.0,
+        });
+        let mut parameters = Self {
+            rows: rows(&machine, &tips, moving),
+            casing: Propagator::new(machine.casing_damping_ratio * omega, omega * omega),
+            blades,
+            speed: 0.0,
+            nu: 0.0,
+            drag: Plane::default(),
+            spring: Plane::default(),
+            turn: Plane::default(),
+            friction: 0.0,
+            tips,
+            restitution: scene.contact.restitution,
+            radius: scene.casing.radius_m,
+            tolerance: tolerances::EVENT,
+            machine,
+        };
+        parameters.turn_at(scene.operation.speed_rad_s);
+        parameters
+    }
+
+    /// Turns with another speed \[rad/s\].
+    pub(super) fn turn_at(&mut self, speed: f64) {
+        let machine = &self.machine;
+        let (nu, damping) = (machine.nu(speed), 2.0 * self.casing.damping);
+        self.drag = Plane::new(damping, 2.0 * nu);
+        self.spring = Plane::new(self.casing.stiffness - nu * nu, nu * damping);
+        self.turn = Plane::new(1.0, machine.casing_friction_at(speed));
+        self.friction = machine.friction_at(speed);
+        let slope = machine.radial_coupling + self.friction;
+        if let Some(blades) = &mut self.blades {
+            blades.moment = slope * machine.blade_length;
+            blades.lever = blades.moment / blades.mass;
+        }
+        (self.speed, self.nu) = (speed, nu);
+    }
+
+    /// Clearance at rest `g0` \[m\].
+    pub(super) fn clearance(&self) -> f64 {
+        self.machine.clearance()
+    }
+
+    /// `kappa l_b` \[m\]; 0 where the blades do not move.
+    pub(super) fn arm(&self) -> f64 {
+        self.blades.map_or(0.0, |blades| blades.arm)
+    }
+
+    /// The sum of all rates of the free motion, seen from the blades \[rad/s\].
+    pub(super) fn rates(&self) -> f64 {
+        let omega = self.machine.omega_c + 2.0 * self.casing.damping + self.nu.abs();
+        let own = self
+            .blades
+            .map_or(0.0, |blades| self.machine.omega_bd + 2.0 * blades.propagator.damping);
+        omega.max(own)
+    }
+
+    /// The row's share of a displacement of casing and blades.
+    pub(super) fn along(&self, row: usize, z: Plane, a: Plane) -> f64 {
+        let Some(row) = self.rows.get(row) else { return 0.0 };
+        let casing = row.casing.re * z.re + row.casing.im * z.im;
+        casing - self.arm() * (row.tip.re * a.re + row.tip.im * a.im)
+    }
+
+    /// Gap of a row \[m\].
+    pub(super) fn gap(&self, row: usize, point: &Point) -> f64 {
+        self.clearance() + self.along(row, point.z, point.a)
+    }
+
+    /// Accelerations of casing and blades without pushes.
+    pub(super) fn free(&self, point: &Point, force: Plane) -> (Plane, Plane) {
+        let z = force - self.spring * point.z - self.drag * point.dz;
+        let a = self.blades.map_or_else(Plane::default, |blades| {
+            let Propagator { damping, stiffness, .. } = blades.propagator;
+            -(point.a * stiffness + point.da * (2.0 * damping))
+        });
+        (z, a)
+    }
+
+    /// The sum of the sizes of the terms of such accelerations, as a gap feels them.
+    pub(super) fn size_of_free(&self, point: &Point, force: Plane) -> f64 {
+        let casing = force.norm()
+            + (self.casing.stiffness + self.nu * self.nu) * point.z.norm()
+            + self.drag.norm() * point.dz.norm();
+        let blades = self.blades.map_or(0.0, |blades| {
+            let Propagator { damping, stiffness, .. } = blades.propagator;
+            stiffness * point.a.norm() + 2.0 * damping * point.da.norm()
+        });
+        casing + self.arm().abs() * blades
+    }
+
+    /// What a unit push on each of these rows adds to the accelerations of casing and
+    /// blades.
+    pub(super) fn pushed(&self, pushes: impl Iterator<Item = (usize, f64)>) -> (Plane, Plane) {
+        let (mut casing, mut tips) = (Plane::default(), Plane::default());
+        for (row, push) in pushes {
+            if let Some(row) = self.rows.get(row) {
+                casing += row.casing * push;
+                tips += row.tip * push;
+            }
+        }
+        (self.turn * casing, tips * -self.blades.map_or(0.0, |blades| blades.lever))
+    }
+
+    /// How much a unit push on row `by` opens `row`: `W`, not symmetric under friction.
+    pub(super) fn joint(&self, row: usize, by: usize) -> f64 {
+        let (z, a) = self.pushed(std::iter::once((by, 1.0)));
+        self.along(row, z, a)
+    }
+
+    /// Rate of the casing as the standing frame sees it, along the axes of the blades.
+    pub(super) fn carried(&self, point: &Point) -> Plane {
+        point.dz + Plane::i() * point.z * self.nu
+    }
+
+    /// Energy per unit casing mass \[m^2/s^2\].
+    pub(super) fn energy(&self, point: &Point) -> f64 {
+        let casing = self.carried(point).norm_sqr() + self.casing.stiffness * point.z.norm_sqr();
+        let blades = self.blades.map_or(0.0, |blades| {
+            let stiffness = blades.propagator.stiffness;
+            blades.mass * (point.da.norm_sqr() + stiffness * point.a.norm_sqr())
+        });
+        0.5 * (casing + blades)
+    }
+
+    /// How near to the blades the casing can ever come without pulse or push: both
+    /// energies only fall \[m\].
+    pub(super) fn swing(&self, point: &Point) -> f64 {
+        let reach = |place: Plane, rate: Plane, stiffness: f64| {
+            (place.norm_sqr() + rate.norm_sqr() / stiffness).sqrt()
+        };
+        let casing = reach(point.z, self.carried(point), self.casing.stiffness);
+        casing
+            + self.blades.map_or(0.0, |blades| {
+                blades.arm.abs() * reach(point.a, point.da, blades.propagator.stiffness)
+            })
+    }
+
+    /// The largest angle of any blade \[rad\].
+    pub(super) fn largest_angle(&self, a: Plane) -> f64 {
+        self.tips.largest_component(a.re, a.im)
+    }
+}

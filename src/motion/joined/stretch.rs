@@ -1,0 +1,292 @@
+//! A stretch of motion with the same rows held: casing, blades and pushes as power
+//! series, summed to round-off, or the free flight that nothing ends.
+//!
+//! Order by order the pushes are those that keep the held gaps closed: with `c_j` the
+//! row of a gap, `c_j (free acceleration) + sum W_jk Q_k = 0`.
+
+use super::complementarity::{Square, invert};
+use super::parameters::{Parameters, Point};
+use crate::motion::Plane;
+use crate::motion::event::terms::{STRETCH, TERMS, Terms, ended, values};
+use crate::motion::propagator::Propagator;
+use crate::tolerances::{MOST_HALVINGS, MOST_HELD, ROUND_OFF};
+
+/// The rows that are held closed.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Held {
+    pub rows: Vec<usize>,
+    /// The inverse of their contact matrix.
+    pub inverse: Square,
+}
+
+impl Held {
+    /// Holds these rows; none where their pushes could not be told apart.
+    pub(super) fn new(parameters: &Parameters, rows: Vec<usize>) -> Option<Self> {
+        let mut matrix = Square::default();
+        for (line, &row) in matrix.iter_mut().zip(&rows) {
+            for (entry, &by) in line.iter_mut().zip(&rows) {
+                *entry = parameters.joint(row, by);
+            }
+        }
+        if rows.len() > MOST_HELD {
+            return None;
+        }
+        let inverse = invert(&matrix, rows.len())?;
+        Some(Self { rows, inverse })
+    }
+
+    /// The pushes that these openings of the held gaps ask for.
+    pub(super) fn pushes(&self, openings: &[f64; MOST_HELD]) -> [f64; MOST_HELD] {
+        self.inverse.map(|row| -row.iter().zip(openings).map(|(a, b)| a * b).sum::<f64>())
+    }
+
+    /// `openings` of the rows, one by one.
+    pub(super) fn each(&self, opening: impl Fn(usize) -> f64) -> [f64; MOST_HELD] {
+        let mut openings = [0.0; MOST_HELD];
+        for (slot, &row) in openings.iter_mut().zip(&self.rows) {
+            *slot = opening(row);
+        }
+        openings
+    }
+
+    /// The rows with these pushes.
+    pub(super) fn with(&self, pushes: [f64; MOST_HELD]) -> impl Iterator<Item = (usize, f64)> {
+        self.rows.iter().copied().zip(pushes)
+    }
+
+    /// The same point with the held gaps closed and at rest but for round-off.
+    pub(super) fn closed(&self, parameters: &Parameters, point: &Point) -> Point {
+        let mut point = *point;
+        let apart = self.pushes(&self.each(|row| parameters.gap(row, &point)));
+        let (z, a) = parameters.pushed(self.with(apart));
+        (point.z, point.a) = (point.z + z, point.a + a);
+        let rates = self.pushes(&self.each(|row| parameters.along(row, point.dz, point.da)));
+        let (dz, da) = parameters.pushed(self.with(rates));
+        (point.dz, point.da) = (point.dz + dz, point.da + da);
+        point
+    }
+}
+
+/// Real and imaginary part.
+type Wave = [Terms; 2];
+
+/// One stretch.
+#[derive(Clone, Debug)]
+pub(super) struct Stretch {
+    /// Length of the stretch \[s\]; infinite where nothing ends it.
+    pub length: f64,
+    /// Where it starts.
+    from: Point,
+    z: Wave,
+    a: Wave,
+    force: Wave,
+    /// Pushes of the held rows per unit casing mass \[m/s^2\].
+    pub pushes: [Terms; MOST_HELD],
+    /// Pushes below this are round-off of the terms that they add up.
+    pub noise: f64,
+    /// Whether no stretch is short enough for its terms to end.
+    pub lost: bool,
+    /// Whether it is the free flight to the end.
+    pub free: bool,
+}
+
+impl Stretch {
+    /// From a point on with these rows held under a force, for at most `most` seconds.
+    pub(super) fn new(
+        parameters: &Parameters,
+        held: &Held,
+        from: Point,
+        force: Plane,
+        most: f64,
+    ) -> Self {
+        let zero = [0.0; TERMS];
+        let spread = held.inverse.iter().flatten().fold(0.0_f64, |sum, entry| sum.max(entry.abs()));
+        let mut stretch = Self {
+            length: (STRETCH / parameters.rates()).min(most),
+            from,
+            z: [zero; 2],
+            a: [zero; 2],
+            force: [zero; 2],
+            pushes: [zero; MOST_HELD],
+            noise: ROUND_OFF * spread * parameters.size_of_free(&from, force),
+            lost: false,
+            free: false,
+        };
+        for _ in 0..MOST_HALVINGS {
+            stretch.expand(parameters, held, force);
+            stretch.lost = !stretch.summed(held.rows.len());
+            if !stretch.lost {
+                break;
+            }
+            stretch.length *= 0.5;
+        }
+        stretch
+    }
+
+    /// The free flight that no blade ever meets.
+    pub(super) fn to_the_end(from: Point) -> Self {
+        let zero = [0.0; TERMS];
+        Self {
+            length: f64::INFINITY,
+            from,
+            z: [zero; 2],
+            a: [zero; 2],
+            force: [zero; 2],
+            pushes: [zero; MOST_HELD],
+            noise: 0.0,
+            lost: false,
+            free: true,
+        }
+    }
+
+    /// The same place for ever: what moves is round-off.
+    pub(super) fn at_rest(mut self) -> Self {
+        let hold = |terms: &mut Terms| terms.iter_mut().skip(1).for_each(|term| *term = 0.0);
+        self.z.iter_mut().chain(&mut self.a).chain(&mut self.pushes).for_each(hold);
+        self.length = f64::INFINITY;
+        self
+    }
+
+    fn expand(&mut self, parameters: &Parameters, held: &Held, force: Plane) {
+        let h = self.length;
+        let (spring, drag) = (parameters.spring * (h * h), parameters.drag * h);
+        let (stiffness, damping) = parameters.blades.map_or((0.0, 0.0), |blades| {
+            let Propagator { damping, stiffness, .. } = blades.propagator;
+            (stiffness * h * h, 2.0 * damping * h)
+        });
+        let spin = Plane::new(0.0, -parameters.nu * h);
+        let put = |wave: &mut Wave, n: usize, value: Plane| {
+            (wave[0][n], wave[1][n]) = (value.re, value.im);
+        };
+        let at = |wave: &Wave, n: usize| Plane::new(wave[0][n], wave[1][n]);
+        let mut acting = force * (h * h);
+        put(&mut self.z, 0, self.from.z);
+        put(&mut self.z, 1, self.from.dz * h);
+        put(&mut self.a, 0, self.from.a);
+        put(&mut self.a, 1, self.from.da * h);
+        for n in 0..TERMS - 2 {
+            let order = n as f64;
+            put(&mut self.force, n, acting / (h * h));
+            let mut casing =
+                acting - spring * at(&self.z, n) - drag * at(&self.z, n + 1) * (order + 1.0);
+            let mut tips =
+                -(at(&self.a, n) * stiffness + at(&self.a, n + 1) * (damping * (order + 1.0)));
+            if !held.rows.is_empty() {
+                let pushes = held.pushes(&held.each(|row| parameters.along(row, casing, tips)));
+                let (z, a) = parameters.pushed(held.with(pushes));
+                (casing, tips) = (casing + z, tips + a);
+                for (terms, push) in self.pushes.iter_mut().zip(pushes) {
+                    terms[n] = push / (h * h);
+                }
+            }
+            let over = 1.0 / ((order + 1.0) * (order + 2.0));
+            put(&mut self.z, n + 2, casing * over);
+            put(&mut self.a, n + 2, tips * over);
+            acting = acting * spin / (order + 1.0);
+        }
+    }
+
+    /// Where it starts.
+    pub(super) fn from(&self) -> &Point {
+        &self.from
+    }
+
+    /// Whether the terms left out are round-off.
+    fn summed(&self, held: usize) -> bool {
+        let moves = |wave: &Wave| {
+            // Both parts together: one of them may pass through zero.
+            let size: Terms = std::array::from_fn(|n| wave[0][n].hypot(wave[1][n]));
+            ended(&size) && size.iter().all(|term| term.is_finite())
+        };
+        moves(&self.z)
+            && moves(&self.a)
+            && self.pushes.iter().take(held).all(|terms| ended(terms) || self.is_noise(terms))
+    }
+
+    /// Whether a push is nothing but round-off.
+    pub(super) fn is_noise(&self, push: &Terms) -> bool {
+        push.iter().map(|term| term.abs()).sum::<f64>() <= self.noise
+    }
+
+    /// The part of the stretch that `s` seconds are.
+    fn part(&self, s: f64) -> f64 {
+        if self.length.is_finite() && self.length > 0.0 { s / self.length } else { 0.0 }
+    }
+
+    /// Where the motion is, `s` seconds on.
+    pub(super) fn point(&self, parameters: &Parameters, s: f64) -> Point {
+        if self.free {
+            return self.flown(parameters, s);
+        }
+        if self.length == f64::INFINITY {
+            return self.from;
+        }
+        let x = self.part(s);
+        let per = if self.length > 0.0 { 1.0 / self.length } else { 0.0 };
+        let at = |wave: &Wave| {
+            let [[re, re_rate, _], [im, im_rate, _]] = [values(&wave[0], x), values(&wave[1], x)];
+            (Plane::new(re, im), Plane::new(re_rate, im_rate) * per)
+        };
+        let ((z, dz), (a, da)) = (at(&self.z), at(&self.a));
+        Point { z, dz, a, da }
+    }
+
+    fn flown(&self, parameters: &Parameters, s: f64) -> Point {
+        let from = &self.from;
+        let fly = |propagator: &Propagator, place: Plane, rate: Plane| {
+            let response = propagator.at(s);
+            let later = place * response.hold + rate * response.unit;
+            let speed = rate * response.slope - place * (propagator.stiffness * response.unit);
+            (later, speed)
+        };
+        let back = Plane::cis(-parameters.nu * s);
+        let (u, v) = fly(&parameters.casing, from.z, parameters.carried(from));
+        let (z, v) = (u * back, v * back);
+        let (a, da) = parameters
+            .blades
+            .map_or_else(Default::default, |blades| fly(&blades.propagator, from.a, from.da));
+        Point { z, dz: v - Plane::i() * z * parameters.nu, a, da }
+    }
+
+    /// Pushes of the held rows per unit casing mass, `s` seconds on \[m/s^2\].
+    pub(super) fn pushes_at(&self, s: f64) -> [f64; MOST_HELD] {
+        let x = self.part(s);
+        self.pushes.map(
+            |terms| {
+                if self.is_noise(&terms) { 0.0 } else { values(&terms, x)[0].max(0.0) }
+            },
+        )
+    }
+
+    /// Force of the pulse per unit casing mass, `s` seconds on \[m/s^2\].
+    pub(super) fn force_at(&self, s: f64) -> Plane {
+        let x = self.part(s);
+        Plane::new(values(&self.force[0], x)[0], values(&self.force[1], x)[0])
+    }
+
+    /// Gap of a row as a power series \[m\].
+    pub(super) fn gap(&self, parameters: &Parameters, row: usize) -> Terms {
+        let mut terms: Terms = std::array::from_fn(|n| {
+            let z = Plane::new(self.z[0][n], self.z[1][n]);
+            parameters.along(row, z, Plane::new(self.a[0][n], self.a[1][n]))
+        });
+        terms[0] += parameters.clearance();
+        terms
+    }
+
+    /// The farthest that a blade tip can swing in this stretch, whether a gap feels it or
+    /// not \[m\].
+    pub(super) fn swings(&self, parameters: &Parameters) -> f64 {
+        let size = |n: usize| self.a[0][n].hypot(self.a[1][n]);
+        parameters.machine.blade_length * (1..TERMS).map(size).sum::<f64>()
+    }
+
+    /// The farthest that any gap can close in this stretch, and what it has of the
+    /// clearance at its start at most \[m\].
+    pub(super) fn travel(&self, parameters: &Parameters) -> [f64; 2] {
+        let size = |wave: &Wave, n: usize| (wave[0][n].powi(2) + wave[1][n].powi(2)).sqrt();
+        let arm = parameters.arm().abs();
+        let each = |n: usize| size(&self.z, n) + arm * size(&self.a, n);
+        [(1..TERMS).map(each).sum(), each(0)]
+    }
+}

@@ -1,0 +1,235 @@
+//! Reports of blades and casing as one: whirl on the polygon beside that on a rim, and
+//! the joint compliance, as JSON, tables and a chart of text.
+
+use std::f64::consts::PI;
+
+use serde_json::{Value, json};
+
+use crate::harmonic::{Joint, RimLoads, RimWave, WhirlPoint, rim_waves};
+use crate::model::Machine;
+use crate::report::table::{Table, TableCell};
+
+/// Columns and rows of the chart of the compliance.
+const CHART: (usize, usize) = (72, 24);
+/// Points of the chart about each resonance.
+const CHART_POINTS: usize = 4000;
+/// How far the chart goes beyond the crossing that is furthest left.
+const CHART_REACH: f64 = 2.5;
+
+/// Whirl at one speed on the polygon, and the lasting one on a rim.
+#[derive(Clone, Copy, Debug)]
+pub struct WhirlRow {
+    /// On the polygon.
+    pub point: WhirlPoint,
+    /// On the rim.
+    pub rim: Option<(RimWave, RimLoads)>,
+}
+
+impl WhirlRow {
+    /// With the rim of the same machine.
+    #[must_use]
+    pub fn of(machine: &Machine, point: WhirlPoint) -> Self {
+        let joint = Joint::at(machine, point.speed_rad_s);
+        let lasting = RimWave::lasting(&rim_waves(&joint));
+        Self { point, rim: lasting.map(|wave| (wave, wave.loads(&joint))) }
+    }
+}
+
+/// Whirl at one speed in JSON, with `null` for each figure where there is none.
+#[must_use]
+pub fn whirl(row: &WhirlRow) -> Value {
+    let orbit = row.point.outcome.ok();
+    json!({
+        "speed_rad_s": row.point.speed_rad_s,
+        "exists": orbit.is_some(),
+        "reason": row.point.outcome.err(),
+        "passing_time_s": orbit.map(|orbit| orbit.passing_time_s),
+        "omega_rad_s": orbit.map(|orbit| orbit.omega_rad_s),
+        "s_rad_s": orbit.map(|orbit| orbit.s_rad_s),
+        "mean_push_n": orbit.map(|orbit| orbit.mean_push_n),
+        "least_push_n": orbit.map(|orbit| orbit.least_push_n),
+        "corner_impulse_n_s": orbit.map(|orbit| orbit.corner_impulse_n_s),
+        "casing_m": orbit.map(|orbit| orbit.casing_m),
+        "blade_rad": orbit.map(|orbit| orbit.blade_rad),
+        "multiplier": orbit.map(|orbit| orbit.multiplier),
+        "rim": row.rim.as_ref().map(wave),
+    })
+}
+
+/// A wave on the rim in JSON.
+fn wave((wave, loads): &(RimWave, RimLoads)) -> Value {
+    let over = loads.casing_m >= 0.0;
+    let loaded = |load: f64| over.then_some(load);
+    json!({
+        "omega_rad_s": wave.omega_rad_s,
+        "s_rad_s": wave.s_rad_s,
+        "attracts": over.then_some(wave.attracts),
+        "growth_per_s": over.then_some(wave.growth_per_s),
+        "stiffness_n_per_m": wave.stiffness_n_per_m,
+        "push_n": loaded(loads.push_n),
+        "casing_m": loaded(loads.casing_m),
+        "blade_rad": loaded(loads.blade_rad),
+        "casing_w": loaded(loads.casing_w),
+        "blades_w": loaded(loads.blades_w),
+        "friction_w": loaded(loads.friction_w),
+    })
+}
+
+/// Whirl against speed, a row for each.
+#[must_use]
+pub fn whirl_table(rows: &[WhirlRow]) -> Table {
+    let word = |row: &WhirlRow| -> TableCell {
+        match row.point.outcome {
+            Ok(_) => "stable".into(),
+            Err(reason) => <&'static str>::from(reason).into(),
+        }
+    };
+    let rows: Vec<_> = rows
+        .iter()
+        .map(|row| (row.point.speed_rad_s, word(row), row.point.outcome.ok(), row.rim))
+        .collect();
+    Table::of(
+        &rows,
+        &[
+            ("speed_rad_s", |row| row.0.into()),
+            ("whirl", |row| row.1.clone()),
+            ("omega_rad_s", |row| row.2.map(|orbit| orbit.omega_rad_s).into()),
+            ("s_rad_s", |row| row.2.map(|orbit| orbit.s_rad_s).into()),
+            ("mean_push_n", |row| row.2.map(|orbit| orbit.mean_push_n).into()),
+            ("corner_impulse_n_s", |row| row.2.map(|orbit| orbit.corner_impulse_n_s).into()),
+            ("casing_m", |row| row.2.map(|orbit| orbit.casing_m).into()),
+            ("blade_rad", |row| row.2.map(|orbit| orbit.blade_rad).into()),
+            ("multiplier", |row| row.2.map(|orbit| orbit.multiplier).into()),
+            ("rim_omega_rad_s", |row| row.3.map(|(wave, _)| wave.omega_rad_s).into()),
+            ("rim_push_n", |row| row.3.map(|(_, loads)| loads.push_n).into()),
+            ("rim_casing_m", |row| row.3.map(|(_, loads)| loads.casing_m).into()),
+            ("rim_blade_rad", |row| row.3.map(|(_, loads)| loads.blade_rad).into()),
+        ],
+    )
+}
+
+/// The waves on a rim at one speed.
+#[must_use]
+pub fn wave_table(joint: &Joint, waves: &[RimWave]) -> Table {
+    // On a lining that blades press at rest it is the depth that decides.
+    let pressed = joint.machine.clearance() <= 0.0;
+    let state = |wave: &RimWave| match (pressed, wave.attracts) {
+        (true, _) => "see --smooth",
+        (false, true) => "attracts",
+        (false, false) => "threshold",
+    };
+    let rows: Vec<_> = waves.iter().map(|wave| (*wave, wave.loads(joint), state(wave))).collect();
+    Table::of(
+        &rows,
+        &[
+            ("omega_rad_s", |row| row.0.omega_rad_s.into()),
+            ("s_rad_s", |row| row.0.s_rad_s.into()),
+            ("state", |row| row.2.into()),
+            ("stiffness_n_per_m", |row| row.0.stiffness_n_per_m.into()),
+            ("push_n", |row| loaded(row.1.push_n)),
+            ("casing_m", |row| loaded(row.1.casing_m)),
+            ("blade_rad", |row| loaded(row.1.blade_rad)),
+        ],
+    )
+}
+
+/// A load of a wave as large as the clearance; none without a clearance.
+fn loaded(load: f64) -> TableCell {
+    Some(load).filter(|load| *load >= 0.0).into()
+}
+
+/// The joint compliance in JSON, at casing frequencies \[rad/s\].
+#[must_use]
+pub fn compliance(joint: &Joint, omegas: &[f64], waves: &[RimWave]) -> Value {
+    let values: Vec<_> = omegas.iter().map(|&omega| joint.compliance(omega)).collect();
+    let waves: Vec<_> = waves.iter().map(|found| wave(&(*found, found.loads(joint)))).collect();
+    json!({
+        "speed_rad_s": joint.nu / joint.machine.nodal_diameters,
+        "omega_rad_s": omegas,
+        "re_m_per_n": values.iter().map(|value| finite(value.re)).collect::<Vec<_>>(),
+        "im_m_per_n": values.iter().map(|value| finite(value.im)).collect::<Vec<_>>(),
+        "waves": waves,
+    })
+}
+
+fn finite(value: f64) -> Option<f64> {
+    Some(value).filter(|value| value.is_finite())
+}
+
+/// The same as a table for files.
+#[must_use]
+pub fn compliance_table(joint: &Joint, omegas: &[f64]) -> Table {
+    let rows: Vec<_> =
+        omegas.iter().map(|&omega| (omega, omega - joint.nu, joint.compliance(omega))).collect();
+    Table::of(
+        &rows,
+        &[
+            ("omega_rad_s", |row| row.0.into()),
+            ("s_rad_s", |row| row.1.into()),
+            ("re_m_per_n", |row| finite(row.2.re).into()),
+            ("im_m_per_n", |row| finite(row.2.im).into()),
+        ],
+    )
+}
+
+/// The curve of the compliance in the complex plane, one line of text a row: the axes,
+/// `*` where a wave attracts and `o` at its threshold.
+#[must_use]
+pub fn compliance_chart(joint: &Joint, waves: &[RimWave]) -> Table {
+    let machine = joint.machine;
+    let resonances = [
+        (machine.omega_c, machine.casing_damping_ratio * machine.omega_c),
+        (-machine.omega_c, machine.casing_damping_ratio * machine.omega_c),
+        (joint.nu + machine.omega_bd, machine.blade_damping_ratio * machine.omega_bd),
+        (joint.nu - machine.omega_bd, machine.blade_damping_ratio * machine.omega_bd),
+    ];
+    // Equal angles about a resonance are nearly equal steps along its circle.
+    let around = |(centre, width): (f64, f64)| {
+        (1..CHART_POINTS).map(move |k| {
+            let angle = PI * (k as f64 / CHART_POINTS as f64 - 0.5);
+            centre + width * angle.tan()
+        })
+    };
+    let curve: Vec<_> =
+        resonances.into_iter().flat_map(around).map(|omega| joint.compliance(omega)).collect();
+    let crossing = waves.iter().map(|wave| wave.stiffness_n_per_m.recip()).fold(0.0, f64::max);
+    let largest = |most: f64, size: f64| if size.is_finite() { most.max(size) } else { most };
+    let reach = if crossing > 0.0 {
+        CHART_REACH * crossing
+    } else {
+        curve.iter().map(|value| value.re.abs().max(value.im.abs())).fold(0.0, largest)
+    };
+    let (columns, rows) = CHART;
+    let mut cells = vec![vec![' '; columns + 1]; rows + 1];
+    let mut put = |re: f64, im: f64, mark: char| {
+        let column = (0.5 + 0.5 * re / reach) * columns as f64;
+        let row = (0.5 - 0.5 * im / reach) * rows as f64;
+        if column >= 0.0 && row >= 0.0 && column.is_finite() && row.is_finite() {
+            let cell = cells.get_mut(row.round() as usize);
+            if let Some(cell) = cell.and_then(|row| row.get_mut(column.round() as usize)) {
+                *cell = mark;
+            }
+        }
+    };
+    for k in 0..=columns {
+        put((2.0 * k as f64 / columns as f64 - 1.0) * reach, 0.0, '-');
+    }
+    for k in 0..=rows {
+        put(0.0, (2.0 * k as f64 / rows as f64 - 1.0) * reach, '|');
+    }
+    put(0.0, 0.0, '+');
+    for value in &curve {
+        put(value.re, value.im, '.');
+    }
+    for wave in waves {
+        let mark = if wave.attracts { '*' } else { 'o' };
+        put(-wave.stiffness_n_per_m.recip(), 0.0, mark);
+    }
+    let title = format!("-{reach:.3e} to {reach:.3e} both ways; * attracts, o is the threshold");
+    let mut chart = Table::new([title]);
+    for row in cells {
+        let line: String = row.into_iter().collect();
+        chart.push(vec![line.trim_end().to_string().into()]);
+    }
+    chart
+}

@@ -1,0 +1,107 @@
+//! What a scene has beyond the paper's model (docs/theory.md, section 10), and which
+//! combinations of it have no meaning or no unique answer.
+
+use super::{ContactLaw, ModelSize, Scene, SceneError, SolverKind};
+
+impl Scene {
+    /// Whether this scene has more than the paper's model. Those that have not are
+    /// solved by the paper's own solvers, bit for bit as without this.
+    #[must_use]
+    pub fn goes_beyond(&self) -> bool {
+        let (disk, surface) = (&self.bladed_disk, &self.contact);
+        let model = self.solver.model;
+        let tips = disk.radial_coupling != 0.0 || surface.friction != 0.0;
+        self.solver.contact == ContactLaw::Smooth
+            || surface.restitution != 0.0
+            || surface.friction * self.casing.tangential_ratio != 0.0
+            || (model != ModelSize::Rigid && tips)
+            || (model == ModelSize::Modal && self.has_other_diameters())
+            || (model == ModelSize::Full && disk.mistuning != 0.0)
+    }
+
+    /// Whether the modes of the disk have other diameters than those of the casing.
+    #[must_use]
+    pub fn has_other_diameters(&self) -> bool {
+        let casing = self.operation.nodal_diameters;
+        self.bladed_disk.diameters_beside(casing) != casing
+    }
+
+    /// The clearance at rest `g0 = R_c - l_b`; below zero all blades rub at rest \[m\].
+    #[must_use]
+    pub fn clearance(&self) -> f64 {
+        self.casing.radius_m - self.bladed_disk.blade_length_m
+    }
+}
+
+/// # Errors
+/// The first combination that is not allowed, named by its key.
+pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
+    friction(scene)?;
+    restitution(scene)?;
+    mistuning(scene)?;
+    digging_in(scene)?;
+    by_events(scene)
+}
+
+/// Friction has one direction: that in which the blades slide.
+fn friction(scene: &Scene) -> Result<(), SceneError> {
+    let (mu, operation) = (scene.contact.friction, &scene.operation);
+    if mu == 0.0 {
+        return Ok(());
+    }
+    let refused = |allowed: &str| Err(SceneError::refused("contact.friction", mu, allowed));
+    if scene.solver.contact == ContactLaw::Bilateral {
+        return refused("0 with solver.contact = \"bilateral\": a pull has no friction");
+    }
+    let first = operation.speed_rad_s;
+    let last = first + operation.speed_ramp_rad_s2 * scene.solver.end_s;
+    if first * last > 0.0 || first == last {
+        return Ok(());
+    }
+    refused("0 where a ramp stops the rotor or turns it back: the direction of sliding is fixed")
+}
+
+fn restitution(scene: &Scene) -> Result<(), SceneError> {
+    let e = scene.contact.restitution;
+    if e == 0.0 || scene.solver.contact == ContactLaw::Unilateral {
+        return Ok(());
+    }
+    let allowed = "0, or solver.contact = \"unilateral\": only rigid pushes rebound";
+    Err(SceneError::refused("contact.restitution", e, allowed))
+}
+
+fn mistuning(scene: &Scene) -> Result<(), SceneError> {
+    let sd = scene.bladed_disk.mistuning;
+    if sd == 0.0 || scene.solver.model == ModelSize::Full {
+        return Ok(());
+    }
+    let allowed = "0, or solver.model = \"full\": only there has each blade its own stiffness";
+    Err(SceneError::refused("bladed_disk.mistuning", sd, allowed))
+}
+
+/// Rigid contact of single blades that dig in under friction has no unique pushes
+/// once three of them touch.
+fn digging_in(scene: &Scene) -> Result<(), SceneError> {
+    let (kappa, mu) = (scene.bladed_disk.radial_coupling, scene.contact.friction);
+    let forward = if scene.operation.speed_rad_s < 0.0 { -mu } else { mu };
+    let rigid = scene.solver.contact != ContactLaw::Smooth;
+    if !(rigid && scene.solver.model == ModelSize::Full && kappa * (kappa + forward) < 0.0) {
+        return Ok(());
+    }
+    let allowed = format!(
+        "not between 0 and {} with solver.model = \"full\" and rigid contact, whose pushes are \
+         not unique there; solver.model = \"modal\" or solver.contact = \"smooth\" have them",
+        -forward
+    );
+    Err(SceneError::refused("bladed_disk.radial_coupling", kappa, allowed))
+}
+
+/// The event solver takes what has constant coefficients in the frame of the blades.
+fn by_events(scene: &Scene) -> Result<(), SceneError> {
+    let ramp = scene.operation.speed_ramp_rad_s2;
+    if scene.solver.kind != SolverKind::Event || ramp == 0.0 || !scene.goes_beyond() {
+        return Ok(());
+    }
+    let allowed = "0 with solver.kind = \"event\" beyond the paper's model";
+    Err(SceneError::refused("operation.speed_ramp_rad_s2", ramp, allowed))
+}

@@ -1,0 +1,77 @@
+//! Those of steady states on a lining.
+
+/// Width of a lining over the amplitude of a wave from which its mean stiffness is a
+/// difference of closed forms. Smaller: the difference loses digits. Larger: eight
+/// nodes do not give all of them.
+pub(crate) const LINING_DIVIDED: f64 = 1e-3;
+
+/// Smallest amplitude of a wave that is looked for, over the preload and the width of
+/// the lining: below it no blade lifts off.
+pub(crate) const LINING_NARROWEST: f64 = 1e-4;
+
+/// Largest one. Larger: the stiffness differs from that of half contact by less than
+/// a part in a thousand million.
+pub(crate) const LINING_WIDEST: f64 = 1e9;
+
+/// Strides from one to the other. Fewer: of two amplitudes in one stride neither is
+/// found, on a lining that is not pressed in by its whole width.
+pub(crate) const LINING_STRIDES: f64 = 400.0;
+
+/// Steps of the iteration for all roots of a polynomial; ten are usual, and two equal
+/// roots take fifty.
+pub(crate) const ROOT_STEPS: usize = 120;
+
+/// Growth rates up to this part of the fastest frequency are round-off where nothing
+/// is damped.
+pub(crate) const UNDAMPED_GROWTH: f64 = 1e-11;
+
+/// Speeds of an even scan for changes of the growth at rest.
+pub(crate) const GROWTH_SCAN: u32 = 1000;
+
+/// Speeds on each side of a coincidence, and how many of them are in one width of it.
+/// Less of either: of a tongue as narrow as damping and lining make it the two ends may
+/// be missed.
+pub(crate) const TONGUE_SCAN: (i32, f64) = (240, 8.0);
+
+/// Halvings of a bracket around the fastest growth.
+pub(crate) const PEAK_STEPS: usize = 60;
+
+/// Widths of a tongue between its coincidence and the fastest growth, at most.
+pub(crate) const PEAK_REACH: f64 = 12.0;
+
+/// Natural logarithms of the excess of a speed over the lock of rigid contact, between
+/// which the softest lining is looked for, and looks between them. Smaller: a lining of
+/// nearly rigid stiffness has its window outside.
+pub(crate) const WINDOW_REACH: [f64; 2] = [-30.0, 15.0];
+/// See `WINDOW_REACH`.
+pub(crate) const WINDOW_LOOKS: u32 = 450;
+
+/// Residual of a steady state over its length and stiffness that counts as solved.
+pub(crate) const LINING_SETTLED: f64 = 1e-12;
+
+/// Distance over the length of the contact up to which two steady states are one.
+/// Larger: two that are about to meet in a fold are one too early.
+pub(crate) const LINING_ALIKE: f64 = 1e-7;
+
+/// Real part of an eigenvalue over the fastest that is round-off.
+pub(crate) const LINING_NEUTRAL: f64 = 1e-10;
+
+/// Shortest and longest arc between two points of a branch that is followed, in lengths
+/// of the contact and parts of the way. Longer: a corner of the branch is cut.
+pub(crate) const FOLLOW_STRIDE: [f64; 2] = [1e-9, 0.01];
+
+/// Most points of such a branch.
+pub(crate) const FOLLOW_POINTS: usize = 4000;
+
+/// Newton steps to one point of it.
+pub(crate) const FOLLOW_STEPS: usize = 12;
+
+/// Step that ends them.
+pub(crate) const FOLLOW_SETTLED: f64 = 1e-12;
+
+/// Part of the way over which the parameter's own derivative is taken. It only steers
+/// Newton's method.
+pub(crate) const FOLLOW_DIFFERENCE: f64 = 1e-6;
+
+/// Halvings of an arc around a special point.
+pub(crate) const FOLLOW_HALVINGS: usize = 60;

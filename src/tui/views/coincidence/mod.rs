@@ -1,0 +1,270 @@
+//! View 9: what a coincidence does to blades that touch: the amplitude of the wave
+//! that lasts against speed, with both coincidences and the running motion; and the
+//! joint compliance of blades and casing in the complex plane, whose crossing of the
+//! negative real axis is that wave.
+
+pub mod curves;
+mod plane;
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+
+use super::ViewId;
+use super::marks::{names, uprights};
+use super::panel::{ViewArea, ViewPanel, csv, entry, not_yet, title};
+use crate::harmonic::CoincidencePoint;
+use crate::motion::ActiveSet;
+use crate::scene::ModelSize;
+use crate::tui::app::{App, Cursor};
+use crate::tui::axis::{ChartAxis, nice_step, readable};
+use crate::tui::plot::Plot;
+use crate::tui::text::{print, wrap};
+use crate::tui::theme::Role;
+use curves::{CoincidenceCurves, points};
+
+/// From this width on, the compliance is beside the curve; from this height on it is
+/// below it where the screen is narrow.
+const BESIDE_FROM: u16 = 76;
+const BELOW_FROM: u16 = 26;
+/// From this height on, growth has a chart of its own.
+const GROWTH_FROM: u16 = 16;
+
+/// The view.
+pub struct CoincidenceView;
+
+impl ViewPanel for CoincidenceView {
+    fn what(&self) -> &'static str {
+        "coincidence: how large a wave becomes, and why"
+    }
+
+    fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
+        if at.area.width >= BESIDE_FROM {
+            let [left, right] = at.columns();
+            over_speed(app, buffer, left);
+            plane::draw(app, buffer, right);
+        } else if at.area.height >= BELOW_FROM {
+            let [above, below] = at.rows(50);
+            over_speed(app, buffer, above);
+            plane::draw(app, buffer, below);
+        } else {
+            over_speed(app, buffer, at);
+        }
+    }
+
+    /// The present speed.
+    fn here(&self, app: &App) -> Cursor {
+        let curves = app.latest.results.coincidence.as_deref().and_then(Option::as_ref);
+        let across = curves
+            .map_or(0.5, |curves| (app.speed().abs() - curves.from) / (curves.to - curves.from));
+        Cursor { across: across.clamp(0.0, 1.0), up: 0.5 }
+    }
+
+    fn csv(&self, app: &App) -> Result<String, String> {
+        let curves = app.latest.results.coincidence.as_deref().and_then(Option::as_ref);
+        let points = curves.map_or(&[][..], |curves| &curves.points);
+        let rows = points.iter().map(|point| {
+            let values = [
+                point.growth_1_s,
+                point.blade_amplitude_rad,
+                point.casing_amplitude_m,
+                point.omega_rad_s,
+            ];
+            let bounded = f64::from(u8::from(point.bounded));
+            let values = values.map(|value| value.unwrap_or(f64::NAN));
+            std::iter::once(point.speed_rad_s).chain(values).chain([bounded])
+        });
+        let columns = [
+            "speed_rad_s",
+            "growth_1_s",
+            "blade_amplitude_rad",
+            "casing_amplitude_m",
+            "omega_rad_s",
+            "bounded",
+        ];
+        csv(&columns.map(String::from), rows)
+    }
+}
+
+/// A quantity against speed.
+struct Quantity {
+    name: &'static str,
+    /// What the curve is called.
+    curve: &'static str,
+    unit: &'static str,
+    of: fn(&CoincidencePoint) -> Option<f64>,
+}
+
+const AMPLITUDE: Quantity = Quantity {
+    name: "coincidence",
+    curve: "|a|",
+    unit: "rad",
+    of: |point| point.blade_amplitude_rad,
+};
+
+const GROWTH: Quantity =
+    Quantity { name: "growth of rest", curve: "growth", unit: "1/s", of: |point| point.growth_1_s };
+
+/// The charts over speed.
+fn over_speed(app: &App, buffer: &mut Buffer, at: ViewArea) {
+    let Some(found) = app.latest.results.coincidence.as_deref() else {
+        let inside = title(app, buffer, at, AMPLITUDE.name, &[]);
+        return not_yet(app, buffer, inside);
+    };
+    let Some(curves) = found else {
+        let inside = title(app, buffer, at, AMPLITUDE.name, &[]);
+        let quiet = app.appearance.style(Role::Quiet);
+        print(buffer, inside, 1, "this wave has no coincidence", quiet);
+        return;
+    };
+    let grows = curves.points.iter().any(|point| point.growth_1_s.is_some());
+    if grows && at.area.height >= GROWTH_FROM {
+        let [above, below] = at.rows(60);
+        chart(app, buffer, above, curves, &AMPLITUDE);
+        chart(app, buffer, below, curves, &GROWTH);
+    } else {
+        chart(app, buffer, at, curves, &AMPLITUDE);
+    }
+}
+
+fn chart(
+    app: &App,
+    buffer: &mut Buffer,
+    at: ViewArea,
+    curves: &CoincidenceCurves,
+    what: &Quantity,
+) {
+    let look = &app.appearance;
+    let quiet = look.style(Role::Quiet);
+    let large = what.unit == AMPLITUDE.unit;
+    let values = || curves.points.iter().filter_map(what.of).filter(|value| value.is_finite());
+    let now = now(app).filter(|_| large);
+    let y = rounded(values().chain(now));
+    let x = ChartAxis::plain(curves.from, curves.to);
+    let read = app.cursor.filter(|_| app.view == ViewId::Coincidence).map(|at| x.at(at.across));
+    let point = look.either('◆', '@');
+    let named = format!("{}, {}{}", what.curve, y.scale.prefix, what.unit);
+    let mut legend = vec![entry(look, &look.first(), &named)];
+    if let Some(now) = now {
+        legend.push((format!("{point} {}", readable(now, "rad")), look.style(Role::Contact)));
+    }
+    legend.push(("over rad/s".into(), quiet));
+    if app.speed() < 0.0 {
+        legend.push(("over |Ω|, turning backwards".into(), quiet));
+    }
+    let inside = title(app, buffer, at, what.name, &legend);
+    let told = match read.filter(|_| large) {
+        Some(speed) => (reading(app, speed), Role::Focus),
+        None if large => (sentence(app, curves), Role::Quiet),
+        None => (String::new(), Role::Quiet),
+    };
+    let inside = tell(app, buffer, inside, &told.0, told.1);
+    let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
+    if large {
+        at.note(app, plot.inner);
+    }
+    plot.level(0.0, look.either('┈', '.'), quiet);
+    uprights(&mut plot, app, &curves.markers, read);
+    let points = curves.points.iter();
+    plot.curve(
+        points.map(|point| (point.speed_rad_s.abs(), (what.of)(point).unwrap_or(f64::NAN))),
+        &look.first(),
+    );
+    plot.ink();
+    for point in curves.points.iter().filter(|point| large && !point.bounded) {
+        let sign = look.either('▲', '^');
+        plot.point(point.speed_rad_s.abs(), y.high, sign, look.style(Role::Trouble));
+    }
+    if let Some(now) = now {
+        plot.point(app.speed().abs(), now, point, look.style(Role::Contact));
+    }
+    if large {
+        names(&mut plot, &curves.markers, app);
+    }
+}
+
+/// A range with a round end around values and zero.
+fn rounded(values: impl Iterator<Item = f64>) -> ChartAxis {
+    let (low, high) = values.fold((0.0_f64, 0.0_f64), |(a, b), v| (a.min(v), b.max(v)));
+    let high = if high > low { high } else { low + 1e-4 };
+    let step = nice_step(high - low, 6).unwrap_or(1.0);
+    ChartAxis::scaled((low / step).floor() * step, (high / step).ceil() * step)
+}
+
+/// Lines above the chart; returns the rest.
+fn tell(app: &App, buffer: &mut Buffer, inside: Rect, text: &str, role: Role) -> Rect {
+    let look = &app.appearance;
+    let most = usize::from(inside.height / 5).clamp(1, 3);
+    let lines = wrap(&look.spell(text), usize::from(inside.width).saturating_sub(1));
+    if text.is_empty() || lines.len() > most {
+        return inside;
+    }
+    let rows = u16::try_from(lines.len()).unwrap_or(0);
+    let area = Rect { x: inside.x + 1, width: inside.width.saturating_sub(1), ..inside };
+    for (row, line) in (0..rows).zip(&lines) {
+        print(buffer, area, row, line, look.style(role));
+    }
+    Rect { y: inside.y + rows, height: inside.height.saturating_sub(rows), ..inside }
+}
+
+/// What the curve says, in one sentence.
+fn sentence(app: &App, curves: &CoincidenceCurves) -> String {
+    let waves = curves.points.iter().filter(|point| point.blade_amplitude_rad.is_some());
+    let mut speeds = waves.map(|point| point.speed_rad_s.abs());
+    let ends = speeds.next().map(|first| (first, speeds.next_back().unwrap_or(first)));
+    let between = |(from, to): (f64, f64)| format!("{from:.0} to {to:.0} rad/s");
+    match ends {
+        _ if app.scene.solver.model == ModelSize::Rigid => {
+            "rigid blades have no coincidence: choose another model".into()
+        }
+        None if app.machine.has_other_diameters() => {
+            "the disk has other diameters than the casing: no one wave goes round".into()
+        }
+        Some(ends) if app.is_pressed() => format!("rest grows into this wave: {}", between(ends)),
+        Some((from, to))
+            if curves.points.last().is_some_and(|last| last.speed_rad_s.abs() <= to) =>
+        {
+            format!("a whirl can last from {from:.0} rad/s on")
+        }
+        Some(ends) => format!("a whirl can last: {}", between(ends)),
+        None if app.machine.radial_coupling == 0.0 => {
+            "κ = 0: tips do not move outward, so no coincidence drives them".into()
+        }
+        None if app.is_pressed() => "rest is stable at every speed shown".into(),
+        None => "no whirl lasts at any speed shown".into(),
+    }
+}
+
+/// The values at one speed, solved there.
+fn reading(app: &App, speed: f64) -> String {
+    let speed = speed.copysign(app.speed());
+    let at = format!("at {}: ", readable(speed, "rad/s"));
+    let Some(point) = points(&app.scene, &[speed]).first().copied() else {
+        return at + "no one wave goes round";
+    };
+    let named = [
+        ("|a|", point.blade_amplitude_rad, "rad"),
+        ("|z|", point.casing_amplitude_m, "m"),
+        ("ω", point.omega_rad_s, "rad/s"),
+        ("growth", point.growth_1_s, "1/s"),
+    ];
+    let named = named
+        .iter()
+        .filter_map(|(name, value, unit)| Some(format!("{name} {}", readable((*value)?, unit))));
+    let mut parts: Vec<String> = named.collect();
+    if !point.bounded {
+        parts.push("grows without bound".into());
+    }
+    if point.blade_amplitude_rad.is_none() && point.bounded {
+        parts.push("no wave lasts".into());
+    }
+    at + &parts.join(", ")
+}
+
+/// Amplitude of the blades in the running motion while something touches \[rad\].
+fn now(app: &App) -> Option<f64> {
+    let moment = app.latest.moment.as_ref()?;
+    let [a_c, a_s] = moment.state.alpha;
+    let bends = app.scene.solver.model != ModelSize::Rigid;
+    let touches = moment.active_set != ActiveSet::Nothing;
+    Some(a_c.hypot(a_s)).filter(|a| a.is_finite() && bends && touches)
+}

@@ -1,0 +1,261 @@
+//! Rigid contact of blades that bend and rub, by the explicit solver: pulses, whirl,
+//! restitution, other diameters, single blades.
+
+use crate::beyond_support::{
+    END, KAPPA, MU, PULSE, SPEED, STEP, TAU, ZETA_BD, ZETA_C, coordinates, scene,
+};
+use rubscope::motion::{
+    FailureReason, Motion, RunReport, Sampling, Script, Verdict, run_to_end, run_to_verdict,
+    to_the_end,
+};
+use rubscope::scene::Scene;
+
+fn run(scene: &Scene) -> RunReport {
+    let nothing = (Script::default(), Sampling::default());
+    run_to_end(&scene.checked().unwrap(), &nothing.0, nothing.1, &mut |_| {})
+}
+
+fn verdict(changes: &[(&str, f64)]) -> Verdict {
+    let scene = scene(changes).checked().unwrap();
+    run_to_verdict(&scene, &to_the_end).unwrap().verdict
+}
+
+/// Largest error of a coordinate, as a part of the largest of its kind.
+fn error(found: [f64; 4], expected: [f64; 4]) -> f64 {
+    let size = |k: usize| expected[k & 2].hypot(expected[(k & 2) + 1]);
+    (0..4).map(|k| (found[k] - expected[k]).abs() / size(k)).fold(0.0, f64::max)
+}
+
+#[test]
+fn a_pulse_from_rest_ends_where_the_events_say() {
+    // Full angles, at 3 ms.
+    for (changes, expected, part) in [
+        (
+            vec![(KAPPA, 0.1), (MU, 0.15)],
+            [-7.401_886_021e-5, -1.518_040_483e-5, 1.246_510_047e-4, -3.855_786_340e-5],
+            3e-4,
+        ),
+        (
+            vec![(KAPPA, 0.3), (SPEED, 450.0), (PULSE, 1e5)],
+            [-7.144_187_58e-5, 3.731_499_6e-6, 8.215_760_928e-4, -9.545_824_1e-5],
+            0.02,
+        ),
+        // Linearised: full angles are a part of 3e-3 from it.
+        (
+            vec![(MU, 0.15), (TAU, 1.0 / 3.0)],
+            [-7.922_536_056e-5, -3.104_829_819e-5, 7.604_223_474e-5, -2.379_975_693e-5],
+            1e-3,
+        ),
+    ] {
+        let mut scene = scene(&changes);
+        scene.set(END, "3e-3").unwrap();
+        let mut at = |step: &str| {
+            scene.set(STEP, step).unwrap();
+            error(coordinates(&scene), expected)
+        };
+        let (coarse, fine) = (at("2e-7"), at("4e-9"));
+        assert!(fine < part, "{changes:?}: {fine}");
+        assert!(fine < 0.5 * coarse, "{changes:?}: {coarse} {fine}");
+    }
+}
+
+#[test]
+fn single_blades_are_hit_as_the_events_say() {
+    let mut scene = scene(&[(KAPPA, 0.1), (MU, 0.15), (END, 2e-3), (STEP, 1e-8)]);
+    scene.set("solver.model", "full").unwrap();
+    let report = run(&scene);
+    assert_eq!(report.impact_count, 2);
+    for (hit, (t, blade)) in
+        report.impacts.iter().zip([(2.282_193_119e-4, 19), (2.634_858_602e-4, 4)])
+    {
+        // Two steps of the scheme, and its error.
+        assert!((hit.t_s - t).abs() < 4e-8, "{}", hit.t_s);
+        assert_eq!(hit.blades, [blade]);
+    }
+    let [u_c, u_s, ..] = coordinates(&scene);
+    assert!((u_c / -1.695_076_787e-5 - 1.0).abs() < 5e-4, "{u_c}");
+    assert!((u_s / -1.571_865_816e-5 - 1.0).abs() < 5e-4, "{u_s}");
+    let mut motion = Motion::new(&scene.checked().unwrap());
+    motion.advance(2e-3).unwrap();
+    let angle = motion.blade_angles()[18];
+    assert!((angle / -8.815_562_815e-4 - 1.0).abs() < 5e-4, "{angle}");
+}
+
+/// The whirl after a pulse: its frequency, and the mean push and `|a|` over the last
+/// part.
+fn whirl(changes: &[(&str, f64)]) -> (f64, f64, f64) {
+    let scene = scene(changes).checked().unwrap();
+    let mut motion = Motion::new(&scene);
+    motion.advance(0.45).unwrap();
+    motion.take_mean_forces();
+    let (mut turned, mut last, mut angles) = (0.0, None, 0.0);
+    for look in 0..=500 {
+        motion.advance(0.45 + 1e-4 * f64::from(look)).unwrap();
+        let state = motion.state();
+        let angle = state.u[1].atan2(state.u[0]);
+        let full = std::f64::consts::TAU;
+        let half = std::f64::consts::PI;
+        turned += last.map_or(0.0, |before: f64| (angle - before + half).rem_euclid(full) - half);
+        last = Some(angle);
+        angles += state.alpha[0].hypot(state.alpha[1]);
+    }
+    let push: f64 = motion.take_mean_forces().iter().map(|(_, force)| -force).sum();
+    assert_eq!(motion.lasting(0.05), Verdict::Whirl);
+    (turned / 0.05, push, angles / 501.0)
+}
+
+#[test]
+fn whirl_is_that_of_the_polygon() {
+    for (changes, omega, push, angle) in [
+        (vec![(KAPPA, 0.3), (SPEED, 450.0), (PULSE, 1e5)], 1_089.050_407, 183.189_019, 7.9071e-4),
+        (
+            vec![(KAPPA, -0.15), (MU, 0.3), (SPEED, 300.0), (PULSE, 3e5)],
+            1_202.525_345,
+            181.306_383,
+            5.010_28e-4,
+        ),
+    ] {
+        let changes = [&changes[..], &[(STEP, 2e-7), (END, 0.5)]].concat();
+        let found = whirl(&changes);
+        // The scheme's error, full angles, and a window of parts of a passing.
+        assert!((found.0 / omega - 1.0).abs() < 2e-3, "{changes:?}: {found:?}");
+        assert!((found.1 / push - 1.0).abs() < 2e-2, "{changes:?}: {found:?}");
+        assert!((found.2 / angle - 1.0).abs() < 5e-3, "{changes:?}: {found:?}");
+    }
+}
+
+#[test]
+fn the_rub_that_will_not_end_is_caught_by_some_pulses_and_not_by_others() {
+    for (speed, pulse, expected) in [
+        (450.0, 1e5, Verdict::Whirl),
+        (400.0, 1e5, Verdict::Decay),
+        (450.0, 3e4, Verdict::Whirl),
+        (450.0, 4e4, Verdict::Whirl),
+        (450.0, 5e4, Verdict::Decay),
+        (450.0, 6e4, Verdict::Decay),
+    ] {
+        let changes = [(KAPPA, 0.3), (SPEED, speed), (PULSE, pulse), (STEP, 2e-7), (END, 0.3)];
+        assert_eq!(verdict(&changes), expected, "{speed} {pulse}");
+    }
+}
+
+#[test]
+fn a_leading_blade_under_friction_digs_in_below_the_critical_speed() {
+    for (kappa, speed, expected) in [
+        (-0.15, 280.0, Verdict::Whirl),
+        (-0.15, 240.0, Verdict::Decay),
+        (0.15, 280.0, Verdict::Decay),
+    ] {
+        let changes =
+            [(KAPPA, kappa), (MU, 0.3), (SPEED, speed), (PULSE, 3e5), (STEP, 2e-7), (END, 0.3)];
+        assert_eq!(verdict(&changes), expected, "{kappa} {speed}");
+    }
+}
+
+#[test]
+fn a_disk_of_other_diameters_whirls_where_a_harmonic_of_contact_meets_it() {
+    for (diameters, speed, expected) in
+        [(6.0, 350.0, Verdict::Decay), (6.0, 500.0, Verdict::Whirl), (5.0, 400.0, Verdict::Decay)]
+    {
+        let mut scene = scene(&[
+            (KAPPA, 0.3),
+            (SPEED, speed),
+            (PULSE, 1e5),
+            (ZETA_C, 0.02),
+            (ZETA_BD, 0.01),
+            (STEP, 2e-7),
+            (END, 0.2),
+        ]);
+        scene.bladed_disk.nodal_diameters = diameters as u32;
+        let reached = run_to_verdict(&scene.checked().unwrap(), &to_the_end).unwrap();
+        assert_eq!(reached.verdict, expected, "{diameters} {speed}");
+    }
+}
+
+#[test]
+fn restitution_comes_with_the_right_rebound_to_first_order() {
+    for (e, impacts) in [
+        (0.5, vec![(2.282_193_119e-4, 19), (1.084_411_777e-3, 14), (2.525_766_754e-3, 8)]),
+        (0.8, vec![(2.282_193_119e-4, 19), (7.659_427_621e-4, 22), (1.475_382_593e-3, 3)]),
+    ] {
+        for step in [1e-7, 2e-8] {
+            let mut scene = scene(&[("contact.restitution", e), (STEP, step), (END, 3e-3)]);
+            scene.set("solver.model", "rigid").unwrap();
+            let report = run(&scene);
+            for (hit, (t, blade)) in report.impacts.iter().zip(&impacts) {
+                assert_eq!(hit.blades, [*blade], "{e} {step}");
+                assert!((hit.t_s - t).abs() < 20.0 * step, "{e} {step}: {} {t}", hit.t_s);
+            }
+            assert!(report.impacts.len() >= 3, "{e} {step}");
+            // Dips below zero are of the step's size.
+            assert!(report.checks.max_penetration_m < step, "{e} {step}");
+        }
+    }
+}
+
+#[test]
+fn case_c_still_locks_with_rebounds() {
+    let mut scene = scene(&[
+        ("contact.restitution", 0.8),
+        (PULSE, 51_742.0),
+        (ZETA_C, 0.0),
+        (STEP, 2e-7),
+        (END, 0.2),
+    ]);
+    scene.set("solver.model", "rigid").unwrap();
+    assert_eq!(run(&scene).outcome.verdict, Verdict::Locked);
+}
+
+#[test]
+fn growth_without_bound_is_divergent_and_says_why() {
+    // Friction on the ring far beyond the slope of a corner runs away backward.
+    for (model, tau) in [("modal", 1.0 / 3.0), ("rigid", 1.0)] {
+        let changes =
+            [(MU, 0.5), (TAU, tau), (SPEED, 300.0), (PULSE, 1e5), (STEP, 1e-7), (END, 0.02)];
+        let mut scene = scene(&changes);
+        scene.set("solver.model", model).unwrap();
+        let report = run(&scene);
+        let mut motion = Motion::new(&scene.checked().unwrap());
+        let stopped = motion.advance(0.02).unwrap_err();
+        let expected = match stopped.reason {
+            FailureReason::BladeAngle { .. } | FailureReason::LongStep { .. } => "modal",
+            FailureReason::CasingSpeed { .. } => "rigid",
+            _ => "no growth",
+        };
+        assert_eq!(expected, model, "{stopped}");
+        assert_eq!(report.outcome.verdict, Verdict::Divergent);
+        assert_eq!(report.outcome.message, Some(stopped.to_string()));
+    }
+}
+
+#[test]
+fn energy_is_accounted_for_to_first_order_and_never_created() {
+    for (changes, full) in [
+        (vec![(KAPPA, 0.3), (SPEED, 450.0), (PULSE, 1e5)], false),
+        (vec![(KAPPA, 0.1), (MU, 0.15), (TAU, 0.3)], false),
+        (vec![(KAPPA, 0.1), (MU, 0.15)], true),
+        (vec![("contact.restitution", 0.5), (PULSE, 5e4)], false),
+    ] {
+        let part = |step: f64| {
+            let mut scene = scene(&changes);
+            scene.set("solver.model", if full { "full" } else { "modal" }).unwrap();
+            scene.set(STEP, &step.to_string()).unwrap();
+            scene.set(END, "4e-3").unwrap();
+            let ledger = run(&scene).energy.unwrap();
+            for loss in [
+                ledger.casing_loss_j,
+                ledger.blade_loss_j,
+                ledger.friction_heat_j,
+                ledger.impact_loss_j,
+            ] {
+                assert!(loss >= 0.0, "{ledger:?}");
+            }
+            let gained = ledger.stored_j - ledger.supplied() + ledger.friction_heat_j;
+            assert!(gained <= 1e-3 * ledger.pulse_work_j, "{ledger:?}");
+            ledger.residual().abs() / ledger.pulse_work_j
+        };
+        let (coarse, fine) = (part(4e-7), part(1e-7));
+        assert!(fine < 1e-3, "{changes:?}: {fine}");
+        assert!(fine < 0.5 * coarse, "{changes:?}: {coarse} {fine}");
+    }
+}

@@ -1,0 +1,281 @@
+//! The lock of tips that are inclined or rub, in the frequency domain: the numbers of
+//! docs/theory.md, section 10, and laws.
+
+use proptest::prelude::*;
+use rubscope::harmonic::{
+    Form, HarmonicError, Joint, equilibria, flutter_speed, lock_loads, lock_roots, locked_motion,
+    slip_over, undamped_flutter_speed,
+};
+use rubscope::model::Machine;
+use rubscope::scene::Scene;
+
+/// Table 1 with these tips: `kappa`, `mu`, `mu_c`.
+fn scene([kappa, mu, mu_c]: [f64; 3]) -> Scene {
+    let mut scene = Scene::base();
+    scene.bladed_disk.radial_coupling = kappa;
+    scene.contact.friction = mu;
+    scene.casing.tangential_ratio = if mu == 0.0 { 0.0 } else { mu_c / mu };
+    scene
+}
+
+fn machine(tips: [f64; 3]) -> Machine {
+    scene(tips).machine()
+}
+
+fn close(value: f64, expected: f64, part: f64) {
+    assert!((value - expected).abs() <= part * expected.abs(), "{value} is not {expected}");
+}
+
+#[test]
+fn pushes_of_the_linearised_lock() {
+    for (tips, pushes, casing, blades) in [
+        ([0.1, 0.0, 0.0], [258.358348020, 55.600932525], 1.051647234e-4, 8.308641313e-5),
+        ([0.1, 0.15, 0.0], [282.221918276, 52.075944593], 1.120426576e-4, 2.213009798e-4),
+        ([0.0, 0.15, 0.05], [295.465760024, 4.150702554], 1.010283227e-4, 1.195782347e-4),
+        ([-0.05, 0.15, 0.0], [237.953135565, 57.982055172], 9.907933261e-5, 7.827859089e-5),
+        ([0.0, 0.0, 0.0], [244.415923, 57.294779], 1.010283e-4, 0.0),
+    ] {
+        let machine = machine(tips);
+        let found = machine.locked_multipliers(500.0).unwrap();
+        let digits: f64 = if tips == [0.0; 3] { 1e-8 } else { 1e-11 };
+        for (multiplier, push) in found.iter().zip(pushes) {
+            close(-multiplier, push, digits.max(6e-10 / push));
+        }
+        // |z| and |a| of the exact pair are these up to the turn of the blades.
+        let loads = lock_loads(&machine, 500.0).unwrap();
+        close(loads.amplitude_m, casing, 1e-4);
+        assert!((loads.largest_alpha_rad - blades).abs() <= 0.02 * blades + 1e-7);
+    }
+}
+
+#[test]
+fn the_exact_pair_of_the_theory() {
+    for (kappa, pushes) in [
+        (0.1, [258.36754615, 55.59905854]),
+        (0.2, [310.46446744, 46.97898752]),
+        (0.3, [455.70527497, 8.30654321]),
+    ] {
+        let machine = machine([kappa, 0.0, 0.0]);
+        let loads = lock_loads(&machine, 500.0).unwrap();
+        let sweep = locked_motion(&machine, Form::Modal, true, None, &[500.0]).unwrap();
+        let point = sweep.points[0];
+        assert!(point.admissible && point.stable && point.residual < 1e-12, "{point:?}");
+        for i in [0, 1] {
+            close(loads.pushes_n[i], pushes[i], 6e-9 / pushes[i]);
+            close(-point.multipliers_n[i], pushes[i], 6e-9 / pushes[i]);
+            close(loads.alpha_rad[i], point.alpha_rad[i], 1e-12);
+        }
+        close(loads.torque_nm, point.torque_nm, 1e-12);
+    }
+}
+
+#[test]
+fn windows_of_the_theory() {
+    for (tips, from, to) in [
+        ([0.0, 0.15, 0.05], 489.713631, None),
+        ([0.0, 0.1, 0.1 / 3.0], 454.981573, None),
+        ([0.0, 0.3, 0.1], 787.541069, None),
+        ([0.1, 0.15, 0.05], 548.980917, Some(())),
+        ([-0.1, 0.3, 0.0], 406.867471, None),
+    ] {
+        let window = machine(tips).lock_window(1.0).unwrap();
+        assert!((window.from - from).abs() < 5.01e-7, "{window:?}");
+        assert_eq!(window.to.map(|_| ()), to, "{tips:?}");
+        assert_eq!(machine(tips).lock_speed(), Some(window.from));
+    }
+    for (kappa, from, to) in
+        [(0.1, 414.855, 1952.9), (0.2, 426.006, 936.38), (0.3, 472.117, 566.259)]
+    {
+        let window = machine([kappa, 0.0, 0.0]).lock_window(1.0).unwrap();
+        assert!((window.from - from).abs() < 5.01e-4, "{window:?}");
+        let digit = if to > 1000.0 {
+            0.0501
+        } else if to > 900.0 {
+            5.01e-3
+        } else {
+            5.01e-4
+        };
+        assert!((window.to.unwrap() - to).abs() < digit, "{window:?}");
+    }
+    assert_eq!(machine([0.35, 0.0, 0.0]).lock_window(1.0), None);
+    // Friction at the casing beyond the angle of a corner: none at any speed.
+    let slope = machine([0.0; 3]).polygon.delta.tan();
+    assert_eq!(machine([0.0, 0.5, slope * 1.0001]).lock_windows(1.0), vec![]);
+    assert!(machine([0.0, 0.5, slope * 0.9999]).lock_speed().unwrap() > 1e4);
+}
+
+#[test]
+fn flutter_of_the_theory() {
+    for (kappa, undamped) in [(0.3, 748.6), (0.5, 516.3), (1.0, 394.1)] {
+        let found = undamped_flutter_speed(&machine([kappa, 0.0, 0.0]), 1.0).unwrap();
+        assert!((found - undamped).abs() < 0.0501, "{found}");
+    }
+    // The least of all is the dangerous coincidence.
+    let least = machine([1.222, 0.0, 0.0]);
+    close(undamped_flutter_speed(&least, 1.0).unwrap(), least.dangerous_speed().unwrap(), 1e-6);
+    // With damping, however small: Ziegler's paradox.
+    for zeta in [1e-2, 1e-4, 1e-6] {
+        let mut scene = scene([1.0, 0.0, 0.0]);
+        scene.casing.damping_ratio = zeta;
+        scene.bladed_disk.damping_ratio = zeta;
+        let found = flutter_speed(&scene.machine(), 1.0).unwrap();
+        assert!((found - 341.1).abs() < 0.0501, "{found}");
+    }
+    let found = flutter_speed(&machine([0.5, 0.0, 0.0]), 1.0).unwrap();
+    assert!((found - 452.80).abs() < 5.01e-3, "{found}");
+    assert_eq!(flutter_speed(&machine([0.0, 0.3, 0.1]), 1.0), None);
+}
+
+#[test]
+fn at_the_flutter_speed_a_whirl_has_no_bound() {
+    for tips in [[0.5, 0.0, 0.0], [0.3, 0.15, 0.0], [0.3, 0.15, 0.05]] {
+        let machine = machine(tips);
+        let limit = flutter_speed(&machine, 1.0).unwrap();
+        let grows = |machine: &Machine, speed: f64| {
+            let roots = lock_roots(&Joint::at(machine, speed));
+            roots.iter().any(|root| root.re > 0.0)
+        };
+        assert!(!grows(&machine, limit * (1.0 - 1e-9)) && grows(&machine, limit * (1.0 + 1e-9)));
+        let joint = Joint::at(&machine, limit);
+        let root = lock_roots(&joint).into_iter().max_by(|a, b| a.re.total_cmp(&b.re)).unwrap();
+        // There the compliance vanishes: a whirl there has no bound.
+        let away = joint.compliance(joint.nu + root.im).norm();
+        assert!(away < 1e-9 * joint.compliance(joint.nu).norm(), "{away:e}");
+    }
+}
+
+#[test]
+fn what_is_of_the_papers_tips_alone_is_refused_by_name() {
+    let joined = machine([0.3, 0.0, 0.0]);
+    let key = |error: HarmonicError| match error {
+        HarmonicError::Refused { key, .. } => key,
+        other => panic!("{other}"),
+    };
+    assert_eq!(key(equilibria(&joined, 500.0, true).unwrap_err()), "bladed_disk.radial_coupling");
+    assert_eq!(key(slip_over(&joined, &[500.0]).unwrap_err()), "bladed_disk.radial_coupling");
+    // Friction that only bends blades leaves the slip of the casing alone.
+    let bent = slip_over(&machine([0.0, 0.15, 0.0]), &[500.0]).unwrap();
+    assert_eq!(bent, slip_over(&machine([0.0; 3]), &[500.0]).unwrap());
+    assert_eq!(
+        key(slip_over(&machine([0.0, 0.15, 0.05]), &[500.0]).unwrap_err()),
+        "contact.friction"
+    );
+    for form in [Form::Printed, Form::Blade] {
+        let error = locked_motion(&joined, form, true, None, &[500.0]).unwrap_err();
+        assert_eq!(key(error), "bladed_disk.radial_coupling");
+    }
+    let mut other = scene([0.3, 0.0, 0.0]);
+    other.bladed_disk.nodal_diameters = 4;
+    let other = other.machine();
+    let error = locked_motion(&other, Form::Modal, true, None, &[500.0]).unwrap_err();
+    assert_eq!(key(error), "bladed_disk.nodal_diameters");
+    assert_eq!((other.lock_speed(), other.locked_multipliers(500.0)), (None, None));
+    assert_eq!(lock_loads(&other, 500.0), None);
+}
+
+#[test]
+fn tips_hardly_inclined_are_those_of_the_paper() {
+    let paper = machine([0.0; 3]);
+    let nearly = machine([1e-13, 0.0, 0.0]);
+    for damped in [true, false] {
+        for speed in [0.0, 250.0, 320.0, 500.0, -430.0, 2000.0] {
+            let of = |machine: &Machine| {
+                locked_motion(machine, Form::Modal, damped, None, &[speed]).unwrap().points[0]
+            };
+            let (paper, nearly) = (of(&paper), of(&nearly));
+            for i in [0, 1] {
+                close(nearly.multipliers_n[i], paper.multipliers_n[i], 1e-11);
+                close(nearly.alpha_rad[i], paper.alpha_rad[i], 1e-4);
+            }
+            close(nearly.amplitude_m, paper.amplitude_m, 1e-12);
+            close(nearly.smallest_gap_m, paper.smallest_gap_m, 1e-10);
+            assert!(
+                (nearly.torque_nm - paper.torque_nm).abs() <= 1e-12 + 1e-8 * paper.torque_nm.abs()
+            );
+            assert_eq!((nearly.admissible, nearly.stable), (paper.admissible, paper.stable));
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1000))]
+
+    /// Both push inside the windows and nowhere else.
+    #[test]
+    fn windows_end_where_a_push_changes_its_sign(
+        kappa in -0.6..0.6_f64, mu in 0.0..0.6_f64, tau in 0.0..0.4_f64,
+        zeta in 0.0..0.2_f64, backward: bool, parts in prop::collection::vec(0.0..1.0_f64, 8),
+    ) {
+        let mut scene = scene([kappa, mu, mu * tau]);
+        scene.casing.damping_ratio = zeta;
+        let machine = scene.machine();
+        let sense = if backward { -1.0 } else { 1.0 };
+        let windows = machine.lock_windows(sense);
+        let push = |speed: f64| {
+            machine.locked_multipliers(sense * speed).unwrap().iter().all(|&lambda| lambda < 0.0)
+        };
+        for window in &windows {
+            if window.from > 0.0 {
+                prop_assert!(push(window.from * (1.0 + 1e-9)), "{window:?}");
+                prop_assert!(!push(window.from * (1.0 - 1e-9)), "{window:?}");
+            }
+            if let Some(to) = window.to {
+                prop_assert!(push(to * (1.0 - 1e-9)), "{window:?}");
+                prop_assert!(!push(to * (1.0 + 1e-9)), "{window:?}");
+            }
+        }
+        for part in parts {
+            let speed = 50.0 * (400.0_f64).powf(part);
+            let inside = windows.iter().any(|window| {
+                speed > window.from && window.to.is_none_or(|to| speed < to)
+            });
+            prop_assert_eq!(push(speed), inside, "{} {:?}", speed, windows);
+        }
+    }
+
+    /// The exact pair of nearly still blades is the closed form, and its motion that of
+    /// blades and casing as one.
+    #[test]
+    fn the_exact_pair_of_a_small_clearance_is_the_closed_form(
+        kappa in 0.05..0.4_f64, mu in 0.0..0.3_f64, mu_c in 0.0..0.1_f64,
+        speed in 350.0..900.0_f64, backward: bool,
+    ) {
+        let mut scene = scene([kappa, mu, mu_c]);
+        scene.casing.radius_m = scene.bladed_disk.blade_length_m + 1e-9;
+        let machine = scene.machine();
+        let speed = if backward { -speed } else { speed };
+        let closed = machine.locked_multipliers(speed).unwrap();
+        let size = closed[0].abs().max(closed[1].abs());
+        let sweep = locked_motion(&machine, Form::Modal, true, None, &[speed]).unwrap();
+        if let Some(point) = sweep.points.first() {
+            for (exact, closed) in point.multipliers_n.iter().zip(closed) {
+                prop_assert!((exact - closed).abs() <= 1e-2 * size, "{exact} {closed}");
+            }
+            let grows = lock_roots(&Joint::at(&machine, speed)).iter().any(|root| root.re > 1e-2);
+            let pushes = point.multipliers_n.iter().all(|&lambda| lambda <= 0.0);
+            prop_assert!(!pushes || point.stable != grows, "{point:?}");
+        }
+    }
+
+    /// The mirror image of a machine turns the other way.
+    #[test]
+    fn a_mirrored_rotor_locks_as_the_mirror_image(
+        kappa in -0.4..0.4_f64, mu in 0.0..0.4_f64, mu_c in 0.0..0.1_f64,
+        speed in 300.0..900.0_f64,
+    ) {
+        let (forward, backward) = (machine([kappa, mu, mu_c]), machine([-kappa, mu, mu_c]));
+        prop_assert_eq!(forward.lock_windows(1.0), backward.lock_windows(-1.0));
+        prop_assert_eq!(flutter_speed(&forward, 1.0), flutter_speed(&backward, -1.0));
+        let one = lock_loads(&forward, speed);
+        let other = lock_loads(&backward, -speed);
+        prop_assert_eq!(one.is_some(), other.is_some());
+        if let Some((one, other)) = one.zip(other) {
+            let size = one.pushes_n[0].abs().max(one.pushes_n[1].abs());
+            for i in [0, 1] {
+                prop_assert!((one.pushes_n[i] - other.pushes_n[1 - i]).abs() <= 1e-9 * size);
+            }
+            close(other.amplitude_m, one.amplitude_m, 1e-9);
+            close(other.largest_alpha_rad, one.largest_alpha_rad, 1e-9);
+        }
+    }
+}

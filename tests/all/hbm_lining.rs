@@ -1,0 +1,285 @@
+//! Blades on a lining in the frequency domain: rest under preload, its Hopf points and
+//! limit cycles, against numbers from time integration by other programs, and laws for
+//! random machines.
+
+use rubscope::harmonic::{Cycle, Joint, Lining, Whirl, growth_threshold, rim_waves};
+use rubscope::scene::Scene;
+
+/// Pressed in by 20 micrometres, with the smooth law.
+const PRELOADED: [(&str, &str); 3] = [
+    ("solver.contact", "smooth"),
+    ("casing.radius_m", "0.49988"),
+    ("bladed_disk.radial_coupling", "0.5"),
+];
+
+pub fn close(value: f64, expected: f64, part: f64) {
+    assert!((value - expected).abs() <= part * expected.abs(), "{value} is not {expected}");
+}
+
+pub fn preloaded(stiffness: &str, more: &[(&str, &str)]) -> Scene {
+    let mut set = PRELOADED.to_vec();
+    set.push(("contact.stiffness_n_per_m", stiffness));
+    set.extend(more);
+    let mut scene = Scene::base();
+    set.iter().for_each(|(path, value)| scene.set(path, value).unwrap());
+    scene
+}
+
+pub fn with<T>(scene: &Scene, of: impl FnOnce(&Lining) -> T) -> T {
+    let machine = scene.machine();
+    of(&Lining::of(&machine, &scene.contact).unwrap())
+}
+
+/// The limit cycle at a speed.
+fn cycle(lining: &Lining, speed: f64) -> Cycle {
+    match lining.whirl(speed).unwrap() {
+        Whirl::Cycle(cycle) => cycle,
+        other => panic!("{other:?} at {speed}"),
+    }
+}
+
+/// Low damping, and the lining that then shows the coincidence.
+const LIGHT: [(&str, &str); 2] =
+    [("casing.damping_ratio", "0.01"), ("bladed_disk.damping_ratio", "0.01")];
+/// 60/11 kN/m: all blades together 60 kN/m.
+const SOFT: &str = "5454.545454545455";
+
+#[test]
+fn growth_and_frequency_of_rest() {
+    with(&preloaded("27e3", &[]), |lining| {
+        assert_eq!(lining.stiffness_at_rest(), 297e3);
+        for (speed, growth, s) in [
+            (410.0, 6.643_429_931, -292.499_395),
+            (425.0, 7.512_595_085, -304.463_551),
+            (390.0, -5.799_479_916, -288.217_892),
+        ] {
+            let worst = lining.rest(speed).worst();
+            close(worst.growth_1_s, growth, 1e-9);
+            close(worst.s_rad_s, s, 5e-7);
+            // A rotor that turns the other way has the mirrored motion.
+            let mirrored = lining.rest(-speed).worst();
+            assert!((mirrored.growth_1_s - worst.growth_1_s).abs() < 1e-9);
+            assert!((mirrored.s_rad_s + worst.s_rad_s).abs() < 1e-9);
+        }
+    });
+}
+
+#[test]
+fn limit_cycles_of_simulations() {
+    with(&preloaded("27e3", &[]), |lining| {
+        for (speed, r, z, a, omega) in [
+            (410.0, 6.804_191_76e-5, 5.284_105_64e-5, 1.718_733_47e-4, 934.249_822),
+            (425.0, 3.783_689_09e-5, 2.398_841_17e-5, 7.840_645_21e-5, 970.690_111),
+        ] {
+            let found = cycle(lining, speed);
+            for (value, expected) in [
+                (found.gap_amplitude_m, r),
+                (found.casing_m, z),
+                (found.blade_rad, a),
+                (found.omega_rad_s, omega),
+            ] {
+                close(value, expected, 3e-9);
+            }
+            assert!(found.stable && found.growth_1_s < -1.0);
+        }
+        assert_eq!(lining.whirl(390.0).unwrap(), Whirl::Decays);
+    });
+}
+
+#[test]
+fn blade_amplitude_over_speed_is_the_picture_of_the_coincidence() {
+    with(&preloaded("27e3", &[]), |lining| {
+        for (speed, amplitude) in [
+            (400.0, 1.1757e-4),
+            (402.0, 1.5254e-4),
+            (404.0, 1.7294e-4),
+            (406.0, 1.8201e-4),
+            (408.0, 1.8077e-4),
+            (410.0, 1.7187e-4),
+            (415.0, 1.3620e-4),
+            (420.0, 1.0294e-4),
+            (430.0, 6.0706e-5),
+            (437.0, 4.1699e-5),
+        ] {
+            // Five digits are printed.
+            close(cycle(lining, speed).blade_rad, amplitude, 5e-5);
+        }
+        for speed in [380.0, 399.4, 437.9, 450.0] {
+            assert_eq!(lining.whirl(speed).unwrap(), Whirl::Decays);
+        }
+    });
+    with(&preloaded(SOFT, &LIGHT), |lining| {
+        let peak = (3912..=3984)
+            .map(|tenth| cycle(lining, f64::from(tenth) / 10.0))
+            .max_by(|a, b| a.blade_rad.total_cmp(&b.blade_rad))
+            .unwrap();
+        assert!((peak.speed_rad_s - 392.5).abs() < 0.11, "{}", peak.speed_rad_s);
+        // By the definition of S(r), summed over 200,000 phases.
+        close(peak.blade_rad, 1.312_860_2e-4, 1e-6);
+    });
+}
+
+#[test]
+fn hopf_points_bound_the_growth() {
+    let dug_in = [("bladed_disk.radial_coupling", "-0.15"), ("contact.friction", "0.3")];
+    for (scene, expected, digits) in [
+        (preloaded("27e3", &[]), [399.4641, 437.8875], 1e-4),
+        (preloaded(SOFT, &LIGHT), [391.192, 398.495], 1e-3),
+        (preloaded("80e3", &dug_in), [259.627, 286.212], 1e-3),
+    ] {
+        with(&scene, |lining| {
+            let points = lining.hopf_points([0.0, 700.0]).unwrap();
+            assert_eq!(points.len(), 2, "{points:?}");
+            for (point, expected) in points.iter().zip(expected) {
+                assert!((point.speed_rad_s - expected).abs() < 0.51 * digits, "{points:?}");
+                assert!(lining.rest(point.speed_rad_s).worst().growth_1_s.abs() < 1e-9);
+            }
+            assert!(points[0].grows_above && !points[1].grows_above);
+            // Mirrored, the tips lean the other way too.
+            let kappa = -lining.machine.radial_coupling;
+            let mut turned = scene.clone();
+            turned.set("bladed_disk.radial_coupling", &kappa.to_string()).unwrap();
+            let mirrored = with(&turned, |lining| lining.hopf_points([-700.0, 0.0]).unwrap());
+            for (point, mirrored) in points.iter().zip(mirrored.iter().rev()) {
+                assert!((mirrored.speed_rad_s + point.speed_rad_s).abs() < 1e-9, "{mirrored:?}");
+                assert_eq!(mirrored.grows_above, !point.grows_above);
+            }
+            // The growth is fastest within 2 rad/s of the shifted coincidence.
+            let shifted = lining.shifted_coincidence(1.0).unwrap().speed_rad_s;
+            let growth = |speed: f64| lining.rest(speed).worst().growth_1_s;
+            let fastest = (-800..=800)
+                .map(|k| shifted + 0.05 * f64::from(k))
+                .max_by(|a, b| growth(*a).total_cmp(&growth(*b)))
+                .unwrap();
+            assert!((fastest - shifted).abs() < 2.0, "{fastest} {shifted}");
+        });
+    }
+}
+
+/// Ring friction alone feeds a backward wave.
+#[test]
+fn dry_whip_runs_backward_at_any_speed() {
+    let scene = preloaded(
+        "3e5",
+        &[
+            ("bladed_disk.radial_coupling", "0"),
+            ("contact.friction", "0.3"),
+            ("casing.tangential_ratio", "0.3333333333333333"),
+        ],
+    );
+    with(&scene, |lining| {
+        for speed in [100.0, 500.0] {
+            let worst = lining.rest(speed).worst();
+            close(worst.growth_1_s, 9.0697, 1e-5);
+            assert!(worst.omega_rad_s < 0.0);
+            let found = cycle(lining, speed);
+            close(found.omega_rad_s, -1421.66, 5e-6);
+            close(found.gap_amplitude_m, 4.686e-5, 2e-4);
+            let ratio = -found.omega_rad_s / lining.machine.omega_c;
+            close(ratio - ratio.recip(), 2.0 * 0.05 / 0.1, 1e-9);
+        }
+    });
+    // Not with less friction than mu_c S0 = d_c sqrt((k_c + S0)/m_c).
+    let machine = scene.machine();
+    let stiffness: f64 = 11.0 * 3e5;
+    let edge = machine.casing_damping
+        * ((machine.casing_stiffness + stiffness) / machine.casing_mass).sqrt()
+        / stiffness;
+    for (part, grows) in [(0.97, false), (1.03, true)] {
+        let mut changed = scene.clone();
+        changed.set("contact.friction", &(3.0 * part * edge).to_string()).unwrap();
+        with(&changed, |lining| assert_eq!(lining.rest(500.0).grows, grows));
+    }
+}
+
+#[test]
+fn threshold_of_the_lining_is_that_of_its_formula() {
+    for (kappa, zeta) in [("0.5", "0.05"), ("0.3", "0.01"), ("0.2", "0.002")] {
+        let scene = preloaded(
+            "27e3",
+            &[
+                ("bladed_disk.radial_coupling", kappa),
+                ("casing.damping_ratio", zeta),
+                ("bladed_disk.damping_ratio", zeta),
+            ],
+        );
+        let m = scene.machine();
+        let found = growth_threshold(&m, 1.0).unwrap();
+        let inertia = m.casing_mass * m.omega_c * m.blade_modal_mass * m.omega_bd;
+        let damping = m.casing_damping_ratio * m.omega_c * m.blade_damping_ratio * m.omega_bd;
+        let formula = 2.0 * (inertia * damping / m.coupling_product_at(1.0)).sqrt();
+        close(found.stiffness_n_per_m, formula, 0.15);
+        // Below it no speed grows, above it some do.
+        for (part, grows) in [(0.995, false), (1.005, true)] {
+            let stiffness = (part * found.stiffness_n_per_m / 11.0).to_string();
+            let mut scene = scene.clone();
+            scene.set("contact.stiffness_n_per_m", &stiffness).unwrap();
+            with(&scene, |lining| {
+                let points = lining.hopf_points([0.0, 700.0]).unwrap();
+                assert_eq!(!points.is_empty(), grows, "{kappa} {zeta} {part}");
+            });
+        }
+    }
+}
+
+#[test]
+fn too_stiff_a_joint_grows_without_bound() {
+    // Half of the lining's stiffness is still inside the tongue.
+    with(&preloaded("54e3", &[]), |lining| {
+        let unbounded = lining.whirl(425.0).unwrap();
+        assert_eq!(unbounded, Whirl::Unbounded);
+        let wave = rim_waves(&Joint::at(lining.machine, 425.0));
+        assert!(wave[0].stiffness_n_per_m < lining.stiffness_far_out());
+        assert!(!lining.is_bounded(425.0) && lining.is_bounded(390.0));
+    });
+}
+
+/// A casing wave of 19 diameters meets the 3-diameter disk of 22 blades.
+#[test]
+fn an_alias_of_the_diameters_is_the_same_wave() {
+    let alias = [("operation.nodal_diameters", "19"), ("bladed_disk.nodal_diameters", "3")];
+    let scene = preloaded("27e3", &alias);
+    with(&scene, |lining| {
+        let points = lining.hopf_points([50.0, 80.0]).unwrap();
+        assert_eq!(points.len(), 2);
+        for (point, speed) in points.iter().zip([399.4641, 437.8875]) {
+            close(point.speed_rad_s * 19.0 / 3.0, speed, 2e-7);
+        }
+        close(cycle(lining, 410.0 * 3.0 / 19.0).blade_rad, 1.71873347e-4, 3e-9);
+        assert!((lining.machine.dangerous_speed().unwrap() - 61.3).abs() < 0.05);
+    });
+}
+
+/// Inside the tongue nothing is lost, and nothing settles.
+#[test]
+fn without_damping_nothing_settles() {
+    let undamped = [("casing.damping_ratio", "0"), ("bladed_disk.damping_ratio", "0")];
+    with(&preloaded("5e3", &undamped), |lining| {
+        let points = lining.hopf_points([0.0, 700.0]).unwrap();
+        assert_eq!(points.len(), 2, "{points:?}");
+        let middle = 0.5 * (points[0].speed_rad_s + points[1].speed_rad_s);
+        assert!(lining.rest(middle).grows && !lining.rest(points[1].speed_rad_s + 1.0).grows);
+        let settled = lining.whirl(points[0].speed_rad_s + 1.0).unwrap();
+        assert!(matches!(settled, Whirl::Unsteady | Whirl::Unbounded), "{settled:?}");
+        let shifted = lining.shifted_coincidence(1.0).unwrap().speed_rad_s;
+        assert!((points[0].speed_rad_s..points[1].speed_rad_s).contains(&shifted));
+    });
+}
+
+#[test]
+fn without_one_wave_of_all_blades_it_is_refused() {
+    let refused = |set: &[(&str, &str)]| {
+        let scene = preloaded("27e3", set);
+        Lining::of(&scene.machine(), &scene.contact).unwrap_err().to_string()
+    };
+    assert!(refused(&[("operation.nodal_diameters", "11")]).contains("allowed is one with"));
+    assert!(refused(&[("operation.nodal_diameters", "0")]).contains("nodal_diameters = 0"));
+    let other = refused(&[("bladed_disk.nodal_diameters", "4")]);
+    assert!(other.starts_with("bladed_disk.nodal_diameters = 4: allowed is"), "{other}");
+    let alias = preloaded("27e3", &[("bladed_disk.nodal_diameters", "19")]);
+    assert!(Lining::of(&alias.machine(), &alias.contact).is_ok());
+    with(&preloaded("27e3", &[]), |lining| {
+        assert!(lining.hopf_points([5.0, 1.0]).is_err());
+        assert!(lining.hopf_points([0.0, f64::INFINITY]).is_err());
+    });
+}
