@@ -48,8 +48,7 @@ pub enum ContactLaw {
     Unilateral,
     /// The paper's Eqs. (11)-(13): every penetration is an equality, pull or push.
     Bilateral,
-    /// A lining that gives way: pushes grow with the depth (MODEL: docs/theory.md,
-    /// section 10).
+    /// A lining that gives way: pushes grow with the depth (docs/theory.md, section 10).
     Smooth,
 }
 
