@@ -137,6 +137,9 @@ fn friction_works_against_the_lock() {
     assert!(lock("0.4305").is_some() && lock("0.432").is_none());
     assert_eq!(verdict(name, &[]), Verdict::Locked);
     assert_eq!(verdict(name, &[("contact.friction", "0.2")]), Verdict::Decay);
+    // Friction bends the blades, though no gap feels it: mu l_b |p|/k_a at last.
+    let bent = run(name, &[("solver.end_s", "3")]).r#final;
+    close(bent.alpha_c_rad.hypot(bent.alpha_s_rad), 1.195_782_347e-4, 1e-12);
 }
 
 #[test]
