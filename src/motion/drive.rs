@@ -118,6 +118,14 @@ impl Pulse {
         let overlap = to.min(self.end) - from.max(self.start);
         if overlap > 0.0 { self.force * (overlap / (to - from)) } else { 0.0 }
     }
+
+    /// Mean force over the step of this length centred on `t = n step`; at n = 0 over its
+    /// second half, which is all there is of it \[N\].
+    #[must_use]
+    pub fn mean_of_step(&self, n: u64, step: f64) -> f64 {
+        let (t, half) = (n as f64 * step, 0.5 * step);
+        self.mean(if n == 0 { 0.0 } else { t - half }, t + half)
+    }
 }
 
 #[cfg(test)]

@@ -195,10 +195,8 @@ impl<B: TipModel> Coupled<B> {
 
     /// Mean force of the pulse over the step centred on `n`, whole at n = 0.
     fn force(&self, n: u64) -> f64 {
-        let t = self.time_of(n);
-        let half = 0.5 * self.step;
         let left_over = if n == self.left_over.0 { self.left_over.1 } else { 0.0 };
-        self.pulse.mean(if n == 0 { 0.0 } else { t - half }, t + half) + left_over
+        self.pulse.mean_of_step(n, self.step) + left_over
     }
 
     fn time_of(&self, n: u64) -> f64 {
