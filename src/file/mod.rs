@@ -75,11 +75,34 @@ pub fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) ->
 /// `AlreadyExists` where there is anything of this name, also if it came while
 /// `write` was at work; an error of the system or of `write`.
 pub fn create(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<()> {
+    create_with(path, false, write)
+}
+
+/// As `create`, for the user alone: others can never read it.
+///
+/// # Errors
+/// As `create`.
+pub fn create_private(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<()> {
+    create_with(path, true, write)
+}
+
+fn create_with(
+    path: &Path,
+    private: bool,
+    write: impl FnOnce(&mut dyn Write) -> Result<()>,
+) -> Result<()> {
     if path.symlink_metadata().is_ok() {
         return Err(Error::from(ErrorKind::AlreadyExists));
     }
     let (Place::New(path) | Place::Stream(path) | Place::Existing { path, .. }) = Place::of(path)?;
     let temporary = Temporary::beside(&path, None)?;
+    #[cfg(unix)]
+    if private {
+        use std::os::unix::fs::PermissionsExt;
+        temporary.file().set_permissions(PermissionsExt::from_mode(0o600))?;
+    }
+    #[cfg(not(unix))]
+    let _ = private;
     fill(temporary.file(), write)?;
     temporary.finish(None)?;
     temporary.create(&path)

@@ -2,6 +2,7 @@
 //! written only when that changed; without a folder for it, nothing is
 //! remembered.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::channel;
 use std::time::Duration;
@@ -11,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use super::ability::is_remote;
 use super::app::App;
-use super::files::{FILES_NAME, FileJob, FileResult};
+use super::files::FILES_NAME;
 use super::raster::Marker;
 use super::theme::{Theme, ThemeChoice};
 use crate::file;
@@ -25,8 +26,9 @@ const MOST_TERMINALS: usize = 16;
 const LONGEST_NAME: usize = 64;
 /// Most charts next to the large one.
 const MOST_CHARTS: usize = 3;
-/// How long the end of the program waits for the file.
-const MOMENT: Duration = Duration::from_millis(400);
+/// How long the end of the program waits for the file: a busy disk takes a second, one
+/// that never answers must not keep the user.
+pub const PATIENCE: Duration = Duration::from_secs(5);
 
 /// What is remembered. A field that is missing in the file has its default;
 /// fields that are not known here are kept.
@@ -73,26 +75,18 @@ impl Config {
         Ok(Self { charts: read.charts.map(|count| count.min(MOST_CHARTS)), ..read })
     }
 
-    fn write(&self, path: &Path) -> FileResult {
-        let failed = |error: &dyn std::fmt::Display| FileResult::Failed(error.to_string());
+    fn write(&self, path: &Path) -> std::io::Result<()> {
         // Plain values come before tables in a table, as the format needs it.
-        let table = match toml::Table::try_from(self) {
-            Ok(table) => table,
-            Err(error) => return failed(&error),
-        };
-        let is_new = !path.exists();
-        if let Some(folder) = path.parent()
-            && let Err(error) = private_folder(folder)
-        {
-            return failed(&error);
+        let table = toml::Table::try_from(self).map_err(std::io::Error::other)?;
+        if let Some(folder) = path.parent() {
+            private_folder(folder)?;
         }
-        let job = FileJob { path: path.into(), content: table.to_string(), replace: true };
-        let written = job.run();
-        if is_new && written == FileResult::Written {
-            // It is complete; whether others can read it is no reason to fail.
-            let _ = make_private(path);
+        let write = |out: &mut dyn Write| out.write_all(table.to_string().as_bytes());
+        if path.symlink_metadata().is_ok() {
+            file::replace(path, write).map(drop)
+        } else {
+            file::create_private(path, write)
         }
-        written
     }
 }
 
@@ -102,20 +96,9 @@ fn private_folder(folder: &Path) -> std::io::Result<()> {
     std::fs::DirBuilder::new().recursive(true).mode(0o700).create(folder)
 }
 
-#[cfg(unix)]
-fn make_private(path: &Path) -> std::io::Result<()> {
-    use std::os::unix::fs::PermissionsExt;
-    std::fs::set_permissions(path, std::fs::Permissions::from_mode(0o600))
-}
-
 #[cfg(not(unix))]
 fn private_folder(folder: &Path) -> std::io::Result<()> {
     std::fs::create_dir_all(folder)
-}
-
-#[cfg(not(unix))]
-fn make_private(_: &Path) -> std::io::Result<()> {
-    Ok(())
 }
 
 /// Whether a folder may be made: not below a home that does not exist.
@@ -199,9 +182,9 @@ impl Memory {
         self.began = Some(Choices::of(app));
     }
 
-    /// Remembers what was changed since the beginning, for the next start. Waits
-    /// only a moment for a disk that does not answer.
-    pub fn keep(self, app: &App) {
+    /// Remembers what was changed since the beginning, for the next start. Waits no
+    /// longer than this for a disk that does not answer.
+    pub fn keep(self, app: &App, patience: Duration) {
         let Some(path) = self.path.clone() else { return };
         let ended = Choices::of(app);
         let introduced = !app.is_new;
@@ -215,11 +198,11 @@ impl Memory {
                     let _ = changed.write(&path);
                 }
             }
-            // Without a receiver the moment is over.
+            // Without a receiver nobody waits any more.
             let _ = done.send(());
         };
         if std::thread::Builder::new().name(FILES_NAME.into()).spawn(work).is_ok() {
-            let _ = wait.recv_timeout(MOMENT);
+            let _ = wait.recv_timeout(patience);
         }
     }
 

@@ -185,6 +185,6 @@ pub fn watch_signals(_: Sender<ScreenEvent>) -> std::io::Result<()> {
     Ok(())
 }
 
-/// How long the drawing thread may take to end after a signal.
+/// How long the drawing thread may take to end after a signal: it has a file to keep.
 #[cfg(unix)]
-const GRACE: std::time::Duration = std::time::Duration::from_millis(500);
+const GRACE: Duration = super::config::PATIENCE;

@@ -122,7 +122,7 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
         ended
     });
     drop(guard);
-    memory.keep(&app);
+    memory.keep(&app, config::PATIENCE);
     if app.writing.is_some() {
         files::tidy_up();
     }

@@ -13,13 +13,18 @@ fn explorer(home: &Path, more: &[&str]) -> Start {
     Start::explorer(&arguments).env("XDG_CONFIG_HOME", home.to_str().unwrap())
 }
 
+/// A home in memory where there is one: a busy disk takes longer than the program waits.
+fn home() -> tempfile::TempDir {
+    tempfile::tempdir_in("/dev/shm").or_else(|_| tempfile::tempdir()).unwrap()
+}
+
 fn file(home: &Path) -> PathBuf {
     home.join("rubscope/config.toml")
 }
 
 #[test]
 fn what_was_seen_and_chosen_is_remembered() {
-    let home = tempfile::tempdir().unwrap();
+    let home = home();
     let mut terminal = explorer(home.path(), &[]).open();
     terminal.wait_for("new here?");
     terminal.send("t");
@@ -50,7 +55,7 @@ fn what_was_seen_and_chosen_is_remembered() {
 
 #[test]
 fn without_the_config_file_nothing_is_read_or_written() {
-    let home = tempfile::tempdir().unwrap();
+    let home = home();
     let mut terminal = explorer(home.path(), &["--no-config"]).open();
     terminal.wait_for("↑↓ knob");
     terminal.send("t");
@@ -70,7 +75,7 @@ fn without_the_config_file_nothing_is_read_or_written() {
 
 #[test]
 fn a_terminal_that_answers_has_the_theme_for_its_background() {
-    let home = tempfile::tempdir().unwrap();
+    let home = home();
     let mut terminal = explorer(home.path(), &[]).env("COLORFGBG", "").typed(WHITE).open();
     terminal.wait_for("LOCKED");
     terminal.send("t");
@@ -83,7 +88,7 @@ fn a_terminal_that_answers_has_the_theme_for_its_background() {
 
 #[test]
 fn an_answer_that_comes_too_late_is_no_key_and_is_not_asked_for_again() {
-    let home = tempfile::tempdir().unwrap();
+    let home = home();
     let mut terminal = explorer(home.path(), &[]).env("COLORFGBG", "").open();
     terminal.wait_for("LOCKED");
     let late = "\u{1b}]11;rgb:eeee/eeee/eeee\u{1b}\\\u{1b}[?62;22c";

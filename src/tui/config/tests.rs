@@ -13,7 +13,7 @@ fn session(path: &Path, does: impl FnOnce(&mut App)) -> App {
     memory.prepare(&mut app);
     let state = app.clone();
     does(&mut app);
-    memory.keep(&app);
+    memory.keep(&app, Duration::MAX);
     state
 }
 
@@ -100,7 +100,7 @@ fn a_silent_terminal_is_remembered_once_and_by_the_way_it_is_reached() {
         let mut app = app();
         memory.prepare(&mut app);
         memory.silent = Some(format!("terminal {name}"));
-        memory.keep(&app);
+        memory.keep(&app, Duration::MAX);
     }
     let config = read(&path);
     assert_eq!(config.silent_terminals.len(), MOST_TERMINALS);
