@@ -5,10 +5,11 @@ use std::sync::mpsc::Sender;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crossterm::event::{self, KeyCode, KeyEvent, KeyEventKind, KeyModifiers, MouseEvent};
+use crossterm::event::{Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers, MouseEvent};
 
 use super::files::FileResult;
 use super::ground::{LATE, LateAnswer, is_part_of_answer};
+use super::input::Input;
 use super::scenes::FoundScenes;
 
 /// Keys that follow each other this closely are no typing.
@@ -52,17 +53,18 @@ pub fn read_keys(to: Sender<ScreenEvent>, unanswered: bool) -> std::io::Result<(
     let read = move || {
         let began = Instant::now();
         let mut late = LateAnswer::default();
+        let mut input = Input::default();
         loop {
-            let mut burst = vec![event::read()];
-            while unanswered && began.elapsed() < LATE && may_follow(&burst) {
-                burst.push(event::read());
+            let mut burst = vec![input.next()];
+            while unanswered && began.elapsed() < LATE && may_follow(&burst, &mut input) {
+                burst.push(input.next());
             }
             let keys: Option<Vec<KeyEvent>> = burst.iter().map(key_of).collect();
             if keys.is_some_and(|keys| is_part_of_answer(&keys)) {
                 continue;
             }
             for event in burst {
-                if let Ok(event::Event::Key(key)) = &event
+                if let Ok(Event::Key(key)) = &event
                     && unanswered
                     && began.elapsed() < LATE
                     && late.takes(key)
@@ -81,24 +83,22 @@ pub fn read_keys(to: Sender<ScreenEvent>, unanswered: bool) -> std::io::Result<(
 }
 
 /// Whether more of what came last is there already: nobody types that fast.
-fn may_follow(burst: &[std::io::Result<event::Event>]) -> bool {
-    burst.last().and_then(key_of).is_some()
-        && burst.len() < MOST_IN_BURST
-        && event::poll(BURST).unwrap_or(false)
+fn may_follow(burst: &[std::io::Result<Event>], input: &mut Input) -> bool {
+    burst.last().and_then(key_of).is_some() && burst.len() < MOST_IN_BURST && input.has_more(BURST)
 }
 
-fn key_of(event: &std::io::Result<event::Event>) -> Option<KeyEvent> {
+fn key_of(event: &std::io::Result<Event>) -> Option<KeyEvent> {
     match event {
-        Ok(event::Event::Key(key)) => Some(*key),
+        Ok(Event::Key(key)) => Some(*key),
         _ => None,
     }
 }
 
 /// What an event of the terminal is for the explorer, if it is anything.
-fn screen_event(event: std::io::Result<event::Event>) -> Option<ScreenEvent> {
+fn screen_event(event: std::io::Result<Event>) -> Option<ScreenEvent> {
     Some(match event {
         // Some terminals also report releases; repeats count as presses.
-        Ok(event::Event::Key(key)) if key.kind != KeyEventKind::Release => {
+        Ok(Event::Key(key)) if key.kind != KeyEventKind::Release => {
             if key.code == KeyCode::Char('c') && key.modifiers == KeyModifiers::CONTROL {
                 // It quits everywhere; a frame that waits for the terminal must not
                 // keep the drawing thread from hearing it.
@@ -106,9 +106,9 @@ fn screen_event(event: std::io::Result<event::Event>) -> Option<ScreenEvent> {
             }
             ScreenEvent::Key(key)
         }
-        Ok(event::Event::Mouse(mouse)) => ScreenEvent::Mouse(mouse),
-        Ok(event::Event::Resize(..)) => ScreenEvent::Resize,
-        Ok(event::Event::Paste(text)) => ScreenEvent::Pasted(text),
+        Ok(Event::Mouse(mouse)) => ScreenEvent::Mouse(mouse),
+        Ok(Event::Resize(..)) => ScreenEvent::Resize,
+        Ok(Event::Paste(text)) => ScreenEvent::Pasted(text),
         Ok(_) => return None,
         Err(_) => ScreenEvent::InputClosed,
     })
@@ -122,8 +122,8 @@ fn screen_event(event: std::io::Result<event::Event>) -> Option<ScreenEvent> {
 #[cfg(unix)]
 pub fn watch_signals(to: Sender<ScreenEvent>) -> std::io::Result<()> {
     use super::{files, job, terminal};
-    use signal_hook::consts::{SIGCONT, SIGTSTP};
-    let watched = deadly_signals().into_iter().chain([SIGTSTP, SIGCONT]);
+    use signal_hook::consts::{SIGCONT, SIGTSTP, SIGWINCH};
+    let watched = deadly_signals().into_iter().chain([SIGTSTP, SIGCONT, SIGWINCH]);
     let mut signals = signal_hook::iterator::Signals::new(watched)?;
     let watch = move || {
         for signal in signals.forever() {
@@ -138,6 +138,7 @@ pub fn watch_signals(to: Sender<ScreenEvent>) -> std::io::Result<()> {
                     job::want_stop(false);
                     let _ = to.send(ScreenEvent::Continued);
                 }
+                SIGWINCH => _ = to.send(ScreenEvent::Resize),
                 deadly => {
                     let number = u8::try_from(deadly).unwrap_or(0);
                     terminal::end(number);

@@ -22,6 +22,8 @@ mod ground;
 #[doc(hidden)]
 pub mod history;
 mod host;
+#[cfg_attr(not(unix), path = "input_other.rs")]
+mod input;
 #[cfg_attr(not(unix), path = "job_other.rs")]
 mod job;
 mod knobs;

@@ -207,6 +207,16 @@ pub fn write(bytes: &[u8]) -> Result<(), Error> {
     Ok(())
 }
 
+/// Takes what was typed, and waits for it this long or for ever; none if there was
+/// nothing.
+///
+/// # Errors
+/// The terminal is closed.
+#[cfg(unix)]
+pub fn read(bytes: &mut [u8], wait: Option<Duration>) -> Result<Option<usize>, Error> {
+    tty()?.read(bytes, wait)
+}
+
 /// Bytes sent to the terminal so far.
 pub fn sent() -> u64 {
     SENT.load(SeqCst)

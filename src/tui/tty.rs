@@ -4,7 +4,7 @@
 //! a waiting thread for ever.
 
 use std::fs::File;
-use std::io::Result;
+use std::io::{ErrorKind, Result};
 use std::os::fd::{AsFd, OwnedFd};
 use std::os::unix::ffi::OsStringExt;
 use std::os::unix::fs::OpenOptionsExt;
@@ -130,6 +130,32 @@ impl Tty {
         match poll(&mut fds, Some(&wait)) {
             Ok(ready) => Ok(ready > 0),
             Err(Errno::INTR) => Ok(false),
+            Err(error) => Err(error.into()),
+        }
+    }
+
+    /// Takes what was typed, and waits for it this long or for ever; none if there
+    /// was nothing.
+    ///
+    /// # Errors
+    /// The terminal is closed.
+    pub fn read(&self, bytes: &mut [u8], wait: Option<Duration>) -> Result<Option<usize>> {
+        let wait = wait.and_then(|wait| Timespec::try_from(wait).ok());
+        // Each look is told anew of bytes that are still there.
+        match poll(&mut [PollFd::new(&self.keys, PollFlags::IN)], wait.as_ref()) {
+            Ok(0) | Err(Errno::INTR) => return Ok(None),
+            Ok(_) => {}
+            Err(error) => return Err(error.into()),
+        }
+        match rustix::io::read(&self.keys, bytes) {
+            Ok(0) => Err(ErrorKind::UnexpectedEof.into()),
+            Ok(count) => Ok(Some(count)),
+            Err(Errno::INTR) => Ok(None),
+            Err(Errno::AGAIN) => {
+                // Some systems cannot tell what a terminal is ready for.
+                std::thread::sleep(LOOK);
+                Ok(None)
+            }
             Err(error) => Err(error.into()),
         }
     }

@@ -79,6 +79,7 @@ mod plain;
 mod plain_self;
 mod plain_stepper;
 mod pty;
+mod pty_bursts;
 #[cfg(unix)]
 mod pty_config;
 mod pty_signals;

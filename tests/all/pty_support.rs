@@ -20,6 +20,9 @@ const PATIENCE: Duration = Duration::from_secs(60);
 /// A short run, so that a verdict is there soon.
 pub const SHORT: [&str; 4] = ["--step", "2e-7", "--end", "0.02"];
 
+/// A title, which no screen shows.
+const LAST: &str = "\u{1b}]0;last\u{7}";
+
 /// What the reader of the terminal does.
 const READS: u8 = 0;
 const PAUSES: u8 = 1;
@@ -270,6 +273,16 @@ impl Terminal {
         self.reader.store(READS, Ordering::SeqCst);
     }
 
+    /// Gives the terminal another size.
+    pub fn resize(&mut self, cols: u16, rows: u16) {
+        let size = PtySize { rows, cols, pixel_width: 0, pixel_height: 0 };
+        self.master.as_ref().unwrap().resize(size).unwrap();
+        let of = |cells| NonZeroU16::new(cells).unwrap();
+        self.parser.screen_mut().set_size(of(rows), of(cols));
+        // A program without this terminal for its own is told by whoever has it.
+        self.signal("WINCH");
+    }
+
     /// Closes the terminal, like a window. Only a leading program is told.
     pub fn hang_up(&mut self) {
         self.reader.store(GOES, Ordering::SeqCst);
@@ -303,8 +316,16 @@ impl Terminal {
     pub fn wait(&mut self) -> u32 {
         let status = self.ended();
         self.unblock();
-        while let Ok(bytes) = self.output.recv_timeout(Duration::from_millis(300)) {
-            self.heard(&bytes);
+        // What is written now comes after all that the program wrote.
+        let name = self.master.as_ref().unwrap().tty_name().unwrap();
+        let slave = std::fs::File::options().write(true).open(name);
+        slave.unwrap().write_all(LAST.as_bytes()).unwrap();
+        let began = Instant::now();
+        while !self.written.ends_with(LAST.as_bytes()) {
+            assert!(began.elapsed() < PATIENCE, "the rest never came");
+            if let Ok(bytes) = self.output.recv_timeout(Duration::from_millis(100)) {
+                self.heard(&bytes);
+            }
         }
         assert_eq!(status.signal(), None, "killed");
         status.exit_code()

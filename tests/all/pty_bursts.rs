@@ -1,0 +1,71 @@
+//! The built program in a pseudo-terminal whose user sends more than is read at
+//! once, or sequences without an end: one Ctrl-C is heard all the same.
+
+#![cfg(unix)]
+
+use crate::pty_support::{SHORT, Start, Terminal};
+
+/// Keys that open each mode, and what is seen then.
+const MODES: [(&str, &str); 8] = [
+    ("", "? help"),
+    ("\r12", "12_"),
+    (":", "a command, scene, lesson, view"),
+    ("?", "Type to find"),
+    ("g", "Lessons: Enter begins one"),
+    ("g\r", "lower"),
+    ("s", "save the scene as"),
+    ("i", "at 0.00000 s: u_c"),
+];
+
+/// A letter, an arrow, a move of the mouse and a pasted text.
+const UNIT: &str = "j\u{1b}[B\u{1b}[<35;10;10M\u{1b}[200~ab\u{1b}[201~";
+
+fn opened(keys: &str, seen: &str) -> Terminal {
+    let mut terminal = Start::explorer(&SHORT).open();
+    terminal.wait_for(" LOCKED ");
+    terminal.send(keys);
+    terminal.wait_for(seen);
+    terminal
+}
+
+fn ends(mut terminal: Terminal, what: &str) {
+    terminal.send("\u{3}");
+    assert_eq!(terminal.wait(), 0, "{what}");
+    terminal.assert_restored();
+}
+
+#[test]
+fn one_ctrl_c_is_heard_after_a_burst_of_any_size_in_every_mode() {
+    for (keys, seen) in MODES {
+        for size in [1_000, 4_200, 20_000, 200_000] {
+            let mut terminal = opened(keys, seen);
+            terminal.send(&UNIT.repeat(size / UNIT.len()));
+            ends(terminal, &format!("{keys:?}, {size} bytes"));
+        }
+    }
+}
+
+#[test]
+fn one_ctrl_c_is_heard_after_a_sequence_without_an_end_in_every_mode() {
+    for (keys, seen) in MODES {
+        for begun in ["\u{1b}[<0;1", "\u{1b}[200~abc", "\u{1b}]11;rgb:", "\u{1b}O"] {
+            let mut terminal = opened(keys, seen);
+            terminal.send(begun);
+            ends(terminal, &format!("{keys:?} {begun:?}"));
+        }
+        let mut terminal = opened(keys, seen);
+        terminal.send(&format!("\u{1b}[200~{}", "abc".repeat(20_000)));
+        ends(terminal, &format!("{keys:?} a long text"));
+    }
+}
+
+/// The size comes by a signal, not with the keys.
+#[test]
+fn another_size_of_the_terminal_is_drawn() {
+    let mut terminal = opened("", "? help");
+    terminal.resize(100, 30);
+    terminal.wait_until("a screen of 30 rows", |screen| {
+        screen.rows(0, 100).nth(29).is_some_and(|row| row.contains("? help"))
+    });
+    ends(terminal, "another size");
+}
