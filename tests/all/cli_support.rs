@@ -1,6 +1,33 @@
 //! Runs the program for the tests of its command line.
 
-use std::process::Output;
+use std::ffi::OsStr;
+use std::process::{Command, Output};
+
+/// The program, as a command that hears every signal.
+pub fn program() -> Command {
+    hearing(env!("CARGO_BIN_EXE_rubscope"))
+}
+
+/// A command that hears every signal. Tests that were started by `nohup`, or with `&` in
+/// a script, ignore some; what they start would too, and a shell cannot change that. A
+/// signal that is caught here is the usual one there, and still does nothing here.
+pub fn hearing(program: impl AsRef<OsStr>) -> Command {
+    #[cfg(unix)]
+    {
+        static ONCE: std::sync::Once = std::sync::Once::new();
+        ONCE.call_once(|| {
+            let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+            let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+            let ignored = ignored.map_or(0, |set| u64::from_str_radix(set.trim(), 16).unwrap());
+            for signal in
+                [1, 2, 3, 15].into_iter().filter(|signal| ignored >> (signal - 1) & 1 == 1)
+            {
+                signal_hook::flag::register(signal, std::sync::Arc::default()).unwrap();
+            }
+        });
+    }
+    Command::new(program)
+}
 
 /// Runs `rubscope` with these arguments and captures its output.
 pub fn rubscope(arguments: &[&str]) -> Output {

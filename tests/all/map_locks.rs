@@ -7,12 +7,14 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
+use crate::cli_support::program;
+
 /// A map that takes long enough to be met at work; it is ended by the test.
 const LONG: &str = "map --solver event --model rigid --contact unilateral --threads 1 \
                     --speed 300:500:300 --pulse 1e5:1e6:300";
 
 fn command(folder: &Path, more: &str) -> Command {
-    let mut command = Command::new(assert_cmd::cargo::cargo_bin!("rubscope"));
+    let mut command = program();
     command.args(LONG.split_whitespace()).args(more.split_whitespace()).current_dir(folder);
     command.stdout(Stdio::null()).stderr(Stdio::piped());
     command
@@ -128,7 +130,7 @@ fn a_large_map_takes_little_memory() {
     let folder = tempfile::tempdir().unwrap();
     let axes = "map --solver event --model rigid --contact unilateral --threads 2 --no-sensitivity \
                 --speed 300:500:4000 --pulse 1e5:1e6:4000 --out m.csv";
-    let mut command = Command::new(assert_cmd::cargo::cargo_bin!("rubscope"));
+    let mut command = program();
     command.args(axes.split_whitespace()).current_dir(folder.path()).stderr(Stdio::null());
     let at_work = AtWork(command.spawn().unwrap());
     at_work.wait_for(&folder.path().join("m.csv.partial"));

@@ -115,12 +115,13 @@ fn parts_with_another_title_note_or_view_belong_together() {
 #[cfg(unix)]
 mod stopped {
     use super::*;
+    use crate::cli_support::program;
     use std::process::{Child, Command, Stdio};
     use std::time::{Duration, Instant};
 
     /// Starts the slow map and waits until some of its cells are on disk.
     fn started(directory: &Path, more: &[&str]) -> Child {
-        let mut child = Command::new(assert_cmd::cargo::cargo_bin!("rubscope"))
+        let mut child = program()
             .args(words(SLOW, more))
             .args(["--out", "map.csv"])
             .current_dir(directory)

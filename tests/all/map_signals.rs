@@ -9,6 +9,8 @@ use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
+use crate::cli_support::{hearing, program};
+
 /// A long limit, not a speed test: a loaded machine may be slow.
 const PATIENCE: Duration = Duration::from_secs(60);
 
@@ -45,7 +47,7 @@ impl Running {
     }
 
     fn start_with(arguments: &[&str], directory: &Path, errors: Stdio) -> Self {
-        let child = Command::new(env!("CARGO_BIN_EXE_rubscope"))
+        let child = program()
             .args(arguments)
             .current_dir(directory)
             .stdout(Stdio::piped())
@@ -117,6 +119,20 @@ fn a_signal_stops_a_map_in_the_middle_of_a_cell() {
     }
 }
 
+/// As under `nohup`, and after `&` in a script.
+#[test]
+fn what_a_test_starts_hears_the_signals_that_the_test_ignores() {
+    let test = "map_signals::a_signal_stops_a_map_in_the_middle_of_a_cell";
+    let output = Command::new("sh")
+        .args(["-c", "trap '' INT HUP QUIT TERM; exec \"$@\"", "sh"])
+        .arg(std::env::current_exe().unwrap())
+        .args(["--exact", test])
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.success() && said.contains("1 passed"), "{said}");
+}
+
 #[test]
 fn a_second_signal_ends_a_map_at_once() {
     // Nobody reads what it says, and the pipe is full: it waits there for ever.
@@ -148,7 +164,7 @@ fn a_hang_up_that_was_ignored_at_the_start_stays_ignored() {
     let directory = tempfile::tempdir().unwrap();
     let program = env!("CARGO_BIN_EXE_rubscope");
     let script = format!("trap '' HUP; exec {program} {} --out map.csv", LONG_CELL.join(" "));
-    let child = Command::new("sh")
+    let child = hearing("sh")
         .args(["-c", &script])
         .current_dir(directory.path())
         .stderr(Stdio::piped())

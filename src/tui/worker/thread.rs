@@ -205,7 +205,7 @@ mod tests {
             worker.order(&order(400.0 + f64::from(turn), u64::from(turn as u32)));
         }
         // A long limit, not a speed test: the last order must arrive.
-        for _ in 0..10_000 {
+        for _ in 0..60_000 {
             if let Some(snapshot) = worker.take()
                 && snapshot.generation == 19
                 && matches!(snapshot.results.full_run, Some(FullRunState::Done(_)))
@@ -227,7 +227,7 @@ mod tests {
         worker.order(&Order { restarts: 1, compare: true, ..app.order() });
         std::thread::sleep(Duration::from_millis(50));
         worker.order(&order(419.0, 2));
-        for _ in 0..10_000 {
+        for _ in 0..60_000 {
             if let Some(snapshot) = worker.take()
                 && snapshot.generation == 2
                 && matches!(snapshot.results.full_run, Some(FullRunState::Done(_)))
