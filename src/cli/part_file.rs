@@ -31,7 +31,10 @@ impl PartFile {
         let shown = path.display();
         let mut file = lock(path)?;
         let writer = if file.metadata()?.len() == 0 {
-            start(&mut file, map).with_context(|| format!("cannot write {shown}"))?
+            start(&mut file, map)
+                // Nothing is in it, and no other map can have it.
+                .inspect_err(|_| drop(std::fs::remove_file(path)))
+                .with_context(|| format!("cannot write {shown}"))?
         } else {
             go_on(&file, path, map)?
         };

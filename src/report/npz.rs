@@ -11,12 +11,32 @@ use zip::{CompressionMethod, DateTime, ZipWriter};
 use super::command::VERSION;
 use super::{History, Provenance};
 
+/// Keeps the first error of a writer from the archive, which would tell it itself.
+struct Quiet<'a> {
+    out: &'a mut dyn Write,
+    trouble: Result<()>,
+}
+
+impl Write for Quiet<'_> {
+    fn write(&mut self, bytes: &[u8]) -> Result<usize> {
+        if self.trouble.is_ok() {
+            self.trouble = self.out.write_all(bytes);
+        }
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> Result<()> {
+        Ok(())
+    }
+}
+
 /// Writes a history and where it comes from.
 ///
 /// # Errors
 /// An error of the writer.
 pub fn write(history: &History, origin: &Provenance, out: &mut dyn Write) -> Result<()> {
-    let mut archive = ZipWriter::new_stream(out);
+    let mut quiet = Quiet { out, trouble: Ok(()) };
+    let mut archive = ZipWriter::new_stream(&mut quiet);
     // A fixed date, so that the same history gives the same file.
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Stored)
@@ -32,7 +52,7 @@ pub fn write(history: &History, origin: &Provenance, out: &mut dyn Write) -> Res
     add("command", text(&origin.command.to_string())?)?;
     add("scene", text(&origin.scene.to_toml())?)?;
     archive.finish().map_err(Error::other)?;
-    Ok(())
+    quiet.trouble
 }
 
 /// One array in numpy's format.
@@ -66,6 +86,36 @@ fn text(text: &str) -> Result<Vec<u8>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A disk with room for so many bytes.
+    struct Disk(usize);
+
+    impl Write for Disk {
+        fn write(&mut self, bytes: &[u8]) -> Result<usize> {
+            let Some(room) = self.0.checked_sub(bytes.len()) else {
+                return Err(Error::new(std::io::ErrorKind::StorageFull, "the disk is full"));
+            };
+            self.0 = room;
+            Ok(bytes.len())
+        }
+
+        fn flush(&mut self) -> Result<()> {
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn a_full_disk_is_told_in_the_words_of_the_disk_wherever_it_comes() {
+        let scene = crate::scene::Scene::base();
+        let command = crate::report::CommandLine::new("run", &scene);
+        let (history, origin) = (History::new(0), Provenance { command, scene });
+        let room = |room| write(&history, &origin, &mut Disk(room));
+        let enough = (0..).step_by(1000).find(|bytes| room(*bytes).is_ok()).unwrap();
+        assert!(enough > 5000);
+        for bytes in (0..enough - 1000).step_by(7) {
+            assert_eq!(room(bytes).unwrap_err().to_string(), "the disk is full", "{bytes}");
+        }
+    }
 
     #[test]
     fn arrays_read_back_as_the_numbers() {

@@ -159,15 +159,19 @@ impl Key {
     }
 }
 
-/// Whether a character may be in a line of text: none that moves the cursor of a
-/// terminal, breaks the line or its direction, or is none of XML.
+/// Whether a character takes its place in a line of text and does nothing else: none
+/// that moves the cursor of a terminal, breaks the line or its direction, is not seen, or
+/// is none of XML. Joiners and selectors are among those: terminals do not agree on the
+/// width of what they make.
 #[must_use]
 pub fn is_plain(c: char) -> bool {
-    let moves = matches!(
+    let acts = matches!(
         c,
-        '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}'
+        '\u{ad}' | '\u{61c}' | '\u{180e}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}'
+            | '\u{2060}'..='\u{206f}' | '\u{fe00}'..='\u{fe0f}' | '\u{feff}'
+            | '\u{fff9}'..='\u{fffb}' | '\u{fffe}' | '\u{ffff}' | '\u{e0000}'..='\u{e0fff}'
     );
-    !c.is_control() && !moves && !matches!(c, '\u{fffe}' | '\u{ffff}')
+    !c.is_control() && !acts
 }
 
 /// The key with this dotted path.

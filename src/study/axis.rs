@@ -87,7 +87,12 @@ impl Axis {
         let axis = Self { path: path.to_string(), from, to, count, log };
         let refused = |allowed: &str| AxisError::Range {
             path: path.to_string(),
-            range: format!("{}{from}:{to}:{count}", if log { "log:" } else { "" }),
+            range: format!(
+                "{}{}:{}:{count}",
+                if log { "log:" } else { "" },
+                Value::Real(from),
+                Value::Real(to)
+            ),
             allowed: allowed.to_string(),
         };
         if !(1..=MOST_VALUES).contains(&count) {
@@ -209,7 +214,10 @@ mod tests {
                 "axis operation.speed_rad_s = 0:1:0: allowed is a count",
             ),
             ("operation.pulse_n=log:0:1:5", "axis operation.pulse_n = log:0:1:5: allowed is log:"),
-            ("operation.pulse_n=log:15e-324:6:4", "axis operation.pulse_n = log:0.000000000"),
+            (
+                "operation.pulse_n=log:15e-324:6:4",
+                "axis operation.pulse_n = log:1.5e-323:6:4: allowed is log:",
+            ),
             ("solver.model=0:1:5", "axis solver.model: allowed are keys"),
             ("nothing=0:1:5", "unknown key nothing"),
             ("casing.damping_ratio=-1:1:5", "casing.damping_ratio = -1"),

@@ -212,6 +212,18 @@ mod tests {
     }
 
     #[test]
+    fn a_name_of_a_file_cannot_break_a_picture() {
+        let scene = Scene::base();
+        let mut app = App::new(scene.clone().checked().unwrap(), Theme::Dark, Marker::Braille);
+        let name = "a\u{1b}[2J\u{202e}\u{ffff}]]></desc>\u{0}.toml".to_string();
+        app.source = Some(crate::tui::Source { name, scene });
+        let svg = svg(&app);
+        assert!(svg.contains("rubscope run 'a [2J  ]]&gt;&lt;/desc&gt; .toml'"), "{}", &svg[..600]);
+        let plain = |c: char| c == '\n' || crate::scene::keys::is_plain(c);
+        assert_eq!(svg.chars().find(|c| !plain(*c)), None);
+    }
+
+    #[test]
     fn no_data_is_said_and_not_written() {
         let app = App::new(Scene::base().checked().unwrap(), Theme::Dark, Marker::Braille);
         assert_eq!(app.view.panel().csv(&app).unwrap_err(), "there is no data yet");

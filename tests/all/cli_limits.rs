@@ -163,3 +163,31 @@ fn two_axes_of_one_name_have_their_whole_names() {
     assert_eq!(map["bladed_disk.damping_ratio"].as_array().unwrap().len(), 3);
     assert_eq!(map["verdict"].as_array().unwrap().len(), 3);
 }
+
+#[test]
+fn titles_are_of_characters_that_are_seen() {
+    for c in ['\u{7}', '\u{61c}', '\u{200b}', '\u{202e}', '\u{2060}', '\u{feff}', '\u{e0041}'] {
+        let said = refusal(&["run", "--set", &format!("title=a{c}b")]);
+        assert!(said.starts_with("rubscope: title = "), "{said}");
+        assert!(said.ends_with("allowed is a line of text of up to 200 characters"), "{said}");
+    }
+    assert!(rubscope(&["run", "--end", "1e-4", "--set", "title=Ω e\u{301} 叶"]).status.success());
+}
+
+#[test]
+fn a_refusal_says_what_would_be_taken() {
+    for (command, expected) in [
+        (
+            "hbm soft-lining --follow bladed_disk.blades --over 22:30",
+            "rubscope: --follow = bladed_disk.blades: allowed is a key whose values are numbers \
+             that need not be whole",
+        ),
+        (
+            "map --x operation.pulse_n=log:1e-300:1e6:4",
+            "rubscope: axis operation.pulse_n = log:1e-300:1e6:4: allowed is log: with ends that \
+             differ by a factor of at most 1e300",
+        ),
+    ] {
+        assert_eq!(refusal(&command.split(' ').collect::<Vec<_>>()), expected);
+    }
+}

@@ -130,6 +130,17 @@ fn the_limit_of_file_sizes_is_a_full_disk_and_not_the_end() {
     fails_in(folder.path(), |command| limited(folder.path(), 16, command));
 }
 
+/// Here not even the first line of the cells can be written.
+#[test]
+fn a_map_without_room_for_its_cells_leaves_no_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = limited(folder.path(), 0, &format!("{MAP} --out m.csv"));
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(said.starts_with("rubscope: cannot write m.csv.partial: "), "{said}");
+    assert_eq!((output.status.code(), said.lines().count()), (Some(1), 1), "{said}");
+    assert!(names(folder.path()).is_empty(), "{:?}", names(folder.path()));
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_leaves_the_old_file_and_no_other() {

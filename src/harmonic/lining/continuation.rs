@@ -13,7 +13,7 @@ use super::equilibria::Balance;
 use super::followed::{BranchEnd, BranchPoint, FollowedBranch, Special};
 use super::{Lining, LiningState};
 use crate::harmonic::HarmonicError;
-use crate::scene::{Scene, Value, keys};
+use crate::scene::{Allowed, Scene, Value, keys};
 use crate::tolerances::{
     FOLLOW_DIFFERENCE, FOLLOW_HALVINGS, FOLLOW_POINTS, FOLLOW_SETTLED, FOLLOW_STEPS, FOLLOW_STRIDE,
 };
@@ -44,6 +44,10 @@ pub fn follow(
     [from, to]: [f64; 2],
 ) -> Result<FollowedBranch, HarmonicError> {
     let key = keys::find(path).map_err(|error| HarmonicError::Scene(error.to_string()))?;
+    if !matches!(key.allowed, Allowed::Real { .. }) {
+        let allowed = "a key whose values are numbers that need not be whole".to_string();
+        return Err(HarmonicError::Refused { key: "--follow", value: path.to_string(), allowed });
+    }
     let mut follow = Follow { scene, key, from, to, length: 1.0, sense: 1.0 };
     if from == to {
         let allowed = "two different values".to_string();

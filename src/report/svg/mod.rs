@@ -10,6 +10,7 @@ use std::io::{Error, Result, Write};
 use plotters::prelude::*;
 
 use super::Provenance;
+use super::line::harmless;
 use crate::study::figures::Figure;
 use paper::{Drawn, FINE, TEXT, UNDERSCORE, wrapped, write_at};
 
@@ -40,7 +41,10 @@ pub fn write(figure: &Figure, origin: &Provenance, out: &mut dyn Write) -> Resul
 /// Where a picture comes from, as an element of SVG.
 #[must_use]
 pub fn describe(origin: &Provenance) -> String {
-    format!("<desc>{}</desc>\n", escaped(&origin.text()))
+    // A name of a file may hold anything.
+    let plain = |c: char| if c == '\n' { c } else { harmless(c) };
+    let text: String = origin.text().chars().map(plain).collect();
+    format!("<desc>{}</desc>\n", escaped(&text))
 }
 
 /// Text as it stands in XML.

@@ -101,6 +101,21 @@ mod tests {
     }
 
     #[test]
+    fn a_name_without_an_end_says_where_its_end_is() {
+        let mut app = app();
+        press(&mut app, KeyCode::Char('s'));
+        let InputMode::Naming(_, name) = &app.mode else { panic!() };
+        for _ in name.len()..200 {
+            press(&mut app, KeyCode::Char('x'));
+            assert_eq!(app.status, None);
+        }
+        press(&mut app, KeyCode::Char('x'));
+        assert_eq!(app.status.as_deref(), Some("no room: at most 200 letters"));
+        press(&mut app, KeyCode::Backspace);
+        assert_eq!(app.status, None);
+    }
+
+    #[test]
     fn the_question_whether_to_replace_takes_no_key_that_was_pressed_before_it() {
         let mut app = app();
         press(&mut app, KeyCode::Char('s'));

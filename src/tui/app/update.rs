@@ -60,11 +60,13 @@ impl App {
             return effect;
         }
         if let (Some(text), KeyCode::Char(letter), false) = (self.typed(), chord.code, chord.ctrl)
-            && text.len() < LONGEST_TYPED
             && line::harmless(letter) == letter
         {
-            text.push(letter);
-            self.status = None;
+            let room = text.len() < LONGEST_TYPED;
+            if room {
+                text.push(letter);
+            }
+            self.status = (!room).then(|| format!("no room: at most {LONGEST_TYPED} letters"));
             self.look_again();
         }
         Effect::None
