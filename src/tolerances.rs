@@ -68,6 +68,9 @@ pub(crate) const RUN_LOOKS: f64 = 1e6;
 /// needs no memory.
 pub(crate) const IMPACTS_KEPT: usize = 1000;
 
+/// Most values of a history: 800 MB. More: the system ends the program.
+pub(crate) const HISTORY_VALUES: usize = 100_000_000;
+
 /// Looks at the wave for its speed, at most, so that a long run is not slowed
 /// down.
 pub(crate) const WAVE_LOOKS: f64 = 100_000.0;

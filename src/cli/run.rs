@@ -8,7 +8,7 @@ use clap::Args;
 
 use super::options::SceneOptions;
 use super::script::{self, RequestedScript};
-use super::status::{self, Status};
+use super::status::{self, Refusal, Status};
 use super::{Done, output};
 use crate::motion::{Sampling, Verdict, is_sensitive, run_to_end, to_the_end};
 use crate::report::{CommandLine, History, Provenance, json, npz, summary};
@@ -47,6 +47,14 @@ impl RunCommand {
             None => None,
         };
         let gaps = if self.gaps { scene.bladed_disk.blades } else { 0 };
+        let most = History::most_samples(gaps);
+        if self.samples > most {
+            let allowed = format!(
+                "up to {most} with the gaps of {gaps} blades: a history has at most {} values",
+                History::MOST_VALUES
+            );
+            return Err(Refusal::of("--samples", self.samples, allowed).into());
+        }
         let mut history = History::new(gaps);
         // Both ends are samples. The smallest gap needs the gaps of all blades.
         let sampling = match path {

@@ -4,6 +4,7 @@ use std::io::{Result, Write};
 
 use super::table::{TableCell, write_csv};
 use crate::motion::Sample;
+use crate::tolerances::HISTORY_VALUES;
 
 /// Columns before the gaps of the single blades.
 const COLUMNS: [&str; 11] = [
@@ -37,12 +38,22 @@ pub struct History {
 }
 
 impl History {
+    /// Most values of one.
+    pub const MOST_VALUES: usize = HISTORY_VALUES;
+
     /// An empty history; `blades` gap columns are added, none for 0.
     #[must_use]
     pub fn new(blades: u32) -> Self {
         let gaps = (1..=blades).map(|blade| format!("gap_{blade}_m"));
         let names = COLUMNS.into_iter().map(String::from).chain(gaps);
         Self { columns: names.map(|name| HistoryColumn { name, values: Vec::new() }).collect() }
+    }
+
+    /// Most samples with the gaps of this many blades; none of them for 0.
+    #[must_use]
+    pub fn most_samples(blades: u32) -> u32 {
+        let columns = COLUMNS.len() + blades as usize;
+        u32::try_from(HISTORY_VALUES / columns).unwrap_or(u32::MAX)
     }
 
     /// Adds a sample, which must carry the gaps of all blades. A sample with a

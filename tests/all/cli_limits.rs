@@ -165,6 +165,20 @@ fn two_axes_of_one_name_have_their_whole_names() {
 }
 
 #[test]
+fn a_history_that_no_memory_holds_is_refused_at_once() {
+    let run = "run --gaps --samples 1000000 --set bladed_disk.blades=4096 --out h.csv";
+    let arguments: Vec<&str> = run.split(' ').collect();
+    assert_eq!(
+        refusal(&arguments),
+        "rubscope: --samples = 1000000: allowed is up to 24348 with the gaps of 4096 blades: a \
+         history has at most 100000000 values"
+    );
+    // Without the gaps it is small.
+    let history = rubscope::report::History::most_samples;
+    assert!(history(0) > 1_000_000 && history(22) > 1_000_000);
+}
+
+#[test]
 fn titles_are_of_characters_that_are_seen() {
     for c in ['\u{7}', '\u{61c}', '\u{200b}', '\u{202e}', '\u{2060}', '\u{feff}', '\u{e0041}'] {
         let said = refusal(&["run", "--set", &format!("title=a{c}b")]);

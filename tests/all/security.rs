@@ -8,6 +8,8 @@ fn last_number(message: &str) -> u64 {
     words.find(|word| !word.is_empty()).unwrap().parse().unwrap()
 }
 
+const HISTORY: &str = "run --gaps --samples 1000000 --set bladed_disk.blades=4096 --out h.csv";
+
 #[test]
 fn the_limits_of_the_page_are_those_of_the_program() {
     let page = include_str!("../../SECURITY.md").replace(',', "");
@@ -20,6 +22,7 @@ fn the_limits_of_the_page_are_those_of_the_program() {
         (scene.as_str(), " bytes"),
         (&refusal(&map), " cells"),
         (&refusal(&["map", "--x", "operation.speed_rad_s=0:1:100001"]), " values"),
+        (&refusal(&HISTORY.split(' ').collect::<Vec<_>>()), " values"),
         (&refusal(&["hbm", "--speed", "0:500:100001"]), ""),
         (&refusal(&["map", "--threads", "1025"]), ""),
     ] {
