@@ -129,6 +129,16 @@ async def check():
     windows = subprocess.run(count, capture_output=True, text=True).stdout
     assert windows.count("\n") == 1, f"a window was opened: {windows}"
     assert "[120x40]" in windows, f"a page changed the size: {windows}"
+    for host, expected in ("localhost", "200"), ("elsewhere.example", "404"):
+        for path in "/", "/socket":
+            request = f"GET {path} HTTP/1.0\r\nHost: {host}:{port}\r\n\r\n".encode()
+            with socket.create_connection(("127.0.0.1", port)) as asked:
+                asked.sendall(request)
+                told = asked.recv(12).decode()
+            found = told == f"HTTP/1.1 {expected}"
+            # The socket answers a plain question with a 400.
+            found |= (path, expected) == ("/socket", "200") and told.endswith("400")
+            assert found, f"{host}{path}: {told}"
     try:
         await page(port, "http://elsewhere.example")
     except Exception as refused:

@@ -63,5 +63,8 @@ handlers = [
     ("/socket", Socket, {"term_manager": terminals}),
     ("/js/(.*)", tornado.web.StaticFileHandler, {"path": "node_modules/@xterm"}),
 ]
-tornado.web.Application(handlers).listen(int(port), "127.0.0.1")
+# A page from elsewhere that gives its own name this address gets nothing.
+application = tornado.web.Application()
+application.add_handlers(r"^(localhost|127\.0\.0\.1)$", handlers)
+application.listen(int(port), "127.0.0.1")
 tornado.ioloop.IOLoop.current().start()
