@@ -110,7 +110,7 @@ impl<T: Number> Joined<T> {
         let weight = c.re() * drag.re();
         let on = |from: Point, to: Point| -> Coefficients {
             let quadratic = |of: &dyn Fn(Point, Point) -> f64| {
-                vec![of(from, from), 2.0 * of(from, to), of(to, to)]
+                Coefficients::from([of(from, from), 2.0 * of(from, to), of(to, to)])
             };
             let mixed = |u: Point, v: Point| 0.5 * (u.p * v.q + v.p * u.q);
             let one = quadratic(&|u, v| u.q * v.q);

@@ -32,8 +32,7 @@ pub fn whirl_onset<T: Number>(machine: &Machine<T>, toward: f64) -> Option<T> {
     if machine.coupling_product_at(T::from(toward)).re() == 0.0 {
         return None;
     }
-    let onsets = whirl_onsets(&machine.plain(), toward);
-    let onset = onsets.iter().find(|onset| onset.appears)?;
+    let onset = sought(&machine.plain(), toward, true).into_iter().find(|onset| onset.appears)?;
     let omega = onset.wave.omega_rad_s;
     let s = -machine.nu(T::from(onset.speed_rad_s)) + omega;
     let turned = machine.casing_friction_at(T::from(toward));
@@ -63,13 +62,18 @@ pub fn whirl_onset<T: Number>(machine: &Machine<T>, toward: f64) -> Option<T> {
 /// the slowest.
 #[must_use]
 pub fn whirl_onsets(machine: &Machine, toward: f64) -> Vec<WhirlOnset> {
+    sought(machine, toward, false)
+}
+
+/// The same, or only as far as to the first that appears: the rest takes most of the time.
+fn sought(machine: &Machine, toward: f64, first: bool) -> Vec<WhirlOnset> {
     let Some(dangerous) = machine.dangerous_speed() else { return Vec::new() };
     let sense = if toward < 0.0 { -1.0 } else { 1.0 };
     let waves = |speed: f64| rim_waves(&Joint::at(machine, sense * speed));
-    let mut found = Vec::new();
+    let mut found: Vec<WhirlOnset> = Vec::new();
     let mut low = dangerous / ONSET_FURTHEST;
     let mut at_low = waves(low);
-    while low < dangerous * ONSET_FURTHEST {
+    while low < dangerous * ONSET_FURTHEST && !(first && found.iter().any(|onset| onset.appears)) {
         let high = low * ONSET_STRIDE;
         let at_high = waves(high);
         for (speed, below, above) in changes((low, at_low), (high, at_high.len()), &waves) {

@@ -202,7 +202,7 @@ impl<T: Number> Balance<T> {
         let on = |sign: f64| {
             move |from: Point, to: Point| -> Coefficients {
                 let quadratic = |of: &dyn Fn(Point, Point) -> f64| {
-                    vec![of(from, from), 2.0 * of(from, to), of(to, to)]
+                    Coefficients::from([of(from, from), 2.0 * of(from, to), of(to, to)])
                 };
                 let one = quadratic(&|u, v| u.q * v.q);
                 let stiff = quadratic(&|u, v| u.q * v.q - u.p * v.p);

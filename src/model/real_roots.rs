@@ -30,23 +30,50 @@ impl Point {
     }
 }
 
-/// Bernstein coefficients times binomials: products are convolutions.
-pub(crate) type Coefficients = Vec<f64>;
+/// Coefficients of the largest polynomial: degree six.
+const MOST: usize = 7;
+
+/// Bernstein coefficients times binomials: products are convolutions. They are made
+/// many thousand times a second, so they are not on the heap.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Coefficients {
+    values: [f64; MOST],
+    count: usize,
+}
+
+impl std::ops::Deref for Coefficients {
+    type Target = [f64];
+
+    fn deref(&self) -> &[f64] {
+        self.values.get(..self.count).unwrap_or(&self.values)
+    }
+}
+
+/// A quadratic.
+impl From<[f64; 3]> for Coefficients {
+    fn from([first, middle, last]: [f64; 3]) -> Self {
+        Self { values: [first, middle, last, 0.0, 0.0, 0.0, 0.0], count: 3 }
+    }
+}
 
 /// The product of two polynomials on one interval.
 pub(crate) fn product(a: &[f64], b: &[f64]) -> Coefficients {
-    let mut product = vec![0.0; (a.len() + b.len()).saturating_sub(1)];
+    let mut values = [0.0; MOST];
     for (i, x) in a.iter().enumerate() {
-        for (slot, y) in product.iter_mut().skip(i).zip(b) {
+        for (slot, y) in values.iter_mut().skip(i).zip(b) {
             *slot += x * y;
         }
     }
-    product
+    Coefficients { values, count: (a.len() + b.len()).saturating_sub(1) }
 }
 
 /// `first a + second b` of two polynomials of one degree.
 pub(crate) fn sum(first: f64, a: &[f64], second: f64, b: &[f64]) -> Coefficients {
-    a.iter().zip(b).map(|(x, y)| first * x + second * y).collect()
+    let mut values = [0.0; MOST];
+    for (slot, (x, y)) in values.iter_mut().zip(a.iter().zip(b)) {
+        *slot = first * x + second * y;
+    }
+    Coefficients { values, count: a.len().min(b.len()) }
 }
 
 /// The real roots of a polynomial in no order. `on` gives its coefficients from one
@@ -140,7 +167,7 @@ mod tests {
             let at = |u: Point, v: Point| {
                 0.5 * ((u.p - a * u.q) * (v.p - b * v.q) + (v.p - a * v.q) * (u.p - b * u.q))
             };
-            vec![at(from, from), 2.0 * at(from, to), at(to, to)]
+            Coefficients::from([at(from, from), 2.0 * at(from, to), at(to, to)])
         }
     }
 
@@ -163,7 +190,7 @@ mod tests {
         for e in [1.0, 1e-4, 1e-8, 1e-12] {
             let on = |u: Point, v: Point| {
                 let at = |u: Point, v: Point| u.p * v.p + e * e * u.q * v.q;
-                vec![at(u, u), 2.0 * at(u, v), at(v, v)]
+                Coefficients::from([at(u, u), 2.0 * at(u, v), at(v, v)])
             };
             assert_eq!(real_roots(&on, &[-0.3, 1.0]), Vec::<f64>::new());
         }
