@@ -58,15 +58,14 @@ impl FiguresCommand {
                 output::try_place(&self.out.join(name))?;
             }
         }
-        let bar = output::bar(scenes.len() as u64, "{bar:30} {msg}");
+        let bar = output::bar(scenes.len() as u64, "{spinner} {bar:30} {msg} {elapsed}");
         for (which, scene) in scenes {
             bar.set_message(format!("figure {which}"));
             if let Some(drawn) = drawn(which, &scene)? {
-                bar.suspend(|| self.save(which, &drawn, scene.into_scene(), out))?;
+                self.save(which, &drawn, scene.into_scene(), out)?;
             }
             bar.inc(1);
         }
-        bar.finish_and_clear();
         Ok(Status::Done)
     }
 

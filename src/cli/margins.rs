@@ -2,20 +2,16 @@
 
 use std::io::Write;
 use std::path::PathBuf;
-use std::time::Duration;
 
 use clap::Args;
 
 use super::options::SceneOptions;
 use super::status::{self, Refusal, Status};
-use super::{Done, output};
+use super::{Done, output, sign};
 use crate::motion::to_the_end;
 use crate::report::{CommandLine, Provenance, json, margins as report, svg};
 use crate::scene::CheckedScene;
-use crate::study::margins::{Margins, Target, TargetError, Tolerance};
-
-/// How often a search shows that it goes on.
-const TICK: Duration = Duration::from_millis(100);
+use crate::study::margins::{Margins, SAMPLES, Target, TargetError, Tolerance};
 
 /// Find how far a scene is from every limit, and what moves each limit most.
 ///
@@ -64,17 +60,16 @@ impl MarginsCommand {
         status::say_noted();
         let mut margins = Margins::of(&scene);
         if !self.no_search {
-            let laws = margins.laws();
-            let bar = output::bar(laws.len() as u64, "{spinner} {msg} {elapsed}");
-            bar.enable_steady_tick(TICK);
-            for law in laws {
-                bar.set_message(format!("smallest lasting pulse, {law} law"));
+            for law in margins.laws() {
+                sign::doing(format!("smallest lasting pulse, {law} law"));
                 margins.search(law, &to_the_end);
-                bar.inc(1);
             }
-            bar.finish_and_clear();
         }
-        margins.spread(tolerances);
+        if !tolerances.is_empty() {
+            let form = "{spinner} {bar:30} {pos}/{len} samples of the tolerances {elapsed}";
+            let bar = output::bar(SAMPLES as u64, form);
+            margins.spread(tolerances, &|| bar.inc(1));
+        }
         margins.target = target.and_then(|target| target.solve(&scene, &to_the_end));
         self.deliver(&margins, &scene, format, out)?;
         Ok(Status::Done)

@@ -22,6 +22,7 @@ pub mod range;
 mod run;
 mod scenes;
 pub mod script;
+mod sign;
 mod signals;
 pub mod status;
 mod words;
@@ -77,11 +78,12 @@ pub fn main(args: impl IntoIterator<Item = OsString>) -> u8 {
     };
     // No lock for the whole program: it would stop every other thread that
     // writes, for as long as the output is blocked.
-    let mut out = BufWriter::new(std::io::stdout());
+    let mut out = BufWriter::new(sign::Out);
     let done = dispatch(cli, &mut out).and_then(|status| {
         out.flush()?;
         Ok(status)
     });
+    sign::end();
     status::exit(done)
 }
 
@@ -89,6 +91,7 @@ fn dispatch(cli: Cli, out: &mut dyn Write) -> Done {
     if cli.command.is_some() {
         // The explorer has signals of its own.
         signals::watch().context("cannot watch signals")?;
+        sign::begin();
     }
     match cli.command {
         None => cli.explore.run(),

@@ -1,23 +1,12 @@
-//! What commands show and write besides their data: a progress bar, and files
-//! in the format of their ending.
+//! What commands write besides their data: files in the format of their ending.
 
 use std::io::Write;
 use std::path::Path;
 
-use anyhow::Context;
-use indicatif::{ProgressBar, ProgressStyle};
-
+pub use super::sign::bar;
 use super::status::{Refusal, say};
 use crate::file::{self, Written};
-
-/// A progress bar on standard error of this length and form.
-pub fn bar(length: u64, template: &str) -> ProgressBar {
-    let bar = ProgressBar::new(length);
-    if let Ok(style) = ProgressStyle::with_template(template) {
-        bar.set_style(style);
-    }
-    bar
-}
+use anyhow::Context;
 
 /// The ending of a file given with `--out`, which must be one of these; the place
 /// is tried.

@@ -44,7 +44,9 @@ impl PrecisionCommand {
         };
         let effort = Effort { repeats: self.repeat, finest_s: self.finest, ..Effort::default() };
         let ways = ways(&scene, effort);
-        let bar = output::bar(ways.len() as u64, "{bar:30} {pos}/{len} {msg}");
+        let form = "{spinner} {bar:30} {pos}/{len} {msg} {elapsed}";
+        let bar = output::bar(ways.len() as u64, form);
+        bar.set_message("the reference");
         let Some(measure) = Measure::new(&scene, &to_the_end)? else { return Ok(Status::Failed) };
         status::say_noted();
         let mut rows = Vec::with_capacity(ways.len());
@@ -53,7 +55,6 @@ impl PrecisionCommand {
             rows.extend(measure.row(way, effort, &to_the_end)?);
             bar.inc(1);
         }
-        bar.finish_and_clear();
         self.deliver(&measure.report(rows), format, out)
     }
 

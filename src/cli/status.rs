@@ -7,6 +7,7 @@ use std::sync::{Mutex, PoisonError};
 use clap::error::ErrorKind as Usage;
 use thiserror::Error;
 
+use super::sign;
 use crate::report::line::clean;
 use crate::scene::SceneError;
 
@@ -125,7 +126,7 @@ fn in_one_line(message: &str) -> String {
 
 /// Writes one line on standard error; errors of writing are ignored.
 pub fn say(line: &str) {
-    let _ = writeln!(std::io::stderr(), "{}", clean(line));
+    let _ = sign::aside(|| writeln!(std::io::stderr(), "{}", clean(line)));
 }
 
 #[cfg(test)]

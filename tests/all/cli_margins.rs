@@ -23,7 +23,7 @@ pub fn full(scene: &CheckedScene) -> Margins {
         .filter(|parameter| parameter.of(scene) != 0.0)
         .map(|parameter| format!("{}=10", parameter.path))
         .collect();
-    margins.spread(Tolerance::parse_all(&known, scene).unwrap());
+    margins.spread(Tolerance::parse_all(&known, scene).unwrap(), &|| {});
     margins
 }
 

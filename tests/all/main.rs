@@ -90,6 +90,7 @@ mod readme;
 mod scene_notes;
 mod scenes;
 mod security;
+mod signs_of_life;
 mod sliding;
 mod soak;
 mod theory;

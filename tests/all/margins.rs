@@ -275,7 +275,9 @@ fn spreads_of_samples_are_those_of_the_derivatives_for_small_tolerances() {
     let texts = texts.map(String::from);
     let tolerances = Tolerance::parse_all(&texts, &scene).unwrap();
     let mut margins = Margins::of(&scene);
-    margins.spread(tolerances);
+    let counted = std::sync::atomic::AtomicUsize::new(0);
+    margins.spread(tolerances, &|| _ = counted.fetch_add(1, std::sync::atomic::Ordering::Relaxed));
+    assert_eq!(counted.into_inner(), 10_000);
     for limit in &margins.limits {
         let spread = limit.spread.unwrap();
         let (linear, sampled) = (spread.linear_sd.unwrap(), spread.sampled.unwrap());

@@ -31,7 +31,7 @@ fn soft(stiffness: &str, speed: &str) -> CheckedScene {
 fn spread(scene: &CheckedScene, texts: &[&str]) -> Margins {
     let texts: Vec<String> = texts.iter().map(ToString::to_string).collect();
     let mut margins = Margins::of(scene);
-    margins.spread(Tolerance::parse_all(&texts, scene).unwrap());
+    margins.spread(Tolerance::parse_all(&texts, scene).unwrap(), &|| {});
     margins
 }
 

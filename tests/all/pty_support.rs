@@ -58,6 +58,11 @@ impl Start {
         Self::program(env!("CARGO_BIN_EXE_rubscope"), arguments).detached()
     }
 
+    /// Another command of the program.
+    pub fn command(arguments: &[&str]) -> Self {
+        Self::program(env!("CARGO_BIN_EXE_rubscope"), arguments)
+    }
+
     /// A shell with job control that runs `script`; `"$@"` is the explorer.
     pub fn shell(script: &str, arguments: &[&str]) -> Self {
         let mut all = vec!["-c", script, "sh", env!("CARGO_BIN_EXE_rubscope")];
@@ -229,6 +234,21 @@ impl Terminal {
                 }
             }
         }
+    }
+
+    /// Whether the program ends before a condition on the screen holds.
+    pub fn ends_before(&mut self, holds: impl Fn(&vt100::Screen) -> bool) -> bool {
+        let began = Instant::now();
+        while !holds(self.parser.screen()) {
+            if self.child.try_wait().unwrap().is_some() {
+                return true;
+            }
+            assert!(began.elapsed() < PATIENCE, "neither in\n{}", self.text());
+            if let Ok(bytes) = self.output.recv_timeout(Duration::from_millis(20)) {
+                self.heard(&bytes);
+            }
+        }
+        false
     }
 
     /// Signals are for the job of the shell from now on, not for the shell.

@@ -142,12 +142,13 @@ impl Tolerance {
 }
 
 impl Margins {
-    /// Adds how far each limit spreads with these tolerances.
-    pub fn spread(&mut self, tolerances: Vec<Tolerance>) {
+    /// Adds how far each limit spreads with these tolerances; `counted` is called after
+    /// each of the `SAMPLES`.
+    pub fn spread(&mut self, tolerances: Vec<Tolerance>, counted: &(dyn Fn() + Sync)) {
         if tolerances.is_empty() {
             return;
         }
-        let samples = Samples::of(self, &tolerances);
+        let samples = Samples::of(self, &tolerances, counted);
         for limit in &mut self.limits {
             let Some(value) = limit.value else { continue };
             let sum = |each: &dyn Fn(f64) -> f64| -> Option<f64> {
@@ -173,7 +174,7 @@ impl Margins {
 struct Samples(Vec<[Option<f64>; CLOSED.len() + 1]>);
 
 impl Samples {
-    fn of(margins: &Margins, tolerances: &[Tolerance]) -> Self {
+    fn of(margins: &Margins, tolerances: &[Tolerance], counted: &(dyn Fn() + Sync)) -> Self {
         let scene = &margins.scene;
         let touching = margins.limit(LimitName::TouchingPulse);
         let known: Vec<(&Parameter, f64)> = tolerances
@@ -202,7 +203,7 @@ impl Samples {
                 touching.and_then(|limit| touch(limit, &known, changes, [scene, &changed]));
             all
         };
-        Self(changes.par_iter().map(sample).collect())
+        Self(changes.par_iter().map(|changes| (sample(changes), counted()).0).collect())
     }
 
     /// What the samples of a limit are; none of one that was not sampled.

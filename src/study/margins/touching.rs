@@ -92,8 +92,15 @@ fn reference(scene: &Scene) -> Option<CheckedScene> {
 fn touch_of(reference: &CheckedScene, pulse: f64) -> Option<FirstTouch> {
     let scene = reference.perturbed(|scene| scene.operation.pulse_n = pulse);
     let mut motion = Motion::new(&scene);
-    // A motion that fails may have touched before; one that leaves the model has not.
-    let _ = motion.advance(longest(&scene));
+    let (end, mut until) = (longest(&scene), TAU / scene.machine().omega_c);
+    // What follows the first contact is of no interest, and may be a rub without end. A
+    // motion that fails may have touched before; one that leaves the model has not.
+    while motion.advance(until.min(end)).is_ok()
+        && motion.contacts().impacts.is_empty()
+        && until < end
+    {
+        until *= 2.0;
+    }
     let first = motion.contacts().impacts.first()?;
     Some(FirstTouch { pulse_n: pulse, t_s: first.t_s, side: first.side })
 }

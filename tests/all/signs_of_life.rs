@@ -1,0 +1,103 @@
+//! While a command is at work, a line on its terminal moves, and Ctrl-C ends it: every
+//! command on every built-in scene either has ended or shows the line.
+
+#![cfg(unix)]
+
+use std::path::Path;
+
+use rubscope::scene::BUILTIN;
+
+use crate::pty_support::{Start, Terminal};
+
+/// Every command that computes; SCENE is its scene.
+const COMMANDS: [&str; 9] = [
+    "run SCENE --out h.csv",
+    "hbm SCENE --speed 0:1000:2000",
+    "margins SCENE",
+    "margins SCENE --no-search --tolerance casing.modal_mass_kg=5",
+    "margins SCENE --no-search --target touching_pulse=1e4 --by casing.damping_ratio",
+    "precision SCENE --repeat 1",
+    "figures SCENE --out .",
+    "map SCENE --speed 300:500:30 --pulse 1e4:1e6:30 --out m.csv",
+    "map SCENE --speed 300:500:30 --pulse 1e4:1e6:30 --adaptive",
+];
+
+/// Of these the line must be seen: in any build they take many seconds.
+const LONG: [&str; 5] = [
+    "run undamped --solver event --model rigid --end 1e6",
+    "margins paper-nd4",
+    "precision undamped --repeat 1000 --set solver.end_s=20",
+    "figures paper-nd3 --out .",
+    "map --speed 300:500:3000 --pulse 1e4:1e6:3000 --out m.csv",
+];
+
+fn is_seen(screen: &vt100::Screen) -> bool {
+    screen.contents().contains(|c: char| ('\u{2801}'..='\u{28ff}').contains(&c))
+}
+
+fn start(command: &str, folder: &Path) -> Terminal {
+    let words: Vec<&str> = command.split(' ').collect();
+    Start::command(&words).folder(folder).size(120, 40).open()
+}
+
+/// Presses Ctrl-C, which ends it as the signal does, unless it has just ended.
+fn interrupt(mut terminal: Terminal, command: &str) {
+    terminal.send("\u{3}");
+    let status = terminal.ended();
+    let code = status.exit_code();
+    assert!(status.signal().is_some() || [0, 130].contains(&code), "{command}: {status:?}");
+}
+
+#[test]
+fn every_command_on_every_scene_ends_or_shows_that_it_is_alive() {
+    std::thread::scope(|threads| {
+        for command in COMMANDS {
+            threads.spawn(move || {
+                for scene in BUILTIN {
+                    let folder = tempfile::tempdir().unwrap();
+                    let command = command.replace("SCENE", scene.name);
+                    let mut terminal = start(&command, folder.path());
+                    if terminal.ends_before(is_seen) {
+                        // Nothing of the line stays.
+                        assert!(!is_seen(terminal.parser.screen()), "{command}");
+                    } else {
+                        interrupt(terminal, &command);
+                    }
+                }
+            });
+        }
+    });
+}
+
+#[test]
+fn what_takes_long_shows_that_it_is_alive() {
+    for command in LONG {
+        let folder = tempfile::tempdir().unwrap();
+        let mut terminal = start(command, folder.path());
+        assert!(!terminal.ends_before(is_seen), "{command} showed nothing");
+        interrupt(terminal, command);
+    }
+}
+
+#[test]
+fn the_line_is_gone_when_the_result_is_printed() {
+    let folder = tempfile::tempdir().unwrap();
+    let command = "margins --no-search --tolerance casing.modal_mass_kg=5";
+    let mut terminal = start(command, folder.path());
+    assert_eq!(terminal.wait(), 0);
+    assert!(!is_seen(terminal.parser.screen()), "{}", terminal.text());
+    assert!(terminal.text().contains("omega_c"), "{}", terminal.text());
+}
+
+#[test]
+fn a_refusal_stands_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    for command in ["run --end 0", "run --none", "map --threads 0", "--set casing.damping_ratio=-1"]
+    {
+        let mut terminal = start(command, folder.path());
+        assert_eq!(terminal.wait(), 2, "{command}");
+        let text = terminal.text();
+        assert!(text.starts_with("rubscope: "), "{text}");
+        assert!(!is_seen(terminal.parser.screen()) && !text.contains("at work"), "{text}");
+    }
+}
