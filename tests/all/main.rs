@@ -87,6 +87,7 @@ mod pty_signals;
 mod pty_support;
 mod python;
 mod readme;
+mod rebound;
 mod scene_notes;
 mod scenes;
 mod security;

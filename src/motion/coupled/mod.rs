@@ -71,7 +71,7 @@ pub(super) struct Coupled<B: TipModel> {
     rows: Vec<Row>,
     /// Distance of each row to its target \[m\].
     gaps: Vec<f64>,
-    /// Deepest penetration left at the latest step and at the one before \[m\].
+    /// Bounds on the penetration left at the latest step and at the one before \[m\].
     dips: [f64; 2],
     /// One more than the step of the latest contact of each side; 0 for never.
     touched: Vec<u64>,
@@ -109,8 +109,8 @@ impl<B: TipModel> Coupled<B> {
         let bound = self.blades.bound();
         self.look_at_blades(bound)?;
         let tips = self.tips_at(n);
-        // Beyond it, even the nearest side is open.
-        let room = tips.clearance - tips.rise.abs() * bound;
+        // Beyond it, even the nearest side is open, and above its target.
+        let room = tips.clearance - tips.rise.abs() * bound - self.highest_target();
         if room > 0.0 && distance2 < room * room {
             if self.lining.is_some() {
                 self.rows.clear();

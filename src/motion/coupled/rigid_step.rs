@@ -20,14 +20,14 @@ impl<B: TipModel> Coupled<B> {
     pub(super) fn meet(&mut self, tips: &TipLaw, bound: f64) -> Result<(), FailureReason> {
         let (z, turn) = self.in_blade_frame();
         let restitution = self.scene.contact.restitution;
-        let dipped = restitution * self.dips[0].max(self.dips[1]);
-        self.find_candidates(z, tips, bound, dipped);
+        let highest = self.highest_target();
+        self.find_candidates(z, tips, bound, highest);
         let deepest = self.gather(z, tips, restitution);
         if deepest <= 0.0 {
             let dip = self.rows.iter().fold(0.0, |dip: f64, row| dip.max(-row.place.gap));
             self.rows.clear();
             self.part();
-            self.dips[0] = dip;
+            (self.dips[0], self.deepest) = (dip, self.deepest.max(dip));
             return Ok(());
         }
         self.deepest_predicted = self.deepest_predicted.max(deepest);
@@ -39,14 +39,15 @@ impl<B: TipModel> Coupled<B> {
         let reach = NEIGHBOUR_DEPTHS * deepest;
         if !self.law.pulls() {
             let found = self.candidates.len();
-            self.find_candidates(z, tips, bound, reach + dipped);
+            self.find_candidates(z, tips, bound, reach + highest);
             if self.candidates.len() > found {
                 self.gather(z, tips, restitution);
             }
         }
         let limit = if self.law.pulls() { 0.0 } else { reach };
-        self.keep_below(limit);
+        let kept = self.below_first(limit);
         let Self { blades, rows, gaps, casing, law, .. } = self;
+        let (rows, gaps) = (&mut rows[..kept], &gaps[..kept]);
         pushes::solve(tips, *law, casing.compliance, blades, rows, gaps)?;
         let Self { rows, casing, u, blades, .. } = self;
         let z = z + push(rows, tips, turn, casing, u, blades);
@@ -88,8 +89,14 @@ impl<B: TipModel> Coupled<B> {
         deepest
     }
 
-    /// Leaves only the rows whose distance to the target is below a limit.
-    fn keep_below(&mut self, limit: f64) {
+    /// The highest target of a step, `-e g[n-1]` of the deepest row \[m\].
+    pub(super) fn highest_target(&self) -> f64 {
+        self.scene.contact.restitution * self.dips[0].max(self.dips[1])
+    }
+
+    /// Puts the rows whose distance to the target is below a limit before the others,
+    /// which may have dipped too; how many they are.
+    fn below_first(&mut self, limit: f64) -> usize {
         let mut kept = 0;
         for place in 0..self.rows.len() {
             if self.gaps[place] < limit {
@@ -98,8 +105,7 @@ impl<B: TipModel> Coupled<B> {
                 kept += 1;
             }
         }
-        self.rows.truncate(kept);
-        self.gaps.truncate(kept);
+        kept
     }
 
     /// The gap of a row two steps before.

@@ -148,7 +148,8 @@ impl<B: TipModel> Coupled<B> {
         (self.law, self.lining) = laws(scene);
         self.excitation = EngineOrderTorque::of(scene);
         self.next_pulse = Pulse::of(scene);
-        self.dips = [0.0; 2];
+        // Gaps of the steps before may be others now.
+        self.dips = [self.machine.clearance().abs(); 2];
         self.rows.clear();
         if self.lining.is_some() {
             let tips = self.tips;

@@ -1,0 +1,159 @@
+//! Rebounds of the explicit solver beside exact ones, over random scenes, steps and
+//! coefficients of restitution: none is lost, and each comes at its time to first order
+//! in the step.
+
+use crate::drawn;
+use proptest::prelude::*;
+use rubscope::motion::Motion;
+use rubscope::scene::{ModelSize, Scene, SolverKind};
+
+/// Steps of one scene, as parts of the shortest.
+const STEPS: [f64; 5] = [1.0, 1.11, 1.23, 1.37, 1.58];
+/// Relative change of pulse and speed, as a part of a radian of the casing in a step:
+/// far more than the scheme makes of one impact.
+const CHANGE: f64 = 200.0;
+
+/// Instants and sides of the first impacts.
+fn impacts(scene: &Scene) -> Vec<(f64, u32)> {
+    let mut motion = Motion::new(&scene.checked().unwrap());
+    // A run that fails has its impacts until then.
+    let _ = motion.advance(scene.solver.end_s);
+    motion.contacts().impacts.iter().map(|impact| (impact.t_s, impact.side)).collect()
+}
+
+/// The same by events; where blades have a slope, which events make linear, by steps of a
+/// fiftieth.
+fn exact(mut scene: Scene) -> Vec<(f64, u32)> {
+    if scene.bladed_disk.radial_coupling == 0.0 {
+        scene.solver.kind = SolverKind::Event;
+        if scene.solver.model == ModelSize::Full {
+            scene.solver.model = ModelSize::Modal;
+        }
+    } else {
+        scene.solver.step_s *= 0.02;
+    }
+    impacts(&scene)
+}
+
+/// The impacts that slightly other pulses and speeds make too, each well before the next,
+/// with how far these move them.
+fn certain(scene: &Scene) -> Vec<(f64, u32, f64)> {
+    let (step, end) = (scene.solver.step_s, scene.solver.end_s);
+    let change = CHANGE * step * scene.machine().omega_c;
+    let others = [(change, 0.0), (-change, 0.0), (0.0, change), (0.0, -change)];
+    let others = others.map(|(pulse, speed)| {
+        let mut other = scene.clone();
+        other.operation.pulse_n *= 1.0 + pulse;
+        other.operation.speed_rad_s *= 1.0 + speed;
+        exact(other)
+    });
+    let mut found = Vec::new();
+    for (k, &(t, side)) in exact(scene.clone()).iter().enumerate().take(4) {
+        if !others.iter().all(|hits| hits.get(k).is_some_and(|hit| hit.1 == side)) {
+            break;
+        }
+        let spread = others.iter().map(|hits| (hits[k].0 - t).abs()).fold(0.0, f64::max);
+        let alone = |hits: &Vec<(f64, u32)>| {
+            let next = hits.get(k + 1).map_or(end, |next| next.0);
+            next - hits[k].0 > 60.0 * step + 5.0 * spread
+        };
+        if !others.iter().all(alone) {
+            break;
+        }
+        found.push((t, side, spread));
+    }
+    found
+}
+
+/// How many impacts at all steps have been compared.
+fn compare(scene: &Scene) -> usize {
+    let expected = certain(scene);
+    for part in STEPS {
+        let mut stepped = scene.clone();
+        stepped.solver.step_s *= part;
+        let found = impacts(&stepped);
+        for (k, &(t, side, spread)) in expected.iter().enumerate() {
+            let allowed = 10.0 * stepped.solver.step_s + 4.0 * spread;
+            let hit = found.get(k).is_some_and(|hit| hit.1 == side && (hit.0 - t).abs() < allowed);
+            assert!(
+                hit,
+                "impact {k} on side {side} at {t} +- {allowed:e}: {found:?} {:?} {:?} {:?}",
+                stepped.solver, stepped.contact, stepped.operation
+            );
+        }
+    }
+    STEPS.len() * expected.len()
+}
+
+fn scenes(slope: impl Strategy<Value = f64>) -> impl Strategy<Value = Scene> {
+    let shapes = prop_oneof![Just((22_u32, 3_u32)), Just((22, 4)), Just((7, 2)), Just((40, 3))];
+    let models = prop_oneof![Just(ModelSize::Rigid), Just(ModelSize::Modal), Just(ModelSize::Full)];
+    let drive = (100.0..600.0_f64, 5e3..2e5_f64, 0.0..0.06_f64, 0.0..0.3_f64);
+    let scheme = (0.05..0.95_f64, 1e-7..3.5e-7_f64);
+    (shapes, models, slope, drive, scheme).prop_map(|(shape, model, slope, drive, scheme)| {
+        let mut scene = Scene::base();
+        (scene.bladed_disk.blades, scene.operation.nodal_diameters) = shape;
+        scene.solver.model = model;
+        scene.bladed_disk.radial_coupling = slope;
+        (scene.operation.speed_rad_s, scene.operation.pulse_n) = (drive.0, drive.1);
+        (scene.casing.damping_ratio, scene.contact.friction) = (drive.2, drive.3);
+        (scene.contact.restitution, scene.solver.step_s) = scheme;
+        scene.solver.end_s = if slope == 0.0 { 2.5e-3 } else { 6e-4 };
+        scene
+    })
+}
+
+fn compare_all(cases: u32, slope: impl Strategy<Value = f64>) {
+    let mut runner = proptest::test_runner::TestRunner::new(drawn(cases));
+    let compared = std::cell::Cell::new(0);
+    let each = |scene: Scene| {
+        compared.set(compared.get() + compare(&scene));
+        Ok(())
+    };
+    runner.run(&scenes(slope), each).unwrap();
+    assert!(compared.get() > 5 * cases as usize, "{} impacts", compared.get());
+}
+
+#[test]
+fn no_rebound_is_lost_or_late() {
+    compare_all(60, Just(0.0));
+}
+
+#[test]
+fn no_rebound_of_bending_tips_is_lost_or_late() {
+    compare_all(8, 0.05..0.5_f64);
+}
+
+#[test]
+fn a_target_that_binds_at_an_open_gap_is_met() {
+    // Steps at which the dip of the step before the last asks for more than the gap has.
+    for (e, step, t) in [(0.7, 1e-6, 845e-6), (0.8, 1e-6, 766e-6), (0.9, 1.14e-6, 706e-6)] {
+        let mut scene = Scene::base();
+        scene.solver.model = ModelSize::Rigid;
+        (scene.contact.restitution, scene.solver.step_s) = (e, step);
+        scene.solver.end_s = 3e-3;
+        let second = impacts(&scene)[1];
+        let blade = scene.machine().polygon.blades_of_side(second.1);
+        assert!((second.0 - t).abs() < 6.0 * step && blade == [22], "{e}: {second:?}");
+    }
+}
+
+#[test]
+fn a_change_on_the_way_loses_no_rebound() {
+    let mut scene = Scene::base();
+    scene.solver.model = ModelSize::Rigid;
+    (scene.contact.restitution, scene.solver.step_s) = (0.8, 1e-6);
+    let checked = scene.checked().unwrap();
+    let mut changed = Motion::new(&checked);
+    // The same parameters again, between any two steps of the first impact.
+    for step in 222..242_u32 {
+        changed.advance(f64::from(step) * 1e-6).unwrap();
+        changed.set_parameters(&checked);
+    }
+    let mut plain = Motion::new(&checked);
+    for motion in [&mut changed, &mut plain] {
+        motion.advance(3e-3).unwrap();
+    }
+    assert_eq!(changed.contacts().impacts, plain.contacts().impacts);
+    assert_eq!(changed.state(), plain.state());
+}
