@@ -51,12 +51,16 @@ pub(crate) const HELD_AFTER: u64 = 64;
 pub(crate) const HELD_AGAIN: u64 = 4096;
 
 /// Change of a blade angle by which the step of a corner is differentiated
-/// \[rad\]: the cube of it and round-off over it are both 1e-12 of the map.
+/// \[rad\]: of what contact does in the map, its square is 1e-11 and round-off over it 1e-10.
 pub(crate) const HELD_PROBE: f64 = 1e-6;
 
-/// Largest blade phase `n_d alpha` of a vibration whose square the affine map
-/// may leave out \[rad\]: it makes 1e-11 of the angles.
-pub(crate) const HELD_PHASE: f64 = 1e-5;
+/// Part of the gaps and multipliers of a held corner that its affine map may leave out:
+/// the square of the vibration, and the gaps that pushes on soft blades leave. The angles
+/// at rest are off by about as much.
+pub(crate) const HELD_LEFT_OUT: f64 = 1e-11;
+
+/// Roundings of a multiplier that a flat corner makes larger by the square of its sine.
+pub(crate) const HELD_ROUNDINGS: f64 = 16.0;
 
 /// Newton steps to the modes at rest; two reach round-off.
 pub(crate) const HELD_CORRECTIONS: usize = 6;

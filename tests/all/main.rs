@@ -94,6 +94,7 @@ mod security;
 mod signs_of_life;
 mod sliding;
 mod soak;
+mod soft_locks;
 mod theory;
 mod tui_beyond;
 mod tui_help;

@@ -43,6 +43,8 @@ pub(super) struct Stepped {
     pub multipliers: [f64; 2],
     /// Predicted gaps of both sides \[m\].
     pub gaps: [f64; 2],
+    /// What is left of them: the square of what the push bends the blades \[m\].
+    pub left: [f64; 2],
 }
 
 impl CornerStep {
@@ -71,6 +73,11 @@ impl CornerStep {
 
     pub fn sides(&self) -> [u32; 2] {
         self.sides
+    }
+
+    /// Sine of the angle between the sides.
+    pub fn sine(&self) -> f64 {
+        (self.directions[0].conj() * self.directions[1]).im
     }
 
     /// The blades that move, if any.
@@ -140,12 +147,16 @@ impl CornerStep {
         let steps = steps.unwrap_or_default();
         let bends = self.turns(steps);
         let ahead: [Plane; 2] = std::array::from_fn(|k| normals[k] * Plane::cis(bends[k]));
-        let gaps: [f64; 2] = std::array::from_fn(|k| {
-            let half = (0.5 * bends[k]).sin();
-            let along = (place * normals[k].conj()).im;
-            let opened = 2.0 * self.clearance * half * half + along * bends[k].sin();
-            (shift * ahead[k].conj()).re + opened
-        });
+        // Gaps of a casing that has left the corner, of sides turned meanwhile.
+        let opened = |shift: Plane, bends: [f64; 2]| -> [f64; 2] {
+            std::array::from_fn(|k| {
+                let half = (0.5 * bends[k]).sin();
+                let along = (place * normals[k].conj()).im;
+                let turned = 2.0 * self.clearance * half * half + along * bends[k].sin();
+                (shift * (normals[k] * Plane::cis(bends[k])).conj()).re + turned
+            })
+        };
+        let gaps = opened(shift, bends);
         let arms = ahead.map(|normal| self.diameters * ((place + shift) * normal.conj()).im);
         let bent = |j: usize, k: usize| {
             self.blades.as_ref().map_or(0.0, |blades| {
@@ -160,18 +171,20 @@ impl CornerStep {
         };
         let cross = entry(0, 1);
         let multipliers = contact::pair([[entry(0, 0), cross], [cross, entry(1, 1)]], gaps);
-        let mut change = Modes::zeros();
+        let (mut change, mut left) = (Modes::zeros(), [0.0; 2]);
         if let Some(blades) = &self.blades {
-            let mut ahead = steps;
+            let (mut taken, mut moved) = (steps, shift);
             for k in 0..2 {
                 let (c, s) = blades.shape(self.sides[k]);
                 let torque = -arms[k] * multipliers[k] * blades.oscillator().compliance;
-                ahead[0] += torque * c;
-                ahead[1] += torque * s;
+                taken[0] += torque * c;
+                taken[1] += torque * s;
+                moved -= ahead[k] * (self.casing.compliance * multipliers[k]);
             }
-            change = Modes::new(ahead[0], ahead[1], ahead[0] - modes[2], ahead[1] - modes[3]);
+            change = Modes::new(taken[0], taken[1], taken[0] - modes[2], taken[1] - modes[3]);
+            left = opened(moved, self.turns(taken));
         }
         let finite = multipliers.iter().all(|lambda| lambda.is_finite());
-        finite.then_some(Stepped { change, multipliers, gaps })
+        finite.then_some(Stepped { change, multipliers, gaps, left })
     }
 }

@@ -4,20 +4,22 @@
 //! In the frame of the blades the casing then follows from the blade angles
 //! alone (two gaps are zero), and at constant speed one step maps the blade
 //! modes `b = (alpha_c, alpha_s, increments)` to themselves. The map is affine
-//! to the square of the blade phase that is left of their vibration, so any
-//! number of steps is one small matrix power about the modes at rest. The step
-//! is worked out with its small parts apart (`CornerStep`), so that it carries
-//! no round-off of the gaps; the map is used only while both multipliers and
-//! both predicted gaps keep their signs with room to spare.
+//! to the square of their vibration about rest, so any number of steps is one
+//! small matrix power. The step is worked out with its small parts apart
+//! (`CornerStep`), so that it carries no round-off of the gaps; the map is used
+//! only while both multipliers and both predicted gaps keep their signs with room
+//! to spare, and where it leaves out next to nothing: that square, and the gaps
+//! that are left where a push bends soft blades in a long step.
 
 use nalgebra::{SMatrix, SVector};
 
-use super::corner_step::CornerStep;
+use super::corner_step::{CornerStep, Stepped};
 use super::leap::Leap;
 use super::{BladeModel, Coordinate, Explicit};
 use crate::motion::ActiveSet;
 use crate::tolerances::{
-    ANGLE_LOOK, HELD_AFTER, HELD_AGAIN, HELD_CORRECTIONS, HELD_PHASE, HELD_PROBE, ROOM_TO_CHANGE,
+    ANGLE_LOOK, HELD_AFTER, HELD_AGAIN, HELD_CORRECTIONS, HELD_LEFT_OUT, HELD_PROBE,
+    HELD_ROUNDINGS, ROOM_TO_CHANGE,
 };
 
 /// `(alpha_c, alpha_s)` and their increments.
@@ -76,6 +78,34 @@ impl HeldCorner {
         let deviation = self.unchanged * (to - from);
         let count = (steps - before) as f64;
         self.multipliers.map(|(value, gradient)| count * value + gradient.dot(&deviation))
+    }
+
+    /// Whether the steps leave no gaps, and their gaps and multipliers are as affine as
+    /// the map, at rest and as far from it as the modes swing.
+    fn is_affine(&self, at_rest: &Stepped) -> Option<bool> {
+        if self.step.blades().is_none() {
+            return Some(true);
+        }
+        let (angle, increment) = self.swing;
+        // The multipliers of a flat corner are known to round-off over its square.
+        let rounded = HELD_ROUNDINGS * f64::EPSILON / self.step.sine().powi(2);
+        let small = |part: f64, whole: f64| part.abs() <= HELD_LEFT_OUT.max(rounded) * whole.abs();
+        let closes = |step: &Stepped| (0..2).all(|k| small(step.left[k], at_rest.gaps[k]));
+        let mut affine = closes(at_rest);
+        for (j, swing) in [angle, angle, increment, increment].into_iter().enumerate() {
+            let mut shift = Modes::zeros();
+            shift[j] = swing;
+            let (up, down) =
+                (self.step.from(self.rest + shift)?, self.step.from(self.rest - shift)?);
+            let bow = |up: f64, down: f64, middle: f64| small(0.5 * (up + down) - middle, middle);
+            affine &= closes(&up)
+                && closes(&down)
+                && (0..2).all(|k| {
+                    bow(up.gaps[k], down.gaps[k], at_rest.gaps[k])
+                        && bow(up.multipliers[k], down.multipliers[k], at_rest.multipliers[k])
+                });
+        }
+        Some(affine)
     }
 
     /// The largest blade angle over the first `steps` steps, `least` where none
@@ -175,16 +205,14 @@ impl<B: BladeModel> Explicit<B> {
             step,
         };
         let [first, second] = at_rest.gaps;
-        self.is_kept(&held, [a, b, first, second], slopes).then_some(held)
+        let kept = self.is_kept(&held, [a, b, first, second], slopes);
+        (kept && held.is_affine(&at_rest)?).then_some(held)
     }
 
     /// Whether multipliers and predicted gaps never come near a change of sign:
     /// neither at rest nor by the vibration before it.
     fn is_kept(&self, held: &HeldCorner, rest: [f64; 4], slopes: [Modes; 4]) -> bool {
         let (angle, increment) = held.swing;
-        if self.machine.nodal_diameters * angle > HELD_PHASE {
-            return false;
-        }
         (0..4).all(|k| {
             let swing = angle * (slopes[k][0].hypot(slopes[k][1]))
                 + increment * (slopes[k][2].hypot(slopes[k][3]));

@@ -186,7 +186,12 @@ impl Pair {
         for (a, b) in log.unbroken_since.iter().zip(unbroken) {
             assert!((a - b).abs() < half, "{what}: unbroken since {a} {b}");
         }
-        let deepest = self.motion.checks().max_predicted_penetration_m.unwrap_or(f64::NAN);
+        let checks = self.motion.checks();
+        let left = (checks.max_penetration_m - plain.deepest).abs();
+        // A gap rounds as the clearance does, and the square of a bend twice as the bend.
+        let rounds = 1e-15 * self.clearance() + 1e-11 * self.amplified * plain.deepest;
+        assert!(left <= rounds + 1e-3 * plain.deepest, "{what}: {checks:?} {:e}", plain.deepest);
+        let deepest = checks.max_predicted_penetration_m.unwrap_or(f64::NAN);
         assert!(
             (deepest - plain.deepest_predicted).abs() <= allowed + 1e-12 * deepest,
             "{what}: deepest {deepest:e} {:e}",

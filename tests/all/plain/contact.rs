@@ -108,6 +108,9 @@ impl Plain {
             return Err(Why::Rows(rows.len()));
         }
         self.correct(&rows, &lambda);
+        for (row, _) in rows.iter().zip(&lambda).filter(|(_, value)| **value != ZERO) {
+            self.deepest = self.deepest.max(-self.row(turned, row.blade).gap.value());
+        }
         self.record(&rows, &lambda);
         Ok(())
     }

@@ -17,6 +17,7 @@
 //! plain.in_contact();                          // touched within the last two steps
 //! plain.impacts; plain.tensile_steps;          // (t, side); steps with a tensile row
 //! plain.widest; plain.deepest_predicted;       // over all steps: blade angle, -g*
+//! plain.deepest;                               // what the corrections leave of it
 //! plain.impulses;                              // of each side over all steps, N s
 //! plain.window(0.01);                          // the last 10 ms: touched, unbroken, sides kept, pulled
 //! plain.perturbation(1e-12);                          // moves u by that many metres, to see how the motion amplifies
@@ -117,6 +118,8 @@ pub struct Plain {
     pub widest: f64,
     /// Deepest predicted penetration of any step \[m\].
     pub deepest_predicted: f64,
+    /// Deepest penetration left after the correction of any step.
+    pub deepest: f64,
     /// Sum of the multipliers of each side over all steps, times the step
     /// \[N s\]; negative is a push.
     pub impulses: Vec<f64>,
@@ -164,6 +167,7 @@ impl Plain {
             tensile_steps: 0,
             widest: 0.0,
             deepest_predicted: 0.0,
+            deepest: 0.0,
             impulse: 0.0,
             impulses,
         };

@@ -1,0 +1,81 @@
+//! Held locks of soft blades under long steps, up to the longest that is stable, against
+//! plain stepping in twice the digits. A push bends such blades so far in one step that
+//! the corrected gaps are not closed; a map of many steps must not think they are.
+
+use crate::plain::compare::Pair;
+use crate::plain::scenes::{in_corner, scene};
+use rubscope::scene::{ContactLaw, ModelSize, Scene};
+
+/// The `k`th number between 0 and 1 of a seed.
+fn random(seed: u64, k: u64) -> f64 {
+    let bits = (seed * 1000 + 500 + k).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    let bits = (bits ^ bits >> 29).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    (bits ^ bits >> 32) as f64 / u64::MAX as f64
+}
+
+/// A start in a corner of blades that are soft, light and damped as they come.
+fn soft(seed: u64) -> Scene {
+    let part = |k| random(seed, k);
+    let between = |k, low: f64, high: f64| low * (high / low).powf(part(k));
+    let mut scene = scene(&[]);
+    (scene.bladed_disk.blades, scene.operation.nodal_diameters) =
+        [(22, 3), (8, 5), (12, 5), (7, 2), (40, 3)][(5.0 * part(0)) as usize % 5];
+    scene.solver.model = ModelSize::Modal;
+    scene.solver.contact =
+        if part(1) < 0.7 { ContactLaw::Unilateral } else { ContactLaw::Bilateral };
+    scene.bladed_disk.blade_length_m = 0.5 - between(2, 5e-5, 1e-3);
+    scene.bladed_disk.inertia_kg_m2 = between(3, 1e-6, 1e-2);
+    // From the frequency of the casing to some times as fast.
+    let omega = between(4, 300.0, 6e3);
+    scene.bladed_disk.stiffness_nm_per_rad = omega * omega * scene.bladed_disk.inertia_kg_m2;
+    scene.bladed_disk.coupling_nm_per_rad = 0.0;
+    scene.bladed_disk.damping_ratio = between(5, 0.05, 2.0);
+    scene.casing.damping_ratio = 0.08 * part(6);
+    let lock = scene.machine().omega_c / f64::from(scene.operation.nodal_diameters);
+    scene.operation.speed_rad_s = lock * between(7, 1.2, 3.0) * (0.5 - part(8)).signum();
+    let turn = 0.4 / scene.machine().nu(scene.operation.speed_rad_s).abs();
+    let longest = scene.stable_step().min(turn);
+    scene.solver.step_s = longest * (0.97_f64).min(between(9, 1e-3, 2.0));
+    scene.solver.end_s = 1.0;
+    in_corner(scene)
+}
+
+/// Plain stepping and the program over so many steps: whether a lock lasted, and whether
+/// the program took steps of it at once.
+fn compare(seed: u64, steps: u32) -> Option<bool> {
+    let scene = soft(seed);
+    let mut pair = Pair::new(&scene);
+    for look in 1..=8 {
+        let until = scene.solver.step_s * f64::from(steps / 8 * look);
+        if pair.advance(until).is_err() || pair.is_chaotic() {
+            return None;
+        }
+        pair.check(&format!("seed {seed}"));
+        let (found, expected) = (pair.motion.state().alpha, pair.plain.modal());
+        let apart = (found[0] - expected[0]).hypot(found[1] - expected[1]);
+        // What the map leaves out, over the flattest corner here.
+        let allowed = 1e-9 * pair.plain.widest;
+        assert!(apart < allowed, "seed {seed}: {found:?} {expected:?}, {apart:e} of {allowed:e}");
+    }
+    let held = pair.plain.window(f64::from(steps / 4) * scene.solver.step_s).kept?;
+    (held.len() == 2).then(|| pair.motion.steps_skipped() > Some(0))
+}
+
+/// Compares so many scenes; most of them lock, and only some of these may leap.
+fn locks(scenes: u64, steps: u32) {
+    let held: Vec<bool> = (0..scenes).filter_map(|seed| compare(seed, steps)).collect();
+    let (count, leapt) = (held.len() as u64, held.iter().filter(|&&leapt| leapt).count() as u64);
+    assert!(4 * count > 3 * scenes, "{count} locks of {scenes}");
+    assert!(5 * leapt > count && 10 * leapt < 9 * count, "{leapt} of {count} leapt");
+}
+
+#[test]
+fn soft_blades_in_long_steps_hold_as_plain_steps_do() {
+    locks(24, 1600);
+}
+
+#[test]
+#[ignore = "long; cargo test soft_locks -- --ignored"]
+fn three_hundred_soft_locks_hold_as_plain_steps_do() {
+    locks(400, 6000);
+}
