@@ -205,3 +205,22 @@ fn a_refusal_says_what_would_be_taken() {
         assert_eq!(refusal(&command.split(' ').collect::<Vec<_>>()), expected);
     }
 }
+
+#[test]
+fn an_end_below_one_step_is_refused_and_one_step_is_not() {
+    let lines = [
+        "run --end 1e-8 --step 1e-7",
+        "run rub --end 1e-8 --step 1e-7",
+        "map --speed 400:500:2 --pulse 1e4:2e4:2 --end 1e-8 --step 1e-7",
+        "margins --no-search --end 1e-8 --step 1e-7",
+    ];
+    for line in lines {
+        let said = refusal(&line.split_whitespace().collect::<Vec<_>>());
+        let expected = "solver.end_s = 1e-8: allowed is at least one step, solver.step_s = 1e-7";
+        assert!(said.contains(expected) && said.lines().count() == 1, "{line}: {said}");
+    }
+    for line in ["run --end 1e-7 --step 1e-7", "run --solver event --end 1e-8 --step 1e-7"] {
+        let output = rubscope(&line.split_whitespace().collect::<Vec<_>>());
+        assert_eq!(output.status.code(), Some(0), "{line}");
+    }
+}

@@ -48,15 +48,14 @@ impl Default for Effort {
     }
 }
 
-/// Every way to solve a scene, coarse to fine. Steps beyond the stability
-/// limit or the end and other refused combinations are left out.
+/// Every way to solve a scene, coarse to fine. Refused combinations, such as steps
+/// beyond the stability limit or the end, are left out.
 #[must_use]
 pub fn ways(scene: &Scene, effort: Effort) -> Vec<Way> {
     let mut ways = Vec::new();
-    let steps = effort.finest_s..=scene.solver.end_s;
     for model in [ModelSize::Rigid, ModelSize::Modal, ModelSize::Full] {
         for contact in [ContactLaw::Unilateral, ContactLaw::Bilateral] {
-            for step in STEPS.into_iter().filter(|step| steps.contains(step)) {
+            for step in STEPS.into_iter().filter(|&step| step >= effort.finest_s) {
                 let solver = SolverKind::Explicit;
                 ways.push(Way { solver, contact, model, step_s: Some(step), tolerance: None });
             }
