@@ -50,6 +50,29 @@ fn single_blades_on_a_lining_agree_with_the_modes_but_for_their_mean() {
     }
 }
 
+#[test]
+fn single_blades_without_a_slope_are_pressed_from_the_start_and_of_second_order() {
+    let of = |model: &str, pulse: f64, step: &str| {
+        let keys = [(KAPPA, 0.0), ("contact.stiffness_n_per_m", 2.7e6), (SPEED, 500.0)];
+        let scene = pressed(&[&keys[..], &[(PULSE, pulse), (END, 0.01)]].concat());
+        set(set(scene, "solver.model", model), STEP, step)
+    };
+    let stored = |model: &str| {
+        let report = simulate(&of(model, 5e3, "1e-6").checked().unwrap());
+        (report.energy.unwrap().stored_j, report.checks.energy_residual_j.unwrap())
+    };
+    // Without a slope nothing tells single blades from the two modes.
+    let ((modal, _), (full, residual)) = (stored("modal"), stored("full"));
+    assert!((full / modal - 1.0).abs() < 1e-6, "{full} {modal}");
+    assert!(residual.abs() < 1e-5 * full, "{residual} {full}");
+    // A pulse after which no blade lifts off, which would cost part of the order.
+    let [a, b, c] = ["2e-6", "1e-6", "5e-7"].map(|step| coordinates(&of("full", 300.0, step)));
+    for k in 0..2 {
+        let order = ((a[k] - b[k]) / (b[k] - c[k])).log2();
+        assert!((order - 2.0).abs() < 0.05, "{k}: {order}");
+    }
+}
+
 /// Growth \[1/s\] and frequency \[rad/s\] of `alpha_c + i alpha_s` between two instants.
 fn growth(scene: &Scene, from: f64, to: f64) -> (f64, f64) {
     let mut motion = Motion::new(&scene.checked().unwrap());

@@ -117,8 +117,9 @@ impl TipModel for FullTips {
             torque: None,
             near: NearRows::default(),
             angles: vec![0.0; fixed.table.count()],
-            slack: f64::INFINITY,
-            steps_seen: 0,
+            slack: 0.0,
+            // Not looked at yet.
+            steps_seen: u32::MAX,
             largest: [0.0; 2],
             fixed: Arc::new(fixed),
         };
@@ -373,6 +374,19 @@ mod tests {
         let square = parts.iter().map(|x| x * x).sum::<f64>() / 4000.0;
         // Four standard errors.
         assert!(mean.abs() < 0.064 && (square - 1.0).abs() < 0.09, "{mean} {square}");
+    }
+
+    #[test]
+    fn all_blades_press_from_the_first_step_on() {
+        for kappa in [0.0, 0.5] {
+            let mut scene = pressed(1e-6);
+            scene.bladed_disk.radial_coupling = kappa;
+            let pushed = |motion: &Coupled<FullTips>| motion.multipliers().len();
+            let mut motion = Coupled::<FullTips>::new(&scene.checked().unwrap());
+            assert_eq!(pushed(&motion), 22, "{kappa}");
+            motion.advance(1e-6).unwrap();
+            assert_eq!(pushed(&motion), 22, "{kappa}");
+        }
     }
 
     #[test]
