@@ -4,9 +4,9 @@
 //! Coordinates are the Fourier modes of the tuned ring. A blade that is stiffer than the
 //! others gets the torque of its extra spring; the damping is that of the tuned disk.
 
-use std::f64::consts::TAU;
 use std::sync::Arc;
 
+use super::mistuning::springs;
 use super::{Driven, TipModel, loss_of};
 use crate::model::Machine;
 use crate::motion::Plane;
@@ -86,24 +86,6 @@ impl Fixed {
             table,
         }
     }
-}
-
-/// Stiffness of each blade beyond `k_b`, `sd x_i k_b` with `x_i` standard normal
-/// \[N m/rad\]; none for a tuned disk.
-fn springs(scene: &Scene) -> Vec<f64> {
-    let disk = &scene.bladed_disk;
-    if disk.mistuning == 0.0 {
-        return Vec::new();
-    }
-    let mut draw = fastrand::Rng::with_seed(u64::from(disk.mistuning_seed));
-    let mut spring = || {
-        // Box and Muller, from a number above 0 and one below 1.
-        let (radius, angle) = ((-2.0 * (1.0 - draw.f64()).ln()).sqrt(), TAU * draw.f64());
-        let extra = disk.mistuning * radius * angle.cos();
-        // A spring may be soft, and none pushes away.
-        disk.stiffness_nm_per_rad * extra.max(-1.0)
-    };
-    (0..disk.blades).map(|_| spring()).collect()
 }
 
 impl TipModel for FullTips {
@@ -357,23 +339,6 @@ mod tests {
             let found = (4.0 * at[1][k] - at[0][k]) / 3.0;
             assert!((found - expected).abs() < 1e-14, "{found:e}");
         }
-    }
-
-    #[test]
-    fn stiffnesses_are_drawn_alike_on_every_machine() {
-        let mut scene = Scene::base();
-        scene.bladed_disk.mistuning = 0.02;
-        let drawn = springs(&scene);
-        assert_eq!(drawn, springs(&scene));
-        scene.bladed_disk.mistuning_seed = 2;
-        assert_ne!(drawn, springs(&scene));
-        scene.bladed_disk.blades = 4000;
-        let part = |spring: &f64| spring / (0.02 * scene.bladed_disk.stiffness_nm_per_rad);
-        let parts: Vec<f64> = springs(&scene).iter().map(part).collect();
-        let mean = parts.iter().sum::<f64>() / 4000.0;
-        let square = parts.iter().map(|x| x * x).sum::<f64>() / 4000.0;
-        // Four standard errors.
-        assert!(mean.abs() < 0.064 && (square - 1.0).abs() < 0.09, "{mean} {square}");
     }
 
     #[test]

@@ -5,6 +5,7 @@
 //! to them in one step.
 
 mod full;
+mod mistuning;
 mod modal;
 mod rigid;
 
