@@ -1,6 +1,7 @@
 //! What a scene has beyond the paper's model (docs/theory.md, section 10), and which
 //! combinations of it have no meaning or no unique answer.
 
+use super::check::{down, up};
 use super::{ContactLaw, ModelSize, Scene, SceneError, SolverKind};
 
 impl Scene {
@@ -40,6 +41,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     restitution(scene)?;
     mistuning(scene)?;
     digging_in(scene)?;
+    opening(scene)?;
     by_events(scene)
 }
 
@@ -92,6 +94,39 @@ fn digging_in(scene: &Scene) -> Result<(), SceneError> {
         "not between 0 and {} with solver.model = \"full\" and rigid contact, whose pushes are \
          not unique there; solver.model = \"modal\" or solver.contact = \"smooth\" have them",
         -forward
+    );
+    Err(SceneError::refused("bladed_disk.radial_coupling", kappa, allowed))
+}
+
+/// A push must open the gap under it, `1/m_c + c2/m_a > 0`, and in a time step with `m/h^2 +
+/// d/2h` in place of `m` too: otherwise no push, or more than one, closes the gap.
+fn opening(scene: &Scene) -> Result<(), SceneError> {
+    let machine = scene.machine();
+    let step = match scene.solver.kind {
+        SolverKind::Explicit => scene.solver.step_s,
+        SolverKind::Event => 0.0,
+    };
+    let [casing, blades] = [
+        machine.casing_mass + 0.5 * step * machine.casing_damping,
+        machine.blade_modal_mass + 0.5 * step * machine.blade_modal_damping,
+    ];
+    let of_masses = machine.casing_mass / machine.blade_modal_mass;
+    let ratio = of_masses.max(casing / blades);
+    let product = machine.coupling_product_at(scene.operation.speed_rad_s);
+    if scene.solver.contact == ContactLaw::Smooth || product * ratio > -1.0 {
+        return Ok(());
+    }
+    // Between the roots of kappa (kappa + mu) = -m_a/(m_c l_b^2).
+    let (kappa, mu) = (scene.bladed_disk.radial_coupling, scene.contact.friction);
+    let least = 1.0 / (ratio * machine.blade_length * machine.blade_length);
+    let half = (0.25 * mu * mu - least).max(0.0).sqrt();
+    let [far, near] = [up(0.5 * mu + half), down(0.5 * mu - half)].map(|end| end.copysign(kappa));
+    let allowed = format!(
+        "not from {} to {} with contact.friction = {mu} and rigid contact: there \
+         kappa (kappa + mu) l_b^2/m_a is below -1/m_c, and a push closes the gap that it is to \
+         open; solver.contact = \"smooth\" takes it",
+        far.min(near),
+        far.max(near)
     );
     Err(SceneError::refused("bladed_disk.radial_coupling", kappa, allowed))
 }

@@ -164,13 +164,13 @@ fn most_steps(scene: &Scene) -> f64 {
 }
 
 /// A number in four digits, not above it.
-fn down(x: f64) -> f64 {
+pub(super) fn down(x: f64) -> f64 {
     let near = four_digits(x);
     if near > x { four_digits(near - unit(x)) } else { near }
 }
 
 /// A number in four digits, not below it.
-fn up(x: f64) -> f64 {
+pub(super) fn up(x: f64) -> f64 {
     -down(-x)
 }
 

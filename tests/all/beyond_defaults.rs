@@ -151,3 +151,59 @@ fn combinations_without_a_meaning_are_refused() {
         assert_eq!(refused(allowed), "", "{allowed:?}");
     }
 }
+
+/// `kappa (kappa + mu) l_b^2/m_a` not above `-1/m_c`: a push closes its own gap. Refused
+/// between bounds that are themselves accepted.
+#[test]
+fn tips_whose_pushes_close_their_own_gap_are_refused_with_the_bounds() {
+    let with = |mu: f64, kappa: f64, inertia: f64, more: &[(&str, &str)]| {
+        let [mu, kappa, inertia] = [mu, kappa, inertia].map(|value| value.to_string());
+        let own = [
+            ("contact.friction", mu.as_str()),
+            ("bladed_disk.radial_coupling", &kappa),
+            ("bladed_disk.inertia_kg_m2", &inertia),
+        ];
+        Scene::base().with(&[&own[..], more].concat())
+    };
+    let event = [("solver.kind", "event")];
+    let backward = [("operation.speed_rad_s", "-500")];
+    for (mu, kappa, inertia, more) in [
+        (5.0, -2.5, 0.20825, &[][..]),
+        (5.0, -2.5, 0.20825, &event[..]),
+        (1.0, -0.5, 0.01, &[]),
+        (1.0, -0.5, 0.01, &event),
+        (1.0, 0.5, 0.01, &backward),
+    ] {
+        // N = 22 blades have 11 times the inertia of one in each mode.
+        let product = |kappa: f64| {
+            let felt = if more == backward { -mu } else { mu };
+            kappa * (kappa + felt) * 0.4999 * 0.4999 * 2.0 / (11.0 * inertia)
+        };
+        assert!(product(kappa) < -1.0);
+        let message = with(mu, kappa, inertia, more).unwrap_err().to_string();
+        let key = "bladed_disk.radial_coupling = ";
+        assert!(message.starts_with(key) && message.contains("friction = "), "{message}");
+        assert_eq!(message.lines().count(), 1);
+        let bounds = message.split("not from ").nth(1).unwrap().split(" with").next().unwrap();
+        for bound in bounds.split(" to ").map(|bound| bound.parse::<f64>().unwrap()) {
+            assert!((product(bound) + 1.0).abs() < 2e-3, "{bound}: {}", product(bound));
+            let scene = with(mu, bound, inertia, more).unwrap();
+            assert!(product(bound) > -1.0 && scene.bladed_disk.radial_coupling == bound);
+            let inward = bound + 2e-3 * (kappa - bound);
+            assert!(with(mu, inward, inertia, more).is_err(), "{inward}");
+        }
+        // A lining has a push for every gap.
+        let lining = [("solver.contact", "smooth"), ("solver.kind", "explicit")];
+        let smooth = [more, &lining[..]].concat();
+        assert!(with(mu, kappa, inertia, &smooth).is_ok());
+    }
+    let hbm = crate::cli_support::refusal(&[
+        "hbm",
+        "digs-in",
+        "--set",
+        "contact.friction=5",
+        "--set",
+        "bladed_disk.radial_coupling=-2.5",
+    ]);
+    assert!(hbm.starts_with("rubscope: bladed_disk.radial_coupling = -2.5: allowed is not from"));
+}
