@@ -302,7 +302,7 @@ pub const KEYS: &[Key] = &[
     real!("bladed_disk.mistuning", "-", "standard deviation of single k_b (full model), sd", false 0.0..0.2, bladed_disk.mistuning),
     whole!(
         "bladed_disk.mistuning_seed",
-        "draw of the single k_b",
+        "draw of the single k_b, seed",
         0..1_000_000,
         bladed_disk.mistuning_seed
     ),
