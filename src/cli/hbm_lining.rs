@@ -96,15 +96,6 @@ pub(super) fn clear(scene: &Scene) -> Result<(), Refusal> {
 pub(super) fn answer(asked: &Asked, view: &LiningView) -> Result<Answer, Refusal> {
     let scene = asked.scene;
     let json = HbmReport::new(scene, asked.form, asked.damped, asked.fastest());
-    // Speeds and amplitudes of a lock have no meaning without a clearance.
-    let json = if scene.clearance() > 0.0 {
-        json
-    } else {
-        let none = |json: HbmReport, name| json.with(name, None::<f64>);
-        ["omega_lock_rad_s", "omega_adhesive_rad_s", "locked_amplitude_m"]
-            .into_iter()
-            .fold(json, none)
-    };
     let rigid = scene.solver.contact != ContactLaw::Smooth;
     let option = match view {
         LiningView::Smooth => Some("--smooth"),
@@ -137,9 +128,8 @@ fn smooth(json: HbmReport, asked: &Asked) -> Result<Answer, HarmonicError> {
         hopf: if rubs && from < to { lining.hopf_points([from, to])? } else { Vec::new() },
         rest: Vec::new(),
         cycles: Vec::new(),
-        // Refused for blades that give: there is no closed form.
-        window: lining.lock_window().ok().flatten(),
-        least: least_lock_stiffness(&machine).ok(),
+        window: lining.lock_window(asked.fastest()),
+        least: least_lock_stiffness(&machine),
         states: Vec::new(),
     };
     for &speed in speeds {
@@ -190,7 +180,7 @@ fn over_clearance(found: &LiningReport, lining: &Lining) -> Vec<(String, Table)>
             short(lining.stiffness_n_per_m)
         ));
         title.push_str(&match found.window {
-            Some([from, to]) => format!("holds it from {} to {} rad/s.", short(from), short(to)),
+            Some(window) => format!("holds it from {} rad/s.", report::speeds_of(window)),
             None => "holds it at no speed.".to_string(),
         });
     }

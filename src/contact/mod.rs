@@ -8,7 +8,6 @@
 //! `repeated`, which keeps the digits that such rows lose here.
 
 mod bilateral;
-mod lining;
 pub mod repeated;
 mod unilateral;
 
@@ -17,7 +16,6 @@ use serde::Serialize;
 use strum::{AsRefStr, Display, EnumString, VariantNames};
 
 pub use bilateral::{all_closed, pair};
-pub use lining::LiningLaw;
 use repeated::Repeated;
 pub use unilateral::{complementary, complementary_pair};
 

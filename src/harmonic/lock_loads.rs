@@ -4,7 +4,7 @@
 
 use super::corner_angle::CornerAngle;
 use super::equations::{Scales, Wave};
-use super::{Corner, joined_lock};
+use super::{Corner, joined_lock, lining};
 use crate::model::{Machine, Number};
 
 /// The loads of the damped lock at one speed, exact for blades that move.
@@ -28,13 +28,16 @@ pub struct LockLoads<T = f64> {
     pub energy_j: T,
 }
 
-/// The loads of the lock of a machine at a speed \[rad/s\]; none without corners, and
-/// beyond the fold of very soft blades.
+/// The loads of the lock of a machine at a speed \[rad/s\]; none without corners,
+/// beyond the fold of very soft blades, and on a lining where no two groups hold it alone.
 #[must_use]
 pub fn lock_loads<T: Number>(machine: &Machine<T>, speed: T) -> Option<LockLoads<T>> {
     let clear = machine.clearance().re() > 0.0;
     if !machine.polygon.has_corners() || machine.has_other_diameters() || !clear {
         return None;
+    }
+    if machine.lining.is_some() {
+        return lining::lock_loads(machine, speed);
     }
     if machine.is_joined() {
         return joined(machine, speed);
@@ -97,11 +100,11 @@ fn joined<T: Number>(machine: &Machine<T>, speed: T) -> Option<LockLoads<T>> {
 }
 
 /// The largest speed with a lock \[rad/s\]: blades that are soft give way above it.
-/// None without corners, with tips that are inclined or rub, and where it is beyond any
-/// speed that a number can square.
+/// None without corners, with tips that are inclined or rub, on a lining, and where it is
+/// beyond any speed that a number can square.
 #[must_use]
 pub fn lock_fold_speed<T: Number>(machine: &Machine<T>) -> Option<T> {
-    if machine.is_joined() || machine.has_other_diameters() {
+    if machine.is_joined() || machine.has_other_diameters() || machine.lining.is_some() {
         return None;
     }
     let critical = machine.critical_speed()?;

@@ -22,7 +22,7 @@ pub struct WhirlOnset {
 
 /// The slowest speed at which whirl begins for a rotor that turns in the sense of
 /// `toward`, with its derivatives of the first order; none where there is none up to 20
-/// dangerous coincidences \[rad/s\].
+/// dangerous coincidences, and where a lining is too soft for that wave \[rad/s\].
 ///
 /// At a fold `Im B` is stationary in the frequency, so that its change with a parameter
 /// must be undone by the speed alone.
@@ -33,6 +33,12 @@ pub fn whirl_onset<T: Number>(machine: &Machine<T>, toward: f64) -> Option<T> {
         return None;
     }
     let onset = sought(&machine.plain(), toward, true).into_iter().find(|onset| onset.appears)?;
+    // A lining is never stiffer than where blades lift off for half of each turn.
+    let softest = machine.lining.map(|lining| lining.stiffness_n_per_m.re());
+    let most = softest.map_or(f64::INFINITY, |k| 0.25 * f64::from(machine.polygon.blades) * k);
+    if onset.wave.stiffness_n_per_m > most {
+        return None;
+    }
     let omega = onset.wave.omega_rad_s;
     let s = -machine.nu(T::from(onset.speed_rad_s)) + omega;
     let turned = machine.casing_friction_at(T::from(toward));

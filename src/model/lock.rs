@@ -5,6 +5,9 @@
 //! compliance; both push where `|arg(-1/H)| <= delta`. With `K = k_c - nu^2 m_c`,
 //! `D = d_c nu` and `c = c2/k_a`, `1/H` is a positive number times
 //! `K + c (K^2 + D^2) + mu_c D + i (D - mu_c K)`.
+//!
+//! On a lining of the stiffness `k` of a group both push where `-tan(delta) Re H - |Im H| >=
+//! 1/(k sin 2 delta)`, without smoothing: one term more, `(K^2 + D^2)/(k sin 2 delta)`.
 
 use super::real_roots::{Coefficients, Point, product, real_roots, sum};
 use super::{Machine, Number};
@@ -19,8 +22,8 @@ pub struct LockWindow<T = f64> {
 }
 
 impl<T: Number> Machine<T> {
-    /// Speed above which both multipliers of the locked motion are compressive for a
-    /// rotor that turns forward; without friction and inclined tips
+    /// Speed from which both multipliers of the locked motion are compressive for a
+    /// rotor that turns forward; without friction, inclined tips and a lining
     /// `Omega_lock = Omega_c [zeta cot delta + sqrt(1 + zeta^2 cot^2 delta)]`
     /// \[rad/s\]; none without corners, and where no speed has a lock.
     #[must_use]
@@ -42,12 +45,15 @@ impl<T: Number> Machine<T> {
     }
 
     /// Every window of speeds with a lock, in order, for a rotor that turns in the sense
-    /// of `toward`. Empty where inclined tips have modes of other diameters than the
-    /// casing: no single wave then holds the pair.
+    /// of `toward`. Empty where blades rub at rest, and where inclined tips have modes of
+    /// other diameters than the casing: no single wave then holds the pair.
     #[must_use]
     pub fn lock_windows(&self, toward: f64) -> Vec<LockWindow<T>> {
         let slope = self.polygon.delta.tan();
-        if !self.casing_is_joined() {
+        if self.clearance().re() <= 0.0 {
+            return Vec::new();
+        }
+        if !self.casing_is_joined() && self.lining.is_none() {
             let from = self.threshold(1.0 / slope);
             return from.map(|from| LockWindow { from, to: None }).into_iter().collect();
         }
@@ -56,9 +62,12 @@ impl<T: Number> Machine<T> {
 
     /// Speed down to which the printed equality algorithm holds a lock, one
     /// multiplier tensile: as `lock_speed` with `tan delta` for `cot delta`. None with
-    /// friction, which no pull has.
+    /// friction, which no pull has, and on a lining, which does not pull.
     #[must_use]
     pub fn adhesive_speed(&self) -> Option<T> {
+        if self.lining.is_some() || self.clearance().re() <= 0.0 {
+            return None;
+        }
         if !self.is_joined() {
             return self.threshold(self.polygon.delta.tan());
         }
@@ -87,6 +96,10 @@ impl<T: Number> Machine<T> {
             friction: self.casing_friction_at(T::one()),
             coupling: self.coupling_product_at(T::from(toward)) * self.casing_stiffness
                 / self.blade_modal_stiffness,
+            lining: self.lining.map_or(T::zero(), |lining| {
+                let group = lining.stiffness_n_per_m * f64::from(self.polygon.blades_per_side);
+                self.casing_stiffness / (group * (2.0 * self.polygon.delta).sin())
+            }),
         };
         let speed = |(x, sign): (f64, f64)| balance.derived(x, sign) * critical;
         let mut windows: Vec<LockWindow<T>> = Vec::new();
@@ -110,16 +123,18 @@ impl<T: Number> Machine<T> {
         windows
     }
 
-    /// Amplitude of the locked casing wave, `g0/cos delta` \[m\]; none without corners,
-    /// and where inclined tips give way, so that it depends on the speed.
+    /// Amplitude of the locked casing wave, `g0/cos delta` \[m\]; none without corners or
+    /// clearance, and where inclined tips or a lining give way, so that it depends on the
+    /// speed.
     #[must_use]
     pub fn locked_amplitude(&self) -> Option<T> {
-        let still = self.polygon.has_corners() && self.radial_coupling.re() == 0.0;
-        still.then(|| self.clearance() / self.polygon.delta.cos())
+        let corners = self.polygon.has_corners() && self.clearance().re() > 0.0;
+        let still = self.radial_coupling.re() == 0.0 && self.lining.is_none();
+        (corners && still).then(|| self.clearance() / self.polygon.delta.cos())
     }
 
     /// Group multipliers `[lambda_a, lambda_b]` of the locked motion at a
-    /// constant speed, `psi_b = psi_a + 2 delta`, for blades that do not turn the gap
+    /// constant speed, `psi_b = psi_a + 2 delta`, for rigid contact and blades that do not turn the gap
     /// \[N\]: `(g0/2 cos delta)(Re(1/H)/cos delta -+ Im(1/H)/sin delta)`; without
     /// friction and inclined tips `1/H = K + i D` with `K = k_c - nu^2 m_c`,
     /// `D = d_c nu`. Negative is a push. None without corners, with an interference fit, and where inclined tips
@@ -155,12 +170,14 @@ impl<T: Number> Machine<T> {
     }
 }
 
-/// Where both push: `slope Re +- Im <= 0` of `1/H`, in units of the casing and `omega_c`.
+/// Where both push: `slope Re +- Im <= 0` of `1/H`, in units of the casing and `omega_c`;
+/// on a lining with a term of its compliance.
 struct Balance<T> {
     slope: f64,
     damping: T,
     friction: T,
     coupling: T,
+    lining: T,
 }
 
 impl<T: Number> Balance<T> {
@@ -174,7 +191,10 @@ impl<T: Number> Balance<T> {
         let square_slope = (stiff * stiff_slope + drag * drag_slope) * 2.0;
         let along_slope = stiff_slope + self.coupling * square_slope + self.friction * drag_slope;
         let across_slope = drag_slope - self.friction * stiff_slope;
-        (along * self.slope + across * sign, along_slope * self.slope + across_slope * sign)
+        (
+            along * self.slope + across * sign + self.lining * square,
+            along_slope * self.slope + across_slope * sign + self.lining * square_slope,
+        )
     }
 
     /// Whether both push at a frequency.
@@ -214,7 +234,7 @@ impl<T: Number> Balance<T> {
                     self.slope * friction + sign,
                     &product(&drag, &one),
                 );
-                sum(1.0, &alone, self.slope * coupling, &square)
+                sum(1.0, &alone, self.slope * coupling + self.lining.re(), &square)
             }
         };
         let mut ends = Vec::new();

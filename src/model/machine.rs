@@ -4,7 +4,7 @@
 
 use std::f64::consts::TAU;
 
-use super::{BladedDisk, Casing, ContactPolygon, Number};
+use super::{BladedDisk, Casing, ContactPolygon, LiningLaw, Number};
 
 /// The four-coordinate model of one machine at one number of nodal diameters.
 ///
@@ -54,6 +54,8 @@ pub struct Machine<T = f64> {
     pub tangential_ratio: T,
     /// Friction coefficient `mu` of a rotor that turns forward; 0 from `new`.
     pub friction: T,
+    /// The lining of the casing under a blade; none from `new`, for rigid contact.
+    pub lining: Option<LiningLaw<T>>,
 }
 
 impl<T: Number> Machine<T> {
@@ -91,6 +93,7 @@ impl<T: Number> Machine<T> {
             blade_diameters: f64::from(blade_diameters),
             tangential_ratio: casing.tangential_ratio,
             friction: T::from(0.0),
+            lining: None,
         }
     }
 
@@ -98,6 +101,12 @@ impl<T: Number> Machine<T> {
     #[must_use]
     pub fn with_friction(self, mu: T) -> Self {
         Self { friction: mu, ..self }
+    }
+
+    /// This machine with a lining, or with rigid contact.
+    #[must_use]
+    pub fn with_lining(self, lining: Option<LiningLaw<T>>) -> Self {
+        Self { lining, ..self }
     }
 
     /// This machine without the damping of casing and blades.
@@ -165,6 +174,10 @@ impl<T: Number> Machine<T> {
             blade_diameters: self.blade_diameters,
             tangential_ratio: self.tangential_ratio.re(),
             friction: self.friction.re(),
+            lining: self.lining.map(|lining| LiningLaw {
+                stiffness_n_per_m: lining.stiffness_n_per_m.re(),
+                smoothing_m: lining.smoothing_m.re(),
+            }),
         }
     }
 

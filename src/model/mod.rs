@@ -2,6 +2,7 @@
 //! the phase groups. Solvers and file formats are elsewhere. Symbols and equations:
 //! docs/theory.md, section 1; signs and numbering: docs/theory.md, section 2.
 
+mod lining;
 mod lock;
 mod machine;
 mod number;
@@ -9,6 +10,7 @@ mod parameters;
 mod polygon;
 pub(crate) mod real_roots;
 
+pub use lining::LiningLaw;
 pub use lock::LockWindow;
 pub use machine::{Machine, blade_frequency};
 pub use number::Number;

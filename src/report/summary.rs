@@ -185,18 +185,16 @@ fn speed_at_end(report: &RunReport) -> f64 {
 /// The rotor speed, compared with the threshold speeds.
 fn speeds(report: &RunReport, machine: &Machine) -> String {
     let (operation, speed) = (&report.scene.operation, speed_at_end(report));
-    // A lining has a window of its own (`hbm --smooth`).
-    let rigid = report.solver.contact != ContactLaw::Smooth;
-    let lock = machine.lock_speed_toward(speed);
+    let lock = machine.lock_window(speed);
     let at_end = if operation.speed_ramp_rad_s2 == 0.0 { "" } else { " at the end" };
     let mut parts = vec![format!("Rotor speed{at_end}: {} rad/s", short(speed))];
-    for (name, threshold) in
-        [("Omega_c", machine.critical_speed()), ("Omega_lock", lock.filter(|_| rigid))]
-    {
-        if let Some(threshold) = threshold {
-            let ratio = short(speed.abs() / threshold);
-            parts.push(format!("{ratio} of {name} ({} rad/s)", short(threshold)));
-        }
+    let part_of = |name: &str, threshold: f64| {
+        format!("{} of {name} ({} rad/s", short(speed.abs() / threshold), short(threshold))
+    };
+    parts.extend(machine.critical_speed().map(|critical| part_of("Omega_c", critical) + ")"));
+    if let Some(lock) = lock.filter(|lock| lock.from > 0.0) {
+        let ends = lock.to.map(|to| format!(", where locks begin; they end at {}", short(to)));
+        parts.push(part_of("Omega_lock", lock.from) + &ends.unwrap_or_default() + ")");
     }
     format!("{}.", parts.join(", "))
 }

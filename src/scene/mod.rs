@@ -22,7 +22,9 @@ pub use error::SceneError;
 pub use keys::{Allowed, KEYS, Key, Value};
 
 pub use crate::contact::ContactLaw;
-use crate::model::{BladedDisk, Casing, ContactSurface, Excitation, Initial, Machine, Operation};
+use crate::model::{
+    BladedDisk, Casing, ContactSurface, Excitation, Initial, LiningLaw, Machine, Operation,
+};
 
 /// Which solver advances the motion.
 #[derive(
@@ -163,12 +165,19 @@ impl Scene {
     pub fn machine(&self) -> Machine {
         let mut machine =
             Machine::new(&self.bladed_disk, &self.casing, self.operation.nodal_diameters)
-                .with_friction(self.contact.friction);
+                .with_friction(self.contact.friction)
+                .with_lining(self.lining());
         if self.solver.model == ModelSize::Rigid {
             // Blades that do not bend do not move their tips outward.
             machine.radial_coupling = 0.0;
         }
         machine
+    }
+
+    /// The lining under a blade, with the smooth law.
+    #[must_use]
+    pub fn lining(&self) -> Option<LiningLaw> {
+        (self.solver.contact == ContactLaw::Smooth).then(|| LiningLaw::of(&self.contact))
     }
 
     /// Largest step the explicit solver is stable for, `2/omega_max`, Eq. (9) \[s\].

@@ -1,5 +1,5 @@
-//! Curves over a map: the critical and the lock-in speed, and the smallest
-//! pulse that makes any blade touch.
+//! Curves over a map: the critical speed, those between which a lock holds, and the
+//! smallest pulse that makes any blade touch.
 
 use super::MapPlan;
 use super::margins::grazing_pulse;
@@ -32,13 +32,14 @@ pub fn curves(plan: &MapPlan) -> Vec<Curve> {
     curves
 }
 
-/// The critical and the lock-in speed, where one axis is the speed.
+/// The critical speed and those between which a lock holds, where one axis is the speed.
 #[must_use]
 pub fn speed_curves(plan: &MapPlan) -> Vec<Curve> {
     let Some(of_speed) = AlongOther::of(plan, SPEED) else { return Vec::new() };
     vec![
         of_speed.trace_speed("Omega_c", |machine, _| machine.critical_speed()),
         of_speed.trace_speed("Omega_lock", Machine::lock_speed_toward),
+        of_speed.trace_speed("lock ends", |machine, toward| machine.lock_window(toward)?.to),
     ]
 }
 

@@ -152,14 +152,16 @@ fn a_soft_lining_cannot_hold_a_lock() {
         let mut scene = Scene::builtin(name).unwrap();
         scene.contact.stiffness_n_per_m = stiffness;
         let machine = scene.machine();
-        Lining::of(&machine, &scene.contact).unwrap().lock_window().unwrap()
+        Lining::of(&machine, &scene.contact).unwrap().lock_window(1.0)
     };
-    assert!(holds(1.9375e8).unwrap()[0] < 500.0 && holds(1.936e8).is_none_or(|at| at[0] > 500.0));
+    assert!(
+        holds(1.9375e8).unwrap().from < 500.0 && holds(1.936e8).is_none_or(|at| at.from > 500.0)
+    );
     let machine = Scene::builtin(name).unwrap().machine();
     close(least_lock_stiffness(&machine).unwrap().stiffness_n_per_m, 1.931e8, 0.0005e8);
-    let [from, to] = holds(3e8).unwrap();
-    close(from, 438.2, 0.05);
-    close(to, 732.4, 0.05);
+    let window = holds(3e8).unwrap();
+    close(window.from, 438.2, 0.05);
+    close(window.to.unwrap(), 732.4, 0.05);
     assert_eq!(verdict(name, &[]), Verdict::Locked);
     // Softer from the same start.
     let softer = |stiffness| verdict(name, &[("contact.stiffness_n_per_m", stiffness)]);

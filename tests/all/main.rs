@@ -61,6 +61,7 @@ mod lesson_values;
 mod live_changes;
 mod live_event;
 mod live_random;
+mod lock_ends;
 mod map_adaptive;
 mod map_certain;
 mod map_cli;

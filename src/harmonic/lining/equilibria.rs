@@ -61,7 +61,7 @@ pub(super) struct Balance<'a> {
     casing: Complex<f64>,
     pushed: Complex<f64>,
     /// Size of both terms for one unit of `w` \[N/m\].
-    scale: f64,
+    pub scale: f64,
 }
 
 /// A product of two complex numbers as a matrix that acts on the second.
@@ -87,7 +87,7 @@ impl<'a> Balance<'a> {
     }
 
     /// Of all sides: phase, and gap at a place.
-    fn gaps(&self, w: Vector2<f64>) -> impl Iterator<Item = (u32, Vector2<f64>, f64)> {
+    pub fn gaps(&self, w: Vector2<f64>) -> impl Iterator<Item = (u32, Vector2<f64>, f64)> {
         let machine = self.lining.machine;
         let clearance = machine.clearance();
         (0..machine.polygon.sides).map(move |side| {
@@ -150,7 +150,7 @@ impl<'a> Balance<'a> {
 
     /// The place that neighbouring sides from the first on would hold if they were
     /// springs, `eps = 0`.
-    fn sprung(&self, sides: u32) -> Option<Vector2<f64>> {
+    pub fn sprung(&self, sides: u32) -> Option<Vector2<f64>> {
         let machine = self.lining.machine;
         let each = self.lining.stiffness_n_per_m * f64::from(machine.polygon.blades_per_side);
         let clearance = machine.clearance() + 0.5 * self.lining.smoothing_m;

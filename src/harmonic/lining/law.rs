@@ -8,9 +8,8 @@
 use std::f64::consts::TAU;
 
 use super::share::{mean, mean_change};
-use crate::contact::LiningLaw;
 use crate::harmonic::{HarmonicError, Joint};
-use crate::model::{ContactSurface, Machine};
+use crate::model::{ContactSurface, LiningLaw, Machine};
 use crate::tolerances::{LINING_NARROWEST, LINING_STRIDES, LINING_WIDEST};
 
 /// A machine whose casing has a lining under the blades.
@@ -72,7 +71,7 @@ impl<'a> Lining<'a> {
         self.law().slope(gap)
     }
 
-    fn law(&self) -> LiningLaw {
+    pub(super) fn law(&self) -> LiningLaw {
         let Self { stiffness_n_per_m, smoothing_m, .. } = *self;
         LiningLaw { stiffness_n_per_m, smoothing_m }
     }

@@ -6,7 +6,7 @@
 //! - rest under preload: `roots`, its Hopf points in speed and the coincidence that the
 //!   lining shifts: `hopf`; where its growth ends: `cycle`
 //! - waves that stand in the frame of the blades: `equilibria`; which linings hold a
-//!   lock: `window`; followed over a parameter: `continuation`,
+//!   lock: `window`, what it takes: `loads`; followed over a parameter: `continuation`,
 //!   `followed`
 //! - eigenvalues about all of them: `flow`
 
@@ -17,6 +17,7 @@ mod flow;
 mod followed;
 mod hopf;
 mod law;
+mod loads;
 mod roots;
 mod share;
 mod window;
@@ -27,5 +28,6 @@ pub use equilibria::{GroupPush, LiningState};
 pub use followed::{BranchEnd, BranchPoint, FollowedBranch, Special};
 pub use hopf::{GrowthThreshold, HopfPoint, ShiftedCoincidence, growth_threshold};
 pub use law::Lining;
+pub(super) use loads::lock_loads;
 pub use roots::{Rest, RestRoot};
 pub use window::{LeastStiffness, least_lock_stiffness};

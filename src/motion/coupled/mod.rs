@@ -25,9 +25,9 @@ use std::sync::Arc;
 
 use super::explicit::{Coordinate, EngineOrderTorque, Oscillator, Phasor};
 use super::{ContactLog, Failure, FailureReason, Pulse, Rotor};
-use crate::contact::{self, LiningLaw, StepLaw};
-use crate::model::Machine;
-use crate::scene::{CheckedScene, ContactLaw};
+use crate::contact::{self, StepLaw};
+use crate::model::{LiningLaw, Machine};
+use crate::scene::CheckedScene;
 use crate::tolerances::LARGEST_BLADE_ANGLE;
 use blades::{Driven, TipModel};
 use energy::Account;
@@ -231,7 +231,5 @@ fn driven<'a>(excitation: Option<&'a EngineOrderTorque>, rotor: &Rotor, t: f64) 
 
 /// The law of rigid contact of a scene, and its lining if it has one.
 fn laws(scene: &CheckedScene) -> (&'static dyn StepLaw, Option<LiningLaw>) {
-    let name = scene.solver.contact;
-    let lining = (name == ContactLaw::Smooth).then(|| LiningLaw::of(&scene.contact));
-    (contact::law(name), lining)
+    (contact::law(scene.solver.contact), scene.lining())
 }

@@ -7,6 +7,7 @@ use crate::harmonic::{
     CoincidencePoint, Cycle, FollowedBranch, GrowthThreshold, HopfPoint, LeastStiffness,
     LiningState, Rest, Special,
 };
+use crate::model::LockWindow;
 use crate::report::table::{Table, TableCell};
 
 /// All of one lining against speed.
@@ -27,7 +28,7 @@ pub struct LiningReport {
     /// Waves of constant amplitude.
     pub cycles: Vec<Cycle>,
     /// Speeds between which it holds a lock \[rad/s\].
-    pub window: Option<[f64; 2]>,
+    pub window: Option<LockWindow>,
     /// The softest lining that holds one.
     pub least: Option<LeastStiffness>,
     /// Waves that stand in the frame of the blades.
@@ -58,8 +59,8 @@ impl LiningReport {
             "hopf": self.hopf,
             "rest": rest.collect::<Value>(),
             "cycles": self.cycles,
-            "lock_from_rad_s": self.window.map(|window| window[0]),
-            "lock_to_rad_s": self.window.map(|window| window[1]),
+            "lock_from_rad_s": self.window.map(|window| window.from),
+            "lock_to_rad_s": self.window.and_then(|window| window.to),
             "least_stiffness_n_per_m": self.least.map(|least| least.stiffness_n_per_m),
             "least_stiffness_rad_s": self.least.map(|least| least.speed_rad_s),
             "states": self.states,

@@ -20,7 +20,7 @@ pub use tables::*;
 use crate::harmonic::{
     Campbell, CornerBranch, ExcitedLock, Form, LockedPoint, NoSlip, SlipPoint, SlipSpectrum, Sweep,
 };
-use crate::model::{ContactPolygon, Excitation, Machine};
+use crate::model::{ContactPolygon, Excitation, LockWindow, Machine};
 use crate::report::number::{count, short};
 use crate::scene::Scene;
 
@@ -180,6 +180,15 @@ pub fn excitation(excitation: &Excitation, drives: bool, found: &[ExcitedLock]) 
     })
 }
 
+/// The speeds of a window: `472.117 to 566.259`, or where it begins alone.
+#[must_use]
+pub fn speeds_of(window: LockWindow) -> String {
+    match window.to {
+        Some(to) => format!("{} to {}", short(window.from), short(to)),
+        None => short(window.from),
+    }
+}
+
 /// Describes the machine and the blades that hold the wave, one fact per line.
 ///
 /// # Errors
@@ -206,13 +215,9 @@ pub fn write_heading(
     )?;
     if let Some(critical) = machine.critical_speed() {
         write!(out, "Critical speed {} rad/s", short(critical))?;
-        if let Some(lock) = machine.lock_window(speed).filter(|_| machine.clearance() > 0.0) {
-            let zeta = machine.casing_damping_ratio;
-            write!(out, ", lock-in from {}", short(lock.from))?;
-            if let Some(to) = lock.to {
-                write!(out, " to {}", short(to))?;
-            }
-            write!(out, " rad/s (zeta_c = {})", short(zeta))?;
+        if let Some(lock) = machine.lock_window(speed) {
+            let zeta = short(machine.casing_damping_ratio);
+            write!(out, ", lock-in from {} rad/s (zeta_c = {zeta})", speeds_of(lock))?;
         }
         if let Some(dangerous) = machine.dangerous_speed_toward(speed) {
             write!(out, ", dangerous coincidence {} rad/s", short(dangerous))?;

@@ -11,7 +11,7 @@ use serde_json::json;
 
 use super::line::wrapped;
 use super::table::{Table, TableCell};
-use crate::study::margins::{Limit, Margins, PARAMETERS};
+use crate::study::margins::{Limit, Margins, acting};
 
 /// Widest line of the text; a command to copy stays in one line.
 pub const WIDTH: usize = 100;
@@ -20,7 +20,7 @@ pub const WIDTH: usize = 100;
 #[must_use]
 pub fn table(margins: &Margins) -> Table {
     let own = ["name", "quantity", "contact", "value", "present", "margin"];
-    let parameters = PARAMETERS.iter().map(|parameter| parameter.path);
+    let parameters = acting(&margins.scene).map(|parameter| parameter.path);
     let mut table = Table::new(own.into_iter().chain(parameters));
     for limit in &margins.limits {
         let contact = limit.contact.map(|law| law.to_string());
@@ -34,7 +34,7 @@ pub fn table(margins: &Margins) -> Table {
             limit.margin.into(),
         ];
         let by = |path| TableCell::from(limit.sensitivities.by(path));
-        let all = own.into_iter().chain(PARAMETERS.iter().map(|parameter| by(parameter.path)));
+        let all = own.into_iter().chain(acting(&margins.scene).map(|parameter| by(parameter.path)));
         table.push(all.collect());
     }
     table

@@ -209,7 +209,12 @@ pub fn check(found: &Found, scene: &Scene) -> Option<CommandLine> {
     let hbm = CommandLine::new("hbm", &changed);
     let speed = changed.operation.speed_rad_s;
     Some(match found.name {
-        LimitName::OmegaC | LimitName::OmegaLock | LimitName::Coincidence => hbm,
+        LimitName::OmegaLock | LimitName::LockEnds if changed.lining().is_some() => {
+            hbm.option("--speed", speed).flag("--smooth", true)
+        }
+        LimitName::OmegaC | LimitName::OmegaLock | LimitName::LockEnds | LimitName::Coincidence => {
+            hbm
+        }
         LimitName::OmegaAdhesive => hbm.flag("--json", true),
         LimitName::Torque | LimitName::Power => {
             hbm.option("--speed", speed).flag("--damped", true).flag("--json", true)

@@ -4,7 +4,7 @@
 use num_dual::Dual64;
 
 use super::limit::{Limit, LimitName, Sensitivities};
-use super::parameters::{PARAMETERS, Parameters, sensitivity};
+use super::parameters::{Parameters, acting, sensitivity};
 use crate::harmonic::{flutter_speed, lock_fold_speed, lock_loads, whirl_onset};
 use crate::model::{Machine, Number};
 use crate::scene::CheckedScene;
@@ -14,10 +14,11 @@ use crate::scene::CheckedScene;
 const FAR: f64 = 10.0;
 
 /// The closed forms, in the order in which they are shown.
-pub(super) const CLOSED: [LimitName; 14] = [
+pub(super) const CLOSED: [LimitName; 15] = [
     LimitName::OmegaC,
     LimitName::OmegaAdhesive,
     LimitName::OmegaLock,
+    LimitName::LockEnds,
     LimitName::LockFold,
     LimitName::Coincidence,
     LimitName::CoincidenceDifference,
@@ -32,8 +33,8 @@ pub(super) const CLOSED: [LimitName; 14] = [
 ];
 
 /// Those that few machines have, shown where they are.
-const SELDOM: [LimitName; 3] =
-    [LimitName::LockFold, LimitName::WhirlOnset, LimitName::FlutterSpeed];
+const SELDOM: [LimitName; 4] =
+    [LimitName::LockEnds, LimitName::LockFold, LimitName::WhirlOnset, LimitName::FlutterSpeed];
 
 /// Every closed form of these parameters, in the order of `CLOSED`; none where the
 /// machine has no such limit.
@@ -43,16 +44,20 @@ pub(super) fn values<T: Number>(parameters: &Parameters<T>) -> [Option<T>; CLOSE
     let sense = 1_f64.copysign(speed.re());
     let coincidences = machine.coincidence_speeds();
     let loads = lock_loads(&machine, speed);
+    let window = machine.lock_window(speed.re());
+    // The flutter is of a corner that does not give.
+    let hard = machine.lining.is_none();
     let of = |get: fn(&crate::harmonic::LockLoads<T>) -> T| loads.as_ref().map(get);
     [
         machine.critical_speed(),
         machine.adhesive_speed(),
-        machine.lock_speed_toward(speed.re()),
+        window.map(|window| window.from),
+        window.and_then(|window| window.to),
         fold(&machine, speed),
         coincidences.last().copied(),
         coincidences.first().copied(),
         whirl_onset(&machine, speed.re()).map(|onset| onset * sense),
-        flutter_speed(&machine, speed.re()),
+        hard.then(|| flutter_speed(&machine, speed.re())).flatten(),
         of(|loads| loads.pushes_n[0]),
         of(|loads| loads.pushes_n[1]),
         of(|loads| loads.torque_nm),
@@ -85,21 +90,20 @@ pub(super) fn limits(scene: &CheckedScene) -> Vec<Limit> {
         }
     }
     let derived: Vec<[Option<Dual64>; CLOSED.len()]> =
-        PARAMETERS.iter().map(|parameter| values(&parameter.seeded(scene))).collect();
-    let reason = why_none(scene);
+        acting(scene).map(|parameter| values(&parameter.seeded(scene))).collect();
     let limits = CLOSED.into_iter().enumerate().map(|(place, name)| {
         let value = found[place];
         let present = name.quantity().path().map(|_| scene.operation.speed_rad_s.abs());
         let mut limit = Limit::new(name, value, present);
         if let Some(value) = value {
-            let by = PARAMETERS.iter().zip(&derived).map(|(parameter, derived)| {
+            let by = acting(scene).zip(&derived).map(|(parameter, derived)| {
                 let slope = derived[place].map_or(f64::NAN, |dual| dual.eps);
                 (parameter.path, sensitivity(value, slope, parameter.of(scene)))
             });
             limit.sensitivities = Sensitivities(by.collect());
-            limit.note = note(scene, name);
+            limit.note = note(scene, name, value);
         } else {
-            limit.note = Some(reason.clone());
+            limit.note = Some(why_none(scene, name));
         }
         limit
     });
@@ -107,11 +111,16 @@ pub(super) fn limits(scene: &CheckedScene) -> Vec<Limit> {
 }
 
 /// What a closed form leaves out, where that matters.
-fn note(scene: &CheckedScene, name: LimitName) -> Option<String> {
-    let of_speeds = [LimitName::OmegaLock, LimitName::OmegaAdhesive].contains(&name);
+fn note(scene: &CheckedScene, name: LimitName, value: f64) -> Option<String> {
+    let of_speeds =
+        [LimitName::OmegaLock, LimitName::LockEnds, LimitName::OmegaAdhesive].contains(&name);
     let of_lock = of_speeds || name.quantity().path().is_none();
     if of_lock && scene.operation.speed_ramp_rad_s2 != 0.0 {
         return Some("at a constant speed; a ramp adds a force along the blades".to_string());
+    }
+    if of_speeds && scene.lining().is_some() {
+        let smoothed = scene.contact.smoothing_m > 0.0;
+        return smoothed.then(|| "of two groups on the lining, without its smoothing".to_string());
     }
     if !of_speeds || scene.casing.damping_ratio == 0.0 {
         return None;
@@ -119,8 +128,9 @@ fn note(scene: &CheckedScene, name: LimitName) -> Option<String> {
     // Blades that bend leave a push where rigid ones have none.
     let machine = scene.machine();
     let sense = 1_f64.copysign(scene.operation.speed_rad_s);
-    let lock = machine.lock_speed_toward(sense)?;
-    let left = lock_loads(&machine, sense * lock).is_none_or(|loads| {
+    let bare =
+        if name == LimitName::LockEnds { value } else { machine.lock_speed_toward(sense)? };
+    let left = lock_loads(&machine, sense * bare).is_none_or(|loads| {
         let [a, b] = loads.pushes_n.map(f64::abs);
         a.min(b) > BENDING * (a + b)
     });
@@ -131,19 +141,28 @@ fn note(scene: &CheckedScene, name: LimitName) -> Option<String> {
 const BENDING: f64 = 1e-3;
 
 /// Why a machine has no lock, or no critical speed.
-fn why_none(scene: &CheckedScene) -> String {
+fn why_none(scene: &CheckedScene, name: LimitName) -> String {
     let machine = scene.machine();
+    let of_speeds = name.quantity().path().is_some();
     let (polygon, diameters) = (&machine.polygon, scene.operation.nodal_diameters);
     if diameters == 0 {
         "no wave turns without nodal diameters".to_string()
     } else if !polygon.has_corners() {
         format!("{diameters} nodal diameters make no corner of blades")
     } else {
-        let joined = machine.is_joined();
-        match scene.clearance() <= 0.0 {
-            true => "all blades rub at rest: nothing locks",
-            false if joined => "friction or the slope of the tips leaves no lock here",
-            false => "the blades are so soft that no lock is left at this speed",
+        let hard = machine.clone().with_lining(None).lock_window(scene.operation.speed_rad_s);
+        match (machine.lining, name) {
+            _ if scene.clearance() <= 0.0 => "all blades rub at rest: nothing locks",
+            (Some(_), LimitName::OmegaAdhesive) => "a lining does not pull",
+            (Some(_), _) if of_speeds && hard.is_some() => {
+                "the lining is too soft: two groups hold a lock on it at no speed"
+            }
+            (Some(_), _) if hard.is_some() => {
+                "two groups alone hold no lock on the lining at this speed; hbm --smooth has its \
+                 steady states"
+            }
+            _ if machine.is_joined() => "friction or the slope of the tips leaves no lock here",
+            _ => "the blades are so soft that no lock is left at this speed",
         }
         .to_string()
     }

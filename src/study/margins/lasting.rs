@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use super::edge::{Edges, lasts};
 use super::limit::{Limit, LimitName, Sensitivities};
-use super::parameters::{CLEARANCE, PARAMETERS, Parameter, is_length, parameter};
+use super::parameters::{CLEARANCE, Parameter, acting, is_length, parameter};
 use super::touching;
 use crate::motion::{GoOn, Verdict};
 use crate::scene::{CheckedScene, ContactLaw, SolverKind};
@@ -209,7 +209,8 @@ fn sensitivities(
         };
         Some((parameter.path, found))
     };
-    let mut found: Vec<_> = PARAMETERS.par_iter().map(by).collect::<Option<_>>()?;
+    let parameters: Vec<_> = acting(edges.scene()).collect();
+    let mut found: Vec<_> = parameters.into_par_iter().map(by).collect::<Option<_>>()?;
     let of_clearance = found.iter().find(|(path, _)| *path == CLEARANCE).and_then(|(_, by)| *by);
     for (path, by) in found.iter_mut().filter(|(path, _)| is_length(path)) {
         *by =

@@ -28,8 +28,10 @@ use crate::scene::ContactLaw;
 pub enum LimitName {
     /// The critical speed.
     OmegaC,
-    /// The speed above which a lock holds by pushes alone.
+    /// The speed from which a lock holds by pushes alone.
     OmegaLock,
+    /// The speed up to which it does.
+    LockEnds,
     /// The speed down to which the paper's equality algorithm holds one.
     OmegaAdhesive,
     /// The dangerous coincidence (31).
@@ -240,6 +242,7 @@ impl LimitName {
         match self {
             Self::OmegaC
             | Self::OmegaLock
+            | Self::LockEnds
             | Self::OmegaAdhesive
             | Self::Coincidence
             | Self::CoincidenceDifference
@@ -263,7 +266,8 @@ impl LimitName {
     pub fn what(self) -> &'static str {
         match self {
             Self::OmegaC => "critical speed: above it the wave is pushed outward",
-            Self::OmegaLock => "above it both blades of a lock push",
+            Self::OmegaLock => "from it on both blades of a lock push",
+            Self::LockEnds => "up to it both blades of a lock push",
             Self::OmegaAdhesive => "above it the bilateral law holds, if one blade pulls",
             Self::Coincidence => "dangerous coincidence (31), of the sum of frequencies",
             Self::CoincidenceDifference => "coincidence (30) of their difference",

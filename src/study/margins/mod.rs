@@ -25,7 +25,7 @@ use crate::scene::{CheckedScene, ContactLaw};
 
 pub use lasting::{Band, lasting_pulse};
 pub use limit::{Limit, LimitName, Quantity, Sensitivities, Side};
-pub use parameters::{CLEARANCE, PARAMETERS, Parameter, parameter};
+pub use parameters::{CLEARANCE, PARAMETERS, Parameter, acting, parameter};
 pub use target::{Found, Target, TargetError};
 pub use tolerance::{SAMPLES, SEED, Sampled, Spread, Tolerance, ToleranceError};
 pub use touching::{FirstTouch, first_touch, grazing_pulse};

@@ -3,15 +3,17 @@
 
 use num_dual::Dual64;
 
-use crate::model::{BladedDisk, Casing, Machine, Number, Operation};
+use crate::model::{BladedDisk, Casing, LiningLaw, Machine, Number, Operation};
 use crate::motion::FreeFlight;
-use crate::scene::{Allowed, Key, ModelSize, Scene, SceneError, Value, keys};
+use crate::scene::{Allowed, ContactLaw, Key, ModelSize, Scene, SceneError, Value, keys};
 
 /// The one parameter that is no key: the clearance `g0`, changed by the radius.
 pub const CLEARANCE: &str = "clearance";
 
 const RADIUS: &str = "casing.radius_m";
 const LENGTH: &str = "bladed_disk.blade_length_m";
+const STIFFNESS: &str = "contact.stiffness_n_per_m";
+const SMOOTHING: &str = "contact.smoothing_m";
 /// The two lengths whose difference is the clearance.
 pub(super) const LENGTHS: [&str; 2] = [LENGTH, RADIUS];
 
@@ -27,6 +29,10 @@ pub(super) struct Parameters<T> {
     pub disk: BladedDisk<T>,
     pub casing: Casing<T>,
     pub friction: T,
+    /// Of the lining, where the contact has one.
+    pub stiffness: T,
+    pub smoothing: T,
+    pub law: ContactLaw,
     pub operation: Operation<T>,
 }
 
@@ -65,11 +71,19 @@ pub const PARAMETERS: &[Parameter] = &[
     at!("casing.damping_ratio", casing.damping_ratio),
     at!("casing.tangential_ratio", casing.tangential_ratio),
     at!("contact.friction", friction),
+    at!(STIFFNESS, stiffness),
+    at!(SMOOTHING, smoothing),
     at!("operation.speed_rad_s", operation.speed_rad_s),
     at!("operation.speed_ramp_rad_s2", operation.speed_ramp_rad_s2),
     at!("operation.pulse_n", operation.pulse_n),
     at!("operation.pulse_s", operation.pulse_s),
 ];
+
+/// Those that act in a scene: one without a lining has none of its numbers.
+pub fn acting(scene: &Scene) -> impl Iterator<Item = &'static Parameter> {
+    let lined = scene.solver.contact == ContactLaw::Smooth;
+    PARAMETERS.iter().filter(move |parameter| lined || !parameter.is_of_lining())
+}
 
 /// The parameter of this path; none for a key that holds no real number of the
 /// machine or its operation.
@@ -135,6 +149,11 @@ impl Parameter {
         self.path.starts_with("bladed_disk.") && self.path != LENGTH
     }
 
+    /// Whether it is one of the lining, which rigid contact has not.
+    pub(super) fn is_of_lining(&self) -> bool {
+        [STIFFNESS, SMOOTHING].contains(&self.path)
+    }
+
     /// Its value where what is walked over has this one.
     pub(super) fn value_at(&self, scene: &Scene, walked: f64) -> f64 {
         match self.path {
@@ -188,6 +207,9 @@ impl<T: Number> Parameters<T> {
                 tangential_ratio: casing.tangential_ratio.into(),
             },
             friction: scene.contact.friction.into(),
+            stiffness: scene.contact.stiffness_n_per_m.into(),
+            smoothing: scene.contact.smoothing_m.into(),
+            law: scene.solver.contact,
             operation: Operation {
                 nodal_diameters: operation.nodal_diameters,
                 speed_rad_s: operation.speed_rad_s.into(),
@@ -207,6 +229,10 @@ impl<T: Number> Parameters<T> {
     pub(super) fn machine(&self) -> Machine<T> {
         Machine::new(&self.disk, &self.casing, self.operation.nodal_diameters)
             .with_friction(self.friction)
+            .with_lining((self.law == ContactLaw::Smooth).then_some(LiningLaw {
+                stiffness_n_per_m: self.stiffness,
+                smoothing_m: self.smoothing,
+            }))
     }
 }
 

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use num_dual::Dual64;
 
 use super::limit::{Limit, LimitName, Sensitivities};
-use super::parameters::{PARAMETERS, Parameter, Parameters, parameter, sensitivity};
+use super::parameters::{Parameter, Parameters, acting, parameter, sensitivity};
 use crate::model::{Excitation, Initial, Number};
 use crate::motion::{FreeFlight, Motion};
 use crate::scene::{CheckedScene, ModelSize, Scene};
@@ -163,7 +163,7 @@ pub(super) fn limit(scene: &CheckedScene) -> Limit {
         limit.note = Some(why_none(scene).to_string());
         return limit;
     };
-    let by = PARAMETERS.iter().map(|parameter| {
+    let by = acting(scene).map(|parameter| {
         let all = parameter.seeded(scene);
         let machine = all.machine();
         let dual = force(&all.flight(&machine), touch.side, Dual64::from(touch.t_s));

@@ -2,14 +2,19 @@
 //! make it whirl.
 
 use super::App;
+use crate::model::LockWindow;
 use crate::scene::ModelSize;
-use crate::tui::views::locked::curves::lock_window;
 
 impl App {
     /// The speed from which on a lock only pushes \[rad/s\], 0 where it does so at
     /// standstill; none where nothing locks, as where all blades rub.
     pub fn lock_speed(&self) -> Option<f64> {
-        lock_window(&self.scene, &self.machine, self.speed()).map(|window| window.from)
+        self.lock_window().map(|window| window.from)
+    }
+
+    /// The speeds between which a lock only pushes.
+    pub fn lock_window(&self) -> Option<LockWindow> {
+        self.machine.lock_window(self.speed())
     }
 
     /// Whether blades and casing drive each other where they touch, so that a

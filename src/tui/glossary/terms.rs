@@ -36,9 +36,16 @@ const SPEEDS: &[Term] = &[
     term(
         "Ω_lock",
         "Omega_lock",
-        "above it both blade groups of a lock push (L on the bar of the speed)",
+        "from it on both blade groups of a lock push (L on the bar of the speed)",
         "Ω_lock = Ω_c [ζ_c cot δ + sqrt(1 + ζ_c² cot² δ)]",
         Of(App::lock_speed, "rad/s"),
+    ),
+    term(
+        "lock ends",
+        "lock_ends",
+        "up to it both groups of a lock push, where tips move outward or a lining gives (e on the bar of the speed)",
+        "section 10",
+        Of(|app| app.lock_window()?.to, "rad/s"),
     ),
     term(
         "adhesive limit",

@@ -94,13 +94,15 @@ impl Knob {
         let lining = scene.solver.contact == ContactLaw::Smooth;
         let range = match self.path {
             "operation.speed_rad_s" => {
-                let limits =
-                    [machine.critical_speed(), machine.lock_speed(), machine.dangerous_speed()];
+                let window = machine.lock_window(value);
+                let lock = window.map(|window| window.from);
+                let limits = [machine.critical_speed(), lock, machine.dangerous_speed()];
                 let most = limits.into_iter().flatten().fold(0.0, f64::max);
                 let most = if most > 0.0 { most } else { machine.omega_c };
                 // The most important one last: it covers the others in its cell.
                 KnobRange::linear(0.0, BEYOND * most).signed(value).marked(&[
                     ('a', machine.adhesive_speed()),
+                    ('e', window.and_then(|window| window.to)),
                     ('x', limits[2]),
                     ('c', limits[0]),
                     ('L', limits[1]),

@@ -175,26 +175,33 @@ fn thresholds(app: &App) -> [(&'static str, Option<f64>); 2] {
     [("c", app.machine.critical_speed()), ("lock", app.lock_speed())]
 }
 
+/// The speed up to which a lock holds, behind the one from which it does.
+fn lock_ends(app: &App) -> Option<String> {
+    let to = app.lock_window()?.to?;
+    Some(format!(" to {}", short(to)))
+}
+
 /// The limits as numbers, and the present speed in parts of them.
 fn limits(app: &App) -> Parts {
     let look = &app.appearance;
     let (text, quiet) = (look.style(Role::Text), look.style(Role::Quiet));
     let speed = app.speed().abs();
     let mut parts = Vec::new();
-    let mut ratio = |name: &str, limit: f64| {
+    let ends = lock_ends(app).unwrap_or_default();
+    let mut ratio = |name: &str, limit: f64, to: &str| {
         parts.push((format!("  Ω/{name} "), quiet));
         parts.push((format!("{:.3}", speed / limit), text));
-        parts.push((format!(" of {}", short(limit)), quiet));
+        parts.push((format!(" of {}{to}", short(limit)), quiet));
     };
     let (coupled, coincidence) = (app.is_coupled(), app.coincidence());
     let [critical, lock] = thresholds(app).map(|(name, limit)| {
         if let Some(limit) = limit.filter(|limit| *limit > 0.0) {
-            ratio(&format!("Ω_{name}"), limit);
+            ratio(&format!("Ω_{name}"), limit, if name == "lock" { &ends } else { "" });
         }
         limit
     });
     if let Some(coincidence) = coincidence.filter(|_| coupled) {
-        ratio("coincidence", coincidence);
+        ratio("coincidence", coincidence, "");
     }
     if critical.is_none() || lock.is_none() {
         let what = if critical.is_none() { "no Ω_c" } else { "no lock at any speed" };
@@ -225,6 +232,7 @@ fn short_limits(app: &App) -> Parts {
             }
         }
     }
+    parts.extend(lock_ends(app).map(|ends| (ends, text)));
     if let Some(coincidence) = app.coincidence().filter(|_| coupled) {
         parts.push(("  coincidence ".into(), quiet));
         parts.push((short(coincidence), text));

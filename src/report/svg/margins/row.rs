@@ -48,6 +48,7 @@ pub(super) fn sign(name: LimitName) -> &'static str {
     match name {
         LimitName::OmegaC => "Ω_c",
         LimitName::OmegaLock => "Ω_lock",
+        LimitName::LockEnds => "Ω_ends",
         LimitName::OmegaAdhesive => "Ω_adhesive",
         LimitName::Coincidence => "Ω_coincidence",
         LimitName::CoincidenceDifference => "Ω_difference",

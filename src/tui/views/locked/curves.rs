@@ -2,10 +2,8 @@
 //! harmonic balance with and without damping, and beyond the paper the push of the
 //! whirl that can last instead.
 
-use crate::harmonic::{
-    Form, Joint, Lining, RimWave, Sweep, flutter_speed, locked_motion, rim_waves,
-};
-use crate::model::{LockWindow, Machine};
+use crate::harmonic::{Form, Joint, RimWave, Sweep, flutter_speed, locked_motion, rim_waves};
+use crate::model::Machine;
 use crate::scene::{ContactLaw, ModelSize, Scene};
 use crate::tui::axis::nice_step;
 
@@ -83,33 +81,17 @@ fn is_coupled(scene: &Scene) -> bool {
     scene.bladed_disk.radial_coupling != 0.0 && scene.solver.model != ModelSize::Rigid
 }
 
-/// The speeds between which a lock only pushes, on the lining of the scene where it has
-/// one; none where nothing locks, as where all blades rub.
-pub fn lock_window(scene: &Scene, machine: &Machine, toward: f64) -> Option<LockWindow> {
-    let rigid = machine.lock_window(toward).filter(|_| machine.clearance() > 0.0)?;
-    if scene.solver.contact != ContactLaw::Smooth {
-        return Some(rigid);
-    }
-    let lining = Lining::of(machine, &scene.contact).ok();
-    match lining.map(|lining| lining.lock_window()) {
-        Some(Ok(window)) => window.map(|[from, to]| LockWindow { from, to: Some(to) }),
-        // Of tips that are inclined or rub there is no closed form.
-        _ => Some(rigid),
-    }
-}
-
 /// The threshold speeds of a scene; beyond the paper a lock has an upper one, too, and
 /// flutters above another.
 fn marks(scene: &Scene, machine: &Machine) -> Vec<(f64, &'static str)> {
     let toward = scene.operation.speed_rad_s;
-    let window = lock_window(scene, machine, toward);
-    let smooth = scene.solver.contact == ContactLaw::Smooth;
-    let held = window.filter(|_| smooth || is_coupled(scene));
+    let window = machine.lock_window(toward);
+    let rigid = window.filter(|_| machine.lining.is_none() && is_coupled(scene));
     let mut marks: Vec<(f64, &'static str)> = [
         (machine.critical_speed(), "Ω_c"),
         (window.map(|window| window.from), "Ω_lock"),
-        (held.and_then(|window| window.to), "lock ends"),
-        (held.and_then(|_| flutter_speed(machine, toward)), "Ω_f"),
+        (window.and_then(|window| window.to), "lock ends"),
+        (rigid.and_then(|_| flutter_speed(machine, toward)), "Ω_f"),
         (machine.dangerous_speed(), "coincidence"),
     ]
     .into_iter()
@@ -196,21 +178,5 @@ mod tests {
         let mut scene = Scene::base();
         scene.operation.nodal_diameters = 11;
         assert_eq!(LockedCurves::of(&scene).damped, None);
-    }
-
-    #[test]
-    fn a_soft_lining_has_a_window_of_its_own_and_the_softest_none() {
-        let mut scene = Scene::base();
-        scene.solver.contact = ContactLaw::Smooth;
-        scene.contact.stiffness_n_per_m = 3e8;
-        let machine = scene.machine();
-        // docs/theory.md, section 12.
-        let window = lock_window(&scene, &machine, 1.0).unwrap();
-        assert!((window.from - 438.1581).abs() < 1e-3, "{window:?}");
-        assert!((window.to.unwrap() - 732.355).abs() < 1e-2, "{window:?}");
-        scene.contact.stiffness_n_per_m = 1e8;
-        assert_eq!(lock_window(&scene, &machine, 1.0), None);
-        scene.solver.contact = ContactLaw::Unilateral;
-        assert_eq!(lock_window(&scene, &machine, 1.0), machine.lock_window(1.0));
     }
 }

@@ -80,8 +80,9 @@ impl<'a> Row<'a> {
         let [long, few] = match self.name() {
             LimitName::OmegaC => ["Ω_c"; 2],
             LimitName::OmegaLock => ["Ω_lock"; 2],
+            LimitName::LockEnds => ["lock ends"; 2],
             LimitName::OmegaAdhesive => ["adhesive limit", "adhesive"],
-            LimitName::LockFold => ["end of the lock", "end of lock"],
+            LimitName::LockFold => ["blades give way", "give way"],
             LimitName::WhirlOnset => ["whirl begins", "whirl"],
             LimitName::FlutterSpeed => ["lock flutters", "flutter"],
             LimitName::Coincidence => ["coincidence"; 2],

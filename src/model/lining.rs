@@ -2,44 +2,44 @@
 //! parabola over the first `eps` of depth, then a straight line. It gives back all that
 //! is stored in it.
 
-use crate::model::ContactSurface;
+use super::{ContactSurface, Number};
 
 /// The lining under one blade.
-#[derive(Clone, Copy, Debug)]
-pub struct LiningLaw {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LiningLaw<T = f64> {
     /// `k_p` \[N/m\].
-    pub stiffness_n_per_m: f64,
+    pub stiffness_n_per_m: T,
     /// `eps`, which may be zero \[m\].
-    pub smoothing_m: f64,
+    pub smoothing_m: T,
 }
 
-impl LiningLaw {
+impl<T: Number> LiningLaw<T> {
     /// Of a contact surface.
     #[must_use]
-    pub fn of(surface: &ContactSurface) -> Self {
+    pub fn of(surface: &ContactSurface<T>) -> Self {
         Self { stiffness_n_per_m: surface.stiffness_n_per_m, smoothing_m: surface.smoothing_m }
     }
 
     /// Push at a gap, zero or more \[N\].
     #[must_use]
-    pub fn push(&self, gap: f64) -> f64 {
+    pub fn push(&self, gap: T) -> T {
         let (depth, k, eps) = (-gap, self.stiffness_n_per_m, self.smoothing_m);
-        if depth <= 0.0 {
-            0.0
-        } else if depth < eps {
-            k * depth * depth / (2.0 * eps)
+        if depth.re() <= 0.0 {
+            T::zero()
+        } else if depth.re() < eps.re() {
+            k * depth * depth / (eps * 2.0)
         } else {
-            k * (depth - 0.5 * eps)
+            k * (depth - eps * 0.5)
         }
     }
 
     /// How much the push grows as the gap closes, `-dP/dg` \[N/m\].
     #[must_use]
-    pub fn slope(&self, gap: f64) -> f64 {
+    pub fn slope(&self, gap: T) -> T {
         let (depth, k, eps) = (-gap, self.stiffness_n_per_m, self.smoothing_m);
-        if depth <= 0.0 {
-            0.0
-        } else if depth < eps {
+        if depth.re() <= 0.0 {
+            T::zero()
+        } else if depth.re() < eps.re() {
             k * (depth / eps)
         } else {
             k
@@ -48,14 +48,14 @@ impl LiningLaw {
 
     /// Energy stored at a gap, of which `push` is the slope \[J\].
     #[must_use]
-    pub fn energy(&self, gap: f64) -> f64 {
+    pub fn energy(&self, gap: T) -> T {
         let (depth, k, eps) = (-gap, self.stiffness_n_per_m, self.smoothing_m);
-        if depth <= 0.0 {
-            0.0
-        } else if depth < eps {
-            k * depth * depth * depth / (6.0 * eps)
+        if depth.re() <= 0.0 {
+            T::zero()
+        } else if depth.re() < eps.re() {
+            k * depth * depth * depth / (eps * 6.0)
         } else {
-            k * (0.5 * depth * (depth - eps) + eps * eps / 6.0)
+            k * (depth * 0.5 * (depth - eps) + eps * eps / 6.0)
         }
     }
 }

@@ -1,0 +1,298 @@
+//! Both ends of the speeds at which a lock only pushes, of rigid contact and on a lining:
+//! against the formula of docs/theory.md, section 10, written once more from bare numbers,
+//! with its derivatives, and against runs in time on both sides of each.
+
+use nalgebra::Complex;
+use rubscope::harmonic::Lining;
+use rubscope::motion::{Change, Motion, Verdict};
+use rubscope::scene::{ContactLaw, Scene};
+use rubscope::study::margins::{LimitName, Margins, Target};
+
+use crate::beyond_support::{KAPPA, MU, SPEED, STEP, TAU, ZETA_C, in_corner, scene};
+
+const STIFFNESS: &str = "contact.stiffness_n_per_m";
+const SMOOTHING: &str = "contact.smoothing_m";
+
+/// A scene whose casing has a lining without smoothing.
+fn lined(stiffness: f64, changes: &[(&str, f64)]) -> Scene {
+    let mut scene = scene(changes);
+    scene.solver.contact = ContactLaw::Smooth;
+    scene.contact.stiffness_n_per_m = stiffness;
+    scene.contact.smoothing_m = 0.0;
+    scene
+}
+
+/// How far two groups of a lock push, as a compliance: `-tan(delta) Re H - |Im H| -
+/// 1/(k sin 2 delta)`, `H = (1 + i mu_c)/(k_c - nu^2 m_c + i nu d_c) + c2/k_a`.
+fn pushed(scene: &Scene, speed: f64) -> f64 {
+    let (disk, casing, surface) = (&scene.bladed_disk, &scene.casing, &scene.contact);
+    let (blades, n) = (f64::from(disk.blades), f64::from(scene.operation.nodal_diameters));
+    let delta = std::f64::consts::PI / blades;
+    let turn = 2.0 * std::f64::consts::PI * n / blades;
+    let joined = disk.stiffness_nm_per_rad + 2.0 * disk.coupling_nm_per_rad * (1.0 - turn.cos());
+    let blade = 0.5 * blades * joined;
+    let (mass, stiffness) = (casing.modal_mass_kg, casing.modal_stiffness_n_per_m);
+    let damping = 2.0 * casing.damping_ratio * (mass * stiffness).sqrt();
+    let (nu, mu) = (n * speed, surface.friction);
+    let slope = disk.radial_coupling;
+    let product = slope * (slope + mu) * disk.blade_length_m.powi(2);
+    let impedance = Complex::new(stiffness - nu * nu * mass, nu * damping);
+    let turned = Complex::new(1.0, mu * casing.tangential_ratio);
+    let h = turned / impedance + product / blade;
+    let lining = match scene.solver.contact {
+        ContactLaw::Smooth => 1.0 / (surface.stiffness_n_per_m * (2.0 * delta).sin()),
+        _ => 0.0,
+    };
+    -delta.tan() * h.re - h.im.abs() - lining
+}
+
+/// The speed between two where that changes its sign.
+fn between(scene: &Scene, [low, high]: [f64; 2]) -> f64 {
+    let (mut low, mut high) = (low, high);
+    let below = pushed(scene, low) > 0.0;
+    assert_ne!(below, pushed(scene, high) > 0.0, "{low} {high}");
+    for _ in 0..100 {
+        let middle = 0.5 * (low + high);
+        if (pushed(scene, middle) > 0.0) == below { low = middle } else { high = middle }
+    }
+    0.5 * (low + high)
+}
+
+/// Scenes whose lock ends, a speed inside, and one beyond its end.
+fn windows() -> Vec<(Scene, [f64; 3])> {
+    vec![
+        (scene(&[(KAPPA, 0.3)]), [400.0, 520.0, 700.0]),
+        (scene(&[(KAPPA, 0.2)]), [380.0, 520.0, 1200.0]),
+        (scene(&[(KAPPA, 0.1)]), [380.0, 520.0, 2400.0]),
+        (scene(&[(KAPPA, 0.1), (MU, 0.15), (TAU, 1.0 / 3.0)]), [450.0, 600.0, 1500.0]),
+        (lined(1e9, &[]), [400.0, 500.0, 2000.0]),
+        (lined(3e8, &[]), [400.0, 500.0, 900.0]),
+        (lined(1e8, &[(ZETA_C, 0.01)]), [300.0, 400.0, 700.0]),
+        (lined(1e9, &[(KAPPA, 0.1), (MU, 0.05), (TAU, 0.3)]), [400.0, 520.0, 1500.0]),
+    ]
+}
+
+fn value(margins: &Margins, name: LimitName) -> Option<f64> {
+    margins.limit(name)?.value
+}
+
+#[test]
+fn both_ends_are_those_of_the_plain_formula() {
+    for (scene, [below, inside, beyond]) in windows() {
+        let margins = Margins::of(&scene.checked().unwrap());
+        for (name, range) in
+            [(LimitName::OmegaLock, [below, inside]), (LimitName::LockEnds, [inside, beyond])]
+        {
+            let (told, plain) = (value(&margins, name).unwrap(), between(&scene, range));
+            assert!((told / plain - 1.0).abs() < 1e-12, "{name}: {told} {plain}");
+        }
+    }
+    let ends = |kappa: f64| {
+        let margins = Margins::of(&scene(&[(KAPPA, kappa)]).checked().unwrap());
+        [LimitName::OmegaLock, LimitName::LockEnds].map(|name| value(&margins, name))
+    };
+    for (kappa, from, to) in
+        [(0.3, 472.117, 566.259), (0.2, 426.006, 936.38), (0.1, 414.855, 1952.9)]
+    {
+        let found = ends(kappa);
+        assert!((found[0].unwrap() - from).abs() < 5e-4, "{kappa}: {found:?}");
+        assert!((found[1].unwrap() / to - 1.0).abs() < 3e-5, "{kappa}: {found:?}");
+    }
+    assert_eq!(ends(0.35), [None, None]);
+    assert_eq!(ends(0.0)[1], None);
+}
+
+#[test]
+fn both_ends_move_as_the_plain_formula_does() {
+    for (scene, [below, inside, beyond]) in windows() {
+        let margins = Margins::of(&scene.checked().unwrap());
+        for (name, range) in
+            [(LimitName::OmegaLock, [below, inside]), (LimitName::LockEnds, [inside, beyond])]
+        {
+            let limit = margins.limit(name).unwrap();
+            for (path, value) in [
+                (KAPPA, scene.bladed_disk.radial_coupling),
+                (MU, scene.contact.friction),
+                (TAU, scene.casing.tangential_ratio),
+                (ZETA_C, scene.casing.damping_ratio),
+                (STIFFNESS, scene.contact.stiffness_n_per_m),
+                ("casing.modal_mass_kg", scene.casing.modal_mass_kg),
+                ("casing.modal_stiffness_n_per_m", scene.casing.modal_stiffness_n_per_m),
+                ("bladed_disk.stiffness_nm_per_rad", scene.bladed_disk.stiffness_nm_per_rad),
+            ] {
+                let step = 1e-6;
+                let at = |part: f64| {
+                    let mut beside = scene.clone();
+                    beside.set(path, &format!("{:?}", value * part)).unwrap();
+                    between(&beside, range)
+                };
+                let measured = (at(1.0 + step) / at(1.0 - step)).ln() / (2.0 * step);
+                // Rigid contact has no lining.
+                let told = limit.sensitivities.by(path);
+                let missing = path == STIFFNESS && scene.solver.contact != ContactLaw::Smooth;
+                assert_eq!(told.is_none(), missing, "{name} {path}");
+                let error = (told.unwrap_or(0.0) - measured).abs();
+                assert!(error < 1e-7 + 1e-6 * measured.abs(), "{name} {path}: {told:?} {measured}");
+            }
+        }
+    }
+}
+
+/// On both sides of each end, by every steady state that there is.
+#[test]
+fn a_lining_holds_a_pair_between_its_ends_alone() {
+    for (scene, _) in windows() {
+        if scene.solver.contact != ContactLaw::Smooth {
+            continue;
+        }
+        let machine = scene.machine();
+        let lining = Lining::of(&machine, &scene.contact).unwrap();
+        let window = machine.lock_window(1.0).unwrap();
+        let pairs =
+            |speed: f64| lining.states(speed).unwrap().iter().any(|state| state.pushing == 2);
+        let to = window.to.unwrap();
+        // Nearer to an end the pair is not told from the single group that it becomes.
+        let beside = |end: f64| [end * (1.0 - 1e-4), end * (1.0 + 1e-4)].map(pairs);
+        assert_eq!(beside(window.from), [false, true], "{window:?}");
+        assert_eq!(beside(to), [true, false], "{window:?}");
+    }
+}
+
+/// A start in the lock of two groups on the lining of a scene; blades soon come to rest.
+fn pressed_in_corner(mut scene: Scene) -> Scene {
+    let (machine, speed) = (scene.machine(), scene.operation.speed_rad_s);
+    let states = Lining::of(&machine, &scene.contact).unwrap().states(speed).unwrap();
+    let [x, y] = states.iter().find(|state| state.pushing == 2 && state.stable).unwrap().gap_m;
+    let nu = machine.nu(speed);
+    (scene.initial.u_c_m, scene.initial.u_s_m) = (x, y);
+    (scene.initial.v_c_m_s, scene.initial.v_s_m_s) = (-nu * y, nu * x);
+    scene.operation.pulse_n = 0.0;
+    scene.bladed_disk.damping_ratio = 1.0;
+    scene
+}
+
+/// Turns a lock from a speed to others in turn, and keeps it there a while; whether it
+/// still holds.
+fn held_at(scene: Scene, speeds: [f64; 2]) -> [bool; 2] {
+    let mut speed = scene.operation.speed_rad_s;
+    let start = if scene.lining().is_some() { pressed_in_corner } else { in_corner };
+    let mut motion = Motion::new(&start(scene).checked().unwrap());
+    let mut t = 0.05;
+    motion.advance(t).unwrap();
+    speeds.map(|wanted| {
+        let ramp = 100.0_f64.copysign(wanted - speed);
+        motion.apply(&Change::Rotor { speed: None, ramp });
+        t += (wanted - speed) / ramp;
+        motion.advance(t).unwrap();
+        motion.apply(&Change::Rotor { speed: None, ramp: 0.0 });
+        speed = wanted;
+        t += 0.08;
+        motion.advance(t).is_ok() && motion.lasting(0.02) == Verdict::Locked
+    })
+}
+
+#[test]
+fn runs_in_time_keep_a_lock_to_its_ends_and_lose_it_beyond() {
+    let stiff = |speed: f64| lined(3e8, &[(SPEED, speed), (STEP, 2e-6)]);
+    let joined = |speed: f64| {
+        lined(1e9, &[(KAPPA, 0.1), (MU, 0.05), (TAU, 0.3), (SPEED, speed), (STEP, 1e-6)])
+    };
+    for (scene, speeds) in [
+        // The shift of mu_c by nu h, and full angles, move the end by a part of this.
+        (scene(&[(KAPPA, 0.3), (SPEED, 540.0), (STEP, 1e-7)]), [563.5, 569.0]),
+        (stiff(460.0), [439.5, 437.0]),
+        (stiff(700.0), [729.0, 736.0]),
+        (joined(520.0), {
+            let window = joined(520.0).machine().lock_window(1.0).unwrap();
+            [window.from + 2.0, window.from - 2.0]
+        }),
+    ] {
+        assert_eq!(held_at(scene, speeds), [true, false], "{speeds:?}");
+    }
+}
+
+#[test]
+fn margins_of_a_lining_are_its_own_or_say_why_there_are_none() {
+    let of = |stiffness: &str| {
+        let mut scene = Scene::builtin("soft-lining").unwrap();
+        scene.set(STIFFNESS, stiffness).unwrap();
+        Margins::of(&scene.checked().unwrap())
+    };
+    let soft = of("1e8");
+    for name in [LimitName::OmegaLock, LimitName::OmegaAdhesive, LimitName::PushA] {
+        let limit = soft.limit(name).unwrap();
+        assert!(limit.value.is_none() && limit.note.as_ref().unwrap().contains("lining"));
+    }
+    assert!(soft.limit(LimitName::LockEnds).is_none());
+    let stiff = of("1e9");
+    assert!((value(&stiff, LimitName::OmegaLock).unwrap() - 417.6167).abs() < 6e-5);
+    for (name, push) in [(LimitName::PushA, 252.07), (LimitName::PushB, 49.91)] {
+        let found = value(&stiff, name).unwrap();
+        assert!((found - push).abs() < 5e-3, "{name}: {found}");
+    }
+}
+
+/// The loads of a pair on a lining, with smoothing or without: those of all steady states,
+/// and their derivatives.
+#[test]
+fn loads_on_a_lining_are_those_of_its_steady_state() {
+    for (smoothing, changes) in [
+        (0.0, &[][..]),
+        (1e-6, &[]),
+        (1e-6, &[(KAPPA, 0.1), (MU, 0.05), (TAU, 0.3)]),
+        (1e-7, &[(KAPPA, -0.05), (SPEED, -500.0)]),
+    ] {
+        let mut scene = lined(1e9, changes);
+        scene.contact.smoothing_m = smoothing;
+        let (machine, speed) = (scene.machine(), scene.operation.speed_rad_s);
+        let lining = Lining::of(&machine, &scene.contact).unwrap();
+        let states = lining.states(speed).unwrap();
+        let pair = states.iter().find(|state| state.pushing == 2 && state.stable).unwrap();
+        let base = Margins::of(&scene.checked().unwrap());
+        let mut pushes =
+            [LimitName::PushA, LimitName::PushB].map(|name| value(&base, name).unwrap());
+        pushes.sort_by(|a, b| b.total_cmp(a));
+        for (told, push) in pushes.iter().zip(&pair.pushes) {
+            assert!((told / push.push_n - 1.0).abs() < 1e-9, "{told} {push:?}");
+        }
+        // Torque that friction does not take is what the damper does.
+        let nu = machine.nu(speed);
+        let square = pair.casing_m.powi(2);
+        let energy = 0.5 * (machine.casing_stiffness + machine.casing_mass * nu * nu) * square;
+        assert!((value(&base, LimitName::LockEnergy).unwrap() / energy - 1.0).abs() < 1e-9);
+        if scene.contact.friction == 0.0 {
+            let torque = machine.nodal_diameters * machine.casing_damping * nu * square;
+            assert!((value(&base, LimitName::Torque).unwrap() / torque - 1.0).abs() < 1e-9);
+        }
+        for (path, value_of) in
+            [(STIFFNESS, 1e9), (SMOOTHING, smoothing), (ZETA_C, 0.05), (SPEED, speed)]
+        {
+            let step = 1e-5;
+            let beside = [1.0 - step, 1.0 + step].map(|part| {
+                let mut scene = scene.clone();
+                scene.set(path, &format!("{:?}", value_of * part)).unwrap();
+                Margins::of(&scene.checked().unwrap())
+            });
+            for name in
+                [LimitName::PushA, LimitName::PushB, LimitName::Power, LimitName::BladeAngle]
+            {
+                let [low, high] = [value(&beside[0], name), value(&beside[1], name)];
+                let measured = (high.unwrap() / low.unwrap()).ln() / (2.0 * step);
+                let told = base.limit(name).unwrap().sensitivities.by(path).unwrap();
+                let error = (told - measured).abs();
+                assert!(error < 1e-5 + 1e-5 * measured.abs(), "{name} {path}: {told} {measured}");
+            }
+        }
+    }
+}
+
+/// A target is sought in the limits of the scene's own law.
+#[test]
+fn a_lining_is_found_that_holds_a_lock_from_a_speed() {
+    let scene = lined(1e9, &[]).checked().unwrap();
+    let target = Target::parse("omega_lock=430", STIFFNESS).unwrap();
+    let found = target.solve(&scene, &|| true).unwrap();
+    let stiffness = found.to.unwrap();
+    let plain = between(&lined(stiffness, &[]), [400.0, 500.0]);
+    assert!((plain - 430.0).abs() < 1e-3, "{stiffness}: {plain}");
+}
