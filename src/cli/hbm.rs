@@ -15,7 +15,7 @@ use super::words::Words;
 use super::{Done, output};
 use crate::harmonic::{Form, Sweep};
 use crate::report::{CommandLine, hbm as report, json};
-use crate::scene::{ContactLaw, Scene};
+use crate::scene::Scene;
 
 /// Default number of speeds of a sweep.
 const SPEEDS: usize = 51;
@@ -33,12 +33,16 @@ const SWEPT_SPEED: &str =
 pub struct HbmCommand {
     #[command(flatten)]
     options: SceneOptions,
-    /// Blade equations: printed (Eq. 27), blade (Eq. 19) or modal (the time model's, exact)
+    /// Blade equations: printed (Eq. 27, without damping), blade (Eq. 19) or modal (the time
+    /// model's, exact)
     #[arg(long, value_name = "FORM", default_value = "modal",
           value_parser = Words::of::<Form>(), hide_possible_values = true)]
     form: String,
-    /// Keep the damping of casing and blades, which the paper's equations drop
+    /// Drop the damping of casing and blades, as the paper's equations do
     #[arg(long)]
+    undamped: bool,
+    /// Keep it, as without this option; with --form printed too
+    #[arg(long, hide = true, conflicts_with = "undamped")]
     damped: bool,
     /// The two blades that hold the wave, phase neighbours [default: 6,21 where they are]
     #[arg(long, value_name = "I,J", allow_hyphen_values = true)]
@@ -101,14 +105,12 @@ impl HbmCommand {
             None => linspace(0.0, resolved.scene.operation.speed_rad_s, SPEEDS),
         };
         let (form, pair) = (self.form()?, self.pair()?);
-        let asked =
-            Asked { scene: &resolved.scene, speeds: &speeds, form, damped: self.damped, pair };
-        let answer = views::answer(&asked, &self.view()?)?;
+        // The paper's own equations have no damping.
+        let damped = self.damped || !(self.undamped || form == Form::Printed);
+        let asked = Asked { scene: &resolved.scene, speeds: &speeds, form, damped, pair };
+        let view = self.view()?;
+        let answer = views::answer(&asked, &view)?;
         status::say_noted();
-        let of_rigid = self.lining.view()?.is_none();
-        if of_rigid && resolved.scene.solver.contact == ContactLaw::Smooth {
-            say("rubscope: this view has rigid contact; --smooth has the lining of the scene");
-        }
         if self.json {
             json::write_as("rubscope.hbm/1", &self.command(&resolved.scene), &answer.json, out)?;
         }
@@ -117,9 +119,16 @@ impl HbmCommand {
             output::save(path, &rows, out, |out| answer.file.write_csv(out))?;
         }
         if !self.json {
-            let machine = resolved.scene.machine();
-            let (title, sweep) = (&resolved.scene.title, answer.sweep.as_ref());
-            report::write_heading(&machine, title, asked.fastest(), sweep, out)?;
+            let machine = asked.machine(&view);
+            let sweep = answer.sweep.as_deref();
+            let heading = report::Heading {
+                scene: &resolved.scene,
+                machine: &machine,
+                speed: asked.fastest(),
+                damped,
+                sweep,
+            };
+            heading.write(out)?;
             for (title, table) in &answer.tables {
                 writeln!(out)?;
                 if !title.is_empty() {
@@ -128,7 +137,7 @@ impl HbmCommand {
                 table.write_text(out)?;
             }
         }
-        answer.sweep.iter().for_each(warn_missing);
+        answer.sweep.as_deref().into_iter().for_each(warn_missing);
         Ok(Status::Done)
     }
 
@@ -137,7 +146,8 @@ impl HbmCommand {
         let command = CommandLine::new("hbm", scene)
             .optional("--speed", self.options.speed())
             .option("--form", &self.form)
-            .flag("--damped", self.damped)
+            .flag("--undamped", self.undamped)
+            .flag("--damped", self.damped && self.form == Form::Printed.to_string())
             .optional("--blades", self.blades.as_ref())
             .flag("--branches", self.branches)
             .flag("--fold", self.fold)

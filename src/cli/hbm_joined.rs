@@ -1,6 +1,8 @@
 //! The views of `rubscope hbm` on blades and casing as one: whirl, and the joint
 //! compliance in the complex plane.
 
+use std::rc::Rc;
+
 use super::hbm_views::Answer;
 use super::range::linspace;
 use crate::harmonic::{
@@ -24,7 +26,8 @@ pub(super) fn whirling(
     fastest: f64,
 ) -> Result<Answer, HarmonicError> {
     let row = |point: WhirlPoint| WhirlRow::of(machine, point);
-    let rows: Vec<WhirlRow> = whirl_over(machine, speeds)?.into_iter().map(row).collect();
+    let rows: Rc<Vec<WhirlRow>> =
+        Rc::new(whirl_over(machine, speeds)?.into_iter().map(row).collect());
     let onset = whirl_onset(machine, fastest);
     let [flutter, undamped] =
         [flutter_speed(machine, fastest), undamped_flutter_speed(machine, fastest)];
@@ -35,10 +38,7 @@ pub(super) fn whirling(
         None => "Nothing whirls on a rim of many blades".to_string(),
     };
     title += &match window {
-        Some(window) => match window.to {
-            Some(to) => format!("; a lock holds from {} to {}", told(window.from), told(to)),
-            None => format!("; a lock holds from {}", told(window.from)),
-        },
+        Some(window) => format!("; a lock holds from {} rad/s", report::speeds_of(window)),
         None => "; no lock holds at any speed".to_string(),
     };
     title += &match flutter {
@@ -50,7 +50,7 @@ pub(super) fn whirling(
         .with("flutter_speed_rad_s", flutter)
         .with("flutter_undamped_rad_s", undamped)
         .with("lock_window_rad_s", window.map(|window| [Some(window.from), window.to]))
-        .with("whirl", rows.iter().map(report::whirl).collect::<Vec<_>>());
+        .with_rows("whirl", &rows, report::whirl);
     Ok(Answer::of(json, vec![(title, report::whirl_table(&rows))]))
 }
 
@@ -78,6 +78,6 @@ pub(super) fn compliance(
     let json = json.with("compliance", report::compliance(&joint, &range, &waves));
     let mut answer =
         Answer::of(json, vec![(title, chart), (crossings, report::wave_table(&joint, &waves))]);
-    answer.file = samples;
+    answer.file = samples.into();
     Ok(answer)
 }

@@ -95,7 +95,8 @@ pub(super) fn clear(scene: &Scene) -> Result<(), Refusal> {
 /// What has no meaning, refused by name.
 pub(super) fn answer(asked: &Asked, view: &LiningView) -> Result<Answer, Refusal> {
     let scene = asked.scene;
-    let json = HbmReport::new(scene, asked.form, asked.damped, asked.fastest());
+    let machine = scene.machine();
+    let json = HbmReport::new(scene, &machine, asked.form, asked.damped, asked.fastest());
     let rigid = scene.solver.contact != ContactLaw::Smooth;
     let option = match view {
         LiningView::Smooth => Some("--smooth"),

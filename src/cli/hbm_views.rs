@@ -1,6 +1,8 @@
 //! The views of `rubscope hbm`: each computes its JSON, its tables to read and
 //! the table for a file.
 
+use std::rc::Rc;
+
 use super::hbm_joined as joined;
 use super::hbm_lining::{self, LiningView};
 use super::status::Refusal;
@@ -11,6 +13,7 @@ use crate::harmonic::{
 };
 use crate::model::Machine;
 use crate::report::hbm::{self as report, HbmReport};
+use crate::report::made_table::MadeTable;
 use crate::report::number::short;
 use crate::report::table::Table;
 use crate::scene::Scene;
@@ -54,6 +57,12 @@ pub(super) struct Asked<'a> {
 }
 
 impl Asked<'_> {
+    /// The machine of a view: with rigid contact, but for those of a lining.
+    pub fn machine(&self, view: &HbmView) -> Machine {
+        let machine = self.scene.machine();
+        if matches!(view, HbmView::Lining(_)) { machine } else { machine.with_lining(None) }
+    }
+
     /// The speed furthest from standstill, whose sense of rotation counts.
     pub fn fastest(&self) -> f64 {
         let further = |a: &f64, b: &f64| a.abs().total_cmp(&b.abs());
@@ -64,16 +73,19 @@ impl Asked<'_> {
 /// The result of a view: JSON, tables with their titles, the table for files.
 pub(super) struct Answer {
     pub json: HbmReport,
-    pub tables: Vec<(String, Table)>,
-    pub file: Table,
+    pub tables: Vec<(String, MadeTable)>,
+    pub file: MadeTable,
     /// The locked motion, where it is the subject.
-    pub sweep: Option<Sweep>,
+    pub sweep: Option<Rc<Sweep>>,
 }
 
 impl Answer {
     /// An answer whose last table is the one for files.
-    pub fn of(json: HbmReport, tables: Vec<(String, Table)>) -> Self {
-        let file = tables.last().map(|(_, table)| table.clone()).unwrap_or_default();
+    pub fn of<T: Into<MadeTable>>(json: HbmReport, tables: Vec<(String, T)>) -> Self {
+        let tables: Vec<_> =
+            tables.into_iter().map(|(title, table)| (title, table.into())).collect();
+        let last = tables.last().map(|(_, table): &(_, MadeTable)| table.clone());
+        let file = last.unwrap_or_else(|| Table::default().into());
         Self { json, tables, file, sweep: None }
     }
 }
@@ -89,9 +101,9 @@ pub(super) fn answer(asked: &Asked, view: &HbmView) -> Result<Answer, Refusal> {
         HbmView::Campbell | HbmView::Compliance(_) => {}
         _ => hbm_lining::clear(scene)?,
     }
-    let machine = scene.machine();
-    let sweep = locked_motion(&machine, form, damped, pair, speeds);
-    let json = HbmReport::new(scene, form, damped, asked.fastest());
+    let machine = asked.machine(view);
+    let sweep = locked_motion(&machine, form, damped, pair, speeds).map(Rc::new);
+    let json = HbmReport::new(scene, &machine, form, damped, asked.fastest());
     let json = match (&sweep, view) {
         (Ok(sweep), _) => json.with_sweep(&machine.polygon, sweep),
         // These have a meaning without corners too.
@@ -113,14 +125,15 @@ pub(super) fn answer(asked: &Asked, view: &HbmView) -> Result<Answer, Refusal> {
         (HbmView::Fold, _) => folding(json, &machine, corner(asked, &machine)?.a, speeds, damped),
         (HbmView::Excitation, _) => excited(json, scene, corner(asked, &machine)?.a, speeds),
         (HbmView::Locked | HbmView::Lining(_), Err(error)) => Err(error),
-        (HbmView::Locked | HbmView::Lining(_), Ok(sweep)) => Ok(Answer {
-            json,
-            tables: vec![(String::new(), report::summary_table(&sweep))],
-            file: report::locked_table(&sweep),
-            sweep: Some(sweep),
-        }),
+        (HbmView::Locked | HbmView::Lining(_), Ok(sweep)) => Ok(locked(json, sweep)),
     };
     answer.map_err(refused)
+}
+
+fn locked(json: HbmReport, sweep: Rc<Sweep>) -> Answer {
+    let [shown, file] = report::locked_tables(&sweep);
+    let tables = vec![(String::new(), shown)];
+    Answer { json, tables, file, sweep: Some(sweep) }
 }
 
 fn corner(asked: &Asked, machine: &Machine) -> Result<Corner, Refusal> {
@@ -147,14 +160,14 @@ fn all_branches(
     speeds: &[f64],
     damped: bool,
 ) -> Result<Answer, HarmonicError> {
-    let branches = Branches::over(machine, speeds, damped)?;
-    let damping = if damped { "with damping" } else { "without damping (see --damped)" };
+    let branches = Rc::new(Branches::over(machine, speeds, damped)?);
+    let damping = if damped { "with damping" } else { "without damping" };
     let changes = format!("Where branches change between these speeds, {damping}:");
     let tables = vec![
-        (changes, report::threshold_table(&branches)),
+        (changes, report::threshold_table(&branches).into()),
         ("Equilibria of the blade frame:".to_string(), report::branch_table(&branches)),
     ];
-    Ok(Answer::of(json.with("branches", &branches), tables))
+    Ok(Answer::of::<MadeTable>(json.with_branches(&branches), tables))
 }
 
 fn campbell(json: HbmReport, asked: &Asked, machine: &Machine) -> Result<Answer, HarmonicError> {
@@ -180,7 +193,7 @@ fn slipping(
     zetas: &[f64],
 ) -> Result<Answer, HarmonicError> {
     let machine = scene.machine();
-    let points = slip_over(&machine, speeds)?;
+    let points = Rc::new(slip_over(&machine, speeds)?);
     let limits = slip_limits(&machine, speeds)?;
     let told: Vec<String> = limits
         .iter()
@@ -197,9 +210,8 @@ fn slipping(
         (true, _) => "Slip exists at some of these speeds.".to_string(),
     };
     let limit_speeds: Vec<f64> = limits.iter().map(|limit| limit.speed_rad_s).collect();
-    let mut json = json
-        .with("slip", points.iter().map(report::slip).collect::<Vec<_>>())
-        .with("slip_limits_rad_s", limit_speeds);
+    let mut json =
+        json.with_rows("slip", &points, report::slip).with("slip_limits_rad_s", limit_speeds);
     let mut tables = vec![(title, report::slip_table(&points))];
     if !zetas.is_empty() {
         let mut region = Vec::with_capacity(zetas.len());
@@ -219,7 +231,7 @@ fn slipping(
         }
         json = json.with("slip_region", &region);
         let title = "Where slip exists between these speeds:".to_string();
-        tables.push((title, report::region_table(&region)));
+        tables.push((title, report::region_table(&region).into()));
     }
     Ok(Answer::of(json, tables))
 }
@@ -253,12 +265,9 @@ fn series(
         }
     }
     let file = series.iter().find_map(|(_, found)| found.as_ref().ok());
-    Ok(Answer {
-        file: file.map_or_else(|| Table::new(["number"]), report::term_table),
-        json: json.with("harmonics", series.iter().map(report::harmonics).collect::<Vec<_>>()),
-        tables,
-        sweep: None,
-    })
+    let file = file.map_or_else(|| Table::new(["number"]), report::term_table).into();
+    let json = json.with("harmonics", series.iter().map(report::harmonics).collect::<Vec<_>>());
+    Ok(Answer { file, ..Answer::of(json, tables) })
 }
 
 fn folding(

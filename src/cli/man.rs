@@ -114,7 +114,7 @@ const EXAMPLES: &[(&str, &str)] = &[
         "rubscope run --contact unilateral --speed -430 --json",
         "The default scene with contact that only pushes, the rotor turning the other way, as JSON.",
     ),
-    ("rubscope hbm --speed 0:500:501 --damped", "The locked motion against rotor speed."),
+    ("rubscope hbm --speed 0:500:501", "The locked motion against rotor speed."),
     ("rubscope map --speed 250:500:51 --pulse 1e4:1e6:25", "Which pulses lock at which speeds."),
     ("rubscope figures --out figures", "The figures of the paper."),
     (

@@ -22,14 +22,18 @@ pub struct Threshold {
     pub above: Character,
 }
 
-/// Equilibria over a list of speeds.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+/// Equilibria over a list of speeds. They are found where they are asked for: all of
+/// them at once are a thousand bytes for each speed.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Branches {
+    machine: Machine,
+    speeds: Vec<f64>,
+    damped: bool,
     /// Where branches change between the smallest and the largest speed, in
     /// order of speed.
     pub thresholds: Vec<Threshold>,
-    /// Every equilibrium at every speed, in the order of the speeds.
-    pub states: Vec<Equilibrium>,
+    /// How many equilibria there are at all speeds.
+    pub count: usize,
 }
 
 impl Branches {
@@ -39,32 +43,69 @@ impl Branches {
     /// # Errors
     /// A speed that is not finite, or eigenvalues that cannot be computed.
     pub fn over(machine: &Machine, speeds: &[f64], damped: bool) -> Result<Self, HarmonicError> {
-        let side = Corner::paper(&machine.polygon).map_or(0, |corner| corner.a);
-        let at = |kind, speed| equilibrium(machine, kind, side, speed, damped);
-        let mut states = Vec::new();
-        for &speed in speeds {
-            for kind in Kind::ALL {
-                states.extend(at(kind, speed)?);
-            }
+        let (machine, thresholds) = (machine.clone(), Vec::new());
+        let mut found = Self { machine, speeds: speeds.to_vec(), damped, thresholds, count: 0 };
+        for place in 0..speeds.len() {
+            found.count += found.states_at(place)?.len();
         }
         let mut sorted = speeds.to_vec();
         sorted.sort_by(f64::total_cmp);
         let mut thresholds = Vec::new();
         for kind in Kind::ALL {
             let character = |speed| -> Result<Character, HarmonicError> {
-                Ok(at(kind, speed)?.map_or(Character::Absent, |state| state.character))
+                Ok(found.at(kind, speed)?.map_or(Character::Absent, |state| state.character))
             };
             for pair in sorted.windows(2) {
                 if let [low, high] = *pair {
-                    let found = changes(low, high, &character)?;
-                    thresholds.extend(found.into_iter().map(|(speed_rad_s, below, above)| {
-                        Threshold { speed_rad_s, kind, below, above }
+                    let here = changes(low, high, &character)?.into_iter();
+                    thresholds.extend(here.map(|(speed_rad_s, below, above)| Threshold {
+                        speed_rad_s,
+                        kind,
+                        below,
+                        above,
                     }));
                 }
             }
         }
         thresholds.sort_by(|a, b| a.speed_rad_s.total_cmp(&b.speed_rad_s));
-        Ok(Self { states, thresholds })
+        Ok(Self { thresholds, ..found })
+    }
+
+    /// How many speeds there are.
+    #[must_use]
+    pub fn speeds(&self) -> usize {
+        self.speeds.len()
+    }
+
+    /// Every equilibrium at the speed at a place of the list.
+    ///
+    /// # Errors
+    /// None for what `over` gave.
+    pub fn states_at(&self, place: usize) -> Result<Vec<Equilibrium>, HarmonicError> {
+        let mut states = Vec::new();
+        if let Some(&speed) = self.speeds.get(place) {
+            for kind in Kind::ALL {
+                states.extend(self.at(kind, speed)?);
+            }
+        }
+        Ok(states)
+    }
+
+    /// Every equilibrium at every speed, in the order of the speeds.
+    ///
+    /// # Errors
+    /// None for what `over` gave.
+    pub fn states(&self) -> Result<Vec<Equilibrium>, HarmonicError> {
+        let mut all = Vec::with_capacity(self.count);
+        for place in 0..self.speeds() {
+            all.append(&mut self.states_at(place)?);
+        }
+        Ok(all)
+    }
+
+    fn at(&self, kind: Kind, speed: f64) -> Result<Option<Equilibrium>, HarmonicError> {
+        let side = Corner::paper(&self.machine.polygon).map_or(0, |corner| corner.a);
+        equilibrium(&self.machine, kind, side, speed, self.damped)
     }
 }
 

@@ -51,6 +51,33 @@ pub enum Character {
     Stable,
 }
 
+impl Character {
+    /// Of a steady state whose contacts push, or else may be held by a pull, whose other
+    /// gaps are as small as this, and about which some motion grows or not.
+    pub(super) fn of(
+        pushes: bool,
+        held_by_pulls: bool,
+        smallest_gap: f64,
+        grows: impl FnOnce() -> bool,
+    ) -> Self {
+        if !pushes {
+            if held_by_pulls { Self::Adhesive } else { Self::Pulls }
+        } else if smallest_gap < 0.0 {
+            Self::Penetrates
+        } else if grows() {
+            Self::Unstable
+        } else {
+            Self::Stable
+        }
+    }
+
+    /// Whether pushes can hold it, with every other gap open.
+    #[must_use]
+    pub fn is_admissible(self) -> bool {
+        matches!(self, Self::Unstable | Self::Stable)
+    }
+}
+
 /// One phase group in contact.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GroupContact {
@@ -234,16 +261,10 @@ pub(super) fn judged(
         _ => motion.eigenvalues().ok_or(HarmonicError::Unsettled { speed })?,
     };
     let open = configuration.smallest_gap(polygon, &sides);
-    let character = if loads.iter().any(|load| load.1 > 0.0) {
-        let equality = kind == Kind::Corner && motion.closes();
-        if equality { Character::Adhesive } else { Character::Pulls }
-    } else if open < 0.0 {
-        Character::Penetrates
-    } else if grows(&eigenvalues, machine.omega_c) {
-        Character::Unstable
-    } else {
-        Character::Stable
-    };
+    let pushes = loads.iter().all(|load| load.1 <= 0.0);
+    let held_by_pulls = kind == Kind::Corner && motion.closes();
+    let character =
+        Character::of(pushes, held_by_pulls, open, || grows(&eigenvalues, machine.omega_c));
     let moment_arm: f64 = match Wave::at(machine, speed, damped).drag {
         // Without drag the moment arms cancel, and their sum is rounding only.
         0.0 => 0.0,
@@ -261,7 +282,7 @@ pub(super) fn judged(
         speed_rad_s: speed,
         kind,
         character,
-        admissible: matches!(character, Character::Unstable | Character::Stable),
+        admissible: character.is_admissible(),
         stable: character == Character::Stable,
         contacts: loads.iter().map(contact).collect(),
         z_m,

@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::configuration::Configuration;
 use super::equations::{Equations, Scales, Unknowns, Wave};
 use super::stability::{Linearised, grows};
-use super::{Corner, Form, HarmonicError, error, joined_lock, joined_stability};
+use super::{Character, Corner, Form, HarmonicError, error, joined_lock, joined_stability};
 use crate::model::Machine;
 
 /// The locked motion at one rotor speed.
@@ -36,12 +36,14 @@ pub struct LockedPoint {
     pub torque_nm: f64,
     /// Its power, `torque * Omega` \[W\].
     pub power_w: f64,
-    /// Whether contact can hold it: both multipliers push (or vanish) and
+    /// What holds it, if anything does. The motion that may grow is the time model's
+    /// (two blade modes), in every form.
+    pub character: Character,
+    /// Whether pushes can hold it: both multipliers push (or vanish) and
     /// every other gap is open.
     pub admissible: bool,
-    /// Whether it lasts: no multiplier pulls, and no motion that keeps both
-    /// contacts grows. That motion is the time model's (two blade modes), in
-    /// every form.
+    /// Whether it lasts by pushes alone: admissible, and no motion that keeps both
+    /// contacts grows.
     pub stable: bool,
     /// Largest row of the eight equations (27), dimensionless: torques over
     /// `n_d k_c g0^2`, gaps over `g0`, forces over `k_c g0`.
@@ -167,9 +169,14 @@ impl Locked {
             .map(|side| equations.gap(polygon.direction(side), &held))
             .fold(f64::INFINITY, f64::min);
         let pushes = push_a >= 0.0 && push_b >= 0.0;
-        let stable = pushes
-            && joined_stability::lock_eigenvalues(machine, speed, &equations, &held)
-                .is_some_and(|values| !grows(&values, machine.omega_c));
+        // A pull has no friction. Without the contact forces both gaps close.
+        let across = (2.0 * polygon.delta).cos();
+        let closes = push_a + push_b * across > 0.0 && push_b + push_a * across > 0.0;
+        let held_by_pulls = closes && machine.friction == 0.0;
+        let character = Character::of(pushes, held_by_pulls, smallest_gap, || {
+            joined_stability::lock_eigenvalues(machine, speed, &equations, &held)
+                .is_none_or(|values| grows(&values, machine.omega_c))
+        });
         let moment_arm = -(push_a * touches[0].across + push_b * touches[1].across);
         let torque = machine.nodal_diameters * force * length * moment_arm;
         let residual =
@@ -186,8 +193,9 @@ impl Locked {
             smallest_gap_m: length * smallest_gap,
             torque_nm: torque,
             power_w: torque * speed,
-            admissible: pushes && smallest_gap > 0.0,
-            stable,
+            character,
+            admissible: character.is_admissible(),
+            stable: character == Character::Stable,
             residual,
         })
     }
@@ -201,9 +209,10 @@ impl Locked {
         let configuration = Configuration::of_pair(polygon, (x, y), sides, turns);
         let held = [0, 1].map(|i| configuration.held(polygon, sides[i], multipliers[i]));
         let smallest_gap = length * configuration.smallest_gap(polygon, &sides);
-        let admissible = multipliers.iter().all(|&l| l <= 0.0) && smallest_gap > 0.0;
-        let stable = multipliers.iter().all(|&l| l <= 0.0)
-            && Linearised::about(&self.machine, speed, self.damped, &held).is_stable();
+        let motion = Linearised::about(&self.machine, speed, self.damped, &held);
+        let pushes = multipliers.iter().all(|&l| l <= 0.0);
+        let character =
+            Character::of(pushes, motion.closes(), smallest_gap, || !motion.is_stable());
         // Without drag the two moment arms cancel, and their sum is rounding only.
         let moment_arm = match wave.drag {
             0.0 => 0.0,
@@ -222,8 +231,9 @@ impl Locked {
             smallest_gap_m: smallest_gap,
             torque_nm: torque,
             power_w: torque * speed,
-            admissible,
-            stable,
+            character,
+            admissible: character.is_admissible(),
+            stable: character == Character::Stable,
             residual: self.equations.printed_residual(wave, unknowns),
         }
     }

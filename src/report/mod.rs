@@ -7,6 +7,7 @@ pub mod hbm;
 pub mod history;
 pub mod json;
 pub mod line;
+pub mod made_table;
 pub mod map;
 pub mod margins;
 pub mod npz;

@@ -15,6 +15,24 @@ pub enum TableCell {
     Empty,
 }
 
+impl TableCell {
+    fn in_text(&self) -> String {
+        match self {
+            Self::Number(x) => short(*x),
+            Self::Word(word) => word.clone(),
+            Self::Empty => "-".to_string(),
+        }
+    }
+
+    pub(super) fn in_csv(self) -> String {
+        match self {
+            Self::Number(x) => exact(x),
+            Self::Word(word) => word,
+            Self::Empty => String::new(),
+        }
+    }
+}
+
 impl From<f64> for TableCell {
     fn from(x: f64) -> Self {
         if x.is_finite() { Self::Number(x) } else { Self::Empty }
@@ -55,11 +73,7 @@ pub(crate) fn write_csv<R: IntoIterator<Item = TableCell>>(
     let mut csv = csv::Writer::from_writer(out);
     csv.write_record(names)?;
     for row in rows {
-        csv.write_record(row.into_iter().map(|cell| match cell {
-            TableCell::Number(x) => exact(x),
-            TableCell::Word(word) => word,
-            TableCell::Empty => String::new(),
-        }))?;
+        csv.write_record(row.into_iter().map(TableCell::in_csv))?;
     }
     csv.flush()
 }
@@ -97,6 +111,11 @@ impl Table {
         self.rows.push(row);
     }
 
+    /// Its names and rows.
+    pub(super) fn into_parts(self) -> (Vec<String>, Vec<Vec<TableCell>>) {
+        (self.names, self.rows)
+    }
+
     /// How many rows there are.
     #[must_use]
     pub fn len(&self) -> usize {
@@ -123,39 +142,52 @@ impl Table {
     /// # Errors
     /// An error of the writer.
     pub fn write_text(&self, out: &mut dyn Write) -> Result<()> {
-        let text = |cell: &TableCell| match cell {
-            TableCell::Number(x) => short(*x),
-            TableCell::Word(word) => word.clone(),
-            TableCell::Empty => "-".to_string(),
-        };
-        let shown: Vec<Vec<String>> =
-            self.rows.iter().map(|row| row.iter().map(text).collect()).collect();
-        let cells = |column: usize| self.rows.iter().filter_map(move |row| row.get(column));
-        let words: Vec<bool> = (0..self.names.len())
-            .map(|column| cells(column).any(|cell| matches!(cell, TableCell::Word(_))))
-            .collect();
-        let widths: Vec<usize> = (0..self.names.len())
-            .map(|column| {
-                let entries = shown.iter().filter_map(|row| row.get(column));
-                let name = self.names.get(column).map_or(0, |name| name.chars().count());
-                entries.map(|entry| entry.chars().count()).max().unwrap_or(0).max(name)
-            })
-            .collect();
-        let mut line = |row: &[String]| {
-            let mut text = String::new();
-            for ((entry, &width), &word) in row.iter().zip(&widths).zip(&words) {
-                let padded =
-                    if word { format!("{entry:<width$}") } else { format!("{entry:>width$}") };
-                text.push_str(&padded);
-                text.push_str("  ");
-            }
-            writeln!(out, "{}", text.trim_end())
-        };
-        if self.names.is_empty() {
-            return Ok(());
+        let mut layout = Layout::of(&self.names);
+        self.rows.iter().for_each(|row| layout.meet(row));
+        layout.write_names(&self.names, out)?;
+        self.rows.iter().try_for_each(|row| layout.write(row, out))
+    }
+}
+
+/// The columns of aligned text, from the cells that they will have.
+pub(super) struct Layout {
+    widths: Vec<usize>,
+    words: Vec<bool>,
+}
+
+impl Layout {
+    /// Of columns with these names.
+    pub fn of(names: &[String]) -> Self {
+        let widths = names.iter().map(|name| name.chars().count()).collect();
+        Self { widths, words: vec![false; names.len()] }
+    }
+
+    /// Makes room for a row.
+    pub fn meet(&mut self, row: &[TableCell]) {
+        for ((cell, width), word) in row.iter().zip(&mut self.widths).zip(&mut self.words) {
+            *width = (*width).max(cell.in_text().chars().count());
+            *word |= matches!(cell, TableCell::Word(_));
         }
-        line(&self.names)?;
-        shown.iter().try_for_each(|row| line(row))
+    }
+
+    /// Writes the names, if there are any.
+    pub fn write_names(&self, names: &[String], out: &mut dyn Write) -> Result<()> {
+        if names.is_empty() { Ok(()) } else { self.line(names.iter().cloned(), out) }
+    }
+
+    /// Writes a row.
+    pub fn write(&self, row: &[TableCell], out: &mut dyn Write) -> Result<()> {
+        self.line(row.iter().map(TableCell::in_text), out)
+    }
+
+    fn line(&self, row: impl Iterator<Item = String>, out: &mut dyn Write) -> Result<()> {
+        let mut text = String::new();
+        for ((entry, &width), &word) in row.zip(&self.widths).zip(&self.words) {
+            let padded = if word { format!("{entry:<width$}") } else { format!("{entry:>width$}") };
+            text.push_str(&padded);
+            text.push_str("  ");
+        }
+        writeln!(out, "{}", text.trim_end())
     }
 }
 

@@ -27,6 +27,24 @@ impl Scene {
         self.bladed_disk.diameters_beside(casing) != casing
     }
 
+    /// What steady states and limits are of where the runs of this scene ask for more:
+    /// they are of equal blades in the modes of one number of diameters.
+    #[must_use]
+    pub fn tuned_note(&self) -> Option<String> {
+        let disk = &self.bladed_disk;
+        let diameters = disk.diameters_beside(self.operation.nodal_diameters);
+        let mistuned = match disk.mistuning {
+            0.0 => String::new(),
+            sd => format!(" with stiffnesses that differ by {sd} (standard deviation)"),
+        };
+        (self.solver.model == ModelSize::Full).then(|| {
+            format!(
+                "of equal blades in the modes of {diameters} nodal diameters; runs of this \
+                 scene (solver.model = \"full\") have every blade alone{mistuned}"
+            )
+        })
+    }
+
     /// The clearance at rest `g0 = R_c - l_b`; below zero all blades rub at rest \[m\].
     #[must_use]
     pub fn clearance(&self) -> f64 {

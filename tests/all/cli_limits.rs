@@ -224,3 +224,27 @@ fn an_end_below_one_step_is_refused_and_one_step_is_not() {
         assert_eq!(output.status.code(), Some(0), "{line}");
     }
 }
+
+/// Rows are made as they are written: what a speed takes in memory is its numbers, some two
+/// hundred bytes, and not the words of its row.
+#[cfg(target_os = "linux")]
+#[test]
+fn many_speeds_take_little_memory() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("l.csv");
+    let file = ["--out", file.to_str().unwrap()];
+    for view in [&["--json"][..], &["--branches", "--json"], &["--slip", "--json"]] {
+        for out in [&[][..], &file] {
+            // With 40 MB of data and no more: a program that wants more is aborted.
+            let run = std::process::Command::new("sh")
+                .args(["-c", "ulimit -d 40000; exec \"$0\" \"$@\""])
+                .arg(assert_cmd::cargo::cargo_bin!("rubscope"))
+                .args(["hbm", "--zeta-casing", "0.01", "--speed", "0:500:20000"])
+                .args(view)
+                .args(out)
+                .stdout(std::process::Stdio::null())
+                .status();
+            assert!(run.unwrap().success(), "{view:?} {out:?}");
+        }
+    }
+}

@@ -160,7 +160,8 @@ fn numpy_files_hold_one_array_a_column() {
 fn reports_say_where_they_come_from() {
     for arguments in [
         &["run", "slip", "--end", "1e-3", "--at", "5e-4:pulse", "--json"][..],
-        &["hbm", "--speed", "300:500:3", "--damped", "--form", "blade", "--json"],
+        &["hbm", "--speed", "300:500:3", "--undamped", "--form", "blade", "--json"],
+        &["hbm", "--speed", "300:500:3", "--damped", "--form", "printed", "--json"],
         &["hbm", "--speed", "-430", "--slip", "--json"],
         &["map", "--speed", "400:500:2", "--pulse", "1e4:2e4:2", "--end", "1e-3", "--json"],
         &["map", "slip", "--speed", "430", "--adaptive", "--end", "1e-3", "--json"],

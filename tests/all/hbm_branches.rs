@@ -127,8 +127,9 @@ fn a_very_soft_casing_has_the_closed_forms_all_the_same() {
     let speed = 5578.0;
     for damped in [false, true] {
         let branches = Branches::over(&machine, &[0.0, speed], damped).unwrap();
-        assert_eq!(branches.states.len(), 4);
-        let (rest, side) = (&branches.states[2], &branches.states[3]);
+        let states = branches.states().unwrap();
+        assert_eq!(states.len(), 4);
+        let (rest, side) = (&states[2], &states[3]);
         assert_eq!((rest.kind, rest.character), (Kind::Rest, Character::Stable));
         let slowest = if damped { -0.05 * machine.omega_c } else { 0.0 };
         close(rest.growth_per_s, slowest, 1e-12);

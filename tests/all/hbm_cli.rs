@@ -3,6 +3,8 @@
 use assert_cmd::Command;
 use serde_json::Value;
 
+use crate::cli_support::rubscope;
+
 fn hbm(args: &[&str]) -> Command {
     let mut command = Command::cargo_bin("rubscope").unwrap();
     command.arg("hbm").args(args);
@@ -20,7 +22,7 @@ fn number(value: &Value) -> f64 {
 
 #[test]
 fn json_of_the_papers_sweep() {
-    let report = json(&["--speed", "0:500:501", "--blades", "6,21"]);
+    let report = json(&["--undamped", "--speed", "0:500:501", "--blades", "6,21"]);
     assert_eq!(report["schema"], "rubscope.hbm/1");
     assert!((number(&report["omega_c_rad_s"]) - 292.878).abs() < 1e-3);
     assert!((number(&report["omega_lock_rad_s"]) - 411.93).abs() < 5e-3);
@@ -39,15 +41,57 @@ fn json_of_the_papers_sweep() {
 #[test]
 fn forms_and_damping_are_options() {
     for (form, alpha) in [("printed", 7.62e-7), ("blade", -3.81e-7), ("modal", -1.404e-9)] {
-        let report = json(&["--speed", "500", "--form", form]);
+        let report = json(&["--speed", "500", "--form", form, "--undamped"]);
         let found = number(&report["points"][0]["groups"][0]["alpha_rad"]);
         assert!((found / alpha - 1.0).abs() < 2e-3, "{form}: {found}");
     }
-    let damped = json(&["--speed", "500", "--damped"]);
-    let groups = &damped["points"][0]["groups"];
-    assert!((number(&groups[0]["multiplier_n"]) + 244.416).abs() < 1e-3);
-    assert!((number(&groups[1]["multiplier_n"]) + 57.295).abs() < 1e-3);
-    assert!((number(&damped["points"][0]["power_w"]) - 4.036).abs() < 5e-4);
+    for asked in [&["--speed", "500"][..], &["--speed", "500", "--damped"]] {
+        let damped = json(asked);
+        let groups = &damped["points"][0]["groups"];
+        assert_eq!(damped["damped"], true);
+        assert!((number(&groups[0]["multiplier_n"]) + 244.416).abs() < 1e-3);
+        assert!((number(&groups[1]["multiplier_n"]) + 57.295).abs() < 1e-3);
+        assert!((number(&damped["points"][0]["power_w"]) - 4.036).abs() < 5e-4);
+    }
+}
+
+/// What a run in time ends in is what the frequency domain says of the same scene.
+#[test]
+fn a_lock_is_the_one_of_a_run_in_time() {
+    let scene = ["adhesive", "--speed", "400"];
+    let run = rubscope(&[&["run"][..], &scene, &["--json"]].concat()).stdout;
+    let run: Value = serde_json::from_slice(&run).unwrap();
+    assert_eq!(run["outcome"]["verdict"], "adhesive");
+    let report = json(&scene);
+    let point = &report["points"][0];
+    assert_eq!((&point["character"], &point["admissible"]), (&"adhesive".into(), &false.into()));
+    for (contact, sign) in [(0, -1.0), (1, 1.0)] {
+        let [pushed, balanced] = [&run["outcome"]["contacts"][contact], &point["groups"][contact]]
+            .map(|group| number(&group["multiplier_n"]));
+        // The steps of 1e-7 s shift the force by a part in a thousand.
+        let part = (pushed / balanced - 1.0).abs();
+        assert!(balanced * sign > 0.0 && part < 0.03, "{pushed} {balanced}");
+    }
+    let text = String::from_utf8(hbm(&scene).output().unwrap().stdout).unwrap();
+    assert!(text.contains("-143.029") && text.contains("adhesive"), "{text}");
+}
+
+#[test]
+fn the_papers_form_says_that_it_has_no_damping() {
+    let told = |args: &[&str]| {
+        let output = hbm(args).assert().success().get_output().clone();
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let printed = told(&["--form", "printed", "--speed", "500"]);
+    assert!(printed.contains("form printed, undamped as in the paper"), "{printed}");
+    // The lock-in speed that is told is that of the equations below it.
+    let words = "lock-in from 292.878 rad/s without damping, 411.934 with zeta_c = 0.05";
+    assert!(printed.contains(words), "{printed}");
+    assert!(told(&["--undamped"]).contains(words));
+    assert!(told(&[]).contains("lock-in from 411.934 rad/s (zeta_c = 0.05)"));
+    assert_eq!(json(&["--form", "printed"])["damped"], false);
+    assert_eq!(json(&["--form", "printed", "--damped"])["damped"], true);
+    hbm(&["--damped", "--undamped"]).assert().code(2);
 }
 
 #[test]
@@ -134,7 +178,7 @@ fn every_view_prints_a_table_and_json() {
     let soft = "bladed_disk.stiffness_nm_per_rad=0.002";
     let load = "excitation.amplitude_nm=10";
     for (args, field, words) in [
-        (vec!["--branches", "--damped"], "branches", "411.934  corner  adhesive"),
+        (vec!["--branches"], "branches", "411.934  corner  adhesive"),
         (vec!["--campbell"], "campbell", "388.315       878.635      -286.309  yes"),
         (vec!["--harmonics", "4"], "harmonics", "No slip at 500 rad/s (lifts)."),
         (
@@ -215,7 +259,7 @@ fn what_has_no_meaning_ends_with_status_2_and_one_line() {
 fn a_file_holds_every_figure() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("locked.csv");
-    hbm(&["--speed", "0:500:11", "--out"]).arg(&path).assert().success();
+    hbm(&["--undamped", "--speed", "0:500:11", "--out"]).arg(&path).assert().success();
     let mut reader = csv::Reader::from_path(&path).unwrap();
     let names = reader.headers().unwrap().clone();
     assert!(names.iter().any(|name| name == "u_cc_m"));
@@ -273,7 +317,7 @@ fn the_compliance_crosses_the_negative_axis_where_the_waves_are() {
 
 #[test]
 fn inclined_tips_have_a_lock_and_no_view_that_is_of_the_paper_alone() {
-    let report = json(&[&INCLINED[..], &["--damped", "--speed", "500"]].concat());
+    let report = json(&[&INCLINED[..], &["--speed", "500"]].concat());
     let point = &report["points"][0];
     assert!((number(&point["groups"][0]["multiplier_n"]) + 455.70527497).abs() < 1e-8);
     assert_eq!((&point["admissible"], &point["stable"]), (&true.into(), &true.into()));

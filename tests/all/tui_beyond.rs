@@ -63,6 +63,40 @@ fn click(session: &mut Session, (column, row): (u16, u16)) {
 }
 
 #[test]
+fn the_header_has_both_ends_of_a_lock() {
+    let session = open((160, 40), trailing());
+    assert!(session.rows()[1].contains(" of 472.1 to 566.3"), "{}", session.rows()[1]);
+    let session = open((80, 24), trailing());
+    assert!(session.rows()[1].contains("472.1 to 566.3"), "{}", session.rows()[1]);
+    // On a lining those of the lining.
+    let lined = with(&[("solver.contact", "smooth"), ("contact.stiffness_n_per_m", "3e8")]);
+    let session = open((160, 40), lined);
+    assert!(session.rows()[1].contains(" of 438.2 to 732.4"), "{}", session.rows()[1]);
+    let session = open((160, 40), scene());
+    assert!(!session.rows()[1].contains(" to "), "{}", session.rows()[1]);
+}
+
+/// Steady states and limits of equal blades say so where every blade moves alone.
+#[test]
+fn views_of_equal_blades_say_so_in_the_full_model() {
+    for (digit, scene) in [("3", trailing()), ("8", trailing()), ("9", pressed())] {
+        for (model, says) in [("modal", false), ("full", true)] {
+            let mut scene = scene.clone();
+            scene.set("solver.model", model).unwrap();
+            scene.solver.step_s = 1e-6;
+            let mut session = open((160, 40), scene);
+            session.press(digit);
+            let text = session.text();
+            assert_eq!(
+                text.contains("of equal blades, two modes"),
+                says,
+                "{digit} {model}\n{text}"
+            );
+        }
+    }
+}
+
+#[test]
 fn what_is_beyond_the_paper_is_folded_but_for_what_the_scene_has_of_it() {
     for size in [(80, 24), (120, 40), (200, 50)] {
         let paper = column(&open(size, scene()));

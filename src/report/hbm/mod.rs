@@ -2,45 +2,52 @@
 //! heading in sentences. Results serialise themselves; this file has only the
 //! views that combine several results or take parts of one.
 
-use std::io::Write;
+use std::rc::Rc;
 
 use serde::Serialize;
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
+mod heading;
 mod joined;
 mod lining;
+mod parts;
 mod tables;
 
+pub use heading::Heading;
 pub use joined::{
     WhirlRow, compliance, compliance_chart, compliance_table, wave_table, whirl, whirl_table,
 };
 pub use lining::*;
 pub use tables::*;
 
+use parts::{Part, Parts};
+
 use crate::harmonic::{
-    Campbell, CornerBranch, ExcitedLock, Form, LockedPoint, NoSlip, SlipPoint, SlipSpectrum, Sweep,
+    Branches, Campbell, CornerBranch, ExcitedLock, Form, LockedPoint, NoSlip, SlipPoint,
+    SlipSpectrum, Sweep,
 };
 use crate::model::{ContactPolygon, Excitation, LockWindow, Machine};
-use crate::report::number::{count, short};
+use crate::report::number::short;
 use crate::scene::Scene;
 
-/// The whole answer of `rubscope hbm --json`.
-#[derive(Clone, Debug, Serialize)]
+/// The whole answer of `rubscope hbm --json`, its parts in order.
+#[derive(Debug, Serialize)]
 #[serde(transparent)]
-pub struct HbmReport(Map<String, Value>);
+pub struct HbmReport(Parts);
 
 impl HbmReport {
-    /// The report of one machine, without points; the coincidence is that of a rotor
-    /// that turns in the sense of `speed`.
+    /// The report of the machine of a scene, without points; the coincidence is that of a
+    /// rotor that turns in the sense of `speed`.
     #[must_use]
-    pub fn new(scene: &Scene, form: Form, damped: bool, speed: f64) -> Self {
-        let machine = scene.machine();
-        Self(Map::new())
-            .with("scene", scene)
-            .with("form", form)
-            .with("damped", damped)
+    pub fn new(scene: &Scene, machine: &Machine, form: Form, damped: bool, speed: f64) -> Self {
+        let report =
+            Self(Parts::default()).with("scene", scene).with("form", form).with("damped", damped);
+        let (notes, window) = (notes(scene, machine), machine.lock_window(speed));
+        let report = if notes.is_empty() { report } else { report.with("notes", notes) };
+        report
             .with("omega_c_rad_s", machine.critical_speed())
-            .with("omega_lock_rad_s", machine.lock_speed_toward(speed))
+            .with("omega_lock_rad_s", window.map(|window| window.from))
+            .with("lock_ends_rad_s", window.and_then(|window| window.to))
             .with("omega_adhesive_rad_s", machine.adhesive_speed())
             .with("coincidence_rad_s", machine.dangerous_speed_toward(speed))
             .with("casing_frequency_rad_s", machine.omega_c)
@@ -53,17 +60,51 @@ impl HbmReport {
 
     /// Adds a part, or replaces it in its place.
     #[must_use]
-    pub fn with(mut self, name: &str, part: impl Serialize) -> Self {
-        self.0.insert(name.to_string(), json!(part));
+    pub fn with(mut self, name: &'static str, part: impl Serialize) -> Self {
+        self.0.put(name, Part::Whole(json!(part)));
+        self
+    }
+
+    /// Adds an array with an element for each item, made as it is written.
+    #[must_use]
+    pub fn with_rows<T: 'static>(
+        mut self,
+        name: &'static str,
+        items: &Rc<Vec<T>>,
+        of: fn(&T) -> Value,
+    ) -> Self {
+        let (count, items) = (items.len(), Rc::clone(items));
+        let row = move |place: usize| Ok(items.get(place).map(of).into_iter().collect());
+        self.0.put(name, Part::Rows(count, Box::new(row)));
+        self
+    }
+
+    /// Adds every equilibrium at these speeds, made as they are written, and where they
+    /// change.
+    #[must_use]
+    pub fn with_branches(mut self, branches: &Rc<Branches>) -> Self {
+        let mut parts = Parts::default();
+        parts.put("thresholds", Part::Whole(json!(branches.thresholds)));
+        let (speeds, branches) = (branches.speeds(), Rc::clone(branches));
+        let states =
+            move |place| Ok(branches.states_at(place)?.iter().map(|state| json!(state)).collect());
+        parts.put("states", Part::Rows(speeds, Box::new(states)));
+        self.0.put("branches", Part::Parts(parts));
         self
     }
 
     /// Adds the locked motion over speed.
     #[must_use]
-    pub fn with_sweep(self, polygon: &ContactPolygon, sweep: &Sweep) -> Self {
+    pub fn with_sweep(self, polygon: &ContactPolygon, sweep: &Rc<Sweep>) -> Self {
         let blades = sweep.corner.sides().map(|side| polygon.blades_of_side(side));
-        let points = sweep.points.iter().map(|point| with_groups(point, &blades));
-        self.with("missing_rad_s", &sweep.missing).with("points", points.collect::<Value>())
+        let mut report = self.with("missing_rad_s", &sweep.missing);
+        let (count, sweep) = (sweep.points.len(), Rc::clone(sweep));
+        let points = move |place: usize| {
+            let point = sweep.points.get(place);
+            Ok(point.map(|point| with_groups(point, &blades)).into_iter().collect())
+        };
+        report.0.put("points", Part::Rows(count, Box::new(points)));
+        report
     }
 }
 
@@ -180,6 +221,14 @@ pub fn excitation(excitation: &Excitation, drives: bool, found: &[ExcitedLock]) 
     })
 }
 
+/// What the numbers are of, where the scene asks for more than the view has.
+#[must_use]
+pub fn notes(scene: &Scene, machine: &Machine) -> Vec<String> {
+    let hard = scene.lining().filter(|_| machine.lining.is_none());
+    let hard = hard.map(|_| "of rigid contact; --smooth has the lining of the scene".to_string());
+    hard.into_iter().chain(scene.tuned_note()).collect()
+}
+
 /// The speeds of a window: `472.117 to 566.259`, or where it begins alone.
 #[must_use]
 pub fn speeds_of(window: LockWindow) -> String {
@@ -187,57 +236,4 @@ pub fn speeds_of(window: LockWindow) -> String {
         Some(to) => format!("{} to {}", short(window.from), short(to)),
         None => short(window.from),
     }
-}
-
-/// Describes the machine and the blades that hold the wave, one fact per line.
-///
-/// # Errors
-/// An error of the writer.
-pub fn write_heading(
-    machine: &Machine,
-    title: &str,
-    speed: f64,
-    sweep: Option<&Sweep>,
-    out: &mut dyn Write,
-) -> std::io::Result<()> {
-    if !title.is_empty() {
-        writeln!(out, "{title}")?;
-    }
-    let polygon = &machine.polygon;
-    writeln!(
-        out,
-        "{} blades, {}: {} phase groups of {}, clearance {} m.",
-        polygon.blades,
-        count(u64::from(polygon.nodal_diameters), "nodal diameter"),
-        polygon.sides,
-        count(u64::from(polygon.blades_per_side), "blade"),
-        short(machine.clearance())
-    )?;
-    if let Some(critical) = machine.critical_speed() {
-        write!(out, "Critical speed {} rad/s", short(critical))?;
-        if let Some(lock) = machine.lock_window(speed) {
-            let zeta = short(machine.casing_damping_ratio);
-            write!(out, ", lock-in from {} rad/s (zeta_c = {zeta})", speeds_of(lock))?;
-        }
-        if let Some(dangerous) = machine.dangerous_speed_toward(speed) {
-            write!(out, ", dangerous coincidence {} rad/s", short(dangerous))?;
-        }
-        writeln!(out, ".")?;
-    }
-    if let Some(sweep) = sweep {
-        let name = |side| {
-            let list: Vec<String> =
-                polygon.blades_of_side(side).iter().map(|blade| format!("#{blade}")).collect();
-            list.join(" ")
-        };
-        let damping = if sweep.damped { "damped" } else { "undamped" };
-        writeln!(
-            out,
-            "Locked motion held between a: {} and b: {}; form {}, {damping}. A negative multiplier pushes; a positive one pulls, which a real contact cannot do.",
-            name(sweep.corner.a),
-            name(sweep.corner.b),
-            sweep.form,
-        )?;
-    }
-    Ok(())
 }

@@ -1,66 +1,62 @@
 //! Tables of the frequency domain: short ones to read, and complete ones for
 //! files. Each column is a name, with its unit, and what it shows.
 
+use std::io::Error;
+use std::rc::Rc;
+
 use crate::harmonic::{
-    Branches, Campbell, CornerBranch, Equilibrium, ExcitedLock, Kind, LockedPoint, SlipPoint,
-    SlipRegion, SlipSpectrum, Sweep,
+    Branches, Campbell, CornerBranch, Equilibrium, ExcitedLock, Kind, LockedPoint, SlipOrbit,
+    SlipPoint, SlipRegion, SlipSpectrum, Sweep,
 };
-use crate::report::table::{Table, TableCell};
+use crate::report::made_table::MadeTable;
+use crate::report::table::{Column, Table, TableCell};
 
-/// One word for a point: locked, pulls, penetrates or unstable.
-fn state(point: &LockedPoint) -> &'static str {
-    if point.stable && point.admissible {
-        "locked"
-    } else if point.multipliers_n.iter().any(|&multiplier| multiplier > 0.0) {
-        "pulls"
-    } else if !point.admissible {
-        "penetrates"
-    } else {
-        "unstable"
-    }
+/// One word for a point: that of its character, or locked.
+fn state(point: &LockedPoint) -> TableCell {
+    if point.stable { "locked" } else { point.character.as_ref() }.into()
 }
 
-/// The locked motion as a short table to read.
-#[must_use]
-pub fn summary_table(sweep: &Sweep) -> Table {
-    Table::of(
-        &sweep.points,
-        &[
-            ("speed [rad/s]", |point| point.speed_rad_s.into()),
-            ("multiplier a [N]", |point| point.multipliers_n[0].into()),
-            ("multiplier b [N]", |point| point.multipliers_n[1].into()),
-            ("alpha a [rad]", |point| point.alpha_rad[0].into()),
-            ("amplitude [m]", |point| point.amplitude_m.into()),
-            ("power [W]", |point| point.power_w.into()),
-            ("state", |point| state(point).into()),
-        ],
-    )
-}
+/// Columns of the locked motion to read.
+const SUMMARY: &[Column<'_, LockedPoint>] = &[
+    ("speed [rad/s]", |point| point.speed_rad_s.into()),
+    ("multiplier a [N]", |point| point.multipliers_n[0].into()),
+    ("multiplier b [N]", |point| point.multipliers_n[1].into()),
+    ("alpha a [rad]", |point| point.alpha_rad[0].into()),
+    ("amplitude [m]", |point| point.amplitude_m.into()),
+    ("power [W]", |point| point.power_w.into()),
+    ("state", state),
+];
 
-/// The locked motion with every number, for files.
+/// Columns of the locked motion with every number.
+const LOCKED: &[Column<'_, LockedPoint>] = &[
+    ("speed_rad_s", |point| point.speed_rad_s.into()),
+    ("multiplier_a_n", |point| point.multipliers_n[0].into()),
+    ("multiplier_b_n", |point| point.multipliers_n[1].into()),
+    ("alpha_a_rad", |point| point.alpha_rad[0].into()),
+    ("alpha_b_rad", |point| point.alpha_rad[1].into()),
+    ("u_cc_m", |point| point.u_cc_m.into()),
+    ("u_cs_m", |point| point.u_cs_m.into()),
+    ("u_sc_m", |point| point.u_sc_m.into()),
+    ("u_ss_m", |point| point.u_ss_m.into()),
+    ("amplitude_m", |point| point.amplitude_m.into()),
+    ("smallest_gap_m", |point| point.smallest_gap_m.into()),
+    ("torque_nm", |point| point.torque_nm.into()),
+    ("power_w", |point| point.power_w.into()),
+    ("character", |point| point.character.as_ref().into()),
+    ("admissible", |point| point.admissible.into()),
+    ("stable", |point| point.stable.into()),
+    ("residual", |point| point.residual.into()),
+];
+
+/// The locked motion: a short table to read, and every number for files.
 #[must_use]
-pub fn locked_table(sweep: &Sweep) -> Table {
-    Table::of(
-        &sweep.points,
-        &[
-            ("speed_rad_s", |point| point.speed_rad_s.into()),
-            ("multiplier_a_n", |point| point.multipliers_n[0].into()),
-            ("multiplier_b_n", |point| point.multipliers_n[1].into()),
-            ("alpha_a_rad", |point| point.alpha_rad[0].into()),
-            ("alpha_b_rad", |point| point.alpha_rad[1].into()),
-            ("u_cc_m", |point| point.u_cc_m.into()),
-            ("u_cs_m", |point| point.u_cs_m.into()),
-            ("u_sc_m", |point| point.u_sc_m.into()),
-            ("u_ss_m", |point| point.u_ss_m.into()),
-            ("amplitude_m", |point| point.amplitude_m.into()),
-            ("smallest_gap_m", |point| point.smallest_gap_m.into()),
-            ("torque_nm", |point| point.torque_nm.into()),
-            ("power_w", |point| point.power_w.into()),
-            ("admissible", |point| point.admissible.into()),
-            ("stable", |point| point.stable.into()),
-            ("residual", |point| point.residual.into()),
-        ],
-    )
+pub fn locked_tables(sweep: &Rc<Sweep>) -> [MadeTable; 2] {
+    [SUMMARY, LOCKED].map(|columns| {
+        let (count, sweep) = (sweep.points.len(), Rc::clone(sweep));
+        MadeTable::of(columns, [count; 2], move |place| {
+            Ok(sweep.points.get(place).copied().into_iter().collect())
+        })
+    })
 }
 
 /// The speeds where branches appear, vanish or change.
@@ -81,23 +77,25 @@ fn multiplier(state: &Equilibrium, index: usize) -> TableCell {
     state.contacts.get(index).map(|contact| contact.multiplier_n).into()
 }
 
+/// Columns of equilibria.
+const BRANCHES: &[Column<'_, Equilibrium>] = &[
+    ("speed_rad_s", |state| state.speed_rad_s.into()),
+    ("state", |state| state.kind.as_ref().into()),
+    ("character", |state| state.character.as_ref().into()),
+    ("multiplier_a_n", |state| multiplier(state, 0)),
+    ("multiplier_b_n", |state| multiplier(state, 1)),
+    ("amplitude_m", |state| state.amplitude_m.into()),
+    // At rest nothing is driven.
+    ("power_w", |state| (state.kind != Kind::Rest).then_some(state.power_w).into()),
+    ("growth_per_s", |state| growth(state).into()),
+];
+
 /// Every equilibrium, one per row.
 #[must_use]
-pub fn branch_table(branches: &Branches) -> Table {
-    Table::of(
-        &branches.states,
-        &[
-            ("speed_rad_s", |state| state.speed_rad_s.into()),
-            ("state", |state| state.kind.as_ref().into()),
-            ("character", |state| state.character.as_ref().into()),
-            ("multiplier_a_n", |state| multiplier(state, 0)),
-            ("multiplier_b_n", |state| multiplier(state, 1)),
-            ("amplitude_m", |state| state.amplitude_m.into()),
-            // At rest nothing is driven.
-            ("power_w", |state| (state.kind != Kind::Rest).then_some(state.power_w).into()),
-            ("growth_per_s", |state| growth(state).into()),
-        ],
-    )
+pub fn branch_table(branches: &Rc<Branches>) -> MadeTable {
+    let counts = [branches.speeds(), branches.count];
+    let branches = Rc::clone(branches);
+    MadeTable::of(BRANCHES, counts, move |place| branches.states_at(place).map_err(Error::other))
 }
 
 /// Growth rate to read: 0 for an undamped motion, which grows or decays only by
@@ -124,29 +122,33 @@ pub fn corner_table(branch: &CornerBranch) -> Table {
     )
 }
 
+/// Columns of slip.
+const SLIP: &[Column<'_, SlipPoint>] = &[
+    ("speed_rad_s", |point| point.speed_rad_s.into()),
+    ("slip", |point| match point.outcome {
+        Ok(_) if point.stable() => "stable".into(),
+        Ok(_) => "unstable".into(),
+        Err(reason) => <&str>::from(reason).into(),
+    }),
+    ("wave_speed_rad_s", |point| of_slip(point, |orbit| orbit.wave_speed_rad_s)),
+    ("period_s", |point| of_slip(point, |orbit| orbit.period_s)),
+    ("slope", |point| of_slip(point, |orbit| orbit.slope)),
+    ("least_push_n", |point| of_slip(point, |orbit| orbit.least_push_n)),
+    ("torque_nm", |point| of_slip(point, |orbit| orbit.torque_nm)),
+    ("power_w", |point| of_slip(point, |orbit| orbit.power_w)),
+];
+
+fn of_slip(point: &SlipPoint, figure: fn(SlipOrbit) -> f64) -> TableCell {
+    point.outcome.ok().map(figure).into()
+}
+
 /// Slip over speed, one row per speed.
 #[must_use]
-pub fn slip_table(points: &[SlipPoint]) -> Table {
-    let word = |point: &SlipPoint| match point.outcome {
-        Ok(_) if point.stable() => "stable",
-        Ok(_) => "unstable",
-        Err(reason) => reason.into(),
-    };
-    let rows: Vec<_> =
-        points.iter().map(|point| (point.speed_rad_s, word(point), point.outcome.ok())).collect();
-    Table::of(
-        &rows,
-        &[
-            ("speed_rad_s", |row| row.0.into()),
-            ("slip", |row| row.1.into()),
-            ("wave_speed_rad_s", |row| row.2.map(|orbit| orbit.wave_speed_rad_s).into()),
-            ("period_s", |row| row.2.map(|orbit| orbit.period_s).into()),
-            ("slope", |row| row.2.map(|orbit| orbit.slope).into()),
-            ("least_push_n", |row| row.2.map(|orbit| orbit.least_push_n).into()),
-            ("torque_nm", |row| row.2.map(|orbit| orbit.torque_nm).into()),
-            ("power_w", |row| row.2.map(|orbit| orbit.power_w).into()),
-        ],
-    )
+pub fn slip_table(points: &Rc<Vec<SlipPoint>>) -> MadeTable {
+    let (count, points) = (points.len(), Rc::clone(points));
+    MadeTable::of(SLIP, [count; 2], move |place| {
+        Ok(points.get(place).copied().into_iter().collect())
+    })
 }
 
 /// Where there is slip, a row for each damping ratio.

@@ -47,6 +47,7 @@ pub fn table(margins: &Margins) -> Table {
 pub fn write(margins: &Margins, out: &mut dyn Write) -> Result<()> {
     tell(&margins.scene.title, out)?;
     tell(&words::conditions(margins), out)?;
+    words::note(margins).iter().try_for_each(|note| tell(note, out))?;
     rows::write(margins, out)?;
     for limit in margins.limits.iter().filter(|limit| has_bands(limit)) {
         writeln!(out)?;

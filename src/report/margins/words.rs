@@ -75,6 +75,12 @@ pub fn conditions(margins: &Margins) -> String {
     )
 }
 
+/// What the closed forms are of, where the scene asks for more.
+#[must_use]
+pub fn note(margins: &Margins) -> Option<String> {
+    margins.note.as_ref().map(|note| format!("Speeds and loads are {note}."))
+}
+
 /// How well parameters are known, and what that was tried with.
 #[must_use]
 pub fn tolerances(margins: &Margins) -> String {
@@ -216,19 +222,14 @@ pub fn check(found: &Found, scene: &Scene) -> Option<CommandLine> {
             hbm
         }
         LimitName::OmegaAdhesive => hbm.flag("--json", true),
-        LimitName::Torque | LimitName::Power => {
-            hbm.option("--speed", speed).flag("--damped", true).flag("--json", true)
-        }
+        LimitName::Torque | LimitName::Power => hbm.option("--speed", speed).flag("--json", true),
         LimitName::CoincidenceDifference => hbm.flag("--campbell", true),
         LimitName::WhirlOnset | LimitName::FlutterSpeed => {
             hbm.option("--speed", speed).flag("--whirl", true)
         }
-        LimitName::LockFold => hbm
-            .option("--speed", format!("0:{reached}:2"))
-            .flag("--damped", true)
-            .flag("--fold", true),
+        LimitName::LockFold => hbm.option("--speed", format!("0:{reached}:2")).flag("--fold", true),
         LimitName::LockEnergy => CommandLine::new("margins", &changed).flag("--no-search", true),
-        _ => hbm.option("--speed", speed).flag("--damped", true),
+        _ => hbm.option("--speed", speed),
     })
 }
 

@@ -47,6 +47,9 @@ pub use touching::{FirstTouch, first_touch, grazing_pulse};
 pub struct Margins {
     /// The scene.
     pub scene: CheckedScene,
+    /// What the closed forms are of, where the scene asks for more than they have.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub note: Option<String>,
     /// Its limits, in the order in which they are shown.
     pub limits: Vec<Limit>,
     /// The parameters that are known only so well, if any.
@@ -80,7 +83,8 @@ impl Margins {
         let place = limits.iter().position(|limit| limit.quantity != Quantity::Speed);
         limits.insert(place.unwrap_or(limits.len()), touching::limit(scene));
         let cost = Cost { wall_s: start.elapsed().as_secs_f64(), ..Cost::default() };
-        Self { scene: scene.clone(), limits, tolerances: Vec::new(), target: None, cost }
+        let (scene, note) = (scene.clone(), scene.tuned_note());
+        Self { scene, note, limits, tolerances: Vec::new(), target: None, cost }
     }
 
     /// The laws under which lasting pulses are searched: that of the scene first.

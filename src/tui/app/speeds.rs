@@ -24,6 +24,11 @@ impl App {
         self.has_lining() || (bends && self.machine.radial_coupling != 0.0)
     }
 
+    /// What steady states are of where every blade of the run moves alone, in few words.
+    pub fn tuned_note(&self) -> Option<&'static str> {
+        self.scene.tuned_note().map(|_| "of equal blades, two modes")
+    }
+
     /// The coincidence that is dangerous here \[rad/s\]: of the sum of the frequencies,
     /// or of their difference where the tips dig in.
     pub fn coincidence(&self) -> Option<f64> {

@@ -242,6 +242,15 @@ mod tests {
     }
 
     #[test]
+    fn the_speed_shows_where_a_lock_ends() {
+        let mut scene = Scene::builtin("paper-nd3").unwrap();
+        scene.bladed_disk.radial_coupling = 0.3;
+        let bar = range("operation.speed_rad_s", &scene).unwrap();
+        let end = bar.marks.iter().find(|(letter, _)| *letter == 'e').unwrap();
+        assert!((bar.at(end.1) - 566.259).abs() < 1e-2, "{end:?}");
+    }
+
+    #[test]
     fn a_dragged_bar_gives_round_values() {
         let of = |path: &str, x| knob_of(path).unwrap().near(x);
         assert_eq!(of("operation.speed_rad_s", 431.7), Some(Value::Real(430.0)));

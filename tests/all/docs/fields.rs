@@ -80,14 +80,14 @@ fn every_field_of_the_reports_is_in_the_documents() {
         (
             "| field of `rubscope.margins/1` | what it is |",
             vec![
-                "margins --no-search --nd 11 --json",
+                "margins --no-search --nd 11 --model full --json",
                 "margins --end 0.02 --json --tolerance clearance=5 --target omega_c=300 --by casing.modal_mass_kg",
             ],
         ),
         (
             "| field of `rubscope.hbm/1` | what it is |",
             // The second has a speed without a locked motion.
-            vec!["hbm --json", &format!("hbm {soft} 5e5:7e5:3 --json")],
+            vec!["hbm --model full --json", &format!("hbm {soft} 5e5:7e5:3 --json")],
         ),
     ] {
         let commands: Vec<&str> = commands.to_vec();
@@ -95,7 +95,7 @@ fn every_field_of_the_reports_is_in_the_documents() {
     }
     let inclined = "--set bladed_disk.radial_coupling=0.3 --speed";
     for (view, command) in [
-        ("branches", "--branches --damped".to_string()),
+        ("branches", "--branches".to_string()),
         ("slip", "slip --slip --zetas 0.01:0.03:3 --speed 300:500:3".to_string()),
         ("harmonics", "slip --harmonics 2".to_string()),
         ("campbell", "--campbell --speed 0:500:2".to_string()),

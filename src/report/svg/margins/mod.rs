@@ -53,6 +53,7 @@ fn draw(margins: &Margins, origin: &Provenance, height: u32, text: &mut String) 
     page.lines(&margins.scene.title, TITLE, 25)?;
     let conditions = words::conditions(margins).replace('-', "−").replace(" us,", " µs,");
     page.lines(&conditions, TEXT, 19)?;
+    words::note(margins).iter().try_for_each(|note| page.lines(note, TEXT, 19))?;
     page.y += 6;
     row::draw_all(margins, &mut page)?;
     tables::loads(margins, &mut page)?;

@@ -151,6 +151,7 @@ fn chart(
     if app.speed() < 0.0 {
         legend.push(("over |Ω|, turning backwards".into(), quiet));
     }
+    legend.extend(app.tuned_note().map(|note| (note.into(), quiet)));
     let inside = title(app, buffer, at, what.name, &legend);
     let told = match read.filter(|_| large) {
         Some(speed) => (reading(app, speed), Role::Focus),

@@ -128,6 +128,7 @@ fn multipliers(app: &App, buffer: &mut Buffer, at: ViewArea) {
     if app.has_lining() {
         legend.push(("of a rigid casing".into(), quiet));
     }
+    legend.extend(app.tuned_note().map(|note| (note.into(), quiet)));
     if app.speed() < 0.0 {
         legend.push(("over |Ω|, turning backwards".into(), quiet));
     }

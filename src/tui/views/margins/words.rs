@@ -32,6 +32,7 @@ pub fn title(app: &App, width: u16) -> Vec<(String, Style)> {
     line.push((format!("{now} now"), look.style(Role::Focus)));
     line.push((format!("{limit} limit"), look.style(Role::Text)));
     line.push((format!("{lasting} lasts"), look.style(Role::Contact)));
+    line.extend(app.tuned_note().map(|note| (note.to_string(), look.style(Role::Quiet))));
     line
 }
 

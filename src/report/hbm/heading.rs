@@ -1,0 +1,89 @@
+//! What stands above the tables of `rubscope hbm`: the machine, its limits, and what the
+//! numbers are of, in sentences.
+
+use std::io::{Result, Write};
+
+use super::{notes, speeds_of};
+use crate::harmonic::{Form, Sweep};
+use crate::model::Machine;
+use crate::report::number::{count, short};
+use crate::scene::Scene;
+
+/// The heading of one view.
+#[derive(Debug)]
+pub struct Heading<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Its machine as the view has it.
+    pub machine: &'a Machine,
+    /// The speed whose sense of rotation counts \[rad/s\].
+    pub speed: f64,
+    /// Whether the equations have the damping of the scene.
+    pub damped: bool,
+    /// The locked motion, where it is the subject.
+    pub sweep: Option<&'a Sweep>,
+}
+
+impl Heading<'_> {
+    /// Describes the machine and the blades that hold the wave, one fact per line.
+    ///
+    /// # Errors
+    /// An error of the writer.
+    pub fn write(&self, out: &mut dyn Write) -> Result<()> {
+        let Self { scene, machine, speed, damped, sweep } = *self;
+        if !scene.title.is_empty() {
+            writeln!(out, "{}", scene.title)?;
+        }
+        let polygon = &machine.polygon;
+        writeln!(
+            out,
+            "{} blades, {}: {} phase groups of {}, clearance {} m.",
+            polygon.blades,
+            count(u64::from(polygon.nodal_diameters), "nodal diameter"),
+            polygon.sides,
+            count(u64::from(polygon.blades_per_side), "blade"),
+            short(machine.clearance())
+        )?;
+        if let Some(critical) = machine.critical_speed() {
+            write!(out, "Critical speed {} rad/s", short(critical))?;
+            let lock_of = |machine: &Machine| machine.lock_window(speed).map(speeds_of);
+            let zeta = short(machine.casing_damping_ratio);
+            match lock_of(machine) {
+                Some(lock) if !damped => {
+                    let without = lock_of(&machine.clone().undamped()).unwrap_or_default();
+                    let words = "rad/s without damping";
+                    write!(out, ", lock-in from {without} {words}, {lock} with zeta_c = {zeta}")?;
+                }
+                Some(lock) => write!(out, ", lock-in from {lock} rad/s (zeta_c = {zeta})")?,
+                None => {}
+            }
+            if let Some(dangerous) = machine.dangerous_speed_toward(speed) {
+                write!(out, ", dangerous coincidence {} rad/s", short(dangerous))?;
+            }
+            writeln!(out, ".")?;
+        }
+        if let Some(sweep) = sweep {
+            let name = |side| {
+                let list: Vec<String> =
+                    polygon.blades_of_side(side).iter().map(|blade| format!("#{blade}")).collect();
+                list.join(" ")
+            };
+            let damping = match (sweep.damped, sweep.form) {
+                (true, _) => "damped",
+                (false, Form::Printed) => "undamped as in the paper",
+                (false, _) => "undamped",
+            };
+            writeln!(
+                out,
+                "Locked motion held between a: {} and b: {}; form {}, {damping}. A negative multiplier pushes; a positive one pulls, which a real contact cannot do.",
+                name(sweep.corner.a),
+                name(sweep.corner.b),
+                sweep.form,
+            )?;
+        }
+        for note in notes(scene, machine) {
+            writeln!(out, "These numbers are {note}.")?;
+        }
+        Ok(())
+    }
+}
