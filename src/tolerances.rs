@@ -79,47 +79,6 @@ pub(crate) const WAVE_LOOKS: f64 = 100_000.0;
 /// taken for its opposite.
 pub(crate) const WAVE_LOOKS_A_TURN: f64 = 16.0;
 
-/// How many times the effect of a tiny change a decision must be away from a tie
-/// for the run to be certain. One: three in a hundred thousand runs are taken for
-/// certain that are not, at 0.3 thirty times as many. More: runs are made that find
-/// nothing.
-pub(crate) const TIE: f64 = 5.0;
-
-/// Part of its size up to which the sign of a value decides nothing certain: the
-/// round-off of two runs, with four digits in hand.
-pub(crate) const RIGID_TIE: f64 = 1e-11;
-
-/// As `RIGID_TIE`, where blades move, of which the derivative takes no notice: in
-/// the paper's scenes they shift gaps and pushes by 1e-7 of themselves. Smaller: a
-/// decision that the blades make is missed.
-pub(crate) const MOVING_TIE: f64 = 1e-6;
-
-/// As a part of the clearance, how much further than their phase blades may move what
-/// decides at the end of a run. Smaller: a contact there is taken for certain.
-pub(crate) const TURNED_TIE: f64 = 4.0;
-
-/// Part of an excursion along a side up to which its end is a tie.
-pub(crate) const TIE_EXCURSION: f64 = 1e-9;
-
-/// Parts of half a radian, at most, of a way along a side in which it is asked where the
-/// motion turns. Fewer: of two turns under a pulse the nearer to an end may be missed.
-pub(crate) const TURNS_SOUGHT: f64 = 1000.0;
-
-/// Mass ratio of the blades in a corner up to which the casing is followed as if
-/// they were rigid.
-pub(crate) const LIGHTEST_BLADES: f64 = 1e-6;
-
-/// Phase of the blades up to which it is \[rad\].
-pub(crate) const TIE_BLADES: f64 = 1e-4;
-
-/// Gaps up to this many times the reach of a change, as they are foreseen at a look, are
-/// asked for a near miss. Smaller: what a look foresees may be a little more.
-pub(crate) const NEAR_MISS_REACH: f64 = 30.0;
-
-/// Steps from a look to the least gap of a side that is nearly missed: each has twice
-/// the digits.
-pub(crate) const NEAR_MISS_STEPS: usize = 3;
-
 // Contact.
 
 /// Part of the gaps that round-off may leave open before the equations of a

@@ -33,7 +33,7 @@ pub use run::{
     run_to_end, run_to_verdict, simulate, simulate_with, verdict_of,
 };
 pub use script::{Change, Script};
-pub use sensitivity::{Certainty, Suspect, is_sensitive, run_with_certainty, run_with_sensitivity};
+pub use sensitivity::{is_sensitive, run_with_sensitivity};
 pub use solver::{GoOn, Motion, Solver, to_the_end};
 pub use verdict::{Checks, Contact, Outcome, Verdict};
 

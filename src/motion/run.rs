@@ -8,9 +8,7 @@ use serde::Serialize;
 use super::script::{Script, Scripted};
 use super::sensitivity::{is_sensitive, sign};
 use super::wave::WaveTracker;
-use super::{
-    Certainty, Checks, Contact, EnergyLedger, GoOn, Motion, Outcome, State, Verdict, to_the_end,
-};
+use super::{Checks, Contact, EnergyLedger, GoOn, Motion, Outcome, State, Verdict, to_the_end};
 use crate::scene::{CheckedScene, ContactLaw, ModelSize, SolverKind};
 use crate::tolerances::{LAST_PART, RUN_LOOKS};
 
@@ -147,31 +145,19 @@ impl VerdictReached {
 #[must_use]
 pub fn run_to_verdict(scene: &CheckedScene, go_on: GoOn<'_>) -> Option<VerdictReached> {
     let end = scene.solver.end_s;
-    run_motion_to_verdict(Motion::new(scene), &Script::default(), end, Noise::None, go_on)
-        .map(|(reached, _)| reached)
-}
-
-/// What happens to the rate of a run once a casing period.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Noise {
-    /// Nothing.
-    None,
-    /// It changes by this part.
-    Rate(f64),
-    /// Nothing, but the run tells whether it would matter.
-    Carried,
+    run_motion_to_verdict(Motion::new(scene), &Script::default(), end, None, go_on)
 }
 
 /// Runs a motion through a script until its verdict is settled, at most to
-/// `end`, with `noise` up or down once a casing period; and how certain it is. None
-/// where `go_on` said no on the way.
+/// `end`; where there is `noise`, its rate changes by this part, up or down, once a
+/// casing period. None where `go_on` said no on the way.
 pub(super) fn run_motion_to_verdict(
     motion: Motion,
     script: &Script,
     end: f64,
-    noise: Noise,
+    noise: Option<f64>,
     go_on: GoOn<'_>,
-) -> Option<(VerdictReached, Certainty)> {
+) -> Option<VerdictReached> {
     // Looking costs little against one casing period of motion.
     let interval = (TAU / motion.machine().omega_c).max(end / RUN_LOOKS);
     let mut scripted = Scripted::new(motion, script);
@@ -188,15 +174,11 @@ pub(super) fn run_motion_to_verdict(
             Ok(true) if scripted.is_through() => scripted.motion.final_verdict(),
             Ok(true) => None,
         };
-        match noise {
-            Noise::None => {}
-            Noise::Rate(part) => scripted.motion.scale_rate(1.0 + part * sign(looks)),
-            Noise::Carried if verdict.is_none() => scripted.motion.vary_rate(sign(looks)),
-            Noise::Carried => {}
+        if let (None, Some(part)) = (verdict, noise) {
+            scripted.motion.scale_rate(1.0 + part * sign(looks));
         }
     }
-    let motion = &scripted.motion;
-    Some((VerdictReached::of(motion, verdict?), motion.certainty()))
+    Some(VerdictReached::of(&scripted.motion, verdict?))
 }
 
 /// The verdict on a motion now: the proven one, or that over the last

@@ -3,8 +3,11 @@
 //! because two in one run may cancel.
 
 use std::f64::consts::TAU;
+use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::run::{Noise, VerdictReached, run_motion_to_verdict};
+use rayon::prelude::*;
+
+use super::run::{VerdictReached, run_motion_to_verdict, run_to_verdict};
 use super::script::{Change, Script};
 use super::{GoOn, Motion};
 use crate::scene::CheckedScene;
@@ -22,9 +25,21 @@ impl VerdictReached {
     }
 }
 
+/// As `run_to_verdict`, and whether the run is sensitive.
+#[must_use]
+pub fn run_with_sensitivity(
+    scene: &CheckedScene,
+    go_on: GoOn<'_>,
+) -> Option<(VerdictReached, bool)> {
+    let reached = run_to_verdict(scene, go_on)?;
+    let sensitive = is_sensitive(scene, &Script::default(), reached, go_on)?;
+    Some((reached, sensitive))
+}
+
 /// Whether a tiny change makes another verdict, or another number of impacts, of
 /// a checked scene with changes that settled so; none where `go_on` said no on
-/// the way.
+/// the way. Idle threads of the pool that asks take some of the runs, and the first
+/// that disagrees ends the others.
 #[must_use]
 pub fn is_sensitive(
     scene: &CheckedScene,
@@ -32,79 +47,50 @@ pub fn is_sensitive(
     reached: VerdictReached,
     go_on: GoOn<'_>,
 ) -> Option<bool> {
-    differs(scene, script, reached, Suspect::ALL, go_on)
-}
-
-/// The verdict of a checked scene, and whether it is sensitive: as by
-/// `run_to_verdict` and `is_sensitive`, but a run that tells that no tiny change can
-/// matter is the only one.
-#[must_use]
-pub fn run_with_sensitivity(
-    scene: &CheckedScene,
-    go_on: GoOn<'_>,
-) -> Option<(VerdictReached, bool)> {
-    let (reached, certainty) = run_with_certainty(scene, go_on)?;
-    let suspects = match certainty {
-        Certainty::Certain => return Some((reached, false)),
-        Certainty::Doubtful(suspects) => suspects,
-        Certainty::Unknown => Suspect::ALL,
-    };
-    let sensitive = differs(scene, &Script::default(), reached, suspects, go_on)?;
-    Some((reached, sensitive))
-}
-
-/// As `run_to_verdict`, and whether a tiny change could make another verdict, as the
-/// run itself tells.
-#[must_use]
-pub fn run_with_certainty(
-    scene: &CheckedScene,
-    go_on: GoOn<'_>,
-) -> Option<(VerdictReached, Certainty)> {
-    let (mut motion, end) = (Motion::new(scene), scene.solver.end_s);
-    motion.carry_variation(end);
-    run_motion_to_verdict(motion, &Script::default(), end, Noise::Carried, go_on)
-}
-
-/// Whether one of these changes, tried in this order, makes another run.
-fn differs(
-    scene: &CheckedScene,
-    script: &Script,
-    reached: VerdictReached,
-    suspects: [Suspect; 3],
-    go_on: GoOn<'_>,
-) -> Option<bool> {
-    let end = scene.solver.end_s;
     let moment = LOCK_MOMENT * TAU / scene.machine().omega_c;
-    for suspect in suspects {
-        let (noise, script) = match suspect {
-            Suspect::Noise => (Noise::Rate(PERTURBATION), script.clone()),
-            _ => (Noise::None, script.mapped(|change| suspect.change(change))),
-        };
-        let (other, _) =
-            run_motion_to_verdict(Motion::changed(scene, suspect), &script, end, noise, go_on)?;
-        if other.differs_from(reached, moment) {
-            return Some(true);
-        }
-    }
-    Some(false)
+    let found = AtomicBool::new(false);
+    let undecided = || !found.load(Ordering::Relaxed) && go_on();
+    let agrees = |suspect: &Suspect| {
+        let other = suspect.run(scene, script, &undecided);
+        let differs = other.is_some_and(|other| other.differs_from(reached, moment));
+        found.fetch_or(differs, Ordering::Relaxed);
+        other.is_some() && !differs
+    };
+    let all_agree = match rayon::current_thread_index() {
+        Some(_) => Suspect::ALL.par_iter().with_max_len(1).all(agrees),
+        None => Suspect::ALL.iter().all(agrees),
+    };
+    // A run that was told to stop has said nothing.
+    if found.load(Ordering::Relaxed) { Some(true) } else { all_agree.then_some(false) }
 }
 
-impl Motion {
-    /// The motion of a scene at t = 0 with a tiny change.
-    fn changed(scene: &CheckedScene, suspect: Suspect) -> Self {
-        if suspect == Suspect::Noise {
-            let mut motion = Self::new(scene);
-            motion.scale_tolerance(FINER);
-            motion
-        } else {
-            Self::new(&perturbed(scene, suspect.factor()))
-        }
-    }
+/// A tiny change of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Suspect {
+    /// The noise.
+    Noise,
+    /// A stronger pulse.
+    Stronger,
+    /// A weaker pulse.
+    Weaker,
 }
 
 impl Suspect {
-    /// Every change that a certain run does not notice.
-    pub const ALL: [Self; 3] = [Self::Stronger, Self::Weaker, Self::Noise];
+    /// All of them, first the one that finds most.
+    const ALL: [Self; 3] = [Self::Noise, Self::Stronger, Self::Weaker];
+
+    /// How a run with this change lasts.
+    fn run(self, scene: &CheckedScene, script: &Script, go_on: GoOn<'_>) -> Option<VerdictReached> {
+        let end = scene.solver.end_s;
+        if self == Self::Noise {
+            let mut motion = Motion::new(scene);
+            motion.scale_tolerance(FINER);
+            return run_motion_to_verdict(motion, script, end, Some(PERTURBATION), go_on);
+        }
+        let motion = Motion::new(&perturbed(scene, self.factor()));
+        let script = script.mapped(|change| self.change(change));
+        run_motion_to_verdict(motion, &script, end, None, go_on)
+    }
 
     /// What drives the run is multiplied by this.
     fn factor(self) -> f64 {
@@ -124,28 +110,6 @@ impl Suspect {
             other => other,
         }
     }
-}
-
-/// A tiny change of a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Suspect {
-    /// A stronger pulse.
-    Stronger,
-    /// A weaker pulse.
-    Weaker,
-    /// The noise.
-    Noise,
-}
-
-/// Whether a tiny change of a run could make another verdict.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Certainty {
-    /// It was not asked, or the run is not of a kind that can tell.
-    Unknown,
-    /// It cannot.
-    Certain,
-    /// One of these may, the first before the others.
-    Doubtful([Suspect; 3]),
 }
 
 /// The scene with what drives it multiplied by `factor`: the pulse, or without

@@ -8,8 +8,7 @@ use super::coupled::{Coupled, FullTips, ModalTips, RigidTips};
 use super::explicit::{Explicit, FullBlades, ModalBlades, RigidBlades};
 use super::verdict::judge;
 use super::{
-    Certainty, Checks, ContactLog, EnergyLedger, Event, Failure, Joined, Plane, Pulse, Rotor,
-    State, Verdict,
+    Checks, ContactLog, EnergyLedger, Event, Failure, Joined, Plane, Pulse, Rotor, State, Verdict,
 };
 use crate::model::Machine;
 use crate::scene::{CheckedScene, ModelSize, SolverKind};
@@ -190,19 +189,6 @@ pub trait Solver: Debug + Send + Sync {
 
     /// Multiplies the solver's own tolerance by `factor`, if it has one.
     fn scale_tolerance(&mut self, _factor: f64) {}
-
-    /// From its start on, finds out whether a tiny change could make another verdict
-    /// of the run to `end` \[s\], if the solver can. The motion is the same.
-    fn carry_variation(&mut self, _end: f64) {}
-
-    /// As `scale_rate`, only in what `carry_variation` carries: the noise has this
-    /// sign now.
-    fn vary_rate(&mut self, _sign: f64) {}
-
-    /// What `carry_variation` has found.
-    fn certainty(&self) -> Certainty {
-        Certainty::Unknown
-    }
 
     /// A copy that goes its own way.
     fn fork(&self) -> Box<dyn Solver>;

@@ -42,7 +42,7 @@ pub(super) struct Free {
 
 /// Second and third derivative of a flight in the standing frame, ready to be seen
 /// from sides that turn.
-pub(super) struct Bends {
+struct Bends {
     u: Plane,
     v: Plane,
     second: Plane,
@@ -50,7 +50,7 @@ pub(super) struct Bends {
 }
 
 impl Bends {
-    pub(super) fn new(parameters: &Parameters, drive: &Drive, u: Plane, v: Plane) -> Self {
+    fn new(parameters: &Parameters, drive: &Drive, u: Plane, v: Plane) -> Self {
         let (c, k) = (parameters.damping, parameters.propagator.stiffness);
         let second = Plane::new(drive.pulse, 0.0) - v * (2.0 * c) - u * k;
         Self { u, v, second, third: -second * (2.0 * c) - v * k }
@@ -58,7 +58,7 @@ impl Bends {
 
     /// As a frame sees them that turns with `nu` and its next two derivatives, in the
     /// directions of the standing frame.
-    pub(super) fn turned(&self, nu: f64, nu_rate: f64, nu_bend: f64) -> [Plane; 2] {
+    fn turned(&self, nu: f64, nu_rate: f64, nu_bend: f64) -> [Plane; 2] {
         let Self { u, v, second: a, third } = *self;
         let i = Plane::i();
         let second = a - i * v * (2.0 * nu) - u * Plane::new(nu * nu, nu_rate);

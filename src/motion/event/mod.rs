@@ -12,10 +12,6 @@
 //! and the next mode follows from plastic impact and from the pushes by cases
 //! (`transitions`), so that no event is found twice.
 //!
-//! Where it is asked, the derivative of the motion is carried along (`variation`),
-//! and each decision is asked how nearly it was another one (`decisions`, `misses`,
-//! `ties`).
-//!
 //! A segment is always evaluated from its start, never from an output time:
 //! where one looks does not change the motion, not by one bit.
 
@@ -26,27 +22,23 @@ mod bounds;
 mod corner;
 mod corner_contact;
 mod corner_series;
-mod decisions;
 pub(in crate::motion) mod energy_balance;
 mod free;
 mod impact;
-mod misses;
 mod parameters;
 mod rise;
 mod rocking;
 mod side_series;
 mod slide;
 pub(in crate::motion) mod terms;
-mod ties;
 mod transitions;
-mod variation;
 
 mod mode;
 mod segment;
 
 use crate::model::Machine;
 use crate::motion::{
-    Certainty, Checks, ContactLog, Failure, GoOn, Pulse, Rotor, Solver, State, Verdict, to_the_end,
+    Checks, ContactLog, Failure, GoOn, Pulse, Rotor, Solver, State, Verdict, to_the_end,
 };
 use crate::scene::{CheckedScene, SceneError};
 
@@ -57,7 +49,6 @@ use energy_balance::EnergyBalance;
 use mode::{Mode, What};
 use parameters::{Drive, Parameters};
 use segment::Passage;
-use variation::Variation;
 
 /// The event-driven solver of one scene, at some instant of its motion.
 ///
@@ -99,8 +90,6 @@ pub struct Event {
     failure: Option<Failure>,
     /// Series of a rocking motion, once one was looked for.
     tables: Option<Box<rocking::Tables>>,
-    /// How the run would change, where that is asked.
-    variation: Option<Box<Variation>>,
 }
 
 impl Event {
@@ -146,7 +135,6 @@ impl Event {
             tips: Tips::default(),
             failure: None,
             tables: None,
-            variation: None,
         };
         event.drive = event.drive_now(0.0);
         event.begin(place, rate);
@@ -314,20 +302,6 @@ impl Solver for Event {
         if free && !self.over() {
             self.intervene_scaled(factor, |_| {});
         }
-    }
-
-    fn carry_variation(&mut self, end: f64) {
-        self.carry(end);
-    }
-
-    fn vary_rate(&mut self, sign: f64) {
-        if !self.over() {
-            self.add_noise(sign);
-        }
-    }
-
-    fn certainty(&self) -> Certainty {
-        self.certain()
     }
 
     fn events(&self) -> Option<u64> {

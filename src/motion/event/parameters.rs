@@ -155,11 +155,6 @@ impl Drive {
         parameters.direction(side) * Plane::cis(self.phase(s)) * self.pulse
     }
 
-    /// `exp(i beta)` of a side, the direction that opens its gap, `s` seconds on.
-    pub(super) fn inward(&self, parameters: &Parameters, side: u32, s: f64) -> Plane {
-        parameters.direction(side) * Plane::cis(self.phase(s))
-    }
-
     /// Whether neither pulse nor ramp acts.
     pub(super) fn steady(&self) -> bool {
         self.pulse == 0.0 && self.nu_rate == 0.0

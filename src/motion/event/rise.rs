@@ -8,39 +8,16 @@ use super::parameters::Parameters;
 use crate::motion::Plane;
 use crate::tolerances::RISE_MARGIN;
 
-/// The square of the distance of a casing that swings freely. But for damping, which
-/// only makes it smaller, it is a constant and one wave of twice the frequency.
-struct Swing {
-    mean: f64,
-    /// Parts of the wave with the cosine and the sine.
-    cos: f64,
-    sin: f64,
-    wave: f64,
-}
-
-impl Swing {
-    fn new(parameters: &Parameters, swing: f64, u: Plane, v: Plane) -> Self {
-        let w = (v + u * parameters.damping) / swing;
-        let (place, rate) = (u.norm_sqr(), w.norm_sqr());
-        let (cos, sin) = (0.5 * (place - rate), dot(u, w));
-        Self { mean: 0.5 * (place + rate), cos, sin, wave: (cos * cos + sin * sin).sqrt() }
-    }
-
-    fn most(&self) -> f64 {
-        self.mean + self.wave
-    }
-}
-
-/// How far a casing that swings freely from here can come \[m\].
-pub(super) fn farthest(parameters: &Parameters, swing: f64, u: Plane, v: Plane) -> f64 {
-    Swing::new(parameters, swing, u, v).most().sqrt()
-}
-
 /// Time over which a casing that swings freely stays within the clearance \[s\]: where
 /// it rises to it is known.
 pub(super) fn rise(parameters: &Parameters, swing: f64, u: Plane, v: Plane) -> f64 {
-    let square = Swing::new(parameters, swing, u, v);
-    let most = square.most();
+    // The square of its distance: but for damping, which only makes it smaller, a constant
+    // and one wave of twice the frequency.
+    let w = (v + u * parameters.damping) / swing;
+    let (place, rate) = (u.norm_sqr(), w.norm_sqr());
+    let (mean, cos, sin) = (0.5 * (place + rate), 0.5 * (place - rate), dot(u, w));
+    let wave = (cos * cos + sin * sin).sqrt();
+    let most = mean + wave;
     let room = parameters.clearance * parameters.clearance - RISE_MARGIN * most;
     if most < room {
         return f64::INFINITY;
@@ -49,7 +26,6 @@ pub(super) fn rise(parameters: &Parameters, swing: f64, u: Plane, v: Plane) -> f
         // Round-off does not tell whether it rises or falls through.
         return 0.0;
     }
-    let Swing { mean, cos, sin, wave, .. } = square;
     let angle = sin.atan2(cos) - ((room - mean) / wave).clamp(-1.0, 1.0).acos();
     angle.rem_euclid(TAU) / (2.0 * swing)
 }

@@ -66,11 +66,7 @@ impl Event {
         };
         match reason {
             Some(reason) => _ = self.fail(s, reason),
-            None => {
-                let crossing = self.before_event(s, what);
-                self.pass(s, what);
-                self.after_event(crossing);
-            }
+            None => self.pass(s, what),
         }
         self.failure.clone().map_or(Ok(Passage::Passed), Err)
     }
@@ -128,10 +124,7 @@ impl Event {
                 return Sought::Nothing;
             }
             match self.mode.look(&self.parameters, &self.drive, self.safe, end) {
-                Next::Until(later) => {
-                    self.at_look(self.safe, later);
-                    self.safe = later.min(end);
-                }
+                Next::Until(later) => self.safe = later.min(end),
                 Next::Now(what) => self.found = Some((self.safe, what)),
             }
         }
@@ -194,7 +187,6 @@ impl Event {
         if self.failure.is_some() {
             return;
         }
-        self.variation = None;
         let s = self.elapsed(self.now);
         let side = self.mode.along(&self.parameters, &self.drive, s);
         let (place, mut rate) = self.mode.seen_by_rotor(&self.parameters, &self.drive, s, side);
