@@ -107,7 +107,7 @@ fn harmonic(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// A cell of a map, alone and with the three runs that find out whether it is
+/// A cell of a map, alone and with the runs that find out whether it is
 /// sensitive.
 fn map(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("map");

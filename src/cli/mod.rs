@@ -10,6 +10,7 @@ mod hbm;
 mod hbm_joined;
 mod hbm_lining;
 mod hbm_views;
+mod long_run;
 mod man;
 mod map;
 mod map_run;

@@ -158,6 +158,9 @@ impl SceneOptions {
             }
         }
         let scene = scene.checked()?;
+        if !swept.speed {
+            scene.slides()?;
+        }
         made.iter().for_each(|made| note(followed(made)));
         Ok(Resolved { scene, speeds, pulses })
     }

@@ -6,12 +6,13 @@ use std::time::Instant;
 
 use clap::Args;
 
+use super::long_run::LongRun;
 use super::options::SceneOptions;
 use super::script::{self, RequestedScript};
 use super::status::{self, Refusal, Status};
 use super::{Done, output};
-use crate::motion::{Sampling, Verdict, is_sensitive, run_to_end, to_the_end};
-use crate::report::{CommandLine, History, Provenance, json, npz, summary};
+use crate::motion::{CHANGED_RUNS, Sample, Sampling, Verdict, run_to_end_watched, to_the_end};
+use crate::report::{CommandLine, History, Provenance, Wall, json, npz, summary};
 use crate::scene::Scene;
 
 /// Simulate a scene in time and report how it ends.
@@ -35,6 +36,9 @@ pub struct RunCommand {
     /// Change the running motion: TIME:PATH=VALUE or TIME:pulse, TIME in seconds; repeatable
     #[arg(long, value_name = "TIME:CHANGE", allow_hyphen_values = true)]
     at: Vec<String>,
+    /// Do not find out whether the run is sensitive and which digits hold: one run, not several
+    #[arg(long)]
+    no_sensitivity: bool,
 }
 
 impl RunCommand {
@@ -62,15 +66,23 @@ impl RunCommand {
             None => Sampling::default(),
         };
         status::say_noted();
+        let changed_runs = if self.no_sensitivity { 0 } else { CHANGED_RUNS };
+        let mut shown = LongRun::of(&scene, changed_runs);
         let started = Instant::now();
-        let mut report = run_to_end(&scene, &acts, sampling, &mut |sample| history.push(sample));
-        let wall_s = started.elapsed().as_secs_f64();
-        let sensitive = is_sensitive(&scene, &acts, report.reached, &to_the_end);
-        report.outcome.sensitive = sensitive.unwrap_or(false);
+        let mut sink = |sample: &Sample| history.push(sample);
+        let mut report = run_to_end_watched(&scene, &acts, sampling, &mut sink, &mut shown);
+        let mut wall = Wall { run_s: started.elapsed().as_secs_f64(), certainty_s: None };
+        if changed_runs > 0 {
+            shown.begin_changed_runs();
+            let started = Instant::now();
+            report.ask_changed_runs(&acts, &to_the_end);
+            wall.certainty_s = Some(started.elapsed().as_secs_f64());
+        }
+        drop(shown);
         let changes = Some(&script).filter(|script| !script.is_empty());
         let command = self.command(&scene);
         if self.json {
-            json::write_run(&report, &command, wall_s, changes, out)?;
+            json::write_run(&report, &command, wall, changes, out)?;
         }
         if let Some((path, format)) = path {
             let samples = format!("{} samples", history.len());
@@ -85,7 +97,7 @@ impl RunCommand {
             output::save_or(path, &samples, out, content, &csv)?;
         }
         if !self.json {
-            summary::write(&report, wall_s, out)?;
+            summary::write(&report, wall, out)?;
             if let Some(script) = changes {
                 writeln!(out, "Changed during the run: {script}.")?;
             }
@@ -99,6 +111,7 @@ impl RunCommand {
     /// The command that gives the same result again.
     fn command(&self, scene: &Scene) -> CommandLine {
         let start = CommandLine::new("run", scene);
-        self.at.iter().fold(start, |line, change| line.option("--at", change))
+        let line = self.at.iter().fold(start, |line, change| line.option("--at", change));
+        line.flag("--no-sensitivity", self.no_sensitivity)
     }
 }

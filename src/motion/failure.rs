@@ -18,6 +18,12 @@ pub struct Failure {
 }
 
 impl Failure {
+    /// In words for a motion that is no breakdown of the computation.
+    #[must_use]
+    pub fn as_growth(&self) -> String {
+        format!("left the range of the model at t = {:e} s: {}", self.t_s, self.reason)
+    }
+
     /// The verdict on a motion beyond the paper that stopped so: growth that nothing
     /// bounds is what such a machine does, and no breakdown of the computation. What the
     /// pulse itself throws so far is not growth.

@@ -17,6 +17,7 @@ mod run;
 mod script;
 mod sensitivity;
 mod solver;
+mod spread;
 mod trend;
 pub mod verdict;
 mod wave;
@@ -29,12 +30,13 @@ pub use failure::{Failure, FailureReason};
 pub use free_flight::FreeFlight;
 pub use joined::Joined;
 pub use run::{
-    FinalState, ImpactReport, RunReport, Sample, Sampling, SolverReport, VerdictReached,
-    run_to_end, run_to_verdict, simulate, simulate_with, verdict_of,
+    FinalState, ImpactReport, RunReport, Sample, Sampling, SolverReport, VerdictReached, Watch,
+    run_to_end, run_to_end_watched, run_to_verdict, simulate, simulate_with, verdict_of,
 };
 pub use script::{Change, Script};
-pub use sensitivity::{is_sensitive, run_with_sensitivity};
+pub use sensitivity::{CHANGED_RUNS, is_sensitive, run_with_sensitivity};
 pub use solver::{GoOn, Motion, Solver, to_the_end};
+pub use spread::Spread;
 pub use verdict::{Checks, Contact, Outcome, Verdict};
 
 /// A point or vector of the plane of the two casing coordinates.

@@ -6,9 +6,11 @@ use std::f64::consts::TAU;
 use serde::Serialize;
 
 use super::script::{Script, Scripted};
-use super::sensitivity::{is_sensitive, sign};
+use super::sensitivity::sign;
 use super::wave::WaveTracker;
-use super::{Checks, Contact, EnergyLedger, GoOn, Motion, Outcome, State, Verdict, to_the_end};
+use super::{
+    Checks, Contact, EnergyLedger, Failure, GoOn, Motion, Outcome, State, Verdict, to_the_end,
+};
 use crate::scene::{CheckedScene, ContactLaw, ModelSize, SolverKind};
 use crate::tolerances::{LAST_PART, RUN_LOOKS};
 
@@ -145,19 +147,22 @@ impl VerdictReached {
 #[must_use]
 pub fn run_to_verdict(scene: &CheckedScene, go_on: GoOn<'_>) -> Option<VerdictReached> {
     let end = scene.solver.end_s;
-    run_motion_to_verdict(Motion::new(scene), &Script::default(), end, None, go_on)
+    let mut wave = WaveTracker::of_none();
+    run_motion_to_verdict(Motion::new(scene), &Script::default(), end, None, &mut wave, go_on)
+        .map(|(motion, verdict)| VerdictReached::of(&motion, verdict))
 }
 
 /// Runs a motion through a script until its verdict is settled, at most to
-/// `end`; where there is `noise`, its rate changes by this part, up or down, once a
-/// casing period. None where `go_on` said no on the way.
+/// `end`, and looks at its wave; where there is `noise`, its rate changes by this part,
+/// up or down, once a casing period. None where `go_on` said no on the way.
 pub(super) fn run_motion_to_verdict(
     motion: Motion,
     script: &Script,
     end: f64,
     noise: Option<f64>,
+    wave: &mut WaveTracker,
     go_on: GoOn<'_>,
-) -> Option<VerdictReached> {
+) -> Option<(Motion, Verdict)> {
     // Looking costs little against one casing period of motion.
     let interval = (TAU / motion.machine().omega_c).max(end / RUN_LOOKS);
     let mut scripted = Scripted::new(motion, script);
@@ -167,7 +172,7 @@ pub(super) fn run_motion_to_verdict(
     while verdict.is_none() {
         looks += 1;
         let until = (looks as f64 * interval).min(end);
-        verdict = match scripted.advance_while(until, go_on) {
+        verdict = match advance_looking(&mut scripted, wave, until, go_on) {
             Err(_) => scripted.motion.final_verdict().or(Some(Verdict::Failed)),
             Ok(false) => return None,
             Ok(true) if until >= end => Some(verdict_of(&scripted.motion, LAST_PART * end)),
@@ -178,7 +183,23 @@ pub(super) fn run_motion_to_verdict(
             scripted.motion.scale_rate(1.0 + part * sign(looks));
         }
     }
-    Some(VerdictReached::of(&scripted.motion, verdict?))
+    Some((scripted.motion, verdict?))
+}
+
+/// Advances to `until`, and looks at the wave on the way.
+fn advance_looking(
+    scripted: &mut Scripted<'_>,
+    wave: &mut WaveTracker,
+    until: f64,
+    go_on: GoOn<'_>,
+) -> Result<bool, Failure> {
+    while wave.next_look() <= until {
+        if !scripted.advance_while(wave.next_look(), go_on)? {
+            return Ok(false);
+        }
+        wave.look(scripted.motion.state());
+    }
+    scripted.advance_while(until, go_on)
 }
 
 /// The verdict on a motion now: the proven one, or that over the last
@@ -202,18 +223,47 @@ pub fn simulate_with(
     sink: &mut dyn FnMut(&Sample),
 ) -> RunReport {
     let mut report = run_to_end(scene, script, sampling, sink);
-    report.outcome.sensitive =
-        is_sensitive(scene, script, report.reached, &to_the_end).unwrap_or(false);
+    report.ask_changed_runs(script, &to_the_end);
     report
 }
 
 /// As `simulate_with`, without the runs that find out whether the outcome is
-/// sensitive: it is reported as not sensitive.
+/// sensitive, and which digits hold.
 pub fn run_to_end(
     scene: &CheckedScene,
     script: &Script,
     sampling: Sampling,
     sink: &mut dyn FnMut(&Sample),
+) -> RunReport {
+    run_to_end_watched(scene, script, sampling, sink, &mut Unwatched)
+}
+
+/// Looks at a run on the way, when it wants to. The run is the same.
+pub trait Watch: Sync {
+    /// Whether the run may go on: no look is due.
+    fn goes_on(&self) -> bool;
+
+    /// Looks at it, and lets it go on.
+    fn look(&mut self, motion: &Motion);
+}
+
+struct Unwatched;
+
+impl Watch for Unwatched {
+    fn goes_on(&self) -> bool {
+        true
+    }
+
+    fn look(&mut self, _: &Motion) {}
+}
+
+/// As `run_to_end`, and looked at on the way.
+pub fn run_to_end_watched(
+    scene: &CheckedScene,
+    script: &Script,
+    sampling: Sampling,
+    sink: &mut dyn FnMut(&Sample),
+    watch: &mut dyn Watch,
 ) -> RunReport {
     let mut scripted = Scripted::new(Motion::new(scene), script);
     let end = scene.solver.end_s;
@@ -226,7 +276,13 @@ pub fn run_to_end(
             n => end * (f64::from(sample) / f64::from(n)),
         };
         let until = sample_time.min(wave.next_look()).min(end);
-        if scripted.advance_while(until, &to_the_end).is_err() {
+        let advanced = loop {
+            match scripted.advance_while(until, &|| watch.goes_on()) {
+                Ok(false) => watch.look(&scripted.motion),
+                other => break other,
+            }
+        };
+        if advanced.is_err() {
             break;
         }
         if until >= wave.next_look() {
@@ -259,7 +315,8 @@ fn take_sample(motion: &mut Motion, gaps: bool) -> Sample {
     }
 }
 
-fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) -> RunReport {
+/// What there is to say of a motion at the end of its run.
+pub(super) fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) -> RunReport {
     let machine = motion.machine();
     let polygon = &machine.polygon;
     let (log, state) = (motion.contacts(), motion.state());
@@ -274,8 +331,9 @@ fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) -> RunRepor
     };
     let outcome = Outcome {
         verdict,
-        sensitive: false,
-        message: motion.failure().map(ToString::to_string),
+        sensitive: None,
+        spread: None,
+        message: motion.stopped(),
         lock_time_s: locked.then_some(log.since),
         contacts: motion
             .multipliers()

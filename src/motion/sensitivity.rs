@@ -1,4 +1,4 @@
-//! Can a verdict be trusted? It is asked three times more, with changes that no
+//! Can a verdict be trusted? It is asked four times more, with changes that no
 //! measurement could see (docs/theory.md, section 9). Each change has a separate run,
 //! because two in one run may cancel.
 
@@ -7,9 +7,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
 
-use super::run::{VerdictReached, run_motion_to_verdict, run_to_verdict};
+use super::run::{VerdictReached, report, run_motion_to_verdict, run_to_verdict};
 use super::script::{Change, Script};
-use super::{GoOn, Motion};
+use super::wave::WaveTracker;
+use super::{GoOn, Motion, RunReport, Spread, Verdict};
 use crate::scene::CheckedScene;
 use crate::tolerances::{FINER, LOCK_MOMENT, PERTURBATION};
 
@@ -47,14 +48,17 @@ pub fn is_sensitive(
     reached: VerdictReached,
     go_on: GoOn<'_>,
 ) -> Option<bool> {
-    let moment = LOCK_MOMENT * TAU / scene.machine().omega_c;
+    let moment = moment(scene);
     let found = AtomicBool::new(false);
     let undecided = || !found.load(Ordering::Relaxed) && go_on();
     let agrees = |suspect: &Suspect| {
-        let other = suspect.run(scene, script, &undecided);
-        let differs = other.is_some_and(|other| other.differs_from(reached, moment));
+        let mut wave = WaveTracker::of_none();
+        let Some((motion, verdict)) = suspect.run(scene, script, &mut wave, &undecided) else {
+            return false;
+        };
+        let differs = VerdictReached::of(&motion, verdict).differs_from(reached, moment);
         found.fetch_or(differs, Ordering::Relaxed);
-        other.is_some() && !differs
+        !differs
     };
     let all_agree = match rayon::current_thread_index() {
         Some(_) => Suspect::ALL.par_iter().with_max_len(1).all(agrees),
@@ -64,53 +68,100 @@ pub fn is_sensitive(
     if found.load(Ordering::Relaxed) { Some(true) } else { all_agree.then_some(false) }
 }
 
+impl RunReport {
+    /// Finds out by changed runs, all of them to the end and side by side, whether this
+    /// run through a script is sensitive and how far its final numbers move; nothing is
+    /// known where `go_on` said no on the way.
+    pub fn ask_changed_runs(&mut self, script: &Script, go_on: GoOn<'_>) {
+        let run = |suspect: &Suspect| suspect.run_to_end(&self.scene, script, go_on);
+        let changed: Option<Vec<_>> = Suspect::ALL.par_iter().with_max_len(1).map(run).collect();
+        let Some(changed) = changed else { return };
+        let moment = moment(&self.scene);
+        let differs = |other: &RunReport| other.reached.differs_from(self.reached, moment);
+        self.outcome.sensitive = Some(changed.iter().any(differs));
+        self.outcome.spread = Some(Spread::of(self, &changed));
+    }
+}
+
+/// How many changed runs find out whether a run is sensitive.
+pub const CHANGED_RUNS: usize = Suspect::ALL.len();
+
+/// How much later a wave may lock \[s\].
+fn moment(scene: &CheckedScene) -> f64 {
+    LOCK_MOMENT * TAU / scene.machine().omega_c
+}
+
 /// A tiny change of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Suspect {
-    /// The noise.
-    Noise,
-    /// A stronger pulse.
-    Stronger,
     /// A weaker pulse.
     Weaker,
+    /// A faster rotor.
+    Faster,
+    /// A stronger pulse.
+    Stronger,
+    /// The noise.
+    Noise,
 }
 
 impl Suspect {
-    /// All of them, first the one that finds most.
-    const ALL: [Self; 3] = [Self::Noise, Self::Stronger, Self::Weaker];
+    /// All of them, first the one that finds most, then what finds most of the rest.
+    const ALL: [Self; 4] = [Self::Weaker, Self::Faster, Self::Stronger, Self::Noise];
 
-    /// How a run with this change lasts.
-    fn run(self, scene: &CheckedScene, script: &Script, go_on: GoOn<'_>) -> Option<VerdictReached> {
-        let end = scene.solver.end_s;
-        if self == Self::Noise {
-            let mut motion = Motion::new(scene);
+    /// Runs a scene with this change until its verdict is settled.
+    fn run(
+        self,
+        scene: &CheckedScene,
+        script: &Script,
+        wave: &mut WaveTracker,
+        go_on: GoOn<'_>,
+    ) -> Option<(Motion, Verdict)> {
+        let mut motion = Motion::new(&self.changed(scene));
+        let noise = (self == Self::Noise).then_some(PERTURBATION);
+        if noise.is_some() {
             motion.scale_tolerance(FINER);
-            return run_motion_to_verdict(motion, script, end, Some(PERTURBATION), go_on);
         }
-        let motion = Motion::new(&perturbed(scene, self.factor()));
         let script = script.mapped(|change| self.change(change));
-        run_motion_to_verdict(motion, &script, end, None, go_on)
+        run_motion_to_verdict(motion, &script, scene.solver.end_s, noise, wave, go_on)
     }
 
-    /// What drives the run is multiplied by this.
-    fn factor(self) -> f64 {
+    /// Runs a scene with this change to its end.
+    fn run_to_end(
+        self,
+        scene: &CheckedScene,
+        script: &Script,
+        go_on: GoOn<'_>,
+    ) -> Option<RunReport> {
+        let mut wave = WaveTracker::over(scene, script);
+        let (mut motion, _) = self.run(scene, script, &mut wave, go_on)?;
+        // What is settled before the end goes on to it; a failure stays where it is.
+        let arrived = motion.advance_while(scene.solver.end_s, go_on).unwrap_or(true);
+        arrived.then(|| report(scene, &motion, &wave))
+    }
+
+    /// The scene with this change.
+    fn changed(self, scene: &CheckedScene) -> CheckedScene {
         match self {
-            Self::Stronger => 1.0 + PERTURBATION,
-            Self::Weaker => 1.0 - PERTURBATION,
-            Self::Noise => 1.0,
+            Self::Noise => scene.clone(),
+            Self::Weaker => perturbed(scene, 1.0 - PERTURBATION),
+            Self::Stronger => perturbed(scene, MORE),
+            Self::Faster => scene.perturbed(|scene| scene.operation.speed_rad_s *= MORE),
         }
     }
 
     /// The same change of a change during the run.
     fn change(self, change: Change) -> Change {
         match change {
-            Change::Parameters(scene) => {
-                Change::Parameters(Box::new(perturbed(&scene, self.factor())))
+            Change::Parameters(scene) => Change::Parameters(Box::new(self.changed(&scene))),
+            Change::Rotor { speed, ramp } if self == Self::Faster => {
+                Change::Rotor { speed: speed.map(|speed| speed * MORE), ramp }
             }
             other => other,
         }
     }
 }
+
+const MORE: f64 = 1.0 + PERTURBATION;
 
 /// The scene with what drives it multiplied by `factor`: the pulse, or without
 /// one the start and the excitation. The start only moves inward, for it may

@@ -158,6 +158,15 @@ pub trait Solver: Debug + Send + Sync {
     /// Why the run failed, if it did.
     fn failure(&self) -> Option<&Failure>;
 
+    /// Why and when the run stopped early, in words.
+    fn stopped(&self) -> Option<String> {
+        let failure = self.failure()?;
+        Some(match self.final_verdict() {
+            Some(Verdict::Divergent) => failure.as_growth(),
+            _ => failure.to_string(),
+        })
+    }
+
     /// Largest penetration, blade angle and other checks so far.
     fn checks(&self) -> Checks;
 

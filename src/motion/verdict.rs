@@ -5,7 +5,7 @@
 use serde::Serialize;
 use strum::{AsRefStr, Display, EnumString};
 
-use super::{ActiveSet, ContactLog};
+use super::{ActiveSet, ContactLog, Spread};
 
 /// How a motion lasts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Display, EnumString, AsRefStr)]
@@ -76,8 +76,10 @@ pub struct Outcome {
     /// How the motion lasts.
     pub verdict: Verdict,
     /// Whether a tiny change of what drives the run, or of its rate on the way,
-    /// changes the verdict or the impact count.
-    pub sensitive: bool,
+    /// changes the verdict or the impact count; none where it was not asked.
+    pub sensitive: Option<bool>,
+    /// How far such changes move the final numbers; none where it was not asked.
+    pub spread: Option<Spread>,
     /// Why the run failed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub message: Option<String>,

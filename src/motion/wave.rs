@@ -48,6 +48,12 @@ impl WaveTracker {
         Self { end, interval, next, first: None, last: (0.0, 0.0), turned: 0.0 }
     }
 
+    /// Over nothing: nobody will ask for the speed.
+    pub fn of_none() -> Self {
+        let next = f64::INFINITY;
+        Self { end: 0.0, interval: 0.0, next, first: None, last: (0.0, 0.0), turned: 0.0 }
+    }
+
     /// When to look next \[s\]; infinity after the end.
     pub fn next_look(&self) -> f64 {
         self.next

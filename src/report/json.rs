@@ -6,7 +6,7 @@ use std::io::Write;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::CommandLine;
+use super::{CommandLine, Wall};
 use crate::motion::RunReport;
 
 /// Writes a report, indented, with a newline at its end.
@@ -40,21 +40,22 @@ pub fn write_as(
     write(&Named { schema, program: command.program(), report }, out)
 }
 
-/// Writes a run (`rubscope.run/1`) with the wall time it took \[s\], and the
-/// changes during the run, if there are any.
+/// Writes a run (`rubscope.run/1`) with the wall times it took, and the changes during
+/// the run, if there are any.
 ///
 /// # Errors
 /// An error of the writer.
 pub fn write_run(
     report: &RunReport,
     command: &CommandLine,
-    wall_s: f64,
+    wall: Wall,
     changes: Option<&impl Serialize>,
     out: &mut dyn Write,
 ) -> std::io::Result<()> {
     let mut value = json!(report);
     if let Some(Value::Object(solver)) = value.get_mut("solver") {
-        solver.insert("wall_s".to_string(), json!(wall_s));
+        solver.insert("wall_s".to_string(), json!(wall.run_s));
+        solver.insert("certainty_s".to_string(), json!(wall.certainty_s));
     }
     if let (Some(changes), Some(report)) = (changes, value.as_object_mut()) {
         report.insert("changes".to_string(), json!(changes));

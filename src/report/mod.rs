@@ -2,6 +2,7 @@
 //! and a place to write to; it computes nothing itself.
 
 pub mod command;
+pub mod digits;
 pub mod figure;
 pub mod hbm;
 pub mod history;
@@ -22,3 +23,12 @@ pub mod ticks;
 
 pub use command::{CommandLine, Provenance};
 pub use history::History;
+
+/// Wall times of a run \[s\].
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Wall {
+    /// Of the run.
+    pub run_s: f64,
+    /// Of the changed runs that find out whether it is sensitive, if there were any.
+    pub certainty_s: Option<f64>,
+}

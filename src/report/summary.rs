@@ -2,6 +2,8 @@
 
 use std::io::{Result, Write};
 
+use super::Wall;
+use super::digits::Digits;
 use super::number::{count, grouped, short, time};
 use crate::model::Machine;
 use crate::motion::{Contact, RunReport, Verdict};
@@ -10,17 +12,17 @@ use crate::scene::{ContactLaw, SolverKind};
 /// Most impacts that are listed one by one.
 const IMPACTS_TOLD: usize = 4;
 
-/// Penetration, as a part of the clearance, that closing a gap in double
 /// Contacts told one by one.
 const CONTACTS_TOLD: usize = 4;
+/// Penetration, as a part of the clearance, that closing a gap in double
 /// precision may leave: a few hundred units in the last place.
 const ROUND_OFF: f64 = 1e-13;
 
-/// Writes the summary of a run that took this wall time \[s\].
+/// Writes the summary of a run that took these wall times.
 ///
 /// # Errors
 /// An error of the writer.
-pub fn write(report: &RunReport, wall_s: f64, out: &mut dyn Write) -> Result<()> {
+pub fn write(report: &RunReport, wall: Wall, out: &mut dyn Write) -> Result<()> {
     let machine = report.scene.machine();
     if !report.scene.title.is_empty() {
         writeln!(out, "{}", report.scene.title)?;
@@ -34,10 +36,10 @@ pub fn write(report: &RunReport, wall_s: f64, out: &mut dyn Write) -> Result<()>
     if let Some(message) = &report.outcome.message {
         writeln!(out, "Reason: {message}.")?;
     }
-    if report.outcome.sensitive {
+    if report.outcome.sensitive == Some(true) {
         writeln!(
             out,
-            "Sensitive: a change of 1e-9 of the pulse or of the motion changes this outcome; do not rely on it."
+            "Sensitive: a change of 1e-9 of the pulse, the speed or the motion changes this outcome; do not rely on it."
         )?;
     }
     if let Some(line) = warning(report) {
@@ -47,7 +49,7 @@ pub fn write(report: &RunReport, wall_s: f64, out: &mut dyn Write) -> Result<()>
     motion(report, &machine, out)?;
     writeln!(out)?;
     checks(report, &machine, out)?;
-    writeln!(out, "{}", cost(report, wall_s))
+    writeln!(out, "{}", cost(report, wall))
 }
 
 /// Solver, contact law, model, and the conditions of the run.
@@ -121,24 +123,34 @@ fn warning(report: &RunReport) -> Option<String> {
 
 fn motion(report: &RunReport, machine: &Machine, out: &mut dyn Write) -> Result<()> {
     let outcome = &report.outcome;
+    let (spread, digits) = (outcome.spread.as_ref(), Digits::of(outcome.spread.is_some()));
     if let Some(since) = outcome.lock_time_s {
-        writeln!(out, "Held by the same blades since {}.", time(since))?;
+        let since = digits.told(since, spread.and_then(|spread| spread.lock_time_s), time);
+        writeln!(out, "Held by the same blades since {since}.")?;
     }
+    let moved = |group: usize| *spread?.multipliers_n.get(group)?;
     if outcome.contacts.len() > CONTACTS_TOLD {
-        writeln!(out, "{}", many_touch(&outcome.contacts))?;
+        writeln!(out, "{}", many_touch(&outcome.contacts, &moved, &digits))?;
     } else {
-        for contact in &outcome.contacts {
-            writeln!(out, "{}", touch(contact))?;
+        for (group, contact) in outcome.contacts.iter().enumerate() {
+            writeln!(out, "{}", touch(contact, moved(group), &digits))?;
         }
     }
+    let (length, moved) = (outcome.amplitude_m, spread.and_then(|spread| spread.amplitude_m));
+    let g0 = machine.clearance().abs();
+    let part = digits.told(length / g0, moved.map(|moved| moved / g0), short);
     writeln!(
         out,
-        "Amplitude of the casing wave at the end: {} m, {}.",
-        short(outcome.amplitude_m),
-        of_clearance(outcome.amplitude_m, machine)
+        "Amplitude of the casing wave at the end: {} m, {part} of the {}.",
+        digits.told(length, moved, short),
+        room(machine)
     )?;
     if let Some(wave) = outcome.wave_speed_rad_s {
-        writeln!(out, "The wave turns at {} rad/s.", short(wave))?;
+        let wave = digits.told(wave, spread.and_then(|spread| spread.wave_speed_rad_s), short);
+        writeln!(out, "The wave turns at {wave} rad/s.")?;
+    }
+    if let Some(note) = digits.note() {
+        writeln!(out, "{note}")?;
     }
     writeln!(out, "{}", speeds(report, machine))?;
     if let Some(dangerous) = machine.coincidence_felt_at(speed_at_end(report)) {
@@ -147,34 +159,40 @@ fn motion(report: &RunReport, machine: &Machine, out: &mut dyn Write) -> Result<
     writeln!(out, "{}", impacts(report))
 }
 
-/// A length as a part of the clearance, or of the interference where there is none.
-fn of_clearance(length: f64, machine: &Machine) -> String {
-    let g0 = machine.clearance();
-    let what = if g0 < 0.0 { "interference" } else { "clearance" };
-    format!("{} of the {what}", short(length / g0.abs()))
+/// What a length is a part of.
+fn room(machine: &Machine) -> &'static str {
+    if machine.clearance() < 0.0 { "interference" } else { "clearance" }
 }
 
 /// Contacts on a lining, where many blades touch at once.
-fn many_touch(contacts: &[Contact]) -> String {
+fn many_touch(
+    contacts: &[Contact],
+    moved: &dyn Fn(usize) -> Option<f64>,
+    digits: &Digits,
+) -> String {
     let force = |contact: &Contact| contact.multiplier_n.abs();
     let sum: f64 = contacts.iter().map(force).sum();
-    let most = contacts.iter().max_by(|a, b| force(a).total_cmp(&force(b)));
-    let most = most.map_or(String::new(), |most| {
+    let all: Option<f64> = (0..contacts.len()).map(moved).sum();
+    let most = contacts.iter().enumerate().max_by(|(_, a), (_, b)| force(a).total_cmp(&force(b)));
+    let most = most.map_or(String::new(), |(group, most)| {
         let noun = if most.blades.len() == 1 { "blade" } else { "blades" };
-        format!(", {noun} {} most, with {} N", listed(&most.blades), short(force(most)))
+        let force = digits.told(force(most), moved(group), short);
+        format!(", {noun} {} most, with {force} N", listed(&most.blades))
     });
     let blades: usize = contacts.iter().map(|contact| contact.blades.len()).sum();
-    format!("{blades} blades push with {} N at the end{most}.", short(sum))
+    let sum = digits.told(sum, all, short);
+    format!("{blades} blades push with {sum} N at the end{most}.")
 }
 
-fn touch(contact: &Contact) -> String {
+fn touch(contact: &Contact, moved: Option<f64>, digits: &Digits) -> String {
     let (who, verb) = match contact.blades.as_slice() {
         [blade] => (format!("Blade {blade}"), ["pushes", "pulls"]),
         several => (format!("Blades {} together", listed(several)), ["push", "pull"]),
     };
     let [push, pull] = verb;
     let verb = if contact.multiplier_n > 0.0 { pull } else { push };
-    format!("{who} {verb} with {} N at the end.", short(contact.multiplier_n.abs()))
+    let force = digits.told(contact.multiplier_n.abs(), moved, short);
+    format!("{who} {verb} with {force} N at the end.")
 }
 
 fn speed_at_end(report: &RunReport) -> f64 {
@@ -225,8 +243,8 @@ fn checks(report: &RunReport, machine: &Machine, out: &mut dyn Write) -> Result<
         writeln!(out, "{name}: none beyond round-off.")?;
     } else {
         let deepest = short(checks.max_penetration_m);
-        let part = of_clearance(checks.max_penetration_m, machine);
-        writeln!(out, "{name}: {deepest} m, {part}.")?;
+        let part = short(checks.max_penetration_m / machine.clearance().abs());
+        writeln!(out, "{name}: {deepest} m, {part} of the {}.", room(machine))?;
     }
     if let Some(predicted) = checks.max_predicted_penetration_m {
         writeln!(out, "Deepest penetration predicted before correction: {} m.", short(predicted))?;
@@ -239,7 +257,7 @@ fn checks(report: &RunReport, machine: &Machine, out: &mut dyn Write) -> Result<
     Ok(())
 }
 
-fn cost(report: &RunReport, wall_s: f64) -> String {
+fn cost(report: &RunReport, wall: Wall) -> String {
     let mut parts = Vec::new();
     if let Some((taken, skipped)) = report.solver.steps.zip(report.solver.steps_skipped) {
         parts.push(format!("{} taken and {} skipped", count(taken, "step"), grouped(skipped)));
@@ -248,11 +266,12 @@ fn cost(report: &RunReport, wall_s: f64) -> String {
         parts.push(count(events, "event"));
     }
     let each = match report.solver.steps {
-        Some(steps) if steps > 0 => format!(", {} a step taken", time(wall_s / steps as f64)),
+        Some(steps) if steps > 0 => format!(" ({} a step taken)", time(wall.run_s / steps as f64)),
         _ => String::new(),
     };
-    let what = if parts.is_empty() { String::new() } else { format!("{} in ", parts.join(", ")) };
-    format!("Cost: {what}{}{each}.", time(wall_s))
+    let what = if parts.is_empty() { String::new() } else { format!("{}; ", parts.join(", ")) };
+    let certainty = wall.certainty_s.map_or(String::new(), |s| format!(", certainty {}", time(s)));
+    format!("Cost: {what}run {}{each}{certainty}.", time(wall.run_s))
 }
 
 /// "6", "6 and 17", "1, 2 and 3", "1, 3, 5 and 8 more".
@@ -294,7 +313,8 @@ mod tests {
 
     fn told(report: &RunReport) -> String {
         let mut text = Vec::new();
-        write(report, 0.5, &mut text).unwrap();
+        let wall = Wall { run_s: 0.25, certainty_s: report.outcome.sensitive.map(|_| 0.67) };
+        write(report, wall, &mut text).unwrap();
         String::from_utf8(text).unwrap()
     }
 
@@ -323,7 +343,8 @@ mod tests {
     #[test]
     fn blades_push_or_pull_in_groups() {
         let touch = |blades: &[u32], multiplier_n| {
-            super::touch(&Contact { blades: blades.to_vec(), multiplier_n })
+            let contact = Contact { blades: blades.to_vec(), multiplier_n };
+            super::touch(&contact, None, &Digits::default())
         };
         assert_eq!(touch(&[6], -244.416), "Blade 6 pushes with 244.416 N at the end.");
         assert_eq!(listed(&[1, 3, 5, 7]), "1, 3, 5 and 7");
@@ -335,11 +356,20 @@ mod tests {
     fn sensitive_and_pulling_runs_say_so() {
         let mut report = report(&[]);
         assert!(!told(&report).contains("Warning") && !told(&report).contains("Sensitive"));
-        report.outcome.sensitive = true;
+        report.outcome.sensitive = Some(true);
         report.solver.contact = ContactLaw::Bilateral;
         report.checks.tensile_steps = 2;
         let text = told(&report);
         assert!(text.contains("Sensitive: ") && text.contains("pulled in 2 steps"), "{text}");
+    }
+
+    #[test]
+    fn run_and_certainty_have_a_time_each() {
+        let mut report = report(&[]);
+        assert!(told(&report).contains("; run 250 ms ("), "{}", told(&report));
+        assert!(told(&report).ends_with("a step taken), certainty 670 ms.\n"));
+        report.outcome.sensitive = None;
+        assert!(told(&report).ends_with("a step taken).\n"));
     }
 
     #[test]

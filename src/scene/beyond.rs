@@ -52,6 +52,23 @@ impl Scene {
     }
 }
 
+impl Scene {
+    /// Refuses friction on a rotor that stands still: one motion needs a direction in
+    /// which the blades slide. A sweep may begin there.
+    ///
+    /// # Errors
+    /// The friction, and what is allowed.
+    pub fn slides(&self) -> Result<(), SceneError> {
+        let (mu, operation) = (self.contact.friction, &self.operation);
+        if mu == 0.0 || operation.speed_rad_s != 0.0 {
+            return Ok(());
+        }
+        let allowed = "0 with operation.speed_rad_s = 0: Coulomb's law, mu times the push against \
+                       the sliding, has no direction there";
+        Err(SceneError::refused("contact.friction", mu, allowed))
+    }
+}
+
 /// # Errors
 /// The first combination that is not allowed, named by its key.
 pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {

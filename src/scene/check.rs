@@ -36,7 +36,10 @@ fn clearance(scene: &Scene) -> Result<(), SceneError> {
     let allowed = if smooth {
         format!("other than bladed_disk.blade_length_m = {length}")
     } else {
-        format!("above bladed_disk.blade_length_m = {length}, so that there is a clearance")
+        format!(
+            "above bladed_disk.blade_length_m = {length}, so that there is a clearance, or any \
+             other with solver.contact = \"smooth\", whose lining blades may press at rest"
+        )
     };
     Err(SceneError::refused("casing.radius_m", scene.casing.radius_m, allowed))
 }

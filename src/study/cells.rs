@@ -11,7 +11,7 @@ use crate::motion::Verdict;
 pub struct Cell {
     /// How the motion lasts.
     pub verdict: Verdict,
-    /// Whether a relative change of 1e-9 of the pulse changes it.
+    /// Whether a tiny change of the run changes it.
     pub sensitive: bool,
 }
 

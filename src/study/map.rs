@@ -25,7 +25,7 @@ pub struct MapPlan {
     pub x: Axis,
     /// Rows; pulse by default.
     pub y: Axis,
-    /// Whether to find the sensitive cells, which takes up to three more runs per cell.
+    /// Whether to find the sensitive cells, which takes up to four more runs per cell.
     pub sensitivity: bool,
 }
 

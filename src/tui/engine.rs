@@ -180,7 +180,7 @@ impl Moment {
             since: log.since,
             gaps: motion.blade_gaps(),
             multipliers: motion.multipliers(),
-            failure: motion.failure().map(ToString::to_string),
+            failure: motion.stopped(),
             ..Self::default()
         }
     }

@@ -1,6 +1,7 @@
 //! With the defaults of every key beyond the paper nothing changes: the scenes of the
 //! paper's model are solved by its own solvers, bit for bit as without those keys.
 
+use crate::cli_support::{refusal, rubscope};
 use rubscope::motion::{RunReport, simulate};
 use rubscope::scene::{BUILTIN, KEYS, Scene};
 
@@ -206,4 +207,25 @@ fn tips_whose_pushes_close_their_own_gap_are_refused_with_the_bounds() {
         "bladed_disk.radial_coupling=-2.5",
     ]);
     assert!(hbm.starts_with("rubscope: bladed_disk.radial_coupling = -2.5: allowed is not from"));
+}
+
+/// One motion needs a direction of sliding, and a casing inside the blades a law that
+/// lets them press.
+#[test]
+fn a_run_that_needs_another_law_is_refused_by_the_name_of_the_law() {
+    let mu = "contact.friction=0.3";
+    for command in ["run", "margins", "precision"] {
+        let said = refusal(&[command, "--contact", "unilateral", "--set", mu, "--speed", "0"]);
+        let start = "rubscope: contact.friction = 0.3: allowed is 0 with operation.speed_rad_s = 0";
+        assert!(said.starts_with(start) && said.contains("Coulomb's law"), "{said}");
+    }
+    // A sweep may begin there.
+    for command in ["map --pulse 0:1e4:2 --end 0.001", "hbm --whirl"] {
+        let words = format!("{command} --contact unilateral --set {mu} --speed 0:300:2");
+        let output = rubscope(&words.split(' ').collect::<Vec<_>>());
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    }
+    let said = refusal(&["run", "--set", "casing.radius_m=0.4"]);
+    assert!(said.contains("above bladed_disk.blade_length_m = 0.4999"), "{said}");
+    assert!(said.contains("solver.contact = \"smooth\""), "{said}");
 }

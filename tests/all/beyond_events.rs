@@ -1,7 +1,10 @@
 //! The event solver of what goes beyond the paper's model: reference motions from
 //! independent codes, and agreement with the paper's event solver where both apply.
 
-use rubscope::motion::{ActiveSet, Event, Joined, Motion, Solver, Verdict, simulate};
+use rubscope::motion::{
+    ActiveSet, Event, Joined, Motion, Sample, Sampling, Script, Solver, Verdict, run_to_end,
+    simulate,
+};
 use rubscope::scene::{CheckedScene, Scene};
 
 const SLOPE: &str = "bladed_disk.radial_coupling";
@@ -258,7 +261,7 @@ fn reports_say_that_angles_are_left_out_of_the_phases() {
     let told = |model: &str, changes: &[(&str, f64)]| {
         let report = simulate(&scene(model, changes));
         let mut text = Vec::new();
-        rubscope::report::summary::write(&report, 0.0, &mut text).unwrap();
+        rubscope::report::summary::write(&report, Default::default(), &mut text).unwrap();
         let told = String::from_utf8(text).unwrap().contains("(linearised)");
         assert_eq!(told, report.solver.linearised);
         told
@@ -285,4 +288,32 @@ fn other_corners_are_held_by_more_than_two_blades_of_another_disk() {
         }
     }
     assert!(most >= 2, "{most}");
+}
+
+#[test]
+fn a_divergent_run_ends_in_one_state_with_its_energy() {
+    let keys = [(SLOPE, 0.58), (FRICTION, 0.27), (SPEED, 517.0), (PULSE, 15699.0)];
+    let mut scene = scene("modal", &keys).into_scene();
+    scene.solver.end_s = 0.05;
+    let scene = scene.checked().unwrap();
+    let mut last = None;
+    let sampling = Sampling { intervals: 200_000, gaps: false };
+    let mut keep = |sample: &Sample| last = Some(sample.state);
+    let report = run_to_end(&scene, &Script::default(), sampling, &mut keep);
+    assert_eq!(report.outcome.verdict, Verdict::Divergent);
+    let (last, end) = (last.unwrap(), &report.r#final);
+    // A quarter of a microsecond between samples: nothing moves far.
+    let later = end.t_s - last.t_s;
+    assert!((0.0..=2.5e-7).contains(&later), "{later}");
+    let moved = (end.alpha_c_rad - last.alpha[0]).hypot(end.alpha_s_rad - last.alpha[1]);
+    let rate = last.alpha_rate[0].hypot(last.alpha_rate[1]);
+    assert!(moved <= 1.1 * rate * later + 1e-12, "{moved} in {later}");
+    assert!(end.alpha_c_rad.hypot(end.alpha_s_rad) > 0.1, "the state is that which was told");
+    let ledger = report.energy.unwrap();
+    let residual = report.checks.energy_residual_j.unwrap();
+    assert!((ledger.residual() - residual).abs() <= 1e-9 * ledger.stored_j);
+    assert!(residual.abs() <= 1e-9 * ledger.stored_j, "{residual} of {ledger:?}");
+    assert!(ledger.friction_heat_j > 0.0 && ledger.rotor_work_j > ledger.stored_j, "{ledger:?}");
+    let message = report.outcome.message.unwrap();
+    assert!(message.starts_with("left the range of the model at t = 2.6"), "{message}");
 }

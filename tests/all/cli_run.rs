@@ -32,12 +32,22 @@ fn json_has_the_names_and_kinds_of_the_contract() {
         ("/solver/steps_skipped", "number"),
         ("/solver/events", "null"),
         ("/solver/wall_s", "number"),
+        ("/solver/certainty_s", "number"),
         ("/outcome/verdict", "string"),
         ("/outcome/sensitive", "boolean"),
         ("/outcome/lock_time_s", "null"),
         ("/outcome/contacts", "array"),
         ("/outcome/amplitude_m", "number"),
         ("/outcome/wave_speed_rad_s", "null"),
+        ("/outcome/spread/lock_time_s", "null"),
+        ("/outcome/spread/multipliers_n", "array"),
+        ("/outcome/spread/amplitude_m", "number"),
+        ("/outcome/spread/wave_speed_rad_s", "null"),
+        ("/outcome/spread/t_s", "number"),
+        ("/outcome/spread/u_c_m", "number"),
+        ("/outcome/spread/u_s_m", "number"),
+        ("/outcome/spread/alpha_c_rad", "number"),
+        ("/outcome/spread/alpha_s_rad", "number"),
         ("/impacts/0/t_s", "number"),
         ("/impacts/0/blades/0", "number"),
         ("/impact_count", "number"),
@@ -197,7 +207,7 @@ fn reports_say_where_they_come_from() {
 fn timeless(mut report: serde_json::Value) -> serde_json::Value {
     fn clear(value: &mut serde_json::Value) {
         if let Some(object) = value.as_object_mut() {
-            for name in ["wall_s", "search_wall_s", "ns_per_step"] {
+            for name in ["wall_s", "certainty_s", "search_wall_s", "ns_per_step"] {
                 object.remove(name);
             }
             object.values_mut().for_each(clear);
@@ -245,7 +255,7 @@ fn every_penetration_above_round_off_is_told() {
     for (part, is_told) in [(0.0, false), (1e-14, false), (1e-12, true), (5e-3, true)] {
         report.checks.max_penetration_m = part * scene.machine().clearance();
         let mut text = Vec::new();
-        summary::write(&report, 0.0, &mut text).unwrap();
+        summary::write(&report, Default::default(), &mut text).unwrap();
         let text = String::from_utf8(text).unwrap();
         let line = text.lines().find(|line| line.starts_with("Deepest penetration:")).unwrap();
         assert_eq!(line.ends_with(" of the clearance."), is_told, "{part}: {line}");

@@ -367,7 +367,7 @@ fn blades_that_follow_are_reported() {
         let report = rubscope::motion::simulate(&scene.checked().unwrap());
         assert_eq!(report.solver.blades_follow, follow, "{stiffness:e}");
         let mut text = Vec::new();
-        rubscope::report::summary::write(&report, 0.0, &mut text).unwrap();
+        rubscope::report::summary::write(&report, Default::default(), &mut text).unwrap();
         let text = String::from_utf8(text).unwrap();
         assert_eq!(text.contains("modal model (blades too stiff to be felt"), follow, "{text}");
     }

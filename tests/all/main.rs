@@ -27,6 +27,7 @@ mod cli_scene;
 mod cli_script;
 mod cli_support;
 mod dependencies;
+mod digits;
 mod docs;
 mod event_cases;
 mod event_hard;

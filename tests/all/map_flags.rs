@@ -56,13 +56,12 @@ fn noisy(scene: &CheckedScene) -> VerdictReached {
 }
 
 /// Whether one of the changed runs differs, by the words of the documents.
-fn sensitive(scene: &CheckedScene) -> [bool; 3] {
+fn sensitive(scene: &CheckedScene) -> [bool; 4] {
     let plain = run_to_verdict(scene, &to_the_end).unwrap();
-    let pulse = |factor: f64| {
-        let other = with(scene, |scene| scene.operation.pulse_n *= factor);
-        run_to_verdict(&other, &to_the_end).unwrap()
-    };
-    [noisy(scene), pulse(1.0 + 1e-9), pulse(1.0 - 1e-9)].map(|other| {
+    let run = |scene: CheckedScene| run_to_verdict(&scene, &to_the_end).unwrap();
+    let pulse = |factor: f64| run(with(scene, |scene| scene.operation.pulse_n *= factor));
+    let faster = run(with(scene, |scene| scene.operation.speed_rad_s *= 1.0 + 1e-9));
+    [pulse(1.0 - 1e-9), faster, pulse(1.0 + 1e-9), noisy(scene)].map(|other| {
         let counted = !plain.rested && !other.rested;
         let moved = plain.locked_s.zip(other.locked_s).map_or(0.0, |(one, two)| one - two);
         plain.verdict != other.verdict
@@ -86,7 +85,7 @@ fn flag(scene: &CheckedScene, threads: usize) -> bool {
 
 #[test]
 fn cells_have_the_flags_of_the_plain_runs_with_any_number_of_threads() {
-    let mut found = [0; 3];
+    let (mut found, mut first) = ([0; 4], [0; 4]);
     let (mut cells, mut all) = (0, 0);
     for model in [ModelSize::Rigid, ModelSize::Modal] {
         for map in 0..MAPS.len() {
@@ -99,11 +98,18 @@ fn cells_have_the_flags_of_the_plain_runs_with_any_number_of_threads() {
                 for (sum, one) in found.iter_mut().zip(each) {
                     *sum += u32::from(one);
                 }
+                if let Some(place) = each.iter().position(|&one| one) {
+                    first[place] += 1;
+                }
                 (cells, all) = (cells + 1, all + u32::from(plain));
             }
         }
     }
-    // Each of the runs finds some, and none of them all.
-    println!("{all} of {cells} sensitive, by noise, stronger and weaker pulse {found:?}");
+    // Each of the runs finds some, none of them all, and the first most of them.
+    println!(
+        "{all} of {cells} sensitive, by weaker pulse, speed, stronger pulse and noise {found:?}, \
+         in this order {first:?}"
+    );
     assert!(found.iter().all(|&one| 10 < one && one < all), "{found:?} of {all}");
+    assert!(2 * first[0] > all, "{first:?} of {all}");
 }

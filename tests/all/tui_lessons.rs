@@ -66,7 +66,11 @@ fn assert_true(check: &Check, session: &Session, runs: &mut Runs) {
         }
         Expected::Word(word) => {
             assert_eq!(check.run.as_deref(), Some("sensitive"), "{check:?}");
-            assert_eq!(simulate(&app.scene).outcome.sensitive.to_string(), *word, "{check:?}");
+            assert_eq!(
+                simulate(&app.scene).outcome.sensitive.unwrap().to_string(),
+                *word,
+                "{check:?}"
+            );
         }
         Expected::Number(is) => {
             let found = found(check, app, runs);

@@ -157,14 +157,6 @@ impl Joined {
         self.swings.largest().max(self.point_now().a.norm())
     }
 
-    /// Heat of friction between tips and casing so far \[J\]; not counted after
-    /// `forgo_checks`.
-    #[must_use]
-    pub fn friction_heat_j(&self) -> f64 {
-        let Ledger { sliding, dragged, .. } = self.ledger_now();
-        self.parameters.machine.casing_mass * (sliding - dragged)
-    }
-
     /// The ledger until now.
     fn ledger_now(&self) -> Ledger {
         let mut ledger = self.ledger;

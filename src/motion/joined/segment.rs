@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use super::Joined;
 use super::parameters::Point;
 use super::search::{Loose, What, seek};
-use super::stretch::Stretch;
+use super::stretch::{Held, Stretch};
 use crate::motion::{Failure, FailureReason, Plane};
 use crate::tolerances::{
     AN_INSTANT, AT_A_CORNER, AT_REST, FREE_MARGIN, JUST_OPENED, MOST_EVENTS, MOST_EVENTS_AT_ONCE,
@@ -42,6 +42,13 @@ impl Joined {
         } else {
             Plane::default()
         }
+    }
+
+    /// Ends the motion at this point, at the start of the stretch to come.
+    pub(super) fn fail_at(&mut self, point: &Point, reason: FailureReason) {
+        self.held = Held::default();
+        self.stretch = Stretch::to_the_end(*point);
+        self.fail(0.0, reason);
     }
 
     /// The next stretch, from this point on with the rows held now.
@@ -97,10 +104,7 @@ impl Joined {
             FailureReason::EventsAtOnce
         } else {
             let pulsed = self.pulses();
-            let mut point = self.rebase(s);
-            if self.failure.is_some() {
-                return;
-            }
+            let Some(mut point) = self.rebase(s) else { return };
             if what == What::StretchEnd && pulsed && !self.pulses() {
                 // The pushes jump with the force.
                 let rows = self.held.rows.clone();
@@ -155,10 +159,16 @@ impl Joined {
         (0..parameters.rows.len()).filter_map(rate_if_near).collect()
     }
 
-    /// Books the stretch and moves its start by `s`; returns where the motion is.
-    fn rebase(&mut self, s: f64) -> Point {
+    /// Books the stretch and moves its start by `s`; returns where the motion is. None
+    /// where it has grown beyond the model: it stays in the stretch that it grew in, so
+    /// that all that is said of it is of one instant.
+    fn rebase(&mut self, s: f64) -> Option<Point> {
+        let point = self.stretch.point(&self.parameters, s);
+        self.check_growth(s, &point);
+        if self.failure.is_some() {
+            return None;
+        }
         let parameters = &self.parameters;
-        let point = self.stretch.point(parameters, s);
         if self.checked {
             self.ledger.book(parameters, &self.held, &self.stretch, s);
         }
@@ -186,8 +196,7 @@ impl Joined {
         }
         self.now = self.now.max(self.start.0);
         self.swings.see(self.start.0, point.a.norm());
-        self.check_growth(0.0, &point);
-        point
+        Some(point)
     }
 
     /// The largest angle of any blade until `s` seconds into the stretch \[rad\].
@@ -226,7 +235,7 @@ impl Joined {
             return;
         }
         let s = self.elapsed(self.now);
-        let mut point = self.rebase(s);
+        let Some(mut point) = self.rebase(s) else { return };
         self.start = (self.now, 0.0);
         let (before, energy) = (self.parameters.nu, self.parameters.energy(&point));
         let rate = point.dz;

@@ -3,8 +3,8 @@
 use super::Joined;
 use crate::model::Machine;
 use crate::motion::{
-    Checks, ContactLog, Failure, FailureReason, GoOn, Plane, Pulse, Rotor, Solver, State, Verdict,
-    in_phase_order,
+    Checks, ContactLog, EnergyLedger, Failure, FailureReason, GoOn, Plane, Pulse, Rotor, Solver,
+    State, Verdict, in_phase_order,
 };
 use crate::tolerances::{EVENT_RANGE, LOOKS_UNASKED};
 
@@ -136,6 +136,22 @@ impl Solver for Joined {
             energy_residual_j: Some(parameters.machine.casing_mass * residual),
             ..Checks::default()
         }
+    }
+
+    fn energy_ledger(&self) -> Option<EnergyLedger> {
+        let mass = self.parameters.machine.casing_mass;
+        let ledger = self.checked.then(|| self.ledger_now())?;
+        let stored = self.parameters.energy(&self.point_now()) - ledger.start;
+        Some(EnergyLedger {
+            pulse_work_j: mass * ledger.pulse,
+            // Against friction it works on a casing at rest too: that part is all heat.
+            rotor_work_j: mass * (ledger.rotor + ledger.sliding),
+            casing_loss_j: mass * ledger.casing,
+            blade_loss_j: mass * ledger.blades,
+            friction_heat_j: mass * (ledger.sliding - ledger.dragged),
+            impact_loss_j: mass * ledger.impacts,
+            stored_j: mass * stored,
+        })
     }
 
     fn forgo_checks(&mut self) {

@@ -32,7 +32,7 @@ impl Joined {
         };
         let noise = ROUND_OFF * target.iter().fold(soft, |sum, rate| sum + rate.abs());
         let Some(impulses) = pushes(joint, &target, noise) else {
-            self.fail(0.0, FailureReason::Singular { rows: met.len() });
+            self.fail_at(point, FailureReason::Singular { rows: met.len() });
             return;
         };
         let struck = || met.iter().map(|&(row, _)| row).zip(impulses.iter().copied());
@@ -103,7 +103,7 @@ impl Joined {
             _ => 0.0,
         };
         let Some(found) = pushes(joint, &openings, noise) else {
-            self.fail(0.0, FailureReason::Singular { rows: still.len() });
+            self.fail_at(point, FailureReason::Singular { rows: still.len() });
             return;
         };
         let (z, a) = parameters.pushed(still.iter().copied().zip(found.iter().copied()));
@@ -117,7 +117,7 @@ impl Joined {
         }
         let count = rows.len();
         let Some(held) = Held::new(parameters, rows) else {
-            self.fail(0.0, FailureReason::Singular { rows: count });
+            self.fail_at(point, FailureReason::Singular { rows: count });
             return;
         };
         self.hold(held);

@@ -4,7 +4,7 @@
 
 use super::{Figure, Mark, Panel, Quantity, Series, Style};
 use crate::harmonic::{CoincidencePoint, HarmonicError, Lining, coincidence, shifted_coincidence};
-use crate::motion::{Sampling, Script, simulate_with};
+use crate::motion::{Sampling, Script, run_to_end};
 use crate::scene::{CheckedScene, ContactLaw, Scene, SceneError};
 
 /// Speeds of a curve.
@@ -83,7 +83,7 @@ fn runs(scene: &CheckedScene, [from, to]: [f64; 2]) -> Series {
         let late = (1.0 - 0.1) * scene.solver.end_s;
         let mut largest = 0.0_f64;
         let sampling = Sampling { intervals: SAMPLES, gaps: false };
-        simulate_with(&scene, &Script::default(), sampling, &mut |sample| {
+        run_to_end(&scene, &Script::default(), sampling, &mut |sample| {
             let [cos, sin] = sample.state.alpha;
             if sample.state.t_s >= late {
                 largest = largest.max(cos.hypot(sin));

@@ -1,7 +1,7 @@
 //! Figs. 4 to 7: one run, or the same run at three time steps.
 
 use super::{Figure, Panel, Quantity, Series, Style, group_name};
-use crate::motion::{RunReport, Sample, Sampling, Script, simulate, simulate_with};
+use crate::motion::{RunReport, Sample, Sampling, Script, run_to_end};
 use crate::scene::{CheckedScene, SolverKind};
 
 /// Samples of a run; a line of a figure can show no more.
@@ -30,8 +30,13 @@ fn sampled(scene: &CheckedScene, gaps: bool) -> (RunReport, Vec<Sample>) {
     let mut samples = Vec::new();
     let sampling = Sampling { intervals: INTERVALS, gaps };
     let mut keep = |sample: &Sample| samples.push(sample.clone());
-    let report = simulate_with(scene, &Script::default(), sampling, &mut keep);
+    let report = run_to_end(scene, &Script::default(), sampling, &mut keep);
     (report, samples)
+}
+
+/// A run of which only the end is told.
+fn plain(scene: &CheckedScene) -> RunReport {
+    run_to_end(scene, &Script::default(), Sampling::default(), &mut |_| {})
 }
 
 /// How a run ended: "locked from 76.9 ms on #6 and #21".
@@ -99,7 +104,7 @@ fn at_steps(scene: &CheckedScene) -> impl Iterator<Item = (f64, CheckedScene)> {
 /// How the same run ends by the event solver.
 fn by_events(scene: &CheckedScene) -> Option<String> {
     let reference = scene.as_reference().checked().ok()?;
-    Some(format!("event solver: {}", ending(&simulate(&reference))))
+    Some(format!("event solver: {}", ending(&plain(&reference))))
 }
 
 /// Fig. 4: `u_c` at three time steps.
@@ -240,7 +245,7 @@ pub fn response(scene: &CheckedScene, as_paper: bool) -> Figure {
 pub fn four_diameters(scene: &CheckedScene, as_paper: bool) -> Figure {
     let mut figure = coordinates(scene);
     let at = |(step, scene): (f64, CheckedScene)| {
-        format!("{}: {}", step_words(step), ending(&simulate(&scene)))
+        format!("{}: {}", step_words(step), ending(&plain(&scene)))
     };
     let mut endings: Vec<String> = at_steps(scene).map(at).collect();
     endings.extend(by_events(scene));

@@ -110,7 +110,7 @@ impl FullRunJob {
             multipliers: motion.multipliers(),
             impacts: log.impact_count,
             checks: motion.checks(),
-            failure: motion.failure().map(ToString::to_string),
+            failure: motion.stopped(),
         }
     }
 

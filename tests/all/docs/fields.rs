@@ -66,6 +66,7 @@ fn every_field_of_the_reports_is_in_the_documents() {
             "| field of `rubscope.run/1` | what it is |",
             vec![
                 "run --json --at 0.01:operation.pulse_n=10 --at 0.02:pulse --end 0.03",
+                "run --json --end 0.001 --no-sensitivity",
                 "run half-n --end 0.02 --json",
                 "run --contact unilateral --set contact.restitution=0.3 --end 0.002 --json",
                 "run --solver event --set bladed_disk.stiffness_nm_per_rad=1e12 --json",

@@ -1,0 +1,177 @@
+//! Which digits of a run hold: its spread, the text that leaves the others out, and runs
+//! that do not ask.
+
+use rubscope::motion::{
+    Motion, RunReport, Sampling, Script, Watch, run_to_end, run_to_end_watched, simulate,
+};
+use rubscope::report::summary;
+use rubscope::scene::{CheckedScene, Scene};
+
+use crate::cli_support::rubscope;
+
+/// Skims the blades again and again.
+const NOISE: [&str; 5] = ["run", "--contact", "unilateral", "--pulse", "1e6"];
+
+fn text(arguments: &[&str]) -> String {
+    let output = rubscope(arguments);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn json(arguments: &[&str]) -> serde_json::Value {
+    serde_json::from_str(&text(&[arguments, &["--json"]].concat())).unwrap()
+}
+
+/// The number after some words.
+fn told(text: &str, words: &str) -> String {
+    let rest = text.split_once(words).unwrap_or_else(|| panic!("no {words} in {text}")).1;
+    rest.split_whitespace().next().unwrap().to_string()
+}
+
+fn plain(scene: &CheckedScene) -> RunReport {
+    run_to_end(scene, &Script::default(), Sampling::default(), &mut |_| {})
+}
+
+fn with_pulse(scene: &CheckedScene, factor: f64) -> CheckedScene {
+    let mut scene = scene.clone().into_scene();
+    scene.operation.pulse_n *= factor;
+    scene.checked().unwrap()
+}
+
+#[test]
+fn digits_that_a_tiny_change_moves_are_not_told() {
+    let report = json(&NOISE);
+    let (amplitude, spread) = (
+        report["outcome"]["amplitude_m"].as_f64().unwrap(),
+        report["outcome"]["spread"]["amplitude_m"].as_f64().unwrap(),
+    );
+    // A stronger pulse alone moves the third digit.
+    assert!(spread > 5e-9 && spread < amplitude, "{amplitude} {spread}");
+    let told = told(&text(&NOISE), "at the end: ");
+    let digits = told.split('e').next().unwrap().replace('.', "").len();
+    assert!(digits <= 2 && told != format!("{amplitude:.5e}"), "{told}");
+    assert!(text(&NOISE).contains("a change of 1e-9 move"), "{}", text(&NOISE));
+}
+
+#[test]
+fn all_digits_of_a_run_that_holds_are_told() {
+    let told = text(&["run", "--contact", "unilateral", "--pulse", "20e3"]);
+    let report = json(&["run", "--contact", "unilateral", "--pulse", "20e3"]);
+    let amplitude = report["outcome"]["amplitude_m"].as_f64().unwrap();
+    let shown: f64 = self::told(&told, "at the end: ").parse().unwrap();
+    assert!((shown / amplitude - 1.0).abs() < 5e-6 && !told.contains("1e-9"), "{told}");
+}
+
+#[test]
+fn the_spread_is_how_far_changed_runs_end_from_the_run() {
+    let scene = Scene::builtin("paper-nd3").unwrap().as_reference();
+    for (speed, pulse) in [(500.0, 20e3), (300.0, 150e3), (470.0, 700e3), (355.0, 440e3)] {
+        let mut scene = scene.clone();
+        (scene.operation.speed_rad_s, scene.operation.pulse_n) = (speed, pulse);
+        let scene = scene.checked().unwrap();
+        let report = simulate(&scene);
+        let spread = report.outcome.spread.clone().unwrap();
+        for factor in [1.0 + 1e-9, 1.0 - 1e-9] {
+            let other = plain(&with_pulse(&scene, factor));
+            let moved = |number: fn(&RunReport) -> f64| (number(&other) - number(&report)).abs();
+            for (moved, most) in [
+                (moved(|run| run.outcome.amplitude_m), spread.amplitude_m),
+                (moved(|run| run.r#final.u_c_m), spread.u_c_m),
+                (moved(|run| run.r#final.u_s_m), spread.u_s_m),
+                (moved(|run| run.r#final.alpha_c_rad), spread.alpha_c_rad),
+                (moved(|run| run.r#final.alpha_s_rad), spread.alpha_s_rad),
+                (moved(|run| run.r#final.t_s), spread.t_s),
+            ] {
+                assert!(moved <= most.unwrap(), "{pulse}: {moved:e} {most:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_wave_of_changed_runs_is_looked_at() {
+    let report = simulate(&Scene::builtin("slip").unwrap().checked().unwrap());
+    let moved = report.outcome.spread.unwrap().wave_speed_rad_s.unwrap();
+    assert!(moved > 0.0 && moved < 1e-3, "{moved}");
+}
+
+#[test]
+fn a_number_that_a_changed_run_does_not_have_has_no_spread() {
+    // Locked in another corner by each of the tiny changes.
+    let changes = [("solver.model", "rigid"), ("casing.damping_ratio", "0")];
+    let mut scene = Scene::builtin("paper-nd3").unwrap().as_reference();
+    changes.iter().for_each(|(key, value)| scene.set(key, value).unwrap());
+    (scene.operation.pulse_n, scene.solver.end_s) = (2_512_435.6, 0.2);
+    let scene = scene.checked().unwrap();
+    let report = simulate(&scene);
+    let groups = |run: &RunReport| -> Vec<_> {
+        run.outcome.contacts.iter().map(|group| group.blades.clone()).collect()
+    };
+    assert_ne!(groups(&report), groups(&plain(&with_pulse(&scene, 1.0 + 1e-9))));
+    let spread = report.outcome.spread.clone().unwrap();
+    assert_eq!(spread.multipliers_n, [None, None]);
+    assert!(spread.amplitude_m.is_some());
+    let mut text = Vec::new();
+    summary::write(&report, Default::default(), &mut text).unwrap();
+    let text = String::from_utf8(text).unwrap();
+    assert!(text.contains(" pushes with about 200 N") && text.contains("No digit holds"), "{text}");
+}
+
+#[test]
+fn a_run_that_is_not_asked_is_the_same_run() {
+    let arguments = ["run", "--contact", "unilateral", "--pulse", "3e5", "--end", "0.01"];
+    let (asked, not) = (json(&arguments), json(&[&arguments[..], &["--no-sensitivity"]].concat()));
+    assert!(asked["solver"]["certainty_s"].is_number() && asked["outcome"]["spread"].is_object());
+    for path in ["/solver/certainty_s", "/outcome/sensitive", "/outcome/spread"] {
+        assert!(not.pointer(path).unwrap().is_null(), "{path} of {not}");
+    }
+    for path in ["/final", "/impacts", "/outcome/verdict", "/outcome/amplitude_m", "/checks"] {
+        assert_eq!(asked.pointer(path), not.pointer(path));
+    }
+    assert!(not["program"]["command"].as_str().unwrap().contains(" --no-sensitivity"));
+    let told = text(&[&arguments[..], &["--no-sensitivity"]].concat());
+    assert!(told.contains("; run ") && !told.contains("certainty"), "{told}");
+}
+
+/// Stops a run again and again.
+struct Often(std::sync::atomic::AtomicU64, u64);
+
+impl Watch for Often {
+    fn goes_on(&self) -> bool {
+        self.0.fetch_add(1, std::sync::atomic::Ordering::Relaxed) % 3 != 2
+    }
+
+    fn look(&mut self, motion: &Motion) {
+        assert!(motion.t_s().is_finite());
+        self.1 += 1;
+    }
+}
+
+#[test]
+fn a_run_that_is_watched_is_the_same_run() {
+    let mut looks = 0;
+    for name in ["slip", "undamped", "rub", "digs-in", "paper-nd3"] {
+        let mut scene = Scene::builtin(name).unwrap();
+        scene.solver.end_s = 0.02;
+        for scene in [scene.checked(), scene.as_reference().checked()].into_iter().flatten() {
+            let mut watch = Often(Default::default(), 0);
+            let script = Script::default();
+            let sampling = Sampling { intervals: 7, gaps: false };
+            let mut samples = [Vec::new(), Vec::new()];
+            let plain = run_to_end(&scene, &script, sampling, &mut |sample| {
+                samples[0].push(sample.state);
+            });
+            let watched = run_to_end_watched(
+                &scene,
+                &script,
+                sampling,
+                &mut |sample| samples[1].push(sample.state),
+                &mut watch,
+            );
+            assert_eq!(plain, watched, "{name}");
+            assert_eq!(samples[0], samples[1], "{name}");
+            looks += watch.1;
+        }
+    }
+    assert!(looks > 50, "{looks}");
+}
