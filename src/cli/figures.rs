@@ -15,6 +15,9 @@ use crate::report::{CommandLine, Provenance, figure::table, svg};
 use crate::scene::{CheckedScene, Scene};
 use crate::study::figures::{Figure, Which};
 
+const SCENE: &str =
+    "Built-in scene or path of a .toml file [default: paper-nd3; each figure has its own]";
+
 /// Reproduce the paper's Figs. 4 to 10 as SVG, with their data as CSV.
 ///
 /// Without a SCENE, every figure has the built-in scene that gives what the
@@ -25,6 +28,7 @@ use crate::study::figures::{Figure, Which};
 /// Figs. 9 and 10 range from standstill to the speed of the scene. The figure
 /// "coincidence" is not of the paper, and drawn where --only names it.
 #[derive(Args, Debug)]
+#[command(mut_arg("scene", |arg| arg.help(SCENE)))]
 pub struct FiguresCommand {
     #[command(flatten)]
     options: SceneOptions,

@@ -18,23 +18,20 @@ const DATE: &str = "2026-11-22";
 /// Print the manual page, or that of one command.
 #[derive(Args, Debug)]
 pub struct ManCommand {
-    /// A command, for its own page
-    command: Option<String>,
+    /// A command, for its own page; of a command within one, both names
+    command: Vec<String>,
 }
 
 impl ManCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
         let mut whole = Cli::command().version(env!("CARGO_PKG_VERSION"));
         whole.build();
-        let command = match &self.command {
-            None => whole,
-            Some(name) => page_of(&whole, name)?,
-        };
+        let command = self.command.iter().try_fold(whole, |of, name| page_of(&of, name))?;
         let page = clap_mangen::Man::new(command)
             .date(DATE)
             .source(concat!("rubscope ", env!("CARGO_PKG_VERSION")))
             .manual("rubscope manual");
-        if self.command.is_some() {
+        if !self.command.is_empty() {
             page.render(out)?;
         } else {
             page.render_title(out)?;
@@ -55,7 +52,11 @@ fn page_of(whole: &clap::Command, name: &str) -> Result<clap::Command, Refusal> 
     found.cloned().ok_or_else(|| {
         let names: Vec<&str> =
             whole.get_subcommands().map(clap::Command::get_name).filter(|&n| n != "help").collect();
-        Refusal::of("COMMAND", name, format!("one of {}", names.join(", ")))
+        let allowed = match &names[..] {
+            [] => format!("nothing after {}", whole.get_name()),
+            names => format!("one of {}", names.join(", ")),
+        };
+        Refusal::of("COMMAND", name, allowed)
     })
 }
 

@@ -13,7 +13,7 @@ use crate::study::overlay::{PULSE, SPEED};
 /// The scene and the options that change it, on every command.
 #[derive(Args, Clone, Debug, Default)]
 pub struct SceneOptions {
-    /// Built-in scene or path of a .toml file [default: paper-nd3; each figure has its own]
+    /// Built-in scene or path of a .toml file [default: paper-nd3]
     #[arg(value_name = "SCENE", value_parser = Words::scenes(), hide_possible_values = true)]
     scene: Option<String>,
     /// Rotor speed; negative turns the other way [rad/s]
@@ -35,7 +35,8 @@ pub struct SceneOptions {
     #[arg(long, value_name = "KIND", help_heading = HEADING,
           value_parser = Words::of::<SolverKind>(), hide_possible_values = true)]
     solver: Option<String>,
-    /// unilateral: contact only pushes; bilateral: the paper's equality, which may pull
+    /// unilateral: contact only pushes; bilateral: the paper's equality, which may pull;
+    /// smooth: a lining that gives way
     #[arg(long, value_name = "LAW", help_heading = HEADING,
           value_parser = Words::of::<ContactLaw>(), hide_possible_values = true)]
     contact: Option<String>,

@@ -272,7 +272,9 @@ fn write_legend(map: &Map, out: &mut dyn Write) -> Result<()> {
         } else {
             &format!("the {sensitive} sensitive cells")
         };
-        writeln!(out, "A letter (d b s l a f) marks {marked}, where a change of 1e-9")?;
+        let letters = Verdict::ALL.map(|verdict| mark(Some(Cell { verdict, sensitive: true })));
+        let letters = letters.map(String::from).join(" ");
+        writeln!(out, "A letter ({letters}) marks {marked}, where a change of 1e-9")?;
         writeln!(
             out,
             "of the pulse or of the motion changes the verdict or the number of impacts."

@@ -81,6 +81,24 @@ fn completions_and_manual_know_the_commands() {
     let page = printed(&["man"]);
     assert!(page.contains(".TH rubscope 1") && page.contains(".SH \"EXIT STATUS\""), "{page}");
     assert!(printed(&["man", "run"]).contains("\\-\\-samples"));
+    // A command within a command has a page too.
+    assert!(printed(&["man", "map", "merge"]).contains(".TH rubscope-map-merge 1"));
+    assert!(refusal(&["man", "map", "part"]).contains("COMMAND = part: allowed is one of merge"));
+    assert!(
+        refusal(&["man", "run", "map"]).contains("COMMAND = map: allowed is nothing after run")
+    );
+}
+
+#[test]
+fn helps_name_every_contact_law_and_defaults_of_their_own_command() {
+    for command in ["run", "hbm", "map", "margins", "precision", "figures"] {
+        let help = printed(&[command, "--help"]);
+        for law in ["unilateral: ", "bilateral: ", "smooth: "] {
+            assert!(help.contains(law), "{command}: no {law}");
+        }
+        assert!(help.contains("default: paper-nd3"), "{command}");
+        assert_eq!(help.contains("each figure has its own"), command == "figures", "{command}");
+    }
 }
 
 #[test]

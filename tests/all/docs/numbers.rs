@@ -3,6 +3,7 @@
 
 use rubscope::motion::{RunReport, Verdict, simulate};
 use rubscope::scene::Scene;
+use rubscope::study::Cell;
 
 use super::read;
 use crate::cli_support::rubscope;
@@ -142,6 +143,33 @@ fn errors_at_the_end_are_those_of_the_document() {
             told => close(found, number(told), 0.02),
         }
     }
+}
+
+#[test]
+fn every_verdict_has_its_word_and_its_signs_in_the_tables_and_legends() {
+    let commands = read("docs/commands.md");
+    let fields = commands.table("| field of `rubscope.run/1` | what it is |");
+    let words = &fields.iter().find(|row| row[0] == "`outcome.verdict`").unwrap()[1];
+    let signs = commands.table("| sign | verdict | sensitive |");
+    assert_eq!(signs.len(), Verdict::ALL.len());
+    let accuracy = read("docs/accuracy.md").table("| verdict | meaning |");
+    let readme = read("README.md").table("| verdict | |");
+    for verdict in Verdict::ALL {
+        let word = verdict.as_ref();
+        assert!(words.contains(&format!("`{word}`")), "{words}");
+        let [plain, letter] = [false, true].map(|sensitive| {
+            format!("`{}`", rubscope::report::map::mark(Some(Cell { verdict, sensitive })))
+        });
+        assert!(signs.contains(&vec![plain, word.to_string(), letter]), "{word}: {signs:?}");
+        assert!([&accuracy, &readme].iter().all(|table| table.iter().any(|row| row[0] == word)));
+    }
+    // The legend of a map with a sensitive cell has all letters.
+    let map = ["map", "--solver", "event", "--speed", "500:500:1", "--pulse", "2e5:2e5:1"];
+    let printed = String::from_utf8(rubscope(&map).stdout).unwrap();
+    let letters = Verdict::ALL
+        .map(|verdict| rubscope::report::map::mark(Some(Cell { verdict, sensitive: true })));
+    let told = format!("A letter ({}) marks", letters.map(String::from).join(" "));
+    assert!(printed.contains(&told), "{printed}");
 }
 
 #[test]
