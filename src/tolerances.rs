@@ -8,6 +8,7 @@ mod harmonic;
 mod joined;
 mod lining;
 mod margins;
+mod precision;
 
 pub(crate) use event::*;
 pub(crate) use explicit::*;
@@ -15,6 +16,7 @@ pub(crate) use harmonic::*;
 pub(crate) use joined::*;
 pub(crate) use lining::*;
 pub(crate) use margins::*;
+pub(crate) use precision::*;
 
 // The model.
 

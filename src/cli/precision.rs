@@ -47,7 +47,9 @@ impl PrecisionCommand {
         let form = "{spinner} {bar:30} {pos}/{len} {msg} {elapsed}";
         let bar = output::bar(ways.len() as u64, form);
         bar.set_message("the reference");
-        let Some(measure) = Measure::new(&scene, &to_the_end)? else { return Ok(Status::Failed) };
+        let Some(measure) = Measure::new(&scene, effort, &to_the_end)? else {
+            return Ok(Status::Failed);
+        };
         status::say_noted();
         let mut rows = Vec::with_capacity(ways.len());
         for way in ways {

@@ -17,7 +17,7 @@ use crate::tolerances::{FINER, LOCK_MOMENT, PERTURBATION};
 impl VerdictReached {
     /// Whether two runs that should be the same are not, where `moment` \[s\] is
     /// how much later a wave may lock.
-    fn differs_from(self, other: Self, moment: f64) -> bool {
+    pub(crate) fn differs_from(self, other: Self, moment: f64) -> bool {
         let counted = !self.rested && !other.rested;
         let late = |(one, two): (f64, f64)| (one - two).abs() > moment;
         self.verdict != other.verdict

@@ -7,7 +7,7 @@ use super::number::{count, rounded, short, time};
 use super::table::Table;
 use crate::scene::{ContactLaw, ModelSize, SolverKind};
 use crate::study::figures::{Figure, Panel, Quantity, Series, Style};
-use crate::study::precision::{Precision, Row, Way};
+use crate::study::precision::{Method, Precision, Reference, Row, Way};
 
 /// Size of the text chart.
 const COLUMNS: usize = 64;
@@ -26,7 +26,7 @@ pub fn letter(way: &Way) -> char {
         ModelSize::Rigid => base,
         ModelSize::Modal => base.to_ascii_uppercase(),
         ModelSize::Full => match base {
-            'u' => '1',
+            'u' | 's' => '1',
             _ => '2',
         },
     }
@@ -42,8 +42,73 @@ pub fn series(way: &Way) -> String {
 fn remark(row: &Row) -> &'static str {
     match row {
         Row { other_law: true, .. } => "other law",
-        Row { verdict_right: false, .. } => "wrong",
+        Row { verdict_right: Some(false), .. } => "wrong",
         _ => "",
+    }
+}
+
+/// How a reference was found.
+fn found(reference: &Reference) -> String {
+    let Way { contact, model, .. } = reference.way;
+    let step = short(reference.way.step_s.unwrap_or_default());
+    match reference.method {
+        Method::Extrapolated => {
+            format!(
+                "explicit solver, {contact}, {model} model, halved steps to {step} s, extrapolated"
+            )
+        }
+        Method::FinestStep => {
+            format!("explicit solver, {contact}, {model} model, the finest step, {step} s")
+        }
+        Method::None if reference.way.step_s.is_some() => {
+            format!("none; explicit solver, {contact}, {model} model, {step} s")
+        }
+        _ => format!("event solver, {contact}, {model} model"),
+    }
+}
+
+/// How good a reference is.
+fn goodness(reference: &Reference) -> String {
+    let told = |x: f64| short(rounded(x, 2));
+    let changes: Vec<String> = reference.changes.iter().map(|change| told(*change)).collect();
+    let changes = changes.join(", ");
+    let Some(error) = reference.error else {
+        return if changes.is_empty() {
+            "It has no state at the end to compare with.".to_string()
+        } else {
+            format!(
+                "Halving the step moves the end by {changes} of the clearance: no order is seen, \
+                 and ends cannot be compared."
+            )
+        };
+    };
+    match reference.order {
+        _ if reference.method == Method::Events => {
+            format!("Halving its tolerance moves the end by {} of the clearance.", told(error))
+        }
+        Some(order) => format!(
+            "Halving the step moves the end by {changes} of the clearance: order {order:.2}. Its \
+             error is about {} of the clearance; smaller ones are not known.",
+            told(error)
+        ),
+        None => format!(
+            "Halving the step moves the end by no more than {} of the clearance.",
+            told(error)
+        ),
+    }
+}
+
+/// A reference in some words, for a line of a screen.
+#[must_use]
+pub fn reference_words(reference: &Reference) -> String {
+    let verdict = reference.verdict;
+    let error = reference.error.map(|error| short(rounded(error, 1))).unwrap_or_default();
+    let order = reference.order.map(|order| format!(", order {order:.1}")).unwrap_or_default();
+    match reference.method {
+        Method::Events => format!("{verdict}, by events"),
+        Method::Extrapolated => format!("{verdict}, extrapolated{order}, error {error} g0"),
+        Method::FinestStep => format!("{verdict}, finest step{order}, error {error} g0"),
+        Method::None => "none: the end does not settle with the step".to_string(),
     }
 }
 
@@ -105,29 +170,23 @@ pub fn write(report: &Precision, out: &mut dyn Write) -> Result<()> {
     writeln!(out, "{}", report.scene.title)?;
     writeln!(
         out,
-        "Reference: event solver, unilateral, {} model: {}, {}, {}. {}",
-        reference.way.model,
+        "Reference: {}: {}, {}, {}.",
+        found(reference),
         reference.verdict,
         count(reference.impact_count, "impact"),
         time(reference.wall_s),
-        match reference.error_halved {
-            Some(moved) => format!(
-                "Halving its tolerance moves the end by {} of the clearance.",
-                short(rounded(moved, 2))
-            ),
-            None => "It has no state at the end to compare with.".to_string(),
-        },
     )?;
-    if report.scene.goes_beyond() {
+    writeln!(out, "{}", goodness(reference))?;
+    if report.scene.goes_beyond() && reference.method == Method::Events {
         writeln!(
             out,
             "It is linearised: blade angles inside the phase of the gap are left out, which the \
              explicit solver keeps; errors do not fall below that."
         )?;
     }
-    if reference.sensitive {
+    if reference.sensitive == Some(true) {
         let same_law = || report.rows.iter().filter(|row| !row.other_law);
-        let right = same_law().filter(|row| row.verdict_right).count();
+        let right = same_law().filter(|row| !row.is_wrong()).count();
         writeln!(
             out,
             "This scene is sensitive: a change of 1e-9 of the pulse or of the motion changes its outcome. \
@@ -193,7 +252,10 @@ pub fn figure(report: &Precision) -> std::result::Result<Figure, String> {
     if placed.iter().all(|row| is_zero(row)) {
         return Err(match (placed.is_empty(), report.reference.sensitive) {
             (false, _) => "every error is 0, which a logarithmic axis cannot show",
-            (_, true) => "on a sensitive scene there are no errors to draw",
+            (_, Some(true)) => "on a sensitive scene there are no errors to draw",
+            _ if !report.reference.changes.is_empty() => {
+                "halving the step goes on moving the end: there are no errors to draw"
+            }
             _ => "every run or the reference failed: there are no errors to draw",
         }
         .to_string());
@@ -292,7 +354,11 @@ fn write_chart(report: &Precision, out: &mut dyn Write) -> Result<()> {
     writeln!(out, "     {}", axis.trim_end())?;
     writeln!(
         out,
-        "e event, u explicit unilateral, b explicit bilateral; capitals: modal; 1, 2: full"
+        "{}; capitals: modal; 1, 2: full",
+        match report.scene.solver.contact {
+            ContactLaw::Smooth => "s explicit smooth",
+            _ => "e event, u explicit unilateral, b explicit bilateral",
+        }
     )
 }
 

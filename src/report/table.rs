@@ -51,6 +51,12 @@ impl From<bool> for TableCell {
     }
 }
 
+impl From<Option<bool>> for TableCell {
+    fn from(known: Option<bool>) -> Self {
+        known.map_or(Self::Empty, Self::from)
+    }
+}
+
 impl From<&str> for TableCell {
     fn from(word: &str) -> Self {
         Self::Word(word.to_string())

@@ -6,8 +6,13 @@ use serde_json::Value;
 
 /// The JSON of a comparison that must succeed, each row run once.
 fn compare(arguments: &[&str]) -> Value {
+    compare_to("1e-6", arguments)
+}
+
+/// As `compare`, down to a finest step.
+fn compare_to(finest: &str, arguments: &[&str]) -> Value {
     let output = rubscope(
-        &[&["precision", "--json", "--repeat", "1", "--finest", "1e-6"], arguments].concat(),
+        &[&["precision", "--json", "--repeat", "1", "--finest", finest], arguments].concat(),
     );
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
     serde_json::from_slice(&output.stdout).unwrap()
@@ -162,10 +167,86 @@ fn steps_taken_and_skipped_are_all_steps_and_the_time_is_that_of_the_taken_ones(
     }
 }
 
+/// On a lining each halving of the step leaves a quarter of the error.
 #[test]
-fn a_scene_that_the_reference_does_not_know_is_refused() {
-    let said = refusal(&["precision", "--set", "excitation.amplitude_nm=1"]);
-    let start = "rubscope: excitation.amplitude_nm = 1: allowed is 0 with solver.kind = \"event\"";
+fn what_the_event_solver_does_not_know_is_measured_against_halved_steps() {
+    let lining = ["soft-lining", "--end", "0.01"];
+    let report = compare(&lining);
+    let reference = &report["reference"];
+    assert_eq!(reference["method"], "extrapolated");
+    assert_eq!(
+        (&reference["solver"], &reference["contact"]),
+        (&"explicit".into(), &"smooth".into())
+    );
+    assert_eq!((&reference["step_s"], &reference["sensitive"]), (&1.25e-6.into(), &Value::Null));
+    assert!((reference["order"].as_f64().unwrap() - 2.0).abs() < 0.05, "{reference}");
+    let known = reference["error"].as_f64().unwrap();
+    for model in ["rigid", "modal", "full"] {
+        let errors: Vec<f64> = rows(&report)
+            .iter()
+            .filter(|row| row["model"] == model)
+            .map(|row| row["error_final"].as_f64().unwrap())
+            .collect();
+        assert_eq!(errors.len(), 4, "{report}");
+        let fall = |pair: &[f64]| assert!((pair[0] / pair[1] - 4.0).abs() < 0.2, "{errors:?}");
+        errors.windows(2).for_each(fall);
+        assert!(errors[3] > 10.0 * known, "{errors:?} {known}");
+    }
+    assert!(
+        rows(&report).iter().all(|row| row["contact"] == "smooth" && row["other_law"] == false)
+    );
+    let text = text(&lining);
+    assert!(text.contains("halved steps to 1.25e-6 s, extrapolated: locked"), "{text}");
+    assert!(text.contains("order 2.0") && text.contains("s explicit smooth; capitals"), "{text}");
+    let (table, picture) = files(&lining);
+    assert!(table.lines().count() == 13 && picture.contains("explicit smooth full"), "{table}");
+}
+
+#[test]
+fn impacts_leave_the_finest_step_and_many_impacts_nothing_to_compare_with() {
+    let driven = ["--contact", "unilateral", "--set", "excitation.amplitude_nm=1"];
+    let report = compare_to("1e-7", &[&driven[..], &["--pulse", "20e3"]].concat());
+    assert_eq!(report["reference"]["method"], "finest_step", "{}", report["reference"]);
+    let known = report["reference"]["error"].as_f64().unwrap();
+    assert!(known > 0.0 && known < 1e-4, "{known}");
+    assert!(rows(&report).iter().any(|row| row["error_final"].as_f64() > Some(known)));
+    // 1 MN: what the end is depends on the step, and the program says so.
+    let report = compare_to("1e-7", &driven);
+    let reference = &report["reference"];
+    assert_eq!((&reference["method"], &reference["error"]), (&"none".into(), &Value::Null));
+    assert_eq!(reference["changes"].as_array().unwrap().len(), 7);
+    assert!(rows(&report).iter().all(|row| row["error_final"].is_null()), "{report}");
+    let text = text(&driven);
+    assert!(text.contains("no order is seen, and ends cannot be compared"), "{text}");
+}
+
+#[test]
+fn each_model_size_has_a_reference_of_its_own() {
+    // The rigid disk decays where the moving blades whirl for good: no error.
+    let report = compare(&["rub", "--end", "0.3"]);
+    assert_eq!(
+        (&report["reference"]["method"], &report["reference"]["model"]),
+        (&"events".into(), &"modal".into())
+    );
+    for row in
+        rows(&report).iter().filter(|row| row["model"] == "rigid" && row["contact"] == "unilateral")
+    {
+        assert_eq!(
+            (&row["verdict"], &row["verdict_right"]),
+            (&"decay".into(), &true.into()),
+            "{row}"
+        );
+    }
+    // Single blades part at every step: nothing is known of their end.
+    for row in rows(&report).iter().filter(|row| row["model"] == "full") {
+        assert!(row["error_final"].is_null(), "{row}");
+    }
+}
+
+#[test]
+fn a_run_too_long_for_a_reference_is_refused() {
+    let said = refusal(&["precision", "coincidence", "--end", "1e4", "--step", "1e-4"]);
+    let start = "rubscope: solver.end_s = 10000: allowed is fewer than 3e6 steps";
     assert!(said.starts_with(start), "{said}");
 }
 

@@ -105,6 +105,18 @@ fn speed_against_error_shows_every_kind_of_solver() {
     }
 }
 
+/// Beyond the event solver the view says what it compares with.
+#[test]
+fn speed_against_error_names_its_reference() {
+    let mut scene = Scene::builtin("soft-lining").unwrap();
+    scene.solver.end_s = 2e-3;
+    let mut session = Session::open(120, 40, scene, Theme::Dark, Marker::Braille);
+    session.press("7f");
+    let text = session.text();
+    assert!(text.contains("reference locked, extrapolated, order 2.0, error "), "{text}");
+    assert!(text.contains(" 0 of 18 under its law differ"), "{text}");
+}
+
 #[test]
 fn themes_differ_in_colour_only_and_mono_has_none() {
     let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille);

@@ -1,12 +1,15 @@
 //! Speed against error: every solver, law and model size on one scene, each
-//! over its steps or tolerances, against the event solver as reference.
+//! over its steps or tolerances, against a reference: the event solver, and at halved
+//! steps what that does not know (a lining, an excitation, ramps and single blades beyond
+//! the paper).
 //!
 //! An explicit run ends at its last step, up to a step before the end of the
 //! scene, so the reference is evaluated at the time that each run really
-//! reached. The reference itself is checked by halving its tolerance. Where a
-//! tiny change of the pulse changes the outcome (a *sensitive* scene) end
-//! states mean nothing, and only verdicts are compared.
+//! reached. The reference itself is checked by halving its tolerance or its step. Where a
+//! tiny change of the pulse changes the outcome (a *sensitive* scene), or halving the step
+//! goes on moving the end, end states mean nothing, and only verdicts are compared.
 
+mod halving;
 mod track;
 mod ways;
 
@@ -15,9 +18,10 @@ use serde::Serialize;
 pub use ways::{Effort, Way, ways};
 
 use crate::motion::{GoOn, Motion, Script, State, Verdict, VerdictReached, is_sensitive};
-use crate::scene::{ContactLaw, ModelSize, Scene, SceneError, SolverKind};
+use crate::scene::{Scene, SceneError};
 use crate::tolerances;
 use track::Track;
+use ways::{by_events, reference};
 
 /// Impacts whose times are compared.
 const FIRST_IMPACTS: usize = 4;
@@ -50,8 +54,9 @@ pub struct Row {
     pub events: Option<u64>,
     /// The verdict.
     pub verdict: Verdict,
-    /// Whether it equals the verdict of the reference.
-    pub verdict_right: bool,
+    /// Whether it equals the verdict of the reference of its model size; none where that
+    /// has none.
+    pub verdict_right: Option<bool>,
     /// Whether the contact law differs from that of the reference: a solution
     /// of another problem, which may correctly differ.
     pub other_law: bool,
@@ -62,26 +67,48 @@ impl Row {
     /// verdict.
     #[must_use]
     pub fn is_wrong(&self) -> bool {
-        !self.other_law && !self.verdict_right
+        !self.other_law && self.verdict_right == Some(false)
     }
 }
 
-/// What everything is measured against.
+/// How a reference was found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Method {
+    /// From contact to contact in closed form.
+    Events,
+    /// From the ends at halved steps, whose order is seen, to a step of zero.
+    Extrapolated,
+    /// The end at the finest step: halving it moves the end less and less.
+    FinestStep,
+    /// There is none: halving the step goes on moving the end, or it failed.
+    None,
+}
+
+/// What everything is measured against; other model sizes have their own.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reference {
-    /// Always the event solver under unilateral contact.
+    /// The event solver under unilateral contact, or the finest of halved steps.
     #[serde(flatten)]
     pub way: Way,
-    /// Its verdict.
+    /// How it was found.
+    pub method: Method,
+    /// Its verdict; without a reference, that at the finest step.
     pub verdict: Verdict,
     /// Its impacts.
     pub impact_count: u64,
-    /// Whether the scene is sensitive.
-    pub sensitive: bool,
-    /// `|u - u_halved|/g0` at the end, with its tolerance halved; none where
-    /// it failed.
+    /// Whether the scene is sensitive; not asked where it is by steps, which tell it.
+    pub sensitive: Option<bool>,
+    /// How far its end may be from the exact one, in clearances; none without a reference.
+    pub error: Option<f64>,
+    /// How far half the tolerance, or the last halving of the step, moves the end, in
+    /// clearances; none where it failed.
     pub error_halved: Option<f64>,
-    /// Median wall time \[s\].
+    /// The order that halved steps show.
+    pub order: Option<f64>,
+    /// How far each halving of the step moves the end, coarse to fine, in clearances.
+    pub changes: Vec<f64>,
+    /// Wall time of its run \[s\].
     pub wall_s: f64,
 }
 
@@ -99,6 +126,8 @@ pub struct Precision {
 /// One run to the end.
 struct TimedRun {
     motion: Motion,
+    /// Where it was looked at.
+    state: State,
     verdict: Verdict,
     failed: bool,
     wall_s: f64,
@@ -108,77 +137,48 @@ struct TimedRun {
 pub struct Measure {
     scene: Scene,
     reference: Reference,
-    tracks: [Track; 2],
-}
-
-/// The event solver on one model size.
-fn by_events(model: ModelSize, tolerance: f64) -> Way {
-    Way {
-        solver: SolverKind::Event,
-        contact: ContactLaw::Unilateral,
-        model,
-        step_s: None,
-        tolerance: Some(tolerance),
-    }
-}
-
-/// The model size of the reference for one size of a scene.
-fn size_of_reference(model: ModelSize) -> ModelSize {
-    if model == ModelSize::Rigid { ModelSize::Rigid } else { ModelSize::Modal }
+    tracks: Vec<Track>,
 }
 
 impl Measure {
-    /// Refuses a scene that the event solver does not support: then there is no
-    /// reference.
+    /// Refuses a scene that the event solver does not know and that is too long for a
+    /// reference by steps.
     ///
     /// # Errors
-    /// The key that the event solver does not know.
-    pub fn check(scene: &Scene) -> Result<(), SceneError> {
-        if scene.solver.contact == ContactLaw::Smooth {
-            let allowed = "\"unilateral\" or \"bilateral\": the reference has rigid contact";
-            return Err(SceneError::refused("solver.contact", "\"smooth\"", allowed));
-        }
-        by_events(size_of_reference(scene.solver.model), 0.0).of(scene).map(|_| ())
+    /// The end of the scene.
+    pub fn check(scene: &Scene, effort: Effort) -> Result<(), SceneError> {
+        reference(scene, scene.solver.model)
+            .map(|_| ())
+            .or_else(|by_steps| halving::check(by_steps, scene, effort))
     }
 
-    /// Solves the scene by the event solver, for rigid and for moving blades;
-    /// none where `go_on` said no on the way.
+    /// Finds the references of a scene, for every model size among its ways; none where
+    /// `go_on` said no on the way.
     ///
     /// # Errors
-    /// The key that the event solver does not support.
-    pub fn new(scene: &Scene, go_on: GoOn<'_>) -> Result<Option<Self>, SceneError> {
-        Self::check(scene)?;
-        let model = size_of_reference(scene.solver.model);
-        let finest = tolerances::EVENT;
-        let chosen = by_events(model, finest);
-        let resolved = chosen.of(scene)?;
-        let halved = by_events(model, 0.5 * finest);
-        let (Some(run), Some(halved)) = (chosen.run(scene, go_on)?, halved.run(scene, go_on)?)
-        else {
-            return Ok(None);
-        };
-        let reached = VerdictReached::of(&run.motion, run.verdict);
-        let Some(sensitive) = is_sensitive(&resolved, &Script::default(), reached, go_on) else {
-            return Ok(None);
-        };
-        let reference = Reference {
-            way: chosen,
-            verdict: run.verdict,
-            impact_count: reached.impact_count,
-            sensitive,
-            error_halved: (!run.failed && !halved.failed).then(|| {
-                distance(&run.motion.state(), &halved.motion.state())
-                    / run.motion.machine().clearance()
-            }),
-            wall_s: run.wall_s,
-        };
-        let track = |model| Track::of(by_events(model, finest), scene, go_on);
-        let tracks = track(ModelSize::Rigid)?.zip(track(ModelSize::Modal)?);
-        Ok(tracks.map(|(rigid, modal)| Self {
-            scene: scene.clone(),
-            reference,
-            tracks: [rigid, modal],
-        }))
+    /// As `check`.
+    pub fn new(scene: &Scene, effort: Effort, go_on: GoOn<'_>) -> Result<Option<Self>, SceneError> {
+        let own = scene.solver.model;
+        Self::check(scene, effort)?;
+        let mut models = vec![own];
+        models.extend(ways(scene, effort).iter().map(|way| way.model));
+        models.dedup();
+        let mut tracks: Vec<Track> = Vec::new();
+        for model in models {
+            let way = reference(scene, model);
+            if tracks.iter().any(|track| track.is_of(way)) {
+                continue;
+            }
+            let track = match way {
+                Ok(exact) => Track::by_events(exact, scene, go_on)?,
+                Err(by_steps) => Track::by_steps(by_steps, scene, effort, go_on)?,
+            };
+            let Some(track) = track else { return Ok(None) };
+            tracks.push(track);
+        }
+        let Some(first) = tracks.first() else { return Ok(None) };
+        let Some(reference) = described(first, scene, go_on)? else { return Ok(None) };
+        Ok(Some(Self { scene: scene.clone(), reference, tracks }))
     }
 
     /// What everything is measured against.
@@ -198,24 +198,25 @@ impl Measure {
         effort: Effort,
         go_on: GoOn<'_>,
     ) -> Result<Option<Row>, SceneError> {
-        let Some(first) = way.run(&self.scene, go_on)? else { return Ok(None) };
+        let of_size = reference(&self.scene, way.model);
+        let track = self.tracks.iter().find(|track| track.is_of(of_size));
+        let look_s = track.map_or(self.scene.solver.end_s, |track| track.look_s(&self.scene));
+        let run = || way.run(&self.scene, look_s, go_on);
+        let Some(first) = run()? else { return Ok(None) };
         let mut walls = vec![first.wall_s];
         while walls.len() < effort.repeats as usize
             && walls.iter().sum::<f64>() < effort.seconds
-            && let Some(again) = way.run(&self.scene, go_on)?
+            && let Some(again) = run()?
         {
             walls.push(again.wall_s);
         }
         let wall_s = median(&mut walls);
-        let size = size_of_reference(way.model);
-        let track = self.tracks.iter().find(|track| track.model == size);
-        let comparable = !self.reference.sensitive && !first.failed;
-        let clearance = first.motion.machine().clearance();
-        let reached = first.motion.state();
+        let comparable = self.reference.sensitive != Some(true) && !first.failed;
+        let clearance = first.motion.machine().clearance().abs();
         let error_final = track
             .filter(|_| comparable)
-            .and_then(|track| track.at(reached.t_s))
-            .map(|exact| distance(&exact, &reached) / clearance);
+            .and_then(|track| track.at(first.state.t_s))
+            .map(|exact| distance(exact, first.state.u) / clearance);
         let steps = first.motion.steps_taken();
         Ok(Some(Row {
             way,
@@ -228,7 +229,7 @@ impl Measure {
             steps_skipped: first.motion.steps_skipped(),
             events: first.motion.events(),
             verdict: first.verdict,
-            verdict_right: first.verdict == self.reference.verdict,
+            verdict_right: track.and_then(Track::right).map(|right| first.verdict == right),
             other_law: way.contact != self.reference.way.contact,
         }))
     }
@@ -241,9 +242,49 @@ impl Measure {
     }
 }
 
+/// The reference of the scene's own model size, in figures; none where `go_on` said no.
+fn described(
+    track: &Track,
+    scene: &Scene,
+    go_on: GoOn<'_>,
+) -> Result<Option<Reference>, SceneError> {
+    let mut reference = Reference {
+        way: track.way,
+        method: Method::Events,
+        verdict: track.verdict,
+        impact_count: track.end.contacts().impact_count,
+        sensitive: None,
+        error: None,
+        error_halved: None,
+        order: None,
+        changes: Vec::new(),
+        wall_s: track.wall_s,
+    };
+    if let Some(settled) = track.settled() {
+        reference.method = settled.method;
+        reference.error = settled.end.map(|(_, error)| error);
+        reference.error_halved = settled.changes.last().copied();
+        reference.order = settled.order;
+        reference.changes.clone_from(&settled.changes);
+        return Ok(Some(reference));
+    }
+    let halved = by_events(track.way.model, 0.5 * tolerances::EVENT);
+    let Some(halved) = halved.run(scene, scene.solver.end_s, go_on)? else { return Ok(None) };
+    if track.end.failure().is_none() && !halved.failed {
+        let moved = distance(track.end.state().u, halved.state.u);
+        reference.error = Some(moved / track.end.machine().clearance());
+        reference.error_halved = reference.error;
+    } else {
+        reference.method = Method::None;
+    }
+    let reached = VerdictReached::of(&track.end, track.verdict);
+    reference.sensitive = is_sensitive(&track.way.of(scene)?, &Script::default(), reached, go_on);
+    Ok(reference.sensitive.map(|_| reference))
+}
+
 /// `|u_a - u_b|` \[m\].
-fn distance(a: &State, b: &State) -> f64 {
-    (a.u[0] - b.u[0]).hypot(a.u[1] - b.u[1])
+fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
 /// Largest difference in the times of the first impacts, if they are of the
@@ -274,17 +315,14 @@ fn median(values: &mut [f64]) -> f64 {
 mod tests {
     use super::*;
     use crate::motion::to_the_end;
-
-    fn quick() -> Effort {
-        Effort { repeats: 1, finest_s: 1e-7, seconds: 0.0 }
-    }
+    use crate::scene::{ContactLaw, ModelSize, SolverKind};
 
     fn rows(scene: &Scene, chosen: impl Fn(&Way) -> bool) -> (Reference, Vec<Row>) {
-        let measure = Measure::new(scene, &to_the_end).unwrap().unwrap();
-        let rows = ways(scene, quick())
+        let measure = Measure::new(scene, Effort::QUICK, &to_the_end).unwrap().unwrap();
+        let rows = ways(scene, Effort::QUICK)
             .into_iter()
             .filter(chosen)
-            .map(|way| measure.row(way, quick(), &to_the_end).unwrap().unwrap())
+            .map(|way| measure.row(way, Effort::QUICK, &to_the_end).unwrap().unwrap())
             .collect();
         (measure.reference().clone(), rows)
     }
@@ -296,13 +334,13 @@ mod tests {
                 && way.contact == ContactLaw::Unilateral
                 && way.solver == SolverKind::Explicit
         });
-        assert!(reference.error_halved.unwrap() < 1e-12 && !reference.sensitive);
+        assert!(reference.error_halved.unwrap() < 1e-12 && reference.sensitive == Some(false));
         let errors: Vec<f64> = rows.iter().map(|row| row.error_final.unwrap()).collect();
         assert_eq!(errors.len(), 4);
         assert!(errors.windows(2).all(|pair| pair[1] < pair[0]), "{errors:?}");
         // Order one in contact: two decades of step, two decades of error.
         assert!((errors[0] / errors[3]).log10() > 1.7, "{errors:?}");
-        assert!(rows.iter().all(|row| row.verdict_right));
+        assert!(rows.iter().all(|row| row.verdict_right == Some(true)));
     }
 
     #[test]
@@ -317,7 +355,7 @@ mod tests {
     fn a_step_too_long_is_left_out() {
         let mut scene = Scene::base();
         scene.casing.modal_mass_kg = 2e-6;
-        assert!(ways(&scene, quick()).iter().all(|way| way.step_s.is_none_or(|h| h < 1e-5)));
+        assert!(ways(&scene, Effort::QUICK).iter().all(|way| way.step_s.is_none_or(|h| h < 1e-5)));
     }
 
     #[test]

@@ -1,22 +1,44 @@
 //! The reference motion at any time near the end. This is needed because an
 //! explicit run ends at its last step, up to one step before the end of the scene.
+//! A reference by steps is one at an instant that all of its steps reach.
 
-use super::ways::{LONGEST, Way};
-use crate::motion::{GoOn, Motion, State};
-use crate::scene::{ModelSize, Scene, SceneError};
+use std::f64::consts::TAU;
+use std::time::Instant;
+
+use super::halving::{self, Halved, Settled};
+use super::ways::{Effort, LONGEST, Way};
+use crate::motion::{GoOn, Motion, Verdict, VerdictReached, verdict_of};
+use crate::scene::{ContactLaw, Scene, SceneError};
+use crate::tolerances::{LAST_PART, LOCK_MOMENT};
 
 /// The reference for one model size, at its end and a little before.
 pub(super) struct Track {
-    pub(super) model: ModelSize,
-    /// A time after which every explicit run has at least one more step.
-    before: Motion,
+    /// How it was computed: by events, or at the finest of halved steps.
+    pub(super) way: Way,
     pub(super) end: Motion,
+    /// Its verdict; by steps that at the finest.
+    pub(super) verdict: Verdict,
+    /// Wall time of its run \[s\].
+    pub(super) wall_s: f64,
+    found: Found,
+}
+
+enum Found {
+    /// By events, from a time after which every explicit run has at least one more step.
+    Events(Motion),
+    /// At halved steps, and the instant compared.
+    Steps(Settled, f64),
 }
 
 impl Track {
     /// None where `go_on` said no on the way.
-    pub(super) fn of(way: Way, scene: &Scene, go_on: GoOn<'_>) -> Result<Option<Self>, SceneError> {
+    pub(super) fn by_events(
+        way: Way,
+        scene: &Scene,
+        go_on: GoOn<'_>,
+    ) -> Result<Option<Self>, SceneError> {
         let end_s = scene.solver.end_s;
+        let started = Instant::now();
         let mut before = way.start(scene)?;
         // The motion stores a failure, and `at` returns none.
         let early = before.advance_while((end_s - 1.01 * LONGEST).max(0.0), go_on);
@@ -24,17 +46,169 @@ impl Track {
         if early == Ok(false) || end.advance_while(end_s, go_on) == Ok(false) {
             return Ok(None);
         }
-        Ok(Some(Self { model: way.model, before, end }))
+        let wall_s = started.elapsed().as_secs_f64();
+        let verdict = verdict_of(&end, LAST_PART * end_s);
+        Ok(Some(Self { way, end, verdict, wall_s, found: Found::Events(before) }))
     }
 
-    /// The state at the instant `t` near the end \[s\]; none if it failed by
-    /// then, or if that instant is not near the end.
-    pub(super) fn at(&self, t: f64) -> Option<State> {
-        if t < self.before.t_s() {
-            return None;
+    /// None where `go_on` said no on the way.
+    pub(super) fn by_steps(
+        way: Way,
+        scene: &Scene,
+        effort: Effort,
+        go_on: GoOn<'_>,
+    ) -> Result<Option<Self>, SceneError> {
+        halving::check(way, scene, effort)?;
+        let steps = halving::steps(way, scene, effort);
+        let longest = steps.iter().fold(0.0, |most: f64, step| most.max(*step));
+        let look_s = longest * (scene.solver.end_s / longest + 1e-6).floor();
+        let mut runs = Vec::new();
+        let mut finest = None;
+        for step_s in steps {
+            let way = way.at_step(step_s);
+            let Some(run) = way.run(scene, look_s, go_on)? else { return Ok(None) };
+            let reached = (!run.failed).then(|| VerdictReached::of(&run.motion, run.verdict));
+            runs.push(Halved { step_s, u: run.state.u, reached });
+            finest = Some((way, run));
         }
-        let mut motion = self.before.clone();
-        motion.advance(t).ok()?;
-        Some(motion.state())
+        let Some((way, run)) = finest else { return Ok(None) };
+        let machine = run.motion.machine();
+        let moment = LOCK_MOMENT * TAU / machine.omega_c;
+        let rigid = scene.solver.contact != ContactLaw::Smooth;
+        let settled = halving::settle(&runs, machine.clearance().abs(), moment, rigid);
+        let (verdict, wall_s) = (run.verdict, run.wall_s);
+        let found = Found::Steps(settled, look_s);
+        Ok(Some(Self { way, end: run.motion, verdict, wall_s, found }))
+    }
+
+    /// Whether it is the reference of this kind, whatever its step.
+    pub(super) fn is_of(&self, reference: Result<Way, Way>) -> bool {
+        let (Ok(way) | Err(way)) = reference;
+        Way { step_s: None, ..self.way } == way
+    }
+
+    /// The verdict of a right row; none where halved steps have several.
+    pub(super) fn right(&self) -> Option<Verdict> {
+        let one = self.settled().is_none_or(|settled| settled.one_verdict);
+        one.then_some(self.verdict)
+    }
+
+    /// What halved steps tell, if it is by steps.
+    pub(super) fn settled(&self) -> Option<&Settled> {
+        match &self.found {
+            Found::Events(_) => None,
+            Found::Steps(settled, _) => Some(settled),
+        }
+    }
+
+    /// When a run is looked at to be compared \[s\].
+    pub(super) fn look_s(&self, scene: &Scene) -> f64 {
+        match &self.found {
+            Found::Events(_) => scene.solver.end_s,
+            Found::Steps(_, look_s) => *look_s,
+        }
+    }
+
+    /// The casing at the instant `t` of a run that was looked at \[m\]; none if it failed
+    /// by then, or if nothing is known of that instant.
+    pub(super) fn at(&self, t: f64) -> Option<[f64; 2]> {
+        match &self.found {
+            Found::Steps(settled, _) => settled.end.map(|(u, _)| u),
+            Found::Events(before) if t >= before.t_s() => {
+                let mut motion = before.clone();
+                motion.advance(t).ok()?;
+                Some(motion.state().u)
+            }
+            Found::Events(_) => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::ways::reference;
+    use super::super::{Measure, Method, distance, ways};
+    use super::*;
+    use crate::motion::to_the_end;
+    use crate::scene::ModelSize;
+
+    const EFFORT: Effort = Effort::QUICK;
+
+    fn by_steps(scene: &Scene) -> (Track, Settled, f64) {
+        let way = reference(scene, scene.solver.model).unwrap_err();
+        let track = Track::by_steps(way, scene, EFFORT, &to_the_end).unwrap().unwrap();
+        let settled = track.settled().unwrap().clone();
+        let look_s = track.look_s(scene);
+        (track, settled, look_s)
+    }
+
+    /// An excitation too small to be felt is not for the event solver, which knows the
+    /// same scene without it.
+    #[test]
+    fn a_reference_by_steps_is_as_near_to_the_event_solver_as_it_says() {
+        let mut found = Vec::new();
+        for pulse in [3e3, 5e3, 1e4, 2e4, 2.5e4, 4e4, 6e4] {
+            for speed in [350.0, 420.0, 500.0] {
+                let mut scene = Scene::base().as_reference();
+                scene.solver.end_s = 0.02;
+                (scene.operation.pulse_n, scene.operation.speed_rad_s) = (pulse, speed);
+                let exact = reference(&scene, ModelSize::Modal).unwrap();
+                let exact = Track::by_events(exact, &scene, &to_the_end).unwrap().unwrap();
+                scene.excitation.amplitude_nm = 1e-300;
+                let (_, settled, look_s) = by_steps(&scene);
+                let Some((u, error)) = settled.end else {
+                    found.push(Method::None);
+                    continue;
+                };
+                let off = distance(u, exact.at(look_s).unwrap()) / scene.clearance();
+                assert!(off <= error, "{pulse} N, {speed} rad/s: {off:e}, {error:e}, {settled:?}");
+                found.push(settled.method);
+            }
+        }
+        // Most have a reference, with and without an order.
+        let of = |method| found.iter().filter(|other| **other == method).count();
+        assert!(of(Method::None) < 8 && of(Method::FinestStep) > 3, "{found:?}");
+        assert!(of(Method::Extrapolated) > 0, "{found:?}");
+    }
+
+    /// By a Runge-Kutta method of eighth order, with the full angles of the blades.
+    #[test]
+    fn a_reference_on_a_lining_is_that_of_a_method_of_high_order() {
+        let mut scene = Scene::builtin("coincidence").unwrap();
+        (scene.operation.speed_rad_s, scene.solver.end_s) = (410.0, 0.05);
+        let (track, settled, look_s) = by_steps(&scene);
+        assert!((look_s - 0.05).abs() < 1e-12);
+        let (u, error) = settled.end.unwrap();
+        let off = distance(u, [-2.684_877_616e-7, 4.302_712_028e-7]);
+        // Of ten digits.
+        assert!(off < 1e-15 && error < 1e-9, "{off:e} {error:e}");
+        assert_eq!(settled.method, Method::Extrapolated);
+        assert!((settled.order.unwrap() - 2.0).abs() < 0.01, "{settled:?}");
+        assert_eq!(track.right(), Some(track.verdict));
+    }
+
+    /// Single blades that move contact are another model than the disk of two modes.
+    #[test]
+    fn single_blades_beyond_the_paper_are_their_own_reference() {
+        let by_events = |changes: &[(&str, &str)]| {
+            let scene = Scene::builtin("paper-nd3").unwrap().with(changes).unwrap();
+            [ModelSize::Rigid, ModelSize::Modal, ModelSize::Full]
+                .map(|model| reference(&scene, model).is_ok())
+        };
+        let pushes = ("solver.contact", "unilateral");
+        assert_eq!(by_events(&[]), [true; 3]);
+        assert_eq!(by_events(&[pushes, ("contact.restitution", "0.5")]), [true; 3]);
+        for key in ["bladed_disk.radial_coupling", "contact.friction"] {
+            assert_eq!(by_events(&[pushes, (key, "0.1")]), [true, true, false], "{key}");
+        }
+        assert_eq!(by_events(&[("solver.contact", "smooth")]), [false; 3]);
+        let ramp = [pushes, ("operation.speed_ramp_rad_s2", "10"), ("contact.friction", "0.1")];
+        assert_eq!(by_events(&ramp), [true, false, false]);
+        // Too long for that: its rows are left out, and the others stay.
+        let mut long = Scene::builtin("friction-lock").unwrap().as_reference();
+        long.solver.end_s = 200.0;
+        let models: Vec<_> = ways(&long, EFFORT).iter().map(|way| way.model).collect();
+        assert!(models.contains(&ModelSize::Modal) && !models.contains(&ModelSize::Full));
+        assert_eq!(Measure::check(&long, EFFORT), Ok(()));
     }
 }

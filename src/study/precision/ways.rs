@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use serde::Serialize;
 
-use super::TimedRun;
+use super::{TimedRun, halving};
 use crate::motion::{Event, GoOn, Motion, verdict_of};
 use crate::scene::{CheckedScene, ContactLaw, ModelSize, Scene, SceneError, SolverKind};
 use crate::tolerances::{self, LAST_PART};
@@ -40,31 +40,51 @@ pub struct Effort {
     pub finest_s: f64,
     /// Seconds after which a row is no longer repeated.
     pub seconds: f64,
+    /// Most steps of a run where the reference is one by steps.
+    pub most_steps: f64,
 }
 
 impl Default for Effort {
     fn default() -> Self {
-        Self { repeats: 5, finest_s: 1e-8, seconds: 0.5 }
+        Self { repeats: 5, finest_s: 1e-8, seconds: 0.5, most_steps: 3e6 }
     }
 }
 
-/// Every way to solve a scene, coarse to fine. Refused combinations, such as steps
-/// beyond the stability limit or the end, are left out.
+impl Effort {
+    /// One run a row, and no step finer than the paper's, for a quick result.
+    pub const QUICK: Self = Self { repeats: 1, finest_s: 1e-7, seconds: 0.0, most_steps: 5e5 };
+}
+
+/// Every way to solve a scene, coarse to fine. Steps beyond the stability
+/// limit or the end and other refused combinations are left out. Where the reference is
+/// one by steps, these are the finest of its steps but for the last.
 #[must_use]
 pub fn ways(scene: &Scene, effort: Effort) -> Vec<Way> {
+    let laws: &[ContactLaw] = match scene.solver.contact {
+        ContactLaw::Smooth => &[ContactLaw::Smooth],
+        _ => &[ContactLaw::Unilateral, ContactLaw::Bilateral],
+    };
     let mut ways = Vec::new();
+    let allowed = effort.finest_s..=scene.solver.end_s;
     for model in [ModelSize::Rigid, ModelSize::Modal, ModelSize::Full] {
-        for contact in [ContactLaw::Unilateral, ContactLaw::Bilateral] {
-            for step in STEPS.into_iter().filter(|&step| step >= effort.finest_s) {
-                let solver = SolverKind::Explicit;
-                ways.push(Way { solver, contact, model, step_s: Some(step), tolerance: None });
-            }
+        let mut steps: Vec<f64> = STEPS.into_iter().filter(|step| allowed.contains(step)).collect();
+        if let Err(by_steps) = reference(scene, model) {
+            steps = halving::rows(by_steps, scene, effort);
+        }
+        for &contact in laws {
+            let solver = SolverKind::Explicit;
+            ways.extend(steps.iter().map(|&step| Way {
+                solver,
+                contact,
+                model,
+                step_s: Some(step),
+                tolerance: None,
+            }));
         }
     }
     for model in [ModelSize::Rigid, ModelSize::Modal] {
-        for tolerance in TOLERANCES {
-            let (solver, contact) = (SolverKind::Event, ContactLaw::Unilateral);
-            ways.push(Way { solver, contact, model, step_s: None, tolerance: Some(tolerance) });
+        if reference(scene, model).is_ok() {
+            ways.extend(TOLERANCES.map(|tolerance| by_events(model, tolerance)));
         }
     }
     ways.retain(|way| match way.of(scene) {
@@ -75,6 +95,36 @@ pub fn ways(scene: &Scene, effort: Effort) -> Vec<Way> {
         found => found.is_ok(),
     });
     ways
+}
+
+/// The event solver on one model size.
+pub(super) fn by_events(model: ModelSize, tolerance: f64) -> Way {
+    Way {
+        solver: SolverKind::Event,
+        contact: ContactLaw::Unilateral,
+        model,
+        step_s: None,
+        tolerance: Some(tolerance),
+    }
+}
+
+/// What the runs of one model size are measured against: the event solver, which has
+/// the modes of the disk for all of its blades as long as these do not matter to contact.
+///
+/// # Errors
+/// The event solver does not know this: what is to be solved at halved steps instead.
+pub(super) fn reference(scene: &Scene, model: ModelSize) -> Result<Way, Way> {
+    let smooth = scene.solver.contact == ContactLaw::Smooth;
+    let contact = if smooth { ContactLaw::Smooth } else { ContactLaw::Unilateral };
+    let by_steps =
+        Way { solver: SolverKind::Explicit, contact, model, step_s: None, tolerance: None };
+    let mut blades = scene.clone();
+    (blades.solver.model, blades.solver.contact) = (model, contact);
+    blades.contact.restitution = 0.0;
+    let own = model == ModelSize::Full && blades.goes_beyond();
+    let size = if model == ModelSize::Rigid { ModelSize::Rigid } else { ModelSize::Modal };
+    let exact = by_events(size, tolerances::EVENT);
+    if smooth || own || exact.of(scene).is_err() { Err(by_steps) } else { Ok(exact) }
 }
 
 impl Way {
@@ -93,6 +143,11 @@ impl Way {
         scene.checked()
     }
 
+    /// The same way at another step.
+    pub(super) fn at_step(self, step_s: f64) -> Self {
+        Self { step_s: Some(step_s), ..self }
+    }
+
     pub(super) fn start(&self, scene: &Scene) -> Result<Motion, SceneError> {
         let scene = self.of(scene)?;
         Ok(match self.tolerance {
@@ -103,20 +158,24 @@ impl Way {
         })
     }
 
-    /// Runs to the end and times it; none where `go_on` said no on the way.
+    /// Runs to the end, by way of an instant at which it is looked at, and times it; none
+    /// where `go_on` said no on the way.
     pub(super) fn run(
         &self,
         scene: &Scene,
+        look_s: f64,
         go_on: GoOn<'_>,
     ) -> Result<Option<TimedRun>, SceneError> {
         let started = Instant::now();
         let mut motion = self.start(scene)?;
-        let reached = motion.advance_while(scene.solver.end_s, go_on);
+        let looked = motion.advance_while(look_s, go_on);
+        let state = motion.state();
+        let reached = looked.and_then(|_| motion.advance_while(scene.solver.end_s, go_on));
         if reached == Ok(false) {
             return Ok(None);
         }
         let wall_s = started.elapsed().as_secs_f64();
         let verdict = verdict_of(&motion, LAST_PART * scene.solver.end_s);
-        Ok(Some(TimedRun { verdict, failed: reached.is_err(), wall_s, motion }))
+        Ok(Some(TimedRun { verdict, failed: reached.is_err(), state, wall_s, motion }))
     }
 }

@@ -4,9 +4,9 @@
 use ratatui::{buffer::Buffer, layout::Rect};
 
 use super::panel::{ViewArea, ViewPanel, not_yet, title};
-use crate::report::precision::{decades, letter, place, series};
-use crate::scene::SolverKind;
-use crate::study::precision::{Measure, Row, Way};
+use crate::report::precision::{decades, letter, place, reference_words, series};
+use crate::scene::{ContactLaw, SolverKind};
+use crate::study::precision::{Effort, Measure, Row, Way};
 use crate::tui::app::App;
 use crate::tui::axis::{ChartAxis, readable};
 use crate::tui::plot::Plot;
@@ -29,14 +29,15 @@ impl ViewPanel for PrecisionView {
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
         let look = &app.appearance;
         let quiet = look.style(Role::Quiet);
-        let role = |way: &Way| match way.solver {
+        let hue = |way: &Way| match way.solver {
             SolverKind::Event => Role::First,
             SolverKind::Explicit => Role::Second,
         };
-        let entries = [
-            ("e event", Role::First),
-            ("u explicit, b other law (capital: modal, 1 2: full)", Role::Second),
-        ];
+        let explicit = match app.scene.solver.contact {
+            ContactLaw::Smooth => "s explicit (capital: modal, 1: full)",
+            _ => "u explicit, b other law (capital: modal, 1 2: full)",
+        };
+        let entries = [("e event", Role::First), (explicit, Role::Second)];
         let axes = [("error |u-u_ref|/g0 by wall time [s]".to_string(), quiet)];
         let mut legend: Vec<_> =
             entries.iter().map(|(text, role)| (text.to_string(), look.style(*role))).collect();
@@ -53,7 +54,7 @@ impl ViewPanel for PrecisionView {
                 }
             }
         }
-        if let Err(error) = Measure::check(&app.scene) {
+        if let Err(error) = Measure::check(&app.scene, Effort::QUICK) {
             print(buffer, inside, 1, "no reference for this scene:", look.style(Role::Trouble));
             print(buffer, inside, 2, &error.to_string(), quiet);
             return;
@@ -61,20 +62,21 @@ impl ViewPanel for PrecisionView {
         let Some(report) = &app.latest.results.precision else {
             return not_yet(app, buffer, inside);
         };
-        if report.reference.sensitive {
+        let words = inside;
+        let (note, role) = if report.reference.sensitive == Some(true) {
             let text = "sensitive scene: end states mean nothing, compare verdicts";
-            print(buffer, inside, 0, text, look.style(Role::Trouble));
+            (text.to_string(), Role::Trouble)
         } else {
             let same_law = report.rows.iter().filter(|row| !row.other_law).count();
             let wrong = report.rows.iter().filter(|row| row.is_wrong()).count();
-            let note = format!(
-                "reference {}; {wrong} of {same_law} under its law differ (!)",
-                report.reference.verdict,
-            );
-            print(buffer, inside, 0, &note, quiet);
+            let words = reference_words(&report.reference);
+            let note = format!("reference {words}; {wrong} of {same_law} under its law differ (!)");
+            (note, Role::Quiet)
+        };
+        for line in wrap(&note, usize::from(inside.width)) {
+            print(buffer, inside, 0, &line, look.style(role));
+            inside = below(inside);
         }
-        let words = inside;
-        let inside = below(inside);
         let placed = || report.rows.iter().filter_map(|row| Some((place(row)?, row)));
         // A logarithmic axis has no zero: rows without error are listed below.
         let mut zeros: Vec<char> = placed()
@@ -109,7 +111,7 @@ impl ViewPanel for PrecisionView {
             }
         }
         for ((x, y), row) in points {
-            plot.point(x, y, letter(&row.way), look.style(role(&row.way)));
+            plot.point(x, y, letter(&row.way), look.style(hue(&row.way)));
             if row.is_wrong()
                 && let (Some(column), Some(line)) = (plot.column(x), plot.row(y))
             {

@@ -9,9 +9,6 @@ use crate::motion::GoOn;
 use crate::scene::Scene;
 use crate::study::precision::{Effort, Measure, Precision, Reference, Row, ways};
 
-/// One run per row, and no step finer than the paper's, for a quick result.
-const EFFORT: Effort = Effort { repeats: 1, finest_s: 1e-7, seconds: 0.0 };
-
 /// What the thread finds.
 enum Found {
     Reference(Box<Reference>),
@@ -71,11 +68,11 @@ impl PrecisionJob {
 
 /// Measures until done, or until told not to go on.
 fn measure(scene: &Scene, found: &Sender<Found>, go_on: GoOn<'_>) {
-    let Ok(Some(measure)) = Measure::new(scene, go_on) else { return };
+    let Ok(Some(measure)) = Measure::new(scene, Effort::QUICK, go_on) else { return };
     // Without a receiver nothing is asked for any more, and `go_on` says so.
     let _ = found.send(Found::Reference(Box::new(measure.reference().clone())));
-    for way in ways(scene, EFFORT) {
-        let row = measure.row(way, EFFORT, go_on);
+    for way in ways(scene, Effort::QUICK) {
+        let row = measure.row(way, Effort::QUICK, go_on);
         if !go_on() {
             return;
         }
@@ -99,6 +96,6 @@ mod tests {
             job.receive(Duration::from_millis(50));
         }
         let rows: Vec<_> = job.report().unwrap().rows.iter().map(|row| row.way).collect();
-        assert_eq!(rows, ways(&scene, EFFORT));
+        assert_eq!(rows, ways(&scene, Effort::QUICK));
     }
 }

@@ -76,7 +76,10 @@ fn every_field_of_the_reports_is_in_the_documents() {
         ("| field of `rubscope.map/1` | what it is |", vec![map]),
         (
             "| field of `rubscope.precision/1` | what it is |",
-            vec!["precision grazing --finest 1e-6 --repeat 1 --json"],
+            vec![
+                "precision grazing --finest 1e-6 --repeat 1 --json",
+                "precision soft-lining --end 1e-3 --finest 1e-6 --repeat 1 --json",
+            ],
         ),
         (
             "| field of `rubscope.margins/1` | what it is |",

@@ -145,6 +145,37 @@ fn errors_at_the_end_are_those_of_the_document() {
     }
 }
 
+/// The README says what many impacts leave of an order.
+#[test]
+fn what_does_not_converge_is_in_the_readme() {
+    let many = ["--contact", "unilateral"];
+    let precise =
+        [&["precision"][..], &many, &["--finest", "1e-7", "--repeat", "1", "--json"]].concat();
+    let report: serde_json::Value = serde_json::from_slice(&rubscope(&precise).stdout).unwrap();
+    assert_eq!(report["reference"]["sensitive"], false);
+    let found = report["rows"].as_array().unwrap().iter().filter(|row| {
+        row["model"] == "modal" && row["contact"] == "unilateral" && row["solver"] == "explicit"
+    });
+    let found: Vec<_> = found.collect();
+    let told =
+        read("README.md").table("| solver | step | impacts | error at 0.1 s, in clearances |");
+    assert_eq!(told.len(), 4);
+    for row in &told {
+        let Ok(step) = row[1].replace(" s", "").parse::<f64>() else {
+            assert_eq!((&*row[0], &*row[1], &*row[3]), ("event", "none", "reference"));
+            assert_eq!(row[2], report["reference"]["impact_count"].to_string());
+            continue;
+        };
+        let of_step = found.iter().find(|found| found["step_s"] == step).unwrap();
+        close(of_step["error_final"].as_f64().unwrap(), number(&row[3]), 0.04);
+        assert_eq!(of_step["verdict"], "decay");
+        let changes = [("solver.contact", "unilateral"), ("solver.step_s", &*step.to_string())];
+        assert_eq!(run("paper-nd3", &changes).impact_count.to_string(), row[2]);
+    }
+    // No nearer with a smaller step.
+    assert!(told.windows(2).take(2).all(|pair| number(&pair[0][3]) < number(&pair[1][3])));
+}
+
 #[test]
 fn every_verdict_has_its_word_and_its_signs_in_the_tables_and_legends() {
     let commands = read("docs/commands.md");

@@ -1,0 +1,241 @@
+//! The reference of what the event solver does not know: the explicit solver at steps
+//! that are halved. Where each halving moves the end by the same part of the one before,
+//! that part is the order, and the end is extrapolated to a step of zero (Richardson);
+//! where the changes fall without such a rule, the finest step is the reference; where they
+//! do not fall, there is none.
+//!
+//! An impact is late by what is left of its step. A halved step moves it by half a step or
+//! not at all, so the largest change in proportion to its step bounds the error; and an
+//! instant just behind one that all steps share looks like first order, and its limit is
+//! that shared one. After rigid impacts nothing is extrapolated.
+
+use super::ways::{Effort, LONGEST, Way};
+use super::{Method, distance};
+use crate::motion::VerdictReached;
+use crate::scene::{Scene, SceneError};
+use crate::tolerances::{
+    CHANGES_ASKED, ORDER_CLEAR, ORDER_LEAST, REFERENCE_ROUND_OFF, REFERENCE_STEPS,
+    REFERENCE_STEPS_LEAST, REFERENCE_WORST,
+};
+
+/// The run at one step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Halved {
+    pub(super) step_s: f64,
+    /// The casing at the instant compared \[m\].
+    pub(super) u: [f64; 2],
+    /// How it lasted; none where it failed.
+    pub(super) reached: Option<VerdictReached>,
+}
+
+/// What the runs tell together.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Settled {
+    pub(super) method: Method,
+    /// The order that is seen; none where all changes are round-off.
+    pub(super) order: Option<f64>,
+    /// The casing \[m\], and how far it may be from the exact one, in clearances; none
+    /// without a reference.
+    pub(super) end: Option<([f64; 2], f64)>,
+    /// How far each halving moves the casing, in clearances.
+    pub(super) changes: Vec<f64>,
+    /// Whether the finest runs have one verdict.
+    pub(super) one_verdict: bool,
+}
+
+/// The steps, each half of the one before, down to the finest that `effort` allows;
+/// those that the scene refuses are left out. None at all where too few are left.
+pub(super) fn steps(way: Way, scene: &Scene, effort: Effort) -> Vec<f64> {
+    let end = scene.solver.end_s;
+    let least = effort.finest_s.max(end / effort.most_steps);
+    let finest = LONGEST * (least / LONGEST).log2().ceil().exp2();
+    let all = (0..REFERENCE_STEPS as i32).rev().map(|k| finest * 2_f64.powi(k));
+    let mut steps: Vec<f64> =
+        all.filter(|&step| step <= end && way.at_step(step).of(scene).is_ok()).collect();
+    if steps.len() < REFERENCE_STEPS_LEAST {
+        steps.clear();
+    }
+    steps
+}
+
+/// The steps of rows: the finest that are asked for an order, but for the last, which is
+/// the reference or next to it.
+pub(super) fn rows(way: Way, scene: &Scene, effort: Effort) -> Vec<f64> {
+    let mut steps = steps(way, scene, effort);
+    _ = steps.pop();
+    steps.split_off(steps.len().saturating_sub(CHANGES_ASKED))
+}
+
+/// # Errors
+/// The run is too long for a reference by steps within this effort.
+pub(super) fn check(way: Way, scene: &Scene, effort: Effort) -> Result<(), SceneError> {
+    if !steps(way, scene, effort).is_empty() {
+        return Ok(());
+    }
+    let allowed = format!(
+        "fewer than {:e} steps of those the scene allows, for a reference by steps",
+        effort.most_steps
+    );
+    Err(SceneError::refused("solver.end_s", scene.solver.end_s, allowed))
+}
+
+/// What runs at halved steps tell, on a rigid casing or a lining; `moment` \[s\] is how
+/// much later a wave may lock.
+pub(super) fn settle(runs: &[Halved], clearance: f64, moment: f64, rigid: bool) -> Settled {
+    let changes: Vec<f64> =
+        runs.windows(2).map(|pair| distance(pair[0].u, pair[1].u) / clearance).collect();
+    let asked = runs.len().saturating_sub(CHANGES_ASKED + 1);
+    let last = runs.get(asked..).unwrap_or_default();
+    let one_verdict = last
+        .windows(2)
+        .all(|pair| pair[0].reached.is_some() && verdict(&pair[0]) == verdict(&pair[1]));
+    let mut settled =
+        Settled { method: Method::None, order: None, end: None, changes, one_verdict };
+    if last.iter().any(|run| run.reached.is_none()) {
+        return settled;
+    }
+    let hit = last.iter().any(|run| run.reached.is_some_and(|reached| reached.impact_count > 0));
+    let extrapolated = extrapolate(runs, &settled.changes, clearance).filter(|_| !(rigid && hit));
+    let found = extrapolated.map(|(order, u, error)| (Method::Extrapolated, Some(order), u, error));
+    let found = found.or_else(|| {
+        let (order, error) = falling(runs, &settled.changes)?;
+        let same = |pair: &[Halved]| {
+            let both = pair[0].reached.zip(pair[1].reached);
+            both.is_some_and(|(one, other)| !one.differs_from(other, moment))
+        };
+        let finest = runs.last()?;
+        last.windows(2).all(same).then_some((Method::FinestStep, order, finest.u, error))
+    });
+    if let Some((method, order, u, error)) = found.filter(|found| found.3 <= REFERENCE_WORST) {
+        settled.method = method;
+        settled.order = order;
+        settled.end = Some((u, error));
+    }
+    settled
+}
+
+fn verdict(run: &Halved) -> Option<crate::motion::Verdict> {
+    run.reached.map(|reached| reached.verdict)
+}
+
+/// The order, the end extrapolated with it, and how far that is from the one of a step
+/// twice as long; of the finest steps at which two orders in a row are one whole number.
+/// Finer ones may have lost it in round-off, not in larger changes.
+fn extrapolate(runs: &[Halved], changes: &[f64], clearance: f64) -> Option<(f64, [f64; 2], f64)> {
+    let to_zero = |finer: usize, whole: f64| -> Option<[f64; 2]> {
+        let (coarse, fine) = (runs.get(finer.checked_sub(1)?)?.u, runs.get(finer)?.u);
+        let part = 1.0 / (whole.exp2() - 1.0);
+        Some([0, 1].map(|i| fine[i] + part * (fine[i] - coarse[i])))
+    };
+    (2..changes.len()).rev().find_map(|at| {
+        let orders = [1, 0].map(|back| (changes[at - back - 1] / changes[at - back]).log2());
+        let whole = orders[1].round();
+        let clear = orders.iter().all(|order| (order - whole).abs() <= ORDER_CLEAR);
+        let holds = changes[at..].iter().all(|later| *later <= changes[at]);
+        if !(clear && holds && (1.0..=2.0).contains(&whole)) {
+            return None;
+        }
+        let (end, coarser) = (to_zero(at + 1, whole)?, to_zero(at, whole)?);
+        Some((orders[1], end, distance(end, coarser) / clearance))
+    })
+}
+
+/// The order with which the last changes fall on the whole, from the largest of the first
+/// three to the larger of the last two, and a bound of what is left beyond the finest step if
+/// they go on so; without an order where nothing is left but round-off. None where they do
+/// not fall.
+fn falling(runs: &[Halved], changes: &[f64]) -> Option<(Option<f64>, f64)> {
+    let first = changes.len().checked_sub(CHANGES_ASKED)?;
+    let (changes, runs) = (changes.get(first..)?, runs.get(first..)?);
+    let largest = |part: &[f64]| part.iter().fold(0.0_f64, |most, change| most.max(*change));
+    if largest(changes) <= REFERENCE_ROUND_OFF {
+        return Some((None, largest(changes)));
+    }
+    let (coarse, fine) = (changes.get(..3)?, changes.get(CHANGES_ASKED - 2..)?);
+    let order = (largest(coarse) / largest(fine)).log2() / (CHANGES_ASKED - 2) as f64;
+    // Each change is at most in this proportion to its step.
+    let rates = runs.iter().zip(changes).map(|(run, change)| change / run.step_s);
+    let error = 2.0 * rates.fold(0.0, f64::max) * runs.last()?.step_s;
+    (order >= ORDER_LEAST).then_some((Some(order).filter(|order| order.is_finite()), error))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::Verdict;
+
+    /// Runs at seven halvings of a step of one second, whose ends are these, with as many
+    /// impacts as `impacts` says.
+    fn runs(end: impl Fn(f64) -> f64, impacts: impl Fn(usize) -> u64) -> Vec<Halved> {
+        (0..REFERENCE_STEPS)
+            .map(|n| {
+                let step_s = 0.5_f64.powi(n as i32);
+                let reached = VerdictReached {
+                    verdict: Verdict::Decay,
+                    impact_count: impacts(n),
+                    rested: false,
+                    locked_s: None,
+                };
+                Halved { step_s, u: [end(step_s), 0.0], reached: Some(reached) }
+            })
+            .collect()
+    }
+
+    fn settled(end: impl Fn(f64) -> f64) -> Settled {
+        settle(&runs(end, |_| 5), 1.0, 1.0, false)
+    }
+
+    #[test]
+    fn a_whole_order_is_seen_and_the_end_is_extrapolated() {
+        for order in [1, 2] {
+            let found = settled(|h| 3.0 + 0.2 * h.powi(order) + 0.01 * h.powi(order + 1));
+            assert_eq!(found.method, Method::Extrapolated);
+            assert!((found.order.unwrap() - f64::from(order)).abs() < 0.01);
+            let (u, error) = found.end.unwrap();
+            assert!((u[0] - 3.0).abs() <= error && error < 1e-5, "{order}: {} {error}", u[0] - 3.0);
+        }
+        // Third order is of no scheme here, and half an order of no use.
+        assert_ne!(settled(|h| 1e-3 * h.powi(3)).method, Method::Extrapolated);
+        assert_ne!(settled(|h| 1e-3 * h.sqrt()).method, Method::Extrapolated);
+    }
+
+    #[test]
+    fn impacts_between_steps_leave_the_finest_step_with_a_bound_of_its_error() {
+        // The second instant is just behind one that all steps share: an order is seen.
+        for (instant, order) in [(0.618_033_9, false), (0.500_001, true)] {
+            let end = |h: f64| 1.0 + 2e-4 * (h * (instant / h).ceil() - instant);
+            let all = runs(end, |_| 5);
+            let found = settle(&all, 1.0, 1.0, true);
+            assert_eq!(found.method, Method::FinestStep);
+            let (u, error) = found.end.unwrap();
+            assert_eq!(u[0], end(0.5_f64.powi(REFERENCE_STEPS as i32 - 1)));
+            assert!((u[0] - 1.0).abs() <= error && error < 1e-5, "{instant}: {error:e}");
+            assert_eq!(settled(end).method == Method::Extrapolated, order);
+            // Other impacts at another step: not the same motion.
+            let other = runs(end, |n| n as u64);
+            assert_eq!(settle(&other, 1.0, 1.0, true).method, Method::None);
+        }
+    }
+
+    #[test]
+    fn changes_that_do_not_fall_leave_no_reference() {
+        let found = settled(|h| 1e-3 * (11.7 / h).sin());
+        assert_eq!((found.method, found.end, found.order), (Method::None, None, None));
+        assert_eq!(found.changes.len(), REFERENCE_STEPS - 1);
+        // Nor do runs of which one failed, or an error of a tenth of the clearance.
+        let mut failed = runs(|h| h * h, |_| 5);
+        failed[REFERENCE_STEPS - 2].reached = None;
+        assert_eq!(settle(&failed, 1.0, 1.0, false).method, Method::None);
+        assert_eq!(settled(|h| 100.0 * h * (1.0 + (97.0 / h).sin())).method, Method::None);
+    }
+
+    #[test]
+    fn round_off_is_no_change_and_takes_no_order_away() {
+        assert_eq!(settled(|_| 0.7).end, Some(([0.7, 0.0], 0.0)));
+        // Second order down to a floor.
+        let found = settled(|h| h * h + if h < 0.02 { 1e-6 * (97.0 / h).sin() } else { 0.0 });
+        let (u, error) = found.end.unwrap();
+        assert_eq!(found.method, Method::Extrapolated);
+        assert!(u[0].abs() < 1e-5 && u[0].abs() <= error + 1e-6, "{u:?} {error}");
+    }
+}
