@@ -1,7 +1,7 @@
 //! Runs the numbers in the notes of the scenes that go beyond the paper.
 
 use rubscope::harmonic::{Lining, least_lock_stiffness};
-use rubscope::motion::{Motion, RunReport, Sampling, Script, Verdict, run_to_end};
+use rubscope::motion::{Motion, RunReport, Sampling, Script, Verdict, run_to_end, simulate};
 use rubscope::scene::Scene;
 
 fn scene(name: &str, changes: &[(&str, &str)]) -> Scene {
@@ -121,7 +121,14 @@ fn a_blade_digs_in_below_the_critical_speed() {
     close(Scene::builtin(name).unwrap().machine().critical_speed().unwrap(), 292.9, 0.05);
     says(name, "At 240 rad/s it decays; with trailing blades (kappa = 0.15) it decays");
     assert_eq!(verdict(name, &[speed("240")]), Verdict::Decay);
-    assert_eq!(verdict(name, &[("bladed_disk.radial_coupling", "0.15")]), Verdict::Decay);
+    says(name, "with 250 kN as well as with these 300 kN, of which a change of 1e-9 makes other");
+    let trailing = ("bladed_disk.radial_coupling", "0.15");
+    for (pulse, sensitive) in [("300e3", true), ("250e3", false)] {
+        let pulse = ("operation.pulse_n", pulse);
+        assert_eq!(verdict(name, &[pulse]), Verdict::Whirl);
+        let outcome = simulate(&scene(name, &[pulse, trailing]).checked().unwrap()).outcome;
+        assert_eq!((outcome.verdict, outcome.sensitive), (Verdict::Decay, sensitive));
+    }
 }
 
 #[test]
@@ -145,7 +152,7 @@ fn friction_works_against_the_lock() {
 #[test]
 fn a_soft_lining_cannot_hold_a_lock() {
     let name = "soft-lining";
-    says(name, "below 1.937e8 N/m the lock is lost");
+    says(name, "below 1.937e8 N/m there is no lock at this speed");
     says(name, "at no speed does a lining below 1.931e8 N/m hold it");
     says(name, "one of 3e8 N/m holds from 438.2 to 732.4 rad/s");
     let holds = |stiffness: f64| {
@@ -167,4 +174,25 @@ fn a_soft_lining_cannot_hold_a_lock() {
     let softer = |stiffness| verdict(name, &[("contact.stiffness_n_per_m", stiffness)]);
     assert_eq!(softer("8e8"), Verdict::Locked);
     assert_eq!(softer("1.9e8"), Verdict::Decay);
+    // Turned while it is held, at once and in parts.
+    says(name, "Turned down at once from 1e9 N/m the lock is lost at 4.0e8 N/m already");
+    says(
+        name,
+        "Turned to 6e8, 4e8, 3e8 and 2.5e8 N/m, with 0.2 s to come to rest at each, it holds",
+    );
+    let turned = |to: &[&str]| {
+        let change = |(n, stiffness): (u32, &&str)| {
+            let at = format!("{}:contact.stiffness_n_per_m={stiffness}", 0.1 + 0.2 * f64::from(n));
+            ["--at".to_string(), at]
+        };
+        let end = ["--end".to_string(), (0.3 + 0.2 * to.len() as f64).to_string()];
+        let words = ["run", name, "--json"].map(String::from).into_iter();
+        let all: Vec<String> = words.chain((0..).zip(to).flat_map(change)).chain(end).collect();
+        let words: Vec<&str> = all.iter().map(String::as_str).collect();
+        let report: serde_json::Value =
+            serde_json::from_slice(&crate::cli_support::rubscope(&words).stdout).unwrap();
+        report["outcome"]["verdict"].as_str().unwrap().to_string()
+    };
+    assert_eq!([turned(&["4.1e8"]), turned(&["4.0e8"])], ["locked", "decay"]);
+    assert_eq!(turned(&["6e8", "4e8", "3e8", "2.5e8"]), "locked");
 }

@@ -3,12 +3,14 @@
 
 use std::path::Path;
 
+use rayon::prelude::*;
 use rubscope::harmonic::coincidence;
-use rubscope::motion::{Verdict, simulate};
+use rubscope::motion::{Sampling, Script, Verdict, run_to_end, simulate};
 use rubscope::scene::{CheckedScene, Scene};
 use rubscope::study::figures::{Figure, NUMBERS, Which, figure, name_of, scene_of};
 
 use crate::cli_support::{refusal, rubscope};
+use crate::plain::Plain;
 
 fn figures(only: &str, more: &[&str]) -> tempfile::TempDir {
     let directory = tempfile::tempdir().unwrap();
@@ -128,10 +130,45 @@ fn figures_4_to_6_lock_on_the_blades_of_the_paper() {
     }
     let figure = drawn(4);
     assert!(says(&figure, "ms on #6 and #21; event solver: locked from 77."));
+    assert!(says(
+        &figure,
+        "at each of 50 steps from 0.01 to 1 µs it locks from 75 to 81 ms, at some 30 of them"
+    ));
+    let all = at_many_steps(4, "43400");
+    assert!(all.iter().all(|(t, _)| t.is_some_and(|t| (0.075..0.081).contains(&t))), "{all:?}");
+    let of_paper = all.iter().filter(|(_, held)| *held == [6, 21]).count();
+    assert!((25..35).contains(&of_paper), "{of_paper}");
     // 40 kN, as the caption says.
-    let smaller = [("operation.pulse_n", "40000")];
-    assert!((run(&smaller).lock_time_s.unwrap() - 0.085).abs() < 5e-4);
-    assert_ne!(held(&smaller), [6, 21]);
+    assert!(says(&figure, "40 kN locks at 84 to 90 ms on other blades"));
+    for (time, held) in at_many_steps(4, "40000") {
+        assert!(time.is_some_and(|t| (0.084..0.090).contains(&t)) && held != [6, 21], "{time:?}");
+    }
+}
+
+/// When a scene locks at each of 50 steps from 0.01 to 1 µs, and on which blades.
+fn at_many_steps(number: u32, pulse: &str) -> Vec<(Option<f64>, Vec<u32>)> {
+    let scene = with(number, &[("operation.pulse_n", pulse)]);
+    let step = |n: u32| 1e-8 * 100_f64.powf(f64::from(n) / 49.0);
+    let run = |n: u32| {
+        let scene = scene.clone().into_scene();
+        let scene = scene.with(&[("solver.step_s", &step(n).to_string())]).unwrap();
+        let outcome =
+            run_to_end(&scene, &Script::default(), Sampling::default(), &mut |_| {}).outcome;
+        let mut held: Vec<u32> = outcome.contacts.iter().map(|c| c.blades[0]).collect();
+        held.sort_unstable();
+        (outcome.lock_time_s, held)
+    };
+    (0..50).into_par_iter().map(run).collect()
+}
+
+/// Plain stepping in twice the digits: what the scheme does without round-off.
+#[test]
+fn round_off_moves_the_lock_at_the_longest_step_of_figure_4() {
+    assert!(says(&drawn(4), "steps of 1 µs with twice the digits lock at 79.6 ms"));
+    let mut plain = Plain::new(&with(4, &[("solver.step_s", "1e-6")]));
+    plain.advance(0.082).unwrap();
+    let since = plain.kept_since().unwrap();
+    assert!((since - 0.0796).abs() < 5e-5, "{since}");
 }
 
 /// The angles of the blades over the last tenth of the run, as a part of the
@@ -154,6 +191,10 @@ fn swing(panel: &rubscope::study::figures::Panel) -> f64 {
 #[test]
 fn the_disk_of_figure_6_is_static_with_the_damping_taken_literally() {
     let figure = drawn(6);
+    // With the printed one it is not: the note of the scene says how far it swings.
+    let told = figure.caption.iter().find_map(|line| line.split("it still swings by ").nth(1));
+    let told: f64 = told.unwrap().split(' ').next().unwrap().parse().unwrap();
+    assert!((told - 19.0).abs() <= 1.0, "{told}");
     assert_eq!(figure.panels.len(), 3);
     assert!(swing(&figure.panels[1]) > 0.1, "{}", swing(&figure.panels[1]));
     assert!(swing(&figure.panels[2]) < 0.01, "{}", swing(&figure.panels[2]));
@@ -189,21 +230,36 @@ fn with_the_damping_of_table_1_every_lock_is_early() {
     assert!(says(&drawn(4), "none of 200 later than 10 ms"));
 }
 
+/// What the caption counts, and what the note of the scene says of it. Round-off moves
+/// single locks: another processor may count some more or fewer.
 #[test]
-fn figure_7_locks_at_every_step_but_earlier_than_the_paper() {
-    for step in ["1e-6", "5e-7", "1e-7", "2e-8", "1e-8"] {
-        let outcome = simulate(&with(7, &[("solver.step_s", step)])).outcome;
-        assert_eq!(outcome.verdict, Verdict::Locked, "{step}");
-        assert!((0.024..0.033).contains(&outcome.lock_time_s.unwrap()), "{step}");
-        assert_eq!(outcome.contacts.iter().map(|c| c.blades.len()).sum::<usize>(), 4);
+fn figure_7_locks_earlier_than_the_paper_at_most_steps_and_when_it_does_depends_on_the_step() {
+    let times = |pulse: &str| {
+        let mut times: Vec<f64> =
+            at_many_steps(7, pulse).into_iter().filter_map(|at| at.0).collect();
+        times.sort_by(f64::total_cmp);
+        times
+    };
+    let (own, weaker) = (times("50000"), times("42000"));
+    assert!(own.len() >= 48 && own[0] > 0.0215 && *own.last().unwrap() > 0.1, "{own:?}");
+    assert!((43..=48).contains(&own.iter().filter(|t| **t < 0.040).count()), "{own:?}");
+    assert!((27..=38).contains(&weaker.len()), "{weaker:?}");
+    assert!(weaker[0] > 0.0315 && *weaker.last().unwrap() < 0.095, "{weaker:?}");
+    let figure = drawn(7);
+    for (force, times) in [("50 kN", &own), ("42 kN", &weaker)] {
+        let ms = |t: f64| format!("{:.0}", 1e3 * t);
+        let told = format!(
+            "{force} locks at {}, from {} to {} ms, half of them by {} ms",
+            times.len(),
+            ms(times[0]),
+            ms(*times.last().unwrap()),
+            ms(times[times.len() / 2])
+        );
+        assert!(says(&figure, &told), "{told}: {:?}", figure.caption);
     }
-    // 42 kN, as the caption says.
-    for (step, locks) in [("1e-6", true), ("2e-7", true), ("5e-8", true), ("1e-8", false)] {
-        let changes = [("solver.step_s", step), ("operation.pulse_n", "42000")];
-        let outcome = simulate(&with(7, &changes)).outcome;
-        assert_eq!(outcome.verdict == Verdict::Locked, locks, "{step}");
-        assert!(outcome.lock_time_s.is_none_or(|t| (0.032..0.059).contains(&t)), "{step}");
-    }
+    let four = simulate(&with(7, &[])).outcome.contacts;
+    assert_eq!(four.iter().map(|c| c.blades.len()).sum::<usize>(), 4);
+    assert!(says(&figure, "it still swings by"));
 }
 
 #[test]

@@ -177,6 +177,27 @@ fn what_does_not_converge_is_in_the_readme() {
 }
 
 #[test]
+fn long_steps_lock_falsely_as_often_as_the_document_says() {
+    let locks = |step: f64| {
+        let changes = [("operation.pulse_n", "18e3"), ("solver.step_s", &*step.to_string())];
+        match run("paper-nd3", &changes).outcome.verdict {
+            Verdict::Locked => true,
+            other => {
+                assert_eq!(other, Verdict::Decay, "{step}");
+                false
+            }
+        }
+    };
+    let part = |n: u32| f64::from(n) / 49.0;
+    let long = (0..50).filter(|n| locks(5e-6 * (1.0 + part(*n)))).count();
+    assert!((10..40).contains(&long), "{long}");
+    assert!((0..50).all(|n| !locks(1e-8 * 200_f64.powf(part(n)))));
+    assert!(
+        read("docs/accuracy.md").says("Of 50 steps from 5e-6 to 1e-5 s, in equal parts, some lock")
+    );
+}
+
+#[test]
 fn every_verdict_has_its_word_and_its_signs_in_the_tables_and_legends() {
     let commands = read("docs/commands.md");
     let fields = commands.table("| field of `rubscope.run/1` | what it is |");
