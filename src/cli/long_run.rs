@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::ProgressBar;
 
-use super::output;
+use super::sign;
 use super::status::say;
 use crate::motion::{Motion, Watch};
 use crate::report::number::{grouped, time};
@@ -33,7 +33,7 @@ impl LongRun {
     /// Of a run that begins now, followed by `changed` more.
     pub(super) fn of(scene: &CheckedScene, changed: usize) -> Self {
         Self {
-            bar: output::bar(PARTS, "{spinner} {bar:30} {msg} {elapsed}"),
+            bar: sign::bar(PARTS, "{spinner} {bar:30} {msg} {elapsed}"),
             end_s: scene.solver.end_s,
             started: Instant::now(),
             next: TICK,

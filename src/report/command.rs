@@ -5,7 +5,7 @@ use std::fmt::{Display, Formatter};
 
 use serde_json::{Value, json};
 
-use crate::scene::keys::differences;
+use crate::scene::keys::{differences, view_differences};
 use crate::scene::{BUILTIN, DEFAULT, Scene};
 
 /// Name of the program in files.
@@ -38,10 +38,8 @@ impl CommandLine {
         let nearest = nearest.min_by_key(|(_, base)| far(base));
         let (name, base) = nearest.unwrap_or_else(|| (DEFAULT, Scene::base()));
         let line = Self::from_base(command, name, &base, scene);
-        match base.view == scene.view {
-            true => line,
-            false => line.option("--set", format!("view.charts={}", scene.view.charts.join(","))),
-        }
+        let set = |line: Self, (path, text)| line.option("--set", format!("{path}={text}"));
+        view_differences(&base, scene).fold(line, set)
     }
 
     /// With an option and its value.

@@ -261,15 +261,25 @@ macro_rules! text {
     };
 }
 
-/// Keys in which a scene differs from another, with their values as text; charts
-/// are not counted.
+/// Keys in which a scene differs from another, with their values as text; what the
+/// explorer opens with is not counted.
 pub fn differences(from: &Scene, to: &Scene) -> impl Iterator<Item = (&'static str, String)> {
-    let counted = KEYS.iter().filter(|key| !key.path.starts_with("view."));
+    changed(from, to, false)
+}
+
+/// As `differences`, of what the explorer opens with.
+pub fn view_differences(from: &Scene, to: &Scene) -> impl Iterator<Item = (&'static str, String)> {
+    changed(from, to, true)
+}
+
+fn changed(from: &Scene, to: &Scene, view: bool) -> impl Iterator<Item = (&'static str, String)> {
+    let counted = KEYS.iter().filter(move |key| key.path.starts_with("view.") == view);
     let changed = counted.filter(move |key| (key.get)(from) != (key.get)(to));
     changed.map(move |key| {
         let text = match (key.get)(to) {
             Value::Real(x) => format!("{x:?}"),
             Value::Text(text) => text,
+            Value::Words(words) => words.join(","),
             other => other.to_string(),
         };
         (key.path, text)
@@ -361,4 +371,5 @@ pub const KEYS: &[Key] = &[
             }
         },
     },
+    real!("view.begin_s", "s", "where the explorer begins to play, at most the end", false 0.0..1e6, view.begin_s),
 ];

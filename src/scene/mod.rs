@@ -81,16 +81,18 @@ impl Default for SolverChoice {
     }
 }
 
-/// Which charts the explorer opens with.
+/// What the explorer opens with.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct View {
     /// Names of charts, the first one the largest.
     pub charts: Vec<String>,
+    /// Where it begins to play, at most the end of the run \[s\].
+    pub begin_s: f64,
 }
 
 impl Default for View {
     fn default() -> Self {
-        Self { charts: ["response", "gaps", "locked"].map(String::from).to_vec() }
+        Self { charts: ["response", "gaps", "locked"].map(String::from).to_vec(), begin_s: 0.0 }
     }
 }
 

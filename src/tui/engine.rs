@@ -5,7 +5,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::history::Bin;
+use super::history::{Bin, BinHistory};
 use super::trace::{Mark, Trace};
 use super::views::ViewId;
 use super::views::coincidence::curves::CoincidenceCurves;
@@ -30,6 +30,10 @@ pub struct Order {
     pub changes: u64,
     /// Number of requests for a single step.
     pub steps: u64,
+    /// Number of requests to go to `go_to_s`.
+    pub goes: u64,
+    /// Where the motion goes at once, after a restart too \[s\].
+    pub go_to_s: f64,
     /// Number of requests to jump to the next change of contact.
     pub jumps: u64,
     /// Number of times the pulse was fired again.
@@ -42,6 +46,8 @@ pub struct Order {
     pub rate: f64,
     /// Length of one recorded bin \[s\].
     pub bin_s: f64,
+    /// The page on the screen, from and to \[s\].
+    pub page: (f64, f64),
     /// Whether to run the other contact law too, for comparison.
     pub compare: bool,
     /// Whether the motion slows down at changes of contact and hurries between.
@@ -88,6 +94,8 @@ pub struct Pace {
     pub skipped: Option<f64>,
     /// Wall-clock time of the whole run to `solver.end_s` \[s\].
     pub run_s: Option<f64>,
+    /// Motion over wall-clock time, as reached.
+    pub reached: Option<f64>,
     /// Why the motion plays slower than requested.
     pub limit: Limit,
 }
@@ -143,6 +151,15 @@ pub struct FullRun {
     pub failure: Option<String>,
 }
 
+/// A page of time, recorded at its own zoom as far as the run goes.
+#[derive(Clone, Debug)]
+pub struct PageRecord {
+    /// From and to \[s\].
+    pub page: (f64, f64),
+    /// Its bins.
+    pub record: BinHistory,
+}
+
 /// The motion of one solver at one instant.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Moment {
@@ -186,11 +203,22 @@ impl Moment {
     }
 }
 
+/// The verdict of a scene, which may be an older one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Answer {
+    /// The scene.
+    pub scene: CheckedScene,
+    /// Its verdict.
+    pub verdict: Verdict,
+}
+
 /// Results for one generation of the knobs.
 #[derive(Clone, Debug, Default)]
 pub struct Results {
     /// The run to the scene's end.
     pub full_run: Option<FullRunState>,
+    /// The latest verdict there is, of this scene or of an older one.
+    pub answer: Option<Arc<Answer>>,
     /// The end of that run \[s\].
     pub end_s: f64,
     /// Whether a tiny change of the pulse changes the outcome under the event
@@ -215,6 +243,10 @@ pub struct Results {
     /// What a coincidence does, while its view is open; none within where there is no
     /// coincidence.
     pub coincidence: Option<Arc<Option<CoincidenceCurves>>>,
+    /// The page on the screen.
+    pub page: Option<Arc<PageRecord>>,
+    /// The same under the other contact law.
+    pub comparison_page: Option<Arc<PageRecord>>,
     /// Solver speed.
     pub pace: Pace,
     /// Live changes and pulses so far, as `run --at` takes them: when \[s\], what.

@@ -44,8 +44,8 @@ pub struct Bin {
     pub low: [f64; CHANNELS],
     /// Greatest value of every channel.
     pub high: [f64; CHANNELS],
-    /// Whether any blade touched.
-    pub contact: bool,
+    /// From when to when a blade touched: the first instant and the last \[s\].
+    pub contact: Option<(f64, f64)>,
     /// The sides that touched.
     pub touched: ActiveSet,
 }
@@ -54,7 +54,7 @@ impl Bin {
     /// A bin of one sample.
     pub fn of(t: f64, values: [f64; CHANNELS]) -> Self {
         let touched = ActiveSet::Nothing;
-        Self { from: t, to: t, low: values, high: values, contact: false, touched }
+        Self { from: t, to: t, low: values, high: values, contact: None, touched }
     }
 
     /// Least and greatest value of a channel.
@@ -77,13 +77,16 @@ impl Bin {
             *low = low.min(*new_low);
             *high = high.max(*new_high);
         }
-        self.contact |= later.contact;
+        self.contact = hull(self.contact, later.contact);
         self.touched = self.touched.and(later.touched);
     }
 }
 
 /// Most bins kept; above, neighbours are joined and the resolution halves.
 pub const MOST_BINS: usize = 1 << 15;
+
+/// Longest bin that is drawn, in pages: the bins of a page twice as long.
+const PART_OF_PAGE: f64 = 1.0 / 400.0;
 
 /// The bins of one run, in order of time.
 #[derive(Clone, Debug, Default)]
@@ -115,47 +118,103 @@ impl BinHistory {
         self.bins.get(start..end.max(start)).unwrap_or(&[])
     }
 
-    /// One channel over `[from, to]` as `columns` columns; `None` where
-    /// nothing was recorded. Values that are not finite are left out.
-    pub fn columns(&self, channel: Channel, from: f64, to: f64, columns: usize) -> Vec<Span> {
-        let mut out: Vec<Span> = vec![None; columns];
-        let width = (to - from) / columns.max(1) as f64;
-        if width.is_nan() || width <= 0.0 {
-            return out;
-        }
-        let last = columns.saturating_sub(1);
-        for bin in self.between(from, to) {
-            let (low, high) = bin.span(channel);
-            if !(low.is_finite() && high.is_finite()) {
-                continue;
-            }
-            let place = |t: f64| (((t - from) / width).max(0.0) as usize).min(last);
-            for slot in out.iter_mut().take(place(bin.to) + 1).skip(place(bin.from)) {
-                *slot = Some(match *slot {
-                    Some((a, b)) => (a.min(low), b.max(high)),
-                    None => (low, high),
-                });
-            }
-        }
-        out
+    /// As `between`, none where a bin is so long that it would be drawn as a block.
+    pub fn fine_between(&self, from: f64, to: f64) -> &[Bin] {
+        let (bins, longest) = (self.between(from, to), PART_OF_PAGE * (to - from));
+        if bins.iter().all(|bin| bin.to - bin.from <= longest) { bins } else { &[] }
     }
+}
 
-    /// Which of `columns` columns of `[from, to]` have a contact.
-    pub fn contacts(&self, from: f64, to: f64, columns: usize) -> Vec<bool> {
-        let mut out = vec![false; columns];
-        let width = (to - from) / columns.max(1) as f64;
-        let last = columns.saturating_sub(1);
-        for bin in self.between(from, to).iter().filter(|bin| bin.contact && width > 0.0) {
-            let place = |t: f64| (((t - from) / width).max(0.0) as usize).min(last);
-            out.iter_mut().take(place(bin.to) + 1).skip(place(bin.from)).for_each(|c| *c = true);
-        }
-        out
-    }
+/// The bin at an instant, for reading values under a cursor.
+pub fn bin_at(bins: &[Bin], t: f64) -> Option<&Bin> {
+    bins.get(bins.partition_point(|bin| bin.to < t)).filter(|bin| bin.from <= t)
+}
 
-    /// The bin at an instant, for reading values under a cursor.
-    pub fn at(&self, t: f64) -> Option<&Bin> {
-        self.bins.get(self.bins.partition_point(|bin| bin.to < t)).filter(|bin| bin.from <= t)
+/// One channel of some bins over `[from, to]` as `columns` columns; `None` where
+/// nothing was recorded. Values that are not finite are left out.
+pub fn columns(
+    bins: &[Bin],
+    channel: Channel,
+    (from, to): (f64, f64),
+    columns: usize,
+) -> Vec<Span> {
+    let mut out: Vec<Span> = vec![None; columns];
+    let width = (to - from) / columns.max(1) as f64;
+    if width.is_nan() || width <= 0.0 {
+        return out;
     }
+    let last = columns.saturating_sub(1);
+    for bin in bins.iter().filter(|bin| bin.to >= from && bin.from <= to) {
+        let (low, high) = bin.span(channel);
+        if !(low.is_finite() && high.is_finite()) {
+            continue;
+        }
+        let place = |t: f64| (((t - from) / width).max(0.0) as usize).min(last);
+        for slot in out.iter_mut().take(place(bin.to) + 1).skip(place(bin.from)) {
+            *slot = Some(match *slot {
+                Some((a, b)) => (a.min(low), b.max(high)),
+                None => (low, high),
+            });
+        }
+    }
+    out
+}
+
+/// Which of `columns` columns of `[from, to]` have a contact: those of its first and
+/// its last instant in each bin. A page has more bins than columns.
+pub fn contacts(bins: &[Bin], (from, to): (f64, f64), columns: usize) -> Vec<bool> {
+    let mut out = vec![false; columns];
+    let width = (to - from) / columns.max(1) as f64;
+    for (first, last) in bins.iter().filter_map(|bin| bin.contact) {
+        for t in [first, last].into_iter().filter(|t| (from..=to).contains(t) && width > 0.0) {
+            let place = (((t - from) / width) as usize).min(columns.saturating_sub(1));
+            out.iter_mut().skip(place).take(1).for_each(|column| *column = true);
+        }
+    }
+    out
+}
+
+/// The stretch that holds both.
+fn hull(first: Option<(f64, f64)>, second: Option<(f64, f64)>) -> Option<(f64, f64)> {
+    match (first, second) {
+        (Some((a, b)), Some((c, d))) => Some((a.min(c), b.max(d))),
+        (first, second) => first.or(second),
+    }
+}
+
+/// Bins of single samples that are farther apart than `length`, joined by straight lines:
+/// a solver that steps knows nothing between its steps. Only what is in `[from, to]`.
+pub fn interpolated(bins: &[Bin], length: f64, (from, to): (f64, f64)) -> Vec<Bin> {
+    let mut out = Vec::with_capacity(bins.len());
+    let mut last: Option<&Bin> = None;
+    for bin in bins {
+        let before = last.replace(bin).filter(|_| bin.to - bin.from > 1.5 * length);
+        let Some(before) = before else {
+            out.push(*bin);
+            continue;
+        };
+        let span = bin.to - bin.from;
+        let count = (span / length).ceil();
+        let at = |place: f64| bin.from + span * place / count;
+        let mut place = ((from - bin.from) / span * count).floor().clamp(0.0, count);
+        while place < count && at(place) <= to {
+            let part = (place + 1.0) / count;
+            let middle = |bin: &Bin, k: usize| 0.5 * (bin.low[k] + bin.high[k]);
+            let line = |k| middle(before, k) + part * (middle(bin, k) - middle(before, k));
+            let values = std::array::from_fn(line);
+            let mut piece = Bin { to: at(place + 1.0), ..Bin::of(at(place), values) };
+            piece.contact = bin
+                .contact
+                .map(|(first, last)| (first.max(piece.from), last.min(piece.to)))
+                .filter(|(first, last)| first <= last);
+            if piece.contact.is_some() {
+                piece.touched = bin.touched;
+            }
+            out.push(piece);
+            place += 1.0;
+        }
+    }
+    out
 }
 
 /// Joins neighbours, two by two.
@@ -196,8 +255,8 @@ mod tests {
         let mut history = ramp(1000);
         history.bins[517].high[Channel::Push as usize] = 1e6;
         for columns in [1, 7, 40, 300, 2000] {
-            let top = history
-                .columns(Channel::Push, 0.0, 1000.0, columns)
+            let bins = history.between(0.0, 1000.0);
+            let top = super::columns(bins, Channel::Push, (0.0, 1000.0), columns)
                 .into_iter()
                 .flatten()
                 .map(|(_, high)| high)
@@ -209,11 +268,13 @@ mod tests {
     #[test]
     fn columns_beyond_the_data_are_empty_and_nothing_leaks_across_pages() {
         let history = ramp(10);
-        let columns = history.columns(Channel::UC, 0.0, 20.0, 20);
+        let shown =
+            |from, to, count| columns(history.between(from, to), Channel::UC, (from, to), count);
+        let columns = shown(0.0, 20.0, 20);
         assert_eq!(columns.iter().flatten().count(), 10);
         assert_eq!(columns[3], Some((3.0, 3.0)));
-        assert!(history.columns(Channel::UC, 20.0, 40.0, 8).iter().all(Option::is_none));
-        assert!(history.columns(Channel::UC, 5.0, 5.0, 8).iter().all(Option::is_none));
+        assert!(shown(20.0, 40.0, 8).iter().all(Option::is_none));
+        assert!(shown(5.0, 5.0, 8).iter().all(Option::is_none));
     }
 
     #[test]
@@ -221,7 +282,7 @@ mod tests {
         let history = ramp(100_000);
         assert!(history.bins.len() <= MOST_BINS);
         assert_eq!(history.bins[0].from, 0.0);
-        let top = history.columns(Channel::US, 0.0, 1e5, 1)[0];
+        let top = columns(&history.bins, Channel::US, (0.0, 1e5), 1)[0];
         assert_eq!(top, Some((0.0, 99_999.0)));
     }
 
@@ -229,7 +290,7 @@ mod tests {
     fn not_a_number_never_reaches_a_column() {
         let mut history = ramp(3);
         history.extend(&[bin(3.0, 4.0, f64::NAN), bin(4.0, 5.0, f64::INFINITY)]);
-        for span in history.columns(Channel::UC, 0.0, 6.0, 12).into_iter().flatten() {
+        for span in columns(&history.bins, Channel::UC, (0.0, 6.0), 12).into_iter().flatten() {
             assert!(span.0.is_finite() && span.1.is_finite());
         }
     }
@@ -237,8 +298,8 @@ mod tests {
     #[test]
     fn reading_at_an_instant() {
         let history = ramp(5);
-        assert_eq!(history.at(2.5).unwrap().low[0], 2.0);
-        assert!(history.at(7.0).is_none());
-        assert!(history.at(-1.0).is_none());
+        assert_eq!(bin_at(&history.bins, 2.5).unwrap().low[0], 2.0);
+        assert!(bin_at(&history.bins, 7.0).is_none());
+        assert!(bin_at(&history.bins, -1.0).is_none());
     }
 }

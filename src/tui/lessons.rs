@@ -64,6 +64,8 @@ pub struct LessonStep {
     pub view: Option<String>,
     /// The view that is shown with the answer, if another.
     pub then_view: Option<String>,
+    /// Length of the page of time, at least \[s\].
+    pub page_s: Option<f64>,
     /// The knob that is selected.
     pub knob: Option<String>,
     /// Whether knobs act on the running motion.

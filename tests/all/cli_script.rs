@@ -130,7 +130,8 @@ fn a_key_acts_live_just_where_the_motion_takes_it() {
                 }
                 // Accepted without effect: keys that a running motion does not use.
                 Err(_) if takes => assert!(
-                    ["title", "note", "view.charts", "solver.end_s"].contains(&key.path)
+                    ["title", "note", "view.charts", "view.begin_s", "solver.end_s"]
+                        .contains(&key.path)
                         || key.path.starts_with("initial."),
                     "{text}"
                 ),

@@ -114,6 +114,7 @@ mod tui_scenes;
 mod tui_screens;
 mod tui_support;
 mod tui_time;
+mod tui_zoom;
 mod verdicts;
 mod version;
 

@@ -182,7 +182,7 @@ fn a_forecast_is_drawn_when_it_exists_and_not_at_the_next_frame() {
 }
 
 #[test]
-fn the_verdict_before_a_change_stays_until_there_is_a_new_one() {
+fn the_verdict_of_the_value_before_stays_with_it_until_there_is_a_new_one() {
     let mut scene = Scene::base();
     scene.solver.end_s = 2e-3;
     let mut app = App::new(scene.checked().unwrap(), Theme::Dark, Marker::Braille);
@@ -191,17 +191,37 @@ fn the_verdict_before_a_change_stays_until_there_is_a_new_one() {
     engine.order(&app.order());
     app.apply_snapshot(engine.take().unwrap());
     let before = app.verdict();
-    assert!(before.word != "computing" && !before.detail.contains("before this change"));
+    assert!(before.word != "computing" && !before.detail.contains("computing"));
     for _ in 0..2 {
         let _ = app.key(&KeyEvent::new(KeyCode::Char('l'), KeyModifiers::NONE));
         let dimmed = app.verdict();
-        assert_eq!(dimmed.word, before.word);
-        assert_eq!(dimmed.detail, "before this change; computing");
+        assert_eq!(dimmed.word, format!("at 500 rad/s: {}", before.word));
+        assert_eq!(dimmed.detail, "computing");
         assert!(dimmed.role != before.role);
     }
     engine.order(&app.order());
     app.apply_snapshot(engine.take().unwrap());
-    assert!(!app.verdict().detail.contains("before this change"));
+    assert!(!app.verdict().detail.contains("computing"));
+}
+
+#[test]
+fn an_answer_to_an_older_value_is_told_with_it_however_late_it_comes() {
+    let mut scene = Scene::base();
+    scene.solver.end_s = 2e-3;
+    let mut app = App::new(scene.checked().unwrap(), Theme::Dark, Marker::Braille);
+    let mut engine = Stepwise::new(1e-4);
+    engine.order(&app.order());
+    let late = engine.take().unwrap();
+    let key = |letter| KeyEvent::new(KeyCode::Char(letter), KeyModifiers::NONE);
+    let _ = app.key(&key('l'));
+    assert_eq!(app.verdict().word, "computing");
+    assert!(!app.apply_snapshot(late));
+    let word = app.verdict().word;
+    assert!(word.starts_with("at 500 rad/s: "), "{word}");
+    // Of two knobs no one value says what it was of.
+    let _ = app.key(&key('j'));
+    let _ = app.key(&key('l'));
+    assert_eq!(app.verdict().word, "computing");
 }
 
 #[test]

@@ -57,7 +57,7 @@ fn the_reading_cursor_reads_the_run_and_not_a_bin() {
     for wanted in [
         format!("u_c {:.2} µm", 1e6 * u_c),
         format!("u_s {:.2} µm", 1e6 * u_s),
-        format!("α_c {:.3}", 1e9 * alpha_c).chars().take(9).collect(),
+        format!("α_c {:.1} nrad", 1e9 * alpha_c),
         format!("at {:.4} ms", 1e3 * motion.state().t_s),
     ] {
         assert!(text.contains(&wanted), "{wanted} is not in\n{text}");

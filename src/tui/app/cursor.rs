@@ -2,7 +2,7 @@
 //! What it reads there is up to the view.
 
 use super::App;
-use crate::tui::views::Opening;
+use crate::tui::views::{Opening, ViewId};
 
 /// A place in the large chart, as parts of its width from the left and of its
 /// height from below, 0 to 1.
@@ -15,33 +15,59 @@ pub struct Cursor {
 }
 
 /// One step of the cursor where the chart has no cells, and a large one.
-const STEP: f64 = 0.01;
+pub const STEP: f64 = 0.01;
 const LARGE_STEP: f64 = 0.1;
 /// Cells of a large step in a chart of cells.
 const LARGE_CELLS: i64 = 5;
 
 impl App {
-    /// The instant under the reading cursor, where the large chart is over time
-    /// \[s\].
+    /// The instant that is read: that of the cursor in the chart over time where it was
+    /// last \[s\].
     pub fn cursor_time(&self) -> Option<f64> {
-        let (from, to) = self.page();
-        let cursor = self.cursor.filter(|_| self.view.panel().is_over_time(self))?;
-        Some(from + cursor.across * (to - from))
+        self.read_s.filter(|_| self.cursor.is_some())
+    }
+
+    /// Puts the cursor at a place of the large chart; over time, that instant is read.
+    pub(super) fn put_cursor(&mut self, cursor: Cursor) {
+        if self.view.panel().is_over_time(self) {
+            let (from, to) = self.page();
+            self.read_s = Some(from + cursor.across * (to - from));
+        }
+        self.cursor = Some(cursor);
+    }
+
+    /// Nothing is read any more.
+    pub(super) fn stop_reading(&mut self) {
+        (self.reading, self.cursor, self.read_s) = (false, None, None);
+    }
+
+    /// After a change of the large chart: an instant goes on being read.
+    pub(super) fn keep_instant(&mut self) {
+        match self.cursor_time() {
+            Some(_) => self.cursor = Some(self.view.panel().here(self)),
+            None => self.stop_reading(),
+        }
     }
 
     /// The arrows move the cursor from now on, or no longer.
     pub(super) fn toggle_reading(&mut self) {
-        self.reading = !self.reading;
-        self.cursor = match self.reading {
-            true => self.cursor.or_else(|| Some(self.view.panel().here(self))),
-            false => None,
-        };
+        if self.reading {
+            return self.stop_reading();
+        }
+        self.reading = true;
+        if self.cursor.is_none() {
+            self.put_cursor(self.view.panel().here(self));
+        }
     }
 
     /// Moves the cursor by some steps; it appears where the motion is.
     pub(super) fn move_cursor(&mut self, right: i64, up: i64, coarse: bool) {
         let panel = self.view.panel();
-        let cursor = self.cursor.unwrap_or_else(|| panel.here(self));
+        let mut cursor = self.cursor.unwrap_or_else(|| panel.here(self));
+        if panel.is_over_time(self) {
+            // The page may be another one since.
+            cursor.across = self.part_of_page();
+        }
         let [across, high] = panel.grid(self);
         let moved = |part: f64, by: i64, cells: u32| match cells {
             0 => (part + by as f64 * if coarse { LARGE_STEP } else { STEP }).clamp(0.0, 1.0),
@@ -53,7 +79,22 @@ impl App {
             }
         };
         let (across, up) = (moved(cursor.across, right, across), moved(cursor.up, up, high));
-        self.cursor = Some(Cursor { across, up });
+        self.put_cursor(Cursor { across, up });
+    }
+
+    /// The gaps against time, or those of one instant; the blade that is read stays.
+    pub(super) fn turn_gaps(&mut self) {
+        let cursor = self.cursor.filter(|_| self.view == ViewId::Gaps);
+        let blade = cursor.map(|cursor| if self.heat { cursor.up } else { cursor.across });
+        self.heat = !self.heat;
+        self.show(ViewId::Gaps);
+        if let Some(blade) = blade {
+            let here = self.view.panel().here(self);
+            self.put_cursor(match self.heat {
+                true => Cursor { up: blade, ..here },
+                false => Cursor { across: blade, ..here },
+            });
+        }
     }
 
     /// Does what the large chart does at the cursor.

@@ -212,6 +212,9 @@ impl App {
         // What happens in a few microseconds can be seen in a lesson.
         self.slow_at_events = true;
         self.set_compare(step.compare && answered);
+        if lesson.steps.iter().any(|step| step.page_s.is_some()) {
+            self.zoom = step.page_s.map_or(0, |length| self.zoom_for(length));
+        }
         let then = step.then_view.as_ref().filter(|_| answered);
         let view = then.or(step.view.as_ref()).and_then(|word| ViewId::from_word(word));
         if let Some(view) = view {

@@ -25,7 +25,7 @@ mod update;
 mod verdict;
 
 pub use baseline::Baseline;
-pub use cursor::{Cursor, cell_of};
+pub use cursor::{Cursor, STEP, cell_of};
 pub use help::HelpState;
 pub use lesson::LessonProgress;
 pub use mode::{InputMode, Purpose};
@@ -39,13 +39,14 @@ pub use update::Effect;
 pub use verdict::VerdictText;
 
 use std::cell::RefCell;
+use std::sync::Arc;
 
 use mouse::NotedChart;
 use past::Past;
 
 use super::appearance::Appearance;
 use super::bindings::Context;
-use super::engine::{Moment, Order, Snapshot, generation};
+use super::engine::{Answer, Moment, Order, Snapshot, generation};
 use super::history::BinHistory;
 use super::lessons::LessonsDone;
 use super::line::Line;
@@ -154,6 +155,10 @@ pub struct App {
     pub cursor: Option<Cursor>,
     /// Whether the arrows move it, not the knobs.
     pub reading: bool,
+    /// The instant that it reads, where it was put in a chart over time \[s\].
+    read_s: Option<f64>,
+    /// Where the motion goes at once \[s\].
+    go_to_s: f64,
     /// Pages back from the current one.
     pub pages_back: i64,
     /// Where the scene is from, for the command line that repeats the run.
@@ -185,8 +190,8 @@ pub struct App {
     pub is_new: bool,
     /// Whether the screen has shown the question that is open.
     asked: bool,
-    /// The latest verdict of a motion that has been changed since, in one word.
-    verdict_before: Option<String>,
+    /// The latest verdict there is, of this scene or of an older one.
+    answer: Option<Arc<Answer>>,
     counters: Counters,
     undo: Vec<Past>,
     redo: Vec<Past>,
@@ -199,6 +204,7 @@ struct Counters {
     changes: u64,
     steps: u64,
     jumps: u64,
+    goes: u64,
     pulses: u64,
     /// The latest jump whose result was told.
     met: u64,
@@ -226,7 +232,7 @@ impl App {
         }
         let view = views.first().copied().unwrap_or(ViewId::Response);
         let machine = scene.machine();
-        Self {
+        let mut app = Self {
             opened: scene.clone(),
             started: scene.clone(),
             ranges: Ranges::of(machine.clearance()),
@@ -260,6 +266,8 @@ impl App {
             baseline: None,
             companions_shown: 2,
             cursor: None,
+            read_s: None,
+            go_to_s: 0.0,
             reading: false,
             pages_back: 0,
             source: None,
@@ -275,12 +283,14 @@ impl App {
             octants: false,
             is_new: false,
             asked: true,
-            verdict_before: None,
+            answer: None,
             counters: Counters::default(),
             undo: Vec::new(),
             redo: Vec::new(),
             page: 0,
-        }
+        };
+        app.go_to_s = app.begin_s();
+        app
     }
 
     /// What the keyboard acts on, as the table of bindings names it.
@@ -307,12 +317,15 @@ impl App {
             restarts: self.counters.restarts,
             changes: self.counters.changes,
             steps: self.counters.steps,
+            goes: self.counters.goes,
+            go_to_s: self.go_to_s,
             jumps: self.counters.jumps,
             pulses: self.counters.pulses,
             playing: self.playing,
             extensions: self.counters.extensions,
             rate: self.rate(),
             bin_s: self.page_s() / BINS_PER_PAGE,
+            page: self.page(),
             compare: self.compare,
             slow_at_events: self.slow_at_events,
             cursor_s: self.cursor_time(),

@@ -118,7 +118,8 @@ impl App {
             Target::View(view) => self.show(view),
             Target::Chart(_) if again && self.cursor.is_some() => self.open_cursor(),
             Target::Chart(cursor) => {
-                (self.reading, self.cursor) = (true, Some(cursor));
+                self.reading = true;
+                self.put_cursor(cursor);
             }
         }
         Heard::Acted
@@ -146,7 +147,8 @@ impl App {
         let Some(Target::Chart(cursor)) = panels::target(self, at).filter(|_| self.reading) else {
             return Heard::Nothing;
         };
-        let moved = self.cursor.replace(cursor) != Some(cursor);
+        let moved = self.cursor != Some(cursor);
+        self.put_cursor(cursor);
         if moved { Heard::Pointed } else { Heard::Nothing }
     }
 

@@ -3,10 +3,11 @@
 
 use super::{App, Effect, InputMode};
 use crate::report::line::clean;
-use crate::scene::Scene;
+use crate::scene::{Scene, Value};
 use crate::tui::appearance::Appearance;
+use crate::tui::axis::readable;
 use crate::tui::bindings::{self, Action, Context};
-use crate::tui::knobs::{KNOBS, Knob};
+use crate::tui::knobs::{KNOBS, Knob, knob_of};
 use crate::tui::lessons;
 use crate::tui::scenes::builtin_scenes;
 use crate::tui::{Marker, Theme};
@@ -21,17 +22,18 @@ pub struct PaletteState {
 }
 
 /// What a line of the palette does.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 enum Command {
     Act(Action),
     Open(&'static str),
     Learn(usize),
     Select(usize),
     Set(usize, String),
+    GoTo(f64),
 }
 
 /// One line of the palette.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PaletteItem {
     /// The kind of thing that it is.
     pub kind: &'static str,
@@ -49,7 +51,8 @@ impl App {
     pub fn palette_items(&self, typed: &str) -> Vec<PaletteItem> {
         let typed = typed.to_lowercase();
         let words: Vec<&str> = typed.split_whitespace().collect();
-        let mut found = self.assignments(&typed);
+        let mut found: Vec<_> = self.going_to(&typed).into_iter().collect();
+        found.extend(self.assignments(&typed));
         let fits = |item: PaletteItem| rank(&item, &words).map(|rank| (rank, item));
         let mut others: Vec<_> = self.everything().filter_map(fits).collect();
         // The order of equals is that of the list.
@@ -93,6 +96,19 @@ impl App {
             also: "guide learn".into(),
         });
         actions.chain(scenes).chain(lessons).chain(knobs)
+    }
+
+    /// `t 0.3 ms`: an instant to go to.
+    fn going_to(&self, typed: &str) -> Option<PaletteItem> {
+        let text = typed.strip_prefix('t')?.trim_start_matches(['=', ' ']);
+        let Value::Real(t) = knob_of("solver.end_s")?.parse(text).ok()? else { return None };
+        Some(PaletteItem {
+            kind: "go",
+            what: format!("t = {}", readable(t, "s")),
+            beside: format!("now {}", readable(self.now(), "s")),
+            command: Command::GoTo(t),
+            also: String::new(),
+        })
     }
 
     /// The knobs that the first words name, set to what follows them.
@@ -148,6 +164,7 @@ impl App {
         self.mode = InputMode::Main;
         match item.command {
             Command::Act(action) => return self.act(action),
+            Command::GoTo(t) => self.go_to(t),
             Command::Open(name) => self.open_builtin(name),
             Command::Learn(place) => self.begin_lesson(place),
             Command::Select(place) => self.select_place(place),

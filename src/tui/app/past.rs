@@ -17,6 +17,7 @@ pub struct Past {
     view: ViewId,
     companions: Vec<ViewId>,
     rate: usize,
+    zoom: i32,
     pub(super) slow_at_events: bool,
     pub(super) live: bool,
     pub(super) compare: bool,
@@ -33,6 +34,7 @@ impl App {
             view: self.view,
             companions: self.companions.clone(),
             rate: self.rate,
+            zoom: self.zoom,
             slow_at_events: self.slow_at_events,
             live: self.live,
             compare: self.compare,
@@ -68,7 +70,7 @@ impl App {
     /// Gives the user's own state back, as it was before a lesson.
     pub(super) fn give_back(&mut self, own: Past) {
         self.remember(self.past());
-        (self.rate, self.slow_at_events) = (own.rate, own.slow_at_events);
+        (self.rate, self.zoom, self.slow_at_events) = (own.rate, own.zoom, own.slow_at_events);
         self.come_back(own);
     }
 
@@ -88,10 +90,11 @@ impl App {
         if self.lesson.is_some() {
             self.present(false);
         }
-        if self.view != past.view {
-            (self.reading, self.cursor) = (false, None);
-        }
+        let same_view = self.view == past.view;
         (self.view, self.companions, self.live) = (past.view, past.companions, past.live);
+        if !same_view {
+            self.keep_instant();
+        }
         self.set_compare(past.compare);
         if past.scene != self.scene {
             self.set_scene(past.scene, false);

@@ -121,7 +121,8 @@ impl App {
         if let Some(first) = views.first() {
             (self.view, self.companions) = (*first, views.get(1..).unwrap_or_default().to_vec());
         }
-        (self.reading, self.cursor, self.refusal) = (false, None, None);
+        self.stop_reading();
+        self.refusal = None;
         self.set_scene(scene, false);
     }
 

@@ -17,6 +17,8 @@ impl App {
             self.latest.trouble = snapshot.trouble;
             return true;
         }
+        // An answer is told with its value, however old.
+        self.answer = snapshot.results.answer.take().or(self.answer.take());
         if snapshot.restarts != self.counters.restarts {
             return false;
         }
@@ -47,13 +49,20 @@ impl App {
         true
     }
 
-    /// Makes the ranges hold the part of the forecast that is on the page; for a
-    /// new one they may shrink, too, but not below the clearance.
+    /// Makes the ranges hold the page as it is computed, and the part of the forecast that
+    /// is on it; for a new one they may shrink, too, but not below the clearance.
     fn fit_to_forecast(&mut self, is_new: bool) {
         // Where blades rub at rest there is no play to be seen.
         let clearance = self.machine.clearance().max(0.0);
         let (from, to) = self.page();
-        let Some(run) = self.full_run().filter(|_| self.ranges.follow) else { return };
+        if !self.ranges.follow {
+            return;
+        }
+        let page = self.record();
+        let (waves, swings) = (extremes(page, CASING), extremes(page, BLADES));
+        grow(&mut self.ranges.casing, waves);
+        grow(&mut self.ranges.blades, swings);
+        let Some(run) = self.full_run() else { return };
         let span = |place: usize| {
             let values = run.trace.between(place, from, to).map(|(_, value)| (value, value));
             values.filter(|(value, _)| value.is_finite()).reduce(wider)

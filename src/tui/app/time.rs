@@ -2,7 +2,9 @@
 //! at any rate, then a new one starts.
 
 use super::App;
-use crate::tui::axis::nice_step;
+use crate::tui::axis::{instant, nice_step, readable};
+use crate::tui::engine::PageRecord;
+use crate::tui::history::{Bin, BinHistory};
 
 /// Simulated time per wall-clock time, from 1e-5 to 1.
 pub const RATES: &[f64] =
@@ -13,6 +15,9 @@ pub(super) const FIRST_RATE: usize = 8;
 
 /// Wall-clock seconds a page takes to fill.
 const PAGE_SECONDS: f64 = 4.0;
+
+/// From this rate on it is real time, to two digits.
+const REAL: f64 = 0.95;
 
 /// Zoom steps in either direction.
 pub(super) const MOST_ZOOM: i32 = 12;
@@ -44,6 +49,13 @@ impl App {
         page_length(self.rate(), self.zoom)
     }
 
+    /// The zoom at which a page is as long as this, or a little longer.
+    pub(super) fn zoom_for(&self, length: f64) -> i32 {
+        let mut all = (-MOST_ZOOM..=MOST_ZOOM).rev();
+        let long = |zoom: &i32| page_length(self.rate(), *zoom) >= length * (1.0 - 1e-9);
+        all.find(long).unwrap_or(-MOST_ZOOM)
+    }
+
     /// Motion time now \[s\].
     pub fn now(&self) -> f64 {
         self.latest.moment.as_ref().map_or(0.0, |moment| moment.state.t_s)
@@ -63,29 +75,98 @@ impl App {
         (start, start + length)
     }
 
-    pub(super) fn page_number(&self) -> i64 {
-        // A page that has just become full is shown full.
-        ((self.now() / self.page_s()) - 1e-9).floor().max(0.0) as i64
+    /// The record of the page that is shown: computed again at its zoom, with what is to
+    /// come, or until that is done what was played at a zoom like it.
+    pub fn record(&self) -> &[Bin] {
+        self.recorded(self.latest.results.page.as_deref(), &self.history)
     }
 
-    /// Part of the page that is behind the motion, 0 to 1.
+    /// The same under the other contact law.
+    pub fn comparison_record(&self) -> &[Bin] {
+        let results = &self.latest.results;
+        self.recorded(results.comparison_page.as_deref(), &self.comparison_history)
+    }
+
+    fn recorded<'a>(&self, page: Option<&'a PageRecord>, played: &'a BinHistory) -> &'a [Bin] {
+        let (from, to) = self.page();
+        match page.filter(|known| known.page == (from, to)) {
+            Some(known) => known.record.between(from, to),
+            None => played.fine_between(from, to),
+        }
+    }
+
+    /// The bins of a record that are behind the motion, and those ahead of it.
+    pub fn past_and_future<'a>(&self, record: &'a [Bin]) -> (&'a [Bin], &'a [Bin]) {
+        let now = self.now();
+        record.split_at(record.partition_point(|bin| bin.from < now))
+    }
+
+    pub(super) fn page_number(&self) -> i64 {
+        self.page_of(self.now())
+    }
+
+    /// The page of an instant: one that has just become full is shown full.
+    fn page_of(&self, t: f64) -> i64 {
+        (t / self.page_s() - 1e-9).floor().max(0.0) as i64
+    }
+
+    /// Part of the page that is before the instant that is read, or now, 0 to 1.
     pub fn part_of_page(&self) -> f64 {
         let (from, to) = self.page();
-        ((self.now() - from) / (to - from)).clamp(0.0, 1.0)
+        ((self.read_s.unwrap_or(self.now()) - from) / (to - from)).clamp(0.0, 1.0)
+    }
+
+    /// Where the scene begins to play \[s\].
+    pub(super) fn begin_s(&self) -> f64 {
+        self.scene.view.begin_s.min(self.scene.solver.end_s)
+    }
+
+    /// Goes to an instant: what is read, while a chart is read, otherwise the motion, which
+    /// begins again where that is behind.
+    pub(super) fn go_to(&mut self, t: f64) {
+        let end = self.end_s();
+        if !(0.0..=end).contains(&t) {
+            let end = readable(end, "s");
+            self.status =
+                Some(format!("t = {}: from 0 to {end}, the end of the run", readable(t, "s")));
+            return;
+        }
+        if self.reading {
+            self.read_s = Some(t);
+            let page = self.page_of(t);
+            self.pages_back = self.page_number() - page;
+            self.cursor = Some(self.view.panel().here(self));
+            return;
+        }
+        if t < self.now() {
+            self.restart();
+        }
+        (self.go_to_s, self.pages_back) = (t, 0);
+        self.counters.goes += 1;
+        self.status = Some(format!("on to {}", instant(t)));
     }
 
     /// Goes a page back, or forward, as far as the forecast.
     pub(super) fn pan(&mut self, back: bool) {
-        let last = (self.end_s() / self.page_s() - 1e-9).floor().max(0.0) as i64;
+        let last = self.page_of(self.end_s());
         let now = self.page_number();
         let pages = self.pages_back + if back { 1 } else { -1 };
         self.pages_back = pages.clamp((now - last).min(0), now);
     }
 
-    /// The rate in words: `1/200 of real time`.
+    /// The rate that is reached, or until that is known the one that is asked for, in words:
+    /// `1/200` of real time.
     pub fn rate_text(&self) -> String {
-        let rate = self.rate();
-        if rate >= 1.0 { "real time".into() } else { format!("1/{:.0}", 1.0 / rate) }
+        let reached = self.latest.results.pace.reached.filter(|_| self.playing);
+        match reached.unwrap_or(self.rate()) {
+            rate if rate >= REAL => "real time".into(),
+            // Two digits: the pace is not the same all the time.
+            rate => {
+                let times = 1.0 / rate;
+                let unit = 10f64.powf(times.log10().floor() - 1.0).max(1.0);
+                format!("1/{:.0}", (times / unit).round() * unit)
+            }
+        }
     }
 }
 
@@ -98,6 +179,20 @@ mod tests {
         assert_eq!(RATES[FIRST_RATE], 5e-3);
         assert_eq!(page_length(5e-3, 0), 0.02);
         assert_eq!((RATES[0], RATES[RATES.len() - 1]), (1e-5, 1.0));
+    }
+
+    #[test]
+    fn the_rate_in_words_is_the_one_that_is_reached() {
+        let scene = crate::scene::Scene::base().checked().unwrap();
+        let mut app = App::new(scene, crate::tui::Theme::Mono, crate::tui::Marker::Ascii);
+        assert_eq!(app.rate_text(), "1/200");
+        for (rate, text) in [(1.0 / 83.4, "1/83"), (1.0 / 1234.0, "1/1200"), (0.97, "real time")] {
+            app.latest.results.pace.reached = Some(rate);
+            assert_eq!(app.rate_text(), text);
+        }
+        // While nothing plays there is only the one that is asked for.
+        app.playing = false;
+        assert_eq!(app.rate_text(), "1/200");
     }
 
     #[test]

@@ -115,9 +115,6 @@ impl App {
 
     /// Drops what was computed for the motion before it was changed.
     pub(super) fn forget_forecasts(&mut self) {
-        if let Some(run) = self.full_run() {
-            self.verdict_before = Some(self.words(run).word);
-        }
         let results = &mut self.latest.results;
         (results.full_run, results.reference, results.comparison) = (None, None, None);
         results.sensitive = false;
@@ -142,6 +139,7 @@ impl App {
         (results.reading, results.end_s) = (None, 0.0);
         self.latest = Snapshot { results, ..Snapshot::default() };
         self.page = 0;
+        self.go_to_s = self.begin_s();
     }
 }
 

@@ -178,7 +178,7 @@ impl App {
         if self.mode != InputMode::Main {
             self.mode = InputMode::Main;
         } else if self.reading || self.cursor.is_some() || self.pages_back != 0 {
-            (self.reading, self.cursor) = (false, None);
+            self.stop_reading();
             self.pages_back = 0;
         } else if self.presenting {
             self.present(false);
@@ -240,14 +240,14 @@ impl App {
             Action::Answer(place) => self.answer(place),
             Action::LeaveLesson => self.leave_lesson(),
             Action::Heat => {
-                self.heat = !self.heat;
-                self.show(ViewId::Gaps);
+                self.turn_gaps();
                 let how = if self.heat { "against time" } else { "of this instant" };
                 self.status = Some(format!("gaps {how}"));
             }
             Action::Charts => self.companions_shown = (self.companions_shown + 1) % 4,
             Action::PageBack => self.pan(true),
             Action::PageForward => self.pan(false),
+            Action::GoToEnd => self.go_to(self.end_s()),
             Action::Read => self.toggle_reading(),
             Action::Cursor { right, up, coarse } => self.move_cursor(right, up, coarse),
             Action::OpenPlace => self.open_cursor(),
@@ -332,6 +332,6 @@ impl App {
             }
         }
         self.view = view;
-        (self.reading, self.cursor) = (false, None);
+        self.keep_instant();
     }
 }

@@ -4,7 +4,8 @@
 use super::App;
 use crate::motion::{ActiveSet, Verdict};
 use crate::tui::axis::readable;
-use crate::tui::engine::{FORECAST_LIMIT, FullRun, FullRunState};
+use crate::tui::engine::{Answer, FORECAST_LIMIT, FullRun, FullRunState};
+use crate::tui::knobs::KNOBS;
 use crate::tui::theme::Role;
 use crate::tui::trace::{Happening, Mark};
 
@@ -61,18 +62,31 @@ impl App {
         }
     }
 
-    /// While there is no verdict, the one before stays, dimmed; the event solver,
-    /// which is done sooner, is told beside it.
+    /// While there is no verdict, the latest one stays, dimmed and with its value; the event
+    /// solver, which is done sooner, is told beside it.
     fn computing(&self, part: &str) -> VerdictText {
         let event = self.latest.results.reference.as_ref();
         let event =
             event.map_or(String::new(), |run| format!("event, unilateral: {}", run.verdict));
-        let (word, state) = match &self.verdict_before {
-            Some(word) => (word.clone(), format!("before this change; computing {part}")),
+        let (word, state) = match self.older_answer() {
+            Some(answer) => (answer, format!("computing {part}")),
             None => ("computing".into(), part.to_string()),
         };
         let detail = join(&[&event, state.trim_end()]);
         VerdictText { word, detail, role: Role::Quiet }
+    }
+
+    /// The verdict of a scene that differs in one knob, `at 405 rad/s: WHIRL`, or of this one
+    /// before it was changed in another way.
+    fn older_answer(&self) -> Option<String> {
+        let Answer { scene, verdict } = self.answer.as_deref()?;
+        let mut differ = KNOBS.iter().filter(|knob| knob.get(scene) != knob.get(&self.scene));
+        let when = match (differ.next(), differ.next()) {
+            (Some(knob), None) => format!("at {}", knob.text(scene)),
+            (None, _) => "before".into(),
+            _ => return None,
+        };
+        Some(format!("{when}: {}", verdict.as_ref().to_uppercase()))
     }
 
     pub(crate) fn words(&self, run: &FullRun) -> VerdictText {

@@ -48,6 +48,7 @@ impl Action {
             | Self::Slower
             | Self::Faster
             | Self::Jump
+            | Self::GoToEnd
             | Self::PageBack
             | Self::PageForward
             | Self::ZoomIn

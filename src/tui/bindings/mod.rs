@@ -50,6 +50,7 @@ pub enum Action {
     Theme,
     Live,
     Jump,
+    GoToEnd,
     Pin,
     OtherLaw,
     Save,

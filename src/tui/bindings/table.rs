@@ -120,6 +120,12 @@ const BEFORE_VIEWS: &[Binding] = &[
     bind!(Main, [letter('G')], Action::LeaveLesson, "leave the lesson; your own scene comes back"),
     bind!(Main, [letter('o')], Action::Scenes, "open a scene: built-in ones, and files of this folder", "o" "scenes"),
     bind!(Main, [letter('n')], Action::Jump, "on to the next change of contact (pauses)"),
+    bind!(
+        Main,
+        [letter('E'), key(KeyCode::End)],
+        Action::GoToEnd,
+        "end of the run: go there; to another instant with : t 0.3 ms"
+    ),
     bind!(Main, [letter('b')], Action::Pin, "pin this run as a baseline behind the next, or remove it", "b" "pin"),
     bind!(Main, [letter('c')], Action::OtherLaw, "the other contact law next to this one; in the map, its law", "c" "both laws"),
     bind!(Main, [letter('X')], Action::MapAxis { up: false }, "the next knob across the map"),

@@ -305,7 +305,8 @@ mod tests {
 
     #[test]
     fn every_number_of_a_scene_has_a_knob() {
-        for key in keys::KEYS {
+        // What the explorer opens with is not of the motion.
+        for key in keys::KEYS.iter().filter(|key| !key.path.starts_with("view.")) {
             let numeric = matches!(key.allowed, Allowed::Real { .. } | Allowed::Whole { .. });
             let knobs = KNOBS.iter().filter(|knob| knob.path == key.path).count();
             let wanted = usize::from(numeric || matches!(key.allowed, Allowed::OneOf(_)));

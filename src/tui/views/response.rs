@@ -11,7 +11,7 @@ use crate::scene::ModelSize;
 use crate::tui::app::{App, Cursor};
 use crate::tui::axis::{AutoRange, ChartAxis, instant, readable};
 use crate::tui::engine::{FullRun, Moment};
-use crate::tui::history::{BinHistory, Channel};
+use crate::tui::history::{self, Bin, Channel};
 use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
 use crate::tui::text::{columns, print, wrap};
@@ -83,11 +83,10 @@ impl ViewPanel for ResponseView {
                 .flat_map(|(_, name)| [format!("{name}_least"), format!("{name}_greatest")]),
         );
         columns.push("contact".into());
-        let (from, to) = app.page();
-        let rows = app.history.between(from, to).iter().map(|bin| {
+        let rows = app.past_and_future(app.record()).0.iter().map(|bin| {
             let spans =
                 channels.iter().flat_map(|(channel, _)| <[f64; 2]>::from(bin.span(*channel)));
-            let contact = f64::from(u8::from(bin.contact));
+            let contact = f64::from(u8::from(bin.contact.is_some()));
             [bin.from, bin.to].into_iter().chain(spans).chain([contact])
         });
         csv(&columns, rows)
@@ -106,8 +105,8 @@ struct Page<'a> {
     channels: [Channel; 2],
     range: AutoRange,
     unit: &'static str,
-    history: &'a BinHistory,
-    /// The run ahead of it.
+    record: &'a [Bin],
+    /// The run to its end.
     forecast: Option<&'a FullRun>,
     /// Whether this is the running motion, drawn with its marks.
     own: bool,
@@ -121,7 +120,7 @@ impl<'a> Page<'a> {
             channels: [Channel::UC, Channel::US],
             range: app.ranges.casing,
             unit: "m",
-            history: &app.history,
+            record: app.record(),
             forecast: app.full_run(),
             own: true,
         }
@@ -137,7 +136,7 @@ fn both_laws(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let comparison = app.latest.results.comparison.as_ref();
     let word = comparison.map_or("...".to_string(), |outcome| app.words(outcome).word);
     let theirs = Page {
-        history: &app.comparison_history,
+        record: app.comparison_record(),
         forecast: comparison,
         own: false,
         ..Page::casing(format!("{}: {word}", law.other()), app)
@@ -195,11 +194,14 @@ fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
     }
     let columns = plot.columns();
     if let Some(baseline) = app.baseline.as_ref().filter(|_| what.own) {
-        plot.spans(&baseline.history.columns(what.channels[0], from, to, columns), &look.quiet());
+        let pinned = baseline.history.fine_between(from, to);
+        let pinned = history::columns(pinned, what.channels[0], (from, to), columns);
+        plot.spans(&pinned, &look.quiet());
     }
+    let (past, _) = app.past_and_future(what.record);
     ghost(app, &mut plot, what);
     for (channel, pen) in what.channels.iter().zip(&pens).rev() {
-        plot.spans(&what.history.columns(*channel, from, to, columns), pen);
+        plot.spans(&history::columns(past, *channel, (from, to), columns), pen);
     }
     plot.ink();
     for (level, name) in levels {
@@ -208,7 +210,7 @@ fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
     let cells = usize::from(plot.inner.width);
     // On the time axis if there is one, so that no data is covered.
     let row = plot.axis_row().unwrap_or(plot.inner.bottom() - 1);
-    let contacts = what.history.contacts(from, to, cells);
+    let contacts = history::contacts(past, (from, to), cells);
     for (column, _) in (plot.inner.x..).zip(contacts).filter(|(_, touched)| *touched) {
         plot.text(column, row, &mark.to_string(), look.style(Role::Contact));
     }
@@ -245,7 +247,7 @@ fn reading(app: &App, what: &Page, width: usize) -> Option<String> {
     if !what.own {
         // The other law is not computed again: its bin has least and greatest value.
         let t = app.cursor_time()?;
-        let bin = what.history.at(t)?;
+        let bin = history::bin_at(what.record, t)?;
         let [first, second] = what.channels.map(|channel| readable(bin.middle(channel), what.unit));
         return Some(format!("near {}: {first}, {second}", readable(t, "s")));
     }
@@ -259,22 +261,24 @@ fn reading(app: &App, what: &Page, width: usize) -> Option<String> {
     Some(if columns(&whole) + 7 > width { values } else { whole })
 }
 
-/// The run to come, in dots, and where nothing was recorded yet.
+/// The run to come, in dots. They are those of the whole page, so that they stay where they
+/// are while the motion comes to them.
 fn ghost(app: &App, plot: &mut Plot, what: &Page) {
-    let Some(run) = what.forecast else { return };
-    let (from, to) = app.page();
-    let ahead = from.max(app.now());
-    let first = usize::from(what.unit == "rad") * 2;
+    let (look, ahead) = (&app.appearance, app.now());
     let machine = &app.machine;
     let fastest = machine.omega_c.max(machine.omega_bd).max(machine.nu(app.speed().abs()));
-    // A wave of which a point in many is known would be drawn as another wave.
-    if run.trace.step * fastest > 1.0 {
-        return;
-    }
-    let look = &app.appearance;
-    for (place, pen) in [(first + 1, look.second()), (first, look.first())] {
+    // Of a wave that turns within a bin the envelope is drawn.
+    let length = what.record.iter().map(|bin| bin.to - bin.from).fold(0.0, f64::max);
+    let parts: &[f64] = if length * fastest > 1.0 { &[0.0, 1.0] } else { &[0.5] };
+    for (channel, pen) in what.channels.iter().zip([look.first(), look.second()]).rev() {
         let pen = Pen { sign: '.', dashed: false, ..pen };
-        plot.dotted(run.trace.between(place, from, to), ahead, &pen);
+        for part in parts {
+            let points = what.record.iter().map(|bin| {
+                let (low, high) = bin.span(*channel);
+                (0.5 * (bin.from + bin.to), low + part * (high - low))
+            });
+            plot.dotted(points, ahead, &pen);
+        }
     }
 }
 

@@ -1,6 +1,8 @@
 //! The same scene under the other contact law, to compare with.
 
+use super::copies::Copies;
 use super::full_run::FullRunJob;
+use super::page::Page;
 use super::recorder::Recorder;
 use crate::motion::{GoOn, Motion};
 use crate::scene::{CheckedScene, Scene, SceneError, SolverKind};
@@ -14,15 +16,44 @@ pub struct Comparison {
     pub recorder: Recorder,
     /// Its full run.
     pub full_run: FullRunJob,
+    /// The page on the screen.
+    pub page: Page,
+    copies: Copies,
 }
 
 impl Comparison {
     /// Starts it; none if the scene cannot have the other law.
-    pub fn of(scene: &Scene) -> Option<Self> {
+    pub fn of(scene: &Scene, page_s: f64) -> Option<Self> {
         let scene = other_law(scene).ok()?;
         let motion = Motion::new(&scene);
         let full_run = FullRunJob::new(motion.clone(), scene.solver.end_s);
-        Some(Self { motion, recorder: Recorder::default(), full_run })
+        let (copies, page) = (Copies::of(&motion, page_s), Page::default());
+        Some(Self { motion, recorder: Recorder::default(), full_run, page, copies })
+    }
+
+    /// The motion was changed from outside; its full run is `length` seconds from here.
+    pub fn changed(&mut self, length: f64) {
+        self.copies.changed(&self.motion);
+        self.page.forget();
+        self.forecast(length);
+    }
+
+    /// A new full run, from here on.
+    pub fn forecast(&mut self, length: f64) {
+        self.full_run = FullRunJob::new(self.motion.clone(), length);
+    }
+
+    /// Goes to the latest motion by `t` that is known, if that is ahead.
+    pub fn go_to(&mut self, t: f64) {
+        if let Some(ahead) = self.before(t).filter(|ahead| ahead.t_s() > self.motion.t_s()) {
+            self.motion = ahead;
+            self.recorder = Recorder::from(&self.motion);
+        }
+    }
+
+    /// The latest motion by `t` that is known.
+    pub fn before(&self, t: f64) -> Option<Motion> {
+        self.full_run.before(t).or_else(|| self.copies.before(t, &self.motion))
     }
 
     /// Plays to the time of the other motion; false where it stays behind for
@@ -31,6 +62,7 @@ impl Comparison {
         loop {
             let state = self.motion.state();
             self.recorder.record(&mut self.motion, &state, bin);
+            self.copies.follow(&self.motion);
             let before = self.motion.t_s();
             let next = (before + sample).min(until);
             if next <= before {

@@ -7,8 +7,8 @@ use crate::motion::Motion;
 const MOST: usize = 128;
 /// Most changes from outside that are remembered.
 const MOST_CHANGES: usize = 500;
-/// Time between two copies at the start, in lengths of a page.
-const PART_OF_PAGE: f64 = 1.0 / 16.0;
+/// Time between two copies at the start, in the length given.
+const PART: f64 = 1.0 / 64.0;
 
 /// The motion at some instants.
 #[derive(Debug)]
@@ -19,9 +19,9 @@ pub struct Copies {
 }
 
 impl Copies {
-    /// From the start of a motion of which pages of `page` seconds are shown.
-    pub fn of(motion: &Motion, page: f64) -> Self {
-        Self { copies: vec![(motion.clone(), true)], spacing: page * PART_OF_PAGE }
+    /// From the start of a motion of which `length` seconds matter.
+    pub fn of(motion: &Motion, length: f64) -> Self {
+        Self { copies: vec![(motion.clone(), true)], spacing: length * PART }
     }
 
     /// Keeps a copy if the last one is old.

@@ -1,8 +1,9 @@
 //! What is computed beside the motion that plays: the run to its end, the same by
 //! the event solver, whether a small change would change it, and the studies.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
+use super::answers::Answers;
 use super::background::Background;
 use super::full_run::{FullRunJob, SLICE};
 use super::studies::Studies;
@@ -19,17 +20,19 @@ pub struct Forecasts {
     sensitive: Option<bool>,
     sensitivity: Option<Background<bool>>,
     studies: Studies,
+    answers: Answers,
 }
 
 impl Forecasts {
     /// For the motion of a scene at its start.
-    pub fn of(motion: &Motion, scene: &Scene, studies: Studies) -> Self {
+    pub fn of(motion: &Motion, scene: &Scene, (studies, answers): (Studies, Answers)) -> Self {
         Self {
             full_run: FullRunJob::new(motion.clone(), scene.solver.end_s),
             reference: reference(scene),
             sensitive: None,
             sensitivity: None,
             studies,
+            answers,
         }
     }
 
@@ -38,10 +41,18 @@ impl Forecasts {
         &mut self.studies
     }
 
-    /// The studies, for the next motion.
-    pub fn take_studies(&mut self) -> Studies {
+    /// The studies and answers, for the next motion; this one was of `scene`.
+    pub fn hand_over(&mut self, scene: &CheckedScene, motion: &Motion) -> (Studies, Answers) {
+        self.changed(scene, motion, 0.0);
+        (std::mem::take(&mut self.studies), std::mem::take(&mut self.answers))
+    }
+
+    /// As `again`, of a motion that was of `scene` and has been changed.
+    pub fn changed(&mut self, scene: &CheckedScene, motion: &Motion, length: f64) {
+        let run = std::mem::replace(&mut self.full_run, FullRunJob::new(motion.clone(), length));
+        self.answers.turned_on(scene, run);
+        self.reference = None;
         self.studies.forget_spectrum();
-        std::mem::take(&mut self.studies)
     }
 
     /// A new run of `length` seconds from where the motion is. The reference
@@ -62,6 +73,21 @@ impl Forecasts {
         self.full_run.end()
     }
 
+    /// The motion of the run by `t`, computed on the way; none before its start.
+    pub fn before(&self, t: f64) -> Option<Motion> {
+        self.full_run.before(t)
+    }
+
+    /// How far the run is \[s\], and whether it goes no farther.
+    pub fn reached(&self) -> (f64, bool) {
+        (self.full_run.t_s(), self.full_run.is_done())
+    }
+
+    /// Wall time spent on the run, until it is done.
+    pub fn wall(&self) -> Option<Duration> {
+        (!self.full_run.is_done()).then(|| self.full_run.wall())
+    }
+
     /// The changes of contact ahead, as far as they are known.
     pub fn marks(&self) -> &[Mark] {
         self.full_run.marks()
@@ -71,16 +97,28 @@ impl Forecasts {
     pub fn is_computing(&self, order: &Order, comparison: Option<&FullRunJob>) -> bool {
         let mut runs = std::iter::once(&self.full_run).chain(&self.reference).chain(comparison);
         runs.any(|run| !run.is_done())
+            || self.answers.is_computing()
             || self.sensitive.is_none()
             || self.studies.is_computing(order)
     }
 
+    /// Computes a slice of a run that was begun before the last change; false where there is
+    /// none.
+    pub fn compute_older(&mut self) -> bool {
+        self.answers.compute()
+    }
+
     /// Computes one slice.
     pub fn compute(&mut self, order: &Order, comparison: Option<&mut FullRunJob>) {
+        let known = self.full_run.is_done();
         // The run that had least time: the quick one does not wait for the slow one.
         let runs = self.reference.iter_mut().chain([&mut self.full_run]).chain(comparison);
         if let Some(run) = runs.filter(|run| !run.is_done()).min_by_key(|run| run.wall()) {
-            return run.compute();
+            run.compute();
+            if !known {
+                self.answers.note(&order.scene, &self.full_run.state());
+            }
+            return;
         }
         if self.sensitive.is_none() {
             let job = self.sensitivity.get_or_insert_with(|| sensitivity(&order.scene));
@@ -97,6 +135,7 @@ impl Forecasts {
         let done_in = matches!(full_run, FullRunState::Done(_)).then(|| self.full_run.wall_s());
         let mut results = Results {
             full_run: Some(full_run),
+            answer: self.answers.latest(),
             end_s: self.end(),
             sensitive: self.sensitive.unwrap_or(false),
             reference: done(self.reference.as_ref()),

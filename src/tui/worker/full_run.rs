@@ -4,6 +4,7 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use super::copies::Copies;
 use crate::motion::{Motion, verdict_of};
 use crate::tolerances::LAST_PART;
 use crate::tui::engine::{FORECAST_LIMIT, FullRun, FullRunState};
@@ -19,6 +20,7 @@ pub struct FullRunJob {
     taken: u32,
     points: Vec<[f64; 4]>,
     marks: Marks,
+    copies: Copies,
     wall: Duration,
     limit: Duration,
     /// Steps taken and skipped before the start.
@@ -44,6 +46,7 @@ impl FullRunJob {
             taken: 0,
             points: vec![point(&motion)],
             marks: Marks::from(motion.contacts()),
+            copies: Copies::of(&motion, length),
             wall: Duration::ZERO,
             limit: FORECAST_LIMIT,
             result: None,
@@ -71,6 +74,7 @@ impl FullRunJob {
                 self.taken += 1;
                 self.points.push(point(&self.motion));
                 self.marks.look(self.motion.contacts());
+                self.copies.follow(&self.motion);
             }
         }
         self.wall += began.elapsed();
@@ -84,9 +88,19 @@ impl FullRunJob {
         self.points.iter().skip(1).map(|[u_c, u_s, ..]| [*u_c, *u_s]).collect()
     }
 
+    /// The last copy of the motion on the way by `t`.
+    pub fn before(&self, t: f64) -> Option<Motion> {
+        self.copies.before(t, &self.motion)
+    }
+
     /// The changes of contact so far, in order of time.
     pub fn marks(&self) -> &[Mark] {
         &self.marks.seen
+    }
+
+    /// How far it is \[s\].
+    pub fn t_s(&self) -> f64 {
+        self.motion.t_s()
     }
 
     /// The end of the run \[s\].
@@ -119,9 +133,18 @@ impl FullRunJob {
         if let Some(run) = &self.result {
             return FullRunState::Done(run.clone());
         }
-        let part = (self.motion.t_s() - self.start) / (self.end - self.start);
-        let part = part.clamp(0.0, 1.0);
+        let part = self.part();
         if self.is_done() { FullRunState::GivenUp(part) } else { FullRunState::Computing(part) }
+    }
+
+    fn part(&self) -> f64 {
+        ((self.motion.t_s() - self.start) / (self.end - self.start)).clamp(0.0, 1.0)
+    }
+
+    /// The wall time it still takes, as far as it can be known.
+    pub fn left(&self) -> Option<Duration> {
+        let left = self.wall_s() * (1.0 / self.part() - 1.0);
+        Duration::try_from_secs_f64(left).ok()
     }
 
     /// Whether it is over.

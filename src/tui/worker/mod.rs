@@ -1,6 +1,7 @@
 //! The solver behind the screen: a playback without clock or thread, the thread
 //! that drives it, and a replacement for tests.
 
+mod answers;
 mod background;
 mod coincidence;
 mod comparison;
@@ -11,6 +12,7 @@ mod jump;
 mod map_job;
 mod margins;
 mod pacing;
+mod page;
 mod playback;
 mod precision;
 mod reading;

@@ -55,6 +55,39 @@ impl Turned {
     }
 }
 
+/// Wall time over which the rate that is reached is taken \[s\].
+const OVER: f64 = 0.5;
+/// A figure that is as near as this stays, so that it does not tremble.
+const NEAR: f64 = 0.1;
+
+/// The rate that is reached.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Reached {
+    wall: f64,
+    played: f64,
+    shown: Option<f64>,
+}
+
+impl Reached {
+    /// So much was played in so much wall time.
+    pub fn add(&mut self, wall: f64, played: f64) {
+        (self.wall, self.played) = (self.wall + wall, self.played + played);
+        if self.wall < OVER {
+            return;
+        }
+        let rate = self.played / self.wall;
+        if self.shown.is_none_or(|shown| (rate - shown).abs() > NEAR * shown) {
+            self.shown = Some(rate).filter(|rate| *rate > 0.0);
+        }
+        (self.wall, self.played) = (0.0, 0.0);
+    }
+
+    /// The rate, once it is known.
+    pub fn rate(&self) -> Option<f64> {
+        self.shown
+    }
+}
+
 /// The rate of play at an instant, given the changes of contact ahead and behind.
 pub fn rate_at(now: f64, rate: f64, marks: &[Mark]) -> f64 {
     let next = marks.partition_point(|mark| mark.t_s <= now);
@@ -111,6 +144,22 @@ mod tests {
             frames += 1;
         }
         assert!((4..40).contains(&frames), "{frames} frames");
+    }
+
+    #[test]
+    fn the_rate_reached_is_that_of_the_last_half_second_and_does_not_tremble() {
+        let mut reached = Reached::default();
+        for (frames, played, shown) in [
+            (10, 1e-3, None),
+            (20, 1e-3, Some(0.02)),
+            (20, 1.05e-3, Some(0.02)),
+            (20, 2e-3, Some(0.04)),
+        ] {
+            (0..frames).for_each(|_| reached.add(0.05, played));
+            let rate = reached.rate();
+            let near = rate.zip(shown).is_some_and(|(a, b): (f64, f64)| (a / b - 1.0).abs() < 1e-9);
+            assert!(near || rate == shown, "{rate:?} {shown:?}");
+        }
     }
 
     #[test]

@@ -1,36 +1,33 @@
 //! The engine without clock or thread: takes orders, plays the motion, and makes
 //! snapshots.
 
+mod looking;
+mod moves;
+
 use std::time::{Duration, Instant};
 
+use super::answers::Answers;
 use super::comparison::{Comparison, other_law};
 use super::copies::Copies;
 use super::forecasts::Forecasts;
-use super::full_run::{FullRunJob, SLICE};
-use super::jump::{met, next_change};
-use super::pacing::{Turned, rate_at};
+use super::full_run::SLICE;
+use super::pacing::{Reached, Turned, rate_at};
+use super::page::{PER_TURN, Page, next_sample, sample_length};
 use super::reading::Reading;
 use super::recorder::Recorder;
 use super::studies::Studies;
-use crate::motion::{Change, GoOn, Motion};
+use crate::motion::{Change, Motion};
 use crate::scene::keys::differences;
 use crate::tui::engine::{Limit, Moment, Order, Snapshot};
-use crate::tui::trace::{Mark, Marks};
+use crate::tui::trace::Mark;
 use crate::tui::views::ViewId;
 
-/// Samples per recorded bin.
-const SAMPLES: f64 = 4.0;
-/// Bins between two copies of the motion that are kept.
-const BINS: f64 = 1024.0;
-/// Samples per turn of the wave, at least.
-const PER_TURN: f64 = 24.0;
+/// Turn of the wave in the longest sample, at most.
+const TURN: f64 = std::f64::consts::TAU / PER_TURN;
 /// Longest wall time of one call of `play` in the explorer.
 const PLAY_LIMIT: Duration = Duration::from_millis(25);
-/// Most samples that a jump to the next change of contact records.
-const JUMP_SAMPLES: f64 = 20_000.0;
-/// Longest wall time of such a jump; a second press goes on from there.
-const JUMP_LIMIT: Duration = Duration::from_secs(1);
-
+/// Most wall time that one tick catches up, for example after a suspension.
+const LONGEST_TICK: Duration = Duration::from_millis(100);
 /// A motion being played, and its full runs.
 #[derive(Debug)]
 pub struct Playback {
@@ -40,8 +37,12 @@ pub struct Playback {
     target: f64,
     limit: Limit,
     turned: Turned,
+    reached: Reached,
+    /// Where the motion goes at once \[s\].
+    going: Option<f64>,
     copies: Copies,
     reading: Reading,
+    page: Page,
     applied: Vec<(f64, String)>,
     met: (u64, Option<Mark>),
     ends: u64,
@@ -60,10 +61,10 @@ impl Playback {
 
     /// As `new`; `play` may take this much wall time per call.
     pub fn with_time_limit(order: Order, time_limit: Duration) -> Self {
-        Self::start(order, time_limit, Studies::default())
+        Self::start(order, time_limit, Default::default())
     }
 
-    fn start(order: Order, time_limit: Duration, studies: Studies) -> Self {
+    fn start(order: Order, time_limit: Duration, kept: (Studies, Answers)) -> Self {
         let scene = &order.scene;
         let motion = Motion::new(scene);
         let mut playback = Self {
@@ -71,12 +72,15 @@ impl Playback {
             target: 0.0,
             limit: Limit::None,
             turned: Turned::default(),
-            copies: Copies::of(&motion, order.bin_s * BINS),
+            reached: Reached::default(),
+            going: Some(order.go_to_s).filter(|t| *t > 0.0),
+            copies: Copies::of(&motion, order.page.1 - order.page.0),
             reading: Reading::default(),
+            page: Page::default(),
             applied: Vec::new(),
             met: (order.jumps, None),
             ends: 0,
-            forecasts: Forecasts::of(&motion, scene, studies),
+            forecasts: Forecasts::of(&motion, scene, kept),
             comparison: None,
             behind: false,
             time_limit,
@@ -86,6 +90,7 @@ impl Playback {
         playback.start_comparison();
         playback.record();
         playback.read();
+        playback.want_page();
         playback
     }
 
@@ -99,10 +104,11 @@ impl Playback {
         let before = std::mem::replace(&mut self.order, order.clone());
         self.forecasts.studies().stop_unwanted(order);
         if order.restarts != before.restarts {
-            let studies = self.forecasts.take_studies();
-            *self = Self::start(order.clone(), self.time_limit, studies);
+            let kept = self.forecasts.hand_over(&before.scene, &self.motion);
+            *self = Self::start(order.clone(), self.time_limit, kept);
             return;
         }
+        let length = order.scene.solver.end_s;
         let changed = order.changes != before.changes || order.pulses != before.pulses;
         if changed && self.behind {
             self.level_comparison();
@@ -122,7 +128,11 @@ impl Playback {
         if changed {
             self.note_changes(&before);
             self.copies.changed(&self.motion);
-            self.forecast();
+            self.page.forget();
+            self.forecasts.changed(&before.scene, &self.motion, length);
+            if let Some(comparison) = &mut self.comparison {
+                comparison.changed(length);
+            }
             self.forecasts.forget_sensitivity();
         }
         if order.extensions != before.extensions && self.is_at_end() {
@@ -130,6 +140,12 @@ impl Playback {
         }
         if order.compare != before.compare {
             self.start_comparison();
+        }
+        if (order.rate, order.playing) != (before.rate, before.playing) {
+            self.reached = Reached::default();
+        }
+        if order.goes != before.goes {
+            self.going = Some(order.go_to_s);
         }
         for _ in 0..order.steps.saturating_sub(before.steps).min(1000) {
             self.step();
@@ -141,6 +157,7 @@ impl Playback {
         if order.cursor_s != before.cursor_s || changed {
             self.read();
         }
+        self.want_page();
     }
 
     /// Notes what the latest order changed, as `run --at` takes it.
@@ -160,7 +177,7 @@ impl Playback {
         let length = self.order.scene.solver.end_s;
         self.forecasts.again(&self.motion, length);
         if let Some(comparison) = &mut self.comparison {
-            comparison.full_run = FullRunJob::new(comparison.motion.clone(), length);
+            comparison.forecast(length);
         }
     }
 
@@ -173,20 +190,14 @@ impl Playback {
 
     /// Plays the same scene under the other contact law too, if it is wanted.
     fn start_comparison(&mut self) {
-        self.comparison = self.order.compare.then(|| Comparison::of(&self.order.scene)).flatten();
+        let (from, to) = self.order.page;
+        let other = || Comparison::of(&self.order.scene, to - from);
+        self.comparison = self.order.compare.then(other).flatten();
         self.play_comparison(self.time_limit);
     }
 
     fn sample_length(&self) -> f64 {
-        (self.order.bin_s / SAMPLES).min(self.longest_sample()).max(1e-12)
-    }
-
-    /// The longest sample in which no turn of the wave against the blades is lost.
-    fn longest_sample(&self) -> f64 {
-        let machine = self.motion.machine();
-        let speed = self.motion.rotor().speed(self.motion.t_s()).abs();
-        let fastest = machine.omega_c + machine.nu(speed);
-        std::f64::consts::TAU / fastest.max(f64::MIN_POSITIVE) / PER_TURN
+        sample_length(&self.motion, self.order.bin_s)
     }
 
     fn record(&mut self) {
@@ -205,15 +216,18 @@ impl Playback {
     /// changes of contact if this is wanted, and never so far that a turning
     /// picture on the screen could not be followed.
     /// False where nothing moved.
-    pub fn play_paced(&mut self, wall: f64) -> bool {
+    pub fn play_paced(&mut self, wall: Duration) -> bool {
+        let due = wall.min(LONGEST_TICK).as_secs_f64();
         let (now, rate) = (self.motion.t_s(), self.order.rate);
         let rate = match self.order.slow_at_events {
             true => rate_at(now, rate, self.forecasts.marks()),
             false => rate,
         };
         let turns = self.order.shows(ViewId::Frame) || self.order.shows(ViewId::Gaps);
-        self.play_within(wall * rate, turns);
-        self.motion.t_s() != now
+        self.play_within(due * rate, turns);
+        let played = self.motion.t_s() - now;
+        self.reached.add(wall.as_secs_f64(), played);
+        played != 0.0
     }
 
     /// Plays `seconds` of motion, or less if the solver is too slow.
@@ -222,11 +236,13 @@ impl Playback {
     }
 
     fn play_within(&mut self, seconds: f64, turns: bool) {
+        if self.going.is_some() {
+            return;
+        }
         self.target += seconds;
         let (began, limit) = (Instant::now(), self.time_limit);
         let go_on = || began.elapsed() < limit;
         let sample = self.sample_length();
-        let turn = std::f64::consts::TAU / PER_TURN;
         self.limit = Limit::None;
         let (end, before) = (self.forecasts.end(), self.motion.t_s());
         loop {
@@ -235,11 +251,13 @@ impl Playback {
             if next > self.target || next <= now {
                 break;
             }
-            if turns && self.turned.must_wait(turn) {
+            if turns && self.turned.must_wait(TURN) {
                 (self.limit, self.target) = (Limit::Wave, now);
                 break;
             }
-            if !self.next_sample(next, &go_on) {
+            // The motion stores a failure, and every snapshot reports it.
+            if next_sample(&mut self.motion, next, self.order.scene.solver.step_s, &go_on).is_err()
+            {
                 break;
             }
             self.record();
@@ -276,80 +294,19 @@ impl Playback {
     /// Before a change, which acts at one instant on both motions: the other
     /// contact law is played up to it, or given up.
     fn level_comparison(&mut self) {
-        self.play_comparison(self.time_limit.max(JUMP_LIMIT));
+        self.play_comparison(self.time_limit.max(moves::JUMP_LIMIT));
         if std::mem::take(&mut self.behind) {
             self.comparison = None;
         }
-    }
-
-    /// Plays to `until`, or to the next time step if that is later; false if the
-    /// motion has failed. It stays behind where `go_on` says no, which happens
-    /// only if this sample takes very long.
-    fn next_sample(&mut self, until: f64, go_on: GoOn<'_>) -> bool {
-        let before = self.motion.t_s();
-        // The motion stores a failure, and every snapshot reports it.
-        let reached = self.motion.advance_while(until, go_on);
-        if reached == Ok(true) && self.motion.t_s() <= before {
-            let next = before + self.order.scene.solver.step_s;
-            return self.motion.advance_while(next, go_on).is_ok();
-        }
-        reached.is_ok()
-    }
-
-    /// One time step, or one sample of a solver that does not step.
-    fn step(&mut self) {
-        let step = match self.motion.steps() {
-            Some(_) => self.order.scene.solver.step_s,
-            None => self.sample_length(),
-        };
-        let (began, limit) = (Instant::now(), self.time_limit);
-        let until = self.motion.t_s() + step;
-        self.next_sample(until, &|| began.elapsed() < limit);
-        self.record();
-        self.target = self.motion.t_s();
-        self.play_comparison(self.time_limit);
-    }
-
-    /// Plays to the next change of contact, exactly.
-    fn jump(&mut self) {
-        let (began, limit) = (Instant::now(), self.time_limit.max(JUMP_LIMIT));
-        let go_on = || began.elapsed() < limit;
-        let marks = Marks::from(self.motion.contacts());
-        let found = next_change(&self.motion, self.longest_sample(), &go_on);
-        if let Some(until) = found {
-            let length = until - self.motion.t_s();
-            let sample = self.sample_length().max(length / JUMP_SAMPLES);
-            while self.motion.t_s() < until {
-                let now = self.motion.t_s();
-                let moved = self.next_sample((now + sample).min(until), &go_on);
-                self.record();
-                // The explicit solver may be at its last step by then.
-                if !moved || self.motion.t_s() <= now || !go_on() {
-                    break;
-                }
-            }
-        }
-        self.met.1 = found.and_then(|_| met(marks, &self.motion));
-        self.target = self.motion.t_s();
-        if self.is_at_end() {
-            self.forecast();
-        }
-        self.play_comparison(self.time_limit);
-    }
-
-    /// Begins to compute the instant of the reading cursor.
-    fn read(&mut self) {
-        let at = self.order.cursor_s;
-        let from = at.and_then(|t| Some((t, self.copies.before(t, &self.motion)?)));
-        self.reading.begin(from);
-        self.reading.go_on(self.time_limit.min(SLICE));
     }
 
     /// Whether there is more to compute.
     pub fn is_computing(&self) -> bool {
         let comparison = self.comparison.as_ref().map(|comparison| &comparison.full_run);
         self.behind
+            || self.going.is_some()
             || !self.reading.is_done()
+            || !self.pages_are_done()
             || self.forecasts.is_computing(&self.order, comparison)
     }
 
@@ -359,6 +316,9 @@ impl Playback {
             return self.play_comparison(self.time_limit);
         }
         self.reading.go_on(self.time_limit.min(SLICE));
+        if self.forecasts.compute_older() || self.arrive() || self.compute_page() {
+            return;
+        }
         let comparison = self.comparison.as_mut().map(|comparison| &mut comparison.full_run);
         self.forecasts.compute(&self.order, comparison);
     }
@@ -375,7 +335,10 @@ impl Playback {
         let mut results =
             self.forecasts.results(comparison.as_ref().map(|comparison| &comparison.full_run));
         results.pace.limit = self.limit;
+        results.pace.reached = self.reached.rate();
         results.reading = self.reading.moment();
+        results.page = self.page.record();
+        results.comparison_page = comparison.as_ref().and_then(|theirs| theirs.page.record());
         results.applied.clone_from(&self.applied);
         Snapshot {
             generation: self.order.generation(),

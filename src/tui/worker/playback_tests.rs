@@ -34,7 +34,7 @@ fn a_turning_picture_turns_an_eighth_between_two_frames_at_most() {
         let (before, shown) = phase(&playback);
         // Several ticks of the clock for one frame.
         for _ in 0..5 {
-            playback.play_paced(0.033);
+            playback.play_paced(Duration::from_millis(33));
         }
         limited += u32::from(playback.limit == Limit::Wave);
         let (after, still) = phase(&playback);
@@ -49,7 +49,7 @@ fn a_turning_picture_turns_an_eighth_between_two_frames_at_most() {
     // Without such a picture it plays as asked.
     order.open = vec![ViewId::Response];
     let mut playback = computed(&order);
-    (0..5).for_each(|_| _ = playback.play_paced(0.033));
+    (0..5).for_each(|_| _ = playback.play_paced(Duration::from_millis(33)));
     assert!((playback.motion.t_s() - 0.0165).abs() < 1e-4);
 }
 

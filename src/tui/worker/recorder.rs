@@ -2,7 +2,7 @@
 //! forces as means between snapshots.
 
 use crate::model::Machine;
-use crate::motion::{ActiveSet, Motion, State};
+use crate::motion::{ActiveSet, ContactLog, Motion, State};
 use crate::tui::history::{Bin, CHANNELS, MOST_BINS, thin};
 
 /// `z = (u_c + i u_s) exp(-i n_d theta)` \[m\], with `turned = n_d theta`.
@@ -30,6 +30,7 @@ pub struct Recorder {
     done: Vec<Bin>,
     open: Option<Bin>,
     impacts: u64,
+    active_set: ActiveSet,
     last: Option<f64>,
     sums: Vec<(u32, f64)>,
     over: f64,
@@ -37,6 +38,12 @@ pub struct Recorder {
 }
 
 impl Recorder {
+    /// A record that begins where the motion is.
+    pub fn from(motion: &Motion) -> Self {
+        let log = motion.contacts();
+        Self { impacts: log.impact_count, active_set: log.active_set, ..Self::default() }
+    }
+
     /// Records the motion as it is now, in this state; bins are closed after
     /// `length` seconds.
     pub fn record(&mut self, motion: &mut Motion, state: &State, length: f64) {
@@ -62,12 +69,12 @@ impl Recorder {
         let mut bin = Bin::of(self.last.unwrap_or(state.t_s), values);
         bin.to = state.t_s;
         let log = motion.contacts();
-        bin.contact = log.active_set != ActiveSet::Nothing || log.impact_count > self.impacts;
+        bin.contact = self.contact(log, bin.from, bin.to);
         let impacts = usize::try_from(self.impacts).unwrap_or(usize::MAX);
         let met = log.impacts.iter().skip(impacts).map(|impact| impact.side);
         let pushed = forces.iter().map(|(side, _)| *side);
         bin.touched = met.chain(pushed).fold(log.active_set, ActiveSet::with);
-        self.impacts = log.impact_count;
+        (self.impacts, self.active_set) = (log.impact_count, log.active_set);
         self.average(&forces, bin.to - bin.from);
         self.last = Some(state.t_s);
         match &mut self.open {
@@ -80,6 +87,26 @@ impl Recorder {
                 thin(&mut self.done);
             }
         }
+    }
+
+    /// The first and the last instant of contact since the last sample.
+    fn contact(&self, log: &ContactLog, from: f64, to: f64) -> Option<(f64, f64)> {
+        let known = usize::try_from(self.impacts).unwrap_or(usize::MAX);
+        let new = log.impact_count.saturating_sub(self.impacts);
+        let impacts = || log.impacts.iter().skip(known).map(|impact| impact.t_s);
+        // Of impacts whose instants are not kept, only the sample is known.
+        let untold = usize::try_from(new).is_ok_and(|new| impacts().count() < new);
+        let [was, is] = [self.active_set, log.active_set].map(|set| set != ActiveSet::Nothing);
+        let ended = log.last_contact.filter(|t| *t > from && *t <= to);
+        let last = if is { Some(to) } else { ended };
+        let first = match (was, is) {
+            (true, _) => Some(from),
+            (false, true) => Some(log.since.clamp(from, to)),
+            (false, false) => last,
+        };
+        let all = [first.zip(last), untold.then_some((from, to))].into_iter().flatten();
+        let all = all.chain(impacts().map(|t| (t, t)));
+        all.reduce(|(a, b), (c, d)| (a.min(c), b.max(d)))
     }
 
     fn average(&mut self, forces: &[(u32, f64)], elapsed: f64) {
@@ -98,6 +125,12 @@ impl Recorder {
     /// The closed bins since last asked.
     pub fn take_bins(&mut self) -> Vec<Bin> {
         std::mem::take(&mut self.done)
+    }
+
+    /// All bins, with the one that is open.
+    pub fn finish(&mut self) -> Vec<Bin> {
+        self.done.extend(self.open.take());
+        self.take_bins()
     }
 
     /// Mean force on each side since last asked; the former means if the motion

@@ -15,8 +15,6 @@ pub const WORKER_NAME: &str = "rubscope-worker";
 
 /// Time between two readings of the clock while the motion plays.
 const TICK: Duration = Duration::from_millis(33);
-/// Most wall time that one tick catches up, for example after a suspension.
-const LONGEST_TICK: Duration = Duration::from_millis(100);
 
 #[derive(Default)]
 struct Slots {
@@ -108,7 +106,7 @@ fn run(shared: &Shared, wake: &Waker) {
                 let elapsed = last.elapsed();
                 if elapsed >= TICK {
                     *last = Instant::now();
-                    moved |= playback.play_paced(elapsed.min(LONGEST_TICK).as_secs_f64());
+                    moved |= playback.play_paced(elapsed);
                 }
             }
             if playback.is_computing() {

@@ -127,9 +127,8 @@ fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
             plot.curve([end(-half), end(half)], if pass { &touched } else { &outline });
         }
     }
-    let (from, to) = app.page();
-    let bins = app.history.between(from, to).iter();
-    let trail = bins.map(|bin| (bin.middle(Channel::RimX), bin.middle(Channel::RimY)));
+    let past = app.past_and_future(app.record()).0.iter();
+    let trail = past.map(|bin| (bin.middle(Channel::RimX), bin.middle(Channel::RimY)));
     plot.curve(trail, &look.first());
     plot.ink();
     if let Some(cursor) = app.cursor.filter(|_| app.view == ViewId::Frame) {

@@ -61,14 +61,19 @@ fn spots(app: &App, columns: usize) -> Vec<Vec<Option<Spot>>> {
     let width = (to - from) / columns.max(1) as f64;
     let mut out = vec![vec![None; columns]; polygon.sides as usize];
     let place = |t: f64| (((t - from) / width).max(0.0) as usize).min(columns.saturating_sub(1));
-    for bin in app.history.between(from, to) {
+    for bin in app.past_and_future(app.record()).0 {
         for (side, row) in (0..polygon.sides).zip(&mut out) {
             let gap = least_gap(polygon, side, bin) / polygon.clearance.abs();
             if !gap.is_finite() {
                 continue;
             }
             let touched = touches(polygon, app.has_lining(), side, bin);
-            for slot in row.iter_mut().take(place(bin.to) + 1).skip(place(bin.from)) {
+            let first = place(bin.from);
+            // A bin may reach into a column in which nothing touches.
+            let contact = bin.contact.map(|(from, to)| place(from)..=place(to));
+            let contact = contact.filter(|_| touched);
+            for (at, slot) in (first..).zip(row.iter_mut().take(place(bin.to) + 1).skip(first)) {
+                let touched = contact.as_ref().is_some_and(|contact| contact.contains(&at));
                 *slot = Some(slot.map_or(Spot { gap, touched }, |spot: Spot| Spot {
                     gap: spot.gap.min(gap),
                     touched: spot.touched || touched,
@@ -115,8 +120,7 @@ pub fn csv(app: &App) -> Result<String, String> {
     let polygon = &app.machine.polygon;
     let mut columns = panel::names(&["from_s", "to_s"]);
     columns.extend((1..=polygon.blades).map(|blade| format!("least_gap_{blade}_m")));
-    let (from, to) = app.page();
-    let rows = app.history.between(from, to).iter().map(|bin| {
+    let rows = app.past_and_future(app.record()).0.iter().map(|bin| {
         let gaps =
             (1..=polygon.blades).map(|blade| least_gap(polygon, polygon.side_of_blade(blade), bin));
         [bin.from, bin.to].into_iter().chain(gaps)
@@ -150,7 +154,12 @@ pub fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
         }
         legend.push((format!("of clearance; over {}s", x.scale.prefix), quiet));
     }
-    let inside = title(app, buffer, at, "gaps in time", &legend);
+    let read = super::reading(app).filter(|_| at.large);
+    let name = if read.is_some() { "" } else { "gaps in time" };
+    if let Some(read) = read {
+        legend.insert(0, (read, look.style(Role::Focus)));
+    }
+    let inside = title(app, buffer, at, name, &legend);
     let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
     at.note(app, plot.inner);
     let inner = plot.inner;
@@ -180,6 +189,9 @@ pub fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
     }
     if let Some(t) = app.cursor_time() {
         plot.upright(t, look.either('┊', ':'), look.style(Role::Focus));
+        if let Some(blade) = super::read_blade(app) {
+            plot.point(t, f64::from(blade + 1), '+', look.style(Role::Focus));
+        }
     }
 }
 

@@ -103,15 +103,23 @@ fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
     }
 }
 
-/// The instant or the blade under the reading cursor.
-fn reading(app: &App) -> Option<String> {
-    if app.cursor_time().is_some() {
-        return Some(format!("at {}", instant(app.shown()?.state.t_s)));
-    }
+/// The blade under the reading cursor, from 0.
+fn read_blade(app: &App) -> Option<u32> {
     let cursor = app.cursor.filter(|_| app.view == ViewId::Gaps)?;
-    let blade = cell_of(cursor.across, app.machine.polygon.blades);
-    let gap = app.shown()?.gaps.get(blade as usize)?;
-    Some(format!("blade {}: {}", blade + 1, app.gap_words(*gap)))
+    let part = if app.heat { cursor.up } else { cursor.across };
+    Some(cell_of(part, app.machine.polygon.blades))
+}
+
+/// The blade under the reading cursor, its gap, and the instant that is read.
+fn reading(app: &App) -> Option<String> {
+    let moment = app.shown()?;
+    let blade = read_blade(app).and_then(|blade| {
+        let gap = moment.gaps.get(blade as usize)?;
+        Some(format!("blade {}: {}", blade + 1, app.gap_words(*gap)))
+    });
+    let at = app.cursor_time().map(|_| format!("at {}", instant(moment.state.t_s)));
+    let parts: Vec<String> = blade.into_iter().chain(at).collect();
+    (!parts.is_empty()).then(|| parts.join(" "))
 }
 
 /// Numbers of the touching blades under the zero line.

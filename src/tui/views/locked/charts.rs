@@ -6,7 +6,8 @@ use ratatui::buffer::Buffer;
 
 use super::curves::LockedCurves;
 use crate::harmonic::{Form, LockedPoint, locked_motion};
-use crate::tui::app::App;
+use crate::motion::Verdict;
+use crate::tui::app::{App, STEP};
 use crate::tui::axis::{ChartAxis, nice_step, readable};
 use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
@@ -96,7 +97,7 @@ pub fn reading(app: &App, speed: f64) -> String {
     let ratio = point.amplitude_m / app.machine.clearance();
     let holds = match (a > 0.0 || b > 0.0, point.admissible, point.stable) {
         (true, ..) => "one pulls: only an adhesive lock",
-        (_, true, true) => "both push: a lock that lasts",
+        (_, true, true) => "both push: a lock can last",
         (_, true, false) => "both push, but it is unstable",
         _ => "another blade would touch",
     };
@@ -109,6 +110,17 @@ pub fn reading(app: &App, speed: f64) -> String {
         value("u_cc", point.u_cc_m, "m"),
         value("u_cs", point.u_cs_m, "m"),
         holds.to_string(),
+        not_this_run(app, point.admissible && point.stable).unwrap_or_default(),
     ];
+    let parts: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
     at + &parts.join(", ")
+}
+
+/// That the run of this speed does not come to a lock that can last.
+fn not_this_run(app: &App, can_last: bool) -> Option<String> {
+    let (cursor, here) = (app.cursor?, app.view.panel().here(app));
+    let run = app.full_run().filter(|_| can_last && !app.is_asked())?;
+    let elsewhere = (cursor.across - here.across).abs() > 0.5 * STEP;
+    let locks = matches!(run.verdict, Verdict::Locked | Verdict::Adhesive);
+    (!elsewhere && !locks).then(|| format!("but this run: {}", app.words(run).word))
 }

@@ -1,0 +1,164 @@
+//! The page of time on the screen, computed again at its own zoom from a copy of the
+//! motion, in slices: what was played at another zoom has other bins, and what is to
+//! come has none.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use super::full_run::SLICE;
+use super::recorder::Recorder;
+use crate::motion::{Failure, GoOn, Motion};
+use crate::tui::engine::{FORECAST_LIMIT, PageRecord};
+use crate::tui::history::{BinHistory, interpolated};
+
+/// Samples per recorded bin.
+const SAMPLES: f64 = 4.0;
+/// Samples per turn of the wave, at least.
+pub const PER_TURN: f64 = 24.0;
+
+/// The page that is wanted, and the latest that is complete.
+#[derive(Debug, Default)]
+pub struct Page {
+    wanted: Option<((f64, f64), f64)>,
+    job: Option<PageJob>,
+    done: Option<Arc<PageRecord>>,
+}
+
+#[derive(Debug)]
+struct PageJob {
+    page: (f64, f64),
+    /// The end of what is computed \[s\].
+    until: f64,
+    bin: f64,
+    /// The time step \[s\].
+    step: f64,
+    motion: Motion,
+    recorder: Option<Recorder>,
+    wall: Duration,
+}
+
+impl Page {
+    /// Begins a page, in bins of `bin` seconds and up to `end`, the end of the run, from a
+    /// motion before it; nothing where it is known or under way.
+    pub fn want(
+        &mut self,
+        page: (f64, f64),
+        bin: f64,
+        (step, end): (f64, f64),
+        from: impl FnOnce() -> Option<Motion>,
+    ) {
+        let until = page.1.min(end);
+        if self.wanted == Some((page, until)) {
+            return;
+        }
+        self.wanted = Some((page, until));
+        let (recorder, wall) = (None, Duration::ZERO);
+        self.job = from().map(|motion| PageJob { page, until, bin, step, motion, recorder, wall });
+    }
+
+    /// Whether nothing is under way.
+    pub fn is_done(&self) -> bool {
+        self.job.is_none()
+    }
+
+    /// Computes one slice.
+    pub fn compute(&mut self) {
+        let Some(job) = &mut self.job else { return };
+        let began = Instant::now();
+        let whole = job.go_on(&|| began.elapsed() < SLICE);
+        job.wall += began.elapsed();
+        if whole {
+            self.done = Some(Arc::new(job.record()));
+        }
+        // Where it is given up, what was played stays on the screen.
+        if whole || job.wall >= FORECAST_LIMIT {
+            self.job = None;
+        }
+    }
+
+    /// Wall time spent on the one under way.
+    pub fn wall(&self) -> Duration {
+        self.job.as_ref().map_or(Duration::ZERO, |job| job.wall)
+    }
+
+    /// Forgets all: the motion is another one.
+    pub fn forget(&mut self) {
+        *self = Self::default();
+    }
+
+    /// The latest that is complete.
+    pub fn record(&self) -> Option<Arc<PageRecord>> {
+        self.done.clone()
+    }
+}
+
+impl PageJob {
+    /// Whether the end is reached; false where `go_on` said no.
+    fn go_on(&mut self, go_on: GoOn<'_>) -> bool {
+        let Some(recorder) = &mut self.recorder else {
+            let reached = self.motion.advance_while(self.page.0, go_on);
+            if reached != Ok(false) {
+                let recorder = self.recorder.insert(Recorder::from(&self.motion));
+                let state = self.motion.state();
+                recorder.record(&mut self.motion, &state, self.bin);
+            }
+            return false;
+        };
+        let sample = sample_length(&self.motion, self.bin);
+        // A solver that steps is at its last step before: the next is beyond the page.
+        while self.motion.t_s() < self.until {
+            let next = (self.motion.t_s() + sample).min(self.until);
+            match next_sample(&mut self.motion, next, self.step, go_on) {
+                Ok(true) => {}
+                Ok(false) => return false,
+                // After a failure there is nothing to record.
+                Err(_) => return true,
+            }
+            let state = self.motion.state();
+            recorder.record(&mut self.motion, &state, self.bin);
+            if !go_on() {
+                return false;
+            }
+        }
+        true
+    }
+
+    fn record(&mut self) -> PageRecord {
+        let bins = self.recorder.as_mut().map(Recorder::finish).unwrap_or_default();
+        let mut record = BinHistory::default();
+        record.extend(&interpolated(&bins, self.bin, self.page));
+        PageRecord { page: self.page, record }
+    }
+}
+
+/// The time between two samples of a record in bins of `bin` seconds, in which no turn of
+/// the wave against the blades is lost.
+pub fn sample_length(motion: &Motion, bin: f64) -> f64 {
+    (bin / SAMPLES).min(longest_sample(motion)).max(1e-12)
+}
+
+/// The longest sample in which no turn of the wave against the blades is lost.
+pub fn longest_sample(motion: &Motion) -> f64 {
+    let machine = motion.machine();
+    let fastest = machine.omega_c + machine.nu(motion.rotor().speed(motion.t_s()).abs());
+    std::f64::consts::TAU / fastest.max(f64::MIN_POSITIVE) / PER_TURN
+}
+
+/// Advances to `until`, or to the next time step if that is later.
+///
+/// # Errors
+/// As `Solver::advance_while`.
+pub fn next_sample(
+    motion: &mut Motion,
+    until: f64,
+    step: f64,
+    go_on: GoOn<'_>,
+) -> Result<bool, Failure> {
+    let before = motion.t_s();
+    let reached = motion.advance_while(until, go_on)?;
+    if reached && motion.t_s() <= before {
+        // Half a step more, so that round-off does not leave it where it is.
+        return motion.advance_while(before + 1.5 * step, go_on);
+    }
+    Ok(reached)
+}

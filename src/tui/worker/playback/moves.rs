@@ -1,0 +1,93 @@
+//! Moves of the motion that do not take the time that they show: a step, a jump to the next
+//! change of contact, and one to an instant of the run ahead.
+
+use std::time::{Duration, Instant};
+
+use super::Playback;
+use crate::tui::trace::Marks;
+use crate::tui::worker::full_run::SLICE;
+use crate::tui::worker::jump::{met, next_change};
+use crate::tui::worker::page::{longest_sample, next_sample};
+use crate::tui::worker::recorder::Recorder;
+
+/// Most samples that a jump to the next change of contact records.
+const JUMP_SAMPLES: f64 = 20_000.0;
+/// Longest wall time of such a jump; a second press goes on from there.
+pub(super) const JUMP_LIMIT: Duration = Duration::from_secs(1);
+
+impl Playback {
+    /// One time step, or one sample of a solver that does not step.
+    pub(super) fn step(&mut self) {
+        let step = match self.motion.steps() {
+            Some(_) => self.order.scene.solver.step_s,
+            None => self.sample_length(),
+        };
+        let (began, limit) = (Instant::now(), self.time_limit);
+        let until = self.motion.t_s() + step;
+        let step = self.order.scene.solver.step_s;
+        _ = next_sample(&mut self.motion, until, step, &|| began.elapsed() < limit);
+        self.record();
+        self.target = self.motion.t_s();
+        self.play_comparison(self.time_limit);
+    }
+
+    /// Plays to the next change of contact, exactly.
+    pub(super) fn jump(&mut self) {
+        let (began, limit) = (Instant::now(), self.time_limit.max(JUMP_LIMIT));
+        let go_on = || began.elapsed() < limit;
+        let marks = Marks::from(self.motion.contacts());
+        let found = next_change(&self.motion, longest_sample(&self.motion), &go_on);
+        if let Some(until) = found {
+            let length = until - self.motion.t_s();
+            let sample = self.sample_length().max(length / JUMP_SAMPLES);
+            while self.motion.t_s() < until {
+                let now = self.motion.t_s();
+                let (next, step) = ((now + sample).min(until), self.order.scene.solver.step_s);
+                let moved = next_sample(&mut self.motion, next, step, &go_on).is_ok();
+                self.record();
+                // The explicit solver may be at its last step by then.
+                if !moved || self.motion.t_s() <= now || !go_on() {
+                    break;
+                }
+            }
+        }
+        self.met.1 = found.and_then(|_| met(marks, &self.motion));
+        self.target = self.motion.t_s();
+        if self.is_at_end() {
+            self.forecast();
+        }
+        self.play_comparison(self.time_limit);
+    }
+
+    /// Goes on to where the motion is to be; false while the run ahead is not there yet.
+    pub(super) fn arrive(&mut self) -> bool {
+        let Some(wanted) = self.going else { return false };
+        let (reached, done) = self.forecasts.reached();
+        if reached < wanted && !done {
+            return false;
+        }
+        // A run that was given up, or failed, goes no farther.
+        let until = wanted.min(reached);
+        if let Some(ahead) = self.forecasts.before(until)
+            && ahead.t_s() > self.motion.t_s()
+        {
+            self.motion = ahead;
+        }
+        let began = Instant::now();
+        let go_on = || began.elapsed() < self.time_limit.min(SLICE);
+        if self.motion.advance_while(until, &go_on) == Ok(false) {
+            return true;
+        }
+        (self.going, self.target) = (None, self.motion.t_s());
+        // What lies between is not in this record: the page is computed again.
+        self.recorder = Recorder::from(&self.motion);
+        self.record();
+        self.ends += u64::from(self.is_at_end());
+        if let Some(theirs) = &mut self.comparison {
+            theirs.go_to(until);
+        }
+        self.play_comparison(self.time_limit);
+        self.want_page();
+        true
+    }
+}

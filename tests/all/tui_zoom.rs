@@ -1,0 +1,245 @@
+//! The page of time at every zoom: what is drawn is the range of the run in its time, and
+//! contact is marked where contact was.
+
+use proptest::prelude::*;
+use rubscope::motion::{ActiveSet, Motion};
+use rubscope::scene::Scene;
+use rubscope::tui::history::{Bin, Channel, columns, contacts};
+use rubscope::tui::{App, Marker, Theme};
+
+use crate::tui_support::{Session, scene};
+
+/// Columns across a chart, and its cells.
+const COLUMNS: usize = 150;
+const CELLS: usize = 75;
+
+/// A sample of a run: when, `u_c`, and whether something touched since the one before.
+type Sample = (f64, f64, bool);
+
+/// Samples of a run from the start to `to`; many between `from` and there.
+fn samples(app: &App, (from, to): (f64, f64)) -> Vec<Sample> {
+    let mut motion = Motion::new(&app.started);
+    let mut out: Vec<Sample> = Vec::new();
+    let mut impacts = 0;
+    let mut look = |motion: &Motion| {
+        let log = motion.contacts();
+        let touches = log.active_set != ActiveSet::Nothing || log.impact_count > impacts;
+        impacts = log.impact_count;
+        if out.last().is_none_or(|(t, ..)| *t < motion.t_s()) {
+            out.push((motion.t_s(), motion.state().u[0], touches));
+        }
+    };
+    motion.advance(from).unwrap();
+    look(&motion);
+    for k in 1..=20 * COLUMNS {
+        motion.advance(from + (to - from) * k as f64 / (20 * COLUMNS) as f64).unwrap();
+        look(&motion);
+    }
+    motion.advance(to + app.scene.solver.step_s).unwrap();
+    look(&motion);
+    out
+}
+
+/// The range of the samples around a stretch of time.
+fn range(samples: &[Sample], from: f64, to: f64) -> (f64, f64) {
+    let first = samples.partition_point(|(t, ..)| *t < from).saturating_sub(1);
+    let last = samples.partition_point(|(t, ..)| *t <= to).min(samples.len() - 1);
+    let values = samples[first..=last].iter().map(|(_, u, _)| *u);
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), u| (a.min(u), b.max(u)))
+}
+
+/// The page that is shown, both what is behind and what is to come, against the run.
+fn check(app: &App) {
+    let page = app.page();
+    let (length, end) = (page.1 - page.0, page.1.min(app.end_s()));
+    let samples = samples(app, (page.0, end));
+    let record: &[Bin] = app.record();
+    let largest = samples.iter().fold(0.0_f64, |most, (_, u, _)| most.max(u.abs()));
+    // A solver that steps is at its last step by then.
+    let reached = record.last().expect("a page is recorded").to;
+    assert!(reached >= end - app.scene.solver.step_s * 1.01, "{reached} of {end}");
+    let bin = length / 1024.0;
+    let drawn = columns(record, Channel::UC, page, COLUMNS);
+    for (k, drawn) in drawn.into_iter().enumerate() {
+        let at = |k: usize| page.0 + length * k as f64 / COLUMNS as f64;
+        let (from, to) = (at(k), at(k + 1));
+        if to > reached {
+            break;
+        }
+        let (low, high) = drawn.unwrap_or_else(|| panic!("nothing in column {k} of {page:?}"));
+        // A peak between two samples, 24 a turn, is lower by less than a dot of a chart.
+        let dot = 0.01 * largest;
+        let (least, most) = range(&samples, from - 1.5 * bin, to + 1.5 * bin);
+        assert!(
+            low >= least - dot && high <= most + dot,
+            "{page:?} {k}: {low} {high} {least} {most}"
+        );
+        for (t, u, _) in samples.iter().filter(|(t, ..)| (from..to).contains(t)) {
+            assert!(low - dot <= *u && *u <= high + dot, "{page:?} {k}, {t}: {u} {low} {high}");
+        }
+    }
+    let step = app.scene.solver.step_s;
+    for (k, marked) in contacts(record, page, CELLS).into_iter().enumerate() {
+        let at = |k: usize| page.0 + length * k as f64 / CELLS as f64;
+        let (from, to) = (at(k), at(k + 1));
+        let near = |t: f64, by: f64| t >= from - by && t <= to + by;
+        // A sample tells of the time since the one before.
+        let dt = (end - page.0) / (20 * COLUMNS) as f64;
+        let by = dt
+            + if app.scene.solver.kind == rubscope::scene::SolverKind::Explicit {
+                step
+            } else {
+                0.0
+            };
+        let touched = samples.iter().any(|(t, _, touches)| *touches && near(*t, by));
+        assert!(!marked || touched, "{page:?}: a contact in cell {k}, from {from} to {to}");
+        let inside = samples
+            .iter()
+            .any(|(t, _, touches)| *touches && *t - by > from && *t < to && *t < reached);
+        assert!(marked || !inside, "{page:?}: no contact in cell {k}");
+    }
+}
+
+fn open(name: &str) -> Session {
+    let scene = match name {
+        "paper-nd3" => scene(),
+        name => {
+            let mut scene = Scene::builtin(name).unwrap();
+            scene.solver.end_s = 0.02;
+            scene
+        }
+    };
+    Session::with_stride((170, 40), 2e-3, scene, Theme::Mono, Marker::Braille)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(16))]
+    #[test]
+    fn every_column_is_the_range_of_the_run_at_any_zoom_and_page(
+        name in prop::sample::select(&["paper-nd3", "rocking", "slip", "coincidence"][..]),
+        played in 0_usize..5,
+        zoom in -3_i32..13,
+        pages in -3_i32..8,
+    ) {
+        let mut session = open(name);
+        session.press_each(&".".repeat(played));
+        session.press_each(" ");
+        session.press_each(&if zoom < 0 { "-" } else { "+" }.repeat(zoom.unsigned_abs() as usize));
+        session.press_each(&if pages < 0 { ">" } else { "<" }.repeat(pages.unsigned_abs() as usize));
+        session.press_each("");
+        check(&session.app);
+    }
+}
+
+#[test]
+fn a_zoom_on_the_first_impact_shows_the_flight_before_it() {
+    let mut session = open("paper-nd3");
+    session.press_each(" r");
+    session.press_each("n++++++");
+    check(&session.app);
+    let app = &session.app;
+    let first = app.now();
+    assert_eq!(app.page(), (0.0, 2e-4));
+    let marked = contacts(app.past_and_future(app.record()).0, app.page(), CELLS);
+    let cell = (first / 2e-4 * CELLS as f64) as usize;
+    assert_eq!(marked.iter().position(|marked| *marked), Some(cell), "{first} {marked:?}");
+    // Free flight from rest under a constant force: a quarter of the way at half the time.
+    let u = |t: f64| app.record().iter().find(|bin| bin.to >= t).unwrap().middle(Channel::UC);
+    let part = u(0.5 * first) / u(first);
+    assert!((0.2..0.3).contains(&part), "{part}");
+}
+
+#[test]
+fn the_gap_of_a_blade_at_an_instant_is_read_in_every_chart() {
+    let mut session = open("rocking");
+    session.press_each(" i");
+    session.press_each(":t 0.3 ms\n");
+    assert_eq!(session.app.cursor_time(), Some(3e-4));
+    let mut motion = Motion::new(&session.app.scene);
+    motion.advance(3e-4).unwrap();
+    let wanted = format!("blade 7: {:.1}", 1e6 * motion.blade_gaps()[6]);
+    // Blade by blade, at the same instant; then against time, and back.
+    session.press_each("2llllll");
+    for key in ["", "w", "w"] {
+        session.press_each(key);
+        let text = session.text();
+        assert!(
+            text.contains(&wanted) && text.contains("at 300.000 µs"),
+            "{key}: {wanted}\n{text}"
+        );
+    }
+    session.press_each("41");
+    assert_eq!(session.app.cursor_time(), Some(3e-4));
+    // The cursor goes on from there, and the end of reading is the end of it.
+    session.press_each("l");
+    let page = session.app.page_s();
+    assert!((session.app.cursor_time().unwrap() - 3e-4 - 0.01 * page).abs() < 1e-12);
+    session.press_each("\u{1b}2");
+    assert_eq!((session.app.cursor_time(), session.app.cursor), (None, None));
+}
+
+#[test]
+fn the_end_of_the_run_and_any_instant_are_one_command_away() {
+    for name in ["rocking", "paper-nd3"] {
+        let mut session = open(name);
+        session.engine.stride = 1e-12;
+        session.press_each("E");
+        let end = session.app.scene.solver.end_s;
+        let step = session.app.scene.solver.step_s;
+        assert!((session.app.now() - end).abs() <= step && !session.app.playing, "{name}");
+        // The whole page of the end is there, although it was not played.
+        check(&session.app);
+        session.press_each(" ");
+        // What is behind begins again, with the state of a run that stops there.
+        session.press_each(":t 1.25 ms\n");
+        let mut motion = Motion::new(&session.app.scene);
+        motion.advance(1.25e-3).unwrap();
+        session.press_each(" ");
+        let moment = session.app.shown().unwrap();
+        assert_eq!(
+            moment.state.u.map(|u| (1e12 * u).round()),
+            motion.state().u.map(|u| (1e12 * u).round()),
+            "{name}"
+        );
+        check(&session.app);
+    }
+    let mut session = open("rocking");
+    session.press_each(":t 9\n");
+    let status = session.app.status.clone().unwrap();
+    assert_eq!(status, "t = 9.000 s: from 0 to 20.00 ms, the end of the run");
+}
+
+#[test]
+fn the_coincidence_begins_where_its_waves_are_and_its_lesson_shows_them_grow() {
+    let scene = Scene::builtin("coincidence").unwrap();
+    let mut session = Session::with_stride((120, 40), 1e-4, scene, Theme::Mono, Marker::Braille);
+    session.press_each("");
+    let swing = |bins: &[Bin]| {
+        let most = |bin: &Bin| bin.span(Channel::AlphaC).1.abs();
+        bins.iter().map(most).fold(0.0, f64::max)
+    };
+    assert!(session.app.now() >= 2.4 && swing(session.app.record()) > 0.98 * 182e-6);
+    let place =
+        rubscope::tui::lessons::all().iter().position(|lesson| lesson.name == "coincidence");
+    session.app.begin_lesson(place.unwrap());
+    session.press_each("agb");
+    let app = &session.app;
+    let (past, future) = app.past_and_future(app.record());
+    assert!(app.view.word() == "response" && app.page() == (0.0, 5.0) && app.now() >= 2.4);
+    // The growth of two seconds, and what is to come.
+    let tenth = past.len() / 10;
+    assert!(swing(&past[tenth..2 * tenth]) < 0.05 * swing(past) && !future.is_empty());
+}
+
+#[test]
+fn a_lock_that_can_last_is_no_verdict_of_the_run() {
+    let mut scene = scene();
+    scene.operation.pulse_n = 1e3;
+    let mut session = Session::open(170, 40, scene, Theme::Mono, Marker::Braille);
+    session.press_each("3fi");
+    let text: String = session.rows().iter().map(|row| row.trim().to_string() + " ").collect();
+    assert!(text.contains("a lock can last, but this run: DECAY"), "{text}");
+    // Elsewhere nothing is known of a run.
+    session.press_each("HH");
+    assert!(!session.text().contains("but this run"));
+}
