@@ -43,7 +43,7 @@ fn explorer(criterion: &mut Criterion) {
     }
     group.bench_function("a tick of the worker", |bencher| {
         bencher.iter(|| {
-            playback.play_paced(black_box(33e-3));
+            playback.play_paced(black_box(std::time::Duration::from_millis(33)));
             playback.snapshot()
         });
     });

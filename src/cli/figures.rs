@@ -62,7 +62,7 @@ impl FiguresCommand {
                 output::try_place(&self.out.join(name))?;
             }
         }
-        let bar = sign::bar(scenes.len() as u64, "{spinner} {bar:30} {msg} {elapsed}");
+        let bar = output::bar(scenes.len() as u64, "{spinner} {bar:30} {msg} {elapsed}");
         for (which, scene) in scenes {
             bar.set_message(format!("figure {which}"));
             if let Some(drawn) = drawn(which, &scene)? {

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::ProgressBar;
 
-use super::sign;
+use super::output;
 use super::status::say;
 use crate::motion::{Motion, Watch};
 use crate::report::number::{grouped, time};
@@ -33,7 +33,7 @@ impl LongRun {
     /// Of a run that begins now, followed by `changed` more.
     pub(super) fn of(scene: &CheckedScene, changed: usize) -> Self {
         Self {
-            bar: sign::bar(PARTS, "{spinner} {bar:30} {msg} {elapsed}"),
+            bar: output::bar(PARTS, "{spinner} {bar:30} {msg} {elapsed}"),
             end_s: scene.solver.end_s,
             started: Instant::now(),
             next: TICK,
@@ -63,14 +63,8 @@ impl Watch for LongRun {
         self.bar.set_position((part * PARTS as f64) as u64);
         self.bar.set_message(message);
         if let Some(bound) = self.bound.take_if(|_| elapsed >= SILENCE) {
-            self.bar.suspend(|| say(&bound));
+            say(&bound);
         }
-    }
-}
-
-impl Drop for LongRun {
-    fn drop(&mut self) {
-        self.bar.finish_and_clear();
     }
 }
 

@@ -115,7 +115,7 @@ fn stopped(map: &Map, complete: Option<&Path>, out: &mut dyn Write) -> anyhow::R
 
 /// Updates the bar and handles signals until the cells are done.
 fn watch(progress: &Progress, request: &StopRequest, finished: &AtomicBool, cells: u64) {
-    let bar = sign::bar(cells, "{spinner} {bar:30} {pos}/{len} cells, {per_sec}, {eta} left");
+    let bar = output::bar(cells, "{spinner} {bar:30} {pos}/{len} cells, {per_sec}, {eta} left");
     while !finished.load(Ordering::Relaxed) {
         if request.received().is_some() {
             progress.stop.store(true, Ordering::Relaxed);

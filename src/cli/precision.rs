@@ -45,7 +45,7 @@ impl PrecisionCommand {
         let effort = Effort { repeats: self.repeat, finest_s: self.finest, ..Effort::default() };
         let ways = ways(&scene, effort);
         let form = "{spinner} {bar:30} {pos}/{len} {msg} {elapsed}";
-        let bar = sign::bar(ways.len() as u64, form);
+        let bar = output::bar(ways.len() as u64, form);
         bar.set_message("the reference");
         let Some(measure) = Measure::new(&scene, effort, &to_the_end)? else {
             return Ok(Status::Failed);

@@ -78,7 +78,6 @@ impl RunCommand {
             report.ask_changed_runs(&acts, &to_the_end);
             wall.certainty_s = Some(started.elapsed().as_secs_f64());
         }
-        drop(shown);
         let changes = Some(&script).filter(|script| !script.is_empty());
         let command = self.command(&scene);
         if self.json {

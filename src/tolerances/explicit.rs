@@ -54,12 +54,16 @@ pub(crate) const HELD_AGAIN: u64 = 4096;
 /// \[rad\]: of what contact does in the map, its square is 1e-11 and round-off over it 1e-10.
 pub(crate) const HELD_PROBE: f64 = 1e-6;
 
-/// Part of the gaps and multipliers of a held corner that its affine map may leave out:
-/// the square of the vibration, and the gaps that pushes on soft blades leave. The angles
-/// at rest are off by about as much.
-pub(crate) const HELD_LEFT_OUT: f64 = 1e-11;
+/// Largest blade phase `n_d alpha` of a vibration whose square the affine map
+/// may leave out \[rad\]: it makes 1e-10 of the pushes, as long as it lasts.
+pub(crate) const HELD_PHASE: f64 = 1e-5;
 
-/// Roundings of a multiplier that a flat corner makes larger by the square of its sine.
+/// Part of a predicted gap that a step of the map may leave, as a push bends the blades:
+/// it makes 1e-11 of the angles at rest, on which the pushes of both sides nearly cancel.
+pub(crate) const HELD_LEFT: f64 = 1e-12;
+
+/// Roundings of what is left, over the square of the sine of a corner: a flat one loses
+/// digits of its pushes by as much.
 pub(crate) const HELD_ROUNDINGS: f64 = 16.0;
 
 /// Newton steps to the modes at rest; two reach round-off.

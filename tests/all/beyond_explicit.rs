@@ -224,7 +224,7 @@ fn growth_without_bound_is_divergent_and_says_why() {
         };
         assert_eq!(expected, model, "{stopped}");
         assert_eq!(report.outcome.verdict, Verdict::Divergent);
-        assert_eq!(report.outcome.message, Some(stopped.to_string()));
+        assert_eq!(report.outcome.message, Some(stopped.as_growth()));
     }
 }
 

@@ -127,7 +127,7 @@ fn a_blade_digs_in_below_the_critical_speed() {
         let pulse = ("operation.pulse_n", pulse);
         assert_eq!(verdict(name, &[pulse]), Verdict::Whirl);
         let outcome = simulate(&scene(name, &[pulse, trailing]).checked().unwrap()).outcome;
-        assert_eq!((outcome.verdict, outcome.sensitive), (Verdict::Decay, sensitive));
+        assert_eq!((outcome.verdict, outcome.sensitive), (Verdict::Decay, Some(sensitive)));
     }
 }
 

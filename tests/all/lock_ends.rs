@@ -3,7 +3,7 @@
 //! with its derivatives, and against runs in time on both sides of each.
 
 use nalgebra::Complex;
-use rubscope::harmonic::Lining;
+use rubscope::harmonic::{Lining, coincidence};
 use rubscope::motion::{Change, Motion, Verdict};
 use rubscope::scene::{ContactLaw, Scene};
 use rubscope::study::margins::{LimitName, Margins, Target};
@@ -334,5 +334,24 @@ fn results_of_equal_blades_say_so() {
             let noted = notes.iter().filter(|note| note.is_string()).count();
             assert_eq!(noted, count, "{asked:?}");
         }
+    }
+}
+
+/// A whirl on a lining begins at the fold of rigid contact, if the lining is stiff enough
+/// for its wave: as the waves that last say on both sides of it.
+#[test]
+fn a_whirl_begins_on_a_lining_that_is_stiff_enough_for_it() {
+    for (stiffness, begins) in [(1e6, true), (8e4, true), (7e4, false)] {
+        let scene = lined(stiffness, &[(KAPPA, 0.3), (SPEED, 450.0)]);
+        let margins = Margins::of(&scene.checked().unwrap());
+        let onset = value(&margins, LimitName::WhirlOnset);
+        assert_eq!(onset.is_some(), begins, "{stiffness}");
+        let fold = onset.unwrap_or(414.339);
+        assert!((fold - 414.339).abs() < 1e-3, "{fold}");
+        let beside = coincidence(&scene, &[fold - 0.01, fold + 0.01]).unwrap();
+        let lasts = beside.iter().map(|point| point.blade_amplitude_rad.is_some());
+        assert_eq!(lasts.collect::<Vec<_>>(), [false, begins], "{stiffness}");
+        // The corner that flutters is one that does not give.
+        assert!(value(&margins, LimitName::FlutterSpeed).is_none());
     }
 }

@@ -96,7 +96,11 @@ fn scenes(slope: impl Strategy<Value = f64>) -> impl Strategy<Value = Scene> {
         scene.solver.model = model;
         scene.bladed_disk.radial_coupling = slope;
         (scene.operation.speed_rad_s, scene.operation.pulse_n) = (drive.0, drive.1);
-        (scene.casing.damping_ratio, scene.contact.friction) = (drive.2, drive.3);
+        scene.casing.damping_ratio = drive.2;
+        // Blades that friction bends are not quite where events have them.
+        let rubs = model == ModelSize::Rigid || slope != 0.0;
+        scene.contact.friction = if rubs { drive.3 } else { 0.0 };
+        scene.casing.tangential_ratio = 0.3;
         (scene.contact.restitution, scene.solver.step_s) = scheme;
         scene.solver.end_s = if slope == 0.0 { 2.5e-3 } else { 6e-4 };
         scene

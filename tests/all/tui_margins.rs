@@ -244,7 +244,7 @@ fn no_scene_is_too_odd() {
         with(&[("operation.speed_rad_s", "1e5")]),
         with(&[("casing.modal_mass_kg", "1e-4"), ("casing.modal_stiffness_n_per_m", "1e7")]),
         with(&[("casing.damping_ratio", "3")]),
-        with(&[("solver.end_s", "1e-7")]),
+        with(&[("solver.end_s", "2e-7")]),
         with(&[("initial.u_c_m", "5e-5"), ("operation.pulse_n", "0")]),
     ];
     for (place, scene) in scenes.into_iter().enumerate() {

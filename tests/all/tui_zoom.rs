@@ -1,6 +1,7 @@
 //! The page of time at every zoom: what is drawn is the range of the run in its time, and
 //! contact is marked where contact was.
 
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use proptest::prelude::*;
 use rubscope::motion::{ActiveSet, Motion};
 use rubscope::scene::Scene;
@@ -56,7 +57,7 @@ fn check(app: &App) {
     let record: &[Bin] = app.record();
     let largest = samples.iter().fold(0.0_f64, |most, (_, u, _)| most.max(u.abs()));
     // A solver that steps is at its last step by then.
-    let reached = record.last().expect("a page is recorded").to;
+    let reached = record.last().unwrap().to;
     assert!(reached >= end - app.scene.solver.step_s * 1.01, "{reached} of {end}");
     let bin = length / 1024.0;
     let drawn = columns(record, Channel::UC, page, COLUMNS);
@@ -147,6 +148,16 @@ fn a_zoom_on_the_first_impact_shows_the_flight_before_it() {
     let u = |t: f64| app.record().iter().find(|bin| bin.to >= t).unwrap().middle(Channel::UC);
     let part = u(0.5 * first) / u(first);
     assert!((0.2..0.3).contains(&part), "{part}");
+}
+
+#[test]
+fn a_turned_knob_forgets_the_page_of_the_run_before() {
+    let mut session = open("rocking");
+    session.press_each("  ");
+    assert!(!session.app.record().is_empty());
+    let key = KeyEvent::new(KeyCode::Char('l'), KeyModifiers::NONE);
+    let _ = session.app.key(&key);
+    assert!(session.app.record().is_empty());
 }
 
 #[test]

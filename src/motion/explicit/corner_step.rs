@@ -43,7 +43,7 @@ pub(super) struct Stepped {
     pub multipliers: [f64; 2],
     /// Predicted gaps of both sides \[m\].
     pub gaps: [f64; 2],
-    /// What is left of them: the square of what the push bends the blades \[m\].
+    /// What the correction leaves of them, as it turns the sides \[m\].
     pub left: [f64; 2],
 }
 

@@ -4,12 +4,12 @@
 //! In the frame of the blades the casing then follows from the blade angles
 //! alone (two gaps are zero), and at constant speed one step maps the blade
 //! modes `b = (alpha_c, alpha_s, increments)` to themselves. The map is affine
-//! to the square of their vibration about rest, so any number of steps is one
-//! small matrix power. The step is worked out with its small parts apart
-//! (`CornerStep`), so that it carries no round-off of the gaps; the map is used
-//! only while both multipliers and both predicted gaps keep their signs with room
-//! to spare, and where it leaves out next to nothing: that square, and the gaps
-//! that are left where a push bends soft blades in a long step.
+//! to the square of the blade phase that is left of their vibration, so any
+//! number of steps is one small matrix power about the modes at rest. The step
+//! is worked out with its small parts apart (`CornerStep`), so that it carries
+//! no round-off of the gaps; the map is used only while both multipliers and
+//! both predicted gaps keep their signs with room to spare, and where no gap is
+//! left: a push turns the sides of soft blades in a long step.
 
 use nalgebra::{SMatrix, SVector};
 
@@ -18,7 +18,7 @@ use super::leap::Leap;
 use super::{BladeModel, Coordinate, Explicit};
 use crate::motion::ActiveSet;
 use crate::tolerances::{
-    ANGLE_LOOK, HELD_AFTER, HELD_AGAIN, HELD_CORRECTIONS, HELD_LEFT_OUT, HELD_PROBE,
+    ANGLE_LOOK, HELD_AFTER, HELD_AGAIN, HELD_CORRECTIONS, HELD_LEFT, HELD_PHASE, HELD_PROBE,
     HELD_ROUNDINGS, ROOM_TO_CHANGE,
 };
 
@@ -80,32 +80,22 @@ impl HeldCorner {
         self.multipliers.map(|(value, gradient)| count * value + gradient.dot(&deviation))
     }
 
-    /// Whether the steps leave no gaps, and their gaps and multipliers are as affine as
-    /// the map, at rest and as far from it as the modes swing.
-    fn is_affine(&self, at_rest: &Stepped) -> Option<bool> {
-        if self.step.blades().is_none() {
-            return Some(true);
-        }
+    /// Whether the steps leave next to nothing of their gaps, at rest and as far from it
+    /// as the modes swing.
+    fn closes(&self, at_rest: &Stepped) -> Option<bool> {
+        let part = HELD_LEFT.max(HELD_ROUNDINGS * f64::EPSILON / self.step.sine().powi(2));
+        let closed =
+            |step: &Stepped| (0..2).all(|k| step.left[k].abs() <= part * at_rest.gaps[k].abs());
+        let mut all = closed(at_rest);
         let (angle, increment) = self.swing;
-        // The multipliers of a flat corner are known to round-off over its square.
-        let rounded = HELD_ROUNDINGS * f64::EPSILON / self.step.sine().powi(2);
-        let small = |part: f64, whole: f64| part.abs() <= HELD_LEFT_OUT.max(rounded) * whole.abs();
-        let closes = |step: &Stepped| (0..2).all(|k| small(step.left[k], at_rest.gaps[k]));
-        let mut affine = closes(at_rest);
         for (j, swing) in [angle, angle, increment, increment].into_iter().enumerate() {
-            let mut shift = Modes::zeros();
-            shift[j] = swing;
-            let (up, down) =
-                (self.step.from(self.rest + shift)?, self.step.from(self.rest - shift)?);
-            let bow = |up: f64, down: f64, middle: f64| small(0.5 * (up + down) - middle, middle);
-            affine &= closes(&up)
-                && closes(&down)
-                && (0..2).all(|k| {
-                    bow(up.gaps[k], down.gaps[k], at_rest.gaps[k])
-                        && bow(up.multipliers[k], down.multipliers[k], at_rest.multipliers[k])
-                });
+            for end in [-swing, swing] {
+                let mut modes = self.rest;
+                modes[j] += end;
+                all &= closed(&self.step.from(modes)?);
+            }
         }
-        Some(affine)
+        Some(all)
     }
 
     /// The largest blade angle over the first `steps` steps, `least` where none
@@ -206,13 +196,16 @@ impl<B: BladeModel> Explicit<B> {
         };
         let [first, second] = at_rest.gaps;
         let kept = self.is_kept(&held, [a, b, first, second], slopes);
-        (kept && held.is_affine(&at_rest)?).then_some(held)
+        (kept && held.closes(&at_rest)?).then_some(held)
     }
 
     /// Whether multipliers and predicted gaps never come near a change of sign:
     /// neither at rest nor by the vibration before it.
     fn is_kept(&self, held: &HeldCorner, rest: [f64; 4], slopes: [Modes; 4]) -> bool {
         let (angle, increment) = held.swing;
+        if self.machine.nodal_diameters * angle > HELD_PHASE {
+            return false;
+        }
         (0..4).all(|k| {
             let swing = angle * (slopes[k][0].hypot(slopes[k][1]))
                 + increment * (slopes[k][2].hypot(slopes[k][3]));

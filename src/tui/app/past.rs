@@ -105,7 +105,8 @@ impl App {
     pub(super) fn set_compare(&mut self, compare: bool) {
         if compare != self.compare {
             self.compare = compare;
-            self.latest.results.comparison = None;
+            let results = &mut self.latest.results;
+            (results.comparison, results.comparison_page) = (None, None);
             self.comparison_history.clear();
         }
     }

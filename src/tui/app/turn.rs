@@ -117,6 +117,7 @@ impl App {
     pub(super) fn forget_forecasts(&mut self) {
         let results = &mut self.latest.results;
         (results.full_run, results.reference, results.comparison) = (None, None, None);
+        (results.page, results.comparison_page) = (None, None);
         results.sensitive = false;
     }
 

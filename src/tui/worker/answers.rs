@@ -73,7 +73,7 @@ mod tests {
         scene.operation.speed_rad_s = speed;
         let scene = scene.checked().unwrap();
         let motion = Motion::new(&scene);
-        (scene, FullRunJob::new(motion, 1.0))
+        (scene, FullRunJob::new(motion, 0.02))
     }
 
     #[test]
@@ -81,8 +81,8 @@ mod tests {
         let mut answers = Answers::default();
         // Each run has a slice before the next turn of the knob.
         let mut told = Vec::new();
-        for turn in 0..400 {
-            let (scene, mut run) = run(400.0 + f64::from(turn));
+        for turn in 0..100_000 {
+            let (scene, mut run) = run(400.0 + 1e-3 * f64::from(turn));
             if !answers.compute() {
                 run.compute();
             }

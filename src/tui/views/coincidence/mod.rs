@@ -151,7 +151,6 @@ fn chart(
     if app.speed() < 0.0 {
         legend.push(("over |Ω|, turning backwards".into(), quiet));
     }
-    legend.extend(app.tuned_note().map(|note| (note.into(), quiet)));
     let inside = title(app, buffer, at, what.name, &legend);
     let told = match read.filter(|_| large) {
         Some(speed) => (reading(app, speed), Role::Focus),
@@ -213,9 +212,9 @@ fn sentence(app: &App, curves: &CoincidenceCurves) -> String {
     let mut speeds = waves.map(|point| point.speed_rad_s.abs());
     let ends = speeds.next().map(|first| (first, speeds.next_back().unwrap_or(first)));
     let between = |(from, to): (f64, f64)| format!("{from:.0} to {to:.0} rad/s");
-    match ends {
+    let what = match ends {
         _ if app.scene.solver.model == ModelSize::Rigid => {
-            "rigid blades have no coincidence: choose another model".into()
+            "rigid blades have no coincidence: choose another model".to_string()
         }
         None if app.machine.has_other_diameters() => {
             "the disk has other diameters than the casing: no one wave goes round".into()
@@ -232,7 +231,8 @@ fn sentence(app: &App, curves: &CoincidenceCurves) -> String {
         }
         None if app.is_pressed() => "rest is stable at every speed shown".into(),
         None => "no whirl lasts at any speed shown".into(),
-    }
+    };
+    app.tuned_note().map_or(what.clone(), |note| format!("{what} ({note})"))
 }
 
 /// The values at one speed, solved there.
