@@ -73,13 +73,13 @@ mod tests {
         scene.operation.speed_rad_s = speed;
         let scene = scene.checked().unwrap();
         let motion = Motion::new(&scene);
-        (scene, FullRunJob::new(motion, 0.02))
+        (scene, FullRunJob::new(motion, 0.02).in_slices_of(Duration::from_micros(20)))
     }
 
     #[test]
     fn a_held_key_gets_the_answer_of_a_run_that_was_begun() {
         let mut answers = Answers::default();
-        // Each run has a slice before the next turn of the knob.
+        // Each run has a slice before the next turn of the knob, and takes many.
         let mut told = Vec::new();
         for turn in 0..100_000 {
             let (scene, mut run) = run(400.0 + 1e-3 * f64::from(turn));

@@ -22,6 +22,7 @@ pub struct FullRunJob {
     marks: Marks,
     copies: Copies,
     wall: Duration,
+    slice: Duration,
     limit: Duration,
     /// Steps taken and skipped before the start.
     before: [u64; 2],
@@ -48,6 +49,7 @@ impl FullRunJob {
             marks: Marks::from(motion.contacts()),
             copies: Copies::of(&motion, length),
             wall: Duration::ZERO,
+            slice: SLICE,
             limit: FORECAST_LIMIT,
             result: None,
             motion,
@@ -56,13 +58,20 @@ impl FullRunJob {
         }
     }
 
+    /// The same run in slices of this length, however fast the machine is.
+    #[cfg(test)]
+    pub fn in_slices_of(mut self, slice: Duration) -> Self {
+        self.slice = slice;
+        self
+    }
+
     /// Computes one slice.
     pub fn compute(&mut self) {
         if self.result.is_some() {
             return;
         }
         let began = Instant::now();
-        let go_on = || began.elapsed() < SLICE;
+        let go_on = || began.elapsed() < self.slice;
         let length = self.end - self.start;
         let mut reached = Ok(true);
         while reached == Ok(true) && self.taken < SAMPLES && go_on() {
