@@ -3,7 +3,7 @@
 //!
 //! Dependencies point one way: `cli` and `tui` use `report` and `study`, these
 //! use `motion` (time domain) and `harmonic` (frequency domain), these use
-//! `contact`, and all use `model`. A `scene` says what to solve and how.
+//! `contact`, and all use `model`, which knows only `numeric`. A `scene` says what to solve and how.
 //! Everything below `cli` and `tui` knows no terminal and prints nothing; without
 //! the features `cli` and `explorer` the crate is that part alone.
 //!
@@ -27,6 +27,7 @@ pub mod file;
 pub mod harmonic;
 pub mod model;
 pub mod motion;
+mod numeric;
 pub mod report;
 pub mod scene;
 pub mod study;

@@ -7,6 +7,7 @@ use serde::Serialize;
 use super::equilibria::equilibrium;
 use super::{Character, Corner, Equilibrium, HarmonicError, Kind};
 use crate::model::Machine;
+use crate::numeric::bisection::try_bisected;
 use crate::tolerances::BRANCH_CHANGES;
 
 /// A speed at which a branch changes its character.
@@ -119,20 +120,15 @@ pub(super) fn changes<T: Copy + PartialEq>(
     let mut found: Vec<(f64, T, T)> = Vec::new();
     let (mut start, mut before, last) = (low, what(low)?, what(high)?);
     while before != last && found.len() < BRANCH_CHANGES {
-        let (mut below, mut above, mut after) = (start, high, last);
-        // Halving an interval 200 times ends at neighbouring doubles.
-        for _ in 0..200 {
-            let middle = 0.5 * (below + above);
-            if middle <= below || middle >= above {
-                break;
+        let mut after = last;
+        let [_, above] = try_bisected([start, high], 0.0, |speed| {
+            let here = what(speed)?;
+            let changed = here != before;
+            if changed {
+                after = here;
             }
-            let here = what(middle)?;
-            if here == before {
-                below = middle;
-            } else {
-                (above, after) = (middle, here);
-            }
-        }
+            Ok(changed)
+        })?;
         match found.last_mut() {
             // A state at a single speed is not a branch, such as the side at
             // the critical speed, where its push is infinite.

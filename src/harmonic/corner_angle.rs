@@ -6,6 +6,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::equations::Scales;
 use crate::model::{Machine, Number};
+use crate::numeric::bisection::bisected;
 use crate::tolerances::{AS_GOOD_AS_RIGID, CONVERGED};
 
 /// The corner angle of one polygon's corners.
@@ -87,22 +88,11 @@ impl CornerAngle {
     /// The change of the corner angle \[rad\] between two others where `kappa`
     /// is this, by halving: also next to the fold, where Newton's method has no
     /// slope, and behind it. `kappa` must be monotonic between the two.
-    pub fn between(&self, kappa: f64, [mut near, mut far]: [f64; 2]) -> f64 {
+    pub fn between(&self, kappa: f64, [near, far]: [f64; 2]) -> f64 {
         let at = |angle_change| self.kappa(angle_change).map_or(f64::NAN, |(kappa, _)| kappa);
         let grows = at(near) < at(far);
-        let mut middle = near;
-        for _ in 0..200 {
-            middle = 0.5 * (near + far);
-            if middle <= near || middle >= far {
-                break;
-            }
-            if (at(middle) < kappa) == grows {
-                near = middle;
-            } else {
-                far = middle;
-            }
-        }
-        middle
+        let [near, far] = bisected([near, far], |place| (at(place) < kappa) != grows);
+        0.5 * (near + far)
     }
 
     /// `kappa` at a change of the corner angle, and its slope; `None` if the
@@ -121,17 +111,11 @@ impl CornerAngle {
     /// The change of the corner angle at the fold \[rad\]: it depends on
     /// `delta` alone.
     pub fn at_fold(&self) -> f64 {
-        let (mut below, mut above) = (0.0, FRAC_PI_2 - self.delta);
-        for _ in 0..60 {
-            let angle_change = 0.5 * (below + above);
+        let falls = |angle_change: f64| {
             let (sin, cos) = (self.delta + angle_change).sin_cos();
-            if sin * cos > angle_change * (1.0 + 2.0 * sin * sin) {
-                below = angle_change;
-            } else {
-                above = angle_change;
-            }
-        }
-        below
+            sin * cos <= angle_change * (1.0 + 2.0 * sin * sin)
+        };
+        bisected([0.0, FRAC_PI_2 - self.delta], falls)[0]
     }
 }
 

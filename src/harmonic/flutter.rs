@@ -9,8 +9,8 @@
 use nalgebra::Complex;
 
 use super::joint::Joint;
-use crate::model::real_roots::{Coefficients, Point, product, real_roots, sum};
 use crate::model::{Machine, Number};
+use crate::numeric::real_roots::{Coefficients, Point, product, real_roots, sum};
 use crate::tolerances::BESIDE_A_LIMIT;
 
 /// The flutter speed without any damping, as a magnitude \[rad/s\]:

@@ -7,9 +7,9 @@
 
 use nalgebra::{Complex, DMatrix, Matrix2, Matrix4, Matrix4x2, Vector4};
 
-use super::eigen::eigenvalues;
 use super::joined_lock::{Held, JoinedEquations};
 use crate::model::Machine;
+use crate::numeric::eigen::eigenvalues;
 
 /// Eigenvalues of the motion about a lock \[1/s\]; `None` where they cannot be computed.
 pub(super) fn lock_eigenvalues(

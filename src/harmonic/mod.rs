@@ -24,7 +24,6 @@ mod coincidence;
 mod configuration;
 mod corner;
 mod corner_angle;
-mod eigen;
 mod equations;
 mod equilibria;
 mod error;

@@ -7,6 +7,7 @@ use serde::Serialize;
 use super::joint::Joint;
 use super::rim::{RimWave, rim_waves};
 use crate::model::{Machine, Number};
+use crate::numeric::bisection::bisected;
 use crate::tolerances::{BESIDE_A_FOLD, BRANCH_CHANGES, ONSET_FURTHEST, ONSET_STRIDE};
 
 /// A speed where a pair of waves is born or ends.
@@ -113,16 +114,7 @@ fn changes(
     let mut found = Vec::new();
     let mut start = low;
     while before.len() != last && found.len() < BRANCH_CHANGES {
-        let (mut below, mut above) = (start, high);
-        // Halving an interval 200 times ends at neighbouring doubles.
-        for _ in 0..200 {
-            let middle = 0.5 * (below + above);
-            if middle <= below || middle >= above {
-                break;
-            }
-            let same = waves(middle).len() == before.len();
-            if same { below = middle } else { above = middle }
-        }
+        let [below, above] = bisected([start, high], |speed| waves(speed).len() != before.len());
         start = (above * (1.0 + BESIDE_A_FOLD)).min(high);
         let after = waves(start);
         let less = waves(below * (1.0 - BESIDE_A_FOLD));

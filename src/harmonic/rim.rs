@@ -9,9 +9,9 @@
 use nalgebra::{Complex, DMatrix};
 use serde::Serialize;
 
-use super::eigen::eigenvalues;
 use super::joint::Joint;
-use crate::model::real_roots::{Coefficients, Point, product, real_roots, sum};
+use crate::numeric::eigen::eigenvalues;
+use crate::numeric::real_roots::{Coefficients, Point, product, real_roots, sum};
 use crate::tolerances::REAL_COMPLIANCE;
 
 /// A wave that blades and casing carry round together, for one unit of `|w|`.

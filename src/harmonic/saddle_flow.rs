@@ -9,6 +9,7 @@
 //! - push `N = f^2 - 1 - 2 f y' - 2 zeta f y`, in `k_c g0`
 
 use crate::model::Machine;
+use crate::numeric::bisection::bisected;
 
 /// One side above the critical speed, in numbers of order one.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -159,16 +160,6 @@ fn first_time(holds: impl Fn(f64) -> bool, guess: f64) -> Option<f64> {
             return None;
         }
     }
-    for _ in 0..120 {
-        let middle = 0.5 * (below + above);
-        if middle <= below || middle >= above {
-            break;
-        }
-        if holds(middle) {
-            above = middle;
-        } else {
-            below = middle;
-        }
-    }
+    let [below, above] = bisected([below, above], holds);
     Some(0.5 * (below + above))
 }

@@ -12,9 +12,9 @@
 
 use nalgebra::{Complex, DMatrix, DVector, Matrix2, Matrix4, Matrix4x2, Vector4};
 
-use super::eigen::eigenvalues;
 use super::equations::{Scales, Wave};
 use crate::model::Machine;
+use crate::numeric::eigen::eigenvalues;
 use crate::tolerances::{CLEAR_DAMPING, CLEAR_SIGN, EQUAL_ROOTS, NEUTRAL, NEUTRAL_OF_ALL};
 
 /// One side in contact: its phase, `(C, S)` of `psi + n_d alpha`, the moment arm

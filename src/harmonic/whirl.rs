@@ -9,11 +9,12 @@ use nalgebra::{DMatrix, SMatrix};
 use serde::Serialize;
 use strum::{Display, IntoStaticStr};
 
-use super::eigen::eigenvalues;
 use super::joint::Joint;
 use super::whirl_arc::{Free, States, WhirlArc};
 use super::{HarmonicError, error};
 use crate::model::Machine;
+use crate::numeric::bisection::bisected;
+use crate::numeric::eigen::eigenvalues;
 use crate::tolerances::{WHIRL_ENDS, WHIRL_LOOKS, WHIRL_RATES, WHIRL_SAMPLES};
 
 /// Why there is no whirl at some speed.
@@ -138,18 +139,8 @@ fn repeating(arc: &WhirlArc, joint: &Joint) -> Vec<(f64, Free)> {
 }
 
 fn halved(miss: &impl Fn(f64) -> Option<f64>, low: f64, high: f64, above: bool) -> f64 {
-    let (mut low, mut high) = (low, high);
-    // Halving an interval 200 times ends at neighbouring doubles.
-    for _ in 0..200 {
-        let middle = 0.5 * (low + high);
-        if middle <= low || middle >= high {
-            break;
-        }
-        match miss(middle) {
-            Some(left) if (left > 0.0) == above => low = middle,
-            _ => high = middle,
-        }
-    }
+    let stays = |time: f64| miss(time).is_some_and(|left| (left > 0.0) == above);
+    let [low, high] = bisected([low, high], |time| !stays(time));
     0.5 * (low + high)
 }
 

@@ -9,8 +9,8 @@
 //! On a lining of the stiffness `k` of a group both push where `-tan(delta) Re H - |Im H| >=
 //! 1/(k sin 2 delta)`, without smoothing: one term more, `(K^2 + D^2)/(k sin 2 delta)`.
 
-use super::real_roots::{Coefficients, Point, product, real_roots, sum};
 use super::{Machine, Number};
+use crate::numeric::real_roots::{Coefficients, Point, product, real_roots, sum};
 
 /// Speeds at which a lock is held by pushes alone, as magnitudes.
 #[derive(Clone, Copy, Debug, PartialEq)]

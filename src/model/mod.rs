@@ -8,7 +8,6 @@ mod machine;
 mod number;
 mod parameters;
 mod polygon;
-pub(crate) mod real_roots;
 
 pub use lining::LiningLaw;
 pub use lock::LockWindow;

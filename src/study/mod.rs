@@ -3,7 +3,6 @@
 
 mod adaptive;
 mod axis;
-mod bisection;
 mod cells;
 pub mod figures;
 pub mod map;

@@ -67,16 +67,6 @@ pub(crate) const CLEAR_DAMPING: f64 = 1e-6;
 /// Part by which the discriminant of two equal roots may be negative.
 pub(crate) const EQUAL_ROOTS: f64 = 1e-12;
 
-/// QR steps for one eigenvalue or pair; three are usual.
-pub(crate) const QR_STEPS: usize = 60;
-
-/// Each multiple of this many QR steps has an exceptional shift, as in LAPACK.
-pub(crate) const QR_EXCEPTIONAL: usize = 10;
-
-/// From this QR step on a coupling is small if it is round-off of the whole
-/// matrix.
-pub(crate) const QR_LAST_RESORT: usize = 40;
-
 /// Samples of one period on which the largest truncation errors are looked for.
 pub(crate) const SPECTRUM_SAMPLES: usize = 2048;
 

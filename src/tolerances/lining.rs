@@ -33,9 +33,6 @@ pub(crate) const GROWTH_SCAN: u32 = 1000;
 /// be missed.
 pub(crate) const TONGUE_SCAN: (i32, f64) = (240, 8.0);
 
-/// Halvings of a bracket around the fastest growth.
-pub(crate) const PEAK_STEPS: usize = 60;
-
 /// Widths of a tongue between its coincidence and the fastest growth, at most.
 pub(crate) const PEAK_REACH: f64 = 12.0;
 

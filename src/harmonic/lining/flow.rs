@@ -7,7 +7,8 @@
 
 use nalgebra::{Complex, DMatrix};
 
-use crate::harmonic::{Joint, eigen};
+use crate::harmonic::Joint;
+use crate::numeric::eigen;
 
 /// A real matrix of two rows that acts on `(Re w, Im w)`.
 pub(super) type Tangent = [[f64; 2]; 2];

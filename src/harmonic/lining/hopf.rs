@@ -14,7 +14,8 @@ use super::roots::Quartic;
 use super::{Lining, Rest};
 use crate::harmonic::{HarmonicError, Joint};
 use crate::model::Machine;
-use crate::tolerances::{GROWTH_SCAN, PEAK_REACH, PEAK_STEPS, TONGUE_SCAN};
+use crate::numeric::maximum::highest;
+use crate::tolerances::{GROWTH_SCAN, PEAK_REACH, TONGUE_SCAN};
 
 /// A speed where a wave about rest begins or ends to grow.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -74,25 +75,6 @@ fn width(machine: &Machine, stiffness: f64, sense: f64) -> f64 {
     let damped = machine.casing_damping_ratio * machine.omega_c
         + machine.blade_damping_ratio * machine.omega_bd;
     (damped + joined) / machine.nodal_diameters
-}
-
-/// The place of the largest value between two, and that value, by golden section.
-fn highest([mut low, mut high]: [f64; 2], of: impl Fn(f64) -> f64) -> (f64, f64) {
-    const PART: f64 = 0.381_966_011_250_105_1;
-    let (mut a, mut b) = (low + PART * (high - low), high - PART * (high - low));
-    let (mut at_a, mut at_b) = (of(a), of(b));
-    for _ in 0..PEAK_STEPS {
-        if at_a >= at_b {
-            (high, b, at_b) = (b, a, at_a);
-            a = low + PART * (high - low);
-            at_a = of(a);
-        } else {
-            (low, a, at_a) = (a, b, at_b);
-            b = high - PART * (high - low);
-            at_b = of(b);
-        }
-    }
-    if at_a >= at_b { (a, at_a) } else { (b, at_b) }
 }
 
 /// Part of the fastest speed up to which a rotor counts as standing.

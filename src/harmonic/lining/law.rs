@@ -10,6 +10,7 @@ use std::f64::consts::TAU;
 use super::share::{mean, mean_change};
 use crate::harmonic::{HarmonicError, Joint};
 use crate::model::{ContactSurface, LiningLaw, Machine};
+use crate::numeric::bisection::bisected;
 use crate::tolerances::{LINING_NARROWEST, LINING_STRIDES, LINING_WIDEST};
 
 /// A machine whose casing has a lining under the blades.
@@ -128,24 +129,12 @@ impl<'a> Lining<'a> {
 }
 
 /// The place between two of different sign where a function changes its sign.
-pub(super) fn between([mut low, mut high]: [f64; 2], of: impl Fn(f64) -> f64) -> f64 {
+pub(super) fn between([low, high]: [f64; 2], of: impl Fn(f64) -> f64) -> f64 {
     let (start, end) = (of(low), of(high));
     if start == 0.0 || end == 0.0 {
         return if start == 0.0 { low } else { high };
     }
-    // Two hundred halvings exhaust any bracket of two numbers of like size.
-    for _ in 0..200 {
-        let middle = 0.5 * (low + high);
-        if middle == low || middle == high {
-            break;
-        }
-        let value = of(middle);
-        if (value > 0.0) == (start > 0.0) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
+    let [low, high] = bisected([low, high], |x| (of(x) > 0.0) != (start > 0.0));
     0.5 * (low + high)
 }
 

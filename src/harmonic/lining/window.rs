@@ -12,7 +12,8 @@ use serde::Serialize;
 use super::Lining;
 use crate::harmonic::Joint;
 use crate::model::{LockWindow, Machine};
-use crate::tolerances::{PEAK_STEPS, WINDOW_LOOKS, WINDOW_REACH};
+use crate::numeric::maximum::highest;
+use crate::tolerances::{WINDOW_LOOKS, WINDOW_REACH};
 
 /// The softest lining that holds a lock, and the speed where it does.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -61,16 +62,7 @@ fn bottom(machine: &Machine, lock: f64) -> f64 {
     let place = |k: u32| low + (high - low) * f64::from(k) / f64::from(WINDOW_LOOKS);
     let best = (1..WINDOW_LOOKS).min_by(|&a, &b| of(place(a)).total_cmp(&of(place(b))));
     let best = best.unwrap_or(1);
-    let (mut left, mut right) = (place(best - 1), place(best + 1));
-    for _ in 0..2 * PEAK_STEPS {
-        let [a, b] = [left + (right - left) / 3.0, right - (right - left) / 3.0];
-        if of(a) <= of(b) {
-            right = b;
-        } else {
-            left = a;
-        }
-    }
-    0.5 * (left + right)
+    highest([place(best - 1), place(best + 1)], |excess| -of(excess)).0
 }
 
 impl Lining<'_> {

@@ -4,6 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::Event;
 use crate::motion::{Failure, FailureReason};
+use crate::numeric::{bisection::bisected, maximum::highest};
 use crate::tolerances::{CORNER_ROOM, LARGEST_BLADE_ANGLE, PEAK_LOOKS};
 
 impl Event {
@@ -28,13 +29,7 @@ impl Event {
                 (within, after) = (after, 2.0 * after);
             }
         }
-        for _ in 0..100 {
-            let middle = 0.5 * (within + after);
-            if middle <= within || middle >= after {
-                break;
-            }
-            if beyond(self, middle) { after = middle } else { within = middle }
-        }
+        let [_, after] = bisected([within, after], |s| beyond(self, s));
         let angle_rad = self.mode.largest_angle(&self.parameters, &self.drive, after, 0.0);
         Err(self.fail(after, FailureReason::BladeAngle { angle_rad }))
     }
@@ -67,13 +62,6 @@ pub(super) fn peak(s: f64, rate: f64, value: impl Fn(f64) -> f64) -> f64 {
         }
         k += 1.0;
     }
-    // The maximum lies next to the largest sample, and there is one: thirds find it to
-    // the square root of round-off in time, which is round-off in value.
-    let (mut low, mut high) = (at(best - 1.0), at(best + 1.0));
-    for _ in 0..50 {
-        let third = (high - low) / 3.0;
-        let [first, second] = [low + third, high - third];
-        if value(first) < value(second) { low = first } else { high = second }
-    }
-    most.max(value(0.5 * (low + high)))
+    // The maximum lies next to the largest sample, and there is one.
+    most.max(highest([at(best - 1.0), at(best + 1.0)], value).1)
 }

@@ -2,8 +2,8 @@
 
 use super::{Figure, Panel, Quantity, Series, Style, speed_marks};
 use crate::motion::{Verdict, run_to_verdict, to_the_end};
+use crate::numeric::bisection::bisected_to;
 use crate::scene::{CheckedScene, ContactLaw, Scene, SolverKind};
-use crate::study::bisection::bisect;
 use crate::study::overlay::{PULSE, SPEED};
 use crate::study::{Axis, Map, MapPlan, Progress, Shard};
 
@@ -154,5 +154,5 @@ fn threshold(map: &Map, column: u32) -> Option<f64> {
         let reached = scene.and_then(|scene| run_to_verdict(&scene, &to_the_end));
         reached.is_some_and(|reached| reached.verdict.is_held())
     };
-    Some(bisect(short, enough, THRESHOLD, lasts))
+    Some(bisected_to([short, enough], THRESHOLD, lasts)[1])
 }

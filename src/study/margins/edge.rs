@@ -9,6 +9,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::parameters::Parameter;
 use crate::motion::{GoOn, Verdict, run_to_verdict, run_with_sensitivity};
+use crate::numeric::bisection::try_bisected;
 use crate::scene::{CheckedScene, ContactLaw, ModelSize, Scene, SolverKind};
 use crate::study::overlay::PULSE;
 use crate::tolerances::{
@@ -154,15 +155,8 @@ impl<'a> Edges<'a> {
         part: f64,
         changed: Option<Change<'_>>,
     ) -> Option<f64> {
-        let (mut not, mut lasting) = (not, lasting);
-        while (lasting - not).abs() > part * lasting.abs() {
-            let middle = 0.5 * (not + lasting);
-            if middle == not || middle == lasting {
-                break;
-            }
-            if lasts(self.verdict(middle, changed)?) { lasting = middle } else { not = middle }
-        }
-        Some(lasting)
+        let lasts = |pulse| self.verdict(pulse, changed).map(lasts).ok_or(());
+        try_bisected([not, lasting], part, lasts).ok().map(|[_, lasting]| lasting)
     }
 
     /// `d ln(edge)/d ln(parameter)` by two central differences, of which the second

@@ -9,8 +9,8 @@ use super::limit::{Limit, LimitName, Sensitivities};
 use super::parameters::{Parameter, Parameters, acting, parameter, sensitivity};
 use crate::model::{Excitation, Initial, Number};
 use crate::motion::{FreeFlight, Motion};
+use crate::numeric::bisection::{bisected, bisected_to};
 use crate::scene::{CheckedScene, ModelSize, Scene};
-use crate::study::bisection::bisect;
 use crate::study::overlay::PULSE;
 use crate::tolerances::{TOUCHING_PART, TOUCHING_PERIODS};
 
@@ -38,7 +38,7 @@ pub fn grazing_pulse(scene: &Scene, most: f64) -> Option<f64> {
 pub fn first_touch(scene: &Scene, most: f64) -> Option<FirstTouch> {
     let reference = reference(scene)?;
     let mut found = touch_of(&reference, most)?;
-    bisect(0.0, most.abs(), TOUCHING_PART, |size| {
+    bisected_to([0.0, most.abs()], TOUCHING_PART, |size| {
         match touch_of(&reference, size.copysign(most)) {
             Some(touch) => {
                 found = touch;
@@ -63,7 +63,7 @@ pub(super) fn near(scene: &CheckedScene, guess: f64, part: f64) -> Option<f64> {
     }
     for _ in 0..400 {
         if touches(enough) {
-            return Some(bisect(less, enough, part, touches).copysign(guess));
+            return Some(bisected_to([less, enough], part, touches)[1].copysign(guess));
         }
         (less, enough) = (enough, enough * (1.0 + NEAR));
     }
@@ -132,13 +132,9 @@ fn polished(scene: &Scene, touch: FirstTouch) -> FirstTouch {
     let slope =
         |t: f64| force(&flight, touch.side, Dual64::new(t, 1.0)).eps * touch.pulse_n.signum();
     let reach = 1e-4 / machine.omega_c.re;
-    let (mut early, mut late) = ((touch.t_s - reach).max(0.0), touch.t_s + reach);
+    let (early, late) = ((touch.t_s - reach).max(0.0), touch.t_s + reach);
     let t_s = if slope(early) < 0.0 && slope(late) > 0.0 {
-        for _ in 0..80 {
-            let middle = 0.5 * (early + late);
-            if slope(middle) < 0.0 { early = middle } else { late = middle }
-        }
-        late
+        bisected([early, late], |t| slope(t) >= 0.0)[1]
     } else {
         // At the end of what is looked at, not where the gap is least.
         touch.t_s

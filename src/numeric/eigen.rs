@@ -6,13 +6,22 @@
 //! Francis' double shifts on a balanced Hessenberg matrix, exceptional shifts if
 //! these stall, and a larger tolerance if rounding keeps a coupling from vanishing.
 
-use crate::tolerances::{QR_EXCEPTIONAL, QR_LAST_RESORT, QR_STEPS};
 use nalgebra::linalg::balancing::balance_parlett_reinsch;
 use nalgebra::{Complex, DMatrix, Hessenberg};
 
+/// QR steps for one eigenvalue or pair; three are usual.
+const STEPS: usize = 60;
+
+/// Each multiple of this many QR steps has an exceptional shift, as in LAPACK.
+const EXCEPTIONAL: usize = 10;
+
+/// From this QR step on a coupling is small if it is round-off of the whole
+/// matrix.
+const LAST_RESORT: usize = 40;
+
 /// The eigenvalues of a square matrix, in no order; `None` where an entry is no
 /// finite number or the iteration does not settle.
-pub(super) fn eigenvalues(mut matrix: DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
+pub(crate) fn eigenvalues(mut matrix: DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
     let size = matrix.amax();
     // The largest entry misses NaN, because a comparison with it is false.
     if !matrix.iter().all(|entry| entry.is_finite()) {
@@ -54,8 +63,8 @@ impl Iteration {
     /// Iterates until the last row, or the last two, are decoupled; returns
     /// their first row.
     fn deflate(&mut self, last: usize) -> Option<usize> {
-        for iteration in 0..QR_STEPS {
-            let whole = if iteration < QR_LAST_RESORT { 0.0 } else { self.h.amax() };
+        for iteration in 0..STEPS {
+            let whole = if iteration < LAST_RESORT { 0.0 } else { self.h.amax() };
             let first = (1..=last).rev().find(|&row| self.is_small(row, last, whole)).unwrap_or(0);
             if first > 0 {
                 self.h[(first, first - 1)] = 0.0;
@@ -97,9 +106,9 @@ impl Iteration {
     /// The two shifts: a complex pair, or one real number twice.
     fn shift(&self, iteration: usize, first: usize, last: usize) -> [Complex<f64>; 2] {
         let h = &self.h;
-        let [a, b, c, d] = if iteration > 0 && iteration.is_multiple_of(QR_EXCEPTIONAL) {
+        let [a, b, c, d] = if iteration > 0 && iteration.is_multiple_of(EXCEPTIONAL) {
             // In turn from the first rows and from the last.
-            let even = (iteration / QR_EXCEPTIONAL).is_multiple_of(2);
+            let even = (iteration / EXCEPTIONAL).is_multiple_of(2);
             let (row, at) = if even { (last - 1, last) } else { (first + 1, first) };
             let size = h[(row, row - 1)].abs() + h[(row + 1, row)].abs();
             let middle = 0.75 * size + h[(at, at)];

@@ -1,0 +1,7 @@
+//! Small numerical tools that know nothing of blades: each says its error and its bound
+//! of work.
+
+pub(crate) mod bisection;
+pub(crate) mod eigen;
+pub(crate) mod maximum;
+pub(crate) mod real_roots;
