@@ -70,7 +70,7 @@ impl<B: TipModel> Coupled<B> {
     /// The casing in the frame of the blades at the latest step, and the turn of that
     /// frame.
     pub(super) fn in_blade_frame(&mut self) -> (Plane, Plane) {
-        let (c, s) = self.phasor.at(self.n, &self.rotor, self.machine.nodal_diameters, self.step);
+        let (c, s) = self.drive.turn(self.n);
         let turn = Plane::new(c, s);
         (Plane::new(self.u[0].x, self.u[1].x) * turn.conj(), turn)
     }

@@ -36,7 +36,7 @@ impl<B: TipModel> Coupled<B> {
         if self.rows.is_empty() {
             self.part();
         } else {
-            self.record();
+            self.keep();
             let swing = self.swing_of_blades();
             let wave = self.blades.modal().0;
             let rise = Plane::new(wave[0], wave[1]) * tips.rise;
@@ -61,7 +61,7 @@ impl<B: TipModel> Coupled<B> {
                 self.rows.push(row);
             }
         }
-        self.deepest = self.deepest.max(deepest);
+        self.record.deepest = self.record.deepest.max(deepest);
         self.account.press(energy);
     }
 }

@@ -9,10 +9,10 @@
 mod blades;
 mod candidates;
 mod energy;
+mod keep;
 mod lasting;
 mod lining_step;
 mod pushes;
-mod record;
 mod rigid_step;
 mod rows;
 mod solver;
@@ -23,13 +23,13 @@ pub use energy::EnergyLedger;
 
 use std::sync::Arc;
 
-use super::explicit::{Coordinate, EngineOrderTorque, Oscillator, Phasor};
-use super::{ContactLog, Failure, FailureReason, Pulse, Rotor};
+use super::explicit::{Coordinate, Drive, Oscillator, Record};
+use super::{Failure, FailureReason};
 use crate::contact::{self, StepLaw};
 use crate::model::{LiningLaw, Machine};
 use crate::scene::CheckedScene;
 use crate::tolerances::LARGEST_BLADE_ANGLE;
-use blades::{Driven, TipModel};
+use blades::TipModel;
 use energy::Account;
 use lasting::Lasting;
 use rows::{Row, TipLaw};
@@ -42,14 +42,7 @@ pub(super) struct Coupled<B: TipModel> {
     law: &'static dyn StepLaw,
     /// The lining of the smooth law.
     lining: Option<LiningLaw>,
-    step: f64,
-    rotor: Rotor,
-    pulse: Pulse,
-    /// The pulse to fire next, from zero on.
-    next_pulse: Pulse,
-    /// A step, and the mean force in it of a pulse that another has replaced \[N\].
-    left_over: (u64, f64),
-    excitation: Option<EngineOrderTorque>,
+    drive: Drive,
     casing: Oscillator,
     /// `loss_of` the casing.
     casing_loss: f64,
@@ -62,7 +55,6 @@ pub(super) struct Coupled<B: TipModel> {
     /// Increments of the casing in the step before the last \[m\].
     before: [f64; 2],
     blades: B,
-    phasor: Phasor,
     /// Side to begin the search for the smallest gap at.
     near: u32,
     /// Rows that may touch now.
@@ -73,22 +65,14 @@ pub(super) struct Coupled<B: TipModel> {
     gaps: Vec<f64>,
     /// Bounds on the penetration left at the latest step and at the one before \[m\].
     dips: [f64; 2],
-    /// One more than the step of the latest contact of each side; 0 for never.
-    touched: Vec<u64>,
-    last_touch: u64,
     /// Steps in a row in which the casing passed much of a side.
     long_steps: u32,
-    /// Impulse on each side since `take_mean_forces` \[N s\].
-    impulses: Vec<f64>,
-    impulses_since: u64,
-    log: ContactLog,
+    record: Record,
     lasting: Lasting,
     /// Step of the next look at the swing of rigid tips, and the steps between two.
     next_look: u64,
     steps_unseen: u64,
     account: Account,
-    deepest: f64,
-    deepest_predicted: f64,
     largest_angle: f64,
     failure: Option<Failure>,
 }
@@ -97,10 +81,10 @@ impl<B: TipModel> Coupled<B> {
     /// One step.
     fn take_step(&mut self) -> Result<(), FailureReason> {
         let n = self.n;
-        let force = self.force(n);
+        let force = self.drive.force(n);
         self.before = [self.u[0].increment, self.u[1].increment];
         self.u = [self.casing.step(self.u[0], force), self.casing.step(self.u[1], 0.0)];
-        self.blades.predict(driven(self.excitation.as_ref(), &self.rotor, self.time_of(n)));
+        self.blades.predict(self.drive.driven(n));
         if self.lining.is_some() {
             self.push_lining();
         }
@@ -151,9 +135,9 @@ impl<B: TipModel> Coupled<B> {
             return Err(FailureReason::Displacement { distance_m, radius_m });
         }
         if tips.casing_friction != 0.0 {
-            let rate = self.u[0].increment.hypot(self.u[1].increment) / self.step;
+            let rate = self.u[0].increment.hypot(self.u[1].increment) / self.drive.step;
             let speed_m_s = self.machine.tangential_ratio * rate;
-            let tip_m_s = self.rotor.speed(self.time_of(self.n)).abs() * radius_m;
+            let tip_m_s = self.drive.speed(self.n).abs() * radius_m;
             if speed_m_s > tip_m_s {
                 return Err(FailureReason::CasingSpeed { speed_m_s, tip_m_s });
             }
@@ -179,7 +163,7 @@ impl<B: TipModel> Coupled<B> {
 
     /// What tips do at step `n`: friction turns round with the rotor.
     fn tips_at(&mut self, n: u64) -> TipLaw {
-        let speed = self.rotor.speed(self.time_of(n));
+        let speed = self.drive.speed(n);
         if (speed < 0.0) != self.backward {
             self.backward = speed < 0.0;
             self.tips = TipLaw::at(&self.machine, speed);
@@ -193,28 +177,15 @@ impl<B: TipModel> Coupled<B> {
         0.5 * casing + self.blades.energy() + self.account.in_lining()
     }
 
-    /// Mean force of the pulse over the step centred on `n`, whole at n = 0.
-    fn force(&self, n: u64) -> f64 {
-        let left_over = if n == self.left_over.0 { self.left_over.1 } else { 0.0 };
-        self.pulse.mean_of_step(n, self.step) + left_over
-    }
-
     fn time_of(&self, n: u64) -> f64 {
-        n as f64 * self.step
-    }
-
-    /// Whether the pulse still acts on this step or a later one.
-    fn pulse_to_come(&self) -> bool {
-        let left_over = self.left_over.0 == self.n && self.left_over.1 != 0.0;
-        let acting = self.time_of(self.n) - 0.5 * self.step < self.pulse.end;
-        left_over || (self.pulse.force != 0.0 && acting)
+        self.drive.time_of(n)
     }
 
     /// Whether no contact can ever come again: the energies of casing and blades do not
     /// reach one.
     fn no_contact_to_come(&self) -> bool {
         let clearance = self.machine.clearance();
-        if clearance <= 0.0 || self.pulse_to_come() || self.excitation.is_some() {
+        if clearance <= 0.0 || self.drive.pulse_to_come(self.n) || self.drive.excitation.is_some() {
             return false;
         }
         let rise = (self.machine.radial_coupling * self.machine.blade_length).abs();
@@ -222,11 +193,6 @@ impl<B: TipModel> Coupled<B> {
         let resting = self.account.lining == 0.0;
         resting && tips < clearance && self.casing.reach_of(self.u).0 + tips < clearance
     }
-}
-
-/// An excitation with its phase at an instant.
-fn driven<'a>(excitation: Option<&'a EngineOrderTorque>, rotor: &Rotor, t: f64) -> Driven<'a> {
-    excitation.map(|torque| (torque, torque.phase(rotor, t)))
 }
 
 /// The law of rigid contact of a scene, and its lining if it has one.

@@ -27,10 +27,10 @@ impl<B: TipModel> Coupled<B> {
             let dip = self.rows.iter().fold(0.0, |dip: f64, row| dip.max(-row.place.gap));
             self.rows.clear();
             self.part();
-            (self.dips[0], self.deepest) = (dip, self.deepest.max(dip));
+            (self.dips[0], self.record.deepest) = (dip, self.record.deepest.max(dip));
             return Ok(());
         }
-        self.deepest_predicted = self.deepest_predicted.max(deepest);
+        self.record.deepest_predicted = self.record.deepest_predicted.max(deepest);
         if deepest > tips.clearance {
             let (depth_m, clearance_m) = (deepest, tips.clearance);
             return Err(FailureReason::Penetration { depth_m, clearance_m });
@@ -52,7 +52,7 @@ impl<B: TipModel> Coupled<B> {
         let Self { rows, casing, u, blades, .. } = self;
         let z = z + push(rows, tips, turn, casing, u, blades);
         self.settle(z, turn, tips);
-        self.record();
+        self.keep();
         self.look_at_swing();
         self.look_at_speed(tips)
     }
@@ -119,11 +119,11 @@ impl<B: TipModel> Coupled<B> {
 
     /// The turn of the frame of the blades two steps before.
     fn turn_before(&self) -> Plane {
-        let diameters = self.machine.nodal_diameters;
         let (c, s) = match self.n.checked_sub(2) {
-            Some(n) => self.phasor.look(n, &self.rotor, diameters, self.step),
+            Some(n) => self.drive.look_at_turn(n),
             None => {
-                let (sin, cos) = (diameters * self.rotor.angle(-self.step)).sin_cos();
+                let diameters = self.machine.nodal_diameters;
+                let (sin, cos) = (diameters * self.drive.rotor.angle(-self.drive.step)).sin_cos();
                 (cos, sin)
             }
         };
@@ -145,14 +145,15 @@ impl<B: TipModel> Coupled<B> {
                 self.count_push(&row, turn, tips);
             }
         }
-        self.deepest = self.deepest.max(dip);
+        self.record.deepest = self.record.deepest.max(dip);
         self.dips = [dip, self.dips[0]];
     }
 
     /// Work of the rotor and heat of one push over the last two half steps.
     pub(super) fn count_push(&mut self, row: &Row, turn: Plane, tips: &TipLaw) {
         let (push, normal) = (-row.lambda, row.place.normal);
-        let rotor = self.rotor.speed(self.time_of(self.n) - self.step) * self.step;
+        let rotor =
+            self.drive.rotor.speed(self.time_of(self.n) - self.drive.step) * self.drive.step;
         self.account.sums.rotor_work_j -= push * row.place.moment_arm * rotor;
         if tips.friction == 0.0 {
             return;

@@ -9,9 +9,9 @@ use super::blades::{TipModel, half_step, loss_of};
 use super::energy::Account;
 use super::lasting::Lasting;
 use super::rows::TipLaw;
-use super::{Coupled, driven, laws};
-use crate::motion::explicit::{EngineOrderTorque, Oscillator, Phasor};
-use crate::motion::{Change, ContactLog, Plane, Pulse, Rotor};
+use super::{Coupled, laws};
+use crate::motion::explicit::{Drive, Oscillator, Record};
+use crate::motion::{Change, Plane};
 use crate::scene::{CheckedScene, ModelSize};
 use crate::tolerances::ANGLE_LOOK;
 
@@ -19,46 +19,33 @@ impl<B: TipModel> Coupled<B> {
     /// The motion of a scene at t = 0.
     pub(in crate::motion) fn new(scene: &CheckedScene) -> Self {
         let machine = scene.machine();
-        let rotor = Rotor::of(scene);
-        let excitation = EngineOrderTorque::of(scene);
-        let blades = B::at_rest(scene, &machine, driven(excitation.as_ref(), &rotor, 0.0));
+        let blades = B::at_rest(scene, &machine, Drive::of(scene).driven(0));
         Self::with_blades(scene, blades)
     }
 
     /// The motion of a scene with these blades at t = 0.
     pub(super) fn with_blades(scene: &CheckedScene, blades: B) -> Self {
         let machine = scene.machine();
-        let step = scene.solver.step_s;
-        let (rotor, pulse) = (Rotor::of(scene), Pulse::of(scene));
-        let casing = Oscillator::new(
-            machine.casing_mass,
-            machine.casing_damping,
-            machine.casing_stiffness,
-            step,
-        );
+        let drive = Drive::of(scene);
+        let casing = Oscillator::of_casing(&machine, drive.step);
+        let speed = drive.speed(0);
         let initial = &scene.initial;
-        let first_force = pulse.mean(0.0, 0.5 * step);
+        let first_force = drive.force(0);
         let u = [
             casing.start(initial.u_c_m, initial.v_c_m_s, first_force),
             casing.start(initial.u_s_m, initial.v_s_m_s, 0.0),
         ];
-        let sides = machine.polygon.sides as usize;
         let (law, lining) = laws(scene);
         let mut motion = Self {
             scene: Arc::new(scene.clone()),
-            phasor: Phasor::new(&rotor, machine.nodal_diameters, step),
             law,
             lining,
-            step,
-            rotor,
-            pulse,
-            next_pulse: pulse,
-            left_over: (0, 0.0),
-            excitation: EngineOrderTorque::of(scene),
+            record: Record::of(machine.polygon.sides, drive.step),
+            drive,
             casing_loss: loss_of(&casing),
             casing,
-            tips: TipLaw::at(&machine, rotor.speed(0.0)),
-            backward: rotor.speed(0.0) < 0.0,
+            tips: TipLaw::at(&machine, speed),
+            backward: speed < 0.0,
             n: 0,
             u,
             before: u.map(|coordinate| coordinate.increment),
@@ -68,18 +55,11 @@ impl<B: TipModel> Coupled<B> {
             rows: Vec::new(),
             gaps: Vec::new(),
             dips: [0.0; 2],
-            touched: vec![0; sides],
-            last_touch: 0,
             long_steps: 0,
-            impulses: vec![0.0; sides],
-            impulses_since: 0,
-            log: ContactLog::default(),
             lasting: Lasting::new(scene.solver.end_s),
             next_look: 0,
             steps_unseen: steps_unseen(scene),
             account: Account::default(),
-            deepest: 0.0,
-            deepest_predicted: 0.0,
             largest_angle: 0.0,
             failure: None,
             machine,
@@ -109,7 +89,7 @@ impl<B: TipModel> Coupled<B> {
         }
         let Some(lining) = self.lining else { return };
         // What the lining held in the step before, from the same rows.
-        let back = Plane::cis(tips.diameters * self.rotor.speed(0.0) * self.step);
+        let back = Plane::cis(tips.diameters * self.drive.speed(0) * self.drive.step);
         let z = Plane::new(self.u[0].x - self.u[0].increment, self.u[1].x - self.u[1].increment);
         let each = f64::from(self.blades.table().blades_per_row);
         let mut energy = 0.0;
@@ -120,7 +100,7 @@ impl<B: TipModel> Coupled<B> {
         }
         self.account.lining_before = energy;
         if !self.rows.is_empty() {
-            self.record();
+            self.keep();
         }
     }
 
@@ -135,19 +115,13 @@ impl<B: TipModel> Coupled<B> {
         self.scene = Arc::new(scene.clone());
         self.machine = scene.machine();
         self.blades = self.blades.with_parameters(scene, &self.machine);
-        self.casing = Oscillator::new(
-            self.machine.casing_mass,
-            self.machine.casing_damping,
-            self.machine.casing_stiffness,
-            self.step,
-        );
+        self.casing = Oscillator::of_casing(&self.machine, self.drive.step);
         self.casing_loss = loss_of(&self.casing);
-        let speed = self.rotor.speed(self.time_of(self.n));
+        let speed = self.drive.speed(self.n);
         (self.tips, self.backward) = (TipLaw::at(&self.machine, speed), speed < 0.0);
         self.steps_unseen = steps_unseen(scene);
         (self.law, self.lining) = laws(scene);
-        self.excitation = EngineOrderTorque::of(scene);
-        self.next_pulse = Pulse::of(scene);
+        self.drive.set_parameters(scene);
         // Gaps of the steps before may be others now.
         self.dips = [self.machine.clearance().abs(); 2];
         self.rows.clear();

@@ -34,7 +34,7 @@ impl Block {
 impl<B: BladeModel> Explicit<B> {
     /// Whether a block is open, deciding on one if it can be long enough to be worth it.
     pub(super) fn open_block(&mut self) -> bool {
-        let held = self.block.is_open() || (self.last_touch == self.n && self.hold());
+        let held = self.block.is_open() || (self.record.last_touch == self.n && self.hold());
         if !held {
             self.block = Block::new(self.flight());
         }
@@ -73,9 +73,9 @@ impl<B: BladeModel> Explicit<B> {
         if let Some(held) = self.held.take()
             && self.block.used > 0
         {
-            self.last_touch = self.n;
+            self.record.last_touch = self.n;
             for (side, lambda) in held.multipliers(self.block.used) {
-                self.touched[side as usize] = self.n;
+                self.record.keep_touching(self.n, side);
                 for row in self.rows.iter_mut().filter(|row| row.side == side) {
                     row.lambda = lambda;
                 }

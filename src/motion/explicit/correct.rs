@@ -13,7 +13,7 @@ use crate::contact::{
     repeated::{GroupReference, Repeat},
 };
 use crate::motion::{ActiveSet, FailureReason};
-use crate::tolerances::{BREAK_STEPS, MOST_ROWS, SAME_ANGLE, SMALL_PHASE};
+use crate::tolerances::{MOST_ROWS, SAME_ANGLE, SMALL_PHASE};
 
 /// One constraint of a step: a side or a blade with its predicted gap.
 #[derive(Clone, Copy, Debug)]
@@ -42,7 +42,7 @@ impl<B: BladeModel> Explicit<B> {
             let distance_m = distance2.sqrt();
             return Err(FailureReason::Displacement { distance_m, radius_m });
         }
-        let (c, s) = self.phasor.at(self.n, &self.rotor, self.machine.nodal_diameters, self.step);
+        let (c, s) = self.drive.turn(self.n);
         let (u_c, u_s) = (self.u[0].x, self.u[1].x);
         let z = (u_c * c + u_s * s, u_s * c - u_c * s);
         let deepest = self.gather(z);
@@ -50,7 +50,7 @@ impl<B: BladeModel> Explicit<B> {
             self.open_gap();
             return Ok(0.0);
         }
-        self.deepest_predicted = self.deepest_predicted.max(deepest);
+        self.record.deepest_predicted = self.record.deepest_predicted.max(deepest);
         let clearance = self.machine.polygon.clearance;
         if deepest > clearance {
             let (depth_m, clearance_m) = (deepest, clearance);
@@ -63,7 +63,7 @@ impl<B: BladeModel> Explicit<B> {
             coordinate.x += shift;
             coordinate.increment += shift;
         }
-        self.record((z.0 + dx, z.1 + dy));
+        self.keep((z.0 + dx, z.1 + dy));
         Ok(change)
     }
 
@@ -265,7 +265,7 @@ impl<B: BladeModel> Explicit<B> {
     }
 
     /// Keeps what the step did: impulses, impacts, pulls, penetration left.
-    fn record(&mut self, z: (f64, f64)) {
+    fn keep(&mut self, z: (f64, f64)) {
         let n = self.n;
         let mut active_set = ActiveSet::Nothing;
         let mut pulls = false;
@@ -277,24 +277,14 @@ impl<B: BladeModel> Explicit<B> {
             let direction = self.machine.polygon.direction(row.side);
             let normal = turned(direction, row.turn + self.machine.nodal_diameters * bent);
             let gap = self.machine.polygon.clearance + z.0 * normal.0 + z.1 * normal.1;
-            self.deepest = self.deepest.max(-gap);
-            let last = &mut self.touched[row.side as usize];
-            if *last == 0 || n > *last + BREAK_STEPS {
-                self.log.impact(n as f64 * self.step, row.side);
-            }
-            *last = n;
-            self.impulses[row.side as usize] += row.lambda * self.step;
+            self.record.deepest = self.record.deepest.max(-gap);
+            self.record.push(n, row.side, row.lambda);
             active_set = active_set.with(row.side);
             pulls |= row.lambda > 0.0;
         }
-        let goes_on = self.last_touch + 1 == n && active_set == self.log.active_set;
+        let goes_on = self.record.last_touch + 1 == n && active_set == self.record.log.active_set;
         self.same_sides = if goes_on { self.same_sides + 1 } else { 1 };
-        self.last_touch = n;
-        let t = self.time_of(n);
-        self.log.touch(t, active_set);
-        if pulls {
-            self.log.tensile(t);
-        }
+        self.record.touch(n, active_set, pulls);
     }
 
     /// Whether pushing on one side can push another into the casing: fewer

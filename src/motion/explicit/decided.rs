@@ -28,7 +28,7 @@ impl<B: BladeModel> Explicit<B> {
     /// at most all rates squared times the distance of the corner over its sine.
     fn corner_for_good(&self) -> Option<Verdict> {
         let sides = self.steady_corner()?;
-        let since = (self.log.since / self.step) as u64;
+        let since = (self.record.log.since / self.drive.step) as u64;
         let machine = &self.machine;
         if self.n < since + HELD_AFTER || !machine.polygon.has_corners() {
             return None;
@@ -43,7 +43,7 @@ impl<B: BladeModel> Explicit<B> {
         let least = self.law.hold([a, b], turn);
         let damping = machine.casing_damping_ratio * machine.omega_c
             + machine.blade_damping_ratio * machine.omega_bd_max;
-        let nu = machine.nu(self.rotor.speed(self.time_of(self.n))).abs();
+        let nu = machine.nu(self.drive.speed(self.n)).abs();
         let rates = nu + machine.omega_c + machine.omega_bd_max + 2.0 * damping;
         let turned = machine.nodal_diameters * self.blades.reach();
         let distance = machine.clearance() / (sin * cos);

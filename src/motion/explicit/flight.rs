@@ -15,7 +15,7 @@ impl<B: BladeModel> Explicit<B> {
         let distance2 = self.u[0].x * self.u[0].x + self.u[1].x * self.u[1].x;
         // Blades that are driven do not follow the free recurrence.
         let outside = distance2 >= clearance * clearance;
-        if outside || self.pulse_to_come() || self.excitation.is_some() {
+        if outside || self.drive.pulse_to_come(self.n) || self.drive.excitation.is_some() {
             return 0;
         }
         let distance = distance2.sqrt();
@@ -27,8 +27,8 @@ impl<B: BladeModel> Explicit<B> {
             return 0;
         }
         // Such a block is longer than the pause that ends a contact.
-        if self.log.active_set != ActiveSet::Nothing {
-            self.end_contact(self.n.max(self.last_touch + BREAK_STEPS + 1));
+        if self.record.log.active_set != ActiveSet::Nothing {
+            self.end_contact(self.n.max(self.record.last_touch + BREAK_STEPS + 1));
         }
         length
     }
@@ -36,25 +36,11 @@ impl<B: BladeModel> Explicit<B> {
     /// Whether no contact can ever come again: the casing, whatever the blades
     /// do, never reaches one.
     pub(super) fn no_contact_to_come(&self) -> bool {
-        if self.held.is_some() || self.sliding.is_some() || self.pulse_to_come() {
+        if self.held.is_some() || self.sliding.is_some() || self.drive.pulse_to_come(self.n) {
             return false;
         }
         let skipped = |coordinate| self.casing.skip(coordinate, self.block.used());
         self.block.is_endless()
             || self.casing.reach_of(self.u.map(skipped)).0 < self.machine.polygon.clearance
-    }
-
-    /// Whether the pulse still acts on this step or a later one.
-    fn pulse_to_come(&self) -> bool {
-        let left_over = self.left_over.0 == self.n && self.left_over.1 != 0.0;
-        let acting = self.time_of(self.n) - 0.5 * self.step < self.pulse.end;
-        left_over || (self.pulse.force != 0.0 && acting)
-    }
-
-    /// Whether neither pulse nor ramp nor excitation acts from now on.
-    pub(super) fn is_steady(&self) -> bool {
-        let after_pulse =
-            self.pulse.force == 0.0 || self.time_of(self.n) > self.pulse.end + self.step;
-        after_pulse && self.rotor.ramp() == 0.0 && self.excitation.is_none()
     }
 }

@@ -58,18 +58,18 @@ impl<B: BladeModel> Explicit<B> {
     pub(super) fn log_held(&mut self, held: &Held, before: u64) {
         let (used, t) = (self.block.used(), self.time_of(self.latest_step()));
         for (side, sum) in held.sums(before, used) {
-            self.impulses[side as usize] += sum * self.step;
+            self.record.impulse(side, sum);
         }
-        self.log.touch(t, self.log.active_set);
+        self.record.log.touch(t, self.record.log.active_set);
         match held {
             Held::Corner(corner) if corner.pulls => {
-                self.log.tensile_steps += used - before;
-                self.log.last_tensile = Some(t);
+                self.record.log.tensile_steps += used - before;
+                self.record.log.last_tensile = Some(t);
             }
             Held::Corner(_) => {}
             Held::Side(side) => {
                 let deepest = side.deepest(before, used);
-                self.deepest_predicted = self.deepest_predicted.max(deepest);
+                self.record.deepest_predicted = self.record.deepest_predicted.max(deepest);
             }
         }
     }

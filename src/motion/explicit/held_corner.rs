@@ -143,7 +143,7 @@ impl<B: BladeModel> Explicit<B> {
     /// trusted for all later steps.
     pub(super) fn hold_corner(&mut self) -> Option<HeldCorner> {
         let sides = self.steady_corner()?;
-        let since = ((self.log.since / self.step) as u64).max(self.hold_tried);
+        let since = ((self.record.log.since / self.drive.step) as u64).max(self.hold_tried);
         if self.n < since + HELD_AFTER {
             return None;
         }
@@ -154,13 +154,13 @@ impl<B: BladeModel> Explicit<B> {
     /// The corner in contact in this step, if neither pulse nor ramp nor
     /// excitation acts on it.
     pub(super) fn steady_corner(&self) -> Option<[u32; 2]> {
-        let ActiveSet::Corner(a, b) = self.log.active_set else { return None };
-        (self.is_steady() && self.last_touch == self.n).then_some([a, b])
+        let ActiveSet::Corner(a, b) = self.record.log.active_set else { return None };
+        (self.drive.is_steady(self.n) && self.record.last_touch == self.n).then_some([a, b])
     }
 
     fn make_map(&self, sides: [u32; 2]) -> Option<HeldCorner> {
         let now = self.blades.held_modes()?;
-        let turn = self.machine.nu(self.rotor.speed(self.time_of(self.n))) * self.step;
+        let turn = self.machine.nu(self.drive.speed(self.n)) * self.drive.step;
         let step = CornerStep::new(&self.machine, &self.casing, now.moving, sides, turn);
         let now = as_modes(now.modes);
         let mut rest = now;
@@ -219,8 +219,7 @@ impl<B: BladeModel> Explicit<B> {
         let modes = held.modes(steps);
         let mut blades = self.blades.clone();
         blades.set_held_modes(as_coordinates(modes));
-        let diameters = self.machine.nodal_diameters;
-        let (c, s) = self.phasor.look(self.n + steps, &self.rotor, diameters, self.step);
+        let (c, s) = self.drive.look_at_turn(self.n + steps);
         let (place, change) = held.step.casing(modes);
         let u = [
             Coordinate { x: place.re * c - place.im * s, increment: change.re * c - change.im * s },

@@ -52,9 +52,9 @@ impl<B: BladeModel> Explicit<B> {
     /// The side that has closed alone in the two latest steps, if nothing but the blades
     /// acts on the wave.
     fn steady_side(&self) -> Option<u32> {
-        let ActiveSet::Side(side) = self.log.active_set else { return None };
-        let alone = self.same_sides >= 2 && self.last_touch == self.n;
-        (alone && self.is_steady() && self.n >= self.slide_tried).then_some(side)
+        let ActiveSet::Side(side) = self.record.log.active_set else { return None };
+        let alone = self.same_sides >= 2 && self.record.last_touch == self.n;
+        (alone && self.drive.is_steady(self.n) && self.n >= self.slide_tried).then_some(side)
     }
 
     /// The stretch of steps from now on that close this one side and no other.
@@ -100,14 +100,13 @@ impl<B: BladeModel> Explicit<B> {
         let moving = self.blades.held_modes().and_then(|blades| blades.moving);
         let (Some(sliding), Some(moving)) = (&mut self.sliding, moving) else { return };
         let done = sliding.advance(steps, &mut self.watch, moving);
-        let side = sliding.side as usize;
+        let side = sliding.side;
         self.n += done.steps;
         if done.steps > 0 {
-            self.impulses[side] += done.pushes * self.step;
-            self.deepest_predicted = self.deepest_predicted.max(done.predicted);
-            self.touched[side] = self.n;
-            self.last_touch = self.n;
-            self.log.touch(self.time_of(self.n), self.log.active_set);
+            self.record.impulse(side, done.pushes);
+            self.record.deepest_predicted = self.record.deepest_predicted.max(done.predicted);
+            self.record.keep_touching(self.n, side);
+            self.record.touch(self.n, self.record.log.active_set, false);
         }
         if done.steps < steps {
             self.end_sliding();
@@ -137,7 +136,7 @@ impl<B: BladeModel> Explicit<B> {
 
     /// Coefficients of a step along a side at this speed.
     fn side_step(&self) -> SideStep {
-        let turn = self.machine.nu(self.rotor.speed(self.time_of(self.n))) * self.step;
+        let turn = self.machine.nu(self.drive.speed(self.n)) * self.drive.step;
         SideStep::new(&self.casing, turn)
     }
 
@@ -167,8 +166,7 @@ impl<B: BladeModel> Explicit<B> {
     /// `exp(i (n_d theta + psi))` of a side at step `n`: its inward normal in the
     /// standing frame.
     fn standing_side(&self, side: u32, n: u64) -> Plane {
-        let diameters = self.machine.nodal_diameters;
-        let (c, s) = self.phasor.look(n, &self.rotor, diameters, self.step);
+        let (c, s) = self.drive.look_at_turn(n);
         let (cos, sin) = self.machine.polygon.direction(side);
         Plane::new(c, s) * Plane::new(cos, sin)
     }

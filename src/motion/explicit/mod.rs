@@ -13,6 +13,7 @@ mod block;
 mod corner_step;
 mod correct;
 mod decided;
+mod drive;
 mod excitation;
 mod flight;
 mod held;
@@ -22,6 +23,7 @@ mod leap;
 mod oscillator;
 mod parameters;
 mod phasor;
+mod record;
 mod side_map;
 mod sliding;
 mod solver;
@@ -29,17 +31,17 @@ mod watch;
 
 pub use blades::{BladeModel, FullBlades, ModalBlades, RigidBlades};
 pub(in crate::motion) use blades::{NearRows, Ring, product};
+pub(in crate::motion) use drive::{Drive, Driven};
 pub use excitation::EngineOrderTorque;
 pub use oscillator::{Coordinate, Oscillator};
-pub(in crate::motion) use phasor::Phasor;
+pub(in crate::motion) use record::Record;
 
 use std::sync::Arc;
 
-use super::{ActiveSet, ContactLog, Failure, FailureReason, Pulse, Rotor};
+use super::{Failure, FailureReason};
 use crate::contact::{self, StepLaw, repeated::Repeated};
 use crate::model::Machine;
 use crate::scene::CheckedScene;
-use crate::tolerances::BREAK_STEPS;
 use block::Block;
 use correct::ConstraintRow;
 use held::Held;
@@ -53,15 +55,7 @@ pub struct Explicit<B: BladeModel> {
     scene: Arc<CheckedScene>,
     machine: Machine,
     law: &'static dyn StepLaw,
-    step: f64,
-    rotor: Rotor,
-    pulse: Pulse,
-    /// The pulse to fire next, from zero on.
-    next_pulse: Pulse,
-    /// A step, and the mean force in it of a pulse that another has replaced
-    /// \[N\].
-    left_over: (u64, f64),
-    excitation: Option<EngineOrderTorque>,
+    drive: Drive,
     casing: Oscillator,
     /// Index of the step the coordinates belong to, `t = n h`.
     n: u64,
@@ -83,10 +77,6 @@ pub struct Explicit<B: BladeModel> {
     sliding: Option<Sliding>,
     /// Steps in a row until the latest contact with the same sides.
     same_sides: u64,
-    phasor: Phasor,
-    /// Step of the latest contact of each side, from 1; 0 for never.
-    touched: Vec<u64>,
-    last_touch: u64,
     /// Side to begin the search for the deepest penetration at.
     near: u32,
     /// Multipliers of the latest step in contact, by row.
@@ -97,12 +87,7 @@ pub struct Explicit<B: BladeModel> {
     neighbours_matter: bool,
     /// Rigid gap beyond which no blade of a side can touch now \[m\].
     look: f64,
-    /// Impulse on each side since `take_impulses` \[N s\].
-    impulses: Vec<f64>,
-    impulses_since: u64,
-    log: ContactLog,
-    deepest: f64,
-    deepest_predicted: f64,
+    record: Record,
     watch: Watch,
     failure: Option<Failure>,
 }
@@ -111,36 +96,21 @@ impl<B: BladeModel> Explicit<B> {
     /// The motion of a scene at t = 0.
     pub(super) fn new(scene: &CheckedScene) -> Self {
         let machine = scene.machine();
-        let step = scene.solver.step_s;
-        let rotor = Rotor::of(scene);
-        let pulse = Pulse::of(scene);
-        let casing = Oscillator::new(
-            machine.casing_mass,
-            machine.casing_damping,
-            machine.casing_stiffness,
-            step,
-        );
-        let first_force = pulse.mean(0.0, 0.5 * step);
+        let drive = Drive::of(scene);
+        let casing = Oscillator::of_casing(&machine, drive.step);
+        let first_force = drive.force(0);
         let initial = &scene.initial;
         let u = [
             casing.start(initial.u_c_m, initial.v_c_m_s, first_force),
             casing.start(initial.u_s_m, initial.v_s_m_s, 0.0),
         ];
-        let sides = machine.polygon.sides as usize;
         let mut motion = Self {
             scene: Arc::new(scene.clone()),
             blades: B::at_rest(scene, &machine),
-            phasor: Phasor::new(&rotor, machine.nodal_diameters, step),
             law: contact::law(scene.solver.contact),
-            next_pulse: pulse,
-            left_over: (0, 0.0),
-            excitation: EngineOrderTorque::of(scene),
-            touched: vec![0; sides],
-            impulses: vec![0.0; sides],
+            record: Record::of(machine.polygon.sides, drive.step),
             machine,
-            step,
-            rotor,
-            pulse,
+            drive,
             casing,
             n: 0,
             u,
@@ -152,16 +122,11 @@ impl<B: BladeModel> Explicit<B> {
             side_map: None,
             sliding: None,
             same_sides: 0,
-            last_touch: 0,
             near: 0,
             rows: Vec::with_capacity(8),
             repeated: Repeated::default(),
             neighbours_matter: false,
             look: 0.0,
-            impulses_since: 0,
-            log: ContactLog::default(),
-            deepest: 0.0,
-            deepest_predicted: 0.0,
             watch: Watch::default(),
             failure: None,
         };
@@ -172,13 +137,9 @@ impl<B: BladeModel> Explicit<B> {
     /// One step: predict, look, correct.
     fn take_step(&mut self) -> Result<(), FailureReason> {
         let n = self.n;
-        let force = self.force(n);
+        let force = self.drive.force(n);
         self.u = [self.casing.step(self.u[0], force), self.casing.step(self.u[1], 0.0)];
-        let excitation = self
-            .excitation
-            .as_ref()
-            .map(|torque| (torque, torque.phase(&self.rotor, self.time_of(n))));
-        let change = self.blades.predict(excitation);
+        let change = self.blades.predict(self.drive.driven(n));
         let mut unknown = self.watch.moved(change);
         self.n = n + 1;
         let distance2 = self.u[0].x * self.u[0].x + self.u[1].x * self.u[1].x;
@@ -197,25 +158,19 @@ impl<B: BladeModel> Explicit<B> {
 
     /// Bookkeeping of a step without contact.
     fn open_gap(&mut self) {
-        if self.log.active_set != ActiveSet::Nothing && self.n > self.last_touch + BREAK_STEPS {
+        if self.record.is_over(self.n) {
             self.end_contact(self.n);
         }
     }
 
     /// The contact is broken at step `n`.
     fn end_contact(&mut self, n: u64) {
-        self.log.touch(self.time_of(n), ActiveSet::Nothing);
+        self.record.end_contact(n);
         self.rows.clear();
     }
 
-    /// Mean force of the pulse over the step centred on `n`, whole at n = 0.
-    fn force(&self, n: u64) -> f64 {
-        let left_over = if n == self.left_over.0 { self.left_over.1 } else { 0.0 };
-        self.pulse.mean_of_step(n, self.step) + left_over
-    }
-
     fn time_of(&self, n: u64) -> f64 {
-        n as f64 * self.step
+        self.drive.time_of(n)
     }
 
     /// The latest step, that of an open block included.

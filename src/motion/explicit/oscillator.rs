@@ -6,6 +6,7 @@
 use nalgebra::{Matrix2, Vector2};
 
 use super::leap::Leap;
+use crate::model::Machine;
 use crate::motion::propagator::Propagator;
 
 /// Coefficients of the recurrence for one mass, damping and stiffness.
@@ -56,6 +57,19 @@ impl Oscillator {
     pub fn start(&self, x: f64, rate: f64, force: f64) -> Coordinate {
         let acceleration = (force - self.damping * rate - self.stiffness * x) / self.mass;
         Coordinate { x, increment: self.step * (rate - 0.5 * self.step * acceleration) }
+    }
+
+    /// The casing's.
+    #[must_use]
+    pub fn of_casing(machine: &Machine, step: f64) -> Self {
+        Self::new(machine.casing_mass, machine.casing_damping, machine.casing_stiffness, step)
+    }
+
+    /// A start as `start` makes it with a force more than it knew.
+    #[must_use]
+    pub fn start_with(&self, at: Coordinate, force: f64) -> Coordinate {
+        let change = 0.5 * self.step * self.step * force / self.mass;
+        Coordinate { increment: at.increment - change, ..at }
     }
 
     /// One step under a force.

@@ -6,9 +6,9 @@
 
 use std::sync::Arc;
 
-use super::{BladeModel, EngineOrderTorque, Explicit, Oscillator};
+use super::{BladeModel, Explicit, Oscillator};
 use crate::contact;
-use crate::motion::{Change, Pulse};
+use crate::motion::Change;
 use crate::scene::CheckedScene;
 
 impl<B: BladeModel> Explicit<B> {
@@ -23,17 +23,11 @@ impl<B: BladeModel> Explicit<B> {
         let machine = scene.machine();
         self.interrupt();
         self.blades = self.blades.with_parameters(scene, &machine);
-        self.casing = Oscillator::new(
-            machine.casing_mass,
-            machine.casing_damping,
-            machine.casing_stiffness,
-            self.step,
-        );
+        self.casing = Oscillator::of_casing(&machine, self.drive.step);
         self.side_map = None;
         self.machine = machine;
         self.law = contact::law(scene.solver.contact);
-        self.excitation = EngineOrderTorque::of(scene);
-        self.next_pulse = Pulse::of(scene);
+        self.drive.set_parameters(scene);
         self.neighbours_matter = self.neighbours_matter();
     }
 }

@@ -6,7 +6,7 @@ use crate::motion::Rotor;
 /// sine and cosine each 64 steps and a table between them, so that the value at
 /// a step does not depend on the steps before it.
 #[derive(Clone, Debug)]
-pub(in crate::motion) struct Phasor {
+pub(super) struct Phasor {
     table: Vec<(f64, f64)>,
     block: u64,
     at_block: (f64, f64),
@@ -15,7 +15,7 @@ pub(in crate::motion) struct Phasor {
 const TABLE: u64 = 64;
 
 impl Phasor {
-    pub(in crate::motion) fn new(rotor: &Rotor, diameters: f64, step: f64) -> Self {
+    pub fn new(rotor: &Rotor, diameters: f64, step: f64) -> Self {
         let entry = |j: u64| {
             let (sin, cos) = (diameters * rotor.speed(0.0) * step * j as f64).sin_cos();
             (cos, sin)
@@ -27,13 +27,7 @@ impl Phasor {
 
     /// `(cos n_d theta, sin n_d theta)` at step `n`, keeping the exact value for the
     /// steps after it.
-    pub(in crate::motion) fn at(
-        &mut self,
-        n: u64,
-        rotor: &Rotor,
-        diameters: f64,
-        step: f64,
-    ) -> (f64, f64) {
+    pub fn at(&mut self, n: u64, rotor: &Rotor, diameters: f64, step: f64) -> (f64, f64) {
         if !self.table.is_empty() && n / TABLE != self.block {
             self.block = n / TABLE;
             self.at_block = exact(self.block * TABLE, rotor, diameters, step);
@@ -42,13 +36,7 @@ impl Phasor {
     }
 
     /// The same, keeping nothing.
-    pub(in crate::motion) fn look(
-        &self,
-        n: u64,
-        rotor: &Rotor,
-        diameters: f64,
-        step: f64,
-    ) -> (f64, f64) {
+    pub fn look(&self, n: u64, rotor: &Rotor, diameters: f64, step: f64) -> (f64, f64) {
         let Some((dc, ds)) = self.table.get((n % TABLE) as usize) else {
             return exact(n, rotor, diameters, step);
         };

@@ -2,10 +2,8 @@
 //! the way.
 
 use super::held::Held;
-use super::phasor::Phasor;
 use super::{BladeModel, Coordinate, Explicit};
 use crate::model::Machine;
-use crate::motion::contacts::in_phase_order;
 use crate::motion::{
     ActiveSet, Checks, ContactLog, Failure, GoOn, Pulse, Rotor, Solver, State, Verdict,
 };
@@ -18,7 +16,7 @@ impl<B: BladeModel> Solver for Explicit<B> {
             return Err(failure.clone());
         }
         // A step that ends within a millionth of itself after `until` belongs to it.
-        let target = (until / self.step + 1e-6).floor().max(0.0) as u64;
+        let target = (until / self.drive.step + 1e-6).floor().max(0.0) as u64;
         let steps_unasked = UPDATES_UNASKED / self.blades.coordinates();
         let mut unasked = 0;
         while self.latest_step() < target {
@@ -41,7 +39,7 @@ impl<B: BladeModel> Solver for Explicit<B> {
             };
             if let Err(reason) = moved {
                 let failure = Failure { t_s: self.time_of(self.n), reason };
-                self.log.touch(failure.t_s, ActiveSet::Nothing);
+                self.record.end_contact(self.n);
                 self.failure = Some(failure.clone());
                 return Err(failure);
             }
@@ -56,10 +54,10 @@ impl<B: BladeModel> Solver for Explicit<B> {
     fn state(&self) -> State {
         let (u, blades) = self.materialized();
         let n = self.latest_step();
-        let in_contact = self.log.active_set != ActiveSet::Nothing;
+        let in_contact = self.record.log.active_set != ActiveSet::Nothing;
         let rate = |coordinate: Coordinate, force: f64| {
             if in_contact {
-                coordinate.increment / self.step
+                coordinate.increment / self.drive.step
             } else {
                 self.casing.rate(coordinate, force)
             }
@@ -68,7 +66,7 @@ impl<B: BladeModel> Solver for Explicit<B> {
         State {
             t_s: self.time_of(n),
             u: u.map(|coordinate| coordinate.x),
-            v: [rate(u[0], self.force(n)), rate(u[1], 0.0)],
+            v: [rate(u[0], self.drive.force(n)), rate(u[1], 0.0)],
             alpha,
             alpha_rate,
         }
@@ -79,40 +77,24 @@ impl<B: BladeModel> Solver for Explicit<B> {
     }
 
     fn multipliers(&self) -> Vec<(u32, f64)> {
-        if self.log.active_set == ActiveSet::Nothing {
+        if self.record.log.active_set == ActiveSet::Nothing {
             return Vec::new();
         }
         if let Some(sliding) = &self.sliding {
             return vec![(sliding.side, sliding.multiplier)];
         }
-        let mut sums: Vec<(u32, f64)> = Vec::new();
-        if let Some(held) = self.held.as_ref().filter(|_| self.block.used() > 0) {
-            sums.extend(held.multipliers(self.block.used()));
-            in_phase_order(&self.machine.polygon, &mut sums);
-            return sums;
-        }
-        for row in self.rows.iter().filter(|row| row.lambda != 0.0) {
-            match sums.iter_mut().find(|(side, _)| *side == row.side) {
-                Some((_, sum)) => *sum += row.lambda,
-                None => sums.push((row.side, row.lambda)),
+        let polygon = &self.machine.polygon;
+        match self.held.as_ref().filter(|_| self.block.used() > 0) {
+            Some(held) => self.record.by_side(polygon, held.multipliers(self.block.used())),
+            None => {
+                let rows = self.rows.iter().map(|row| (row.side, row.lambda));
+                self.record.by_side(polygon, rows)
             }
         }
-        in_phase_order(&self.machine.polygon, &mut sums);
-        sums
     }
 
     fn take_mean_forces(&mut self) -> Vec<(u32, f64)> {
-        let span = self.latest_step().saturating_sub(self.impulses_since) as f64 * self.step;
-        self.impulses_since = self.latest_step();
-        let mut means = Vec::new();
-        for (side, impulse) in self.impulses.iter_mut().enumerate() {
-            if *impulse != 0.0 && span > 0.0 {
-                means.push((side as u32, *impulse / span));
-                *impulse = 0.0;
-            }
-        }
-        in_phase_order(&self.machine.polygon, &mut means);
-        means
+        self.record.take_mean_forces(&self.machine.polygon, self.latest_step())
     }
 
     fn over(&self) -> bool {
@@ -124,11 +106,11 @@ impl<B: BladeModel> Solver for Explicit<B> {
     }
 
     fn pulse(&self) -> &Pulse {
-        &self.pulse
+        &self.drive.pulse
     }
 
     fn contacts(&self) -> &ContactLog {
-        &self.log
+        &self.record.log
     }
 
     fn machine(&self) -> &Machine {
@@ -136,7 +118,7 @@ impl<B: BladeModel> Solver for Explicit<B> {
     }
 
     fn rotor(&self) -> &Rotor {
-        &self.rotor
+        &self.drive.rotor
     }
 
     fn steps(&self) -> Option<u64> {
@@ -153,36 +135,23 @@ impl<B: BladeModel> Solver for Explicit<B> {
 
     fn checks(&self) -> Checks {
         Checks {
-            max_penetration_m: self.deepest,
-            max_predicted_penetration_m: Some(self.deepest_predicted),
-            tensile_steps: self.log.tensile_steps,
+            max_penetration_m: self.record.deepest,
+            max_predicted_penetration_m: Some(self.record.deepest_predicted),
+            tensile_steps: self.record.log.tensile_steps,
             max_blade_angle_rad: self.largest_angle(),
             energy_residual_j: None,
         }
     }
 
-    /// What the pulse before gave in the half step until now is kept.
     fn fire(&mut self) {
         self.interrupt();
-        let (start, next) = (self.t_s(), self.next_pulse);
-        let half = 0.5 * self.step;
-        let old = self.pulse;
-        self.pulse = Pulse { start, end: start + next.end, force: next.force };
-        if self.n == 0 {
-            // The start knew the old force.
-            let change = self.pulse.mean(0.0, half) - old.mean(0.0, half);
-            self.u[0].increment -= 0.5 * self.step * self.step * change / self.machine.casing_mass;
-        } else {
-            let until_now = Pulse { end: old.end.min(start), ..old };
-            let before = if self.left_over.0 == self.n { self.left_over.1 } else { 0.0 };
-            self.left_over = (self.n, before + until_now.mean(start - half, start + half));
-        }
+        let unknown = self.drive.fire(self.n);
+        self.u[0] = self.casing.start_with(self.u[0], unknown);
     }
 
     fn set_speed(&mut self, speed: f64, ramp: f64) {
         self.interrupt();
-        self.rotor.change(self.t_s(), speed, ramp);
-        self.phasor = Phasor::new(&self.rotor, self.machine.nodal_diameters, self.step);
+        self.drive.set_speed(self.n, speed, ramp);
         self.side_map = None;
     }
 

@@ -7,11 +7,11 @@
 use std::sync::Arc;
 
 use super::mistuning::springs;
-use super::{Driven, TipModel, loss_of};
+use super::{TipModel, loss_of};
 use crate::model::Machine;
 use crate::motion::Plane;
 use crate::motion::coupled::rows::RowTable;
-use crate::motion::explicit::{Coordinate, NearRows, Oscillator, Ring, product};
+use crate::motion::explicit::{Coordinate, Driven, NearRows, Oscillator, Ring, product};
 use crate::scene::Scene;
 use crate::tolerances::{ANGLE_LOOK, TIP_SLACK};
 

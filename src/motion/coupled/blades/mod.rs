@@ -18,11 +18,8 @@ use std::fmt::Debug;
 use super::rows::RowTable;
 use crate::model::Machine;
 use crate::motion::Plane;
-use crate::motion::explicit::{EngineOrderTorque, Oscillator};
+use crate::motion::explicit::{Driven, Oscillator};
 use crate::scene::Scene;
-
-/// An excitation and its phase \[rad\].
-pub(in crate::motion) type Driven<'a> = Option<(&'a EngineOrderTorque, f64)>;
 
 /// What the solver asks of the bladed disk.
 pub(in crate::motion) trait TipModel:

@@ -3,11 +3,11 @@
 
 use std::sync::Arc;
 
-use super::{Driven, TipModel, half_step, loss_of};
+use super::{TipModel, half_step, loss_of};
 use crate::model::{ContactPolygon, Machine, gcd};
 use crate::motion::Plane;
 use crate::motion::coupled::rows::RowTable;
-use crate::motion::explicit::{Coordinate, Oscillator};
+use crate::motion::explicit::{Coordinate, Driven, Oscillator};
 use crate::scene::Scene;
 
 /// Two modes. Without a slope of the tips a row is a side, whose blades share a push

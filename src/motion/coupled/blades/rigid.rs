@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
-use super::{Driven, TipModel};
+use super::TipModel;
 use crate::model::Machine;
 use crate::motion::Plane;
 use crate::motion::coupled::rows::RowTable;
+use crate::motion::explicit::Driven;
 use crate::scene::Scene;
 
 /// No blade coordinate; a row is a side.

@@ -8,7 +8,7 @@ use super::near::NearRows;
 use super::ring::Ring;
 use super::shapes::product;
 use crate::model::{Machine, gcd};
-use crate::motion::explicit::{Coordinate, EngineOrderTorque};
+use crate::motion::explicit::{Coordinate, Driven};
 use crate::scene::Scene;
 use crate::tolerances::{SHORTEST_BLOCK, SHORTEST_BLOCK_OF_BLADES};
 
@@ -54,7 +54,7 @@ impl BladeModel for FullBlades {
     fn row(&self, side: u32, place: usize) -> u32 {
         self.ring.rows(side)[place]
     }
-    fn predict(&mut self, excitation: Option<(&EngineOrderTorque, f64)>) -> f64 {
+    fn predict(&mut self, excitation: Driven<'_>) -> f64 {
         let Self { ring, x, increments, .. } = self;
         let driven = excitation.map(|(torque, _)| ring.driven(torque));
         self.bounds.drive(driven);
@@ -140,6 +140,7 @@ impl FullBlades {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::motion::explicit::EngineOrderTorque;
     use crate::motion::explicit::watch::Watch;
 
     /// Blades of the paper, `count` of them, excited by an order or not.

@@ -19,7 +19,7 @@ pub(in crate::motion) use near::NearRows;
 pub(in crate::motion) use ring::Ring;
 pub(in crate::motion) use shapes::product;
 
-use super::excitation::EngineOrderTorque;
+use super::drive::Driven;
 use super::oscillator::Coordinate;
 use crate::model::Machine;
 use crate::scene::Scene;
@@ -41,7 +41,7 @@ pub trait BladeModel: Clone + std::fmt::Debug + Send + Sync + 'static {
     /// One step without contact, which corrects it afterwards, under an
     /// excitation at its phase. Returns a bound on the change of any blade
     /// angle \[rad\].
-    fn predict(&mut self, excitation: Option<(&EngineOrderTorque, f64)>) -> f64;
+    fn predict(&mut self, driven: Driven<'_>) -> f64;
     /// Blade angle of a row \[rad\].
     fn angle(&mut self, row: u32) -> f64;
     /// Angle of row `a` per unit torque on row `b` over one step
@@ -113,7 +113,7 @@ impl BladeModel for RigidBlades {
     fn row(&self, side: u32, _: usize) -> u32 {
         side
     }
-    fn predict(&mut self, _: Option<(&EngineOrderTorque, f64)>) -> f64 {
+    fn predict(&mut self, _: Driven<'_>) -> f64 {
         0.0
     }
     fn angle(&mut self, _: u32) -> f64 {

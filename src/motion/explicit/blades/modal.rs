@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::{BladeModel, HeldModes};
 use crate::model::{ContactPolygon, Machine};
-use crate::motion::explicit::{Coordinate, EngineOrderTorque, Oscillator};
+use crate::motion::explicit::{Coordinate, Driven, Oscillator};
 use crate::scene::Scene;
 
 /// The two `n_d`-diameter modes, Eq. (4). Blades of one phase group move
@@ -46,7 +46,7 @@ impl BladeModel for ModalBlades {
     fn row(&self, side: u32, _: usize) -> u32 {
         side
     }
-    fn predict(&mut self, excitation: Option<(&EngineOrderTorque, f64)>) -> f64 {
+    fn predict(&mut self, excitation: Driven<'_>) -> f64 {
         let torque = match excitation {
             None => [0.0; 2],
             Some((excitation, phase)) => excitation.torque_on(self.polygon.nodal_diameters, phase),

@@ -5,7 +5,6 @@ use super::Coupled;
 use super::blades::TipModel;
 use super::lasting::mark;
 use crate::motion::{ActiveSet, Plane};
-use crate::tolerances::BREAK_STEPS;
 
 impl<B: TipModel> Coupled<B> {
     /// Bookkeeping of a step without contact.
@@ -16,10 +15,9 @@ impl<B: TipModel> Coupled<B> {
     }
 
     fn rows_are_open(&mut self) {
-        if self.log.active_set != ActiveSet::Nothing && self.n > self.last_touch + BREAK_STEPS {
-            let t = self.time_of(self.n);
-            self.log.touch(t, ActiveSet::Nothing);
-            self.lasting.touch(t, 0, false);
+        if self.record.is_over(self.n) {
+            self.record.end_contact(self.n);
+            self.lasting.touch(self.time_of(self.n), 0, false);
             self.rows.clear();
         }
     }
@@ -40,18 +38,12 @@ impl<B: TipModel> Coupled<B> {
     }
 
     /// Keeps the contact of this step: the rows that push, the impacts.
-    pub(super) fn record(&mut self) {
+    pub(super) fn keep(&mut self) {
         let (n, t) = (self.n, self.time_of(self.n));
         let mut active_set = ActiveSet::Nothing;
         let (mut set, mut count, mut pulls) = (0_u64, 0, false);
         for row in self.rows.iter().filter(|row| row.lambda != 0.0) {
-            let last = &mut self.touched[row.side as usize];
-            // What is pressed at the start did not hit.
-            if n > 0 && (*last == 0 || n + 1 > *last + BREAK_STEPS) {
-                self.log.impact(t, row.side);
-            }
-            *last = n + 1;
-            self.impulses[row.side as usize] += row.lambda * self.step;
+            self.record.push(n, row.side, row.lambda);
             active_set = active_set.with(row.side);
             set = set.wrapping_add(mark(row.index));
             count += 1;
@@ -61,15 +53,11 @@ impl<B: TipModel> Coupled<B> {
             self.rows_are_open();
             return;
         }
-        self.last_touch = n;
-        self.log.touch(t, active_set);
+        self.record.touch(n, active_set, pulls);
         let all = count == self.blades.table().count();
         let since = self.lasting.touch(t, set, all);
         if active_set == ActiveSet::Many {
-            self.log.since = since;
-        }
-        if pulls {
-            self.log.tensile(t);
+            self.record.log.since = since;
         }
     }
 }

@@ -1,0 +1,117 @@
+//! What the steps of a motion leave behind: the record of contacts, impulses and depths.
+
+use crate::model::ContactPolygon;
+use crate::motion::contacts::in_phase_order;
+use crate::motion::{ActiveSet, ContactLog};
+use crate::tolerances::BREAK_STEPS;
+
+/// The record of a motion in steps of one length.
+#[derive(Clone, Debug)]
+pub(in crate::motion) struct Record {
+    pub log: ContactLog,
+    pub last_touch: u64,
+    /// Deepest penetration left by a step \[m\].
+    pub deepest: f64,
+    /// Deepest predicted one \[m\].
+    pub deepest_predicted: f64,
+    step: f64,
+    /// One more than the step of the latest contact of each side; 0 for never.
+    touched: Vec<u64>,
+    /// Impulse on each side since `take_mean_forces` \[N s\].
+    impulses: Vec<f64>,
+    impulses_since: u64,
+}
+
+impl Record {
+    /// Of a polygon with so many sides, in steps of this length.
+    pub fn of(sides: u32, step: f64) -> Self {
+        Self {
+            log: ContactLog::default(),
+            last_touch: 0,
+            deepest: 0.0,
+            deepest_predicted: 0.0,
+            step,
+            touched: vec![0; sides as usize],
+            impulses: vec![0.0; sides as usize],
+            impulses_since: 0,
+        }
+    }
+
+    fn time_of(&self, n: u64) -> f64 {
+        n as f64 * self.step
+    }
+
+    /// A multiplier on a side in step `n`. What is pressed at the start did not hit.
+    pub fn push(&mut self, n: u64, side: u32, lambda: f64) {
+        let last = self.touched[side as usize];
+        if n > 0 && (last == 0 || n + 1 > last + BREAK_STEPS) {
+            self.log.impact(self.time_of(n), side);
+        }
+        self.keep_touching(n, side);
+        self.impulse(side, lambda);
+    }
+
+    /// A side touches until step `n`, as it did before.
+    pub fn keep_touching(&mut self, n: u64, side: u32) {
+        self.touched[side as usize] = n + 1;
+    }
+
+    /// The sum of the multipliers of some steps on a side.
+    pub fn impulse(&mut self, side: u32, sum: f64) {
+        self.impulses[side as usize] += sum * self.step;
+    }
+
+    /// These sides touch in step `n`, and some may pull.
+    pub fn touch(&mut self, n: u64, active_set: ActiveSet, pulls: bool) {
+        self.last_touch = n;
+        self.log.touch(self.time_of(n), active_set);
+        if pulls {
+            self.log.tensile(self.time_of(n));
+        }
+    }
+
+    /// Whether the contact is over at step `n`, in which nothing touches.
+    pub fn is_over(&self, n: u64) -> bool {
+        self.log.active_set != ActiveSet::Nothing && n > self.last_touch + BREAK_STEPS
+    }
+
+    /// Nothing touches from step `n` on.
+    pub fn end_contact(&mut self, n: u64) {
+        self.log.touch(self.time_of(n), ActiveSet::Nothing);
+    }
+
+    /// Sums of the multipliers of each side, in order of phase; none without contact.
+    pub fn by_side(
+        &self,
+        polygon: &ContactPolygon,
+        rows: impl Iterator<Item = (u32, f64)>,
+    ) -> Vec<(u32, f64)> {
+        let mut sums: Vec<(u32, f64)> = Vec::new();
+        if self.log.active_set == ActiveSet::Nothing {
+            return sums;
+        }
+        for (side, lambda) in rows.filter(|(_, lambda)| *lambda != 0.0) {
+            match sums.iter_mut().find(|(known, _)| *known == side) {
+                Some((_, sum)) => *sum += lambda,
+                None => sums.push((side, lambda)),
+            }
+        }
+        in_phase_order(polygon, &mut sums);
+        sums
+    }
+
+    /// Mean forces on the sides since this was asked last, until step `n` \[N\].
+    pub fn take_mean_forces(&mut self, polygon: &ContactPolygon, n: u64) -> Vec<(u32, f64)> {
+        let span = self.time_of(n.saturating_sub(self.impulses_since));
+        self.impulses_since = n;
+        let mut means = Vec::new();
+        for (side, impulse) in self.impulses.iter_mut().enumerate() {
+            if *impulse != 0.0 && span > 0.0 {
+                means.push((side as u32, *impulse / span));
+                *impulse = 0.0;
+            }
+        }
+        in_phase_order(polygon, &mut means);
+        means
+    }
+}
