@@ -5,10 +5,9 @@
 //! on, `clone` forks it, nothing is global.
 
 mod contacts;
-mod coupled;
 mod drive;
 mod event;
-pub mod explicit;
+mod explicit;
 mod failure;
 mod free_flight;
 mod joined;
@@ -23,9 +22,9 @@ pub mod verdict;
 mod wave;
 
 pub use contacts::{ActiveSet, ContactLog, Hold, Impact, in_phase_order};
-pub use coupled::EnergyLedger;
 pub use drive::{Pulse, Rotor, State};
 pub use event::Event;
+pub use explicit::EnergyLedger;
 pub use failure::{Failure, FailureReason};
 pub use free_flight::FreeFlight;
 pub use joined::Joined;

@@ -4,7 +4,6 @@
 use std::fmt::Debug;
 use std::ops::{Deref, DerefMut};
 
-use super::coupled::{Coupled, FullTips, ModalTips, RigidTips};
 use super::explicit::{Explicit, FullBlades, ModalBlades, RigidBlades};
 use super::verdict::judge;
 use super::{
@@ -220,11 +219,6 @@ impl Motion {
     #[must_use]
     pub fn new(scene: &CheckedScene) -> Self {
         match (scene.solver.kind, scene.solver.model) {
-            (SolverKind::Explicit, model) if scene.goes_beyond() => match model {
-                ModelSize::Rigid => Coupled::<RigidTips>::new(scene).into(),
-                ModelSize::Modal => Coupled::<ModalTips>::new(scene).into(),
-                ModelSize::Full => Coupled::<FullTips>::new(scene).into(),
-            },
             (SolverKind::Event, _) if scene.goes_beyond() => Joined::new(scene).into(),
             (SolverKind::Event, _) => Event::of(scene).into(),
             (SolverKind::Explicit, ModelSize::Rigid) => Explicit::<RigidBlades>::new(scene).into(),

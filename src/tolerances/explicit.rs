@@ -101,6 +101,9 @@ pub(crate) const SAME_ANGLE: f64 = 1e-13;
 /// \[rad\]: exact to round-off.
 pub(crate) const SMALL_PHASE: f64 = 1e-4;
 
+/// Blade phase below which they are four terms of it \[rad\]: exact to round-off.
+pub(crate) const SERIES_PHASE: f64 = 0.03;
+
 /// Depths of the deepest penetration up to which another gap is looked at beyond the
 /// paper, as a push may close it: of two modes one push closes it by at most
 /// `|T|/Re T`, `sqrt(1 + mu_c^2)` of its own depth where `kappa (kappa + mu) >= 0`.

@@ -2,8 +2,9 @@
 //! slid along. It is looked at wherever asked, and taken at its end; looking never
 //! changes the trajectory.
 
+use super::disk::Disk;
 use super::held::Held;
-use super::{BladeModel, Coordinate, Explicit};
+use super::{Coordinate, Explicit};
 
 /// A block without end: no contact can ever come again.
 pub(super) const ENDLESS: u64 = u64::MAX;
@@ -31,7 +32,7 @@ impl Block {
     }
 }
 
-impl<B: BladeModel> Explicit<B> {
+impl<B: Disk> Explicit<B> {
     /// Whether a block is open, deciding on one if it can be long enough to be worth it.
     pub(super) fn open_block(&mut self) -> bool {
         let held = self.block.is_open() || (self.record.last_touch == self.n && self.hold());

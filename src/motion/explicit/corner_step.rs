@@ -14,7 +14,7 @@
 //! where nothing is added up that cancels. A side turned by `tau` from where it
 //! touched at `y` opens by `2 g0 sin^2(tau/2) + y sin tau`.
 
-use super::blades::ModalBlades;
+use super::disk::ModalBlades;
 use super::held_corner::Modes;
 use super::oscillator::{Coordinate, Oscillator};
 use crate::contact;

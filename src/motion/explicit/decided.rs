@@ -1,21 +1,25 @@
 //! Verdicts of the explicit solver that nothing to come can change
 //! (docs/theory.md, section 9).
 
+use super::Explicit;
+use super::disk::Disk;
 use super::held::Held;
-use super::{BladeModel, Explicit};
 use crate::motion::Verdict;
 use crate::tolerances::{HELD_AFTER, LIGHT_BLADES, ROOM_TO_CHANGE};
 
-impl<B: BladeModel> Explicit<B> {
+impl<B: Disk> Explicit<B> {
     /// The verdict, once nothing to come can change it: no contact can come
     /// again, or a corner can never let go.
     pub(super) fn decided(&self) -> Option<Verdict> {
-        if self.failure.is_some() {
-            Some(Verdict::Failed)
+        if let Some(failure) = &self.failure {
+            let beyond = failure.verdict_beyond(&self.drive.pulse);
+            Some(if self.goes_beyond { beyond } else { Verdict::Failed })
         } else if self.no_contact_to_come() {
             Some(Verdict::Decay)
         } else if let Some(Held::Corner(held)) = &self.held {
             Some(locked(held.pulls))
+        } else if self.goes_beyond {
+            None
         } else if self.blades.held_modes().is_none() {
             self.corner_for_good()
         } else {

@@ -3,12 +3,13 @@
 //! The discrete energy bounds how far `|u|` can travel in one step
 //! (docs/theory.md, section 6). So many steps as cannot reach the clearance are one block.
 
+use super::Explicit;
 use super::block::ENDLESS;
-use super::{BladeModel, Explicit};
+use super::disk::Disk;
 use crate::motion::ActiveSet;
 use crate::tolerances::{BREAK_STEPS, LARGEST_BLADE_ANGLE};
 
-impl<B: BladeModel> Explicit<B> {
+impl<B: Disk> Explicit<B> {
     /// Steps that cannot touch; none where they are too few to be worth a block.
     pub(super) fn flight(&mut self) -> u64 {
         let clearance = self.machine.polygon.clearance;
@@ -38,6 +39,9 @@ impl<B: BladeModel> Explicit<B> {
     pub(super) fn no_contact_to_come(&self) -> bool {
         if self.held.is_some() || self.sliding.is_some() || self.drive.pulse_to_come(self.n) {
             return false;
+        }
+        if self.goes_beyond {
+            return self.rests();
         }
         let skipped = |coordinate| self.casing.skip(coordinate, self.block.used());
         self.block.is_endless()

@@ -1,10 +1,11 @@
 //! Sides that close in every step to come: a lock, or a wave that slides along one
 //! side. Such steps are taken many at once.
 
+use super::Explicit;
 use super::block::{Block, ENDLESS};
+use super::disk::Disk;
 use super::held_corner::HeldCorner;
 use super::held_side::HeldSide;
-use super::{BladeModel, Explicit};
 use crate::tolerances::SHORTEST_BLOCK;
 
 /// Sides that close in every step of the open block.
@@ -36,7 +37,7 @@ impl Held {
     }
 }
 
-impl<B: BladeModel> Explicit<B> {
+impl<B: Disk> Explicit<B> {
     /// Begins a block of steps in which the same sides close, if there are enough.
     pub(super) fn hold(&mut self) -> bool {
         if let Some(corner) = self.hold_corner() {

@@ -14,8 +14,9 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::corner_step::{CornerStep, Stepped};
+use super::disk::Disk;
 use super::leap::Leap;
-use super::{BladeModel, Coordinate, Explicit};
+use super::{Coordinate, Explicit};
 use crate::motion::ActiveSet;
 use crate::tolerances::{
     ANGLE_LOOK, HELD_AFTER, HELD_AGAIN, HELD_CORRECTIONS, HELD_LEFT, HELD_PHASE, HELD_PROBE,
@@ -138,7 +139,7 @@ fn top([mut low, mut high]: [u64; 2], value: impl Fn(u64) -> f64) -> f64 {
     (low..=high).map(value).fold(0.0, f64::max)
 }
 
-impl<B: BladeModel> Explicit<B> {
+impl<B: Disk> Explicit<B> {
     /// Makes the map, if a corner has been held long enough and the map can be
     /// trusted for all later steps.
     pub(super) fn hold_corner(&mut self) -> Option<HeldCorner> {

@@ -5,10 +5,11 @@
 
 use std::sync::Arc;
 
-use super::blades::HeldModes;
+use super::disk::Disk;
+use super::disk::HeldModes;
 use super::side_map::{Along, SideMap, SideStep};
 use super::sliding::{Rules, Sliding};
-use super::{BladeModel, Coordinate, Explicit};
+use super::{Coordinate, Explicit};
 use crate::motion::{ActiveSet, Plane};
 use crate::tolerances::SHORTEST_BLOCK;
 
@@ -48,7 +49,7 @@ impl HeldSide {
     }
 }
 
-impl<B: BladeModel> Explicit<B> {
+impl<B: Disk> Explicit<B> {
     /// The side that has closed alone in the two latest steps, if nothing but the blades
     /// acts on the wave.
     fn steady_side(&self) -> Option<u32> {

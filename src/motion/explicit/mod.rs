@@ -1,66 +1,97 @@
-//! The paper's time solver, Eqs. (8)-(16): explicit central differences with
-//! Lagrange-multiplier contact (docs/theory.md, section 6). First order in the step
-//! once contact happens.
+//! The time solver of Eqs. (8)-(16): explicit central differences with
+//! Lagrange-multiplier contact (docs/theory.md, sections 6 and 10). First order in the
+//! step once rigid contact happens, second order on a lining.
 //!
-//! Each step predicts free motion, looks for penetrations and corrects them
-//! with one of the two contact laws. Free steps (`flight`), those of a held lock
-//! (`held_corner`) and those along one side of rigid blades (`held_side`) are taken many
-//! at once, as plain stepping would take them; along a side of blades that move a short
-//! step is enough (`sliding`).
+//! Each step predicts free motion, looks for penetrations and corrects them by the
+//! contact law. Beyond the paper, tips may move outward as blades bend, rub, rebound and
+//! press on a lining, whose push is a force at the beginning of a step (`lining`).
+//!
+//! In the paper's model, free steps (`flight`), those of a held lock (`held_corner`) and
+//! those along one side of rigid blades (`held_side`) are taken many at once, as plain
+//! stepping would take them; along a side of blades that move a short step is enough
+//! (`sliding`).
 
-mod blades;
+mod beyond;
 mod block;
+mod candidates;
 mod corner_step;
 mod correct;
 mod decided;
+mod disk;
 mod drive;
+mod energy;
 mod excitation;
 mod flight;
 mod held;
 mod held_corner;
 mod held_side;
+mod lasting;
 mod leap;
+mod lining;
 mod oscillator;
 mod parameters;
 mod phasor;
+mod pushes;
 mod record;
+mod rigid_step;
+mod rows;
 mod side_map;
 mod sliding;
 mod solver;
+mod start;
 mod watch;
 
-pub use blades::{BladeModel, FullBlades, ModalBlades, RigidBlades};
-pub(in crate::motion) use blades::{NearRows, Ring, product};
-pub(in crate::motion) use drive::{Drive, Driven};
-pub use excitation::EngineOrderTorque;
-pub use oscillator::{Coordinate, Oscillator};
-pub(in crate::motion) use record::Record;
+pub(super) use disk::{FullBlades, ModalBlades, RigidBlades};
+pub use energy::EnergyLedger;
+pub(super) use excitation::EngineOrderTorque;
+pub(super) use oscillator::{Coordinate, Oscillator};
 
 use std::sync::Arc;
 
-use super::{Failure, FailureReason};
-use crate::contact::{self, StepLaw, repeated::Repeated};
-use crate::model::Machine;
+use super::{Failure, FailureReason, Plane};
+use crate::contact::{StepLaw, repeated::Repeated};
+use crate::model::{LiningLaw, Machine};
 use crate::scene::CheckedScene;
+use beyond::Beyond;
 use block::Block;
-use correct::ConstraintRow;
+use disk::Disk;
+use drive::{Drive, Driven};
 use held::Held;
+use record::Record;
+use rows::{Row, TipLaw};
 use side_map::SideMap;
 use sliding::Sliding;
 use watch::Watch;
 
 /// The explicit solver on one size of bladed disk.
 #[derive(Clone, Debug)]
-pub struct Explicit<B: BladeModel> {
+pub(super) struct Explicit<B: Disk> {
     scene: Arc<CheckedScene>,
     machine: Machine,
     law: &'static dyn StepLaw,
+    /// The lining of the smooth law.
+    lining: Option<LiningLaw>,
+    /// What tips do at the rotor speed of now.
+    tips: TipLaw,
     drive: Drive,
     casing: Oscillator,
     /// Index of the step the coordinates belong to, `t = n h`.
     n: u64,
     u: [Coordinate; 2],
     blades: B,
+    /// Side to begin the search for the smallest gap at.
+    near: u32,
+    /// Rows of the latest contact; of a lining, those that push now.
+    rows: Vec<Row>,
+    /// Distance of each row to its target \[m\].
+    gaps: Vec<f64>,
+    record: Record,
+    watch: Watch,
+    failure: Option<Failure>,
+    /// Whether the scene asks for more than the paper's model, and what that needs.
+    goes_beyond: bool,
+    beyond: Beyond,
+
     /// Steps already decided on, not yet taken.
     block: Block,
     /// Steps of the blocks closed so far.
@@ -77,72 +108,22 @@ pub struct Explicit<B: BladeModel> {
     sliding: Option<Sliding>,
     /// Steps in a row until the latest contact with the same sides.
     same_sides: u64,
-    /// Side to begin the search for the deepest penetration at.
-    near: u32,
-    /// Multipliers of the latest step in contact, by row.
-    rows: Vec<ConstraintRow>,
     /// Rows of which several belong to one side; see `solve_repeated`.
     repeated: Repeated,
     /// Whether the neighbours of a penetrating side always count; see `correct`.
     neighbours_matter: bool,
     /// Rigid gap beyond which no blade of a side can touch now \[m\].
     look: f64,
-    record: Record,
-    watch: Watch,
-    failure: Option<Failure>,
 }
 
-impl<B: BladeModel> Explicit<B> {
-    /// The motion of a scene at t = 0.
-    pub(super) fn new(scene: &CheckedScene) -> Self {
-        let machine = scene.machine();
-        let drive = Drive::of(scene);
-        let casing = Oscillator::of_casing(&machine, drive.step);
-        let first_force = drive.force(0);
-        let initial = &scene.initial;
-        let u = [
-            casing.start(initial.u_c_m, initial.v_c_m_s, first_force),
-            casing.start(initial.u_s_m, initial.v_s_m_s, 0.0),
-        ];
-        let mut motion = Self {
-            scene: Arc::new(scene.clone()),
-            blades: B::at_rest(scene, &machine),
-            law: contact::law(scene.solver.contact),
-            record: Record::of(machine.polygon.sides, drive.step),
-            machine,
-            drive,
-            casing,
-            n: 0,
-            u,
-            block: Block::default(),
-            skipped: 0,
-            held: None,
-            hold_tried: 0,
-            slide_tried: 0,
-            side_map: None,
-            sliding: None,
-            same_sides: 0,
-            near: 0,
-            rows: Vec::with_capacity(8),
-            repeated: Repeated::default(),
-            neighbours_matter: false,
-            look: 0.0,
-            watch: Watch::default(),
-            failure: None,
-        };
-        motion.neighbours_matter = motion.neighbours_matter();
-        motion
-    }
-
+impl<B: Disk> Explicit<B> {
     /// One step: predict, look, correct.
     fn take_step(&mut self) -> Result<(), FailureReason> {
-        let n = self.n;
-        let force = self.drive.force(n);
-        self.u = [self.casing.step(self.u[0], force), self.casing.step(self.u[1], 0.0)];
-        let change = self.blades.predict(self.drive.driven(n));
-        let mut unknown = self.watch.moved(change);
-        self.n = n + 1;
-        let distance2 = self.u[0].x * self.u[0].x + self.u[1].x * self.u[1].x;
+        if self.goes_beyond {
+            return self.take_step_beyond();
+        }
+        let mut unknown = self.predict(self.drive.force(self.n));
+        let distance2 = self.distance2();
         let clearance = self.machine.polygon.clearance;
         if distance2 < clearance * clearance {
             self.open_gap();
@@ -150,8 +131,70 @@ impl<B: BladeModel> Explicit<B> {
             let change = self.meet(distance2)?;
             unknown = self.watch.moved(change);
         }
+        self.look_at_blades(unknown)
+    }
+
+    /// A step without contact, which corrects it afterwards; whether to look at the blades.
+    fn predict(&mut self, force: f64) -> bool {
+        self.u = [self.casing.step(self.u[0], force), self.casing.step(self.u[1], 0.0)];
+        let change = self.blades.predict(self.drive.driven(self.n));
+        self.n += 1;
+        self.watch.moved(change)
+    }
+
+    /// `|u|^2` \[m^2\].
+    fn distance2(&self) -> f64 {
+        self.u[0].x * self.u[0].x + self.u[1].x * self.u[1].x
+    }
+
+    /// Keeps the largest blade angle, where it is unknown.
+    ///
+    /// # Errors
+    /// It is beyond what small angles allow.
+    fn look_at_blades(&mut self, unknown: bool) -> Result<(), FailureReason> {
         if unknown {
             self.watch.look(self.blades.look(self.watch.largest()))?;
+        }
+        Ok(())
+    }
+
+    /// The casing in the frame of the blades at the latest step, and the turn of that
+    /// frame.
+    fn in_blade_frame(&mut self) -> (Plane, Plane) {
+        let (c, s) = self.drive.turn(self.n);
+        let turn = Plane::new(c, s);
+        (Plane::new(self.u[0].x, self.u[1].x) * turn.conj(), turn)
+    }
+
+    /// Moves the casing by a shift in the frame of the blades.
+    fn shift_casing(&mut self, shift: Plane, turn: Plane) {
+        let moved = shift * turn;
+        for (coordinate, part) in self.u.iter_mut().zip([moved.re, moved.im]) {
+            coordinate.x += part;
+            coordinate.increment += part;
+        }
+    }
+
+    /// # Errors
+    /// The casing has left its own size behind.
+    fn stays_in_range(&self, distance2: f64) -> Result<(), FailureReason> {
+        let radius_m = self.scene.casing.radius_m;
+        if distance2.is_nan() || distance2 > radius_m * radius_m {
+            let distance_m = distance2.sqrt();
+            return Err(FailureReason::Displacement { distance_m, radius_m });
+        }
+        Ok(())
+    }
+
+    /// Keeps how deep a step predicted.
+    ///
+    /// # Errors
+    /// It went through more than the clearance.
+    fn is_shallow(&mut self, depth_m: f64) -> Result<(), FailureReason> {
+        self.record.deepest_predicted = self.record.deepest_predicted.max(depth_m);
+        let clearance_m = self.machine.polygon.clearance;
+        if depth_m > clearance_m {
+            return Err(FailureReason::Penetration { depth_m, clearance_m });
         }
         Ok(())
     }
@@ -166,6 +209,7 @@ impl<B: BladeModel> Explicit<B> {
     /// The contact is broken at step `n`.
     fn end_contact(&mut self, n: u64) {
         self.record.end_contact(n);
+        self.beyond.lasting.touch(self.time_of(n), 0, false);
         self.rows.clear();
     }
 

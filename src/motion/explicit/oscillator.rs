@@ -65,9 +65,9 @@ impl Oscillator {
         Self::new(machine.casing_mass, machine.casing_damping, machine.casing_stiffness, step)
     }
 
-    /// A start as `start` makes it with a force more than it knew.
+    /// A start as `start` makes it, with a force more than it knew.
     #[must_use]
-    pub fn start_with(&self, at: Coordinate, force: f64) -> Coordinate {
+    pub fn begin(&self, at: Coordinate, force: f64) -> Coordinate {
         let change = 0.5 * self.step * self.step * force / self.mass;
         Coordinate { increment: at.increment - change, ..at }
     }
@@ -98,6 +98,13 @@ impl Oscillator {
     pub fn twice_energy(&self, at: Coordinate) -> f64 {
         let rate = at.increment / self.step;
         self.mass * rate * rate + self.stiffness * at.x * (at.x - at.increment)
+    }
+
+    /// Energy lost in damping is this times the square of two increments
+    /// \[J/rad^2\] or \[J/m^2\].
+    #[must_use]
+    pub fn lost(&self) -> f64 {
+        self.loss / (4.0 * self.compliance)
     }
 
     /// Angle that a free coordinate turns through in a step, about \[rad\].

@@ -6,12 +6,14 @@
 
 use std::sync::Arc;
 
-use super::{BladeModel, Explicit, Oscillator};
+use super::disk::Disk;
+use super::rows::TipLaw;
+use super::{Explicit, Oscillator};
 use crate::contact;
 use crate::motion::Change;
 use crate::scene::CheckedScene;
 
-impl<B: BladeModel> Explicit<B> {
+impl<B: Disk> Explicit<B> {
     /// From the latest step on, moves with the parameters of a scene, if that is
     /// live. Time, coordinates, rates, rotor, the pulse under way and the record
     /// of contacts stay.
@@ -19,16 +21,39 @@ impl<B: BladeModel> Explicit<B> {
         if !Change::is_live(&self.scene, scene) {
             return;
         }
-        self.scene = Arc::new(scene.clone());
-        let machine = scene.machine();
         self.interrupt();
-        self.blades = self.blades.with_parameters(scene, &machine);
-        self.casing = Oscillator::of_casing(&machine, self.drive.step);
+        let before = self.stored_beyond();
+        self.scene = Arc::new(scene.clone());
+        self.machine = scene.machine();
+        self.blades = self.blades.with_parameters(scene, &self.machine);
+        self.casing = Oscillator::of_casing(&self.machine, self.drive.step);
         self.side_map = None;
-        self.machine = machine;
-        self.law = contact::law(scene.solver.contact);
+        (self.law, self.lining) = (contact::law(scene.solver.contact), scene.lining());
         self.drive.set_parameters(scene);
         self.neighbours_matter = self.neighbours_matter();
+        let speed = self.drive.speed(self.n);
+        self.tips = TipLaw::at(&self.machine, speed);
+        if self.goes_beyond {
+            self.beyond.set_parameters(scene, speed);
+            self.press_again();
+            self.beyond.account.start += self.stored() - before;
+        }
+    }
+
+    /// The pushes of the lining with other parameters, as if it had been another one for
+    /// the half step before, too.
+    fn press_again(&mut self) {
+        self.rows.clear();
+        if self.lining.is_none() {
+            return;
+        }
+        let held = self.beyond.account;
+        let (tips, bound) = (self.tips, self.blades.bound());
+        let (z, _) = self.in_blade_frame();
+        self.find_pressed(z, &tips, bound);
+        let part = if held.lining > 0.0 { held.lining_before / held.lining } else { 1.0 };
+        let account = &mut self.beyond.account;
+        account.lining_before = part * account.lining;
     }
 }
 

@@ -7,7 +7,7 @@
 //! one `across` it swings freely. In the frame of the blades at rest, with
 //! `zeta = z conj(normal) = -g0 + X + i Y`, all numbers of a step are small parts.
 
-use super::blades::ModalBlades;
+use super::disk::ModalBlades;
 use super::side_map::SideStep;
 use super::watch::Watch;
 use super::{Coordinate, Oscillator};

@@ -1,16 +1,21 @@
 //! The explicit solver as every solver is seen: advanced, looked at, and changed on
 //! the way.
 
+use super::disk::Disk;
+use super::energy::EnergyLedger;
 use super::held::Held;
-use super::{BladeModel, Coordinate, Explicit};
+use super::pushes::push;
+use super::rows::TipLaw;
+use super::{Coordinate, Explicit};
 use crate::model::Machine;
+use crate::motion::verdict::judge;
 use crate::motion::{
-    ActiveSet, Checks, ContactLog, Failure, GoOn, Pulse, Rotor, Solver, State, Verdict,
+    ActiveSet, Checks, ContactLog, Failure, GoOn, Plane, Pulse, Rotor, Solver, State, Verdict,
 };
 use crate::scene::CheckedScene;
 use crate::tolerances::UPDATES_UNASKED;
 
-impl<B: BladeModel> Solver for Explicit<B> {
+impl<B: Disk> Solver for Explicit<B> {
     fn advance_while(&mut self, until: f64, go_on: GoOn<'_>) -> Result<bool, Failure> {
         if let Some(failure) = &self.failure {
             return Err(failure.clone());
@@ -27,7 +32,9 @@ impl<B: BladeModel> Solver for Explicit<B> {
                     return Ok(false);
                 }
             }
-            let moved = if self.is_sliding() {
+            let moved = if self.goes_beyond {
+                self.take_step_beyond()
+            } else if self.is_sliding() {
                 self.slide((target - self.n).min(steps_unasked as u64));
                 unasked = steps_unasked;
                 Ok(())
@@ -53,27 +60,25 @@ impl<B: BladeModel> Solver for Explicit<B> {
 
     fn state(&self) -> State {
         let (u, blades) = self.materialized();
-        let n = self.latest_step();
-        let in_contact = self.record.log.active_set != ActiveSet::Nothing;
-        let rate = |coordinate: Coordinate, force: f64| {
-            if in_contact {
-                coordinate.increment / self.drive.step
-            } else {
-                self.casing.rate(coordinate, force)
-            }
+        let (n, step) = (self.latest_step(), self.drive.step);
+        // The mean rate of the steps before and after.
+        let (ahead, blades_ahead) = self.ahead(u, &blades);
+        let held = self.lining.is_none() && self.record.log.active_set != ActiveSet::Nothing;
+        let rate = |k: usize| {
+            let last = u[k].increment;
+            if held { last / step } else { (last + ahead[k].increment) / (2.0 * step) }
         };
-        let (alpha, alpha_rate) = blades.modal();
         State {
             t_s: self.time_of(n),
             u: u.map(|coordinate| coordinate.x),
-            v: [rate(u[0], self.drive.force(n)), rate(u[1], 0.0)],
-            alpha,
-            alpha_rate,
+            v: [rate(0), rate(1)],
+            alpha: blades.modal(),
+            alpha_rate: blades.modal_rates(&blades_ahead, step),
         }
     }
 
     fn blade_angles(&self) -> Vec<f64> {
-        self.materialized().1.every_angle(&self.machine)
+        self.materialized().1.every_angle()
     }
 
     fn multipliers(&self) -> Vec<(u32, f64)> {
@@ -105,6 +110,19 @@ impl<B: BladeModel> Solver for Explicit<B> {
         self.decided()
     }
 
+    fn lasting(&self, window: f64) -> Verdict {
+        let (log, now) = (&self.record.log, self.t_s());
+        if !self.goes_beyond {
+            return judge(log, now, window);
+        }
+        let clearance = self.machine.clearance();
+        self.beyond.lasting.verdict(log, now, window, clearance, self.lining.is_some())
+    }
+
+    fn swing(&self) -> f64 {
+        self.beyond.lasting.swing()
+    }
+
     fn pulse(&self) -> &Pulse {
         &self.drive.pulse
     }
@@ -134,23 +152,38 @@ impl<B: BladeModel> Solver for Explicit<B> {
     }
 
     fn checks(&self) -> Checks {
+        let record = &self.record;
         Checks {
-            max_penetration_m: self.record.deepest,
-            max_predicted_penetration_m: Some(self.record.deepest_predicted),
-            tensile_steps: self.record.log.tensile_steps,
+            max_penetration_m: record.deepest,
+            max_predicted_penetration_m: self.lining.is_none().then_some(record.deepest_predicted),
+            tensile_steps: record.log.tensile_steps,
             max_blade_angle_rad: self.largest_angle(),
-            energy_residual_j: None,
+            energy_residual_j: self.energy_ledger().map(|ledger| ledger.residual()),
         }
+    }
+
+    fn energy_ledger(&self) -> Option<EnergyLedger> {
+        let account = &self.beyond.account;
+        let kept = self.goes_beyond && !account.forgone;
+        kept.then(|| EnergyLedger { stored_j: self.stored() - account.start, ..account.sums })
+    }
+
+    fn forgo_checks(&mut self) {
+        self.beyond.account.forgone = true;
     }
 
     fn fire(&mut self) {
         self.interrupt();
+        self.beyond.lasting.forget();
+        let before = self.stored_beyond();
         let unknown = self.drive.fire(self.n);
-        self.u[0] = self.casing.start_with(self.u[0], unknown);
+        self.u[0] = self.casing.begin(self.u[0], unknown);
+        self.beyond.account.start += self.stored_beyond() - before;
     }
 
     fn set_speed(&mut self, speed: f64, ramp: f64) {
         self.interrupt();
+        self.beyond.lasting.forget();
         self.drive.set_speed(self.n, speed, ramp);
         self.side_map = None;
     }
@@ -162,16 +195,38 @@ impl<B: BladeModel> Solver for Explicit<B> {
         }
         self.close_block();
         self.same_sides = 0;
+        let before = self.stored_beyond();
         for coordinate in &mut self.u {
             coordinate.increment *= factor;
         }
+        self.beyond.account.start += self.stored_beyond() - before;
     }
 
     fn set_parameters(&mut self, scene: &CheckedScene) {
+        self.beyond.lasting.forget();
         self.take_parameters(scene);
     }
 
     fn fork(&self) -> Box<dyn Solver> {
         Box::new(self.clone())
+    }
+}
+
+impl<B: Disk> Explicit<B> {
+    /// Casing and blades one step on from the latest, before what contact does to it.
+    fn ahead(&self, u: [Coordinate; 2], blades: &B) -> ([Coordinate; 2], B) {
+        let n = self.latest_step();
+        let (force, mut blades) = (self.drive.force(n), blades.clone());
+        let mut ahead = [self.casing.step(u[0], force), self.casing.step(u[1], 0.0)];
+        blades.predict(self.drive.driven(n));
+        if self.lining.is_some() {
+            let tips = TipLaw::at(&self.machine, self.drive.speed(n));
+            let (shift, _) = push(&self.rows, &tips, self.casing.compliance, &mut blades);
+            let (c, s) = self.drive.look_at_turn(n);
+            let moved = shift * Plane::new(c, s);
+            ahead[0].increment += moved.re;
+            ahead[1].increment += moved.im;
+        }
+        (ahead, blades)
     }
 }

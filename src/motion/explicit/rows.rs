@@ -1,51 +1,20 @@
-//! Constraint rows of blade tips beyond the paper (docs/theory.md, section 10): which
+//! Constraint rows of blade tips, Eqs. (9)-(10) and section 10 of docs/theory.md: which
 //! blades are one row, and the gap, constraint and force direction of a row.
 //!
-//! All of it is in the frame of the blades, at `z = u exp(-i n_d theta)`. With
-//! `n = exp(i (psi + n_d alpha))` the gap is `g0 + Re[z conj(n)] - kappa l_b alpha`. Its
-//! derivatives, the constraint row, are `n` and the lever `A - kappa l_b`; friction
-//! turns the force column to `(1 + i mu_c) n` and `A - (kappa + mu) l_b`.
+//! All of it is in the frame of the blades, at `z = u exp(-i n_d theta)`, where the sides
+//! stand still and only small blade angles turn them. With `n = exp(i (psi + n_d alpha))`
+//! the gap is `g0 + Re[z conj(n)] - kappa l_b alpha`. Its derivatives, the constraint row,
+//! are `n` and the lever `A - kappa l_b`; friction turns the force column to
+//! `(1 + i mu_c) n` and `A - (kappa + mu) l_b`. The paper's tips have no slope `kappa` and
+//! no friction.
 
 use crate::model::Machine;
 use crate::motion::Plane;
-
-/// Which blades make one row: those that nothing tells apart.
-#[derive(Clone, Debug)]
-pub(in crate::motion) struct RowTable {
-    /// Side of the polygon of each row.
-    pub side: Vec<u32>,
-    /// Row of each side, where a side has one row.
-    pub row_of_side: Vec<u32>,
-    /// Blades of each row: `row`, `row + rows`, `row + 2 rows` and so on, from 0.
-    pub blades_per_row: u32,
-}
-
-impl RowTable {
-    /// Rows of `blades_per_row` blades, which divides the blades of a side.
-    pub fn new(machine: &Machine, blades_per_row: u32) -> Self {
-        let polygon = &machine.polygon;
-        let count = polygon.blades / blades_per_row.max(1);
-        let side: Vec<u32> = (0..count).map(|row| polygon.side_of_blade(row + 1)).collect();
-        let mut row_of_side = vec![0; polygon.sides as usize];
-        for (row, &side) in side.iter().enumerate() {
-            row_of_side[side as usize] = row as u32;
-        }
-        Self { side, row_of_side, blades_per_row }
-    }
-
-    pub fn count(&self) -> usize {
-        self.side.len()
-    }
-
-    /// Whether a side is one row.
-    pub fn is_by_side(&self) -> bool {
-        self.side.len() == self.row_of_side.len()
-    }
-}
+use crate::tolerances::{SERIES_PHASE, SMALL_PHASE};
 
 /// What the tips do at the rotor speed of now.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct TipLaw {
+pub(in crate::motion) struct TipLaw {
     pub clearance: f64,
     pub diameters: f64,
     /// `kappa l_b` \[m\].
@@ -79,6 +48,11 @@ impl TipLaw {
         Place { gap, normal, moment_arm }
     }
 
+    /// Torque of the multiplier of a row on its blades, with its friction \[N m\].
+    pub fn torque(&self, row: &Row) -> f64 {
+        -row.lambda * (row.place.moment_arm - self.pushed)
+    }
+
     /// The direction of a push on the casing, with its friction.
     pub fn push_on_casing(&self, normal: Plane) -> Plane {
         Plane::new(
@@ -90,7 +64,7 @@ impl TipLaw {
 
 /// Where a blade tip is.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Place {
+pub(in crate::motion) struct Place {
     /// \[m\]
     pub gap: f64,
     /// `n` above.
@@ -101,18 +75,22 @@ pub(super) struct Place {
 
 /// One row of a step.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Row {
+pub(in crate::motion) struct Row {
     pub index: u32,
     pub side: u32,
+    /// Angle of its blades \[rad\].
+    pub angle: f64,
     pub place: Place,
     /// Multiplier; negative is a push \[N\].
     pub lambda: f64,
 }
 
 /// A direction turned by a small blade phase, to round-off.
-fn turned((c, s): (f64, f64), phase: f64) -> Plane {
-    let (sin, cos) = if phase.abs() < SERIES_PHASE {
-        let q = phase * phase;
+pub(super) fn turned((c, s): (f64, f64), phase: f64) -> Plane {
+    let q = phase * phase;
+    let (sin, cos) = if phase.abs() < SMALL_PHASE {
+        (phase * (1.0 - q * (1.0 / 6.0)), 1.0 - 0.5 * q)
+    } else if phase.abs() < SERIES_PHASE {
         (
             phase * (1.0 - q * (1.0 / 6.0) * (1.0 - q * (1.0 / 20.0) * (1.0 - q * (1.0 / 42.0)))),
             1.0 - q
@@ -124,9 +102,6 @@ fn turned((c, s): (f64, f64), phase: f64) -> Plane {
     };
     Plane::new(c * cos - s * sin, s * cos + c * sin)
 }
-
-/// Phase up to which the series above is exact to round-off \[rad\].
-const SERIES_PHASE: f64 = 0.03;
 
 #[cfg(test)]
 mod tests {
@@ -150,23 +125,6 @@ mod tests {
             let by_x = (gap(z + length, angle) - gap(z - length, angle)) / (2.0 * length);
             assert!((by_x - place.normal.re).abs() < 1e-9, "{angle}");
             assert!((place.normal.norm() - 1.0).abs() < 1e-15, "{angle}");
-        }
-    }
-
-    #[test]
-    fn blades_that_nothing_tells_apart_share_their_side() {
-        for (diameters, per_row) in [(3, 1), (4, 2), (4, 1), (0, 22), (11, 11)] {
-            let mut scene = Scene::base();
-            scene.operation.nodal_diameters = diameters;
-            let machine = scene.machine();
-            let table = RowTable::new(&machine, per_row);
-            assert_eq!(table.count() as u32 * per_row, 22);
-            for row in 0..table.count() {
-                for member in 0..per_row {
-                    let blade = row as u32 + member * table.count() as u32 + 1;
-                    assert_eq!(machine.polygon.side_of_blade(blade), table.side[row]);
-                }
-            }
         }
     }
 }

@@ -18,7 +18,7 @@ pub(super) const LANES: usize = 4;
 /// the cosine modes of `0 ..= N/2` diameters, then the sine modes, each filled
 /// up with zeros to a multiple of `LANES`.
 #[derive(Debug)]
-pub(in crate::motion) struct Shapes {
+pub(super) struct Shapes {
     /// `(cos, sin)` of `2 pi i/N`.
     turn: Vec<(f64, f64)>,
     /// Length of one half of a list of coordinates.
@@ -203,7 +203,7 @@ impl Shapes {
 }
 
 /// The value of what has these coordinates where the shapes are those of `row`.
-pub(in crate::motion) fn product(row: &[f64], coordinates: &[f64]) -> f64 {
+pub(super) fn product(row: &[f64], coordinates: &[f64]) -> f64 {
     let mut sums = [0.0; LANES];
     let (shapes, values) = (row.as_chunks::<LANES>().0, coordinates.as_chunks::<LANES>().0);
     for (shape, value) in shapes.iter().zip(values) {

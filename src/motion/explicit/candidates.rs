@@ -1,18 +1,18 @@
 //! Which rows may touch now: by the polygon where the blades move as the casing wave
 //! does, otherwise one by one.
 
-use super::Coupled;
-use super::blades::TipModel;
+use super::Explicit;
+use super::disk::Disk;
 use super::rows::{Row, TipLaw};
 use crate::model::ContactPolygon;
 use crate::motion::Plane;
 
-impl<B: TipModel> Coupled<B> {
+impl<B: Disk> Explicit<B> {
     /// The rows whose gaps may be below `reach` now, for blades within `bound`.
     pub(super) fn find_candidates(&mut self, z: Plane, tips: &TipLaw, bound: f64, reach: f64) {
         // A blade angle moves a gap by at most |z| n_d alpha beside its slope.
         let look = reach + tips.diameters * bound * (z.re.abs() + z.im.abs());
-        self.candidates.clear();
+        self.beyond.candidates.clear();
         let wave = if tips.rise == 0.0 { Some(Plane::default()) } else { self.blades.wave() };
         match wave.filter(|_| self.blades.table().is_by_side()) {
             Some(wave) => self.walk(z - wave * tips.rise, look),
@@ -22,7 +22,7 @@ impl<B: TipModel> Coupled<B> {
                 let look = look + tips.rise.abs() * slack;
                 for (row, (angle, &side)) in angles.iter().zip(&table.side).enumerate() {
                     if polygon.gap(side, z.re, z.im) - tips.rise * angle < look {
-                        self.candidates.push(row as u32);
+                        self.beyond.candidates.push(row as u32);
                     }
                 }
             }
@@ -31,28 +31,21 @@ impl<B: TipModel> Coupled<B> {
 
     /// The sides of the polygon whose gap at `w` is below `look`.
     fn walk(&mut self, w: Plane, look: f64) {
+        self.near = self.follow(w);
         let polygon = &self.machine.polygon;
         let gap = |side| polygon.gap(side, w.re, w.im);
-        // Around the polygon the gap has one minimum, and opposite a maximum.
-        let here = gap(self.near);
-        let nearest = here < polygon.clearance
-            && here <= gap(polygon.previous(self.near))
-            && here <= gap(polygon.next(self.near));
-        if !nearest {
-            self.near = polygon.nearest_side(w.re, w.im);
-        }
-        let row = |side: u32| self.blades.table().row_of_side[side as usize];
+        let row = |side: u32| self.blades.table().of_side(side)[0];
         if gap(self.near) >= look {
             return;
         }
-        self.candidates.push(row(self.near));
+        self.beyond.candidates.push(row(self.near));
         let mut left = polygon.sides - 1;
         let ways: [fn(&ContactPolygon, u32) -> u32; 2] =
             [ContactPolygon::next, ContactPolygon::previous];
         for way in ways {
             let mut side = way(polygon, self.near);
             while left > 0 && gap(side) < look {
-                self.candidates.push(row(side));
+                self.beyond.candidates.push(row(side));
                 side = way(polygon, side);
                 left -= 1;
             }
@@ -64,14 +57,6 @@ impl<B: TipModel> Coupled<B> {
         let side = self.blades.table().side[index as usize];
         let angle = self.blades.angle(index);
         let place = tips.place(self.machine.polygon.direction(side), z, angle);
-        Row { index, side, place, lambda: 0.0 }
-    }
-
-    /// The casing in the frame of the blades at the latest step, and the turn of that
-    /// frame.
-    pub(super) fn in_blade_frame(&mut self) -> (Plane, Plane) {
-        let (c, s) = self.drive.turn(self.n);
-        let turn = Plane::new(c, s);
-        (Plane::new(self.u[0].x, self.u[1].x) * turn.conj(), turn)
+        Row { index, side, angle, place, lambda: 0.0 }
     }
 }

@@ -1,33 +1,45 @@
-//! The pushes of one step: `g = g* - W lambda` with a contact matrix that friction and
-//! the slope of the tips make unsymmetric, `W = C A^-1 G^T` (docs/theory.md, section 10).
+//! The pushes of one step: `g = g* - W lambda` with the contact matrix `W = C A^-1 G^T`,
+//! which friction and the slope of the tips make unsymmetric (docs/theory.md, sections 6
+//! and 10).
 
 use nalgebra::DMatrix;
 
-use super::blades::TipModel;
+use super::disk::Disk;
 use super::rows::{Row, TipLaw};
 use crate::contact::{StepLaw, single};
-use crate::motion::FailureReason;
-use crate::tolerances::MOST_ROWS;
+use crate::motion::{FailureReason, Plane};
 
 /// Entry of `W`: how far a unit multiplier of `b` closes the gap of `a` \[m/N\].
-pub(super) fn influence<B: TipModel>(
-    tips: &TipLaw,
-    casing_compliance: f64,
-    blades: &B,
-    a: &Row,
-    b: &Row,
-) -> f64 {
+fn influence<B: Disk>(tips: &TipLaw, casing_compliance: f64, blades: &B, a: &Row, b: &Row) -> f64 {
     let push = tips.push_on_casing(b.place.normal);
     let casing = a.place.normal.re * push.re + a.place.normal.im * push.im;
     let levers = (a.place.moment_arm - tips.rise) * (b.place.moment_arm - tips.pushed);
     casing_compliance * casing + levers * blades.compliance(a.index, b.index)
 }
 
+/// Corrects the blades of a step by the multipliers of its rows, Eq. (13b); the shift of
+/// the casing in their frame \[m\], and a bound on the change of any blade angle \[rad\].
+pub(super) fn push<B: Disk>(
+    rows: &[Row],
+    tips: &TipLaw,
+    casing_compliance: f64,
+    blades: &mut B,
+) -> (Plane, f64) {
+    let (mut shift, mut change) = (Plane::default(), 0.0);
+    for row in rows.iter().filter(|row| row.lambda != 0.0) {
+        shift -= tips.push_on_casing(row.place.normal) * (casing_compliance * row.lambda);
+        let torque = tips.torque(row);
+        blades.correct(row.index, torque);
+        change += blades.compliance(row.index, row.index) * torque.abs();
+    }
+    (shift, change)
+}
+
 /// Solves the rows for their multipliers; `gaps` are their distances to the target.
 ///
 /// # Errors
-/// Too many rows, or rows without a unique answer.
-pub(super) fn solve<B: TipModel>(
+/// Rows without a unique answer.
+pub(super) fn solve<B: Disk>(
     tips: &TipLaw,
     law: &dyn StepLaw,
     casing_compliance: f64,
@@ -36,9 +48,6 @@ pub(super) fn solve<B: TipModel>(
     gaps: &[f64],
 ) -> Result<(), FailureReason> {
     let count = rows.len();
-    if count > MOST_ROWS {
-        return Err(FailureReason::Rows { rows: count });
-    }
     let entry = |a: &Row, b: &Row| influence(tips, casing_compliance, blades, a, b);
     match rows {
         [row] => row.lambda = single(entry(row, row), gaps[0]),
@@ -64,15 +73,13 @@ pub(super) fn solve<B: TipModel>(
 mod tests {
     use super::*;
     use crate::contact;
-    use crate::motion::Plane;
-    use crate::motion::coupled::blades::{FullTips, ModalTips, RigidTips};
-    use crate::motion::coupled::lining_step::push;
-    use crate::motion::explicit::{Coordinate, Oscillator};
+    use crate::motion::explicit::Oscillator;
+    use crate::motion::explicit::disk::{FullBlades, ModalBlades, RigidBlades};
     use crate::scene::{ContactLaw, Scene};
 
     /// Rows beside the wave at some place, and the change of each gap by a unit
     /// multiplier of another: as it is moved, and as `W` says.
-    fn compare<B: TipModel>(scene: &Scene) {
+    fn compare<B: Disk>(scene: &Scene) {
         let machine = scene.machine();
         let tips = TipLaw::at(&machine, 450.0);
         let mut blades = B::at_rest(scene, &machine, None);
@@ -85,19 +92,18 @@ mod tests {
                 let side = blades.table().side[index as usize];
                 let angle = 1e-3 * f64::from(index);
                 let place = tips.place(machine.polygon.direction(side), z, angle);
-                Row { index, side, place, lambda: 0.0 }
+                Row { index, side, angle, place, lambda: 0.0 }
             })
             .collect();
         for b in &rows {
-            let mut u = [Coordinate::default(); 2];
             let mut pushed = blades.clone();
             let unit = Row { lambda: 1.0, ..*b };
-            push(&[unit], &tips, Plane::new(1.0, 0.0), &casing, &mut u, &mut pushed);
+            let (shift, _) = push(&[unit], &tips, casing.compliance, &mut pushed);
             for a in &rows {
                 let turned = pushed.angle(a.index) - blades.angle(a.index);
                 let normal = a.place.normal;
-                let opened = u[0].x * normal.re
-                    + u[1].x * normal.im
+                let opened = shift.re * normal.re
+                    + shift.im * normal.im
                     + (a.place.moment_arm - tips.rise) * turned;
                 let entry = influence(&tips, casing.compliance, &blades, a, b);
                 let size = casing.compliance;
@@ -119,9 +125,9 @@ mod tests {
             scene.contact.friction = 0.15;
             scene.casing.tangential_ratio = 0.3;
             scene.solver.step_s = 1e-6;
-            compare::<RigidTips>(&scene);
-            compare::<ModalTips>(&scene);
-            compare::<FullTips>(&scene);
+            compare::<RigidBlades>(&scene);
+            compare::<ModalBlades>(&scene);
+            compare::<FullBlades>(&scene);
         }
     }
 
@@ -133,7 +139,7 @@ mod tests {
         scene.bladed_disk.inertia_kg_m2 *= 0.5;
         let machine = scene.machine();
         let tips = TipLaw::at(&machine, 450.0);
-        let blades = ModalTips::at_rest(&scene, &machine, None);
+        let blades = ModalBlades::at_rest(&scene, &machine, None);
         let mut row =
             Row { place: tips.place((1.0, 0.0), Plane::default(), 0.0), ..Row::default() };
         row.place.moment_arm = 0.0;

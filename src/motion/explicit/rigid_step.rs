@@ -4,57 +4,56 @@
 //! The target is `g[n+1] >= -e g[n-1]`, which gives back the part `e` of the closing
 //! speed (Paoli and Schatzman); for `e = 0` it is the paper's.
 
-use super::Coupled;
-use super::blades::TipModel;
-use super::lining_step::push;
-use super::pushes;
+use super::Explicit;
+use super::disk::Disk;
+use super::pushes::{push, solve};
 use super::rows::{Row, TipLaw};
 use crate::motion::{FailureReason, Plane};
-use crate::tolerances::{LONG_STEP, MOST_LONG_STEPS, NEIGHBOUR_DEPTHS};
+use crate::tolerances::{LONG_STEP, MOST_LONG_STEPS, MOST_ROWS, NEIGHBOUR_DEPTHS};
 
-impl<B: TipModel> Coupled<B> {
-    /// Corrects a predicted step that may touch.
+impl<B: Disk> Explicit<B> {
+    /// Corrects a predicted step that may touch; whether to look at the blades.
     ///
     /// # Errors
     /// It went through more than the clearance, or its rows have no answer.
-    pub(super) fn meet(&mut self, tips: &TipLaw, bound: f64) -> Result<(), FailureReason> {
+    pub(super) fn meet_target(&mut self, tips: &TipLaw, bound: f64) -> Result<bool, FailureReason> {
         let (z, turn) = self.in_blade_frame();
         let restitution = self.scene.contact.restitution;
         let highest = self.highest_target();
         self.find_candidates(z, tips, bound, highest);
-        let deepest = self.gather(z, tips, restitution);
+        let deepest = self.gather_targets(z, tips, restitution);
         if deepest <= 0.0 {
             let dip = self.rows.iter().fold(0.0, |dip: f64, row| dip.max(-row.place.gap));
             self.rows.clear();
             self.part();
-            (self.dips[0], self.record.deepest) = (dip, self.record.deepest.max(dip));
-            return Ok(());
+            self.beyond.dips[0] = dip;
+            self.record.deepest = self.record.deepest.max(dip);
+            return Ok(false);
         }
-        self.record.deepest_predicted = self.record.deepest_predicted.max(deepest);
-        if deepest > tips.clearance {
-            let (depth_m, clearance_m) = (deepest, tips.clearance);
-            return Err(FailureReason::Penetration { depth_m, clearance_m });
-        }
+        self.is_shallow(deepest)?;
         // A push may close the gap beside it, by as much as is asked of it.
         let reach = NEIGHBOUR_DEPTHS * deepest;
         if !self.law.pulls() {
-            let found = self.candidates.len();
+            let found = self.beyond.candidates.len();
             self.find_candidates(z, tips, bound, reach + highest);
-            if self.candidates.len() > found {
-                self.gather(z, tips, restitution);
+            if self.beyond.candidates.len() > found {
+                self.gather_targets(z, tips, restitution);
             }
         }
         let limit = if self.law.pulls() { 0.0 } else { reach };
         let kept = self.below_first(limit);
+        if kept > MOST_ROWS {
+            return Err(FailureReason::Rows { rows: kept });
+        }
         let Self { blades, rows, gaps, casing, law, .. } = self;
-        let (rows, gaps) = (&mut rows[..kept], &gaps[..kept]);
-        pushes::solve(tips, *law, casing.compliance, blades, rows, gaps)?;
-        let Self { rows, casing, u, blades, .. } = self;
-        let z = z + push(rows, tips, turn, casing, u, blades);
-        self.settle(z, turn, tips);
-        self.keep();
+        solve(tips, *law, casing.compliance, blades, &mut rows[..kept], &gaps[..kept])?;
+        let (shift, change) = push(rows, tips, casing.compliance, blades);
+        self.shift_casing(shift, turn);
+        self.settle(z + shift, turn, tips);
+        self.keep_rows();
         self.look_at_swing();
-        self.look_at_speed(tips)
+        self.look_at_speed(tips)?;
+        Ok(self.watch.moved(change))
     }
 
     /// # Errors
@@ -63,8 +62,9 @@ impl<B: TipModel> Coupled<B> {
         let moved_m = self.u[0].increment.hypot(self.u[1].increment);
         let side_m = 2.0 * tips.clearance * self.machine.polygon.delta.tan();
         let long = self.machine.polygon.has_corners() && moved_m > LONG_STEP * side_m;
-        self.long_steps = if long { self.long_steps + 1 } else { 0 };
-        if self.long_steps > MOST_LONG_STEPS {
+        let steps = &mut self.beyond.long_steps;
+        *steps = if long { *steps + 1 } else { 0 };
+        if *steps > MOST_LONG_STEPS {
             return Err(FailureReason::LongStep { moved_m, side_m });
         }
         Ok(())
@@ -72,12 +72,12 @@ impl<B: TipModel> Coupled<B> {
 
     /// Makes rows of the candidates, with their distances to the target; how far the
     /// deepest is beyond its own.
-    fn gather(&mut self, z: Plane, tips: &TipLaw, restitution: f64) -> f64 {
+    fn gather_targets(&mut self, z: Plane, tips: &TipLaw, restitution: f64) -> f64 {
         self.rows.clear();
         self.gaps.clear();
         let mut deepest = 0.0_f64;
-        for place in 0..self.candidates.len() {
-            let row = self.row_at(self.candidates[place], z, tips);
+        for place in 0..self.beyond.candidates.len() {
+            let row = self.row_at(self.beyond.candidates[place], z, tips);
             let mut gap = row.place.gap;
             if restitution != 0.0 {
                 gap += restitution * self.gap_before(&row, tips);
@@ -91,7 +91,7 @@ impl<B: TipModel> Coupled<B> {
 
     /// The highest target of a step, `-e g[n-1]` of the deepest row \[m\].
     pub(super) fn highest_target(&self) -> f64 {
-        self.scene.contact.restitution * self.dips[0].max(self.dips[1])
+        self.scene.contact.restitution * self.beyond.dips[0].max(self.beyond.dips[1])
     }
 
     /// Puts the rows whose distance to the target is below a limit before the others,
@@ -139,14 +139,14 @@ impl<B: TipModel> Coupled<B> {
             let angle = self.blades.angle(row.index);
             let gap = tips.place(direction, z, angle).gap;
             dip = dip.max(-gap);
-            if row.lambda != 0.0 && !self.account.forgone {
+            if row.lambda != 0.0 && !self.beyond.account.forgone {
                 let closed = 0.5 * (gap - self.gap_before(&row, tips));
-                self.account.sums.impact_loss_j += row.lambda * closed;
+                self.beyond.account.sums.impact_loss_j += row.lambda * closed;
                 self.count_push(&row, turn, tips);
             }
         }
         self.record.deepest = self.record.deepest.max(dip);
-        self.dips = [dip, self.dips[0]];
+        self.beyond.dips = [dip, self.beyond.dips[0]];
     }
 
     /// Work of the rotor and heat of one push over the last two half steps.
@@ -154,7 +154,7 @@ impl<B: TipModel> Coupled<B> {
         let (push, normal) = (-row.lambda, row.place.normal);
         let rotor =
             self.drive.rotor.speed(self.time_of(self.n) - self.drive.step) * self.drive.step;
-        self.account.sums.rotor_work_j -= push * row.place.moment_arm * rotor;
+        self.beyond.account.sums.rotor_work_j -= push * row.place.moment_arm * rotor;
         if tips.friction == 0.0 {
             return;
         }
@@ -164,9 +164,41 @@ impl<B: TipModel> Coupled<B> {
         let turned = 0.5 * (self.blades.angle(row.index) - self.blades.angle_before(row.index));
         let radius = self.scene.casing.radius_m;
         let bent = self.machine.blade_length * turned;
-        let sums = &mut self.account.sums;
+        let sums = &mut self.beyond.account.sums;
         sums.rotor_work_j += push * tips.friction * radius * rotor;
         sums.friction_heat_j +=
             push * (tips.friction * (radius * rotor + bent) - tips.casing_friction * along);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::motion::Solver;
+    use crate::motion::explicit::{Explicit, RigidBlades};
+    use crate::scene::{ModelSize, Scene};
+
+    /// Rigid tips and a frictionless casing: pushes move gaps in proportion.
+    #[test]
+    fn no_blade_is_beyond_its_target_after_a_step() {
+        let mut scene = Scene::base();
+        scene.solver.model = ModelSize::Rigid;
+        (scene.contact.restitution, scene.solver.step_s) = (0.9, 4e-6);
+        (scene.bladed_disk.blades, scene.operation.speed_rad_s) = (40, 60.0);
+        let mut motion = Explicit::<RigidBlades>::new(&scene.checked().unwrap());
+        let (mut dips, mut both) = (0, 0);
+        let mut last = [motion.blade_gaps(), motion.blade_gaps()];
+        for step in 1..5000_u32 {
+            motion.advance(f64::from(step) * 4e-6 + 1e-9).unwrap();
+            let gaps = motion.blade_gaps();
+            for (now, before) in gaps.iter().zip(&last[0]) {
+                assert!(now + 0.9 * before > -1e-15, "{step}: {now:e} {before:e}");
+            }
+            let deep = gaps.iter().filter(|gap| **gap < -1e-15).count();
+            (dips, both) = (dips + deep.min(1), both + usize::from(deep > 1));
+            let deepest = gaps.iter().fold(0.0_f64, |most, gap| most.max(-gap));
+            assert!(motion.checks().max_penetration_m >= deepest - 1e-18, "{step}: {deepest:e}");
+            last = [last[1].clone(), gaps];
+        }
+        assert!(dips > 20 && both > 0, "{dips} {both}");
     }
 }

@@ -90,3 +90,71 @@ impl FullBlades {
 fn largest(members: &[Coordinate]) -> f64 {
     members.iter().fold(0.0, |most, at| f64::max(most, at.x.abs()))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::full::tests::{angles, at_rest, scene, widest};
+    use crate::motion::explicit::EngineOrderTorque;
+    use crate::motion::explicit::disk::Disk;
+    use crate::motion::explicit::watch::Watch;
+
+    #[test]
+    fn the_largest_angle_of_all_steps_is_found_by_looks_and_flights() {
+        for (count, order) in
+            [(5, None), (22, None), (22, Some(5)), (131, None), (140, None), (140, Some(7))]
+        {
+            let scene = scene(count, order);
+            let torque = EngineOrderTorque::of(&scene);
+            let (mut blades, mut watch, mut most) = (at_rest(&scene), Watch::default(), 0.0_f64);
+            let mut looks = 0;
+            for step in 0..600_u32 {
+                let phase = 0.05 * f64::from(step);
+                let mut unknown =
+                    watch.moved(blades.predict(torque.as_ref().map(|torque| (torque, phase))));
+                // Pushes of one blade, of its neighbour, and one from far away.
+                if step % 97 < 20 {
+                    let (blade, push) = ((step / 97 * 7) % count, 1.0 + (0.1 * phase).sin());
+                    blades.correct(blade, push);
+                    unknown = watch.moved(blades.compliance(blade, blade) * push);
+                }
+                if unknown {
+                    looks += 1;
+                    watch.look(blades.look(watch.largest())).unwrap();
+                }
+                most = most.max(widest(&blades));
+                // Round-off of the transform, and of the sum of the bounds.
+                let error = (watch.largest() - most).abs();
+                assert!(error < 1e-13 * most, "{count} {order:?} {step}: {error:e} of {most:e}");
+                assert!(watch.bound() >= widest(&blades) * (1.0 - 1e-12), "{count} {step}");
+                if order.is_none() && step % 97 == 60 {
+                    let steps = u64::from(step % 30) + 1;
+                    let mut stepped = blades.clone();
+                    for _ in 0..steps {
+                        stepped.predict(None);
+                        most = most.max(widest(&stepped));
+                    }
+                    let (found, bound) = blades.fly(steps, watch.largest());
+                    watch.skipped(found, bound);
+                    assert!((found / most - 1.0).abs() < 1e-12, "{count} {step}: {found} {most}");
+                    for (a, b) in angles(&blades).iter().zip(angles(&stepped)) {
+                        assert!((a - b).abs() < 1e-13 * most, "{count} {step}: {a} {b}");
+                    }
+                }
+            }
+            assert!((10..550).contains(&looks), "{count} {order:?}: {looks} looks");
+        }
+    }
+
+    #[test]
+    fn no_number_is_beyond_every_bound() {
+        for order in [None, Some(3)] {
+            let scene = scene(22, order);
+            let torque = EngineOrderTorque::of(&scene);
+            let mut blades = at_rest(&scene);
+            let mut watch = Watch::default();
+            blades.correct(3, f64::NAN);
+            assert!(watch.moved(blades.predict(torque.as_ref().map(|torque| (torque, 0.0)))));
+            assert!(watch.look(blades.look(watch.largest())).is_err());
+        }
+    }
+}

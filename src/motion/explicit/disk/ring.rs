@@ -14,7 +14,7 @@ use crate::scene::Scene;
 /// Members, modes and rows of a ring. A list of coefficients is laid out as the
 /// coordinates are; see `Shapes`.
 #[derive(Debug)]
-pub(in crate::motion) struct Ring {
+pub(super) struct Ring {
     /// Blades that are one member.
     pub alike: u32,
     /// Mode shapes of the members.
@@ -33,9 +33,6 @@ pub(in crate::motion) struct Ring {
     compliance: Vec<f64>,
     /// Largest entry of any shape.
     largest_shape: f64,
-    /// Members of each side, side after side.
-    rows: Vec<u32>,
-    rows_of_side: usize,
     /// Places of the cosine and sine coordinates of `n_d` diameters, and the
     /// factors that turn them into `alpha_c`, `alpha_s`.
     shown: [(usize, f64); 2],
@@ -44,6 +41,9 @@ pub(in crate::motion) struct Ring {
 impl Ring {
     /// How many blades of a scene are one member, at most.
     pub fn most_alike(scene: &Scene, machine: &Machine) -> u32 {
+        if scene.bladed_disk.mistuning != 0.0 {
+            return 1;
+        }
         let group = machine.polygon.blades_per_side;
         EngineOrderTorque::of(scene).map_or(group, |torque| gcd(group, torque.diameters()))
     }
@@ -73,11 +73,6 @@ impl Ring {
         {
             *torque = compliance * scale;
         }
-        let sides = machine.polygon.sides as usize;
-        let mut members = vec![Vec::new(); sides];
-        for member in 0..count {
-            members[machine.polygon.side_of_blade(member + 1) as usize].push(member);
-        }
         Self {
             alike,
             few: shapes.few(),
@@ -87,8 +82,6 @@ impl Ring {
             pull: coefficients(|oscillator| oscillator.pull),
             compliance,
             largest_shape: shapes.scales().iter().fold(0.0, |most, &scale| f64::max(most, scale)),
-            rows: members.concat(),
-            rows_of_side: count as usize / sides,
             shown: shown(machine, &shapes, alike),
             shapes,
             oscillators,
@@ -98,12 +91,6 @@ impl Ring {
     /// How many coordinates a list of them has room for.
     pub fn len(&self) -> usize {
         self.ratio.len()
-    }
-
-    /// The members of a side.
-    pub fn rows(&self, side: u32) -> &[u32] {
-        let first = side as usize * self.rows_of_side;
-        &self.rows[first..first + self.rows_of_side]
     }
 
     /// One free step of every coordinate; a bound on what it does to any angle

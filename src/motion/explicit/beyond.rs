@@ -1,0 +1,208 @@
+//! What only motions beyond the paper keep (docs/theory.md, section 10), and a step of
+//! theirs: tips that move outward as blades bend, friction, restitution, a lining that
+//! gives way, disks of other diameters and mistuned ones.
+
+use super::Explicit;
+use super::disk::Disk;
+use super::energy::Account;
+use super::lasting::{Lasting, mark};
+use super::rows::TipLaw;
+use crate::motion::{ActiveSet, FailureReason, Plane};
+use crate::scene::{CheckedScene, ModelSize};
+use crate::tolerances::ANGLE_LOOK;
+
+/// What a step leaves to the next, and what the verdict needs.
+#[derive(Clone, Debug)]
+pub(super) struct Beyond {
+    /// Increments of the casing in the step before the last \[m\].
+    pub before: [f64; 2],
+    /// Rows that may touch now.
+    pub candidates: Vec<u32>,
+    /// Bounds on the penetration left at the latest step and at the one before \[m\].
+    pub dips: [f64; 2],
+    /// Steps in a row in which the casing passed much of a side.
+    pub long_steps: u32,
+    pub lasting: Lasting,
+    pub account: Account,
+    /// Whether the tips rub as those of a rotor that turns backward.
+    backward: bool,
+    /// Step of the next look at the swing of rigid tips, and the steps between two.
+    next_look: u64,
+    steps_unseen: u64,
+}
+
+impl Beyond {
+    pub fn of(scene: &CheckedScene, speed: f64) -> Self {
+        Self {
+            before: [0.0; 2],
+            candidates: Vec::new(),
+            dips: [0.0; 2],
+            long_steps: 0,
+            lasting: Lasting::new(scene.solver.end_s),
+            account: Account::default(),
+            backward: speed < 0.0,
+            next_look: 0,
+            steps_unseen: steps_unseen(scene),
+        }
+    }
+
+    /// From now on with the parameters of another scene, at this rotor speed. Gaps of the
+    /// steps before may be others now, by as much as the clearance.
+    pub fn set_parameters(&mut self, scene: &CheckedScene, speed: f64) {
+        self.backward = speed < 0.0;
+        self.steps_unseen = steps_unseen(scene);
+        self.dips = [scene.machine().clearance().abs(); 2];
+    }
+}
+
+/// Steps between two looks at the swing of rigid tips.
+fn steps_unseen(scene: &CheckedScene) -> u64 {
+    let machine = scene.machine();
+    let fastest = match scene.solver.model {
+        ModelSize::Full => machine.omega_bd_max,
+        ModelSize::Rigid | ModelSize::Modal => machine.omega_bd,
+    };
+    ((ANGLE_LOOK / (fastest * scene.solver.step_s)) as u64).max(1)
+}
+
+impl<B: Disk> Explicit<B> {
+    /// One step.
+    pub(super) fn take_step_beyond(&mut self) -> Result<(), FailureReason> {
+        let (n, force) = (self.n, self.drive.force(self.n));
+        self.beyond.before = self.u.map(|coordinate| coordinate.increment);
+        let mut unknown = self.predict(force);
+        if self.lining.is_some() {
+            unknown |= self.push_lining();
+        }
+        let tips = self.tips_at(n);
+        let met = self.touch(&tips);
+        // Growth is what it is called, whatever it does to the contact.
+        self.look_at_blades(unknown || met.as_ref().is_ok_and(|more| *more) || met.is_err())?;
+        met?;
+        if !self.beyond.account.forgone {
+            self.count_flows(force);
+        }
+        Ok(())
+    }
+
+    /// Looks for contact and corrects the step by it; whether to look at the blades.
+    fn touch(&mut self, tips: &TipLaw) -> Result<bool, FailureReason> {
+        let (distance2, bound) = (self.distance2(), self.blades.bound());
+        // Beyond it, even the nearest side is open, and above its target.
+        let room = tips.clearance - tips.rise.abs() * bound - self.highest_target();
+        if room > 0.0 && distance2 < room * room {
+            if self.lining.is_some() {
+                self.rows.clear();
+                self.beyond.account.press(0.0);
+            }
+            self.part();
+            return Ok(false);
+        }
+        self.stays_in_range(distance2)?;
+        self.is_outrun(tips)?;
+        if self.lining.is_some() {
+            self.press(tips, bound);
+            return Ok(false);
+        }
+        self.meet_target(tips, bound)
+    }
+
+    /// # Errors
+    /// The casing outruns the blades.
+    fn is_outrun(&self, tips: &TipLaw) -> Result<(), FailureReason> {
+        if tips.casing_friction == 0.0 {
+            return Ok(());
+        }
+        let rate = self.u[0].increment.hypot(self.u[1].increment) / self.drive.step;
+        let speed_m_s = self.machine.tangential_ratio * rate;
+        let tip_m_s = self.drive.speed(self.n).abs() * self.scene.casing.radius_m;
+        let outrun = speed_m_s > tip_m_s;
+        if outrun { Err(FailureReason::CasingSpeed { speed_m_s, tip_m_s }) } else { Ok(()) }
+    }
+
+    /// What tips do at step `n`: friction turns round with the rotor.
+    pub(super) fn tips_at(&mut self, n: u64) -> TipLaw {
+        let speed = self.drive.speed(n);
+        if (speed < 0.0) != self.beyond.backward {
+            self.beyond.backward = speed < 0.0;
+            self.tips = TipLaw::at(&self.machine, speed);
+        }
+        self.tips
+    }
+
+    /// Bookkeeping of a step without contact.
+    pub(super) fn part(&mut self) {
+        self.open_gap();
+        self.beyond.dips = [0.0, self.beyond.dips[0]];
+        self.look_at_swing();
+    }
+
+    /// Keeps since when the rows that push are the same.
+    pub(super) fn keep_lasting(&mut self) {
+        let (mut set, mut count) = (0_u64, 0);
+        for row in self.rows.iter().filter(|row| row.lambda != 0.0) {
+            set = set.wrapping_add(mark(row.index));
+            count += 1;
+        }
+        let all = count == self.blades.table().count();
+        let since = self.beyond.lasting.touch(self.time_of(self.n), set, all);
+        if self.record.log.active_set == ActiveSet::Many {
+            self.record.log.since = since;
+        }
+    }
+
+    /// Keeps how far the tips swing, as often as needed.
+    pub(super) fn look_at_swing(&mut self) {
+        if self.n >= self.beyond.next_look {
+            self.beyond.next_look = self.n + self.beyond.steps_unseen;
+            let (t, swing) = (self.time_of(self.n), self.swing_of_blades());
+            self.beyond.lasting.look(t, Plane::default(), Plane::default(), swing);
+        }
+    }
+
+    /// How far the tips swing outward about their mean \[m\].
+    pub(super) fn swing_of_blades(&mut self) -> f64 {
+        let rise = self.tips.rise.abs();
+        if rise == 0.0 { 0.0 } else { rise * self.blades.swing() }
+    }
+
+    /// What the casing has moved in the last two steps \[m\].
+    pub(super) fn moved(&self) -> [f64; 2] {
+        let [c, s] = self.beyond.before;
+        [self.u[0].increment + c, self.u[1].increment + s]
+    }
+
+    /// Flows of energy of the step just taken, beside those of contact.
+    fn count_flows(&mut self, force: f64) {
+        let [c, s] = self.moved();
+        let [loss, work] = self.blades.flows();
+        let sums = &mut self.beyond.account.sums;
+        sums.pulse_work_j += 0.5 * force * c;
+        sums.casing_loss_j += self.casing.lost() * (c * c + s * s);
+        sums.blade_loss_j += loss;
+        sums.pulse_work_j += work;
+    }
+
+    /// Energy in casing, blades and lining between the last two steps \[J\].
+    pub(super) fn stored(&self) -> f64 {
+        let casing: f64 = self.u.iter().map(|&at| self.casing.twice_energy(at)).sum();
+        0.5 * casing + self.blades.energy() + self.beyond.account.in_lining()
+    }
+
+    /// `stored`; zero in the paper's model, which keeps no account.
+    pub(super) fn stored_beyond(&self) -> f64 {
+        if self.goes_beyond { self.stored() } else { 0.0 }
+    }
+
+    /// Whether casing and tips, whose energies bound them, never reach a contact again.
+    pub(super) fn rests(&self) -> bool {
+        let clearance = self.machine.clearance();
+        if clearance <= 0.0 || self.drive.excitation.is_some() {
+            return false;
+        }
+        let rise = self.tips.rise.abs();
+        let tips = if rise == 0.0 { 0.0 } else { rise * self.blades.reach() };
+        let resting = self.beyond.account.lining == 0.0;
+        resting && tips < clearance && self.casing.reach_of(self.u).0 + tips < clearance
+    }
+}

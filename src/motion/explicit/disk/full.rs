@@ -1,0 +1,590 @@
+//! Every blade its own coordinate, Eqs. (2)-(3), with stiffnesses of its own where the
+//! disk is mistuned (docs/theory.md, sections 1 and 10).
+//!
+//! Coordinates are the Fourier modes of the tuned ring, in which its circulant matrices
+//! are diagonal. A blade that is stiffer than the others gets the torque of its extra
+//! spring; the damping is that of the tuned disk.
+
+use std::sync::Arc;
+
+use super::angle_bounds::AngleBounds;
+use super::mistuning::springs;
+use super::near::NearRows;
+use super::ring::Ring;
+use super::shapes::product;
+use super::{Disk, RowTable};
+use crate::model::{Machine, gcd};
+use crate::motion::Plane;
+use crate::motion::explicit::{Coordinate, Driven, Oscillator};
+use crate::scene::Scene;
+use crate::tolerances::{ANGLE_LOOK, SHORTEST_BLOCK, SHORTEST_BLOCK_OF_BLADES, TIP_SLACK};
+
+/// A ring of blades. A row is a blade, or all the blades that nothing tells apart, see
+/// `Ring`; beyond the paper and without a slope of the tips it is a side, whose blades
+/// share a push evenly.
+#[derive(Clone, Debug)]
+pub struct FullBlades {
+    pub(super) ring: Arc<Ring>,
+    rows: Arc<Rows>,
+    /// Mode coordinates, and their last increments.
+    pub(super) x: Vec<f64>,
+    pub(super) increments: Vec<f64>,
+    /// Increments of the step before, which only motions beyond the paper ask for.
+    before: Vec<f64>,
+    /// The diameters that the excitation drove in the last step, and its torques \[N m\].
+    torque: Option<(usize, [f64; 2])>,
+    near: NearRows,
+    pub(super) bounds: AngleBounds,
+    seen: Seen,
+}
+
+/// What does not move.
+#[derive(Debug)]
+struct Rows {
+    table: RowTable,
+    /// Members of the ring in a row.
+    members: u32,
+    /// Angle of a row per unit torque `distance` rows away.
+    influence: Vec<f64>,
+    /// `Oscillator::lost` of each coordinate.
+    losses: Vec<f64>,
+    /// Stiffness of each blade beyond that of the others \[N m/rad\]; none if tuned.
+    springs: Vec<f64>,
+    /// Steps between two looks at all blades, at most.
+    steps_unseen: u32,
+    /// Turn of a blade after which all are looked at \[rad\].
+    most_slack: f64,
+}
+
+/// A look at the angles of all rows.
+#[derive(Clone, Debug)]
+struct Seen {
+    angles: Vec<f64>,
+    /// How far they may have turned since \[rad\], and the steps since.
+    slack: f64,
+    steps: u32,
+    /// Largest of a blade, and the largest about the mean \[rad\].
+    largest: [f64; 2],
+}
+
+impl Rows {
+    fn new(scene: &Scene, machine: &Machine, ring: &Ring) -> Self {
+        let by_side = scene.goes_beyond() && machine.radial_coupling == 0.0;
+        let alike = if by_side { machine.polygon.blades_per_side } else { ring.alike };
+        let table = RowTable::new(machine, alike);
+        let members = alike / ring.alike;
+        // The members of a row are `rows` apart, and share its torque.
+        let mean = |distance: usize| {
+            let each = (0..members as usize)
+                .map(|k| ring.influence[(distance + k * table.count()) % ring.influence.len()]);
+            each.sum::<f64>() / f64::from(members)
+        };
+        let influence = (0..table.count()).map(mean).collect();
+        let mut losses: Vec<f64> = ring.oscillators.iter().map(Oscillator::lost).collect();
+        losses.resize(ring.shapes.width(), 0.0);
+        let rise = (machine.radial_coupling * machine.blade_length).abs();
+        let turn = ring.fastest.max(f64::MIN_POSITIVE);
+        Self {
+            table,
+            members,
+            influence,
+            losses: losses.repeat(2),
+            springs: springs(scene),
+            steps_unseen: (ANGLE_LOOK / turn).clamp(1.0, 1e9) as u32,
+            most_slack: TIP_SLACK * machine.clearance().abs() / rise,
+        }
+    }
+}
+
+impl Disk for FullBlades {
+    fn at_rest(scene: &Scene, machine: &Machine, driven: Driven<'_>) -> Self {
+        let alike = Ring::most_alike(scene, machine);
+        let mut blades = Self::resting(scene, machine, alike);
+        if let Some((k, torques)) = blades.driving(driven) {
+            let scale = blades.ring.shapes.scale(k);
+            for (place, torque) in blades.ring.pair(k).into_iter().zip(torques) {
+                let begun =
+                    blades.ring.oscillators[k].begin(blades.coordinate_at(place), scale * torque);
+                blades.increments[place] = begun.increment;
+            }
+        }
+        blades
+    }
+    fn with_parameters(&self, scene: &Scene, machine: &Machine) -> Self {
+        let old = &*self.ring;
+        // What was excited apart stays so.
+        let alike = gcd(old.alike, Ring::most_alike(scene, machine));
+        let mut new = Self::resting(scene, machine, alike);
+        let finer = (old.alike / alike) as usize;
+        for k in 0..old.oscillators.len() {
+            let factor = old.shapes.scale(k) / new.ring.shapes.scale(k * finer);
+            for (from, to) in old.pair(k).into_iter().zip(new.ring.pair(k * finer)) {
+                new.x[to] = factor * self.x[from];
+                new.increments[to] = factor * self.increments[from];
+                if let Some(before) = new.before.get_mut(to) {
+                    *before = factor * self.before[from];
+                }
+            }
+        }
+        new.bounds.reset(f64::INFINITY);
+        new
+    }
+    fn coordinates(&self) -> usize {
+        let members = self.ring.shapes.count();
+        2 + if self.rows.springs.is_empty() { members } else { members * members }
+    }
+    fn table(&self) -> &RowTable {
+        &self.rows.table
+    }
+    fn predict(&mut self, driven: Driven<'_>) -> f64 {
+        self.torque = self.driving(driven);
+        let pulls = self.pulls();
+        self.seen.steps = self.seen.steps.saturating_add(1);
+        let Self { ring, x, increments, before, torque, bounds, .. } = self;
+        if !before.is_empty() {
+            before.copy_from_slice(increments);
+        }
+        bounds.drive(torque.map(|(k, _)| k));
+        let mut change = match *torque {
+            None => {
+                let change = ring.step(x, increments);
+                bounds.turn(change);
+                change
+            }
+            Some((k, torques)) => {
+                let pair = ring.take_pair(k, x, increments);
+                let rest = ring.step(x, increments);
+                bounds.turn(rest);
+                rest + ring.drive(k, torques, pair, x, increments)
+            }
+        };
+        self.seen.slack += change;
+        for (blade, torque) in pulls.into_iter().enumerate() {
+            change += self.turn(blade as u32, torque);
+        }
+        change
+    }
+    fn angle(&mut self, row: u32) -> f64 {
+        let Self { ring, rows, x, near, .. } = self;
+        mean_of(ring, rows, near, row, |shapes| product(shapes, x))
+    }
+    fn angle_before(&mut self, row: u32) -> f64 {
+        let Self { ring, rows, x, increments, before, near, .. } = self;
+        mean_of(ring, rows, near, row, |shapes| {
+            product(shapes, x) - product(shapes, increments) - product(shapes, before)
+        })
+    }
+    fn compliance(&self, a: u32, b: u32) -> f64 {
+        self.rows.influence[a.abs_diff(b) as usize]
+    }
+    fn correct(&mut self, row: u32, torque: f64) {
+        let (members, rows) = (self.rows.members, self.rows.table.count() as u32);
+        for member in 0..members {
+            self.turn(row + member * rows, torque / f64::from(members));
+        }
+    }
+    fn begin(&mut self, row: u32, torque: f64) {
+        let (members, rows) = (self.rows.members, self.rows.table.count() as u32);
+        for member in (0..members).map(|member| row + member * rows) {
+            let shapes = self.ring.shapes.row(member as usize);
+            for k in 0..self.ring.oscillators.len() {
+                for place in self.ring.pair(k) {
+                    let felt = shapes[place] * torque / f64::from(members);
+                    let begun = self.ring.oscillators[k].begin(self.coordinate_at(place), felt);
+                    self.increments[place] = begun.increment;
+                }
+            }
+        }
+    }
+    fn modal(&self) -> [f64; 2] {
+        self.ring.shown().map(|(_, place, factor)| factor * self.x[place])
+    }
+    fn modal_rates(&self, ahead: &Self, step: f64) -> [f64; 2] {
+        self.ring.shown().map(|(_, place, factor)| {
+            factor * ((self.increments[place] + ahead.increments[place]) / (2.0 * step))
+        })
+    }
+    fn every_angle(&self) -> Vec<f64> {
+        self.ring.shapes.all(&self.x).repeat(self.ring.alike as usize)
+    }
+    fn look(&mut self, largest: f64) -> (f64, f64) {
+        self.bounds.look(&self.ring, &mut self.near, &self.x, largest)
+    }
+    fn reach(&self) -> f64 {
+        // With springs of their own the modes of the tuned ring exchange energy.
+        if self.rows.springs.is_empty() { self.reaches().0 } else { f64::INFINITY }
+    }
+    fn peak(&self, steps: u64, least: f64) -> f64 {
+        self.clone().fly(steps, least).0
+    }
+    fn skip(&mut self, steps: u64) {
+        self.leap(steps);
+        self.bounds.reset(f64::INFINITY);
+    }
+    fn fly(&mut self, steps: u64, least: f64) -> (f64, f64) {
+        self.bounds.drive(None);
+        let (farthest, longest) = self.reaches();
+        let turned = longest * steps as f64;
+        let bound = farthest.min(self.bounds.largest() + turned);
+        if bound <= least {
+            self.leap(steps);
+            self.bounds.turn(turned);
+            return (least, bound);
+        }
+        let most = self.fly_looking(steps, least);
+        (most, self.bounds.largest())
+    }
+    fn shortest_block(&self) -> u64 {
+        (self.ring.shapes.count() as u64).clamp(SHORTEST_BLOCK, SHORTEST_BLOCK_OF_BLADES)
+    }
+    fn bound(&mut self) -> f64 {
+        self.see();
+        self.seen.largest[0] + self.seen.slack
+    }
+    fn wave(&self) -> Option<Plane> {
+        None
+    }
+    fn estimates(&mut self) -> (&RowTable, &[f64], f64) {
+        self.see();
+        (&self.rows.table, &self.seen.angles, self.seen.slack)
+    }
+    fn swing(&mut self) -> f64 {
+        self.see();
+        self.seen.largest[1]
+    }
+    fn energy(&self) -> f64 {
+        let modes = self.ring.oscillators.iter().enumerate();
+        let twice: f64 = modes
+            .flat_map(|(k, oscillator)| self.ring.pair(k).map(|place| (place, oscillator)))
+            .map(|(place, oscillator)| oscillator.twice_energy(self.coordinate_at(place)))
+            .sum();
+        0.5 * (twice + self.twice_in_springs())
+    }
+    fn flows(&self) -> [f64; 2] {
+        let moved = self.increments.iter().zip(&self.before).map(|(now, before)| now + before);
+        let loss = moved.zip(&self.rows.losses).map(|(moved, loss)| loss * moved * moved).sum();
+        let work = self.torque.map_or(0.0, |(k, torques)| {
+            let scale = 0.5 * self.ring.shapes.scale(k);
+            let pair = self.ring.pair(k).into_iter().zip(torques);
+            pair.map(|(at, torque)| scale * torque * (self.increments[at] + self.before[at])).sum()
+        });
+        [loss, work]
+    }
+}
+
+/// The mean over the members of a row.
+fn mean_of(
+    ring: &Ring,
+    rows: &Rows,
+    near: &mut NearRows,
+    row: u32,
+    value: impl Fn(&[f64]) -> f64,
+) -> f64 {
+    if rows.members == 1 {
+        return value(near.row(&ring.shapes, row));
+    }
+    let count = rows.table.count() as u32;
+    let sum: f64 =
+        (0..rows.members).map(|member| value(near.row(&ring.shapes, row + member * count))).sum();
+    sum / f64::from(rows.members)
+}
+
+impl FullBlades {
+    /// Blades at rest, `alike` of them one member.
+    fn resting(scene: &Scene, machine: &Machine, alike: u32) -> Self {
+        let ring = Ring::new(scene, machine, alike);
+        let rows = Rows::new(scene, machine, &ring);
+        let (coordinates, members) = (ring.len(), ring.shapes.count());
+        Self {
+            x: vec![0.0; coordinates],
+            increments: vec![0.0; coordinates],
+            before: vec![0.0; if scene.goes_beyond() { coordinates } else { 0 }],
+            torque: None,
+            near: NearRows::default(),
+            bounds: AngleBounds::at_rest(members),
+            seen: Seen {
+                angles: vec![0.0; rows.table.count()],
+                slack: 0.0,
+                // Not looked at yet.
+                steps: u32::MAX,
+                largest: [0.0; 2],
+            },
+            ring: Arc::new(ring),
+            rows: Arc::new(rows),
+        }
+    }
+
+    pub(super) fn coordinate_at(&self, place: usize) -> Coordinate {
+        Coordinate { x: self.x[place], increment: self.increments[place] }
+    }
+
+    /// The diameters that an excitation drives, in those of the ring, and its torques.
+    fn driving(&self, driven: Driven<'_>) -> Option<(usize, [f64; 2])> {
+        let (excitation, phase) = driven?;
+        let k = self.ring.driven(excitation);
+        Some((k, excitation.torque_on(k as u32 * self.ring.alike, phase)))
+    }
+
+    /// Torques of the extra springs \[N m\].
+    fn pulls(&self) -> Vec<f64> {
+        if self.rows.springs.is_empty() {
+            return Vec::new();
+        }
+        let angles = self.ring.shapes.all(&self.x);
+        angles.iter().zip(&self.rows.springs).map(|(angle, spring)| -spring * angle).collect()
+    }
+
+    /// Corrects the step by a torque on one member (from 0); a bound on what it turns.
+    fn turn(&mut self, member: u32, torque: f64) -> f64 {
+        let Self { ring, x, increments, near, .. } = self;
+        ring.correct(near.row(&ring.shapes, member), torque, x, increments);
+        let change = ring.influence[0] * torque.abs();
+        self.bounds.turn(change);
+        self.seen.slack += change;
+        change
+    }
+
+    /// Looks at all blades, if they may have turned too far since the last look.
+    fn see(&mut self) {
+        let rows = &self.rows;
+        if self.seen.slack <= rows.most_slack && self.seen.steps < rows.steps_unseen {
+            return;
+        }
+        let angles = self.ring.shapes.all(&self.x);
+        let mean = angles.iter().sum::<f64>() / angles.len() as f64;
+        let most = |about: f64| {
+            let size = |angle: &f64| (angle - about).abs();
+            angles.iter().map(size).fold(0.0, |most, at| if at <= most { most } else { at })
+        };
+        self.seen.largest = [most(0.0), most(mean)];
+        let count = rows.table.count();
+        for (row, angle) in self.seen.angles.iter_mut().enumerate() {
+            let members = angles.iter().skip(row).step_by(count);
+            *angle = members.sum::<f64>() / f64::from(rows.members);
+        }
+        (self.seen.slack, self.seen.steps) = (0.0, 0);
+    }
+
+    /// Twice the energy in the extra springs between the last two steps \[J\].
+    fn twice_in_springs(&self) -> f64 {
+        if self.rows.springs.is_empty() {
+            return 0.0;
+        }
+        let shapes = &self.ring.shapes;
+        let (now, moved) = (shapes.all(&self.x), shapes.all(&self.increments));
+        let each = self.rows.springs.iter().zip(now.iter().zip(&moved));
+        each.map(|(spring, (x, increment))| spring * x * (x - increment)).sum()
+    }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+    use crate::motion::Solver;
+    use crate::motion::explicit::{EngineOrderTorque, Explicit};
+
+    /// Blades of the paper, `count` of them, excited by an order or not.
+    pub(in crate::motion) fn scene(count: u32, order: Option<u32>) -> Scene {
+        let mut scene = Scene::base();
+        scene.bladed_disk.blades = count;
+        scene.solver.step_s = 1e-4;
+        if let Some(order) = order {
+            (scene.excitation.amplitude_nm, scene.excitation.order) = (0.3, order);
+        }
+        scene
+    }
+
+    pub(in crate::motion) fn at_rest(scene: &Scene) -> FullBlades {
+        FullBlades::at_rest(scene, &scene.machine(), None)
+    }
+
+    pub(in crate::motion) fn angles(blades: &FullBlades) -> Vec<f64> {
+        let shapes = &blades.ring.shapes;
+        (0..shapes.count()).map(|member| shapes.at(member, &blades.x)).collect()
+    }
+
+    pub(in crate::motion) fn widest(blades: &FullBlades) -> f64 {
+        angles(blades).iter().fold(0.0, |most, angle| f64::max(most, angle.abs()))
+    }
+
+    #[test]
+    fn a_step_is_that_of_one_oscillator_for_each_mode() {
+        for (count, order) in [(22, None), (22, Some(5)), (131, Some(19)), (5, Some(0))] {
+            let scene = scene(count, order);
+            let torque = EngineOrderTorque::of(&scene);
+            let mut blades = at_rest(&scene);
+            blades.correct(1, 3.0);
+            blades.correct(3, -2.0);
+            let ring = blades.ring.clone();
+            for step in 0..100 {
+                let (phase, before) = (0.05 * f64::from(step), blades.clone());
+                let change = blades.predict(torque.as_ref().map(|torque| (torque, phase)));
+                for (k, oscillator) in ring.oscillators.iter().enumerate() {
+                    let force = torque.map_or([0.0; 2], |torque| torque.torque_on(k as u32, phase));
+                    for (place, force) in ring.pair(k).into_iter().zip(force) {
+                        let force = ring.shapes.scale(k) * force;
+                        let next = oscillator.step(before.coordinate_at(place), force);
+                        assert_eq!(blades.coordinate_at(place), next, "{count} {k}");
+                    }
+                }
+                for (a, b) in angles(&blades).iter().zip(angles(&before)) {
+                    assert!((a - b).abs() <= change * (1.0 + 1e-12), "{count}: {change}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_push_turns_every_blade_by_its_compliance() {
+        for count in [1, 2, 4, 22, 140] {
+            let scene = scene(count, None);
+            let mut blades = at_rest(&scene);
+            let pushed = count / 2;
+            blades.correct(pushed, 2.0);
+            let own = blades.compliance(pushed, pushed);
+            for blade in 0..count {
+                let expected = 2.0 * blades.compliance(blade, pushed);
+                assert!((blades.angle(blade) - expected).abs() < 1e-14 * own, "{count} {blade}");
+                assert!(expected <= 2.0 * own);
+            }
+        }
+    }
+
+    #[test]
+    fn blades_that_nothing_tells_apart_are_one() {
+        for (blades, diameters, order, alike) in [
+            (66, 3, None, 3),
+            (66, 3, Some(5), 1),
+            (66, 3, Some(63), 3),
+            (88, 4, Some(6), 2),
+            (22, 0, None, 22),
+            (22, 11, Some(0), 11),
+        ] {
+            let mut scene = scene(blades, order);
+            scene.operation.nodal_diameters = diameters;
+            let machine = scene.machine();
+            let one = at_rest(&scene);
+            assert_eq!(one.ring.alike, alike, "{blades} {diameters} {order:?}");
+            // Each on its own, and the same torque on all of a member.
+            let mut each = FullBlades::resting(&scene, &machine, 1);
+            let mut one = one;
+            let torque = EngineOrderTorque::of(&scene);
+            for step in 0..200 {
+                let excitation = torque.as_ref().map(|torque| (torque, 0.05 * f64::from(step)));
+                one.predict(excitation);
+                each.predict(excitation);
+                let side = step as u32 % machine.polygon.sides;
+                for row in one.table().of_side(side).to_vec() {
+                    one.correct(row, 1.0);
+                }
+                for row in each.table().of_side(side).to_vec() {
+                    each.correct(row, 1.0 / f64::from(alike));
+                }
+            }
+            let (a, b) = (one.every_angle(), each.every_angle());
+            let size = widest(&each);
+            for (a, b) in a.iter().zip(&b) {
+                assert!((a - b).abs() < 1e-12 * size, "{blades} {diameters}: {a} {b}");
+            }
+            let (mut ahead, mut each_ahead) = (one.clone(), each.clone());
+            ahead.predict(None);
+            each_ahead.predict(None);
+            let rates = [one.modal_rates(&ahead, 1e-4), each.modal_rates(&each_ahead, 1e-4)];
+            let [a, b] = [(one.modal(), rates[0]), (each.modal(), rates[1])]
+                .map(|(at, rates)| at.into_iter().chain(rates));
+            for (found, expected) in a.zip(b) {
+                assert!((found - expected).abs() < 1e-12 * size * 1e3, "{found} {expected}");
+            }
+            // Told apart from now on, they go on from where they are.
+            scene.excitation.amplitude_nm = 0.3;
+            scene.excitation.order = 1;
+            let apart = one.with_parameters(&scene, &machine);
+            assert_eq!(apart.ring.alike, 1);
+            for (a, b) in apart.every_angle().iter().zip(one.every_angle()) {
+                assert!((a - b).abs() < 1e-13 * size, "{blades} {diameters}: {a} {b}");
+            }
+            scene.excitation.amplitude_nm = 0.0;
+            assert_eq!(apart.with_parameters(&scene, &machine).ring.alike, 1);
+        }
+    }
+
+    /// Single blades on a lining that all press; MODEL: a pulse of 100 N at 410 rad/s.
+    fn pressed(step: f64) -> Scene {
+        let mut scene = Scene::base();
+        for (key, value) in [("solver.contact", "smooth"), ("solver.model", "full")] {
+            scene.set(key, value).unwrap();
+        }
+        scene.casing.radius_m = 0.49988;
+        scene.contact.stiffness_n_per_m = 27e3;
+        scene.bladed_disk.radial_coupling = 0.5;
+        (scene.operation.pulse_n, scene.operation.speed_rad_s) = (100.0, 410.0);
+        (scene.solver.step_s, scene.solver.end_s) = (step, 0.05);
+        scene
+    }
+
+    #[test]
+    fn one_stiffer_blade_changes_the_motion_as_another_program_says() {
+        let at = [2e-6, 1e-6].map(|step| {
+            let scene = pressed(step);
+            let mut blades = FullBlades::at_rest(&scene, &scene.machine(), None);
+            let rows = Arc::get_mut(&mut blades.rows).unwrap();
+            rows.springs = vec![0.0; 22];
+            rows.springs[0] = 0.05 * scene.bladed_disk.stiffness_nm_per_rad;
+            let mut motion = Explicit::with_blades(&scene.checked().unwrap(), blades);
+            motion.advance(0.05).unwrap();
+            motion.state().u
+        });
+        for (k, expected) in [(0, -2.448_242_835e-7), (1, 4.258_978_112e-7)] {
+            let found = (4.0 * at[1][k] - at[0][k]) / 3.0;
+            assert!((found - expected).abs() < 1e-14, "{found:e}");
+        }
+    }
+
+    #[test]
+    fn all_blades_press_from_the_first_step_on() {
+        for kappa in [0.0, 0.5] {
+            let mut scene = pressed(1e-6);
+            scene.bladed_disk.radial_coupling = kappa;
+            let pushed = |motion: &Explicit<FullBlades>| motion.multipliers().len();
+            let mut motion = Explicit::<FullBlades>::new(&scene.checked().unwrap());
+            assert_eq!(pushed(&motion), 22, "{kappa}");
+            motion.advance(1e-6).unwrap();
+            assert_eq!(pushed(&motion), 22, "{kappa}");
+        }
+    }
+
+    #[test]
+    fn angles_are_never_beyond_their_estimates() {
+        let scene = pressed(1e-5);
+        let mut blades = FullBlades::at_rest(&scene, &scene.machine(), None);
+        for step in 0..3000_u32 {
+            blades.predict(None);
+            if step % 50 < 5 {
+                blades.correct(step % 22, -0.3);
+            }
+            let angles = blades.every_angle();
+            let (_, estimates, slack) = blades.estimates();
+            for (angle, estimate) in angles.iter().zip(estimates) {
+                assert!((angle - estimate).abs() <= slack * (1.0 + 1e-9) + 1e-18, "{step}");
+            }
+            let most = angles.iter().fold(0.0_f64, |most, angle| most.max(angle.abs()));
+            assert!(most <= blades.bound() * (1.0 + 1e-9));
+        }
+    }
+
+    #[test]
+    fn bent_blades_that_get_other_parameters_are_looked_at() {
+        let scene = pressed(1e-5);
+        let mut blades = FullBlades::at_rest(&scene, &scene.machine(), None);
+        for step in 0..100_u32 {
+            blades.predict(None);
+            blades.correct(step % 22, -0.3);
+        }
+        for steps in 0..2 {
+            let mut changed = blades.with_parameters(&scene, &scene.machine());
+            (0..steps).for_each(|_| _ = changed.predict(None));
+            let most = changed.every_angle().iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            assert!(most > 0.0 && most <= changed.bound() * (1.0 + 1e-9), "{steps}: {most}");
+        }
+    }
+}
