@@ -203,7 +203,7 @@ impl<B: Disk> Explicit<B> {
             return;
         }
         let goes_on = self.record.last_touch + 1 == n && active_set == self.record.log.active_set;
-        self.same_sides = if goes_on { self.same_sides + 1 } else { 1 };
+        self.leaps.same_sides = if goes_on { self.leaps.same_sides + 1 } else { 1 };
         self.record.touch(n, active_set, pulls);
         if self.goes_beyond {
             self.keep_lasting();

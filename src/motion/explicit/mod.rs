@@ -6,25 +6,16 @@
 //! contact law. Beyond the paper, tips may move outward as blades bend, rub, rebound and
 //! press on a lining, whose push is a force at the beginning of a step (`lining`).
 //!
-//! In the paper's model, free steps (`flight`), those of a held lock (`held_corner`) and
-//! those along one side of rigid blades (`held_side`) are taken many at once, as plain
-//! stepping would take them; along a side of blades that move a short step is enough
-//! (`sliding`).
+//! In the paper's model many steps are taken at once, as plain stepping would take them
+//! (`leap`).
 
 mod beyond;
-mod block;
 mod candidates;
-mod corner_step;
 mod correct;
-mod decided;
 mod disk;
 mod drive;
 mod energy;
 mod excitation;
-mod flight;
-mod held;
-mod held_corner;
-mod held_side;
 mod lasting;
 mod leap;
 mod lining;
@@ -35,8 +26,6 @@ mod pushes;
 mod record;
 mod rigid_step;
 mod rows;
-mod side_map;
-mod sliding;
 mod solver;
 mod start;
 mod watch;
@@ -53,14 +42,11 @@ use crate::contact::{StepLaw, repeated::Repeated};
 use crate::model::{LiningLaw, Machine};
 use crate::scene::CheckedScene;
 use beyond::Beyond;
-use block::Block;
 use disk::Disk;
 use drive::{Drive, Driven};
-use held::Held;
+use leap::Leaps;
 use record::Record;
 use rows::{Row, TipLaw};
-use side_map::SideMap;
-use sliding::Sliding;
 use watch::Watch;
 
 /// The explicit solver on one size of bladed disk.
@@ -92,22 +78,8 @@ pub(super) struct Explicit<B: Disk> {
     goes_beyond: bool,
     beyond: Beyond,
 
-    /// Steps already decided on, not yet taken.
-    block: Block,
-    /// Steps of the blocks closed so far.
-    skipped: u64,
-    /// The sides that the open block holds, if it is in contact.
-    held: Option<Held>,
-    /// Step before which a corner is not tried to be held.
-    hold_tried: u64,
-    /// The same for a side.
-    slide_tried: u64,
-    /// The map of a side at this speed, once asked for.
-    side_map: Option<Arc<SideMap>>,
-    /// The wave on a side of blades that move; `u` and `blades` are then those before.
-    sliding: Option<Sliding>,
-    /// Steps in a row until the latest contact with the same sides.
-    same_sides: u64,
+    /// What was decided on ahead.
+    leaps: Leaps,
     /// Rows of which several belong to one side; see `solve_repeated`.
     repeated: Repeated,
     /// Whether the neighbours of a penetrating side always count; see `correct`.
@@ -215,18 +187,5 @@ impl<B: Disk> Explicit<B> {
 
     fn time_of(&self, n: u64) -> f64 {
         self.drive.time_of(n)
-    }
-
-    /// The latest step, that of an open block included.
-    fn latest_step(&self) -> u64 {
-        self.n + self.block.used()
-    }
-
-    /// Ends what was decided on ahead.
-    fn interrupt(&mut self) {
-        self.close_block();
-        self.hold_tried = self.n;
-        self.slide_tried = self.n;
-        self.same_sides = 0;
     }
 }

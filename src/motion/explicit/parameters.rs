@@ -27,7 +27,7 @@ impl<B: Disk> Explicit<B> {
         self.machine = scene.machine();
         self.blades = self.blades.with_parameters(scene, &self.machine);
         self.casing = Oscillator::of_casing(&self.machine, self.drive.step);
-        self.side_map = None;
+        self.leaps.forget_map();
         (self.law, self.lining) = (contact::law(scene.solver.contact), scene.lining());
         self.drive.set_parameters(scene);
         self.neighbours_matter = self.neighbours_matter();

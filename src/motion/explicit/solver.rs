@@ -3,7 +3,6 @@
 
 use super::disk::Disk;
 use super::energy::EnergyLedger;
-use super::held::Held;
 use super::pushes::push;
 use super::rows::TipLaw;
 use super::{Coordinate, Explicit};
@@ -32,17 +31,12 @@ impl<B: Disk> Solver for Explicit<B> {
                     return Ok(false);
                 }
             }
-            let moved = if self.goes_beyond {
-                self.take_step_beyond()
-            } else if self.is_sliding() {
-                self.slide((target - self.n).min(steps_unasked as u64));
-                unasked = steps_unasked;
-                Ok(())
-            } else if self.open_block() {
-                self.use_block(target);
-                Ok(())
-            } else {
-                self.take_step()
+            let moved = match self.leap(target, steps_unasked) {
+                Some(steps) => {
+                    unasked += steps;
+                    Ok(())
+                }
+                None => self.take_step(),
             };
             if let Err(reason) = moved {
                 let failure = Failure { t_s: self.time_of(self.n), reason };
@@ -85,17 +79,9 @@ impl<B: Disk> Solver for Explicit<B> {
         if self.record.log.active_set == ActiveSet::Nothing {
             return Vec::new();
         }
-        if let Some(sliding) = &self.sliding {
-            return vec![(sliding.side, sliding.multiplier)];
-        }
-        let polygon = &self.machine.polygon;
-        match self.held.as_ref().filter(|_| self.block.used() > 0) {
-            Some(held) => self.record.by_side(polygon, held.multipliers(self.block.used())),
-            None => {
-                let rows = self.rows.iter().map(|row| (row.side, row.lambda));
-                self.record.by_side(polygon, rows)
-            }
-        }
+        let rows = || self.rows.iter().map(|row| (row.side, row.lambda)).collect();
+        let multipliers: Vec<(u32, f64)> = self.leaps.multipliers().unwrap_or_else(rows);
+        self.record.by_side(&self.machine.polygon, multipliers.into_iter())
     }
 
     fn take_mean_forces(&mut self) -> Vec<(u32, f64)> {
@@ -144,7 +130,7 @@ impl<B: Disk> Solver for Explicit<B> {
     }
 
     fn steps_skipped(&self) -> Option<u64> {
-        Some(self.skipped + self.block.used())
+        Some(self.leaps.skipped())
     }
 
     fn failure(&self) -> Option<&Failure> {
@@ -185,16 +171,16 @@ impl<B: Disk> Solver for Explicit<B> {
         self.interrupt();
         self.beyond.lasting.forget();
         self.drive.set_speed(self.n, speed, ramp);
-        self.side_map = None;
+        self.leaps.forget_map();
     }
 
     /// In a held corner the casing follows the blades: it has no free rate.
     fn scale_rate(&mut self, factor: f64) {
-        if matches!(self.held, Some(Held::Corner(_))) {
+        if self.leaps.holds_corner() {
             return;
         }
         self.close_block();
-        self.same_sides = 0;
+        self.leaps.same_sides = 0;
         let before = self.stored_beyond();
         for coordinate in &mut self.u {
             coordinate.increment *= factor;

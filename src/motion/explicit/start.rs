@@ -6,9 +6,9 @@
 use std::sync::Arc;
 
 use super::beyond::Beyond;
-use super::block::Block;
 use super::disk::Disk;
 use super::drive::Drive;
+use super::leap::Leaps;
 use super::record::Record;
 use super::rows::TipLaw;
 use super::watch::Watch;
@@ -53,14 +53,7 @@ impl<B: Disk> Explicit<B> {
             failure: None,
             goes_beyond: scene.goes_beyond(),
             beyond: Beyond::of(scene, speed),
-            block: Block::default(),
-            skipped: 0,
-            held: None,
-            hold_tried: 0,
-            slide_tried: 0,
-            side_map: None,
-            sliding: None,
-            same_sides: 0,
+            leaps: Leaps::default(),
             repeated: Repeated::default(),
             neighbours_matter: false,
             look: 0.0,

@@ -14,16 +14,16 @@
 //! where nothing is added up that cancels. A side turned by `tau` from where it
 //! touched at `y` opens by `2 g0 sin^2(tau/2) + y sin tau`.
 
-use super::disk::ModalBlades;
 use super::held_corner::Modes;
-use super::oscillator::{Coordinate, Oscillator};
 use crate::contact;
 use crate::model::Machine;
 use crate::motion::Plane;
+use crate::motion::explicit::disk::ModalBlades;
+use crate::motion::explicit::{Coordinate, Oscillator};
 
 /// A step from one corner to the next.
 #[derive(Clone, Debug)]
-pub(super) struct CornerStep {
+pub(in crate::motion::explicit) struct CornerStep {
     sides: [u32; 2],
     /// `exp(i psi)` of both sides.
     directions: [Plane; 2],
@@ -36,7 +36,7 @@ pub(super) struct CornerStep {
 }
 
 /// What a step does.
-pub(super) struct Stepped {
+pub(in crate::motion::explicit) struct Stepped {
     /// Change of the blade modes.
     pub change: Modes,
     /// Multipliers of both sides \[N\].

@@ -5,17 +5,17 @@
 
 use std::sync::Arc;
 
-use super::disk::Disk;
-use super::disk::HeldModes;
 use super::side_map::{Along, SideMap, SideStep};
 use super::sliding::{Rules, Sliding};
-use super::{Coordinate, Explicit};
+use crate::motion::explicit::disk::Disk;
+use crate::motion::explicit::disk::HeldModes;
+use crate::motion::explicit::{Coordinate, Explicit};
 use crate::motion::{ActiveSet, Plane};
 use crate::tolerances::SHORTEST_BLOCK;
 
 /// A stretch of sliding, from the step it starts at.
 #[derive(Clone, Debug)]
-pub(super) struct HeldSide {
+pub(in crate::motion::explicit) struct HeldSide {
     map: Arc<SideMap>,
     pub side: u32,
     start: Along,
@@ -54,12 +54,12 @@ impl<B: Disk> Explicit<B> {
     /// acts on the wave.
     fn steady_side(&self) -> Option<u32> {
         let ActiveSet::Side(side) = self.record.log.active_set else { return None };
-        let alone = self.same_sides >= 2 && self.record.last_touch == self.n;
-        (alone && self.drive.is_steady(self.n) && self.n >= self.slide_tried).then_some(side)
+        let alone = self.leaps.same_sides >= 2 && self.record.last_touch == self.n;
+        (alone && self.drive.is_steady(self.n) && self.n >= self.leaps.slide_tried).then_some(side)
     }
 
     /// The stretch of steps from now on that close this one side and no other.
-    pub(super) fn hold_side(&mut self) -> Option<HeldSide> {
+    pub(in crate::motion::explicit) fn hold_side(&mut self) -> Option<HeldSide> {
         let side = self.steady_side()?;
         if self.blades.held_modes()?.moving.is_some() {
             return None;
@@ -77,11 +77,11 @@ impl<B: Disk> Explicit<B> {
     }
 
     /// Whether the wave slides along a side of blades that move; it begins to, if it can.
-    pub(super) fn is_sliding(&mut self) -> bool {
-        if self.sliding.is_none() {
-            self.sliding = self.begin_sliding();
+    pub(in crate::motion::explicit) fn is_sliding(&mut self) -> bool {
+        if self.leaps.sliding.is_none() {
+            self.leaps.sliding = self.begin_sliding();
         }
-        self.sliding.is_some()
+        self.leaps.sliding.is_some()
     }
 
     fn begin_sliding(&self) -> Option<Sliding> {
@@ -97,9 +97,9 @@ impl<B: Disk> Explicit<B> {
     }
 
     /// Slides on, by `steps` steps at most, until another kind of step must be taken.
-    pub(super) fn slide(&mut self, steps: u64) {
+    pub(in crate::motion::explicit) fn slide(&mut self, steps: u64) {
         let moving = self.blades.held_modes().and_then(|blades| blades.moving);
-        let (Some(sliding), Some(moving)) = (&mut self.sliding, moving) else { return };
+        let (Some(sliding), Some(moving)) = (&mut self.leaps.sliding, moving) else { return };
         let done = sliding.advance(steps, &mut self.watch, moving);
         let side = sliding.side;
         self.n += done.steps;
@@ -112,13 +112,13 @@ impl<B: Disk> Explicit<B> {
         if done.steps < steps {
             self.end_sliding();
             // Deciding costs as much as some steps.
-            self.slide_tried = self.n + SHORTEST_BLOCK;
+            self.leaps.slide_tried = self.n + SHORTEST_BLOCK;
         }
     }
 
     /// Goes on by single steps.
-    pub(super) fn end_sliding(&mut self) {
-        if let Some(sliding) = self.sliding.take() {
+    pub(in crate::motion::explicit) fn end_sliding(&mut self) {
+        if let Some(sliding) = self.leaps.sliding.take() {
             (self.u, self.blades) = self.slid(&sliding);
             for row in self.rows.iter_mut().filter(|row| row.side == sliding.side) {
                 row.lambda = sliding.multiplier;
@@ -127,7 +127,7 @@ impl<B: Disk> Explicit<B> {
     }
 
     /// Coordinates of a wave that slides.
-    pub(super) fn slid(&self, sliding: &Sliding) -> ([Coordinate; 2], B) {
+    pub(in crate::motion::explicit) fn slid(&self, sliding: &Sliding) -> ([Coordinate; 2], B) {
         let mut blades = self.blades.clone();
         if let Some(moving) = self.blades.held_modes().and_then(|blades| blades.moving) {
             blades.set_held_modes(sliding.modes(moving));
@@ -145,7 +145,7 @@ impl<B: Disk> Explicit<B> {
     fn side_map(&mut self) -> Arc<SideMap> {
         let (step, farthest) = (self.side_step(), 0.5 * self.scene.casing.radius_m);
         let make = || Arc::new(SideMap::new(&self.machine.polygon, step, farthest));
-        self.side_map.get_or_insert_with(make).clone()
+        self.leaps.side_map.get_or_insert_with(make).clone()
     }
 
     /// `zeta` and `zeta[n] - exp(-i nu h) zeta[n-1]` on a side.
@@ -173,7 +173,11 @@ impl<B: Disk> Explicit<B> {
     }
 
     /// Coordinates of the casing `steps` steps into the stretch.
-    pub(super) fn along_side(&self, held: &HeldSide, steps: u64) -> [Coordinate; 2] {
+    pub(in crate::motion::explicit) fn along_side(
+        &self,
+        held: &HeldSide,
+        steps: u64,
+    ) -> [Coordinate; 2] {
         let at = held.after(steps);
         let (y, step) = (at[0], at[1]);
         let before = Plane::new(-at[2], y - step);

@@ -14,22 +14,22 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::corner_step::{CornerStep, Stepped};
-use super::disk::Disk;
-use super::leap::Leap;
-use super::{Coordinate, Explicit};
+use super::powers::Leap;
 use crate::motion::ActiveSet;
+use crate::motion::explicit::disk::Disk;
+use crate::motion::explicit::{Coordinate, Explicit};
 use crate::tolerances::{
     ANGLE_LOOK, HELD_AFTER, HELD_AGAIN, HELD_CORRECTIONS, HELD_LEFT, HELD_PHASE, HELD_PROBE,
     HELD_ROUNDINGS, ROOM_TO_CHANGE,
 };
 
 /// `(alpha_c, alpha_s)` and their increments.
-pub(super) type Modes = SVector<f64, 4>;
+pub(in crate::motion::explicit) type Modes = SVector<f64, 4>;
 type StepMap = SMatrix<f64, 4, 4>;
 
 /// The map of a held corner, from one step on.
 #[derive(Clone, Debug)]
-pub(super) struct HeldCorner {
+pub(in crate::motion::explicit) struct HeldCorner {
     step: CornerStep,
     /// Whether a multiplier pulls.
     pub pulls: bool,
@@ -142,19 +142,19 @@ fn top([mut low, mut high]: [u64; 2], value: impl Fn(u64) -> f64) -> f64 {
 impl<B: Disk> Explicit<B> {
     /// Makes the map, if a corner has been held long enough and the map can be
     /// trusted for all later steps.
-    pub(super) fn hold_corner(&mut self) -> Option<HeldCorner> {
+    pub(in crate::motion::explicit) fn hold_corner(&mut self) -> Option<HeldCorner> {
         let sides = self.steady_corner()?;
-        let since = ((self.record.log.since / self.drive.step) as u64).max(self.hold_tried);
+        let since = ((self.record.log.since / self.drive.step) as u64).max(self.leaps.hold_tried);
         if self.n < since + HELD_AFTER {
             return None;
         }
-        self.hold_tried = self.n + HELD_AGAIN;
+        self.leaps.hold_tried = self.n + HELD_AGAIN;
         self.make_map(sides)
     }
 
     /// The corner in contact in this step, if neither pulse nor ramp nor
     /// excitation acts on it.
-    pub(super) fn steady_corner(&self) -> Option<[u32; 2]> {
+    pub(in crate::motion::explicit) fn steady_corner(&self) -> Option<[u32; 2]> {
         let ActiveSet::Corner(a, b) = self.record.log.active_set else { return None };
         (self.drive.is_steady(self.n) && self.record.last_touch == self.n).then_some([a, b])
     }
@@ -216,7 +216,11 @@ impl<B: Disk> Explicit<B> {
     }
 
     /// Coordinates `steps` steps into the held corner.
-    pub(super) fn held_at(&self, held: &HeldCorner, steps: u64) -> ([Coordinate; 2], B) {
+    pub(in crate::motion::explicit) fn held_at(
+        &self,
+        held: &HeldCorner,
+        steps: u64,
+    ) -> ([Coordinate; 2], B) {
         let modes = held.modes(steps);
         let mut blades = self.blades.clone();
         blades.set_held_modes(as_coordinates(modes));

@@ -1,16 +1,16 @@
 //! Sides that close in every step to come: a lock, or a wave that slides along one
 //! side. Such steps are taken many at once.
 
-use super::Explicit;
 use super::block::{Block, ENDLESS};
-use super::disk::Disk;
 use super::held_corner::HeldCorner;
 use super::held_side::HeldSide;
+use crate::motion::explicit::Explicit;
+use crate::motion::explicit::disk::Disk;
 use crate::tolerances::SHORTEST_BLOCK;
 
 /// Sides that close in every step of the open block.
 #[derive(Clone, Debug)]
-pub(super) enum Held {
+pub(in crate::motion::explicit) enum Held {
     /// A lock.
     Corner(Box<HeldCorner>),
     /// A wave that slides along one side of rigid blades.
@@ -39,25 +39,25 @@ impl Held {
 
 impl<B: Disk> Explicit<B> {
     /// Begins a block of steps in which the same sides close, if there are enough.
-    pub(super) fn hold(&mut self) -> bool {
+    pub(in crate::motion::explicit) fn hold(&mut self) -> bool {
         if let Some(corner) = self.hold_corner() {
-            self.held = Some(Held::Corner(Box::new(corner)));
-            self.block = Block::new(ENDLESS);
+            self.leaps.held = Some(Held::Corner(Box::new(corner)));
+            self.leaps.block = Block::new(ENDLESS);
         } else if let Some(side) = self.hold_side() {
             let length = side.length;
             if length < SHORTEST_BLOCK {
-                self.slide_tried = self.n + length;
+                self.leaps.slide_tried = self.n + length;
                 return false;
             }
-            self.held = Some(Held::Side(side));
-            self.block = Block::new(length);
+            self.leaps.held = Some(Held::Side(side));
+            self.leaps.block = Block::new(length);
         }
-        self.held.is_some()
+        self.leaps.held.is_some()
     }
 
     /// Keeps what the steps of held sides did since `before`.
-    pub(super) fn log_held(&mut self, held: &Held, before: u64) {
-        let (used, t) = (self.block.used(), self.time_of(self.latest_step()));
+    pub(in crate::motion::explicit) fn log_held(&mut self, held: &Held, before: u64) {
+        let (used, t) = (self.leaps.block.used(), self.time_of(self.latest_step()));
         for (side, sum) in held.sums(before, used) {
             self.record.impulse(side, sum);
         }

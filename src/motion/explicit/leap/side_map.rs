@@ -22,19 +22,19 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::Oscillator;
-use super::leap::{LARGEST, Leap};
+use super::powers::{LARGEST, Leap};
 use crate::model::ContactPolygon;
 use crate::motion::Plane;
+use crate::motion::explicit::Oscillator;
 use crate::tolerances::LEAP_FOLDS;
 
 /// `y`, `y[n] - y[n-1]`, `g0`, and the sum of the `y` of the steps before.
-pub(super) type Along = SVector<f64, 4>;
+pub(in crate::motion::explicit) type Along = SVector<f64, 4>;
 
 /// The coefficients of a step along a side at one speed of the rotor, sums of small
 /// parts that do not cancel.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct SideStep {
+pub(in crate::motion::explicit) struct SideStep {
     /// `1 - exp(-i nu h)`.
     pub turned: Plane,
     /// `e`, the real part of `E` above.
@@ -68,7 +68,7 @@ impl SideStep {
 
 /// Many steps along a side.
 #[derive(Clone, Debug)]
-pub(super) struct SideMap {
+pub(in crate::motion::explicit) struct SideMap {
     leap: Leap<4>,
     /// Exponent of the longest leap in which a condition has one extremum.
     longest: usize,

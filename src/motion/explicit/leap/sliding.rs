@@ -7,17 +7,17 @@
 //! one `across` it swings freely. In the frame of the blades at rest, with
 //! `zeta = z conj(normal) = -g0 + X + i Y`, all numbers of a step are small parts.
 
-use super::disk::ModalBlades;
 use super::side_map::SideStep;
-use super::watch::Watch;
-use super::{Coordinate, Oscillator};
 use crate::model::Machine;
 use crate::motion::Plane;
+use crate::motion::explicit::disk::ModalBlades;
+use crate::motion::explicit::watch::Watch;
+use crate::motion::explicit::{Coordinate, Oscillator};
 use crate::tolerances::{LIGHT_PUSH, SLIDING_DEPTH, SLIDING_PHASE};
 
 /// A wave under way along a side.
 #[derive(Clone, Debug)]
-pub(super) struct Sliding {
+pub(in crate::motion::explicit) struct Sliding {
     pub side: u32,
     rules: Rules,
     /// `X + i Y` above \[m\].
@@ -38,7 +38,7 @@ pub(super) struct Sliding {
 
 /// What a step needs and what ends it.
 #[derive(Clone, Debug)]
-pub(super) struct Rules {
+pub(in crate::motion::explicit) struct Rules {
     step: SideStep,
     clearance: f64,
     diameters: f64,
@@ -55,7 +55,7 @@ pub(super) struct Rules {
 
 /// What some steps did.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Done {
+pub(in crate::motion::explicit) struct Done {
     pub steps: u64,
     /// Sum of the multipliers \[N\].
     pub pushes: f64,

@@ -1,22 +1,22 @@
 //! Verdicts of the explicit solver that nothing to come can change
 //! (docs/theory.md, section 9).
 
-use super::Explicit;
-use super::disk::Disk;
 use super::held::Held;
 use crate::motion::Verdict;
+use crate::motion::explicit::Explicit;
+use crate::motion::explicit::disk::Disk;
 use crate::tolerances::{HELD_AFTER, LIGHT_BLADES, ROOM_TO_CHANGE};
 
 impl<B: Disk> Explicit<B> {
     /// The verdict, once nothing to come can change it: no contact can come
     /// again, or a corner can never let go.
-    pub(super) fn decided(&self) -> Option<Verdict> {
+    pub(in crate::motion::explicit) fn decided(&self) -> Option<Verdict> {
         if let Some(failure) = &self.failure {
             let beyond = failure.verdict_beyond(&self.drive.pulse);
             Some(if self.goes_beyond { beyond } else { Verdict::Failed })
         } else if self.no_contact_to_come() {
             Some(Verdict::Decay)
-        } else if let Some(Held::Corner(held)) = &self.held {
+        } else if let Some(Held::Corner(held)) = &self.leaps.held {
             Some(locked(held.pulls))
         } else if self.goes_beyond {
             None

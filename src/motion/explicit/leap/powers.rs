@@ -13,10 +13,10 @@ use crate::tolerances::LEAP_SMALL;
 use nalgebra::{SMatrix, SVector};
 
 /// Largest number of steps that can be taken at once, as a power of two.
-pub(super) const LARGEST: usize = 40;
+pub(in crate::motion::explicit) const LARGEST: usize = 40;
 /// Powers of a map of `N` coordinates.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Leap<const N: usize> {
+pub(in crate::motion::explicit) struct Leap<const N: usize> {
     /// `T^(2^j) - 1`, as long as it is small.
     changes: Arc<[SMatrix<f64, N, N>]>,
     /// `T^(2^j)`, from the last of the changes on.

@@ -3,15 +3,15 @@
 //! The discrete energy bounds how far `|u|` can travel in one step
 //! (docs/theory.md, section 6). So many steps as cannot reach the clearance are one block.
 
-use super::Explicit;
 use super::block::ENDLESS;
-use super::disk::Disk;
 use crate::motion::ActiveSet;
+use crate::motion::explicit::Explicit;
+use crate::motion::explicit::disk::Disk;
 use crate::tolerances::{BREAK_STEPS, LARGEST_BLADE_ANGLE};
 
 impl<B: Disk> Explicit<B> {
     /// Steps that cannot touch; none where they are too few to be worth a block.
-    pub(super) fn flight(&mut self) -> u64 {
+    pub(in crate::motion::explicit) fn flight(&mut self) -> u64 {
         let clearance = self.machine.polygon.clearance;
         let distance2 = self.u[0].x * self.u[0].x + self.u[1].x * self.u[1].x;
         // Blades that are driven do not follow the free recurrence.
@@ -36,15 +36,18 @@ impl<B: Disk> Explicit<B> {
 
     /// Whether no contact can ever come again: the casing, whatever the blades
     /// do, never reaches one.
-    pub(super) fn no_contact_to_come(&self) -> bool {
-        if self.held.is_some() || self.sliding.is_some() || self.drive.pulse_to_come(self.n) {
+    pub(in crate::motion::explicit) fn no_contact_to_come(&self) -> bool {
+        if self.leaps.held.is_some()
+            || self.leaps.sliding.is_some()
+            || self.drive.pulse_to_come(self.n)
+        {
             return false;
         }
         if self.goes_beyond {
             return self.rests();
         }
-        let skipped = |coordinate| self.casing.skip(coordinate, self.block.used());
-        self.block.is_endless()
+        let skipped = |coordinate| self.casing.skip(coordinate, self.leaps.block.used());
+        self.leaps.block.is_endless()
             || self.casing.reach_of(self.u.map(skipped)).0 < self.machine.polygon.clearance
     }
 }

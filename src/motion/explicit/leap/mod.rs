@@ -1,0 +1,104 @@
+//! Steps of the paper's model taken many at once, with the result of taking each: free
+//! flight (`flight`), a held lock (`held_corner`), a wave that slides along one side of
+//! rigid blades (`held_side`). Along a side of blades that move a short step is enough
+//! (`sliding`). Each says itself where it applies (docs/theory.md, section 6).
+
+mod block;
+mod corner_step;
+mod decided;
+mod flight;
+mod held;
+mod held_corner;
+mod held_side;
+mod powers;
+mod side_map;
+mod sliding;
+
+use std::sync::Arc;
+
+use super::Explicit;
+use super::disk::Disk;
+use block::Block;
+use held::Held;
+pub(super) use powers::Leap;
+use side_map::SideMap;
+use sliding::Sliding;
+
+/// What was decided on ahead, and when to try again.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Leaps {
+    /// Steps already decided on, not yet taken.
+    block: Block,
+    /// Steps of the blocks closed so far.
+    skipped: u64,
+    /// The sides that the open block holds, if it is in contact.
+    held: Option<Held>,
+    /// Step before which a corner is not tried to be held.
+    hold_tried: u64,
+    /// The same for a side.
+    slide_tried: u64,
+    /// The map of a side at this speed, once asked for.
+    side_map: Option<Arc<SideMap>>,
+    /// The wave on a side of blades that move; `u` and `blades` are then those before.
+    sliding: Option<Sliding>,
+    /// Steps in a row until the latest contact with the same sides.
+    pub same_sides: u64,
+}
+
+impl Leaps {
+    /// Whether a lock is held.
+    pub fn holds_corner(&self) -> bool {
+        matches!(self.held, Some(Held::Corner(_)))
+    }
+
+    /// The speed or the machine is another.
+    pub fn forget_map(&mut self) {
+        self.side_map = None;
+    }
+
+    /// Steps of all blocks.
+    pub fn skipped(&self) -> u64 {
+        self.skipped + self.block.used()
+    }
+
+    /// The multipliers by side inside an open block or slide, if there is one.
+    pub fn multipliers(&self) -> Option<Vec<(u32, f64)>> {
+        let of_slide = |sliding: &Sliding| vec![(sliding.side, sliding.multiplier)];
+        let of_block = || {
+            let held = self.held.as_ref().filter(|_| self.block.used() > 0)?;
+            Some(held.multipliers(self.block.used()).collect())
+        };
+        self.sliding.as_ref().map(of_slide).or_else(of_block)
+    }
+}
+
+impl<B: Disk> Explicit<B> {
+    /// Takes steps at once, up to step `target` and about `most` of them, if there are
+    /// any to take; how many are worth a look at the clock.
+    pub(super) fn leap(&mut self, target: u64, most: usize) -> Option<usize> {
+        if self.goes_beyond {
+            None
+        } else if self.is_sliding() {
+            self.slide((target - self.n).min(most as u64));
+            Some(most)
+        } else if self.open_block() {
+            self.use_block(target);
+            Some(0)
+        } else {
+            None
+        }
+    }
+
+    /// The latest step, that of an open block included.
+    pub(super) fn latest_step(&self) -> u64 {
+        self.n + self.leaps.block.used()
+    }
+
+    /// Ends what was decided on ahead.
+    pub(super) fn interrupt(&mut self) {
+        self.close_block();
+        self.leaps.hold_tried = self.n;
+        self.leaps.slide_tried = self.n;
+        self.leaps.same_sides = 0;
+    }
+}
