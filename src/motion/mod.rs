@@ -10,7 +10,6 @@ mod event;
 mod explicit;
 mod failure;
 mod free_flight;
-mod joined;
 mod propagator;
 mod run;
 mod script;
@@ -23,11 +22,10 @@ mod wave;
 
 pub use contacts::{ActiveSet, ContactLog, Hold, Impact, in_phase_order};
 pub use drive::{Pulse, Rotor, State};
-pub use event::Event;
+pub use event::{Event, Joined};
 pub use explicit::EnergyLedger;
 pub use failure::{Failure, FailureReason};
 pub use free_flight::FreeFlight;
-pub use joined::Joined;
 pub use run::{
     FinalState, ImpactReport, RunReport, Sample, Sampling, SolverReport, VerdictReached, Watch,
     run_to_end, run_to_end_watched, run_to_verdict, simulate, simulate_with, verdict_of,

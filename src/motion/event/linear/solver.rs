@@ -15,9 +15,9 @@ impl Solver for Joined {
                 return Err(failure.clone());
             }
             if self.next.0 > self.elapsed(until) {
-                self.now = self.now.max(until);
+                self.clock.arrive(until);
                 if !self.held.rows.is_empty() {
-                    self.log.touch(self.now, self.log.active_set);
+                    self.log.touch(self.clock.now, self.log.active_set);
                 }
                 return Ok(true);
             }
@@ -29,15 +29,15 @@ impl Solver for Joined {
     }
 
     fn t_s(&self) -> f64 {
-        self.now
+        self.clock.now
     }
 
     fn state(&self) -> State {
-        let (s, point) = (self.elapsed(self.now), self.point_now());
+        let (s, point) = (self.elapsed(self.clock.now), self.point_now());
         let turn = Plane::cis(self.phase + self.parameters.nu * s);
         let (u, v) = (point.z * turn, self.parameters.carried(&point) * turn);
         State {
-            t_s: self.now,
+            t_s: self.clock.now,
             u: [u.re, u.im],
             v: [v.re, v.im],
             alpha: [point.a.re, point.a.im],
@@ -67,7 +67,7 @@ impl Solver for Joined {
 
     fn multipliers(&self) -> Vec<(u32, f64)> {
         let mass = self.parameters.machine.casing_mass;
-        let pushes = self.held.with(self.stretch.pushes_at(self.elapsed(self.now)));
+        let pushes = self.held.with(self.stretch.pushes_at(self.elapsed(self.clock.now)));
         let mut sides: Vec<(u32, f64)> = Vec::new();
         for (row, push) in pushes {
             let Some(row) = self.parameters.rows.get(row) else { continue };
@@ -90,7 +90,7 @@ impl Solver for Joined {
         } else if self.over() {
             Some(Verdict::Decay)
         } else {
-            self.held_for_good(self.elapsed(self.now)).then_some(Verdict::Locked)
+            self.held_for_good(self.elapsed(self.clock.now)).then_some(Verdict::Locked)
         }
     }
 
@@ -128,7 +128,7 @@ impl Solver for Joined {
     }
 
     fn checks(&self) -> Checks {
-        let (s, parameters) = (self.elapsed(self.now), &self.parameters);
+        let (s, parameters) = (self.elapsed(self.clock.now), &self.parameters);
         let residual = self.ledger_now().residual(parameters.energy(&self.point_now()));
         Checks {
             max_penetration_m: self.deepest,
@@ -162,7 +162,7 @@ impl Solver for Joined {
         let length = self.pulse.end - self.pulse.start;
         self.swings.forget();
         self.intervene(|joined, _| {
-            let now = joined.now;
+            let now = joined.clock.now;
             joined.pulse = Pulse { start: now, end: now + length, ..joined.pulse };
         });
     }
@@ -171,7 +171,7 @@ impl Solver for Joined {
     fn set_speed(&mut self, speed: f64, ramp: f64) {
         self.swings.forget();
         self.intervene(|joined, _| {
-            joined.rotor.change(joined.now, speed, ramp);
+            joined.rotor.change(joined.clock.now, speed, ramp);
             joined.parameters.turn_at(speed);
         });
         if ramp != 0.0 {

@@ -3,10 +3,10 @@
 //! towards decreasing angle: `y = g0 tan delta` is the corner with the side of next
 //! lower phase.
 
-use super::advancement::{Gap, curved_step, leaving_step};
-use super::energy_balance::GAUSS_8;
 use super::parameters::{Drive, Parameters};
 use crate::motion::Plane;
+use crate::motion::event::looks::{Gap, curved_step, leaving_step};
+use crate::motion::event::quadrature::GAUSS_8;
 use crate::motion::propagator::Propagator;
 use crate::tolerances::{LONGEST_LOOK, MOST_PANELS, SERIES_END, SIDE_GROWTH, SIDE_LOOK};
 
@@ -269,7 +269,7 @@ pub(super) fn push_noise(parameters: &Parameters, nu: f64, y: f64, rate: f64, pu
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::motion::event::energy_balance::quadrature;
+    use crate::motion::event::quadrature::quadrature;
     use crate::scene::Scene;
 
     #[test]

@@ -16,13 +16,13 @@ use crate::tolerances::{
 impl Joined {
     /// Seconds from the start of the stretch to `t`.
     pub(super) fn elapsed(&self, t: f64) -> f64 {
-        ((t - self.start.0) - self.start.1).max(0.0)
+        self.clock.elapsed(t)
     }
 
     /// Ends the motion `s` seconds into the stretch.
     pub(super) fn fail(&mut self, s: f64, reason: FailureReason) {
-        let t_s = self.start.0 + s;
-        self.now = self.now.max(t_s);
+        let t_s = self.clock.start() + s;
+        self.clock.arrive(t_s);
         self.failure.get_or_insert(Failure { t_s, reason });
         self.next = (f64::INFINITY, What::StretchEnd);
     }
@@ -30,7 +30,7 @@ impl Joined {
     /// Whether the pulse acts from the start of the stretch on, for more than an
     /// instant.
     fn pulses(&self) -> bool {
-        self.pulse.at(self.start.0) != 0.0
+        self.pulse.at(self.clock.start()) != 0.0
             && self.elapsed(self.pulse.end) * self.parameters.rates() > AN_INSTANT
     }
 
@@ -185,17 +185,11 @@ impl Joined {
         self.loose = later.filter(|gap| gap.gap < limit).collect();
         self.phase = (self.phase + parameters.nu * s) % TAU;
         if self.pulses() && s >= self.elapsed(self.pulse.end) {
-            self.start = (self.pulse.end, 0.0);
+            self.clock.begin_at(self.pulse.end);
         } else {
-            // Two-sum: the part that rounding drops is kept.
-            let (t, low) = self.start;
-            let add = s + low;
-            let sum = t + add;
-            let rest = sum - t;
-            self.start = (sum, (t - (sum - rest)) + (add - rest));
+            self.clock.pass(s);
         }
-        self.now = self.now.max(self.start.0);
-        self.swings.see(self.start.0, point.a.norm());
+        self.swings.see(self.clock.start(), point.a.norm());
         Some(point)
     }
 
@@ -234,9 +228,9 @@ impl Joined {
         if self.failure.is_some() {
             return;
         }
-        let s = self.elapsed(self.now);
+        let s = self.elapsed(self.clock.now);
         let Some(mut point) = self.rebase(s) else { return };
-        self.start = (self.now, 0.0);
+        self.clock.begin_at(self.clock.now);
         let (before, energy) = (self.parameters.nu, self.parameters.energy(&point));
         let rate = point.dz;
         change(self, &mut point);

@@ -12,12 +12,14 @@
 //! `k = ratio g0/n_d`. The two unknown accelerations `xi''` and `eta''` are
 //! eliminated; what is left is summed as a power series, as in `side_series`.
 
-use super::advancement::curved_step;
 use super::blades::{Blades, Tips};
 use super::corner::{self, Hold};
 use super::parameters::{Drive, Parameters};
-use super::terms::{STRETCH, TERMS, Terms, ended, gap, jounce, product, quotient, slope, values};
 use crate::motion::Plane;
+use crate::motion::event::looks::curved_step;
+use crate::motion::event::series::{
+    STRETCH, TERMS, Terms, ended, gap, jounce, product, quotient, slope, values,
+};
 use crate::tolerances::{LIGHT_BLADES, MOST_HALVINGS, ROOM_TO_CHANGE};
 
 /// One stretch of locked motion in the corner of side `a` and the next.

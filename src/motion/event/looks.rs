@@ -4,7 +4,7 @@
 
 /// Longest time over which `gap + rate t - bend t^2/2` stays above zero, for
 /// `gap, bend >= 0` \[s\].
-pub(in crate::motion) fn safe_step(gap: f64, rate: f64, bend: f64) -> f64 {
+pub(in crate::motion::event) fn safe_step(gap: f64, rate: f64, bend: f64) -> f64 {
     let root = (rate * rate + 2.0 * bend * gap).sqrt();
     if rate < 0.0 {
         2.0 * gap / (root - rate)
@@ -17,7 +17,7 @@ pub(in crate::motion) fn safe_step(gap: f64, rate: f64, bend: f64) -> f64 {
 
 /// A gap with its first three derivatives now.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::motion) struct Gap {
+pub(in crate::motion::event) struct Gap {
     pub gap: f64,
     pub rate: f64,
     pub bend: f64,
@@ -26,7 +26,7 @@ pub(in crate::motion) struct Gap {
 
 impl Gap {
     /// The same with round-off added to the gap.
-    pub(in crate::motion) fn above(self, noise: f64) -> Self {
+    pub(in crate::motion::event) fn above(self, noise: f64) -> Self {
         Self { gap: self.gap.max(0.0) + noise, ..self }
     }
 }
@@ -42,7 +42,7 @@ const TRIES: usize = 6;
 /// concave: over any part of the span it is least at one of both ends. So one goes
 /// along this bound, which costs no sine, as along a motion. A shorter part gives a
 /// better bound.
-pub(in crate::motion) fn curved_step(now: Gap, jounce: f64, span: f64) -> f64 {
+pub(in crate::motion::event) fn curved_step(now: Gap, jounce: f64, span: f64) -> f64 {
     let bend_at = |t: f64| now.bend + t * (now.twist - 0.5 * jounce * t);
     let (mut t, mut end) = (0.0, span);
     let (mut gap, mut rate) = (now.gap, now.rate);
@@ -74,7 +74,7 @@ pub(in crate::motion) fn curved_step(now: Gap, jounce: f64, span: f64) -> f64 {
 /// Longest time over which a gap that starts closed and at rest stays open
 /// \[s\]: `gap >= t^2 (bend/2 + twist t/6 - jounce t^2/24)`, from its second and
 /// third derivatives now and a bound on the fourth.
-pub(in crate::motion) fn leaving_step(bend: f64, twist: f64, jounce: f64) -> f64 {
+pub(in crate::motion::event) fn leaving_step(bend: f64, twist: f64, jounce: f64) -> f64 {
     safe_step(0.5 * bend.max(0.0), twist / 6.0, jounce / 12.0)
 }
 

@@ -31,7 +31,8 @@ mod tests;
 
 use std::sync::OnceLock;
 
-use super::{ContactLog, Failure, Plane, Pulse, Rotor};
+use super::clock::Clock;
+use crate::motion::{ContactLog, Failure, Plane, Pulse, Rotor};
 use crate::scene::CheckedScene;
 use crate::tolerances::ON_A_SIDE;
 use decided::Rest;
@@ -64,11 +65,9 @@ pub struct Joined {
     pulse: Pulse,
     log: ContactLog,
     ledger: Ledger,
-    /// Start of the stretch; the second part holds what the first rounds off \[s\].
-    start: (f64, f64),
+    clock: Clock,
     /// `n_d theta` at the start, modulo a turn \[rad\].
     phase: f64,
-    now: f64,
     held: Held,
     loose: Vec<Loose>,
     stretch: Stretch,
@@ -107,9 +106,8 @@ impl Joined {
             pulse: Pulse::of(scene),
             log: ContactLog::default(),
             ledger: Ledger { start: parameters.energy(&point), ..Ledger::default() },
-            start: (0.0, 0.0),
+            clock: Clock::default(),
             phase: 0.0,
-            now: 0.0,
             held: Held::default(),
             loose: Vec::new(),
             stretch: Stretch::to_the_end(point),
@@ -160,12 +158,12 @@ impl Joined {
     /// The ledger until now.
     fn ledger_now(&self) -> Ledger {
         let mut ledger = self.ledger;
-        ledger.book(&self.parameters, &self.held, &self.stretch, self.elapsed(self.now));
+        ledger.book(&self.parameters, &self.held, &self.stretch, self.elapsed(self.clock.now));
         ledger
     }
 
     /// Where the motion is now.
     fn point_now(&self) -> Point {
-        self.stretch.point(&self.parameters, self.elapsed(self.now))
+        self.stretch.point(&self.parameters, self.elapsed(self.clock.now))
     }
 }

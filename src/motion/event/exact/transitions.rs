@@ -272,7 +272,7 @@ impl Event {
     }
 
     pub(super) fn enter(&mut self, mode: Mode) {
-        let t = self.start.0;
+        let t = self.clock.start();
         let active_set = mode.active_set(&self.parameters);
         let before = self.log.active_set;
         if before != ActiveSet::Nothing && before != active_set {

@@ -97,7 +97,7 @@ impl Event {
     /// Books impulses (per unit mass) on sides at their places, with the closing
     /// speeds they end: each takes the work `-impulse nu y` from the rotor.
     fn strike(&mut self, impulses: &[(u32, f64, f64, f64)]) {
-        let t = self.start.0;
+        let t = self.clock.start();
         for &(side, y, impulse, closing) in impulses {
             self.kick(side, y, impulse);
             self.energy_balance.rotor -= impulse * self.drive.nu * y;

@@ -7,7 +7,7 @@
 use super::parameters::{Parameters, Point};
 use super::stretch::{Held, Stretch};
 use crate::motion::Plane;
-use crate::motion::event::energy_balance::{GAUSS_8, damped};
+use crate::motion::event::quadrature::{GAUSS_8, damped};
 
 /// Energies per unit casing mass \[m^2/s^2\].
 #[derive(Clone, Copy, Debug, Default)]

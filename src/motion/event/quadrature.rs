@@ -1,61 +1,17 @@
-//! The energy balance: work of pulse and rotor against what is stored,
-//! dissipated and lost in impacts.
-//! (docs/theory.md, section 7.)
-//!
-//! Each part is integrated on its own from the closed-form motion, so that the
-//! balance can fail: dissipation from the exponentials of the flight or by
-//! Gauss quadrature along a side, the rotor's work from the pushes (a push `N`
-//! at `y` takes the power `-N nu y` from the rotor), the losses from the
-//! closing speeds. Only the summed part of a rocking motion is booked at its
-//! balance.
+//! Integrals over a motion that is known in closed form: what a damped oscillator loses,
+//! and Gauss quadrature where there is no closed form. Exact to round-off.
 
-use super::free::Free;
-use super::parameters::{Drive, Parameters};
 use crate::motion::Plane;
 use crate::motion::propagator::Propagator;
 use crate::tolerances::{FEW_NODES, MOST_PANELS, SMALL_EXPONENT};
 
-/// Energies per unit casing mass \[m^2/s^2\].
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct EnergyBalance {
-    /// Kinetic and potential energy at the start.
-    pub start: f64,
-    /// Work of the pulse.
-    pub pulse: f64,
-    /// Work of the rotor through the contact.
-    pub rotor: f64,
-    /// Dissipated by the casing damping.
-    pub dissipated: f64,
-    /// Lost in impacts.
-    pub lost: f64,
-}
-
-impl EnergyBalance {
-    /// What is missing from the balance at a state of this energy.
-    pub(super) fn residual(&self, energy: f64) -> f64 {
-        self.pulse + self.rotor - (energy - self.start) - self.dissipated - self.lost
-    }
-}
-
-/// Kinetic and potential energy of the casing per unit mass.
-pub(super) fn energy(parameters: &Parameters, u: Plane, v: Plane) -> f64 {
-    0.5 * (v.norm_sqr() + parameters.propagator.stiffness * u.norm_sqr())
-}
-
-/// Energy dissipated in `s` seconds of free flight, by the casing and by the
-/// blades.
-pub(super) fn dissipated(parameters: &Parameters, drive: &Drive, free: &Free, s: f64) -> f64 {
-    let centre = drive.pulse / parameters.propagator.stiffness;
-    let from = free.place - Plane::new(centre, 0.0);
-    let casing = damped(&parameters.propagator, from, free.rate, s);
-    let blades = parameters.blades.map_or(0.0, |blades| {
-        blades.mass * damped(&blades.propagator, free.tips.angle, free.tips.rate, s)
-    });
-    casing + blades
-}
-
 /// Energy per unit mass that a free damped oscillator loses in `s` seconds.
-pub(in crate::motion) fn damped(propagator: &Propagator, from: Plane, rate: Plane, s: f64) -> f64 {
+pub(in crate::motion::event) fn damped(
+    propagator: &Propagator,
+    from: Plane,
+    rate: Plane,
+    s: f64,
+) -> f64 {
     if propagator.damping == 0.0 || (from.norm_sqr() == 0.0 && rate.norm_sqr() == 0.0) {
         return 0.0;
     }
@@ -97,7 +53,11 @@ fn integral(r: Plane, s: f64) -> Plane {
 
 /// Integrals over `[0, s]` of two functions whose fastest rate is `rate`, by
 /// Gauss quadrature with eight points every four radians: an error of 1e-13.
-pub(super) fn quadrature(s: f64, rate: f64, integrand: impl Fn(f64) -> [f64; 2]) -> [f64; 2] {
+pub(in crate::motion::event) fn quadrature(
+    s: f64,
+    rate: f64,
+    integrand: impl Fn(f64) -> [f64; 2],
+) -> [f64; 2] {
     let mut sums = [0.0; 2];
     if s <= 0.0 {
         return sums;
@@ -128,7 +88,7 @@ const GAUSS_4: [(f64, f64); 2] = [
     (0.339_981_043_584_856_26, 0.652_145_154_862_546_1),
     (0.861_136_311_594_052_6, 0.347_854_845_137_453_85),
 ];
-pub(in crate::motion) const GAUSS_8: [(f64, f64); 4] = [
+pub(in crate::motion::event) const GAUSS_8: [(f64, f64); 4] = [
     (0.183_434_642_495_649_8, 0.362_683_783_378_362),
     (0.525_532_409_916_329, 0.313_706_645_877_887_3),
     (0.796_666_477_413_626_7, 0.222_381_034_453_374_48),

@@ -6,12 +6,14 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::advancement::{curved_step, leaving_step};
 use super::blades::{Blades, Tips};
 use super::parameters::{Drive, Parameters};
 use super::slide::{Ahead, Along, push_noise};
-use super::terms::{STRETCH, TERMS, Terms, ended, gap, jounce, product, quotient, slope, values};
 use crate::motion::Plane;
+use crate::motion::event::looks::{curved_step, leaving_step};
+use crate::motion::event::series::{
+    STRETCH, TERMS, Terms, ended, gap, jounce, product, quotient, slope, values,
+};
 use crate::tolerances::MOST_HALVINGS;
 
 /// One stretch of sliding on `side`.

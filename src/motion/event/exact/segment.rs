@@ -34,7 +34,7 @@ pub(super) enum Passage {
 impl Event {
     /// Seconds from the start of the segment to `t`.
     pub(super) fn elapsed(&self, t: f64) -> f64 {
-        ((t - self.start.0) - self.start.1).max(0.0)
+        self.clock.elapsed(t)
     }
 
     /// Goes through the next event, if it comes no later than `until`.
@@ -77,18 +77,18 @@ impl Event {
     /// Blades went beyond small angles before.
     pub(super) fn arrive(&mut self, until: f64) -> Result<(), Failure> {
         self.check_angles(self.elapsed(until))?;
-        self.now = until.max(self.now);
+        self.clock.arrive(until);
         let active_set = self.mode.active_set(&self.parameters);
         if active_set != ActiveSet::Nothing {
-            self.log.touch(self.now, active_set);
+            self.log.touch(self.clock.now, active_set);
         }
         Ok(())
     }
 
     /// Ends the motion `s` seconds into the segment.
     pub(super) fn fail(&mut self, s: f64, reason: FailureReason) -> Failure {
-        let t_s = self.start.0 + s;
-        self.now = t_s.max(self.now);
+        let t_s = self.clock.start() + s;
+        self.clock.arrive(t_s);
         let failure = Failure { t_s, reason };
         self.failure.get_or_insert(failure).clone()
     }
@@ -145,16 +145,10 @@ impl Event {
         self.tips = self.mode.tips(&self.parameters, s);
         let phase = self.drive.phase(s) % TAU;
         if what == Some(What::PulseEnd) {
-            self.start = (self.pulse.end, 0.0);
+            self.clock.begin_at(self.pulse.end);
         } else {
-            // Two-sum: the part that rounding drops is kept.
-            let (t, low) = self.start;
-            let add = s + low;
-            let sum = t + add;
-            let rest = sum - t;
-            self.start = (sum, (t - (sum - rest)) + (add - rest));
+            self.clock.pass(s);
         }
-        self.now = self.now.max(self.start.0);
         self.drive = self.drive_now(phase);
         self.safe = 0.0;
         self.found = None;
@@ -164,7 +158,7 @@ impl Event {
 
     /// Rotor and pulse from the start of the segment on.
     pub(super) fn drive_now(&self, phase: f64) -> Drive {
-        let t = self.start.0;
+        let t = self.clock.start();
         let diameters = self.parameters.machine.nodal_diameters;
         let acting = (self.pulse.start..self.pulse.end).contains(&t);
         Drive {
@@ -187,7 +181,7 @@ impl Event {
         if self.failure.is_some() {
             return;
         }
-        let s = self.elapsed(self.now);
+        let s = self.elapsed(self.clock.now);
         let side = self.mode.along(&self.parameters, &self.drive, s);
         let (place, mut rate) = self.mode.seen_by_rotor(&self.parameters, &self.drive, s, side);
         if let (Mode::Slide(_) | Mode::Driven(_), Some((side, along))) = (&self.mode, side) {
@@ -198,7 +192,7 @@ impl Event {
         let flight = self.mode.flight(&self.parameters, &self.drive, s);
         let corner = self.mode.corner().filter(|_| !matches!(self.mode, Mode::Rocking { .. }));
         self.rebase(s, None);
-        self.start = (self.now, 0.0);
+        self.clock.begin_at(self.clock.now);
         let nu = self.drive.nu;
         change(self);
         self.drive = self.drive_now(self.drive.phase);

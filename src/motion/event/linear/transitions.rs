@@ -69,7 +69,7 @@ impl Joined {
 
     /// Enters the impacts of rows that closed faster than `soft` \[m/s\].
     fn tell_impacts(&mut self, met: &[(usize, f64)], impulses: &[f64], soft: f64) {
-        let t = self.start.0;
+        let t = self.clock.start();
         let mut touched = ActiveSet::Nothing;
         for (&(row, rate), &impulse) in met.iter().zip(impulses) {
             let Some(row) = self.parameters.rows.get(row).filter(|_| impulse > 0.0) else {
@@ -129,7 +129,7 @@ impl Joined {
         if held.rows != self.held.rows {
             self.rest = std::sync::OnceLock::new();
         }
-        let t = self.start.0;
+        let t = self.clock.start();
         let sides = held.rows.iter().filter_map(|&row| self.parameters.rows.get(row));
         let active_set = sides.fold(ActiveSet::Nothing, |set, row| set.with(row.side));
         let before = self.log.active_set;

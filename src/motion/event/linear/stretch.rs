@@ -7,7 +7,7 @@
 use super::complementarity::{Square, invert};
 use super::parameters::{Parameters, Point};
 use crate::motion::Plane;
-use crate::motion::event::terms::{STRETCH, TERMS, Terms, ended, values};
+use crate::motion::event::series::{STRETCH, TERMS, Terms, ended, values};
 use crate::motion::propagator::Propagator;
 use crate::tolerances::{MOST_HALVINGS, MOST_HELD, ROUND_OFF};
 

@@ -1,20 +1,20 @@
 //! Truncated power series in time, counted in units of a stretch: what the
 //! motions without a closed form are made of.
 
-use super::advancement::Gap;
+use super::looks::Gap;
 use crate::tolerances::SERIES_TAIL;
 
 /// Terms kept: over a stretch of 0.8 rad of the fastest rate the first one
 /// dropped is below `0.8^18/18!`, 3e-18.
-pub(in crate::motion) const TERMS: usize = 18;
+pub(in crate::motion::event) const TERMS: usize = 18;
 /// Length of a stretch in radians of the fastest rate.
-pub(in crate::motion) const STRETCH: f64 = 0.8;
+pub(in crate::motion::event) const STRETCH: f64 = 0.8;
 
 /// Coefficients of `x^n`, `0 <= x <= 1` over the stretch.
-pub(in crate::motion) type Terms = [f64; TERMS];
+pub(in crate::motion::event) type Terms = [f64; TERMS];
 
 /// Term `n` of a product; terms of both factors up to `n` must be known.
-pub(in crate::motion) fn product(a: &Terms, b: &Terms, n: usize) -> f64 {
+pub(in crate::motion::event) fn product(a: &Terms, b: &Terms, n: usize) -> f64 {
     // Two sums, from both ends: additions that do not wait for each other.
     let (mut low, mut high) = (0.0, 0.0);
     let half = n.div_ceil(2);
@@ -27,18 +27,18 @@ pub(in crate::motion) fn product(a: &Terms, b: &Terms, n: usize) -> f64 {
 
 /// Term `n` of a quotient whose earlier terms are known: `of/by`, where `of` is
 /// the term of the numerator.
-pub(in crate::motion) fn quotient(of: f64, by: &Terms, result: &Terms, n: usize) -> f64 {
+pub(in crate::motion::event) fn quotient(of: f64, by: &Terms, result: &Terms, n: usize) -> f64 {
     let known: f64 = by.iter().skip(1).zip(result.iter().take(n).rev()).map(|(a, b)| a * b).sum();
     (of - known) / by[0]
 }
 
 /// Term `n` of the derivative.
-pub(in crate::motion) fn slope(terms: &Terms, n: usize) -> f64 {
+pub(in crate::motion::event) fn slope(terms: &Terms, n: usize) -> f64 {
     terms.get(n + 1).map_or(0.0, |term| (n as f64 + 1.0) * term)
 }
 
 /// Value, first and second derivative, by Horner.
-pub(in crate::motion) fn values(terms: &Terms, x: f64) -> [f64; 3] {
+pub(in crate::motion::event) fn values(terms: &Terms, x: f64) -> [f64; 3] {
     let (mut value, mut rate, mut bend) = (0.0, 0.0, 0.0);
     for &term in terms.iter().rev() {
         bend = bend * x + rate;
@@ -49,7 +49,7 @@ pub(in crate::motion) fn values(terms: &Terms, x: f64) -> [f64; 3] {
 }
 
 /// Value and three derivatives as those of a gap.
-pub(in crate::motion) fn gap(terms: &Terms, x: f64) -> Gap {
+pub(in crate::motion::event) fn gap(terms: &Terms, x: f64) -> Gap {
     let (mut gap, mut rate, mut bend, mut twist) = (0.0, 0.0, 0.0, 0.0);
     for &term in terms.iter().rev() {
         twist = twist * x + bend;
@@ -61,7 +61,7 @@ pub(in crate::motion) fn gap(terms: &Terms, x: f64) -> Gap {
 }
 
 /// Bound on the fourth derivative over the stretch.
-pub(in crate::motion) fn jounce(terms: &Terms) -> f64 {
+pub(in crate::motion::event) fn jounce(terms: &Terms) -> f64 {
     let factor = |n: f64| n * (n - 1.0) * (n - 2.0) * (n - 3.0);
     terms.iter().enumerate().skip(4).map(|(n, term)| factor(n as f64) * term.abs()).sum()
 }
@@ -69,7 +69,7 @@ pub(in crate::motion) fn jounce(terms: &Terms) -> f64 {
 /// Whether the terms fall fast enough that those dropped are round-off. The last
 /// two are not asked, as pushes do not have them: `x^14/14!` at 1e-12 of the
 /// largest leaves 1e-17 at the first term dropped, a geometric fall 4e-16.
-pub(in crate::motion) fn ended(terms: &Terms) -> bool {
+pub(in crate::motion::event) fn ended(terms: &Terms) -> bool {
     let largest = terms.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
     let last = terms.iter().rev().skip(2).take(2);
     last.into_iter().all(|term| term.abs() <= SERIES_TAIL * largest)

@@ -7,12 +7,12 @@
 //! bound on their second derivative in the turning frame (`advancement`); the rest
 //! are kept open by a bound on the speed.
 
-use super::advancement::{Gap, curved_step, leaving_step, safe_step};
 use super::blades::Tips;
 use super::bounds::{Bounds, size};
 use super::parameters::{Drive, Parameters};
 use super::rise::rise;
 use crate::motion::Plane;
+use crate::motion::event::looks::{Gap, curved_step, leaving_step, safe_step};
 use crate::tolerances::{
     LONG_LOOK, LONGEST_LOOK, NEAR_SIDES, RAMP_CHANGE, SHORT_LOOK, SOFT_CASING,
 };

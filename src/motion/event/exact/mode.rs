@@ -5,12 +5,13 @@ use super::angles::peak;
 use super::blades::Tips;
 use super::corner::{self, Hold};
 use super::corner_series::CornerSeries;
-use super::energy_balance::{self, EnergyBalance, quadrature};
+use super::energy_balance::{self, EnergyBalance};
 use super::free::{Free, Look};
 use super::parameters::{Drive, Parameters};
 use super::rocking;
 use super::side_series::SideSeries;
 use super::slide::{Ahead, Along, Slide};
+use crate::motion::event::quadrature::quadrature;
 use crate::motion::{ActiveSet, Plane};
 
 /// How the casing moves until the next event.

@@ -1,10 +1,10 @@
 //! What ends a stretch: the first gap that closes, the first push that vanishes, or
-//! its end. Nothing is passed, however short (`event::advancement`).
+//! its end. Nothing is passed, however short (`event::looks`).
 
 use super::parameters::Parameters;
 use super::stretch::{Held, Stretch};
-use crate::motion::event::advancement::curved_step;
-use crate::motion::event::terms::{TERMS, Terms, gap, jounce, values};
+use crate::motion::event::looks::curved_step;
+use crate::motion::event::series::{TERMS, Terms, gap, jounce, values};
 use crate::tolerances::{EVENT, PEAK_LOOKS};
 
 /// What ends a stretch.

@@ -7,9 +7,9 @@
 //! `q_a = f cos beta_a + (omega_c^2 - nu^2) g0 - D h` and
 //! `q_b = f cos beta_b + (omega_c^2 - nu^2) g0 + D h`; the pushes cancel both.
 
-use super::advancement::safe_step;
 use super::parameters::{Drive, Parameters};
 use crate::motion::Plane;
+use crate::motion::event::looks::safe_step;
 
 /// What one look ahead in a corner finds.
 #[derive(Clone, Copy, Debug)]
