@@ -77,7 +77,10 @@ impl<B: Disk> Explicit<B> {
         let tips = self.tips_at(n);
         let met = self.touch(&tips);
         // Growth is what it is called, whatever it does to the contact.
-        self.look_at_blades(unknown || met.as_ref().is_ok_and(|more| *more) || met.is_err())?;
+        unknown |= met.as_ref().is_ok_and(|more| *more) || met.is_err();
+        // Modes that only turn have an amplitude that does not grow.
+        let within = unknown && self.blades.bound() <= self.watch.largest();
+        self.look_at_blades(unknown && !within)?;
         met?;
         if !self.beyond.account.forgone {
             self.count_flows(force);

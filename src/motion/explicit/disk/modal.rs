@@ -19,6 +19,7 @@ pub struct ModalBlades {
     before: [f64; 2],
     /// Torque of the excitation in the last step \[N m\].
     torque: [f64; 2],
+    has_sine_mode: bool,
     rows: Arc<Rows>,
     /// Angle of each row, where they are not those of a wave of the casing's diameters.
     angles: Vec<f64>,
@@ -28,7 +29,6 @@ pub struct ModalBlades {
 #[derive(Debug)]
 struct Rows {
     diameters: u32,
-    has_sine_mode: bool,
     /// Whether the disk has the diameters of the casing wave.
     follows: bool,
     table: RowTable,
@@ -60,7 +60,7 @@ impl Rows {
             (c / f64::from(alike), s / f64::from(alike))
         };
         let shapes = (0..table.count()).map(shape).collect();
-        Self { diameters, has_sine_mode: machine.has_sine_mode, follows, shapes, table, phases }
+        Self { diameters, follows, shapes, table, phases }
     }
 }
 
@@ -78,6 +78,7 @@ impl Disk for ModalBlades {
             before: [0.0; 2],
             torque: [0.0; 2],
             angles: vec![0.0; if rows.follows { 0 } else { rows.table.count() }],
+            has_sine_mode: machine.has_sine_mode,
             rows: Arc::new(rows),
         };
         let torques = blades.torques(driven);
@@ -101,7 +102,7 @@ impl Disk for ModalBlades {
         for (mode, torque) in self.modes.iter_mut().zip(self.torque) {
             *mode = self.oscillator.step(*mode, torque);
         }
-        if !self.rows.has_sine_mode {
+        if !self.has_sine_mode {
             self.modes[1] = Coordinate::default();
         }
         self.modes[0].increment.abs() + self.modes[1].increment.abs()
@@ -221,7 +222,7 @@ impl ModalBlades {
     fn torques(&self, driven: Driven<'_>) -> [f64; 2] {
         let Some((excitation, phase)) = driven else { return [0.0; 2] };
         let [c, s] = excitation.torque_on(self.rows.diameters, phase);
-        [c, if self.rows.has_sine_mode { s } else { 0.0 }]
+        [c, if self.has_sine_mode { s } else { 0.0 }]
     }
 
     /// The oscillator that both modes are.
