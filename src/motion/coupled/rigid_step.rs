@@ -170,3 +170,35 @@ impl<B: TipModel> Coupled<B> {
             push * (tips.friction * (radius * rotor + bent) - tips.casing_friction * along);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::motion::Solver;
+    use crate::motion::coupled::{Coupled, RigidTips};
+    use crate::scene::{ModelSize, Scene};
+
+    /// Rigid tips and a frictionless casing: pushes move gaps in proportion.
+    #[test]
+    fn no_blade_is_beyond_its_target_after_a_step() {
+        let mut scene = Scene::base();
+        scene.solver.model = ModelSize::Rigid;
+        (scene.contact.restitution, scene.solver.step_s) = (0.9, 4e-6);
+        (scene.bladed_disk.blades, scene.operation.speed_rad_s) = (40, 60.0);
+        let mut motion = Coupled::<RigidTips>::new(&scene.checked().unwrap());
+        let (mut dips, mut both) = (0, 0);
+        let mut last = [motion.blade_gaps(), motion.blade_gaps()];
+        for step in 1..5000_u32 {
+            motion.advance(f64::from(step) * 4e-6 + 1e-9).unwrap();
+            let gaps = motion.blade_gaps();
+            for (now, before) in gaps.iter().zip(&last[0]) {
+                assert!(now + 0.9 * before > -1e-15, "{step}: {now:e} {before:e}");
+            }
+            let deep = gaps.iter().filter(|gap| **gap < -1e-15).count();
+            (dips, both) = (dips + deep.min(1), both + usize::from(deep > 1));
+            let deepest = gaps.iter().fold(0.0_f64, |most, gap| most.max(-gap));
+            assert!(motion.checks().max_penetration_m >= deepest - 1e-18, "{step}: {deepest:e}");
+            last = [last[1].clone(), gaps];
+        }
+        assert!(dips > 20 && both > 0, "{dips} {both}");
+    }
+}

@@ -372,4 +372,20 @@ mod tests {
             assert!(most <= blades.bound() * (1.0 + 1e-9));
         }
     }
+
+    #[test]
+    fn bent_blades_that_get_other_parameters_are_looked_at() {
+        let scene = pressed(1e-5);
+        let mut blades = FullTips::at_rest(&scene, &scene.machine(), None);
+        for step in 0..100_u32 {
+            blades.predict(None);
+            blades.correct(step % 22, -0.3);
+        }
+        for steps in 0..2 {
+            let mut changed = blades.with_parameters(&scene, &scene.machine());
+            (0..steps).for_each(|_| changed.predict(None));
+            let most = changed.every_angle().iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            assert!(most > 0.0 && most <= changed.bound() * (1.0 + 1e-9), "{steps}: {most}");
+        }
+    }
 }
