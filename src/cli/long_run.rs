@@ -148,4 +148,12 @@ mod tests {
         run.started += TICK;
         assert!(run.goes_on());
     }
+
+    #[test]
+    fn a_run_by_steps_is_bounded_by_their_number() {
+        let mut scene = Scene::base();
+        (scene.solver.step_s, scene.solver.end_s) = (0.5_f64.powi(20), 0.5);
+        let told = "rubscope: a long run: it ends at 500 ms, after 524,288 steps";
+        assert_eq!(bound(&scene.checked().unwrap(), 0), told);
+    }
 }

@@ -246,3 +246,43 @@ impl<T: Number> Balance<T> {
         ends
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::model::{BladedDisk, Casing, LiningLaw, Machine};
+
+    fn paper(casing: Casing) -> Machine {
+        Machine::new(&BladedDisk::default(), &casing, 3)
+    }
+
+    #[test]
+    fn blades_that_rub_at_rest_have_no_lock() {
+        let radius_m = BladedDisk::default().blade_length_m - 1e-5;
+        let pressed = paper(Casing { radius_m, ..Casing::default() });
+        assert!(pressed.lock_windows(1.0).is_empty());
+        assert_eq!((pressed.adhesive_speed(), pressed.locked_amplitude()), (None, None));
+    }
+
+    #[test]
+    fn the_amplitude_of_a_lock_on_a_lining_is_not_that_of_rigid_contact() {
+        let rigid = paper(Casing::default());
+        let lining = LiningLaw { stiffness_n_per_m: 1e9, smoothing_m: 0.0 };
+        assert!(rigid.locked_amplitude().is_some());
+        assert_eq!(rigid.with_lining(Some(lining)).locked_amplitude(), None);
+    }
+
+    #[test]
+    fn with_friction_alone_a_lock_has_no_upper_end() {
+        let casing = Casing { tangential_ratio: 0.3, ..Casing::default() };
+        for k in 1..20_u32 {
+            let machine = paper(casing.clone()).with_friction(0.02 * f64::from(k));
+            let window = machine.lock_window(1.0).unwrap();
+            assert_eq!(window.to, None, "{k}");
+            let push = |part: f64| {
+                let multipliers = machine.locked_multipliers(window.from * part).unwrap();
+                multipliers.iter().all(|lambda| *lambda < 0.0)
+            };
+            assert!(push(1.0 + 1e-9) && !push(1.0 - 1e-9), "{k}: {window:?}");
+        }
+    }
+}

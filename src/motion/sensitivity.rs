@@ -188,3 +188,26 @@ pub(super) fn sign(n: u64) -> f64 {
     x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     if (x ^ (x >> 31)) & 1 == 0 { 1.0 } else { -1.0 }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    #[test]
+    fn a_faster_rotor_is_faster_after_a_change_of_its_speed_too() {
+        let change = |speed| Change::Rotor { speed, ramp: -3.0 };
+        for (suspect, speed) in [(Suspect::Faster, 400.0 * MORE), (Suspect::Stronger, 400.0)] {
+            assert_eq!(suspect.change(change(Some(400.0))), change(Some(speed)));
+            assert_eq!(suspect.change(change(None)), change(None));
+        }
+    }
+
+    #[test]
+    fn what_is_told_to_stop_does_not_know_whether_a_run_is_sensitive() {
+        let scene = Scene::base().as_reference().checked().unwrap();
+        let reached = run_to_verdict(&scene, &|| true).unwrap();
+        assert_eq!(is_sensitive(&scene, &Script::default(), reached, &|| false), None);
+        assert_eq!(run_with_sensitivity(&scene, &|| false), None);
+    }
+}

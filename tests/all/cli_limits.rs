@@ -175,6 +175,10 @@ fn a_history_that_no_memory_holds_is_refused_at_once() {
     );
     // Without the gaps it is small.
     let history = rubscope::report::History::most_samples;
+    let more = (history(4096) + 1).to_string();
+    let arguments = arguments.iter().map(|word| if *word == "1000000" { &more } else { *word });
+    let said = refusal(&arguments.collect::<Vec<_>>());
+    assert!(said.contains("allowed is up to 24348 with the gaps"), "{said}");
     assert!(history(0) > 1_000_000 && history(22) > 1_000_000);
 }
 

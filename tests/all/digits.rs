@@ -2,7 +2,8 @@
 //! that do not ask.
 
 use rubscope::motion::{
-    Motion, RunReport, Sampling, Script, Watch, run_to_end, run_to_end_watched, simulate,
+    Contact, Motion, RunReport, Sampling, Script, Spread, Watch, run_to_end, run_to_end_watched,
+    simulate,
 };
 use rubscope::report::summary;
 use rubscope::scene::{CheckedScene, Scene};
@@ -174,4 +175,51 @@ fn a_run_that_is_watched_is_the_same_run() {
         }
     }
     assert!(looks > 50, "{looks}");
+}
+
+/// Numbers that move by amounts of their own are each told in the digits that hold.
+#[test]
+fn each_number_is_told_in_its_own_digits() {
+    let mut scene = Scene::builtin("paper-nd3").unwrap();
+    (scene.solver.step_s, scene.solver.end_s) = (1e-6, 1e-3);
+    let mut report = simulate(&scene.checked().unwrap());
+    let touch = |multiplier_n: f64, blades: &[u32]| {
+        let mut contact = Contact { blades: Vec::new(), multiplier_n };
+        contact.blades.extend(blades);
+        contact
+    };
+    let spread = report.outcome.spread.clone().unwrap();
+    let outcome = &mut report.outcome;
+    outcome.lock_time_s = Some(0.012_345_6);
+    outcome.amplitude_m = 2.686_35e-6;
+    outcome.wave_speed_rad_s = Some(413.257);
+    outcome.contacts = vec![touch(-244.416, &[6]), touch(-57.2951, &[17])];
+    outcome.spread = Some(Spread {
+        lock_time_s: Some(1e-5),
+        amplitude_m: Some(5.33e-9),
+        wave_speed_rad_s: Some(0.3),
+        multipliers_n: vec![Some(0.004), Some(0.4)],
+        ..spread.clone()
+    });
+    let told = |report: &RunReport| {
+        let mut text = Vec::new();
+        summary::write(report, Default::default(), &mut text).unwrap();
+        String::from_utf8(text).unwrap()
+    };
+    let text = told(&report);
+    for words in [
+        "same blades since 12.3 ms.",
+        "Blade 6 pushes with 244.42 N",
+        "Blade 17 pushes with 57 N",
+        "at the end: 2.7e-6 m, 0.027 of the clearance.",
+        "The wave turns at 413 rad/s.",
+    ] {
+        assert!(text.contains(words), "no {words} in {text}");
+    }
+    // Of many, the sum moves by what all move by.
+    report.outcome.contacts = (1..=5).map(|blade| touch(-10.1234, &[blade])).collect();
+    report.outcome.spread = Some(Spread { multipliers_n: vec![Some(0.04); 5], ..spread });
+    let text = told(&report);
+    assert!(text.contains("5 blades push with 51 N at the end, "), "{text}");
+    assert!(text.contains("most, with 10.1 N."), "{text}");
 }

@@ -113,6 +113,8 @@ fn the_least_stiffness_is_where_a_window_opens() {
         &[ring, ("contact.friction", "0.05"), ("bladed_disk.radial_coupling", "0.05")],
     ] {
         let least = least_lock_stiffness(&lined("1e9", more).machine()).unwrap();
+        // Of the machine, whatever its own lining is.
+        assert_eq!(least_lock_stiffness(&lined("1e6", more).machine()), Some(least));
         let window = |part: f64| {
             let stiffness = (least.stiffness_n_per_m * part).to_string();
             lined(&stiffness, more).machine().lock_window(1.0)

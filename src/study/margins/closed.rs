@@ -167,3 +167,43 @@ fn why_none(scene: &CheckedScene, name: LimitName) -> String {
         .to_string()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    fn limits_of(stiffness: f64, smoothing: f64) -> Vec<Limit> {
+        let mut scene = Scene::builtin("soft-lining").unwrap();
+        scene.contact.stiffness_n_per_m = stiffness;
+        scene.contact.smoothing_m = smoothing;
+        limits(&scene.checked().unwrap())
+    }
+
+    #[test]
+    fn only_the_speeds_of_a_lining_with_smoothing_say_that_they_leave_it_out() {
+        for smoothing in [0.0, 1e-6] {
+            let limits = limits_of(1e9, smoothing);
+            let noted = limits.iter().filter(|limit| {
+                limit.note.as_ref().is_some_and(|note| note.contains("without its smoothing"))
+            });
+            let noted: Vec<LimitName> = noted.map(|limit| limit.name).collect();
+            let speeds = [LimitName::OmegaLock, LimitName::LockEnds];
+            assert_eq!(noted, if smoothing > 0.0 { &speeds[..] } else { &[] }, "{smoothing}");
+        }
+    }
+
+    #[test]
+    fn what_a_soft_lining_does_not_hold_has_its_own_reason() {
+        let limits = limits_of(1e8, 1e-6);
+        for (name, reason) in [
+            (LimitName::OmegaLock, "at no speed"),
+            (LimitName::OmegaAdhesive, "does not pull"),
+            (LimitName::PushA, "at this speed"),
+        ] {
+            let limit = limits.iter().find(|limit| limit.name == name).unwrap();
+            let note = limit.note.as_ref().unwrap();
+            assert!(limit.value.is_none() && note.contains(reason), "{name}: {note}");
+        }
+    }
+}

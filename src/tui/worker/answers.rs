@@ -113,4 +113,21 @@ mod tests {
         }
         assert!(slices > 1 && answers.latest().is_none());
     }
+
+    #[test]
+    fn the_run_that_was_begun_first_goes_on_and_one_that_was_not_begun_does_not() {
+        let mut answers = Answers::default();
+        let (scene, never) = run(399.0);
+        answers.turned_on(&scene, never);
+        assert!(!answers.is_computing());
+        for speed in [400.0, 401.0] {
+            let (scene, mut run) = run(speed);
+            run.compute();
+            assert!(!run.is_done());
+            answers.turned_on(&scene, run);
+        }
+        answers.left = Duration::MAX;
+        while answers.compute() {}
+        assert_eq!(answers.latest().unwrap().scene.operation.speed_rad_s, 400.0);
+    }
 }

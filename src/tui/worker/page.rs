@@ -162,3 +162,43 @@ pub fn next_sample(
     }
     Ok(reached)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    /// A page over the first millisecond of a scene, computed to its end.
+    fn computed(scene: Scene, end: f64) -> (Page, Motion) {
+        let motion = Motion::new(&scene.checked().unwrap());
+        let mut page = Page::default();
+        page.want((0.0, 1e-3), 1e-5, (scene.solver.step_s, end), || Some(motion.clone()));
+        while !page.is_done() {
+            page.compute();
+        }
+        (page, motion)
+    }
+
+    #[test]
+    fn a_page_is_computed_again_where_the_run_has_another_end() {
+        let (mut page, motion) = computed(Scene::base(), 5e-4);
+        let reached =
+            |page: &Page| page.record().unwrap().record.between(0.0, 1.0).last().unwrap().to;
+        assert!((reached(&page) - 5e-4).abs() < 2e-7, "{}", reached(&page));
+        let mut want = |end: f64| {
+            page.want((0.0, 1e-3), 1e-5, (1e-7, end), || Some(motion.clone()));
+            page.is_done()
+        };
+        assert!(want(5e-4) && !want(8e-4));
+    }
+
+    #[test]
+    fn a_page_begins_with_its_first_instant() {
+        let mut scene = Scene::base();
+        (scene.initial.v_c_m_s, scene.operation.pulse_n) = (-0.05, 0.0);
+        let (page, _) = computed(scene, 1e-3);
+        let first = page.record().unwrap().record.between(0.0, 1e-5)[0];
+        // The casing moves away from where it starts, and does not come back.
+        assert_eq!((first.from, first.high[0]), (0.0, 0.0));
+    }
+}

@@ -153,3 +153,67 @@ fn a_comparison_that_is_slow_catches_up_before_a_change_acts_on_both() {
         playback.compute();
     }
 }
+
+/// The paper's scene over a millisecond, with both laws.
+fn short() -> Order {
+    let mut scene = Scene::base();
+    (scene.solver.step_s, scene.solver.end_s) = (1e-6, 1e-3);
+    Order { compare: true, ..order(scene) }
+}
+
+#[test]
+fn a_change_of_the_motion_forgets_the_pages() {
+    let mut order = short();
+    let mut playback = computed(&order);
+    let known = |playback: &Playback| {
+        let theirs = playback.comparison.as_ref().unwrap();
+        [&playback.page, &theirs.page].map(|page| page.record().is_some())
+    };
+    assert_eq!(known(&playback), [true; 2]);
+    order.pulses += 1;
+    playback.apply(&order);
+    assert_eq!(known(&playback), [false; 2]);
+}
+
+#[test]
+fn going_to_an_instant_neither_goes_back_nor_beyond_the_run() {
+    let mut order = short();
+    let mut playback = computed(&order);
+    playback.play(8e-4);
+    let now = playback.motion.t_s();
+    for (to, reached) in [(2e-4, now), (9e-4, 9e-4), (1.0, 1e-3)] {
+        order.goes += 1;
+        order.go_to_s = to;
+        playback.apply(&order);
+        while playback.is_computing() {
+            playback.compute();
+        }
+        let now = playback.motion.t_s();
+        assert!((now - reached).abs() < 1.1e-6, "{to}: {now}");
+        let ends = playback.snapshot().moment.unwrap().ends;
+        assert_eq!(ends, u64::from(to == 1.0), "{to}");
+    }
+}
+
+#[test]
+fn the_rate_reached_is_forgotten_where_another_is_asked_for() {
+    let mut order = short();
+    let mut playback = computed(&order);
+    playback.reached.add(1.0, 5e-3);
+    playback.apply(&order);
+    assert_eq!(playback.reached.rate(), Some(5e-3));
+    order.rate *= 2.0;
+    playback.apply(&order);
+    assert_eq!(playback.reached.rate(), None);
+}
+
+#[test]
+fn pages_take_turns_with_the_run_ahead_and_wait_for_an_arrival() {
+    let mut playback = Playback::with_time_limit(short(), Duration::MAX);
+    playback.going = Some(1e-3);
+    assert!(!playback.compute_page() && !playback.pages_are_done());
+    playback.going = None;
+    // The run ahead has had no slice yet.
+    assert!(playback.compute_page());
+    assert!(!playback.compute_page() && !playback.pages_are_done());
+}
