@@ -52,7 +52,9 @@ pub(super) fn solve<B: Disk>(
     match rows {
         [row] => row.lambda = single(entry(row, row), gaps[0]),
         [a, b] => {
-            let w = [[entry(a, a), entry(a, b)], [entry(b, a), entry(b, b)]];
+            let across = entry(a, b);
+            let back = if tips.is_symmetric() { across } else { entry(b, a) };
+            let w = [[entry(a, a), across], [back, entry(b, b)]];
             let lambda = law.pair(w, [gaps[0], gaps[1]]);
             [a.lambda, b.lambda] = lambda.ok_or(FailureReason::Singular { rows: 2 })?;
         }

@@ -48,6 +48,11 @@ impl TipLaw {
         Place { gap, normal, moment_arm }
     }
 
+    /// Whether pushes act along the constraint rows, so that `W` is symmetric.
+    pub fn is_symmetric(&self) -> bool {
+        self.friction == 0.0
+    }
+
     /// Torque of the multiplier of a row on its blades, with its friction \[N m\].
     pub fn torque(&self, row: &Row) -> f64 {
         -row.lambda * (row.place.moment_arm - self.pushed)

@@ -179,6 +179,10 @@ impl Disk for FullBlades {
     }
     fn correct(&mut self, row: u32, torque: f64) {
         let (members, rows) = (self.rows.members, self.rows.table.count() as u32);
+        if members == 1 {
+            self.turn(row, torque);
+            return;
+        }
         for member in 0..members {
             self.turn(row + member * rows, torque / f64::from(members));
         }
