@@ -28,6 +28,12 @@ pub(crate) const LARGEST_BLADE_ANGLE: f64 = 0.1;
 /// Larger: sides could pass each other within one series.
 pub(crate) const CORNER_ROOM: f64 = 0.9;
 
+// Time.
+
+/// Part of a step by which an end that is so many steps may fall short of them. Smaller: a
+/// run ends a step before its end.
+pub(crate) const STEP_ROUND_OFF: f64 = 1e-6;
+
 // The verdict.
 
 /// Part of the run, at its end, over which the verdict is judged. Shorter: a

@@ -63,7 +63,7 @@ handlers = [
     ("/socket", Socket, {"term_manager": terminals}),
     ("/js/(.*)", tornado.web.StaticFileHandler, {"path": "node_modules/@xterm"}),
 ]
-# A page from elsewhere that gives its own name this address gets nothing.
+# A foreign name that is made to point here (DNS rebinding) gets 404.
 application = tornado.web.Application()
 application.add_handlers(r"^(localhost|127\.0\.0\.1)$", handlers)
 application.listen(int(port), "127.0.0.1")

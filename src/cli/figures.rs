@@ -9,7 +9,7 @@ use clap::Args;
 
 use super::options::SceneOptions;
 use super::status::{self, Refusal, Status, say};
-use super::{Done, output};
+use super::{Done, output, sign};
 use crate::file::Written;
 use crate::report::{CommandLine, Provenance, figure::table, svg};
 use crate::scene::{CheckedScene, Scene};
@@ -62,7 +62,7 @@ impl FiguresCommand {
                 output::try_place(&self.out.join(name))?;
             }
         }
-        let bar = output::bar(scenes.len() as u64, "{spinner} {bar:30} {msg} {elapsed}");
+        let bar = sign::bar(scenes.len() as u64, "{spinner} {bar:30} {msg} {elapsed}");
         for (which, scene) in scenes {
             bar.set_message(format!("figure {which}"));
             if let Some(drawn) = drawn(which, &scene)? {

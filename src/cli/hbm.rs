@@ -23,6 +23,10 @@ const SPEEDS: usize = 51;
 const SWEPT_SPEED: &str =
     "Rotor speed, or speeds as FROM:TO:COUNT; negative turns the other way [rad/s]";
 
+/// The options of views that have the damping of the scene in any case.
+const ALWAYS_DAMPED: [&str; 8] =
+    ["slip", "harmonics", "excitation", "whirl", "compliance", "smooth", "follow", "coincidence"];
+
 /// Locked motion against speed, by harmonic balance.
 ///
 /// `--speed FROM:TO:COUNT` sweeps the speed; a single speed gives one point;
@@ -39,9 +43,9 @@ pub struct HbmCommand {
           value_parser = Words::of::<Form>(), hide_possible_values = true)]
     form: String,
     /// Drop the damping of casing and blades, as the paper's equations do
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = ALWAYS_DAMPED)]
     undamped: bool,
-    /// Keep it, as without this option; with --form printed too
+    /// Keep the damping, as without this option; with --form printed too
     #[arg(long, hide = true, conflicts_with = "undamped")]
     damped: bool,
     /// The two blades that hold the wave, phase neighbours [default: 6,21 where they are]
@@ -125,7 +129,7 @@ impl HbmCommand {
                 scene: &resolved.scene,
                 machine: &machine,
                 speed: asked.fastest(),
-                damped,
+                damped: damped || view.is_always_damped(),
                 sweep,
             };
             heading.write(out)?;

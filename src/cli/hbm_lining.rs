@@ -129,7 +129,7 @@ fn smooth(json: HbmReport, asked: &Asked) -> Result<Answer, HarmonicError> {
         hopf: if rubs && from < to { lining.hopf_points([from, to])? } else { Vec::new() },
         rest: Vec::new(),
         cycles: Vec::new(),
-        window: lining.lock_window(asked.fastest()),
+        window: machine.lock_window(asked.fastest()),
         least: least_lock_stiffness(&machine),
         states: Vec::new(),
     };

@@ -47,6 +47,13 @@ pub(super) enum HbmView {
     Compliance(Option<Vec<f64>>),
 }
 
+impl HbmView {
+    /// Whether its numbers have the damping of the scene whatever is asked for.
+    pub fn is_always_damped(&self) -> bool {
+        !matches!(self, Self::Locked | Self::Branches | Self::Fold | Self::Campbell)
+    }
+}
+
 /// The input of a view.
 pub(super) struct Asked<'a> {
     pub scene: &'a Scene,

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::ProgressBar;
 
-use super::output;
+use super::sign;
 use super::status::say;
 use crate::motion::{Motion, Watch};
 use crate::report::number::{grouped, time};
@@ -33,7 +33,7 @@ impl LongRun {
     /// Of a run that begins now, followed by `changed` more.
     pub(super) fn of(scene: &CheckedScene, changed: usize) -> Self {
         Self {
-            bar: output::bar(PARTS, "{spinner} {bar:30} {msg} {elapsed}"),
+            bar: sign::bar(PARTS, "{spinner} {bar:30} {msg} {elapsed}"),
             end_s: scene.solver.end_s,
             started: Instant::now(),
             next: TICK,
@@ -41,23 +41,13 @@ impl LongRun {
         }
     }
 
-    /// The changed runs begin.
-    pub(super) fn begin_changed_runs(&self) {
-        // What took no time is followed by what takes little.
-        if self.started.elapsed() > TICK {
-            self.bar.set_message("changed runs find out which digits hold");
-            self.bar.enable_steady_tick(TICK);
-        }
-    }
-}
-
-impl Watch for LongRun {
-    fn goes_on(&self) -> bool {
-        self.started.elapsed() < self.next
+    /// Whether a look is due after this much wall time.
+    fn is_due(&self, elapsed: Duration) -> bool {
+        elapsed >= self.next
     }
 
-    fn look(&mut self, motion: &Motion) {
-        let elapsed = self.started.elapsed();
+    /// Looks at it after this much wall time.
+    fn look_after(&mut self, elapsed: Duration, motion: &Motion) {
         self.next = elapsed + TICK;
         let (part, message) = progress(motion, self.end_s);
         self.bar.set_position((part * PARTS as f64) as u64);
@@ -65,6 +55,16 @@ impl Watch for LongRun {
         if let Some(bound) = self.bound.take_if(|_| elapsed >= SILENCE) {
             say(&bound);
         }
+    }
+}
+
+impl Watch for LongRun {
+    fn goes_on(&self) -> bool {
+        !self.is_due(self.started.elapsed())
+    }
+
+    fn look(&mut self, motion: &Motion) {
+        self.look_after(self.started.elapsed(), motion);
     }
 }
 
@@ -115,10 +115,9 @@ mod tests {
         let mut motion = Motion::new(&scene);
         motion.advance(0.1).unwrap();
         let mut run = LongRun::of(&scene, 3);
-        run.look(&motion);
+        run.look_after(SILENCE - TICK, &motion);
         assert!(run.bound.is_some(), "not before it is long");
-        run.started -= SILENCE;
-        run.look(&motion);
+        run.look_after(SILENCE, &motion);
         assert_eq!(run.bound, None);
         let told = bound(&scene, 3);
         for words in ["ends at 1e6 s, or after 10,000,000 changes of contact", "3 changed runs"] {
@@ -142,11 +141,10 @@ mod tests {
         let scene = Scene::base().as_reference().checked().unwrap();
         let motion = Motion::new(&scene);
         let mut run = LongRun::of(&scene, 0);
-        run.started -= TICK;
-        assert!(!run.goes_on());
-        run.look(&motion);
-        run.started += TICK;
-        assert!(run.goes_on());
+        let now = Duration::from_secs(1);
+        assert!(run.is_due(now));
+        run.look_after(now, &motion);
+        assert!(!run.is_due(now) && run.is_due(now + TICK));
     }
 
     #[test]

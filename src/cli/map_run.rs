@@ -10,6 +10,7 @@ use rayon::prelude::*;
 
 use super::output;
 use super::part_file::{PartFile, save_new};
+use super::sign;
 use super::signals::StopRequest;
 use super::status::say;
 use crate::study::{Cell, Map, Progress, Shard, part};
@@ -115,7 +116,7 @@ fn stopped(map: &Map, complete: Option<&Path>, out: &mut dyn Write) -> anyhow::R
 
 /// Updates the bar and handles signals until the cells are done.
 fn watch(progress: &Progress, request: &StopRequest, finished: &AtomicBool, cells: u64) {
-    let bar = output::bar(cells, "{spinner} {bar:30} {pos}/{len} cells, {per_sec}, {eta} left");
+    let bar = sign::bar(cells, "{spinner} {bar:30} {pos}/{len} cells, {per_sec}, {eta} left");
     while !finished.load(Ordering::Relaxed) {
         if request.received().is_some() {
             progress.stop.store(true, Ordering::Relaxed);

@@ -67,7 +67,7 @@ impl MarginsCommand {
         }
         if !tolerances.is_empty() {
             let form = "{spinner} {bar:30} {pos}/{len} samples of the tolerances {elapsed}";
-            let bar = output::bar(SAMPLES as u64, form);
+            let bar = sign::bar(SAMPLES as u64, form);
             margins.spread(tolerances, &|| bar.inc(1));
         }
         margins.target = target.and_then(|target| target.solve(&scene, &to_the_end));

@@ -3,7 +3,6 @@
 use std::io::Write;
 use std::path::Path;
 
-pub use super::sign::bar;
 use super::status::{Refusal, say};
 use crate::file::{self, Written};
 use anyhow::Context;

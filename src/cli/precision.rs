@@ -7,7 +7,7 @@ use clap::Args;
 
 use super::options::SceneOptions;
 use super::status::{self, Refusal, Status};
-use super::{Done, output};
+use super::{Done, output, sign};
 use crate::motion::to_the_end;
 use crate::report::{CommandLine, Provenance, json, precision as report, svg};
 use crate::study::precision::{Effort, Measure, Precision, ways};
@@ -45,7 +45,7 @@ impl PrecisionCommand {
         let effort = Effort { repeats: self.repeat, finest_s: self.finest, ..Effort::default() };
         let ways = ways(&scene, effort);
         let form = "{spinner} {bar:30} {pos}/{len} {msg} {elapsed}";
-        let bar = output::bar(ways.len() as u64, form);
+        let bar = sign::bar(ways.len() as u64, form);
         bar.set_message("the reference");
         let Some(measure) = Measure::new(&scene, effort, &to_the_end)? else {
             return Ok(Status::Failed);

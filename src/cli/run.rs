@@ -10,10 +10,11 @@ use super::long_run::LongRun;
 use super::options::SceneOptions;
 use super::script::{self, RequestedScript};
 use super::status::{self, Refusal, Status};
-use super::{Done, output};
+use super::{Done, output, sign};
 use crate::motion::{CHANGED_RUNS, Sample, Sampling, Verdict, run_to_end_watched, to_the_end};
 use crate::report::{CommandLine, History, Provenance, Wall, json, npz, summary};
 use crate::scene::Scene;
+use crate::tolerances::HISTORY_VALUES;
 
 /// Simulate a scene in time and report how it ends.
 #[derive(Args, Debug)]
@@ -54,8 +55,8 @@ impl RunCommand {
         let most = History::most_samples(gaps);
         if self.samples > most {
             let allowed = format!(
-                "up to {most} with the gaps of {gaps} blades: a history has at most {} values",
-                History::MOST_VALUES
+                "up to {most} with the gaps of {gaps} blades: a history has at most {HISTORY_VALUES} \
+                 values"
             );
             return Err(Refusal::of("--samples", self.samples, allowed).into());
         }
@@ -73,7 +74,7 @@ impl RunCommand {
         let mut report = run_to_end_watched(&scene, &acts, sampling, &mut sink, &mut shown);
         let mut wall = Wall { run_s: started.elapsed().as_secs_f64(), certainty_s: None };
         if changed_runs > 0 {
-            shown.begin_changed_runs();
+            sign::doing("changed runs find out which digits hold");
             let started = Instant::now();
             report.ask_changed_runs(&acts, &to_the_end);
             wall.certainty_s = Some(started.elapsed().as_secs_f64());

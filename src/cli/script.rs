@@ -121,6 +121,7 @@ impl RequestedStep {
             return Err(fixed());
         }
         let scene = before.clone().into_scene().with(&[(path, value)]).map_err(refused)?;
+        scene.slides().map_err(refused)?;
         let of_rotor = path == SPEED || path == RAMP;
         if !of_rotor && !motion::Change::is_live(before, &scene) {
             return Err(fixed());

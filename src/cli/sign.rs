@@ -74,18 +74,29 @@ pub fn end() {
     }
 }
 
-/// Standard output. What is seen on a terminal takes the place of the sign.
+/// Standard output. What is written takes the place of the sign, also in a pipe: its
+/// reader may draw on the same terminal.
 pub struct Out;
 
 impl Write for Out {
     fn write(&mut self, bytes: &[u8]) -> Result<usize> {
-        if stdout().is_terminal() {
-            end();
-        }
+        end();
         stdout().write(bytes)
     }
 
     fn flush(&mut self) -> Result<()> {
         stdout().flush()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_sign_goes_before_the_first_byte_of_the_output_wherever_that_goes() {
+        let sign = SIGN.get_or_init(ProgressBar::hidden);
+        Out.write_all(b" ").unwrap();
+        assert!(sign.is_finished());
     }
 }

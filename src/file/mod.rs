@@ -14,8 +14,8 @@ use std::path::Path;
 
 use place::Place;
 pub use place::check_place;
-use temporary::Temporary;
 pub use temporary::settle;
+use temporary::{PRIVATE, Temporary, USUAL};
 
 /// What writing a file did.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,7 +49,7 @@ pub fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) ->
     let replaced = replaced.as_ref();
     let beside = match replaced {
         Some(metadata) if place::has_other_names(metadata) => None,
-        _ => match Temporary::beside(&path, replaced) {
+        _ => match Temporary::beside(&path, replaced, USUAL) {
             // The file can be written, but its folder takes no other.
             Err(error) if replaced.is_some() && error.kind() == ErrorKind::PermissionDenied => None,
             temporary => Some(temporary?),
@@ -75,7 +75,7 @@ pub fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) ->
 /// `AlreadyExists` where there is anything of this name, also if it came while
 /// `write` was at work; an error of the system or of `write`.
 pub fn create(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<()> {
-    create_with(path, false, write)
+    create_with(path, USUAL, write)
 }
 
 /// As `create`, for the user alone: others can never read it.
@@ -83,26 +83,19 @@ pub fn create(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> 
 /// # Errors
 /// As `create`.
 pub fn create_private(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<()> {
-    create_with(path, true, write)
+    create_with(path, PRIVATE, write)
 }
 
 fn create_with(
     path: &Path,
-    private: bool,
+    mode: u32,
     write: impl FnOnce(&mut dyn Write) -> Result<()>,
 ) -> Result<()> {
     if path.symlink_metadata().is_ok() {
         return Err(Error::from(ErrorKind::AlreadyExists));
     }
     let (Place::New(path) | Place::Stream(path) | Place::Existing { path, .. }) = Place::of(path)?;
-    let temporary = Temporary::beside(&path, None)?;
-    #[cfg(unix)]
-    if private {
-        use std::os::unix::fs::PermissionsExt;
-        temporary.file().set_permissions(PermissionsExt::from_mode(0o600))?;
-    }
-    #[cfg(not(unix))]
-    let _ = private;
+    let temporary = Temporary::beside(&path, None, mode)?;
     fill(temporary.file(), write)?;
     temporary.finish(None)?;
     temporary.create(&path)

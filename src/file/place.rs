@@ -4,7 +4,7 @@ use std::fs::{File, Metadata};
 use std::io::{Error, ErrorKind, Result};
 use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 
-use super::temporary::Temporary;
+use super::temporary::{Temporary, USUAL};
 
 /// Most links from one to the next that are followed, as in the system.
 const MOST_LINKS: usize = 40;
@@ -65,7 +65,7 @@ pub fn check_place(path: &Path) -> Result<()> {
     match Place::of(path)? {
         // A file that exists and can be written can also be exchanged in place.
         Place::Stream(_) | Place::Existing { .. } => Ok(()),
-        Place::New(path) => Temporary::beside(&path, None).map(drop),
+        Place::New(path) => Temporary::beside(&path, None, USUAL).map(drop),
     }
 }
 

@@ -18,6 +18,11 @@ fn named() -> MutexGuard<'static, Vec<PathBuf>> {
     NAMED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
+/// The modes of a new file, of which the system takes its mask: one as any other, and one
+/// for the user alone.
+pub(super) const USUAL: u32 = 0o666;
+pub(super) const PRIVATE: u32 = 0o600;
+
 /// Held while a complete file takes its place.
 static PLACING: Mutex<()> = Mutex::new(());
 
@@ -70,16 +75,16 @@ pub(super) enum Temporary {
 }
 
 impl Temporary {
-    /// A file in the folder of `path`, no more readable than the one that it is to
-    /// replace.
-    pub(super) fn beside(path: &Path, replaced: Option<&Metadata>) -> Result<Self> {
+    /// A file in the folder of `path`, from the start no more readable than the one that
+    /// it is to replace, or with this mode where there is none.
+    pub(super) fn beside(path: &Path, replaced: Option<&Metadata>, mode: u32) -> Result<Self> {
         let folder = place::folder(path);
         // A folder that is missing has the same word for every kind of file.
         if !folder.metadata()?.is_dir() {
             return Err(ErrorKind::NotADirectory.into());
         }
         #[cfg(target_os = "linux")]
-        let first = match unnamed::open(folder) {
+        let first = match unnamed::open(folder, mode) {
             Ok(file) => return Ok(Self::Unnamed(file)),
             Err(error) => error,
         };
@@ -87,12 +92,12 @@ impl Temporary {
         let first = Error::from(ErrorKind::Unsupported);
         // Not every file system knows files without a name. The hidden name is of no
         // interest to the reader of an error.
-        Self::with_name(folder, replaced).map_err(|error| {
+        Self::with_name(folder, replaced, mode).map_err(|error| {
             if first.kind() == error.kind() { first } else { Error::from(error.kind()) }
         })
     }
 
-    fn with_name(folder: &Path, replaced: Option<&Metadata>) -> Result<Self> {
+    fn with_name(folder: &Path, replaced: Option<&Metadata>, mode: u32) -> Result<Self> {
         let mut builder = tempfile::Builder::new();
         let prefix = format!(".rubscope-{}-", std::process::id());
         builder.prefix(&prefix);
@@ -100,11 +105,11 @@ impl Temporary {
         {
             use std::os::unix::fs::PermissionsExt;
             // Never more readable than what it replaces.
-            let new = std::fs::Permissions::from_mode(0o666);
+            let new = std::fs::Permissions::from_mode(mode);
             builder.permissions(replaced.map_or(new, Metadata::permissions));
         }
         #[cfg(not(unix))]
-        let _ = replaced;
+        let _ = (replaced, mode);
         let file = builder.tempfile_in(folder)?;
         let hidden = Hidden::new(file.path().to_path_buf());
         Ok(Self::Named(file, hidden))
@@ -205,11 +210,11 @@ mod unnamed {
     static NEXT: AtomicU64 = AtomicU64::new(0);
 
     /// A file without a name, which can get one later.
-    pub(super) fn open(folder: &Path) -> Result<File> {
+    pub(super) fn open(folder: &Path, mode: u32) -> Result<File> {
         // The descriptor is named through it later.
         Path::new("/proc/self/fd").metadata()?;
         let flags = i32::try_from(OFlags::TMPFILE.bits()).map_err(|_| ErrorKind::Unsupported)?;
-        File::options().read(true).write(true).mode(0o666).custom_flags(flags).open(folder)
+        File::options().read(true).write(true).mode(mode).custom_flags(flags).open(folder)
     }
 
     pub(super) fn link(file: &File, path: &Path) -> Result<()> {
@@ -249,7 +254,7 @@ mod tests {
 
     /// As on a file system that knows no files without a name.
     fn with_name(folder: &Path, content: &str) -> Temporary {
-        let temporary = Temporary::with_name(folder, None).unwrap();
+        let temporary = Temporary::with_name(folder, None, USUAL).unwrap();
         temporary.file().write_all(content.as_bytes()).unwrap();
         temporary
     }
@@ -293,7 +298,11 @@ mod tests {
         std::fs::write(&path, "secret").unwrap();
         std::fs::set_permissions(&path, PermissionsExt::from_mode(0o600)).unwrap();
         let temporary =
-            Temporary::with_name(folder.path(), Some(&path.metadata().unwrap())).unwrap();
-        assert_eq!(temporary.file().metadata().unwrap().permissions().mode() & 0o777, 0o600);
+            Temporary::with_name(folder.path(), Some(&path.metadata().unwrap()), USUAL).unwrap();
+        let mode = |file: &Temporary| file.file().metadata().unwrap().permissions().mode() & 0o777;
+        assert_eq!(mode(&temporary), 0o600);
+        // Nor is one for the user alone, from its first moment on.
+        assert_eq!(mode(&Temporary::with_name(folder.path(), None, PRIVATE).unwrap()), 0o600);
+        assert_eq!(mode(&Temporary::beside(&path, None, PRIVATE).unwrap()), 0o600);
     }
 }

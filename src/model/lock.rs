@@ -21,6 +21,14 @@ pub struct LockWindow<T = f64> {
     pub to: Option<T>,
 }
 
+impl LockWindow {
+    /// Whether a lock holds at a speed of this magnitude.
+    #[must_use]
+    pub fn has(&self, speed: f64) -> bool {
+        self.from <= speed && self.to.is_none_or(|to| speed <= to)
+    }
+}
+
 impl<T: Number> Machine<T> {
     /// Speed from which both multipliers of the locked motion are compressive for a
     /// rotor that turns forward; without friction, inclined tips and a lining
@@ -74,6 +82,12 @@ impl<T: Number> Machine<T> {
         let slope = 1.0 / self.polygon.delta.tan();
         let windows = if self.friction.re() == 0.0 { self.windows(slope, 1.0) } else { Vec::new() };
         windows.first().map(|window| window.from)
+    }
+
+    /// Whether every lock above the critical speed pushes, as nothing parts the two pushes.
+    #[must_use]
+    pub fn locks_from_critical_speed(&self) -> bool {
+        self.casing_damping.re() == 0.0 && !self.casing_is_joined() && self.lining.is_none()
     }
 
     fn threshold(&self, slope: f64) -> Option<T> {

@@ -108,6 +108,9 @@ pub struct RunReport {
     /// Where energy came from and went to, beyond the paper.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy: Option<EnergyLedger>,
+    /// Speed of the rotor at the end, after ramps and changes \[rad/s\].
+    #[serde(skip)]
+    pub end_speed_rad_s: f64,
     /// What another run must agree with if this one is not sensitive.
     #[serde(skip)]
     pub reached: VerdictReached,
@@ -374,6 +377,7 @@ pub(super) fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) 
         },
         checks: motion.checks(),
         energy: motion.energy_ledger(),
+        end_speed_rad_s: motion.rotor().speed(state.t_s),
         reached: VerdictReached::of(motion, verdict),
     }
 }

@@ -51,9 +51,9 @@ pub fn is_sensitive(
     let moment = moment(scene);
     let found = AtomicBool::new(false);
     let undecided = || !found.load(Ordering::Relaxed) && go_on();
-    let agrees = |suspect: &Suspect| {
+    let agrees_to_the_end = |change: &TinyChange| {
         let mut wave = WaveTracker::of_none();
-        let Some((motion, verdict)) = suspect.run(scene, script, &mut wave, &undecided) else {
+        let Some((motion, verdict)) = change.run(scene, script, &mut wave, &undecided) else {
             return false;
         };
         let differs = VerdictReached::of(&motion, verdict).differs_from(reached, moment);
@@ -61,8 +61,8 @@ pub fn is_sensitive(
         !differs
     };
     let all_agree = match rayon::current_thread_index() {
-        Some(_) => Suspect::ALL.par_iter().with_max_len(1).all(agrees),
-        None => Suspect::ALL.iter().all(agrees),
+        Some(_) => TinyChange::ALL.par_iter().with_max_len(1).all(agrees_to_the_end),
+        None => TinyChange::ALL.iter().all(agrees_to_the_end),
     };
     // A run that was told to stop has said nothing.
     if found.load(Ordering::Relaxed) { Some(true) } else { all_agree.then_some(false) }
@@ -73,8 +73,8 @@ impl RunReport {
     /// run through a script is sensitive and how far its final numbers move; nothing is
     /// known where `go_on` said no on the way.
     pub fn ask_changed_runs(&mut self, script: &Script, go_on: GoOn<'_>) {
-        let run = |suspect: &Suspect| suspect.run_to_end(&self.scene, script, go_on);
-        let changed: Option<Vec<_>> = Suspect::ALL.par_iter().with_max_len(1).map(run).collect();
+        let run = |change: &TinyChange| change.run_to_end(&self.scene, script, go_on);
+        let changed: Option<Vec<_>> = TinyChange::ALL.par_iter().with_max_len(1).map(run).collect();
         let Some(changed) = changed else { return };
         let moment = moment(&self.scene);
         let differs = |other: &RunReport| other.reached.differs_from(self.reached, moment);
@@ -84,7 +84,7 @@ impl RunReport {
 }
 
 /// How many changed runs find out whether a run is sensitive.
-pub const CHANGED_RUNS: usize = Suspect::ALL.len();
+pub const CHANGED_RUNS: usize = TinyChange::ALL.len();
 
 /// How much later a wave may lock \[s\].
 fn moment(scene: &CheckedScene) -> f64 {
@@ -93,7 +93,7 @@ fn moment(scene: &CheckedScene) -> f64 {
 
 /// A tiny change of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Suspect {
+enum TinyChange {
     /// A weaker pulse.
     Weaker,
     /// A faster rotor.
@@ -104,7 +104,7 @@ enum Suspect {
     Noise,
 }
 
-impl Suspect {
+impl TinyChange {
     /// All of them, first the one that finds most, then what finds most of the rest.
     const ALL: [Self; 4] = [Self::Weaker, Self::Faster, Self::Stronger, Self::Noise];
 

@@ -58,6 +58,7 @@ impl From<[f64; 3]> for Coefficients {
 
 /// The product of two polynomials on one interval.
 pub(crate) fn product(a: &[f64], b: &[f64]) -> Coefficients {
+    debug_assert!(a.len() + b.len() <= MOST + 1, "no room for the highest terms");
     let mut values = [0.0; MOST];
     for (i, x) in a.iter().enumerate() {
         for (slot, y) in values.iter_mut().skip(i).zip(b) {
@@ -169,6 +170,16 @@ mod tests {
             };
             Coefficients::from([at(from, from), 2.0 * at(from, to), at(to, to)])
         }
+    }
+
+    #[test]
+    #[cfg(debug_assertions)]
+    #[should_panic(expected = "no room for the highest terms")]
+    fn a_product_of_too_high_a_degree_is_not_cut() {
+        let quadratic = product(&[1.0, 2.0], &[3.0, 4.0]);
+        assert_eq!(quadratic[..], [3.0, 10.0, 8.0]);
+        assert_eq!(product(&quadratic, &[1.0; MOST - 2]).len(), MOST);
+        product(&quadratic, &[1.0; MOST - 1]);
     }
 
     #[test]

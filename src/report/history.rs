@@ -38,9 +38,6 @@ pub struct History {
 }
 
 impl History {
-    /// Most values of one.
-    pub const MOST_VALUES: usize = HISTORY_VALUES;
-
     /// An empty history; `blades` gap columns are added, none for 0.
     #[must_use]
     pub fn new(blades: u32) -> Self {

@@ -4,7 +4,7 @@
 use std::io::{Result, Write};
 use std::rc::Rc;
 
-use super::table::{Column, Layout, Table, TableCell, write_csv};
+use super::table::{Column, Layout, Table, TableCell, write_csv_of};
 
 /// The rows of one place of a list.
 type RowsAt = Rc<dyn Fn(usize) -> Result<Vec<Vec<TableCell>>>>;
@@ -71,11 +71,7 @@ impl MadeTable {
     /// # Errors
     /// An error of the writer, or of what makes a row.
     pub fn write_csv(&self, out: &mut dyn Write) -> Result<()> {
-        let none: [[TableCell; 0]; 0] = [];
-        write_csv(&self.names, none, out)?;
-        let mut csv = csv::Writer::from_writer(out);
-        self.each(|row| Ok(csv.write_record(row.into_iter().map(TableCell::in_csv))?))?;
-        csv.flush()
+        write_csv_of(&self.names, |row| self.each(row), out)
     }
 
     /// As [`Table::write_text`]; every row is made twice.

@@ -7,6 +7,7 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::json;
 
 use super::number::short;
+use super::summary::OF_WHAT;
 use super::{CommandLine, table};
 use crate::motion::Verdict;
 use crate::scene::{Key, keys};
@@ -275,10 +276,7 @@ fn write_legend(map: &Map, out: &mut dyn Write) -> Result<()> {
         let letters = Verdict::ALL.map(|verdict| mark(Some(Cell { verdict, sensitive: true })));
         let letters = letters.map(String::from).join(" ");
         writeln!(out, "A letter ({letters}) marks {marked}, where a change of 1e-9")?;
-        writeln!(
-            out,
-            "of the pulse or of the motion changes the verdict or the number of impacts."
-        )?;
+        writeln!(out, "{OF_WHAT} changes the verdict or the number of impacts.")?;
     }
     Ok(())
 }

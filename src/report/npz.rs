@@ -11,7 +11,7 @@ use zip::{CompressionMethod, DateTime, ZipWriter};
 use super::command::VERSION;
 use super::{History, Provenance};
 
-/// Keeps the first error of a writer from the archive, which would tell it itself.
+/// Hides the first error of the writer from the archive, which would print it in its own words.
 struct Quiet<'a> {
     out: &'a mut dyn Write,
     trouble: Result<()>,

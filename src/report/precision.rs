@@ -4,10 +4,11 @@
 use std::io::{Result, Write};
 
 use super::number::{count, rounded, short, time};
+use super::summary::OF_WHAT;
 use super::table::Table;
 use crate::scene::{ContactLaw, ModelSize, SolverKind};
 use crate::study::figures::{Figure, Panel, Quantity, Series, Style};
-use crate::study::precision::{Method, Precision, Reference, Row, Way};
+use crate::study::precision::{Lack, Method, Precision, Reference, Row, Way};
 
 /// Size of the text chart.
 const COLUMNS: usize = 64;
@@ -60,10 +61,22 @@ fn found(reference: &Reference) -> String {
         Method::FinestStep => {
             format!("explicit solver, {contact}, {model} model, the finest step, {step} s")
         }
-        Method::None if reference.way.step_s.is_some() => {
+        Method::None(_) if reference.way.step_s.is_some() => {
             format!("none; explicit solver, {contact}, {model} model, {step} s")
         }
         _ => format!("event solver, {contact}, {model} model"),
+    }
+}
+
+/// Why there is no reference.
+fn why_none(lack: Lack) -> &'static str {
+    match lack {
+        Lack::NotFalling => "the end does not settle with the step",
+        Lack::TooFar => "the end settles with the step, but not yet at the finest",
+        Lack::OtherMotions => "the impacts change with the step",
+        Lack::TooFew => "too few steps are short enough for the motion",
+        Lack::StepsFailed => "runs at fine steps fail",
+        Lack::EventsFailed => "the event solver fails before the end",
     }
 }
 
@@ -72,29 +85,25 @@ fn goodness(reference: &Reference) -> String {
     let told = |x: f64| short(rounded(x, 2));
     let changes: Vec<String> = reference.changes.iter().map(|change| told(*change)).collect();
     let changes = changes.join(", ");
-    let Some(error) = reference.error else {
-        return if changes.is_empty() {
-            "It has no state at the end to compare with.".to_string()
-        } else {
-            format!(
-                "Halving the step moves the end by {changes} of the clearance: no order is seen, \
-                 and ends cannot be compared."
-            )
-        };
-    };
-    match reference.order {
-        _ if reference.method == Method::Events => {
-            format!("Halving its tolerance moves the end by {} of the clearance.", told(error))
+    let error = told(reference.error.unwrap_or_default());
+    match (reference.method, reference.order) {
+        (Method::None(lack), _) => {
+            let moved = match changes.as_str() {
+                "" => String::new(),
+                _ => format!("Halving the step moves the end by {changes} of the clearance. "),
+            };
+            format!("{moved}Ends cannot be compared: {}.", why_none(lack))
         }
-        Some(order) => format!(
+        (Method::Events, _) => {
+            format!("Halving its tolerance moves the end by {error} of the clearance.")
+        }
+        (_, Some(order)) => format!(
             "Halving the step moves the end by {changes} of the clearance: order {order:.2}. Its \
-             error is about {} of the clearance; smaller ones are not known.",
-            told(error)
+             error is about {error} of the clearance; smaller ones are not known."
         ),
-        None => format!(
-            "Halving the step moves the end by no more than {} of the clearance.",
-            told(error)
-        ),
+        (_, None) => {
+            format!("Halving the step moves the end by no more than {error} of the clearance.")
+        }
     }
 }
 
@@ -108,7 +117,7 @@ pub fn reference_words(reference: &Reference) -> String {
         Method::Events => format!("{verdict}, by events"),
         Method::Extrapolated => format!("{verdict}, extrapolated{order}, error {error} g0"),
         Method::FinestStep => format!("{verdict}, finest step{order}, error {error} g0"),
-        Method::None => "none: the end does not settle with the step".to_string(),
+        Method::None(lack) => format!("none: {}", why_none(lack)),
     }
 }
 
@@ -189,7 +198,7 @@ pub fn write(report: &Precision, out: &mut dyn Write) -> Result<()> {
         let right = same_law().filter(|row| !row.is_wrong()).count();
         writeln!(
             out,
-            "This scene is sensitive: a change of 1e-9 of the pulse or of the motion changes its outcome. \
+            "This scene is sensitive: a change of 1e-9 {OF_WHAT} changes its outcome. \
              End states are not compared; {right} of {} ways under the same contact law agree \
              with the verdict of the reference.",
             same_law().count()
@@ -250,15 +259,15 @@ pub fn figure(report: &Precision) -> std::result::Result<Figure, String> {
     let placed: Vec<&Row> = report.rows.iter().filter(|row| place(row).is_some()).collect();
     let is_zero = |row: &Row| row.error_final == Some(0.0);
     if placed.iter().all(|row| is_zero(row)) {
-        return Err(match (placed.is_empty(), report.reference.sensitive) {
-            (false, _) => "every error is 0, which a logarithmic axis cannot show",
-            (_, Some(true)) => "on a sensitive scene there are no errors to draw",
-            _ if !report.reference.changes.is_empty() => {
-                "halving the step goes on moving the end: there are no errors to draw"
+        let why = match report.reference.method {
+            _ if !placed.is_empty() => {
+                return Err("every error is 0, which a logarithmic axis cannot show".to_string());
             }
-            _ => "every run or the reference failed: there are no errors to draw",
-        }
-        .to_string());
+            Method::None(lack) => why_none(lack),
+            _ if report.reference.sensitive == Some(true) => "the scene is sensitive",
+            _ => "every run fails",
+        };
+        return Err(format!("{why}: there are no errors to draw"));
     }
     let at = |row: &&Row| Some((row.wall_s, row.error_final?));
     let mut all: Vec<Series> = Vec::new();

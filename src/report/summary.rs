@@ -9,6 +9,9 @@ use crate::model::Machine;
 use crate::motion::{Contact, RunReport, Verdict};
 use crate::scene::{ContactLaw, SolverKind};
 
+/// What the tiny changes are of that a sensitive run does not outlast.
+pub(super) const OF_WHAT: &str = "of the pulse, the speed or the motion";
+
 /// Most impacts that are listed one by one.
 const IMPACTS_TOLD: usize = 4;
 
@@ -39,7 +42,7 @@ pub fn write(report: &RunReport, wall: Wall, out: &mut dyn Write) -> Result<()> 
     if report.outcome.sensitive == Some(true) {
         writeln!(
             out,
-            "Sensitive: a change of 1e-9 of the pulse, the speed or the motion changes this outcome; do not rely on it."
+            "Sensitive: a change of 1e-9 {OF_WHAT} changes this outcome; do not rely on it."
         )?;
     }
     if let Some(line) = warning(report) {
@@ -153,7 +156,7 @@ fn motion(report: &RunReport, machine: &Machine, out: &mut dyn Write) -> Result<
         writeln!(out, "{note}")?;
     }
     writeln!(out, "{}", speeds(report, machine))?;
-    if let Some(dangerous) = machine.coincidence_felt_at(speed_at_end(report)) {
+    if let Some(dangerous) = machine.coincidence_felt_at(report.end_speed_rad_s) {
         writeln!(out, "Dangerous coincidence speed: {} rad/s.", short(dangerous))?;
     }
     writeln!(out, "{}", impacts(report))
@@ -195,16 +198,11 @@ fn touch(contact: &Contact, moved: Option<f64>, digits: &Digits) -> String {
     format!("{who} {verb} with {force} N at the end.")
 }
 
-fn speed_at_end(report: &RunReport) -> f64 {
-    let operation = &report.scene.operation;
-    operation.speed_rad_s + operation.speed_ramp_rad_s2 * report.r#final.t_s
-}
-
 /// The rotor speed, compared with the threshold speeds.
 fn speeds(report: &RunReport, machine: &Machine) -> String {
-    let (operation, speed) = (&report.scene.operation, speed_at_end(report));
+    let speed = report.end_speed_rad_s;
     let lock = machine.lock_window(speed);
-    let at_end = if operation.speed_ramp_rad_s2 == 0.0 { "" } else { " at the end" };
+    let at_end = if speed == report.scene.operation.speed_rad_s { "" } else { " at the end" };
     let mut parts = vec![format!("Rotor speed{at_end}: {} rad/s", short(speed))];
     let part_of = |name: &str, threshold: f64| {
         format!("{} of {name} ({} rad/s", short(speed.abs() / threshold), short(threshold))

@@ -24,7 +24,7 @@ impl TableCell {
         }
     }
 
-    pub(super) fn in_csv(self) -> String {
+    fn in_csv(self) -> String {
         match self {
             Self::Number(x) => exact(x),
             Self::Word(word) => word,
@@ -76,11 +76,19 @@ pub(crate) fn write_csv<R: IntoIterator<Item = TableCell>>(
     rows: impl IntoIterator<Item = R>,
     out: &mut dyn Write,
 ) -> Result<()> {
+    let mut rows = rows.into_iter();
+    write_csv_of(names, |row| rows.try_for_each(row), out)
+}
+
+/// As `write_csv`, of rows that `each` hands over one by one.
+pub(super) fn write_csv_of<R: IntoIterator<Item = TableCell>>(
+    names: impl IntoIterator<Item = impl AsRef<[u8]>>,
+    each: impl FnOnce(&mut dyn FnMut(R) -> Result<()>) -> Result<()>,
+    out: &mut dyn Write,
+) -> Result<()> {
     let mut csv = csv::Writer::from_writer(out);
     csv.write_record(names)?;
-    for row in rows {
-        csv.write_record(row.into_iter().map(TableCell::in_csv))?;
-    }
+    each(&mut |row| Ok(csv.write_record(row.into_iter().map(TableCell::in_csv))?))?;
     csv.flush()
 }
 

@@ -2,6 +2,7 @@
 
 use super::beyond;
 use super::{ContactLaw, ModelSize, Scene, SceneError, SolverKind};
+use crate::tolerances::STEP_ROUND_OFF;
 
 /// Most updates of a coordinate that one explicit run may make: minutes of work
 /// where nothing is skipped.
@@ -146,8 +147,8 @@ fn explicit(scene: &Scene) -> Result<(), SceneError> {
 
 /// A run of no step has no verdict.
 fn one_step(step: f64, end: f64) -> Result<(), SceneError> {
-    // As the solvers count: a step that ends a millionth of itself later is the last.
-    if end / step + 1e-6 >= 1.0 {
+    // As the solvers count.
+    if end / step + STEP_ROUND_OFF >= 1.0 {
         return Ok(());
     }
     let allowed = format!("at least one step, solver.step_s = {step:e}");

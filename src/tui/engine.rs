@@ -221,8 +221,8 @@ pub struct Results {
     pub answer: Option<Arc<Answer>>,
     /// The end of that run \[s\].
     pub end_s: f64,
-    /// Whether a tiny change of the pulse changes the outcome under the event
-    /// solver; false until it is known.
+    /// Whether a tiny change of the pulse, the speed or the motion changes the outcome;
+    /// false until it is known.
     pub sensitive: bool,
     /// The event solver under unilateral contact, on the same scene.
     pub reference: Option<FullRun>,

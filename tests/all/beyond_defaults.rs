@@ -219,6 +219,11 @@ fn a_run_that_needs_another_law_is_refused_by_the_name_of_the_law() {
         let start = "rubscope: contact.friction = 0.3: allowed is 0 with operation.speed_rad_s = 0";
         assert!(said.starts_with(start) && said.contains("Coulomb's law"), "{said}");
     }
+    // Nor may a running rotor be stopped.
+    let words = format!("run --contact unilateral --set {mu} --at 0.05:operation.speed_rad_s=0");
+    let said = refusal(&words.split(' ').collect::<Vec<_>>());
+    let start = "rubscope: --at 0.05:operation.speed_rad_s=0: contact.friction = 0.3: allowed is 0";
+    assert!(said.starts_with(start) && said.contains("Coulomb's law"), "{said}");
     // A sweep may begin there.
     for command in ["map --pulse 0:1e4:2 --end 0.001", "hbm --whirl"] {
         let words = format!("{command} --contact unilateral --set {mu} --speed 0:300:2");

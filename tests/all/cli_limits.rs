@@ -184,7 +184,10 @@ fn a_history_that_no_memory_holds_is_refused_at_once() {
 
 #[test]
 fn titles_are_of_characters_that_are_seen() {
-    for c in ['\u{7}', '\u{61c}', '\u{200b}', '\u{202e}', '\u{2060}', '\u{feff}', '\u{e0041}'] {
+    let letters =
+        ['\u{34f}', '\u{115f}', '\u{17b4}', '\u{180c}', '\u{3164}', '\u{ffa0}', '\u{1d173}'];
+    let marks = ['\u{7}', '\u{61c}', '\u{200b}', '\u{202e}', '\u{2060}', '\u{feff}', '\u{e0041}'];
+    for c in letters.into_iter().chain(marks) {
         let said = refusal(&["run", "--set", &format!("title=a{c}b")]);
         assert!(said.starts_with("rubscope: title = "), "{said}");
         assert!(said.ends_with("allowed is a line of text of up to 200 characters"), "{said}");

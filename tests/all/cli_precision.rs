@@ -214,10 +214,11 @@ fn impacts_leave_the_finest_step_and_many_impacts_nothing_to_compare_with() {
     let report = compare_to("1e-7", &driven);
     let reference = &report["reference"];
     assert_eq!((&reference["method"], &reference["error"]), (&"none".into(), &Value::Null));
-    assert_eq!(reference["changes"].as_array().unwrap().len(), 7);
+    // At the two longest steps it fails.
+    assert_eq!(reference["changes"].as_array().unwrap().len(), 5);
     assert!(rows(&report).iter().all(|row| row["error_final"].is_null()), "{report}");
     let text = text(&driven);
-    assert!(text.contains("no order is seen, and ends cannot be compared"), "{text}");
+    assert!(text.contains("Ends cannot be compared: too few steps are short enough"), "{text}");
 }
 
 #[test]

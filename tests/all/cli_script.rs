@@ -256,6 +256,23 @@ fn the_option_is_checked_before_the_simulation() {
 }
 
 #[test]
+fn the_speed_that_is_told_is_that_of_the_end() {
+    let told = |more: &str| {
+        let words = format!("run --end 0.002 --no-sensitivity {more}");
+        let output = rubscope(&words.split_whitespace().collect::<Vec<_>>());
+        String::from_utf8(output.stdout).unwrap()
+    };
+    assert!(told("").contains("Rotor speed: 500 rad/s"));
+    for solver in ["explicit", "event"] {
+        let change = format!("--solver {solver} --at 0.001:operation.speed_rad_s=300");
+        let text = told(&change);
+        assert!(text.contains("Rotor speed at the end: 300 rad/s, 1.02432 of Omega_c"), "{text}");
+        let text = told(&format!("{change} --at 0.001:operation.speed_ramp_rad_s2=-1e4"));
+        assert!(text.contains("Rotor speed at the end: 290 rad/s"), "{text}");
+    }
+}
+
+#[test]
 fn a_run_without_changes_says_nothing_of_them() {
     let output = rubscope(&["run", "--end", "1e-4", "--json"]);
     let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();

@@ -134,6 +134,15 @@ fn a_run_that_is_not_asked_is_the_same_run() {
     assert!(told.contains("; run ") && !told.contains("certainty"), "{told}");
 }
 
+#[test]
+fn the_event_solver_says_what_the_page_says_beside_the_digits_that_hold() {
+    let page = include_str!("../../docs/accuracy.md");
+    assert!(page.contains("Here the event solver says 2.37e-6 m"));
+    let exact = json(&["run", "--solver", "event", "--pulse", "1e6", "--no-sensitivity"]);
+    let amplitude = exact["outcome"]["amplitude_m"].as_f64().unwrap();
+    assert!((amplitude - 2.37e-6).abs() <= 0.005e-6, "{amplitude}");
+}
+
 /// Stops a run again and again.
 struct Often(std::sync::atomic::AtomicU64, u64);
 

@@ -95,6 +95,22 @@ fn the_papers_form_says_that_it_has_no_damping() {
 }
 
 #[test]
+fn views_that_are_always_damped_do_not_drop_it() {
+    let tips = ["--set", "bladed_disk.radial_coupling=0.1"];
+    for view in ["--slip", "--harmonics", "--excitation", "--whirl", "--compliance", "--smooth"] {
+        let output = hbm(&tips).args([view, "--undamped"]).assert().code(2).get_output().clone();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert!(said.contains("'--undamped'") && said.contains(view), "{said}");
+        assert_eq!(said.lines().count(), 1, "{said}");
+    }
+    // The paper's form is of the multipliers alone.
+    let output = hbm(&["--slip", "--form", "printed"]).assert().success().get_output().clone();
+    let told = String::from_utf8(output.stdout).unwrap();
+    assert!(told.contains("lock-in from 411.934 rad/s (zeta_c = 0.05)"), "{told}");
+    hbm(&["--branches", "--undamped"]).assert().success();
+}
+
+#[test]
 fn slip_says_whether_it_exists() {
     let report = json(&["--slip", "--zeta-casing", "0.01", "--speed", "400:500:2"]);
     let slip = report["slip"].as_array().unwrap();

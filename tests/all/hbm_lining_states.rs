@@ -31,20 +31,19 @@ fn a_soft_lining_cannot_hold_a_lock() {
         ("2e8", &[][..], [480.472, 548.470]),
         ("1e8", &light[..], [315.398, 535.074]),
     ] {
-        let found = with(&lined(stiffness, more), |lining| lining.lock_window(1.0).unwrap());
+        let found = lined(stiffness, more).machine().lock_window(1.0).unwrap();
         assert!((found.from - window[0]).abs() < 6e-4, "{found:?}");
         assert!((found.to.unwrap() - window[1]).abs() < 6e-4, "{found:?}");
     }
-    let stiff = with(&lined("1e9", &[]), |lining| lining.lock_window(1.0).unwrap());
+    let stiff = lined("1e9", &[]).machine().lock_window(1.0).unwrap();
     assert!((stiff.from - 417.6167).abs() < 6e-5, "{stiff:?}");
-    let soft = with(&lined("1.93e8", &[]), |lining| lining.lock_window(1.0));
+    let soft = lined("1.93e8", &[]).machine().lock_window(1.0);
     assert_eq!(soft, None);
     // Next to rigid contact the window is that of the paper's lock.
-    with(&lined("1e15", &[]), |lining| {
-        let window = lining.lock_window(1.0).unwrap();
-        close(window.from, lining.machine.clone().with_lining(None).lock_speed().unwrap(), 2e-6);
-        assert!(window.to.unwrap() > 1e6);
-    });
+    let machine = lined("1e15", &[]).machine();
+    let window = machine.lock_window(1.0).unwrap();
+    close(window.from, machine.with_lining(None).lock_speed().unwrap(), 2e-6);
+    assert!(window.to.unwrap() > 1e6);
 }
 
 /// The pushes of the lock just inside its window, and its end at the window's end.
@@ -56,7 +55,7 @@ fn pushes_of_a_soft_lock_to_its_last_speed() {
         close(lock.pushes[0].push_n, 163.825941, 1e-8);
         close(lock.pushes[1].push_n, 0.541935, 2e-6);
         assert!(lining.states(416.6166508).unwrap().iter().all(|state| state.pushing == 0));
-        let from = lining.lock_window(1.0).unwrap().from;
+        let from = lining.machine.lock_window(1.0).unwrap().from;
         let held = |speed: f64| lining.states(speed).unwrap().len() > 1;
         assert!(held(from + 1e-6) && !held(from - 1e-6));
         // The saddle of one group is beside the lock.
@@ -138,7 +137,7 @@ fn marked(scene: &Scene, path: &str, over: [f64; 2]) -> (Vec<(Special, f64)>, Br
 #[test]
 fn a_followed_lock_turns_back_where_its_window_ends() {
     let scene = lined("1e9", &[]);
-    let from = with(&scene, |lining| lining.lock_window(1.0).unwrap().from);
+    let from = scene.machine().lock_window(1.0).unwrap().from;
     let (marks, end) = marked(&scene, "operation.speed_rad_s", [500.0, 400.0]);
     assert_eq!((marks.len(), marks[0].0, end), (1, Special::Border, BranchEnd::Returned));
     assert!((marks[0].1 - from).abs() < 1e-6, "{marks:?} {from}");

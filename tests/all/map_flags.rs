@@ -106,10 +106,6 @@ fn cells_have_the_flags_of_the_plain_runs_with_any_number_of_threads() {
         }
     }
     // Each of the runs finds some, none of them all, and the first most of them.
-    println!(
-        "{all} of {cells} sensitive, by weaker pulse, speed, stronger pulse and noise {found:?}, \
-         in this order {first:?}"
-    );
     assert!(found.iter().all(|&one| 10 < one && one < all), "{found:?} of {all}");
     assert!(2 * first[0] > all, "{first:?} of {all}");
 }

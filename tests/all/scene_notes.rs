@@ -102,7 +102,10 @@ fn every_number_of_the_other_notes_is_what_the_program_finds() {
     }
 
     says("paper-nd3", "against blade 12, then 19");
-    says("paper-nd3", "two steps that pull, at some time steps one: change");
+    says(
+        "paper-nd3",
+        "two steps that pull (one, at some time steps). With the unilateral law the motion decays",
+    );
     let pulled = |n: u32| {
         let step = (1e-8 * 50_f64.powf(f64::from(n) / 49.0)).to_string();
         let paper = run("paper-nd3", &[("solver.end_s", "0.001"), ("solver.step_s", &step)]);

@@ -250,6 +250,18 @@ fn a_lock_that_can_last_is_no_verdict_of_the_run() {
     session.press_each("3fi");
     let text: String = session.rows().iter().map(|row| row.trim().to_string() + " ").collect();
     assert!(text.contains("a lock can last, but this run: DECAY"), "{text}");
+    // On a lining it is its window that tells, not rigid contact.
+    let mut lined = Scene::builtin("soft-lining").unwrap();
+    for (stiffness, words) in [
+        (3e8, "of a rigid casing; on the lining a lock can last"),
+        (1.5e8, "of a rigid casing; the lining holds no lock here"),
+    ] {
+        lined.contact.stiffness_n_per_m = stiffness;
+        let mut session = Session::open(170, 40, lined.clone(), Theme::Mono, Marker::Braille);
+        session.press_each("3fi");
+        let text: String = session.rows().iter().map(|row| row.trim().to_string() + " ").collect();
+        assert!(text.contains(words) && !text.contains("both push"), "{text}");
+    }
     // Elsewhere nothing is known of a run.
     session.press_each("HH");
     assert!(!session.text().contains("but this run"));

@@ -9,9 +9,8 @@
 
 use serde::Serialize;
 
-use super::Lining;
 use crate::harmonic::Joint;
-use crate::model::{LockWindow, Machine};
+use crate::model::Machine;
 use crate::numeric::maximum::highest;
 use crate::tolerances::{WINDOW_LOOKS, WINDOW_REACH};
 
@@ -63,14 +62,4 @@ fn bottom(machine: &Machine, lock: f64) -> f64 {
     let best = (1..WINDOW_LOOKS).min_by(|&a, &b| of(place(a)).total_cmp(&of(place(b))));
     let best = best.unwrap_or(1);
     highest([place(best - 1), place(best + 1)], |excess| -of(excess)).0
-}
-
-impl Lining<'_> {
-    /// The speeds between which two groups on this lining hold a lock, of a rotor that
-    /// turns in the sense of `toward`; none where it is too soft at any speed. Without
-    /// smoothing.
-    #[must_use]
-    pub fn lock_window(&self, toward: f64) -> Option<LockWindow> {
-        self.machine.clone().with_lining(Some(self.law())).lock_window(toward)
-    }
 }

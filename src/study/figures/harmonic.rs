@@ -15,11 +15,23 @@ const AMPLITUDE: Quantity =
 const MICRO: Quantity = Quantity::new("alpha_rad", "blade angle [µrad]", 1e6);
 const NANO: Quantity = Quantity::new("alpha_rad", "blade angle [nrad]", 1e9);
 
+/// The machine of these figures: with rigid contact.
+fn machine_of(scene: &Scene) -> Machine {
+    scene.machine().with_lining(None)
+}
+
+/// What the curves and marks are of, where the scene asks for more.
+fn notes(scene: &Scene) -> String {
+    let lining = scene.lining().map(|_| "of rigid contact, without its lining".to_string());
+    let notes = lining.into_iter().chain(scene.tuned_note());
+    notes.map(|note| format!(" Curves and marks are {note}.")).collect()
+}
+
 fn sweep(scene: &Scene, form: Form, damped: bool) -> Result<Sweep, HarmonicError> {
     let top = scene.operation.speed_rad_s;
     let speeds: Vec<f64> =
         (0..SPEEDS).map(|n| top * f64::from(n) / f64::from(SPEEDS - 1)).collect();
-    locked_motion(&scene.machine(), form, damped, None, &speeds)
+    locked_motion(&machine_of(scene), form, damped, None, &speeds)
 }
 
 fn series(label: &str, style: Style, sweep: &Sweep, of: impl Fn(&LockedPoint) -> f64) -> Series {
@@ -38,7 +50,7 @@ fn plain(group: &str) -> String {
 
 /// Fig. 9: the multipliers, as the paper has them and with damping.
 pub fn multipliers(scene: &Scene, as_paper: bool) -> Result<Figure, HarmonicError> {
-    let machine = scene.machine();
+    let machine = machine_of(scene);
     let undamped = sweep(scene, Form::Printed, false)?;
     let damped = sweep(scene, Form::Modal, true)?;
     let names = names(&machine, &undamped);
@@ -54,12 +66,14 @@ pub fn multipliers(scene: &Scene, as_paper: bool) -> Result<Figure, HarmonicErro
         line(&damped, 0, Style::Line(2), "damped"),
         line(&damped, 1, Style::Dashed(3), "damped"),
     ];
-    let marks = speed_marks(scene);
+    let marks = speed_marks(&machine, scene.operation.speed_rad_s);
     let panel = Panel { marks, ..Panel::new("", Quantity::SPEED, LAMBDA, lines) };
     let note = format!(
         "n_d = {}, locked between {a} and {b}. Undamped: the paper's equations as printed (27); \
-         damped: the form of the time-domain model, with ζ_c = {}.",
-        machine.nodal_diameters, scene.casing.damping_ratio
+         damped: the form of the time-domain model, with ζ_c = {}.{}",
+        machine.nodal_diameters,
+        scene.casing.damping_ratio,
+        notes(scene)
     );
     let title = "Contact multipliers of the locked motion against rotor speed";
     let mut figure = Figure::new(title, note, vec![panel]);
@@ -81,7 +95,7 @@ pub fn multipliers(scene: &Scene, as_paper: bool) -> Result<Figure, HarmonicErro
 
 /// Fig. 10: the amplitudes of casing and blades, undamped as in the paper.
 pub fn amplitudes(scene: &Scene, as_paper: bool) -> Result<Figure, HarmonicError> {
-    let machine = scene.machine();
+    let machine = machine_of(scene);
     let [printed, blade, modal] = [
         sweep(scene, Form::Printed, false)?,
         sweep(scene, Form::Blade, false)?,
@@ -102,7 +116,8 @@ pub fn amplitudes(scene: &Scene, as_paper: bool) -> Result<Figure, HarmonicError
         };
         [line(0, &a, Style::Line(colour)), line(1, &b, Style::Dashed(colour))]
     };
-    let critical: Vec<Mark> = speed_marks(scene).into_iter().take(1).collect();
+    let critical: Vec<Mark> =
+        speed_marks(&machine, scene.operation.speed_rad_s).into_iter().take(1).collect();
     let panel = |title: &str, y: Quantity, lines: Vec<Series>| Panel {
         marks: critical.clone(),
         ..Panel::new(title, Quantity::SPEED, y, lines)
@@ -121,8 +136,11 @@ pub fn amplitudes(scene: &Scene, as_paper: bool) -> Result<Figure, HarmonicError
             angles(Form::Modal, &modal, 2).to_vec(),
         ),
     ];
-    let note =
-        format!("n_d = {}, locked between {a} and {b}, no damping.", machine.nodal_diameters);
+    let note = format!(
+        "n_d = {}, locked between {a} and {b}, no damping.{}",
+        machine.nodal_diameters,
+        notes(scene)
+    );
     let mut figure =
         Figure::new("Amplitudes of the locked motion against rotor speed", note, panels);
     if as_paper {
@@ -140,4 +158,33 @@ pub fn amplitudes(scene: &Scene, as_paper: bool) -> Result<Figure, HarmonicError
         .to_vec();
     }
     Ok(figure)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    #[test]
+    fn curves_and_marks_are_of_one_machine_and_the_note_says_which() {
+        let drawn = |changes: &[(&str, &str)]| {
+            let scene = Scene::builtin("paper-nd3").unwrap().with(changes).unwrap();
+            let figure = multipliers(&scene, false).unwrap();
+            (figure.panels[0].marks.clone(), figure.note)
+        };
+        let (rigid, note) = drawn(&[]);
+        assert!(rigid.len() == 2 && !note.contains("Curves and marks"), "{rigid:?} {note}");
+        let (lined, note) =
+            drawn(&[("solver.contact", "smooth"), ("contact.stiffness_n_per_m", "3e8")]);
+        assert_eq!(lined, rigid);
+        assert!(note.contains("Curves and marks are of rigid contact"), "{note}");
+        let (_, note) = drawn(&[("solver.model", "full")]);
+        assert!(note.contains("Curves and marks are of equal blades"), "{note}");
+        // Where tips move outward a lock has an end.
+        let mut joined = Scene::base();
+        joined.bladed_disk.radial_coupling = 0.3;
+        let marks = speed_marks(&joined.machine(), -500.0);
+        assert_eq!(marks[2].label, "lock ends");
+        assert!((marks[2].x + 566.259).abs() < 1e-3, "{marks:?}");
+    }
 }

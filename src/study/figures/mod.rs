@@ -18,6 +18,7 @@ pub use figure::{Figure, Mark, Panel, Quantity, Series, Style};
 pub use which::Which;
 
 use crate::harmonic::HarmonicError;
+use crate::model::Machine;
 use crate::scene::{CheckedScene, Scene, SceneError};
 
 /// The numbers of the figures.
@@ -47,15 +48,14 @@ fn group_name(blades: &[u32]) -> String {
     blades.iter().map(|blade| format!("#{blade}")).collect::<Vec<_>>().join("+")
 }
 
-/// The speeds above which the wave is pushed outwards, and above which both
-/// multipliers of a lock push, in the sense in which the rotor turns; equal without
-/// casing damping.
-fn speed_marks(scene: &Scene) -> Vec<Mark> {
-    let machine = scene.machine();
-    let sense = 1_f64.copysign(scene.operation.speed_rad_s);
-    let critical = machine.critical_speed();
-    let lock = machine.lock_speed_toward(sense).filter(|_| machine.casing_damping_ratio > 0.0);
-    [("Ω_c", critical), ("Ω_lock", lock)]
+/// The speed above which the wave is pushed outwards, and those between which both
+/// multipliers of a lock push, of a rotor that turns in the sense of `speed`.
+fn speed_marks(machine: &Machine, speed: f64) -> Vec<Mark> {
+    let sense = 1_f64.copysign(speed);
+    let window = machine.lock_window(sense);
+    let lock = window.filter(|_| !machine.locks_from_critical_speed()).map(|window| window.from);
+    let ends = window.and_then(|window| window.to);
+    [("Ω_c", machine.critical_speed()), ("Ω_lock", lock), ("lock ends", ends)]
         .into_iter()
         .filter_map(|(label, speed)| Some(Mark { x: sense * speed?, label }))
         .collect()

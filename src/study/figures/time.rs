@@ -83,8 +83,18 @@ fn series(label: &str, style: Style, samples: &[Sample], of: fn(&Sample) -> f64)
 
 /// A time step, such as "h = 0.5 µs".
 fn step_words(step_s: f64) -> String {
-    let digits = format!("{:.6}", 1e6 * step_s);
-    format!("h = {} µs", digits.trim_end_matches('0').trim_end_matches('.'))
+    format!("h = {} µs", microseconds(step_s))
+}
+
+fn microseconds(time_s: f64) -> String {
+    let digits = format!("{:.6}", 1e6 * time_s);
+    digits.trim_end_matches('0').trim_end_matches('.').to_string()
+}
+
+/// "50 steps from 0.01 to 1 µs".
+fn many_steps() -> String {
+    let [from, to] = MANY_RANGE.map(microseconds);
+    format!("{MANY} steps from {from} to {to} µs")
 }
 
 /// A force, such as "43.4 kN".
@@ -177,14 +187,14 @@ pub fn steps(scene: &CheckedScene, as_paper: bool) -> Figure {
     let mut figure = Figure::new("Casing displacement u_c at three time steps", told, panels);
     figure.caption.push(format!("{}.", endings.join("; ")));
     if as_paper {
-        figure.caption.push(
+        figure.caption.push(format!(
             "Agrees with the paper: the motion is locked from about 0.08 s at each of its three \
-             steps and looks the same from then on, but its phase depends on the step. So do the \
-             blades: at each of 50 steps from 0.01 to 1 µs it locks from 75 to 81 ms, at some 30 of \
-             them on #6 and #21. Round-off moves the lock too: steps of 1 µs with twice the digits \
-             lock at 79.6 ms."
-                .into(),
-        );
+                 steps and looks the same from then on, but its phase depends on the step. So do \
+                 the blades: at each of {} it locks from 75 to 81 ms, at some 30 of them on #6 and \
+                 #21. Round-off moves the lock too: steps of 1 µs with twice the digits lock at \
+                 79.6 ms.",
+            many_steps()
+        ));
         figure.caption.extend([NOT_COMPARED, OTHER_DAMPING].map(String::from));
     }
     figure
@@ -311,10 +321,11 @@ pub fn four_diameters(scene: &CheckedScene, as_paper: bool) -> Figure {
                 .to_string(),
             format!(
                 "Differs: the paper's lock begins at about 0.08 s. No setting that gives this was \
-                 found that does not depend on the step: 10 to 30 ms is typical. Of 50 steps from \
-                 0.01 to 1 µs {}. The bladed disk has not reached its static deformation: it \
+                 found that does not depend on the step: 10 to 30 ms is typical. Of {} \
+                 {}. The bladed disk has not reached its static deformation: it \
                  {swings}. The casing has no damping, and the modal stiffness that the printed \
                  Ω_c = 256.12 rad/s implies.",
+                many_steps(),
                 many.join("; ")
             ),
             "Cannot be compared: the force of the pulse and the scales of the picture.".to_string(),

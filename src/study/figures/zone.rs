@@ -96,7 +96,7 @@ fn both_laws(scene: &Scene, letters: [&str; 2]) -> Vec<Panel> {
         if scene.checked().is_err() {
             scene.solver.kind = SolverKind::Explicit;
         }
-        let marks = speed_marks(&scene);
+        let marks = speed_marks(&scene.machine(), scene.operation.speed_rad_s);
         let title = format!("{letter} n_d = {}, {words}", scene.operation.nodal_diameters);
         Panel { marks, ..Panel::new(&title, Quantity::SPEED, FORCE, series(scene)) }
     };

@@ -128,9 +128,9 @@ fn note(scene: &CheckedScene, name: LimitName, value: f64) -> Option<String> {
     // Blades that bend leave a push where rigid ones have none.
     let machine = scene.machine();
     let sense = 1_f64.copysign(scene.operation.speed_rad_s);
-    let bare =
+    let of_rigid_blades =
         if name == LimitName::LockEnds { value } else { machine.lock_speed_toward(sense)? };
-    let left = lock_loads(&machine, sense * bare).is_none_or(|loads| {
+    let left = lock_loads(&machine, sense * of_rigid_blades).is_none_or(|loads| {
         let [a, b] = loads.pushes_n.map(f64::abs);
         a.min(b) > BENDING * (a + b)
     });

@@ -10,7 +10,7 @@
 //! that shared one. After rigid impacts nothing is extrapolated.
 
 use super::ways::{Effort, LONGEST, Way};
-use super::{Method, distance};
+use super::{Lack, Method, distance};
 use crate::motion::VerdictReached;
 use crate::scene::{Scene, SceneError};
 use crate::tolerances::{
@@ -82,36 +82,49 @@ pub(super) fn check(way: Way, scene: &Scene, effort: Effort) -> Result<(), Scene
 /// What runs at halved steps tell, on a rigid casing or a lining; `moment` \[s\] is how
 /// much later a wave may lock.
 pub(super) fn settle(runs: &[Halved], clearance: f64, moment: f64, rigid: bool) -> Settled {
+    let none = |lack, changes, one_verdict| {
+        let method = Method::None(lack);
+        Settled { method, order: None, end: None, changes, one_verdict }
+    };
+    // Steps that are too long for a motion tell nothing of shorter ones.
+    let solved = runs.iter().take_while(|run| run.reached.is_none()).count();
+    let runs = runs.get(solved..).unwrap_or_default();
+    if runs.iter().any(|run| run.reached.is_none()) {
+        return none(Lack::StepsFailed, Vec::new(), false);
+    }
     let changes: Vec<f64> =
         runs.windows(2).map(|pair| distance(pair[0].u, pair[1].u) / clearance).collect();
     let asked = runs.len().saturating_sub(CHANGES_ASKED + 1);
     let last = runs.get(asked..).unwrap_or_default();
-    let one_verdict = last
-        .windows(2)
-        .all(|pair| pair[0].reached.is_some() && verdict(&pair[0]) == verdict(&pair[1]));
-    let mut settled =
-        Settled { method: Method::None, order: None, end: None, changes, one_verdict };
-    if last.iter().any(|run| run.reached.is_none()) {
-        return settled;
-    }
+    let one_verdict = last.windows(2).all(|pair| verdict(&pair[0]) == verdict(&pair[1]));
+    let Some(finest) = runs.last().filter(|_| runs.len() >= REFERENCE_STEPS_LEAST) else {
+        return none(Lack::TooFew, changes, one_verdict);
+    };
     let hit = last.iter().any(|run| run.reached.is_some_and(|reached| reached.impact_count > 0));
-    let extrapolated = extrapolate(runs, &settled.changes, clearance).filter(|_| !(rigid && hit));
-    let found = extrapolated.map(|(order, u, error)| (Method::Extrapolated, Some(order), u, error));
-    let found = found.or_else(|| {
-        let (order, error) = falling(runs, &settled.changes)?;
-        let same = |pair: &[Halved]| {
-            let both = pair[0].reached.zip(pair[1].reached);
-            both.is_some_and(|(one, other)| !one.differs_from(other, moment))
-        };
-        let finest = runs.last()?;
-        last.windows(2).all(same).then_some((Method::FinestStep, order, finest.u, error))
-    });
-    if let Some((method, order, u, error)) = found.filter(|found| found.3 <= REFERENCE_WORST) {
-        settled.method = method;
-        settled.order = order;
-        settled.end = Some((u, error));
+    let same = |pair: &[Halved]| {
+        let both = pair[0].reached.zip(pair[1].reached);
+        both.is_some_and(|(one, other)| !one.differs_from(other, moment))
+    };
+    let extrapolated = extrapolate(runs, &changes, clearance).filter(|_| !(rigid && hit));
+    let found = match (extrapolated, falling(runs, &changes)) {
+        (Some((order, u, error)), _) => Ok((Method::Extrapolated, Some(order), u, error)),
+        (None, None) if changes.len() < CHANGES_ASKED && falls(&changes) => Err(Lack::TooFew),
+        (None, None) => Err(Lack::NotFalling),
+        (None, Some(_)) if !last.windows(2).all(same) => Err(Lack::OtherMotions),
+        (None, Some((order, error))) => Ok((Method::FinestStep, order, finest.u, error)),
+    };
+    match found {
+        Ok((method, order, u, error)) if error <= REFERENCE_WORST => {
+            Settled { method, order, end: Some((u, error)), changes, one_verdict }
+        }
+        Ok(_) => none(Lack::TooFar, changes, one_verdict),
+        Err(lack) => none(lack, changes, one_verdict),
     }
-    settled
+}
+
+/// Whether each change is smaller than the one before.
+fn falls(changes: &[f64]) -> bool {
+    changes.windows(2).all(|pair| pair[1] < pair[0])
 }
 
 fn verdict(run: &Halved) -> Option<crate::motion::Verdict> {
@@ -213,20 +226,44 @@ mod tests {
             assert_eq!(settled(end).method == Method::Extrapolated, order);
             // Other impacts at another step: not the same motion.
             let other = runs(end, |n| n as u64);
-            assert_eq!(settle(&other, 1.0, 1.0, true).method, Method::None);
+            assert_eq!(settle(&other, 1.0, 1.0, true).method, Method::None(Lack::OtherMotions));
         }
     }
 
     #[test]
     fn changes_that_do_not_fall_leave_no_reference() {
         let found = settled(|h| 1e-3 * (11.7 / h).sin());
-        assert_eq!((found.method, found.end, found.order), (Method::None, None, None));
+        let lack = Method::None(Lack::NotFalling);
+        assert_eq!((found.method, found.end, found.order), (lack, None, None));
         assert_eq!(found.changes.len(), REFERENCE_STEPS - 1);
-        // Nor do runs of which one failed, or an error of a tenth of the clearance.
-        let mut failed = runs(|h| h * h, |_| 5);
-        failed[REFERENCE_STEPS - 2].reached = None;
-        assert_eq!(settle(&failed, 1.0, 1.0, false).method, Method::None);
-        assert_eq!(settled(|h| 100.0 * h * (1.0 + (97.0 / h).sin())).method, Method::None);
+        // Nor does an error of a tenth of the clearance.
+        let far = settled(|h| 100.0 * h * (1.0 + (97.0 / h).sin()));
+        assert_eq!(far.method, Method::None(Lack::TooFar));
+    }
+
+    #[test]
+    fn steps_too_long_to_be_solved_are_left_out_and_a_finer_one_that_failed_is_not() {
+        let all = |failed: &[usize]| {
+            let mut runs = runs(|h| 3.0 + h * h, |_| 5);
+            failed.iter().for_each(|n| (runs[*n].reached, runs[*n].u) = (None, [f64::NAN; 2]));
+            settle(&runs, 1.0, 1.0, false)
+        };
+        let whole = all(&[]);
+        for failed in [&[0][..], &[0, 1], &[0, 1, 2, 3]] {
+            let found = all(failed);
+            assert_eq!((found.method, found.end), (whole.method, whole.end), "{failed:?}");
+            assert_eq!(found.changes, whole.changes[failed.len()..]);
+            assert!(found.one_verdict);
+        }
+        // Four changes that go on, and four that fall as no order does.
+        let last = |end: fn(f64) -> f64| settle(&runs(end, |_| 5)[3..], 1.0, 1.0, true).method;
+        assert_eq!(last(|h| (11.7 / h).sin()), Method::None(Lack::NotFalling));
+        assert_eq!(last(f64::sqrt), Method::None(Lack::TooFew));
+        assert_eq!(all(&[0, 1, 2, 3, 4]).method, Method::None(Lack::TooFew));
+        assert_eq!(all(&[0, 1, 2, 3, 4, 5, 6, 7]).method, Method::None(Lack::TooFew));
+        for failed in [&[REFERENCE_STEPS - 2][..], &[0, 2]] {
+            assert_eq!(all(failed).method, Method::None(Lack::StepsFailed), "{failed:?}");
+        }
     }
 
     #[test]

@@ -14,6 +14,7 @@ mod track;
 mod ways;
 
 use serde::Serialize;
+use strum::IntoStaticStr;
 
 pub use ways::{Effort, Way, ways};
 
@@ -72,8 +73,9 @@ impl Row {
 }
 
 /// How a reference was found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr, Serialize)]
+#[serde(into = "&'static str")]
+#[strum(serialize_all = "snake_case")]
 pub enum Method {
     /// From contact to contact in closed form.
     Events,
@@ -81,8 +83,25 @@ pub enum Method {
     Extrapolated,
     /// The end at the finest step: halving it moves the end less and less.
     FinestStep,
-    /// There is none: halving the step goes on moving the end, or it failed.
-    None,
+    /// There is none.
+    None(Lack),
+}
+
+/// Why there is no reference.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lack {
+    /// Halving the step moves the end no less than before.
+    NotFalling,
+    /// It does, though by too much still at the finest step.
+    TooFar,
+    /// It does, though the impacts or the verdict change with the step.
+    OtherMotions,
+    /// Too few steps are short enough for the motion.
+    TooFew,
+    /// A step shorter than one that was solved was not.
+    StepsFailed,
+    /// The event solver failed.
+    EventsFailed,
 }
 
 /// What everything is measured against; other model sizes have their own.
@@ -275,7 +294,7 @@ fn described(
         reference.error = Some(moved / track.end.machine().clearance());
         reference.error_halved = reference.error;
     } else {
-        reference.method = Method::None;
+        reference.method = Method::None(Lack::EventsFailed);
     }
     let reached = VerdictReached::of(&track.end, track.verdict);
     reference.sensitive = is_sensitive(&track.way.of(scene)?, &Script::default(), reached, go_on);

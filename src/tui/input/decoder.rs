@@ -1,6 +1,7 @@
 //! Bytes become events, one byte after the other.
 
 use std::collections::VecDeque;
+use std::time::Duration;
 
 use crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
 
@@ -10,6 +11,10 @@ use super::sequence::{Piece, piece};
 const CTRL_C: u8 = 3;
 const ESCAPE: u8 = 0x1b;
 const PASTE_ENDS: &[u8] = b"\x1b[201~";
+
+/// After so long without a byte the end of a pasted text is lost. Shorter: the rest of a text
+/// that comes over a slow line acts as keys.
+const LOST: Duration = Duration::from_secs(2);
 
 /// What has come of an event that is not complete.
 #[derive(Debug, Default)]
@@ -53,12 +58,16 @@ impl Decoder {
         }
     }
 
-    /// Nothing has come for a moment: a Ctrl-C that came last is a key also where
-    /// the end of a pasted text was lost.
-    pub fn pause(&mut self, found: &mut VecDeque<Event>) {
+    /// Nothing has come for so long, a moment at least: what was begun takes no key with it,
+    /// and a Ctrl-C that came last is a key also where the end of a pasted text was lost.
+    pub fn pause(&mut self, silent: Duration, found: &mut VecDeque<Event>) {
         self.end(found);
+        self.begun.clear();
         if self.pasted.take_if(|text| text.last() == Some(&CTRL_C)).is_some() {
             found.push_back(Event::Key(KeyEvent::new(KeyCode::Char('c'), KeyModifiers::CONTROL)));
+        }
+        if let Some(text) = self.pasted.take_if(|_| silent >= LOST) {
+            found.push_back(Event::Paste(String::from_utf8_lossy(&text).into_owned()));
         }
     }
 
@@ -241,7 +250,7 @@ mod tests {
             bytes.iter().for_each(|byte| decoder.take(*byte, &mut found));
             decoder.end(&mut found);
             let before = found.len();
-            decoder.pause(&mut found);
+            decoder.pause(Duration::ZERO, &mut found);
             (before, found.drain(..).collect::<Vec<_>>())
         };
         // A text that comes slowly stays one text.
@@ -250,6 +259,29 @@ mod tests {
         assert_eq!(take(b"\x1b[201~", &mut decoder), (1, vec![Event::Paste("ab\u{3}c".into())]));
         assert_eq!(take(b"\x1b[200~abc\x03", &mut decoder), (0, vec![ctrl_c()]));
         assert_eq!(take(b"q", &mut decoder), (1, vec![key(KeyCode::Char('q'), NONE)]));
+    }
+
+    #[test]
+    fn what_was_begun_before_a_pause_takes_no_key_with_it() {
+        let (mut decoder, mut found) = (Decoder::default(), VecDeque::new());
+        let mut take = |bytes: &[u8], silent, decoder: &mut Decoder| {
+            bytes.iter().for_each(|byte| decoder.take(*byte, &mut found));
+            decoder.pause(silent, &mut found);
+            found.drain(..).collect::<Vec<_>>()
+        };
+        let (moment, q) = (LOST / 20, key(KeyCode::Char('q'), NONE));
+        for begun in ["\x1b[<0;1", "\x1b[", "\x1bO", "\x1b[M ", "\x1b[[", "\x1b[1;"] {
+            assert_eq!(take(begun.as_bytes(), moment, &mut decoder), [], "{begun:?}");
+            assert!(!decoder.is_unfinished());
+            assert_eq!(take(b"q", moment, &mut decoder), [q.clone()], "{begun:?}");
+        }
+        assert_eq!(take(b"\xc3", moment, &mut decoder), []);
+        assert_eq!(take(b"q", moment, &mut decoder), [q.clone()]);
+        // A pasted text has more time; what there is of it is not lost.
+        assert_eq!(take(b"\x1b[200~ab", moment, &mut decoder), []);
+        assert!(decoder.is_unfinished());
+        assert_eq!(take(b"c", LOST, &mut decoder), [Event::Paste("abc".into())]);
+        assert_eq!(take(b"q", moment, &mut decoder), [q]);
     }
 
     proptest! {
@@ -263,7 +295,7 @@ mod tests {
             let (mut decoder, mut found) = (Decoder::default(), VecDeque::new());
             bytes.iter().chain(b"\x03").for_each(|byte| decoder.take(*byte, &mut found));
             decoder.end(&mut found);
-            decoder.pause(&mut found);
+            decoder.pause(Duration::ZERO, &mut found);
             prop_assert_eq!(found.back(), Some(&ctrl_c()));
             prop_assert!(!decoder.is_unfinished());
         }

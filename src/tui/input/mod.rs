@@ -13,7 +13,7 @@ use crossterm::event::Event;
 use super::terminal;
 use decoder::Decoder;
 
-/// After this long without a byte, what is unfinished will hardly go on.
+/// After this long without a byte, what is unfinished will hardly go on; a pasted text may.
 const MOMENT: Duration = Duration::from_millis(100);
 
 /// Most bytes of one look.
@@ -32,12 +32,14 @@ impl Input {
     /// # Errors
     /// The terminal is closed.
     pub fn next(&mut self) -> Result<Event> {
+        let mut silent = Duration::ZERO;
         while self.found.is_empty() {
             let wait = self.decoder.is_unfinished().then_some(MOMENT);
-            if !self.look(wait)? {
-                self.decoder.pause(&mut self.found);
-                // One pause is enough; only more bytes change anything now.
-                while self.found.is_empty() && !self.look(None)? {}
+            if self.look(wait)? {
+                silent = Duration::ZERO;
+            } else {
+                silent += MOMENT;
+                self.decoder.pause(silent, &mut self.found);
             }
         }
         self.found.pop_front().ok_or_else(|| std::io::ErrorKind::UnexpectedEof.into())

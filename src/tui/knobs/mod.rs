@@ -142,7 +142,11 @@ impl Knob {
         }
         let made = changed.make_compatible(|key| key == self.path);
         let said = self.followed(&made, changed.solver.contact);
-        Ok((changed.checked()?, said))
+        let changed = changed.checked()?;
+        if scene.slides().is_ok() {
+            changed.slides()?;
+        }
+        Ok((changed, said))
     }
 
     /// What to say about keys that follow this knob.
@@ -360,6 +364,20 @@ mod tests {
             assert!(line.starts_with("operation.pulse_n = "), "{line}");
         }
         assert_eq!(knob("solver.contact").parse("bi").unwrap(), Value::Text("bilateral".into()));
+    }
+
+    #[test]
+    fn a_rotor_with_friction_is_not_turned_to_rest() {
+        let mut scene = Scene::base();
+        let speed = |x| Value::Real(x);
+        assert!(knob("operation.speed_rad_s").set(&scene, speed(0.0)).is_ok());
+        scene.contact.friction = 0.3;
+        let refused = knob("operation.speed_rad_s").set(&scene, speed(0.0)).unwrap_err();
+        assert!(refused.to_string().starts_with("contact.friction = 0.3: allowed is 0 with"));
+        assert!(knob("operation.speed_rad_s").set(&scene, speed(-10.0)).is_ok());
+        scene.operation.speed_rad_s = 0.0;
+        // One that stands in a file is not held there.
+        assert!(knob("operation.pulse_n").set(&scene, speed(1e4)).is_ok());
     }
 
     #[test]

@@ -163,8 +163,8 @@ fn reference(scene: &Scene) -> Option<FullRunJob> {
     Some(FullRunJob::new(Motion::new(&scene), scene.solver.end_s))
 }
 
-/// Finds out whether a tiny change of the pulse changes the outcome, as
-/// `rubscope run` does; nothing comes where this takes too long.
+/// Finds out whether a tiny change of the pulse, the speed or the motion changes the
+/// outcome, as `rubscope run` does; nothing comes where this takes too long.
 fn sensitivity(scene: &CheckedScene) -> Background<bool> {
     let scene = scene.clone();
     Background::start(move |to, go_on| {

@@ -95,7 +95,14 @@ pub fn reading(app: &App, speed: f64) -> String {
     let value = |name: &str, value: f64, unit: &str| format!("{name} {}", readable(value, unit));
     let ([a, b], [turn_a, turn_b]) = (point.multipliers_n, point.alpha_rad);
     let ratio = point.amplitude_m / app.machine.clearance();
+    // The push of a lining is another one: only its window is known here.
+    let lining = app.has_lining();
+    let window = app.machine.lock_windows(speed).into_iter();
+    let on_lining = || window.clone().any(|window| window.has(speed.abs()));
+    let can_last = if lining { on_lining() } else { point.admissible && point.stable };
     let holds = match (a > 0.0 || b > 0.0, point.admissible, point.stable) {
+        _ if lining && can_last => "of a rigid casing; on the lining a lock can last",
+        _ if lining => "of a rigid casing; the lining holds no lock here",
         (true, ..) => "one pulls: only an adhesive lock",
         (_, true, true) => "both push: a lock can last",
         (_, true, false) => "both push, but it is unstable",
@@ -110,7 +117,7 @@ pub fn reading(app: &App, speed: f64) -> String {
         value("u_cc", point.u_cc_m, "m"),
         value("u_cs", point.u_cs_m, "m"),
         holds.to_string(),
-        not_this_run(app, point.admissible && point.stable).unwrap_or_default(),
+        not_this_run(app, can_last).unwrap_or_default(),
     ];
     let parts: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
     at + &parts.join(", ")

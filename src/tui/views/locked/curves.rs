@@ -97,8 +97,8 @@ fn marks(scene: &Scene, machine: &Machine) -> Vec<(f64, &'static str)> {
     .into_iter()
     .filter_map(|(speed, name)| Some((speed?, name)))
     .collect();
-    if machine.casing_damping == 0.0 && !machine.casing_is_joined() {
-        // Without damping the two thresholds are one.
+    if machine.locks_from_critical_speed() {
+        // The two thresholds are one.
         marks.retain(|(_, name)| *name != "Ω_lock");
     }
     marks.sort_by(|a, b| a.0.total_cmp(&b.0));
