@@ -236,6 +236,53 @@ fn the_verdict_of_the_value_before_stays_with_it_until_there_is_a_new_one() {
     assert!(!app.verdict().detail.contains("computing"));
 }
 
+/// An engine that has nothing new.
+struct Silent;
+
+impl Engine for Silent {
+    fn order(&mut self, _: &Order) {}
+
+    fn take(&mut self) -> Option<Snapshot> {
+        None
+    }
+}
+
+/// The first line of a screen of so many columns.
+fn first_line(app: &mut App, width: u16) -> String {
+    let (sender, events) = channel();
+    drop(sender);
+    let mut terminal = Terminal::new(TestBackend::new(width, 12)).unwrap();
+    let frame = Duration::from_millis(100);
+    run(&mut terminal, &events, app, &mut Silent, &mut NoHost, frame).unwrap();
+    let buffer = terminal.backend().buffer();
+    (0..width).map(|x| buffer.cell((x, 0)).unwrap().symbol()).collect()
+}
+
+#[test]
+fn on_a_narrow_screen_the_verdict_comes_first_and_whole() {
+    for name in ["coincidence", "rub", "slip", "default"] {
+        let mut scene = Scene::builtin(name).unwrap();
+        scene.solver.end_s = 2e-3;
+        scene.solver.step_s = 1e-6;
+        let mut app = App::new(scene.checked().unwrap(), Theme::Dark, Marker::Braille);
+        let mut engine = Stepwise::new(1e-4);
+        engine.order(&app.order());
+        app.apply_snapshot(engine.take().unwrap());
+        let line = first_line(&mut app, 40);
+        let begins = format!(" {}  AT 2 ms | NOW ", app.verdict().word);
+        assert!(line.starts_with(&begins) && !line.contains('…'), "{name}: {line:?}");
+        let _ = app.key(&KeyEvent::new(KeyCode::Char('l'), KeyModifiers::NONE));
+        let word = app.verdict().word;
+        assert!(word.starts_with("at ") && word.contains(" rad/s: "), "{name}: {word}");
+        for width in [40, 59] {
+            let line = first_line(&mut app, width);
+            assert!(line.starts_with(&format!(" {word} ")), "{name}: {line:?}");
+            assert!(!line.contains('…'), "{name}: {line:?}");
+        }
+        assert!(first_line(&mut app, 80).starts_with("NOW "));
+    }
+}
+
 #[test]
 fn an_answer_to_an_older_value_is_told_with_it_however_late_it_comes() {
     let mut scene = Scene::base();
