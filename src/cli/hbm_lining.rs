@@ -1,6 +1,8 @@
 //! The views of `rubscope hbm` for blades on a lining, `--smooth` and `--follow`, and of
 //! a coincidence against speed, `--coincidence`.
 
+use std::rc::Rc;
+
 use clap::Args;
 
 use super::hbm_views::{Answer, Asked};
@@ -221,7 +223,7 @@ fn told(branch: &FollowedBranch) -> String {
 
 fn curve(json: HbmReport, asked: &Asked) -> Result<Answer, HarmonicError> {
     let scene = asked.scene;
-    let points = coincidence(scene, asked.speeds)?;
+    let points = Rc::new(coincidence(scene, asked.speeds)?);
     let sense = 1_f64.copysign(asked.fastest());
     let markers: Vec<f64> =
         scene.machine().coincidence_speeds().iter().map(|speed| sense * speed).collect();
@@ -237,6 +239,6 @@ fn curve(json: HbmReport, asked: &Asked) -> Result<Answer, HarmonicError> {
         "growth of rest, and the wave it grows into"
     };
     title.push_str(&format!("; {what}:"));
-    let json = json.with("coincidence", report::curve(&markers, shifted, &points));
+    let json = json.with_parts("coincidence", report::curve(&markers, shifted, &points));
     Ok(Answer::of(json, vec![(title, report::curve_table(&points))]))
 }

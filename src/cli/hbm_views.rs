@@ -179,11 +179,13 @@ fn campbell(json: HbmReport, asked: &Asked, machine: &Machine) -> Result<Answer,
     let campbell = Campbell::of(machine, &orders, asked.fastest())?;
     let coincidences = "Coincidences +-omega_c = n_d Omega +- omega_bd, Eq. (30):".to_string();
     let lines = "Frequencies in the standing frame [rad/s]:".to_string();
+    let speeds = Rc::new(speeds.to_vec());
     let tables = vec![
-        (coincidences, report::coincidence_table(&campbell)),
-        (lines, report::campbell_table(&campbell, speeds)),
+        (coincidences, report::coincidence_table(&campbell).into()),
+        (lines, report::campbell_table(&campbell, &speeds)),
     ];
-    Ok(Answer::of(json.with("campbell", report::campbell(&campbell, speeds)), tables))
+    let json = json.with_parts("campbell", report::campbell(&campbell, &speeds));
+    Ok(Answer::of::<MadeTable>(json, tables))
 }
 
 fn slipping(

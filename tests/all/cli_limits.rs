@@ -233,7 +233,15 @@ fn many_speeds_take_little_memory() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("l.csv");
     let file = ["--out", file.to_str().unwrap()];
-    for view in [&["--json"][..], &["--branches", "--json"], &["--slip", "--json"]] {
+    for view in [
+        &["--json"][..],
+        &["--branches", "--json"],
+        &["--slip", "--json"],
+        &["--campbell", "--json"],
+        &["--coincidence", "--json"],
+        &["--whirl", "--json"],
+        &["--compliance", "--json", "--omegas", "0:1000:20000"],
+    ] {
         for out in [&[][..], &file] {
             // With 40 MB of data and no more: a program that wants more is aborted.
             let run = std::process::Command::new("sh")

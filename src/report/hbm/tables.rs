@@ -145,10 +145,7 @@ fn of_slip(point: &SlipPoint, figure: fn(SlipOrbit) -> f64) -> TableCell {
 /// Slip over speed, one row per speed.
 #[must_use]
 pub fn slip_table(points: &Rc<Vec<SlipPoint>>) -> MadeTable {
-    let (count, points) = (points.len(), Rc::clone(points));
-    MadeTable::of(SLIP, [count; 2], move |place| {
-        Ok(points.get(place).copied().into_iter().collect())
-    })
+    MadeTable::over(SLIP, points)
 }
 
 /// Where there is slip, a row for each damping ratio.
@@ -206,14 +203,17 @@ pub fn term_table(series: &SlipSpectrum) -> Table {
 
 /// The Campbell lines over speed, one per column.
 #[must_use]
-pub fn campbell_table(campbell: &Campbell, speeds: &[f64]) -> Table {
-    let names = campbell.lines.iter().map(|line| line.name.as_str());
-    let mut table = Table::new(std::iter::once("speed_rad_s").chain(names));
-    for &speed in speeds {
-        let lines = campbell.lines.iter().map(|line| line.at(speed));
-        table.push(std::iter::once(speed).chain(lines).map(TableCell::from).collect());
-    }
-    table
+pub fn campbell_table(campbell: &Campbell, speeds: &Rc<Vec<f64>>) -> MadeTable {
+    let names = campbell.lines.iter().map(|line| line.name.clone());
+    let names = std::iter::once("speed_rad_s".to_string()).chain(names).collect();
+    let (lines, count, speeds) = (campbell.lines.clone(), speeds.len(), Rc::clone(speeds));
+    MadeTable::named(names, count, move |place| {
+        let row = |&speed: &f64| {
+            let lines = lines.iter().map(|line| line.at(speed));
+            std::iter::once(speed).chain(lines).map(TableCell::from).collect()
+        };
+        speeds.get(place).map(row).unwrap_or_default()
+    })
 }
 
 /// The four coincidences of Eq. (30).
