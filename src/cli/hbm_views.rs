@@ -7,8 +7,8 @@ use super::hbm_joined as joined;
 use super::hbm_lining::{self, LiningView};
 use super::status::Refusal;
 use crate::harmonic::{
-    Branches, Campbell, Corner, Form, HarmonicError, NoSlip, SlipPoint, SlipRegion, SlipSpectrum,
-    Sweep, corner_branch, drives, excited_lock, locked_motion, slip_limits, slip_over,
+    Branches, Campbell, Corner, ExcitedLocks, Form, HarmonicError, NoSlip, SlipPoint, SlipRegion,
+    SlipSpectrum, Sweep, corner_branch, drives, locked_motion, slip_limits, slip_over,
     slip_spectrum,
 };
 use crate::model::Machine;
@@ -315,7 +315,7 @@ fn excited(
         });
     }
     let reaches = drives(&machine, excitation.order);
-    let found = excited_lock(&machine, side, excitation, speeds)?;
+    let found = Rc::new(ExcitedLocks::over(&machine, side, excitation, speeds)?);
     let title = format!(
         "Engine order {} with {} N m on each blade{}",
         excitation.order,
@@ -326,6 +326,6 @@ fn excited(
             " does not drive the modes of these diameters: E is not +-n_d modulo N."
         }
     );
-    let json = json.with("excitation", report::excitation(excitation, reaches, &found));
+    let json = json.with_parts("excitation", report::excitation(excitation, reaches, &found));
     Ok(Answer::of(json, vec![(title, report::excitation_table(&found))]))
 }

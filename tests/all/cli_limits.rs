@@ -233,6 +233,7 @@ fn many_speeds_take_little_memory() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("l.csv");
     let file = ["--out", file.to_str().unwrap()];
+    let driven = ["--excitation", "--json", "--set", "excitation.amplitude_nm=10"];
     for view in [
         &["--json"][..],
         &["--branches", "--json"],
@@ -240,6 +241,7 @@ fn many_speeds_take_little_memory() {
         &["--campbell", "--json"],
         &["--coincidence", "--json"],
         &["--whirl", "--json"],
+        &driven,
         &["--compliance", "--json", "--omegas", "0:1000:20000"],
     ] {
         for out in [&[][..], &file] {

@@ -24,8 +24,8 @@ pub use tables::*;
 use parts::{Part, Parts};
 
 use crate::harmonic::{
-    Branches, Campbell, CornerBranch, ExcitedLock, Form, Line, LockedPoint, NoSlip, SlipPoint,
-    SlipSpectrum, Sweep,
+    Branches, Campbell, CornerBranch, ExcitedLock, ExcitedLocks, Form, Line, LockedPoint, NoSlip,
+    SlipPoint, SlipSpectrum, Sweep,
 };
 use crate::model::{ContactPolygon, Excitation, LockWindow, Machine};
 use crate::report::number::short;
@@ -197,8 +197,8 @@ pub fn campbell(campbell: &Campbell, speeds: &Rc<Vec<f64>>) -> Parts {
 /// The response of the lock to an engine order in JSON: amplitudes of
 /// oscillation, and whether this order drives the modes.
 #[must_use]
-pub fn excitation(excitation: &Excitation, drives: bool, found: &[ExcitedLock]) -> Value {
-    let point = |lock: &ExcitedLock| {
+pub fn excitation(excitation: &Excitation, drives: bool, found: &Rc<ExcitedLocks>) -> Parts {
+    let point = |lock: ExcitedLock| {
         json!({
             "speed_rad_s": lock.state.speed_rad_s,
             "frequency_rad_s": lock.frequency_rad_s,
@@ -212,12 +212,13 @@ pub fn excitation(excitation: &Excitation, drives: bool, found: &[ExcitedLock]) 
             "release_torque_nm": lock.release_torque_nm,
         })
     };
-    json!({
-        "amplitude_nm": excitation.amplitude_nm,
-        "order": excitation.order,
-        "drives": drives,
-        "points": found.iter().map(point).collect::<Value>(),
-    })
+    let (places, found) = (found.places(), Rc::clone(found));
+    let points = move |place| Ok(found.lock_at(place)?.map(point).into_iter().collect());
+    Parts::default()
+        .with_whole("amplitude_nm", excitation.amplitude_nm)
+        .with_whole("order", excitation.order)
+        .with_whole("drives", drives)
+        .with("points", Part::Rows(places, Box::new(points)))
 }
 
 /// What the numbers are of, where the scene asks for more than the view has.

@@ -5,8 +5,8 @@ use std::io::Error;
 use std::rc::Rc;
 
 use crate::harmonic::{
-    Branches, Campbell, CornerBranch, Equilibrium, ExcitedLock, Kind, LockedPoint, SlipOrbit,
-    SlipPoint, SlipRegion, SlipSpectrum, Sweep,
+    Branches, Campbell, CornerBranch, Equilibrium, ExcitedLock, ExcitedLocks, Kind, LockedPoint,
+    SlipOrbit, SlipPoint, SlipRegion, SlipSpectrum, Sweep,
 };
 use crate::report::made_table::MadeTable;
 use crate::report::table::{Column, Table, TableCell};
@@ -230,20 +230,23 @@ pub fn coincidence_table(campbell: &Campbell) -> Table {
     )
 }
 
+/// Columns of the response to an engine order.
+const EXCITED: &[Column<'_, ExcitedLock>] = &[
+    ("speed_rad_s", |lock| lock.state.speed_rad_s.into()),
+    ("frequency_rad_s", |lock| lock.frequency_rad_s.into()),
+    ("alpha_c_rad", |lock| lock.response[2].norm().into()),
+    ("casing_m", |lock| lock.casing_m().into()),
+    ("change_of_amplitude", |lock| lock.relative_amplitude.into()),
+    ("change_of_multiplier", |lock| lock.relative_multiplier.into()),
+    ("release_torque_nm", |lock| lock.release_torque_nm.into()),
+    ("state", |lock| lock.state.character.as_ref().into()),
+];
+
 /// The response to an engine order, a row for each speed.
 #[must_use]
-pub fn excitation_table(found: &[ExcitedLock]) -> Table {
-    Table::of(
-        found,
-        &[
-            ("speed_rad_s", |lock| lock.state.speed_rad_s.into()),
-            ("frequency_rad_s", |lock| lock.frequency_rad_s.into()),
-            ("alpha_c_rad", |lock| lock.response[2].norm().into()),
-            ("casing_m", |lock| lock.casing_m().into()),
-            ("change_of_amplitude", |lock| lock.relative_amplitude.into()),
-            ("change_of_multiplier", |lock| lock.relative_multiplier.into()),
-            ("release_torque_nm", |lock| lock.release_torque_nm.into()),
-            ("state", |lock| lock.state.character.as_ref().into()),
-        ],
-    )
+pub fn excitation_table(found: &Rc<ExcitedLocks>) -> MadeTable {
+    let (counts, found) = ([found.places(), found.count], Rc::clone(found));
+    MadeTable::of(EXCITED, counts, move |place| {
+        Ok(found.lock_at(place).map_err(Error::other)?.into_iter().collect())
+    })
 }
