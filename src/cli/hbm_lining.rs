@@ -177,7 +177,7 @@ fn over_clearance(found: &LiningReport, lining: &Lining) -> Vec<(String, Table)>
     let mut title = "Steady states in the frame of the blades.".to_string();
     if let Some(least) = found.least {
         title.push_str(&format!(
-            " Without smoothing a lock needs a lining of at least {} N/m (at {} rad/s); one of {} N/m ",
+            " Without smoothing a lock of two groups needs a lining of at least {} N/m (at {} rad/s); one of {} N/m ",
             short(least.stiffness_n_per_m),
             short(least.speed_rad_s),
             short(lining.stiffness_n_per_m)
