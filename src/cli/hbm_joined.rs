@@ -10,7 +10,7 @@ use crate::harmonic::{
     whirl_onset, whirl_over,
 };
 use crate::model::Machine;
-use crate::report::hbm::{self as report, HbmReport, WhirlRow};
+use crate::report::hbm::{self as report, CompliancePoint, HbmReport, WhirlRow};
 use crate::report::number::short;
 
 /// Frequencies of the table of the compliance.
@@ -74,10 +74,9 @@ pub(super) fn compliance(
     } else {
         format!("Where B(omega) crosses the negative real axis {at}:")
     };
-    let samples = report::compliance_table(&joint, &range);
-    let json = json.with("compliance", report::compliance(&joint, &range, &waves));
-    let mut answer =
-        Answer::of(json, vec![(title, chart), (crossings, report::wave_table(&joint, &waves))]);
-    answer.file = samples.into();
-    Ok(answer)
+    let points = Rc::new(range.iter().map(|&omega| CompliancePoint::at(&joint, omega)).collect());
+    let file = report::compliance_table(&points);
+    let json = json.with_parts("compliance", report::compliance(&joint, &points, &waves));
+    let tables = vec![(title, chart), (crossings, report::wave_table(&joint, &waves))];
+    Ok(Answer { file, ..Answer::of(json, tables) })
 }

@@ -1,6 +1,8 @@
 //! The views of `rubscope hbm` for blades on a lining, `--smooth` and `--follow`, and of
 //! a coincidence against speed, `--coincidence`.
 
+use std::rc::Rc;
+
 use clap::Args;
 
 use super::hbm_views::{Answer, Asked};
@@ -175,7 +177,7 @@ fn over_clearance(found: &LiningReport, lining: &Lining) -> Vec<(String, Table)>
     let mut title = "Steady states in the frame of the blades.".to_string();
     if let Some(least) = found.least {
         title.push_str(&format!(
-            " Without smoothing a lock needs a lining of at least {} N/m (at {} rad/s); one of {} N/m ",
+            " Without smoothing a lock of two groups needs a lining of at least {} N/m (at {} rad/s); one of {} N/m ",
             short(least.stiffness_n_per_m),
             short(least.speed_rad_s),
             short(lining.stiffness_n_per_m)
@@ -221,7 +223,7 @@ fn told(branch: &FollowedBranch) -> String {
 
 fn curve(json: HbmReport, asked: &Asked) -> Result<Answer, HarmonicError> {
     let scene = asked.scene;
-    let points = coincidence(scene, asked.speeds)?;
+    let points = Rc::new(coincidence(scene, asked.speeds)?);
     let sense = 1_f64.copysign(asked.fastest());
     let markers: Vec<f64> =
         scene.machine().coincidence_speeds().iter().map(|speed| sense * speed).collect();
@@ -237,6 +239,6 @@ fn curve(json: HbmReport, asked: &Asked) -> Result<Answer, HarmonicError> {
         "growth of rest, and the wave it grows into"
     };
     title.push_str(&format!("; {what}:"));
-    let json = json.with("coincidence", report::curve(&markers, shifted, &points));
+    let json = json.with_parts("coincidence", report::curve(&markers, shifted, &points));
     Ok(Answer::of(json, vec![(title, report::curve_table(&points))]))
 }

@@ -7,8 +7,8 @@ use super::hbm_joined as joined;
 use super::hbm_lining::{self, LiningView};
 use super::status::Refusal;
 use crate::harmonic::{
-    Branches, Campbell, Corner, Form, HarmonicError, NoSlip, SlipPoint, SlipRegion, SlipSpectrum,
-    Sweep, corner_branch, drives, excited_lock, locked_motion, slip_limits, slip_over,
+    Branches, Campbell, Corner, ExcitedLocks, Form, HarmonicError, NoSlip, SlipPoint, SlipRegion,
+    SlipSpectrum, Sweep, corner_branch, drives, locked_motion, slip_limits, slip_over,
     slip_spectrum,
 };
 use crate::model::Machine;
@@ -186,11 +186,13 @@ fn campbell(json: HbmReport, asked: &Asked, machine: &Machine) -> Result<Answer,
     let campbell = Campbell::of(machine, &orders, asked.fastest())?;
     let coincidences = "Coincidences +-omega_c = n_d Omega +- omega_bd, Eq. (30):".to_string();
     let lines = "Frequencies in the standing frame [rad/s]:".to_string();
+    let speeds = Rc::new(speeds.to_vec());
     let tables = vec![
-        (coincidences, report::coincidence_table(&campbell)),
-        (lines, report::campbell_table(&campbell, speeds)),
+        (coincidences, report::coincidence_table(&campbell).into()),
+        (lines, report::campbell_table(&campbell, &speeds)),
     ];
-    Ok(Answer::of(json.with("campbell", report::campbell(&campbell, speeds)), tables))
+    let json = json.with_parts("campbell", report::campbell(&campbell, &speeds));
+    Ok(Answer::of::<MadeTable>(json, tables))
 }
 
 fn slipping(
@@ -320,7 +322,7 @@ fn excited(
         });
     }
     let reaches = drives(&machine, excitation.order);
-    let found = excited_lock(&machine, side, excitation, speeds)?;
+    let found = Rc::new(ExcitedLocks::over(&machine, side, excitation, speeds)?);
     let title = format!(
         "Engine order {} with {} N m on each blade{}",
         excitation.order,
@@ -331,6 +333,6 @@ fn excited(
             " does not drive the modes of these diameters: E is not +-n_d modulo N."
         }
     );
-    let json = json.with("excitation", report::excitation(excitation, reaches, &found));
+    let json = json.with_parts("excitation", report::excitation(excitation, reaches, &found));
     Ok(Answer::of(json, vec![(title, report::excitation_table(&found))]))
 }

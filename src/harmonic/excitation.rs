@@ -60,29 +60,58 @@ fn reach(machine: &Machine, order: u32) -> (bool, bool) {
     ((diameters + order).is_multiple_of(blades), diameters == order)
 }
 
-/// The response of the locked motion (form `modal`, damped) in the corner after
-/// `side` at each speed \[rad/s\]; speeds without a locked motion are left out.
-///
-/// # Errors
-/// A polygon without corners, a speed that is not finite, or eigenvalues that cannot
-/// be computed.
-pub fn excited_lock(
-    machine: &Machine,
-    side: u32,
-    excitation: &Excitation,
-    speeds: &[f64],
-) -> Result<Vec<ExcitedLock>, HarmonicError> {
-    let corner = Corner::after(&machine.polygon, side)?;
-    error::refuse_other_diameters(machine)?;
-    error::refuse_joined(machine, "0 where a lock is excited")?;
-    let mut found = Vec::with_capacity(speeds.len());
-    for &speed in speeds {
-        if !speed.is_finite() {
-            return Err(HarmonicError::Speed(speed));
+/// The response of the locked motion (form `modal`, damped) in the corner after a side
+/// over speeds, computed where it is asked for: all of it takes much memory.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ExcitedLocks {
+    machine: Machine,
+    corner: Corner,
+    excitation: Excitation,
+    speeds: Vec<f64>,
+    /// At how many of the speeds there is a locked motion.
+    pub count: usize,
+}
+
+impl ExcitedLocks {
+    /// Over these speeds \[rad/s\].
+    ///
+    /// # Errors
+    /// A polygon without corners, a speed that is not finite, or eigenvalues that cannot
+    /// be computed.
+    pub fn over(
+        machine: &Machine,
+        side: u32,
+        excitation: &Excitation,
+        speeds: &[f64],
+    ) -> Result<Self, HarmonicError> {
+        let corner = Corner::after(&machine.polygon, side)?;
+        error::refuse_other_diameters(machine)?;
+        error::refuse_joined(machine, "0 where a lock is excited")?;
+        let (machine, excitation) = (machine.clone(), excitation.clone());
+        let mut found = Self { machine, corner, excitation, speeds: speeds.to_vec(), count: 0 };
+        for place in 0..speeds.len() {
+            found.count += usize::from(found.lock_at(place)?.is_some());
         }
-        found.extend(at(machine, corner, excitation, speed)?);
+        Ok(found)
     }
-    Ok(found)
+
+    /// How many speeds there are.
+    #[must_use]
+    pub fn places(&self) -> usize {
+        self.speeds.len()
+    }
+
+    /// The locked motion at the speed at a place of the list, if there is one.
+    ///
+    /// # Errors
+    /// None for what `over` gave.
+    pub fn lock_at(&self, place: usize) -> Result<Option<ExcitedLock>, HarmonicError> {
+        match self.speeds.get(place) {
+            Some(&speed) if !speed.is_finite() => Err(HarmonicError::Speed(speed)),
+            Some(&speed) => at(&self.machine, self.corner, &self.excitation, speed),
+            None => Ok(None),
+        }
+    }
 }
 
 fn at(

@@ -53,7 +53,7 @@ pub use coincidence::{CoincidencePoint, coincidence, shifted_coincidence};
 pub use corner::{Corner, PAPER_PAIR};
 pub use equilibria::{Character, Equilibrium, GroupContact, Kind, equilibria, equilibrium};
 pub use error::HarmonicError;
-pub use excitation::{ExcitedLock, drives, excited_lock};
+pub use excitation::{ExcitedLock, ExcitedLocks, drives};
 pub use flutter::{flutter_speed, lock_roots, undamped_flutter_speed};
 pub use fold::{CornerBranch, Fold, corner_branch};
 pub use form::Form;

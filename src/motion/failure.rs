@@ -2,6 +2,7 @@
 //! docs/theory.md, section 6.
 
 use super::{Pulse, Verdict};
+use crate::numeric::rounding::rounded;
 use crate::tolerances::{
     LARGEST_BLADE_ANGLE, MOST_EVENTS, MOST_EVENTS_AT_ONCE, MOST_LOOKS, MOST_ROWS,
 };
@@ -9,7 +10,7 @@ use thiserror::Error;
 
 /// Why a run stopped before its end.
 #[derive(Clone, Debug, Error, PartialEq)]
-#[error("failed at t = {t_s:e} s: {reason}")]
+#[error("failed at t = {:e} s: {reason}", told(*t_s))]
 pub struct Failure {
     /// When \[s\].
     pub t_s: f64,
@@ -17,11 +18,16 @@ pub struct Failure {
     pub reason: FailureReason,
 }
 
+/// A time in the digits that are told.
+fn told(t_s: f64) -> f64 {
+    rounded(t_s, 6)
+}
+
 impl Failure {
     /// In words for a motion that is no breakdown of the computation.
     #[must_use]
     pub fn as_growth(&self) -> String {
-        format!("left the range of the model at t = {:e} s: {}", self.t_s, self.reason)
+        format!("left the range of the model at t = {:e} s: {}", told(self.t_s), self.reason)
     }
 
     /// The verdict on a motion beyond the paper that stopped so: growth that nothing
@@ -164,4 +170,19 @@ pub enum FailureReason {
         /// Number of rows.
         rows: usize,
     },
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_time_is_told_in_six_digits_at_most() {
+        for (t_s, told) in [(9.949_999_999_999_999e-3, "9.95e-3"), (1.985_620_839e-2, "1.98562e-2")]
+        {
+            let failure = Failure { t_s, reason: FailureReason::Series };
+            assert!(failure.to_string().starts_with(&format!("failed at t = {told} s: ")));
+            assert!(failure.as_growth().contains(&format!(" at t = {told} s: ")));
+        }
+    }
 }

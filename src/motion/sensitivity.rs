@@ -197,9 +197,9 @@ mod tests {
     #[test]
     fn a_faster_rotor_is_faster_after_a_change_of_its_speed_too() {
         let change = |speed| Change::Rotor { speed, ramp: -3.0 };
-        for (suspect, speed) in [(Suspect::Faster, 400.0 * MORE), (Suspect::Stronger, 400.0)] {
-            assert_eq!(suspect.change(change(Some(400.0))), change(Some(speed)));
-            assert_eq!(suspect.change(change(None)), change(None));
+        for (tiny, speed) in [(TinyChange::Faster, 400.0 * MORE), (TinyChange::Stronger, 400.0)] {
+            assert_eq!(tiny.change(change(Some(400.0))), change(Some(speed)));
+            assert_eq!(tiny.change(change(None)), change(None));
         }
     }
 

@@ -7,7 +7,8 @@ use std::ops::{Deref, DerefMut};
 use super::explicit::{Explicit, FullBlades, ModalBlades, RigidBlades};
 use super::verdict::judge;
 use super::{
-    Checks, ContactLog, EnergyLedger, Event, Failure, Joined, Plane, Pulse, Rotor, State, Verdict,
+    Checks, ContactLog, EnergyLedger, Event, Failure, FailureReason, Joined, Plane, Pulse, Rotor,
+    State, Verdict,
 };
 use crate::model::Machine;
 use crate::scene::{CheckedScene, ModelSize, SolverKind};
@@ -160,9 +161,17 @@ pub trait Solver: Debug + Send + Sync {
     /// Why and when the run stopped early, in words.
     fn stopped(&self) -> Option<String> {
         let failure = self.failure()?;
-        Some(match self.final_verdict() {
+        let told = match self.final_verdict() {
             Some(Verdict::Divergent) => failure.as_growth(),
             _ => failure.to_string(),
+        };
+        let speed = self.rotor().speed(failure.t_s);
+        let digs_in = self.machine().coupling_product_at(speed) < 0.0;
+        Some(match failure.reason {
+            FailureReason::Singular { .. } if digs_in => format!(
+                "{told}; where kappa (kappa + mu) < 0, a push may close the gap that it is to open"
+            ),
+            _ => told,
         })
     }
 

@@ -5,3 +5,4 @@ pub(crate) mod bisection;
 pub(crate) mod eigen;
 pub(crate) mod maximum;
 pub(crate) mod real_roots;
+pub(crate) mod rounding;

@@ -27,9 +27,7 @@ impl std::fmt::Debug for MadeTable {
 impl From<Table> for MadeTable {
     fn from(table: Table) -> Self {
         let (names, rows) = table.into_parts();
-        let count = rows.len();
-        let at: RowsAt = Rc::new(move |place| Ok(rows.get(place).cloned().into_iter().collect()));
-        Self { names, places: count, rows: count, at }
+        Self::named(names, rows.len(), move |place| rows.get(place).cloned().unwrap_or_default())
     }
 }
 
@@ -41,13 +39,30 @@ impl MadeTable {
         [places, rows]: [usize; 2],
         items: impl Fn(usize) -> Result<Vec<T>> + 'static,
     ) -> Self {
+        let names = columns.iter().map(|column| column.0.to_string()).collect();
         let cells = |item: &T| columns.iter().map(|column| (column.1)(item)).collect();
-        Self {
-            names: columns.iter().map(|column| column.0.to_string()).collect(),
-            places,
-            rows,
-            at: Rc::new(move |place| Ok(items(place)?.iter().map(cells).collect())),
-        }
+        let at: RowsAt = Rc::new(move |place| Ok(items(place)?.iter().map(cells).collect()));
+        Self { names, places, rows, at }
+    }
+
+    /// With these columns, and a row for each item.
+    pub fn over<T: Clone + 'static>(
+        columns: &'static [Column<'static, T>],
+        items: &Rc<Vec<T>>,
+    ) -> Self {
+        let (count, items) = (items.len(), Rc::clone(items));
+        Self::of(columns, [count; 2], move |place| {
+            Ok(items.get(place).cloned().into_iter().collect())
+        })
+    }
+
+    /// With columns of these names, and a row for each place, which has these cells.
+    pub fn named(
+        names: Vec<String>,
+        rows: usize,
+        cells: impl Fn(usize) -> Vec<TableCell> + 'static,
+    ) -> Self {
+        Self { names, places: rows, rows, at: Rc::new(move |place| Ok(vec![cells(place)])) }
     }
 
     /// How many rows there are.

@@ -2,6 +2,7 @@
 //! powers of ten only where the plain form would be long.
 
 use super::prefix::SiScale;
+pub use crate::numeric::rounding::rounded;
 
 /// A number in at most six significant digits.
 ///
@@ -28,12 +29,6 @@ pub fn short(x: f64) -> String {
     } else {
         format!("{}e{exponent}", trimmed(digits))
     }
-}
-
-/// A number rounded to so many significant digits, at least one.
-#[must_use]
-pub fn rounded(x: f64, digits: usize) -> f64 {
-    format!("{x:.*e}", digits.saturating_sub(1)).parse().unwrap_or(x)
 }
 
 /// The shortest text that reads back as this number.

@@ -9,8 +9,9 @@ use crate::scene::{Allowed, Key, Scene, SceneError, Value, keys};
 /// Most values one axis may have.
 pub const MOST_VALUES: u32 = 100_000;
 
-/// Largest factor between the ends of an axis spaced by equal factors.
-const MOST_FACTOR: f64 = 1e300;
+/// Largest factor between the ends of an axis spaced by equal factors: more decades than
+/// any quantity of a machine has.
+const MOST_FACTOR: f64 = 1e30;
 
 /// Why an axis was refused.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -103,7 +104,7 @@ impl Axis {
         }
         // Otherwise the factor between two values can be infinite, or zero.
         if log && !(1.0 / MOST_FACTOR..=MOST_FACTOR).contains(&(to / from)) {
-            return Err(refused("log: with ends that differ by a factor of at most 1e300"));
+            return Err(refused("log: with ends that differ by a factor of at most 1e30"));
         }
         // Of a single value, the second end is shown and must have a meaning too.
         for end in [from, to] {
@@ -217,6 +218,11 @@ mod tests {
             (
                 "operation.pulse_n=log:15e-324:6:4",
                 "axis operation.pulse_n = log:1.5e-323:6:4: allowed is log:",
+            ),
+            (
+                "operation.pulse_n=log:1e-300:1:4",
+                "axis operation.pulse_n = log:1e-300:1:4: allowed is log: with ends that differ \
+                 by a factor of at most 1e30",
             ),
             ("solver.model=0:1:5", "axis solver.model: allowed are keys"),
             ("nothing=0:1:5", "unknown key nothing"),

@@ -121,12 +121,19 @@ impl MapPlan {
         Err(SceneError::refused("map", size, format!("from 1 to {MOST_CELLS} cells")))
     }
 
-    /// Refuses a plan with too many cells, or with a corner that is not a valid scene.
+    /// Refuses a plan with too many cells, with one key twice, or with a corner that is
+    /// not a valid scene.
     ///
     /// # Errors
-    /// The number of cells, or the first corner that is refused.
+    /// The number of cells, a key on both axes, or the first corner that is refused.
     pub fn check(&self) -> Result<(), SceneError> {
         self.check_size()?;
+        if self.x.path == self.y.path {
+            let both = format!("{} on both axes", self.x.path);
+            let allowed = "two different keys; columns (--x) are the speed and rows (--y) the \
+                           pulse by default";
+            return Err(SceneError::refused("map", both, allowed));
+        }
         let (columns, cells) = (self.x.count as usize, self.len());
         for corner in [0, columns - 1, cells - columns, cells - 1] {
             self.scene_of(corner)?;

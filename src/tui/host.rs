@@ -40,6 +40,8 @@ pub trait Host {
     fn mouse(&mut self, _on: bool) {}
     /// Writes a file. Without a result, that comes later as an event.
     fn write(&mut self, job: FileJob) -> Option<FileResult>;
+    /// Why a file was not written, as long as no screen has shown it.
+    fn unseen(&mut self, _reason: Option<String>) {}
     /// Reads the scenes of a directory. Without a result, that comes later as an
     /// event.
     fn find_scenes(&mut self, directory: PathBuf) -> Option<FoundScenes> {
@@ -71,6 +73,8 @@ impl Host for NoHost {
 pub struct Shell {
     /// Where results of files go.
     pub events: Sender<ScreenEvent>,
+    /// Why a file was not written, as long as no screen has shown it.
+    pub unseen: Option<String>,
 }
 
 impl Host for Shell {
@@ -112,6 +116,10 @@ impl Host for Shell {
 
     fn write(&mut self, job: FileJob) -> Option<FileResult> {
         write_aside(job, self.events.clone())
+    }
+
+    fn unseen(&mut self, reason: Option<String>) {
+        self.unseen = reason;
     }
 
     fn find_scenes(&mut self, directory: PathBuf) -> Option<FoundScenes> {

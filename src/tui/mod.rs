@@ -84,8 +84,7 @@ pub fn check_terminal() -> Result<(), &'static str> {
 /// 128 + n after signal n.
 ///
 /// # Errors
-/// Threads or signals cannot be set up, or a file was still being written at the
-/// end.
+/// Threads or signals cannot be set up, or the last file was not written.
 pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u8> {
     // With `NO_COLOR`, crossterm would drop bold and reverse too; the mono
     // theme has no colours anyway.
@@ -115,9 +114,9 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
     memory.prepare(&mut app);
     terminal::set_mouse(app.mouse)?;
     let guard = terminal::Guard;
+    let mut shell = terminal::Shell { events: sender, unseen: None };
     let ended = terminal::open().and_then(|mut screen| {
-        events::read_keys(sender.clone(), found.unanswered)?;
-        let mut shell = terminal::Shell { events: sender };
+        events::read_keys(shell.events.clone(), found.unanswered)?;
         let ended = run(&mut screen, &events, &mut app, &mut worker, &mut shell, options.frame());
         // Dropping the screen would write to standard error if the terminal is gone.
         std::mem::forget(screen);
@@ -130,9 +129,10 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
     }
     match (terminal::ended_by(), ended) {
         (Some(signal), _) | (None, Ok(Exit::Signal(signal))) => Ok(128 + signal),
-        (None, Ok(Exit::Done)) => match app.writing {
-            Some(writing) => anyhow::bail!("gave up writing {}: no answer", writing.name),
-            None => Ok(0),
+        (None, Ok(Exit::Done)) => match (app.writing, shell.unseen) {
+            (Some(writing), _) => anyhow::bail!("gave up writing {}: no answer", writing.name),
+            (None, Some(reason)) => anyhow::bail!(reason),
+            (None, None) => Ok(0),
         },
         // The terminal was there and is gone: nobody is left to read a message.
         (None, Err(_)) => Ok(128 + run::HANGUP),

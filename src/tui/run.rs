@@ -9,6 +9,7 @@ use ratatui::{Terminal, backend::Backend};
 use super::app::{App, Effect, Exit, Heard};
 use super::engine::{Engine, Order};
 use super::events::ScreenEvent;
+use super::files::FileResult;
 use super::host::Host;
 use super::line::Throttle;
 use super::panels::{self, LEAST_HEIGHT, LEAST_WIDTH};
@@ -74,23 +75,14 @@ pub fn run<B: Backend>(
             Ok(event) => Some(event),
             Err(RecvTimeoutError::Timeout) => None,
             Err(RecvTimeoutError::Disconnected) => {
-                show(terminal, app, engine)?;
+                show(terminal, app, engine, host)?;
                 return Ok(Exit::Done);
             }
         };
         while let Some(event) = next {
             match handle(event, app, host) {
                 Reaction::Exit(exit) => return Ok(exit),
-                Reaction::Quit => match last_file(events, app, host) {
-                    Some(exit) => return Ok(exit),
-                    // It was not written: the user decides what to do.
-                    None => {
-                        (again, due) = (true, Due::Now);
-                        if let Reaction::Exit(exit) = resumed(host.resume()) {
-                            return Ok(exit);
-                        }
-                    }
-                },
+                Reaction::Quit => return Ok(last_file(events, app, host)),
                 Reaction::Draw(soon) => due = due.max(soon),
                 Reaction::Look => due = due.max(look(app, engine)),
                 Reaction::Redraw => (again, due) = (true, Due::Now),
@@ -114,7 +106,7 @@ pub fn run<B: Backend>(
                 let size = terminal.size()?;
                 terminal.resize(size.into())?;
             }
-            show(terminal, app, engine)?;
+            show(terminal, app, engine, host)?;
             answer = None;
             let now = Instant::now();
             throttle.spend(host.sent(), due == Due::Now, host.is_slow(), now);
@@ -154,6 +146,7 @@ fn show<B: Backend>(
     terminal: &mut Terminal<B>,
     app: &mut App,
     engine: &mut dyn Engine,
+    host: &mut dyn Host,
 ) -> Result<(), B::Error> {
     look(app, engine);
     let size = terminal.size()?;
@@ -163,6 +156,7 @@ fn show<B: Backend>(
     // A screen that is too small shows only that it is.
     if size.width >= LEAST_WIDTH && size.height >= LEAST_HEIGHT {
         app.drawn();
+        host.unseen(None);
     }
     Ok(())
 }
@@ -196,7 +190,7 @@ fn handle(event: ScreenEvent, app: &mut App, host: &mut dyn Host) -> Reaction {
             }
             Effect::Write(job) => {
                 if let Some(result) = host.write(job) {
-                    app.written(result);
+                    written(result, app, host);
                 }
                 Reaction::Draw(Due::Now)
             }
@@ -218,7 +212,7 @@ fn handle(event: ScreenEvent, app: &mut App, host: &mut dyn Host) -> Reaction {
             Reaction::Draw(Due::Now)
         }
         ScreenEvent::Written(result) => {
-            app.written(result);
+            written(result, app, host);
             Reaction::Draw(Due::Now)
         }
         ScreenEvent::Scenes(found) => {
@@ -233,28 +227,34 @@ fn handle(event: ScreenEvent, app: &mut App, host: &mut dyn Host) -> Reaction {
     }
 }
 
-/// Waits a moment for the file that is being written. None if that says that
-/// the file could not be written, so that the user can do something about it.
-fn last_file(events: &Receiver<ScreenEvent>, app: &mut App, host: &mut dyn Host) -> Option<Exit> {
+/// Takes how the writing of a file went. Until a screen shows it, it is for the end of
+/// the program to say.
+fn written(result: FileResult, app: &mut App, host: &mut dyn Host) {
+    let name = app.writing.as_ref().map_or("the file", |writing| &writing.name);
+    match &result {
+        FileResult::Written => {}
+        FileResult::Exists => host.unseen(Some(format!("cannot write {name}: it exists"))),
+        FileResult::Failed(reason) => host.unseen(Some(format!("cannot write {name}: {reason}"))),
+    }
+    app.written(result);
+}
+
+/// Waits a moment for the file that is being written.
+fn last_file(events: &Receiver<ScreenEvent>, app: &mut App, host: &mut dyn Host) -> Exit {
     let began = Instant::now();
     while app.writing.is_some() {
         match events.recv_timeout(LAST_FILE.saturating_sub(began.elapsed())) {
-            Ok(ScreenEvent::Written(result)) => {
-                if !app.written(result) {
-                    return None;
-                }
-            }
             // The keys after the one that quits are for nobody.
             Ok(ScreenEvent::Key(_) | ScreenEvent::Pasted(_) | ScreenEvent::Mouse(_)) => {}
             Ok(other) => {
                 if let Reaction::Exit(exit) = handle(other, app, host) {
-                    return Some(exit);
+                    return exit;
                 }
             }
             Err(_) => break,
         }
     }
-    Some(Exit::Done)
+    Exit::Done
 }
 
 fn suspended(app: &mut App, result: std::io::Result<bool>) -> Reaction {

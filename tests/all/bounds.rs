@@ -1,7 +1,7 @@
 //! Work has bounds, and what passes them is told by name: scenes that once ran
 //! for minutes or for ever, and those next to a bound that must still run.
 
-use rubscope::motion::{Verdict, simulate};
+use rubscope::motion::{Motion, Verdict, simulate};
 use rubscope::scene::Scene;
 
 use crate::cli_support::refusal;
@@ -74,4 +74,18 @@ fn steps_of_the_full_disk_are_fewer_because_each_costs_more() {
     // The paper's coordinates may take ten billion.
     let message = refusal(&["run", "--end", "1500", "--step", "1e-7"]);
     assert!(message.contains("for at most 1e10 steps to solver.end_s"), "{message}");
+}
+
+/// Full angles may leave a step without an answer where the linearised model has one.
+#[test]
+fn a_step_without_an_answer_says_why_where_friction_digs_in() {
+    let mut scene = Scene::builtin("digs-in").unwrap();
+    scene.set("contact.friction", "4.2").unwrap();
+    scene.set("bladed_disk.radial_coupling", "-2.1").unwrap();
+    scene.set("solver.end_s", "1e-3").unwrap();
+    let mut motion = Motion::new(&scene.checked().unwrap());
+    assert!(motion.advance(1e-3).is_err());
+    let told = motion.stopped().unwrap();
+    let why = "(singular equations); where kappa (kappa + mu) < 0, a push may close the gap";
+    assert!(told.contains(why), "{told}");
 }

@@ -147,8 +147,13 @@ fn figures_4_to_6_lock_on_the_blades_of_the_paper() {
 
 /// When a scene locks at each of 50 steps from 0.01 to 1 µs, and on which blades.
 fn at_many_steps(number: u32, pulse: &str) -> Vec<(Option<f64>, Vec<u32>)> {
+    at_steps(number, pulse, 0.0)
+}
+
+/// As `at_many_steps`, at steps beside those by a part of the way from one to the next.
+fn at_steps(number: u32, pulse: &str, beside: f64) -> Vec<(Option<f64>, Vec<u32>)> {
     let scene = with(number, &[("operation.pulse_n", pulse)]);
-    let step = |n: u32| 1e-8 * 100_f64.powf(f64::from(n) / 49.0);
+    let step = |n: u32| 1e-8 * 100_f64.powf((f64::from(n) + beside) / 49.0);
     let run = |n: u32| {
         let scene = scene.clone().into_scene();
         let scene = scene.with(&[("solver.step_s", &step(n).to_string())]).unwrap();
@@ -228,6 +233,26 @@ fn with_the_damping_of_table_1_every_lock_is_early() {
     assert!(paper > 0.0 && paper < 0.010, "{paper}");
     assert!(says(&drawn(4), "none of 2000 pulses from 3 kN to 30 MN locks later than 36 ms"));
     assert!(says(&drawn(4), "none of 200 later than 10 ms"));
+}
+
+/// What the caption and the note of the scene say of other steps than those that the caption
+/// counts.
+#[test]
+fn figure_7_says_what_holds_at_steps_that_it_does_not_count() {
+    let figure = drawn(7);
+    assert!(says(&figure, "50 kN locks from 20 ms on, nine times of ten by 50 ms; 42 kN from 30"));
+    let times = |pulse: &str| -> Vec<f64> {
+        let all = [0.0, 0.37, 0.71].map(|beside| at_steps(7, pulse, beside));
+        all.into_iter().flatten().filter_map(|at| at.0).collect()
+    };
+    let part = |of: usize, all: usize| of as f64 / all as f64;
+    let (own, weaker) = (times("50000"), times("42000"));
+    let before = |times: &[f64], end: f64| times.iter().filter(|t| **t < end).count();
+    assert!(own.iter().all(|t| *t > 0.020) && part(own.len(), 150) > 0.95, "{own:?}");
+    assert!((0.88..0.99).contains(&part(before(&own, 0.050), own.len())), "{own:?}");
+    assert!(weaker.iter().all(|t| *t > 0.030), "{weaker:?}");
+    assert!((0.58..0.75).contains(&part(weaker.len(), 150)), "{weaker:?}");
+    assert!(part(before(&weaker, 0.1), weaker.len()) > 0.9, "{weaker:?}");
 }
 
 /// What the caption counts, and what the note of the scene says of it. Round-off moves

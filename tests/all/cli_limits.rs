@@ -206,7 +206,17 @@ fn a_refusal_says_what_would_be_taken() {
         (
             "map --x operation.pulse_n=log:1e-300:1e6:4",
             "rubscope: axis operation.pulse_n = log:1e-300:1e6:4: allowed is log: with ends that \
-             differ by a factor of at most 1e300",
+             differ by a factor of at most 1e30",
+        ),
+        (
+            "map --x operation.pulse_n=1:1000:4",
+            "rubscope: map = operation.pulse_n on both axes: allowed is two different keys; \
+             columns (--x) are the speed and rows (--y) the pulse by default",
+        ),
+        (
+            "map --y casing.damping_ratio=0:1:2 --x casing.damping_ratio=0:0.1:4",
+            "rubscope: map = casing.damping_ratio on both axes: allowed is two different keys; \
+             columns (--x) are the speed and rows (--y) the pulse by default",
         ),
     ] {
         assert_eq!(refusal(&command.split(' ').collect::<Vec<_>>()), expected);
@@ -240,7 +250,17 @@ fn many_speeds_take_little_memory() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("l.csv");
     let file = ["--out", file.to_str().unwrap()];
-    for view in [&["--json"][..], &["--branches", "--json"], &["--slip", "--json"]] {
+    let driven = ["--excitation", "--json", "--set", "excitation.amplitude_nm=10"];
+    for view in [
+        &["--json"][..],
+        &["--branches", "--json"],
+        &["--slip", "--json"],
+        &["--campbell", "--json"],
+        &["--coincidence", "--json"],
+        &["--whirl", "--json"],
+        &driven,
+        &["--compliance", "--json", "--omegas", "0:1000:20000"],
+    ] {
         for out in [&[][..], &file] {
             // With 40 MB of data and no more: a program that wants more is aborted.
             let run = std::process::Command::new("sh")

@@ -121,6 +121,7 @@ fn tables_say_what_they_show() {
     let lined = "--contact smooth --set contact.stiffness_n_per_m=3e8 --speed 500:600:2";
     let lock = text(&format!("--smooth {lined}"));
     assert!(lock.contains("holds it from 438.158 to 732.355 rad/s"), "{lock}");
+    assert!(lock.contains("a lock of two groups needs a lining of at least"), "{lock}");
     let curve = text("--coincidence --set bladed_disk.radial_coupling=0.3 --speed 400:500:2");
     assert!(curve.contains("Coincidences (30) at 197.442 and 388.315 rad/s; the wave"), "{curve}");
 }

@@ -2,7 +2,7 @@
 //! equations of motion of the standing frame.
 
 use nalgebra::Complex;
-use rubscope::harmonic::{ExcitedLock, drives, excited_lock};
+use rubscope::harmonic::{ExcitedLock, ExcitedLocks, drives};
 use rubscope::model::{BladedDisk, Casing, Excitation, Machine};
 
 fn machine(nodal_diameters: u32) -> Machine {
@@ -11,7 +11,7 @@ fn machine(nodal_diameters: u32) -> Machine {
 
 fn lock(machine: &Machine, speed: f64, order: u32, amplitude_nm: f64) -> ExcitedLock {
     let excitation = Excitation { amplitude_nm, order };
-    excited_lock(machine, 15, &excitation, &[speed]).unwrap().remove(0)
+    ExcitedLocks::over(machine, 15, &excitation, &[speed]).unwrap().lock_at(0).unwrap().unwrap()
 }
 
 #[test]

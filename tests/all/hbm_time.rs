@@ -2,7 +2,7 @@
 //! coordinates, the lock-in threshold by bisection, the speed of slip.
 
 use nalgebra::Complex;
-use rubscope::harmonic::{Corner, Form, Locked, SlipOrbit, excited_lock, slip_over};
+use rubscope::harmonic::{Corner, ExcitedLocks, Form, Locked, SlipOrbit, slip_over};
 use rubscope::motion::{ActiveSet, Event, Motion, Solver};
 use rubscope::scene::{ModelSize, Scene};
 
@@ -220,7 +220,8 @@ fn an_engine_order_moves_the_blades_as_the_frequency_domain_says() {
         scene.excitation.order = order;
         scene.checked().unwrap();
         let machine = scene.machine();
-        let response = excited_lock(&machine, 15, &scene.excitation, &[speed]).unwrap().remove(0);
+        let locks = ExcitedLocks::over(&machine, 15, &scene.excitation, &[speed]).unwrap();
+        let response = locks.lock_at(0).unwrap().unwrap();
         let mut motion = Motion::new(&scene.checked().unwrap());
         let period = std::f64::consts::TAU / response.frequency_rad_s;
         let start = (0.25 / period).ceil() * period;

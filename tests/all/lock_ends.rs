@@ -233,6 +233,29 @@ fn margins_of_a_lining_are_its_own_or_say_why_there_are_none() {
     }
 }
 
+/// Beyond the window two groups still balance each other, and the smallest motion leaves
+/// that state for the lock of three.
+#[test]
+fn loads_beyond_the_end_of_two_groups_are_absent() {
+    let mut scene = Scene::builtin("soft-lining").unwrap();
+    scene.casing.damping_ratio = 0.01;
+    scene.contact.stiffness_n_per_m = 1e8;
+    for (speed, held) in [(500.0, true), (600.0, false), (700.0, false)] {
+        scene.operation.speed_rad_s = speed;
+        let machine = scene.machine();
+        let states = Lining::of(&machine, &scene.contact).unwrap().states(speed).unwrap();
+        let stable = |pushing| states.iter().any(|it| it.pushing == pushing && it.stable);
+        assert_eq!([stable(2), stable(3)], [held, !held], "{speed}");
+        let margins = Margins::of(&scene.checked().unwrap());
+        for name in [LimitName::PushA, LimitName::Torque, LimitName::LockEnergy] {
+            let limit = margins.limit(name).unwrap();
+            assert_eq!(limit.value.is_some(), held, "{name} at {speed}");
+            let why = "two groups alone hold no stable lock on the lining at this speed";
+            assert_eq!(limit.note.as_ref().is_some_and(|note| note.contains(why)), !held);
+        }
+    }
+}
+
 /// The loads of a pair on a lining, with smoothing or without: those of all steady states,
 /// and their derivatives.
 #[test]

@@ -69,3 +69,22 @@ fn another_size_of_the_terminal_is_drawn() {
     });
     ends(terminal, "another size");
 }
+
+/// The reason why a file was not written outlives the screen.
+#[test]
+fn one_ctrl_c_behind_the_name_of_a_file_that_cannot_be_written_ends() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("ex.toml"), "old").unwrap();
+    for (name, reason) in [
+        ("ex.toml", "rubscope: cannot write ex.toml: it exists"),
+        ("nodir/ex.toml", "rubscope: cannot write nodir/ex.toml: No such file or directory"),
+    ] {
+        let mut terminal = Start::explorer(&SHORT).folder(folder.path()).open();
+        terminal.wait_for(" LOCKED ");
+        terminal.send(&format!("s{}{name}\r\u{3}", "\u{7f}".repeat(12)));
+        assert_eq!(terminal.wait(), 1, "{name}");
+        terminal.assert_restored();
+        assert!(terminal.text().contains(reason), "{}", terminal.text());
+    }
+    assert_eq!(std::fs::read(folder.path().join("ex.toml")).unwrap(), b"old");
+}

@@ -60,6 +60,7 @@ struct Slow {
     results: Vec<FileResult>,
     events: Sender<ScreenEvent>,
     suspended: u32,
+    unseen: Option<String>,
 }
 
 impl Host for Slow {
@@ -76,36 +77,67 @@ impl Host for Slow {
     fn write(&mut self, _: FileJob) -> Option<FileResult> {
         self.events.send(ScreenEvent::Suspend).unwrap();
         self.events.send(ScreenEvent::Written(self.results.remove(0))).unwrap();
-        // If the loop goes on, it is until this.
-        self.events.send(ScreenEvent::Signal(15)).unwrap();
         None
+    }
+    fn unseen(&mut self, reason: Option<String>) {
+        self.unseen = reason;
     }
 }
 
 #[test]
-fn quitting_waits_for_the_file_and_stays_if_it_was_not_written() {
-    let press = |code| ScreenEvent::Key(KeyEvent::new(code, KeyModifiers::NONE));
+fn quitting_waits_for_the_file_and_keeps_the_reason_why_it_was_not_written() {
     let (sender, events) = channel();
-    let mut app = App::new(Scene::base().checked().unwrap(), Theme::Dark, Marker::Braille);
-    let mut terminal = Terminal::new(TestBackend::new(80, 24)).unwrap();
     let failed = FileResult::Failed("no room".into());
-    let results = vec![failed, FileResult::Written];
-    let mut host = Slow { results, events: sender.clone(), suspended: 0 };
-    for (status, end) in [
-        ("cannot write scene.toml: no room", Exit::Signal(15)),
-        ("written: scene.toml", Exit::Done),
+    let results = vec![failed, FileResult::Exists, FileResult::Written];
+    let mut host = Slow { results, events: sender.clone(), suspended: 0, unseen: None };
+    let key = |code, modifiers| ScreenEvent::Key(KeyEvent::new(code, modifiers));
+    let interrupt = key(KeyCode::Char('c'), KeyModifiers::CONTROL);
+    for (quit, reason) in [
+        (key(KeyCode::Char('q'), KeyModifiers::NONE), Some("cannot write scene.toml: no room")),
+        (interrupt.clone(), Some("cannot write scene.toml: it exists")),
+        (interrupt, None),
     ] {
-        for code in [KeyCode::Char('s'), KeyCode::Enter, KeyCode::Char('q'), KeyCode::Char('?')] {
-            sender.send(press(code)).unwrap();
+        for code in [KeyCode::Char('s'), KeyCode::Enter] {
+            sender.send(key(code, KeyModifiers::NONE)).unwrap();
         }
+        sender.send(quit).unwrap();
+        sender.send(key(KeyCode::Char('?'), KeyModifiers::NONE)).unwrap();
+        // If the loop goes on, it is until this.
+        end_in_a_minute(&sender);
+        let mut app = App::new(Scene::base().checked().unwrap(), Theme::Dark, Marker::Braille);
+        let mut terminal = Terminal::new(TestBackend::new(80, 24)).unwrap();
         let frame = Duration::from_millis(100);
         let mut engine = Stepwise::new(1e-4);
         let exit = run(&mut terminal, &events, &mut app, &mut engine, &mut host, frame).unwrap();
-        assert_eq!(app.status.as_deref(), Some(status));
-        assert_eq!(exit, end);
+        assert_eq!(exit, Exit::Done);
+        assert_eq!(host.unseen.take().as_deref(), reason);
         while events.try_recv().is_ok() {}
     }
-    assert_eq!(host.suspended, 2, "a suspension was lost");
+    assert_eq!(host.suspended, 3, "a suspension was lost");
+}
+
+/// What failed before the key that quits came, with no screen in between.
+#[test]
+fn a_reason_that_no_screen_showed_is_kept_and_one_that_was_shown_is_not() {
+    let (sender, events) = channel();
+    let mut host = Slow { results: Vec::new(), events: sender.clone(), suspended: 0, unseen: None };
+    let failed = || ScreenEvent::Written(FileResult::Failed("no room".into()));
+    let quit = || ScreenEvent::Key(KeyEvent::new(KeyCode::Char('q'), KeyModifiers::NONE));
+    for shown in [false, true] {
+        let mut app = App::new(Scene::base().checked().unwrap(), Theme::Dark, Marker::Braille);
+        let mut terminal = Terminal::new(TestBackend::new(80, 24)).unwrap();
+        sender.send(failed()).unwrap();
+        let mut second = Second { pictures: 0, events: sender.clone() };
+        let mut none = Stepwise::new(1e-4);
+        let engine: &mut dyn Engine = if shown { &mut second } else { &mut none };
+        if !shown {
+            sender.send(quit()).unwrap();
+        }
+        let frame = Duration::from_millis(100);
+        run(&mut terminal, &events, &mut app, engine, &mut host, frame).unwrap();
+        assert_eq!(host.unseen.take().is_some(), !shown);
+        while events.try_recv().is_ok() {}
+    }
 }
 
 #[test]
@@ -202,6 +234,53 @@ fn the_verdict_of_the_value_before_stays_with_it_until_there_is_a_new_one() {
     engine.order(&app.order());
     app.apply_snapshot(engine.take().unwrap());
     assert!(!app.verdict().detail.contains("computing"));
+}
+
+/// An engine that has nothing new.
+struct Silent;
+
+impl Engine for Silent {
+    fn order(&mut self, _: &Order) {}
+
+    fn take(&mut self) -> Option<Snapshot> {
+        None
+    }
+}
+
+/// The first line of a screen of so many columns.
+fn first_line(app: &mut App, width: u16) -> String {
+    let (sender, events) = channel();
+    drop(sender);
+    let mut terminal = Terminal::new(TestBackend::new(width, 12)).unwrap();
+    let frame = Duration::from_millis(100);
+    run(&mut terminal, &events, app, &mut Silent, &mut NoHost, frame).unwrap();
+    let buffer = terminal.backend().buffer();
+    (0..width).map(|x| buffer.cell((x, 0)).unwrap().symbol()).collect()
+}
+
+#[test]
+fn on_a_narrow_screen_the_verdict_comes_first_and_whole() {
+    for name in ["coincidence", "rub", "slip", "default"] {
+        let mut scene = Scene::builtin(name).unwrap();
+        scene.solver.end_s = 2e-3;
+        scene.solver.step_s = 1e-6;
+        let mut app = App::new(scene.checked().unwrap(), Theme::Dark, Marker::Braille);
+        let mut engine = Stepwise::new(1e-4);
+        engine.order(&app.order());
+        app.apply_snapshot(engine.take().unwrap());
+        let line = first_line(&mut app, 40);
+        let begins = format!(" {}  AT 2 ms | NOW ", app.verdict().word);
+        assert!(line.starts_with(&begins) && !line.contains('…'), "{name}: {line:?}");
+        let _ = app.key(&KeyEvent::new(KeyCode::Char('l'), KeyModifiers::NONE));
+        let word = app.verdict().word;
+        assert!(word.starts_with("at ") && word.contains(" rad/s: "), "{name}: {word}");
+        for width in [40, 59] {
+            let line = first_line(&mut app, width);
+            assert!(line.starts_with(&format!(" {word} ")), "{name}: {line:?}");
+            assert!(!line.contains('…'), "{name}: {line:?}");
+        }
+        assert!(first_line(&mut app, 80).starts_with("NOW "));
+    }
 }
 
 #[test]

@@ -23,7 +23,8 @@ fn dot<T: Number>(a: Pair<T>, n: [f64; 2]) -> T {
 /// The two groups of the corner that is looked at.
 const SIDES: [u32; 2] = [0, 1];
 
-/// The place of the wave where two groups alone push; none where there is no such place.
+/// The place of the wave that two groups alone hold; none where there is no such place, or
+/// the smallest motion leaves it.
 fn place(machine: &Machine, speed: f64) -> Option<(Vector2<f64>, Balance<'_>)> {
     let law = machine.lining.filter(|_| Joint::has_one_wave(machine))?;
     let lining =
@@ -31,7 +32,8 @@ fn place(machine: &Machine, speed: f64) -> Option<(Vector2<f64>, Balance<'_>)> {
     let balance = Balance::at(lining, speed);
     let w = balance.solve(balance.sprung(2)?)?;
     let pushing = balance.gaps(w).filter(|(.., gap)| *gap < 0.0).map(|(side, ..)| side);
-    pushing.eq(SIDES).then_some((w, balance))
+    let held = pushing.eq(SIDES) && balance.state(w).is_ok_and(|state| state.stable);
+    held.then_some((w, balance))
 }
 
 /// The loads of a lock that two groups hold on the lining of a machine; none where no

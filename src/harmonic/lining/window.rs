@@ -5,7 +5,7 @@
 //! B(nu)` the joint compliance, `k` the stiffness of one group; without friction and inclined
 //! tips `|K| tan delta >= D + (K^2 + D^2)/(k sin 2 delta)`. So a lining needs a least
 //! stiffness at each speed, and one that is softer than the least of these never holds a
-//! lock.
+//! lock. Beyond the last speed of two groups three may go on.
 
 use serde::Serialize;
 

@@ -2,12 +2,16 @@
 //! the joint compliance, as JSON, tables and a chart of text.
 
 use std::f64::consts::PI;
+use std::rc::Rc;
 
+use nalgebra::Complex;
 use serde_json::{Value, json};
 
-use crate::harmonic::{Joint, RimLoads, RimWave, WhirlPoint, rim_waves};
+use super::parts::Parts;
+use crate::harmonic::{Joint, RimLoads, RimWave, WhirlOrbit, WhirlPoint, rim_waves};
 use crate::model::Machine;
-use crate::report::table::{Table, TableCell};
+use crate::report::made_table::MadeTable;
+use crate::report::table::{Column, Table, TableCell};
 
 /// Columns and rows of the chart of the compliance.
 const CHART: (usize, usize) = (72, 24);
@@ -32,6 +36,22 @@ impl WhirlRow {
         let joint = Joint::at(machine, point.speed_rad_s);
         let lasting = RimWave::lasting(&rim_waves(&joint));
         Self { point, rim: lasting.map(|wave| (wave, wave.loads(&joint))) }
+    }
+}
+
+/// The joint compliance at one frequency.
+#[derive(Clone, Copy, Debug)]
+pub struct CompliancePoint {
+    omega_rad_s: f64,
+    s_rad_s: f64,
+    value: Complex<f64>,
+}
+
+impl CompliancePoint {
+    /// At a frequency of the casing \[rad/s\].
+    #[must_use]
+    pub fn at(joint: &Joint, omega: f64) -> Self {
+        Self { omega_rad_s: omega, s_rad_s: omega - joint.nu, value: joint.compliance(omega) }
     }
 }
 
@@ -75,37 +95,34 @@ fn wave((wave, loads): &(RimWave, RimLoads)) -> Value {
     })
 }
 
+/// Columns of whirl against speed.
+const WHIRL: &[Column<'_, WhirlRow>] = &[
+    ("speed_rad_s", |row| row.point.speed_rad_s.into()),
+    ("whirl", |row| match row.point.outcome {
+        Ok(_) => "stable".into(),
+        Err(reason) => <&'static str>::from(reason).into(),
+    }),
+    ("omega_rad_s", |row| of_orbit(row, |orbit| orbit.omega_rad_s)),
+    ("s_rad_s", |row| of_orbit(row, |orbit| orbit.s_rad_s)),
+    ("mean_push_n", |row| of_orbit(row, |orbit| orbit.mean_push_n)),
+    ("corner_impulse_n_s", |row| of_orbit(row, |orbit| orbit.corner_impulse_n_s)),
+    ("casing_m", |row| of_orbit(row, |orbit| orbit.casing_m)),
+    ("blade_rad", |row| of_orbit(row, |orbit| orbit.blade_rad)),
+    ("multiplier", |row| of_orbit(row, |orbit| orbit.multiplier)),
+    ("rim_omega_rad_s", |row| row.rim.map(|(wave, _)| wave.omega_rad_s).into()),
+    ("rim_push_n", |row| row.rim.map(|(_, loads)| loads.push_n).into()),
+    ("rim_casing_m", |row| row.rim.map(|(_, loads)| loads.casing_m).into()),
+    ("rim_blade_rad", |row| row.rim.map(|(_, loads)| loads.blade_rad).into()),
+];
+
+fn of_orbit(row: &WhirlRow, figure: fn(WhirlOrbit) -> f64) -> TableCell {
+    row.point.outcome.ok().map(figure).into()
+}
+
 /// Whirl against speed, a row for each.
 #[must_use]
-pub fn whirl_table(rows: &[WhirlRow]) -> Table {
-    let word = |row: &WhirlRow| -> TableCell {
-        match row.point.outcome {
-            Ok(_) => "stable".into(),
-            Err(reason) => <&'static str>::from(reason).into(),
-        }
-    };
-    let rows: Vec<_> = rows
-        .iter()
-        .map(|row| (row.point.speed_rad_s, word(row), row.point.outcome.ok(), row.rim))
-        .collect();
-    Table::of(
-        &rows,
-        &[
-            ("speed_rad_s", |row| row.0.into()),
-            ("whirl", |row| row.1.clone()),
-            ("omega_rad_s", |row| row.2.map(|orbit| orbit.omega_rad_s).into()),
-            ("s_rad_s", |row| row.2.map(|orbit| orbit.s_rad_s).into()),
-            ("mean_push_n", |row| row.2.map(|orbit| orbit.mean_push_n).into()),
-            ("corner_impulse_n_s", |row| row.2.map(|orbit| orbit.corner_impulse_n_s).into()),
-            ("casing_m", |row| row.2.map(|orbit| orbit.casing_m).into()),
-            ("blade_rad", |row| row.2.map(|orbit| orbit.blade_rad).into()),
-            ("multiplier", |row| row.2.map(|orbit| orbit.multiplier).into()),
-            ("rim_omega_rad_s", |row| row.3.map(|(wave, _)| wave.omega_rad_s).into()),
-            ("rim_push_n", |row| row.3.map(|(_, loads)| loads.push_n).into()),
-            ("rim_casing_m", |row| row.3.map(|(_, loads)| loads.casing_m).into()),
-            ("rim_blade_rad", |row| row.3.map(|(_, loads)| loads.blade_rad).into()),
-        ],
-    )
+pub fn whirl_table(rows: &Rc<Vec<WhirlRow>>) -> MadeTable {
+    MadeTable::over(WHIRL, rows)
 }
 
 /// The waves on a rim at one speed.
@@ -140,36 +157,32 @@ fn loaded(load: f64) -> TableCell {
 
 /// The joint compliance in JSON, at casing frequencies \[rad/s\].
 #[must_use]
-pub fn compliance(joint: &Joint, omegas: &[f64], waves: &[RimWave]) -> Value {
-    let values: Vec<_> = omegas.iter().map(|&omega| joint.compliance(omega)).collect();
+pub fn compliance(joint: &Joint, points: &Rc<Vec<CompliancePoint>>, waves: &[RimWave]) -> Parts {
     let waves: Vec<_> = waves.iter().map(|found| wave(&(*found, found.loads(joint)))).collect();
-    json!({
-        "speed_rad_s": joint.nu / joint.machine.nodal_diameters,
-        "omega_rad_s": omegas,
-        "re_m_per_n": values.iter().map(|value| finite(value.re)).collect::<Vec<_>>(),
-        "im_m_per_n": values.iter().map(|value| finite(value.im)).collect::<Vec<_>>(),
-        "waves": waves,
-    })
+    Parts::default()
+        .with_whole("speed_rad_s", joint.nu / joint.machine.nodal_diameters)
+        .with_rows("omega_rad_s", points, |point| json!(point.omega_rad_s))
+        .with_rows("re_m_per_n", points, |point| json!(finite(point.value.re)))
+        .with_rows("im_m_per_n", points, |point| json!(finite(point.value.im)))
+        .with_whole("waves", waves)
 }
 
 fn finite(value: f64) -> Option<f64> {
     Some(value).filter(|value| value.is_finite())
 }
 
+/// Columns of the joint compliance.
+const COMPLIANCE: &[Column<'_, CompliancePoint>] = &[
+    ("omega_rad_s", |point| point.omega_rad_s.into()),
+    ("s_rad_s", |point| point.s_rad_s.into()),
+    ("re_m_per_n", |point| finite(point.value.re).into()),
+    ("im_m_per_n", |point| finite(point.value.im).into()),
+];
+
 /// The same as a table for files.
 #[must_use]
-pub fn compliance_table(joint: &Joint, omegas: &[f64]) -> Table {
-    let rows: Vec<_> =
-        omegas.iter().map(|&omega| (omega, omega - joint.nu, joint.compliance(omega))).collect();
-    Table::of(
-        &rows,
-        &[
-            ("omega_rad_s", |row| row.0.into()),
-            ("s_rad_s", |row| row.1.into()),
-            ("re_m_per_n", |row| finite(row.2.re).into()),
-            ("im_m_per_n", |row| finite(row.2.im).into()),
-        ],
-    )
+pub fn compliance_table(points: &Rc<Vec<CompliancePoint>>) -> MadeTable {
+    MadeTable::over(COMPLIANCE, points)
 }
 
 /// The curve of the compliance in the complex plane, one line of text a row: the axes,

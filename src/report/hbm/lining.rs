@@ -1,14 +1,17 @@
 //! Tables and JSON of blades on a lining, and of a coincidence against speed.
 
-use serde::Serialize;
+use std::rc::Rc;
+
 use serde_json::{Value, json};
 
+use super::parts::Parts;
 use crate::harmonic::{
     CoincidencePoint, Cycle, FollowedBranch, GrowthThreshold, HopfPoint, LeastStiffness,
     LiningState, Rest, Special,
 };
 use crate::model::LockWindow;
-use crate::report::table::{Table, TableCell};
+use crate::report::made_table::MadeTable;
+use crate::report::table::{Column, Table, TableCell};
 
 /// All of one lining against speed.
 #[derive(Clone, Debug, PartialEq)]
@@ -167,25 +170,28 @@ pub fn follow_table(branch: &FollowedBranch) -> Table {
     )
 }
 
+/// Columns of a coincidence against speed.
+const CURVE: &[Column<'_, CoincidencePoint>] = &[
+    ("speed_rad_s", |point| point.speed_rad_s.into()),
+    ("growth_1_s", |point| point.growth_1_s.into()),
+    ("blade_amplitude_rad", |point| point.blade_amplitude_rad.into()),
+    ("casing_amplitude_m", |point| point.casing_amplitude_m.into()),
+    ("omega_rad_s", |point| point.omega_rad_s.into()),
+    ("bounded", |point| point.bounded.into()),
+];
+
 /// A coincidence against speed.
 #[must_use]
-pub fn curve_table(points: &[CoincidencePoint]) -> Table {
-    Table::of(
-        points,
-        &[
-            ("speed_rad_s", |point| point.speed_rad_s.into()),
-            ("growth_1_s", |point| point.growth_1_s.into()),
-            ("blade_amplitude_rad", |point| point.blade_amplitude_rad.into()),
-            ("casing_amplitude_m", |point| point.casing_amplitude_m.into()),
-            ("omega_rad_s", |point| point.omega_rad_s.into()),
-            ("bounded", |point| point.bounded.into()),
-        ],
-    )
+pub fn curve_table(points: &Rc<Vec<CoincidencePoint>>) -> MadeTable {
+    MadeTable::over(CURVE, points)
 }
 
 /// A coincidence in JSON: both speeds of Eq. (30), the one that a lining shifts, and the
 /// points.
 #[must_use]
-pub fn curve(markers: &[f64], shifted: Option<f64>, points: &[CoincidencePoint]) -> impl Serialize {
-    json!({ "markers_rad_s": markers, "shifted_rad_s": shifted, "points": points })
+pub fn curve(markers: &[f64], shifted: Option<f64>, points: &Rc<Vec<CoincidencePoint>>) -> Parts {
+    Parts::default()
+        .with_whole("markers_rad_s", markers)
+        .with_whole("shifted_rad_s", shifted)
+        .with_rows("points", points, |point| json!(point))
 }

@@ -15,7 +15,8 @@ mod tables;
 
 pub use heading::Heading;
 pub use joined::{
-    WhirlRow, compliance, compliance_chart, compliance_table, wave_table, whirl, whirl_table,
+    CompliancePoint, WhirlRow, compliance, compliance_chart, compliance_table, wave_table, whirl,
+    whirl_table,
 };
 pub use lining::*;
 pub use tables::*;
@@ -23,8 +24,8 @@ pub use tables::*;
 use parts::{Part, Parts};
 
 use crate::harmonic::{
-    Branches, Campbell, CornerBranch, ExcitedLock, Form, LockedPoint, NoSlip, SlipPoint,
-    SlipSpectrum, Sweep,
+    Branches, Campbell, CornerBranch, ExcitedLock, ExcitedLocks, Form, Line, LockedPoint, NoSlip,
+    SlipPoint, SlipSpectrum, Sweep,
 };
 use crate::model::{ContactPolygon, Excitation, LockWindow, Machine};
 use crate::report::number::short;
@@ -60,51 +61,49 @@ impl HbmReport {
 
     /// Adds a part, or replaces it in its place.
     #[must_use]
-    pub fn with(mut self, name: &'static str, part: impl Serialize) -> Self {
-        self.0.put(name, Part::Whole(json!(part)));
-        self
+    pub fn with(self, name: &'static str, part: impl Serialize) -> Self {
+        Self(self.0.with_whole(name, part))
+    }
+
+    /// As `with`, of parts of which some are made as they are written.
+    #[must_use]
+    pub fn with_parts(self, name: &'static str, parts: Parts) -> Self {
+        Self(self.0.with(name, Part::Parts(parts)))
     }
 
     /// Adds an array with an element for each item, made as it is written.
     #[must_use]
     pub fn with_rows<T: 'static>(
-        mut self,
+        self,
         name: &'static str,
         items: &Rc<Vec<T>>,
-        of: fn(&T) -> Value,
+        of: impl Fn(&T) -> Value + 'static,
     ) -> Self {
-        let (count, items) = (items.len(), Rc::clone(items));
-        let row = move |place: usize| Ok(items.get(place).map(of).into_iter().collect());
-        self.0.put(name, Part::Rows(count, Box::new(row)));
-        self
+        Self(self.0.with_rows(name, items, of))
     }
 
     /// Adds every equilibrium at these speeds, made as they are written, and where they
     /// change.
     #[must_use]
-    pub fn with_branches(mut self, branches: &Rc<Branches>) -> Self {
-        let mut parts = Parts::default();
-        parts.put("thresholds", Part::Whole(json!(branches.thresholds)));
+    pub fn with_branches(self, branches: &Rc<Branches>) -> Self {
+        let parts = Parts::default().with_whole("thresholds", &branches.thresholds);
         let (speeds, branches) = (branches.speeds(), Rc::clone(branches));
         let states =
             move |place| Ok(branches.states_at(place)?.iter().map(|state| json!(state)).collect());
-        parts.put("states", Part::Rows(speeds, Box::new(states)));
-        self.0.put("branches", Part::Parts(parts));
-        self
+        self.with_parts("branches", parts.with("states", Part::Rows(speeds, Box::new(states))))
     }
 
     /// Adds the locked motion over speed.
     #[must_use]
     pub fn with_sweep(self, polygon: &ContactPolygon, sweep: &Rc<Sweep>) -> Self {
         let blades = sweep.corner.sides().map(|side| polygon.blades_of_side(side));
-        let mut report = self.with("missing_rad_s", &sweep.missing);
+        let report = self.with("missing_rad_s", &sweep.missing);
         let (count, sweep) = (sweep.points.len(), Rc::clone(sweep));
         let points = move |place: usize| {
             let point = sweep.points.get(place);
             Ok(point.map(|point| with_groups(point, &blades)).into_iter().collect())
         };
-        report.0.put("points", Part::Rows(count, Box::new(points)));
-        report
+        Self(report.0.with("points", Part::Rows(count, Box::new(points))))
     }
 }
 
@@ -178,28 +177,28 @@ pub fn harmonics((speed, series): &(f64, Result<SlipSpectrum, NoSlip>)) -> Value
 
 /// Campbell data at these speeds \[rad/s\] in JSON.
 #[must_use]
-pub fn campbell(campbell: &Campbell, speeds: &[f64]) -> Value {
-    let lines = campbell.lines.iter().map(|line| {
-        let frequencies: Vec<f64> = speeds.iter().map(|&speed| line.at(speed)).collect();
+pub fn campbell(campbell: &Campbell, speeds: &Rc<Vec<f64>>) -> Parts {
+    let at = Rc::clone(speeds);
+    let line = move |line: &Line| {
+        let frequencies: Vec<f64> = at.iter().map(|&speed| line.at(speed)).collect();
         json!({
             "name": line.name,
             "at_standstill_rad_s": line.at_standstill_rad_s,
             "slope": line.slope,
             "frequency_rad_s": frequencies,
         })
-    });
-    json!({
-        "speed_rad_s": speeds,
-        "lines": lines.collect::<Value>(),
-        "coincidences": campbell.coincidences,
-    })
+    };
+    Parts::default()
+        .with_rows("speed_rad_s", speeds, |speed| json!(speed))
+        .with_rows("lines", &Rc::new(campbell.lines.clone()), line)
+        .with_whole("coincidences", campbell.coincidences)
 }
 
 /// The response of the lock to an engine order in JSON: amplitudes of
 /// oscillation, and whether this order drives the modes.
 #[must_use]
-pub fn excitation(excitation: &Excitation, drives: bool, found: &[ExcitedLock]) -> Value {
-    let point = |lock: &ExcitedLock| {
+pub fn excitation(excitation: &Excitation, drives: bool, found: &Rc<ExcitedLocks>) -> Parts {
+    let point = |lock: ExcitedLock| {
         json!({
             "speed_rad_s": lock.state.speed_rad_s,
             "frequency_rad_s": lock.frequency_rad_s,
@@ -213,12 +212,13 @@ pub fn excitation(excitation: &Excitation, drives: bool, found: &[ExcitedLock]) 
             "release_torque_nm": lock.release_torque_nm,
         })
     };
-    json!({
-        "amplitude_nm": excitation.amplitude_nm,
-        "order": excitation.order,
-        "drives": drives,
-        "points": found.iter().map(point).collect::<Value>(),
-    })
+    let (places, found) = (found.places(), Rc::clone(found));
+    let points = move |place| Ok(found.lock_at(place)?.map(point).into_iter().collect());
+    Parts::default()
+        .with_whole("amplitude_nm", excitation.amplitude_nm)
+        .with_whole("order", excitation.order)
+        .with_whole("drives", drives)
+        .with("points", Part::Rows(places, Box::new(points)))
 }
 
 /// What the numbers are of, where the scene asks for more than the view has.

@@ -1,17 +1,20 @@
 //! A JSON object by its parts. Long arrays are made as they are written, row by row.
 
+use std::rc::Rc;
+
 use serde::Serialize;
 use serde::ser::{Error, SerializeMap, SerializeSeq, Serializer};
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use crate::harmonic::HarmonicError;
 
 /// Parts by name.
 #[derive(Default)]
-pub(super) struct Parts(Vec<(&'static str, Part)>);
+pub struct Parts(Vec<(&'static str, Part)>);
 
 /// What is under one name.
-pub(super) enum Part {
+pub enum Part {
+    /// A value that is there.
     Whole(Value),
     /// An array that is made as it is written, from so many places on: all its elements at
     /// once take a hundred times the memory of the numbers.
@@ -21,7 +24,7 @@ pub(super) enum Part {
 }
 
 /// The elements of an array that are made at one of its places.
-pub(super) type RowsAt = Box<dyn Fn(usize) -> Result<Vec<Value>, HarmonicError>>;
+pub type RowsAt = Box<dyn Fn(usize) -> Result<Vec<Value>, HarmonicError>>;
 
 impl std::fmt::Debug for Parts {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -57,28 +60,45 @@ impl Serialize for Part {
 
 impl Parts {
     /// Adds a part, or replaces it in its place.
-    pub fn put(&mut self, name: &'static str, part: Part) {
+    #[must_use]
+    pub fn with(mut self, name: &'static str, part: Part) -> Self {
         match self.0.iter_mut().find(|(known, _)| *known == name) {
             Some((_, known)) => *known = part,
             None => self.0.push((name, part)),
         }
+        self
+    }
+
+    /// As `with`, of a value that is there.
+    #[must_use]
+    pub fn with_whole(self, name: &'static str, value: impl Serialize) -> Self {
+        self.with(name, Part::Whole(json!(value)))
+    }
+
+    /// As `with`, of an array with an element for each item.
+    #[must_use]
+    pub fn with_rows<T: 'static>(
+        self,
+        name: &'static str,
+        items: &Rc<Vec<T>>,
+        of: impl Fn(&T) -> Value + 'static,
+    ) -> Self {
+        let (count, items) = (items.len(), Rc::clone(items));
+        let row = move |place: usize| Ok(items.get(place).map(&of).into_iter().collect());
+        self.with(name, Part::Rows(count, Box::new(row)))
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use serde_json::json;
-
     use super::*;
 
     fn rows(
         count: usize,
         at: impl Fn(usize) -> Result<Vec<Value>, HarmonicError> + 'static,
     ) -> Parts {
-        let mut parts = Parts::default();
-        parts.put("before", Part::Whole(json!([1])));
-        parts.put("rows", Part::Rows(count, Box::new(at)));
-        parts
+        let rows = Part::Rows(count, Box::new(at));
+        Parts::default().with_whole("before", [1]).with("rows", rows)
     }
 
     #[test]

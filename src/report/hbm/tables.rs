@@ -5,8 +5,8 @@ use std::io::Error;
 use std::rc::Rc;
 
 use crate::harmonic::{
-    Branches, Campbell, CornerBranch, Equilibrium, ExcitedLock, Kind, LockedPoint, SlipOrbit,
-    SlipPoint, SlipRegion, SlipSpectrum, Sweep,
+    Branches, Campbell, CornerBranch, Equilibrium, ExcitedLock, ExcitedLocks, Kind, LockedPoint,
+    SlipOrbit, SlipPoint, SlipRegion, SlipSpectrum, Sweep,
 };
 use crate::report::made_table::MadeTable;
 use crate::report::table::{Column, Table, TableCell};
@@ -145,10 +145,7 @@ fn of_slip(point: &SlipPoint, figure: fn(SlipOrbit) -> f64) -> TableCell {
 /// Slip over speed, one row per speed.
 #[must_use]
 pub fn slip_table(points: &Rc<Vec<SlipPoint>>) -> MadeTable {
-    let (count, points) = (points.len(), Rc::clone(points));
-    MadeTable::of(SLIP, [count; 2], move |place| {
-        Ok(points.get(place).copied().into_iter().collect())
-    })
+    MadeTable::over(SLIP, points)
 }
 
 /// Where there is slip, a row for each damping ratio.
@@ -206,14 +203,17 @@ pub fn term_table(series: &SlipSpectrum) -> Table {
 
 /// The Campbell lines over speed, one per column.
 #[must_use]
-pub fn campbell_table(campbell: &Campbell, speeds: &[f64]) -> Table {
-    let names = campbell.lines.iter().map(|line| line.name.as_str());
-    let mut table = Table::new(std::iter::once("speed_rad_s").chain(names));
-    for &speed in speeds {
-        let lines = campbell.lines.iter().map(|line| line.at(speed));
-        table.push(std::iter::once(speed).chain(lines).map(TableCell::from).collect());
-    }
-    table
+pub fn campbell_table(campbell: &Campbell, speeds: &Rc<Vec<f64>>) -> MadeTable {
+    let names = campbell.lines.iter().map(|line| line.name.clone());
+    let names = std::iter::once("speed_rad_s".to_string()).chain(names).collect();
+    let (lines, count, speeds) = (campbell.lines.clone(), speeds.len(), Rc::clone(speeds));
+    MadeTable::named(names, count, move |place| {
+        let row = |&speed: &f64| {
+            let lines = lines.iter().map(|line| line.at(speed));
+            std::iter::once(speed).chain(lines).map(TableCell::from).collect()
+        };
+        speeds.get(place).map(row).unwrap_or_default()
+    })
 }
 
 /// The four coincidences of Eq. (30).
@@ -230,20 +230,23 @@ pub fn coincidence_table(campbell: &Campbell) -> Table {
     )
 }
 
+/// Columns of the response to an engine order.
+const EXCITED: &[Column<'_, ExcitedLock>] = &[
+    ("speed_rad_s", |lock| lock.state.speed_rad_s.into()),
+    ("frequency_rad_s", |lock| lock.frequency_rad_s.into()),
+    ("alpha_c_rad", |lock| lock.response[2].norm().into()),
+    ("casing_m", |lock| lock.casing_m().into()),
+    ("change_of_amplitude", |lock| lock.relative_amplitude.into()),
+    ("change_of_multiplier", |lock| lock.relative_multiplier.into()),
+    ("release_torque_nm", |lock| lock.release_torque_nm.into()),
+    ("state", |lock| lock.state.character.as_ref().into()),
+];
+
 /// The response to an engine order, a row for each speed.
 #[must_use]
-pub fn excitation_table(found: &[ExcitedLock]) -> Table {
-    Table::of(
-        found,
-        &[
-            ("speed_rad_s", |lock| lock.state.speed_rad_s.into()),
-            ("frequency_rad_s", |lock| lock.frequency_rad_s.into()),
-            ("alpha_c_rad", |lock| lock.response[2].norm().into()),
-            ("casing_m", |lock| lock.casing_m().into()),
-            ("change_of_amplitude", |lock| lock.relative_amplitude.into()),
-            ("change_of_multiplier", |lock| lock.relative_multiplier.into()),
-            ("release_torque_nm", |lock| lock.release_torque_nm.into()),
-            ("state", |lock| lock.state.character.as_ref().into()),
-        ],
-    )
+pub fn excitation_table(found: &Rc<ExcitedLocks>) -> MadeTable {
+    let (counts, found) = ([found.places(), found.count], Rc::clone(found));
+    MadeTable::of(EXCITED, counts, move |place| {
+        Ok(found.lock_at(place).map_err(Error::other)?.into_iter().collect())
+    })
 }

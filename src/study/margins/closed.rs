@@ -120,7 +120,8 @@ fn note(scene: &CheckedScene, name: LimitName, value: f64) -> Option<String> {
     }
     if of_speeds && scene.lining().is_some() {
         let smoothed = scene.contact.smoothing_m > 0.0;
-        return smoothed.then(|| "of two groups on the lining, without its smoothing".to_string());
+        let without = if smoothed { ", without its smoothing" } else { "" };
+        return Some(format!("of two groups on the lining{without}"));
     }
     if !of_speeds || scene.casing.damping_ratio == 0.0 {
         return None;
@@ -158,8 +159,8 @@ fn why_none(scene: &CheckedScene, name: LimitName) -> String {
                 "the lining is too soft: two groups hold a lock on it at no speed"
             }
             (Some(_), _) if hard.is_some() => {
-                "two groups alone hold no lock on the lining at this speed; hbm --smooth has its \
-                 steady states"
+                "two groups alone hold no stable lock on the lining at this speed; hbm --smooth has \
+                 its steady states"
             }
             _ if machine.is_joined() => "friction or the slope of the tips leaves no lock here",
             _ => "the blades are so soft that no lock is left at this speed",

@@ -6,6 +6,7 @@ use ratatui::{buffer::Buffer, layout::Rect, style::Modifier, style::Style};
 
 use crate::report::number::trimmed;
 use crate::tui::app::{App, VerdictText};
+use crate::tui::appearance::Appearance;
 use crate::tui::axis::readable;
 use crate::tui::engine::Limit;
 use crate::tui::text::{columns, print, shorten, spelled_pieces};
@@ -20,6 +21,8 @@ const ROOMY: usize = 110;
 const WIDE: u16 = 100;
 /// and from this one on the limits beside a doubt.
 const MEDIUM: u16 = 60;
+/// Below this width the verdict comes first.
+const NARROW: usize = 60;
 /// Most columns of a title.
 const MOST_TITLE: usize = 40;
 
@@ -84,12 +87,27 @@ fn now_and_end(app: &App, width: usize) -> Parts {
     {
         detail = format!("{detail} | pinned: {}", baseline.words.word);
     }
-    let at = format!(" | AT {} ", duration(app.end_s()));
+    // The colour of the verdict in the map, where it has one.
+    let verdict = app.full_run().map(|run| run.verdict);
+    let verdict = verdict.filter(|verdict| verdict.as_ref().to_uppercase() == words.word);
+    let own = verdict.filter(|_| look.theme != Theme::Mono);
+    let own = own.and_then(|verdict| colour(look, verdict));
+    let style = own.map_or(look.style(words.role), |colour| Style::new().fg(colour));
+    let loud = (word.clone(), style.add_modifier(Modifier::BOLD | Modifier::REVERSED));
+    let end = duration(app.end_s());
+    let at = format!(" | AT {end} ");
     let needed = |now: &Parts, detail: usize| {
         let now: usize = now.iter().map(|(text, _)| columns(text)).sum();
         now + columns(&at) + columns(&word) + detail <= width
     };
     let wanted = (columns(&detail) + 1).min(DETAIL);
+    let about = |detail: String| (format!(" {detail}"), look.style(words.role));
+    let least = now(app, 0);
+    if width < NARROW || !needed(&least, 0) {
+        let after = vec![(format!(" AT {end}"), quiet)];
+        let beside = std::iter::once((" | ".to_string(), quiet)).chain(least).collect();
+        return that_fit(look, width, vec![vec![loud], after, beside, vec![about(detail)]]);
+    }
     let mut now = now(app, 3);
     for much in [2, 1, 0] {
         let room = if much == 2 { width >= ROOMY } else { true };
@@ -98,19 +116,22 @@ fn now_and_end(app: &App, width: usize) -> Parts {
         }
         now = self::now(app, much);
     }
-    now.push((at, quiet));
-    // The colour of the verdict in the map, where it has one.
-    let verdict = app.full_run().map(|run| run.verdict);
-    let verdict = verdict.filter(|verdict| verdict.as_ref().to_uppercase() == words.word);
-    let own = verdict.filter(|_| look.theme != Theme::Mono);
-    let own = own.and_then(|verdict| colour(look, verdict));
-    let style = own.map_or(look.style(words.role), |colour| Style::new().fg(colour));
-    let loud = style.add_modifier(Modifier::BOLD | Modifier::REVERSED);
-    now.push((word, loud));
+    now.extend([(at, quiet), loud]);
     if !detail.is_empty() {
-        now.push((format!(" {detail}"), look.style(words.role)));
+        now.push(about(detail));
     }
     now
+}
+
+/// The first group, and of the others those that have room whole, up to the first that
+/// has none.
+fn that_fit(look: &Appearance, width: usize, groups: Vec<Parts>) -> Parts {
+    let mut used = 0;
+    let fits = |(place, group): &(usize, Parts)| {
+        used += group.iter().map(|(text, _)| columns(&look.spell(text))).sum::<usize>();
+        *place == 0 || used <= width
+    };
+    groups.into_iter().enumerate().take_while(fits).flat_map(|(_, group)| group).collect()
 }
 
 /// What is now: 3 all of it, 2 without the next change, 1 without speed, 0 in
