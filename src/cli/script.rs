@@ -11,31 +11,14 @@ use serde::{Serialize, Serializer};
 use super::status::Refusal;
 use crate::motion;
 use crate::report::number::time;
-use crate::scene::{CheckedScene, KEYS, SolverKind, Value, keys};
+use crate::scene::keys::{self, Live};
+use crate::scene::{CheckedScene, KEYS, Key, SolverKind, Value};
 use crate::study::overlay::SPEED;
 
 /// The option, as it is named in refusals.
 const OPTION: &str = "--at";
 /// The word in place of a key that fires the pulse.
 const PULSE: &str = "pulse";
-/// Key of the acceleration: every solver takes it, as it takes the speed.
-const RAMP: &str = "operation.speed_ramp_rad_s2";
-/// Keys, or tables of keys, that cannot change in a running motion: initial
-/// state, time step, end, polygon, and the texts for readers.
-const FIXED: [&str; 12] = [
-    "title",
-    "note",
-    "view.",
-    "initial.",
-    "bladed_disk.blades",
-    "bladed_disk.blade_length_m",
-    "casing.radius_m",
-    "operation.nodal_diameters",
-    "solver.kind",
-    "solver.model",
-    "solver.step_s",
-    "solver.end_s",
-];
 
 /// One change of a running motion.
 #[derive(Clone, Debug, PartialEq)]
@@ -115,15 +98,14 @@ impl RequestedStep {
             return Ok(step(before.clone(), vec![motion::Change::Pulse]));
         };
         let refused = |error| Refusal::because(format!("{OPTION} {shown}: {error}"));
-        keys::find(path).map_err(refused)?;
+        let key = keys::find(path).map_err(refused)?;
         let fixed = || Refusal::of(OPTION, &shown, live_keys(before));
-        if !acts_live(path, before) {
+        if !acts_live(key, before) {
             return Err(fixed());
         }
         let scene = before.clone().into_scene().with(&[(path, value)]).map_err(refused)?;
         scene.slides().map_err(refused)?;
-        let of_rotor = path == SPEED || path == RAMP;
-        if !of_rotor && !motion::Change::is_live(before, &scene) {
+        if key.live != Live::Always && !motion::Change::is_live(before, &scene) {
             return Err(fixed());
         }
         let mut acts = motion::Change::between(before, &scene);
@@ -138,18 +120,15 @@ impl RequestedStep {
 }
 
 /// Whether a key can act on a running motion of this scene.
-fn acts_live(path: &str, scene: &CheckedScene) -> bool {
-    let fixed =
-        |name: &&str| if name.ends_with('.') { path.starts_with(*name) } else { path == *name };
-    path == SPEED
-        || path == RAMP
-        || (scene.solver.kind == SolverKind::Explicit && !FIXED.iter().any(fixed))
+fn acts_live(key: &Key, scene: &CheckedScene) -> bool {
+    let by_steps = scene.solver.kind == SolverKind::Explicit;
+    key.live == Live::Always || (by_steps && key.live == Live::Steps)
 }
 
 /// What can act on a running motion of this scene, for error messages.
 fn live_keys(scene: &CheckedScene) -> String {
     let keys: Vec<&str> =
-        KEYS.iter().map(|key| key.path).filter(|path| acts_live(path, scene)).collect();
+        KEYS.iter().filter(|key| acts_live(key, scene)).map(|key| key.path).collect();
     let solver = scene.solver.kind;
     format!("{PULSE}, or a key that a running {solver} motion takes: {}", keys.join(", "))
 }

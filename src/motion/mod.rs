@@ -6,6 +6,7 @@
 
 mod contacts;
 mod drive;
+mod energy;
 mod event;
 mod explicit;
 mod failure;
@@ -22,8 +23,8 @@ mod wave;
 
 pub use contacts::{ActiveSet, ContactLog, Hold, Impact, in_phase_order};
 pub use drive::{Pulse, Rotor, State};
+pub use energy::EnergyLedger;
 pub use event::{Event, Joined};
-pub use explicit::EnergyLedger;
 pub use failure::{Failure, FailureReason};
 pub use free_flight::FreeFlight;
 pub use run::{

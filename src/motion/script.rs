@@ -2,6 +2,7 @@
 //! can be repeated without a screen.
 
 use super::{Failure, GoOn, Motion};
+use crate::scene::keys::{self, Live};
 use crate::scene::{CheckedScene, ContactLaw, Scene, SolverKind};
 
 /// One change of a running motion.
@@ -22,22 +23,26 @@ pub enum Change {
 }
 
 impl Change {
-    /// Whether a running motion of one scene can go on with the parameters of
-    /// another: not with another solver or model, number of blades or diameters, draw
-    /// of blades, clearance or step, nor where one goes beyond the paper or has a lining
-    /// and the other has not. The event solver takes none.
+    /// Whether a running motion of one scene can go on with the parameters of another:
+    /// by time steps, where no key differs that makes another motion, nor where one goes
+    /// beyond the paper or has a lining and the other has not.
     #[must_use]
     pub fn is_live(before: &Scene, now: &Scene) -> bool {
-        let fixed = |scene: &Scene| {
-            let (disk, solver) = (&scene.bladed_disk, &scene.solver);
-            let clearance = scene.casing.radius_m - disk.blade_length_m;
-            let diameters = scene.operation.nodal_diameters;
-            let draw = (disk.nodal_diameters, disk.mistuning, disk.mistuning_seed);
-            let lining = solver.contact == ContactLaw::Smooth;
-            let paper = (solver.kind, solver.model, disk.blades, diameters, clearance);
-            (paper, solver.step_s, draw, lining, scene.goes_beyond())
-        };
-        now.solver.kind == SolverKind::Explicit && fixed(before) == fixed(now)
+        let kind =
+            |scene: &Scene| (scene.solver.contact == ContactLaw::Smooth, scene.goes_beyond());
+        now.solver.kind == SolverKind::Explicit
+            && kind(before) == kind(now)
+            && keys::differing(before, now).all(|key| key.live != Live::Never)
+    }
+
+    /// Whether what differs acts on a running motion, and nothing of it needs another one.
+    #[must_use]
+    pub fn acts_live(before: &Scene, now: &Scene) -> bool {
+        let mut differing = keys::differing(before, now).map(|key| key.live);
+        if differing.clone().all(|live| live == Live::Always) {
+            return true;
+        }
+        Self::is_live(before, now) && differing.all(|live| live != Live::Start)
     }
 
     /// What a running motion of one scene takes over from another. A ramp that

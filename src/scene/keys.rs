@@ -77,6 +77,21 @@ impl std::fmt::Display for Allowed {
     }
 }
 
+/// Which running motions go on with another value of a key.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Live {
+    /// Every motion.
+    Always,
+    /// Motions by time steps.
+    Steps,
+    /// None: it makes another motion.
+    Never,
+    /// None: it is over once a motion runs.
+    Start,
+    /// It says nothing to a motion.
+    Aside,
+}
+
 /// One key of the scene file.
 #[derive(Debug)]
 pub struct Key {
@@ -86,6 +101,8 @@ pub struct Key {
     pub unit: &'static str,
     /// What it is, in a few words.
     pub what: &'static str,
+    /// Whether a running motion takes it over.
+    pub live: Live,
     /// Allowed values.
     pub allowed: Allowed,
     /// Reads it.
@@ -216,9 +233,9 @@ pub const CHARTS: &[&str] = &[
 ];
 
 macro_rules! real {
-    ($path:literal, $unit:literal, $what:literal, $above:literal $min:literal .. $max:literal, $($field:ident).+) => {
+    ($live:ident, $path:literal, $unit:literal, $what:literal, $above:literal $min:literal .. $max:literal, $($field:ident).+) => {
         Key {
-            path: $path, unit: $unit, what: $what,
+            path: $path, unit: $unit, what: $what, live: Live::$live,
             allowed: Allowed::Real { min: $min, max: $max, above: $above },
             get: |scene| Value::Real(scene.$($field).+),
             set: |scene, value| if let Value::Real(x) = value { scene.$($field).+ = x },
@@ -226,9 +243,9 @@ macro_rules! real {
     };
 }
 macro_rules! whole {
-    ($path:literal, $what:literal, $min:literal .. $max:literal, $($field:ident).+) => {
+    ($live:ident, $path:literal, $what:literal, $min:literal .. $max:literal, $($field:ident).+) => {
         Key {
-            path: $path, unit: "-", what: $what,
+            path: $path, unit: "-", what: $what, live: Live::$live,
             allowed: Allowed::Whole { min: $min, max: $max },
             get: |scene| Value::Whole(u64::from(scene.$($field).+)),
             set: |scene, value| if let Value::Whole(n) = value
@@ -237,9 +254,9 @@ macro_rules! whole {
     };
 }
 macro_rules! word {
-    ($path:literal, $what:literal, $type:ident, $($field:ident).+) => {
+    ($live:ident, $path:literal, $what:literal, $type:ident, $($field:ident).+) => {
         Key {
-            path: $path, unit: "-", what: $what, allowed: Allowed::OneOf($type::VARIANTS),
+            path: $path, unit: "-", what: $what, live: Live::$live, allowed: Allowed::OneOf($type::VARIANTS),
             get: |scene| Value::Text(scene.$($field).+.to_string()),
             set: |scene, value| if let Value::Text(text) = value
                 && let Ok(choice) = text.parse::<$type>() { scene.$($field).+ = choice },
@@ -247,11 +264,12 @@ macro_rules! word {
     };
 }
 macro_rules! text {
-    ($path:literal, $what:literal, $most:literal, $field:ident) => {
+    ($live:ident, $path:literal, $what:literal, $most:literal, $field:ident) => {
         Key {
             path: $path,
             unit: "-",
             what: $what,
+            live: Live::$live,
             allowed: Allowed::Text { most: $most },
             get: |scene| Value::Text(scene.$field.clone()),
             set: |scene, value| {
@@ -274,9 +292,13 @@ pub fn view_differences(from: &Scene, to: &Scene) -> impl Iterator<Item = (&'sta
     changed(from, to, true)
 }
 
+/// The keys in which a scene differs from another.
+pub fn differing(from: &Scene, to: &Scene) -> impl Iterator<Item = &'static Key> + Clone {
+    KEYS.iter().filter(move |key| (key.get)(from) != (key.get)(to))
+}
+
 fn changed(from: &Scene, to: &Scene, view: bool) -> impl Iterator<Item = (&'static str, String)> {
-    let counted = KEYS.iter().filter(move |key| key.path.starts_with("view.") == view);
-    let changed = counted.filter(move |key| (key.get)(from) != (key.get)(to));
+    let changed = differing(from, to).filter(move |key| key.path.starts_with("view.") == view);
     changed.map(move |key| {
         let text = match (key.get)(to) {
             Value::Real(x) => format!("{x:?}"),
@@ -290,15 +312,16 @@ fn changed(from: &Scene, to: &Scene, view: bool) -> impl Iterator<Item = (&'stat
 
 /// Every key but `schema`, in the order of the file.
 pub const KEYS: &[Key] = &[
-    text!("title", "one line that names the scene", 200, title),
-    text!("note", "what to look for", 4000, note),
-    whole!("bladed_disk.blades", "number of blades N", 1..4096, bladed_disk.blades),
-    real!("bladed_disk.blade_length_m", "m", "blade length l_b", true 0.0..1e3, bladed_disk.blade_length_m),
-    real!("bladed_disk.inertia_kg_m2", "kg m^2", "blade inertia m_b", true 0.0..1e9, bladed_disk.inertia_kg_m2),
-    real!("bladed_disk.stiffness_nm_per_rad", "N m/rad", "blade-to-disk stiffness k_b", true 0.0..1e15, bladed_disk.stiffness_nm_per_rad),
-    real!("bladed_disk.coupling_nm_per_rad", "N m/rad", "blade-to-blade stiffness k_bb", false 0.0..1e15, bladed_disk.coupling_nm_per_rad),
-    real!("bladed_disk.damping_ratio", "-", "blade damping zeta_bd", false 0.0..10.0, bladed_disk.damping_ratio),
+    text!(Aside, "title", "one line that names the scene", 200, title),
+    text!(Aside, "note", "what to look for", 4000, note),
+    whole!(Never, "bladed_disk.blades", "number of blades N", 1..4096, bladed_disk.blades),
+    real!(Never, "bladed_disk.blade_length_m", "m", "blade length l_b", true 0.0..1e3, bladed_disk.blade_length_m),
+    real!(Steps, "bladed_disk.inertia_kg_m2", "kg m^2", "blade inertia m_b", true 0.0..1e9, bladed_disk.inertia_kg_m2),
+    real!(Steps, "bladed_disk.stiffness_nm_per_rad", "N m/rad", "blade-to-disk stiffness k_b", true 0.0..1e15, bladed_disk.stiffness_nm_per_rad),
+    real!(Steps, "bladed_disk.coupling_nm_per_rad", "N m/rad", "blade-to-blade stiffness k_bb", false 0.0..1e15, bladed_disk.coupling_nm_per_rad),
+    real!(Steps, "bladed_disk.damping_ratio", "-", "blade damping zeta_bd", false 0.0..10.0, bladed_disk.damping_ratio),
     real!(
+        Steps,
         "bladed_disk.radial_coupling",
         "-",
         "slope of the path of a blade tip kappa",
@@ -306,29 +329,38 @@ pub const KEYS: &[Key] = &[
         bladed_disk.radial_coupling
     ),
     whole!(
+        Never,
         "bladed_disk.nodal_diameters",
         "nodal diameters of the disk, 0 as the casing, n_b",
         0..4096,
         bladed_disk.nodal_diameters
     ),
-    real!("bladed_disk.mistuning", "-", "standard deviation of single k_b (full model), sd", false 0.0..0.2, bladed_disk.mistuning),
+    real!(Never, "bladed_disk.mistuning", "-", "standard deviation of single k_b (full model), sd", false 0.0..0.2, bladed_disk.mistuning),
     whole!(
+        Never,
         "bladed_disk.mistuning_seed",
         "draw of the single k_b, seed",
         0..1_000_000,
         bladed_disk.mistuning_seed
     ),
-    real!("casing.radius_m", "m", "casing radius R_c", true 0.0..1e3, casing.radius_m),
-    real!("casing.modal_mass_kg", "kg", "casing modal mass m_c", true 0.0..1e9, casing.modal_mass_kg),
-    real!("casing.modal_stiffness_n_per_m", "N/m", "casing modal stiffness k_c", true 0.0..1e15, casing.modal_stiffness_n_per_m),
-    real!("casing.damping_ratio", "-", "casing damping zeta_c", false 0.0..10.0, casing.damping_ratio),
-    real!("casing.tangential_ratio", "-", "tangential over radial casing amplitude tau", false 0.0..10.0, casing.tangential_ratio),
-    real!("contact.friction", "-", "friction coefficient mu", false 0.0..5.0, contact.friction),
-    real!("contact.restitution", "-", "coefficient of restitution e", false 0.0..0.95, contact.restitution),
-    real!("contact.stiffness_n_per_m", "N/m", "stiffness of the lining under a blade (smooth only) k_p", true 0.0..1e15, contact.stiffness_n_per_m),
-    real!("contact.smoothing_m", "m", "depth over which that stiffness sets in (smooth only) eps", false 0.0..1.0, contact.smoothing_m),
-    whole!("operation.nodal_diameters", "nodal diameters n_d", 0..4096, operation.nodal_diameters),
+    real!(Never, "casing.radius_m", "m", "casing radius R_c", true 0.0..1e3, casing.radius_m),
+    real!(Steps, "casing.modal_mass_kg", "kg", "casing modal mass m_c", true 0.0..1e9, casing.modal_mass_kg),
+    real!(Steps, "casing.modal_stiffness_n_per_m", "N/m", "casing modal stiffness k_c", true 0.0..1e15, casing.modal_stiffness_n_per_m),
+    real!(Steps, "casing.damping_ratio", "-", "casing damping zeta_c", false 0.0..10.0, casing.damping_ratio),
+    real!(Steps, "casing.tangential_ratio", "-", "tangential over radial casing amplitude tau", false 0.0..10.0, casing.tangential_ratio),
+    real!(Steps, "contact.friction", "-", "friction coefficient mu", false 0.0..5.0, contact.friction),
+    real!(Steps, "contact.restitution", "-", "coefficient of restitution e", false 0.0..0.95, contact.restitution),
+    real!(Steps, "contact.stiffness_n_per_m", "N/m", "stiffness of the lining under a blade (smooth only) k_p", true 0.0..1e15, contact.stiffness_n_per_m),
+    real!(Steps, "contact.smoothing_m", "m", "depth over which that stiffness sets in (smooth only) eps", false 0.0..1.0, contact.smoothing_m),
+    whole!(
+        Never,
+        "operation.nodal_diameters",
+        "nodal diameters n_d",
+        0..4096,
+        operation.nodal_diameters
+    ),
     real!(
+        Always,
         "operation.speed_rad_s",
         "rad/s",
         "rotor speed Omega",
@@ -336,35 +368,58 @@ pub const KEYS: &[Key] = &[
         operation.speed_rad_s
     ),
     real!(
+        Always,
         "operation.speed_ramp_rad_s2",
         "rad/s^2",
         "rotor acceleration",
         false - 1e9..1e9,
         operation.speed_ramp_rad_s2
     ),
-    real!("operation.pulse_n", "N", "pulse force on u_c", false - 1e12..1e12, operation.pulse_n),
-    real!("operation.pulse_s", "s", "pulse duration t_p", false 0.0..1e6, operation.pulse_s),
-    real!("initial.u_c_m", "m", "u_c at t = 0", false - 1e3..1e3, initial.u_c_m),
-    real!("initial.u_s_m", "m", "u_s at t = 0", false - 1e3..1e3, initial.u_s_m),
-    real!("initial.v_c_m_s", "m/s", "rate of u_c at t = 0", false - 1e6..1e6, initial.v_c_m_s),
-    real!("initial.v_s_m_s", "m/s", "rate of u_s at t = 0", false - 1e6..1e6, initial.v_s_m_s),
     real!(
-        "excitation.amplitude_nm",
+        Steps,
+        "operation.pulse_n",
+        "N",
+        "pulse force on u_c",
+        false - 1e12..1e12,
+        operation.pulse_n
+    ),
+    real!(Steps, "operation.pulse_s", "s", "pulse duration t_p", false 0.0..1e6, operation.pulse_s),
+    real!(Start, "initial.u_c_m", "m", "u_c at t = 0", false - 1e3..1e3, initial.u_c_m),
+    real!(Start, "initial.u_s_m", "m", "u_s at t = 0", false - 1e3..1e3, initial.u_s_m),
+    real!(
+        Start,
+        "initial.v_c_m_s",
+        "m/s",
+        "rate of u_c at t = 0",
+        false - 1e6..1e6,
+        initial.v_c_m_s
+    ),
+    real!(
+        Start,
+        "initial.v_s_m_s",
+        "m/s",
+        "rate of u_s at t = 0",
+        false - 1e6..1e6,
+        initial.v_s_m_s
+    ),
+    real!(
+        Steps, "excitation.amplitude_nm",
         "N m",
         "engine-order torque on each blade, 0 for none",
         false 0.0..1e9,
         excitation.amplitude_nm
     ),
-    whole!("excitation.order", "engine order of that torque", 1..4096, excitation.order),
-    word!("solver.kind", "solver", SolverKind, solver.kind),
-    word!("solver.contact", "contact law", ContactLaw, solver.contact),
-    word!("solver.model", "model size", ModelSize, solver.model),
-    real!("solver.step_s", "s", "time step h (explicit only)", true 0.0..1e3, solver.step_s),
-    real!("solver.end_s", "s", "end of the simulation", true 0.0..1e6, solver.end_s),
+    whole!(Steps, "excitation.order", "engine order of that torque", 1..4096, excitation.order),
+    word!(Never, "solver.kind", "solver", SolverKind, solver.kind),
+    word!(Steps, "solver.contact", "contact law", ContactLaw, solver.contact),
+    word!(Never, "solver.model", "model size", ModelSize, solver.model),
+    real!(Never, "solver.step_s", "s", "time step h (explicit only)", true 0.0..1e3, solver.step_s),
+    real!(Aside, "solver.end_s", "s", "end of the simulation", true 0.0..1e6, solver.end_s),
     Key {
         path: "view.charts",
         unit: "-",
         what: "charts the explorer opens with",
+        live: Live::Aside,
         allowed: Allowed::SomeOf(CHARTS),
         get: |scene| Value::Words(scene.view.charts.clone()),
         set: |scene, value| {
@@ -373,5 +428,5 @@ pub const KEYS: &[Key] = &[
             }
         },
     },
-    real!("view.begin_s", "s", "where the explorer begins to play, at most the end", false 0.0..1e6, view.begin_s),
+    real!(Aside, "view.begin_s", "s", "where the explorer begins to play, at most the end", false 0.0..1e6, view.begin_s),
 ];

@@ -98,3 +98,26 @@ fn every_file_that_is_named_exists() {
     }
     assert!(seen > 20, "only {seen} files are named");
 }
+
+#[test]
+fn no_solver_knows_its_sibling() {
+    // A folder of `motion`, and what none of its lines may name.
+    let apart = [
+        ("explicit", &["motion::event", "Joined"][..]),
+        ("event", &["motion::explicit", "Explicit<"]),
+        ("event/exact", &["linear::", "Joined"]),
+        ("event/linear", &["exact::"]),
+        ("explicit/disk", &["leap::", "beyond::", "Leaps", "Beyond"]),
+    ];
+    for (folder, forbidden) in apart {
+        let files = sources(&root().join("src/motion").join(folder));
+        assert!(files.len() > 5, "{folder}");
+        for file in files {
+            for line in fs::read_to_string(&file).unwrap().lines() {
+                let code = line.split("//").next().unwrap_or_default();
+                let found = forbidden.iter().find(|name| code.contains(**name));
+                assert_eq!(found, None, "{}: {line}", file.display());
+            }
+        }
+    }
+}

@@ -3,8 +3,8 @@
 //! gives way, disks of other diameters and mistuned ones.
 
 use super::Explicit;
+use super::account::Account;
 use super::disk::Disk;
-use super::energy::Account;
 use super::lasting::{Lasting, mark};
 use super::rows::TipLaw;
 use crate::motion::{ActiveSet, FailureReason, Plane};

@@ -9,12 +9,12 @@
 //! In the paper's model many steps are taken at once, as plain stepping would take them
 //! (`leap`).
 
+mod account;
 mod beyond;
 mod candidates;
 mod correct;
 mod disk;
 mod drive;
-mod energy;
 mod excitation;
 mod lasting;
 mod leap;
@@ -31,7 +31,6 @@ mod start;
 mod watch;
 
 pub(super) use disk::{FullBlades, ModalBlades, RigidBlades};
-pub use energy::EnergyLedger;
 pub(super) use excitation::EngineOrderTorque;
 pub(super) use oscillator::{Coordinate, Oscillator};
 

@@ -2,14 +2,14 @@
 //! the way.
 
 use super::disk::Disk;
-use super::energy::EnergyLedger;
 use super::pushes::push;
 use super::rows::TipLaw;
 use super::{Coordinate, Explicit};
 use crate::model::Machine;
 use crate::motion::verdict::judge;
 use crate::motion::{
-    ActiveSet, Checks, ContactLog, Failure, GoOn, Plane, Pulse, Rotor, Solver, State, Verdict,
+    ActiveSet, Checks, ContactLog, EnergyLedger, Failure, GoOn, Plane, Pulse, Rotor, Solver, State,
+    Verdict,
 };
 use crate::scene::CheckedScene;
 use crate::tolerances::UPDATES_UNASKED;

@@ -3,7 +3,7 @@
 use super::{App, InputMode, Ranges};
 use crate::motion::Change;
 use crate::report::line::clean;
-use crate::scene::{CheckedScene, Scene, Value};
+use crate::scene::{CheckedScene, Value};
 use crate::tui::engine::Snapshot;
 use crate::tui::knobs::{KNOBS, Knob, place_of};
 
@@ -88,7 +88,7 @@ impl App {
     /// Uses the scene after a turn of a knob: live, if this is enabled and possible.
     pub(super) fn set_turned_scene(&mut self, scene: CheckedScene) {
         let failed = self.failure().is_some();
-        let live = self.live && !failed && acts_live(&self.scene, &scene);
+        let live = self.live && !failed && Change::acts_live(&self.scene, &scene);
         if self.live && !live && self.status.is_none() {
             self.status = Some("this cannot act on a running motion: restarted".into());
         }
@@ -142,14 +142,4 @@ impl App {
         self.page = 0;
         self.go_to_s = self.begin_s();
     }
-}
-
-/// Whether a change of scene can act on a running motion: speed and ramp always
-/// can, other keys if the solver supports it.
-fn acts_live(before: &Scene, after: &Scene) -> bool {
-    let mut turned = before.clone();
-    turned.operation.speed_rad_s = after.operation.speed_rad_s;
-    turned.operation.speed_ramp_rad_s2 = after.operation.speed_ramp_rad_s2;
-    // The initial state cannot be changed after the start.
-    turned == *after || (before.initial == after.initial && Change::is_live(before, after))
 }

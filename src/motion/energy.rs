@@ -1,5 +1,5 @@
 //! Where the energy of a motion beyond the paper comes from and goes to
-//! (docs/theory.md, section 10), added up step by step.
+//! (docs/theory.md, section 10).
 //!
 //! The scheme has an energy of its own between two steps, which changes by exactly the
 //! work of the forces over half of two increments, less the damping. A push `P` on a row
@@ -44,31 +44,5 @@ impl EnergyLedger {
     #[must_use]
     pub fn supplied(&self) -> f64 {
         self.pulse_work_j + self.rotor_work_j
-    }
-}
-
-/// The account of a motion under way.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Account {
-    pub sums: EnergyLedger,
-    /// Energy at the start, less what changes from outside have put in \[J\].
-    pub start: f64,
-    /// Energy in the lining at the step before the latest \[J\].
-    pub lining_before: f64,
-    /// The same at the latest \[J\].
-    pub lining: f64,
-    /// Whether nobody asks.
-    pub forgone: bool,
-}
-
-impl Account {
-    /// The lining holds this at a new step \[J\].
-    pub fn press(&mut self, energy: f64) {
-        (self.lining_before, self.lining) = (self.lining, energy);
-    }
-
-    /// Stored in the lining between the last two steps \[J\].
-    pub fn in_lining(&self) -> f64 {
-        0.5 * (self.lining_before + self.lining)
     }
 }
