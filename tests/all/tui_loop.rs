@@ -260,7 +260,7 @@ fn first_line(app: &mut App, width: u16) -> String {
 
 #[test]
 fn on_a_narrow_screen_the_verdict_comes_first_and_whole() {
-    for name in ["coincidence", "rub", "slip", "default"] {
+    for name in ["coincidence", "rub", "slip", "paper-nd3"] {
         let mut scene = Scene::builtin(name).unwrap();
         scene.solver.end_s = 2e-3;
         scene.solver.step_s = 1e-6;
