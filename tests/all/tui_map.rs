@@ -17,7 +17,7 @@ fn open(size: (u16, u16), scene: Scene, theme: Theme, marker: Marker) -> Session
 }
 
 fn shown_map(session: &Session) -> &Map {
-    &session.app.latest.results.map.as_ref().unwrap().map
+    &session.app.latest.results.found.map.as_ref().unwrap().map
 }
 
 fn shown_plan(session: &Session) -> MapPlan {
@@ -152,7 +152,7 @@ fn a_cell_opens_the_run_it_shows_and_undo_brings_the_other_back() {
         let cell = session.app.map_cell().unwrap();
         assert_eq!(cell, [column - 9, row + 2]);
         let text = session.text();
-        let run = session.app.latest.results.cell.clone().unwrap();
+        let run = session.app.latest.results.found.cell.clone().unwrap();
         assert_eq!((run.cell, run.verdict), (cell, Verdict::Locked));
         assert!(text.contains("this cell:") && text.contains("435 rad/s, 1.585 MN"), "{text}");
         assert!(text.contains("locked") && text.contains("since"), "{text}");

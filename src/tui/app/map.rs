@@ -29,7 +29,7 @@ impl App {
 
     /// The plan of the map on the screen: the last one, until a new one can be seen.
     pub fn shown_plan(&self) -> Option<MapPlan> {
-        let shown = self.latest.results.map.as_ref().map(|live| live.map.plan.clone());
+        let shown = self.latest.results.found.map.as_ref().map(|live| live.map.plan.clone());
         shown.or_else(|| self.map_plan().ok())
     }
 

@@ -11,7 +11,7 @@ use crate::tui::views::margins::{COLUMNS, DIGITS, LiveMargins};
 impl App {
     /// The margins on the screen, and whether they are of other knobs.
     pub fn margins(&self) -> Option<(&LiveMargins, bool)> {
-        let live = self.latest.results.margins.as_deref()?;
+        let live = self.latest.results.found.margins.as_deref()?;
         Some((live, live.margins.scene != self.scene))
     }
 

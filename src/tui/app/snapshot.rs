@@ -4,7 +4,7 @@
 use super::{App, Ranges};
 use crate::motion::ActiveSet;
 use crate::tui::axis::{AutoRange, instant};
-use crate::tui::engine::{Results, Snapshot};
+use crate::tui::engine::Snapshot;
 use crate::tui::history::{Bin, Channel};
 
 /// Part of a page for which a held corner counts as standing still.
@@ -30,15 +30,7 @@ impl App {
         let had_forecast = self.full_run().is_some();
         let known = std::mem::take(&mut self.latest);
         let results = match snapshot.generation == self.counters.generation() {
-            // An old study stays on the screen until there is a new one.
-            true => Results {
-                locked: snapshot.results.locked.or(known.results.locked),
-                map: snapshot.results.map.or(known.results.map),
-                precision: snapshot.results.precision.or(known.results.precision),
-                margins: snapshot.results.margins.or(known.results.margins),
-                coincidence: snapshot.results.coincidence.or(known.results.coincidence),
-                ..snapshot.results
-            },
+            true => snapshot.results,
             false => known.results,
         };
         self.latest = Snapshot { results, trouble: known.trouble, ..snapshot };

@@ -59,7 +59,7 @@ impl ViewPanel for PrecisionView {
             print(buffer, inside, 2, &error.to_string(), quiet);
             return;
         }
-        let Some(report) = &app.latest.results.precision else {
+        let Some(report) = &app.latest.results.found.precision else {
             return not_yet(app, buffer, inside);
         };
         let words = inside;

@@ -53,14 +53,14 @@ impl ViewPanel for CoincidenceView {
 
     /// The present speed.
     fn here(&self, app: &App) -> Cursor {
-        let curves = app.latest.results.coincidence.as_deref().and_then(Option::as_ref);
+        let curves = app.latest.results.found.coincidence.as_deref().and_then(Option::as_ref);
         let across = curves
             .map_or(0.5, |curves| (app.speed().abs() - curves.from) / (curves.to - curves.from));
         Cursor { across: across.clamp(0.0, 1.0), up: 0.5 }
     }
 
     fn csv(&self, app: &App) -> Result<String, String> {
-        let curves = app.latest.results.coincidence.as_deref().and_then(Option::as_ref);
+        let curves = app.latest.results.found.coincidence.as_deref().and_then(Option::as_ref);
         let points = curves.map_or(&[][..], |curves| &curves.points);
         let rows = points.iter().map(|point| {
             let values = [
@@ -106,7 +106,7 @@ const GROWTH: Quantity =
 
 /// The charts over speed.
 fn over_speed(app: &App, buffer: &mut Buffer, at: ViewArea) {
-    let Some(found) = app.latest.results.coincidence.as_deref() else {
+    let Some(found) = app.latest.results.found.coincidence.as_deref() else {
         let inside = title(app, buffer, at, AMPLITUDE.name, &[]);
         return not_yet(app, buffer, inside);
     };

@@ -115,7 +115,7 @@ mod tests {
         let scene = Scene::base().checked().unwrap();
         let mut app = App::new(scene.clone(), Theme::Dark, Marker::Braille);
         app.view = ViewId::Margins;
-        app.latest.results.margins = Some(Arc::new(LiveMargins::of(Margins::of(&scene))));
+        app.latest.results.found.margins = Some(Arc::new(LiveMargins::of(Margins::of(&scene))));
         app
     }
 
@@ -161,7 +161,7 @@ mod tests {
         let mut bytes = Vec::new();
         margins::table(&live.margins).write_csv(&mut bytes).unwrap();
         assert_eq!(MarginsView.csv(&app).unwrap().into_bytes(), bytes);
-        app.latest.results.margins = None;
+        app.latest.results.found.margins = None;
         assert_eq!(MarginsView.csv(&app), Err("there are no margins yet".into()));
     }
 
