@@ -7,6 +7,7 @@ use std::sync::mpsc::Sender;
 use super::events::ScreenEvent;
 use super::files::{FileJob, FileResult, find_aside, write_aside};
 use super::job;
+use super::line::Line;
 use super::scenes::FoundScenes;
 use super::terminal;
 
@@ -28,6 +29,10 @@ pub trait Host {
     /// # Errors
     /// The terminal cannot be written to.
     fn copy(&mut self, text: &str) -> Result<()>;
+    /// How much the terminal is sent.
+    fn line(&self) -> Line {
+        Line::Auto
+    }
     /// Bytes sent to the terminal so far.
     fn sent(&self) -> u64 {
         0
@@ -71,6 +76,8 @@ impl Host for NoHost {
 pub struct Shell {
     /// Where results of files go.
     pub events: Sender<ScreenEvent>,
+    /// How much the terminal is sent.
+    pub line: Line,
 }
 
 impl Host for Shell {
@@ -95,6 +102,10 @@ impl Host for Shell {
     fn copy(&mut self, text: &str) -> Result<()> {
         // OSC 52: the terminal, not this machine, owns the clipboard.
         terminal::write(format!("\x1b]52;c;{}\x07", base64(text.as_bytes())).as_bytes())
+    }
+
+    fn line(&self) -> Line {
+        self.line
     }
 
     fn sent(&self) -> u64 {

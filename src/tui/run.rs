@@ -64,7 +64,7 @@ pub fn run<B: Backend>(
     let mut drawn: Option<Instant> = None;
     let mut again = false;
     let mut answer: Option<Instant> = None;
-    let mut throttle = Throttle::new(app.line, Instant::now(), host.sent());
+    let mut throttle = Throttle::new(host.line(), Instant::now(), host.sent());
     loop {
         order(app, engine, &mut ordered);
         let wait = drawn.map_or(Duration::ZERO, |at| due.pause(frame).saturating_sub(at.elapsed()));
@@ -157,7 +157,7 @@ fn show<B: Backend>(
 ) -> Result<(), B::Error> {
     look(app, engine);
     let size = terminal.size()?;
-    app.size = (size.width, size.height);
+    app.layout.size = (size.width, size.height);
     terminal.draw(|frame| panels::draw(frame, app))?;
     engine.drawn();
     // A screen that is too small shows only that it is.
@@ -237,7 +237,7 @@ fn handle(event: ScreenEvent, app: &mut App, host: &mut dyn Host) -> Reaction {
 /// the file could not be written, so that the user can do something about it.
 fn last_file(events: &Receiver<ScreenEvent>, app: &mut App, host: &mut dyn Host) -> Option<Exit> {
     let began = Instant::now();
-    while app.writing.is_some() {
+    while app.files.writing.is_some() {
         match events.recv_timeout(LAST_FILE.saturating_sub(began.elapsed())) {
             Ok(ScreenEvent::Written(result)) => {
                 if !app.written(result) {

@@ -1,0 +1,191 @@
+//! The knobs, and what can be undone. Turning them: values are checked first, refused at the knob, and can be undone.
+
+use super::past::Past;
+use super::{App, Sweep};
+use crate::motion::Change;
+use crate::report::line::clean;
+use crate::scene::{CheckedScene, Scene, SceneError, Value};
+use crate::tui::knobs::{KNOBS, Knob, place_of};
+
+/// The knobs, and what can be undone.
+#[derive(Clone, Debug, Default)]
+pub struct Knobs {
+    /// The selected one.
+    pub selected: usize,
+    /// The reason if its last value was refused.
+    pub refusal: Option<String>,
+    /// Whether they act on the running motion.
+    pub live: bool,
+    /// The sweep of one that is under way.
+    pub sweep: Option<Sweep>,
+    undo: Vec<Past>,
+    redo: Vec<Past>,
+}
+
+/// Number of changes that can be undone.
+const KEPT: usize = 1000;
+
+impl Knobs {
+    /// Selects the one at a place of the table.
+    pub(super) fn select(&mut self, place: usize) {
+        (self.selected, self.refusal) = (place, None);
+    }
+
+    /// Selects the one above or below.
+    pub(super) fn walk(&mut self, up: bool) {
+        let count = KNOBS.len();
+        let next = if up { self.selected + count - 1 } else { self.selected + 1 };
+        self.select(next % count);
+    }
+
+    /// The last value was refused.
+    pub(super) fn refuse(&mut self, error: &SceneError) {
+        self.refusal = Some(clean(&error.to_string()));
+    }
+
+    /// A refusal is not shown any more.
+    pub(super) fn forget_refusal(&mut self) {
+        self.refusal = None;
+    }
+
+    /// Why the last value was refused.
+    pub(super) fn refusal(&self) -> Option<&String> {
+        self.refusal.as_ref()
+    }
+
+    /// Whether they act on the running motion.
+    pub(super) fn is_live(&self) -> bool {
+        self.live
+    }
+
+    /// They act on the running motion, or no longer.
+    pub(super) fn set_live(&mut self, live: bool) {
+        self.live = live;
+    }
+
+    /// The same by its key; what to say.
+    pub(super) fn turn_live(&mut self) -> String {
+        self.live = !self.live;
+        let how = match self.live {
+            true => "live: knobs act on the running motion",
+            false => "a knob restarts the run",
+        };
+        how.into()
+    }
+
+    /// Has undo come back to this state.
+    pub(super) fn remember(&mut self, past: Past) {
+        self.undo.push(past);
+        if self.undo.len() > KEPT {
+            self.undo.remove(0);
+        }
+        self.redo.clear();
+    }
+
+    /// Number of states that undo can come back to.
+    pub(super) fn remembered(&self) -> usize {
+        self.undo.len()
+    }
+
+    /// Undo comes back to the first so many states only.
+    pub(super) fn merge(&mut self, known: usize) {
+        self.undo.truncate(known);
+    }
+
+    /// The state before, or after, this one; none where there is no such state.
+    pub(super) fn step_back(&mut self, redo: bool, now: Past) -> Option<Past> {
+        let Self { undo, redo: redone, .. } = self;
+        let (from, to) = if redo { (redone, undo) } else { (undo, redone) };
+        let past = from.pop()?;
+        to.push(now);
+        Some(past)
+    }
+}
+
+impl App {
+    /// The selected knob.
+    pub fn selected(&self) -> Option<&'static Knob> {
+        KNOBS.get(self.knobs.selected)
+    }
+
+    /// Selects the knob of a key; false if there is none.
+    pub fn select_path(&mut self, path: &str) -> bool {
+        let place = place_of(path);
+        if let Some(place) = place {
+            self.knobs.select(place);
+        }
+        place.is_some()
+    }
+
+    pub(super) fn turn(&mut self, up: bool, coarse: bool) {
+        if let Some(knob) = self.selected() {
+            let value = knob.turned(&knob.get(&self.scene), up, coarse, &self.scene);
+            self.set(knob, value);
+        }
+    }
+
+    pub(super) fn reset(&mut self) {
+        if let Some(knob) = self.selected() {
+            self.set(knob, knob.get(self.files.opened()));
+        }
+    }
+
+    /// Accepts the typed text; after a refusal it can be corrected.
+    pub(super) fn accept(&mut self, text: &str) {
+        let Some(knob) = self.selected() else { return };
+        match knob.parse(text) {
+            Ok(value) => {
+                if self.set(knob, value) {
+                    self.dialogue.close();
+                }
+            }
+            Err(error) => self.knobs.refuse(&error),
+        }
+    }
+
+    /// Makes a scene that differs in knobs the current one; it can be undone.
+    pub(super) fn turn_to(&mut self, scene: CheckedScene) {
+        if scene != self.scene {
+            self.knobs.remember(self.past());
+            self.set_turned_scene(scene);
+        }
+    }
+
+    /// Sets a knob; false where the value was refused.
+    pub(super) fn set(&mut self, knob: &'static Knob, value: Value) -> bool {
+        match knob.set(&self.scene, value) {
+            Ok((scene, said)) => {
+                self.knobs.refusal = None;
+                if said.is_some() {
+                    self.status = said;
+                }
+                self.turn_to(scene);
+                true
+            }
+            Err(error) => {
+                self.knobs.refuse(&error);
+                false
+            }
+        }
+    }
+
+    /// Uses the scene after a turn of a knob: live, if this is enabled and possible.
+    pub(super) fn set_turned_scene(&mut self, scene: CheckedScene) {
+        let failed = self.failure().is_some();
+        let live = self.knobs.live && !failed && acts_live(&self.scene, &scene);
+        if self.knobs.live && !live && self.status.is_none() {
+            self.status = Some("this cannot act on a running motion: restarted".into());
+        }
+        self.set_scene(scene, live);
+    }
+}
+
+/// Whether a change of scene can act on a running motion: speed and ramp always
+/// can, other keys if the solver supports it.
+fn acts_live(before: &Scene, after: &Scene) -> bool {
+    let mut turned = before.clone();
+    turned.operation.speed_rad_s = after.operation.speed_rad_s;
+    turned.operation.speed_ramp_rad_s2 = after.operation.speed_ramp_rad_s2;
+    // The initial state cannot be changed after the start.
+    turned == *after || (before.initial == after.initial && Change::is_live(before, after))
+}
