@@ -116,7 +116,7 @@ fn no_part_of_the_explorer_names_a_field_of_another() {
     let homes: BTreeMap<&str, &[&str]> = BTreeMap::from([
         ("knobs", ["knobs.rs", "sweep.rs"].as_slice()),
         ("play", &["play.rs"]),
-        ("run", &["run.rs"]),
+        ("run", &["run.rs", "verdict.rs"]),
         ("layout", &["layout.rs"]),
         ("reading", &["reading.rs"]),
         ("map", &["map.rs"]),

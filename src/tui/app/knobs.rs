@@ -1,11 +1,14 @@
-//! The knobs, and what can be undone. Turning them: values are checked first, refused at the knob, and can be undone.
+//! The knobs, and what can be undone. A value is checked first and refused at its knob.
+//! Undo, and the end of a lesson, come back to a scene, and if another one was opened since,
+//! also to where it is from and how it was shown.
 
-use super::past::Past;
-use super::{App, Sweep};
+use super::play::Tempo;
+use super::{App, LessonProgress, Source, Sweep};
 use crate::motion::Change;
 use crate::report::line::clean;
 use crate::scene::{CheckedScene, Scene, SceneError, Value};
 use crate::tui::knobs::{KNOBS, Knob, place_of};
+use crate::tui::views::ViewId;
 
 /// The knobs, and what can be undone.
 #[derive(Clone, Debug, Default)]
@@ -24,6 +27,19 @@ pub struct Knobs {
 
 /// Number of changes that can be undone.
 const KEPT: usize = 1000;
+
+/// A state to come back to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Past {
+    scene: CheckedScene,
+    opened: CheckedScene,
+    source: Option<Source>,
+    views: Vec<ViewId>,
+    pub(super) tempo: Tempo,
+    pub(super) live: bool,
+    pub(super) compare: bool,
+    lesson: Option<LessonProgress>,
+}
 
 impl Knobs {
     /// Selects the one at a place of the table.
@@ -178,6 +194,66 @@ impl App {
         }
         self.set_scene(scene, live);
     }
+
+    /// The present state, to come back to.
+    pub(super) fn past(&self) -> Past {
+        Past {
+            scene: self.scene.clone(),
+            opened: self.files.opened().clone(),
+            source: self.files.source().cloned(),
+            views: self.layout.views().to_vec(),
+            tempo: self.play.tempo(),
+            live: self.knobs.is_live(),
+            compare: self.run.is_compared(),
+            lesson: self.lessons.progress().cloned(),
+        }
+    }
+
+    /// Undoes the last change of the scene, or redoes the last that was undone.
+    pub(super) fn step_back(&mut self, redo: bool) {
+        match self.knobs.step_back(redo, self.past()) {
+            Some(past) => self.come_back(past),
+            None => {
+                let word = if redo { "redo" } else { "undo" };
+                self.status = Some(format!("nothing to {word}"));
+            }
+        }
+    }
+
+    /// Gives the user's own state back, as it was before a lesson.
+    pub(super) fn give_back(&mut self, own: Past) {
+        self.knobs.remember(self.past());
+        self.play.set_tempo(own.tempo);
+        self.come_back(own);
+    }
+
+    /// Makes a state the present one. If only knobs were turned since, their
+    /// turning may act on the running motion; another scene begins anew.
+    pub(super) fn come_back(&mut self, past: Past) {
+        self.knobs.forget_refusal();
+        let step = |lesson: Option<&LessonProgress>| {
+            lesson.map(|now| (now.lesson, now.step, now.now().answer))
+        };
+        let same_step = step(past.lesson.as_ref()) == step(self.lessons.progress());
+        let same_file = past.source.as_ref() == self.files.source();
+        if past.opened == *self.files.opened() && same_file && same_step {
+            self.set_turned_scene(past.scene);
+            return;
+        }
+        self.files.reopen(past.opened, past.source);
+        self.lessons.set_progress(past.lesson);
+        if self.lessons.is_open() {
+            self.present(false);
+        }
+        self.knobs.set_live(past.live);
+        if self.layout.set_views(past.views) {
+            self.keep_instant();
+        }
+        self.run.set_compare(past.compare);
+        if past.scene != self.scene {
+            self.set_scene(past.scene, false);
+        }
+    }
 }
 
 /// Whether a change of scene can act on a running motion: speed and ramp always
@@ -188,4 +264,36 @@ fn acts_live(before: &Scene, after: &Scene) -> bool {
     turned.operation.speed_ramp_rad_s2 = after.operation.speed_ramp_rad_s2;
     // The initial state cannot be changed after the start.
     turned == *after || (before.initial == after.initial && Change::is_live(before, after))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tui::{Marker, Theme};
+
+    #[test]
+    fn undo_and_redo_come_back_and_a_new_change_forgets_what_was_undone() {
+        let app = App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Ascii);
+        let (past, mut knobs) = (app.past(), Knobs::default());
+        assert!(knobs.step_back(false, past.clone()).is_none());
+        let lively = Past { live: true, ..past.clone() };
+        (0..3).for_each(|_| knobs.remember(lively.clone()));
+        knobs.merge(1);
+        assert_eq!(knobs.step_back(false, past.clone()), Some(lively.clone()));
+        assert_eq!((knobs.remembered(), knobs.step_back(true, lively)), (0, Some(past.clone())));
+        knobs.step_back(false, past.clone());
+        knobs.remember(past.clone());
+        assert!(knobs.step_back(true, past).is_none());
+    }
+
+    #[test]
+    fn the_knobs_go_round_and_another_one_has_no_refusal() {
+        let mut knobs = Knobs::default();
+        knobs.refuse(&Scene::base().set("operation.pulse_n", "x").unwrap_err());
+        assert!(knobs.refusal().is_some());
+        knobs.walk(true);
+        assert_eq!((knobs.selected, knobs.refusal()), (KNOBS.len() - 1, None));
+        knobs.walk(false);
+        assert_eq!(knobs.selected, 0);
+    }
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crossterm::event::KeyCode;
 
-use super::past::Past;
+use super::knobs::Past;
 use super::{App, InputMode, Source};
 use crate::scene::{Scene, Value};
 use crate::tui::bindings::Chord;

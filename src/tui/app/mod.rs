@@ -1,7 +1,6 @@
 //! The state of the explorer, without a terminal: the screen is a function of
 //! this value, and only keys and snapshots change it.
 
-mod baseline;
 mod command;
 mod dialogue;
 mod files;
@@ -13,9 +12,7 @@ mod map;
 mod margins;
 mod mouse;
 mod palette;
-mod past;
 mod play;
-mod ranges;
 mod reading;
 mod run;
 mod scenes;
@@ -25,7 +22,6 @@ mod touching;
 mod update;
 mod verdict;
 
-pub use baseline::Baseline;
 pub use dialogue::{InputMode, Purpose};
 
 pub use help::HelpState;
@@ -33,7 +29,6 @@ pub use lesson::LessonProgress;
 
 pub use mouse::Heard;
 pub use palette::PaletteState;
-pub use ranges::Ranges;
 pub use reading::{Cursor, STEP, cell_of};
 pub use scenes::SceneEntry;
 pub use sweep::Sweep;

@@ -46,7 +46,7 @@ pub(super) fn begin_s(scene: &Scene) -> f64 {
 }
 
 /// Playing, and the page of time.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Play {
     /// Whether time passes.
     pub playing: bool,
@@ -85,22 +85,8 @@ pub struct Tempo {
 impl Play {
     /// From an instant on \[s\].
     pub(super) fn from(go_to_s: f64) -> Self {
-        Self {
-            playing: true,
-            rate: FIRST_RATE,
-            zoom: 0,
-            slow_at_events: true,
-            pages_back: 0,
-            go_to_s,
-            goes: 0,
-            steps: 0,
-            jumps: 0,
-            extensions: 0,
-            stopped_by_end: false,
-            page: 0,
-            met: 0,
-            ends: 0,
-        }
+        let (playing, slow_at_events) = (true, true);
+        Self { playing, rate: FIRST_RATE, slow_at_events, go_to_s, ..Self::default() }
     }
 
     /// Its keys; what they say.
@@ -345,6 +331,26 @@ mod tests {
         assert_eq!(RATES[FIRST_RATE], 5e-3);
         assert_eq!(page_length(5e-3, 0), 0.02);
         assert_eq!((RATES[0], RATES[RATES.len() - 1]), (1e-5, 1.0));
+    }
+
+    #[test]
+    fn at_the_end_of_the_run_time_stops_once_and_goes_on_when_asked() {
+        let mut play = Play::from(0.0);
+        assert!(play.stop_at_end(1) && !play.is_playing() && !play.stop_at_end(1));
+        play.act(Action::Pause);
+        assert_eq!((play.is_playing(), play.extensions), (true, 1));
+        assert!(play.stop_at_end(2));
+        // Another run plays again, but not where the user has stopped it.
+        play.restart(0.0);
+        assert!(play.is_playing() && play.extensions == 0);
+        play.act(Action::Step);
+        play.restart(0.0);
+        assert!(!play.is_playing() && play.steps == 1);
+        play.act(Action::Jump);
+        assert!(play.is_met(1) && !play.is_met(1));
+        play.act(Action::Jump);
+        play.restart(0.0);
+        assert!(!play.is_met(2), "nobody waits for a jump of the motion before");
     }
 
     #[test]

@@ -4,13 +4,14 @@
 use std::sync::Arc;
 
 use super::play::begin_s;
-use super::{App, Baseline, Ranges};
+use super::{App, VerdictText};
 use crate::model::Machine;
 use crate::motion::ActiveSet;
 use crate::scene::CheckedScene;
 use crate::tui::axis::{AutoRange, instant, readable};
 use crate::tui::engine::{Answer, Moment, Results, Snapshot, generation};
 use crate::tui::history::{Bin, BinHistory, Channel};
+use crate::tui::knobs::{KNOBS, Knob};
 
 /// Part of a page for which a held corner counts as standing still.
 const STILL: f64 = 0.2;
@@ -33,10 +34,67 @@ pub struct Run {
     /// The record under the other contact law.
     comparison: BinHistory,
     /// The latest verdict there is, of this scene or of an older one.
-    answer: Option<Arc<Answer>>,
+    pub(super) answer: Option<Arc<Answer>>,
     pub(super) restarts: u64,
     pub(super) changes: u64,
     pub(super) pulses: u64,
+}
+
+/// A pinned run, drawn behind the next ones.
+#[derive(Clone, Debug)]
+pub struct Baseline {
+    /// Its record.
+    pub history: BinHistory,
+    /// Its verdict.
+    pub words: VerdictText,
+    /// Its scene.
+    pub scene: CheckedScene,
+}
+
+impl Baseline {
+    /// What was pinned: the knobs in which it differs from the present scene, and
+    /// its verdict.
+    pub fn what(&self, app: &App) -> String {
+        let differs = |knob: &&Knob| knob.get(&self.scene) != knob.get(&app.scene);
+        let shown = |knob: &Knob| format!("{} {}", knob.label, knob.text(&self.scene));
+        let mut parts: Vec<String> = KNOBS.iter().filter(differs).take(2).map(shown).collect();
+        parts.push(self.words.word.clone());
+        parts.join(", ")
+    }
+}
+
+/// Ranges of the charts; they follow the data with hysteresis.
+#[derive(Clone, Copy, Debug)]
+pub struct Ranges {
+    /// `u_c`, `u_s` \[m\].
+    pub casing: AutoRange,
+    /// `alpha_c`, `alpha_s` \[rad\].
+    pub blades: AutoRange,
+    /// Gaps \[m\].
+    pub gaps: AutoRange,
+    /// The wave in the frame of the blades, as their tips see it \[m\].
+    pub rim: AutoRange,
+    /// Whether they follow.
+    pub follow: bool,
+}
+
+impl Ranges {
+    /// Ranges at the start: the clearance and a little more. Where the blades rub at
+    /// rest, as far into the lining.
+    pub fn of(clearance: f64) -> Self {
+        let size = clearance.abs();
+        let gaps = match clearance < 0.0 {
+            true => AutoRange::new(-2.2 * size, 1.2 * size),
+            false => AutoRange::new(-0.2 * clearance, 2.2 * clearance),
+        };
+        Self {
+            casing: AutoRange::new(-1.25 * size, 1.25 * size),
+            blades: AutoRange::new(-1e-9, 1e-9),
+            gaps,
+            rim: AutoRange::new(-size, size),
+            follow: true,
+        }
+    }
 }
 
 impl Run {
@@ -116,11 +174,6 @@ impl Run {
         &self.comparison
     }
 
-    /// The latest verdict there is, of this scene or of an older one.
-    pub(super) fn answer(&self) -> Option<&Answer> {
-        self.answer.as_deref()
-    }
-
     /// Whether the other contact law runs too.
     pub(super) fn is_compared(&self) -> bool {
         self.compare
@@ -141,11 +194,6 @@ impl App {
     /// The motion as it plays.
     pub fn moment(&self) -> Option<&Moment> {
         self.run.latest.moment.as_ref()
-    }
-
-    /// Why the engine stopped, if it did.
-    pub(super) fn trouble(&self) -> Option<&String> {
-        self.run.latest.trouble.as_ref()
     }
 
     /// Makes a scene the current one and starts its run, or, if live, applies
@@ -327,5 +375,31 @@ fn grow(range: &mut AutoRange, data: Option<(f64, f64)>) {
         && (low < range.low || high > range.high)
     {
         range.follow(low.min(range.low), high.max(range.high));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    #[test]
+    fn what_was_computed_of_a_motion_is_forgotten_with_it_and_its_studies_stay() {
+        let scene = Scene::base().checked().unwrap();
+        let mut run = Run::of(&scene, &scene.machine());
+        run.latest.results.found.map = None;
+        run.latest.results.found.spectrum = Some(Arc::default());
+        for change in [Run::change, Run::fire, |run: &mut Run| run.restart(&run.started.clone())] {
+            run.latest.results.reference = None;
+            run.latest.results.sensitive = true;
+            change(&mut run);
+            assert!(!run.latest.results.sensitive);
+            assert!(run.latest.results.found.spectrum.is_some());
+        }
+        assert_eq!((run.restarts, run.changes, run.pulses), (1, 1, 1));
+        run.set_compare(true);
+        assert!(run.is_compared());
+        assert_eq!(run.autoscale(), "scales stay fixed");
+        assert!(!run.ranges.follow);
     }
 }

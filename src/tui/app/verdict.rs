@@ -31,7 +31,7 @@ impl App {
 
     /// The verdict of the running solver.
     pub fn verdict(&self) -> VerdictText {
-        if let Some(trouble) = self.trouble() {
+        if let Some(trouble) = &self.run.latest.trouble {
             return VerdictText {
                 word: "STOPPED".into(),
                 detail: trouble.clone(),
@@ -79,7 +79,7 @@ impl App {
     /// The verdict of a scene that differs in one knob, `at 405 rad/s: WHIRL`, or of this one
     /// before it was changed in another way.
     fn older_answer(&self) -> Option<String> {
-        let Answer { scene, verdict } = self.run.answer()?;
+        let Answer { scene, verdict } = self.run.answer.as_deref()?;
         let mut differ = KNOBS.iter().filter(|knob| knob.get(scene) != knob.get(&self.scene));
         let when = match (differ.next(), differ.next()) {
             (Some(knob), None) => format!("at {}", knob.text(scene)),
