@@ -159,7 +159,7 @@ impl Play {
     }
 
     /// The current page again.
-    pub(super) fn to_now(&mut self) {
+    pub(super) fn show_now(&mut self) {
         self.pages_back = 0;
     }
 

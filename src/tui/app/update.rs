@@ -141,7 +141,7 @@ impl App {
             self.dialogue.close();
         } else if self.reading.is_open() || self.play.is_elsewhere() {
             self.reading.stop();
-            self.play.to_now();
+            self.play.show_now();
         } else if self.appearance.is_wide() {
             self.present(false);
         } else {
