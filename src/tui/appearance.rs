@@ -13,11 +13,40 @@ pub struct Appearance {
     pub theme: Theme,
     /// How points are drawn.
     pub marker: Marker,
-    /// Whether lines are two sub-pixels thick, for a projector.
+    /// Whether the screen is for a projector: lines are two sub-pixels thick.
     pub wide: bool,
+    /// Whether `m` comes to octants.
+    pub octants: bool,
 }
 
 impl Appearance {
+    /// For a screen in front of the user.
+    pub fn new(theme: Theme, marker: Marker) -> Self {
+        Self { theme, marker, wide: false, octants: false }
+    }
+
+    /// The next theme; what to say.
+    pub fn next_theme(&mut self) -> String {
+        self.theme = self.theme.next();
+        format!("theme {}", self.theme.name())
+    }
+
+    /// The next marker; what to say.
+    pub fn next_marker(&mut self) -> String {
+        self.marker = self.marker.next(self.octants);
+        format!("marker {}", self.marker)
+    }
+
+    /// Whether the screen is for a projector.
+    pub fn is_wide(&self) -> bool {
+        self.wide
+    }
+
+    /// The screen is for a projector, or the usual one.
+    pub fn set_wide(&mut self, wide: bool) {
+        self.wide = wide;
+    }
+
     /// Style of a role.
     pub fn style(&self, role: Role) -> Style {
         self.theme.style(role)
@@ -108,7 +137,7 @@ mod tests {
 
     #[test]
     fn ascii_means_ascii() {
-        let look = Appearance { theme: Theme::Dark, marker: Marker::Ascii, wide: false };
+        let look = Appearance::new(Theme::Dark, Marker::Ascii);
         let text = look.spell("Ω/Ωc λ ζ α 228 µs kg m² × – … ● ▲ ◄ ► ┄ é");
         assert!(text.is_ascii(), "{text}");
         assert!(text.starts_with("Om/Omc lambda zeta alpha 228 us"));

@@ -126,7 +126,7 @@ struct Choices {
 impl Choices {
     fn of(app: &App) -> Self {
         let look = app.appearance;
-        let (charts, mouse) = (app.companions_shown, app.mouse);
+        let (charts, mouse) = (app.layout.beside, app.mouse.on);
         Self { theme: look.theme, marker: look.marker, charts, mouse }
     }
 }
@@ -174,10 +174,10 @@ impl Memory {
     /// Gives the state what is remembered, and notes where it began.
     pub fn prepare(&mut self, app: &mut App) {
         if let Some(charts) = self.config.charts {
-            app.companions_shown = charts;
+            app.layout.beside = charts;
         }
-        app.mouse &= self.config.mouse.unwrap_or(true);
-        app.is_new = self.path.is_some() && !self.config.introduced;
+        app.mouse.on &= self.config.mouse.unwrap_or(true);
+        app.dialogue.is_new = self.path.is_some() && !self.config.introduced;
         app.status.clone_from(&self.complaint);
         self.began = Some(Choices::of(app));
     }
@@ -187,7 +187,7 @@ impl Memory {
     pub fn keep(self, app: &App, patience: Duration) {
         let Some(path) = self.path.clone() else { return };
         let ended = Choices::of(app);
-        let introduced = !app.is_new;
+        let introduced = !app.dialogue.is_new;
         let (done, wait) = channel();
         let work = move || {
             // Another explorer may have written it meanwhile.

@@ -8,15 +8,11 @@ use std::time::Duration;
 use super::history::{Bin, BinHistory};
 use super::trace::{Mark, Trace};
 use super::views::ViewId;
-use super::views::coincidence::curves::CoincidenceCurves;
-use super::views::locked::curves::LockedCurves;
-use super::views::map::{CellRun, LiveMap, MapChoice};
-use super::views::margins::LiveMargins;
-use super::views::spectrum::transform::Spectrum;
+use super::views::map::MapChoice;
+use super::worker::Found;
 use crate::motion::{ActiveSet, Checks, Hold, Motion, State, Verdict};
 use crate::scene::CheckedScene;
 use crate::study::MapPlan;
-use crate::study::precision::Precision;
 
 /// The task of the engine. Counters only grow, so that no key press is lost
 /// when an order replaces an older one.
@@ -228,21 +224,8 @@ pub struct Results {
     pub reference: Option<FullRun>,
     /// The same scene under the other contact law.
     pub comparison: Option<FullRun>,
-    /// The locked motion against speed, once it is computed.
-    pub locked: Option<Arc<LockedCurves>>,
-    /// The spectrum of the run, while its view is open.
-    pub spectrum: Option<Arc<Spectrum>>,
-    /// The map, while its view is open; cells arrive one by one.
-    pub map: Option<Arc<LiveMap>>,
-    /// The run of the map's cell that was asked for.
-    pub cell: Option<Arc<CellRun>>,
-    /// Speed against error, while its view is open; rows arrive one by one.
-    pub precision: Option<Arc<Precision>>,
-    /// The margins, while their view is open; what is searched arrives later.
-    pub margins: Option<Arc<LiveMargins>>,
-    /// What a coincidence does, while its view is open; none within where there is no
-    /// coincidence.
-    pub coincidence: Option<Arc<Option<CoincidenceCurves>>>,
+    /// What the studies of the views have found.
+    pub found: Found,
     /// The page on the screen.
     pub page: Option<Arc<PageRecord>>,
     /// The same under the other contact law.

@@ -20,15 +20,15 @@ const DOT: f64 = 2.8;
 
 /// The screen as a picture: its size, and the background of its theme.
 pub fn svg(app: &App) -> String {
-    let area = Rect::new(0, 0, app.size.0, app.size.1);
+    let area = Rect::new(0, 0, app.layout.size.0, app.layout.size.1);
     let ink = Ink::of(app.appearance.theme);
     let mut buffer = Buffer::empty(area);
     let mut plain = app.clone();
-    plain.mode = InputMode::Main;
+    plain.dialogue.mode = InputMode::Main;
     plain.status = None;
     panels::paint(&plain, &mut buffer, area);
     let (width, height) = (u32::from(area.width) * CELL.0, u32::from(area.height) * CELL.1);
-    let (ground, scene) = (ink.ground, app.started.clone().into_scene());
+    let (ground, scene) = (ink.ground, app.run.started.clone().into_scene());
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
          viewBox=\"0 0 {width} {height}\" font-family=\"monospace\" font-size=\"13\">\n\
@@ -203,7 +203,7 @@ mod tests {
     #[test]
     fn a_picture_has_the_size_and_the_ground_of_the_screen() {
         let mut app = App::new(Scene::base().checked().unwrap(), Theme::Light, Marker::Braille);
-        app.size = (100, 30);
+        app.layout.size = (100, 30);
         let light = svg(&app);
         assert!(light.contains("width=\"800\" height=\"510\""), "{}", &light[..200]);
         assert!(light.contains("fill=\"#ffffff\"/>") && !light.contains("#101418"));
@@ -216,7 +216,7 @@ mod tests {
         let scene = Scene::base();
         let mut app = App::new(scene.clone().checked().unwrap(), Theme::Dark, Marker::Braille);
         let name = "a\u{1b}[2J\u{202e}\u{ffff}]]></desc>\u{0}.toml".to_string();
-        app.source = Some(crate::tui::Source { name, scene });
+        app.files.source = Some(crate::tui::Source { name, scene });
         let svg = svg(&app);
         assert!(svg.contains("rubscope run 'a [2J  ]]&gt;&lt;/desc&gt; .toml'"), "{}", &svg[..600]);
         let plain = |c: char| c == '\n' || crate::scene::keys::is_plain(c);
@@ -226,6 +226,6 @@ mod tests {
     #[test]
     fn no_data_is_said_and_not_written() {
         let app = App::new(Scene::base().checked().unwrap(), Theme::Dark, Marker::Braille);
-        assert_eq!(app.view.panel().csv(&app).unwrap_err(), "there is no data yet");
+        assert_eq!(app.panel().csv(&app).unwrap_err(), "there is no data yet");
     }
 }

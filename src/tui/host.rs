@@ -7,6 +7,7 @@ use std::sync::mpsc::Sender;
 use super::events::ScreenEvent;
 use super::files::{FileJob, FileResult, find_aside, write_aside};
 use super::job;
+use super::line::Line;
 use super::scenes::FoundScenes;
 use super::terminal;
 
@@ -28,6 +29,10 @@ pub trait Host {
     /// # Errors
     /// The terminal cannot be written to.
     fn copy(&mut self, text: &str) -> Result<()>;
+    /// How much the terminal is sent.
+    fn line(&self) -> Line {
+        Line::Auto
+    }
     /// Bytes sent to the terminal so far.
     fn sent(&self) -> u64 {
         0
@@ -75,6 +80,8 @@ pub struct Shell {
     pub events: Sender<ScreenEvent>,
     /// Why a file was not written, as long as no screen has shown it.
     pub unseen: Option<String>,
+    /// How much the terminal is sent.
+    pub line: Line,
 }
 
 impl Host for Shell {
@@ -99,6 +106,10 @@ impl Host for Shell {
     fn copy(&mut self, text: &str) -> Result<()> {
         // OSC 52: the terminal, not this machine, owns the clipboard.
         terminal::write(format!("\x1b]52;c;{}\x07", base64(text.as_bytes())).as_bytes())
+    }
+
+    fn line(&self) -> Line {
+        self.line
     }
 
     fn sent(&self) -> u64 {

@@ -262,7 +262,7 @@ mod tests {
 
     #[test]
     fn every_letter_of_the_lessons_has_a_spelling_in_ascii() {
-        let look = Appearance { theme: Theme::Mono, marker: Marker::Ascii, wide: false };
+        let look = Appearance::new(Theme::Mono, Marker::Ascii);
         let others = FILES.iter().flat_map(|(_, text)| text.chars()).filter(|c| !c.is_ascii());
         for letter in others {
             assert_ne!(look.spell(&letter.to_string()), "?", "{letter}");

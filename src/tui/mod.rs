@@ -107,14 +107,15 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
     let theme = options.theme(&memory.config, &variable, ask);
     let ability = ability::Ability::of(&variable);
     let mut app = App::new(scene, theme, options.marker(&memory.config, &ability));
-    app.source.clone_from(&options.source);
-    (app.mouse, app.line) = (options.mouse, options.line(&variable));
-    app.octants = ability.octants || options.marker == Some(Marker::Octant);
+    app.files.source.clone_from(&options.source);
+    app.mouse.on = options.mouse;
+    app.appearance.octants = ability.octants || options.marker == Some(Marker::Octant);
     memory.silent = found.silent.then_some(name);
     memory.prepare(&mut app);
-    terminal::set_mouse(app.mouse)?;
+    terminal::set_mouse(app.mouse.on)?;
     let guard = terminal::Guard;
-    let mut shell = terminal::Shell { events: sender, unseen: None };
+    let line = options.line(&variable);
+    let mut shell = terminal::Shell { events: sender, unseen: None, line };
     let ended = terminal::open().and_then(|mut screen| {
         events::read_keys(shell.events.clone(), found.unanswered)?;
         let ended = run(&mut screen, &events, &mut app, &mut worker, &mut shell, options.frame());
@@ -124,12 +125,12 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
     });
     drop(guard);
     memory.keep(&app, config::PATIENCE);
-    if app.writing.is_some() {
+    if app.files.writing.is_some() {
         files::tidy_up();
     }
     match (terminal::ended_by(), ended) {
         (Some(signal), _) | (None, Ok(Exit::Signal(signal))) => Ok(128 + signal),
-        (None, Ok(Exit::Done)) => match (app.writing, shell.unseen) {
+        (None, Ok(Exit::Done)) => match (app.files.writing, shell.unseen) {
             (Some(writing), _) => anyhow::bail!("gave up writing {}: no answer", writing.name),
             (None, Some(reason)) => anyhow::bail!(reason),
             (None, None) => Ok(0),

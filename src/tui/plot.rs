@@ -316,7 +316,7 @@ mod tests {
     use ratatui::style::Modifier;
 
     fn look() -> Appearance {
-        Appearance { theme: Theme::Mono, marker: Marker::Ascii, wide: false }
+        Appearance::new(Theme::Mono, Marker::Ascii)
     }
 
     #[test]
@@ -355,7 +355,7 @@ mod tests {
             marker in 0usize..5, low in -1e6f64..1e6, span in 1e-6f64..1e6,
         ) {
             let marker = (0..marker).fold(Marker::Braille, |marker, _| marker.next(true));
-            let look = Appearance { theme: Theme::Dark, marker, wide: false };
+            let look = Appearance::new(Theme::Dark, marker);
             let mut buffer = Buffer::empty(Rect::new(0, 0, width, height));
             let area = *buffer.area();
             let axis = ChartAxis::plain(low, low + span);
@@ -377,7 +377,7 @@ mod tests {
             let mut buffer = Buffer::empty(Rect::new(0, 0, width, height));
             let area = *buffer.area();
             let pen = Pen { style: Style::new(), sign: '*', dashed: true };
-            let look = Appearance { theme: Theme::Dark, marker: Marker::Braille, wide: false };
+            let look = Appearance::new(Theme::Dark, Marker::Braille);
             if let Some(mut plot) = Plot::new(&mut buffer, area, ChartAxis::scaled(low, high), ChartAxis::plain(-1.0, 1.0), &look) {
                 plot.curve(xs.iter().map(|x| (*x, *x)), &pen);
                 plot.spans(&xs.iter().map(|x| Some((*x, *x))).collect::<Vec<_>>(), &pen);

@@ -65,7 +65,7 @@ pub fn run<B: Backend>(
     let mut drawn: Option<Instant> = None;
     let mut again = false;
     let mut answer: Option<Instant> = None;
-    let mut throttle = Throttle::new(app.line, Instant::now(), host.sent());
+    let mut throttle = Throttle::new(host.line(), Instant::now(), host.sent());
     loop {
         order(app, engine, &mut ordered);
         let wait = drawn.map_or(Duration::ZERO, |at| due.pause(frame).saturating_sub(at.elapsed()));
@@ -150,7 +150,7 @@ fn show<B: Backend>(
 ) -> Result<(), B::Error> {
     look(app, engine);
     let size = terminal.size()?;
-    app.size = (size.width, size.height);
+    app.layout.size = (size.width, size.height);
     terminal.draw(|frame| panels::draw(frame, app))?;
     engine.drawn();
     // A screen that is too small shows only that it is.
@@ -230,7 +230,7 @@ fn handle(event: ScreenEvent, app: &mut App, host: &mut dyn Host) -> Reaction {
 /// Takes how the writing of a file went. Until a screen shows it, it is for the end of
 /// the program to say.
 fn written(result: FileResult, app: &mut App, host: &mut dyn Host) {
-    let name = app.writing.as_ref().map_or("the file", |writing| &writing.name);
+    let name = app.files.writing.as_ref().map_or("the file", |writing| &writing.name);
     match &result {
         FileResult::Written => {}
         FileResult::Exists => host.unseen(Some(format!("cannot write {name}: it exists"))),
@@ -242,7 +242,7 @@ fn written(result: FileResult, app: &mut App, host: &mut dyn Host) {
 /// Waits a moment for the file that is being written.
 fn last_file(events: &Receiver<ScreenEvent>, app: &mut App, host: &mut dyn Host) -> Exit {
     let began = Instant::now();
-    while app.writing.is_some() {
+    while app.files.writing.is_some() {
         match events.recv_timeout(LAST_FILE.saturating_sub(began.elapsed())) {
             // The keys after the one that quits are for nobody.
             Ok(ScreenEvent::Key(_) | ScreenEvent::Pasted(_) | ScreenEvent::Mouse(_)) => {}

@@ -70,7 +70,7 @@ pub fn keys(data: &[u8]) {
     let mut scene = Scene::builtin("paper-nd3").unwrap();
     (scene.solver.step_s, scene.solver.end_s) = (1e-6, 2e-3);
     let mut app = App::new(scene.checked().unwrap(), Theme::Dark, Marker::Braille);
-    app.directory = files.path().to_path_buf();
+    app.files.directory = files.path().to_path_buf();
     let mut terminal = Terminal::new(TestBackend::new(80, 24)).unwrap();
     let mut engine = Sliced(None, None);
     let mut waiting = Vec::new();

@@ -121,3 +121,53 @@ fn no_solver_knows_its_sibling() {
         }
     }
 }
+
+/// The parts of the state of the explorer, by their fields.
+fn parts_of_the_state() -> Vec<String> {
+    let text = fs::read_to_string(root().join("src/tui/app/mod.rs")).unwrap();
+    let fields = text.split("pub struct App {").nth(1).unwrap().split('}').next().unwrap();
+    let name = |line: &str| Some(line.trim().strip_prefix("pub ")?.split_once(':')?.0.to_string());
+    fields.lines().filter_map(name).collect()
+}
+
+#[test]
+fn no_part_of_the_explorer_names_a_field_of_another() {
+    let parts = parts_of_the_state();
+    assert!((8..15).contains(&parts.len()), "{parts:?}");
+    // What every part reads, and what is no value of its own file.
+    let common = ["scene", "machine", "status"];
+    let homes: BTreeMap<&str, &[&str]> = BTreeMap::from([
+        ("knobs", ["knobs.rs", "sweep.rs"].as_slice()),
+        ("play", &["play.rs"]),
+        ("run", &["run.rs", "verdict.rs"]),
+        ("layout", &["layout.rs"]),
+        ("reading", &["reading.rs"]),
+        ("map", &["map.rs"]),
+        ("dialogue", &["dialogue.rs"]),
+        ("files", &["files.rs", "scenes.rs"]),
+        ("lessons", &["lesson.rs"]),
+        ("mouse", &["mouse.rs"]),
+        ("appearance", &[]),
+    ]);
+    let (mut wrong, mut own) = (Vec::new(), 0);
+    for part in parts.iter().filter(|part| !common.contains(&part.as_str())) {
+        let homes = homes.get(part.as_str()).unwrap_or_else(|| panic!("where is {part}?"));
+        for file in sources(&root().join("src/tui/app")) {
+            let name = file.file_name().unwrap().to_str().unwrap();
+            let text = fs::read_to_string(&file).unwrap();
+            // Tests look at any part; the head of the state puts the parts together.
+            let code = text.split("#[cfg(test)]").next().unwrap();
+            let code: String = code.split_whitespace().collect();
+            for reach in code.split(&format!("self.{part}.")).skip(1) {
+                let end = reach.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap();
+                match reach[end..].starts_with('(') {
+                    true => {}
+                    false if name == "mod.rs" || homes.contains(&name) => own += 1,
+                    false => wrong.push(format!("{name}: {part}.{}", &reach[..end])),
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "fields of another part:\n{}", wrong.join("\n"));
+    assert!(own > 50, "only {own} fields were found");
+}

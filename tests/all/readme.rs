@@ -62,7 +62,7 @@ fn the_first_minute_is_as_it_says() {
     assert!(both.contains("LOCKED") && both.contains("decay"), "{both}");
     session.press("c5");
     session.press("");
-    assert_eq!(session.app.view.word(), "map");
+    assert_eq!(session.app.view().word(), "map");
     assert!(session.text().contains("5 map"), "{}", session.text());
     session.press("\u{1b}g");
     assert!(session.text().contains("Lessons"), "{}", session.text());

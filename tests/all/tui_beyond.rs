@@ -172,7 +172,7 @@ fn a_lining_is_compared_with_the_rigid_law_where_the_scene_can_have_it() {
         session.press("c");
         let last = session.rows().pop().unwrap();
         assert!(last.starts_with("no ") && last.contains(why), "{last}");
-        assert!(!session.app.compare);
+        assert!(!session.app.run.compare);
     }
     // A knob can make it impossible later: then its chart says so.
     let mut session =
@@ -180,7 +180,7 @@ fn a_lining_is_compared_with_the_rigid_law_where_the_scene_can_have_it() {
     session.press("c");
     session.select("contact.friction");
     session.press("l");
-    assert!(session.app.compare && session.text().contains("a pull has"), "{}", session.text());
+    assert!(session.app.run.compare && session.text().contains("a pull has"), "{}", session.text());
 }
 
 #[test]

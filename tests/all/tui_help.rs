@@ -105,9 +105,9 @@ fn the_palette_does_what_it_finds() {
         session.press(":rocking\n");
         assert_eq!(*session.app.scene, Scene::builtin("rocking").unwrap());
         session.press(":polygon\n");
-        assert!(session.app.lesson.is_some());
+        assert!(session.app.lessons.progress.is_some());
         session.press("G:view 5\n");
-        assert_eq!(session.app.view.digit(), 5);
+        assert_eq!(session.app.view().digit(), 5);
         // The second line that was found.
         session.press(":damping 0.01↓\n");
         assert_eq!(session.app.scene.bladed_disk.damping_ratio, 0.01);

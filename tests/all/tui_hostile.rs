@@ -71,7 +71,7 @@ fn a_refused_value_is_shown_without_acting() {
     // A field takes only letters, but those that act come in ways one may forget.
     let typed = [key('\n'), key('\u{202e}'), key('\u{2028}'), key('x'), key('\n')];
     let (app, buffer) = screen(TITLE, "", Marker::Braille, &typed);
-    assert!(app.refusal.is_some_and(|refusal| !refusal.contains(acts)));
+    assert!(app.knobs.refusal.is_some_and(|refusal| !refusal.contains(acts)));
     assert_harmless(&buffer);
 }
 
@@ -90,13 +90,13 @@ fn a_pasted_text_never_acts_as_keys() {
     let paste = ScreenEvent::Pasted("q\ns\u{1b}[Al50\n".into());
     let (app, _) = screen("", "", Marker::Braille, std::slice::from_ref(&paste));
     assert_eq!(app.status.as_deref(), Some("the pasted text is ignored: no field is open"));
-    assert_eq!(*app.scene, *app.opened);
+    assert_eq!(*app.scene, *app.files.opened);
     let (app, _) = screen("", "", Marker::Braille, &[key('g'), paste.clone()]);
     assert!(app.status.is_some_and(|status| status.contains("ignored")));
     // The help and the palette have a field.
     for field in ['?', ':'] {
         let (app, buffer) = screen("", "", Marker::Braille, &[key(field), paste.clone()]);
-        assert_eq!((&*app.scene, app.status), (&*app.opened, None), "{field}");
+        assert_eq!((&*app.scene, app.status), (&*app.files.opened, None), "{field}");
         let text: String = buffer.content.iter().map(|cell| cell.symbol()).collect();
         assert!(text.contains("qs[Al50_"), "{text}");
     }

@@ -36,7 +36,7 @@ fn escape_and_a_key_in_one_go_are_both_heard() {
     session.app.key(&KeyEvent::new(KeyCode::Char('2'), KeyModifiers::ALT));
     session.press("");
     assert!(session.text().contains("2 gaps"), "{}", session.text());
-    assert_eq!(session.app.view.digit(), 2);
+    assert_eq!(session.app.view().digit(), 2);
 }
 
 #[test]
@@ -111,7 +111,7 @@ fn a_storm_of_sizes_between_keys_leaves_one_picture_of_the_last() {
             std::iter::repeat_with(|| ScreenEvent::Resize).take(10).chain([key])
         });
         session.send(storm);
-        assert_eq!(session.app.size, (width, height));
+        assert_eq!(session.app.layout.size, (width, height));
     }
     assert!(session.text().contains(" LOCKED "), "{}", session.text());
 }

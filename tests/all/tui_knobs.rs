@@ -85,12 +85,12 @@ fn the_selected_knob_is_in_sight_at_every_size() {
                 1,
                 "{text}"
             );
-            if turn > 0 && session.app.knob == 0 {
+            if turn > 0 && session.app.knobs.selected == 0 {
                 break;
             }
             session.press("j");
         }
-        assert_eq!(session.app.knob, 0);
+        assert_eq!(session.app.knobs.selected, 0);
     }
 }
 

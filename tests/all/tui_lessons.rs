@@ -166,14 +166,14 @@ fn every_step_says_what_the_solvers_find() {
                 assert!(session.text().contains("is right"), "{at}: {}", session.text());
             }
             assert_eq!(session.app.scene, lesson.scene_at(number, true).unwrap(), "{at}");
-            let progress = |session: &Session| session.app.lesson.as_ref().unwrap().now();
+            let progress = |session: &Session| session.app.lessons.progress.as_ref().unwrap().now();
             if step.task.is_some() {
                 assert!(!progress(&session).done, "{at}: nothing to do");
                 do_task(&mut session, step);
             }
             session.press("");
             assert!(progress(&session).done, "{at}: {}", session.text());
-            assert!(session.app.lessons_done.has(lesson, number));
+            assert!(session.app.lessons.done.has(lesson, number));
             assert!(!session.text().contains("FAILED"), "{at}: {}", session.text());
             step.check.iter().for_each(|check| assert_true(check, &session, &mut runs));
             let verdict = |check: &Check| check.run.as_deref() == Some("verdict");
@@ -181,7 +181,7 @@ fn every_step_says_what_the_solvers_find() {
             assert_numbers_are_checked(lesson, step);
             session.press("g");
         }
-        assert!(session.app.lesson.is_none());
+        assert!(session.app.lessons.progress.is_none());
         assert_eq!(*session.app.scene, scene(), "{}", lesson.title);
     }
 }
@@ -220,13 +220,13 @@ fn a_step_leaves_room_for_a_chart_at_80_by_24_and_is_read_in_pages_at_40_by_12()
                     assert!(all.contains(word), "{word} is not in {all}");
                 }
                 // The charts are there at last.
-                let digit = small.app.view.digit();
+                let digit = small.app.view().digit();
                 assert!(small.text().contains(&format!(" {digit} ")), "{}", small.text());
             }
             session.press("g");
             small.press("g");
         }
-        assert!(session.app.lesson.is_none() && small.app.lesson.is_none());
+        assert!(session.app.lessons.progress.is_none() && small.app.lessons.progress.is_none());
     }
 }
 
@@ -250,25 +250,25 @@ fn an_open_question_shows_nothing_of_its_answer_and_a_wrong_one_is_explained() {
     assert!(text.contains("LOCKED"), "{text}");
     // A second try does not act on the charts by surprise.
     session.press("b");
-    assert!(session.app.baseline.is_none() && session.text().contains("answered already"));
+    assert!(session.app.run.baseline.is_none() && session.text().contains("answered already"));
 }
 
 #[test]
 fn back_and_forward_keep_the_answers_and_the_list_knows_what_was_done() {
     let mut session = begin(120, 40, 1);
     session.press("bgb");
-    assert_eq!(session.app.lesson.as_ref().unwrap().step, 1);
+    assert_eq!(session.app.lessons.progress.as_ref().unwrap().step, 1);
     session.press("B");
-    let progress = session.app.lesson.clone().unwrap();
+    let progress = session.app.lessons.progress.clone().unwrap();
     assert_eq!((progress.step, progress.now().answer), (0, Some(1)));
     assert!(session.text().contains("Your answer b is right"), "{}", session.text());
     session.press("gG");
-    assert!(session.app.lesson.is_none());
+    assert!(session.app.lessons.progress.is_none());
     session.press("g");
     assert!(session.text().contains("2/5"), "{}", session.text());
     // It goes on where it was left.
     session.press("j\n");
-    assert_eq!(session.app.lesson.as_ref().unwrap().step, 2);
+    assert_eq!(session.app.lessons.progress.as_ref().unwrap().step, 2);
 }
 
 #[test]
@@ -278,21 +278,21 @@ fn a_lesson_gives_back_what_was_there_and_undo_reaches_across() {
     let own = session.app.clone();
     session.press("g\n");
     assert_ne!(session.app.scene, own.scene);
-    assert!(!session.app.live);
+    assert!(!session.app.knobs.live);
     session.press("b[[");
     session.press("G");
     let same = |app: &App| {
-        let live = (app.live, app.view, app.companions.clone(), app.compare);
-        app.lesson.is_none()
+        let live = (app.knobs.live, app.view(), app.layout.views().to_vec(), app.run.compare);
+        app.lessons.progress.is_none()
             && app.scene == own.scene
-            && app.opened == own.opened
-            && app.source == own.source
-            && live == (own.live, own.view, own.companions.clone(), own.compare)
+            && app.files.opened == own.files.opened
+            && app.files.source == own.files.source
+            && live == (own.knobs.live, own.view(), own.layout.views().to_vec(), own.run.compare)
     };
-    assert!(same(&session.app) && session.app.rate == own.rate);
+    assert!(same(&session.app) && session.app.play.rate == own.play.rate);
     // Undo: the lesson with its answer, the open question, and the time before.
     session.press("u");
-    assert_eq!(session.app.lesson.as_ref().unwrap().now().answer, Some(1));
+    assert_eq!(session.app.lessons.progress.as_ref().unwrap().now().answer, Some(1));
     session.press("u");
     assert!(session.app.is_asked());
     session.press("u");
@@ -302,5 +302,5 @@ fn a_lesson_gives_back_what_was_there_and_undo_reaches_across() {
     for _ in 0..2 {
         session.app.act(Action::Redo);
     }
-    assert!(session.app.lesson.is_some() && session.app.is_asked());
+    assert!(session.app.lessons.progress.is_some() && session.app.is_asked());
 }

@@ -311,7 +311,7 @@ fn a_screen_too_small_for_the_question_takes_no_answer() {
         let path = folder.path().join("scene.toml");
         std::fs::write(&path, "old").unwrap();
         let mut app = App::new(scene.clone(), Theme::Dark, Marker::Braille);
-        app.directory = folder.path().to_path_buf();
+        app.files.directory = folder.path().to_path_buf();
         let mut terminal = Terminal::new(TestBackend::new(80, height)).unwrap();
         for keys in ["s\r", "y"] {
             let (sender, events) = channel();

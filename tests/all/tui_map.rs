@@ -17,7 +17,7 @@ fn open(size: (u16, u16), scene: Scene, theme: Theme, marker: Marker) -> Session
 }
 
 fn shown_map(session: &Session) -> &Map {
-    &session.app.latest.results.map.as_ref().unwrap().map
+    &session.app.run.latest.results.found.map.as_ref().unwrap().map
 }
 
 fn shown_plan(session: &Session) -> MapPlan {
@@ -128,12 +128,12 @@ fn a_key_switches_the_law_of_the_map_and_of_nothing_else() {
     assert_eq!((solver.kind, solver.contact), (SolverKind::Explicit, ContactLaw::Bilateral));
     assert!(session.text().contains("bilateral, explicit"), "{}", session.text());
     assert!(session.text().contains("(c: unilateral)"), "{}", session.text());
-    assert!(*session.app.scene == event() && !session.app.compare);
+    assert!(*session.app.scene == event() && !session.app.run.compare);
     session.press("c");
     assert_eq!(shown_plan(&session).scene.solver, event().solver);
     // Elsewhere it compares laws.
     session.press("1c");
-    assert!(session.app.compare && session.app.map.law.is_none());
+    assert!(session.app.run.compare && session.app.map.law.is_none());
 }
 
 #[test]
@@ -142,7 +142,7 @@ fn a_cell_opens_the_run_it_shows_and_undo_brings_the_other_back() {
         let mut session = open((120, 40), paper(), Theme::Dark, Marker::Braille);
         session.press(keys);
         session.press("5");
-        assert!(session.app.reading, "the arrows go to the cell at once");
+        assert!(session.app.reading.on, "the arrows go to the cell at once");
         let plan = shown_plan(&session);
         // It begins at the present knobs, and every arrow is one cell.
         let [column, row] = session.app.map_cell().unwrap();
@@ -152,7 +152,7 @@ fn a_cell_opens_the_run_it_shows_and_undo_brings_the_other_back() {
         let cell = session.app.map_cell().unwrap();
         assert_eq!(cell, [column - 9, row + 2]);
         let text = session.text();
-        let run = session.app.latest.results.cell.clone().unwrap();
+        let run = session.app.run.latest.results.found.cell.clone().unwrap();
         assert_eq!((run.cell, run.verdict), (cell, Verdict::Locked));
         assert!(text.contains("this cell:") && text.contains("435 rad/s, 1.585 MN"), "{text}");
         assert!(text.contains("locked") && text.contains("since"), "{text}");
@@ -163,11 +163,11 @@ fn a_cell_opens_the_run_it_shows_and_undo_brings_the_other_back() {
         assert_eq!(scene.operation.speed_rad_s, plan.x.value(column));
         assert_eq!(scene.operation.pulse_n, plan.y.value(row));
         let direct = run_to_verdict(&scene, &to_the_end).unwrap().verdict;
-        let Some(FullRunState::Done(run)) = &session.app.latest.results.full_run else {
+        let Some(FullRunState::Done(run)) = &session.app.run.latest.results.full_run else {
             panic!("no run")
         };
         assert_eq!((run.verdict, direct), (Verdict::Adhesive, Verdict::Adhesive));
-        assert_eq!(session.app.live, live);
+        assert_eq!(session.app.knobs.live, live);
         assert!(
             session
                 .app
@@ -197,13 +197,13 @@ fn the_law_of_the_map_goes_with_the_run_it_opens() {
 fn escape_gives_the_arrows_back_and_the_digit_takes_them_again() {
     let mut session = open((100, 30), event(), Theme::Dark, Marker::Braille);
     session.press("5\u{1b}");
-    assert!(!session.app.reading && session.app.map_cell().is_none());
+    assert!(!session.app.reading.on && session.app.map_cell().is_none());
     session.press("→");
     assert_eq!(session.app.scene.operation.speed_rad_s, 505.0);
     session.press("5");
-    assert!(session.app.reading);
+    assert!(session.app.reading.on);
     session.press("1");
-    assert!(!session.app.reading, "another view leaves the knobs alone");
+    assert!(!session.app.reading.on, "another view leaves the knobs alone");
 }
 
 #[test]
@@ -223,7 +223,7 @@ fn any_two_knobs_are_on_the_axes_and_in_the_file() {
     assert_eq!(plan.x.path, "casing.damping_ratio");
     assert_eq!((plan.x.from, plan.x.to), (0.0, 0.2));
     assert_ne!(plan.y.path, "operation.pulse_n");
-    let file = session.app.view.panel().csv(&session.app).unwrap();
+    let file = session.app.panel().csv(&session.app).unwrap();
     let first = file.lines().next().unwrap();
     assert!(first.starts_with("damping_ratio,"), "{first}");
     assert_eq!(file.lines().count(), 1 + plan.len());
@@ -290,7 +290,7 @@ fn view_3_reads_the_locked_motion_exactly_at_any_speed() {
     // Seven hundredths of 600 rad/s to the left; the curves have no point there.
     session.press("←←←←←←←");
     let machine = session.app.scene.machine();
-    let at = session.app.cursor.unwrap().across * 600.0;
+    let at = session.app.reading.cursor.unwrap().across * 600.0;
     let sweep = locked_motion(&machine, Form::Modal, true, None, &[at]).unwrap();
     let point = sweep.points[0];
     let text = session.text();
@@ -304,7 +304,7 @@ fn view_3_reads_the_locked_motion_exactly_at_any_speed() {
     }
     session.press("{{");
     assert!(session.text().contains("one pulls"), "{}", session.text());
-    let file = session.app.view.panel().csv(&session.app).unwrap();
+    let file = session.app.panel().csv(&session.app).unwrap();
     assert!(file.starts_with("speed_rad_s,") && file.contains("u_ss_m,amplitude_m"));
 }
 

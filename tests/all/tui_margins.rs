@@ -43,7 +43,7 @@ fn line(session: &Session, symbol: &str) -> String {
     let beginning = [format!("▸{symbol} "), format!(" {symbol} ")];
     let chart = |line: &str| {
         let at = beginning.iter().find_map(|start| line.find(start.as_str()))?;
-        let knobs = usize::from(session.app.size.0 >= 66) * 27;
+        let knobs = usize::from(session.app.layout.size.0 >= 66) * 27;
         (line[..at].chars().count() == knobs).then(|| line[at..].to_string())
     };
     text.lines().find_map(chart).unwrap_or_else(|| panic!("no {symbol} in {text}"))

@@ -98,11 +98,11 @@ fn a_click_on_another_chart_makes_it_the_large_one() {
     let mut session = open(80, 24);
     let gaps = find(&session, "2 gaps");
     mouse(&mut session, LEFT, gaps);
-    assert_eq!(session.app.view.word(), "gaps");
+    assert_eq!(session.app.view().word(), "gaps");
     session.press("");
     let response = find(&session, "1 response");
     mouse(&mut session, LEFT, response);
-    assert_eq!(session.app.view.word(), "response");
+    assert_eq!(session.app.view().word(), "response");
 }
 
 #[test]
@@ -113,7 +113,7 @@ fn a_click_reads_the_large_chart_and_the_pointer_moves_the_cursor() {
     // Nothing is drawn while the pointer only passes.
     assert_eq!(mouse(&mut session, Moved, (first + 5, row)), Heard::Nothing);
     mouse(&mut session, LEFT, (first, row));
-    assert!(session.app.reading);
+    assert!(session.app.reading.on);
     let (from, to) = session.app.page();
     let cell = (to - from) / f64::from(last - first + 1);
     assert!((session.app.cursor_time().unwrap() - (from + 0.5 * cell)).abs() < 1e-12);
@@ -122,9 +122,9 @@ fn a_click_reads_the_large_chart_and_the_pointer_moves_the_cursor() {
     assert_eq!(mouse(&mut session, Moved, (last, row)), Heard::Nothing);
     // Outside the chart the cursor stays.
     assert_eq!(mouse(&mut session, Moved, (3, 8)), Heard::Nothing);
-    assert!(session.app.cursor.is_some());
+    assert!(session.app.reading.cursor.is_some());
     mouse(&mut session, Down(MouseButton::Right), (last, row));
-    assert!(session.app.cursor.is_none() && !session.app.reading);
+    assert!(session.app.reading.cursor.is_none() && !session.app.reading.on);
 }
 
 #[test]
@@ -132,13 +132,13 @@ fn the_wheel_zooms_time_and_nothing_else() {
     let mut session = open(80, 24);
     let (left, row) = find(&session, "0┤");
     mouse(&mut session, ScrollUp, (left + 9, row));
-    assert_eq!(session.app.zoom, 1);
+    assert_eq!(session.app.play.zoom, 1);
     mouse(&mut session, ScrollDown, (left + 9, row));
     mouse(&mut session, ScrollDown, (left + 9, row));
-    assert_eq!(session.app.zoom, -1);
+    assert_eq!(session.app.play.zoom, -1);
     session.press("3f");
     assert_eq!(mouse(&mut session, ScrollUp, (40, 12)), Heard::Nothing);
-    assert_eq!(session.app.zoom, -1);
+    assert_eq!(session.app.play.zoom, -1);
 }
 
 #[test]
@@ -165,7 +165,7 @@ fn the_mouse_can_be_turned_off() {
     session.press("M");
     assert!(session.text().contains("mouse off"), "{}", session.text());
     assert_eq!(mouse(&mut session, LEFT, damping), Heard::Nothing);
-    assert_eq!(session.app.knob, 0);
+    assert_eq!(session.app.knobs.selected, 0);
     session.press("M");
     assert_eq!(mouse(&mut session, LEFT, damping), Heard::Acted);
 }

@@ -39,9 +39,13 @@ fn a_projector_shows_values_being_typed_refusals_lists_and_ends_with_escape() {
     session.press("?");
     assert!(session.text().contains("Type to find"), "{}", session.text());
     session.press("\u{1b}");
-    assert!(session.app.presenting);
+    assert!(session.app.appearance.wide);
     session.press("\u{1b}");
-    assert!(!session.app.presenting && session.text().contains("2 gaps"), "{}", session.text());
+    assert!(
+        !session.app.appearance.wide && session.text().contains("2 gaps"),
+        "{}",
+        session.text()
+    );
 }
 
 #[test]
@@ -54,17 +58,17 @@ fn a_lesson_has_the_usual_screen_however_it_begins() {
             session.press(keys);
         } else {
             session.press("P");
-            assert!(session.app.presenting && session.app.appearance.wide);
+            assert!(session.app.appearance.wide);
             session.press(keys);
         }
-        assert!(session.app.lesson.is_some(), "{keys:?}");
-        assert!(!session.app.presenting && !session.app.appearance.wide, "{keys:?}");
+        assert!(session.app.lessons.progress.is_some(), "{keys:?}");
+        assert!(!session.app.appearance.wide, "{keys:?}");
         assert!(session.text().contains("Lesson "), "{}", session.text());
     }
     // The list alone changes nothing.
     let mut session = Session::open(120, 40, scene(), Theme::Dark, Marker::Braille);
     session.press("Pg\u{1b}");
-    assert!(session.app.presenting);
+    assert!(session.app.appearance.wide);
 }
 
 /// Rows of the screen that a chart's upright axis goes through, by its column.

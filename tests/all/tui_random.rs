@@ -55,7 +55,7 @@ impl Engine for Late {
 
 /// The results on the screen, as the generations of the knobs they belong to.
 fn results(app: &App) -> Vec<u64> {
-    let Results { full_run, reference, comparison, .. } = &app.latest.results;
+    let Results { full_run, reference, comparison, .. } = &app.run.latest.results;
     let full_run = match full_run {
         Some(FullRunState::Done(run)) => Some(run),
         _ => None,
@@ -103,7 +103,7 @@ fn look(
 #[test]
 fn a_live_knob_drops_every_result_of_the_knobs_before() {
     let mut app = App::new(scene().checked().unwrap(), Theme::Dark, Marker::Braille);
-    (app.live, app.compare) = (true, true);
+    (app.knobs.live, app.run.compare) = (true, true);
     let mut terminal = Terminal::new(TestBackend::new(120, 40)).unwrap();
     let mut engine = Late::new();
     let mut look = |app: &mut App, key| look(&mut terminal, app, &mut engine, key);
@@ -118,7 +118,7 @@ fn a_live_knob_drops_every_result_of_the_knobs_before() {
 #[test]
 fn a_pulse_drops_every_result_of_the_motion_before() {
     let mut app = App::new(scene().checked().unwrap(), Theme::Dark, Marker::Braille);
-    app.compare = true;
+    app.run.compare = true;
     let mut terminal = Terminal::new(TestBackend::new(120, 40)).unwrap();
     let mut engine = Late::new();
     let mut look = |app: &mut App, key| look(&mut terminal, app, &mut engine, key);
@@ -139,7 +139,7 @@ fn a_snapshot_of_a_run_before_a_restart_changes_nothing() {
     let old = engine.take().unwrap();
     app.restart();
     assert!(!app.apply_snapshot(old));
-    assert!(app.latest.moment.is_none() && results(&app).is_empty());
+    assert!(app.run.latest.moment.is_none() && results(&app).is_empty());
     engine.order(&app.order());
     assert!(app.apply_snapshot(engine.take().unwrap()) && !results(&app).is_empty());
 }
@@ -173,10 +173,10 @@ proptest! {
             (0u16..140, 0u16..50, proptest::collection::vec(any_key(), 0..12)), 1..8),
     ) {
         let mut app = App::new(scene().checked().unwrap(), Theme::Dark, Marker::Braille);
-        (app.live, app.compare) = (live, live);
+        (app.knobs.live, app.run.compare) = (live, live);
         // Keys at random save and export, too.
         let files = tempfile::tempdir().unwrap();
-        app.directory = files.path().to_path_buf();
+        app.files.directory = files.path().to_path_buf();
         let mut terminal = Terminal::new(TestBackend::new(80, 24)).unwrap();
         let mut engine = Late::new();
         for (width, height, keys) in rounds {

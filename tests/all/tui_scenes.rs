@@ -18,7 +18,7 @@ fn folder() -> tempfile::TempDir {
 
 fn open(width: u16, height: u16, folder: &tempfile::TempDir, marker: Marker) -> Session {
     let mut session = Session::open(width, height, scene(), Theme::Mono, marker);
-    session.app.directory = folder.path().to_path_buf();
+    session.app.files.directory = folder.path().to_path_buf();
     session.press("o");
     session
 }
@@ -82,12 +82,12 @@ fn a_scene_is_opened_with_its_charts_and_undo_brings_the_former_back() {
     session.press("o");
     assert!(session.text().contains("mine.toml (open)"), "{}", session.text());
     session.press("\u{1b}uuu");
-    let same = |app: &App| app.scene == before.scene && app.opened == before.opened;
-    assert!(same(&session.app) && session.app.source == before.source);
+    let same = |app: &App| app.scene == before.scene && app.files.opened == before.files.opened;
+    assert!(same(&session.app) && session.app.files.source == before.files.source);
     // A built-in one begins with its own charts.
     let rocking = BUILTIN.iter().position(|scene| scene.name == "rocking").unwrap();
     session.press(&format!("o{}\n", "j".repeat(rocking)));
-    assert_eq!(session.app.view.word(), Scene::builtin("rocking").unwrap().view.charts[0]);
+    assert_eq!(session.app.view().word(), Scene::builtin("rocking").unwrap().view.charts[0]);
     assert!(session.app.command().starts_with("rubscope run rocking"), "{}", session.app.command());
 }
 
@@ -95,12 +95,12 @@ fn a_scene_is_opened_with_its_charts_and_undo_brings_the_former_back() {
 fn a_scene_opened_in_a_lesson_ends_the_lesson() {
     let folder = folder();
     let mut session = Session::open(120, 40, scene(), Theme::Mono, Marker::Braille);
-    session.app.directory = folder.path().to_path_buf();
+    session.app.files.directory = folder.path().to_path_buf();
     session.press("g\no");
     session.press("j\n");
-    assert!(session.app.lesson.is_none());
+    assert!(session.app.lessons.progress.is_none());
     session.press("u");
-    assert!(session.app.lesson.is_some() && session.app.is_asked());
+    assert!(session.app.lessons.progress.is_some() && session.app.is_asked());
 }
 
 /// What is in the file after the scene is saved.
@@ -116,7 +116,7 @@ fn a_saved_scene_keeps_no_note_that_its_values_made_false() {
     let folder = tempfile::tempdir().unwrap();
     let paper = Scene::builtin("paper-nd3").unwrap();
     let mut session = Session::open(80, 24, paper.clone(), Theme::Mono, Marker::Braille);
-    session.app.source = Some(Source { name: "paper-nd3".into(), scene: paper.clone() });
+    session.app.files.source = Some(Source { name: "paper-nd3".into(), scene: paper.clone() });
     assert_eq!(saved(&mut session, &folder), paper);
     session.press("\n430\n");
     let changed = saved(&mut session, &folder);
@@ -129,7 +129,7 @@ fn a_saved_scene_keeps_no_note_that_its_values_made_false() {
     let mut named = paper.clone();
     (named.title, named.operation.speed_rad_s) = ("mine".into(), 430.0);
     let mut session = Session::open(80, 24, named, Theme::Mono, Marker::Braille);
-    session.app.source = Some(Source { name: "paper-nd3".into(), scene: paper });
+    session.app.files.source = Some(Source { name: "paper-nd3".into(), scene: paper });
     let kept = saved(&mut session, &folder);
     assert_eq!(kept.title, "mine");
     assert!(kept.note.starts_with("changed from paper-nd3"), "{}", kept.note);

@@ -66,7 +66,7 @@ fn the_reading_cursor_reads_the_run_and_not_a_bin() {
     let gaps = session.app.shown().unwrap().gaps.clone();
     assert_eq!(gaps, motion.blade_gaps());
     session.press_each("\u{1b}");
-    assert!(session.app.cursor.is_none() || !session.app.reading);
+    assert!(session.app.reading.cursor.is_none() || !session.app.reading.on);
 }
 
 #[test]
@@ -101,7 +101,7 @@ fn the_motion_stops_at_the_end_of_the_run_and_goes_on_when_asked() {
     let mut scene = scene("rocking");
     scene.solver.end_s = 5e-3;
     let mut session = open(scene, 5e-4);
-    while session.app.playing {
+    while session.app.play.playing {
         session.press_each("");
     }
     assert_eq!(session.app.now(), 5e-3);
@@ -113,7 +113,7 @@ fn the_motion_stops_at_the_end_of_the_run_and_goes_on_when_asked() {
     assert!(row(&session, 0).contains("| AT 5 ms "));
     session.press_each(" ");
     assert!(
-        session.app.playing && row(&session, 0).contains("| AT 10 ms "),
+        session.app.play.playing && row(&session, 0).contains("| AT 10 ms "),
         "{}",
         row(&session, 0)
     );
@@ -134,7 +134,7 @@ fn a_sweep_goes_through_the_verdicts_by_itself_and_is_one_turn_to_undo() {
     );
     session.press_each("460\n");
     for _ in 0..400 {
-        if session.app.sweep.is_none() {
+        if session.app.knobs.sweep.is_none() {
             break;
         }
         session.press_each("");
@@ -148,7 +148,7 @@ fn a_sweep_goes_through_the_verdicts_by_itself_and_is_one_turn_to_undo() {
     // Any key stops one that is under way.
     session.press_each("S460\n");
     session.press_each(" ");
-    assert!(session.app.sweep.is_none() && session.app.scene.operation.speed_rad_s < 460.0);
+    assert!(session.app.knobs.sweep.is_none() && session.app.scene.operation.speed_rad_s < 460.0);
 }
 
 #[test]
@@ -173,11 +173,11 @@ fn the_reading_cursor_reads_every_chart() {
     session.press_each("6f i");
     let text = session.text();
     assert!(text.contains("rad/s: u_c ") && text.contains(", u_s "), "{text}");
-    let before = session.app.cursor.unwrap();
+    let before = session.app.reading.cursor.unwrap();
     session.press_each("lllll");
-    assert!(session.app.cursor.unwrap().across > before.across);
+    assert!(session.app.reading.cursor.unwrap().across > before.across);
     session.press_each("4");
-    assert!(session.app.cursor.is_none());
+    assert!(session.app.reading.cursor.is_none());
     session.press_each("i");
     assert!(session.text().contains(" to blade "), "{}", session.text());
     // View 2: the gap of one blade, as the motion has it.
@@ -192,11 +192,11 @@ fn the_reading_cursor_reads_every_chart() {
 fn a_lesson_slows_down_at_changes_and_gives_the_pace_back() {
     let mut session = open(scene("rocking"), 1e-3);
     session.press_each("z");
-    assert!(!session.app.slow_at_events);
+    assert!(!session.app.play.slow_at_events);
     session.press_each("g\n");
-    assert!(session.app.slow_at_events);
+    assert!(session.app.play.slow_at_events);
     session.press_each("G");
-    assert!(!session.app.slow_at_events && session.app.lesson.is_none());
+    assert!(!session.app.play.slow_at_events && session.app.lessons.progress.is_none());
 }
 
 #[test]
@@ -222,7 +222,7 @@ fn the_copied_command_repeats_live_changes_at_their_instants() {
         scene.solver.end_s = 0.02;
         let mut session = open(scene, 1e-4);
         let opened = Scene::builtin(name).unwrap();
-        session.app.source = Some(Source { name: name.into(), scene: opened });
+        session.app.files.source = Some(Source { name: name.into(), scene: opened });
         session.press_each(" x");
         session.press_each("\n430\n");
         session.press_each(" ");
@@ -253,9 +253,9 @@ fn the_copied_command_repeats_live_changes_at_their_instants() {
 #[test]
 fn another_scene_has_scales_of_its_own() {
     let mut session = open(scene("half-n"), 1e-3);
-    let before = session.app.ranges.casing;
+    let before = session.app.run.ranges.casing;
     session.press_each(":paper-nd3\n");
-    let after = session.app.ranges.casing;
+    let after = session.app.run.ranges.casing;
     assert!(before.high > 1e-3 && after.high < 3e-4, "{before:?} {after:?}");
 }
 
@@ -264,16 +264,16 @@ fn a_knob_goes_on_playing_after_the_end_of_a_run() {
     let mut scene = scene("rocking");
     scene.solver.end_s = 5e-3;
     let mut session = open(scene, 5e-4);
-    while session.app.playing {
+    while session.app.play.playing {
         session.press_each("");
     }
     assert!(row(&session, 39).contains("Space goes on"));
     session.press_each("l");
-    assert!(session.app.playing && session.app.now() > 0.0);
+    assert!(session.app.play.playing && session.app.now() > 0.0);
     // But not after a pause by hand.
     session.press_each(" l");
     assert!(
-        !session.app.playing && row(&session, 39).contains("Space go on"),
+        !session.app.play.playing && row(&session, 39).contains("Space go on"),
         "{}",
         row(&session, 39)
     );

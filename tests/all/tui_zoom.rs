@@ -19,7 +19,7 @@ type Sample = (f64, f64, bool);
 
 /// Samples of a run from the start to `to`; many between `from` and there.
 fn samples(app: &App, (from, to): (f64, f64)) -> Vec<Sample> {
-    let mut motion = Motion::new(&app.started);
+    let mut motion = Motion::new(&app.run.started);
     let mut out: Vec<Sample> = Vec::new();
     let mut impacts = 0;
     let mut look = |motion: &Motion| {
@@ -186,7 +186,7 @@ fn the_gap_of_a_blade_at_an_instant_is_read_in_every_chart() {
     let page = session.app.page_s();
     assert!((session.app.cursor_time().unwrap() - 3e-4 - 0.01 * page).abs() < 1e-12);
     session.press_each("\u{1b}2");
-    assert_eq!((session.app.cursor_time(), session.app.cursor), (None, None));
+    assert_eq!((session.app.cursor_time(), session.app.reading.cursor), (None, None));
 }
 
 #[test]
@@ -197,7 +197,7 @@ fn the_end_of_the_run_and_any_instant_are_one_command_away() {
         session.press_each("E");
         let end = session.app.scene.solver.end_s;
         let step = session.app.scene.solver.step_s;
-        assert!((session.app.now() - end).abs() <= step && !session.app.playing, "{name}");
+        assert!((session.app.now() - end).abs() <= step && !session.app.play.playing, "{name}");
         // The whole page of the end is there, although it was not played.
         check(&session.app);
         session.press_each(" ");
@@ -236,7 +236,7 @@ fn the_coincidence_begins_where_its_waves_are_and_its_lesson_shows_them_grow() {
     session.press_each("agb");
     let app = &session.app;
     let (past, future) = app.past_and_future(app.record());
-    assert!(app.view.word() == "response" && app.page() == (0.0, 5.0) && app.now() >= 2.4);
+    assert!(app.view().word() == "response" && app.page() == (0.0, 5.0) && app.now() >= 2.4);
     // The growth of two seconds, and what is to come.
     let tenth = past.len() / 10;
     assert!(swing(&past[tenth..2 * tenth]) < 0.05 * swing(past) && !future.is_empty());

@@ -18,13 +18,13 @@ impl App {
             name: DEFAULT.into(),
             scene: Scene::builtin(DEFAULT).unwrap_or_else(|_| Scene::base()),
         };
-        let Source { name, scene: base } = self.source.clone().unwrap_or_else(default);
+        let Source { name, scene: base } = self.files.source().cloned().unwrap_or_else(default);
         // Live changes come at their instants, after which the forecast is as long
         // as the scene says.
-        let mut scene = self.started.clone().into_scene();
+        let mut scene = self.run.scene().clone().into_scene();
         scene.solver.end_s = self.end_s();
         let start = CommandLine::from_base("run", &name, &base, &scene);
-        let live = &self.latest.results.applied;
+        let live = &self.results().applied;
         let at =
             |line: CommandLine, (t, what): &(f64, _)| line.option("--at", format!("{t:?}:{what}"));
         live.iter().fold(start, at)

@@ -1,9 +1,74 @@
 //! Writing files: the scene as TOML, the data of the large chart as CSV, the
 //! screen as SVG. No file is replaced without a question.
 
-use super::{App, Effect, InputMode, Purpose, Writing};
+use std::path::PathBuf;
+
+use super::{App, Effect, InputMode, Purpose, Source};
+use crate::scene::CheckedScene;
 use crate::tui::export;
 use crate::tui::files::{FileJob, FileResult};
+use crate::tui::scenes::FoundScenes;
+
+/// A file that is being written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Writing {
+    /// Its name, as typed.
+    pub name: String,
+    purpose: Purpose,
+    /// Whether no key was pressed since.
+    undisturbed: bool,
+}
+
+/// The files, and the open scene.
+#[derive(Clone, Debug)]
+pub struct Files {
+    /// Where files are written; the working directory unless set.
+    pub directory: PathBuf,
+    /// The scene as it was opened; `Backspace` restores its values.
+    pub opened: CheckedScene,
+    /// Where the scene is from, for the command line that repeats the run.
+    pub source: Option<Source>,
+    /// The file that is being written.
+    pub writing: Option<Writing>,
+    /// The scenes of the directory, as they were last read.
+    pub found: FoundScenes,
+}
+
+impl Files {
+    /// With this scene open.
+    pub(super) fn of(opened: CheckedScene) -> Self {
+        let (directory, found) = (PathBuf::new(), FoundScenes::default());
+        Self { directory, opened, source: None, writing: None, found }
+    }
+
+    /// The scene as it was opened.
+    pub(super) fn opened(&self) -> &CheckedScene {
+        &self.opened
+    }
+
+    /// Where it is from.
+    pub(super) fn source(&self) -> Option<&Source> {
+        self.source.as_ref()
+    }
+
+    /// Makes another scene the open one; without a source that stays.
+    pub(super) fn open(&mut self, scene: CheckedScene, source: Option<Source>) {
+        self.opened = scene;
+        self.source = source.or(self.source.take());
+    }
+
+    /// The open scene as it was.
+    pub(super) fn reopen(&mut self, scene: CheckedScene, source: Option<Source>) {
+        (self.opened, self.source) = (scene, source);
+    }
+
+    /// A key was pressed while a file is being written.
+    pub(super) fn disturb(&mut self) {
+        if let Some(writing) = &mut self.writing {
+            writing.undisturbed = false;
+        }
+    }
+}
 
 impl App {
     /// Has a file written; where one exists, the result is a question.
@@ -13,21 +78,22 @@ impl App {
             self.status = Some("a file name is needed; Esc leaves".into());
             return Effect::None;
         }
-        self.mode = InputMode::Main;
-        if let Some(writing) = &self.writing {
+        self.dialogue.close();
+        if let Some(writing) = &self.files.writing {
             self.status = Some(format!("{name} not written: still writing {}", writing.name));
             return Effect::None;
         }
         let content = match purpose {
             Purpose::Save => Ok(self.scene_to_save().to_toml()),
             Purpose::Export if name.ends_with(".svg") => Ok(export::svg(self)),
-            Purpose::Export => self.view.panel().csv(self),
+            Purpose::Export => self.panel().csv(self),
         };
         match content {
             Ok(content) => {
                 self.status = Some(format!("writing {name} ..."));
-                self.writing = Some(Writing { name: name.into(), purpose, undisturbed: true });
-                Effect::Write(FileJob { path: self.directory.join(name), content, replace })
+                self.files.writing =
+                    Some(Writing { name: name.into(), purpose, undisturbed: true });
+                Effect::Write(FileJob { path: self.files.directory.join(name), content, replace })
             }
             Err(reason) => {
                 self.status = Some(format!("nothing exported: {reason}"));
@@ -38,15 +104,14 @@ impl App {
 
     /// Tells how the writing of the file went; whether it is written.
     pub fn written(&mut self, result: FileResult) -> bool {
-        let Some(Writing { name, purpose, undisturbed }) = self.writing.take() else {
+        let Some(Writing { name, purpose, undisturbed }) = self.files.writing.take() else {
             return true;
         };
         self.status = match &result {
             FileResult::Written => Some(format!("written: {name}")),
             FileResult::Failed(reason) => Some(format!("cannot write {name}: {reason}")),
             FileResult::Exists if undisturbed => {
-                self.mode = InputMode::Replacing(purpose, name);
-                self.asked = false;
+                self.dialogue.ask(InputMode::Replacing(purpose, name));
                 None
             }
             // A key that was meant for something else must not be the answer.
@@ -58,15 +123,8 @@ impl App {
     /// The screen shows this state: from now on a key can be the answer to its
     /// question, and a sweep can go on.
     pub fn drawn(&mut self) {
-        self.asked = true;
+        self.dialogue.drawn();
         self.sweep_on();
-    }
-
-    /// A key was pressed while a file is being written.
-    pub(super) fn disturb(&mut self) {
-        if let Some(writing) = &mut self.writing {
-            writing.undisturbed = false;
-        }
     }
 }
 
@@ -96,7 +154,7 @@ mod tests {
         assert_eq!(press(&mut app, KeyCode::Enter), Effect::None);
         let refused = "scene.toml not written: still writing scene.toml";
         assert_eq!(app.status.as_deref(), Some(refused));
-        assert!(app.written(FileResult::Written) && app.writing.is_none());
+        assert!(app.written(FileResult::Written) && app.files.writing.is_none());
         assert_eq!(app.status.as_deref(), Some("written: scene.toml"));
     }
 
@@ -104,7 +162,7 @@ mod tests {
     fn a_name_without_an_end_says_where_its_end_is() {
         let mut app = app();
         press(&mut app, KeyCode::Char('s'));
-        let InputMode::Naming(_, name) = &app.mode else { panic!() };
+        let InputMode::Naming(_, name) = &app.dialogue.mode else { panic!() };
         for _ in name.len()..200 {
             press(&mut app, KeyCode::Char('x'));
             assert_eq!(app.status, None);
@@ -121,17 +179,17 @@ mod tests {
         press(&mut app, KeyCode::Char('s'));
         press(&mut app, KeyCode::Enter);
         assert!(!app.written(FileResult::Exists));
-        assert!(matches!(app.mode, InputMode::Replacing(..)));
+        assert!(matches!(app.dialogue.mode, InputMode::Replacing(..)));
         // Nor one that came before the screen showed it.
         assert_eq!(press(&mut app, KeyCode::Char('y')), Effect::None);
-        assert!(matches!(app.mode, InputMode::Replacing(..)));
+        assert!(matches!(app.dialogue.mode, InputMode::Replacing(..)));
         app.drawn();
         let Effect::Write(job) = press(&mut app, KeyCode::Char('y')) else { panic!() };
         assert!(job.replace);
         // Here a key comes before the answer: `y` copies, and is no answer.
         press(&mut app, KeyCode::Char('j'));
         assert!(!app.written(FileResult::Exists));
-        assert_eq!(app.mode, InputMode::Main);
+        assert_eq!(app.dialogue.mode, InputMode::Main);
         assert!(matches!(press(&mut app, KeyCode::Char('y')), Effect::Copy(_)));
     }
 }

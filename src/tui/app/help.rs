@@ -25,13 +25,13 @@ impl App {
             Action::PageForward => from.saturating_add(page),
             Action::PageBack => from.saturating_sub(page),
             Action::Close if !help.filter.is_empty() => {
-                self.mode = InputMode::Help(HelpState::default());
+                self.dialogue.open(InputMode::Help(HelpState::default()));
                 return true;
             }
             _ => return false,
         };
         let scroll = scroll.min(panels::help_bottom(self, help));
-        self.mode = InputMode::Help(HelpState { scroll, ..help.clone() });
+        self.dialogue.open(InputMode::Help(HelpState { scroll, ..help.clone() }));
         true
     }
 }

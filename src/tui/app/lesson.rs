@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use crossterm::event::KeyCode;
 
-use super::past::Past;
+use super::knobs::Past;
 use super::{App, InputMode, Source};
 use crate::scene::{Scene, Value};
 use crate::tui::bindings::Chord;
 use crate::tui::knobs::{knob_of, place_of};
-use crate::tui::lessons::{self, Condition, LETTERS, Lesson, LessonStep};
+use crate::tui::lessons::{self, Condition, LETTERS, Lesson, LessonStep, LessonsDone};
 use crate::tui::panels;
 use crate::tui::views::ViewId;
 
@@ -50,10 +50,36 @@ impl LessonProgress {
     }
 }
 
+/// The lessons.
+#[derive(Clone, Debug, Default)]
+pub struct Lessons {
+    /// The one under way.
+    pub progress: Option<LessonProgress>,
+    /// The steps that were done.
+    pub done: LessonsDone,
+}
+
+impl Lessons {
+    /// Whether one is under way.
+    pub(super) fn is_open(&self) -> bool {
+        self.progress.is_some()
+    }
+
+    /// The one under way.
+    pub(super) fn progress(&self) -> Option<&LessonProgress> {
+        self.progress.as_ref()
+    }
+
+    /// The lesson under way is as it was.
+    pub(super) fn set_progress(&mut self, progress: Option<LessonProgress>) {
+        self.progress = progress;
+    }
+}
+
 impl App {
     /// The current lesson.
     pub fn current_lesson(&self) -> Option<(&'static Lesson, &LessonProgress)> {
-        let progress = self.lesson.as_ref()?;
+        let progress = self.lessons.progress.as_ref()?;
         Some((lessons::all().get(progress.lesson)?, progress))
     }
 
@@ -76,7 +102,7 @@ impl App {
         let answered = |(step, now): (&LessonStep, StepProgress)| {
             step.question.is_some() && now.answer.is_some() && step.task.is_none()
         };
-        self.mode == InputMode::Main
+        self.dialogue.is_closed()
             && !chord.ctrl
             && letters()
             && self.lesson_step().is_some_and(answered)
@@ -85,15 +111,15 @@ impl App {
     /// The key of the lessons: the list, the next page, or the next step.
     pub(super) fn lesson_key(&mut self) {
         let Some((lesson, progress)) = self.current_lesson() else {
-            let done = &self.lessons_done;
+            let done = &self.lessons.done;
             let next = lessons::all().iter().position(|lesson| done.next(lesson).is_some());
-            self.mode = InputMode::Lessons(next.unwrap_or(0));
+            self.dialogue.open(InputMode::Lessons(next.unwrap_or(0)));
             return;
         };
         let (number, step) = (progress.lesson, progress.step);
         if !progress.read && panels::lesson_fills(self) {
             let pages = panels::lesson_pages(self);
-            if let Some(progress) = &mut self.lesson {
+            if let Some(progress) = &mut self.lessons.progress {
                 progress.page += 1;
                 progress.read = progress.page >= pages;
             }
@@ -109,7 +135,7 @@ impl App {
 
     /// The step before.
     pub(super) fn lesson_back(&mut self) {
-        match self.lesson.as_ref().map(|progress| (progress.lesson, progress.step)) {
+        match self.lessons.progress.as_ref().map(|progress| (progress.lesson, progress.step)) {
             None => self.status = Some("no lesson is open".into()),
             Some((_, 0)) => self.status = Some("this is the first step".into()),
             Some((lesson, step)) => self.begin_step(lesson, step - 1),
@@ -118,26 +144,27 @@ impl App {
 
     /// Starts a lesson where it was left, with a scene of its own.
     pub fn begin_lesson(&mut self, place: usize) {
-        self.mode = InputMode::Main;
+        self.dialogue.close();
         if let Some(lesson) = lessons::all().get(place) {
-            let step = self.lessons_done.next(lesson).unwrap_or(0);
+            let step = self.lessons.done.next(lesson).unwrap_or(0);
             self.begin_step(place, step);
         }
     }
 
     /// Gives the user's own scene back, as it was before the lesson.
     pub(super) fn leave_lesson(&mut self) {
-        if let Some(own) = self.lesson.as_ref().map(|progress| Arc::clone(&progress.own)) {
+        if let Some(own) = self.lessons.progress.as_ref().map(|progress| Arc::clone(&progress.own))
+        {
             self.give_back(Past::clone(&own));
         }
     }
 
     /// Forgets the lesson, but not what it left on the screen.
     pub(super) fn end_lesson(&mut self) {
-        if let Some(progress) = self.lesson.take() {
-            self.live = progress.own.live;
-            self.slow_at_events = progress.own.slow_at_events;
-            self.set_compare(progress.own.compare);
+        if let Some(progress) = self.lessons.progress.take() {
+            self.knobs.set_live(progress.own.live);
+            self.play.slow_as(progress.own.tempo);
+            self.run.set_compare(progress.own.compare);
         }
     }
 
@@ -147,22 +174,22 @@ impl App {
         let past = self.past();
         // A screen for a projector has no room for a lesson.
         self.present(false);
-        let begun = self.lesson.clone().filter(|progress| progress.lesson == place);
+        let begun = self.lessons.progress.clone().filter(|progress| progress.lesson == place);
         let begun = begun.unwrap_or_else(|| LessonProgress {
             lesson: place,
             step,
             steps: vec![StepProgress::default(); lesson.steps.len()],
             page: 0,
             read: false,
-            own: match &self.lesson {
+            own: match &self.lessons.progress {
                 Some(other) => Arc::clone(&other.own),
                 None => Arc::new(past.clone()),
             },
         });
-        self.lesson = Some(LessonProgress { step, page: 0, read: false, ..begun });
+        self.lessons.progress = Some(LessonProgress { step, page: 0, read: false, ..begun });
         let knob = lesson.steps.get(step).and_then(|found| found.knob.as_deref());
         if let Some(place) = knob.and_then(place_of) {
-            self.knob = place;
+            self.knobs.select(place);
         }
         self.show_step(past);
     }
@@ -172,15 +199,19 @@ impl App {
         if !self.is_asked() {
             return;
         }
-        if self.lesson.as_ref().is_some_and(|progress| !progress.read)
+        if self.lessons.progress.as_ref().is_some_and(|progress| !progress.read)
             && panels::lesson_fills(self)
-            && self.lesson.as_ref().is_some_and(|now| now.page + 1 < panels::lesson_pages(self))
+            && self
+                .lessons
+                .progress
+                .as_ref()
+                .is_some_and(|now| now.page + 1 < panels::lesson_pages(self))
         {
             self.status = Some("the question is on the next page: g".into());
             return;
         }
         let past = self.past();
-        if let Some(progress) = &mut self.lesson {
+        if let Some(progress) = &mut self.lessons.progress {
             (progress.page, progress.read) = (0, false);
             if let Some(now) = progress.now_mut() {
                 now.answer = Some(place.min(LETTERS.len() - 1));
@@ -196,25 +227,21 @@ impl App {
         let answered = !self.is_asked();
         match lesson.scene_at(progress.step, answered) {
             Ok(scene) => {
-                self.remember(past);
-                self.opened = scene.clone();
-                if let Ok(read) = Scene::builtin(&lesson.scene) {
-                    self.source = Some(Source { name: lesson.scene.clone(), scene: read });
-                }
+                self.knobs.remember(past);
+                let name = lesson.scene.clone();
+                let source = Scene::builtin(&name).ok().map(|scene| Source { name, scene });
+                self.files.open(scene.clone(), source);
                 if scene != self.scene {
                     self.set_scene(scene, false);
                 }
             }
             Err(error) => self.status = Some(error.to_string()),
         }
-        self.refusal = None;
-        self.live = step.live;
-        // What happens in a few microseconds can be seen in a lesson.
-        self.slow_at_events = true;
-        self.set_compare(step.compare && answered);
-        if lesson.steps.iter().any(|step| step.page_s.is_some()) {
-            self.zoom = step.page_s.map_or(0, |length| self.zoom_for(length));
-        }
+        self.knobs.forget_refusal();
+        self.knobs.set_live(step.live);
+        self.run.set_compare(step.compare && answered);
+        let own_pages = lesson.steps.iter().any(|step| step.page_s.is_some());
+        self.play.show_closely(own_pages.then_some(step.page_s));
         let then = step.then_view.as_ref().filter(|_| answered);
         let view = then.or(step.view.as_ref()).and_then(|word| ViewId::from_word(word));
         if let Some(view) = view {
@@ -224,8 +251,8 @@ impl App {
         // to compute is not needed.
         let hidden = step.then_view.as_deref().filter(|_| !answered);
         let hidden = hidden.and_then(ViewId::from_word);
-        self.companions.sort_by_key(|view| match view {
-            view if Some(*view) == hidden => 2,
+        self.layout.order_beside(|view| match view {
+            view if Some(view) == hidden => 2,
             ViewId::Map | ViewId::Precision | ViewId::Margins => 1,
             _ => 0,
         });
@@ -241,12 +268,12 @@ impl App {
         if !done {
             return;
         }
-        if let Some(now) = self.lesson.as_mut().and_then(LessonProgress::now_mut) {
+        if let Some(now) = self.lessons.progress.as_mut().and_then(LessonProgress::now_mut) {
             now.done = true;
         }
         if let Some((lesson, progress)) = self.current_lesson() {
             let step = progress.step;
-            self.lessons_done.add(lesson, step);
+            self.lessons.done.add(lesson, step);
         }
     }
 
@@ -257,8 +284,8 @@ impl App {
                 let now = self.full_run().map(|run| run.verdict);
                 now.is_some() && now == word.parse().ok()
             }
-            Condition::View(word) => ViewId::from_word(word) == Some(self.view),
-            Condition::Compare(wanted) => self.compare == *wanted,
+            Condition::View(word) => ViewId::from_word(word) == Some(self.view()),
+            Condition::Compare(wanted) => self.run.is_compared() == *wanted,
             Condition::Above(path, limit) => number(path).is_some_and(|x| x > *limit),
             Condition::Below(path, limit) => number(path).is_some_and(|x| x < *limit),
             Condition::Limit(name, least) => self.margins().is_some_and(|(live, old)| {

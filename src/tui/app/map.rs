@@ -1,10 +1,10 @@
 //! The map from the keyboard: its law, its axes, the cell under the cursor and
 //! the run that this opens.
 
-use super::{App, InputMode};
+use super::App;
 use crate::scene::{CheckedScene, ContactLaw};
 use crate::study::MapPlan;
-use crate::tui::app::cursor::cell_of;
+use crate::tui::app::cell_of;
 use crate::tui::knobs::{Knob, knob_of};
 use crate::tui::views::ViewId;
 use crate::tui::views::map::{MapAxis, here, numeric, value_text};
@@ -14,7 +14,7 @@ impl App {
     /// cursor at once.
     pub(super) fn walk(&mut self, view: ViewId) {
         self.show(view);
-        if view == ViewId::Map && self.mode == InputMode::Main && !self.reading {
+        if view == ViewId::Map && self.dialogue.is_closed() && !self.reading.is_on() {
             self.toggle_reading();
         }
     }
@@ -29,13 +29,13 @@ impl App {
 
     /// The plan of the map on the screen: the last one, until a new one can be seen.
     pub fn shown_plan(&self) -> Option<MapPlan> {
-        let shown = self.latest.results.map.as_ref().map(|live| live.map.plan.clone());
+        let shown = self.results().found.map.as_ref().map(|live| live.map.plan.clone());
         shown.or_else(|| self.map_plan().ok())
     }
 
     /// Column and row of the cell under the cursor.
     pub fn map_cell(&self) -> Option<[u32; 2]> {
-        let cursor = self.cursor.filter(|_| self.view == ViewId::Map)?;
+        let cursor = self.cursor_in(ViewId::Map)?;
         let plan = self.shown_plan()?;
         Some([cell_of(cursor.across, plan.x.count), cell_of(cursor.up, plan.y.count)])
     }
@@ -56,7 +56,7 @@ impl App {
 
     /// Puts the next numeric knob on an axis.
     pub(super) fn next_map_axis(&mut self, up: bool) {
-        if self.view != ViewId::Map {
+        if !self.is_large(ViewId::Map) {
             self.status = Some("X and Y choose the axes of the map (view 5)".into());
             return;
         }
@@ -76,11 +76,11 @@ impl App {
             }
             Err(reason) => format!("no map over {}: {reason}", knob.label),
         });
-        if self.cursor.is_some()
+        if self.reading.cursor().is_some()
             && let Ok(plan) = self.map_plan()
         {
             // The map on the screen is still the one before.
-            self.cursor = Some(here(self, &plan));
+            self.reading.move_to(here(self, &plan));
         }
     }
 
@@ -95,13 +95,14 @@ impl App {
             values.join(", ")
         });
         let law = scene.solver.contact;
-        let live = std::mem::take(&mut self.live);
+        let live = self.knobs.is_live();
+        self.knobs.set_live(false);
         if scene == self.scene {
             self.restart();
         } else {
             self.turn_to(scene);
         }
-        self.live = live;
+        self.knobs.set_live(live);
         self.status = opened.map(|values| format!("opened {values}, {law}; u undoes"));
     }
 }

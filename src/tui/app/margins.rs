@@ -3,7 +3,7 @@
 use super::App;
 use crate::report::number::rounded;
 use crate::scene::Value;
-use crate::tui::app::cursor::cell_of;
+use crate::tui::app::cell_of;
 use crate::tui::knobs::{knob_of, number, place_of};
 use crate::tui::views::ViewId;
 use crate::tui::views::margins::{COLUMNS, DIGITS, LiveMargins};
@@ -11,13 +11,13 @@ use crate::tui::views::margins::{COLUMNS, DIGITS, LiveMargins};
 impl App {
     /// The margins on the screen, and whether they are of other knobs.
     pub fn margins(&self) -> Option<(&LiveMargins, bool)> {
-        let live = self.latest.results.margins.as_deref()?;
+        let live = self.results().found.margins.as_deref()?;
         Some((live, live.margins.scene != self.scene))
     }
 
     /// Column and row of the margins under the cursor; the first row is the upper one.
     pub fn margins_cell(&self) -> Option<[usize; 2]> {
-        let cursor = self.cursor.filter(|_| self.view == ViewId::Margins)?;
+        let cursor = self.cursor_in(ViewId::Margins)?;
         let rows = u32::try_from(self.margins()?.0.rows().len()).ok().filter(|rows| *rows > 0)?;
         let row = rows - 1 - cell_of(cursor.up, rows);
         Some([cell_of(cursor.across, COLUMNS), row].map(|cell| cell as usize))
@@ -26,7 +26,7 @@ impl App {
     /// Gives a knob exactly the value of a limit, and selects it to go on from there.
     pub(super) fn jump_to_limit(&mut self, path: &str, value: f64, to: &str) {
         let Some((place, knob)) = place_of(path).zip(knob_of(path)) else { return };
-        self.select_place(place);
+        self.knobs.select(place);
         if self.set(knob, Value::Real(value)) {
             let name = knob.label.split(' ').next().unwrap_or(knob.label);
             let jumped = format!("{name} {}: {to}", number(rounded(value, DIGITS), knob.unit()));

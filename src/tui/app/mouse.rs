@@ -1,6 +1,8 @@
 //! The mouse: what a click, a wheel or a drag at a place of the screen does.
 //! Nothing needs it; a key does the same.
 
+use std::cell::RefCell;
+
 use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 use ratatui::layout::Rect;
 
@@ -22,7 +24,7 @@ pub enum Heard {
 
 /// A knob whose bar is held.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Grip {
+struct Grip {
     knob: usize,
     /// The column where it was taken.
     x: u16,
@@ -33,19 +35,55 @@ pub struct Grip {
 /// Where data of the large chart is drawn, and which part of it: from where to where
 /// across, and up.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct NotedChart {
+struct NotedChart {
     area: Rect,
     parts: [(f64, f64); 2],
+}
+
+/// The mouse.
+#[derive(Clone, Debug)]
+pub struct Mouse {
+    /// Whether it acts.
+    pub on: bool,
+    /// The knob whose bar it holds.
+    grip: Option<Grip>,
+    /// Where it clicked last, if it is still there.
+    clicked: Option<(u16, u16)>,
+    /// Where the data of the large chart was drawn last, and which part of it.
+    charts: RefCell<Vec<NotedChart>>,
+}
+
+impl Default for Mouse {
+    fn default() -> Self {
+        Self { on: true, grip: None, clicked: None, charts: RefCell::default() }
+    }
+}
+
+impl Mouse {
+    /// It acts, or no longer; what to say.
+    pub(super) fn toggle(&mut self) -> String {
+        (self.on, self.grip) = (!self.on, None);
+        let how = match self.on {
+            true => "mouse on: click, drag, wheel; with Shift it selects text",
+            false => "mouse off: it selects text",
+        };
+        how.into()
+    }
+
+    /// Whether it acts.
+    pub(super) fn is_on(&self) -> bool {
+        self.on
+    }
 }
 
 impl App {
     /// Handles a mouse event.
     pub fn mouse(&mut self, event: &MouseEvent) -> Heard {
         let at = (event.column, event.row);
-        if !self.mouse {
+        if !self.mouse.on {
             return Heard::Nothing;
         }
-        let heard = match (&self.mode, event.kind) {
+        let heard = match (self.dialogue.mode(), event.kind) {
             // A typed name is finished or left by a key.
             (InputMode::Naming(..) | InputMode::Replacing(..), _) => Heard::Nothing,
             (InputMode::Main | InputMode::Typing(_), kind) => self.mouse_main(kind, event, at),
@@ -56,21 +94,10 @@ impl App {
             _ => Heard::Nothing,
         };
         if heard == Heard::Acted {
-            self.disturb();
+            self.files.disturb();
             self.check_lesson();
         }
         heard
-    }
-
-    /// The mouse asks for it, or no longer.
-    pub(super) fn toggle_mouse(&mut self) {
-        self.mouse = !self.mouse;
-        self.grip = None;
-        let how = match self.mouse {
-            true => "mouse on: click, drag, wheel; with Shift it selects text",
-            false => "mouse off: it selects text",
-        };
-        self.status = Some(how.into());
     }
 
     fn acted(&mut self, action: Action) -> Heard {
@@ -84,7 +111,7 @@ impl App {
             MouseEventKind::Down(MouseButton::Right) => self.acted(Action::Close),
             MouseEventKind::Drag(MouseButton::Left) => self.drag(at),
             MouseEventKind::Up(_) => {
-                self.grip = None;
+                self.mouse.grip = None;
                 Heard::Nothing
             }
             MouseEventKind::Moved => self.hover(at),
@@ -99,55 +126,53 @@ impl App {
 
     fn click(&mut self, at: (u16, u16)) -> Heard {
         let Some(target) = panels::target(self, at) else { return Heard::Nothing };
-        if matches!(self.mode, InputMode::Typing(_)) {
+        if matches!(self.dialogue.mode(), InputMode::Typing(_)) {
             self.act(Action::Close);
         }
         self.status = None;
-        let again = self.clicked.replace(at) == Some(at);
+        let again = self.mouse.clicked.replace(at) == Some(at);
         match target {
-            Target::Group(knob) => self.select_place(knob),
+            Target::Group(knob) => self.knobs.select(knob),
             Target::Knob(knob) => {
-                self.select_place(knob);
-                self.grip = Some(Grip { knob, x: at.0, turned: false });
+                self.knobs.select(knob);
+                self.mouse.grip = Some(Grip { knob, x: at.0, turned: false });
             }
             Target::Bar(knob, part) => {
-                self.select_place(knob);
-                self.grip = Some(Grip { knob, x: at.0, turned: true });
+                self.knobs.select(knob);
+                self.mouse.grip = Some(Grip { knob, x: at.0, turned: true });
                 self.set_part(knob, part);
             }
             Target::View(view) => self.show(view),
-            Target::Chart(_) if again && self.cursor.is_some() => self.open_cursor(),
-            Target::Chart(cursor) => {
-                self.reading = true;
-                self.put_cursor(cursor);
-            }
+            Target::Chart(_) if again && self.reading.cursor().is_some() => self.open_cursor(),
+            Target::Chart(cursor) => self.point(cursor),
         }
         Heard::Acted
     }
 
     fn drag(&mut self, at: (u16, u16)) -> Heard {
-        let Some(grip) = self.grip else { return self.hover(at) };
+        let Some(grip) = self.mouse.grip else { return self.hover(at) };
         if at.0 == grip.x && !grip.turned {
             return Heard::Nothing;
         }
         let Some(part) = panels::part_of_bar(self, grip.knob, at.0) else { return Heard::Nothing };
-        let known = self.undo.len();
+        let known = self.knobs.remembered();
         self.set_part(grip.knob, part);
         if grip.turned {
-            self.undo.truncate(known);
+            self.knobs.merge(known);
         }
-        self.grip = Some(Grip { turned: true, ..grip });
+        self.mouse.grip = Some(Grip { turned: true, ..grip });
         Heard::Acted
     }
 
     fn hover(&mut self, at: (u16, u16)) -> Heard {
-        if self.clicked.is_some_and(|clicked| clicked != at) {
-            self.clicked = None;
+        if self.mouse.clicked.is_some_and(|clicked| clicked != at) {
+            self.mouse.clicked = None;
         }
-        let Some(Target::Chart(cursor)) = panels::target(self, at).filter(|_| self.reading) else {
+        let Some(Target::Chart(cursor)) = panels::target(self, at).filter(|_| self.reading.is_on())
+        else {
             return Heard::Nothing;
         };
-        let moved = self.cursor != Some(cursor);
+        let moved = self.reading.cursor() != Some(cursor);
         self.put_cursor(cursor);
         if moved { Heard::Pointed } else { Heard::Nothing }
     }
@@ -155,10 +180,10 @@ impl App {
     fn wheel(&mut self, at: (u16, u16), up: bool, coarse: bool) -> Heard {
         match panels::target(self, at) {
             Some(Target::Knob(knob) | Target::Bar(knob, _)) => {
-                self.select_place(knob);
+                self.knobs.select(knob);
                 self.acted(Action::Turn { up, coarse })
             }
-            Some(Target::Chart(_)) if self.view.panel().is_over_time(self) => {
+            Some(Target::Chart(_)) if self.panel().is_over_time(self) => {
                 self.acted(if up { Action::ZoomIn } else { Action::ZoomOut })
             }
             _ => Heard::Nothing,
@@ -167,9 +192,9 @@ impl App {
 
     /// Chooses an entry of the list that is open.
     fn choose(&mut self, at: (u16, u16)) -> Heard {
-        match (&self.mode, panels::lesson_at(self, at)) {
+        match (self.dialogue.mode(), panels::lesson_at(self, at)) {
             (InputMode::Lessons(_), Some(place)) => {
-                self.mode = InputMode::Lessons(place);
+                self.dialogue.open(InputMode::Lessons(place));
                 self.acted(Action::Accept)
             }
             _ => Heard::Nothing,
@@ -179,7 +204,7 @@ impl App {
     /// Turns a knob to a place of its bar.
     fn set_part(&mut self, place: usize, part: f64) {
         let Some(knob) = KNOBS.get(place) else { return };
-        let range = knob.range(&self.scene, &self.opened, &self.machine);
+        let range = knob.range(&self.scene, self.files.opened(), &self.machine);
         if let Some(value) = range.and_then(|range| knob.near(range.at(part))) {
             self.set(knob, value);
         }
@@ -187,7 +212,7 @@ impl App {
 
     /// Forgets where the large chart was drawn, before the next picture.
     pub fn forget_charts(&self) {
-        if let Ok(mut places) = self.chart_places.try_borrow_mut() {
+        if let Ok(mut places) = self.mouse.charts.try_borrow_mut() {
             places.clear();
         }
     }
@@ -195,14 +220,14 @@ impl App {
     /// Notes where the data of the large chart is drawn, for the mouse, and which
     /// part of it: from where to where across, and up.
     pub fn note_chart(&self, inner: Rect, parts: [(f64, f64); 2]) {
-        if let Ok(mut places) = self.chart_places.try_borrow_mut() {
+        if let Ok(mut places) = self.mouse.charts.try_borrow_mut() {
             places.push(NotedChart { area: inner, parts });
         }
     }
 
     /// The place in the large chart that is drawn in a cell of the screen.
     pub fn cursor_at(&self, (x, y): (u16, u16)) -> Option<Cursor> {
-        let places = self.chart_places.try_borrow().ok()?;
+        let places = self.mouse.charts.try_borrow().ok()?;
         let noted = places.iter().find(|noted| noted.area.contains((x, y).into()))?;
         let (inner, parts) = (noted.area, noted.parts);
         let middle = |(low, high): (f64, f64), cells: u16, width: u16| {

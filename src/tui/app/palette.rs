@@ -150,7 +150,8 @@ impl App {
             Action::PageBack => palette.place.saturating_sub(PAGE),
             _ => return false,
         };
-        self.mode = InputMode::Palette(PaletteState { place: place.min(last), ..palette.clone() });
+        self.dialogue
+            .open(InputMode::Palette(PaletteState { place: place.min(last), ..palette.clone() }));
         true
     }
 
@@ -161,17 +162,17 @@ impl App {
             self.status = Some("nothing has these words".into());
             return Effect::None;
         };
-        self.mode = InputMode::Main;
+        self.dialogue.close();
         match item.command {
             Command::Act(action) => return self.act(action),
             Command::GoTo(t) => self.go_to(t),
             Command::Open(name) => self.open_builtin(name),
             Command::Learn(place) => self.begin_lesson(place),
-            Command::Select(place) => self.select_place(place),
+            Command::Select(place) => self.knobs.select(place),
             Command::Set(place, text) => {
-                self.select_place(place);
+                self.knobs.select(place);
                 self.accept(&text);
-                if let Some(refusal) = &self.refusal {
+                if let Some(refusal) = self.knobs.refusal() {
                     self.status = Some(clean(refusal));
                 }
             }
@@ -203,7 +204,7 @@ fn names(knob: &Knob) -> Vec<String> {
 
 /// A text in letters that every keyboard has.
 fn plain(text: &str) -> String {
-    Appearance { theme: Theme::Mono, marker: Marker::Ascii, wide: false }.spell(text)
+    Appearance::new(Theme::Mono, Marker::Ascii).spell(text)
 }
 
 /// How well a line fits all the words, the best being 0; none if it does not.
@@ -303,11 +304,11 @@ mod tests {
     fn a_scene_that_is_opened_can_be_undone() {
         let mut app = app();
         let before = app.scene.clone();
-        app.live = true;
+        app.knobs.live = true;
         app.open_builtin("rocking");
         assert_eq!(*app.scene, Scene::builtin("rocking").unwrap());
-        assert_eq!((&app.opened, app.live), (&app.scene, true));
-        assert_eq!(app.source.as_ref().map(|source| source.name.as_str()), Some("rocking"));
+        assert_eq!((&app.files.opened, app.knobs.live), (&app.scene, true));
+        assert_eq!(app.files.source.as_ref().map(|source| source.name.as_str()), Some("rocking"));
         app.act(Action::Undo);
         assert_eq!(app.scene, before);
     }

@@ -7,7 +7,6 @@ use super::update::Effect;
 use super::{App, InputMode, Source};
 use crate::scene::{CheckedScene, DEFAULT, Scene};
 use crate::tui::scenes::{FoundScene, FoundScenes, builtin_scenes};
-use crate::tui::views::ViewId;
 
 /// One line of the list.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,20 +24,20 @@ pub struct SceneEntry {
 impl App {
     /// Every scene that can be opened. One from elsewhere that is open comes first.
     pub fn scene_entries(&self) -> Vec<SceneEntry> {
-        let open = self.source.as_ref().map_or(DEFAULT, |source| source.name.as_str());
+        let open = self.files.source().map_or(DEFAULT, |source| source.name.as_str());
         let builtin = builtin_scenes().iter().map(|FoundScene { name, scene }| SceneEntry {
             name: name.clone(),
             scene: scene.clone(),
             file: false,
             open: name == open,
         });
-        let files = self.found_scenes.files.iter().map(|FoundScene { name, scene }| {
-            let path = self.directory.join(name);
+        let files = self.files.found.files.iter().map(|FoundScene { name, scene }| {
+            let path = self.files.directory.join(name);
             let open = same_path(&path, Path::new(open));
             SceneEntry { name: name.clone(), scene: scene.clone(), file: true, open }
         });
         let mut entries: Vec<SceneEntry> = builtin.chain(files).collect();
-        if let Some(source) = &self.source
+        if let Some(source) = &self.files.source
             && !entries.iter().any(|entry| entry.open)
         {
             let read = source.scene.checked().map_err(|error| error.to_string());
@@ -56,49 +55,48 @@ impl App {
 
     /// Opens the list, and has the files of the directory read.
     pub(super) fn list_scenes(&mut self) -> Effect {
-        self.mode = InputMode::Scenes(None);
-        self.note_page = 0;
-        if std::mem::replace(&mut self.found_scenes.reading, true) {
+        self.dialogue.open(InputMode::Scenes(None));
+        if std::mem::replace(&mut self.files.found.reading, true) {
             // A folder that does not answer is asked once.
             return Effect::None;
         }
-        Effect::FindScenes(self.directory.clone())
+        Effect::FindScenes(self.files.directory.clone())
     }
 
     /// Takes the scenes that were found. The selected one stays selected.
     pub fn scenes_found(&mut self, found: FoundScenes) {
-        let chosen = match self.mode {
-            InputMode::Scenes(Some(place)) => self.scene_entries().get(place).cloned(),
+        let chosen = match self.dialogue.mode() {
+            InputMode::Scenes(Some(place)) => self.scene_entries().get(*place).cloned(),
             _ => None,
         };
-        self.found_scenes = found;
+        self.files.found = found;
         if let Some(chosen) = chosen {
             let same = |entry: &SceneEntry| entry.name == chosen.name && entry.file == chosen.file;
-            self.mode = InputMode::Scenes(self.scene_entries().iter().position(same));
+            self.dialogue.choose(self.scene_entries().iter().position(same));
         }
     }
 
     pub(super) fn move_in_scenes(&mut self, by: i64) {
-        let InputMode::Scenes(chosen) = self.mode else { return };
-        self.note_page = 0;
+        let InputMode::Scenes(chosen) = *self.dialogue.mode() else { return };
         let entries = self.scene_entries();
         let last = i64::try_from(entries.len()).unwrap_or(1) - 1;
         let place = i64::try_from(self.scene_place(&entries, chosen)).unwrap_or(0);
-        self.mode = InputMode::Scenes(usize::try_from((place + by).clamp(0, last)).ok());
+        let place = usize::try_from((place + by).clamp(0, last)).ok();
+        self.dialogue.open(InputMode::Scenes(place));
     }
 
     /// Opens the chosen scene, if it is one.
     pub(super) fn open_chosen_scene(&mut self) {
-        let InputMode::Scenes(chosen) = self.mode else { return };
+        let InputMode::Scenes(chosen) = *self.dialogue.mode() else { return };
         let entries = self.scene_entries();
         let Some(entry) = entries.get(self.scene_place(&entries, chosen)) else { return };
         match &entry.scene {
             Ok(scene) => {
                 let path = match entry.file && !entry.open {
-                    true => self.directory.join(&entry.name).to_string_lossy().into_owned(),
+                    true => self.files.directory.join(&entry.name).to_string_lossy().into_owned(),
                     false => entry.name.clone(),
                 };
-                self.mode = InputMode::Main;
+                self.dialogue.close();
                 self.open_scene(path, scene.clone());
                 self.status = Some(format!("opened {}", entry.name));
             }
@@ -109,20 +107,13 @@ impl App {
     /// Makes another scene the open one, with the charts that it names; undo
     /// brings the former back.
     pub fn open_scene(&mut self, name: String, scene: CheckedScene) {
-        self.remember(self.past());
+        self.knobs.remember(self.past());
         self.end_lesson();
-        self.opened = scene.clone();
-        self.source = Some(Source { name, scene: scene.clone().into_scene() });
-        let charts = scene.view.charts.iter();
-        let mut views: Vec<ViewId> = charts.filter_map(|word| ViewId::from_word(word)).collect();
-        let others = std::iter::once(self.view).chain(self.companions.iter().copied());
-        let others: Vec<ViewId> = others.filter(|view| !views.contains(view)).collect();
-        views.extend(others);
-        if let Some(first) = views.first() {
-            (self.view, self.companions) = (*first, views.get(1..).unwrap_or_default().to_vec());
-        }
-        self.stop_reading();
-        self.refusal = None;
+        let source = Source { name, scene: scene.clone().into_scene() };
+        self.files.open(scene.clone(), Some(source));
+        self.layout.open(&scene);
+        self.reading.stop();
+        self.knobs.forget_refusal();
         self.set_scene(scene, false);
     }
 
@@ -130,9 +121,9 @@ impl App {
     /// knobs were turned: then they say what was changed.
     pub(super) fn scene_to_save(&self) -> Scene {
         let mut scene = self.scene.clone().into_scene();
-        let (base, name) = match &self.source {
+        let (base, name) = match &self.files.source {
             Some(source) => (&source.scene, source.name.as_str()),
-            None => (&*self.opened, "the opened scene"),
+            None => (&*self.files.opened, "the opened scene"),
         };
         let mut changes = self.changes_from(base);
         changes.retain(|(path, _)| !["title", "note"].contains(path));
@@ -186,7 +177,7 @@ mod tests {
         app.scenes_found(FoundScenes { files, ..FoundScenes::default() });
         assert_eq!(app.scene_entries().last().unwrap().name, "late.toml");
         app.act(Action::Accept);
-        assert_eq!(app.source.as_ref().unwrap().name, chosen);
+        assert_eq!(app.files.source.as_ref().unwrap().name, chosen);
         // Now it is asked again.
         assert!(matches!(app.act(Action::Scenes), Effect::FindScenes(_)));
     }
@@ -194,7 +185,7 @@ mod tests {
     #[test]
     fn an_open_file_of_another_folder_is_in_the_list() {
         let mut app = App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Ascii);
-        app.source = Some(Source { name: "other/mine.toml".into(), scene: Scene::base() });
+        app.files.source = Some(Source { name: "other/mine.toml".into(), scene: Scene::base() });
         let entries = app.scene_entries();
         assert!(entries[0].open && entries[0].name == "other/mine.toml");
         assert_eq!(app.scene_place(&entries, None), 0);

@@ -2,7 +2,6 @@
 //! value after the verdict of the one before is on the screen.
 
 use super::{App, InputMode};
-use crate::report::line::clean;
 use crate::scene::Value;
 use crate::tui::engine::FullRunState;
 use crate::tui::knobs::Knob;
@@ -41,8 +40,8 @@ impl App {
         let Some(knob) = self.selected() else { return };
         match knob.get(&self.scene) {
             Value::Real(_) | Value::Whole(_) => {
-                self.refusal = None;
-                self.mode = InputMode::Sweeping(String::new());
+                self.knobs.forget_refusal();
+                self.dialogue.open(InputMode::Sweeping(String::new()));
             }
             _ => self.status = Some(format!("{} has no numbers to sweep", knob.label)),
         }
@@ -62,25 +61,25 @@ impl App {
         {
             Ok(to) => to,
             Err(error) => {
-                self.refusal = Some(clean(&error.to_string()));
-                self.status.clone_from(&self.refusal);
+                self.knobs.refuse(&error);
+                self.status = self.knobs.refusal().cloned();
                 return;
             }
         };
-        self.mode = InputMode::Main;
+        self.dialogue.close();
         let mut rest = values(&knob.get(&self.scene), &to);
         rest.reverse();
-        self.remember(self.past());
-        self.sweep = Some(Sweep { knob, all: rest.len(), rest, found: Vec::new() });
+        self.knobs.remember(self.past());
+        self.knobs.sweep = Some(Sweep { knob, all: rest.len(), rest, found: Vec::new() });
     }
 
     /// A frame has been shown: if it had a verdict, the next value.
     pub(super) fn sweep_on(&mut self) {
-        let done = match &self.latest.results.full_run {
+        let done = match &self.results().full_run {
             None | Some(FullRunState::Computing(_)) => return,
             Some(FullRunState::Done(_) | FullRunState::GivenUp(_)) => self.verdict().word,
         };
-        let Some(sweep) = &mut self.sweep else { return };
+        let Some(sweep) = &mut self.knobs.sweep else { return };
         let value = sweep.knob.shown(&sweep.knob.get(&self.scene));
         match sweep.found.last_mut().filter(|stretch| stretch.word == done) {
             Some(stretch) => (stretch.to, stretch.count) = (value, stretch.count + 1),
@@ -100,14 +99,14 @@ impl App {
             None => {
                 let told = sweep.told();
                 self.status = Some(told);
-                self.sweep = None;
+                self.knobs.sweep = None;
             }
         }
     }
 
     /// Ends a sweep where it is.
     pub(super) fn stop_sweep(&mut self) {
-        if let Some(sweep) = self.sweep.take() {
+        if let Some(sweep) = self.knobs.sweep.take() {
             self.status = Some(sweep.told());
         }
     }

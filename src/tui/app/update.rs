@@ -4,14 +4,11 @@ use std::path::PathBuf;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-use super::time::MOST_ZOOM;
-use super::{App, Baseline, HelpState, InputMode, PaletteState, Purpose, RATES};
+use super::{App, HelpState, InputMode, PaletteState, Purpose};
 use crate::report::line::{self, clean};
-use crate::tui::axis::readable;
 use crate::tui::bindings::{Action, Chord, lookup};
 use crate::tui::files::FileJob;
 use crate::tui::knobs::knob_of;
-use crate::tui::lessons;
 use crate::tui::views::ViewId;
 use crate::tui::worker::other_law;
 
@@ -42,9 +39,9 @@ const LONGEST_TYPED: usize = 200;
 impl App {
     /// Handles a key press.
     pub fn key(&mut self, event: &KeyEvent) -> Effect {
-        self.disturb();
+        self.files.disturb();
         self.stop_sweep();
-        self.is_new = false;
+        self.dialogue.introduce();
         if event.modifiers.contains(KeyModifiers::ALT) && event.code != KeyCode::Esc {
             // Escape and a key that arrive together look like Alt and that key.
             self.act(Action::Close);
@@ -59,7 +56,8 @@ impl App {
             self.check_lesson();
             return effect;
         }
-        if let (Some(text), KeyCode::Char(letter), false) = (self.typed(), chord.code, chord.ctrl)
+        if let (Some(text), KeyCode::Char(letter), false) =
+            (self.dialogue.typed(), chord.code, chord.ctrl)
             && line::harmless(letter) == letter
         {
             let room = text.len() < LONGEST_TYPED;
@@ -67,18 +65,18 @@ impl App {
                 text.push(letter);
             }
             self.status = (!room).then(|| format!("no room: at most {LONGEST_TYPED} letters"));
-            self.look_again();
+            self.dialogue.look_again();
         }
         Effect::None
     }
 
     /// Takes a pasted text into the field that is open. It never acts as keys.
     pub fn paste(&mut self, text: &str) {
-        self.disturb();
+        self.files.disturb();
         // Breaks of lines and other characters that act have no place in a field.
         let text: String =
             text.chars().filter(|&letter| line::harmless(letter) == letter).collect();
-        let refused = match self.typed() {
+        let refused = match self.dialogue.typed() {
             None => Some("the pasted text is ignored: no field is open"),
             Some(field) if field.len().saturating_add(text.len()) > LONGEST_TYPED => {
                 Some("the pasted text is ignored: it is too long")
@@ -88,81 +86,45 @@ impl App {
                 None
             }
         };
-        self.look_again();
+        self.dialogue.look_again();
         self.status = refused.map(String::from);
-    }
-
-    /// The text that is being typed.
-    fn typed(&mut self) -> Option<&mut String> {
-        match &mut self.mode {
-            InputMode::Typing(text) | InputMode::Sweeping(text) | InputMode::Naming(_, text) => {
-                Some(text)
-            }
-            InputMode::Help(help) => Some(&mut help.filter),
-            InputMode::Palette(palette) => Some(&mut palette.typed),
-            _ => None,
-        }
-    }
-
-    /// After a change of what is looked for, the list begins at its top.
-    fn look_again(&mut self) {
-        match &mut self.mode {
-            InputMode::Help(help) => help.scroll = 0,
-            InputMode::Palette(palette) => palette.place = 0,
-            _ => {}
-        }
     }
 
     /// Carries out an action.
     pub fn act(&mut self, action: Action) -> Effect {
         self.status = None;
-        match (self.mode.clone(), action) {
+        match (self.dialogue.mode().clone(), action) {
             (_, Action::Quit) => return Effect::Quit,
             (_, Action::Suspend) => return Effect::Suspend,
             (_, Action::Redraw) => return Effect::Redraw,
             (_, Action::Theme) => {
-                self.appearance.theme = self.appearance.theme.next();
-                self.status = Some(format!("theme {}", self.appearance.theme.name()));
+                self.status = Some(self.appearance.next_theme());
             }
             (InputMode::Main, Action::Marker) => {
-                self.appearance.marker = self.appearance.marker.next(self.octants);
-                self.status = Some(format!("marker {}", self.appearance.marker));
+                self.status = Some(self.appearance.next_marker());
                 // Some terminals leave parts of octants behind.
                 return Effect::Redraw;
             }
             (InputMode::Main, Action::Mouse) => {
-                self.toggle_mouse();
-                return Effect::Mouse(self.mouse);
+                self.status = Some(self.mouse.toggle());
+                return Effect::Mouse(self.mouse.is_on());
             }
             (InputMode::Help(help), action) if self.scroll_help(&help, action) => {}
             (InputMode::Palette(palette), Action::Accept) => return self.choose_command(&palette),
             (InputMode::Palette(palette), action) if self.move_choice(&palette, action) => {}
-            (_, Action::DeleteLast) => {
-                _ = self.typed().and_then(String::pop);
-                self.look_again();
-            }
             (InputMode::Naming(purpose, name), Action::Accept) => {
                 return self.write(purpose, &name, false);
             }
             // What was typed before the question was seen is no answer to it.
-            (InputMode::Replacing(..), Action::Yes) if !self.asked => {}
+            (InputMode::Replacing(..), Action::Yes) if !self.dialogue.is_asked() => {}
             (InputMode::Replacing(purpose, name), Action::Yes) => {
                 return self.write(purpose, &name, true);
             }
-            (InputMode::Lessons(place), Action::KnobBelow) => {
-                let last = lessons::all().len().saturating_sub(1);
-                self.mode = InputMode::Lessons((place + 1).min(last));
-            }
-            (InputMode::Lessons(place), Action::KnobAbove) => {
-                self.mode = InputMode::Lessons(place.saturating_sub(1));
-            }
+            _ if self.dialogue.act(action) => {}
             (InputMode::Lessons(place), Action::Accept) => self.begin_lesson(place),
             (InputMode::Main, Action::Scenes) => return self.list_scenes(),
             (InputMode::Scenes(_), Action::KnobBelow) => self.move_in_scenes(1),
             (InputMode::Scenes(_), Action::KnobAbove) => self.move_in_scenes(-1),
-            (InputMode::Scenes(_), Action::PageForward) => {
-                self.note_page = self.note_page.wrapping_add(1);
-            }
             (InputMode::Scenes(_), Action::Accept) => self.open_chosen_scene(),
             (_, Action::Copy) => return Effect::Copy(self.copied()),
             (InputMode::Typing(text), Action::Accept) => self.accept(&text),
@@ -174,77 +136,68 @@ impl App {
     }
 
     fn close(&mut self) {
-        self.refusal = None;
-        if self.mode != InputMode::Main {
-            self.mode = InputMode::Main;
-        } else if self.reading || self.cursor.is_some() || self.pages_back != 0 {
-            self.stop_reading();
-            self.pages_back = 0;
-        } else if self.presenting {
+        self.knobs.forget_refusal();
+        if !self.dialogue.is_closed() {
+            self.dialogue.close();
+        } else if self.reading.is_open() || self.play.is_elsewhere() {
+            self.reading.stop();
+            self.play.show_now();
+        } else if self.appearance.is_wide() {
             self.present(false);
         } else {
-            self.full_screen = false;
+            self.layout.act(Action::Close);
         }
     }
 
     fn act_main(&mut self, action: Action) {
         match action {
-            Action::Help => self.mode = InputMode::Help(HelpState::default()),
-            Action::Palette => self.mode = InputMode::Palette(PaletteState::default()),
-            Action::NextView => self.walk(self.neighbour(1)),
-            Action::PreviousView => self.walk(self.neighbour(-1)),
+            Action::Help => self.dialogue.open(InputMode::Help(HelpState::default())),
+            Action::Palette => self.dialogue.open(InputMode::Palette(PaletteState::default())),
+            Action::NextView => self.walk(self.layout.neighbour(1)),
+            Action::PreviousView => self.walk(self.layout.neighbour(-1)),
             Action::View(view) => self.walk(view),
-            Action::KnobAbove => self.select(true),
-            Action::KnobBelow => self.select(false),
+            Action::KnobAbove => self.knobs.walk(true),
+            Action::KnobBelow => self.knobs.walk(false),
             Action::Turn { up, coarse } => self.turn(up, coarse),
             Action::Type => {
-                self.refusal = None;
-                self.mode = InputMode::Typing(String::new());
+                self.knobs.forget_refusal();
+                self.dialogue.open(InputMode::Typing(String::new()));
             }
             Action::Reset => self.reset(),
             Action::Undo => self.step_back(false),
             Action::Redo => self.step_back(true),
-            Action::Pause => {
-                self.playing = !self.playing;
-                self.stopped_by_end = false;
-                // Told more often than gone on: the motion waits at the end.
-                if self.playing && self.counters.ends > self.counters.extensions {
-                    self.counters.extensions = self.counters.ends;
-                }
-            }
-            Action::Step => {
-                self.playing = false;
-                self.counters.steps += 1;
-            }
-            Action::Jump => {
-                self.playing = false;
-                self.counters.jumps += 1;
-            }
+            Action::Pause
+            | Action::Step
+            | Action::Jump
+            | Action::SlowAtEvents
+            | Action::Slower
+            | Action::Faster
+            | Action::ZoomIn
+            | Action::ZoomOut
+            | Action::ZoomReset => self.status = self.play.act(action),
+            Action::Charts | Action::FullScreen => self.layout.act(action),
             Action::Pin => self.pin(),
-            Action::OtherLaw if self.view == ViewId::Map => self.other_map_law(),
+            Action::OtherLaw if self.is_large(ViewId::Map) => self.other_map_law(),
             Action::MapAxis { up } => self.next_map_axis(up),
             Action::OtherLaw => match other_law(&self.scene) {
-                Err(why) if !self.compare => {
+                Err(why) if !self.run.is_compared() => {
                     let law = self.scene.solver.contact.other();
                     self.status = Some(clean(&format!("no {law} law beside this: {why}")));
                 }
-                _ => self.set_compare(!self.compare),
+                _ => self.run.set_compare(!self.run.is_compared()),
             },
-            Action::Save => self.mode = InputMode::Naming(Purpose::Save, "scene.toml".into()),
+            Action::Save => {
+                self.dialogue.open(InputMode::Naming(Purpose::Save, "scene.toml".into()));
+            }
             Action::Export => {
-                let name = format!("{}.csv", self.view.word());
-                self.mode = InputMode::Naming(Purpose::Export, name);
+                let name = format!("{}.csv", self.view().word());
+                self.dialogue.open(InputMode::Naming(Purpose::Export, name));
             }
             Action::Lesson => self.lesson_key(),
             Action::LessonBack => self.lesson_back(),
             Action::Answer(place) => self.answer(place),
             Action::LeaveLesson => self.leave_lesson(),
-            Action::Heat => {
-                self.turn_gaps();
-                let how = if self.heat { "against time" } else { "of this instant" };
-                self.status = Some(format!("gaps {how}"));
-            }
-            Action::Charts => self.companions_shown = (self.companions_shown + 1) % 4,
+            Action::Heat => self.turn_gaps(),
             Action::PageBack => self.pan(true),
             Action::PageForward => self.pan(false),
             Action::GoToEnd => self.go_to(self.end_s()),
@@ -256,82 +209,25 @@ impl App {
                 self.status = Some("restarted".into());
             }
             Action::Fire => {
-                self.counters.pulses += 1;
-                self.forget_forecasts();
+                self.run.fire();
                 let pulse = knob_of("operation.pulse_n").map(|knob| knob.text(&self.scene));
                 self.status = pulse.map(|pulse| format!("pulse of {pulse} fired"));
             }
             Action::Sweep => self.ask_sweep(),
-            Action::SlowAtEvents => {
-                self.slow_at_events = !self.slow_at_events;
-                self.status = Some(match self.slow_at_events {
-                    true => "slower at changes of contact, faster between".into(),
-                    false => "the same pace all the time".to_string(),
-                });
-            }
-            Action::Slower => self.rate = self.rate.saturating_sub(1),
-            Action::Faster => self.rate = (self.rate + 1).min(RATES.len() - 1),
-            Action::ZoomIn => self.zoom = (self.zoom + 1).min(MOST_ZOOM),
-            Action::ZoomOut => self.zoom = (self.zoom - 1).max(-MOST_ZOOM),
-            Action::ZoomReset => self.zoom = 0,
-            Action::Autoscale => {
-                self.ranges.follow = !self.ranges.follow;
-                let how = if self.ranges.follow { "follow the data" } else { "stay fixed" };
-                self.status = Some(format!("scales {how}"));
-            }
-            Action::Present => self.present(!self.presenting),
-            Action::FullScreen => self.full_screen = !self.full_screen,
-            Action::Live => {
-                self.live = !self.live;
-                self.status = Some(if self.live {
-                    "live: knobs act on the running motion".into()
-                } else {
-                    "a knob restarts the run".to_string()
-                });
-            }
+            Action::Autoscale => self.status = Some(self.run.autoscale()),
+            Action::Present => self.present(!self.appearance.is_wide()),
+            Action::Live => self.status = Some(self.knobs.turn_live()),
             _ => {}
         }
     }
 
     /// The screen for a projector, or the usual one.
     pub(super) fn present(&mut self, on: bool) {
-        if on && self.lesson.is_some() {
+        if on && self.lessons.is_open() {
             self.status = Some("a lesson needs the usual screen; G leaves it".into());
             return;
         }
-        (self.presenting, self.appearance.wide) = (on, on);
+        self.appearance.set_wide(on);
         self.status = on.then(|| "P or Esc: back to the usual screen".into());
-    }
-
-    fn neighbour(&self, by: i64) -> ViewId {
-        let views: Vec<ViewId> = ViewId::all().collect();
-        let place = (self.view as i64 + by).rem_euclid(views.len() as i64);
-        views.get(place as usize).copied().unwrap_or(self.view)
-    }
-
-    fn pin(&mut self) {
-        if self.baseline.take().is_some() {
-            self.status = Some("baseline removed".into());
-            return;
-        }
-        let (history, scene) = (self.history.clone(), self.scene.clone());
-        let words = self.verdict();
-        let what = format!("{} at {}", words.word, readable(self.speed(), "rad/s"));
-        self.baseline = Some(Baseline { history, words, scene });
-        self.status = Some(format!("pinned behind the next runs: {what}"));
-    }
-
-    /// Makes a view the large one; the former one takes its place.
-    pub(super) fn show(&mut self, view: ViewId) {
-        if view == self.view {
-            return;
-        }
-        for companion in &mut self.companions {
-            if *companion == view {
-                *companion = self.view;
-            }
-        }
-        self.view = view;
-        self.keep_instant();
     }
 }

@@ -23,7 +23,7 @@ pub struct VerdictText {
 impl App {
     /// The full run of the scene's own solver, once it is computed.
     pub fn full_run(&self) -> Option<&FullRun> {
-        match &self.latest.results.full_run {
+        match &self.results().full_run {
             Some(FullRunState::Done(run)) => Some(run),
             _ => None,
         }
@@ -31,17 +31,17 @@ impl App {
 
     /// The verdict of the running solver.
     pub fn verdict(&self) -> VerdictText {
-        if let Some(trouble) = &self.latest.trouble {
+        if let Some(trouble) = &self.run.latest.trouble {
             return VerdictText {
                 word: "STOPPED".into(),
                 detail: trouble.clone(),
                 role: Role::Trouble,
             };
         }
-        match &self.latest.results.full_run {
+        match &self.results().full_run {
             Some(FullRunState::Done(run)) => {
                 let mut words = self.words(run);
-                if self.latest.results.sensitive {
+                if self.results().sensitive {
                     words.detail.push_str(", sensitive");
                 }
                 words
@@ -65,7 +65,7 @@ impl App {
     /// While there is no verdict, the latest one stays, dimmed and with its value; the event
     /// solver, which is done sooner, is told beside it.
     fn computing(&self, part: &str) -> VerdictText {
-        let event = self.latest.results.reference.as_ref();
+        let event = self.results().reference.as_ref();
         let event =
             event.map_or(String::new(), |run| format!("event, unilateral: {}", run.verdict));
         let (word, state) = match self.older_answer() {
@@ -79,7 +79,7 @@ impl App {
     /// The verdict of a scene that differs in one knob, `at 405 rad/s: WHIRL`, or of this one
     /// before it was changed in another way.
     fn older_answer(&self) -> Option<String> {
-        let Answer { scene, verdict } = self.answer.as_deref()?;
+        let Answer { scene, verdict } = self.run.answer.as_deref()?;
         let mut differ = KNOBS.iter().filter(|knob| knob.get(scene) != knob.get(&self.scene));
         let when = match (differ.next(), differ.next()) {
             (Some(knob), None) => format!("at {}", knob.text(scene)),
@@ -132,13 +132,13 @@ impl App {
     /// The verdict of the event solver under unilateral contact, if it differs.
     pub fn disagreement(&self) -> Option<String> {
         let own = self.full_run()?;
-        let other = self.latest.results.reference.as_ref()?;
+        let other = self.results().reference.as_ref()?;
         if other.verdict == own.verdict {
             return None;
         }
         let why = if own.checks.tensile_steps > 0 {
             plural(own.checks.tensile_steps, "pull") + " here"
-        } else if self.latest.results.sensitive {
+        } else if self.results().sensitive {
             "the scene is sensitive".to_string()
         } else if self.scene.goes_beyond() {
             "step too large, or its angles left out".to_string()
@@ -166,7 +166,7 @@ impl App {
 
     /// The state of the motion now: `free`, `touching 12`, `held on 6 + 21`.
     pub fn state_now(&self) -> String {
-        let Some(moment) = &self.latest.moment else { return "starting".into() };
+        let Some(moment) = self.moment() else { return "starting".into() };
         if moment.failure.is_some() {
             let grown = self.full_run().is_some_and(|run| run.verdict == Verdict::Divergent);
             return if grown { "diverged" } else { "failed" }.into();

@@ -26,9 +26,9 @@ fn what_was_chosen_by_key_is_there_at_the_next_start() {
     let home = tempfile::tempdir().unwrap();
     let path = home.path().join("deep/rubscope/config.toml");
     let first = session(&path, |_| {});
-    assert!(first.is_new && !path.exists(), "nothing has changed");
+    assert!(first.dialogue.is_new && !path.exists(), "nothing has changed");
     session(&path, |app| {
-        app.is_new = false;
+        app.dialogue.is_new = false;
         app.act(Action::Theme);
         app.act(Action::Marker);
         app.act(Action::Charts);
@@ -37,7 +37,7 @@ fn what_was_chosen_by_key_is_there_at_the_next_start() {
     assert_eq!(config.theme, Some(ThemeChoice::Light));
     assert!(config.marker.is_some() && config.introduced);
     let next = session(&path, |_| {});
-    assert_eq!((next.companions_shown, next.is_new), (config.charts.unwrap(), false));
+    assert_eq!((next.layout.beside, next.dialogue.is_new), (config.charts.unwrap(), false));
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
@@ -52,7 +52,7 @@ fn a_file_is_written_only_if_something_changed_and_keeps_what_is_not_known() {
     let path = home.path().join("config.toml");
     let text = "later = 3\nintroduced=true\ncharts = 99\n[lessons]\ndone = [\"lock\"]\n";
     std::fs::write(&path, text).unwrap();
-    assert_eq!(session(&path, |_| {}).companions_shown, MOST_CHARTS);
+    assert_eq!(session(&path, |_| {}).layout.beside, MOST_CHARTS);
     assert_eq!(std::fs::read_to_string(&path).unwrap(), text);
     session(&path, |app| _ = app.act(Action::Theme));
     let text = std::fs::read_to_string(&path).unwrap();
@@ -71,7 +71,7 @@ fn a_file_that_cannot_be_used_is_named_and_left_alone() {
         let started = session(&path, |app| _ = app.act(Action::Theme));
         let status = started.status.unwrap();
         assert!(status.starts_with("config.toml is not used: "), "{status}");
-        assert!(!status.contains(['\n', '\u{1b}']) && !started.is_new, "{status}");
+        assert!(!status.contains(['\n', '\u{1b}']) && !started.dialogue.is_new, "{status}");
         assert_eq!(std::fs::read_to_string(&path).unwrap(), text);
     }
     std::fs::write(&path, [0xff, 0xfe]).unwrap();

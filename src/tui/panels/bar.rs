@@ -11,7 +11,7 @@ use crate::tui::theme::Role;
 /// Draws the bar of a knob over an area, its two ends outside of it; nothing for
 /// knobs of words.
 pub fn draw(app: &App, buffer: &mut Buffer, cells: Rect, knob: &Knob) {
-    let Some(range) = knob.range(&app.scene, &app.opened, &app.machine) else { return };
+    let Some(range) = knob.range(&app.scene, &app.files.opened, &app.machine) else { return };
     if cells.width == 0 {
         return;
     }

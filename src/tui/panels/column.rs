@@ -73,7 +73,8 @@ pub fn lines(app: &App, height: u16) -> Vec<ColumnLine> {
         }
     }
     let lines = all(app, shown, bars);
-    let selected = lines.iter().position(|line| *line == ColumnLine::Knob(app.knob)).unwrap_or(0);
+    let selected =
+        lines.iter().position(|line| *line == ColumnLine::Knob(app.knobs.selected)).unwrap_or(0);
     let first = if lines.len() > rows { (selected + 1).saturating_sub(rows) } else { 0 };
     lines.into_iter().skip(first).take(rows).collect()
 }

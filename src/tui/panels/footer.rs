@@ -22,7 +22,7 @@ const TRY: &str = "new here? → turns Ω, g: lessons";
 pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
     let look = &app.appearance;
     let mark = look.ellipsis();
-    let question = match &app.mode {
+    let question = match &app.dialogue.mode {
         InputMode::Naming(Purpose::Save, name) => Some(format!("save the scene as: {name}_")),
         InputMode::Naming(Purpose::Export, name) => {
             Some(format!("export as (.csv data, .svg picture): {name}_"))
@@ -36,9 +36,11 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
         print(buffer, area, 0, &shown, look.style(Role::Focus));
         return;
     }
-    let hint = match app.sweep {
+    let hint = match app.knobs.sweep {
         Some(ref sweep) => Some(sweep.progress()),
-        None => (app.is_new && app.mode == InputMode::Main).then(|| TRY.to_string()),
+        None => {
+            (app.dialogue.is_new && app.dialogue.mode == InputMode::Main).then(|| TRY.to_string())
+        }
     };
     let message = match (&app.status, hint) {
         (Some(status), _) => Some((look.spell(status), Role::Good)),
@@ -123,7 +125,7 @@ fn keys(app: &App, buffer: &mut Buffer, area: Rect) {
     let others = bindings::of(app.context()).filter(|binding| !is_kept(binding));
     for (binding, (keys, word)) in others.filter_map(|binding| Some((binding, binding.footer?))) {
         let word = match binding.action {
-            Action::Pause if !app.playing => "go on",
+            Action::Pause if !app.play.playing => "go on",
             // Most charts have nothing to open.
             Action::OpenPlace => match app.opening().and_then(|opening| opening.word()) {
                 Some(word) => word,
@@ -176,16 +178,16 @@ mod tests {
             app.act(Action::Read);
             assert!(line(&app, width).ends_with("? help  q quit"), "{}", line(&app, width));
             app.act(Action::Read);
-            app.mode = InputMode::Lessons(0);
+            app.dialogue.mode = InputMode::Lessons(0);
             assert!(line(&app, width).ends_with("q quit"), "{}", line(&app, width));
-            app.mode = InputMode::Main;
+            app.dialogue.mode = InputMode::Main;
         }
     }
 
     #[test]
     fn a_new_user_reads_what_to_try_until_the_first_key() {
         let mut app = app();
-        app.is_new = true;
+        app.dialogue.is_new = true;
         for width in [40, 80] {
             assert!(line(&app, width).starts_with(TRY), "{}", line(&app, width));
         }

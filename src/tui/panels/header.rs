@@ -82,7 +82,7 @@ fn now_and_end(app: &App, width: usize) -> Parts {
     };
     let word = format!(" {} ", words.word);
     let mut detail = words.detail;
-    if let Some(baseline) = &app.baseline
+    if let Some(baseline) = &app.run.baseline
         && baseline.words.word != words.word
     {
         detail = format!("{detail} | pinned: {}", baseline.words.word);
@@ -146,7 +146,7 @@ fn now(app: &App, much: u8) -> Parts {
         0 => state.split(' ').next().unwrap_or_default().to_string(),
         _ => state,
     };
-    let go = if app.playing { look.either('►', '>') } else { look.either('‖', '=') };
+    let go = if app.play.playing { look.either('►', '>') } else { look.either('‖', '=') };
     let mut parts = vec![
         ("NOW ".to_string(), quiet),
         (state, look.style(role)),
@@ -174,18 +174,19 @@ fn now(app: &App, much: u8) -> Parts {
 fn pace(app: &App) -> Parts {
     let look = &app.appearance;
     let (quiet, focus) = (look.style(Role::Quiet), look.style(Role::Focus));
-    let limit = match app.latest.results.pace.limit {
+    let limit = match app.results().pace.limit {
         Limit::None => "",
         Limit::Solver => " (solver's limit)",
         Limit::Wave => " (slowed: the wave)",
     };
-    let about = if app.slow_at_events { "about " } else { "" };
+    let about = if app.play.slow_at_events { "about " } else { "" };
     let mut parts = vec![(format!("{about}{}{limit}", app.rate_text()), quiet)];
-    if app.pages_back != 0 {
-        let (count, word) = (app.pages_back, if app.pages_back > 0 { "back" } else { "ahead" });
+    if app.play.pages_back != 0 {
+        let (count, word) =
+            (app.play.pages_back, if app.play.pages_back > 0 { "back" } else { "ahead" });
         parts.push((format!(" {} {word}", count.abs()), focus));
     }
-    if app.live {
+    if app.knobs.live {
         parts.push((" LIVE".into(), focus));
     }
     parts
@@ -271,7 +272,7 @@ fn short(speed: f64) -> String {
 /// Whether another solver, or a small change, says otherwise.
 fn doubts(app: &App, doubt: Option<String>) -> Parts {
     let look = &app.appearance;
-    let known = app.full_run().zip(app.latest.results.reference.as_ref()).is_some();
+    let known = app.full_run().zip(app.results().reference.as_ref()).is_some();
     match doubt {
         Some(other) => vec![(format!("  | {other}"), look.style(Role::Trouble))],
         None if known => vec![("  | event agrees".into(), look.style(Role::Quiet))],
@@ -289,7 +290,7 @@ fn solver(app: &App) -> Parts {
         (solver.kind.to_string(), text),
         (format!(" {} {}", solver.contact, solver.model), quiet),
     ];
-    let pace = &app.latest.results.pace;
+    let pace = &app.results().pace;
     if let Some(step) = pace.step_s {
         parts.push((format!(" {}/step taken", duration(step)), text));
     }

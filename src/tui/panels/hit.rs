@@ -24,7 +24,7 @@ pub enum Target {
 }
 
 fn places_of(app: &App) -> Option<Places> {
-    let (width, height) = app.size;
+    let (width, height) = app.layout.size;
     let drawn = width >= LEAST_WIDTH && height >= LEAST_HEIGHT;
     drawn.then(|| places(Rect::new(0, 0, width, height), app))
 }
@@ -37,7 +37,7 @@ pub fn target(app: &App, (x, y): (u16, u16)) -> Option<Target> {
         return knob_target(app, &places, (x, y));
     }
     let (view, _) = places.charts.iter().find(|(_, area)| area.contains(at))?;
-    match *view == app.view {
+    match *view == app.view() {
         true => app.cursor_at((x, y)).map(Target::Chart),
         false => Some(Target::View(*view)),
     }
@@ -47,8 +47,8 @@ fn knob_target(app: &App, places: &Places, (x, y): (u16, u16)) -> Option<Target>
     if !places.column {
         let cells = alone(app, places).filter(|cells| cells.contains((x, y).into()));
         return Some(match cells {
-            Some(cells) => Target::Bar(app.knob, bar::part(cells, x)),
-            None => Target::Knob(app.knob),
+            Some(cells) => Target::Bar(app.knobs.selected, bar::part(cells, x)),
+            None => Target::Knob(app.knobs.selected),
         });
     }
     let area = column::inside(places.knobs);

@@ -24,7 +24,7 @@ pub fn panel(app: &App, buffer: &mut Buffer, area: Rect) {
             ColumnLine::Knob(place) => {
                 let own = lines.contains(&ColumnLine::Bar(place));
                 if let Some(knob) = KNOBS.get(place) {
-                    self::knob(app, buffer, row, knob, place == app.knob, !own);
+                    self::knob(app, buffer, row, knob, place == app.knobs.selected, !own);
                 }
             }
             ColumnLine::Bar(place) => {
@@ -88,11 +88,11 @@ fn folded(app: &App, buffer: &mut Buffer, row: Rect, groups: [Group; 2]) {
 fn knob(app: &App, buffer: &mut Buffer, row: Rect, knob: &Knob, selected: bool, underlined: bool) {
     let look = &app.appearance;
     let value = knob.get(&app.scene);
-    let changed = value != knob.get(&app.opened);
+    let changed = value != knob.get(&app.files.opened);
     let inert = knob.inert(&app.scene).is_some();
     let sign = if selected { '▸' } else { ' ' };
     let label = look.spell(&format!("{sign}{}{}", knob.label, if changed { '*' } else { ' ' }));
-    let shown = match (&app.mode, selected) {
+    let shown = match (&app.dialogue.mode, selected) {
         (InputMode::Typing(text), true) => format!("{text}_"),
         // A sign beside the dim colour, for themes without colour.
         _ if inert => look.spell(&format!("({})", knob.shown(&value))),
@@ -114,7 +114,7 @@ fn knob(app: &App, buffer: &mut Buffer, row: Rect, knob: &Knob, selected: bool, 
     if !underlined || inert {
         return;
     }
-    let range = knob.range(&app.scene, &app.opened, &app.machine);
+    let range = knob.range(&app.scene, &app.files.opened, &app.machine);
     let place = range.zip(knob.number(&app.scene)).and_then(|(range, x)| range.place(x));
     if let Some(part) = place {
         let width = (part * f64::from(row.width)).round() as u16;
@@ -129,7 +129,7 @@ fn notes(app: &App, width: usize) -> Vec<(String, Role)> {
         let lines = wrap(&app.appearance.spell(text), width).into_iter();
         lines.map(move |line| (line, role)).collect::<Vec<_>>()
     };
-    if let Some(refusal) = &app.refusal {
+    if let Some(refusal) = &app.knobs.refusal {
         return of(refusal, Role::Trouble);
     }
     let mut lines = match knob.inert(&app.scene) {
@@ -156,7 +156,7 @@ fn sentence(knob: &Knob) -> String {
 pub fn strip(app: &App, buffer: &mut Buffer, area: Rect) {
     let look = &app.appearance;
     let width = usize::from(area.width);
-    if let Some(refusal) = &app.refusal {
+    if let Some(refusal) = &app.knobs.refusal {
         let refusal = shorten(&look.spell(refusal), width, look.ellipsis());
         print(buffer, area, 0, &refusal, look.style(Role::Trouble));
         return;
@@ -171,12 +171,13 @@ pub fn strip(app: &App, buffer: &mut Buffer, area: Rect) {
 }
 
 fn strip_text(app: &App, knob: &Knob) -> String {
-    let shown = match &app.mode {
+    let shown = match &app.dialogue.mode {
         InputMode::Typing(text) => format!("{text}_"),
         _ => knob.text(&app.scene),
     };
-    let changed = if knob.get(&app.scene) == knob.get(&app.opened) { "" } else { "*" };
-    let text = format!("◄ {}{changed} {shown} ►  {}/{}", knob.label, app.knob + 1, KNOBS.len());
+    let changed = if knob.get(&app.scene) == knob.get(&app.files.opened) { "" } else { "*" };
+    let text =
+        format!("◄ {}{changed} {shown} ►  {}/{}", knob.label, app.knobs.selected + 1, KNOBS.len());
     app.appearance.spell(&text)
 }
 

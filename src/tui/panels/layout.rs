@@ -49,7 +49,7 @@ pub fn places(area: Rect, app: &App) -> Places {
             body: area,
             knobs,
             column: false,
-            charts: vec![(app.view, chart)],
+            charts: vec![(app.view(), chart)],
             letters: Some(letters),
             lesson: None,
             footer,
@@ -60,13 +60,13 @@ pub fn places(area: Rect, app: &App) -> Places {
             .areas(area);
     let (lesson, rest) = lesson(body, app);
     let from = if app.compares() { KNOBS_BESIDE_LAWS } else { KNOBS_FROM };
-    let column = area.width >= from && !app.full_screen;
+    let column = area.width >= from && !app.layout.full_screen;
     let [knobs, charts] = if column {
         Layout::horizontal([Constraint::Length(KNOBS_WIDTH), Constraint::Min(1)]).areas(rest)
     } else {
         below(rest, 1)
     };
-    let charts = if app.is_alone() { vec![(app.view, charts)] } else { split(charts, app) };
+    let charts = if app.is_alone() { vec![(app.view(), charts)] } else { split(charts, app) };
     Places { header, body, knobs, column, charts, letters: None, lesson, footer }
 }
 
@@ -77,11 +77,11 @@ fn below(area: Rect, rows: u16) -> [Rect; 2] {
 
 /// Rows of the current lesson, above the knobs and charts.
 fn lesson(body: Rect, app: &App) -> (Option<Rect>, Rect) {
-    if app.lesson.is_none() || body.height < 9 {
+    if app.lessons.progress.is_none() || body.height < 9 {
         return (None, body);
     }
     let wanted = super::lesson::rows(app, usize::from(body.width));
-    let read = app.lesson.as_ref().is_some_and(|progress| progress.read);
+    let read = app.lessons.progress.as_ref().is_some_and(|progress| progress.read);
     let rows = match wanted <= most_rows(body.height) {
         true => wanted,
         // If it is too long to leave room for the charts: first the text, page by
@@ -95,14 +95,14 @@ fn lesson(body: Rect, app: &App) -> (Option<Rect>, Rect) {
 
 /// One large chart, and as many of the requested smaller ones as can be read.
 fn split(area: Rect, app: &App) -> Vec<(ViewId, Rect)> {
-    let views = std::iter::once(app.view).chain(app.companions.iter().copied());
+    let views = app.layout.views().iter().copied();
     let halves = || [Constraint::Percentage(50), Constraint::Percentage(50)];
     let readable = match area.height {
         0..14 => 0,
         14..20 if area.width < PAIR_FROM => 1,
         _ => 3,
     };
-    let companions = app.companions_shown.min(readable);
+    let companions = app.layout.beside.min(readable);
     let areas: Vec<Rect> = match (companions, area.width >= PAIR_FROM) {
         (0, _) => vec![area],
         (1, _) => Layout::vertical(LARGE).split(area).to_vec(),
@@ -132,7 +132,7 @@ const LARGE: [Constraint; 2] = [Constraint::Percentage(55), Constraint::Percenta
 
 /// Rows between header and footer, which take three.
 fn body_rows(app: &App) -> u16 {
-    app.size.1.saturating_sub(3)
+    app.layout.size.1.saturating_sub(3)
 }
 
 /// Most rows of a lesson beside the charts.
@@ -147,17 +147,17 @@ fn page_rows(body: u16) -> u16 {
 
 /// Whether the text of the lesson hides the charts on this screen.
 pub fn lesson_fills(app: &App) -> bool {
-    let rows = super::lesson::rows(app, usize::from(app.size.0));
-    app.lesson.is_some() && rows > most_rows(body_rows(app))
+    let rows = super::lesson::rows(app, usize::from(app.layout.size.0));
+    app.lessons.progress.is_some() && rows > most_rows(body_rows(app))
 }
 
 /// Pages of the text of the lesson where it hides the charts.
 pub fn lesson_pages(app: &App) -> usize {
-    super::lesson::pages(app, usize::from(app.size.0), page_rows(body_rows(app)))
+    super::lesson::pages(app, usize::from(app.layout.size.0), page_rows(body_rows(app)))
 }
 
 /// The room between header and footer on this screen.
 pub fn body(app: &App) -> Rect {
-    let area = Rect::new(0, 0, app.size.0, app.size.1);
+    let area = Rect::new(0, 0, app.layout.size.0, app.layout.size.1);
     places(area, app).body
 }

@@ -25,7 +25,7 @@ pub fn list(app: &App, buffer: &mut Buffer, area: Rect, place: usize) {
         (2..area.height).zip(lessons::all().iter().enumerate().skip(first))
     {
         let (sign, style) = look_of(look, index == place, Role::Text);
-        let (done, steps) = (app.lessons_done.count(lesson), lesson.steps.len());
+        let (done, steps) = (app.lessons.done.count(lesson), lesson.steps.len());
         let done = if done == steps { "done".to_string() } else { format!("{done}/{steps}") };
         let text = look.spell(&format!("{sign} {done:>4}  {}. {}", index + 1, lesson.title));
         print(buffer, area, row, &shorten(&text, width, mark), style);
@@ -39,7 +39,7 @@ fn first_listed(area: Rect, place: usize) -> usize {
 
 /// The lesson in a row of the screen while the list is open in `area`.
 pub fn place_at(app: &App, area: Rect, y: u16) -> Option<usize> {
-    let InputMode::Lessons(place) = app.mode else { return None };
+    let InputMode::Lessons(place) = app.dialogue.mode else { return None };
     let row = y.checked_sub(area.y + 2)?;
     let place = first_listed(area, place) + usize::from(row);
     (place < lessons::all().len()).then_some(place)
@@ -143,7 +143,7 @@ fn text_rows(rows: u16) -> usize {
 
 /// Draws the current step.
 pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
-    let Some(progress) = &app.lesson else { return };
+    let Some(progress) = &app.lessons.progress else { return };
     let look = &app.appearance;
     let width = usize::from(area.width);
     let (left, right) = head(app, width);

@@ -46,13 +46,13 @@ pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
     if places.letters.is_none() {
         header::draw(app, buffer, places.header);
     }
-    if let InputMode::Help(help) = &app.mode {
+    if let InputMode::Help(help) = &app.dialogue.mode {
         help::draw(app, buffer, places.body, help);
-    } else if let InputMode::Palette(palette) = &app.mode {
+    } else if let InputMode::Palette(palette) = &app.dialogue.mode {
         palette::draw(app, buffer, places.body, palette);
-    } else if let InputMode::Lessons(place) = app.mode {
+    } else if let InputMode::Lessons(place) = app.dialogue.mode {
         lesson::list(app, buffer, places.body, place);
-    } else if let InputMode::Scenes(place) = app.mode {
+    } else if let InputMode::Scenes(place) = app.dialogue.mode {
         scenes::draw(app, buffer, places.body, place);
     } else {
         if let Some(area) = places.lesson {
@@ -67,11 +67,11 @@ pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
             knobs::strip(app, buffer, places.knobs);
         }
         for (view, area) in &places.charts {
-            let at = ViewArea { area: *area, digit: view.digit(), large: *view == app.view };
+            let at = ViewArea { area: *area, digit: view.digit(), large: *view == app.view() };
             view.panel().draw(app, buffer, at);
         }
     }
-    if places.letters.is_none() || app.status.is_some() || app.mode != InputMode::Main {
+    if places.letters.is_none() || app.status.is_some() || app.dialogue.mode != InputMode::Main {
         footer::draw(app, buffer, places.footer);
     }
     if app.appearance.ascii() {

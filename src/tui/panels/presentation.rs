@@ -20,10 +20,10 @@ const TALL: u16 = 32;
 /// Whether the screen is drawn so.
 pub fn is_shown(app: &App, area: Rect) -> bool {
     let open = matches!(
-        app.mode,
+        app.dialogue.mode,
         InputMode::Main | InputMode::Typing(_) | InputMode::Naming(..) | InputMode::Replacing(..)
     );
-    app.presenting && open && area.width >= LEAST.0 && area.height >= LEAST.1
+    app.appearance.wide && open && area.width >= LEAST.0 && area.height >= LEAST.1
 }
 
 /// Letters with the sentence below them, the chart, the knob, and the line for
@@ -98,7 +98,7 @@ fn centred(app: &App, buffer: &mut Buffer, area: Rect, row: u16, text: &str, sty
 pub fn knob(app: &App, buffer: &mut Buffer, area: Rect) {
     let Some(knob) = app.selected() else { return };
     let focus = app.appearance.style(Role::Focus).add_modifier(Modifier::BOLD);
-    match (&app.refusal, &app.mode) {
+    match (&app.knobs.refusal, &app.dialogue.mode) {
         (Some(refusal), _) => {
             centred(app, buffer, area, 0, refusal, app.appearance.style(Role::Trouble));
         }

@@ -21,7 +21,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, chosen: Option<usize>) {
     let mark = look.ellipsis();
     let entries = app.scene_entries();
     let place = app.scene_place(&entries, chosen);
-    let found = &app.found_scenes;
+    let found = &app.files.found;
     let head = match (&found.missing, found.reading) {
         (_, true) => "Scenes: reading the files of this folder".to_string(),
         (Some(missing), false) => format!("Scenes: {missing}"),
@@ -89,7 +89,7 @@ fn note(app: &App, buffer: &mut Buffer, area: Rect, entry: &SceneEntry, lines: &
     let (width, mark) = (usize::from(area.width), look.ellipsis());
     let room = usize::from(area.height.saturating_sub(1)).max(1);
     let pages = lines.len().div_ceil(room).max(1);
-    let page = app.note_page % pages;
+    let page = app.dialogue.note_page % pages;
     let open = if entry.open { " (open)" } else { "" };
     let more = match pages {
         1 => String::new(),

@@ -59,7 +59,7 @@ impl ViewPanel for PrecisionView {
             print(buffer, inside, 2, &error.to_string(), quiet);
             return;
         }
-        let Some(report) = &app.latest.results.precision else {
+        let Some(report) = &app.results().found.precision else {
             return not_yet(app, buffer, inside);
         };
         let words = inside;
@@ -99,7 +99,8 @@ impl ViewPanel for PrecisionView {
         let mut reading = None;
         let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
         at.note(app, plot.inner);
-        let cursor = app.cursor.filter(|_| at.large).map(|at| (x.at(at.across), y.at(at.up)));
+        let cursor =
+            app.reading.cursor.filter(|_| at.large).map(|at| (x.at(at.across), y.at(at.up)));
         if let Some(cursor) = cursor {
             plot.point(cursor.0, cursor.1, '+', look.style(Role::Focus));
             // Both axes are as long.

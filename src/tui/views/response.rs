@@ -37,16 +37,16 @@ impl ViewPanel for ResponseView {
 
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
         let casing = Page::casing("response, casing".into(), app);
-        if app.compare {
+        if app.run.compare {
             both_laws(app, buffer, at);
-        } else if at.area.height >= TWO_FROM && !app.presenting && bends(app) {
+        } else if at.area.height >= TWO_FROM && !app.appearance.wide && bends(app) {
             let [above, below] = at.rows(60);
             page(app, buffer, above, &casing);
             let blades = Page {
                 name: "response, blades".into(),
                 names: ["α_c", "α_s"],
                 channels: [Channel::AlphaC, Channel::AlphaS],
-                range: app.ranges.blades,
+                range: app.run.ranges.blades,
                 unit: "rad",
                 ..casing
             };
@@ -118,7 +118,7 @@ impl<'a> Page<'a> {
             name,
             names: ["u_c", "u_s"],
             channels: [Channel::UC, Channel::US],
-            range: app.ranges.casing,
+            range: app.run.ranges.casing,
             unit: "m",
             record: app.record(),
             forecast: app.full_run(),
@@ -133,7 +133,7 @@ fn both_laws(app: &App, buffer: &mut Buffer, at: ViewArea) {
         if at.area.width >= SIDE_BY_SIDE_FROM { at.columns() } else { at.rows(50) };
     let law = app.scene.solver.contact;
     let own = format!("{}: {}", law, app.verdict().word);
-    let comparison = app.latest.results.comparison.as_ref();
+    let comparison = app.results().comparison.as_ref();
     let word = comparison.map_or("...".to_string(), |outcome| app.words(outcome).word);
     let theirs = Page {
         record: app.comparison_record(),
@@ -174,7 +174,7 @@ fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
         legend.insert(0, (read, look.style(Role::Focus)));
     }
     legend.push((format!("{}{} over {}s", y.scale.prefix, what.unit, x.scale.prefix), quiet));
-    if let Some(baseline) = app.baseline.as_ref().filter(|_| what.own) {
+    if let Some(baseline) = app.run.baseline.as_ref().filter(|_| what.own) {
         legend.push(entry(look, &look.quiet(), &format!("pinned: {}", baseline.what(app))));
     }
     legend.push((format!("{mark} contact"), look.style(Role::Contact)));
@@ -193,7 +193,7 @@ fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
         plot.upright(t, look.either('┊', ':'), look.style(Role::Focus));
     }
     let columns = plot.columns();
-    if let Some(baseline) = app.baseline.as_ref().filter(|_| what.own) {
+    if let Some(baseline) = app.run.baseline.as_ref().filter(|_| what.own) {
         let pinned = baseline.history.fine_between(from, to);
         let pinned = history::columns(pinned, what.channels[0], (from, to), columns);
         plot.spans(&pinned, &look.quiet());
@@ -251,7 +251,7 @@ fn reading(app: &App, what: &Page, width: usize) -> Option<String> {
         let [first, second] = what.channels.map(|channel| readable(bin.middle(channel), what.unit));
         return Some(format!("near {}: {first}, {second}", readable(t, "s")));
     }
-    let moment = app.latest.results.reading.as_deref()?;
+    let moment = app.results().reading.as_deref()?;
     let named = what.names.iter().zip(values(moment));
     let named: Vec<String> =
         named.map(|(name, value)| format!("{name} {}", readable(value, what.unit))).collect();

@@ -41,6 +41,11 @@ impl Forecasts {
         &mut self.studies
     }
 
+    /// Stops the studies that are not wanted any more.
+    pub fn stop_unwanted(&mut self, order: &Order) {
+        self.studies.stop_unwanted(order, &self.full_run);
+    }
+
     /// The studies and answers, for the next motion; this one was of `scene`.
     pub fn hand_over(&mut self, scene: &CheckedScene, motion: &Motion) -> (Studies, Answers) {
         self.changed(scene, motion, 0.0);
@@ -52,7 +57,6 @@ impl Forecasts {
         let run = std::mem::replace(&mut self.full_run, FullRunJob::new(motion.clone(), length));
         self.answers.turned_on(scene, run);
         self.reference = None;
-        self.studies.forget_spectrum();
     }
 
     /// A new run of `length` seconds from where the motion is. The reference
@@ -60,7 +64,6 @@ impl Forecasts {
     pub fn again(&mut self, motion: &Motion, length: f64) {
         self.full_run = FullRunJob::new(motion.clone(), length);
         self.reference = None;
-        self.studies.forget_spectrum();
     }
 
     /// Whether it is sensitive is not asked of a motion that was changed.
@@ -99,7 +102,7 @@ impl Forecasts {
         runs.any(|run| !run.is_done())
             || self.answers.is_computing()
             || self.sensitive.is_none()
-            || self.studies.is_computing(order)
+            || self.studies.is_computing(order, &self.full_run)
     }
 
     /// Computes a slice of a run that was begun before the last change; false where there is
@@ -125,15 +128,14 @@ impl Forecasts {
             self.sensitive = job.receive(SLICE).or(job.is_done().then_some(false));
             return;
         }
-        let full_run = &self.full_run;
-        self.studies.compute(order, || full_run.signal(), order.scene.solver.end_s);
+        self.studies.compute(order, &self.full_run);
     }
 
     /// What is known so far.
-    pub fn results(&self, comparison: Option<&FullRunJob>) -> Results {
+    pub fn results(&self, order: &Order, comparison: Option<&FullRunJob>) -> Results {
         let full_run = self.full_run.state();
         let done_in = matches!(full_run, FullRunState::Done(_)).then(|| self.full_run.wall_s());
-        let mut results = Results {
+        Results {
             full_run: Some(full_run),
             answer: self.answers.latest(),
             end_s: self.end(),
@@ -146,10 +148,9 @@ impl Forecasts {
                 run_s: done_in,
                 ..Pace::default()
             },
+            found: self.studies.found(order, &self.full_run),
             ..Results::default()
-        };
-        self.studies.show(&mut results);
-        results
+        }
     }
 }
 

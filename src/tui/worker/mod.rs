@@ -3,18 +3,14 @@
 
 mod answers;
 mod background;
-mod coincidence;
 mod comparison;
 mod copies;
 mod forecasts;
 mod full_run;
 mod jump;
-mod map_job;
-mod margins;
 mod pacing;
 mod page;
 mod playback;
-mod precision;
 mod reading;
 mod recorder;
 mod stepwise;
@@ -25,4 +21,5 @@ pub use comparison::other_law;
 pub use playback::Playback;
 pub use recorder::{in_blade_frame, rim_point};
 pub use stepwise::Stepwise;
+pub use studies::Found;
 pub use thread::{WORKER_NAME, Worker};

@@ -15,7 +15,7 @@ use super::pacing::{Reached, Turned, rate_at};
 use super::page::{PER_TURN, Page, next_sample, sample_length};
 use super::reading::Reading;
 use super::recorder::Recorder;
-use super::studies::Studies;
+use super::studies::{Bounds, Studies};
 use crate::motion::{Change, Motion};
 use crate::scene::keys::differences;
 use crate::tui::engine::{Limit, Moment, Order, Snapshot};
@@ -94,15 +94,15 @@ impl Playback {
         playback
     }
 
-    /// Limits the cells of a map, and whether lasting pulses are searched.
-    pub fn limit_studies(&mut self, most_cells: usize, searches: bool) {
-        self.forecasts.studies().limit(most_cells, searches);
+    /// Bounds how far studies go.
+    pub fn bound_studies(&mut self, bounds: Bounds) {
+        self.forecasts.studies().bound(bounds);
     }
 
     /// Takes a newer order and does what its counters ask for.
     pub fn apply(&mut self, order: &Order) {
         let before = std::mem::replace(&mut self.order, order.clone());
-        self.forecasts.studies().stop_unwanted(order);
+        self.forecasts.stop_unwanted(order);
         if order.restarts != before.restarts {
             let kept = self.forecasts.hand_over(&before.scene, &self.motion);
             *self = Self::start(order.clone(), self.time_limit, kept);
@@ -332,8 +332,8 @@ impl Playback {
             ..Moment::of(&self.motion)
         };
         let comparison = self.comparison.as_mut();
-        let mut results =
-            self.forecasts.results(comparison.as_ref().map(|comparison| &comparison.full_run));
+        let theirs = comparison.as_ref().map(|comparison| &comparison.full_run);
+        let mut results = self.forecasts.results(&self.order, theirs);
         results.pace.limit = self.limit;
         results.pace.reached = self.reached.rate();
         results.reading = self.reading.moment();

@@ -5,6 +5,7 @@
 use std::time::Duration;
 
 use super::Playback;
+use super::studies::Bounds;
 use crate::tui::engine::{Engine, Limit, Order, Pace, Snapshot};
 
 /// Cells of a map unless more are asked for: blocks of eight by eight.
@@ -48,7 +49,7 @@ impl Engine for Stepwise {
         let order = self.order.as_ref()?;
         let start = || Playback::with_time_limit(order.clone(), Duration::MAX);
         let playback = self.playback.get_or_insert_with(start);
-        playback.limit_studies(self.map_cells, self.searches);
+        playback.bound_studies(Bounds { cells: self.map_cells, searches: self.searches });
         playback.apply(order);
         while playback.is_computing() {
             playback.compute();

@@ -53,14 +53,14 @@ impl ViewPanel for CoincidenceView {
 
     /// The present speed.
     fn here(&self, app: &App) -> Cursor {
-        let curves = app.latest.results.coincidence.as_deref().and_then(Option::as_ref);
+        let curves = app.results().found.coincidence.as_deref().and_then(Option::as_ref);
         let across = curves
             .map_or(0.5, |curves| (app.speed().abs() - curves.from) / (curves.to - curves.from));
         Cursor { across: across.clamp(0.0, 1.0), up: 0.5 }
     }
 
     fn csv(&self, app: &App) -> Result<String, String> {
-        let curves = app.latest.results.coincidence.as_deref().and_then(Option::as_ref);
+        let curves = app.results().found.coincidence.as_deref().and_then(Option::as_ref);
         let points = curves.map_or(&[][..], |curves| &curves.points);
         let rows = points.iter().map(|point| {
             let values = [
@@ -106,7 +106,7 @@ const GROWTH: Quantity =
 
 /// The charts over speed.
 fn over_speed(app: &App, buffer: &mut Buffer, at: ViewArea) {
-    let Some(found) = app.latest.results.coincidence.as_deref() else {
+    let Some(found) = app.results().found.coincidence.as_deref() else {
         let inside = title(app, buffer, at, AMPLITUDE.name, &[]);
         return not_yet(app, buffer, inside);
     };
@@ -140,7 +140,7 @@ fn chart(
     let now = now(app).filter(|_| large);
     let y = rounded(values().chain(now));
     let x = ChartAxis::plain(curves.from, curves.to);
-    let read = app.cursor.filter(|_| app.view == ViewId::Coincidence).map(|at| x.at(at.across));
+    let read = app.cursor_in(ViewId::Coincidence).map(|at| x.at(at.across));
     let point = look.either('◆', '@');
     let named = format!("{}, {}{}", what.curve, y.scale.prefix, what.unit);
     let mut legend = vec![entry(look, &look.first(), &named)];
@@ -263,7 +263,7 @@ fn reading(app: &App, speed: f64) -> String {
 
 /// Amplitude of the blades in the running motion while something touches \[rad\].
 fn now(app: &App) -> Option<f64> {
-    let moment = app.latest.moment.as_ref()?;
+    let moment = app.run.latest.moment.as_ref()?;
     let [a_c, a_s] = moment.state.alpha;
     let bends = app.scene.solver.model != ModelSize::Rigid;
     let touches = moment.active_set != ActiveSet::Nothing;

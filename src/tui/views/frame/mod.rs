@@ -59,7 +59,7 @@ pub fn square(area: Rect, reach: f64) -> (ChartAxis, ChartAxis) {
 /// The place under the reading cursor, and how far the nearest blade is from it
 /// where blades are rigid.
 fn reading(app: &App, x: ChartAxis, y: ChartAxis) -> Option<String> {
-    let cursor = app.cursor.filter(|_| app.view == ViewId::Frame)?;
+    let cursor = app.cursor_in(ViewId::Frame)?;
     let (x, y) = (x.at(cursor.across), y.at(cursor.up));
     let polygon = &app.machine.polygon;
     let gaps = (0..polygon.sides).map(|side| (side, polygon.gap(side, x, y)));
@@ -94,7 +94,7 @@ fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let look = &app.appearance;
     let quiet = look.style(Role::Quiet);
     let polygon = &app.machine.polygon;
-    let (x, y) = square(at.area, app.usual_reach().max(app.ranges.rim.high));
+    let (x, y) = square(at.area, app.usual_reach().max(app.run.ranges.rim.high));
     let point = look.either('●', 'O');
     let mut legend = vec![
         (format!("{}, {}m", named(app), x.scale.prefix), quiet),
@@ -131,7 +131,7 @@ fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let trail = past.map(|bin| (bin.middle(Channel::RimX), bin.middle(Channel::RimY)));
     plot.curve(trail, &look.first());
     plot.ink();
-    if let Some(cursor) = app.cursor.filter(|_| app.view == ViewId::Frame) {
+    if let Some(cursor) = app.cursor_in(ViewId::Frame) {
         plot.point(x.at(cursor.across), y.at(cursor.up), '+', look.style(Role::Focus));
     }
     if let Some(moment) = app.shown() {

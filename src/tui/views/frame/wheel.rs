@@ -28,7 +28,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let machine = &app.machine;
     let polygon = &machine.polygon;
     // A wave that passes the clearance is less magnified, so that it stays on the chart.
-    let unit = polygon.clearance.abs().max(app.ranges.rim.high / MOST).max(f64::MIN_POSITIVE);
+    let unit = polygon.clearance.abs().max(app.run.ranges.rim.high / MOST).max(f64::MIN_POSITIVE);
     let exaggeration = CLEARANCE * app.scene.bladed_disk.blade_length_m / unit;
     let legend = [
         (format!("gaps x {exaggeration:.0}"), look.style(Role::Quiet)),

@@ -22,24 +22,24 @@ impl ViewPanel for GapsView {
     }
 
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
-        if app.heat { heat::draw(app, buffer, at) } else { draw(app, buffer, at) }
+        if app.layout.heat { heat::draw(app, buffer, at) } else { draw(app, buffer, at) }
     }
 
     fn is_over_time(&self, app: &App) -> bool {
-        app.heat
+        app.layout.heat
     }
 
     fn grid(&self, app: &App) -> [u32; 2] {
         let blades = app.machine.polygon.blades;
-        if app.heat { [0, blades] } else { [blades, 0] }
+        if app.layout.heat { [0, blades] } else { [blades, 0] }
     }
 
     fn here(&self, app: &App) -> Cursor {
-        Cursor { across: if app.heat { app.part_of_page() } else { 0.0 }, up: 1.0 }
+        Cursor { across: if app.layout.heat { app.part_of_page() } else { 0.0 }, up: 1.0 }
     }
 
     fn csv(&self, app: &App) -> Result<String, String> {
-        if app.heat {
+        if app.layout.heat {
             return heat::csv(app);
         }
         let gaps = app.shown().map_or(&[][..], |moment| &moment.gaps);
@@ -53,7 +53,7 @@ fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let look = &app.appearance;
     let quiet = look.style(Role::Quiet);
     let contact = look.style(Role::Contact);
-    let range = app.ranges.gaps;
+    let range = app.run.ranges.gaps;
     let y = ChartAxis::scaled(range.low, range.high);
     let count = app.machine.polygon.blades;
     let x = ChartAxis::plain(0.5, f64::from(count) + 0.5);
@@ -97,7 +97,7 @@ fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
         plot.point(f64::from(*blade), gap.clamp(range.low, range.high), mark, contact);
     }
     label(&mut plot, &active_set, app);
-    if let Some(cursor) = app.cursor.filter(|_| app.view == ViewId::Gaps) {
+    if let Some(cursor) = app.cursor_in(ViewId::Gaps) {
         let blade = cell_of(cursor.across, count) + 1;
         plot.upright(f64::from(blade), look.either('┊', ':'), look.style(Role::Focus));
     }
@@ -105,8 +105,8 @@ fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
 
 /// The blade under the reading cursor, from 0.
 fn read_blade(app: &App) -> Option<u32> {
-    let cursor = app.cursor.filter(|_| app.view == ViewId::Gaps)?;
-    let part = if app.heat { cursor.up } else { cursor.across };
+    let cursor = app.cursor_in(ViewId::Gaps)?;
+    let part = if app.layout.heat { cursor.up } else { cursor.across };
     Some(cell_of(part, app.machine.polygon.blades))
 }
 

@@ -80,8 +80,8 @@ impl Chart {
 
 /// The speed under the reading cursor \[rad/s\].
 pub fn cursor_speed(app: &App, curves: &LockedCurves) -> Option<f64> {
-    let here = app.view == crate::tui::views::ViewId::Locked;
-    app.cursor.filter(|_| here).map(|cursor| cursor.across * curves.fastest)
+    let here = app.view() == crate::tui::views::ViewId::Locked;
+    app.reading.cursor.filter(|_| here).map(|cursor| cursor.across * curves.fastest)
 }
 
 /// The locked motion at one speed, solved there, in words.
@@ -125,7 +125,7 @@ pub fn reading(app: &App, speed: f64) -> String {
 
 /// That the run of this speed does not come to a lock that can last.
 fn not_this_run(app: &App, can_last: bool) -> Option<String> {
-    let (cursor, here) = (app.cursor?, app.view.panel().here(app));
+    let (cursor, here) = (app.reading.cursor?, app.panel().here(app));
     let run = app.full_run().filter(|_| can_last && !app.is_asked())?;
     let elsewhere = (cursor.across - here.across).abs() > 0.5 * STEP;
     let locks = matches!(run.verdict, Verdict::Locked | Verdict::Adhesive);

@@ -40,7 +40,7 @@ impl ViewPanel for LockedView {
     }
 
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
-        let curves = app.latest.results.locked.as_deref();
+        let curves = app.results().found.locked.as_deref();
         let locks = curves.filter(|curves| curves.damped.is_some());
         let below: &[charts::Chart] = match at.area.height {
             THREE_FROM.. => &[ANGLES, AMPLITUDES],
@@ -62,12 +62,12 @@ impl ViewPanel for LockedView {
 
     /// The present speed.
     fn here(&self, app: &App) -> Cursor {
-        let fastest = app.latest.results.locked.as_ref().map_or(1.0, |curves| curves.fastest);
+        let fastest = app.results().found.locked.as_ref().map_or(1.0, |curves| curves.fastest);
         Cursor { across: (app.speed().abs() / fastest).clamp(0.0, 1.0), up: 0.5 }
     }
 
     fn csv(&self, app: &App) -> Result<String, String> {
-        let damped = app.latest.results.locked.as_ref().and_then(|curves| curves.damped.as_ref());
+        let damped = app.results().found.locked.as_ref().and_then(|curves| curves.damped.as_ref());
         let points = damped.map_or(&[][..], |sweep| &sweep.points);
         let rows = points.iter().map(|point| {
             let [a, b] = point.multipliers_n;
@@ -100,7 +100,7 @@ impl ViewPanel for LockedView {
 fn multipliers(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let look = &app.appearance;
     let quiet = look.style(Role::Quiet);
-    let curves = app.latest.results.locked.as_deref();
+    let curves = app.results().found.locked.as_deref();
     let roomy = at.area.height >= ROOMY;
     let pair = curves.is_some_and(|curves| curves.undamped.is_some());
     let point = look.either('◆', '@');
@@ -216,7 +216,7 @@ fn curve(plot: &mut Plot, sweep: &Sweep, place: usize, pen: &Pen) {
 
 /// Mean multipliers of the running motion, while something touches.
 fn running(app: &App) -> Vec<f64> {
-    let Some(moment) = &app.latest.moment else { return Vec::new() };
+    let Some(moment) = &app.run.latest.moment else { return Vec::new() };
     if moment.active_set == ActiveSet::Nothing {
         return Vec::new();
     }

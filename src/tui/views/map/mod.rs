@@ -40,7 +40,7 @@ impl ViewPanel for MapView {
     }
 
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
-        let live = app.latest.results.map.as_deref();
+        let live = app.results().found.map.as_deref();
         let plan = app.map_plan();
         let entries = words::title(app, live, plan.as_ref().ok(), at.area.width);
         let inside = title(app, buffer, at, "map", &entries);
@@ -69,7 +69,7 @@ impl ViewPanel for MapView {
     }
 
     fn csv(&self, app: &App) -> Result<String, String> {
-        let live = app.latest.results.map.as_ref().ok_or("there is no map yet")?;
+        let live = app.results().found.map.as_ref().ok_or("there is no map yet")?;
         let mut bytes = Vec::new();
         write_csv(&live.map, &mut bytes).map_err(|error| error.to_string())?;
         String::from_utf8(bytes).map_err(|error| error.to_string())

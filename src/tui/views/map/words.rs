@@ -176,7 +176,7 @@ fn cell(app: &App, live: &LiveMap) -> Option<[String; 3]> {
     let plan = &live.map.plan;
     let values = [(&plan.x, column), (&plan.y, row)]
         .map(|(axis, place)| named_value(axis, axis.value(place)));
-    let run = app.latest.results.cell.as_deref();
+    let run = app.results().found.cell.as_deref();
     let run = run.filter(|run| run.cell == [column, row] && run.plan == *plan);
     let verdict = match (live.map.at(column, row), run) {
         (Some(cell), _) => cell.verdict.to_string(),

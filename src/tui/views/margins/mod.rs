@@ -108,14 +108,15 @@ mod tests {
 
     use super::*;
     use crate::scene::Scene;
+    use crate::tui::bindings::Action;
     use crate::tui::views::ViewId;
     use crate::tui::{Marker, Theme};
 
     fn app() -> App {
         let scene = Scene::base().checked().unwrap();
         let mut app = App::new(scene.clone(), Theme::Dark, Marker::Braille);
-        app.view = ViewId::Margins;
-        app.latest.results.margins = Some(Arc::new(LiveMargins::of(Margins::of(&scene))));
+        app.act(Action::View(ViewId::Margins));
+        app.run.latest.results.found.margins = Some(Arc::new(LiveMargins::of(Margins::of(&scene))));
         app
     }
 
@@ -144,7 +145,7 @@ mod tests {
     #[test]
     fn margins_of_other_knobs_are_marked_and_nothing_jumps_there() {
         let mut app = app();
-        app.cursor = Some(MarginsView.here(&app));
+        app.reading.cursor = Some(MarginsView.here(&app));
         assert!(!text(&app).contains("of the knobs before"));
         assert!(matches!(app.opening(), Some(Opening::Jump { .. })));
         let mut other = app.scene.clone().into_scene();
@@ -161,17 +162,13 @@ mod tests {
         let mut bytes = Vec::new();
         margins::table(&live.margins).write_csv(&mut bytes).unwrap();
         assert_eq!(MarginsView.csv(&app).unwrap().into_bytes(), bytes);
-        app.latest.results.margins = None;
+        app.run.latest.results.found.margins = None;
         assert_eq!(MarginsView.csv(&app), Err("there are no margins yet".into()));
     }
 
     #[test]
     fn a_change_has_its_sign_on_its_side() {
-        let look = crate::tui::appearance::Appearance {
-            theme: Theme::Mono,
-            marker: Marker::Ascii,
-            wide: false,
-        };
+        let look = crate::tui::appearance::Appearance::new(Theme::Mono, Marker::Ascii);
         for (part, bar) in [(1.0, "  |=="), (-1.0, "==|  "), (0.3, "  |- "), (-0.01, " -|  ")] {
             assert_eq!(bar::signed(part, 5, &look), bar);
         }

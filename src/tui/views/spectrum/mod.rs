@@ -38,7 +38,7 @@ impl ViewPanel for SpectrumView {
     }
 
     fn csv(&self, app: &App) -> Result<String, String> {
-        let spectrum = app.latest.results.spectrum.as_deref().cloned().unwrap_or_default();
+        let spectrum = app.results().found.spectrum.as_deref().cloned().unwrap_or_default();
         let lines = (0..).zip(spectrum.cosine.iter().zip(&spectrum.sine));
         let rows =
             lines.map(|(k, (cosine, sine))| [f64::from(k) * spectrum.resolution, *cosine, *sine]);
@@ -69,8 +69,8 @@ fn amplitudes(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let look = &app.appearance;
     let quiet = look.style(Role::Quiet);
     let x = ChartAxis::plain(0.0, highest(app));
-    let cursor = app.cursor.filter(|_| app.view == ViewId::Spectrum).map(|at| x.at(at.across));
-    let spectrum = app.latest.results.spectrum.as_ref();
+    let cursor = app.cursor_in(ViewId::Spectrum).map(|at| x.at(at.across));
+    let spectrum = app.results().found.spectrum.as_ref();
     let mut legend = vec![entry(look, &look.first(), "u_c"), entry(look, &look.second(), "u_s")];
     if let Some(read) = cursor.and_then(|frequency| reading(spectrum?, frequency)) {
         legend.insert(0, (read, look.style(Role::Focus)));
@@ -122,7 +122,7 @@ fn campbell(app: &App, buffer: &mut Buffer, at: ViewArea) {
         ("rad/s by rad/s".to_string(), quiet),
     ];
     let inside = title(app, buffer, at, "Campbell", &legend);
-    let fastest = app.latest.results.locked.as_ref().map_or(600.0, |curves| curves.fastest);
+    let fastest = app.results().found.locked.as_ref().map_or(600.0, |curves| curves.fastest);
     let top = app.machine.nu(fastest).max(1.5 * app.machine.omega_c);
     // Over the speeds of the present sense of rotation.
     let sense = if app.speed() < 0.0 { -1.0 } else { 1.0 };

@@ -5,27 +5,35 @@ use std::sync::Arc;
 use std::sync::mpsc::Sender;
 use std::time::Duration;
 
-use super::background::{Background, spare_threads};
-use super::thread::WORKER_NAME;
+use super::{Given, Study};
 use crate::motion::GoOn;
-use crate::scene::{CheckedScene, Scene};
+use crate::scene::CheckedScene;
 use crate::study::margins::Margins;
+use crate::tui::views::ViewId;
 use crate::tui::views::margins::LiveMargins;
+use crate::tui::worker::WORKER_NAME;
+use crate::tui::worker::background::{Background, spare_threads};
 
 /// The margins that are being found. Dropping them ends the thread.
 #[derive(Debug)]
-pub struct MarginsJob {
-    scene: Scene,
+pub struct MarginsStudy {
     searches: bool,
-    found: Background<LiveMargins>,
+    coming: Background<LiveMargins>,
     live: Option<Arc<LiveMargins>>,
 }
 
-impl MarginsJob {
-    /// Starts on a scene; whether lasting pulses are searched, too.
-    pub fn of(scene: &CheckedScene, searches: bool) -> Self {
-        let theirs = scene.clone();
-        let found = Background::start(move |to, go_on| {
+impl Study for MarginsStudy {
+    type Key = CheckedScene;
+    type Found = LiveMargins;
+    const BESIDE: bool = true;
+
+    fn key(given: &Given) -> Option<CheckedScene> {
+        given.order.shows(ViewId::Margins).then(|| given.order.scene.clone())
+    }
+
+    fn begin(scene: &CheckedScene, given: &Given) -> Self {
+        let (theirs, searches) = (scene.clone(), given.bounds.searches);
+        let coming = Background::start(move |to, go_on| {
             let live = LiveMargins::of(Margins::of(&theirs));
             // Without a receiver nobody asks any more, and `go_on` says so.
             let _ = to.send(live.clone());
@@ -33,27 +41,15 @@ impl MarginsJob {
                 search(live, to, go_on);
             }
         });
-        Self { scene: scene.clone().into_scene(), searches, found, live: None }
+        Self { searches, coming, live: None }
     }
 
-    /// Whether they belong to this scene.
-    pub fn is_of(&self, scene: &Scene) -> bool {
-        self.scene == *scene
+    fn is_done(&self) -> bool {
+        self.coming.is_done()
     }
 
-    /// Whether nothing more comes.
-    pub fn is_done(&self) -> bool {
-        self.found.is_done()
-    }
-
-    /// What is known so far.
-    pub fn live(&self) -> Option<&Arc<LiveMargins>> {
-        self.live.as_ref()
-    }
-
-    /// Takes what is found next, waiting for it no longer than `patience`.
-    pub fn receive(&mut self, patience: Duration) {
-        if let Some(live) = self.found.receive(patience) {
+    fn work(&mut self, patience: Duration) {
+        if let Some(live) = self.coming.receive(patience) {
             self.live = Some(Arc::new(live));
         } else if self.is_done()
             && self.searches
@@ -63,6 +59,14 @@ impl MarginsJob {
             // The thread ended early: nobody searches any more.
             Arc::make_mut(live).awaited.clear();
         }
+    }
+
+    fn found(&self) -> Option<&Arc<LiveMargins>> {
+        self.live.as_ref()
+    }
+
+    fn wait(&mut self) -> bool {
+        self.is_done()
     }
 }
 
@@ -90,7 +94,9 @@ fn search(mut live: LiveMargins, to: &Sender<LiveMargins>, go_on: GoOn<'_>) {
 
 #[cfg(test)]
 mod tests {
+    use super::super::tests::with_given;
     use super::*;
+    use crate::scene::Scene;
     use crate::study::margins::LimitName;
 
     #[test]
@@ -99,19 +105,20 @@ mod tests {
         scene.solver.end_s = 2e-3;
         scene.solver.step_s = 1e-6;
         let scene = scene.checked().unwrap();
-        let mut job = MarginsJob::of(&scene, true);
-        assert!(job.is_of(&scene) && !job.is_done());
+        let start = |given: &Given| MarginsStudy::begin(&scene, given);
+        let mut job = with_given(&scene, ViewId::Margins, start);
+        assert!(!job.is_done());
         let mut awaited = Vec::new();
         while !job.is_done() {
-            job.receive(Duration::from_millis(20));
-            if let Some(live) = job.live() {
+            job.work(Duration::from_millis(20));
+            if let Some(live) = job.found() {
                 assert_eq!(live.margins.scene, scene);
                 awaited.push(live.awaited.len());
             }
         }
         awaited.dedup();
         assert_eq!(awaited, [2, 1, 0]);
-        let margins = &job.live().unwrap().margins;
+        let margins = &job.found().unwrap().margins;
         assert!(margins.limit(LimitName::LastingPulse).is_some());
         let mut whole = Margins::of(&scene);
         assert!(margins.laws().into_iter().all(|law| whole.search(law, &|| true)));

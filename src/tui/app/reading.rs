@@ -20,50 +20,105 @@ const LARGE_STEP: f64 = 0.1;
 /// Cells of a large step in a chart of cells.
 const LARGE_CELLS: i64 = 5;
 
-impl App {
-    /// The instant that is read: that of the cursor in the chart over time where it was
-    /// last \[s\].
-    pub fn cursor_time(&self) -> Option<f64> {
-        self.read_s.filter(|_| self.cursor.is_some())
+/// What is read in the large chart.
+#[derive(Clone, Debug, Default)]
+pub struct Reading {
+    /// The reading cursor.
+    pub cursor: Option<Cursor>,
+    /// Whether the arrows move it, not the knobs.
+    pub on: bool,
+    /// The instant that it reads, where it was put in a chart over time \[s\].
+    at_s: Option<f64>,
+}
+
+impl Reading {
+    /// Whether the arrows move the cursor, not the knobs.
+    pub(super) fn is_on(&self) -> bool {
+        self.on
     }
 
-    /// Puts the cursor at a place of the large chart; over time, that instant is read.
-    pub(super) fn put_cursor(&mut self, cursor: Cursor) {
-        if self.view.panel().is_over_time(self) {
-            let (from, to) = self.page();
-            self.read_s = Some(from + cursor.across * (to - from));
-        }
+    /// The reading cursor.
+    pub(super) fn cursor(&self) -> Option<Cursor> {
+        self.cursor
+    }
+
+    /// Whether there is something to leave.
+    pub(super) fn is_open(&self) -> bool {
+        self.on || self.cursor.is_some()
+    }
+
+    /// The instant that was read last \[s\].
+    pub(super) fn instant(&self) -> Option<f64> {
+        self.at_s
+    }
+
+    /// The cursor is at this place of a chart that is not over time.
+    pub(super) fn move_to(&mut self, cursor: Cursor) {
         self.cursor = Some(cursor);
     }
 
     /// Nothing is read any more.
-    pub(super) fn stop_reading(&mut self) {
-        (self.reading, self.cursor, self.read_s) = (false, None, None);
+    pub(super) fn stop(&mut self) {
+        *self = Self::default();
+    }
+}
+
+impl App {
+    /// The cursor in a view, while that is the large chart.
+    pub fn cursor_in(&self, view: ViewId) -> Option<Cursor> {
+        self.reading.cursor.filter(|_| self.is_large(view))
+    }
+
+    /// The place of the pointer is read from now on.
+    pub(super) fn point(&mut self, cursor: Cursor) {
+        self.reading.on = true;
+        self.put_cursor(cursor);
+    }
+
+    /// Reads this instant.
+    pub(super) fn read_instant(&mut self, t: f64) {
+        self.reading.at_s = Some(t);
+        self.reading.cursor = Some(self.panel().here(self));
+    }
+
+    /// The instant that is read: that of the cursor in the chart over time where it was
+    /// last \[s\].
+    pub fn cursor_time(&self) -> Option<f64> {
+        self.reading.at_s.filter(|_| self.reading.cursor.is_some())
+    }
+
+    /// Puts the cursor at a place of the large chart; over time, that instant is read.
+    pub(super) fn put_cursor(&mut self, cursor: Cursor) {
+        if self.panel().is_over_time(self) {
+            let (from, to) = self.page();
+            self.reading.at_s = Some(from + cursor.across * (to - from));
+        }
+        self.reading.cursor = Some(cursor);
     }
 
     /// After a change of the large chart: an instant goes on being read.
     pub(super) fn keep_instant(&mut self) {
         match self.cursor_time() {
-            Some(_) => self.cursor = Some(self.view.panel().here(self)),
-            None => self.stop_reading(),
+            Some(_) => self.reading.cursor = Some(self.panel().here(self)),
+            None => self.reading.stop(),
         }
     }
 
     /// The arrows move the cursor from now on, or no longer.
     pub(super) fn toggle_reading(&mut self) {
-        if self.reading {
-            return self.stop_reading();
+        if self.reading.on {
+            return self.reading.stop();
         }
-        self.reading = true;
-        if self.cursor.is_none() {
-            self.put_cursor(self.view.panel().here(self));
+        self.reading.on = true;
+        if self.reading.cursor.is_none() {
+            self.put_cursor(self.panel().here(self));
         }
     }
 
     /// Moves the cursor by some steps; it appears where the motion is.
     pub(super) fn move_cursor(&mut self, right: i64, up: i64, coarse: bool) {
-        let panel = self.view.panel();
-        let mut cursor = self.cursor.unwrap_or_else(|| panel.here(self));
+        let panel = self.panel();
+        let mut cursor = self.reading.cursor.unwrap_or_else(|| panel.here(self));
         if panel.is_over_time(self) {
             // The page may be another one since.
             cursor.across = self.part_of_page();
@@ -84,13 +139,14 @@ impl App {
 
     /// The gaps against time, or those of one instant; the blade that is read stays.
     pub(super) fn turn_gaps(&mut self) {
-        let cursor = self.cursor.filter(|_| self.view == ViewId::Gaps);
-        let blade = cursor.map(|cursor| if self.heat { cursor.up } else { cursor.across });
-        self.heat = !self.heat;
+        let cursor = self.cursor_in(ViewId::Gaps);
+        let blade =
+            cursor.map(|cursor| if self.layout.is_heat() { cursor.up } else { cursor.across });
+        self.status = Some(self.layout.turn_gaps());
         self.show(ViewId::Gaps);
         if let Some(blade) = blade {
-            let here = self.view.panel().here(self);
-            self.put_cursor(match self.heat {
+            let here = self.panel().here(self);
+            self.put_cursor(match self.layout.is_heat() {
                 true => Cursor { up: blade, ..here },
                 false => Cursor { across: blade, ..here },
             });
@@ -110,7 +166,7 @@ impl App {
 
     /// What Enter does at the reading cursor.
     pub fn opening(&self) -> Option<Opening> {
-        self.view.panel().opening(self, self.cursor?)
+        self.panel().opening(self, self.reading.cursor?)
     }
 }
 

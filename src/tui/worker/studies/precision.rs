@@ -4,59 +4,55 @@ use std::sync::Arc;
 use std::sync::mpsc::Sender;
 use std::time::Duration;
 
-use super::background::Background;
+use super::{Given, Study};
 use crate::motion::GoOn;
 use crate::scene::Scene;
 use crate::study::precision::{Effort, Measure, Precision, Reference, Row, ways};
+use crate::tui::views::ViewId;
+use crate::tui::worker::background::Background;
 
 /// What the thread finds.
-enum Found {
+enum Part {
     Reference(Box<Reference>),
     Row(Box<Row>),
 }
 
 /// The comparison of the solvers on one scene. Dropping it ends its thread.
 #[derive(Debug)]
-pub struct PrecisionJob {
+pub struct PrecisionStudy {
     scene: Scene,
-    rows: Background<Found>,
+    rows: Background<Part>,
     report: Option<Arc<Precision>>,
 }
 
-impl PrecisionJob {
-    /// Starts on a checked scene.
-    pub fn of(scene: &Scene) -> Self {
+impl Study for PrecisionStudy {
+    type Key = Scene;
+    type Found = Precision;
+
+    fn key(given: &Given) -> Option<Scene> {
+        given.order.shows(ViewId::Precision).then(|| given.order.scene.clone().into_scene())
+    }
+
+    fn begin(scene: &Scene, _: &Given) -> Self {
         let theirs = scene.clone();
         let rows = Background::start(move |found, go_on| measure(&theirs, found, go_on));
         Self { scene: scene.clone(), rows, report: None }
     }
 
-    /// Whether it belongs to this scene.
-    pub fn is_of(&self, scene: &Scene) -> bool {
-        self.scene == *scene
-    }
-
-    /// Whether all rows are done.
-    pub fn is_done(&self) -> bool {
+    fn is_done(&self) -> bool {
         self.rows.is_done()
     }
 
-    /// The rows so far.
-    pub fn report(&self) -> Option<&Arc<Precision>> {
-        self.report.as_ref()
-    }
-
-    /// Takes the next row, waiting for it no longer than `patience`.
-    pub fn receive(&mut self, patience: Duration) {
+    fn work(&mut self, patience: Duration) {
         match self.rows.receive(patience) {
-            Some(Found::Reference(reference)) => {
+            Some(Part::Reference(reference)) => {
                 self.report = Some(Arc::new(Precision {
                     scene: self.scene.clone(),
                     reference: *reference,
                     rows: Vec::new(),
                 }));
             }
-            Some(Found::Row(row)) => {
+            Some(Part::Row(row)) => {
                 if let Some(report) = &mut self.report {
                     Arc::make_mut(report).rows.push(*row);
                 }
@@ -64,38 +60,44 @@ impl PrecisionJob {
             None => {}
         }
     }
+
+    fn found(&self) -> Option<&Arc<Precision>> {
+        self.report.as_ref()
+    }
 }
 
 /// Measures until done, or until told not to go on.
-fn measure(scene: &Scene, found: &Sender<Found>, go_on: GoOn<'_>) {
+fn measure(scene: &Scene, found: &Sender<Part>, go_on: GoOn<'_>) {
     let Ok(Some(measure)) = Measure::new(scene, Effort::QUICK, go_on) else { return };
     // Without a receiver nothing is asked for any more, and `go_on` says so.
-    let _ = found.send(Found::Reference(Box::new(measure.reference().clone())));
+    let _ = found.send(Part::Reference(Box::new(measure.reference().clone())));
     for way in ways(scene, Effort::QUICK) {
         let row = measure.row(way, Effort::QUICK, go_on);
         if !go_on() {
             return;
         }
         if let Ok(Some(row)) = row {
-            let _ = found.send(Found::Row(Box::new(row)));
+            let _ = found.send(Part::Row(Box::new(row)));
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::tests::with_given;
     use super::*;
 
     #[test]
     fn rows_come_in_the_order_of_the_ways_and_nothing_waits_for_them() {
         let mut scene = Scene::base();
         scene.solver.end_s = 1e-3;
-        let mut job = PrecisionJob::of(&scene);
-        assert!(job.is_of(&scene) && !job.is_done());
+        let start = |given: &Given| PrecisionStudy::begin(&scene, given);
+        let mut job = with_given(&scene, ViewId::Precision, start);
+        assert!(!job.is_done());
         while !job.is_done() {
-            job.receive(Duration::from_millis(50));
+            job.work(Duration::from_millis(50));
         }
-        let rows: Vec<_> = job.report().unwrap().rows.iter().map(|row| row.way).collect();
+        let rows: Vec<_> = job.found().unwrap().rows.iter().map(|row| row.way).collect();
         assert_eq!(rows, ways(&scene, Effort::QUICK));
     }
 }

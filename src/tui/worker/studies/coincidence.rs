@@ -4,79 +4,82 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::background::Background;
+use super::{Given, Study};
 use crate::scene::Scene;
+use crate::tui::views::ViewId;
 use crate::tui::views::coincidence::curves::CoincidenceCurves;
+use crate::tui::worker::background::Background;
 
-/// Curves, or none where the wave has no coincidence.
-pub type Found = Arc<Option<CoincidenceCurves>>;
-
-/// The curves that are being computed.
+/// The curves that are being computed; none where the wave has no coincidence.
 #[derive(Debug)]
-pub struct CoincidenceJob {
-    key: Scene,
+pub struct CoincidenceStudy {
     under_way: Background<Option<CoincidenceCurves>>,
-    found: Option<Found>,
+    found: Option<Arc<Option<CoincidenceCurves>>>,
 }
 
-impl CoincidenceJob {
-    /// Starts on a scene.
-    pub fn of(scene: &Scene) -> Self {
-        let theirs = scene.clone();
+impl Study for CoincidenceStudy {
+    type Key = Scene;
+    type Found = Option<CoincidenceCurves>;
+
+    fn key(given: &Given) -> Option<Scene> {
+        let shown = given.order.shows(ViewId::Coincidence);
+        shown.then(|| CoincidenceCurves::key(&given.order.scene))
+    }
+
+    fn begin(_: &Scene, given: &Given) -> Self {
+        let theirs = given.order.scene.clone();
         let under_way = Background::start(move |to, _| {
             // Without a receiver nobody asks any more.
             let _ = to.send(CoincidenceCurves::of(&theirs));
         });
-        Self { key: CoincidenceCurves::key(scene), under_way, found: None }
+        Self { under_way, found: None }
     }
 
-    /// Whether they are those of this scene, too.
-    pub fn is_of(&self, scene: &Scene) -> bool {
-        self.key == CoincidenceCurves::key(scene)
-    }
-
-    /// Whether nothing more comes.
-    pub fn is_done(&self) -> bool {
+    fn is_done(&self) -> bool {
         self.found.is_some() || self.under_way.is_done()
     }
 
-    /// What was found.
-    pub fn found(&self) -> Option<&Found> {
-        self.found.as_ref()
-    }
-
-    /// Takes what is found, waiting for it no longer than `patience`.
-    pub fn receive(&mut self, patience: Duration) {
+    fn work(&mut self, patience: Duration) {
         if let Some(curves) = self.under_way.receive(patience) {
             self.found = Some(Arc::new(curves));
         }
+    }
+
+    fn found(&self) -> Option<&Arc<Self::Found>> {
+        self.found.as_ref()
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::tests::with_given;
     use super::*;
 
     #[test]
     fn the_curves_do_not_depend_on_the_pulse_or_on_a_speed_inside_their_range() {
         let mut scene = Scene::base();
         scene.bladed_disk.radial_coupling = 0.3;
-        let mut job = CoincidenceJob::of(&scene);
+        let key = |scene: &Scene| {
+            with_given(scene, ViewId::Coincidence, |given| CoincidenceStudy::key(given).unwrap())
+        };
+        let own = key(&scene);
+        let start = |given: &Given| CoincidenceStudy::begin(&own, given);
+        let mut job = with_given(&scene, ViewId::Coincidence, start);
         while !job.is_done() {
-            job.receive(Duration::from_millis(20));
+            job.work(Duration::from_millis(20));
         }
         let curves = CoincidenceCurves::of(&scene);
         assert!(curves.is_some());
         assert_eq!(**job.found().unwrap(), curves);
         scene.operation.pulse_n = 1e5;
         scene.operation.speed_rad_s = 300.0;
-        assert!(job.is_of(&scene));
+        assert!(key(&scene) == own);
         let moved = CoincidenceCurves::of(&scene).unwrap();
         assert_eq!(Some(moved.markers), curves.map(|curves| curves.markers));
         scene.operation.speed_rad_s = -300.0;
-        assert!(!job.is_of(&scene));
+        assert!(key(&scene) != own);
         scene.operation.speed_rad_s = 300.0;
         scene.bladed_disk.radial_coupling = 0.5;
-        assert!(!job.is_of(&scene));
+        assert!(key(&scene) != own);
     }
 }

@@ -1,0 +1,166 @@
+//! The open dialogue: what the keyboard acts on.
+
+use super::{HelpState, PaletteState};
+use crate::tui::bindings::Action;
+use crate::tui::lessons;
+
+/// What the keyboard acts on.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum InputMode {
+    /// Knobs and charts.
+    Main,
+    /// The value of the selected knob is being typed.
+    Typing(String),
+    /// The help is open.
+    Help(HelpState),
+    /// A command is being looked for.
+    Palette(PaletteState),
+    /// The end of a sweep of the selected knob is being typed.
+    Sweeping(String),
+    /// A file name is being typed.
+    Naming(Purpose, String),
+    /// A question: replace the existing file?
+    Replacing(Purpose, String),
+    /// A lesson is being chosen.
+    Lessons(usize),
+    /// A scene is being chosen: its place in the list, or the open one.
+    Scenes(Option<usize>),
+}
+
+/// The purpose of a file name that is typed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    /// The scene as a TOML file.
+    Save,
+    /// The large chart's data as CSV, or the screen as SVG.
+    Export,
+}
+
+/// The open dialogue, if one is.
+#[derive(Clone, Debug)]
+pub struct Dialogue {
+    /// What the keyboard acts on.
+    pub mode: InputMode,
+    /// Page of the note of the selected scene, where it is long.
+    pub note_page: usize,
+    /// Whether the user is new and has pressed no key yet: the last line says
+    /// what to try.
+    pub is_new: bool,
+    /// Whether the screen has shown the question that is open.
+    asked: bool,
+}
+
+impl Default for Dialogue {
+    fn default() -> Self {
+        Self { mode: InputMode::Main, note_page: 0, is_new: false, asked: true }
+    }
+}
+
+impl Dialogue {
+    /// What the keyboard acts on.
+    pub(super) fn mode(&self) -> &InputMode {
+        &self.mode
+    }
+
+    /// Whether none is open.
+    pub(super) fn is_closed(&self) -> bool {
+        self.mode == InputMode::Main
+    }
+
+    /// Opens another, at its first page.
+    pub(super) fn open(&mut self, mode: InputMode) {
+        (self.mode, self.note_page) = (mode, 0);
+    }
+
+    /// Opens a question, which is answered once the screen has shown it.
+    pub(super) fn ask(&mut self, mode: InputMode) {
+        self.open(mode);
+        self.asked = false;
+    }
+
+    /// Another scene of the list is the chosen one, on the same page of its note.
+    pub(super) fn choose(&mut self, place: Option<usize>) {
+        self.mode = InputMode::Scenes(place);
+    }
+
+    /// Closes it.
+    pub(super) fn close(&mut self) {
+        self.mode = InputMode::Main;
+    }
+
+    /// The screen has shown it.
+    pub(super) fn drawn(&mut self) {
+        self.asked = true;
+    }
+
+    /// Whether the screen has shown the question.
+    pub(super) fn is_asked(&self) -> bool {
+        self.asked
+    }
+
+    /// A key was pressed: the user has found the keyboard.
+    pub(super) fn introduce(&mut self) {
+        self.is_new = false;
+    }
+
+    /// The text that is being typed.
+    pub(super) fn typed(&mut self) -> Option<&mut String> {
+        match &mut self.mode {
+            InputMode::Typing(text) | InputMode::Sweeping(text) | InputMode::Naming(_, text) => {
+                Some(text)
+            }
+            InputMode::Help(help) => Some(&mut help.filter),
+            InputMode::Palette(palette) => Some(&mut palette.typed),
+            _ => None,
+        }
+    }
+
+    /// After a change of what is looked for, the list begins at its top.
+    pub(super) fn look_again(&mut self) {
+        match &mut self.mode {
+            InputMode::Help(help) => help.scroll = 0,
+            InputMode::Palette(palette) => palette.place = 0,
+            _ => {}
+        }
+    }
+
+    /// Its own keys; false where it has none for this.
+    pub(super) fn act(&mut self, action: Action) -> bool {
+        match (&mut self.mode, action) {
+            (_, Action::DeleteLast) => {
+                _ = self.typed().and_then(String::pop);
+                self.look_again();
+            }
+            (InputMode::Lessons(place), Action::KnobBelow) => {
+                let last = lessons::all().len().saturating_sub(1);
+                *place = (*place + 1).min(last);
+            }
+            (InputMode::Lessons(place), Action::KnobAbove) => *place = place.saturating_sub(1),
+            (InputMode::Scenes(_), Action::PageForward) => {
+                self.note_page = self.note_page.wrapping_add(1);
+            }
+            _ => return false,
+        }
+        true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_typed_is_of_the_open_dialogue_and_a_list_begins_at_its_top() {
+        let mut dialogue = Dialogue::default();
+        assert!(dialogue.is_closed() && dialogue.is_asked() && dialogue.typed().is_none());
+        dialogue.open(InputMode::Palette(PaletteState { typed: "ab".into(), place: 3 }));
+        assert!(dialogue.act(Action::DeleteLast) && !dialogue.act(Action::Accept));
+        let expected = PaletteState { typed: "a".into(), place: 0 };
+        assert_eq!(*dialogue.mode(), InputMode::Palette(expected));
+        dialogue.ask(InputMode::Replacing(Purpose::Save, "a".into()));
+        assert!(!dialogue.is_asked());
+        dialogue.drawn();
+        dialogue.close();
+        assert!(dialogue.is_asked() && dialogue.is_closed());
+    }
+}

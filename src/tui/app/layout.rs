@@ -1,0 +1,157 @@
+//! Which charts are on the screen, and where.
+
+use super::App;
+use crate::scene::Scene;
+use crate::tui::bindings::Action;
+use crate::tui::views::{ViewId, ViewPanel};
+
+/// Most charts next to the large one.
+const MOST_BESIDE: usize = 3;
+
+/// The charts on the screen.
+#[derive(Clone, Debug)]
+pub struct Layout {
+    /// Every view: the large chart, then the others in the order of their places.
+    views: Vec<ViewId>,
+    /// Number of charts next to the large one.
+    pub beside: usize,
+    /// Whether the gaps are drawn against time.
+    pub heat: bool,
+    /// Whether the large chart has the whole screen.
+    pub full_screen: bool,
+    /// Width and height of the screen, in cells.
+    pub size: (u16, u16),
+}
+
+impl Layout {
+    /// The charts that a scene names, and then the others.
+    pub(super) fn of(scene: &Scene) -> Self {
+        let views = ViewId::all().collect();
+        let mut layout = Self { views, beside: 2, heat: false, full_screen: false, size: (80, 24) };
+        layout.open(scene);
+        layout
+    }
+
+    /// The charts that a scene names come first.
+    pub(super) fn open(&mut self, scene: &Scene) {
+        let named = scene.view.charts.iter().filter_map(|word| ViewId::from_word(word));
+        let mut views: Vec<ViewId> = named.collect();
+        views.extend(
+            self.views.iter().copied().filter(|view| !views.contains(view)).collect::<Vec<_>>(),
+        );
+        self.views = views;
+    }
+
+    /// The large chart.
+    pub fn view(&self) -> ViewId {
+        self.views.first().copied().unwrap_or(ViewId::Response)
+    }
+
+    /// Every view, the large one first.
+    pub fn views(&self) -> &[ViewId] {
+        &self.views
+    }
+
+    /// The charts as they were; whether the large one is another.
+    pub(super) fn set_views(&mut self, views: Vec<ViewId>) -> bool {
+        let before = self.view();
+        self.views = views;
+        self.view() != before
+    }
+
+    /// Makes a view the large one; the former one takes its place. False where it is large.
+    fn show(&mut self, view: ViewId) -> bool {
+        let place = self.views.iter().position(|other| *other == view).unwrap_or(0);
+        self.views.swap(0, place);
+        place > 0
+    }
+
+    /// Orders the charts beside the large one.
+    pub(super) fn order_beside(&mut self, rank: impl Fn(ViewId) -> u8) {
+        if let Some((_, others)) = self.views.split_first_mut() {
+            others.sort_by_key(|view| rank(*view));
+        }
+    }
+
+    /// Whether the gaps are drawn against time.
+    pub(super) fn is_heat(&self) -> bool {
+        self.heat
+    }
+
+    /// The gaps against time, or those of one instant; what to say.
+    pub(super) fn turn_gaps(&mut self) -> String {
+        self.heat = !self.heat;
+        format!("gaps {}", if self.heat { "against time" } else { "of this instant" })
+    }
+
+    /// Its keys.
+    pub(super) fn act(&mut self, action: Action) {
+        match action {
+            Action::Charts => self.beside = (self.beside + 1) % (MOST_BESIDE + 1),
+            Action::FullScreen => self.full_screen = !self.full_screen,
+            Action::Close => self.full_screen = false,
+            _ => {}
+        }
+    }
+
+    /// The view some places after the large one in the table.
+    pub(super) fn neighbour(&self, by: i64) -> ViewId {
+        let views: Vec<ViewId> = ViewId::all().collect();
+        let place = (self.view() as i64 + by).rem_euclid(views.len() as i64);
+        views.get(place as usize).copied().unwrap_or(self.view())
+    }
+}
+
+impl App {
+    /// The large chart.
+    pub fn view(&self) -> ViewId {
+        self.layout.view()
+    }
+
+    /// What the large chart draws and exports.
+    pub fn panel(&self) -> &'static dyn ViewPanel {
+        self.view().panel()
+    }
+
+    /// Whether a view is the large chart.
+    pub fn is_large(&self, view: ViewId) -> bool {
+        self.view() == view
+    }
+
+    /// Whether a view can be on the screen.
+    pub fn is_open(&self, view: ViewId) -> bool {
+        let shown = if self.is_alone() { 1 } else { 1 + self.layout.beside };
+        self.layout.views.iter().take(shown).any(|other| *other == view)
+    }
+
+    /// Whether only the large chart is on the screen.
+    pub fn is_alone(&self) -> bool {
+        self.layout.full_screen || self.appearance.wide || self.compares()
+    }
+
+    /// Makes a view the large one; an instant that is read goes on being read.
+    pub(super) fn show(&mut self, view: ViewId) {
+        if self.layout.show(view) {
+            self.keep_instant();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_chart_that_becomes_the_large_one_leaves_its_place_to_the_former() {
+        let mut scene = Scene::base();
+        scene.view.charts = vec!["map".into(), "gaps".into()];
+        let mut layout = Layout::of(&scene);
+        assert_eq!(layout.views()[..3], [ViewId::Map, ViewId::Gaps, ViewId::Response]);
+        assert_eq!(layout.views().len(), ViewId::all().count());
+        assert!(layout.show(ViewId::Response) && !layout.show(ViewId::Response));
+        assert_eq!(layout.views()[..3], [ViewId::Response, ViewId::Gaps, ViewId::Map]);
+        assert_eq!(layout.neighbour(-1), ViewId::Coincidence);
+        (0..3).for_each(|_| layout.act(Action::Charts));
+        assert_eq!(layout.beside, 1);
+    }
+}

@@ -1,0 +1,379 @@
+//! Slow motion and pages of time: a page takes about four seconds to fill,
+//! at any rate, then a new one starts.
+
+use super::App;
+use crate::scene::Scene;
+use crate::tui::axis::{instant, nice_step, readable};
+use crate::tui::bindings::Action;
+use crate::tui::engine::PageRecord;
+use crate::tui::history::{Bin, BinHistory};
+
+/// Simulated time per wall-clock time, from 1e-5 to 1.
+pub const RATES: &[f64] =
+    &[1e-5, 2e-5, 5e-5, 1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2, 0.1, 0.2, 0.5, 1.0];
+
+/// Five milliseconds of motion per second.
+const FIRST_RATE: usize = 8;
+
+/// Wall-clock seconds a page takes to fill.
+const PAGE_SECONDS: f64 = 4.0;
+
+/// From this rate on it is real time, to two digits.
+const REAL: f64 = 0.95;
+
+/// Zoom steps in either direction.
+const MOST_ZOOM: i32 = 12;
+
+/// Length of a page at a rate and a zoom, a round number \[s\].
+pub fn page_length(rate: f64, zoom: i32) -> f64 {
+    let usual = nice_step(PAGE_SECONDS * rate, 1).unwrap_or(PAGE_SECONDS * rate);
+    // Every zoom step is one place in the sequence 1, 2, 5, 10, 20, 50, ...
+    let power = (usual.log10() + 1e-9).floor();
+    let digit = match usual / 10f64.powf(power) {
+        x if x < 1.5 => 0,
+        x if x < 3.5 => 1,
+        _ => 2,
+    };
+    let place = 3 * power as i32 + digit - zoom;
+    let mantissa = ["1", "2", "5"].get(place.rem_euclid(3) as usize).copied().unwrap_or("1");
+    // Text gives the double nearest to the decimal number.
+    format!("{mantissa}e{}", place.div_euclid(3)).parse().unwrap_or(usual)
+}
+
+/// Where a scene begins to play \[s\].
+pub(super) fn begin_s(scene: &Scene) -> f64 {
+    scene.view.begin_s.min(scene.solver.end_s)
+}
+
+/// Playing, and the page of time.
+#[derive(Clone, Debug, Default)]
+pub struct Play {
+    /// Whether time passes.
+    pub playing: bool,
+    /// Place in `RATES`.
+    pub rate: usize,
+    /// Page length relative to the usual one, in steps of about two.
+    pub zoom: i32,
+    /// Whether the motion slows down at changes of contact and hurries between.
+    pub slow_at_events: bool,
+    /// Pages back from the current one.
+    pub pages_back: i64,
+    /// Where the motion goes at once \[s\].
+    pub(super) go_to_s: f64,
+    pub(super) goes: u64,
+    pub(super) steps: u64,
+    pub(super) jumps: u64,
+    pub(super) extensions: u64,
+    /// Whether it stopped because the run has come to its end.
+    stopped_by_end: bool,
+    /// The page of the last snapshot.
+    page: i64,
+    /// The latest jump whose result was told.
+    met: u64,
+    /// How often the end of the run was told.
+    ends: u64,
+}
+
+/// How fast time passes on the screen, to come back to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tempo {
+    rate: usize,
+    zoom: i32,
+    slow_at_events: bool,
+}
+
+impl Play {
+    /// From an instant on \[s\].
+    pub(super) fn from(go_to_s: f64) -> Self {
+        let (playing, slow_at_events) = (true, true);
+        Self { playing, rate: FIRST_RATE, slow_at_events, go_to_s, ..Self::default() }
+    }
+
+    /// Its keys; what they say.
+    pub(super) fn act(&mut self, action: Action) -> Option<String> {
+        match action {
+            Action::Pause => {
+                self.playing = !self.playing;
+                self.stopped_by_end = false;
+                // Told more often than gone on: the motion waits at the end.
+                if self.playing {
+                    self.extensions = self.extensions.max(self.ends);
+                }
+            }
+            Action::Step => (self.playing, self.steps) = (false, self.steps + 1),
+            Action::Jump => (self.playing, self.jumps) = (false, self.jumps + 1),
+            Action::SlowAtEvents => {
+                self.slow_at_events = !self.slow_at_events;
+                return Some(match self.slow_at_events {
+                    true => "slower at changes of contact, faster between".into(),
+                    false => "the same pace all the time".to_string(),
+                });
+            }
+            Action::Slower => self.rate = self.rate.saturating_sub(1),
+            Action::Faster => self.rate = (self.rate + 1).min(RATES.len() - 1),
+            Action::ZoomIn => self.zoom = (self.zoom + 1).min(MOST_ZOOM),
+            Action::ZoomOut => self.zoom = (self.zoom - 1).max(-MOST_ZOOM),
+            Action::ZoomReset => self.zoom = 0,
+            _ => {}
+        }
+        None
+    }
+
+    /// The run begins again.
+    pub(super) fn restart(&mut self, go_to_s: f64) {
+        self.playing |= std::mem::take(&mut self.stopped_by_end);
+        (self.pages_back, self.page, self.go_to_s) = (0, 0, go_to_s);
+        (self.ends, self.extensions) = (0, 0);
+        // Nobody waits for a jump of the motion before.
+        self.met = self.jumps;
+    }
+
+    /// How fast time passes on the screen.
+    pub(super) fn tempo(&self) -> Tempo {
+        Tempo { rate: self.rate, zoom: self.zoom, slow_at_events: self.slow_at_events }
+    }
+
+    /// Time passes as it did.
+    pub(super) fn set_tempo(&mut self, tempo: Tempo) {
+        (self.rate, self.zoom) = (tempo.rate, tempo.zoom);
+        self.slow_at_events = tempo.slow_at_events;
+    }
+
+    /// The motion slows down at changes of contact as it did, and goes on at its pace.
+    pub(super) fn slow_as(&mut self, tempo: Tempo) {
+        self.slow_at_events = tempo.slow_at_events;
+    }
+
+    /// What happens in a few microseconds can be seen; a page has this length, where one
+    /// is wanted \[s\].
+    pub(super) fn show_closely(&mut self, page_s: Option<Option<f64>>) {
+        self.slow_at_events = true;
+        if let Some(length) = page_s {
+            self.zoom = length.map_or(0, |length| self.zoom_for(length));
+        }
+    }
+
+    /// Whether another page than the current one is shown.
+    pub(super) fn is_elsewhere(&self) -> bool {
+        self.pages_back != 0
+    }
+
+    /// The current page again.
+    pub(super) fn show_now(&mut self) {
+        self.pages_back = 0;
+    }
+
+    /// Whether another page is the current one since the last call.
+    pub(super) fn is_new_page(&mut self, page: i64) -> bool {
+        std::mem::replace(&mut self.page, page) != page
+    }
+
+    /// Whether this snapshot is the first that knows what the latest jump has met.
+    pub(super) fn is_met(&mut self, jumps: u64) -> bool {
+        let is_new = jumps == self.jumps && jumps > self.met;
+        if is_new {
+            self.met = jumps;
+        }
+        is_new
+    }
+
+    /// Stops where the run has come to its end once more; whether time passed until then.
+    pub(super) fn stop_at_end(&mut self, ends: u64) -> bool {
+        let is_new = ends > self.ends;
+        if is_new {
+            self.ends = ends;
+            self.stopped_by_end = std::mem::take(&mut self.playing);
+        }
+        is_new && self.stopped_by_end
+    }
+
+    /// Whether time passes.
+    pub(super) fn is_playing(&self) -> bool {
+        self.playing
+    }
+
+    /// Motion per wall-clock time.
+    fn rate(&self) -> f64 {
+        RATES.get(self.rate).copied().unwrap_or(5e-3)
+    }
+
+    /// The zoom at which a page is as long as this, or a little longer.
+    fn zoom_for(&self, length: f64) -> i32 {
+        let mut all = (-MOST_ZOOM..=MOST_ZOOM).rev();
+        let long = |zoom: &i32| page_length(self.rate(), *zoom) >= length * (1.0 - 1e-9);
+        all.find(long).unwrap_or(-MOST_ZOOM)
+    }
+}
+
+impl App {
+    /// Motion per wall-clock time.
+    pub fn rate(&self) -> f64 {
+        self.play.rate()
+    }
+
+    /// Length of a page \[s\].
+    pub fn page_s(&self) -> f64 {
+        page_length(self.rate(), self.play.zoom)
+    }
+
+    /// Motion time now \[s\].
+    pub fn now(&self) -> f64 {
+        self.moment().map_or(0.0, |moment| moment.state.t_s)
+    }
+
+    /// The end of the forecast \[s\].
+    pub fn end_s(&self) -> f64 {
+        let end = self.results().end_s;
+        if end > 0.0 { end } else { self.scene.solver.end_s }
+    }
+
+    /// The page that is shown, from and to \[s\].
+    pub fn page(&self) -> (f64, f64) {
+        let length = self.page_s();
+        let number = (self.page_number() - self.play.pages_back).max(0);
+        let start = number as f64 * length;
+        (start, start + length)
+    }
+
+    /// The record of the page that is shown: computed again at its zoom, with what is to
+    /// come, or until that is done what was played at a zoom like it.
+    pub fn record(&self) -> &[Bin] {
+        self.recorded(self.results().page.as_deref(), self.run.played())
+    }
+
+    /// The same under the other contact law.
+    pub fn comparison_record(&self) -> &[Bin] {
+        self.recorded(self.results().comparison_page.as_deref(), self.run.compared())
+    }
+
+    fn recorded<'a>(&self, page: Option<&'a PageRecord>, played: &'a BinHistory) -> &'a [Bin] {
+        let (from, to) = self.page();
+        match page.filter(|known| known.page == (from, to)) {
+            Some(known) => known.record.between(from, to),
+            None => played.fine_between(from, to),
+        }
+    }
+
+    /// The bins of a record that are behind the motion, and those ahead of it.
+    pub fn past_and_future<'a>(&self, record: &'a [Bin]) -> (&'a [Bin], &'a [Bin]) {
+        let now = self.now();
+        record.split_at(record.partition_point(|bin| bin.from < now))
+    }
+
+    pub(super) fn page_number(&self) -> i64 {
+        self.page_of(self.now())
+    }
+
+    /// The page of an instant: one that has just become full is shown full.
+    fn page_of(&self, t: f64) -> i64 {
+        (t / self.page_s() - 1e-9).floor().max(0.0) as i64
+    }
+
+    /// Part of the page that is before the instant that is read, or now, 0 to 1.
+    pub fn part_of_page(&self) -> f64 {
+        let (from, to) = self.page();
+        ((self.reading.instant().unwrap_or(self.now()) - from) / (to - from)).clamp(0.0, 1.0)
+    }
+
+    /// Goes to an instant: what is read, while a chart is read, otherwise the motion, which
+    /// begins again where that is behind.
+    pub(super) fn go_to(&mut self, t: f64) {
+        let end = self.end_s();
+        if !(0.0..=end).contains(&t) {
+            let end = readable(end, "s");
+            self.status =
+                Some(format!("t = {}: from 0 to {end}, the end of the run", readable(t, "s")));
+            return;
+        }
+        if self.reading.is_on() {
+            self.play.pages_back = self.page_number() - self.page_of(t);
+            self.read_instant(t);
+            return;
+        }
+        if t < self.now() {
+            self.restart();
+        }
+        (self.play.go_to_s, self.play.pages_back) = (t, 0);
+        self.play.goes += 1;
+        self.status = Some(format!("on to {}", instant(t)));
+    }
+
+    /// Goes a page back, or forward, as far as the forecast.
+    pub(super) fn pan(&mut self, back: bool) {
+        let last = self.page_of(self.end_s());
+        let now = self.page_number();
+        let pages = self.play.pages_back + if back { 1 } else { -1 };
+        self.play.pages_back = pages.clamp((now - last).min(0), now);
+    }
+
+    /// The rate that is reached, or until that is known the one that is asked for, in words:
+    /// `1/200` of real time.
+    pub fn rate_text(&self) -> String {
+        let reached = self.results().pace.reached.filter(|_| self.play.playing);
+        match reached.unwrap_or(self.rate()) {
+            rate if rate >= REAL => "real time".into(),
+            // Two digits: the pace is not the same all the time.
+            rate => {
+                let times = 1.0 / rate;
+                let unit = 10f64.powf(times.log10().floor() - 1.0).max(1.0);
+                format!("1/{:.0}", (times / unit).round() * unit)
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_page_is_twenty_milliseconds_at_five_a_second() {
+        assert_eq!(RATES[FIRST_RATE], 5e-3);
+        assert_eq!(page_length(5e-3, 0), 0.02);
+        assert_eq!((RATES[0], RATES[RATES.len() - 1]), (1e-5, 1.0));
+    }
+
+    #[test]
+    fn at_the_end_of_the_run_time_stops_once_and_goes_on_when_asked() {
+        let mut play = Play::from(0.0);
+        assert!(play.stop_at_end(1) && !play.is_playing() && !play.stop_at_end(1));
+        play.act(Action::Pause);
+        assert_eq!((play.is_playing(), play.extensions), (true, 1));
+        assert!(play.stop_at_end(2));
+        // Another run plays again, but not where the user has stopped it.
+        play.restart(0.0);
+        assert!(play.is_playing() && play.extensions == 0);
+        play.act(Action::Step);
+        play.restart(0.0);
+        assert!(!play.is_playing() && play.steps == 1);
+        play.act(Action::Jump);
+        assert!(play.is_met(1) && !play.is_met(1));
+        play.act(Action::Jump);
+        play.restart(0.0);
+        assert!(!play.is_met(2), "nobody waits for a jump of the motion before");
+    }
+
+    #[test]
+    fn the_rate_in_words_is_the_one_that_is_reached() {
+        let scene = crate::scene::Scene::base().checked().unwrap();
+        let mut app = App::new(scene, crate::tui::Theme::Mono, crate::tui::Marker::Ascii);
+        assert_eq!(app.rate_text(), "1/200");
+        for (rate, text) in [(1.0 / 83.4, "1/83"), (1.0 / 1234.0, "1/1200"), (0.97, "real time")] {
+            app.run.latest.results.pace.reached = Some(rate);
+            assert_eq!(app.rate_text(), text);
+        }
+        // While nothing plays there is only the one that is asked for.
+        app.play.playing = false;
+        assert_eq!(app.rate_text(), "1/200");
+    }
+
+    #[test]
+    fn pages_grow_with_the_rate_and_shrink_with_the_zoom() {
+        for pair in RATES.windows(2) {
+            assert!(page_length(pair[1], 0) > page_length(pair[0], 0));
+        }
+        for zoom in -MOST_ZOOM..MOST_ZOOM {
+            assert!(page_length(5e-3, zoom + 1) < page_length(5e-3, zoom));
+        }
+    }
+}

@@ -1,0 +1,405 @@
+//! The run on the screen and what was computed of it: snapshots of the engine are applied
+//! here. Results of an older run, or of other knob positions, are dropped.
+
+use std::sync::Arc;
+
+use super::play::begin_s;
+use super::{App, VerdictText};
+use crate::model::Machine;
+use crate::motion::ActiveSet;
+use crate::scene::CheckedScene;
+use crate::tui::axis::{AutoRange, instant, readable};
+use crate::tui::engine::{Answer, Moment, Results, Snapshot, generation};
+use crate::tui::history::{Bin, BinHistory, Channel};
+use crate::tui::knobs::{KNOBS, Knob};
+
+/// Part of a page for which a held corner counts as standing still.
+const STILL: f64 = 0.2;
+
+/// The run, and its forecasts.
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// The scene with which it started; knobs may have acted on it since.
+    pub started: CheckedScene,
+    /// The parts of the latest snapshot that belong to this scene.
+    pub latest: Snapshot,
+    /// Whether the other contact law runs too, for comparison.
+    pub compare: bool,
+    /// A run pinned to compare with.
+    pub baseline: Option<Baseline>,
+    /// Chart ranges.
+    pub ranges: Ranges,
+    /// The record of the running motion.
+    history: BinHistory,
+    /// The record under the other contact law.
+    comparison: BinHistory,
+    /// The latest verdict there is, of this scene or of an older one.
+    pub(super) answer: Option<Arc<Answer>>,
+    pub(super) restarts: u64,
+    pub(super) changes: u64,
+    pub(super) pulses: u64,
+}
+
+/// A pinned run, drawn behind the next ones.
+#[derive(Clone, Debug)]
+pub struct Baseline {
+    /// Its record.
+    pub history: BinHistory,
+    /// Its verdict.
+    pub words: VerdictText,
+    /// Its scene.
+    pub scene: CheckedScene,
+}
+
+impl Baseline {
+    /// What was pinned: the knobs in which it differs from the present scene, and
+    /// its verdict.
+    pub fn what(&self, app: &App) -> String {
+        let differs = |knob: &&Knob| knob.get(&self.scene) != knob.get(&app.scene);
+        let shown = |knob: &Knob| format!("{} {}", knob.label, knob.text(&self.scene));
+        let mut parts: Vec<String> = KNOBS.iter().filter(differs).take(2).map(shown).collect();
+        parts.push(self.words.word.clone());
+        parts.join(", ")
+    }
+}
+
+/// Ranges of the charts; they follow the data with hysteresis.
+#[derive(Clone, Copy, Debug)]
+pub struct Ranges {
+    /// `u_c`, `u_s` \[m\].
+    pub casing: AutoRange,
+    /// `alpha_c`, `alpha_s` \[rad\].
+    pub blades: AutoRange,
+    /// Gaps \[m\].
+    pub gaps: AutoRange,
+    /// The wave in the frame of the blades, as their tips see it \[m\].
+    pub rim: AutoRange,
+    /// Whether they follow.
+    pub follow: bool,
+}
+
+impl Ranges {
+    /// Ranges at the start: the clearance and a little more. Where the blades rub at
+    /// rest, as far into the lining.
+    pub fn of(clearance: f64) -> Self {
+        let size = clearance.abs();
+        let gaps = match clearance < 0.0 {
+            true => AutoRange::new(-2.2 * size, 1.2 * size),
+            false => AutoRange::new(-0.2 * clearance, 2.2 * clearance),
+        };
+        Self {
+            casing: AutoRange::new(-1.25 * size, 1.25 * size),
+            blades: AutoRange::new(-1e-9, 1e-9),
+            gaps,
+            rim: AutoRange::new(-size, size),
+            follow: true,
+        }
+    }
+}
+
+impl Run {
+    /// Of a scene at its start.
+    pub(super) fn of(scene: &CheckedScene, machine: &Machine) -> Self {
+        Self {
+            started: scene.clone(),
+            latest: Snapshot::default(),
+            compare: false,
+            baseline: None,
+            ranges: Ranges::of(machine.clearance()),
+            history: BinHistory::default(),
+            comparison: BinHistory::default(),
+            answer: None,
+            restarts: 0,
+            changes: 0,
+            pulses: 0,
+        }
+    }
+
+    /// Of a scene from its start again. Old studies stay until there are new ones.
+    fn restart(&mut self, scene: &CheckedScene) {
+        self.restarts += 1;
+        self.started = scene.clone();
+        self.history.clear();
+        self.comparison.clear();
+        self.forget_forecasts();
+        let mut results = std::mem::take(&mut self.latest.results);
+        results.applied.clear();
+        (results.reading, results.end_s) = (None, 0.0);
+        self.latest = Snapshot { results, ..Snapshot::default() };
+    }
+
+    /// A knob acts on the motion.
+    fn change(&mut self) {
+        self.changes += 1;
+        self.forget_forecasts();
+    }
+
+    /// The pulse is fired again.
+    pub(super) fn fire(&mut self) {
+        self.pulses += 1;
+        self.forget_forecasts();
+    }
+
+    /// Drops what was computed for the motion before it was changed.
+    fn forget_forecasts(&mut self) {
+        let results = &mut self.latest.results;
+        (results.full_run, results.reference, results.comparison) = (None, None, None);
+        (results.page, results.comparison_page) = (None, None);
+        results.sensitive = false;
+    }
+
+    /// The ranges of the charts follow the data, or stay; what to say.
+    pub(super) fn autoscale(&mut self) -> String {
+        self.ranges.follow = !self.ranges.follow;
+        format!("scales {}", if self.ranges.follow { "follow the data" } else { "stay fixed" })
+    }
+
+    /// Compares the other contact law, or no longer.
+    pub(super) fn set_compare(&mut self, compare: bool) {
+        if compare != self.compare {
+            self.compare = compare;
+            let results = &mut self.latest.results;
+            (results.comparison, results.comparison_page) = (None, None);
+            self.comparison.clear();
+        }
+    }
+
+    /// The record of what was played.
+    pub(super) fn played(&self) -> &BinHistory {
+        &self.history
+    }
+
+    /// The same under the other contact law.
+    pub(super) fn compared(&self) -> &BinHistory {
+        &self.comparison
+    }
+
+    /// Whether the other contact law runs too.
+    pub(super) fn is_compared(&self) -> bool {
+        self.compare
+    }
+
+    /// The scene with which it started.
+    pub(super) fn scene(&self) -> &CheckedScene {
+        &self.started
+    }
+}
+
+impl App {
+    /// What was computed of the run.
+    pub fn results(&self) -> &Results {
+        &self.run.latest.results
+    }
+
+    /// The motion as it plays.
+    pub fn moment(&self) -> Option<&Moment> {
+        self.run.latest.moment.as_ref()
+    }
+
+    /// Makes a scene the current one and starts its run, or, if live, applies
+    /// it to the running motion.
+    pub fn set_scene(&mut self, scene: CheckedScene, live: bool) {
+        let clearance = self.machine.clearance();
+        self.scene = scene;
+        self.machine = self.scene.machine();
+        if self.machine.clearance() != clearance {
+            let follow = self.run.ranges.follow;
+            self.run.ranges = Ranges { follow, ..Ranges::of(self.machine.clearance()) };
+        }
+        if live { self.run.change() } else { self.restart() }
+    }
+
+    /// Restarts the run.
+    pub fn restart(&mut self) {
+        self.run.restart(&self.scene);
+        self.play.restart(begin_s(&self.scene));
+    }
+
+    /// Pins the run behind the next ones, or removes what is pinned.
+    pub(super) fn pin(&mut self) {
+        if self.run.baseline.take().is_some() {
+            self.status = Some("baseline removed".into());
+            return;
+        }
+        let (history, scene) = (self.run.history.clone(), self.scene.clone());
+        let words = self.verdict();
+        let what = format!("{} at {}", words.word, readable(self.speed(), "rad/s"));
+        self.run.baseline = Some(Baseline { history, words, scene });
+        self.status = Some(format!("pinned behind the next runs: {what}"));
+    }
+
+    /// Applies a snapshot; false if it is too old.
+    pub fn apply_snapshot(&mut self, mut snapshot: Snapshot) -> bool {
+        if snapshot.trouble.is_some() {
+            self.run.latest.trouble = snapshot.trouble;
+            return true;
+        }
+        // An answer is told with its value, however old.
+        self.run.answer = snapshot.results.answer.take().or(self.run.answer.take());
+        if snapshot.restarts != self.run.restarts {
+            return false;
+        }
+        self.grow_ranges(&snapshot.bins);
+        // Both contact laws have the same axes.
+        self.grow_ranges(&snapshot.comparison_bins);
+        self.run.history.extend(&std::mem::take(&mut snapshot.bins));
+        self.run.comparison.extend(&std::mem::take(&mut snapshot.comparison_bins));
+        let had_forecast = self.full_run().is_some();
+        let known = std::mem::take(&mut self.run.latest);
+        let results = match snapshot.generation == self.generation() {
+            true => snapshot.results,
+            false => known.results,
+        };
+        self.run.latest = Snapshot { results, trouble: known.trouble, ..snapshot };
+        self.turn_page();
+        self.fit_to_forecast(!had_forecast);
+        self.tell_moment();
+        self.check_lesson();
+        true
+    }
+
+    /// Makes the ranges hold the page as it is computed, and the part of the forecast that
+    /// is on it; for a new one they may shrink, too, but not below the clearance.
+    fn fit_to_forecast(&mut self, is_new: bool) {
+        // Where blades rub at rest there is no play to be seen.
+        let clearance = self.machine.clearance().max(0.0);
+        let (from, to) = self.page();
+        if !self.run.ranges.follow {
+            return;
+        }
+        let page = self.record();
+        let (waves, swings) = (extremes(page, CASING), extremes(page, BLADES));
+        grow(&mut self.run.ranges.casing, waves);
+        grow(&mut self.run.ranges.blades, swings);
+        let Some(run) = self.full_run() else { return };
+        let span = |place: usize| {
+            let values = run.trace.between(place, from, to).map(|(_, value)| (value, value));
+            values.filter(|(value, _)| value.is_finite()).reduce(wider)
+        };
+        let [casing, blades] =
+            [[0, 1], [2, 3]].map(|places| places.into_iter().filter_map(span).reduce(wider));
+        let casing = casing.map(|data| wider(data, (-clearance, clearance)));
+        let Ranges { casing: of_casing, blades: of_blades, .. } = &mut self.run.ranges;
+        for (range, data) in [(of_casing, casing), (of_blades, blades)] {
+            match data {
+                Some((low, high)) if is_new && high > low => range.follow(low, high),
+                data => grow(range, data),
+            }
+        }
+    }
+
+    /// Number of the knobs' state.
+    fn generation(&self) -> u64 {
+        generation(self.run.restarts, self.run.changes, self.run.pulses)
+    }
+
+    /// Says what a jump has met, and that the run has come to its end.
+    fn tell_moment(&mut self) {
+        let Some(moment) = self.moment() else { return };
+        let ((jumps, met), ends) = (moment.met, moment.ends);
+        if self.play.is_met(jumps) {
+            self.status = Some(match met {
+                Some(mark) => format!("{}: {}", instant(mark.t_s), self.happening(mark.what)),
+                None => "no change of contact comes soon".into(),
+            });
+        }
+        // An answer to a key is not covered.
+        if self.play.stop_at_end(ends) && self.status.is_none() {
+            self.status = Some("the end of the run; Space goes on".into());
+        }
+    }
+
+    /// Grows the ranges to hold new data at once.
+    fn grow_ranges(&mut self, bins: &[Bin]) {
+        if !self.run.ranges.follow {
+            return;
+        }
+        let (clearance, usual) = (self.machine.clearance(), self.usual_reach());
+        let lining = self.has_lining();
+        let Ranges { casing, blades, gaps, rim, .. } = &mut self.run.ranges;
+        grow(casing, extremes(bins, CASING));
+        grow(blades, extremes(bins, BLADES));
+        let most = extremes(bins, [Channel::Amplitude; 2]).map(|(_, most)| most);
+        // The rim passes the clearance where the tips move with it.
+        grow(rim, most.filter(|most| *most > usual).map(|most| (-most, most)));
+        // The greatest gap is about as far above g0 as the amplitude; in a lining the
+        // smallest is as far below.
+        let low = if lining { extremes(bins, [Channel::Gap; 2]) } else { None };
+        let low = low.map_or(gaps.low, |(low, _)| low.min(gaps.low));
+        grow(gaps, most.map(|most| (low, clearance + most)));
+    }
+
+    /// When a new page starts, ranges may shrink to the data of the old one.
+    fn turn_page(&mut self) {
+        let page = self.page_number();
+        if !self.play.is_new_page(page) || !self.run.ranges.follow {
+            return;
+        }
+        let (from, _) = self.page();
+        let bins = self.run.history.between(from - self.page_s(), from);
+        let Ranges { casing, blades, rim, .. } = &mut self.run.ranges;
+        for (range, channels) in [(casing, CASING), (blades, BLADES), (rim, RIM)] {
+            if let Some((low, high)) = extremes(bins, channels) {
+                range.follow(low, high);
+            }
+        }
+    }
+
+    /// Whether the wave is fixed in the frame of the blades: the motion is
+    /// paused, or a corner has been held for a while.
+    pub fn is_still(&self) -> bool {
+        !self.play.is_playing()
+            || self.moment().is_some_and(|moment| {
+                let held = moment.state.t_s - moment.since;
+                matches!(moment.active_set, ActiveSet::Corner(..)) && held > self.page_s() * STILL
+            })
+    }
+}
+
+const CASING: [Channel; 2] = [Channel::UC, Channel::US];
+const RIM: [Channel; 2] = [Channel::RimX, Channel::RimY];
+const BLADES: [Channel; 2] = [Channel::AlphaC, Channel::AlphaS];
+
+fn extremes(bins: &[Bin], channels: [Channel; 2]) -> Option<(f64, f64)> {
+    let spans = bins.iter().flat_map(|bin| channels.map(|channel| bin.span(channel)));
+    spans.filter(|(low, high)| low.is_finite() && high.is_finite()).reduce(wider)
+}
+
+fn wider((a, b): (f64, f64), (low, high): (f64, f64)) -> (f64, f64) {
+    (a.min(low), b.max(high))
+}
+
+/// Grows a range at once to hold data.
+fn grow(range: &mut AutoRange, data: Option<(f64, f64)>) {
+    if let Some((low, high)) = data
+        && (low < range.low || high > range.high)
+    {
+        range.follow(low.min(range.low), high.max(range.high));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    #[test]
+    fn what_was_computed_of_a_motion_is_forgotten_with_it_and_its_studies_stay() {
+        let scene = Scene::base().checked().unwrap();
+        let mut run = Run::of(&scene, &scene.machine());
+        run.latest.results.found.map = None;
+        run.latest.results.found.spectrum = Some(Arc::default());
+        for change in [Run::change, Run::fire, |run: &mut Run| run.restart(&run.started.clone())] {
+            run.latest.results.reference = None;
+            run.latest.results.sensitive = true;
+            change(&mut run);
+            assert!(!run.latest.results.sensitive);
+            assert!(run.latest.results.found.spectrum.is_some());
+        }
+        assert_eq!((run.restarts, run.changes, run.pulses), (1, 1, 1));
+        run.set_compare(true);
+        assert!(run.is_compared());
+        assert_eq!(run.autoscale(), "scales stay fixed");
+        assert!(!run.ranges.follow);
+    }
+}

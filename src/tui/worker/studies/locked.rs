@@ -1,0 +1,29 @@
+//! The curves of the locked motion of one scene: closed forms, wanted by the header of
+//! several views, so that they are always computed.
+
+use std::sync::Arc;
+
+use super::{Given, Study};
+use crate::scene::Scene;
+use crate::tui::views::locked::curves::LockedCurves;
+
+/// The curves of a scene.
+#[derive(Debug)]
+pub struct LockedStudy(Arc<LockedCurves>);
+
+impl Study for LockedStudy {
+    type Key = Scene;
+    type Found = LockedCurves;
+
+    fn key(given: &Given) -> Option<Scene> {
+        Some(given.order.scene.clone().into_scene())
+    }
+
+    fn begin(scene: &Scene, _: &Given) -> Self {
+        Self(Arc::new(LockedCurves::of(scene)))
+    }
+
+    fn found(&self) -> Option<&Arc<LockedCurves>> {
+        Some(&self.0)
+    }
+}

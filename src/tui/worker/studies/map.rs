@@ -1,0 +1,163 @@
+//! The computation of the map, in threads of its own that stop within a millisecond when
+//! nobody wants it any more.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+
+use super::{Given, Study};
+use crate::study::{Cell, MapPlan};
+use crate::tui::views::map::{LiveMap, coarse_first};
+use crate::tui::worker::background::{Background, spare_threads};
+
+/// Longest wall time of one cell: an ordinary one takes a hundredth of it.
+const CELL_LIMIT: Duration = Duration::from_secs(1);
+/// Most cells that are taken over at once.
+const MOST_TAKEN: usize = 4096;
+
+type Computed = (usize, Option<Cell>);
+
+/// A map that is being computed.
+#[derive(Debug)]
+pub struct MapStudy {
+    live: Arc<LiveMap>,
+    /// The cells to compute, in order.
+    order: Arc<Vec<usize>>,
+    /// Cells after which the whole map can be seen.
+    first: usize,
+    tried: Vec<bool>,
+    threads: Vec<Background<Computed>>,
+}
+
+impl Study for MapStudy {
+    type Key = MapPlan;
+    type Found = LiveMap;
+    const BESIDE: bool = true;
+
+    fn key(given: &Given) -> Option<MapPlan> {
+        given.plan.clone()
+    }
+
+    fn begin(plan: &MapPlan, given: &Given) -> Self {
+        Self::new(plan, given.bounds.cells)
+    }
+
+    fn is_done(&self) -> bool {
+        self.live.tried >= self.order.len()
+    }
+
+    fn work(&mut self, patience: Duration) {
+        // A thread that ended early, or could not be started, leaves cells.
+        if self.threads.iter().all(Background::is_done) && !self.is_done() {
+            self.start();
+        }
+        let began = Instant::now();
+        let mut found = Vec::new();
+        for thread in &mut self.threads {
+            let mut wait = patience.saturating_sub(began.elapsed());
+            while found.len() < MOST_TAKEN
+                && let Some(computed) = thread.receive(wait)
+            {
+                found.push(computed);
+                wait = Duration::ZERO;
+            }
+        }
+        if found.is_empty() {
+            return;
+        }
+        let live = Arc::make_mut(&mut self.live);
+        for (index, cell) in found {
+            live.map.cells.set(index, cell);
+            live.map.runs += u64::from(cell.is_some());
+            if let Some(tried) = self.tried.get_mut(index).filter(|tried| !**tried) {
+                *tried = true;
+                live.tried += 1;
+            }
+        }
+        live.map.wall_s += began.elapsed().as_secs_f64();
+    }
+
+    fn found(&self) -> Option<&Arc<LiveMap>> {
+        Some(&self.live).filter(|live| live.tried >= self.first)
+    }
+
+    fn first(&self) -> Option<&Arc<LiveMap>> {
+        Some(&self.live)
+    }
+
+    fn wait(&mut self) -> bool {
+        // The threads end; the cells so far are kept.
+        self.threads.clear();
+        true
+    }
+}
+
+impl MapStudy {
+    /// A map of `plan`; of its cells at most the `most` coarsest are computed.
+    fn new(plan: &MapPlan, most: usize) -> Self {
+        let (mut order, first) = coarse_first(plan);
+        order.truncate(most.max(1));
+        let live = LiveMap::of(plan.clone());
+        Self {
+            tried: vec![false; live.map.cells.len()],
+            live: Arc::new(live),
+            first: first.min(order.len()),
+            order: Arc::new(order),
+            threads: Vec::new(),
+        }
+    }
+
+    fn start(&mut self) {
+        let left = |index: &usize| self.tried.get(*index) == Some(&false);
+        let left: Arc<Vec<usize>> = Arc::new(self.order.iter().copied().filter(left).collect());
+        let next = Arc::new(AtomicUsize::new(0));
+        let thread = |_| {
+            let (plan, left, next) =
+                (self.live.map.plan.clone(), Arc::clone(&left), Arc::clone(&next));
+            Background::start(move |to, go_on| {
+                while let Some(&index) = left.get(next.fetch_add(1, Ordering::Relaxed))
+                    && go_on()
+                {
+                    let began = Instant::now();
+                    let cell = plan.compute(index, &|| go_on() && began.elapsed() < CELL_LIMIT);
+                    // A cell that takes too long stays empty; without a
+                    // receiver nobody asks any more.
+                    if to.send((index, cell)).is_err() {
+                        return;
+                    }
+                }
+            })
+        };
+        self.threads = (0..spare_threads()).map(thread).collect();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+    use crate::tui::views::map::MapChoice;
+
+    #[test]
+    fn a_map_that_was_stopped_goes_on_and_has_the_cells_of_its_plan() {
+        let mut scene = Scene::base().as_reference();
+        scene.solver.end_s = 5e-3;
+        let mut plan = MapChoice::default().plan(&scene).unwrap();
+        (plan.x.count, plan.y.count) = (7, 5);
+        let mut job = MapStudy::new(&plan, usize::MAX);
+        while !job.is_done() {
+            job.work(Duration::from_millis(5));
+            assert!(job.wait());
+        }
+        assert_eq!(job.live.tried, 35);
+        for index in 0..plan.len() {
+            assert_eq!(job.live.map.cells[index], plan.compute(index, &|| true), "{index}");
+        }
+        // Of a map that is too much for a test, only the coarse blocks.
+        let mut coarse = MapStudy::new(&plan, 1);
+        while !coarse.is_done() {
+            coarse.work(Duration::from_millis(5));
+        }
+        assert!(coarse.found().is_some() && !coarse.live.is_complete());
+    }
+}

@@ -1,0 +1,293 @@
+//! Studies for the views: curves, a spectrum, a map, margins, solvers compared. Each has a
+//! file here and a row in the table below, is computed only while it is wanted, in slices,
+//! and is kept while its inputs stay the same.
+
+mod cell;
+mod coincidence;
+mod locked;
+mod map;
+mod margins;
+mod precision;
+mod spectrum;
+
+use std::fmt;
+use std::sync::Arc;
+use std::time::Duration;
+
+use super::full_run::{FullRunJob, SLICE};
+use crate::study::MapPlan;
+use crate::tui::engine::Order;
+
+/// What studies depend on.
+#[derive(Debug)]
+pub struct Given<'a> {
+    /// What is wanted.
+    pub order: &'a Order,
+    /// The map that is wanted, if there is one.
+    pub plan: Option<MapPlan>,
+    /// The run to its end.
+    pub run: &'a FullRunJob,
+    /// How far it goes.
+    pub bounds: Bounds,
+}
+
+/// How far studies go: all the way, but in tests.
+#[derive(Clone, Copy, Debug)]
+pub struct Bounds {
+    /// Most cells of a map.
+    pub cells: usize,
+    /// Whether lasting pulses are searched.
+    pub searches: bool,
+}
+
+impl Default for Bounds {
+    fn default() -> Self {
+        Self { cells: usize::MAX, searches: true }
+    }
+}
+
+/// One study: its inputs, a slice of its work, and its result.
+pub trait Study: fmt::Debug + Sized {
+    /// Its inputs.
+    type Key: fmt::Debug + PartialEq;
+    /// Its result.
+    type Found: fmt::Debug;
+    /// Whether the result before is shown until there is a new one.
+    const STAYS: bool = true;
+    /// Whether it takes so long that others like it go on beside it.
+    const BESIDE: bool = false;
+
+    /// The inputs that are wanted; none where no view shows it.
+    fn key(given: &Given) -> Option<Self::Key>;
+
+    /// Starts it.
+    fn begin(key: &Self::Key, given: &Given) -> Self;
+
+    /// Whether nothing more comes.
+    fn is_done(&self) -> bool {
+        true
+    }
+
+    /// Does a slice of the work, or takes what a thread of it has found, waiting no longer
+    /// than `patience`.
+    fn work(&mut self, _patience: Duration) {}
+
+    /// The result, as soon as it can be shown instead of the one before.
+    fn found(&self) -> Option<&Arc<Self::Found>>;
+
+    /// What to show where there is no result before.
+    fn first(&self) -> Option<&Arc<Self::Found>> {
+        None
+    }
+
+    /// Nobody wants it now; false where it must end, so that the work of the next order has
+    /// the processor.
+    fn wait(&mut self) -> bool {
+        true
+    }
+}
+
+/// A study, and what it found for the inputs before.
+#[derive(Debug)]
+struct Kept<S: Study> {
+    study: Option<(S::Key, S)>,
+    before: Option<Arc<S::Found>>,
+}
+
+impl<S: Study> Default for Kept<S> {
+    fn default() -> Self {
+        Self { study: None, before: None }
+    }
+}
+
+impl<S: Study> Kept<S> {
+    fn replace(&mut self, study: Option<(S::Key, S)>) {
+        let old = std::mem::replace(&mut self.study, study);
+        let found = old.as_ref().and_then(|(_, old)| old.found()).filter(|_| S::STAYS).cloned();
+        self.before = found.or(self.before.take());
+    }
+
+    fn of(&self, key: &S::Key) -> Option<&S> {
+        self.study.as_ref().filter(|(of, _)| of == key).map(|(_, study)| study)
+    }
+
+    fn shown(&self, given: &Given) -> Option<Arc<S::Found>> {
+        let study = match S::STAYS {
+            true => self.study.as_ref().map(|(_, study)| study),
+            false => self.of(&S::key(given)?),
+        };
+        let found = study.and_then(S::found).or(self.before.as_ref());
+        found.or_else(|| study?.first()).cloned()
+    }
+}
+
+/// Any study.
+trait Work {
+    fn is_beside(&self) -> bool;
+    fn is_done(&self, given: &Given) -> bool;
+    fn work(&mut self, given: &Given, patience: Duration);
+    fn stop_unwanted(&mut self, given: &Given);
+}
+
+impl<S: Study> Work for Kept<S> {
+    fn is_beside(&self) -> bool {
+        S::BESIDE
+    }
+
+    fn is_done(&self, given: &Given) -> bool {
+        S::key(given).is_none_or(|key| self.of(&key).is_some_and(S::is_done))
+    }
+
+    fn work(&mut self, given: &Given, patience: Duration) {
+        let Some(key) = S::key(given) else { return };
+        if self.of(&key).is_none() {
+            let study = S::begin(&key, given);
+            self.replace(Some((key, study)));
+        }
+        if let Some((_, study)) = &mut self.study {
+            study.work(patience);
+        }
+    }
+
+    fn stop_unwanted(&mut self, given: &Given) {
+        let wanted = S::key(given).is_some_and(|key| self.of(&key).is_some());
+        if self.study.as_mut().is_some_and(|(_, study)| !wanted && !study.wait()) {
+            self.replace(None);
+        }
+    }
+}
+
+macro_rules! studies {
+    ($($(#[$what:meta])* $name:ident: $study:ty,)*) => {
+        /// The studies of one scene, in the order in which they are computed.
+        #[derive(Debug, Default)]
+        pub struct Studies {
+            bounds: Bounds,
+            $($name: Kept<$study>,)*
+        }
+
+        /// What the studies have found.
+        #[derive(Clone, Debug, Default)]
+        pub struct Found {
+            $($(#[$what])* pub $name: Option<Arc<<$study as Study>::Found>>,)*
+        }
+
+        impl Studies {
+            fn all(&self) -> impl Iterator<Item = &dyn Work> {
+                [$(&self.$name as &dyn Work),*].into_iter()
+            }
+
+            fn all_mut(&mut self) -> impl Iterator<Item = &mut dyn Work> {
+                [$(&mut self.$name as &mut dyn Work),*].into_iter()
+            }
+
+            /// What they have found so far.
+            pub fn found(&self, order: &Order, run: &FullRunJob) -> Found {
+                let given = self.given(order, run);
+                Found { $($name: self.$name.shown(&given),)* }
+            }
+        }
+    };
+}
+
+studies! {
+    /// The locked motion against speed.
+    locked: locked::LockedStudy,
+    /// The spectrum of the run.
+    spectrum: spectrum::SpectrumStudy,
+    /// What a coincidence does; none within where there is no coincidence.
+    coincidence: coincidence::CoincidenceStudy,
+    /// The margins; what is searched arrives later.
+    margins: margins::MarginsStudy,
+    /// The run of the map's cell that was asked for.
+    cell: cell::CellStudy,
+    /// The map; cells arrive one by one.
+    map: map::MapStudy,
+    /// Speed against error; rows arrive one by one.
+    precision: precision::PrecisionStudy,
+}
+
+impl Studies {
+    /// Bounds how far they go.
+    pub fn bound(&mut self, bounds: Bounds) {
+        self.bounds = bounds;
+    }
+
+    fn given<'a>(&self, order: &'a Order, run: &'a FullRunJob) -> Given<'a> {
+        Given { order, plan: order.map_plan(), run, bounds: self.bounds }
+    }
+
+    /// Stops what is not wanted any more, so that what is has the processor.
+    pub fn stop_unwanted(&mut self, order: &Order, run: &FullRunJob) {
+        let given = self.given(order, run);
+        self.all_mut().for_each(|study| study.stop_unwanted(&given));
+    }
+
+    /// Whether a study that is needed is missing.
+    pub fn is_computing(&self, order: &Order, run: &FullRunJob) -> bool {
+        let given = self.given(order, run);
+        self.all().any(|study| !study.is_done(&given))
+    }
+
+    /// Computes one slice of the first that is not done, and of those that go on beside it.
+    pub fn compute(&mut self, order: &Order, run: &FullRunJob) {
+        let given = &self.given(order, run);
+        let mut due: Vec<_> = self.all_mut().filter(|study| !study.is_done(given)).collect();
+        match due.first().is_some_and(|first| first.is_beside()) {
+            true => due.retain(|study| study.is_beside()),
+            false => due.truncate(1),
+        }
+        // Only one of them is waited for.
+        while let Some(study) = due.pop() {
+            study.work(given, if due.is_empty() { SLICE } else { Duration::ZERO });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::Motion;
+    use crate::scene::Scene;
+    use crate::tui::views::ViewId;
+    use crate::tui::{App, Marker, Theme};
+
+    /// What a study depends on, with a run that is not looked at.
+    pub(super) fn with_given<T>(scene: &Scene, view: ViewId, with: impl Fn(&Given) -> T) -> T {
+        let scene = scene.checked().unwrap();
+        let run = FullRunJob::new(Motion::new(&scene), 1.0);
+        let app = App::new(scene, Theme::Mono, Marker::Ascii);
+        let order = Order { open: vec![view], ..app.order() };
+        with(&Studies::default().given(&order, &run))
+    }
+
+    #[test]
+    fn a_search_ends_with_its_view_and_what_was_known_stays() {
+        let scene = Scene::base().checked().unwrap();
+        let app = App::new(scene, Theme::Mono, Marker::Ascii);
+        let mut order = Order { open: vec![ViewId::Margins], ..app.order() };
+        let mut studies = Studies::default();
+        let run = &FullRunJob::new(Motion::new(&order.scene), 1.0);
+        let shown = |studies: &Studies, order: &Order| studies.found(order, run).margins;
+        while shown(&studies, &order).is_none() {
+            studies.compute(&order, run);
+        }
+        assert!(studies.is_computing(&order, run));
+        order.open.clear();
+        studies.stop_unwanted(&order, run);
+        assert!(studies.margins.study.is_none() && !studies.is_computing(&order, run));
+        assert!(shown(&studies, &order).is_some());
+        // Of another scene the old ones stay until there are new ones.
+        order.open.push(ViewId::Margins);
+        let mut other = order.scene.clone().into_scene();
+        other.casing.damping_ratio = 0.1;
+        order.scene = other.checked().unwrap();
+        studies.compute(&order, run);
+        studies.compute(&order, run);
+        assert!(shown(&studies, &order).is_some());
+        while shown(&studies, &order).is_none_or(|live| live.margins.scene != order.scene) {
+            studies.compute(&order, run);
+        }
+        assert!(studies.is_computing(&order, run));
+    }
+}

@@ -1,0 +1,32 @@
+//! The spectrum of the run to its end, once that is there.
+
+use std::sync::Arc;
+
+use super::{Given, Study};
+use crate::tui::views::ViewId;
+use crate::tui::views::spectrum::transform::Spectrum;
+
+/// The spectrum of a run.
+#[derive(Debug)]
+pub struct SpectrumStudy(Arc<Spectrum>);
+
+impl Study for SpectrumStudy {
+    /// What tells a run from others: the knobs, and its end.
+    type Key = (u64, f64);
+    type Found = Spectrum;
+    const STAYS: bool = false;
+
+    fn key(given: &Given) -> Option<(u64, f64)> {
+        let shown = given.order.shows(ViewId::Spectrum);
+        shown.then(|| (given.order.generation(), given.run.end()))
+    }
+
+    fn begin(_: &(u64, f64), given: &Given) -> Self {
+        let length = given.order.scene.solver.end_s;
+        Self(Arc::new(Spectrum::of(&given.run.signal(), length)))
+    }
+
+    fn found(&self) -> Option<&Arc<Spectrum>> {
+        Some(&self.0)
+    }
+}
