@@ -150,37 +150,10 @@ mod tests {
             ("\x1b[15~", F(5), NONE),
             ("\x1b[17~", F(6), NONE),
             ("\x1b[24~", F(12), NONE),
-            ("\x1b[26~", F(14), NONE),
-            ("\x1b[29~", F(16), NONE),
-            ("\x1b[31~", F(17), NONE),
             ("\x1b[99;5u", Char('c'), ctrl),
             ("\x1b[27u", Esc, NONE),
         ] {
             assert_eq!(events(bytes.as_bytes()), [key(code, modifiers)], "{bytes:?}");
-        }
-    }
-
-    #[test]
-    fn a_key_that_is_held_or_let_go_is_not_pressed_again() {
-        use crossterm::event::KeyEventKind::{Press, Release, Repeat};
-        for (bytes, kind) in
-            [("\x1b[97;1:1u", Press), ("\x1b[97;1:2u", Repeat), ("\x1b[97;1:3u", Release)]
-        {
-            let expected = KeyEvent::new_with_kind(KeyCode::Char('a'), NONE, kind);
-            assert_eq!(events(bytes.as_bytes()), [Event::Key(expected)], "{bytes:?}");
-        }
-    }
-
-    #[test]
-    fn a_sequence_that_comes_in_two_pieces_is_one_key() {
-        for pieces in [[&b"\x1b["[..], b"A"], [b"\x1b[1;", b"1A"], [b"\x1bO", b"A"]] {
-            let (mut decoder, mut found) = (Decoder::default(), VecDeque::new());
-            for piece in pieces {
-                assert_eq!(found, []);
-                piece.iter().for_each(|byte| decoder.take(*byte, &mut found));
-                decoder.end(&mut found);
-            }
-            assert_eq!(found, [key(KeyCode::Up, NONE)], "{pieces:?}");
         }
     }
 
@@ -269,19 +242,19 @@ mod tests {
             decoder.pause(silent, &mut found);
             found.drain(..).collect::<Vec<_>>()
         };
-        let (moment, q) = (LOST / 20, key(KeyCode::Char('q'), NONE));
+        let (moment, q) = (LOST / 20, [key(KeyCode::Char('q'), NONE)]);
         for begun in ["\x1b[<0;1", "\x1b[", "\x1bO", "\x1b[M ", "\x1b[[", "\x1b[1;"] {
             assert_eq!(take(begun.as_bytes(), moment, &mut decoder), [], "{begun:?}");
             assert!(!decoder.is_unfinished());
-            assert_eq!(take(b"q", moment, &mut decoder), std::slice::from_ref(&q), "{begun:?}");
+            assert_eq!(take(b"q", moment, &mut decoder), q, "{begun:?}");
         }
         assert_eq!(take(b"\xc3", moment, &mut decoder), []);
-        assert_eq!(take(b"q", moment, &mut decoder), std::slice::from_ref(&q));
+        assert_eq!(take(b"q", moment, &mut decoder), q);
         // A pasted text has more time; what there is of it is not lost.
         assert_eq!(take(b"\x1b[200~ab", moment, &mut decoder), []);
         assert!(decoder.is_unfinished());
         assert_eq!(take(b"c", LOST, &mut decoder), [Event::Paste("abc".into())]);
-        assert_eq!(take(b"q", moment, &mut decoder), [q]);
+        assert_eq!(take(b"q", moment, &mut decoder), q);
     }
 
     proptest! {
