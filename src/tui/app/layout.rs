@@ -126,7 +126,7 @@ impl App {
 
     /// Whether only the large chart is on the screen.
     pub fn is_alone(&self) -> bool {
-        self.layout.full_screen || self.appearance.wide || self.compares()
+        self.layout.full_screen || self.appearance.is_wide() || self.compares()
     }
 
     /// Makes a view the large one; an instant that is read goes on being read.
