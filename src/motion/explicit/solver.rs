@@ -12,7 +12,7 @@ use crate::motion::{
     Verdict,
 };
 use crate::scene::CheckedScene;
-use crate::tolerances::UPDATES_UNASKED;
+use crate::tolerances::{STEP_ROUND_OFF, UPDATES_UNASKED};
 
 impl<B: Disk> Solver for Explicit<B> {
     fn advance_while(&mut self, until: f64, go_on: GoOn<'_>) -> Result<bool, Failure> {
@@ -20,7 +20,7 @@ impl<B: Disk> Solver for Explicit<B> {
             return Err(failure.clone());
         }
         // A step that ends within a millionth of itself after `until` belongs to it.
-        let target = (until / self.drive.step + 1e-6).floor().max(0.0) as u64;
+        let target = (until / self.drive.step + STEP_ROUND_OFF).floor().max(0.0) as u64;
         let steps_unasked = UPDATES_UNASKED / self.blades.coordinates();
         let mut unasked = 0;
         while self.latest_step() < target {
