@@ -10,6 +10,7 @@ use crate::contact::{StepLaw, single};
 use crate::motion::{FailureReason, Plane};
 
 /// Entry of `W`: how far a unit multiplier of `b` closes the gap of `a` \[m/N\].
+#[inline(always)]
 fn influence<B: Disk>(tips: &TipLaw, casing_compliance: f64, blades: &B, a: &Row, b: &Row) -> f64 {
     let push = tips.push_on_casing(b.place.normal);
     let casing = a.place.normal.re * push.re + a.place.normal.im * push.im;
@@ -19,6 +20,7 @@ fn influence<B: Disk>(tips: &TipLaw, casing_compliance: f64, blades: &B, a: &Row
 
 /// Corrects the blades of a step by the multipliers of its rows, Eq. (13b); the shift of
 /// the casing in their frame \[m\], and a bound on the change of any blade angle \[rad\].
+#[inline]
 pub(super) fn push<B: Disk>(
     rows: &[Row],
     tips: &TipLaw,
@@ -39,6 +41,7 @@ pub(super) fn push<B: Disk>(
 ///
 /// # Errors
 /// Rows without a unique answer.
+#[inline]
 pub(super) fn solve<B: Disk>(
     tips: &TipLaw,
     law: &dyn StepLaw,

@@ -41,6 +41,7 @@ impl TipLaw {
     }
 
     /// The row of a blade of this direction, at this casing place and blade angle.
+    #[inline(always)]
     pub fn place(&self, direction: (f64, f64), z: Plane, angle: f64) -> Place {
         let normal = turned(direction, self.diameters * angle);
         let gap = self.clearance + z.re * normal.re + z.im * normal.im - self.rise * angle;
@@ -49,16 +50,19 @@ impl TipLaw {
     }
 
     /// Whether pushes act along the constraint rows, so that `W` is symmetric.
+    #[inline(always)]
     pub fn is_symmetric(&self) -> bool {
         self.friction == 0.0
     }
 
     /// Torque of the multiplier of a row on its blades, with its friction \[N m\].
+    #[inline(always)]
     pub fn torque(&self, row: &Row) -> f64 {
         -row.lambda * (row.place.moment_arm - self.pushed)
     }
 
     /// The direction of a push on the casing, with its friction.
+    #[inline(always)]
     pub fn push_on_casing(&self, normal: Plane) -> Plane {
         Plane::new(
             normal.re - self.casing_friction * normal.im,
@@ -91,6 +95,7 @@ pub(in crate::motion) struct Row {
 }
 
 /// A direction turned by a small blade phase, to round-off.
+#[inline(always)]
 pub(super) fn turned((c, s): (f64, f64), phase: f64) -> Plane {
     let q = phase * phase;
     let (sin, cos) = if phase.abs() < SMALL_PHASE {
