@@ -7,28 +7,31 @@ use std::sync::Arc;
 
 use super::beyond::Beyond;
 use super::disk::Disk;
-use super::drive::Drive;
+use super::drive::{Drive, Driven};
 use super::leap::Leaps;
 use super::record::Record;
 use super::rows::TipLaw;
 use super::watch::Watch;
 use super::{Explicit, Oscillator};
 use crate::contact::{self, repeated::Repeated};
+use crate::model::Machine;
 use crate::motion::Plane;
 use crate::scene::CheckedScene;
 
 impl<B: Disk> Explicit<B> {
     /// The motion of a scene at t = 0.
     pub(in crate::motion) fn new(scene: &CheckedScene) -> Self {
-        let drive = Drive::of(scene);
-        let driven = drive.driven(0).filter(|_| scene.goes_beyond());
-        Self::with_blades(scene, B::at_rest(scene, &scene.machine(), driven))
+        Self::with_blades(scene, |machine, driven| B::at_rest(scene, machine, driven))
     }
 
-    /// The motion of a scene with these blades at t = 0.
-    pub(super) fn with_blades(scene: &CheckedScene, blades: B) -> Self {
+    /// The same with the blades that these make, of the machine and what drives it.
+    pub(super) fn with_blades(
+        scene: &CheckedScene,
+        blades: impl FnOnce(&Machine, Driven<'_>) -> B,
+    ) -> Self {
         let machine = scene.machine();
         let drive = Drive::of(scene);
+        let blades = blades(&machine, drive.driven(0).filter(|_| scene.goes_beyond()));
         let casing = Oscillator::of_casing(&machine, drive.step);
         let (initial, speed) = (&scene.initial, drive.speed(0));
         let u = [

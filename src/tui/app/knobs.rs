@@ -228,7 +228,7 @@ impl App {
     }
 
     /// Makes a state the present one. If only knobs were turned since, their
-    /// turning may act on the running motion; another scene begins anew.
+    /// turning may act on the running motion; another scene starts from t = 0.
     pub(super) fn come_back(&mut self, past: Past) {
         self.knobs.forget_refusal();
         let step = |lesson: Option<&LessonProgress>| {

@@ -122,7 +122,7 @@ impl AngleBounds {
     ) -> (f64, f64) {
         let mut top = (0, 0.0);
         ring.each_of_pair(self.driven, x, |member, driven| {
-            // The sum begins anew, before it has many digits more than an angle.
+            // The sum starts from zero again, before it has many digits more than an angle.
             self.seen[member].turned -= self.turned;
             let bound = (driven + self.seen[member].angle).abs() - self.seen[member].turned;
             if bound > top.1 {
