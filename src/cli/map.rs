@@ -18,6 +18,7 @@ use super::status::{self, Refusal, Status};
 use super::{Done, output};
 use crate::file::{self, Written};
 use crate::report::{Provenance, json, map as report, svg};
+use crate::scene::keys;
 use crate::study::{Axis, AxisError, Map, MapPlan, Shard, overlay, part};
 
 /// Most threads: more than any machine has cores for.
@@ -155,8 +156,8 @@ impl MapCommand {
         };
         let scene = resolved.scene;
         let plan = MapPlan {
-            x: axis(&self.x, overlay::SPEED, resolved.speeds, 0.0, 500.0, COLUMNS)?,
-            y: axis(&self.y, overlay::PULSE, resolved.pulses, 0.0, 1e6, ROWS)?,
+            x: axis(&self.x, keys::SPEED, resolved.speeds, 0.0, 500.0, COLUMNS)?,
+            y: axis(&self.y, keys::PULSE, resolved.pulses, 0.0, 1e6, ROWS)?,
             scene: scene.into_scene(),
             sensitivity: !self.no_sensitivity,
         };

@@ -7,8 +7,8 @@ use super::range::Range;
 use super::status::{Refusal, note};
 use super::words::Words;
 use crate::model::Operation;
+use crate::scene::keys::{PULSE, SPEED};
 use crate::scene::{Adjustment, CheckedScene, ContactLaw, DEFAULT, ModelSize, Scene, SolverKind};
-use crate::study::overlay::{PULSE, SPEED};
 
 /// The scene and the options that change it, on every command.
 #[derive(Args, Clone, Debug, Default)]

@@ -11,9 +11,8 @@ use serde::{Serialize, Serializer};
 use super::status::Refusal;
 use crate::motion;
 use crate::report::number::time;
-use crate::scene::keys::{self, Live};
+use crate::scene::keys::{self, Live, SPEED};
 use crate::scene::{CheckedScene, KEYS, Key, SolverKind, Value};
-use crate::study::overlay::SPEED;
 
 /// The option, as it is named in refusals.
 const OPTION: &str = "--at";

@@ -230,8 +230,7 @@ fn write_speeds(map: &Map, across: usize, columns: usize, out: &mut dyn Write) -
         let Some(&(speed, _)) = curve.points.first() else { continue };
         let column = (map.plan.x.place(speed) / across as f64).round();
         let upright = curve.points.iter().all(|point| point.0 == speed);
-        if map.plan.x.path != overlay::SPEED || !upright || !(0.0..columns as f64).contains(&column)
-        {
+        if map.plan.x.path != keys::SPEED || !upright || !(0.0..columns as f64).contains(&column) {
             continue;
         }
         let (column, name) = (column as usize, format!("{} = {}", curve.name, short(speed)));

@@ -2,6 +2,7 @@
 //! what the table of keys says of each.
 
 use crate::scene::keys;
+use crate::scene::keys::PULSE;
 use crate::study::margins::CLEARANCE;
 
 /// What a key says at its end where it is a value of the start.
@@ -14,7 +15,7 @@ pub fn symbol(path: &str) -> String {
     match path {
         CLEARANCE => return "g0".to_string(),
         // These are told in words.
-        "operation.pulse_n" => return "F".to_string(),
+        PULSE => return "F".to_string(),
         "operation.speed_ramp_rad_s2" => return "ramp".to_string(),
         "solver.step_s" => return "h".to_string(),
         _ => {}

@@ -233,7 +233,7 @@ pub const CHARTS: &[&str] = &[
 ];
 
 macro_rules! real {
-    ($live:ident, $path:literal, $unit:literal, $what:literal, $above:literal $min:literal .. $max:literal, $($field:ident).+) => {
+    ($live:ident, $path:expr, $unit:literal, $what:literal, $above:literal $min:literal .. $max:literal, $($field:ident).+) => {
         Key {
             path: $path, unit: $unit, what: $what, live: Live::$live,
             allowed: Allowed::Real { min: $min, max: $max, above: $above },
@@ -243,7 +243,7 @@ macro_rules! real {
     };
 }
 macro_rules! whole {
-    ($live:ident, $path:literal, $what:literal, $min:literal .. $max:literal, $($field:ident).+) => {
+    ($live:ident, $path:expr, $what:literal, $min:literal .. $max:literal, $($field:ident).+) => {
         Key {
             path: $path, unit: "-", what: $what, live: Live::$live,
             allowed: Allowed::Whole { min: $min, max: $max },
@@ -254,7 +254,7 @@ macro_rules! whole {
     };
 }
 macro_rules! word {
-    ($live:ident, $path:literal, $what:literal, $type:ident, $($field:ident).+) => {
+    ($live:ident, $path:expr, $what:literal, $type:ident, $($field:ident).+) => {
         Key {
             path: $path, unit: "-", what: $what, live: Live::$live, allowed: Allowed::OneOf($type::VARIANTS),
             get: |scene| Value::Text(scene.$($field).+.to_string()),
@@ -264,7 +264,7 @@ macro_rules! word {
     };
 }
 macro_rules! text {
-    ($live:ident, $path:literal, $what:literal, $most:literal, $field:ident) => {
+    ($live:ident, $path:expr, $what:literal, $most:literal, $field:ident) => {
         Key {
             path: $path,
             unit: "-",
@@ -309,6 +309,11 @@ fn changed(from: &Scene, to: &Scene, view: bool) -> impl Iterator<Item = (&'stat
         (key.path, text)
     })
 }
+
+/// Path of the rotor speed.
+pub const SPEED: &str = "operation.speed_rad_s";
+/// Path of the pulse force.
+pub const PULSE: &str = "operation.pulse_n";
 
 /// Every key but `schema`, in the order of the file.
 pub const KEYS: &[Key] = &[
@@ -359,14 +364,7 @@ pub const KEYS: &[Key] = &[
         0..4096,
         operation.nodal_diameters
     ),
-    real!(
-        Always,
-        "operation.speed_rad_s",
-        "rad/s",
-        "rotor speed Omega",
-        false - 1e6..1e6,
-        operation.speed_rad_s
-    ),
+    real!(Always, SPEED, "rad/s", "rotor speed Omega", false - 1e6..1e6, operation.speed_rad_s),
     real!(
         Always,
         "operation.speed_ramp_rad_s2",
@@ -375,14 +373,7 @@ pub const KEYS: &[Key] = &[
         false - 1e9..1e9,
         operation.speed_ramp_rad_s2
     ),
-    real!(
-        Steps,
-        "operation.pulse_n",
-        "N",
-        "pulse force on u_c",
-        false - 1e12..1e12,
-        operation.pulse_n
-    ),
+    real!(Steps, PULSE, "N", "pulse force on u_c", false - 1e12..1e12, operation.pulse_n),
     real!(Steps, "operation.pulse_s", "s", "pulse duration t_p", false 0.0..1e6, operation.pulse_s),
     real!(Start, "initial.u_c_m", "m", "u_c at t = 0", false - 1e3..1e3, initial.u_c_m),
     real!(Start, "initial.u_s_m", "m", "u_s at t = 0", false - 1e3..1e3, initial.u_s_m),

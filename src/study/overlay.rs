@@ -5,11 +5,7 @@ use super::MapPlan;
 use super::margins::grazing_pulse;
 use crate::model::Machine;
 use crate::scene::Scene;
-
-/// Key of the rotor speed.
-pub const SPEED: &str = "operation.speed_rad_s";
-/// Key of the pulse.
-pub const PULSE: &str = "operation.pulse_n";
+use crate::scene::keys::{PULSE, SPEED};
 
 /// A curve over a map, in the quantities of its axes.
 #[derive(Clone, Debug, PartialEq)]

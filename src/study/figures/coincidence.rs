@@ -5,6 +5,7 @@
 use super::{Figure, Mark, Panel, Quantity, Series, Style};
 use crate::harmonic::{CoincidencePoint, HarmonicError, Lining, coincidence, shifted_coincidence};
 use crate::motion::{Sampling, Script, run_to_end};
+use crate::scene::keys::{PULSE, SPEED};
 use crate::scene::{CheckedScene, ContactLaw, Scene, SceneError};
 
 /// Speeds of a curve.
@@ -35,8 +36,8 @@ pub fn own_scene() -> Result<Scene, SceneError> {
         ("casing.radius_m", "0.49988"),
         ("bladed_disk.radial_coupling", "0.5"),
         ("contact.stiffness_n_per_m", "27e3"),
-        ("operation.speed_rad_s", "406"),
-        ("operation.pulse_n", "20e3"),
+        (SPEED, "406"),
+        (PULSE, "20e3"),
     ] {
         scene.set(path, value)?;
     }

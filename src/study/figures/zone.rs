@@ -3,8 +3,8 @@
 use super::{Figure, Panel, Quantity, Series, Style, speed_marks};
 use crate::motion::{Verdict, run_to_verdict, to_the_end};
 use crate::numeric::bisection::bisected_to;
+use crate::scene::keys::{PULSE, SPEED};
 use crate::scene::{CheckedScene, ContactLaw, Scene, SolverKind};
-use crate::study::overlay::{PULSE, SPEED};
 use crate::study::{Axis, Map, MapPlan, Progress, Shard};
 
 /// Speeds, from a fifth of that of the scene up to it.

@@ -10,8 +10,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use super::parameters::Parameter;
 use crate::motion::{GoOn, Verdict, run_to_verdict, run_with_sensitivity};
 use crate::numeric::bisection::try_bisected;
+use crate::scene::keys::PULSE;
 use crate::scene::{CheckedScene, ContactLaw, ModelSize, Scene, SolverKind};
-use crate::study::overlay::PULSE;
 use crate::tolerances::{
     LASTING_CHANGE, LASTING_EDGE, LASTING_EDGE_BY_STEPS, LASTING_REACH, LASTING_REACH_BY_STEPS,
     LASTING_SMOOTH, LASTING_WORK,

@@ -1,5 +1,6 @@
 //! One limit: what it is, its value, where the scene stands, and what moves it.
 
+use crate::scene::keys::{PULSE, SPEED};
 use serde::{Deserialize, Serialize};
 use strum::{AsRefStr, Display, EnumIter, EnumString, VariantNames};
 
@@ -306,8 +307,8 @@ impl Quantity {
     #[must_use]
     pub fn path(self) -> Option<&'static str> {
         match self {
-            Self::Speed => Some("operation.speed_rad_s"),
-            Self::Pulse => Some("operation.pulse_n"),
+            Self::Speed => Some(SPEED),
+            Self::Pulse => Some(PULSE),
             _ => None,
         }
     }

@@ -1,6 +1,7 @@
 //! The parameters of a scene as numbers that may carry a derivative, and how each is
 //! read and changed.
 
+use crate::scene::keys::{PULSE, SPEED};
 use num_dual::Dual64;
 
 use crate::model::{BladedDisk, Casing, LiningLaw, Machine, Number, Operation};
@@ -73,9 +74,9 @@ pub const PARAMETERS: &[Parameter] = &[
     at!("contact.friction", friction),
     at!(STIFFNESS, stiffness),
     at!(SMOOTHING, smoothing),
-    at!("operation.speed_rad_s", operation.speed_rad_s),
+    at!(SPEED, operation.speed_rad_s),
     at!("operation.speed_ramp_rad_s2", operation.speed_ramp_rad_s2),
-    at!("operation.pulse_n", operation.pulse_n),
+    at!(PULSE, operation.pulse_n),
     at!("operation.pulse_s", operation.pulse_s),
 ];
 

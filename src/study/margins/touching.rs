@@ -10,8 +10,8 @@ use super::parameters::{Parameter, Parameters, acting, parameter, sensitivity};
 use crate::model::{Excitation, Initial, Number};
 use crate::motion::{FreeFlight, Motion};
 use crate::numeric::bisection::{bisected, bisected_to};
+use crate::scene::keys::PULSE;
 use crate::scene::{CheckedScene, ModelSize, Scene};
-use crate::study::overlay::PULSE;
 use crate::tolerances::{TOUCHING_PART, TOUCHING_PERIODS};
 
 /// The smallest pulse that touches, and where it does.

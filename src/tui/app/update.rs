@@ -1,5 +1,6 @@
 //! Keys and actions: each changes the state and returns an effect outside it.
 
+use crate::scene::keys::PULSE;
 use std::path::PathBuf;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
@@ -210,7 +211,7 @@ impl App {
             }
             Action::Fire => {
                 self.run.fire();
-                let pulse = knob_of("operation.pulse_n").map(|knob| knob.text(&self.scene));
+                let pulse = knob_of(PULSE).map(|knob| knob.text(&self.scene));
                 self.status = pulse.map(|pulse| format!("pulse of {pulse} fired"));
             }
             Action::Sweep => self.ask_sweep(),

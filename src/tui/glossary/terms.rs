@@ -4,6 +4,7 @@ use super::App;
 use super::Here::{self, Knob, Nothing, Of};
 use super::Term;
 use super::beyond::BEYOND;
+use crate::scene::keys::PULSE;
 
 pub(super) const fn term(
     symbol: &'static str,
@@ -207,7 +208,7 @@ const SYMBOLS: &[Term] = &[
     ),
     term("l_b", "l_b", "length of a blade", "", Knob("bladed_disk.blade_length_m")),
     term("R_c", "R_c", "radius of the casing", "", Knob("casing.radius_m")),
-    term("F", "F", "force of the pulse that starts the motion", "", Knob("operation.pulse_n")),
+    term("F", "F", "force of the pulse that starts the motion", "", Knob(PULSE)),
     term("t_p", "t_p", "length of that pulse", "", Knob("operation.pulse_s")),
     term("h", "h", "time step of the explicit solver", "", Knob("solver.step_s")),
     term(

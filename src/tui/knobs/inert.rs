@@ -1,6 +1,7 @@
 //! Knobs that cannot change the run as the others stand, and why.
 
 use super::Knob;
+use crate::scene::keys::PULSE;
 use crate::scene::{ContactLaw, ModelSize, Scene, SolverKind};
 
 impl Knob {
@@ -43,7 +44,7 @@ impl Knob {
                 Some("the mistuning is 0")
             }
             "solver.step_s" if event => Some("the event solver has no steps"),
-            "operation.pulse_n" if scene.operation.pulse_s == 0.0 => Some("the pulse time is 0"),
+            PULSE if scene.operation.pulse_s == 0.0 => Some("the pulse time is 0"),
             "operation.pulse_s" if scene.operation.pulse_n == 0.0 => Some("the pulse is 0"),
             "bladed_disk.damping_ratio"
             | "bladed_disk.stiffness_nm_per_rad"

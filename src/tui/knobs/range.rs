@@ -6,6 +6,7 @@ use super::touch::touching_pulse;
 use super::{Knob, Turn};
 use crate::model::Machine;
 use crate::report::number::rounded;
+use crate::scene::keys::{PULSE, SPEED};
 use crate::scene::{Allowed, ContactLaw, Scene, Value};
 
 /// The usual range of a knob, or of a limit, on which its bar is drawn. Values may be
@@ -93,7 +94,7 @@ impl Knob {
         let (clearance, blades) = (machine.clearance().abs(), f64::from(scene.bladed_disk.blades));
         let lining = scene.solver.contact == ContactLaw::Smooth;
         let range = match self.path {
-            "operation.speed_rad_s" => {
+            SPEED => {
                 let window = machine.lock_window(value);
                 let lock = window.map(|window| window.from);
                 let limits = [machine.critical_speed(), lock, machine.dangerous_speed()];
@@ -108,7 +109,7 @@ impl Knob {
                     ('L', limits[1]),
                 ])
             }
-            "operation.pulse_n" => {
+            PULSE => {
                 let touch = touching_pulse(scene, machine);
                 let middle = touch.unwrap_or_else(|| self.usual(opened));
                 KnobRange::log(middle / 30.0, middle * 3000.0).signed(value).marked(&[('t', touch)])
@@ -168,7 +169,7 @@ impl Knob {
             "operation.speed_ramp_rad_s2" => {
                 opened.operation.speed_rad_s.abs().max(1.0) / opened.solver.end_s
             }
-            "operation.pulse_n" => 1e4,
+            PULSE => 1e4,
             "operation.pulse_s" => 1e-4,
             _ => 1.0,
         }

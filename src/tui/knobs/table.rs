@@ -2,6 +2,7 @@
 
 use super::clearance::{CLEARANCE, LEAST};
 use super::{Group, Knob, Turn};
+use crate::scene::keys::{PULSE, SPEED};
 use Group::{Beyond, Machine, Operation, Solver, Start};
 use Turn::{Decades, Linear, Whole, Words};
 
@@ -21,14 +22,14 @@ pub const KNOBS: &[Knob] = &[
     knob(
         Operation,
         "speed Ω",
-        "operation.speed_rad_s",
+        SPEED,
         Linear(5.0, 50.0),
         "rotor speed: above Ω_c (c) the wave is pushed onto the blades, above Ω_lock (L) a lock only pushes",
     ),
     knob(
         Operation,
         "pulse F",
-        "operation.pulse_n",
+        PULSE,
         Decades(1.0),
         "force of the push on u_c that starts the motion; from t on a blade touches",
     ),

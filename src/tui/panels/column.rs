@@ -3,6 +3,7 @@
 //! is folded longest, but the knobs by which a scene leaves the paper are shown. The
 //! mouse asks it too.
 
+use crate::scene::keys::{PULSE, SPEED};
 use ratatui::layout::Rect;
 
 use crate::tui::app::App;
@@ -28,7 +29,7 @@ pub const SECOND: u16 = 13;
 pub const NOTES: u16 = 5;
 
 /// Knobs whose bars have lines of their own where there is room.
-const BARS: [&str; 2] = ["operation.speed_rad_s", "operation.pulse_n"];
+const BARS: [&str; 2] = [SPEED, PULSE];
 
 /// How much of a group is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -1,8 +1,8 @@
 //! What the explorer's map sweeps: two knobs over sensible ranges, under the
 //! scene's own contact law, solver and model, or under the other law.
 
+use crate::scene::keys::{PULSE, SPEED};
 use crate::scene::{Allowed, ContactLaw, Key, Scene, SolverKind, keys};
-use crate::study::overlay::{PULSE, SPEED};
 use crate::study::{Axis, MapPlan};
 use crate::tui::axis::nice_step;
 use crate::tui::knobs::{KNOBS, Knob};
