@@ -93,6 +93,10 @@ pub(crate) const WAVE_LOOKS_A_TURN: f64 = 16.0;
 /// step count as singular.
 pub(crate) const SINGULAR: f64 = 1e-3;
 
+/// Most penetrating rows of different sides that begin closed: more are too many for two
+/// coordinates and soft blades, and closing them costs more than finding those that push.
+pub(crate) const FEW_ROWS: usize = 4;
+
 /// Part of the terms of a gap that counts as zero in the test for an open row
 /// among repeated rows.
 pub(crate) const OPEN_ROW: f64 = 1e-12;

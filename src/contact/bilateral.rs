@@ -1,11 +1,8 @@
 //! The paper's law, Eq. (13a): every predicted penetration is closed as an
 //! equality, by a push or by a pull (docs/theory.md, section 6).
 
-use nalgebra::{DMatrix, DVector};
-
-use super::StepLaw;
 use super::repeated::Repeated;
-use crate::tolerances::SINGULAR;
+use super::{Several, StepLaw};
 
 /// `g = 0` on every row that was predicted to penetrate.
 #[derive(Debug)]
@@ -18,8 +15,8 @@ impl StepLaw for Bilateral {
     fn pair(&self, w: [[f64; 2]; 2], gap: [f64; 2]) -> Option<[f64; 2]> {
         Some(pair(w, gap))
     }
-    fn dense(&self, w: DMatrix<f64>, gap: &[f64]) -> Option<Vec<f64>> {
-        all_closed(w, gap)
+    fn several<'a>(&self, rows: &'a mut Several) -> Option<&'a [f64]> {
+        rows.all_closed()
     }
     fn repeated<'a>(&self, rows: &'a mut Repeated) -> Option<&'a [f64]> {
         rows.all_closed()
@@ -39,14 +36,4 @@ pub fn pair(w: [[f64; 2]; 2], gap: [f64; 2]) -> [f64; 2] {
         (w[1][1] * gap[0] - w[0][1] * gap[1]) / determinant,
         (w[0][0] * gap[1] - w[1][0] * gap[0]) / determinant,
     ]
-}
-
-/// Every row closed as an equality, Eq. (13a). `None` where `W` is singular, to
-/// the digits it has: more rows than coordinates that could close them.
-#[must_use]
-pub fn all_closed(w: DMatrix<f64>, gap: &[f64]) -> Option<Vec<f64>> {
-    let gap = DVector::from_column_slice(gap);
-    let solution = w.clone().lu().solve(&gap)?;
-    let left = (&w * &solution - &gap).amax();
-    (left <= SINGULAR * gap.amax()).then(|| solution.as_slice().to_vec())
 }

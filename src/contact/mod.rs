@@ -3,21 +3,21 @@
 //! below zero pushes. A law is one file, and one line each of `ContactLaw` and `law`.
 //!
 //! At most one corner of the polygon touches in every ordinary step, so a law
-//! solves two rows by cases; larger sets (very compliant blades, a step too
-//! long) go to a dense solve, and sets with several blades of one side to
-//! `repeated`, which keeps the digits that such rows lose here.
+//! solves two rows by cases; larger sets go to `several`, and sets with several blades of
+//! one side to `repeated`, which keeps the digits that such rows lose there.
 
 mod bilateral;
 pub mod repeated;
+mod several;
 mod unilateral;
 
-use nalgebra::DMatrix;
 use serde::Serialize;
 use strum::{AsRefStr, Display, EnumString, VariantNames};
 
-pub use bilateral::{all_closed, pair};
+pub use bilateral::pair;
 use repeated::Repeated;
-pub use unilateral::{complementary, complementary_pair};
+pub use several::Several;
+pub use unilateral::complementary_pair;
 
 /// The multipliers of one step under a contact law. `None` stands for rows that
 /// cannot be told apart (singular equations).
@@ -27,7 +27,7 @@ pub trait StepLaw: std::fmt::Debug + Sync {
     /// Two rows of different sides.
     fn pair(&self, w: [[f64; 2]; 2], gap: [f64; 2]) -> Option<[f64; 2]>;
     /// Any number of rows of different sides.
-    fn dense(&self, w: DMatrix<f64>, gap: &[f64]) -> Option<Vec<f64>>;
+    fn several<'a>(&self, rows: &'a mut Several) -> Option<&'a [f64]>;
     /// Rows of which several belong to one side.
     fn repeated<'a>(&self, rows: &'a mut Repeated) -> Option<&'a [f64]>;
     /// Force that keeps a corner closed, for the multipliers of its sides and the
@@ -105,11 +105,6 @@ mod tests {
         assert_eq!(complementary_pair(w, gap), Some([-1e-6, 0.0]));
     }
 
-    #[test]
-    fn dependent_rows_are_not_solved() {
-        assert!(all_closed(DMatrix::from_element(2, 2, 1.0), &[-1.0, -1.0]).is_none());
-    }
-
     proptest! {
         #[test]
         fn complementarity_holds_and_both_solvers_agree(
@@ -123,8 +118,9 @@ mod tests {
                 prop_assert!(left >= -1e-13);
                 prop_assert!((left * lambda[row]).abs() < 1e-11);
             }
-            let dense = DMatrix::from_fn(2, 2, |i, j| w[i][j]);
-            let general = complementary(&dense, &gap).unwrap();
+            let mut several = Several::default();
+            several.fill(&gap, |i, j| w[i][j]);
+            let general = several.complementary().unwrap();
             for row in 0..2 {
                 // The condition number of W bounds what round-off may change.
                 prop_assert!((general[row] - lambda[row]).abs() < 1e-11);

@@ -1,11 +1,8 @@
 //! Signorini's law (docs/theory.md, section 2): `g >= 0`, `lambda <= 0`,
 //! `g lambda = 0`. A multiplier only pushes, and only where the gap is closed.
 
-use nalgebra::DMatrix;
-
 use super::repeated::Repeated;
-use super::{StepLaw, all_closed, pair, single};
-use crate::tolerances::{MOST_PIVOTING, PIVOT_GAP};
+use super::{Several, StepLaw, pair, single};
 
 /// A linear complementarity problem on the rows.
 #[derive(Debug)]
@@ -18,8 +15,8 @@ impl StepLaw for Unilateral {
     fn pair(&self, w: [[f64; 2]; 2], gap: [f64; 2]) -> Option<[f64; 2]> {
         complementary_pair(w, gap)
     }
-    fn dense(&self, w: DMatrix<f64>, gap: &[f64]) -> Option<Vec<f64>> {
-        complementary(&w, gap)
+    fn several<'a>(&self, rows: &'a mut Several) -> Option<&'a [f64]> {
+        rows.complementary()
     }
     fn repeated<'a>(&self, rows: &'a mut Repeated) -> Option<&'a [f64]> {
         rows.complementary()
@@ -47,40 +44,4 @@ pub fn complementary_pair(w: [[f64; 2]; 2], gap: [f64; 2]) -> Option<[f64; 2]> {
     }
     let both = pair(w, gap);
     (both[0] <= 0.0 && both[1] <= 0.0).then_some(both)
-}
-
-/// The complementarity problem of any number of rows, by principal pivoting
-/// with the least index (Murty), which ends for every positive definite `W`.
-/// `None` where it does not end within its bound or a block is singular.
-#[must_use]
-pub fn complementary(w: &DMatrix<f64>, gap: &[f64]) -> Option<Vec<f64>> {
-    let rows = gap.len();
-    let scale = gap.iter().fold(0.0_f64, |most, g| most.max(g.abs()));
-    let round_off = PIVOT_GAP * scale;
-    let mut active = vec![false; rows];
-    let mut work = 0;
-    while work < MOST_PIVOTING {
-        let chosen: Vec<usize> = (0..rows).filter(|&row| active[row]).collect();
-        work += rows * rows + chosen.len().pow(3);
-        let block = DMatrix::from_fn(chosen.len(), chosen.len(), |i, j| w[(chosen[i], chosen[j])]);
-        let closed: Vec<f64> = chosen.iter().map(|&row| gap[row]).collect();
-        let part = if chosen.is_empty() { Vec::new() } else { all_closed(block, &closed)? };
-        let mut lambda = vec![0.0; rows];
-        for (&row, value) in chosen.iter().zip(part) {
-            lambda[row] = value;
-        }
-        let wrong = (0..rows).find(|&row| {
-            if active[row] {
-                lambda[row] > 0.0
-            } else {
-                let left: f64 = (0..rows).map(|other| w[(row, other)] * lambda[other]).sum();
-                gap[row] - left < -round_off
-            }
-        });
-        match wrong {
-            None => return Some(lambda),
-            Some(row) => active[row] = !active[row],
-        }
-    }
-    None
 }

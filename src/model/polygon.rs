@@ -131,7 +131,9 @@ impl ContactPolygon {
             let (c, s) = self.direction(side);
             (c * x + s * y).abs()
         };
-        along(self.nearest_side(x, y)).max(along(self.nearest_side(-x, -y)))
+        let near = along(self.nearest_side(x, y));
+        // Sides in even number lie opposite each other.
+        if self.sides.is_multiple_of(2) { near } else { near.max(along(self.nearest_side(-x, -y))) }
     }
 }
 

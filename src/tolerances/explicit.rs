@@ -5,6 +5,9 @@
 /// step too long for the blades.
 pub(crate) const MOST_ROWS: usize = 512;
 
+/// Part of the sizes in a gap that its round-off stays below.
+pub(crate) const GAP_ROUND_OFF: f64 = 1e-14;
+
 /// Most multiplications of one step on its contact rows: a tenth of a second.
 /// Least-index pivoting may need any number of tries, though one or two are
 /// usual.

@@ -11,7 +11,7 @@ use super::pushes::{push, solve};
 use super::rows::{Row, TipLaw, turned};
 use crate::contact::repeated::{GroupReference, Repeat};
 use crate::motion::{ActiveSet, FailureReason, Plane};
-use crate::tolerances::{MOST_ROWS, SAME_ANGLE};
+use crate::tolerances::{GAP_ROUND_OFF, MOST_ROWS, SAME_ANGLE};
 
 impl<B: Disk> Explicit<B> {
     /// A predicted step outside the circle of the clearance: find what
@@ -30,7 +30,9 @@ impl<B: Disk> Explicit<B> {
         let Self { rows, tips, casing, blades, .. } = self;
         let (shift, change) = push(rows, tips, casing.compliance, blades);
         self.shift_casing(shift, turn);
-        self.keep_depth(z + shift);
+        if self.most_left(z, shift, change) > self.record.deepest {
+            self.keep_depth(z + shift);
+        }
         self.keep_rows();
         Ok(change)
     }
@@ -123,8 +125,8 @@ impl<B: Disk> Explicit<B> {
         }
         self.gaps.clear();
         self.gaps.extend(self.rows.iter().map(|row| row.place.gap));
-        let Self { rows, gaps, tips, law, casing, blades, .. } = self;
-        solve(tips, *law, casing.compliance, blades, rows, gaps)
+        let Self { rows, gaps, several, tips, law, casing, blades, .. } = self;
+        solve(tips, *law, casing.compliance, blades, rows, gaps, several)
     }
 
     /// As `solve`, where a side has several rows: each is given by its difference
@@ -172,6 +174,17 @@ impl<B: Disk> Explicit<B> {
         }
         let finite = self.rows.iter().all(|row| row.lambda.is_finite());
         if finite { Ok(()) } else { Err(FailureReason::Singular { rows }) }
+    }
+
+    /// What a step can leave at most of the gaps that it closes, for a casing that it
+    /// shifts from `z` and blades that it turns by `change`: parts of second order, and
+    /// round-off \[m\].
+    fn most_left(&self, z: Plane, shift: Plane, change: f64) -> f64 {
+        let size = |a: Plane| a.re.abs() + a.im.abs();
+        let (z, shift, turned) = (size(z), size(shift), self.tips.diameters * change);
+        let pushes: f64 = self.rows.iter().map(|row| row.lambda.abs()).sum();
+        let rounded = self.tips.clearance + z + self.casing.compliance * pushes;
+        (z + shift) * turned * turned + shift * turned + GAP_ROUND_OFF * rounded
     }
 
     /// Keeps the penetration that the step has left, with the casing at `z`.

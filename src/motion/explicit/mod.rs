@@ -37,7 +37,7 @@ pub(super) use oscillator::{Coordinate, Oscillator};
 use std::sync::Arc;
 
 use super::{Failure, FailureReason, Plane};
-use crate::contact::{StepLaw, repeated::Repeated};
+use crate::contact::{Several, StepLaw, repeated::Repeated};
 use crate::model::{LiningLaw, Machine};
 use crate::scene::CheckedScene;
 use beyond::Beyond;
@@ -79,6 +79,8 @@ pub(super) struct Explicit<B: Disk> {
 
     /// What was decided on ahead.
     leaps: Leaps,
+    /// Rows of three sides or more.
+    several: Several,
     /// Rows of which several belong to one side; see `solve_repeated`.
     repeated: Repeated,
     /// Whether the neighbours of a penetrating side always count; see `correct`.
@@ -106,6 +108,7 @@ impl<B: Disk> Explicit<B> {
     }
 
     /// A step without contact, which corrects it afterwards; whether to look at the blades.
+    #[inline]
     fn predict(&mut self, force: f64) -> bool {
         self.u = [self.casing.step(self.u[0], force), self.casing.step(self.u[1], 0.0)];
         let change = self.blades.predict(self.drive.driven(self.n));

@@ -2,11 +2,9 @@
 //! which friction and the slope of the tips make unsymmetric (docs/theory.md, sections 6
 //! and 10).
 
-use nalgebra::DMatrix;
-
 use super::disk::Disk;
 use super::rows::{Row, TipLaw};
-use crate::contact::{StepLaw, single};
+use crate::contact::{Several, StepLaw, single};
 use crate::motion::{FailureReason, Plane};
 
 /// Entry of `W`: how far a unit multiplier of `b` closes the gap of `a` \[m/N\].
@@ -49,6 +47,7 @@ pub(super) fn solve<B: Disk>(
     blades: &B,
     rows: &mut [Row],
     gaps: &[f64],
+    several: &mut Several,
 ) -> Result<(), FailureReason> {
     let count = rows.len();
     let entry = |a: &Row, b: &Row| influence(tips, casing_compliance, blades, a, b);
@@ -62,10 +61,10 @@ pub(super) fn solve<B: Disk>(
             [a.lambda, b.lambda] = lambda.ok_or(FailureReason::Singular { rows: 2 })?;
         }
         _ => {
-            let w = DMatrix::from_fn(count, count, |i, j| entry(&rows[i], &rows[j]));
-            let lambda = law.dense(w, gaps).ok_or(FailureReason::Singular { rows: count })?;
+            several.fill(gaps, |i, j| entry(&rows[i], &rows[j]));
+            let lambda = law.several(several).ok_or(FailureReason::Singular { rows: count })?;
             for (row, value) in rows.iter_mut().zip(lambda) {
-                row.lambda = value;
+                row.lambda = *value;
             }
         }
     }
@@ -151,7 +150,8 @@ mod tests {
         let mut rows = [row];
         let law = contact::law(ContactLaw::Unilateral);
         let compliance = 1e-14 / machine.casing_mass;
-        let solved = solve(&tips, law, compliance, &blades, &mut rows, &[-1e-9]);
+        let solved =
+            solve(&tips, law, compliance, &blades, &mut rows, &[-1e-9], &mut Several::default());
         assert_eq!(solved, Err(FailureReason::Singular { rows: 1 }));
     }
 }

@@ -45,8 +45,9 @@ impl<B: Disk> Explicit<B> {
         if kept > MOST_ROWS {
             return Err(FailureReason::Rows { rows: kept });
         }
-        let Self { blades, rows, gaps, casing, law, .. } = self;
-        solve(tips, *law, casing.compliance, blades, &mut rows[..kept], &gaps[..kept])?;
+        let Self { blades, rows, gaps, several, casing, law, .. } = self;
+        let touching = &mut rows[..kept];
+        solve(tips, *law, casing.compliance, blades, touching, &gaps[..kept], several)?;
         let (shift, change) = push(rows, tips, casing.compliance, blades);
         self.shift_casing(shift, turn);
         self.settle(z + shift, turn, tips);

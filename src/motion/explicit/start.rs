@@ -13,7 +13,7 @@ use super::record::Record;
 use super::rows::TipLaw;
 use super::watch::Watch;
 use super::{Explicit, Oscillator};
-use crate::contact::{self, repeated::Repeated};
+use crate::contact::{self, Several, repeated::Repeated};
 use crate::model::Machine;
 use crate::motion::Plane;
 use crate::scene::CheckedScene;
@@ -57,6 +57,7 @@ impl<B: Disk> Explicit<B> {
             goes_beyond: scene.goes_beyond(),
             beyond: Beyond::of(scene, speed),
             leaps: Leaps::default(),
+            several: Several::default(),
             repeated: Repeated::default(),
             neighbours_matter: false,
             look: 0.0,

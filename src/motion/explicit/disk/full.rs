@@ -164,6 +164,7 @@ impl Disk for FullBlades {
         }
         change
     }
+    #[inline]
     fn angle(&mut self, row: u32) -> f64 {
         let Self { ring, rows, x, near, .. } = self;
         mean_of(ring, rows, near, row, |shapes| product(shapes, x))
@@ -177,6 +178,7 @@ impl Disk for FullBlades {
     fn compliance(&self, a: u32, b: u32) -> f64 {
         self.rows.influence[a.abs_diff(b) as usize]
     }
+    #[inline]
     fn correct(&mut self, row: u32, torque: f64) {
         let (members, rows) = (self.rows.members, self.rows.table.count() as u32);
         if members == 1 {

@@ -146,7 +146,11 @@ impl Disk for ModalBlades {
         let angle = |blade| self.at(phases.direction(phases.side_of_blade(blade)));
         (1..=phases.blades).map(angle).collect()
     }
-    fn look(&mut self, _: f64) -> (f64, f64) {
+    fn look(&mut self, largest: f64) -> (f64, f64) {
+        let amplitude = self.swing();
+        if amplitude <= largest {
+            return (0.0, amplitude);
+        }
         let now = self.largest(self.modal());
         (now, now)
     }

@@ -78,14 +78,15 @@ impl<B: Disk> Explicit<B> {
 
     /// Whether the wave slides along a side of blades that move; it begins to, if it can.
     pub(in crate::motion::explicit) fn is_sliding(&mut self) -> bool {
-        if self.leaps.sliding.is_none() {
-            self.leaps.sliding = self.begin_sliding();
+        if self.leaps.sliding.is_none()
+            && let Some(side) = self.steady_side()
+        {
+            self.leaps.sliding = self.begin_sliding(side);
         }
         self.leaps.sliding.is_some()
     }
 
-    fn begin_sliding(&self) -> Option<Sliding> {
-        let side = self.steady_side()?;
+    fn begin_sliding(&self, side: u32) -> Option<Sliding> {
         let HeldModes { modes, moving } = self.blades.held_modes()?;
         if self.neighbours_matter || !self.machine.polygon.has_corners() {
             return None;
