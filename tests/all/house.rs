@@ -171,3 +171,18 @@ fn no_part_of_the_explorer_names_a_field_of_another() {
     assert!(wrong.is_empty(), "fields of another part:\n{}", wrong.join("\n"));
     assert!(own > 50, "only {own} fields were found");
 }
+
+#[test]
+fn the_map_of_the_tests_names_modules_that_there_are() {
+    let main = fs::read_to_string(root().join("tests/all/main.rs")).unwrap();
+    let rows = || main.lines().filter(|line| line.starts_with("//! |") && line.contains('`'));
+    assert!(rows().count() > 8);
+    for name in rows().flat_map(|row| row.split('`').skip(1).step_by(2)) {
+        assert!(main.contains(&format!("\nmod {name};\n")), "{name}");
+    }
+    // Every module about a solver stands in it.
+    let solvers = main.lines().filter_map(|line| line.strip_prefix("mod ")?.strip_suffix(';'));
+    for name in solvers.filter(|name| name.starts_with("explicit") || name.starts_with("event")) {
+        assert!(rows().any(|row| row.contains(&format!("`{name}`"))), "{name}");
+    }
+}

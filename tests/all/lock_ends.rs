@@ -8,8 +8,8 @@ use rubscope::motion::{Change, Motion, Verdict};
 use rubscope::scene::{ContactLaw, Scene};
 use rubscope::study::margins::{LimitName, Margins, Target};
 
-use crate::beyond_support::{KAPPA, MU, SPEED, STEP, TAU, ZETA_C, in_corner, scene};
 use crate::cli_support::rubscope;
+use crate::tips_support::{KAPPA, MU, SPEED, STEP, TAU, ZETA_C, in_corner, scene};
 
 const STIFFNESS: &str = "contact.stiffness_n_per_m";
 const SMOOTHING: &str = "contact.smoothing_m";

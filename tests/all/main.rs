@@ -1,19 +1,28 @@
 //! All tests in one program: it links once, and its tests share the cores. One
 //! module is run by its name, as in `cargo test event_laws`.
+//!
+//! Which module holds which solver to what; the modules in no row are those of the
+//! command line (`cli_*`, `map_*`, `margins_*`), the explorer (`tui_*`, `pty*`), files
+//! and pages.
+//!
+//! | law | explicit | on a lining | events, exact | events, linear | harmonic balance |
+//! |---|---|---|---|---|---|
+//! | numbers of other codes | `cases` `explicit_tips` | `explicit_lining` | `event_cases` | `event_linear` | `hbm_locked` `hbm_slip` `hbm_joined` `hbm_lining` |
+//! | closed forms | `explicit` `explicit_tip_locks` | `lock_ends` | `event_cases` | `event_linear` | `theory` `hbm_laws` `hbm_whirl` |
+//! | plain stepping, or integration | `plain_stepper` `rebound` | `explicit_lining` | `event_modal` | `rebound` | `hbm_time` `hbm_excitation` |
+//! | its order | `order` `rebound` | `explicit_lining` | `order` | `explicit_tips` | `hbm_fold` |
+//! | leaps are steps | `sliding` `soft_locks` `plain_stepper` | | | | |
+//! | no pull, no energy made, mirrors | `motion_laws` | `motion_laws` | `event_laws` | `event_linear_laws` | `hbm_laws` |
+//! | sizes of the disk agree | `full_disk` | `explicit_lining` | | | |
+//! | live changes | `live_changes` `live_random` | `motion_laws` | `live_event` | `event_linear_laws` | |
+//! | hard cases, any input | `explicit_hard` `fuzz_cases` | `motion_laws` | `event_hard` | `event_linear_laws` | `hbm_lining_states` `hbm_branches` |
+//! | verdicts, digits, flags | `verdicts` `digits` `map_flags` | `explicit_lining` | `verdicts` `digits` | `event_linear` | |
+//! | the paper's bits | `scene_defaults` | | `scene_defaults` | | |
 
 #![expect(clippy::unwrap_used, clippy::panic, reason = "a test states what must hold")]
 
 use proptest::prelude::ProptestConfig;
 
-mod beyond_defaults;
-mod beyond_events;
-mod beyond_explicit;
-mod beyond_laws;
-mod beyond_locks;
-mod beyond_random;
-mod beyond_scenes;
-mod beyond_smooth;
-mod beyond_support;
 mod bounds;
 mod cases;
 mod cli_figures;
@@ -32,10 +41,15 @@ mod docs;
 mod event_cases;
 mod event_hard;
 mod event_laws;
+mod event_linear;
+mod event_linear_laws;
 mod event_modal;
 mod examples;
 mod explicit;
 mod explicit_hard;
+mod explicit_lining;
+mod explicit_tip_locks;
+mod explicit_tips;
 mod file_places;
 mod file_signals;
 mod file_writer;
@@ -75,6 +89,7 @@ mod margins;
 mod margins_command;
 mod margins_joined;
 mod margins_odd;
+mod motion_laws;
 mod order;
 mod pauses;
 mod plain;
@@ -90,7 +105,9 @@ mod pty_support;
 mod python;
 mod readme;
 mod rebound;
+mod scene_defaults;
 mod scene_notes;
+mod scene_numbers;
 mod scenes;
 mod security;
 mod signs_of_life;
@@ -98,7 +115,7 @@ mod sliding;
 mod soak;
 mod soft_locks;
 mod theory;
-mod tui_beyond;
+mod tips_support;
 mod tui_help;
 mod tui_hostile;
 mod tui_keys;
@@ -114,6 +131,7 @@ mod tui_scenes;
 mod tui_screens;
 mod tui_support;
 mod tui_time;
+mod tui_tips;
 mod tui_zoom;
 mod verdicts;
 mod version;

@@ -1,7 +1,7 @@
 //! Locks of blades that bend and rub, by the explicit solver: pushes, their limits, and
 //! the speeds down to which they hold.
 
-use crate::beyond_support::{KAPPA, MU, PULSE, SPEED, STEP, TAU, ZETA_BD, in_corner, limit, scene};
+use crate::tips_support::{KAPPA, MU, PULSE, SPEED, STEP, TAU, ZETA_BD, in_corner, limit, scene};
 use rubscope::motion::{Change, Motion, Verdict, verdict_of};
 
 /// The mean pushes over the end of a lock, both negative.

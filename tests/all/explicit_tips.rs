@@ -1,7 +1,7 @@
 //! Rigid contact of blades that bend and rub, by the explicit solver: pulses, whirl,
 //! restitution, other diameters, single blades.
 
-use crate::beyond_support::{
+use crate::tips_support::{
     END, KAPPA, MU, PULSE, SPEED, STEP, TAU, ZETA_BD, ZETA_C, coordinates, scene,
 };
 use rubscope::motion::{

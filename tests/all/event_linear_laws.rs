@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use rubscope::motion::{Joined, Motion, Solver, Verdict, simulate, to_the_end};
 use rubscope::scene::{CheckedScene, Scene};
 
-use crate::{beyond_events, drawn};
+use crate::{drawn, event_linear};
 
 #[derive(Clone, Debug)]
 struct Machine {
@@ -44,7 +44,7 @@ fn machine() -> impl Strategy<Value = Machine> {
 }
 
 fn scene(machine: &Machine) -> CheckedScene {
-    let mut scene: Scene = beyond_events::scene("modal", &[]).into_scene();
+    let mut scene: Scene = event_linear::scene("modal", &[]).into_scene();
     scene.bladed_disk.blades = machine.blades;
     scene.operation.nodal_diameters = machine.casing;
     scene.bladed_disk.nodal_diameters = machine.disk;
@@ -134,7 +134,7 @@ proptest! {
 #[test]
 fn a_whole_run_has_a_verdict() {
     let keys = [("bladed_disk.radial_coupling", 0.3), ("operation.speed_rad_s", 450.0)];
-    let report = simulate(&beyond_events::scene("modal", &keys));
+    let report = simulate(&event_linear::scene("modal", &keys));
     assert_ne!(report.outcome.verdict, Verdict::Failed, "{:?}", report.outcome);
     assert!(report.checks.energy_residual_j.unwrap().abs() < 1e-10);
 }

@@ -1,7 +1,7 @@
 //! A lining that gives way, by the explicit solver: reference states, second order,
 //! growth rates, limit cycles, and the verdicts on them.
 
-use crate::beyond_support::{
+use crate::tips_support::{
     END, KAPPA, MU, PULSE, SPEED, STEP, TAU, coordinates, in_corner, limit, pressed, scene,
 };
 use rubscope::motion::{Motion, Verdict, run_to_verdict, simulate, to_the_end};
