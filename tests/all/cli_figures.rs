@@ -5,7 +5,7 @@ use std::path::Path;
 
 use rayon::prelude::*;
 use rubscope::harmonic::coincidence;
-use rubscope::motion::{Sampling, Script, Verdict, run_to_end, simulate};
+use rubscope::motion::Verdict;
 use rubscope::scene::{CheckedScene, Scene};
 use rubscope::study::figures::{Figure, NUMBERS, Which, figure, name_of, scene_of};
 
@@ -114,7 +114,7 @@ fn figures_in_time_have_their_samples() {
 /// The paper: locked from about 0.08 s, on blades #6 and #21.
 #[test]
 fn figures_4_to_6_lock_on_the_blades_of_the_paper() {
-    let run = |changes: &[(&str, &str)]| simulate(&with(4, changes)).outcome;
+    let run = |changes: &[(&str, &str)]| crate::run_once(&with(4, changes)).outcome;
     let held = |changes| run(changes).contacts.iter().map(|c| c.blades[0]).collect::<Vec<_>>();
     let fine = run(&[]);
     assert_eq!((fine.verdict, held(&[])), (Verdict::Locked, vec![6, 21]));
@@ -157,8 +157,7 @@ fn at_steps(number: u32, pulse: &str, beside: f64) -> Vec<(Option<f64>, Vec<u32>
     let run = |n: u32| {
         let scene = scene.clone().into_scene();
         let scene = scene.with(&[("solver.step_s", &step(n).to_string())]).unwrap();
-        let outcome =
-            run_to_end(&scene, &Script::default(), Sampling::default(), &mut |_| {}).outcome;
+        let outcome = crate::run_once(&scene).outcome;
         let mut held: Vec<u32> = outcome.contacts.iter().map(|c| c.blades[0]).collect();
         held.sort_unstable();
         (outcome.lock_time_s, held)
@@ -221,7 +220,7 @@ fn with_the_damping_of_table_1_every_lock_is_early() {
             ];
             let changes: Vec<(&str, &str)> =
                 changes.iter().map(|(path, text)| (*path, text.as_str())).collect();
-            simulate(&Scene::builtin("paper-nd3").unwrap().with(&changes).unwrap())
+            crate::run_once(&Scene::builtin("paper-nd3").unwrap().with(&changes).unwrap())
                 .outcome
                 .lock_time_s
         });
@@ -282,7 +281,7 @@ fn figure_7_locks_earlier_than_the_paper_at_most_steps_and_when_it_does_depends_
         );
         assert!(says(&figure, &told), "{told}: {:?}", figure.caption);
     }
-    let four = simulate(&with(7, &[])).outcome.contacts;
+    let four = crate::run_once(&with(7, &[])).outcome.contacts;
     assert_eq!(four.iter().map(|c| c.blades.len()).sum::<usize>(), 4);
     assert!(says(&figure, "it still swings by"));
 }
@@ -301,7 +300,7 @@ fn figure_8_has_a_verdict_for_every_cell_and_one_name_for_each() {
 fn figure_8_has_the_zone_of_the_paper() {
     let run = |speed: &str, pulse: &str| {
         let changes = [("operation.speed_rad_s", speed), ("operation.pulse_n", pulse)];
-        simulate(&with(8, &changes)).outcome.verdict
+        crate::run_once(&with(8, &changes)).outcome.verdict
     };
     for (speed, below, above, lasting) in [
         ("300", "0.83e6", "0.86e6", Verdict::Adhesive),
@@ -326,7 +325,7 @@ fn figure_8_has_the_zone_of_the_paper() {
             ("operation.pulse_n", "2e6"),
             ("casing.damping_ratio", "0"),
         ];
-        let locks = simulate(&with(8, &changes)).outcome.verdict == Verdict::Locked;
+        let locks = crate::run_once(&with(8, &changes)).outcome.verdict == Verdict::Locked;
         assert_eq!(locks, found == Verdict::Locked, "{speed}");
     }
     // Four nodal diameters.
@@ -341,7 +340,7 @@ fn figure_8_has_the_zone_of_the_paper() {
         let four = Scene::builtin("paper-nd4").unwrap();
         let changes = [("operation.speed_rad_s", speed), ("operation.pulse_n", pulse)];
         assert_eq!(
-            simulate(&four.with(&changes).unwrap()).outcome.verdict,
+            crate::run_once(&four.with(&changes).unwrap()).outcome.verdict,
             found,
             "{speed} {pulse}"
         );

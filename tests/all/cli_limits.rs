@@ -259,14 +259,14 @@ fn many_speeds_take_little_memory() {
         &["--coincidence", "--json"],
         &["--whirl", "--json"],
         &driven,
-        &["--compliance", "--json", "--omegas", "0:1000:20000"],
+        &["--compliance", "--json", "--omegas", "0:1000:10000"],
     ] {
         for out in [&[][..], &file] {
             // With 40 MB of data and no more: a program that wants more is aborted.
             let run = std::process::Command::new("sh")
                 .args(["-c", "ulimit -d 40000; exec \"$0\" \"$@\""])
                 .arg(assert_cmd::cargo::cargo_bin!("rubscope"))
-                .args(["hbm", "--zeta-casing", "0.01", "--speed", "0:500:20000"])
+                .args(["hbm", "--zeta-casing", "0.01", "--speed", "0:500:10000"])
                 .args(view)
                 .args(out)
                 .stdout(std::process::Stdio::null())

@@ -30,7 +30,7 @@ fn told(text: &str, words: &str) -> String {
 }
 
 fn plain(scene: &CheckedScene) -> RunReport {
-    run_to_end(scene, &Script::default(), Sampling::default(), &mut |_| {})
+    crate::run_once(scene)
 }
 
 fn with_pulse(scene: &CheckedScene, factor: f64) -> CheckedScene {

@@ -3,7 +3,6 @@
 
 use rubscope::motion::{
     ActiveSet, Event, Joined, Motion, Sample, Sampling, Script, Solver, Verdict, run_to_end,
-    simulate,
 };
 use rubscope::scene::{CheckedScene, Scene};
 
@@ -259,7 +258,7 @@ fn six_diameters_meet_the_second_harmonic_of_three_and_five_meet_none() {
 #[test]
 fn reports_say_that_angles_are_left_out_of_the_phases() {
     let told = |model: &str, changes: &[(&str, f64)]| {
-        let report = simulate(&scene(model, changes));
+        let report = crate::run_once(&scene(model, changes));
         let mut text = Vec::new();
         rubscope::report::summary::write(&report, Default::default(), &mut text).unwrap();
         let told = String::from_utf8(text).unwrap().contains("(linearised)");

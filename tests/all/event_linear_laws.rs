@@ -3,7 +3,7 @@
 //! no energy from nowhere.
 
 use proptest::prelude::*;
-use rubscope::motion::{Joined, Motion, Solver, Verdict, simulate, to_the_end};
+use rubscope::motion::{Joined, Motion, Solver, Verdict, to_the_end};
 use rubscope::scene::{CheckedScene, Scene};
 
 use crate::{drawn, event_linear};
@@ -59,7 +59,7 @@ fn scene(machine: &Machine) -> CheckedScene {
 }
 
 proptest! {
-    #![proptest_config(drawn(100))]
+    #![proptest_config(drawn(60))]
 
     #[test]
     fn nothing_pulls_passes_or_comes_from_nowhere(machine in machine()) {
@@ -134,7 +134,7 @@ proptest! {
 #[test]
 fn a_whole_run_has_a_verdict() {
     let keys = [("bladed_disk.radial_coupling", 0.3), ("operation.speed_rad_s", 450.0)];
-    let report = simulate(&event_linear::scene("modal", &keys));
+    let report = crate::run_once(&event_linear::scene("modal", &keys));
     assert_ne!(report.outcome.verdict, Verdict::Failed, "{:?}", report.outcome);
     assert!(report.checks.energy_residual_j.unwrap().abs() < 1e-10);
 }

@@ -364,7 +364,7 @@ fn blades_that_follow_are_reported() {
     for (stiffness, follow) in [(1e13, true), (15_000.0, false)] {
         let mut scene = Scene::base().as_reference();
         scene.bladed_disk.stiffness_nm_per_rad = stiffness;
-        let report = rubscope::motion::simulate(&scene.checked().unwrap());
+        let report = crate::run_once(&scene.checked().unwrap());
         assert_eq!(report.solver.blades_follow, follow, "{stiffness:e}");
         let mut text = Vec::new();
         rubscope::report::summary::write(&report, Default::default(), &mut text).unwrap();

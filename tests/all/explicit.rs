@@ -1,8 +1,6 @@
 //! The explicit solver against the reference numbers and closed forms.
 
-use rubscope::motion::{
-    Motion, RunReport, Sample, Sampling, Script, Verdict, simulate, simulate_with,
-};
+use rubscope::motion::{Motion, RunReport, Sample, Sampling, Script, Verdict, simulate_with};
 use rubscope::scene::Scene;
 
 /// Case A of the paper's machine: three diameters, 500 rad/s, 20 kN.
@@ -11,7 +9,7 @@ fn scene(changes: &[(&str, &str)]) -> Scene {
 }
 
 fn run(changes: &[(&str, &str)]) -> RunReport {
-    simulate(&scene(changes).checked().unwrap())
+    crate::run_once(&scene(changes).checked().unwrap())
 }
 
 const STEP: &str = "solver.step_s";
@@ -131,7 +129,7 @@ fn locked_multipliers_carry_the_extra_damping_of_the_scheme() {
             ("solver.end_s", "0.3"),
             ("bladed_disk.damping_ratio", "0.5"),
         ]);
-        let report = simulate(&scene.checked().unwrap());
+        let report = crate::run_once(&scene.checked().unwrap());
         assert_eq!(report.outcome.verdict, Verdict::Locked);
         let machine = scene.machine();
         let nu: f64 = machine.nu(500.0);
@@ -168,7 +166,7 @@ fn a_wrecked_run_stops_with_a_reason() {
 fn looking_does_not_change_the_motion() {
     for law in ["unilateral", "bilateral"] {
         let scene = scene(&[(LAW, law), (PULSE, "1e5"), ("solver.end_s", "0.01")]);
-        let plain = simulate(&scene.checked().unwrap());
+        let plain = crate::run_once(&scene.checked().unwrap());
         let mut seen = 0;
         let sampling = Sampling { intervals: 777, gaps: true };
         let mut look = |sample: &Sample| {

@@ -4,7 +4,7 @@
 use crate::tips_support::{
     END, KAPPA, MU, PULSE, SPEED, STEP, TAU, coordinates, in_corner, limit, pressed, scene,
 };
-use rubscope::motion::{Motion, Verdict, run_to_verdict, simulate, to_the_end};
+use rubscope::motion::{Motion, Verdict, run_to_verdict, to_the_end};
 use rubscope::scene::Scene;
 
 fn set(mut scene: Scene, key: &str, value: &str) -> Scene {
@@ -58,7 +58,7 @@ fn single_blades_without_a_slope_are_pressed_from_the_start_and_of_second_order(
         set(set(scene, "solver.model", model), STEP, step)
     };
     let stored = |model: &str| {
-        let report = simulate(&of(model, 5e3, "1e-6").checked().unwrap());
+        let report = crate::run_once(&of(model, 5e3, "1e-6").checked().unwrap());
         (report.energy.unwrap().stored_j, report.checks.energy_residual_j.unwrap())
     };
     // Without a slope nothing tells single blades from the two modes.
@@ -184,7 +184,7 @@ fn friction_on_the_ring_whips_the_rest_backward() {
     let changes = [(MU, 0.3), (TAU, 1.0 / 3.0), (KAPPA, 0.0), (SPEED, 300.0)];
     let lining = [("contact.stiffness_n_per_m", 3e5), (STEP, 4e-6), (END, 2.0)];
     let scene = pressed(&[&changes[..], &lining[..]].concat());
-    let report = simulate(&scene.checked().unwrap());
+    let report = crate::run_once(&scene.checked().unwrap());
     assert_eq!(report.outcome.verdict, Verdict::Slip);
     let omega = 3.0 * report.outcome.wave_speed_rad_s.unwrap();
     assert!((omega / -1421.66 - 1.0).abs() < 2e-3, "{omega}");
@@ -269,7 +269,7 @@ fn energy_is_accounted_for_to_second_order() {
     ] {
         let residual = |step: &str| {
             let scene = set(set(pressed(&changes), STEP, step), "solver.model", model);
-            let report = simulate(&scene.checked().unwrap());
+            let report = crate::run_once(&scene.checked().unwrap());
             let ledger = report.energy.unwrap();
             assert_eq!(report.checks.energy_residual_j, Some(ledger.residual()));
             assert_eq!(ledger.impact_loss_j, 0.0);

@@ -4,15 +4,11 @@
 use crate::tips_support::{
     END, KAPPA, MU, PULSE, SPEED, STEP, TAU, ZETA_BD, ZETA_C, coordinates, scene,
 };
-use rubscope::motion::{
-    FailureReason, Motion, RunReport, Sampling, Script, Verdict, run_to_end, run_to_verdict,
-    to_the_end,
-};
+use rubscope::motion::{FailureReason, Motion, RunReport, Verdict, run_to_verdict, to_the_end};
 use rubscope::scene::Scene;
 
 fn run(scene: &Scene) -> RunReport {
-    let nothing = (Script::default(), Sampling::default());
-    run_to_end(&scene.checked().unwrap(), &nothing.0, nothing.1, &mut |_| {})
+    crate::run_once(&scene.checked().unwrap())
 }
 
 fn verdict(changes: &[(&str, f64)]) -> Verdict {

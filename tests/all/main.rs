@@ -22,6 +22,8 @@
 #![expect(clippy::unwrap_used, clippy::panic, reason = "a test states what must hold")]
 
 use proptest::prelude::ProptestConfig;
+use rubscope::motion::{RunReport, Sampling, Script, run_to_end};
+use rubscope::scene::CheckedScene;
 
 mod bounds;
 mod cases;
@@ -141,4 +143,9 @@ fn drawn(cases: u32) -> ProptestConfig {
     let given = ProptestConfig::default();
     let cases = if std::env::var_os("PROPTEST_CASES").is_some() { given.cases } else { cases };
     ProptestConfig { cases, failure_persistence: None, max_shrink_iters: 200, ..given }
+}
+
+/// A scene run to its end once, without the changed runs that say how far to trust it.
+fn run_once(scene: &CheckedScene) -> RunReport {
+    run_to_end(scene, &Script::default(), Sampling::default(), &mut |_| {})
 }

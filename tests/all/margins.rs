@@ -108,7 +108,7 @@ pub fn differenced(scene: &CheckedScene, path: &str, value: &dyn Fn(&CheckedScen
 fn every_derivative_is_that_of_central_differences() {
     let mut random = fastrand::Rng::with_seed(2010);
     let mut compared = 0;
-    for _ in 0..20 {
+    for _ in 0..8 {
         let scene = random_scene(&mut random);
         let margins = Margins::of(&scene);
         for limit in &margins.limits {
@@ -129,7 +129,7 @@ fn every_derivative_is_that_of_central_differences() {
             }
         }
     }
-    assert!(compared > 2000, "{compared}");
+    assert!(compared > 800, "{compared}");
 }
 
 #[test]
@@ -172,36 +172,37 @@ fn paper(speed: f64) -> CheckedScene {
 
 #[test]
 fn the_lasting_pulses_are_the_edges_of_the_papers_zone() {
+    let lasts = |speed: f64, pulse: f64| {
+        let scene = paper(speed).into_scene();
+        let operation = rubscope::model::Operation { pulse_n: pulse, ..scene.operation };
+        let scene = Scene { operation, ..scene }.checked().unwrap();
+        run_to_verdict(&scene, &to_the_end).unwrap().verdict.keeps_contact()
+    };
     for (speed, threshold, paper_has) in
         [(300.0, 847_676.0, 1.0e6), (400.0, 537_576.0, 0.63e6), (500.0, 376_620.0, 0.40e6)]
     {
-        let scene = paper(speed);
-        let mut margins = Margins::of(&scene);
-        assert!(margins.search(ContactLaw::Bilateral, &to_the_end));
-        let limit = margins.limit(LimitName::LastingPulse).unwrap();
-        let value = limit.value.unwrap();
+        let sides = [1.0 - 1e-5, 1.0 + 1e-5].map(|part| lasts(speed, part * threshold));
+        assert_eq!(sides, [false, true], "{speed}");
         // The rows of the paper's coarser map are up to a fifth apart.
-        assert!((value / threshold - 1.0).abs() < 1e-5, "{speed}: {value}");
-        assert!((value / paper_has - 1.0).abs() < 0.2, "{speed}: {value}");
-        let lasts = |pulse: f64| {
-            let scene = scene.clone().into_scene();
-            let operation = rubscope::model::Operation { pulse_n: pulse, ..scene.operation };
-            let scene = Scene { operation, ..scene }.checked().unwrap();
-            run_to_verdict(&scene, &to_the_end).unwrap().verdict.keeps_contact()
-        };
-        assert!(lasts(value) && !lasts(value * (1.0 - 1e-6)), "{speed}");
-        let zone = limit.bands.last().unwrap();
-        assert_eq!((zone.from_n, zone.to_n), (value, None));
-        assert_eq!(limit.bands.len(), 2, "an island below the zone: {:?}", limit.bands);
-        let by = |path| limit.sensitivities.by(path);
-        // The problem has no scale of force and length, and one of time: 2 k_c + speed
-        // - pulse length = 2. The scheme keeps this up to its step.
-        close(by(CLEARANCE), 1.0, 1e-3, "clearance");
-        let [stiffness, mass] = [STIFFNESS, MASS].map(|path| by(path).unwrap());
-        close(Some(stiffness + mass), 1.0, 2e-3, "force");
-        let [speed, length] = [SPEED, LENGTH].map(|path| by(path).unwrap());
-        close(Some(2.0 * stiffness + speed - length), 2.0, 2e-2, "time");
+        assert!((threshold / paper_has - 1.0_f64).abs() < 0.2, "{speed}");
     }
+    let mut margins = Margins::of(&paper(500.0));
+    assert!(margins.search(ContactLaw::Bilateral, &to_the_end));
+    let limit = margins.limit(LimitName::LastingPulse).unwrap();
+    let value = limit.value.unwrap();
+    assert!((value / 376_620.0 - 1.0).abs() < 1e-5, "{value}");
+    assert!(lasts(500.0, value) && !lasts(500.0, value * (1.0 - 1e-6)));
+    let zone = limit.bands.last().unwrap();
+    assert_eq!((zone.from_n, zone.to_n), (value, None));
+    assert_eq!(limit.bands.len(), 2, "an island below the zone: {:?}", limit.bands);
+    let by = |path| limit.sensitivities.by(path);
+    // The problem has no scale of force and length, and one of time: 2 k_c + speed
+    // - pulse length = 2. The scheme keeps this up to its step.
+    close(by(CLEARANCE), 1.0, 1e-3, "clearance");
+    let [stiffness, mass] = [STIFFNESS, MASS].map(|path| by(path).unwrap());
+    close(Some(stiffness + mass), 1.0, 2e-3, "force");
+    let [speed, length] = [SPEED, LENGTH].map(|path| by(path).unwrap());
+    close(Some(2.0 * stiffness + speed - length), 2.0, 2e-2, "time");
 }
 
 #[test]

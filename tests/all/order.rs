@@ -1,7 +1,7 @@
 //! The explicit solver against the event solver: its order, its thresholds, and
 //! where the two contact laws differ.
 
-use rubscope::motion::{Motion, State, Verdict, run_to_verdict, simulate, to_the_end};
+use rubscope::motion::{Motion, State, Verdict, run_to_verdict, to_the_end};
 use rubscope::scene::Scene;
 
 fn scene(changes: &[(&str, &str)]) -> Scene {
@@ -96,7 +96,7 @@ fn locked_multipliers_converge_with_the_known_coefficient() {
     // its round-off is 1e-3 N at 1e-7 s, so the steps are not smaller.
     let steps = [2e-6, 1e-6, 5e-7];
     let errors = steps.map(|step: f64| {
-        let report = simulate(&locked(500.0, step).checked().unwrap());
+        let report = crate::run_once(&locked(500.0, step).checked().unwrap());
         assert_eq!(report.outcome.verdict, Verdict::Locked);
         exact[0] - report.outcome.contacts[0].multiplier_n
     });

@@ -1,7 +1,7 @@
 //! Runs the numbers in the notes of the scenes that go beyond the paper.
 
 use rubscope::harmonic::{Lining, least_lock_stiffness};
-use rubscope::motion::{Motion, RunReport, Sampling, Script, Verdict, run_to_end, simulate};
+use rubscope::motion::{Motion, RunReport, Verdict, simulate};
 use rubscope::scene::Scene;
 
 fn scene(name: &str, changes: &[(&str, &str)]) -> Scene {
@@ -10,7 +10,7 @@ fn scene(name: &str, changes: &[(&str, &str)]) -> Scene {
 
 fn run(name: &str, changes: &[(&str, &str)]) -> RunReport {
     let scene = scene(name, changes).checked().unwrap();
-    run_to_end(&scene, &Script::default(), Sampling::default(), &mut |_| {})
+    crate::run_once(&scene)
 }
 
 fn verdict(name: &str, changes: &[(&str, &str)]) -> Verdict {
