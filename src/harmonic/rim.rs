@@ -139,9 +139,7 @@ impl Scaled {
         let seen = |u: Point| (u.p - self.turn * u.q) / self.blade_rate;
         let stiff = |x: f64, y: f64, u: Point, v: Point| u.q * v.q - x * y;
         let drag = |x: f64, y: f64, u: Point, v: Point| 0.5 * (x * v.q + y * u.q);
-        let quadratic = |of: &dyn Fn(Point, Point) -> f64| {
-            Coefficients::from([of(from, from), 2.0 * of(from, to), of(to, to)])
-        };
+        let quadratic = |of: &dyn Fn(Point, Point) -> f64| Coefficients::quadratic(from, to, of);
         let casing = [
             quadratic(&|u, v| stiff(u.p, v.p, u, v)),
             quadratic(&|u, v| self.casing_damping * drag(u.p, v.p, u, v)),

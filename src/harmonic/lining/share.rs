@@ -7,15 +7,8 @@
 
 use std::f64::consts::PI;
 
+use crate::numeric::quadrature::GAUSS_8;
 use crate::tolerances::LINING_DIVIDED;
-
-/// Nodes and weights of Gauss and Legendre on -1 to 1, those above zero.
-const GAUSS: [(f64, f64); 4] = [
-    (0.183_434_642_495_649_8, 0.362_683_783_378_362),
-    (0.525_532_409_916_329, 0.313_706_645_877_887_3),
-    (0.796_666_477_413_626_7, 0.222_381_034_453_374_48),
-    (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
-];
 
 /// Share of a wave of amplitude 1 that meets a linear lining of depth `x`:
 /// `f - sin f cos f` with `cos f = -x`; `pi` where no blade lifts off.
@@ -86,7 +79,7 @@ fn averaged(depth: f64, width: f64, of: impl Fn(f64) -> f64) -> f64 {
         let both = |&(x, weight): &(f64, f64)| {
             node(0.5 * (1.0 - x), weight) + node(0.5 * (1.0 + x), weight)
         };
-        (end - start) * GAUSS.iter().map(both).sum::<f64>()
+        (end - start) * GAUSS_8.iter().map(both).sum::<f64>()
     });
     pieces.sum()
 }

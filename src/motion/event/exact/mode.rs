@@ -11,8 +11,8 @@ use super::parameters::{Drive, Parameters};
 use super::rocking;
 use super::side_series::SideSeries;
 use super::slide::{Ahead, Along, Slide};
-use crate::motion::event::quadrature::quadrature;
 use crate::motion::{ActiveSet, Plane};
+use crate::numeric::quadrature::quadrature;
 
 /// How the casing moves until the next event.
 #[derive(Clone, Debug)]

@@ -6,8 +6,8 @@
 use super::parameters::{Drive, Parameters};
 use crate::motion::Plane;
 use crate::motion::event::looks::{Gap, curved_step, leaving_step};
-use crate::motion::event::quadrature::GAUSS_8;
 use crate::motion::propagator::Propagator;
+use crate::numeric::quadrature::GAUSS_8;
 use crate::tolerances::{LONGEST_LOOK, MOST_PANELS, SERIES_END, SIDE_GROWTH, SIDE_LOOK};
 
 /// Pairs of terms of a panel: at one radian the first one dropped is `1/20!`.
@@ -269,7 +269,7 @@ pub(super) fn push_noise(parameters: &Parameters, nu: f64, y: f64, rate: f64, pu
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::motion::event::quadrature::quadrature;
+    use crate::numeric::quadrature::quadrature;
     use crate::scene::Scene;
 
     #[test]

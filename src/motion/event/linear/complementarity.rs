@@ -3,10 +3,8 @@
 //! together, so every choice of pushing rows is tried, larger ones first: where a
 //! choice is a tie, more rows hold.
 
-use crate::tolerances::{MOST_HELD, MOST_JOINED, SINGULAR_JOINT};
-
-/// A square matrix of up to `MOST_HELD` rows.
-pub(super) type Square = [[f64; MOST_HELD]; MOST_HELD];
+use crate::numeric::elimination::inverse;
+use crate::tolerances::{MOST_HELD, MOST_JOINED};
 
 /// The solution `p >= 0` of `W p + opening >= 0`, `p (W p + opening) = 0`, where sizes
 /// up to `noise` count as zero; none where there is none, or too many rows.
@@ -31,7 +29,7 @@ pub(super) fn pushes(
 /// The pushes of the rows of one choice, if nothing is wrong with them.
 fn try_choice(matrix: &[Vec<f64>], opening: &[f64], noise: f64, choice: u32) -> Option<Vec<f64>> {
     let chosen: Vec<usize> = (0..opening.len()).filter(|row| (choice >> row) & 1 == 1).collect();
-    let mut square = Square::default();
+    let mut square = [[0.0; MOST_HELD]; MOST_HELD];
     let mut right = [0.0; MOST_HELD];
     for (k, &row) in chosen.iter().enumerate() {
         right[k] = -opening[row];
@@ -39,7 +37,7 @@ fn try_choice(matrix: &[Vec<f64>], opening: &[f64], noise: f64, choice: u32) -> 
             square[k][l] = matrix[row][by];
         }
     }
-    let inverse = invert(&square, chosen.len())?;
+    let inverse = inverse(&square, chosen.len())?;
     let mut pushes = vec![0.0; opening.len()];
     for (k, &row) in chosen.iter().enumerate() {
         let push: f64 = inverse[k].iter().zip(&right).map(|(a, b)| a * b).sum();
@@ -54,42 +52,6 @@ fn try_choice(matrix: &[Vec<f64>], opening: &[f64], noise: f64, choice: u32) -> 
         (choice >> row) & 1 == 1 || opening[row] + lifted >= -noise
     };
     (0..opening.len()).all(open).then_some(pushes)
-}
-
-/// The inverse of the first `n` rows and columns; none where it is singular.
-pub(super) fn invert(matrix: &Square, n: usize) -> Option<Square> {
-    let (mut left, mut right) = (*matrix, Square::default());
-    let largest = matrix.iter().flatten().fold(0.0_f64, |a, b| a.max(b.abs()));
-    for (k, row) in right.iter_mut().enumerate() {
-        row[k] = 1.0;
-    }
-    for column in 0..n {
-        let pivot =
-            (column..n).max_by(|&a, &b| left[a][column].abs().total_cmp(&left[b][column].abs()))?;
-        let size = left[pivot][column].abs();
-        if size.is_nan() || size <= SINGULAR_JOINT * largest {
-            return None;
-        }
-        left.swap(column, pivot);
-        right.swap(column, pivot);
-        let over = 1.0 / left[column][column];
-        left[column].iter_mut().chain(&mut right[column]).for_each(|entry| *entry *= over);
-        let (pivots, shares) = (left[column], right[column]);
-        for row in (0..n).filter(|&row| row != column) {
-            let factor = left[row][column];
-            let both = left[row].iter_mut().zip(pivots).chain(right[row].iter_mut().zip(shares));
-            both.for_each(|(entry, other)| *entry -= factor * other);
-        }
-    }
-    // What lies beyond the first rows has no meaning.
-    for (k, row) in right.iter_mut().enumerate() {
-        for (l, entry) in row.iter_mut().enumerate() {
-            if k >= n || l >= n {
-                *entry = 0.0;
-            }
-        }
-    }
-    Some(right)
 }
 
 #[cfg(test)]

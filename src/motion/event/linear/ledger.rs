@@ -7,7 +7,8 @@
 use super::parameters::{Parameters, Point};
 use super::stretch::{Held, Stretch};
 use crate::motion::Plane;
-use crate::motion::event::quadrature::{GAUSS_8, damped};
+use crate::motion::event::quadrature::damped;
+use crate::numeric::quadrature::GAUSS_8;
 
 /// Energies per unit casing mass \[m^2/s^2\].
 #[derive(Clone, Copy, Debug, Default)]

@@ -4,11 +4,11 @@
 //! Order by order the pushes are those that keep the held gaps closed: with `c_j` the
 //! row of a gap, `c_j (free acceleration) + sum W_jk Q_k = 0`.
 
-use super::complementarity::{Square, invert};
 use super::parameters::{Parameters, Point};
 use crate::motion::Plane;
 use crate::motion::event::series::{STRETCH, TERMS, Terms, ended, values};
 use crate::motion::propagator::Propagator;
+use crate::numeric::elimination::{Square, inverse};
 use crate::tolerances::{MOST_HALVINGS, MOST_HELD, ROUND_OFF};
 
 /// The rows that are held closed.
@@ -16,13 +16,13 @@ use crate::tolerances::{MOST_HALVINGS, MOST_HELD, ROUND_OFF};
 pub(super) struct Held {
     pub rows: Vec<usize>,
     /// The inverse of their contact matrix.
-    pub inverse: Square,
+    pub inverse: Square<MOST_HELD>,
 }
 
 impl Held {
     /// Holds these rows; none where their pushes could not be told apart.
     pub(super) fn new(parameters: &Parameters, rows: Vec<usize>) -> Option<Self> {
-        let mut matrix = Square::default();
+        let mut matrix = [[0.0; MOST_HELD]; MOST_HELD];
         for (line, &row) in matrix.iter_mut().zip(&rows) {
             for (entry, &by) in line.iter_mut().zip(&rows) {
                 *entry = parameters.joint(row, by);
@@ -31,7 +31,7 @@ impl Held {
         if rows.len() > MOST_HELD {
             return None;
         }
-        let inverse = invert(&matrix, rows.len())?;
+        let inverse = inverse(&matrix, rows.len())?;
         Some(Self { rows, inverse })
     }
 
