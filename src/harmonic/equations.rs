@@ -1,6 +1,5 @@
-//! The harmonic balance equations of a corner, Eq. (27), and their Jacobian,
-//! in numbers of order one.
-//! (docs/theory.md, section 8.)
+//! The harmonic balance equations of a corner, Eq. (27), in three forms, their Jacobian and
+//! their solution by Newton's method, in numbers of order one (docs/theory.md, section 8).
 //!
 //! Lengths are counted in `g0`, multipliers in `k_c g0` and blade angles in
 //! `n_d k_c g0^2/(m_b omega_bd^2)`, so that `n_d alpha = softness * alpha~`.
@@ -9,19 +8,30 @@
 //!
 //! - rows 1-2: `alpha_i + sum_j share_ij Lambda_j (y C_j - x S_j) = 0`
 //! - rows 3-4: `1 + x C_i + y S_i = 0`
-//! - rows 5, 8: `kappa u_cc + drag u_cs + sum Lambda C = 0`, the same for `u_ss, -u_sc`
-//! - rows 6, 7: `kappa u_cs - drag u_cc - sum Lambda S = 0`, the same for `-u_sc, u_ss`
+//! - rows 5, 8: `stiffness u_cc + drag u_cs + sum Lambda C = 0`, the same for `u_ss, -u_sc`
+//! - rows 6, 7: `stiffness u_cs - drag u_cc - sum Lambda S = 0`, the same for `-u_sc, u_ss`
 //!
 //! Half the differences of rows 5-8 give a zero backward wave, `u_cc - u_ss`
 //! and `u_cs + u_sc`; half their sums are one complex equation for `z`. So the
 //! eight equations reduce to six, which Newton's method solves; the reported
 //! residual is that of all eight.
+//!
+//! Far from the solution Newton's method is unreliable: it may miss the solution or
+//! find another branch, at one speed and not at the next. So a start is accepted
+//! only if its steps are small and shrink. If not, because blades are soft, the
+//! solution is followed from rigid to soft blades; it ends where that branch folds.
 
 use nalgebra::{SMatrix, SVector};
+use serde::Serialize;
+use strum::{AsRefStr, Display, EnumString, VariantNames};
 
-use super::corner_angle::CornerAngle;
-use super::{Corner, Form};
+use super::Corner;
+use super::fold::CornerAngle;
 use crate::model::{Machine, Number};
+use crate::tolerances::{
+    NEAR_A_FOLD, NEWTON_ALIKE, NEWTON_LARGEST, NEWTON_SHRINK, NEWTON_STEPS, NEWTON_STRIDE,
+    NEWTON_STRIDES,
+};
 
 /// `[x, y, Lambda_a, Lambda_b, alpha_a, alpha_b]`, scaled.
 pub(super) type Unknowns = SVector<f64, 6>;
@@ -256,4 +266,101 @@ impl Equations {
         ];
         rows.iter().fold(0.0, |largest, row| row.abs().max(largest))
     }
+}
+
+impl Equations {
+    /// The corner that rigid blades grow into as they soften; `None` if it
+    /// folds before they are this soft.
+    pub fn locked(&self, wave: Wave) -> Option<Unknowns> {
+        let start = self.predict(wave)?;
+        if self.is_exact() {
+            return self.solve(wave, start);
+        }
+        let slope =
+            |equations: &Self, at: &Unknowns| equations.linearised(wave, at).1.determinant();
+        let (mut part, mut stride, mut here) = (0.0, 1.0, start);
+        let mut last = slope(&self.stiffened(part), &here);
+        for _ in 0..NEWTON_STRIDES {
+            let next = f64::min(part + stride, 1.0);
+            let softer = self.stiffened(next);
+            let found = softer.solve(wave, here).map(|found| (found, slope(&softer, &found)));
+            match found.filter(|(_, slope)| NEWTON_ALIKE.contains(&(slope / last))) {
+                Some((found, _)) if next == 1.0 => return Some(found),
+                Some((found, slope)) => {
+                    (part, stride, here, last) = (next, 2.0 * stride, found, slope);
+                }
+                None if stride < NEWTON_STRIDE => return None,
+                None => stride *= 0.5,
+            }
+        }
+        None
+    }
+
+    /// Newton's method from `start`; `None` where its steps are large or do not
+    /// shrink.
+    fn solve(&self, wave: Wave, start: Unknowns) -> Option<Unknowns> {
+        // Rows are of order one, so rounding leaves a residual of a few units
+        // in the last place of the largest term.
+        let size = 1.0 + wave.kappa.abs() + wave.drag.abs();
+        let mut unknowns = start;
+        let mut last = NEWTON_LARGEST * unknowns.amax() / NEWTON_SHRINK;
+        for _ in 0..NEWTON_STEPS {
+            let (residual, jacobian) = self.linearised(wave, &unknowns);
+            let norm = residual.amax();
+            if !norm.is_finite() {
+                return None;
+            }
+            if norm <= 4.0 * f64::EPSILON * size {
+                return Some(unknowns);
+            }
+            let step = jacobian.lu().solve(&residual)?;
+            let length = step.amax();
+            let turn = self.softness() * step[4].abs().max(step[5].abs());
+            if length > NEWTON_SHRINK * last || turn > NEWTON_LARGEST {
+                break;
+            }
+            unknowns -= step;
+            if length <= 4.0 * f64::EPSILON * unknowns.amax() {
+                return Some(unknowns);
+            }
+            last = length;
+        }
+        // Ill-conditioned, close to a fold: accept what is accurate enough.
+        (self.residual(wave, &unknowns).amax() <= NEAR_A_FOLD * size).then_some(unknowns)
+    }
+}
+
+/// The equations of the blade angles. Their choice hardly changes casing
+/// amplitudes and multipliers, but it changes the blade angles.
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    Default,
+    PartialEq,
+    Eq,
+    Hash,
+    Serialize,
+    Display,
+    EnumString,
+    AsRefStr,
+    VariantNames,
+)]
+#[serde(rename_all = "lowercase")]
+#[strum(serialize_all = "lowercase")]
+pub enum Form {
+    /// Eq. (27) as printed: its first two rows have the contact torque of Eq.
+    /// (19) times -2. Expansion (26).
+    Printed,
+    /// From Eq. (19) with the neighbours eliminated by (20): every contacting
+    /// blade on its own spring `m_b omega_bd^2`. Expansion (26).
+    Blade,
+    /// The two blade modes of the time model, exact in the blade angle.
+    #[default]
+    Modal,
+}
+
+impl Form {
+    /// Every form, in the order of the documentation.
+    pub const ALL: [Self; 3] = [Self::Printed, Self::Blade, Self::Modal];
 }

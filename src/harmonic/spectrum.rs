@@ -9,8 +9,8 @@ use std::f64::consts::TAU;
 use nalgebra::Complex;
 use serde::Serialize;
 
-use super::saddle_flow::{Arc, SaddleFlow};
 use super::slip::repeating;
+use super::slip::{Arc, SaddleFlow};
 use super::{HarmonicError, NoSlip, error};
 use crate::model::Machine;
 use crate::tolerances::{HARMONICS, SMALL_RATE, SPECTRUM_SAMPLES};
