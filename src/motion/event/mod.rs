@@ -6,10 +6,9 @@
 //! are the clock, the looks ahead that pass nothing, series and integrals.
 
 mod clock;
+mod dissipation;
 mod exact;
 mod linear;
-mod looks;
-mod quadrature;
 mod series;
 
 pub use exact::Event;

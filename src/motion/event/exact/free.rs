@@ -4,15 +4,15 @@
 //!
 //! While `|u| < g0` no side can touch, whatever the rotor does: that costs one
 //! comparison. Beyond, the gaps of the nearest sides are advanced on with a
-//! bound on their second derivative in the turning frame (`advancement`); the rest
+//! bound on their second derivative in the turning frame (`event::series`); the rest
 //! are kept open by a bound on the speed.
 
-use super::blades::Tips;
+use super::bounds::rise;
 use super::bounds::{Bounds, size};
+use super::parameters::Tips;
 use super::parameters::{Drive, Parameters};
-use super::rise::rise;
 use crate::motion::Plane;
-use crate::motion::event::looks::{Gap, curved_step, leaving_step, safe_step};
+use crate::motion::event::series::{Gap, curved_step, leaving_step, safe_step};
 use crate::tolerances::{
     LONG_LOOK, LONGEST_LOOK, NEAR_SIDES, RAMP_CHANGE, SHORT_LOOK, SOFT_CASING,
 };

@@ -3,51 +3,37 @@
 //! With rigid blades the casing wave is a point in a polygon that turns with
 //! the rotor (`model::ContactPolygon`), and it moves in one of four modes: *free*,
 //! *sliding* along a side, *rocking* into a corner, or *locked* in a corner.
-//! Within a mode the motion is known in closed form (`propagator`) or as a power
-//! series summed to round-off (`side_series`: pulse or ramp while sliding). With
-//! blades that move (`blades`) the sides turn a little by themselves; sliding
-//! and locked motion are then power series too (`side_series`, `corner_series`), and
-//! impacts share their impulse with the blades (`impact`). Each mode looks ahead for
-//! its end with bounds that cannot miss it (`advancement`),
-//! and the next mode follows from plastic impact and from the pushes by cases
-//! (`transitions`), so that no event is found twice.
+//! Within a mode the motion is known in closed form or as a power series summed to
+//! round-off (pulse or ramp while sliding). With blades that move (`parameters`) the sides
+//! turn a little by themselves; sliding and locked motion are then power series too
+//! (`slide`, `locked`), and impacts share their impulse with the blades (`impact`). Each
+//! mode looks ahead for its end with bounds that cannot miss it (`event::series`), and the
+//! next mode follows from plastic impact and from the pushes by cases (`transitions`), so
+//! that no event is found twice.
 //!
 //! A segment is always evaluated from its start, never from an output time:
 //! where one looks does not change the motion, not by one bit.
 
-mod angles;
-mod blades;
 mod bounds;
-mod corner;
-mod corner_contact;
-mod corner_series;
-mod energy_balance;
 mod free;
 mod impact;
+mod locked;
+mod mode;
 mod parameters;
-mod rise;
 mod rocking;
-mod side_series;
 mod slide;
 mod transitions;
 
-mod mode;
-mod segment;
-
 use crate::model::Machine;
+use crate::motion::event::clock::Clock;
 use crate::motion::{
-    Checks, ContactLog, Failure, GoOn, Pulse, Rotor, Solver, State, Verdict, to_the_end,
+    Checks, ContactLog, Failure, GoOn, Plane, Pulse, Rotor, Solver, State, Verdict, to_the_end,
 };
 use crate::scene::{CheckedScene, SceneError};
-
-use crate::motion::Plane;
-use crate::motion::event::clock::Clock;
 use crate::tolerances::EVENT_RANGE;
-use blades::Tips;
-use energy_balance::EnergyBalance;
-use mode::{Mode, What};
-use parameters::{Drive, Parameters};
-use segment::Passage;
+use mode::{EnergyBalance, Mode, What, casing_energy};
+use parameters::{Drive, Parameters, Tips};
+use transitions::Passage;
 
 /// The event-driven solver of one scene, at some instant of its motion.
 ///
@@ -107,7 +93,7 @@ impl Event {
         let place = Plane::new(scene.initial.u_c_m, scene.initial.u_s_m);
         let rate = Plane::new(scene.initial.v_c_m_s, scene.initial.v_s_m_s);
         let energy_balance = EnergyBalance {
-            start: energy_balance::energy(&parameters, place, rate),
+            start: casing_energy(&parameters, place, rate),
             ..EnergyBalance::default()
         };
         let mut event = Self {
@@ -230,7 +216,7 @@ impl Solver for Event {
         } else if let Mode::Corner(a) = self.mode
             && self.drive.steady()
         {
-            let pushes = corner::pushes(&self.parameters, &self.drive, a, 0.0);
+            let pushes = locked::pushes(&self.parameters, &self.drive, a, 0.0);
             pushes.iter().all(|&push| push > 0.0).then_some(Verdict::Locked)
         } else if let Mode::Held(held) = &self.mode
             && let Some(blades) = &self.parameters.blades

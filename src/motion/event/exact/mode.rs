@@ -1,18 +1,27 @@
-//! The modes of motion, seen alike: where the casing is, what pushes, what the
-//! energy does, and what ends the mode.
+//! The modes of motion, seen alike: where the casing is, what pushes, what ends the mode, how
+//! far blades bend, and where the energy goes.
+//!
+//! Each part of the energy balance is integrated on its own from the closed-form motion, so
+//! that the balance can fail: dissipation from the exponentials of the flight or by
+//! Gauss quadrature along a side, the rotor's work from the pushes (a push `N`
+//! at `y` takes the power `-N nu y` from the rotor), the losses from the
+//! closing speeds. Only the summed part of a rocking motion is booked at its
+//! balance (docs/theory.md, section 7).
 
-use super::angles::peak;
-use super::blades::Tips;
-use super::corner::{self, Hold};
-use super::corner_series::CornerSeries;
-use super::energy_balance::{self, EnergyBalance};
+use std::f64::consts::FRAC_PI_2;
+
 use super::free::{Free, Look};
-use super::parameters::{Drive, Parameters};
-use super::rocking;
-use super::side_series::SideSeries;
+use super::locked::{self, CornerSeries, Hold};
+use super::parameters::{Drive, Parameters, Tips};
+use super::slide::SideSeries;
 use super::slide::{Ahead, Along, Slide};
-use crate::motion::{ActiveSet, Plane};
+use super::{Event, rocking};
+use crate::motion::event::dissipation::damped;
+use crate::motion::{ActiveSet, Failure, FailureReason, Plane};
+use crate::numeric::bisection::bisected;
+use crate::numeric::maximum::highest;
 use crate::numeric::quadrature::quadrature;
+use crate::tolerances::{CORNER_ROOM, LARGEST_BLADE_ANGLE, PEAK_LOOKS};
 
 /// How the casing moves until the next event.
 #[derive(Clone, Debug)]
@@ -84,7 +93,7 @@ impl Mode {
             Self::Driven(series) => along(series.look(parameters, drive, s)),
             Self::Rocking { time, .. } if s < *time => Next::Until(*time),
             Self::Rocking { .. } => Next::Now(What::Lock),
-            Self::Corner(a) => hold(corner::look(parameters, drive, *a, s, end), end),
+            Self::Corner(a) => hold(locked::look(parameters, drive, *a, s, end), end),
             Self::Held(held) => hold(held.look(parameters, s), end),
         }
     }
@@ -127,7 +136,7 @@ impl Mode {
                 Some((side, Along { y, rate, push }))
             }
             Self::Corner(a) => {
-                let [push, _] = corner::pushes(parameters, drive, *a, s);
+                let [push, _] = locked::pushes(parameters, drive, *a, s);
                 Some((*a, Along { y: -parameters.half_side, rate: 0.0, push }))
             }
             Self::Held(held) => {
@@ -253,7 +262,7 @@ impl Mode {
         let (u, v) = self.standing(parameters, drive, s);
         let blades =
             parameters.blades.map_or(0.0, |blades| blades.energy(&self.tips(parameters, s)));
-        energy_balance::energy(parameters, u, v) + blades
+        casing_energy(parameters, u, v) + blades
     }
 
     /// Sides in contact with their pushes per unit mass, in phase order.
@@ -264,7 +273,7 @@ impl Mode {
         s: f64,
     ) -> [Option<(u32, f64)>; 2] {
         let corner = match self {
-            Self::Corner(a) => Some((*a, corner::pushes(parameters, drive, *a, s))),
+            Self::Corner(a) => Some((*a, locked::pushes(parameters, drive, *a, s))),
             Self::Held(held) => Some((held.a, held.pushes(s))),
             _ => None,
         };
@@ -324,7 +333,7 @@ impl Mode {
             [drag * rate.norm_sqr() + blades, -drive.nu(t) * work]
         };
         let [dissipated, work] = match self {
-            Self::Free(free) => [energy_balance::dissipated(parameters, drive, free, s), 0.0],
+            Self::Free(free) => [dissipated(parameters, drive, free, s), 0.0],
             Self::Slide(slide) => slide.energies(parameters, drive, s),
             Self::Driven(series) => quadrature(s, 2.0 / series.length, |t| {
                 let Along { y, rate, push } = series.at(t);
@@ -347,13 +356,12 @@ impl Mode {
                 energy_balance.lost += lost;
                 let [before, after] = ends();
                 let dissipated = drag * drive.nu * drive.nu * before.0.norm_sqr() * s;
-                let [before, after] =
-                    [before, after].map(|(u, v)| energy_balance::energy(parameters, u, v));
+                let [before, after] = [before, after].map(|(u, v)| casing_energy(parameters, u, v));
                 [dissipated, after - before + lost + dissipated - pulse]
             }
             Self::Corner(a) => {
                 let power = |t: f64| {
-                    let [first, second] = corner::pushes(parameters, drive, *a, t);
+                    let [first, second] = locked::pushes(parameters, drive, *a, t);
                     let [dissipated, work] = power(t, -parameters.half_side, 0.0, first);
                     [dissipated, work - drive.nu(t) * second * parameters.half_side]
                 };
@@ -372,4 +380,102 @@ fn hold(hold: Hold, end: f64) -> Next {
         Hold::Always => Next::Until(end),
         Hold::Lost => Next::Now(What::Lost),
     }
+}
+
+impl Event {
+    /// Fails a motion whose blades go beyond small angles in the first `s` seconds
+    /// of the segment, at the instant they do.
+    ///
+    /// # Errors
+    /// They do.
+    pub(super) fn check_angles(&mut self, s: f64) -> Result<(), Failure> {
+        let beyond = |event: &Self, s: f64| {
+            let Self { mode, parameters, drive, .. } = event;
+            mode.largest_angle(parameters, drive, s, LARGEST_BLADE_ANGLE) > LARGEST_BLADE_ANGLE
+        };
+        if self.parameters.blades.is_none() || !beyond(self, s) {
+            return Ok(());
+        }
+        // A bracket that does not depend on `s`: where one looks changes no bit.
+        let (mut within, mut after) = (0.0, self.mode.length());
+        if !after.is_finite() {
+            after = 1.0 / self.parameters.omega;
+            while after < s && !beyond(self, after) {
+                (within, after) = (after, 2.0 * after);
+            }
+        }
+        let [_, after] = bisected([within, after], |s| beyond(self, s));
+        let angle_rad = self.mode.largest_angle(&self.parameters, &self.drive, after, 0.0);
+        Err(self.fail(after, FailureReason::BladeAngle { angle_rad }))
+    }
+
+    /// Fails a motion whose blades have turned a corner so far that it nearly
+    /// closes or opens to a half turn. Half its angle differs from `delta` by up to
+    /// `n_d sin(delta) |a|`.
+    pub(super) fn check_order(&mut self) {
+        let Some(blades) = self.parameters.blades.filter(|_| self.parameters.corners) else {
+            return;
+        };
+        let delta = self.parameters.machine.polygon.delta;
+        let room = CORNER_ROOM * delta.min(FRAC_PI_2 - delta);
+        let (size, most) = (self.tips.angle.norm(), room / (blades.diameters * delta.sin()));
+        if size > most {
+            self.fail(0.0, FailureReason::CornerAngle { angle_rad: size, most_rad: most });
+        }
+    }
+}
+
+/// The largest value over `[0, s]` of a function that changes at `rate`.
+pub(super) fn peak(s: f64, rate: f64, value: impl Fn(f64) -> f64) -> f64 {
+    let parts = (8.0 * rate * s).ceil().clamp(2.0, PEAK_LOOKS);
+    let at = |k: f64| s * (k / parts).clamp(0.0, 1.0);
+    let (mut best, mut most, mut k) = (0.0, value(0.0), 1.0);
+    while k <= parts {
+        let here = value(at(k));
+        if here > most {
+            (best, most) = (k, here);
+        }
+        k += 1.0;
+    }
+    // The maximum lies next to the largest sample, and there is one.
+    most.max(highest([at(best - 1.0), at(best + 1.0)], value).1)
+}
+
+/// Energies per unit casing mass \[m^2/s^2\].
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct EnergyBalance {
+    /// Kinetic and potential energy at the start.
+    pub start: f64,
+    /// Work of the pulse.
+    pub pulse: f64,
+    /// Work of the rotor through the contact.
+    pub rotor: f64,
+    /// Dissipated by the casing damping.
+    pub dissipated: f64,
+    /// Lost in impacts.
+    pub lost: f64,
+}
+
+impl EnergyBalance {
+    /// What is missing from the balance at a state of this energy.
+    pub(super) fn residual(&self, energy: f64) -> f64 {
+        self.pulse + self.rotor - (energy - self.start) - self.dissipated - self.lost
+    }
+}
+
+/// Kinetic and potential energy of the casing per unit mass.
+pub(super) fn casing_energy(parameters: &Parameters, u: Plane, v: Plane) -> f64 {
+    0.5 * (v.norm_sqr() + parameters.propagator.stiffness * u.norm_sqr())
+}
+
+/// Energy dissipated in `s` seconds of free flight, by the casing and by the
+/// blades.
+pub(super) fn dissipated(parameters: &Parameters, drive: &Drive, free: &Free, s: f64) -> f64 {
+    let centre = drive.pulse / parameters.propagator.stiffness;
+    let from = free.place - Plane::new(centre, 0.0);
+    let casing = damped(&parameters.propagator, from, free.rate, s);
+    let blades = parameters.blades.map_or(0.0, |blades| {
+        blades.mass * damped(&blades.propagator, free.tips.angle, free.tips.rate, s)
+    });
+    casing + blades
 }

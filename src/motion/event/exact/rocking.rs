@@ -18,7 +18,7 @@
 //! acts, the accelerations must also keep their values to one part in 1e9 until
 //! the limit.
 
-use super::corner::opening;
+use super::locked::opening;
 use super::parameters::{Drive, Parameters};
 use super::slide;
 use crate::motion::Plane;

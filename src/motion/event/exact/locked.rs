@@ -1,8 +1,14 @@
-//! Locked in a corner whose two sides move with their blades.
-//! (docs/theory.md, section 7.)
+//! Locked in a corner: the casing wave turns with the rotor, two sides push
+//! (docs/theory.md, section 4).
 //!
-//! Both gaps are closed, so the casing follows the blades: with `a exp(-i
-//! psi_m) = xi + i eta` about the bisector `psi_m` of the corner, the wave is
+//! With rigid blades, `D = 2 c nu + nu'` and the side half-length `h = g0 tan delta`, a
+//! casing held at rest in the corner of sides `a` and `b` (`psi_b = psi_a +
+//! 2 delta`) and then let go would open the two gaps with
+//! `q_a = f cos beta_a + (omega_c^2 - nu^2) g0 - D h` and
+//! `q_b = f cos beta_b + (omega_c^2 - nu^2) g0 + D h`; the pushes cancel both.
+//!
+//! Where blades move (section 7), the casing follows them, as both gaps are closed: with
+//! `a exp(-i psi_m) = xi + i eta` about the bisector `psi_m` of the corner, the wave is
 //! `u = -R exp(i sigma)`, `sigma = n_d theta + psi_m + n_d cos delta xi`,
 //! `R = g0/cos tau`, `tau = delta + n_d sin delta eta`. The sum `S` and
 //! difference `D` of the pushes follow from the casing equation,
@@ -10,17 +16,93 @@
 //! `D sin tau = -(2 sigma' R' + sigma'' R + 2 c sigma' R) + f sin sigma`, and
 //! turn the blades by `k tan tau (D cos delta + i S sin delta)`,
 //! `k = ratio g0/n_d`. The two unknown accelerations `xi''` and `eta''` are
-//! eliminated; what is left is summed as a power series, as in `side_series`.
+//! eliminated; what is left is summed as a power series, as along a side.
 
-use super::blades::{Blades, Tips};
-use super::corner::{self, Hold};
-use super::parameters::{Drive, Parameters};
+use super::parameters::{Blades, Drive, Parameters, Tips};
 use crate::motion::Plane;
-use crate::motion::event::looks::curved_step;
 use crate::motion::event::series::{
     STRETCH, TERMS, Terms, ended, gap, jounce, product, quotient, slope, values,
 };
+use crate::motion::event::series::{curved_step, safe_step};
 use crate::tolerances::{LIGHT_BLADES, MOST_HALVINGS, ROOM_TO_CHANGE};
+
+/// What one look ahead in a corner finds.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Hold {
+    /// No event before this time.
+    Until(f64),
+    /// The push of the first (`false`) or second side vanishes now.
+    Yield(bool),
+    /// The pushes do not change.
+    Always,
+    /// The motion grows too fast to be followed.
+    Lost,
+}
+
+/// Opening accelerations `q_a`, `q_b` of a corner at rest, `s` seconds on, and
+/// their rates.
+pub(super) fn opening(parameters: &Parameters, drive: &Drive, a: u32, s: f64) -> [(f64, f64); 2] {
+    let (nu, ramp, c2) = (drive.nu(s), drive.nu_rate, 2.0 * parameters.damping);
+    let (g0, h) = (parameters.clearance, parameters.half_side);
+    let pulse = drive.pulse_on(parameters, a, s);
+    let centred = (parameters.omega - nu) * (parameters.omega + nu) * g0;
+    let slack = -2.0 * nu * ramp * g0;
+    let mut openings = [(0.0, 0.0); 2];
+    for (opening, (pulse, sign)) in
+        openings.iter_mut().zip([(pulse, -1.0), (pulse * parameters.turn, 1.0)])
+    {
+        *opening = (
+            pulse.re + centred + sign * (c2 * nu + ramp) * h,
+            slack - nu * pulse.im + sign * c2 * ramp * h,
+        );
+    }
+    openings
+}
+
+/// Impulses or pushes that cancel two opening rates at once:
+/// `p + [[1, cos 2 delta], [cos 2 delta, 1]]^-1 q = 0`.
+pub(super) fn cancelled(parameters: &Parameters, a: f64, b: f64) -> [f64; 2] {
+    let Plane { re: cos, im: sin } = parameters.turn;
+    let scale = 1.0 / (sin * sin);
+    [-(a - cos * b) * scale, -(b - cos * a) * scale]
+}
+
+/// Pushes per unit mass of both sides \[m/s^2\].
+pub(super) fn pushes(parameters: &Parameters, drive: &Drive, a: u32, s: f64) -> [f64; 2] {
+    let [first, second] = opening(parameters, drive, a, s);
+    cancelled(parameters, first.0, second.0)
+}
+
+/// Looks ahead from `s` in the corner of `a` and the next side.
+pub(super) fn look(parameters: &Parameters, drive: &Drive, a: u32, s: f64, end: f64) -> Hold {
+    if drive.steady() {
+        return Hold::Always;
+    }
+    let [first, second] = opening(parameters, drive, a, s);
+    let pushes = cancelled(parameters, first.0, second.0);
+    let rates = cancelled(parameters, first.1, second.1);
+    let ramp = drive.nu_rate.abs();
+    // A ramp may change the wave frequency by its own size, or by one turn a
+    // period of it, in one look.
+    let size = drive.nu(s).abs() + ramp.sqrt();
+    let span = if ramp > 0.0 { (size / ramp).min(end - s) } else { end - s };
+    let turning = drive.nu(s).abs().max(drive.nu(s + span).abs());
+    let Plane { re: cos, im: sin } = parameters.turn;
+    let spread = (1.0 + cos.abs()) / (sin * sin);
+    let pulse = drive.pulse.abs();
+    let bend =
+        spread * (2.0 * ramp * ramp * parameters.clearance + pulse * (turning * turning + ramp));
+    let square = (parameters.omega * parameters.omega).max(turning * turning);
+    let noise = parameters.tolerance * spread * (square * parameters.clearance + pulse);
+    let mut stride = span;
+    for (second, (push, rate)) in [false, true].into_iter().zip(pushes.into_iter().zip(rates)) {
+        if push <= noise && rate < 0.0 {
+            return Hold::Yield(second);
+        }
+        stride = stride.min(safe_step(push.max(0.0) + noise, rate, bend));
+    }
+    Hold::Until((s + stride).max(s.next_up()))
+}
 
 /// One stretch of locked motion in the corner of side `a` and the next.
 #[derive(Clone, Copy, Debug)]
@@ -217,7 +299,7 @@ impl CornerSeries {
         s: f64,
     ) -> bool {
         let (sin, cos) = parameters.machine.polygon.delta.sin_cos();
-        let rest = corner::pushes(parameters, drive, self.a, 0.0);
+        let rest = pushes(parameters, drive, self.a, 0.0);
         let least = rest[0].min(rest[1]);
         let moment = blades.ratio / blades.diameters * parameters.half_side;
         let offset = Plane::new((rest[1] - rest[0]) * cos, (rest[1] + rest[0]) * sin);
