@@ -5,7 +5,7 @@
 use std::f64::consts::TAU;
 
 use super::free::dot;
-use super::parameters::{Blades, Drive, Parameters, Tips};
+use super::parameters::{Blades, Parameters, Tips};
 use crate::motion::Plane;
 use crate::tolerances::{LIGHT_DAMPING, RISE_MARGIN};
 
@@ -20,20 +20,13 @@ pub(super) struct Bounds {
 impl Bounds {
     /// From the state now, over `span` seconds in which the wave turns against
     /// the standing frame at rates between those of `nu`.
-    pub fn new(
-        parameters: &Parameters,
-        drive: &Drive,
-        u: Plane,
-        v: Plane,
-        span: f64,
-        nu: [f64; 2],
-    ) -> Self {
+    pub fn new(parameters: &Parameters, u: Plane, v: Plane, span: f64, nu: [f64; 2]) -> Self {
         let (omega, c) = (parameters.omega, parameters.damping);
-        let centre = drive.pulse / (omega * omega);
+        let centre = parameters.drive.pulse / (omega * omega);
         let from = u - Plane::new(centre, 0.0);
         let centre = centre.abs();
         let turning = nu[0].abs().max(nu[1].abs());
-        let ramp = drive.nu_rate.abs();
+        let ramp = parameters.drive.nu_rate.abs();
         // Energy about the centre never grows; every derivative costs at most
         // a factor omega + 2 c, or that and nu in the turning frame.
         let top = (v.norm_sqr() + omega * omega * from.norm_sqr()).sqrt();
@@ -102,11 +95,11 @@ impl Bounds {
 
     /// Lowers the derivatives seen from the sides to what those in the standing
     /// frame, over the same span, and the turning make of them.
-    pub fn lower_locally(&mut self, parameters: &Parameters, drive: &Drive, nu: [f64; 2]) {
+    pub fn lower_locally(&mut self, parameters: &Parameters, nu: [f64; 2]) {
         let [place, rate, bend] = self.standing;
         let factor = parameters.omega + 2.0 * parameters.damping;
         let standing = [place, rate, bend, bend * factor, bend * factor * factor];
-        let turn = hermite(1.0, nu[0].abs().max(nu[1].abs()), drive.nu_rate.abs());
+        let turn = hermite(1.0, nu[0].abs().max(nu[1].abs()), parameters.drive.nu_rate.abs());
         lower(&mut self.turning, leibniz(standing, turn));
     }
 

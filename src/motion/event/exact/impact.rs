@@ -31,7 +31,7 @@ impl Event {
             }
         }
         let local = rate * normal.conj() + Plane::new(y, parameters.clearance) * spin;
-        if local.re > ROUND_OFF * (rate.norm() + size * self.drive.nu.abs()) {
+        if local.re > ROUND_OFF * (rate.norm() + size * self.parameters.drive.nu.abs()) {
             self.enter(Mode::Free(self.flight(place, rate)));
             return;
         }
@@ -101,7 +101,7 @@ impl Event {
         let t = self.clock.start();
         for &(side, y, impulse, closing) in impulses {
             self.kick(side, y, impulse);
-            self.energy_balance.rotor -= impulse * self.drive.nu * y;
+            self.energy_balance.rotor -= impulse * self.parameters.drive.nu * y;
             self.energy_balance.lost += 0.5 * impulse * closing;
             if let Some(blades) = &self.parameters.following {
                 self.widest = self.widest.max(blades.kicked(y, impulse));
@@ -169,7 +169,8 @@ impl Event {
 
     /// As `openings`, where the round-off of a rate's two parts is none.
     pub(super) fn clean_openings(&self, contact: &CornerContact, rate: Plane) -> [f64; 2] {
-        let noise = ROUND_OFF * (rate.norm() + self.parameters.clearance * self.drive.nu.abs());
+        let noise =
+            ROUND_OFF * (rate.norm() + self.parameters.clearance * self.parameters.drive.nu.abs());
         self.openings(contact, rate).map(|rate| if rate.abs() <= noise { 0.0 } else { rate })
     }
 }

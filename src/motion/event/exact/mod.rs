@@ -31,8 +31,8 @@ use crate::motion::{
 };
 use crate::scene::{CheckedScene, SceneError};
 use crate::tolerances::EVENT_RANGE;
-use mode::{EnergyBalance, Mode, What, casing_energy};
-use parameters::{Drive, Parameters, Tips};
+use mode::{Ending, EnergyBalance, Mode, casing_energy};
+use parameters::{Parameters, Tips};
 use transitions::Passage;
 
 /// The event-driven solver of one scene, at some instant of its motion.
@@ -53,14 +53,13 @@ pub struct Event {
     log: ContactLog,
     energy_balance: EnergyBalance,
     clock: Clock,
-    drive: Drive,
     mode: Mode,
     /// Blades at the start of the segment.
     tips: Tips,
     /// No event of the segment comes before this \[s after its start\].
     safe: f64,
     /// The event that ends the segment, once found.
-    found: Option<(f64, What)>,
+    found: Option<(f64, Ending)>,
     events: u64,
     idle: u32,
     /// Looks ahead in this segment, and in the whole run.
@@ -104,7 +103,6 @@ impl Event {
             log: ContactLog::default(),
             energy_balance,
             clock: Clock::default(),
-            drive: Drive::default(),
             safe: 0.0,
             found: None,
             events: 0,
@@ -118,7 +116,7 @@ impl Event {
             failure: None,
             tables: None,
         };
-        event.drive = event.drive_now(0.0);
+        event.parameters.drive = event.drive_now(0.0);
         event.begin(place, rate);
         event
     }
@@ -180,8 +178,8 @@ impl Solver for Event {
 
     fn state(&self) -> State {
         let s = self.elapsed(self.clock.now);
-        let (u, v) = self.mode.standing(&self.parameters, &self.drive, s);
-        let Tips { angle, rate } = self.mode.reported(&self.parameters, &self.drive, s);
+        let (u, v) = self.mode.standing(&self.parameters, s);
+        let Tips { angle, rate } = self.mode.reported(&self.parameters, s);
         State {
             t_s: self.clock.now,
             u: [u.re, u.im],
@@ -197,15 +195,15 @@ impl Solver for Event {
 
     fn multipliers(&self) -> Vec<(u32, f64)> {
         let s = self.elapsed(self.clock.now);
-        let pushes = self.mode.pushes(&self.parameters, &self.drive, s);
+        let pushes = self.mode.pushes(&self.parameters, s);
         let multiplier = |(side, push): (u32, f64)| (side, -push * self.parameters.mass);
         pushes.into_iter().flatten().map(multiplier).collect()
     }
 
     fn over(&self) -> bool {
         let Mode::Free(free) = &self.mode else { return false };
-        let (u, v) = free.at(&self.parameters, &self.drive, self.elapsed(self.clock.now));
-        self.drive.pulse == 0.0 && free::Free::spent(&self.parameters, u, v)
+        let (u, v) = free.at(&self.parameters, self.elapsed(self.clock.now));
+        self.parameters.drive.pulse == 0.0 && free::Free::spent(&self.parameters, u, v)
     }
 
     fn final_verdict(&self) -> Option<Verdict> {
@@ -214,16 +212,16 @@ impl Solver for Event {
         } else if self.over() {
             Some(Verdict::Decay)
         } else if let Mode::Corner(a) = self.mode
-            && self.drive.steady()
+            && self.parameters.drive.steady()
         {
-            let pushes = locked::pushes(&self.parameters, &self.drive, a, 0.0);
+            let pushes = locked::pushes(&self.parameters, a, 0.0);
             pushes.iter().all(|&push| push > 0.0).then_some(Verdict::Locked)
         } else if let Mode::Held(held) = &self.mode
             && let Some(blades) = &self.parameters.blades
-            && self.drive.steady()
+            && self.parameters.drive.steady()
         {
             let s = self.elapsed(self.clock.now);
-            held.for_good(&self.parameters, &self.drive, blades, s).then_some(Verdict::Locked)
+            held.for_good(&self.parameters, blades, s).then_some(Verdict::Locked)
         } else {
             None
         }
@@ -248,16 +246,11 @@ impl Solver for Event {
     fn checks(&self) -> Checks {
         let s = self.elapsed(self.clock.now);
         let mut energy_balance = self.energy_balance;
-        self.mode.book(&self.parameters, &self.drive, s, &mut energy_balance);
-        let residual = energy_balance.residual(self.mode.energy(&self.parameters, &self.drive, s));
+        self.mode.book(&self.parameters, s, &mut energy_balance);
+        let residual = energy_balance.residual(self.mode.energy(&self.parameters, s));
         Checks {
             max_penetration_m: self.deepest,
-            max_blade_angle_rad: self.mode.largest_angle(
-                &self.parameters,
-                &self.drive,
-                s,
-                self.widest,
-            ),
+            max_blade_angle_rad: self.mode.largest_angle(&self.parameters, s, self.widest),
             energy_residual_j: Some(self.parameters.mass * residual),
             ..Checks::default()
         }

@@ -46,6 +46,7 @@ pub(super) struct Parameters {
     pub reach: f64,
     /// Gaps below this part of the motion's size count as closed.
     pub tolerance: f64,
+    pub drive: Drive,
 }
 
 impl Parameters {
@@ -69,6 +70,7 @@ impl Parameters {
             corners,
             reach: scene.casing.radius_m,
             tolerance: tolerances::EVENT,
+            drive: Drive::default(),
             machine,
         }
     }
@@ -111,10 +113,20 @@ impl Parameters {
 
     /// Round-off of the pushes of a corner: of the accelerations that cancel in
     /// them \[m/s^2\].
-    pub(super) fn push_noise(&self, drive: &Drive) -> f64 {
-        let square = (self.omega * self.omega).max(drive.nu * drive.nu);
+    pub(super) fn push_noise(&self) -> f64 {
+        let square = (self.omega * self.omega).max(self.drive.nu * self.drive.nu);
         let spread = if self.corners { self.turn.im.abs() } else { 1.0 };
-        ROUND_OFF * (square * self.clearance + drive.pulse.abs()) / spread
+        ROUND_OFF * (square * self.clearance + self.drive.pulse.abs()) / spread
+    }
+
+    /// The pulse times `exp(i beta)` of a side, the direction that opens its gap,
+    /// `s` seconds on \[m/s^2\].
+    pub(super) fn pulse_on(&self, side: u32, s: f64) -> Plane {
+        // Nearly always there is none: no sine then.
+        if self.drive.pulse == 0.0 {
+            return Plane::default();
+        }
+        self.direction(side) * Plane::cis(self.drive.phase(s)) * self.drive.pulse
     }
 
     /// Push per unit mass that keeps the casing on a side at `y` with rate
@@ -151,16 +163,6 @@ impl Drive {
     /// `n_d Omega`, `s` seconds on \[rad/s\].
     pub(super) fn nu(&self, s: f64) -> f64 {
         self.nu + self.nu_rate * s
-    }
-
-    /// The pulse times `exp(i beta)` of a side, the direction that opens its gap,
-    /// `s` seconds on \[m/s^2\].
-    pub(super) fn pulse_on(&self, parameters: &Parameters, side: u32, s: f64) -> Plane {
-        // Nearly always there is none: no sine then.
-        if self.pulse == 0.0 {
-            return Plane::default();
-        }
-        parameters.direction(side) * Plane::cis(self.phase(s)) * self.pulse
     }
 
     /// Whether neither pulse nor ramp acts.
@@ -298,12 +300,12 @@ impl Parameters {
     }
 
     /// `exp(i gamma)` of a side, the direction that opens its gap, and `gamma'`.
-    pub(super) fn facing(&self, drive: &Drive, side: u32, s: f64, tips: &Tips) -> (Plane, f64) {
+    pub(super) fn facing(&self, side: u32, s: f64, tips: &Tips) -> (Plane, f64) {
         let direction = self.direction(side);
         let diameters = self.blades.map_or(0.0, |blades| blades.diameters);
         let shift = diameters * (tips.angle * direction.conj()).re;
-        let spin = drive.nu(s) + diameters * (tips.rate * direction.conj()).re;
-        (direction * Plane::cis(drive.phase(s) + shift), spin)
+        let spin = self.drive.nu(s) + diameters * (tips.rate * direction.conj()).re;
+        (direction * Plane::cis(self.drive.phase(s) + shift), spin)
     }
 
     /// Half the angle between a side and the next \[rad\].

@@ -19,7 +19,7 @@
 //! the limit.
 
 use super::locked::opening;
-use super::parameters::{Drive, Parameters};
+use super::parameters::Parameters;
 use super::slide;
 use crate::motion::Plane;
 use crate::tolerances::{ROCKING_MARGIN, ROCKING_STEADY, ROCKING_TAIL, ROCKING_TURN};
@@ -43,7 +43,6 @@ pub(super) struct Limit {
 /// but rock into it.
 pub(super) fn limit(
     parameters: &Parameters,
-    drive: &Drive,
     tables: &mut Option<Box<Tables>>,
     a: u32,
     second: bool,
@@ -51,7 +50,7 @@ pub(super) fn limit(
 ) -> Option<Limit> {
     let cos = parameters.turn.re;
     // A side alone pushes with minus its own opening acceleration.
-    let [(qa, qa_rate), (qb, qb_rate)] = opening(parameters, drive, a, 0.0);
+    let [(qa, qa_rate), (qb, qb_rate)] = opening(parameters, a, 0.0);
     let sin = parameters.turn.im;
     let pulls = pulls(parameters, qa, qb);
     let change = (qa_rate.abs() + qb_rate.abs()) / sin;
@@ -60,11 +59,11 @@ pub(super) fn limit(
     if weakest <= 0.0 || own <= 0.0 {
         return None;
     }
-    let margin = ROCKING_MARGIN * drive.nu.abs() * speed;
+    let margin = ROCKING_MARGIN * parameters.drive.nu.abs() * speed;
     if -qa <= margin || -qb <= margin || speed * speed > weakest * parameters.half_side {
         return None;
     }
-    let propagator = slide::propagator(parameters, drive.nu);
+    let propagator = slide::propagator(parameters, parameters.drive.nu);
     let fastest = 2.0 * propagator.damping + propagator.stiffness.abs().sqrt();
     let start = speed / own;
     if start * fastest > ROCKING_TURN {
@@ -74,7 +73,7 @@ pub(super) fn limit(
     let times = if second { &sums.time[1] } else { &sums.time[0] };
     let time = exact(times, start)?;
     let losses = if second { &sums.lost[1] } else { &sums.lost[0] };
-    if !drive.steady() && change * time > ROCKING_STEADY * weakest {
+    if !parameters.drive.steady() && change * time > ROCKING_STEADY * weakest {
         return None;
     }
     let lost = value(losses, start);
@@ -95,18 +94,11 @@ pub(super) struct Swing {
 }
 
 /// Steps through the crossings that `limit` sums, up to the instant `s`.
-pub(super) fn replay(
-    parameters: &Parameters,
-    drive: &Drive,
-    a: u32,
-    second: bool,
-    speed: f64,
-    s: f64,
-) -> Swing {
+pub(super) fn replay(parameters: &Parameters, a: u32, second: bool, speed: f64, s: f64) -> Swing {
     let Plane { re: cos, im: sin } = parameters.turn;
-    let [(qa, _), (qb, _)] = opening(parameters, drive, a, 0.0);
+    let [(qa, _), (qb, _)] = opening(parameters, a, 0.0);
     let pulls = pulls(parameters, qa, qb);
-    let propagator = slide::propagator(parameters, drive.nu);
+    let propagator = slide::propagator(parameters, parameters.drive.nu);
     let (duration, back) = excursion(propagator.damping, propagator.stiffness);
     let mut swing = Swing { second, distance: 0.0, speed, lost: 0.0 };
     let mut left = s;

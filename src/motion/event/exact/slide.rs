@@ -9,11 +9,12 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::parameters::{Blades, Drive, Parameters, Tips};
+use super::mode::{Ending, Next};
+use super::parameters::{Blades, Parameters, Tips};
 use crate::motion::Plane;
-use crate::motion::event::series::{Gap, curved_step, leaving_step};
 use crate::motion::event::series::{
-    STRETCH, TERMS, Terms, ended, gap, jounce, product, quotient, slope, values,
+    Gap, STRETCH, TERMS, Terms, curved_step, ended, gap, jounce, leaving_step, product, quotient,
+    slope, values,
 };
 use crate::motion::propagator::Propagator;
 use crate::numeric::quadrature::GAUSS_8;
@@ -118,29 +119,10 @@ impl Along {
     }
 }
 
-/// What one look ahead along a side finds.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Ahead {
-    /// No event before this time.
-    Until(f64),
-    /// The upper (`true`) or lower end of the side is reached now.
-    Edge(bool),
-    /// The push vanishes now.
-    Release,
-    /// The motion grows too fast to be followed.
-    Lost,
-}
-
 impl Slide {
-    pub(super) fn new(
-        parameters: &Parameters,
-        drive: &Drive,
-        side: u32,
-        y: f64,
-        rate: f64,
-    ) -> Self {
-        let propagator = propagator(parameters, drive.nu);
-        let drag = 2.0 * parameters.damping * drive.nu * parameters.clearance;
+    pub(super) fn new(parameters: &Parameters, side: u32, y: f64, rate: f64) -> Self {
+        let propagator = propagator(parameters, parameters.drive.nu);
+        let drag = 2.0 * parameters.damping * parameters.drive.nu * parameters.clearance;
         Self { side, y, rate, propagator, pull: drag - propagator.stiffness * y }
     }
 
@@ -151,16 +133,16 @@ impl Slide {
         (displacement, self.rate * response.slope + self.pull * response.unit)
     }
 
-    pub(super) fn at(&self, parameters: &Parameters, drive: &Drive, s: f64) -> Along {
+    pub(super) fn at(&self, parameters: &Parameters, s: f64) -> Along {
         let (displacement, rate) = self.moved(s);
         let y = self.y + displacement;
-        Along { y, rate, push: parameters.push(drive.nu, 0.0, y, rate, 0.0) }
+        Along { y, rate, push: parameters.push(parameters.drive.nu, 0.0, y, rate, 0.0) }
     }
 
     /// What the casing dissipates in the first `s` seconds, and the work of the
     /// rotor, per unit casing mass.
-    pub(super) fn energies(&self, parameters: &Parameters, drive: &Drive, s: f64) -> [f64; 2] {
-        let (nu, g0, c) = (drive.nu, parameters.clearance, self.propagator.damping);
+    pub(super) fn energies(&self, parameters: &Parameters, s: f64) -> [f64; 2] {
+        let (nu, g0, c) = (parameters.drive.nu, parameters.clearance, self.propagator.damping);
         let Moments { displacement, place, square, speed } = self.moments(s);
         let end = self.y + displacement;
         // Of c |u'|^2 with u' = y' - nu g0 along the side and nu y across it.
@@ -215,9 +197,10 @@ impl Slide {
     }
 
     /// Looks ahead from `s`, before which nothing happens.
-    pub(super) fn look(&self, parameters: &Parameters, drive: &Drive, s: f64) -> Ahead {
+    pub(super) fn look(&self, parameters: &Parameters, s: f64) -> Next {
         let (displacement, rate) = self.moved(s);
-        let (kappa, c, nu) = (self.propagator.stiffness, self.propagator.damping, drive.nu);
+        let (kappa, c, nu) =
+            (self.propagator.stiffness, self.propagator.damping, parameters.drive.nu);
         let pull = self.pull - kappa * displacement;
         let acceleration = pull - 2.0 * c * rate;
         let third = -2.0 * c * acceleration - kappa * rate;
@@ -238,7 +221,7 @@ impl Slide {
             if s == 0.0 && room == 0.0 && rate == 0.0 {
                 stride = stride.min(leaving_step(bend, twist, jounce));
             } else if gap <= noise && rate < 0.0 {
-                return Ahead::Edge(up);
+                return Next::Now(Ending::Edge(up));
             } else {
                 let now = Gap { gap, rate, bend, twist };
                 stride = stride.min(curved_step(now.above(noise), jounce, stride));
@@ -249,7 +232,7 @@ impl Slide {
         let push_rate = -2.0 * nu * (acceleration + c * rate);
         let noise = push_noise(parameters, nu, y, rate, 0.0);
         if push <= noise && push_rate < 0.0 {
-            return Ahead::Release;
+            return Next::Now(Ending::Release);
         }
         let fourth = -2.0 * c * third - kappa * acceleration;
         let now = Gap {
@@ -260,7 +243,7 @@ impl Slide {
         };
         let push_jounce = 2.0 * nu.abs() * jounce * (fastest + c);
         stride = stride.min(curved_step(now.above(noise), push_jounce, stride));
-        Ahead::Until((s + stride).max(s.next_up()))
+        Next::Until((s + stride).max(s.next_up()))
     }
 }
 
@@ -309,10 +292,12 @@ pub(super) struct From {
 }
 
 impl SideSeries {
-    pub(super) fn new(parameters: &Parameters, drive: &Drive, side: u32, from: &From) -> Self {
-        let (inward, spin) = parameters.facing(drive, side, 0.0, &from.tips);
-        let mut fastest =
-            parameters.omega + 2.0 * parameters.damping + spin.abs() + drive.nu_rate.abs().sqrt();
+    pub(super) fn new(parameters: &Parameters, side: u32, from: &From) -> Self {
+        let (inward, spin) = parameters.facing(side, 0.0, &from.tips);
+        let mut fastest = parameters.omega
+            + 2.0 * parameters.damping
+            + spin.abs()
+            + parameters.drive.nu_rate.abs().sqrt();
         if let Some(blades) = &parameters.blades {
             fastest += blades.omega + 2.0 * blades.propagator.damping;
         }
@@ -336,7 +321,7 @@ impl SideSeries {
             {
                 (terms[0], terms[1]) = (angle, rate * h);
             }
-            series.expand(parameters, drive, inward);
+            series.expand(parameters, inward);
             series.enclose(parameters, from);
             let exact = ended(&series.y) && ended(&series.push) && series.rooms.iter().all(ended);
             series.lost = parameters.blades.is_some() && !exact;
@@ -352,12 +337,12 @@ impl SideSeries {
 
     /// Fills the terms by the recurrence of the differential equations, with
     /// time counted in units of `length`.
-    fn expand(&mut self, parameters: &Parameters, drive: &Drive, inward: Plane) {
+    fn expand(&mut self, parameters: &Parameters, inward: Plane) {
         let h = self.length;
-        let (nu, ramp) = (drive.nu * h, drive.nu_rate * h * h);
+        let (nu, ramp) = (parameters.drive.nu * h, parameters.drive.nu_rate * h * h);
         let (omega2, c2) =
             (parameters.omega * parameters.omega * h * h, 2.0 * parameters.damping * h);
-        let (g0, pulse) = (parameters.clearance, drive.pulse * h * h);
+        let (g0, pulse) = (parameters.clearance, parameters.drive.pulse * h * h);
         let blades = parameters.blades.as_ref();
         let diameters = blades.map_or(0.0, |blades| blades.diameters);
         let (mut cos, mut sin) = ([0.0; TERMS], [0.0; TERMS]);
@@ -484,9 +469,9 @@ impl SideSeries {
     }
 
     /// Looks ahead from `s`, before which nothing happens, within the stretch.
-    pub(super) fn look(&self, parameters: &Parameters, drive: &Drive, s: f64) -> Ahead {
+    pub(super) fn look(&self, parameters: &Parameters, s: f64) -> Next {
         if self.lost {
-            return Ahead::Lost;
+            return Next::Now(Ending::Lost);
         }
         let x = s / self.length;
         let [y, rate, _] = values(&self.y, x);
@@ -498,18 +483,24 @@ impl SideSeries {
                 let tail: f64 = room.iter().skip(4).map(|term| term.abs()).sum();
                 stride = stride.min(leaving_step(2.0 * room[2], 6.0 * room[3], 24.0 * tail));
             } else if now.gap <= noise && now.rate < 0.0 {
-                return Ahead::Edge(up);
+                return Next::Now(Ending::Edge(up));
             } else {
                 stride = stride.min(curved_step(now.above(noise), jounce(room), stride));
             }
         }
         let now = gap(&self.push, x);
-        let noise = push_noise(parameters, drive.nu(s), y, rate / self.length, drive.pulse);
+        let noise = push_noise(
+            parameters,
+            parameters.drive.nu(s),
+            y,
+            rate / self.length,
+            parameters.drive.pulse,
+        );
         if now.gap <= noise && now.rate < 0.0 {
-            return Ahead::Release;
+            return Next::Now(Ending::Release);
         }
         stride = stride.min(curved_step(now.above(noise), jounce(&self.push), stride));
-        Ahead::Until((s + stride * self.length).max(s.next_up()))
+        Next::Until((s + stride * self.length).max(s.next_up()))
     }
 }
 
@@ -547,25 +538,24 @@ mod tests {
         {
             let changes = [("casing.damping_ratio", zeta), ("operation.speed_rad_s", speed)];
             let scene = Scene::base().with(&changes).unwrap();
-            let parameters = Parameters::new(&scene);
-            let drive = Drive { nu: 3.0 * scene.operation.speed_rad_s, ..Drive::default() };
+            let mut parameters = Parameters::new(&scene);
+            parameters.drive.nu = 3.0 * scene.operation.speed_rad_s;
             for (y, rate, s) in
                 [(-1.4e-5, 0.05, 8e-4), (3e-6, -0.02, 1e-9), (1e-6, 0.0, 5e-3), (1e-5, 0.01, 3e-5)]
             {
-                let slide = Slide::new(&parameters, &drive, 4, y, rate);
-                let (drag, nu) = (2.0 * parameters.damping, drive.nu);
+                let slide = Slide::new(&parameters, 4, y, rate);
+                let (drag, nu) = (2.0 * parameters.damping, parameters.drive.nu);
                 let mut size = 0.0_f64;
                 for k in 0..=100 {
-                    let Along { y, push, .. } =
-                        slide.at(&parameters, &drive, 0.01 * s * f64::from(k));
+                    let Along { y, push, .. } = slide.at(&parameters, 0.01 * s * f64::from(k));
                     size = size.max((nu * push * y * s).abs());
                 }
                 let [dissipated, work] = quadrature(s, 20.0 * slide.fastest(), |t| {
-                    let Along { y, rate, push } = slide.at(&parameters, &drive, t);
+                    let Along { y, rate, push } = slide.at(&parameters, t);
                     let (across, along) = (nu * y, rate - nu * parameters.clearance);
                     [drag * (along * along + across * across), -nu * push * y]
                 });
-                let found = slide.energies(&parameters, &drive, s);
+                let found = slide.energies(&parameters, s);
                 assert!((found[0] - dissipated).abs() <= 1e-13 * dissipated, "{changes:?} {s}");
                 assert!((found[1] - work).abs() <= 1e-12 * size, "{changes:?} {s} {size}: {work}");
             }

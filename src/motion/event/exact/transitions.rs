@@ -15,10 +15,9 @@ use std::f64::consts::TAU;
 use super::free::{Free, Leaving};
 use super::impact::CornerContact;
 use super::locked::CornerSeries;
-use super::mode::{Mode, Next, What};
+use super::mode::{Ending, Mode, Next};
 use super::parameters::Drive;
-use super::slide::Slide;
-use super::slide::{From, SideSeries};
+use super::slide::{From, SideSeries, Slide};
 use super::{Event, locked, rocking};
 use crate::motion::{ActiveSet, Failure, FailureReason, GoOn, Plane};
 use crate::tolerances::{
@@ -29,7 +28,7 @@ use crate::tolerances::{
 /// What a search for the event that ends a segment comes to.
 enum Sought {
     /// This event, so many seconds after its start.
-    Event(f64, What),
+    Event(f64, Ending),
     /// None by the limit.
     Nothing,
     /// It was told not to go on.
@@ -64,14 +63,14 @@ impl Event {
             Sought::Paused => return Ok(Passage::Paused),
         };
         self.check_angles(s)?;
-        let rates = self.parameters.omega + self.drive.nu.abs();
+        let rates = self.parameters.omega + self.parameters.drive.nu.abs();
         self.idle = if s * rates > AN_INSTANT { 0 } else { self.idle + 1 };
-        if what != What::SeriesEnd {
+        if what != Ending::SeriesEnd {
             self.events += 1;
         }
-        let reason = if what == What::Gone {
+        let reason = if matches!(what, Ending::Gone | Ending::Edge(_)) && !self.parameters.corners {
             Some(FailureReason::NoCorner { radius_m: self.parameters.reach })
-        } else if what == What::Lost {
+        } else if what == Ending::Lost {
             Some(FailureReason::Series)
         } else if self.events > MOST_EVENTS {
             Some(FailureReason::Events)
@@ -126,7 +125,8 @@ impl Event {
                 if !end.is_finite() {
                     return Sought::Nothing;
                 }
-                let what = if pulse_end <= series_end { What::PulseEnd } else { What::SeriesEnd };
+                let what =
+                    if pulse_end <= series_end { Ending::PulseEnd } else { Ending::SeriesEnd };
                 self.found = Some((end, what));
                 continue;
             }
@@ -139,7 +139,7 @@ impl Event {
                 self.fail(self.safe, FailureReason::Looks);
                 return Sought::Nothing;
             }
-            match self.mode.look(&self.parameters, &self.drive, self.safe, end) {
+            match self.mode.look(&self.parameters, self.safe, end) {
                 Next::Until(later) => self.safe = later.min(end),
                 Next::Now(what) => self.found = Some((self.safe, what)),
             }
@@ -148,24 +148,28 @@ impl Event {
 
     /// Seconds from the start of the segment to the end of the pulse.
     fn pulse_left(&self) -> f64 {
-        if self.drive.pulse == 0.0 { f64::INFINITY } else { self.elapsed(self.pulse.end) }
+        if self.parameters.drive.pulse == 0.0 {
+            f64::INFINITY
+        } else {
+            self.elapsed(self.pulse.end)
+        }
     }
 
     /// Books the segment and moves its start by `s`; the mode is left to be
     /// replaced.
-    pub(super) fn rebase(&mut self, s: f64, what: Option<What>) {
+    pub(super) fn rebase(&mut self, s: f64, what: Option<Ending>) {
         if self.checked {
-            self.mode.book(&self.parameters, &self.drive, s, &mut self.energy_balance);
-            self.widest = self.mode.largest_angle(&self.parameters, &self.drive, s, self.widest);
+            self.mode.book(&self.parameters, s, &mut self.energy_balance);
+            self.widest = self.mode.largest_angle(&self.parameters, s, self.widest);
         }
         self.tips = self.mode.tips(&self.parameters, s);
-        let phase = self.drive.phase(s) % TAU;
-        if what == Some(What::PulseEnd) {
+        let phase = self.parameters.drive.phase(s) % TAU;
+        if what == Some(Ending::PulseEnd) {
             self.clock.begin_at(self.pulse.end);
         } else {
             self.clock.pass(s);
         }
-        self.drive = self.drive_now(phase);
+        self.parameters.drive = self.drive_now(phase);
         self.safe = 0.0;
         self.found = None;
         self.looks = 0;
@@ -198,22 +202,22 @@ impl Event {
             return;
         }
         let s = self.elapsed(self.clock.now);
-        let side = self.mode.along(&self.parameters, &self.drive, s);
-        let (place, mut rate) = self.mode.seen_by_rotor(&self.parameters, &self.drive, s, side);
+        let side = self.mode.along(&self.parameters, s);
+        let (place, mut rate) = self.mode.seen_by_rotor(&self.parameters, s, side);
         if let (Mode::Slide(_) | Mode::Driven(_), Some((side, along))) = (&self.mode, side) {
             let tips = self.mode.tips(&self.parameters, s);
             let (normal, _) = self.parameters.normal(side, &tips);
             rate += Plane::i() * normal * ((factor - 1.0) * along.rate);
         }
-        let flight = self.mode.flight(&self.parameters, &self.drive, s);
+        let flight = self.mode.flight(&self.parameters, s);
         let corner = self.mode.corner().filter(|_| !matches!(self.mode, Mode::Rocking { .. }));
         self.rebase(s, None);
         self.clock.begin_at(self.clock.now);
-        let nu = self.drive.nu;
+        let nu = self.parameters.drive.nu;
         change(self);
-        self.drive = self.drive_now(self.drive.phase);
+        self.parameters.drive = self.drive_now(self.parameters.drive.phase);
         // The rate against the blades jumps with the speed of the rotor.
-        let rate = rate + Plane::i() * place * (nu - self.drive.nu);
+        let rate = rate + Plane::i() * place * (nu - self.parameters.drive.nu);
         match (flight, corner, side) {
             (Some((u, v)), ..) => self.enter(Mode::Free(Free::new(u, v * factor, self.tips))),
             (_, Some(a), _) => self.meet_corner_at(a, rate),
@@ -231,7 +235,7 @@ impl Event {
         if polygon.gap(side, place.re, place.im) <= ON_A_SIDE * self.parameters.clearance {
             // A rate against the blades that is round-off of its two parts is none.
             let direction = self.parameters.direction(side);
-            let carried = Plane::i() * place * self.drive.nu;
+            let carried = Plane::i() * place * self.parameters.drive.nu;
             let local = (rate - carried) * direction.conj();
             let noise = ON_A_SIDE * (rate.norm() + carried.norm());
             let clean = |x: f64| if x.abs() <= noise { 0.0 } else { x };
@@ -242,29 +246,29 @@ impl Event {
     }
 
     /// Passes the event `what`, `s` seconds into the segment.
-    pub(super) fn pass(&mut self, s: f64, what: What) {
-        let along = self.mode.along(&self.parameters, &self.drive, s);
-        let (place, rate) = self.mode.seen_by_rotor(&self.parameters, &self.drive, s, along);
+    pub(super) fn pass(&mut self, s: f64, what: Ending) {
+        let along = self.mode.along(&self.parameters, s);
+        let (place, rate) = self.mode.seen_by_rotor(&self.parameters, s, along);
         let corner = self.mode.corner();
         // Flight ends at a touch, and goes on from its own frame otherwise.
         let flight = match what {
-            What::Touch(_) => None,
-            _ => self.mode.flight(&self.parameters, &self.drive, s),
+            Ending::Touch(_) => None,
+            _ => self.mode.flight(&self.parameters, s),
         };
         self.rebase(s, Some(what));
         let polygon = &self.parameters.machine.polygon;
         match (what, along, corner) {
-            (What::Touch(side), ..) => self.touch(side, place, rate),
-            (What::Edge(upper), Some((side, along)), _) => {
+            (Ending::Touch(side), ..) => self.touch(side, place, rate),
+            (Ending::Edge(upper), Some((side, along)), _) => {
                 let a = if upper { polygon.previous(side) } else { side };
                 self.cross(a, upper, along.rate, rate);
             }
-            (What::Release, Some((side, along)), _) => self.leave(&[side], along.y, rate),
-            (What::Yield(second), _, Some(a)) => {
+            (Ending::Release, Some((side, along)), _) => self.leave(&[side], along.y, rate),
+            (Ending::Yield(second), _, Some(a)) => {
                 let side = if second { a } else { polygon.next(a) };
                 self.hold_at_corner(side, rate, !second, 0.0);
             }
-            (What::Lock | What::SeriesEnd, _, Some(a)) => self.enter_corner(a),
+            (Ending::Lock | Ending::SeriesEnd, _, Some(a)) => self.enter_corner(a),
             (_, _, Some(a)) if !matches!(self.mode, Mode::Rocking { .. }) => self.rest(a, rate),
             (_, Some((side, along)), _) => self.hold(side, along.y, along.rate, rate),
             _ => {
@@ -287,7 +291,7 @@ impl Event {
         }
         self.meet_corner(&contact, rate, openings);
         // What goes on along one side may be the beginning of the end.
-        let Some((side, along)) = self.mode.along(&self.parameters, &self.drive, 0.0) else {
+        let Some((side, along)) = self.mode.along(&self.parameters, 0.0) else {
             return;
         };
         let second = side != a;
@@ -299,8 +303,8 @@ impl Event {
         if speed <= 0.0 {
             return;
         }
-        let Self { parameters, drive, tables, .. } = self;
-        let Some(limit) = rocking::limit(parameters, drive, tables, a, second, speed) else {
+        let Self { parameters, tables, .. } = self;
+        let Some(limit) = rocking::limit(parameters, tables, a, second, speed) else {
             return;
         };
         match self.parameters.blades {
@@ -309,7 +313,7 @@ impl Event {
                 self.mode = Mode::Rocking { a, second, speed, time, lost };
             }
             Some(blades) => {
-                let rates = self.parameters.omega + self.drive.nu.abs() + blades.omega;
+                let rates = self.parameters.omega + self.parameters.drive.nu.abs() + blades.omega;
                 if limit.time * rates <= BRIEF_ROCKING {
                     self.stop_rocking(a);
                 }
@@ -321,8 +325,8 @@ impl Event {
     /// stop it now are what the crossings to come add to the pushes of the corner
     /// at rest.
     fn stop_rocking(&mut self, a: u32) {
-        let along = self.mode.along(&self.parameters, &self.drive, 0.0);
-        let (_, rate) = self.mode.seen_by_rotor(&self.parameters, &self.drive, 0.0, along);
+        let along = self.mode.along(&self.parameters, 0.0);
+        let (_, rate) = self.mode.seen_by_rotor(&self.parameters, 0.0, along);
         let contact = self.corner_contact(a);
         let [first, second] = self.openings(&contact, rate);
         let impulses = contact.cancelled(first, second);
@@ -331,7 +335,7 @@ impl Event {
         }
         self.energy_balance.lost -= 0.5 * (first * impulses[0] + second * impulses[1]);
         let rotor = impulses[0] * contact.y[0] + impulses[1] * contact.y[1];
-        self.energy_balance.rotor -= rotor * self.drive.nu;
+        self.energy_balance.rotor -= rotor * self.parameters.drive.nu;
         self.rest(a, contact.struck(rate, impulses));
     }
 
@@ -353,14 +357,14 @@ impl Event {
 
     /// Second derivatives of both gaps of a corner at rest, without its pushes.
     fn opening_accelerations(&self, contact: &CornerContact, rate: Plane) -> [f64; 2] {
-        let (parameters, drive) = (&self.parameters, &self.drive);
+        let parameters = &self.parameters;
         if parameters.blades.is_none() {
-            return locked::opening(parameters, drive, contact.a, 0.0).map(|opening| opening.0);
+            return locked::opening(parameters, contact.a, 0.0).map(|opening| opening.0);
         }
         let flight = self.flight(contact.place(parameters), rate);
-        let noise = parameters.push_noise(drive);
+        let noise = parameters.push_noise();
         [contact.a, contact.b].map(|side| {
-            let opening = flight.curvature(parameters, drive, side).0;
+            let opening = flight.curvature(parameters, side).0;
             if opening.abs() <= noise { 0.0 } else { opening }
         })
     }
@@ -368,9 +372,7 @@ impl Event {
     fn enter_corner(&mut self, a: u32) {
         let mode = match &self.parameters.blades {
             None => Mode::Corner(a),
-            Some(blades) => {
-                Mode::Held(CornerSeries::new(&self.parameters, &self.drive, blades, a, &self.tips))
-            }
+            Some(blades) => Mode::Held(CornerSeries::new(&self.parameters, blades, a, &self.tips)),
         };
         self.enter(mode);
     }
@@ -421,27 +423,27 @@ impl Event {
 
     /// Whether a side that touches without rate pushes.
     fn pushes(&self, side: u32, y: f64, along: f64, rate: Plane) -> bool {
-        let (parameters, drive) = (&self.parameters, &self.drive);
+        let parameters = &self.parameters;
         let push = match &parameters.blades {
             None => {
-                let pulse = drive.pulse_on(parameters, side, 0.0).re;
-                parameters.push(drive.nu, drive.nu_rate, y, along, pulse)
+                let pulse = parameters.pulse_on(side, 0.0).re;
+                parameters.push(parameters.drive.nu, parameters.drive.nu_rate, y, along, pulse)
             }
             Some(blades) => {
                 let flight = self.flight(self.on_side(side, y), rate);
-                -flight.curvature(parameters, drive, side).0 / (1.0 + blades.ratio * y * y)
+                -flight.curvature(parameters, side).0 / (1.0 + blades.ratio * y * y)
             }
         };
         push >= 0.0
     }
 
     fn slide(&mut self, side: u32, from: &From) {
-        let (parameters, drive) = (&self.parameters, &self.drive);
-        if parameters.blades.is_none() && drive.steady() {
-            self.enter(Mode::Slide(Slide::new(parameters, drive, side, from.y, from.rate)));
+        let parameters = &self.parameters;
+        if parameters.blades.is_none() && parameters.drive.steady() {
+            self.enter(Mode::Slide(Slide::new(parameters, side, from.y, from.rate)));
             return;
         }
-        let series = SideSeries::new(parameters, drive, side, from);
+        let series = SideSeries::new(parameters, side, from);
         if series.may_meet_other(parameters) {
             self.fail(0.0, FailureReason::TwoSides { angle_rad: from.tips.angle.norm() });
         }
@@ -454,7 +456,7 @@ impl Event {
         let flight = self.flight(self.on_side(first, y), rate);
         let mut free = flight;
         for (slot, &side) in free.leaving.iter_mut().zip(sides) {
-            let (bend, twist) = flight.curvature(&self.parameters, &self.drive, side);
+            let (bend, twist) = flight.curvature(&self.parameters, side);
             *slot = Some(Leaving { side, bend: bend.max(0.0), twist });
         }
         self.enter(Mode::Free(free));
@@ -467,8 +469,8 @@ impl Event {
 
     /// Free flight from a place and rate that the rotor sees.
     pub(super) fn flight(&self, place: Plane, rate: Plane) -> Free {
-        let turn = Plane::cis(self.drive.phase);
-        let rate = (rate + Plane::i() * place * self.drive.nu) * turn;
+        let turn = Plane::cis(self.parameters.drive.phase);
+        let rate = (rate + Plane::i() * place * self.parameters.drive.nu) * turn;
         Free::new(place * turn, rate, self.tips)
     }
 

@@ -8,8 +8,9 @@
 
 use super::parameters::{Parameters, Point};
 use crate::motion::Plane;
-use crate::motion::event::series::curved_step;
-use crate::motion::event::series::{STRETCH, TERMS, Terms, ended, gap, jounce, values};
+use crate::motion::event::series::{
+    STRETCH, TERMS, Terms, curved_step, ended, gap, jounce, values,
+};
 use crate::motion::propagator::Propagator;
 use crate::numeric::elimination::{Square, inverse};
 use crate::tolerances::{EVENT, MOST_HALVINGS, MOST_HELD, PEAK_LOOKS, ROUND_OFF};
