@@ -5,7 +5,12 @@
 //! bound, `B(omega) = 0` at a real frequency.
 //!
 //! In units of both stiffnesses, with `x = omega/omega_c`, `y = s/omega_bd`,
-//! `c = c2 k_c/k_a`: `c (1 - x^2 + 2 i zeta_c x) + (1 + i mu_c)(1 - y^2 + 2 i zeta_bd y)`.
+//! `c = c2 k_c/k_a`, that is
+//! `c (1 - x^2 + 2 i zeta_c x) + (1 + i mu_c)(1 - y^2 + 2 i zeta_bd y) = 0`,
+//! and `nu/omega_c = x - (omega_bd/omega_c) y`. A limit has real `x` and `y`:
+//!
+//! - real part: `c (1 - x^2) + 1 - y^2 - 2 mu_c zeta_bd y = 0`
+//! - imaginary part: `2 c zeta_c x + 2 zeta_bd y + mu_c (1 - y^2) = 0`
 
 use nalgebra::Complex;
 
@@ -92,9 +97,9 @@ impl<'a> Joint<'a> {
 /// in the sense of `toward`.
 #[must_use]
 pub fn undamped_flutter_speed<T: Number>(machine: &Machine<T>, toward: f64) -> Option<T> {
-    let joined = Joined::of(machine, toward)?;
-    let rate = joined.rate * joined.rate;
-    let square = (joined.coupling * rate + 1.0) * (joined.coupling.recip() + 1.0);
+    let pair = HeldPair::of(machine, toward)?;
+    let rate = pair.rate * pair.rate;
+    let square = (pair.coupling * rate + 1.0) * (pair.coupling.recip() + 1.0);
     let speed = square.sqrt() * machine.critical_speed()?;
     speed.re().is_finite().then_some(speed)
 }
@@ -105,41 +110,31 @@ pub fn undamped_flutter_speed<T: Number>(machine: &Machine<T>, toward: f64) -> O
 /// a rotor that turns in the sense of `toward`.
 #[must_use]
 pub fn flutter_speed<T: Number>(machine: &Machine<T>, toward: f64) -> Option<T> {
-    let joined = Joined::of(machine, toward)?;
-    let friction = joined.friction.re() != 0.0;
-    let damped = joined.casing.re() != 0.0 || joined.blades.re() != 0.0;
-    if !friction && !damped {
+    let pair = HeldPair::of(machine, toward)?;
+    if !pair.has_friction() && !pair.casing_is_damped() && pair.blades.re() == 0.0 {
         return undamped_flutter_speed(machine, toward);
     }
-    let mut limits = match (friction, joined.casing.re() != 0.0) {
-        (false, _) => joined.without_friction().into_iter().collect(),
-        (true, true) => joined.with_friction(),
-        (true, false) => joined.undamped_casing(),
-    };
+    let mut limits = pair.limits();
     limits.retain(|turn| turn.re() > 0.0 && turn.re().is_finite());
     limits.sort_by(|a, b| a.re().total_cmp(&b.re()));
-    let grows = |turn: f64| joined.growth(turn) > 0.0;
-    let starts = |turn: &T| {
-        let turn = turn.re();
-        !grows(turn * (1.0 - BESIDE_A_LIMIT)) && grows(turn * (1.0 + BESIDE_A_LIMIT))
-    };
-    let critical = machine.critical_speed()?;
-    limits.into_iter().find(starts).map(|turn| turn * critical)
+    let first = limits.into_iter().find(|turn| pair.begins_to_grow(turn.re()))?;
+    Some(first * machine.critical_speed()?)
 }
 
 /// Growth of the motion that keeps a lock of joined tips, for a gap that does not turn
 /// with the blades: the roots `l = i s` \[1/s\]. Empty without joined tips.
 #[must_use]
 pub fn lock_roots(joint: &Joint) -> Vec<Complex<f64>> {
-    let Some(joined) = Joined::of(joint.machine, joint.nu) else { return Vec::new() };
+    let Some(pair) = HeldPair::of(joint.machine, joint.nu) else { return Vec::new() };
     let omega_c = joint.machine.omega_c;
     let turned = if joint.nu < 0.0 { Complex::conj } else { |value: &Complex<f64>| *value };
-    joined.roots(joint.nu.abs() / omega_c).iter().map(|root| turned(root) * omega_c).collect()
+    pair.roots(joint.nu.abs() / omega_c).iter().map(|root| turned(root) * omega_c).collect()
 }
 
-/// Both structures in units of their stiffnesses, turning forward.
-struct Joined<T> {
-    /// `c2 k_c/k_a`.
+/// Blades and casing that a corner holds together, in units of their stiffnesses, turning
+/// forward. A speed is `turn = nu/omega_c`.
+struct HeldPair<T> {
+    /// `c = c2 k_c/k_a`.
     coupling: T,
     /// `omega_bd/omega_c`.
     rate: T,
@@ -151,7 +146,7 @@ struct Joined<T> {
     friction: T,
 }
 
-impl<T: Number> Joined<T> {
+impl<T: Number> HeldPair<T> {
     /// None where the corner cannot move: tips that no bending lifts.
     fn of(machine: &Machine<T>, toward: f64) -> Option<Self> {
         // A rotor that turns backward is the mirror image of one that turns forward.
@@ -167,69 +162,100 @@ impl<T: Number> Joined<T> {
         })
     }
 
-    /// `nu/omega_c` of the limit without friction: both parts hold where
-    /// `2 zeta_c c x = -2 zeta_bd y`.
-    fn without_friction(&self) -> Option<T> {
+    fn has_friction(&self) -> bool {
+        self.friction.re() != 0.0
+    }
+
+    fn casing_is_damped(&self) -> bool {
+        self.casing.re() != 0.0
+    }
+
+    /// The speeds of every motion that neither grows nor decays.
+    fn limits(&self) -> Vec<T> {
+        match (self.has_friction(), self.casing_is_damped()) {
+            (false, _) => self.limit_without_friction().into_iter().collect(),
+            (true, true) => self.limits_with_friction(),
+            (true, false) => self.limits_of_undamped_casing(),
+        }
+    }
+
+    /// Without friction the imaginary part is `2 c zeta_c x = -2 zeta_bd y`, and the real
+    /// part gives the size of both.
+    fn limit_without_friction(&self) -> Option<T> {
         let c = self.coupling;
         let square = (c + 1.0) / (c * (c * self.casing * self.casing + self.blades * self.blades));
         let turn = (self.blades + self.rate * c * self.casing).abs() * square.sqrt();
         turn.re().is_finite().then_some(turn)
     }
 
-    /// The same with friction, where the imaginary part gives `x` as a quadratic of `y`
-    /// and the real part is a quartic.
-    fn with_friction(&self) -> Vec<T> {
-        let [c, drag, blades, mu] = [self.coupling, self.casing, self.blades, self.friction];
-        let weight = c.re() * drag.re();
-        let on = |from: Point, to: Point| -> Coefficients {
-            let quadratic = |of: &dyn Fn(Point, Point) -> f64| {
-                Coefficients::from([of(from, from), 2.0 * of(from, to), of(to, to)])
-            };
-            let mixed = |u: Point, v: Point| 0.5 * (u.p * v.q + v.p * u.q);
-            let one = quadratic(&|u, v| u.q * v.q);
-            let x =
-                quadratic(&|u, v| blades.re() * mixed(u, v) + mu.re() * (u.q * v.q - u.p * v.p));
-            let rest = quadratic(&|u, v| {
-                (c.re() + 1.0) * u.q * v.q - u.p * v.p - mu.re() * blades.re() * mixed(u, v)
-            });
-            sum(weight * weight, &product(&rest, &one), -c.re(), &product(&x, &x))
-        };
-        let casing_at = |y: T| -(blades * y + mu * (-(y * y) + 1.0)) / (c * drag);
-        let turns = real_roots(&on, &[-1.0, 0.0, 1.0]).into_iter().map(|root| {
+    /// With friction the imaginary part gives `x` of `y`, and the real part is a quartic of
+    /// `y`. Two steps of Newton's method take its roots to the last digit, and carry the
+    /// derivatives of the number.
+    fn limits_with_friction(&self) -> Vec<T> {
+        let roots = real_roots(&|from, to| self.quartic(from, to), &[-1.0, 0.0, 1.0]);
+        let refined = |root: f64| {
             let mut y = T::from(root);
             for _ in 0..2 {
-                let x = casing_at(y);
-                let value = c * (-(x * x) + 1.0) - y * y + 1.0 - mu * blades * y;
-                let x_slope = -(blades - mu * y * 2.0) / (c * drag);
-                let slope = c * x * x_slope * -2.0 - y * 2.0 - mu * blades;
-                let step = value / slope;
+                let step = self.newton_step(y);
                 if step.re().is_finite() {
                     y -= step;
                 }
             }
-            casing_at(y) - self.rate * y
+            self.casing_at(y) - self.rate * y
+        };
+        roots.into_iter().map(refined).collect()
+    }
+
+    /// `x` of `y`, by the imaginary part.
+    fn casing_at(&self, y: T) -> T {
+        -(self.blades * y + self.friction * (-(y * y) + 1.0)) / (self.coupling * self.casing)
+    }
+
+    /// The real part over its slope, `x` taken as that of `y`.
+    fn newton_step(&self, y: T) -> T {
+        let Self { coupling: c, casing, blades, friction: mu, .. } = *self;
+        let x = self.casing_at(y);
+        let value = c * (-(x * x) + 1.0) - y * y + 1.0 - mu * blades * y;
+        let x_slope = -(blades - mu * y * 2.0) / (c * casing);
+        let slope = c * x * x_slope * -2.0 - y * 2.0 - mu * blades;
+        value / slope
+    }
+
+    /// The real part times the square of `2 c zeta_c`, a quartic of `y` between two points.
+    fn quartic(&self, from: Point, to: Point) -> Coefficients {
+        let [c, casing, blades, mu] =
+            [self.coupling, self.casing, self.blades, self.friction].map(|part| part.re());
+        let mixed = |u: Point, v: Point| 0.5 * (u.p * v.q + v.p * u.q);
+        let one = Coefficients::quadratic(from, to, |u, v| u.q * v.q);
+        let x = Coefficients::quadratic(from, to, |u, v| {
+            blades * mixed(u, v) + mu * (u.q * v.q - u.p * v.p)
         });
-        turns.collect()
+        let rest = Coefficients::quadratic(from, to, |u, v| {
+            (c + 1.0) * u.q * v.q - u.p * v.p - mu * blades * mixed(u, v)
+        });
+        let weight = c * casing;
+        sum(weight * weight, &product(&rest, &one), -c, &product(&x, &x))
     }
 
-    /// With friction and without damping of the casing.
-    fn undamped_casing(&self) -> Vec<T> {
-        let [c, blades, mu] = [self.coupling, self.blades, self.friction];
-        let mut turns = Vec::with_capacity(4);
+    /// Without damping of the casing the imaginary part is a quadratic of `y`, and the real
+    /// part gives `x` but for its sign.
+    fn limits_of_undamped_casing(&self) -> Vec<T> {
+        let Self { coupling: c, blades, friction: mu, rate, .. } = *self;
         let root = (blades * blades + mu * mu * 4.0).sqrt();
-        for y in [(blades + root) / (mu * 2.0), (blades - root) / (mu * 2.0)] {
+        let places = [(blades + root) / (mu * 2.0), (blades - root) / (mu * 2.0)];
+        let turns = places.map(|y| {
             let x = ((-(y * y) + 1.0 - mu * blades * y) / c + 1.0).sqrt();
-            turns.extend([x - self.rate * y, -x - self.rate * y]);
-        }
-        turns
+            [x - rate * y, -x - rate * y]
+        });
+        turns.concat()
     }
 
-    /// The two roots of the joined motion over `omega_c`, at a speed `nu/omega_c`.
+    /// The two roots `l = i s` of the motion over `omega_c`, at a speed: of
+    /// `c [(l + i n)^2 + 2 zeta_c (l + i n) + 1] + (1 + i mu_c)[(l/r)^2 + 2 zeta_bd l/r + 1]`.
     fn roots(&self, turn: f64) -> [Complex<f64>; 2] {
         let [c, rate, drag] = [self.coupling.re(), self.rate.re(), self.casing.re()];
         let turned = Complex::new(1.0, self.friction.re());
         let spin = Complex::new(0.0, turn);
-        // c [(l + i n)^2 + 2 zeta_c (l + i n) + 1] + (1 + i mu_c)[(l/r)^2 + 2 zeta_bd l/r + 1].
         let square = turned / (rate * rate) + c;
         let linear = (spin * 2.0 + drag) * c + turned * (self.blades.re() / rate);
         let constant = (spin * spin + spin * drag + 1.0) * c + turned;
@@ -245,7 +271,9 @@ impl<T: Number> Joined<T> {
         [far, near]
     }
 
-    fn growth(&self, turn: f64) -> f64 {
-        self.roots(turn).iter().map(|root| root.re).fold(f64::NEG_INFINITY, f64::max)
+    /// Whether no motion grows just below a speed, and one does just above.
+    fn begins_to_grow(&self, turn: f64) -> bool {
+        let grows = |turn: f64| self.roots(turn).iter().any(|root| root.re > 0.0);
+        !grows(turn * (1.0 - BESIDE_A_LIMIT)) && grows(turn * (1.0 + BESIDE_A_LIMIT))
     }
 }
