@@ -78,6 +78,15 @@ pub enum HarmonicError {
 }
 
 impl HarmonicError {
+    /// A value that is not what is allowed of its key.
+    pub(super) fn refused(
+        key: &'static str,
+        value: impl ToString,
+        allowed: impl Into<String>,
+    ) -> Self {
+        Self::Refused { key, value: value.to_string(), allowed: allowed.into() }
+    }
+
     /// The error for a polygon without corners.
     pub(super) fn no_corner(polygon: &ContactPolygon) -> Self {
         Self::NoCorner {

@@ -9,8 +9,7 @@ use std::f64::consts::TAU;
 use nalgebra::Complex;
 use serde::Serialize;
 
-use super::slip::repeating;
-use super::slip::{Arc, SaddleFlow};
+use super::slip::{Arc, SaddleFlow, repeating};
 use super::{HarmonicError, NoSlip, error};
 use crate::model::Machine;
 use crate::tolerances::{HARMONICS, SMALL_RATE, SPECTRUM_SAMPLES};
