@@ -5,7 +5,7 @@
 
 use serde::Serialize;
 
-use super::{HarmonicError, Joint, Lining, RimWave, Whirl, lock_roots, rim_waves};
+use super::{HarmonicError, Joint, Lining, RimWave, Whirl, error, lock_roots, rim_waves};
 use crate::model::Machine;
 use crate::scene::{ContactLaw, Scene};
 
@@ -137,9 +137,7 @@ pub fn coincidence(scene: &Scene, speeds: &[f64]) -> Result<Vec<CoincidencePoint
     let lining = Lining::of(&machine, &scene.contact)?;
     let smooth = scene.solver.contact == ContactLaw::Smooth;
     let point = |&speed: &f64| {
-        if !speed.is_finite() {
-            return Err(HarmonicError::Speed(speed));
-        }
+        error::refuse_endless(&[speed])?;
         if smooth { on_lining(&lining, speed) } else { Ok(on_rim(&machine, speed)) }
     };
     speeds.iter().map(point).collect()

@@ -3,8 +3,8 @@
 //! and where casing and blades are: the point `z` and the two blade modes, which determine
 //! every contact and gap.
 
-use super::HarmonicError;
 use super::stability::ClosedSide;
+use super::{HarmonicError, error};
 use crate::model::ContactPolygon;
 
 /// The paper's pair of blades.
@@ -25,9 +25,7 @@ impl Corner {
     /// # Errors
     /// The polygon has no corners.
     pub fn after(polygon: &ContactPolygon, a: u32) -> Result<Self, HarmonicError> {
-        if !polygon.has_corners() {
-            return Err(HarmonicError::no_corner(polygon));
-        }
+        error::refuse_no_corner(polygon)?;
         let a = a % polygon.sides;
         Ok(Self { a, b: polygon.next(a) })
     }
@@ -59,9 +57,7 @@ impl Corner {
         polygon: &ContactPolygon,
         [first, second]: [u32; 2],
     ) -> Result<Self, HarmonicError> {
-        if !polygon.has_corners() {
-            return Err(HarmonicError::no_corner(polygon));
-        }
+        error::refuse_no_corner(polygon)?;
         let refused = |allowed| Err(HarmonicError::Blades { first, second, allowed });
         if ![first, second].iter().all(|blade| (1..=polygon.blades).contains(blade)) {
             return refused(format!("two blades from 1 to {}", polygon.blades));
@@ -160,7 +156,14 @@ impl Configuration {
     pub fn held(&self, polygon: &ContactPolygon, side: u32, multiplier: f64) -> ClosedSide {
         let direction = self.direction(polygon, side);
         let arm = self.z.1 * direction.0 - self.z.0 * direction.1;
-        ClosedSide { phase: polygon.direction(side), direction, arm, multiplier }
+        ClosedSide {
+            phase: polygon.direction(side),
+            direction,
+            along: -1.0,
+            arm,
+            moment: arm,
+            multiplier,
+        }
     }
 }
 

@@ -181,9 +181,7 @@ pub fn equilibrium(
     speed: f64,
     damped: bool,
 ) -> Result<Option<Equilibrium>, HarmonicError> {
-    if !speed.is_finite() {
-        return Err(HarmonicError::Speed(speed));
-    }
+    error::refuse_endless(&[speed])?;
     error::refuse_other_diameters(machine)?;
     error::refuse_joined(machine, "0 where every equilibrium is asked; the lock takes it")?;
     let wave = Wave::at(machine, speed, damped);

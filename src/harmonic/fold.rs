@@ -171,15 +171,10 @@ pub fn corner_branch(
     let Some(critical) = machine.critical_speed() else { return Err(HarmonicError::NoWave) };
     if !(from >= 0.0 && to > from && to / critical <= FASTEST) {
         let allowed = format!("two speeds with 0 <= from < to, up to {FASTEST:e} critical speeds");
-        return Err(HarmonicError::Refused {
-            key: "speed",
-            value: format!("{from}:{to}"),
-            allowed,
-        });
+        return Err(HarmonicError::refused("speed", format!("{from}:{to}"), allowed));
     }
     if !(1e-4..=1.0).contains(&step) {
-        let (key, allowed) = ("step", "an arc length from 1e-4 to 1".to_string());
-        return Err(HarmonicError::Refused { key, value: step.to_string(), allowed });
+        return Err(HarmonicError::refused("step", step, "an arc length from 1e-4 to 1"));
     }
     let corner_angle = CornerAngle::of(machine);
     let widest = corner_angle.at_fold();

@@ -11,7 +11,7 @@
 //! - slip as a map and its Fourier series: `slip`, `spectrum`
 //! - coincidences and excitation: `coincidence`, `excitation`
 //! - blades and casing as one (section 10), and the speed from which their lock flutters:
-//!   `joint`; that lock: `joined_lock`, `joined_stability`; the whirl on so many blades that
+//!   `joint`; that lock: `tip_lock`; the whirl on so many blades that
 //!   they are round: `round_whirl`, on the polygon: `whirl`; on a lining: `lining`
 
 mod coincidence;
@@ -21,8 +21,6 @@ mod equilibria;
 mod error;
 mod excitation;
 mod fold;
-mod joined_lock;
-mod joined_stability;
 mod joint;
 mod lining;
 mod locked;
@@ -30,6 +28,7 @@ mod round_whirl;
 mod slip;
 mod spectrum;
 mod stability;
+mod tip_lock;
 mod whirl;
 
 pub use coincidence::{

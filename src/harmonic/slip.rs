@@ -142,12 +142,8 @@ pub fn slip_map(machine: &Machine, rotor_speed: f64, speed: f64) -> Option<Cross
 pub fn slip_over(machine: &Machine, speeds: &[f64]) -> Result<Vec<SlipPoint>, HarmonicError> {
     error::refuse_joined_casing(machine, "slip")?;
     error::refuse_preload(machine)?;
-    if !machine.polygon.has_corners() {
-        return Err(HarmonicError::no_corner(&machine.polygon));
-    }
-    if let Some(&speed) = speeds.iter().find(|speed| !speed.is_finite()) {
-        return Err(HarmonicError::Speed(speed));
-    }
+    error::refuse_no_corner(&machine.polygon)?;
+    error::refuse_endless(speeds)?;
     Ok(speeds.iter().map(|&speed| point(machine, speed)).collect())
 }
 

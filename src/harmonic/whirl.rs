@@ -77,14 +77,10 @@ pub struct WhirlPoint {
 /// A polygon without corners, modes of the disk of other diameters than the casing, or a
 /// speed that is not finite.
 pub fn whirl_over(machine: &Machine, speeds: &[f64]) -> Result<Vec<WhirlPoint>, HarmonicError> {
-    if !machine.polygon.has_corners() {
-        return Err(HarmonicError::no_corner(&machine.polygon));
-    }
+    error::refuse_no_corner(&machine.polygon)?;
     error::refuse_other_diameters(machine)?;
     error::refuse_preload(machine)?;
-    if let Some(&speed) = speeds.iter().find(|speed| !speed.is_finite()) {
-        return Err(HarmonicError::Speed(speed));
-    }
+    error::refuse_endless(speeds)?;
     let point = |&speed: &f64| WhirlPoint { speed_rad_s: speed, outcome: at(machine, speed) };
     Ok(speeds.iter().map(point).collect())
 }

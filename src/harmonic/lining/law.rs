@@ -10,7 +10,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::harmonic::{HarmonicError, Joint};
+use crate::harmonic::{HarmonicError, Joint, error};
 use crate::model::{ContactSurface, LiningLaw, Machine};
 use crate::numeric::bisection::bisected;
 use crate::numeric::quadrature::GAUSS_8;
@@ -38,16 +38,11 @@ impl<'a> Lining<'a> {
         if machine.nodal_diameters == 0.0 {
             return Err(HarmonicError::NoWave);
         }
-        if !polygon.has_corners() {
-            return Err(HarmonicError::no_corner(polygon));
-        }
+        error::refuse_no_corner(polygon)?;
         if !Joint::has_one_wave(machine) {
-            return Err(HarmonicError::Refused {
-                key: "bladed_disk.nodal_diameters",
-                value: machine.blade_diameters.to_string(),
-                allowed: "those of the casing, or n_b = +-n_d modulo N, for one wave of both"
-                    .to_string(),
-            });
+            let (key, value) = ("bladed_disk.nodal_diameters", machine.blade_diameters);
+            let allowed = "those of the casing, or n_b = +-n_d modulo N, for one wave of both";
+            return Err(HarmonicError::refused(key, value, allowed));
         }
         Ok(Self {
             machine,

@@ -267,11 +267,8 @@ impl Lining<'_> {
     /// Speeds that are not finite or not in order.
     pub fn hopf_points(&self, [from, to]: [f64; 2]) -> Result<Vec<HopfPoint>, HarmonicError> {
         if !(from.is_finite() && to.is_finite() && from < to) {
-            return Err(HarmonicError::Refused {
-                key: "speed",
-                value: format!("{from}:{to}"),
-                allowed: "two speeds, the lower one first".to_string(),
-            });
+            let (speeds, allowed) = (format!("{from}:{to}"), "two speeds, the lower one first");
+            return Err(HarmonicError::refused("speed", speeds, allowed));
         }
         // Friction turns round where the rotor does, with a jump and no Hopf point.
         if from <= 0.0 && to >= 0.0 && self.machine.friction != 0.0 {

@@ -19,8 +19,8 @@ use serde::Serialize;
 
 use super::Lining;
 use super::cycle::{Tangent, small_motions};
-use crate::harmonic::locked::LockLoads;
-use crate::harmonic::{HarmonicError, Joint};
+use crate::harmonic::LockLoads;
+use crate::harmonic::{HarmonicError, Joint, error};
 use crate::model::{Machine, Number};
 use crate::numeric::maximum::highest;
 use crate::tolerances::{
@@ -250,9 +250,7 @@ impl Lining<'_> {
     /// # Errors
     /// A speed that is not finite, or stiffnesses that differ by too many powers of ten.
     pub fn states(&self, speed: f64) -> Result<Vec<LiningState>, HarmonicError> {
-        if !speed.is_finite() {
-            return Err(HarmonicError::Speed(speed));
-        }
+        error::refuse_endless(&[speed])?;
         let balance = Balance::at(*self, speed);
         let mut places: Vec<Vector2<f64>> = vec![Vector2::zeros()];
         for start in balance.starts() {
@@ -335,20 +333,10 @@ pub(in crate::harmonic) fn lock_loads<T: Number>(
         let n = polygon.direction(side).into();
         dot(bent, n) + dot(swing, n)
     };
-    let larger = |most: T, angle: T| if angle > most { angle } else { most };
-    let largest_alpha_rad = (0..polygon.sides).map(|side| angle(side).abs());
-    let torque = -(torques[0] + torques[1]);
-    let square = z[0] * z[0] + z[1] * z[1];
-    let stored = machine.casing_stiffness + machine.casing_mass * nu * nu;
-    Some(LockLoads {
-        pushes_n: pushes,
-        alpha_rad: SIDES.map(angle),
-        largest_alpha_rad: largest_alpha_rad.fold(T::zero(), larger),
-        amplitude_m: square.sqrt(),
-        torque_nm: torque,
-        power_w: torque * speed,
-        energy_j: stored * square * 0.5,
-    })
+    let amplitude = (z[0] * z[0] + z[1] * z[1]).sqrt();
+    let groups = (pushes, SIDES.map(angle));
+    let all = (0..polygon.sides).map(angle);
+    Some(LockLoads::of((machine, speed), (amplitude, -(torques[0] + torques[1])), groups, all))
 }
 
 /// The softest lining that holds a lock, and the speed where it does.
