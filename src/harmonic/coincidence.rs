@@ -5,7 +5,7 @@
 
 use serde::Serialize;
 
-use super::{HarmonicError, Joint, Lining, RimWave, Whirl, error, lock_roots, rim_waves};
+use super::{HarmonicError, Joint, Lining, RoundWhirl, Whirl, error, lock_roots, round_whirls};
 use crate::model::Machine;
 use crate::scene::{ContactLaw, Scene};
 
@@ -138,7 +138,7 @@ pub fn coincidence(scene: &Scene, speeds: &[f64]) -> Result<Vec<CoincidencePoint
     let smooth = scene.solver.contact == ContactLaw::Smooth;
     let point = |&speed: &f64| {
         error::refuse_endless(&[speed])?;
-        if smooth { on_lining(&lining, speed) } else { Ok(on_rim(&machine, speed)) }
+        if smooth { on_lining(&lining, speed) } else { Ok(on_rigid_casing(&machine, speed)) }
     };
     speeds.iter().map(point).collect()
 }
@@ -173,9 +173,9 @@ fn on_lining(lining: &Lining, speed: f64) -> Result<CoincidencePoint, HarmonicEr
 
 /// Rigid contact: the wave that attracts has the amplitude of the clearance. Waves stay
 /// bounded unless the structures flutter as one.
-fn on_rim(machine: &Machine, speed: f64) -> CoincidencePoint {
+fn on_rigid_casing(machine: &Machine, speed: f64) -> CoincidencePoint {
     let joint = Joint::at(machine, speed);
-    let wave = RimWave::lasting(&rim_waves(&joint));
+    let wave = RoundWhirl::lasting(&round_whirls(&joint));
     let clearance = machine.clearance();
     CoincidencePoint {
         speed_rad_s: speed,

@@ -37,11 +37,11 @@ use crate::tolerances::{
 pub(super) type Unknowns = SVector<f64, 6>;
 type Jacobian = SMatrix<f64, 6, 6>;
 
-/// The casing at one speed: `kappa = 1 - (nu/omega_c)^2` and
+/// The casing at one speed: `stiffness = 1 - (nu/omega_c)^2` and
 /// `drag = 2 zeta_c nu/omega_c`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Wave<T = f64> {
-    pub kappa: T,
+    pub stiffness: T,
     pub drag: T,
 }
 
@@ -51,7 +51,7 @@ impl<T: Number> Wave<T> {
         let ratio = machine.nu(speed) / machine.omega_c;
         let damping = if damped { machine.casing_damping_ratio } else { T::zero() };
         // The factored difference keeps its digits near the critical speed.
-        Self { kappa: (-ratio + 1.0) * (ratio + 1.0), drag: damping * 2.0 * ratio }
+        Self { stiffness: (-ratio + 1.0) * (ratio + 1.0), drag: damping * 2.0 * ratio }
     }
 }
 
@@ -148,7 +148,7 @@ impl Equations {
     pub fn predict(&self, wave: Wave) -> Option<Unknowns> {
         match self.corner_angle {
             None => Some(self.opened(wave, 0.0)),
-            Some(corner_angle) => Some(self.opened(wave, corner_angle.at(wave.kappa)?)),
+            Some(corner_angle) => Some(self.opened(wave, corner_angle.at(wave.stiffness)?)),
         }
     }
 
@@ -162,7 +162,7 @@ impl Equations {
         let half = (0.5 * (c_a * s_b - s_a * c_b) / (0.5 * twice_cos)).atan2(0.5 * twice_cos);
         let (sin, cos) = (half + angle_change).sin_cos();
         let tangent = sin / cos;
-        let (stiff, drag) = (wave.kappa / cos, wave.drag / sin);
+        let (stiff, drag) = (wave.stiffness / cos, wave.drag / sin);
         let multipliers = [(stiff - drag) / (2.0 * cos), (stiff + drag) / (2.0 * cos)];
         let torque = [-multipliers[0] * tangent, multipliers[1] * tangent];
         let alpha = self.share.map(|[to_a, to_b]| -(to_a * torque[0] + to_b * torque[1]));
@@ -211,8 +211,8 @@ impl Equations {
             u[5] + self.share[1][0] * torque[0] + self.share[1][1] * torque[1],
             1.0 + u[0] * a.cos + u[1] * a.sin,
             1.0 + u[0] * b.cos + u[1] * b.sin,
-            wave.kappa * u[0] - wave.drag * u[1] + u[2] * a.cos + u[3] * b.cos,
-            wave.kappa * u[1] + wave.drag * u[0] + u[2] * a.sin + u[3] * b.sin,
+            wave.stiffness * u[0] - wave.drag * u[1] + u[2] * a.cos + u[3] * b.cos,
+            wave.stiffness * u[1] + wave.drag * u[0] + u[2] * a.sin + u[3] * b.sin,
         ])
     }
 
@@ -221,10 +221,10 @@ impl Equations {
         let moment_arms = [self.moment_arm(0, u), self.moment_arm(1, u)];
         let residual = self.rows(wave, u, &moment_arms);
         let mut jacobian = Jacobian::zeros();
-        jacobian[(4, 0)] = wave.kappa;
+        jacobian[(4, 0)] = wave.stiffness;
         jacobian[(4, 1)] = -wave.drag;
         jacobian[(5, 0)] = wave.drag;
-        jacobian[(5, 1)] = wave.kappa;
+        jacobian[(5, 1)] = wave.stiffness;
         for (j, moment_arm) in moment_arms.iter().enumerate() {
             let multiplier = u[2 + j];
             for i in 0..2 {
@@ -252,17 +252,17 @@ impl Equations {
         let [a, b] = [self.moment_arm(0, u), self.moment_arm(1, u)];
         let six = self.rows(wave, u, &[a, b]);
         let (u_cc, u_cs, u_sc, u_ss) = (u[0], -u[1], u[1], u[0]);
-        let push_cos = six[4] - (wave.kappa * u[0] - wave.drag * u[1]);
-        let push_sin = six[5] - (wave.kappa * u[1] + wave.drag * u[0]);
+        let push_cos = six[4] - (wave.stiffness * u[0] - wave.drag * u[1]);
+        let push_sin = six[5] - (wave.stiffness * u[1] + wave.drag * u[0]);
         let rows = [
             six[0],
             six[1],
             six[2],
             six[3],
-            wave.kappa * u_cc + wave.drag * u_cs + push_cos,
-            wave.kappa * u_cs - wave.drag * u_cc - push_sin,
-            wave.kappa * u_sc + wave.drag * u_ss + push_sin,
-            wave.kappa * u_ss - wave.drag * u_sc + push_cos,
+            wave.stiffness * u_cc + wave.drag * u_cs + push_cos,
+            wave.stiffness * u_cs - wave.drag * u_cc - push_sin,
+            wave.stiffness * u_sc + wave.drag * u_ss + push_sin,
+            wave.stiffness * u_ss - wave.drag * u_sc + push_cos,
         ];
         rows.iter().fold(0.0, |largest, row| row.abs().max(largest))
     }
@@ -301,7 +301,7 @@ impl Equations {
     fn solve(&self, wave: Wave, start: Unknowns) -> Option<Unknowns> {
         // Rows are of order one, so rounding leaves a residual of a few units
         // in the last place of the largest term.
-        let size = 1.0 + wave.kappa.abs() + wave.drag.abs();
+        let size = 1.0 + wave.stiffness.abs() + wave.drag.abs();
         let mut unknowns = start;
         let mut last = NEWTON_LARGEST * unknowns.amax() / NEWTON_SHRINK;
         for _ in 0..NEWTON_STEPS {

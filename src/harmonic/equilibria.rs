@@ -200,13 +200,16 @@ pub fn equilibrium(
 /// `z` and the loads (side, multiplier, moment arm) of an equilibrium, scaled.
 type Loaded = ((f64, f64), Vec<(u32, f64, f64)>);
 
-/// One side holds the wave: `(kappa + i drag) z = -Lambda exp(i phi)` and a
-/// closed gap give `Lambda = (kappa^2 + drag^2)/kappa`, moment arm
-/// `drag/kappa`; the blade angle only turns the frame.
+/// One side holds the wave: `(stiffness + i drag) z = -Lambda exp(i phi)` and a
+/// closed gap give `Lambda = (stiffness^2 + drag^2)/stiffness`, moment arm
+/// `drag/stiffness`; the blade angle only turns the frame.
 fn on_side(machine: &Machine, scales: &Scales, wave: Wave, side: u32) -> Option<Loaded> {
-    let (kappa, drag) = (wave.kappa, wave.drag);
-    let (multiplier, arm) =
-        if drag == 0.0 { (kappa, 0.0) } else { (kappa + drag * drag / kappa, drag / kappa) };
+    let (stiffness, drag) = (wave.stiffness, wave.drag);
+    let (multiplier, arm) = if drag == 0.0 {
+        (stiffness, 0.0)
+    } else {
+        (stiffness + drag * drag / stiffness, drag / stiffness)
+    };
     if !(multiplier.is_finite() && arm.is_finite()) {
         return None;
     }

@@ -42,36 +42,36 @@ impl<T: Number> CornerAngle<T> {
 
     /// As `CornerAngle::at`, with its derivative by the implicit function theorem:
     /// one more step of Newton's method, whose slope needs none.
-    pub fn derived(&self, kappa: T) -> Option<T> {
+    pub fn derived(&self, stiffness: T) -> Option<T> {
         let plain = CornerAngle { delta: self.delta, compliance: self.compliance.re() };
-        let angle_change = plain.at(kappa.re())?;
+        let angle_change = plain.at(stiffness.re())?;
         let (sin, cos) = (self.delta + angle_change).sin_cos();
-        let pull = self.compliance * kappa / (cos * cos);
+        let pull = self.compliance * stiffness / (cos * cos);
         let value = pull * sin / cos + angle_change;
         let slope = pull.re() * (1.0 + 2.0 * sin * sin) / (cos * cos) + 1.0;
         Some(-value / slope + angle_change)
     }
 
-    /// `kappa` at the fold, where the branch turns back: `at_fold` depends on `delta`
-    /// alone, so `kappa` goes with one over the compliance.
-    pub fn fold_kappa(&self) -> Option<T> {
+    /// `stiffness` at the fold, where the branch turns back: `at_fold` depends on `delta`
+    /// alone, so `stiffness` goes with one over the compliance.
+    pub fn fold_stiffness(&self) -> Option<T> {
         let plain = CornerAngle { delta: self.delta, compliance: self.compliance.re() };
-        let (kappa, _) = plain.kappa(plain.at_fold())?;
-        Some(self.compliance.recip() * (kappa * plain.compliance))
+        let (stiffness, _) = plain.stiffness(plain.at_fold())?;
+        Some(self.compliance.recip() * (stiffness * plain.compliance))
     }
 }
 
 impl CornerAngle {
-    /// The change of the corner angle `Delta - delta` \[rad\] at `kappa`, on the branch of stiff
+    /// The change of the corner angle `Delta - delta` \[rad\] at `stiffness`, on the branch of stiff
     /// blades; `None` beyond its fold.
-    pub fn at(&self, kappa: f64) -> Option<f64> {
+    pub fn at(&self, stiffness: f64) -> Option<f64> {
         let mut angle_change = 0.0;
         // Steps shrink at least by half (at the fold), until they are rounding.
         let mut last = f64::INFINITY;
         for _ in 0..100 {
             let angle = self.delta + angle_change;
             let (sin, cos) = angle.sin_cos();
-            let pull = self.compliance * kappa / (cos * cos);
+            let pull = self.compliance * stiffness / (cos * cos);
             let value = angle_change + pull * sin / cos;
             let slope = 1.0 + pull * (1.0 + 2.0 * sin * sin) / (cos * cos);
             // The slope vanishes at the fold. Newton's steps from delta stay on
@@ -95,27 +95,29 @@ impl CornerAngle {
         None
     }
 
-    /// The change of the corner angle \[rad\] between two others where `kappa`
+    /// The change of the corner angle \[rad\] between two others where `stiffness`
     /// is this, by halving: also next to the fold, where Newton's method has no
-    /// slope, and behind it. `kappa` must be monotonic between the two.
-    pub fn between(&self, kappa: f64, [near, far]: [f64; 2]) -> f64 {
-        let at = |angle_change| self.kappa(angle_change).map_or(f64::NAN, |(kappa, _)| kappa);
+    /// slope, and behind it. `stiffness` must be monotonic between the two.
+    pub fn between(&self, stiffness: f64, [near, far]: [f64; 2]) -> f64 {
+        let at = |angle_change| {
+            self.stiffness(angle_change).map_or(f64::NAN, |(stiffness, _)| stiffness)
+        };
         let grows = at(near) < at(far);
-        let [near, far] = bisected([near, far], |place| (at(place) < kappa) != grows);
+        let [near, far] = bisected([near, far], |place| (at(place) < stiffness) != grows);
         0.5 * (near + far)
     }
 
-    /// `kappa` at a change of the corner angle, and its slope; `None` if the
+    /// `stiffness` at a change of the corner angle, and its slope; `None` if the
     /// blades are too stiff for such an opening.
-    pub fn kappa(&self, angle_change: f64) -> Option<(f64, f64)> {
+    pub fn stiffness(&self, angle_change: f64) -> Option<(f64, f64)> {
         if self.compliance < AS_GOOD_AS_RIGID {
             return None;
         }
         let (sin, cos) = (self.delta + angle_change).sin_cos();
         let scale = -cos * cos / (self.compliance * sin * sin);
-        let kappa = scale * angle_change * sin * cos;
+        let stiffness = scale * angle_change * sin * cos;
         let slope = scale * (sin * cos - angle_change * (1.0 + 2.0 * sin * sin));
-        (kappa.is_finite() && slope.is_finite()).then_some((kappa, slope))
+        (stiffness.is_finite() && slope.is_finite()).then_some((stiffness, slope))
     }
 
     /// The change of the corner angle at the fold \[rad\]: it depends on
@@ -178,18 +180,19 @@ pub fn corner_branch(
     }
     let corner_angle = CornerAngle::of(machine);
     let widest = corner_angle.at_fold();
-    let top = corner_angle
-        .kappa(widest)
-        .map(|(kappa, _)| Place { speed: critical * (1.0 - kappa).sqrt(), angle_change: widest });
+    let top = corner_angle.stiffness(widest).map(|(stiffness, _)| Place {
+        speed: critical * (1.0 - stiffness).sqrt(),
+        angle_change: widest,
+    });
     let walk = Walk { machine, critical, corner_angle, top };
     let places = walk.places([from, to], step);
     let equations = Equations::new(machine, corner, Form::Modal);
     let state = |place: &Place| {
         let mut wave = Wave::at(machine, place.speed, damped);
         // Next to the fold, and with very soft blades, the corner angle gives
-        // kappa to more digits than the speed does.
-        if let Some((kappa, _)) = corner_angle.kappa(place.angle_change) {
-            wave.kappa = kappa;
+        // stiffness to more digits than the speed does.
+        if let Some((stiffness, _)) = corner_angle.stiffness(place.angle_change) {
+            wave.stiffness = stiffness;
         }
         let unknowns = equations.opened(wave, place.angle_change);
         let (z, loads) = loads_of(machine, corner, &unknowns);
@@ -283,15 +286,15 @@ impl Walk<'_> {
 
     /// The place of this change of the corner angle.
     fn at(&self, angle_change: f64) -> Option<Place> {
-        let (kappa, _) = self.corner_angle.kappa(angle_change)?;
-        // kappa = 1 - (Omega/Omega_c)^2.
-        Some(Place { speed: self.critical * (1.0 - kappa).max(0.0).sqrt(), angle_change })
+        let (stiffness, _) = self.corner_angle.stiffness(angle_change)?;
+        // stiffness = 1 - (Omega/Omega_c)^2.
+        Some(Place { speed: self.critical * (1.0 - stiffness).max(0.0).sqrt(), angle_change })
     }
 
     /// The place of this speed on the way up to the fold; `None` beyond it.
     fn rising(&self, speed: f64) -> Option<Place> {
-        let kappa = Wave::at(self.machine, speed, false).kappa;
-        let found = self.corner_angle.at(kappa);
+        let stiffness = Wave::at(self.machine, speed, false).stiffness;
+        let found = self.corner_angle.at(stiffness);
         let Some(top) = self.top else {
             return found.map(|angle_change| Place { speed, angle_change });
         };
@@ -300,7 +303,7 @@ impl Walk<'_> {
         }
         // Newton's method stops if round-off hides the side of the fold.
         let angle_change =
-            found.unwrap_or_else(|| self.corner_angle.between(kappa, [0.0, top.angle_change]));
+            found.unwrap_or_else(|| self.corner_angle.between(stiffness, [0.0, top.angle_change]));
         Some(Place { speed, angle_change: angle_change.min(top.angle_change) })
     }
 
@@ -313,8 +316,11 @@ impl Walk<'_> {
         if let Some(open) = self.at(widest).filter(|open| open.speed >= speed) {
             return open;
         }
-        let kappa = Wave::at(self.machine, speed, false).kappa;
-        Place { speed, angle_change: self.corner_angle.between(kappa, [top.angle_change, widest]) }
+        let stiffness = Wave::at(self.machine, speed, false).stiffness;
+        Place {
+            speed,
+            angle_change: self.corner_angle.between(stiffness, [top.angle_change, widest]),
+        }
     }
 }
 
@@ -326,11 +332,11 @@ mod tests {
     fn the_branch_by_speed_is_the_branch_by_opening() {
         for (delta, bend) in [(0.1428, 1e-6), (0.1428, 40.0), (0.6, 3.0), (1.0, 0.3)] {
             let corner_angle = CornerAngle::new(delta, bend);
-            let (limit, slope) = corner_angle.kappa(corner_angle.at_fold()).unwrap();
+            let (limit, slope) = corner_angle.stiffness(corner_angle.at_fold()).unwrap();
             assert!(slope.abs() < 1e-12 * (limit / delta).abs());
             for part in [-3.0, -0.5, 0.0, 1e-9, 0.1, 0.5, 0.9, 0.999] {
                 let angle_change = corner_angle.at(part * limit).unwrap();
-                let (back, _) = corner_angle.kappa(angle_change).unwrap();
+                let (back, _) = corner_angle.stiffness(angle_change).unwrap();
                 // Next to the fold the rounding of an angle is amplified a
                 // hundred times.
                 assert!((back - part * limit).abs() <= 1e-13 * limit.abs());
@@ -343,9 +349,9 @@ mod tests {
     #[test]
     fn the_slope_is_the_slope_and_the_fold_is_the_extreme() {
         let corner_angle = CornerAngle::new(0.3, 2.0);
-        let at = |angle_change| corner_angle.kappa(angle_change).unwrap().0;
+        let at = |angle_change| corner_angle.stiffness(angle_change).unwrap().0;
         for angle_change in [-0.1, 0.05, 0.7] {
-            let (_, slope) = corner_angle.kappa(angle_change).unwrap();
+            let (_, slope) = corner_angle.stiffness(angle_change).unwrap();
             let measured = (at(angle_change + 1e-5) - at(angle_change - 1e-5)) / 2e-5;
             assert!((measured - slope).abs() < 1e-7 * slope.abs().max(1.0));
         }

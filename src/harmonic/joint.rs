@@ -277,3 +277,56 @@ impl<T: Number> HeldPair<T> {
         !grows(turn * (1.0 - BESIDE_A_LIMIT)) && grows(turn * (1.0 + BESIDE_A_LIMIT))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    /// Table 1 with `kappa`, `mu`, and both damping ratios.
+    fn machine([kappa, mu, casing, blades]: [f64; 4]) -> Machine {
+        let mut scene = Scene::base();
+        for (path, value) in [
+            ("bladed_disk.radial_coupling", kappa),
+            ("contact.friction", mu),
+            ("casing.tangential_ratio", 0.33),
+            ("casing.damping_ratio", casing),
+            ("bladed_disk.damping_ratio", blades),
+        ] {
+            scene.set(path, &value.to_string()).unwrap();
+        }
+        scene.machine()
+    }
+
+    #[test]
+    fn a_lock_begins_to_grow_at_its_flutter_speed_in_every_case_of_friction_and_damping() {
+        for data in [
+            [0.5, 0.0, 0.05, 0.01],
+            [0.5, 0.0, 0.0, 0.01],
+            [0.5, 0.0, 0.05, 0.0],
+            [0.5, 0.3, 0.05, 0.01],
+            [0.5, 0.3, 0.05, 0.0],
+            [1.0, 0.1, 0.02, 0.03],
+        ] {
+            let machine = machine(data);
+            let speed = flutter_speed(&machine, 1.0).unwrap();
+            let growth = |speed: f64| {
+                let roots = lock_roots(&Joint::at(&machine, speed));
+                roots.iter().map(|root| root.re).fold(f64::NEG_INFINITY, f64::max)
+            };
+            assert!(growth(0.999 * speed) < 0.0 || data[1] == 0.0, "{data:?} {speed}");
+            assert!(growth(1.001 * speed) > 0.0, "{data:?} {speed}");
+            assert!(growth(speed).abs() < 1e-9 * machine.omega_c, "{data:?} {speed}");
+        }
+    }
+
+    #[test]
+    fn flutter_speeds_of_table_1() {
+        let flutter = |data| flutter_speed(&machine(data), 1.0).unwrap();
+        let near = |value: f64, expected: f64| (value - expected).abs() < 5e-3;
+        assert!(near(flutter([0.5, 0.0, 0.05, 0.04]), 452.804));
+        let undamped = undamped_flutter_speed(&machine([0.5, 0.0, 0.05, 0.04]), 1.0).unwrap();
+        assert!(near(undamped, 516.281) && near(flutter([0.5, 0.0, 0.0, 0.0]), 516.281));
+        assert!(near(flutter([1.0, 0.0, 1e-5, 1e-5]), 341.120));
+    }
+}

@@ -314,8 +314,8 @@ pub fn lock_loads<T: Number>(machine: &Machine<T>, speed: T) -> Option<LockLoads
     }
     let (wave, scales) = (Wave::at(machine, speed, true), Scales::of(machine));
     let delta = machine.polygon.delta;
-    let (sin, cos) = (CornerAngle::of(machine).derived(wave.kappa)? + delta).sin_cos();
-    let (stiff, drag) = (wave.kappa / cos, wave.drag / sin);
+    let (sin, cos) = (CornerAngle::of(machine).derived(wave.stiffness)? + delta).sin_cos();
+    let (stiff, drag) = (wave.stiffness / cos, wave.drag / sin);
     let pushes = [(drag - stiff) / (cos * 2.0), -(stiff + drag) / (cos * 2.0)];
     let arms = [pushes[0] * sin / cos, -pushes[1] * sin / cos];
     // Of a blade at a phase from the middle of the corner; side `k` after group a.
@@ -385,8 +385,9 @@ pub fn lock_fold_speed<T: Number>(machine: &Machine<T>) -> Option<T> {
         return None;
     }
     let critical = machine.critical_speed()?;
-    let kappa = CornerAngle::of(machine).fold_kappa().filter(|_| machine.polygon.has_corners())?;
-    Some(critical * (-kappa + 1.0).sqrt())
+    let stiffness =
+        CornerAngle::of(machine).fold_stiffness().filter(|_| machine.polygon.has_corners())?;
+    Some(critical * (-stiffness + 1.0).sqrt())
 }
 
 #[cfg(test)]

@@ -51,7 +51,9 @@ pub use lining::{
 pub use locked::{
     LockLoads, Locked, LockedPoint, Sweep, lock_fold_speed, lock_loads, locked_motion,
 };
-pub use round_whirl::{RimLoads, RimWave, WhirlOnset, rim_waves, whirl_onset, whirl_onsets};
+pub use round_whirl::{
+    RoundWhirl, RoundWhirlLoads, WhirlOnset, round_whirls, whirl_onset, whirl_onsets,
+};
 pub use slip::{
     Crossing, NoSlip, SlipLimit, SlipOrbit, SlipPoint, SlipRegion, slip_limits, slip_map, slip_over,
 };

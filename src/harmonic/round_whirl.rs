@@ -22,7 +22,7 @@ use crate::tolerances::{
 
 /// A wave that blades and casing carry round together, for one unit of `|w|`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct RimWave {
+pub struct RoundWhirl {
     /// Casing frequency in the standing frame; negative turns backward \[rad/s\].
     pub omega_rad_s: f64,
     /// What the blades feel, `s = omega - nu`; negative where the contact passes
@@ -34,18 +34,18 @@ pub struct RimWave {
     pub casing_per_w: f64,
     /// Amplitude of the blades over that of `w`, `|a|/|w|` \[rad/m\].
     pub blades_per_w: f64,
-    /// Whether neighbouring motions on a rigid rim converge to it. Of a pair it is the
+    /// Whether neighbouring motions of rigid round contact converge to it. Of a pair it is the
     /// one of larger stiffness; the other is the threshold between it and rest.
     pub attracts: bool,
-    /// Growth of the least stable motion about it on a rigid rim, beside a mere shift of
+    /// Growth of the least stable motion about it of rigid round contact, beside a mere shift of
     /// the wave; below zero where it attracts \[1/s\].
     pub growth_per_s: f64,
 }
 
-/// Every whirl on the rim at one speed, by increasing stiffness. Empty where blades and
+/// Every round whirl at one speed, by increasing stiffness. Empty where blades and
 /// casing do not meet in one wave ([`Joint::has_one_wave`]), and where nothing is lost, so that any frequency would do.
 #[must_use]
-pub fn rim_waves(joint: &Joint) -> Vec<RimWave> {
+pub fn round_whirls(joint: &Joint) -> Vec<RoundWhirl> {
     let machine = joint.machine;
     if !Joint::has_one_wave(machine) {
         return Vec::new();
@@ -61,14 +61,14 @@ pub fn rim_waves(joint: &Joint) -> Vec<RimWave> {
     ];
     let roots = real_roots(&|from, to| scaled.imaginary(from, to), &breaks);
     let waves = roots.iter().filter_map(|root| scaled.wave(joint, root * machine.omega_c));
-    let mut waves: Vec<RimWave> = waves.collect();
+    let mut waves: Vec<RoundWhirl> = waves.collect();
     waves.sort_by(|a, b| a.stiffness_n_per_m.total_cmp(&b.stiffness_n_per_m));
     waves
 }
 
-/// What a wave on the rim takes and gives, where rigid contact holds `|w| = g0`.
+/// What a round whirl takes and gives, where rigid contact holds `|w| = g0`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct RimLoads {
+pub struct RoundWhirlLoads {
     /// Push of all blades \[N\].
     pub push_n: f64,
     /// Amplitude `|z|` of the casing \[m\].
@@ -83,19 +83,19 @@ pub struct RimLoads {
     pub friction_w: f64,
 }
 
-impl RimWave {
+impl RoundWhirl {
     /// Its loads at the clearance of the machine. Without friction the rotor gives the
     /// sum of the two dampers, of which the casing takes `omega/nu` and the blades
     /// `|s|/nu` (Manley and Rowe).
     #[must_use]
-    pub fn loads(&self, joint: &Joint) -> RimLoads {
+    pub fn loads(&self, joint: &Joint) -> RoundWhirlLoads {
         let machine = joint.machine;
         let clearance = machine.clearance();
         let push = self.stiffness_n_per_m * clearance;
         let (casing, blades) = (self.casing_per_w * clearance, self.blades_per_w * clearance);
         let radius = machine.blade_length + clearance;
         let sliding = joint.nu.abs() / machine.nodal_diameters * radius;
-        RimLoads {
+        RoundWhirlLoads {
             push_n: push,
             casing_m: casing,
             blade_rad: blades,
@@ -163,7 +163,7 @@ impl Scaled {
     }
 
     /// The wave of one root \[rad/s\], if it pushes.
-    fn wave(&self, joint: &Joint, omega: f64) -> Option<RimWave> {
+    fn wave(&self, joint: &Joint, omega: f64) -> Option<RoundWhirl> {
         let compliance = joint.compliance(omega);
         // At an undamped resonance both parts change their sign through infinity.
         let real = compliance.im.abs() <= REAL_COMPLIANCE * compliance.re.abs();
@@ -174,7 +174,7 @@ impl Scaled {
         let s = omega - joint.nu;
         let turned = Complex::new(1.0, joint.casing_friction);
         let growth = self.growth(joint, omega / joint.machine.omega_c)?;
-        Some(RimWave {
+        Some(RoundWhirl {
             omega_rad_s: omega,
             s_rad_s: s,
             stiffness_n_per_m: stiffness,
@@ -244,7 +244,7 @@ pub struct WhirlOnset {
     /// Whether the pair exists at larger speeds and not at smaller ones.
     pub appears: bool,
     /// One of the two waves, which are equal there.
-    pub wave: RimWave,
+    pub wave: RoundWhirl,
 }
 
 /// The slowest speed at which whirl begins for a rotor that turns in the sense of
@@ -291,7 +291,7 @@ pub fn whirl_onset<T: Number>(machine: &Machine<T>, toward: f64) -> Option<T> {
     Some(-(imaginary - imaginary.re()) / by_speed + onset.speed_rad_s)
 }
 
-/// Every fold of whirl on a rim for a rotor that turns in the sense of `toward`, from
+/// Every fold of round whirl for a rotor that turns in the sense of `toward`, from
 /// the slowest.
 #[must_use]
 pub fn whirl_onsets(machine: &Machine, toward: f64) -> Vec<WhirlOnset> {
@@ -302,7 +302,7 @@ pub fn whirl_onsets(machine: &Machine, toward: f64) -> Vec<WhirlOnset> {
 fn sought(machine: &Machine, toward: f64, first: bool) -> Vec<WhirlOnset> {
     let Some(dangerous) = machine.dangerous_speed() else { return Vec::new() };
     let sense = if toward < 0.0 { -1.0 } else { 1.0 };
-    let waves = |speed: f64| rim_waves(&Joint::at(machine, sense * speed));
+    let waves = |speed: f64| round_whirls(&Joint::at(machine, sense * speed));
     let mut found: Vec<WhirlOnset> = Vec::new();
     let mut low = dangerous / ONSET_FURTHEST;
     let mut at_low = waves(low);
@@ -333,10 +333,10 @@ fn sought(machine: &Machine, toward: f64, first: bool) -> Vec<WhirlOnset> {
 /// The speeds between two where the number of waves changes, with the waves a hair
 /// below and above: nearer, round-off takes the two of a fold for one or none.
 fn changes(
-    (low, mut before): (f64, Vec<RimWave>),
+    (low, mut before): (f64, Vec<RoundWhirl>),
     (high, last): (f64, usize),
-    waves: &impl Fn(f64) -> Vec<RimWave>,
-) -> Vec<(f64, Vec<RimWave>, Vec<RimWave>)> {
+    waves: &impl Fn(f64) -> Vec<RoundWhirl>,
+) -> Vec<(f64, Vec<RoundWhirl>, Vec<RoundWhirl>)> {
     let mut found = Vec::new();
     let mut start = low;
     while before.len() != last && found.len() < BRANCH_CHANGES {
@@ -351,8 +351,8 @@ fn changes(
 }
 
 /// Of all waves the stiffer of the two that are nearest to each other.
-fn closest(waves: &[RimWave]) -> Option<RimWave> {
-    let apart = |pair: &[RimWave]| match pair {
+fn closest(waves: &[RoundWhirl]) -> Option<RoundWhirl> {
+    let apart = |pair: &[RoundWhirl]| match pair {
         [one, other] => (one.omega_rad_s - other.omega_rad_s).abs(),
         _ => f64::INFINITY,
     };

@@ -64,7 +64,8 @@ impl Linearised {
         let mut damping = Matrix4::from_diagonal(&Vector4::new(casing, casing, blades, blades));
         damping[(0, 1)] = -whirl;
         damping[(1, 0)] = whirl;
-        let mut stiffness = Matrix4::from_diagonal(&Vector4::new(wave.kappa, wave.kappa, 1.0, 1.0));
+        let mut stiffness =
+            Matrix4::from_diagonal(&Vector4::new(wave.stiffness, wave.stiffness, 1.0, 1.0));
         stiffness[(0, 1)] = -wave.drag;
         stiffness[(1, 0)] = wave.drag;
         let softness = blade_scale(machine);

@@ -388,3 +388,59 @@ fn end_of_the_way(place: Place) -> Option<(f64, BranchEnd)> {
         None
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::CheckedScene;
+
+    fn scene(name: &str) -> CheckedScene {
+        let lining = [
+            ("solver.contact", "smooth"),
+            ("contact.stiffness_n_per_m", "1e7"),
+            ("contact.smoothing_m", "1e-6"),
+        ];
+        Scene::builtin(name).unwrap().with(&lining).unwrap()
+    }
+
+    fn special(branch: &FollowedBranch, special: Special) -> Vec<f64> {
+        let those = branch.points.iter().filter(|point| point.special == Some(special));
+        those.map(|point| point.parameter).collect()
+    }
+
+    #[test]
+    fn a_branch_turns_back_in_its_fold_and_all_of_it_are_steady_states() {
+        let scene = scene("paper-nd4");
+        let branch = follow(&scene, "operation.speed_rad_s", [500.0, 280.0]).unwrap();
+        assert_eq!(branch.end, BranchEnd::Returned);
+        let ends = [branch.points.first(), branch.points.last()];
+        assert_eq!(ends.map(|point| point.unwrap().parameter), [500.0, 500.0]);
+        let [fold] = special(&branch, Special::Fold)[..] else { panic!("{branch:?}") };
+        // The fold is the extreme of the parameter, far below what a step changes it by.
+        assert!(branch.points.iter().all(|point| point.parameter > fold - 1e-9));
+        let machine = scene.machine();
+        let lining = Lining::of(&machine, &scene.contact).unwrap();
+        let mut seen = 0;
+        for point in branch.points.iter().filter(|point| point.parameter > fold + 1.0) {
+            let alike = |state: &LiningState| {
+                state.pushing == point.state.pushing
+                    && (state.casing_m / point.state.casing_m - 1.0).abs() < 1e-8
+            };
+            seen += usize::from(lining.states(point.parameter).unwrap().iter().any(alike));
+        }
+        assert!(seen > 20, "{seen} of {}", branch.points.len());
+    }
+
+    #[test]
+    fn rest_loses_its_stability_where_it_begins_to_grow() {
+        let scene = scene("coincidence");
+        let branch = follow(&scene, "operation.speed_rad_s", [500.0, 280.0]).unwrap();
+        assert_eq!(branch.end, BranchEnd::Reached);
+        let [hopf] = special(&branch, Special::Hopf)[..] else { panic!("{branch:?}") };
+        let machine = scene.machine();
+        let points = Lining::of(&machine, &scene.contact).unwrap().hopf_points([280.0, 500.0]);
+        let near = |speed: f64| (speed / hopf - 1.0).abs() < 1e-6;
+        assert!(points.unwrap().iter().any(|point| near(point.speed_rad_s)), "{hopf}");
+        assert_eq!(branch.points.last().unwrap().parameter, 280.0);
+    }
+}

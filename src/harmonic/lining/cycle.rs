@@ -3,7 +3,7 @@
 //! lining (docs/theory.md, section 10).
 //!
 //! `S(r) = -1/Re B(omega)`, `Im B(omega) = 0`: the blades together must be as stiff as
-//! the joint asks. The frequency is that of a round rim of many blades, so the wave is steady
+//! the joint asks. The frequency is that of so many blades that they are round, so the wave is steady
 //! in a frame that turns with it, and its stability needs only eigenvalues there: of eight
 //! real states, casing and blade wave with their rates. With `z -> z e^{ist}` every time
 //! derivative becomes `d/dt + i omega` for the casing and `d/dt + i s` for the blades; a
@@ -14,7 +14,7 @@ use serde::Serialize;
 
 use super::Lining;
 use super::rest::Quartic;
-use crate::harmonic::{HarmonicError, Joint, RimWave, rim_waves};
+use crate::harmonic::{HarmonicError, Joint, RoundWhirl, round_whirls};
 use crate::numeric::eigen::eigenvalues;
 
 /// A wave of constant amplitude.
@@ -63,7 +63,7 @@ impl Lining<'_> {
     pub fn cycles(&self, speed: f64) -> Result<Vec<Cycle>, HarmonicError> {
         let joint = Joint::at(self.machine, speed);
         let mut found = Vec::new();
-        for wave in rim_waves(&joint) {
+        for wave in round_whirls(&joint) {
             for r in self.amplitudes(wave.stiffness_n_per_m) {
                 found.push(self.cycle(&joint, speed, &wave, r)?);
             }
@@ -76,7 +76,7 @@ impl Lining<'_> {
         &self,
         joint: &Joint,
         speed: f64,
-        wave: &RimWave,
+        wave: &RoundWhirl,
         r: f64,
     ) -> Result<Cycle, HarmonicError> {
         let stiffness = wave.stiffness_n_per_m;

@@ -90,7 +90,7 @@ impl<'a> Lining<'a> {
     }
 
     /// Stiffness `S(r)` of all blades against a wave of amplitude `r > 0` in the gaps,
-    /// on a rim with many blades \[N/m\].
+    /// of many blades \[N/m\].
     #[must_use]
     pub fn stiffness_of_wave(&self, r: f64) -> f64 {
         let depth = self.preload_m() / r;

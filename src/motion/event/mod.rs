@@ -11,5 +11,5 @@ mod exact;
 mod linear;
 mod series;
 
-pub use exact::Event;
-pub use linear::Joined;
+pub use exact::ExactEvents;
+pub use linear::LinearEvents;

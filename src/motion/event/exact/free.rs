@@ -21,7 +21,7 @@ const NEAREST: u32 = 7;
 
 /// A side that the flight leaves with neither gap nor rate.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Leaving {
+pub(super) struct OpenedSide {
     pub side: u32,
     /// Second derivative of its gap \[m/s^2\], zero or more.
     pub bend: f64,
@@ -36,7 +36,7 @@ pub(super) struct Free {
     pub rate: Plane,
     /// Blades at the start.
     pub tips: Tips,
-    pub leaving: [Option<Leaving>; 2],
+    pub opened: [Option<OpenedSide>; 2],
 }
 
 /// Second and third derivative of a flight in the standing frame, ready to be seen
@@ -98,7 +98,7 @@ pub(super) fn dot(a: Plane, direction: Plane) -> f64 {
 
 impl Free {
     pub(super) fn new(place: Plane, rate: Plane, tips: Tips) -> Self {
-        Self { place, rate, tips, leaving: [None; 2] }
+        Self { place, rate, tips, opened: [None; 2] }
     }
 
     /// The blades, `s` seconds on.
@@ -276,9 +276,9 @@ impl Free {
                 closing = dot(rate - Plane::i() * z * spin, normal);
             }
             let gap = parameters.clearance + dot(z, normal);
-            let leaving = self.leaving.iter().flatten().find(|leaving| leaving.side == side);
-            let safe = match leaving {
-                Some(leaving) if s == 0.0 => leaving_step(leaving.bend, leaving.twist, jounce),
+            let opened = self.opened.iter().flatten().find(|opened| opened.side == side);
+            let safe = match opened {
+                Some(opened) if s == 0.0 => leaving_step(opened.bend, opened.twist, jounce),
                 _ if gap <= noise && closing < 0.0 => return Err(Ending::Touch(side)),
                 _ if gap + stride * (closing - 0.5 * bend * stride) > 0.0 && gap > 0.0 => stride,
                 _ => {

@@ -6,13 +6,13 @@
 //! ratio; of a corner it opens the other side by `cos 2 tau + ratio y_a y_b cos 2 delta`,
 //! `tau` half the angle between the two.
 
-use super::Event;
+use super::ExactEvents;
 use super::mode::Mode;
 use super::parameters::Parameters;
 use crate::motion::{ActiveSet, Plane};
 use crate::tolerances::{AT_A_CORNER, ROUND_OFF, SOFT_TOUCH};
 
-impl Event {
+impl ExactEvents {
     /// A side is met at a place and rate that the rotor sees.
     pub(super) fn touch(&mut self, side: u32, place: Plane, rate: Plane) {
         let parameters = &self.parameters;
@@ -135,7 +135,7 @@ pub(super) struct CornerContact {
     determinant: f64,
 }
 
-impl Event {
+impl ExactEvents {
     /// The corner of `a` and the next side now.
     pub(super) fn corner_contact(&self, a: u32) -> CornerContact {
         let parameters = &self.parameters;

@@ -38,15 +38,15 @@ use transitions::Passage;
 /// The event-driven solver of one scene, at some instant of its motion.
 ///
 /// ```
-/// use rubscope::{motion::{Event, Solver}, scene::Scene};
-/// let mut motion = Event::new(&Scene::base().checked()?)?;
+/// use rubscope::{motion::{ExactEvents, Solver}, scene::Scene};
+/// let mut motion = ExactEvents::new(&Scene::base().checked()?)?;
 /// motion.advance(0.1)?;
 /// assert!(motion.over());
 /// assert_eq!(motion.contacts().impact_count, 2);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Event {
+pub struct ExactEvents {
     parameters: Parameters,
     rotor: Rotor,
     pulse: Pulse,
@@ -74,7 +74,7 @@ pub struct Event {
     tables: Option<Box<rocking::Tables>>,
 }
 
-impl Event {
+impl ExactEvents {
     /// The motion of a scene at t = 0, whichever solver the scene names.
     ///
     /// # Errors
@@ -157,7 +157,7 @@ impl Event {
     }
 }
 
-impl Solver for Event {
+impl Solver for ExactEvents {
     fn advance_while(&mut self, until: f64, go_on: GoOn<'_>) -> Result<bool, Failure> {
         loop {
             match self.change(until, go_on)? {
@@ -307,7 +307,7 @@ mod tests {
     fn a_motion_without_checks_is_the_same_to_the_bit() {
         for name in ["slip", "rocking", "undamped", "run-down"] {
             let scene = Scene::builtin(name).unwrap().as_reference().checked().unwrap();
-            let mut full = Event::new(&scene).unwrap();
+            let mut full = ExactEvents::new(&scene).unwrap();
             let mut bare = full.clone();
             bare.forgo_checks();
             for k in 1..=10 {
@@ -326,7 +326,7 @@ mod tests {
         let mut scene = Scene::builtin("undamped").unwrap().as_reference();
         // Hours of bouncing.
         scene.solver.end_s = 1e6;
-        let mut event = Event::new(&scene.checked().unwrap()).unwrap();
+        let mut event = ExactEvents::new(&scene.checked().unwrap()).unwrap();
         event.all_looks = MOST_LOOKS - 100;
         let mut other = event.clone();
         (other.all_looks, other.events) = (0, MOST_EVENTS - 10);

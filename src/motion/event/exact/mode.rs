@@ -14,7 +14,7 @@ use super::free::Free;
 use super::locked::{self, CornerSeries};
 use super::parameters::{Parameters, Tips};
 use super::slide::{Along, SideSeries, Slide};
-use super::{Event, rocking};
+use super::{ExactEvents, rocking};
 use crate::motion::event::dissipation::damped;
 use crate::motion::{ActiveSet, Failure, FailureReason, Plane};
 use crate::numeric::bisection::bisected;
@@ -334,7 +334,7 @@ impl Mode {
     }
 }
 
-impl Event {
+impl ExactEvents {
     /// Fails a motion whose blades go beyond small angles in the first `s` seconds
     /// of the segment, at the instant they do.
     ///

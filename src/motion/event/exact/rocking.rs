@@ -4,9 +4,9 @@
 //! Next to a corner the casing leaves along one side with speed `v`, is pulled
 //! back by the acceleration `A` of that side, and crosses to the other side,
 //! which keeps the fraction `cos 2 delta` of its speed. Both sides obey
-//! `x'' + 2 c x' + kappa x = -A`, so an excursion takes the time `tau(v/A)` and
+//! `x'' + 2 c x' + stiffness x = -A`, so an excursion takes the time `tau(v/A)` and
 //! comes back with the speed `A R(v/A)`, where `tau` and `R` are power series
-//! that depend on `c` and `kappa` alone. The time left to the limit obeys
+//! that depend on `c` and `stiffness` alone. The time left to the limit obeys
 //! `T_a(v) = tau + T_b(cos 2 delta A_a R)`, and likewise from `b`: solved order
 //! by order, it is the geometric series with its corrections.
 //!
@@ -160,14 +160,14 @@ struct Sums {
 
 impl Tables {
     /// Those kept from before, or new ones where damping or stiffness are others.
-    fn of(kept: &mut Option<Box<Self>>, c: f64, kappa: f64) -> &Self {
-        let old = kept.take().filter(|tables| tables.equation == [c, kappa]);
-        kept.insert(old.unwrap_or_else(|| Box::new(Self::new(c, kappa))))
+    fn of(kept: &mut Option<Box<Self>>, c: f64, stiffness: f64) -> &Self {
+        let old = kept.take().filter(|tables| tables.equation == [c, stiffness]);
+        kept.insert(old.unwrap_or_else(|| Box::new(Self::new(c, stiffness))))
     }
 
-    fn new(c: f64, kappa: f64) -> Self {
-        let (duration, back) = excursion(c, kappa);
-        Self { equation: [c, kappa], duration, powers: powers(&back) }
+    fn new(c: f64, stiffness: f64) -> Self {
+        let (duration, back) = excursion(c, stiffness);
+        Self { equation: [c, stiffness], duration, powers: powers(&back) }
     }
 
     fn sums(&self, cos: f64, pulls: [f64; 2]) -> Sums {
@@ -208,13 +208,14 @@ fn accumulate(
 
 /// Duration and return speed (over `A`) of an excursion that starts with the
 /// speed `A x`, as series in `x`.
-fn excursion(c: f64, kappa: f64) -> (PowerSeries, PowerSeries) {
+fn excursion(c: f64, stiffness: f64) -> (PowerSeries, PowerSeries) {
     // unit = sum a_n s^n with a_1 = 1, ramp its integral; x = ramp/unit.
     let mut unit = [0.0; ORDERS + 2];
     unit[1] = 1.0;
     for n in 1..=ORDERS {
         let order = n as f64;
-        unit[n + 1] = -(2.0 * c * order * unit[n] + kappa * unit[n - 1]) / (order * (order + 1.0));
+        unit[n + 1] =
+            -(2.0 * c * order * unit[n] + stiffness * unit[n - 1]) / (order * (order + 1.0));
     }
     // Coefficients e_n of ramp/unit: sum_k e_k unit_{n+1-k} = ramp_{n+1}.
     let mut ratio = [0.0; ORDERS + 1];
@@ -278,15 +279,15 @@ mod tests {
 
     #[test]
     fn one_excursion_and_the_sum_of_all_agree_with_stepping() {
-        let (c, kappa) = (44.0, -1.5e6);
-        let propagator = Propagator::new(c, kappa);
-        let (duration, back) = excursion(c, kappa);
+        let (c, stiffness) = (44.0, -1.5e6);
+        let propagator = Propagator::new(c, stiffness);
+        let (duration, back) = excursion(c, stiffness);
         let pulls = [20.0, 55.0];
         let cos = (std::f64::consts::PI / 5.5).cos();
         let mut kept = None;
         // Tables of another speed are not used again.
-        let _ = Tables::of(&mut kept, c, 0.9 * kappa);
-        let sums = Tables::of(&mut kept, c, kappa).sums(cos, pulls);
+        let _ = Tables::of(&mut kept, c, 0.9 * stiffness);
+        let sums = Tables::of(&mut kept, c, stiffness).sums(cos, pulls);
         let start = 4e-6;
         let (time, speed) = stepped(&propagator, 1.0, start);
         assert!((value(&duration, start) / time - 1.0).abs() < 1e-13);

@@ -158,16 +158,16 @@ impl Slide {
     /// Integrals over the first `s` seconds, of the Taylor series about the middle of
     /// panels so short that it ends in round-off.
     fn moments(&self, s: f64) -> Moments {
-        let (kappa, c) = (self.propagator.stiffness, self.propagator.damping);
+        let (stiffness, c) = (self.propagator.stiffness, self.propagator.damping);
         let panels = (0.5 * self.fastest() * s).ceil().clamp(1.0, MOST_PANELS);
         let half = 0.5 * s / panels;
-        let (drag, spring) = (2.0 * c * half, kappa * half * half);
+        let (drag, spring) = (2.0 * c * half, stiffness * half * half);
         let size = self.fastest() * half;
         let mut sums = Moments::default();
         let mut panel = 0.0;
         while panel < panels {
             let (displacement, rate) = self.moved((2.0 * panel + 1.0) * half);
-            let bend = (self.pull - kappa * displacement - 2.0 * c * rate) * half * half;
+            let bend = (self.pull - stiffness * displacement - 2.0 * c * rate) * half * half;
             // Even and odd terms apart: nodes come in pairs of both signs.
             let mut terms = [[0.0; 2]; PANEL_TERMS];
             terms[0] = [self.y + displacement, rate * half];
@@ -199,11 +199,11 @@ impl Slide {
     /// Looks ahead from `s`, before which nothing happens.
     pub(super) fn look(&self, parameters: &Parameters, s: f64) -> Next {
         let (displacement, rate) = self.moved(s);
-        let (kappa, c, nu) =
+        let (stiffness, c, nu) =
             (self.propagator.stiffness, self.propagator.damping, parameters.drive.nu);
-        let pull = self.pull - kappa * displacement;
+        let pull = self.pull - stiffness * displacement;
         let acceleration = pull - 2.0 * c * rate;
-        let third = -2.0 * c * acceleration - kappa * rate;
+        let third = -2.0 * c * acceleration - stiffness * rate;
         // The acceleration from here on obeys the equation without forcing. Each
         // derivative costs a factor `fastest`, and the time ahead exp(fastest t).
         let fastest = self.fastest();
@@ -234,7 +234,7 @@ impl Slide {
         if push <= noise && push_rate < 0.0 {
             return Next::Now(Ending::Release);
         }
-        let fourth = -2.0 * c * third - kappa * acceleration;
+        let fourth = -2.0 * c * third - stiffness * acceleration;
         let now = Gap {
             gap: push,
             rate: push_rate,

@@ -12,13 +12,13 @@
 
 use std::f64::consts::TAU;
 
-use super::free::{Free, Leaving};
+use super::free::{Free, OpenedSide};
 use super::impact::CornerContact;
 use super::locked::CornerSeries;
 use super::mode::{Ending, Mode, Next};
 use super::parameters::Drive;
 use super::slide::{From, SideSeries, Slide};
-use super::{Event, locked, rocking};
+use super::{ExactEvents, locked, rocking};
 use crate::motion::{ActiveSet, Failure, FailureReason, GoOn, Plane};
 use crate::tolerances::{
     AN_INSTANT, BRIEF_ROCKING, LOOKS_UNASKED, MOST_EVENTS, MOST_EVENTS_AT_ONCE, MOST_LOOKS,
@@ -28,7 +28,7 @@ use crate::tolerances::{
 /// What a search for the event that ends a segment comes to.
 enum Sought {
     /// This event, so many seconds after its start.
-    Event(f64, Ending),
+    Found(f64, Ending),
     /// None by the limit.
     Nothing,
     /// It was told not to go on.
@@ -46,7 +46,7 @@ pub(super) enum Passage {
     Paused,
 }
 
-impl Event {
+impl ExactEvents {
     /// Seconds from the start of the segment to `t`.
     pub(super) fn elapsed(&self, t: f64) -> f64 {
         self.clock.elapsed(t)
@@ -58,7 +58,7 @@ impl Event {
             return Err(failure.clone());
         }
         let (s, what) = match self.seek(self.elapsed(until), go_on) {
-            Sought::Event(s, what) => (s, what),
+            Sought::Found(s, what) => (s, what),
             Sought::Nothing => return self.failure.clone().map_or(Ok(Passage::Later), Err),
             Sought::Paused => return Ok(Passage::Paused),
         };
@@ -116,7 +116,7 @@ impl Event {
         let end = pulse_end.min(series_end);
         loop {
             if let Some((s, what)) = self.found {
-                return if s <= limit { Sought::Event(s, what) } else { Sought::Nothing };
+                return if s <= limit { Sought::Found(s, what) } else { Sought::Nothing };
             }
             if self.safe > limit {
                 return Sought::Nothing;
@@ -227,7 +227,7 @@ impl Event {
     }
 }
 
-impl Event {
+impl ExactEvents {
     /// The first mode, from the initial state.
     pub(super) fn begin(&mut self, place: Plane, rate: Plane) {
         let polygon = &self.parameters.machine.polygon;
@@ -455,9 +455,9 @@ impl Event {
         let Some(&first) = sides.first() else { return };
         let flight = self.flight(self.on_side(first, y), rate);
         let mut free = flight;
-        for (slot, &side) in free.leaving.iter_mut().zip(sides) {
+        for (slot, &side) in free.opened.iter_mut().zip(sides) {
             let (bend, twist) = flight.curvature(&self.parameters, side);
-            *slot = Some(Leaving { side, bend: bend.max(0.0), twist });
+            *slot = Some(OpenedSide { side, bend: bend.max(0.0), twist });
         }
         self.enter(Mode::Free(free));
     }

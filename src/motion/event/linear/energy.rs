@@ -7,7 +7,7 @@
 
 use std::f64::consts::TAU;
 
-use super::Joined;
+use super::LinearEvents;
 use super::parameters::{Parameters, Point};
 use super::stretch::{Held, Stretch};
 use crate::motion::event::dissipation::damped;
@@ -18,7 +18,7 @@ use crate::tolerances::LARGEST_BLADE_ANGLE;
 
 /// Energies per unit casing mass \[m^2/s^2\].
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Ledger {
+pub(super) struct Energies {
     /// Kinetic and potential energy at the start.
     pub start: f64,
     /// Work of the pulse.
@@ -37,7 +37,7 @@ pub(super) struct Ledger {
     pub impacts: f64,
 }
 
-impl Ledger {
+impl Energies {
     /// What is missing from the balance at a state of this energy.
     pub(super) fn residual(&self, energy: f64) -> f64 {
         let lost = self.casing + self.blades + self.impacts;
@@ -158,7 +158,7 @@ impl Swings {
     }
 }
 
-impl Joined {
+impl LinearEvents {
     /// Fails a motion that has grown beyond what the model describes.
     pub(super) fn check_growth(&mut self, s: f64, point: &Point) {
         let parameters = &self.parameters;

@@ -25,49 +25,49 @@ use std::sync::OnceLock;
 use super::clock::Clock;
 use crate::model::Machine;
 use crate::motion::{
-    Checks, ContactLog, EnergyLedger, Failure, FailureReason, GoOn, Plane, Pulse, Rotor, Solver,
+    Checks, ContactLog, EnergyAccount, Failure, FailureReason, GoOn, Plane, Pulse, Rotor, Solver,
     State, Verdict, in_phase_order,
 };
 use crate::scene::CheckedScene;
 use crate::tolerances::{EVENT_RANGE, LOOKS_UNASKED, ON_A_SIDE};
 use decided::Rest;
 
-use energy::{Ledger, Swings};
+use energy::{Energies, Swings};
 use parameters::{Parameters, Point};
 
-use stretch::{Held, Loose, Stretch, What};
+use stretch::{Ending, Held, OpenedGap, Stretch};
 
 /// The event-driven solver of one scene that goes beyond the paper's model, at some
 /// instant of its motion.
 ///
 /// ```
-/// use rubscope::{motion::{Joined, Solver, Verdict}, scene::Scene};
+/// use rubscope::{motion::{LinearEvents, Solver, Verdict}, scene::Scene};
 /// let scene = Scene::base().with(&[
 ///     ("solver.kind", "event"),
 ///     ("bladed_disk.radial_coupling", "0.3"),
 ///     ("operation.speed_rad_s", "450"),
 ///     ("operation.pulse_n", "1e5"),
 /// ])?;
-/// let mut motion = Joined::new(&scene);
+/// let mut motion = LinearEvents::new(&scene);
 /// motion.advance(3e-3)?;
 /// assert_eq!(motion.contacts().impact_count, 13);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Joined {
+pub struct LinearEvents {
     parameters: Parameters,
     rotor: Rotor,
     pulse: Pulse,
     log: ContactLog,
-    ledger: Ledger,
+    energies: Energies,
     clock: Clock,
     /// `n_d theta` at the start, modulo a turn \[rad\].
     phase: f64,
     held: Held,
-    loose: Vec<Loose>,
+    opened: Vec<OpenedGap>,
     stretch: Stretch,
     /// The event that ends the stretch, and when \[s after its start\].
-    next: (f64, What),
+    next: (f64, Ending),
     /// What is known for good of the rows that are held, once asked.
     rest: OnceLock<Option<Rest>>,
     swings: Swings,
@@ -81,7 +81,7 @@ pub struct Joined {
     failure: Option<Failure>,
 }
 
-impl Joined {
+impl LinearEvents {
     /// The motion of a scene at t = 0 by the linearised equations, whether the scene
     /// goes beyond the paper's model or not. Law and size must be ones that the event
     /// solvers know (`CheckedScene::suits_events`), and the speed constant.
@@ -96,17 +96,17 @@ impl Joined {
     }
 
     fn from_point(scene: &CheckedScene, parameters: Parameters, point: Point) -> Self {
-        let mut joined = Self {
+        let mut motion = Self {
             rotor: Rotor::of(scene),
             pulse: Pulse::of(scene),
             log: ContactLog::default(),
-            ledger: Ledger { start: parameters.energy(&point), ..Ledger::default() },
+            energies: Energies { start: parameters.energy(&point), ..Energies::default() },
             clock: Clock::default(),
             phase: 0.0,
             held: Held::default(),
-            loose: Vec::new(),
+            opened: Vec::new(),
             stretch: Stretch::to_the_end(point),
-            next: (f64::INFINITY, What::StretchEnd),
+            next: (f64::INFINITY, Ending::StretchEnd),
             rest: OnceLock::new(),
             swings: Swings::new(&parameters, scene.solver.end_s),
             events: 0,
@@ -118,8 +118,8 @@ impl Joined {
             failure: None,
             parameters,
         };
-        joined.begin(point);
-        joined
+        motion.begin(point);
+        motion
     }
 
     /// The first stretch.
@@ -150,11 +150,11 @@ impl Joined {
         self.swings.largest().max(self.point_now().a.norm())
     }
 
-    /// The ledger until now.
-    fn ledger_now(&self) -> Ledger {
-        let mut ledger = self.ledger;
-        ledger.book(&self.parameters, &self.held, &self.stretch, self.elapsed(self.clock.now));
-        ledger
+    /// The energies until now.
+    fn energies_now(&self) -> Energies {
+        let mut energies = self.energies;
+        energies.book(&self.parameters, &self.held, &self.stretch, self.elapsed(self.clock.now));
+        energies
     }
 
     /// Where the motion is now.
@@ -163,7 +163,7 @@ impl Joined {
     }
 }
 
-impl Solver for Joined {
+impl Solver for LinearEvents {
     fn advance_while(&mut self, until: f64, go_on: GoOn<'_>) -> Result<bool, Failure> {
         loop {
             if let Some(failure) = &self.failure {
@@ -284,7 +284,7 @@ impl Solver for Joined {
 
     fn checks(&self) -> Checks {
         let (s, parameters) = (self.elapsed(self.clock.now), &self.parameters);
-        let residual = self.ledger_now().residual(parameters.energy(&self.point_now()));
+        let residual = self.energies_now().residual(parameters.energy(&self.point_now()));
         Checks {
             max_penetration_m: self.deepest,
             max_blade_angle_rad: self.widest_until(s),
@@ -293,18 +293,18 @@ impl Solver for Joined {
         }
     }
 
-    fn energy_ledger(&self) -> Option<EnergyLedger> {
+    fn energy_account(&self) -> Option<EnergyAccount> {
         let mass = self.parameters.machine.casing_mass;
-        let ledger = self.checked.then(|| self.ledger_now())?;
-        let stored = self.parameters.energy(&self.point_now()) - ledger.start;
-        Some(EnergyLedger {
-            pulse_work_j: mass * ledger.pulse,
+        let energies = self.checked.then(|| self.energies_now())?;
+        let stored = self.parameters.energy(&self.point_now()) - energies.start;
+        Some(EnergyAccount {
+            pulse_work_j: mass * energies.pulse,
             // Against friction it works on a casing at rest too: that part is all heat.
-            rotor_work_j: mass * (ledger.rotor + ledger.sliding),
-            casing_loss_j: mass * ledger.casing,
-            blade_loss_j: mass * ledger.blades,
-            friction_heat_j: mass * (ledger.sliding - ledger.dragged),
-            impact_loss_j: mass * ledger.impacts,
+            rotor_work_j: mass * (energies.rotor + energies.sliding),
+            casing_loss_j: mass * energies.casing,
+            blade_loss_j: mass * energies.blades,
+            friction_heat_j: mass * (energies.sliding - energies.dragged),
+            impact_loss_j: mass * energies.impacts,
             stored_j: mass * stored,
         })
     }
@@ -316,18 +316,18 @@ impl Solver for Joined {
     fn fire(&mut self) {
         let length = self.pulse.end - self.pulse.start;
         self.swings.forget();
-        self.intervene(|joined, _| {
-            let now = joined.clock.now;
-            joined.pulse = Pulse { start: now, end: now + length, ..joined.pulse };
+        self.intervene(|motion, _| {
+            let now = motion.clock.now;
+            motion.pulse = Pulse { start: now, end: now + length, ..motion.pulse };
         });
     }
 
     /// A ramp is none of this solver's: it fails there.
     fn set_speed(&mut self, speed: f64, ramp: f64) {
         self.swings.forget();
-        self.intervene(|joined, _| {
-            joined.rotor.change(joined.clock.now, speed, ramp);
-            joined.parameters.turn_at(speed);
+        self.intervene(|motion, _| {
+            motion.rotor.change(motion.clock.now, speed, ramp);
+            motion.parameters.turn_at(speed);
         });
         if ramp != 0.0 {
             self.fail(0.0, FailureReason::Ramp);
@@ -338,10 +338,10 @@ impl Solver for Joined {
         if self.over() || self.held.rows.len() > 1 {
             return;
         }
-        self.intervene(|joined, point| {
-            let side = joined.held.rows.first().and_then(|&row| joined.parameters.rows.get(row));
+        self.intervene(|motion, point| {
+            let side = motion.held.rows.first().and_then(|&row| motion.parameters.rows.get(row));
             let free = match side {
-                None => joined.parameters.carried(point),
+                None => motion.parameters.carried(point),
                 Some(side) => {
                     let along = Plane::i() * side.casing;
                     along * (along.conj() * point.dz).re
@@ -391,7 +391,7 @@ mod tests {
     }
 
     /// Locked in the corner of sides 0 and 1: the closed form, from the joint compliance.
-    fn locked(scene: &CheckedScene) -> Joined {
+    fn locked(scene: &CheckedScene) -> LinearEvents {
         let parameters = Parameters::new(scene);
         let (machine, nu) = (&parameters.machine, parameters.nu);
         let delta = machine.polygon.delta;
@@ -402,7 +402,7 @@ mod tests {
         let push = -Plane::cis(delta) * machine.clearance() / (compliance * delta.cos());
         let slope = machine.radial_coupling + parameters.friction;
         let (z, a) = (casing * push, -push * (slope * machine.blade_length / bending));
-        Joined::from_point(scene, parameters, Point { z, a, ..Point::default() })
+        LinearEvents::from_point(scene, parameters, Point { z, a, ..Point::default() })
     }
 
     #[test]
@@ -472,7 +472,7 @@ mod tests {
             let size = if k == 0 { 0.0 } else { 1e-6 * 1.08_f64.powi(k) };
             let da = Plane::cis(f64::from(k)) * size;
             let point = Point { da, dz: da * calm.parameters.arm(), ..from };
-            let mut motion = Joined::from_point(&scene, calm.parameters.clone(), point);
+            let mut motion = LinearEvents::from_point(&scene, calm.parameters.clone(), point);
             if motion.final_verdict() == Some(Verdict::Locked) {
                 proven += 1;
                 motion.advance(0.5).unwrap();
@@ -495,7 +495,7 @@ mod tests {
 
     #[test]
     fn a_ramp_is_refused_by_name() {
-        let mut motion = Joined::new(&scene(&keys([0.1, 0.0, 0.0, 500.0])));
+        let mut motion = LinearEvents::new(&scene(&keys([0.1, 0.0, 0.0, 500.0])));
         motion.set_speed(480.0, 10.0);
         assert_eq!(motion.advance(0.1).unwrap_err().reason, FailureReason::Ramp);
         assert_eq!(motion.final_verdict(), Some(Verdict::Failed));

@@ -297,7 +297,7 @@ impl Stretch {
 
 /// What ends a stretch.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum What {
+pub(super) enum Ending {
     /// A row touches with this rate, zero or less \[m/s\].
     Touch(usize, f64),
     /// The push of a row vanishes.
@@ -308,7 +308,7 @@ pub(super) enum What {
 
 /// A gap that has just opened, with digits of its own.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Loose {
+pub(super) struct OpenedGap {
     pub row: usize,
     /// \[m\]
     pub gap: f64,
@@ -318,7 +318,7 @@ pub(super) struct Loose {
     pub released: bool,
 }
 
-impl Loose {
+impl OpenedGap {
     /// Its gap over the stretch, in powers of the part of it.
     fn terms(&self, parameters: &Parameters, stretch: &Stretch) -> Terms {
         let mut terms = stretch.gap(parameters, self.row);
@@ -381,31 +381,31 @@ pub(super) fn seek(
     parameters: &Parameters,
     stretch: &Stretch,
     held: &Held,
-    loose: &[Loose],
-) -> (f64, What) {
-    let (mut end, mut what) = (1.0, What::StretchEnd);
+    opened: &[OpenedGap],
+) -> (f64, Ending) {
+    let (mut end, mut what) = (1.0, Ending::StretchEnd);
     for (&row, terms) in held.rows.iter().zip(&stretch.pushes) {
         if let Some(x) = vanishes(stretch, terms, parameters.tolerance, end) {
-            (end, what) = (x, What::Release(row));
+            (end, what) = (x, Ending::Release(row));
         }
     }
-    for gap in loose {
+    for gap in opened {
         let (order, left) = without_zeros(&gap.terms(parameters, stretch));
         if left[0] < 0.0 {
-            return (0.0, What::Touch(gap.row, gap.rate.min(0.0)));
+            return (0.0, Ending::Touch(gap.row, gap.rate.min(0.0)));
         }
         let noise = parameters.tolerance.max(EVENT) * left[0];
         if let Some(x) = first_zero(&left, noise, end) {
             // At the zero itself only the slope of what is left counts.
             let slope = values(&left, x)[1] * x.powi(i32::try_from(order).unwrap_or(0));
-            (end, what) = (x, What::Touch(gap.row, (slope / stretch.length).min(0.0)));
+            (end, what) = (x, Ending::Touch(gap.row, (slope / stretch.length).min(0.0)));
         }
     }
     let [travel, reach] = stretch.travel(parameters);
     let g0 = parameters.clearance();
     if reach + travel >= g0 {
         let noise = parameters.tolerance * (g0 + reach + travel);
-        let open = |row: &usize| !held.rows.contains(row) && loose.iter().all(|l| l.row != *row);
+        let open = |row: &usize| !held.rows.contains(row) && opened.iter().all(|l| l.row != *row);
         for row in (0..parameters.rows.len()).filter(open) {
             if parameters.gap(row, stretch.from()) > travel + noise {
                 continue;
@@ -413,7 +413,7 @@ pub(super) fn seek(
             let terms = stretch.gap(parameters, row);
             if let Some(x) = first_zero(&terms, noise, end) {
                 let rate = values(&terms, x)[1] / stretch.length;
-                (end, what) = (x, What::Touch(row, rate.min(0.0)));
+                (end, what) = (x, Ending::Touch(row, rate.min(0.0)));
             }
         }
     }

@@ -8,9 +8,9 @@
 
 use std::f64::consts::TAU;
 
-use super::Joined;
+use super::LinearEvents;
 use super::parameters::Point;
-use super::stretch::{Held, Loose, Stretch, What, seek};
+use super::stretch::{Ending, Held, OpenedGap, Stretch, seek};
 use crate::motion::{ActiveSet, Failure, FailureReason, Plane};
 use crate::numeric::elimination::inverse;
 use crate::tolerances::{
@@ -18,7 +18,7 @@ use crate::tolerances::{
     MOST_HELD, MOST_JOINED, MOST_LOOKS, ROUND_OFF, SOFT_TOUCH,
 };
 
-impl Joined {
+impl LinearEvents {
     /// Seconds from the start of the stretch to `t`.
     pub(super) fn elapsed(&self, t: f64) -> f64 {
         self.clock.elapsed(t)
@@ -29,7 +29,7 @@ impl Joined {
         let t_s = self.clock.start() + s;
         self.clock.arrive(t_s);
         self.failure.get_or_insert(Failure { t_s, reason });
-        self.next = (f64::INFINITY, What::StretchEnd);
+        self.next = (f64::INFINITY, Ending::StretchEnd);
     }
 
     /// Whether the pulse acts from the start of the stretch on, for more than an
@@ -67,8 +67,8 @@ impl Joined {
         let gaps = self.held.rows.is_empty() && !pulses;
         if gaps && parameters.swing(&point) < parameters.clearance() * (1.0 - FREE_MARGIN) {
             self.stretch = Stretch::to_the_end(point);
-            self.loose.clear();
-            self.next = (f64::INFINITY, What::StretchEnd);
+            self.opened.clear();
+            self.next = (f64::INFINITY, Ending::StretchEnd);
             return;
         }
         let most = if pulses { self.elapsed(self.pulse.end) } else { f64::INFINITY };
@@ -80,17 +80,17 @@ impl Joined {
         }
         let [travel, _] = stretch.travel(parameters);
         let moved = travel.max(stretch.swings(parameters));
-        if !pulses && self.loose.is_empty() && moved <= AT_REST * parameters.clearance() {
+        if !pulses && self.opened.is_empty() && moved <= AT_REST * parameters.clearance() {
             self.stretch = stretch;
             if self.held_for_good(0.0) {
                 self.stretch = self.stretch.clone().at_rest();
-                self.next = (f64::INFINITY, What::StretchEnd);
+                self.next = (f64::INFINITY, Ending::StretchEnd);
                 return;
             }
         } else {
             self.stretch = stretch;
         }
-        self.next = seek(&self.parameters, &self.stretch, &self.held, &self.loose);
+        self.next = seek(&self.parameters, &self.stretch, &self.held, &self.opened);
     }
 
     /// Passes the event that ends the stretch.
@@ -98,7 +98,7 @@ impl Joined {
         let (s, what) = self.next;
         self.looks += 1;
         self.idle = if s * self.parameters.rates() > AN_INSTANT { 0 } else { self.idle + 1 };
-        if what != What::StretchEnd {
+        if what != Ending::StretchEnd {
             self.events += 1;
         }
         let reason = if self.events > MOST_EVENTS {
@@ -110,7 +110,7 @@ impl Joined {
         } else {
             let pulsed = self.pulses();
             let Some(mut point) = self.rebase(s) else { return };
-            if what == What::StretchEnd && pulsed && !self.pulses() {
+            if what == Ending::StretchEnd && pulsed && !self.pulses() {
                 // The pushes jump with the force.
                 let rows = self.held.rows.clone();
                 self.settle(&mut point, &rows);
@@ -123,18 +123,18 @@ impl Joined {
     }
 
     /// What comes after an event.
-    fn follow(&mut self, point: &mut Point, what: What) {
+    fn follow(&mut self, point: &mut Point, what: Ending) {
         match what {
-            What::StretchEnd => self.enter(*point),
-            What::Touch(row, rate) => {
+            Ending::StretchEnd => self.enter(*point),
+            Ending::Touch(row, rate) => {
                 let mut met = self.touching(point, row);
                 met.push((row, rate));
                 self.meet(point, &met);
             }
-            What::Release(row) => {
+            Ending::Release(row) => {
                 let still: Vec<usize> =
                     self.held.rows.iter().copied().filter(|&held| held != row).collect();
-                self.loose.push(Loose { row, gap: 0.0, rate: 0.0, released: true });
+                self.opened.push(OpenedGap { row, gap: 0.0, rate: 0.0, released: true });
                 self.settle(point, &still);
             }
         }
@@ -155,7 +155,7 @@ impl Joined {
             if self.held.rows.contains(&row) {
                 return Some((row, 0.0));
             }
-            if let Some(gap) = self.loose.iter().find(|gap| gap.row == row) {
+            if let Some(gap) = self.opened.iter().find(|gap| gap.row == row) {
                 return (gap.gap <= limit && gap.rate <= 0.0).then_some((row, gap.rate));
             }
             let near = parameters.gap(row, point) <= limit;
@@ -175,19 +175,19 @@ impl Joined {
         }
         let parameters = &self.parameters;
         if self.checked {
-            self.ledger.book(parameters, &self.held, &self.stretch, s);
+            self.energies.book(parameters, &self.held, &self.stretch, s);
         }
         self.widest = self.widest_until(s);
         let [travel, reach] = self.stretch.travel(parameters);
         if reach + travel >= parameters.clearance() {
-            let known = |row: usize| self.loose.iter().any(|gap| gap.row == row);
+            let known = |row: usize| self.opened.iter().any(|gap| gap.row == row);
             let gaps = (0..parameters.rows.len()).filter(|&row| !known(row));
             let least = gaps.map(|row| parameters.gap(row, &point)).fold(0.0, f64::min);
             self.deepest = self.deepest.max(-least);
         }
         let limit = JUST_OPENED * parameters.clearance();
-        let later = self.loose.iter().map(|gap| gap.later(parameters, &self.stretch, s));
-        self.loose = later.filter(|gap| gap.gap < limit).collect();
+        let later = self.opened.iter().map(|gap| gap.later(parameters, &self.stretch, s));
+        self.opened = later.filter(|gap| gap.gap < limit).collect();
         self.phase = (self.phase + parameters.nu * s) % TAU;
         if self.pulses() && s >= self.elapsed(self.pulse.end) {
             self.clock.begin_at(self.pulse.end);
@@ -219,7 +219,7 @@ impl Joined {
 
     /// Whether, from `s` seconds into the stretch on, the same rows are held for ever.
     pub(super) fn held_for_good(&self, s: f64) -> bool {
-        if self.pulses() || self.held.rows.len() < 2 || !self.loose.is_empty() {
+        if self.pulses() || self.held.rows.len() < 2 || !self.opened.is_empty() {
             return false;
         }
         let rest = self.rest.get_or_init(|| super::Rest::of(&self.parameters, &self.held));
@@ -241,8 +241,8 @@ impl Joined {
         change(self, &mut point);
         let jump = before - self.parameters.nu;
         point.dz += Plane::i() * point.z * jump;
-        self.ledger.start += self.parameters.energy(&point) - energy;
-        self.loosen(point.dz - rate, Plane::default());
+        self.energies.start += self.parameters.energy(&point) - energy;
+        self.shift_opened(point.dz - rate, Plane::default());
         if jump == 0.0 {
             let rows = std::mem::take(&mut self.held).rows;
             self.settle(&mut point, &rows);
@@ -260,7 +260,7 @@ impl Joined {
     }
 }
 
-impl Joined {
+impl LinearEvents {
     /// Rows that touch, each with the rate of its gap \[m/s\].
     pub(super) fn meet(&mut self, point: &mut Point, met: &[(usize, f64)]) {
         let parameters = &self.parameters;
@@ -286,36 +286,36 @@ impl Joined {
         let (z, a) = parameters.pushed(struck());
         let before = *point;
         (point.dz, point.da) = (point.dz + z, point.da + a);
-        let (mut still, mut loose) = (Vec::new(), Vec::new());
+        let (mut still, mut opened) = (Vec::new(), Vec::new());
         for (&(row, rate), &impulse) in met.iter().zip(&impulses) {
             let after =
                 if impulse > 0.0 { rebound(rate) } else { rate + parameters.along(row, z, a) };
             if after > soft {
-                loose.push(Loose { row, gap: 0.0, rate: after, released: false });
+                opened.push(OpenedGap { row, gap: 0.0, rate: after, released: false });
             } else {
                 still.push(row);
             }
-            self.ledger.impacts -= 0.5 * impulse * (rate + after);
+            self.energies.impacts -= 0.5 * impulse * (rate + after);
         }
         let mean =
             Point { dz: (before.dz + point.dz) * 0.5, da: (before.da + point.da) * 0.5, ..before };
-        self.ledger.push(parameters, &mean, struck());
-        self.tell_impacts(met, &impulses, soft);
-        self.loose.retain(|gap| met.iter().all(|&(row, _)| row != gap.row));
-        self.loosen(z, a);
-        self.loose.extend(loose);
+        self.energies.push(parameters, &mean, struck());
+        self.log_impacts(met, &impulses, soft);
+        self.opened.retain(|gap| met.iter().all(|&(row, _)| row != gap.row));
+        self.shift_opened(z, a);
+        self.opened.extend(opened);
         self.settle(point, &still);
     }
 
     /// The rates jump by `z` and `a`: those of gaps that have just opened too.
-    pub(super) fn loosen(&mut self, z: Plane, a: Plane) {
-        for gap in &mut self.loose {
+    pub(super) fn shift_opened(&mut self, z: Plane, a: Plane) {
+        for gap in &mut self.opened {
             gap.rate += self.parameters.along(gap.row, z, a);
         }
     }
 
     /// Enters the impacts of rows that closed faster than `soft` \[m/s\].
-    fn tell_impacts(&mut self, met: &[(usize, f64)], impulses: &[f64], soft: f64) {
+    fn log_impacts(&mut self, met: &[(usize, f64)], impulses: &[f64], soft: f64) {
         let t = self.clock.start();
         let mut touched = ActiveSet::Nothing;
         for (&(row, rate), &impulse) in met.iter().zip(impulses) {
@@ -359,7 +359,7 @@ impl Joined {
             if push > 0.0 || opening + parameters.along(row, z, a) <= noise {
                 rows.push(row);
             } else {
-                self.loose.push(Loose { row, gap: 0.0, rate: 0.0, released: false });
+                self.opened.push(OpenedGap { row, gap: 0.0, rate: 0.0, released: false });
             }
         }
         let count = rows.len();
