@@ -14,7 +14,8 @@ use std::time::Duration;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use rubscope::harmonic::{Form, locked_motion};
 use rubscope::motion::{
-    Event, Motion, Sample, Sampling, Script, is_sensitive, run_to_end, run_to_verdict, to_the_end,
+    ExactEvents, Motion, Sample, Sampling, Script, is_sensitive, run_to_end, run_to_verdict,
+    to_the_end,
 };
 use rubscope::scene::{CheckedScene, Scene};
 
@@ -80,7 +81,7 @@ fn event(criterion: &mut Criterion) {
         let scene = scene(changes);
         group.bench_with_input(name, &scene, |bencher, scene| {
             bencher.iter(|| {
-                let motion = Event::new(black_box(scene)).unwrap().with_tolerance(tolerance);
+                let motion = ExactEvents::new(black_box(scene)).unwrap().with_tolerance(tolerance);
                 to_the_end_of(scene, motion.into()).state().u[0]
             });
         });

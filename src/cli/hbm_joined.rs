@@ -6,7 +6,7 @@ use std::rc::Rc;
 use super::hbm_views::Answer;
 use super::range::linspace;
 use crate::harmonic::{
-    HarmonicError, Joint, WhirlPoint, flutter_speed, rim_waves, undamped_flutter_speed,
+    HarmonicError, Joint, WhirlPoint, flutter_speed, round_whirls, undamped_flutter_speed,
     whirl_onset, whirl_over,
 };
 use crate::model::Machine;
@@ -65,7 +65,7 @@ pub(super) fn compliance(
     let resonances = [machine.omega_c, joint.nu.abs() + machine.omega_bd];
     let reach = BEYOND * resonances[0].max(resonances[1]);
     let range = omegas.map_or_else(|| linspace(-reach, reach, FREQUENCIES), <[f64]>::to_vec);
-    let waves = rim_waves(&joint);
+    let waves = round_whirls(&joint);
     let chart = report::compliance_chart(&joint, &waves);
     let at = format!("at {} rad/s", short(speed));
     let title = format!("B(omega) {at}, real part to the right, imaginary part up [m/N]:");

@@ -1,12 +1,110 @@
-//! What a coincidence does, against speed (docs/theory.md, section 10): how fast a wave
-//! grows where blades rub at rest, and the wave that lasts. The picture that the last
-//! page of the paper promises.
+//! Coincidences of casing and blades: where the lines of a Campbell diagram cross, Eq. (30)
+//! (docs/theory.md, section 4), and what they do against speed, the picture that the last
+//! page of the paper promises: how fast a wave grows where blades rub at rest, and the wave
+//! that lasts (section 10).
 
 use serde::Serialize;
 
-use super::{HarmonicError, Joint, Lining, RimWave, Whirl, lock_roots, rim_waves};
+use super::{HarmonicError, Joint, Lining, RoundWhirl, Whirl, error, lock_roots, round_whirls};
 use crate::model::Machine;
 use crate::scene::{ContactLaw, Scene};
+
+/// A straight line `frequency = at_standstill + slope * Omega`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Line {
+    /// What it is.
+    pub name: String,
+    /// At standstill \[rad/s\].
+    pub at_standstill_rad_s: f64,
+    /// Change with the rotor speed.
+    pub slope: f64,
+}
+
+impl Line {
+    /// Frequency at a rotor speed \[rad/s\]; negative for a wave that turns
+    /// backward in the standing frame.
+    #[must_use]
+    pub fn at(&self, speed: f64) -> f64 {
+        self.at_standstill_rad_s + self.slope * speed
+    }
+}
+
+/// One of the four coincidences of Eq. (30), `casing = n_d Omega + blades`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Coincidence {
+    /// `+omega_c` or `-omega_c` \[rad/s\].
+    pub casing_rad_s: f64,
+    /// `+omega_bd` or `-omega_bd` \[rad/s\].
+    pub blades_rad_s: f64,
+    /// Rotor speed where they coincide \[rad/s\]; negative for the other sense
+    /// of rotation.
+    pub speed_rad_s: f64,
+    /// Whether it is the dangerous one of the rotor's sense of rotation, Eq. (31).
+    pub dangerous: bool,
+}
+
+/// The lines of a Campbell diagram.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Campbell {
+    /// Casing, bladed disk forward and backward, then engine orders.
+    pub lines: Vec<Line>,
+    /// The four coincidences.
+    pub coincidences: [Coincidence; 4],
+}
+
+impl Campbell {
+    /// With the engine-order lines `order * Omega` of these orders. The dangerous
+    /// coincidence is that of a rotor that turns in the sense of `speed`.
+    ///
+    /// ```
+    /// use rubscope::harmonic::Campbell;
+    /// use rubscope::scene::Scene;
+    /// let machine = Scene::builtin("paper-nd3")?.machine();
+    /// let campbell = Campbell::of(&machine, &[3], 500.0)?;
+    /// let dangerous = campbell.coincidences.iter().find(|c| c.dangerous).unwrap();
+    /// assert!((dangerous.speed_rad_s - 388.31).abs() < 0.005);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// No nodal diameters, so no travelling waves.
+    pub fn of(machine: &Machine, orders: &[u32], speed: f64) -> Result<Self, HarmonicError> {
+        let n_d = machine.nodal_diameters;
+        if n_d == 0.0 {
+            return Err(HarmonicError::NoWave);
+        }
+        let (omega_c, omega_bd) = (machine.omega_c, machine.omega_bd);
+        let sense = if speed < 0.0 { -1.0 } else { 1.0 };
+        let line = |name: &str, at_standstill_rad_s, slope| Line {
+            name: name.to_string(),
+            at_standstill_rad_s,
+            slope,
+        };
+        let mut lines = vec![
+            line("omega_c", omega_c, 0.0),
+            line("-omega_c", -omega_c, 0.0),
+            line("n_d Omega + omega_bd", omega_bd, n_d),
+            line("n_d Omega - omega_bd", -omega_bd, n_d),
+        ];
+        lines.extend(
+            orders.iter().map(|&order| line(&format!("{order} Omega"), 0.0, f64::from(order))),
+        );
+        let coincidence = |casing: f64, blades: f64| Coincidence {
+            casing_rad_s: casing,
+            blades_rad_s: blades,
+            speed_rad_s: (casing - blades) / n_d,
+            // The two directions of every wave exchange with the sense of rotation.
+            dangerous: casing * sense > 0.0 && blades * sense < 0.0,
+        };
+        let coincidences = [
+            coincidence(omega_c, omega_bd),
+            coincidence(omega_c, -omega_bd),
+            coincidence(-omega_c, omega_bd),
+            coincidence(-omega_c, -omega_bd),
+        ];
+        Ok(Self { lines, coincidences })
+    }
+}
 
 /// Growth and lasting wave at one rotor speed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -39,10 +137,8 @@ pub fn coincidence(scene: &Scene, speeds: &[f64]) -> Result<Vec<CoincidencePoint
     let lining = Lining::of(&machine, &scene.contact)?;
     let smooth = scene.solver.contact == ContactLaw::Smooth;
     let point = |&speed: &f64| {
-        if !speed.is_finite() {
-            return Err(HarmonicError::Speed(speed));
-        }
-        if smooth { on_lining(&lining, speed) } else { Ok(on_rim(&machine, speed)) }
+        error::refuse_endless(&[speed])?;
+        if smooth { on_lining(&lining, speed) } else { Ok(on_rigid_casing(&machine, speed)) }
     };
     speeds.iter().map(point).collect()
 }
@@ -77,9 +173,9 @@ fn on_lining(lining: &Lining, speed: f64) -> Result<CoincidencePoint, HarmonicEr
 
 /// Rigid contact: the wave that attracts has the amplitude of the clearance. Waves stay
 /// bounded unless the structures flutter as one.
-fn on_rim(machine: &Machine, speed: f64) -> CoincidencePoint {
+fn on_rigid_casing(machine: &Machine, speed: f64) -> CoincidencePoint {
     let joint = Joint::at(machine, speed);
-    let wave = RimWave::lasting(&rim_waves(&joint));
+    let wave = RoundWhirl::lasting(&round_whirls(&joint));
     let clearance = machine.clearance();
     CoincidencePoint {
         speed_rad_s: speed,
@@ -88,5 +184,49 @@ fn on_rim(machine: &Machine, speed: f64) -> CoincidencePoint {
         casing_amplitude_m: wave.map(|wave| wave.casing_per_w * clearance),
         omega_rad_s: wave.map(|wave| wave.omega_rad_s),
         bounded: lock_roots(&joint).iter().all(|root| root.re <= 0.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    #[test]
+    fn lines_cross_at_the_coincidences() {
+        let machine = Scene::base().machine();
+        let campbell = Campbell::of(&machine, &[1, 3], 500.0).unwrap();
+        assert_eq!(campbell.lines.len(), 6);
+        for found in campbell.coincidences {
+            let casing = if found.casing_rad_s > 0.0 { 0 } else { 1 };
+            let blades = if found.blades_rad_s > 0.0 { 2 } else { 3 };
+            let gap = campbell.lines[casing].at(found.speed_rad_s)
+                - campbell.lines[blades].at(found.speed_rad_s);
+            assert!(gap.abs() < 1e-12 * machine.omega_c);
+        }
+        for speed in [500.0, -430.0] {
+            let campbell = Campbell::of(&machine, &[], speed).unwrap();
+            let dangerous: Vec<_> = campbell.coincidences.iter().filter(|c| c.dangerous).collect();
+            assert_eq!(dangerous.len(), 1);
+            let expected = machine.dangerous_speed_toward(speed);
+            assert_eq!(Some(dangerous[0].speed_rad_s), expected);
+            assert!(expected.unwrap() * speed > 0.0);
+        }
+        let mut positive: Vec<f64> = campbell
+            .coincidences
+            .iter()
+            .map(|c| c.speed_rad_s)
+            .filter(|&speed| speed > 0.0)
+            .collect();
+        positive.sort_by(f64::total_cmp);
+        assert_eq!(positive, machine.coincidence_speeds());
+    }
+
+    #[test]
+    fn without_nodal_diameters_there_is_no_wave() {
+        let mut scene = Scene::base();
+        scene.set("operation.nodal_diameters", "0").unwrap();
+        let message = Campbell::of(&scene.machine(), &[], 500.0).unwrap_err().to_string();
+        assert!(message.starts_with("operation.nodal_diameters = 0: allowed is 1 or more"));
     }
 }

@@ -1,6 +1,5 @@
-//! The harmonic balance equations of a corner, Eq. (27), and their Jacobian,
-//! in numbers of order one.
-//! (docs/theory.md, section 8.)
+//! The harmonic balance equations of a corner, Eq. (27), in three forms, their Jacobian and
+//! their solution by Newton's method, in numbers of order one (docs/theory.md, section 8).
 //!
 //! Lengths are counted in `g0`, multipliers in `k_c g0` and blade angles in
 //! `n_d k_c g0^2/(m_b omega_bd^2)`, so that `n_d alpha = softness * alpha~`.
@@ -9,29 +8,40 @@
 //!
 //! - rows 1-2: `alpha_i + sum_j share_ij Lambda_j (y C_j - x S_j) = 0`
 //! - rows 3-4: `1 + x C_i + y S_i = 0`
-//! - rows 5, 8: `kappa u_cc + drag u_cs + sum Lambda C = 0`, the same for `u_ss, -u_sc`
-//! - rows 6, 7: `kappa u_cs - drag u_cc - sum Lambda S = 0`, the same for `-u_sc, u_ss`
+//! - rows 5, 8: `stiffness u_cc + drag u_cs + sum Lambda C = 0`, the same for `u_ss, -u_sc`
+//! - rows 6, 7: `stiffness u_cs - drag u_cc - sum Lambda S = 0`, the same for `-u_sc, u_ss`
 //!
 //! Half the differences of rows 5-8 give a zero backward wave, `u_cc - u_ss`
 //! and `u_cs + u_sc`; half their sums are one complex equation for `z`. So the
 //! eight equations reduce to six, which Newton's method solves; the reported
 //! residual is that of all eight.
+//!
+//! Far from the solution Newton's method is unreliable: it may miss the solution or
+//! find another branch, at one speed and not at the next. So a start is accepted
+//! only if its steps are small and shrink. If not, because blades are soft, the
+//! solution is followed from rigid to soft blades; it ends where that branch folds.
 
 use nalgebra::{SMatrix, SVector};
+use serde::Serialize;
+use strum::{AsRefStr, Display, EnumString, VariantNames};
 
-use super::corner_angle::CornerAngle;
-use super::{Corner, Form};
+use super::Corner;
+use super::fold::CornerAngle;
 use crate::model::{Machine, Number};
+use crate::tolerances::{
+    NEAR_A_FOLD, NEWTON_ALIKE, NEWTON_LARGEST, NEWTON_SHRINK, NEWTON_STEPS, NEWTON_STRIDE,
+    NEWTON_STRIDES,
+};
 
 /// `[x, y, Lambda_a, Lambda_b, alpha_a, alpha_b]`, scaled.
 pub(super) type Unknowns = SVector<f64, 6>;
 type Jacobian = SMatrix<f64, 6, 6>;
 
-/// The casing at one speed: `kappa = 1 - (nu/omega_c)^2` and
+/// The casing at one speed: `stiffness = 1 - (nu/omega_c)^2` and
 /// `drag = 2 zeta_c nu/omega_c`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Wave<T = f64> {
-    pub kappa: T,
+    pub stiffness: T,
     pub drag: T,
 }
 
@@ -41,7 +51,7 @@ impl<T: Number> Wave<T> {
         let ratio = machine.nu(speed) / machine.omega_c;
         let damping = if damped { machine.casing_damping_ratio } else { T::zero() };
         // The factored difference keeps its digits near the critical speed.
-        Self { kappa: (-ratio + 1.0) * (ratio + 1.0), drag: damping * 2.0 * ratio }
+        Self { stiffness: (-ratio + 1.0) * (ratio + 1.0), drag: damping * 2.0 * ratio }
     }
 }
 
@@ -138,7 +148,7 @@ impl Equations {
     pub fn predict(&self, wave: Wave) -> Option<Unknowns> {
         match self.corner_angle {
             None => Some(self.opened(wave, 0.0)),
-            Some(corner_angle) => Some(self.opened(wave, corner_angle.at(wave.kappa)?)),
+            Some(corner_angle) => Some(self.opened(wave, corner_angle.at(wave.stiffness)?)),
         }
     }
 
@@ -152,7 +162,7 @@ impl Equations {
         let half = (0.5 * (c_a * s_b - s_a * c_b) / (0.5 * twice_cos)).atan2(0.5 * twice_cos);
         let (sin, cos) = (half + angle_change).sin_cos();
         let tangent = sin / cos;
-        let (stiff, drag) = (wave.kappa / cos, wave.drag / sin);
+        let (stiff, drag) = (wave.stiffness / cos, wave.drag / sin);
         let multipliers = [(stiff - drag) / (2.0 * cos), (stiff + drag) / (2.0 * cos)];
         let torque = [-multipliers[0] * tangent, multipliers[1] * tangent];
         let alpha = self.share.map(|[to_a, to_b]| -(to_a * torque[0] + to_b * torque[1]));
@@ -201,8 +211,8 @@ impl Equations {
             u[5] + self.share[1][0] * torque[0] + self.share[1][1] * torque[1],
             1.0 + u[0] * a.cos + u[1] * a.sin,
             1.0 + u[0] * b.cos + u[1] * b.sin,
-            wave.kappa * u[0] - wave.drag * u[1] + u[2] * a.cos + u[3] * b.cos,
-            wave.kappa * u[1] + wave.drag * u[0] + u[2] * a.sin + u[3] * b.sin,
+            wave.stiffness * u[0] - wave.drag * u[1] + u[2] * a.cos + u[3] * b.cos,
+            wave.stiffness * u[1] + wave.drag * u[0] + u[2] * a.sin + u[3] * b.sin,
         ])
     }
 
@@ -211,10 +221,10 @@ impl Equations {
         let moment_arms = [self.moment_arm(0, u), self.moment_arm(1, u)];
         let residual = self.rows(wave, u, &moment_arms);
         let mut jacobian = Jacobian::zeros();
-        jacobian[(4, 0)] = wave.kappa;
+        jacobian[(4, 0)] = wave.stiffness;
         jacobian[(4, 1)] = -wave.drag;
         jacobian[(5, 0)] = wave.drag;
-        jacobian[(5, 1)] = wave.kappa;
+        jacobian[(5, 1)] = wave.stiffness;
         for (j, moment_arm) in moment_arms.iter().enumerate() {
             let multiplier = u[2 + j];
             for i in 0..2 {
@@ -242,18 +252,115 @@ impl Equations {
         let [a, b] = [self.moment_arm(0, u), self.moment_arm(1, u)];
         let six = self.rows(wave, u, &[a, b]);
         let (u_cc, u_cs, u_sc, u_ss) = (u[0], -u[1], u[1], u[0]);
-        let push_cos = six[4] - (wave.kappa * u[0] - wave.drag * u[1]);
-        let push_sin = six[5] - (wave.kappa * u[1] + wave.drag * u[0]);
+        let push_cos = six[4] - (wave.stiffness * u[0] - wave.drag * u[1]);
+        let push_sin = six[5] - (wave.stiffness * u[1] + wave.drag * u[0]);
         let rows = [
             six[0],
             six[1],
             six[2],
             six[3],
-            wave.kappa * u_cc + wave.drag * u_cs + push_cos,
-            wave.kappa * u_cs - wave.drag * u_cc - push_sin,
-            wave.kappa * u_sc + wave.drag * u_ss + push_sin,
-            wave.kappa * u_ss - wave.drag * u_sc + push_cos,
+            wave.stiffness * u_cc + wave.drag * u_cs + push_cos,
+            wave.stiffness * u_cs - wave.drag * u_cc - push_sin,
+            wave.stiffness * u_sc + wave.drag * u_ss + push_sin,
+            wave.stiffness * u_ss - wave.drag * u_sc + push_cos,
         ];
         rows.iter().fold(0.0, |largest, row| row.abs().max(largest))
     }
+}
+
+impl Equations {
+    /// The corner that rigid blades grow into as they soften; `None` if it
+    /// folds before they are this soft.
+    pub fn locked(&self, wave: Wave) -> Option<Unknowns> {
+        let start = self.predict(wave)?;
+        if self.is_exact() {
+            return self.solve(wave, start);
+        }
+        let slope =
+            |equations: &Self, at: &Unknowns| equations.linearised(wave, at).1.determinant();
+        let (mut part, mut stride, mut here) = (0.0, 1.0, start);
+        let mut last = slope(&self.stiffened(part), &here);
+        for _ in 0..NEWTON_STRIDES {
+            let next = f64::min(part + stride, 1.0);
+            let softer = self.stiffened(next);
+            let found = softer.solve(wave, here).map(|found| (found, slope(&softer, &found)));
+            match found.filter(|(_, slope)| NEWTON_ALIKE.contains(&(slope / last))) {
+                Some((found, _)) if next == 1.0 => return Some(found),
+                Some((found, slope)) => {
+                    (part, stride, here, last) = (next, 2.0 * stride, found, slope);
+                }
+                None if stride < NEWTON_STRIDE => return None,
+                None => stride *= 0.5,
+            }
+        }
+        None
+    }
+
+    /// Newton's method from `start`; `None` where its steps are large or do not
+    /// shrink.
+    fn solve(&self, wave: Wave, start: Unknowns) -> Option<Unknowns> {
+        // Rows are of order one, so rounding leaves a residual of a few units
+        // in the last place of the largest term.
+        let size = 1.0 + wave.stiffness.abs() + wave.drag.abs();
+        let mut unknowns = start;
+        let mut last = NEWTON_LARGEST * unknowns.amax() / NEWTON_SHRINK;
+        for _ in 0..NEWTON_STEPS {
+            let (residual, jacobian) = self.linearised(wave, &unknowns);
+            let norm = residual.amax();
+            if !norm.is_finite() {
+                return None;
+            }
+            if norm <= 4.0 * f64::EPSILON * size {
+                return Some(unknowns);
+            }
+            let step = jacobian.lu().solve(&residual)?;
+            let length = step.amax();
+            let turn = self.softness() * step[4].abs().max(step[5].abs());
+            if length > NEWTON_SHRINK * last || turn > NEWTON_LARGEST {
+                break;
+            }
+            unknowns -= step;
+            if length <= 4.0 * f64::EPSILON * unknowns.amax() {
+                return Some(unknowns);
+            }
+            last = length;
+        }
+        // Ill-conditioned, close to a fold: accept what is accurate enough.
+        (self.residual(wave, &unknowns).amax() <= NEAR_A_FOLD * size).then_some(unknowns)
+    }
+}
+
+/// The equations of the blade angles. Their choice hardly changes casing
+/// amplitudes and multipliers, but it changes the blade angles.
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    Default,
+    PartialEq,
+    Eq,
+    Hash,
+    Serialize,
+    Display,
+    EnumString,
+    AsRefStr,
+    VariantNames,
+)]
+#[serde(rename_all = "lowercase")]
+#[strum(serialize_all = "lowercase")]
+pub enum Form {
+    /// Eq. (27) as printed: its first two rows have the contact torque of Eq.
+    /// (19) times -2. Expansion (26).
+    Printed,
+    /// From Eq. (19) with the neighbours eliminated by (20): every contacting
+    /// blade on its own spring `m_b omega_bd^2`. Expansion (26).
+    Blade,
+    /// The two blade modes of the time model, exact in the blade angle.
+    #[default]
+    Modal,
+}
+
+impl Form {
+    /// Every form, in the order of the documentation.
+    pub const ALL: [Self; 3] = [Self::Printed, Self::Blade, Self::Modal];
 }

@@ -78,8 +78,16 @@ pub enum HarmonicError {
 }
 
 impl HarmonicError {
-    /// The error for a polygon without corners.
-    pub(super) fn no_corner(polygon: &ContactPolygon) -> Self {
+    /// A value that is not what is allowed of its key.
+    pub(super) fn refused(
+        key: &'static str,
+        value: impl ToString,
+        allowed: impl Into<String>,
+    ) -> Self {
+        Self::Refused { key, value: value.to_string(), allowed: allowed.into() }
+    }
+
+    fn no_corner(polygon: &ContactPolygon) -> Self {
         Self::NoCorner {
             nodal_diameters: polygon.nodal_diameters,
             blades: polygon.blades,
@@ -97,46 +105,46 @@ pub(super) fn refuse_joined(machine: &Machine, allowed: &str) -> Result<(), Harm
     } else {
         return Ok(());
     };
-    let allowed = allowed.to_string();
-    Err(HarmonicError::Refused { key, value: value.to_string(), allowed })
+    Err(HarmonicError::refused(key, value, allowed))
 }
 
 /// Refuses what acts on the casing otherwise than the paper's tips; friction that only
 /// bends blades is no matter there.
 pub(super) fn refuse_joined_casing(machine: &Machine, what: &str) -> Result<(), HarmonicError> {
-    if !machine.casing_is_joined() {
-        return Ok(());
-    }
-    refuse_joined(
-        machine,
-        &format!("0 with {what}, which is of tips that move with the casing alone"),
-    )
+    let allowed = format!("0 with {what}, which is of tips that move with the casing alone");
+    if machine.casing_is_joined() { refuse_joined(machine, &allowed) } else { Ok(()) }
 }
 
 /// Refuses an interference fit, in which rigid blades have no place.
 pub(super) fn refuse_preload(machine: &Machine) -> Result<(), HarmonicError> {
-    if machine.clearance() > 0.0 {
-        return Ok(());
+    let clearance = machine.clearance();
+    let allowed = "above 0 for rigid contact (casing.radius_m above bladed_disk.blade_length_m)";
+    if clearance > 0.0 {
+        Ok(())
+    } else {
+        Err(HarmonicError::refused("clearance", clearance, allowed))
     }
-    Err(HarmonicError::Refused {
-        key: "clearance",
-        value: machine.clearance().to_string(),
-        allowed: "above 0 for rigid contact (casing.radius_m above bladed_disk.blade_length_m)"
-            .to_string(),
-    })
 }
 
 /// Refuses modes of the disk of other diameters than those of the casing: no single
 /// harmonic balances them.
 pub(super) fn refuse_other_diameters(machine: &Machine) -> Result<(), HarmonicError> {
-    if !machine.has_other_diameters() {
-        return Ok(());
+    let (key, value) = ("bladed_disk.nodal_diameters", machine.blade_diameters);
+    let allowed = "0 or the nodal diameters of the casing; with others no single harmonic \
+                   balances blades and casing";
+    if machine.has_other_diameters() {
+        return Err(HarmonicError::refused(key, value, allowed));
     }
-    Err(HarmonicError::Refused {
-        key: "bladed_disk.nodal_diameters",
-        value: machine.blade_diameters.to_string(),
-        allowed: "0 or the nodal diameters of the casing; with others no single harmonic \
-                  balances blades and casing"
-            .to_string(),
-    })
+    Ok(())
+}
+
+/// Refuses a polygon whose neighbouring sides never meet.
+pub(super) fn refuse_no_corner(polygon: &ContactPolygon) -> Result<(), HarmonicError> {
+    if polygon.has_corners() { Ok(()) } else { Err(HarmonicError::no_corner(polygon)) }
+}
+
+/// Refuses speeds that are not finite.
+pub(super) fn refuse_endless(speeds: &[f64]) -> Result<(), HarmonicError> {
+    let endless = speeds.iter().find(|speed| !speed.is_finite());
+    endless.map_or(Ok(()), |&speed| Err(HarmonicError::Speed(speed)))
 }

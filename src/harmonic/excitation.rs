@@ -9,7 +9,7 @@
 
 use nalgebra::{Complex, Matrix2, Vector2, Vector4};
 
-use super::configuration::Configuration;
+use super::corner::Configuration;
 use super::equations::{Equations, Scales, Wave};
 use super::equilibria::{judged, loads_of};
 use super::stability::{ClosedSide, Linearised, blade_scale};

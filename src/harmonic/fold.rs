@@ -1,23 +1,135 @@
-//! Follows the corner branch by arc length, so that it passes a fold and does
-//! not miss it. With blades so soft that the wave opens its corner, the
-//! stiffness is exhausted at some speed, and the branch turns back.
-//! (docs/theory.md, section 8.)
+//! Very soft blades: the wave opens its corner, the stiffness is exhausted at some speed,
+//! and the branch of the corner turns back there (docs/theory.md, section 8).
 //!
-//! Points are spaced by arc length in the plane of speed (over `Omega_c`) and
-//! corner angle, and each is exact: the branch is explicit in its corner angle.
-//! Up to the fold both coordinates only grow; behind it the speed only falls.
-//! So the end of each leg is known in advance: the points hit an end or a fold
-//! exactly and never step over it.
+//! The corner is one equation for its corner angle `Delta`, explicit in it, folds included:
+//! `stiffness = -(Delta - delta) cos^3 Delta/(c sin Delta)`, `c` the theory's `chi`.
+//!
+//! The branch is followed by arc length, so that it passes a fold and does not miss it.
+//! Points are spaced in the plane of speed (over `Omega_c`) and corner angle, and each is
+//! exact. Up to the fold both coordinates only grow; behind it the speed only falls. So the
+//! end of each leg is known in advance: the points hit an end or a fold exactly.
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::configuration::Configuration;
-use super::corner_angle::CornerAngle;
-use super::equations::{Equations, Wave};
+use super::corner::Configuration;
+use super::equations::{Equations, Scales, Wave};
 use super::equilibria::{judged, loads_of};
 use super::{Corner, Equilibrium, Form, HarmonicError, Kind, error};
-use crate::model::Machine;
-use crate::tolerances::{APART, BRANCH_POINTS, FASTEST, LEFT_OPEN};
+use crate::model::{Machine, Number};
+use crate::numeric::bisection::bisected;
+use crate::tolerances::{APART, AS_GOOD_AS_RIGID, BRANCH_POINTS, CONVERGED, FASTEST, LEFT_OPEN};
+
+/// The corner angle of one polygon's corners.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct CornerAngle<T = f64> {
+    /// Half angle of the unbent corner, `delta` \[rad\].
+    pub delta: f64,
+    /// `c` above.
+    compliance: T,
+}
+
+impl<T: Number> CornerAngle<T> {
+    /// Of a machine's corners.
+    pub fn of(machine: &Machine<T>) -> Self {
+        let scales = Scales::of(machine);
+        Self::new(machine.polygon.delta, scales.softness * scales.share)
+    }
+
+    /// With the (dimensionless) softness of the blades times their share.
+    fn new(delta: f64, bend: T) -> Self {
+        Self { delta, compliance: bend * delta.sin().powi(2) }
+    }
+
+    /// As `CornerAngle::at`, with its derivative by the implicit function theorem:
+    /// one more step of Newton's method, whose slope needs none.
+    pub fn derived(&self, stiffness: T) -> Option<T> {
+        let plain = CornerAngle { delta: self.delta, compliance: self.compliance.re() };
+        let angle_change = plain.at(stiffness.re())?;
+        let (sin, cos) = (self.delta + angle_change).sin_cos();
+        let pull = self.compliance * stiffness / (cos * cos);
+        let value = pull * sin / cos + angle_change;
+        let slope = pull.re() * (1.0 + 2.0 * sin * sin) / (cos * cos) + 1.0;
+        Some(-value / slope + angle_change)
+    }
+
+    /// `stiffness` at the fold, where the branch turns back: `at_fold` depends on `delta`
+    /// alone, so `stiffness` goes with one over the compliance.
+    pub fn fold_stiffness(&self) -> Option<T> {
+        let plain = CornerAngle { delta: self.delta, compliance: self.compliance.re() };
+        let (stiffness, _) = plain.stiffness(plain.at_fold())?;
+        Some(self.compliance.recip() * (stiffness * plain.compliance))
+    }
+}
+
+impl CornerAngle {
+    /// The change of the corner angle `Delta - delta` \[rad\] at `stiffness`, on the branch of stiff
+    /// blades; `None` beyond its fold.
+    pub fn at(&self, stiffness: f64) -> Option<f64> {
+        let mut angle_change = 0.0;
+        // Steps shrink at least by half (at the fold), until they are rounding.
+        let mut last = f64::INFINITY;
+        for _ in 0..100 {
+            let angle = self.delta + angle_change;
+            let (sin, cos) = angle.sin_cos();
+            let pull = self.compliance * stiffness / (cos * cos);
+            let value = angle_change + pull * sin / cos;
+            let slope = 1.0 + pull * (1.0 + 2.0 * sin * sin) / (cos * cos);
+            // The slope vanishes at the fold. Newton's steps from delta stay on
+            // the near side of the root: the equation is convex there.
+            if slope <= 0.0 {
+                return None;
+            }
+            let step = value / slope;
+            angle_change -= step;
+            let angle = self.delta + angle_change;
+            if !(angle > 0.0 && angle < FRAC_PI_2) {
+                return None;
+            }
+            if step.abs() <= 2.0 * f64::EPSILON * angle_change.abs()
+                || (step.abs() >= last && step.abs() <= CONVERGED * angle)
+            {
+                return Some(angle_change);
+            }
+            last = step.abs();
+        }
+        None
+    }
+
+    /// The change of the corner angle \[rad\] between two others where `stiffness`
+    /// is this, by halving: also next to the fold, where Newton's method has no
+    /// slope, and behind it. `stiffness` must be monotonic between the two.
+    pub fn between(&self, stiffness: f64, [near, far]: [f64; 2]) -> f64 {
+        let at = |angle_change| {
+            self.stiffness(angle_change).map_or(f64::NAN, |(stiffness, _)| stiffness)
+        };
+        let grows = at(near) < at(far);
+        let [near, far] = bisected([near, far], |place| (at(place) < stiffness) != grows);
+        0.5 * (near + far)
+    }
+
+    /// `stiffness` at a change of the corner angle, and its slope; `None` if the
+    /// blades are too stiff for such an opening.
+    pub fn stiffness(&self, angle_change: f64) -> Option<(f64, f64)> {
+        if self.compliance < AS_GOOD_AS_RIGID {
+            return None;
+        }
+        let (sin, cos) = (self.delta + angle_change).sin_cos();
+        let scale = -cos * cos / (self.compliance * sin * sin);
+        let stiffness = scale * angle_change * sin * cos;
+        let slope = scale * (sin * cos - angle_change * (1.0 + 2.0 * sin * sin));
+        (stiffness.is_finite() && slope.is_finite()).then_some((stiffness, slope))
+    }
+
+    /// The change of the corner angle at the fold \[rad\]: it depends on
+    /// `delta` alone.
+    pub fn at_fold(&self) -> f64 {
+        let falls = |angle_change: f64| {
+            let (sin, cos) = (self.delta + angle_change).sin_cos();
+            sin * cos <= angle_change * (1.0 + 2.0 * sin * sin)
+        };
+        bisected([0.0, FRAC_PI_2 - self.delta], falls)[0]
+    }
+}
 
 /// Where a branch turns back.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,30 +173,26 @@ pub fn corner_branch(
     let Some(critical) = machine.critical_speed() else { return Err(HarmonicError::NoWave) };
     if !(from >= 0.0 && to > from && to / critical <= FASTEST) {
         let allowed = format!("two speeds with 0 <= from < to, up to {FASTEST:e} critical speeds");
-        return Err(HarmonicError::Refused {
-            key: "speed",
-            value: format!("{from}:{to}"),
-            allowed,
-        });
+        return Err(HarmonicError::refused("speed", format!("{from}:{to}"), allowed));
     }
     if !(1e-4..=1.0).contains(&step) {
-        let (key, allowed) = ("step", "an arc length from 1e-4 to 1".to_string());
-        return Err(HarmonicError::Refused { key, value: step.to_string(), allowed });
+        return Err(HarmonicError::refused("step", step, "an arc length from 1e-4 to 1"));
     }
     let corner_angle = CornerAngle::of(machine);
     let widest = corner_angle.at_fold();
-    let top = corner_angle
-        .kappa(widest)
-        .map(|(kappa, _)| Place { speed: critical * (1.0 - kappa).sqrt(), angle_change: widest });
+    let top = corner_angle.stiffness(widest).map(|(stiffness, _)| Place {
+        speed: critical * (1.0 - stiffness).sqrt(),
+        angle_change: widest,
+    });
     let walk = Walk { machine, critical, corner_angle, top };
     let places = walk.places([from, to], step);
     let equations = Equations::new(machine, corner, Form::Modal);
     let state = |place: &Place| {
         let mut wave = Wave::at(machine, place.speed, damped);
         // Next to the fold, and with very soft blades, the corner angle gives
-        // kappa to more digits than the speed does.
-        if let Some((kappa, _)) = corner_angle.kappa(place.angle_change) {
-            wave.kappa = kappa;
+        // stiffness to more digits than the speed does.
+        if let Some((stiffness, _)) = corner_angle.stiffness(place.angle_change) {
+            wave.stiffness = stiffness;
         }
         let unknowns = equations.opened(wave, place.angle_change);
         let (z, loads) = loads_of(machine, corner, &unknowns);
@@ -178,15 +286,15 @@ impl Walk<'_> {
 
     /// The place of this change of the corner angle.
     fn at(&self, angle_change: f64) -> Option<Place> {
-        let (kappa, _) = self.corner_angle.kappa(angle_change)?;
-        // kappa = 1 - (Omega/Omega_c)^2.
-        Some(Place { speed: self.critical * (1.0 - kappa).max(0.0).sqrt(), angle_change })
+        let (stiffness, _) = self.corner_angle.stiffness(angle_change)?;
+        // stiffness = 1 - (Omega/Omega_c)^2.
+        Some(Place { speed: self.critical * (1.0 - stiffness).max(0.0).sqrt(), angle_change })
     }
 
     /// The place of this speed on the way up to the fold; `None` beyond it.
     fn rising(&self, speed: f64) -> Option<Place> {
-        let kappa = Wave::at(self.machine, speed, false).kappa;
-        let found = self.corner_angle.at(kappa);
+        let stiffness = Wave::at(self.machine, speed, false).stiffness;
+        let found = self.corner_angle.at(stiffness);
         let Some(top) = self.top else {
             return found.map(|angle_change| Place { speed, angle_change });
         };
@@ -195,7 +303,7 @@ impl Walk<'_> {
         }
         // Newton's method stops if round-off hides the side of the fold.
         let angle_change =
-            found.unwrap_or_else(|| self.corner_angle.between(kappa, [0.0, top.angle_change]));
+            found.unwrap_or_else(|| self.corner_angle.between(stiffness, [0.0, top.angle_change]));
         Some(Place { speed, angle_change: angle_change.min(top.angle_change) })
     }
 
@@ -208,7 +316,46 @@ impl Walk<'_> {
         if let Some(open) = self.at(widest).filter(|open| open.speed >= speed) {
             return open;
         }
-        let kappa = Wave::at(self.machine, speed, false).kappa;
-        Place { speed, angle_change: self.corner_angle.between(kappa, [top.angle_change, widest]) }
+        let stiffness = Wave::at(self.machine, speed, false).stiffness;
+        Place {
+            speed,
+            angle_change: self.corner_angle.between(stiffness, [top.angle_change, widest]),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_branch_by_speed_is_the_branch_by_opening() {
+        for (delta, bend) in [(0.1428, 1e-6), (0.1428, 40.0), (0.6, 3.0), (1.0, 0.3)] {
+            let corner_angle = CornerAngle::new(delta, bend);
+            let (limit, slope) = corner_angle.stiffness(corner_angle.at_fold()).unwrap();
+            assert!(slope.abs() < 1e-12 * (limit / delta).abs());
+            for part in [-3.0, -0.5, 0.0, 1e-9, 0.1, 0.5, 0.9, 0.999] {
+                let angle_change = corner_angle.at(part * limit).unwrap();
+                let (back, _) = corner_angle.stiffness(angle_change).unwrap();
+                // Next to the fold the rounding of an angle is amplified a
+                // hundred times.
+                assert!((back - part * limit).abs() <= 1e-13 * limit.abs());
+                assert_eq!(angle_change > 0.0, part > 0.0);
+            }
+            assert_eq!(corner_angle.at(1.001 * limit), None);
+        }
+    }
+
+    #[test]
+    fn the_slope_is_the_slope_and_the_fold_is_the_extreme() {
+        let corner_angle = CornerAngle::new(0.3, 2.0);
+        let at = |angle_change| corner_angle.stiffness(angle_change).unwrap().0;
+        for angle_change in [-0.1, 0.05, 0.7] {
+            let (_, slope) = corner_angle.stiffness(angle_change).unwrap();
+            let measured = (at(angle_change + 1e-5) - at(angle_change - 1e-5)) / 2e-5;
+            assert!((measured - slope).abs() < 1e-7 * slope.abs().max(1.0));
+        }
+        let fold = corner_angle.at_fold();
+        assert!(at(fold) < at(fold - 1e-4) && at(fold) < at(fold + 1e-4));
     }
 }

@@ -1,9 +1,22 @@
-//! Blades and casing as one where they touch (docs/theory.md, section 10): the
-//! compliance that a travelling wave of pushes meets.
+//! Blades and casing as one where they touch (docs/theory.md, section 10): the compliance
+//! that a travelling wave of pushes meets, and the flutter of both where a lock joins them.
+//! With the corner held, both move as one, `L_c(s) + (1 + i mu_c) L_a(s)/c2 = 0`, and from
+//! some rotor speed on that motion grows. It is also where the pushes of a whirl grow without
+//! bound, `B(omega) = 0` at a real frequency.
+//!
+//! In units of both stiffnesses, with `x = omega/omega_c`, `y = s/omega_bd`,
+//! `c = c2 k_c/k_a`, that is
+//! `c (1 - x^2 + 2 i zeta_c x) + (1 + i mu_c)(1 - y^2 + 2 i zeta_bd y) = 0`,
+//! and `nu/omega_c = x - (omega_bd/omega_c) y`. A limit has real `x` and `y`:
+//!
+//! - real part: `c (1 - x^2) + 1 - y^2 - 2 mu_c zeta_bd y = 0`
+//! - imaginary part: `2 c zeta_c x + 2 zeta_bd y + mu_c (1 - y^2) = 0`
 
 use nalgebra::Complex;
 
-use crate::model::Machine;
+use crate::model::{Machine, Number};
+use crate::numeric::real_roots::{Coefficients, Point, product, real_roots, sum};
+use crate::tolerances::BESIDE_A_LIMIT;
 
 /// The joint of blades and casing at one rotor speed.
 #[derive(Clone, Copy, Debug)]
@@ -75,5 +88,245 @@ impl<'a> Joint<'a> {
         let machine = self.machine;
         let friction = machine.friction_at(self.nu);
         (machine.radial_coupling + friction).abs() * machine.blade_length
+    }
+}
+
+/// The flutter speed without any damping, as a magnitude \[rad/s\]:
+/// `Omega_f = sqrt[(1/m_c + c2/m_a)(k_c + k_a/c2)]/n_d`, never below the dangerous
+/// coincidence. None where tips are not joined or never flutter; for a rotor that turns
+/// in the sense of `toward`.
+#[must_use]
+pub fn undamped_flutter_speed<T: Number>(machine: &Machine<T>, toward: f64) -> Option<T> {
+    let pair = HeldPair::of(machine, toward)?;
+    let rate = pair.rate * pair.rate;
+    let square = (pair.coupling * rate + 1.0) * (pair.coupling.recip() + 1.0);
+    let speed = square.sqrt() * machine.critical_speed()?;
+    speed.re().is_finite().then_some(speed)
+}
+
+/// The rotor speed above which the lock of a machine flutters, as a magnitude \[rad/s\],
+/// with its damping; that is lower than without by a finite amount, however small the
+/// damping is (Ziegler's paradox). None where tips are not joined or never flutter; for
+/// a rotor that turns in the sense of `toward`.
+#[must_use]
+pub fn flutter_speed<T: Number>(machine: &Machine<T>, toward: f64) -> Option<T> {
+    let pair = HeldPair::of(machine, toward)?;
+    if !pair.has_friction() && !pair.casing_is_damped() && pair.blades.re() == 0.0 {
+        return undamped_flutter_speed(machine, toward);
+    }
+    let mut limits = pair.limits();
+    limits.retain(|turn| turn.re() > 0.0 && turn.re().is_finite());
+    limits.sort_by(|a, b| a.re().total_cmp(&b.re()));
+    let first = limits.into_iter().find(|turn| pair.begins_to_grow(turn.re()))?;
+    Some(first * machine.critical_speed()?)
+}
+
+/// Growth of the motion that keeps a lock of joined tips, for a gap that does not turn
+/// with the blades: the roots `l = i s` \[1/s\]. Empty without joined tips.
+#[must_use]
+pub fn lock_roots(joint: &Joint) -> Vec<Complex<f64>> {
+    let Some(pair) = HeldPair::of(joint.machine, joint.nu) else { return Vec::new() };
+    let omega_c = joint.machine.omega_c;
+    let turned = if joint.nu < 0.0 { Complex::conj } else { |value: &Complex<f64>| *value };
+    pair.roots(joint.nu.abs() / omega_c).iter().map(|root| turned(root) * omega_c).collect()
+}
+
+/// Blades and casing that a corner holds together, in units of their stiffnesses, turning
+/// forward. A speed is `turn = nu/omega_c`.
+struct HeldPair<T> {
+    /// `c = c2 k_c/k_a`.
+    coupling: T,
+    /// `omega_bd/omega_c`.
+    rate: T,
+    /// `2 zeta_c`.
+    casing: T,
+    /// `2 zeta_bd`.
+    blades: T,
+    /// `mu_c`.
+    friction: T,
+}
+
+impl<T: Number> HeldPair<T> {
+    /// None where the corner cannot move: tips that no bending lifts.
+    fn of(machine: &Machine<T>, toward: f64) -> Option<Self> {
+        // A rotor that turns backward is the mirror image of one that turns forward.
+        let coupling = machine.coupling_product_at(T::from(toward)) * machine.casing_stiffness
+            / machine.blade_modal_stiffness;
+        let corner = machine.polygon.has_corners() && !machine.has_other_diameters();
+        (corner && coupling.re() != 0.0).then(|| Self {
+            coupling,
+            rate: machine.omega_bd / machine.omega_c,
+            casing: machine.casing_damping_ratio * 2.0,
+            blades: machine.blade_damping_ratio * 2.0,
+            friction: machine.casing_friction_at(T::one()),
+        })
+    }
+
+    fn has_friction(&self) -> bool {
+        self.friction.re() != 0.0
+    }
+
+    fn casing_is_damped(&self) -> bool {
+        self.casing.re() != 0.0
+    }
+
+    /// The speeds of every motion that neither grows nor decays.
+    fn limits(&self) -> Vec<T> {
+        match (self.has_friction(), self.casing_is_damped()) {
+            (false, _) => self.limit_without_friction().into_iter().collect(),
+            (true, true) => self.limits_with_friction(),
+            (true, false) => self.limits_of_undamped_casing(),
+        }
+    }
+
+    /// Without friction the imaginary part is `2 c zeta_c x = -2 zeta_bd y`, and the real
+    /// part gives the size of both.
+    fn limit_without_friction(&self) -> Option<T> {
+        let c = self.coupling;
+        let square = (c + 1.0) / (c * (c * self.casing * self.casing + self.blades * self.blades));
+        let turn = (self.blades + self.rate * c * self.casing).abs() * square.sqrt();
+        turn.re().is_finite().then_some(turn)
+    }
+
+    /// With friction the imaginary part gives `x` of `y`, and the real part is a quartic of
+    /// `y`. Two steps of Newton's method take its roots to the last digit, and carry the
+    /// derivatives of the number.
+    fn limits_with_friction(&self) -> Vec<T> {
+        let roots = real_roots(&|from, to| self.quartic(from, to), &[-1.0, 0.0, 1.0]);
+        let refined = |root: f64| {
+            let mut y = T::from(root);
+            for _ in 0..2 {
+                let step = self.newton_step(y);
+                if step.re().is_finite() {
+                    y -= step;
+                }
+            }
+            self.casing_at(y) - self.rate * y
+        };
+        roots.into_iter().map(refined).collect()
+    }
+
+    /// `x` of `y`, by the imaginary part.
+    fn casing_at(&self, y: T) -> T {
+        -(self.blades * y + self.friction * (-(y * y) + 1.0)) / (self.coupling * self.casing)
+    }
+
+    /// The real part over its slope, `x` taken as that of `y`.
+    fn newton_step(&self, y: T) -> T {
+        let Self { coupling: c, casing, blades, friction: mu, .. } = *self;
+        let x = self.casing_at(y);
+        let value = c * (-(x * x) + 1.0) - y * y + 1.0 - mu * blades * y;
+        let x_slope = -(blades - mu * y * 2.0) / (c * casing);
+        let slope = c * x * x_slope * -2.0 - y * 2.0 - mu * blades;
+        value / slope
+    }
+
+    /// The real part times the square of `2 c zeta_c`, a quartic of `y` between two points.
+    fn quartic(&self, from: Point, to: Point) -> Coefficients {
+        let [c, casing, blades, mu] =
+            [self.coupling, self.casing, self.blades, self.friction].map(|part| part.re());
+        let mixed = |u: Point, v: Point| 0.5 * (u.p * v.q + v.p * u.q);
+        let one = Coefficients::quadratic(from, to, |u, v| u.q * v.q);
+        let x = Coefficients::quadratic(from, to, |u, v| {
+            blades * mixed(u, v) + mu * (u.q * v.q - u.p * v.p)
+        });
+        let rest = Coefficients::quadratic(from, to, |u, v| {
+            (c + 1.0) * u.q * v.q - u.p * v.p - mu * blades * mixed(u, v)
+        });
+        let weight = c * casing;
+        sum(weight * weight, &product(&rest, &one), -c, &product(&x, &x))
+    }
+
+    /// Without damping of the casing the imaginary part is a quadratic of `y`, and the real
+    /// part gives `x` but for its sign.
+    fn limits_of_undamped_casing(&self) -> Vec<T> {
+        let Self { coupling: c, blades, friction: mu, rate, .. } = *self;
+        let root = (blades * blades + mu * mu * 4.0).sqrt();
+        let places = [(blades + root) / (mu * 2.0), (blades - root) / (mu * 2.0)];
+        let turns = places.map(|y| {
+            let x = ((-(y * y) + 1.0 - mu * blades * y) / c + 1.0).sqrt();
+            [x - rate * y, -x - rate * y]
+        });
+        turns.concat()
+    }
+
+    /// The two roots `l = i s` of the motion over `omega_c`, at a speed: of
+    /// `c [(l + i n)^2 + 2 zeta_c (l + i n) + 1] + (1 + i mu_c)[(l/r)^2 + 2 zeta_bd l/r + 1]`.
+    fn roots(&self, turn: f64) -> [Complex<f64>; 2] {
+        let [c, rate, drag] = [self.coupling.re(), self.rate.re(), self.casing.re()];
+        let turned = Complex::new(1.0, self.friction.re());
+        let spin = Complex::new(0.0, turn);
+        let square = turned / (rate * rate) + c;
+        let linear = (spin * 2.0 + drag) * c + turned * (self.blades.re() / rate);
+        let constant = (spin * spin + spin * drag + 1.0) * c + turned;
+        let half = linear / (square * 2.0);
+        let root = (half * half - constant / square).sqrt();
+        // The larger first; the other without cancellation.
+        let far = if (half + root).norm_sqr() >= (half - root).norm_sqr() {
+            -half - root
+        } else {
+            root - half
+        };
+        let near = if far.norm_sqr() > 0.0 { constant / (square * far) } else { far };
+        [far, near]
+    }
+
+    /// Whether no motion grows just below a speed, and one does just above.
+    fn begins_to_grow(&self, turn: f64) -> bool {
+        let grows = |turn: f64| self.roots(turn).iter().any(|root| root.re > 0.0);
+        !grows(turn * (1.0 - BESIDE_A_LIMIT)) && grows(turn * (1.0 + BESIDE_A_LIMIT))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    /// Table 1 with `kappa`, `mu`, and both damping ratios.
+    fn machine([kappa, mu, casing, blades]: [f64; 4]) -> Machine {
+        let mut scene = Scene::base();
+        for (path, value) in [
+            ("bladed_disk.radial_coupling", kappa),
+            ("contact.friction", mu),
+            ("casing.tangential_ratio", 0.33),
+            ("casing.damping_ratio", casing),
+            ("bladed_disk.damping_ratio", blades),
+        ] {
+            scene.set(path, &value.to_string()).unwrap();
+        }
+        scene.machine()
+    }
+
+    #[test]
+    fn a_lock_begins_to_grow_at_its_flutter_speed_in_every_case_of_friction_and_damping() {
+        for data in [
+            [0.5, 0.0, 0.05, 0.01],
+            [0.5, 0.0, 0.0, 0.01],
+            [0.5, 0.0, 0.05, 0.0],
+            [0.5, 0.3, 0.05, 0.01],
+            [0.5, 0.3, 0.05, 0.0],
+            [1.0, 0.1, 0.02, 0.03],
+        ] {
+            let machine = machine(data);
+            let speed = flutter_speed(&machine, 1.0).unwrap();
+            let growth = |speed: f64| {
+                let roots = lock_roots(&Joint::at(&machine, speed));
+                roots.iter().map(|root| root.re).fold(f64::NEG_INFINITY, f64::max)
+            };
+            assert!(growth(0.999 * speed) < 0.0 || data[1] == 0.0, "{data:?} {speed}");
+            assert!(growth(1.001 * speed) > 0.0, "{data:?} {speed}");
+            assert!(growth(speed).abs() < 1e-9 * machine.omega_c, "{data:?} {speed}");
+        }
+    }
+
+    #[test]
+    fn flutter_speeds_of_table_1() {
+        let flutter = |data| flutter_speed(&machine(data), 1.0).unwrap();
+        let near = |value: f64, expected: f64| (value - expected).abs() < 5e-3;
+        assert!(near(flutter([0.5, 0.0, 0.05, 0.04]), 452.804));
+        let undamped = undamped_flutter_speed(&machine([0.5, 0.0, 0.05, 0.04]), 1.0).unwrap();
+        assert!(near(undamped, 516.281) && near(flutter([0.5, 0.0, 0.0, 0.0]), 516.281));
+        assert!(near(flutter([1.0, 0.0, 1e-5, 1e-5]), 341.120));
     }
 }

@@ -9,8 +9,7 @@ use std::f64::consts::TAU;
 use nalgebra::Complex;
 use serde::Serialize;
 
-use super::saddle_flow::{Arc, SaddleFlow};
-use super::slip::repeating;
+use super::slip::{Arc, SaddleFlow, repeating};
 use super::{HarmonicError, NoSlip, error};
 use crate::model::Machine;
 use crate::tolerances::{HARMONICS, SMALL_RATE, SPECTRUM_SAMPLES};
@@ -65,16 +64,12 @@ pub fn slip_spectrum(
     speed: f64,
     most: u32,
 ) -> Result<Result<SlipSpectrum, NoSlip>, HarmonicError> {
-    if !machine.polygon.has_corners() {
-        return Err(HarmonicError::no_corner(&machine.polygon));
-    }
-    if !speed.is_finite() {
-        return Err(HarmonicError::Speed(speed));
-    }
+    error::refuse_no_corner(&machine.polygon)?;
+    error::refuse_endless(&[speed])?;
     error::refuse_joined_casing(machine, "the series of slip")?;
     if most > HARMONICS {
         let allowed = format!("a whole number from 0 to {HARMONICS}");
-        return Err(HarmonicError::Refused { key: "harmonics", value: most.to_string(), allowed });
+        return Err(HarmonicError::refused("harmonics", most, allowed));
     }
     Ok(repeating(machine, speed).map(|(slide, arc)| {
         let orbit = Orbit { slide, arc, delta: machine.polygon.delta };

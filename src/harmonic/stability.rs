@@ -9,6 +9,10 @@
 //! q'' + Z^T C Z q' + Z^T (K + sum Lambda_k H_k) Z q = 0`, `H_k` the second
 //! derivatives of the gap. The damping of the casing is fixed in the standing
 //! frame, so `K` contains its circulatory part.
+//!
+//! Where tips are inclined or rub (section 10), the forces are not along the gradients: the
+//! motion is seen in the null spaces of both. For a gap that does not turn with the blades it
+//! is the motion of casing and blades as one, `L_c(s) + (1 + i mu_c) L_a(s)/c2 = 0`.
 
 use nalgebra::{Complex, DMatrix, DVector, Matrix2, Matrix4, Matrix4x2, Vector4};
 
@@ -17,24 +21,28 @@ use crate::model::Machine;
 use crate::numeric::eigen::eigenvalues;
 use crate::tolerances::{CLEAR_DAMPING, CLEAR_SIGN, EQUAL_ROOTS, NEUTRAL, NEUTRAL_OF_ALL};
 
-/// One side in contact: its phase, `(C, S)` of `psi + n_d alpha`, the moment arm
-/// `y C - x S` and the multiplier, all scaled.
+/// One side in contact, all scaled: its phase, `(C, S)` of `psi + n_d alpha`, the part
+/// `x C + y S` of `z`, how its blades move the gap (`y C - x S` and the slope of the tips),
+/// the arm of its force on them (with friction too), and the multiplier.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ClosedSide {
     pub phase: (f64, f64),
     pub direction: (f64, f64),
+    pub along: f64,
     pub arm: f64,
+    pub moment: f64,
     pub multiplier: f64,
 }
 
-/// `M`, `C` and `K` (with the contacts' second derivatives), and the
-/// constraint gradients, at one equilibrium.
+/// `M`, `C` and `K` (with the contacts' second derivatives), the constraint gradients and
+/// the directions of the forces, at one equilibrium.
 #[derive(Clone, Debug)]
 pub(super) struct Linearised {
     mass: Vector4<f64>,
     damping: Matrix4<f64>,
     stiffness: Matrix4<f64>,
     gradients: Vec<Vector4<f64>>,
+    forces: Vec<Vector4<f64>>,
     multipliers: Vec<f64>,
     sine_mode: bool,
     damped: bool,
@@ -56,23 +64,31 @@ impl Linearised {
         let mut damping = Matrix4::from_diagonal(&Vector4::new(casing, casing, blades, blades));
         damping[(0, 1)] = -whirl;
         damping[(1, 0)] = whirl;
-        let mut stiffness = Matrix4::from_diagonal(&Vector4::new(wave.kappa, wave.kappa, 1.0, 1.0));
+        let mut stiffness =
+            Matrix4::from_diagonal(&Vector4::new(wave.stiffness, wave.stiffness, 1.0, 1.0));
         stiffness[(0, 1)] = -wave.drag;
         stiffness[(1, 0)] = wave.drag;
         let softness = blade_scale(machine);
-        let mut gradients = Vec::with_capacity(held.len());
+        let mu = machine.casing_friction_at(speed);
+        let (mut gradients, mut forces) = (Vec::with_capacity(2), Vec::with_capacity(2));
         for side in held {
             let (c, s) = side.direction;
+            let push = [c - mu * s, s + mu * c];
             let shape = [softness * side.phase.0, softness * side.phase.1];
-            gradients.push(Vector4::new(c, s, side.arm * shape[0], side.arm * shape[1]));
+            let turned =
+                |[x, y]: [f64; 2], arm: f64| Vector4::new(x, y, arm * shape[0], arm * shape[1]);
+            gradients.push(turned([c, s], side.arm));
+            forces.push(turned(push, side.moment));
             for i in 0..2 {
-                // d2g/dx dphi = -S, d2g/dy dphi = C, d2g/dphi2 = -(x C + y S) = 1.
-                for (row, slope) in [(0, -s), (1, c)] {
-                    stiffness[(row, 2 + i)] += side.multiplier * slope * shape[i];
-                    stiffness[(2 + i, row)] += side.multiplier * slope * shape[i];
+                // Blades turn the force, and the casing its arm: without friction
+                // d2g/dx dphi = -S, d2g/dy dphi = C, d2g/dphi2 = -(x C + y S).
+                for (row, turn, swing) in [(0, -push[1], -s), (1, push[0], c)] {
+                    stiffness[(row, 2 + i)] += side.multiplier * turn * shape[i];
+                    stiffness[(2 + i, row)] += side.multiplier * swing * shape[i];
                 }
+                let bend = -(side.multiplier * side.along);
                 for j in 0..2 {
-                    stiffness[(2 + i, 2 + j)] += side.multiplier * shape[i] * shape[j];
+                    stiffness[(2 + i, 2 + j)] += bend * shape[i] * shape[j];
                 }
             }
         }
@@ -82,6 +98,7 @@ impl Linearised {
             damping,
             stiffness,
             gradients,
+            forces,
             multipliers: held.iter().map(|side| side.multiplier).collect(),
             sine_mode: machine.has_sine_mode,
             damped,
@@ -168,15 +185,31 @@ impl Linearised {
         Some(follow(a, b))
     }
 
-    /// `M, C, K` of the two blade motions in a corner.
+    /// `M, C, K` of the two blade motions in a corner, as the forces that do no work on
+    /// them see them.
     fn corner_motion(&self) -> Option<[Matrix2<f64>; 3]> {
         let basis = self.corner_basis()?;
-        let across = basis.transpose();
+        let [a, b] = self.forces.as_slice() else { return None };
+        let across = follow(a, b).transpose();
         Some([
             across * Matrix4::from_diagonal(&self.mass) * basis,
             across * self.damping * basis,
             across * self.stiffness * basis,
         ])
+    }
+
+    /// Whether a motion grows in a corner whose forces are not along the gradients of its
+    /// gaps, or the eigenvalues of the two cannot be computed.
+    pub fn grows_in_corner(&self) -> bool {
+        let values = self.corner_motion().and_then(|[mass, damping, stiffness]| {
+            let inverse = mass.try_inverse()?;
+            let mut first_order = DMatrix::zeros(4, 4);
+            first_order.view_mut((0, 2), (2, 2)).fill_with_identity();
+            first_order.view_mut((2, 0), (2, 2)).copy_from(&-(inverse * stiffness));
+            first_order.view_mut((2, 2), (2, 2)).copy_from(&-(inverse * damping));
+            eigenvalues(first_order)
+        });
+        values.is_none_or(|values| grows(&values, 1.0))
     }
 
     /// Whether no motion that keeps every contact grows. In a corner by the signs of

@@ -235,9 +235,8 @@ impl<T: Number> Balance<T> {
             (self.damping.re(), self.friction.re(), self.coupling.re());
         let on = |sign: f64| {
             move |from: Point, to: Point| -> Coefficients {
-                let quadratic = |of: &dyn Fn(Point, Point) -> f64| {
-                    Coefficients::from([of(from, from), 2.0 * of(from, to), of(to, to)])
-                };
+                let quadratic =
+                    |of: &dyn Fn(Point, Point) -> f64| Coefficients::quadratic(from, to, of);
                 let one = quadratic(&|u, v| u.q * v.q);
                 let stiff = quadratic(&|u, v| u.q * v.q - u.p * v.p);
                 let drag = quadratic(&|u, v| 0.5 * damping * (u.p * v.q + v.p * u.q));

@@ -11,7 +11,7 @@ use serde::Serialize;
 
 /// Sums from the start until half a step before the latest \[J\].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct EnergyLedger {
+pub struct EnergyAccount {
     /// Work of the pulse and of the excitation.
     pub pulse_work_j: f64,
     /// Work that keeps the rotor turning against contact and friction.
@@ -28,7 +28,7 @@ pub struct EnergyLedger {
     pub stored_j: f64,
 }
 
-impl EnergyLedger {
+impl EnergyAccount {
     /// What is not accounted for; it goes to zero with the step \[J\].
     #[must_use]
     pub fn residual(&self) -> f64 {

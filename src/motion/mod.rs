@@ -23,8 +23,8 @@ mod wave;
 
 pub use contacts::{ActiveSet, ContactLog, Hold, Impact, in_phase_order};
 pub use drive::{Pulse, Rotor, State};
-pub use energy::EnergyLedger;
-pub use event::{Event, Joined};
+pub use energy::EnergyAccount;
+pub use event::{ExactEvents, LinearEvents};
 pub use failure::{Failure, FailureReason};
 pub use free_flight::FreeFlight;
 pub use run::{

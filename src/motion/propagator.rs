@@ -1,11 +1,11 @@
-//! Closed-form response of one damped coordinate: `y'' + 2 c y' + kappa y = a`.
+//! Closed-form response of one damped coordinate: `y'' + 2 c y' + stiffness y = a`.
 //! (docs/theory.md, section 7.)
 //!
 //! Everything follows from two functions: `unit`, the motion from rest with
 //! unit rate, and `ramp`, the motion from rest under `a = 1` (so
-//! `ramp' = unit`). They are entire in `c` and `kappa`: under-, over- and
-//! critically damped roots, `kappa = 0` (the casing at `Omega = Omega_c` seen
-//! from the blades) and `kappa < 0` are one case, only evaluated in different
+//! `ramp' = unit`). They are entire in `c` and `stiffness`: under-, over- and
+//! critically damped roots, `stiffness = 0` (the casing at `Omega = Omega_c` seen
+//! from the blades) and `stiffness < 0` are one case, only evaluated in different
 //! ways where round-off asks for it.
 
 use crate::model::Number;
@@ -20,9 +20,9 @@ const TERMS: usize = 18;
 pub(super) struct Propagator<T = f64> {
     /// Damping `c` \[1/s\], zero or more.
     pub damping: T,
-    /// Stiffness per unit mass `kappa` \[1/s^2\], of any sign.
+    /// Stiffness per unit mass `stiffness` \[1/s^2\], of any sign.
     pub stiffness: T,
-    /// `c^2 - kappa`: negative where the roots are complex.
+    /// `c^2 - stiffness`: negative where the roots are complex.
     discriminant: T,
     /// Square root of its magnitude.
     root: T,
@@ -31,7 +31,7 @@ pub(super) struct Propagator<T = f64> {
 /// The response at one instant.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Response<T = f64> {
-    /// Motion from unit displacement at rest, `1 - kappa ramp`.
+    /// Motion from unit displacement at rest, `1 - stiffness ramp`.
     pub hold: T,
     /// Motion from rest with unit rate \[s\].
     pub unit: T,
@@ -55,7 +55,7 @@ impl<T: Number> Propagator<T> {
         } else if (c + q) * s < SHORT_TIME {
             self.series(s)
         } else {
-            // Here kappa s^2 > 0.05, so that the division below keeps its digits.
+            // Here stiffness s^2 > 0.05, so that the division below keeps its digits.
             let (cos, sin) = if self.discriminant > 0.0 {
                 ((q * s).cosh(), (q * s).sinh() / q)
             } else if q > 0.0 {
@@ -117,7 +117,7 @@ impl<T: Number> Propagator<T> {
 }
 
 impl Propagator {
-    /// The exponents `-c +- sqrt(c^2 - kappa)` as `(re, im)` of the first; none
+    /// The exponents `-c +- sqrt(c^2 - stiffness)` as `(re, im)` of the first; none
     /// near a double root, where a sum of two exponentials is ill-conditioned.
     pub(super) fn exponents(&self) -> Option<[(f64, f64); 2]> {
         let (c, q) = (self.damping, self.root);
@@ -137,7 +137,7 @@ impl Propagator {
     }
 
     /// When a free motion from `place` with `rate` first comes to rest \[s\], for
-    /// `kappa > 0`; none where it creeps back to zero without a turning point.
+    /// `stiffness > 0`; none where it creeps back to zero without a turning point.
     pub(super) fn first_rest(&self, place: f64, rate: f64) -> Option<f64> {
         let q = self.root;
         let (across, along) = (rate, self.damping * rate + self.stiffness * place);
@@ -195,10 +195,10 @@ mod tests {
     use super::*;
 
     /// Classical Runge-Kutta with steps far below round-off in its own error.
-    fn integrated(c: f64, kappa: f64, start: [f64; 2], a: f64, s: f64) -> [f64; 2] {
+    fn integrated(c: f64, stiffness: f64, start: [f64; 2], a: f64, s: f64) -> [f64; 2] {
         let steps = 20_000;
         let h = s / f64::from(steps);
-        let rate = |x: [f64; 2]| [x[1], a - 2.0 * c * x[1] - kappa * x[0]];
+        let rate = |x: [f64; 2]| [x[1], a - 2.0 * c * x[1] - stiffness * x[0]];
         let along = |x: [f64; 2], k: [f64; 2], h: f64| [x[0] + h * k[0], x[1] + h * k[1]];
         let mut x = start;
         for _ in 0..steps {
@@ -215,7 +215,7 @@ mod tests {
 
     #[test]
     fn every_kind_of_root_agrees_with_an_integration() {
-        for (c, kappa) in [
+        for (c, stiffness) in [
             (0.0, 1.0),
             (0.05, 1.0),
             (1.0, 1.0),
@@ -230,12 +230,12 @@ mod tests {
             (0.0, -2.0),
             (2.0, 1e-3),
         ] {
-            let propagator = Propagator::new(c, kappa);
+            let propagator = Propagator::new(c, stiffness);
             for s in [1e-9, 1e-3, 0.11, 0.3, 0.49, 0.51, 0.8, 1.7, 5.0] {
                 let response = propagator.at(s);
-                let [unit, slope] = integrated(c, kappa, [0.0, 1.0], 0.0, s);
-                let [ramp, same] = integrated(c, kappa, [0.0, 0.0], 1.0, s);
-                let [hold, _] = integrated(c, kappa, [1.0, 0.0], 0.0, s);
+                let [unit, slope] = integrated(c, stiffness, [0.0, 1.0], 0.0, s);
+                let [ramp, same] = integrated(c, stiffness, [0.0, 0.0], 1.0, s);
+                let [hold, _] = integrated(c, stiffness, [1.0, 0.0], 0.0, s);
                 // The integration itself is good to about 20000 roundings.
                 for (value, expected) in [
                     (response.unit, unit),
@@ -246,7 +246,10 @@ mod tests {
                 ] {
                     let error =
                         (value - expected).abs() / expected.abs().max(slope.abs()).max(unit);
-                    assert!(error < 1e-11, "c {c}, kappa {kappa}, s {s}: {value} {expected}");
+                    assert!(
+                        error < 1e-11,
+                        "c {c}, stiffness {stiffness}, s {s}: {value} {expected}"
+                    );
                 }
             }
         }
@@ -254,20 +257,20 @@ mod tests {
 
     #[test]
     fn a_turning_point_is_where_the_rate_vanishes_first() {
-        for (c, kappa) in [(0.0, 2.0), (0.3, 1.0), (1.0, 1.0), (0.999_999, 1.0), (3.0, 1.0)] {
-            let propagator = Propagator::new(c, kappa);
+        for (c, stiffness) in [(0.0, 2.0), (0.3, 1.0), (1.0, 1.0), (0.999_999, 1.0), (3.0, 1.0)] {
+            let propagator = Propagator::new(c, stiffness);
             for (place, rate) in [(1.0, 0.3), (1.0, -0.1), (-0.2, 1.0), (0.0, 1.0), (0.1, -7.0)] {
                 let rate_at = |s: f64| {
                     let response = propagator.at(s);
-                    rate * response.slope - place * kappa * response.unit
+                    rate * response.slope - place * stiffness * response.unit
                 };
                 let sampled = (1..40_000).map(|k| 1e-3 * f64::from(k));
                 let first = sampled.into_iter().find(|&s| rate_at(s) * rate < 0.0);
                 let found = propagator.first_rest(place, rate).filter(|&time| time < 39.0);
-                assert_eq!(found.is_some(), first.is_some(), "{c} {kappa} {place} {rate}");
+                assert_eq!(found.is_some(), first.is_some(), "{c} {stiffness} {place} {rate}");
                 if let (Some(time), Some(first)) = (found, first) {
                     assert!(time <= first && time > first - 1.001e-3, "{time} {first}");
-                    assert!(rate_at(time).abs() < 1e-12, "{c} {kappa} {place} {rate}");
+                    assert!(rate_at(time).abs() < 1e-12, "{c} {stiffness} {place} {rate}");
                 }
             }
         }

@@ -9,7 +9,7 @@ use super::script::{Script, Scripted};
 use super::sensitivity::sign;
 use super::wave::WaveTracker;
 use super::{
-    Checks, Contact, EnergyLedger, Failure, GoOn, Motion, Outcome, State, Verdict, to_the_end,
+    Checks, Contact, EnergyAccount, Failure, GoOn, Motion, Outcome, State, Verdict, to_the_end,
 };
 use crate::scene::{CheckedScene, ContactLaw, ModelSize, SolverKind};
 use crate::tolerances::{LAST_PART, RUN_LOOKS};
@@ -107,7 +107,7 @@ pub struct RunReport {
     pub checks: Checks,
     /// Where energy came from and went to, beyond the paper.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub energy: Option<EnergyLedger>,
+    pub energy: Option<EnergyAccount>,
     /// Speed of the rotor at the end, after ramps and changes \[rad/s\].
     #[serde(skip)]
     pub end_speed_rad_s: f64,
@@ -376,7 +376,7 @@ pub(super) fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) 
             alpha_s_rad: state.alpha[1],
         },
         checks: motion.checks(),
-        energy: motion.energy_ledger(),
+        energy: motion.energy_account(),
         end_speed_rad_s: motion.rotor().speed(state.t_s),
         reached: VerdictReached::of(motion, verdict),
     }

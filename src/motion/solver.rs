@@ -7,8 +7,8 @@ use std::ops::{Deref, DerefMut};
 use super::explicit::{Explicit, FullBlades, ModalBlades, RigidBlades};
 use super::verdict::judge;
 use super::{
-    Checks, ContactLog, EnergyLedger, Event, Failure, FailureReason, Joined, Plane, Pulse, Rotor,
-    State, Verdict,
+    Checks, ContactLog, EnergyAccount, ExactEvents, Failure, FailureReason, LinearEvents, Plane,
+    Pulse, Rotor, State, Verdict,
 };
 use crate::model::Machine;
 use crate::scene::{CheckedScene, ModelSize, SolverKind};
@@ -179,7 +179,7 @@ pub trait Solver: Debug + Send + Sync {
     fn checks(&self) -> Checks;
 
     /// Where energy came from and went to, beyond the paper.
-    fn energy_ledger(&self) -> Option<EnergyLedger> {
+    fn energy_account(&self) -> Option<EnergyAccount> {
         None
     }
 
@@ -228,8 +228,8 @@ impl Motion {
     #[must_use]
     pub fn new(scene: &CheckedScene) -> Self {
         match (scene.solver.kind, scene.solver.model) {
-            (SolverKind::Event, _) if scene.goes_beyond() => Joined::new(scene).into(),
-            (SolverKind::Event, _) => Event::of(scene).into(),
+            (SolverKind::Event, _) if scene.goes_beyond() => LinearEvents::new(scene).into(),
+            (SolverKind::Event, _) => ExactEvents::of(scene).into(),
             (SolverKind::Explicit, ModelSize::Rigid) => Explicit::<RigidBlades>::new(scene).into(),
             (SolverKind::Explicit, ModelSize::Modal) => Explicit::<ModalBlades>::new(scene).into(),
             (SolverKind::Explicit, ModelSize::Full) => Explicit::<FullBlades>::new(scene).into(),

@@ -1,4 +1,8 @@
-//! Eigenvalues of small dense matrices, with bounded work.
+//! Eigenvalues of small dense matrices: those of a matrix next to the given one, up to
+//! some 1e-14 of its largest entry.
+//!
+//! At most [`STEPS`] QR steps for each eigenvalue or pair, of `n^2` products each; beyond,
+//! none are given.
 //!
 //! The QR iteration of nalgebra has no exceptional shifts, and it compares a
 //! coupling only with the diagonal, which is zero for motions that neither grow nor

@@ -5,5 +5,7 @@ pub(crate) mod bisection;
 pub(crate) mod eigen;
 pub(crate) mod elimination;
 pub(crate) mod maximum;
+pub(crate) mod quadrature;
 pub(crate) mod real_roots;
 pub(crate) mod rounding;
+pub(crate) mod sum;

@@ -1,13 +1,14 @@
 //! Every real root of a polynomial that is a product of quadratics, found surely: by
-//! signs of its Bernstein coefficients (Descartes' rule on an interval).
+//! signs of its Bernstein coefficients (Descartes' rule on an interval). Each to
+//! neighbouring numbers, and a double root to the square root of round-off.
+//!
+//! At most [`MOST_HALVINGS`] of an interval on the way to a root, and as many to end it.
 //!
 //! The coefficients are made afresh on every interval from the factors, so that they
 //! keep their digits next to lightly damped resonances, where the polynomial is tiny.
 //! Points are homogeneous, `x = p/q`, so that an interval may end at infinity.
 
-/// Most halvings of an interval on the way to a root: more end at neighbouring
-/// numbers, from any scale to any other that occurs.
-const MOST_HALVINGS: usize = 200;
+use super::bisection::MOST_HALVINGS;
 
 /// A point `x = p/q` of the real line, `q >= 0`; infinite for `q = 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,6 +47,13 @@ impl std::ops::Deref for Coefficients {
 
     fn deref(&self) -> &[f64] {
         self.values.get(..self.count).unwrap_or(&self.values)
+    }
+}
+
+impl Coefficients {
+    /// A quadratic of this polar form, from one point to another.
+    pub fn quadratic(from: Point, to: Point, of: impl Fn(Point, Point) -> f64) -> Self {
+        Self::from([of(from, from), 2.0 * of(from, to), of(to, to)])
     }
 }
 
@@ -143,7 +151,6 @@ fn bisected(on: &impl Fn(Point, Point) -> Coefficients, from: Point, to: Point) 
     // The sign next to the first end, where the value itself may be zero.
     let first = on(from, to).iter().copied().find(|value| *value != 0.0).unwrap_or(0.0) > 0.0;
     let (mut low, mut high) = (from, to);
-    // Halving more often than this ends at neighbouring numbers.
     for _ in 0..MOST_HALVINGS {
         let middle = low.middle(high);
         if middle == low || middle == high {
@@ -168,7 +175,7 @@ mod tests {
             let at = |u: Point, v: Point| {
                 0.5 * ((u.p - a * u.q) * (v.p - b * v.q) + (v.p - a * v.q) * (u.p - b * u.q))
             };
-            Coefficients::from([at(from, from), 2.0 * at(from, to), at(to, to)])
+            Coefficients::quadratic(from, to, at)
         }
     }
 
@@ -201,7 +208,7 @@ mod tests {
         for e in [1.0, 1e-4, 1e-8, 1e-12] {
             let on = |u: Point, v: Point| {
                 let at = |u: Point, v: Point| u.p * v.p + e * e * u.q * v.q;
-                Coefficients::from([at(u, u), 2.0 * at(u, v), at(v, v)])
+                Coefficients::quadratic(u, v, at)
             };
             assert_eq!(real_roots(&on, &[-0.3, 1.0]), Vec::<f64>::new());
         }

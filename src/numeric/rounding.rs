@@ -1,4 +1,4 @@
-//! Significant decimal digits.
+//! Significant decimal digits, without error: by the shortest text of a number.
 
 /// A number rounded to so many significant digits, at least one.
 #[must_use]

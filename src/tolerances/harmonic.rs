@@ -80,7 +80,7 @@ pub(crate) const SMALL_RATE: f64 = 1e-6;
 /// which it is round-off. Larger: an undamped resonance is taken for a whirl.
 pub(crate) const REAL_COMPLIANCE: f64 = 1e-6;
 
-/// Ratio of neighbouring speeds at which the waves on a rim are counted, before the
+/// Ratio of neighbouring speeds at which round whirls are counted, before the
 /// speeds where their number changes are halved in. Larger: a pair that lives for less
 /// than this is missed.
 pub(crate) const ONSET_STRIDE: f64 = 1.05;

@@ -8,8 +8,8 @@ pub(crate) const MOST_HELD: usize = 4;
 /// with their fourth power.
 pub(crate) const MOST_JOINED: usize = 12;
 
-/// Part of its largest entry below which a pivot of a contact matrix counts as zero.
-pub(crate) const SINGULAR_JOINT: f64 = 1e-12;
+/// Part of its largest entry below which a pivot of a small matrix counts as zero.
+pub(crate) const ZERO_PIVOT: f64 = 1e-12;
 
 /// Part of the clearance up to which a gap that has just opened keeps its own digits,
 /// beside those of the state. Smaller: a short excursion is lost in round-off.

@@ -70,5 +70,6 @@ pub(crate) const FOLLOW_SETTLED: f64 = 1e-12;
 /// Newton's method.
 pub(crate) const FOLLOW_DIFFERENCE: f64 = 1e-6;
 
-/// Halvings of an arc around a special point.
-pub(crate) const FOLLOW_HALVINGS: usize = 60;
+/// Arcs over which a corner of the branch is stepped over. Longer: what is between them is
+/// passed.
+pub(crate) const FOLLOW_OVER_A_CORNER: [f64; 3] = [4e-9, 64e-9, 1024e-9];

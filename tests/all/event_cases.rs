@@ -1,7 +1,7 @@
 //! The event solver on the motions whose numbers are known: the reference cases,
 //! the closed forms of locked motion, thresholds in speed and in pulse.
 
-use rubscope::motion::{ActiveSet, Event, Solver, Verdict};
+use rubscope::motion::{ActiveSet, ExactEvents, Solver, Verdict};
 use rubscope::scene::Scene;
 
 pub fn scene(changes: &[(&str, f64)]) -> Scene {
@@ -20,8 +20,8 @@ pub fn scene_of(model: &str, changes: &[(&str, f64)]) -> Scene {
     scene
 }
 
-fn run(changes: &[(&str, f64)], until: f64) -> Event {
-    let mut motion = Event::new(&scene(changes).checked().unwrap()).unwrap();
+fn run(changes: &[(&str, f64)], until: f64) -> ExactEvents {
+    let mut motion = ExactEvents::new(&scene(changes).checked().unwrap()).unwrap();
     motion.advance(until).unwrap();
     motion
 }
@@ -147,7 +147,7 @@ fn the_summed_rocking_is_where_stepping_would_be() {
     // crossings; the corner is approached without a jump.
     let changes = [(ZETA, 0.0), (PULSE, 51742.0)];
     let lock = run(&changes, 0.1).contacts().since;
-    let mut motion = Event::new(&scene(&changes).checked().unwrap()).unwrap();
+    let mut motion = ExactEvents::new(&scene(&changes).checked().unwrap()).unwrap();
     let corner = motion.machine().locked_amplitude().unwrap();
     let mut last = f64::INFINITY;
     for part in 0..40 {
@@ -172,7 +172,7 @@ fn light_damping_slips_and_a_strong_pulse_decays() {
 }
 
 /// Starts at rest against the blades in the corner of side 0 and the next.
-fn in_a_corner(changes: &[(&str, f64)]) -> Event {
+fn in_a_corner(changes: &[(&str, f64)]) -> ExactEvents {
     let mut scene = scene(changes);
     scene.operation.pulse_n = 0.0;
     let machine = scene.machine();
@@ -183,7 +183,7 @@ fn in_a_corner(changes: &[(&str, f64)]) -> Event {
     scene.initial.u_s_m = -radius * sin;
     scene.initial.v_c_m_s = nu * radius * sin;
     scene.initial.v_s_m_s = -nu * radius * cos;
-    Event::new(&scene.checked().unwrap()).unwrap()
+    ExactEvents::new(&scene.checked().unwrap()).unwrap()
 }
 
 #[test]

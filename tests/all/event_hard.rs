@@ -4,7 +4,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use crate::event_cases::scene as event_scene;
-use rubscope::motion::{ActiveSet, Event, Failure, Solver, Verdict};
+use rubscope::motion::{ActiveSet, ExactEvents, Failure, Solver, Verdict};
 use rubscope::scene::{ModelSize, Scene};
 
 const ZETA: &str = "casing.damping_ratio";
@@ -16,9 +16,9 @@ const DIAMETERS: &str = "operation.nodal_diameters";
 const BLADES: &str = "bladed_disk.blades";
 const BLADE: &str = "bladed_disk.blade_length_m";
 
-fn run(changes: &[(&str, f64)], until: f64) -> (Event, Result<(), Failure>) {
+fn run(changes: &[(&str, f64)], until: f64) -> (ExactEvents, Result<(), Failure>) {
     let scene = event_scene(changes).checked().unwrap();
-    let mut motion = Event::new(&scene).unwrap();
+    let mut motion = ExactEvents::new(&scene).unwrap();
     let result = motion.advance(until);
     let state = motion.state();
     let numbers = [state.u[0], state.u[1], state.v[0], state.v[1]];
@@ -29,7 +29,7 @@ fn run(changes: &[(&str, f64)], until: f64) -> (Event, Result<(), Failure>) {
 
 /// As `run`, for a motion that must reach its end; its largest allowed
 /// penetration is round-off of the clearance.
-fn arrives(changes: &[(&str, f64)], until: f64) -> Event {
+fn arrives(changes: &[(&str, f64)], until: f64) -> ExactEvents {
     let (motion, result) = run(changes, until);
     result.unwrap();
     let clearance = motion.machine().clearance();
@@ -62,7 +62,7 @@ fn a_hundred_seconds_without_damping_keep_the_energy_in_the_turning_frame() {
     // The pulse does 0.25 J.
     assert!(checks.energy_residual_j.unwrap().abs() < 1e-11);
     // Between impacts, energy less nu times angular momentum is constant.
-    let jacobi = |motion: &Event| {
+    let jacobi = |motion: &ExactEvents| {
         let s = motion.state();
         let machine = motion.machine();
         let energy = 0.5 * (s.v[0].powi(2) + s.v[1].powi(2))
@@ -91,7 +91,7 @@ fn at_the_critical_speed_a_slide_keeps_its_pace() {
     // Rate of z in the turning frame: backward along side 0 is -i.
     let pace = 1e-3;
     scene.initial.v_s_m_s = -nu * machine.clearance() - pace;
-    let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
+    let mut motion = ExactEvents::new(&scene.checked().unwrap()).unwrap();
     assert_eq!(motion.contacts().active_set, ActiveSet::Side(0));
     let push = -motion.multipliers()[0].1 / machine.casing_mass;
     assert!((push - 2.0 * nu * pace).abs() < 1e-10 * push, "{push} {}", 2.0 * nu * pace);
@@ -231,7 +231,7 @@ fn blades_that_turn_two_sides_onto_each_other_end_the_motion() {
     scene.operation.pulse_s = 1.4e-3;
     scene.initial.v_c_m_s = -10.0;
     scene.solver.model = ModelSize::Modal;
-    let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
+    let mut motion = ExactEvents::new(&scene.checked().unwrap()).unwrap();
     let failure = motion.advance(0.02).unwrap_err();
     assert!(failure.to_string().contains("turn the only two sides onto each other"), "{failure}");
     let turned = 28.0 * motion.state().alpha[0].abs();
@@ -265,7 +265,7 @@ fn crossings_of_moving_blades_are_clean_of_round_off() {
     struck.operation.pulse_n = 47616673.0;
     for (mut scene, end, events, scale) in [(still, 1e-5, 3, 1e-3), (struck, 5.8e-4, 20, 1e3)] {
         scene.solver.model = ModelSize::Modal;
-        let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
+        let mut motion = ExactEvents::new(&scene.checked().unwrap()).unwrap();
         motion.advance(end).unwrap();
         assert!(motion.events() <= Some(events), "{:?}", motion.events());
         let residual = motion.checks().energy_residual_j.unwrap();
@@ -281,7 +281,7 @@ fn the_event_solver_refuses_what_it_does_not_know() {
         ("excitation.amplitude_nm", "1"),
     ] {
         let scene = Scene::base().with(&[(key, value)]).unwrap();
-        let refused = Event::new(&scene).unwrap_err().to_string();
+        let refused = ExactEvents::new(&scene).unwrap_err().to_string();
         assert!(refused.starts_with(key), "{refused}");
     }
 }

@@ -2,7 +2,8 @@
 //! independent codes, and agreement with the paper's event solver where both apply.
 
 use rubscope::motion::{
-    ActiveSet, Event, Joined, Motion, Sample, Sampling, Script, Solver, Verdict, run_to_end,
+    ActiveSet, ExactEvents, LinearEvents, Motion, Sample, Sampling, Script, Solver, Verdict,
+    run_to_end,
 };
 use rubscope::scene::{CheckedScene, Scene};
 
@@ -33,7 +34,7 @@ fn close(value: f64, expected: f64, tolerance: f64) {
 /// The impulse of an impact \[N s\], from the jump of the casing's rate.
 fn impulse(scene: &CheckedScene, t: f64, casing_friction: f64) -> f64 {
     let rate = |until: f64| {
-        let mut motion = Joined::new(scene);
+        let mut motion = LinearEvents::new(scene);
         motion.advance(until).unwrap();
         motion.state().v
     };
@@ -74,7 +75,7 @@ fn a_pulse_from_rest_gives_the_impacts_and_the_state_of_two_other_codes() {
     for ([kappa, mu, tau, speed, pulse], count, impacts, at_3_ms) in rows {
         let keys = [(SLOPE, kappa), (FRICTION, mu), (TAU, tau), (SPEED, speed), (PULSE, pulse)];
         let scene = scene("modal", &keys);
-        let mut motion = Joined::new(&scene);
+        let mut motion = LinearEvents::new(&scene);
         motion.advance(3e-3).unwrap();
         let log = motion.contacts();
         assert_eq!(log.impact_count, count);
@@ -135,7 +136,8 @@ fn rigid_blades_without_friction_move_as_the_papers_event_solver_says() {
         scene.set("solver.model", "rigid").unwrap();
         let scene = scene.checked().unwrap();
         assert!(!scene.goes_beyond());
-        let (mut paper, mut joined) = (Event::new(&scene).unwrap(), Joined::new(&scene));
+        let (mut paper, mut joined) =
+            (ExactEvents::new(&scene).unwrap(), LinearEvents::new(&scene));
         for t in ends {
             paper.advance(t).unwrap();
             joined.advance(t).unwrap();

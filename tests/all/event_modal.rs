@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use crate::event_cases::scene_of;
 use rubscope::model::Machine;
-use rubscope::motion::{ActiveSet, Event, Solver, State, Verdict};
+use rubscope::motion::{ActiveSet, ExactEvents, Solver, State, Verdict};
 use rubscope::scene::Scene;
 
 fn scene(changes: &[(&str, f64)]) -> Scene {
@@ -158,7 +158,7 @@ const SOFT: [(&str, f64); 3] = [
 fn case_a_with_blades_agrees_with_runge_kutta_to_1e_9() {
     let scene = scene(&[]);
     let mut plain = Plain::of(&scene);
-    let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
+    let mut motion = ExactEvents::new(&scene.checked().unwrap()).unwrap();
     motion.advance(0.1).unwrap();
     assert_eq!(motion.final_verdict(), Some(Verdict::Decay));
     let impacts = motion.contacts().impacts.clone();
@@ -208,7 +208,7 @@ fn sliding_with_blades_agrees_with_the_constrained_equations() {
         scene.operation.speed_ramp_rad_s2 = ramp;
         scene.operation.pulse_n = pulse;
         scene.operation.pulse_s = 1.0;
-        let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
+        let mut motion = ExactEvents::new(&scene.checked().unwrap()).unwrap();
         let start = phase(&motion.state());
         assert_eq!(motion.contacts().active_set, ActiveSet::Side(0));
         let mut end = motion.clone();
@@ -235,7 +235,7 @@ fn locked_with_blades_agrees_with_the_constrained_equations() {
         scene.operation.speed_ramp_rad_s2 = ramp;
         scene.operation.pulse_n = pulse;
         scene.operation.pulse_s = 1.0;
-        let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
+        let mut motion = ExactEvents::new(&scene.checked().unwrap()).unwrap();
         assert_eq!(motion.contacts().active_set, ActiveSet::Corner(0, 1), "{soft}");
         let start = phase(&motion.state());
         let until = 0.02;
@@ -258,7 +258,7 @@ fn locked_blade_angles_come_to_rest_at_the_modal_balance() {
     // casing, from alpha_i = (2/N) sum_j cos(psi_i - psi_j) Q_j/(m_b omega^2).
     let mut scene = scene(&[("casing.damping_ratio", 0.0)]);
     on_side_0(&mut scene, true, 0.0);
-    let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
+    let mut motion = ExactEvents::new(&scene.checked().unwrap()).unwrap();
     motion.advance(2.0).unwrap();
     assert_eq!(motion.final_verdict(), Some(Verdict::Locked));
     let machine = motion.machine();
@@ -280,7 +280,7 @@ fn locked_blade_angles_come_to_rest_at_the_modal_balance() {
 #[test]
 fn case_c_with_blades_locks_at_the_same_instant() {
     let changes = [("casing.damping_ratio", 0.0), ("operation.pulse_n", 51742.0)];
-    let mut motion = Event::new(&scene(&changes).checked().unwrap()).unwrap();
+    let mut motion = ExactEvents::new(&scene(&changes).checked().unwrap()).unwrap();
     motion.advance(0.1).unwrap();
     close(motion.contacts().since, 0.0580, 5e-5);
     assert!(matches!(motion.contacts().active_set, ActiveSet::Corner(..)));
@@ -293,7 +293,7 @@ fn case_c_with_blades_locks_at_the_same_instant() {
 fn very_stiff_blades_follow_the_pushes() {
     let mut scene = scene(&[("bladed_disk.stiffness_nm_per_rad", 1e12)]);
     on_side_0(&mut scene, true, 0.0);
-    let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
+    let mut motion = ExactEvents::new(&scene.checked().unwrap()).unwrap();
     motion.advance(1.0).unwrap();
     let (machine, state) = (motion.machine(), motion.state());
     // alpha = (1/K) sum_j -lambda_j A_j exp(i psi_j) with A_j = n_d y_j.
@@ -317,7 +317,7 @@ fn stiff_and_light_blades_fail_plainly_or_arrive() {
             ("bladed_disk.inertia_kg_m2", inertia),
             ("bladed_disk.stiffness_nm_per_rad", stiffness),
         ]);
-        let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
+        let mut motion = ExactEvents::new(&scene.checked().unwrap()).unwrap();
         let result = motion.advance(0.005);
         assert!(motion.state().u[0].is_finite() && motion.state().alpha[0].is_finite());
         if let Err(failure) = result {
@@ -334,7 +334,7 @@ fn halves_make_the_whole_and_no_gap_opens_inward() {
             ("casing.damping_ratio", zeta),
             ("operation.speed_ramp_rad_s2", ramp),
         ];
-        let mut whole = Event::new(&scene(&changes).checked().unwrap()).unwrap();
+        let mut whole = ExactEvents::new(&scene(&changes).checked().unwrap()).unwrap();
         let mut parts = whole.clone();
         whole.advance(0.02).unwrap();
         for part in 1..=100 {

@@ -1,7 +1,7 @@
 //! What a coincidence does against speed, as the library, the command line and its files
 //! give it.
 
-use rubscope::harmonic::{Joint, coincidence, rim_waves, shifted_coincidence};
+use rubscope::harmonic::{Joint, coincidence, round_whirls, shifted_coincidence};
 use rubscope::scene::Scene;
 use serde_json::Value;
 
@@ -54,7 +54,7 @@ fn over_a_clearance_it_is_the_whirl_on_the_rim() {
         close(point.casing_amplitude_m.unwrap(), z, 5e-5);
         close(point.blade_amplitude_rad.unwrap(), a, 5e-5);
         assert!(point.bounded && point.growth_1_s.is_none());
-        let waves = rim_waves(&Joint::at(&scene.machine(), speed));
+        let waves = round_whirls(&Joint::at(&scene.machine(), speed));
         assert_eq!(waves.len(), 2);
     }
     // Below the fold every pulse decays; above the flutter speed nothing bounds it.

@@ -3,7 +3,7 @@
 
 use nalgebra::Complex;
 use rubscope::harmonic::{Corner, ExcitedLocks, Form, Locked, SlipOrbit, slip_over};
-use rubscope::motion::{ActiveSet, Event, Motion, Solver};
+use rubscope::motion::{ActiveSet, ExactEvents, Motion, Solver};
 use rubscope::scene::{ModelSize, Scene};
 
 /// Rigid blades unless a test changes it, as the closed forms have them.
@@ -45,7 +45,7 @@ fn in_default_corner(diameters: u32, zeta: f64, speed: f64) -> Scene {
 fn the_event_solver_holds_the_corner_from_the_lock_in_speed_on() {
     for zeta in [0.01, 0.05] {
         let holds = |speed: f64| {
-            let mut motion = Event::new(&in_corner(zeta, speed).checked().unwrap()).unwrap();
+            let mut motion = ExactEvents::new(&in_corner(zeta, speed).checked().unwrap()).unwrap();
             motion.advance(1e-3).unwrap();
             motion.contacts().active_set == ActiveSet::Corner(15, 16)
         };
@@ -64,7 +64,7 @@ fn the_event_solver_holds_the_corner_from_the_lock_in_speed_on() {
 /// Rotor speed of the wave over 100 sides, after neighbouring orbits have
 /// converged to 1e-12.
 fn long_wave_speed(scene: &Scene, orbit: &SlipOrbit) -> f64 {
-    let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
+    let mut motion = ExactEvents::new(&scene.checked().unwrap()).unwrap();
     let steady = orbit.period_s * 1e-12_f64.ln() / orbit.slope.ln();
     motion.advance(0.1 + steady).unwrap();
     let mut sides = Vec::new();
@@ -182,7 +182,7 @@ fn event_locked_motion_is_the_modal_form() {
         scene.solver.model = ModelSize::Modal;
         // The blades' start at rest is forgotten after 0.3 s.
         scene.bladed_disk.damping_ratio = 0.5;
-        let mut motion = Event::new(&scene.checked().unwrap()).unwrap();
+        let mut motion = ExactEvents::new(&scene.checked().unwrap()).unwrap();
         motion.advance(0.3).unwrap();
         let machine = scene.machine();
         let corner = Corner::paper(&machine.polygon).unwrap();

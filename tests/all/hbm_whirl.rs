@@ -3,7 +3,7 @@
 
 use proptest::prelude::*;
 use rubscope::harmonic::{
-    Joint, NoWhirl, RimWave, rim_waves, whirl_onset, whirl_onsets, whirl_over,
+    Joint, NoWhirl, RoundWhirl, round_whirls, whirl_onset, whirl_onsets, whirl_over,
 };
 use rubscope::model::Machine;
 use rubscope::scene::Scene;
@@ -22,8 +22,8 @@ fn machine([kappa, mu, mu_c]: [f64; 3], zeta: Option<f64>) -> Machine {
     scene.machine()
 }
 
-fn waves(machine: &Machine, speed: f64) -> Vec<RimWave> {
-    rim_waves(&Joint::at(machine, speed))
+fn waves(machine: &Machine, speed: f64) -> Vec<RoundWhirl> {
+    round_whirls(&Joint::at(machine, speed))
 }
 
 fn close(value: f64, expected: f64, part: f64) {
@@ -43,7 +43,7 @@ fn the_waves_of_the_theory() {
         let found = waves(&machine, speed);
         let [threshold, lasting] = found[..] else { panic!("{found:?}") };
         assert!(lasting.attracts && lasting.growth_per_s < 0.0 && !threshold.attracts);
-        assert_eq!(RimWave::lasting(&found), Some(lasting));
+        assert_eq!(RoundWhirl::lasting(&found), Some(lasting));
         close(lasting.omega_rad_s, omega, 6e-7);
         close(lasting.casing_per_w * machine.clearance(), casing, 4e-5);
         close(lasting.blades_per_w * machine.clearance(), blades, 2e-5);
@@ -198,7 +198,7 @@ fn whirl_on_the_polygon_of_the_theory() {
 fn the_power_is_shared_as_the_frequencies() {
     let machine = machine([0.3, 0.0, 0.0], None);
     let joint = Joint::at(&machine, 450.0);
-    let wave = RimWave::lasting(&rim_waves(&joint)).unwrap();
+    let wave = RoundWhirl::lasting(&round_whirls(&joint)).unwrap();
     let loads = wave.loads(&joint);
     let power = loads.casing_w + loads.blades_w;
     let torque = 3.0 * machine.casing_damping * wave.omega_rad_s * loads.casing_m.powi(2);
@@ -213,7 +213,7 @@ fn the_power_is_shared_as_the_frequencies() {
     // Friction heat is far larger.
     let machine = self::machine([0.3, 0.15, 0.0], None);
     let joint = Joint::at(&machine, 450.0);
-    let heat = RimWave::lasting(&rim_waves(&joint)).unwrap().loads(&joint).friction_w;
+    let heat = RoundWhirl::lasting(&round_whirls(&joint)).unwrap().loads(&joint).friction_w;
     assert!((heat - 9.5e3).abs() < 60.0, "{heat}");
 }
 
@@ -280,7 +280,7 @@ proptest! {
         machine.blade_damping_ratio = zetas[1];
         machine.blade_modal_damping = 2.0 * zetas[1] * machine.omega_bd * machine.blade_modal_mass;
         let joint = Joint::at(&machine, speed);
-        let found = rim_waves(&joint);
+        let found = round_whirls(&joint);
         let reach = 8.0 * (machine.omega_c + joint.nu);
         let count = 100_000;
         let mut seen = Vec::new();
@@ -295,14 +295,14 @@ proptest! {
         }
         let width = 2.0 * reach / f64::from(count);
         for omega in &seen {
-            let near = |wave: &RimWave| (wave.omega_rad_s - omega).abs() <= width;
+            let near = |wave: &RoundWhirl| (wave.omega_rad_s - omega).abs() <= width;
             prop_assert!(found.iter().any(near), "{omega}: {found:?}");
         }
         for wave in &found {
             let compliance = joint.compliance(wave.omega_rad_s);
             prop_assert!(compliance.im.abs() <= 1e-11 * compliance.re.abs() && compliance.re < 0.0);
             // Two within one step of the scan are not seen by it.
-            let alone = |other: &RimWave| {
+            let alone = |other: &RoundWhirl| {
                 other == wave || (other.omega_rad_s - wave.omega_rad_s).abs() > 2.0 * width
             };
             let inside = wave.omega_rad_s.abs() < reach - width && found.iter().all(alone);

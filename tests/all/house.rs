@@ -103,9 +103,9 @@ fn every_file_that_is_named_exists() {
 fn no_solver_knows_its_sibling() {
     // A folder of `motion`, and what none of its lines may name.
     let apart = [
-        ("explicit", &["motion::event", "Joined"][..]),
+        ("explicit", &["motion::event", "LinearEvents", "ExactEvents"][..]),
         ("event", &["motion::explicit", "Explicit<"]),
-        ("event/exact", &["linear::", "Joined"]),
+        ("event/exact", &["linear::", "LinearEvents"]),
         ("event/linear", &["exact::"]),
         ("explicit/disk", &["leap::", "beyond::", "Leaps", "Beyond"]),
     ];

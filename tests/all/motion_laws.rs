@@ -99,7 +99,7 @@ proptest! {
                 return Ok(());
             }
         }
-        let ledger = motion.energy_ledger().unwrap();
+        let ledger = motion.energy_account().unwrap();
         prop_assert!(ledger.residual().is_finite());
         prop_assert!(ledger.casing_loss_j >= 0.0 && ledger.blade_loss_j >= 0.0);
         if checked.solver.contact == ContactLaw::Unilateral {

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use rubscope::harmonic::{Kind, equilibria, equilibrium};
 use rubscope::model::Machine;
-use rubscope::motion::{Event, Solver, run_to_verdict, to_the_end};
+use rubscope::motion::{ExactEvents, Solver, run_to_verdict, to_the_end};
 use rubscope::scene::{ModelSize, Scene};
 use serde_json::Value;
 
@@ -108,7 +108,7 @@ fn closed_form(id: &str) -> f64 {
         "largest-step" => delta / nu,
         "run-down" => {
             let scene = Scene::builtin("run-down").unwrap();
-            let mut event = Event::new(&scene.checked().unwrap()).unwrap();
+            let mut event = ExactEvents::new(&scene.checked().unwrap()).unwrap();
             event.advance(0.06).unwrap();
             let ended = event.contacts().longest_hold.unwrap().until;
             event.rotor().speed(ended)

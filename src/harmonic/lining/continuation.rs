@@ -2,33 +2,82 @@
 //! through folds: pseudo-arclength continuation, with bounded work
 //! (docs/theory.md, section 10).
 //!
+//! The two equations `F(w, q) = 0` of the place `w` of the gaps and the part `q` of the way
+//! of the parameter are a curve in three dimensions. Its direction is `dF_1 x dF_2`, the
+//! minors of the derivatives by `w` and `q`. A step goes along it, and Newton's method comes
+//! back to the curve in the plane across: `F = 0`, `along . (place - guess) = 0`.
+//!
 //! A branch turns back in a fold. With `eps = 0` the law has a kink, and the branch turns
 //! in a corner where a group of blades begins or ends to push (a border collision). The
-//! sense along a branch is that of the minors of its two equations, which stays the same
-//! over both.
+//! sense along a branch is that of the minors, which stays the same over both.
 
 use nalgebra::{Matrix3, Vector2, Vector3};
+use serde::Serialize;
+use strum::AsRefStr;
 
-use super::equilibria::Balance;
-use super::followed::{BranchEnd, BranchPoint, FollowedBranch, Special};
+use super::states::Balance;
 use super::{Lining, LiningState};
 use crate::harmonic::HarmonicError;
+use crate::numeric::bisection::try_bisected;
 use crate::scene::{Allowed, Scene, Value, keys};
 use crate::tolerances::{
-    FOLLOW_DIFFERENCE, FOLLOW_HALVINGS, FOLLOW_POINTS, FOLLOW_SETTLED, FOLLOW_STEPS, FOLLOW_STRIDE,
+    FOLLOW_DIFFERENCE, FOLLOW_OVER_A_CORNER, FOLLOW_POINTS, FOLLOW_SETTLED, FOLLOW_STEPS,
+    FOLLOW_STRIDE,
 };
 
-/// A place: `[Re w, Im w]` over a length, and the part of the way of the parameter.
-type Place = Vector3<f64>;
+/// What happens at a special point of a branch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, AsRefStr)]
+#[serde(rename_all = "lowercase")]
+#[strum(serialize_all = "lowercase")]
+pub enum Special {
+    /// The branch turns back.
+    Fold,
+    /// It turns back in a corner: a group begins or ends to push on a lining without
+    /// smoothing.
+    Border,
+    /// An oscillation begins or ends to grow.
+    Hopf,
+    /// A motion without frequency begins or ends to grow: another branch meets it.
+    Branch,
+}
 
-struct Follow<'a> {
-    scene: &'a Scene,
-    key: &'static keys::Key,
-    from: f64,
-    to: f64,
-    length: f64,
-    /// Sense along the branch.
-    sense: f64,
+/// One steady state of a branch.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BranchPoint {
+    /// Value of the parameter, in its unit.
+    pub parameter: f64,
+    /// The state.
+    pub state: LiningState,
+    /// What happens here, if anything.
+    pub special: Option<Special>,
+}
+
+/// Where a branch ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, AsRefStr)]
+#[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case")]
+pub enum BranchEnd {
+    /// At the last value that was asked for.
+    Reached,
+    /// Back at the first value, after a fold.
+    Returned,
+    /// Nothing touches any more: the wave is gone.
+    Gone,
+    /// No next point was found.
+    Lost,
+    /// At the bound of work.
+    Most,
+}
+
+/// A branch of steady states.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FollowedBranch {
+    /// Dotted path of the parameter.
+    pub path: &'static str,
+    /// Its points, in order along the branch.
+    pub points: Vec<BranchPoint>,
+    /// Where it ends.
+    pub end: BranchEnd,
 }
 
 /// Follows a steady state of a scene on a lining while one parameter goes `from` a value
@@ -38,75 +87,111 @@ struct Follow<'a> {
 /// # Errors
 /// A path of no real number, values that are not allowed, no such state at the first, or
 /// a machine whose blades do not share one wave.
-pub fn follow(
-    scene: &Scene,
-    path: &str,
-    [from, to]: [f64; 2],
-) -> Result<FollowedBranch, HarmonicError> {
-    let key = keys::find(path).map_err(|error| HarmonicError::Scene(error.to_string()))?;
-    if !matches!(key.allowed, Allowed::Real { .. }) {
-        let allowed = "a key whose values are numbers that need not be whole".to_string();
-        return Err(HarmonicError::Refused { key: "--follow", value: path.to_string(), allowed });
-    }
-    let mut follow = Follow { scene, key, from, to, length: 1.0, sense: 1.0 };
-    if from == to {
-        let allowed = "two different values".to_string();
-        return Err(HarmonicError::Refused {
-            key: "--over",
-            value: format!("{from}:{to}"),
-            allowed,
-        });
-    }
-    // Both ends must be scenes.
-    follow.scene_at(0.0)?;
-    follow.scene_at(1.0)?;
-    let states = follow.with(0.0, |balance| {
-        balance.lining.states(balance.speed()).map(|states| (states, balance.length()))
-    })?;
-    let (states, length) = states?;
-    follow.length = length;
-    let held = states.iter().find(|state| state.stable && state.pushing > 0);
-    let Some(start) = held.or_else(|| states.iter().find(|state| state.pushing > 0)) else {
-        return Err(HarmonicError::Refused {
-            key: key.path,
-            value: from.to_string(),
-            allowed: "a first value with a steady state whose blades push".to_string(),
-        });
-    };
-    let start = Place::new(start.gap_m[0] / length, start.gap_m[1] / length, 0.0);
-    follow.run(start)
+pub fn follow(scene: &Scene, path: &str, ends: [f64; 2]) -> Result<FollowedBranch, HarmonicError> {
+    let mut way = Way::of(scene, path, ends)?;
+    let start = way.start()?;
+    way.walk(start)
 }
 
-impl Follow<'_> {
+/// A place on a branch: `[Re w, Im w]` over a length, and the part of the way of the
+/// parameter.
+type Place = Vector3<f64>;
+
+/// A place on a branch, and how to go on from there.
+#[derive(Clone, Copy, Debug)]
+struct Stand {
+    place: Place,
+    /// Direction of the branch.
+    along: Place,
+    /// The sign with which the minors point along it.
+    sense: f64,
+    /// Arc to the next place.
+    stride: f64,
+    /// Whether the last step went over a corner of the branch.
+    over_corner: bool,
+}
+
+/// The way of one key of a scene between two values, and the unit of lengths.
+struct Way<'a> {
+    scene: &'a Scene,
+    key: &'static keys::Key,
+    ends: [f64; 2],
+    length: f64,
+}
+
+impl<'a> Way<'a> {
+    fn of(scene: &'a Scene, path: &str, ends: [f64; 2]) -> Result<Self, HarmonicError> {
+        let key = keys::find(path).map_err(|error| HarmonicError::Scene(error.to_string()))?;
+        if !matches!(key.allowed, Allowed::Real { .. }) {
+            let allowed = "a key whose values are numbers that need not be whole";
+            return Err(HarmonicError::refused("--follow", path, allowed));
+        }
+        let [from, to] = ends;
+        if from == to {
+            let over = format!("{from}:{to}");
+            return Err(HarmonicError::refused("--over", over, "two different values"));
+        }
+        let way = Self { scene, key, ends, length: 1.0 };
+        for end in [0.0, 1.0] {
+            let scene = way.scene_at(end)?.checked();
+            scene.map_err(|error| HarmonicError::Scene(error.to_string()))?;
+        }
+        Ok(way)
+    }
+
+    /// The state to start from, whose contact gives the unit of lengths.
+    fn start(&mut self) -> Result<Place, HarmonicError> {
+        let (states, length) = self.balance_at(0.0, |balance| {
+            balance.lining.states(balance.speed()).map(|states| (states, balance.length()))
+        })??;
+        self.length = length;
+        let pushing = || states.iter().filter(|state| state.pushing > 0);
+        let Some(start) = pushing().find(|state| state.stable).or_else(|| pushing().next()) else {
+            let allowed = "a first value with a steady state whose blades push";
+            return Err(HarmonicError::refused(self.key.path, self.ends[0], allowed));
+        };
+        Ok(Place::new(start.gap_m[0] / length, start.gap_m[1] / length, 0.0))
+    }
+
     fn parameter(&self, part: f64) -> f64 {
+        let [from, to] = self.ends;
         // The last value is exact.
-        if part == 1.0 { self.to } else { self.from + (self.to - self.from) * part }
+        if part == 1.0 { to } else { from + (to - from) * part }
     }
 
     fn scene_at(&self, part: f64) -> Result<Scene, HarmonicError> {
         let mut scene = self.scene.clone();
-        let value = Value::Real(self.parameter(part));
-        scene
-            .set_value(self.key, value)
-            .and_then(|()| scene.clone().checked().map(|_| scene))
-            .map_err(|error| HarmonicError::Scene(error.to_string()))
-    }
-
-    /// Something of the equations at a part of the way.
-    fn with<T>(&self, part: f64, of: impl FnOnce(&Balance) -> T) -> Result<T, HarmonicError> {
-        let mut scene = self.scene.clone();
         scene
             .set_value(self.key, Value::Real(self.parameter(part)))
             .map_err(|error| HarmonicError::Scene(error.to_string()))?;
+        Ok(scene)
+    }
+
+    /// Something of the equations at a part of the way.
+    fn balance_at<T>(&self, part: f64, of: impl FnOnce(&Balance) -> T) -> Result<T, HarmonicError> {
+        let scene = self.scene_at(part)?;
         let machine = scene.machine();
         let lining = Lining::of(&machine, &scene.contact)?;
         Ok(of(&Balance::at(lining, scene.operation.speed_rad_s)))
     }
 
-    /// The residual, over the length, and its two rows of derivatives.
-    fn rows(&self, at: Place) -> Option<(Vector2<f64>, [Vector3<f64>; 2])> {
-        let w = Vector2::new(at.x, at.y) * self.length;
-        let residual = |part: f64| self.with(part, |balance| balance.residual(w)).ok();
+    /// The place of the gaps \[m\].
+    fn gap(&self, at: Place) -> Vector2<f64> {
+        Vector2::new(at.x, at.y) * self.length
+    }
+
+    fn state(&self, at: Place) -> Result<LiningState, HarmonicError> {
+        self.balance_at(at.z, |balance| balance.state(self.gap(at)))?
+    }
+
+    fn point(&self, at: Place, special: Option<Special>) -> Result<BranchPoint, HarmonicError> {
+        Ok(BranchPoint { parameter: self.parameter(at.z), state: self.state(at)?, special })
+    }
+
+    /// `F` over the length, and the derivatives of its two rows by the place.
+    fn linearised(&self, at: Place) -> Option<(Vector2<f64>, [Vector3<f64>; 2])> {
+        let w = self.gap(at);
+        let residual = |part: f64| self.balance_at(part, |balance| balance.residual(w)).ok();
         let (here, slope) = residual(at.z)?;
         let ends = [at.z - FOLLOW_DIFFERENCE, at.z + FOLLOW_DIFFERENCE];
         // One-sided at the bound of a key.
@@ -121,9 +206,9 @@ impl Follow<'_> {
     }
 
     /// Direction of the branch at a place.
-    fn tangent(&self, at: Place) -> Option<Place> {
-        let (_, [first, second]) = self.rows(at)?;
-        let along = first.cross(&second) * self.sense;
+    fn direction(&self, at: Place, sense: f64) -> Option<Place> {
+        let (_, [first, second]) = self.linearised(at)?;
+        let along = first.cross(&second) * sense;
         let size = along.norm();
         (size > 0.0 && size.is_finite()).then(|| along / size)
     }
@@ -132,7 +217,7 @@ impl Follow<'_> {
     fn settle(&self, guess: Place, along: Place) -> Option<Place> {
         let mut at = guess;
         for _ in 0..FOLLOW_STEPS {
-            let (residual, [first, second]) = self.rows(at)?;
+            let (residual, [first, second]) = self.linearised(at)?;
             let across = along.dot(&(at - guess));
             let matrix =
                 Matrix3::from_rows(&[first.transpose(), second.transpose(), along.transpose()]);
@@ -149,156 +234,213 @@ impl Follow<'_> {
         None
     }
 
-    /// The next place of the branch, an arc of `stride` away, if it goes on alike.
-    fn next(&self, here: Place, along: Place, stride: f64) -> Option<(Place, Place)> {
-        let place = self.settle(here + along * stride, along)?;
-        let ahead = self.tangent(place)?;
-        let alike = (place - here).norm() <= 2.0 * stride;
-        (alike && ahead.dot(&along) > 0.8).then_some((place, ahead))
-    }
-
-    fn state(&self, at: Place) -> Result<LiningState, HarmonicError> {
-        let w = Vector2::new(at.x, at.y) * self.length;
-        self.with(at.z, |balance| balance.state(w))?
-    }
-
-    fn point(&self, at: Place, special: Option<Special>) -> Result<BranchPoint, HarmonicError> {
-        Ok(BranchPoint { parameter: self.parameter(at.z), state: self.state(at)?, special })
-    }
-
-    /// The place with the parameter at an end, near another.
-    fn at_end(&self, near: Place, part: f64) -> Option<Place> {
-        let w = Vector2::new(near.x, near.y) * self.length;
-        let w = self.with(part, |balance| balance.solve(w)).ok().flatten()? / self.length;
-        Some(Place::new(w.x, w.y, part))
-    }
-
-    fn run(&mut self, start: Place) -> Result<FollowedBranch, HarmonicError> {
-        let lost = |points| FollowedBranch { path: self.key.path, points, end: BranchEnd::Lost };
-        let Some(first) = self.tangent(start) else { return Ok(lost(Vec::new())) };
-        let turn = if first.z < 0.0 { -1.0 } else { 1.0 };
+    /// Goes along the branch from its start towards the second value.
+    fn walk(&self, start: Place) -> Result<FollowedBranch, HarmonicError> {
+        let ended = |points, end| Ok(FollowedBranch { path: self.key.path, points, end });
+        let Some(first) = self.direction(start, 1.0) else {
+            return ended(Vec::new(), BranchEnd::Lost);
+        };
+        let sense = if first.z < 0.0 { -1.0 } else { 1.0 };
+        let (along, stride) = (first * sense, FOLLOW_STRIDE[1]);
+        let mut here = Stand { place: start, along, sense, stride, over_corner: false };
         let mut points = vec![self.point(start, None)?];
-        self.sense = turn;
-        let (mut here, mut along, mut stride) = (start, first * turn, FOLLOW_STRIDE[1]);
-        let mut end = BranchEnd::Most;
         for _ in 0..FOLLOW_POINTS {
-            let step = self.step(here, along, &mut stride);
-            let Some((place, ahead, cornered)) = step else {
-                end = BranchEnd::Lost;
-                break;
-            };
-            if place.z >= 1.0 || place.z <= 0.0 {
-                let part = if place.z >= 1.0 { 1.0 } else { 0.0 };
-                let share = (part - here.z) / (place.z - here.z);
-                let last = self.at_end(here + (place - here) * share.clamp(0.0, 1.0), part);
-                if let Some(last) = last {
-                    self.mark(here, along, last, &mut points)?;
-                    points.push(self.point(last, None)?);
+            let Some(next) = self.step(&here) else { return ended(points, BranchEnd::Lost) };
+            if let Some((part, end)) = end_of_the_way(next.place) {
+                if let Some(last) = self.place_at_end(here.place, next.place, part) {
+                    let next = Stand { place: last, over_corner: false, ..next };
+                    self.add(&mut points, &here, &next)?;
                 }
-                end = if part == 1.0 { BranchEnd::Reached } else { BranchEnd::Returned };
-                break;
+                return ended(points, end);
             }
-            if cornered && ahead.z * along.z < 0.0 {
-                points.push(self.point(here, Some(self.turned()))?);
-            } else {
-                self.mark(here, along, place, &mut points)?;
+            self.add(&mut points, &here, &next)?;
+            if points.last().is_some_and(|point| point.state.pushing == 0) {
+                return ended(points, BranchEnd::Gone);
             }
-            let next = self.point(place, None)?;
-            let gone = next.state.pushing == 0;
-            points.push(next);
-            if gone {
-                end = BranchEnd::Gone;
-                break;
-            }
-            (here, along) = (place, ahead);
+            here = next;
         }
-        Ok(FollowedBranch { path: self.key.path, points, end })
+        ended(points, BranchEnd::Most)
     }
 
-    /// How a branch turns back on this lining.
-    fn turned(&self) -> Special {
-        if self.scene.contact.smoothing_m > 0.0 { Special::Fold } else { Special::Border }
+    /// The next place of the branch.
+    fn step(&self, here: &Stand) -> Option<Stand> {
+        self.smooth_step(here).or_else(|| self.step_over_corner(here))
     }
 
-    /// One step, shorter where the branch bends; over a corner of it along what is
-    /// behind the corner. Last: whether it is one.
-    fn step(
-        &mut self,
-        here: Place,
-        along: Place,
-        stride: &mut f64,
-    ) -> Option<(Place, Place, bool)> {
+    /// A step to where the branch goes on alike, shorter where it bends.
+    fn smooth_step(&self, here: &Stand) -> Option<Stand> {
         let [least, most] = FOLLOW_STRIDE;
-        while *stride >= least {
-            if let Some((place, ahead)) = self.next(here, along, *stride) {
-                *stride = (1.5 * *stride).min(most);
-                return Some((place, ahead, false));
+        let mut stride = here.stride;
+        while stride >= least {
+            let place = self.settle(here.place + here.along * stride, here.along);
+            let near = place.filter(|place| (place - here.place).norm() <= 2.0 * stride);
+            let ahead = near.and_then(|place| Some((place, self.direction(place, here.sense)?)));
+            if let Some((place, along)) = ahead.filter(|(_, along)| along.dot(&here.along) > 0.8) {
+                let stride = (1.5 * stride).min(most);
+                return Some(Stand { place, along, stride, over_corner: false, ..*here });
             }
-            *stride *= 0.5;
+            stride *= 0.5;
         }
-        for reach in [4.0, 64.0, 1024.0].map(|part| part * least) {
-            *stride = reach;
-            for sense in [self.sense, -self.sense] {
-                let kept = self.sense;
-                self.sense = sense;
-                // Behind the corner the other law holds.
-                let behind = self.tangent(here + along * reach);
-                if let Some(behind) =
-                    behind.filter(|behind| sense == kept || behind.dot(&along) > 0.0)
-                    && let Some(place) = self.settle(here + behind * reach, behind)
-                    && (place - here).norm() <= 3.0 * reach
-                    && (place - here).dot(&behind) > 0.0
-                    && let Some(ahead) = self.tangent(place)
+        None
+    }
+
+    /// A step over a corner of the branch, along what is behind it, where the other law
+    /// holds; the minors may turn round there.
+    fn step_over_corner(&self, here: &Stand) -> Option<Stand> {
+        for stride in FOLLOW_OVER_A_CORNER {
+            for sense in [here.sense, -here.sense] {
+                let behind = self.direction(here.place + here.along * stride, sense);
+                let onward = |behind: &Place| sense == here.sense || behind.dot(&here.along) > 0.0;
+                let Some(behind) = behind.filter(onward) else { continue };
+                let place = self.settle(here.place + behind * stride, behind);
+                let gone = |place: Place| place - here.place;
+                let near = place.filter(|&place| {
+                    gone(place).norm() <= 3.0 * stride && gone(place).dot(&behind) > 0.0
+                });
+                if let Some(place) = near
+                    && let Some(along) = self.direction(place, sense)
                 {
-                    return Some((place, ahead, true));
+                    return Some(Stand { place, along, sense, stride, over_corner: true });
                 }
-                self.sense = kept;
             }
         }
         None
     }
 
-    /// Adds the special point between two neighbours of a branch, if there is one.
-    fn mark(
+    /// The place with the parameter at an end of the way, on the way from one to another.
+    fn place_at_end(&self, here: Place, next: Place, part: f64) -> Option<Place> {
+        let share = (part - here.z) / (next.z - here.z);
+        let near = self.gap(here + (next - here) * share.clamp(0.0, 1.0));
+        let w = self.balance_at(part, |balance| balance.solve(near)).ok().flatten()? / self.length;
+        Some(Place::new(w.x, w.y, part))
+    }
+
+    /// Adds the next place, and before it the special point on the way there.
+    fn add(
         &self,
-        here: Place,
-        along: Place,
-        next: Place,
         points: &mut Vec<BranchPoint>,
+        here: &Stand,
+        next: &Stand,
     ) -> Result<(), HarmonicError> {
-        let Some(last) = points.last() else { return Ok(()) };
-        let (before, after) = (last.state.stable, self.state(next)?.stable);
-        let ahead = self.tangent(next).unwrap_or(along);
-        let folds = along.z * ahead.z < 0.0;
-        if !folds && before == after {
-            return Ok(());
+        let point = self.point(next.place, None)?;
+        if next.over_corner && next.along.z * here.along.z < 0.0 {
+            points.push(self.point(here.place, Some(self.turn()))?);
+        } else if let Some(last) = points.last() {
+            let stable = [last.state.stable, point.state.stable];
+            points.extend(self.special_between(here, next, stable)?);
         }
-        let changed = |place: Place| -> Option<bool> {
-            if folds {
-                return Some(self.tangent(place)?.z * along.z <= 0.0);
-            }
-            Some(self.state(place).ok()?.stable != before)
-        };
-        let whole = (next - here).dot(&along);
-        let (mut near, mut far, mut found) = (0.0, whole, next);
-        for _ in 0..FOLLOW_HALVINGS {
-            let middle = 0.5 * (near + far);
-            let Some(place) = self.settle(here + along * middle, along) else { break };
-            match changed(place) {
-                Some(true) => (far, found) = (middle, place),
-                Some(false) => near = middle,
-                None => break,
-            }
-        }
-        let mut point = self.point(found, None)?;
-        point.special = Some(if folds {
-            self.turned()
-        } else if point.state.frequency_rad_s > 0.0 {
-            Special::Hopf
-        } else {
-            Special::Branch
-        });
         points.push(point);
         Ok(())
+    }
+
+    /// How a branch turns back on this lining.
+    fn turn(&self) -> Special {
+        if self.scene.contact.smoothing_m > 0.0 { Special::Fold } else { Special::Border }
+    }
+
+    /// The special point between two places that are stable or not: where the parameter
+    /// turns back, or else where stability changes.
+    fn special_between(
+        &self,
+        here: &Stand,
+        next: &Stand,
+        [before, after]: [bool; 2],
+    ) -> Result<Option<BranchPoint>, HarmonicError> {
+        let ahead = self.direction(next.place, next.sense).unwrap_or(here.along);
+        let turns = here.along.z * ahead.z < 0.0;
+        if !turns && before == after {
+            return Ok(None);
+        }
+        let mut found = next.place;
+        let changed = |arc: f64| {
+            let place = self.settle(here.place + here.along * arc, here.along)?;
+            let changed = if turns {
+                self.direction(place, next.sense)?.z * here.along.z <= 0.0
+            } else {
+                self.state(place).ok()?.stable != before
+            };
+            if changed {
+                found = place;
+            }
+            Some(changed)
+        };
+        let mut changed = changed;
+        let whole = (next.place - here.place).dot(&here.along);
+        // Where no place is found between, the nearest that was is taken.
+        let _ = try_bisected([0.0, whole], f64::EPSILON, |arc| changed(arc).ok_or(()));
+        let mut point = self.point(found, None)?;
+        point.special = Some(match point.state.frequency_rad_s {
+            _ if turns => self.turn(),
+            frequency if frequency > 0.0 => Special::Hopf,
+            _ => Special::Branch,
+        });
+        Ok(Some(point))
+    }
+}
+
+/// The end of the way that a place is at or beyond, and what that makes of the branch.
+fn end_of_the_way(place: Place) -> Option<(f64, BranchEnd)> {
+    if place.z >= 1.0 {
+        Some((1.0, BranchEnd::Reached))
+    } else if place.z <= 0.0 {
+        Some((0.0, BranchEnd::Returned))
+    } else {
+        None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::CheckedScene;
+
+    fn scene(name: &str) -> CheckedScene {
+        let lining = [
+            ("solver.contact", "smooth"),
+            ("contact.stiffness_n_per_m", "1e7"),
+            ("contact.smoothing_m", "1e-6"),
+        ];
+        Scene::builtin(name).unwrap().with(&lining).unwrap()
+    }
+
+    fn special(branch: &FollowedBranch, special: Special) -> Vec<f64> {
+        let those = branch.points.iter().filter(|point| point.special == Some(special));
+        those.map(|point| point.parameter).collect()
+    }
+
+    #[test]
+    fn a_branch_turns_back_in_its_fold_and_all_of_it_are_steady_states() {
+        let scene = scene("paper-nd4");
+        let branch = follow(&scene, "operation.speed_rad_s", [500.0, 280.0]).unwrap();
+        assert_eq!(branch.end, BranchEnd::Returned);
+        let ends = [branch.points.first(), branch.points.last()];
+        assert_eq!(ends.map(|point| point.unwrap().parameter), [500.0, 500.0]);
+        let [fold] = special(&branch, Special::Fold)[..] else { panic!("{branch:?}") };
+        // The fold is the extreme of the parameter, far below what a step changes it by.
+        assert!(branch.points.iter().all(|point| point.parameter > fold - 1e-9));
+        let machine = scene.machine();
+        let lining = Lining::of(&machine, &scene.contact).unwrap();
+        let mut seen = 0;
+        for point in branch.points.iter().filter(|point| point.parameter > fold + 1.0) {
+            let alike = |state: &LiningState| {
+                state.pushing == point.state.pushing
+                    && (state.casing_m / point.state.casing_m - 1.0).abs() < 1e-8
+            };
+            seen += usize::from(lining.states(point.parameter).unwrap().iter().any(alike));
+        }
+        assert!(seen > 20, "{seen} of {}", branch.points.len());
+    }
+
+    #[test]
+    fn rest_loses_its_stability_where_it_begins_to_grow() {
+        let scene = scene("coincidence");
+        let branch = follow(&scene, "operation.speed_rad_s", [500.0, 280.0]).unwrap();
+        assert_eq!(branch.end, BranchEnd::Reached);
+        let [hopf] = special(&branch, Special::Hopf)[..] else { panic!("{branch:?}") };
+        let machine = scene.machine();
+        let points = Lining::of(&machine, &scene.contact).unwrap().hopf_points([280.0, 500.0]);
+        let near = |speed: f64| (speed / hopf - 1.0).abs() < 1e-6;
+        assert!(points.unwrap().iter().any(|point| near(point.speed_rad_s)), "{hopf}");
+        assert_eq!(branch.points.last().unwrap().parameter, 280.0);
     }
 }

@@ -1,15 +1,21 @@
 //! Waves of constant amplitude on a lining: where the growth of rest ends as blades
-//! lift off, and the whirl over a clearance (docs/theory.md, section 10).
+//! lift off, and the whirl over a clearance; and the small motions about any steady wave on a
+//! lining (docs/theory.md, section 10).
 //!
 //! `S(r) = -1/Re B(omega)`, `Im B(omega) = 0`: the blades together must be as stiff as
-//! the joint asks. The frequency is that of a rim of many blades, so the wave is steady
-//! in a frame that turns with it, and its stability needs only eigenvalues there.
+//! the joint asks. The frequency is that of so many blades that they are round, so the wave is steady
+//! in a frame that turns with it, and its stability needs only eigenvalues there: of eight
+//! real states, casing and blade wave with their rates. With `z -> z e^{ist}` every time
+//! derivative becomes `d/dt + i omega` for the casing and `d/dt + i s` for the blades; a
+//! steady state in the frame of the blades has `omega = nu`, `s = 0`.
 
+use nalgebra::{Complex, DMatrix};
 use serde::Serialize;
 
-use super::roots::Quartic;
-use super::{Lining, flow};
-use crate::harmonic::{HarmonicError, Joint, RimWave, rim_waves};
+use super::Lining;
+use super::rest::Quartic;
+use crate::harmonic::{HarmonicError, Joint, RoundWhirl, round_whirls};
+use crate::numeric::eigen::eigenvalues;
 
 /// A wave of constant amplitude.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -57,7 +63,7 @@ impl Lining<'_> {
     pub fn cycles(&self, speed: f64) -> Result<Vec<Cycle>, HarmonicError> {
         let joint = Joint::at(self.machine, speed);
         let mut found = Vec::new();
-        for wave in rim_waves(&joint) {
+        for wave in round_whirls(&joint) {
             for r in self.amplitudes(wave.stiffness_n_per_m) {
                 found.push(self.cycle(&joint, speed, &wave, r)?);
             }
@@ -70,7 +76,7 @@ impl Lining<'_> {
         &self,
         joint: &Joint,
         speed: f64,
-        wave: &RimWave,
+        wave: &RoundWhirl,
         r: f64,
     ) -> Result<Cycle, HarmonicError> {
         let stiffness = wave.stiffness_n_per_m;
@@ -78,7 +84,7 @@ impl Lining<'_> {
         let tangent = [[stiffness + self.stiffness_change(r), 0.0], [0.0, stiffness]];
         let turns = [wave.omega_rad_s, wave.s_rad_s];
         let mut values =
-            flow::eigenvalues(joint, turns, tangent).ok_or(HarmonicError::Unsettled { speed })?;
+            small_motions(joint, turns, tangent).ok_or(HarmonicError::Unsettled { speed })?;
         // The wave shifted in time is the same wave: one eigenvalue is zero.
         values.sort_by(|a, b| a.norm_sqr().total_cmp(&b.norm_sqr()));
         let growth = values.iter().skip(1).map(|value| value.re).fold(f64::MIN, f64::max);
@@ -117,4 +123,58 @@ impl Lining<'_> {
             None => Whirl::Decays,
         })
     }
+}
+
+/// A real matrix of two rows that acts on `(Re w, Im w)`.
+pub(super) type Tangent = [[f64; 2]; 2];
+
+/// The growth rates `Re` and frequencies `Im` of the motions about a wave of casing
+/// frequency `omega` and blade frequency `s` \[rad/s\], whose pushes change by
+/// `dp = -tangent dw` \[N/m\]; `None` where the eigenvalues overflow.
+pub(super) fn small_motions(
+    joint: &Joint,
+    [omega, s]: [f64; 2],
+    tangent: Tangent,
+) -> Option<Vec<Complex<f64>>> {
+    let m = joint.machine;
+    let friction = joint.casing_friction;
+    let (kappa, length) = (m.radial_coupling, m.blade_length);
+    // Lengths of the blades' tips, times in units of the fastest frequency.
+    let rate = omega.abs().max(s.abs()).max(m.omega_c).max(m.omega_bd);
+    let lead = kappa + joint.machine.friction_at(joint.nu);
+    let blade_mass = m.blade_modal_mass / (length * length);
+    let mut matrix = DMatrix::zeros(8, 8);
+    let parts = [
+        (omega, m.casing_mass, m.casing_damping, m.casing_stiffness),
+        (s, m.blade_modal_mass, m.blade_modal_damping, m.blade_modal_stiffness),
+    ];
+    for (part, (turn, mass, damping, stiffness)) in parts.into_iter().enumerate() {
+        let (at, to) = (4 * part, 4 * part + 2);
+        let (turn, drag) = (turn / rate, damping / (mass * rate));
+        let spring = stiffness / (mass * rate * rate) - turn * turn;
+        for k in 0..2 {
+            matrix[(at + k, to + k)] = 1.0;
+            matrix[(to + k, at + k)] -= spring;
+            matrix[(to + k, to + k)] -= drag;
+        }
+        // -(2 i turn) times the rate, -(i turn drag) times the place.
+        for (row, column, sign) in [(0, 1, 1.0), (1, 0, -1.0)] {
+            matrix[(to + row, to + column)] += sign * 2.0 * turn;
+            matrix[(to + row, at + column)] += sign * turn * drag;
+        }
+    }
+    // dp = -T (dz - kappa da), with da in lengths of the tip.
+    let square = rate * rate;
+    for column in 0..2 {
+        for (from, gain) in [(0, 1.0), (4, -kappa)] {
+            let push = [-tangent[0][column] * gain, -tangent[1][column] * gain];
+            let on_casing = [push[0] - friction * push[1], push[1] + friction * push[0]];
+            for row in 0..2 {
+                matrix[(2 + row, from + column)] += on_casing[row] / (m.casing_mass * square);
+                matrix[(6 + row, from + column)] -= lead * push[row] / (blade_mass * square);
+            }
+        }
+    }
+    let values = eigenvalues(matrix)?;
+    Some(values.into_iter().map(|value| value * rate).collect())
 }

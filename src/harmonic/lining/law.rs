@@ -1,17 +1,20 @@
 //! The push of a lining under one blade, its slope, and the stiffness of all blades
-//! together against a wave that runs round the rim (docs/theory.md, section 10).
+//! together against a wave that runs round the casing (docs/theory.md, section 10).
 //!
 //! `P = 0` for `g >= 0`, `k_p g^2/(2 eps)` for `-eps < g < 0`, `k_p (-g - eps/2)` below.
 //! A wave of amplitude `r` in the gaps meets the stiffness
-//! `S(r) = (N/(2 pi r)) int P(g0 - r cos f) cos f df`, here without quadrature error.
+//! `S(r) = (N/(2 pi r)) int P(g0 - r cos f) cos f df`, here without quadrature error:
+//! `S(r) = (N k_p/2 pi) mean(-g0/r, eps/r)`, the mean of `f - sin f cos f`, `cos f = -x`,
+//! over `x` from `(-g0 - eps)/r` to `-g0/r`. A wide one is a difference of closed forms, a
+//! narrow one is summed without losing a digit.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
-use super::share::{mean, mean_change};
-use crate::harmonic::{HarmonicError, Joint};
+use crate::harmonic::{HarmonicError, Joint, error};
 use crate::model::{ContactSurface, LiningLaw, Machine};
 use crate::numeric::bisection::bisected;
-use crate::tolerances::{LINING_NARROWEST, LINING_STRIDES, LINING_WIDEST};
+use crate::numeric::quadrature::GAUSS_8;
+use crate::tolerances::{LINING_DIVIDED, LINING_NARROWEST, LINING_STRIDES, LINING_WIDEST};
 
 /// A machine whose casing has a lining under the blades.
 #[derive(Clone, Copy, Debug)]
@@ -35,16 +38,11 @@ impl<'a> Lining<'a> {
         if machine.nodal_diameters == 0.0 {
             return Err(HarmonicError::NoWave);
         }
-        if !polygon.has_corners() {
-            return Err(HarmonicError::no_corner(polygon));
-        }
+        error::refuse_no_corner(polygon)?;
         if !Joint::has_one_wave(machine) {
-            return Err(HarmonicError::Refused {
-                key: "bladed_disk.nodal_diameters",
-                value: machine.blade_diameters.to_string(),
-                allowed: "those of the casing, or n_b = +-n_d modulo N, for one wave of both"
-                    .to_string(),
-            });
+            let (key, value) = ("bladed_disk.nodal_diameters", machine.blade_diameters);
+            let allowed = "those of the casing, or n_b = +-n_d modulo N, for one wave of both";
+            return Err(HarmonicError::refused(key, value, allowed));
         }
         Ok(Self {
             machine,
@@ -92,7 +90,7 @@ impl<'a> Lining<'a> {
     }
 
     /// Stiffness `S(r)` of all blades against a wave of amplitude `r > 0` in the gaps,
-    /// on a rim with many blades \[N/m\].
+    /// of many blades \[N/m\].
     #[must_use]
     pub fn stiffness_of_wave(&self, r: f64) -> f64 {
         let depth = self.preload_m() / r;
@@ -136,6 +134,84 @@ pub(super) fn between([low, high]: [f64; 2], of: impl Fn(f64) -> f64) -> f64 {
     }
     let [low, high] = bisected([low, high], |x| (of(x) > 0.0) != (start > 0.0));
     0.5 * (low + high)
+}
+
+/// Share of a wave of amplitude 1 that meets a linear lining of depth `x`:
+/// `f - sin f cos f` with `cos f = -x`; `pi` where no blade lifts off.
+fn share(x: f64) -> f64 {
+    if x >= 1.0 {
+        PI
+    } else if x <= -1.0 {
+        0.0
+    } else {
+        let angle = (-x).acos();
+        let sin = ((1.0 - x) * (1.0 + x)).sqrt();
+        angle + sin * x
+    }
+}
+
+/// Its derivative, `2 sin f`.
+fn share_slope(x: f64) -> f64 {
+    2.0 * ((1.0 - x) * (1.0 + x)).max(0.0).sqrt()
+}
+
+/// `int_{-inf}^{x} share`: `sin f - sin^3 f/3 - f cos f`.
+fn whole(x: f64) -> f64 {
+    if x >= 1.0 {
+        return PI * x;
+    }
+    if x <= -1.0 {
+        return 0.0;
+    }
+    let angle = (-x).acos();
+    let sin = ((1.0 - x) * (1.0 + x)).sqrt();
+    sin - sin * sin * sin / 3.0 + angle * x
+}
+
+/// The mean of `share` over a lining from `depth - width` to `depth`.
+pub(super) fn mean(depth: f64, width: f64) -> f64 {
+    if width > LINING_DIVIDED {
+        return (whole(depth) - whole(depth - width)) / width;
+    }
+    averaged(depth, width, share)
+}
+
+/// How that mean changes with the logarithm of the amplitude, of which depth and width
+/// are both parts: `mean - [x share]/width` between its ends.
+pub(super) fn mean_change(depth: f64, width: f64) -> f64 {
+    if width > LINING_DIVIDED {
+        let low = depth - width;
+        return mean(depth, width) - (depth * share(depth) - low * share(low)) / width;
+    }
+    -averaged(depth, width, |x| x * share_slope(x))
+}
+
+/// A mean by quadrature, exact to round-off over a narrow lining: cut at its kinks, with
+/// a substitution that takes their roots away.
+fn averaged(depth: f64, width: f64, of: impl Fn(f64) -> f64) -> f64 {
+    if width == 0.0 {
+        return of(depth);
+    }
+    let low = depth - width;
+    let mut cuts = vec![0.0];
+    cuts.extend([-1.0, 1.0].map(|kink| (kink - low) / width).iter().filter(|c| inside(**c)));
+    cuts.push(1.0);
+    let pieces = cuts.windows(2).map(|piece| {
+        let [start, end] = [piece[0], piece[1]];
+        let node = |u: f64, weight: f64| {
+            let place = start + (end - start) * u * u * (3.0 - 2.0 * u);
+            0.5 * weight * 6.0 * u * (1.0 - u) * of(low + width * place)
+        };
+        let both = |&(x, weight): &(f64, f64)| {
+            node(0.5 * (1.0 - x), weight) + node(0.5 * (1.0 + x), weight)
+        };
+        (end - start) * GAUSS_8.iter().map(both).sum::<f64>()
+    });
+    pieces.sum()
+}
+
+fn inside(part: f64) -> bool {
+    part > 0.0 && part < 1.0
 }
 
 #[cfg(test)]
@@ -206,5 +282,20 @@ mod tests {
         assert!(lining.amplitudes(1.001 * lining.stiffness_at_rest()).is_empty());
         let step = (lining.push(-1e-6) - lining.push(-1e-6 - 1e-15)).abs();
         assert!(step < 1e-10 && lining.push(1e-9) == 0.0);
+    }
+}
+
+#[cfg(test)]
+mod share_tests {
+    use super::*;
+
+    #[test]
+    fn closed_form_and_quadrature_meet_where_one_takes_over() {
+        for depth in [-1.0003, -0.9999, -0.2, 0.0, 0.7, 0.9995, 1.0002, 1.3] {
+            let width = LINING_DIVIDED;
+            let closed = (whole(depth) - whole(depth - width)) / width;
+            let summed = averaged(depth, width, share);
+            assert!((closed - summed).abs() < 2e-12, "{depth}: {closed} {summed}");
+        }
     }
 }

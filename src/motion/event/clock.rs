@@ -2,6 +2,8 @@
 //! closed form is counted from, in twice the digits, so that a million stretches lose
 //! none.
 
+use crate::numeric::sum::two_sum;
+
 /// Start of a stretch and the present instant \[s\].
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Clock {
@@ -23,13 +25,9 @@ impl Clock {
 
     /// A stretch begins `s` seconds after the start of the one before.
     pub fn pass(&mut self, s: f64) {
-        // Two-sum: the part that rounding drops is kept.
         let (t, low) = self.start;
-        let add = s + low;
-        let sum = t + add;
-        let rest = sum - t;
-        self.start = (sum, (t - (sum - rest)) + (add - rest));
-        self.arrive(sum);
+        self.start = two_sum(t, s + low);
+        self.arrive(self.start.0);
     }
 
     /// A stretch begins at `t`.

@@ -6,11 +6,10 @@
 //! are the clock, the looks ahead that pass nothing, series and integrals.
 
 mod clock;
+mod dissipation;
 mod exact;
 mod linear;
-mod looks;
-mod quadrature;
 mod series;
 
-pub use exact::Event;
-pub use linear::Joined;
+pub use exact::ExactEvents;
+pub use linear::LinearEvents;

@@ -1,11 +1,11 @@
 //! The energy ledger of a motion under way, added up step by step.
 
-use crate::motion::EnergyLedger;
+use crate::motion::EnergyAccount;
 
 /// The account of a motion under way.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Account {
-    pub sums: EnergyLedger,
+    pub sums: EnergyAccount,
     /// Energy at the start, less what changes from outside have put in \[J\].
     pub start: f64,
     /// Energy in the lining at the step before the latest \[J\].

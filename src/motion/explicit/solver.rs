@@ -8,8 +8,8 @@ use super::{Coordinate, Explicit};
 use crate::model::Machine;
 use crate::motion::verdict::judge;
 use crate::motion::{
-    ActiveSet, Checks, ContactLog, EnergyLedger, Failure, GoOn, Plane, Pulse, Rotor, Solver, State,
-    Verdict,
+    ActiveSet, Checks, ContactLog, EnergyAccount, Failure, GoOn, Plane, Pulse, Rotor, Solver,
+    State, Verdict,
 };
 use crate::scene::CheckedScene;
 use crate::tolerances::{STEP_ROUND_OFF, UPDATES_UNASKED};
@@ -144,14 +144,14 @@ impl<B: Disk> Solver for Explicit<B> {
             max_predicted_penetration_m: self.lining.is_none().then_some(record.deepest_predicted),
             tensile_steps: record.log.tensile_steps,
             max_blade_angle_rad: self.largest_angle(),
-            energy_residual_j: self.energy_ledger().map(|ledger| ledger.residual()),
+            energy_residual_j: self.energy_account().map(|ledger| ledger.residual()),
         }
     }
 
-    fn energy_ledger(&self) -> Option<EnergyLedger> {
+    fn energy_account(&self) -> Option<EnergyAccount> {
         let account = &self.beyond.account;
         let kept = self.goes_beyond && !account.forgone;
-        kept.then(|| EnergyLedger { stored_j: self.stored() - account.start, ..account.sums })
+        kept.then(|| EnergyAccount { stored_j: self.stored() - account.start, ..account.sums })
     }
 
     fn forgo_checks(&mut self) {

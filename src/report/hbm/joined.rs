@@ -8,7 +8,7 @@ use nalgebra::Complex;
 use serde_json::{Value, json};
 
 use super::parts::Parts;
-use crate::harmonic::{Joint, RimLoads, RimWave, WhirlOrbit, WhirlPoint, rim_waves};
+use crate::harmonic::{Joint, RoundWhirl, RoundWhirlLoads, WhirlOrbit, WhirlPoint, round_whirls};
 use crate::model::Machine;
 use crate::report::made_table::MadeTable;
 use crate::report::table::{Column, Table, TableCell};
@@ -26,7 +26,7 @@ pub struct WhirlRow {
     /// On the polygon.
     pub point: WhirlPoint,
     /// On the rim.
-    pub rim: Option<(RimWave, RimLoads)>,
+    pub rim: Option<(RoundWhirl, RoundWhirlLoads)>,
 }
 
 impl WhirlRow {
@@ -34,7 +34,7 @@ impl WhirlRow {
     #[must_use]
     pub fn of(machine: &Machine, point: WhirlPoint) -> Self {
         let joint = Joint::at(machine, point.speed_rad_s);
-        let lasting = RimWave::lasting(&rim_waves(&joint));
+        let lasting = RoundWhirl::lasting(&round_whirls(&joint));
         Self { point, rim: lasting.map(|wave| (wave, wave.loads(&joint))) }
     }
 }
@@ -77,7 +77,7 @@ pub fn whirl(row: &WhirlRow) -> Value {
 }
 
 /// A wave on the rim in JSON.
-fn wave((wave, loads): &(RimWave, RimLoads)) -> Value {
+fn wave((wave, loads): &(RoundWhirl, RoundWhirlLoads)) -> Value {
     let over = loads.casing_m >= 0.0;
     let loaded = |load: f64| over.then_some(load);
     json!({
@@ -127,10 +127,10 @@ pub fn whirl_table(rows: &Rc<Vec<WhirlRow>>) -> MadeTable {
 
 /// The waves on a rim at one speed.
 #[must_use]
-pub fn wave_table(joint: &Joint, waves: &[RimWave]) -> Table {
+pub fn wave_table(joint: &Joint, waves: &[RoundWhirl]) -> Table {
     // On a lining that blades press at rest it is the depth that decides.
     let pressed = joint.machine.clearance() <= 0.0;
-    let state = |wave: &RimWave| match (pressed, wave.attracts) {
+    let state = |wave: &RoundWhirl| match (pressed, wave.attracts) {
         (true, _) => "see --smooth",
         (false, true) => "attracts",
         (false, false) => "threshold",
@@ -157,7 +157,7 @@ fn loaded(load: f64) -> TableCell {
 
 /// The joint compliance in JSON, at casing frequencies \[rad/s\].
 #[must_use]
-pub fn compliance(joint: &Joint, points: &Rc<Vec<CompliancePoint>>, waves: &[RimWave]) -> Parts {
+pub fn compliance(joint: &Joint, points: &Rc<Vec<CompliancePoint>>, waves: &[RoundWhirl]) -> Parts {
     let waves: Vec<_> = waves.iter().map(|found| wave(&(*found, found.loads(joint)))).collect();
     Parts::default()
         .with_whole("speed_rad_s", joint.nu / joint.machine.nodal_diameters)
@@ -188,7 +188,7 @@ pub fn compliance_table(points: &Rc<Vec<CompliancePoint>>) -> MadeTable {
 /// The curve of the compliance in the complex plane, one line of text a row: the axes,
 /// `*` where a wave attracts and `o` at its threshold.
 #[must_use]
-pub fn compliance_chart(joint: &Joint, waves: &[RimWave]) -> Table {
+pub fn compliance_chart(joint: &Joint, waves: &[RoundWhirl]) -> Table {
     let machine = joint.machine;
     let resonances = [
         (machine.omega_c, machine.casing_damping_ratio * machine.omega_c),

@@ -6,7 +6,7 @@ use std::time::Instant;
 use serde::Serialize;
 
 use super::{TimedRun, halving};
-use crate::motion::{Event, GoOn, Motion, verdict_of};
+use crate::motion::{ExactEvents, GoOn, Motion, verdict_of};
 use crate::scene::{CheckedScene, ContactLaw, ModelSize, Scene, SceneError, SolverKind};
 use crate::tolerances::{self, LAST_PART};
 
@@ -152,7 +152,7 @@ impl Way {
         let scene = self.of(scene)?;
         Ok(match self.tolerance {
             Some(tolerance) if !scene.goes_beyond() => {
-                Event::new(&scene)?.with_tolerance(tolerance).into()
+                ExactEvents::new(&scene)?.with_tolerance(tolerance).into()
             }
             _ => Motion::new(&scene),
         })

@@ -4,15 +4,14 @@
 //!
 //! While `|u| < g0` no side can touch, whatever the rotor does: that costs one
 //! comparison. Beyond, the gaps of the nearest sides are advanced on with a
-//! bound on their second derivative in the turning frame (`advancement`); the rest
+//! bound on their second derivative in the turning frame (`event::series`); the rest
 //! are kept open by a bound on the speed.
 
-use super::blades::Tips;
-use super::bounds::{Bounds, size};
-use super::parameters::{Drive, Parameters};
-use super::rise::rise;
+use super::bounds::{Bounds, rise, size};
+use super::mode::{Ending, Next};
+use super::parameters::{Parameters, Tips};
 use crate::motion::Plane;
-use crate::motion::event::looks::{Gap, curved_step, leaving_step, safe_step};
+use crate::motion::event::series::{Gap, curved_step, leaving_step, safe_step};
 use crate::tolerances::{
     LONG_LOOK, LONGEST_LOOK, NEAR_SIDES, RAMP_CHANGE, SHORT_LOOK, SOFT_CASING,
 };
@@ -22,7 +21,7 @@ const NEAREST: u32 = 7;
 
 /// A side that the flight leaves with neither gap nor rate.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Leaving {
+pub(super) struct OpenedSide {
     pub side: u32,
     /// Second derivative of its gap \[m/s^2\], zero or more.
     pub bend: f64,
@@ -37,7 +36,7 @@ pub(super) struct Free {
     pub rate: Plane,
     /// Blades at the start.
     pub tips: Tips,
-    pub leaving: [Option<Leaving>; 2],
+    pub opened: [Option<OpenedSide>; 2],
 }
 
 /// Second and third derivative of a flight in the standing frame, ready to be seen
@@ -50,9 +49,9 @@ struct Bends {
 }
 
 impl Bends {
-    fn new(parameters: &Parameters, drive: &Drive, u: Plane, v: Plane) -> Self {
+    fn new(parameters: &Parameters, u: Plane, v: Plane) -> Self {
         let (c, k) = (parameters.damping, parameters.propagator.stiffness);
-        let second = Plane::new(drive.pulse, 0.0) - v * (2.0 * c) - u * k;
+        let second = Plane::new(parameters.drive.pulse, 0.0) - v * (2.0 * c) - u * k;
         Self { u, v, second, third: -second * (2.0 * c) - v * k }
     }
 
@@ -97,22 +96,9 @@ pub(super) fn dot(a: Plane, direction: Plane) -> f64 {
     a.re * direction.re + a.im * direction.im
 }
 
-/// What one look ahead finds.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Look {
-    /// No event before this time.
-    Until(f64),
-    /// This side touches now.
-    Touch(u32),
-    /// Nothing can touch any more, for as long as the drive does not change.
-    Never,
-    /// The motion went beyond the casing radius.
-    Gone,
-}
-
 impl Free {
     pub(super) fn new(place: Plane, rate: Plane, tips: Tips) -> Self {
-        Self { place, rate, tips, leaving: [None; 2] }
+        Self { place, rate, tips, opened: [None; 2] }
     }
 
     /// The blades, `s` seconds on.
@@ -143,15 +129,15 @@ impl Free {
     }
 
     /// Place and rate in the standing frame, `s` seconds on.
-    pub(super) fn at(&self, parameters: &Parameters, drive: &Drive, s: f64) -> (Plane, Plane) {
+    pub(super) fn at(&self, parameters: &Parameters, s: f64) -> (Plane, Plane) {
         let response = parameters.propagator.at(s);
         let stiffness = parameters.propagator.stiffness;
-        if drive.pulse == 0.0 {
+        if parameters.drive.pulse == 0.0 {
             let place = self.place * response.hold + self.rate * response.unit;
             let rate = self.rate * response.slope - self.place * (stiffness * response.unit);
             (place, rate)
         } else {
-            let forcing = Plane::new(drive.pulse, 0.0) - self.place * stiffness;
+            let forcing = Plane::new(parameters.drive.pulse, 0.0) - self.place * stiffness;
             let place = self.place + self.rate * response.unit + forcing * response.ramp;
             (place, self.rate * response.slope + forcing * response.unit)
         }
@@ -164,26 +150,22 @@ impl Free {
     }
 
     /// Second and third derivative of the gap of `side` at the start.
-    pub(super) fn curvature(
-        &self,
-        parameters: &Parameters,
-        drive: &Drive,
-        side: u32,
-    ) -> (f64, f64) {
-        let bends = Bends::new(parameters, drive, self.place, self.rate);
-        let (inward, nu) = parameters.facing(drive, side, 0.0, &self.tips);
-        bends.of(parameters, side, &self.tips, inward, nu, drive.nu_rate)
+    pub(super) fn curvature(&self, parameters: &Parameters, side: u32) -> (f64, f64) {
+        let bends = Bends::new(parameters, self.place, self.rate);
+        let (inward, nu) = parameters.facing(side, 0.0, &self.tips);
+        bends.of(parameters, side, &self.tips, inward, nu, parameters.drive.nu_rate)
     }
 
     /// Looks ahead from `s`, before which nothing happens, to at most `end`.
-    pub(super) fn look(&self, parameters: &Parameters, drive: &Drive, s: f64, end: f64) -> Look {
-        let (u, v) = self.at(parameters, drive, s);
+    pub(super) fn look(&self, parameters: &Parameters, s: f64, end: f64) -> Next {
+        let drive = &parameters.drive;
+        let (u, v) = self.at(parameters, s);
         if drive.pulse == 0.0 && Self::spent(parameters, u, v) {
-            return Look::Never;
+            return Next::Until(end);
         }
         let radius = size(u);
         if !parameters.corners && radius > parameters.reach {
-            return Look::Gone;
+            return Next::Now(Ending::Gone);
         }
         // A ramp may change the turning rate by a tenth of all rates in one look.
         let (nu, rates) = (drive.nu(s), parameters.omega + drive.nu(s).abs());
@@ -199,7 +181,7 @@ impl Free {
         if let Some(swing) = swing.filter(|_| radius < clearance) {
             stride = rise(parameters, swing, u, v);
             if stride * rates > LONG_LOOK {
-                return Look::Until((s + stride.min(end - s)).max(s.next_up()));
+                return Next::Until((s + stride.min(end - s)).max(s.next_up()));
             }
         }
         let span = span.min(end - s);
@@ -208,7 +190,7 @@ impl Free {
         let waves =
             if drive.steady() && !soft { Bounds::of_waves(parameters, nu, u, v) } else { None };
         let mut bounds = waves.unwrap_or_else(|| {
-            Bounds::new(parameters, drive, u, v, span, [nu, drive.nu(s + span.min(1e9))])
+            Bounds::new(parameters, u, v, span, [nu, drive.nu(s + span.min(1e9))])
         });
         if let Some(blades) = &parameters.blades {
             bounds.shift(blades, &tips);
@@ -230,18 +212,18 @@ impl Free {
                 // It may swing so far that nothing bounds it over a whole period.
                 near_span = span.min(1.0 / rates);
                 let nu = [nu, drive.nu(s + near_span)];
-                bounds = Bounds::new(parameters, drive, u, v, near_span, nu);
-                bounds.lower_locally(parameters, drive, nu);
+                bounds = Bounds::new(parameters, u, v, near_span, nu);
+                bounds.lower_locally(parameters, nu);
                 if let Some(blades) = &parameters.blades {
                     bounds.shift(blades, &tips);
                 }
             }
-            match self.sides(parameters, drive, s, (u, v, tips), &bounds, near_span) {
-                Look::Until(near) => stride = stride.max(near),
-                found => return found,
+            match self.sides(parameters, s, (u, v, tips), &bounds, near_span) {
+                Ok(near) => stride = stride.max(near),
+                Err(touch) => return Next::Now(touch),
             }
         }
-        Look::Until((s + stride.min(span)).max(s.next_up()))
+        Next::Until((s + stride.min(span)).max(s.next_up()))
     }
 
     /// Time over which no side can close, `span` at most, or the side that touches
@@ -249,18 +231,18 @@ impl Free {
     fn sides(
         &self,
         parameters: &Parameters,
-        drive: &Drive,
         s: f64,
         (u, v, tips): (Plane, Plane, Tips),
         bounds: &Bounds,
         span: f64,
-    ) -> Look {
+    ) -> Result<f64, Ending> {
+        let drive = &parameters.drive;
         let polygon = &parameters.machine.polygon;
         let nu = drive.nu(s);
         let turn = Plane::cis(drive.phase(s));
         let z = u * turn.conj();
         let rate = (v - Plane::i() * u * nu) * turn.conj();
-        let bends = Bends::new(parameters, drive, u, v);
+        let bends = Bends::new(parameters, u, v);
         let [second, third] = bends.turned(nu, drive.nu_rate, 0.0).map(|x| x * turn.conj());
         // Round-off of the closed form: that of the terms it adds up.
         let terms = size(self.place) + size(self.rate) * s.min(1.0 / parameters.omega) + size(u);
@@ -294,10 +276,10 @@ impl Free {
                 closing = dot(rate - Plane::i() * z * spin, normal);
             }
             let gap = parameters.clearance + dot(z, normal);
-            let leaving = self.leaving.iter().flatten().find(|leaving| leaving.side == side);
-            let safe = match leaving {
-                Some(leaving) if s == 0.0 => leaving_step(leaving.bend, leaving.twist, jounce),
-                _ if gap <= noise && closing < 0.0 => return Look::Touch(side),
+            let opened = self.opened.iter().flatten().find(|opened| opened.side == side);
+            let safe = match opened {
+                Some(opened) if s == 0.0 => leaving_step(opened.bend, opened.twist, jounce),
+                _ if gap <= noise && closing < 0.0 => return Err(Ending::Touch(side)),
                 _ if gap + stride * (closing - 0.5 * bend * stride) > 0.0 && gap > 0.0 => stride,
                 _ => {
                     let (bend, twist) = if parameters.blades.is_none() {
@@ -312,13 +294,14 @@ impl Free {
             };
             stride = stride.min(safe);
         }
-        Look::Until(stride)
+        Ok(stride)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::motion::event::exact::parameters::Drive;
     use crate::scene::Scene;
 
     /// Looks until something touches, whether it does, and the least gap of any side on
@@ -327,19 +310,18 @@ mod tests {
         let event = [("solver.kind", "event"), ("solver.contact", "unilateral")];
         let rigid = [("solver.model", "rigid")];
         let scene = Scene::base().with(&[&event[..], &rigid, changes].concat()).unwrap();
-        let parameters = Parameters::new(&scene);
+        let mut parameters = Parameters::new(&scene);
         let diameters = parameters.machine.nodal_diameters;
         let nu = diameters * scene.operation.speed_rad_s;
         let nu_rate = diameters * scene.operation.speed_ramp_rad_s2;
-        let drive = Drive { phase: 0.3, nu, nu_rate, pulse: 0.0 };
+        parameters.drive = Drive { phase: 0.3, nu, nu_rate, pulse: 0.0 };
         let free = Free::new(place, rate, Tips::default());
         let (mut s, mut looks, mut touches, end) = (0.0, 0, false, 0.02);
         while s < end && looks < 10_000 {
             looks += 1;
-            match free.look(&parameters, &drive, s, end) {
-                Look::Until(later) => s = later,
-                Look::Never => s = end,
-                Look::Touch(_) | Look::Gone => {
+            match free.look(&parameters, s, end) {
+                Next::Until(later) => s = later,
+                Next::Now(_) => {
                     touches = true;
                     break;
                 }
@@ -348,7 +330,7 @@ mod tests {
         let mut least = f64::INFINITY;
         for k in 0..=4000 {
             let t = s.min(end) * f64::from(k) / 4000.0;
-            let z = free.at(&parameters, &drive, t).0 * Plane::cis(-drive.phase(t));
+            let z = free.at(&parameters, t).0 * Plane::cis(-parameters.drive.phase(t));
             for side in 0..parameters.machine.polygon.sides {
                 least = least.min(parameters.machine.polygon.gap(side, z.re, z.im));
             }

@@ -3,78 +3,63 @@
 //! With rigid blades the casing wave is a point in a polygon that turns with
 //! the rotor (`model::ContactPolygon`), and it moves in one of four modes: *free*,
 //! *sliding* along a side, *rocking* into a corner, or *locked* in a corner.
-//! Within a mode the motion is known in closed form (`propagator`) or as a power
-//! series summed to round-off (`side_series`: pulse or ramp while sliding). With
-//! blades that move (`blades`) the sides turn a little by themselves; sliding
-//! and locked motion are then power series too (`side_series`, `corner_series`), and
-//! impacts share their impulse with the blades (`impact`). Each mode looks ahead for
-//! its end with bounds that cannot miss it (`advancement`),
-//! and the next mode follows from plastic impact and from the pushes by cases
-//! (`transitions`), so that no event is found twice.
+//! Within a mode the motion is known in closed form or as a power series summed to
+//! round-off (pulse or ramp while sliding). With blades that move (`parameters`) the sides
+//! turn a little by themselves; sliding and locked motion are then power series too
+//! (`slide`, `locked`), and impacts share their impulse with the blades (`impact`). Each
+//! mode looks ahead for its end with bounds that cannot miss it (`event::series`), and the
+//! next mode follows from plastic impact and from the pushes by cases (`transitions`), so
+//! that no event is found twice.
 //!
 //! A segment is always evaluated from its start, never from an output time:
 //! where one looks does not change the motion, not by one bit.
 
-mod angles;
-mod blades;
 mod bounds;
-mod corner;
-mod corner_contact;
-mod corner_series;
-mod energy_balance;
 mod free;
 mod impact;
+mod locked;
+mod mode;
 mod parameters;
-mod rise;
 mod rocking;
-mod side_series;
 mod slide;
 mod transitions;
 
-mod mode;
-mod segment;
-
 use crate::model::Machine;
+use crate::motion::event::clock::Clock;
 use crate::motion::{
-    Checks, ContactLog, Failure, GoOn, Pulse, Rotor, Solver, State, Verdict, to_the_end,
+    Checks, ContactLog, Failure, GoOn, Plane, Pulse, Rotor, Solver, State, Verdict, to_the_end,
 };
 use crate::scene::{CheckedScene, SceneError};
-
-use crate::motion::Plane;
-use crate::motion::event::clock::Clock;
 use crate::tolerances::EVENT_RANGE;
-use blades::Tips;
-use energy_balance::EnergyBalance;
-use mode::{Mode, What};
-use parameters::{Drive, Parameters};
-use segment::Passage;
+use mode::{Ending, EnergyBalance, Mode, casing_energy};
+use parameters::{Parameters, Tips};
+use transitions::Passage;
 
 /// The event-driven solver of one scene, at some instant of its motion.
 ///
 /// ```
-/// use rubscope::{motion::{Event, Solver}, scene::Scene};
-/// let mut motion = Event::new(&Scene::base().checked()?)?;
+/// use rubscope::{motion::{ExactEvents, Solver}, scene::Scene};
+/// let mut motion = ExactEvents::new(&Scene::base().checked()?)?;
 /// motion.advance(0.1)?;
 /// assert!(motion.over());
 /// assert_eq!(motion.contacts().impact_count, 2);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Event {
+pub struct ExactEvents {
     parameters: Parameters,
     rotor: Rotor,
     pulse: Pulse,
     log: ContactLog,
     energy_balance: EnergyBalance,
     clock: Clock,
-    drive: Drive,
     mode: Mode,
     /// Blades at the start of the segment.
     tips: Tips,
     /// No event of the segment comes before this \[s after its start\].
     safe: f64,
     /// The event that ends the segment, once found.
-    found: Option<(f64, What)>,
+    found: Option<(f64, Ending)>,
     events: u64,
     idle: u32,
     /// Looks ahead in this segment, and in the whole run.
@@ -89,7 +74,7 @@ pub struct Event {
     tables: Option<Box<rocking::Tables>>,
 }
 
-impl Event {
+impl ExactEvents {
     /// The motion of a scene at t = 0, whichever solver the scene names.
     ///
     /// # Errors
@@ -107,7 +92,7 @@ impl Event {
         let place = Plane::new(scene.initial.u_c_m, scene.initial.u_s_m);
         let rate = Plane::new(scene.initial.v_c_m_s, scene.initial.v_s_m_s);
         let energy_balance = EnergyBalance {
-            start: energy_balance::energy(&parameters, place, rate),
+            start: casing_energy(&parameters, place, rate),
             ..EnergyBalance::default()
         };
         let mut event = Self {
@@ -118,7 +103,6 @@ impl Event {
             log: ContactLog::default(),
             energy_balance,
             clock: Clock::default(),
-            drive: Drive::default(),
             safe: 0.0,
             found: None,
             events: 0,
@@ -132,7 +116,7 @@ impl Event {
             failure: None,
             tables: None,
         };
-        event.drive = event.drive_now(0.0);
+        event.parameters.drive = event.drive_now(0.0);
         event.begin(place, rate);
         event
     }
@@ -173,7 +157,7 @@ impl Event {
     }
 }
 
-impl Solver for Event {
+impl Solver for ExactEvents {
     fn advance_while(&mut self, until: f64, go_on: GoOn<'_>) -> Result<bool, Failure> {
         loop {
             match self.change(until, go_on)? {
@@ -194,8 +178,8 @@ impl Solver for Event {
 
     fn state(&self) -> State {
         let s = self.elapsed(self.clock.now);
-        let (u, v) = self.mode.standing(&self.parameters, &self.drive, s);
-        let Tips { angle, rate } = self.mode.reported(&self.parameters, &self.drive, s);
+        let (u, v) = self.mode.standing(&self.parameters, s);
+        let Tips { angle, rate } = self.mode.reported(&self.parameters, s);
         State {
             t_s: self.clock.now,
             u: [u.re, u.im],
@@ -211,15 +195,15 @@ impl Solver for Event {
 
     fn multipliers(&self) -> Vec<(u32, f64)> {
         let s = self.elapsed(self.clock.now);
-        let pushes = self.mode.pushes(&self.parameters, &self.drive, s);
+        let pushes = self.mode.pushes(&self.parameters, s);
         let multiplier = |(side, push): (u32, f64)| (side, -push * self.parameters.mass);
         pushes.into_iter().flatten().map(multiplier).collect()
     }
 
     fn over(&self) -> bool {
         let Mode::Free(free) = &self.mode else { return false };
-        let (u, v) = free.at(&self.parameters, &self.drive, self.elapsed(self.clock.now));
-        self.drive.pulse == 0.0 && free::Free::spent(&self.parameters, u, v)
+        let (u, v) = free.at(&self.parameters, self.elapsed(self.clock.now));
+        self.parameters.drive.pulse == 0.0 && free::Free::spent(&self.parameters, u, v)
     }
 
     fn final_verdict(&self) -> Option<Verdict> {
@@ -228,16 +212,16 @@ impl Solver for Event {
         } else if self.over() {
             Some(Verdict::Decay)
         } else if let Mode::Corner(a) = self.mode
-            && self.drive.steady()
+            && self.parameters.drive.steady()
         {
-            let pushes = corner::pushes(&self.parameters, &self.drive, a, 0.0);
+            let pushes = locked::pushes(&self.parameters, a, 0.0);
             pushes.iter().all(|&push| push > 0.0).then_some(Verdict::Locked)
         } else if let Mode::Held(held) = &self.mode
             && let Some(blades) = &self.parameters.blades
-            && self.drive.steady()
+            && self.parameters.drive.steady()
         {
             let s = self.elapsed(self.clock.now);
-            held.for_good(&self.parameters, &self.drive, blades, s).then_some(Verdict::Locked)
+            held.for_good(&self.parameters, blades, s).then_some(Verdict::Locked)
         } else {
             None
         }
@@ -262,16 +246,11 @@ impl Solver for Event {
     fn checks(&self) -> Checks {
         let s = self.elapsed(self.clock.now);
         let mut energy_balance = self.energy_balance;
-        self.mode.book(&self.parameters, &self.drive, s, &mut energy_balance);
-        let residual = energy_balance.residual(self.mode.energy(&self.parameters, &self.drive, s));
+        self.mode.book(&self.parameters, s, &mut energy_balance);
+        let residual = energy_balance.residual(self.mode.energy(&self.parameters, s));
         Checks {
             max_penetration_m: self.deepest,
-            max_blade_angle_rad: self.mode.largest_angle(
-                &self.parameters,
-                &self.drive,
-                s,
-                self.widest,
-            ),
+            max_blade_angle_rad: self.mode.largest_angle(&self.parameters, s, self.widest),
             energy_residual_j: Some(self.parameters.mass * residual),
             ..Checks::default()
         }
@@ -328,7 +307,7 @@ mod tests {
     fn a_motion_without_checks_is_the_same_to_the_bit() {
         for name in ["slip", "rocking", "undamped", "run-down"] {
             let scene = Scene::builtin(name).unwrap().as_reference().checked().unwrap();
-            let mut full = Event::new(&scene).unwrap();
+            let mut full = ExactEvents::new(&scene).unwrap();
             let mut bare = full.clone();
             bare.forgo_checks();
             for k in 1..=10 {
@@ -347,7 +326,7 @@ mod tests {
         let mut scene = Scene::builtin("undamped").unwrap().as_reference();
         // Hours of bouncing.
         scene.solver.end_s = 1e6;
-        let mut event = Event::new(&scene.checked().unwrap()).unwrap();
+        let mut event = ExactEvents::new(&scene.checked().unwrap()).unwrap();
         event.all_looks = MOST_LOOKS - 100;
         let mut other = event.clone();
         (other.all_looks, other.events) = (0, MOST_EVENTS - 10);

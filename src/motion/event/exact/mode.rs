@@ -1,18 +1,26 @@
-//! The modes of motion, seen alike: where the casing is, what pushes, what the
-//! energy does, and what ends the mode.
+//! The modes of motion, seen alike: where the casing is, what pushes, what ends the mode, how
+//! far blades bend, and where the energy goes.
+//!
+//! Each part of the energy balance is integrated on its own from the closed-form motion, so
+//! that the balance can fail: dissipation from the exponentials of the flight or by
+//! Gauss quadrature along a side, the rotor's work from the pushes (a push `N`
+//! at `y` takes the power `-N nu y` from the rotor), the losses from the
+//! closing speeds. Only the summed part of a rocking motion is booked at its
+//! balance (docs/theory.md, section 7).
 
-use super::angles::peak;
-use super::blades::Tips;
-use super::corner::{self, Hold};
-use super::corner_series::CornerSeries;
-use super::energy_balance::{self, EnergyBalance};
-use super::free::{Free, Look};
-use super::parameters::{Drive, Parameters};
-use super::rocking;
-use super::side_series::SideSeries;
-use super::slide::{Ahead, Along, Slide};
-use crate::motion::event::quadrature::quadrature;
-use crate::motion::{ActiveSet, Plane};
+use std::f64::consts::FRAC_PI_2;
+
+use super::free::Free;
+use super::locked::{self, CornerSeries};
+use super::parameters::{Parameters, Tips};
+use super::slide::{Along, SideSeries, Slide};
+use super::{ExactEvents, rocking};
+use crate::motion::event::dissipation::damped;
+use crate::motion::{ActiveSet, Failure, FailureReason, Plane};
+use crate::numeric::bisection::bisected;
+use crate::numeric::maximum::highest;
+use crate::numeric::quadrature::quadrature;
+use crate::tolerances::{CORNER_ROOM, LARGEST_BLADE_ANGLE, PEAK_LOOKS};
 
 /// How the casing moves until the next event.
 #[derive(Clone, Debug)]
@@ -35,10 +43,10 @@ pub(super) enum Mode {
 
 /// What ends a mode.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum What {
+pub(super) enum Ending {
     /// A side touches.
     Touch(u32),
-    /// The upper (`true`) or lower end of the side is reached.
+    /// The upper (`true`) or lower end of the side is reached; without corners, the casing.
     Edge(bool),
     /// The only push vanishes.
     Release,
@@ -60,32 +68,20 @@ pub(super) enum What {
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Next {
     Until(f64),
-    Now(What),
+    Now(Ending),
 }
 
 impl Mode {
     /// Looks ahead from `s` to at most `end`; events do not come before `s`.
-    pub(super) fn look(&self, parameters: &Parameters, drive: &Drive, s: f64, end: f64) -> Next {
-        let along = |ahead: Ahead| match ahead {
-            Ahead::Until(later) => Next::Until(later),
-            Ahead::Edge(up) if parameters.corners => Next::Now(What::Edge(up)),
-            Ahead::Edge(_) => Next::Now(What::Gone),
-            Ahead::Release => Next::Now(What::Release),
-            Ahead::Lost => Next::Now(What::Lost),
-        };
+    pub(super) fn look(&self, parameters: &Parameters, s: f64, end: f64) -> Next {
         match self {
-            Self::Free(free) => match free.look(parameters, drive, s, end) {
-                Look::Until(later) => Next::Until(later),
-                Look::Touch(side) => Next::Now(What::Touch(side)),
-                Look::Never => Next::Until(end),
-                Look::Gone => Next::Now(What::Gone),
-            },
-            Self::Slide(slide) => along(slide.look(parameters, drive, s)),
-            Self::Driven(series) => along(series.look(parameters, drive, s)),
+            Self::Free(free) => free.look(parameters, s, end),
+            Self::Slide(slide) => slide.look(parameters, s),
+            Self::Driven(series) => series.look(parameters, s),
             Self::Rocking { time, .. } if s < *time => Next::Until(*time),
-            Self::Rocking { .. } => Next::Now(What::Lock),
-            Self::Corner(a) => hold(corner::look(parameters, drive, *a, s, end), end),
-            Self::Held(held) => hold(held.look(parameters, s), end),
+            Self::Rocking { .. } => Next::Now(Ending::Lock),
+            Self::Corner(a) => locked::look(parameters, *a, s, end),
+            Self::Held(held) => held.look(parameters, s),
         }
     }
 
@@ -100,21 +96,16 @@ impl Mode {
 
     /// The side slid along and the motion along it; a corner counts as its
     /// first side.
-    pub(super) fn along(
-        &self,
-        parameters: &Parameters,
-        drive: &Drive,
-        s: f64,
-    ) -> Option<(u32, Along)> {
+    pub(super) fn along(&self, parameters: &Parameters, s: f64) -> Option<(u32, Along)> {
         match self {
             Self::Free(_) => None,
-            Self::Slide(slide) => Some((slide.side, slide.at(parameters, drive, s))),
+            Self::Slide(slide) => Some((slide.side, slide.at(parameters, s))),
             Self::Driven(series) => Some((series.side, series.at(s))),
             Self::Rocking { a, time, .. } if s >= *time => {
                 Some((*a, Along { y: -parameters.half_side, rate: 0.0, push: 0.0 }))
             }
             Self::Rocking { a, second, speed, .. } => {
-                let swing = rocking::replay(parameters, drive, *a, *second, *speed, s);
+                let swing = rocking::replay(parameters, *a, *second, *speed, s);
                 let (side, sign) = if swing.second {
                     (parameters.machine.polygon.next(*a), 1.0)
                 } else {
@@ -122,12 +113,18 @@ impl Mode {
                 };
                 let y = sign * (parameters.half_side - swing.distance);
                 let rate = -sign * swing.speed;
-                let pulse = drive.pulse_on(parameters, side, s).re;
-                let push = parameters.push(drive.nu(s), drive.nu_rate, y, rate, pulse);
+                let pulse = parameters.pulse_on(side, s).re;
+                let push = parameters.push(
+                    parameters.drive.nu(s),
+                    parameters.drive.nu_rate,
+                    y,
+                    rate,
+                    pulse,
+                );
                 Some((side, Along { y, rate, push }))
             }
             Self::Corner(a) => {
-                let [push, _] = corner::pushes(parameters, drive, *a, s);
+                let [push, _] = locked::pushes(parameters, *a, s);
                 Some((*a, Along { y: -parameters.half_side, rate: 0.0, push }))
             }
             Self::Held(held) => {
@@ -138,35 +135,25 @@ impl Mode {
     }
 
     /// Place and rate in the standing frame, `s` seconds on.
-    pub(super) fn standing(
-        &self,
-        parameters: &Parameters,
-        drive: &Drive,
-        s: f64,
-    ) -> (Plane, Plane) {
+    pub(super) fn standing(&self, parameters: &Parameters, s: f64) -> (Plane, Plane) {
         if let Self::Free(free) = self {
-            return free.at(parameters, drive, s);
+            return free.at(parameters, s);
         }
         if let Self::Held(held) = self {
-            return held.standing(parameters, drive, s);
+            return held.standing(parameters, s);
         }
-        let Some((side, along)) = self.along(parameters, drive, s) else {
+        let Some((side, along)) = self.along(parameters, s) else {
             return Default::default();
         };
-        let facing = parameters.facing(drive, side, s, &self.tips(parameters, s));
+        let facing = parameters.facing(side, s, &self.tips(parameters, s));
         along.seen(parameters.clearance, facing)
     }
 
     /// Place and rate of a free flight in the standing frame, `s` seconds on; none
     /// in contact.
-    pub(super) fn flight(
-        &self,
-        parameters: &Parameters,
-        drive: &Drive,
-        s: f64,
-    ) -> Option<(Plane, Plane)> {
+    pub(super) fn flight(&self, parameters: &Parameters, s: f64) -> Option<(Plane, Plane)> {
         match self {
-            Self::Free(free) => Some(free.at(parameters, drive, s)),
+            Self::Free(free) => Some(free.at(parameters, s)),
             _ => None,
         }
     }
@@ -176,14 +163,13 @@ impl Mode {
     pub(super) fn seen_by_rotor(
         &self,
         parameters: &Parameters,
-        drive: &Drive,
         s: f64,
         along: Option<(u32, Along)>,
     ) -> (Plane, Plane) {
         if let Self::Free(_) | Self::Held(_) = self {
-            let (place, rate) = self.standing(parameters, drive, s);
-            let back = Plane::cis(-drive.phase(s));
-            return (place * back, (rate - Plane::i() * place * drive.nu(s)) * back);
+            let (place, rate) = self.standing(parameters, s);
+            let back = Plane::cis(-parameters.drive.phase(s));
+            return (place * back, (rate - Plane::i() * place * parameters.drive.nu(s)) * back);
         }
         let Some((side, along)) = along else {
             return Default::default();
@@ -213,23 +199,17 @@ impl Mode {
     }
 
     /// The blades as they are reported: stiff ones follow the pushes.
-    pub(super) fn reported(&self, parameters: &Parameters, drive: &Drive, s: f64) -> Tips {
+    pub(super) fn reported(&self, parameters: &Parameters, s: f64) -> Tips {
         let Some(blades) = &parameters.following else { return self.tips(parameters, s) };
-        let Some((_, along)) = self.along(parameters, drive, s) else { return Tips::default() };
-        let pushes = self.pushes(parameters, drive, s);
+        let Some((_, along)) = self.along(parameters, s) else { return Tips::default() };
+        let pushes = self.pushes(parameters, s);
         blades.following(parameters, pushes, [along.y, parameters.half_side])
     }
 
     /// The largest angle of any blade over the first `s` seconds, `least` where
     /// none is larger \[rad\].
-    pub(super) fn largest_angle(
-        &self,
-        parameters: &Parameters,
-        drive: &Drive,
-        s: f64,
-        least: f64,
-    ) -> f64 {
-        let angle = |t: f64| parameters.largest(&self.reported(parameters, drive, t));
+    pub(super) fn largest_angle(&self, parameters: &Parameters, s: f64, least: f64) -> f64 {
+        let angle = |t: f64| parameters.largest(&self.reported(parameters, t));
         let bound = match self {
             Self::Free(free) => return free.largest_angle(parameters, s, least),
             Self::Driven(series) if parameters.blades.is_some() => series.largest_bound(),
@@ -242,36 +222,31 @@ impl Mode {
         }
         let rate = match self {
             Self::Slide(slide) => slide.fastest(),
-            Self::Corner(_) if drive.steady() => return least.max(angle(s)),
+            Self::Corner(_) if parameters.drive.steady() => return least.max(angle(s)),
             _ => 1.0 / self.length().min(s),
         };
         peak(s, rate, angle).max(least)
     }
 
     /// Kinetic and potential energy per unit casing mass, `s` seconds on.
-    pub(super) fn energy(&self, parameters: &Parameters, drive: &Drive, s: f64) -> f64 {
-        let (u, v) = self.standing(parameters, drive, s);
+    pub(super) fn energy(&self, parameters: &Parameters, s: f64) -> f64 {
+        let (u, v) = self.standing(parameters, s);
         let blades =
             parameters.blades.map_or(0.0, |blades| blades.energy(&self.tips(parameters, s)));
-        energy_balance::energy(parameters, u, v) + blades
+        casing_energy(parameters, u, v) + blades
     }
 
     /// Sides in contact with their pushes per unit mass, in phase order.
-    pub(super) fn pushes(
-        &self,
-        parameters: &Parameters,
-        drive: &Drive,
-        s: f64,
-    ) -> [Option<(u32, f64)>; 2] {
+    pub(super) fn pushes(&self, parameters: &Parameters, s: f64) -> [Option<(u32, f64)>; 2] {
         let corner = match self {
-            Self::Corner(a) => Some((*a, corner::pushes(parameters, drive, *a, s))),
+            Self::Corner(a) => Some((*a, locked::pushes(parameters, *a, s))),
             Self::Held(held) => Some((held.a, held.pushes(s))),
             _ => None,
         };
         if let Some((a, [first, second])) = corner {
             return [Some((a, first)), Some((parameters.machine.polygon.next(a), second))];
         }
-        [self.along(parameters, drive, s).map(|(side, along)| (side, along.push)), None]
+        [self.along(parameters, s).map(|(side, along)| (side, along.push)), None]
     }
 
     /// The sides in contact as the log of contacts names them.
@@ -291,14 +266,9 @@ impl Mode {
     }
 
     /// Books the energies of the first `s` seconds of the mode.
-    pub(super) fn book(
-        &self,
-        parameters: &Parameters,
-        drive: &Drive,
-        s: f64,
-        energy_balance: &mut EnergyBalance,
-    ) {
-        let ends = || [0.0, s].map(|t| self.standing(parameters, drive, t));
+    pub(super) fn book(&self, parameters: &Parameters, s: f64, energy_balance: &mut EnergyBalance) {
+        let drive = &parameters.drive;
+        let ends = || [0.0, s].map(|t| self.standing(parameters, t));
         let mut pulse = 0.0;
         if drive.pulse != 0.0 {
             let [before, after] = ends();
@@ -315,7 +285,7 @@ impl Mode {
         };
         // As above, where the side turns with its blades.
         let compliant = |t: f64, work: f64| {
-            let (_, rate) = self.standing(parameters, drive, t);
+            let (_, rate) = self.standing(parameters, t);
             let blades = parameters.blades.map_or(0.0, |blades| {
                 2.0 * blades.propagator.damping
                     * blades.mass
@@ -324,8 +294,8 @@ impl Mode {
             [drag * rate.norm_sqr() + blades, -drive.nu(t) * work]
         };
         let [dissipated, work] = match self {
-            Self::Free(free) => [energy_balance::dissipated(parameters, drive, free, s), 0.0],
-            Self::Slide(slide) => slide.energies(parameters, drive, s),
+            Self::Free(free) => [dissipated(parameters, free, s), 0.0],
+            Self::Slide(slide) => slide.energies(parameters, s),
             Self::Driven(series) => quadrature(s, 2.0 / series.length, |t| {
                 let Along { y, rate, push } = series.at(t);
                 if parameters.blades.is_some() {
@@ -340,20 +310,19 @@ impl Mode {
             }),
             Self::Rocking { a, second, speed, time, lost } => {
                 let lost = if s < *time {
-                    rocking::replay(parameters, drive, *a, *second, *speed, s).lost
+                    rocking::replay(parameters, *a, *second, *speed, s).lost
                 } else {
                     *lost
                 };
                 energy_balance.lost += lost;
                 let [before, after] = ends();
                 let dissipated = drag * drive.nu * drive.nu * before.0.norm_sqr() * s;
-                let [before, after] =
-                    [before, after].map(|(u, v)| energy_balance::energy(parameters, u, v));
+                let [before, after] = [before, after].map(|(u, v)| casing_energy(parameters, u, v));
                 [dissipated, after - before + lost + dissipated - pulse]
             }
             Self::Corner(a) => {
                 let power = |t: f64| {
-                    let [first, second] = corner::pushes(parameters, drive, *a, t);
+                    let [first, second] = locked::pushes(parameters, *a, t);
                     let [dissipated, work] = power(t, -parameters.half_side, 0.0, first);
                     [dissipated, work - drive.nu(t) * second * parameters.half_side]
                 };
@@ -365,11 +334,100 @@ impl Mode {
     }
 }
 
-fn hold(hold: Hold, end: f64) -> Next {
-    match hold {
-        Hold::Until(later) => Next::Until(later),
-        Hold::Yield(second) => Next::Now(What::Yield(second)),
-        Hold::Always => Next::Until(end),
-        Hold::Lost => Next::Now(What::Lost),
+impl ExactEvents {
+    /// Fails a motion whose blades go beyond small angles in the first `s` seconds
+    /// of the segment, at the instant they do.
+    ///
+    /// # Errors
+    /// They do.
+    pub(super) fn check_angles(&mut self, s: f64) -> Result<(), Failure> {
+        let beyond = |event: &Self, s: f64| {
+            let Self { mode, parameters, .. } = event;
+            mode.largest_angle(parameters, s, LARGEST_BLADE_ANGLE) > LARGEST_BLADE_ANGLE
+        };
+        if self.parameters.blades.is_none() || !beyond(self, s) {
+            return Ok(());
+        }
+        // A bracket that does not depend on `s`: where one looks changes no bit.
+        let (mut within, mut after) = (0.0, self.mode.length());
+        if !after.is_finite() {
+            after = 1.0 / self.parameters.omega;
+            while after < s && !beyond(self, after) {
+                (within, after) = (after, 2.0 * after);
+            }
+        }
+        let [_, after] = bisected([within, after], |s| beyond(self, s));
+        let angle_rad = self.mode.largest_angle(&self.parameters, after, 0.0);
+        Err(self.fail(after, FailureReason::BladeAngle { angle_rad }))
     }
+
+    /// Fails a motion whose blades have turned a corner so far that it nearly
+    /// closes or opens to a half turn. Half its angle differs from `delta` by up to
+    /// `n_d sin(delta) |a|`.
+    pub(super) fn check_order(&mut self) {
+        let Some(blades) = self.parameters.blades.filter(|_| self.parameters.corners) else {
+            return;
+        };
+        let delta = self.parameters.machine.polygon.delta;
+        let room = CORNER_ROOM * delta.min(FRAC_PI_2 - delta);
+        let (size, most) = (self.tips.angle.norm(), room / (blades.diameters * delta.sin()));
+        if size > most {
+            self.fail(0.0, FailureReason::CornerAngle { angle_rad: size, most_rad: most });
+        }
+    }
+}
+
+/// The largest value over `[0, s]` of a function that changes at `rate`.
+pub(super) fn peak(s: f64, rate: f64, value: impl Fn(f64) -> f64) -> f64 {
+    let parts = (8.0 * rate * s).ceil().clamp(2.0, PEAK_LOOKS);
+    let at = |k: f64| s * (k / parts).clamp(0.0, 1.0);
+    let (mut best, mut most, mut k) = (0.0, value(0.0), 1.0);
+    while k <= parts {
+        let here = value(at(k));
+        if here > most {
+            (best, most) = (k, here);
+        }
+        k += 1.0;
+    }
+    // The maximum lies next to the largest sample, and there is one.
+    most.max(highest([at(best - 1.0), at(best + 1.0)], value).1)
+}
+
+/// Energies per unit casing mass \[m^2/s^2\].
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct EnergyBalance {
+    /// Kinetic and potential energy at the start.
+    pub start: f64,
+    /// Work of the pulse.
+    pub pulse: f64,
+    /// Work of the rotor through the contact.
+    pub rotor: f64,
+    /// Dissipated by the casing damping.
+    pub dissipated: f64,
+    /// Lost in impacts.
+    pub lost: f64,
+}
+
+impl EnergyBalance {
+    /// Ending is missing from the balance at a state of this energy.
+    pub(super) fn residual(&self, energy: f64) -> f64 {
+        self.pulse + self.rotor - (energy - self.start) - self.dissipated - self.lost
+    }
+}
+
+/// Kinetic and potential energy of the casing per unit mass.
+pub(super) fn casing_energy(parameters: &Parameters, u: Plane, v: Plane) -> f64 {
+    0.5 * (v.norm_sqr() + parameters.propagator.stiffness * u.norm_sqr())
+}
+
+/// Energy dissipated in `s` seconds of free flight, by the casing and by the
+/// blades.
+pub(super) fn dissipated(parameters: &Parameters, free: &Free, s: f64) -> f64 {
+    let centre = parameters.drive.pulse / parameters.propagator.stiffness;
+    let from = free.place - Plane::new(centre, 0.0);
+    let casing = damped(&parameters.propagator, from, free.rate, s);
+    let blades = parameters.blades.map_or(0.0, |blades| {
+        blades.mass * damped(&blades.propagator, free.tips.angle, free.tips.rate, s)
+    });
+    casing + blades
 }

@@ -4,9 +4,9 @@
 //! Next to a corner the casing leaves along one side with speed `v`, is pulled
 //! back by the acceleration `A` of that side, and crosses to the other side,
 //! which keeps the fraction `cos 2 delta` of its speed. Both sides obey
-//! `x'' + 2 c x' + kappa x = -A`, so an excursion takes the time `tau(v/A)` and
+//! `x'' + 2 c x' + stiffness x = -A`, so an excursion takes the time `tau(v/A)` and
 //! comes back with the speed `A R(v/A)`, where `tau` and `R` are power series
-//! that depend on `c` and `kappa` alone. The time left to the limit obeys
+//! that depend on `c` and `stiffness` alone. The time left to the limit obeys
 //! `T_a(v) = tau + T_b(cos 2 delta A_a R)`, and likewise from `b`: solved order
 //! by order, it is the geometric series with its corrections.
 //!
@@ -18,8 +18,8 @@
 //! acts, the accelerations must also keep their values to one part in 1e9 until
 //! the limit.
 
-use super::corner::opening;
-use super::parameters::{Drive, Parameters};
+use super::locked::opening;
+use super::parameters::Parameters;
 use super::slide;
 use crate::motion::Plane;
 use crate::tolerances::{ROCKING_MARGIN, ROCKING_STEADY, ROCKING_TAIL, ROCKING_TURN};
@@ -43,7 +43,6 @@ pub(super) struct Limit {
 /// but rock into it.
 pub(super) fn limit(
     parameters: &Parameters,
-    drive: &Drive,
     tables: &mut Option<Box<Tables>>,
     a: u32,
     second: bool,
@@ -51,7 +50,7 @@ pub(super) fn limit(
 ) -> Option<Limit> {
     let cos = parameters.turn.re;
     // A side alone pushes with minus its own opening acceleration.
-    let [(qa, qa_rate), (qb, qb_rate)] = opening(parameters, drive, a, 0.0);
+    let [(qa, qa_rate), (qb, qb_rate)] = opening(parameters, a, 0.0);
     let sin = parameters.turn.im;
     let pulls = pulls(parameters, qa, qb);
     let change = (qa_rate.abs() + qb_rate.abs()) / sin;
@@ -60,11 +59,11 @@ pub(super) fn limit(
     if weakest <= 0.0 || own <= 0.0 {
         return None;
     }
-    let margin = ROCKING_MARGIN * drive.nu.abs() * speed;
+    let margin = ROCKING_MARGIN * parameters.drive.nu.abs() * speed;
     if -qa <= margin || -qb <= margin || speed * speed > weakest * parameters.half_side {
         return None;
     }
-    let propagator = slide::propagator(parameters, drive.nu);
+    let propagator = slide::propagator(parameters, parameters.drive.nu);
     let fastest = 2.0 * propagator.damping + propagator.stiffness.abs().sqrt();
     let start = speed / own;
     if start * fastest > ROCKING_TURN {
@@ -74,7 +73,7 @@ pub(super) fn limit(
     let times = if second { &sums.time[1] } else { &sums.time[0] };
     let time = exact(times, start)?;
     let losses = if second { &sums.lost[1] } else { &sums.lost[0] };
-    if !drive.steady() && change * time > ROCKING_STEADY * weakest {
+    if !parameters.drive.steady() && change * time > ROCKING_STEADY * weakest {
         return None;
     }
     let lost = value(losses, start);
@@ -95,18 +94,11 @@ pub(super) struct Swing {
 }
 
 /// Steps through the crossings that `limit` sums, up to the instant `s`.
-pub(super) fn replay(
-    parameters: &Parameters,
-    drive: &Drive,
-    a: u32,
-    second: bool,
-    speed: f64,
-    s: f64,
-) -> Swing {
+pub(super) fn replay(parameters: &Parameters, a: u32, second: bool, speed: f64, s: f64) -> Swing {
     let Plane { re: cos, im: sin } = parameters.turn;
-    let [(qa, _), (qb, _)] = opening(parameters, drive, a, 0.0);
+    let [(qa, _), (qb, _)] = opening(parameters, a, 0.0);
     let pulls = pulls(parameters, qa, qb);
-    let propagator = slide::propagator(parameters, drive.nu);
+    let propagator = slide::propagator(parameters, parameters.drive.nu);
     let (duration, back) = excursion(propagator.damping, propagator.stiffness);
     let mut swing = Swing { second, distance: 0.0, speed, lost: 0.0 };
     let mut left = s;
@@ -168,14 +160,14 @@ struct Sums {
 
 impl Tables {
     /// Those kept from before, or new ones where damping or stiffness are others.
-    fn of(kept: &mut Option<Box<Self>>, c: f64, kappa: f64) -> &Self {
-        let old = kept.take().filter(|tables| tables.equation == [c, kappa]);
-        kept.insert(old.unwrap_or_else(|| Box::new(Self::new(c, kappa))))
+    fn of(kept: &mut Option<Box<Self>>, c: f64, stiffness: f64) -> &Self {
+        let old = kept.take().filter(|tables| tables.equation == [c, stiffness]);
+        kept.insert(old.unwrap_or_else(|| Box::new(Self::new(c, stiffness))))
     }
 
-    fn new(c: f64, kappa: f64) -> Self {
-        let (duration, back) = excursion(c, kappa);
-        Self { equation: [c, kappa], duration, powers: powers(&back) }
+    fn new(c: f64, stiffness: f64) -> Self {
+        let (duration, back) = excursion(c, stiffness);
+        Self { equation: [c, stiffness], duration, powers: powers(&back) }
     }
 
     fn sums(&self, cos: f64, pulls: [f64; 2]) -> Sums {
@@ -216,13 +208,14 @@ fn accumulate(
 
 /// Duration and return speed (over `A`) of an excursion that starts with the
 /// speed `A x`, as series in `x`.
-fn excursion(c: f64, kappa: f64) -> (PowerSeries, PowerSeries) {
+fn excursion(c: f64, stiffness: f64) -> (PowerSeries, PowerSeries) {
     // unit = sum a_n s^n with a_1 = 1, ramp its integral; x = ramp/unit.
     let mut unit = [0.0; ORDERS + 2];
     unit[1] = 1.0;
     for n in 1..=ORDERS {
         let order = n as f64;
-        unit[n + 1] = -(2.0 * c * order * unit[n] + kappa * unit[n - 1]) / (order * (order + 1.0));
+        unit[n + 1] =
+            -(2.0 * c * order * unit[n] + stiffness * unit[n - 1]) / (order * (order + 1.0));
     }
     // Coefficients e_n of ramp/unit: sum_k e_k unit_{n+1-k} = ramp_{n+1}.
     let mut ratio = [0.0; ORDERS + 1];
@@ -286,15 +279,15 @@ mod tests {
 
     #[test]
     fn one_excursion_and_the_sum_of_all_agree_with_stepping() {
-        let (c, kappa) = (44.0, -1.5e6);
-        let propagator = Propagator::new(c, kappa);
-        let (duration, back) = excursion(c, kappa);
+        let (c, stiffness) = (44.0, -1.5e6);
+        let propagator = Propagator::new(c, stiffness);
+        let (duration, back) = excursion(c, stiffness);
         let pulls = [20.0, 55.0];
         let cos = (std::f64::consts::PI / 5.5).cos();
         let mut kept = None;
         // Tables of another speed are not used again.
-        let _ = Tables::of(&mut kept, c, 0.9 * kappa);
-        let sums = Tables::of(&mut kept, c, kappa).sums(cos, pulls);
+        let _ = Tables::of(&mut kept, c, 0.9 * stiffness);
+        let sums = Tables::of(&mut kept, c, stiffness).sums(cos, pulls);
         let start = 4e-6;
         let (time, speed) = stepped(&propagator, 1.0, start);
         assert!((value(&duration, start) / time - 1.0).abs() < 1e-13);

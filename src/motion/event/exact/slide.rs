@@ -1,14 +1,26 @@
-//! Sliding on one side of the polygon at a constant rotor speed, no pulse: the
-//! motion and the push along a side of docs/theory.md, section 5. `y` grows backward,
-//! towards decreasing angle: `y = g0 tan delta` is the corner with the side of next
-//! lower phase.
+//! Sliding on one side of the polygon: in closed form at a constant rotor speed without pulse
+//! (docs/theory.md, section 5), and as power series in time while the pulse acts, the speed
+//! changes or the blades move (section 7). `y` grows backward, towards decreasing angle:
+//! `y = g0 tan delta` is the corner with the side of next lower phase.
+//!
+//! One stretch of the series, no longer than the time of one radian of the fastest rate, is
+//! summed to round-off. It is a polynomial: any instant of it can be asked for, and sums of
+//! its coefficients bound its derivatives.
 
-use super::parameters::{Drive, Parameters};
+use std::f64::consts::FRAC_PI_2;
+
+use super::mode::{Ending, Next};
+use super::parameters::{Blades, Parameters, Tips};
 use crate::motion::Plane;
-use crate::motion::event::looks::{Gap, curved_step, leaving_step};
-use crate::motion::event::quadrature::GAUSS_8;
+use crate::motion::event::series::{
+    Gap, STRETCH, TERMS, Terms, curved_step, ended, gap, jounce, leaving_step, product, quotient,
+    slope, values,
+};
 use crate::motion::propagator::Propagator;
-use crate::tolerances::{LONGEST_LOOK, MOST_PANELS, SERIES_END, SIDE_GROWTH, SIDE_LOOK};
+use crate::numeric::quadrature::GAUSS_8;
+use crate::tolerances::{
+    LONGEST_LOOK, MOST_HALVINGS, MOST_PANELS, SERIES_END, SIDE_GROWTH, SIDE_LOOK,
+};
 
 /// Pairs of terms of a panel: at one radian the first one dropped is `1/20!`.
 const PANEL_TERMS: usize = 10;
@@ -107,29 +119,10 @@ impl Along {
     }
 }
 
-/// What one look ahead along a side finds.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Ahead {
-    /// No event before this time.
-    Until(f64),
-    /// The upper (`true`) or lower end of the side is reached now.
-    Edge(bool),
-    /// The push vanishes now.
-    Release,
-    /// The motion grows too fast to be followed.
-    Lost,
-}
-
 impl Slide {
-    pub(super) fn new(
-        parameters: &Parameters,
-        drive: &Drive,
-        side: u32,
-        y: f64,
-        rate: f64,
-    ) -> Self {
-        let propagator = propagator(parameters, drive.nu);
-        let drag = 2.0 * parameters.damping * drive.nu * parameters.clearance;
+    pub(super) fn new(parameters: &Parameters, side: u32, y: f64, rate: f64) -> Self {
+        let propagator = propagator(parameters, parameters.drive.nu);
+        let drag = 2.0 * parameters.damping * parameters.drive.nu * parameters.clearance;
         Self { side, y, rate, propagator, pull: drag - propagator.stiffness * y }
     }
 
@@ -140,16 +133,16 @@ impl Slide {
         (displacement, self.rate * response.slope + self.pull * response.unit)
     }
 
-    pub(super) fn at(&self, parameters: &Parameters, drive: &Drive, s: f64) -> Along {
+    pub(super) fn at(&self, parameters: &Parameters, s: f64) -> Along {
         let (displacement, rate) = self.moved(s);
         let y = self.y + displacement;
-        Along { y, rate, push: parameters.push(drive.nu, 0.0, y, rate, 0.0) }
+        Along { y, rate, push: parameters.push(parameters.drive.nu, 0.0, y, rate, 0.0) }
     }
 
     /// What the casing dissipates in the first `s` seconds, and the work of the
     /// rotor, per unit casing mass.
-    pub(super) fn energies(&self, parameters: &Parameters, drive: &Drive, s: f64) -> [f64; 2] {
-        let (nu, g0, c) = (drive.nu, parameters.clearance, self.propagator.damping);
+    pub(super) fn energies(&self, parameters: &Parameters, s: f64) -> [f64; 2] {
+        let (nu, g0, c) = (parameters.drive.nu, parameters.clearance, self.propagator.damping);
         let Moments { displacement, place, square, speed } = self.moments(s);
         let end = self.y + displacement;
         // Of c |u'|^2 with u' = y' - nu g0 along the side and nu y across it.
@@ -165,16 +158,16 @@ impl Slide {
     /// Integrals over the first `s` seconds, of the Taylor series about the middle of
     /// panels so short that it ends in round-off.
     fn moments(&self, s: f64) -> Moments {
-        let (kappa, c) = (self.propagator.stiffness, self.propagator.damping);
+        let (stiffness, c) = (self.propagator.stiffness, self.propagator.damping);
         let panels = (0.5 * self.fastest() * s).ceil().clamp(1.0, MOST_PANELS);
         let half = 0.5 * s / panels;
-        let (drag, spring) = (2.0 * c * half, kappa * half * half);
+        let (drag, spring) = (2.0 * c * half, stiffness * half * half);
         let size = self.fastest() * half;
         let mut sums = Moments::default();
         let mut panel = 0.0;
         while panel < panels {
             let (displacement, rate) = self.moved((2.0 * panel + 1.0) * half);
-            let bend = (self.pull - kappa * displacement - 2.0 * c * rate) * half * half;
+            let bend = (self.pull - stiffness * displacement - 2.0 * c * rate) * half * half;
             // Even and odd terms apart: nodes come in pairs of both signs.
             let mut terms = [[0.0; 2]; PANEL_TERMS];
             terms[0] = [self.y + displacement, rate * half];
@@ -204,12 +197,13 @@ impl Slide {
     }
 
     /// Looks ahead from `s`, before which nothing happens.
-    pub(super) fn look(&self, parameters: &Parameters, drive: &Drive, s: f64) -> Ahead {
+    pub(super) fn look(&self, parameters: &Parameters, s: f64) -> Next {
         let (displacement, rate) = self.moved(s);
-        let (kappa, c, nu) = (self.propagator.stiffness, self.propagator.damping, drive.nu);
-        let pull = self.pull - kappa * displacement;
+        let (stiffness, c, nu) =
+            (self.propagator.stiffness, self.propagator.damping, parameters.drive.nu);
+        let pull = self.pull - stiffness * displacement;
         let acceleration = pull - 2.0 * c * rate;
-        let third = -2.0 * c * acceleration - kappa * rate;
+        let third = -2.0 * c * acceleration - stiffness * rate;
         // The acceleration from here on obeys the equation without forcing. Each
         // derivative costs a factor `fastest`, and the time ahead exp(fastest t).
         let fastest = self.fastest();
@@ -227,7 +221,7 @@ impl Slide {
             if s == 0.0 && room == 0.0 && rate == 0.0 {
                 stride = stride.min(leaving_step(bend, twist, jounce));
             } else if gap <= noise && rate < 0.0 {
-                return Ahead::Edge(up);
+                return Next::Now(Ending::Edge(up));
             } else {
                 let now = Gap { gap, rate, bend, twist };
                 stride = stride.min(curved_step(now.above(noise), jounce, stride));
@@ -238,9 +232,9 @@ impl Slide {
         let push_rate = -2.0 * nu * (acceleration + c * rate);
         let noise = push_noise(parameters, nu, y, rate, 0.0);
         if push <= noise && push_rate < 0.0 {
-            return Ahead::Release;
+            return Next::Now(Ending::Release);
         }
-        let fourth = -2.0 * c * third - kappa * acceleration;
+        let fourth = -2.0 * c * third - stiffness * acceleration;
         let now = Gap {
             gap: push,
             rate: push_rate,
@@ -249,7 +243,7 @@ impl Slide {
         };
         let push_jounce = 2.0 * nu.abs() * jounce * (fastest + c);
         stride = stride.min(curved_step(now.above(noise), push_jounce, stride));
-        Ahead::Until((s + stride).max(s.next_up()))
+        Next::Until((s + stride).max(s.next_up()))
     }
 }
 
@@ -266,10 +260,275 @@ pub(super) fn push_noise(parameters: &Parameters, nu: f64, y: f64, rate: f64, pu
         * (square * (parameters.clearance + y.abs()) + 2.0 * nu.abs() * rate.abs() + pulse.abs())
 }
 
+/// One stretch of sliding on `side`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SideSeries {
+    pub side: u32,
+    /// Length of the stretch \[s\].
+    pub length: f64,
+    y: Terms,
+    push: Terms,
+    /// Distances to the upper and lower end of the side \[m\].
+    rooms: [Terms; 2],
+    /// Blade angle along the side and across it \[rad\].
+    tips: [Terms; 2],
+    /// Whether no stretch is short enough for its terms to end.
+    lost: bool,
+}
+
+/// Where a stretch begins.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct From {
+    /// Position along the side \[m\].
+    pub y: f64,
+    /// Its rate \[m/s\].
+    pub rate: f64,
+    /// Blade angles.
+    pub tips: Tips,
+    /// The end of the side it starts at, upper (`true`) or lower.
+    pub edge: Option<bool>,
+    /// Whether it starts there at rest against the other side.
+    pub resting: bool,
+}
+
+impl SideSeries {
+    pub(super) fn new(parameters: &Parameters, side: u32, from: &From) -> Self {
+        let (inward, spin) = parameters.facing(side, 0.0, &from.tips);
+        let mut fastest = parameters.omega
+            + 2.0 * parameters.damping
+            + spin.abs()
+            + parameters.drive.nu_rate.abs().sqrt();
+        if let Some(blades) = &parameters.blades {
+            fastest += blades.omega + 2.0 * blades.propagator.damping;
+        }
+        let local = from.tips.angle * parameters.direction(side).conj();
+        let turning = from.tips.rate * parameters.direction(side).conj();
+        let mut series = Self {
+            side,
+            length: STRETCH / fastest,
+            y: [0.0; TERMS],
+            push: [0.0; TERMS],
+            rooms: [[0.0; TERMS]; 2],
+            tips: [[0.0; TERMS]; 2],
+            lost: false,
+        };
+        // Without moving blades the solution is entire and one try is enough.
+        for halvings in 0..MOST_HALVINGS {
+            let h = series.length;
+            (series.y[0], series.y[1]) = (from.y, from.rate * h);
+            for (terms, (angle, rate)) in
+                series.tips.iter_mut().zip([(local.re, turning.re), (local.im, turning.im)])
+            {
+                (terms[0], terms[1]) = (angle, rate * h);
+            }
+            series.expand(parameters, inward);
+            series.enclose(parameters, from);
+            let exact = ended(&series.y) && ended(&series.push) && series.rooms.iter().all(ended);
+            series.lost = parameters.blades.is_some() && !exact;
+            // Bounds over a short stretch are close ones.
+            let near = halvings < 10 && series.may_meet_other(parameters);
+            if !series.lost && !near {
+                break;
+            }
+            series.length *= 0.5;
+        }
+        series
+    }
+
+    /// Fills the terms by the recurrence of the differential equations, with
+    /// time counted in units of `length`.
+    fn expand(&mut self, parameters: &Parameters, inward: Plane) {
+        let h = self.length;
+        let (nu, ramp) = (parameters.drive.nu * h, parameters.drive.nu_rate * h * h);
+        let (omega2, c2) =
+            (parameters.omega * parameters.omega * h * h, 2.0 * parameters.damping * h);
+        let (g0, pulse) = (parameters.clearance, parameters.drive.pulse * h * h);
+        let blades = parameters.blades.as_ref();
+        let diameters = blades.map_or(0.0, |blades| blades.diameters);
+        let (mut cos, mut sin) = ([0.0; TERMS], [0.0; TERMS]);
+        (cos[0], sin[0]) = (inward.re, inward.im);
+        let (mut mu, mut squared, mut free) = ([0.0; TERMS], [0.0; TERMS], [0.0; TERMS]);
+        let (mut share, mut y_slope) = ([0.0; TERMS], [0.0; TERMS]);
+        let Self { y, push, tips: [along, across], .. } = self;
+        for n in 0..TERMS {
+            let over = 1.0 / ((n as f64 + 1.0) * (n as f64 + 2.0));
+            mu[n] = diameters * slope(along, n) + [nu, ramp].get(n).unwrap_or(&0.0);
+            squared[n] = product(&mu, &mu, n);
+            y_slope[n] = slope(y, n);
+            if n + 1 < TERMS {
+                sin[n + 1] = product(&cos, &mu, n) / (n as f64 + 1.0);
+                cos[n + 1] = -product(&sin, &mu, n) / (n as f64 + 1.0);
+            }
+            let constant = if n == 0 { 1.0 } else { 0.0 };
+            let euler = if n == 0 { ramp } else { 0.0 };
+            let mut held = (squared[n] - constant * omega2) * g0
+                - 2.0 * product(&y_slope, &mu, n)
+                - c2 * product(y, &mu, n)
+                - ramp * y[n]
+                - pulse * cos[n];
+            let mut mu_slope = euler;
+            if let Some(blades) = blades {
+                free[n] = blades.free_term(along, n, h);
+                held -= diameters * product(y, &free, n);
+                share[n] = constant + blades.ratio * product(y, y, n);
+                push[n] = quotient(held, &share, push, n);
+                let answer = free[n] + blades.ratio / diameters * product(push, y, n);
+                mu_slope += diameters * answer;
+                if n + 2 < TERMS {
+                    along[n + 2] = answer * over;
+                    across[n + 2] = blades.free_term(across, n, h) * over;
+                }
+            } else {
+                push[n] = held;
+            }
+            if n + 2 < TERMS {
+                let centred = product(y, &squared, n) - omega2 * y[n];
+                let drag = c2 * (mu[n] * g0 - y_slope[n]);
+                y[n + 2] = (centred + drag + mu_slope * g0 - pulse * sin[n]) * over;
+            }
+        }
+        // The last terms of the push lack their Coriolis part: round-off.
+        push[TERMS - 2..].fill(0.0);
+        push.iter_mut().for_each(|term| *term /= h * h);
+    }
+
+    /// Fills the distances to both ends of the side.
+    fn enclose(&mut self, parameters: &Parameters, from: &From) {
+        let (sin, cos) = parameters.machine.polygon.delta.sin_cos();
+        for (room, (upper, sign)) in self.rooms.iter_mut().zip([(true, -1.0), (false, 1.0)]) {
+            *room = [0.0; TERMS];
+            room[0] = parameters.half_side;
+            if let (Some(blades), true) = (&parameters.blades, parameters.corners) {
+                // Half the angle to the neighbour: delta, and what blades add.
+                let scale = blades.diameters * sin;
+                let mut angle: Terms = std::array::from_fn(|n| {
+                    scale * (cos * self.tips[1][n] - sign * sin * self.tips[0][n])
+                });
+                angle[0] += parameters.machine.polygon.delta;
+                *room = tangent(&angle).map(|term| parameters.clearance * term);
+            }
+            for (term, y) in room.iter_mut().zip(&self.y) {
+                *term += sign * y;
+            }
+            if from.edge == Some(upper) {
+                room[0] = 0.0;
+                if from.resting {
+                    room[1] = 0.0;
+                }
+            }
+        }
+    }
+
+    /// Speed at the start away from the upper (`true`) or lower end \[m/s\].
+    pub(super) fn parting(&self, upper: bool) -> f64 {
+        self.rooms[usize::from(!upper)][1] / self.length
+    }
+
+    pub(super) fn at(&self, s: f64) -> Along {
+        let x = s / self.length;
+        let [y, rate, _] = values(&self.y, x);
+        Along { y, rate: rate / self.length, push: values(&self.push, x)[0] }
+    }
+
+    /// Whether the other side of a polygon of two may be met within the stretch:
+    /// blades that turn by `x` leave it open by `2 cos x (g0 cos x + y sin x)`.
+    pub(super) fn may_meet_other(&self, parameters: &Parameters) -> bool {
+        let Some(blades) = parameters.blades.filter(|_| parameters.machine.polygon.sides == 2)
+        else {
+            return false;
+        };
+        let ends = |terms: &Terms| {
+            let change: f64 = terms.iter().skip(1).map(|term| term.abs()).sum();
+            [terms[0] - change, terms[0] + change]
+        };
+        let turned = ends(&self.tips[0]).map(|angle| blades.diameters * angle);
+        turned.iter().any(|x| x.abs() >= FRAC_PI_2)
+            || ends(&self.y)
+                .iter()
+                .any(|y| turned.iter().any(|x| y * x.tan() <= -parameters.clearance))
+    }
+
+    /// A bound on every blade angle over the stretch \[rad\].
+    pub(super) fn largest_bound(&self) -> f64 {
+        self.tips.iter().flatten().map(|term| term.abs()).sum()
+    }
+
+    /// The blades, `s` seconds on.
+    pub(super) fn tips(&self, parameters: &Parameters, s: f64) -> Tips {
+        if parameters.blades.is_none() {
+            return Tips::default();
+        }
+        let x = s / self.length;
+        let [[along, along_rate, _], [across, across_rate, _]] =
+            [values(&self.tips[0], x), values(&self.tips[1], x)];
+        let direction = parameters.direction(self.side);
+        Tips {
+            angle: Plane::new(along, across) * direction,
+            rate: Plane::new(along_rate, across_rate) * direction / self.length,
+        }
+    }
+
+    /// Looks ahead from `s`, before which nothing happens, within the stretch.
+    pub(super) fn look(&self, parameters: &Parameters, s: f64) -> Next {
+        if self.lost {
+            return Next::Now(Ending::Lost);
+        }
+        let x = s / self.length;
+        let [y, rate, _] = values(&self.y, x);
+        let mut stride = 1.0 - x;
+        for (room, up) in self.rooms.iter().zip([true, false]) {
+            let now = gap(room, x);
+            let noise = parameters.tolerance * (room[0].abs() + room[1].abs() * x);
+            if s == 0.0 && room[0] == 0.0 && room[1] == 0.0 {
+                let tail: f64 = room.iter().skip(4).map(|term| term.abs()).sum();
+                stride = stride.min(leaving_step(2.0 * room[2], 6.0 * room[3], 24.0 * tail));
+            } else if now.gap <= noise && now.rate < 0.0 {
+                return Next::Now(Ending::Edge(up));
+            } else {
+                stride = stride.min(curved_step(now.above(noise), jounce(room), stride));
+            }
+        }
+        let now = gap(&self.push, x);
+        let noise = push_noise(
+            parameters,
+            parameters.drive.nu(s),
+            y,
+            rate / self.length,
+            parameters.drive.pulse,
+        );
+        if now.gap <= noise && now.rate < 0.0 {
+            return Next::Now(Ending::Release);
+        }
+        stride = stride.min(curved_step(now.above(noise), jounce(&self.push), stride));
+        Next::Until((s + stride * self.length).max(s.next_up()))
+    }
+}
+
+impl Blades {
+    /// Term `n` of the acceleration of a free blade coordinate, in units of the
+    /// stretch `h`.
+    pub(super) fn free_term(&self, angle: &Terms, n: usize, h: f64) -> f64 {
+        -2.0 * self.propagator.damping * h * slope(angle, n)
+            - self.propagator.stiffness * h * h * angle[n]
+    }
+}
+
+/// Series of the tangent, `T' = (1 + T^2) angle'`.
+fn tangent(angle: &Terms) -> Terms {
+    let (mut result, mut factor, mut rate) = ([0.0; TERMS], [0.0; TERMS], [0.0; TERMS]);
+    result[0] = angle[0].tan();
+    for n in 0..TERMS - 1 {
+        rate[n] = slope(angle, n);
+        factor[n] = product(&result, &result, n) + if n == 0 { 1.0 } else { 0.0 };
+        result[n + 1] = product(&factor, &rate, n) / (n as f64 + 1.0);
+    }
+    result
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::motion::event::quadrature::quadrature;
+    use crate::numeric::quadrature::quadrature;
     use crate::scene::Scene;
 
     #[test]
@@ -279,25 +538,24 @@ mod tests {
         {
             let changes = [("casing.damping_ratio", zeta), ("operation.speed_rad_s", speed)];
             let scene = Scene::base().with(&changes).unwrap();
-            let parameters = Parameters::new(&scene);
-            let drive = Drive { nu: 3.0 * scene.operation.speed_rad_s, ..Drive::default() };
+            let mut parameters = Parameters::new(&scene);
+            parameters.drive.nu = 3.0 * scene.operation.speed_rad_s;
             for (y, rate, s) in
                 [(-1.4e-5, 0.05, 8e-4), (3e-6, -0.02, 1e-9), (1e-6, 0.0, 5e-3), (1e-5, 0.01, 3e-5)]
             {
-                let slide = Slide::new(&parameters, &drive, 4, y, rate);
-                let (drag, nu) = (2.0 * parameters.damping, drive.nu);
+                let slide = Slide::new(&parameters, 4, y, rate);
+                let (drag, nu) = (2.0 * parameters.damping, parameters.drive.nu);
                 let mut size = 0.0_f64;
                 for k in 0..=100 {
-                    let Along { y, push, .. } =
-                        slide.at(&parameters, &drive, 0.01 * s * f64::from(k));
+                    let Along { y, push, .. } = slide.at(&parameters, 0.01 * s * f64::from(k));
                     size = size.max((nu * push * y * s).abs());
                 }
                 let [dissipated, work] = quadrature(s, 20.0 * slide.fastest(), |t| {
-                    let Along { y, rate, push } = slide.at(&parameters, &drive, t);
+                    let Along { y, rate, push } = slide.at(&parameters, t);
                     let (across, along) = (nu * y, rate - nu * parameters.clearance);
                     [drag * (along * along + across * across), -nu * push * y]
                 });
-                let found = slide.energies(&parameters, &drive, s);
+                let found = slide.energies(&parameters, s);
                 assert!((found[0] - dissipated).abs() <= 1e-13 * dissipated, "{changes:?} {s}");
                 assert!((found[1] - work).abs() <= 1e-12 * size, "{changes:?} {s} {size}: {work}");
             }

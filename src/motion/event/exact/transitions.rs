@@ -1,5 +1,5 @@
-//! What comes after an event: the choice of the next mode.
-//! (docs/theory.md, section 7.)
+//! From one segment to the next: finding the event that ends it, moving the start, what pulse
+//! and rotor do from there, and the choice of the next mode (docs/theory.md, section 7).
 //!
 //! Among the sides that touch without rate, accelerations decide which of them
 //! hold, as a small complementarity problem solved by cases. Where an event says
@@ -7,22 +7,227 @@
 //!
 //! Places and rates are those the rotor sees, `z = u exp(-i n_d theta)` and `z'`,
 //! so that a slow motion along a side keeps its digits. Rigid blades are moving
-//! ones with zero coupling: where they do not move, the closed forms of `corner`
+//! ones with zero coupling: where they do not move, the closed forms of `locked`
 //! and `slide` take the place of the derivatives and series.
 
-use super::Event;
-use super::corner;
-use super::corner_contact::CornerContact;
-use super::corner_series::CornerSeries;
-use super::free::{Free, Leaving};
-use super::mode::{Mode, What};
-use super::rocking;
-use super::side_series::{From, SideSeries};
-use super::slide::Slide;
-use crate::motion::{ActiveSet, FailureReason, Plane};
-use crate::tolerances::{BRIEF_ROCKING, ON_A_SIDE};
+use std::f64::consts::TAU;
 
-impl Event {
+use super::free::{Free, OpenedSide};
+use super::impact::CornerContact;
+use super::locked::CornerSeries;
+use super::mode::{Ending, Mode, Next};
+use super::parameters::Drive;
+use super::slide::{From, SideSeries, Slide};
+use super::{ExactEvents, locked, rocking};
+use crate::motion::{ActiveSet, Failure, FailureReason, GoOn, Plane};
+use crate::tolerances::{
+    AN_INSTANT, BRIEF_ROCKING, LOOKS_UNASKED, MOST_EVENTS, MOST_EVENTS_AT_ONCE, MOST_LOOKS,
+    ON_A_SIDE,
+};
+
+/// What a search for the event that ends a segment comes to.
+enum Sought {
+    /// This event, so many seconds after its start.
+    Found(f64, Ending),
+    /// None by the limit.
+    Nothing,
+    /// It was told not to go on.
+    Paused,
+}
+
+/// What became of the next event.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Passage {
+    /// It is passed.
+    Passed,
+    /// It comes later.
+    Later,
+    /// The search for it was told not to go on.
+    Paused,
+}
+
+impl ExactEvents {
+    /// Seconds from the start of the segment to `t`.
+    pub(super) fn elapsed(&self, t: f64) -> f64 {
+        self.clock.elapsed(t)
+    }
+
+    /// Goes through the next event, if it comes no later than `until`.
+    pub(super) fn change(&mut self, until: f64, go_on: GoOn<'_>) -> Result<Passage, Failure> {
+        if let Some(failure) = &self.failure {
+            return Err(failure.clone());
+        }
+        let (s, what) = match self.seek(self.elapsed(until), go_on) {
+            Sought::Found(s, what) => (s, what),
+            Sought::Nothing => return self.failure.clone().map_or(Ok(Passage::Later), Err),
+            Sought::Paused => return Ok(Passage::Paused),
+        };
+        self.check_angles(s)?;
+        let rates = self.parameters.omega + self.parameters.drive.nu.abs();
+        self.idle = if s * rates > AN_INSTANT { 0 } else { self.idle + 1 };
+        if what != Ending::SeriesEnd {
+            self.events += 1;
+        }
+        let reason = if matches!(what, Ending::Gone | Ending::Edge(_)) && !self.parameters.corners {
+            Some(FailureReason::NoCorner { radius_m: self.parameters.reach })
+        } else if what == Ending::Lost {
+            Some(FailureReason::Series)
+        } else if self.events > MOST_EVENTS {
+            Some(FailureReason::Events)
+        } else if self.idle > MOST_EVENTS_AT_ONCE {
+            Some(FailureReason::EventsAtOnce)
+        } else {
+            None
+        };
+        match reason {
+            Some(reason) => _ = self.fail(s, reason),
+            None => self.pass(s, what),
+        }
+        self.failure.clone().map_or(Ok(Passage::Passed), Err)
+    }
+
+    /// Ends `advance` at `until`.
+    ///
+    /// # Errors
+    /// Blades went beyond small angles before.
+    pub(super) fn arrive(&mut self, until: f64) -> Result<(), Failure> {
+        self.check_angles(self.elapsed(until))?;
+        self.clock.arrive(until);
+        let active_set = self.mode.active_set(&self.parameters);
+        if active_set != ActiveSet::Nothing {
+            self.log.touch(self.clock.now, active_set);
+        }
+        Ok(())
+    }
+
+    /// Ends the motion `s` seconds into the segment.
+    pub(super) fn fail(&mut self, s: f64, reason: FailureReason) -> Failure {
+        let t_s = self.clock.start() + s;
+        self.clock.arrive(t_s);
+        let failure = Failure { t_s, reason };
+        self.failure.get_or_insert(failure).clone()
+    }
+
+    /// The event that ends the segment, if no later than `limit` seconds after
+    /// its start. The looks ahead depend neither on `limit` nor on pauses.
+    fn seek(&mut self, limit: f64, go_on: GoOn<'_>) -> Sought {
+        let pulse_end = self.pulse_left();
+        let series_end = self.mode.length();
+        let end = pulse_end.min(series_end);
+        loop {
+            if let Some((s, what)) = self.found {
+                return if s <= limit { Sought::Found(s, what) } else { Sought::Nothing };
+            }
+            if self.safe > limit {
+                return Sought::Nothing;
+            }
+            if self.safe >= end {
+                if !end.is_finite() {
+                    return Sought::Nothing;
+                }
+                let what =
+                    if pulse_end <= series_end { Ending::PulseEnd } else { Ending::SeriesEnd };
+                self.found = Some((end, what));
+                continue;
+            }
+            if self.looks.is_multiple_of(LOOKS_UNASKED) && !go_on() {
+                return Sought::Paused;
+            }
+            self.looks += 1;
+            self.all_looks += 1;
+            if self.all_looks > MOST_LOOKS {
+                self.fail(self.safe, FailureReason::Looks);
+                return Sought::Nothing;
+            }
+            match self.mode.look(&self.parameters, self.safe, end) {
+                Next::Until(later) => self.safe = later.min(end),
+                Next::Now(what) => self.found = Some((self.safe, what)),
+            }
+        }
+    }
+
+    /// Seconds from the start of the segment to the end of the pulse.
+    fn pulse_left(&self) -> f64 {
+        if self.parameters.drive.pulse == 0.0 {
+            f64::INFINITY
+        } else {
+            self.elapsed(self.pulse.end)
+        }
+    }
+
+    /// Books the segment and moves its start by `s`; the mode is left to be
+    /// replaced.
+    pub(super) fn rebase(&mut self, s: f64, what: Option<Ending>) {
+        if self.checked {
+            self.mode.book(&self.parameters, s, &mut self.energy_balance);
+            self.widest = self.mode.largest_angle(&self.parameters, s, self.widest);
+        }
+        self.tips = self.mode.tips(&self.parameters, s);
+        let phase = self.parameters.drive.phase(s) % TAU;
+        if what == Some(Ending::PulseEnd) {
+            self.clock.begin_at(self.pulse.end);
+        } else {
+            self.clock.pass(s);
+        }
+        self.parameters.drive = self.drive_now(phase);
+        self.safe = 0.0;
+        self.found = None;
+        self.looks = 0;
+        self.check_order();
+    }
+
+    /// Rotor and pulse from the start of the segment on.
+    pub(super) fn drive_now(&self, phase: f64) -> Drive {
+        let t = self.clock.start();
+        let diameters = self.parameters.machine.nodal_diameters;
+        let acting = (self.pulse.start..self.pulse.end).contains(&t);
+        Drive {
+            phase,
+            nu: diameters * self.rotor.speed(t),
+            nu_rate: diameters * self.rotor.ramp(),
+            pulse: if acting { self.pulse.force / self.parameters.mass } else { 0.0 },
+        }
+    }
+
+    /// Changes rotor or pulse at the present instant; the casing keeps its
+    /// place and its rate in the standing frame.
+    pub(super) fn intervene(&mut self, change: impl FnOnce(&mut Self)) {
+        self.intervene_scaled(1.0, change);
+    }
+
+    /// As `intervene`, with the rate of free flight or along a side multiplied
+    /// by `factor`.
+    pub(super) fn intervene_scaled(&mut self, factor: f64, change: impl FnOnce(&mut Self)) {
+        if self.failure.is_some() {
+            return;
+        }
+        let s = self.elapsed(self.clock.now);
+        let side = self.mode.along(&self.parameters, s);
+        let (place, mut rate) = self.mode.seen_by_rotor(&self.parameters, s, side);
+        if let (Mode::Slide(_) | Mode::Driven(_), Some((side, along))) = (&self.mode, side) {
+            let tips = self.mode.tips(&self.parameters, s);
+            let (normal, _) = self.parameters.normal(side, &tips);
+            rate += Plane::i() * normal * ((factor - 1.0) * along.rate);
+        }
+        let flight = self.mode.flight(&self.parameters, s);
+        let corner = self.mode.corner().filter(|_| !matches!(self.mode, Mode::Rocking { .. }));
+        self.rebase(s, None);
+        self.clock.begin_at(self.clock.now);
+        let nu = self.parameters.drive.nu;
+        change(self);
+        self.parameters.drive = self.drive_now(self.parameters.drive.phase);
+        // The rate against the blades jumps with the speed of the rotor.
+        let rate = rate + Plane::i() * place * (nu - self.parameters.drive.nu);
+        match (flight, corner, side) {
+            (Some((u, v)), ..) => self.enter(Mode::Free(Free::new(u, v * factor, self.tips))),
+            (_, Some(a), _) => self.meet_corner_at(a, rate),
+            (_, _, Some((side, _))) => self.touch(side, place, rate),
+            _ => {}
+        }
+    }
+}
+
+impl ExactEvents {
     /// The first mode, from the initial state.
     pub(super) fn begin(&mut self, place: Plane, rate: Plane) {
         let polygon = &self.parameters.machine.polygon;
@@ -30,7 +235,7 @@ impl Event {
         if polygon.gap(side, place.re, place.im) <= ON_A_SIDE * self.parameters.clearance {
             // A rate against the blades that is round-off of its two parts is none.
             let direction = self.parameters.direction(side);
-            let carried = Plane::i() * place * self.drive.nu;
+            let carried = Plane::i() * place * self.parameters.drive.nu;
             let local = (rate - carried) * direction.conj();
             let noise = ON_A_SIDE * (rate.norm() + carried.norm());
             let clean = |x: f64| if x.abs() <= noise { 0.0 } else { x };
@@ -41,29 +246,29 @@ impl Event {
     }
 
     /// Passes the event `what`, `s` seconds into the segment.
-    pub(super) fn pass(&mut self, s: f64, what: What) {
-        let along = self.mode.along(&self.parameters, &self.drive, s);
-        let (place, rate) = self.mode.seen_by_rotor(&self.parameters, &self.drive, s, along);
+    pub(super) fn pass(&mut self, s: f64, what: Ending) {
+        let along = self.mode.along(&self.parameters, s);
+        let (place, rate) = self.mode.seen_by_rotor(&self.parameters, s, along);
         let corner = self.mode.corner();
         // Flight ends at a touch, and goes on from its own frame otherwise.
         let flight = match what {
-            What::Touch(_) => None,
-            _ => self.mode.flight(&self.parameters, &self.drive, s),
+            Ending::Touch(_) => None,
+            _ => self.mode.flight(&self.parameters, s),
         };
         self.rebase(s, Some(what));
         let polygon = &self.parameters.machine.polygon;
         match (what, along, corner) {
-            (What::Touch(side), ..) => self.touch(side, place, rate),
-            (What::Edge(upper), Some((side, along)), _) => {
+            (Ending::Touch(side), ..) => self.touch(side, place, rate),
+            (Ending::Edge(upper), Some((side, along)), _) => {
                 let a = if upper { polygon.previous(side) } else { side };
                 self.cross(a, upper, along.rate, rate);
             }
-            (What::Release, Some((side, along)), _) => self.leave(&[side], along.y, rate),
-            (What::Yield(second), _, Some(a)) => {
+            (Ending::Release, Some((side, along)), _) => self.leave(&[side], along.y, rate),
+            (Ending::Yield(second), _, Some(a)) => {
                 let side = if second { a } else { polygon.next(a) };
                 self.hold_at_corner(side, rate, !second, 0.0);
             }
-            (What::Lock | What::SeriesEnd, _, Some(a)) => self.enter_corner(a),
+            (Ending::Lock | Ending::SeriesEnd, _, Some(a)) => self.enter_corner(a),
             (_, _, Some(a)) if !matches!(self.mode, Mode::Rocking { .. }) => self.rest(a, rate),
             (_, Some((side, along)), _) => self.hold(side, along.y, along.rate, rate),
             _ => {
@@ -86,7 +291,7 @@ impl Event {
         }
         self.meet_corner(&contact, rate, openings);
         // What goes on along one side may be the beginning of the end.
-        let Some((side, along)) = self.mode.along(&self.parameters, &self.drive, 0.0) else {
+        let Some((side, along)) = self.mode.along(&self.parameters, 0.0) else {
             return;
         };
         let second = side != a;
@@ -98,8 +303,8 @@ impl Event {
         if speed <= 0.0 {
             return;
         }
-        let Self { parameters, drive, tables, .. } = self;
-        let Some(limit) = rocking::limit(parameters, drive, tables, a, second, speed) else {
+        let Self { parameters, tables, .. } = self;
+        let Some(limit) = rocking::limit(parameters, tables, a, second, speed) else {
             return;
         };
         match self.parameters.blades {
@@ -108,7 +313,7 @@ impl Event {
                 self.mode = Mode::Rocking { a, second, speed, time, lost };
             }
             Some(blades) => {
-                let rates = self.parameters.omega + self.drive.nu.abs() + blades.omega;
+                let rates = self.parameters.omega + self.parameters.drive.nu.abs() + blades.omega;
                 if limit.time * rates <= BRIEF_ROCKING {
                     self.stop_rocking(a);
                 }
@@ -120,8 +325,8 @@ impl Event {
     /// stop it now are what the crossings to come add to the pushes of the corner
     /// at rest.
     fn stop_rocking(&mut self, a: u32) {
-        let along = self.mode.along(&self.parameters, &self.drive, 0.0);
-        let (_, rate) = self.mode.seen_by_rotor(&self.parameters, &self.drive, 0.0, along);
+        let along = self.mode.along(&self.parameters, 0.0);
+        let (_, rate) = self.mode.seen_by_rotor(&self.parameters, 0.0, along);
         let contact = self.corner_contact(a);
         let [first, second] = self.openings(&contact, rate);
         let impulses = contact.cancelled(first, second);
@@ -130,7 +335,7 @@ impl Event {
         }
         self.energy_balance.lost -= 0.5 * (first * impulses[0] + second * impulses[1]);
         let rotor = impulses[0] * contact.y[0] + impulses[1] * contact.y[1];
-        self.energy_balance.rotor -= rotor * self.drive.nu;
+        self.energy_balance.rotor -= rotor * self.parameters.drive.nu;
         self.rest(a, contact.struck(rate, impulses));
     }
 
@@ -152,14 +357,14 @@ impl Event {
 
     /// Second derivatives of both gaps of a corner at rest, without its pushes.
     fn opening_accelerations(&self, contact: &CornerContact, rate: Plane) -> [f64; 2] {
-        let (parameters, drive) = (&self.parameters, &self.drive);
+        let parameters = &self.parameters;
         if parameters.blades.is_none() {
-            return corner::opening(parameters, drive, contact.a, 0.0).map(|opening| opening.0);
+            return locked::opening(parameters, contact.a, 0.0).map(|opening| opening.0);
         }
         let flight = self.flight(contact.place(parameters), rate);
-        let noise = parameters.push_noise(drive);
+        let noise = parameters.push_noise();
         [contact.a, contact.b].map(|side| {
-            let opening = flight.curvature(parameters, drive, side).0;
+            let opening = flight.curvature(parameters, side).0;
             if opening.abs() <= noise { 0.0 } else { opening }
         })
     }
@@ -167,9 +372,7 @@ impl Event {
     fn enter_corner(&mut self, a: u32) {
         let mode = match &self.parameters.blades {
             None => Mode::Corner(a),
-            Some(blades) => {
-                Mode::Held(CornerSeries::new(&self.parameters, &self.drive, blades, a, &self.tips))
-            }
+            Some(blades) => Mode::Held(CornerSeries::new(&self.parameters, blades, a, &self.tips)),
         };
         self.enter(mode);
     }
@@ -220,27 +423,27 @@ impl Event {
 
     /// Whether a side that touches without rate pushes.
     fn pushes(&self, side: u32, y: f64, along: f64, rate: Plane) -> bool {
-        let (parameters, drive) = (&self.parameters, &self.drive);
+        let parameters = &self.parameters;
         let push = match &parameters.blades {
             None => {
-                let pulse = drive.pulse_on(parameters, side, 0.0).re;
-                parameters.push(drive.nu, drive.nu_rate, y, along, pulse)
+                let pulse = parameters.pulse_on(side, 0.0).re;
+                parameters.push(parameters.drive.nu, parameters.drive.nu_rate, y, along, pulse)
             }
             Some(blades) => {
                 let flight = self.flight(self.on_side(side, y), rate);
-                -flight.curvature(parameters, drive, side).0 / (1.0 + blades.ratio * y * y)
+                -flight.curvature(parameters, side).0 / (1.0 + blades.ratio * y * y)
             }
         };
         push >= 0.0
     }
 
     fn slide(&mut self, side: u32, from: &From) {
-        let (parameters, drive) = (&self.parameters, &self.drive);
-        if parameters.blades.is_none() && drive.steady() {
-            self.enter(Mode::Slide(Slide::new(parameters, drive, side, from.y, from.rate)));
+        let parameters = &self.parameters;
+        if parameters.blades.is_none() && parameters.drive.steady() {
+            self.enter(Mode::Slide(Slide::new(parameters, side, from.y, from.rate)));
             return;
         }
-        let series = SideSeries::new(parameters, drive, side, from);
+        let series = SideSeries::new(parameters, side, from);
         if series.may_meet_other(parameters) {
             self.fail(0.0, FailureReason::TwoSides { angle_rad: from.tips.angle.norm() });
         }
@@ -252,9 +455,9 @@ impl Event {
         let Some(&first) = sides.first() else { return };
         let flight = self.flight(self.on_side(first, y), rate);
         let mut free = flight;
-        for (slot, &side) in free.leaving.iter_mut().zip(sides) {
-            let (bend, twist) = flight.curvature(&self.parameters, &self.drive, side);
-            *slot = Some(Leaving { side, bend: bend.max(0.0), twist });
+        for (slot, &side) in free.opened.iter_mut().zip(sides) {
+            let (bend, twist) = flight.curvature(&self.parameters, side);
+            *slot = Some(OpenedSide { side, bend: bend.max(0.0), twist });
         }
         self.enter(Mode::Free(free));
     }
@@ -266,8 +469,8 @@ impl Event {
 
     /// Free flight from a place and rate that the rotor sees.
     pub(super) fn flight(&self, place: Plane, rate: Plane) -> Free {
-        let turn = Plane::cis(self.drive.phase);
-        let rate = (rate + Plane::i() * place * self.drive.nu) * turn;
+        let turn = Plane::cis(self.parameters.drive.phase);
+        let rate = (rate + Plane::i() * place * self.parameters.drive.nu) * turn;
         Free::new(place * turn, rate, self.tips)
     }
 

@@ -1,19 +1,266 @@
-//! What comes after an event: impacts, and which rows hold.
+//! From one stretch to the next: moving the start, changes from outside, and what touches or
+//! lets go.
 //!
-//! At an impact the impulses solve `W p + (1 + e) g' >= 0`, complementary, for gaps
+//! Gaps that close take the impulses `W p + (1 + e) g' >= 0`, complementary, for gaps
 //! that close, and `W p + g' >= 0` for the others (Newton). Among gaps that are closed
 //! and at rest the accelerations decide in the same way. A row whose push has vanished
 //! opens and is not tested again.
 
-use super::Joined;
-use super::complementarity::pushes;
-use super::parameters::Point;
-use super::search::Loose;
-use super::stretch::Held;
-use crate::motion::{ActiveSet, FailureReason, Plane};
-use crate::tolerances::{ROUND_OFF, SOFT_TOUCH};
+use std::f64::consts::TAU;
 
-impl Joined {
+use super::LinearEvents;
+use super::parameters::Point;
+use super::stretch::{Ending, Held, OpenedGap, Stretch, seek};
+use crate::motion::{ActiveSet, Failure, FailureReason, Plane};
+use crate::numeric::elimination::inverse;
+use crate::tolerances::{
+    AN_INSTANT, AT_A_CORNER, AT_REST, FREE_MARGIN, JUST_OPENED, MOST_EVENTS, MOST_EVENTS_AT_ONCE,
+    MOST_HELD, MOST_JOINED, MOST_LOOKS, ROUND_OFF, SOFT_TOUCH,
+};
+
+impl LinearEvents {
+    /// Seconds from the start of the stretch to `t`.
+    pub(super) fn elapsed(&self, t: f64) -> f64 {
+        self.clock.elapsed(t)
+    }
+
+    /// Ends the motion `s` seconds into the stretch.
+    pub(super) fn fail(&mut self, s: f64, reason: FailureReason) {
+        let t_s = self.clock.start() + s;
+        self.clock.arrive(t_s);
+        self.failure.get_or_insert(Failure { t_s, reason });
+        self.next = (f64::INFINITY, Ending::StretchEnd);
+    }
+
+    /// Whether the pulse acts from the start of the stretch on, for more than an
+    /// instant.
+    fn pulses(&self) -> bool {
+        self.pulse.at(self.clock.start()) != 0.0
+            && self.elapsed(self.pulse.end) * self.parameters.rates() > AN_INSTANT
+    }
+
+    /// The force of the pulse per unit casing mass at the start of the stretch, in the
+    /// frame of the blades \[m/s^2\].
+    pub(super) fn force(&self) -> Plane {
+        if self.pulses() {
+            Plane::cis(-self.phase) * (self.pulse.force / self.parameters.machine.casing_mass)
+        } else {
+            Plane::default()
+        }
+    }
+
+    /// Ends the motion at this point, at the start of the stretch to come.
+    pub(super) fn fail_at(&mut self, point: &Point, reason: FailureReason) {
+        self.held = Held::default();
+        self.stretch = Stretch::to_the_end(*point);
+        self.fail(0.0, reason);
+    }
+
+    /// The next stretch, from this point on with the rows held now.
+    pub(super) fn enter(&mut self, point: Point) {
+        if self.failure.is_some() {
+            return;
+        }
+        let pulses = self.pulses();
+        let parameters = &self.parameters;
+        let point = self.held.closed(parameters, &point);
+        let gaps = self.held.rows.is_empty() && !pulses;
+        if gaps && parameters.swing(&point) < parameters.clearance() * (1.0 - FREE_MARGIN) {
+            self.stretch = Stretch::to_the_end(point);
+            self.opened.clear();
+            self.next = (f64::INFINITY, Ending::StretchEnd);
+            return;
+        }
+        let most = if pulses { self.elapsed(self.pulse.end) } else { f64::INFINITY };
+        let stretch = Stretch::new(parameters, &self.held, point, self.force(), most);
+        if stretch.lost {
+            self.stretch = stretch;
+            self.fail(0.0, FailureReason::Series);
+            return;
+        }
+        let [travel, _] = stretch.travel(parameters);
+        let moved = travel.max(stretch.swings(parameters));
+        if !pulses && self.opened.is_empty() && moved <= AT_REST * parameters.clearance() {
+            self.stretch = stretch;
+            if self.held_for_good(0.0) {
+                self.stretch = self.stretch.clone().at_rest();
+                self.next = (f64::INFINITY, Ending::StretchEnd);
+                return;
+            }
+        } else {
+            self.stretch = stretch;
+        }
+        self.next = seek(&self.parameters, &self.stretch, &self.held, &self.opened);
+    }
+
+    /// Passes the event that ends the stretch.
+    pub(super) fn pass(&mut self) {
+        let (s, what) = self.next;
+        self.looks += 1;
+        self.idle = if s * self.parameters.rates() > AN_INSTANT { 0 } else { self.idle + 1 };
+        if what != Ending::StretchEnd {
+            self.events += 1;
+        }
+        let reason = if self.events > MOST_EVENTS {
+            FailureReason::Events
+        } else if self.looks > MOST_LOOKS {
+            FailureReason::Looks
+        } else if self.idle > MOST_EVENTS_AT_ONCE {
+            FailureReason::EventsAtOnce
+        } else {
+            let pulsed = self.pulses();
+            let Some(mut point) = self.rebase(s) else { return };
+            if what == Ending::StretchEnd && pulsed && !self.pulses() {
+                // The pushes jump with the force.
+                let rows = self.held.rows.clone();
+                self.settle(&mut point, &rows);
+            } else {
+                self.follow(&mut point, what);
+            }
+            return;
+        };
+        self.fail(s, reason);
+    }
+
+    /// What comes after an event.
+    fn follow(&mut self, point: &mut Point, what: Ending) {
+        match what {
+            Ending::StretchEnd => self.enter(*point),
+            Ending::Touch(row, rate) => {
+                let mut met = self.touching(point, row);
+                met.push((row, rate));
+                self.meet(point, &met);
+            }
+            Ending::Release(row) => {
+                let still: Vec<usize> =
+                    self.held.rows.iter().copied().filter(|&held| held != row).collect();
+                self.opened.push(OpenedGap { row, gap: 0.0, rate: 0.0, released: true });
+                self.settle(point, &still);
+            }
+        }
+    }
+
+    /// What touches beside a row that has just closed, with rates. A gap of no more
+    /// than round-off that closes too is one of them: two rows that each open the other
+    /// would otherwise strike in turn without end.
+    fn touching(&self, point: &Point, hit: usize) -> Vec<(usize, f64)> {
+        let parameters = &self.parameters;
+        let size =
+            parameters.clearance() + point.z.norm() + parameters.arm().abs() * point.a.norm();
+        let limit = AT_A_CORNER * parameters.tolerance * size;
+        let rate_if_near = |row: usize| {
+            if row == hit {
+                return None;
+            }
+            if self.held.rows.contains(&row) {
+                return Some((row, 0.0));
+            }
+            if let Some(gap) = self.opened.iter().find(|gap| gap.row == row) {
+                return (gap.gap <= limit && gap.rate <= 0.0).then_some((row, gap.rate));
+            }
+            let near = parameters.gap(row, point) <= limit;
+            near.then(|| (row, parameters.along(row, point.dz, point.da)))
+        };
+        (0..parameters.rows.len()).filter_map(rate_if_near).collect()
+    }
+
+    /// Books the stretch and moves its start by `s`; returns where the motion is. None
+    /// where it has grown beyond the model: it stays in the stretch that it grew in, so
+    /// that all that is said of it is of one instant.
+    fn rebase(&mut self, s: f64) -> Option<Point> {
+        let point = self.stretch.point(&self.parameters, s);
+        self.check_growth(s, &point);
+        if self.failure.is_some() {
+            return None;
+        }
+        let parameters = &self.parameters;
+        if self.checked {
+            self.energies.book(parameters, &self.held, &self.stretch, s);
+        }
+        self.widest = self.widest_until(s);
+        let [travel, reach] = self.stretch.travel(parameters);
+        if reach + travel >= parameters.clearance() {
+            let known = |row: usize| self.opened.iter().any(|gap| gap.row == row);
+            let gaps = (0..parameters.rows.len()).filter(|&row| !known(row));
+            let least = gaps.map(|row| parameters.gap(row, &point)).fold(0.0, f64::min);
+            self.deepest = self.deepest.max(-least);
+        }
+        let limit = JUST_OPENED * parameters.clearance();
+        let later = self.opened.iter().map(|gap| gap.later(parameters, &self.stretch, s));
+        self.opened = later.filter(|gap| gap.gap < limit).collect();
+        self.phase = (self.phase + parameters.nu * s) % TAU;
+        if self.pulses() && s >= self.elapsed(self.pulse.end) {
+            self.clock.begin_at(self.pulse.end);
+        } else {
+            self.clock.pass(s);
+        }
+        self.swings.see(self.clock.start(), point.a.norm());
+        Some(point)
+    }
+
+    /// The largest angle of any blade until `s` seconds into the stretch \[rad\].
+    pub(super) fn widest_until(&self, s: f64) -> f64 {
+        if self.parameters.blades.is_none() {
+            return 0.0;
+        }
+        // Free blades swing on for long: their largest swing comes within a period.
+        let s = s.min(TAU / self.parameters.machine.omega_bd);
+        let parts = if self.stretch.free { 64 } else { 4 };
+        (0..=parts).fold(self.widest, |widest, part| {
+            let point =
+                self.stretch.point(&self.parameters, s * f64::from(part) / f64::from(parts));
+            if point.a.norm() <= widest {
+                widest
+            } else {
+                widest.max(self.parameters.largest_angle(point.a))
+            }
+        })
+    }
+
+    /// Whether, from `s` seconds into the stretch on, the same rows are held for ever.
+    pub(super) fn held_for_good(&self, s: f64) -> bool {
+        if self.pulses() || self.held.rows.len() < 2 || !self.opened.is_empty() {
+            return false;
+        }
+        let rest = self.rest.get_or_init(|| super::Rest::of(&self.parameters, &self.held));
+        let point = self.stretch.point(&self.parameters, s);
+        rest.as_ref().is_some_and(|rest| rest.for_good(&self.parameters, &point))
+    }
+
+    /// Changes rotor, pulse or rate at the present instant; the casing keeps its place,
+    /// and its rate in the standing frame but for `change`.
+    pub(super) fn intervene(&mut self, change: impl FnOnce(&mut Self, &mut Point)) {
+        if self.failure.is_some() {
+            return;
+        }
+        let s = self.elapsed(self.clock.now);
+        let Some(mut point) = self.rebase(s) else { return };
+        self.clock.begin_at(self.clock.now);
+        let (before, energy) = (self.parameters.nu, self.parameters.energy(&point));
+        let rate = point.dz;
+        change(self, &mut point);
+        let jump = before - self.parameters.nu;
+        point.dz += Plane::i() * point.z * jump;
+        self.energies.start += self.parameters.energy(&point) - energy;
+        self.shift_opened(point.dz - rate, Plane::default());
+        if jump == 0.0 {
+            let rows = std::mem::take(&mut self.held).rows;
+            self.settle(&mut point, &rows);
+            return;
+        }
+        // A sudden change of speed acts on what touches as an impact does.
+        self.rest = std::sync::OnceLock::new();
+        let parameters = &self.parameters;
+        let met: Vec<(usize, f64)> = std::mem::take(&mut self.held)
+            .rows
+            .into_iter()
+            .map(|row| (row, parameters.along(row, point.dz, point.da)))
+            .collect();
+        self.meet(&mut point, &met);
+    }
+}
+
+impl LinearEvents {
     /// Rows that touch, each with the rate of its gap \[m/s\].
     pub(super) fn meet(&mut self, point: &mut Point, met: &[(usize, f64)]) {
         let parameters = &self.parameters;
@@ -39,36 +286,36 @@ impl Joined {
         let (z, a) = parameters.pushed(struck());
         let before = *point;
         (point.dz, point.da) = (point.dz + z, point.da + a);
-        let (mut still, mut loose) = (Vec::new(), Vec::new());
+        let (mut still, mut opened) = (Vec::new(), Vec::new());
         for (&(row, rate), &impulse) in met.iter().zip(&impulses) {
             let after =
                 if impulse > 0.0 { rebound(rate) } else { rate + parameters.along(row, z, a) };
             if after > soft {
-                loose.push(Loose { row, gap: 0.0, rate: after, released: false });
+                opened.push(OpenedGap { row, gap: 0.0, rate: after, released: false });
             } else {
                 still.push(row);
             }
-            self.ledger.impacts -= 0.5 * impulse * (rate + after);
+            self.energies.impacts -= 0.5 * impulse * (rate + after);
         }
         let mean =
             Point { dz: (before.dz + point.dz) * 0.5, da: (before.da + point.da) * 0.5, ..before };
-        self.ledger.push(parameters, &mean, struck());
-        self.tell_impacts(met, &impulses, soft);
-        self.loose.retain(|gap| met.iter().all(|&(row, _)| row != gap.row));
-        self.loosen(z, a);
-        self.loose.extend(loose);
+        self.energies.push(parameters, &mean, struck());
+        self.log_impacts(met, &impulses, soft);
+        self.opened.retain(|gap| met.iter().all(|&(row, _)| row != gap.row));
+        self.shift_opened(z, a);
+        self.opened.extend(opened);
         self.settle(point, &still);
     }
 
     /// The rates jump by `z` and `a`: those of gaps that have just opened too.
-    pub(super) fn loosen(&mut self, z: Plane, a: Plane) {
-        for gap in &mut self.loose {
+    pub(super) fn shift_opened(&mut self, z: Plane, a: Plane) {
+        for gap in &mut self.opened {
             gap.rate += self.parameters.along(gap.row, z, a);
         }
     }
 
     /// Enters the impacts of rows that closed faster than `soft` \[m/s\].
-    fn tell_impacts(&mut self, met: &[(usize, f64)], impulses: &[f64], soft: f64) {
+    fn log_impacts(&mut self, met: &[(usize, f64)], impulses: &[f64], soft: f64) {
         let t = self.clock.start();
         let mut touched = ActiveSet::Nothing;
         for (&(row, rate), &impulse) in met.iter().zip(impulses) {
@@ -112,7 +359,7 @@ impl Joined {
             if push > 0.0 || opening + parameters.along(row, z, a) <= noise {
                 rows.push(row);
             } else {
-                self.loose.push(Loose { row, gap: 0.0, rate: 0.0, released: false });
+                self.opened.push(OpenedGap { row, gap: 0.0, rate: 0.0, released: false });
             }
         }
         let count = rows.len();
@@ -143,5 +390,81 @@ impl Joined {
             self.log.since = t;
         }
         self.held = held;
+    }
+}
+
+/// The solution `p >= 0` of `W p + opening >= 0`, `p (W p + opening) = 0`, where sizes
+/// up to `noise` count as zero; none where there is none, or too many rows.
+pub(super) fn pushes(
+    joint: impl Fn(usize, usize) -> f64,
+    opening: &[f64],
+    noise: f64,
+) -> Option<Vec<f64>> {
+    let n = opening.len();
+    if n > MOST_JOINED {
+        return None;
+    }
+    let matrix: Vec<Vec<f64>> =
+        (0..n).map(|row| (0..n).map(|by| joint(row, by)).collect()).collect();
+    (0..=n.min(MOST_HELD)).rev().find_map(|size| {
+        (0_u32..1 << n)
+            .filter(|choice| choice.count_ones() as usize == size)
+            .find_map(|choice| try_choice(&matrix, opening, noise, choice))
+    })
+}
+
+/// The pushes of the rows of one choice, if nothing is wrong with them.
+fn try_choice(matrix: &[Vec<f64>], opening: &[f64], noise: f64, choice: u32) -> Option<Vec<f64>> {
+    let chosen: Vec<usize> = (0..opening.len()).filter(|row| (choice >> row) & 1 == 1).collect();
+    let mut square = [[0.0; MOST_HELD]; MOST_HELD];
+    let mut right = [0.0; MOST_HELD];
+    for (k, &row) in chosen.iter().enumerate() {
+        right[k] = -opening[row];
+        for (l, &by) in chosen.iter().enumerate() {
+            square[k][l] = matrix[row][by];
+        }
+    }
+    let inverse = inverse(&square, chosen.len())?;
+    let mut pushes = vec![0.0; opening.len()];
+    for (k, &row) in chosen.iter().enumerate() {
+        let push: f64 = inverse[k].iter().zip(&right).map(|(a, b)| a * b).sum();
+        let least: f64 = inverse[k].iter().map(|entry| entry.abs()).sum();
+        if push.is_nan() || push < -noise * least {
+            return None;
+        }
+        pushes[row] = push.max(0.0);
+    }
+    let open = |row: usize| {
+        let lifted: f64 = matrix[row].iter().zip(&pushes).map(|(a, b)| a * b).sum();
+        (choice >> row) & 1 == 1 || opening[row] + lifted >= -noise
+    };
+    (0..opening.len()).all(open).then_some(pushes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_rows_by_cases() {
+        let matrix = [[1.0, 0.9], [0.7, 1.2]];
+        let joint = |row: usize, by: usize| matrix[row][by];
+        for opening in [[-1.0, -1.0], [-1.0, 0.5], [0.5, -1.0], [1.0, 1.0], [-1.0, 0.0]] {
+            let found = pushes(joint, &opening, 1e-14).unwrap();
+            for row in 0..2 {
+                let rate = opening[row] + matrix[row][0] * found[0] + matrix[row][1] * found[1];
+                assert!(found[row] >= 0.0 && rate > -1e-14 && (rate * found[row]).abs() < 1e-13);
+            }
+        }
+        assert_eq!(pushes(joint, &[1.0, 1.0], 1e-14).unwrap(), [0.0, 0.0]);
+        assert_eq!(pushes(joint, &[-1.0, 1.0], 1e-14).unwrap(), [1.0, 0.0]);
+    }
+
+    #[test]
+    fn equal_rows_share_a_push_somehow_and_no_push_is_made_up() {
+        let found = pushes(|_, _| 2.0, &[-1.0, -1.0, -1.0], 1e-14).unwrap();
+        assert!((found.iter().sum::<f64>() - 0.5).abs() < 1e-15);
+        assert_eq!(pushes(|_, _| -1.0, &[-1.0], 1e-14), None);
+        assert_eq!(pushes(|_, _| 1.0, &[-1.0; MOST_JOINED + 1], 1e-14), None);
     }
 }

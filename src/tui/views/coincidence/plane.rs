@@ -6,7 +6,7 @@ use nalgebra::Complex;
 use ratatui::buffer::Buffer;
 
 use super::curves::frequencies;
-use crate::harmonic::{Joint, Lining, RimWave, rim_waves};
+use crate::harmonic::{Joint, Lining, RoundWhirl, round_whirls};
 use crate::tui::app::App;
 use crate::tui::axis::{ChartAxis, readable};
 use crate::tui::plot::Plot;
@@ -22,7 +22,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let look = &app.appearance;
     let quiet = look.style(Role::Quiet);
     let joint = Joint::at(&app.machine, app.speed());
-    let waves = rim_waves(&joint);
+    let waves = round_whirls(&joint);
     let marked_lining = marked_lining(app);
     let values: Vec<(f64, Complex<f64>)> =
         frequencies(&joint).into_iter().map(|w| (w, joint.compliance(w))).collect();
@@ -40,13 +40,13 @@ pub fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let lining = lining.filter(|_| app.has_lining());
     // Of a pair over a clearance one attracts, the other is the threshold between it and
     // rest. On a lining a wave lasts at the amplitude that has its stiffness.
-    let lasts = |wave: &RimWave| {
+    let lasts = |wave: &RoundWhirl| {
         let on = |lining: &Lining| !lining.amplitudes(wave.stiffness_n_per_m).is_empty();
         lining.as_ref().map_or(wave.attracts, on)
     };
     let named = match lining {
         Some(_) => waves.iter().copied().find(lasts),
-        None => RimWave::lasting(&waves),
+        None => RoundWhirl::lasting(&waves),
     };
     match named.or(waves.last().copied()) {
         Some(wave) => {

@@ -2,7 +2,7 @@
 //! harmonic balance with and without damping, and beyond the paper the push of the
 //! whirl that can last instead.
 
-use crate::harmonic::{Form, Joint, RimWave, Sweep, flutter_speed, locked_motion, rim_waves};
+use crate::harmonic::{Form, Joint, RoundWhirl, Sweep, flutter_speed, locked_motion, round_whirls};
 use crate::model::Machine;
 use crate::scene::{ContactLaw, ModelSize, Scene};
 use crate::tui::axis::nice_step;
@@ -70,7 +70,7 @@ fn whirl(scene: &Scene, machine: &Machine, speeds: &[f64]) -> Vec<(f64, f64)> {
         return Vec::new();
     }
     let push = |speed: &f64| {
-        let wave = RimWave::lasting(&rim_waves(&Joint::at(machine, *speed)))?;
+        let wave = RoundWhirl::lasting(&round_whirls(&Joint::at(machine, *speed)))?;
         Some((speed.abs(), -wave.stiffness_n_per_m * clearance))
     };
     speeds.iter().filter_map(push).collect()

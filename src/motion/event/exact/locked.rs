@@ -1,8 +1,14 @@
-//! Locked in a corner whose two sides move with their blades.
-//! (docs/theory.md, section 7.)
+//! Locked in a corner: the casing wave turns with the rotor, two sides push
+//! (docs/theory.md, section 4).
 //!
-//! Both gaps are closed, so the casing follows the blades: with `a exp(-i
-//! psi_m) = xi + i eta` about the bisector `psi_m` of the corner, the wave is
+//! With rigid blades, `D = 2 c nu + nu'` and the side half-length `h = g0 tan delta`, a
+//! casing held at rest in the corner of sides `a` and `b` (`psi_b = psi_a +
+//! 2 delta`) and then let go would open the two gaps with
+//! `q_a = f cos beta_a + (omega_c^2 - nu^2) g0 - D h` and
+//! `q_b = f cos beta_b + (omega_c^2 - nu^2) g0 + D h`; the pushes cancel both.
+//!
+//! Where blades move (section 7), the casing follows them, as both gaps are closed: with
+//! `a exp(-i psi_m) = xi + i eta` about the bisector `psi_m` of the corner, the wave is
 //! `u = -R exp(i sigma)`, `sigma = n_d theta + psi_m + n_d cos delta xi`,
 //! `R = g0/cos tau`, `tau = delta + n_d sin delta eta`. The sum `S` and
 //! difference `D` of the pushes follow from the casing equation,
@@ -10,17 +16,83 @@
 //! `D sin tau = -(2 sigma' R' + sigma'' R + 2 c sigma' R) + f sin sigma`, and
 //! turn the blades by `k tan tau (D cos delta + i S sin delta)`,
 //! `k = ratio g0/n_d`. The two unknown accelerations `xi''` and `eta''` are
-//! eliminated; what is left is summed as a power series, as in `side_series`.
+//! eliminated; what is left is summed as a power series, as along a side.
 
-use super::blades::{Blades, Tips};
-use super::corner::{self, Hold};
-use super::parameters::{Drive, Parameters};
+use super::mode::{Ending, Next};
+use super::parameters::{Blades, Parameters, Tips};
 use crate::motion::Plane;
-use crate::motion::event::looks::curved_step;
 use crate::motion::event::series::{
-    STRETCH, TERMS, Terms, ended, gap, jounce, product, quotient, slope, values,
+    STRETCH, TERMS, Terms, curved_step, ended, gap, jounce, product, quotient, safe_step, slope,
+    values,
 };
 use crate::tolerances::{LIGHT_BLADES, MOST_HALVINGS, ROOM_TO_CHANGE};
+
+/// Opening accelerations `q_a`, `q_b` of a corner at rest, `s` seconds on, and
+/// their rates.
+pub(super) fn opening(parameters: &Parameters, a: u32, s: f64) -> [(f64, f64); 2] {
+    let (nu, ramp, c2) =
+        (parameters.drive.nu(s), parameters.drive.nu_rate, 2.0 * parameters.damping);
+    let (g0, h) = (parameters.clearance, parameters.half_side);
+    let pulse = parameters.pulse_on(a, s);
+    let centred = (parameters.omega - nu) * (parameters.omega + nu) * g0;
+    let slack = -2.0 * nu * ramp * g0;
+    let mut openings = [(0.0, 0.0); 2];
+    for (opening, (pulse, sign)) in
+        openings.iter_mut().zip([(pulse, -1.0), (pulse * parameters.turn, 1.0)])
+    {
+        *opening = (
+            pulse.re + centred + sign * (c2 * nu + ramp) * h,
+            slack - nu * pulse.im + sign * c2 * ramp * h,
+        );
+    }
+    openings
+}
+
+/// Impulses or pushes that cancel two opening rates at once:
+/// `p + [[1, cos 2 delta], [cos 2 delta, 1]]^-1 q = 0`.
+pub(super) fn cancelled(parameters: &Parameters, a: f64, b: f64) -> [f64; 2] {
+    let Plane { re: cos, im: sin } = parameters.turn;
+    let scale = 1.0 / (sin * sin);
+    [-(a - cos * b) * scale, -(b - cos * a) * scale]
+}
+
+/// Pushes per unit mass of both sides \[m/s^2\].
+pub(super) fn pushes(parameters: &Parameters, a: u32, s: f64) -> [f64; 2] {
+    let [first, second] = opening(parameters, a, s);
+    cancelled(parameters, first.0, second.0)
+}
+
+/// Looks ahead from `s` in the corner of `a` and the next side.
+pub(super) fn look(parameters: &Parameters, a: u32, s: f64, end: f64) -> Next {
+    let drive = &parameters.drive;
+    if drive.steady() {
+        return Next::Until(end);
+    }
+    let [first, second] = opening(parameters, a, s);
+    let pushes = cancelled(parameters, first.0, second.0);
+    let rates = cancelled(parameters, first.1, second.1);
+    let ramp = drive.nu_rate.abs();
+    // A ramp may change the wave frequency by its own size, or by one turn a
+    // period of it, in one look.
+    let size = drive.nu(s).abs() + ramp.sqrt();
+    let span = if ramp > 0.0 { (size / ramp).min(end - s) } else { end - s };
+    let turning = drive.nu(s).abs().max(drive.nu(s + span).abs());
+    let Plane { re: cos, im: sin } = parameters.turn;
+    let spread = (1.0 + cos.abs()) / (sin * sin);
+    let pulse = drive.pulse.abs();
+    let bend =
+        spread * (2.0 * ramp * ramp * parameters.clearance + pulse * (turning * turning + ramp));
+    let square = (parameters.omega * parameters.omega).max(turning * turning);
+    let noise = parameters.tolerance * spread * (square * parameters.clearance + pulse);
+    let mut stride = span;
+    for (second, (push, rate)) in [false, true].into_iter().zip(pushes.into_iter().zip(rates)) {
+        if push <= noise && rate < 0.0 {
+            return Next::Now(Ending::Yield(second));
+        }
+        stride = stride.min(safe_step(push.max(0.0) + noise, rate, bend));
+    }
+    Next::Until((s + stride).max(s.next_up()))
+}
 
 /// One stretch of locked motion in the corner of side `a` and the next.
 #[derive(Clone, Copy, Debug)]
@@ -39,20 +111,14 @@ pub(super) struct CornerSeries {
 }
 
 impl CornerSeries {
-    pub(super) fn new(
-        parameters: &Parameters,
-        drive: &Drive,
-        blades: &Blades,
-        a: u32,
-        tips: &Tips,
-    ) -> Self {
+    pub(super) fn new(parameters: &Parameters, blades: &Blades, a: u32, tips: &Tips) -> Self {
         let bisector = bisector(parameters, a);
         let (local, turning) = (tips.angle * bisector.conj(), tips.rate * bisector.conj());
-        let spin = drive.nu.abs() + blades.diameters * tips.rate.norm();
+        let spin = parameters.drive.nu.abs() + blades.diameters * tips.rate.norm();
         let fastest = parameters.omega
             + 2.0 * parameters.damping
             + spin
-            + drive.nu_rate.abs().sqrt()
+            + parameters.drive.nu_rate.abs().sqrt()
             + blades.omega
             + 2.0 * blades.propagator.damping;
         let mut held = Self {
@@ -60,7 +126,7 @@ impl CornerSeries {
             length: STRETCH / fastest,
             tips: [[0.0; TERMS]; 2],
             pushes: [[0.0; TERMS]; 2],
-            noise: parameters.push_noise(drive),
+            noise: parameters.push_noise(),
             lost: false,
         };
         for _ in 0..MOST_HALVINGS {
@@ -70,7 +136,7 @@ impl CornerSeries {
             {
                 (terms[0], terms[1]) = (angle, rate * h);
             }
-            held.expand(parameters, drive, blades, bisector);
+            held.expand(parameters, blades, bisector);
             held.lost = !held.pushes.iter().all(|terms| ended(terms) || held.rests(terms));
             if !held.lost {
                 break;
@@ -80,7 +146,8 @@ impl CornerSeries {
         held
     }
 
-    fn expand(&mut self, parameters: &Parameters, drive: &Drive, blades: &Blades, bisector: Plane) {
+    fn expand(&mut self, parameters: &Parameters, blades: &Blades, bisector: Plane) {
+        let drive = &parameters.drive;
         let h = self.length;
         let (nu, ramp) = (drive.nu * h, drive.nu_rate * h * h);
         let (omega2, c2) =
@@ -159,12 +226,7 @@ impl CornerSeries {
     }
 
     /// Place and rate of the casing in the standing frame, `s` seconds on.
-    pub(super) fn standing(
-        &self,
-        parameters: &Parameters,
-        drive: &Drive,
-        s: f64,
-    ) -> (Plane, Plane) {
+    pub(super) fn standing(&self, parameters: &Parameters, s: f64) -> (Plane, Plane) {
         let diameters = parameters.blades.map_or(0.0, |blades| blades.diameters);
         let (sin, cos) = parameters.machine.polygon.delta.sin_cos();
         let [[xi, xi_rate, _], [eta, eta_rate, _]] =
@@ -172,9 +234,9 @@ impl CornerSeries {
         let tau = parameters.machine.polygon.delta + diameters * sin * eta;
         let radius = parameters.clearance / tau.cos();
         let growth = radius * tau.tan() * diameters * sin * eta_rate / self.length;
-        let spin = drive.nu(s) + diameters * cos * xi_rate / self.length;
-        let turned =
-            bisector(parameters, self.a) * Plane::cis(drive.phase(s) + diameters * cos * xi);
+        let spin = parameters.drive.nu(s) + diameters * cos * xi_rate / self.length;
+        let turned = bisector(parameters, self.a)
+            * Plane::cis(parameters.drive.phase(s) + diameters * cos * xi);
         (-turned * radius, -turned * Plane::new(growth, spin * radius))
     }
 
@@ -209,15 +271,9 @@ impl CornerSeries {
     /// Whether, at constant speed, no push can vanish any more: what is left of
     /// the blades' vibration about their rest moves the pushes by less than half
     /// of what they are.
-    pub(super) fn for_good(
-        &self,
-        parameters: &Parameters,
-        drive: &Drive,
-        blades: &Blades,
-        s: f64,
-    ) -> bool {
+    pub(super) fn for_good(&self, parameters: &Parameters, blades: &Blades, s: f64) -> bool {
         let (sin, cos) = parameters.machine.polygon.delta.sin_cos();
-        let rest = corner::pushes(parameters, drive, self.a, 0.0);
+        let rest = pushes(parameters, self.a, 0.0);
         let least = rest[0].min(rest[1]);
         let moment = blades.ratio / blades.diameters * parameters.half_side;
         let offset = Plane::new((rest[1] - rest[0]) * cos, (rest[1] + rest[0]) * sin);
@@ -226,7 +282,7 @@ impl CornerSeries {
         let left = Tips { angle: tips.angle - rest, rate: tips.rate };
         // An angle, its rate and its acceleration enter the pushes with at most
         // these rates squared, times the distance of the corner over sin delta.
-        let rates = drive.nu.abs()
+        let rates = parameters.drive.nu.abs()
             + parameters.omega
             + blades.omega
             + 2.0 * (parameters.damping + blades.propagator.damping);
@@ -242,9 +298,9 @@ impl CornerSeries {
     }
 
     /// Looks ahead from `s`, before which nothing happens, within the stretch.
-    pub(super) fn look(&self, parameters: &Parameters, s: f64) -> Hold {
+    pub(super) fn look(&self, parameters: &Parameters, s: f64) -> Next {
         if self.lost {
-            return Hold::Lost;
+            return Next::Now(Ending::Lost);
         }
         let x = s / self.length;
         let mut stride = 1.0 - x;
@@ -258,11 +314,11 @@ impl CornerSeries {
             }
             let noise = parameters.tolerance * size;
             if now.gap <= noise && now.rate < 0.0 {
-                return Hold::Yield(second);
+                return Next::Now(Ending::Yield(second));
             }
             stride = stride.min(curved_step(now.above(noise), jounce(terms), stride));
         }
-        Hold::Until((s + stride * self.length).max(s.next_up()))
+        Next::Until((s + stride * self.length).max(s.next_up()))
     }
 }
 

@@ -1,5 +1,7 @@
-//! Whirl on a rim of many blades (docs/theory.md, section 10): a travelling wave of
-//! pushes that both structures carry, each at its own frequency.
+//! Whirl where there are so many blades that their polygon is round (docs/theory.md,
+//! section 10): a travelling wave of pushes that both structures carry, each at its own
+//! frequency; and the rotor speeds where it begins: folds, where a pair of waves is born, the
+//! one that attracts and its threshold.
 //!
 //! The distance between tips and casing, `w = z - kappa l_b a`, has constant size and
 //! turns at `s` in the frame of the blades; `p = w/B(omega)` must point against it, so
@@ -10,13 +12,17 @@ use nalgebra::{Complex, DMatrix};
 use serde::Serialize;
 
 use super::joint::Joint;
+use crate::model::{Machine, Number};
+use crate::numeric::bisection::bisected;
 use crate::numeric::eigen::eigenvalues;
 use crate::numeric::real_roots::{Coefficients, Point, product, real_roots, sum};
-use crate::tolerances::REAL_COMPLIANCE;
+use crate::tolerances::{
+    BESIDE_A_FOLD, BRANCH_CHANGES, ONSET_FURTHEST, ONSET_STRIDE, REAL_COMPLIANCE,
+};
 
 /// A wave that blades and casing carry round together, for one unit of `|w|`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct RimWave {
+pub struct RoundWhirl {
     /// Casing frequency in the standing frame; negative turns backward \[rad/s\].
     pub omega_rad_s: f64,
     /// What the blades feel, `s = omega - nu`; negative where the contact passes
@@ -28,18 +34,18 @@ pub struct RimWave {
     pub casing_per_w: f64,
     /// Amplitude of the blades over that of `w`, `|a|/|w|` \[rad/m\].
     pub blades_per_w: f64,
-    /// Whether neighbouring motions on a rigid rim converge to it. Of a pair it is the
+    /// Whether neighbouring motions of rigid round contact converge to it. Of a pair it is the
     /// one of larger stiffness; the other is the threshold between it and rest.
     pub attracts: bool,
-    /// Growth of the least stable motion about it on a rigid rim, beside a mere shift of
+    /// Growth of the least stable motion about it of rigid round contact, beside a mere shift of
     /// the wave; below zero where it attracts \[1/s\].
     pub growth_per_s: f64,
 }
 
-/// Every whirl on the rim at one speed, by increasing stiffness. Empty where blades and
+/// Every round whirl at one speed, by increasing stiffness. Empty where blades and
 /// casing do not meet in one wave ([`Joint::has_one_wave`]), and where nothing is lost, so that any frequency would do.
 #[must_use]
-pub fn rim_waves(joint: &Joint) -> Vec<RimWave> {
+pub fn round_whirls(joint: &Joint) -> Vec<RoundWhirl> {
     let machine = joint.machine;
     if !Joint::has_one_wave(machine) {
         return Vec::new();
@@ -55,14 +61,14 @@ pub fn rim_waves(joint: &Joint) -> Vec<RimWave> {
     ];
     let roots = real_roots(&|from, to| scaled.imaginary(from, to), &breaks);
     let waves = roots.iter().filter_map(|root| scaled.wave(joint, root * machine.omega_c));
-    let mut waves: Vec<RimWave> = waves.collect();
+    let mut waves: Vec<RoundWhirl> = waves.collect();
     waves.sort_by(|a, b| a.stiffness_n_per_m.total_cmp(&b.stiffness_n_per_m));
     waves
 }
 
-/// What a wave on the rim takes and gives, where rigid contact holds `|w| = g0`.
+/// What a round whirl takes and gives, where rigid contact holds `|w| = g0`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct RimLoads {
+pub struct RoundWhirlLoads {
     /// Push of all blades \[N\].
     pub push_n: f64,
     /// Amplitude `|z|` of the casing \[m\].
@@ -77,19 +83,19 @@ pub struct RimLoads {
     pub friction_w: f64,
 }
 
-impl RimWave {
+impl RoundWhirl {
     /// Its loads at the clearance of the machine. Without friction the rotor gives the
     /// sum of the two dampers, of which the casing takes `omega/nu` and the blades
     /// `|s|/nu` (Manley and Rowe).
     #[must_use]
-    pub fn loads(&self, joint: &Joint) -> RimLoads {
+    pub fn loads(&self, joint: &Joint) -> RoundWhirlLoads {
         let machine = joint.machine;
         let clearance = machine.clearance();
         let push = self.stiffness_n_per_m * clearance;
         let (casing, blades) = (self.casing_per_w * clearance, self.blades_per_w * clearance);
         let radius = machine.blade_length + clearance;
         let sliding = joint.nu.abs() / machine.nodal_diameters * radius;
-        RimLoads {
+        RoundWhirlLoads {
             push_n: push,
             casing_m: casing,
             blade_rad: blades,
@@ -139,9 +145,7 @@ impl Scaled {
         let seen = |u: Point| (u.p - self.turn * u.q) / self.blade_rate;
         let stiff = |x: f64, y: f64, u: Point, v: Point| u.q * v.q - x * y;
         let drag = |x: f64, y: f64, u: Point, v: Point| 0.5 * (x * v.q + y * u.q);
-        let quadratic = |of: &dyn Fn(Point, Point) -> f64| {
-            Coefficients::from([of(from, from), 2.0 * of(from, to), of(to, to)])
-        };
+        let quadratic = |of: &dyn Fn(Point, Point) -> f64| Coefficients::quadratic(from, to, of);
         let casing = [
             quadratic(&|u, v| stiff(u.p, v.p, u, v)),
             quadratic(&|u, v| self.casing_damping * drag(u.p, v.p, u, v)),
@@ -159,7 +163,7 @@ impl Scaled {
     }
 
     /// The wave of one root \[rad/s\], if it pushes.
-    fn wave(&self, joint: &Joint, omega: f64) -> Option<RimWave> {
+    fn wave(&self, joint: &Joint, omega: f64) -> Option<RoundWhirl> {
         let compliance = joint.compliance(omega);
         // At an undamped resonance both parts change their sign through infinity.
         let real = compliance.im.abs() <= REAL_COMPLIANCE * compliance.re.abs();
@@ -170,7 +174,7 @@ impl Scaled {
         let s = omega - joint.nu;
         let turned = Complex::new(1.0, joint.casing_friction);
         let growth = self.growth(joint, omega / joint.machine.omega_c)?;
-        Some(RimWave {
+        Some(RoundWhirl {
             omega_rad_s: omega,
             s_rad_s: s,
             stiffness_n_per_m: stiffness,
@@ -230,4 +234,174 @@ fn convolved(a: &[Complex<f64>], b: &[Complex<f64>]) -> Vec<Complex<f64>> {
         }
     }
     product
+}
+
+/// A speed where a pair of waves is born or ends.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct WhirlOnset {
+    /// Rotor speed; negative for a rotor that turns backward \[rad/s\].
+    pub speed_rad_s: f64,
+    /// Whether the pair exists at larger speeds and not at smaller ones.
+    pub appears: bool,
+    /// One of the two waves, which are equal there.
+    pub wave: RoundWhirl,
+}
+
+/// The slowest speed at which whirl begins for a rotor that turns in the sense of
+/// `toward`, with its derivatives of the first order; none where there is none up to 20
+/// dangerous coincidences, and where a lining is too soft for that wave \[rad/s\].
+///
+/// At a fold `Im B` is stationary in the frequency, so that its change with a parameter
+/// must be undone by the speed alone.
+#[must_use]
+pub fn whirl_onset<T: Number>(machine: &Machine<T>, toward: f64) -> Option<T> {
+    // Pairs of waves need both structures.
+    if machine.coupling_product_at(T::from(toward)).re() == 0.0 {
+        return None;
+    }
+    let onset = sought(&machine.plain(), toward, true).into_iter().find(|onset| onset.appears)?;
+    // A lining is never stiffer than where blades lift off for half of each turn.
+    let softest = machine.lining.map(|lining| lining.stiffness_n_per_m.re());
+    let most = softest.map_or(f64::INFINITY, |k| 0.25 * f64::from(machine.polygon.blades) * k);
+    if onset.wave.stiffness_n_per_m > most {
+        return None;
+    }
+    let omega = onset.wave.omega_rad_s;
+    let s = -machine.nu(T::from(onset.speed_rad_s)) + omega;
+    let turned = machine.casing_friction_at(T::from(toward));
+    let casing = [
+        machine.casing_stiffness - machine.casing_mass * (omega * omega),
+        machine.casing_damping * omega,
+    ];
+    let blades = [
+        machine.blade_modal_stiffness - machine.blade_modal_mass * s * s,
+        machine.blade_modal_damping * s,
+    ];
+    let square = |[re, im]: [T; 2]| re * re + im * im;
+    let product = machine.coupling_product_at(T::from(toward));
+    let imaginary =
+        (turned * casing[0] - casing[1]) / square(casing) - product * blades[1] / square(blades);
+    // By s, and s falls with the speed.
+    let square_by_s = (blades[1] * machine.blade_modal_damping
+        - blades[0] * machine.blade_modal_mass * s * 2.0)
+        * 2.0;
+    let by_s =
+        (machine.blade_modal_damping - blades[1] * square_by_s / square(blades)) / square(blades);
+    let by_speed = (product * by_s).re() * machine.nodal_diameters;
+    Some(-(imaginary - imaginary.re()) / by_speed + onset.speed_rad_s)
+}
+
+/// Every fold of round whirl for a rotor that turns in the sense of `toward`, from
+/// the slowest.
+#[must_use]
+pub fn whirl_onsets(machine: &Machine, toward: f64) -> Vec<WhirlOnset> {
+    sought(machine, toward, false)
+}
+
+/// The same, or only as far as to the first that appears: the rest takes most of the time.
+fn sought(machine: &Machine, toward: f64, first: bool) -> Vec<WhirlOnset> {
+    let Some(dangerous) = machine.dangerous_speed() else { return Vec::new() };
+    let sense = if toward < 0.0 { -1.0 } else { 1.0 };
+    let waves = |speed: f64| round_whirls(&Joint::at(machine, sense * speed));
+    let mut found: Vec<WhirlOnset> = Vec::new();
+    let mut low = dangerous / ONSET_FURTHEST;
+    let mut at_low = waves(low);
+    while low < dangerous * ONSET_FURTHEST && !(first && found.iter().any(|onset| onset.appears)) {
+        let high = low * ONSET_STRIDE;
+        let at_high = waves(high);
+        for (speed, below, above) in changes((low, at_low), (high, at_high.len()), &waves) {
+            // A single wave that comes or goes does so with infinite pushes: no fold.
+            let appears = above.len() > below.len();
+            let (few, many) = if appears { (below, above) } else { (above, below) };
+            if many.len() < few.len() + 2 {
+                continue;
+            }
+            let there = waves(speed);
+            let told_apart = if there.len() == many.len() { there } else { many };
+            let speed_rad_s = sense * speed;
+            found.extend(closest(&told_apart).map(|wave| WhirlOnset {
+                speed_rad_s,
+                appears,
+                wave,
+            }));
+        }
+        (low, at_low) = (high, at_high);
+    }
+    found
+}
+
+/// The speeds between two where the number of waves changes, with the waves a hair
+/// below and above: nearer, round-off takes the two of a fold for one or none.
+fn changes(
+    (low, mut before): (f64, Vec<RoundWhirl>),
+    (high, last): (f64, usize),
+    waves: &impl Fn(f64) -> Vec<RoundWhirl>,
+) -> Vec<(f64, Vec<RoundWhirl>, Vec<RoundWhirl>)> {
+    let mut found = Vec::new();
+    let mut start = low;
+    while before.len() != last && found.len() < BRANCH_CHANGES {
+        let [below, above] = bisected([start, high], |speed| waves(speed).len() != before.len());
+        start = (above * (1.0 + BESIDE_A_FOLD)).min(high);
+        let after = waves(start);
+        let less = waves(below * (1.0 - BESIDE_A_FOLD));
+        found.push((above, less, after.clone()));
+        before = after;
+    }
+    found
+}
+
+/// Of all waves the stiffer of the two that are nearest to each other.
+fn closest(waves: &[RoundWhirl]) -> Option<RoundWhirl> {
+    let apart = |pair: &[RoundWhirl]| match pair {
+        [one, other] => (one.omega_rad_s - other.omega_rad_s).abs(),
+        _ => f64::INFINITY,
+    };
+    let nearest = waves.windows(2).min_by(|a, b| apart(a).total_cmp(&apart(b)))?;
+    nearest.last().copied()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{BladedDisk, Casing};
+    use num_dual::Dual64;
+
+    /// Table 1 with tips of this slope, which carries the derivative.
+    fn inclined(kappa: Dual64) -> Machine<Dual64> {
+        let (disk, casing) = (BladedDisk::default(), Casing::default());
+        let disk = BladedDisk {
+            blades: disk.blades,
+            blade_length_m: disk.blade_length_m.into(),
+            inertia_kg_m2: disk.inertia_kg_m2.into(),
+            stiffness_nm_per_rad: disk.stiffness_nm_per_rad.into(),
+            coupling_nm_per_rad: disk.coupling_nm_per_rad.into(),
+            damping_ratio: disk.damping_ratio.into(),
+            radial_coupling: kappa,
+            nodal_diameters: 0,
+            mistuning: disk.mistuning.into(),
+            mistuning_seed: 1,
+        };
+        let casing = Casing {
+            radius_m: casing.radius_m.into(),
+            modal_mass_kg: casing.modal_mass_kg.into(),
+            modal_stiffness_n_per_m: casing.modal_stiffness_n_per_m.into(),
+            damping_ratio: casing.damping_ratio.into(),
+            tangential_ratio: casing.tangential_ratio.into(),
+        };
+        Machine::new(&disk, &casing, 3).with_friction(Dual64::from(0.05))
+    }
+
+    #[test]
+    fn the_onset_has_the_derivative_of_its_neighbours() {
+        for toward in [1.0, -1.0] {
+            let at = |kappa: f64| {
+                let found = whirl_onset(&inclined(Dual64::from(kappa)), toward).unwrap();
+                found.re
+            };
+            let derived = whirl_onset(&inclined(Dual64::from(0.3).derivative()), toward).unwrap();
+            let measured = (at(0.3 + 1e-4) - at(0.3 - 1e-4)) / 2e-4;
+            let error = (derived.eps - measured).abs();
+            assert!(error < 1e-5 * measured.abs(), "{} is not {measured}", derived.eps);
+        }
+    }
 }

@@ -1,18 +1,31 @@
 //! Steady states on a lining in the frame of the blades: rest, and waves that one, two,
-//! three or more neighbouring groups of blades hold (docs/theory.md, section 10).
+//! three or more neighbouring groups of blades hold; the loads of a lock of two groups, and
+//! the linings that hold one (docs/theory.md, section 10).
 //!
 //! Both structures stand in that frame, so two equations are left for `w = z - kappa l_b
 //! a`: `L_c w = [(1 + i mu_c) + c2 L_c/k_a] p(w)`, `L_c` at `omega = nu`. Where `eps = 0`
 //! each set of groups has a linear one, and all of them are tried; from there, and from
 //! a grid of places, Newton's method goes on for `eps > 0`.
+//!
+//! For blades that do not turn the gap a pair of groups holds the wave where
+//! `-tan(delta) Re H - |Im H| >= 1/(k sin 2 delta)`, `H = B(nu)` the joint compliance, `k` the
+//! stiffness of one group; without friction and inclined tips
+//! `|K| tan delta >= D + (K^2 + D^2)/(k sin 2 delta)`. So a lining needs a least stiffness at
+//! each speed, and one that is softer than the least of these never holds a lock. Beyond the
+//! last speed of two groups three may go on.
 
 use nalgebra::{Complex, Matrix2, Vector2};
 use serde::Serialize;
 
 use super::Lining;
-use super::flow::{self, Tangent};
-use crate::harmonic::{HarmonicError, Joint};
-use crate::tolerances::{LINING_ALIKE, LINING_NEUTRAL, LINING_SETTLED, NEWTON_STEPS};
+use super::cycle::{Tangent, small_motions};
+use crate::harmonic::LockLoads;
+use crate::harmonic::{HarmonicError, Joint, error};
+use crate::model::{Machine, Number};
+use crate::numeric::maximum::highest;
+use crate::tolerances::{
+    LINING_ALIKE, LINING_NEUTRAL, LINING_SETTLED, NEWTON_STEPS, WINDOW_LOOKS, WINDOW_REACH,
+};
 
 /// Places of a grid of starts: over half a corner, and over the amplitude in clearances.
 const GRID: ([f64; 5], [f64; 6]) =
@@ -196,8 +209,8 @@ impl<'a> Balance<'a> {
         let unsettled = HarmonicError::Unsettled { speed: self.speed };
         let (push, slope) = self.pushes(w);
         let tangent: Tangent = [[slope[(0, 0)], slope[(0, 1)]], [slope[(1, 0)], slope[(1, 1)]]];
-        let values = flow::eigenvalues(&self.joint, [self.joint.nu, 0.0], tangent)
-            .ok_or(unsettled.clone())?;
+        let values =
+            small_motions(&self.joint, [self.joint.nu, 0.0], tangent).ok_or(unsettled.clone())?;
         let worst = values.iter().copied().max_by(|a, b| a.re.total_cmp(&b.re)).ok_or(unsettled)?;
         let fastest = values.iter().map(|value| value.norm()).fold(0.0, f64::max);
         let each = f64::from(machine.polygon.blades_per_side);
@@ -237,9 +250,7 @@ impl Lining<'_> {
     /// # Errors
     /// A speed that is not finite, or stiffnesses that differ by too many powers of ten.
     pub fn states(&self, speed: f64) -> Result<Vec<LiningState>, HarmonicError> {
-        if !speed.is_finite() {
-            return Err(HarmonicError::Speed(speed));
-        }
+        error::refuse_endless(&[speed])?;
         let balance = Balance::at(*self, speed);
         let mut places: Vec<Vector2<f64>> = vec![Vector2::zeros()];
         for start in balance.starts() {
@@ -254,4 +265,126 @@ impl Lining<'_> {
         states.sort_by_key(|state| state.pushing);
         Ok(states)
     }
+}
+
+/// A complex number, or a vector in the plane of the wave.
+type Pair<T> = [T; 2];
+
+fn times<T: Number>(a: Pair<T>, b: Pair<T>) -> Pair<T> {
+    [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]]
+}
+
+fn dot<T: Number>(a: Pair<T>, n: [f64; 2]) -> T {
+    a[0] * n[0] + a[1] * n[1]
+}
+
+/// The two groups of the corner that is looked at.
+const SIDES: [u32; 2] = [0, 1];
+
+/// The place of the wave that two groups alone hold; none where there is no such place, or
+/// the smallest motion leaves it.
+fn place(machine: &Machine, speed: f64) -> Option<(Vector2<f64>, Balance<'_>)> {
+    let law = machine.lining.filter(|_| Joint::has_one_wave(machine))?;
+    let lining =
+        Lining { machine, stiffness_n_per_m: law.stiffness_n_per_m, smoothing_m: law.smoothing_m };
+    let balance = Balance::at(lining, speed);
+    let w = balance.solve(balance.sprung(2)?)?;
+    let pushing = balance.gaps(w).filter(|(.., gap)| *gap < 0.0).map(|(side, ..)| side);
+    let held = pushing.eq(SIDES) && balance.state(w).is_ok_and(|state| state.stable);
+    held.then_some((w, balance))
+}
+
+/// The loads of a lock that two groups hold on the lining of a machine; none where no
+/// two groups alone do.
+pub(in crate::harmonic) fn lock_loads<T: Number>(
+    machine: &Machine<T>,
+    speed: T,
+) -> Option<LockLoads<T>> {
+    let (law, plain) = (machine.lining?, machine.plain());
+    let (w, balance) = place(&plain, speed.re())?;
+    let polygon = &machine.polygon;
+    let each = f64::from(polygon.blades_per_side);
+    let nu = machine.nu(speed);
+    let casing =
+        [machine.casing_stiffness - nu * nu * machine.casing_mass, machine.casing_damping * nu];
+    let flexible = machine.coupling_product_at(speed) / machine.blade_modal_stiffness;
+    let turned = [T::one(), machine.casing_friction_at(speed)];
+    let pushed = [casing[0] * flexible + turned[0], casing[1] * flexible + turned[1]];
+    let normals = SIDES.map(|side| <[f64; 2]>::from(polygon.direction(side)));
+    let push = |w: Pair<T>| normals.map(|n| law.push(machine.clearance() + dot(w, n)) * each);
+    let sum =
+        |pushes: Pair<T>| [0, 1].map(|k| pushes[0] * normals[0][k] + pushes[1] * normals[1][k]);
+    // One step of Newton's method from the root adds the derivatives.
+    let root = [T::from(w.x), T::from(w.y)];
+    let (held, forced) = (times(casing, root), times(pushed, sum(push(root))));
+    let inverse = balance.residual(w).1.try_inverse()? / balance.scale;
+    let residual = [held[0] - forced[0], held[1] - forced[1]];
+    let w = [0, 1].map(|k| root[k] - residual[0] * inverse[(k, 0)] - residual[1] * inverse[(k, 1)]);
+    let pushes = push(w);
+    // a = sum P (A - (kappa + mu) l_b) e^{i psi}/k_a, z = w + kappa l_b a.
+    let lead = (machine.radial_coupling + machine.friction_at(speed)) * machine.blade_length;
+    let bent = sum(pushes).map(|p| -p * lead / machine.blade_modal_stiffness);
+    let arm = machine.radial_coupling * machine.blade_length;
+    let z = [w[0] + bent[0] * arm, w[1] + bent[1] * arm];
+    let levers = normals.map(|n| (z[1] * n[0] - z[0] * n[1]) * machine.nodal_diameters);
+    let torques = [pushes[0] * levers[0], pushes[1] * levers[1]];
+    let swing = sum(torques).map(|torque| torque / machine.blade_modal_stiffness);
+    let angle = |side: u32| {
+        let n = polygon.direction(side).into();
+        dot(bent, n) + dot(swing, n)
+    };
+    let amplitude = (z[0] * z[0] + z[1] * z[1]).sqrt();
+    let groups = (pushes, SIDES.map(angle));
+    let all = (0..polygon.sides).map(angle);
+    Some(LockLoads::of((machine, speed), (amplitude, -(torques[0] + torques[1])), groups, all))
+}
+
+/// The softest lining that holds a lock, and the speed where it does.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct LeastStiffness {
+    /// Stiffness `k_p` under one blade \[N/m\].
+    pub stiffness_n_per_m: f64,
+    /// Rotor speed \[rad/s\].
+    pub speed_rad_s: f64,
+}
+
+/// The stiffness that a lining needs at a speed \[N/m\]; infinite where no lock exists.
+fn needed(machine: &Machine, speed: f64) -> f64 {
+    let polygon = &machine.polygon;
+    let joint = Joint::at(machine, speed);
+    let compliance = joint.compliance(joint.nu);
+    let left = -compliance.re * polygon.delta.tan() - compliance.im.abs();
+    if left <= 0.0 {
+        return f64::INFINITY;
+    }
+    1.0 / ((2.0 * polygon.delta).sin() * left * f64::from(polygon.blades_per_side))
+}
+
+/// The speed at this logarithm of its excess over the lock of rigid contact.
+fn speed_at(lock: f64, excess: f64) -> f64 {
+    lock * (1.0 + excess.exp())
+}
+
+/// The softest lining of this machine that holds a lock of a rotor that turns forward;
+/// zero at the critical speed where the casing has no damping. None without a lock of
+/// rigid contact.
+#[must_use]
+pub fn least_lock_stiffness(machine: &Machine) -> Option<LeastStiffness> {
+    let lock = machine.clone().with_lining(None).lock_speed()?;
+    if machine.casing_damping == 0.0 && !machine.casing_is_joined() {
+        return Some(LeastStiffness { stiffness_n_per_m: 0.0, speed_rad_s: lock });
+    }
+    let excess = bottom(machine, lock);
+    let speed_rad_s = speed_at(lock, excess);
+    Some(LeastStiffness { stiffness_n_per_m: needed(machine, speed_rad_s), speed_rad_s })
+}
+
+/// Where the needed stiffness is least: it falls to one minimum and rises.
+fn bottom(machine: &Machine, lock: f64) -> f64 {
+    let of = |excess: f64| needed(machine, speed_at(lock, excess));
+    let [low, high] = WINDOW_REACH;
+    let place = |k: u32| low + (high - low) * f64::from(k) / f64::from(WINDOW_LOOKS);
+    let best = (1..WINDOW_LOOKS).min_by(|&a, &b| of(place(a)).total_cmp(&of(place(b))));
+    let best = best.unwrap_or(1);
+    highest([place(best - 1), place(best + 1)], |excess| -of(excess)).0
 }

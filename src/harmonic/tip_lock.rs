@@ -15,6 +15,7 @@ use nalgebra::{Complex, SMatrix, SVector};
 use num_dual::Dual64;
 
 use super::Corner;
+use super::stability::ClosedSide;
 use crate::model::{Machine, Number};
 use crate::tolerances::{NEWTON_SHRINK, NEWTON_STEPS, POLISHED};
 
@@ -23,7 +24,7 @@ pub(super) type Held<T = f64> = [T; 6];
 
 /// The equations of one corner at one speed.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct JoinedEquations<T = f64> {
+pub(super) struct TipEquations<T = f64> {
     /// `(cos psi, sin psi)` of both sides.
     pub phases: [(f64, f64); 2],
     pub diameters: f64,
@@ -51,7 +52,7 @@ pub(super) struct Touch<T> {
     pub alpha: T,
 }
 
-impl<T: Number> JoinedEquations<T> {
+impl<T: Number> TipEquations<T> {
     /// Of a corner at a rotor speed \[rad/s\].
     pub fn at(machine: &Machine<T>, corner: Corner, speed: T) -> Self {
         let ratio = machine.nu(speed) / machine.omega_c;
@@ -70,6 +71,20 @@ impl<T: Number> JoinedEquations<T> {
             lever,
             angle,
             share: bend / angle,
+        }
+    }
+
+    /// The same equations with other numbers.
+    fn map<S>(&self, number: impl Fn(T) -> S) -> TipEquations<S> {
+        TipEquations {
+            phases: self.phases,
+            diameters: self.diameters,
+            casing: (number(self.casing.0), number(self.casing.1)),
+            friction: number(self.friction),
+            slope: number(self.slope),
+            lever: number(self.lever),
+            angle: number(self.angle),
+            share: number(self.share),
         }
     }
 
@@ -116,7 +131,7 @@ impl<T: Number> JoinedEquations<T> {
 
     /// A solution of the plain numbers with its derivatives: each step of Newton's method
     /// with the plain slope adds an order.
-    pub fn derived(&self, plain: &JoinedEquations, held: &Held) -> Option<Held<T>> {
+    pub fn derived(&self, plain: &TipEquations, held: &Held) -> Option<Held<T>> {
         let slope = plain.jacobian(held).lu();
         let inverse = slope.try_inverse()?;
         let mut derived = held.map(T::from);
@@ -132,18 +147,25 @@ impl<T: Number> JoinedEquations<T> {
     }
 }
 
-impl JoinedEquations {
-    fn jacobian(&self, held: &Held) -> SMatrix<f64, 6, 6> {
-        let lifted = JoinedEquations::<Dual64> {
-            phases: self.phases,
-            diameters: self.diameters,
-            casing: (self.casing.0.into(), self.casing.1.into()),
-            friction: self.friction.into(),
-            slope: self.slope.into(),
-            lever: self.lever.into(),
-            angle: self.angle.into(),
-            share: self.share.into(),
+impl TipEquations {
+    /// The groups of a lock, as the linearised motion sees them.
+    pub fn closed(&self, held: &Held) -> Vec<ClosedSide> {
+        let closed = |(phase, push): ((f64, f64), f64)| {
+            let touch = self.touch(phase, held);
+            ClosedSide {
+                phase,
+                direction: touch.direction,
+                along: touch.along,
+                arm: touch.across - self.slope / self.diameters,
+                moment: touch.across - self.lever / self.diameters,
+                multiplier: -push,
+            }
         };
+        self.phases.into_iter().zip([held[4], held[5]]).map(closed).collect()
+    }
+
+    fn jacobian(&self, held: &Held) -> SMatrix<f64, 6, 6> {
+        let lifted = self.map(Dual64::from);
         let mut jacobian = SMatrix::zeros();
         for column in 0..6 {
             let mut seeded = held.map(Dual64::from);
@@ -213,24 +235,9 @@ pub(super) fn held<T: Number>(
     machine: &Machine<T>,
     corner: Corner,
     speed: T,
-) -> Option<(JoinedEquations<T>, Held<T>)> {
-    let equations = JoinedEquations::at(machine, corner, speed);
-    let plain = equations.plain();
+) -> Option<(TipEquations<T>, Held<T>)> {
+    let equations = TipEquations::at(machine, corner, speed);
+    let plain = equations.map(|value| value.re());
     let found = plain.solve()?;
     Some((equations, equations.derived(&plain, &found)?))
-}
-
-impl<T: Number> JoinedEquations<T> {
-    fn plain(&self) -> JoinedEquations {
-        JoinedEquations {
-            phases: self.phases,
-            diameters: self.diameters,
-            casing: (self.casing.0.re(), self.casing.1.re()),
-            friction: self.friction.re(),
-            slope: self.slope.re(),
-            lever: self.lever.re(),
-            angle: self.angle.re(),
-            share: self.share.re(),
-        }
-    }
 }

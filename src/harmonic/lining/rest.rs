@@ -1,0 +1,439 @@
+//! Rest with all blades pressed into a lining: the four motions about it, the speeds where
+//! the fastest of them begins to grow and ends to (Hopf points), the coincidence that the
+//! lining shifts, and the least lining that grows at all (docs/theory.md, section 10).
+//!
+//! With `S0 = N k_p/2` the roots `s` of `e^{ist}` in the frame of the blades solve
+//! `L_c L_a + S0 [(1 + i mu_c) L_a + c2 L_c] = 0`, with
+//! `L_c = k_c - m_c (s + nu)^2 + i d_c (s + nu)` and `L_a = k_a - m_a s^2 + i d_a s`.
+//!
+//! The growth changes over a width of speed that damping and joint stiffness set; the
+//! scan has eight points in each such width around every coincidence, and a thousand
+//! over the whole range. Every extremum of the scan is refined, so that a change of sign
+//! and back between two points is seen too.
+
+use nalgebra::Complex;
+use serde::Serialize;
+
+use super::Lining;
+use super::law::between;
+use crate::harmonic::{HarmonicError, Joint};
+use crate::model::Machine;
+use crate::numeric::maximum::highest;
+use crate::tolerances::{GROWTH_SCAN, PEAK_REACH, ROOT_STEPS, TONGUE_SCAN, UNDAMPED_GROWTH};
+
+/// One motion `e^{ist}` about rest.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct RestRoot {
+    /// Its growth rate, `-Im s` \[1/s\].
+    pub growth_1_s: f64,
+    /// Its frequency in the frame of the blades, `Re s`; negative runs backward over
+    /// them \[rad/s\].
+    pub s_rad_s: f64,
+    /// Its frequency in the standing frame, `Re s + nu` \[rad/s\].
+    pub omega_rad_s: f64,
+}
+
+/// The four motions about rest at one rotor speed, the fastest growth first.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Rest {
+    /// Rotor speed \[rad/s\].
+    pub speed_rad_s: f64,
+    /// Stiffness of all blades together, `S0` \[N/m\].
+    pub stiffness_n_per_m: f64,
+    /// The motions.
+    pub roots: [RestRoot; 4],
+    /// Whether one of them grows, by more than round-off.
+    pub grows: bool,
+}
+
+impl Rest {
+    /// The motion that grows fastest, or decays slowest.
+    #[must_use]
+    pub fn worst(&self) -> RestRoot {
+        self.roots[0]
+    }
+}
+
+impl Lining<'_> {
+    /// The motions about rest at a speed \[rad/s\]. With a clearance these are those of
+    /// casing and blades, each by itself.
+    #[must_use]
+    pub fn rest(&self, speed: f64) -> Rest {
+        Quartic::new(&Joint::at(self.machine, speed), self.stiffness_at_rest()).rest(speed)
+    }
+}
+
+/// The quartic over a frequency, in the dimensionless unknown `t = s/scale`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Quartic {
+    /// The largest frequency \[rad/s\].
+    pub scale: f64,
+    stiffness: f64,
+    nu: f64,
+    /// Of casing and blades: square of the frequency and twice the damping rate.
+    casing: [f64; 2],
+    blades: [f64; 2],
+    /// `S0 (1 + i mu_c)/m_c` and `S0 c2/m_a`.
+    on_casing: Complex<f64>,
+    on_blades: f64,
+}
+
+impl Quartic {
+    /// Of a joint and a stiffness of all blades \[N/m\].
+    pub fn new(joint: &Joint, stiffness: f64) -> Self {
+        let m = joint.machine;
+        let casing = m.casing_stiffness / m.casing_mass;
+        let blades = m.blade_modal_stiffness / m.blade_modal_mass;
+        let joined = stiffness / m.casing_mass;
+        let felt = stiffness * joint.coupling_product / m.blade_modal_mass;
+        let scale = joint.nu.abs().max((casing + joined).sqrt()).max((blades + felt.abs()).sqrt());
+        let square = scale * scale;
+        Self {
+            scale,
+            stiffness,
+            nu: joint.nu / scale,
+            casing: [casing / square, m.casing_damping / (m.casing_mass * scale)],
+            blades: [blades / square, m.blade_modal_damping / (m.blade_modal_mass * scale)],
+            on_casing: Complex::new(1.0, joint.casing_friction) * (joined / square),
+            on_blades: felt / square,
+        }
+    }
+
+    /// `L_c`, `L_a` and their derivatives.
+    fn parts(&self, t: Complex<f64>) -> [[Complex<f64>; 2]; 2] {
+        let of = |[square, rate]: [f64; 2], at: Complex<f64>| {
+            let turned = Complex::new(0.0, rate);
+            [at * turned - at * at + square, turned - at * 2.0]
+        };
+        [of(self.casing, t + self.nu), of(self.blades, t)]
+    }
+
+    /// Value, derivative and size of the terms.
+    fn at(&self, t: Complex<f64>) -> (Complex<f64>, Complex<f64>, f64) {
+        let [[c, c_slope], [a, a_slope]] = self.parts(t);
+        let (joined_c, joined_a) = (c + self.on_casing, a + self.on_blades);
+        // (L_c + A)(L_a + C) - A C: the poles of joined structures are on its diagonal.
+        let product = self.on_casing * self.on_blades;
+        let value = joined_c * joined_a - product;
+        let slope = c_slope * joined_a + joined_c * a_slope;
+        (value, slope, joined_c.norm() * joined_a.norm() + product.norm())
+    }
+
+    /// Residual of a root \[rad/s\] over the size of its terms, for tests.
+    #[cfg(test)]
+    pub fn residual(&self, s: Complex<f64>) -> f64 {
+        let t = s / self.scale;
+        let terms = |[square, rate]: [f64; 2], at: f64| at * at + rate * at + square;
+        let casing = terms(self.casing, (t + self.nu).norm()) + self.on_casing.norm();
+        let blades = terms(self.blades, t.norm()) + self.on_blades.abs();
+        self.at(t).0.norm() / (casing * blades)
+    }
+
+    /// The four roots \[rad/s\], by the iteration of Aberth and Ehrlich.
+    pub fn roots(&self) -> [Complex<f64>; 4] {
+        let casing = (Complex::from(self.casing[0]) + self.on_casing).sqrt();
+        let blades = Complex::from(self.blades[0] + self.on_blades).sqrt();
+        // Those of uncoupled structures, pulled apart, as they may meet.
+        let starts = [casing - self.nu, -casing - self.nu, blades, -blades];
+        let apart = [(0.01, 0.002), (-0.013, -0.003), (0.004, -0.011), (-0.006, 0.007)];
+        let mut roots = [Complex::default(); 4];
+        for (root, (start, (re, im))) in roots.iter_mut().zip(starts.iter().zip(apart)) {
+            *root = start + Complex::new(re, im);
+        }
+        for _ in 0..ROOT_STEPS {
+            let mut largest = 0.0_f64;
+            for k in 0..4 {
+                let here = roots[k];
+                let (value, slope, size) = self.at(here);
+                if value.norm() <= f64::EPSILON * 0.5 * size {
+                    continue;
+                }
+                let mut pull = slope / value;
+                for (other, root) in roots.iter().enumerate() {
+                    if other != k && *root != here {
+                        pull -= (here - root).inv();
+                    }
+                }
+                let step = pull.inv();
+                if !(step.re.is_finite() && step.im.is_finite()) {
+                    continue;
+                }
+                roots[k] = here - step;
+                largest = largest.max(step.norm());
+            }
+            if largest <= 2.0 * f64::EPSILON {
+                break;
+            }
+        }
+        roots.map(|root| root * self.scale)
+    }
+
+    /// The motions about rest.
+    pub fn rest(&self, speed: f64) -> Rest {
+        let nu = self.nu * self.scale;
+        let mut roots = self.roots().map(|s| RestRoot {
+            growth_1_s: -s.im,
+            s_rad_s: s.re,
+            omega_rad_s: s.re + nu,
+        });
+        roots.sort_by(|a, b| b.growth_1_s.total_cmp(&a.growth_1_s));
+        let damped = self.casing[1] > 0.0 && self.blades[1] > 0.0;
+        let round_off = if damped { 0.0 } else { UNDAMPED_GROWTH * self.scale };
+        Rest {
+            speed_rad_s: speed,
+            stiffness_n_per_m: self.stiffness,
+            grows: roots[0].growth_1_s > round_off,
+            roots,
+        }
+    }
+}
+
+/// A speed where a wave about rest begins or ends to grow.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct HopfPoint {
+    /// Rotor speed \[rad/s\].
+    pub speed_rad_s: f64,
+    /// Frequency of the wave in the frame of the blades \[rad/s\].
+    pub s_rad_s: f64,
+    /// Its frequency in the standing frame \[rad/s\].
+    pub omega_rad_s: f64,
+    /// Whether it grows at larger speeds.
+    pub grows_above: bool,
+}
+
+/// The dangerous coincidence, with the frequencies that blades and casing have while
+/// all blades touch the lining.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ShiftedCoincidence {
+    /// `(omega_c' +- omega_bd')/n_d`, minus for a coupling product below zero \[rad/s\].
+    pub speed_rad_s: f64,
+    /// `omega_c' = sqrt((k_c + S0)/m_c)` \[rad/s\].
+    pub casing_rad_s: f64,
+    /// `omega_bd' = sqrt(omega_bd^2 + S0 c2/m_a)` \[rad/s\].
+    pub blades_rad_s: f64,
+}
+
+/// The least lining that makes rest grow, at the speed where it grows first.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct GrowthThreshold {
+    /// Stiffness `S0` of all blades together \[N/m\].
+    pub stiffness_n_per_m: f64,
+    /// Rotor speed \[rad/s\].
+    pub speed_rad_s: f64,
+}
+
+/// The coincidence of a machine whose blades together have a stiffness \[N/m\], in the
+/// sense of rotation of `sense`; `None` for blades that nothing comes back to.
+fn shifted(machine: &Machine, stiffness: f64, sense: f64) -> Option<ShiftedCoincidence> {
+    let product = machine.coupling_product_at(sense);
+    let blades = machine.blade_modal_stiffness + stiffness * product;
+    if product == 0.0 || blades < 0.0 {
+        return None;
+    }
+    let casing_rad_s = ((machine.casing_stiffness + stiffness) / machine.casing_mass).sqrt();
+    let blades_rad_s = (blades / machine.blade_modal_mass).sqrt();
+    let meeting = casing_rad_s + blades_rad_s.copysign(product);
+    let speed_rad_s = (meeting / machine.nodal_diameters).copysign(sense);
+    Some(ShiftedCoincidence { speed_rad_s, casing_rad_s, blades_rad_s })
+}
+
+/// Width in speed over which growth changes around a coincidence \[rad/s\].
+fn width(machine: &Machine, stiffness: f64, sense: f64) -> f64 {
+    let product = machine.coupling_product_at(sense).abs();
+    let casing = (machine.casing_stiffness + stiffness) * machine.casing_mass;
+    let blades = machine.blade_modal_stiffness * machine.blade_modal_mass;
+    let joined = stiffness * product.sqrt() / (2.0 * (casing * blades).sqrt().sqrt());
+    let damped = machine.casing_damping_ratio * machine.omega_c
+        + machine.blade_damping_ratio * machine.omega_bd;
+    (damped + joined) / machine.nodal_diameters
+}
+
+/// Part of the fastest speed up to which a rotor counts as standing.
+const BESIDE_REST: f64 = 1e-9;
+
+impl Lining<'_> {
+    /// The coincidence at which rest grows fastest, for a rotor that turns in the sense
+    /// of `speed`; none with a clearance.
+    #[must_use]
+    pub fn shifted_coincidence(&self, speed: f64) -> Option<ShiftedCoincidence> {
+        let stiffness = self.stiffness_at_rest();
+        (stiffness > 0.0).then(|| shifted(self.machine, stiffness, speed)).flatten()
+    }
+
+    /// Every speed in a range \[rad/s\] at which the worst growth at rest changes its
+    /// sign, in increasing order.
+    ///
+    /// # Errors
+    /// Speeds that are not finite or not in order.
+    pub fn hopf_points(&self, [from, to]: [f64; 2]) -> Result<Vec<HopfPoint>, HarmonicError> {
+        if !(from.is_finite() && to.is_finite() && from < to) {
+            let (speeds, allowed) = (format!("{from}:{to}"), "two speeds, the lower one first");
+            return Err(HarmonicError::refused("speed", speeds, allowed));
+        }
+        // Friction turns round where the rotor does, with a jump and no Hopf point.
+        if from <= 0.0 && to >= 0.0 && self.machine.friction != 0.0 {
+            let mut points = Vec::new();
+            for [from, to] in [[from, from * BESIDE_REST], [to * BESIDE_REST, to]] {
+                if from < to {
+                    points.extend(self.hopf_points([from, to])?);
+                }
+            }
+            return Ok(points);
+        }
+        let mut rests: Vec<Rest> =
+            self.places([from, to]).into_iter().map(|speed| self.rest(speed)).collect();
+        let extremes: Vec<Rest> = rests
+            .windows(3)
+            .filter_map(|three| self.extreme([three[0], three[1], three[2]]))
+            .collect();
+        rests.extend(extremes);
+        rests.sort_by(|a, b| a.speed_rad_s.total_cmp(&b.speed_rad_s));
+        let changes = rests.windows(2).filter(|pair| pair[0].grows != pair[1].grows);
+        Ok(changes
+            .map(|pair| {
+                let sign = |speed: f64| if self.rest(speed).grows { 1.0 } else { -1.0 };
+                let speed_rad_s = between([pair[0].speed_rad_s, pair[1].speed_rad_s], sign);
+                let worst = self.rest(speed_rad_s).worst();
+                HopfPoint {
+                    speed_rad_s,
+                    s_rad_s: worst.s_rad_s,
+                    omega_rad_s: worst.omega_rad_s,
+                    grows_above: pair[1].grows,
+                }
+            })
+            .collect())
+    }
+
+    /// The speeds of the scan, in order.
+    fn places(&self, [from, to]: [f64; 2]) -> Vec<f64> {
+        let stiffness = self.stiffness_at_rest();
+        let part = |k: u32| f64::from(k) / f64::from(GROWTH_SCAN);
+        let mut places: Vec<f64> =
+            (0..=GROWTH_SCAN).map(|k| from + (to - from) * part(k)).collect();
+        let (reach, fine) = TONGUE_SCAN;
+        for sense in [-1.0, 1.0] {
+            let Some(found) = shifted(self.machine, stiffness, sense) else { continue };
+            let stride = width(self.machine, stiffness, sense) / fine;
+            for blades in [found.blades_rad_s, -found.blades_rad_s] {
+                let middle = sense * (found.casing_rad_s + blades) / self.machine.nodal_diameters;
+                places.extend((-reach..=reach).map(|k| middle + stride * f64::from(k)));
+            }
+        }
+        places.retain(|speed| (from..=to).contains(speed));
+        places.sort_by(f64::total_cmp);
+        places.dedup();
+        places
+    }
+
+    /// The extremum among three neighbours, where it has another sign than they.
+    fn extreme(&self, three: [Rest; 3]) -> Option<Rest> {
+        let [before, here, after] = three.map(|rest| rest.worst().growth_1_s);
+        let sense = if three[1].grows { -1.0 } else { 1.0 };
+        let alike = three.iter().all(|rest| rest.grows == three[1].grows);
+        if !(alike && sense * here >= sense * before && sense * here >= sense * after) {
+            return None;
+        }
+        let ends = [three[0].speed_rad_s, three[2].speed_rad_s];
+        let (speed, _) = highest(ends, |speed| sense * self.rest(speed).worst().growth_1_s);
+        let found = self.rest(speed);
+        (found.grows != three[1].grows).then_some(found)
+    }
+}
+
+/// The least stiffness of a lining under preload that makes rest grow at the peak near
+/// the coincidence, for a rotor that turns in the sense of `sense`; zero where blades or
+/// casing have no damping, none for a machine whose blades and casing are not coupled.
+#[must_use]
+pub fn growth_threshold(machine: &Machine, sense: f64) -> Option<GrowthThreshold> {
+    let product = machine.coupling_product_at(sense).abs();
+    let plain = shifted(machine, 0.0, sense)?;
+    let inertia = machine.casing_mass * machine.omega_c * machine.blade_modal_mass;
+    let damping = machine.casing_damping_ratio * machine.omega_c * machine.blade_damping_ratio;
+    // Of weak coupling, at the middle of the tongue.
+    let guess = 2.0 * machine.omega_bd * (inertia * damping / product).sqrt();
+    if guess == 0.0 {
+        let speed_rad_s = plain.speed_rad_s;
+        return Some(GrowthThreshold { stiffness_n_per_m: 0.0, speed_rad_s });
+    }
+    let peak = |stiffness: f64| peak(machine, stiffness, sense);
+    let growth = |stiffness: f64| peak(stiffness).map_or(-1.0, |(_, growth)| growth);
+    let mut ends = [0.5 * guess, 2.0 * guess];
+    // Sixty doublings each way leave no lining that could be built.
+    for _ in 0..60 {
+        if growth(ends[0]) > 0.0 {
+            ends = [0.5 * ends[0], ends[0]];
+        } else if growth(ends[1]) <= 0.0 {
+            ends = [ends[1], 2.0 * ends[1]];
+        } else {
+            let stiffness_n_per_m = between(ends, growth);
+            let (speed_rad_s, _) = peak(stiffness_n_per_m)?;
+            return Some(GrowthThreshold { stiffness_n_per_m, speed_rad_s });
+        }
+    }
+    None
+}
+
+/// The speed of the fastest growth near a coincidence, and that growth \[1/s\].
+fn peak(machine: &Machine, stiffness: f64, sense: f64) -> Option<(f64, f64)> {
+    let middle = shifted(machine, stiffness, sense)?.speed_rad_s;
+    let reach = PEAK_REACH * width(machine, stiffness, sense);
+    let growth = |speed: f64| {
+        Quartic::new(&Joint::at(machine, speed), stiffness).rest(speed).worst().growth_1_s
+    };
+    let parts = 6.0 * PEAK_REACH;
+    let place = |k: f64| middle + reach * (2.0 * k / parts - 1.0);
+    let looks = (0..=parts as u32).map(f64::from).map(|k| (k, growth(place(k))));
+    let (best, _) = looks.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    Some(highest([place(best - 1.0), place(best + 1.0)], growth))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::harmonic::lining::cycle::small_motions;
+    use crate::model::ContactSurface;
+    use crate::scene::Scene;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn roots_solve_the_quartic_and_are_those_of_eight_states(
+            kappa in -1.0..1.0_f64, mu in 0.0..0.6_f64, tau in 0.0..0.4_f64,
+            zetas in (0.0..0.3_f64, 0.0..0.3_f64), stiffness in 2.0..8.0_f64,
+            speed in -900.0..900.0_f64,
+        ) {
+            let mut scene = Scene::base();
+            for (path, value) in [
+                ("casing.radius_m", 0.49988), ("bladed_disk.radial_coupling", kappa),
+                ("contact.friction", mu), ("casing.tangential_ratio", tau),
+                ("casing.damping_ratio", zetas.0), ("bladed_disk.damping_ratio", zetas.1),
+            ] {
+                scene.set(path, &value.to_string()).unwrap();
+            }
+            let machine = scene.machine();
+            let surface =
+                ContactSurface { stiffness_n_per_m: 10_f64.powf(stiffness), ..Default::default() };
+            let lining = Lining::of(&machine, &surface).unwrap();
+            let joint = Joint::at(&machine, speed);
+            let quartic = Quartic::new(&joint, lining.stiffness_at_rest());
+            for root in quartic.roots() {
+                prop_assert!(quartic.residual(root) < 1e-10, "{root}");
+            }
+            let rest = lining.rest(speed);
+            let tangent = [[rest.stiffness_n_per_m, 0.0], [0.0, rest.stiffness_n_per_m]];
+            let values = small_motions(&joint, [joint.nu, 0.0], tangent).unwrap();
+            let growth = values.iter().map(|value| value.re).fold(f64::MIN, f64::max);
+            // Of two roots that meet, half the digits are known.
+            let near = rest.roots.iter().flat_map(|a| rest.roots.iter().map(move |b| (a, b)));
+            let apart = near.filter(|(a, b)| a != b)
+                .map(|(a, b)| (a.s_rad_s - b.s_rad_s).hypot(a.growth_1_s - b.growth_1_s))
+                .fold(f64::INFINITY, f64::min);
+            let size = quartic.scale;
+            let bound = 1e-11 * size * (1.0 + size / apart);
+            prop_assert!(
+                (rest.worst().growth_1_s - growth).abs() < bound,
+                "{} is not {growth}", rest.worst().growth_1_s
+            );
+        }
+    }
+}
