@@ -1,6 +1,7 @@
 //! The views of `rubscope hbm`: each computes its JSON, its tables to read and
 //! the table for a file.
 
+use crate::scene::keys;
 use std::rc::Rc;
 
 use super::hbm_joined as joined;
@@ -226,7 +227,7 @@ fn slipping(
         let mut region = Vec::with_capacity(zetas.len());
         for &zeta in zetas {
             let mut damped = scene.clone();
-            damped.set("casing.damping_ratio", &zeta.to_string()).map_err(|_| {
+            damped.set(keys::CASING_DAMPING, &zeta.to_string()).map_err(|_| {
                 let allowed = "damping ratios from 0 to 10".to_string();
                 HarmonicError::Refused { key: "--zetas", value: zeta.to_string(), allowed }
             })?;
@@ -316,7 +317,7 @@ fn excited(
     if excitation.amplitude_nm <= 0.0 {
         let allowed = "above 0 with --excitation, such as --set excitation.amplitude_nm=10";
         return Err(HarmonicError::Refused {
-            key: "excitation.amplitude_nm",
+            key: keys::EXCITATION,
             value: excitation.amplitude_nm.to_string(),
             allowed: allowed.to_string(),
         });

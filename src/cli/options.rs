@@ -1,13 +1,13 @@
 //! The scene a command works on: a built-in scene or a file, and options that
 //! change it. Precedence: option, then file, then documented default.
 
+use crate::scene::keys;
 use clap::Args;
 
 use super::range::Range;
 use super::status::{Refusal, note};
 use super::words::Words;
 use crate::model::Operation;
-use crate::scene::keys::{PULSE, SPEED};
 use crate::scene::{Adjustment, CheckedScene, ContactLaw, DEFAULT, ModelSize, Scene, SolverKind};
 
 /// The scene and the options that change it, on every command.
@@ -17,7 +17,7 @@ pub struct SceneOptions {
     #[arg(value_name = "SCENE", value_parser = Words::scenes(), hide_possible_values = true)]
     scene: Option<String>,
     /// Rotor speed; negative turns the other way [rad/s]
-    #[arg(long, value_name = "SPEED", allow_hyphen_values = true, help_heading = HEADING)]
+    #[arg(long, value_name = "keys::SPEED", allow_hyphen_values = true, help_heading = HEADING)]
     speed: Option<String>,
     /// Force of the pulse on the casing [N]
     #[arg(long, value_name = "FORCE", allow_hyphen_values = true, help_heading = HEADING)]
@@ -122,8 +122,8 @@ impl SceneOptions {
         for (option, key, text) in self.named() {
             let Some(text) = text else { continue };
             let range = match key {
-                SPEED if swept.speed => Some(&mut speeds),
-                PULSE if swept.pulse => Some(&mut pulses),
+                keys::SPEED if swept.speed => Some(&mut speeds),
+                keys::PULSE if swept.pulse => Some(&mut pulses),
                 _ => None,
             };
             match range {
@@ -135,7 +135,7 @@ impl SceneOptions {
                 Some(range) => {
                     scene.set(key, text)?;
                     let Operation { speed_rad_s, pulse_n, .. } = scene.operation;
-                    let value = if key == SPEED { speed_rad_s } else { pulse_n };
+                    let value = if key == keys::SPEED { speed_rad_s } else { pulse_n };
                     *range = Some(Range { from: value, to: value, count: 1 });
                 }
                 None => scene.set(key, text)?,
@@ -151,7 +151,7 @@ impl SceneOptions {
             given.push(key);
         }
         let made = scene.make_compatible(|key| given.contains(&key));
-        for (key, range) in [(SPEED, speeds), (PULSE, pulses)] {
+        for (key, range) in [(keys::SPEED, speeds), (keys::PULSE, pulses)] {
             if let Some(range) = range {
                 let mut last = scene.clone();
                 last.set(key, &range.to.to_string())?;
@@ -175,16 +175,16 @@ impl SceneOptions {
     /// Every named option, the key it sets, and its text.
     fn named(&self) -> [(&'static str, &'static str, Option<&String>); 10] {
         [
-            ("--speed", SPEED, self.speed.as_ref()),
-            ("--pulse", PULSE, self.pulse.as_ref()),
-            ("--nd", "operation.nodal_diameters", self.nd.as_ref()),
-            ("--zeta-casing", "casing.damping_ratio", self.zeta_casing.as_ref()),
-            ("--zeta-disk", "bladed_disk.damping_ratio", self.zeta_disk.as_ref()),
-            ("--solver", "solver.kind", self.solver.as_ref()),
-            ("--contact", "solver.contact", self.contact.as_ref()),
-            ("--model", "solver.model", self.model.as_ref()),
-            ("--step", "solver.step_s", self.step.as_ref()),
-            ("--end", "solver.end_s", self.end.as_ref()),
+            ("--speed", keys::SPEED, self.speed.as_ref()),
+            ("--pulse", keys::PULSE, self.pulse.as_ref()),
+            ("--nd", keys::DIAMETERS, self.nd.as_ref()),
+            ("--zeta-casing", keys::CASING_DAMPING, self.zeta_casing.as_ref()),
+            ("--zeta-disk", keys::BLADE_DAMPING, self.zeta_disk.as_ref()),
+            ("--solver", keys::SOLVER, self.solver.as_ref()),
+            ("--contact", keys::LAW, self.contact.as_ref()),
+            ("--model", keys::MODEL, self.model.as_ref()),
+            ("--step", keys::STEP, self.step.as_ref()),
+            ("--end", keys::END, self.end.as_ref()),
         ]
     }
 }
@@ -193,7 +193,7 @@ impl SceneOptions {
 fn followed(made: &Adjustment) -> String {
     let Adjustment { key, from, to } = made;
     let why = match *key {
-        "solver.kind" => "cannot do what the options ask",
+        keys::SOLVER => "cannot do what the options ask",
         _ => "the event solver does not know",
     };
     format!("rubscope: took {key} = {to:?} instead of the scene's {from:?}, which {why}")

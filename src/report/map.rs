@@ -155,12 +155,12 @@ pub fn figure(map: &Map, curves: &[overlay::Curve]) -> Figure {
     series.retain(|series| !series.points.is_empty());
     let title = format!("{} ({} contact)", scene.title, scene.solver.contact);
     let conditions = [
-        ("operation.nodal_diameters", format!("n_d = {}", scene.operation.nodal_diameters)),
-        ("casing.damping_ratio", format!("ζ_c = {}", scene.casing.damping_ratio)),
-        ("bladed_disk.damping_ratio", format!("ζ_bd = {}", scene.bladed_disk.damping_ratio)),
-        ("solver.kind", format!("{} solver", scene.solver.kind)),
-        ("solver.model", format!("{} model", scene.solver.model)),
-        ("solver.end_s", format!("runs of {} s", scene.solver.end_s)),
+        (keys::DIAMETERS, format!("n_d = {}", scene.operation.nodal_diameters)),
+        (keys::CASING_DAMPING, format!("ζ_c = {}", scene.casing.damping_ratio)),
+        (keys::BLADE_DAMPING, format!("ζ_bd = {}", scene.bladed_disk.damping_ratio)),
+        (keys::SOLVER, format!("{} solver", scene.solver.kind)),
+        (keys::MODEL, format!("{} model", scene.solver.model)),
+        (keys::END, format!("runs of {} s", scene.solver.end_s)),
     ];
     let fixed = conditions.into_iter().filter(|(path, _)| *path != x.path && *path != y.path);
     let note = fixed.map(|(_, text)| text).collect::<Vec<_>>().join(", ");
