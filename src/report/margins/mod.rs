@@ -2,8 +2,11 @@
 //! people: a row for each limit (`rows`), then what more was asked for (`more`).
 
 mod more;
+mod row;
 mod rows;
 pub mod words;
+
+pub use row::{LimitRow, TOLD};
 
 use std::io::{Result, Write};
 

@@ -46,7 +46,7 @@ impl Range {
     }
 
     /// That of all pulses, if they are factors apart.
-    pub(super) fn of_pulses(limits: &[&Limit]) -> Option<Self> {
+    pub(super) fn of_pulses(limits: &[Limit]) -> Option<Self> {
         let pulses = limits.iter().filter(|limit| limit.quantity == Quantity::Pulse);
         let sizes: Vec<f64> = pulses
             .flat_map(|limit| {

@@ -7,12 +7,12 @@ use plotters::style::text_anchor::HPos;
 use super::bar::{self, ENDS, Range};
 use super::{LINE, Page, SMALL, TEXT, WIDTH};
 use crate::report::line::wrapped;
-use crate::report::margins::words;
+use crate::report::margins::{LimitRow, words};
 use crate::report::svg::LEFT;
 use crate::report::svg::paper::{Drawn, letters_in, write_at, write_from};
 use crate::report::symbols::{in_print, symbol};
 use crate::report::ticks::power_of_ten;
-use crate::study::margins::{Limit, LimitName, Margins, Quantity};
+use crate::study::margins::{LimitName, Margins, Quantity};
 
 /// Left of what is said of the margin.
 const MARGIN: i32 = 582;
@@ -43,91 +43,61 @@ pub(super) fn printed(text: &str) -> String {
     format!("{number} {}", unit.replace("^2", "²")).trim_end().replace('-', "−")
 }
 
-/// The symbol of a limit.
-pub(super) fn sign(name: LimitName) -> &'static str {
-    match name {
-        LimitName::OmegaC => "Ω_c",
-        LimitName::OmegaLock => "Ω_lock",
-        LimitName::LockEnds => "Ω_ends",
-        LimitName::OmegaAdhesive => "Ω_adhesive",
-        LimitName::Coincidence => "Ω_coincidence",
-        LimitName::CoincidenceDifference => "Ω_difference",
-        LimitName::LockFold => "Ω_fold",
-        LimitName::WhirlOnset => "Ω_whirl",
-        LimitName::FlutterSpeed => "Ω_flutter",
-        LimitName::TouchingPulse => "F_touches",
-        LimitName::LastingPulse => "F_lasts",
-        LimitName::LastingPulseUnilateral => "F_unilateral",
-        LimitName::LastingPulseBilateral => "F_bilateral",
-        LimitName::PushA => "−λ_a",
-        LimitName::PushB => "−λ_b",
-        LimitName::Torque => "T",
-        LimitName::Power => "P",
-        LimitName::BladeAngle => "α_max",
-        LimitName::LockEnergy => "E",
-    }
-}
-
 /// Draws a row for each speed and each pulse.
 pub(super) fn draw_all(margins: &Margins, page: &mut Page<'_, '_>) -> Drawn<()> {
-    let limits: Vec<&Limit> =
-        margins.limits.iter().filter(|limit| limit.quantity.path().is_some()).collect();
-    let moving = |limit: &&Limit| limit.sensitivities.strongest(words::TOLD);
-    let changes = limits.iter().flat_map(moving).map(|(_, by)| by.abs());
+    let all = LimitRow::all(margins, &[]);
+    let rows: Vec<&LimitRow> = all.iter().filter(|row| !row.is_load()).collect();
+    let changes = rows.iter().flat_map(|row| row.strongest()).map(|(_, by)| by.abs());
     let longest = changes.fold(CHANGES[0], f64::max).min(CHANGES[1]);
-    let pulses = Range::of_pulses(&limits);
+    let pulses = Range::of_pulses(&margins.limits);
     write_at(page.area, "limit", (LEFT, page.y), SMALL)?;
-    let bands = limits.iter().any(|limit| !limit.bands.is_empty());
+    let bands = margins.limits.iter().any(|limit| !limit.bands.is_empty());
     bar::legend(page.area, page.y, bands)?;
     let last = WIDTH as i32 - LEFT;
     let told = "+1 % of each of these moves it by";
     write_from(page.area, told, (last, page.y), SMALL, HPos::Right)?;
     page.y += LINE;
-    for limit in limits {
+    for row in rows {
         page.rule()?;
-        let range = match pulses.filter(|_| limit.quantity == Quantity::Pulse) {
-            Some(range) => range,
-            None => Range::of(limit),
-        };
-        draw(limit, range, longest, page)?;
+        draw(row, pulses.filter(|_| row.quantity() == Quantity::Pulse), longest, page)?;
     }
     Ok(())
 }
 
-fn draw(limit: &Limit, range: Range, longest: f64, page: &mut Page<'_, '_>) -> Drawn<()> {
+fn draw(row: &LimitRow, shared: Option<Range>, longest: f64, page: &mut Page<'_, '_>) -> Drawn<()> {
     let (area, top) = (page.area, page.y);
-    let value = limit.value.map(|value| printed(&words::value(value, 6, limit.quantity)));
+    let value = row.value().map(|value| printed(&words::value(value, 6, row.quantity())));
     let value = value.as_deref().unwrap_or("none");
-    write_at(area, &format!("{} = {value}", sign(limit.name)), (LEFT, top), TEXT)?;
+    write_at(area, &format!("{} = {value}", row.name.symbol()), (LEFT, top), TEXT)?;
     let room = letters_in((ENDS[0] - LEFT - 18) as u32, SMALL);
     let mut y = top + 20;
-    for line in wrapped(&what(limit), room) {
+    for line in wrapped(&what(row), room) {
         write_at(area, &line, (LEFT, y), SMALL)?;
         y += LINE;
     }
-    if let Some(value) = limit.value {
-        bar::draw(area, limit, value, range, top)?;
-        let margin = limit.margin.map(words::margin).unwrap_or_default();
+    if let Some((limit, value)) = row.limit().zip(row.value()) {
+        bar::draw(area, limit, value, shared.unwrap_or_else(|| Range::of(limit)), top)?;
+        let margin = row.margin().map(words::margin).unwrap_or_default();
         write_at(area, &printed(&margin), (MARGIN, top + 11), SMALL)?;
-        write_at(area, &words::side(limit), (MARGIN, top + 11 + LINE), SMALL)?;
-        moves(limit, longest, top, page)?;
+        write_at(area, &row.way(), (MARGIN, top + 11 + LINE), SMALL)?;
+        moves(row, longest, top, page)?;
     }
     page.y = y.max(top + HEIGHT);
     Ok(())
 }
 
 /// What a limit is, under which law, and what else is to be said.
-fn what(limit: &Limit) -> String {
-    let own = limit.name == LimitName::LastingPulse;
-    let law = limit.contact.filter(|_| own).map(|law| format!(", {law} law"));
-    let note = limit.note.as_ref().map(|note| format!("; {note}"));
-    format!("{}{}{}", limit.name.what(), law.unwrap_or_default(), note.unwrap_or_default())
+fn what(row: &LimitRow) -> String {
+    let own = row.name == LimitName::LastingPulse;
+    let law = row.law.filter(|_| own).map(|law| format!(", {law} law"));
+    let note = row.note().map(|note| format!("; {note}"));
+    format!("{}{}{}", row.name.what(), law.unwrap_or_default(), note.unwrap_or_default())
 }
 
 /// What moves a limit most, as bars on both sides of zero.
-fn moves(limit: &Limit, longest: f64, top: i32, page: &Page<'_, '_>) -> Drawn<()> {
-    let strongest = limit.sensitivities.strongest(words::TOLD);
-    if strongest.is_empty() && limit.contact.is_some() {
+fn moves(row: &LimitRow, longest: f64, top: i32, page: &Page<'_, '_>) -> Drawn<()> {
+    let strongest = row.strongest();
+    if strongest.is_empty() && row.law.is_some() {
         return write_from(page.area, NOT_SMOOTH, (ZERO, top + 11), SMALL, HPos::Center);
     }
     for ((path, by), y) in strongest.iter().zip((top + 3..).step_by(LINE as usize)) {
