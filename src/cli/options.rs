@@ -5,10 +5,12 @@ use crate::scene::keys;
 use clap::Args;
 
 use super::range::Range;
-use super::status::{Refusal, note};
+use super::status::{Refusal, note, say};
 use super::words::Words;
 use crate::model::Operation;
-use crate::scene::{Adjustment, CheckedScene, ContactLaw, DEFAULT, ModelSize, Scene, SolverKind};
+use crate::scene::{
+    Adjustment, CheckedScene, ContactLaw, DEFAULT, ModelSize, Scene, SceneError, SolverKind,
+};
 
 /// The scene and the options that change it, on every command.
 #[derive(Args, Clone, Debug, Default)]
@@ -104,8 +106,7 @@ impl SceneOptions {
     /// # Errors
     /// As `scene`; the scene is checked at both ends of each range.
     pub fn resolve(&self, swept: Swept) -> anyhow::Result<Resolved> {
-        let scene = Scene::load_unchecked(self.scene.as_deref().unwrap_or(DEFAULT))?;
-        self.apply(scene, swept)
+        self.apply(read_scene(self.scene.as_deref().unwrap_or(DEFAULT))?, swept)
     }
 
     /// The given scene, instead of the named one, changed by these options.
@@ -187,6 +188,24 @@ impl SceneOptions {
             ("--end", keys::END, self.end.as_ref()),
         ]
     }
+}
+
+/// The scene of this name or file. A pipe in a folder is read as soon as somebody writes to
+/// it, which is said: it may be nobody. Other pipes have their writers.
+///
+/// # Errors
+/// As `Scene::load_unchecked`.
+pub(super) fn read_scene(name: &str) -> Result<Scene, SceneError> {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::FileTypeExt;
+        let is_pipe = std::fs::metadata(name).is_ok_and(|found| found.file_type().is_fifo());
+        // That of a shell has no name of its own there.
+        if is_pipe && !["/dev/", "/proc/"].iter().any(|folder| name.starts_with(folder)) {
+            say(&format!("rubscope: {name} is a pipe: waiting for its writer"));
+        }
+    }
+    Scene::load_unchecked(name)
 }
 
 /// What to say about a key that follows the options.

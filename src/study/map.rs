@@ -130,7 +130,7 @@ impl MapPlan {
         self.check_size()?;
         if self.x.path == self.y.path {
             let both = format!("{} on both axes", self.x.path);
-            let allowed = "two different keys; columns (--x) are the speed and rows (--y) the \
+            let allowed = "two different keys; columns (x) are the speed and rows (y) the \
                            pulse by default";
             return Err(SceneError::refused("map", both, allowed));
         }
