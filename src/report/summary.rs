@@ -3,7 +3,7 @@
 use std::io::{Result, Write};
 
 use super::Wall;
-use super::digits::Digits;
+use super::number::Digits;
 use super::number::{count, grouped, short, time};
 use crate::model::Machine;
 use crate::motion::{Contact, RunReport, Verdict};

@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use super::parts::Parts;
 use crate::harmonic::{Joint, RimLoads, RimWave, WhirlOrbit, WhirlPoint, rim_waves};
 use crate::model::Machine;
-use crate::report::made_table::MadeTable;
+use crate::report::table::MadeTable;
 use crate::report::table::{Column, Table, TableCell};
 
 /// Columns and rows of the chart of the compliance.

@@ -1,8 +1,8 @@
 //! What text and picture say of margins in the same words.
 
 use crate::report::CommandLine;
+use crate::report::number::SiScale;
 use crate::report::number::{count, grouped, rounded, short, time, with_unit};
-use crate::report::prefix::SiScale;
 use crate::scene::{ContactLaw, Scene, SolverKind};
 use crate::study::margins::{Band, Found, Limit, LimitName, Margins, Quantity, parameter};
 
