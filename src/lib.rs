@@ -28,6 +28,7 @@ pub mod harmonic;
 pub mod model;
 pub mod motion;
 mod numeric;
+#[cfg(feature = "report")]
 pub mod report;
 pub mod scene;
 pub mod study;

@@ -77,6 +77,7 @@ pub(crate) const RUN_LOOKS: f64 = 1e6;
 pub(crate) const IMPACTS_KEPT: usize = 1000;
 
 /// Most values of a history: 800 MB. More: the system ends the program.
+#[cfg(feature = "report")]
 pub(crate) const HISTORY_VALUES: usize = 100_000_000;
 
 /// Looks at the wave for its speed, at most, so that a long run is not slowed

@@ -6,11 +6,11 @@ use clap::builder::TypedValueParser;
 use clap::{Args, CommandFactory};
 use strum::VariantNames;
 
-use super::options::SceneOptions;
+use super::options::{SceneOptions, read_scene};
 use super::status::{self, Refusal, Status};
 use super::words::Words;
 use super::{Cli, Done};
-use crate::scene::{DEFAULT, Scene};
+use crate::scene::DEFAULT;
 use crate::tui;
 
 /// What the explorer opens with.
@@ -68,7 +68,7 @@ impl ExploreCommand {
     pub(super) fn run(&self) -> Done {
         self.refuse_command()?;
         let name = self.options.name().unwrap_or(DEFAULT);
-        let read = Scene::load_unchecked(name)?;
+        let read = read_scene(name)?;
         let scene = self.options.change(read.clone())?;
         tui::check_terminal().map_err(Refusal::because)?;
         let look = tui::ExploreOptions {

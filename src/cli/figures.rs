@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 use clap::Args;
 
-use super::options::SceneOptions;
+use super::options::{SceneOptions, read_scene};
 use super::status::{self, Refusal, Status, say};
 use super::{Done, output, sign};
 use crate::file::Written;
@@ -89,7 +89,7 @@ impl FiguresCommand {
 
     fn scene(&self, which: Which) -> anyhow::Result<CheckedScene> {
         let scene = match self.options.name() {
-            Some(name) => Scene::load_unchecked(name)?,
+            Some(name) => read_scene(name)?,
             None => which.scene()?,
         };
         self.options.change(scene)

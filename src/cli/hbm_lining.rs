@@ -1,6 +1,7 @@
 //! The views of `rubscope hbm` for blades on a lining, `--smooth` and `--follow`, and of
 //! a coincidence against speed, `--coincidence`.
 
+use crate::scene::keys;
 use std::rc::Rc;
 
 use clap::Args;
@@ -88,7 +89,7 @@ pub(super) fn clear(scene: &Scene) -> Result<(), Refusal> {
         "above bladed_disk.blade_length_m = {length} here: hbm --smooth has the steady states of \
          a preloaded lining"
     );
-    Err(Refusal::of("casing.radius_m", scene.casing.radius_m, allowed))
+    Err(Refusal::of(keys::CASING_RADIUS, scene.casing.radius_m, allowed))
 }
 
 /// Computes a view.
@@ -107,7 +108,7 @@ pub(super) fn answer(asked: &Asked, view: &LiningView) -> Result<Answer, Refusal
     };
     if let Some(option) = option.filter(|_| rigid) {
         let allowed = format!("\"smooth\" with {option}: only a lining has these steady states");
-        return Err(Refusal::of("solver.contact", scene.solver.contact, allowed));
+        return Err(Refusal::of(keys::LAW, scene.solver.contact, allowed));
     }
     let answer = match view {
         LiningView::Smooth => smooth(json, asked),

@@ -1,22 +1,22 @@
-//! The views of `rubscope hbm`: each computes its JSON, its tables to read and
-//! the table for a file.
+//! What each view of `rubscope hbm` computes and shows; those of a lining are in
+//! `hbm_lining`.
 
 use std::rc::Rc;
 
-use super::hbm_joined as joined;
 use super::hbm_lining::{self, LiningView};
+use super::range::linspace;
 use super::status::Refusal;
 use crate::harmonic::{
-    Branches, Campbell, Corner, ExcitedLocks, Form, HarmonicError, NoSlip, SlipPoint, SlipRegion,
-    SlipSpectrum, Sweep, corner_branch, drives, locked_motion, slip_limits, slip_over,
-    slip_spectrum,
+    Branches, Campbell, Corner, ExcitedLocks, Form, HarmonicError, Joint, NoSlip, SlipPoint,
+    SlipRegion, SlipSpectrum, Sweep, WhirlPoint, corner_branch, drives, flutter_speed,
+    locked_motion, round_whirls, slip_limits, slip_over, slip_spectrum, undamped_flutter_speed,
+    whirl_onset, whirl_over,
 };
 use crate::model::Machine;
-use crate::report::hbm::{self as report, HbmReport};
-use crate::report::made_table::MadeTable;
+use crate::report::hbm::{self as report, CompliancePoint, HbmReport, WhirlRow};
 use crate::report::number::short;
-use crate::report::table::Table;
-use crate::scene::Scene;
+use crate::report::table::{MadeTable, Table};
+use crate::scene::{Scene, keys};
 
 /// Arc length between points of a branch followed through its fold.
 const ARC: f64 = 0.05;
@@ -125,9 +125,9 @@ pub(super) fn answer(asked: &Asked, view: &HbmView) -> Result<Answer, Refusal> {
         (HbmView::Campbell, _) => campbell(json, asked, &machine),
         (HbmView::Slip(zetas), _) => slipping(json, scene, speeds, zetas),
         (HbmView::Harmonics(most), _) => series(json, &machine, speeds, *most),
-        (HbmView::Whirl, _) => joined::whirling(json, &machine, speeds, asked.fastest()),
+        (HbmView::Whirl, _) => whirling(json, &machine, speeds, asked.fastest()),
         (HbmView::Compliance(omegas), _) => {
-            joined::compliance(json, &machine, asked.fastest(), omegas.as_deref())
+            compliance(json, &machine, asked.fastest(), omegas.as_deref())
         }
         (HbmView::Fold, _) => folding(json, &machine, corner(asked, &machine)?.a, speeds, damped),
         (HbmView::Excitation, _) => excited(json, scene, corner(asked, &machine)?.a, speeds),
@@ -226,7 +226,7 @@ fn slipping(
         let mut region = Vec::with_capacity(zetas.len());
         for &zeta in zetas {
             let mut damped = scene.clone();
-            damped.set("casing.damping_ratio", &zeta.to_string()).map_err(|_| {
+            damped.set(keys::CASING_DAMPING, &zeta.to_string()).map_err(|_| {
                 let allowed = "damping ratios from 0 to 10".to_string();
                 HarmonicError::Refused { key: "--zetas", value: zeta.to_string(), allowed }
             })?;
@@ -316,7 +316,7 @@ fn excited(
     if excitation.amplitude_nm <= 0.0 {
         let allowed = "above 0 with --excitation, such as --set excitation.amplitude_nm=10";
         return Err(HarmonicError::Refused {
-            key: "excitation.amplitude_nm",
+            key: keys::EXCITATION,
             value: excitation.amplitude_nm.to_string(),
             allowed: allowed.to_string(),
         });
@@ -335,4 +335,72 @@ fn excited(
     );
     let json = json.with_parts("excitation", report::excitation(excitation, reaches, &found));
     Ok(Answer::of(json, vec![(title, report::excitation_table(&found))]))
+}
+
+/// Frequencies of the table of the compliance.
+const FREQUENCIES: usize = 201;
+/// How far beyond the fastest resonance they go.
+const BEYOND: f64 = 1.5;
+
+/// Whirl against speed, and where it begins and ends.
+pub(super) fn whirling(
+    json: HbmReport,
+    machine: &Machine,
+    speeds: &[f64],
+    fastest: f64,
+) -> Result<Answer, HarmonicError> {
+    let row = |point: WhirlPoint| WhirlRow::of(machine, point);
+    let rows: Rc<Vec<WhirlRow>> =
+        Rc::new(whirl_over(machine, speeds)?.into_iter().map(row).collect());
+    let onset = whirl_onset(machine, fastest);
+    let [flutter, undamped] =
+        [flutter_speed(machine, fastest), undamped_flutter_speed(machine, fastest)];
+    let window = machine.lock_window(fastest);
+    let told = |speed: f64| format!("{} rad/s", short(speed));
+    let mut title = match onset {
+        Some(onset) => format!("On a rim of many blades whirl begins at {}", told(onset)),
+        None => "Nothing whirls on a rim of many blades".to_string(),
+    };
+    title += &match window {
+        Some(window) => format!("; a lock holds from {} rad/s", report::speeds_of(window)),
+        None => "; no lock holds at any speed".to_string(),
+    };
+    title += &match flutter {
+        Some(limit) => format!("; blades and casing as one flutter above {}.", told(limit)),
+        None => ".".to_string(),
+    };
+    let json = json
+        .with("whirl_onset_rad_s", onset)
+        .with("flutter_speed_rad_s", flutter)
+        .with("flutter_undamped_rad_s", undamped)
+        .with("lock_window_rad_s", window.map(|window| [Some(window.from), window.to]))
+        .with_rows("whirl", &rows, report::whirl);
+    Ok(Answer::of(json, vec![(title, report::whirl_table(&rows))]))
+}
+
+/// The joint compliance at one speed, over frequencies of the casing \[rad/s\].
+pub(super) fn compliance(
+    json: HbmReport,
+    machine: &Machine,
+    speed: f64,
+    omegas: Option<&[f64]>,
+) -> Result<Answer, HarmonicError> {
+    let joint = Joint::at(machine, speed);
+    let resonances = [machine.omega_c, joint.nu.abs() + machine.omega_bd];
+    let reach = BEYOND * resonances[0].max(resonances[1]);
+    let range = omegas.map_or_else(|| linspace(-reach, reach, FREQUENCIES), <[f64]>::to_vec);
+    let waves = round_whirls(&joint);
+    let chart = report::compliance_chart(&joint, &waves);
+    let at = format!("at {} rad/s", short(speed));
+    let title = format!("B(omega) {at}, real part to the right, imaginary part up [m/N]:");
+    let crossings = if waves.is_empty() {
+        format!("B(omega) does not cross the negative real axis {at}: nothing whirls.")
+    } else {
+        format!("Where B(omega) crosses the negative real axis {at}:")
+    };
+    let points = Rc::new(range.iter().map(|&omega| CompliancePoint::at(&joint, omega)).collect());
+    let file = report::compliance_table(&points);
+    let json = json.with_parts("compliance", report::compliance(&joint, &points, &waves));
+    let tables = vec![(title, chart), (crossings, report::wave_table(&joint, &waves))];
+    Ok(Answer { file, ..Answer::of(json, tables) })
 }

@@ -1,9 +1,10 @@
-//! `rubscope man`: the manual pages, made from the definition of the command
-//! line, with some sections added here.
+//! `rubscope man` and `rubscope completions`: the manual pages, with some sections added
+//! here, and the completions of a shell, made from the definition of the command line.
 
 use std::io::Write;
 
 use clap::{Args, CommandFactory};
+use clap_complete::Shell;
 use clap_mangen::roff::{Roff, bold, roman};
 
 use super::status::{Refusal, Status};
@@ -152,5 +153,22 @@ fn list(page: &mut Roff, heading: &str, entries: impl Iterator<Item = (String, &
         page.control("TP", []);
         page.text([bold(term)]);
         page.text([roman(text)]);
+    }
+}
+
+/// Print completions for a shell.
+#[derive(Args, Debug)]
+pub struct CompletionsCommand {
+    /// The shell
+    shell: Shell,
+}
+
+impl CompletionsCommand {
+    pub(super) fn run(&self, out: &mut dyn Write) -> Done {
+        // Into memory first: clap_complete panics when it cannot write.
+        let mut text = Vec::new();
+        clap_complete::generate(self.shell, &mut Cli::command(), "rubscope", &mut text);
+        out.write_all(&text)?;
+        Ok(Status::Done)
     }
 }

@@ -3,17 +3,13 @@
 //!
 //! Data goes to standard output, everything else to standard error.
 
-mod completions;
 mod explore;
 mod figures;
 mod hbm;
-mod hbm_joined;
 mod hbm_lining;
 mod hbm_views;
-mod long_run;
 mod man;
 mod map;
-mod map_run;
 mod margins;
 pub mod options;
 mod output;
@@ -66,7 +62,7 @@ enum Command {
     Precision(Box<precision::PrecisionCommand>),
     Figures(Box<figures::FiguresCommand>),
     Scenes(scenes::ScenesCommand),
-    Completions(completions::CompletionsCommand),
+    Completions(man::CompletionsCommand),
     Man(man::ManCommand),
 }
 

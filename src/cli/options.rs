@@ -1,14 +1,16 @@
 //! The scene a command works on: a built-in scene or a file, and options that
 //! change it. Precedence: option, then file, then documented default.
 
+use crate::scene::keys;
 use clap::Args;
 
 use super::range::Range;
-use super::status::{Refusal, note};
+use super::status::{Refusal, note, say};
 use super::words::Words;
 use crate::model::Operation;
-use crate::scene::keys::{PULSE, SPEED};
-use crate::scene::{Adjustment, CheckedScene, ContactLaw, DEFAULT, ModelSize, Scene, SolverKind};
+use crate::scene::{
+    Adjustment, CheckedScene, ContactLaw, DEFAULT, ModelSize, Scene, SceneError, SolverKind,
+};
 
 /// The scene and the options that change it, on every command.
 #[derive(Args, Clone, Debug, Default)]
@@ -17,7 +19,7 @@ pub struct SceneOptions {
     #[arg(value_name = "SCENE", value_parser = Words::scenes(), hide_possible_values = true)]
     scene: Option<String>,
     /// Rotor speed; negative turns the other way [rad/s]
-    #[arg(long, value_name = "SPEED", allow_hyphen_values = true, help_heading = HEADING)]
+    #[arg(long, value_name = "keys::SPEED", allow_hyphen_values = true, help_heading = HEADING)]
     speed: Option<String>,
     /// Force of the pulse on the casing [N]
     #[arg(long, value_name = "FORCE", allow_hyphen_values = true, help_heading = HEADING)]
@@ -104,8 +106,7 @@ impl SceneOptions {
     /// # Errors
     /// As `scene`; the scene is checked at both ends of each range.
     pub fn resolve(&self, swept: Swept) -> anyhow::Result<Resolved> {
-        let scene = Scene::load_unchecked(self.scene.as_deref().unwrap_or(DEFAULT))?;
-        self.apply(scene, swept)
+        self.apply(read_scene(self.scene.as_deref().unwrap_or(DEFAULT))?, swept)
     }
 
     /// The given scene, instead of the named one, changed by these options.
@@ -122,8 +123,8 @@ impl SceneOptions {
         for (option, key, text) in self.named() {
             let Some(text) = text else { continue };
             let range = match key {
-                SPEED if swept.speed => Some(&mut speeds),
-                PULSE if swept.pulse => Some(&mut pulses),
+                keys::SPEED if swept.speed => Some(&mut speeds),
+                keys::PULSE if swept.pulse => Some(&mut pulses),
                 _ => None,
             };
             match range {
@@ -135,7 +136,7 @@ impl SceneOptions {
                 Some(range) => {
                     scene.set(key, text)?;
                     let Operation { speed_rad_s, pulse_n, .. } = scene.operation;
-                    let value = if key == SPEED { speed_rad_s } else { pulse_n };
+                    let value = if key == keys::SPEED { speed_rad_s } else { pulse_n };
                     *range = Some(Range { from: value, to: value, count: 1 });
                 }
                 None => scene.set(key, text)?,
@@ -151,7 +152,7 @@ impl SceneOptions {
             given.push(key);
         }
         let made = scene.make_compatible(|key| given.contains(&key));
-        for (key, range) in [(SPEED, speeds), (PULSE, pulses)] {
+        for (key, range) in [(keys::SPEED, speeds), (keys::PULSE, pulses)] {
             if let Some(range) = range {
                 let mut last = scene.clone();
                 last.set(key, &range.to.to_string())?;
@@ -175,25 +176,43 @@ impl SceneOptions {
     /// Every named option, the key it sets, and its text.
     fn named(&self) -> [(&'static str, &'static str, Option<&String>); 10] {
         [
-            ("--speed", SPEED, self.speed.as_ref()),
-            ("--pulse", PULSE, self.pulse.as_ref()),
-            ("--nd", "operation.nodal_diameters", self.nd.as_ref()),
-            ("--zeta-casing", "casing.damping_ratio", self.zeta_casing.as_ref()),
-            ("--zeta-disk", "bladed_disk.damping_ratio", self.zeta_disk.as_ref()),
-            ("--solver", "solver.kind", self.solver.as_ref()),
-            ("--contact", "solver.contact", self.contact.as_ref()),
-            ("--model", "solver.model", self.model.as_ref()),
-            ("--step", "solver.step_s", self.step.as_ref()),
-            ("--end", "solver.end_s", self.end.as_ref()),
+            ("--speed", keys::SPEED, self.speed.as_ref()),
+            ("--pulse", keys::PULSE, self.pulse.as_ref()),
+            ("--nd", keys::DIAMETERS, self.nd.as_ref()),
+            ("--zeta-casing", keys::CASING_DAMPING, self.zeta_casing.as_ref()),
+            ("--zeta-disk", keys::BLADE_DAMPING, self.zeta_disk.as_ref()),
+            ("--solver", keys::SOLVER, self.solver.as_ref()),
+            ("--contact", keys::LAW, self.contact.as_ref()),
+            ("--model", keys::MODEL, self.model.as_ref()),
+            ("--step", keys::STEP, self.step.as_ref()),
+            ("--end", keys::END, self.end.as_ref()),
         ]
     }
+}
+
+/// The scene of this name or file. A pipe in a folder is read as soon as somebody writes to
+/// it, which is said: it may be nobody. Other pipes have their writers.
+///
+/// # Errors
+/// As `Scene::load_unchecked`.
+pub(super) fn read_scene(name: &str) -> Result<Scene, SceneError> {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::FileTypeExt;
+        let is_pipe = std::fs::metadata(name).is_ok_and(|found| found.file_type().is_fifo());
+        // That of a shell has no name of its own there.
+        if is_pipe && !["/dev/", "/proc/"].iter().any(|folder| name.starts_with(folder)) {
+            say(&format!("rubscope: {name} is a pipe: waiting for its writer"));
+        }
+    }
+    Scene::load_unchecked(name)
 }
 
 /// What to say about a key that follows the options.
 fn followed(made: &Adjustment) -> String {
     let Adjustment { key, from, to } = made;
     let why = match *key {
-        "solver.kind" => "cannot do what the options ask",
+        keys::SOLVER => "cannot do what the options ask",
         _ => "the event solver does not know",
     };
     format!("rubscope: took {key} = {to:?} instead of the scene's {from:?}, which {why}")

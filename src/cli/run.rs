@@ -6,9 +6,9 @@ use std::time::Instant;
 
 use clap::Args;
 
-use super::long_run::LongRun;
 use super::options::SceneOptions;
 use super::script::{self, RequestedScript};
+use super::sign::LongRun;
 use super::status::{self, Refusal, Status};
 use super::{Done, output, sign};
 use crate::motion::{CHANGED_RUNS, Sample, Sampling, Verdict, run_to_end_watched, to_the_end};

@@ -1,14 +1,18 @@
-//! The sign of life of a command: one line on standard error that moves while the
-//! command is at work, whatever it does. It is there from a moment after the start,
-//! and gone before anything is printed. Where standard error is no terminal, there
-//! is none.
+//! The sign of life on standard error while a command works; of a run that takes long, how far
+//! it is, and once what bounds it.
 
 use std::io::{IsTerminal, Result, Write, stderr, stdout};
 use std::sync::OnceLock;
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
+
+use super::status::say;
+use crate::motion::{Motion, Watch};
+use crate::report::number::{grouped, time};
+use crate::scene::{CheckedScene, SolverKind};
+use crate::tolerances::{MOST_EVENTS, MOST_LOOKS};
 
 /// A command that ends sooner shows nothing.
 const SOON: Duration = Duration::from_millis(300);
@@ -89,6 +93,96 @@ impl Write for Out {
     }
 }
 
+/// How often the bar is moved.
+const LOOK: Duration = Duration::from_millis(100);
+/// How long a run may take in silence.
+const SILENCE: Duration = Duration::from_secs(2);
+/// Length of the bar.
+const PARTS: u64 = 1000;
+
+/// The bar of one run.
+pub(super) struct LongRun {
+    bar: ProgressBar,
+    end_s: f64,
+    started: Instant,
+    /// When to look next, after the start.
+    next: Duration,
+    bound: Option<String>,
+}
+
+impl LongRun {
+    /// Of a run that begins now, followed by `changed` more.
+    pub(super) fn of(scene: &CheckedScene, changed: usize) -> Self {
+        Self {
+            bar: bar(PARTS, "{spinner} {bar:30} {msg} {elapsed}"),
+            end_s: scene.solver.end_s,
+            started: Instant::now(),
+            next: LOOK,
+            bound: Some(bound(scene, changed)),
+        }
+    }
+
+    /// Whether a look is due after this much wall time.
+    fn is_due(&self, elapsed: Duration) -> bool {
+        elapsed >= self.next
+    }
+
+    /// Looks at it after this much wall time.
+    fn look_after(&mut self, elapsed: Duration, motion: &Motion) {
+        self.next = elapsed + LOOK;
+        let (part, message) = progress(motion, self.end_s);
+        self.bar.set_position((part * PARTS as f64) as u64);
+        self.bar.set_message(message);
+        if let Some(bound) = self.bound.take_if(|_| elapsed >= SILENCE) {
+            say(&bound);
+        }
+    }
+}
+
+impl Watch for LongRun {
+    fn goes_on(&self) -> bool {
+        !self.is_due(self.started.elapsed())
+    }
+
+    fn look(&mut self, motion: &Motion) {
+        self.look_after(self.started.elapsed(), motion);
+    }
+}
+
+/// How much of a run to `end_s` is done, by its time or by its bound, and in words.
+fn progress(motion: &Motion, end_s: f64) -> (f64, String) {
+    let now = motion.t_s();
+    let (part, told) = (now / end_s, format!("{} of {}", time(now), time(end_s)));
+    match motion.events() {
+        Some(events) => {
+            let bound = events as f64 / MOST_EVENTS as f64;
+            (part.max(bound), format!("{told}, changes of contact: {}", grouped(events)))
+        }
+        None => (part, told),
+    }
+}
+
+/// What bounds a run, and what follows it.
+fn bound(scene: &CheckedScene, changed: usize) -> String {
+    let end = time(scene.solver.end_s);
+    let most = match scene.solver.kind {
+        SolverKind::Explicit => {
+            let steps = scene.solver.end_s / scene.solver.step_s;
+            format!("after {} steps", grouped(steps as u64))
+        }
+        SolverKind::Event => format!(
+            "or after {} changes of contact or {} looks ahead",
+            grouped(MOST_EVENTS),
+            grouped(MOST_LOOKS)
+        ),
+    };
+    let follow = match changed {
+        0 => String::new(),
+        some => format!("; {some} changed runs follow (--no-sensitivity leaves them out)"),
+    };
+    format!("rubscope: a long run: it ends at {end}, {most}{follow}")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -98,5 +192,59 @@ mod tests {
         let sign = SIGN.get_or_init(ProgressBar::hidden);
         Out.write_all(b" ").unwrap();
         assert!(sign.is_finished());
+    }
+}
+
+#[cfg(test)]
+mod long_run_tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    #[test]
+    fn a_long_run_tells_its_bound_once() {
+        let mut scene = Scene::builtin("undamped").unwrap().as_reference();
+        scene.solver.end_s = 1e6;
+        let scene = scene.checked().unwrap();
+        let mut motion = Motion::new(&scene);
+        motion.advance(0.1).unwrap();
+        let mut run = LongRun::of(&scene, 3);
+        run.look_after(SILENCE - LOOK, &motion);
+        assert!(run.bound.is_some(), "not before it is long");
+        run.look_after(SILENCE, &motion);
+        assert_eq!(run.bound, None);
+        let told = bound(&scene, 3);
+        for words in ["ends at 1e6 s, or after 10,000,000 changes of contact", "3 changed runs"] {
+            assert!(told.contains(words), "{told}");
+        }
+    }
+
+    #[test]
+    fn progress_is_that_of_the_nearer_bound() {
+        let scene = Scene::builtin("undamped").unwrap().as_reference().checked().unwrap();
+        let mut motion = Motion::new(&scene);
+        motion.advance(0.1).unwrap();
+        let events = motion.events().unwrap();
+        let told = format!("100 ms of 200 ms, changes of contact: {events}");
+        assert_eq!(progress(&motion, 0.2), (0.5, told));
+        assert_eq!(progress(&motion, 1e9).0, events as f64 / 1e7);
+    }
+
+    #[test]
+    fn a_look_that_is_due_stops_the_run_until_it_is_made() {
+        let scene = Scene::base().as_reference().checked().unwrap();
+        let motion = Motion::new(&scene);
+        let mut run = LongRun::of(&scene, 0);
+        let now = Duration::from_secs(1);
+        assert!(run.is_due(now));
+        run.look_after(now, &motion);
+        assert!(!run.is_due(now) && run.is_due(now + LOOK));
+    }
+
+    #[test]
+    fn a_run_by_steps_is_bounded_by_their_number() {
+        let mut scene = Scene::base();
+        (scene.solver.step_s, scene.solver.end_s) = (0.5_f64.powi(20), 0.5);
+        let told = "rubscope: a long run: it ends at 500 ms, after 524,288 steps";
+        assert_eq!(bound(&scene.checked().unwrap(), 0), told);
     }
 }

@@ -155,12 +155,12 @@ pub fn figure(map: &Map, curves: &[overlay::Curve]) -> Figure {
     series.retain(|series| !series.points.is_empty());
     let title = format!("{} ({} contact)", scene.title, scene.solver.contact);
     let conditions = [
-        ("operation.nodal_diameters", format!("n_d = {}", scene.operation.nodal_diameters)),
-        ("casing.damping_ratio", format!("ζ_c = {}", scene.casing.damping_ratio)),
-        ("bladed_disk.damping_ratio", format!("ζ_bd = {}", scene.bladed_disk.damping_ratio)),
-        ("solver.kind", format!("{} solver", scene.solver.kind)),
-        ("solver.model", format!("{} model", scene.solver.model)),
-        ("solver.end_s", format!("runs of {} s", scene.solver.end_s)),
+        (keys::DIAMETERS, format!("n_d = {}", scene.operation.nodal_diameters)),
+        (keys::CASING_DAMPING, format!("ζ_c = {}", scene.casing.damping_ratio)),
+        (keys::BLADE_DAMPING, format!("ζ_bd = {}", scene.bladed_disk.damping_ratio)),
+        (keys::SOLVER, format!("{} solver", scene.solver.kind)),
+        (keys::MODEL, format!("{} model", scene.solver.model)),
+        (keys::END, format!("runs of {} s", scene.solver.end_s)),
     ];
     let fixed = conditions.into_iter().filter(|(path, _)| *path != x.path && *path != y.path);
     let note = fixed.map(|(_, text)| text).collect::<Vec<_>>().join(", ");
@@ -211,7 +211,9 @@ pub fn write_text(map: &Map, width: usize, out: &mut dyn Write) -> Result<()> {
     }
     let columns = (x.count as usize).div_ceil(across);
     let (first, last) = (short(x.value(0)), short(x.value(x.count - 1)));
-    writeln!(out, "{:>INDENT$}{first}{last:>1$}", "", columns.saturating_sub(first.len()))?;
+    // Below few columns the last label goes beyond them.
+    let room = columns.saturating_sub(first.len()).max(last.len() + 1);
+    writeln!(out, "{:>INDENT$}{first}{last:>room$}", "")?;
     write_speeds(map, across, columns, out)?;
     if across > 1 || down > 1 {
         let part = |of: usize, noun: &str| match of {
@@ -278,4 +280,22 @@ fn write_legend(map: &Map, out: &mut dyn Write) -> Result<()> {
         writeln!(out, "{OF_WHAT} changes the verdict or the number of impacts.")?;
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+    use crate::study::MapPlan;
+
+    #[test]
+    fn the_ends_of_a_narrow_map_stay_apart() {
+        let axis = |path: &str, to: f64| Axis::new(path, 300.0, to, 3, false).unwrap();
+        let (x, y) = (axis(keys::SPEED, 430.5), axis(keys::PULSE, 1e4));
+        let map = Map::empty(MapPlan { scene: Scene::base(), x, y, sensitivity: false });
+        let mut text = Vec::new();
+        write_text(&map, 80, &mut text).unwrap();
+        let text = String::from_utf8(text).unwrap();
+        assert!(text.contains("\n              300 430.5\n"), "{text}");
+    }
 }

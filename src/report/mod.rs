@@ -2,19 +2,16 @@
 //! and a place to write to; it computes nothing itself.
 
 pub mod command;
-pub mod digits;
 pub mod figure;
 pub mod hbm;
 pub mod history;
 pub mod json;
 pub mod line;
-pub mod made_table;
 pub mod map;
 pub mod margins;
 pub mod npz;
 pub mod number;
 pub mod precision;
-pub mod prefix;
 pub mod summary;
 pub mod svg;
 pub mod symbols;

@@ -1,7 +1,8 @@
-//! Numbers in readable form: six significant digits, no trailing zeros, and
-//! powers of ten only where the plain form would be long.
+//! Numbers and quantities as text: short or exact ones, SI prefixes, and the digits that hold
+//! under tiny changes.
 
-use super::prefix::SiScale;
+use std::cell::Cell;
+
 pub use crate::numeric::rounding::rounded;
 
 /// A number in at most six significant digits.
@@ -84,6 +85,136 @@ pub fn trimmed(digits: &str) -> &str {
     if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.') } else { digits }
 }
 
+/// One SI prefix, of a number or for a whole axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SiScale {
+    /// Value of one shown unit.
+    pub factor: f64,
+    /// The prefix in front of the unit.
+    pub prefix: &'static str,
+}
+
+/// Prefixes in increasing order; micro is written `u` where only ASCII is allowed.
+const PREFIXES: &[(f64, &str)] = &[
+    (1e-15, "f"),
+    (1e-12, "p"),
+    (1e-9, "n"),
+    (1e-6, "µ"),
+    (1e-3, "m"),
+    (1.0, ""),
+    (1e3, "k"),
+    (1e6, "M"),
+    (1e9, "G"),
+];
+
+impl SiScale {
+    /// The prefix under which the largest magnitude reads as 1 to 999.
+    #[must_use]
+    pub fn of(magnitude: f64) -> Self {
+        let magnitude = magnitude.abs() * (1.0 + 1e-9);
+        let (factor, prefix) = PREFIXES
+            .iter()
+            .rev()
+            .find(|(factor, _)| magnitude >= *factor)
+            .copied()
+            .unwrap_or(if magnitude > 0.0 { (1e-15, "f") } else { (1.0, "") });
+        Self { factor, prefix }
+    }
+
+    /// The prefix of a number of this unit, where one is usual in front of it.
+    #[must_use]
+    pub fn before(unit: &str, magnitude: f64) -> Self {
+        if WITH_PREFIX.contains(&unit) { Self::of(magnitude) } else { Self::plain() }
+    }
+
+    /// The prefix in letters of ASCII.
+    #[must_use]
+    pub fn in_ascii(&self) -> &'static str {
+        if self.prefix == "µ" { "u" } else { self.prefix }
+    }
+
+    /// No prefix, for angles, speeds and counts.
+    #[must_use]
+    pub const fn plain() -> Self {
+        Self { factor: 1.0, prefix: "" }
+    }
+
+    /// The label of a tick, with the decimals that its spacing needs.
+    #[must_use]
+    pub fn label(&self, value: f64, step: f64) -> String {
+        let shown = step / self.factor;
+        let decimals = if shown > 0.0 && shown.is_finite() {
+            (-shown.log10() - 1e-9).ceil().clamp(0.0, 9.0) as usize
+        } else {
+            0
+        };
+        format!("{:.decimals$}", value / self.factor)
+    }
+}
+
+/// Units in front of which a prefix is usual.
+const WITH_PREFIX: [&str; 9] = ["m", "s", "N", "N/m", "m/s", "N m/rad", "N m", "W", "J"];
+
+/// Digits that are shown where all of them hold.
+const MOST: u32 = 6;
+
+/// How the numbers of one run are told.
+#[derive(Debug, Default)]
+pub struct Digits {
+    /// Whether it is known how far changes move them.
+    known: bool,
+    left_out: Cell<bool>,
+    none: Cell<bool>,
+}
+
+impl Digits {
+    /// Of a run of which it is `known` how far changes move its numbers.
+    #[must_use]
+    pub fn of(known: bool) -> Self {
+        Self { known, ..Self::default() }
+    }
+
+    /// `x` as `show` writes it, in the digits that hold where changes move it by
+    /// `spread`, or make that there is no such number.
+    pub fn told(&self, x: f64, spread: Option<f64>, show: impl Fn(f64) -> String) -> String {
+        let spread = if self.known { spread.unwrap_or(f64::INFINITY) } else { 0.0 };
+        match held(x, spread) {
+            MOST.. => show(x),
+            0 => {
+                self.none.set(true);
+                format!("about {}", show(rounded(x, 1)))
+            }
+            some => {
+                self.left_out.set(true);
+                show(rounded(x, some as usize))
+            }
+        }
+    }
+
+    /// What was not told, if there is such.
+    pub fn note(&self) -> Option<&'static str> {
+        if self.none.get() {
+            Some("No digit holds of what is \"about\": a change of 1e-9 moves it by as much.")
+        } else if self.left_out.get() {
+            Some("Digits that a change of 1e-9 moves are left out.")
+        } else {
+            None
+        }
+    }
+}
+
+/// How many digits of `x` hold, up to all that are shown: changes move it by no more
+/// than half a unit of the last of them.
+fn held(x: f64, spread: f64) -> u32 {
+    // Zero has no digits to lose.
+    if spread == 0.0 || x == 0.0 {
+        return MOST;
+    }
+    let first = x.abs().log10().floor();
+    let digits = (first + 1.0 - (2.0 * spread).log10()).floor();
+    (1..=MOST).rev().find(|&count| f64::from(count) <= digits).unwrap_or(0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -128,5 +259,39 @@ mod tests {
         assert_eq!(count(1, "step"), "1 step");
         assert_eq!(count(1_000_000, "step"), "1,000,000 steps");
         assert_eq!(count(999, "impact"), "999 impacts");
+    }
+}
+
+#[cfg(test)]
+mod digits_tests {
+    use super::*;
+
+    #[test]
+    fn only_digits_that_hold_are_told() {
+        for (x, spread, text) in [
+            (2.68635e-6, 0.0, "2.68635e-6"),
+            (2.68635e-6, 1e-13, "2.68635e-6"),
+            (2.68635e-6, 5.33e-9, "2.7e-6"),
+            (-244.416, 0.004, "-244.42"),
+            (-244.416, 0.006, "-244.4"),
+            (-244.416, 0.6, "-240"),
+            (2.68635e-6, 1.4e-6, "about 3e-6"),
+            (2.68635e-6, f64::INFINITY, "about 3e-6"),
+            (0.0, 1e-9, "0"),
+        ] {
+            assert_eq!(Digits::of(true).told(x, Some(spread), short), text, "{x} {spread}");
+        }
+    }
+
+    #[test]
+    fn what_was_not_told_is_said() {
+        let digits = Digits::of(true);
+        assert_eq!((digits.told(1.25, Some(0.0), short), digits.note()), ("1.25".into(), None));
+        let _ = digits.told(1.25, Some(0.04), short);
+        assert!(digits.note().unwrap().contains("left out"));
+        // A run that changes have none of has no number that holds.
+        let _ = digits.told(1.25, None, short);
+        assert!(digits.note().unwrap().contains("No digit holds"));
+        assert_eq!(Digits::of(false).told(1.25, None, short), "1.25");
     }
 }

@@ -3,7 +3,7 @@
 use std::io::{Result, Write};
 
 use super::Wall;
-use super::digits::Digits;
+use super::number::Digits;
 use super::number::{count, grouped, short, time};
 use crate::model::Machine;
 use crate::motion::{Contact, RunReport, Verdict};
@@ -209,8 +209,14 @@ fn speeds(report: &RunReport, machine: &Machine) -> String {
     };
     parts.extend(machine.critical_speed().map(|critical| part_of("Omega_c", critical) + ")"));
     if let Some(lock) = lock.filter(|lock| lock.from > 0.0) {
-        let ends = lock.to.map(|to| format!(", where locks begin; they end at {}", short(to)));
-        parts.push(part_of("Omega_lock", lock.from) + &ends.unwrap_or_default() + ")");
+        // More groups may hold a wave on a lining, elsewhere.
+        let groups = if machine.lining.is_some() { " of two groups" } else { "" };
+        let ends = match lock.to {
+            Some(to) => format!(", where locks{groups} begin; they end at {}", short(to)),
+            None if machine.lining.is_some() => format!(", where locks{groups} begin"),
+            None => String::new(),
+        };
+        parts.push(part_of("Omega_lock", lock.from) + &ends + ")");
     }
     format!("{}.", parts.join(", "))
 }

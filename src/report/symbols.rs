@@ -2,7 +2,6 @@
 //! what the table of keys says of each.
 
 use crate::scene::keys;
-use crate::scene::keys::PULSE;
 use crate::study::margins::CLEARANCE;
 
 /// What a key says at its end where it is a value of the start.
@@ -15,9 +14,9 @@ pub fn symbol(path: &str) -> String {
     match path {
         CLEARANCE => return "g0".to_string(),
         // These are told in words.
-        PULSE => return "F".to_string(),
-        "operation.speed_ramp_rad_s2" => return "ramp".to_string(),
-        "solver.step_s" => return "h".to_string(),
+        keys::PULSE => return "F".to_string(),
+        keys::SPEED_RAMP => return "ramp".to_string(),
+        keys::STEP => return "h".to_string(),
         _ => {}
     }
     let Ok(key) = keys::find(path) else { return path.to_string() };

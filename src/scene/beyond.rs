@@ -2,6 +2,7 @@
 //! combinations of it have no meaning or no unique answer.
 
 use super::check::{down, up};
+use super::keys;
 use super::{ContactLaw, ModelSize, Scene, SceneError, SolverKind};
 
 impl Scene {
@@ -65,7 +66,7 @@ impl Scene {
         }
         let allowed = "0 with operation.speed_rad_s = 0: Coulomb's law, mu times the push against \
                        the sliding, has no direction there";
-        Err(SceneError::refused("contact.friction", mu, allowed))
+        Err(SceneError::refused(keys::FRICTION, mu, allowed))
     }
 }
 
@@ -86,7 +87,7 @@ fn friction(scene: &Scene) -> Result<(), SceneError> {
     if mu == 0.0 {
         return Ok(());
     }
-    let refused = |allowed: &str| Err(SceneError::refused("contact.friction", mu, allowed));
+    let refused = |allowed: &str| Err(SceneError::refused(keys::FRICTION, mu, allowed));
     if scene.solver.contact == ContactLaw::Bilateral {
         return refused("0 with solver.contact = \"bilateral\": a pull has no friction");
     }
@@ -104,7 +105,7 @@ fn restitution(scene: &Scene) -> Result<(), SceneError> {
         return Ok(());
     }
     let allowed = "0, or solver.contact = \"unilateral\": only rigid pushes rebound";
-    Err(SceneError::refused("contact.restitution", e, allowed))
+    Err(SceneError::refused(keys::RESTITUTION, e, allowed))
 }
 
 fn mistuning(scene: &Scene) -> Result<(), SceneError> {
@@ -113,7 +114,7 @@ fn mistuning(scene: &Scene) -> Result<(), SceneError> {
         return Ok(());
     }
     let allowed = "0, or solver.model = \"full\": only there has each blade its own stiffness";
-    Err(SceneError::refused("bladed_disk.mistuning", sd, allowed))
+    Err(SceneError::refused(keys::MISTUNING, sd, allowed))
 }
 
 /// Rigid contact of single blades that dig in under friction has no unique pushes
@@ -130,7 +131,7 @@ fn digging_in(scene: &Scene) -> Result<(), SceneError> {
          not unique there; solver.model = \"modal\" or solver.contact = \"smooth\" have them",
         -forward
     );
-    Err(SceneError::refused("bladed_disk.radial_coupling", kappa, allowed))
+    Err(SceneError::refused(keys::RADIAL_COUPLING, kappa, allowed))
 }
 
 /// A push must open the gap under it, `1/m_c + c2/m_a > 0`, and in a time step with `m/h^2 +
@@ -163,7 +164,7 @@ fn opening(scene: &Scene) -> Result<(), SceneError> {
         far.min(near),
         far.max(near)
     );
-    Err(SceneError::refused("bladed_disk.radial_coupling", kappa, allowed))
+    Err(SceneError::refused(keys::RADIAL_COUPLING, kappa, allowed))
 }
 
 /// The event solver takes what has constant coefficients in the frame of the blades.
@@ -173,5 +174,5 @@ fn by_events(scene: &Scene) -> Result<(), SceneError> {
         return Ok(());
     }
     let allowed = "0 with solver.kind = \"event\" beyond the paper's model";
-    Err(SceneError::refused("operation.speed_ramp_rad_s2", ramp, allowed))
+    Err(SceneError::refused(keys::SPEED_RAMP, ramp, allowed))
 }

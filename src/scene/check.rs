@@ -1,6 +1,7 @@
 //! Checks that need more than one key: combinations of values that have no meaning.
 
 use super::beyond;
+use super::keys;
 use super::{ContactLaw, ModelSize, Scene, SceneError, SolverKind};
 use crate::tolerances::STEP_ROUND_OFF;
 
@@ -42,15 +43,15 @@ fn clearance(scene: &Scene) -> Result<(), SceneError> {
              other with solver.contact = \"smooth\", whose lining blades may press at rest"
         )
     };
-    Err(SceneError::refused("casing.radius_m", scene.casing.radius_m, allowed))
+    Err(SceneError::refused(keys::CASING_RADIUS, scene.casing.radius_m, allowed))
 }
 
 /// The squares of frequencies must stay in the range of numbers.
 fn frequencies(scene: &Scene) -> Result<(), SceneError> {
     let machine = scene.machine();
     for (key, value, frequency) in [
-        ("casing.modal_mass_kg", scene.casing.modal_mass_kg, machine.omega_c),
-        ("bladed_disk.inertia_kg_m2", scene.bladed_disk.inertia_kg_m2, machine.omega_bd),
+        (keys::CASING_MASS, scene.casing.modal_mass_kg, machine.omega_c),
+        (keys::BLADE_INERTIA, scene.bladed_disk.inertia_kg_m2, machine.omega_bd),
     ] {
         if !(1e-6..=1e15).contains(&frequency) {
             // Rounded to the outside of the allowed range.
@@ -79,7 +80,7 @@ fn initial_state(scene: &Scene) -> Result<(), SceneError> {
     let deepest = down(gap);
     let deepest =
         format!("a casing position with every gap open; here the smallest is {deepest:e} m");
-    Err(SceneError::refused("initial.u_c_m", format!("{x:e}, u_s_m = {y:e}"), deepest))
+    Err(SceneError::refused(keys::INITIAL_U_C, format!("{x:e}, u_s_m = {y:e}"), deepest))
 }
 
 fn excitation(scene: &Scene) -> Result<(), SceneError> {
@@ -93,7 +94,7 @@ fn excitation(scene: &Scene) -> Result<(), SceneError> {
     } else {
         return Ok(());
     };
-    Err(SceneError::refused("excitation.amplitude_nm", amplitude, allowed))
+    Err(SceneError::refused(keys::EXCITATION, amplitude, allowed))
 }
 
 /// Bounds of the step, each printed so that the printed value is accepted.
@@ -111,15 +112,14 @@ fn explicit(scene: &Scene) -> Result<(), SceneError> {
     if is_stable && turns_little && is_affordable {
         return one_step(step, end);
     }
-    let refused =
-        |allowed: String| SceneError::refused("solver.step_s", format!("{step:e}"), allowed);
+    let refused = |allowed: String| SceneError::refused(keys::STEP, format!("{step:e}"), allowed);
     let (most, least) = (below(stable).min(down(MOST_TURN / turn)), up(end / most_steps));
     if least > most {
         let until = below(most * most_steps);
         let allowed = format!(
             "at most {until:e}, for at most {most_steps:e} steps of solver.step_s = {most:e}, the longest allowed"
         );
-        return Err(SceneError::refused("solver.end_s", format!("{end:e}"), allowed));
+        return Err(SceneError::refused(keys::END, format!("{end:e}"), allowed));
     }
     if !is_affordable {
         return Err(refused(format!(
@@ -152,7 +152,7 @@ fn one_step(step: f64, end: f64) -> Result<(), SceneError> {
         return Ok(());
     }
     let allowed = format!("at least one step, solver.step_s = {step:e}");
-    Err(SceneError::refused("solver.end_s", format!("{end:e}"), allowed))
+    Err(SceneError::refused(keys::END, format!("{end:e}"), allowed))
 }
 
 /// Most steps of this scene, in four digits.
@@ -200,7 +200,7 @@ fn undriven(scene: &Scene) -> Result<(), SceneError> {
         0.0 => Ok(()),
         some => {
             let allowed = "0 with solver.kind = \"event\"";
-            Err(SceneError::refused("excitation.amplitude_nm", some, allowed))
+            Err(SceneError::refused(keys::EXCITATION, some, allowed))
         }
     }
 }
@@ -218,11 +218,11 @@ pub(super) fn event(scene: &Scene) -> Result<(), SceneError> {
     };
     if let Some((given, why)) = law {
         let allowed = format!("\"unilateral\" with solver.kind = \"event\" ({why})");
-        return Err(SceneError::refused("solver.contact", given, allowed));
+        return Err(SceneError::refused(keys::LAW, given, allowed));
     }
     if scene.solver.model == ModelSize::Full {
         return Err(SceneError::refused(
-            "solver.model",
+            keys::MODEL,
             "\"full\"",
             "\"rigid\" or \"modal\" with solver.kind = \"event\"",
         ));

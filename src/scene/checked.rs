@@ -1,5 +1,6 @@
 //! The type of a scene that can be solved; the solvers take only this.
 
+use super::keys;
 use std::ops::Deref;
 
 use serde::Serialize;
@@ -93,9 +94,9 @@ impl Scene {
     /// are not possible with it, takes the nearest that are. What was asked for
     /// itself stays. Returns what was changed.
     pub fn make_compatible(&mut self, asked: impl Fn(&str) -> bool) -> Vec<Adjustment> {
-        const KIND: &str = "solver.kind";
-        const CONTACT: &str = "solver.contact";
-        const MODEL: &str = "solver.model";
+        const KIND: &str = keys::SOLVER;
+        const CONTACT: &str = keys::LAW;
+        const MODEL: &str = keys::MODEL;
         let mut made = Vec::new();
         let solver = &mut self.solver;
         if solver.kind != SolverKind::Event {

@@ -233,7 +233,7 @@ pub const CHARTS: &[&str] = &[
 ];
 
 macro_rules! real {
-    ($live:ident, $path:expr, $unit:literal, $what:literal, $above:literal $min:literal .. $max:literal, $($field:ident).+) => {
+    ($path:expr, $live:ident, $unit:literal, $what:literal, $above:literal $min:literal .. $max:literal, $($field:ident).+) => {
         Key {
             path: $path, unit: $unit, what: $what, live: Live::$live,
             allowed: Allowed::Real { min: $min, max: $max, above: $above },
@@ -243,7 +243,7 @@ macro_rules! real {
     };
 }
 macro_rules! whole {
-    ($live:ident, $path:expr, $what:literal, $min:literal .. $max:literal, $($field:ident).+) => {
+    ($path:expr, $live:ident, $what:literal, $min:literal .. $max:literal, $($field:ident).+) => {
         Key {
             path: $path, unit: "-", what: $what, live: Live::$live,
             allowed: Allowed::Whole { min: $min, max: $max },
@@ -254,7 +254,7 @@ macro_rules! whole {
     };
 }
 macro_rules! word {
-    ($live:ident, $path:expr, $what:literal, $type:ident, $($field:ident).+) => {
+    ($path:expr, $live:ident, $what:literal, $type:ident, $($field:ident).+) => {
         Key {
             path: $path, unit: "-", what: $what, live: Live::$live, allowed: Allowed::OneOf($type::VARIANTS),
             get: |scene| Value::Text(scene.$($field).+.to_string()),
@@ -264,7 +264,7 @@ macro_rules! word {
     };
 }
 macro_rules! text {
-    ($live:ident, $path:expr, $what:literal, $most:literal, $field:ident) => {
+    ($path:expr, $live:ident, $what:literal, $most:literal, $field:ident) => {
         Key {
             path: $path,
             unit: "-",
@@ -277,6 +277,15 @@ macro_rules! text {
                     scene.$field = text
                 }
             },
+        }
+    };
+}
+macro_rules! charts {
+    ($path:expr, $live:ident, $what:literal, $($field:ident).+) => {
+        Key {
+            path: $path, unit: "-", what: $what, live: Live::$live, allowed: Allowed::SomeOf(CHARTS),
+            get: |scene| Value::Words(scene.$($field).+.clone()),
+            set: |scene, value| if let Value::Words(words) = value { scene.$($field).+ = words },
         }
     };
 }
@@ -310,114 +319,57 @@ fn changed(from: &Scene, to: &Scene, view: bool) -> impl Iterator<Item = (&'stat
     })
 }
 
-/// Path of the rotor speed.
-pub const SPEED: &str = "operation.speed_rad_s";
-/// Path of the pulse force.
-pub const PULSE: &str = "operation.pulse_n";
+/// Makes of each row the constant with the path of a key, and the key in `KEYS`.
+macro_rules! keys {
+    ($($name:ident $path:literal = $kind:ident($($of:tt)+);)+) => {
+        $(
+            #[doc = concat!("Path of the key `", $path, "`.")]
+            pub const $name: &str = $path;
+        )+
 
-/// Every key but `schema`, in the order of the file.
-pub const KEYS: &[Key] = &[
-    text!(Aside, "title", "one line that names the scene", 200, title),
-    text!(Aside, "note", "what to look for", 4000, note),
-    whole!(Never, "bladed_disk.blades", "number of blades N", 1..4096, bladed_disk.blades),
-    real!(Never, "bladed_disk.blade_length_m", "m", "blade length l_b", true 0.0..1e3, bladed_disk.blade_length_m),
-    real!(Steps, "bladed_disk.inertia_kg_m2", "kg m^2", "blade inertia m_b", true 0.0..1e9, bladed_disk.inertia_kg_m2),
-    real!(Steps, "bladed_disk.stiffness_nm_per_rad", "N m/rad", "blade-to-disk stiffness k_b", true 0.0..1e15, bladed_disk.stiffness_nm_per_rad),
-    real!(Steps, "bladed_disk.coupling_nm_per_rad", "N m/rad", "blade-to-blade stiffness k_bb", false 0.0..1e15, bladed_disk.coupling_nm_per_rad),
-    real!(Steps, "bladed_disk.damping_ratio", "-", "blade damping zeta_bd", false 0.0..10.0, bladed_disk.damping_ratio),
-    real!(
-        Steps,
-        "bladed_disk.radial_coupling",
-        "-",
-        "slope of the path of a blade tip kappa",
-        false - 10.0..10.0,
-        bladed_disk.radial_coupling
-    ),
-    whole!(
-        Never,
-        "bladed_disk.nodal_diameters",
-        "nodal diameters of the disk, 0 as the casing, n_b",
-        0..4096,
-        bladed_disk.nodal_diameters
-    ),
-    real!(Never, "bladed_disk.mistuning", "-", "standard deviation of single k_b (full model), sd", false 0.0..0.2, bladed_disk.mistuning),
-    whole!(
-        Never,
-        "bladed_disk.mistuning_seed",
-        "draw of the single k_b, seed",
-        0..1_000_000,
-        bladed_disk.mistuning_seed
-    ),
-    real!(Never, "casing.radius_m", "m", "casing radius R_c", true 0.0..1e3, casing.radius_m),
-    real!(Steps, "casing.modal_mass_kg", "kg", "casing modal mass m_c", true 0.0..1e9, casing.modal_mass_kg),
-    real!(Steps, "casing.modal_stiffness_n_per_m", "N/m", "casing modal stiffness k_c", true 0.0..1e15, casing.modal_stiffness_n_per_m),
-    real!(Steps, "casing.damping_ratio", "-", "casing damping zeta_c", false 0.0..10.0, casing.damping_ratio),
-    real!(Steps, "casing.tangential_ratio", "-", "tangential over radial casing amplitude tau", false 0.0..10.0, casing.tangential_ratio),
-    real!(Steps, "contact.friction", "-", "friction coefficient mu", false 0.0..5.0, contact.friction),
-    real!(Steps, "contact.restitution", "-", "coefficient of restitution e", false 0.0..0.95, contact.restitution),
-    real!(Steps, "contact.stiffness_n_per_m", "N/m", "stiffness of the lining under a blade (smooth only) k_p", true 0.0..1e15, contact.stiffness_n_per_m),
-    real!(Steps, "contact.smoothing_m", "m", "depth over which that stiffness sets in (smooth only) eps", false 0.0..1.0, contact.smoothing_m),
-    whole!(
-        Never,
-        "operation.nodal_diameters",
-        "nodal diameters n_d",
-        0..4096,
-        operation.nodal_diameters
-    ),
-    real!(Always, SPEED, "rad/s", "rotor speed Omega", false - 1e6..1e6, operation.speed_rad_s),
-    real!(
-        Always,
-        "operation.speed_ramp_rad_s2",
-        "rad/s^2",
-        "rotor acceleration",
-        false - 1e9..1e9,
-        operation.speed_ramp_rad_s2
-    ),
-    real!(Steps, PULSE, "N", "pulse force on u_c", false - 1e12..1e12, operation.pulse_n),
-    real!(Steps, "operation.pulse_s", "s", "pulse duration t_p", false 0.0..1e6, operation.pulse_s),
-    real!(Start, "initial.u_c_m", "m", "u_c at t = 0", false - 1e3..1e3, initial.u_c_m),
-    real!(Start, "initial.u_s_m", "m", "u_s at t = 0", false - 1e3..1e3, initial.u_s_m),
-    real!(
-        Start,
-        "initial.v_c_m_s",
-        "m/s",
-        "rate of u_c at t = 0",
-        false - 1e6..1e6,
-        initial.v_c_m_s
-    ),
-    real!(
-        Start,
-        "initial.v_s_m_s",
-        "m/s",
-        "rate of u_s at t = 0",
-        false - 1e6..1e6,
-        initial.v_s_m_s
-    ),
-    real!(
-        Steps, "excitation.amplitude_nm",
-        "N m",
-        "engine-order torque on each blade, 0 for none",
-        false 0.0..1e9,
-        excitation.amplitude_nm
-    ),
-    whole!(Steps, "excitation.order", "engine order of that torque", 1..4096, excitation.order),
-    word!(Never, "solver.kind", "solver", SolverKind, solver.kind),
-    word!(Steps, "solver.contact", "contact law", ContactLaw, solver.contact),
-    word!(Never, "solver.model", "model size", ModelSize, solver.model),
-    real!(Never, "solver.step_s", "s", "time step h (explicit only)", true 0.0..1e3, solver.step_s),
-    real!(Aside, "solver.end_s", "s", "end of the simulation", true 0.0..1e6, solver.end_s),
-    Key {
-        path: "view.charts",
-        unit: "-",
-        what: "charts the explorer opens with",
-        live: Live::Aside,
-        allowed: Allowed::SomeOf(CHARTS),
-        get: |scene| Value::Words(scene.view.charts.clone()),
-        set: |scene, value| {
-            if let Value::Words(words) = value {
-                scene.view.charts = words;
-            }
-        },
-    },
-    real!(Aside, "view.begin_s", "s", "where the explorer begins to play, at most the end", false 0.0..1e6, view.begin_s),
-];
+        /// Every key but `schema`, in the order of the file.
+        pub const KEYS: &[Key] = &[$($kind!($name, $($of)+)),+];
+    };
+}
+
+keys! {
+    TITLE "title" = text(Aside, "one line that names the scene", 200, title);
+    NOTE "note" = text(Aside, "what to look for", 4000, note);
+    BLADES "bladed_disk.blades" = whole(Never, "number of blades N", 1..4096, bladed_disk.blades);
+    BLADE_LENGTH "bladed_disk.blade_length_m" = real(Never, "m", "blade length l_b", true 0.0..1e3, bladed_disk.blade_length_m);
+    BLADE_INERTIA "bladed_disk.inertia_kg_m2" = real(Steps, "kg m^2", "blade inertia m_b", true 0.0..1e9, bladed_disk.inertia_kg_m2);
+    BLADE_STIFFNESS "bladed_disk.stiffness_nm_per_rad" = real(Steps, "N m/rad", "blade-to-disk stiffness k_b", true 0.0..1e15, bladed_disk.stiffness_nm_per_rad);
+    BLADE_COUPLING "bladed_disk.coupling_nm_per_rad" = real(Steps, "N m/rad", "blade-to-blade stiffness k_bb", false 0.0..1e15, bladed_disk.coupling_nm_per_rad);
+    BLADE_DAMPING "bladed_disk.damping_ratio" = real(Steps, "-", "blade damping zeta_bd", false 0.0..10.0, bladed_disk.damping_ratio);
+    RADIAL_COUPLING "bladed_disk.radial_coupling" = real(Steps, "-", "slope of the path of a blade tip kappa", false -10.0..10.0, bladed_disk.radial_coupling);
+    DISK_DIAMETERS "bladed_disk.nodal_diameters" = whole(Never, "nodal diameters of the disk, 0 as the casing, n_b", 0..4096, bladed_disk.nodal_diameters);
+    MISTUNING "bladed_disk.mistuning" = real(Never, "-", "standard deviation of single k_b (full model), sd", false 0.0..0.2, bladed_disk.mistuning);
+    MISTUNING_SEED "bladed_disk.mistuning_seed" = whole(Never, "draw of the single k_b, seed", 0..1_000_000, bladed_disk.mistuning_seed);
+    CASING_RADIUS "casing.radius_m" = real(Never, "m", "casing radius R_c", true 0.0..1e3, casing.radius_m);
+    CASING_MASS "casing.modal_mass_kg" = real(Steps, "kg", "casing modal mass m_c", true 0.0..1e9, casing.modal_mass_kg);
+    CASING_STIFFNESS "casing.modal_stiffness_n_per_m" = real(Steps, "N/m", "casing modal stiffness k_c", true 0.0..1e15, casing.modal_stiffness_n_per_m);
+    CASING_DAMPING "casing.damping_ratio" = real(Steps, "-", "casing damping zeta_c", false 0.0..10.0, casing.damping_ratio);
+    TANGENTIAL_RATIO "casing.tangential_ratio" = real(Steps, "-", "tangential over radial casing amplitude tau", false 0.0..10.0, casing.tangential_ratio);
+    FRICTION "contact.friction" = real(Steps, "-", "friction coefficient mu", false 0.0..5.0, contact.friction);
+    RESTITUTION "contact.restitution" = real(Steps, "-", "coefficient of restitution e", false 0.0..0.95, contact.restitution);
+    LINING_STIFFNESS "contact.stiffness_n_per_m" = real(Steps, "N/m", "stiffness of the lining under a blade (smooth only) k_p", true 0.0..1e15, contact.stiffness_n_per_m);
+    LINING_SMOOTHING "contact.smoothing_m" = real(Steps, "m", "depth over which that stiffness sets in (smooth only) eps", false 0.0..1.0, contact.smoothing_m);
+    DIAMETERS "operation.nodal_diameters" = whole(Never, "nodal diameters n_d", 0..4096, operation.nodal_diameters);
+    SPEED "operation.speed_rad_s" = real(Always, "rad/s", "rotor speed Omega", false -1e6..1e6, operation.speed_rad_s);
+    SPEED_RAMP "operation.speed_ramp_rad_s2" = real(Always, "rad/s^2", "rotor acceleration", false -1e9..1e9, operation.speed_ramp_rad_s2);
+    PULSE "operation.pulse_n" = real(Steps, "N", "pulse force on u_c", false -1e12..1e12, operation.pulse_n);
+    PULSE_TIME "operation.pulse_s" = real(Steps, "s", "pulse duration t_p", false 0.0..1e6, operation.pulse_s);
+    INITIAL_U_C "initial.u_c_m" = real(Start, "m", "u_c at t = 0", false -1e3..1e3, initial.u_c_m);
+    INITIAL_U_S "initial.u_s_m" = real(Start, "m", "u_s at t = 0", false -1e3..1e3, initial.u_s_m);
+    INITIAL_V_C "initial.v_c_m_s" = real(Start, "m/s", "rate of u_c at t = 0", false -1e6..1e6, initial.v_c_m_s);
+    INITIAL_V_S "initial.v_s_m_s" = real(Start, "m/s", "rate of u_s at t = 0", false -1e6..1e6, initial.v_s_m_s);
+    EXCITATION "excitation.amplitude_nm" = real(Steps, "N m", "engine-order torque on each blade, 0 for none", false 0.0..1e9, excitation.amplitude_nm);
+    ENGINE_ORDER "excitation.order" = whole(Steps, "engine order of that torque", 1..4096, excitation.order);
+    SOLVER "solver.kind" = word(Never, "solver", SolverKind, solver.kind);
+    LAW "solver.contact" = word(Steps, "contact law", ContactLaw, solver.contact);
+    MODEL "solver.model" = word(Never, "model size", ModelSize, solver.model);
+    STEP "solver.step_s" = real(Never, "s", "time step h (explicit only)", true 0.0..1e3, solver.step_s);
+    END "solver.end_s" = real(Aside, "s", "end of the simulation", true 0.0..1e6, solver.end_s);
+    VIEW_CHARTS "view.charts" = charts(Aside, "charts the explorer opens with", view.charts);
+    VIEW_BEGIN "view.begin_s" = real(Aside, "s", "where the explorer begins to play, at most the end", false 0.0..1e6, view.begin_s);
+}

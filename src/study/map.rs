@@ -1,15 +1,21 @@
-//! The interaction map, the paper's Fig. 8 as a working tool: how the motion
-//! lasts over two quantities of a scene, one independent run a cell.
+//! The interaction map: the verdict of every cell over two axes, on every core; its cells in
+//! memory, a byte each, so that a large map is limited by its runs; and adaptive maps: a
+//! coarse grid first, then only cells next to a change, down to the resolution of the plan;
+//! then each border is followed to its ends. Cells that were not run take the value of their
+//! coarse cell.
 //!
-//! Cells are numbered along x first. Every cell is computed from its scene
-//! alone, so the result is the same for any number of threads and any order.
+//! In an adaptive result every cell next to another verdict was run, so a zone that any run
+//! hit has the same shape as in the full map. A zone smaller than the coarse grid that no run
+//! hit is missed. Only verdicts count as a change: sensitive cells are scattered, and following
+//! them would run every cell.
 
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::ops::Index;
+use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU64, Ordering};
 use std::time::Instant;
 
 use rayon::prelude::*;
 
-use super::{Axis, Cell, Cells};
+use super::Axis;
 use crate::motion::{GoOn, Verdict, run_to_verdict, run_with_sensitivity};
 use crate::scene::{CheckedScene, Scene, SceneError};
 
@@ -130,7 +136,7 @@ impl MapPlan {
         self.check_size()?;
         if self.x.path == self.y.path {
             let both = format!("{} on both axes", self.x.path);
-            let allowed = "two different keys; columns (--x) are the speed and rows (--y) the \
+            let allowed = "two different keys; columns (x) are the speed and rows (y) the \
                            pulse by default";
             return Err(SceneError::refused("map", both, allowed));
         }
@@ -210,5 +216,229 @@ impl Map {
         let count = Verdict::ALL
             .map(|verdict| (verdict, cells().filter(|cell| cell.verdict == verdict).count()));
         (count, cells().filter(|cell| cell.sensitive).count())
+    }
+}
+
+/// One cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cell {
+    /// How the motion lasts.
+    pub verdict: Verdict,
+    /// Whether a tiny change of the run changes it.
+    pub sensitive: bool,
+}
+
+/// What a byte means: nothing computed, then each verdict, first plain, then
+/// sensitive.
+static MEANING: [Option<Cell>; 1 + 2 * KINDS] = {
+    let mut meaning = [None; 1 + 2 * KINDS];
+    let mut kind = 0;
+    while kind < KINDS {
+        let verdict = Verdict::ALL[kind];
+        meaning[1 + kind] = Some(Cell { verdict, sensitive: false });
+        meaning[1 + KINDS + kind] = Some(Cell { verdict, sensitive: true });
+        kind += 1;
+    }
+    meaning
+};
+const KINDS: usize = Verdict::ALL.len();
+
+/// Cells in order; none where nothing is computed. Threads may set different
+/// cells at the same time.
+#[derive(Debug)]
+pub struct Cells(Vec<AtomicU8>);
+
+impl Cells {
+    /// So many cells with nothing computed.
+    #[must_use]
+    pub fn empty(count: usize) -> Self {
+        Self((0..count).map(|_| AtomicU8::new(0)).collect())
+    }
+
+    /// How many cells there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    /// Whether there are no cells.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// A cell; none where there is no such place.
+    #[must_use]
+    pub fn get(&self, index: usize) -> Option<&'static Option<Cell>> {
+        MEANING.get(usize::from(self.0.get(index)?.load(Ordering::Relaxed)))
+    }
+
+    /// Sets a cell; a place that does not exist takes nothing.
+    pub fn set(&self, index: usize, cell: Option<Cell>) {
+        let byte = MEANING.iter().position(|meaning| *meaning == cell).unwrap_or_default();
+        if let (Some(place), Ok(byte)) = (self.0.get(index), u8::try_from(byte)) {
+            place.store(byte, Ordering::Relaxed);
+        }
+    }
+
+    /// All cells in order.
+    pub fn iter(&self) -> impl Iterator<Item = &'static Option<Cell>> + '_ {
+        (0..self.len()).filter_map(|index| self.get(index))
+    }
+}
+
+impl Index<usize> for Cells {
+    type Output = Option<Cell>;
+    fn index(&self, index: usize) -> &Option<Cell> {
+        &MEANING[usize::from(self.0[index].load(Ordering::Relaxed))]
+    }
+}
+
+impl Clone for Cells {
+    fn clone(&self) -> Self {
+        let byte = |cell: &AtomicU8| AtomicU8::new(cell.load(Ordering::Relaxed));
+        Self(self.0.iter().map(byte).collect())
+    }
+}
+
+impl PartialEq for Cells {
+    fn eq(&self, other: &Self) -> bool {
+        self.len() == other.len() && self.iter().eq(other.iter())
+    }
+}
+
+/// Coarsest stride between computed cells.
+const COARSEST: usize = 8;
+/// Least number of coarse cells along the shorter side, if the map has that many.
+const FEWEST: usize = 6;
+
+type Keep<'a> = &'a (dyn Fn(usize, Cell) + Sync);
+
+impl Map {
+    /// Fills the map adaptively; cells inferred without a run are not counted
+    /// in `runs`. If stopped early, only cells that were run remain.
+    pub fn fill_adaptively(&mut self, progress: &Progress, keep: Keep<'_>) {
+        self.adaptive = true;
+        let mut stride = self.coarsest_stride();
+        let mut inferred = vec![false; self.cells.len()];
+        let coarse: Vec<usize> = self.grid(stride).collect();
+        self.fill(coarse.into_par_iter(), progress, keep);
+        while stride > 1 && !progress.stop.load(Ordering::Relaxed) {
+            let half = stride / 2;
+            let wanted: Vec<usize> = self
+                .grid(half)
+                .filter(|&index| self.cells[index].is_none() && self.is_mixed(index, stride))
+                .collect();
+            self.fill(wanted.into_par_iter(), progress, keep);
+            if !progress.stop.load(Ordering::Relaxed) {
+                self.infer(half, stride, &mut inferred);
+            }
+            stride = half;
+        }
+        self.follow_borders(&mut inferred, progress, keep);
+        if progress.stop.load(Ordering::Relaxed) {
+            for (index, _) in inferred.iter().enumerate().filter(|(_, guess)| **guess) {
+                self.cells.set(index, None);
+            }
+        }
+    }
+
+    /// The first stride: the largest power of two, up to `COARSEST`, that
+    /// leaves `FEWEST` cells along the shorter side.
+    #[must_use]
+    pub fn coarsest_stride(&self) -> usize {
+        let shorter = self.plan.x.count.min(self.plan.y.count) as usize;
+        let mut stride = 1;
+        while 2 * stride <= COARSEST && 2 * stride * FEWEST <= shorter {
+            stride *= 2;
+        }
+        stride
+    }
+
+    /// Runs inferred cells next to another verdict until there are none.
+    fn follow_borders(&mut self, inferred: &mut [bool], progress: &Progress, keep: Keep<'_>) {
+        while !progress.stop.load(Ordering::Relaxed) {
+            let doubtful: Vec<usize> = (0..inferred.len())
+                .filter(|&index| inferred[index] && self.is_beside_another(index))
+                .collect();
+            if doubtful.is_empty() {
+                break;
+            }
+            for &index in &doubtful {
+                inferred[index] = false;
+                self.cells.set(index, None);
+            }
+            self.fill(doubtful.into_par_iter(), progress, keep);
+        }
+    }
+
+    fn is_beside_another(&self, index: usize) -> bool {
+        let (columns, rows) = (self.plan.x.count as usize, self.plan.y.count as usize);
+        let (column, row) = (index % columns, index / columns);
+        let verdict = |index: usize| self.cells[index].map(|cell| cell.verdict);
+        let here = verdict(index);
+        let across = column.saturating_sub(1)..=(column + 1).min(columns - 1);
+        (row.saturating_sub(1)..=(row + 1).min(rows - 1))
+            .any(|y| across.clone().any(|x| verdict(y * columns + x) != here))
+    }
+
+    /// Whether the verdicts of the coarse cells around `index` differ,
+    /// including the neighbours of its own coarse cell.
+    fn is_mixed(&self, index: usize, stride: usize) -> bool {
+        let (columns, rows) = (self.plan.x.count as usize, self.plan.y.count as usize);
+        let (column, row) = (index % columns, index / columns);
+        let mut seen = None;
+        for y in (row / stride).saturating_sub(1)..=row / stride + 2 {
+            for x in (column / stride).saturating_sub(1)..=column / stride + 2 {
+                let (x, y) = ((x * stride).min(columns - 1), (y * stride).min(rows - 1));
+                let Some(cell) = self.cells[y * columns + x] else { continue };
+                if seen.is_some_and(|seen| seen != cell.verdict) {
+                    return true;
+                }
+                seen = Some(cell.verdict);
+            }
+        }
+        false
+    }
+
+    /// Gives the cells of the finer grid that were not run the value of the
+    /// coarse cell before them.
+    fn infer(&self, half: usize, stride: usize, inferred: &mut [bool]) {
+        let columns = self.plan.x.count as usize;
+        for index in self.grid(half) {
+            if self.cells[index].is_none() {
+                let (column, row) = (index % columns, index / columns);
+                let from = (row / stride * stride) * columns + column / stride * stride;
+                self.cells.set(index, self.cells[from]);
+                inferred[index] = true;
+            }
+        }
+    }
+
+    /// Cells on multiples of `stride`, with the last column and row always in.
+    fn grid(&self, stride: usize) -> impl Iterator<Item = usize> + use<> {
+        let line =
+            move |count: usize| (0..count).filter(move |&i| i % stride == 0 || i + 1 == count);
+        let (columns, rows) = (self.plan.x.count as usize, self.plan.y.count as usize);
+        line(rows).flat_map(move |row| line(columns).map(move |column| row * columns + column))
+    }
+}
+
+#[cfg(test)]
+mod cells_tests {
+    use super::*;
+
+    #[test]
+    fn every_cell_has_a_byte_of_its_own() {
+        let cells = Cells::empty(MEANING.len() + 1);
+        for (index, meaning) in MEANING.iter().enumerate() {
+            cells.set(index, *meaning);
+        }
+        assert!(cells.iter().zip(&MEANING).all(|(cell, meaning)| cell == meaning));
+        assert_eq!((cells[MEANING.len()], cells.get(MEANING.len() + 1)), (None, None));
+        assert_eq!(cells.iter().flatten().count(), 2 * KINDS);
+        assert_eq!(cells.clone(), cells);
+        cells.set(3, None);
+        assert!(cells[3].is_none());
     }
 }

@@ -1,9 +1,7 @@
 //! Many runs of one scene: the interaction map, speed against error, the margins to
 //! every limit, and the paper's figures.
 
-mod adaptive;
 mod axis;
-mod cells;
 pub mod figures;
 pub mod map;
 pub mod margins;
@@ -12,6 +10,6 @@ pub mod part;
 pub mod precision;
 
 pub use axis::{Axis, AxisError, parse_range};
-pub use cells::{Cell, Cells};
+pub use map::{Cell, Cells};
 pub use map::{Map, MapPlan, Progress};
 pub use part::{PartError, Shard};

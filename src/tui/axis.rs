@@ -2,7 +2,7 @@
 //! that follow the data with hysteresis, so that the scale does not jump.
 
 use super::knobs::number;
-pub use crate::report::prefix::SiScale;
+pub use crate::report::number::SiScale;
 pub use crate::report::ticks::{nice_step, ticks};
 
 /// The axis of a chart: its range and the prefix of its labels.

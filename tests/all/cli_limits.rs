@@ -211,12 +211,12 @@ fn a_refusal_says_what_would_be_taken() {
         (
             "map --x operation.pulse_n=1:1000:4",
             "rubscope: map = operation.pulse_n on both axes: allowed is two different keys; \
-             columns (--x) are the speed and rows (--y) the pulse by default",
+             columns (x) are the speed and rows (y) the pulse by default",
         ),
         (
             "map --y casing.damping_ratio=0:1:2 --x casing.damping_ratio=0:0.1:4",
             "rubscope: map = casing.damping_ratio on both axes: allowed is two different keys; \
-             columns (--x) are the speed and rows (--y) the pulse by default",
+             columns (x) are the speed and rows (y) the pulse by default",
         ),
     ] {
         assert_eq!(refusal(&command.split(' ').collect::<Vec<_>>()), expected);

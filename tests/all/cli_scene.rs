@@ -156,3 +156,31 @@ fn a_scene_file_has_a_largest_size() {
         assert!(refused.to_string().contains("up to 1048576 bytes"), "{refused}");
     }
 }
+
+/// A pipe that nobody writes to would be waited for in silence.
+#[cfg(unix)]
+#[test]
+fn a_scene_from_a_pipe_is_read_and_one_in_a_folder_says_that_it_waits() {
+    use std::process::Stdio;
+    let folder = tempfile::tempdir().unwrap();
+    let pipe = folder.path().join("scene.toml");
+    assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    let run = |path: &std::path::Path, input: Stdio| {
+        let mut run = crate::cli_support::program();
+        run.args(["run", "--end", "1e-5"]).arg(path).stdin(input);
+        run.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
+    };
+    let waiting = run(&pipe, Stdio::null());
+    std::fs::write(&pipe, "title = \"through a pipe\"").unwrap();
+    let fed = run(
+        "/dev/stdin".as_ref(),
+        Stdio::from(file("title = \"through a pipe\"").reopen().unwrap()),
+    );
+    let said = format!("rubscope: {} is a pipe: waiting for its writer\n", pipe.display());
+    for (run, said) in [(waiting, said.as_str()), (fed, "")] {
+        let output = run.wait_with_output().unwrap();
+        assert!(output.status.success());
+        assert!(String::from_utf8(output.stdout).unwrap().contains("through a pipe"));
+        assert_eq!(String::from_utf8(output.stderr).unwrap(), said);
+    }
+}

@@ -321,6 +321,21 @@ fn a_lining_is_found_that_holds_a_lock_from_a_speed() {
     assert!((plain - 430.0).abs() < 1e-3, "{stiffness}: {plain}");
 }
 
+/// On a lining the closed form is of two groups alone, wherever it is told.
+#[test]
+fn a_lock_on_a_lining_is_said_to_be_of_two_groups() {
+    let told = |arguments: &[&str]| String::from_utf8(rubscope(arguments).stdout).unwrap();
+    let stiff = ["--set", "contact.stiffness_n_per_m=1e9"];
+    let run = told(&[&["run", "soft-lining", "--end", "1e-4"][..], &stiff].concat());
+    assert!(run.contains(", where locks of two groups begin"), "{run}");
+    let hbm = told(&[&["hbm", "soft-lining", "--smooth", "--speed", "450"][..], &stiff].concat());
+    assert!(hbm.contains(", lock-in of two groups from "), "{hbm}");
+    let margins = told(&[&["margins", "soft-lining", "--no-search"][..], &stiff].concat());
+    assert!(margins.contains(": of two groups on the lining"), "{margins}");
+    // Rigid contact has no others.
+    assert!(!told(&["run", "rub", "--end", "1e-4", "--step", "1e-6"]).contains("two groups"));
+}
+
 /// Where a lock begins and ends stands on a map over the speed, and in a run.
 #[test]
 fn maps_and_runs_name_the_end_of_a_lock() {

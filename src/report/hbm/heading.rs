@@ -48,13 +48,18 @@ impl Heading<'_> {
             write!(out, "Critical speed {} rad/s", short(critical))?;
             let lock_of = |machine: &Machine| machine.lock_window(speed).map(speeds_of);
             let zeta = short(machine.casing_damping_ratio);
+            // More groups may hold a wave on a lining, elsewhere.
+            let groups = if machine.lining.is_some() { " of two groups" } else { "" };
             match lock_of(machine) {
                 Some(lock) if !damped => {
                     let without = lock_of(&machine.clone().undamped()).unwrap_or_default();
                     let words = "rad/s without damping";
-                    write!(out, ", lock-in from {without} {words}, {lock} with zeta_c = {zeta}")?;
+                    write!(
+                        out,
+                        ", lock-in{groups} from {without} {words}, {lock} with zeta_c = {zeta}"
+                    )?;
                 }
-                Some(lock) => write!(out, ", lock-in from {lock} rad/s (zeta_c = {zeta})")?,
+                Some(lock) => write!(out, ", lock-in{groups} from {lock} rad/s (zeta_c = {zeta})")?,
                 None => {}
             }
             if let Some(dangerous) = machine.dangerous_speed_toward(speed) {

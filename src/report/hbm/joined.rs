@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use super::parts::Parts;
 use crate::harmonic::{Joint, RoundWhirl, RoundWhirlLoads, WhirlOrbit, WhirlPoint, round_whirls};
 use crate::model::Machine;
-use crate::report::made_table::MadeTable;
+use crate::report::table::MadeTable;
 use crate::report::table::{Column, Table, TableCell};
 
 /// Columns and rows of the chart of the compliance.

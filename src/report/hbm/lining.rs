@@ -10,7 +10,7 @@ use crate::harmonic::{
     LiningState, Rest, Special,
 };
 use crate::model::LockWindow;
-use crate::report::made_table::MadeTable;
+use crate::report::table::MadeTable;
 use crate::report::table::{Column, Table, TableCell};
 
 /// All of one lining against speed.

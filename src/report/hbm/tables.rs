@@ -8,7 +8,7 @@ use crate::harmonic::{
     Branches, Campbell, CornerBranch, Equilibrium, ExcitedLock, ExcitedLocks, Kind, LockedPoint,
     SlipOrbit, SlipPoint, SlipRegion, SlipSpectrum, Sweep,
 };
-use crate::report::made_table::MadeTable;
+use crate::report::table::MadeTable;
 use crate::report::table::{Column, Table, TableCell};
 
 /// One word for a point: that of its character, or locked.

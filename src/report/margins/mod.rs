@@ -1,9 +1,11 @@
 //! The margins of a scene as a table of every number (CSV), and as aligned text for
-//! people: a row for each limit (`rows`), then what more was asked for (`more`).
+//! people: a row for each limit, then what more was asked for (`rows`).
 
-mod more;
+mod row;
 mod rows;
 pub mod words;
+
+pub use row::{LimitRow, TOLD};
 
 use std::io::{Result, Write};
 
@@ -51,11 +53,11 @@ pub fn write(margins: &Margins, out: &mut dyn Write) -> Result<()> {
     rows::write(margins, out)?;
     for limit in margins.limits.iter().filter(|limit| has_bands(limit)) {
         writeln!(out)?;
-        more::bands(limit, out)?;
+        rows::bands(limit, out)?;
     }
-    more::notes(margins, out)?;
-    more::spread(margins, out)?;
-    more::target(margins, out)?;
+    rows::notes(margins, out)?;
+    rows::spread(margins, out)?;
+    rows::target(margins, out)?;
     writeln!(out)?;
     tell(&words::cost(margins), out)
 }

@@ -1,10 +1,12 @@
-//! The rows of the text, one a limit: speeds, pulses, and the loads of the lock.
+//! The text of margins: a row for each limit (speeds, pulses, the loads of the lock), then the
+//! bands of lasting pulses, the spread by tolerances, and the target.
 
 use std::io::{Result, Write};
 
-use super::{WIDTH, tell, words};
+use super::{LimitRow, WIDTH, tell, words};
 use crate::report::number::short;
 use crate::report::symbols::symbol;
+use crate::report::table::{Table, TableCell};
 use crate::study::margins::{Limit, Margins, Quantity};
 
 /// Between two columns.
@@ -14,16 +16,17 @@ const APART: usize = 2;
 pub(super) fn write(margins: &Margins, out: &mut dyn Write) -> Result<()> {
     let speed = short(margins.scene.operation.speed_rad_s);
     let pulse = words::value(margins.scene.operation.pulse_n, 6, Quantity::Pulse);
-    let of = |wanted: fn(Quantity) -> bool| -> Vec<&Limit> {
-        margins.limits.iter().filter(|limit| wanted(limit.quantity)).collect()
+    let all = LimitRow::all(margins, &[]);
+    let of = |wanted: fn(&LimitRow) -> bool| -> Vec<LimitRow> {
+        all.iter().copied().filter(wanted).collect()
     };
     let groups = [
         (
             format!("Speeds; the scene has {} rad/s:", speed.trim_start_matches('-')),
-            of(|quantity| quantity == Quantity::Speed),
+            of(|row| row.quantity() == Quantity::Speed),
         ),
-        (format!("Pulses; the scene has {pulse}:"), of(|quantity| quantity == Quantity::Pulse)),
-        (format!("The locked motion at {speed} rad/s:"), of(|quantity| quantity.path().is_none())),
+        (format!("Pulses; the scene has {pulse}:"), of(|row| row.quantity() == Quantity::Pulse)),
+        (format!("The locked motion at {speed} rad/s:"), of(|row| row.is_load())),
     ];
     for (title, limits) in groups {
         if !limits.is_empty() {
@@ -35,45 +38,41 @@ pub(super) fn write(margins: &Margins, out: &mut dyn Write) -> Result<()> {
 }
 
 /// The limits of one kind under their title.
-fn group(title: &str, limits: &[&Limit], out: &mut dyn Write) -> Result<()> {
-    let note = limits.first().and_then(|limit| limit.note.as_ref());
+fn group(title: &str, limits: &[LimitRow], out: &mut dyn Write) -> Result<()> {
+    let note = limits.first().and_then(LimitRow::note);
+    let none = |row: &LimitRow| row.value().is_none() && row.present().is_none();
     if let Some(note) = note
-        && limits.iter().all(|limit| limit.value.is_none() && limit.note.as_ref() == Some(note))
-        && limits.iter().all(|limit| limit.present.is_none())
+        && limits.iter().all(|row| none(row) && row.note() == Some(note))
     {
         return tell(&format!("{title} none: {note}."), out);
     }
-    let rows: Vec<[String; 4]> = limits.iter().map(|limit| cells(limit)).collect();
+    let rows: Vec<[String; 4]> = limits.iter().map(cells).collect();
     let heads = heads(limits);
-    let width = |column: usize| {
-        let all = rows.iter().chain([&heads]).filter_map(|row| row.get(column));
-        all.map(|cell| cell.chars().count()).max().unwrap_or(0)
-    };
-    let widths = [0, 1, 2, 3].map(width);
+    let widths = [0, 1, 2, 3].map(|column: usize| {
+        let all = rows.iter().chain([&heads]).map(|row| row[column].chars().count());
+        all.max().unwrap_or(0)
+    });
     let start: usize = widths.iter().filter(|width| **width > 0).map(|width| width + APART).sum();
     let line = |row: &[String; 4]| {
         let mut text = String::new();
-        for (column, (cell, width)) in row.iter().zip(widths).enumerate() {
-            if width > 0 {
-                // Numbers stand to the right, words to the left.
-                let number = column == 1 || column == 2;
-                let cell =
-                    if number { format!("{cell:>width$}") } else { format!("{cell:<width$}") };
-                text.push_str(&cell);
-                text.push_str("  ");
-            }
+        for (column, (cell, width)) in row.iter().zip(widths).enumerate().filter(|at| at.1.1 > 0) {
+            // Numbers stand to the right, words to the left.
+            let number = column == 1 || column == 2;
+            let cell = if number { format!("{cell:>width$}") } else { format!("{cell:<width$}") };
+            text.push_str(&cell);
+            text.push_str("  ");
         }
         text
     };
     writeln!(out, "{title}")?;
     writeln!(out, "{}+1 % of each moves it by", line(&heads))?;
     for (limit, row) in limits.iter().zip(&rows) {
-        let text = match (limit.value, &limit.note) {
-            (None, note) => {
-                let note = note.as_deref().unwrap_or("no such limit");
+        let text = match limit.value() {
+            None => {
+                let note = limit.note().unwrap_or("no such limit");
                 format!("{:<width$}  {note}", row[0], width = widths[0])
             }
-            (Some(_), _) => line(row) + &moving(limit, WIDTH.saturating_sub(start)),
+            Some(_) => line(row) + &moving(limit, WIDTH.saturating_sub(start)),
         };
         writeln!(out, "{}", text.trim_end())?;
     }
@@ -81,28 +80,23 @@ fn group(title: &str, limits: &[&Limit], out: &mut dyn Write) -> Result<()> {
 }
 
 /// What stands above the columns.
-fn heads(limits: &[&Limit]) -> [String; 4] {
-    let stands = limits.iter().any(|limit| limit.margin.is_some());
-    let name = if limits.iter().any(|limit| limit.present.is_some()) { "limit" } else { "load" };
+fn heads(limits: &[LimitRow]) -> [String; 4] {
+    let stands = limits.iter().any(|limit| limit.margin().is_some());
+    let name = if limits.iter().any(|limit| limit.present().is_some()) { "limit" } else { "load" };
     [name, "value", if stands { "margin" } else { "" }, ""].map(String::from)
 }
 
 /// Name, value, margin and side of a limit.
-fn cells(limit: &Limit) -> [String; 4] {
-    let value = limit.value.map(|value| words::value(value, 6, limit.quantity));
-    let margin = limit.margin.map(words::margin);
-    [
-        limit.name.to_string(),
-        value.unwrap_or_default(),
-        margin.unwrap_or_default(),
-        words::side(limit),
-    ]
+fn cells(row: &LimitRow) -> [String; 4] {
+    let value = row.value().map(|value| words::value(value, 6, row.quantity()));
+    let margin = row.margin().map(words::margin);
+    [row.name.to_string(), value.unwrap_or_default(), margin.unwrap_or_default(), row.way()]
 }
 
 /// What moves a limit most, as much of it as there is room for; a note where nothing
 /// does.
-fn moving(limit: &Limit, room: usize) -> String {
-    let strongest = limit.sensitivities.strongest(words::TOLD);
+fn moving(row: &LimitRow, room: usize) -> String {
+    let strongest = row.strongest();
     let mut told = String::new();
     for (path, by) in &strongest {
         let next = format!("{} {}", symbol(path), words::change(*by));
@@ -113,10 +107,82 @@ fn moving(limit: &Limit, room: usize) -> String {
         told.extend(std::iter::repeat_n(' ', apart));
         told.push_str(&next);
     }
-    if !strongest.is_empty() {
-        return told;
+    match (strongest.is_empty(), row.law) {
+        (false, _) => told,
+        (true, Some(_)) => "no derivative: the edge is not smooth".to_string(),
+        (true, None) => row.note().unwrap_or_default().to_string(),
     }
-    let smooth = if limit.contact.is_some() { "no derivative: the edge is not smooth" } else { "" };
-    let note = limit.note.as_deref().filter(|_| limit.contact.is_none());
-    note.unwrap_or(smooth).to_string()
+}
+
+/// Most bands of one limit that are listed.
+const BANDS: usize = 10;
+
+/// Where pulses last under one law.
+pub(super) fn bands(limit: &Limit, out: &mut dyn Write) -> Result<()> {
+    let note = limit.note.as_deref().unwrap_or_default();
+    let law = limit.contact.map_or_else(String::new, |law| format!(" ({law} law)"));
+    tell(&format!("{}{law}: {note}.", limit.name), out)?;
+    let mut table = Table::new(["from", "to", "the scene", "verdicts", ""]);
+    for band in limit.bands.iter().take(BANDS) {
+        let pulse = |pulse: f64| words::value(pulse, 5, limit.quantity);
+        let verdicts: Vec<&str> = band.verdicts.iter().map(AsRef::as_ref).collect();
+        table.push(vec![
+            pulse(band.from_n).into(),
+            band.to_n.map_or_else(|| "the largest tried".to_string(), pulse).into(),
+            words::place(band, limit.present).into(),
+            verdicts.join(", ").into(),
+            if band.sensitive { "sensitive" } else { "" }.into(),
+        ]);
+    }
+    table.write_text(out)?;
+    match limit.bands.len().saturating_sub(BANDS) {
+        0 => Ok(()),
+        more => writeln!(out, "... and {more} more, see --json"),
+    }
+}
+
+/// What closed forms leave out in this scene, once for all limits of which it is so.
+pub(super) fn notes(margins: &Margins, out: &mut dyn Write) -> Result<()> {
+    let noted = |limit: &&Limit| limit.value.is_some() && limit.contact.is_none();
+    let mut said: Vec<(&str, String)> = Vec::new();
+    for limit in margins.limits.iter().filter(noted) {
+        let Some(note) = limit.note.as_deref() else { continue };
+        match said.iter_mut().find(|(known, _)| *known == note) {
+            Some((_, names)) => names.push_str(&format!(", {}", limit.name)),
+            None => said.push((note, limit.name.to_string())),
+        }
+    }
+    if !said.is_empty() {
+        writeln!(out)?;
+    }
+    said.iter().try_for_each(|(note, names)| tell(&format!("{names}: {note}."), out))
+}
+
+/// How far limits spread with the tolerances given.
+pub(super) fn spread(margins: &Margins, out: &mut dyn Write) -> Result<()> {
+    if margins.tolerances.is_empty() {
+        return Ok(());
+    }
+    writeln!(out)?;
+    tell(&words::tolerances(margins), out)?;
+    let mut table = Table::new(["limit"].into_iter().chain(words::SPREAD));
+    for limit in &margins.limits {
+        if let Some((unit, told)) = words::spread(limit) {
+            let name = [format!("{} [{unit}]", limit.name)];
+            table.push(name.into_iter().chain(told).map(TableCell::from).collect());
+        }
+    }
+    table.write_text(out)?;
+    words::sampling(margins).iter().try_for_each(|line| tell(line, out))
+}
+
+/// The parameter that puts a limit where it is wanted, and the command that shows it.
+pub(super) fn target(margins: &Margins, out: &mut dyn Write) -> Result<()> {
+    let Some(found) = &margins.target else { return Ok(()) };
+    writeln!(out)?;
+    tell(&words::target(found, margins), out)?;
+    match words::check(found, &margins.scene) {
+        Some(command) => writeln!(out, "Check it: {command}"),
+        None => Ok(()),
+    }
 }

@@ -1,15 +1,13 @@
 //! What text and picture say of margins in the same words.
 
 use crate::report::CommandLine;
+use crate::report::number::SiScale;
 use crate::report::number::{count, grouped, rounded, short, time, with_unit};
-use crate::report::prefix::SiScale;
 use crate::scene::{ContactLaw, Scene, SolverKind};
 use crate::study::margins::{Band, Found, Limit, LimitName, Margins, Quantity, parameter};
 
 /// A margin from which on it is told as a factor.
 const FACTORS: f64 = 9.0;
-/// Parameters that are told of a limit.
-pub const TOLD: usize = 3;
 
 /// The value of a limit with its unit, in so many digits.
 #[must_use]
@@ -47,16 +45,6 @@ pub fn change(by: f64) -> String {
     let digits = if by.abs() < 1.0 { 2 } else { 4 };
     let sign = if by < 0.0 { "" } else { "+" };
     format!("{sign}{} %", short(rounded(by, digits)))
-}
-
-/// Which way a load of the lock acts, and on which side of another limit the scene is.
-#[must_use]
-pub fn side(limit: &Limit) -> String {
-    match (limit.quantity, limit.value) {
-        (Quantity::Push, Some(push)) if push < 0.0 => "pulls".to_string(),
-        (Quantity::Push, Some(_)) => "pushes".to_string(),
-        _ => limit.side().map_or_else(String::new, |side| side.to_string()),
-    }
 }
 
 /// Speed, pulse, law and solver of the scene.

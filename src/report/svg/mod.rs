@@ -3,7 +3,6 @@
 mod margins;
 mod panel;
 mod paper;
-mod scale;
 
 use std::io::{Error, Result, Write};
 

@@ -5,7 +5,7 @@
 use super::{Figure, Mark, Panel, Quantity, Series, Style};
 use crate::harmonic::{CoincidencePoint, HarmonicError, Lining, coincidence, shifted_coincidence};
 use crate::motion::{Sampling, Script, run_to_end};
-use crate::scene::keys::{PULSE, SPEED};
+use crate::scene::keys;
 use crate::scene::{CheckedScene, ContactLaw, Scene, SceneError};
 
 /// Speeds of a curve.
@@ -30,14 +30,14 @@ const BLADES: Quantity = Quantity::new("blade_amplitude_rad", "blade amplitude |
 pub fn own_scene() -> Result<Scene, SceneError> {
     let mut scene = Scene::base();
     for (path, value) in [
-        ("solver.contact", "smooth"),
-        ("solver.step_s", "5e-6"),
-        ("solver.end_s", "4"),
-        ("casing.radius_m", "0.49988"),
-        ("bladed_disk.radial_coupling", "0.5"),
-        ("contact.stiffness_n_per_m", "27e3"),
-        (SPEED, "406"),
-        (PULSE, "20e3"),
+        (keys::LAW, "smooth"),
+        (keys::STEP, "5e-6"),
+        (keys::END, "4"),
+        (keys::CASING_RADIUS, "0.49988"),
+        (keys::RADIAL_COUPLING, "0.5"),
+        (keys::LINING_STIFFNESS, "27e3"),
+        (keys::SPEED, "406"),
+        (keys::PULSE, "20e3"),
     ] {
         scene.set(path, value)?;
     }
@@ -102,7 +102,7 @@ fn runs(scene: &CheckedScene, [from, to]: [f64; 2]) -> Series {
 pub fn peaks(scene: &CheckedScene) -> Result<Figure, HarmonicError> {
     if scene.clearance() >= 0.0 || scene.solver.contact != ContactLaw::Smooth {
         return Err(HarmonicError::Refused {
-            key: "casing.radius_m",
+            key: keys::CASING_RADIUS,
             value: scene.casing.radius_m.to_string(),
             allowed: "below bladed_disk.blade_length_m, with solver.contact = \"smooth\": the \
                       figure is of blades that all rub a lining at rest"

@@ -2,7 +2,7 @@
 
 use super::{Figure, Panel, Quantity, Series, Style, group_name};
 use crate::motion::{RunReport, Sample, Sampling, Script, run_to_end, run_to_verdict, to_the_end};
-use crate::scene::keys::PULSE;
+use crate::scene::keys;
 use crate::scene::{CheckedScene, SolverKind};
 
 /// Samples of a run; a line of a figure can show no more.
@@ -278,8 +278,7 @@ pub fn response(scene: &CheckedScene, as_paper: bool) -> Figure {
     // the damping ratio is larger by 1/m_b.
     let literal = scene.bladed_disk.damping_ratio / scene.bladed_disk.inertia_kg_m2;
     let text = literal.to_string();
-    if as_paper
-        && let Ok(damped) = scene.clone().into_scene().with(&[("bladed_disk.damping_ratio", &text)])
+    if as_paper && let Ok(damped) = scene.clone().into_scene().with(&[(keys::BLADE_DAMPING, &text)])
     {
         let (_, samples) = sampled(&damped, false);
         let title = blade_title("(c)", &damped);
@@ -312,7 +311,7 @@ pub fn four_diameters(scene: &CheckedScene, as_paper: bool) -> Figure {
     endings.extend(by_events(scene));
     figure.caption.push(format!("{}.", endings.join("; ")));
     if as_paper {
-        let weaker = scene.clone().into_scene().with(&[(PULSE, "42e3")]).ok();
+        let weaker = scene.clone().into_scene().with(&[(keys::PULSE, "42e3")]).ok();
         let many: Vec<String> =
             [Some(scene.clone()), weaker].iter().flatten().map(at_many_steps).collect();
         let swings = still_swings(figure.panels.get(1));

@@ -1,4 +1,4 @@
-//! One limit: what it is, its value, where the scene stands, and what moves it.
+//! One limit: what it is (`LIMITS`), its value, where the scene stands, and what moves it.
 
 use crate::scene::keys::{PULSE, SPEED};
 use serde::{Deserialize, Serialize};
@@ -237,57 +237,92 @@ impl LimitName {
         }
     }
 
+    /// Its row in `LIMITS`.
+    fn entry(self) -> &'static Entry {
+        &LIMITS[self as usize]
+    }
+
     /// What it is a value of.
     #[must_use]
     pub fn quantity(self) -> Quantity {
-        match self {
-            Self::OmegaC
-            | Self::OmegaLock
-            | Self::LockEnds
-            | Self::OmegaAdhesive
-            | Self::Coincidence
-            | Self::CoincidenceDifference
-            | Self::LockFold
-            | Self::WhirlOnset
-            | Self::FlutterSpeed => Quantity::Speed,
-            Self::TouchingPulse
-            | Self::LastingPulse
-            | Self::LastingPulseUnilateral
-            | Self::LastingPulseBilateral => Quantity::Pulse,
-            Self::PushA | Self::PushB => Quantity::Push,
-            Self::Torque => Quantity::Torque,
-            Self::Power => Quantity::Power,
-            Self::BladeAngle => Quantity::Angle,
-            Self::LockEnergy => Quantity::Energy,
-        }
+        self.entry().quantity
+    }
+
+    /// Its symbol in formulas.
+    #[must_use]
+    pub fn symbol(self) -> &'static str {
+        self.entry().symbol
+    }
+
+    /// Its title in a table: the long one, and that of narrow tables.
+    #[must_use]
+    pub fn titles(self) -> [&'static str; 2] {
+        self.entry().titles
     }
 
     /// What it is, in a few words.
     #[must_use]
     pub fn what(self) -> &'static str {
-        match self {
-            Self::OmegaC => "critical speed: above it the wave is pushed outward",
-            Self::OmegaLock => "from it on both blades of a lock push",
-            Self::LockEnds => "up to it both blades of a lock push",
-            Self::OmegaAdhesive => "above it the bilateral law holds, if one blade pulls",
-            Self::Coincidence => "dangerous coincidence (31), of the sum of frequencies",
-            Self::CoincidenceDifference => "coincidence (30) of their difference",
-            Self::LockFold => "above it soft blades give way, and no lock is left",
-            Self::WhirlOnset => "above it blades and casing whirl, on a rim of many blades",
-            Self::FlutterSpeed => "above it a lock of inclined tips flutters",
-            Self::TouchingPulse => "smallest pulse that touches",
-            Self::LastingPulse => "smallest pulse that lasts",
-            Self::LastingPulseUnilateral => "smallest that lasts, unilateral law",
-            Self::LastingPulseBilateral => "smallest that lasts, bilateral law",
-            Self::PushA => "push of group a in the lock",
-            Self::PushB => "push of group b in the lock",
-            Self::Torque => "torque that holds the lock",
-            Self::Power => "power that the lock takes",
-            Self::BladeAngle => "largest angle of a blade in the lock",
-            Self::LockEnergy => "energy of the locked wave",
-        }
+        self.entry().what
     }
 }
+
+/// What is known of a limit before its value.
+struct Entry {
+    name: LimitName,
+    quantity: Quantity,
+    symbol: &'static str,
+    titles: [&'static str; 2],
+    what: &'static str,
+}
+
+const fn entry(
+    name: LimitName,
+    quantity: Quantity,
+    symbol: &'static str,
+    titles: [&'static str; 2],
+    what: &'static str,
+) -> Entry {
+    Entry { name, quantity, symbol, titles, what }
+}
+
+/// Every limit, in the order of the names. The titles of lasting pulses go on with the
+/// contact law.
+#[rustfmt::skip]
+const LIMITS: [Entry; 19] = {
+    use LimitName::*;
+    use Quantity::{Angle, Energy, Pulse, Push, Speed};
+    [
+        entry(OmegaC, Speed, "Ω_c", ["Ω_c"; 2], "critical speed: above it the wave is pushed outward"),
+        entry(OmegaLock, Speed, "Ω_lock", ["Ω_lock"; 2], "from it on both blades of a lock push"),
+        entry(LockEnds, Speed, "Ω_ends", ["lock ends"; 2], "up to it both blades of a lock push"),
+        entry(OmegaAdhesive, Speed, "Ω_adhesive", ["adhesive limit", "adhesive"], "above it the bilateral law holds, if one blade pulls"),
+        entry(Coincidence, Speed, "Ω_coincidence", ["coincidence"; 2], "dangerous coincidence (31), of the sum of frequencies"),
+        entry(CoincidenceDifference, Speed, "Ω_difference", ["coincidence (30)", "coinc. (30)"], "coincidence (30) of their difference"),
+        entry(LockFold, Speed, "Ω_fold", ["blades give way", "give way"], "above it soft blades give way, and no lock is left"),
+        entry(WhirlOnset, Speed, "Ω_whirl", ["whirl begins", "whirl"], "above it blades and casing whirl, on a rim of many blades"),
+        entry(FlutterSpeed, Speed, "Ω_flutter", ["lock flutters", "flutter"], "above it a lock of inclined tips flutters"),
+        entry(TouchingPulse, Pulse, "F_touches", ["F that touches", "F touches"], "smallest pulse that touches"),
+        entry(LastingPulse, Pulse, "F_lasts", ["F lasts"; 2], "smallest pulse that lasts"),
+        entry(LastingPulseUnilateral, Pulse, "F_unilateral", ["F lasts"; 2], "smallest that lasts, unilateral law"),
+        entry(LastingPulseBilateral, Pulse, "F_bilateral", ["F lasts"; 2], "smallest that lasts, bilateral law"),
+        entry(PushA, Push, "−λ_a", ["push of group a", "push a"], "push of group a in the lock"),
+        entry(PushB, Push, "−λ_b", ["push of group b", "push b"], "push of group b in the lock"),
+        entry(Torque, Quantity::Torque, "T", ["torque"; 2], "torque that holds the lock"),
+        entry(Power, Quantity::Power, "P", ["power"; 2], "power that the lock takes"),
+        entry(BladeAngle, Angle, "α_max", ["blade angle"; 2], "largest angle of a blade in the lock"),
+        entry(LockEnergy, Energy, "E", ["wave energy"; 2], "energy of the locked wave"),
+    ]
+};
+
+/// Each row is at the place of its name.
+const _: () = {
+    let mut place = 0;
+    while place < LIMITS.len() {
+        assert!(LIMITS[place].name as usize == place);
+        place += 1;
+    }
+};
 
 impl Quantity {
     /// Its unit.

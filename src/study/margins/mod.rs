@@ -8,7 +8,6 @@
 //! cent by one per cent of the parameter.
 
 mod closed;
-mod edge;
 mod lasting;
 mod limit;
 mod parameters;

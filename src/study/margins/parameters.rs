@@ -1,7 +1,6 @@
 //! The parameters of a scene as numbers that may carry a derivative, and how each is
 //! read and changed.
 
-use crate::scene::keys::{PULSE, SPEED};
 use num_dual::Dual64;
 
 use crate::model::{BladedDisk, Casing, LiningLaw, Machine, Number, Operation};
@@ -11,10 +10,10 @@ use crate::scene::{Allowed, ContactLaw, Key, ModelSize, Scene, SceneError, Value
 /// The one parameter that is no key: the clearance `g0`, changed by the radius.
 pub const CLEARANCE: &str = "clearance";
 
-const RADIUS: &str = "casing.radius_m";
-const LENGTH: &str = "bladed_disk.blade_length_m";
-const STIFFNESS: &str = "contact.stiffness_n_per_m";
-const SMOOTHING: &str = "contact.smoothing_m";
+const RADIUS: &str = keys::CASING_RADIUS;
+const LENGTH: &str = keys::BLADE_LENGTH;
+const STIFFNESS: &str = keys::LINING_STIFFNESS;
+const SMOOTHING: &str = keys::LINING_SMOOTHING;
 /// The two lengths whose difference is the clearance.
 pub(super) const LENGTHS: [&str; 2] = [LENGTH, RADIUS];
 
@@ -61,23 +60,23 @@ macro_rules! at {
 pub const PARAMETERS: &[Parameter] = &[
     at!(CLEARANCE, casing.radius_m),
     at!(LENGTH, disk.blade_length_m),
-    at!("bladed_disk.inertia_kg_m2", disk.inertia_kg_m2),
-    at!("bladed_disk.stiffness_nm_per_rad", disk.stiffness_nm_per_rad),
-    at!("bladed_disk.coupling_nm_per_rad", disk.coupling_nm_per_rad),
-    at!("bladed_disk.damping_ratio", disk.damping_ratio),
-    at!("bladed_disk.radial_coupling", disk.radial_coupling),
+    at!(keys::BLADE_INERTIA, disk.inertia_kg_m2),
+    at!(keys::BLADE_STIFFNESS, disk.stiffness_nm_per_rad),
+    at!(keys::BLADE_COUPLING, disk.coupling_nm_per_rad),
+    at!(keys::BLADE_DAMPING, disk.damping_ratio),
+    at!(keys::RADIAL_COUPLING, disk.radial_coupling),
     at!(RADIUS, casing.radius_m),
-    at!("casing.modal_mass_kg", casing.modal_mass_kg),
-    at!("casing.modal_stiffness_n_per_m", casing.modal_stiffness_n_per_m),
-    at!("casing.damping_ratio", casing.damping_ratio),
-    at!("casing.tangential_ratio", casing.tangential_ratio),
-    at!("contact.friction", friction),
+    at!(keys::CASING_MASS, casing.modal_mass_kg),
+    at!(keys::CASING_STIFFNESS, casing.modal_stiffness_n_per_m),
+    at!(keys::CASING_DAMPING, casing.damping_ratio),
+    at!(keys::TANGENTIAL_RATIO, casing.tangential_ratio),
+    at!(keys::FRICTION, friction),
     at!(STIFFNESS, stiffness),
     at!(SMOOTHING, smoothing),
-    at!(SPEED, operation.speed_rad_s),
-    at!("operation.speed_ramp_rad_s2", operation.speed_ramp_rad_s2),
-    at!(PULSE, operation.pulse_n),
-    at!("operation.pulse_s", operation.pulse_s),
+    at!(keys::SPEED, operation.speed_rad_s),
+    at!(keys::SPEED_RAMP, operation.speed_ramp_rad_s2),
+    at!(keys::PULSE, operation.pulse_n),
+    at!(keys::PULSE_TIME, operation.pulse_s),
 ];
 
 /// Those that act in a scene: one without a lining has none of its numbers.

@@ -8,7 +8,7 @@ use strum::VariantNames;
 use thiserror::Error;
 
 use super::closed::{CLOSED, values};
-use super::edge::Edges;
+use super::lasting::Edges;
 use super::limit::LimitName;
 use super::parameters::{PARAMETERS, Parameter, Parameters, parameter};
 use super::{lasting_pulse, touching};

@@ -12,6 +12,7 @@
 use super::ways::{Effort, LONGEST, Way};
 use super::{Lack, Method, distance};
 use crate::motion::VerdictReached;
+use crate::scene::keys;
 use crate::scene::{Scene, SceneError};
 use crate::tolerances::{
     CHANGES_ASKED, ORDER_CLEAR, ORDER_LEAST, REFERENCE_ROUND_OFF, REFERENCE_STEPS,
@@ -76,7 +77,7 @@ pub(super) fn check(way: Way, scene: &Scene, effort: Effort) -> Result<(), Scene
         "fewer than {:e} steps of those the scene allows, for a reference by steps",
         effort.most_steps
     );
-    Err(SceneError::refused("solver.end_s", scene.solver.end_s, allowed))
+    Err(SceneError::refused(keys::END, scene.solver.end_s, allowed))
 }
 
 /// What runs at halved steps tell, on a rigid casing or a lining; `moment` \[s\] is how

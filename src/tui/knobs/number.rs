@@ -1,8 +1,8 @@
 //! Numbers as they are turned, typed and shown: round mantissas over decades,
 //! SI prefixes, no trailing zeros.
 
+use crate::report::number::SiScale;
 use crate::report::number::trimmed;
-use crate::report::prefix::SiScale;
 
 /// Mantissas of fine turns, two digits; coarse turns use 1, 2 and 5.
 const FINE: &[f64] = &[

@@ -1,8 +1,7 @@
 //! The margins of a scene as one page for a report: conditions, a row for each limit
-//! (`row`, with its bar in `bar`), the loads of the lock and what was asked for
+//! (`row`), the loads of the lock and what was asked for
 //! (`tables`), and at the foot the scene and the command.
 
-mod bar;
 mod row;
 mod tables;
 
@@ -84,7 +83,7 @@ impl Page<'_, '_> {
     /// A line across, with room around it.
     fn rule(&mut self) -> Drawn<()> {
         self.y += 4;
-        bar::fill(self.area, [LEFT, WIDTH as i32 - LEFT], [self.y, self.y + 1], RULE)?;
+        row::fill(self.area, [LEFT, WIDTH as i32 - LEFT], [self.y, self.y + 1], RULE)?;
         self.y += 6;
         Ok(())
     }

@@ -1,17 +1,18 @@
-//! The row of one limit: its symbol, value and words, its bar, where the scene stands,
-//! and what moves it most.
+//! The row of one limit: its symbol, value and words, where the scene stands, what moves it
+//! most, and its bar: from zero to the limit, with the value of the scene on it; decades where
+//! pulses are factors apart, with the bands of those that last.
 
 use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
 
-use super::bar::{self, ENDS, Range};
 use super::{LINE, Page, SMALL, TEXT, WIDTH};
 use crate::report::line::wrapped;
-use crate::report::margins::words;
+use crate::report::margins::{LimitRow, words};
+use crate::report::number::{rounded, short};
 use crate::report::svg::LEFT;
-use crate::report::svg::paper::{Drawn, letters_in, write_at, write_from};
+use crate::report::svg::paper::{Area, Drawn, FINE, letters_in, px, write_at, write_from};
 use crate::report::symbols::{in_print, symbol};
-use crate::report::ticks::power_of_ten;
+use crate::report::ticks::{log_ticks, power_of_ten};
 use crate::study::margins::{Limit, LimitName, Margins, Quantity};
 
 /// Left of what is said of the margin.
@@ -43,91 +44,61 @@ pub(super) fn printed(text: &str) -> String {
     format!("{number} {}", unit.replace("^2", "²")).trim_end().replace('-', "−")
 }
 
-/// The symbol of a limit.
-pub(super) fn sign(name: LimitName) -> &'static str {
-    match name {
-        LimitName::OmegaC => "Ω_c",
-        LimitName::OmegaLock => "Ω_lock",
-        LimitName::LockEnds => "Ω_ends",
-        LimitName::OmegaAdhesive => "Ω_adhesive",
-        LimitName::Coincidence => "Ω_coincidence",
-        LimitName::CoincidenceDifference => "Ω_difference",
-        LimitName::LockFold => "Ω_fold",
-        LimitName::WhirlOnset => "Ω_whirl",
-        LimitName::FlutterSpeed => "Ω_flutter",
-        LimitName::TouchingPulse => "F_touches",
-        LimitName::LastingPulse => "F_lasts",
-        LimitName::LastingPulseUnilateral => "F_unilateral",
-        LimitName::LastingPulseBilateral => "F_bilateral",
-        LimitName::PushA => "−λ_a",
-        LimitName::PushB => "−λ_b",
-        LimitName::Torque => "T",
-        LimitName::Power => "P",
-        LimitName::BladeAngle => "α_max",
-        LimitName::LockEnergy => "E",
-    }
-}
-
 /// Draws a row for each speed and each pulse.
 pub(super) fn draw_all(margins: &Margins, page: &mut Page<'_, '_>) -> Drawn<()> {
-    let limits: Vec<&Limit> =
-        margins.limits.iter().filter(|limit| limit.quantity.path().is_some()).collect();
-    let moving = |limit: &&Limit| limit.sensitivities.strongest(words::TOLD);
-    let changes = limits.iter().flat_map(moving).map(|(_, by)| by.abs());
+    let all = LimitRow::all(margins, &[]);
+    let rows: Vec<&LimitRow> = all.iter().filter(|row| !row.is_load()).collect();
+    let changes = rows.iter().flat_map(|row| row.strongest()).map(|(_, by)| by.abs());
     let longest = changes.fold(CHANGES[0], f64::max).min(CHANGES[1]);
-    let pulses = Range::of_pulses(&limits);
+    let pulses = Range::of_pulses(&margins.limits);
     write_at(page.area, "limit", (LEFT, page.y), SMALL)?;
-    let bands = limits.iter().any(|limit| !limit.bands.is_empty());
-    bar::legend(page.area, page.y, bands)?;
+    let bands = margins.limits.iter().any(|limit| !limit.bands.is_empty());
+    legend(page.area, page.y, bands)?;
     let last = WIDTH as i32 - LEFT;
     let told = "+1 % of each of these moves it by";
     write_from(page.area, told, (last, page.y), SMALL, HPos::Right)?;
     page.y += LINE;
-    for limit in limits {
+    for row in rows {
         page.rule()?;
-        let range = match pulses.filter(|_| limit.quantity == Quantity::Pulse) {
-            Some(range) => range,
-            None => Range::of(limit),
-        };
-        draw(limit, range, longest, page)?;
+        draw(row, pulses.filter(|_| row.quantity() == Quantity::Pulse), longest, page)?;
     }
     Ok(())
 }
 
-fn draw(limit: &Limit, range: Range, longest: f64, page: &mut Page<'_, '_>) -> Drawn<()> {
+fn draw(row: &LimitRow, shared: Option<Range>, longest: f64, page: &mut Page<'_, '_>) -> Drawn<()> {
     let (area, top) = (page.area, page.y);
-    let value = limit.value.map(|value| printed(&words::value(value, 6, limit.quantity)));
+    let value = row.value().map(|value| printed(&words::value(value, 6, row.quantity())));
     let value = value.as_deref().unwrap_or("none");
-    write_at(area, &format!("{} = {value}", sign(limit.name)), (LEFT, top), TEXT)?;
+    write_at(area, &format!("{} = {value}", row.name.symbol()), (LEFT, top), TEXT)?;
     let room = letters_in((ENDS[0] - LEFT - 18) as u32, SMALL);
     let mut y = top + 20;
-    for line in wrapped(&what(limit), room) {
+    for line in wrapped(&what(row), room) {
         write_at(area, &line, (LEFT, y), SMALL)?;
         y += LINE;
     }
-    if let Some(value) = limit.value {
-        bar::draw(area, limit, value, range, top)?;
-        let margin = limit.margin.map(words::margin).unwrap_or_default();
+    if let Some((limit, value)) = row.limit().zip(row.value()) {
+        draw_bar(area, limit, value, shared.unwrap_or_else(|| Range::of(limit)), top)?;
+        let margin = row.margin().map(words::margin).unwrap_or_default();
         write_at(area, &printed(&margin), (MARGIN, top + 11), SMALL)?;
-        write_at(area, &words::side(limit), (MARGIN, top + 11 + LINE), SMALL)?;
-        moves(limit, longest, top, page)?;
+        write_at(area, &row.way(), (MARGIN, top + 11 + LINE), SMALL)?;
+        moves(row, longest, top, page)?;
     }
     page.y = y.max(top + HEIGHT);
     Ok(())
 }
 
 /// What a limit is, under which law, and what else is to be said.
-fn what(limit: &Limit) -> String {
-    let own = limit.name == LimitName::LastingPulse;
-    let law = limit.contact.filter(|_| own).map(|law| format!(", {law} law"));
-    let note = limit.note.as_ref().map(|note| format!("; {note}"));
-    format!("{}{}{}", limit.name.what(), law.unwrap_or_default(), note.unwrap_or_default())
+fn what(row: &LimitRow) -> String {
+    let own = row.name == LimitName::LastingPulse;
+    let law = row.law.filter(|_| own).map(|law| format!(", {law} law"));
+    let note = row.note().map(|note| format!("; {note}"));
+    format!("{}{}{}", row.name.what(), law.unwrap_or_default(), note.unwrap_or_default())
 }
 
 /// What moves a limit most, as bars on both sides of zero.
-fn moves(limit: &Limit, longest: f64, top: i32, page: &Page<'_, '_>) -> Drawn<()> {
-    let strongest = limit.sensitivities.strongest(words::TOLD);
-    if strongest.is_empty() && limit.contact.is_some() {
+fn moves(row: &LimitRow, longest: f64, top: i32, page: &Page<'_, '_>) -> Drawn<()> {
+    let strongest = row.strongest();
+    if strongest.is_empty() && row.law.is_some() {
         return write_from(page.area, NOT_SMOOTH, (ZERO, top + 11), SMALL, HPos::Center);
     }
     for ((path, by), y) in strongest.iter().zip((top + 3..).step_by(LINE as usize)) {
@@ -136,17 +107,181 @@ fn moves(limit: &Limit, longest: f64, top: i32, page: &Page<'_, '_>) -> Drawn<()
         let long = (f64::from(REACH) * (by.abs() / longest).min(1.0)).round().max(1.0) as i32;
         let (x, colour) =
             if *by > 0.0 { ([ZERO, ZERO + long], MORE) } else { ([ZERO - long, ZERO], LESS) };
-        bar::fill(page.area, x, [y + 3, y + 11], colour)?;
+        fill(page.area, x, [y + 3, y + 11], colour)?;
         if by.abs() > longest {
             // A gap near the end says that the bar is cut.
             let at = if *by > 0.0 { x[1] - 6 } else { x[0] + 4 };
-            bar::fill(page.area, [at, at + 2], [y + 3, y + 11], WHITE)?;
+            fill(page.area, [at, at + 2], [y + 3, y + 11], WHITE)?;
         }
-        bar::fill(page.area, [ZERO, ZERO + 1], [y, y + 14], BLACK)?;
+        fill(page.area, [ZERO, ZERO + 1], [y, y + 14], BLACK)?;
         let change = printed(&words::change(*by));
         write_at(page.area, &change, (ZERO + REACH + 4, y), SMALL)?;
     }
     Ok(())
+}
+
+/// Left and right end of every bar.
+pub(super) const ENDS: [i32; 2] = [318, 568];
+/// Top and bottom of a bar, below the top of its row.
+const BAR: [i32; 2] = [20, 32];
+/// Pulses that are further apart than this factor are shown by decades.
+const APART: f64 = 5.0;
+/// Most labels of decades.
+const LABELS: usize = 7;
+
+/// Up to the limit.
+const BELOW: RGBColor = RGBColor(224, 224, 224);
+/// Beyond it.
+const BEYOND: RGBColor = RGBColor(150, 150, 150);
+/// Pulses that last.
+const LASTS: RGBColor = RGBColor(40, 70, 140);
+
+/// The range of a bar.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Range {
+    /// From zero to this.
+    Plain(f64),
+    /// From one power of ten to another.
+    Decades([f64; 2]),
+}
+
+impl Range {
+    /// That of one limit alone.
+    pub(super) fn of(limit: &Limit) -> Self {
+        let sizes = [limit.value, limit.present].into_iter().flatten().map(f64::abs);
+        let most = sizes.fold(0.0, f64::max);
+        Self::Plain(if most > 0.0 { most } else { 1.0 })
+    }
+
+    /// That of all pulses, if they are factors apart.
+    pub(super) fn of_pulses(limits: &[Limit]) -> Option<Self> {
+        let pulses = limits.iter().filter(|limit| limit.quantity == Quantity::Pulse);
+        let sizes: Vec<f64> = pulses
+            .flat_map(|limit| {
+                let bands = limit.bands.iter().flat_map(|band| [Some(band.from_n), band.to_n]);
+                bands.chain([limit.value, limit.present]).flatten().map(f64::abs)
+            })
+            .filter(|size| *size > 0.0)
+            .collect();
+        let least = sizes.iter().copied().fold(f64::INFINITY, f64::min);
+        let most = sizes.iter().copied().fold(0.0, f64::max);
+        let low = least.log10().floor();
+        (most > APART * least).then(|| Self::Decades([low, most.log10().ceil().max(low + 1.0)]))
+    }
+
+    /// Where a value is on the bar \[px\].
+    fn place(self, value: f64) -> i32 {
+        let part = match self {
+            Self::Plain(most) => value.abs() / most,
+            Self::Decades([low, high]) if value != 0.0 => {
+                (value.abs().log10() - low) / (high - low)
+            }
+            Self::Decades(_) => 0.0,
+        };
+        let [left, right] = ENDS;
+        left + (part.clamp(0.0, 1.0) * f64::from(right - left)).round() as i32
+    }
+}
+
+/// A filled rectangle between these places \[px\].
+pub(super) fn fill(area: &Area, x: [i32; 2], y: [i32; 2], colour: RGBColor) -> Drawn<()> {
+    let corners = [(px(x[0]), px(y[0])), (px(x[1]), px(y[1]))];
+    Ok(area.draw(&Rectangle::new(corners, colour.filled()))?)
+}
+
+/// What is on the bars, in a line at `y`.
+pub(super) fn legend(area: &Area, y: i32, bands: bool) -> Drawn<()> {
+    let left = ENDS[0];
+    let bar = [y, y + 11];
+    marker(area, left + 5, y + 9)?;
+    write_at(area, "scene", (left + 14, y), SMALL)?;
+    fill(area, [left + 60, left + 63], bar, BLACK)?;
+    write_at(area, "limit", (left + 69, y), SMALL)?;
+    if bands {
+        band(area, [left + 112, left + 124], bar, false)?;
+        write_at(area, "lasts", (left + 129, y), SMALL)?;
+        band(area, [left + 172, left + 184], bar, true)?;
+        write_at(area, "lasts, sensitive", (left + 189, y), SMALL)?;
+    }
+    Ok(())
+}
+
+/// The triangle that stands on the value of the scene.
+fn marker(area: &Area, at: i32, tip: i32) -> Drawn<()> {
+    let corners = [(at, tip), (at - 4, tip - 7), (at + 4, tip - 7)];
+    Ok(area.draw(&Polygon::new(corners.map(|(x, y)| (px(x), px(y))).to_vec(), BLACK.filled()))?)
+}
+
+/// Pulses that last, from one place to another; sensitive ones in stripes.
+fn band(area: &Area, [from, to]: [i32; 2], y: [i32; 2], sensitive: bool) -> Drawn<()> {
+    fill(area, [from, to], y, LASTS)?;
+    for stripe in (from + 1..to).step_by(3).filter(|_| sensitive) {
+        fill(area, [stripe, stripe + 1], y, WHITE)?;
+    }
+    Ok(())
+}
+
+/// Draws the bar of a limit with a value, in the row that begins at `top`.
+fn draw_bar(area: &Area, limit: &Limit, value: f64, range: Range, top: i32) -> Drawn<()> {
+    let [left, right] = ENDS;
+    let y = BAR.map(|y| top + y);
+    let at = range.place(value);
+    fill(area, [left, at], y, BELOW)?;
+    if let Some(present) = limit.present.filter(|_| limit.bands.is_empty())
+        && limit.margin.is_some_and(|margin| margin > 0.0)
+    {
+        fill(area, [at, range.place(present)], y, BEYOND)?;
+    }
+    for pulses in &limit.bands {
+        let from = range.place(pulses.from_n);
+        let to = pulses.to_n.map_or(right, |to| range.place(to)).max(from + 1);
+        band(area, [from, to], y, pulses.sensitive)?;
+    }
+    let corners = [(px(left), px(y[0])), (px(right), px(y[1]))];
+    area.draw(&Rectangle::new(corners, BLACK.stroke_width(FINE)))?;
+    // The limit itself is the thick line.
+    fill(area, [at - 1, at + 2], [y[0] - 3, y[1] + 3], BLACK)?;
+    labels(area, range, y[1])?;
+    match limit.present {
+        Some(present) => mark(area, range.place(present), present, limit.quantity, top),
+        None => Ok(()),
+    }
+}
+
+/// The value of the scene, above the bar.
+fn mark(area: &Area, at: i32, present: f64, quantity: Quantity, top: i32) -> Drawn<()> {
+    let tip = top + BAR[0];
+    marker(area, at, tip)?;
+    fill(area, [at, at + 1], [tip, top + BAR[1]], BLACK)?;
+    let told = printed(&words::value(present, 5, quantity));
+    let [left, right] = ENDS;
+    let (at, end) = match at {
+        at if at < left + 30 => (at.max(left) - 4, HPos::Left),
+        at if at > right - 30 => (at.min(right) + 4, HPos::Right),
+        at => (at, HPos::Center),
+    };
+    write_from(area, &told, (at, top), SMALL - 1, end)
+}
+
+/// What the ends of a bar are, or its decades.
+fn labels(area: &Area, range: Range, bottom: i32) -> Drawn<()> {
+    let y = bottom + 4;
+    let [left, right] = ENDS;
+    match range {
+        Range::Plain(most) => {
+            write_from(area, "0", (left, y), SMALL - 1, HPos::Left)?;
+            let most = printed(&short(rounded(most, 5)));
+            write_from(area, &most, (right, y), SMALL - 1, HPos::Right)
+        }
+        Range::Decades([low, high]) => {
+            for power in log_ticks(low, high, LABELS) {
+                let at = range.place(10_f64.powf(power));
+                fill(area, [at, at + 1], [bottom, bottom + 4], BLACK)?;
+                write_from(area, &power_of_ten(power), (at, y + 1), SMALL - 1, HPos::Center)?;
+            }
+            Ok(())
+        }
+    }
 }
 
 #[cfg(test)]

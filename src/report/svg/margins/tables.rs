@@ -3,16 +3,16 @@
 
 use plotters::style::text_anchor::HPos;
 
-use super::row::{printed, sign};
+use super::row::printed;
 use super::{LINE, Page, SMALL, TEXT};
-use crate::report::margins::words;
+use crate::report::margins::{LimitRow, words};
 use crate::report::number::{short, time, with_unit};
 use crate::report::svg::LEFT;
 use crate::report::svg::paper::{Drawn, typed, write_at, write_from};
 use crate::report::symbols::{in_print, symbol};
 use crate::scene::keys::{Allowed, KEYS};
 use crate::scene::{Scene, SolverKind, Value};
-use crate::study::margins::{Limit, Margins};
+use crate::study::margins::Margins;
 
 /// Columns of the loads: words, right end of the value, way it acts, what moves it.
 const LOADS: [i32; 4] = [76, 440, 450, 520];
@@ -21,27 +21,25 @@ const SPREAD: [i32; 5] = [300, 430, 560, 690, 815];
 
 /// The loads of the locked motion.
 pub(super) fn loads(margins: &Margins, page: &mut Page<'_, '_>) -> Drawn<()> {
-    let loads = margins.limits.iter().filter(|limit| limit.quantity.path().is_none());
-    let (with, without): (Vec<&Limit>, Vec<&Limit>) =
-        loads.partition(|limit| limit.value.is_some());
+    let loads = LimitRow::all(margins, &[]).into_iter().filter(LimitRow::is_load);
+    let (with, without): (Vec<_>, Vec<_>) = loads.partition(|row| row.value().is_some());
     page.rule()?;
     let speed = printed(&short(margins.scene.operation.speed_rad_s));
-    let none = match without.first().and_then(|limit| limit.note.as_ref()) {
+    let none = match without.first().and_then(LimitRow::note) {
         Some(note) if with.is_empty() => format!(" none: {note}"),
         _ => String::new(),
     };
     let [what, value, side, moves] = LOADS;
     page.lines(&format!("The locked motion at {speed} rad/s:{none}"), TEXT, 20)?;
-    for limit in with {
-        let Some(load) = limit.value else { continue };
+    for row in with {
+        let Some(load) = row.value() else { continue };
         let (area, y) = (page.area, page.y);
-        write_at(area, sign(limit.name), (LEFT, y), SMALL)?;
-        write_at(area, limit.name.what(), (what, y), SMALL)?;
-        let load = printed(&words::value(load, 6, limit.quantity));
+        write_at(area, row.name.symbol(), (LEFT, y), SMALL)?;
+        write_at(area, row.name.what(), (what, y), SMALL)?;
+        let load = printed(&words::value(load, 6, row.quantity()));
         write_from(area, &load, (value, y), SMALL, HPos::Right)?;
-        write_at(area, &words::side(limit), (side, y), SMALL)?;
-        let strongest = limit.sensitivities.strongest(words::TOLD);
-        for ((path, by), x) in strongest.iter().zip((moves..).step_by(102)) {
+        write_at(area, &row.way(), (side, y), SMALL)?;
+        for ((path, by), x) in row.strongest().iter().zip((moves..).step_by(102)) {
             let told = format!("{} {}", symbol(path), words::change(*by));
             write_at(area, &in_print(&told), (x, y), SMALL)?;
         }
@@ -63,7 +61,7 @@ pub(super) fn spread(margins: &Margins, page: &mut Page<'_, '_>) -> Drawn<()> {
     page.y += LINE + 2;
     for limit in &margins.limits {
         let Some((unit, told)) = words::spread(limit) else { continue };
-        let name = format!("{} [{}]", sign(limit.name), unit.replace('u', "µ"));
+        let name = format!("{} [{}]", limit.name.symbol(), unit.replace('u', "µ"));
         write_at(page.area, &name, (LEFT, page.y), SMALL)?;
         for (text, x) in told.iter().zip(SPREAD) {
             write_from(page.area, &printed(text), (x, page.y), SMALL, HPos::Right)?;

@@ -3,7 +3,7 @@
 
 use ratatui::{buffer::Buffer, layout::Position, layout::Rect, style::Modifier};
 
-use super::rows::Row;
+use crate::report::margins::LimitRow;
 use crate::study::margins::{Band, Limit, Quantity};
 use crate::tui::appearance::Appearance;
 use crate::tui::knobs::KnobRange;
@@ -30,8 +30,8 @@ pub struct LimitBar<'a> {
 
 impl<'a> LimitBar<'a> {
     /// The bar of a row; none of a load, and none where there is no such limit.
-    pub fn of(row: &Row<'a>) -> Option<Self> {
-        let Row::Limit(limit) = *row else { return None };
+    pub fn of(row: &LimitRow<'a>) -> Option<Self> {
+        let limit = row.limit()?;
         let (value, present) = limit.value.zip(limit.present)?;
         // Magnitudes: a negative pulse has negative limits.
         let sign = if value < 0.0 { -1.0 } else { 1.0 };

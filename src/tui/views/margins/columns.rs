@@ -2,8 +2,8 @@
 
 use ratatui::layout::Rect;
 
-use super::KNOBS;
-use super::rows::{Row, change_text, knob_symbol};
+use super::rows::{change_text, knob_symbol, percent_text, value_text};
+use crate::report::margins::{LimitRow, TOLD};
 use crate::tui::appearance::Appearance;
 use crate::tui::text::columns as cells;
 
@@ -54,19 +54,19 @@ pub struct Columns {
     shown: Vec<(Column, u16)>,
     label: u16,
     knob_bar: u16,
-    /// Whether limits have their short names.
+    /// Whether limits have their short titles.
     pub short: bool,
 }
 
 impl Columns {
     /// The columns for these rows.
-    pub fn of(rows: &[Row], area: Rect, large: bool, look: &Appearance) -> Self {
-        let widest = |of: &dyn Fn(&Row) -> String| {
+    pub fn of(rows: &[LimitRow], area: Rect, large: bool, look: &Appearance) -> Self {
+        let widest = |of: &dyn Fn(&LimitRow) -> String| {
             let most = rows.iter().map(|row| cells(&look.spell(&of(row)))).max();
             most.and_then(|most| u16::try_from(most).ok()).unwrap_or(0)
         };
         let widest_knob = |of: &dyn Fn(&(&'static str, f64)) -> String| {
-            let strongest = rows.iter().flat_map(Row::strongest);
+            let strongest = rows.iter().flat_map(LimitRow::strongest);
             let most = strongest.map(|knob| cells(&look.spell(&of(&knob)))).max();
             most.and_then(|most| u16::try_from(most).ok()).unwrap_or(1)
         };
@@ -76,10 +76,10 @@ impl Columns {
         let number = widest_knob(&|(_, by)| change_text(*by));
         let mut knob_bar = KNOB_BAR[0];
         let width = |column: Column, knob_bar: u16| match column {
-            Symbol => widest(&|row| row.symbol(short).to_string()),
+            Symbol => widest(&|row| row.title(short)),
             Bar => LEAST_BAR,
-            Value => widest(&|row| row.value_text()),
-            Percent => widest(&|row| row.percent_text()),
+            Value => widest(&value_text),
+            Percent => widest(&percent_text),
             Word => 6,
             Knob(_) => label + 1 + knob_bar + 1 + number,
         };
@@ -115,7 +115,7 @@ impl Columns {
 
     /// How many knobs are shown.
     pub fn knobs(&self) -> usize {
-        (0..KNOBS).filter(|place| self.has(Knob(*place))).count()
+        (0..TOLD).filter(|place| self.has(Knob(*place))).count()
     }
 
     /// The columns in a line, from left to right; none beyond its end.

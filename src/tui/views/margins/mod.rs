@@ -18,9 +18,7 @@ pub use rows::DIGITS;
 use table::Table;
 
 /// Columns of the reading cursor: the limit, and the knobs that matter most.
-pub const COLUMNS: u32 = KNOBS as u32 + 1;
-/// Knobs that are shown beside a limit.
-const KNOBS: usize = 3;
+pub const COLUMNS: u32 = margins::TOLD as u32 + 1;
 /// From this height on, a sentence says what the row under the cursor is,
 const TOLD_FROM: u16 = 6;
 /// and from this one on it has two lines.
@@ -91,7 +89,7 @@ impl ViewPanel for MarginsView {
             let reason = "these margins are of the knobs before; new ones are under way";
             return Some(Opening::Nothing(reason.into()));
         }
-        Some(live.rows().get(row)?.opening(column, app))
+        Some(rows::opening(live.rows().get(row)?, column, app))
     }
 
     fn csv(&self, app: &App) -> Result<String, String> {

@@ -1,9 +1,9 @@
 //! The rows of the margins: names, numbers, and what Enter does on them.
 
-use super::{KNOBS, LiveMargins};
+use super::LiveMargins;
+use crate::report::margins::LimitRow;
 use crate::report::number::rounded;
-use crate::scene::ContactLaw;
-use crate::study::margins::{Limit, LimitName, Margins, Quantity, Side};
+use crate::study::margins::{Margins, Quantity};
 use crate::tui::app::App;
 use crate::tui::axis::readable;
 use crate::tui::knobs::{knob_of, number};
@@ -11,15 +11,6 @@ use crate::tui::views::Opening;
 
 /// Digits of a limit.
 pub const DIGITS: usize = 5;
-
-/// A row: a limit, or one that is still searched.
-#[derive(Clone, Copy, Debug)]
-pub enum Row<'a> {
-    /// A limit that is known.
-    Limit(&'a Limit),
-    /// The smallest lasting pulse under a law.
-    Searched(LimitName, ContactLaw),
-}
 
 impl LiveMargins {
     /// Margins in which nothing was searched yet.
@@ -29,151 +20,63 @@ impl LiveMargins {
     }
 
     /// The rows, in the order of the limits; what is searched is among the pulses.
-    pub fn rows(&self) -> Vec<Row<'_>> {
-        let limits = &self.margins.limits;
-        let own = self.margins.scene.solver.contact;
-        let searched =
-            self.awaited.iter().map(|law| Row::Searched(LimitName::lasting(*law, own), *law));
-        let place = limits.iter().rposition(|limit| limit.quantity == Quantity::Pulse);
-        let (before, after) = limits.split_at(place.map_or(0, |place| place + 1));
-        before.iter().map(Row::Limit).chain(searched).chain(after.iter().map(Row::Limit)).collect()
+    pub fn rows(&self) -> Vec<LimitRow<'_>> {
+        LimitRow::all(&self.margins, &self.awaited)
     }
 }
 
-impl<'a> Row<'a> {
-    /// Which limit.
-    pub fn name(&self) -> LimitName {
-        match self {
-            Self::Limit(limit) => limit.name,
-            Self::Searched(name, _) => *name,
+/// The value of a limit, in a column whose speeds are in rad/s.
+pub fn value_text(row: &LimitRow) -> String {
+    match (row.value(), row.quantity()) {
+        (None, _) => String::new(),
+        (Some(value), Quantity::Speed) => number(rounded(value, DIGITS), ""),
+        (Some(value), quantity) => with_unit(value, quantity),
+    }
+}
+
+/// A value of a limit, with its unit.
+pub fn with_unit(value: f64, quantity: Quantity) -> String {
+    match quantity {
+        Quantity::Speed | Quantity::Pulse => number(rounded(value, DIGITS), quantity.unit()),
+        _ => readable(value, quantity.unit()),
+    }
+}
+
+/// How far beyond a limit the scene is.
+pub fn percent_text(row: &LimitRow) -> String {
+    row.margin().map_or(String::new(), |margin| percent(100.0 * margin) + " %")
+}
+
+/// Why there is no value.
+pub fn reason(row: &LimitRow) -> Option<String> {
+    match (row.limit(), row.value(), row.note()) {
+        (None, ..) => Some("searching ...".into()),
+        (Some(_), None, note) => Some(note.map_or("none".into(), |note| format!("none: {note}"))),
+        _ => None,
+    }
+}
+
+/// What Enter does on a column of a row.
+pub fn opening(row: &LimitRow, column: usize, app: &App) -> Opening {
+    let nothing = || {
+        let why = reason(row).unwrap_or_else(|| "no such knob moves it".into());
+        Opening::Nothing(format!("{}: {why}", row.title(false)))
+    };
+    let select = |place: usize| {
+        let knob = row.strongest().get(place).map(|knob| knob.0);
+        knob.map_or_else(nothing, Opening::Select)
+    };
+    match (column.checked_sub(1), row.quantity().path(), row.value()) {
+        (Some(place), ..) => select(place),
+        (None, None, _) => select(0),
+        (None, Some(_), None) => nothing(),
+        (None, Some(path), Some(value)) => {
+            // Limits of speed are magnitudes; the rotor keeps its sense.
+            let backward = app.scene.operation.speed_rad_s < 0.0;
+            let speed = row.quantity() == Quantity::Speed;
+            let value = if speed && backward { -value } else { value };
+            Opening::Jump { path, value, to: row.title(false) }
         }
-    }
-
-    fn limit(&self) -> Option<&'a Limit> {
-        match *self {
-            Self::Limit(limit) => Some(limit),
-            Self::Searched(..) => None,
-        }
-    }
-
-    /// Its value, if there is such a limit.
-    pub fn value(&self) -> Option<f64> {
-        self.limit()?.value
-    }
-
-    /// Whether it is a load, which limits nothing of the scene.
-    pub fn is_load(&self) -> bool {
-        self.name().quantity().path().is_none()
-    }
-
-    /// On which side of it the scene is.
-    pub fn side(&self) -> Option<Side> {
-        self.limit()?.side()
-    }
-
-    /// Its name in a column.
-    pub fn symbol(&self, short: bool) -> &'static str {
-        let law = match self {
-            Self::Limit(limit) => limit.contact,
-            Self::Searched(_, law) => Some(*law),
-        };
-        let [long, few] = match self.name() {
-            LimitName::OmegaC => ["Ω_c"; 2],
-            LimitName::OmegaLock => ["Ω_lock"; 2],
-            LimitName::LockEnds => ["lock ends"; 2],
-            LimitName::OmegaAdhesive => ["adhesive limit", "adhesive"],
-            LimitName::LockFold => ["blades give way", "give way"],
-            LimitName::WhirlOnset => ["whirl begins", "whirl"],
-            LimitName::FlutterSpeed => ["lock flutters", "flutter"],
-            LimitName::Coincidence => ["coincidence"; 2],
-            LimitName::CoincidenceDifference => ["coincidence (30)", "coinc. (30)"],
-            LimitName::TouchingPulse => ["F that touches", "F touches"],
-            LimitName::LastingPulse
-            | LimitName::LastingPulseUnilateral
-            | LimitName::LastingPulseBilateral => match law {
-                Some(ContactLaw::Bilateral) => ["F lasts, bilateral", "F lasts bil"],
-                Some(ContactLaw::Smooth) => ["F lasts, smooth", "F lasts smo"],
-                _ => ["F lasts, unilateral", "F lasts uni"],
-            },
-            LimitName::PushA => ["push of group a", "push a"],
-            LimitName::PushB => ["push of group b", "push b"],
-            LimitName::Torque => ["torque"; 2],
-            LimitName::Power => ["power"; 2],
-            LimitName::BladeAngle => ["blade angle"; 2],
-            LimitName::LockEnergy => ["wave energy"; 2],
-        };
-        if short { few } else { long }
-    }
-
-    /// Its value, in a column whose speeds are in rad/s.
-    pub fn value_text(&self) -> String {
-        let Some(value) = self.value() else { return String::new() };
-        match self.name().quantity() {
-            Quantity::Speed => number(rounded(value, DIGITS), ""),
-            _ => self.with_unit(value),
-        }
-    }
-
-    /// A value of it, with its unit.
-    pub fn with_unit(&self, value: f64) -> String {
-        let quantity = self.name().quantity();
-        match quantity {
-            Quantity::Speed | Quantity::Pulse => number(rounded(value, DIGITS), quantity.unit()),
-            _ => readable(value, quantity.unit()),
-        }
-    }
-
-    /// How far beyond it the scene is.
-    pub fn percent_text(&self) -> String {
-        let margin = self.limit().and_then(|limit| limit.margin);
-        margin.map_or(String::new(), |margin| percent(100.0 * margin) + " %")
-    }
-
-    /// Why there is no value.
-    pub fn reason(&self) -> Option<String> {
-        match self {
-            Self::Searched(..) => Some("searching ...".into()),
-            Self::Limit(limit) if limit.value.is_none() => {
-                Some(limit.note.as_ref().map_or("none".into(), |note| format!("none: {note}")))
-            }
-            Self::Limit(_) => None,
-        }
-    }
-
-    /// What else is to be said of it.
-    pub fn note(&self) -> Option<&'a str> {
-        self.limit()?.note.as_deref()
-    }
-
-    /// The knobs that move it most.
-    pub fn strongest(&self) -> Vec<(&'static str, f64)> {
-        self.limit().map_or(Vec::new(), |limit| limit.sensitivities.strongest(KNOBS))
-    }
-
-    /// What Enter does on a column of it.
-    pub fn opening(&self, column: usize, app: &App) -> Opening {
-        let nothing = || Opening::Nothing(format!("{}: {}", self.symbol(false), self.none()));
-        let select = |place: usize| {
-            let knob = self.strongest().get(place).map(|knob| knob.0);
-            knob.map_or_else(nothing, Opening::Select)
-        };
-        match (column.checked_sub(1), self.name().quantity().path(), self.value()) {
-            (Some(place), ..) => select(place),
-            (None, None, _) => select(0),
-            (None, Some(_), None) => nothing(),
-            (None, Some(path), Some(value)) => {
-                // Limits of speed are magnitudes; the rotor keeps its sense.
-                let backward = app.scene.operation.speed_rad_s < 0.0;
-                let speed = self.name().quantity() == Quantity::Speed;
-                let value = if speed && backward { -value } else { value };
-                Opening::Jump { path, value, to: self.symbol(false).to_string() }
-            }
-        }
-    }
-
-    /// Why Enter does nothing.
-    fn none(&self) -> String {
-        self.reason().unwrap_or_else(|| "no such knob moves it".into())
     }
 }
 

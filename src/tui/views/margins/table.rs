@@ -5,8 +5,9 @@ use ratatui::{buffer::Buffer, layout::Rect, style::Modifier, style::Style};
 
 use super::bar::{self, LimitBar};
 use super::columns::{Column, Columns};
-use super::rows::{self, Row};
+use super::rows;
 use super::{COLUMNS, words};
+use crate::report::margins::LimitRow;
 use crate::tui::app::App;
 use crate::tui::text::{print, shorten};
 use crate::tui::theme::Role;
@@ -18,7 +19,7 @@ const HEADING_FROM: u16 = 8;
 /// The rows, and how they are drawn.
 pub struct Table<'a> {
     app: &'a App,
-    rows: &'a [Row<'a>],
+    rows: &'a [LimitRow<'a>],
     old: bool,
     at: ViewArea,
     columns: Columns,
@@ -30,7 +31,7 @@ impl<'a> Table<'a> {
     /// The table for an area; `old` where it is of other knobs.
     pub fn new(
         app: &'a App,
-        rows: &'a [Row<'a>],
+        rows: &'a [LimitRow<'a>],
         old: bool,
         at: ViewArea,
         area: Rect,
@@ -54,7 +55,7 @@ impl<'a> Table<'a> {
         let (room, count) = (usize::from(area.height), self.rows.len());
         // A rule before the loads, where everything fits; pages otherwise, on which
         // rows stay where they are while a pointer goes over them.
-        let loads = self.rows.iter().position(Row::is_load).filter(|_| count < room);
+        let loads = self.rows.iter().position(LimitRow::is_load).filter(|_| count < room);
         let page = if count <= room { count } else { room.saturating_sub(1) }.max(1);
         let row = cell.map_or(0, |[_, row]| row);
         let first = row / page * page;
@@ -127,7 +128,7 @@ impl<'a> Table<'a> {
     }
 
     /// One row; `cursor` is the column that is read in it.
-    fn row(&self, buffer: &mut Buffer, line: Rect, row: &Row, cursor: Option<usize>) {
+    fn row(&self, buffer: &mut Buffer, line: Rect, row: &LimitRow, cursor: Option<usize>) {
         let columns = &self.columns;
         let look = &self.app.appearance;
         let style = |role: Role| look.style(if self.old { Role::Quiet } else { role });
@@ -142,7 +143,7 @@ impl<'a> Table<'a> {
             match column {
                 Column::Symbol => {
                     let text =
-                        shorten(&look.spell(row.symbol(columns.short)), width, look.ellipsis());
+                        shorten(&look.spell(&row.title(columns.short)), width, look.ellipsis());
                     put(&text, if cursor == Some(0) { here } else { style(Role::Text) });
                 }
                 Column::Bar if !quiet => {
@@ -150,14 +151,15 @@ impl<'a> Table<'a> {
                         bar.draw(look, buffer, place, self.old);
                     }
                 }
-                Column::Value => {
-                    put(&format!("{:>width$}", look.spell(&row.value_text())), style(Role::Text))
-                }
+                Column::Value => put(
+                    &format!("{:>width$}", look.spell(&rows::value_text(row))),
+                    style(Role::Text),
+                ),
                 Column::Percent => {
                     let role = row.side().map_or(Role::Text, words::role);
                     let text = match row.is_load() && !columns.has(Column::Value) {
-                        true => row.value_text(),
-                        false => row.percent_text(),
+                        true => rows::value_text(row),
+                        false => rows::percent_text(row),
                     };
                     put(&format!("{:>width$}", look.spell(&text)), style(role));
                 }
@@ -173,7 +175,7 @@ impl<'a> Table<'a> {
                 Column::Bar => {}
             }
         }
-        if let Some(reason) = row.reason() {
+        if let Some(reason) = rows::reason(row) {
             // In the place of all that is not there.
             let symbol = columns.after_symbol(line);
             print(buffer, symbol, 0, &look.spell(&reason), look.style(Role::Quiet));
@@ -181,7 +183,7 @@ impl<'a> Table<'a> {
     }
 
     /// One knob: its symbol, a signed bar, and the change by one per cent.
-    fn knob(&self, buffer: &mut Buffer, line: Rect, place: usize, row: &Row, under: bool) {
+    fn knob(&self, buffer: &mut Buffer, line: Rect, place: usize, row: &LimitRow, under: bool) {
         let look = &self.app.appearance;
         let strongest = row.strongest();
         let Some((path, by)) = strongest.get(place + self.first_knob) else { return };

@@ -4,7 +4,8 @@
 use ratatui::style::Style;
 
 use super::bar::signs;
-use super::rows::{Row, change_text};
+use super::rows::{change_text, opening, percent_text, reason, with_unit};
+use crate::report::margins::LimitRow;
 use crate::study::margins::Side;
 use crate::tui::app::App;
 use crate::tui::knobs::knob_of;
@@ -37,7 +38,7 @@ pub fn title(app: &App, width: u16) -> Vec<(String, Style)> {
 }
 
 /// The cell under the cursor in words, or the key that leads to it.
-pub fn told(app: &App, rows: &[Row], cell: Option<[usize; 2]>) -> (String, Role) {
+pub fn told(app: &App, rows: &[LimitRow], cell: Option<[usize; 2]>) -> (String, Role) {
     let found = cell.and_then(|[column, row]| Some((column, rows.get(row)?)));
     let Some((column, row)) = found else {
         return ("i reads a row: Enter jumps to its limit, or selects a knob".into(), Role::Quiet);
@@ -46,27 +47,27 @@ pub fn told(app: &App, rows: &[Row], cell: Option<[usize; 2]>) -> (String, Role)
         None => limit(app, row),
         Some(place) => match row.strongest().get(place) {
             Some((path, by)) => knob(row, path, *by),
-            None => format!("{}: no more knobs move it", row.symbol(false)),
+            None => format!("{}: no more knobs move it", row.title(false)),
         },
     };
     (text, Role::Focus)
 }
 
 /// A limit: its value, what it is, and where the scene is.
-fn limit(app: &App, row: &Row) -> String {
+fn limit(app: &App, row: &LimitRow) -> String {
     let mut parts = vec![match row.value() {
-        Some(value) => format!("{} {}", row.symbol(false), row.with_unit(value)),
-        None => row.symbol(false).to_string(),
+        Some(value) => format!("{} {}", row.title(false), with_unit(value, row.quantity())),
+        None => row.title(false),
     }];
-    parts.push(format!(": {}", row.name().what()));
+    parts.push(format!(": {}", row.name.what()));
     if let Some(side) = row.side() {
-        parts.push(format!("; now {} {side}", row.percent_text().trim_start_matches(['+', '-'])));
+        parts.push(format!("; now {} {side}", percent_text(row).trim_start_matches(['+', '-'])));
     }
-    if let Some(note) = row.reason().as_deref().or(row.note()) {
+    if let Some(note) = reason(row).as_deref().or(row.note()) {
         parts.push(format!("; {note}"));
     }
     // The last line says what Enter does, but not with which knob.
-    if let Opening::Select(path) = row.opening(0, app) {
+    if let Opening::Select(path) = opening(row, 0, app) {
         let knob = knob_of(path).map_or(path, |knob| knob.label);
         parts.push(format!(". Enter selects {knob}"));
     }
@@ -74,10 +75,10 @@ fn limit(app: &App, row: &Row) -> String {
 }
 
 /// A knob: its present value, and what one per cent more of it does.
-fn knob(row: &Row, path: &'static str, by: f64) -> String {
+fn knob(row: &LimitRow, path: &'static str, by: f64) -> String {
     let label = knob_of(path).map_or(path, |knob| knob.label);
-    let part = row.value().map(|value| row.with_unit(value * by / 100.0));
+    let part = row.value().map(|value| with_unit(value * by / 100.0, row.quantity()));
     let part = part.map_or(String::new(), |part| format!(" ({part})"));
-    let symbol = row.symbol(false);
+    let symbol = row.title(false);
     format!("1 % more of {label}: {symbol} {} %{part}", change_text(by))
 }
