@@ -19,7 +19,7 @@ pub struct SceneOptions {
     #[arg(value_name = "SCENE", value_parser = Words::scenes(), hide_possible_values = true)]
     scene: Option<String>,
     /// Rotor speed; negative turns the other way [rad/s]
-    #[arg(long, value_name = "keys::SPEED", allow_hyphen_values = true, help_heading = HEADING)]
+    #[arg(long, value_name = "SPEED", allow_hyphen_values = true, help_heading = HEADING)]
     speed: Option<String>,
     /// Force of the pulse on the casing [N]
     #[arg(long, value_name = "FORCE", allow_hyphen_values = true, help_heading = HEADING)]

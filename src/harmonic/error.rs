@@ -1,6 +1,7 @@
 //! Errors of the frequency domain, each in one line with the key, its value and
 //! what is allowed.
 
+use crate::scene::keys;
 use thiserror::Error;
 
 use crate::model::{ContactPolygon, Machine};
@@ -99,9 +100,9 @@ impl HarmonicError {
 /// Refuses tips that are inclined or rub, where only the paper's are taken.
 pub(super) fn refuse_joined(machine: &Machine, allowed: &str) -> Result<(), HarmonicError> {
     let (key, value) = if machine.radial_coupling != 0.0 {
-        ("bladed_disk.radial_coupling", machine.radial_coupling)
+        (keys::RADIAL_COUPLING, machine.radial_coupling)
     } else if machine.friction != 0.0 {
-        ("contact.friction", machine.friction)
+        (keys::FRICTION, machine.friction)
     } else {
         return Ok(());
     };
@@ -129,7 +130,7 @@ pub(super) fn refuse_preload(machine: &Machine) -> Result<(), HarmonicError> {
 /// Refuses modes of the disk of other diameters than those of the casing: no single
 /// harmonic balances them.
 pub(super) fn refuse_other_diameters(machine: &Machine) -> Result<(), HarmonicError> {
-    let (key, value) = ("bladed_disk.nodal_diameters", machine.blade_diameters);
+    let (key, value) = (keys::DISK_DIAMETERS, machine.blade_diameters);
     let allowed = "0 or the nodal diameters of the casing; with others no single harmonic \
                    balances blades and casing";
     if machine.has_other_diameters() {

@@ -8,6 +8,7 @@
 //! over `x` from `(-g0 - eps)/r` to `-g0/r`. A wide one is a difference of closed forms, a
 //! narrow one is summed without losing a digit.
 
+use crate::scene::keys;
 use std::f64::consts::{PI, TAU};
 
 use crate::harmonic::{HarmonicError, Joint, error};
@@ -40,7 +41,7 @@ impl<'a> Lining<'a> {
         }
         error::refuse_no_corner(polygon)?;
         if !Joint::has_one_wave(machine) {
-            let (key, value) = ("bladed_disk.nodal_diameters", machine.blade_diameters);
+            let (key, value) = (keys::DISK_DIAMETERS, machine.blade_diameters);
             let allowed = "those of the casing, or n_b = +-n_d modulo N, for one wave of both";
             return Err(HarmonicError::refused(key, value, allowed));
         }
