@@ -64,6 +64,24 @@ fn typing_in_the_help_filters_it() {
 }
 
 #[test]
+fn every_sign_of_the_pictures_is_found_by_typing_it() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/all/snapshots");
+    let pictures = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let texts = pictures.map(|path| std::fs::read_to_string(path).unwrap());
+    let mut signs: Vec<char> = texts.flat_map(|text| text.chars().collect::<Vec<_>>()).collect();
+    signs.sort_unstable();
+    signs.dedup();
+    // A curve has any pattern of dots.
+    signs.retain(|sign| !sign.is_ascii() && !('\u{2801}'..='\u{28ff}').contains(sign));
+    assert!(signs.len() > 30, "{signs:?}");
+    for sign in signs.into_iter().chain(['*']) {
+        let mut session = open((80, 24), Marker::Braille);
+        session.press(&format!("?{sign}"));
+        assert!(!session.text().contains("nothing has these words"), "{sign}");
+    }
+}
+
+#[test]
 fn the_help_scrolls_to_its_end_and_back_without_a_dead_key() {
     for size in SIZES {
         let mut session = open(size, Marker::Braille);
