@@ -314,6 +314,9 @@ fn changed(from: &Scene, to: &Scene, view: bool) -> impl Iterator<Item = (&'stat
 pub const SPEED: &str = "operation.speed_rad_s";
 /// Path of the pulse force.
 pub const PULSE: &str = "operation.pulse_n";
+/// What is no key, but is turned and swept as one: the clearance `R_c - l_b`, which the
+/// radius of the casing sets.
+pub const CLEARANCE: &str = "clearance";
 
 /// Every key but `schema`, in the order of the file.
 pub const KEYS: &[Key] = &[
