@@ -152,6 +152,16 @@ pub fn help_bottom(app: &App, help: &HelpState) -> u16 {
     u16::try_from(lines).unwrap_or(u16::MAX).saturating_sub(area.height)
 }
 
+/// What the help says about these words, in lines of so many columns.
+pub fn help_text(app: &App, width: u16, words: &str) -> Vec<String> {
+    let (lines, _) = lines(app, Rect::new(0, 0, width, 1), words);
+    let left = usize::from(keys_width(width));
+    lines
+        .into_iter()
+        .map(|(keys, what, _)| format!("{keys:left$}{what}").trim_end().into())
+        .collect()
+}
+
 /// Draws the help.
 pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, help: &HelpState) {
     let look = &app.appearance;

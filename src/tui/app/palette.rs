@@ -1,0 +1,127 @@
+//! The open list of commands: what is typed, which line is chosen, and doing it.
+
+use super::{App, Effect, InputMode};
+use crate::report::line::clean;
+use crate::scene::Scene;
+use crate::tui::bindings::Action;
+use crate::tui::commands::{self, Command};
+
+/// The open list.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct PaletteState {
+    /// What is looked for.
+    pub typed: String,
+    /// The chosen line of what was found.
+    pub place: usize,
+}
+
+impl App {
+    /// Opens the list with these words.
+    pub(super) fn look_for(&mut self, typed: &str) {
+        self.dialogue.open(InputMode::Palette(PaletteState { typed: typed.into(), place: 0 }));
+    }
+
+    /// Moves the choice; whether the action did that.
+    pub(super) fn move_choice(&mut self, palette: &PaletteState, action: Action) -> bool {
+        const PAGE: usize = 8;
+        let last = commands::found(self, &palette.typed).len().saturating_sub(1);
+        let place = match action {
+            Action::KnobBelow => palette.place + 1,
+            Action::KnobAbove => palette.place.saturating_sub(1),
+            Action::PageForward => palette.place + PAGE,
+            Action::PageBack => palette.place.saturating_sub(PAGE),
+            _ => return false,
+        };
+        self.dialogue
+            .open(InputMode::Palette(PaletteState { place: place.min(last), ..palette.clone() }));
+        true
+    }
+
+    /// Does what was chosen; where there is nothing to choose, the list stays open.
+    pub(super) fn choose_command(&mut self, palette: &PaletteState) -> Effect {
+        let chosen = commands::found(self, &palette.typed).into_iter().nth(palette.place);
+        match chosen.map_or_else(|| commands::only(self, &palette.typed), Ok) {
+            Ok(found) => self.obey(found.command),
+            Err(reason) => {
+                self.status = Some(clean(&reason));
+                Effect::None
+            }
+        }
+    }
+
+    /// Does what was asked for in words.
+    pub fn obey(&mut self, command: Command) -> Effect {
+        self.dialogue.close();
+        match command {
+            Command::Act(action) => return self.act(action),
+            Command::GoTo(t) => self.go_to(t),
+            Command::Blade(blade) => self.go_to_blade(blade),
+            Command::Axes(paths) => self.put_axes(paths),
+            Command::Scene(name) => self.open_builtin(name),
+            Command::Lesson(place) => self.begin_lesson(place),
+            Command::Select(place) => self.knobs.select(place),
+            Command::Write(purpose, name) => return self.write(purpose, &name, false),
+            Command::Set(place, text) => {
+                self.knobs.select(place);
+                self.accept(&text);
+                if let Some(refusal) = self.knobs.refusal() {
+                    self.status = Some(clean(refusal));
+                }
+            }
+        }
+        Effect::None
+    }
+
+    /// Makes a built-in scene the current one; undo brings the former one back.
+    pub fn open_builtin(&mut self, name: &str) {
+        match Scene::builtin(name).and_then(|scene| scene.checked()) {
+            Ok(scene) => {
+                self.open_scene(name.to_string(), scene);
+                self.status = Some(format!("opened {name}"));
+            }
+            Err(error) => self.status = Some(clean(&error.to_string())),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tui::{Marker, Theme};
+
+    fn app() -> App {
+        App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Braille)
+    }
+
+    #[test]
+    fn a_value_that_is_refused_changes_nothing_and_says_so() {
+        let mut app = app();
+        let before = app.scene.clone();
+        app.choose_command(&PaletteState { typed: "blades 0".into(), place: 0 });
+        assert_eq!(app.scene, before);
+        assert!(app.status.is_some_and(|status| status.contains("bladed_disk.blades")));
+    }
+
+    #[test]
+    fn what_is_no_command_says_why_and_the_list_stays_open() {
+        let mut app = app();
+        app.look_for("speed qqq");
+        let open = app.dialogue.mode.clone();
+        app.choose_command(&PaletteState { typed: "speed qqq".into(), place: 0 });
+        assert_eq!(app.dialogue.mode, open);
+        assert!(app.status.is_some_and(|status| status.contains("qqq")));
+    }
+
+    #[test]
+    fn a_scene_that_is_opened_can_be_undone() {
+        let mut app = app();
+        let before = app.scene.clone();
+        app.knobs.live = true;
+        app.open_builtin("rocking");
+        assert_eq!(*app.scene, Scene::builtin("rocking").unwrap());
+        assert_eq!((&app.files.opened, app.knobs.live), (&app.scene, true));
+        assert_eq!(app.files.source.as_ref().map(|source| source.name.as_str()), Some("rocking"));
+        app.act(Action::Undo);
+        assert_eq!(app.scene, before);
+    }
+}
