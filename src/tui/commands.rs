@@ -102,7 +102,11 @@ pub fn only(app: &App, typed: &str) -> Result<Found, String> {
     if let Some(place) = KNOBS.iter().position(is_knob) {
         return Ok(Found::of("knob", typed, Command::Select(place)));
     }
-    let first = found(app, typed).into_iter().next();
+    let words = typed.to_lowercase();
+    let words: Vec<&str> = words.split_whitespace().collect();
+    // Nobody looks at what was found: letters between others are not enough.
+    let is_like = |item: &Found| rank(item, &words).is_none_or(|rank| rank < LIKE);
+    let first = found(app, typed).into_iter().next().filter(is_like);
     match first.ok_or_else(|| refused(typed)) {
         // To select a knob is no answer to a value that it does not take.
         Ok(Found { command: Command::Select(_), .. }) if refused(typed).is_some() => {
@@ -144,7 +148,10 @@ fn directed(app: &App, typed: &str) -> Option<Vec<Found>> {
                     .beside(format!("of {all}")),
             ]
         }
-        "axes" => vec![both_axes(&lower)?],
+        "axes" => match both_axes(&lower) {
+            Some(both) => vec![both],
+            None => one_axis(app, "across", &lower),
+        },
         "across" | "up" => one_axis(app, &first, &lower),
         "scene" => those_with(scenes(), &lower),
         "lesson" => match lower.parse::<usize>() {
@@ -293,6 +300,9 @@ fn plain(text: &str) -> String {
     Appearance::new(Theme::Mono, Marker::Ascii).spell(text)
 }
 
+/// The rank of a line that only has the letters of a word, with others between.
+const LIKE: usize = 9;
+
 /// How well a line fits all the words, the best being 0; none if it does not.
 fn rank(item: &Found, words: &[&str]) -> Option<usize> {
     let what = item.what.to_lowercase();
@@ -303,7 +313,7 @@ fn rank(item: &Found, words: &[&str]) -> Option<usize> {
             Some(1)
         }
         () if all.contains(word) => Some(2),
-        () if has_in_order(&what, word) => Some(9),
+        () if has_in_order(&what, word) => Some(LIKE),
         () => None,
     });
     each.sum()
@@ -393,6 +403,7 @@ mod tests {
             ("blade 7", Command::Blade(7)),
             ("axes clearance pulse", axes(Some("clearance"), Some(PULSE))),
             ("axes speed over damping zeta_c", axes(Some(SPEED), Some("casing.damping_ratio"))),
+            ("axes clear", axes(Some("clearance"), None)),
             ("across clear", axes(Some("clearance"), None)),
             ("up pulse t_p", axes(None, Some("operation.pulse_s"))),
             ("scene rub", Command::Scene("rub")),
@@ -416,9 +427,10 @@ mod tests {
             ("speed fast", "operation.speed_rad_s = fast: allowed is a number"),
             ("speed qqq", "operation.speed_rad_s = qqq: allowed is a number"),
             ("law soft", "solver.contact = soft: allowed is one of"),
+            ("something odd", "something odd: nothing has these words"),
             ("qqq", "qqq: nothing has these words"),
             ("scene qqq", "scene qqq: nothing has these words"),
-            ("axes speed", "axes speed: nothing has these words"),
+            ("axes qqq", "axes qqq: nothing has these words"),
         ] {
             let line = only(&app, typed).unwrap_err();
             assert!(line.starts_with(begins) && line.lines().count() == 1, "{line}");
