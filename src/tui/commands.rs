@@ -116,7 +116,7 @@ pub fn only(app: &App, typed: &str) -> Result<Found, String> {
     }
     .map_err(|refused| {
         let nothing =
-            || format!("{typed}: nothing has these words; help lists what can be asked for");
+            || format!("nothing has these words: {typed}; help lists what can be asked for");
         refused.unwrap_or_else(nothing)
     })
 }
@@ -427,10 +427,10 @@ mod tests {
             ("speed fast", "operation.speed_rad_s = fast: allowed is a number"),
             ("speed qqq", "operation.speed_rad_s = qqq: allowed is a number"),
             ("law soft", "solver.contact = soft: allowed is one of"),
-            ("something odd", "something odd: nothing has these words"),
-            ("qqq", "qqq: nothing has these words"),
-            ("scene qqq", "scene qqq: nothing has these words"),
-            ("axes qqq", "axes qqq: nothing has these words"),
+            ("something odd", "nothing has these words: something odd"),
+            ("qqq", "nothing has these words: qqq"),
+            ("scene qqq", "nothing has these words: scene qqq"),
+            ("axes qqq", "nothing has these words: axes qqq"),
         ] {
             let line = only(&app, typed).unwrap_err();
             assert!(line.starts_with(begins) && line.lines().count() == 1, "{line}");

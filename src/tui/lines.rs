@@ -229,7 +229,7 @@ impl Lines {
             words => {
                 let found = panels::help_text(&self.app, WIDTH, words);
                 if found.is_empty() {
-                    return writeln!(out, "refused: {}: nothing has these words", clean(words));
+                    return writeln!(out, "refused: nothing has these words: {}", clean(words));
                 }
                 found.iter().try_for_each(|line| writeln!(out, "{line}"))
             }
@@ -303,7 +303,7 @@ mod tests {
     #[test]
     fn the_help_and_lists_are_in_words() {
         let text = answers(b"help\nhelp omega_lock\nhelp qqq\nscenes\nlesson\n");
-        for words in ["speed 450, pulse 20k", "411.9 rad/s", "qqq: nothing", "scene rub: "] {
+        for words in ["speed 450, pulse 20k", "411.9 rad/s", "words: qqq", "scene rub: "] {
             assert!(text.contains(words), "{words}: {text}");
         }
     }

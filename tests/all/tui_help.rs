@@ -24,7 +24,8 @@ fn the_way_to_help_and_out_is_on_every_screen() {
     for size in SIZES {
         for marker in [Marker::Braille, Marker::Ascii] {
             let mut session = open(size, marker);
-            for digit in '1'..='8' {
+            // The view that is large already says so in its place.
+            for digit in ('2'..='8').chain(['1']) {
                 session.press(&digit.to_string());
                 assert!(last(&session).ends_with("? help  q quit"), "{}", last(&session));
             }
