@@ -8,6 +8,7 @@ use std::io::{BufRead, Error, Read, Write};
 use super::app::{App, Effect, InputMode};
 use super::commands::{self, Found};
 use super::engine::{Order, Pace};
+use super::files::FileResult;
 use super::knobs::KNOBS;
 use super::options::ExploreOptions;
 use super::worker::Playback;
@@ -170,7 +171,11 @@ impl Lines {
         match self.app.obey(found.command) {
             Effect::Quit => return Ok(None),
             Effect::Write(job) => {
-                let result = job.run();
+                // Nobody is asked whether it may be replaced.
+                let result = match job.run() {
+                    FileResult::Exists => FileResult::Failed("it exists".into()),
+                    result => result,
+                };
                 self.app.written(result);
             }
             Effect::Copy(command) => {

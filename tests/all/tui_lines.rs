@@ -7,7 +7,7 @@ use crate::cli_support::program;
 
 fn start(arguments: &[&str]) -> Child {
     let mut command = program();
-    command.args(["--lines", "--set", "solver.step_s=1e-6", "--end", "5e-3"]).args(arguments);
+    command.args(["--lines", "--set", "solver.step_s=2e-7", "--end", "20e-3"]).args(arguments);
     command.env("LC_ALL", "C.UTF-8").env("TERM", "dumb");
     command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
 }
@@ -31,7 +31,7 @@ fn commands_by_a_pipe_are_answered_until_the_input_ends() {
         "changed: speed Ω 500 rad/s -> 400 rad/s",
         "changed: pulse F 1 MN -> 20 kN",
         "changed: contact bilateral -> unilateral",
-        "changed: on to 5",
+        "changed: on to 20",
     ] {
         assert!(text.contains(words), "no {words} in {text}");
     }
