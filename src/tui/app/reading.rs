@@ -87,15 +87,22 @@ impl App {
         self.reading.at_s.filter(|_| self.reading.cursor.is_some())
     }
 
-    /// Puts the cursor at a place of the large chart; over time, that instant is read. A
-    /// move up or down leaves the instant as it is.
+    /// Puts the cursor at a place of the large chart; over time, that instant is read.
     pub(super) fn put_cursor(&mut self, cursor: Cursor) {
-        let known = self.cursor_time().is_some() && cursor.across == self.part_of_page();
-        if self.panel().is_over_time(self) && !known {
+        if self.panel().is_over_time(self) {
             let (from, to) = self.page();
             self.reading.at_s = Some(from + cursor.across * (to - from));
         }
         self.reading.cursor = Some(cursor);
+    }
+
+    /// Moves the cursor up or down only: an instant that is read goes on being read, also
+    /// where it is on another page.
+    fn put_beside(&mut self, cursor: Cursor) {
+        match self.cursor_time() {
+            Some(_) => self.reading.move_to(cursor),
+            None => self.put_cursor(cursor),
+        }
     }
 
     /// Reads the gap of a blade, numbered from 1.
@@ -108,7 +115,7 @@ impl App {
         self.show(ViewId::Gaps);
         self.reading.on = true;
         let (part, here) = ((f64::from(blade) - 0.5) / f64::from(all), self.panel().here(self));
-        self.put_cursor(match self.layout.is_heat() {
+        self.put_beside(match self.layout.is_heat() {
             true => Cursor { up: part, ..here },
             false => Cursor { across: part, ..here },
         });
@@ -154,7 +161,10 @@ impl App {
             }
         };
         let (across, up) = (moved(cursor.across, right, across), moved(cursor.up, up, high));
-        self.put_cursor(Cursor { across, up });
+        match right {
+            0 => self.put_beside(Cursor { across, up }),
+            _ => self.put_cursor(Cursor { across, up }),
+        }
     }
 
     /// The gaps against time, or those of one instant; the blade that is read stays.
@@ -166,7 +176,7 @@ impl App {
         self.show(ViewId::Gaps);
         if let Some(blade) = blade {
             let here = self.panel().here(self);
-            self.put_cursor(match self.layout.is_heat() {
+            self.put_beside(match self.layout.is_heat() {
                 true => Cursor { up: blade, ..here },
                 false => Cursor { across: blade, ..here },
             });
