@@ -1,5 +1,6 @@
-//! `rubscope [SCENE]`: the explorer, which needs a terminal.
+//! `rubscope [SCENE]`: the explorer, which needs a terminal, or with `--lines` none.
 
+use std::io::{IsTerminal, Write};
 use std::str::FromStr;
 
 use clap::builder::TypedValueParser;
@@ -41,6 +42,10 @@ pub struct ExploreCommand {
     #[arg(long, value_name = "LINE", default_value = "auto",
           value_parser = choice::<tui::Line>(), hide_possible_values = true)]
     line: tui::Line,
+    /// Without a screen: what `:` takes comes from standard input, one command a
+    /// line, and is answered in lines; also where TERM is dumb
+    #[arg(long)]
+    lines: bool,
     /// Leave the mouse to the terminal
     #[arg(long)]
     no_mouse: bool,
@@ -65,12 +70,19 @@ where
 }
 
 impl ExploreCommand {
-    pub(super) fn run(&self) -> Done {
+    /// Whether it is without a screen.
+    pub(super) fn is_in_lines(&self) -> bool {
+        self.lines || tui::is_dumb_terminal()
+    }
+
+    pub(super) fn run(&self, out: &mut dyn Write) -> Done {
         self.refuse_command()?;
         let name = self.options.name().unwrap_or(DEFAULT);
         let read = read_scene(name)?;
         let scene = self.options.change(read.clone())?;
-        tui::check_terminal().map_err(Refusal::because)?;
+        if !self.is_in_lines() {
+            tui::check_terminal().map_err(Refusal::because)?;
+        }
         let look = tui::ExploreOptions {
             fps: self.fps,
             color: self.color,
@@ -82,6 +94,11 @@ impl ExploreCommand {
             source: Some(tui::Source { name: name.to_string(), scene: read }),
         };
         status::say_noted();
+        if self.is_in_lines() {
+            let input = std::io::stdin();
+            tui::lines(scene, &look, &mut input.lock(), out, input.is_terminal())?;
+            return Ok(Status::Done);
+        }
         match tui::explore(scene, look)? {
             0 => Ok(Status::Done),
             code => Ok(Status::Signal(code.saturating_sub(128))),

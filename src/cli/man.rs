@@ -87,7 +87,7 @@ const ENVIRONMENT: &[(&str, &str)] = &[
     ),
     (
         "TERM",
-        "dumb: the explorer does not start; the other commands work as usual. linux, vt100 and \
+        "dumb: the explorer works in lines, as with --lines. linux, vt100 and \
          similar: the explorer draws with ASCII characters only, unless --marker is given.",
     ),
     (

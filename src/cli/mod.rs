@@ -85,13 +85,15 @@ pub fn main(args: impl IntoIterator<Item = OsString>) -> u8 {
 }
 
 fn dispatch(cli: Cli, out: &mut dyn Write) -> Done {
-    if cli.command.is_some() {
-        // The explorer has signals of its own.
+    // The explorer has signals of its own on a screen.
+    if cli.command.is_some() || cli.explore.is_in_lines() {
         signals::watch().context("cannot watch signals")?;
+    }
+    if cli.command.is_some() {
         sign::begin();
     }
     match cli.command {
-        None => cli.explore.run(),
+        None => cli.explore.run(out),
         Some(Command::Run(command)) => command.run(out),
         Some(Command::Hbm(command)) => command.run(out),
         Some(Command::Map(command)) => command.run(out),

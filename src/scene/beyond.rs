@@ -2,8 +2,7 @@
 //! combinations of it have no meaning or no unique answer.
 
 use super::check::{down, up};
-use super::keys;
-use super::{ContactLaw, ModelSize, Scene, SceneError, SolverKind};
+use super::{ContactLaw, ModelSize, Scene, SceneError, SolverKind, Value, keys};
 
 impl Scene {
     /// Whether this scene has more than the paper's model. Those that have not are
@@ -50,6 +49,16 @@ impl Scene {
     #[must_use]
     pub fn clearance(&self) -> f64 {
         self.casing.radius_m - self.bladed_disk.blade_length_m
+    }
+
+    /// Sets the clearance by the radius of the casing; whether the scene allows it, its
+    /// check says.
+    ///
+    /// # Errors
+    /// A radius that its key does not allow.
+    pub fn set_clearance(&mut self, g0: f64) -> Result<(), SceneError> {
+        let radius = self.bladed_disk.blade_length_m + g0;
+        self.set_value(keys::find("casing.radius_m")?, Value::Real(radius))
     }
 }
 

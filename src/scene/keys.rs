@@ -319,6 +319,10 @@ fn changed(from: &Scene, to: &Scene, view: bool) -> impl Iterator<Item = (&'stat
     })
 }
 
+/// What is no key, but is turned and swept as one: the clearance `R_c - l_b`, which the
+/// radius of the casing sets.
+pub const CLEARANCE: &str = "clearance";
+
 /// Makes of each row the constant with the path of a key, and the key in `KEYS`.
 macro_rules! keys {
     ($($name:ident $path:literal = $kind:ident($($of:tt)+);)+) => {

@@ -1,9 +1,10 @@
-//! One axis of a map: a numeric key of the scene over a range of values,
-//! spaced evenly or by equal factors.
+//! One axis of a map: a numeric key of the scene, or the clearance, over a range of
+//! values, spaced evenly or by equal factors.
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::scene::keys::CLEARANCE;
 use crate::scene::{Allowed, Key, Scene, SceneError, Value, keys};
 
 /// Most values one axis may have.
@@ -81,8 +82,10 @@ impl Axis {
     /// # Errors
     /// An unknown or non-numeric key, or an invalid range.
     pub fn new(path: &str, from: f64, to: f64, count: u32, log: bool) -> Result<Self, AxisError> {
-        let key = keys::find(path)?;
-        if !matches!(key.allowed, Allowed::Real { .. } | Allowed::Whole { .. }) {
+        let key = if path == CLEARANCE { None } else { Some(keys::find(path)?) };
+        if key
+            .is_some_and(|key| !matches!(key.allowed, Allowed::Real { .. } | Allowed::Whole { .. }))
+        {
             return Err(AxisError::NotNumeric { path: path.to_string() });
         }
         let axis = Self { path: path.to_string(), from, to, count, log };
@@ -108,7 +111,11 @@ impl Axis {
         }
         // Of a single value, the second end is shown and must have a meaning too.
         for end in [from, to] {
-            key.check(&as_value(key, end))?;
+            match key {
+                Some(key) => key.check(&as_value(key, end))?,
+                None if end.is_finite() => {}
+                None => return Err(refused("finite ends")),
+            }
         }
         Ok(axis)
     }
@@ -176,6 +183,9 @@ impl Axis {
     /// # Errors
     /// A value that the key does not allow.
     pub fn apply(&self, scene: &mut Scene, index: u32) -> Result<(), SceneError> {
+        if self.path == CLEARANCE {
+            return scene.set_clearance(self.value(index));
+        }
         let key = keys::find(&self.path)?;
         scene.set_value(key, as_value(key, self.value(index)))
     }
@@ -231,6 +241,15 @@ mod tests {
             let message = Axis::parse(text).unwrap_err().to_string();
             assert!(message.starts_with(start), "{message}");
         }
+    }
+
+    #[test]
+    fn the_clearance_is_an_axis_though_it_is_no_key() {
+        let axis = Axis::parse("clearance=50e-6:200e-6:4").unwrap();
+        let mut scene = Scene::base();
+        axis.apply(&mut scene, 1).unwrap();
+        assert!((scene.clearance() - 1e-4).abs() < 1e-15);
+        assert!(Axis::parse("clearance=0:inf:4").is_err());
     }
 
     #[test]

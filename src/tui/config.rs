@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 use super::ability::is_remote;
 use super::app::App;
 use super::files::FILES_NAME;
+use super::lessons::LessonsDone;
 use super::raster::Marker;
 use super::theme::{Theme, ThemeChoice};
 use crate::file;
@@ -52,6 +53,9 @@ pub struct Config {
     /// Terminals that did not say their background in time.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub silent_terminals: Vec<String>,
+    /// The steps of the lessons that were done.
+    #[serde(skip_serializing_if = "LessonsDone::is_empty")]
+    pub steps_done: LessonsDone,
     /// What other versions remember.
     #[serde(flatten)]
     pub others: toml::Table,
@@ -176,6 +180,7 @@ impl Memory {
         if let Some(charts) = self.config.charts {
             app.layout.beside = charts;
         }
+        app.lessons.done.clone_from(&self.config.steps_done);
         app.mouse.on &= self.config.mouse.unwrap_or(true);
         app.dialogue.is_new = self.path.is_some() && !self.config.introduced;
         app.status.clone_from(&self.complaint);
@@ -187,12 +192,13 @@ impl Memory {
     pub fn keep(self, app: &App, patience: Duration) {
         let Some(path) = self.path.clone() else { return };
         let ended = Choices::of(app);
-        let introduced = !app.dialogue.is_new;
+        let (introduced, lessons) = (!app.dialogue.is_new, app.lessons.done.clone());
         let (done, wait) = channel();
         let work = move || {
             // Another explorer may have written it meanwhile.
             if let Ok(config) = Config::read(&path) {
-                let changed = self.changed(config.clone(), ended, introduced);
+                let mut changed = self.changed(config.clone(), ended, introduced);
+                changed.steps_done.join(lessons);
                 if changed != config {
                     // A folder that takes no file: nothing is remembered.
                     let _ = changed.write(&path);

@@ -208,6 +208,17 @@ pub struct Answer {
     pub verdict: Verdict,
 }
 
+/// A study that takes long.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Working {
+    /// The view that shows it.
+    pub view: ViewId,
+    /// How far it is, 0 to 1, where that is known.
+    pub part: Option<f64>,
+    /// Seconds since it began.
+    pub seconds: u64,
+}
+
 /// Results for one generation of the knobs.
 #[derive(Clone, Debug, Default)]
 pub struct Results {
@@ -226,6 +237,8 @@ pub struct Results {
     pub comparison: Option<FullRun>,
     /// What the studies of the views have found.
     pub found: Found,
+    /// The studies that take long.
+    pub working: Vec<Working>,
     /// The page on the screen.
     pub page: Option<Arc<PageRecord>>,
     /// The same under the other contact law.

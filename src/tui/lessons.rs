@@ -19,6 +19,8 @@ pub struct Lesson {
     pub name: &'static str,
     /// What it is about.
     pub title: String,
+    /// What one should know before.
+    pub needs: String,
     /// The built-in scene at its start.
     pub scene: String,
     /// Its steps.
@@ -144,7 +146,30 @@ impl LessonStep {
     }
 }
 
+/// Words that are read in a minute, with a look at the chart.
+const WORDS_A_MINUTE: usize = 100;
+/// Minutes for a question,
+const QUESTION: f64 = 0.5;
+/// and for a task.
+const TASK: f64 = 2.0;
+
 impl Lesson {
+    /// How long it takes, by what there is to read, to answer and to do.
+    pub fn minutes(&self) -> u32 {
+        let of = |step: &LessonStep| {
+            let texts = [&step.question, &step.reason, &step.task].into_iter().flatten();
+            let words: usize = texts
+                .chain([&step.text])
+                .chain(&step.answers)
+                .map(|text| text.split_whitespace().count())
+                .sum();
+            words as f64 / WORDS_A_MINUTE as f64
+                + if step.question.is_some() { QUESTION } else { 0.0 }
+                + if step.task.is_some() { TASK } else { 0.0 }
+        };
+        self.steps.iter().map(of).sum::<f64>().ceil() as u32
+    }
+
     /// The scene of a step, before or after its question is answered: that of the
     /// lesson, with what its steps have set and their tasks have changed so far.
     ///
@@ -174,6 +199,18 @@ pub const LETTERS: [char; 3] = ['a', 'b', 'c'];
 pub struct LessonsDone(BTreeMap<String, BTreeSet<usize>>);
 
 impl LessonsDone {
+    /// Records what was done elsewhere, too.
+    pub fn join(&mut self, other: Self) {
+        for (name, steps) in other.0 {
+            self.0.entry(name).or_default().extend(steps);
+        }
+    }
+
+    /// Whether none was done.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
     /// Records a step, counted from 0.
     pub fn add(&mut self, lesson: &Lesson, step: usize) {
         self.0.entry(lesson.name.to_string()).or_default().insert(step + 1);
@@ -243,6 +280,8 @@ mod tests {
         assert_eq!(all().len(), FILES.len());
         for lesson in all() {
             assert!(lesson.steps.len() >= 3, "{}", lesson.title);
+            assert!((3..=15).contains(&lesson.minutes()), "{}: {}", lesson.name, lesson.minutes());
+            assert!(!lesson.needs.is_empty(), "{}", lesson.title);
             for (place, step) in lesson.steps.iter().enumerate() {
                 for answered in [false, true] {
                     lesson.scene_at(place, answered).unwrap();

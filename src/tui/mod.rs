@@ -9,6 +9,7 @@ mod axis;
 mod backend;
 #[doc(hidden)]
 pub mod bindings;
+mod commands;
 mod config;
 #[doc(hidden)]
 pub mod engine;
@@ -30,6 +31,7 @@ mod knobs;
 #[doc(hidden)]
 pub mod lessons;
 mod line;
+mod lines;
 mod options;
 mod panels;
 mod plot;
@@ -53,8 +55,9 @@ use std::fs::File;
 use std::io::IsTerminal;
 use std::sync::{Arc, mpsc};
 
-pub use app::{App, Exit, Heard, Source};
+pub use app::{App, Effect, Exit, Heard, Source};
 pub use line::Line;
+pub use lines::lines;
 pub use options::{Color, ExploreOptions};
 pub use raster::Marker;
 pub use run::run;
@@ -62,16 +65,20 @@ pub use theme::{Theme, ThemeChoice};
 
 use crate::scene::CheckedScene;
 
+/// Whether there is a terminal that only shows lines.
+pub fn is_dumb_terminal() -> bool {
+    let dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
+    dumb && std::io::stdout().is_terminal()
+}
+
 /// Whether there are a screen and a keyboard.
 ///
 /// # Errors
 /// What is missing.
 pub fn check_terminal() -> Result<(), &'static str> {
-    let dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
-    if dumb || !std::io::stdout().is_terminal() {
-        return Err(
-            "the explorer needs a terminal on standard output; without one, use `rubscope run`",
-        );
+    if !std::io::stdout().is_terminal() {
+        return Err("the explorer needs a terminal on standard output; without one, use \
+                    `rubscope run`, or `rubscope --lines`");
     }
     if !std::io::stdin().is_terminal() && cfg!(unix) && File::open("/dev/tty").is_err() {
         return Err("the explorer needs a keyboard, and standard input is no terminal");
@@ -113,6 +120,7 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
     memory.silent = found.silent.then_some(name);
     memory.prepare(&mut app);
     terminal::set_mouse(app.mouse.on)?;
+    terminal::set_whole_frames(!ability::is_plain(&variable("TERM")));
     let guard = terminal::Guard;
     let line = options.line(&variable);
     let mut shell = terminal::Shell { events: sender, unseen: None, line };

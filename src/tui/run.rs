@@ -174,38 +174,15 @@ enum Reaction {
 
 fn handle(event: ScreenEvent, app: &mut App, host: &mut dyn Host) -> Reaction {
     match event {
-        ScreenEvent::Key(key) => match app.key(&key) {
-            Effect::None => Reaction::Draw(Due::Now),
-            Effect::Quit => Reaction::Quit,
-            Effect::Suspend => suspended(app, host.suspend(true)),
-            Effect::Redraw => Reaction::Redraw,
-            Effect::Mouse(on) => {
-                host.mouse(on);
-                Reaction::Draw(Due::Now)
-            }
-            Effect::Copy(text) => {
-                // The status line also shows it, in case the terminal refuses it.
-                let _ = host.copy(&text);
-                Reaction::Draw(Due::Now)
-            }
-            Effect::Write(job) => {
-                if let Some(result) = host.write(job) {
-                    written(result, app, host);
-                }
-                Reaction::Draw(Due::Now)
-            }
-            Effect::FindScenes(directory) => {
-                if let Some(found) = host.find_scenes(directory) {
-                    app.scenes_found(found);
-                }
-                Reaction::Draw(Due::Now)
-            }
+        ScreenEvent::Key(key) => {
+            let effect = app.key(&key);
+            take(effect, app, host)
+        }
+        ScreenEvent::Mouse(event) => match app.mouse(&event) {
+            Heard::Nothing => Reaction::Draw(Due::Later),
+            Heard::Pointed => Reaction::Draw(Due::Frame),
+            Heard::Acted(effect) => take(effect, app, host),
         },
-        ScreenEvent::Mouse(event) => Reaction::Draw(match app.mouse(&event) {
-            Heard::Nothing => Due::Later,
-            Heard::Pointed => Due::Frame,
-            Heard::Acted => Due::Now,
-        }),
         ScreenEvent::Resize => Reaction::Draw(Due::Now),
         ScreenEvent::Pasted(text) => {
             app.paste(&text);
@@ -224,6 +201,37 @@ fn handle(event: ScreenEvent, app: &mut App, host: &mut dyn Host) -> Reaction {
         ScreenEvent::Suspend => suspended(app, host.suspend(false)),
         ScreenEvent::Continued => resumed(host.resume()),
         ScreenEvent::InputClosed => Reaction::Exit(Exit::Signal(HANGUP)),
+    }
+}
+
+/// What follows from a key or a click.
+fn take(effect: Effect, app: &mut App, host: &mut dyn Host) -> Reaction {
+    match effect {
+        Effect::None => Reaction::Draw(Due::Now),
+        Effect::Quit => Reaction::Quit,
+        Effect::Suspend => suspended(app, host.suspend(true)),
+        Effect::Redraw => Reaction::Redraw,
+        Effect::Mouse(on) => {
+            host.mouse(on);
+            Reaction::Draw(Due::Now)
+        }
+        Effect::Copy(text) => {
+            // The status line also shows it, in case the terminal refuses it.
+            let _ = host.copy(&text);
+            Reaction::Draw(Due::Now)
+        }
+        Effect::Write(job) => {
+            if let Some(result) = host.write(job) {
+                written(result, app, host);
+            }
+            Reaction::Draw(Due::Now)
+        }
+        Effect::FindScenes(directory) => {
+            if let Some(found) = host.find_scenes(directory) {
+                app.scenes_found(found);
+            }
+            Reaction::Draw(Due::Now)
+        }
     }
 }
 

@@ -36,6 +36,14 @@ static MOUSE: AtomicBool = AtomicBool::new(false);
 /// The first signal that ends the program; 0 if there was none.
 static ENDED_BY: AtomicU8 = AtomicU8::new(0);
 
+/// Whether frames are sent as synchronized updates.
+static WHOLE: AtomicBool = AtomicBool::new(false);
+
+/// Begins and ends a synchronized update (mode 2026): the terminal shows the frame when it
+/// has all of it. One that does not know the mode ignores it.
+const BEGIN_FRAME: &[u8] = b"\x1b[?2026h";
+const END_FRAME: &[u8] = b"\x1b[?2026l";
+
 /// Bytes sent so far.
 static SENT: AtomicU64 = AtomicU64::new(0);
 /// Whether a write had to wait.
@@ -108,6 +116,11 @@ pub fn set_mouse(on: bool) -> Result<(), Error> {
     write(&bytes)
 }
 
+/// Sends frames as synchronized updates from now on, or not.
+pub fn set_whole_frames(whole: bool) {
+    WHOLE.store(whole, SeqCst);
+}
+
 /// Restores the terminal; may be called at any time, from any thread, and on a
 /// closed terminal.
 pub fn leave() {
@@ -119,6 +132,10 @@ pub fn leave() {
     // In the background the settings belong to the shell.
     if front || tty.may_write_from_background() {
         let mut bytes = CANCEL.to_vec();
+        if WHOLE.load(SeqCst) {
+            // A frame that was cut has not ended its update.
+            bytes.extend_from_slice(END_FRAME);
+        }
         // A vector takes everything.
         let _ = queue!(
             bytes,
@@ -246,6 +263,9 @@ pub struct Frames(Vec<u8>);
 
 impl Write for Frames {
     fn write(&mut self, bytes: &[u8]) -> Result<usize, Error> {
+        if self.0.is_empty() && WHOLE.load(SeqCst) {
+            self.0.extend_from_slice(BEGIN_FRAME);
+        }
         self.0.extend_from_slice(bytes);
         Ok(bytes.len())
     }
@@ -253,6 +273,9 @@ impl Write for Frames {
     fn flush(&mut self) -> Result<(), Error> {
         if self.0.is_empty() {
             return Ok(());
+        }
+        if self.0.starts_with(BEGIN_FRAME) {
+            self.0.extend_from_slice(END_FRAME);
         }
         let written = write(&self.0);
         self.0.clear();

@@ -123,6 +123,7 @@ mod tui_hostile;
 mod tui_keys;
 mod tui_knobs;
 mod tui_lessons;
+mod tui_lines;
 mod tui_loop;
 mod tui_map;
 mod tui_margins;

@@ -231,6 +231,31 @@ fn a_step_leaves_room_for_a_chart_at_80_by_24_and_is_read_in_pages_at_40_by_12()
 }
 
 #[test]
+fn a_question_its_answers_and_a_chart_are_on_one_screen_of_60_by_20() {
+    for (place, lesson) in lessons::all().iter().enumerate() {
+        let mut session = begin(60, 20, place);
+        for step in &lesson.steps {
+            if let Some(question) = &step.question {
+                read_on(&mut session);
+                let text = session.text();
+                let words = step.answers.iter().chain([question]);
+                for word in words.flat_map(|text| text.split_whitespace()) {
+                    assert!(text.contains(word), "{word} is not in {text}");
+                }
+                let title = format!("─ {} ", session.app.view().digit());
+                let above = text.lines().position(|line| line.starts_with(&title));
+                // Without its title, and the last line.
+                assert!(above.is_some_and(|row| 20 - row - 2 >= 7), "{text}");
+                session.press(&step.right.unwrap().to_string());
+                read_on(&mut session);
+            }
+            session.press("g");
+        }
+        assert!(session.app.lessons.progress.is_none());
+    }
+}
+
+#[test]
 fn an_open_question_shows_nothing_of_its_answer_and_a_wrong_one_is_explained() {
     // The second lesson: a pulse that locks.
     let mut session = begin(120, 40, 1);

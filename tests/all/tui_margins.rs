@@ -6,7 +6,7 @@ use rubscope::scene::Scene;
 use rubscope::study::margins::{LimitName, Margins};
 use rubscope::tui::bindings::Action;
 use rubscope::tui::events::ScreenEvent;
-use rubscope::tui::{Heard, Marker, Theme};
+use rubscope::tui::{Effect, Heard, Marker, Theme};
 
 use crate::tui_support::{Session, scene};
 
@@ -175,7 +175,7 @@ fn a_click_reads_a_row_and_a_second_one_jumps() {
         heard
     };
     let coincidence = find(&session, "388.31");
-    assert_eq!(click(&mut session, coincidence), Heard::Acted);
+    assert_eq!(click(&mut session, coincidence), Heard::Acted(Effect::None));
     assert_eq!(cell(&session), [0, 3]);
     click(&mut session, coincidence);
     let speed = session.app.machine.dangerous_speed().unwrap();

@@ -2,7 +2,7 @@
 //! the screen.
 
 use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
-use rubscope::tui::{Heard, Marker, Theme};
+use rubscope::tui::{Effect, Heard, Marker, Theme};
 
 use crate::tui_support::{Session, scene};
 
@@ -42,10 +42,29 @@ fn selected(session: &Session) -> &'static str {
 }
 
 #[test]
+fn the_keys_of_the_last_line_can_be_clicked() {
+    let mut session = open(120, 40);
+    let turn = find(&session, "←→ turn");
+    for (at, speed) in [(0, 495.0), (1, 500.0), (4, 505.0)] {
+        mouse(&mut session, LEFT, (turn.0 + at, turn.1));
+        assert_eq!(session.app.scene.operation.speed_rad_s, speed);
+    }
+    let commands = find(&session, ": commands");
+    mouse(&mut session, LEFT, (commands.0 + 3, commands.1));
+    session.press("undo");
+    let choose = find(&session, "Enter do it");
+    assert_eq!(mouse(&mut session, LEFT, choose), Heard::Acted(Effect::None));
+    assert_eq!(session.app.scene.operation.speed_rad_s, 500.0);
+    session.press("");
+    let quit = find(&session, "q quit");
+    assert_eq!(mouse(&mut session, LEFT, quit), Heard::Acted(Effect::Quit));
+}
+
+#[test]
 fn a_click_selects_a_knob_and_the_wheel_turns_the_one_below_it() {
     let mut session = open(80, 24);
     let diameters = find(&session, "diameters n_d");
-    assert_eq!(mouse(&mut session, LEFT, diameters), Heard::Acted);
+    assert_eq!(mouse(&mut session, LEFT, diameters), Heard::Acted(Effect::None));
     assert_eq!(selected(&session), "operation.nodal_diameters");
     let damping = find(&session, "damping ζ_c");
     mouse(&mut session, ScrollUp, damping);
@@ -167,7 +186,7 @@ fn the_mouse_can_be_turned_off() {
     assert_eq!(mouse(&mut session, LEFT, damping), Heard::Nothing);
     assert_eq!(session.app.knobs.selected, 0);
     session.press("M");
-    assert_eq!(mouse(&mut session, LEFT, damping), Heard::Acted);
+    assert_eq!(mouse(&mut session, LEFT, damping), Heard::Acted(Effect::None));
 }
 
 #[test]

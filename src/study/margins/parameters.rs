@@ -7,8 +7,7 @@ use crate::model::{BladedDisk, Casing, LiningLaw, Machine, Number, Operation};
 use crate::motion::FreeFlight;
 use crate::scene::{Allowed, ContactLaw, Key, ModelSize, Scene, SceneError, Value, keys};
 
-/// The one parameter that is no key: the clearance `g0`, changed by the radius.
-pub const CLEARANCE: &str = "clearance";
+pub use crate::scene::keys::CLEARANCE;
 
 const RADIUS: &str = keys::CASING_RADIUS;
 const LENGTH: &str = keys::BLADE_LENGTH;
@@ -102,7 +101,7 @@ impl Parameter {
     #[must_use]
     pub fn of(&self, scene: &Scene) -> f64 {
         if self.path == CLEARANCE {
-            return scene.casing.radius_m - scene.bladed_disk.blade_length_m;
+            return scene.clearance();
         }
         match self.key().map(|key| (key.get)(scene)) {
             Ok(Value::Real(value)) => value,

@@ -9,7 +9,7 @@ use crate::tui::views::{ViewId, ViewPanel};
 const MOST_BESIDE: usize = 3;
 
 /// The charts on the screen.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layout {
     /// Every view: the large chart, then the others in the order of their places.
     views: Vec<ViewId>,

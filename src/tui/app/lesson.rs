@@ -299,3 +299,86 @@ impl App {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+    use crate::tui::{Marker, Theme};
+
+    fn app() -> App {
+        let scene = Scene::builtin("paper-nd3").unwrap().checked().unwrap();
+        let mut app = App::new(scene, Theme::Mono, Marker::Braille);
+        app.layout.size = (120, 40);
+        app
+    }
+
+    #[test]
+    fn a_step_is_done_by_its_answer_and_the_next_one_waits_for_it() {
+        let mut app = app();
+        app.begin_lesson(1);
+        let lesson = &lessons::all()[1];
+        assert!(app.is_asked() && app.lessons.is_open());
+        app.lesson_key();
+        assert!(app.status.as_ref().is_some_and(|status| status.contains("your guess")));
+        assert_eq!(app.lessons.progress.as_ref().unwrap().step, 0);
+        app.answer(9);
+        app.check_lesson();
+        let now = app.lesson_step().unwrap().1;
+        assert_eq!((now.answer, now.done), (Some(2), true));
+        assert!(app.lessons.done.has(lesson, 0) && !app.lessons.done.has(lesson, 1));
+        // A second answer is none.
+        app.answer(0);
+        assert_eq!(app.lesson_step().unwrap().1.answer, Some(2));
+        assert!(app.is_second_answer(Chord::from('a')) && !app.is_second_answer(Chord::from('d')));
+        app.lesson_key();
+        assert_eq!((app.lessons.progress.as_ref().unwrap().step, app.is_asked()), (1, true));
+        app.lesson_back();
+        assert!(!app.is_asked());
+        app.lesson_back();
+        assert_eq!(app.status.as_deref(), Some("this is the first step"));
+    }
+
+    #[test]
+    fn a_lesson_that_is_left_gives_the_own_scene_back_and_one_that_ends_says_so() {
+        let mut app = app();
+        let mut own = app.scene.clone().into_scene();
+        own.operation.speed_rad_s = 333.0;
+        app.set_scene(own.checked().unwrap(), false);
+        let before = app.scene.clone();
+        for steps in [1, lessons::all()[5].steps.len()] {
+            app.begin_lesson(5);
+            assert_ne!(app.scene, before);
+            for _ in 0..steps {
+                app.answer(0);
+                app.lesson_key();
+            }
+            if app.lessons.is_open() {
+                app.leave_lesson();
+            } else {
+                assert!(app.status.as_ref().is_some_and(|status| status.contains("end of the")));
+            }
+            assert_eq!(app.scene, before);
+        }
+        app.lesson_back();
+        assert_eq!(app.status.as_deref(), Some("no lesson is open"));
+    }
+
+    #[test]
+    fn a_condition_of_a_task_is_that_of_the_screen() {
+        let app = app();
+        let speed = || "operation.speed_rad_s".to_string();
+        for (condition, met) in [
+            (Condition::View("response".into()), app.is_large(ViewId::Response)),
+            (Condition::Compare(false), true),
+            (Condition::Above(speed(), 499.0), true),
+            (Condition::Above(speed(), 500.0), false),
+            (Condition::Below(speed(), 501.0), true),
+            (Condition::Is("solver.contact".into(), "bilateral".into()), true),
+            (Condition::Is("solver.contact".into(), "smooth".into()), false),
+            (Condition::Verdict("locked".into()), false),
+        ] {
+            assert_eq!(app.meets(&condition), met, "{condition:?}");
+        }
+    }
+}

@@ -3,11 +3,11 @@
 
 use super::App;
 use crate::scene::{CheckedScene, ContactLaw};
-use crate::study::MapPlan;
+use crate::study::{Axis, MapPlan};
 use crate::tui::app::cell_of;
 use crate::tui::knobs::{Knob, knob_of};
 use crate::tui::views::ViewId;
-use crate::tui::views::map::{MapAxis, here, numeric, value_text};
+use crate::tui::views::map::{MapAxis, here, value_text};
 
 impl App {
     /// Makes a view the large one by a key. The map gives the arrows to its cell
@@ -54,31 +54,37 @@ impl App {
         });
     }
 
-    /// Puts the next numeric knob on an axis.
-    pub(super) fn next_map_axis(&mut self, up: bool) {
-        if !self.is_large(ViewId::Map) {
-            self.status = Some("X and Y choose the axes of the map (view 5)".into());
-            return;
-        }
-        let (axis, other) =
-            if up { (&mut self.map.y, self.map.x) } else { (&mut self.map.x, self.map.y) };
-        let knobs: Vec<&Knob> = numeric().filter(|knob| knob.path != other.path).collect();
-        let place = knobs.iter().position(|knob| knob.path == axis.path).map_or(0, |at| at + 1);
-        let Some(knob) = knobs.get(place % knobs.len().max(1)) else { return };
-        let anchor = knob.number(&self.scene).unwrap_or(0.0);
-        *axis = MapAxis { path: knob.path, anchor };
-        let place = if up { "up" } else { "across" };
-        self.status = Some(match self.map_plan() {
-            Ok(plan) => {
-                let axis = if up { &plan.y } else { &plan.x };
-                let [from, to] = [axis.from, axis.to].map(|end| value_text(&axis.path, end));
-                format!("{place} the map: {}, {from} to {to}", knob.label)
+    /// Puts knobs on the axes of the map, across and up, and shows it. A knob that is on
+    /// the other axis changes places with the one that was here.
+    pub(super) fn put_axes(&mut self, [across, up]: [Option<&'static str>; 2]) {
+        let axis = |path: &'static str| {
+            let anchor = knob_of(path).and_then(|knob| knob.number(&self.scene)).unwrap_or(0.0);
+            MapAxis { path, anchor }
+        };
+        let (before, mut map) = (self.map, self.map);
+        map.x = across.map_or(before.x, axis);
+        map.y = up.map_or(before.y, axis);
+        if map.x.path == map.y.path {
+            match across {
+                Some(_) => map.y = before.x,
+                None => map.x = before.y,
             }
-            Err(reason) => format!("no map over {}: {reason}", knob.label),
+        }
+        self.map = map;
+        self.walk(ViewId::Map);
+        let plan = self.map_plan();
+        self.status = Some(match &plan {
+            Ok(plan) => {
+                let named = |axis: &Axis| {
+                    let label = knob_of(&axis.path).map_or(axis.path.as_str(), |knob| knob.label);
+                    let [from, to] = [axis.from, axis.to].map(|end| value_text(&axis.path, end));
+                    format!("{label} {from} to {to}")
+                };
+                format!("the map: {} across, {} up", named(&plan.x), named(&plan.y))
+            }
+            Err(reason) => format!("no such map: {reason}"),
         });
-        if self.reading.cursor().is_some()
-            && let Ok(plan) = self.map_plan()
-        {
+        if let (Some(_), Ok(plan)) = (self.reading.cursor(), plan) {
             // The map on the screen is still the one before.
             self.reading.move_to(here(self, &plan));
         }
@@ -104,5 +110,74 @@ impl App {
         }
         self.knobs.set_live(live);
         self.status = opened.map(|values| format!("opened {values}, {law}; u undoes"));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+    use crate::scene::keys::{CLEARANCE, PULSE, SPEED};
+    use crate::tui::{Marker, Theme};
+
+    fn app() -> App {
+        let scene = Scene::builtin("paper-nd3").unwrap().checked().unwrap();
+        let mut app = App::new(scene, Theme::Mono, Marker::Braille);
+        app.layout.size = (120, 40);
+        app
+    }
+
+    fn axes(app: &App) -> [&'static str; 2] {
+        [app.map.x.path, app.map.y.path]
+    }
+
+    #[test]
+    fn axes_are_chosen_and_a_knob_is_on_one_of_them_only() {
+        let mut app = app();
+        assert_eq!(axes(&app), [SPEED, PULSE]);
+        for (chosen, wanted) in [
+            ([Some(PULSE), None], [PULSE, SPEED]),
+            ([None, Some(PULSE)], [SPEED, PULSE]),
+            ([Some(CLEARANCE), None], [CLEARANCE, PULSE]),
+            ([Some(SPEED), Some("casing.damping_ratio")], [SPEED, "casing.damping_ratio"]),
+        ] {
+            app.put_axes(chosen);
+            assert_eq!(axes(&app), wanted);
+            assert!(app.status.as_ref().is_some_and(|status| status.starts_with("the map: ")));
+            let plan = app.map_plan().unwrap();
+            assert_eq!([plan.x.path.as_str(), plan.y.path.as_str()], wanted);
+        }
+        // It is on the screen, with the arrows at the cell of the present knobs.
+        assert!(app.is_large(ViewId::Map) && app.reading.is_on());
+        app.put_axes([Some(CLEARANCE), None]);
+        let [column, _] = app.map_cell().unwrap();
+        let cell = app.map_plan().unwrap().x.value(column);
+        assert!((cell - 1e-4).abs() < 5e-6, "{cell}");
+    }
+
+    #[test]
+    fn the_other_law_of_the_map_is_left_again() {
+        let mut app = app();
+        assert_eq!(app.map_law(), ContactLaw::Bilateral);
+        app.other_map_law();
+        assert_eq!(
+            (app.map_law(), app.scene.solver.contact),
+            (ContactLaw::Unilateral, ContactLaw::Bilateral)
+        );
+        app.other_map_law();
+        assert_eq!(app.map.law, None);
+    }
+
+    #[test]
+    fn a_run_of_the_map_starts_anew_though_knobs_act_live() {
+        let mut app = app();
+        app.knobs.live = true;
+        let (restarts, same) = (app.run.restarts, app.scene.clone());
+        app.open_run(same);
+        let mut other = app.scene.clone().into_scene();
+        other.operation.speed_rad_s = 450.0;
+        app.open_run(other.checked().unwrap());
+        assert_eq!((app.run.restarts, app.knobs.live), (restarts + 2, true));
+        assert!(app.status.as_ref().is_some_and(|status| status.contains("450 rad/s")));
     }
 }

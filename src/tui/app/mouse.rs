@@ -6,20 +6,20 @@ use std::cell::RefCell;
 use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 use ratatui::layout::Rect;
 
-use super::{App, Cursor, InputMode};
+use super::{App, Cursor, Effect, InputMode};
 use crate::tui::bindings::Action;
 use crate::tui::knobs::KNOBS;
 use crate::tui::panels::{self, Target};
 
 /// What a mouse event has changed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Heard {
     /// Nothing on the screen.
     Nothing,
     /// The reading cursor follows the pointer: the next frame is soon enough.
     Pointed,
-    /// As much as a key.
-    Acted,
+    /// As much as a key, with its effect.
+    Acted(Effect),
 }
 
 /// A knob whose bar is held.
@@ -51,11 +51,19 @@ pub struct Mouse {
     clicked: Option<(u16, u16)>,
     /// Where the data of the large chart was drawn last, and which part of it.
     charts: RefCell<Vec<NotedChart>>,
+    /// Where the keys of the last line were drawn last.
+    keys: RefCell<Vec<(Rect, Action)>>,
 }
 
 impl Default for Mouse {
     fn default() -> Self {
-        Self { on: true, grip: None, clicked: None, charts: RefCell::default() }
+        Self {
+            on: true,
+            grip: None,
+            clicked: None,
+            charts: RefCell::default(),
+            keys: RefCell::default(),
+        }
     }
 }
 
@@ -86,6 +94,9 @@ impl App {
         let heard = match (self.dialogue.mode(), event.kind) {
             // A typed name is finished or left by a key.
             (InputMode::Naming(..) | InputMode::Replacing(..), _) => Heard::Nothing,
+            (_, MouseEventKind::Down(MouseButton::Left)) if self.key_at(at).is_some() => {
+                self.key_at(at).map_or(Heard::Nothing, |action| self.acted(action))
+            }
             (InputMode::Main | InputMode::Typing(_), kind) => self.mouse_main(kind, event, at),
             (_, MouseEventKind::ScrollUp) => self.acted(Action::KnobAbove),
             (_, MouseEventKind::ScrollDown) => self.acted(Action::KnobBelow),
@@ -93,7 +104,7 @@ impl App {
             (_, MouseEventKind::Down(MouseButton::Left)) => self.choose(at),
             _ => Heard::Nothing,
         };
-        if heard == Heard::Acted {
+        if matches!(heard, Heard::Acted(_)) {
             self.files.disturb();
             self.check_lesson();
         }
@@ -101,8 +112,7 @@ impl App {
     }
 
     fn acted(&mut self, action: Action) -> Heard {
-        self.act(action);
-        Heard::Acted
+        Heard::Acted(self.act(action))
     }
 
     fn mouse_main(&mut self, kind: MouseEventKind, event: &MouseEvent, at: (u16, u16)) -> Heard {
@@ -146,7 +156,7 @@ impl App {
             Target::Chart(_) if again && self.reading.cursor().is_some() => self.open_cursor(),
             Target::Chart(cursor) => self.point(cursor),
         }
-        Heard::Acted
+        Heard::Acted(Effect::None)
     }
 
     fn drag(&mut self, at: (u16, u16)) -> Heard {
@@ -161,7 +171,7 @@ impl App {
             self.knobs.merge(known);
         }
         self.mouse.grip = Some(Grip { turned: true, ..grip });
-        Heard::Acted
+        Heard::Acted(Effect::None)
     }
 
     fn hover(&mut self, at: (u16, u16)) -> Heard {
@@ -210,11 +220,27 @@ impl App {
         }
     }
 
-    /// Forgets where the large chart was drawn, before the next picture.
-    pub fn forget_charts(&self) {
+    /// Forgets where the large chart and the keys were drawn, before the next picture.
+    pub fn forget_places(&self) {
         if let Ok(mut places) = self.mouse.charts.try_borrow_mut() {
             places.clear();
         }
+        if let Ok(mut places) = self.mouse.keys.try_borrow_mut() {
+            places.clear();
+        }
+    }
+
+    /// Notes where a key of the last line is drawn, and what it does.
+    pub fn note_key(&self, area: Rect, action: Action) {
+        if let Ok(mut places) = self.mouse.keys.try_borrow_mut() {
+            places.push((area, action));
+        }
+    }
+
+    /// What the key does that is drawn in a cell of the screen.
+    fn key_at(&self, at: (u16, u16)) -> Option<Action> {
+        let places = self.mouse.keys.try_borrow().ok()?;
+        places.iter().find(|(area, _)| area.contains(at.into())).map(|(_, action)| *action)
     }
 
     /// Notes where the data of the large chart is drawn, for the mouse, and which
@@ -237,5 +263,61 @@ impl App {
             across: middle(parts[0], x - inner.x, inner.width),
             up: middle(parts[1], inner.bottom() - 1 - y, inner.height),
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+    use crate::tui::{Marker, Theme};
+
+    fn app() -> App {
+        let scene = Scene::builtin("paper-nd3").unwrap().checked().unwrap();
+        let mut app = App::new(scene, Theme::Mono, Marker::Braille);
+        app.layout.size = (120, 40);
+        app
+    }
+
+    fn event(kind: MouseEventKind, (column, row): (u16, u16)) -> MouseEvent {
+        MouseEvent { kind, column, row, modifiers: KeyModifiers::NONE }
+    }
+
+    const LEFT: MouseEventKind = MouseEventKind::Down(MouseButton::Left);
+
+    #[test]
+    fn a_place_of_the_chart_is_the_middle_of_its_cell() {
+        let app = app();
+        app.note_chart(Rect::new(10, 5, 20, 10), [(0.0, 1.0), (0.5, 1.0)]);
+        let at = |place| app.cursor_at(place).map(|cursor| (cursor.across, cursor.up));
+        assert_eq!(at((10, 14)), Some((0.025, 0.525)));
+        assert_eq!(at((29, 5)), Some((0.975, 0.975)));
+        assert_eq!((at((9, 14)), at((30, 14)), at((10, 15))), (None, None, None));
+        app.forget_places();
+        assert_eq!(at((10, 14)), None);
+    }
+
+    #[test]
+    fn a_key_of_the_last_line_acts_in_every_dialogue_and_nowhere_else() {
+        let mut app = app();
+        app.note_key(Rect::new(0, 39, 4, 1), Action::Help);
+        app.note_key(Rect::new(6, 39, 4, 1), Action::Quit);
+        assert_eq!(app.mouse(&event(LEFT, (3, 39))), Heard::Acted(Effect::None));
+        assert!(matches!(app.dialogue.mode, InputMode::Help(_)));
+        assert_eq!(app.mouse(&event(LEFT, (5, 39))), Heard::Nothing);
+        assert_eq!(app.mouse(&event(LEFT, (9, 39))), Heard::Acted(Effect::Quit));
+        assert_eq!(app.mouse(&event(MouseEventKind::Moved, (9, 39))), Heard::Nothing);
+        // A name that is typed is finished by a key.
+        app.dialogue.mode = InputMode::Naming(super::super::Purpose::Save, "a".into());
+        assert_eq!(app.mouse(&event(LEFT, (9, 39))), Heard::Nothing);
+    }
+
+    #[test]
+    fn a_mouse_that_is_off_does_nothing() {
+        let mut app = app();
+        app.note_key(Rect::new(0, 39, 4, 1), Action::Help);
+        assert!(app.mouse.toggle().contains("off") && !app.mouse.is_on());
+        assert_eq!(app.mouse(&event(LEFT, (0, 39))), Heard::Nothing);
+        assert!(app.mouse.toggle().contains("on") && app.dialogue.is_closed());
     }
 }

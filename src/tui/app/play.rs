@@ -306,11 +306,12 @@ impl App {
         self.play.pages_back = pages.clamp((now - last).min(0), now);
     }
 
-    /// The rate that is reached, or until that is known the one that is asked for, in words:
-    /// `1/200` of real time.
+    /// The rate that is reached, in words: `1/200` of real time; while nothing plays the one
+    /// that is asked for.
     pub fn rate_text(&self) -> String {
-        let reached = self.results().pace.reached.filter(|_| self.play.playing);
-        match reached.unwrap_or(self.rate()) {
+        let rate = if self.play.playing { self.results().pace.reached } else { Some(self.rate()) };
+        let Some(rate) = rate else { return self.appearance.ellipsis().into() };
+        match rate {
             rate if rate >= REAL => "real time".into(),
             // Two digits: the pace is not the same all the time.
             rate => {
@@ -357,7 +358,8 @@ mod tests {
     fn the_rate_in_words_is_the_one_that_is_reached() {
         let scene = crate::scene::Scene::base().checked().unwrap();
         let mut app = App::new(scene, crate::tui::Theme::Mono, crate::tui::Marker::Ascii);
-        assert_eq!(app.rate_text(), "1/200");
+        // Not known yet: what was asked for is no answer.
+        assert_eq!(app.rate_text(), "..");
         for (rate, text) in [(1.0 / 83.4, "1/83"), (1.0 / 1234.0, "1/1200"), (0.97, "real time")] {
             app.run.latest.results.pace.reached = Some(rate);
             assert_eq!(app.rate_text(), text);

@@ -96,6 +96,33 @@ impl App {
         self.reading.cursor = Some(cursor);
     }
 
+    /// Moves the cursor up or down only: an instant that is read goes on being read, also
+    /// where it is on another page.
+    fn put_beside(&mut self, cursor: Cursor) {
+        match self.cursor_time() {
+            Some(_) => self.reading.move_to(cursor),
+            None => self.put_cursor(cursor),
+        }
+    }
+
+    /// Reads the gap of a blade, numbered from 1.
+    pub(super) fn go_to_blade(&mut self, blade: u32) {
+        let all = self.machine.polygon.blades;
+        if !(1..=all).contains(&blade) {
+            self.status = Some(format!("blade {blade}: from 1 to {all}"));
+            return;
+        }
+        self.show(ViewId::Gaps);
+        self.reading.on = true;
+        let (part, here) = ((f64::from(blade) - 0.5) / f64::from(all), self.panel().here(self));
+        self.put_beside(match self.layout.is_heat() {
+            true => Cursor { up: part, ..here },
+            false => Cursor { across: part, ..here },
+        });
+        let gap = self.shown().and_then(|moment| moment.gaps.get(blade as usize - 1).copied());
+        self.status = gap.map(|gap| format!("blade {blade}: gap {}", self.gap_words(gap)));
+    }
+
     /// After a change of the large chart: an instant goes on being read.
     pub(super) fn keep_instant(&mut self) {
         match self.cursor_time() {
@@ -134,7 +161,10 @@ impl App {
             }
         };
         let (across, up) = (moved(cursor.across, right, across), moved(cursor.up, up, high));
-        self.put_cursor(Cursor { across, up });
+        match right {
+            0 => self.put_beside(Cursor { across, up }),
+            _ => self.put_cursor(Cursor { across, up }),
+        }
     }
 
     /// The gaps against time, or those of one instant; the blade that is read stays.
@@ -146,7 +176,7 @@ impl App {
         self.show(ViewId::Gaps);
         if let Some(blade) = blade {
             let here = self.panel().here(self);
-            self.put_cursor(match self.layout.is_heat() {
+            self.put_beside(match self.layout.is_heat() {
                 true => Cursor { up: blade, ..here },
                 false => Cursor { across: blade, ..here },
             });
@@ -156,7 +186,7 @@ impl App {
     /// Does what the large chart does at the cursor.
     pub(super) fn open_cursor(&mut self) {
         match self.opening() {
-            None => {}
+            None => self.status = Some("Enter opens nothing in this chart".into()),
             Some(Opening::Run(scene)) => self.open_run(*scene),
             Some(Opening::Jump { path, value, to }) => self.jump_to_limit(path, value, &to),
             Some(Opening::Select(path)) => self.select_to_turn(path),
@@ -173,4 +203,72 @@ impl App {
 /// The cell of a part, 0 to 1, of a row of cells.
 pub fn cell_of(part: f64, cells: u32) -> u32 {
     ((part * f64::from(cells)) as u32).min(cells.saturating_sub(1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+    use crate::tui::{Marker, Theme};
+
+    fn app() -> App {
+        let scene = Scene::builtin("paper-nd3").unwrap().checked().unwrap();
+        let mut app = App::new(scene, Theme::Mono, Marker::Braille);
+        app.layout.size = (120, 40);
+        app
+    }
+
+    #[test]
+    fn an_instant_that_is_read_stays_from_view_to_view() {
+        let mut app = app();
+        app.walk(ViewId::Response);
+        app.point(Cursor { across: 0.25, up: 0.5 });
+        let read = Some(5e-3);
+        for view in ViewId::all().chain([ViewId::Gaps, ViewId::Response]) {
+            app.walk(view);
+            assert_eq!(app.cursor_time(), read, "{}", view.word());
+            assert_eq!(app.order().cursor_s, read);
+        }
+        assert_eq!(app.cursor_in(ViewId::Response), Some(Cursor { across: 0.25, up: 0.5 }));
+        // On a page that it is not on, too, unless the cursor is moved across.
+        app.play.zoom = 6;
+        assert!(app.page().1 < 5e-3);
+        app.move_cursor(0, 1, false);
+        assert_eq!(app.cursor_time(), read);
+        app.move_cursor(-1, 0, false);
+        assert!(app.cursor_time().is_some_and(|t| t < app.page().1));
+        app.reading.stop();
+        assert_eq!((app.cursor_time(), app.reading.is_open()), (None, false));
+    }
+
+    #[test]
+    fn a_blade_is_read_by_its_number_in_both_pictures_of_the_gaps() {
+        let mut app = app();
+        for heat in [false, true] {
+            app.layout.heat = heat;
+            app.go_to_blade(7);
+            let cursor = app.cursor_in(ViewId::Gaps).unwrap();
+            let part = if heat { cursor.up } else { cursor.across };
+            assert_eq!((cell_of(part, 22), app.reading.is_on()), (6, true));
+        }
+        for blade in [0, 23] {
+            app.go_to_blade(blade);
+            let refused = format!("blade {blade}: from 1 to 22");
+            assert_eq!(app.status.as_deref(), Some(refused.as_str()));
+        }
+    }
+
+    #[test]
+    fn the_cursor_goes_from_cell_to_cell_and_stops_at_the_ends() {
+        let mut app = app();
+        app.walk(ViewId::Gaps);
+        app.toggle_reading();
+        let cell = |app: &App| cell_of(app.cursor_in(ViewId::Gaps).unwrap().across, 22);
+        for (right, coarse, at) in [(1, false, 1), (1, true, 6), (-1, false, 5), (-1, true, 0)] {
+            app.move_cursor(right, 0, coarse);
+            assert_eq!(cell(&app), at);
+        }
+        (0..9).for_each(|_| app.move_cursor(1, 0, true));
+        assert_eq!((cell(&app), cell_of(1.0, 22), cell_of(0.5, 0)), (21, 21, 0));
+    }
 }

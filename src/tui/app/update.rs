@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-use super::{App, HelpState, InputMode, PaletteState, Purpose};
+use super::{App, HelpState, InputMode, Purpose};
 use crate::report::line::{self, clean};
 use crate::tui::bindings::{Action, Chord, lookup};
 use crate::tui::files::FileJob;
@@ -53,10 +53,15 @@ impl App {
             return Effect::None;
         }
         if let Some(action) = lookup(self.context(), chord) {
+            let before = self.dialogue.is_closed().then(|| self.seen());
             let effect = self.act(action);
             self.check_lesson();
+            if self.status.is_none() && effect == Effect::None && before == Some(self.seen()) {
+                self.status = Some(self.nothing(chord, action));
+            }
             return effect;
         }
+        let is_typed = self.dialogue.typed().is_some();
         if let (Some(text), KeyCode::Char(letter), false) =
             (self.dialogue.typed(), chord.code, chord.ctrl)
             && line::harmless(letter) == letter
@@ -67,8 +72,29 @@ impl App {
             }
             self.status = (!room).then(|| format!("no room: at most {LONGEST_TYPED} letters"));
             self.dialogue.look_again();
+        } else if !is_typed {
+            let way = if self.dialogue.is_closed() { "? lists the keys" } else { "Esc leaves" };
+            self.status = Some(clean(&format!("{chord} has no meaning here; {way}")));
         }
         Effect::None
+    }
+
+    /// What can be seen of this state, without what only a status says.
+    fn seen(&self) -> impl PartialEq + use<> {
+        let shown = (self.order(), self.layout.clone(), self.appearance);
+        let open = (self.dialogue.mode().clone(), self.lessons.progress().cloned());
+        let read = (self.reading.cursor(), self.reading.is_on());
+        (shown, open, read, self.selected().map(|knob| knob.path), self.knobs.refusal().cloned())
+    }
+
+    /// What to say of a key that has changed nothing.
+    fn nothing(&self, chord: Chord, action: Action) -> String {
+        match action {
+            Action::Close => "nothing is open; q quits".into(),
+            Action::LeaveLesson => "no lesson is open; g lists them".into(),
+            Action::Turn { .. } => "this knob goes no further".into(),
+            _ => format!("{chord}: as it was, nothing to change here"),
+        }
     }
 
     /// Takes a pasted text into the field that is open. It never acts as keys.
@@ -153,7 +179,7 @@ impl App {
     fn act_main(&mut self, action: Action) {
         match action {
             Action::Help => self.dialogue.open(InputMode::Help(HelpState::default())),
-            Action::Palette => self.dialogue.open(InputMode::Palette(PaletteState::default())),
+            Action::Palette => self.look_for(""),
             Action::NextView => self.walk(self.layout.neighbour(1)),
             Action::PreviousView => self.walk(self.layout.neighbour(-1)),
             Action::View(view) => self.walk(view),
@@ -179,7 +205,7 @@ impl App {
             Action::Charts | Action::FullScreen => self.layout.act(action),
             Action::Pin => self.pin(),
             Action::OtherLaw if self.is_large(ViewId::Map) => self.other_map_law(),
-            Action::MapAxis { up } => self.next_map_axis(up),
+            Action::MapAxis { up } => self.look_for(if up { "up " } else { "across " }),
             Action::OtherLaw => match other_law(&self.scene) {
                 Err(why) if !self.run.is_compared() => {
                     let law = self.scene.solver.contact.other();
@@ -230,5 +256,48 @@ impl App {
         }
         self.appearance.set_wide(on);
         self.status = on.then(|| "P or Esc: back to the usual screen".into());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+    use crate::tui::bindings::{Context, of};
+    use crate::tui::{Marker, Theme};
+
+    #[test]
+    fn a_key_that_changes_nothing_says_so() {
+        let scene = Scene::base().checked().unwrap();
+        let mut silent = std::collections::BTreeSet::new();
+        for reads in [false, true] {
+            for view in ViewId::all() {
+                let mut app = App::new(scene.clone(), Theme::Mono, Marker::Braille);
+                app.act(Action::View(view));
+                if app.reading.is_on() != reads {
+                    app.act(Action::Read);
+                }
+                let context = app.context();
+                let others = of(Context::Main).filter(|_| context != Context::Main);
+                let unbound = [Chord::from('d')];
+                let keys = of(context).chain(others).flat_map(|binding| binding.keys);
+                for chord in keys.chain(&unbound) {
+                    let mut modifiers = KeyModifiers::NONE;
+                    modifiers.set(KeyModifiers::CONTROL, chord.ctrl);
+                    modifiers.set(KeyModifiers::SHIFT, chord.shift);
+                    let mut after = app.clone();
+                    let effect = after.key(&KeyEvent::new(chord.code, modifiers));
+                    if effect == Effect::None && format!("{after:?}") == format!("{app:?}") {
+                        silent.insert(format!("{chord} in {} ({reads})", view.word()));
+                    }
+                }
+            }
+        }
+        assert!(silent.is_empty(), "{silent:?}");
+        let mut app = App::new(scene, Theme::Mono, Marker::Braille);
+        for (letter, says) in [('d', "no meaning here"), ('1', "as it was"), ('G', "no lesson")] {
+            app.key(&KeyEvent::new(KeyCode::Char(letter), KeyModifiers::NONE));
+            assert!(app.status.as_ref().is_some_and(|status| status.contains(says)), "{letter}");
+        }
     }
 }

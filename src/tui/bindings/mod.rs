@@ -127,6 +127,20 @@ impl Chord {
     }
 }
 
+/// The key that a sign stands for, in the last line and in scripts: an arrow, or the letter.
+impl From<char> for Chord {
+    fn from(sign: char) -> Self {
+        let code = match sign {
+            '←' => KeyCode::Left,
+            '→' => KeyCode::Right,
+            '↑' => KeyCode::Up,
+            '↓' => KeyCode::Down,
+            letter => KeyCode::Char(letter),
+        };
+        Self { code, ctrl: false, shift: false }
+    }
+}
+
 impl std::fmt::Display for Chord {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         if self.ctrl {

@@ -86,7 +86,7 @@ const BEFORE_VIEWS: &[Binding] = &[
         Main,
         [letter(':'), ctrl('p')],
         Action::Palette,
-        "find a command, scene, lesson or view, or set a knob (speed 430)",
+        "go or do in words: t 0.3 ms, blade 7, speed 450, law smooth, scene rub, lesson lock",
         ":" "commands"
     ),
     bind!(Main, [letter('?')], Action::Help, "this help; typing in it finds a key or a word", "?" "help"),
@@ -128,8 +128,8 @@ const BEFORE_VIEWS: &[Binding] = &[
     ),
     bind!(Main, [letter('b')], Action::Pin, "pin this run as a baseline behind the next, or remove it", "b" "pin"),
     bind!(Main, [letter('c')], Action::OtherLaw, "the other contact law next to this one; in the map, its law", "c" "both laws"),
-    bind!(Main, [letter('X')], Action::MapAxis { up: false }, "the next knob across the map"),
-    bind!(Main, [letter('Y')], Action::MapAxis { up: true }, "the next knob up the map"),
+    bind!(Main, [letter('X')], Action::MapAxis { up: false }, "choose the knob across the map"),
+    bind!(Main, [letter('Y')], Action::MapAxis { up: true }, "choose the knob up the map"),
     bind!(Main, [letter('s')], Action::Save, "save the scene"),
     bind!(
         Main,

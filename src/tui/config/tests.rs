@@ -1,6 +1,7 @@
 use super::*;
 use crate::scene::Scene;
 use crate::tui::bindings::Action;
+use crate::tui::lessons;
 
 fn app() -> App {
     App::new(Scene::base().checked().unwrap(), Theme::Dark, Marker::Braille)
@@ -120,4 +121,21 @@ fn a_home_that_does_not_exist_is_not_made() {
     assert!(!is_at_home(&none.join(".config"), &none));
     // A folder that the user names is.
     assert!(is_at_home(&home.path().join("xdg"), &none));
+}
+
+#[test]
+fn the_steps_that_were_done_are_there_at_the_next_start_with_those_of_another_explorer() {
+    let home = tempfile::tempdir().unwrap();
+    let path = home.path().join("config.toml");
+    let (lock, slip) = (&lessons::all()[1], &lessons::all()[5]);
+    session(&path, |app| {
+        app.lessons.done.add(lock, 0);
+        session(&path, |other| other.lessons.done.add(slip, 2));
+    });
+    let next = session(&path, |_| {});
+    assert!(next.lessons.done.has(lock, 0) && next.lessons.done.has(slip, 2));
+    // Without a file there are none.
+    let mut app = app();
+    Memory::at(None).prepare(&mut app);
+    assert!(app.lessons.done.is_empty());
 }

@@ -5,7 +5,7 @@ use super::number::{decades, mantissas};
 use crate::scene::{Allowed, ContactLaw, Scene};
 
 /// Its name in the place of a path.
-pub(super) const CLEARANCE: &str = "clearance";
+pub(super) use crate::scene::keys::CLEARANCE;
 
 /// What it may hold; a rigid casing refuses what is not above 0.
 pub(super) const ALLOWED: Allowed = Allowed::Real { min: -1e3, max: 1e3, above: false };

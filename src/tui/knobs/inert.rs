@@ -1,74 +1,93 @@
-//! Knobs that cannot change the run as the others stand, and why.
+//! Where a knob cannot change the run as the others stand, and why: a column of the table.
 
 use super::Knob;
-use crate::scene::keys::PULSE;
 use crate::scene::{ContactLaw, ModelSize, Scene, SolverKind};
+
+/// Why a knob changes nothing in a scene.
+pub type Inert = fn(&Scene) -> Option<&'static str>;
+
+const STILL: &str = "the blades of the rigid model do not move";
 
 impl Knob {
     /// The reason why this knob does not change the run of a scene, if it does not.
     pub fn inert(&self, scene: &Scene) -> Option<&'static str> {
-        let rigid = scene.solver.model == ModelSize::Rigid;
-        let event = scene.solver.kind == SolverKind::Event;
-        let modal = scene.solver.model == ModelSize::Modal;
-        let law = scene.solver.contact;
-        let smooth = law == ContactLaw::Smooth;
-        let alike = scene.bladed_disk.diameters_beside(scene.operation.nodal_diameters) == 0;
-        match self.path {
-            "contact.stiffness_n_per_m" | "contact.smoothing_m" if !smooth => {
-                Some("only the smooth law has a lining")
-            }
-            "bladed_disk.radial_coupling" if rigid => {
-                Some("the blades of the rigid model do not move")
-            }
-            "bladed_disk.nodal_diameters" if !modal => {
-                Some("only the modal model chooses the diameters of the disk")
-            }
-            "contact.friction" if law == ContactLaw::Bilateral => {
-                Some("a pull has no friction: choose another contact law")
-            }
-            "contact.restitution" if law != ContactLaw::Unilateral => {
-                Some("only the unilateral law rebounds")
-            }
-            "bladed_disk.mistuning" | "bladed_disk.mistuning_seed"
-                if scene.solver.model != ModelSize::Full =>
-            {
-                Some("only the full model has single blades")
-            }
-            "casing.tangential_ratio" if scene.contact.friction == 0.0 => {
-                Some("without friction nothing pulls the casing along")
-            }
-            "contact.friction" if rigid && scene.casing.tangential_ratio == 0.0 => {
-                Some("rigid blades and a radial casing do not feel friction")
-            }
-            "bladed_disk.mistuning_seed" if scene.bladed_disk.mistuning == 0.0 => {
-                Some("the mistuning is 0")
-            }
-            "solver.step_s" if event => Some("the event solver has no steps"),
-            PULSE if scene.operation.pulse_s == 0.0 => Some("the pulse time is 0"),
-            "operation.pulse_s" if scene.operation.pulse_n == 0.0 => Some("the pulse is 0"),
-            "bladed_disk.damping_ratio"
-            | "bladed_disk.stiffness_nm_per_rad"
-            | "bladed_disk.coupling_nm_per_rad"
-            | "bladed_disk.inertia_kg_m2"
-                if rigid =>
-            {
-                Some("the blades of the rigid model do not move")
-            }
-            "bladed_disk.coupling_nm_per_rad" if modal && alike => {
-                Some("with n_d = 0 all blades move alike")
-            }
-            "excitation.amplitude_nm" | "excitation.order" if rigid => {
-                Some("the blades of the rigid model do not move")
-            }
-            "excitation.amplitude_nm" | "excitation.order" if event => {
-                Some("the event solver takes no torque")
-            }
-            "excitation.order" if scene.excitation.amplitude_nm == 0.0 => {
-                Some("the EO torque is 0")
-            }
-            _ => None,
-        }
+        (self.inert)(scene)
     }
+}
+
+fn has(model: ModelSize, scene: &Scene) -> bool {
+    scene.solver.model == model
+}
+
+fn is_event(scene: &Scene) -> bool {
+    scene.solver.kind == SolverKind::Event
+}
+
+pub fn rigid(scene: &Scene) -> Option<&'static str> {
+    has(ModelSize::Rigid, scene).then_some(STILL)
+}
+
+pub fn without_time(scene: &Scene) -> Option<&'static str> {
+    (scene.operation.pulse_s == 0.0).then_some("the pulse time is 0")
+}
+
+pub fn without_pulse(scene: &Scene) -> Option<&'static str> {
+    (scene.operation.pulse_n == 0.0).then_some("the pulse is 0")
+}
+
+pub fn step(scene: &Scene) -> Option<&'static str> {
+    is_event(scene).then_some("the event solver has no steps")
+}
+
+pub fn lining(scene: &Scene) -> Option<&'static str> {
+    (scene.solver.contact != ContactLaw::Smooth).then_some("only the smooth law has a lining")
+}
+
+pub fn restitution(scene: &Scene) -> Option<&'static str> {
+    (scene.solver.contact != ContactLaw::Unilateral).then_some("only the unilateral law rebounds")
+}
+
+pub fn friction(scene: &Scene) -> Option<&'static str> {
+    match scene.solver.contact {
+        ContactLaw::Bilateral => Some("a pull has no friction: choose another contact law"),
+        _ if has(ModelSize::Rigid, scene) && scene.casing.tangential_ratio == 0.0 => {
+            Some("rigid blades and a radial casing do not feel friction")
+        }
+        _ => None,
+    }
+}
+
+pub fn tangential(scene: &Scene) -> Option<&'static str> {
+    (scene.contact.friction == 0.0).then_some("without friction nothing pulls the casing along")
+}
+
+pub fn not_modal(scene: &Scene) -> Option<&'static str> {
+    (!has(ModelSize::Modal, scene))
+        .then_some("only the modal model chooses the diameters of the disk")
+}
+
+pub fn not_full(scene: &Scene) -> Option<&'static str> {
+    (!has(ModelSize::Full, scene)).then_some("only the full model has single blades")
+}
+
+pub fn draw(scene: &Scene) -> Option<&'static str> {
+    let none = (scene.bladed_disk.mistuning == 0.0).then_some("the mistuning is 0");
+    not_full(scene).or(none)
+}
+
+pub fn coupling(scene: &Scene) -> Option<&'static str> {
+    let beside = scene.bladed_disk.diameters_beside(scene.operation.nodal_diameters);
+    let alike = has(ModelSize::Modal, scene) && beside == 0;
+    rigid(scene).or(alike.then_some("with n_d = 0 all blades move alike"))
+}
+
+pub fn torque(scene: &Scene) -> Option<&'static str> {
+    rigid(scene).or(is_event(scene).then_some("the event solver takes no torque"))
+}
+
+pub fn order(scene: &Scene) -> Option<&'static str> {
+    let none = (scene.excitation.amplitude_nm == 0.0).then_some("the EO torque is 0");
+    torque(scene).or(none)
 }
 
 #[cfg(test)]

@@ -10,8 +10,10 @@ mod table;
 mod touch;
 
 use clearance::CLEARANCE;
+use inert::Inert;
 pub use number::number;
-use number::{decades, mantissas, prefixed};
+use number::{decades, in_unit, mantissas};
+use range::Bar;
 pub use range::KnobRange;
 pub use table::KNOBS;
 
@@ -95,6 +97,12 @@ pub struct Knob {
     pub turn: Turn,
     /// What turning it does, in one sentence.
     pub does: &'static str,
+    /// The range of its bar.
+    bar: Bar,
+    /// The magnitude that is usual, where it is 0 in the opened scene.
+    usual: f64,
+    /// Why it changes nothing, where it does not.
+    inert: Inert,
 }
 
 impl Knob {
@@ -129,8 +137,7 @@ impl Knob {
         match (self.key(), value) {
             (Some(key), value) => changed.set_value(key, value)?,
             (None, Value::Real(g0)) if g0.is_finite() && g0 != 0.0 => {
-                let radius = changed.bladed_disk.blade_length_m + g0;
-                changed.set_value(keys::find("casing.radius_m")?, Value::Real(radius))?;
+                changed.set_clearance(g0)?;
             }
             (None, value) => {
                 return Err(SceneError::refused(
@@ -259,12 +266,9 @@ impl Knob {
         let text = text.trim();
         let refused = |allowed: String| SceneError::refused(self.path, text, allowed);
         match self.allowed() {
-            Allowed::Real { .. } => {
-                let text = text.strip_suffix(self.unit()).unwrap_or(text).trim_end();
-                prefixed(text)
-                    .map(Value::Real)
-                    .ok_or_else(|| refused("a number, such as 500, 2.5e-7, 20k or 50u".into()))
-            }
+            Allowed::Real { .. } => in_unit(text, self.unit())
+                .map(Value::Real)
+                .ok_or_else(|| refused("a number, such as 500, 2.5e-7, 20k or 50u".into())),
             Allowed::Whole { .. } => {
                 text.parse().map(Value::Whole).map_err(|_| refused("a whole number".into()))
             }

@@ -43,8 +43,17 @@ pub(super) fn decades(x: f64, up: bool, mantissas: &[f64], least: f64) -> f64 {
     }
 }
 
+/// A typed number with a prefix and the unit, or without them; a speed also in turns a
+/// minute.
+pub(super) fn in_unit(text: &str, unit: &str) -> Option<f64> {
+    if let Some(turns) = text.strip_suffix("rpm").filter(|_| unit == "rad/s") {
+        return prefixed(turns.trim_end()).map(|turns| turns * std::f64::consts::TAU / 60.0);
+    }
+    prefixed(text.strip_suffix(unit).unwrap_or(text).trim_end())
+}
+
 /// A number with an optional SI prefix at its end.
-pub(super) fn prefixed(text: &str) -> Option<f64> {
+fn prefixed(text: &str) -> Option<f64> {
     if let Ok(x) = text.parse::<f64>() {
         return Some(x);
     }

@@ -1,12 +1,9 @@
-//! Where the value of a knob stands: its usual range, the limits on it, and the
-//! value at a place of its bar.
+//! Where the value of a knob stands: its usual range, which is a column of the table, the
+//! limits on it, and the value at a place of its bar.
 
-use super::clearance::CLEARANCE;
-use super::touch::touching_pulse;
 use super::{Knob, Turn};
 use crate::model::Machine;
 use crate::report::number::rounded;
-use crate::scene::keys::{PULSE, SPEED};
 use crate::scene::{Allowed, ContactLaw, Scene, Value};
 
 /// The usual range of a knob, or of a limit, on which its bar is drawn. Values may be
@@ -80,99 +77,161 @@ impl KnobRange {
     }
 }
 
-/// How far beyond the greatest threshold the bar of the speed goes.
-const BEYOND: f64 = 1.5;
 /// Factor below and above the value of the opened scene.
 const AROUND: f64 = 10.0;
+
+/// The range of the bar of a knob.
+#[derive(Clone, Copy, Debug)]
+pub enum Bar {
+    /// A decade below and above the value of the opened scene, by factors.
+    Around,
+    /// From one value to another.
+    From(f64, f64),
+    /// What follows from the scene.
+    Of(fn(&Case) -> KnobRange),
+}
+
+/// What the range of a bar follows from.
+#[derive(Debug)]
+pub struct Case<'a> {
+    knob: &'a Knob,
+    value: f64,
+    scene: &'a Scene,
+    opened: &'a Scene,
+    machine: &'a Machine,
+}
+
+impl Case<'_> {
+    fn clearance(&self) -> f64 {
+        self.machine.clearance().abs()
+    }
+
+    fn blades(&self) -> f64 {
+        f64::from(self.scene.bladed_disk.blades)
+    }
+
+    fn has_lining(&self) -> bool {
+        self.scene.solver.contact == ContactLaw::Smooth
+    }
+
+    /// The magnitude in the opened scene, or what is usual where it is 0 there.
+    fn usual(&self) -> f64 {
+        let value = self.knob.number(self.opened).unwrap_or(0.0).abs();
+        if value > 0.0 { value } else { self.knob.usual }
+    }
+
+    fn around(&self) -> KnobRange {
+        let usual = self.usual();
+        KnobRange::log(usual / AROUND, usual * AROUND).signed(self.value)
+    }
+}
+
+/// The ranges that follow from the scene.
+pub mod bars {
+    use super::super::touch::touching_pulse;
+    use super::{AROUND, Case, KnobRange};
+
+    /// How far beyond the greatest threshold the bar of the speed goes.
+    const BEYOND: f64 = 1.5;
+
+    pub fn speed(case: &Case) -> KnobRange {
+        let machine = case.machine;
+        let window = machine.lock_window(case.value);
+        let lock = window.map(|window| window.from);
+        let limits = [machine.critical_speed(), lock, machine.dangerous_speed()];
+        let most = limits.into_iter().flatten().fold(0.0, f64::max);
+        let most = if most > 0.0 { most } else { machine.omega_c };
+        // The most important one last: it covers the others in its cell.
+        KnobRange::linear(0.0, BEYOND * most).signed(case.value).marked(&[
+            ('a', machine.adhesive_speed()),
+            ('e', window.and_then(|window| window.to)),
+            ('x', limits[2]),
+            ('c', limits[0]),
+            ('L', limits[1]),
+        ])
+    }
+
+    pub fn ramp(case: &Case) -> KnobRange {
+        let opened = &case.opened;
+        let value = opened.operation.speed_ramp_rad_s2.abs();
+        let turn = opened.operation.speed_rad_s.abs().max(1.0) / opened.solver.end_s;
+        let usual = if value > 0.0 { value } else { turn };
+        KnobRange::log(usual / AROUND, usual * AROUND).signed(case.value)
+    }
+
+    pub fn pulse(case: &Case) -> KnobRange {
+        let touch = touching_pulse(case.scene, case.machine);
+        let middle = touch.unwrap_or_else(|| case.usual());
+        let range = KnobRange::log(middle / 30.0, middle * 3000.0);
+        range.signed(case.value).marked(&[('t', touch)])
+    }
+
+    pub fn casing_diameters(case: &Case) -> KnobRange {
+        KnobRange::linear(1.0, (case.blades() / 2.0).floor().max(2.0))
+    }
+
+    pub fn disk_diameters(case: &Case) -> KnobRange {
+        let own = Some(case.machine.nodal_diameters).filter(|own| *own > 0.0);
+        KnobRange::linear(0.0, (case.blades() / 2.0).floor().max(2.0)).marked(&[('n', own)])
+    }
+
+    pub fn order(case: &Case) -> KnobRange {
+        KnobRange::linear(1.0, case.blades().max(2.0))
+    }
+
+    pub fn blade_length(case: &Case) -> KnobRange {
+        let (radius, room) = (case.scene.casing.radius_m, 4.0 * case.clearance());
+        let most = if case.has_lining() { radius + room } else { radius };
+        KnobRange::linear(radius - room, most)
+    }
+
+    pub fn casing_radius(case: &Case) -> KnobRange {
+        let (length, room) = (case.scene.bladed_disk.blade_length_m, 4.0 * case.clearance());
+        let least = if case.has_lining() { length - room } else { length };
+        KnobRange::linear(least, length + room)
+    }
+
+    pub fn clearance(case: &Case) -> KnobRange {
+        let most = 0.5 * AROUND * case.usual();
+        match case.has_lining() {
+            true => KnobRange::linear(-most, most).marked(&[('0', Some(0.0))]),
+            false => case.around(),
+        }
+    }
+
+    pub fn position(case: &Case) -> KnobRange {
+        KnobRange::linear(-case.clearance(), case.clearance())
+    }
+
+    pub fn velocity(case: &Case) -> KnobRange {
+        let most = 2.0 * case.clearance() * case.machine.omega_c;
+        KnobRange::linear(-most, most)
+    }
+
+    pub fn slope(case: &Case) -> KnobRange {
+        // Between 0 and -mu the blades dig in.
+        let dig = Some(-case.scene.contact.friction).filter(|dig| *dig < 0.0);
+        KnobRange::linear(-1.0, 1.0).marked(&[('d', dig), ('0', Some(0.0))])
+    }
+
+    pub fn tangential(case: &Case) -> KnobRange {
+        // A ring that does not stretch.
+        KnobRange::linear(0.0, 1.0).marked(&[('r', Some(1.0 / case.machine.nodal_diameters))])
+    }
+}
 
 impl Knob {
     /// The usual range of this knob, and the limits on it; none for words. It
     /// depends on the machine and on the scene as it was opened, not on the value:
     /// a bar whose scale moves cannot be read.
     pub fn range(&self, scene: &Scene, opened: &Scene, machine: &Machine) -> Option<KnobRange> {
-        let value = self.number(scene)?;
-        let (clearance, blades) = (machine.clearance().abs(), f64::from(scene.bladed_disk.blades));
-        let lining = scene.solver.contact == ContactLaw::Smooth;
-        let range = match self.path {
-            SPEED => {
-                let window = machine.lock_window(value);
-                let lock = window.map(|window| window.from);
-                let limits = [machine.critical_speed(), lock, machine.dangerous_speed()];
-                let most = limits.into_iter().flatten().fold(0.0, f64::max);
-                let most = if most > 0.0 { most } else { machine.omega_c };
-                // The most important one last: it covers the others in its cell.
-                KnobRange::linear(0.0, BEYOND * most).signed(value).marked(&[
-                    ('a', machine.adhesive_speed()),
-                    ('e', window.and_then(|window| window.to)),
-                    ('x', limits[2]),
-                    ('c', limits[0]),
-                    ('L', limits[1]),
-                ])
-            }
-            PULSE => {
-                let touch = touching_pulse(scene, machine);
-                let middle = touch.unwrap_or_else(|| self.usual(opened));
-                KnobRange::log(middle / 30.0, middle * 3000.0).signed(value).marked(&[('t', touch)])
-            }
-            "casing.damping_ratio" | "bladed_disk.damping_ratio" => KnobRange::linear(0.0, 0.2),
-            "operation.nodal_diameters" => KnobRange::linear(1.0, (blades / 2.0).floor().max(2.0)),
-            "excitation.order" => KnobRange::linear(1.0, blades.max(2.0)),
-            "bladed_disk.blade_length_m" => {
-                let radius = scene.casing.radius_m;
-                let most = if lining { radius + 4.0 * clearance } else { radius };
-                KnobRange::linear(radius - 4.0 * clearance, most)
-            }
-            "casing.radius_m" => {
-                let length = scene.bladed_disk.blade_length_m;
-                let least = if lining { length - 4.0 * clearance } else { length };
-                KnobRange::linear(least, length + 4.0 * clearance)
-            }
-            CLEARANCE if lining => {
-                let most = 0.5 * AROUND * self.usual(opened);
-                KnobRange::linear(-most, most).marked(&[('0', Some(0.0))])
-            }
-            "initial.u_c_m" | "initial.u_s_m" => KnobRange::linear(-clearance, clearance),
-            "initial.v_c_m_s" | "initial.v_s_m_s" => {
-                let most = 2.0 * clearance * machine.omega_c;
-                KnobRange::linear(-most, most)
-            }
-            "bladed_disk.radial_coupling" => {
-                // Between 0 and -mu the blades dig in.
-                let dig = Some(-scene.contact.friction).filter(|dig| *dig < 0.0);
-                KnobRange::linear(-1.0, 1.0).marked(&[('d', dig), ('0', Some(0.0))])
-            }
-            "contact.friction" => KnobRange::linear(0.0, 0.5),
-            "casing.tangential_ratio" => {
-                // A ring that does not stretch.
-                KnobRange::linear(0.0, 1.0).marked(&[('r', Some(1.0 / machine.nodal_diameters))])
-            }
-            "contact.restitution" => KnobRange::linear(0.0, 0.95),
-            "bladed_disk.nodal_diameters" => {
-                let own = Some(machine.nodal_diameters).filter(|own| *own > 0.0);
-                KnobRange::linear(0.0, (blades / 2.0).floor().max(2.0)).marked(&[('n', own)])
-            }
-            "bladed_disk.mistuning" => KnobRange::linear(0.0, 0.05),
-            "bladed_disk.mistuning_seed" => KnobRange::linear(0.0, 20.0),
-            _ => {
-                let usual = self.usual(opened);
-                KnobRange::log(usual / AROUND, usual * AROUND).signed(value)
-            }
+        let case = Case { knob: self, value: self.number(scene)?, scene, opened, machine };
+        let range = match self.bar {
+            Bar::Around => case.around(),
+            Bar::From(low, high) => KnobRange::linear(low, high),
+            Bar::Of(range) => range(&case),
         };
         Some(range).filter(KnobRange::is_sound)
-    }
-
-    /// The magnitude in the opened scene, or what is usual where it is 0 there.
-    fn usual(&self, opened: &Scene) -> f64 {
-        let value = self.number(opened).unwrap_or(0.0).abs();
-        match self.path {
-            _ if value > 0.0 => value,
-            "operation.speed_ramp_rad_s2" => {
-                opened.operation.speed_rad_s.abs().max(1.0) / opened.solver.end_s
-            }
-            PULSE => 1e4,
-            "operation.pulse_s" => 1e-4,
-            _ => 1.0,
-        }
     }
 
     /// The value as a number; none for words.

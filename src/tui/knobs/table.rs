@@ -1,8 +1,12 @@
-//! The table of knobs, in the order of the panel, group after group.
+//! The table of knobs, in the order of the panel, group after group: what each is, how it
+//! turns, the range of its bar, and where it changes nothing.
 
 use super::clearance::{CLEARANCE, LEAST};
+use super::inert::{self, Inert};
+use super::range::{Bar, bars};
 use super::{Group, Knob, Turn};
 use crate::scene::keys::{PULSE, SPEED};
+use Bar::{From, Of};
 use Group::{Beyond, Machine, Operation, Solver, Start};
 use Turn::{Decades, Linear, Whole, Words};
 
@@ -13,7 +17,21 @@ const fn knob(
     turn: Turn,
     does: &'static str,
 ) -> Knob {
-    Knob { group, label, path, turn, does }
+    Knob { group, label, path, turn, does, bar: Bar::Around, usual: 1.0, inert: |_| None }
+}
+
+impl Knob {
+    const fn bar(self, bar: Bar) -> Self {
+        Self { bar, ..self }
+    }
+
+    const fn usual(self, usual: f64) -> Self {
+        Self { usual, ..self }
+    }
+
+    const fn unless(self, inert: Inert) -> Self {
+        Self { inert, ..self }
+    }
 }
 
 /// Every knob, in the order of the panel. The first five, which a newcomer turns,
@@ -25,49 +43,60 @@ pub const KNOBS: &[Knob] = &[
         SPEED,
         Linear(5.0, 50.0),
         "rotor speed: above Ω_c (c) the wave is pushed onto the blades, above Ω_lock (L) a lock only pushes",
-    ),
+    )
+    .bar(Of(bars::speed)),
     knob(
         Operation,
         "pulse F",
         PULSE,
         Decades(1.0),
         "force of the push on u_c that starts the motion; from t on a blade touches",
-    ),
+    )
+    .bar(Of(bars::pulse))
+    .usual(1e4)
+    .unless(inert::without_time),
     knob(
         Operation,
         "diameters n_d",
         "operation.nodal_diameters",
         Whole(1, 4),
         "nodal diameters of the wave in casing and blades",
-    ),
+    )
+    .bar(Of(bars::casing_diameters)),
     knob(
         Operation,
         "damping ζ_c",
         "casing.damping_ratio",
         Linear(0.005, 0.05),
         "damping ratio of the casing: lets waves die away, and moves Ω_lock up",
-    ),
+    )
+    .bar(From(0.0, 0.2)),
     knob(
         Operation,
         "damping ζ_bd",
         "bladed_disk.damping_ratio",
         Linear(0.005, 0.05),
         "damping ratio of the blades",
-    ),
+    )
+    .bar(From(0.0, 0.2))
+    .unless(inert::rigid),
     knob(
         Operation,
         "pulse time t_p",
         "operation.pulse_s",
         Decades(1e-9),
         "how long the pulse pushes",
-    ),
+    )
+    .usual(1e-4)
+    .unless(inert::without_pulse),
     knob(
         Operation,
         "speed ramp",
         "operation.speed_ramp_rad_s2",
         Decades(1.0),
         "how fast the rotor speeds up, or slows down if negative",
-    ),
+    )
+    .bar(Of(bars::ramp)),
     knob(
         Solver,
         "solver",
@@ -95,7 +124,8 @@ pub const KNOBS: &[Knob] = &[
         "solver.step_s",
         Decades(1e-12),
         "time step of the explicit solver: shorter is more exact and slower",
-    ),
+    )
+    .unless(inert::step),
     knob(
         Solver,
         "run end",
@@ -109,7 +139,8 @@ pub const KNOBS: &[Knob] = &[
         CLEARANCE,
         Decades(LEAST),
         "clearance at rest g0 = R_c - l_b; below 0, with the smooth law, all blades rub",
-    ),
+    )
+    .bar(Of(bars::clearance)),
     knob(
         Machine,
         "blades N",
@@ -137,138 +168,166 @@ pub const KNOBS: &[Knob] = &[
         "bladed_disk.stiffness_nm_per_rad",
         Decades(1e-6),
         "stiffness of a blade on the disk",
-    ),
+    )
+    .unless(inert::rigid),
     knob(
         Machine,
         "blade k_bb",
         "bladed_disk.coupling_nm_per_rad",
         Decades(1e-3),
         "stiffness between neighbouring blades",
-    ),
+    )
+    .unless(inert::coupling),
     knob(
         Machine,
         "blade m_b",
         "bladed_disk.inertia_kg_m2",
         Decades(1e-9),
         "moment of inertia of a blade about the axis",
-    ),
+    )
+    .unless(inert::rigid),
     knob(
         Machine,
         "blade l_b",
         "bladed_disk.blade_length_m",
         Linear(1e-6, 1e-5),
         "blade length from the axis to the tip; longer closes the clearance",
-    ),
+    )
+    .bar(Of(bars::blade_length)),
     knob(
         Machine,
         "casing R_c",
         "casing.radius_m",
         Linear(1e-6, 1e-5),
         "inner radius of the casing; larger opens the clearance",
-    ),
+    )
+    .bar(Of(bars::casing_radius)),
     knob(
         Beyond,
         "tip slope κ",
         "bladed_disk.radial_coupling",
         Linear(0.05, 0.1),
         "radial coupling: a blade tip moves outward by κ l_b α; 0 in the paper",
-    ),
+    )
+    .bar(Of(bars::slope))
+    .unless(inert::rigid),
     knob(
         Beyond,
         "friction μ",
         "contact.friction",
         Linear(0.05, 0.1),
         "Coulomb friction of the blades, which slide forward; 0 in the paper",
-    ),
+    )
+    .bar(From(0.0, 0.5))
+    .unless(inert::friction),
     knob(
         Beyond,
         "tangential τ",
         "casing.tangential_ratio",
         Linear(0.05, 0.1),
         "tangential over radial motion of the casing: 1/n_d for a ring (r)",
-    ),
+    )
+    .bar(Of(bars::tangential))
+    .unless(inert::tangential),
     knob(
         Beyond,
         "lining k_p",
         "contact.stiffness_n_per_m",
         Decades(1e-3),
         "stiffness of the lining under one blade, for the smooth law",
-    ),
+    )
+    .unless(inert::lining),
     knob(
         Beyond,
         "lining eps",
         "contact.smoothing_m",
         Decades(1e-9),
         "depth over which the stiffness of the lining sets in, for the smooth law",
-    ),
+    )
+    .unless(inert::lining),
     knob(
         Beyond,
         "restitution e",
         "contact.restitution",
         Linear(0.05, 0.1),
         "part of the speed that an impact gives back; 0 in the paper",
-    ),
+    )
+    .bar(From(0.0, 0.95))
+    .unless(inert::restitution),
     knob(
         Beyond,
         "diameters n_b",
         "bladed_disk.nodal_diameters",
         Whole(1, 4),
         "nodal diameters of the disk; 0 for those of the casing (n)",
-    ),
+    )
+    .bar(Of(bars::disk_diameters))
+    .unless(inert::not_modal),
     knob(
         Beyond,
         "mistuning",
         "bladed_disk.mistuning",
         Linear(0.005, 0.01),
         "standard deviation of the stiffness of single blades, in the full model",
-    ),
+    )
+    .bar(From(0.0, 0.05))
+    .unless(inert::not_full),
     knob(
         Beyond,
         "draw",
         "bladed_disk.mistuning_seed",
         Whole(1, 10),
         "number of the draw of the single stiffnesses",
-    ),
+    )
+    .bar(From(0.0, 20.0))
+    .unless(inert::draw),
     knob(
         Start,
         "start u_c",
         "initial.u_c_m",
         Linear(5e-6, 2e-5),
         "casing position u_c at t = 0; every gap must be open there",
-    ),
+    )
+    .bar(Of(bars::position)),
     knob(
         Start,
         "start u_s",
         "initial.u_s_m",
         Linear(5e-6, 2e-5),
         "casing position u_s at t = 0; every gap must be open there",
-    ),
+    )
+    .bar(Of(bars::position)),
     knob(
         Start,
         "start u_c'",
         "initial.v_c_m_s",
         Linear(5e-3, 5e-2),
         "casing velocity along u_c at t = 0",
-    ),
+    )
+    .bar(Of(bars::velocity)),
     knob(
         Start,
         "start u_s'",
         "initial.v_s_m_s",
         Linear(5e-3, 5e-2),
         "casing velocity along u_s at t = 0",
-    ),
+    )
+    .bar(Of(bars::velocity)),
     knob(
         Start,
         "EO torque",
         "excitation.amplitude_nm",
         Decades(1e-3),
         "engine-order torque on each blade, fixed in space; 0 for none",
-    ),
+    )
+    .unless(inert::torque),
     knob(
         Start,
         "EO order",
         "excitation.order",
         Whole(1, 5),
         "engine order: load cycles of that torque per turn",
-    ),
+    )
+    .bar(Of(bars::order))
+    .unless(inert::order),
 ];

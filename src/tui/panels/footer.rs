@@ -2,10 +2,10 @@
 //! now, from the table of bindings. Help and the way out always have their place
 //! at its right end.
 
-use ratatui::{buffer::Buffer, layout::Rect, style::Style};
+use ratatui::{buffer::Buffer, layout::Rect};
 
 use crate::tui::app::{App, InputMode, Purpose};
-use crate::tui::bindings::{self, Action, Binding};
+use crate::tui::bindings::{self, Action, Binding, Chord};
 use crate::tui::text::{columns, pieces, print, shorten};
 use crate::tui::theme::Role;
 
@@ -49,7 +49,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
     let width = usize::from(area.width);
     let wanted = message.as_ref().map(|(text, _)| columns(text));
     let kept = kept(app, area.width, wanted);
-    let kept_width: usize = kept.iter().map(|(text, _)| columns(text)).sum();
+    let kept_width: usize = kept.iter().map(|entry| entry.columns(app)).sum();
     let room = width.saturating_sub(kept_width + GAP.len());
     if let Some((text, role)) = message {
         print(buffer, area, 0, &shorten(&text, room, mark), look.style(role));
@@ -58,8 +58,55 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
         keys(app, buffer, room);
     }
     let start = u16::try_from(width.saturating_sub(kept_width)).unwrap_or(0);
-    let right = Rect { x: area.x + start, width: area.width - start, ..area };
-    pieces(buffer, right, 0, &kept);
+    let mut rest = Rect { x: area.x + start, width: area.width - start, ..area };
+    for entry in kept {
+        rest = entry.draw(app, buffer, rest);
+    }
+}
+
+/// Keys and what they do, behind a gap.
+struct Entry {
+    binding: &'static Binding,
+    gap: &'static str,
+    keys: &'static str,
+    word: &'static str,
+}
+
+impl Entry {
+    fn columns(&self, app: &App) -> usize {
+        let word = if self.word.is_empty() { 0 } else { 1 + columns(self.word) };
+        self.gap.len() + columns(&app.appearance.spell(self.keys)) + word
+    }
+
+    /// Draws it, notes for the mouse where it stands, and returns the rest of the row.
+    fn draw(&self, app: &App, buffer: &mut Buffer, area: Rect) -> Rect {
+        let look = &app.appearance;
+        let wide = u16::try_from(self.columns(app)).unwrap_or(area.width).min(area.width);
+        let keys = (format!("{}{}", self.gap, look.spell(self.keys)), look.style(Role::Focus));
+        let word = if self.word.is_empty() { String::new() } else { format!(" {}", self.word) };
+        pieces(buffer, area, 0, &[keys, (word, look.style(Role::Quiet))]);
+        let gap = u16::try_from(self.gap.len()).unwrap_or(0).min(wide);
+        let own = Rect { x: area.x + gap, width: wide - gap, height: 1, ..area };
+        self.note(app, own);
+        Rect { x: area.x + wide, width: area.width - wide, ..area }
+    }
+
+    /// A sign does what its key does; the name of a key, and the word, what the binding does.
+    fn note(&self, app: &App, own: Rect) {
+        let mut at = own.x;
+        for token in self.keys.split(' ') {
+            let is_name = token.chars().nth(1).is_some_and(char::is_lowercase);
+            for sign in token.chars() {
+                let action = bindings::lookup(app.context(), Chord::from(sign));
+                if let Some(action) = action.filter(|_| !is_name && at < own.right()) {
+                    app.note_key(Rect { x: at, width: 1, ..own }, action);
+                }
+                at = at.saturating_add(1);
+            }
+            at = at.saturating_add(1);
+        }
+        app.note_key(own, self.binding.action);
+    }
 }
 
 /// The end of a text, where its cursor is, with a mark where its beginning is
@@ -86,30 +133,26 @@ fn is_kept(binding: &Binding) -> bool {
 
 /// What stands at the right end: words where a message leaves room for them,
 /// otherwise keys alone.
-fn kept(app: &App, width: u16, message: Option<usize>) -> Vec<(String, Style)> {
-    let look = &app.appearance;
+fn kept(app: &App, width: u16, message: Option<usize>) -> Vec<Entry> {
     let entries = |palette: bool, words: bool| {
-        let mut parts = Vec::new();
+        let mut entries: Vec<Entry> = Vec::new();
         for binding in current(app).filter(|binding| is_kept(binding)) {
             let Some((keys, word)) = binding.footer else { continue };
             if binding.action == Action::Palette && !palette {
                 continue;
             }
-            let gap = match (parts.is_empty(), words) {
+            let gap = match (entries.is_empty(), words) {
                 (true, _) => "",
                 (false, true) => GAP,
                 (false, false) => " ",
             };
-            parts.push((format!("{gap}{keys}"), look.style(Role::Focus)));
-            if words {
-                parts.push((format!(" {word}"), look.style(Role::Quiet)));
-            }
+            entries.push(Entry { binding, gap, keys, word: if words { word } else { "" } });
         }
-        parts
+        entries
     };
     let room = usize::from(width);
-    let fits = |parts: &Vec<(String, Style)>| {
-        let taken: usize = parts.iter().map(|(text, _)| columns(text)).sum();
+    let fits = |entries: &Vec<Entry>| {
+        let taken: usize = entries.iter().map(|entry| entry.columns(app)).sum();
         message.is_none_or(|message| message + GAP.len() + taken <= room)
     };
     let ways = [(width >= PALETTE_FROM, true), (false, true), (false, false)];
@@ -120,7 +163,6 @@ fn kept(app: &App, width: u16, message: Option<usize>) -> Vec<(String, Style)> {
 /// The other keys, those that matter most first. A key and its word are shown
 /// together or not at all.
 fn keys(app: &App, buffer: &mut Buffer, area: Rect) {
-    let look = &app.appearance;
     let mut rest = area;
     let others = bindings::of(app.context()).filter(|binding| !is_kept(binding));
     for (binding, (keys, word)) in others.filter_map(|binding| Some((binding, binding.footer?))) {
@@ -133,15 +175,11 @@ fn keys(app: &App, buffer: &mut Buffer, area: Rect) {
             },
             _ => word,
         };
-        let gap = if rest == area { "" } else { GAP };
-        let keys = format!("{gap}{}", look.spell(keys));
-        let wide = u16::try_from(columns(&keys) + 1 + columns(word)).unwrap_or(u16::MAX);
-        if wide > rest.width {
+        let entry = Entry { binding, gap: if rest == area { "" } else { GAP }, keys, word };
+        if entry.columns(app) > usize::from(rest.width) {
             return;
         }
-        let word = (format!(" {word}"), look.style(Role::Quiet));
-        pieces(buffer, rest, 0, &[(keys, look.style(Role::Focus)), word]);
-        rest = Rect { x: rest.x + wide, width: rest.width - wide, ..rest };
+        rest = entry.draw(app, buffer, rest);
     }
 }
 

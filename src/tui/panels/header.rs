@@ -28,6 +28,24 @@ const MOST_TITLE: usize = 40;
 
 type Parts = Vec<(String, Style)>;
 
+/// Columns of the lines where there is no screen: room for all of them.
+const TOLD: u16 = 240;
+
+/// Both lines as text, for where there is no screen.
+pub fn head_text(app: &App) -> [String; 2] {
+    let area = Rect::new(0, 0, TOLD, 2);
+    let mut buffer = Buffer::empty(area);
+    draw(app, &mut buffer, area);
+    let row = |y: u16| {
+        let cells = (0..TOLD).filter_map(|x| buffer.cell((x, y)));
+        let text: String = cells.map(|cell| cell.symbol()).collect();
+        // What stands apart on a screen is parted by three spaces.
+        let parts = text.split("   ").map(str::trim).filter(|part| !part.is_empty());
+        parts.collect::<Vec<_>>().join("   ")
+    };
+    [0, 1].map(row)
+}
+
 /// Draws both lines.
 pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
     let look = &app.appearance;

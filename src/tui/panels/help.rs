@@ -1,5 +1,5 @@
-//! The help: every key in groups, and the glossary. What is typed leaves only
-//! the entries that have these words.
+//! The help: the view on the screen, every key in groups, and the glossary. What is typed
+//! leaves only the entries that have these words.
 
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 use strum::IntoEnumIterator;
@@ -40,9 +40,17 @@ impl Entry {
         Self { left, right, also: String::new() }
     }
 
+    /// Whether it has all these words; a single letter is one that stands alone.
     fn has(&self, heading: &str, words: &[String]) -> bool {
         let text = format!("{heading} {} {} {}", self.left, self.right, self.also).to_lowercase();
-        words.iter().all(|word| text.contains(word))
+        let is_named = |letter: &str| {
+            let names = self.left.to_lowercase();
+            names.split([' ', ',']).any(|name| name == letter)
+        };
+        words.iter().all(|word| match word.chars().all(|c| c.is_ascii_alphanumeric()) {
+            true if word.len() == 1 => is_named(word),
+            _ => text.contains(word),
+        })
     }
 }
 
@@ -69,15 +77,31 @@ fn sections(app: &App) -> Vec<(&'static str, Vec<Entry>)> {
         }
         (*heading, entries)
     });
-    let words = glossary::SECTIONS.iter().map(|(heading, terms)| {
+    let words = glossary::sections().iter().map(|section| {
         let entry = |term: &glossary::Term| Entry {
-            left: look.either(term.symbol, term.name).to_string(),
+            left: look.either(term.symbol.as_str(), term.name()).to_string(),
             right: look.spell(&term.text(app)),
-            also: format!("{} {}", term.name, term.meaning),
+            also: format!("glossary {} {} {}", term.symbol, term.name(), term.meaning),
         };
-        (*heading, terms.iter().map(entry).collect())
+        (section.heading.as_str(), section.terms.iter().map(entry).collect())
     });
-    keys.chain(words).chain(elsewhere).collect()
+    let here = std::iter::once(("Here", here(app)));
+    here.chain(keys).chain(words).chain(elsewhere).collect()
+}
+
+/// What the large chart shows, what to look for, and its keys.
+fn here(app: &App) -> Vec<Entry> {
+    let look = &app.appearance;
+    let Some(words) = glossary::view(app.view()) else { return Vec::new() };
+    let name = format!("{} {}", app.view().digit(), app.view().word());
+    let rows =
+        [(name, &words.drawn), ("look for".into(), &words.look), ("keys".into(), &words.keys)];
+    let entry = |(left, text): (String, &String)| Entry {
+        left,
+        right: look.spell(text),
+        also: String::new(),
+    };
+    rows.map(entry).into()
 }
 
 /// A line of the list: left and right column, and whether it is a heading.
@@ -128,6 +152,16 @@ pub fn help_bottom(app: &App, help: &HelpState) -> u16 {
     u16::try_from(lines).unwrap_or(u16::MAX).saturating_sub(area.height)
 }
 
+/// What the help says about these words, in lines of so many columns.
+pub fn help_text(app: &App, width: u16, words: &str) -> Vec<String> {
+    let (lines, _) = lines(app, Rect::new(0, 0, width, 1), words);
+    let left = usize::from(keys_width(width));
+    lines
+        .into_iter()
+        .map(|(keys, what, _)| format!("{keys:left$}{what}").trim_end().into())
+        .collect()
+}
+
 /// Draws the help.
 pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, help: &HelpState) {
     let look = &app.appearance;
@@ -164,6 +198,8 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, help: &HelpState) {
 mod tests {
     use super::*;
     use crate::scene::Scene;
+    use crate::tui::knobs::KNOBS;
+    use crate::tui::views::ViewId;
     use crate::tui::{raster::Marker, theme::Theme};
 
     fn text(filter: &str) -> String {
@@ -186,8 +222,8 @@ mod tests {
         for group in Group::iter() {
             assert!(text.contains(<&str>::from(group)), "{group:?}");
         }
-        for term in glossary::SECTIONS.iter().flat_map(|(_, terms)| *terms) {
-            assert!(text.contains(term.symbol), "{}", term.symbol);
+        for term in glossary::sections().iter().flat_map(|section| &section.terms) {
+            assert!(text.contains(&term.symbol), "{}", term.symbol);
         }
     }
 
@@ -199,11 +235,50 @@ mod tests {
             ("omega_lock", "Ω_lock", "redo it"),
             ("polygon corner", "δ", "redo it"),
             ("files", "export the large chart", "redo it"),
+            ("glossary", "critical speed", "redo it"),
+            ("c", "on the speed: Ω_c", "quit"),
+            ("L", "on the speed: Ω_lock", "quit"),
+            ("▪", "a blade touches in this stretch", "quit"),
+            ("*", "changed since the scene was opened", "quit"),
         ] {
             let text = text(filter);
             assert!(text.contains(found), "{filter}: {found}");
             assert!(!text.contains(gone), "{filter}: {gone}");
         }
         assert!(text("no such thing").contains("nothing has these words"));
+    }
+
+    #[test]
+    fn it_begins_with_the_view_on_the_screen_in_five_lines_at_most() {
+        let mut app = App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Braille);
+        for view in ViewId::all() {
+            app.act(Action::View(view));
+            let (lines, _) = lines(&app, Rect::new(0, 0, 80, 24), "");
+            let own: Vec<_> =
+                lines.iter().skip(1).take_while(|(_, what, _)| !what.is_empty()).collect();
+            assert_eq!(own[0].0, format!("{} {}", view.digit(), view.word()));
+            assert!((3..=5).contains(&own.len()), "{own:?}");
+        }
+    }
+
+    #[test]
+    fn every_letter_on_a_bar_is_in_the_glossary() {
+        let scenes = ["paper-nd3", "coincidence", "rub", "digs-in", "soft-lining", "friction-lock"];
+        let mut seen = std::collections::BTreeSet::new();
+        for name in scenes {
+            let scene = Scene::builtin(name).unwrap();
+            for knob in KNOBS {
+                let range = knob.range(&scene, &scene, &scene.machine());
+                seen.extend(
+                    range.into_iter().flat_map(|range| range.marks).map(|(letter, _)| letter),
+                );
+            }
+        }
+        assert!(seen.len() > 7, "{seen:?}");
+        for letter in seen {
+            let section = glossary::sections().iter().find(|s| s.heading == "Letters on the bars");
+            let known = section.unwrap().terms.iter().any(|term| term.symbol == letter.to_string());
+            assert!(known, "{letter}");
+        }
     }
 }

@@ -87,7 +87,9 @@ fn lesson(body: Rect, app: &App) -> (Option<Rect>, Rect) {
         // If it is too long to leave room for the charts: first the text, page by
         // page, then its end.
         false if !read => page_rows(body.height),
-        false => (body.height / 3).max(3),
+        false => {
+            super::lesson::end_rows(app, usize::from(body.width)).min(most_rows(body.height)).max(3)
+        }
     };
     let [lesson, body] = below(body, rows);
     (Some(lesson), body)

@@ -27,7 +27,11 @@ pub fn list(app: &App, buffer: &mut Buffer, area: Rect, place: usize) {
         let (sign, style) = look_of(look, index == place, Role::Text);
         let (done, steps) = (app.lessons.done.count(lesson), lesson.steps.len());
         let done = if done == steps { "done".to_string() } else { format!("{done}/{steps}") };
-        let text = look.spell(&format!("{sign} {done:>4}  {}. {}", index + 1, lesson.title));
+        let name = format!("{sign} {done:>4}  {}. {}", index + 1, lesson.title);
+        let about = format!("   {} min, needs {}", lesson.minutes(), lesson.needs);
+        // Both, or the name alone.
+        let whole = columns(&name) + columns(&about) <= width;
+        let text = look.spell(&format!("{name}{}", if whole { &about } else { "" }));
         print(buffer, area, row, &shorten(&text, width, mark), style);
     }
 }
@@ -44,6 +48,9 @@ pub fn place_at(app: &App, area: Rect, y: u16) -> Option<usize> {
     let place = first_listed(area, place) + usize::from(row);
     (place < lessons::all().len()).then_some(place)
 }
+
+/// Lines of the end of a step that are in sight beside a chart, at least.
+const LEAST: usize = 3;
 
 /// A line and its colour.
 type Line = (String, Role);
@@ -132,6 +139,15 @@ pub fn rows(app: &App, width: usize) -> u16 {
     u16::try_from(lines(app, width).len() + 2).unwrap_or(u16::MAX)
 }
 
+/// Rows of what must be in sight beside a chart, with the head and a rule: the open question
+/// with its answers, or the end of the step.
+pub fn end_rows(app: &App, width: usize) -> u16 {
+    let asked = app.lesson_step().filter(|_| app.is_asked());
+    let before = asked.map_or(0, |(step, _)| wrap(&app.appearance.spell(&step.text), width).len());
+    let rows = if before > 0 { lines(app, width).len().saturating_sub(before) } else { LEAST };
+    u16::try_from(rows + 2).unwrap_or(u16::MAX)
+}
+
 /// Pages the step needs in so many rows, head and rule included.
 pub fn pages(app: &App, width: usize, rows: u16) -> usize {
     lines(app, width).len().div_ceil(text_rows(rows))
@@ -139,6 +155,15 @@ pub fn pages(app: &App, width: usize, rows: u16) -> usize {
 
 fn text_rows(rows: u16) -> usize {
     usize::from(rows.saturating_sub(2)).max(1)
+}
+
+/// The current step as text, in lines of so many columns; nothing without a lesson.
+pub fn lesson_text(app: &App, width: u16) -> Vec<String> {
+    let (left, right) = head(app, usize::from(width));
+    let head = [left, right].join("   ");
+    let lines = lines(app, usize::from(width)).into_iter().map(|(line, _)| line);
+    let is_open = app.lessons.progress.is_some();
+    std::iter::once(head).chain(lines).filter(|_| is_open).collect()
 }
 
 /// Draws the current step.

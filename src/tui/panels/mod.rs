@@ -21,9 +21,11 @@ use super::app::{App, InputMode};
 use super::text::{CUT, print};
 use super::theme::Role;
 use super::views::ViewArea;
-pub use help::help_bottom;
+pub use header::head_text;
+pub use help::{help_bottom, help_text};
 pub use hit::{Target, lesson_at, part_of_bar, target};
 pub use layout::{LEAST_HEIGHT, LEAST_WIDTH, body, lesson_fills, lesson_pages};
+pub use lesson::lesson_text;
 
 /// Draws the whole screen.
 pub fn draw(frame: &mut Frame, app: &App) {
@@ -42,7 +44,7 @@ pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
         return;
     }
     let places = layout::places(area, app);
-    app.forget_charts();
+    app.forget_places();
     if places.letters.is_none() {
         header::draw(app, buffer, places.header);
     }

@@ -1,9 +1,10 @@
-//! The command palette: what is typed, and what fits it.
+//! The list of commands: what is typed, and what fits it.
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
 use super::list::{first_in_sight, look_of};
 use crate::tui::app::{App, PaletteState};
+use crate::tui::commands;
 use crate::tui::text::{columns, print, shorten};
 use crate::tui::theme::Role;
 
@@ -11,9 +12,9 @@ use crate::tui::theme::Role;
 pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, palette: &PaletteState) {
     let look = &app.appearance;
     let (width, mark) = (usize::from(area.width), look.ellipsis());
-    let found = app.palette_items(&palette.typed);
+    let found = commands::found(app, &palette.typed);
     let hint = match (palette.typed.is_empty(), found.is_empty()) {
-        (true, _) => "  a command, scene, lesson, view, or knob and value",
+        (true, _) => "  t 0.3 ms, speed 450, blade 7, scene rub, or any words",
         (_, true) => "  nothing has these words",
         _ => "",
     };

@@ -16,6 +16,7 @@ use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
 use crate::tui::text::{marked_pieces, print};
 use crate::tui::theme::Role;
+use crate::tui::views::ViewId;
 
 /// A view: how it is drawn and exported.
 pub trait ViewPanel: Sync {
@@ -143,12 +144,23 @@ pub fn title(
         look.style(Role::Text)
     };
     let head = (format!("{} {name}", at.digit).trim_end().to_string(), style);
-    let parts = std::iter::once(&head).chain(legend);
+    let working = working(app, at);
+    let parts = std::iter::once(&head).chain(&working).chain(legend);
     let parts: Vec<_> =
         parts.map(|(text, style)| (format!(" {} ", look.spell(text)), *style)).collect();
     let inside = Rect { x: area.x + 1, width: area.width.saturating_sub(1), ..area };
     marked_pieces(buffer, inside, 0, &parts, look.either("… ", ".. "));
     Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area }
+}
+
+/// That the study of a view takes long, and how far it is. The map says so itself.
+fn working(app: &App, at: ViewArea) -> Option<(String, Style)> {
+    let known = app.results().working.iter().find(|working| working.view.digit() == at.digit)?;
+    let text = match known.part {
+        Some(part) => format!("computing {:.0} %", 100.0 * part),
+        None => format!("computing {} s", known.seconds),
+    };
+    (known.view != ViewId::Map).then(|| (text, app.appearance.style(Role::Focus)))
 }
 
 /// A legend entry: a stretch of the line and the name of what it shows.

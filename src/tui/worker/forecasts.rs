@@ -149,6 +149,7 @@ impl Forecasts {
                 ..Pace::default()
             },
             found: self.studies.found(order, &self.full_run),
+            working: self.studies.working(order, &self.full_run),
             ..Results::default()
         }
     }

@@ -63,7 +63,8 @@ impl Engine for Stepwise {
         let mut snapshot = playback.snapshot();
         let pace = &mut snapshot.results.pace;
         let step_s = pace.step_s.map(|_| 42e-9);
-        *pace = Pace { step_s, run_s: Some(42e-3), limit: Limit::None, ..*pace };
+        let reached = Some(order.rate);
+        *pace = Pace { step_s, run_s: Some(42e-3), limit: Limit::None, reached, ..*pace };
         Some(snapshot)
     }
 }

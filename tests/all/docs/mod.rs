@@ -7,6 +7,7 @@
 #[cfg(unix)]
 mod blocks;
 mod fields;
+mod lessons;
 mod links;
 mod numbers;
 mod speed;

@@ -143,6 +143,7 @@ fn scene_keys() -> String {
 /// Every table: its name and its text.
 fn tables() -> Vec<(String, String)> {
     let mut found = vec![("keys".to_string(), keys()), ("scene file".to_string(), scene_keys())];
+    found.push(("lessons".into(), super::lessons::sheet()));
     let mut whole = Cli::command();
     whole.build();
     found.push(("options of every command".into(), scene_options(&whole)));

@@ -1,16 +1,18 @@
 //! What the explorer's map sweeps: two knobs over sensible ranges, under the
 //! scene's own contact law, solver and model, or under the other law.
 
-use crate::scene::keys::{PULSE, SPEED};
-use crate::scene::{Allowed, ContactLaw, Key, Scene, SolverKind, keys};
+use crate::scene::keys::{CLEARANCE, PULSE, SPEED};
+use crate::scene::{Allowed, ContactLaw, Scene, SolverKind};
 use crate::study::{Axis, MapPlan};
 use crate::tui::axis::nice_step;
-use crate::tui::knobs::{KNOBS, Knob};
+use crate::tui::knobs::{KNOBS, Knob, knob_of};
 use crate::tui::views::locked::curves::speed_range;
 
 /// Most cells across and up. Usual ranges give round values: 7.5 rad/s for 600,
 /// a tenth of a decade for four.
 const CELLS: [u32; 2] = [81, 41];
+/// What a key may hold that has no knob.
+const ANY: Allowed = Allowed::Real { min: f64::MIN, max: f64::MAX, above: false };
 /// The key of the torque on the blades.
 const TORQUE: &str = "excitation.amplitude_nm";
 /// The key of the friction of blades and casing.
@@ -81,8 +83,8 @@ impl MapChoice {
 
 /// The knobs that can be on an axis.
 pub fn numeric() -> impl Iterator<Item = &'static Knob> {
-    let is_number = |key: &Key| matches!(key.allowed, Allowed::Real { .. } | Allowed::Whole { .. });
-    KNOBS.iter().filter(move |knob| keys::find(knob.path).is_ok_and(is_number))
+    let is_number = |allowed| matches!(allowed, Allowed::Real { .. } | Allowed::Whole { .. });
+    KNOBS.iter().filter(move |knob| is_number(knob.allowed()))
 }
 
 /// A range of values of a key.
@@ -98,12 +100,12 @@ const fn even(from: f64, to: f64) -> Range {
 
 impl MapAxis {
     fn over(&self, scene: &Scene, most: u32, slides: bool) -> Result<Axis, String> {
-        let key = keys::find(self.path).map_err(|error| error.to_string())?;
-        let Range { mut from, mut to, log } = self.range(scene, key);
+        let allowed = knob_of(self.path).map_or(ANY, Knob::allowed);
+        let Range { mut from, mut to, log } = self.range(scene, allowed);
         if slides && self.path == SPEED {
             (from, to) = if to > 0.0 { (SLOWEST * to, to) } else { (from, SLOWEST * from) };
         }
-        let count = match key.allowed {
+        let count = match allowed {
             // Each whole number once.
             Allowed::Whole { .. } => ((to - from).max(0.0) as u32).saturating_add(1).min(most),
             _ => most,
@@ -111,7 +113,7 @@ impl MapAxis {
         Axis::new(self.path, from, to, count, log).map_err(|error| error.to_string())
     }
 
-    fn range(&self, scene: &Scene, key: &Key) -> Range {
+    fn range(&self, scene: &Scene, allowed: Allowed) -> Range {
         let anchor = self.anchor;
         let clearance = scene.clearance().abs();
         let lining = scene.solver.contact == ContactLaw::Smooth;
@@ -127,6 +129,8 @@ impl MapAxis {
             "bladed_disk.nodal_diameters" => {
                 even(1.0, f64::from(scene.bladed_disk.blades / 2).max(1.0))
             }
+            CLEARANCE if lining => even(-2.0 * clearance, 1.9 * clearance),
+            CLEARANCE => even(0.1 * clearance, 4.0 * clearance),
             // A lining may be pressed at rest, but not to a clearance of zero: that is
             // between two cells.
             "casing.radius_m" if lining => {
@@ -159,9 +163,9 @@ impl MapAxis {
             }
             "solver.step_s" => {
                 let most = (10.0 * anchor).min(0.9 * scene.stable_step());
-                within(key, Range { from: 0.01 * most, to: most, log: true })
+                within(allowed, Range { from: 0.01 * most, to: most, log: true })
             }
-            _ => within(key, around(key, anchor, usual(self.path, scene, clearance))),
+            _ => within(allowed, around(allowed, anchor, usual(self.path, scene, clearance))),
         }
     }
 }
@@ -197,10 +201,10 @@ fn usual(path: &str, scene: &Scene, clearance: f64) -> f64 {
 }
 
 /// A decade to either side of a positive value, both signs of a signed one.
-fn around(key: &Key, value: f64, usual: f64) -> Range {
+fn around(allowed: Allowed, value: f64, usual: f64) -> Range {
     let size = if value == 0.0 { usual } else { value.abs() };
     let round = nice_step(2.0 * size, 1).unwrap_or(2.0 * size);
-    match key.allowed {
+    match allowed {
         Allowed::Whole { min, .. } => even((0.5 * size).floor().max(min as f64), 2.0 * size),
         Allowed::Real { min, .. } if min < 0.0 => even(-round, round),
         _ if value == 0.0 => even(0.0, round),
@@ -208,8 +212,8 @@ fn around(key: &Key, value: f64, usual: f64) -> Range {
     }
 }
 
-fn within(key: &Key, Range { from, to, log }: Range) -> Range {
-    let (min, max) = match key.allowed {
+fn within(allowed: Allowed, Range { from, to, log }: Range) -> Range {
+    let (min, max) = match allowed {
         Allowed::Real { min, max, .. } => (min, max),
         Allowed::Whole { min, max } => (min as f64, max as f64),
         _ => (from, to),

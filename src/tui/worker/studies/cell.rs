@@ -8,6 +8,7 @@ use crate::motion::{GoOn, Motion, verdict_of};
 use crate::study::MapPlan;
 use crate::tolerances::LAST_PART;
 use crate::tui::engine::FORECAST_LIMIT;
+use crate::tui::views::ViewId;
 use crate::tui::views::map::CellRun;
 use crate::tui::worker::background::Background;
 
@@ -21,6 +22,7 @@ pub struct CellStudy {
 impl Study for CellStudy {
     type Key = (MapPlan, [u32; 2]);
     type Found = CellRun;
+    const VIEW: ViewId = ViewId::Map;
     const BESIDE: bool = true;
 
     fn key(given: &Given) -> Option<Self::Key> {

@@ -20,6 +20,7 @@ pub struct CoincidenceStudy {
 impl Study for CoincidenceStudy {
     type Key = Scene;
     type Found = Option<CoincidenceCurves>;
+    const VIEW: ViewId = ViewId::Coincidence;
 
     fn key(given: &Given) -> Option<Scene> {
         let shown = given.order.shows(ViewId::Coincidence);

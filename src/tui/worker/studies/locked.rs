@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::{Given, Study};
 use crate::scene::Scene;
+use crate::tui::views::ViewId;
 use crate::tui::views::locked::curves::LockedCurves;
 
 /// The curves of a scene.
@@ -14,6 +15,7 @@ pub struct LockedStudy(Arc<LockedCurves>);
 impl Study for LockedStudy {
     type Key = Scene;
     type Found = LockedCurves;
+    const VIEW: ViewId = ViewId::Locked;
 
     fn key(given: &Given) -> Option<Scene> {
         Some(given.order.scene.clone().into_scene())

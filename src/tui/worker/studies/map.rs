@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 
 use super::{Given, Study};
 use crate::study::{Cell, MapPlan};
+use crate::tui::views::ViewId;
 use crate::tui::views::map::{LiveMap, coarse_first};
 use crate::tui::worker::background::{Background, spare_threads};
 
@@ -32,6 +33,7 @@ pub struct MapStudy {
 impl Study for MapStudy {
     type Key = MapPlan;
     type Found = LiveMap;
+    const VIEW: ViewId = ViewId::Map;
     const BESIDE: bool = true;
 
     fn key(given: &Given) -> Option<MapPlan> {
@@ -75,6 +77,10 @@ impl Study for MapStudy {
             }
         }
         live.map.wall_s += began.elapsed().as_secs_f64();
+    }
+
+    fn part(&self) -> Option<f64> {
+        Some(self.live.tried as f64 / self.order.len().max(1) as f64)
     }
 
     fn found(&self) -> Option<&Arc<LiveMap>> {

@@ -25,6 +25,7 @@ pub struct MarginsStudy {
 impl Study for MarginsStudy {
     type Key = CheckedScene;
     type Found = LiveMargins;
+    const VIEW: ViewId = ViewId::Margins;
     const BESIDE: bool = true;
 
     fn key(given: &Given) -> Option<CheckedScene> {
@@ -59,6 +60,13 @@ impl Study for MarginsStudy {
             // The thread ended early: nobody searches any more.
             Arc::make_mut(live).awaited.clear();
         }
+    }
+
+    fn part(&self) -> Option<f64> {
+        let live = self.live.as_ref()?;
+        // The closed forms, and then one law after the other.
+        let all = 1 + live.margins.laws().len();
+        Some((all - live.awaited.len()) as f64 / all as f64)
     }
 
     fn found(&self) -> Option<&Arc<LiveMargins>> {

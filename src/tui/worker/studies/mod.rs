@@ -12,11 +12,15 @@ mod spectrum;
 
 use std::fmt;
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use super::full_run::{FullRunJob, SLICE};
 use crate::study::MapPlan;
-use crate::tui::engine::Order;
+use crate::tui::engine::{Order, Working};
+use crate::tui::views::ViewId;
+
+/// A study that takes longer says how far it is.
+const LONG: Duration = Duration::from_millis(500);
 
 /// What studies depend on.
 #[derive(Debug)]
@@ -52,6 +56,8 @@ pub trait Study: fmt::Debug + Sized {
     type Key: fmt::Debug + PartialEq;
     /// Its result.
     type Found: fmt::Debug;
+    /// The view that shows it.
+    const VIEW: ViewId;
     /// Whether the result before is shown until there is a new one.
     const STAYS: bool = true;
     /// Whether it takes so long that others like it go on beside it.
@@ -71,6 +77,11 @@ pub trait Study: fmt::Debug + Sized {
     /// Does a slice of the work, or takes what a thread of it has found, waiting no longer
     /// than `patience`.
     fn work(&mut self, _patience: Duration) {}
+
+    /// How far it is, 0 to 1, where that is known.
+    fn part(&self) -> Option<f64> {
+        None
+    }
 
     /// The result, as soon as it can be shown instead of the one before.
     fn found(&self) -> Option<&Arc<Self::Found>>;
@@ -92,11 +103,13 @@ pub trait Study: fmt::Debug + Sized {
 struct Kept<S: Study> {
     study: Option<(S::Key, S)>,
     before: Option<Arc<S::Found>>,
+    /// Since when it is wanted.
+    since: Option<Instant>,
 }
 
 impl<S: Study> Default for Kept<S> {
     fn default() -> Self {
-        Self { study: None, before: None }
+        Self { study: None, before: None, since: None }
     }
 }
 
@@ -127,6 +140,8 @@ trait Work {
     fn is_done(&self, given: &Given) -> bool;
     fn work(&mut self, given: &Given, patience: Duration);
     fn stop_unwanted(&mut self, given: &Given);
+    /// How far it is, where it takes long.
+    fn working(&self, given: &Given) -> Option<Working>;
 }
 
 impl<S: Study> Work for Kept<S> {
@@ -143,6 +158,7 @@ impl<S: Study> Work for Kept<S> {
         if self.of(&key).is_none() {
             let study = S::begin(&key, given);
             self.replace(Some((key, study)));
+            self.since = Some(Instant::now());
         }
         if let Some((_, study)) = &mut self.study {
             study.work(patience);
@@ -154,6 +170,12 @@ impl<S: Study> Work for Kept<S> {
         if self.study.as_mut().is_some_and(|(_, study)| !wanted && !study.wait()) {
             self.replace(None);
         }
+    }
+
+    fn working(&self, given: &Given) -> Option<Working> {
+        let wall = self.since.filter(|_| !self.is_done(given))?.elapsed();
+        let part = self.study.as_ref().and_then(|(_, study)| study.part());
+        (wall > LONG).then_some(Working { view: S::VIEW, part, seconds: wall.as_secs() })
     }
 }
 
@@ -221,6 +243,12 @@ impl Studies {
     pub fn stop_unwanted(&mut self, order: &Order, run: &FullRunJob) {
         let given = self.given(order, run);
         self.all_mut().for_each(|study| study.stop_unwanted(&given));
+    }
+
+    /// What takes long.
+    pub fn working(&self, order: &Order, run: &FullRunJob) -> Vec<Working> {
+        let given = self.given(order, run);
+        self.all().filter_map(|study| study.working(&given)).collect()
     }
 
     /// Whether a study that is needed is missing.

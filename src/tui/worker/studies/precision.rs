@@ -28,6 +28,7 @@ pub struct PrecisionStudy {
 impl Study for PrecisionStudy {
     type Key = Scene;
     type Found = Precision;
+    const VIEW: ViewId = ViewId::Precision;
 
     fn key(given: &Given) -> Option<Scene> {
         given.order.shows(ViewId::Precision).then(|| given.order.scene.clone().into_scene())
@@ -59,6 +60,11 @@ impl Study for PrecisionStudy {
             }
             None => {}
         }
+    }
+
+    fn part(&self) -> Option<f64> {
+        let done = self.report.as_ref()?.rows.len();
+        Some(done as f64 / ways(&self.scene, Effort::QUICK).len().max(1) as f64)
     }
 
     fn found(&self) -> Option<&Arc<Precision>> {

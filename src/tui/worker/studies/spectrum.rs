@@ -14,6 +14,7 @@ impl Study for SpectrumStudy {
     /// What tells a run from others: the knobs, and its end.
     type Key = (u64, f64);
     type Found = Spectrum;
+    const VIEW: ViewId = ViewId::Spectrum;
     const STAYS: bool = false;
 
     fn key(given: &Given) -> Option<(u64, f64)> {

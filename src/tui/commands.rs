@@ -1,0 +1,439 @@
+//! What can be asked for in words: one list of everything that can be done, and one reader
+//! of what is typed, for the list of `:` on the screen and for `--lines` without one. A
+//! word that goes somewhere (`t 0.3 ms`, `blade 7`, `scene rub`) or a knob with a value
+//! comes first, then whatever else has these words.
+
+use super::app::{App, Purpose};
+use super::appearance::Appearance;
+use super::axis::readable;
+use super::bindings::{self, Action, Binding, Chord, Context};
+use super::knobs::{KNOBS, Knob, knob_of};
+use super::lessons;
+use super::scenes::builtin_scenes;
+use super::views::ViewId;
+use super::views::map::numeric;
+use super::{Marker, Theme};
+use crate::scene::Value;
+use crate::scene::keys::SPEED;
+
+/// Something that can be asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Command {
+    /// What a key does, too.
+    Act(Action),
+    /// Open a built-in scene.
+    Scene(&'static str),
+    /// Begin a lesson.
+    Lesson(usize),
+    /// Select a knob.
+    Select(usize),
+    /// Give a knob the value of a text.
+    Set(usize, String),
+    /// Go to an instant \[s\].
+    GoTo(f64),
+    /// Read the gap of a blade.
+    Blade(u32),
+    /// Put knobs on the axes of the map, across and up.
+    Axes([Option<&'static str>; 2]),
+    /// Write a file.
+    Write(Purpose, String),
+}
+
+/// Something that can be asked for, in words.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Found {
+    /// The kind of thing that it is.
+    pub kind: &'static str,
+    /// What it does.
+    pub what: String,
+    /// The key that does the same, or the present value of a knob.
+    pub beside: String,
+    /// The thing.
+    pub command: Command,
+    /// Other words by which it can be found.
+    also: String,
+}
+
+impl Found {
+    fn of(kind: &'static str, what: impl Into<String>, command: Command) -> Self {
+        Self { kind, what: what.into(), beside: String::new(), command, also: String::new() }
+    }
+
+    fn beside(self, beside: impl Into<String>) -> Self {
+        Self { beside: beside.into(), ..self }
+    }
+
+    fn also(self, also: impl Into<String>) -> Self {
+        Self { also: also.into(), ..self }
+    }
+}
+
+/// What fits the typed words, the best first.
+pub fn found(app: &App, typed: &str) -> Vec<Found> {
+    if let Some(found) = directed(app, typed) {
+        return found;
+    }
+    let mut all: Vec<Found> = going_to(app, typed).into_iter().collect();
+    all.extend(assignments(app, typed));
+    let typed = typed.to_lowercase();
+    let words: Vec<&str> = typed.split_whitespace().collect();
+    let fits = |item: Found| rank(&item, &words).map(|rank| (rank, item));
+    let mut others: Vec<_> = everything(app).filter_map(fits).collect();
+    // A name that is typed in full comes first; the order of equals is that of the list.
+    others.sort_by_key(|(rank, item)| (*rank, item.what.to_lowercase() != typed.trim()));
+    all.extend(others.into_iter().map(|(_, item)| item));
+    all
+}
+
+/// The one thing that a whole line asks for, or why there is none. A sign alone is its key.
+///
+/// # Errors
+/// One line that says what is wrong.
+pub fn only(app: &App, typed: &str) -> Result<Found, String> {
+    let typed = typed.trim();
+    let mut signs = typed.chars();
+    if let (Some(sign), None) = (signs.next(), signs.next())
+        && let Some(action) = bindings::lookup(app.context(), Chord::from(sign))
+    {
+        return Ok(Found::of("key", typed, Command::Act(action)));
+    }
+    // A knob by its name alone is asked for its value.
+    let is_knob = |knob: &Knob| plain(knob.label).split(' ').next() == Some(&typed.to_lowercase());
+    if let Some(place) = KNOBS.iter().position(is_knob) {
+        return Ok(Found::of("knob", typed, Command::Select(place)));
+    }
+    let words = typed.to_lowercase();
+    let words: Vec<&str> = words.split_whitespace().collect();
+    // Nobody looks at what was found: letters between others are not enough.
+    let is_like = |item: &Found| rank(item, &words).is_none_or(|rank| rank < LIKE);
+    let first = found(app, typed).into_iter().next().filter(is_like);
+    match first.ok_or_else(|| refused(typed)) {
+        // To select a knob is no answer to a value that it does not take.
+        Ok(Found { command: Command::Select(_), .. }) if refused(typed).is_some() => {
+            Err(refused(typed))
+        }
+        found => found,
+    }
+    .map_err(|refused| {
+        let nothing =
+            || format!("nothing has these words: {typed}; help lists what can be asked for");
+        refused.unwrap_or_else(nothing)
+    })
+}
+
+/// Why a knob does not take the value that follows its name, if it is that.
+fn refused(typed: &str) -> Option<String> {
+    let words: Vec<&str> = typed.split([' ', '=']).filter(|word| !word.is_empty()).collect();
+    let splits = (1..words.len()).rev().filter_map(|at| words.split_at_checked(at));
+    let mut named = splits.filter_map(|(name, value)| {
+        let knob = KNOBS.iter().find(|knob| is_named(knob, name))?;
+        knob.parse(&value.join(" ")).err()
+    });
+    named.next().map(|refused| refused.to_string())
+}
+
+/// What a first word of its own leads to.
+fn directed(app: &App, typed: &str) -> Option<Vec<Found>> {
+    let typed = typed.trim_start();
+    let (first, rest) = typed.split_once(' ')?;
+    let rest = rest.trim();
+    let lower = rest.to_lowercase();
+    let first = first.to_lowercase();
+    Some(match first.as_str() {
+        "blade" => {
+            let blade = rest.parse().ok()?;
+            let all = app.machine.polygon.blades;
+            vec![
+                Found::of("go", format!("blade {blade}"), Command::Blade(blade))
+                    .beside(format!("of {all}")),
+            ]
+        }
+        "axes" => match both_axes(&lower) {
+            Some(both) => vec![both],
+            None => one_axis(app, "across", &lower),
+        },
+        "across" | "up" => one_axis(app, &first, &lower),
+        "scene" => those_with(scenes(), &lower),
+        "lesson" => match lower.parse::<usize>() {
+            Ok(number) => lessons().nth(number.checked_sub(1)?).into_iter().collect(),
+            Err(_) => those_with(lessons(), &lower),
+        },
+        "view" => {
+            let named = |view: &ViewId| {
+                view.digit().to_string() == lower || view.word().starts_with(&lower)
+            };
+            let act = |view: ViewId| {
+                Found::of("view", view.panel().what(), Command::Act(Action::View(view)))
+                    .beside(view.digit().to_string())
+            };
+            let found: Vec<Found> = ViewId::all().filter(named).map(act).collect();
+            Some(found).filter(|found| !found.is_empty())?
+        }
+        "save" | "export" if !rest.is_empty() && !rest.contains(' ') => {
+            let purpose = if first == "save" { Purpose::Save } else { Purpose::Export };
+            vec![Found::of("file", typed.trim(), Command::Write(purpose, rest.into()))]
+        }
+        _ => return None,
+    })
+}
+
+/// Those that have these words, the best first.
+fn those_with(all: impl Iterator<Item = Found>, words: &str) -> Vec<Found> {
+    let words: Vec<&str> = words.split_whitespace().collect();
+    let is_exact = |item: &Found| item.what.split(':').next() != words.first().copied();
+    let mut found: Vec<_> = all
+        .filter_map(|item| rank(&item, &words).map(|rank| (is_exact(&item), rank, item)))
+        .collect();
+    found.sort_by_key(|(other, rank, _)| (*other, *rank));
+    found.into_iter().map(|(.., item)| item).collect()
+}
+
+/// `axes clearance pulse`: the knob across, then the one up.
+fn both_axes(words: &str) -> Option<Found> {
+    let words: Vec<&str> = words.split_whitespace().filter(|word| *word != "over").collect();
+    let knob = |words: &[&str]| numeric().find(|knob| is_named(knob, words));
+    let splits = (1..words.len()).filter_map(|at| words.split_at_checked(at));
+    let (x, y) =
+        splits.filter_map(|(x, y)| knob(x).zip(knob(y))).find(|(x, y)| x.path != y.path)?;
+    let what = format!("map: {} across, {} up", x.label, y.label);
+    Some(Found::of("go", what, Command::Axes([Some(x.path), Some(y.path)])))
+}
+
+/// The knobs that can be on one axis.
+fn one_axis(app: &App, first: &str, words: &str) -> Vec<Found> {
+    let words: Vec<&str> = words.split_whitespace().collect();
+    let across = first == "across";
+    let item = |knob: &'static Knob| {
+        let paths = [Some(knob.path).filter(|_| across), Some(knob.path).filter(|_| !across)];
+        let kind = if across { "across" } else { "up" };
+        Found::of(kind, knob.label, Command::Axes(paths)).beside(knob.text(&app.scene))
+    };
+    numeric().filter(|knob| words.is_empty() || is_named(knob, &words)).map(item).collect()
+}
+
+/// `t 0.3 ms`: an instant to go to.
+fn going_to(app: &App, typed: &str) -> Option<Found> {
+    let text = typed.trim_start().strip_prefix(['t', 'T'])?.trim_start_matches(['=', ' ']);
+    let Value::Real(t) = knob_of("solver.end_s")?.parse(text).ok()? else { return None };
+    let what = format!("t = {}", readable(t, "s"));
+    Some(
+        Found::of("go", what, Command::GoTo(t)).beside(format!("now {}", readable(app.now(), "s"))),
+    )
+}
+
+/// The knobs that the first words name, set to what follows them; a speed has a unit of
+/// its own and needs no name.
+fn assignments(app: &App, typed: &str) -> Vec<Found> {
+    let typed = typed.replacen('=', " ", 1);
+    let words: Vec<&str> = typed.split_whitespace().collect();
+    let nameless = words.concat();
+    let mut found = Vec::new();
+    for (place, knob) in KNOBS.iter().enumerate() {
+        let splits = (1..words.len()).filter_map(|at| words.split_at_checked(at));
+        let named = splits.rev().filter(|(name, _)| is_named(knob, name));
+        let mut values = named.map(|(_, value)| value.join(" "));
+        let alone = (knob.path == SPEED && nameless.ends_with("rpm")).then(|| nameless.clone());
+        let value = values.find_map(|text| Some((knob.parse(&text).ok()?, text)));
+        let value = value.or_else(|| alone.and_then(|text| Some((knob.parse(&text).ok()?, text))));
+        if let Some((value, text)) = value {
+            let what = format!("{} = {}", knob.label, knob.shown(&value));
+            found.push(
+                Found::of("set", what, Command::Set(place, text))
+                    .beside(format!("now {}", knob.text(&app.scene))),
+            );
+        }
+    }
+    found
+}
+
+fn scenes() -> impl Iterator<Item = Found> {
+    builtin_scenes().iter().map(|scene| {
+        let what = match &scene.scene {
+            Ok(read) => format!("{}: {}", scene.name, read.title),
+            Err(_) => scene.name.clone(),
+        };
+        Found::of("scene", what, Command::Scene(&scene.name)).also("open")
+    })
+}
+
+fn lessons() -> impl Iterator<Item = Found> {
+    lessons::all().iter().enumerate().map(|(place, lesson)| {
+        let also = format!("guide learn {}", lesson.name);
+        Found::of("lesson", lesson.title.as_str(), Command::Lesson(place)).also(also)
+    })
+}
+
+/// What the keys of a binding do.
+fn action(binding: &Binding) -> Found {
+    let key = binding.keys.first().map(ToString::to_string).unwrap_or_default();
+    let also = bindings::keys_text(binding);
+    Found::of("", binding.what, Command::Act(binding.action)).beside(key).also(also)
+}
+
+fn everything(app: &App) -> impl Iterator<Item = Found> {
+    let asked = bindings::of(Context::Question).filter(|_| app.is_asked());
+    let actions = asked.chain(bindings::of(Context::Main));
+    let actions =
+        actions.filter(|binding| !matches!(binding.action, Action::Palette | Action::Close));
+    let knobs = KNOBS.iter().enumerate().map(|(place, knob)| {
+        Found::of("knob", format!("{}: {}", knob.label, knob.does), Command::Select(place))
+            .beside(knob.text(&app.scene))
+            .also(format!("{} {}", knob.path, plain(knob.label)))
+    });
+    actions.map(action).chain(knobs).chain(scenes()).chain(lessons())
+}
+
+/// Whether every one of these words begins a word by which a knob is named: those of its
+/// label, also without Greek letters, its key, and the words of its key.
+fn is_named(knob: &Knob, words: &[&str]) -> bool {
+    let label = knob.label.to_lowercase();
+    let plain = plain(knob.label).to_lowercase();
+    let law = if knob.path == "solver.contact" { "law" } else { "" };
+    let parts = label.split_whitespace().chain(plain.split_whitespace()).chain([law]);
+    let names: Vec<&str> = parts.chain(knob.path.split(['.', '_'])).chain([knob.path]).collect();
+    let begins = |word: &str| names.iter().any(|name| name.starts_with(word));
+    !words.is_empty() && words.iter().all(|word| begins(&word.to_lowercase()))
+}
+
+/// A text in letters that every keyboard has.
+fn plain(text: &str) -> String {
+    Appearance::new(Theme::Mono, Marker::Ascii).spell(text)
+}
+
+/// The rank of a line that only has the letters of a word, with others between.
+const LIKE: usize = 9;
+
+/// How well a line fits all the words, the best being 0; none if it does not.
+fn rank(item: &Found, words: &[&str]) -> Option<usize> {
+    let what = item.what.to_lowercase();
+    let all = format!("{} {what} {}", item.kind, item.also.to_lowercase());
+    let each = words.iter().map(|word| match () {
+        () if what.starts_with(word) => Some(0),
+        () if all.split(|c: char| !c.is_alphanumeric()).any(|part| part.starts_with(word)) => {
+            Some(1)
+        }
+        () if all.contains(word) => Some(2),
+        () if has_in_order(&what, word) => Some(LIKE),
+        () => None,
+    });
+    each.sum()
+}
+
+/// Whether a text has the letters of a word in their order, with others between.
+fn has_in_order(text: &str, word: &str) -> bool {
+    let mut rest = text.chars();
+    word.len() > 2 && word.chars().all(|letter| rest.any(|other| other == letter))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::keys::PULSE;
+    use crate::scene::{BUILTIN, Scene};
+
+    fn app() -> App {
+        App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Braille)
+    }
+
+    fn first(typed: &str) -> Found {
+        found(&app(), typed).into_iter().next().unwrap_or_else(|| panic!("{typed}"))
+    }
+
+    #[test]
+    fn every_action_scene_lesson_view_and_knob_is_found_by_its_name() {
+        let app = app();
+        let found = |typed: &str| found(&app, typed);
+        for binding in bindings::of(Context::Main) {
+            let wanted = Command::Act(binding.action);
+            let known = found(binding.what).iter().any(|item| item.command == wanted);
+            assert_eq!(known, !matches!(binding.action, Action::Palette | Action::Close));
+        }
+        for scene in BUILTIN {
+            assert_eq!(found(scene.name)[0].command, Command::Scene(scene.name), "{}", scene.name);
+        }
+        for (place, lesson) in lessons::all().iter().enumerate() {
+            // A scene may have the title of its lesson.
+            let first = &found(&lesson.title)[..2.min(found(&lesson.title).len())];
+            let known = first.iter().any(|item| item.command == Command::Lesson(place));
+            assert!(known, "{}", lesson.title);
+        }
+        for (place, knob) in KNOBS.iter().enumerate() {
+            let items = found(knob.path);
+            assert!(items.iter().any(|item| item.command == Command::Select(place)));
+        }
+        assert_eq!(first("undo").beside, "u");
+        assert_eq!(first("theme").kind, "");
+    }
+
+    #[test]
+    fn a_name_and_a_value_set_a_knob() {
+        for (typed, path, shown) in [
+            ("speed 430", "operation.speed_rad_s", "430 rad/s"),
+            ("Speed -430", "operation.speed_rad_s", "-430 rad/s"),
+            ("pulse 20k", "operation.pulse_n", "20 kN"),
+            ("pulse 1M", PULSE, "1 MN"),
+            ("pulse 43.4 kN", PULSE, "43.4 kN"),
+            ("law smooth", "solver.contact", "smooth"),
+            ("speed 9500 rpm", SPEED, "994.8377 rad/s"),
+            ("9500rpm", SPEED, "994.8377 rad/s"),
+            ("pulse time 20u", "operation.pulse_s", "20 µs"),
+            ("operation.pulse_n=1e6", "operation.pulse_n", "1 MN"),
+            ("n_d 4", "operation.nodal_diameters", "4"),
+            ("zeta_c 0.01", "casing.damping_ratio", "0.01"),
+            ("contact bi", "solver.contact", "bilateral"),
+            ("speed ramp -400", "operation.speed_ramp_rad_s2", "-400 rad/s^2"),
+        ] {
+            let item = first(typed);
+            assert_eq!(item.kind, "set", "{typed}");
+            let Command::Set(place, _) = item.command else { panic!("{typed}") };
+            assert_eq!(KNOBS[place].path, path, "{typed}");
+            assert!(item.what.ends_with(shown), "{typed}: {}", item.what);
+        }
+        assert_ne!(first("speed").kind, "set");
+        assert_eq!(found(&app(), "speed qqq"), []);
+    }
+
+    #[test]
+    fn a_word_of_its_own_goes_to_its_place() {
+        let axes = |x, y| Command::Axes([x, y]);
+        for (typed, command) in [
+            ("t 0.3 ms", Command::GoTo(0.3e-3)),
+            ("T=2e-3", Command::GoTo(2e-3)),
+            ("end", Command::Act(Action::GoToEnd)),
+            ("blade 7", Command::Blade(7)),
+            ("axes clearance pulse", axes(Some("clearance"), Some(PULSE))),
+            ("axes speed over damping zeta_c", axes(Some(SPEED), Some("casing.damping_ratio"))),
+            ("axes clear", axes(Some("clearance"), None)),
+            ("across clear", axes(Some("clearance"), None)),
+            ("up pulse t_p", axes(None, Some("operation.pulse_s"))),
+            ("scene rub", Command::Scene("rub")),
+            ("scene slip", Command::Scene("slip")),
+            ("lesson friction", Command::Lesson(11)),
+            ("lesson 2", Command::Lesson(1)),
+            ("view 5", Command::Act(Action::View(ViewId::Map))),
+            ("view gaps", Command::Act(Action::View(ViewId::Gaps))),
+            ("save Mine.toml", Command::Write(Purpose::Save, "Mine.toml".into())),
+        ] {
+            assert_eq!(first(typed).command, command, "{typed}");
+        }
+        // A list to choose from.
+        assert_eq!(found(&app(), "across ").len(), numeric().count());
+    }
+
+    #[test]
+    fn what_is_no_command_is_one_line_that_says_why() {
+        let app = app();
+        for (typed, begins) in [
+            ("speed fast", "operation.speed_rad_s = fast: allowed is a number"),
+            ("speed qqq", "operation.speed_rad_s = qqq: allowed is a number"),
+            ("law soft", "solver.contact = soft: allowed is one of"),
+            ("something odd", "nothing has these words: something odd"),
+            ("qqq", "nothing has these words: qqq"),
+            ("scene qqq", "nothing has these words: scene qqq"),
+            ("axes qqq", "nothing has these words: axes qqq"),
+        ] {
+            let line = only(&app, typed).unwrap_err();
+            assert!(line.starts_with(begins) && line.lines().count() == 1, "{line}");
+        }
+    }
+}

@@ -1,0 +1,197 @@
+//! The glossary of `assets/glossary.toml`: every symbol, word and sign of the screen, with
+//! its equation and, where it has one, its value in the present scene; and every view in
+//! a few words.
+
+use std::sync::LazyLock;
+
+use serde::Deserialize;
+
+use super::app::App;
+use super::knobs::{knob_of, number};
+use super::views::ViewId;
+use crate::harmonic::Joint;
+
+/// The text of the glossary.
+const TEXT: &str = include_str!("../../assets/glossary.toml");
+
+/// What follows from the scene, by the name of its term, with its unit.
+type Value = (&'static str, &'static str, fn(&App) -> Option<f64>);
+
+/// The values of the terms that are no knobs.
+const VALUES: &[Value] = &[
+    ("Omega", "rad/s", |app| Some(app.speed())),
+    ("Omega_c", "rad/s", |app| app.machine.critical_speed()),
+    ("Omega_lock", "rad/s", App::lock_speed),
+    ("lock_ends", "rad/s", |app| app.lock_window()?.to),
+    ("Omega_adhesive", "rad/s", |app| app.machine.adhesive_speed()),
+    ("coincidence", "rad/s", |app| app.machine.dangerous_speed_toward(app.speed())),
+    ("coincidence (30)", "rad/s", |app| app.machine.coincidence_speeds().first().copied()),
+    ("omega_c", "rad/s", |app| Some(app.machine.omega_c)),
+    ("omega_bd", "rad/s", |app| Some(app.machine.omega_bd)),
+    ("nu", "rad/s", |app| Some(app.machine.nu(app.speed()))),
+    ("N'", "", |app| Some(f64::from(app.machine.polygon.sides))),
+    ("delta", "rad", |app| Some(app.machine.polygon.delta)),
+    ("|z| locked", "m", |app| app.machine.locked_amplitude()),
+    ("lambda_a", "N", |app| app.machine.locked_multipliers(app.speed()).map(|[a, _]| a)),
+    ("lambda_b", "N", |app| app.machine.locked_multipliers(app.speed()).map(|[_, b]| b)),
+    ("c2", "m²", |app| Some(app.machine.coupling_product_at(app.speed()))),
+    ("B(omega)", "m/N at ω = 0", |app| {
+        Some(Joint::at(&app.machine, app.speed()).compliance(0.0).re)
+    }),
+];
+
+/// The glossary as its file has it.
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Glossary {
+    section: Vec<Section>,
+    view: Vec<ViewWords>,
+}
+
+/// A section.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Section {
+    /// What its terms have in common.
+    pub heading: String,
+    /// Its terms.
+    #[serde(rename = "term")]
+    pub terms: Vec<Term>,
+}
+
+/// One symbol, word or sign.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Term {
+    /// As it is written.
+    pub symbol: String,
+    /// The same in letters that every keyboard has, if it is not written so.
+    name: Option<String>,
+    /// What it means.
+    pub meaning: String,
+    /// Its equation or condition; may be empty.
+    #[serde(default)]
+    pub equation: String,
+    /// The key of the knob that it is.
+    knob: Option<String>,
+}
+
+/// A view in words.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ViewWords {
+    name: String,
+    /// What is drawn.
+    pub drawn: String,
+    /// What to look for.
+    pub look: String,
+    /// Its keys.
+    pub keys: String,
+}
+
+/// The file is part of the program, and a test reads it.
+static GLOSSARY: LazyLock<Glossary> = LazyLock::new(|| toml::from_str(TEXT).unwrap_or_default());
+
+/// The sections of the glossary.
+pub fn sections() -> &'static [Section] {
+    &GLOSSARY.section
+}
+
+/// A view in words.
+pub fn view(view: ViewId) -> Option<&'static ViewWords> {
+    GLOSSARY.view.iter().find(|words| words.name == view.word())
+}
+
+impl Term {
+    /// Meaning, equation and value as one text.
+    pub fn text(&self, app: &App) -> String {
+        let mut text = self.meaning.clone();
+        if !self.equation.is_empty() {
+            text.push_str(": ");
+            text.push_str(&self.equation);
+        }
+        if let Some(value) = self.value(app) {
+            text.push_str("; here ");
+            text.push_str(&value);
+        }
+        text
+    }
+
+    /// The symbol in letters that every keyboard has.
+    pub fn name(&self) -> &str {
+        self.name.as_deref().unwrap_or(&self.symbol)
+    }
+
+    fn value(&self, app: &App) -> Option<String> {
+        if let Some(path) = &self.knob {
+            return knob_of(path).map(|knob| knob.text(&app.scene));
+        }
+        let (_, unit, value) = VALUES.iter().find(|(name, ..)| *name == self.name())?;
+        let value = value(app).filter(|value| value.is_finite())?;
+        // Four digits are enough to know where one stands.
+        let rounded: f64 = format!("{value:.3e}").parse().ok()?;
+        Some(number(rounded, unit))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::Verdict;
+    use crate::scene::Scene;
+    use crate::tui::{Marker, Theme};
+
+    fn app() -> App {
+        App::new(
+            Scene::builtin("paper-nd3").unwrap().checked().unwrap(),
+            Theme::Mono,
+            Marker::Braille,
+        )
+    }
+
+    fn terms() -> impl Iterator<Item = &'static Term> {
+        sections().iter().flat_map(|section| &section.terms)
+    }
+
+    #[test]
+    fn the_file_is_read_and_says_something_about_every_verdict_and_view() {
+        toml::from_str::<Glossary>(TEXT).unwrap();
+        for verdict in Verdict::ALL {
+            assert!(terms().any(|term| term.symbol == verdict.as_ref()), "{verdict}");
+        }
+        for known in ViewId::all() {
+            assert!(view(known).is_some(), "{}", known.word());
+        }
+        assert_eq!(GLOSSARY.view.len(), ViewId::all().count());
+    }
+
+    #[test]
+    fn every_value_is_there_and_is_that_of_the_scene() {
+        let app = app();
+        for (name, ..) in VALUES {
+            assert_eq!(terms().filter(|term| term.name() == *name).count(), 1, "{name}");
+        }
+        for term in terms() {
+            let of = |name: &str| VALUES.iter().any(|(known, ..)| *known == name);
+            // A lock of this scene has no upper end.
+            let has = (term.knob.is_some() || of(term.name())) && term.symbol != "lock ends";
+            assert_eq!(term.value(&app).is_some(), has, "{}", term.symbol);
+            assert!(term.name().is_ascii(), "{}", term.symbol);
+        }
+        let text = |symbol: &str| {
+            terms().find(|term| term.symbol == symbol).map(|term| term.text(&app)).unwrap()
+        };
+        for (symbol, value) in [
+            ("Ω_c", "here 292.9 rad/s"),
+            ("Ω_lock", "here 411.9 rad/s"),
+            ("adhesive limit", "here 295 rad/s"),
+            ("coincidence", "here 388.3 rad/s"),
+            ("λ_a", "here -244.4 N"),
+            ("λ_b", "here -57.29 N"),
+            ("|z| locked", "here 101 µm"),
+            ("g0", "here 100 µm"),
+        ] {
+            assert!(text(symbol).ends_with(value), "{}", text(symbol));
+        }
+    }
+}

@@ -1,0 +1,315 @@
+//! The explorer without a screen, for screen readers, transcripts and scripts: what `:`
+//! takes comes from standard input, one command a line. Each is answered by the first line
+//! of the screen, the second, and what changed. The motion is paused: it moves where it is
+//! sent. Nothing depends on a clock, so the same lines have the same answers.
+
+use std::io::{BufRead, Error, Read, Write};
+
+use super::app::{App, Effect, InputMode};
+use super::commands::{self, Found};
+use super::engine::{Order, Pace};
+use super::files::FileResult;
+use super::knobs::KNOBS;
+use super::options::ExploreOptions;
+use super::worker::Playback;
+use super::{Marker, Theme, ability, config, panels};
+use crate::report::line::clean;
+use crate::scene::{CheckedScene, Scene};
+
+/// Longest line that is read, in bytes.
+const LONGEST: u64 = 1000;
+/// Most orders that one command leads to: to go somewhere turns a page, which is read again.
+const ORDERS: usize = 8;
+/// Columns of the text of a lesson and of the help.
+const WIDTH: u16 = 80;
+
+/// What can be asked for, in short.
+const USAGE: &str = "\
+speed 450, pulse 20k, law unilateral: give a knob a value; its name alone says the value
+t 0.3 ms, end, n, blade 7: go to an instant, the end, the next change of contact, a gap
+scene rub, lesson friction: open; a lesson takes a, b, c as answers, g goes on, G leaves
+undo, restart, live, fire, and every other action of the explorer by its words or key
+save FILE, copy: the scene as a file, the command that repeats the run
+help WORDS: what the help says about them; quit, or the end of input, ends";
+
+/// The explorer, and the engine that it has without a thread.
+struct Lines {
+    app: App,
+    engine: Option<Playback>,
+    ordered: Option<Order>,
+}
+
+/// Takes commands until the input ends or one quits. With a prompt for a person who types.
+///
+/// # Errors
+/// The input cannot be read, or the output cannot be written.
+pub fn lines(
+    scene: CheckedScene,
+    options: &ExploreOptions,
+    input: &mut dyn BufRead,
+    out: &mut dyn Write,
+    prompt: bool,
+) -> Result<(), Error> {
+    let variable = |name: &str| std::env::var(name).unwrap_or_default();
+    let ability = ability::Ability::of(&variable);
+    let marker = options.marker(&config::Config::default(), &ability);
+    let mut lines = Lines::of(scene, marker);
+    lines.app.files.source.clone_from(&options.source);
+    lines.settle();
+    lines.tell(out)?;
+    writeln!(out, "{}", lines.app.appearance.spell("help: what can be asked for"))?;
+    loop {
+        if prompt {
+            write!(out, "> ")?;
+        }
+        out.flush()?;
+        let Some(line) = read(input)? else { return Ok(()) };
+        let goes_on = match line {
+            Ok(line) if line.trim().is_empty() || line.trim_start().starts_with('#') => true,
+            Ok(line) => lines.answer(line.trim(), out)?,
+            Err(refused) => {
+                writeln!(out, "refused: {refused}")?;
+                true
+            }
+        };
+        if !goes_on {
+            return Ok(());
+        }
+    }
+}
+
+/// The next line; none at the end of the input.
+fn read(input: &mut dyn BufRead) -> Result<Option<Result<String, &'static str>>, Error> {
+    let mut bytes = Vec::new();
+    if input.take(LONGEST).read_until(b'\n', &mut bytes)? == 0 {
+        return Ok(None);
+    }
+    if !bytes.ends_with(b"\n") && bytes.len() as u64 == LONGEST {
+        // The rest of the line is no command.
+        while !bytes.ends_with(b"\n") {
+            bytes.clear();
+            if input.take(LONGEST).read_until(b'\n', &mut bytes)? == 0 {
+                break;
+            }
+        }
+        return Ok(Some(Err("a line of more than 1000 bytes")));
+    }
+    Ok(Some(String::from_utf8(bytes).map_err(|_| "a line that is not UTF-8")))
+}
+
+impl Lines {
+    fn of(scene: CheckedScene, marker: Marker) -> Self {
+        let mut app = App::new(scene, Theme::Mono, marker);
+        // No text of a lesson hides a chart.
+        app.layout.size = (WIDTH, 1000);
+        app.play.playing = false;
+        Self { app, engine: None, ordered: None }
+    }
+
+    /// Has everything computed that the state asks for.
+    fn settle(&mut self) {
+        for _ in 0..ORDERS {
+            // Without charts there are no studies.
+            let order = Order { playing: false, open: Vec::new(), ..self.app.order() };
+            if self.ordered.as_ref() == Some(&order) {
+                return;
+            }
+            let engine = self.engine.get_or_insert_with(|| Playback::new(order.clone()));
+            engine.apply(&order);
+            while engine.is_computing() {
+                engine.compute();
+            }
+            let mut snapshot = engine.snapshot();
+            snapshot.results.pace = Pace::default();
+            self.app.apply_snapshot(snapshot);
+            self.ordered = Some(order);
+        }
+    }
+
+    /// Does what a line asks for and answers it; false where it quits.
+    fn answer(&mut self, line: &str, out: &mut dyn Write) -> Result<bool, Error> {
+        let (first, rest) = line.split_once(' ').unwrap_or((line, ""));
+        match (first, rest.trim()) {
+            ("help" | "?", words) => return self.help(words, out).map(|()| true),
+            ("scene" | "scenes", "") => return self.list("scene", out).map(|()| true),
+            ("lesson" | "lessons", "") => return self.list("lesson", out).map(|()| true),
+            _ => {}
+        }
+        let found = match commands::only(&self.app, line) {
+            Ok(found) => found,
+            Err(refused) => {
+                writeln!(out, "refused: {}", self.spelled(&clean(&refused)))?;
+                return Ok(true);
+            }
+        };
+        let (before, lesson) = (self.app.scene.clone(), self.app.lessons.progress.clone());
+        self.app.status = None;
+        match self.obey(found, out)? {
+            Some(true) => {}
+            Some(false) => return Ok(true),
+            None => return Ok(false),
+        }
+        self.settle();
+        self.app.check_lesson();
+        self.tell(out)?;
+        let changed = self.changed(&before);
+        writeln!(out, "{}", self.spelled(&changed))?;
+        if self.app.lessons.progress != lesson {
+            for line in panels::lesson_text(&self.app, WIDTH) {
+                writeln!(out, "{line}")?;
+            }
+        }
+        Ok(true)
+    }
+
+    /// Does it. Whether there is more to tell; none where it quits.
+    fn obey(&mut self, found: Found, out: &mut dyn Write) -> Result<Option<bool>, Error> {
+        let knob = match found.command {
+            commands::Command::Select(place) => KNOBS.get(place),
+            _ => None,
+        };
+        match self.app.obey(found.command) {
+            Effect::Quit => return Ok(None),
+            Effect::Write(job) => {
+                // Nobody is asked whether it may be replaced.
+                let result = match job.run() {
+                    FileResult::Exists => FileResult::Failed("it exists".into()),
+                    result => result,
+                };
+                self.app.written(result);
+            }
+            Effect::Copy(command) => {
+                writeln!(out, "{command}")?;
+                return Ok(Some(false));
+            }
+            Effect::None => {}
+            Effect::Suspend | Effect::Redraw | Effect::Mouse(_) | Effect::FindScenes(_) => {}
+        }
+        if let Some(knob) = knob {
+            let text = format!("{} is {}: {}", knob.label, knob.text(&self.app.scene), knob.does);
+            writeln!(out, "{}", self.spelled(&text))?;
+            return Ok(Some(false));
+        }
+        match std::mem::replace(&mut self.app.dialogue.mode, InputMode::Main) {
+            InputMode::Main => return Ok(Some(true)),
+            InputMode::Scenes(_) => self.list("scene", out)?,
+            InputMode::Lessons(_) => self.list("lesson", out)?,
+            _ => writeln!(out, "refused: {} needs a screen, or more words; help", found.what)?,
+        }
+        Ok(Some(false))
+    }
+
+    /// Everything of a kind that can be opened.
+    fn list(&self, kind: &str, out: &mut dyn Write) -> Result<(), Error> {
+        for found in commands::found(&self.app, &format!("{kind} ")) {
+            writeln!(out, "{}", self.spelled(&format!("{kind} {}", found.what)))?;
+        }
+        Ok(())
+    }
+
+    /// The two lines at the top of the screen.
+    fn tell(&self, out: &mut dyn Write) -> Result<(), Error> {
+        panels::head_text(&self.app).iter().try_for_each(|line| writeln!(out, "{line}"))
+    }
+
+    /// What is other than before: knobs with their values, and what the last line of the
+    /// screen would say.
+    fn changed(&self, before: &Scene) -> String {
+        let differ = KNOBS.iter().filter(|knob| knob.get(before) != knob.get(&self.app.scene));
+        let mut parts: Vec<String> = differ
+            .map(|knob| {
+                format!("{} {} -> {}", knob.label, knob.text(before), knob.text(&self.app.scene))
+            })
+            .collect();
+        parts.extend(self.app.status.clone());
+        match parts.is_empty() {
+            true => "changed: nothing".into(),
+            false => format!("changed: {}", parts.join("; ")),
+        }
+    }
+
+    fn help(&self, words: &str, out: &mut dyn Write) -> Result<(), Error> {
+        match words {
+            "" => writeln!(out, "{USAGE}"),
+            words => {
+                let found = panels::help_text(&self.app, WIDTH, words);
+                if found.is_empty() {
+                    return writeln!(out, "refused: nothing has these words: {}", clean(words));
+                }
+                found.iter().try_for_each(|line| writeln!(out, "{line}"))
+            }
+        }
+    }
+
+    fn spelled(&self, text: &str) -> String {
+        self.app.appearance.spell(text)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn answers(input: &[u8]) -> String {
+        let mut scene = Scene::base();
+        (scene.solver.step_s, scene.solver.end_s) = (1e-6, 5e-3);
+        let mut out = Vec::new();
+        let options = ExploreOptions { marker: Some(Marker::Braille), ..ExploreOptions::default() };
+        let mut input = input;
+        lines(scene.checked().unwrap(), &options, &mut input, &mut out, false).unwrap();
+        String::from_utf8(out).unwrap()
+    }
+
+    #[test]
+    fn each_line_is_answered_by_both_lines_of_the_screen_and_what_changed() {
+        let text = answers("speed 450\nt 0.3 ms\nundo\n".as_bytes());
+        assert_eq!(text.lines().count(), 3 + 3 * 3, "{text}");
+        assert_eq!(text.matches("NOW").count(), 4, "{text}");
+        for changed in [
+            "changed: speed Ω 500 rad/s -> 450 rad/s",
+            "changed: on to 300",
+            "changed: speed Ω 450 rad/s -> 500 rad/s",
+        ] {
+            assert!(text.contains(changed), "{text}");
+        }
+        // The same lines have the same answers.
+        assert_eq!(answers("speed 450\nt 0.3 ms\nundo\n".as_bytes()), text);
+    }
+
+    #[test]
+    fn bad_input_is_one_line_and_the_next_line_is_answered() {
+        let long = "x".repeat(5000);
+        for (bad, says) in [
+            ("speed fast".as_bytes(), "speed_rad_s = fast: allowed is a number"),
+            (b"nonsense qqq", "nothing has these words"),
+            (b"bla\x1b[31mde", "nothing has these words"),
+            (b"\xff\xfe", "not UTF-8"),
+            (long.as_bytes(), "more than 1000 bytes"),
+            (b"type a value", "needs a screen"),
+            (b"blades 0", "bladed_disk.blades = 0"),
+        ] {
+            let input = [bad, b"\n# a remark\n\nspeed\n"].concat();
+            let text = answers(&input);
+            let answer = text.lines().skip(3).collect::<Vec<_>>();
+            assert!(answer.iter().any(|line| line.contains(says)), "{text}");
+            assert!(answer.last().unwrap().starts_with("speed Ω is 500 rad/s"), "{text}");
+            assert!(!text.contains('\u{1b}'), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_lesson_asks_and_takes_the_answer() {
+        let text = answers(b"lesson lock\nb\ng\nG\nquit\nspeed 450\n");
+        assert!(text.contains("[a]") && text.contains("Lesson 2 of 12"), "{text}");
+        assert!(text.contains("Right is") || text.contains("is right"), "{text}");
+        assert!(!text.contains("450"), "{text}");
+    }
+
+    #[test]
+    fn the_help_and_lists_are_in_words() {
+        let text = answers(b"help\nhelp omega_lock\nhelp qqq\nscenes\nlesson\n");
+        for words in ["speed 450, pulse 20k", "411.9 rad/s", "words: qqq", "scene rub: "] {
+            assert!(text.contains(words), "{words}: {text}");
+        }
+    }
+}

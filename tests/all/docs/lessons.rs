@@ -1,0 +1,72 @@
+//! The lessons on paper: every question, and the answers at the end, made from the lessons
+//! of the program.
+
+use rubscope::tui::lessons::{LETTERS, Lesson, LessonStep, all};
+
+/// Longest line of a document.
+const MOST: usize = 120;
+
+/// The text of `docs/lessons.md` between its comments.
+pub fn sheet() -> String {
+    let mut out = String::new();
+    let mut paragraph = |text: &str, indent: &str| {
+        out.push_str(&wrapped(text, indent));
+        out.push('\n');
+    };
+    for (place, lesson) in all().iter().enumerate() {
+        paragraph(&format!("## {}. {}", place + 1, lesson.title), "");
+        let about = format!(
+            "{} minutes. Needs {}. On the screen: `rubscope`, then `:lesson {}`.",
+            lesson.minutes(),
+            lesson.needs,
+            place + 1
+        );
+        paragraph(&about, "");
+        for (number, step) in (1..).zip(&lesson.steps) {
+            paragraph(&format!("**{}.{number}** {}", place + 1, step.text), "");
+            if let Some(question) = &step.question {
+                paragraph(question, "");
+                let answers = LETTERS.iter().zip(&step.answers);
+                let answers = answers.map(|(letter, text)| format!("- [ ] {letter}: {text}\n"));
+                paragraph(answers.collect::<String>().trim_end_matches('\n'), "- ");
+            }
+            if let Some(task) = &step.task {
+                paragraph(&format!("*To do:* {task}"), "");
+            }
+        }
+    }
+    paragraph("## Answers", "");
+    for (place, lesson) in all().iter().enumerate() {
+        let answers: String = answers(place, lesson);
+        paragraph(answers.trim_end_matches('\n'), "- ");
+    }
+    out.trim_end().to_string() + "\n"
+}
+
+fn answers(place: usize, lesson: &Lesson) -> String {
+    let steps = (1..).zip(&lesson.steps);
+    let of = |(number, step): (usize, &LessonStep)| {
+        let (right, reason) = (step.right?, step.reason.as_deref()?);
+        let equation = step.equation.as_ref().map_or(String::new(), |text| format!(" `{text}`"));
+        Some(wrapped(&format!("- **{}.{number}: {right}.** {reason}{equation}", place + 1), "  "))
+    };
+    steps.filter_map(of).collect()
+}
+
+/// A text in lines; a list, whose lines begin so, stays as it is.
+fn wrapped(text: &str, indent: &str) -> String {
+    if indent == "- " {
+        return format!("{text}\n");
+    }
+    let mut lines = vec![String::new()];
+    for word in text.split_whitespace() {
+        let last = lines.last_mut().unwrap();
+        let room = last.chars().count() + 1 + word.chars().count() <= MOST;
+        match (last.is_empty(), room) {
+            (true, _) => last.push_str(word),
+            (false, true) => *last = format!("{last} {word}"),
+            (false, false) => lines.push(format!("{indent}{word}")),
+        }
+    }
+    lines.join("\n") + "\n"
+}
