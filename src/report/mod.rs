@@ -15,6 +15,7 @@ pub mod npz;
 pub mod number;
 pub mod precision;
 pub mod prefix;
+pub mod sentence;
 pub mod summary;
 pub mod svg;
 pub mod symbols;

@@ -104,12 +104,12 @@ impl App {
             Verdict::Whirl => {
                 ("the contact goes round and swings the blades".into(), Role::Trouble)
             }
-            Verdict::Divergent => (run.failure.clone().unwrap_or_default(), Role::Trouble),
+            Verdict::Divergent => (run.stopped.clone().unwrap_or_default(), Role::Trouble),
             Verdict::Bounce => {
                 (format!("{} impacts, and more to come", run.impacts), Role::Contact)
             }
             Verdict::Decay => (plural(run.impacts, "impact"), Role::Good),
-            Verdict::Failed => (run.failure.clone().unwrap_or_default(), Role::Trouble),
+            Verdict::Failed => (run.stopped.clone().unwrap_or_default(), Role::Trouble),
         };
         let pulls = tensile > 0
             && matches!(
