@@ -301,7 +301,6 @@ impl Facts {
                 let other = otherwise.filter(|other| *other != self.verdict).and_then(would);
                 let verb = if steps == 1 { "pulls" } else { "pull" };
                 let pulls = format!("{} {verb}", count(steps, "step"));
-                let short = if steps == 1 { "one step" } else { "steps" };
                 match other {
                     _ if self.verdict == Verdict::Adhesive => plain(&[
                         "A real contact cannot pull: it would let go.",
@@ -312,12 +311,12 @@ impl Facts {
                         format!("A real contact would {other}: {pulls}."),
                         format!("A real contact would {other}."),
                         format!("But {pulls}."),
-                        format!("But {short} {verb}."),
+                        "But it pulls.".into(),
                     ],
                     None => vec![
                         format!("{pulls}, which no real contact can."),
                         format!("But {pulls}."),
-                        format!("But {short} {verb}."),
+                        "But it pulls.".into(),
                     ],
                 }
             }
@@ -542,7 +541,7 @@ mod tests {
         };
         let told = |facts: &Facts, width| facts.sentence(width).to_string();
         for (width, line) in [
-            (40, "LOCKED  12 + 19 hold it. But steps pull."),
+            (40, "LOCKED  12 + 19 hold it. But it pulls."),
             (60, "LOCKED  Blades 12 and 19 hold the wave. But 2 steps pull."),
             (80, "LOCKED  Blades 12 and 19 hold the casing's wave. A real contact would let go."),
             (

@@ -3,7 +3,7 @@
 use super::clearance::{CLEARANCE, LEAST};
 use super::{Group, Knob, Turn};
 use crate::scene::keys::{PULSE, SPEED};
-use Group::{Beyond, Machine, Operation, Solver, Start};
+use Group::{Beyond, Machine, Model, Operation, Start, Time};
 use Turn::{Decades, Linear, Whole, Words};
 
 const fn knob(
@@ -56,53 +56,41 @@ pub const KNOBS: &[Knob] = &[
     ),
     knob(
         Operation,
-        "pulse time t_p",
-        "operation.pulse_s",
-        Decades(1e-9),
-        "how long the pulse pushes",
-    ),
-    knob(
-        Operation,
-        "speed ramp",
-        "operation.speed_ramp_rad_s2",
-        Decades(1.0),
-        "how fast the rotor speeds up, or slows down if negative",
-    ),
-    knob(
-        Solver,
-        "solver",
-        "solver.kind",
-        Words,
-        "solver: explicit takes time steps; event goes from impact to impact exactly",
-    ),
-    knob(
-        Solver,
         "contact",
         "solver.contact",
         Words,
         "contact law: unilateral pushes; bilateral, the paper's, pulls too; smooth gives way",
     ),
     knob(
-        Solver,
+        Operation,
+        "solver",
+        "solver.kind",
+        Words,
+        "solver: explicit takes time steps; event goes from impact to impact exactly",
+    ),
+    knob(Time, "pulse time t_p", "operation.pulse_s", Decades(1e-9), "how long the pulse pushes"),
+    knob(
+        Time,
+        "speed ramp",
+        "operation.speed_ramp_rad_s2",
+        Decades(1.0),
+        "how fast the rotor speeds up, or slows down if negative",
+    ),
+    knob(
+        Model,
         "model",
         "solver.model",
         Words,
         "model size: rigid moves the casing only, modal two blade modes too, full every blade",
     ),
     knob(
-        Solver,
+        Model,
         "step h",
         "solver.step_s",
         Decades(1e-12),
         "time step of the explicit solver: shorter is more exact and slower",
     ),
-    knob(
-        Solver,
-        "run end",
-        "solver.end_s",
-        Decades(1e-9),
-        "end of the run that the verdict judges",
-    ),
+    knob(Model, "run end", "solver.end_s", Decades(1e-9), "end of the run that the verdict judges"),
     knob(
         Machine,
         "clearance g0",
