@@ -77,8 +77,8 @@ fn the_rows_are_the_margins_of_the_scene_with_their_knobs() {
         assert!(parts.iter().all(|part| line.contains(part)), "{parts:?} in {line}");
     }
     let lasting = margins.limit(LimitName::LastingPulse).unwrap();
-    let percent = format!("{:+.0} %", 100.0 * lasting.margin.unwrap());
-    assert!(line(&session, "F lasts bil").contains(&percent), "{percent}: {}", session.text());
+    let factor = format!("{:.1} x beyond", 1.0 + lasting.margin.unwrap());
+    assert!(line(&session, "F lasts bil").contains(&factor), "{factor}: {}", session.text());
     // A load has no place on a bar, and no side.
     assert!(!line(&session, "torque").contains('%'), "{}", session.text());
     assert!(line(&session, "Ω_c").contains('┃') && line(&session, "Ω_c").contains('█'));
