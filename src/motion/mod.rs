@@ -29,7 +29,8 @@ pub use failure::{Failure, FailureReason};
 pub use free_flight::FreeFlight;
 pub use run::{
     FinalState, ImpactReport, RunReport, Sample, Sampling, SolverReport, VerdictReached, Watch,
-    run_to_end, run_to_end_watched, run_to_verdict, simulate, simulate_with, verdict_of,
+    lock_that_broke, run_to_end, run_to_end_watched, run_to_verdict, simulate, simulate_with,
+    verdict_of,
 };
 pub use script::{Change, Script};
 pub use sensitivity::{CHANGED_RUNS, is_sensitive, run_with_sensitivity};

@@ -9,7 +9,8 @@ use super::script::{Script, Scripted};
 use super::sensitivity::sign;
 use super::wave::WaveTracker;
 use super::{
-    Checks, Contact, EnergyAccount, Failure, GoOn, Motion, Outcome, State, Verdict, to_the_end,
+    Checks, Contact, EnergyAccount, Failure, GoOn, Hold, Motion, Outcome, State, Verdict,
+    to_the_end,
 };
 use crate::scene::{CheckedScene, ContactLaw, ModelSize, SolverKind};
 use crate::tolerances::{LAST_PART, RUN_LOOKS};
@@ -111,6 +112,12 @@ pub struct RunReport {
     /// Speed of the rotor at the end, after ramps and changes \[rad/s\].
     #[serde(skip)]
     pub end_speed_rad_s: f64,
+    /// The lock that broke on the way, and the speed of the rotor then \[rad/s\].
+    #[serde(skip)]
+    pub broken: Option<(Hold, f64)>,
+    /// Why the run stopped early.
+    #[serde(skip)]
+    pub failure: Option<Failure>,
     /// What another run must agree with if this one is not sensitive.
     #[serde(skip)]
     pub reached: VerdictReached,
@@ -378,6 +385,17 @@ pub(super) fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) 
         checks: motion.checks(),
         energy: motion.energy_account(),
         end_speed_rad_s: motion.rotor().speed(state.t_s),
+        broken: lock_that_broke(motion),
+        failure: motion.failure().cloned(),
         reached: VerdictReached::of(motion, verdict),
     }
+}
+
+/// The longest hold of a corner that ended on the way, if it was as long as a casing period,
+/// and the speed of the rotor when it ended \[rad/s\].
+#[must_use]
+pub fn lock_that_broke(motion: &Motion) -> Option<(Hold, f64)> {
+    let period = TAU / motion.machine().omega_c;
+    let hold = motion.contacts().longest_hold.filter(|hold| hold.length() >= period)?;
+    Some((hold, motion.rotor().speed(hold.ended)))
 }

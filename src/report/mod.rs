@@ -12,6 +12,7 @@ pub mod margins;
 pub mod npz;
 pub mod number;
 pub mod precision;
+pub mod sentence;
 pub mod summary;
 pub mod svg;
 pub mod symbols;

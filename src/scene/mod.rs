@@ -92,7 +92,8 @@ pub struct View {
 
 impl Default for View {
     fn default() -> Self {
-        Self { charts: ["response", "gaps", "locked"].map(String::from).to_vec(), begin_s: 0.0 }
+        let charts = ["frame", "response", "gaps", "locked"].map(String::from).to_vec();
+        Self { charts, begin_s: 0.0 }
     }
 }
 

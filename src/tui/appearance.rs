@@ -124,7 +124,7 @@ impl Appearance {
         Pen { style: self.style(Role::First), sign: '*', dashed: false }
     }
 
-    /// Dotted pen of the second series.
+    /// Dashed pen of the second series.
     pub fn second(&self) -> Pen {
         Pen { style: self.style(Role::Second), sign: 'o', dashed: true }
     }

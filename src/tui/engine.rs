@@ -10,7 +10,7 @@ use super::trace::{Mark, Trace};
 use super::views::ViewId;
 use super::views::map::MapChoice;
 use super::worker::Found;
-use crate::motion::{ActiveSet, Checks, Hold, Motion, State, Verdict};
+use crate::motion::{ActiveSet, Checks, Failure, Hold, Motion, State, Verdict};
 use crate::scene::CheckedScene;
 use crate::study::MapPlan;
 
@@ -143,8 +143,10 @@ pub struct FullRun {
     pub impacts: u64,
     /// Penetration, pulls and other checks.
     pub checks: Checks,
+    /// Why the run failed, in the words of the solver.
+    pub stopped: Option<String>,
     /// Why the run failed.
-    pub failure: Option<String>,
+    pub failure: Option<Failure>,
 }
 
 /// A page of time, recorded at its own zoom as far as the run goes.

@@ -8,7 +8,7 @@ use ratatui::{
 };
 
 use super::appearance::Appearance;
-use super::axis::ChartAxis;
+use super::axis::{ChartAxis, nice_step};
 use super::history::Span;
 use super::raster::{Pen, Raster};
 use super::theme::Role;
@@ -50,10 +50,10 @@ impl<'a> Plot<'a> {
         if !x.is_sound() || !y.is_sound() || area.width < 10 || area.height < 3 {
             return None;
         }
-        let rule = area.height >= 7;
-        let below = if rule { 2 } else { 1 };
-        let rows = area.height - below;
-        let (y_ticks, y_step) = y.ticks(usize::from(rows.div_ceil(2)).clamp(1, 7));
+        let rule = has_rule(area);
+        let rows = rows(area);
+        let grain = look.marker.grain();
+        let (y_ticks, y_step) = even(&y, most_levels(rows), (usize::from(rows), grain.1), 0);
         let labels: Vec<String> =
             y_ticks.iter().map(|v| look.spell(&y.label(*v, y_step))).collect();
         let gutter = labels.iter().map(|label| label.chars().count()).max().unwrap_or(1).max(2);
@@ -90,7 +90,9 @@ impl<'a> Plot<'a> {
         }
         let labels_row = inner.bottom() + u16::from(rule);
         let most = usize::from(inner.width / 9).clamp(1, 10);
-        let (values, step) = self.x.ticks(most);
+        let across = self.raster.grain().0.unsigned_abs() as usize;
+        // One column more or less is not seen among nine.
+        let (values, step) = even(&self.x, most, (usize::from(inner.width), across), 1);
         let mut free = inner.x.saturating_sub(1);
         for value in values {
             let Some(column) = self.column(value) else { continue };
@@ -168,9 +170,15 @@ impl<'a> Plot<'a> {
         }
     }
 
-    /// Single dots along a polyline, evenly spaced; those before `from` are left
+    /// Single dots along a polyline, evenly spaced, `sparse` times as far as usual; those before `from` are left
     /// out, so that the others stay where they are while `from` goes on.
-    pub fn dotted(&mut self, points: impl IntoIterator<Item = (f64, f64)>, from: f64, pen: &Pen) {
+    pub fn dotted(
+        &mut self,
+        points: impl IntoIterator<Item = (f64, f64)>,
+        from: f64,
+        sparse: f64,
+        pen: &Pen,
+    ) {
         let (width, height) = self.raster.size();
         let (width, height) = (width as f64 - 1.0, height as f64 - 1.0);
         let across = |x: f64| (x - self.x.low) / (self.x.high - self.x.low) * width;
@@ -179,7 +187,7 @@ impl<'a> Plot<'a> {
             let part = (self.y.high - y) / (self.y.high - self.y.low);
             (part * height).clamp(-2.0 * height, 3.0 * height)
         };
-        let stride = DOTS * self.raster.grain().0 as f64;
+        let stride = sparse * DOTS * self.raster.grain().0 as f64;
         let begin = across(from);
         let (mut last, mut gone): (Option<(f64, f64)>, f64) = (None, 0.0);
         let mut dots = Vec::new();
@@ -259,22 +267,57 @@ impl<'a> Plot<'a> {
         }
     }
 
-    /// A short text at a column of the chart, kept inside it.
-    pub fn note(&mut self, x: f64, row: u16, text: &str, style: Style) {
-        let Some(column) = self.column(x) else { return };
+    /// A short text beside a column of the chart in a row, where the chart is empty; whether
+    /// there was room.
+    pub fn free_note(&mut self, x: f64, row: u16, text: &str, style: Style) -> bool {
+        let Some(column) = self.column(x) else { return false };
         let width = u16::try_from(text.chars().count()).unwrap_or(u16::MAX);
-        if width > self.inner.width || row >= self.inner.bottom() {
-            return;
-        }
-        self.text(column.min(self.inner.right() - width), row, text, style);
+        let starts = [Some(column.saturating_add(1)), column.checked_sub(width)];
+        starts.into_iter().flatten().any(|start| self.free_text(start, row, text, style))
     }
 
-    /// A short text centred at a place of the chart.
-    pub fn label(&mut self, x: f64, y: f64, text: &str, style: Style) {
+    /// A short text centred at a place of the chart, if the chart is empty there.
+    pub fn free_label(&mut self, (x, y): (f64, f64), text: &str, style: Style) -> bool {
         let half = u16::try_from(text.chars().count() / 2).unwrap_or(0);
-        if let (Some(column), Some(row)) = (self.column(x), self.row(y)) {
-            self.text(column.saturating_sub(half).max(self.inner.x), row, text, style);
+        let Some((column, row)) = self.column(x).zip(self.row(y)) else { return false };
+        self.free_text(column.saturating_sub(half).max(self.inner.x), row, text, style)
+    }
+
+    /// Text inside the chart that covers nothing; whether there was room.
+    fn free_text(&mut self, x: u16, row: u16, text: &str, style: Style) -> bool {
+        let width = u16::try_from(text.chars().count()).unwrap_or(u16::MAX);
+        let (inner, end) = (self.inner, x.saturating_add(width));
+        if x < inner.x || end > inner.right() || !(inner.y..inner.bottom()).contains(&row) {
+            return false;
         }
+        // A level line goes on behind a name.
+        let empty = |x: u16| {
+            let cell = self.buffer.cell(Position::new(x, row));
+            cell.is_some_and(|cell| matches!(cell.symbol(), " " | "┈"))
+        };
+        let free = (x..end).all(empty);
+        if free {
+            self.text(x, row, text, style);
+        }
+        free
+    }
+
+    /// A short text on the axis line, outside the chart, if nothing but the line is there;
+    /// whether there was room.
+    pub fn axis_note(&mut self, x: f64, text: &str, style: Style, look: &Appearance) -> bool {
+        let Some((column, row)) = self.column(x).zip(self.axis_row()) else { return false };
+        let width = u16::try_from(text.chars().count()).unwrap_or(u16::MAX);
+        let [.., floor, floor_tick] = look.axis_signs();
+        let start = column.min(self.inner.right().saturating_sub(width));
+        let line = |x: u16| {
+            let cell = self.buffer.cell(Position::new(x, row));
+            cell.is_some_and(|cell| cell.symbol().starts_with([floor, floor_tick, contact(look)]))
+        };
+        let free = start >= self.inner.x && (start..start.saturating_add(width)).all(line);
+        if free {
+            self.text(start, row, text, style);
+        }
+        free
     }
 
     fn put(&mut self, x: u16, y: u16, sign: char, style: Style) {
@@ -290,6 +333,84 @@ impl<'a> Plot<'a> {
             self.buffer.set_stringn(x, y, text, usize::from(area.right() - x), style);
         }
     }
+}
+
+/// The sign of contact on the axis of time.
+pub fn contact(look: &Appearance) -> char {
+    look.either('━', '=')
+}
+
+/// Whether a chart has a line for its lower axis, above its labels.
+fn has_rule(area: Rect) -> bool {
+    area.height >= 7
+}
+
+/// The rows of a chart in this area that are for data.
+fn rows(area: Rect) -> u16 {
+    area.height.saturating_sub(if has_rule(area) { 2 } else { 1 })
+}
+
+/// Most ticks upward in so many rows.
+fn most_levels(rows: u16) -> usize {
+    usize::from(rows.div_ceil(2)).clamp(1, 7)
+}
+
+/// Most of its range that an axis grows by so that its ticks are at equal distances.
+const GROWS: f64 = 0.3;
+
+impl ChartAxis {
+    /// This axis upward with a range a little larger where that puts its round ticks whole
+    /// rows apart.
+    pub fn evened(self, area: Rect, look: &Appearance) -> Self {
+        let (_, grain) = look.marker.grain();
+        let (rows, grain) = (rows(area), grain as f64);
+        let pixels = f64::from(rows) * grain - 1.0;
+        let span = self.high - self.low;
+        let steps = (1..=most_levels(rows)).rev().filter_map(|most| nice_step(span, most));
+        let spans = steps.filter_map(|step| {
+            let apart = (pixels * step / (span * grain) + 1e-9).floor();
+            let wider = pixels * step / (apart * grain);
+            (apart >= 2.0 && wider <= (1.0 + GROWS) * span).then_some((step, wider))
+        });
+        let Some((step, wider)) = { spans }.next() else { return self };
+        // Half of what is new on each side, moved so that ticks are in the middle of rows.
+        let pixel = wider / pixels;
+        let high = self.high + 0.5 * (wider - span);
+        let tick = (high / step).floor() * step;
+        let off = ((high - tick) / pixel - (0.5 * grain - 0.5)).rem_euclid(grain);
+        let off = if off > 0.5 * grain { off - grain } else { off };
+        let most = 0.5 * (wider - span) / pixel;
+        let high = high - off.clamp(-most, most) * pixel;
+        let mut evened = self;
+        (evened.low, evened.high) = (high - wider, high);
+        evened
+    }
+}
+
+/// Ticks at equal distances on the screen: the most that are, at most `most`, over so many
+/// cells of so many sub-pixels; distances may differ by `slack` cells.
+fn even(
+    axis: &ChartAxis,
+    most: usize,
+    (cells, grain): (usize, usize),
+    slack: i64,
+) -> (Vec<f64>, f64) {
+    let pixels = (cells * grain).saturating_sub(1) as f64;
+    let cell = |value: &f64| {
+        let along = (axis.high - value) / (axis.high - axis.low) * pixels;
+        whole(along).map_or(0, |pixel| pixel / grain.max(1) as i64)
+    };
+    let is_even = |values: &[f64]| {
+        let places: Vec<i64> = values.iter().map(cell).collect();
+        let gaps = || places.windows(2).filter_map(|pair| Some(pair.first()? - pair.last()?));
+        let (least, greatest) = (gaps().min(), gaps().max());
+        least.zip(greatest).is_none_or(|(least, most)| most - least <= slack && least > 1)
+    };
+    let found = (2..=most)
+        .rev()
+        .map(|most| axis.ticks(most))
+        .find(|(values, _)| values.len() > 1 && is_even(values));
+    found.unwrap_or_else(|| axis.ticks(most))
 }
 
 /// Cells between two dots of a dotted line.
@@ -331,6 +452,45 @@ mod tests {
         assert_eq!(plot.row(1.0), Some(plot.inner.y));
         assert_eq!(plot.row(-1.0), Some(plot.inner.bottom() - 1));
         assert_eq!(plot.column(501.0), None);
+    }
+
+    #[test]
+    fn round_ticks_stand_at_equal_distances() {
+        let look = Appearance::new(Theme::Dark, Marker::Braille);
+        for (low, high) in [(-125.0, 125.0), (-20.0, 220.0), (-400.0, 100.0), (-1.1e-4, 1.3e-4)] {
+            for height in 9..40 {
+                let mut buffer = Buffer::empty(Rect::new(0, 0, 60, height));
+                let area = *buffer.area();
+                let y = ChartAxis::scaled(low, high).evened(area, &look);
+                assert!(y.low <= low && y.high >= high && y.high - y.low <= 1.31 * (high - low));
+                let x = ChartAxis::plain(0.0, 20.0);
+                assert!(Plot::new(&mut buffer, area, x, y, &look).is_some());
+                let tick =
+                    |row: &u16| (0..60).any(|x| buffer.cell((x, *row)).unwrap().symbol() == "┤");
+                let rows: Vec<u16> = (0..height).filter(tick).collect();
+                let apart: Vec<u16> = rows.windows(2).map(|pair| pair[1] - pair[0]).collect();
+                assert!(!apart.is_empty() && apart.iter().all(|d| *d == apart[0]), "{rows:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_label_covers_no_data() {
+        let mut buffer = Buffer::empty(Rect::new(0, 0, 40, 12));
+        let area = *buffer.area();
+        let axis = ChartAxis::plain(0.0, 1.0);
+        let mut plot = Plot::new(&mut buffer, area, axis, axis, &look()).unwrap();
+        let pen = Pen { style: Style::new(), sign: '*', dashed: false };
+        plot.curve([(0.0, 0.5), (1.0, 0.5)], &pen);
+        plot.ink();
+        let row = plot.row(0.5).unwrap();
+        assert!(!plot.free_note(0.3, row, "name", Style::new()));
+        assert!(plot.free_note(0.3, row - 1, "name", Style::new()));
+        // Nor another label, nor what is outside.
+        assert!(!plot.free_note(0.3, row - 1, "name", Style::new()));
+        assert!(!plot.free_label((0.0, 0.9), &"x".repeat(99), Style::new()));
+        assert!(plot.axis_note(0.3, "name", Style::new(), &look()));
+        assert!(!plot.axis_note(0.3, "other", Style::new(), &look()));
     }
 
     #[test]
@@ -383,7 +543,7 @@ mod tests {
                 plot.spans(&xs.iter().map(|x| Some((*x, *x))).collect::<Vec<_>>(), &pen);
                 for x in &xs {
                     plot.point(*x, *x, 'o', Style::new());
-                    plot.note(*x, 0, "here", Style::new());
+                    plot.free_note(*x, 0, "here", Style::new());
                     plot.level(*x, '-', Style::new());
                     plot.upright(*x, '|', Style::new());
                 }

@@ -69,7 +69,7 @@ pub struct Pen {
     pub style: Style,
     /// The sign of this series where only ASCII is drawn.
     pub sign: char,
-    /// Drawn in evenly spaced dots, so that two series differ without colour.
+    /// Drawn in dashes, so that two series differ without colour.
     pub dashed: bool,
 }
 
@@ -96,11 +96,15 @@ impl Raster {
         Self { area, marker, wide, dots: vec![Dots::default(); area.area() as usize] }
     }
 
-    /// Whether a dotted pen draws at this place along a line. In ASCII the sign of
+    /// Whether a dashed pen draws at this place along a line. In ASCII the sign of
     /// a series tells it from others, and gaps would look like missing data.
-    fn is_dot(&self, along: i64, pen: &Pen) -> bool {
-        let period = if self.wide { 4 } else { 2 };
-        !pen.dashed || self.marker == Marker::Ascii || along.rem_euclid(period) == 0
+    fn is_dash(&self, along: i64, pen: &Pen) -> bool {
+        let [dash, period] = match (self.marker.grain(), self.wide) {
+            ((1, _), _) => [1, 2],
+            (_, true) => [6, 12],
+            (_, false) => [3, 6],
+        };
+        !pen.dashed || self.marker == Marker::Ascii || along.rem_euclid(period) < dash
     }
 
     /// Sub-pixels of one cell, across and down.
@@ -142,7 +146,7 @@ impl Raster {
         }
     }
 
-    /// A straight line, dotted where the pen says so: by columns where it is flat,
+    /// A straight line, dashed where the pen says so: by columns where it is flat,
     /// by rows where it is steep, so that pieces of one curve have one spacing.
     pub fn line(&mut self, from: (i64, i64), to: (i64, i64), pen: &Pen) {
         // Ends far outside are not visible, and would take many steps.
@@ -153,7 +157,7 @@ impl Raster {
         for k in 0..=steps {
             let x = x0 + ((x1 - x0) * k + (x1 - x0).signum() * steps / 2) / steps;
             let y = y0 + ((y1 - y0) * k + (y1 - y0).signum() * steps / 2) / steps;
-            if self.is_dot(if steep { y } else { x }, pen) {
+            if self.is_dash(if steep { y } else { x }, pen) {
                 self.blot(x, y, pen);
             }
         }
@@ -254,7 +258,7 @@ mod tests {
     }
 
     #[test]
-    fn a_dotted_line_has_every_other_place_of_a_solid_one() {
+    fn a_dashed_line_has_every_other_place_of_a_solid_one() {
         let dotted = Pen { dashed: true, ..PEN };
         assert_eq!(drawn(Marker::Dot, |r| r.line((0, 0), (3, 0), &PEN)), "••••    ");
         assert_eq!(drawn(Marker::Dot, |r| r.line((0, 0), (3, 0), &dotted)), "• •     ");
@@ -263,13 +267,13 @@ mod tests {
         for to in [(7, 0), (0, 7), (3, 7), (7, 3), (7, 7)] {
             for mirror in [false, true] {
                 let area = Rect::new(0, 0, 4, 2);
-                let [mut solid, mut dots] =
+                let [mut solid, mut dashes] =
                     [0, 1].map(|_| Raster::new(area, Marker::Braille, false));
                 let place = |(x, y)| if mirror { (x, 7 - y) } else { (x, y) };
                 solid.line(place((0, 0)), place(to), &PEN);
-                dots.line(place((0, 0)), place(to), &dotted);
+                dashes.line(place((0, 0)), place(to), &dotted);
                 let count = |r: &Raster| r.dots.iter().map(|d| d.bits.count_ones()).sum::<u32>();
-                assert_eq!((count(&solid), count(&dots)), (8, 4), "{to:?} {mirror}");
+                assert_eq!((count(&solid), count(&dashes)), (8, 5), "{to:?} {mirror}");
             }
         }
     }

@@ -50,36 +50,18 @@ pub fn shorten(text: &str, width: usize, mark: &str) -> String {
 
 /// Pieces of text in one row, as many of them from the left as fit whole.
 pub fn pieces(buffer: &mut Buffer, area: Rect, row: u16, parts: &[(String, Style)]) {
-    marked_pieces(buffer, area, row, parts, "");
-}
-
-/// As `pieces`; the mark at the end says that some are left out.
-pub fn marked_pieces(
-    buffer: &mut Buffer,
-    area: Rect,
-    row: u16,
-    parts: &[(String, Style)],
-    mark: &str,
-) {
-    let total: usize = parts.iter().map(|(text, _)| columns(text)).sum();
-    // A space at the end needs no room.
-    let spare = parts.last().map_or(0, |(text, _)| text.len() - text.trim_end_matches(' ').len());
-    let whole = total - spare <= usize::from(area.width);
-    let room = usize::from(area.width).saturating_sub(if whole { 0 } else { columns(mark) });
     if row >= area.height {
         return;
     }
-    let mut used = 0;
+    let mut x = area.x;
     for (text, style) in parts {
-        let end = used + columns(text);
-        let (mark, fits) = if whole || end <= room { (text.as_str(), true) } else { (mark, false) };
-        let x = area.x.saturating_add(u16::try_from(used).unwrap_or(u16::MAX));
+        // A space at the end needs no room.
         let left = usize::from(area.right().saturating_sub(x));
-        buffer.set_stringn(x, area.y + row, mark, left, *style);
-        if !fits {
+        if columns(text.trim_end_matches(' ')) > left {
             return;
         }
-        used = end;
+        buffer.set_stringn(x, area.y + row, text, left, *style);
+        x = x.saturating_add(u16::try_from(columns(text)).unwrap_or(u16::MAX));
     }
 }
 
@@ -141,11 +123,9 @@ mod tests {
         assert_eq!(print("eleven lett"), "eleven le…");
         let parts = |texts: &[&str]| {
             let parts: Vec<_> = texts.iter().map(|text| (text.to_string(), Style::new())).collect();
-            row(|buffer, area| marked_pieces(buffer, area, 0, &parts, "… "))
+            row(|buffer, area| pieces(buffer, area, 0, &parts))
         };
-        assert_eq!(parts(&[" abc ", " def "]), " abc  def ");
         assert_eq!(parts(&[" abc ", " defg "]), " abc  defg");
-        assert_eq!(parts(&[" abc ", " defgh "]), " abc …    ");
-        assert_eq!(parts(&["abcdefghijk", "l"]), "…         ");
+        assert_eq!(parts(&[" abc ", " defgh "]), " abc      ");
     }
 }

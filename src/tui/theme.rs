@@ -24,7 +24,7 @@ pub enum Role {
     Contact,
     /// Good news.
     Good,
-    /// Problems: refused values, pulls, failures.
+    /// What is wrong or doubtful, and nothing else: pulls, failures, refused values.
     Trouble,
 }
 
@@ -87,8 +87,8 @@ pub enum Theme {
     /// Blue and yellow on a dark background, safe for the common colour
     /// blindnesses.
     ColourBlind,
-    /// Blue and red on a light background, where yellow cannot be read: red looks
-    /// dark to those who do not see it, and blue does not.
+    /// Blue and magenta on a light background, where yellow cannot be read: both look
+    /// blue to those who do not see red, and have signs.
     ColourBlindLight,
     /// No colours: bold, dim, reverse and underline only.
     Mono,
@@ -128,21 +128,22 @@ impl Theme {
             (Self::Dark, Role::Focus) => Color::LightYellow,
             (Self::Dark, Role::First) => Color::LightCyan,
             (Self::Dark, Role::Second) => Color::LightMagenta,
-            (Self::Dark, Role::Contact | Role::Trouble) => Color::LightRed,
-            (Self::Dark, Role::Good) => Color::LightGreen,
-            (Self::Light, Role::Focus | Role::First) => Color::Blue,
-            (Self::Light, Role::Second) => Color::Magenta,
-            (Self::Light, Role::Contact | Role::Trouble) => Color::Red,
-            // The green of most terminals cannot be read on white.
-            (Self::Light, Role::Good) => Color::Blue,
+            (Self::Dark, Role::Contact) => Color::LightGreen,
+            (Self::Dark, Role::Good) => Color::LightBlue,
+            (Self::Dark | Self::ColourBlind, Role::Trouble) => Color::LightRed,
+            // The green of most terminals cannot be read on white, and magenta is for contact.
+            (Self::Light | Self::ColourBlindLight, Role::Second) => Color::Reset,
+            (Self::Light | Self::ColourBlindLight, Role::Contact) => Color::Magenta,
+            (Self::Light | Self::ColourBlindLight, Role::Trouble) => Color::Red,
+            (Self::Light | Self::ColourBlindLight, _) => Color::Blue,
             (Self::ColourBlind, Role::First | Role::Good) => Color::LightBlue,
             (Self::ColourBlind, Role::Second) => Color::Yellow,
-            (Self::ColourBlind, _) => Color::LightYellow,
-            (Self::ColourBlindLight, Role::First | Role::Good | Role::Focus) => Color::Blue,
-            (Self::ColourBlindLight, _) => Color::Red,
+            (Self::ColourBlind, Role::Contact) => Color::LightCyan,
+            (Self::ColourBlind, Role::Focus) => Color::LightYellow,
         };
         let weight = match role {
             Role::Quiet if self == Self::Mono => Modifier::DIM,
+            Role::Trouble if self == Self::Mono => Modifier::BOLD.union(Modifier::UNDERLINED),
             Role::Focus | Role::Contact | Role::Trouble => Modifier::BOLD,
             _ => Modifier::empty(),
         };
@@ -253,6 +254,19 @@ mod tests {
         }
         assert_eq!(ThemeChoice::Auto.theme(|| Ground::Light), Theme::Light);
         assert_eq!(ThemeChoice::Auto.theme(|| Ground::Dark), Theme::Dark);
+    }
+
+    #[test]
+    fn trouble_and_contact_look_like_nothing_else_in_every_theme() {
+        for theme in Theme::ALL {
+            for role in ROLES {
+                let same = |other: Role| theme.style(role) == theme.style(other);
+                assert_eq!(same(Role::Trouble), role == Role::Trouble, "{theme:?} {role:?}");
+                // Without colours contact has its sign.
+                let told = theme != Theme::Mono || role != Role::Focus;
+                assert!(!told || same(Role::Contact) == (role == Role::Contact), "{theme:?}");
+            }
+        }
     }
 
     #[test]

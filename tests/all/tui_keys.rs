@@ -92,7 +92,7 @@ fn the_cursor_reads_values_and_pages_can_be_looked_back_at() {
     for _ in 0..10 {
         session.press("");
     }
-    session.press(" ((((");
+    session.press("1 ((((");
     assert!(session.text().contains(" at "), "{}", session.text());
     session.press("<");
     assert!(session.text().contains("1 back"), "{}", session.text());

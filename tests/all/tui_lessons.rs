@@ -54,7 +54,7 @@ fn assert_true(check: &Check, session: &Session, runs: &mut Runs) {
     match &check.is {
         Expected::Word(word) if check.run.as_deref() == Some("verdict") => {
             if check.with.is_empty() {
-                let shown = app.verdict().word;
+                let shown = app.verdict_word();
                 assert_eq!(shown, word.to_uppercase(), "{check:?}");
                 assert!(session.text().contains(&shown), "{}", session.text());
                 return;

@@ -7,8 +7,8 @@ use rubscope::tui::{Marker, Theme};
 use crate::tui_support::{Session, scene};
 
 #[test]
-fn the_first_screen_at_three_sizes() {
-    for (width, height) in [(80, 24), (120, 40), (40, 12)] {
+fn the_first_screen_at_four_sizes() {
+    for (width, height) in [(80, 24), (120, 40), (40, 12), (200, 50)] {
         let session = Session::open(width, height, scene(), Theme::Dark, Marker::Braille);
         insta::assert_snapshot!(format!("first_{width}x{height}"), session.text());
     }
@@ -31,7 +31,11 @@ fn an_adhesive_lock_is_never_called_locked_without_saying_so() {
     scene.solver.step_s = 2e-7;
     let session = Session::open(100, 30, scene, Theme::Dark, Marker::Braille);
     let text = session.text();
-    assert!(text.contains(" ADHESIVE ") && text.contains("a lock that pulls"), "{text}");
+    assert!(
+        text.contains(" ADHESIVE ") && text.contains("No real contact.")
+            || text.contains("A real contact cannot pull"),
+        "{text}"
+    );
 }
 
 #[test]
@@ -53,7 +57,7 @@ fn too_small_a_screen_says_what_it_needs() {
 fn every_view_with_the_large_chart_at_120_by_40() {
     for digit in ['1', '2', '3', '4', '5', '6', '8'] {
         let mut session = Session::open(120, 40, scene(), Theme::Dark, Marker::Braille);
-        session.press(&digit.to_string());
+        session.press(&if digit == '4' { "f".into() } else { digit.to_string() });
         insta::assert_snapshot!(format!("view_{digit}"), session.text());
     }
 }
@@ -83,7 +87,7 @@ fn a_rotor_that_turns_backward_has_campbell_lines_of_its_own() {
 
 #[test]
 fn a_wide_first_line_has_the_cost_of_a_step_taken_and_the_part_skipped() {
-    let session = Session::open(220, 30, scene(), Theme::Dark, Marker::Braille);
+    let session = Session::open(300, 30, scene(), Theme::Dark, Marker::Braille);
     let text = session.text();
     let line = text.lines().nth(1).unwrap();
     assert!(line.contains("42 ns/step taken, 99.") && line.contains(" % skipped, "), "{line}");
@@ -157,6 +161,58 @@ fn the_gaps_against_time_need_no_colour() {
         insta::assert_snapshot!(name, text);
         session.press("w");
         assert!(session.text().contains("gaps of this instant"), "{}", session.text());
+    }
+}
+
+/// Red is trouble: on the first screen one sentence has it.
+#[test]
+fn the_first_screen_has_at_most_two_red_places() {
+    let red = [ratatui::style::Color::LightRed, ratatui::style::Color::Red];
+    for theme in [Theme::Dark, Theme::Light, Theme::ColourBlind, Theme::ColourBlindLight] {
+        for (width, height) in [(80, 24), (120, 40), (200, 50)] {
+            let session = Session::open(width, height, scene(), theme, Marker::Braille);
+            let buffer = session.terminal.backend().buffer();
+            let places: usize = buffer
+                .content
+                .chunk_by(|a, b| a.fg == b.fg && a.bg == b.bg)
+                .filter(|run| {
+                    run.iter().any(|cell| red.contains(&cell.fg) || red.contains(&cell.bg))
+                })
+                .filter(|run| run.iter().any(|cell| cell.symbol() != " "))
+                .count();
+            assert!((1..=2).contains(&places), "{theme:?} {width}: {places}");
+        }
+    }
+}
+
+/// Contact is marked by a sign, and every blade that touches by its number.
+#[test]
+fn the_first_screen_has_the_wheel_the_response_the_gaps_and_the_lock() {
+    let session = Session::open(120, 40, scene(), Theme::Dark, Marker::Braille);
+    let text = session.text();
+    for title in ["4 wheel  ▲ blades 12 + 19", "1 response", "2 gaps", "3 locked λ(Ω)"] {
+        assert!(text.contains(title), "{title}\n{text}");
+    }
+    assert!(!text.contains("α_c") && text.starts_with(" LOCKED  Blades 12 and 19 hold"), "{text}");
+    let text = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille).text();
+    assert!(text.contains("4 wheel") && text.contains("1 response"), "{text}");
+    assert!(!text.contains("2 gaps") && !text.contains("3 locked"), "{text}");
+}
+
+/// Nothing of the first two lines is ever cut, whatever the width.
+#[test]
+fn the_first_two_lines_are_whole_at_every_width() {
+    let mut session = Session::open(200, 24, scene(), Theme::Mono, Marker::Ascii);
+    for width in 40..=200_u16 {
+        session.terminal.backend_mut().resize(width, 24);
+        session.send(std::iter::once(rubscope::tui::events::ScreenEvent::Resize));
+        let rows = session.rows();
+        let [first, second] = [&rows[0], &rows[1]].map(|row| row.trim_end());
+        assert!(first.starts_with(" LOCKED  ") && first.contains('.'), "{width}: {first}");
+        assert!(!first.contains("..") && !second.contains(".."), "{width}: {first}\n{second}");
+        assert!(second.starts_with("NOW ") && second.contains("AT 20 ms"), "{width}: {second}");
+        let title = first.contains("nodal diameters");
+        assert!(title || first.ends_with('.'), "{width}: {first}");
     }
 }
 

@@ -54,9 +54,9 @@ impl Knobs {
         self.select(next % count);
     }
 
-    /// The last value was refused.
-    pub(super) fn refuse(&mut self, error: &SceneError) {
-        self.refusal = Some(clean(&error.to_string()));
+    /// The last value of a knob was refused.
+    pub(super) fn refuse(&mut self, knob: &Knob, error: &SceneError) {
+        self.refusal = Some(clean(&knob.refusal(error)));
     }
 
     /// A refusal is not shown any more.
@@ -155,7 +155,7 @@ impl App {
                     self.dialogue.close();
                 }
             }
-            Err(error) => self.knobs.refuse(&error),
+            Err(error) => self.knobs.refuse(knob, &error),
         }
     }
 
@@ -179,7 +179,7 @@ impl App {
                 true
             }
             Err(error) => {
-                self.knobs.refuse(&error);
+                self.knobs.refuse(knob, &error);
                 false
             }
         }
@@ -280,7 +280,7 @@ mod tests {
     #[test]
     fn the_knobs_go_round_and_another_one_has_no_refusal() {
         let mut knobs = Knobs::default();
-        knobs.refuse(&Scene::base().set("operation.pulse_n", "x").unwrap_err());
+        knobs.refuse(&KNOBS[1], &Scene::base().set("operation.pulse_n", "x").unwrap_err());
         assert!(knobs.refusal().is_some());
         knobs.walk(true);
         assert_eq!((knobs.selected, knobs.refusal()), (KNOBS.len() - 1, None));

@@ -27,7 +27,8 @@ impl Layout {
     /// The charts that a scene names, and then the others.
     pub(super) fn of(scene: &Scene) -> Self {
         let views = ViewId::all().collect();
-        let mut layout = Self { views, beside: 2, heat: false, full_screen: false, size: (80, 24) };
+        let mut layout =
+            Self { views, beside: MOST_BESIDE, heat: false, full_screen: false, size: (80, 24) };
         layout.open(scene);
         layout
     }
@@ -152,6 +153,6 @@ mod tests {
         assert_eq!(layout.views()[..3], [ViewId::Response, ViewId::Gaps, ViewId::Map]);
         assert_eq!(layout.neighbour(-1), ViewId::Coincidence);
         (0..3).for_each(|_| layout.act(Action::Charts));
-        assert_eq!(layout.beside, 1);
+        assert_eq!(layout.beside, 2);
     }
 }

@@ -33,7 +33,6 @@ pub use reading::{Cursor, STEP, cell_of};
 pub use scenes::SceneEntry;
 pub use sweep::Sweep;
 pub use update::Effect;
-pub use verdict::VerdictText;
 
 use dialogue::Dialogue;
 use files::Files;

@@ -164,7 +164,7 @@ impl App {
         if at.0 == grip.x && !grip.turned {
             return Heard::Nothing;
         }
-        let Some(part) = panels::part_of_bar(self, grip.knob, at.0) else { return Heard::Nothing };
+        let Some(part) = panels::part_of_bar(self, at.0) else { return Heard::Nothing };
         let known = self.knobs.remembered();
         self.set_part(grip.knob, part);
         if grip.turned {

@@ -3,8 +3,8 @@
 
 use std::sync::Arc;
 
+use super::App;
 use super::play::begin_s;
-use super::{App, VerdictText};
 use crate::model::Machine;
 use crate::motion::ActiveSet;
 use crate::scene::CheckedScene;
@@ -45,8 +45,8 @@ pub struct Run {
 pub struct Baseline {
     /// Its record.
     pub history: BinHistory,
-    /// Its verdict.
-    pub words: VerdictText,
+    /// The word of its verdict.
+    pub word: String,
     /// Its scene.
     pub scene: CheckedScene,
 }
@@ -58,7 +58,7 @@ impl Baseline {
         let differs = |knob: &&Knob| knob.get(&self.scene) != knob.get(&app.scene);
         let shown = |knob: &Knob| format!("{} {}", knob.label, knob.text(&self.scene));
         let mut parts: Vec<String> = KNOBS.iter().filter(differs).take(2).map(shown).collect();
-        parts.push(self.words.word.clone());
+        parts.push(self.word.clone());
         parts.join(", ")
     }
 }
@@ -222,9 +222,9 @@ impl App {
             return;
         }
         let (history, scene) = (self.run.history.clone(), self.scene.clone());
-        let words = self.verdict();
-        let what = format!("{} at {}", words.word, readable(self.speed(), "rad/s"));
-        self.run.baseline = Some(Baseline { history, words, scene });
+        let word = self.verdict_word();
+        let what = format!("{word} at {}", readable(self.speed(), "rad/s"));
+        self.run.baseline = Some(Baseline { history, word, scene });
         self.status = Some(format!("pinned behind the next runs: {what}"));
     }
 

@@ -61,7 +61,7 @@ impl App {
         {
             Ok(to) => to,
             Err(error) => {
-                self.knobs.refuse(&error);
+                self.knobs.refuse(knob, &error);
                 self.status = self.knobs.refusal().cloned();
                 return;
             }
@@ -77,7 +77,7 @@ impl App {
     pub(super) fn sweep_on(&mut self) {
         let done = match &self.results().full_run {
             None | Some(FullRunState::Computing(_)) => return,
-            Some(FullRunState::Done(_) | FullRunState::GivenUp(_)) => self.verdict().word,
+            Some(FullRunState::Done(_) | FullRunState::GivenUp(_)) => self.verdict_word(),
         };
         let Some(sweep) = &mut self.knobs.sweep else { return };
         let value = sweep.knob.shown(&sweep.knob.get(&self.scene));

@@ -211,7 +211,12 @@ impl App {
                     let law = self.scene.solver.contact.other();
                     self.status = Some(clean(&format!("no {law} law beside this: {why}")));
                 }
-                _ => self.run.set_compare(!self.run.is_compared()),
+                _ => {
+                    self.run.set_compare(!self.run.is_compared());
+                    if self.run.is_compared() {
+                        self.show(ViewId::Response);
+                    }
+                }
             },
             Action::Save => {
                 self.dialogue.open(InputMode::Naming(Purpose::Save, "scene.toml".into()));

@@ -1,24 +1,11 @@
-//! The verdict in words: the verdict, its start, its blades, and whether
-//! another solver disagrees.
+//! The verdict in one sentence, and what touches, in words.
 
 use super::App;
 use crate::motion::{ActiveSet, Verdict};
-use crate::tui::axis::readable;
+use crate::report::sentence::{Cause, Doubt, Facts, Sentence};
 use crate::tui::engine::{Answer, FORECAST_LIMIT, FullRun, FullRunState};
 use crate::tui::knobs::KNOBS;
-use crate::tui::theme::Role;
 use crate::tui::trace::{Happening, Mark};
-
-/// A verdict as the header shows it.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct VerdictText {
-    /// The one word, in capitals.
-    pub word: String,
-    /// The rest of the line; left out if there is no room.
-    pub detail: String,
-    /// How to colour it.
-    pub role: Role,
-}
 
 impl App {
     /// The full run of the scene's own solver, once it is computed.
@@ -29,51 +16,43 @@ impl App {
         }
     }
 
-    /// The verdict of the running solver.
-    pub fn verdict(&self) -> VerdictText {
+    /// What happens, in words that fit in so many columns.
+    pub fn sentence(&self, width: usize) -> Sentence {
+        let of = |word: &str, forms: &[String]| Sentence::of(word, forms, &[], width);
         if let Some(trouble) = &self.run.latest.trouble {
-            return VerdictText {
-                word: "STOPPED".into(),
-                detail: trouble.clone(),
-                role: Role::Trouble,
-            };
+            let forms = [format!("The computation stopped: {trouble}."), "It stopped.".into()];
+            return of("STOPPED", &forms);
         }
         match &self.results().full_run {
-            Some(FullRunState::Done(run)) => {
-                let mut words = self.words(run);
-                if self.results().sensitive {
-                    words.detail.push_str(", sensitive");
-                }
-                words
+            Some(FullRunState::Done(run)) => self.facts(run).sentence(width),
+            Some(FullRunState::GivenUp(part)) => {
+                let (limit, part) = (FORECAST_LIMIT.as_secs(), 100.0 * part);
+                let forms = [
+                    format!("{limit} s of work reached {part:.0} % of the run."),
+                    format!("{part:.0} % in {limit} s."),
+                ];
+                of("NO FORECAST", &forms)
             }
             Some(FullRunState::Computing(part)) => {
-                self.computing(&format!("{:.0} %", 100.0 * part))
+                let part = 100.0 * part;
+                self.computing(&format!(", {part:.0} %"), width)
             }
-            Some(FullRunState::GivenUp(part)) => VerdictText {
-                word: "NO FORECAST".into(),
-                detail: format!(
-                    "{} s of work reached {:.0} % of the run",
-                    FORECAST_LIMIT.as_secs(),
-                    100.0 * part
-                ),
-                role: Role::Trouble,
-            },
-            None => self.computing(""),
+            None => self.computing("", width),
         }
     }
 
-    /// While there is no verdict, the latest one stays, dimmed and with its value; the event
-    /// solver, which is done sooner, is told beside it.
-    fn computing(&self, part: &str) -> VerdictText {
-        let event = self.results().reference.as_ref();
-        let event =
-            event.map_or(String::new(), |run| format!("event, unilateral: {}", run.verdict));
-        let (word, state) = match self.older_answer() {
-            Some(answer) => (answer, format!("computing {part}")),
-            None => ("computing".into(), part.to_string()),
-        };
-        let detail = join(&[&event, state.trim_end()]);
-        VerdictText { word, detail, role: Role::Quiet }
+    /// While there is no verdict, the latest one stays, with its value.
+    fn computing(&self, part: &str, width: usize) -> Sentence {
+        let forms = [format!("Computing the run{part}."), format!("Computing{part}.")];
+        match self.older_answer() {
+            Some(answer) => Sentence::of(&answer, &forms, &[], width),
+            None => Sentence::of("computing", &[part.trim_start_matches(", ").into()], &[], width),
+        }
+    }
+
+    /// The word of the verdict, as `sentence` begins with it.
+    pub fn verdict_word(&self) -> String {
+        self.sentence(0).word
     }
 
     /// The verdict of a scene that differs in one knob, `at 405 rad/s: WHIRL`, or of this one
@@ -89,63 +68,44 @@ impl App {
         Some(format!("{when}: {}", verdict.as_ref().to_uppercase()))
     }
 
-    pub(crate) fn words(&self, run: &FullRun) -> VerdictText {
-        let since = run.since.map_or(String::new(), |t| format!("since {}", readable(t, "s")));
-        let tensile = run.checks.tensile_steps;
-        let blades = self.numbers_of(run.multipliers.iter().map(|(side, _)| *side));
-        let (detail, role) = match run.verdict {
-            Verdict::Locked => (format!("on {blades} {since}"), Role::Contact),
-            Verdict::Adhesive => {
-                let pulled = run.multipliers.iter().filter(|(_, force)| *force > 0.0);
-                let pulled = self.blades_of(pulled.map(|(side, _)| *side));
-                (join(&["a lock that pulls, not a real contact", &pulled, &since]), Role::Trouble)
-            }
-            Verdict::Slip => (join(&["contact without a break, side after side"]), Role::Contact),
-            Verdict::Whirl => {
-                ("the contact goes round and swings the blades".into(), Role::Trouble)
-            }
-            Verdict::Divergent => (run.failure.clone().unwrap_or_default(), Role::Trouble),
-            Verdict::Bounce => {
-                (format!("{} impacts, and more to come", run.impacts), Role::Contact)
-            }
-            Verdict::Decay => (plural(run.impacts, "impact"), Role::Good),
-            Verdict::Failed => (run.failure.clone().unwrap_or_default(), Role::Trouble),
+    /// What the sentence of a run says.
+    fn facts(&self, run: &FullRun) -> Facts {
+        let polygon = &self.machine.polygon;
+        let blades = |pulling: bool| {
+            let groups = run.multipliers.iter().filter(move |(_, force)| !pulling || *force > 0.0);
+            groups.flat_map(|(side, _)| polygon.blades_of_side(*side)).collect()
         };
-        let pulls = tensile > 0
-            && matches!(
-                run.verdict,
-                Verdict::Locked | Verdict::Decay | Verdict::Slip | Verdict::Whirl | Verdict::Bounce
-            );
-        let mut parts = vec![detail];
-        if let Some((hold, speed)) = &run.broken {
-            let (at, speed) = (readable(hold.ended, "s"), readable(*speed, "rad/s"));
-            parts.insert(0, format!("lock broken at {at}, {speed}"));
+        Facts {
+            verdict: run.verdict,
+            blades: blades(false),
+            pulling: blades(true),
+            touches: run.impacts,
+            law: self.scene.solver.contact,
+            pressed: self.is_pressed(),
+            damped: self.scene.casing.damping_ratio > 0.0,
+            broken: run.broken.map(|(_, speed)| speed),
+            failure: run.failure.clone(),
+            doubts: self.doubts(run),
         }
-        if pulls {
-            parts.push(plural(tensile, "tensile step"));
-        }
-        let parts: Vec<&str> = parts.iter().map(String::as_str).collect();
-        let detail = join(&parts);
-        VerdictText { word: run.verdict.as_ref().to_uppercase(), detail, role }
     }
 
-    /// The verdict of the event solver under unilateral contact, if it differs.
-    pub fn disagreement(&self) -> Option<String> {
-        let own = self.full_run()?;
-        let other = self.results().reference.as_ref()?;
-        if other.verdict == own.verdict {
-            return None;
+    /// What makes a run doubtful: pulls, a tiny change, or that the event solver says
+    /// otherwise.
+    fn doubts(&self, run: &FullRun) -> Vec<Doubt> {
+        let other = self.results().reference.as_ref().map(|other| other.verdict);
+        let pulls = run.checks.tensile_steps;
+        let mut doubts = Vec::new();
+        if pulls > 0 {
+            doubts.push(Doubt::Pulls(pulls, other));
         }
-        let why = if own.checks.tensile_steps > 0 {
-            plural(own.checks.tensile_steps, "pull") + " here"
-        } else if self.results().sensitive {
-            "the scene is sensitive".to_string()
-        } else if self.scene.goes_beyond() {
-            "step too large, or its angles left out".to_string()
-        } else {
-            "step too large".to_string()
-        };
-        Some(format!("event, unilateral: {} ({why})", other.verdict))
+        if self.results().sensitive {
+            doubts.push(Doubt::Sensitive);
+        }
+        if let Some(other) = other.filter(|other| *other != run.verdict && doubts.is_empty()) {
+            let beyond = self.scene.goes_beyond();
+            doubts.push(Doubt::Differs(other, if beyond { Cause::Angles } else { Cause::Step }));
+        }
+        doubts
     }
 
     /// The blades in contact at the instant that is shown, in words.
@@ -228,25 +188,14 @@ impl App {
     /// The numbers of the blades of some sides, `6 + 21`.
     pub fn numbers_of(&self, sides: impl Iterator<Item = u32>) -> String {
         let mut groups: Vec<String> = Vec::new();
-        for side in sides.take(4) {
-            let blades = self.machine.polygon.blades_of_side(side);
+        let mut all: Vec<Vec<u32>> =
+            sides.take(4).map(|side| self.machine.polygon.blades_of_side(side)).collect();
+        all.sort_unstable();
+        for blades in all {
             let names: Vec<String> = blades.iter().take(3).map(ToString::to_string).collect();
             let more = if blades.len() > 3 { ",.." } else { "" };
             groups.push(format!("{}{more}", names.join(",")));
         }
         groups.join(" + ")
-    }
-}
-
-fn join(parts: &[&str]) -> String {
-    parts.iter().filter(|part| !part.is_empty()).copied().collect::<Vec<_>>().join(", ")
-}
-
-/// `1 impact`, `2 impacts`, `no impacts`.
-pub fn plural(count: u64, what: &str) -> String {
-    match count {
-        0 => format!("no {what}s"),
-        1 => format!("1 {what}"),
-        n => format!("{n} {what}s"),
     }
 }

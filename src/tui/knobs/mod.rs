@@ -41,10 +41,12 @@ pub enum Turn {
 /// What a knob belongs to, in the order of the panel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Group {
-    /// The mode pair, the rotor, the pulse and the dampings.
+    /// What a first look needs: speed, pulse, dampings, contact and solver.
     Operation,
+    /// How pulse and speed go on in time.
+    Time,
     /// How the motion is computed.
-    Solver,
+    Model,
     /// Casing and bladed disk.
     Machine,
     /// What the paper's model leaves out: coupled tips, friction, linings.
@@ -55,17 +57,12 @@ pub enum Group {
 
 impl Group {
     /// Every group, in the order of the panel.
-    pub const ALL: [Self; 5] =
-        [Self::Operation, Self::Solver, Self::Machine, Self::Beyond, Self::Start];
+    pub const ALL: [Self; 6] =
+        [Self::Operation, Self::Time, Self::Model, Self::Machine, Self::Beyond, Self::Start];
 
     /// Its heading.
     pub fn name(self) -> &'static str {
-        ["operation", "solver", "machine", "beyond the paper", "start"][self as usize]
-    }
-
-    /// Its heading where two folded groups share a line.
-    pub fn short_name(self) -> &'static str {
-        self.name().split(' ').next().unwrap_or_default()
+        ["operation", "time", "model", "machine", "beyond the paper", "start"][self as usize]
     }
 
     /// Places of its knobs in the table.
@@ -254,6 +251,46 @@ impl Knob {
             Value::Real(x) => number(*x, self.unit()),
             Value::Text(word) => word.clone(),
             other => other.to_string(),
+        }
+    }
+
+    /// Its symbol: the last word of its name.
+    pub fn symbol(&self) -> &'static str {
+        self.label.split(' ').next_back().unwrap_or(self.label)
+    }
+
+    /// What it may hold, in words with its unit; nothing for words, which its sentence names.
+    pub fn range_words(&self) -> String {
+        let words = match self.allowed() {
+            Allowed::OneOf(words) => return format!("one of {}", words.join(", ")),
+            other => other.to_string(),
+        };
+        let words = words.trim_start_matches("a whole number ").trim_start_matches("a number ");
+        format!("{words} {}", self.unit()).trim_end().to_string()
+    }
+
+    /// A refusal of a value of it in the words of the panel, without keys of the file.
+    pub fn refusal(&self, error: &SceneError) -> String {
+        let SceneError::Refused { key, value, allowed } = error else { return error.to_string() };
+        let words = |text: &str| {
+            KNOBS.iter().fold(text.to_string(), |text, knob| text.replace(knob.path, knob.label))
+        };
+        let own = key == self.path;
+        let reads = self.parse(value).is_ok();
+        match self.allowed() {
+            Allowed::OneOf(_) if own && !reads => {
+                format!("{}: {value} is unknown; {}", self.label, self.range_words())
+            }
+            Allowed::Whole { .. } if own && !reads => {
+                format!("{}: {value} is no whole number; {}", self.label, self.range_words())
+            }
+            Allowed::Real { .. } if own && !reads => {
+                format!("{}: {value} is no number; {}", self.label, self.range_words())
+            }
+            own_range if own && *allowed == own_range.to_string() => {
+                format!("{}: {value} is not possible; {}", self.label, self.range_words())
+            }
+            _ => format!("{}: {value} is not possible; allowed is {}", words(key), words(allowed)),
         }
     }
 

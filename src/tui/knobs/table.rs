@@ -7,7 +7,7 @@ use super::range::{Bar, bars};
 use super::{Group, Knob, Turn};
 use crate::scene::keys::{PULSE, SPEED};
 use Bar::{From, Of};
-use Group::{Beyond, Machine, Operation, Solver, Start};
+use Group::{Beyond, Machine, Model, Operation, Start, Time};
 use Turn::{Decades, Linear, Whole, Words};
 
 const fn knob(
@@ -82,6 +82,20 @@ pub const KNOBS: &[Knob] = &[
     .unless(inert::rigid),
     knob(
         Operation,
+        "contact",
+        "solver.contact",
+        Words,
+        "contact law: unilateral pushes; bilateral, the paper's, pulls too; smooth gives way",
+    ),
+    knob(
+        Operation,
+        "solver",
+        "solver.kind",
+        Words,
+        "solver: explicit takes time steps; event goes from impact to impact exactly",
+    ),
+    knob(
+        Time,
         "pulse time t_p",
         "operation.pulse_s",
         Decades(1e-9),
@@ -90,7 +104,7 @@ pub const KNOBS: &[Knob] = &[
     .usual(1e-4)
     .unless(inert::without_pulse),
     knob(
-        Operation,
+        Time,
         "speed ramp",
         "operation.speed_ramp_rad_s2",
         Decades(1.0),
@@ -98,28 +112,14 @@ pub const KNOBS: &[Knob] = &[
     )
     .bar(Of(bars::ramp)),
     knob(
-        Solver,
-        "solver",
-        "solver.kind",
-        Words,
-        "solver: explicit takes time steps; event goes from impact to impact exactly",
-    ),
-    knob(
-        Solver,
-        "contact",
-        "solver.contact",
-        Words,
-        "contact law: unilateral pushes; bilateral, the paper's, pulls too; smooth gives way",
-    ),
-    knob(
-        Solver,
+        Model,
         "model",
         "solver.model",
         Words,
         "model size: rigid moves the casing only, modal two blade modes too, full every blade",
     ),
     knob(
-        Solver,
+        Model,
         "step h",
         "solver.step_s",
         Decades(1e-12),
@@ -127,7 +127,7 @@ pub const KNOBS: &[Knob] = &[
     )
     .unless(inert::step),
     knob(
-        Solver,
+        Model,
         "run end",
         "solver.end_s",
         Decades(1e-9),

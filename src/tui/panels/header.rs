@@ -1,30 +1,20 @@
-//! The two lines at the top. The first: what is now, and what will be at the end
-//! of the run. The second: where the limits are, whether another solver or a
-//! small change says otherwise, and the solver.
+//! The two lines at the top. The first: what happens, in one sentence, and what makes it
+//! doubtful. The second: where the motion is now, how fast it turns beside its limits, and
+//! the end of the run. What has no room has a shorter form or is left out; nothing is cut.
 
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier, style::Style};
 
-use crate::report::number::trimmed;
-use crate::tui::app::{App, VerdictText};
+use crate::motion::Verdict;
+use crate::report::number::{rounded, short as digits, trimmed};
+use crate::report::sentence::Sentence;
+use crate::scene::ContactLaw;
+use crate::tui::app::App;
 use crate::tui::appearance::Appearance;
 use crate::tui::axis::readable;
 use crate::tui::engine::Limit;
-use crate::tui::text::{columns, print, shorten, spelled_pieces};
+use crate::tui::text::{columns, pieces, print};
 use crate::tui::theme::{Role, Theme};
 use crate::tui::views::map::colour;
-
-/// Columns that the words after the verdict should have, if there are any.
-const DETAIL: usize = 40;
-/// From this width on, the next change of contact is told.
-const ROOMY: usize = 110;
-/// From this width on, the second line has the limits in full and the solver,
-const WIDE: u16 = 100;
-/// and from this one on the limits beside a doubt.
-const MEDIUM: u16 = 60;
-/// Below this width the verdict comes first.
-const NARROW: usize = 60;
-/// Most columns of a title.
-const MOST_TITLE: usize = 40;
 
 type Parts = Vec<(String, Style)>;
 
@@ -48,237 +38,227 @@ pub fn head_text(app: &App) -> [String; 2] {
 
 /// Draws both lines.
 pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
-    let look = &app.appearance;
-    let first = now_and_end(app, usize::from(area.width));
-    let used = spelled_pieces(look, buffer, area, 0, &first);
-    let mut parts = pace(app);
-    // In a lesson the title, too, and what another solver finds would be an answer.
-    let asked = app.is_asked();
-    if !asked {
+    let used = sentence(app, buffer, area);
+    // In a lesson the title, too, would be an answer.
+    if !app.is_asked() {
         title(app, buffer, area, used);
     }
-    let doubt = app.disagreement().filter(|_| !asked);
-    let doubted = doubt.is_some();
-    if area.width >= WIDE {
-        parts.extend(limits(app));
-    } else if !doubted || area.width >= MEDIUM {
-        parts.extend(short_limits(app));
-    }
-    if !asked {
-        parts.extend(doubts(app, doubt));
-    }
-    if area.width >= WIDE || !doubted {
-        parts.extend(solver(app));
-    }
-    spelled_pieces(look, buffer, area, 1, &parts);
+    second(app, buffer, area);
 }
 
-/// The title of the scene at the right end, if there is room.
+/// The first line; the columns that it takes.
+fn sentence(app: &App, buffer: &mut Buffer, area: Rect) -> u16 {
+    let look = &app.appearance;
+    // A space on each side of the word.
+    let width = usize::from(area.width).saturating_sub(1);
+    let (told, style) = told(app, width);
+    let mut parts = vec![(format!(" {} ", told.word), style.add_modifier(Modifier::REVERSED))];
+    parts.push((format!(" {}", told.what), look.style(Role::Text)));
+    parts.extend(told.doubt.map(|doubt| (format!(" {doubt}"), look.style(Role::Trouble))));
+    let parts: Parts = parts.into_iter().map(|(text, style)| (look.spell(&text), style)).collect();
+    pieces(buffer, area, 0, &parts);
+    u16::try_from(parts.iter().map(|(text, _)| columns(text)).sum::<usize>()).unwrap_or(u16::MAX)
+}
+
+/// What is told of the run in so many columns, and the style of its word.
+pub fn told(app: &App, width: usize) -> (Sentence, Style) {
+    let look = &app.appearance;
+    // The end would answer the question of a lesson.
+    if app.is_asked() {
+        let forms = ["Your answer first.".to_string()];
+        return (Sentence::of("?", &forms, &[], width), look.style(Role::Quiet));
+    }
+    let sentence = app.sentence(width);
+    let style = match app.full_run() {
+        _ if app.run.latest.trouble.is_some() => look.style(Role::Trouble),
+        Some(run) => verdict_style(look, run.verdict),
+        None => look.style(Role::Quiet),
+    };
+    (sentence, style)
+}
+
+/// The one style of the word of a verdict: its colour in the map.
+fn verdict_style(look: &Appearance, verdict: Verdict) -> Style {
+    let own = colour(look, verdict).filter(|_| look.theme != Theme::Mono);
+    let style = match (verdict, own) {
+        (Verdict::Failed | Verdict::Adhesive, _) => look.style(Role::Trouble),
+        (_, Some(colour)) => Style::new().fg(colour),
+        (_, None) => look.style(Role::Text),
+    };
+    style.add_modifier(Modifier::BOLD)
+}
+
+/// The title of the scene at the right end, if there is room for all of it.
 fn title(app: &App, buffer: &mut Buffer, area: Rect, used: u16) {
     let look = &app.appearance;
-    let left = area.width.saturating_sub(used.saturating_add(3));
-    let title = shorten(&look.spell(&app.scene.title), MOST_TITLE, look.ellipsis());
+    let title = look.spell(&app.scene.title);
     let wide = u16::try_from(columns(&title)).unwrap_or(u16::MAX);
-    // A part of it beside the verdict would read as one sentence.
-    if wide > left {
-        return;
+    // A part of it beside the sentence would read as one.
+    if wide <= area.width.saturating_sub(used.saturating_add(3)) {
+        let right = Rect { x: area.right() - wide, width: wide, ..area };
+        print(buffer, right, 0, &title, look.style(Role::Quiet));
     }
-    let right = Rect { x: area.right() - wide, width: wide, ..area };
-    print(buffer, right, 0, &title, look.style(Role::Quiet));
 }
 
-/// `NOW free ► 12.7 ms 430.2 rad/s | AT 100 ms LOCKED on 6 + 21 since 76.9 ms`.
-fn now_and_end(app: &App, width: usize) -> Parts {
+/// A part of the second line: its forms from long to short, each with its rank. While the
+/// line is too long, the form of the highest rank gives way to the next one of its part.
+struct Part {
+    forms: Vec<(u8, Parts)>,
+}
+
+impl Part {
+    fn new(forms: Vec<(u8, Parts)>) -> Self {
+        Self { forms }
+    }
+
+    /// A part of one form and one style.
+    fn plain(rank: u8, text: String, style: Style) -> Self {
+        Self::new(vec![(rank, vec![(text, style)])])
+    }
+
+    fn width(&self, look: &Appearance) -> usize {
+        self.forms.first().map_or(0, |(_, parts)| {
+            parts.iter().map(|(text, _)| columns(&look.spell(text))).sum::<usize>() + GAP.len()
+        })
+    }
+}
+
+/// Between two parts.
+const GAP: &str = "   ";
+
+fn second(app: &App, buffer: &mut Buffer, area: Rect) {
     let look = &app.appearance;
-    let quiet = look.style(Role::Quiet);
-    // The end would answer the question of a lesson.
-    let words = match app.is_asked() {
-        true => {
-            VerdictText { word: "?".into(), detail: "your answer first".into(), role: Role::Quiet }
-        }
-        false => app.verdict(),
-    };
-    let word = format!(" {} ", words.word);
-    let mut detail = words.detail;
-    if let Some(baseline) = &app.run.baseline
-        && baseline.words.word != words.word
-    {
-        detail = format!("{detail} | pinned: {}", baseline.words.word);
+    let mut parts = vec![now(app), speed(app), end(app)];
+    if !app.is_asked() {
+        parts.extend(baseline(app));
+        parts.extend(other(app));
     }
-    // The colour of the verdict in the map, where it has one.
-    let verdict = app.full_run().map(|run| run.verdict);
-    let verdict = verdict.filter(|verdict| verdict.as_ref().to_uppercase() == words.word);
-    let own = verdict.filter(|_| look.theme != Theme::Mono);
-    let own = own.and_then(|verdict| colour(look, verdict));
-    let style = own.map_or(look.style(words.role), |colour| Style::new().fg(colour));
-    let loud = (word.clone(), style.add_modifier(Modifier::BOLD | Modifier::REVERSED));
-    let end = duration(app.end_s());
-    let at = format!(" | AT {end} ");
-    let needed = |now: &Parts, detail: usize| {
-        let now: usize = now.iter().map(|(text, _)| columns(text)).sum();
-        now + columns(&at) + columns(&word) + detail <= width
-    };
-    let wanted = (columns(&detail) + 1).min(DETAIL);
-    let about = |detail: String| (format!(" {detail}"), look.style(words.role));
-    let least = now(app, 0);
-    if width < NARROW || !needed(&least, 0) {
-        let after = vec![(format!(" AT {end}"), quiet)];
-        let beside = std::iter::once((" | ".to_string(), quiet)).chain(least).collect();
-        return that_fit(look, width, vec![vec![loud], after, beside, vec![about(detail)]]);
-    }
-    let mut now = now(app, 3);
-    for much in [2, 1, 0] {
-        let room = if much == 2 { width >= ROOMY } else { true };
-        if room && needed(&now, if much == 0 { 0 } else { wanted }) {
+    parts.extend(modes(app));
+    parts.extend(next(app));
+    parts.extend(limits(app));
+    parts.extend(cost(app));
+    let width = usize::from(area.width) + GAP.len();
+    while parts.iter().map(|part| part.width(look)).sum::<usize>() > width {
+        let rank = |part: &Part| part.forms.first().map_or(0, |(rank, _)| *rank);
+        let Some(longest) = parts.iter_mut().max_by_key(|part| rank(part)) else { break };
+        if longest.forms.is_empty() {
             break;
         }
-        now = self::now(app, much);
+        longest.forms.remove(0);
     }
-    now.extend([(at, quiet), loud]);
-    if !detail.is_empty() {
-        now.push(about(detail));
+    let shown = parts
+        .into_iter()
+        .filter_map(|mut part| (!part.forms.is_empty()).then(|| part.forms.swap_remove(0).1));
+    let mut line = Parts::new();
+    for part in shown {
+        if !line.is_empty() {
+            line.push((GAP.into(), look.style(Role::Quiet)));
+        }
+        line.extend(part.into_iter().map(|(text, style)| (look.spell(&text), style)));
     }
-    now
+    pieces(buffer, area, 1, &line);
 }
 
-/// The first group, and of the others those that have room whole, up to the first that
-/// has none.
-fn that_fit(look: &Appearance, width: usize, groups: Vec<Parts>) -> Parts {
-    let mut used = 0;
-    let fits = |(place, group): &(usize, Parts)| {
-        used += group.iter().map(|(text, _)| columns(&look.spell(text))).sum::<usize>();
-        *place == 0 || used <= width
-    };
-    groups.into_iter().enumerate().take_while(fits).flat_map(|(_, group)| group).collect()
-}
-
-/// What is now: 3 all of it, 2 without the next change, 1 without speed, 0 in
-/// one word.
-fn now(app: &App, much: u8) -> Parts {
+/// `NOW 12.0 ms held on 12 + 19 ► 1/200`.
+fn now(app: &App) -> Part {
     let look = &app.appearance;
     let (text, quiet) = (look.style(Role::Text), look.style(Role::Quiet));
     let state = app.state_now();
     let touches = state != "free" && state != "starting";
     let role = if touches { Role::Contact } else { Role::Text };
-    let state = match much {
-        0 => state.split(' ').next().unwrap_or_default().to_string(),
-        _ => state,
-    };
     let go = if app.play.playing { look.either('►', '>') } else { look.either('‖', '=') };
-    let mut parts = vec![
-        ("NOW ".to_string(), quiet),
-        (state, look.style(role)),
-        (format!(" {go} "), look.style(Role::Focus)),
-        (readable(app.now(), "s"), text),
-    ];
-    if much >= 2 {
-        let arrow = match app.scene.operation.speed_ramp_rad_s2 {
-            ramp if ramp > 0.0 => "↑",
-            ramp if ramp < 0.0 => "↓",
-            _ => "",
-        };
-        parts.push((format!("  {}{arrow}", readable(app.speed(), "rad/s")), text));
-    }
-    if much >= 3
-        && let Some(next) = app.next_change()
-    {
-        let (what, after) = (app.happening(next.what), readable(next.t_s - app.now(), "s"));
-        parts.push((format!("  next: {what} in {after}"), quiet));
-    }
-    parts
-}
-
-/// How it plays.
-fn pace(app: &App) -> Parts {
-    let look = &app.appearance;
-    let (quiet, focus) = (look.style(Role::Quiet), look.style(Role::Focus));
     let limit = match app.results().pace.limit {
         Limit::None => "",
         Limit::Solver => " (solver's limit)",
         Limit::Wave => " (slowed: the wave)",
     };
     let about = if app.play.slow_at_events { "about " } else { "" };
-    let mut parts = vec![(format!("{about}{}{limit}", app.rate_text()), quiet)];
-    if app.play.pages_back != 0 {
-        let (count, word) =
-            (app.play.pages_back, if app.play.pages_back > 0 { "back" } else { "ahead" });
-        parts.push((format!(" {} {word}", count.abs()), focus));
-    }
-    if app.knobs.live {
-        parts.push((" LIVE".into(), focus));
-    }
-    parts
-}
-
-/// The limits of a lock, by the index of their symbol.
-fn thresholds(app: &App) -> [(&'static str, Option<f64>); 2] {
-    [("c", app.machine.critical_speed()), ("lock", app.lock_speed())]
-}
-
-/// The speed up to which a lock holds, behind the one from which it does.
-fn lock_ends(app: &App) -> Option<String> {
-    let to = app.lock_window()?.to?;
-    Some(format!(" to {}", short(to)))
-}
-
-/// The limits as numbers, and the present speed in parts of them.
-fn limits(app: &App) -> Parts {
-    let look = &app.appearance;
-    let (text, quiet) = (look.style(Role::Text), look.style(Role::Quiet));
-    let speed = app.speed().abs();
-    let mut parts = Vec::new();
-    let ends = lock_ends(app).unwrap_or_default();
-    let mut ratio = |name: &str, limit: f64, to: &str| {
-        parts.push((format!("  Ω/{name} "), quiet));
-        parts.push((format!("{:.3}", speed / limit), text));
-        parts.push((format!(" of {}{to}", short(limit)), quiet));
+    let time = || vec![("NOW ".into(), quiet), (readable(app.now(), "s"), text)];
+    let held = |word: String| [(" ".into(), text), (word, look.style(role))];
+    let one = state.split(' ').next().unwrap_or_default().to_string();
+    let rate = |limit: &str| {
+        [
+            (format!(" {go}"), look.style(Role::Focus)),
+            (format!(" {about}{}{limit}", app.rate_text()), quiet),
+        ]
     };
-    let (coupled, coincidence) = (app.is_coupled(), app.coincidence());
-    let [critical, lock] = thresholds(app).map(|(name, limit)| {
-        if let Some(limit) = limit.filter(|limit| *limit > 0.0) {
-            ratio(&format!("Ω_{name}"), limit, if name == "lock" { &ends } else { "" });
-        }
-        limit
-    });
-    if let Some(coincidence) = coincidence.filter(|_| coupled) {
-        ratio("coincidence", coincidence, "");
-    }
-    if critical.is_none() || lock.is_none() {
-        let what = if critical.is_none() { "no Ω_c" } else { "no lock at any speed" };
-        parts.push((format!("  {what}"), quiet));
-    }
-    if let Some(coincidence) = app.machine.dangerous_speed_toward(app.speed())
-        && !coupled
-    {
-        parts.push((format!(" · coincidence {}", short(coincidence)), quiet));
-    }
-    parts
+    let joined = |parts: &[&[(String, Style)]]| parts.concat();
+    Part::new(vec![
+        (9, joined(&[&time(), &held(state.clone()), &rate(limit)])),
+        (6, joined(&[&time(), &held(state.clone()), &rate("")])),
+        (4, joined(&[&time(), &held(state)])),
+        (1, joined(&[&time(), &held(one)])),
+        (0, time()),
+    ])
 }
 
-/// The limits alone.
-fn short_limits(app: &App) -> Parts {
+/// The speed in parts of its limits: `500 rad/s = 1.71 Ω_c = 1.21 Ω_lock`.
+fn speed(app: &App) -> Part {
     let look = &app.appearance;
     let (text, quiet) = (look.style(Role::Text), look.style(Role::Quiet));
-    let mut parts = Vec::new();
-    let coupled = app.is_coupled();
-    for (name, limit) in thresholds(app) {
+    let arrow = match app.scene.operation.speed_ramp_rad_s2 {
+        ramp if ramp > 0.0 => "↑",
+        ramp if ramp < 0.0 => "↓",
+        _ => "",
+    };
+    // A speed that changes keeps its width.
+    let shown = match arrow {
+        "" => digits(rounded(app.speed(), 4)),
+        _ => format!("{:.1}", app.speed()),
+    };
+    let alone = vec![(format!("{shown} rad/s{arrow}"), text)];
+    let mut most = vec![alone.clone()];
+    for (name, limit) in named_limits(app) {
+        let mut longer = most.last().cloned().unwrap_or_default();
         match limit {
-            // Where the coincidence matters, Ω_c makes room for it.
-            _ if coupled && name == "c" => {}
-            None if name == "lock" => parts.push(("  no lock".into(), quiet)),
-            limit => {
-                parts.push((format!("  Ω_{name} "), quiet));
-                parts.push((limit.map_or("-".into(), short), text));
-            }
+            Some(limit) if limit > 0.0 => longer.extend([
+                (" = ".into(), quiet),
+                (format!("{:.2}", app.speed().abs() / limit), text),
+                (format!(" {name}"), quiet),
+            ]),
+            Some(_) => continue,
+            None => longer.push((format!(", no {name}"), quiet)),
         }
+        most.push(longer);
     }
-    parts.extend(lock_ends(app).map(|ends| (ends, text)));
-    if let Some(coincidence) = app.coincidence().filter(|_| coupled) {
-        parts.push(("  coincidence ".into(), quiet));
-        parts.push((short(coincidence), text));
+    // Each ratio is given up alone, the last one first.
+    let ranks = [0, 3, 4, 4];
+    let mut forms: Vec<_> = ranks.into_iter().zip(most).collect();
+    forms.reverse();
+    Part::new(forms)
+}
+
+/// The limits of the speed that matter here, the most important first.
+fn named_limits(app: &App) -> Vec<(&'static str, Option<f64>)> {
+    let (critical, lock) = (("Ω_c", app.machine.critical_speed()), app.lock_speed());
+    let lock = (if lock.is_none() { "lock" } else { "Ω_lock" }, lock);
+    let coincidence = app.coincidence().filter(|_| app.is_coupled());
+    let mut limits = match coincidence {
+        Some(speed) => vec![("coincidence", Some(speed)), lock, critical],
+        None => vec![critical, lock],
+    };
+    limits.retain(|(name, limit)| *name != "Ω_c" || limit.is_some());
+    limits.sort_by_key(|(_, limit)| limit.is_none());
+    limits
+}
+
+/// The limits as numbers.
+fn limits(app: &App) -> Option<Part> {
+    let quiet = app.appearance.style(Role::Quiet);
+    let to = app.lock_window().and_then(|window| window.to);
+    let known = named_limits(app).into_iter().filter_map(|(name, limit)| Some((name, limit?)));
+    let mut told: Vec<String> = known
+        .map(|(name, limit)| {
+            let to = to.filter(|_| name == "Ω_lock").map(|to| format!(" to {}", short(to)));
+            format!("{name} {}{}", short(limit), to.unwrap_or_default())
+        })
+        .collect();
+    if !app.is_coupled()
+        && let Some(coincidence) = app.machine.dangerous_speed_toward(app.speed())
+    {
+        told.push(format!("coincidence {}", short(coincidence)));
     }
-    parts.push((" rad/s".into(), quiet));
-    parts
+    (!told.is_empty()).then(|| Part::plain(10, told.join(", "), quiet))
 }
 
 /// Four or five digits are enough for a limit.
@@ -287,40 +267,70 @@ fn short(speed: f64) -> String {
     trimmed(&format!("{speed:.decimals$}")).to_string()
 }
 
-/// Whether another solver, or a small change, says otherwise.
-fn doubts(app: &App, doubt: Option<String>) -> Parts {
-    let look = &app.appearance;
-    let known = app.full_run().zip(app.results().reference.as_ref()).is_some();
-    match doubt {
-        Some(other) => vec![(format!("  | {other}"), look.style(Role::Trouble))],
-        None if known => vec![("  | event agrees".into(), look.style(Role::Quiet))],
-        None => Parts::new(),
-    }
-}
-
-/// The solver and its speed; the scene.
-fn solver(app: &App) -> Parts {
+/// `AT 100 ms locked since 38.1 µs`.
+fn end(app: &App) -> Part {
     let look = &app.appearance;
     let (text, quiet) = (look.style(Role::Text), look.style(Role::Quiet));
-    let solver = &app.scene.solver;
-    let mut parts = vec![
-        ("  ".to_string(), quiet),
-        (solver.kind.to_string(), text),
-        (format!(" {} {}", solver.contact, solver.model), quiet),
-    ];
+    let at = vec![("AT ".into(), quiet), (duration(app.end_s()), text)];
+    let run = app.full_run().filter(|_| !app.is_asked());
+    let since = run.and_then(|run| {
+        let since = run.since.map(|t| format!(" {} since {}", run.verdict, readable(t, "s")));
+        since.or(run.broken.map(|(hold, _)| format!(" lock until {}", readable(hold.ended, "s"))))
+    });
+    let longer = since.map(|since| (5, [at.clone(), vec![(since, quiet)]].concat()));
+    Part::new(longer.into_iter().chain([(0, at)]).collect())
+}
+
+/// What contact that only pushes does, by the event solver.
+fn other(app: &App) -> Option<Part> {
+    let own = app.full_run()?;
+    let other = app.results().reference.as_ref()?;
+    let quiet = app.appearance.style(Role::Quiet);
+    let text = match app.scene.solver.contact {
+        ContactLaw::Bilateral => format!("other law: {}", other.verdict),
+        _ if other.verdict == own.verdict => "event solver agrees".into(),
+        _ => format!("event solver: {}", other.verdict),
+    };
+    Some(Part::plain(6, text, quiet))
+}
+
+/// The pinned run, if it ended in another way.
+fn baseline(app: &App) -> Option<Part> {
+    let word = &app.run.baseline.as_ref()?.word;
+    let text = format!("pinned: {word}");
+    (*word != app.verdict_word()).then(|| Part::plain(3, text, app.appearance.style(Role::Text)))
+}
+
+/// What keys do otherwise than usual: pages of time, and knobs that act at once.
+fn modes(app: &App) -> Vec<Part> {
+    let focus = app.appearance.style(Role::Focus);
+    let pages = app.play.pages_back;
+    let word = if pages > 0 { "back" } else { "ahead" };
+    let pages = (pages != 0).then(|| format!("{} {word}", pages.abs()));
+    let live = app.knobs.live.then(|| "LIVE".to_string());
+    pages.into_iter().chain(live).map(|text| Part::plain(1, text, focus)).collect()
+}
+
+/// The next change of contact.
+fn next(app: &App) -> Option<Part> {
+    let next = app.next_change().filter(|_| !app.is_asked())?;
+    let (what, after) = (app.happening(next.what), readable(next.t_s - app.now(), "s"));
+    Some(Part::plain(8, format!("next: {what} in {after}"), app.appearance.style(Role::Quiet)))
+}
+
+/// How fast the run was computed.
+fn cost(app: &App) -> Option<Part> {
     let pace = &app.results().pace;
-    if let Some(step) = pace.step_s {
-        parts.push((format!(" {}/step taken", duration(step)), text));
-    }
+    let run = pace.run_s?;
+    let mut parts = Vec::new();
+    parts.extend(pace.step_s.map(|step| format!("{}/step taken", duration(step))));
     if let Some(part) = pace.skipped {
         // Rounded down: 100 % means that no step was taken.
         let percent = (1e3 * part).floor() / 10.0;
-        parts.push((format!(", {} % skipped", trimmed(&format!("{percent:.1}"))), quiet));
+        parts.push(format!("{} % skipped", trimmed(&format!("{percent:.1}"))));
     }
-    if let Some(run) = pace.run_s {
-        parts.push((format!(", {} in {}", duration(solver.end_s), duration(run)), quiet));
-    }
-    parts
+    parts.push(format!("{} in {}", duration(app.scene.solver.end_s), duration(run)));
+    Some(Part::plain(11, parts.join(", "), app.appearance.style(Role::Quiet)))
 }
 
 /// Two or three digits are enough for a duration.

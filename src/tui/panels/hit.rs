@@ -54,10 +54,8 @@ fn knob_target(app: &App, places: &Places, (x, y): (u16, u16)) -> Option<Target>
     let area = column::inside(places.knobs);
     let line = *column::lines(app, area.height).get(usize::from(y - area.y))?;
     Some(match line {
-        ColumnLine::Heading(group, _) => Target::Group(group.places().next()?),
-        ColumnLine::Folded(first, second) => {
-            let chosen = if x < area.x + column::SECOND { first } else { second };
-            Target::Group(chosen.places().next()?)
+        ColumnLine::Heading(group) | ColumnLine::Folded(group) => {
+            Target::Group(group.places().next()?)
         }
         ColumnLine::Knob(place) => Target::Knob(place),
         ColumnLine::Bar(place) => Target::Bar(place, bar::part(column::bar_cells(area), x)),
@@ -72,17 +70,12 @@ fn alone(app: &App, places: &Places) -> Option<Rect> {
     }
 }
 
-/// The place on the bar of a knob at a column of the screen, 0 to 1. A knob
-/// without a bar of its own has its whole line.
-pub fn part_of_bar(app: &App, knob: usize, x: u16) -> Option<f64> {
+/// The place on the bar of the selected knob at a column of the screen, 0 to 1.
+pub fn part_of_bar(app: &App, x: u16) -> Option<f64> {
     let places = places_of(app)?;
-    let area = column::inside(places.knobs);
-    let cells = if !places.column {
-        alone(app, &places)?
-    } else if column::lines(app, area.height).contains(&ColumnLine::Bar(knob)) {
-        column::bar_cells(area)
-    } else {
-        area
+    let cells = match places.column {
+        true => column::bar_cells(column::inside(places.knobs)),
+        false => alone(app, &places)?,
     };
     Some(bar::part(cells, x))
 }

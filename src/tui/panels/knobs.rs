@@ -19,12 +19,11 @@ pub fn panel(app: &App, buffer: &mut Buffer, area: Rect) {
     for (y, line) in (area.y..area.bottom()).zip(&lines) {
         let row = Rect { y, height: 1, ..area };
         match *line {
-            ColumnLine::Heading(group, open) => heading(app, buffer, row, group, open),
-            ColumnLine::Folded(first, second) => folded(app, buffer, row, [first, second]),
+            ColumnLine::Heading(group) => heading(app, buffer, row, group),
+            ColumnLine::Folded(group) => folded(app, buffer, row, group),
             ColumnLine::Knob(place) => {
-                let own = lines.contains(&ColumnLine::Bar(place));
                 if let Some(knob) = KNOBS.get(place) {
-                    self::knob(app, buffer, row, knob, place == app.knobs.selected, !own);
+                    self::knob(app, buffer, row, knob, place == app.knobs.selected);
                 }
             }
             ColumnLine::Bar(place) => {
@@ -50,42 +49,48 @@ pub fn panel(app: &App, buffer: &mut Buffer, area: Rect) {
     }
 }
 
-/// A rule with the name of a group; how many knobs it has if they are folded.
-fn heading(app: &App, buffer: &mut Buffer, row: Rect, group: Group, open: bool) {
+/// A rule with the name of an open group.
+fn heading(app: &App, buffer: &mut Buffer, row: Rect, group: Group) {
     let look = &app.appearance;
     let (rule, quiet) = (look.either("─", "-"), look.style(Role::Quiet));
-    let text = match open {
-        true => format!(" {} ", group.name()),
-        false => look.spell(&format!(" {} ▸ {} ", group.name(), group.places().count())),
-    };
+    let text = format!(" {} ", group.name());
     let rest = rule.repeat(usize::from(row.width).saturating_sub(1 + columns(&text)));
     let parts = [(rule.to_string(), quiet), (text, look.style(Role::Text)), (rest, quiet)];
     pieces(buffer, row, 0, &parts);
 }
 
-/// A rule with the names of two folded groups.
-fn folded(app: &App, buffer: &mut Buffer, row: Rect, groups: [Group; 2]) {
+/// A folded group: its name, how many knobs it has, and those that are not as in the scene,
+/// as many as have room.
+fn folded(app: &App, buffer: &mut Buffer, row: Rect, group: Group) {
     let look = &app.appearance;
-    let (rule, quiet) = (look.either("─", "-"), look.style(Role::Quiet));
-    let [first, second] = groups
-        .map(|group| look.spell(&format!(" {} ▸ {} ", group.short_name(), group.places().count())));
-    let between = usize::from(column::SECOND).saturating_sub(columns(&first)).max(1);
-    let used = between + columns(&first) + 1 + columns(&second);
-    let rest = rule.repeat(usize::from(row.width).saturating_sub(used));
+    let head = look.spell(&format!(" {} {} ▸", group.name(), group.places().count()));
+    let changed: Vec<String> = group
+        .places()
+        .filter_map(|place| KNOBS.get(place))
+        .filter(|knob| knob.get(&app.scene) != knob.get(&app.files.opened))
+        .map(|knob| look.spell(&format!(" {}* {}", knob.symbol(), knob.text(&app.scene))))
+        .collect();
+    let mut shown = changed.concat();
+    let room = usize::from(row.width).saturating_sub(columns(&head));
+    if columns(&shown) > room {
+        let more = |count: usize| match count {
+            0 => String::new(),
+            count => format!(" +{count}*"),
+        };
+        let fits = |count: &usize| {
+            let first = changed.iter().take(*count).map(|text| columns(text)).sum::<usize>();
+            first + columns(&more(changed.len() - count)) <= room
+        };
+        let count = (0..changed.len()).rev().find(fits).unwrap_or(0);
+        let first: Vec<String> = changed.iter().take(count).cloned().collect();
+        shown = format!("{}{}", first.concat(), more(changed.len() - count));
+    }
     let text = look.style(Role::Text);
-    let parts = [
-        (rule.repeat(between), quiet),
-        (first, text),
-        (rule.to_string(), quiet),
-        (second, text),
-        (rest, quiet),
-    ];
-    pieces(buffer, row, 0, &parts);
+    pieces(buffer, row, 0, &[(head, text), (shown, text.add_modifier(Modifier::BOLD))]);
 }
 
-/// A line with a knob; where it has no bar of its own, its place in its range is
-/// underlined.
-fn knob(app: &App, buffer: &mut Buffer, row: Rect, knob: &Knob, selected: bool, underlined: bool) {
+/// A line with a knob.
+fn knob(app: &App, buffer: &mut Buffer, row: Rect, knob: &Knob, selected: bool) {
     let look = &app.appearance;
     let value = knob.get(&app.scene);
     let changed = value != knob.get(&app.files.opened);
@@ -111,15 +116,6 @@ fn knob(app: &App, buffer: &mut Buffer, row: Rect, knob: &Knob, selected: bool, 
         (false, false) => look.style(Role::Text),
     };
     print(buffer, row, 0, &format!("{label}{}{shown}", " ".repeat(pad)), style);
-    if !underlined || inert {
-        return;
-    }
-    let range = knob.range(&app.scene, &app.files.opened, &app.machine);
-    let place = range.zip(knob.number(&app.scene)).and_then(|(range, x)| range.place(x));
-    if let Some(part) = place {
-        let width = (part * f64::from(row.width)).round() as u16;
-        buffer.set_style(Rect { width, ..row }, style.add_modifier(Modifier::UNDERLINED));
-    }
 }
 
 /// What the selected knob does and its allowed values, or why a value was refused.
@@ -140,15 +136,16 @@ fn notes(app: &App, width: usize) -> Vec<(String, Role)> {
     lines
 }
 
-/// One sentence: what a knob does, its unit, and its allowed values.
+/// One sentence: what a knob does, and its range.
 fn sentence(knob: &Knob) -> String {
-    let allowed = match knob.allowed() {
-        Allowed::OneOf(words) => words.join(", "),
-        other => other.to_string().trim_start_matches("a number ").to_string(),
-    };
-    match knob.unit() {
-        "" => format!("{} ({allowed})", knob.does),
-        unit => format!("{} ({unit}, {allowed})", knob.does),
+    let mut text = knob.does.to_string();
+    if let Some(first) = text.get_mut(..1) {
+        first.make_ascii_uppercase();
+    }
+    match knob.allowed() {
+        // Their words are in it.
+        Allowed::OneOf(_) => format!("{text}."),
+        _ => format!("{text}; {}.", knob.range_words()),
     }
 }
 
@@ -205,6 +202,9 @@ mod tests {
             let lines = wrap(&sentence(knob), 26);
             assert!(lines.len() <= usize::from(column::NOTES), "{lines:#?}");
             assert!(sentence(knob).contains(knob.unit()));
+            if let Allowed::OneOf(words) = knob.allowed() {
+                assert!(words.iter().all(|word| sentence(knob).contains(word)));
+            }
         }
     }
 }

@@ -95,42 +95,55 @@ fn lesson(body: Rect, app: &App) -> (Option<Rect>, Rect) {
     (Some(lesson), body)
 }
 
-/// One large chart, and as many of the requested smaller ones as can be read.
+/// Rows of a chart with its title that can be read, and of the wheel above another chart.
+const LEAST_ROWS: u16 = 9;
+const WHEEL_ROWS: u16 = 12;
+
+/// One large chart, and as many of the requested smaller ones as can be read. The wheel is
+/// as wide as it is high and has another chart at its side; any other has the whole width.
 fn split(area: Rect, app: &App) -> Vec<(ViewId, Rect)> {
     let views = app.layout.views().iter().copied();
-    let halves = || [Constraint::Percentage(50), Constraint::Percentage(50)];
-    let readable = match area.height {
-        0..14 => 0,
-        14..20 if area.width < PAIR_FROM => 1,
-        _ => 3,
+    let beside = u16::try_from(app.layout.beside).unwrap_or(0);
+    let large = if area.width >= PAIR_FROM { LEAST_ROWS } else { WHEEL_ROWS };
+    let below = area.height.saturating_sub(large) / LEAST_ROWS;
+    let vertical = |parts: &[Constraint]| Layout::vertical(parts.iter()).split(area).to_vec();
+    let pair = |area: Rect, left: u16| {
+        let parts = [Constraint::Percentage(left), Constraint::Percentage(100 - left)];
+        Layout::horizontal(parts).spacing(1).split(area).to_vec()
     };
-    let companions = app.layout.beside.min(readable);
-    let areas: Vec<Rect> = match (companions, area.width >= PAIR_FROM) {
-        (0, _) => vec![area],
-        (1, _) => Layout::vertical(LARGE).split(area).to_vec(),
-        (2, true) => {
-            let [top, bottom] = Layout::vertical(LARGE).areas(area);
-            let [left, right] = Layout::horizontal(halves()).spacing(1).areas(bottom);
-            vec![top, left, right]
+    let wheel = app.is_large(ViewId::Frame);
+    let areas = match (area.width >= PAIR_FROM, beside) {
+        (_, 0) => vec![area],
+        (true, 1) if wheel => pair(area, WHEEL_PART),
+        (true, _) if below == 0 => {
+            if wheel {
+                pair(area, WHEEL_PART)
+            } else {
+                vec![area]
+            }
         }
-        (_, true) => {
-            let [top, bottom] = Layout::vertical(halves()).areas(area);
-            let [a, b] = Layout::horizontal(halves()).spacing(1).areas(top);
-            let [c, d] = Layout::horizontal(halves()).spacing(1).areas(bottom);
-            vec![a, b, c, d]
-        }
-        (count, false) => {
-            let low = area.height * 3 / (4 + 3 * u16::try_from(count).unwrap_or(2));
+        (true, 1) => vertical(&LARGE),
+        (true, most) => match vertical(&LARGE).as_slice() {
+            [top, bottom] if wheel && most == 2 => [pair(*top, WHEEL_PART), vec![*bottom]].concat(),
+            [top, bottom] if wheel => [pair(*top, WHEEL_PART), pair(*bottom, WHEEL_PART)].concat(),
+            [top, bottom] => [vec![*top], pair(*bottom, 50)].concat(),
+            _ => vec![area],
+        },
+        (false, most) => {
+            let count = most.min(below);
+            let low = area.height * 3 / (4 + 3 * count);
             let mut rows = vec![Constraint::Min(1)];
-            rows.extend((0..count).map(|_| Constraint::Length(low)));
-            Layout::vertical(rows).split(area).to_vec()
+            rows.extend((0..count).map(|_| Constraint::Length(low.max(LEAST_ROWS))));
+            vertical(&rows)
         }
     };
     views.zip(areas).collect()
 }
 
-/// The large chart above, a smaller one below.
+/// The large chart above, smaller ones below.
 const LARGE: [Constraint; 2] = [Constraint::Percentage(55), Constraint::Percentage(45)];
+/// Part of the width that the wheel has, in per cent.
+const WHEEL_PART: u16 = 44;
 
 /// Rows between header and footer, which take three.
 fn body_rows(app: &App) -> u16 {

@@ -7,7 +7,7 @@ use ratatui::style::{Modifier, Style};
 use ratatui::widgets::Widget;
 use tui_big_text::{BigText, PixelSize};
 
-use super::bar;
+use super::{bar, header};
 use crate::tui::app::{App, InputMode};
 use crate::tui::text::{columns, print, shorten};
 use crate::tui::theme::Role;
@@ -44,10 +44,9 @@ pub fn split(app: &App, area: Rect) -> [Rect; 4] {
 /// Draws the verdict and its reason.
 pub fn letters(app: &App, buffer: &mut Buffer, area: Rect) {
     let look = &app.appearance;
-    let words = app.verdict();
-    let style = look.style(words.role).add_modifier(Modifier::BOLD);
+    let (told, style) = header::told(app, usize::from(area.width));
     let rows = area.height.saturating_sub(1);
-    let wide = u16::try_from(columns(&words.word)).unwrap_or(u16::MAX);
+    let wide = u16::try_from(columns(&told.word)).unwrap_or(u16::MAX);
     let sizes = [
         (PixelSize::Full, 8, 8, true),
         (PixelSize::HalfHeight, 8, 4, false),
@@ -61,7 +60,7 @@ pub fn letters(app: &App, buffer: &mut Buffer, area: Rect) {
             let text = BigText::builder()
                 .pixel_size(size)
                 .style(style)
-                .lines(vec![words.word.as_str().into()])
+                .lines(vec![told.word.as_str().into()])
                 .centered()
                 .build();
             let area = Rect { height: rows, ..area };
@@ -71,9 +70,10 @@ pub fn letters(app: &App, buffer: &mut Buffer, area: Rect) {
                 solid(buffer, area);
             }
         }
-        None => centred(app, buffer, area, rows / 2, &words.word, style),
+        None => centred(app, buffer, area, rows / 2, &told.word, style),
     }
-    centred(app, buffer, area, rows, &words.detail, look.style(words.role));
+    let parts = told.doubt.map_or(told.what.clone(), |doubt| format!("{} {doubt}", told.what));
+    centred(app, buffer, area, rows, &parts, look.style(Role::Text));
 }
 
 /// Blocks as ASCII.

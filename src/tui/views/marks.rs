@@ -4,20 +4,15 @@ use crate::tui::app::App;
 use crate::tui::plot::Plot;
 use crate::tui::theme::Role;
 
-/// Names of marked speeds in the upper rows, one below the other if close.
+/// Names of marked speeds where the chart is empty, as high as possible, or on the axis; one
+/// that covers data is left out, and has its line.
 pub fn names(plot: &mut Plot, marks: &[(f64, &str)], app: &App) {
-    let mut free = [0_u16; 3];
+    let style = app.appearance.style(Role::Text);
     for (speed, name) in marks {
         let name = app.appearance.spell(name);
-        let Some(column) = plot.column(*speed) else { continue };
-        let wide = u16::try_from(name.chars().count()).unwrap_or(u16::MAX);
-        let column = column.min(plot.inner.right().saturating_sub(wide));
-        for (row, free) in (plot.inner.y..plot.inner.bottom()).zip(&mut free) {
-            if column >= *free {
-                plot.note(*speed, row, &name, app.appearance.style(Role::Text));
-                *free = column.saturating_add(wide + 1);
-                break;
-            }
+        let mut rows = plot.inner.y..plot.inner.bottom();
+        if !rows.any(|row| plot.free_note(*speed, row, &name, style)) {
+            plot.axis_note(*speed, &name, style, &app.appearance);
         }
     }
 }

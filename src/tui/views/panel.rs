@@ -14,7 +14,7 @@ use crate::tui::appearance::Appearance;
 use crate::tui::axis::ChartAxis;
 use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
-use crate::tui::text::{marked_pieces, print};
+use crate::tui::text::{columns, pieces, print};
 use crate::tui::theme::Role;
 use crate::tui::views::ViewId;
 
@@ -126,8 +126,8 @@ impl ViewArea {
     }
 }
 
-/// The title row: a rule with the digit and name of the view and its legend, as
-/// many whole entries as fit, and a mark where some do not. Returns the rest of the area.
+/// The title row: a rule with the digit and name of the view and of its legend, the first
+/// ones first, what fits whole. Returns the rest of the area.
 pub fn title(
     app: &App,
     buffer: &mut Buffer,
@@ -149,7 +149,15 @@ pub fn title(
     let parts: Vec<_> =
         parts.map(|(text, style)| (format!(" {} ", look.spell(text)), *style)).collect();
     let inside = Rect { x: area.x + 1, width: area.width.saturating_sub(1), ..area };
-    marked_pieces(buffer, inside, 0, &parts, look.either("… ", ".. "));
+    let mut left = usize::from(inside.width);
+    let mut fits = |(text, _): &(String, Style)| {
+        // A space at the end needs no room.
+        let fits = columns(text.trim_end_matches(' ')) <= left;
+        left -= if fits { columns(text).min(left) } else { 0 };
+        fits
+    };
+    let parts: Vec<_> = parts.into_iter().filter(|part| fits(part)).collect();
+    pieces(buffer, inside, 0, &parts);
     Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area }
 }
 
@@ -167,18 +175,30 @@ fn working(app: &App, at: ViewArea) -> Option<(String, Style)> {
 pub fn entry(look: &Appearance, pen: &Pen, name: &str) -> (String, Style) {
     let stroke = match (look.ascii(), pen.dashed) {
         (true, _) => pen.sign.to_string().repeat(2),
-        (false, true) => "··".to_string(),
+        (false, true) => "╌╌".to_string(),
         (false, false) => "──".to_string(),
     };
     (format!("{stroke} {name}"), pen.style)
 }
 
-/// The name of a level, at its right end.
+/// A legend entry of what is drawn in single dots.
+pub fn dots(look: &Appearance, name: &str) -> (String, Style) {
+    (format!("{} {name}", look.either("· ·", ". .")), look.style(Role::Quiet))
+}
+
+/// The name of a level, on it where the chart is empty, the farthest to the right.
 pub fn name_level(plot: &mut Plot, x: ChartAxis, level: f64, name: &str, style: Style) {
-    if let Some(row) = plot.row(level) {
-        plot.note(x.high, row, name, style);
+    let Some(row) = plot.row(level) else { return };
+    let parts = (0..=LEVEL_PLACES).rev().map(|k| f64::from(k) / f64::from(LEVEL_PLACES));
+    for part in parts {
+        if plot.free_note(x.at(part), row, name, style) {
+            return;
+        }
     }
 }
+
+/// Places along a level that are tried for its name.
+const LEVEL_PLACES: u32 = 40;
 
 /// Shows that the study of a view is not computed yet.
 pub fn not_yet(app: &App, buffer: &mut Buffer, inside: Rect) {

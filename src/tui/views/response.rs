@@ -1,10 +1,10 @@
 //! View 1: the casing coordinates against time on a page that fills, the blade
-//! coordinates below if there is room, and the other contact law or a pinned
+//! coordinates below on the whole screen, and the other contact law or a pinned
 //! run for comparison.
 
-use ratatui::buffer::Buffer;
+use ratatui::{buffer::Buffer, layout::Rect};
 
-use super::panel::{ViewArea, ViewPanel, csv, entry, name_level, names, title};
+use super::panel::{ViewArea, ViewPanel, csv, dots, entry, name_level, names, title};
 use crate::motion::ActiveSet;
 use crate::report::line::clean;
 use crate::scene::ModelSize;
@@ -12,7 +12,7 @@ use crate::tui::app::{App, Cursor};
 use crate::tui::axis::{AutoRange, ChartAxis, instant, readable};
 use crate::tui::engine::{FullRun, Moment};
 use crate::tui::history::{self, Bin, Channel};
-use crate::tui::plot::Plot;
+use crate::tui::plot::{Plot, contact};
 use crate::tui::raster::Pen;
 use crate::tui::text::{columns, print, wrap};
 use crate::tui::theme::Role;
@@ -22,6 +22,8 @@ use crate::tui::worker::other_law;
 /// From this height on, the blade coordinates have a separate chart.
 const TWO_FROM: u16 = 18;
 
+/// Sub-pixels between two signs of a pinned run.
+const PINNED: usize = 8;
 /// Most changes of contact on a page that are looked at for their names.
 const MOST_NAMES: usize = 500;
 /// From this width on, two contact laws are side by side.
@@ -36,10 +38,10 @@ impl ViewPanel for ResponseView {
     }
 
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
-        let casing = Page::casing("response, casing".into(), app);
+        let casing = Page::casing("response".into(), app);
         if app.run.compare {
             both_laws(app, buffer, at);
-        } else if at.area.height >= TWO_FROM && !app.appearance.wide && bends(app) {
+        } else if at.area.height >= TWO_FROM && app.layout.full_screen && bends(app) {
             let [above, below] = at.rows(60);
             page(app, buffer, above, &casing);
             let blades = Page {
@@ -132,9 +134,10 @@ fn both_laws(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let [first, second] =
         if at.area.width >= SIDE_BY_SIDE_FROM { at.columns() } else { at.rows(50) };
     let law = app.scene.solver.contact;
-    let own = format!("{}: {}", law, app.verdict().word);
+    let own = format!("{}: {}", law, app.verdict_word());
     let comparison = app.results().comparison.as_ref();
-    let word = comparison.map_or("...".to_string(), |outcome| app.words(outcome).word);
+    let word =
+        comparison.map_or("...".to_string(), |outcome| outcome.verdict.as_ref().to_uppercase());
     let theirs = Page {
         record: app.comparison_record(),
         forecast: comparison,
@@ -164,7 +167,7 @@ fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
     let (x, y) = (ChartAxis::scaled(from, to), ChartAxis::scaled(what.range.low, what.range.high));
     let pens = [look.first(), look.second()];
     let quiet = look.style(Role::Quiet);
-    let mark = look.either('▪', '#');
+    let mark = contact(look);
     let mut legend: Vec<_> =
         pens.iter().zip(what.names).map(|(pen, name)| entry(look, pen, name)).collect();
     let read = reading(app, what, usize::from(at.area.width));
@@ -173,15 +176,17 @@ fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
         // The values come first: names and units may have no room.
         legend.insert(0, (read, look.style(Role::Focus)));
     }
-    legend.push((format!("{}{} over {}s", y.scale.prefix, what.unit, x.scale.prefix), quiet));
+    legend.push((format!("{}{} by {}s", y.scale.prefix, what.unit, x.scale.prefix), quiet));
     if let Some(baseline) = app.run.baseline.as_ref().filter(|_| what.own) {
-        legend.push(entry(look, &look.quiet(), &format!("pinned: {}", baseline.what(app))));
+        legend.push((format!("+ + pinned: {}", baseline.what(app)), quiet));
+    }
+    if what.forecast.is_some() {
+        legend.push(dots(look, "to come"));
     }
     legend.push((format!("{mark} contact"), look.style(Role::Contact)));
-    if what.forecast.is_some() {
-        legend.push((format!("{} to come", look.either("···", "...")), quiet));
-    }
     let inside = title(app, buffer, at, name, &legend);
+    let inside = if what.own { failed(app, buffer, inside) } else { inside };
+    let y = y.evened(inside, look);
     let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
     at.note(app, plot.inner);
     plot.level(0.0, look.either('┈', '.'), quiet);
@@ -193,17 +198,23 @@ fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
         plot.upright(t, look.either('┊', ':'), look.style(Role::Focus));
     }
     let columns = plot.columns();
-    if let Some(baseline) = app.run.baseline.as_ref().filter(|_| what.own) {
-        let pinned = baseline.history.fine_between(from, to);
-        let pinned = history::columns(pinned, what.channels[0], (from, to), columns);
-        plot.spans(&pinned, &look.quiet());
-    }
     let (past, _) = app.past_and_future(what.record);
     ghost(app, &mut plot, what);
     for (channel, pen) in what.channels.iter().zip(&pens).rev() {
         plot.spans(&history::columns(past, *channel, (from, to), columns), pen);
     }
     plot.ink();
+    if let Some(baseline) = app.run.baseline.as_ref().filter(|_| what.own) {
+        let pinned = baseline.history.fine_between(from, to);
+        let cells = u16::try_from(columns).unwrap_or(u16::MAX);
+        let pinned = history::columns(pinned, what.channels[0], (from, to), columns);
+        for (k, span) in (0..cells).zip(pinned).step_by(PINNED) {
+            let t = x.at((f64::from(k) + 0.5) / f64::from(cells));
+            if let Some((low, high)) = span {
+                plot.point(t, 0.5 * (low + high), '+', quiet);
+            }
+        }
+    }
     for (level, name) in levels {
         name_level(&mut plot, x, level, name, quiet);
     }
@@ -215,15 +226,18 @@ fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
         plot.text(column, row, &mark.to_string(), look.style(Role::Contact));
     }
     names_of_marks(app, &mut plot, what);
-    if let Some(failure) = app.failure()
-        && what.own
-    {
-        let inner = plot.inner;
-        let width = usize::from(inner.width).saturating_sub(2);
-        for (row, line) in (inner.y..inner.bottom()).zip(wrap(failure, width)) {
-            plot.text(inner.x + 1, row, &look.spell(&line), look.style(Role::Trouble));
-        }
+}
+
+/// Why the motion stopped, in the words of the solver, above the chart; returns the rest.
+fn failed(app: &App, buffer: &mut Buffer, inside: Rect) -> Rect {
+    let (look, width) = (&app.appearance, usize::from(inside.width).saturating_sub(2));
+    let lines = app.failure().map_or(Vec::new(), |failure| wrap(&look.spell(failure), width));
+    let rows = u16::try_from(lines.len()).unwrap_or(u16::MAX).min(inside.height / 3);
+    let area = Rect { x: inside.x + 1, width: inside.width.saturating_sub(1), ..inside };
+    for (row, line) in (0..rows).zip(lines) {
+        print(buffer, area, row, &line, look.style(Role::Trouble));
     }
+    Rect { y: inside.y + rows, height: inside.height - rows, ..inside }
 }
 
 /// The clearance, which the casing may pass where the tips move with it, and its name.
@@ -271,25 +285,24 @@ fn ghost(app: &App, plot: &mut Plot, what: &Page) {
     let length = what.record.iter().map(|bin| bin.to - bin.from).fold(0.0, f64::max);
     let parts: &[f64] = if length * fastest > 1.0 { &[0.0, 1.0] } else { &[0.5] };
     for (channel, pen) in what.channels.iter().zip([look.first(), look.second()]).rev() {
+        let sparse = if pen.dashed { 2.0 } else { 1.0 };
         let pen = Pen { sign: '.', dashed: false, ..pen };
         for part in parts {
             let points = what.record.iter().map(|bin| {
                 let (low, high) = bin.span(*channel);
                 (0.5 * (bin.from + bin.to), low + part * (high - low))
             });
-            plot.dotted(points, ahead, &pen);
+            plot.dotted(points, ahead, sparse, &pen);
         }
     }
 }
 
-/// The blades at the first contacts of the page, on the time axis.
+/// The blades at the first contacts of the page, on the axis of time.
 fn names_of_marks(app: &App, plot: &mut Plot, what: &Page) {
     let Some(run) = what.forecast.filter(|_| what.own && what.unit == "m") else { return };
     let (from, to) = app.page();
     let look = &app.appearance;
-    let row = plot.inner.bottom().saturating_sub(1);
     let sign = look.either('▲', '^');
-    let mut taken: Vec<(u16, u16)> = Vec::new();
     let first = run.marks.partition_point(|mark| mark.t_s < from);
     let on_page = || run.marks.iter().skip(first).take_while(|mark| mark.t_s <= to);
     // Corners have their names first: they are what lasts.
@@ -307,13 +320,7 @@ fn names_of_marks(app: &App, plot: &mut Plot, what: &Page) {
             }
             let name = app.numbers_of(touching.sides()).replace(' ', "");
             let text = format!("{sign}{name}");
-            let wide = u16::try_from(text.chars().count()).unwrap_or(u16::MAX);
-            let Some(from) = plot.column(mark.t_s) else { continue };
-            let to = from.saturating_add(wide);
-            if to <= plot.inner.right() && taken.iter().all(|(a, b)| to < *a || from > *b) {
-                plot.text(from, row, &text, look.style(Role::Contact));
-                taken.push((from, to));
-            }
+            plot.axis_note(mark.t_s, &text, look.style(Role::Contact), look);
         }
     }
 }

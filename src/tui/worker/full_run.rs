@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::copies::Copies;
-use crate::motion::{Motion, verdict_of};
+use crate::motion::{Motion, lock_that_broke, verdict_of};
 use crate::tolerances::LAST_PART;
 use crate::tui::engine::{FORECAST_LIMIT, FullRun, FullRunState};
 use crate::tui::trace::{Mark, Marks, Trace};
@@ -121,19 +121,18 @@ impl FullRunJob {
         let motion = &self.motion;
         let log = motion.contacts();
         let verdict = verdict_of(motion, self.window);
-        let period = std::f64::consts::TAU / motion.machine().omega_c;
-        let broken = log.longest_hold.filter(|hold| hold.length() >= period);
         let step = (self.end - self.start) / f64::from(SAMPLES);
         FullRun {
             trace: Arc::new(Trace { from: self.start, step, points: self.points.clone() }),
             marks: Arc::new(self.marks.seen.clone()),
-            broken: broken.map(|hold| (hold, motion.rotor().speed(hold.ended))),
+            broken: lock_that_broke(motion),
             verdict,
             since: verdict.keeps_contact().then_some(log.since),
             multipliers: motion.multipliers(),
             impacts: log.impact_count,
             checks: motion.checks(),
-            failure: motion.stopped(),
+            stopped: motion.stopped(),
+            failure: motion.failure().cloned(),
         }
     }
 

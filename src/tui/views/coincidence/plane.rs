@@ -72,7 +72,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
         let place = -1.0 / stiffness;
         plot.point(place, 0.0, look.either('┃', '!'), look.style(Role::Text));
         if let Some(row) = plot.row(0.0) {
-            plot.note(place, row + 1, name, look.style(Role::Text));
+            plot.free_note(place, row + 1, name, look.style(Role::Text));
         }
     }
     for wave in &waves {
@@ -82,7 +82,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let ends = [(x.low, 0.0, "Re"), (0.0, y.high, "Im")];
     for (at_x, at_y, name) in ends {
         if let Some(row) = plot.row(at_y) {
-            plot.note(at_x, row, name, quiet);
+            plot.free_note(at_x, row, name, quiet);
         }
     }
 }

@@ -1,5 +1,5 @@
-//! View 4: the casing wave as a point in the frame that turns with the blades,
-//! inside the polygon of phase groups, with its trail; and the wheel.
+//! View 4: the wheel, and where there is room the casing wave as a point in the frame that
+//! turns with the blades, inside the polygon of phase groups, with its trail.
 
 mod wheel;
 
@@ -17,21 +17,24 @@ use crate::tui::raster::Pen;
 use crate::tui::theme::Role;
 use crate::tui::worker::rim_point;
 
+/// From this width on, the polygon is beside the wheel where nothing else is shown.
+const BOTH_FROM: u16 = 76;
+
 /// The view.
 pub struct FrameView;
 
 impl ViewPanel for FrameView {
     fn what(&self) -> &'static str {
-        "blade frame and wheel"
+        "the wheel, and the wave as the blades see it"
     }
 
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
-        if at.area.width >= 60 && at.area.height >= 10 {
+        if at.area.width >= BOTH_FROM && app.is_alone() {
             let [left, right] = at.columns();
-            polygon(app, buffer, left);
-            wheel::draw(app, buffer, right);
+            wheel::draw(app, buffer, ViewArea { large: false, ..left });
+            polygon(app, buffer, right);
         } else {
-            polygon(app, buffer, at);
+            wheel::draw(app, buffer, at);
         }
     }
 

@@ -67,6 +67,7 @@ fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
         legend.insert(0, (read, look.style(Role::Focus)));
     }
     let inside = title(app, buffer, at, "gaps", &legend);
+    let y = y.evened(inside, look);
     let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
     at.note(app, plot.inner);
     plot.level(0.0, look.either('━', '='), look.style(Role::Text));
@@ -122,16 +123,19 @@ fn reading(app: &App) -> Option<String> {
     (!parts.is_empty()).then(|| parts.join(" "))
 }
 
-/// Numbers of the touching blades under the zero line.
+/// Numbers of the touching blades on the axis, or under the zero line where it is empty.
 fn label(plot: &mut Plot, active_set: &[u32], app: &App) {
-    let Some(row) = plot.row(0.0).map(|row| row + 1).filter(|row| *row < plot.inner.bottom())
-    else {
-        return;
-    };
     if app.has_lining() && 2 * active_set.len() > app.machine.polygon.blades as usize {
         return;
     }
+    let (look, below) = (&app.appearance, plot.row(0.0).map(|row| row + 1));
+    let style = look.style(Role::Contact);
     for blade in active_set.iter().take(16) {
-        plot.note(f64::from(*blade), row, &format!("{blade}"), app.appearance.style(Role::Contact));
+        let (at, name) = (f64::from(*blade), blade.to_string());
+        if !plot.axis_note(at, &name, style, look)
+            && let Some(row) = below
+        {
+            plot.free_note(at, row, &name, style);
+        }
     }
 }

@@ -12,7 +12,7 @@ use crate::tui::axis::{ChartAxis, nice_step, readable};
 use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
 use crate::tui::theme::Role;
-use crate::tui::views::panel::{ViewArea, entry, title};
+use crate::tui::views::panel::{ViewArea, dots, entry, title};
 
 /// A quantity of the locked motion.
 type Quantity = (&'static str, fn(&LockedPoint) -> f64);
@@ -61,16 +61,23 @@ impl Chart {
         let scaled = || points.iter().filter(|point| curves.scales(point.speed_rad_s));
         let values = self.quantities.iter().flat_map(|(_, of)| scaled().map(of));
         let (x, y) = (ChartAxis::plain(0.0, curves.fastest), range(values));
-        let pens: [Pen; 3] = [look.first(), look.second(), look.quiet()];
+        let pens: [Pen; 2] = [look.first(), look.second()];
         let named = pens.iter().zip(self.quantities);
         let mut legend: Vec<_> = named.map(|(pen, (name, _))| entry(look, pen, name)).collect();
+        let third = self.quantities.get(2);
+        legend.extend(third.map(|(name, _)| dots(look, name)));
         legend.push((format!("{}{} over rad/s", y.scale.prefix, self.unit), quiet));
         legend.push((self.note.to_string(), quiet));
         let inside = title(app, buffer, at, self.name, &legend);
+        let y = y.evened(inside, look);
         let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
         at.note(app, plot.inner);
         plot.level(0.0, look.either('┈', '.'), quiet);
         super::uprights(&mut plot, app, curves);
+        if let Some((_, of)) = third {
+            let curve = points.iter().map(|point| (point.speed_rad_s.abs(), of(point)));
+            plot.dotted(curve, x.low, 1.0, &look.quiet());
+        }
         for (pen, (_, of)) in pens.iter().zip(self.quantities).rev() {
             plot.curve(points.iter().map(|point| (point.speed_rad_s.abs(), of(point))), pen);
         }
@@ -129,5 +136,5 @@ fn not_this_run(app: &App, can_last: bool) -> Option<String> {
     let run = app.full_run().filter(|_| can_last && !app.is_asked())?;
     let elsewhere = (cursor.across - here.across).abs() > 0.5 * STEP;
     let locks = matches!(run.verdict, Verdict::Locked | Verdict::Adhesive);
-    (!elsewhere && !locks).then(|| format!("but this run: {}", app.words(run).word))
+    (!elsewhere && !locks).then(|| format!("but this run: {}", run.verdict.as_ref().to_uppercase()))
 }

@@ -9,7 +9,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Rect};
 
 use super::marks;
-use super::panel::{ViewArea, ViewPanel, csv, entry, title};
+use super::panel::{ViewArea, ViewPanel, csv, dots, entry, title};
 use crate::harmonic::{LockedPoint, Sweep};
 use crate::motion::ActiveSet;
 use crate::tui::app::{App, Cursor};
@@ -21,7 +21,7 @@ use crate::tui::theme::Role;
 use charts::{AMPLITUDES, ANGLES};
 use curves::LockedCurves;
 
-/// From this height on, the undamped curve of the paper is shown too.
+/// From this height on, the large chart shows the undamped curve of the paper too.
 const ROOMY: u16 = 14;
 /// From these heights on, the blade angles, and the amplitudes too, have charts.
 const TWO_FROM: u16 = 18;
@@ -101,7 +101,7 @@ fn multipliers(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let look = &app.appearance;
     let quiet = look.style(Role::Quiet);
     let curves = app.results().found.locked.as_deref();
-    let roomy = at.area.height >= ROOMY;
+    let roomy = at.large && at.area.height >= ROOMY;
     let pair = curves.is_some_and(|curves| curves.undamped.is_some());
     let point = look.either('◆', '@');
     let mut legend = vec![entry(look, &look.first(), if pair { "λ_a" } else { "λ" })];
@@ -123,7 +123,7 @@ fn multipliers(app: &App, buffer: &mut Buffer, at: ViewArea) {
     legend.push((format!("{prefix}N over rad/s"), quiet));
     legend.push(("below 0 pushes".into(), quiet));
     if pair && roomy {
-        legend.push(entry(look, &look.quiet(), "undamped"));
+        legend.push(dots(look, "undamped"));
     }
     if app.has_lining() {
         legend.push(("of a rigid casing".into(), quiet));
@@ -147,7 +147,7 @@ fn multipliers(app: &App, buffer: &mut Buffer, at: ViewArea) {
     };
     let inside = if at.large { read(app, curves, buffer, inside) } else { inside };
     // The scale follows the curves: the mean over an impact may be far outside.
-    let y = force_axis(curves, damped);
+    let y = force_axis(curves, damped).evened(inside, look);
     let x = ChartAxis::plain(0.0, curves.fastest);
     let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
     at.note(app, plot.inner);
@@ -156,7 +156,9 @@ fn multipliers(app: &App, buffer: &mut Buffer, at: ViewArea) {
     plot.curve(curves.whirl.iter().copied(), &going_round);
     if let Some(undamped) = &curves.undamped {
         if roomy {
-            curve(&mut plot, undamped, 0, &look.quiet());
+            let points = undamped.points.iter();
+            let points = points.map(|point| (point.speed_rad_s.abs(), point.multipliers_n[0]));
+            plot.dotted(points, x.low, 1.0, &look.quiet());
         }
         curve(&mut plot, damped, 1, &look.second());
     }

@@ -236,15 +236,25 @@ fn style(look: &Appearance, cell: Option<Cell>) -> Style {
 fn block(look: &Appearance, [above, below]: [Option<Cell>; 2]) -> (char, Style) {
     let of = |cell: Option<Cell>| cell.and_then(|cell| colour(look, cell.verdict));
     let plain = Style::new();
+    let pulls = |cell: &Option<Cell>| cell.is_some_and(|cell| cell.verdict == Verdict::Adhesive);
+    if let Some(pulling) = [above, below].into_iter().find(pulls) {
+        // A lock that pulls has a sign of its own, not a colour alone.
+        let other = [above, below].into_iter().find(|cell| !pulls(cell)).and_then(of);
+        let style = of(pulling).map_or(plain, |colour| plain.fg(colour));
+        return (PULLS, other.map_or(style, |colour| style.bg(colour)));
+    }
     match (of(above), of(below)) {
         (Some(above), Some(below)) if above == below => (' ', plain.bg(above)),
         (Some(above), Some(below)) => ('▀', plain.fg(above).bg(below)),
         (Some(above), None) => ('▀', plain.fg(above)),
         (None, Some(below)) => ('▄', plain.fg(below)),
         (None, None) if above.or(below).is_some() => ('░', look.style(Role::Quiet)),
-        (None, None) => (' ', plain),
+        (None, None) => (look.either('·', ' '), look.style(Role::Quiet)),
     }
 }
+
+/// A lock that pulls.
+const PULLS: char = '▒';
 
 /// The sign of a verdict in the legend, as it is on the map.
 pub fn sign(look: &Appearance, verdict: Verdict) -> (char, Style) {
@@ -252,6 +262,7 @@ pub fn sign(look: &Appearance, verdict: Verdict) -> (char, Style) {
     match (letters(look), colour(look, verdict)) {
         (true, _) => (mark(cell), style(look, cell)),
         (false, None) => ('░', look.style(Role::Quiet)),
+        (false, Some(colour)) if verdict == Verdict::Adhesive => (PULLS, Style::new().fg(colour)),
         (false, Some(colour)) => ('█', Style::new().fg(colour)),
     }
 }

@@ -37,7 +37,7 @@ pub fn value_text(path: &str, value: f64) -> String {
 
 /// As `value_text`; a number without a unit with its symbol, such as `n_d 3`.
 fn named_value(axis: &Axis, value: f64) -> String {
-    let symbol = knob_of(&axis.path).and_then(|knob| knob.label.split(' ').next_back());
+    let symbol = knob_of(&axis.path).map(Knob::symbol);
     match symbol.filter(|_| unit(&axis.path).is_empty()) {
         Some(symbol) => format!("{symbol} {}", value_text(&axis.path, value)),
         None => value_text(&axis.path, value),

@@ -137,7 +137,7 @@ impl Columns {
         Rect { x, width: line.right() - x, height: 1, ..line }
     }
 
-    /// The cells of a knob: symbol, bar and number.
+    /// The cells of a knob: symbol, number and bar.
     pub fn knob_cells(&self, line: Rect, place: usize) -> [Rect; 3] {
         let places = self.places(line);
         let found = places.into_iter().find(|(column, _)| *column == Knob(place));
@@ -146,7 +146,9 @@ impl Columns {
             let x = whole.x.saturating_add(from).min(whole.right());
             Rect { x, width: width.min(whole.right() - x), ..whole }
         };
-        let bar = self.label + 1;
-        [part(0, self.label), part(bar, self.knob_bar), part(bar + self.knob_bar + 1, u16::MAX)]
+        // The number stands beside its own knob; the bar is at the end.
+        let number = self.label + 1;
+        let bar = whole.width.saturating_sub(self.knob_bar);
+        [part(0, self.label), part(number, bar.saturating_sub(number + 1)), part(bar, u16::MAX)]
     }
 }

@@ -2,15 +2,18 @@
 
 use super::LiveMargins;
 use crate::report::margins::LimitRow;
-use crate::report::number::rounded;
+use crate::report::number::{rounded, short};
 use crate::study::margins::{Margins, Quantity};
 use crate::tui::app::App;
 use crate::tui::axis::readable;
-use crate::tui::knobs::{knob_of, number};
+use crate::tui::knobs::{Knob, knob_of, number};
 use crate::tui::views::Opening;
 
 /// Digits of a limit.
 pub const DIGITS: usize = 5;
+
+/// From this factor on, a margin is told as one.
+const FACTORS: f64 = 10.0;
 
 impl LiveMargins {
     /// Margins in which nothing was searched yet.
@@ -42,9 +45,12 @@ pub fn with_unit(value: f64, quantity: Quantity) -> String {
     }
 }
 
-/// How far beyond a limit the scene is.
+/// How far beyond a limit the scene is, in per cent, or as a factor where it is far.
 pub fn percent_text(row: &LimitRow) -> String {
-    row.margin().map_or(String::new(), |margin| percent(100.0 * margin) + " %")
+    row.margin().map_or(String::new(), |margin| match 1.0 + margin {
+        factor if factor >= FACTORS => format!("{} x", short(rounded(factor, 3))),
+        _ => format!("{:+.1} %", 100.0 * margin),
+    })
 }
 
 /// Why there is no value.
@@ -82,16 +88,14 @@ pub fn opening(row: &LimitRow, column: usize, app: &App) -> Opening {
 
 /// The symbol of a parameter: the last word of the name of its knob.
 pub fn knob_symbol(path: &'static str) -> &'static str {
-    knob_of(path).and_then(|knob| knob.label.split(' ').next_back()).unwrap_or(path)
+    knob_of(path).map_or(path, Knob::symbol)
 }
 
-/// A number of per cent with its sign, in at most seven letters.
-fn percent(x: f64) -> String {
-    match x.abs() {
-        0.0..1e3 => format!("{x:+.1}"),
-        1e3..1e6 => format!("{x:+.0}"),
-        _ => format!("{x:+.1e}"),
-    }
+/// The limit that is nearest to the scene.
+pub fn nearest(rows: &[LimitRow]) -> Option<usize> {
+    let margins = rows.iter().enumerate();
+    let margins = margins.filter_map(|(place, row)| Some((place, row.margin()?.abs())));
+    margins.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(place, _)| place)
 }
 
 /// A change in per cent by one per cent of a knob, in about three digits.

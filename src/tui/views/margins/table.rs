@@ -60,6 +60,7 @@ impl<'a> Table<'a> {
         let row = cell.map_or(0, |[_, row]| row);
         let first = row / page * page;
         let shown = first..(first + page).min(count);
+        let nearest = rows::nearest(self.rows);
         let mut y = 0;
         for (place, row) in self.rows.iter().enumerate().filter(|(place, _)| shown.contains(place))
         {
@@ -70,7 +71,7 @@ impl<'a> Table<'a> {
             let line = Rect { y: area.y.saturating_add(y), height: 1, ..area };
             if y < area.height {
                 let column = cell.filter(|cell| cell[1] == place).map(|[column, _]| column);
-                self.row(buffer, line, row, column);
+                self.row(buffer, line, row, (column, nearest == Some(place)));
                 self.note(line, place);
             }
             y += 1;
@@ -127,14 +128,22 @@ impl<'a> Table<'a> {
         print(buffer, area, y, &shorten(&text, width, rule), look.style(Role::Quiet));
     }
 
-    /// One row; `cursor` is the column that is read in it.
-    fn row(&self, buffer: &mut Buffer, line: Rect, row: &LimitRow, cursor: Option<usize>) {
+    /// One row; `cursor` is the column that is read in it, and whether it is the nearest.
+    fn row(
+        &self,
+        buffer: &mut Buffer,
+        line: Rect,
+        row: &LimitRow,
+        (cursor, nearest): (Option<usize>, bool),
+    ) {
         let columns = &self.columns;
         let look = &self.app.appearance;
         let style = |role: Role| look.style(if self.old { Role::Quiet } else { role });
         let here = look.style(Role::Focus).add_modifier(Modifier::REVERSED);
         if cursor.is_some() {
             print(buffer, line, 0, look.either("▸", ">"), look.style(Role::Focus));
+        } else if nearest {
+            print(buffer, line, 0, words::nearest_sign(look), style(Role::Focus));
         }
         let quiet = row.value().is_none();
         for (column, place) in columns.places(line) {
@@ -182,14 +191,14 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// One knob: its symbol, a signed bar, and the change by one per cent.
+    /// One knob: its symbol, the change by one per cent, and a signed bar.
     fn knob(&self, buffer: &mut Buffer, line: Rect, place: usize, row: &LimitRow, under: bool) {
         let look = &self.app.appearance;
         let strongest = row.strongest();
         let Some((path, by)) = strongest.get(place + self.first_knob) else { return };
         let most = strongest.first().map_or(1.0, |first| first.1.abs());
         let style = |role: Role| look.style(if self.old { Role::Quiet } else { role });
-        let [label, bar, number] = self.columns.knob_cells(line, place);
+        let [label, number, bar] = self.columns.knob_cells(line, place);
         let name = style(Role::Text);
         let name =
             if under { look.style(Role::Focus).add_modifier(Modifier::REVERSED) } else { name };
@@ -212,8 +221,8 @@ impl<'a> Table<'a> {
         };
         let mut left = line;
         for shown in 0..columns.knobs() {
-            let [label, _, number] = columns.knob_cells(line, shown);
-            let area = Rect { width: number.right().saturating_sub(label.x), ..label };
+            let [label, _, bar] = columns.knob_cells(line, shown);
+            let area = Rect { width: bar.right().saturating_sub(label.x), ..label };
             self.at.note_part(self.app, area, [across(shown + first_knob + 1), up]);
             if shown == 0 {
                 left.width = label.x.saturating_sub(line.x);

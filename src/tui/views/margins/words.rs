@@ -8,16 +8,22 @@ use super::rows::{change_text, opening, percent_text, reason, with_unit};
 use crate::report::margins::LimitRow;
 use crate::study::margins::Side;
 use crate::tui::app::App;
+use crate::tui::appearance::Appearance;
 use crate::tui::knobs::knob_of;
 use crate::tui::theme::Role;
 use crate::tui::views::Opening;
 
-/// The colour of a side.
+/// The colour of a side: to be beyond a limit is no trouble.
 pub fn role(side: Side) -> Role {
     match side {
-        Side::Below => Role::Good,
-        Side::At | Side::Beyond | Side::Inside => Role::Contact,
+        Side::Below => Role::Quiet,
+        Side::At | Side::Beyond | Side::Inside => Role::Text,
     }
+}
+
+/// The sign of the nearest limit.
+pub fn nearest_sign(look: &Appearance) -> &'static str {
+    look.either("●", "*")
 }
 
 /// The title: whether the margins are old, and what the signs of the bars mean.
@@ -33,6 +39,7 @@ pub fn title(app: &App, width: u16) -> Vec<(String, Style)> {
     line.push((format!("{now} now"), look.style(Role::Focus)));
     line.push((format!("{limit} limit"), look.style(Role::Text)));
     line.push((format!("{lasting} lasts"), look.style(Role::Contact)));
+    line.push((format!("{} nearest", nearest_sign(look)), look.style(Role::Focus)));
     line.extend(app.tuned_note().map(|note| (note.to_string(), look.style(Role::Quiet))));
     line
 }

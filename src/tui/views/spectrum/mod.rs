@@ -7,7 +7,8 @@ use ratatui::buffer::Buffer;
 
 use self::transform::Spectrum;
 use super::ViewId;
-use super::panel::{ViewArea, ViewPanel, csv, entry, not_yet, title};
+use super::marks;
+use super::panel::{ViewArea, ViewPanel, csv, entry, name_level, not_yet, title};
 use crate::tui::app::App;
 use crate::tui::axis::{ChartAxis, nice_step, readable};
 use crate::tui::plot::Plot;
@@ -98,9 +99,7 @@ fn amplitudes(app: &App, buffer: &mut Buffer, at: ViewArea) {
         plot.curve(points.take_while(|(w, _)| *w <= x.high), &pen);
     }
     plot.ink();
-    for ((frequency, name), row) in marks.iter().zip(plot.inner.y..) {
-        plot.note(*frequency, row, &look.spell(name), look.style(Role::Text));
-    }
+    marks::names(&mut plot, &marks, app);
 }
 
 /// The line nearest to a frequency.
@@ -148,7 +147,5 @@ fn campbell(app: &App, buffer: &mut Buffer, at: ViewArea) {
     for speed in crossings {
         plot.point(sense * speed, app.machine.omega_c, meet, look.style(Role::Contact));
     }
-    if let Some(row) = plot.row(app.machine.omega_c) {
-        plot.note(x.low, row, &look.spell("ω_c"), look.style(Role::Text));
-    }
+    name_level(&mut plot, x, app.machine.omega_c, &look.spell("ω_c"), look.style(Role::Text));
 }

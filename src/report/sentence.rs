@@ -1,0 +1,581 @@
+//! What a run does, in one sentence of plain words, and what makes it doubtful in a
+//! second one. Every sentence has shorter forms: what is told is the longest that has
+//! room whole, so nothing is ever cut.
+
+use std::fmt;
+
+use super::number::{count, grouped, with_unit};
+use crate::motion::{Failure, FailureReason, RunReport, Verdict};
+use crate::scene::ContactLaw;
+
+/// Between the word of the verdict and its sentence, and between two sentences.
+const APART: [&str; 2] = ["  ", " "];
+/// Most blades that are named one by one.
+const NAMED: usize = 4;
+
+/// What a sentence is made of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Facts {
+    /// How the motion lasts.
+    pub verdict: Verdict,
+    /// The blades in contact at the end.
+    pub blades: Vec<u32>,
+    /// Those of them that pull.
+    pub pulling: Vec<u32>,
+    /// Impacts in all.
+    pub touches: u64,
+    /// The contact law.
+    pub law: ContactLaw,
+    /// Whether all blades rub the lining at rest.
+    pub pressed: bool,
+    /// Whether the casing is damped: left alone, it comes to rest.
+    pub damped: bool,
+    /// The rotor speed at which a lock let go on the way \[rad/s\].
+    pub broken: Option<f64>,
+    /// Why the run stopped early.
+    pub failure: Option<Failure>,
+    /// What makes the verdict doubtful, the worst first.
+    pub doubts: Vec<Doubt>,
+}
+
+/// What makes a verdict doubtful.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Doubt {
+    /// The contact pulled in so many steps, which no real one can; and what a contact that
+    /// only pushes does, where that is known.
+    Pulls(u64, Option<Verdict>),
+    /// A change that no measurement could see changes the outcome.
+    Sensitive,
+    /// The event solver says otherwise, for this reason.
+    Differs(Verdict, Cause),
+}
+
+/// Why two solvers differ.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cause {
+    /// The step is too long.
+    Step,
+    /// The step is too long, or the angles that the solver leaves out are not small.
+    Angles,
+}
+
+/// A verdict in words that fit in a width.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Sentence {
+    /// One word in capitals.
+    pub word: String,
+    /// What happens.
+    pub what: String,
+    /// What makes it doubtful, if it is and there is room.
+    pub doubt: Option<String>,
+}
+
+impl fmt::Display for Sentence {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [after_word, between] = APART;
+        f.write_str(&self.word)?;
+        if !self.what.is_empty() {
+            write!(f, "{after_word}{}", self.what)?;
+        }
+        self.doubt.iter().try_for_each(|doubt| write!(f, "{between}{doubt}"))
+    }
+}
+
+impl Sentence {
+    /// The word with the longest of these forms that fit in so many columns, each list from
+    /// long to short. A doubt in few words goes before a longer sentence.
+    #[must_use]
+    pub fn of(word: &str, forms: &[String], doubts: &[String], width: usize) -> Self {
+        let sentence = |what: &str, doubt: Option<&String>| Self {
+            word: word.to_string(),
+            what: what.to_string(),
+            doubt: doubt.cloned(),
+        };
+        let fits = |sentence: &Self| sentence.to_string().chars().count() <= width;
+        // Both get shorter in turn, the sentence first.
+        let pairs = (0..forms.len() + doubts.len()).flat_map(|shorter| {
+            let pair = move |place: usize| Some((forms.get(shorter - place)?, doubts.get(place)?));
+            (0..=shorter).filter_map(pair)
+        });
+        let doubted = pairs.map(|(what, doubt)| sentence(what, Some(doubt)));
+        let alone = forms.iter().map(|what| sentence(what, None));
+        doubted.chain(alone).find(fits).unwrap_or_else(|| sentence("", None))
+    }
+}
+
+impl Facts {
+    /// Of a run. What a contact that only pushes would do is not known of it.
+    #[must_use]
+    pub fn of(report: &RunReport) -> Self {
+        let (outcome, scene) = (&report.outcome, &report.scene);
+        let blades = |pulling: bool| {
+            let groups = outcome.contacts.iter();
+            let groups = groups.filter(move |group| !pulling || group.multiplier_n > 0.0);
+            groups.flat_map(|group| group.blades.iter().copied()).collect()
+        };
+        let pulls = report.checks.tensile_steps;
+        let pulls = (pulls > 0).then_some(Doubt::Pulls(pulls, None));
+        let sensitive = (outcome.sensitive == Some(true)).then_some(Doubt::Sensitive);
+        Self {
+            verdict: outcome.verdict,
+            blades: blades(false),
+            pulling: blades(true),
+            touches: report.impact_count,
+            law: report.solver.contact,
+            pressed: scene.clearance() < 0.0,
+            damped: scene.casing.damping_ratio > 0.0,
+            broken: report.broken.map(|(_, speed)| speed),
+            failure: report.failure.clone(),
+            doubts: pulls.into_iter().chain(sensitive).collect(),
+        }
+    }
+
+    /// In at most so many columns; from 40 on there is always a sentence.
+    #[must_use]
+    pub fn sentence(&self, width: usize) -> Sentence {
+        let word = self.verdict.as_ref().to_uppercase();
+        let doubts = self.doubts.first().map_or(Vec::new(), |doubt| self.doubt(*doubt));
+        Sentence::of(&word, &self.forms(), &doubts, width)
+    }
+
+    /// What happens, from the longest form to the shortest.
+    fn forms(&self) -> Vec<String> {
+        if let (Some(speed), Some(after)) = (self.broken, self.after_a_lock()) {
+            let at = with_unit(speed, 4, "rad/s");
+            return vec![
+                format!("The lock breaks at {at}; then {after}."),
+                format!("The lock breaks at {at}."),
+                "The lock breaks.".into(),
+            ];
+        }
+        match self.verdict {
+            Verdict::Locked => self.held(),
+            Verdict::Adhesive => self.pulled(),
+            Verdict::Slip if self.pressed => plain(&[
+                "All blades press the lining, and the wave slips along them.",
+                "The wave slips along the pressed blades.",
+                "The wave slips.",
+            ]),
+            Verdict::Slip => plain(&[
+                "A blade always touches, and the wave slips along the blades.",
+                "The wave slips along the blades.",
+                "The wave slips.",
+            ]),
+            Verdict::Whirl => plain(&[
+                "The contact runs from blade to blade and keeps them swinging.",
+                "The contact runs round and swings the blades.",
+                "The contact swings the blades.",
+                "The blades swing.",
+            ]),
+            Verdict::Bounce => self.bounced(),
+            Verdict::Decay => self.decayed(),
+            Verdict::Divergent => {
+                let why = self.failure.as_ref().map(|failure| why(&failure.reason));
+                let mut forms = Vec::new();
+                if let Some(why) = why {
+                    forms.push(format!("The motion grows without end: {why}."));
+                    forms.push(format!("It grows without end: {why}."));
+                }
+                forms.extend(plain(&["It grows without end.", "It only grows."]));
+                forms
+            }
+            Verdict::Failed => self.failed(),
+        }
+    }
+
+    /// What follows a lock that broke.
+    fn after_a_lock(&self) -> Option<&'static str> {
+        match self.verdict {
+            Verdict::Decay => Some(self.rest()),
+            Verdict::Bounce => Some("blades and casing bounce"),
+            Verdict::Slip => Some("the wave slips along"),
+            Verdict::Whirl => Some("the contact runs round"),
+            _ => None,
+        }
+    }
+
+    /// How a casing ends that nothing touches.
+    fn rest(&self) -> &'static str {
+        if self.damped { "the casing comes to rest" } else { "the casing swings on freely" }
+    }
+
+    fn held(&self) -> Vec<String> {
+        let [hold, carry] = match self.blades.len() {
+            1 => ["holds", "carries"],
+            _ => ["hold", "carry"],
+        };
+        let who = named(&self.blades, true);
+        let mut forms = vec![
+            format!("{who} {hold} the casing's wave and {carry} it round."),
+            format!("{who} {hold} the casing's wave."),
+            format!("{who} {hold} the wave."),
+            format!("{} {hold} the wave.", named(&self.blades, false)),
+            format!("{} {hold} it.", counted(&self.blades)),
+        ];
+        // Four names have no room in twelve words.
+        if self.blades.len() == NAMED {
+            forms.remove(0);
+        }
+        forms
+    }
+
+    fn pulled(&self) -> Vec<String> {
+        let pulls = match self.pulling.as_slice() {
+            [] => "one pulls".to_string(),
+            [blade] => format!("blade {blade} pulls"),
+            several => format!("{} pull", several.len()),
+        };
+        let hold = if self.blades.len() == 1 { "holds" } else { "hold" };
+        vec![
+            format!("{} {hold} the wave, but {pulls}.", named(&self.blades, true)),
+            format!("The wave is held, but {pulls}."),
+            "A pull holds the wave.".into(),
+            "A pull holds it.".into(),
+        ]
+    }
+
+    fn bounced(&self) -> Vec<String> {
+        if self.touches == 0 {
+            return plain(&["Blades and casing meet and part again.", "They meet and part."]);
+        }
+        let touches = touches(self.touches);
+        vec![
+            format!("Blades and casing meet and part again and again: {touches}."),
+            format!("Blades and casing meet and part: {touches}."),
+            format!("They meet and part: {touches}."),
+            "They meet and part.".into(),
+        ]
+    }
+
+    fn decayed(&self) -> Vec<String> {
+        let rest = self.rest();
+        if self.pressed {
+            return plain(&[
+                "The wave dies away; the blades rub the lining as at rest.",
+                "The wave dies; the blades rub as at rest.",
+                "The wave dies away.",
+            ]);
+        }
+        if self.touches == 0 {
+            return vec![
+                format!("No blade touches; {rest}."),
+                "No blade touches the casing.".into(),
+                "No blade touches.".into(),
+            ];
+        }
+        let touches = touches(self.touches);
+        let who = match self.law {
+            ContactLaw::Smooth => "They leave the lining",
+            ContactLaw::Unilateral | ContactLaw::Bilateral => "The blades let go",
+        };
+        vec![
+            format!("{who} after {touches}; {rest}."),
+            format!("{who} after {touches}."),
+            format!("They let go after {touches}."),
+            "The blades let go.".into(),
+        ]
+    }
+
+    fn failed(&self) -> Vec<String> {
+        let Some(failure) = &self.failure else {
+            return plain(&["The computation stops before the end.", "The computation stops."]);
+        };
+        let (at, why) = (with_unit(failure.t_s, 3, "s"), why(&failure.reason));
+        let mut alone = why.to_string();
+        if let Some(first) = alone.get_mut(..1) {
+            first.make_ascii_uppercase();
+        }
+        vec![
+            format!("The computation stops at {at}: {why}."),
+            format!("Stopped at {at}: {why}."),
+            format!("Stopped: {why}."),
+            format!("{alone}."),
+            "The computation stops.".into(),
+        ]
+    }
+
+    /// A doubt, from the longest form to the shortest.
+    fn doubt(&self, doubt: Doubt) -> Vec<String> {
+        match doubt {
+            Doubt::Pulls(steps, otherwise) => {
+                let other = otherwise.filter(|other| *other != self.verdict).and_then(would);
+                let verb = if steps == 1 { "pulls" } else { "pull" };
+                let pulls = format!("{} {verb}", count(steps, "step"));
+                match other {
+                    _ if self.verdict == Verdict::Adhesive => plain(&[
+                        "A real contact cannot pull: it would let go.",
+                        "A real contact cannot pull.",
+                        "No real contact.",
+                    ]),
+                    Some(other) => vec![
+                        format!("A real contact would {other}: {pulls}."),
+                        format!("A real contact would {other}."),
+                        format!("But {pulls}."),
+                        "But it pulls.".into(),
+                    ],
+                    None => vec![
+                        format!("{pulls}, which no real contact can."),
+                        format!("But {pulls}."),
+                        "But it pulls.".into(),
+                    ],
+                }
+            }
+            Doubt::Sensitive => plain(&[
+                "A tiny change of pulse or speed ends otherwise.",
+                "A tiny change ends otherwise.",
+                "Sensitive.",
+            ]),
+            Doubt::Differs(other, cause) => {
+                let why = match cause {
+                    Cause::Step => "the step is too long",
+                    Cause::Angles => "step or angles are too large",
+                };
+                let does = match other {
+                    Verdict::Failed => "fails".into(),
+                    other => format!("says {other}"),
+                };
+                vec![
+                    format!("The exact solver {does}: {why}."),
+                    format!("The exact solver {does}."),
+                    format!("Exact: {other}."),
+                ]
+            }
+        }
+    }
+}
+
+/// `1 touch`, `5 touches`.
+fn touches(count: u64) -> String {
+    format!("{} touch{}", grouped(count), if count == 1 { "" } else { "es" })
+}
+
+/// Constant forms.
+fn plain(forms: &[&str]) -> Vec<String> {
+    forms.iter().map(ToString::to_string).collect()
+}
+
+/// What a real contact would do.
+fn would(verdict: Verdict) -> Option<&'static str> {
+    match verdict {
+        Verdict::Decay => Some("let go"),
+        Verdict::Bounce => Some("bounce"),
+        Verdict::Slip => Some("slip"),
+        Verdict::Whirl => Some("whirl"),
+        Verdict::Locked | Verdict::Adhesive => Some("hold"),
+        Verdict::Divergent => Some("diverge"),
+        Verdict::Failed => None,
+    }
+}
+
+/// `Blades 12 and 19`, or without the noun `12 and 19`; many are counted.
+fn named(blades: &[u32], with_noun: bool) -> String {
+    let mut blades = blades.to_vec();
+    blades.sort_unstable();
+    let noun = match (with_noun, blades.len()) {
+        (false, _) => "",
+        (true, 1) => "Blade ",
+        (true, _) => "Blades ",
+    };
+    match blades.as_slice() {
+        [only] => format!("{noun}{only}"),
+        [head @ .., last] if blades.len() <= NAMED => {
+            let head: Vec<String> = head.iter().map(ToString::to_string).collect();
+            format!("{noun}{} and {last}", head.join(", "))
+        }
+        _ => counted(&blades),
+    }
+}
+
+/// `12 + 19`; more than two are counted.
+fn counted(blades: &[u32]) -> String {
+    match blades {
+        [] => "Some blades".into(),
+        [only] => format!("Blade {only}"),
+        [a, b] => format!("{} + {}", a.min(b), a.max(b)),
+        several => format!("{} blades", several.len()),
+    }
+}
+
+/// Why a run stopped, in plain words.
+fn why(reason: &FailureReason) -> &'static str {
+    match reason {
+        FailureReason::BladeAngle { .. }
+        | FailureReason::CornerAngle { .. }
+        | FailureReason::TwoSides { .. } => "the blades bend too far",
+        FailureReason::NoCorner { .. } => "no blades hold the wave",
+        FailureReason::Displacement { .. } => "the casing moves too far",
+        FailureReason::CasingSpeed { .. } => "the casing outruns the blades",
+        FailureReason::LongStep { .. } | FailureReason::Penetration { .. } => {
+            "the step is too long"
+        }
+        FailureReason::Rows { .. } => "too many blades touch at once",
+        FailureReason::Ramp => "the speed must be constant",
+        FailureReason::Series => "the motion is too fast",
+        FailureReason::Events | FailureReason::EventsAtOnce | FailureReason::Looks => {
+            "there are too many touches"
+        }
+        FailureReason::Singular { .. } => "the forces have no answer",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::{Sampling, Script, run_to_end};
+    use crate::scene::{BUILTIN, Scene};
+
+    const WIDTHS: std::ops::RangeInclusive<usize> = 40..=200;
+
+    fn facts(verdict: Verdict) -> Facts {
+        Facts {
+            verdict,
+            blades: vec![19, 12],
+            pulling: Vec::new(),
+            touches: 5,
+            law: ContactLaw::Unilateral,
+            pressed: false,
+            damped: true,
+            broken: None,
+            failure: None,
+            doubts: Vec::new(),
+        }
+    }
+
+    fn failures() -> Vec<FailureReason> {
+        use FailureReason as Reason;
+        let (angle_rad, rows) = (0.1, 7);
+        vec![
+            Reason::BladeAngle { angle_rad },
+            Reason::CornerAngle { angle_rad, most_rad: 0.01 },
+            Reason::TwoSides { angle_rad },
+            Reason::NoCorner { radius_m: 0.1 },
+            Reason::Ramp,
+            Reason::Series,
+            Reason::Events,
+            Reason::EventsAtOnce,
+            Reason::Looks,
+            Reason::Rows { rows },
+            Reason::Displacement { distance_m: 1.0, radius_m: 0.1 },
+            Reason::CasingSpeed { speed_m_s: 1.0, tip_m_s: 0.5 },
+            Reason::LongStep { moved_m: 1.0, side_m: 0.5 },
+            Reason::Penetration { depth_m: 1.0, clearance_m: 0.5 },
+            Reason::Singular { rows },
+        ]
+    }
+
+    /// Whole sentences that fit, of at most twelve words each.
+    fn assert_reads_well(facts: &Facts, width: usize) {
+        let told = facts.sentence(width);
+        let line = told.to_string();
+        assert!(line.chars().count() <= width && line.is_ascii(), "{width}: {line}");
+        for sentence in std::iter::once(&told.what).chain(&told.doubt) {
+            assert!(sentence.ends_with('.') && !sentence.contains(".."), "{width}: {line}");
+            assert!(sentence.split_whitespace().count() <= 12, "{width}: {line}");
+            assert!(
+                sentence.starts_with(|c: char| c.is_ascii_uppercase() || c.is_ascii_digit()),
+                "{line}"
+            );
+        }
+    }
+
+    #[test]
+    fn every_verdict_law_failure_and_doubt_has_a_whole_sentence_at_every_width() {
+        let blades: [&[u32]; 5] =
+            [&[], &[7], &[1012, 1019], &[1001, 1006, 1012, 1017], &[1, 2, 3, 4, 5, 6]];
+        let mut doubts = vec![None, Some(Doubt::Sensitive)];
+        for other in Verdict::ALL {
+            doubts.extend([1, 1_000_000].map(|steps| Some(Doubt::Pulls(steps, Some(other)))));
+            doubts.extend(
+                [Cause::Step, Cause::Angles].map(|cause| Some(Doubt::Differs(other, cause))),
+            );
+        }
+        doubts.push(Some(Doubt::Pulls(2, None)));
+        let mut stopped: Vec<Option<FailureReason>> = failures().into_iter().map(Some).collect();
+        stopped.push(None);
+        for verdict in Verdict::ALL {
+            for law in [ContactLaw::Unilateral, ContactLaw::Bilateral, ContactLaw::Smooth] {
+                for doubt in &doubts {
+                    let early = matches!(verdict, Verdict::Failed | Verdict::Divergent);
+                    for reason in stopped.iter().filter(|reason| early || reason.is_none()) {
+                        for (case, blades) in blades.iter().enumerate() {
+                            let facts = Facts {
+                                law,
+                                blades: blades.to_vec(),
+                                pulling: blades.iter().copied().take(case % 3).collect(),
+                                touches: [0, 1, 5, 143, 1_234_567][case],
+                                pressed: law == ContactLaw::Smooth && case % 2 == 0,
+                                damped: case != 2,
+                                broken: (case == 3).then_some(411.933_5),
+                                failure: reason
+                                    .clone()
+                                    .map(|reason| Failure { t_s: 1.234_5e-4, reason }),
+                                doubts: doubt.iter().copied().collect(),
+                                ..facts(verdict)
+                            };
+                            WIDTHS.for_each(|width| assert_reads_well(&facts, width));
+                            assert_eq!(facts.sentence(200).doubt.is_some(), doubt.is_some());
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn every_built_in_scene_ends_in_a_whole_sentence() {
+        for scene in BUILTIN {
+            let scene = Scene::builtin(scene.name).unwrap().checked().unwrap();
+            let report = run_to_end(&scene, &Script::default(), Sampling::default(), &mut |_| {});
+            let facts = Facts::of(&report);
+            assert_eq!(facts.verdict, report.outcome.verdict);
+            WIDTHS.for_each(|width| assert_reads_well(&facts, width));
+        }
+    }
+
+    #[test]
+    fn what_is_told_at_the_widths_of_terminals() {
+        let locked = Facts {
+            doubts: vec![Doubt::Pulls(2, Some(Verdict::Decay))],
+            law: ContactLaw::Bilateral,
+            ..facts(Verdict::Locked)
+        };
+        let told = |facts: &Facts, width| facts.sentence(width).to_string();
+        for (width, line) in [
+            (40, "LOCKED  12 + 19 hold it. But it pulls."),
+            (60, "LOCKED  Blades 12 and 19 hold the wave. But 2 steps pull."),
+            (80, "LOCKED  Blades 12 and 19 hold the casing's wave. A real contact would let go."),
+            (
+                120,
+                "LOCKED  Blades 12 and 19 hold the casing's wave and carry it round. \
+                 A real contact would let go: 2 steps pull.",
+            ),
+        ] {
+            assert_eq!(told(&locked, width), line);
+        }
+    }
+
+    #[test]
+    fn a_run_says_its_own_facts() {
+        let told = |facts: Facts| facts.sentence(120).to_string();
+        let decay = facts(Verdict::Decay);
+        assert_eq!(
+            told(decay.clone()),
+            "DECAY  The blades let go after 5 touches; the casing comes to rest."
+        );
+        let free = Facts { touches: 0, damped: false, ..decay.clone() };
+        assert_eq!(told(free), "DECAY  No blade touches; the casing swings on freely.");
+        let broken = Facts { broken: Some(380.26), ..decay };
+        assert_eq!(
+            told(broken),
+            "DECAY  The lock breaks at 380.3 rad/s; then the casing comes to rest."
+        );
+        let held = Facts { blades: vec![4], ..facts(Verdict::Locked) };
+        assert_eq!(told(held), "LOCKED  Blade 4 holds the casing's wave and carries it round.");
+        let failure = Failure {
+            t_s: 2e-4,
+            reason: FailureReason::Penetration { depth_m: 1.0, clearance_m: 0.5 },
+        };
+        let failed = Facts { failure: Some(failure), ..facts(Verdict::Failed) };
+        assert_eq!(told(failed), "FAILED  The computation stops at 200 us: the step is too long.");
+    }
+}
