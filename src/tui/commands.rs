@@ -14,7 +14,7 @@ use super::views::ViewId;
 use super::views::map::numeric;
 use super::{Marker, Theme};
 use crate::scene::Value;
-use crate::scene::keys::SPEED;
+use crate::scene::keys;
 
 /// Something that can be asked for.
 #[derive(Clone, Debug, PartialEq)]
@@ -214,7 +214,7 @@ fn one_axis(app: &App, first: &str, words: &str) -> Vec<Found> {
 /// `t 0.3 ms`: an instant to go to.
 fn going_to(app: &App, typed: &str) -> Option<Found> {
     let text = typed.trim_start().strip_prefix(['t', 'T'])?.trim_start_matches(['=', ' ']);
-    let Value::Real(t) = knob_of("solver.end_s")?.parse(text).ok()? else { return None };
+    let Value::Real(t) = knob_of(keys::END)?.parse(text).ok()? else { return None };
     let what = format!("t = {}", readable(t, "s"));
     Some(
         Found::of("go", what, Command::GoTo(t)).beside(format!("now {}", readable(app.now(), "s"))),
@@ -232,7 +232,8 @@ fn assignments(app: &App, typed: &str) -> Vec<Found> {
         let splits = (1..words.len()).filter_map(|at| words.split_at_checked(at));
         let named = splits.rev().filter(|(name, _)| is_named(knob, name));
         let mut values = named.map(|(_, value)| value.join(" "));
-        let alone = (knob.path == SPEED && nameless.ends_with("rpm")).then(|| nameless.clone());
+        let alone =
+            (knob.path == keys::SPEED && nameless.ends_with("rpm")).then(|| nameless.clone());
         let value = values.find_map(|text| Some((knob.parse(&text).ok()?, text)));
         let value = value.or_else(|| alone.and_then(|text| Some((knob.parse(&text).ok()?, text))));
         if let Some((value, text)) = value {
@@ -288,7 +289,7 @@ fn everything(app: &App) -> impl Iterator<Item = Found> {
 fn is_named(knob: &Knob, words: &[&str]) -> bool {
     let label = knob.label.to_lowercase();
     let plain = plain(knob.label).to_lowercase();
-    let law = if knob.path == "solver.contact" { "law" } else { "" };
+    let law = if knob.path == keys::LAW { "law" } else { "" };
     let parts = label.split_whitespace().chain(plain.split_whitespace()).chain([law]);
     let names: Vec<&str> = parts.chain(knob.path.split(['.', '_'])).chain([knob.path]).collect();
     let begins = |word: &str| names.iter().any(|name| name.starts_with(word));
@@ -374,8 +375,8 @@ mod tests {
             ("pulse 1M", PULSE, "1 MN"),
             ("pulse 43.4 kN", PULSE, "43.4 kN"),
             ("law smooth", "solver.contact", "smooth"),
-            ("speed 9500 rpm", SPEED, "994.8377 rad/s"),
-            ("9500rpm", SPEED, "994.8377 rad/s"),
+            ("speed 9500 rpm", keys::SPEED, "994.8377 rad/s"),
+            ("9500rpm", keys::SPEED, "994.8377 rad/s"),
             ("pulse time 20u", "operation.pulse_s", "20 µs"),
             ("operation.pulse_n=1e6", "operation.pulse_n", "1 MN"),
             ("n_d 4", "operation.nodal_diameters", "4"),
@@ -402,7 +403,7 @@ mod tests {
             ("end", Command::Act(Action::GoToEnd)),
             ("blade 7", Command::Blade(7)),
             ("axes clearance pulse", axes(Some("clearance"), Some(PULSE))),
-            ("axes speed over damping zeta_c", axes(Some(SPEED), Some("casing.damping_ratio"))),
+            ("axes speed over damping zeta_c", axes(Some(keys::SPEED), Some("casing.damping_ratio"))),
             ("axes clear", axes(Some("clearance"), None)),
             ("across clear", axes(Some("clearance"), None)),
             ("up pulse t_p", axes(None, Some("operation.pulse_s"))),

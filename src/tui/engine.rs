@@ -120,7 +120,7 @@ pub enum FullRunState {
     /// Given up at this part: it takes too long.
     GivenUp(f64),
     /// Done.
-    Done(FullRun),
+    Done(Box<FullRun>),
 }
 
 /// The result of the run to `solver.end_s`, computed ahead of the playback.

@@ -42,7 +42,7 @@ impl Engine for Late {
             let Snapshot { generation, results, .. } = &mut snapshot;
             let Results { full_run, reference, comparison, .. } = results;
             let full_run = match full_run {
-                Some(FullRunState::Done(run)) => Some(run),
+                Some(FullRunState::Done(run)) => Some(&mut **run),
                 _ => None,
             };
             let results = [full_run, reference.as_mut(), comparison.as_mut()];
@@ -57,7 +57,7 @@ impl Engine for Late {
 fn results(app: &App) -> Vec<u64> {
     let Results { full_run, reference, comparison, .. } = &app.run.latest.results;
     let full_run = match full_run {
-        Some(FullRunState::Done(run)) => Some(run),
+        Some(FullRunState::Done(run)) => Some(&**run),
         _ => None,
     };
     let shown = [full_run, reference.as_ref(), comparison.as_ref()];

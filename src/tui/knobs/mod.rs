@@ -157,13 +157,13 @@ impl Knob {
     fn followed(&self, made: &[Adjustment], law: ContactLaw) -> Option<String> {
         let first = made.first()?;
         Some(match (first.key, self.path) {
-            ("solver.kind", "solver.contact") if law == ContactLaw::Smooth => {
+            (keys::SOLVER, keys::LAW) if law == ContactLaw::Smooth => {
                 "solver is now explicit: a lining has no events".into()
             }
-            ("solver.kind", "solver.contact") => {
+            (keys::SOLVER, keys::LAW) => {
                 "solver is now explicit: bilateral is a law of the time step".into()
             }
-            ("solver.kind", _) => {
+            (keys::SOLVER, _) => {
                 "solver is now explicit: the event solver has no full model".into()
             }
             _ => {
@@ -193,7 +193,7 @@ impl Knob {
             (Value::Whole(n), Turn::Whole(fine, large)) => {
                 let step = if coarse { large } else { fine };
                 let Allowed::Whole { min, mut max } = self.allowed() else { return value.clone() };
-                if self.path == "operation.nodal_diameters" {
+                if self.path == keys::DIAMETERS {
                     // More than N/2 diameters are equivalent to fewer; they can
                     // be typed.
                     max = max.min(u64::from(scene.bladed_disk.blades / 2)).max(*n);
@@ -203,7 +203,7 @@ impl Knob {
             }
             (Value::Text(word), Turn::Words) => {
                 let Allowed::OneOf(mut words) = self.allowed() else { return value.clone() };
-                if self.path == "solver.contact" {
+                if self.path == keys::LAW {
                     words = &LAWS;
                 }
                 let place = words.iter().position(|w| w == word).unwrap_or(0);

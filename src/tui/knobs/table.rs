@@ -5,7 +5,7 @@ use super::clearance::{CLEARANCE, LEAST};
 use super::inert::{self, Inert};
 use super::range::{Bar, bars};
 use super::{Group, Knob, Turn};
-use crate::scene::keys::{PULSE, SPEED};
+use crate::scene::keys;
 use Bar::{From, Of};
 use Group::{Beyond, Machine, Model, Operation, Start, Time};
 use Turn::{Decades, Linear, Whole, Words};
@@ -40,7 +40,7 @@ pub const KNOBS: &[Knob] = &[
     knob(
         Operation,
         "speed Ω",
-        SPEED,
+        keys::SPEED,
         Linear(5.0, 50.0),
         "rotor speed: above Ω_c (c) the wave is pushed onto the blades, above Ω_lock (L) a lock only pushes",
     )
@@ -48,7 +48,7 @@ pub const KNOBS: &[Knob] = &[
     knob(
         Operation,
         "pulse F",
-        PULSE,
+        keys::PULSE,
         Decades(1.0),
         "force of the push on u_c that starts the motion; from t on a blade touches",
     )
@@ -58,7 +58,7 @@ pub const KNOBS: &[Knob] = &[
     knob(
         Operation,
         "diameters n_d",
-        "operation.nodal_diameters",
+        keys::DIAMETERS,
         Whole(1, 4),
         "nodal diameters of the wave in casing and blades",
     )
@@ -66,7 +66,7 @@ pub const KNOBS: &[Knob] = &[
     knob(
         Operation,
         "damping ζ_c",
-        "casing.damping_ratio",
+        keys::CASING_DAMPING,
         Linear(0.005, 0.05),
         "damping ratio of the casing: lets waves die away, and moves Ω_lock up",
     )
@@ -74,7 +74,7 @@ pub const KNOBS: &[Knob] = &[
     knob(
         Operation,
         "damping ζ_bd",
-        "bladed_disk.damping_ratio",
+        keys::BLADE_DAMPING,
         Linear(0.005, 0.05),
         "damping ratio of the blades",
     )
@@ -83,21 +83,21 @@ pub const KNOBS: &[Knob] = &[
     knob(
         Operation,
         "contact",
-        "solver.contact",
+        keys::LAW,
         Words,
         "contact law: unilateral pushes; bilateral, the paper's, pulls too; smooth gives way",
     ),
     knob(
         Operation,
         "solver",
-        "solver.kind",
+        keys::SOLVER,
         Words,
         "solver: explicit takes time steps; event goes from impact to impact exactly",
     ),
     knob(
         Time,
         "pulse time t_p",
-        "operation.pulse_s",
+        keys::PULSE_TIME,
         Decades(1e-9),
         "how long the pulse pushes",
     )
@@ -106,7 +106,7 @@ pub const KNOBS: &[Knob] = &[
     knob(
         Time,
         "speed ramp",
-        "operation.speed_ramp_rad_s2",
+        keys::SPEED_RAMP,
         Decades(1.0),
         "how fast the rotor speeds up, or slows down if negative",
     )
@@ -114,14 +114,14 @@ pub const KNOBS: &[Knob] = &[
     knob(
         Model,
         "model",
-        "solver.model",
+        keys::MODEL,
         Words,
         "model size: rigid moves the casing only, modal two blade modes too, full every blade",
     ),
     knob(
         Model,
         "step h",
-        "solver.step_s",
+        keys::STEP,
         Decades(1e-12),
         "time step of the explicit solver: shorter is more exact and slower",
     )
@@ -129,7 +129,7 @@ pub const KNOBS: &[Knob] = &[
     knob(
         Model,
         "run end",
-        "solver.end_s",
+        keys::END,
         Decades(1e-9),
         "end of the run that the verdict judges",
     ),
@@ -144,28 +144,28 @@ pub const KNOBS: &[Knob] = &[
     knob(
         Machine,
         "blades N",
-        "bladed_disk.blades",
+        keys::BLADES,
         Whole(1, 10),
         "number of blades; with n_d it gives the sides that can touch",
     ),
     knob(
         Machine,
         "casing k_c",
-        "casing.modal_stiffness_n_per_m",
+        keys::CASING_STIFFNESS,
         Decades(1e-6),
         "modal stiffness of the casing; stiffer raises Ω_c",
     ),
     knob(
         Machine,
         "casing m_c",
-        "casing.modal_mass_kg",
+        keys::CASING_MASS,
         Decades(1e-9),
         "modal mass of the casing; heavier lowers Ω_c",
     ),
     knob(
         Machine,
         "blade k_b",
-        "bladed_disk.stiffness_nm_per_rad",
+        keys::BLADE_STIFFNESS,
         Decades(1e-6),
         "stiffness of a blade on the disk",
     )
@@ -173,7 +173,7 @@ pub const KNOBS: &[Knob] = &[
     knob(
         Machine,
         "blade k_bb",
-        "bladed_disk.coupling_nm_per_rad",
+        keys::BLADE_COUPLING,
         Decades(1e-3),
         "stiffness between neighbouring blades",
     )
@@ -181,7 +181,7 @@ pub const KNOBS: &[Knob] = &[
     knob(
         Machine,
         "blade m_b",
-        "bladed_disk.inertia_kg_m2",
+        keys::BLADE_INERTIA,
         Decades(1e-9),
         "moment of inertia of a blade about the axis",
     )
@@ -189,7 +189,7 @@ pub const KNOBS: &[Knob] = &[
     knob(
         Machine,
         "blade l_b",
-        "bladed_disk.blade_length_m",
+        keys::BLADE_LENGTH,
         Linear(1e-6, 1e-5),
         "blade length from the axis to the tip; longer closes the clearance",
     )
@@ -197,7 +197,7 @@ pub const KNOBS: &[Knob] = &[
     knob(
         Machine,
         "casing R_c",
-        "casing.radius_m",
+        keys::CASING_RADIUS,
         Linear(1e-6, 1e-5),
         "inner radius of the casing; larger opens the clearance",
     )
@@ -205,7 +205,7 @@ pub const KNOBS: &[Knob] = &[
     knob(
         Beyond,
         "tip slope κ",
-        "bladed_disk.radial_coupling",
+        keys::RADIAL_COUPLING,
         Linear(0.05, 0.1),
         "radial coupling: a blade tip moves outward by κ l_b α; 0 in the paper",
     )
@@ -214,7 +214,7 @@ pub const KNOBS: &[Knob] = &[
     knob(
         Beyond,
         "friction μ",
-        "contact.friction",
+        keys::FRICTION,
         Linear(0.05, 0.1),
         "Coulomb friction of the blades, which slide forward; 0 in the paper",
     )
@@ -223,7 +223,7 @@ pub const KNOBS: &[Knob] = &[
     knob(
         Beyond,
         "tangential τ",
-        "casing.tangential_ratio",
+        keys::TANGENTIAL_RATIO,
         Linear(0.05, 0.1),
         "tangential over radial motion of the casing: 1/n_d for a ring (r)",
     )
@@ -232,7 +232,7 @@ pub const KNOBS: &[Knob] = &[
     knob(
         Beyond,
         "lining k_p",
-        "contact.stiffness_n_per_m",
+        keys::LINING_STIFFNESS,
         Decades(1e-3),
         "stiffness of the lining under one blade, for the smooth law",
     )
@@ -240,7 +240,7 @@ pub const KNOBS: &[Knob] = &[
     knob(
         Beyond,
         "lining eps",
-        "contact.smoothing_m",
+        keys::LINING_SMOOTHING,
         Decades(1e-9),
         "depth over which the stiffness of the lining sets in, for the smooth law",
     )
@@ -248,7 +248,7 @@ pub const KNOBS: &[Knob] = &[
     knob(
         Beyond,
         "restitution e",
-        "contact.restitution",
+        keys::RESTITUTION,
         Linear(0.05, 0.1),
         "part of the speed that an impact gives back; 0 in the paper",
     )
@@ -257,7 +257,7 @@ pub const KNOBS: &[Knob] = &[
     knob(
         Beyond,
         "diameters n_b",
-        "bladed_disk.nodal_diameters",
+        keys::DISK_DIAMETERS,
         Whole(1, 4),
         "nodal diameters of the disk; 0 for those of the casing (n)",
     )
@@ -266,7 +266,7 @@ pub const KNOBS: &[Knob] = &[
     knob(
         Beyond,
         "mistuning",
-        "bladed_disk.mistuning",
+        keys::MISTUNING,
         Linear(0.005, 0.01),
         "standard deviation of the stiffness of single blades, in the full model",
     )
@@ -275,7 +275,7 @@ pub const KNOBS: &[Knob] = &[
     knob(
         Beyond,
         "draw",
-        "bladed_disk.mistuning_seed",
+        keys::MISTUNING_SEED,
         Whole(1, 10),
         "number of the draw of the single stiffnesses",
     )
@@ -284,7 +284,7 @@ pub const KNOBS: &[Knob] = &[
     knob(
         Start,
         "start u_c",
-        "initial.u_c_m",
+        keys::INITIAL_U_C,
         Linear(5e-6, 2e-5),
         "casing position u_c at t = 0; every gap must be open there",
     )
@@ -292,7 +292,7 @@ pub const KNOBS: &[Knob] = &[
     knob(
         Start,
         "start u_s",
-        "initial.u_s_m",
+        keys::INITIAL_U_S,
         Linear(5e-6, 2e-5),
         "casing position u_s at t = 0; every gap must be open there",
     )
@@ -300,7 +300,7 @@ pub const KNOBS: &[Knob] = &[
     knob(
         Start,
         "start u_c'",
-        "initial.v_c_m_s",
+        keys::INITIAL_V_C,
         Linear(5e-3, 5e-2),
         "casing velocity along u_c at t = 0",
     )
@@ -308,7 +308,7 @@ pub const KNOBS: &[Knob] = &[
     knob(
         Start,
         "start u_s'",
-        "initial.v_s_m_s",
+        keys::INITIAL_V_S,
         Linear(5e-3, 5e-2),
         "casing velocity along u_s at t = 0",
     )
@@ -316,7 +316,7 @@ pub const KNOBS: &[Knob] = &[
     knob(
         Start,
         "EO torque",
-        "excitation.amplitude_nm",
+        keys::EXCITATION,
         Decades(1e-3),
         "engine-order torque on each blade, fixed in space; 0 for none",
     )
@@ -324,7 +324,7 @@ pub const KNOBS: &[Knob] = &[
     knob(
         Start,
         "EO order",
-        "excitation.order",
+        keys::ENGINE_ORDER,
         Whole(1, 5),
         "engine order: load cycles of that torque per turn",
     )

@@ -183,7 +183,7 @@ fn sensitivity(scene: &CheckedScene) -> Background<bool> {
 
 fn done(run: Option<&FullRunJob>) -> Option<FullRun> {
     match run?.state() {
-        FullRunState::Done(run) => Some(run),
+        FullRunState::Done(run) => Some(*run),
         FullRunState::Computing(_) | FullRunState::GivenUp(_) => None,
     }
 }

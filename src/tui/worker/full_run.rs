@@ -139,7 +139,7 @@ impl FullRunJob {
     /// Its progress or its result.
     pub fn state(&self) -> FullRunState {
         if let Some(run) = &self.result {
-            return FullRunState::Done(run.clone());
+            return FullRunState::Done(Box::new(run.clone()));
         }
         let part = self.part();
         if self.is_done() { FullRunState::GivenUp(part) } else { FullRunState::Computing(part) }

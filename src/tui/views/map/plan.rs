@@ -1,7 +1,7 @@
 //! What the explorer's map sweeps: two knobs over sensible ranges, under the
 //! scene's own contact law, solver and model, or under the other law.
 
-use crate::scene::keys::{CLEARANCE, PULSE, SPEED};
+use crate::scene::keys;
 use crate::scene::{Allowed, ContactLaw, Scene, SolverKind};
 use crate::study::{Axis, MapPlan};
 use crate::tui::axis::nice_step;
@@ -14,9 +14,9 @@ const CELLS: [u32; 2] = [81, 41];
 /// What a key may hold that has no knob.
 const ANY: Allowed = Allowed::Real { min: f64::MIN, max: f64::MAX, above: false };
 /// The key of the torque on the blades.
-const TORQUE: &str = "excitation.amplitude_nm";
+const TORQUE: &str = keys::EXCITATION;
 /// The key of the friction of blades and casing.
-const FRICTION: &str = "contact.friction";
+const FRICTION: &str = keys::FRICTION;
 /// The slowest speed of a map with friction, in parts of the fastest.
 const SLOWEST: f64 = 0.1;
 /// Pulses of the map \[N\].
@@ -38,7 +38,7 @@ pub struct MapChoice {
 impl Default for MapChoice {
     fn default() -> Self {
         let axis = |path| MapAxis { path, anchor: 0.0 };
-        Self { law: None, x: axis(SPEED), y: axis(PULSE) }
+        Self { law: None, x: axis(keys::SPEED), y: axis(keys::PULSE) }
     }
 }
 
@@ -60,7 +60,7 @@ impl MapChoice {
         let mut scene = scene.clone();
         if let Some(law) = self.law {
             scene.solver.contact = law;
-            scene.make_compatible(|key| key == "solver.contact");
+            scene.make_compatible(|key| key == keys::LAW);
         }
         if [self.x, self.y].iter().any(|axis| axis.path == TORQUE) {
             // The event solver knows no torque on the blades.
@@ -102,7 +102,7 @@ impl MapAxis {
     fn over(&self, scene: &Scene, most: u32, slides: bool) -> Result<Axis, String> {
         let allowed = knob_of(self.path).map_or(ANY, Knob::allowed);
         let Range { mut from, mut to, log } = self.range(scene, allowed);
-        if slides && self.path == SPEED {
+        if slides && self.path == keys::SPEED {
             (from, to) = if to > 0.0 { (SLOWEST * to, to) } else { (from, SLOWEST * from) };
         }
         let count = match allowed {
@@ -118,50 +118,44 @@ impl MapAxis {
         let clearance = scene.clearance().abs();
         let lining = scene.solver.contact == ContactLaw::Smooth;
         match self.path {
-            SPEED => speeds(scene),
-            PULSE => Range { from: PULSES[0], to: PULSES[1], log: true },
-            "casing.damping_ratio" | "bladed_disk.damping_ratio" if anchor <= DAMPING => {
-                even(0.0, DAMPING)
-            }
-            "operation.nodal_diameters" => {
-                even(1.0, f64::from(scene.bladed_disk.blades / 2).max(1.0))
-            }
-            "bladed_disk.nodal_diameters" => {
-                even(1.0, f64::from(scene.bladed_disk.blades / 2).max(1.0))
-            }
-            CLEARANCE if lining => even(-2.0 * clearance, 1.9 * clearance),
-            CLEARANCE => even(0.1 * clearance, 4.0 * clearance),
+            keys::SPEED => speeds(scene),
+            keys::PULSE => Range { from: PULSES[0], to: PULSES[1], log: true },
+            keys::CASING_DAMPING | keys::BLADE_DAMPING if anchor <= DAMPING => even(0.0, DAMPING),
+            keys::DIAMETERS => even(1.0, f64::from(scene.bladed_disk.blades / 2).max(1.0)),
+            keys::DISK_DIAMETERS => even(1.0, f64::from(scene.bladed_disk.blades / 2).max(1.0)),
+            keys::CLEARANCE if lining => even(-2.0 * clearance, 1.9 * clearance),
+            keys::CLEARANCE => even(0.1 * clearance, 4.0 * clearance),
             // A lining may be pressed at rest, but not to a clearance of zero: that is
             // between two cells.
-            "casing.radius_m" if lining => {
+            keys::CASING_RADIUS if lining => {
                 let length = scene.bladed_disk.blade_length_m;
                 even(length - 2.0 * clearance, length + 1.9 * clearance)
             }
-            "bladed_disk.blade_length_m" if lining => {
+            keys::BLADE_LENGTH if lining => {
                 let radius = scene.casing.radius_m;
                 even(radius - 1.9 * clearance, radius + 2.0 * clearance)
             }
             // The clearance from a tenth to four times the present one.
-            "casing.radius_m" => {
+            keys::CASING_RADIUS => {
                 let length = scene.bladed_disk.blade_length_m;
                 even(length + 0.1 * clearance, length + 4.0 * clearance)
             }
-            "bladed_disk.blade_length_m" => {
+            keys::BLADE_LENGTH => {
                 let radius = scene.casing.radius_m;
                 even((radius - 4.0 * clearance).max(0.5 * radius), radius - 0.1 * clearance)
             }
             // Every gap is open as long as the casing is within the clearance.
-            "initial.u_c_m" | "initial.u_s_m" => {
+            keys::INITIAL_U_C | keys::INITIAL_U_S => {
                 let initial = &scene.initial;
                 let (own, other) = match self.path {
-                    "initial.u_c_m" => (anchor, initial.u_s_m),
+                    keys::INITIAL_U_C => (anchor, initial.u_s_m),
                     _ => (anchor, initial.u_c_m),
                 };
                 let most = (0.95 * clearance).powi(2) - other.powi(2);
                 let most = most.max(0.0).sqrt().max(own.abs());
                 even(-most, most)
             }
-            "solver.step_s" => {
+            keys::STEP => {
                 let most = (10.0 * anchor).min(0.9 * scene.stable_step());
                 within(allowed, Range { from: 0.01 * most, to: most, log: true })
             }
@@ -187,15 +181,15 @@ fn speeds(scene: &Scene) -> Range {
 /// A size to begin with for a key that is zero.
 fn usual(path: &str, scene: &Scene, clearance: f64) -> f64 {
     match path {
-        "initial.v_c_m_s" | "initial.v_s_m_s" => clearance * scene.machine().omega_c,
-        "operation.speed_ramp_rad_s2" => 1e3,
-        "operation.pulse_s" => 1e-4,
-        "bladed_disk.radial_coupling" | FRICTION => 0.25,
-        "contact.restitution" | "casing.tangential_ratio" => 0.5,
-        "bladed_disk.mistuning" => 0.025,
-        "bladed_disk.mistuning_seed" => 10.0,
-        "contact.smoothing_m" => 1e-6,
-        "bladed_disk.coupling_nm_per_rad" => scene.bladed_disk.stiffness_nm_per_rad,
+        keys::INITIAL_V_C | keys::INITIAL_V_S => clearance * scene.machine().omega_c,
+        keys::SPEED_RAMP => 1e3,
+        keys::PULSE_TIME => 1e-4,
+        keys::RADIAL_COUPLING | FRICTION => 0.25,
+        keys::RESTITUTION | keys::TANGENTIAL_RATIO => 0.5,
+        keys::MISTUNING => 0.025,
+        keys::MISTUNING_SEED => 10.0,
+        keys::LINING_SMOOTHING => 1e-6,
+        keys::BLADE_COUPLING => scene.bladed_disk.stiffness_nm_per_rad,
         _ => 1.0,
     }
 }
