@@ -104,8 +104,15 @@ pub fn only(app: &App, typed: &str) -> Result<Found, String> {
     }
     let words = typed.to_lowercase();
     let words: Vec<&str> = words.split_whitespace().collect();
-    // Nobody looks at what was found: letters between others are not enough.
-    let is_like = |item: &Found| rank(item, &words).is_none_or(|rank| rank < LIKE);
+    // Nobody looks at what was found: letters between others are not enough, where it is
+    // not told by its own word.
+    let is_like = |item: &Found| match item.command {
+        Command::Act(_) | Command::Scene(_) | Command::Lesson(_) | Command::Select(_) => {
+            rank(item, &words).is_none_or(|rank| rank < LIKE)
+        }
+        Command::Set(..) | Command::GoTo(_) | Command::Blade(_) => true,
+        Command::Axes(_) | Command::Write(..) => true,
+    };
     let first = found(app, typed).into_iter().next().filter(is_like);
     match first.ok_or_else(|| refused(typed)) {
         // To select a knob is no answer to a value that it does not take.
@@ -127,9 +134,9 @@ fn refused(typed: &str) -> Option<String> {
     let splits = (1..words.len()).rev().filter_map(|at| words.split_at_checked(at));
     let mut named = splits.filter_map(|(name, value)| {
         let knob = KNOBS.iter().find(|knob| is_named(knob, name))?;
-        knob.parse(&value.join(" ")).err()
+        knob.parse(&value.join(" ")).err().map(|error| knob.refusal(&error))
     });
-    named.next().map(|refused| refused.to_string())
+    named.next()
 }
 
 /// What a first word of its own leads to.
@@ -403,7 +410,10 @@ mod tests {
             ("end", Command::Act(Action::GoToEnd)),
             ("blade 7", Command::Blade(7)),
             ("axes clearance pulse", axes(Some("clearance"), Some(PULSE))),
-            ("axes speed over damping zeta_c", axes(Some(keys::SPEED), Some("casing.damping_ratio"))),
+            (
+                "axes speed over damping zeta_c",
+                axes(Some(keys::SPEED), Some("casing.damping_ratio")),
+            ),
             ("axes clear", axes(Some("clearance"), None)),
             ("across clear", axes(Some("clearance"), None)),
             ("up pulse t_p", axes(None, Some("operation.pulse_s"))),
@@ -425,9 +435,9 @@ mod tests {
     fn what_is_no_command_is_one_line_that_says_why() {
         let app = app();
         for (typed, begins) in [
-            ("speed fast", "operation.speed_rad_s = fast: allowed is a number"),
-            ("speed qqq", "operation.speed_rad_s = qqq: allowed is a number"),
-            ("law soft", "solver.contact = soft: allowed is one of"),
+            ("speed fast", "speed Ω: fast is no number; from -1e6 to 1e6 rad/s"),
+            ("speed qqq", "speed Ω: qqq is no number"),
+            ("law soft", "contact: soft is unknown; one of"),
             ("something odd", "nothing has these words: something odd"),
             ("qqq", "nothing has these words: qqq"),
             ("scene qqq", "nothing has these words: scene qqq"),

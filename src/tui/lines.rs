@@ -6,7 +6,7 @@
 use std::io::{BufRead, Error, Read, Write};
 
 use super::app::{App, Effect, InputMode};
-use super::commands::{self, Found};
+use super::commands::{self, Command, Found};
 use super::engine::{Order, Pace};
 use super::files::FileResult;
 use super::knobs::KNOBS;
@@ -143,11 +143,19 @@ impl Lines {
             }
         };
         let (before, lesson) = (self.app.scene.clone(), self.app.lessons.progress.clone());
+        let gives_a_value = matches!(found.command, Command::Set(..));
         self.app.status = None;
         match self.obey(found, out)? {
             Some(true) => {}
             Some(false) => return Ok(true),
             None => return Ok(false),
+        }
+        if gives_a_value
+            && before == self.app.scene
+            && let Some(refused) = &self.app.status
+        {
+            writeln!(out, "refused: {}", self.spelled(&clean(refused)))?;
+            return Ok(true);
         }
         self.settle();
         self.app.check_lesson();
@@ -280,13 +288,13 @@ mod tests {
     fn bad_input_is_one_line_and_the_next_line_is_answered() {
         let long = "x".repeat(5000);
         for (bad, says) in [
-            ("speed fast".as_bytes(), "speed_rad_s = fast: allowed is a number"),
+            ("speed fast".as_bytes(), "refused: speed Ω: fast is no number; from -1e6"),
             (b"nonsense qqq", "nothing has these words"),
             (b"bla\x1b[31mde", "nothing has these words"),
             (b"\xff\xfe", "not UTF-8"),
             (long.as_bytes(), "more than 1000 bytes"),
             (b"type a value", "needs a screen"),
-            (b"blades 0", "bladed_disk.blades = 0"),
+            (b"blades 0", "refused: blades N: 0 is not possible; from 1 to 4096"),
         ] {
             let input = [bad, b"\n# a remark\n\nspeed\n"].concat();
             let text = answers(&input);

@@ -382,7 +382,7 @@ impl ChartAxis {
         let most = 0.5 * (wider - span) / pixel;
         let high = high - off.clamp(-most, most) * pixel;
         let mut evened = self;
-        (evened.low, evened.high) = (high - wider, high);
+        (evened.low, evened.high) = ((high - wider).min(self.low), high.max(self.high));
         evened
     }
 }
@@ -410,7 +410,14 @@ fn even(
         .rev()
         .map(|most| axis.ticks(most))
         .find(|(values, _)| values.len() > 1 && is_even(values));
-    found.unwrap_or_else(|| axis.ticks(most))
+    // Two are at equal distances wherever they stand.
+    found.unwrap_or_else(|| {
+        let (values, step) = axis.ticks(most);
+        let ends = [values.first(), values.last()].into_iter().flatten();
+        let mut ends: Vec<f64> = ends.copied().collect();
+        ends.dedup();
+        (ends, step)
+    })
 }
 
 /// Cells between two dots of a dotted line.
@@ -462,7 +469,9 @@ mod tests {
                 let mut buffer = Buffer::empty(Rect::new(0, 0, 60, height));
                 let area = *buffer.area();
                 let y = ChartAxis::scaled(low, high).evened(area, &look);
-                assert!(y.low <= low && y.high >= high && y.high - y.low <= 1.31 * (high - low));
+                let grown = (y.high - y.low) / (high - low);
+                let wide = y.low <= low && y.high >= high && grown <= 1.31;
+                assert!(wide, "{low} {high} in {height} rows: {} {}", y.low, y.high);
                 let x = ChartAxis::plain(0.0, 20.0);
                 assert!(Plot::new(&mut buffer, area, x, y, &look).is_some());
                 let tick =
@@ -485,6 +494,8 @@ mod tests {
         plot.ink();
         let row = plot.row(0.5).unwrap();
         assert!(!plot.free_note(0.3, row, "name", Style::new()));
+        // On one side of the place or the other.
+        assert!(plot.free_note(0.3, row - 1, "name", Style::new()));
         assert!(plot.free_note(0.3, row - 1, "name", Style::new()));
         // Nor another label, nor what is outside.
         assert!(!plot.free_note(0.3, row - 1, "name", Style::new()));

@@ -17,9 +17,9 @@ fn opens_turns_a_knob_sees_the_verdict_change_and_quits() {
     let mut terminal = Start::explorer(&SHORT).open();
     terminal.wait_for(" LOCKED ");
     assert!(terminal.parser.screen().alternate_screen());
-    // Eight knobs down is the contact law.
-    terminal.send("jjjjjjjj");
-    terminal.wait_for("contact law");
+    // Five knobs down is the contact law.
+    terminal.send("jjjjj");
+    terminal.wait_for("Contact law");
     terminal.send("l");
     terminal.wait_for(" DECAY ");
     terminal.send("h");
@@ -34,10 +34,11 @@ fn the_mouse_acts_and_is_given_back() {
     let mut terminal = Start::explorer(&SHORT).open();
     terminal.wait_for(" LOCKED ");
     assert!([1000, 1002, 1003, 1006].into_iter().all(|mode| terminal.has_mode(mode)));
-    // A click in the ninth row, on the damping of the casing.
-    terminal.send("\u{1b}[<0;5;9M\u{1b}[<0;5;9m");
+    // A click in the seventh row, on the damping of the casing, which moves up by the bar
+    // of the knob that was selected.
+    terminal.send("\u{1b}[<0;5;7M\u{1b}[<0;5;7m");
     terminal.wait_for("▸damping ζ_c");
-    terminal.send("\u{1b}[<64;5;9M");
+    terminal.send("\u{1b}[<64;5;6M");
     terminal.wait_for("0.055");
     terminal.send("M");
     terminal.wait_for("mouse off");

@@ -9,12 +9,12 @@ use crate::pty_support::{SHORT, Start, Terminal};
 const MODES: [(&str, &str); 8] = [
     ("", "? help"),
     ("\r12", "12_"),
-    (":", "a command, scene, lesson, view"),
+    (":", "or any words"),
     ("?", "Type to find"),
     ("g", "Lessons: Enter begins one"),
     ("g\r", "lower"),
     ("s", "save the scene as"),
-    ("i", "at 0.00000 s: u_c"),
+    ("i", "blade 1: "),
 ];
 
 /// A letter, an arrow, a move of the mouse and a pasted text.

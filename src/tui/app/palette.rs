@@ -99,7 +99,7 @@ mod tests {
         let before = app.scene.clone();
         app.choose_command(&PaletteState { typed: "blades 0".into(), place: 0 });
         assert_eq!(app.scene, before);
-        assert!(app.status.is_some_and(|status| status.contains("bladed_disk.blades")));
+        assert!(app.status.is_some_and(|status| status.contains("blades N: 0 is not possible")));
     }
 
     #[test]

@@ -300,7 +300,7 @@ mod tests {
         }
         assert!(silent.is_empty(), "{silent:?}");
         let mut app = App::new(scene, Theme::Mono, Marker::Braille);
-        for (letter, says) in [('d', "no meaning here"), ('1', "as it was"), ('G', "no lesson")] {
+        for (letter, says) in [('d', "no meaning here"), ('4', "as it was"), ('G', "no lesson")] {
             app.key(&KeyEvent::new(KeyCode::Char(letter), KeyModifiers::NONE));
             assert!(app.status.as_ref().is_some_and(|status| status.contains(says)), "{letter}");
         }

@@ -13,16 +13,19 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, palette: &PaletteState) 
     let look = &app.appearance;
     let (width, mark) = (usize::from(area.width), look.ellipsis());
     let found = commands::found(app, &palette.typed);
-    let hint = match (palette.typed.is_empty(), found.is_empty()) {
-        (true, _) => "  t 0.3 ms, speed 450, blade 7, scene rub, or any words",
-        (_, true) => "  nothing has these words",
-        _ => "",
+    let hint = if palette.typed.is_empty() {
+        "  t 0.3 ms, speed 450, blade 7, scene rub, or any words"
+    } else {
+        ""
     };
     // The end of what is typed, where the cursor is, must be visible.
     let skip = (palette.typed.chars().count() + 4).saturating_sub(width);
     let typed: String = palette.typed.chars().skip(skip).collect();
     let head = shorten(&format!(": {typed}_{hint}"), width, mark);
     print(buffer, area, 0, &head, look.style(Role::Focus));
+    if found.is_empty() {
+        print(buffer, area, 1, "nothing has these words", look.style(Role::Quiet));
+    }
     let rows = usize::from(area.height.saturating_sub(1));
     let place = palette.place.min(found.len().saturating_sub(1));
     let first = first_in_sight(place, rows);
