@@ -92,11 +92,11 @@ fn the_cursor_reads_values_and_pages_can_be_looked_back_at() {
     for _ in 0..10 {
         session.press("");
     }
-    session.press("1 ((((");
+    session.press("1 i←←←←");
     assert!(session.text().contains(" at "), "{}", session.text());
     session.press("<");
     assert!(session.text().contains("1 back"), "{}", session.text());
-    session.press("\u{1b}");
+    session.press("\u{1b}\u{1b}");
     assert!(!session.text().contains("1 back"), "{}", session.text());
 }
 

@@ -304,7 +304,7 @@ fn view_3_reads_the_locked_motion_exactly_at_any_speed() {
     {
         assert!(text.contains(part), "no {part} in {text}");
     }
-    session.press("{{");
+    session.press("HH");
     assert!(session.text().contains("one pulls"), "{}", session.text());
     let file = session.app.panel().csv(&session.app).unwrap();
     assert!(file.starts_with("speed_rad_s,") && file.contains("u_ss_m,amplitude_m"));

@@ -158,10 +158,6 @@ const BEFORE_VIEWS: &[Binding] = &[
         "a page of time forward"
     ),
     bind!(Main, [letter('i')], Action::Read, "read the chart: the arrows move a cursor, or the knobs again", "i" "read"),
-    bind!(Main, [letter('(')], cursor(-1, 0, false), "reading cursor to the left"),
-    bind!(Main, [letter(')')], cursor(1, 0, false), "reading cursor to the right"),
-    bind!(Main, [letter('{')], cursor(-1, 0, true), "reading cursor far to the left"),
-    bind!(Main, [letter('}')], cursor(1, 0, true), "reading cursor far to the right"),
 ];
 
 /// The bindings after those of the views.
