@@ -258,9 +258,9 @@ impl Facts {
         }
         if self.touches == 0 {
             return vec![
-                format!("No blade touches; {rest}."),
-                "No blade touches the casing.".into(),
-                "No blade touches.".into(),
+                format!("No blade hits; {rest}."),
+                "No blade hits the casing.".into(),
+                "No blade hits.".into(),
             ];
         }
         let touches = touches(self.touches);
@@ -563,7 +563,7 @@ mod tests {
             "DECAY  The blades let go after 5 touches; the casing comes to rest."
         );
         let free = Facts { touches: 0, damped: false, ..decay.clone() };
-        assert_eq!(told(free), "DECAY  No blade touches; the casing swings on freely.");
+        assert_eq!(told(free), "DECAY  No blade hits; the casing swings on freely.");
         let broken = Facts { broken: Some(380.26), ..decay };
         assert_eq!(
             told(broken),

@@ -94,7 +94,7 @@ fn meaning(report: &RunReport) -> &'static str {
         Verdict::Decay if report.scene.clearance() < 0.0 => {
             "The wave died away; the blades rub the lining as at rest."
         }
-        Verdict::Decay if report.impact_count == 0 => "No blade ever touched the casing.",
+        Verdict::Decay if report.impact_count == 0 => "No blade hit the casing.",
         Verdict::Decay => "The contact ended and does not return.",
         Verdict::Bounce => "Blades and casing meet and part again and again.",
         Verdict::Slip => "The contact is permanent, but the wave slips along the blades.",
@@ -380,7 +380,7 @@ mod tests {
     fn a_run_without_touch_and_without_critical_speed_reads_well() {
         let report = report(&[("operation.pulse_n", "0"), ("operation.nodal_diameters", "0")]);
         let text = told(&report);
-        assert!(text.contains("No blade ever touched") && text.contains("No impact."), "{text}");
+        assert!(text.contains("No blade hit") && text.contains("No impact."), "{text}");
         assert!(!text.contains("Omega_c") && !text.contains("not a number"), "{text}");
     }
 }

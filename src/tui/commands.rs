@@ -114,6 +114,9 @@ pub fn only(app: &App, typed: &str) -> Result<Found, String> {
         Command::Axes(_) | Command::Write(..) => true,
     };
     let first = found(app, typed).into_iter().next().filter(is_like);
+    if let Some(why) = first.as_ref().and_then(|first| out_of_range(app, &first.command)) {
+        return Err(why);
+    }
     match first.ok_or_else(|| refused(typed)) {
         // To select a knob is no answer to a value that it does not take.
         Ok(Found { command: Command::Select(_), .. }) if refused(typed).is_some() => {
@@ -126,6 +129,20 @@ pub fn only(app: &App, typed: &str) -> Result<Found, String> {
             || format!("nothing has these words: {typed}; help lists what can be asked for");
         refused.unwrap_or_else(nothing)
     })
+}
+
+/// Why there is no such instant or blade.
+fn out_of_range(app: &App, command: &Command) -> Option<String> {
+    let (end, all) = (app.end_s(), app.machine.polygon.blades);
+    match *command {
+        Command::GoTo(t) if !(0.0..=end).contains(&t) => {
+            Some(format!("t = {t} s: from 0 to {}, the end of the run", readable(end, "s")))
+        }
+        Command::Blade(blade) if !(1..=all).contains(&blade) => {
+            Some(format!("blade {blade}: from 1 to {all}"))
+        }
+        _ => None,
+    }
 }
 
 /// Why a knob does not take the value that follows its name, if it is that.
@@ -142,18 +159,18 @@ fn refused(typed: &str) -> Option<String> {
 /// What a first word of its own leads to.
 fn directed(app: &App, typed: &str) -> Option<Vec<Found>> {
     let typed = typed.trim_start();
-    let (first, rest) = typed.split_once(' ')?;
+    let (first, rest) = typed.split_once(char::is_whitespace)?;
     let rest = rest.trim();
     let lower = rest.to_lowercase();
     let first = first.to_lowercase();
     Some(match first.as_str() {
         "blade" => {
-            let blade = rest.parse().ok()?;
             let all = app.machine.polygon.blades;
-            vec![
+            let blade = |blade: u32| {
                 Found::of("go", format!("blade {blade}"), Command::Blade(blade))
-                    .beside(format!("of {all}")),
-            ]
+                    .beside(format!("of {all}"))
+            };
+            rest.parse().ok().map(blade).into_iter().collect()
         }
         "axes" => match both_axes(&lower) {
             Some(both) => vec![both],

@@ -144,6 +144,8 @@ impl Lines {
         };
         let (before, lesson) = (self.app.scene.clone(), self.app.lessons.progress.clone());
         let gives_a_value = matches!(found.command, Command::Set(..));
+        // Nobody sees a cursor: an instant is gone to, and not read.
+        self.app.stop_reading();
         self.app.status = None;
         match self.obey(found, out)? {
             Some(true) => {}
@@ -161,7 +163,7 @@ impl Lines {
         self.app.check_lesson();
         self.tell(out)?;
         let changed = self.changed(&before);
-        writeln!(out, "{}", self.spelled(&changed))?;
+        writeln!(out, "{}", self.spelled(&clean(&changed)))?;
         if self.app.lessons.progress != lesson {
             for line in panels::lesson_text(&self.app, WIDTH) {
                 writeln!(out, "{line}")?;
@@ -184,7 +186,12 @@ impl Lines {
                     FileResult::Exists => FileResult::Failed("it exists".into()),
                     result => result,
                 };
+                let failed = matches!(result, FileResult::Failed(_));
                 self.app.written(result);
+                if let Some(why) = self.app.status.as_ref().filter(|_| failed) {
+                    writeln!(out, "refused: {}", self.spelled(&clean(why)))?;
+                    return Ok(Some(false));
+                }
             }
             Effect::Copy(command) => {
                 writeln!(out, "{command}")?;
@@ -285,6 +292,15 @@ mod tests {
     }
 
     #[test]
+    fn an_instant_is_gone_to_after_a_blade_was_read() {
+        let text = answers(b"blade 7\nt 0.3 ms\nrestart\n");
+        assert!(
+            text.contains("changed: on to 300") && text.contains("changed: restarted"),
+            "{text}"
+        );
+    }
+
+    #[test]
     fn bad_input_is_one_line_and_the_next_line_is_answered() {
         let long = "x".repeat(5000);
         for (bad, says) in [
@@ -295,6 +311,10 @@ mod tests {
             (long.as_bytes(), "more than 1000 bytes"),
             (b"type a value", "needs a screen"),
             (b"blades 0", "refused: blades N: 0 is not possible; from 1 to 4096"),
+            (b"blade 23", "refused: blade 23: from 1 to 22"),
+            (b"blade 1.5", "refused: nothing has these words"),
+            (b"t 1", "refused: t = 1 s: from 0 to 5.000 ms"),
+            (b"save /", "refused: cannot write /"),
         ] {
             let input = [bad, b"\n# a remark\n\nspeed\n"].concat();
             let text = answers(&input);

@@ -131,6 +131,11 @@ impl App {
         }
     }
 
+    /// Nothing is read any more.
+    pub fn stop_reading(&mut self) {
+        self.reading.stop();
+    }
+
     /// The arrows move the cursor from now on, or no longer.
     pub(super) fn toggle_reading(&mut self) {
         if self.reading.on {

@@ -56,6 +56,7 @@ impl App {
     pub fn gap_words(&self, gap: f64) -> String {
         match self.has_lining() && gap < 0.0 {
             true => format!("{} into the lining", readable(-gap, "m")),
+            false if gap.abs() <= CLOSED * self.machine.polygon.clearance => "touches".into(),
             false => readable(gap, "m"),
         }
     }

@@ -90,6 +90,7 @@ impl App {
     /// What to say of a key that has changed nothing.
     fn nothing(&self, chord: Chord, action: Action) -> String {
         match action {
+            Action::Close if self.lessons.progress().is_some() => "G leaves the lesson".into(),
             Action::Close => "nothing is open; q quits".into(),
             Action::LeaveLesson => "no lesson is open; g lists them".into(),
             Action::Turn { .. } => "this knob goes no further".into(),

@@ -91,7 +91,7 @@ const BEFORE_VIEWS: &[Binding] = &[
     ),
     bind!(Main, [letter('?')], Action::Help, "this help; typing in it finds a key or a word", "?" "help"),
     bind!(Main, [letter('q'), ctrl('c')], Action::Quit, "quit", "q" "quit"),
-    bind!(Main, [letter('r')], Action::Restart, "start the run again", "r" "restart"),
+    bind!(Main, [letter('r')], Action::Restart, "restart the run", "r" "restart"),
     bind!(Main, [letter('p')], Action::Fire, "fire the pulse into the running motion", "p" "pulse"),
     bind!(Main, [letter('[')], Action::Slower, "slower motion", "[ ]" "slower, faster"),
     bind!(Main, [letter(']')], Action::Faster, "faster motion"),

@@ -274,7 +274,11 @@ fn end(app: &App) -> Part {
     let at = vec![("AT ".into(), quiet), (duration(app.end_s()), text)];
     let run = app.full_run().filter(|_| !app.is_asked());
     let since = run.and_then(|run| {
-        let since = run.since.map(|t| format!(" {} since {}", run.verdict, readable(t, "s")));
+        // Of a whirl or a slip, only the latest change of sides is known.
+        let since = run.since.map(|t| match run.verdict.is_held() {
+            true => format!(" {} since {}", run.verdict, readable(t, "s")),
+            false => format!(" {}", run.verdict),
+        });
         since.or(run.broken.map(|(hold, _)| format!(" lock until {}", readable(hold.ended, "s"))))
     });
     let longer = since.map(|since| (5, [at.clone(), vec![(since, quiet)]].concat()));

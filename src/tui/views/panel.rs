@@ -200,10 +200,14 @@ pub fn name_level(plot: &mut Plot, x: ChartAxis, level: f64, name: &str, style: 
 /// Places along a level that are tried for its name.
 const LEVEL_PLACES: u32 = 40;
 
-/// Shows that the study of a view is not computed yet.
+/// Shows that the study of a view is not computed yet: those of the run come first.
 pub fn not_yet(app: &App, buffer: &mut Buffer, inside: Rect) {
     let quiet = app.appearance.style(Role::Quiet);
-    print(buffer, inside, 1, "computed while this view is open", quiet);
+    let text = match app.full_run() {
+        Some(_) => "computing ...",
+        None => "waits for the verdict of the run",
+    };
+    print(buffer, inside, 1, text, quiet);
 }
 
 /// Named columns of numbers as CSV text.

@@ -70,8 +70,13 @@ impl ViewPanel for PrecisionView {
             let same_law = report.rows.iter().filter(|row| !row.other_law).count();
             let wrong = report.rows.iter().filter(|row| row.is_wrong()).count();
             let words = reference_words(&report.reference);
-            let note = format!("reference {words}; {wrong} of {same_law} under its law differ (!)");
-            (note, Role::Quiet)
+            // The paper's law has no solution without time steps.
+            let law = match app.scene.solver.contact {
+                ContactLaw::Bilateral => ContactLaw::Unilateral,
+                own => own,
+            };
+            let note = format!("reference ({law} law) {words}; {wrong} of its {same_law} differ");
+            (if wrong > 0 { note + " (!)" } else { note }, Role::Quiet)
         };
         for line in wrap(&note, usize::from(inside.width)) {
             print(buffer, inside, 0, &line, look.style(role));

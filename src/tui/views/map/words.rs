@@ -200,12 +200,9 @@ fn detail(run: &CellRun) -> String {
             run.contacts.iter().take(4).map(|(blades, _)| few(blades)).collect();
         let forces: Vec<String> =
             run.contacts.iter().take(4).map(|(_, force)| format!("{force:.0}")).collect();
-        out = format!(
-            "on {} since {}, λ {} N, ",
-            groups.join(" + "),
-            readable(since, "s"),
-            forces.join(" ")
-        );
+        let held = run.verdict.is_held();
+        let since = if held { format!(" since {}", readable(since, "s")) } else { String::new() };
+        out = format!("on {}{since}, λ {} N, ", groups.join(" + "), forces.join(" "));
     }
     out + &count(run.impacts, "impact")
 }
