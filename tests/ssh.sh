@@ -154,8 +154,8 @@ expect_end() {
 }
 
 opens_and_follows() {
-    press j j j j j j j j
-    expect 'contact law'
+    press j j j j j
+    expect 'Contact law'
     press l
     expect ' DECAY '
     press h

@@ -238,9 +238,10 @@ impl Facts {
         if self.touches == 0 {
             return plain(&["Blades and casing meet and part again.", "They meet and part."]);
         }
+        let again = if self.touches > 1 { " again and again" } else { "" };
         let touches = touches(self.touches);
         vec![
-            format!("Blades and casing meet and part again and again: {touches}."),
+            format!("Blades and casing meet and part{again}: {touches}."),
             format!("Blades and casing meet and part: {touches}."),
             format!("They meet and part: {touches}."),
             "They meet and part.".into(),

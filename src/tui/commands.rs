@@ -98,7 +98,11 @@ pub fn only(app: &App, typed: &str) -> Result<Found, String> {
         return Ok(Found::of("key", typed, Command::Act(action)));
     }
     // A knob by its name alone is asked for its value.
-    let is_knob = |knob: &Knob| plain(knob.label).split(' ').next() == Some(&typed.to_lowercase());
+    let lower = typed.to_lowercase();
+    let is_knob = |knob: &Knob| {
+        let law = knob.path == keys::LAW && lower == "law";
+        law || plain(knob.label).split(' ').next() == Some(&lower)
+    };
     if let Some(place) = KNOBS.iter().position(is_knob) {
         return Ok(Found::of("knob", typed, Command::Select(place)));
     }

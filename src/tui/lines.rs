@@ -315,6 +315,7 @@ mod tests {
             (b"blade 1.5", "refused: nothing has these words"),
             (b"t 1", "refused: t = 1 s: from 0 to 5.000 ms"),
             (b"save /", "refused: cannot write /"),
+            (b"law", "contact is unilateral"),
         ] {
             let input = [bad, b"\n# a remark\n\nspeed\n"].concat();
             let text = answers(&input);
