@@ -118,9 +118,6 @@ pub fn only(app: &App, typed: &str) -> Result<Found, String> {
         Command::Axes(_) | Command::Write(..) => true,
     };
     let first = found(app, typed).into_iter().next().filter(is_like);
-    if let Some(why) = first.as_ref().and_then(|first| out_of_range(app, &first.command)) {
-        return Err(why);
-    }
     match first.ok_or_else(|| refused(typed)) {
         // To select a knob is no answer to a value that it does not take.
         Ok(Found { command: Command::Select(_), .. }) if refused(typed).is_some() => {
@@ -133,20 +130,6 @@ pub fn only(app: &App, typed: &str) -> Result<Found, String> {
             || format!("nothing has these words: {typed}; help lists what can be asked for");
         refused.unwrap_or_else(nothing)
     })
-}
-
-/// Why there is no such instant or blade.
-fn out_of_range(app: &App, command: &Command) -> Option<String> {
-    let (end, all) = (app.end_s(), app.machine.polygon.blades);
-    match *command {
-        Command::GoTo(t) if !(0.0..=end).contains(&t) => {
-            Some(format!("t = {t} s: from 0 to {}, the end of the run", readable(end, "s")))
-        }
-        Command::Blade(blade) if !(1..=all).contains(&blade) => {
-            Some(format!("blade {blade}: from 1 to {all}"))
-        }
-        _ => None,
-    }
 }
 
 /// Why a knob does not take the value that follows its name, if it is that.

@@ -6,7 +6,7 @@
 use std::io::{BufRead, Error, Read, Write};
 
 use super::app::{App, Effect, InputMode};
-use super::commands::{self, Command, Found};
+use super::commands::{self, Found};
 use super::engine::{Order, Pace};
 use super::files::FileResult;
 use super::knobs::KNOBS;
@@ -138,12 +138,11 @@ impl Lines {
         let found = match commands::only(&self.app, line) {
             Ok(found) => found,
             Err(refused) => {
-                writeln!(out, "refused: {}", self.spelled(&clean(&refused)))?;
+                self.refuse(&refused, out)?;
                 return Ok(true);
             }
         };
         let (before, lesson) = (self.app.scene.clone(), self.app.lessons.progress.clone());
-        let gives_a_value = matches!(found.command, Command::Set(..));
         // Nobody sees a cursor: an instant is gone to, and not read.
         self.app.stop_reading();
         self.app.status = None;
@@ -151,13 +150,6 @@ impl Lines {
             Some(true) => {}
             Some(false) => return Ok(true),
             None => return Ok(false),
-        }
-        if gives_a_value
-            && before == self.app.scene
-            && let Some(refused) = &self.app.status
-        {
-            writeln!(out, "refused: {}", self.spelled(&clean(refused)))?;
-            return Ok(true);
         }
         self.settle();
         self.app.check_lesson();
@@ -179,8 +171,12 @@ impl Lines {
             _ => None,
         };
         match self.app.obey(found.command) {
-            Effect::Quit => return Ok(None),
-            Effect::Write(job) => {
+            Err(refused) => {
+                self.refuse(&refused, out)?;
+                return Ok(Some(false));
+            }
+            Ok(Effect::Quit) => return Ok(None),
+            Ok(Effect::Write(job)) => {
                 // Nobody is asked whether it may be replaced.
                 let result = match job.run() {
                     FileResult::Exists => FileResult::Failed("it exists".into()),
@@ -189,16 +185,17 @@ impl Lines {
                 let failed = matches!(result, FileResult::Failed(_));
                 self.app.written(result);
                 if let Some(why) = self.app.status.as_ref().filter(|_| failed) {
-                    writeln!(out, "refused: {}", self.spelled(&clean(why)))?;
+                    self.refuse(why, out)?;
                     return Ok(Some(false));
                 }
             }
-            Effect::Copy(command) => {
+            Ok(Effect::Copy(command)) => {
                 writeln!(out, "{command}")?;
                 return Ok(Some(false));
             }
-            Effect::None => {}
-            Effect::Suspend | Effect::Redraw | Effect::Mouse(_) | Effect::FindScenes(_) => {}
+            Ok(Effect::None) => {}
+            // What only a screen has.
+            Ok(Effect::Suspend | Effect::Redraw | Effect::Mouse(_) | Effect::FindScenes(_)) => {}
         }
         if let Some(knob) = knob {
             let text = format!("{} is {}: {}", knob.label, knob.text(&self.app.scene), knob.does);
@@ -212,6 +209,10 @@ impl Lines {
             _ => writeln!(out, "refused: {} needs a screen, or more words; help", found.what)?,
         }
         Ok(Some(false))
+    }
+
+    fn refuse(&self, why: &str, out: &mut dyn Write) -> Result<(), Error> {
+        writeln!(out, "refused: {}", self.spelled(&clean(why)))
     }
 
     /// Everything of a kind that can be opened.
@@ -313,7 +314,7 @@ mod tests {
             (b"blades 0", "refused: blades N: 0 is not possible; from 1 to 4096"),
             (b"blade 23", "refused: blade 23: from 1 to 22"),
             (b"blade 1.5", "refused: nothing has these words"),
-            (b"t 1", "refused: t = 1 s: from 0 to 5.000 ms"),
+            (b"t 1", "refused: t = 1.000 s: from 0 to 5.000 ms"),
             (b"save /", "refused: cannot write /"),
             (b"law", "contact is unilateral"),
         ] {

@@ -303,19 +303,11 @@ impl App {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Scene;
-    use crate::tui::{Marker, Theme};
-
-    fn app() -> App {
-        let scene = Scene::builtin("paper-nd3").unwrap().checked().unwrap();
-        let mut app = App::new(scene, Theme::Mono, Marker::Braille);
-        app.layout.size = (120, 40);
-        app
-    }
+    use crate::tui::app::on_screen;
 
     #[test]
     fn a_step_is_done_by_its_answer_and_the_next_one_waits_for_it() {
-        let mut app = app();
+        let mut app = on_screen();
         app.begin_lesson(1);
         let lesson = &lessons::all()[1];
         assert!(app.is_asked() && app.lessons.is_open());
@@ -341,7 +333,7 @@ mod tests {
 
     #[test]
     fn a_lesson_that_is_left_gives_the_own_scene_back_and_one_that_ends_says_so() {
-        let mut app = app();
+        let mut app = on_screen();
         let mut own = app.scene.clone().into_scene();
         own.operation.speed_rad_s = 333.0;
         app.set_scene(own.checked().unwrap(), false);
@@ -366,7 +358,7 @@ mod tests {
 
     #[test]
     fn a_condition_of_a_task_is_that_of_the_screen() {
-        let app = app();
+        let app = on_screen();
         let speed = || "operation.speed_rad_s".to_string();
         for (condition, met) in [
             (Condition::View("response".into()), app.is_large(ViewId::Response)),

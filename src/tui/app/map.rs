@@ -116,16 +116,8 @@ impl App {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Scene;
     use crate::scene::keys::{CLEARANCE, PULSE, SPEED};
-    use crate::tui::{Marker, Theme};
-
-    fn app() -> App {
-        let scene = Scene::builtin("paper-nd3").unwrap().checked().unwrap();
-        let mut app = App::new(scene, Theme::Mono, Marker::Braille);
-        app.layout.size = (120, 40);
-        app
-    }
+    use crate::tui::app::on_screen;
 
     fn axes(app: &App) -> [&'static str; 2] {
         [app.map.x.path, app.map.y.path]
@@ -133,7 +125,7 @@ mod tests {
 
     #[test]
     fn axes_are_chosen_and_a_knob_is_on_one_of_them_only() {
-        let mut app = app();
+        let mut app = on_screen();
         assert_eq!(axes(&app), [SPEED, PULSE]);
         for (chosen, wanted) in [
             ([Some(PULSE), None], [PULSE, SPEED]),
@@ -157,7 +149,7 @@ mod tests {
 
     #[test]
     fn the_other_law_of_the_map_is_left_again() {
-        let mut app = app();
+        let mut app = on_screen();
         assert_eq!(app.map_law(), ContactLaw::Bilateral);
         app.other_map_law();
         assert_eq!(
@@ -170,7 +162,7 @@ mod tests {
 
     #[test]
     fn a_run_of_the_map_starts_anew_though_knobs_act_live() {
-        let mut app = app();
+        let mut app = on_screen();
         app.knobs.live = true;
         let (restarts, same) = (app.run.restarts, app.scene.clone());
         app.open_run(same);

@@ -196,3 +196,12 @@ impl App {
 
 /// Bins recorded per page: more than the sub-pixels of a wide screen.
 const BINS_PER_PAGE: f64 = 1024.0;
+
+/// The paper's scene on a screen of 120 x 40, for the tests of the parts.
+#[cfg(test)]
+fn on_screen() -> App {
+    let scene = crate::scene::Scene::builtin("paper-nd3").unwrap().checked().unwrap();
+    let mut app = App::new(scene, crate::tui::Theme::Mono, crate::tui::Marker::Braille);
+    app.layout.size = (120, 40);
+    app
+}

@@ -269,15 +269,7 @@ impl App {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Scene;
-    use crate::tui::{Marker, Theme};
-
-    fn app() -> App {
-        let scene = Scene::builtin("paper-nd3").unwrap().checked().unwrap();
-        let mut app = App::new(scene, Theme::Mono, Marker::Braille);
-        app.layout.size = (120, 40);
-        app
-    }
+    use crate::tui::app::on_screen;
 
     fn event(kind: MouseEventKind, (column, row): (u16, u16)) -> MouseEvent {
         MouseEvent { kind, column, row, modifiers: KeyModifiers::NONE }
@@ -287,7 +279,7 @@ mod tests {
 
     #[test]
     fn a_place_of_the_chart_is_the_middle_of_its_cell() {
-        let app = app();
+        let app = on_screen();
         app.note_chart(Rect::new(10, 5, 20, 10), [(0.0, 1.0), (0.5, 1.0)]);
         let at = |place| app.cursor_at(place).map(|cursor| (cursor.across, cursor.up));
         assert_eq!(at((10, 14)), Some((0.025, 0.525)));
@@ -299,7 +291,7 @@ mod tests {
 
     #[test]
     fn a_key_of_the_last_line_acts_in_every_dialogue_and_nowhere_else() {
-        let mut app = app();
+        let mut app = on_screen();
         app.note_key(Rect::new(0, 39, 4, 1), Action::Help);
         app.note_key(Rect::new(6, 39, 4, 1), Action::Quit);
         assert_eq!(app.mouse(&event(LEFT, (3, 39))), Heard::Acted(Effect::None));
@@ -314,7 +306,7 @@ mod tests {
 
     #[test]
     fn a_mouse_that_is_off_does_nothing() {
-        let mut app = app();
+        let mut app = on_screen();
         app.note_key(Rect::new(0, 39, 4, 1), Action::Help);
         assert!(app.mouse.toggle().contains("off") && !app.mouse.is_on());
         assert_eq!(app.mouse(&event(LEFT, (0, 39))), Heard::Nothing);

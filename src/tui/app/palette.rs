@@ -40,36 +40,40 @@ impl App {
     /// Does what was chosen; where there is nothing to choose, the list stays open.
     pub(super) fn choose_command(&mut self, palette: &PaletteState) -> Effect {
         let chosen = commands::found(self, &palette.typed).into_iter().nth(palette.place);
-        match chosen.map_or_else(|| commands::only(self, &palette.typed), Ok) {
-            Ok(found) => self.obey(found.command),
-            Err(reason) => {
-                self.status = Some(clean(&reason));
-                Effect::None
-            }
-        }
+        let chosen = chosen.map_or_else(|| commands::only(self, &palette.typed), Ok);
+        chosen.and_then(|found| self.obey(found.command)).unwrap_or_else(|reason| {
+            self.status = Some(clean(&reason));
+            Effect::None
+        })
     }
 
     /// Does what was asked for in words.
-    pub fn obey(&mut self, command: Command) -> Effect {
+    ///
+    /// # Errors
+    /// There is no such instant or blade, or a knob does not take the value, in words.
+    pub fn obey(&mut self, command: Command) -> Result<Effect, String> {
         self.dialogue.close();
         match command {
-            Command::Act(action) => return self.act(action),
-            Command::GoTo(t) => self.go_to(t),
-            Command::Blade(blade) => self.go_to_blade(blade),
+            Command::Act(action) => return Ok(self.act(action)),
+            Command::GoTo(t) => {
+                self.has_instant(t)?;
+                self.go_to(t);
+            }
+            Command::Blade(blade) => self.go_to_blade(blade)?,
             Command::Axes(paths) => self.put_axes(paths),
             Command::Scene(name) => self.open_builtin(name),
             Command::Lesson(place) => self.begin_lesson(place),
             Command::Select(place) => self.knobs.select(place),
-            Command::Write(purpose, name) => return self.write(purpose, &name, false),
+            Command::Write(purpose, name) => return Ok(self.write(purpose, &name, false)),
             Command::Set(place, text) => {
                 self.knobs.select(place);
                 self.accept(&text);
                 if let Some(refusal) = self.knobs.refusal() {
-                    self.status = Some(clean(refusal));
+                    return Err(refusal.to_string());
                 }
             }
         }
-        Effect::None
+        Ok(Effect::None)
     }
 
     /// Makes a built-in scene the current one; undo brings the former one back.

@@ -275,16 +275,22 @@ impl App {
         ((self.reading.instant().unwrap_or(self.now()) - from) / (to - from)).clamp(0.0, 1.0)
     }
 
+    /// Whether the run has this instant.
+    ///
+    /// # Errors
+    /// It has not, in words.
+    pub(super) fn has_instant(&self, t: f64) -> Result<(), String> {
+        let end = self.end_s();
+        if (0.0..=end).contains(&t) {
+            return Ok(());
+        }
+        let [t, end] = [t, end].map(|t| readable(t, "s"));
+        Err(format!("t = {t}: from 0 to {end}, the end of the run"))
+    }
+
     /// Goes to an instant: what is read, while a chart is read, otherwise the motion, which
     /// begins again where that is behind.
     pub(super) fn go_to(&mut self, t: f64) {
-        let end = self.end_s();
-        if !(0.0..=end).contains(&t) {
-            let end = readable(end, "s");
-            self.status =
-                Some(format!("t = {}: from 0 to {end}, the end of the run", readable(t, "s")));
-            return;
-        }
         if self.reading.is_on() {
             self.play.pages_back = self.page_number() - self.page_of(t);
             self.read_instant(t);

@@ -106,11 +106,13 @@ impl App {
     }
 
     /// Reads the gap of a blade, numbered from 1.
-    pub(super) fn go_to_blade(&mut self, blade: u32) {
+    ///
+    /// # Errors
+    /// There is no such blade, in words.
+    pub(super) fn go_to_blade(&mut self, blade: u32) -> Result<(), String> {
         let all = self.machine.polygon.blades;
         if !(1..=all).contains(&blade) {
-            self.status = Some(format!("blade {blade}: from 1 to {all}"));
-            return;
+            return Err(format!("blade {blade}: from 1 to {all}"));
         }
         self.show(ViewId::Gaps);
         self.reading.on = true;
@@ -121,6 +123,7 @@ impl App {
         });
         let gap = self.shown().and_then(|moment| moment.gaps.get(blade as usize - 1).copied());
         self.status = gap.map(|gap| format!("blade {blade}: gap {}", self.gap_words(gap)));
+        Ok(())
     }
 
     /// After a change of the large chart: an instant goes on being read.
@@ -213,19 +216,11 @@ pub fn cell_of(part: f64, cells: u32) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Scene;
-    use crate::tui::{Marker, Theme};
-
-    fn app() -> App {
-        let scene = Scene::builtin("paper-nd3").unwrap().checked().unwrap();
-        let mut app = App::new(scene, Theme::Mono, Marker::Braille);
-        app.layout.size = (120, 40);
-        app
-    }
+    use crate::tui::app::{PaletteState, on_screen};
 
     #[test]
     fn an_instant_that_is_read_stays_from_view_to_view() {
-        let mut app = app();
+        let mut app = on_screen();
         app.walk(ViewId::Response);
         app.point(Cursor { across: 0.25, up: 0.5 });
         let read = Some(5e-3);
@@ -248,16 +243,16 @@ mod tests {
 
     #[test]
     fn a_blade_is_read_by_its_number_in_both_pictures_of_the_gaps() {
-        let mut app = app();
+        let mut app = on_screen();
         for heat in [false, true] {
             app.layout.heat = heat;
-            app.go_to_blade(7);
+            app.go_to_blade(7).unwrap();
             let cursor = app.cursor_in(ViewId::Gaps).unwrap();
             let part = if heat { cursor.up } else { cursor.across };
             assert_eq!((cell_of(part, 22), app.reading.is_on()), (6, true));
         }
         for blade in [0, 23] {
-            app.go_to_blade(blade);
+            app.choose_command(&PaletteState { typed: format!("blade {blade}"), place: 0 });
             let refused = format!("blade {blade}: from 1 to 22");
             assert_eq!(app.status.as_deref(), Some(refused.as_str()));
         }
@@ -265,7 +260,7 @@ mod tests {
 
     #[test]
     fn the_cursor_goes_from_cell_to_cell_and_stops_at_the_ends() {
-        let mut app = app();
+        let mut app = on_screen();
         app.walk(ViewId::Gaps);
         app.toggle_reading();
         let cell = |app: &App| cell_of(app.cursor_in(ViewId::Gaps).unwrap().across, 22);

@@ -70,11 +70,7 @@ impl ViewPanel for PrecisionView {
             let same_law = report.rows.iter().filter(|row| !row.other_law).count();
             let wrong = report.rows.iter().filter(|row| row.is_wrong()).count();
             let words = reference_words(&report.reference);
-            // The paper's law has no solution without time steps.
-            let law = match app.scene.solver.contact {
-                ContactLaw::Bilateral => ContactLaw::Unilateral,
-                own => own,
-            };
+            let law = report.reference.way.contact;
             let note = format!("reference ({law} law) {words}; {wrong} of its {same_law} differ");
             (if wrong > 0 { note + " (!)" } else { note }, Role::Quiet)
         };
