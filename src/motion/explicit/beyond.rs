@@ -3,9 +3,9 @@
 //! gives way, disks of other diameters and mistuned ones.
 
 use super::Explicit;
-use super::account::Account;
 use super::disk::Disk;
 use super::lasting::{Lasting, mark};
+use super::record::Account;
 use super::rows::TipLaw;
 use crate::motion::{ActiveSet, FailureReason, Plane};
 use crate::scene::{CheckedScene, ModelSize};

@@ -7,11 +7,11 @@
 //! one `across` it swings freely. In the frame of the blades at rest, with
 //! `zeta = z conj(normal) = -g0 + X + i Y`, all numbers of a step are small parts.
 
-use super::side_map::SideStep;
+use super::held_side::SideStep;
 use crate::model::Machine;
 use crate::motion::Plane;
 use crate::motion::explicit::disk::ModalBlades;
-use crate::motion::explicit::watch::Watch;
+use crate::motion::explicit::record::Watch;
 use crate::motion::explicit::{Coordinate, Oscillator};
 use crate::tolerances::{LIGHT_PUSH, SLIDING_DEPTH, SLIDING_PHASE};
 
