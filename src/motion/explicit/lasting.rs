@@ -1,7 +1,7 @@
 //! How a motion beyond the paper lasts: what the verdict needs of the last part of the
 //! run, kept as it goes (docs/theory.md, section 10).
 
-use crate::motion::trend::Trend;
+use crate::motion::verdict::Trend;
 use crate::motion::{ActiveSet, ContactLog, Plane, Verdict};
 use crate::tolerances::{LAST_PART, WAVE_AT_REST, WAVE_DYING, WAVE_FALLS_SOON, WHIRL_SWING};
 
