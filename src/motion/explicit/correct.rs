@@ -14,7 +14,7 @@ use super::rows::{Row, TipLaw, turned};
 use crate::contact::repeated::{GroupReference, Repeat};
 use crate::motion::{ActiveSet, FailureReason, Plane};
 use crate::tolerances::{
-    GAP_ROUND_OFF, LONG_STEP, MOST_LONG_STEPS, MOST_ROWS, NEIGHBOUR_DEPTHS, SAME_ANGLE,
+    LONG_STEP, MOST_LONG_STEPS, MOST_ROWS, NEIGHBOUR_DEPTHS, ROUND_OFF, ROUNDINGS,
 };
 
 impl<B: Disk> Explicit<B> {
@@ -157,7 +157,7 @@ impl<B: Disk> Explicit<B> {
             let turns = [row, first].map(|row| diameters * row.angle);
             let apart = turns[0] - turns[1];
             // Blades that stand alike to round-off are one.
-            if apart.abs() > SAME_ANGLE * (turns[0].abs() + turns[1].abs()) {
+            if apart.abs() > ROUNDINGS * (turns[0].abs() + turns[1].abs()) {
                 let half = (0.5 * apart).sin();
                 let (cos, sin) = (-2.0 * half * half, apart.sin());
                 let reach = first.place.gap - self.machine.polygon.clearance;
@@ -188,7 +188,7 @@ impl<B: Disk> Explicit<B> {
         let (z, shift, turned) = (size(z), size(shift), self.tips.diameters * change);
         let pushes: f64 = self.rows.iter().map(|row| row.lambda.abs()).sum();
         let rounded = self.tips.clearance + z + self.casing.compliance * pushes;
-        (z + shift) * turned * turned + shift * turned + GAP_ROUND_OFF * rounded
+        (z + shift) * turned * turned + shift * turned + ROUND_OFF * rounded
     }
 
     /// Keeps the penetration that the step has left, with the casing at `z`.

@@ -33,8 +33,8 @@ use crate::motion::explicit::oscillator::Leap;
 use crate::motion::explicit::{Coordinate, Explicit, Oscillator};
 use crate::motion::{ActiveSet, Plane};
 use crate::tolerances::{
-    ANGLE_LOOK, HELD_AFTER, HELD_AGAIN, HELD_CORRECTIONS, HELD_LEFT, HELD_PHASE, HELD_PROBE,
-    HELD_ROUNDINGS, ROOM_TO_CHANGE,
+    ANGLE_LOOK, HELD_AFTER, HELD_AGAIN, HELD_CORRECTIONS, HELD_LEFT, HELD_PROBE, HELD_ROUNDINGS,
+    ROOM_TO_CHANGE, SMALL_TURN,
 };
 
 /// A step from one corner to the next.
@@ -386,7 +386,7 @@ impl<B: Disk> Explicit<B> {
     /// neither at rest nor by the vibration before it.
     fn is_kept(&self, held: &HeldCorner, rest: [f64; 4], slopes: [Modes; 4]) -> bool {
         let (angle, increment) = held.swing;
-        if self.machine.nodal_diameters * angle > HELD_PHASE {
+        if self.machine.nodal_diameters * angle > SMALL_TURN {
             return false;
         }
         (0..4).all(|k| {
