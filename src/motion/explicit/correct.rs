@@ -46,54 +46,16 @@ impl<B: Disk> Explicit<B> {
     fn gather(&mut self, z: Plane) -> f64 {
         // A blade angle moves a gap by at most |z| n_d alpha.
         let reach = self.machine.nodal_diameters * self.watch.bound();
-        self.look = reach * (z.re.abs() + z.im.abs());
-        let near = self.follow(z);
-        self.near = near;
+        let look = reach * (z.re.abs() + z.im.abs());
+        let matter = self.neighbours_matter;
         self.rows.clear();
-        let mut deepest = self.add_side(near, z);
-        // Not up to the first open side: beyond it, blades may be turned into the casing.
-        let (mut end, mut matters) = (near, self.neighbours_matter);
-        loop {
-            let side = self.machine.polygon.next(end);
-            if side == near || !(matters || self.is_close(side, z)) {
-                break;
-            }
-            let depth = self.add_side(side, z);
+        let mut deepest = 0.0_f64;
+        self.walk(z, look, matter, |this, side| {
+            let depth = this.add_side(side, z);
             deepest = deepest.max(depth);
-            matters = self.neighbours_matter && depth > 0.0;
-            end = side;
-        }
-        let mut side = self.machine.polygon.previous(near);
-        matters = self.neighbours_matter;
-        while side != end && (matters || self.is_close(side, z)) {
-            let depth = self.add_side(side, z);
-            deepest = deepest.max(depth);
-            matters = self.neighbours_matter && depth > 0.0;
-            side = self.machine.polygon.previous(side);
-        }
+            matter && depth > 0.0
+        });
         deepest
-    }
-
-    /// Whether a blade of this side may penetrate, however it is turned.
-    fn is_close(&self, side: u32, z: Plane) -> bool {
-        self.machine.polygon.gap(side, z.re, z.im) < self.look
-    }
-
-    /// The side nearest to `z`, from the one found last: around the polygon the
-    /// gap has a single minimum.
-    pub(super) fn follow(&self, z: Plane) -> u32 {
-        let polygon = &self.machine.polygon;
-        let gap = |side| polygon.gap(side, z.re, z.im);
-        let here = gap(self.near);
-        // On the far side of the polygon the gap has its maximum instead.
-        if here < self.machine.polygon.clearance
-            && here <= gap(polygon.previous(self.near))
-            && here <= gap(polygon.next(self.near))
-        {
-            self.near
-        } else {
-            polygon.nearest_side(z.re, z.im)
-        }
     }
 
     /// Appends the rows of a side that penetrate (or matter); its deepest

@@ -80,8 +80,6 @@ pub(super) struct Explicit<B: Disk> {
     repeated: Repeated,
     /// Whether the neighbours of a penetrating side always count; see `correct`.
     neighbours_matter: bool,
-    /// Rigid gap beyond which no blade of a side can touch now \[m\].
-    look: f64,
 }
 
 impl<B: Disk> Explicit<B> {

@@ -63,7 +63,6 @@ impl<B: Disk> Explicit<B> {
             several: Several::default(),
             repeated: Repeated::default(),
             neighbours_matter: false,
-            look: 0.0,
             machine,
         };
         motion.neighbours_matter = motion.neighbours_matter();

@@ -123,7 +123,11 @@ impl<B: Disk> Explicit<B> {
         self.beyond.candidates.clear();
         let wave = if tips.rise == 0.0 { Some(Plane::default()) } else { self.blades.wave() };
         match wave.filter(|_| self.blades.table().is_by_side()) {
-            Some(wave) => self.walk(z - wave * tips.rise, look),
+            Some(wave) => self.walk(z - wave * tips.rise, look, false, |this, side| {
+                let row = this.blades.table().of_side(side)[0];
+                this.beyond.candidates.push(row);
+                false
+            }),
             None => {
                 let polygon = &self.machine.polygon;
                 let (table, angles, slack) = self.blades.estimates();
@@ -137,26 +141,52 @@ impl<B: Disk> Explicit<B> {
         }
     }
 
-    /// The sides of the polygon whose gap at `w` is below `look`.
-    fn walk(&mut self, w: Plane, look: f64) {
+    /// Adds the nearest side of the polygon at `w` and those on either side of it, as long
+    /// as their gaps are below `look`, or, where `all` neighbours of a side may matter, the
+    /// side added before says that they do.
+    #[inline]
+    pub(super) fn walk(
+        &mut self,
+        w: Plane,
+        look: f64,
+        all: bool,
+        mut add: impl FnMut(&mut Self, u32) -> bool,
+    ) {
         self.near = self.follow(w);
-        let polygon = &self.machine.polygon;
-        let gap = |side| polygon.gap(side, w.re, w.im);
-        let row = |side: u32| self.blades.table().of_side(side)[0];
-        if gap(self.near) >= look {
+        let near = self.near;
+        let is_close = |this: &Self, side| this.machine.polygon.gap(side, w.re, w.im) < look;
+        if !(all || is_close(self, near)) {
             return;
         }
-        self.beyond.candidates.push(row(self.near));
-        let mut left = polygon.sides - 1;
+        add(self, near);
+        let mut left = self.machine.polygon.sides - 1;
         let ways: [fn(&ContactPolygon, u32) -> u32; 2] =
             [ContactPolygon::next, ContactPolygon::previous];
         for way in ways {
-            let mut side = way(polygon, self.near);
-            while left > 0 && gap(side) < look {
-                self.beyond.candidates.push(row(side));
-                side = way(polygon, side);
+            let (mut side, mut matters) = (way(&self.machine.polygon, near), all);
+            // Not up to the first open side: beyond it, blades may be turned into the casing.
+            while left > 0 && (matters || is_close(self, side)) {
+                matters = add(self, side);
+                side = way(&self.machine.polygon, side);
                 left -= 1;
             }
+        }
+    }
+
+    /// The side nearest to `z`, from the one found last: around the polygon the
+    /// gap has a single minimum.
+    fn follow(&self, z: Plane) -> u32 {
+        let polygon = &self.machine.polygon;
+        let gap = |side| polygon.gap(side, z.re, z.im);
+        let here = gap(self.near);
+        // On the far side of the polygon the gap has its maximum instead.
+        if here < self.machine.polygon.clearance
+            && here <= gap(polygon.previous(self.near))
+            && here <= gap(polygon.next(self.near))
+        {
+            self.near
+        } else {
+            polygon.nearest_side(z.re, z.im)
         }
     }
 
