@@ -444,3 +444,66 @@ fn as_coordinates(modes: Modes) -> [Coordinate; 2] {
         Coordinate { x: modes[1], increment: modes[3] },
     ]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    /// A corner of the paper's blades, and their modes at rest in it.
+    fn corner() -> (CornerStep, Modes) {
+        let mut scene = Scene::base();
+        scene.solver.step_s = 1e-5;
+        let machine = scene.machine();
+        let casing = Oscillator::of_casing(&machine, 1e-5);
+        let blades = ModalBlades::at_rest(&scene, &machine, None);
+        let turn = machine.nu(scene.operation.speed_rad_s) * 1e-5;
+        let sides = [4, machine.polygon.next(4)];
+        let step = CornerStep::new(&machine, &casing, Some(&blades), sides, turn);
+        let mut rest = Modes::zeros();
+        let back = slopes(&step, rest).unwrap().0.try_inverse().unwrap();
+        for _ in 0..HELD_CORRECTIONS {
+            rest -= back * step.from(rest).unwrap().change;
+        }
+        (step, rest)
+    }
+
+    #[test]
+    fn a_corner_closes_if_both_sides_do_at_rest_and_wherever_angles_and_increments_swing() {
+        let (step, rest) = corner();
+        let left = |modes: Modes| step.from(modes).unwrap().left.map(f64::abs);
+        let mut open = Vec::new();
+        for swing in [(0.0, 0.0), (1e-3, 0.0), (0.0, 1e-3), (1e-3, 1e-3)] {
+            let ends = [swing.0, swing.0, swing.1, swing.1];
+            let mut most = left(rest);
+            for (j, end) in ends.into_iter().flat_map(|end| [end, -end]).enumerate() {
+                let mut modes = rest;
+                modes[j / 2] += end;
+                let [a, b] = left(modes);
+                most = [most[0].max(a), most[1].max(b)];
+            }
+            // Of predicted gaps so large that what is left is next to nothing, or not.
+            for (a, b) in [(2.0, 2.0), (0.5, 2.0), (2.0, 0.5)] {
+                let gaps = [a * most[0] / HELD_LEFT, b * most[1] / HELD_LEFT];
+                let at_rest = Stepped { gaps, ..step.from(rest).unwrap() };
+                let held = HeldCorner {
+                    step: step.clone(),
+                    pulls: false,
+                    rest,
+                    start: Modes::zeros(),
+                    leap: Leap::new(StepMap::zeros()),
+                    unchanged: StepMap::zeros(),
+                    multipliers: [(0.0, Modes::zeros()); 2],
+                    swing,
+                };
+                let closes = (0..2).all(|k| most[k] <= HELD_LEFT * gaps[k]);
+                assert_eq!(held.closes(&at_rest), Some(closes), "{swing:?} {a} {b} {most:?}");
+                if !closes {
+                    open.push((swing, a, b, most));
+                }
+            }
+        }
+        // Either side alone, by an angle, an increment and both.
+        assert!(open.len() >= 6, "{open:?}");
+    }
+}
