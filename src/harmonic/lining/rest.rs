@@ -438,7 +438,7 @@ mod tests {
     }
 
     #[test]
-    fn a_window_of_growth_that_no_look_of_the_scan_hits_is_found() {
+    fn a_window_of_growth_just_above_the_threshold_is_found() {
         let mut scene = Scene::base();
         scene.set("casing.radius_m", "0.49988").unwrap();
         scene.set("bladed_disk.radial_coupling", "0.5").unwrap();
