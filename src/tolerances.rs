@@ -5,7 +5,6 @@
 mod event;
 mod explicit;
 mod harmonic;
-mod joined;
 mod lining;
 mod margins;
 mod precision;
@@ -13,10 +12,25 @@ mod precision;
 pub(crate) use event::*;
 pub(crate) use explicit::*;
 pub(crate) use harmonic::*;
-pub(crate) use joined::*;
 pub(crate) use lining::*;
 pub(crate) use margins::*;
 pub(crate) use precision::*;
+
+// Round-off.
+
+/// Part of the terms of a sum that its round-off may make: some fifty
+/// roundings. Smaller: a side at rest counts as opening, and pivoting may not end.
+pub(crate) const ROUND_OFF: f64 = 1e-14;
+
+/// Part of a size that many sums in a row may round off: a thousand roundings. Smaller: a
+/// wave never rests, blades that stand alike count as two, and where a casing just
+/// rises to its side round-off could take it for falling.
+pub(crate) const ROUNDINGS: f64 = 1e-13;
+
+/// Part of a size up to which a pivot, a residual, a step of Newton's method, a
+/// discriminant or what is left of a gap counts as zero: ten thousand roundings. Smaller:
+/// equations that have no better answer are said to have none.
+pub(crate) const AS_ZERO: f64 = 1e-12;
 
 // The model.
 
@@ -97,10 +111,3 @@ pub(crate) const SINGULAR: f64 = 1e-3;
 /// Most penetrating rows of different sides that begin closed: more are too many for two
 /// coordinates and soft blades, and closing them costs more than finding those that push.
 pub(crate) const FEW_ROWS: usize = 4;
-
-/// Part of the terms of a gap that counts as zero in the test for an open row
-/// among repeated rows.
-pub(crate) const OPEN_ROW: f64 = 1e-12;
-
-/// Part of the deepest gap that counts as zero in principal pivoting.
-pub(crate) const PIVOT_GAP: f64 = 1e-14;

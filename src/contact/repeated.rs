@@ -18,7 +18,7 @@
 //! their group's push evenly.
 
 use crate::numeric::elimination::eliminate;
-use crate::tolerances::{MOST_PIVOTING, OPEN_ROW};
+use crate::tolerances::{AS_ZERO, MOST_PIVOTING};
 
 /// One row, as its difference from the reference of its group.
 #[derive(Clone, Copy, Debug)]
@@ -104,7 +104,8 @@ impl Repeated {
 
     /// The complementarity problem of these rows, by principal pivoting with
     /// the least index (Murty) from all penetrations closed, which is nearly
-    /// always the answer. `None` where it does not end within its bound of work.
+    /// always the answer. Not `Several`: its one matrix `W` loses the digits in which these
+    /// rows differ. `None` where it does not end within its bound of work.
     pub fn complementary(&mut self) -> Option<&[f64]> {
         let count = self.rows.len();
         let closes = |row: &Repeat| self.groups[row.group].gap + row.gap < 0.0;
@@ -141,7 +142,7 @@ impl Repeated {
             None => (self.groups[group].gap + gap, dot(normal, self.opening)),
         };
         let size = left.abs() + gap.abs() + shift.abs() + bent.abs();
-        left - shift - bent < -OPEN_ROW * size
+        left - shift - bent < -AS_ZERO * size
     }
 
     /// Solves the equations above for the active rows.

@@ -3,7 +3,7 @@
 //! eliminations that it tries, `MOST_PIVOTING` at most.
 
 use crate::numeric::elimination::eliminate;
-use crate::tolerances::{FEW_ROWS, MOST_PIVOTING, PIVOT_GAP, SINGULAR};
+use crate::tolerances::{FEW_ROWS, MOST_PIVOTING, ROUND_OFF, SINGULAR};
 
 /// The rows of one step, filled anew in each, in memory that stays.
 #[derive(Clone, Debug, Default)]
@@ -51,7 +51,7 @@ impl Several {
         let few = self.gaps.iter().filter(|gap| **gap < 0.0).count() <= FEW_ROWS;
         let found = few && {
             self.begin(|gap| gap < 0.0);
-            self.pivot(PIVOT_GAP).is_some()
+            self.pivot(ROUND_OFF).is_some()
         };
         if !found {
             self.begin(|_| false);
@@ -74,7 +74,7 @@ impl Several {
     /// Closes and opens rows until none is wrong.
     fn pivot(&mut self, singular: f64) -> Option<()> {
         let rows = self.gaps.len();
-        let round_off = PIVOT_GAP * self.scale();
+        let round_off = ROUND_OFF * self.scale();
         let mut work = 0;
         while work < MOST_PIVOTING {
             self.close(singular)?;

@@ -29,8 +29,8 @@ use super::Corner;
 use super::fold::CornerAngle;
 use crate::model::{Machine, Number};
 use crate::tolerances::{
-    NEAR_A_FOLD, NEWTON_ALIKE, NEWTON_LARGEST, NEWTON_SHRINK, NEWTON_STEPS, NEWTON_STRIDE,
-    NEWTON_STRIDES,
+    NEWTON_ALIKE, NEWTON_LARGEST, NEWTON_SHRINK, NEWTON_STEPS, NEWTON_STRIDE, NEWTON_STRIDES,
+    POLISHED,
 };
 
 /// `[x, y, Lambda_a, Lambda_b, alpha_a, alpha_b]`, scaled.
@@ -326,7 +326,7 @@ impl Equations {
             last = length;
         }
         // Ill-conditioned, close to a fold: accept what is accurate enough.
-        (self.residual(wave, &unknowns).amax() <= NEAR_A_FOLD * size).then_some(unknowns)
+        (self.residual(wave, &unknowns).amax() <= POLISHED * size).then_some(unknowns)
     }
 }
 

@@ -183,7 +183,7 @@ pub fn equilibrium(
 ) -> Result<Option<Equilibrium>, HarmonicError> {
     error::refuse_endless(&[speed])?;
     error::refuse_other_diameters(machine)?;
-    error::refuse_joined(machine, "0 where every equilibrium is asked; the lock takes it")?;
+    error::refuse_tips(machine, "0 where every equilibrium is asked; the lock takes it")?;
     let wave = Wave::at(machine, speed, damped);
     let scales = Scales::of(machine);
     let loads = match kind {

@@ -98,7 +98,7 @@ impl HarmonicError {
 }
 
 /// Refuses tips that are inclined or rub, where only the paper's are taken.
-pub(super) fn refuse_joined(machine: &Machine, allowed: &str) -> Result<(), HarmonicError> {
+pub(super) fn refuse_tips(machine: &Machine, allowed: &str) -> Result<(), HarmonicError> {
     let (key, value) = if machine.radial_coupling != 0.0 {
         (keys::RADIAL_COUPLING, machine.radial_coupling)
     } else if machine.friction != 0.0 {
@@ -111,9 +111,9 @@ pub(super) fn refuse_joined(machine: &Machine, allowed: &str) -> Result<(), Harm
 
 /// Refuses what acts on the casing otherwise than the paper's tips; friction that only
 /// bends blades is no matter there.
-pub(super) fn refuse_joined_casing(machine: &Machine, what: &str) -> Result<(), HarmonicError> {
+pub(super) fn refuse_tips_on_casing(machine: &Machine, what: &str) -> Result<(), HarmonicError> {
     let allowed = format!("0 with {what}, which is of tips that move with the casing alone");
-    if machine.casing_is_joined() { refuse_joined(machine, &allowed) } else { Ok(()) }
+    if machine.casing_feels_tips() { refuse_tips(machine, &allowed) } else { Ok(()) }
 }
 
 /// Refuses an interference fit, in which rigid blades have no place.

@@ -86,7 +86,7 @@ impl ExcitedLocks {
     ) -> Result<Self, HarmonicError> {
         let corner = Corner::after(&machine.polygon, side)?;
         error::refuse_other_diameters(machine)?;
-        error::refuse_joined(machine, "0 where a lock is excited")?;
+        error::refuse_tips(machine, "0 where a lock is excited")?;
         let (machine, excitation) = (machine.clone(), excitation.clone());
         let mut found = Self { machine, corner, excitation, speeds: speeds.to_vec(), count: 0 };
         for place in 0..speeds.len() {

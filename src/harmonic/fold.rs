@@ -16,7 +16,7 @@ use super::equations::{Equations, Scales, Wave};
 use super::equilibria::{judged, loads_of};
 use super::{Corner, Equilibrium, Form, HarmonicError, Kind, error};
 use crate::model::{Machine, Number};
-use crate::numeric::bisection::bisected;
+use crate::numeric::bisection::{bisected, try_bisected};
 use crate::tolerances::{APART, AS_GOOD_AS_RIGID, BRANCH_POINTS, CONVERGED, FASTEST, LEFT_OPEN};
 
 /// The corner angle of one polygon's corners.
@@ -169,7 +169,7 @@ pub fn corner_branch(
 ) -> Result<CornerBranch, HarmonicError> {
     let corner = Corner::after(&machine.polygon, side)?;
     error::refuse_other_diameters(machine)?;
-    error::refuse_joined(machine, "0 where the corner branch is followed; the lock takes it")?;
+    error::refuse_tips(machine, "0 where the corner branch is followed; the lock takes it")?;
     let Some(critical) = machine.critical_speed() else { return Err(HarmonicError::NoWave) };
     if !(from >= 0.0 && to > from && to / critical <= FASTEST) {
         let allowed = format!("two speeds with 0 <= from < to, up to {FASTEST:e} critical speeds");
@@ -263,20 +263,14 @@ impl Walk<'_> {
         if self.top.is_none() {
             return self.rising(here.speed + step * self.critical);
         }
-        // On one leg the distance from `here` only grows.
-        let (mut near, mut far) = (here.angle_change, end.angle_change);
-        for _ in 0..100 {
-            let place = self.at(0.5 * (near + far))?;
+        // On one leg the distance from `here` only grows; a place within is good enough.
+        let ends = [here.angle_change, end.angle_change];
+        let halved = try_bisected(ends, 0.0, |angle_change| {
+            let place = self.at(angle_change).ok_or(None)?;
             let apart = self.apart(here, place);
-            if apart < least {
-                near = place.angle_change;
-            } else if apart > most {
-                far = place.angle_change;
-            } else {
-                return Some(place);
-            }
-        }
-        None
+            if (least..=most).contains(&apart) { Err(Some(place)) } else { Ok(apart > most) }
+        });
+        halved.err().flatten()
     }
 
     /// Chord between two places, speeds over `Omega_c`.

@@ -99,7 +99,7 @@ impl Locked {
         error::refuse_preload(machine)?;
         if form != Form::Modal {
             let allowed = format!("0 with the form {form}; the form modal has it");
-            error::refuse_joined(machine, &allowed)?;
+            error::refuse_tips(machine, &allowed)?;
         }
         Ok(Self {
             machine: if damped { machine.clone() } else { machine.clone().undamped() },
@@ -123,8 +123,11 @@ impl Locked {
     /// A speed that is not finite, or one with no locked motion.
     pub fn at(&self, speed: f64) -> Result<LockedPoint, HarmonicError> {
         error::refuse_endless(&[speed])?;
-        let solution =
-            if self.machine.is_joined() { self.of_tips(speed) } else { self.of_the_paper(speed) };
+        let solution = if self.machine.tips_incline_or_rub() {
+            self.of_tips(speed)
+        } else {
+            self.of_the_paper(speed)
+        };
         let softness = self.equations.softness();
         let solution = solution.ok_or(HarmonicError::NotFound { speed, softness })?;
         Ok(self.point(speed, &solution))
@@ -309,7 +312,7 @@ pub fn lock_loads<T: Number>(machine: &Machine<T>, speed: T) -> Option<LockLoads
     if machine.lining.is_some() {
         return lining::lock_loads(machine, speed);
     }
-    if machine.is_joined() {
+    if machine.tips_incline_or_rub() {
         return joined(machine, speed);
     }
     let (wave, scales) = (Wave::at(machine, speed, true), Scales::of(machine));
@@ -381,7 +384,7 @@ fn joined<T: Number>(machine: &Machine<T>, speed: T) -> Option<LockLoads<T>> {
 /// beyond any speed that a number can square.
 #[must_use]
 pub fn lock_fold_speed<T: Number>(machine: &Machine<T>) -> Option<T> {
-    if machine.is_joined() || machine.has_other_diameters() || machine.lining.is_some() {
+    if machine.tips_incline_or_rub() || machine.has_other_diameters() || machine.lining.is_some() {
         return None;
     }
     let critical = machine.critical_speed()?;

@@ -120,7 +120,7 @@ pub struct Crossing {
 /// ```
 #[must_use]
 pub fn slip_map(machine: &Machine, rotor_speed: f64, speed: f64) -> Option<Crossing> {
-    if machine.casing_is_joined() {
+    if machine.casing_feels_tips() {
         return None;
     }
     let slide = SaddleFlow::at(machine, rotor_speed)?;
@@ -140,7 +140,7 @@ pub fn slip_map(machine: &Machine, rotor_speed: f64, speed: f64) -> Option<Cross
 /// # Errors
 /// A polygon without corners, or a speed that is not finite.
 pub fn slip_over(machine: &Machine, speeds: &[f64]) -> Result<Vec<SlipPoint>, HarmonicError> {
-    error::refuse_joined_casing(machine, "slip")?;
+    error::refuse_tips_on_casing(machine, "slip")?;
     error::refuse_preload(machine)?;
     error::refuse_no_corner(&machine.polygon)?;
     error::refuse_endless(speeds)?;

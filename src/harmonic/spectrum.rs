@@ -66,7 +66,7 @@ pub fn slip_spectrum(
 ) -> Result<Result<SlipSpectrum, NoSlip>, HarmonicError> {
     error::refuse_no_corner(&machine.polygon)?;
     error::refuse_endless(&[speed])?;
-    error::refuse_joined_casing(machine, "the series of slip")?;
+    error::refuse_tips_on_casing(machine, "the series of slip")?;
     if most > HARMONICS {
         let allowed = format!("a whole number from 0 to {HARMONICS}");
         return Err(HarmonicError::refused("harmonics", most, allowed));

@@ -19,7 +19,7 @@ use nalgebra::{Complex, DMatrix, DVector, Matrix2, Matrix4, Matrix4x2, Vector4};
 use super::equations::{Scales, Wave};
 use crate::model::Machine;
 use crate::numeric::eigen::eigenvalues;
-use crate::tolerances::{CLEAR_DAMPING, CLEAR_SIGN, EQUAL_ROOTS, NEUTRAL, NEUTRAL_OF_ALL};
+use crate::tolerances::{AS_ZERO, CLEAR_DAMPING, CLEAR_SIGN, NEUTRAL, ROUND_OFF};
 
 /// One side in contact, all scaled: its phase, `(C, S)` of `psi + n_d alpha`, the part
 /// `x C + y S` of `z`, how its blades move the gap (`y C - x S` and the slope of the tips),
@@ -231,7 +231,7 @@ pub(super) fn grows(values: &[Complex<f64>], rate: f64) -> bool {
     let fastest = values.iter().map(|value| value.norm()).fold(0.0, f64::max);
     values
         .iter()
-        .any(|value| value.re > (NEUTRAL * value.norm().max(rate)).max(NEUTRAL_OF_ALL * fastest))
+        .any(|value| value.re > (NEUTRAL * value.norm().max(rate)).max(ROUND_OFF * fastest))
 }
 
 /// Eigenvalues of the motion about rest \[1/s\], which keeps no contact: those of
@@ -309,7 +309,7 @@ fn hurwitz([a4, a3, a2, a1, a0]: [f64; 5]) -> Option<bool> {
 /// Without damping the odd coefficients vanish and no motion grows where both
 /// roots in `s^2` are real and negative. Two equal ones differ by rounding.
 fn all_oscillate([a4, _, a2, _, a0]: [f64; 5]) -> bool {
-    a4 > 0.0 && a2 > 0.0 && a0 > 0.0 && a2 * a2 - 4.0 * a4 * a0 >= -EQUAL_ROOTS * a2 * a2
+    a4 > 0.0 && a2 > 0.0 && a0 > 0.0 && a2 * a2 - 4.0 * a4 * a0 >= -AS_ZERO * a2 * a2
 }
 
 #[cfg(test)]

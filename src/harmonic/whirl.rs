@@ -27,7 +27,7 @@ use crate::tolerances::{WHIRL_ENDS, WHIRL_LOOKS, WHIRL_RATES, WHIRL_SAMPLES};
 #[strum(serialize_all = "kebab-case")]
 pub enum NoWhirl {
     /// Tips that are not inclined, or whose blades give nothing back: `c2 = 0`.
-    NotJoined,
+    NotInclined,
     /// Corners of a right angle or less stop the wave.
     StopsAtCorner,
     /// No motion that the blades push repeats from corner to corner.
@@ -89,7 +89,7 @@ pub fn whirl_over(machine: &Machine, speeds: &[f64]) -> Result<Vec<WhirlPoint>, 
 fn at(machine: &Machine, speed: f64) -> Result<WhirlOrbit, NoWhirl> {
     let joint = Joint::at(machine, speed);
     if joint.coupling_product == 0.0 {
-        return Err(NoWhirl::NotJoined);
+        return Err(NoWhirl::NotInclined);
     }
     // A wave that is slower than the rotor passes against the phase.
     let sense = if speed < 0.0 { -1.0 } else { 1.0 };

@@ -61,7 +61,7 @@ impl<T: Number> Machine<T> {
         if self.clearance().re() <= 0.0 {
             return Vec::new();
         }
-        if !self.casing_is_joined() && self.lining.is_none() {
+        if !self.casing_feels_tips() && self.lining.is_none() {
             let from = self.threshold(1.0 / slope);
             return from.map(|from| LockWindow { from, to: None }).into_iter().collect();
         }
@@ -76,7 +76,7 @@ impl<T: Number> Machine<T> {
         if self.lining.is_some() || self.clearance().re() <= 0.0 {
             return None;
         }
-        if !self.is_joined() {
+        if !self.tips_incline_or_rub() {
             return self.threshold(self.polygon.delta.tan());
         }
         let slope = 1.0 / self.polygon.delta.tan();
@@ -87,7 +87,7 @@ impl<T: Number> Machine<T> {
     /// Whether every lock above the critical speed pushes, as nothing parts the two pushes.
     #[must_use]
     pub fn locks_from_critical_speed(&self) -> bool {
-        self.casing_damping.re() == 0.0 && !self.casing_is_joined() && self.lining.is_none()
+        self.casing_damping.re() == 0.0 && !self.casing_feels_tips() && self.lining.is_none()
     }
 
     fn threshold(&self, slope: f64) -> Option<T> {
@@ -162,11 +162,11 @@ impl<T: Number> Machine<T> {
         let (sin, cos) = self.polygon.delta.sin_cos();
         let mut stiff = self.casing_stiffness - nu * nu * self.casing_mass;
         let mut drag = self.casing_damping * nu;
-        if self.casing_is_joined() {
+        if self.casing_feels_tips() {
             if self.has_other_diameters() {
                 return None;
             }
-            [stiff, drag] = self.joined(stiff, drag, speed);
+            [stiff, drag] = self.with_tips(stiff, drag, speed);
         }
         let (stiff, drag) = (stiff / cos, drag / sin);
         let scale = self.clearance() / (2.0 * cos);
@@ -174,7 +174,7 @@ impl<T: Number> Machine<T> {
     }
 
     /// Real and imaginary part of `1/H` from those of the casing alone \[N/m\].
-    fn joined(&self, stiff: T, drag: T, speed: T) -> [T; 2] {
+    fn with_tips(&self, stiff: T, drag: T, speed: T) -> [T; 2] {
         let friction = self.casing_friction_at(speed);
         let c = self.coupling_product_at(speed) / self.blade_modal_stiffness;
         let (real, imaginary) = (c * stiff + 1.0, c * drag + friction);

@@ -184,14 +184,14 @@ impl<T: Number> Machine<T> {
     /// Whether tips that are inclined or rub join blades and casing beyond the small
     /// angles of the paper.
     #[must_use]
-    pub fn is_joined(&self) -> bool {
+    pub fn tips_incline_or_rub(&self) -> bool {
         self.radial_coupling.re() != 0.0 || self.friction.re() != 0.0
     }
 
     /// Whether pushes take another way into the casing than in the paper's model;
     /// friction alone, of a casing without tangential motion, only bends the blades.
     #[must_use]
-    pub fn casing_is_joined(&self) -> bool {
+    pub fn casing_feels_tips(&self) -> bool {
         self.radial_coupling.re() != 0.0 || self.casing_friction_at(T::one()).re() != 0.0
     }
 

@@ -3,39 +3,37 @@
 //!
 //! A solver is a value that holds its whole state: `advance(until)` moves it
 //! on, `clone` forks it, nothing is global.
+//!
+//! Read `solver` (what every solver offers), `drive` and `contacts` (what they share), then
+//! one kind of solver (`explicit` or `event`), then `run` with `script`, `wave`, `verdict`
+//! and `sensitivity`: a whole run, and what it is worth.
 
 mod contacts;
 mod drive;
-mod energy;
 mod event;
 mod explicit;
 mod failure;
-mod free_flight;
 mod propagator;
 mod run;
 mod script;
 mod sensitivity;
 mod solver;
-mod spread;
-mod trend;
 pub mod verdict;
 mod wave;
 
-pub use contacts::{ActiveSet, ContactLog, Hold, Impact, in_phase_order};
+pub use contacts::{ActiveSet, ContactLog, EnergyAccount, Hold, Impact, in_phase_order};
 pub use drive::{Pulse, Rotor, State};
-pub use energy::EnergyAccount;
 pub use event::{ExactEvents, LinearEvents};
 pub use failure::{Failure, FailureReason};
-pub use free_flight::FreeFlight;
+pub use propagator::FreeFlight;
 pub use run::{
     FinalState, ImpactReport, RunReport, Sample, Sampling, SolverReport, VerdictReached, Watch,
     lock_that_broke, run_to_end, run_to_end_watched, run_to_verdict, simulate, simulate_with,
     verdict_of,
 };
 pub use script::{Change, Script};
-pub use sensitivity::{CHANGED_RUNS, is_sensitive, run_with_sensitivity};
+pub use sensitivity::{CHANGED_RUNS, Spread, is_sensitive, run_with_sensitivity};
 pub use solver::{GoOn, Motion, Solver, to_the_end};
-pub use spread::Spread;
 pub use verdict::{Checks, Contact, Outcome, Verdict};
 
 /// A point or vector of the plane of the two casing coordinates.

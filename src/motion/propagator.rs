@@ -7,10 +7,16 @@
 //! critically damped roots, `stiffness = 0` (the casing at `Omega = Omega_c` seen
 //! from the blades) and `stiffness < 0` are one case, only evaluated in different
 //! ways where round-off asks for it.
+//!
+//! What follows from it alone: the gap of one side while nothing touches, and the energy
+//! that a damped oscillator loses.
 
-use crate::model::Number;
-use crate::tolerances::{DOUBLE_ROOT, SERIES_END, SHORT_TIME};
 use std::f64::consts::PI;
+
+use super::Plane;
+use crate::model::{Machine, Number, Operation};
+use crate::numeric::quadrature::quadrature;
+use crate::tolerances::{DOUBLE_ROOT, SERIES_END, SHORT_TIME, SMALL_EXPONENT};
 
 /// Most terms of the power series; at `rate * s = 1/2` the last is below 1e-20.
 const TERMS: usize = 18;
@@ -190,6 +196,75 @@ const STEPS: [Step; TERMS] = {
     steps
 };
 
+/// The casing from rest to its first contact, with rigid blades.
+#[derive(Clone, Copy, Debug)]
+pub struct FreeFlight<'a, T> {
+    /// The machine.
+    pub machine: &'a Machine<T>,
+    /// Rotor and pulse.
+    pub operation: &'a Operation<T>,
+}
+
+impl<T: Number> FreeFlight<'_, T> {
+    /// The change of the gap of a side at `t` \[s\] by one newton of pulse \[m/N\]: the
+    /// gap is the clearance and this times the pulse.
+    #[must_use]
+    pub fn gap_by_pulse(&self, side: u32, t: T) -> T {
+        let Self { machine, operation } = *self;
+        let omega = machine.omega_c;
+        let flight = Propagator::new(machine.casing_damping_ratio * omega, omega * omega);
+        let mut ramp = flight.at(t).ramp;
+        if t.re() > operation.pulse_s.re() {
+            ramp -= flight.at(t - operation.pulse_s).ramp;
+        }
+        let rotor = (operation.speed_rad_s + operation.speed_ramp_rad_s2 * t * 0.5) * t;
+        let (turn_sin, turn_cos) = machine.nu(rotor).sin_cos();
+        let (c, s) = machine.polygon.direction(side);
+        ramp / machine.casing_mass * (turn_cos * c - turn_sin * s)
+    }
+}
+
+/// Energy per unit mass that a free damped oscillator loses in `s` seconds.
+pub(super) fn damped(propagator: &Propagator, from: Plane, rate: Plane, s: f64) -> f64 {
+    if propagator.damping == 0.0 || (from.norm_sqr() == 0.0 && rate.norm_sqr() == 0.0) {
+        return 0.0;
+    }
+    let power = 2.0 * propagator.damping;
+    let Some(exponents) = propagator.exponents() else {
+        // Near critical damping all is over after some forty periods.
+        let omega = propagator.stiffness.sqrt();
+        let [sum, _] = quadrature(s.min(200.0 / omega), 2.0 * omega, |t| {
+            let response = propagator.at(t);
+            let rate = rate * response.slope - from * (propagator.stiffness * response.unit);
+            [rate.norm_sqr(), 0.0]
+        });
+        return power * sum;
+    };
+    let [p, q] = exponents.map(|(re, im)| Plane::new(re, im));
+    let speeds = [(p, q), (q, p)]
+        .map(|(exponent, other)| (exponent, exponent * (rate - from * other) / (exponent - other)));
+    let mut sum = 0.0;
+    for (first, a) in speeds {
+        for (second, b) in speeds {
+            let exponent = first + second.conj();
+            sum += (a * b.conj() * integral(exponent, s)).re;
+        }
+    }
+    power * sum
+}
+
+/// Integral of `exp(r t)` from 0 to `s`.
+fn integral(r: Plane, s: f64) -> Plane {
+    let x = r * s;
+    if x.norm_sqr() < SMALL_EXPONENT {
+        return (Plane::new(1.0, 0.0) + x * 0.5 + x * x / 6.0) * s;
+    }
+    // exp(x) - 1 with the digits of small x kept.
+    let half = (0.5 * x.im).sin();
+    let re = x.re.exp_m1() * x.im.cos() - 2.0 * half * half;
+    Plane::new(re, x.re.exp() * x.im.sin()) / r
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -282,5 +357,23 @@ mod tests {
         let response: Response = propagator.at(1e-12);
         assert!((response.ramp / 5e-25 - 1.0).abs() < 1e-9);
         assert!((response.unit / 1e-12 - 1.0).abs() < 1e-9);
+    }
+}
+
+#[cfg(test)]
+mod dissipation_tests {
+    use super::*;
+
+    #[test]
+    fn integral_of_an_exponential_is_smooth_through_zero() {
+        for scale in [1.0, 1e-2, 1e-4, 1.001e-4, 1e-9] {
+            let r = Plane::new(-0.3, 1.1) * scale;
+            let expected = quadrature(1.0, 2.0, |t| {
+                let value = (r * t).exp();
+                [value.re, value.im]
+            });
+            let value = integral(r, 1.0);
+            assert!((value.re - expected[0]).abs() + (value.im - expected[1]).abs() < 1e-14);
+        }
     }
 }

@@ -2,7 +2,7 @@
 //! partial pivoting: an error of round-off times the condition, `n^3/3` and `n^3`
 //! products, nothing on the heap.
 
-use crate::tolerances::ZERO_PIVOT;
+use crate::tolerances::AS_ZERO;
 
 /// Gauss elimination with partial pivoting of `size` equations, each followed by
 /// its right side, where the solution is afterwards. `None` where they are
@@ -52,7 +52,7 @@ pub(crate) fn inverse<const N: usize>(matrix: &Square<N>, n: usize) -> Option<Sq
         let pivot =
             (column..n).max_by(|&a, &b| left[a][column].abs().total_cmp(&left[b][column].abs()))?;
         let size = left[pivot][column].abs();
-        if size.is_nan() || size <= ZERO_PIVOT * largest {
+        if size.is_nan() || size <= AS_ZERO * largest {
             return None;
         }
         left.swap(column, pivot);

@@ -5,10 +5,6 @@
 /// touch may be looked at again and again.
 pub(crate) const EVENT: f64 = 1e-15;
 
-/// Part of the terms of a sum that its round-off may make: some fifty
-/// roundings. Smaller: a side at rest counts as opening.
-pub(crate) const ROUND_OFF: f64 = 1e-14;
-
 /// A start this close to a side, in parts of the clearance, is on it. A scene
 /// may have computed coordinates; see its check.
 pub(crate) const ON_A_SIDE: f64 = 1e-12;
@@ -79,11 +75,6 @@ pub(crate) const LONG_LOOK: f64 = 0.1;
 /// Radians of the casing that one look ahead covers at most, where nothing else bounds
 /// it: next to a side that seems to rest. Infinite: sums of infinities.
 pub(crate) const LONGEST_LOOK: f64 = 1e6;
-
-/// Part of the largest swing by which the casing counts as reaching the blades too
-/// early: a thousand roundings. Smaller: where it just rises to them round-off could
-/// take it for falling, and a whole period would be passed.
-pub(crate) const RISE_MARGIN: f64 = 1e-13;
 
 /// Part of its frequency up to which damping is light: two waves then bound the motion
 /// well. Speed only.
@@ -159,3 +150,17 @@ pub(crate) const FEW_NODES: f64 = 0.3;
 
 /// Panels of one quadrature, at most: of the energy balance of one segment.
 pub(crate) const MOST_PANELS: f64 = 1e7;
+
+// Of those that are linear in the blade angles.
+
+/// Most rows that push at once: casing and blades have four modes, and more pushes on
+/// them could not be told apart.
+pub(crate) const MOST_HELD: usize = 4;
+
+/// Most rows that one impact or one instant without rates may bring together. The work grows
+/// with their fourth power.
+pub(crate) const MOST_TOUCHING: usize = 12;
+
+/// Part of the clearance up to which a gap that has just opened keeps its own digits,
+/// beside those of the state. Smaller: a short excursion is lost in round-off.
+pub(crate) const JUST_OPENED: f64 = 1e-6;

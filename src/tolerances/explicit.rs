@@ -5,9 +5,6 @@
 /// step too long for the blades.
 pub(crate) const MOST_ROWS: usize = 512;
 
-/// Part of the sizes in a gap that its round-off stays below.
-pub(crate) const GAP_ROUND_OFF: f64 = 1e-14;
-
 /// Most multiplications of one step on its contact rows: a tenth of a second.
 /// Least-index pivoting may need any number of tries, though one or two are
 /// usual.
@@ -57,13 +54,14 @@ pub(crate) const HELD_AGAIN: u64 = 4096;
 /// \[rad\]: of what contact does in the map, its square is 1e-11 and round-off over it 1e-10.
 pub(crate) const HELD_PROBE: f64 = 1e-6;
 
-/// Largest blade phase `n_d alpha` of a vibration whose square the affine map
-/// may leave out \[rad\]: it makes 1e-10 of the pushes, as long as it lasts.
-pub(crate) const HELD_PHASE: f64 = 1e-5;
-
 /// Part of a predicted gap that a step of the map may leave, as a push bends the blades:
 /// it makes 1e-11 of the angles at rest, on which the pushes of both sides nearly cancel.
 pub(crate) const HELD_LEFT: f64 = 1e-12;
+
+/// Largest blade phase `n_d alpha` whose square the map of a held corner, and whose cube
+/// the gap of a side that is slid on, may leave out \[rad\]: they make 1e-10 of the pushes,
+/// and round-off.
+pub(crate) const SMALL_TURN: f64 = 1e-5;
 
 /// Roundings of what is left, over the square of the sine of a corner: a flat one loses
 /// digits of its pushes by as much.
@@ -88,17 +86,9 @@ pub(crate) const LEAP_FOLDS: f64 = 8.0;
 /// penetration needs no look at the neighbour. Speed only.
 pub(crate) const SLIDING_DEPTH: f64 = 1e-2;
 
-/// Largest blade phase `n_d alpha` of a side that is slid on without sine and cosine
-/// \[rad\]: its cube is round-off of a gap, as any other step has it.
-pub(crate) const SLIDING_PHASE: f64 = 1e-5;
-
 /// Mass ratio of the blades of a side below which its third power is round-off of a
 /// push.
 pub(crate) const LIGHT_PUSH: f64 = 1e-6;
-
-/// Part of their phases by which blades of one side that stand alike may
-/// differ: the round-off of the sums that their angles are.
-pub(crate) const SAME_ANGLE: f64 = 1e-13;
 
 /// Blade phase below which sine and cosine are two terms of their series
 /// \[rad\]: exact to round-off.

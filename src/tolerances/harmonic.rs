@@ -21,10 +21,6 @@ pub(crate) const NEWTON_STRIDE: f64 = 1e-6;
 /// Most strides of the softness.
 pub(crate) const NEWTON_STRIDES: usize = 500;
 
-/// Residual that is accepted close to a fold, where the equations are ill-
-/// conditioned.
-pub(crate) const NEAR_A_FOLD: f64 = 1e-11;
-
 /// Part of an angle at which Newton steps that no longer shrink have converged.
 pub(crate) const CONVERGED: f64 = 1e-7;
 
@@ -54,18 +50,12 @@ pub(crate) const BRANCH_CHANGES: usize = 16;
 /// nearly defective pair is known to half its digits.
 pub(crate) const NEUTRAL: f64 = 1e-8;
 
-/// As `NEUTRAL`, as a part of the fastest eigenvalue.
-pub(crate) const NEUTRAL_OF_ALL: f64 = 1e-14;
-
 /// Part of its terms that the last Hurwitz determinant must be for its sign to
 /// be clear; else eigenvalues are asked.
 pub(crate) const CLEAR_SIGN: f64 = 1e-9;
 
 /// As `CLEAR_SIGN`, for the coefficients of odd order.
 pub(crate) const CLEAR_DAMPING: f64 = 1e-6;
-
-/// Part by which the discriminant of two equal roots may be negative.
-pub(crate) const EQUAL_ROOTS: f64 = 1e-12;
 
 /// Samples of one period on which the largest truncation errors are looked for.
 pub(crate) const SPECTRUM_SAMPLES: usize = 2048;

@@ -43,9 +43,6 @@ pub(crate) const WINDOW_REACH: [f64; 2] = [-30.0, 15.0];
 /// See `WINDOW_REACH`.
 pub(crate) const WINDOW_LOOKS: u32 = 450;
 
-/// Residual of a steady state over its length and stiffness that counts as solved.
-pub(crate) const LINING_SETTLED: f64 = 1e-12;
-
 /// Distance over the length of the contact up to which two steady states are one.
 /// Larger: two that are about to meet in a fold are one too early.
 pub(crate) const LINING_ALIKE: f64 = 1e-7;
@@ -62,9 +59,6 @@ pub(crate) const FOLLOW_POINTS: usize = 4000;
 
 /// Newton steps to one point of it.
 pub(crate) const FOLLOW_STEPS: usize = 12;
-
-/// Step that ends them.
-pub(crate) const FOLLOW_SETTLED: f64 = 1e-12;
 
 /// Part of the way over which the parameter's own derivative is taken. It only steers
 /// Newton's method.

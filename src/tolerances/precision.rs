@@ -23,7 +23,3 @@ pub(crate) const ORDER_LEAST: f64 = 0.5;
 
 /// Largest error of a reference, in clearances. Larger: it tells nothing of a row.
 pub(crate) const REFERENCE_WORST: f64 = 1e-2;
-
-/// Changes of the end, in clearances, that are no more than round-off and what the step
-/// leaves of it: they need not fall. Larger: a wave that is still small counts as found.
-pub(crate) const REFERENCE_ROUND_OFF: f64 = 1e-12;

@@ -200,7 +200,7 @@ fn a_refusal_says_what_would_be_taken() {
     for (command, expected) in [
         (
             "hbm soft-lining --follow bladed_disk.blades --over 22:30",
-            "rubscope: --follow = bladed_disk.blades: allowed is a key whose values are numbers \
+            "rubscope: followed key = bladed_disk.blades: allowed is a key whose values are numbers \
              that need not be whole",
         ),
         (

@@ -306,7 +306,7 @@ fn whirl_has_its_onset_its_rim_and_its_limits() {
     assert!(told.contains("whirl begins at 414.339 rad/s; a lock holds from 472.117"), "{told}");
     // The paper's tips: said, not failed.
     let paper = json(&["--whirl", "--speed", "450"]);
-    assert_eq!(paper["whirl"][0]["reason"], "not-joined");
+    assert_eq!(paper["whirl"][0]["reason"], "not-inclined");
     assert!(paper["whirl_onset_rad_s"].is_null() && paper["flutter_speed_rad_s"].is_null());
 }
 

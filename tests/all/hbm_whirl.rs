@@ -220,8 +220,8 @@ fn the_power_is_shared_as_the_frequencies() {
 #[test]
 fn where_nothing_whirls_it_is_said_why() {
     let why = |tips, speed| whirl_over(&machine(tips, None), &[speed]).unwrap()[0].outcome.err();
-    assert_eq!(why([0.0; 3], 500.0), Some(NoWhirl::NotJoined));
-    assert_eq!(why([0.0, 0.3, 0.1], 500.0), Some(NoWhirl::NotJoined));
+    assert_eq!(why([0.0; 3], 500.0), Some(NoWhirl::NotInclined));
+    assert_eq!(why([0.0, 0.3, 0.1], 500.0), Some(NoWhirl::NotInclined));
     assert_eq!(why([0.3, 0.0, 0.0], 405.0), Some(NoWhirl::NoBalance));
     // The fold of the 22 blades is near 412.5, a little below that of the rim.
     assert_eq!(why([0.3, 0.0, 0.0], 412.0), Some(NoWhirl::NoBalance));

@@ -21,8 +21,7 @@ use crate::harmonic::HarmonicError;
 use crate::numeric::bisection::try_bisected;
 use crate::scene::{Allowed, Scene, Value, keys};
 use crate::tolerances::{
-    FOLLOW_DIFFERENCE, FOLLOW_OVER_A_CORNER, FOLLOW_POINTS, FOLLOW_SETTLED, FOLLOW_STEPS,
-    FOLLOW_STRIDE,
+    AS_ZERO, FOLLOW_DIFFERENCE, FOLLOW_OVER_A_CORNER, FOLLOW_POINTS, FOLLOW_STEPS, FOLLOW_STRIDE,
 };
 
 /// What happens at a special point of a branch.
@@ -124,12 +123,12 @@ impl<'a> Way<'a> {
         let key = keys::find(path).map_err(|error| HarmonicError::Scene(error.to_string()))?;
         if !matches!(key.allowed, Allowed::Real { .. }) {
             let allowed = "a key whose values are numbers that need not be whole";
-            return Err(HarmonicError::refused("--follow", path, allowed));
+            return Err(HarmonicError::refused("followed key", path, allowed));
         }
         let [from, to] = ends;
         if from == to {
             let over = format!("{from}:{to}");
-            return Err(HarmonicError::refused("--over", over, "two different values"));
+            return Err(HarmonicError::refused(key.path, over, "two different values"));
         }
         let way = Self { scene, key, ends, length: 1.0 };
         for end in [0.0, 1.0] {
@@ -227,7 +226,7 @@ impl<'a> Way<'a> {
             if !size.is_finite() || size > 1.0 {
                 return None;
             }
-            if size <= FOLLOW_SETTLED * (1.0 + at.norm()) {
+            if size <= AS_ZERO * (1.0 + at.norm()) {
                 return Some(at);
             }
         }

@@ -24,7 +24,7 @@ use crate::harmonic::{HarmonicError, Joint, error};
 use crate::model::{Machine, Number};
 use crate::numeric::maximum::highest;
 use crate::tolerances::{
-    LINING_ALIKE, LINING_NEUTRAL, LINING_SETTLED, NEWTON_STEPS, WINDOW_LOOKS, WINDOW_REACH,
+    AS_ZERO, LINING_ALIKE, LINING_NEUTRAL, NEWTON_STEPS, WINDOW_LOOKS, WINDOW_REACH,
 };
 
 /// Places of a grid of starts: over half a corner, and over the amplitude in clearances.
@@ -153,7 +153,7 @@ impl<'a> Balance<'a> {
                 break;
             }
         }
-        (residual.norm() <= LINING_SETTLED * w.norm().max(length)).then_some(w)
+        (residual.norm() <= AS_ZERO * w.norm().max(length)).then_some(w)
     }
 
     /// Clearance and smoothing, as the length of this contact \[m\].
@@ -371,7 +371,7 @@ fn speed_at(lock: f64, excess: f64) -> f64 {
 #[must_use]
 pub fn least_lock_stiffness(machine: &Machine) -> Option<LeastStiffness> {
     let lock = machine.clone().with_lining(None).lock_speed()?;
-    if machine.casing_damping == 0.0 && !machine.casing_is_joined() {
+    if machine.casing_damping == 0.0 && !machine.casing_feels_tips() {
         return Some(LeastStiffness { stiffness_n_per_m: 0.0, speed_rad_s: lock });
     }
     let excess = bottom(machine, lock);

@@ -1,9 +1,11 @@
-//! The correction of one step, Eqs. (11)-(16): which rows penetrate, their
-//! multipliers by the chosen law, and the displacements they change.
-//! (docs/theory.md, section 6.)
+//! The correction of one step by rigid contact: which rows penetrate, the pushes that
+//! bring them back by the chosen law, and what these do, all in the frame of the blades,
+//! at `z = u exp(-i n_d theta)`, where the sides stand still and only small blade angles
+//! turn them. First the paper's, Eqs. (11)-(16) (docs/theory.md, section 6), then that of
+//! steps beyond it (section 10).
 //!
-//! All of it happens in the frame of the blades, at `z = u exp(-i n_d theta)`,
-//! where the sides stand still and only small blade angles turn them.
+//! Beyond it the target is `g[n+1] >= -e g[n-1]`, which gives back the part `e` of the
+//! closing speed (Paoli and Schatzman); for `e = 0` it is the paper's.
 
 use super::Explicit;
 use super::disk::Disk;
@@ -11,7 +13,9 @@ use super::pushes::{push, solve};
 use super::rows::{Row, TipLaw, turned};
 use crate::contact::repeated::{GroupReference, Repeat};
 use crate::motion::{ActiveSet, FailureReason, Plane};
-use crate::tolerances::{GAP_ROUND_OFF, MOST_ROWS, SAME_ANGLE};
+use crate::tolerances::{
+    LONG_STEP, MOST_LONG_STEPS, MOST_ROWS, NEIGHBOUR_DEPTHS, ROUND_OFF, ROUNDINGS,
+};
 
 impl<B: Disk> Explicit<B> {
     /// A predicted step outside the circle of the clearance: find what
@@ -42,54 +46,16 @@ impl<B: Disk> Explicit<B> {
     fn gather(&mut self, z: Plane) -> f64 {
         // A blade angle moves a gap by at most |z| n_d alpha.
         let reach = self.machine.nodal_diameters * self.watch.bound();
-        self.look = reach * (z.re.abs() + z.im.abs());
-        let near = self.follow(z);
-        self.near = near;
+        let look = reach * (z.re.abs() + z.im.abs());
+        let matter = self.neighbours_matter;
         self.rows.clear();
-        let mut deepest = self.add_side(near, z);
-        // Not up to the first open side: beyond it, blades may be turned into the casing.
-        let (mut end, mut matters) = (near, self.neighbours_matter);
-        loop {
-            let side = self.machine.polygon.next(end);
-            if side == near || !(matters || self.is_close(side, z)) {
-                break;
-            }
-            let depth = self.add_side(side, z);
+        let mut deepest = 0.0_f64;
+        self.walk(z, look, matter, |this, side| {
+            let depth = this.add_side(side, z);
             deepest = deepest.max(depth);
-            matters = self.neighbours_matter && depth > 0.0;
-            end = side;
-        }
-        let mut side = self.machine.polygon.previous(near);
-        matters = self.neighbours_matter;
-        while side != end && (matters || self.is_close(side, z)) {
-            let depth = self.add_side(side, z);
-            deepest = deepest.max(depth);
-            matters = self.neighbours_matter && depth > 0.0;
-            side = self.machine.polygon.previous(side);
-        }
+            matter && depth > 0.0
+        });
         deepest
-    }
-
-    /// Whether a blade of this side may penetrate, however it is turned.
-    fn is_close(&self, side: u32, z: Plane) -> bool {
-        self.machine.polygon.gap(side, z.re, z.im) < self.look
-    }
-
-    /// The side nearest to `z`, from the one found last: around the polygon the
-    /// gap has a single minimum.
-    pub(super) fn follow(&self, z: Plane) -> u32 {
-        let polygon = &self.machine.polygon;
-        let gap = |side| polygon.gap(side, z.re, z.im);
-        let here = gap(self.near);
-        // On the far side of the polygon the gap has its maximum instead.
-        if here < self.machine.polygon.clearance
-            && here <= gap(polygon.previous(self.near))
-            && here <= gap(polygon.next(self.near))
-        {
-            self.near
-        } else {
-            polygon.nearest_side(z.re, z.im)
-        }
     }
 
     /// Appends the rows of a side that penetrate (or matter); its deepest
@@ -153,7 +119,7 @@ impl<B: Disk> Explicit<B> {
             let turns = [row, first].map(|row| diameters * row.angle);
             let apart = turns[0] - turns[1];
             // Blades that stand alike to round-off are one.
-            if apart.abs() > SAME_ANGLE * (turns[0].abs() + turns[1].abs()) {
+            if apart.abs() > ROUNDINGS * (turns[0].abs() + turns[1].abs()) {
                 let half = (0.5 * apart).sin();
                 let (cos, sin) = (-2.0 * half * half, apart.sin());
                 let reach = first.place.gap - self.machine.polygon.clearance;
@@ -184,7 +150,7 @@ impl<B: Disk> Explicit<B> {
         let (z, shift, turned) = (size(z), size(shift), self.tips.diameters * change);
         let pushes: f64 = self.rows.iter().map(|row| row.lambda.abs()).sum();
         let rounded = self.tips.clearance + z + self.casing.compliance * pushes;
-        (z + shift) * turned * turned + shift * turned + GAP_ROUND_OFF * rounded
+        (z + shift) * turned * turned + shift * turned + ROUND_OFF * rounded
     }
 
     /// Keeps the penetration that the step has left, with the casing at `z`.
@@ -236,4 +202,197 @@ impl<B: Disk> Explicit<B> {
 
 fn parts(direction: Plane) -> (f64, f64) {
     (direction.re, direction.im)
+}
+
+impl<B: Disk> Explicit<B> {
+    /// Corrects a predicted step that may touch; whether to look at the blades.
+    ///
+    /// # Errors
+    /// It went through more than the clearance, or its rows have no answer.
+    pub(super) fn meet_target(&mut self, tips: &TipLaw, bound: f64) -> Result<bool, FailureReason> {
+        let (z, turn) = self.in_blade_frame();
+        let restitution = self.scene.contact.restitution;
+        let highest = self.highest_target();
+        self.find_candidates(z, tips, bound, highest);
+        let deepest = self.gather_targets(z, tips, restitution);
+        if deepest <= 0.0 {
+            let dip = self.rows.iter().fold(0.0, |dip: f64, row| dip.max(-row.place.gap));
+            self.rows.clear();
+            self.part();
+            self.beyond.dips[0] = dip;
+            self.record.deepest = self.record.deepest.max(dip);
+            return Ok(false);
+        }
+        self.is_shallow(deepest)?;
+        // A push may close the gap beside it, by as much as is asked of it.
+        let reach = NEIGHBOUR_DEPTHS * deepest;
+        if !self.law.pulls() {
+            let found = self.beyond.candidates.len();
+            self.find_candidates(z, tips, bound, reach + highest);
+            if self.beyond.candidates.len() > found {
+                self.gather_targets(z, tips, restitution);
+            }
+        }
+        let limit = if self.law.pulls() { 0.0 } else { reach };
+        let kept = self.below_first(limit);
+        if kept > MOST_ROWS {
+            return Err(FailureReason::Rows { rows: kept });
+        }
+        let Self { blades, rows, gaps, several, casing, law, .. } = self;
+        let touching = &mut rows[..kept];
+        solve(tips, *law, casing.compliance, blades, touching, &gaps[..kept], several)?;
+        let (shift, change) = push(rows, tips, casing.compliance, blades);
+        self.shift_casing(shift, turn);
+        self.settle(z + shift, turn, tips);
+        self.keep_rows();
+        self.look_at_swing();
+        self.look_at_speed(tips)?;
+        Ok(self.watch.moved(change))
+    }
+
+    /// # Errors
+    /// The wave passes the blades too fast for the step, and has for long.
+    fn look_at_speed(&mut self, tips: &TipLaw) -> Result<(), FailureReason> {
+        let moved_m = self.u[0].increment.hypot(self.u[1].increment);
+        let side_m = 2.0 * tips.clearance * self.machine.polygon.delta.tan();
+        let long = self.machine.polygon.has_corners() && moved_m > LONG_STEP * side_m;
+        let steps = &mut self.beyond.long_steps;
+        *steps = if long { *steps + 1 } else { 0 };
+        if *steps > MOST_LONG_STEPS {
+            return Err(FailureReason::LongStep { moved_m, side_m });
+        }
+        Ok(())
+    }
+
+    /// Makes rows of the candidates, with their distances to the target; how far the
+    /// deepest is beyond its own.
+    fn gather_targets(&mut self, z: Plane, tips: &TipLaw, restitution: f64) -> f64 {
+        self.rows.clear();
+        self.gaps.clear();
+        let mut deepest = 0.0_f64;
+        for place in 0..self.beyond.candidates.len() {
+            let row = self.row_at(self.beyond.candidates[place], z, tips);
+            let mut gap = row.place.gap;
+            if restitution != 0.0 {
+                gap += restitution * self.gap_before(&row, tips);
+            }
+            deepest = deepest.max(-gap);
+            self.rows.push(row);
+            self.gaps.push(gap);
+        }
+        deepest
+    }
+
+    /// The highest target of a step, `-e g[n-1]` of the deepest row \[m\].
+    pub(super) fn highest_target(&self) -> f64 {
+        self.scene.contact.restitution * self.beyond.dips[0].max(self.beyond.dips[1])
+    }
+
+    /// Puts the rows whose distance to the target is below a limit before the others,
+    /// which may have dipped too; how many they are.
+    fn below_first(&mut self, limit: f64) -> usize {
+        let mut kept = 0;
+        for place in 0..self.rows.len() {
+            if self.gaps[place] < limit {
+                self.rows.swap(kept, place);
+                self.gaps.swap(kept, place);
+                kept += 1;
+            }
+        }
+        kept
+    }
+
+    /// The gap of a row two steps before.
+    fn gap_before(&mut self, row: &Row, tips: &TipLaw) -> f64 {
+        let [c, s] = self.moved();
+        let u = Plane::new(self.u[0].x - c, self.u[1].x - s);
+        let z = u * self.turn_before().conj();
+        let angle = self.blades.angle_before(row.index);
+        tips.place(self.machine.polygon.direction(row.side), z, angle).gap
+    }
+
+    /// The turn of the frame of the blades two steps before.
+    fn turn_before(&self) -> Plane {
+        let (c, s) = match self.n.checked_sub(2) {
+            Some(n) => self.drive.look_at_turn(n),
+            None => {
+                let diameters = self.machine.nodal_diameters;
+                let (sin, cos) = (diameters * self.drive.rotor.angle(-self.drive.step)).sin_cos();
+                (cos, sin)
+            }
+        };
+        Plane::new(c, s)
+    }
+
+    /// Penetration left, and the flows of energy of the pushes.
+    fn settle(&mut self, z: Plane, turn: Plane, tips: &TipLaw) {
+        let mut dip = 0.0_f64;
+        for place in 0..self.rows.len() {
+            let row = self.rows[place];
+            let direction = self.machine.polygon.direction(row.side);
+            let angle = self.blades.angle(row.index);
+            let gap = tips.place(direction, z, angle).gap;
+            dip = dip.max(-gap);
+            if row.lambda != 0.0 && !self.beyond.account.forgone {
+                let closed = 0.5 * (gap - self.gap_before(&row, tips));
+                self.beyond.account.sums.impact_loss_j += row.lambda * closed;
+                self.count_push(&row, turn, tips);
+            }
+        }
+        self.record.deepest = self.record.deepest.max(dip);
+        self.beyond.dips = [dip, self.beyond.dips[0]];
+    }
+
+    /// Work of the rotor and heat of one push over the last two half steps.
+    pub(super) fn count_push(&mut self, row: &Row, turn: Plane, tips: &TipLaw) {
+        let (push, normal) = (-row.lambda, row.place.normal);
+        let rotor =
+            self.drive.rotor.speed(self.time_of(self.n) - self.drive.step) * self.drive.step;
+        self.beyond.account.sums.rotor_work_j -= push * row.place.moment_arm * rotor;
+        if tips.friction == 0.0 {
+            return;
+        }
+        let [c, s] = self.moved();
+        let moved = Plane::new(0.5 * c, 0.5 * s) * turn.conj();
+        let along = moved.im * normal.re - moved.re * normal.im;
+        let turned = 0.5 * (self.blades.angle(row.index) - self.blades.angle_before(row.index));
+        let radius = self.scene.casing.radius_m;
+        let bent = self.machine.blade_length * turned;
+        let sums = &mut self.beyond.account.sums;
+        sums.rotor_work_j += push * tips.friction * radius * rotor;
+        sums.friction_heat_j +=
+            push * (tips.friction * (radius * rotor + bent) - tips.casing_friction * along);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::motion::Solver;
+    use crate::motion::explicit::{Explicit, RigidBlades};
+    use crate::scene::{ModelSize, Scene};
+
+    /// Rigid tips and a frictionless casing: pushes move gaps in proportion.
+    #[test]
+    fn no_blade_is_beyond_its_target_after_a_step() {
+        let mut scene = Scene::base();
+        scene.solver.model = ModelSize::Rigid;
+        (scene.contact.restitution, scene.solver.step_s) = (0.9, 4e-6);
+        (scene.bladed_disk.blades, scene.operation.speed_rad_s) = (40, 60.0);
+        let mut motion = Explicit::<RigidBlades>::new(&scene.checked().unwrap());
+        let (mut dips, mut both) = (0, 0);
+        let mut last = [motion.blade_gaps(), motion.blade_gaps()];
+        for step in 1..5000_u32 {
+            motion.advance(f64::from(step) * 4e-6 + 1e-9).unwrap();
+            let gaps = motion.blade_gaps();
+            for (now, before) in gaps.iter().zip(&last[0]) {
+                assert!(now + 0.9 * before > -1e-15, "{step}: {now:e} {before:e}");
+            }
+            let deep = gaps.iter().filter(|gap| **gap < -1e-15).count();
+            (dips, both) = (dips + deep.min(1), both + usize::from(deep > 1));
+            let deepest = gaps.iter().fold(0.0_f64, |most, gap| most.max(-gap));
+            assert!(motion.checks().max_penetration_m >= deepest - 1e-18, "{step}: {deepest:e}");
+            last = [last[1].clone(), gaps];
+        }
+        assert!(dips > 20 && both > 0, "{dips} {both}");
+    }
 }

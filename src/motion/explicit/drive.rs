@@ -1,8 +1,8 @@
-//! What drives a motion, as steps of one length see it: the rotor, the pulse and the
-//! excitation.
+//! What drives a motion, as steps of one length see it: the rotor and its phase, the
+//! pulse, and the engine-order excitation, a torque `Q cos(E (theta + Phi_i))` on every
+//! blade, fixed in the standing frame, which only some modes feel (docs/theory.md,
+//! section 8).
 
-use super::EngineOrderTorque;
-use super::phasor::Phasor;
 use crate::motion::{Pulse, Rotor};
 use crate::scene::Scene;
 
@@ -112,5 +112,157 @@ impl Drive {
     pub fn is_steady(&self, n: u64) -> bool {
         let over = self.pulse.force == 0.0 || self.time_of(n) > self.pulse.end + self.step;
         over && self.rotor.ramp() == 0.0 && self.excitation.is_none()
+    }
+}
+
+/// The phase of the wave frame, `exp(i n_d theta)`, at every step: an exact
+/// sine and cosine each 64 steps and a table between them, so that the value at
+/// a step does not depend on the steps before it.
+#[derive(Clone, Debug)]
+pub(super) struct Phasor {
+    table: Vec<(f64, f64)>,
+    block: u64,
+    at_block: (f64, f64),
+}
+
+const TABLE: u64 = 64;
+
+impl Phasor {
+    pub fn new(rotor: &Rotor, diameters: f64, step: f64) -> Self {
+        let entry = |j: u64| {
+            let (sin, cos) = (diameters * rotor.speed(0.0) * step * j as f64).sin_cos();
+            (cos, sin)
+        };
+        let steady = rotor.ramp() == 0.0;
+        let table = if steady { (0..TABLE).map(entry).collect() } else { Vec::new() };
+        Self { table, block: u64::MAX, at_block: (1.0, 0.0) }
+    }
+
+    /// `(cos n_d theta, sin n_d theta)` at step `n`, keeping the exact value for the
+    /// steps after it.
+    pub fn at(&mut self, n: u64, rotor: &Rotor, diameters: f64, step: f64) -> (f64, f64) {
+        if !self.table.is_empty() && n / TABLE != self.block {
+            self.block = n / TABLE;
+            self.at_block = exact(self.block * TABLE, rotor, diameters, step);
+        }
+        self.look(n, rotor, diameters, step)
+    }
+
+    /// The same, keeping nothing.
+    pub fn look(&self, n: u64, rotor: &Rotor, diameters: f64, step: f64) -> (f64, f64) {
+        let Some((dc, ds)) = self.table.get((n % TABLE) as usize) else {
+            return exact(n, rotor, diameters, step);
+        };
+        let (c, s) = match n / TABLE {
+            block if block == self.block => self.at_block,
+            block => exact(block * TABLE, rotor, diameters, step),
+        };
+        (c * dc - s * ds, s * dc + c * ds)
+    }
+}
+
+/// `exp(i n_d theta)` at step `n` by its own sine and cosine.
+fn exact(n: u64, rotor: &Rotor, diameters: f64, step: f64) -> (f64, f64) {
+    let (sin, cos) = (diameters * rotor.angle(n as f64 * step)).sin_cos();
+    (cos, sin)
+}
+
+/// The excitation of one scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EngineOrderTorque {
+    amplitude: f64,
+    order: u32,
+    blades: u32,
+}
+
+impl EngineOrderTorque {
+    /// The excitation of a scene; none where its amplitude is zero.
+    #[must_use]
+    pub fn of(scene: &Scene) -> Option<Self> {
+        let amplitude = scene.excitation.amplitude_nm;
+        let (order, blades) = (scene.excitation.order, scene.bladed_disk.blades);
+        (amplitude != 0.0).then_some(Self { amplitude, order, blades })
+    }
+
+    /// Nodal diameters of the modes that feel it, at most half the blades.
+    #[must_use]
+    pub fn diameters(&self) -> u32 {
+        let order = self.order % self.blades;
+        order.min(self.blades - order)
+    }
+
+    /// Phase `E theta` at an instant \[rad\].
+    #[must_use]
+    pub fn phase(&self, rotor: &Rotor, t: f64) -> f64 {
+        f64::from(self.order) * rotor.angle(t)
+    }
+
+    /// `sum_i (cos, sin)(k Phi_i) Q_i` for `k` diameters at a phase \[N m\].
+    #[must_use]
+    pub fn torque_on(&self, diameters: u32, phase: f64) -> [f64; 2] {
+        let (k, order) = (diameters % self.blades, self.order % self.blades);
+        let half = 0.5 * f64::from(self.blades) * self.amplitude;
+        let (sin, cos) = phase.sin_cos();
+        let mut torque = [0.0; 2];
+        if (k + order).is_multiple_of(self.blades) {
+            torque[0] += half * cos;
+            torque[1] += half * sin;
+        }
+        if k == order {
+            torque[0] += half * cos;
+            torque[1] -= half * sin;
+        }
+        torque
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    #[test]
+    fn a_look_at_a_phase_is_the_phase_of_a_step_taken() {
+        for ramp in ["0", "-300"] {
+            let scene = Scene::base().with(&[("operation.speed_ramp_rad_s2", ramp)]).unwrap();
+            let rotor = Rotor::of(&scene);
+            let mut phasor = Phasor::new(&rotor, 3.0, 1e-6);
+            for n in [0, 1, 63, 64, 65, 1000, 12_345, 12_346, 70] {
+                let seen = phasor.look(n, &rotor, 3.0, 1e-6);
+                let (sin, cos) = (3.0 * rotor.angle(n as f64 * 1e-6)).sin_cos();
+                assert_eq!(seen, phasor.at(n, &rotor, 3.0, 1e-6));
+                // Round-off of an angle of 18 rad, twice.
+                let apart = (seen.0 - cos).hypot(seen.1 - sin);
+                assert!(apart < 8e-15, "{n}: {apart}");
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod excitation_tests {
+    use super::*;
+    use std::f64::consts::TAU;
+
+    #[test]
+    fn torque_on_a_mode_pair_is_the_sum_over_blades() {
+        for blades in [1, 2, 5, 22] {
+            for (diameters, order) in [(3, 3), (3, 19), (3, 25), (4, 3), (0, 22), (11, 11), (2, 0)]
+            {
+                let excitation = EngineOrderTorque { amplitude: 1.7, order, blades };
+                let phase = 0.6;
+                let [c, s] = excitation.torque_on(diameters, phase);
+                let mut sum = [0.0; 2];
+                for i in 0..blades {
+                    let angle = TAU * f64::from(i) / f64::from(blades);
+                    let torque = 1.7 * (phase + f64::from(order) * angle).cos();
+                    sum[0] += torque * (f64::from(diameters) * angle).cos();
+                    sum[1] += torque * (f64::from(diameters) * angle).sin();
+                }
+                // Round-off of N terms with phases up to 25 turns.
+                let close = (c - sum[0]).abs() + (s - sum[1]).abs() < 1e-11;
+                assert!(close, "{blades} {diameters} {order}: {c} {s} {sum:?}");
+            }
+        }
     }
 }

@@ -4,34 +4,30 @@
 //!
 //! Each step predicts free motion, looks for penetrations and corrects them by the
 //! contact law. Beyond the paper, tips may move outward as blades bend, rub, rebound and
-//! press on a lining, whose push is a force at the beginning of a step (`lining`).
+//! press on a lining, whose push is a force at the beginning of a step (`pushes`).
 //!
 //! In the paper's model many steps are taken at once, as plain stepping would take them
 //! (`leap`).
+//!
+//! Read `oscillator` (one coordinate) and `drive`, then `rows`, `pushes` and `correct` (the
+//! contact of a step), `disk` (what it asks of the blades), `beyond` and `lasting`; `record`,
+//! `parameters` and `solver` put them together.
 
-mod account;
 mod beyond;
-mod candidates;
 mod correct;
 mod disk;
 mod drive;
-mod excitation;
 mod lasting;
 mod leap;
-mod lining;
 mod oscillator;
 mod parameters;
-mod phasor;
 mod pushes;
 mod record;
-mod rigid_step;
 mod rows;
 mod solver;
-mod start;
-mod watch;
 
 pub(super) use disk::{FullBlades, ModalBlades, RigidBlades};
-pub(super) use excitation::EngineOrderTorque;
+pub(super) use drive::EngineOrderTorque;
 pub(super) use oscillator::{Coordinate, Oscillator};
 
 use std::sync::Arc;
@@ -44,9 +40,8 @@ use beyond::Beyond;
 use disk::Disk;
 use drive::{Drive, Driven};
 use leap::Leaps;
-use record::Record;
+use record::{Record, Watch};
 use rows::{Row, TipLaw};
-use watch::Watch;
 
 /// The explicit solver on one size of bladed disk.
 #[derive(Clone, Debug)]
@@ -85,8 +80,6 @@ pub(super) struct Explicit<B: Disk> {
     repeated: Repeated,
     /// Whether the neighbours of a penetrating side always count; see `correct`.
     neighbours_matter: bool,
-    /// Rigid gap beyond which no blade of a side can touch now \[m\].
-    look: f64,
 }
 
 impl<B: Disk> Explicit<B> {

@@ -1,9 +1,10 @@
-//! What the steps of a motion leave behind: the record of contacts, impulses and depths.
+//! What the steps of a motion leave behind: the record of contacts, impulses and depths,
+//! the ledger of energy, and the largest blade angle.
 
 use crate::model::ContactPolygon;
 use crate::motion::contacts::in_phase_order;
-use crate::motion::{ActiveSet, ContactLog};
-use crate::tolerances::BREAK_STEPS;
+use crate::motion::{ActiveSet, ContactLog, EnergyAccount, FailureReason};
+use crate::tolerances::{BREAK_STEPS, LARGEST_BLADE_ANGLE};
 
 /// The record of a motion in steps of one length.
 #[derive(Clone, Debug)]
@@ -113,5 +114,77 @@ impl Record {
         }
         in_phase_order(polygon, &mut means);
         means
+    }
+}
+
+/// The account of a motion under way.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Account {
+    pub sums: EnergyAccount,
+    /// Energy at the start, less what changes from outside have put in \[J\].
+    pub start: f64,
+    /// Energy in the lining at the step before the latest \[J\].
+    pub lining_before: f64,
+    /// The same at the latest \[J\].
+    pub lining: f64,
+    /// Whether nobody asks.
+    pub forgone: bool,
+}
+
+impl Account {
+    /// The lining holds this at a new step \[J\].
+    pub fn press(&mut self, energy: f64) {
+        (self.lining_before, self.lining) = (self.lining, energy);
+    }
+
+    /// Stored in the lining between the last two steps \[J\].
+    pub fn in_lining(&self) -> f64 {
+        0.5 * (self.lining_before + self.lining)
+    }
+}
+
+/// The largest blade angle of the steps taken.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Watch {
+    /// \[rad\]
+    largest: f64,
+    /// What every blade angle is below it, at least \[rad\].
+    room: f64,
+}
+
+impl Watch {
+    /// The largest angle so far \[rad\].
+    pub fn largest(self) -> f64 {
+        self.largest
+    }
+
+    /// A bound on every blade angle now \[rad\].
+    pub fn bound(self) -> f64 {
+        self.largest - self.room
+    }
+
+    /// Blades have moved by no more than `change`; whether to look at them.
+    pub fn moved(&mut self, change: f64) -> bool {
+        self.room -= change;
+        self.room < 0.0 || self.room.is_nan()
+    }
+
+    /// The largest angle now of any blade that may be beyond `largest`, and a
+    /// bound on every angle.
+    ///
+    /// # Errors
+    /// It is beyond what small angles allow, or not a number.
+    pub fn look(&mut self, (now, bound): (f64, f64)) -> Result<(), FailureReason> {
+        self.largest = self.largest.max(now);
+        self.room = self.largest - bound;
+        let fits = now <= LARGEST_BLADE_ANGLE;
+        if fits { Ok(()) } else { Err(FailureReason::BladeAngle { angle_rad: now }) }
+    }
+
+    /// Steps without a look, over which the largest angle was `largest`; blades
+    /// are below `bound` now.
+    pub fn skipped(&mut self, largest: f64, bound: f64) {
+        self.largest = self.largest.max(largest);
+        self.room = self.largest - bound;
     }
 }

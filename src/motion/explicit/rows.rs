@@ -1,5 +1,5 @@
-//! Constraint rows of blade tips, Eqs. (9)-(10) and section 10 of docs/theory.md: which
-//! blades are one row, and the gap, constraint and force direction of a row.
+//! Rows of blade tips, Eqs. (9)-(10) and section 10 of docs/theory.md: which blades are
+//! one row, its gap, constraint and force direction, and which rows may touch now.
 //!
 //! All of it is in the frame of the blades, at `z = u exp(-i n_d theta)`, where the sides
 //! stand still and only small blade angles turn them. With `n = exp(i (psi + n_d alpha))`
@@ -8,7 +8,9 @@
 //! `(1 + i mu_c) n` and `A - (kappa + mu) l_b`. The paper's tips have no slope `kappa` and
 //! no friction.
 
-use crate::model::Machine;
+use super::Explicit;
+use super::disk::Disk;
+use crate::model::{ContactPolygon, Machine};
 use crate::motion::Plane;
 use crate::tolerances::{SERIES_PHASE, SMALL_PHASE};
 
@@ -111,6 +113,90 @@ pub(super) fn turned((c, s): (f64, f64), phase: f64) -> Plane {
         phase.sin_cos()
     };
     Plane::new(c * cos - s * sin, s * cos + c * sin)
+}
+
+impl<B: Disk> Explicit<B> {
+    /// The rows whose gaps may be below `reach` now, for blades within `bound`.
+    pub(super) fn find_candidates(&mut self, z: Plane, tips: &TipLaw, bound: f64, reach: f64) {
+        // A blade angle moves a gap by at most |z| n_d alpha beside its slope.
+        let look = reach + tips.diameters * bound * (z.re.abs() + z.im.abs());
+        self.beyond.candidates.clear();
+        let wave = if tips.rise == 0.0 { Some(Plane::default()) } else { self.blades.wave() };
+        match wave.filter(|_| self.blades.table().is_by_side()) {
+            Some(wave) => self.walk(z - wave * tips.rise, look, false, |this, side| {
+                let row = this.blades.table().of_side(side)[0];
+                this.beyond.candidates.push(row);
+                false
+            }),
+            None => {
+                let polygon = &self.machine.polygon;
+                let (table, angles, slack) = self.blades.estimates();
+                let look = look + tips.rise.abs() * slack;
+                for (row, (angle, &side)) in angles.iter().zip(&table.side).enumerate() {
+                    if polygon.gap(side, z.re, z.im) - tips.rise * angle < look {
+                        self.beyond.candidates.push(row as u32);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Adds the nearest side of the polygon at `w` and those on either side of it, as long
+    /// as their gaps are below `look`, or, where `all` neighbours of a side may matter, the
+    /// side added before says that they do.
+    #[inline]
+    pub(super) fn walk(
+        &mut self,
+        w: Plane,
+        look: f64,
+        all: bool,
+        mut add: impl FnMut(&mut Self, u32) -> bool,
+    ) {
+        self.near = self.follow(w);
+        let near = self.near;
+        let is_close = |this: &Self, side| this.machine.polygon.gap(side, w.re, w.im) < look;
+        if !(all || is_close(self, near)) {
+            return;
+        }
+        add(self, near);
+        let mut left = self.machine.polygon.sides - 1;
+        let ways: [fn(&ContactPolygon, u32) -> u32; 2] =
+            [ContactPolygon::next, ContactPolygon::previous];
+        for way in ways {
+            let (mut side, mut matters) = (way(&self.machine.polygon, near), all);
+            // Not up to the first open side: beyond it, blades may be turned into the casing.
+            while left > 0 && (matters || is_close(self, side)) {
+                matters = add(self, side);
+                side = way(&self.machine.polygon, side);
+                left -= 1;
+            }
+        }
+    }
+
+    /// The side nearest to `z`, from the one found last: around the polygon the
+    /// gap has a single minimum.
+    fn follow(&self, z: Plane) -> u32 {
+        let polygon = &self.machine.polygon;
+        let gap = |side| polygon.gap(side, z.re, z.im);
+        let here = gap(self.near);
+        // On the far side of the polygon the gap has its maximum instead.
+        if here < self.machine.polygon.clearance
+            && here <= gap(polygon.previous(self.near))
+            && here <= gap(polygon.next(self.near))
+        {
+            self.near
+        } else {
+            polygon.nearest_side(z.re, z.im)
+        }
+    }
+
+    /// A candidate as a row, with its exact gap.
+    pub(super) fn row_at(&mut self, index: u32, z: Plane, tips: &TipLaw) -> Row {
+        let side = self.blades.table().side[index as usize];
+        let angle = self.blades.angle(index);
+        let place = tips.place(self.machine.polygon.direction(side), z, angle);
+        Row { index, side, angle, place, lambda: 0.0 }
+    }
 }
 
 #[cfg(test)]

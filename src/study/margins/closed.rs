@@ -82,7 +82,7 @@ pub(super) fn limits(scene: &CheckedScene) -> Vec<Limit> {
     let parameters = Parameters::<f64>::of(scene);
     let mut found = values(&parameters);
     if scene.clearance() <= 0.0 {
-        // Of rigid contact; a lining that is pressed at rest has others (`hbm --smooth`).
+        // Of rigid contact; a lining that is pressed at rest has others (`LiningState`).
         for (value, name) in found.iter_mut().zip(CLOSED) {
             if !OF_NO_CONTACT.contains(&name) {
                 *value = None;
@@ -159,10 +159,12 @@ fn why_none(scene: &CheckedScene, name: LimitName) -> String {
                 "the lining is too soft: two groups hold a lock on it at no speed"
             }
             (Some(_), _) if hard.is_some() => {
-                "two groups alone hold no stable lock on the lining at this speed; hbm --smooth has \
-                 its steady states"
+                "two groups alone hold no stable lock on the lining at this speed; others \
+                 may: its steady states"
             }
-            _ if machine.is_joined() => "friction or the slope of the tips leaves no lock here",
+            _ if machine.tips_incline_or_rub() => {
+                "friction or the slope of the tips leaves no lock here"
+            }
             _ => "the blades are so soft that no lock is left at this speed",
         }
         .to_string()

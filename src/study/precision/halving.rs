@@ -15,8 +15,8 @@ use crate::motion::VerdictReached;
 use crate::scene::keys;
 use crate::scene::{Scene, SceneError};
 use crate::tolerances::{
-    CHANGES_ASKED, ORDER_CLEAR, ORDER_LEAST, REFERENCE_ROUND_OFF, REFERENCE_STEPS,
-    REFERENCE_STEPS_LEAST, REFERENCE_WORST,
+    AS_ZERO, CHANGES_ASKED, ORDER_CLEAR, ORDER_LEAST, REFERENCE_STEPS, REFERENCE_STEPS_LEAST,
+    REFERENCE_WORST,
 };
 
 /// The run at one step.
@@ -162,7 +162,7 @@ fn falling(runs: &[Halved], changes: &[f64]) -> Option<(Option<f64>, f64)> {
     let first = changes.len().checked_sub(CHANGES_ASKED)?;
     let (changes, runs) = (changes.get(first..)?, runs.get(first..)?);
     let largest = |part: &[f64]| part.iter().fold(0.0_f64, |most, change| most.max(*change));
-    if largest(changes) <= REFERENCE_ROUND_OFF {
+    if largest(changes) <= AS_ZERO {
         return Some((None, largest(changes)));
     }
     let (coarse, fine) = (changes.get(..3)?, changes.get(CHANGES_ASKED - 2..)?);

@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use super::free::dot;
 use super::parameters::{Blades, Parameters, Tips};
 use crate::motion::Plane;
-use crate::tolerances::{LIGHT_DAMPING, RISE_MARGIN};
+use crate::tolerances::{LIGHT_DAMPING, ROUNDINGS};
 
 /// Bounds over a stretch of flight ahead.
 pub(super) struct Bounds {
@@ -160,11 +160,11 @@ pub(super) fn rise(parameters: &Parameters, swing: f64, u: Plane, v: Plane) -> f
     let (mean, cos, sin) = (0.5 * (place + rate), 0.5 * (place - rate), dot(u, w));
     let wave = (cos * cos + sin * sin).sqrt();
     let most = mean + wave;
-    let room = parameters.clearance * parameters.clearance - RISE_MARGIN * most;
+    let room = parameters.clearance * parameters.clearance - ROUNDINGS * most;
     if most < room {
         return f64::INFINITY;
     }
-    if u.norm_sqr() > room - RISE_MARGIN * most {
+    if u.norm_sqr() > room - ROUNDINGS * most {
         // Round-off does not tell whether it rises or falls through.
         return 0.0;
     }

@@ -13,6 +13,9 @@
 //!
 //! A segment is always evaluated from its start, never from an output time:
 //! where one looks does not change the motion, not by one bit.
+//!
+//! Read `parameters`, `mode`, `free` with `bounds`, `slide`, `rocking`, `locked`, then
+//! `impact` and `transitions`.
 
 mod bounds;
 mod free;
@@ -25,7 +28,7 @@ mod slide;
 mod transitions;
 
 use crate::model::Machine;
-use crate::motion::event::clock::Clock;
+use crate::motion::event::Clock;
 use crate::motion::{
     Checks, ContactLog, Failure, GoOn, Plane, Pulse, Rotor, Solver, State, Verdict, to_the_end,
 };

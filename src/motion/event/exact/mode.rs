@@ -15,7 +15,7 @@ use super::locked::{self, CornerSeries};
 use super::parameters::{Parameters, Tips};
 use super::slide::{Along, SideSeries, Slide};
 use super::{ExactEvents, rocking};
-use crate::motion::event::dissipation::damped;
+use crate::motion::propagator::damped;
 use crate::motion::{ActiveSet, Failure, FailureReason, Plane};
 use crate::numeric::bisection::bisected;
 use crate::numeric::maximum::highest;

@@ -13,6 +13,8 @@
 //!
 //! A stretch is always evaluated from its start, never from an output time: where one
 //! looks does not change the motion, not by one bit.
+//!
+//! Read `parameters`, `stretch`, `transitions`, then `energy` and `decided`.
 
 mod decided;
 mod energy;
@@ -22,7 +24,7 @@ mod transitions;
 
 use std::sync::OnceLock;
 
-use super::clock::Clock;
+use super::Clock;
 use crate::model::Machine;
 use crate::motion::{
     Checks, ContactLog, EnergyAccount, Failure, FailureReason, GoOn, Plane, Pulse, Rotor, Solver,

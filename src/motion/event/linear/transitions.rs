@@ -14,8 +14,8 @@ use super::stretch::{Ending, Held, OpenedGap, Stretch, seek};
 use crate::motion::{ActiveSet, Failure, FailureReason, Plane};
 use crate::numeric::elimination::inverse;
 use crate::tolerances::{
-    AN_INSTANT, AT_A_CORNER, AT_REST, FREE_MARGIN, JUST_OPENED, MOST_EVENTS, MOST_EVENTS_AT_ONCE,
-    MOST_HELD, MOST_JOINED, MOST_LOOKS, ROUND_OFF, SOFT_TOUCH,
+    AN_INSTANT, AS_ZERO, AT_A_CORNER, JUST_OPENED, MOST_EVENTS, MOST_EVENTS_AT_ONCE, MOST_HELD,
+    MOST_LOOKS, MOST_TOUCHING, ROUND_OFF, ROUNDINGS, SOFT_TOUCH,
 };
 
 impl LinearEvents {
@@ -65,7 +65,7 @@ impl LinearEvents {
         let parameters = &self.parameters;
         let point = self.held.closed(parameters, &point);
         let gaps = self.held.rows.is_empty() && !pulses;
-        if gaps && parameters.swing(&point) < parameters.clearance() * (1.0 - FREE_MARGIN) {
+        if gaps && parameters.swing(&point) < parameters.clearance() * (1.0 - AS_ZERO) {
             self.stretch = Stretch::to_the_end(point);
             self.opened.clear();
             self.next = (f64::INFINITY, Ending::StretchEnd);
@@ -80,7 +80,7 @@ impl LinearEvents {
         }
         let [travel, _] = stretch.travel(parameters);
         let moved = travel.max(stretch.swings(parameters));
-        if !pulses && self.opened.is_empty() && moved <= AT_REST * parameters.clearance() {
+        if !pulses && self.opened.is_empty() && moved <= ROUNDINGS * parameters.clearance() {
             self.stretch = stretch;
             if self.held_for_good(0.0) {
                 self.stretch = self.stretch.clone().at_rest();
@@ -394,14 +394,15 @@ impl LinearEvents {
 }
 
 /// The solution `p >= 0` of `W p + opening >= 0`, `p (W p + opening) = 0`, where sizes
-/// up to `noise` count as zero; none where there is none, or too many rows.
+/// up to `noise` count as zero; none where there is none, or too many rows. Not
+/// `contact::Several`: with friction `W` may be such that pivoting goes round for ever.
 pub(super) fn pushes(
     joint: impl Fn(usize, usize) -> f64,
     opening: &[f64],
     noise: f64,
 ) -> Option<Vec<f64>> {
     let n = opening.len();
-    if n > MOST_JOINED {
+    if n > MOST_TOUCHING {
         return None;
     }
     let matrix: Vec<Vec<f64>> =
@@ -465,6 +466,6 @@ mod tests {
         let found = pushes(|_, _| 2.0, &[-1.0, -1.0, -1.0], 1e-14).unwrap();
         assert!((found.iter().sum::<f64>() - 0.5).abs() < 1e-15);
         assert_eq!(pushes(|_, _| -1.0, &[-1.0], 1e-14), None);
-        assert_eq!(pushes(|_, _| 1.0, &[-1.0; MOST_JOINED + 1], 1e-14), None);
+        assert_eq!(pushes(|_, _| 1.0, &[-1.0; MOST_TOUCHING + 1], 1e-14), None);
     }
 }

@@ -6,9 +6,8 @@
 //! While a push makes a few blades swing up, those are the ones looked at, and
 //! one bound on all others spares even going through them.
 
-use super::near::NearRows;
 use super::ring::Ring;
-use super::shapes::product;
+use super::shapes::{NearRows, product};
 use crate::motion::explicit::Coordinate;
 use crate::tolerances::BLADES_FIRST;
 

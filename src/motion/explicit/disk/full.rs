@@ -8,10 +8,8 @@
 use std::sync::Arc;
 
 use super::angle_bounds::AngleBounds;
-use super::mistuning::springs;
-use super::near::NearRows;
-use super::ring::Ring;
-use super::shapes::product;
+use super::ring::{Ring, springs};
+use super::shapes::{NearRows, product};
 use super::{Disk, RowTable};
 use crate::model::{Machine, gcd};
 use crate::motion::Plane;

@@ -96,7 +96,7 @@ mod tests {
     use super::super::full::tests::{angles, at_rest, scene, widest};
     use crate::motion::explicit::EngineOrderTorque;
     use crate::motion::explicit::disk::Disk;
-    use crate::motion::explicit::watch::Watch;
+    use crate::motion::explicit::record::Watch;
 
     #[test]
     fn the_largest_angle_of_all_steps_is_found_by_looks_and_flights() {

@@ -3,13 +3,14 @@
 //!
 //! To contact they all look alike: *rows* of blades that nothing tells apart, their
 //! angles, and the angle that torques on rows make in one step.
+//!
+//! Read `table` (rows), `rigid`, `modal`; then `shapes`, `ring` and `full`, whose largest
+//! angle `angle_bounds` and `full_flight` keep cheap.
 
 mod angle_bounds;
 mod full;
 mod full_flight;
-mod mistuning;
 mod modal;
-mod near;
 mod rigid;
 mod ring;
 mod shapes;

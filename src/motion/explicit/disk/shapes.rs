@@ -2,14 +2,17 @@
 //! orthonormal: from mode coordinates to blade angles.
 //!
 //! Cosines of all pairs are multiples of one angle, so one turn of them is a
-//! table of all. One blade costs a sum over the modes. Every blade at once is a
+//! table of all. One blade costs a sum over the modes; the blades near contact, which are
+//! asked for step after step, keep their rows. Every blade at once is a
 //! discrete Fourier transform: of a ring that divides into parts, one of each
 //! part is enough (Cooley and Tukey), which makes `N^2` into `N` times the sum of
 //! the prime factors of `N`.
 
+use std::sync::Arc;
+
 use crate::model::fraction_of_turn;
 use crate::motion::explicit::Coordinate;
-use crate::tolerances::{FEW_BLADES, SHAPES_KEPT};
+use crate::tolerances::{FEW_BLADES, ROWS_NEAR, SHAPES_KEPT};
 
 /// Numbers that are added side by side.
 pub(super) const LANES: usize = 4;
@@ -220,6 +223,41 @@ fn smallest_factor(count: usize) -> usize {
     (2..).take_while(|factor| factor * factor <= count).find(divides).unwrap_or(count)
 }
 
+/// The rows asked for last.
+#[derive(Clone, Debug, Default)]
+pub(in crate::motion) struct NearRows {
+    rows: Vec<(u32, Arc<[f64]>)>,
+    /// Place of the oldest, once there are enough.
+    oldest: usize,
+}
+
+impl NearRows {
+    /// The row of a blade (from 0).
+    pub fn row<'a>(&'a mut self, shapes: &'a Shapes, blade: u32) -> &'a [f64] {
+        if let Some(row) = shapes.kept(blade as usize) {
+            return row;
+        }
+        let place = match self.rows.iter().position(|(known, _)| *known == blade) {
+            Some(place) => place,
+            None => self.make(shapes, blade),
+        };
+        &self.rows[place].1
+    }
+
+    /// Makes a row, instead of the oldest where there are enough; its place.
+    fn make(&mut self, shapes: &Shapes, blade: u32) -> usize {
+        let row = (blade, shapes.row(blade as usize).into());
+        if self.rows.len() < ROWS_NEAR {
+            self.rows.push(row);
+            return self.rows.len() - 1;
+        }
+        let place = self.oldest;
+        self.rows[place] = row;
+        self.oldest = (place + 1) % ROWS_NEAR;
+        place
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -283,6 +321,24 @@ mod tests {
                     assert!((product - expected).abs() < 1e-13, "{count} {i} {j}: {product}");
                 }
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod near_tests {
+    use super::*;
+
+    #[test]
+    fn a_row_is_that_of_its_blade_however_often_and_in_whatever_order() {
+        for count in [22, 131, 220] {
+            let (shapes, mut near) = (Shapes::new(count), NearRows::default());
+            for step in 0..500 {
+                let blade = (step * step / 7) % count;
+                assert_eq!(near.row(&shapes, blade), shapes.row(blade as usize), "{step}");
+            }
+            assert!(near.rows.len() <= ROWS_NEAR);
+            assert_eq!(near.rows.is_empty(), count == 22);
         }
     }
 }

@@ -1,10 +1,19 @@
-//! Steps decided on ahead: a *block* of flight, of a held lock or of a side that is
-//! slid along. It is looked at wherever asked, and taken at its end; looking never
-//! changes the trajectory.
+//! Steps decided on ahead: a *block* of flight, of a held lock or of a side that is slid
+//! along. It is looked at wherever asked, and taken at its end; looking never changes the
+//! trajectory. Then the verdicts that nothing to come can change (docs/theory.md, section
+//! 9).
+//!
+//! Flight: the discrete energy bounds how far `|u|` can travel in one step (section 6). So
+//! many steps as cannot reach the clearance are one block.
 
-use super::held::Held;
+use super::held_corner::HeldCorner;
+use super::held_side::HeldSide;
 use crate::motion::explicit::disk::Disk;
 use crate::motion::explicit::{Coordinate, Explicit};
+use crate::motion::{ActiveSet, Verdict};
+use crate::tolerances::{
+    BREAK_STEPS, HELD_AFTER, LARGEST_BLADE_ANGLE, LIGHT_BLADES, ROOM_TO_CHANGE, SHORTEST_BLOCK,
+};
 
 /// A block without end: no contact can ever come again.
 pub(in crate::motion::explicit) const ENDLESS: u64 = u64::MAX;
@@ -113,4 +122,171 @@ impl<B: Disk> Explicit<B> {
             }
         }
     }
+}
+
+impl<B: Disk> Explicit<B> {
+    /// Steps that cannot touch; none where they are too few to be worth a block.
+    pub(in crate::motion::explicit) fn flight(&mut self) -> u64 {
+        let clearance = self.machine.polygon.clearance;
+        let distance2 = self.u[0].x * self.u[0].x + self.u[1].x * self.u[1].x;
+        // Blades that are driven do not follow the free recurrence.
+        let outside = distance2 >= clearance * clearance;
+        if outside || self.drive.pulse_to_come(self.n) || self.drive.excitation.is_some() {
+            return 0;
+        }
+        let distance = distance2.sqrt();
+        let (farthest, longest) = self.casing.reach_of(self.u);
+        let length =
+            if farthest < clearance { ENDLESS } else { ((clearance - distance) / longest) as u64 };
+        // Blades that may swing too far are followed step by step.
+        if length < self.blades.shortest_block() || self.blades.reach() > LARGEST_BLADE_ANGLE {
+            return 0;
+        }
+        // Such a block is longer than the pause that ends a contact.
+        if self.record.log.active_set != ActiveSet::Nothing {
+            self.end_contact(self.n.max(self.record.last_touch + BREAK_STEPS + 1));
+        }
+        length
+    }
+
+    /// Whether no contact can ever come again: the casing, whatever the blades
+    /// do, never reaches one.
+    pub(in crate::motion::explicit) fn no_contact_to_come(&self) -> bool {
+        if self.leaps.held.is_some()
+            || self.leaps.sliding.is_some()
+            || self.drive.pulse_to_come(self.n)
+        {
+            return false;
+        }
+        if self.goes_beyond {
+            return self.rests();
+        }
+        let skipped = |coordinate| self.casing.skip(coordinate, self.leaps.block.used());
+        self.leaps.block.is_endless()
+            || self.casing.reach_of(self.u.map(skipped)).0 < self.machine.polygon.clearance
+    }
+}
+
+/// Sides that close in every step of the open block.
+#[derive(Clone, Debug)]
+pub(in crate::motion::explicit) enum Held {
+    /// A lock.
+    Corner(Box<HeldCorner>),
+    /// A wave that slides along one side of rigid blades.
+    Side(HeldSide),
+}
+
+impl Held {
+    /// Multipliers of the step that led to `steps` steps from the start \[N\].
+    pub fn multipliers(&self, steps: u64) -> impl Iterator<Item = (u32, f64)> {
+        let pair = match self {
+            Self::Corner(corner) => corner.by_side(corner.multipliers(steps)),
+            Self::Side(side) => [Some((side.side, side.multiplier(steps))), None],
+        };
+        pair.into_iter().flatten()
+    }
+
+    /// Sums of the multipliers of the steps after `before`, up to `steps` \[N\].
+    fn sums(&self, before: u64, steps: u64) -> impl Iterator<Item = (u32, f64)> {
+        let pair = match self {
+            Self::Corner(corner) => corner.by_side(corner.sums(before, steps)),
+            Self::Side(side) => [Some((side.side, side.sum(before, steps))), None],
+        };
+        pair.into_iter().flatten()
+    }
+}
+
+impl<B: Disk> Explicit<B> {
+    /// Begins a block of steps in which the same sides close, if there are enough.
+    pub(in crate::motion::explicit) fn hold(&mut self) -> bool {
+        if let Some(corner) = self.hold_corner() {
+            self.leaps.held = Some(Held::Corner(Box::new(corner)));
+            self.leaps.block = Block::new(ENDLESS);
+        } else if let Some(side) = self.hold_side() {
+            let length = side.length;
+            if length < SHORTEST_BLOCK {
+                self.leaps.slide_tried = self.n + length;
+                return false;
+            }
+            self.leaps.held = Some(Held::Side(side));
+            self.leaps.block = Block::new(length);
+        }
+        self.leaps.held.is_some()
+    }
+
+    /// Keeps what the steps of held sides did since `before`.
+    pub(in crate::motion::explicit) fn log_held(&mut self, held: &Held, before: u64) {
+        let (used, t) = (self.leaps.block.used(), self.time_of(self.latest_step()));
+        for (side, sum) in held.sums(before, used) {
+            self.record.impulse(side, sum);
+        }
+        self.record.log.touch(t, self.record.log.active_set);
+        match held {
+            Held::Corner(corner) if corner.pulls => {
+                self.record.log.tensile_steps += used - before;
+                self.record.log.last_tensile = Some(t);
+            }
+            Held::Corner(_) => {}
+            Held::Side(side) => {
+                let deepest = side.deepest(before, used);
+                self.record.deepest_predicted = self.record.deepest_predicted.max(deepest);
+            }
+        }
+    }
+}
+
+impl<B: Disk> Explicit<B> {
+    /// The verdict, once nothing to come can change it: no contact can come
+    /// again, or a corner can never let go.
+    pub(in crate::motion::explicit) fn decided(&self) -> Option<Verdict> {
+        if let Some(failure) = &self.failure {
+            let beyond = failure.verdict_beyond(&self.drive.pulse);
+            Some(if self.goes_beyond { beyond } else { Verdict::Failed })
+        } else if self.no_contact_to_come() {
+            Some(Verdict::Decay)
+        } else if let Some(Held::Corner(held)) = &self.leaps.held {
+            Some(locked(held.pulls))
+        } else if self.goes_beyond {
+            None
+        } else if self.blades.held_modes().is_none() {
+            self.corner_for_good()
+        } else {
+            None
+        }
+    }
+
+    /// A corner of blades of their own, if at constant speed its pushes cannot
+    /// vanish any more: an angle, its rate and its acceleration enter them with
+    /// at most all rates squared times the distance of the corner over its sine.
+    fn corner_for_good(&self) -> Option<Verdict> {
+        let sides = self.steady_corner()?;
+        let since = (self.record.log.since / self.drive.step) as u64;
+        let machine = &self.machine;
+        if self.n < since + HELD_AFTER || !machine.polygon.has_corners() {
+            return None;
+        }
+        let sum = |side| {
+            let rows = self.rows.iter().filter(|row| row.side == side);
+            rows.map(|row| row.lambda).sum::<f64>()
+        };
+        let [a, b] = sides.map(sum);
+        let (sin, cos) = machine.polygon.delta.sin_cos();
+        let turn = (2.0 * machine.polygon.delta).cos();
+        let least = self.law.hold([a, b], turn);
+        let damping = machine.casing_damping_ratio * machine.omega_c
+            + machine.blade_damping_ratio * machine.omega_bd_max;
+        let nu = machine.nu(self.drive.speed(self.n)).abs();
+        let rates = nu + machine.omega_c + machine.omega_bd_max + 2.0 * damping;
+        let turned = machine.nodal_diameters * self.blades.reach();
+        let distance = machine.clearance() / (sin * cos);
+        let change = 2.0 * turned * rates * rates * distance * machine.casing_mass;
+        let moment_arm = machine.nodal_diameters * machine.polygon.half_side();
+        let light = moment_arm * moment_arm * self.blades.compliance(0, 0)
+            < LIGHT_BLADES * self.casing.compliance;
+        (light && change < ROOM_TO_CHANGE * least).then(|| locked(a > 0.0 || b > 0.0))
+    }
+}
+
+fn locked(pulls: bool) -> Verdict {
+    if pulls { Verdict::Adhesive } else { Verdict::Locked }
 }

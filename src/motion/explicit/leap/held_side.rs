@@ -2,16 +2,211 @@
 //! (docs/theory.md, section 6). Of rigid blades such a stretch is decided on once, up to
 //! the step that may end it, and looked at wherever asked (`side_map`); where blades
 //! move, its steps are taken one by one (`sliding`).
+//!
+//! A step of such a wave of rigid blades is a map of one coordinate (`SideMap`).
+//! In the frame of the blades the side stands still: with `zeta = z conj(normal)`
+//! one step predicts, where `w = exp(-i nu h)`, `E = w (1 - pull + ratio) - w^2 ratio - 1`,
+//!
+//! ```text
+//! zeta* - zeta[n] = E zeta[n] + w^2 ratio (zeta[n] - zeta[n-1])
+//! ```
+//!
+//! and contact puts its real part back to `-g0`. So `zeta = -g0 + i y`, and `y` obeys a
+//! linear recurrence with constant coefficients; the predicted gap, the multiplier and
+//! the gaps of the neighbours are affine in `y` and its increment `d = y[n] - y[n-1]`:
+//!
+//! ```text
+//! d[n+1] = e y + m d + k g0        gap* = -e g0 + k y + c d
+//! ```
+//!
+//! Each condition of such a step is an affine function that must stay positive. It has
+//! at most one extremum in the stretch of a map power, so that its signs and slopes at
+//! both ends say whether it keeps its sign in between.
 
 use std::sync::Arc;
 
-use super::side_map::{Along, SideMap, SideStep};
+use nalgebra::{SMatrix, SVector};
+
 use super::sliding::{Rules, Sliding};
-use crate::motion::explicit::disk::Disk;
-use crate::motion::explicit::disk::HeldModes;
-use crate::motion::explicit::{Coordinate, Explicit};
+use crate::model::ContactPolygon;
+use crate::motion::explicit::disk::{Disk, HeldModes};
+use crate::motion::explicit::oscillator::{LARGEST, Leap};
+use crate::motion::explicit::{Coordinate, Explicit, Oscillator};
 use crate::motion::{ActiveSet, Plane};
-use crate::tolerances::SHORTEST_BLOCK;
+use crate::tolerances::{LEAP_FOLDS, SHORTEST_BLOCK};
+
+/// `y`, `y[n] - y[n-1]`, `g0`, and the sum of the `y` of the steps before.
+pub(in crate::motion::explicit) type Along = SVector<f64, 4>;
+
+/// The coefficients of a step along a side at one speed of the rotor, sums of small
+/// parts that do not cancel.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::motion::explicit) struct SideStep {
+    /// `1 - exp(-i nu h)`.
+    pub turned: Plane,
+    /// `e`, the real part of `E` above.
+    pub stiff: f64,
+    /// `k`, less its imaginary part.
+    pub push: f64,
+    /// One less `m`, the real part of `w^2 ratio`.
+    pub lost: f64,
+    /// `c`, less its imaginary part.
+    pub coriolis: f64,
+}
+
+impl SideStep {
+    /// For a wave that turns by `turn` \[rad\] a step against the standing frame.
+    pub fn new(casing: &Oscillator, turn: f64) -> Self {
+        let half = (0.5 * turn).sin();
+        // 1 - cos and sin of the turn, and 1 - cos of its double.
+        let (versine, sine) = (2.0 * half * half, turn.sin());
+        let double = 2.0 * versine * (2.0 - versine);
+        let (loss, pull) = (casing.loss, casing.pull);
+        Self {
+            turned: Plane::new(versine, sine),
+            stiff: (1.0 - versine) * (2.0 * versine - pull)
+                - loss * versine * (3.0 - 2.0 * versine),
+            push: sine * (2.0 * versine + loss * (1.0 - 2.0 * versine) - pull),
+            lost: loss + double - loss * double,
+            coriolis: 2.0 * (1.0 - loss) * sine * (1.0 - versine),
+        }
+    }
+}
+
+/// Many steps along a side.
+#[derive(Clone, Debug)]
+pub(in crate::motion::explicit) struct SideMap {
+    leap: Leap<4>,
+    /// Exponent of the longest leap in which a condition has one extremum.
+    longest: usize,
+    pub step: SideStep,
+    /// Predicted gap of the step that follows.
+    gap: Affine,
+    /// What must stay positive for the step that follows to close this side and no
+    /// other.
+    conditions: Vec<Affine>,
+}
+
+/// An affine function of where the wave is, and what a step changes of it.
+#[derive(Clone, Copy, Debug)]
+struct Affine {
+    value: Along,
+    change: Along,
+}
+
+impl SideMap {
+    /// A casing that goes beyond `farthest` \[m\] is left to single steps.
+    pub fn new(polygon: &ContactPolygon, step: SideStep, farthest: f64) -> Self {
+        let SideStep { stiff, lost, push, coriolis, .. } = step;
+        let keep = 1.0 - lost;
+        let change = SMatrix::<f64, 4, 4>::from_row_slice(&[
+            stiff, keep, push, 0.0, //
+            stiff, -lost, push, 0.0, //
+            0.0, 0.0, 0.0, 0.0, //
+            1.0, 0.0, 0.0, 0.0,
+        ]);
+        let affine = |value: Along| Affine { value, change: change.tr_mul(&value) };
+        let gap = Along::new(push, coriolis, -stiff, 0.0);
+        let next = Along::new(1.0 + stiff, keep, push, 0.0);
+        let clearance = Along::new(0.0, 0.0, 1.0, 0.0);
+        let mut conditions = vec![affine(-gap)];
+        let (sin, cos) = (2.0 * polygon.delta).sin_cos();
+        let (open, along) = if polygon.has_corners() {
+            // The gap of a neighbour, before and after the push on this side.
+            (clearance * (1.0 - cos) + gap * cos.max(0.0), next * sin)
+        } else {
+            (clearance * (farthest / polygon.clearance), next)
+        };
+        conditions.extend([1.0, -1.0].map(|sign| affine(open + along * sign)));
+        if cos < 0.5 || !polygon.has_corners() {
+            // Beside an open neighbour at a small angle no penetration is deep.
+            conditions.push(affine(clearance * 0.5 + gap));
+        }
+        Self {
+            leap: Leap::new(change),
+            longest: longest(stiff, lost),
+            step,
+            gap: affine(gap),
+            conditions,
+        }
+    }
+
+    /// The wave `steps` steps on.
+    pub fn after(&self, start: Along, steps: u64) -> Along {
+        self.leap.apply(start, steps)
+    }
+
+    /// Predicted gap of the step that follows, without push \[m\].
+    pub fn gap(&self, at: Along) -> f64 {
+        self.gap.value.dot(&at)
+    }
+
+    /// Sum of the predicted gaps of the steps that follow each point from `from`
+    /// up to but without `to`, which is `steps` steps later \[m\].
+    pub fn gaps(&self, from: Along, to: Along, steps: u64) -> f64 {
+        // Of the increments, the sum is the way between the points before.
+        let way = (to[0] - to[1]) - (from[0] - from[1]);
+        self.gap.value.dot(&Along::new(to[3] - from[3], way, from[2] * steps as f64, 0.0))
+    }
+
+    /// How many steps from here on close this side and no other, up to where that
+    /// ends, or to about the longest leap.
+    pub fn length(&self, start: Along) -> u64 {
+        let holds = |condition: &Affine, at: Along| condition.value.dot(&at) > 0.0;
+        if !self.conditions.iter().all(|condition| holds(condition, start)) {
+            return 0;
+        }
+        let (mut at, mut taken) = (start, 1);
+        for exponent in (0..=self.longest).rev() {
+            let ahead = self.leap.doubled(at, exponent);
+            let kept = self.conditions.iter().all(|condition| {
+                // With one extremum it may only dip in between if it falls and rises.
+                let dips = exponent > 0
+                    && condition.change.dot(&at) < 0.0
+                    && condition.change.dot(&ahead) > 0.0;
+                holds(condition, ahead) && !dips
+            });
+            if kept {
+                at = ahead;
+                taken += 1 << exponent;
+            }
+        }
+        taken
+    }
+
+    /// The deepest predicted penetration of the steps that follow the points from
+    /// `from` up to `to`, which lie within one `length` \[m\].
+    pub fn deepest(&self, from: Along, to: Along) -> f64 {
+        let falls = |at: Along| self.gap.change.dot(&at) < 0.0;
+        let mut deepest = (-self.gap(from)).max(-self.gap(to));
+        if falls(from) && !falls(to) {
+            let mut at = from;
+            for exponent in (0..=self.longest).rev() {
+                let ahead = self.leap.doubled(at, exponent);
+                if falls(ahead) {
+                    at = ahead;
+                }
+            }
+            deepest = deepest.max(-self.gap(self.leap.doubled(at, 0)));
+        }
+        deepest
+    }
+}
+
+/// The exponent of the longest leap. Along a side `y` is a sum of two exponentials,
+/// of which a combination has one extremum, or a damped cosine, which has one in less
+/// than half a period.
+fn longest(stiff: f64, lost: f64) -> usize {
+    let (trace, root) = (2.0 + stiff - lost, lost * lost + stiff * (4.0 + stiff - 2.0 * lost));
+    let steps = if root < 0.0 {
+        let angle = (-root).sqrt().atan2(trace);
+        0.25 * std::f64::consts::PI / angle
+    } else {
+        LEAP_FOLDS / (0.5 * (stiff - lost + root.sqrt())).max(f64::MIN_POSITIVE)
+    };
+    // No leap is longer than the powers that are kept.
+    (0..LARGEST - 1).rev().find(|&exponent| (1_u64 << exponent) as f64 <= steps).unwrap_or(0)
+}
 
 /// A stretch of sliding, from the step it starts at.
 #[derive(Clone, Debug)]

@@ -1,27 +1,20 @@
 //! Steps of the paper's model taken many at once, with the result of taking each: free
-//! flight (`flight`), a held lock (`held_corner`), a wave that slides along one side of
+//! flight (`block`), a held lock (`held_corner`), a wave that slides along one side of
 //! rigid blades (`held_side`). Along a side of blades that move a short step is enough
-//! (`sliding`). Each says itself where it applies (docs/theory.md, section 6).
+//! (`sliding`). Each says itself where it applies (docs/theory.md, section 6). Read them
+//! in this order.
 
 mod block;
-mod corner_step;
-mod decided;
-mod flight;
-mod held;
 mod held_corner;
 mod held_side;
-mod powers;
-mod side_map;
 mod sliding;
 
 use std::sync::Arc;
 
 use super::Explicit;
 use super::disk::Disk;
-use block::Block;
-use held::Held;
-pub(super) use powers::Leap;
-use side_map::SideMap;
+use block::{Block, Held};
+use held_side::SideMap;
 use sliding::Sliding;
 
 /// What was decided on ahead, and when to try again.

@@ -7,13 +7,13 @@
 //! one `across` it swings freely. In the frame of the blades at rest, with
 //! `zeta = z conj(normal) = -g0 + X + i Y`, all numbers of a step are small parts.
 
-use super::side_map::SideStep;
+use super::held_side::SideStep;
 use crate::model::Machine;
 use crate::motion::Plane;
 use crate::motion::explicit::disk::ModalBlades;
-use crate::motion::explicit::watch::Watch;
+use crate::motion::explicit::record::Watch;
 use crate::motion::explicit::{Coordinate, Oscillator};
-use crate::tolerances::{LIGHT_PUSH, SLIDING_DEPTH, SLIDING_PHASE};
+use crate::tolerances::{LIGHT_PUSH, SLIDING_DEPTH, SMALL_TURN};
 
 /// A wave under way along a side.
 #[derive(Clone, Debug)]
@@ -76,7 +76,7 @@ impl Rules {
         let (sin, cos) = (2.0 * polygon.delta).sin_cos();
         let depth = SLIDING_DEPTH * clearance * (1.0 - cos);
         // Blade phases move the gap of a neighbour by less than this.
-        let turned = 2.0 * SLIDING_PHASE * clearance / polygon.delta.cos();
+        let turned = 2.0 * SMALL_TURN * clearance / polygon.delta.cos();
         let oscillator = blades.oscillator();
         let moment_arm = 2.0 * diameters * polygon.half_side();
         let share = moment_arm * moment_arm * oscillator.compliance / casing.compliance;
@@ -87,7 +87,7 @@ impl Rules {
             diameters,
             compliance: casing.compliance,
             farthest: (clearance * (1.0 - cos) - depth - turned) / sin,
-            widest: SLIDING_PHASE / diameters,
+            widest: SMALL_TURN / diameters,
             depth,
             spread: if interleaved { 0.5 * polygon.delta } else { polygon.delta }.tan(),
             blades: oscillator.clone(),

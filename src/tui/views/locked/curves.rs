@@ -43,7 +43,7 @@ impl LockedCurves {
         let curve = |damped| {
             open.then(|| locked_motion(&machine, Form::Modal, damped, None, &speeds).ok()).flatten()
         };
-        let has_damping = machine.casing_damping > 0.0 || machine.is_joined();
+        let has_damping = machine.casing_damping > 0.0 || machine.tips_incline_or_rub();
         Self {
             fastest,
             damped: curve(true),
