@@ -290,10 +290,10 @@ impl<'a> Plot<'a> {
         if x < inner.x || end > inner.right() || !(inner.y..inner.bottom()).contains(&row) {
             return false;
         }
-        // A level line goes on behind a name.
+        // A level, or the line at another speed, goes on behind a name.
         let empty = |x: u16| {
             let cell = self.buffer.cell(Position::new(x, row));
-            cell.is_some_and(|cell| matches!(cell.symbol(), " " | "┈"))
+            cell.is_some_and(|cell| matches!(cell.symbol(), " " | "┈" | "┊"))
         };
         let free = (x..end).all(empty);
         if free {
@@ -302,16 +302,16 @@ impl<'a> Plot<'a> {
         free
     }
 
-    /// A short text on the axis line, outside the chart, if nothing but the line is there;
+    /// A short text on the axis line, outside the chart, if no tick and no other text is there;
     /// whether there was room.
     pub fn axis_note(&mut self, x: f64, text: &str, style: Style, look: &Appearance) -> bool {
         let Some((column, row)) = self.column(x).zip(self.axis_row()) else { return false };
         let width = u16::try_from(text.chars().count()).unwrap_or(u16::MAX);
-        let [.., floor, floor_tick] = look.axis_signs();
+        let [.., floor, _] = look.axis_signs();
         let start = column.min(self.inner.right().saturating_sub(width));
         let line = |x: u16| {
             let cell = self.buffer.cell(Position::new(x, row));
-            cell.is_some_and(|cell| cell.symbol().starts_with([floor, floor_tick, contact(look)]))
+            cell.is_some_and(|cell| cell.symbol().starts_with([floor, contact(look)]))
         };
         let free = start >= self.inner.x && (start..start.saturating_add(width)).all(line);
         if free {

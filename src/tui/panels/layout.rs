@@ -4,7 +4,7 @@ use ratatui::layout::{Constraint, Layout, Rect};
 
 use super::presentation;
 use crate::tui::app::App;
-use crate::tui::views::ViewId;
+use crate::tui::views::{LEAST_ROWS, ViewId};
 
 /// Narrowest screen.
 pub const LEAST_WIDTH: u16 = 40;
@@ -86,7 +86,7 @@ fn lesson(body: Rect, app: &App) -> (Option<Rect>, Rect) {
         true => wanted,
         // If it is too long to leave room for the charts: first the text, page by
         // page, then its end.
-        false if !read => page_rows(body.height),
+        false if !read => wanted.min(page_rows(body.height)),
         false => {
             super::lesson::end_rows(app, usize::from(body.width)).min(most_rows(body.height)).max(3)
         }
@@ -95,23 +95,24 @@ fn lesson(body: Rect, app: &App) -> (Option<Rect>, Rect) {
     (Some(lesson), body)
 }
 
-/// Rows of a chart with its title that can be read, and of the wheel above another chart.
-const LEAST_ROWS: u16 = 9;
-const WHEEL_ROWS: u16 = 12;
+/// Rows of the wheel above another chart: it has no axis.
+const WHEEL_ROWS: u16 = 10;
 
 /// One large chart, and as many of the requested smaller ones as can be read. The wheel is
 /// as wide as it is high and has another chart at its side; any other has the whole width.
 fn split(area: Rect, app: &App) -> Vec<(ViewId, Rect)> {
     let views = app.layout.views().iter().copied();
     let beside = u16::try_from(app.layout.beside).unwrap_or(0);
-    let large = if area.width >= PAIR_FROM { LEAST_ROWS } else { WHEEL_ROWS };
+    let wheel = app.is_large(ViewId::Frame);
+    let large = if wheel { WHEEL_ROWS } else { LEAST_ROWS };
     let below = area.height.saturating_sub(large) / LEAST_ROWS;
+    let lower = (area.height * LOWER / 100).max(LEAST_ROWS);
+    let two = [Constraint::Min(1), Constraint::Length(lower)];
     let vertical = |parts: &[Constraint]| Layout::vertical(parts.iter()).split(area).to_vec();
     let pair = |area: Rect, left: u16| {
         let parts = [Constraint::Percentage(left), Constraint::Percentage(100 - left)];
         Layout::horizontal(parts).spacing(1).split(area).to_vec()
     };
-    let wheel = app.is_large(ViewId::Frame);
     let areas = match (area.width >= PAIR_FROM, beside) {
         (_, 0) => vec![area],
         (true, 1) if wheel => pair(area, WHEEL_PART),
@@ -122,8 +123,8 @@ fn split(area: Rect, app: &App) -> Vec<(ViewId, Rect)> {
                 vec![area]
             }
         }
-        (true, 1) => vertical(&LARGE),
-        (true, most) => match vertical(&LARGE).as_slice() {
+        (true, 1) => vertical(&two),
+        (true, most) => match vertical(&two).as_slice() {
             [top, bottom] if wheel && most == 2 => [pair(*top, WHEEL_PART), vec![*bottom]].concat(),
             [top, bottom] if wheel => [pair(*top, WHEEL_PART), pair(*bottom, WHEEL_PART)].concat(),
             [top, bottom] => [vec![*top], pair(*bottom, 50)].concat(),
@@ -140,8 +141,8 @@ fn split(area: Rect, app: &App) -> Vec<(ViewId, Rect)> {
     views.zip(areas).collect()
 }
 
-/// The large chart above, smaller ones below.
-const LARGE: [Constraint; 2] = [Constraint::Percentage(55), Constraint::Percentage(45)];
+/// Part of the height that the charts below the large one have, in per cent.
+const LOWER: u16 = 45;
 /// Part of the width that the wheel has, in per cent.
 const WHEEL_PART: u16 = 44;
 

@@ -14,7 +14,7 @@ mod precision;
 mod response;
 pub mod spectrum;
 
-pub use panel::{Opening, ViewArea, ViewPanel};
+pub use panel::{LEAST_ROWS, Opening, ViewArea, ViewPanel};
 
 use crate::scene::keys::CHARTS;
 

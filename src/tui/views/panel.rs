@@ -86,6 +86,11 @@ impl Opening {
     }
 }
 
+/// Rows of a chart that can be read: eight of data, its title, its axis and the labels.
+pub const LEAST_ROWS: u16 = 11;
+/// Columns of one that has another at its side.
+const LEAST_COLUMNS: u16 = 38;
+
 /// Where a view is drawn, and how its title begins.
 #[derive(Clone, Copy, Debug)]
 pub struct ViewArea {
@@ -113,10 +118,22 @@ impl ViewArea {
         }
     }
 
-    /// Two slots, one above the other; the first takes `percent` of the height.
+    /// Two slots, one above the other; the lower one takes `percent` of the height.
     pub fn rows(self, percent: u16) -> [Self; 2] {
-        let parts = [Constraint::Percentage(percent), Constraint::Percentage(100 - percent)];
+        let lower = (self.area.height * percent / 100).max(LEAST_ROWS.min(self.area.height / 2));
+        let parts = [Constraint::Min(1), Constraint::Length(lower)];
         Layout::vertical(parts).areas(self.area).map(|area| Self { area, ..self })
+    }
+
+    /// Two charts that can be read, above each other or side by side; one where there is no
+    /// room for two.
+    pub fn pair(self, percent: u16) -> (Self, Option<Self>) {
+        let [first, second] = match self.area {
+            area if area.height >= 2 * LEAST_ROWS => self.rows(percent),
+            area if area.width >= 2 * LEAST_COLUMNS => self.columns(),
+            _ => return (self, None),
+        };
+        (first, Some(second))
     }
 
     /// Two slots of equal width, side by side.

@@ -22,12 +22,8 @@ use crate::tui::text::{print, wrap};
 use crate::tui::theme::Role;
 use curves::{CoincidenceCurves, points};
 
-/// From this width on, the compliance is beside the curve; from this height on it is
-/// below it where the screen is narrow.
+/// From this width on, the compliance is beside the curve.
 const BESIDE_FROM: u16 = 76;
-const BELOW_FROM: u16 = 26;
-/// From this height on, growth has a chart of its own.
-const GROWTH_FROM: u16 = 16;
 
 /// The view.
 pub struct CoincidenceView;
@@ -38,16 +34,14 @@ impl ViewPanel for CoincidenceView {
     }
 
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
-        if at.area.width >= BESIDE_FROM {
-            let [left, right] = at.columns();
-            over_speed(app, buffer, left);
-            plane::draw(app, buffer, right);
-        } else if at.area.height >= BELOW_FROM {
-            let [above, below] = at.rows(50);
-            over_speed(app, buffer, above);
-            plane::draw(app, buffer, below);
-        } else {
-            over_speed(app, buffer, at);
+        let beside = at.area.width >= BESIDE_FROM;
+        let (curves, compliance) = match at.columns() {
+            [left, right] if beside => (left, Some(right)),
+            _ => at.pair(50),
+        };
+        over_speed(app, buffer, curves);
+        if let Some(compliance) = compliance {
+            plane::draw(app, buffer, compliance);
         }
     }
 
@@ -117,12 +111,10 @@ fn over_speed(app: &App, buffer: &mut Buffer, at: ViewArea) {
         return;
     };
     let grows = curves.points.iter().any(|point| point.growth_1_s.is_some());
-    if grows && at.area.height >= GROWTH_FROM {
-        let [above, below] = at.rows(60);
-        chart(app, buffer, above, curves, &AMPLITUDE);
-        chart(app, buffer, below, curves, &GROWTH);
-    } else {
-        chart(app, buffer, at, curves, &AMPLITUDE);
+    let (first, second) = if grows { at.pair(40) } else { (at, None) };
+    chart(app, buffer, first, curves, &AMPLITUDE);
+    if let Some(second) = second {
+        chart(app, buffer, second, curves, &GROWTH);
     }
 }
 
@@ -142,14 +134,13 @@ fn chart(
     let x = ChartAxis::plain(curves.from, curves.to);
     let read = app.cursor_in(ViewId::Coincidence).map(|at| x.at(at.across));
     let point = look.either('◆', '@');
-    let named = format!("{}, {}{}", what.curve, y.scale.prefix, what.unit);
+    let named = format!("{}, {}{} over rad/s", what.curve, y.scale.prefix, what.unit);
     let mut legend = vec![entry(look, &look.first(), &named)];
     if let Some(now) = now {
         legend.push((format!("{point} {}", readable(now, "rad")), look.style(Role::Contact)));
     }
-    legend.push(("over rad/s".into(), quiet));
     if app.speed() < 0.0 {
-        legend.push(("over |Ω|, turning backwards".into(), quiet));
+        legend.push(("|Ω|, turning backwards".into(), quiet));
     }
     let inside = title(app, buffer, at, what.name, &legend);
     let told = match read.filter(|_| large) {

@@ -9,7 +9,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Rect};
 
 use super::marks;
-use super::panel::{ViewArea, ViewPanel, csv, dots, entry, title};
+use super::panel::{LEAST_ROWS, ViewArea, ViewPanel, csv, dots, entry, title};
 use crate::harmonic::{LockedPoint, Sweep};
 use crate::motion::ActiveSet;
 use crate::tui::app::{App, Cursor};
@@ -23,11 +23,8 @@ use curves::LockedCurves;
 
 /// From this height on, the large chart shows the undamped curve of the paper too.
 const ROOMY: u16 = 14;
-/// From these heights on, the blade angles, and the amplitudes too, have charts.
-const TWO_FROM: u16 = 18;
-const THREE_FROM: u16 = 27;
 /// From this width on, the legend names the forces of the running motion.
-const NAMED_FROM: u16 = 52;
+const NAMED_FROM: u16 = 62;
 /// Most rows of what the reading cursor reads.
 const READ_ROWS: usize = 3;
 
@@ -42,14 +39,15 @@ impl ViewPanel for LockedView {
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
         let curves = app.results().found.locked.as_deref();
         let locks = curves.filter(|curves| curves.damped.is_some());
-        let below: &[charts::Chart] = match at.area.height {
-            THREE_FROM.. => &[ANGLES, AMPLITUDES],
-            TWO_FROM.. => &[ANGLES],
+        let below: &[charts::Chart] = match at.area.height / LEAST_ROWS {
+            3.. => &[ANGLES, AMPLITUDES],
+            2 => &[ANGLES],
             _ => &[],
         };
         let Some(curves) = locks else { return multipliers(app, buffer, at) };
-        let mut rows = vec![Constraint::Fill(if below.len() > 1 { 5 } else { 6 })];
-        rows.extend(below.iter().map(|_| Constraint::Fill(if below.len() > 1 { 3 } else { 4 })));
+        let lower = at.area.height * 2 / (3 + 2 * u16::try_from(below.len()).unwrap_or(0));
+        let mut rows = vec![Constraint::Min(1)];
+        rows.extend(below.iter().map(|_| Constraint::Length(lower.max(LEAST_ROWS))));
         let areas = Layout::vertical(rows).split(at.area);
         let mut areas = areas.iter().map(|area| ViewArea { area: *area, ..at });
         if let Some(first) = areas.next() {
@@ -104,7 +102,10 @@ fn multipliers(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let roomy = at.large && at.area.height >= ROOMY;
     let pair = curves.is_some_and(|curves| curves.undamped.is_some());
     let point = look.either('◆', '@');
-    let mut legend = vec![entry(look, &look.first(), if pair { "λ_a" } else { "λ" })];
+    let prefix = curves.and_then(|curves| Some(force_axis(curves, curves.damped.as_ref()?)));
+    let prefix = prefix.map_or("", |y| y.scale.prefix);
+    let mut legend = vec![(format!("{prefix}N over rad/s"), quiet)];
+    legend.push(entry(look, &look.first(), if pair { "λ_a" } else { "λ" }));
     if pair {
         legend.push(entry(look, &look.second(), "λ_b"));
     }
@@ -118,9 +119,6 @@ fn multipliers(app: &App, buffer: &mut Buffer, at: ViewArea) {
     // Beside another chart there is room for the numbers only.
     let mean = if at.area.width >= NAMED_FROM { "mean now " } else { "" };
     legend.push((format!("{point} {mean}{now}"), look.style(Role::Contact)));
-    let prefix = curves.and_then(|curves| Some(force_axis(curves, curves.damped.as_ref()?)));
-    let prefix = prefix.map_or("", |y| y.scale.prefix);
-    legend.push((format!("{prefix}N over rad/s"), quiet));
     legend.push(("below 0 pushes".into(), quiet));
     if pair && roomy {
         legend.push(dots(look, "undamped"));

@@ -102,8 +102,8 @@ impl<'a> Table<'a> {
                 Column::Value => "rad/s",
                 Column::Percent => "now",
                 Column::Word => "",
-                Column::Knob(0) if columns.knobs() > 1 => "change by 1 % of a knob",
-                Column::Knob(0) => "by 1 % of",
+                Column::Knob(0) if columns.knobs() > 1 => "1 % more of a knob gives, %",
+                Column::Knob(0) => "+1 % gives",
                 Column::Knob(_) => continue,
             };
             let place = match column {

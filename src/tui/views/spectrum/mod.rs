@@ -15,8 +15,6 @@ use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
 use crate::tui::theme::Role;
 
-/// From this height on, the Campbell lines have a separate chart.
-const TWO_FROM: u16 = 16;
 /// Smallest amplitude shown, as a power of ten of a metre, and the greatest.
 const DECADES: (f64, f64) = (-10.0, -3.0);
 
@@ -29,12 +27,10 @@ impl ViewPanel for SpectrumView {
     }
 
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
-        if at.area.height >= TWO_FROM {
-            let [top, bottom] = at.rows(50);
-            amplitudes(app, buffer, top);
-            campbell(app, buffer, bottom);
-        } else {
-            amplitudes(app, buffer, at);
+        let (first, second) = at.pair(50);
+        amplitudes(app, buffer, first);
+        if let Some(second) = second {
+            campbell(app, buffer, second);
         }
     }
 
@@ -72,11 +68,12 @@ fn amplitudes(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let x = ChartAxis::plain(0.0, highest(app));
     let cursor = app.cursor_in(ViewId::Spectrum).map(|at| x.at(at.across));
     let spectrum = app.results().found.spectrum.as_ref();
-    let mut legend = vec![entry(look, &look.first(), "u_c"), entry(look, &look.second(), "u_s")];
+    let mut legend = vec![("m by rad/s".to_string(), quiet)];
+    legend.extend([entry(look, &look.first(), "u_c"), entry(look, &look.second(), "u_s")]);
     if let Some(read) = cursor.and_then(|frequency| reading(spectrum?, frequency)) {
         legend.insert(0, (read, look.style(Role::Focus)));
     }
-    legend.push(("m by rad/s, whole run, Hann window".to_string(), quiet));
+    legend.push(("whole run, Hann window".to_string(), quiet));
     let name = if cursor.is_some() { "" } else { "spectrum" };
     let inside = title(app, buffer, at, name, &legend);
     let Some(spectrum) = spectrum else {
