@@ -117,7 +117,7 @@ impl App {
             run: Run::of(&scene, &machine),
             layout: Layout::of(&scene),
             reading: Reading::default(),
-            map: MapChoice::default(),
+            map: MapChoice::default().anchored(&scene),
             dialogue: Dialogue::default(),
             files: Files::of(scene.clone()),
             lessons: Lessons::default(),

@@ -112,6 +112,7 @@ impl App {
         let source = Source { name, scene: scene.clone().into_scene() };
         self.files.open(scene.clone(), Some(source));
         self.layout.open(&scene);
+        self.map = self.map.anchored(&scene);
         self.reading.stop();
         self.knobs.forget_refusal();
         self.set_scene(scene, false);

@@ -72,7 +72,7 @@ impl ViewPanel for PrecisionView {
             let words = reference_words(&report.reference);
             let law = report.reference.way.contact;
             let note = format!("reference ({law} law) {words}; {wrong} of its {same_law} differ");
-            (if wrong > 0 { note + " (!)" } else { note }, Role::Quiet)
+            (if wrong > 0 { note + "; ! has another verdict" } else { note }, Role::Quiet)
         };
         for line in wrap(&note, usize::from(inside.width)) {
             print(buffer, inside, 0, &line, look.style(role));
@@ -112,12 +112,15 @@ impl ViewPanel for PrecisionView {
                 reading = Some(told(row));
             }
         }
-        for ((x, y), row) in points {
-            plot.point(x, y, letter(&row.way), look.style(hue(&row.way)));
-            if row.is_wrong()
-                && let (Some(column), Some(line)) = (plot.column(x), plot.row(y))
-            {
-                plot.text(column + 1, line, "!", look.style(Role::Trouble));
+        for ((x, y), row) in &points {
+            plot.point(*x, *y, letter(&row.way), look.style(hue(&row.way)));
+        }
+        for ((x, y), _) in points.iter().filter(|(_, row)| row.is_wrong()) {
+            if let (Some(column), Some(line)) = (plot.column(*x), plot.row(*y)) {
+                // Beside its letter, on the side where there is room.
+                let last = plot.inner.right() - 1;
+                let beside = if column < last { column + 1 } else { column - 1 };
+                plot.text(beside, line, "!", look.style(Role::Trouble));
             }
         }
         if let Some(reading) = reading {

@@ -52,6 +52,15 @@ pub struct MapAxis {
 }
 
 impl MapChoice {
+    /// The same for another opened scene.
+    pub fn anchored(mut self, scene: &Scene) -> Self {
+        for axis in [&mut self.x, &mut self.y] {
+            let value = knob_of(axis.path).and_then(|knob| knob.number(scene));
+            axis.anchor = value.unwrap_or(axis.anchor);
+        }
+        self
+    }
+
     /// The map of a scene.
     ///
     /// # Errors
@@ -119,7 +128,12 @@ impl MapAxis {
         let lining = scene.solver.contact == ContactLaw::Smooth;
         match self.path {
             keys::SPEED => speeds(scene),
-            keys::PULSE => Range { from: PULSES[0], to: PULSES[1], log: true },
+            // From below the pulse that was opened, if that is a small one.
+            keys::PULSE => {
+                let below = 10f64.powf((0.5 * anchor.abs()).log10().floor());
+                let from = if anchor == 0.0 { PULSES[0] } else { below.min(PULSES[0]) };
+                Range { from, to: PULSES[1], log: true }
+            }
             keys::CASING_DAMPING | keys::BLADE_DAMPING if anchor <= DAMPING => even(0.0, DAMPING),
             keys::DIAMETERS => even(1.0, f64::from(scene.bladed_disk.blades / 2).max(1.0)),
             keys::DISK_DIAMETERS => even(1.0, f64::from(scene.bladed_disk.blades / 2).max(1.0)),
@@ -230,6 +244,16 @@ mod tests {
         assert_eq!(MapChoice::default().plan(&scene).unwrap(), before);
         // The paper's range, in round steps.
         assert_eq!((before.x.from, before.x.to, before.x.value(1)), (0.0, 600.0, 7.5));
+    }
+
+    #[test]
+    fn the_pulse_of_an_opened_scene_is_on_its_map() {
+        for builtin in crate::scene::BUILTIN {
+            let scene = Scene::builtin(builtin.name).unwrap();
+            let pulse = scene.operation.pulse_n.abs();
+            let Ok(plan) = MapChoice::default().anchored(&scene).plan(&scene) else { continue };
+            assert!(pulse == 0.0 || (plan.y.from..plan.y.to).contains(&pulse), "{pulse}");
+        }
     }
 
     #[test]
