@@ -127,10 +127,6 @@ impl Dialogue {
     /// Its own keys; false where it has none for this.
     pub(super) fn act(&mut self, action: Action) -> bool {
         match (&mut self.mode, action) {
-            (_, Action::DeleteLast) => {
-                _ = self.typed().and_then(String::pop);
-                self.look_again();
-            }
             (InputMode::Lessons(place), Action::KnobBelow) => {
                 let last = lessons::all().len().saturating_sub(1);
                 *place = (*place + 1).min(last);
@@ -154,8 +150,9 @@ mod tests {
         let mut dialogue = Dialogue::default();
         assert!(dialogue.is_closed() && dialogue.is_asked() && dialogue.typed().is_none());
         dialogue.open(InputMode::Palette(PaletteState { typed: "ab".into(), place: 3 }));
-        assert!(dialogue.act(Action::DeleteLast) && !dialogue.act(Action::Accept));
-        let expected = PaletteState { typed: "a".into(), place: 0 };
+        dialogue.look_again();
+        assert!(!dialogue.act(Action::Accept));
+        let expected = PaletteState { typed: "ab".into(), place: 0 };
         assert_eq!(*dialogue.mode(), InputMode::Palette(expected));
         dialogue.ask(InputMode::Replacing(Purpose::Save, "a".into()));
         assert!(!dialogue.is_asked());

@@ -14,7 +14,7 @@ use inert::Inert;
 pub use number::number;
 use number::{decades, in_unit, mantissas};
 use range::Bar;
-pub use range::KnobRange;
+pub use range::{KnobRange, meaning};
 pub use table::KNOBS;
 
 use crate::scene::{
@@ -276,13 +276,20 @@ impl Knob {
             KNOBS.iter().fold(text.to_string(), |text, knob| text.replace(knob.path, knob.label))
         };
         let own = key == self.path;
-        let reads = self.parse(value).is_ok();
+        // Of several values that do not go together, the first is that of this knob.
+        let reads = self.parse(value.split(',').next().unwrap_or_default()).is_ok();
+        let has_unit = value.starts_with(|c: char| c.is_ascii_digit());
         match self.allowed() {
             Allowed::OneOf(_) if own && !reads => {
                 format!("{}: {value} is unknown; {}", self.label, self.range_words())
             }
             Allowed::Whole { .. } if own && !reads => {
                 format!("{}: {value} is no whole number; {}", self.label, self.range_words())
+            }
+            Allowed::Real { .. } if own && !reads && has_unit => {
+                let unit = if self.unit().is_empty() { "no unit" } else { self.unit() };
+                let turns = if self.unit() == "rad/s" { " or rpm" } else { "" };
+                format!("{}: {value} cannot be read; it takes {unit}{turns}", self.label)
             }
             Allowed::Real { .. } if own && !reads => {
                 format!("{}: {value} is no number; {}", self.label, self.range_words())

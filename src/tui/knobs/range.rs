@@ -91,6 +91,25 @@ pub enum Bar {
     Of(fn(&Case) -> KnobRange),
 }
 
+/// The letters on bars, and what they mean.
+const LETTERS: [(char, &str); 10] = [
+    ('a', "adhesive limit"),
+    ('e', "lock ends"),
+    ('x', "coincidence"),
+    ('c', "Ω_c"),
+    ('L', "Ω_lock"),
+    ('t', "a blade touches"),
+    ('n', "as the casing"),
+    ('0', "zero"),
+    ('d', "blades dig in below"),
+    ('r', "a ring: 1/n_d"),
+];
+
+/// What a letter on a bar means.
+pub fn meaning(letter: char) -> &'static str {
+    LETTERS.iter().find(|(known, _)| *known == letter).map_or("", |(_, meaning)| meaning)
+}
+
 /// What the range of a bar follows from.
 #[derive(Debug)]
 pub struct Case<'a> {

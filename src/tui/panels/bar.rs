@@ -5,7 +5,7 @@ use ratatui::layout::{Position, Rect};
 use ratatui::style::Modifier;
 
 use crate::tui::app::App;
-use crate::tui::knobs::Knob;
+use crate::tui::knobs::{Knob, KnobRange, meaning};
 use crate::tui::theme::Role;
 
 /// Draws the bar of a knob over an area, its two ends outside of it; nothing for
@@ -39,14 +39,30 @@ pub fn draw(app: &App, buffer: &mut Buffer, cells: Rect, knob: &Knob) {
                 _ => put(x, if y == last { empty } else { " " }, quiet),
             }
         }
-        for (letter, part) in range.marks.iter().filter(|_| y == last) {
-            let x = cell(cells, *part);
+        for (letter, x) in letters(&range, cells).filter(|_| y == last) {
             let style = look.style(Role::Text).add_modifier(Modifier::BOLD);
             let style =
                 if here == Some(x) { style.add_modifier(Modifier::REVERSED) } else { style };
             put(x, letter.encode_utf8(&mut [0; 4]), style);
         }
     }
+}
+
+/// The letters that are drawn, and their columns: of those in one cell the last.
+fn letters(range: &KnobRange, cells: Rect) -> impl Iterator<Item = (char, u16)> {
+    let places = range.marks.iter().map(move |(letter, part)| (*letter, cell(cells, *part)));
+    let hidden = move |place: usize, x: u16| {
+        range.marks.iter().skip(place + 1).any(|(_, part)| cell(cells, *part) == x)
+    };
+    places.enumerate().filter(move |(place, (_, x))| !hidden(*place, *x)).map(|(_, mark)| mark)
+}
+
+/// What the letters on the bar of a knob mean, those that are drawn: `On its bar: c Ω_c.`
+pub fn legend(app: &App, cells: Rect, knob: &Knob) -> Option<String> {
+    let range = knob.range(&app.scene, &app.files.opened, &app.machine)?;
+    let named: Vec<String> =
+        letters(&range, cells).map(|(letter, _)| format!("{letter} {}", meaning(letter))).collect();
+    (!named.is_empty() && cells.width > 0).then(|| format!("On its bar: {}.", named.join(", ")))
 }
 
 /// The column of a part, 0 to 1, of a bar.

@@ -35,7 +35,8 @@ pub fn panel(app: &App, buffer: &mut Buffer, area: Rect) {
     }
     let used = u16::try_from(lines.len()).unwrap_or(area.height);
     let width = usize::from(area.width);
-    let mut notes = notes(app, width);
+    let cells = column::bar_cells(Rect { height: 1, ..area });
+    let mut notes = notes(app, width, cells);
     let room = usize::from(area.height.saturating_sub(used));
     if notes.len() > room {
         notes.truncate(room);
@@ -46,6 +47,19 @@ pub fn panel(app: &App, buffer: &mut Buffer, area: Rect) {
     }
     for (row, (text, role)) in (used..area.height).zip(notes) {
         print(buffer, area, row, &text, look.style(role));
+    }
+    let selected = ColumnLine::Knob(app.knobs.selected);
+    if let Some(at) = lines.iter().position(|line| *line == selected) {
+        refusal(app, buffer, area, u16::try_from(at).unwrap_or(0));
+    }
+}
+
+/// Why the value of the knob in this row was refused, below it and over what is there.
+fn refusal(app: &App, buffer: &mut Buffer, area: Rect, at: u16) {
+    let Some(refusal) = &app.knobs.refusal else { return };
+    let (look, width) = (&app.appearance, usize::from(area.width));
+    for (row, line) in (at + 1..area.height).zip(wrap(&look.spell(refusal), width)) {
+        print(buffer, area, row, &format!("{line:width$}"), look.style(Role::Trouble));
     }
 }
 
@@ -118,21 +132,19 @@ fn knob(app: &App, buffer: &mut Buffer, row: Rect, knob: &Knob, selected: bool) 
     print(buffer, row, 0, &format!("{label}{}{shown}", " ".repeat(pad)), style);
 }
 
-/// What the selected knob does and its allowed values, or why a value was refused.
-fn notes(app: &App, width: usize) -> Vec<(String, Role)> {
+/// What the selected knob does, its allowed values, and the letters on its bar.
+fn notes(app: &App, width: usize, cells: Rect) -> Vec<(String, Role)> {
     let Some(knob) = app.selected() else { return Vec::new() };
     let of = |text: &str, role: Role| {
         let lines = wrap(&app.appearance.spell(text), width).into_iter();
         lines.map(move |line| (line, role)).collect::<Vec<_>>()
     };
-    if let Some(refusal) = &app.knobs.refusal {
-        return of(refusal, Role::Trouble);
-    }
     let mut lines = match knob.inert(&app.scene) {
         Some(reason) => of(&format!("no effect now: {reason}"), Role::Focus),
         None => Vec::new(),
     };
     lines.extend(of(&sentence(knob), Role::Quiet));
+    lines.extend(bar::legend(app, cells, knob).iter().flat_map(|legend| of(legend, Role::Quiet)));
     lines
 }
 

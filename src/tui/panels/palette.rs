@@ -23,13 +23,18 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, palette: &PaletteState) 
     let typed: String = palette.typed.chars().skip(skip).collect();
     let head = shorten(&format!(": {typed}_{hint}"), width, mark);
     print(buffer, area, 0, &head, look.style(Role::Focus));
-    if found.is_empty() {
-        print(buffer, area, 1, "nothing has these words", look.style(Role::Quiet));
+    let said = match &app.status {
+        Some(status) => Some((look.spell(status), Role::Trouble)),
+        None => found.is_empty().then(|| ("nothing has these words".into(), Role::Quiet)),
+    };
+    let top = 1 + u16::from(said.is_some());
+    if let Some((said, role)) = said {
+        print(buffer, area, 1, &said, look.style(role));
     }
-    let rows = usize::from(area.height.saturating_sub(1));
+    let rows = usize::from(area.height.saturating_sub(top));
     let place = palette.place.min(found.len().saturating_sub(1));
     let first = first_in_sight(place, rows);
-    for (row, (index, item)) in (1..area.height).zip(found.iter().enumerate().skip(first)) {
+    for (row, (index, item)) in (top..area.height).zip(found.iter().enumerate().skip(first)) {
         let (sign, style) = look_of(look, index == place, Role::Text);
         let kind = if item.kind.is_empty() { String::new() } else { format!("{} ", item.kind) };
         let beside = look.spell(&item.beside);
