@@ -64,6 +64,7 @@ impl App {
             Command::Scene(name) => self.open_builtin(name),
             Command::Lesson(place) => self.begin_lesson(place),
             Command::Select(place) => self.knobs.select(place),
+            Command::Theme(theme) => self.status = Some(self.appearance.use_theme(theme)),
             Command::Write(purpose, name) => return Ok(self.write(purpose, &name, false)),
             Command::Set(place, text) => {
                 self.knobs.select(place);
