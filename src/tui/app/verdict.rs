@@ -3,7 +3,7 @@
 use super::App;
 use crate::motion::{ActiveSet, Verdict};
 use crate::report::sentence::{Cause, Doubt, Facts, Sentence};
-use crate::tui::engine::{Answer, FORECAST_LIMIT, FullRun, FullRunState};
+use crate::tui::engine::{Answer, FORECAST_LIMIT, FullRun, FullRunState, Sensitive};
 use crate::tui::knobs::KNOBS;
 use crate::tui::trace::{Happening, Mark};
 
@@ -98,7 +98,7 @@ impl App {
         if pulls > 0 {
             doubts.push(Doubt::Pulls(pulls, other));
         }
-        if self.results().sensitive {
+        if self.results().sensitive == Sensitive::Yes {
             doubts.push(Doubt::Sensitive);
         }
         if let Some(other) = other.filter(|other| *other != run.verdict && doubts.is_empty()) {

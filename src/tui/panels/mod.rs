@@ -18,7 +18,7 @@ mod scenes;
 use ratatui::{Frame, buffer::Buffer, layout::Rect};
 
 use super::app::{App, InputMode};
-use super::text::{CUT, print};
+use super::text::{CUT, print, wrap};
 use super::theme::Role;
 use super::views::ViewArea;
 pub use header::head_text;
@@ -40,7 +40,9 @@ pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
             "rubscope needs {LEAST_WIDTH}x{LEAST_HEIGHT}; this is {}x{}",
             area.width, area.height
         );
-        print(buffer, area, 0, &needs, app.appearance.style(Role::Text));
+        for (row, line) in (0..area.height).zip(wrap(&needs, usize::from(area.width))) {
+            print(buffer, area, row, &line, app.appearance.style(Role::Text));
+        }
         return;
     }
     let places = layout::places(area, app);

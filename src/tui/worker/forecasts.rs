@@ -9,7 +9,7 @@ use super::full_run::{FullRunJob, SLICE};
 use super::studies::Studies;
 use crate::motion::{Motion, Script, is_sensitive, run_to_verdict};
 use crate::scene::{CheckedScene, ContactLaw, Scene, SolverKind};
-use crate::tui::engine::{FORECAST_LIMIT, FullRun, FullRunState, Order, Pace, Results};
+use crate::tui::engine::{FORECAST_LIMIT, FullRun, FullRunState, Order, Pace, Results, Sensitive};
 use crate::tui::trace::Mark;
 
 /// The computations for one motion.
@@ -17,7 +17,7 @@ use crate::tui::trace::Mark;
 pub struct Forecasts {
     full_run: FullRunJob,
     reference: Option<FullRunJob>,
-    sensitive: Option<bool>,
+    sensitive: Option<Sensitive>,
     sensitivity: Option<Background<bool>>,
     studies: Studies,
     answers: Answers,
@@ -68,7 +68,7 @@ impl Forecasts {
 
     /// Whether it is sensitive is not asked of a motion that was changed.
     pub fn forget_sensitivity(&mut self) {
-        (self.sensitivity, self.sensitive) = (None, Some(false));
+        (self.sensitivity, self.sensitive) = (None, Some(Sensitive::Unknown));
     }
 
     /// The end of the run \[s\].
@@ -125,7 +125,9 @@ impl Forecasts {
         }
         if self.sensitive.is_none() {
             let job = self.sensitivity.get_or_insert_with(|| sensitivity(&order.scene));
-            self.sensitive = job.receive(SLICE).or(job.is_done().then_some(false));
+            let known = job.receive(SLICE);
+            let known = known.map(|known| if known { Sensitive::Yes } else { Sensitive::No });
+            self.sensitive = known.or(job.is_done().then_some(Sensitive::GivenUp));
             return;
         }
         self.studies.compute(order, &self.full_run);
@@ -139,7 +141,7 @@ impl Forecasts {
             full_run: Some(full_run),
             answer: self.answers.latest(),
             end_s: self.end(),
-            sensitive: self.sensitive.unwrap_or(false),
+            sensitive: self.sensitive.unwrap_or_default(),
             reference: done(self.reference.as_ref()),
             comparison: done(comparison),
             pace: Pace {
