@@ -308,6 +308,7 @@ impl App {
 mod tests {
     use super::*;
     use crate::tui::app::on_screen;
+    use crate::tui::bindings::Action;
 
     #[test]
     fn a_step_is_done_by_its_answer_and_the_next_one_waits_for_it() {
@@ -324,6 +325,7 @@ mod tests {
         assert_eq!((now.answer, now.done), (Some(2), true));
         assert!(app.lessons.done.has(lesson, 0) && !app.lessons.done.has(lesson, 1));
         // A second answer is none.
+        app.act(Action::Accept);
         app.answer(0);
         assert_eq!(app.lesson_step().unwrap().1.answer, Some(2));
         app.lesson_key();
@@ -332,6 +334,18 @@ mod tests {
         assert!(!app.is_asked());
         app.lesson_back();
         assert_eq!(app.status.as_deref(), Some("this is the first step"));
+    }
+
+    #[test]
+    fn arrows_choose_an_answer_and_enter_gives_it() {
+        let mut app = on_screen();
+        app.begin_lesson(1);
+        let knob = app.selected().map(|knob| knob.path);
+        for action in [Action::KnobBelow, Action::KnobAbove, Action::KnobBelow, Action::Accept] {
+            app.act(action);
+        }
+        assert_eq!(app.lesson_step().unwrap().1.answer, Some(1));
+        assert_eq!(app.selected().map(|knob| knob.path), knob);
     }
 
     #[test]

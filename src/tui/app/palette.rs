@@ -118,6 +118,22 @@ mod tests {
     }
 
     #[test]
+    fn a_key_that_types_nothing_says_so_and_a_letter_ends_a_refusal() {
+        use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+        let mut app = app();
+        app.act(Action::Type);
+        for code in [KeyCode::Char(' '), KeyCode::Tab] {
+            app.key(&KeyEvent::new(code, KeyModifiers::NONE));
+            assert!(app.status.take().is_some_and(|status| status.contains("no meaning here")));
+        }
+        app.key(&KeyEvent::new(KeyCode::Char('x'), KeyModifiers::NONE));
+        app.act(Action::Accept);
+        assert!(app.knobs.refusal().is_some());
+        app.act(Action::DeleteLast);
+        assert!(app.knobs.refusal().is_none() && !app.dialogue.is_closed());
+    }
+
+    #[test]
     fn a_scene_that_is_opened_can_be_undone() {
         let mut app = app();
         let before = app.scene.clone();

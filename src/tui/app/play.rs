@@ -379,6 +379,17 @@ mod tests {
     }
 
     #[test]
+    fn a_last_step_that_passes_the_end_stays_on_the_last_page() {
+        let scene = crate::scene::Scene::base().checked().unwrap();
+        let mut app = App::new(scene, crate::tui::Theme::Mono, crate::tui::Marker::Ascii);
+        let mut moment = crate::tui::engine::Moment::of(&crate::motion::Motion::new(&app.scene));
+        moment.state.t_s = app.end_s() + 1e-6;
+        app.run.latest.moment = Some(moment);
+        let (from, to) = app.page();
+        assert!(from < app.end_s() && (to - app.end_s()).abs() < 1e-12, "{from} {to}");
+    }
+
+    #[test]
     fn pages_grow_with_the_rate_and_shrink_with_the_zoom() {
         for pair in RATES.windows(2) {
             assert!(page_length(pair[1], 0) > page_length(pair[0], 0));

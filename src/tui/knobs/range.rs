@@ -299,7 +299,9 @@ mod tests {
                     let there = range.part(range.at(part));
                     assert!((there - part).abs() < 1e-9, "{name} {} {part} {there}", knob.label);
                 }
-                assert!(range.marks.iter().all(|(_, at)| (0.0..=1.0).contains(at)));
+                for (letter, at) in &range.marks {
+                    assert!((0.0..=1.0).contains(at) && !meaning(*letter).is_empty(), "{letter}");
+                }
             }
         }
     }

@@ -356,3 +356,21 @@ fn duration(seconds: f64) -> String {
     let decimals = usize::from(shown < 99.95);
     format!("{} {}s", trimmed(&format!("{shown:.decimals$}")), scale.prefix)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tui::raster::Marker;
+
+    #[test]
+    fn what_harms_a_machine_has_the_colour_of_trouble_and_a_lock_its_own() {
+        let look = Appearance::new(Theme::Dark, Marker::Braille);
+        let trouble = look.style(Role::Trouble).fg;
+        for verdict in Verdict::ALL {
+            use Verdict::{Adhesive, Divergent, Failed, Whirl};
+            let harms = matches!(verdict, Failed | Adhesive | Whirl | Divergent);
+            assert_eq!(verdict_style(&look, verdict).fg == trouble, harms, "{verdict}");
+        }
+        assert_eq!(verdict_style(&look, Verdict::Locked).fg, colour(&look, Verdict::Locked));
+    }
+}

@@ -209,6 +209,19 @@ mod tests {
     use super::*;
 
     #[test]
+    fn the_letters_that_are_drawn_on_a_bar_are_told_and_no_others() {
+        let scene = crate::scene::Scene::base().checked().unwrap();
+        let app = App::new(scene, crate::tui::Theme::Mono, crate::tui::Marker::Braille);
+        let told = |width| bar::legend(&app, Rect::new(0, 0, width, 1), &KNOBS[0]).unwrap();
+        let wide = told(200);
+        for meaning in ["a adhesive limit", "x coincidence", "c Ω_c", "L Ω_lock"] {
+            assert!(wide.contains(meaning), "{wide}");
+        }
+        // In one cell only the last can be seen.
+        assert_eq!(told(1), "On its bar: L Ω_lock.");
+    }
+
+    #[test]
     fn every_note_on_a_knob_fits_below_the_knobs() {
         for knob in KNOBS {
             let lines = wrap(&sentence(knob), 26);

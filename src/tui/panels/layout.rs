@@ -177,3 +177,42 @@ pub fn body(app: &App) -> Rect {
     let area = Rect::new(0, 0, app.layout.size.0, app.layout.size.1);
     places(area, app).body
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+    use crate::tui::bindings::Action;
+    use crate::tui::{Marker, Theme};
+
+    fn app() -> App {
+        App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Braille)
+    }
+
+    #[test]
+    fn every_chart_beside_the_knobs_has_eight_rows_of_data() {
+        for (width, height) in [(80, 24), (100, 30), (120, 40), (200, 50)] {
+            for view in ViewId::all() {
+                let mut app = app();
+                app.act(Action::View(view));
+                let charts = places(Rect::new(0, 0, width, height), &app).charts;
+                for (shown, area) in charts {
+                    // The wheel has no axis.
+                    let axis = if shown == ViewId::Frame { 2 } else { 0 };
+                    assert!(area.height + axis >= LEAST_ROWS, "{shown:?} {area:?}");
+                }
+            }
+        }
+        let first = places(Rect::new(0, 0, 80, 24), &app()).charts;
+        assert_eq!(first.len(), 2, "the wheel and the response");
+    }
+
+    #[test]
+    fn a_screen_that_is_too_small_says_so_whole() {
+        let area = Rect::new(0, 0, 30, 8);
+        let mut buffer = ratatui::buffer::Buffer::empty(area);
+        crate::tui::panels::paint(&app(), &mut buffer, area);
+        let text: String = buffer.content.iter().map(|cell| cell.symbol()).collect();
+        assert!(text.contains("needs 40x12") && text.contains("30x8"), "{text}");
+    }
+}
