@@ -266,7 +266,7 @@ impl Facts {
         }
         let touches = touches(self.touches);
         let who = match self.law {
-            ContactLaw::Smooth => "The blades leave the lining",
+            ContactLaw::Smooth => "Blades leave the lining",
             ContactLaw::Unilateral | ContactLaw::Bilateral => "The blades let go",
         };
         vec![
