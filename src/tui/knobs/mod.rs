@@ -1,16 +1,13 @@
 //! The knobs: keys of the scene with a label and a sensible step. Names,
 //! units, bounds and meaning come from the table of keys.
 
-mod clearance;
 mod inert;
 mod number;
-mod paper;
 mod range;
 mod table;
-mod touch;
 
-use clearance::CLEARANCE;
 use inert::Inert;
+use number::CLEARANCE;
 pub use number::number;
 use number::{decades, in_unit, mantissas};
 use range::Bar;
@@ -185,7 +182,7 @@ impl Knob {
                 Value::Real(self.round_to(next, fine))
             }
             (Value::Real(x), Turn::Decades(_)) if self.path == CLEARANCE => {
-                Value::Real(clearance::turned(*x, up, coarse, scene))
+                Value::Real(number::turned(*x, up, coarse, scene))
             }
             (Value::Real(x), Turn::Decades(least)) => {
                 Value::Real(self.bounded(decades(*x, up, mantissas(coarse), least)))
@@ -232,7 +229,7 @@ impl Knob {
 
     /// What it may hold.
     pub fn allowed(&self) -> Allowed {
-        self.key().map_or(clearance::ALLOWED, |key| key.allowed)
+        self.key().map_or(number::ALLOWED, |key| key.allowed)
     }
 
     /// The unit; empty for words and counts.

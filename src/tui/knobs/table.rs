@@ -1,8 +1,8 @@
 //! The table of knobs, in the order of the panel, group after group: what each is, how it
 //! turns, the range of its bar, and where it changes nothing.
 
-use super::clearance::{CLEARANCE, LEAST};
 use super::inert::{self, Inert};
+use super::number::{CLEARANCE, LEAST};
 use super::range::{Bar, bars};
 use super::{Group, Knob, Turn};
 use crate::scene::keys;

@@ -8,7 +8,6 @@ mod gaps;
 pub mod locked;
 pub mod map;
 pub mod margins;
-mod marks;
 mod panel;
 mod precision;
 mod response;
