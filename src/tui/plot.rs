@@ -295,7 +295,13 @@ impl<'a> Plot<'a> {
             let cell = self.buffer.cell(Position::new(x, row));
             cell.is_some_and(|cell| matches!(cell.symbol(), " " | "┈" | "┊"))
         };
-        let free = (x..end).all(empty);
+        // Two names are two cells apart.
+        let near = [x.saturating_sub(2), x.saturating_sub(1), end, end.saturating_add(1)];
+        let apart = near.into_iter().filter(|x| (inner.x..inner.right()).contains(x)).all(|x| {
+            let cell = self.buffer.cell(Position::new(x, row));
+            cell.is_none_or(|cell| !cell.symbol().chars().any(char::is_alphanumeric))
+        });
+        let free = apart && (x..end).all(empty);
         if free {
             self.text(x, row, text, style);
         }
@@ -494,9 +500,10 @@ mod tests {
         plot.ink();
         let row = plot.row(0.5).unwrap();
         assert!(!plot.free_note(0.3, row, "name", Style::new()));
-        // On one side of the place or the other.
         assert!(plot.free_note(0.3, row - 1, "name", Style::new()));
-        assert!(plot.free_note(0.3, row - 1, "name", Style::new()));
+        // Not so near another one that both read as one.
+        assert!(!plot.free_note(0.3, row - 1, "name", Style::new()));
+        assert!(plot.free_note(0.8, row - 1, "name", Style::new()));
         // Nor another label, nor what is outside.
         assert!(!plot.free_note(0.3, row - 1, "name", Style::new()));
         assert!(!plot.free_label((0.0, 0.9), &"x".repeat(99), Style::new()));

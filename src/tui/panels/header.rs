@@ -189,7 +189,7 @@ fn now(app: &App) -> Part {
         (9, joined(&[&time(), &held(state.clone()), &rate(limit)])),
         (6, joined(&[&time(), &held(state.clone()), &rate("")])),
         (4, joined(&[&time(), &held(state)])),
-        (1, joined(&[&time(), &held(one)])),
+        (2, joined(&[&time(), &held(one)])),
         (0, time()),
     ])
 }
@@ -278,7 +278,7 @@ fn end(app: &App) -> Part {
         (rank, vec![("AT ".into(), quiet), end, (format!(" {what}"), quiet)])
     };
     let Some(run) = app.full_run().filter(|_| !app.is_asked()) else {
-        return Part::new(vec![at(3, "?".into())]);
+        return Part::new(vec![at(1, "?".into())]);
     };
     // Of a whirl or a slip, only the latest change of sides is known.
     let held = run.since.filter(|_| run.verdict.is_held());
@@ -287,7 +287,7 @@ fn end(app: &App) -> Part {
     let broken = broken
         .map(|(hold, _)| format!("{}, locked until {}", run.verdict, readable(hold.ended, "s")));
     let longer = held.or(broken).map(|longer| at(5, longer));
-    Part::new(longer.into_iter().chain([at(3, run.verdict.to_string())]).collect())
+    Part::new(longer.into_iter().chain([at(1, run.verdict.to_string())]).collect())
 }
 
 /// What contact that only pushes does, by the event solver.

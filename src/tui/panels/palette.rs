@@ -31,13 +31,15 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, palette: &PaletteState) 
     let typed: String = palette.typed.chars().skip(skip).collect();
     let head = shorten(&format!(": {typed}_{hint}"), width, mark);
     print(buffer, area, 0, &head, look.style(Role::Focus));
-    let said = match &app.status {
-        Some(status) => Some((look.spell(status), Role::Trouble)),
-        None => found.is_empty().then(|| ("nothing has these words".into(), Role::Quiet)),
-    };
-    let top = 1 + u16::from(said.is_some());
-    if let Some((said, role)) = said {
-        print(buffer, area, 1, &said, look.style(role));
+    let status = app.status.as_ref().map_or(Vec::new(), |text| wrap(&look.spell(text), width));
+    let mut said: Vec<_> = status.into_iter().map(|line| (line, Role::Trouble)).collect();
+    if found.is_empty() {
+        said.push(("nothing has these words".into(), Role::Quiet));
+    }
+    let mut top = 1;
+    for (line, role) in said {
+        print(buffer, area, top, &line, look.style(role));
+        top += 1;
     }
     let rows = usize::from(area.height.saturating_sub(top));
     let place = palette.place.min(found.len().saturating_sub(1));

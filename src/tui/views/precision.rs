@@ -85,10 +85,19 @@ impl ViewPanel for PrecisionView {
             .map(|(_, row)| letter(&row.way))
             .collect();
         zeros.dedup();
-        let height = inside.height.saturating_sub(u16::from(!zeros.is_empty()));
-        if !zeros.is_empty() {
-            let letters: String = zeros.into_iter().flat_map(|letter| [' ', letter]).collect();
-            print(buffer, inside, height, &format!("error 0, off this axis:{letters}"), quiet);
+        // Nor has it a place for a run that gives no number to compare.
+        let lost = report.rows.iter().filter(|row| row.is_wrong() && place(row).is_none());
+        let mut lost: Vec<char> = lost.map(|row| letter(&row.way)).collect();
+        lost.dedup();
+        let listed = |letters: Vec<char>, what: &str, sign: &str| {
+            let named: String = letters.iter().map(|letter| format!(" {letter}{sign}")).collect();
+            (!letters.is_empty()).then(|| format!("{what}:{named}"))
+        };
+        let off = [listed(zeros, "error 0, off this axis", ""), listed(lost, "no error", "!")];
+        let off = off.into_iter().flatten().collect::<Vec<_>>().join("; ");
+        let height = inside.height.saturating_sub(u16::from(!off.is_empty()));
+        if !off.is_empty() {
+            print(buffer, inside, height, &off, quiet);
         }
         let inside = Rect { height, ..inside };
         let points: Vec<_> =

@@ -123,13 +123,13 @@ fn multipliers(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let mean = if at.area.width >= NAMED_FROM { "mean now " } else { "" };
     legend.push((format!("{point} {mean}{now}"), look.style(Role::Contact)));
     legend.push(("below 0 pushes".into(), quiet));
-    if pair && roomy {
-        legend.push(dots(look, "undamped"));
-    }
     if app.has_lining() {
         legend.push(("of a rigid casing".into(), quiet));
     }
     legend.extend(app.tuned_note().map(|note| (note.into(), quiet)));
+    if pair && roomy {
+        legend.push(dots(look, "undamped"));
+    }
     if app.speed() < 0.0 {
         legend.push(("over |Ω|, turning backwards".into(), quiet));
     }
