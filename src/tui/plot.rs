@@ -385,7 +385,8 @@ impl ChartAxis {
         let tick = (high / step).floor() * step;
         let off = ((high - tick) / pixel - (0.5 * grain - 0.5)).rem_euclid(grain);
         let off = if off > 0.5 * grain { off - grain } else { off };
-        let most = 0.5 * (wider - span) / pixel;
+        // By round-off nothing may be new.
+        let most = (0.5 * (wider - span) / pixel).max(0.0);
         let high = high - off.clamp(-most, most) * pixel;
         let mut evened = self;
         (evened.low, evened.high) = ((high - wider).min(self.low), high.max(self.high));
