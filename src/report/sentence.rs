@@ -221,9 +221,9 @@ impl Facts {
 
     fn pulled(&self) -> Vec<String> {
         let pulls = match self.pulling.as_slice() {
-            [] => "one pulls".to_string(),
+            [] => "one blade pulls".to_string(),
             [blade] => format!("blade {blade} pulls"),
-            several => format!("{} pull", several.len()),
+            several => format!("{} blades pull", several.len()),
         };
         let hold = if self.blades.len() == 1 { "holds" } else { "hold" };
         vec![
@@ -259,14 +259,14 @@ impl Facts {
         }
         if self.touches == 0 {
             return vec![
-                format!("No blade hits; {rest}."),
-                "No blade hits the casing.".into(),
-                "No blade hits.".into(),
+                format!("No blade touches; {rest}."),
+                "No blade touches the casing.".into(),
+                "No blade touches.".into(),
             ];
         }
         let touches = touches(self.touches);
         let who = match self.law {
-            ContactLaw::Smooth => "They leave the lining",
+            ContactLaw::Smooth => "Blades leave the lining",
             ContactLaw::Unilateral | ContactLaw::Bilateral => "The blades let go",
         };
         vec![
@@ -335,11 +335,16 @@ impl Facts {
                     Verdict::Failed => "fails".into(),
                     other => format!("says {other}"),
                 };
-                vec![
+                let mut forms = vec![
                     format!("The exact solver {does}: {why}."),
                     format!("The exact solver {does}."),
                     format!("Exact: {other}."),
-                ]
+                ];
+                // A run that stops has said why.
+                if self.verdict == Verdict::Failed {
+                    forms.remove(0);
+                }
+                forms
             }
         }
     }
@@ -415,7 +420,7 @@ fn why(reason: &FailureReason) -> &'static str {
         FailureReason::Events | FailureReason::EventsAtOnce | FailureReason::Looks => {
             "there are too many touches"
         }
-        FailureReason::Singular { .. } => "the forces have no answer",
+        FailureReason::Singular { .. } => "the contact forces have no solution",
     }
 }
 
@@ -564,7 +569,7 @@ mod tests {
             "DECAY  The blades let go after 5 touches; the casing comes to rest."
         );
         let free = Facts { touches: 0, damped: false, ..decay.clone() };
-        assert_eq!(told(free), "DECAY  No blade hits; the casing swings on freely.");
+        assert_eq!(told(free), "DECAY  No blade touches; the casing swings on freely.");
         let broken = Facts { broken: Some(380.26), ..decay };
         assert_eq!(
             told(broken),

@@ -27,7 +27,12 @@ impl Appearance {
 
     /// The next theme; what to say.
     pub fn next_theme(&mut self) -> String {
-        self.theme = self.theme.next();
+        self.use_theme(self.theme.next())
+    }
+
+    /// Another theme; what to say.
+    pub fn use_theme(&mut self, theme: Theme) -> String {
+        self.theme = theme;
         format!("theme {}", self.theme.name())
     }
 

@@ -7,9 +7,9 @@ use super::app::{App, Purpose};
 use super::appearance::Appearance;
 use super::axis::readable;
 use super::bindings::{self, Action, Binding, Chord, Context};
+use super::files::builtin_scenes;
 use super::knobs::{KNOBS, Knob, knob_of};
-use super::lessons;
-use super::scenes::builtin_scenes;
+use super::lessons::{self, LETTERS};
 use super::views::ViewId;
 use super::views::map::numeric;
 use super::{Marker, Theme};
@@ -37,6 +37,8 @@ pub enum Command {
     Axes([Option<&'static str>; 2]),
     /// Write a file.
     Write(Purpose, String),
+    /// Use a theme.
+    Theme(Theme),
 }
 
 /// Something that can be asked for, in words.
@@ -115,7 +117,7 @@ pub fn only(app: &App, typed: &str) -> Result<Found, String> {
             rank(item, &words).is_none_or(|rank| rank < LIKE)
         }
         Command::Set(..) | Command::GoTo(_) | Command::Blade(_) => true,
-        Command::Axes(_) | Command::Write(..) => true,
+        Command::Axes(_) | Command::Write(..) | Command::Theme(_) => true,
     };
     let first = found(app, typed).into_iter().next().filter(is_like);
     match first.ok_or_else(|| refused(typed)) {
@@ -126,8 +128,10 @@ pub fn only(app: &App, typed: &str) -> Result<Found, String> {
         found => found,
     }
     .map_err(|refused| {
-        let nothing =
-            || format!("nothing has these words: {typed}; help lists what can be asked for");
+        let nothing = || match typed.starts_with(|c: char| c.is_ascii_digit() || c == '-') {
+            true => format!("{typed}: of which knob? Such as speed 450 rad/s"),
+            false => format!("nothing has these words: {typed}; help lists what can be asked for"),
+        };
         refused.unwrap_or_else(nothing)
     })
 }
@@ -135,6 +139,11 @@ pub fn only(app: &App, typed: &str) -> Result<Found, String> {
 /// Why a knob does not take the value that follows its name, if it is that.
 fn refused(typed: &str) -> Option<String> {
     let words: Vec<&str> = typed.split([' ', '=']).filter(|word| !word.is_empty()).collect();
+    if let ["t" | "T", time @ ..] = words.as_slice()
+        && !time.is_empty()
+    {
+        return Some(format!("t {}: this is no time, such as 0.3 ms", time.join(" ")));
+    }
     let splits = (1..words.len()).rev().filter_map(|at| words.split_at_checked(at));
     let mut named = splits.filter_map(|(name, value)| {
         let knob = KNOBS.iter().find(|knob| is_named(knob, name))?;
@@ -179,6 +188,17 @@ fn directed(app: &App, typed: &str) -> Option<Vec<Found>> {
             };
             let found: Vec<Found> = ViewId::all().filter(named).map(act).collect();
             Some(found).filter(|found| !found.is_empty())?
+        }
+        "answer" => {
+            let place = LETTERS.iter().position(|letter| lower == letter.to_string())?;
+            vec![Found::of("go", typed.trim(), Command::Act(Action::Answer(place)))]
+        }
+        "theme" => {
+            let named = Theme::ALL.into_iter().filter(|theme| theme.name().starts_with(&lower));
+            let of = |theme: Theme| {
+                Found::of("look", format!("theme {}", theme.name()), Command::Theme(theme))
+            };
+            named.map(of).collect()
         }
         "save" | "export" if !rest.is_empty() && !rest.contains(' ') => {
             let purpose = if first == "save" { Purpose::Save } else { Purpose::Export };

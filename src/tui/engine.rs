@@ -221,6 +221,20 @@ pub struct Working {
     pub seconds: u64,
 }
 
+/// Whether a tiny change changes the outcome.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Sensitive {
+    /// Not known yet, or not asked.
+    #[default]
+    Unknown,
+    /// It does not.
+    No,
+    /// It does.
+    Yes,
+    /// Given up: it takes too long.
+    GivenUp,
+}
+
 /// Results for one generation of the knobs.
 #[derive(Clone, Debug, Default)]
 pub struct Results {
@@ -230,9 +244,8 @@ pub struct Results {
     pub answer: Option<Arc<Answer>>,
     /// The end of that run \[s\].
     pub end_s: f64,
-    /// Whether a tiny change of the pulse, the speed or the motion changes the outcome;
-    /// false until it is known.
-    pub sensitive: bool,
+    /// Whether a tiny change of the pulse, the speed or the motion changes the outcome.
+    pub sensitive: Sensitive,
     /// The event solver under unilateral contact, on the same scene.
     pub reference: Option<FullRun>,
     /// The same scene under the other contact law.

@@ -7,10 +7,10 @@ use std::time::{Duration, Instant};
 
 use crossterm::event::{Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers, MouseEvent};
 
+use super::ability::{LATE, LateAnswer, is_part_of_answer};
 use super::files::FileResult;
-use super::ground::{LATE, LateAnswer, is_part_of_answer};
+use super::files::FoundScenes;
 use super::input::Input;
-use super::scenes::FoundScenes;
 
 /// Keys that follow each other this closely are no typing.
 const BURST: Duration = Duration::from_millis(3);

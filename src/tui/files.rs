@@ -1,16 +1,22 @@
 //! Files are opened in a thread of their own: a pipe without a reader or a
 //! network that does not answer blocks that thread, not the screen.
+//!
+//! The scene files of a directory, read in a thread of their own: a network that
+//! does not answer blocks that thread, not the screen. Only regular files are
+//! opened, and only so many.
 
 use std::io::{ErrorKind, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 use std::sync::mpsc::{Sender, channel};
 use std::thread;
 use std::time::Duration;
 
-use super::events::ScreenEvent;
-use super::scenes::FoundScenes;
 use crate::file;
+use crate::report::line::clean;
+use crate::scene::{BUILTIN, CheckedScene, Scene};
+use crate::tui::events::ScreenEvent;
 
 /// Name of the thread: the panic hook leaves the screen alone for it.
 pub const FILES_NAME: &str = "rubscope-files";
@@ -109,6 +115,79 @@ pub fn tidy_up() {
     }
 }
 
+/// Most files that are read; a directory of scenes has some dozens.
+const MOST_FILES: usize = 200;
+/// Most names of a directory that are looked at.
+const MOST_NAMES: usize = 20_000;
+
+/// A scene of the list.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FoundScene {
+    /// The name of the file.
+    pub name: String,
+    /// The scene; the reason in one line where the file holds none.
+    pub scene: Result<CheckedScene, String>,
+}
+
+/// The built-in scenes, read once.
+pub fn builtin_scenes() -> &'static [FoundScene] {
+    static READ: OnceLock<Vec<FoundScene>> = OnceLock::new();
+    READ.get_or_init(|| {
+        let read = |name: &str| Scene::builtin(name).and_then(|scene| scene.checked());
+        let scene = |name: &str| read(name).map_err(|error| clean(&error.to_string()));
+        let found = |name: &str| FoundScene { name: name.into(), scene: scene(name) };
+        BUILTIN.iter().map(|builtin| found(builtin.name)).collect()
+    })
+}
+
+/// The scenes of a directory.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FoundScenes {
+    /// In the order of their names.
+    pub files: Vec<FoundScene>,
+    /// What is missing in the list, and why.
+    pub missing: Option<String>,
+    /// Whether they are still being read.
+    pub reading: bool,
+}
+
+impl FoundScenes {
+    /// Reads the `.toml` files of a directory; the empty path is the working
+    /// directory.
+    pub fn of(directory: &Path) -> Self {
+        let here = if directory.as_os_str().is_empty() { Path::new(".") } else { directory };
+        let entries = match std::fs::read_dir(here) {
+            Ok(entries) => entries,
+            Err(error) => {
+                let missing = Some(clean(&format!("this folder cannot be read: {error}")));
+                return Self { missing, ..Self::default() };
+            }
+        };
+        let names = entries.flatten().take(MOST_NAMES).map(|entry| entry.file_name());
+        let is_toml = |name: &String| name.len() > 5 && name.to_lowercase().ends_with(".toml");
+        // A name that is not text cannot be shown, nor typed.
+        let mut names: Vec<String> =
+            names.filter_map(|name| name.into_string().ok()).filter(is_toml).collect();
+        names.sort_unstable();
+        let more = names.len().saturating_sub(MOST_FILES);
+        names.truncate(MOST_FILES);
+        let files = names.into_iter().filter_map(|name| found(here, name)).collect();
+        let missing = (more > 0).then(|| format!("and {more} more files, which are not read"));
+        Self { files, missing, reading: false }
+    }
+}
+
+/// A file, if it is a regular one.
+fn found(directory: &Path, name: String) -> Option<FoundScene> {
+    let path = directory.join(&name);
+    if !std::fs::metadata(&path).is_ok_and(|kind| kind.is_file()) {
+        return None;
+    }
+    let path = path.to_str()?;
+    let read = Scene::load(path).and_then(|scene| scene.checked());
+    Some(FoundScene { name, scene: read.map_err(|error| clean(&error.to_string())) })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -135,5 +214,43 @@ mod tests {
             assert_eq!(reason, "it is a pipe or a device, not a file");
         }
         assert!(matches!(job("none/a.toml", false).run(), FileResult::Failed(_)));
+    }
+
+    #[test]
+    fn regular_toml_files_are_read_in_order_and_broken_ones_say_why() {
+        let folder = tempfile::tempdir().unwrap();
+        let write = |name: &str, text: &[u8]| std::fs::write(folder.path().join(name), text);
+        write("b.toml", b"title = \"B\"").unwrap();
+        write("a.toml", b"schema = 2").unwrap();
+        write("c.TOML", b"\xff").unwrap();
+        write("d.txt", b"title = \"D\"").unwrap();
+        write("e.toml", &vec![b'#'; (1 << 20) + 1]).unwrap();
+        std::fs::create_dir(folder.path().join("f.toml")).unwrap();
+        let found = FoundScenes::of(folder.path());
+        let names: Vec<&str> = found.files.iter().map(|file| file.name.as_str()).collect();
+        assert_eq!(names, ["a.toml", "b.toml", "c.TOML", "e.toml"]);
+        assert_eq!(found.files[1].scene.as_ref().unwrap().title, "B");
+        for (place, reason) in [(0, "schema = 2"), (2, "not UTF-8"), (3, "up to 1048576 bytes")] {
+            let error = found.files[place].scene.as_ref().unwrap_err();
+            assert!(error.contains(reason) && error.lines().count() == 1, "{error}");
+        }
+        assert_eq!(found.missing, None);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_pipe_is_not_opened_and_a_folder_of_many_files_has_an_end() {
+        let folder = tempfile::tempdir().unwrap();
+        for place in 0..MOST_FILES + 3 {
+            std::fs::write(folder.path().join(format!("{place:04}.toml")), "").unwrap();
+        }
+        let pipe = folder.path().join("0000.toml");
+        std::fs::remove_file(&pipe).unwrap();
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        let found = FoundScenes::of(folder.path());
+        assert_eq!(found.files.len(), MOST_FILES - 1);
+        assert_eq!(found.missing.as_deref(), Some("and 3 more files, which are not read"));
+        let none = FoundScenes::of(&folder.path().join("none"));
+        assert!(none.missing.unwrap().starts_with("this folder cannot be read"));
     }
 }

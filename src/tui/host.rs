@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use std::sync::mpsc::Sender;
 
 use super::events::ScreenEvent;
+use super::files::FoundScenes;
 use super::files::{FileJob, FileResult, find_aside, write_aside};
 use super::job;
 use super::line::Line;
-use super::scenes::FoundScenes;
 use super::terminal;
 
 /// What the run loop needs besides a backend.

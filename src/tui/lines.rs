@@ -5,6 +5,8 @@
 
 use std::io::{BufRead, Error, Read, Write};
 
+use anyhow::Context as _;
+
 use super::app::{App, Effect, InputMode};
 use super::commands::{self, Found};
 use super::engine::{Order, Pace};
@@ -22,12 +24,16 @@ const LONGEST: u64 = 1000;
 const ORDERS: usize = 8;
 /// Columns of the text of a lesson and of the help.
 const WIDTH: u16 = 80;
+/// Rows of the screen that is not there: no text of a lesson hides a chart.
+const ROWS: u16 = 1000;
+/// Columns and rows of the screen as a picture.
+const PICTURE: (u16, u16) = (120, 40);
 
 /// What can be asked for, in short.
 const USAGE: &str = "\
 speed 450, pulse 20k, law unilateral: give a knob a value; its name alone says the value
 t 0.3 ms, end, n, blade 7: go to an instant, the end, the next change of contact, a gap
-scene rub, lesson friction: open; a lesson takes a, b, c as answers, g goes on, G leaves
+scene rub, lesson friction: open; answer b answers its question, g goes on, G leaves
 undo, restart, live, fire, and every other action of the explorer by its words or key
 save FILE, copy: the scene as a file, the command that repeats the run
 help WORDS: what the help says about them; quit, or the end of input, ends";
@@ -49,7 +55,7 @@ pub fn lines(
     input: &mut dyn BufRead,
     out: &mut dyn Write,
     prompt: bool,
-) -> Result<(), Error> {
+) -> anyhow::Result<()> {
     let variable = |name: &str| std::env::var(name).unwrap_or_default();
     let ability = ability::Ability::of(&variable);
     let marker = options.marker(&config::Config::default(), &ability);
@@ -63,7 +69,8 @@ pub fn lines(
             write!(out, "> ")?;
         }
         out.flush()?;
-        let Some(line) = read(input)? else { return Ok(()) };
+        let line = read(input).context("cannot read standard input")?;
+        let Some(line) = line else { return Ok(()) };
         let goes_on = match line {
             Ok(line) if line.trim().is_empty() || line.trim_start().starts_with('#') => true,
             Ok(line) => lines.answer(line.trim(), out)?,
@@ -100,8 +107,7 @@ fn read(input: &mut dyn BufRead) -> Result<Option<Result<String, &'static str>>,
 impl Lines {
     fn of(scene: CheckedScene, marker: Marker) -> Self {
         let mut app = App::new(scene, Theme::Mono, marker);
-        // No text of a lesson hides a chart.
-        app.layout.size = (WIDTH, 1000);
+        app.layout.size = (WIDTH, ROWS);
         app.play.playing = false;
         Self { app, engine: None, ordered: None }
     }
@@ -143,6 +149,7 @@ impl Lines {
             }
         };
         let (before, lesson) = (self.app.scene.clone(), self.app.lessons.progress.clone());
+        let shown = shown(&found);
         // Nobody sees a cursor: an instant is gone to, and not read.
         self.app.stop_reading();
         self.app.status = None;
@@ -154,8 +161,9 @@ impl Lines {
         self.settle();
         self.app.check_lesson();
         self.tell(out)?;
-        let changed = self.changed(&before);
-        writeln!(out, "{}", self.spelled(&clean(&changed)))?;
+        for line in self.changed(&before, shown) {
+            writeln!(out, "{}", self.spelled(&clean(&line)))?;
+        }
         if self.app.lessons.progress != lesson {
             for line in panels::lesson_text(&self.app, WIDTH) {
                 writeln!(out, "{line}")?;
@@ -170,7 +178,12 @@ impl Lines {
             commands::Command::Select(place) => KNOBS.get(place),
             _ => None,
         };
-        match self.app.obey(found.command) {
+        self.app.layout.size = PICTURE;
+        let effect = self.app.obey(found.command);
+        self.app.layout.size = (WIDTH, ROWS);
+        // It moves where it is sent.
+        self.app.play.playing = false;
+        match effect {
             Err(refused) => {
                 self.refuse(&refused, out)?;
                 return Ok(Some(false));
@@ -229,19 +242,18 @@ impl Lines {
     }
 
     /// What is other than before: knobs with their values, and what the last line of the
-    /// screen would say.
-    fn changed(&self, before: &Scene) -> String {
+    /// screen would say, or what only a screen can show.
+    fn changed(&self, before: &Scene, shown: Option<String>) -> Vec<String> {
         let differ = KNOBS.iter().filter(|knob| knob.get(before) != knob.get(&self.app.scene));
-        let mut parts: Vec<String> = differ
+        let parts: Vec<String> = differ
             .map(|knob| {
                 format!("{} {} -> {}", knob.label, knob.text(before), knob.text(&self.app.scene))
             })
             .collect();
-        parts.extend(self.app.status.clone());
-        match parts.is_empty() {
-            true => "changed: nothing".into(),
-            false => format!("changed: {}", parts.join("; ")),
-        }
+        let changed = (!parts.is_empty()).then(|| format!("changed: {}", parts.join("; ")));
+        let said = shown.or(self.app.status.clone()).map(|said| format!("done: {said}"));
+        let told: Vec<String> = changed.into_iter().chain(said).collect();
+        if told.is_empty() { vec!["changed: nothing".into()] } else { told }
     }
 
     fn help(&self, words: &str, out: &mut dyn Write) -> Result<(), Error> {
@@ -260,6 +272,24 @@ impl Lines {
     fn spelled(&self, text: &str) -> String {
         self.app.appearance.spell(text)
     }
+}
+
+/// What only a screen shows of a command.
+fn shown(found: &Found) -> Option<String> {
+    use super::bindings::{Action, Group};
+    let action = match found.command {
+        commands::Command::Act(action) => action,
+        commands::Command::Axes(_) | commands::Command::Theme(_) => Action::Theme,
+        _ => return None,
+    };
+    let told = [Action::Step, Action::Restart, Action::Fire, Action::Jump, Action::GoToEnd];
+    match action.group() {
+        Group::Look | Group::Views => {}
+        // The motion waits: nothing plays.
+        Group::Time if !told.contains(&action) => {}
+        _ => return None,
+    }
+    Some(format!("{}; only a screen shows it", found.what))
 }
 
 #[cfg(test)]
@@ -283,7 +313,7 @@ mod tests {
         assert_eq!(text.matches("NOW").count(), 4, "{text}");
         for changed in [
             "changed: speed Ω 500 rad/s -> 450 rad/s",
-            "changed: on to 300",
+            "done: on to 300",
             "changed: speed Ω 450 rad/s -> 500 rad/s",
         ] {
             assert!(text.contains(changed), "{text}");
@@ -295,10 +325,7 @@ mod tests {
     #[test]
     fn an_instant_is_gone_to_after_a_blade_was_read() {
         let text = answers(b"blade 7\nt 0.3 ms\nrestart\n");
-        assert!(
-            text.contains("changed: on to 300") && text.contains("changed: restarted"),
-            "{text}"
-        );
+        assert!(text.contains("done: on to 300") && text.contains("done: restarted"), "{text}");
     }
 
     #[test]
@@ -316,6 +343,15 @@ mod tests {
             (b"blade 1.5", "refused: nothing has these words"),
             (b"t 1", "refused: t = 1.000 s: from 0 to 5.000 ms"),
             (b"save /", "refused: cannot write /"),
+            (b"t abc", "refused: t abc: this is no time"),
+            (b"150Hz", "refused: 150Hz: of which knob?"),
+            (b"speed 150Hz", "150Hz cannot be read; it takes rad/s or rpm"),
+            (b"initial 1", "is not possible; allowed is a casing position with every gap open"),
+            (b"answer b", "done: no question is open"),
+            (b"view map", "done: map of the verdict over two knobs; only a screen shows it"),
+            (b"theme light", "done: theme light; only a screen shows it"),
+            (b"pause", "done: pause, or go on; only a screen shows it"),
+            (b"undo", "done: nothing to undo"),
             (b"law", "contact is unilateral"),
         ] {
             let input = [bad, b"\n# a remark\n\nspeed\n"].concat();
@@ -329,7 +365,7 @@ mod tests {
 
     #[test]
     fn a_lesson_asks_and_takes_the_answer() {
-        let text = answers(b"lesson lock\nb\ng\nG\nquit\nspeed 450\n");
+        let text = answers(b"lesson lock\nanswer b\ng\nG\nquit\nspeed 450\n");
         assert!(text.contains("[a]") && text.contains("Lesson 2 of 12"), "{text}");
         assert!(text.contains("Right is") || text.contains("is right"), "{text}");
         assert!(!text.contains("450"), "{text}");

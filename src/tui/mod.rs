@@ -6,7 +6,6 @@ mod ability;
 mod app;
 mod appearance;
 mod axis;
-mod backend;
 #[doc(hidden)]
 pub mod bindings;
 mod commands;
@@ -19,7 +18,6 @@ pub mod export;
 #[doc(hidden)]
 pub mod files;
 mod glossary;
-mod ground;
 #[doc(hidden)]
 pub mod history;
 mod host;
@@ -37,8 +35,6 @@ mod panels;
 mod plot;
 mod raster;
 mod run;
-#[doc(hidden)]
-pub mod scenes;
 #[doc(hidden)]
 pub mod terminal;
 mod text;
@@ -106,9 +102,9 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
     let variable = |name: &str| std::env::var(name).unwrap_or_default();
     let mut memory = config::Memory::recall(options.config);
     let name = config::terminal_name(&variable);
-    let mut found = ground::Found::default();
+    let mut found = ability::Found::default();
     let ask = || {
-        found = ground::find(&variable, memory.config.is_silent(&name));
+        found = ability::find(&variable, memory.config.is_silent(&name));
         found.ground
     };
     let theme = options.theme(&memory.config, &variable, ask);

@@ -5,10 +5,10 @@ use std::time::Duration;
 
 use strum::{EnumString, VariantNames};
 
+use super::ability::Ground;
 use super::ability::{Ability, is_remote};
 use super::app::Source;
 use super::config::Config;
-use super::ground::Ground;
 use super::line::Line;
 use super::raster::Marker;
 use super::theme::{Theme, ThemeChoice};

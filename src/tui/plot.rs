@@ -290,28 +290,34 @@ impl<'a> Plot<'a> {
         if x < inner.x || end > inner.right() || !(inner.y..inner.bottom()).contains(&row) {
             return false;
         }
-        // A level line goes on behind a name.
+        // A level, or the line at another speed, goes on behind a name.
         let empty = |x: u16| {
             let cell = self.buffer.cell(Position::new(x, row));
-            cell.is_some_and(|cell| matches!(cell.symbol(), " " | "┈"))
+            cell.is_some_and(|cell| matches!(cell.symbol(), " " | "┈" | "┊"))
         };
-        let free = (x..end).all(empty);
+        // Two names are two cells apart.
+        let near = [x.saturating_sub(2), x.saturating_sub(1), end, end.saturating_add(1)];
+        let apart = near.into_iter().filter(|x| (inner.x..inner.right()).contains(x)).all(|x| {
+            let cell = self.buffer.cell(Position::new(x, row));
+            cell.is_none_or(|cell| !cell.symbol().chars().any(char::is_alphanumeric))
+        });
+        let free = apart && (x..end).all(empty);
         if free {
             self.text(x, row, text, style);
         }
         free
     }
 
-    /// A short text on the axis line, outside the chart, if nothing but the line is there;
+    /// A short text on the axis line, outside the chart, if no tick and no other text is there;
     /// whether there was room.
     pub fn axis_note(&mut self, x: f64, text: &str, style: Style, look: &Appearance) -> bool {
         let Some((column, row)) = self.column(x).zip(self.axis_row()) else { return false };
         let width = u16::try_from(text.chars().count()).unwrap_or(u16::MAX);
-        let [.., floor, floor_tick] = look.axis_signs();
+        let [.., floor, _] = look.axis_signs();
         let start = column.min(self.inner.right().saturating_sub(width));
         let line = |x: u16| {
             let cell = self.buffer.cell(Position::new(x, row));
-            cell.is_some_and(|cell| cell.symbol().starts_with([floor, floor_tick, contact(look)]))
+            cell.is_some_and(|cell| cell.symbol().starts_with([floor, contact(look)]))
         };
         let free = start >= self.inner.x && (start..start.saturating_add(width)).all(line);
         if free {
@@ -379,7 +385,8 @@ impl ChartAxis {
         let tick = (high / step).floor() * step;
         let off = ((high - tick) / pixel - (0.5 * grain - 0.5)).rem_euclid(grain);
         let off = if off > 0.5 * grain { off - grain } else { off };
-        let most = 0.5 * (wider - span) / pixel;
+        // By round-off nothing may be new.
+        let most = (0.5 * (wider - span) / pixel).max(0.0);
         let high = high - off.clamp(-most, most) * pixel;
         let mut evened = self;
         (evened.low, evened.high) = ((high - wider).min(self.low), high.max(self.high));
@@ -494,9 +501,10 @@ mod tests {
         plot.ink();
         let row = plot.row(0.5).unwrap();
         assert!(!plot.free_note(0.3, row, "name", Style::new()));
-        // On one side of the place or the other.
         assert!(plot.free_note(0.3, row - 1, "name", Style::new()));
-        assert!(plot.free_note(0.3, row - 1, "name", Style::new()));
+        // Not so near another one that both read as one.
+        assert!(!plot.free_note(0.3, row - 1, "name", Style::new()));
+        assert!(plot.free_note(0.8, row - 1, "name", Style::new()));
         // Nor another label, nor what is outside.
         assert!(!plot.free_note(0.3, row - 1, "name", Style::new()));
         assert!(!plot.free_label((0.0, 0.9), &"x".repeat(99), Style::new()));

@@ -28,7 +28,10 @@ fn the_first_line_says_what_is_now_and_what_will_be() {
     assert!(line.starts_with(" DECAY  The lock breaks at 410.4 rad/s; then the "), "{line}");
     let line = row(&session, 1);
     assert!(line.starts_with("NOW ") && line.contains(" held on 6 + 21 ► "), "{line}");
-    assert!(line.contains("rad/s↓") && line.contains("AT 100 ms lock until 48.91 ms"), "{line}");
+    assert!(
+        line.contains("rad/s↓") && line.contains("AT 100 ms decay, locked until 48.91 ms"),
+        "{line}"
+    );
     // The speed that is shown is that of the ramp, with its sign.
     session.press_each("....");
     let speed = session.app.speed();

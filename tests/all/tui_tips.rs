@@ -243,7 +243,7 @@ fn the_coincidence_marks_both_speeds_and_is_read_at_the_cursor() {
     session.press("");
     let text = session.text();
     for words in
-        ["9 coincidence", "difference (30)", "coincidence (31)", "a whirl can last from 41"]
+        ["9 coincidence", "coincidence (30)", "coincidence (31)", "a whirl can last from 41"]
     {
         assert!(text.contains(words), "{words} {text}");
     }

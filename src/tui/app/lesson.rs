@@ -2,12 +2,9 @@
 
 use std::sync::Arc;
 
-use crossterm::event::KeyCode;
-
 use super::knobs::Past;
 use super::{App, InputMode, Source};
 use crate::scene::{Scene, Value};
-use crate::tui::bindings::Chord;
 use crate::tui::knobs::{knob_of, place_of};
 use crate::tui::lessons::{self, Condition, LETTERS, Lesson, LessonStep, LessonsDone};
 use crate::tui::panels;
@@ -26,6 +23,8 @@ pub struct LessonProgress {
     pub page: usize,
     /// The last page has been read.
     pub read: bool,
+    /// The place of the answer that Enter gives.
+    pub choice: usize,
     /// What the user had before, and gets back.
     own: Arc<Past>,
 }
@@ -95,19 +94,6 @@ impl App {
         step.is_some_and(|(step, now)| step.question.is_some() && now.answer.is_none())
     }
 
-    /// Whether a key is the letter of an answer in a step that has its answer and
-    /// nothing to do: it would act on the charts by surprise.
-    pub(super) fn is_second_answer(&self, chord: Chord) -> bool {
-        let letters = || LETTERS.iter().any(|letter| chord.code == KeyCode::Char(*letter));
-        let answered = |(step, now): (&LessonStep, StepProgress)| {
-            step.question.is_some() && now.answer.is_some() && step.task.is_none()
-        };
-        self.dialogue.is_closed()
-            && !chord.ctrl
-            && letters()
-            && self.lesson_step().is_some_and(answered)
-    }
-
     /// The key of the lessons: the list, the next page, or the next step.
     pub(super) fn lesson_key(&mut self) {
         let Some((lesson, progress)) = self.current_lesson() else {
@@ -124,7 +110,7 @@ impl App {
                 progress.read = progress.page >= pages;
             }
         } else if self.is_asked() {
-            self.status = Some("first your guess: a, b or c".into());
+            self.status = Some("first your guess: ↑ ↓ choose it, Enter answers".into());
         } else if step + 1 < lesson.steps.len() {
             self.begin_step(number, step + 1);
         } else {
@@ -181,12 +167,14 @@ impl App {
             steps: vec![StepProgress::default(); lesson.steps.len()],
             page: 0,
             read: false,
+            choice: 0,
             own: match &self.lessons.progress {
                 Some(other) => Arc::clone(&other.own),
                 None => Arc::new(past.clone()),
             },
         });
-        self.lessons.progress = Some(LessonProgress { step, page: 0, read: false, ..begun });
+        self.lessons.progress =
+            Some(LessonProgress { step, page: 0, read: false, choice: 0, ..begun });
         let knob = lesson.steps.get(step).and_then(|found| found.knob.as_deref());
         if let Some(place) = knob.and_then(place_of) {
             self.knobs.select(place);
@@ -194,9 +182,25 @@ impl App {
         self.show_step(past);
     }
 
+    /// Goes to the answer above or below.
+    pub(super) fn choose_answer(&mut self, up: bool) {
+        if let Some(progress) = &mut self.lessons.progress {
+            let by = if up { LETTERS.len() - 1 } else { 1 };
+            progress.choice = (progress.choice + by) % LETTERS.len();
+        }
+    }
+
+    /// Takes the chosen answer.
+    pub(super) fn answer_chosen(&mut self) {
+        if let Some(choice) = self.lessons.progress.as_ref().map(|progress| progress.choice) {
+            self.answer(choice);
+        }
+    }
+
     /// Takes an answer: now its scene is run.
     pub(super) fn answer(&mut self, place: usize) {
         if !self.is_asked() {
+            self.status = Some("no question is open".into());
             return;
         }
         if self.lessons.progress.as_ref().is_some_and(|progress| !progress.read)
@@ -304,6 +308,7 @@ impl App {
 mod tests {
     use super::*;
     use crate::tui::app::on_screen;
+    use crate::tui::bindings::Action;
 
     #[test]
     fn a_step_is_done_by_its_answer_and_the_next_one_waits_for_it() {
@@ -320,15 +325,27 @@ mod tests {
         assert_eq!((now.answer, now.done), (Some(2), true));
         assert!(app.lessons.done.has(lesson, 0) && !app.lessons.done.has(lesson, 1));
         // A second answer is none.
+        app.act(Action::Accept);
         app.answer(0);
         assert_eq!(app.lesson_step().unwrap().1.answer, Some(2));
-        assert!(app.is_second_answer(Chord::from('a')) && !app.is_second_answer(Chord::from('d')));
         app.lesson_key();
         assert_eq!((app.lessons.progress.as_ref().unwrap().step, app.is_asked()), (1, true));
         app.lesson_back();
         assert!(!app.is_asked());
         app.lesson_back();
         assert_eq!(app.status.as_deref(), Some("this is the first step"));
+    }
+
+    #[test]
+    fn arrows_choose_an_answer_and_enter_gives_it() {
+        let mut app = on_screen();
+        app.begin_lesson(1);
+        let knob = app.selected().map(|knob| knob.path);
+        for action in [Action::KnobBelow, Action::KnobAbove, Action::KnobBelow, Action::Accept] {
+            app.act(action);
+        }
+        assert_eq!(app.lesson_step().unwrap().1.answer, Some(1));
+        assert_eq!(app.selected().map(|knob| knob.path), knob);
     }
 
     #[test]

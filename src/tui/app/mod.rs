@@ -1,37 +1,28 @@
 //! The state of the explorer, without a terminal: the screen is a function of
 //! this value, and only keys and snapshots change it.
 
-mod command;
 mod dialogue;
 mod files;
-mod help;
 mod knobs;
 mod layout;
 mod lesson;
 mod map;
-mod margins;
 mod mouse;
-mod palette;
 mod play;
 mod reading;
 mod run;
-mod scenes;
-mod speeds;
-mod sweep;
-mod touching;
 mod update;
 mod verdict;
 
 pub use dialogue::{InputMode, Purpose};
 
-pub use help::HelpState;
+pub use dialogue::HelpState;
 pub use lesson::LessonProgress;
 
+pub use dialogue::PaletteState;
+pub use files::SceneEntry;
 pub use mouse::Heard;
-pub use palette::PaletteState;
 pub use reading::{Cursor, STEP, cell_of};
-pub use scenes::SceneEntry;
-pub use sweep::Sweep;
 pub use update::Effect;
 
 use dialogue::Dialogue;
@@ -117,7 +108,7 @@ impl App {
             run: Run::of(&scene, &machine),
             layout: Layout::of(&scene),
             reading: Reading::default(),
-            map: MapChoice::default(),
+            map: MapChoice::default().anchored(&scene),
             dialogue: Dialogue::default(),
             files: Files::of(scene.clone()),
             lessons: Lessons::default(),

@@ -260,8 +260,9 @@ impl App {
         record.split_at(record.partition_point(|bin| bin.from < now))
     }
 
+    /// The last step may pass the end of the run, which may be that of a page.
     pub(super) fn page_number(&self) -> i64 {
-        self.page_of(self.now())
+        self.page_of(self.now().min(self.end_s()))
     }
 
     /// The page of an instant: one that has just become full is shown full.
@@ -312,8 +313,8 @@ impl App {
         self.play.pages_back = pages.clamp((now - last).min(0), now);
     }
 
-    /// The rate that is reached, in words: `1/200` of real time; while nothing plays the one
-    /// that is asked for.
+    /// The rate that is reached, in words: `200x slower` than real time; while nothing plays
+    /// the one that is asked for.
     pub fn rate_text(&self) -> String {
         let rate = if self.play.playing { self.results().pace.reached } else { Some(self.rate()) };
         let Some(rate) = rate else { return self.appearance.ellipsis().into() };
@@ -323,7 +324,7 @@ impl App {
             rate => {
                 let times = 1.0 / rate;
                 let unit = 10f64.powf(times.log10().floor() - 1.0).max(1.0);
-                format!("1/{:.0}", (times / unit).round() * unit)
+                format!("{:.0}x slower", (times / unit).round() * unit)
             }
         }
     }
@@ -366,13 +367,26 @@ mod tests {
         let mut app = App::new(scene, crate::tui::Theme::Mono, crate::tui::Marker::Ascii);
         // Not known yet: what was asked for is no answer.
         assert_eq!(app.rate_text(), "..");
-        for (rate, text) in [(1.0 / 83.4, "1/83"), (1.0 / 1234.0, "1/1200"), (0.97, "real time")] {
+        for (rate, text) in
+            [(1.0 / 83.4, "83x slower"), (1.0 / 1234.0, "1200x slower"), (0.97, "real time")]
+        {
             app.run.latest.results.pace.reached = Some(rate);
             assert_eq!(app.rate_text(), text);
         }
         // While nothing plays there is only the one that is asked for.
         app.play.playing = false;
-        assert_eq!(app.rate_text(), "1/200");
+        assert_eq!(app.rate_text(), "200x slower");
+    }
+
+    #[test]
+    fn a_last_step_that_passes_the_end_stays_on_the_last_page() {
+        let scene = crate::scene::Scene::base().checked().unwrap();
+        let mut app = App::new(scene, crate::tui::Theme::Mono, crate::tui::Marker::Ascii);
+        let mut moment = crate::tui::engine::Moment::of(&crate::motion::Motion::new(&app.scene));
+        moment.state.t_s = app.end_s() + 1e-6;
+        app.run.latest.moment = Some(moment);
+        let (from, to) = app.page();
+        assert!(from < app.end_s() && (to - app.end_s()).abs() < 1e-12, "{from} {to}");
     }
 
     #[test]

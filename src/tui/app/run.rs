@@ -9,7 +9,7 @@ use crate::model::Machine;
 use crate::motion::ActiveSet;
 use crate::scene::CheckedScene;
 use crate::tui::axis::{AutoRange, instant, readable};
-use crate::tui::engine::{Answer, Moment, Results, Snapshot, generation};
+use crate::tui::engine::{Answer, Moment, Results, Sensitive, Snapshot, generation};
 use crate::tui::history::{Bin, BinHistory, Channel};
 use crate::tui::knobs::{KNOBS, Knob};
 
@@ -145,7 +145,7 @@ impl Run {
         let results = &mut self.latest.results;
         (results.full_run, results.reference, results.comparison) = (None, None, None);
         (results.page, results.comparison_page) = (None, None);
-        results.sensitive = false;
+        results.sensitive = Sensitive::Unknown;
     }
 
     /// The ranges of the charts follow the data, or stay; what to say.
@@ -391,9 +391,9 @@ mod tests {
         run.latest.results.found.spectrum = Some(Arc::default());
         for change in [Run::change, Run::fire, |run: &mut Run| run.restart(&run.started.clone())] {
             run.latest.results.reference = None;
-            run.latest.results.sensitive = true;
+            run.latest.results.sensitive = Sensitive::Yes;
             change(&mut run);
-            assert!(!run.latest.results.sensitive);
+            assert_eq!(run.latest.results.sensitive, Sensitive::Unknown);
             assert!(run.latest.results.found.spectrum.is_some());
         }
         assert_eq!((run.restarts, run.changes, run.pulses), (1, 1, 1));

@@ -48,10 +48,6 @@ impl App {
             self.act(Action::Close);
         }
         let chord = Chord::of(event);
-        if self.is_second_answer(chord) {
-            self.status = Some("answered already: g goes on, B goes back".into());
-            return Effect::None;
-        }
         if let Some(action) = lookup(self.context(), chord) {
             let before = self.dialogue.is_closed().then(|| self.seen());
             let effect = self.act(action);
@@ -61,22 +57,36 @@ impl App {
             }
             return effect;
         }
-        let is_typed = self.dialogue.typed().is_some();
-        if let (Some(text), KeyCode::Char(letter), false) =
-            (self.dialogue.typed(), chord.code, chord.ctrl)
-            && line::harmless(letter) == letter
-        {
+        let typed = match (self.dialogue.typed(), chord.code, chord.ctrl) {
+            // What is typed begins with what can be seen.
+            (Some(text), KeyCode::Char(' '), false) if text.is_empty() => None,
+            (Some(text), KeyCode::Char(letter), false) if line::harmless(letter) == letter => {
+                Some((text, letter))
+            }
+            _ => None,
+        };
+        if let Some((text, letter)) = typed {
             let room = text.len() < LONGEST_TYPED;
             if room {
                 text.push(letter);
             }
             self.status = (!room).then(|| format!("no room: at most {LONGEST_TYPED} letters"));
-            self.dialogue.look_again();
-        } else if !is_typed {
-            let way = if self.dialogue.is_closed() { "? lists the keys" } else { "Esc leaves" };
+            self.typed_on();
+        } else {
+            let way = match self.dialogue.is_closed() {
+                true => "? lists the keys",
+                false if self.dialogue.typed().is_some() => "Enter takes what is typed, Esc leaves",
+                false => "Esc leaves",
+            };
             self.status = Some(clean(&format!("{chord} has no meaning here; {way}")));
         }
         Effect::None
+    }
+
+    /// Another text is typed: what was said of the one before is over.
+    fn typed_on(&mut self) {
+        self.knobs.forget_refusal();
+        self.dialogue.look_again();
     }
 
     /// What can be seen of this state, without what only a status says.
@@ -114,7 +124,7 @@ impl App {
                 None
             }
         };
-        self.dialogue.look_again();
+        self.typed_on();
         self.status = refused.map(String::from);
     }
 
@@ -148,6 +158,13 @@ impl App {
             (InputMode::Replacing(purpose, name), Action::Yes) => {
                 return self.write(purpose, &name, true);
             }
+            (_, Action::DeleteLast) => {
+                _ = self.dialogue.typed().and_then(String::pop);
+                self.typed_on();
+            }
+            (InputMode::Main, Action::KnobAbove) if self.is_asked() => self.choose_answer(true),
+            (InputMode::Main, Action::KnobBelow) if self.is_asked() => self.choose_answer(false),
+            (InputMode::Main, Action::Accept) => self.answer_chosen(),
             _ if self.dialogue.act(action) => {}
             (InputMode::Lessons(place), Action::Accept) => self.begin_lesson(place),
             (InputMode::Main, Action::Scenes) => return self.list_scenes(),

@@ -1,15 +1,16 @@
 //! The one table of key bindings: the key handler, the footer, the help and
 //! the manual page use it.
+//!
+//! The groups of actions, under whose headings the help lists their keys.
 
-mod group;
 mod table;
 
-pub use group::Group;
-pub use table::BINDINGS;
-
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+use strum::{EnumIter, IntoStaticStr};
 
-use super::views::ViewId;
+use crate::tui::views::ViewId;
+
+pub use table::BINDINGS;
 
 /// What a key does.
 #[expect(missing_docs, reason = "the table says what each action does")]
@@ -202,6 +203,82 @@ pub fn of(context: Context) -> impl Iterator<Item = &'static Binding> {
 /// The keys of a binding as text, such as `Up, k`.
 pub fn keys_text(binding: &Binding) -> String {
     binding.keys.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
+}
+
+/// What an action is about, in the order of the help.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, EnumIter, IntoStaticStr)]
+pub enum Group {
+    /// Selecting and turning knobs.
+    Knobs,
+    /// How the motion is played, and which part of it is shown.
+    Time,
+    /// Which charts there are, and reading them.
+    #[strum(serialize = "Views and charts")]
+    Views,
+    /// What to open and to learn.
+    #[strum(serialize = "Scenes and lessons")]
+    Scenes,
+    /// What leaves the program.
+    Files,
+    /// How it looks.
+    Look,
+    /// The program itself.
+    Program,
+}
+
+impl Action {
+    /// The group of an action.
+    pub fn group(self) -> Group {
+        match self {
+            Self::KnobAbove
+            | Self::KnobBelow
+            | Self::Turn { .. }
+            | Self::Type
+            | Self::Reset
+            | Self::Undo
+            | Self::Redo
+            | Self::Sweep
+            | Self::Live
+            | Self::Accept
+            | Self::DeleteLast => Group::Knobs,
+            Self::Pause
+            | Self::Step
+            | Self::Restart
+            | Self::Fire
+            | Self::SlowAtEvents
+            | Self::Slower
+            | Self::Faster
+            | Self::Jump
+            | Self::GoToEnd
+            | Self::PageBack
+            | Self::PageForward
+            | Self::ZoomIn
+            | Self::ZoomOut
+            | Self::ZoomReset => Group::Time,
+            Self::NextView
+            | Self::PreviousView
+            | Self::View(_)
+            | Self::Heat
+            | Self::Charts
+            | Self::FullScreen
+            | Self::Present
+            | Self::Autoscale
+            | Self::Pin
+            | Self::OtherLaw
+            | Self::MapAxis { .. }
+            | Self::Read
+            | Self::Cursor { .. }
+            | Self::OpenPlace => Group::Views,
+            Self::Lesson
+            | Self::LeaveLesson
+            | Self::LessonBack
+            | Self::Answer(_)
+            | Self::Scenes => Group::Scenes,
+            Self::Save | Self::Export | Self::Copy | Self::Yes => Group::Files,
+            Self::Marker | Self::Theme | Self::Mouse | Self::Redraw => Group::Look,
+            Self::Help | Self::Palette | Self::Quit | Self::Suspend | Self::Close => Group::Program,
+        }
+    }
 }
 
 #[cfg(test)]

@@ -1,7 +1,11 @@
 //! Where a knob cannot change the run as the others stand, and why: a column of the table.
+//!
+//! Which knobs have a scene leave the paper's model. A folded group shows these.
 
-use super::Knob;
+use std::sync::LazyLock;
+
 use crate::scene::{ContactLaw, ModelSize, Scene, SolverKind};
+use crate::tui::knobs::{Group, Knob};
 
 /// Why a knob changes nothing in a scene.
 pub type Inert = fn(&Scene) -> Option<&'static str>;
@@ -90,11 +94,25 @@ pub fn order(scene: &Scene) -> Option<&'static str> {
     torque(scene).or(none)
 }
 
+/// The paper's values.
+static PAPER: LazyLock<Scene> = LazyLock::new(Scene::base);
+
+impl Knob {
+    /// Whether it is one of those beyond the paper and has another value than there,
+    /// or describes the lining that the scene has.
+    pub fn leaves_the_paper(&self, scene: &Scene) -> bool {
+        let lining = self.path.starts_with("contact.s");
+        self.group == Group::Beyond
+            && (self.get(scene) != self.get(&PAPER)
+                || (lining && scene.solver.contact == ContactLaw::Smooth))
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::super::{Group, KNOBS};
     use super::*;
     use crate::motion::simulate;
+    use crate::tui::knobs::KNOBS;
 
     /// Scenes of which each has other inert knobs.
     const CASES: [&[(&str, &str)]; 8] = [
@@ -191,5 +209,19 @@ mod tests {
             }
         }
         assert_eq!(seen.len(), Group::Beyond.places().count(), "{seen:?}");
+    }
+
+    #[test]
+    fn those_that_are_turned_and_those_of_a_lining_leave_the_paper() {
+        let of = |scene: &Scene| -> Vec<&str> {
+            let knobs = KNOBS.iter().filter(|knob| knob.leaves_the_paper(scene));
+            knobs.map(|knob| knob.label).collect()
+        };
+        let mut scene = Scene::base();
+        scene.operation.speed_rad_s = 430.0;
+        assert_eq!(of(&scene), [""; 0]);
+        scene.bladed_disk.radial_coupling = 0.5;
+        scene.solver.contact = ContactLaw::Smooth;
+        assert_eq!(of(&scene), ["tip slope κ", "lining k_p", "lining eps"]);
     }
 }

@@ -1,20 +1,17 @@
 //! The knobs: keys of the scene with a label and a sensible step. Names,
 //! units, bounds and meaning come from the table of keys.
 
-mod clearance;
 mod inert;
 mod number;
-mod paper;
 mod range;
 mod table;
-mod touch;
 
-use clearance::CLEARANCE;
 use inert::Inert;
+use number::CLEARANCE;
 pub use number::number;
 use number::{decades, in_unit, mantissas};
 use range::Bar;
-pub use range::KnobRange;
+pub use range::{KnobRange, meaning};
 pub use table::KNOBS;
 
 use crate::scene::{
@@ -185,7 +182,7 @@ impl Knob {
                 Value::Real(self.round_to(next, fine))
             }
             (Value::Real(x), Turn::Decades(_)) if self.path == CLEARANCE => {
-                Value::Real(clearance::turned(*x, up, coarse, scene))
+                Value::Real(number::turned(*x, up, coarse, scene))
             }
             (Value::Real(x), Turn::Decades(least)) => {
                 Value::Real(self.bounded(decades(*x, up, mantissas(coarse), least)))
@@ -232,7 +229,7 @@ impl Knob {
 
     /// What it may hold.
     pub fn allowed(&self) -> Allowed {
-        self.key().map_or(clearance::ALLOWED, |key| key.allowed)
+        self.key().map_or(number::ALLOWED, |key| key.allowed)
     }
 
     /// The unit; empty for words and counts.
@@ -276,13 +273,20 @@ impl Knob {
             KNOBS.iter().fold(text.to_string(), |text, knob| text.replace(knob.path, knob.label))
         };
         let own = key == self.path;
-        let reads = self.parse(value).is_ok();
+        // Of several values that do not go together, the first is that of this knob.
+        let reads = self.parse(value.split(',').next().unwrap_or_default()).is_ok();
+        let has_unit = value.starts_with(|c: char| c.is_ascii_digit());
         match self.allowed() {
             Allowed::OneOf(_) if own && !reads => {
                 format!("{}: {value} is unknown; {}", self.label, self.range_words())
             }
             Allowed::Whole { .. } if own && !reads => {
                 format!("{}: {value} is no whole number; {}", self.label, self.range_words())
+            }
+            Allowed::Real { .. } if own && !reads && has_unit => {
+                let unit = if self.unit().is_empty() { "no unit" } else { self.unit() };
+                let turns = if self.unit() == "rad/s" { " or rpm" } else { "" };
+                format!("{}: {value} cannot be read; it takes {unit}{turns}", self.label)
             }
             Allowed::Real { .. } if own && !reads => {
                 format!("{}: {value} is no number; {}", self.label, self.range_words())

@@ -1,8 +1,11 @@
 //! Numbers as they are turned, typed and shown: round mantissas over decades,
 //! SI prefixes, no trailing zeros.
+//!
+//! The only knob that is not a key: the clearance `g0 = R_c - l_b`, set by the casing
+//! radius. With a lining it turns on below zero, where all blades rub at rest.
 
-use crate::report::number::SiScale;
-use crate::report::number::trimmed;
+use crate::report::number::{SiScale, trimmed};
+use crate::scene::{Allowed, ContactLaw, Scene};
 
 /// Mantissas of fine turns, two digits; coarse turns use 1, 2 and 5.
 const FINE: &[f64] = &[
@@ -88,9 +91,34 @@ pub fn number(x: f64, unit: &str) -> String {
     format!("{text} {}{unit}", scale.prefix).trim_end().to_string()
 }
 
+/// Its name in the place of a path.
+pub(super) use crate::scene::keys::CLEARANCE;
+
+/// What it may hold; a rigid casing refuses what is not above 0.
+pub(super) const ALLOWED: Allowed = Allowed::Real { min: -1e3, max: 1e3, above: false };
+
+/// The least clearance of a turn \[m\],
+pub(super) const LEAST: f64 = 1e-9;
+/// and of a turn on a lining, from which one more goes on to the other side of zero.
+const LEAST_ON_LINING: f64 = 1e-6;
+
+/// The value after one turn. There is no clearance of zero.
+pub(super) fn turned(x: f64, up: bool, coarse: bool, scene: &Scene) -> f64 {
+    let lining = scene.solver.contact == ContactLaw::Smooth;
+    let least = if lining { LEAST_ON_LINING } else { LEAST };
+    let next = decades(x, up, mantissas(coarse), least);
+    match next == 0.0 && lining {
+        true if up => least,
+        true => -least,
+        false => next,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::Value;
+    use crate::tui::knobs::{Knob, knob_of};
 
     #[test]
     fn numbers_read_as_people_write_them() {
@@ -101,5 +129,56 @@ mod tests {
         assert_eq!(number(1.544e6, "N/m"), "1.544 MN/m");
         assert_eq!(number(0.0, "N"), "0 N");
         assert_eq!(number(1e-7, "s"), "100 ns");
+    }
+
+    fn clearance() -> &'static Knob {
+        knob_of(super::CLEARANCE).unwrap()
+    }
+
+    /// Turns it so many times, in large steps; the values as they are shown.
+    fn turns(scene: &Scene, up: bool, count: usize) -> (Scene, Vec<String>) {
+        let (mut scene, mut seen) = (scene.clone(), Vec::new());
+        for _ in 0..count {
+            let value = clearance().turned(&clearance().get(&scene), up, true, &scene);
+            scene = clearance().set(&scene, value).unwrap().0.into_scene();
+            seen.push(clearance().text(&scene));
+        }
+        (scene, seen)
+    }
+
+    #[test]
+    fn a_lining_is_turned_through_zero_to_an_interference_and_back() {
+        let mut scene = Scene::base();
+        scene.solver.contact = crate::scene::ContactLaw::Smooth;
+        let (pressed, seen) = turns(&scene, false, 11);
+        let down = ["50", "20", "10", "5", "2", "1", "-1", "-2", "-5", "-10", "-20"];
+        assert_eq!(seen, down.map(|x| format!("{x} µm")));
+        let (open, seen) = turns(&pressed, true, 11);
+        assert_eq!(seen.last().unwrap(), "100 µm");
+        assert_eq!(seen[3..5], ["-1 µm", "1 µm"]);
+        assert!((open.clearance() - scene.clearance()).abs() < 1e-15);
+        // In small steps, too.
+        scene.casing.radius_m = scene.bladed_disk.blade_length_m - 1e-6;
+        let up = clearance().turned(&clearance().get(&scene), true, false, &scene);
+        assert_eq!(up, Value::Real(1e-6));
+    }
+
+    #[test]
+    fn a_rigid_casing_refuses_what_is_not_above_zero_in_one_line() {
+        let scene = Scene::base();
+        for x in [0.0, -2e-5] {
+            let refused = clearance().set(&scene, Value::Real(x)).unwrap_err().to_string();
+            assert_eq!(refused.lines().count(), 1);
+            assert!(refused.contains("above"), "{refused}");
+        }
+        let down = clearance().turned(&Value::Real(1e-9), false, true, &scene);
+        assert_eq!(down, Value::Real(0.0));
+        // And a pressed lining cannot become rigid.
+        let mut pressed = scene;
+        pressed.solver.contact = crate::scene::ContactLaw::Smooth;
+        pressed.casing.radius_m = pressed.bladed_disk.blade_length_m - 2e-5;
+        let law = knob_of("solver.contact").unwrap();
+        let refused = law.set(&pressed, Value::Text("unilateral".into())).unwrap_err().to_string();
+        assert!(refused.starts_with("casing.radius_m"), "{refused}");
     }
 }

@@ -1,8 +1,8 @@
 //! The table of knobs, in the order of the panel, group after group: what each is, how it
 //! turns, the range of its bar, and where it changes nothing.
 
-use super::clearance::{CLEARANCE, LEAST};
 use super::inert::{self, Inert};
+use super::number::{CLEARANCE, LEAST};
 use super::range::{Bar, bars};
 use super::{Group, Knob, Turn};
 use crate::scene::keys;
@@ -42,7 +42,7 @@ pub const KNOBS: &[Knob] = &[
         "speed Ω",
         keys::SPEED,
         Linear(5.0, 50.0),
-        "rotor speed: above Ω_c (c) the wave is pushed onto the blades, above Ω_lock (L) a lock only pushes",
+        "rotor speed: above Ω_c the wave is pushed onto the blades, above Ω_lock a lock only pushes",
     )
     .bar(Of(bars::speed)),
     knob(
@@ -50,7 +50,7 @@ pub const KNOBS: &[Knob] = &[
         "pulse F",
         keys::PULSE,
         Decades(1.0),
-        "force of the push on u_c that starts the motion; from t on a blade touches",
+        "force of the push on u_c that starts the motion",
     )
     .bar(Of(bars::pulse))
     .usual(1e4)
@@ -225,7 +225,7 @@ pub const KNOBS: &[Knob] = &[
         "tangential τ",
         keys::TANGENTIAL_RATIO,
         Linear(0.05, 0.1),
-        "tangential over radial motion of the casing: 1/n_d for a ring (r)",
+        "tangential over radial motion of the casing: 1/n_d for a ring",
     )
     .bar(Of(bars::tangential))
     .unless(inert::tangential),
@@ -259,7 +259,7 @@ pub const KNOBS: &[Knob] = &[
         "diameters n_b",
         keys::DISK_DIAMETERS,
         Whole(1, 4),
-        "nodal diameters of the disk; 0 for those of the casing (n)",
+        "nodal diameters of the disk; 0 for those of the casing",
     )
     .bar(Of(bars::disk_diameters))
     .unless(inert::not_modal),

@@ -5,7 +5,7 @@
 use ratatui::{buffer::Buffer, layout::Rect};
 
 use crate::tui::app::{App, InputMode, Purpose};
-use crate::tui::bindings::{self, Action, Binding, Chord};
+use crate::tui::bindings::{self, Action, Binding, Chord, Context};
 use crate::tui::text::{columns, pieces, print, shorten};
 use crate::tui::theme::Role;
 
@@ -42,7 +42,9 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
             (app.dialogue.is_new && app.dialogue.mode == InputMode::Main).then(|| TRY.to_string())
         }
     };
-    let message = match (&app.status, hint) {
+    // The list of commands has its message beside what is typed.
+    let status = app.status.as_ref().filter(|_| app.context() != Context::Palette);
+    let message = match (status, hint) {
         (Some(status), _) => Some((look.spell(status), Role::Good)),
         (None, hint) => hint.map(|hint| (look.spell(&hint), Role::Focus)),
     };

@@ -11,7 +11,7 @@ use crate::scene::ContactLaw;
 use crate::tui::app::App;
 use crate::tui::appearance::Appearance;
 use crate::tui::axis::readable;
-use crate::tui::engine::Limit;
+use crate::tui::engine::{FORECAST_LIMIT, Limit, Sensitive};
 use crate::tui::text::{columns, pieces, print};
 use crate::tui::theme::{Role, Theme};
 use crate::tui::views::map::colour;
@@ -81,7 +81,9 @@ pub fn told(app: &App, width: usize) -> (Sentence, Style) {
 fn verdict_style(look: &Appearance, verdict: Verdict) -> Style {
     let own = colour(look, verdict).filter(|_| look.theme != Theme::Mono);
     let style = match (verdict, own) {
-        (Verdict::Failed | Verdict::Adhesive, _) => look.style(Role::Trouble),
+        (Verdict::Failed | Verdict::Adhesive | Verdict::Whirl | Verdict::Divergent, _) => {
+            look.style(Role::Trouble)
+        }
         (_, Some(colour)) => Style::new().fg(colour),
         (_, None) => look.style(Role::Text),
     };
@@ -132,6 +134,7 @@ fn second(app: &App, buffer: &mut Buffer, area: Rect) {
     if !app.is_asked() {
         parts.extend(baseline(app));
         parts.extend(other(app));
+        parts.extend(unsure(app));
     }
     parts.extend(modes(app));
     parts.extend(next(app));
@@ -159,7 +162,7 @@ fn second(app: &App, buffer: &mut Buffer, area: Rect) {
     pieces(buffer, area, 1, &line);
 }
 
-/// `NOW 12.0 ms held on 12 + 19 ► 1/200`.
+/// `NOW 12.0 ms held on 12 + 19 ► 200x slower`.
 fn now(app: &App) -> Part {
     let look = &app.appearance;
     let (text, quiet) = (look.style(Role::Text), look.style(Role::Quiet));
@@ -172,14 +175,13 @@ fn now(app: &App) -> Part {
         Limit::Solver => " (solver's limit)",
         Limit::Wave => " (slowed: the wave)",
     };
-    let about = if app.play.slow_at_events { "about " } else { "" };
     let time = || vec![("NOW ".into(), quiet), (readable(app.now(), "s"), text)];
     let held = |word: String| [(" ".into(), text), (word, look.style(role))];
     let one = state.split(' ').next().unwrap_or_default().to_string();
     let rate = |limit: &str| {
         [
             (format!(" {go}"), look.style(Role::Focus)),
-            (format!(" {about}{}{limit}", app.rate_text()), quiet),
+            (format!(" {}{limit}", app.rate_text()), quiet),
         ]
     };
     let joined = |parts: &[&[(String, Style)]]| parts.concat();
@@ -187,7 +189,7 @@ fn now(app: &App) -> Part {
         (9, joined(&[&time(), &held(state.clone()), &rate(limit)])),
         (6, joined(&[&time(), &held(state.clone()), &rate("")])),
         (4, joined(&[&time(), &held(state)])),
-        (1, joined(&[&time(), &held(one)])),
+        (2, joined(&[&time(), &held(one)])),
         (0, time()),
     ])
 }
@@ -267,22 +269,25 @@ fn short(speed: f64) -> String {
     trimmed(&format!("{speed:.decimals$}")).to_string()
 }
 
-/// `AT 100 ms locked since 38.1 µs`.
+/// `AT 100 ms locked since 38.1 µs`; never without what is known then.
 fn end(app: &App) -> Part {
     let look = &app.appearance;
     let (text, quiet) = (look.style(Role::Text), look.style(Role::Quiet));
-    let at = vec![("AT ".into(), quiet), (duration(app.end_s()), text)];
-    let run = app.full_run().filter(|_| !app.is_asked());
-    let since = run.and_then(|run| {
-        // Of a whirl or a slip, only the latest change of sides is known.
-        let since = run.since.map(|t| match run.verdict.is_held() {
-            true => format!(" {} since {}", run.verdict, readable(t, "s")),
-            false => format!(" {}", run.verdict),
-        });
-        since.or(run.broken.map(|(hold, _)| format!(" lock until {}", readable(hold.ended, "s"))))
-    });
-    let longer = since.map(|since| (5, [at.clone(), vec![(since, quiet)]].concat()));
-    Part::new(longer.into_iter().chain([(0, at)]).collect())
+    let at = |rank: u8, what: String| {
+        let end = (duration(app.end_s()), text);
+        (rank, vec![("AT ".into(), quiet), end, (format!(" {what}"), quiet)])
+    };
+    let Some(run) = app.full_run().filter(|_| !app.is_asked()) else {
+        return Part::new(vec![at(1, "?".into())]);
+    };
+    // Of a whirl or a slip, only the latest change of sides is known.
+    let held = run.since.filter(|_| run.verdict.is_held());
+    let held = held.map(|t| format!("{} since {}", run.verdict, readable(t, "s")));
+    let broken = run.broken.filter(|_| run.since.is_none());
+    let broken = broken
+        .map(|(hold, _)| format!("{}, locked until {}", run.verdict, readable(hold.ended, "s")));
+    let longer = held.or(broken).map(|longer| at(5, longer));
+    Part::new(longer.into_iter().chain([at(1, run.verdict.to_string())]).collect())
 }
 
 /// What contact that only pushes does, by the event solver.
@@ -296,6 +301,13 @@ fn other(app: &App) -> Option<Part> {
         _ => format!("event solver: {}", other.verdict),
     };
     Some(Part::plain(6, text, quiet))
+}
+
+/// That it is not known whether a tiny change changes the outcome.
+fn unsure(app: &App) -> Option<Part> {
+    let text = format!("small changes: not checked in {} s", FORECAST_LIMIT.as_secs());
+    let given_up = app.results().sensitive == Sensitive::GivenUp;
+    given_up.then(|| Part::plain(6, text, app.appearance.style(Role::Quiet)))
 }
 
 /// The pinned run, if it ended in another way.
@@ -343,4 +355,22 @@ fn duration(seconds: f64) -> String {
     let shown = seconds / scale.factor;
     let decimals = usize::from(shown < 99.95);
     format!("{} {}s", trimmed(&format!("{shown:.decimals$}")), scale.prefix)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tui::raster::Marker;
+
+    #[test]
+    fn what_harms_a_machine_has_the_colour_of_trouble_and_a_lock_its_own() {
+        let look = Appearance::new(Theme::Dark, Marker::Braille);
+        let trouble = look.style(Role::Trouble).fg;
+        for verdict in Verdict::ALL {
+            use Verdict::{Adhesive, Divergent, Failed, Whirl};
+            let harms = matches!(verdict, Failed | Adhesive | Whirl | Divergent);
+            assert_eq!(verdict_style(&look, verdict).fg == trouble, harms, "{verdict}");
+        }
+        assert_eq!(verdict_style(&look, Verdict::Locked).fg, colour(&look, Verdict::Locked));
+    }
 }

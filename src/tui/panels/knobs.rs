@@ -1,21 +1,27 @@
 //! The knobs: a column in groups with the selected one explained below, or a
 //! single line if there is no room.
+//!
+//! Which lines the column of knobs has: the operation and the group of the selected knob are
+//! open, or that group alone where both have no room, and the others are folded, with what
+//! is changed in them. Only the selected knob has a bar. The mouse asks it too.
+//!
+//! The bar of a knob: where its value stands in its range, with the limits on it.
 
-use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Position, Rect};
+use ratatui::style::Modifier;
 
-use super::bar;
-use super::column::{self, ColumnLine};
 use crate::scene::Allowed;
 use crate::tui::app::{App, InputMode};
-use crate::tui::knobs::{Group, KNOBS, Knob};
+use crate::tui::knobs::{Group, KNOBS, Knob, KnobRange, meaning};
 use crate::tui::text::{columns, pieces, print, shorten, wrap};
 use crate::tui::theme::Role;
 
 /// Draws the column.
 pub fn panel(app: &App, buffer: &mut Buffer, area: Rect) {
-    let area = column::inside(area);
+    let area = inside(area);
     let look = &app.appearance;
-    let lines = column::lines(app, area.height);
+    let lines = lines(app, area.height);
     for (y, line) in (area.y..area.bottom()).zip(&lines) {
         let row = Rect { y, height: 1, ..area };
         match *line {
@@ -28,14 +34,15 @@ pub fn panel(app: &App, buffer: &mut Buffer, area: Rect) {
             }
             ColumnLine::Bar(place) => {
                 if let Some(knob) = KNOBS.get(place) {
-                    bar::draw(app, buffer, column::bar_cells(row), knob);
+                    draw(app, buffer, bar_cells(row), knob);
                 }
             }
         }
     }
     let used = u16::try_from(lines.len()).unwrap_or(area.height);
     let width = usize::from(area.width);
-    let mut notes = notes(app, width);
+    let cells = bar_cells(Rect { height: 1, ..area });
+    let mut notes = notes(app, width, cells);
     let room = usize::from(area.height.saturating_sub(used));
     if notes.len() > room {
         notes.truncate(room);
@@ -46,6 +53,19 @@ pub fn panel(app: &App, buffer: &mut Buffer, area: Rect) {
     }
     for (row, (text, role)) in (used..area.height).zip(notes) {
         print(buffer, area, row, &text, look.style(role));
+    }
+    let selected = ColumnLine::Knob(app.knobs.selected);
+    if let Some(at) = lines.iter().position(|line| *line == selected) {
+        refusal(app, buffer, area, u16::try_from(at).unwrap_or(0));
+    }
+}
+
+/// Why the value of the knob in this row was refused, below it and over what is there.
+fn refusal(app: &App, buffer: &mut Buffer, area: Rect, at: u16) {
+    let Some(refusal) = &app.knobs.refusal else { return };
+    let (look, width) = (&app.appearance, usize::from(area.width));
+    for (row, line) in (at + 1..area.height).zip(wrap(&look.spell(refusal), width)) {
+        print(buffer, area, row, &format!("{line:width$}"), look.style(Role::Trouble));
     }
 }
 
@@ -118,21 +138,19 @@ fn knob(app: &App, buffer: &mut Buffer, row: Rect, knob: &Knob, selected: bool) 
     print(buffer, row, 0, &format!("{label}{}{shown}", " ".repeat(pad)), style);
 }
 
-/// What the selected knob does and its allowed values, or why a value was refused.
-fn notes(app: &App, width: usize) -> Vec<(String, Role)> {
+/// What the selected knob does, its allowed values, and the letters on its bar.
+fn notes(app: &App, width: usize, cells: Rect) -> Vec<(String, Role)> {
     let Some(knob) = app.selected() else { return Vec::new() };
     let of = |text: &str, role: Role| {
         let lines = wrap(&app.appearance.spell(text), width).into_iter();
         lines.map(move |line| (line, role)).collect::<Vec<_>>()
     };
-    if let Some(refusal) = &app.knobs.refusal {
-        return of(refusal, Role::Trouble);
-    }
     let mut lines = match knob.inert(&app.scene) {
         Some(reason) => of(&format!("no effect now: {reason}"), Role::Focus),
         None => Vec::new(),
     };
     lines.extend(of(&sentence(knob), Role::Quiet));
+    lines.extend(legend(app, cells, knob).iter().flat_map(|legend| of(legend, Role::Quiet)));
     lines
 }
 
@@ -163,7 +181,7 @@ pub fn strip(app: &App, buffer: &mut Buffer, area: Rect) {
     let style = look.style(Role::Focus).add_modifier(Modifier::REVERSED);
     print(buffer, area, 0, &shorten(&text, width, look.ellipsis()), style);
     if let Some(cells) = strip_bar(app, area) {
-        bar::draw(app, buffer, cells, knob);
+        draw(app, buffer, cells, knob);
     }
 }
 
@@ -192,15 +210,172 @@ pub fn strip_bar(app: &App, area: Rect) -> Option<Rect> {
     Some(Rect { x: area.x + start, width, height: 1, ..area })
 }
 
+/// A line of the column.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ColumnLine {
+    /// The heading of an open group.
+    Heading(Group),
+    /// A folded group.
+    Folded(Group),
+    /// A knob.
+    Knob(usize),
+    /// The bar of the knob above.
+    Bar(usize),
+}
+
+/// Rows kept free for the note on the selected knob.
+pub const NOTES: u16 = 5;
+
+/// The lines of the column in an area of this height, with the selected knob in
+/// sight.
+pub fn lines(app: &App, height: u16) -> Vec<ColumnLine> {
+    let rows = usize::from(height - NOTES.min(height / 2));
+    let chosen = app.selected().map_or(Group::Operation, |knob| knob.group);
+    let with = |open: &[Group], telling: bool| all(app, open, telling);
+    let ways = [(&[Group::Operation, chosen][..], true), (&[Group::Operation, chosen], false)];
+    let fitting = ways.into_iter().map(|(open, telling)| with(open, telling));
+    let fitting = fitting.into_iter().find(|lines| lines.len() <= rows);
+    let lines = fitting.unwrap_or_else(|| with(&[chosen], false));
+    let here = |line: &ColumnLine| *line == ColumnLine::Knob(app.knobs.selected);
+    let selected = lines.iter().position(here).unwrap_or(0);
+    // The bar below it is in sight, too.
+    let last = (selected + 2).min(lines.len());
+    let first = if lines.len() > rows { last.saturating_sub(rows) } else { 0 };
+    lines.into_iter().skip(first).take(rows).collect()
+}
+
+/// All lines with these groups open; of what goes beyond the paper, the knobs by which the
+/// scene leaves it are told where there is room.
+fn all(app: &App, open: &[Group], telling: bool) -> Vec<ColumnLine> {
+    let mut lines = Vec::new();
+    for group in Group::ALL {
+        let open = open.contains(&group);
+        match (open, group) {
+            // The first one, where everybody begins, needs no name.
+            (true, Group::Operation) => {}
+            (true, _) => lines.push(ColumnLine::Heading(group)),
+            (false, _) => lines.push(ColumnLine::Folded(group)),
+        }
+        let shown = |place: &usize| {
+            let knob = KNOBS.get(*place);
+            open || (telling && knob.is_some_and(|knob| knob.leaves_the_paper(&app.scene)))
+        };
+        for place in group.places().filter(shown) {
+            lines.push(ColumnLine::Knob(place));
+            if place == app.knobs.selected && has_bar(app, place) {
+                lines.push(ColumnLine::Bar(place));
+            }
+        }
+    }
+    lines
+}
+
+/// Whether a knob turns through a range.
+fn has_bar(app: &App, place: usize) -> bool {
+    let (scene, opened) = (&app.scene, &app.files.opened);
+    KNOBS.get(place).is_some_and(|knob| knob.range(scene, opened, &app.machine).is_some())
+}
+
+/// The columns of the cells of a bar in a line of the panel.
+pub fn bar_cells(area: Rect) -> Rect {
+    Rect { x: area.x + 2, width: area.width.saturating_sub(3), ..area }
+}
+
+/// The part of the screen that knobs are drawn in, without the gap to the charts.
+pub fn inside(area: Rect) -> Rect {
+    Rect { width: area.width.saturating_sub(1), ..area }
+}
+
+/// Draws the bar of a knob over an area, its two ends outside of it; nothing for
+/// knobs of words.
+pub fn draw(app: &App, buffer: &mut Buffer, cells: Rect, knob: &Knob) {
+    let Some(range) = knob.range(&app.scene, &app.files.opened, &app.machine) else { return };
+    if cells.width == 0 {
+        return;
+    }
+    let look = &app.appearance;
+    let value = knob.number(&app.scene).and_then(|value| range.place(value));
+    let here = value.map(|part| cell(cells, part));
+    let quiet = look.style(Role::Quiet);
+    let [left, right] = look.either(["▕", "▏"], ["[", "]"]);
+    let [full, now, empty] = look.either(["▒", "█", "▁"], ["=", "#", "."]);
+    let last = cells.bottom().saturating_sub(1);
+    for y in cells.y..cells.bottom() {
+        let mut put = |x: u16, sign: &str, style| {
+            if let Some(cell) = buffer.cell_mut(Position::new(x, y)) {
+                cell.reset();
+                cell.set_symbol(sign).set_style(style);
+            }
+        };
+        put(cells.x.saturating_sub(1), left, quiet);
+        put(cells.right(), right, quiet);
+        for x in cells.x..cells.right() {
+            match here {
+                Some(here) if x < here => put(x, full, quiet),
+                Some(here) if x == here => put(x, now, look.style(Role::Focus)),
+                // A bar of several rows stands on its lowest one.
+                _ => put(x, if y == last { empty } else { " " }, quiet),
+            }
+        }
+        for (letter, x) in letters(&range, cells).filter(|_| y == last) {
+            let style = look.style(Role::Text).add_modifier(Modifier::BOLD);
+            let style =
+                if here == Some(x) { style.add_modifier(Modifier::REVERSED) } else { style };
+            put(x, letter.encode_utf8(&mut [0; 4]), style);
+        }
+    }
+}
+
+/// The letters that are drawn, and their columns: of those in one cell the last.
+fn letters(range: &KnobRange, cells: Rect) -> impl Iterator<Item = (char, u16)> {
+    let places = range.marks.iter().map(move |(letter, part)| (*letter, cell(cells, *part)));
+    let hidden = move |place: usize, x: u16| {
+        range.marks.iter().skip(place + 1).any(|(_, part)| cell(cells, *part) == x)
+    };
+    places.enumerate().filter(move |(place, (_, x))| !hidden(*place, *x)).map(|(_, mark)| mark)
+}
+
+/// What the letters on the bar of a knob mean, those that are drawn: `On its bar: c Ω_c.`
+pub fn legend(app: &App, cells: Rect, knob: &Knob) -> Option<String> {
+    let range = knob.range(&app.scene, &app.files.opened, &app.machine)?;
+    let named: Vec<String> =
+        letters(&range, cells).map(|(letter, _)| format!("{letter} {}", meaning(letter))).collect();
+    (!named.is_empty() && cells.width > 0).then(|| format!("On its bar: {}.", named.join(", ")))
+}
+
+/// The column of a part, 0 to 1, of a bar.
+fn cell(cells: Rect, part: f64) -> u16 {
+    cells.x + (part * f64::from(cells.width - 1)).round() as u16
+}
+
+/// The part of a bar at a column.
+pub fn part(cells: Rect, x: u16) -> f64 {
+    let along = f64::from(x.saturating_sub(cells.x)) / f64::from(cells.width.max(2) - 1);
+    along.clamp(0.0, 1.0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
+    fn the_letters_that_are_drawn_on_a_bar_are_told_and_no_others() {
+        let scene = crate::scene::Scene::base().checked().unwrap();
+        let app = App::new(scene, crate::tui::Theme::Mono, crate::tui::Marker::Braille);
+        let told = |width| legend(&app, Rect::new(0, 0, width, 1), &KNOBS[0]).unwrap();
+        let wide = told(200);
+        for meaning in ["a adhesive limit", "x coincidence", "c Ω_c", "L Ω_lock"] {
+            assert!(wide.contains(meaning), "{wide}");
+        }
+        // In one cell only the last can be seen.
+        assert_eq!(told(1), "On its bar: L Ω_lock.");
+    }
+
+    #[test]
     fn every_note_on_a_knob_fits_below_the_knobs() {
         for knob in KNOBS {
             let lines = wrap(&sentence(knob), 26);
-            assert!(lines.len() <= usize::from(column::NOTES), "{lines:#?}");
+            assert!(lines.len() <= usize::from(NOTES), "{lines:#?}");
             assert!(sentence(knob).contains(knob.unit()));
             if let Allowed::OneOf(words) = knob.allowed() {
                 assert!(words.iter().all(|word| sentence(knob).contains(word)));

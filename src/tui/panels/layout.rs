@@ -1,10 +1,13 @@
 //! The places of all panels at each screen size.
+//!
+//! What is at a place of the screen, for the mouse.
 
-use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::layout::{Constraint, Layout, Position, Rect};
 
-use super::presentation;
-use crate::tui::app::App;
-use crate::tui::views::ViewId;
+use crate::tui::app::{App, Cursor};
+use crate::tui::panels::knobs::{self, ColumnLine};
+use crate::tui::panels::{lesson, presentation};
+use crate::tui::views::{LEAST_ROWS, ViewId};
 
 /// Narrowest screen.
 pub const LEAST_WIDTH: u16 = 40;
@@ -86,7 +89,7 @@ fn lesson(body: Rect, app: &App) -> (Option<Rect>, Rect) {
         true => wanted,
         // If it is too long to leave room for the charts: first the text, page by
         // page, then its end.
-        false if !read => page_rows(body.height),
+        false if !read => wanted.min(page_rows(body.height)),
         false => {
             super::lesson::end_rows(app, usize::from(body.width)).min(most_rows(body.height)).max(3)
         }
@@ -95,23 +98,24 @@ fn lesson(body: Rect, app: &App) -> (Option<Rect>, Rect) {
     (Some(lesson), body)
 }
 
-/// Rows of a chart with its title that can be read, and of the wheel above another chart.
-const LEAST_ROWS: u16 = 9;
-const WHEEL_ROWS: u16 = 12;
+/// Rows of the wheel above another chart: it has no axis.
+const WHEEL_ROWS: u16 = 10;
 
 /// One large chart, and as many of the requested smaller ones as can be read. The wheel is
 /// as wide as it is high and has another chart at its side; any other has the whole width.
 fn split(area: Rect, app: &App) -> Vec<(ViewId, Rect)> {
     let views = app.layout.views().iter().copied();
     let beside = u16::try_from(app.layout.beside).unwrap_or(0);
-    let large = if area.width >= PAIR_FROM { LEAST_ROWS } else { WHEEL_ROWS };
+    let wheel = app.is_large(ViewId::Frame);
+    let large = if wheel { WHEEL_ROWS } else { LEAST_ROWS };
     let below = area.height.saturating_sub(large) / LEAST_ROWS;
+    let lower = (area.height * LOWER).div_ceil(100).max(LEAST_ROWS);
+    let two = [Constraint::Min(1), Constraint::Length(lower)];
     let vertical = |parts: &[Constraint]| Layout::vertical(parts.iter()).split(area).to_vec();
     let pair = |area: Rect, left: u16| {
         let parts = [Constraint::Percentage(left), Constraint::Percentage(100 - left)];
         Layout::horizontal(parts).spacing(1).split(area).to_vec()
     };
-    let wheel = app.is_large(ViewId::Frame);
     let areas = match (area.width >= PAIR_FROM, beside) {
         (_, 0) => vec![area],
         (true, 1) if wheel => pair(area, WHEEL_PART),
@@ -122,8 +126,8 @@ fn split(area: Rect, app: &App) -> Vec<(ViewId, Rect)> {
                 vec![area]
             }
         }
-        (true, 1) => vertical(&LARGE),
-        (true, most) => match vertical(&LARGE).as_slice() {
+        (true, 1) => vertical(&two),
+        (true, most) => match vertical(&two).as_slice() {
             [top, bottom] if wheel && most == 2 => [pair(*top, WHEEL_PART), vec![*bottom]].concat(),
             [top, bottom] if wheel => [pair(*top, WHEEL_PART), pair(*bottom, WHEEL_PART)].concat(),
             [top, bottom] => [vec![*top], pair(*bottom, 50)].concat(),
@@ -140,8 +144,8 @@ fn split(area: Rect, app: &App) -> Vec<(ViewId, Rect)> {
     views.zip(areas).collect()
 }
 
-/// The large chart above, smaller ones below.
-const LARGE: [Constraint; 2] = [Constraint::Percentage(55), Constraint::Percentage(45)];
+/// Part of the height that the charts below the large one have, in per cent.
+const LOWER: u16 = 45;
 /// Part of the width that the wheel has, in per cent.
 const WHEEL_PART: u16 = 44;
 
@@ -175,4 +179,122 @@ pub fn lesson_pages(app: &App) -> usize {
 pub fn body(app: &App) -> Rect {
     let area = Rect::new(0, 0, app.layout.size.0, app.layout.size.1);
     places(area, app).body
+}
+
+/// Something that can be clicked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Target {
+    /// The heading of a group; its first knob.
+    Group(usize),
+    /// The line of a knob.
+    Knob(usize),
+    /// The bar of a knob, and a place on it, 0 to 1.
+    Bar(usize, f64),
+    /// A chart that is not the large one.
+    View(ViewId),
+    /// A place in the large chart.
+    Chart(Cursor),
+}
+
+fn places_of(app: &App) -> Option<Places> {
+    let (width, height) = app.layout.size;
+    let drawn = width >= LEAST_WIDTH && height >= LEAST_HEIGHT;
+    drawn.then(|| places(Rect::new(0, 0, width, height), app))
+}
+
+/// What is at a place of the screen while nothing is open over the charts.
+pub fn target(app: &App, (x, y): (u16, u16)) -> Option<Target> {
+    let places = places_of(app)?;
+    let at = Position::new(x, y);
+    if places.knobs.contains(at) {
+        return knob_target(app, &places, (x, y));
+    }
+    let (view, _) = places.charts.iter().find(|(_, area)| area.contains(at))?;
+    match *view == app.view() {
+        true => app.cursor_at((x, y)).map(Target::Chart),
+        false => Some(Target::View(*view)),
+    }
+}
+
+fn knob_target(app: &App, places: &Places, (x, y): (u16, u16)) -> Option<Target> {
+    if !places.column {
+        let cells = alone(app, places).filter(|cells| cells.contains((x, y).into()));
+        return Some(match cells {
+            Some(cells) => Target::Bar(app.knobs.selected, knobs::part(cells, x)),
+            None => Target::Knob(app.knobs.selected),
+        });
+    }
+    let area = knobs::inside(places.knobs);
+    let line = *knobs::lines(app, area.height).get(usize::from(y - area.y))?;
+    Some(match line {
+        ColumnLine::Heading(group) | ColumnLine::Folded(group) => {
+            Target::Group(group.places().next()?)
+        }
+        ColumnLine::Knob(place) => Target::Knob(place),
+        ColumnLine::Bar(place) => Target::Bar(place, knobs::part(knobs::bar_cells(area), x)),
+    })
+}
+
+/// The cells of the bar of the selected knob where it is the only one.
+fn alone(app: &App, places: &Places) -> Option<Rect> {
+    match places.letters {
+        Some(_) => Some(presentation::bar_cells(places.knobs)),
+        None => knobs::strip_bar(app, places.knobs),
+    }
+}
+
+/// The place on the bar of the selected knob at a column of the screen, 0 to 1.
+pub fn part_of_bar(app: &App, x: u16) -> Option<f64> {
+    let places = places_of(app)?;
+    let cells = match places.column {
+        true => knobs::bar_cells(knobs::inside(places.knobs)),
+        false => alone(app, &places)?,
+    };
+    Some(knobs::part(cells, x))
+}
+
+/// The lesson at a place of the screen while their list is open.
+pub fn lesson_at(app: &App, (x, y): (u16, u16)) -> Option<usize> {
+    let body = places_of(app)?.body;
+    let inside = body.contains((x, y).into());
+    if inside { lesson::place_at(app, body, y) } else { None }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+    use crate::tui::bindings::Action;
+    use crate::tui::{Marker, Theme};
+
+    fn app() -> App {
+        App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Braille)
+    }
+
+    #[test]
+    fn every_chart_beside_the_knobs_has_eight_rows_of_data() {
+        for (width, height) in [(80, 24), (100, 30), (120, 40), (200, 50)] {
+            for view in ViewId::all() {
+                let mut app = app();
+                app.act(Action::View(view));
+                let charts = places(Rect::new(0, 0, width, height), &app).charts;
+                for (shown, area) in charts {
+                    // The wheel has no axis.
+                    let axis = if shown == ViewId::Frame { 2 } else { 0 };
+                    assert!(area.height + axis >= LEAST_ROWS, "{shown:?} {area:?}");
+                }
+            }
+        }
+        let first = places(Rect::new(0, 0, 80, 24), &app()).charts;
+        assert_eq!(first.len(), 2, "the wheel and the response");
+    }
+
+    #[test]
+    fn a_screen_that_is_too_small_says_so_whole() {
+        let area = Rect::new(0, 0, 30, 8);
+        let mut buffer = ratatui::buffer::Buffer::empty(area);
+        crate::tui::panels::paint(&app(), &mut buffer, area);
+        let text: String = buffer.content.iter().map(|cell| cell.symbol()).collect();
+        assert!(text.contains("needs 40x12") && text.contains("30x8"), "{text}");
+    }
 }

@@ -3,7 +3,7 @@
 
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 
-use super::list::{first_in_sight, look_of};
+use super::palette::{first_in_sight, look_of};
 use crate::tui::app::{App, InputMode};
 use crate::tui::lessons::{self, LETTERS, Lesson, LessonStep};
 use crate::tui::text::{columns, print, shorten, wrap};
@@ -28,11 +28,13 @@ pub fn list(app: &App, buffer: &mut Buffer, area: Rect, place: usize) {
         let (done, steps) = (app.lessons.done.count(lesson), lesson.steps.len());
         let done = if done == steps { "done".to_string() } else { format!("{done}/{steps}") };
         let name = format!("{sign} {done:>4}  {}. {}", index + 1, lesson.title);
-        let about = format!("   {} min, needs {}", lesson.minutes(), lesson.needs);
-        // Both, or the name alone.
-        let whole = columns(&name) + columns(&about) <= width;
-        let text = look.spell(&format!("{name}{}", if whole { &about } else { "" }));
-        print(buffer, area, row, &shorten(&text, width, mark), style);
+        let minutes = format!("   {} min", lesson.minutes());
+        let needs = format!("{minutes}, needs {}", lesson.needs);
+        // What has no room is left out; the minutes stay.
+        let beside = if columns(&name) + columns(&needs) <= width { needs } else { minutes };
+        let room = width.saturating_sub(columns(&beside));
+        let text = shorten(&look.spell(&name), room, mark) + &beside;
+        print(buffer, area, row, &text, style);
     }
 }
 
@@ -67,10 +69,13 @@ fn lines(app: &App, width: usize) -> Vec<Line> {
         (Some(question), None) => {
             lines.extend(of(&step.text, Role::Text));
             lines.extend(of(question, Role::Focus));
-            let named = LETTERS.iter().zip(&step.answers);
-            let named: Vec<String> =
-                named.map(|(letter, text)| look.spell(&format!("[{letter}] {text}"))).collect();
-            let one = named.join("   ");
+            let chosen = app.lessons.progress.as_ref().map_or(0, |progress| progress.choice);
+            let named = LETTERS.iter().zip(&step.answers).enumerate();
+            let named = named.map(|(place, (letter, text))| {
+                format!("{}[{letter}] {text}", if place == chosen { '▸' } else { ' ' })
+            });
+            let named: Vec<String> = named.map(|text| look.spell(&text)).collect();
+            let one = named.join("  ");
             // Side by side if they fit.
             match columns(&one) <= width {
                 true => lines.push((one, Role::Focus)),
@@ -118,7 +123,7 @@ fn head(app: &App, width: usize) -> (String, String) {
     let left = format!("Lesson {} of {count} · {}", progress.lesson + 1, lesson.title);
     let step = format!("step {} of {}", progress.step + 1, lesson.steps.len());
     let keys = match (app.is_asked(), is_last(lesson, progress.step)) {
-        (true, _) => "a b c answer",
+        (true, _) => "↑↓ Enter answer",
         (false, false) => "g next",
         (false, true) => "g ends",
     };

@@ -1,30 +1,25 @@
 //! The screen as a function of the state: where each panel goes, and one file
 //! per panel.
 
-mod bar;
-mod column;
 mod footer;
 mod header;
 mod help;
-mod hit;
 mod knobs;
 mod layout;
 mod lesson;
-mod list;
 mod palette;
 mod presentation;
-mod scenes;
 
 use ratatui::{Frame, buffer::Buffer, layout::Rect};
 
 use super::app::{App, InputMode};
-use super::text::{CUT, print};
+use super::text::{CUT, print, wrap};
 use super::theme::Role;
 use super::views::ViewArea;
 pub use header::head_text;
 pub use help::{help_bottom, help_text};
-pub use hit::{Target, lesson_at, part_of_bar, target};
 pub use layout::{LEAST_HEIGHT, LEAST_WIDTH, body, lesson_fills, lesson_pages};
+pub use layout::{Target, lesson_at, part_of_bar, target};
 pub use lesson::lesson_text;
 
 /// Draws the whole screen.
@@ -40,7 +35,9 @@ pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
             "rubscope needs {LEAST_WIDTH}x{LEAST_HEIGHT}; this is {}x{}",
             area.width, area.height
         );
-        print(buffer, area, 0, &needs, app.appearance.style(Role::Text));
+        for (row, line) in (0..area.height).zip(wrap(&needs, usize::from(area.width))) {
+            print(buffer, area, row, &line, app.appearance.style(Role::Text));
+        }
         return;
     }
     let places = layout::places(area, app);
@@ -55,7 +52,7 @@ pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
     } else if let InputMode::Lessons(place) = app.dialogue.mode {
         lesson::list(app, buffer, places.body, place);
     } else if let InputMode::Scenes(place) = app.dialogue.mode {
-        scenes::draw(app, buffer, places.body, place);
+        palette::scenes(app, buffer, places.body, place);
     } else {
         if let Some(area) = places.lesson {
             lesson::draw(app, buffer, area);

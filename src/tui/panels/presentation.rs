@@ -7,7 +7,7 @@ use ratatui::style::{Modifier, Style};
 use ratatui::widgets::Widget;
 use tui_big_text::{BigText, PixelSize};
 
-use super::{bar, header};
+use super::{header, knobs};
 use crate::tui::app::{App, InputMode};
 use crate::tui::text::{columns, print, shorten};
 use crate::tui::theme::Role;
@@ -110,7 +110,7 @@ pub fn knob(app: &App, buffer: &mut Buffer, area: Rect) {
             centred(app, buffer, area, 0, &format!("{} = {shown}", knob.label), focus);
         }
     }
-    bar::draw(app, buffer, bar_cells(area), knob);
+    knobs::draw(app, buffer, bar_cells(area), knob);
 }
 
 /// The cells of the bar of the selected knob.

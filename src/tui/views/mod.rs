@@ -8,13 +8,12 @@ mod gaps;
 pub mod locked;
 pub mod map;
 pub mod margins;
-mod marks;
 mod panel;
 mod precision;
 mod response;
 pub mod spectrum;
 
-pub use panel::{Opening, ViewArea, ViewPanel};
+pub use panel::{LEAST_ROWS, Opening, ViewArea, ViewPanel};
 
 use crate::scene::keys::CHARTS;
 

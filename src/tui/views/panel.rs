@@ -1,11 +1,11 @@
 //! The trait of a view, and what all views share: the title row with its
 //! legend, and CSV text.
+//!
+//! Speeds that are marked on a chart over speeds, with their names.
 
-use ratatui::{
-    buffer::Buffer,
-    layout::{Constraint, Layout, Rect},
-    style::{Modifier, Style},
-};
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::style::{Modifier, Style};
 
 use crate::report::table::{TableCell, write_csv};
 use crate::scene::CheckedScene;
@@ -86,6 +86,11 @@ impl Opening {
     }
 }
 
+/// Rows of a chart that can be read: eight of data, its title, its axis and the labels.
+pub const LEAST_ROWS: u16 = 11;
+/// Columns of one that has another at its side.
+const LEAST_COLUMNS: u16 = 38;
+
 /// Where a view is drawn, and how its title begins.
 #[derive(Clone, Copy, Debug)]
 pub struct ViewArea {
@@ -113,10 +118,22 @@ impl ViewArea {
         }
     }
 
-    /// Two slots, one above the other; the first takes `percent` of the height.
+    /// Two slots, one above the other; the lower one takes `percent` of the height.
     pub fn rows(self, percent: u16) -> [Self; 2] {
-        let parts = [Constraint::Percentage(percent), Constraint::Percentage(100 - percent)];
+        let lower = (self.area.height * percent / 100).max(LEAST_ROWS.min(self.area.height / 2));
+        let parts = [Constraint::Min(1), Constraint::Length(lower)];
         Layout::vertical(parts).areas(self.area).map(|area| Self { area, ..self })
+    }
+
+    /// Two charts that can be read, above each other or side by side; one where there is no
+    /// room for two.
+    pub fn pair(self, percent: u16) -> (Self, Option<Self>) {
+        let [first, second] = match self.area {
+            area if area.height >= 2 * LEAST_ROWS => self.rows(percent),
+            area if area.width >= 2 * LEAST_COLUMNS => self.columns(),
+            _ => return (self, None),
+        };
+        (first, Some(second))
     }
 
     /// Two slots of equal width, side by side.
@@ -230,4 +247,29 @@ pub fn csv<R: IntoIterator<Item = f64>>(
 /// The names of columns.
 pub fn names(names: &[&str]) -> Vec<String> {
     names.iter().map(ToString::to_string).collect()
+}
+
+/// Names of marked speeds where the chart is empty, as high as possible, or on the axis; one
+/// that covers data is left out, and has its line.
+pub fn name_speeds(plot: &mut Plot, marks: &[(f64, &str)], app: &App) {
+    let style = app.appearance.style(Role::Text);
+    for (speed, name) in marks {
+        let name = app.appearance.spell(name);
+        let mut rows = plot.inner.y..plot.inner.bottom();
+        if !rows.any(|row| plot.free_note(*speed, row, &name, style)) {
+            plot.axis_note(*speed, &name, style, &app.appearance);
+        }
+    }
+}
+
+/// Upright lines at marked speeds, at the present one, and at that which is read.
+pub fn uprights(plot: &mut Plot, app: &App, marks: &[(f64, &str)], read: Option<f64>) {
+    let look = &app.appearance;
+    for (speed, _) in marks {
+        plot.upright(*speed, look.either('┊', ':'), look.style(Role::Quiet));
+    }
+    plot.upright(app.speed().abs(), look.either('│', '|'), look.style(Role::Focus));
+    if let Some(speed) = read {
+        plot.upright(speed, look.either('╎', '!'), look.style(Role::Focus));
+    }
 }

@@ -72,7 +72,7 @@ impl ViewPanel for PrecisionView {
             let words = reference_words(&report.reference);
             let law = report.reference.way.contact;
             let note = format!("reference ({law} law) {words}; {wrong} of its {same_law} differ");
-            (if wrong > 0 { note + " (!)" } else { note }, Role::Quiet)
+            (if wrong > 0 { note + "; ! has another verdict" } else { note }, Role::Quiet)
         };
         for line in wrap(&note, usize::from(inside.width)) {
             print(buffer, inside, 0, &line, look.style(role));
@@ -85,10 +85,19 @@ impl ViewPanel for PrecisionView {
             .map(|(_, row)| letter(&row.way))
             .collect();
         zeros.dedup();
-        let height = inside.height.saturating_sub(u16::from(!zeros.is_empty()));
-        if !zeros.is_empty() {
-            let letters: String = zeros.into_iter().flat_map(|letter| [' ', letter]).collect();
-            print(buffer, inside, height, &format!("error 0, off this axis:{letters}"), quiet);
+        // Nor has it a place for a run that gives no number to compare.
+        let lost = report.rows.iter().filter(|row| row.is_wrong() && place(row).is_none());
+        let mut lost: Vec<char> = lost.map(|row| letter(&row.way)).collect();
+        lost.dedup();
+        let listed = |letters: Vec<char>, what: &str, sign: &str| {
+            let named: String = letters.iter().map(|letter| format!(" {letter}{sign}")).collect();
+            (!letters.is_empty()).then(|| format!("{what}:{named}"))
+        };
+        let off = [listed(zeros, "error 0, off this axis", ""), listed(lost, "no error", "!")];
+        let off = off.into_iter().flatten().collect::<Vec<_>>().join("; ");
+        let height = inside.height.saturating_sub(u16::from(!off.is_empty()));
+        if !off.is_empty() {
+            print(buffer, inside, height, &off, quiet);
         }
         let inside = Rect { height, ..inside };
         let points: Vec<_> =
@@ -112,12 +121,15 @@ impl ViewPanel for PrecisionView {
                 reading = Some(told(row));
             }
         }
-        for ((x, y), row) in points {
-            plot.point(x, y, letter(&row.way), look.style(hue(&row.way)));
-            if row.is_wrong()
-                && let (Some(column), Some(line)) = (plot.column(x), plot.row(y))
-            {
-                plot.text(column + 1, line, "!", look.style(Role::Trouble));
+        for ((x, y), row) in &points {
+            plot.point(*x, *y, letter(&row.way), look.style(hue(&row.way)));
+        }
+        for ((x, y), _) in points.iter().filter(|(_, row)| row.is_wrong()) {
+            if let (Some(column), Some(line)) = (plot.column(*x), plot.row(*y)) {
+                // Beside its letter, on the side where there is room.
+                let last = plot.inner.right() - 1;
+                let beside = if column < last { column + 1 } else { column - 1 };
+                plot.text(beside, line, "!", look.style(Role::Trouble));
             }
         }
         if let Some(reading) = reading {

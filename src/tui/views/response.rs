@@ -19,9 +19,6 @@ use crate::tui::theme::Role;
 use crate::tui::trace::Happening;
 use crate::tui::worker::other_law;
 
-/// From this height on, the blade coordinates have a separate chart.
-const TWO_FROM: u16 = 18;
-
 /// Sub-pixels between two signs of a pinned run.
 const PINNED: usize = 8;
 /// Most changes of contact on a page that are looked at for their names.
@@ -41,8 +38,10 @@ impl ViewPanel for ResponseView {
         let casing = Page::casing("response".into(), app);
         if app.run.compare {
             both_laws(app, buffer, at);
-        } else if at.area.height >= TWO_FROM && app.layout.full_screen && bends(app) {
-            let [above, below] = at.rows(60);
+        } else if let (above, Some(below)) = at.pair(40)
+            && app.layout.full_screen
+            && bends(app)
+        {
             page(app, buffer, above, &casing);
             let blades = Page {
                 name: "response, blades".into(),

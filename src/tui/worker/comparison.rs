@@ -1,8 +1,8 @@
 //! The same scene under the other contact law, to compare with.
 
-use super::copies::Copies;
 use super::full_run::FullRunJob;
 use super::page::Page;
+use super::reading::Copies;
 use super::recorder::Recorder;
 use crate::motion::{GoOn, Motion};
 use crate::scene::{CheckedScene, Scene, SceneError, SolverKind};

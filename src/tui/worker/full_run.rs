@@ -4,7 +4,7 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use super::copies::Copies;
+use super::reading::Copies;
 use crate::motion::{Motion, lock_that_broke, verdict_of};
 use crate::tolerances::LAST_PART;
 use crate::tui::engine::{FORECAST_LIMIT, FullRun, FullRunState};

@@ -1,10 +1,8 @@
 //! The solver behind the screen: a playback without clock or thread, the thread
 //! that drives it, and a replacement for tests.
 
-mod answers;
 mod background;
 mod comparison;
-mod copies;
 mod forecasts;
 mod full_run;
 mod jump;
@@ -13,13 +11,12 @@ mod page;
 mod playback;
 mod reading;
 mod recorder;
-mod stepwise;
 mod studies;
 mod thread;
 
 pub use comparison::other_law;
 pub use playback::Playback;
 pub use recorder::{in_blade_frame, rim_point};
-pub use stepwise::Stepwise;
 pub use studies::Found;
+pub use thread::Stepwise;
 pub use thread::{WORKER_NAME, Worker};

@@ -1,18 +1,17 @@
 //! The engine without clock or thread: takes orders, plays the motion, and makes
 //! snapshots.
 
-mod looking;
 mod moves;
 
 use std::time::{Duration, Instant};
 
-use super::answers::Answers;
 use super::comparison::{Comparison, other_law};
-use super::copies::Copies;
+use super::forecasts::Answers;
 use super::forecasts::Forecasts;
 use super::full_run::SLICE;
 use super::pacing::{Reached, Turned, rate_at};
 use super::page::{PER_TURN, Page, next_sample, sample_length};
+use super::reading::Copies;
 use super::reading::Reading;
 use super::recorder::Recorder;
 use super::studies::{Bounds, Studies};

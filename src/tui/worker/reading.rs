@@ -1,5 +1,8 @@
 //! The instant of the reading cursor, computed from a copy of the motion in
 //! slices, so that neither the playback nor the next order waits for it.
+//!
+//! Copies of the motion at some instants, so that any instant of the run can be
+//! computed again exactly.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -46,5 +49,61 @@ impl Reading {
     /// The latest that is complete.
     pub fn moment(&self) -> Option<Arc<Moment>> {
         self.done.clone()
+    }
+}
+
+/// Most copies between changes; above, every second one goes.
+const MOST: usize = 128;
+/// Most changes from outside that are remembered.
+const MOST_CHANGES: usize = 500;
+/// Time between two copies at the start, in the length given.
+const PART: f64 = 1.0 / 64.0;
+
+/// The motion at some instants.
+#[derive(Debug)]
+pub struct Copies {
+    /// In order of time; whether the motion was changed from outside just then.
+    copies: Vec<(Motion, bool)>,
+    spacing: f64,
+}
+
+impl Copies {
+    /// From the start of a motion of which `length` seconds matter.
+    pub fn of(motion: &Motion, length: f64) -> Self {
+        Self { copies: vec![(motion.clone(), true)], spacing: length * PART }
+    }
+
+    /// Keeps a copy if the last one is old.
+    pub fn follow(&mut self, motion: &Motion) {
+        let last = self.copies.last().map_or(f64::NEG_INFINITY, |(last, _)| last.t_s());
+        if motion.t_s() - last < self.spacing {
+            return;
+        }
+        self.copies.push((motion.clone(), false));
+        if self.copies.iter().filter(|(_, changed)| !changed).count() > MOST {
+            self.spacing *= 2.0;
+            let mut odd = false;
+            self.copies.retain(|(_, changed)| {
+                odd = !odd;
+                *changed || odd
+            });
+        }
+    }
+
+    /// The motion was changed from outside: an earlier copy does not know it.
+    pub fn changed(&mut self, motion: &Motion) {
+        let now = motion.t_s();
+        self.copies.retain(|(copy, _)| copy.t_s() < now);
+        self.copies.push((motion.clone(), true));
+        if self.copies.iter().filter(|(_, changed)| *changed).count() > MOST_CHANGES {
+            self.copies.remove(0);
+        }
+    }
+
+    /// The last copy by `t`, to be advanced from there; none before what is
+    /// remembered.
+    pub fn before(&self, t: f64, now: &Motion) -> Option<Motion> {
+        let copies = self.copies.iter().map(|(copy, _)| copy).chain([now]);
+        copies.take_while(|copy| copy.t_s() <= t).last().cloned()
     }
 }

@@ -81,7 +81,7 @@ fn even(from: f64, to: f64, count: u32) -> Vec<f64> {
 
 /// Both coincidences, and where blades rub at rest that of the machine on its lining.
 fn markers(scene: &Scene, machine: &Machine) -> Vec<(f64, &'static str)> {
-    let names = ["difference (30)", "coincidence (31)"];
+    let names = ["coincidence (30)", "coincidence (31)"];
     let mut markers: Vec<_> = machine.coincidence_speeds().into_iter().zip(names).collect();
     let shifted = shifted_coincidence(scene, scene.operation.speed_rad_s);
     markers.extend(shifted.map(|speed| (speed.abs(), "on the lining")));

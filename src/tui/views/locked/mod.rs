@@ -1,33 +1,33 @@
 //! View 3: the multipliers of the locked motion against speed, the speeds
 //! of the thresholds, the present speed, and the forces of the running motion;
 //! blade angles and amplitudes below if there is room.
+//!
+//! The charts of view 3 below the multipliers: blade angles and amplitudes of
+//! the locked motion over the same speeds (the paper's Fig. 10), and the values
+//! of all of them at one speed.
 
-mod charts;
 pub mod curves;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Rect};
 
-use super::marks;
-use super::panel::{ViewArea, ViewPanel, csv, dots, entry, title};
-use crate::harmonic::{LockedPoint, Sweep};
-use crate::motion::ActiveSet;
-use crate::tui::app::{App, Cursor};
-use crate::tui::axis::ChartAxis;
+use crate::harmonic::{Form, LockedPoint, Sweep, locked_motion};
+use crate::motion::{ActiveSet, Verdict};
+use crate::tui::app::{App, Cursor, STEP};
+use crate::tui::axis::{ChartAxis, nice_step, readable};
 use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
 use crate::tui::text::{print, shorten, wrap};
 use crate::tui::theme::Role;
-use charts::{AMPLITUDES, ANGLES};
-use curves::LockedCurves;
+use crate::tui::views::locked::curves::LockedCurves;
+use crate::tui::views::panel::{
+    self, LEAST_ROWS, ViewArea, ViewPanel, csv, dots, entry, name_speeds, title,
+};
 
 /// From this height on, the large chart shows the undamped curve of the paper too.
 const ROOMY: u16 = 14;
-/// From these heights on, the blade angles, and the amplitudes too, have charts.
-const TWO_FROM: u16 = 18;
-const THREE_FROM: u16 = 27;
 /// From this width on, the legend names the forces of the running motion.
-const NAMED_FROM: u16 = 52;
+const NAMED_FROM: u16 = 62;
 /// Most rows of what the reading cursor reads.
 const READ_ROWS: usize = 3;
 
@@ -42,14 +42,15 @@ impl ViewPanel for LockedView {
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
         let curves = app.results().found.locked.as_deref();
         let locks = curves.filter(|curves| curves.damped.is_some());
-        let below: &[charts::Chart] = match at.area.height {
-            THREE_FROM.. => &[ANGLES, AMPLITUDES],
-            TWO_FROM.. => &[ANGLES],
+        let below: &[Chart] = match at.area.height / LEAST_ROWS {
+            3.. => &[ANGLES, AMPLITUDES],
+            2 => &[ANGLES],
             _ => &[],
         };
         let Some(curves) = locks else { return multipliers(app, buffer, at) };
-        let mut rows = vec![Constraint::Fill(if below.len() > 1 { 5 } else { 6 })];
-        rows.extend(below.iter().map(|_| Constraint::Fill(if below.len() > 1 { 3 } else { 4 })));
+        let lower = at.area.height * 2 / (3 + 2 * u16::try_from(below.len()).unwrap_or(0));
+        let mut rows = vec![Constraint::Min(1)];
+        rows.extend(below.iter().map(|_| Constraint::Length(lower.max(LEAST_ROWS))));
         let areas = Layout::vertical(rows).split(at.area);
         let mut areas = areas.iter().map(|area| ViewArea { area: *area, ..at });
         if let Some(first) = areas.next() {
@@ -104,7 +105,10 @@ fn multipliers(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let roomy = at.large && at.area.height >= ROOMY;
     let pair = curves.is_some_and(|curves| curves.undamped.is_some());
     let point = look.either('◆', '@');
-    let mut legend = vec![entry(look, &look.first(), if pair { "λ_a" } else { "λ" })];
+    let prefix = curves.and_then(|curves| Some(force_axis(curves, curves.damped.as_ref()?)));
+    let prefix = prefix.map_or("", |y| y.scale.prefix);
+    let mut legend = vec![(format!("{prefix}N over rad/s"), quiet)];
+    legend.push(entry(look, &look.first(), if pair { "λ_a" } else { "λ" }));
     if pair {
         legend.push(entry(look, &look.second(), "λ_b"));
     }
@@ -118,17 +122,14 @@ fn multipliers(app: &App, buffer: &mut Buffer, at: ViewArea) {
     // Beside another chart there is room for the numbers only.
     let mean = if at.area.width >= NAMED_FROM { "mean now " } else { "" };
     legend.push((format!("{point} {mean}{now}"), look.style(Role::Contact)));
-    let prefix = curves.and_then(|curves| Some(force_axis(curves, curves.damped.as_ref()?)));
-    let prefix = prefix.map_or("", |y| y.scale.prefix);
-    legend.push((format!("{prefix}N over rad/s"), quiet));
     legend.push(("below 0 pushes".into(), quiet));
-    if pair && roomy {
-        legend.push(dots(look, "undamped"));
-    }
     if app.has_lining() {
         legend.push(("of a rigid casing".into(), quiet));
     }
     legend.extend(app.tuned_note().map(|note| (note.into(), quiet)));
+    if pair && roomy {
+        legend.push(dots(look, "undamped"));
+    }
     if app.speed() < 0.0 {
         legend.push(("over |Ω|, turning backwards".into(), quiet));
     }
@@ -174,7 +175,7 @@ fn multipliers(app: &App, buffer: &mut Buffer, at: ViewArea) {
         };
         plot.point(app.speed().abs(), shown, sign, look.style(Role::Contact));
     }
-    marks::names(&mut plot, &curves.marks, app);
+    name_speeds(&mut plot, &curves.marks, app);
 }
 
 /// The axis of the forces of locks and whirls.
@@ -182,15 +183,15 @@ fn force_axis(curves: &LockedCurves, damped: &Sweep) -> ChartAxis {
     let points = damped.points.iter().filter(|point| curves.scales(point.speed_rad_s));
     let whirl = curves.whirl.iter().filter(|(speed, _)| curves.scales(*speed));
     let locks = points.flat_map(|point| point.multipliers_n);
-    charts::range(locks.chain(whirl.map(|(_, push)| *push)))
+    range(locks.chain(whirl.map(|(_, push)| *push)))
 }
 
 /// What the reading cursor reads, above the chart; returns the rest.
 fn read(app: &App, curves: &LockedCurves, buffer: &mut Buffer, inside: Rect) -> Rect {
     let look = &app.appearance;
-    let Some(speed) = charts::cursor_speed(app, curves) else { return inside };
+    let Some(speed) = cursor_speed(app, curves) else { return inside };
     let width = usize::from(inside.width).saturating_sub(1);
-    let mut lines = wrap(&look.spell(&charts::reading(app, speed)), width);
+    let mut lines = wrap(&look.spell(&reading(app, speed)), width);
     // The chart keeps at least half of the rows.
     let most = READ_ROWS.min(usize::from(inside.height / 4)).max(1);
     if lines.len() > most {
@@ -207,7 +208,7 @@ fn read(app: &App, curves: &LockedCurves, buffer: &mut Buffer, inside: Rect) -> 
 
 /// The threshold speeds, the present speed and the reading cursor.
 fn uprights(plot: &mut Plot, app: &App, curves: &LockedCurves) {
-    marks::uprights(plot, app, &curves.marks, charts::cursor_speed(app, curves));
+    panel::uprights(plot, app, &curves.marks, cursor_speed(app, curves));
 }
 
 fn curve(plot: &mut Plot, sweep: &Sweep, place: usize, pen: &Pen) {
@@ -228,4 +229,129 @@ fn running(app: &App) -> Vec<f64> {
 /// A force in few characters.
 fn short(force: f64) -> String {
     if force.abs() < 1e4 { format!("{force:.0}") } else { format!("{:.0}k", force / 1e3) }
+}
+
+/// A quantity of the locked motion.
+type Quantity = (&'static str, fn(&LockedPoint) -> f64);
+
+/// One chart.
+pub struct Chart {
+    name: &'static str,
+    unit: &'static str,
+    quantities: &'static [Quantity],
+    /// What is said about those that are not drawn.
+    note: &'static str,
+}
+
+/// Angles of the blades that hold the wave.
+pub const ANGLES: Chart = Chart {
+    name: "locked α(Ω)",
+    unit: "rad",
+    quantities: &[("α_a", |p| p.alpha_rad[0]), ("α_b", |p| p.alpha_rad[1])],
+    note: "one blade of each group",
+};
+
+/// Amplitudes of the casing.
+pub const AMPLITUDES: Chart = Chart {
+    name: "locked u(Ω)",
+    unit: "m",
+    quantities: &[("u_cc", |p| p.u_cc_m), ("u_cs", |p| p.u_cs_m), ("|u|", |p| p.amplitude_m)],
+    note: "u_ss = u_cc, u_sc = -u_cs",
+};
+
+/// A range with round ends around values and zero.
+pub fn range(values: impl Iterator<Item = f64>) -> ChartAxis {
+    let (low, high) = values
+        .filter(|value| value.is_finite())
+        .fold((0.0_f64, 0.0_f64), |(a, b), v| (a.min(v), b.max(v)));
+    let step = nice_step(high - low, 6).unwrap_or(1.0);
+    ChartAxis::scaled((low / step).floor() * step, (high / step).ceil() * step)
+}
+
+impl Chart {
+    /// Draws it.
+    pub fn draw(&self, app: &App, curves: &LockedCurves, buffer: &mut Buffer, at: ViewArea) {
+        let look = &app.appearance;
+        let quiet = look.style(Role::Quiet);
+        let Some(damped) = &curves.damped else { return };
+        let points = &damped.points;
+        let scaled = || points.iter().filter(|point| curves.scales(point.speed_rad_s));
+        let values = self.quantities.iter().flat_map(|(_, of)| scaled().map(of));
+        let (x, y) = (ChartAxis::plain(0.0, curves.fastest), range(values));
+        let pens: [Pen; 2] = [look.first(), look.second()];
+        let named = pens.iter().zip(self.quantities);
+        let mut legend: Vec<_> = named.map(|(pen, (name, _))| entry(look, pen, name)).collect();
+        let third = self.quantities.get(2);
+        legend.extend(third.map(|(name, _)| dots(look, name)));
+        legend.push((format!("{}{} over rad/s", y.scale.prefix, self.unit), quiet));
+        legend.push((self.note.to_string(), quiet));
+        let inside = title(app, buffer, at, self.name, &legend);
+        let y = y.evened(inside, look);
+        let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
+        at.note(app, plot.inner);
+        plot.level(0.0, look.either('┈', '.'), quiet);
+        uprights(&mut plot, app, curves);
+        if let Some((_, of)) = third {
+            let curve = points.iter().map(|point| (point.speed_rad_s.abs(), of(point)));
+            plot.dotted(curve, x.low, 1.0, &look.quiet());
+        }
+        for (pen, (_, of)) in pens.iter().zip(self.quantities).rev() {
+            plot.curve(points.iter().map(|point| (point.speed_rad_s.abs(), of(point))), pen);
+        }
+        plot.ink();
+    }
+}
+
+/// The speed under the reading cursor \[rad/s\].
+pub fn cursor_speed(app: &App, curves: &LockedCurves) -> Option<f64> {
+    let here = app.view() == crate::tui::views::ViewId::Locked;
+    app.reading.cursor.filter(|_| here).map(|cursor| cursor.across * curves.fastest)
+}
+
+/// The locked motion at one speed, solved there, in words.
+pub fn reading(app: &App, speed: f64) -> String {
+    let speed = speed.copysign(app.speed());
+    let at = format!("at {}: ", readable(speed, "rad/s"));
+    let sweep = locked_motion(&app.machine, Form::Modal, true, None, &[speed]);
+    let Some(point) = sweep.ok().and_then(|sweep| sweep.points.first().copied()) else {
+        return at + "no locked motion";
+    };
+    let value = |name: &str, value: f64, unit: &str| format!("{name} {}", readable(value, unit));
+    let ([a, b], [turn_a, turn_b]) = (point.multipliers_n, point.alpha_rad);
+    let ratio = point.amplitude_m / app.machine.clearance();
+    // The push of a lining is another one: only its window is known here.
+    let lining = app.has_lining();
+    let window = app.machine.lock_windows(speed).into_iter();
+    let on_lining = || window.clone().any(|window| window.has(speed.abs()));
+    let can_last = if lining { on_lining() } else { point.admissible && point.stable };
+    let holds = match (a > 0.0 || b > 0.0, point.admissible, point.stable) {
+        _ if lining && can_last => "of a rigid casing; on the lining a lock can last",
+        _ if lining => "of a rigid casing; the lining holds no lock here",
+        (true, ..) => "one pulls: only an adhesive lock",
+        (_, true, true) => "both push: a lock can last",
+        (_, true, false) => "both push, but it is unstable",
+        _ => "another blade would touch",
+    };
+    let parts = [
+        value("λ_a", a, "N"),
+        value("λ_b", b, "N"),
+        format!("|u| {ratio:.4} g0"),
+        value("α_a", turn_a, "rad"),
+        value("α_b", turn_b, "rad"),
+        value("u_cc", point.u_cc_m, "m"),
+        value("u_cs", point.u_cs_m, "m"),
+        holds.to_string(),
+        not_this_run(app, can_last).unwrap_or_default(),
+    ];
+    let parts: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
+    at + &parts.join(", ")
+}
+
+/// That the run of this speed does not come to a lock that can last.
+fn not_this_run(app: &App, can_last: bool) -> Option<String> {
+    let (cursor, here) = (app.reading.cursor?, app.panel().here(app));
+    let run = app.full_run().filter(|_| can_last && !app.is_asked())?;
+    let elsewhere = (cursor.across - here.across).abs() > 0.5 * STEP;
+    let locks = matches!(run.verdict, Verdict::Locked | Verdict::Adhesive);
+    (!elsewhere && !locks).then(|| format!("but this run: {}", run.verdict.as_ref().to_uppercase()))
 }

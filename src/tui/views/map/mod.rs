@@ -2,7 +2,6 @@
 //! the threshold speeds, the present knobs as a cross, and a cursor whose cell
 //! can be read and opened.
 
-mod cells;
 mod picture;
 pub use picture::colour;
 mod plan;
@@ -10,7 +9,7 @@ mod words;
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
-pub use cells::{CellRun, LiveMap, coarse_first};
+pub use plan::{CellRun, LiveMap, coarse_first};
 pub use plan::{MapAxis, MapChoice, numeric};
 pub use words::value_text;
 

@@ -30,10 +30,10 @@ pub fn colour(look: &Appearance, verdict: Verdict) -> Option<Color> {
         Verdict::Locked => [Color::LightBlue, Color::Blue, Color::LightBlue, Color::Blue],
         Verdict::Adhesive => [Color::LightRed, Color::Red, Color::LightYellow, Color::Red],
         Verdict::Slip => [Color::LightMagenta, Color::Magenta, Color::White, Color::Black],
-        Verdict::Whirl => [Color::LightGreen, Color::Green, Color::LightGreen, Color::Green],
-        Verdict::Divergent => [Color::White, Color::Black, Color::LightRed, Color::Red],
+        Verdict::Whirl => [Color::LightYellow, Color::Yellow, Color::LightRed, Color::Yellow],
+        Verdict::Divergent => [Color::Red, Color::LightRed, Color::Red, Color::LightRed],
         Verdict::Bounce => [Color::LightCyan, Color::Cyan, Color::Cyan, Color::Cyan],
-        Verdict::Failed => [Color::LightYellow, Color::Yellow, Color::Magenta, Color::Magenta],
+        Verdict::Failed => [Color::White, Color::Black, Color::Magenta, Color::Magenta],
     };
     Some(match look.theme {
         Theme::Light => light,

@@ -1,9 +1,13 @@
 //! What the explorer's map sweeps: two knobs over sensible ranges, under the
 //! scene's own contact law, solver and model, or under the other law.
+//!
+//! The map as it is computed: coarse blocks first, then finer ones in a fixed
+//! order, and the run of one cell.
 
-use crate::scene::keys;
-use crate::scene::{Allowed, ContactLaw, Scene, SolverKind};
-use crate::study::{Axis, MapPlan};
+use crate::motion::Verdict;
+use crate::scene::{Allowed, ContactLaw, Scene, SolverKind, keys};
+use crate::study::overlay::{Curve, threshold_curves};
+use crate::study::{Axis, Cell, Map, MapPlan};
 use crate::tui::axis::nice_step;
 use crate::tui::knobs::{KNOBS, Knob, knob_of};
 use crate::tui::views::locked::curves::speed_range;
@@ -52,6 +56,15 @@ pub struct MapAxis {
 }
 
 impl MapChoice {
+    /// The same for another opened scene.
+    pub fn anchored(mut self, scene: &Scene) -> Self {
+        for axis in [&mut self.x, &mut self.y] {
+            let value = knob_of(axis.path).and_then(|knob| knob.number(scene));
+            axis.anchor = value.unwrap_or(axis.anchor);
+        }
+        self
+    }
+
     /// The map of a scene.
     ///
     /// # Errors
@@ -119,7 +132,12 @@ impl MapAxis {
         let lining = scene.solver.contact == ContactLaw::Smooth;
         match self.path {
             keys::SPEED => speeds(scene),
-            keys::PULSE => Range { from: PULSES[0], to: PULSES[1], log: true },
+            // From below the pulse that was opened, if that is a small one.
+            keys::PULSE => {
+                let below = 10f64.powf((0.5 * anchor.abs()).log10().floor());
+                let from = if anchor == 0.0 { PULSES[0] } else { below.min(PULSES[0]) };
+                Range { from, to: PULSES[1], log: true }
+            }
             keys::CASING_DAMPING | keys::BLADE_DAMPING if anchor <= DAMPING => even(0.0, DAMPING),
             keys::DIAMETERS => even(1.0, f64::from(scene.bladed_disk.blades / 2).max(1.0)),
             keys::DISK_DIAMETERS => even(1.0, f64::from(scene.bladed_disk.blades / 2).max(1.0)),
@@ -215,11 +233,104 @@ fn within(allowed: Allowed, Range { from, to, log }: Range) -> Range {
     Range { from: from.max(min), to: to.min(max), log }
 }
 
+/// Sides of the blocks that one cell stands for, coarse to fine.
+const BLOCKS: [u32; 4] = [8, 4, 2, 1];
+
+/// A map that is being computed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LiveMap {
+    /// Its plan and the cells so far.
+    pub map: Map,
+    /// Cells that were tried: a cell whose run takes too long stays empty.
+    pub tried: usize,
+    /// The threshold speeds over the map, where one axis is the speed.
+    pub lines: Vec<Curve>,
+}
+
+impl LiveMap {
+    /// A map with nothing computed.
+    pub fn of(plan: MapPlan) -> Self {
+        let mut lines = threshold_curves(&plan);
+        // Without damping two thresholds are one.
+        let double = |line: &Curve, of: &[Curve]| {
+            line.name == "Omega_lock"
+                && of.iter().any(|c| c.name == "Omega_c" && c.points == line.points)
+        };
+        let all = lines.clone();
+        lines.retain(|line| !line.points.is_empty() && !double(line, &all));
+        Self { lines, map: Map::empty(plan), tried: 0 }
+    }
+
+    /// What to draw at a cell: its own verdict, or that of the smallest block
+    /// around it.
+    pub fn shown(&self, column: u32, row: u32) -> Option<Cell> {
+        let (x, y) = (self.map.plan.x.count, self.map.plan.y.count);
+        BLOCKS
+            .iter()
+            .rev()
+            .find_map(|&block| self.map.at(centre(column, block, x), centre(row, block, y)))
+    }
+
+    /// Whether all cells were tried.
+    pub fn is_complete(&self) -> bool {
+        self.tried >= self.map.cells.len()
+    }
+}
+
+/// The cell that stands for the block around a cell.
+fn centre(cell: u32, block: u32, count: u32) -> u32 {
+    (cell - cell % block + block / 2).min(count.saturating_sub(1))
+}
+
+/// All cells of a map in the order in which they are computed, and how many of
+/// them cover the whole map as the coarsest blocks.
+pub fn coarse_first(plan: &MapPlan) -> (Vec<usize>, usize) {
+    let (x, y) = (plan.x.count, plan.y.count);
+    let mut taken = vec![false; plan.len()];
+    let mut order = Vec::with_capacity(plan.len());
+    let mut first = 0;
+    for block in BLOCKS {
+        let side = block as usize;
+        for row in (0..y).step_by(side) {
+            for column in (0..x).step_by(side) {
+                let index = plan.index(centre(column, block, x), centre(row, block, y));
+                if let Some(taken) = taken.get_mut(index).filter(|taken| !**taken) {
+                    *taken = true;
+                    order.push(index);
+                }
+            }
+        }
+        if first == 0 {
+            first = order.len();
+        }
+    }
+    (order, first)
+}
+
+/// The run of one cell.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CellRun {
+    /// The map that the cell is of.
+    pub plan: MapPlan,
+    /// Its column and row.
+    pub cell: [u32; 2],
+    /// How the motion lasts.
+    pub verdict: Verdict,
+    /// Start of the final contact \[s\].
+    pub since: Option<f64>,
+    /// The groups of blades in contact at the end and their multipliers;
+    /// negative is a push \[N\].
+    pub contacts: Vec<(Vec<u32>, f64)>,
+    /// Impacts in all.
+    pub impacts: u64,
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::scene::ModelSize;
     use crate::tui::knobs::Group;
+    use crate::tui::views::map::MapChoice;
 
     #[test]
     fn the_map_does_not_depend_on_the_knobs_it_sweeps() {
@@ -230,6 +341,16 @@ mod tests {
         assert_eq!(MapChoice::default().plan(&scene).unwrap(), before);
         // The paper's range, in round steps.
         assert_eq!((before.x.from, before.x.to, before.x.value(1)), (0.0, 600.0, 7.5));
+    }
+
+    #[test]
+    fn the_pulse_of_an_opened_scene_is_on_its_map() {
+        for builtin in crate::scene::BUILTIN {
+            let scene = Scene::builtin(builtin.name).unwrap();
+            let pulse = scene.operation.pulse_n.abs();
+            let Ok(plan) = MapChoice::default().anchored(&scene).plan(&scene) else { continue };
+            assert!(pulse == 0.0 || (plan.y.from..plan.y.to).contains(&pulse), "{pulse}");
+        }
     }
 
     #[test]
@@ -298,5 +419,23 @@ mod tests {
         scene.operation.speed_rad_s = -430.0;
         let plan = MapChoice::default().plan(&scene).unwrap();
         assert_eq!((plan.x.from, plan.x.to), (-600.0, 0.0));
+    }
+
+    #[test]
+    fn coarse_cells_come_first_and_every_cell_once() {
+        let mut plan = MapChoice::default().plan(&Scene::base()).unwrap();
+        for (x, y) in [(81, 41), (11, 41), (1, 1), (8, 3)] {
+            (plan.x.count, plan.y.count) = (x, y);
+            let (mut order, first) = coarse_first(&plan);
+            let mut live = LiveMap::of(plan.clone());
+            let cell = Some(Cell { verdict: Verdict::Decay, sensitive: false });
+            order.iter().take(first).for_each(|&index| live.map.cells.set(index, cell));
+            live.tried = first;
+            // They cover the whole map.
+            assert!((0..x).all(|column| (0..y).all(|row| live.shown(column, row) == cell)));
+            assert!(first <= (x as usize).div_ceil(8) * (y as usize).div_ceil(8));
+            order.sort_unstable();
+            assert!(order.into_iter().eq(0..plan.len()), "{x} {y}");
+        }
     }
 }

@@ -196,10 +196,11 @@ fn detail(run: &CellRun) -> String {
             let names: Vec<String> = blades.iter().take(3).map(ToString::to_string).collect();
             names.join(",")
         };
-        let groups: Vec<String> =
-            run.contacts.iter().take(4).map(|(blades, _)| few(blades)).collect();
-        let forces: Vec<String> =
-            run.contacts.iter().take(4).map(|(_, force)| format!("{force:.0}")).collect();
+        let mut contacts: Vec<_> = run.contacts.iter().collect();
+        contacts.sort_by(|a, b| a.0.cmp(&b.0));
+        let contacts = || contacts.iter().take(4);
+        let groups: Vec<String> = contacts().map(|(blades, _)| few(blades)).collect();
+        let forces: Vec<String> = contacts().map(|(_, force)| format!("{force:.0}")).collect();
         let held = run.verdict.is_held();
         let since = if held { format!(" since {}", readable(since, "s")) } else { String::new() };
         out = format!("on {}{since}, λ {} N, ", groups.join(" + "), forces.join(" "));

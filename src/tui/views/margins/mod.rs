@@ -1,10 +1,7 @@
 //! View 8: how far the scene is from every limit, and what moves each of them most.
 
-mod bar;
-mod columns;
 mod rows;
 mod table;
-mod words;
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
@@ -43,7 +40,7 @@ impl ViewPanel for MarginsView {
 
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
         let look = &app.appearance;
-        let inside = title(app, buffer, at, "margins", &words::title(app, at.area.width));
+        let inside = title(app, buffer, at, "margins", &rows::title(app, at.area.width));
         let Some((live, old)) = app.margins() else { return not_yet(app, buffer, inside) };
         let cell = app.margins_cell().filter(|_| at.large);
         let told = match (at.large, inside.height) {
@@ -57,7 +54,7 @@ impl ViewPanel for MarginsView {
         // One row below the table, where there is room.
         let y = left.y + left.height.min(1);
         let below = Rect { y, height: told, ..inside };
-        let (text, role) = words::told(app, &rows, cell);
+        let (text, role) = rows::told(app, &rows, cell);
         let width = usize::from(below.width.saturating_sub(1));
         let mut lines = wrap(&look.spell(&text), width);
         if lines.len() > usize::from(told) {
@@ -168,7 +165,7 @@ mod tests {
     fn a_change_has_its_sign_on_its_side() {
         let look = crate::tui::appearance::Appearance::new(Theme::Mono, Marker::Ascii);
         for (part, bar) in [(1.0, "  |=="), (-1.0, "==|  "), (0.3, "  |- "), (-0.01, " -|  ")] {
-            assert_eq!(bar::signed(part, 5, &look), bar);
+            assert_eq!(table::signed(part, 5, &look), bar);
         }
     }
 }

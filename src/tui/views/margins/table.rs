@@ -1,17 +1,26 @@
 //! The table of the margins: its heading, its rows as far as there is room, and where
 //! they are for the mouse.
+//!
+//! Which columns a width has room for, the most important first, and where they are.
+//!
+//! The bar of a limit: from zero to the limit, or to the present value where that is
+//! beyond, with both on it; and the small bar of a sensitivity.
 
-use ratatui::{buffer::Buffer, layout::Rect, style::Modifier, style::Style};
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Position, Rect};
+use ratatui::style::{Modifier, Style};
 
-use super::bar::{self, LimitBar};
-use super::columns::{Column, Columns};
-use super::rows;
-use super::{COLUMNS, words};
-use crate::report::margins::LimitRow;
+use crate::report::margins::{LimitRow, TOLD};
+use crate::study::margins::{Band, Limit, Quantity};
 use crate::tui::app::App;
-use crate::tui::text::{print, shorten};
+use crate::tui::appearance::Appearance;
+use crate::tui::knobs::KnobRange;
+use crate::tui::text::{columns as cells, print, shorten};
 use crate::tui::theme::Role;
 use crate::tui::views::ViewArea;
+use crate::tui::views::margins::rows::{change_text, knob_symbol, percent_text, value_text};
+use crate::tui::views::margins::{COLUMNS, rows};
+use Column::{Bar, Knob, Percent, Symbol, Value, Word};
 
 /// From this height on, columns have headings.
 const HEADING_FROM: u16 = 8;
@@ -102,8 +111,8 @@ impl<'a> Table<'a> {
                 Column::Value => "rad/s",
                 Column::Percent => "now",
                 Column::Word => "",
-                Column::Knob(0) if columns.knobs() > 1 => "change by 1 % of a knob",
-                Column::Knob(0) => "by 1 % of",
+                Column::Knob(0) if columns.knobs() > 1 => "1 % more of a knob gives, %",
+                Column::Knob(0) => "+1 % gives",
                 Column::Knob(_) => continue,
             };
             let place = match column {
@@ -143,7 +152,7 @@ impl<'a> Table<'a> {
         if cursor.is_some() {
             print(buffer, line, 0, look.either("▸", ">"), look.style(Role::Focus));
         } else if nearest {
-            print(buffer, line, 0, words::nearest_sign(look), style(Role::Focus));
+            print(buffer, line, 0, rows::nearest_sign(look), style(Role::Focus));
         }
         let quiet = row.value().is_none();
         for (column, place) in columns.places(line) {
@@ -165,7 +174,7 @@ impl<'a> Table<'a> {
                     style(Role::Text),
                 ),
                 Column::Percent => {
-                    let role = row.side().map_or(Role::Text, words::role);
+                    let role = row.side().map_or(Role::Text, rows::role);
                     let text = match row.is_load() && !columns.has(Column::Value) {
                         true => rows::value_text(row),
                         false => rows::percent_text(row),
@@ -174,7 +183,7 @@ impl<'a> Table<'a> {
                 }
                 Column::Word => {
                     if let Some(side) = row.side() {
-                        put(&side.to_string(), style(words::role(side)));
+                        put(&side.to_string(), style(rows::role(side)));
                     }
                 }
                 Column::Knob(place) => {
@@ -205,7 +214,7 @@ impl<'a> Table<'a> {
         let symbol = shorten(&look.spell(rows::knob_symbol(path)), usize::from(label.width), "");
         print(buffer, label, 0, &symbol, name);
         let role = if *by < 0.0 { Role::Second } else { Role::First };
-        print(buffer, bar, 0, &bar::signed(by / most, bar.width, look), style(role));
+        print(buffer, bar, 0, &signed(by / most, bar.width, look), style(role));
         let text = format!("{:>1$}", rows::change_text(*by), usize::from(number.width));
         print(buffer, number, 0, &text, style(Role::Text));
     }
@@ -229,5 +238,241 @@ impl<'a> Table<'a> {
             }
         }
         self.at.note_part(self.app, left, [across(0), up]);
+    }
+}
+
+/// A column of the table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Column {
+    /// The name of the limit.
+    Symbol,
+    /// From 0 to the limit, with the present value.
+    Bar,
+    /// The limit.
+    Value,
+    /// The margin.
+    Percent,
+    /// The side.
+    Word,
+    /// One of the knobs that matter most.
+    Knob(usize),
+}
+
+/// What there is room for, in the order of its importance: in the large chart,
+const LARGE: [Column; 7] = [Percent, Value, Knob(0), Bar, Word, Knob(1), Knob(2)];
+/// and in another one.
+const BESIDE: [Column; 4] = [Percent, Word, Value, Bar];
+/// From left to right.
+const ORDER: [Column; 8] = [Symbol, Bar, Value, Percent, Word, Knob(0), Knob(1), Knob(2)];
+
+/// The narrowest bar of a limit,
+const LEAST_BAR: u16 = 4;
+/// the one from which on other columns may grow,
+const GOOD_BAR: u16 = 24;
+/// and the widest.
+const MOST_BAR: u16 = 60;
+/// The narrowest bar of a knob, and the widest: an odd number of cells.
+const KNOB_BAR: [u16; 2] = [3, 9];
+/// Below this width, the symbol of a knob has this many cells: Greek letters are long
+/// in ASCII.
+const WHOLE_FROM: u16 = 60;
+const LABEL: u16 = 4;
+/// From this width on, limits have their long names.
+const LONG_FROM: u16 = 100;
+
+/// The columns of a table.
+#[derive(Debug)]
+pub struct Columns {
+    shown: Vec<(Column, u16)>,
+    label: u16,
+    knob_bar: u16,
+    /// Whether limits have their short titles.
+    pub short: bool,
+}
+
+impl Columns {
+    /// The columns for these rows.
+    pub fn of(rows: &[LimitRow], area: Rect, large: bool, look: &Appearance) -> Self {
+        let widest = |of: &dyn Fn(&LimitRow) -> String| {
+            let most = rows.iter().map(|row| cells(&look.spell(&of(row)))).max();
+            most.and_then(|most| u16::try_from(most).ok()).unwrap_or(0)
+        };
+        let widest_knob = |of: &dyn Fn(&(&'static str, f64)) -> String| {
+            let strongest = rows.iter().flat_map(LimitRow::strongest);
+            let most = strongest.map(|knob| cells(&look.spell(&of(&knob)))).max();
+            most.and_then(|most| u16::try_from(most).ok()).unwrap_or(1)
+        };
+        let short = area.width < LONG_FROM;
+        let label = widest_knob(&|(path, _)| knob_symbol(path).to_string());
+        let label = if area.width < WHOLE_FROM { label.min(LABEL) } else { label };
+        let number = widest_knob(&|(_, by)| change_text(*by));
+        let mut knob_bar = KNOB_BAR[0];
+        let width = |column: Column, knob_bar: u16| match column {
+            Symbol => widest(&|row| row.title(short)),
+            Bar => LEAST_BAR,
+            Value => widest(&value_text),
+            Percent => widest(&percent_text),
+            Word => 6,
+            Knob(_) => label + 1 + knob_bar + 1 + number,
+        };
+        // The first cell is for the cursor.
+        let mut left = area.width.saturating_sub(1 + width(Symbol, knob_bar));
+        let mut chosen = vec![Symbol];
+        for &column in if large { &LARGE[..] } else { &BESIDE } {
+            let wide = 1 + width(column, knob_bar);
+            if wide <= left {
+                left -= wide;
+                chosen.push(column);
+            }
+        }
+        let knobs = chosen.iter().filter(|column| matches!(column, Knob(_))).count();
+        let knobs = u16::try_from(knobs).unwrap_or(0);
+        let has_bar = chosen.contains(&Bar);
+        while knobs > 0
+            && knob_bar + 2 <= KNOB_BAR[1]
+            && left >= 2 * knobs + if has_bar { GOOD_BAR } else { 0 }
+        {
+            (knob_bar, left) = (knob_bar + 2, left - 2 * knobs);
+        }
+        let bar = (LEAST_BAR + left).min(MOST_BAR);
+        let wide = |column| if column == Bar { bar } else { width(column, knob_bar) };
+        let shown = ORDER.into_iter().filter(|column| chosen.contains(column));
+        Self { shown: shown.map(|column| (column, wide(column))).collect(), label, knob_bar, short }
+    }
+
+    /// Whether a column is shown.
+    pub fn has(&self, column: Column) -> bool {
+        self.shown.iter().any(|(shown, _)| *shown == column)
+    }
+
+    /// How many knobs are shown.
+    pub fn knobs(&self) -> usize {
+        (0..TOLD).filter(|place| self.has(Knob(*place))).count()
+    }
+
+    /// The columns in a line, from left to right; none beyond its end.
+    pub fn places(&self, line: Rect) -> Vec<(Column, Rect)> {
+        let mut x = line.x.saturating_add(1);
+        let mut places = Vec::new();
+        for &(column, width) in &self.shown {
+            let width = width.min(line.right().saturating_sub(x));
+            places.push((column, Rect { x, width, height: 1, ..line }));
+            x = x.saturating_add(width + 1).min(line.right());
+        }
+        places
+    }
+
+    /// What is left of a line behind the name.
+    pub fn after_symbol(&self, line: Rect) -> Rect {
+        let symbol = self.shown.first().map_or(0, |(_, width)| *width);
+        let x = line.x.saturating_add(symbol + 2).min(line.right());
+        Rect { x, width: line.right() - x, height: 1, ..line }
+    }
+
+    /// The cells of a knob: symbol, number and bar.
+    pub fn knob_cells(&self, line: Rect, place: usize) -> [Rect; 3] {
+        let places = self.places(line);
+        let found = places.into_iter().find(|(column, _)| *column == Knob(place));
+        let whole = found.map_or(Rect { width: 0, ..line }, |(_, whole)| whole);
+        let part = |from: u16, width: u16| {
+            let x = whole.x.saturating_add(from).min(whole.right());
+            Rect { x, width: width.min(whole.right() - x), ..whole }
+        };
+        // The number stands beside its own knob; the bar is at the end.
+        let number = self.label + 1;
+        let bar = whole.width.saturating_sub(self.knob_bar);
+        [part(0, self.label), part(number, bar.saturating_sub(number + 1)), part(bar, u16::MAX)]
+    }
+}
+
+/// How far the scale of a pulse goes below and above what is on it, as a factor: it
+/// is one of factors, and has no zero.
+const AROUND: f64 = 2.0;
+
+/// Signs of a bar: below the present value, that value, above it, the limit, both in
+/// one cell, and pulses that last.
+pub fn signs(look: &Appearance) -> [&'static str; 6] {
+    look.either(["▒", "█", "▁", "┃", "╋", "▄"], ["=", "#", ".", "|", "+", "o"])
+}
+
+/// A limit on its scale.
+#[derive(Debug)]
+pub struct LimitBar<'a> {
+    limit: &'a Limit,
+    value: f64,
+    present: f64,
+    range: KnobRange,
+}
+
+impl<'a> LimitBar<'a> {
+    /// The bar of a row; none of a load, and none where there is no such limit.
+    pub fn of(row: &LimitRow<'a>) -> Option<Self> {
+        let limit = row.limit()?;
+        let (value, present) = limit.value.zip(limit.present)?;
+        // Magnitudes: a negative pulse has negative limits.
+        let sign = if value < 0.0 { -1.0 } else { 1.0 };
+        let (value, present) = (sign * value, sign * present);
+        let log = limit.quantity == Quantity::Pulse;
+        let ends = limit.bands.iter().flat_map(|band| [Some(band.from_n), band.to_n]);
+        let ends = ends.flatten().map(|end| sign * end);
+        let all = || ends.clone().chain([value, present]).filter(|x| *x > 0.0);
+        let most = all().fold(0.0, f64::max);
+        let range = match log {
+            true => KnobRange::log(all().fold(most, f64::min) / AROUND, most * AROUND),
+            false => KnobRange::linear(0.0, most),
+        };
+        (range.is_sound() && value > 0.0).then_some(Self { limit, value, present, range })
+    }
+
+    /// Draws it over the cells of one row.
+    pub fn draw(&self, look: &Appearance, buffer: &mut Buffer, cells: Rect, old: bool) {
+        if cells.width == 0 {
+            return;
+        }
+        let [full, now, empty, limit, both, lasting] = signs(look);
+        let width = f64::from(cells.width);
+        let cell = |x: f64| ((self.range.part(x) * width) as u16).min(cells.width - 1);
+        let (here, there) = (cell(self.present), cell(self.value));
+        for k in 0..cells.width {
+            let ends = [k, k + 1].map(|k| self.range.at(f64::from(k) / width));
+            let lasts = self.limit.bands.iter().any(|band| reaches(band, ends));
+            let (sign, role) = match () {
+                () if k == here && k == there => (both, Role::Focus),
+                () if k == here => (now, Role::Focus),
+                () if k == there => (limit, Role::Text),
+                () if lasts => (lasting, Role::Contact),
+                () if k < here => (full, Role::Quiet),
+                () => (empty, Role::Quiet),
+            };
+            let mut style = look.style(if old { Role::Quiet } else { role });
+            if k == there && !old {
+                style = style.add_modifier(Modifier::BOLD);
+            }
+            if let Some(cell) = buffer.cell_mut(Position::new(cells.x + k, cells.y)) {
+                cell.reset();
+                cell.set_symbol(sign).set_style(style);
+            }
+        }
+    }
+}
+
+/// Whether a band has something between two pulses.
+fn reaches(band: &Band, [from, to]: [f64; 2]) -> bool {
+    band.from_n.abs() < to && band.to_n.is_none_or(|end| end.abs() >= from)
+}
+
+/// A part of the greatest change, -1 to 1, to the left or the right of the middle of
+/// an odd number of cells.
+pub fn signed(part: f64, width: u16, look: &Appearance) -> String {
+    let side = usize::from(width / 2);
+    // Half cells; the least is seen, too.
+    let halves = (part.abs().min(1.0) * 2.0 * side as f64).round().max(1.0) as usize;
+    let (whole, half) = (halves / 2, halves % 2);
+    let [block, left, right, middle] = look.either(["█", "▐", "▌", "│"], ["=", "-", "-", "|"]);
+    let blank = " ".repeat(side.saturating_sub(whole + half));
+    let (blocks, empty) = (block.repeat(whole), " ".repeat(side));
+    match part < 0.0 {
+        true => format!("{blank}{}{blocks}{middle}{empty}", left.repeat(half)),
+        false => format!("{empty}{middle}{blocks}{}{blank}", right.repeat(half)),
     }
 }

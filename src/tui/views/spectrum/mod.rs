@@ -1,22 +1,24 @@
 //! View 6: the spectrum of the casing motion over the whole run, and the
 //! Campbell lines that show where frequencies coincide.
+//!
+//! Amplitude spectrum of the casing motion over a whole run: a Hann window,
+//! then a real Fourier transform.
 
-pub mod transform;
+use std::f64::consts::TAU;
 
 use ratatui::buffer::Buffer;
+use realfft::RealFftPlanner;
 
-use self::transform::Spectrum;
-use super::ViewId;
-use super::marks;
-use super::panel::{ViewArea, ViewPanel, csv, entry, name_level, not_yet, title};
 use crate::tui::app::App;
 use crate::tui::axis::{ChartAxis, nice_step, readable};
 use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
 use crate::tui::theme::Role;
+use crate::tui::views::ViewId;
+use crate::tui::views::panel::{
+    ViewArea, ViewPanel, csv, entry, name_level, name_speeds, not_yet, title,
+};
 
-/// From this height on, the Campbell lines have a separate chart.
-const TWO_FROM: u16 = 16;
 /// Smallest amplitude shown, as a power of ten of a metre, and the greatest.
 const DECADES: (f64, f64) = (-10.0, -3.0);
 
@@ -29,12 +31,10 @@ impl ViewPanel for SpectrumView {
     }
 
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
-        if at.area.height >= TWO_FROM {
-            let [top, bottom] = at.rows(50);
-            amplitudes(app, buffer, top);
-            campbell(app, buffer, bottom);
-        } else {
-            amplitudes(app, buffer, at);
+        let (first, second) = at.pair(50);
+        amplitudes(app, buffer, first);
+        if let Some(second) = second {
+            campbell(app, buffer, second);
         }
     }
 
@@ -72,11 +72,12 @@ fn amplitudes(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let x = ChartAxis::plain(0.0, highest(app));
     let cursor = app.cursor_in(ViewId::Spectrum).map(|at| x.at(at.across));
     let spectrum = app.results().found.spectrum.as_ref();
-    let mut legend = vec![entry(look, &look.first(), "u_c"), entry(look, &look.second(), "u_s")];
+    let mut legend = vec![("m by rad/s".to_string(), quiet)];
+    legend.extend([entry(look, &look.first(), "u_c"), entry(look, &look.second(), "u_s")]);
     if let Some(read) = cursor.and_then(|frequency| reading(spectrum?, frequency)) {
         legend.insert(0, (read, look.style(Role::Focus)));
     }
-    legend.push(("m by rad/s, whole run, Hann window".to_string(), quiet));
+    legend.push(("whole run, Hann window".to_string(), quiet));
     let name = if cursor.is_some() { "" } else { "spectrum" };
     let inside = title(app, buffer, at, name, &legend);
     let Some(spectrum) = spectrum else {
@@ -99,7 +100,7 @@ fn amplitudes(app: &App, buffer: &mut Buffer, at: ViewArea) {
         plot.curve(points.take_while(|(w, _)| *w <= x.high), &pen);
     }
     plot.ink();
-    marks::names(&mut plot, &marks, app);
+    name_speeds(&mut plot, &marks, app);
 }
 
 /// The line nearest to a frequency.
@@ -148,4 +149,74 @@ fn campbell(app: &App, buffer: &mut Buffer, at: ViewArea) {
         plot.point(sense * speed, app.machine.omega_c, meet, look.style(Role::Contact));
     }
     name_level(&mut plot, x, app.machine.omega_c, &look.spell("ω_c"), look.style(Role::Text));
+}
+
+/// Amplitudes at equal steps of angular frequency, from zero.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Spectrum {
+    /// Distance of two lines \[rad/s\].
+    pub resolution: f64,
+    /// Amplitude of `u_c` \[m\].
+    pub cosine: Vec<f64>,
+    /// Amplitude of `u_s` \[m\].
+    pub sine: Vec<f64>,
+}
+
+impl Spectrum {
+    /// Spectrum of samples at equal intervals over `length` seconds.
+    pub fn of(signal: &[[f64; 2]], length: f64) -> Self {
+        let of = |place: usize| {
+            let samples: Vec<f64> =
+                signal.iter().map(|pair| pair.get(place).copied().unwrap_or(0.0)).collect();
+            amplitudes_of(samples)
+        };
+        Self { resolution: TAU / length, cosine: of(0), sine: of(1) }
+    }
+}
+
+/// Amplitude of each line; a sine on a line shows its own amplitude.
+fn amplitudes_of(mut samples: Vec<f64>) -> Vec<f64> {
+    let count = samples.len();
+    if count < 8 || samples.iter().any(|x| !x.is_finite()) {
+        return Vec::new();
+    }
+    for (k, sample) in samples.iter_mut().enumerate() {
+        *sample *= 0.5 - 0.5 * (TAU * k as f64 / count as f64).cos();
+    }
+    let transform = RealFftPlanner::<f64>::new().plan_fft_forward(count);
+    let mut lines = transform.make_output_vec();
+    if transform.process(&mut samples, &mut lines).is_err() {
+        return Vec::new();
+    }
+    // The window halves the amplitude, the transform gives half of count times it.
+    lines.iter().map(|line| 4.0 * line.norm() / count as f64).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sine_on_a_line_shows_its_frequency_and_amplitude() {
+        let signal: Vec<[f64; 2]> = (1..=2048)
+            .map(|k| {
+                let t = 0.1 * f64::from(k) / 2048.0;
+                let (sin, cos) = (TAU * 240.0 * t).sin_cos();
+                [3e-4 * cos, 1e-4 * sin]
+            })
+            .collect();
+        let spectrum = Spectrum::of(&signal, 0.1);
+        let line = (TAU * 240.0 / spectrum.resolution).round() as usize;
+        assert_eq!(line, 24);
+        // A Hann window resolves a sine on a line exactly, to round-off.
+        assert!((spectrum.cosine[24] - 3e-4).abs() < 1e-12);
+        assert!((spectrum.sine[24] - 1e-4).abs() < 1e-12);
+        assert!(spectrum.cosine[30] < 1e-12);
+    }
+
+    #[test]
+    fn signals_that_are_no_numbers_have_no_spectrum() {
+        assert!(Spectrum::of(&[[f64::NAN, 0.0]; 64], 1.0).cosine.is_empty());
+        assert!(Spectrum::of(&[], 1.0).cosine.is_empty());
+    }
 }

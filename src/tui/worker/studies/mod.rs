@@ -2,7 +2,6 @@
 //! file here and a row in the table below, is computed only while it is wanted, in slices,
 //! and is kept while its inputs stay the same.
 
-mod cell;
 mod coincidence;
 mod locked;
 mod map;
@@ -222,7 +221,7 @@ studies! {
     /// The margins; what is searched arrives later.
     margins: margins::MarginsStudy,
     /// The run of the map's cell that was asked for.
-    cell: cell::CellStudy,
+    cell: map::CellStudy,
     /// The map; cells arrive one by one.
     map: map::MapStudy,
     /// Speed against error; rows arrive one by one.

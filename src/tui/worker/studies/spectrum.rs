@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::{Given, Study};
 use crate::tui::views::ViewId;
-use crate::tui::views::spectrum::transform::Spectrum;
+use crate::tui::views::spectrum::Spectrum;
 
 /// The spectrum of a run.
 #[derive(Debug)]
