@@ -310,6 +310,7 @@ mod tests {
         ] {
             let machine = machine(data);
             let speed = flutter_speed(&machine, 1.0).unwrap();
+            assert!(speed > 0.0 && speed.is_finite(), "{data:?} {speed}");
             let growth = |speed: f64| {
                 let roots = lock_roots(&Joint::at(&machine, speed));
                 roots.iter().map(|root| root.re).fold(f64::NEG_INFINITY, f64::max)
@@ -317,6 +318,24 @@ mod tests {
             assert!(growth(0.999 * speed) < 0.0 || data[1] == 0.0, "{data:?} {speed}");
             assert!(growth(1.001 * speed) > 0.0, "{data:?} {speed}");
             assert!(growth(speed).abs() < 1e-9 * machine.omega_c, "{data:?} {speed}");
+        }
+    }
+
+    #[test]
+    fn of_all_limits_with_an_undamped_casing_flutter_is_one_ahead_where_growth_begins() {
+        let choices =
+            |kappa: f64| [0.1, 0.3, 0.6].map(|mu| [0.02, 0.1].map(|zeta| [kappa, mu, 0.0, zeta]));
+        for data in [0.3, 0.7, 1.5].map(choices).into_iter().flatten().flatten() {
+            let machine = machine(data);
+            let speed = flutter_speed(&machine, 1.0).unwrap();
+            let grows = |speed: f64| {
+                lock_roots(&Joint::at(&machine, speed)).iter().any(|root| root.re > 0.0)
+            };
+            assert!(speed > 0.0 && speed.is_finite(), "{data:?} {speed}");
+            assert!(
+                !grows(speed * (1.0 - 1e-5)) && grows(speed * (1.0 + 1e-5)),
+                "{data:?} {speed}"
+            );
         }
     }
 

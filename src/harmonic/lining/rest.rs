@@ -436,4 +436,30 @@ mod tests {
             );
         }
     }
+
+    #[test]
+    fn a_window_of_growth_that_no_look_of_the_scan_hits_is_found() {
+        let mut scene = Scene::base();
+        scene.set("casing.radius_m", "0.49988").unwrap();
+        scene.set("bladed_disk.radial_coupling", "0.5").unwrap();
+        let machine = scene.machine();
+        let least = growth_threshold(&machine, 1.0).unwrap();
+        let surface =
+            |stiffness_n_per_m: f64| ContactSurface { stiffness_n_per_m, ..Default::default() };
+        let whole =
+            |stiffness: f64| Lining::of(&machine, &surface(stiffness)).unwrap().stiffness_at_rest();
+        let stiffness = least.stiffness_n_per_m / whole(1e5) * 1e5;
+        let around = [0.99 * least.speed_rad_s, 1.01 * least.speed_rad_s];
+        for (more, changes) in
+            [(-1e-6, vec![]), (1e-6, vec![true, false]), (1e-9, vec![true, false])]
+        {
+            let surface = surface(stiffness * (1.0 + more));
+            let found = Lining::of(&machine, &surface).unwrap().hopf_points(around).unwrap();
+            let above: Vec<bool> = found.iter().map(|point| point.grows_above).collect();
+            assert_eq!(above, changes, "{more}");
+            for point in found {
+                assert!((point.speed_rad_s / least.speed_rad_s - 1.0).abs() < 1e-3, "{more}");
+            }
+        }
+    }
 }

@@ -209,3 +209,81 @@ impl<B: Disk> Explicit<B> {
         resting && tips < clearance && self.casing.reach_of(self.u).0 + tips < clearance
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::motion::Solver;
+    use crate::motion::explicit::{Explicit, ModalBlades};
+    use crate::scene::Scene;
+
+    /// Tips that are inclined and rub, under an excitation.
+    fn scene(contact: &str) -> Scene {
+        let mut scene = Scene::base();
+        for (path, value) in [
+            ("solver.contact", contact),
+            ("solver.step_s", "1e-6"),
+            ("contact.stiffness_n_per_m", "1e6"),
+            ("contact.friction", "0.1"),
+            ("casing.tangential_ratio", "0.3"),
+            ("bladed_disk.radial_coupling", "0.2"),
+            ("excitation.amplitude_nm", "0.1"),
+            ("excitation.order", "3"),
+        ] {
+            scene.set(path, value).unwrap();
+        }
+        scene
+    }
+
+    /// What a motion has from its parameters.
+    fn taken(motion: &Explicit<ModalBlades>) -> String {
+        let Explicit { casing, blades, tips, law, lining, drive, neighbours_matter, .. } = motion;
+        let driven = (drive.excitation, motion.beyond.steps_unseen, neighbours_matter);
+        let mut fired = motion.clone();
+        fired.fire();
+        let pulse = fired.pulse().force;
+        format!(
+            "{casing:?} {:?} {tips:?} {law:?} {lining:?} {driven:?} {pulse}",
+            blades.oscillator()
+        )
+    }
+
+    #[test]
+    fn a_running_motion_takes_over_each_parameter_and_its_ledger_goes_on() {
+        let turns = [
+            ("casing.damping_ratio", "0.2"),
+            ("casing.modal_stiffness_n_per_m", "5e5"),
+            ("casing.tangential_ratio", "0.1"),
+            ("bladed_disk.damping_ratio", "0.2"),
+            ("bladed_disk.stiffness_nm_per_rad", "5e3"),
+            ("bladed_disk.radial_coupling", "0.4"),
+            ("contact.friction", "0.3"),
+            ("excitation.amplitude_nm", "0.2"),
+            ("operation.pulse_n", "3e4"),
+        ];
+        for contact in ["unilateral", "smooth"] {
+            let from = scene(contact);
+            let mut motion = Explicit::<ModalBlades>::new(&from.checked().unwrap());
+            motion.advance(2e-3).unwrap();
+            for (path, value) in turns {
+                let mut to = from.clone();
+                to.set(path, value).unwrap();
+                let to = to.checked().unwrap();
+                let mut turned = motion.clone();
+                turned.set_parameters(&to);
+                let fresh = Explicit::<ModalBlades>::new(&to);
+                assert_eq!(taken(&turned), taken(&fresh), "{contact}: {path}");
+                assert_ne!(taken(&turned), taken(&motion), "{contact}: {path}");
+                let [now, before] = [&turned, &motion].map(|of| of.energy_account().unwrap());
+                let apart = (now.stored_j - before.stored_j).abs();
+                assert!(apart < 1e-12 * motion.stored(), "{contact}: {path} {apart:e}");
+                // Gaps of the steps before may be others now.
+                assert_eq!(turned.beyond.dips, [turned.machine.clearance(); 2]);
+            }
+            let before = motion.energy_account().unwrap().stored_j;
+            let stored = motion.stored();
+            motion.fire();
+            let apart = (motion.energy_account().unwrap().stored_j - before).abs();
+            assert!(apart < 1e-12 * stored, "{contact} {apart:e}");
+        }
+    }
+}

@@ -181,3 +181,45 @@ pub(super) fn mark(row: u32) -> u64 {
     x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     x ^ (x >> 27)
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::motion::Solver;
+    use crate::motion::explicit::{Explicit, ModalBlades};
+    use crate::scene::{CheckedScene, Scene};
+
+    type Turn = fn(&mut Explicit<ModalBlades>, &CheckedScene);
+
+    #[test]
+    fn trends_are_forgotten_where_someone_changes_the_motion() {
+        let mut scene = Scene::base();
+        for (path, value) in [
+            ("solver.contact", "smooth"),
+            ("solver.step_s", "1e-6"),
+            ("solver.end_s", "2e-3"),
+            ("contact.stiffness_n_per_m", "27e3"),
+            ("casing.radius_m", "0.49988"),
+            ("bladed_disk.radial_coupling", "0.5"),
+            ("operation.pulse_n", "100"),
+        ] {
+            scene.set(path, value).unwrap();
+        }
+        let scene = scene.checked().unwrap();
+        let mut motion = Explicit::<ModalBlades>::new(&scene);
+        motion.advance(1.9e-3).unwrap();
+        let known = |motion: &Explicit<ModalBlades>| {
+            motion.beyond.lasting.trends.map(|trend| trend.is_known())
+        };
+        assert_eq!(known(&motion), [true; 3]);
+        let turns: [Turn; 3] = [
+            |motion, _| motion.fire(),
+            |motion, _| motion.set_speed(400.0, 0.0),
+            |motion, scene| motion.set_parameters(scene),
+        ];
+        for turn in turns {
+            let mut turned = motion.clone();
+            turn(&mut turned, &scene);
+            assert_eq!(known(&turned), [false; 3]);
+        }
+    }
+}
