@@ -114,3 +114,8 @@ pub(crate) const MOST_LONG_STEPS: u32 = 2000;
 /// Part of the clearance that a single blade may rise or sink until all are looked at.
 /// Speed only.
 pub(crate) const TIP_SLACK: f64 = 0.02;
+
+/// Part of the clearance and of the casing's way by which the rows near a lining are
+/// looked for beyond those that press: smaller, they are looked for more often; larger,
+/// more open rows are counted along. No result depends on it.
+pub(crate) const LINING_MARGIN: f64 = 0.05;

@@ -131,7 +131,8 @@ pub fn bin_at(bins: &[Bin], t: f64) -> Option<&Bin> {
 }
 
 /// One channel of some bins over `[from, to]` as `columns` columns; `None` where
-/// nothing was recorded. Values that are not finite are left out.
+/// nothing was recorded. Values that are not finite are left out. A bin begins where the
+/// one before it ends, so that no curve is torn between columns.
 pub fn columns(
     bins: &[Bin],
     channel: Channel,
@@ -144,8 +145,13 @@ pub fn columns(
         return out;
     }
     let last = columns.saturating_sub(1);
+    let mut before: Option<&Bin> = None;
     for bin in bins.iter().filter(|bin| bin.to >= from && bin.from <= to) {
-        let (low, high) = bin.span(channel);
+        let before = before.replace(bin).filter(|before| before.to == bin.from);
+        let (mut low, mut high) = bin.span(channel);
+        if let Some((least, most)) = before.map(|before| before.span(channel)) {
+            (low, high) = (low.min(most), high.max(least));
+        }
         if !(low.is_finite() && high.is_finite()) {
             continue;
         }

@@ -5,6 +5,7 @@
 use super::Explicit;
 use super::disk::Disk;
 use super::lasting::{Lasting, mark};
+use super::lining::Lining;
 use super::record::Account;
 use super::rows::TipLaw;
 use crate::motion::{ActiveSet, FailureReason, Plane};
@@ -94,10 +95,7 @@ impl<B: Disk> Explicit<B> {
         // Beyond it, even the nearest side is open, and above its target.
         let room = tips.clearance - tips.rise.abs() * bound - self.highest_target();
         if room > 0.0 && distance2 < room * room {
-            if self.lining.is_some() {
-                self.rows.clear();
-                self.beyond.account.press(0.0);
-            }
+            self.leave_lining();
             self.part();
             return Ok(false);
         }
@@ -205,7 +203,7 @@ impl<B: Disk> Explicit<B> {
         }
         let rise = self.tips.rise.abs();
         let tips = if rise == 0.0 { 0.0 } else { rise * self.blades.reach() };
-        let resting = self.beyond.account.lining == 0.0;
+        let resting = !self.lining.as_ref().is_some_and(Lining::presses);
         resting && tips < clearance && self.casing.reach_of(self.u).0 + tips < clearance
     }
 }
@@ -237,6 +235,7 @@ mod tests {
     /// What a motion has from its parameters.
     fn taken(motion: &Explicit<ModalBlades>) -> String {
         let Explicit { casing, blades, tips, law, lining, drive, neighbours_matter, .. } = motion;
+        let lining = lining.as_ref().map(|lining| lining.law);
         let driven = (drive.excitation, motion.beyond.steps_unseen, neighbours_matter);
         let mut fired = motion.clone();
         fired.fire();

@@ -4,13 +4,13 @@
 //!
 //! Each step predicts free motion, looks for penetrations and corrects them by the
 //! contact law. Beyond the paper, tips may move outward as blades bend, rub, rebound and
-//! press on a lining, whose push is a force at the beginning of a step (`pushes`).
+//! press on a lining, whose push is a force at the beginning of a step (`lining`).
 //!
 //! In the paper's model many steps are taken at once, as plain stepping would take them
 //! (`leap`).
 //!
-//! Read `oscillator` (one coordinate) and `drive`, then `rows`, `pushes` and `correct` (the
-//! contact of a step), `disk` (what it asks of the blades), `beyond` and `lasting`; `record`,
+//! Read `oscillator` (one coordinate) and `drive`, then `rows`, `pushes` and `correct` (rigid
+//! contact of a step) and `lining`, `disk` (what it asks of the blades), `beyond` and `lasting`; `record`,
 //! `parameters` and `solver` put them together.
 
 mod beyond;
@@ -19,6 +19,7 @@ mod disk;
 mod drive;
 mod lasting;
 mod leap;
+mod lining;
 mod oscillator;
 mod parameters;
 mod pushes;
@@ -34,12 +35,13 @@ use std::sync::Arc;
 
 use super::{Failure, FailureReason, Plane};
 use crate::contact::{Several, StepLaw, repeated::Repeated};
-use crate::model::{LiningLaw, Machine};
+use crate::model::Machine;
 use crate::scene::CheckedScene;
 use beyond::Beyond;
 use disk::Disk;
 use drive::{Drive, Driven};
 use leap::Leaps;
+use lining::Lining;
 use record::{Record, Watch};
 use rows::{Row, TipLaw};
 
@@ -50,7 +52,7 @@ pub(super) struct Explicit<B: Disk> {
     machine: Machine,
     law: &'static dyn StepLaw,
     /// The lining of the smooth law.
-    lining: Option<LiningLaw>,
+    lining: Option<Lining>,
     /// What tips do at the rotor speed of now.
     tips: TipLaw,
     drive: Drive,
@@ -61,7 +63,7 @@ pub(super) struct Explicit<B: Disk> {
     blades: B,
     /// Side to begin the search for the smallest gap at.
     near: u32,
-    /// Rows of the latest contact; of a lining, those that push now.
+    /// Rows of the latest contact.
     rows: Vec<Row>,
     /// Distance of each row to its target \[m\].
     gaps: Vec<f64>,

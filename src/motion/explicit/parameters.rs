@@ -12,13 +12,14 @@ use super::beyond::Beyond;
 use super::disk::Disk;
 use super::drive::{Drive, Driven};
 use super::leap::Leaps;
+use super::lining::Lining;
 use super::record::{Record, Watch};
 use super::rows::TipLaw;
 use super::{Explicit, Oscillator};
 use crate::contact::repeated::Repeated;
 use crate::contact::{self, Several};
 use crate::model::Machine;
-use crate::motion::{Change, Plane};
+use crate::motion::Change;
 use crate::scene::CheckedScene;
 
 impl<B: Disk> Explicit<B> {
@@ -44,7 +45,7 @@ impl<B: Disk> Explicit<B> {
         let mut motion = Self {
             scene: Arc::new(scene.clone()),
             law: contact::law(scene.solver.contact),
-            lining: scene.lining(),
+            lining: scene.lining().map(Lining::new),
             tips: TipLaw::at(&machine, speed),
             record: Record::of(machine.polygon.sides, drive.step),
             drive,
@@ -72,37 +73,6 @@ impl<B: Disk> Explicit<B> {
         }
         motion
     }
-
-    /// The lining at the start, and in the step before it.
-    fn press_start(&mut self) {
-        let Some(lining) = self.lining else { return };
-        let tips = self.tips;
-        let bound = self.blades.bound();
-        let (z, turn) = self.in_blade_frame();
-        self.find_pressed(z, &tips, bound);
-        let mut force = Plane::default();
-        for row in &self.rows {
-            force -= tips.push_on_casing(row.place.normal) * row.lambda;
-            self.blades.begin(row.index, tips.torque(row));
-        }
-        let force = force * turn;
-        self.u =
-            [(0, force.re), (1, force.im)].map(|(k, force)| self.casing.begin(self.u[k], force));
-        // What the lining held in the step before, from the same rows.
-        let back = Plane::cis(tips.diameters * self.drive.speed(0) * self.drive.step);
-        let z = Plane::new(self.u[0].x - self.u[0].increment, self.u[1].x - self.u[1].increment);
-        let each = f64::from(self.blades.table().blades_per_row);
-        let mut energy = 0.0;
-        for row in &self.rows {
-            let direction = self.machine.polygon.direction(row.side);
-            let angle = self.blades.angle_before(row.index);
-            energy += each * lining.energy(tips.place(direction, z * back, angle).gap);
-        }
-        self.beyond.account.lining_before = energy;
-        if !self.rows.is_empty() {
-            self.keep_rows();
-        }
-    }
 }
 
 impl<B: Disk> Explicit<B> {
@@ -120,7 +90,7 @@ impl<B: Disk> Explicit<B> {
         self.blades = self.blades.with_parameters(scene, &self.machine);
         self.casing = Oscillator::of_casing(&self.machine, self.drive.step);
         self.leaps.forget_map();
-        (self.law, self.lining) = (contact::law(scene.solver.contact), scene.lining());
+        self.law = contact::law(scene.solver.contact);
         self.drive.set_parameters(scene);
         self.neighbours_matter = self.neighbours_matter();
         let speed = self.drive.speed(self.n);
@@ -130,22 +100,6 @@ impl<B: Disk> Explicit<B> {
             self.press_again();
             self.beyond.account.start += self.stored() - before;
         }
-    }
-
-    /// The pushes of the lining with other parameters, as if it had been another one for
-    /// the half step before, too.
-    fn press_again(&mut self) {
-        self.rows.clear();
-        if self.lining.is_none() {
-            return;
-        }
-        let held = self.beyond.account;
-        let (tips, bound) = (self.tips, self.blades.bound());
-        let (z, _) = self.in_blade_frame();
-        self.find_pressed(z, &tips, bound);
-        let part = if held.lining > 0.0 { held.lining_before / held.lining } else { 1.0 };
-        let account = &mut self.beyond.account;
-        account.lining_before = part * account.lining;
     }
 }
 

@@ -42,14 +42,19 @@ impl Record {
         n as f64 * self.step
     }
 
-    /// A multiplier on a side in step `n`. What is pressed at the start did not hit.
+    /// A multiplier on a side in step `n`.
     pub fn push(&mut self, n: u64, side: u32, lambda: f64) {
+        self.meet(n, side);
+        self.impulse(side, lambda);
+    }
+
+    /// A side touches in step `n`. What is pressed at the start did not hit.
+    pub fn meet(&mut self, n: u64, side: u32) {
         let last = self.touched[side as usize];
         if n > 0 && (last == 0 || n + 1 > last + BREAK_STEPS) {
             self.log.impact(self.time_of(n), side);
         }
         self.keep_touching(n, side);
-        self.impulse(side, lambda);
     }
 
     /// A side touches until step `n`, as it did before.

@@ -2,7 +2,6 @@
 //! the way.
 
 use super::disk::Disk;
-use super::pushes::push;
 use super::rows::TipLaw;
 use super::{Coordinate, Explicit};
 use crate::model::Machine;
@@ -79,12 +78,18 @@ impl<B: Disk> Solver for Explicit<B> {
         if self.record.log.active_set == ActiveSet::Nothing {
             return Vec::new();
         }
-        let rows = || self.rows.iter().map(|row| (row.side, row.lambda)).collect();
+        let rows = || match &self.lining {
+            Some(lining) => lining.multipliers(),
+            None => self.rows.iter().map(|row| (row.side, row.lambda)).collect(),
+        };
         let multipliers: Vec<(u32, f64)> = self.leaps.multipliers().unwrap_or_else(rows);
         self.record.by_side(&self.machine.polygon, multipliers.into_iter())
     }
 
     fn take_mean_forces(&mut self) -> Vec<(u32, f64)> {
+        if let Some(lining) = &mut self.lining {
+            lining.give_impulses(&mut self.record);
+        }
         self.record.take_mean_forces(&self.machine.polygon, self.latest_step())
     }
 
@@ -207,7 +212,7 @@ impl<B: Disk> Explicit<B> {
         blades.predict(self.drive.driven(n));
         if self.lining.is_some() {
             let tips = TipLaw::at(&self.machine, self.drive.speed(n));
-            let (shift, _) = push(&self.rows, &tips, self.casing.compliance, &mut blades);
+            let shift = self.push_ahead(&tips, &mut blades);
             let (c, s) = self.drive.look_at_turn(n);
             let moved = shift * Plane::new(c, s);
             ahead[0].increment += moved.re;

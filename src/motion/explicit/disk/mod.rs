@@ -19,9 +19,11 @@ mod table;
 pub use full::FullBlades;
 pub use modal::ModalBlades;
 pub use rigid::RigidBlades;
-pub(in crate::motion) use table::RowTable;
+pub(in crate::motion) use table::{Columns, RowTable};
 
 use std::fmt::Debug;
+
+use wide::f64x4;
 
 use super::drive::Driven;
 use super::oscillator::Coordinate;
@@ -53,6 +55,31 @@ pub(in crate::motion) trait Disk: Clone + Debug + Send + Sync + 'static {
     fn compliance(&self, a: u32, b: u32) -> f64;
     /// Correction of the predicted step by a torque on a row \[N m\].
     fn correct(&mut self, row: u32, torque: f64);
+    /// The shapes of the two modes at a row, where they are all that moves.
+    fn shape_of(&self, _row: u32) -> (f64, f64) {
+        (0.0, 0.0)
+    }
+    /// The angles of these rows \[rad\].
+    fn angles(&mut self, rows: &Columns, into: &mut [f64x4]) {
+        for (four, rows) in into.iter_mut().zip(rows.index.chunks(4)) {
+            let mut angle = 0.0;
+            for (place, into) in four.as_mut_array().iter_mut().enumerate() {
+                angle = rows.get(place).map_or(angle, |&row| self.angle(row));
+                *into = angle;
+            }
+        }
+    }
+    /// Corrects the predicted step by torques on these rows \[N m\]; a bound on the
+    /// change of any blade angle \[rad\].
+    fn push(&mut self, rows: &Columns, torques: &[f64x4]) -> f64 {
+        let torques = torques.iter().flat_map(|four| four.to_array());
+        let mut change = 0.0;
+        for (&row, torque) in rows.index.iter().zip(torques).filter(|(_, torque)| *torque != 0.0) {
+            self.correct(row, torque);
+            change += self.compliance(row, row) * torque.abs();
+        }
+        change
+    }
     /// Corrects the start for a torque that acts at it: the step before it, only.
     fn begin(&mut self, row: u32, torque: f64);
     /// `[alpha_c, alpha_s]` \[rad\].

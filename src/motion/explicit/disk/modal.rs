@@ -3,7 +3,9 @@
 
 use std::sync::Arc;
 
-use super::{Disk, HeldModes, RowTable};
+use wide::f64x4;
+
+use super::{Columns, Disk, HeldModes, RowTable};
 use crate::model::{ContactPolygon, Machine, gcd};
 use crate::motion::Plane;
 use crate::motion::explicit::{Coordinate, Driven, Oscillator};
@@ -127,6 +129,32 @@ impl Disk for ModalBlades {
             mode.x += change;
             mode.increment += change;
         }
+    }
+    fn shape_of(&self, row: u32) -> (f64, f64) {
+        self.rows.shapes[row as usize]
+    }
+    fn angles(&mut self, rows: &Columns, into: &mut [f64x4]) {
+        let [x, y] = self.modal();
+        let [c, s] = &rows.shapes;
+        for ((angle, &c), &s) in into.iter_mut().zip(c).zip(s) {
+            *angle = c * x + s * y;
+        }
+    }
+    fn push(&mut self, rows: &Columns, torques: &[f64x4]) -> f64 {
+        let [c, s] = &rows.shapes;
+        let mut felt = [f64x4::ZERO; 2];
+        for ((&torque, &c), &s) in torques.iter().zip(c).zip(s) {
+            felt[0] += c * torque;
+            felt[1] += s * torque;
+        }
+        let mut change = 0.0;
+        for (mode, felt) in self.modes.iter_mut().zip(felt) {
+            let moved = self.oscillator.compliance * felt.reduce_add();
+            mode.x += moved;
+            mode.increment += moved;
+            change += moved.abs();
+        }
+        change
     }
     fn begin(&mut self, row: u32, torque: f64) {
         let (c, s) = self.rows.shapes[row as usize];

@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use super::{Disk, HeldModes, RowTable};
+use wide::f64x4;
+
+use super::{Columns, Disk, HeldModes, RowTable};
 use crate::model::Machine;
 use crate::motion::Plane;
 use crate::motion::explicit::{Coordinate, Driven};
@@ -43,6 +45,9 @@ impl Disk for RigidBlades {
         0.0
     }
     fn correct(&mut self, _: u32, _: f64) {}
+    fn push(&mut self, _: &Columns, _: &[f64x4]) -> f64 {
+        0.0
+    }
     fn begin(&mut self, _: u32, _: f64) {}
     fn modal(&self) -> [f64; 2] {
         [0.0; 2]

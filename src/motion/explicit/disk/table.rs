@@ -1,5 +1,7 @@
 //! Which blades make one constraint row: those that nothing tells apart.
 
+use wide::f64x4;
+
 use crate::model::Machine;
 
 /// The rows of a disk. The blades of a row are `row`, `row + rows`, `row + 2 rows` and so
@@ -45,6 +47,52 @@ impl RowTable {
     pub fn of_side(&self, side: u32) -> &[u32] {
         let first = side as usize * self.rows_per_side;
         &self.of_sides[first..first + self.rows_per_side]
+    }
+}
+
+/// Up to four numbers, filled up by another.
+fn fours(part: &[f64], filling: f64) -> f64x4 {
+    let mut four = [filling; 4];
+    four[..part.len()].copy_from_slice(part);
+    f64x4::from(four)
+}
+
+/// Some rows as columns of numbers, four at a time; the last is repeated, of no blade.
+#[derive(Clone, Debug, Default)]
+pub(in crate::motion) struct Columns {
+    pub index: Vec<u32>,
+    pub side: Vec<u32>,
+    /// Direction of each row at rest, `(cos psi, sin psi)`.
+    pub cosine: Vec<f64x4>,
+    pub sine: Vec<f64x4>,
+    /// `Disk::shape_of` each row.
+    pub shapes: [Vec<f64x4>; 2],
+    /// Blades of each row.
+    pub blades: Vec<f64x4>,
+}
+
+impl Columns {
+    /// These rows of a disk, with the directions of their sides and their shapes.
+    pub fn of(
+        rows: &[u32],
+        table: &RowTable,
+        direction: impl Fn(u32) -> (f64, f64),
+        shape: impl Fn(u32) -> (f64, f64),
+    ) -> Self {
+        let side: Vec<u32> = rows.iter().map(|&row| table.side[row as usize]).collect();
+        let column = |of: &dyn Fn(usize) -> f64| -> Vec<f64x4> {
+            let values: Vec<f64> = (0..rows.len()).map(of).collect();
+            values.chunks(4).map(|part| fours(part, part[part.len() - 1])).collect()
+        };
+        let each = f64::from(table.blades_per_row);
+        Self {
+            index: rows.to_vec(),
+            cosine: column(&|place| direction(side[place]).0),
+            sine: column(&|place| direction(side[place]).1),
+            shapes: [column(&|place| shape(rows[place]).0), column(&|place| shape(rows[place]).1)],
+            blades: vec![each; rows.len()].chunks(4).map(|part| fours(part, 0.0)).collect(),
+            side,
+        }
     }
 }
 
