@@ -24,6 +24,11 @@ impl App {
         }
     }
 
+    /// Whether there will be no verdict: the run takes too long.
+    pub fn is_given_up(&self) -> bool {
+        matches!(self.results().full_run, Some(FullRunState::GivenUp(_)))
+    }
+
     /// What happens, in words that fit in so many columns.
     pub fn sentence(&self, width: usize) -> Sentence {
         let of = |word: &str, forms: &[String]| Sentence::of(word, forms, &[], width);
