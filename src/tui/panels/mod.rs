@@ -30,6 +30,7 @@ pub fn draw(frame: &mut Frame, app: &App) {
 
 /// Paints the whole screen into a buffer.
 pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
+    app.forget_places();
     if area.width < LEAST_WIDTH || area.height < LEAST_HEIGHT {
         let needs = format!(
             "rubscope needs {LEAST_WIDTH}x{LEAST_HEIGHT}; this is {}x{}",
@@ -41,7 +42,6 @@ pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
         return;
     }
     let places = layout::places(area, app);
-    app.forget_places();
     if places.letters.is_none() {
         header::draw(app, buffer, places.header);
     }
