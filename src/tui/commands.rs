@@ -471,7 +471,7 @@ mod tests {
     }
 
     fn first(typed: &str) -> Found {
-        found(&app(), typed).into_iter().next().unwrap_or_else(|| panic!("{typed}"))
+        only(&app(), typed).unwrap_or_else(|why| panic!("{typed}: {why}"))
     }
 
     #[test]
@@ -497,7 +497,7 @@ mod tests {
             assert!(items.iter().any(|item| item.command == Command::Select(place)));
         }
         assert_eq!(first("undo").beside, "u");
-        assert_eq!(first("theme").kind, "");
+        assert_eq!(first("theme").command, Command::Act(Action::Theme));
     }
 
     #[test]

@@ -195,7 +195,8 @@ impl App {
         // A row with or without a bar moves those below under a pointer that stays.
         let same = |(place, knob): &((u16, u16), usize)| {
             let is_chart = matches!(target, Some(Target::Chart(_) | Target::View(_)));
-            *place == at && *knob == self.knobs.selected && !is_chart
+            let path = KNOBS.get(*knob).map(|knob| knob.path);
+            *place == at && path == self.selected().map(|knob| knob.path) && !is_chart
         };
         let kept = self.mouse.wheeled.filter(same).map(|(_, knob)| Target::Knob(knob));
         match kept.or(target) {
