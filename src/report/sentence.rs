@@ -4,6 +4,7 @@
 
 use std::fmt;
 
+use super::line::capital;
 use super::number::{count, grouped, with_unit};
 use crate::motion::{Failure, FailureReason, RunReport, Verdict};
 use crate::scene::ContactLaw;
@@ -290,15 +291,11 @@ impl Facts {
             return plain(&["The computation stops before the end.", "The computation stops."]);
         };
         let (at, why) = (with_unit(failure.t_s, 3, "s"), why(&failure.reason));
-        let mut alone = why.to_string();
-        if let Some(first) = alone.get_mut(..1) {
-            first.make_ascii_uppercase();
-        }
         vec![
             format!("The computation stops at {at}: {why}."),
             format!("Stopped at {at}: {why}."),
             format!("Stopped: {why}."),
-            format!("{alone}."),
+            format!("{}.", capital(why)),
             "The computation stops.".into(),
         ]
     }

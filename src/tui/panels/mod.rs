@@ -7,7 +7,7 @@ mod help;
 mod knobs;
 mod layout;
 mod lesson;
-mod palette;
+mod lists;
 mod presentation;
 
 use ratatui::{Frame, buffer::Buffer, layout::Rect};
@@ -48,11 +48,11 @@ pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
     if let InputMode::Help(help) = &app.dialogue.mode {
         help::draw(app, buffer, places.body, help);
     } else if let InputMode::Palette(palette) = &app.dialogue.mode {
-        palette::draw(app, buffer, places.body, palette);
+        lists::commands(app, buffer, places.body, palette);
     } else if let InputMode::Lessons(place) = app.dialogue.mode {
         lesson::list(app, buffer, places.body, place);
     } else if let InputMode::Scenes(place) = app.dialogue.mode {
-        palette::scenes(app, buffer, places.body, place);
+        lists::scenes(app, buffer, places.body, place);
     } else {
         if let Some(area) = places.lesson {
             lesson::draw(app, buffer, area);
