@@ -19,6 +19,16 @@ pub fn clean(text: &str) -> String {
     head.chain(" ... ".chars()).chain(tail).collect()
 }
 
+/// A text with its first letter in upper case.
+#[must_use]
+pub fn capital(text: &str) -> String {
+    let mut text = text.to_string();
+    if let Some(first) = text.get_mut(..1) {
+        first.make_ascii_uppercase();
+    }
+    text
+}
+
 /// A plain character; a space in place of any other.
 #[must_use]
 pub fn harmless(c: char) -> char {

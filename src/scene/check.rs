@@ -80,7 +80,7 @@ fn initial_state(scene: &Scene) -> Result<(), SceneError> {
     let deepest = down(gap);
     let deepest =
         format!("a casing position with every gap open; here the smallest is {deepest:e} m");
-    Err(SceneError::refused(keys::INITIAL_U_C, format!("{x:e}, u_s_m = {y:e}"), deepest))
+    Err(SceneError::refused(keys::INITIAL_U_C, format!("{x} with u_s = {y}"), deepest))
 }
 
 fn excitation(scene: &Scene) -> Result<(), SceneError> {

@@ -302,7 +302,7 @@ mod tests {
                 "[solver]\nkind = \"event\"\ncontact = \"bilateral\"",
                 "solver.contact = \"bilateral\"",
             ),
-            ("[initial]\nu_c_m = 1.0", "initial.u_c_m = 1e0"),
+            ("[initial]\nu_c_m = 1.0", "initial.u_c_m = 1 with u_s = 0: "),
             (
                 "[view]\ncharts = [\"map\", \"gaps\", \"map\"]",
                 "view.charts = [\"map\", \"gaps\", \"map\"]",

@@ -96,6 +96,7 @@ impl Appearance {
                 'τ' => out.push_str("tau"),
                 'π' => out.push_str("pi"),
                 'µ' => out.push('u'),
+                '±' => out.push_str("+-"),
                 '²' => out.push_str("^2"),
                 '·' => out.push('.'),
                 '×' => out.push('x'),
@@ -104,7 +105,6 @@ impl Appearance {
                 '●' => out.push('o'),
                 '◆' => out.push('@'),
                 '▲' => out.push('^'),
-                '▪' => out.push('#'),
                 '╋' => out.push('+'),
                 '○' => out.push('o'),
                 '◄' | '←' => out.push('<'),
@@ -147,8 +147,8 @@ mod tests {
     #[test]
     fn ascii_means_ascii() {
         let look = Appearance::new(Theme::Dark, Marker::Ascii);
-        let text = look.spell("Ω/Ωc λ ζ α 228 µs kg m² × – … ● ▲ ◄ ► ┄ é");
+        let text = look.spell("Ω/Ωc λ ζ α 228 µs ±3 kg m² × – … ● ▲ ◄ ► ┄ é");
         assert!(text.is_ascii(), "{text}");
-        assert!(text.starts_with("Om/Omc lambda zeta alpha 228 us"));
+        assert!(text.starts_with("Om/Omc lambda zeta alpha 228 us +-3 kg m^2"));
     }
 }

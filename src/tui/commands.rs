@@ -3,16 +3,15 @@
 //! word that goes somewhere (`t 0.3 ms`, `blade 7`, `scene rub`) or a knob with a value
 //! comes first, then whatever else has these words.
 
+use super::Theme;
 use super::app::{App, Purpose};
-use super::appearance::Appearance;
 use super::axis::readable;
 use super::bindings::{self, Action, Binding, Chord, Context};
 use super::files::builtin_scenes;
-use super::knobs::{KNOBS, Knob, knob_of};
+use super::knobs::{Fit, KNOBS, Knob, best, called, fit, knob_of, plain};
 use super::lessons::{self, LETTERS};
 use super::views::ViewId;
 use super::views::map::numeric;
-use super::{Marker, Theme};
 use crate::scene::Value;
 use crate::scene::keys;
 
@@ -76,13 +75,13 @@ pub fn found(app: &App, typed: &str) -> Vec<Found> {
         return found;
     }
     let mut all: Vec<Found> = going_to(app, typed).into_iter().collect();
-    all.extend(assignments(app, typed));
+    all.extend(assignments(app, typed).into_iter().map(|(_, item)| item));
     let typed = typed.to_lowercase();
     let words: Vec<&str> = typed.split_whitespace().collect();
     let fits = |item: Found| rank(&item, &words).map(|rank| (rank, item));
     let mut others: Vec<_> = everything(app).filter_map(fits).collect();
     // A name that is typed in full comes first; the order of equals is that of the list.
-    others.sort_by_key(|(rank, item)| (*rank, item.what.to_lowercase() != typed.trim()));
+    others.sort_by_key(|(rank, item)| (item.what.to_lowercase() != typed.trim(), *rank));
     all.extend(others.into_iter().map(|(_, item)| item));
     all
 }
@@ -100,56 +99,100 @@ pub fn only(app: &App, typed: &str) -> Result<Found, String> {
         return Ok(Found::of("key", typed, Command::Act(action)));
     }
     // A knob by its name alone is asked for its value.
-    let lower = typed.to_lowercase();
-    let is_knob = |knob: &Knob| {
-        let law = knob.path == keys::LAW && lower == "law";
-        law || plain(knob.label).split(' ').next() == Some(&lower)
-    };
-    if let Some(place) = KNOBS.iter().position(is_knob) {
+    if let Some(place) = called(typed) {
         return Ok(Found::of("knob", typed, Command::Select(place)));
     }
-    let words = typed.to_lowercase();
-    let words: Vec<&str> = words.split_whitespace().collect();
+    let lower = typed.to_lowercase();
+    let words: Vec<&str> = lower.split_whitespace().collect();
     // Nobody looks at what was found: letters between others are not enough, where it is
     // not told by its own word.
-    let is_like = |item: &Found| match item.command {
-        Command::Act(_) | Command::Scene(_) | Command::Lesson(_) | Command::Select(_) => {
-            rank(item, &words).is_none_or(|rank| rank < LIKE)
-        }
-        Command::Set(..) | Command::GoTo(_) | Command::Blade(_) => true,
-        Command::Axes(_) | Command::Write(..) | Command::Theme(_) => true,
-    };
+    let is_like =
+        |item: &Found| !is_named(item) || rank(item, &words).is_none_or(|(is_like, _)| !is_like);
+    let refusal = refused(app, typed);
     let first = found(app, typed).into_iter().next().filter(is_like);
-    match first.ok_or_else(|| refused(typed)) {
-        // To select a knob is no answer to a value that it does not take.
-        Ok(Found { command: Command::Select(_), .. }) if refused(typed).is_some() => {
-            Err(refused(typed))
+    match (first, refusal) {
+        (Some(Found { command: Command::Set(..), .. }), _) => alone(app, typed),
+        // To select a knob is no answer to a value that it does not take; nor is another
+        // thing that only happens to have these words.
+        (Some(Found { command: Command::Select(_), .. }), Some((_, why))) => Err(why),
+        (Some(item), Some((fit, why)))
+            if fit < Fit::Begins && is_named(&item) && !is_own(&item, &words) =>
+        {
+            Err(why)
         }
-        found => found,
+        (Some(item), _) => Ok(item),
+        (None, Some((_, why))) => Err(why),
+        (None, None) if typed.starts_with(|c: char| c.is_ascii_digit() || c == '-') => {
+            Err(format!("{typed}: of which knob? Such as speed 450 rad/s"))
+        }
+        (None, None) => {
+            Err(format!("nothing has these words: {typed}; help lists what can be asked for"))
+        }
     }
-    .map_err(|refused| {
-        let nothing = || match typed.starts_with(|c: char| c.is_ascii_digit() || c == '-') {
-            true => format!("{typed}: of which knob? Such as speed 450 rad/s"),
-            false => format!("nothing has these words: {typed}; help lists what can be asked for"),
-        };
-        refused.unwrap_or_else(nothing)
-    })
 }
 
-/// Why a knob does not take the value that follows its name, if it is that.
-fn refused(typed: &str) -> Option<String> {
+/// Whether something is found by its words, not told by a word of its own.
+fn is_named(item: &Found) -> bool {
+    match item.command {
+        Command::Act(_) | Command::Scene(_) | Command::Lesson(_) | Command::Select(_) => true,
+        Command::Set(..) | Command::GoTo(_) | Command::Blade(_) => false,
+        Command::Axes(_) | Command::Write(..) | Command::Theme(_) => false,
+    }
+}
+
+/// Whether something has every one of these words in what it does.
+fn is_own(item: &Found, words: &[&str]) -> bool {
+    let what = item.what.to_lowercase();
+    words.iter().all(|word| what.split_whitespace().any(|own| own == *word))
+}
+
+/// The one knob that is set, where no other is named as well.
+fn alone(app: &App, typed: &str) -> Result<Found, String> {
+    let fitting = assignments(app, typed);
+    let best = fitting.first().map(|(fit, _)| *fit);
+    let mut alike: Vec<Found> =
+        fitting.into_iter().filter(|(fit, _)| Some(*fit) == best).map(|(_, item)| item).collect();
+    let labels = alike.iter().filter_map(|item| match item.command {
+        Command::Set(place, _) => Some(KNOBS.get(place)?.label),
+        _ => None,
+    });
+    let mut named: Vec<&str> = labels.take(CANDIDATES).collect();
+    if alike.len() > CANDIDATES {
+        named.push("others");
+    }
+    let which = format!("{typed}: which of {}?", named.join(", "));
+    alike.pop().filter(|_| alike.is_empty()).ok_or(which)
+}
+
+/// Most knobs that are named where it is not clear which is meant.
+const CANDIDATES: usize = 4;
+
+/// Why a knob, or what else was named, does not take the value that follows its name, and
+/// how well it is named.
+fn refused(app: &App, typed: &str) -> Option<(Fit, String)> {
     let words: Vec<&str> = typed.split([' ', '=']).filter(|word| !word.is_empty()).collect();
-    if let ["t" | "T", time @ ..] = words.as_slice()
-        && !time.is_empty()
-    {
-        return Some(format!("t {}: this is no time, such as 0.3 ms", time.join(" ")));
+    match words.as_slice() {
+        ["t" | "T", time @ ..] if !time.is_empty() => {
+            let why = format!("t {}: this is no time, such as 0.3 ms", time.join(" "));
+            return Some((Fit::Name, why));
+        }
+        ["blade", rest @ ..] if rest.first().is_some_and(|word| is_numeric(word)) => {
+            let (blade, all) = (rest.join(" "), app.machine.polygon.blades);
+            return Some((Fit::Name, format!("blade {blade}: from 1 to {all}")));
+        }
+        _ => {}
     }
     let splits = (1..words.len()).rev().filter_map(|at| words.split_at_checked(at));
-    let mut named = splits.filter_map(|(name, value)| {
-        let knob = KNOBS.iter().find(|knob| is_named(knob, name))?;
-        knob.parse(&value.join(" ")).err().map(|error| knob.refusal(&error))
+    let named = splits.filter_map(|(name, value)| {
+        let (fit, knob) = best(KNOBS.iter(), name)?;
+        knob.parse(&value.join(" ")).err().map(|error| (fit, knob.refusal(&error)))
     });
-    named.next()
+    named.min_by_key(|(fit, _)| *fit)
+}
+
+/// Whether a word is meant as a number.
+fn is_numeric(word: &str) -> bool {
+    word.starts_with(|first: char| first.is_ascii_digit() || first == '-')
 }
 
 /// What a first word of its own leads to.
@@ -166,7 +209,12 @@ fn directed(app: &App, typed: &str) -> Option<Vec<Found>> {
                 Found::of("go", format!("blade {blade}"), Command::Blade(blade))
                     .beside(format!("of {all}"))
             };
-            rest.parse().ok().map(blade).into_iter().collect()
+            match rest.parse() {
+                Ok(number) => vec![blade(number)],
+                Err(_) if is_numeric(rest) => Vec::new(),
+                // A knob of the blades.
+                Err(_) => return None,
+            }
         }
         "axes" => match both_axes(&lower) {
             Some(both) => vec![both],
@@ -222,7 +270,7 @@ fn those_with(all: impl Iterator<Item = Found>, words: &str) -> Vec<Found> {
 /// `axes clearance pulse`: the knob across, then the one up.
 fn both_axes(words: &str) -> Option<Found> {
     let words: Vec<&str> = words.split_whitespace().filter(|word| *word != "over").collect();
-    let knob = |words: &[&str]| numeric().find(|knob| is_named(knob, words));
+    let knob = |words: &[&str]| best(numeric(), words).map(|(_, knob)| knob);
     let splits = (1..words.len()).filter_map(|at| words.split_at_checked(at));
     let (x, y) =
         splits.filter_map(|(x, y)| knob(x).zip(knob(y))).find(|(x, y)| x.path != y.path)?;
@@ -239,7 +287,13 @@ fn one_axis(app: &App, first: &str, words: &str) -> Vec<Found> {
         let kind = if across { "across" } else { "up" };
         Found::of(kind, knob.label, Command::Axes(paths)).beside(knob.text(&app.scene))
     };
-    numeric().filter(|knob| words.is_empty() || is_named(knob, &words)).map(item).collect()
+    if words.is_empty() {
+        return numeric().map(item).collect();
+    }
+    let mut fitting: Vec<_> =
+        numeric().filter_map(|knob| Some((fit(knob, &words)?, knob))).collect();
+    fitting.sort_by_key(|(fit, _)| *fit);
+    fitting.into_iter().map(|(_, knob)| item(knob)).collect()
 }
 
 /// `t 0.3 ms`: an instant to go to.
@@ -252,29 +306,27 @@ fn going_to(app: &App, typed: &str) -> Option<Found> {
     )
 }
 
-/// The knobs that the first words name, set to what follows them; a speed has a unit of
-/// its own and needs no name.
-fn assignments(app: &App, typed: &str) -> Vec<Found> {
+/// The knobs that the first words name, set to what follows them, the best named first; a
+/// speed has a unit of its own and needs no name.
+fn assignments(app: &App, typed: &str) -> Vec<(Fit, Found)> {
     let typed = typed.replacen('=', " ", 1);
     let words: Vec<&str> = typed.split_whitespace().collect();
     let nameless = words.concat();
     let mut found = Vec::new();
     for (place, knob) in KNOBS.iter().enumerate() {
-        let splits = (1..words.len()).filter_map(|at| words.split_at_checked(at));
-        let named = splits.rev().filter(|(name, _)| is_named(knob, name));
-        let mut values = named.map(|(_, value)| value.join(" "));
-        let alone =
-            (knob.path == keys::SPEED && nameless.ends_with("rpm")).then(|| nameless.clone());
-        let value = values.find_map(|text| Some((knob.parse(&text).ok()?, text)));
-        let value = value.or_else(|| alone.and_then(|text| Some((knob.parse(&text).ok()?, text))));
-        if let Some((value, text)) = value {
+        let splits = (1..words.len()).rev().filter_map(|at| words.split_at_checked(at));
+        let named = splits.filter_map(|(name, value)| Some((fit(knob, name)?, value.join(" "))));
+        let alone = knob.path == keys::SPEED && nameless.ends_with("rpm");
+        let alone = alone.then(|| (Fit::Name, nameless.clone()));
+        let values = named.chain(alone);
+        let values = values.filter_map(|(fit, text)| Some((fit, knob.parse(&text).ok()?, text)));
+        if let Some((fit, value, text)) = values.min_by_key(|(fit, ..)| *fit) {
             let what = format!("{} = {}", knob.label, knob.shown(&value));
-            found.push(
-                Found::of("set", what, Command::Set(place, text))
-                    .beside(format!("now {}", knob.text(&app.scene))),
-            );
+            let set = Found::of("set", what, Command::Set(place, text));
+            found.push((fit, set.beside(format!("now {}", knob.text(&app.scene)))));
         }
     }
+    found.sort_by_key(|(fit, _)| *fit);
     found
 }
 
@@ -315,40 +367,24 @@ fn everything(app: &App) -> impl Iterator<Item = Found> {
     actions.map(action).chain(knobs).chain(scenes()).chain(lessons())
 }
 
-/// Whether every one of these words begins a word by which a knob is named: those of its
-/// label, also without Greek letters, its key, and the words of its key.
-fn is_named(knob: &Knob, words: &[&str]) -> bool {
-    let label = knob.label.to_lowercase();
-    let plain = plain(knob.label).to_lowercase();
-    let law = if knob.path == keys::LAW { "law" } else { "" };
-    let parts = label.split_whitespace().chain(plain.split_whitespace()).chain([law]);
-    let names: Vec<&str> = parts.chain(knob.path.split(['.', '_'])).chain([knob.path]).collect();
-    let begins = |word: &str| names.iter().any(|name| name.starts_with(word));
-    !words.is_empty() && words.iter().all(|word| begins(&word.to_lowercase()))
-}
-
-/// A text in letters that every keyboard has.
-fn plain(text: &str) -> String {
-    Appearance::new(Theme::Mono, Marker::Ascii).spell(text)
-}
-
-/// The rank of a line that only has the letters of a word, with others between.
-const LIKE: usize = 9;
-
-/// How well a line fits all the words, the best being 0; none if it does not.
-fn rank(item: &Found, words: &[&str]) -> Option<usize> {
+/// How well a line fits all the words, the best first: whether of a word it only has the
+/// letters, with others between, and the sum over the words; none if it does not.
+fn rank(item: &Found, words: &[&str]) -> Option<(bool, usize)> {
     let what = item.what.to_lowercase();
     let all = format!("{} {what} {}", item.kind, item.also.to_lowercase());
     let each = words.iter().map(|word| match () {
-        () if what.starts_with(word) => Some(0),
+        () if what.starts_with(word) => Some((false, 0)),
         () if all.split(|c: char| !c.is_alphanumeric()).any(|part| part.starts_with(word)) => {
-            Some(1)
+            Some((false, 1))
         }
-        () if all.contains(word) => Some(2),
-        () if has_in_order(&what, word) => Some(LIKE),
+        () if all.contains(word) => Some((false, 2)),
+        () if has_in_order(&what, word) => Some((true, 0)),
         () => None,
     });
-    each.sum()
+    let sum = |(is_like, sum), each: Option<(bool, usize)>| {
+        each.map(|(like, rank)| (is_like || like, sum + rank))
+    };
+    each.into_iter().try_fold((false, 0), sum)
 }
 
 /// Whether a text has the letters of a word in their order, with others between.
@@ -362,13 +398,80 @@ mod tests {
     use super::*;
     use crate::scene::keys::PULSE;
     use crate::scene::{BUILTIN, Scene};
+    use crate::tui::Marker;
 
     fn app() -> App {
         App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Braille)
     }
 
+    /// The knob that a whole line sets.
+    fn sets(typed: &str) -> Result<usize, String> {
+        only(&app(), typed).map(|item| match item.command {
+            Command::Set(place, _) => place,
+            other => panic!("{typed}: {other:?}"),
+        })
+    }
+
+    #[test]
+    fn the_name_of_every_knob_with_a_value_sets_it_and_alone_says_its_value() {
+        let app = app();
+        for (place, knob) in KNOBS.iter().enumerate() {
+            let label = knob.label;
+            for name in [label.to_string(), label.to_lowercase(), plain(label), knob.path.into()] {
+                let typed = format!("{name} {}", knob.text(&app.scene));
+                assert_eq!(sets(&typed), Ok(place), "{typed}");
+                let told = only(&app, &name).unwrap();
+                assert_eq!(told.command, Command::Select(place), "{name}");
+            }
+        }
+        for (typed, symbol) in [("F", "F"), ("n_d", "n_d"), ("K_BB", "k_bb"), ("om", "Ω")] {
+            let Command::Select(place) = only(&app, typed).unwrap().command else { panic!() };
+            assert_eq!(KNOBS[place].symbol(), symbol);
+        }
+    }
+
+    #[test]
+    fn a_letter_sets_the_knob_whose_symbol_it_is_and_no_other() {
+        for (typed, label) in [
+            ("N 23", "blades N"),
+            ("e 0.1", "restitution e"),
+            ("blade k_b 1", "blade k_b"),
+            ("blade m_b 1", "blade m_b"),
+            ("speed 450", "speed Ω"),
+            ("pulse 20k", "pulse F"),
+            ("ramp -400", "speed ramp"),
+            ("fric 0.2", "friction μ"),
+        ] {
+            assert_eq!(sets(typed).map(|place| KNOBS[place].label), Ok(label), "{typed}");
+        }
+        for (typed, among) in [
+            ("n 3", "blades N"),
+            ("b 4", "blades N"),
+            ("s 1", "speed Ω"),
+            ("k 5000", "casing k_c"),
+            ("m 2", "casing m_c"),
+            ("damping 0.1", "damping ζ_c, damping ζ_bd?"),
+        ] {
+            let why = sets(typed).unwrap_err();
+            assert!(why.starts_with(&format!("{typed}: which of ")), "{why}");
+            assert!(why.contains(among) && why.ends_with('?'), "{why}");
+        }
+    }
+
+    #[test]
+    fn the_words_of_every_action_run_it() {
+        let app = app();
+        for binding in bindings::of(Context::Main) {
+            if matches!(binding.action, Action::Palette | Action::Close) {
+                continue;
+            }
+            let command = only(&app, binding.what).map(|item| item.command);
+            assert_eq!(command, Ok(Command::Act(binding.action)), "{}", binding.what);
+        }
+    }
+
     fn first(typed: &str) -> Found {
-        found(&app(), typed).into_iter().next().unwrap_or_else(|| panic!("{typed}"))
+        only(&app(), typed).unwrap_or_else(|why| panic!("{typed}: {why}"))
     }
 
     #[test]
@@ -394,7 +497,7 @@ mod tests {
             assert!(items.iter().any(|item| item.command == Command::Select(place)));
         }
         assert_eq!(first("undo").beside, "u");
-        assert_eq!(first("theme").kind, "");
+        assert_eq!(first("theme").command, Command::Act(Action::Theme));
     }
 
     #[test]
@@ -462,6 +565,9 @@ mod tests {
             ("speed fast", "speed Ω: fast is no number; from -1e6 to 1e6 rad/s"),
             ("speed qqq", "speed Ω: qqq is no number"),
             ("law soft", "contact: soft is unknown; one of"),
+            ("law x", "contact: x is unknown; one of"),
+            ("blade 1.5", "blade 1.5: from 1 to 22"),
+            ("blade -3", "blade -3: from 1 to 22"),
             ("something odd", "nothing has these words: something odd"),
             ("qqq", "nothing has these words: qqq"),
             ("scene qqq", "nothing has these words: scene qqq"),

@@ -165,6 +165,38 @@ mod tests {
         assert_eq!(GLOSSARY.view.len(), ViewId::all().count());
     }
 
+    /// What the code of the explorer writes: without tests, remarks and the spelling of
+    /// other texts.
+    fn code(folder: &std::path::Path) -> String {
+        let mut out = String::new();
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                out.push_str(&code(&path));
+                continue;
+            }
+            let text = std::fs::read_to_string(&path).unwrap();
+            let own = text.split("#[cfg(test)]").next().unwrap_or_default();
+            let drawn = |line: &&str| {
+                let line = line.trim();
+                !line.starts_with("//") && !line.contains("=> out.push")
+            };
+            out.extend(own.lines().filter(drawn));
+        }
+        out
+    }
+
+    #[test]
+    fn every_sign_that_is_explained_is_drawn() {
+        let code = code(&std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/tui"));
+        let signs = sections().iter().find(|section| section.heading == "Signs").unwrap();
+        for sign in signs.terms.iter().flat_map(|term| term.symbol.split(' ')) {
+            // Dots have any pattern.
+            assert!(sign == "⠿" || code.contains(sign), "{sign} is not drawn");
+        }
+        assert!(!code.contains('▪'), "the code is read without tests");
+    }
+
     #[test]
     fn every_value_is_there_and_is_that_of_the_scene() {
         let app = app();

@@ -1,7 +1,8 @@
 //! The explorer without a screen, for screen readers, transcripts and scripts: what `:`
 //! takes comes from standard input, one command a line. Each is answered by the first line
 //! of the screen, the second, and what changed. The motion is paused: it moves where it is
-//! sent. Nothing depends on a clock, so the same lines have the same answers.
+//! sent. The same lines have the same answers, but for a run that takes longer than the
+//! explorer waits for: how far it comes in that time depends on the machine.
 
 use std::io::{BufRead, Error, Read, Write};
 
@@ -88,14 +89,16 @@ pub fn lines(
 /// The next line; none at the end of the input.
 fn read(input: &mut dyn BufRead) -> Result<Option<Result<String, &'static str>>, Error> {
     let mut bytes = Vec::new();
-    if input.take(LONGEST).read_until(b'\n', &mut bytes)? == 0 {
+    // With its end.
+    let most = LONGEST + 1;
+    if input.take(most).read_until(b'\n', &mut bytes)? == 0 {
         return Ok(None);
     }
-    if !bytes.ends_with(b"\n") && bytes.len() as u64 == LONGEST {
+    if !bytes.ends_with(b"\n") && bytes.len() as u64 == most {
         // The rest of the line is no command.
         while !bytes.ends_with(b"\n") {
             bytes.clear();
-            if input.take(LONGEST).read_until(b'\n', &mut bytes)? == 0 {
+            if input.take(most).read_until(b'\n', &mut bytes)? == 0 {
                 break;
             }
         }
@@ -178,6 +181,7 @@ impl Lines {
             commands::Command::Select(place) => KNOBS.get(place),
             _ => None,
         };
+        let is_write = matches!(found.command, commands::Command::Write(..));
         self.app.layout.size = PICTURE;
         let effect = self.app.obey(found.command);
         self.app.layout.size = (WIDTH, ROWS);
@@ -204,6 +208,12 @@ impl Lines {
             }
             Ok(Effect::Copy(command)) => {
                 writeln!(out, "{command}")?;
+                return Ok(Some(false));
+            }
+            // It leads to nothing else: nothing is written.
+            Ok(Effect::None) if is_write => {
+                let why = self.app.status.clone().unwrap_or_default();
+                self.refuse(&why, out)?;
                 return Ok(Some(false));
             }
             Ok(Effect::None) => {}
@@ -330,23 +340,34 @@ mod tests {
 
     #[test]
     fn bad_input_is_one_line_and_the_next_line_is_answered() {
-        let long = "x".repeat(5000);
+        let (long, longer) = ("x".repeat(1000), "x".repeat(1001));
+        let longest = "x".repeat(5000);
         for (bad, says) in [
             ("speed fast".as_bytes(), "refused: speed Ω: fast is no number; from -1e6"),
             (b"nonsense qqq", "nothing has these words"),
             (b"bla\x1b[31mde", "nothing has these words"),
             (b"\xff\xfe", "not UTF-8"),
-            (long.as_bytes(), "more than 1000 bytes"),
+            (long.as_bytes(), "nothing has these words: xxx"),
+            (longer.as_bytes(), "refused: a line of more than 1000 bytes"),
+            (longest.as_bytes(), "refused: a line of more than 1000 bytes"),
             (b"type a value", "needs a screen"),
             (b"blades 0", "refused: blades N: 0 is not possible; from 1 to 4096"),
             (b"blade 23", "refused: blade 23: from 1 to 22"),
-            (b"blade 1.5", "refused: nothing has these words"),
+            (b"blade 1.5", "refused: blade 1.5: from 1 to 22"),
             (b"t 1", "refused: t = 1.000 s: from 0 to 5.000 ms"),
+            (b"export map.csv", "refused: nothing exported: "),
             (b"save /", "refused: cannot write /"),
             (b"t abc", "refused: t abc: this is no time"),
             (b"150Hz", "refused: 150Hz: of which knob?"),
             (b"speed 150Hz", "150Hz cannot be read; it takes rad/s or rpm"),
-            (b"initial 1", "is not possible; allowed is a casing position with every gap open"),
+            (
+                b"start u_c 1",
+                "start u_c: 1 with u_s = 0 is not possible; allowed is a casing position",
+            ),
+            (b"initial 1", "refused: initial 1: which of start u_c, start u_s, "),
+            (b"k 5000", "refused: k 5000: which of casing k_c, blade k_b, "),
+            (b"run end", "run end is 5 ms: "),
+            (b"law x", "refused: contact: x is unknown"),
             (b"answer b", "done: no question is open"),
             (b"view map", "done: map of the verdict over two knobs; only a screen shows it"),
             (b"theme light", "done: theme light; only a screen shows it"),
@@ -367,7 +388,7 @@ mod tests {
     fn a_lesson_asks_and_takes_the_answer() {
         let text = answers(b"lesson lock\nanswer b\ng\nG\nquit\nspeed 450\n");
         assert!(text.contains("[a]") && text.contains("Lesson 2 of 12"), "{text}");
-        assert!(text.contains("Right is") || text.contains("is right"), "{text}");
+        assert!(text.contains("Your answer b is right: in a corner of two walls."), "{text}");
         assert!(!text.contains("450"), "{text}");
     }
 

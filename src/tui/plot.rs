@@ -293,7 +293,9 @@ impl<'a> Plot<'a> {
         // A level, or the line at another speed, goes on behind a name.
         let empty = |x: u16| {
             let cell = self.buffer.cell(Position::new(x, row));
-            cell.is_some_and(|cell| matches!(cell.symbol(), " " | "┈" | "┊"))
+            let is_data = self.raster.is_drawn(x, row);
+            let is_line = |sign: &str| matches!(sign, " " | "┈" | "┊" | "." | ":");
+            !is_data && cell.is_some_and(|cell| is_line(cell.symbol()))
         };
         // Two names are two cells apart.
         let near = [x.saturating_sub(2), x.saturating_sub(1), end, end.saturating_add(1)];
@@ -510,6 +512,24 @@ mod tests {
         assert!(!plot.free_label((0.0, 0.9), &"x".repeat(99), Style::new()));
         assert!(plot.axis_note(0.3, "name", Style::new(), &look()));
         assert!(!plot.axis_note(0.3, "other", Style::new(), &look()));
+    }
+
+    #[test]
+    fn a_name_stands_on_its_level_in_ascii_too_and_covers_no_data() {
+        for marker in [Marker::Ascii, Marker::Braille] {
+            let look = Appearance::new(Theme::Mono, marker);
+            let mut buffer = Buffer::empty(Rect::new(0, 0, 40, 12));
+            let area = *buffer.area();
+            let axis = ChartAxis::plain(0.0, 1.0);
+            let mut plot = Plot::new(&mut buffer, area, axis, axis, &look).unwrap();
+            plot.level(0.5, look.either('┈', '.'), Style::new());
+            plot.level(0.2, look.either('┈', '.'), Style::new());
+            plot.curve([(0.0, 0.2), (1.0, 0.2)], &look.quiet());
+            plot.ink();
+            let [free, data] = [0.5, 0.2].map(|level| plot.row(level).unwrap());
+            assert!(plot.free_note(0.5, free, "g0", Style::new()), "{marker}");
+            assert!(!plot.free_note(0.5, data, "g0", Style::new()), "{marker}");
+        }
     }
 
     #[test]

@@ -120,6 +120,14 @@ impl Raster {
         (usize::from(self.area.width) * across, usize::from(self.area.height) * down)
     }
 
+    /// Whether something is drawn in a cell of the screen.
+    pub fn is_drawn(&self, x: u16, y: u16) -> bool {
+        let at = |x: u16, y: u16| usize::from(y) * usize::from(self.area.width) + usize::from(x);
+        let place = x.checked_sub(self.area.x).zip(y.checked_sub(self.area.y));
+        let dots = place.and_then(|(x, y)| self.dots.get(at(x, y)));
+        dots.is_some_and(|dots| dots.bits != 0)
+    }
+
     /// Sets one sub-pixel, counted from the top left; outside is ignored.
     pub fn set(&mut self, x: i64, y: i64, pen: &Pen) {
         let (width, height) = self.size();

@@ -105,6 +105,23 @@ pub fn wrap(text: &str, width: usize) -> Vec<String> {
     lines
 }
 
+/// As many of these lines as there is room for; where some are left out, the last ends in a
+/// mark.
+pub fn first_lines(mut lines: Vec<String>, width: usize, rows: usize, mark: &str) -> Vec<String> {
+    if lines.len() > rows && rows > 0 {
+        let rest = lines.split_off(rows - 1).join(" ");
+        lines.push(shorten(&rest, width, mark));
+    }
+    lines.truncate(rows);
+    lines
+}
+
+/// The numbers of a few blades: more than three are not told.
+pub fn few(blades: &[u32]) -> String {
+    let names: Vec<String> = blades.iter().take(3).map(ToString::to_string).collect();
+    format!("{}{}", names.join(","), if blades.len() > 3 { ",.." } else { "" })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -114,6 +131,16 @@ mod tests {
         let mut buffer = Buffer::empty(area);
         draw(&mut buffer, area);
         buffer.content.iter().map(|cell| cell.symbol()).collect()
+    }
+
+    #[test]
+    fn lines_that_have_no_room_are_told_by_a_mark() {
+        let text = "one two three four five";
+        let lines = |rows| first_lines(wrap(text, 9), 9, rows, "…");
+        assert_eq!(lines(3), ["one two", "three", "four five"]);
+        assert_eq!(lines(2), ["one two", "three fo…"]);
+        assert!(lines(0).is_empty());
+        assert_eq!((few(&[1, 8, 15]), few(&[1, 7, 12, 18])), ("1,8,15".into(), "1,7,12,..".into()));
     }
 
     #[test]

@@ -4,6 +4,7 @@
 use rubscope::motion::simulate;
 use rubscope::scene::Scene;
 use rubscope::tui::bindings::{Action, Context};
+use rubscope::tui::events::ScreenEvent;
 use rubscope::tui::lessons::{self, Check, Expected, Lesson, LessonStep};
 use rubscope::tui::{App, Marker, Theme};
 
@@ -143,8 +144,48 @@ fn assert_numbers_are_checked(lesson: &Lesson, step: &LessonStep) {
     }
 }
 
+fn resize(session: &mut Session, (width, height): (u16, u16)) {
+    session.terminal.backend_mut().resize(width, height);
+    session.send(std::iter::once(ScreenEvent::Resize));
+}
+
+fn assert_has_words(text: &str, words: &str) {
+    for word in words.split_whitespace() {
+        assert!(text.contains(word), "{word} is not in {text}");
+    }
+}
+
+/// The step as it stands leaves room for a chart at 80x24, is read in pages at 40x12, and
+/// an open question has its answers and a chart on one screen of 60x20.
+fn assert_has_room(session: &mut Session, step: &LessonStep) {
+    let is_open = session.app.context() == Context::Question;
+    let shown = if is_open { &step.question } else { &step.reason };
+    let shown = shown.as_ref().unwrap_or(&step.text);
+    resize(session, (80, 24));
+    assert!(!session.text().contains(" page "), "{}", session.text());
+    assert_has_words(&session.text(), shown);
+    resize(session, (40, 12));
+    assert_has_words(&read_on(session), shown);
+    // The charts are there at last.
+    let digit = session.app.view().digit();
+    assert!(session.text().contains(&format!(" {digit} ")), "{}", session.text());
+    if is_open {
+        resize(session, (60, 20));
+        let progress = session.app.lessons.progress.as_mut().unwrap();
+        (progress.read, progress.page) = (false, 0);
+        read_on(session);
+        let text = session.text();
+        step.answers.iter().chain([shown]).for_each(|words| assert_has_words(&text, words));
+        let title = format!("─ {digit} ");
+        let above = text.lines().position(|line| line.starts_with(&title));
+        // Without its title, and the last line.
+        assert!(above.is_some_and(|row| 20 - row - 2 >= 7), "{text}");
+    }
+    resize(session, (120, 40));
+}
+
 #[test]
-fn every_step_says_what_the_solvers_find() {
+fn every_step_says_what_the_solvers_find_and_has_room_at_every_size() {
     let mut runs = Runs::default();
     for (place, lesson) in lessons::all().iter().enumerate() {
         let mut session = begin(120, 40, place);
@@ -162,10 +203,12 @@ fn every_step_says_what_the_solvers_find() {
                 assert_eq!(session.app.context(), Context::Question, "{at}");
                 assert_eq!(session.app.scene, lesson.scene_at(number, false).unwrap(), "{at}");
                 assert!(text.contains("[a] ") && text.contains("[c] "), "{at}: {text}");
+                assert_has_room(&mut session, step);
                 session.press(&keys_of(step.right.unwrap()));
                 assert!(session.text().contains("is right"), "{at}: {}", session.text());
             }
             assert_eq!(session.app.scene, lesson.scene_at(number, true).unwrap(), "{at}");
+            assert_has_room(&mut session, step);
             let progress = |session: &Session| session.app.lessons.progress.as_ref().unwrap().now();
             if step.task.is_some() {
                 assert!(!progress(&session).done, "{at}: nothing to do");
@@ -198,67 +241,10 @@ fn a_number_of_a_text_is_found_with_its_unit() {
     assert_eq!([half_digit(292.9), half_digit(500.0), half_digit(38.1e-6)], [0.05, 0.5, 0.5e-7]);
 }
 
-#[test]
-fn a_step_leaves_room_for_a_chart_at_80_by_24_and_is_read_in_pages_at_40_by_12() {
-    for (place, lesson) in lessons::all().iter().enumerate() {
-        let mut session = begin(80, 24, place);
-        let mut small = begin(40, 12, place);
-        for step in &lesson.steps {
-            let states = if step.question.is_some() { &[false, true][..] } else { &[false] };
-            for &answered in states {
-                if answered && let Some(right) = step.right {
-                    session.press(&keys_of(right));
-                    small.press(&keys_of(right));
-                }
-                let text = session.text();
-                assert!(!text.contains(" page "), "{text}");
-                let shown = if answered { &step.reason } else { &step.question };
-                let shown = shown.as_ref().unwrap_or(&step.text);
-                let all = read_on(&mut small);
-                for word in shown.split_whitespace() {
-                    assert!(text.contains(word), "{word} is not in {text}");
-                    assert!(all.contains(word), "{word} is not in {all}");
-                }
-                // The charts are there at last.
-                let digit = small.app.view().digit();
-                assert!(small.text().contains(&format!(" {digit} ")), "{}", small.text());
-            }
-            session.press("g");
-            small.press("g");
-        }
-        assert!(session.app.lessons.progress.is_none() && small.app.lessons.progress.is_none());
-    }
-}
-
 /// The keys that give an answer: down to it, and Enter.
 fn keys_of(letter: char) -> String {
     let place = lessons::LETTERS.iter().position(|known| *known == letter).unwrap();
     "↓".repeat(place) + "\n"
-}
-
-#[test]
-fn a_question_its_answers_and_a_chart_are_on_one_screen_of_60_by_20() {
-    for (place, lesson) in lessons::all().iter().enumerate() {
-        let mut session = begin(60, 20, place);
-        for step in &lesson.steps {
-            if let Some(question) = &step.question {
-                read_on(&mut session);
-                let text = session.text();
-                let words = step.answers.iter().chain([question]);
-                for word in words.flat_map(|text| text.split_whitespace()) {
-                    assert!(text.contains(word), "{word} is not in {text}");
-                }
-                let title = format!("─ {} ", session.app.view().digit());
-                let above = text.lines().position(|line| line.starts_with(&title));
-                // Without its title, and the last line.
-                assert!(above.is_some_and(|row| 20 - row - 2 >= 7), "{text}");
-                session.press(&keys_of(step.right.unwrap()));
-                read_on(&mut session);
-            }
-            session.press("g");
-        }
-        assert!(session.app.lessons.progress.is_none());
-    }
 }
 
 #[test]

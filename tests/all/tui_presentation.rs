@@ -21,6 +21,16 @@ fn the_screen_for_a_projector_has_one_chart_large_letters_and_the_knob() {
 }
 
 #[test]
+fn a_projector_shows_one_chart_also_where_the_whole_screen_had_two() {
+    let mut session = Session::open(120, 60, scene(), Theme::Mono, Marker::Braille);
+    session.press("1f");
+    assert!(session.text().contains("response, blades"), "{}", session.text());
+    session.press("P");
+    let text = session.text();
+    assert!(text.contains("1 response") && !text.contains("response, blades"), "{text}");
+}
+
+#[test]
 fn where_there_is_no_room_for_a_projector_the_usual_screen_stays() {
     let mut session = Session::open(40, 12, scene(), Theme::Dark, Marker::Braille);
     session.press("P");

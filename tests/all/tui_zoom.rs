@@ -233,7 +233,7 @@ fn the_coincidence_begins_where_its_waves_are_and_its_lesson_shows_them_grow() {
     let place =
         rubscope::tui::lessons::all().iter().position(|lesson| lesson.name == "coincidence");
     session.app.begin_lesson(place.unwrap());
-    session.press_each("agb");
+    session.press_each("\ng↓\n");
     let app = &session.app;
     let (past, future) = app.past_and_future(app.record());
     assert!(app.view().word() == "response" && app.page() == (0.0, 5.0) && app.now() >= 2.4);

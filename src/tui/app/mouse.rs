@@ -49,6 +49,8 @@ pub struct Mouse {
     grip: Option<Grip>,
     /// Where it clicked last, if it is still there.
     clicked: Option<(u16, u16)>,
+    /// Where its wheel turned a knob last, and which.
+    wheeled: Option<((u16, u16), usize)>,
     /// Where the data of the large chart was drawn last, and which part of it.
     charts: RefCell<Vec<NotedChart>>,
     /// Where the keys of the last line were drawn last.
@@ -61,6 +63,7 @@ impl Default for Mouse {
             on: true,
             grip: None,
             clicked: None,
+            wheeled: None,
             charts: RefCell::default(),
             keys: RefCell::default(),
         }
@@ -188,8 +191,17 @@ impl App {
     }
 
     fn wheel(&mut self, at: (u16, u16), up: bool, coarse: bool) -> Heard {
-        match panels::target(self, at) {
+        let target = panels::target(self, at);
+        // A row with or without a bar moves those below under a pointer that stays.
+        let same = |(place, knob): &((u16, u16), usize)| {
+            let is_chart = matches!(target, Some(Target::Chart(_) | Target::View(_)));
+            let path = KNOBS.get(*knob).map(|knob| knob.path);
+            *place == at && path == self.selected().map(|knob| knob.path) && !is_chart
+        };
+        let kept = self.mouse.wheeled.filter(same).map(|(_, knob)| Target::Knob(knob));
+        match kept.or(target) {
             Some(Target::Knob(knob) | Target::Bar(knob, _)) => {
+                self.mouse.wheeled = Some((at, knob));
                 self.knobs.select(knob);
                 self.acted(Action::Turn { up, coarse })
             }

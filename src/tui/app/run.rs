@@ -221,6 +221,10 @@ impl App {
             self.status = Some("baseline removed".into());
             return;
         }
+        if self.full_run().is_none() && !self.is_given_up() {
+            self.status = Some("not pinned: the run has no verdict yet".into());
+            return;
+        }
         let (history, scene) = (self.run.history.clone(), self.scene.clone());
         let word = self.verdict_word();
         let what = format!("{word} at {}", readable(self.speed(), "rad/s"));
@@ -382,6 +386,22 @@ fn grow(range: &mut AutoRange, data: Option<(f64, f64)>) {
 mod tests {
     use super::*;
     use crate::scene::Scene;
+    use crate::tui::engine::FullRunState;
+
+    #[test]
+    fn a_run_without_a_verdict_is_not_pinned() {
+        let mut app = crate::tui::app::on_screen();
+        app.pin();
+        assert_eq!(app.status.as_deref(), Some("not pinned: the run has no verdict yet"));
+        assert!(app.run.baseline.is_none());
+        app.run.latest.results.full_run = Some(FullRunState::GivenUp(0.2));
+        app.pin();
+        assert_eq!(app.run.baseline.as_ref().unwrap().word, "NO FORECAST");
+        // What is pinned can be removed at any time.
+        app.run.latest.results.full_run = None;
+        app.pin();
+        assert!(app.run.baseline.is_none());
+    }
 
     #[test]
     fn what_was_computed_of_a_motion_is_forgotten_with_it_and_its_studies_stay() {

@@ -13,6 +13,7 @@ use crate::tui::app::App;
 use crate::tui::axis::readable;
 use crate::tui::engine::{Answer, FORECAST_LIMIT, FullRun, FullRunState, Sensitive};
 use crate::tui::knobs::KNOBS;
+use crate::tui::text::few;
 use crate::tui::trace::{Happening, Mark};
 
 impl App {
@@ -22,6 +23,11 @@ impl App {
             Some(FullRunState::Done(run)) => Some(run),
             _ => None,
         }
+    }
+
+    /// Whether there will be no verdict: the run takes too long.
+    pub fn is_given_up(&self) -> bool {
+        matches!(self.results().full_run, Some(FullRunState::GivenUp(_)))
     }
 
     /// What happens, in words that fit in so many columns.
@@ -195,15 +201,10 @@ impl App {
 
     /// The numbers of the blades of some sides, `6 + 21`.
     pub fn numbers_of(&self, sides: impl Iterator<Item = u32>) -> String {
-        let mut groups: Vec<String> = Vec::new();
         let mut all: Vec<Vec<u32>> =
             sides.take(4).map(|side| self.machine.polygon.blades_of_side(side)).collect();
         all.sort_unstable();
-        for blades in all {
-            let names: Vec<String> = blades.iter().take(3).map(ToString::to_string).collect();
-            let more = if blades.len() > 3 { ",.." } else { "" };
-            groups.push(format!("{}{more}", names.join(",")));
-        }
+        let groups: Vec<String> = all.iter().map(|blades| few(blades)).collect();
         groups.join(" + ")
     }
 }

@@ -2,11 +2,13 @@
 //! units, bounds and meaning come from the table of keys.
 
 mod inert;
+mod naming;
 mod number;
 mod range;
 mod table;
 
 use inert::Inert;
+pub use naming::{Fit, best, called, fit, plain};
 use number::CLEARANCE;
 pub use number::number;
 use number::{decades, in_unit, mantissas};
@@ -256,6 +258,15 @@ impl Knob {
         self.label.split(' ').next_back().unwrap_or(self.label)
     }
 
+    /// Its label without its symbol.
+    pub fn name(&self) -> &'static str {
+        let is_word = |word: &str| word.len() > 1 && word.bytes().all(|b| b.is_ascii_lowercase());
+        match self.label.rsplit_once(' ') {
+            Some((name, last)) if !is_word(last) => name,
+            _ => self.label,
+        }
+    }
+
     /// What it may hold, in words with its unit; nothing for words, which its sentence names.
     pub fn range_words(&self) -> String {
         let words = match self.allowed() {
@@ -273,8 +284,8 @@ impl Knob {
             KNOBS.iter().fold(text.to_string(), |text, knob| text.replace(knob.path, knob.label))
         };
         let own = key == self.path;
-        // Of several values that do not go together, the first is that of this knob.
-        let reads = self.parse(value.split(',').next().unwrap_or_default()).is_ok();
+        // What it cannot read is refused by `parse` in the same way.
+        let reads = self.parse(value).err().as_ref() != Some(error);
         let has_unit = value.starts_with(|c: char| c.is_ascii_digit());
         match self.allowed() {
             Allowed::OneOf(_) if own && !reads => {

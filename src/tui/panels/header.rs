@@ -72,6 +72,8 @@ pub fn told(app: &App, width: usize) -> (Sentence, Style) {
     let style = match app.full_run() {
         _ if app.run.latest.trouble.is_some() => look.style(Role::Trouble),
         Some(run) => verdict_style(look, run.verdict),
+        // Nothing is wrong, but no verdict will come.
+        None if app.is_given_up() => look.style(Role::Text).add_modifier(Modifier::BOLD),
         None => look.style(Role::Quiet),
     };
     (sentence, style)
@@ -143,10 +145,8 @@ fn second(app: &App, buffer: &mut Buffer, area: Rect) {
     let width = usize::from(area.width) + GAP.len();
     while parts.iter().map(|part| part.width(look)).sum::<usize>() > width {
         let rank = |part: &Part| part.forms.first().map_or(0, |(rank, _)| *rank);
-        let Some(longest) = parts.iter_mut().max_by_key(|part| rank(part)) else { break };
-        if longest.forms.is_empty() {
-            break;
-        }
+        let left = parts.iter_mut().filter(|part| !part.forms.is_empty());
+        let Some(longest) = left.max_by_key(|part| rank(part)) else { break };
         longest.forms.remove(0);
     }
     let shown = parts
@@ -168,7 +168,11 @@ fn now(app: &App) -> Part {
     let (text, quiet) = (look.style(Role::Text), look.style(Role::Quiet));
     let state = app.state_now();
     let touches = state != "free" && state != "starting";
-    let role = if touches { Role::Contact } else { Role::Text };
+    let role = match app.moment().is_some_and(|moment| moment.failure.is_some()) {
+        true => Role::Trouble,
+        false if touches => Role::Contact,
+        false => Role::Text,
+    };
     let go = if app.play.playing { look.either('►', '>') } else { look.either('‖', '=') };
     let limit = match app.results().pace.limit {
         Limit::None => "",
@@ -280,10 +284,12 @@ fn end(app: &App) -> Part {
     let Some(run) = app.full_run().filter(|_| !app.is_asked()) else {
         return Part::new(vec![at(1, "?".into())]);
     };
-    // Of a whirl or a slip, only the latest change of sides is known.
-    let held = run.since.filter(|_| run.verdict.is_held());
+    // Of a whirl or a slip, only the latest change of sides is known; where a tiny change
+    // decides, no instant is known at all.
+    let known = app.results().sensitive != Sensitive::Yes;
+    let held = run.since.filter(|_| known && run.verdict.is_held());
     let held = held.map(|t| format!("{} since {}", run.verdict, readable(t, "s")));
-    let broken = run.broken.filter(|_| run.since.is_none());
+    let broken = run.broken.filter(|_| known && run.since.is_none());
     let broken = broken
         .map(|(hold, _)| format!("{}, locked until {}", run.verdict, readable(hold.ended, "s")));
     let longer = held.or(broken).map(|longer| at(5, longer));
@@ -360,7 +366,21 @@ fn duration(seconds: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::Scene;
+    use crate::tui::engine::FullRunState;
     use crate::tui::raster::Marker;
+
+    #[test]
+    fn a_run_that_was_given_up_is_told_as_text_and_not_as_work() {
+        let scene = Scene::base().checked().unwrap();
+        let mut app = App::new(scene, Theme::Dark, Marker::Braille);
+        let style = |app: &App| told(app, 80).1;
+        assert_eq!(style(&app), app.appearance.style(Role::Quiet));
+        app.run.latest.results.full_run = Some(FullRunState::GivenUp(0.3));
+        assert_eq!(app.verdict_word(), "NO FORECAST");
+        let text = app.appearance.style(Role::Text).add_modifier(Modifier::BOLD);
+        assert_eq!(style(&app), text);
+    }
 
     #[test]
     fn what_harms_a_machine_has_the_colour_of_trouble_and_a_lock_its_own() {

@@ -238,7 +238,7 @@ mod tests {
             ("glossary", "critical speed", "redo it"),
             ("c", "on the speed: Ω_c", "quit"),
             ("L", "on the speed: Ω_lock", "quit"),
-            ("▪", "a blade touches in this stretch", "quit"),
+            ("━", "a blade touches in this stretch", "quit"),
             ("*", "changed since the scene was opened", "quit"),
         ] {
             let text = text(filter);

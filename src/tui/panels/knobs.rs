@@ -11,10 +11,11 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::style::Modifier;
 
+use crate::report::line::capital;
 use crate::scene::Allowed;
 use crate::tui::app::{App, InputMode};
 use crate::tui::knobs::{Group, KNOBS, Knob, KnobRange, meaning};
-use crate::tui::text::{columns, pieces, print, shorten, wrap};
+use crate::tui::text::{columns, first_lines, pieces, print, shorten, wrap};
 use crate::tui::theme::Role;
 
 /// Draws the column.
@@ -42,17 +43,11 @@ pub fn panel(app: &App, buffer: &mut Buffer, area: Rect) {
     let used = u16::try_from(lines.len()).unwrap_or(area.height);
     let width = usize::from(area.width);
     let cells = bar_cells(Rect { height: 1, ..area });
-    let mut notes = notes(app, width, cells);
+    let (notes, roles): (Vec<_>, Vec<_>) = notes(app, width, cells).into_iter().unzip();
     let room = usize::from(area.height.saturating_sub(used));
-    if notes.len() > room {
-        notes.truncate(room);
-        if let Some((text, _)) = notes.last_mut() {
-            let more = look.ellipsis();
-            *text = shorten(&format!("{text}{more}"), width, more);
-        }
-    }
-    for (row, (text, role)) in (used..area.height).zip(notes) {
-        print(buffer, area, row, &text, look.style(role));
+    let notes = first_lines(notes, width, room, look.ellipsis());
+    for (row, (text, role)) in (used..area.height).zip(notes.iter().zip(roles)) {
+        print(buffer, area, row, text, look.style(role));
     }
     let selected = ColumnLine::Knob(app.knobs.selected);
     if let Some(at) = lines.iter().position(|line| *line == selected) {
@@ -156,10 +151,7 @@ fn notes(app: &App, width: usize, cells: Rect) -> Vec<(String, Role)> {
 
 /// One sentence: what a knob does, and its range.
 fn sentence(knob: &Knob) -> String {
-    let mut text = knob.does.to_string();
-    if let Some(first) = text.get_mut(..1) {
-        first.make_ascii_uppercase();
-    }
+    let text = capital(knob.does);
     match knob.allowed() {
         // Their words are in it.
         Allowed::OneOf(_) => format!("{text}."),

@@ -3,7 +3,7 @@
 
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 
-use super::palette::{first_in_sight, look_of};
+use super::lists::{first_in_sight, look_of};
 use crate::tui::app::{App, InputMode};
 use crate::tui::lessons::{self, LETTERS, Lesson, LessonStep};
 use crate::tui::text::{columns, print, shorten, wrap};

@@ -7,7 +7,7 @@ mod help;
 mod knobs;
 mod layout;
 mod lesson;
-mod palette;
+mod lists;
 mod presentation;
 
 use ratatui::{Frame, buffer::Buffer, layout::Rect};
@@ -30,6 +30,7 @@ pub fn draw(frame: &mut Frame, app: &App) {
 
 /// Paints the whole screen into a buffer.
 pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
+    app.forget_places();
     if area.width < LEAST_WIDTH || area.height < LEAST_HEIGHT {
         let needs = format!(
             "rubscope needs {LEAST_WIDTH}x{LEAST_HEIGHT}; this is {}x{}",
@@ -41,18 +42,17 @@ pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
         return;
     }
     let places = layout::places(area, app);
-    app.forget_places();
     if places.letters.is_none() {
         header::draw(app, buffer, places.header);
     }
     if let InputMode::Help(help) = &app.dialogue.mode {
         help::draw(app, buffer, places.body, help);
     } else if let InputMode::Palette(palette) = &app.dialogue.mode {
-        palette::draw(app, buffer, places.body, palette);
+        lists::commands(app, buffer, places.body, palette);
     } else if let InputMode::Lessons(place) = app.dialogue.mode {
         lesson::list(app, buffer, places.body, place);
     } else if let InputMode::Scenes(place) = app.dialogue.mode {
-        palette::scenes(app, buffer, places.body, place);
+        lists::scenes(app, buffer, places.body, place);
     } else {
         if let Some(area) = places.lesson {
             lesson::draw(app, buffer, area);

@@ -17,7 +17,7 @@ use crate::tui::app::{App, Cursor, STEP};
 use crate::tui::axis::{ChartAxis, nice_step, readable};
 use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
-use crate::tui::text::{print, shorten, wrap};
+use crate::tui::text::{first_lines, print, wrap};
 use crate::tui::theme::Role;
 use crate::tui::views::locked::curves::LockedCurves;
 use crate::tui::views::panel::{
@@ -191,13 +191,10 @@ fn read(app: &App, curves: &LockedCurves, buffer: &mut Buffer, inside: Rect) -> 
     let look = &app.appearance;
     let Some(speed) = cursor_speed(app, curves) else { return inside };
     let width = usize::from(inside.width).saturating_sub(1);
-    let mut lines = wrap(&look.spell(&reading(app, speed)), width);
     // The chart keeps at least half of the rows.
     let most = READ_ROWS.min(usize::from(inside.height / 4)).max(1);
-    if lines.len() > most {
-        let rest = lines.split_off(most - 1).join(" ");
-        lines.push(shorten(&rest, width, look.ellipsis()));
-    }
+    let lines = wrap(&look.spell(&reading(app, speed)), width);
+    let lines = first_lines(lines, width, most, look.ellipsis());
     let rows = u16::try_from(lines.len()).unwrap_or(0).min(inside.height);
     let area = Rect { x: inside.x + 1, width: inside.width.saturating_sub(1), ..inside };
     for (row, line) in (0..rows).zip(&lines) {

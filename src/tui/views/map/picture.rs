@@ -146,9 +146,8 @@ impl Picture<'_> {
         let place = usize::from(y - self.inner.y) * usize::from(self.inner.width)
             + usize::from(x.saturating_sub(self.inner.x));
         let mut style = self.look.style(role);
-        if self.ground.get(place).copied().flatten().is_some() {
-            let ink = if self.look.theme == Theme::Light { Color::White } else { Color::Black };
-            style = style.fg(ink);
+        if let Some(ground) = self.ground.get(place).copied().flatten() {
+            style = style.fg(ink(self.look, ground));
         }
         self.plot.text(x, y, sign.encode_utf8(&mut [0; 4]), style);
     }
@@ -213,6 +212,14 @@ fn places(x: &Axis, y: &Axis, (across, up): (f64, f64)) -> [f64; 2] {
     [x.place(across), y.place(up)]
 }
 
+/// The colour of signs on this one.
+fn ink(look: &Appearance, ground: Color) -> Color {
+    match (look.theme, ground) {
+        (Theme::Light, _) | (_, Color::Black) => Color::White,
+        _ => Color::Black,
+    }
+}
+
 /// A part, 0 to 1, as one of so many places.
 fn spread(part: f64, places: u16) -> u16 {
     let last = f64::from(places.saturating_sub(1));
@@ -264,5 +271,21 @@ pub fn sign(look: &Appearance, verdict: Verdict) -> (char, Style) {
         (false, None) => ('░', look.style(Role::Quiet)),
         (false, Some(colour)) if verdict == Verdict::Adhesive => (PULLS, Style::new().fg(colour)),
         (false, Some(colour)) => ('█', Style::new().fg(colour)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tui::raster::Marker;
+
+    #[test]
+    fn signs_over_a_map_are_seen_on_every_colour_of_every_theme() {
+        for theme in Theme::ALL {
+            let look = Appearance::new(theme, Marker::Braille);
+            for ground in Verdict::ALL.into_iter().filter_map(|verdict| colour(&look, verdict)) {
+                assert_ne!(ink(&look, ground), ground, "{theme:?}");
+            }
+        }
     }
 }

@@ -14,7 +14,7 @@ use crate::study::{Axis, MapPlan};
 use crate::tui::app::App;
 use crate::tui::axis::readable;
 use crate::tui::knobs::{Knob, knob_of, number};
-use crate::tui::text::{columns, wrap};
+use crate::tui::text::{columns, few, wrap};
 use crate::tui::theme::Role;
 
 /// One line: pieces with their styles.
@@ -192,10 +192,6 @@ fn cell(app: &App, live: &LiveMap) -> Option<[String; 3]> {
 fn detail(run: &CellRun) -> String {
     let mut out = String::new();
     if let Some(since) = run.since {
-        let few = |blades: &Vec<u32>| {
-            let names: Vec<String> = blades.iter().take(3).map(ToString::to_string).collect();
-            names.join(",")
-        };
         let mut contacts: Vec<_> = run.contacts.iter().collect();
         contacts.sort_by(|a, b| a.0.cmp(&b.0));
         let contacts = || contacts.iter().take(4);

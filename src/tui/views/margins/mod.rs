@@ -10,7 +10,7 @@ use crate::report::margins;
 use crate::scene::ContactLaw;
 use crate::study::margins::Margins;
 use crate::tui::app::{App, Cursor};
-use crate::tui::text::{print, shorten, wrap};
+use crate::tui::text::{first_lines, print, wrap};
 pub use rows::DIGITS;
 use table::Table;
 
@@ -56,14 +56,8 @@ impl ViewPanel for MarginsView {
         let below = Rect { y, height: told, ..inside };
         let (text, role) = rows::told(app, &rows, cell);
         let width = usize::from(below.width.saturating_sub(1));
-        let mut lines = wrap(&look.spell(&text), width);
-        if lines.len() > usize::from(told) {
-            lines.truncate(usize::from(told));
-            if let Some(last) = lines.last_mut() {
-                let more = look.ellipsis();
-                *last = shorten(&format!("{last} {more}"), width, more);
-            }
-        }
+        let lines = wrap(&look.spell(&text), width);
+        let lines = first_lines(lines, width, usize::from(told), look.ellipsis());
         let below = Rect { x: below.x + 1, width: below.width.saturating_sub(1), ..below };
         for (row, line) in (0..told).zip(lines) {
             print(buffer, below, row, &line, look.style(role));

@@ -1,10 +1,6 @@
-//! The list of commands: what is typed, and what fits it.
-//!
-//! What the lists of the screen share: which entries are in sight, and how the
-//! chosen one looks.
-//!
-//! The list of scenes, and the note of the selected one, or why it cannot be
-//! opened.
+//! The lists that cover the charts: of commands, with what is typed, and of scenes, with
+//! the note of the chosen one; and what all lists share: which entries are in sight, and
+//! how the chosen one looks.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -16,8 +12,8 @@ use crate::tui::commands;
 use crate::tui::text::{columns, print, shorten, wrap};
 use crate::tui::theme::Role;
 
-/// Draws the palette.
-pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, palette: &PaletteState) {
+/// Draws the list of commands.
+pub fn commands(app: &App, buffer: &mut Buffer, area: Rect, palette: &PaletteState) {
     let look = &app.appearance;
     let (width, mark) = (usize::from(area.width), look.ellipsis());
     let found = commands::found(app, &palette.typed);

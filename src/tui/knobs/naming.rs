@@ -1,0 +1,77 @@
+//! The names of a knob: by which words it is meant, and how surely.
+
+use super::{KNOBS, Knob};
+use crate::scene::keys;
+use crate::tui::appearance::Appearance;
+use crate::tui::{Marker, Theme};
+
+/// How well words name a knob, the best first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Fit {
+    /// They are its label, also without its symbol, or its key.
+    Name,
+    /// They are its symbol; one letter alone is another one in another case.
+    Symbol,
+    /// They are one word of its label.
+    Word,
+    /// Every one begins a word of its label or of its key.
+    Begins,
+}
+
+/// The words of a key that are units.
+const UNITS: [&str; 9] = ["n", "m", "s", "rad", "s2", "kg", "m2", "nm", "per"];
+
+/// How well these words name a knob, also without Greek letters; none if they do not.
+pub fn fit(knob: &Knob, words: &[&str]) -> Option<Fit> {
+    let typed = words.join(" ");
+    let lower = typed.to_lowercase();
+    let plain = plain(knob.label);
+    let (label, name) = (knob.label.to_lowercase(), knob.name().to_lowercase());
+    let spelled = plain.to_lowercase();
+    let law = if knob.path == keys::LAW { "law" } else { knob.path };
+    if [label.as_str(), spelled.as_str(), name.as_str(), law, knob.path].contains(&&*lower) {
+        return Some(Fit::Name);
+    }
+    let is_one = typed.chars().count() == 1;
+    let symbols = [knob.symbol(), plain.split(' ').next_back().unwrap_or_default()];
+    if symbols.iter().any(|own| *own == typed || (!is_one && own.to_lowercase() == lower)) {
+        return Some(Fit::Symbol);
+    }
+    let own = || label.split(' ').chain(spelled.split(' '));
+    if !is_one && own().any(|own| own == lower) {
+        return Some(Fit::Word);
+    }
+    let key = knob.path.split(['.', '_']).filter(|word| !UNITS.contains(word));
+    let names: Vec<&str> = own().chain(key).chain([law, knob.path]).collect();
+    let begins = |word: &&str| names.iter().any(|name| name.starts_with(&word.to_lowercase()));
+    (!words.is_empty() && words.iter().all(begins)).then_some(Fit::Begins)
+}
+
+/// The knob that is named best.
+pub fn best(
+    mut knobs: impl Iterator<Item = &'static Knob>,
+    words: &[&str],
+) -> Option<(Fit, &'static Knob)> {
+    let fitting = knobs.by_ref().filter_map(|knob| Some((fit(knob, words)?, knob)));
+    fitting.min_by_key(|(fit, _)| *fit)
+}
+
+/// The knob that a line names and nothing else: by its name, the first word of it, or its
+/// symbol.
+pub fn called(typed: &str) -> Option<usize> {
+    let words: Vec<&str> = typed.split_whitespace().collect();
+    let place = |wanted: Fit, has: fn(&Knob) -> bool| {
+        KNOBS.iter().position(|knob| has(knob) && fit(knob, &words) == Some(wanted))
+    };
+    let begins = |knob: &Knob| {
+        plain(knob.label).to_lowercase().split(' ').next() == Some(&typed.to_lowercase())
+    };
+    place(Fit::Name, |_| true)
+        .or_else(|| KNOBS.iter().position(begins))
+        .or_else(|| place(Fit::Symbol, |knob| knob.name() != knob.label))
+}
+
+/// A text in letters that every keyboard has.
+pub fn plain(text: &str) -> String {
+    Appearance::new(Theme::Mono, Marker::Ascii).spell(text)
+}
