@@ -39,6 +39,9 @@ pub(crate) const BLADES_FIRST: usize = 8;
 /// number; so many rows of shapes are kept of a larger ring. Speed only.
 pub(crate) const FEW_BLADES: usize = 6;
 
+/// The same of blades whose torques are given back, too. Speed only.
+pub(crate) const FEW_PRESSED: usize = 2;
+
 /// Steps a corner must have been closed before it is held. Fewer: maps are made
 /// for contacts that end.
 pub(crate) const HELD_AFTER: u64 = 64;
@@ -126,3 +129,6 @@ pub(crate) const TIP_SLACK: f64 = 0.02;
 /// looked for beyond those that press: smaller, they are looked for more often; larger,
 /// more open rows are counted along. No result depends on it.
 pub(crate) const LINING_MARGIN: f64 = 0.05;
+
+/// The same for the rows near a rigid casing. Speed only.
+pub(crate) const TIP_MARGIN: f64 = 0.005;

@@ -115,15 +115,41 @@ pub(super) fn turned((c, s): (f64, f64), phase: f64) -> Plane {
     Plane::new(c * cos - s * sin, s * cos + c * sin)
 }
 
+/// Where the polygon of the tips was, and below which gap, when candidates were found; none
+/// where they are no polygon.
+pub(super) type Found = Option<(Plane, f64)>;
+
 impl<B: Disk> Explicit<B> {
-    /// The rows whose gaps may be below `reach` now, for blades within `bound`.
-    pub(super) fn find_candidates(&mut self, z: Plane, tips: &TipLaw, bound: f64, reach: f64) {
+    /// The rows whose gaps may be below `reach` now, for blades within `bound`, and some
+    /// more, up to a gap larger by a `margin` and the way of the polygon; whether they were
+    /// looked for anew.
+    pub(super) fn find_candidates(
+        &mut self,
+        z: Plane,
+        tips: &TipLaw,
+        bound: f64,
+        reach: f64,
+        margin: f64,
+    ) -> bool {
         // A blade angle moves a gap by at most |z| n_d alpha beside its slope.
         let look = reach + tips.diameters * bound * (z.re.abs() + z.im.abs());
-        self.beyond.candidates.clear();
         let wave = if tips.rise == 0.0 { Some(Plane::default()) } else { self.blades.wave() };
-        match wave.filter(|_| self.blades.table().is_by_side()) {
-            Some(wave) => self.walk(z - wave * tips.rise, look, false, |this, side| {
+        let wave = wave.filter(|_| self.blades.table().is_by_side());
+        let w = wave.map(|wave| z - wave * tips.rise);
+        // No gap changes by more than the polygon moves.
+        let covers = |(found, most): (Plane, f64), w: Plane| {
+            let moved = w - found;
+            look + moved.re.abs() + moved.im.abs() <= most
+        };
+        if w.zip(self.beyond.found).is_some_and(|(w, found)| covers(found, w)) {
+            return false;
+        }
+        self.beyond.candidates.clear();
+        let margin = w.map_or(0.0, |w| margin * (tips.clearance.abs() + w.norm()));
+        let look = look + margin;
+        self.beyond.found = w.map(|w| (w, look));
+        match w {
+            Some(w) => self.walk(w, look, false, |this, side| {
                 let row = this.blades.table().of_side(side)[0];
                 this.beyond.candidates.push(row);
                 false
@@ -139,6 +165,7 @@ impl<B: Disk> Explicit<B> {
                 }
             }
         }
+        true
     }
 
     /// Adds the nearest side of the polygon at `w` and those on either side of it, as long

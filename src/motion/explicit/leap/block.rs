@@ -53,7 +53,8 @@ impl<B: Disk> Explicit<B> {
 
     /// Whether a lock beyond the paper is held.
     pub(in crate::motion::explicit) fn open_lock(&mut self) -> bool {
-        if !self.leaps.block.is_open() && self.record.last_touch == self.n {
+        let lasts = self.leaps.same_sides >= HELD_AFTER && self.record.last_touch == self.n;
+        if lasts && !self.leaps.block.is_open() {
             self.hold_lock();
         }
         self.leaps.block.is_open()
@@ -257,10 +258,11 @@ impl<B: Disk> Explicit<B> {
             self.record.impulse(side, sum);
         }
         self.record.log.touch(t, self.record.log.active_set);
-        if let Held::Corner(corner) = held
-            && self.goes_beyond
-        {
-            self.log_lock(corner, before);
+        if let Held::Corner(corner) = held {
+            self.record.deepest = self.record.deepest.max(corner.deepest());
+            if self.goes_beyond {
+                self.log_lock(corner, before);
+            }
         }
         match held {
             Held::Corner(corner) if corner.pulls => {

@@ -10,7 +10,8 @@
 //! is worked out with its small parts apart (`CornerStep`), so that it carries
 //! no round-off of the gaps; the map is used only while both multipliers and
 //! both predicted gaps keep their signs with room to spare, and where every step leaves the
-//! same gaps: a push turns the sides of soft blades in a long step.
+//! same gaps: a push turns the sides of its blades, by next to nothing in a short step, and
+//! the corner that is held then has the gaps that steps leave at rest (`rest_in`).
 //!
 //! Beyond the paper tips may rise and rub, and the flows of energy go on: their sums over
 //! many steps are closed, too.
@@ -83,6 +84,11 @@ impl HeldCorner {
         self.counts.then(sums).map(|[_, _, flows @ ..]| flows)
     }
 
+    /// Deepest penetration that its steps leave \[m\].
+    pub fn deepest(&self) -> f64 {
+        self.step.open.iter().fold(0.0, |deepest, gap| deepest.max(-gap))
+    }
+
     /// Amplitude of the blade modes after `steps` steps \[rad\].
     pub fn amplitude(&self, steps: u64) -> f64 {
         let modes = self.modes(steps);
@@ -94,6 +100,7 @@ impl HeldCorner {
     fn closes(&self, at_rest: &Stepped) -> Option<bool> {
         let closed = |step: &Stepped| self.step.is_closed_by(step, at_rest.gaps);
         let mut all = closed(at_rest);
+        all &= closed(&self.step.from(self.modes(0))?);
         let (angle, increment) = self.swing;
         for (j, swing) in [angle, angle, increment, increment].into_iter().enumerate() {
             for end in [-swing, swing] {
@@ -170,9 +177,9 @@ impl<B: Disk> Explicit<B> {
         let speed = self.drive.speed(self.n);
         let turn = self.machine.nu(speed) * self.drive.step;
         let (machine, casing) = (&self.machine, &self.casing);
-        let step = CornerStep::new(machine, self.tips, casing, now.moving, sides, turn);
+        let mut step = CornerStep::new(machine, self.tips, casing, now.moving, sides, turn);
         let now = as_modes(now.modes);
-        let resting = rest_in(&step, now)?;
+        let resting = rest_in(&mut step, now)?;
         let start = now - resting.rest;
         let (mut swing, mut growth) = ((0.0, 0.0), 1.0);
         if let Some(blades) = step.blades() {
@@ -311,27 +318,32 @@ struct Resting {
     slopes: [Modes; 4],
 }
 
-/// The rest nearest to `now`; none where steps leave more than next to nothing of their
-/// gaps there.
-fn rest_in(step: &CornerStep, now: Modes) -> Option<Resting> {
+/// The rest nearest to `now`. Where steps leave more than next to nothing of their gaps,
+/// the corner of the step gets the gaps that they leave there.
+fn rest_in(step: &mut CornerStep, now: Modes) -> Option<Resting> {
     let mut rest = now;
-    let (change, slopes) = slopes(step, rest)?;
-    let mut unchanged = StepMap::zeros();
-    if step.blades().is_some() {
-        unchanged = change.try_inverse()?;
-        for _ in 0..HELD_CORRECTIONS {
-            let correction = unchanged * step.from(rest)?.change;
-            rest -= correction;
-            if correction.amax() <= f64::EPSILON * rest.amax() {
-                break;
+    for _ in 0..HELD_CORRECTIONS {
+        let (change, slopes) = slopes(step, rest)?;
+        let mut unchanged = StepMap::zeros();
+        if step.blades().is_some() {
+            unchanged = change.try_inverse()?;
+            for _ in 0..HELD_CORRECTIONS {
+                let correction = unchanged * step.from(rest)?.change;
+                rest -= correction;
+                if correction.amax() <= f64::EPSILON * rest.amax() {
+                    break;
+                }
             }
+        } else {
+            rest = Modes::zeros();
         }
-    } else {
-        rest = Modes::zeros();
+        let at_rest = step.from(rest)?;
+        if step.is_closed_by(&at_rest, at_rest.gaps) {
+            return Some(Resting { rest, at_rest, change, unchanged, slopes });
+        }
+        step.open = at_rest.left;
     }
-    let at_rest = step.from(rest)?;
-    let closed = step.is_closed_by(&at_rest, at_rest.gaps);
-    closed.then_some(Resting { rest, at_rest, change, unchanged, slopes })
+    None
 }
 
 /// The map of the deviation from `at`, minus one, and the gradients of multipliers
