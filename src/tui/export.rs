@@ -18,34 +18,45 @@ const CELL: (u32, u32) = (8, 17);
 /// Diameter of a dot of a curve.
 const DOT: f64 = 2.8;
 
-/// The screen as a picture: its size, and the background of its theme.
+/// The screen as a picture, without what is typed or said for a moment.
 pub fn svg(app: &App) -> String {
-    let area = Rect::new(0, 0, app.layout.size.0, app.layout.size.1);
-    let ink = Ink::of(app.appearance.theme);
-    let mut buffer = Buffer::empty(area);
     let mut plain = app.clone();
     plain.dialogue.mode = InputMode::Main;
     plain.status = None;
-    panels::paint(&plain, &mut buffer, area);
-    let (width, height) = (u32::from(area.width) * CELL.0, u32::from(area.height) * CELL.1);
-    let (ground, scene) = (ink.ground, app.run.started.clone().into_scene());
-    let mut out = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-         viewBox=\"0 0 {width} {height}\" font-family=\"monospace\" font-size=\"13\">\n\
-         {}<rect width=\"{width}\" height=\"{height}\" fill=\"{ground}\"/>\n",
-        describe(&Provenance { command: app.command_line(), scene }),
-    );
-    let columns = usize::from(area.width).max(1);
-    for (row, cells) in (0..).zip(buffer.content.chunks(columns)) {
-        draw_row(cells, row * CELL.1, &ink, &mut out);
-    }
+    let scene = app.run.started.clone().into_scene();
+    let mut out = opening(app, 0, &describe(&Provenance { command: app.command_line(), scene }));
+    out.extend(rows(&plain));
     out.push_str("</svg>\n");
     out
 }
 
-/// Draws one row of cells: what has the same look in one element.
-fn draw_row(cells: &[Cell], y: u32, ink: &Ink, out: &mut String) {
-    let mut x = 0;
+/// The first lines of a picture: its size with so many more rows below the screen,
+/// what comes with it, and the background of its theme.
+pub fn opening(app: &App, below: u32, with: &str) -> String {
+    let (columns, rows) = (u32::from(app.layout.size.0), u32::from(app.layout.size.1) + below);
+    let (width, height) = (columns * CELL.0, rows * CELL.1);
+    let ground = Ink::of(app.appearance.theme).ground;
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+         viewBox=\"0 0 {width} {height}\" font-family=\"monospace\" font-size=\"13\">\n\
+         {with}<rect width=\"{width}\" height=\"{height}\" fill=\"{ground}\"/>\n"
+    )
+}
+
+/// The rows of the screen as it stands, from the top, each as a part of a picture.
+pub fn rows(app: &App) -> Vec<String> {
+    let area = Rect::new(0, 0, app.layout.size.0, app.layout.size.1);
+    let ink = Ink::of(app.appearance.theme);
+    let mut buffer = Buffer::empty(area);
+    panels::paint(app, &mut buffer, area);
+    let columns = usize::from(area.width).max(1);
+    let cells = (0..).zip(buffer.content.chunks(columns));
+    cells.map(|(row, cells)| drawn_row(cells, row * CELL.1, &ink)).collect()
+}
+
+/// One row of cells: what has the same look in one element.
+fn drawn_row(cells: &[Cell], y: u32, ink: &Ink) -> String {
+    let (mut x, mut out) = (0, String::new());
     for run in cells.chunk_by(|a, b| Look::of(a, ink) == Look::of(b, ink)) {
         let Some(look) = run.first().map(|cell| Look::of(cell, ink)) else { continue };
         let width = CELL.0 * u32::try_from(run.len()).unwrap_or(0);
@@ -74,6 +85,7 @@ fn draw_row(cells: &[Cell], y: u32, ink: &Ink, out: &mut String) {
         }
         x += width;
     }
+    out
 }
 
 /// The dots of a row of cells as one path of round points.
