@@ -157,8 +157,8 @@ fn what_does_not_converge_is_in_the_documents() {
         row["model"] == "modal" && row["contact"] == "unilateral" && row["solver"] == "explicit"
     });
     let found: Vec<_> = found.collect();
-    let told =
-        read("docs/accuracy.md").table("| solver | step | impacts | error at 0.1 s, in clearances |");
+    let told = read("docs/accuracy.md")
+        .table("| solver | step | impacts | error at 0.1 s, in clearances |");
     assert_eq!(told.len(), 4);
     for row in &told {
         let Ok(step) = row[1].replace(" s", "").parse::<f64>() else {
