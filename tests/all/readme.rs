@@ -37,7 +37,7 @@ impl Moving {
             let mut rows = export::rows(&self.session.app);
             let light = self.session.app.appearance.theme == Theme::Light;
             let fill = if light { "#0b57d0" } else { "#78a9ff" };
-            let y = 17 * (u32::try_from(rows.len()).unwrap() + 1);
+            let y = 17 * (u32::try_from(rows.len()).unwrap() + 1) - 4;
             rows.push(format!("<text x=\"8\" y=\"{y}\" fill=\"{fill}\">{said}</text>\n"));
             self.frames.push((rows, tenths));
         }
@@ -114,7 +114,7 @@ fn first_minute(theme: Theme) -> String {
     moving.session.press("\n");
     moving.film("Enter 400 Enter: the speed is turned down, and one blade pulls", 5, 6);
     moving.session.press("uc");
-    moving.film("u c: undone; below it contact that only pushes", 5, 7);
+    moving.film("u c: undone; beside it contact that only pushes", 5, 7);
     moving.session.press("c5");
     moving.film("c 5: the map of all speeds and pulses", 1, 40);
     moving.picture()
