@@ -108,6 +108,7 @@ mod python;
 mod readme;
 mod rebound;
 mod scene_defaults;
+mod scene_modes;
 mod scene_notes;
 mod scene_numbers;
 mod scenes;
