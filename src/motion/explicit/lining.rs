@@ -6,9 +6,12 @@
 //! with. What touches is kept by changes: steps in which the same rows press cost no more
 //! than their sums.
 
+use std::sync::OnceLock;
+
 use wide::f64x4;
 
 use super::Explicit;
+use super::dies::Dies;
 use super::disk::{Columns, Disk};
 use super::lasting::mark;
 use super::record::Record;
@@ -33,6 +36,8 @@ pub(super) struct Lining {
     impulse: Vec<f64x4>,
     sums: Sums,
     touching: Touching,
+    /// Which waves die at this speed, once asked.
+    pub dies: OnceLock<Option<Dies>>,
 }
 
 /// Sums over the rows of a step.
@@ -70,7 +75,13 @@ impl Lining {
             impulse: Vec::new(),
             sums: Sums::default(),
             touching: Touching::default(),
+            dies: OnceLock::new(),
         }
+    }
+
+    /// Whether all rows press.
+    pub fn all_press(&self) -> bool {
+        self.touching.all
     }
 
     /// Whether any row presses.
