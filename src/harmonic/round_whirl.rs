@@ -380,6 +380,7 @@ mod tests {
             nodal_diameters: 0,
             mistuning: disk.mistuning.into(),
             mistuning_seed: 1,
+            modes: Vec::new(),
         };
         let casing = Casing {
             radius_m: casing.radius_m.into(),
@@ -387,6 +388,7 @@ mod tests {
             modal_stiffness_n_per_m: casing.modal_stiffness_n_per_m.into(),
             damping_ratio: casing.damping_ratio.into(),
             tangential_ratio: casing.tangential_ratio.into(),
+            modes: Vec::new(),
         };
         Machine::new(&disk, &casing, 3).with_friction(Dual64::from(0.05))
     }

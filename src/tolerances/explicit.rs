@@ -132,3 +132,9 @@ pub(crate) const LINING_MARGIN: f64 = 0.05;
 
 /// The same for the rows near a rigid casing. Speed only.
 pub(crate) const TIP_MARGIN: f64 = 0.005;
+
+/// Sizes of a wave on a preloaded lining that are tried for whether it dies, and how much
+/// smaller each is than the one before: down to 1e-9 of what lifts a blade.
+pub(crate) const DIES_LOOKS: i32 = 400;
+/// See `DIES_LOOKS`.
+pub(crate) const DIES_SMALLER: f64 = 0.95;

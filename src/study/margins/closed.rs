@@ -4,14 +4,17 @@
 use num_dual::Dual64;
 
 use super::limit::{Limit, LimitName, Sensitivities};
-use super::parameters::{Parameters, acting, sensitivity};
+use super::parameters::{Parameter, Parameters, acting, sensitivity};
 use crate::harmonic::{flutter_speed, lock_fold_speed, lock_loads, whirl_onset};
 use crate::model::{Machine, Number};
-use crate::scene::CheckedScene;
+use crate::scene::{CheckedScene, Scene};
 
 /// How far beyond the speeds of interest the end of the branch of a lock is told, as a
 /// factor: stiff blades give way at speeds that no rotor has.
 const FAR: f64 = 10.0;
+
+/// How many of the closed forms are speeds; they come first.
+const SPEEDS: usize = 9;
 
 /// The closed forms, in the order in which they are shown.
 pub(super) const CLOSED: [LimitName; 15] = [
@@ -41,29 +44,40 @@ const SELDOM: [LimitName; 4] =
 pub(super) fn values<T: Number>(parameters: &Parameters<T>) -> [Option<T>; CLOSED.len()] {
     let machine = parameters.machine();
     let speed = parameters.operation.speed_rad_s;
-    let sense = 1_f64.copysign(speed.re());
-    let coincidences = machine.coincidence_speeds();
     let loads = lock_loads(&machine, speed);
-    let window = machine.lock_window(speed.re());
-    // The flutter is of a corner that does not give.
-    let hard = machine.lining.is_none();
     let of = |get: fn(&crate::harmonic::LockLoads<T>) -> T| loads.as_ref().map(get);
-    [
-        machine.critical_speed(),
-        machine.adhesive_speed(),
-        window.map(|window| window.from),
-        window.and_then(|window| window.to),
-        fold(&machine, speed),
-        coincidences.last().copied(),
-        coincidences.first().copied(),
-        whirl_onset(&machine, speed.re()).map(|onset| onset * sense),
-        hard.then(|| flutter_speed(&machine, speed.re())).flatten(),
+    let of_lock = [
         of(|loads| loads.pushes_n[0]),
         of(|loads| loads.pushes_n[1]),
         of(|loads| loads.torque_nm),
         of(|loads| loads.power_w),
         of(|loads| loads.largest_alpha_rad),
         of(|loads| loads.energy_j),
+    ];
+    let mut all = [None; CLOSED.len()];
+    let (first, last) = all.split_at_mut(SPEEDS);
+    first.copy_from_slice(&speed_values(&machine, speed));
+    last.copy_from_slice(&of_lock);
+    all
+}
+
+/// Those that are speeds.
+fn speed_values<T: Number>(machine: &Machine<T>, speed: T) -> [Option<T>; SPEEDS] {
+    let sense = 1_f64.copysign(speed.re());
+    let coincidences = machine.coincidence_speeds();
+    let window = machine.lock_window(speed.re());
+    // The flutter is of a corner that does not give.
+    let hard = machine.lining.is_none();
+    [
+        machine.critical_speed(),
+        machine.adhesive_speed(),
+        window.map(|window| window.from),
+        window.and_then(|window| window.to),
+        fold(machine, speed),
+        coincidences.last().copied(),
+        coincidences.first().copied(),
+        whirl_onset(machine, speed.re()).map(|onset| onset * sense),
+        hard.then(|| flutter_speed(machine, speed.re())).flatten(),
     ]
 }
 
@@ -77,18 +91,44 @@ fn fold<T: Number>(machine: &Machine<T>, speed: T) -> Option<T> {
 const OF_NO_CONTACT: [LimitName; 3] =
     [LimitName::OmegaC, LimitName::Coincidence, LimitName::CoincidenceDifference];
 
-/// The limits of a scene in closed form.
-pub(super) fn limits(scene: &CheckedScene) -> Vec<Limit> {
-    let parameters = Parameters::<f64>::of(scene);
-    let mut found = values(&parameters);
+/// The limits of rigid contact are not those of a lining that is pressed at rest, which
+/// has others (`LiningState`).
+fn keep_known<T>(scene: &Scene, found: &mut [Option<T>]) {
     if scene.clearance() <= 0.0 {
-        // Of rigid contact; a lining that is pressed at rest has others (`LiningState`).
         for (value, name) in found.iter_mut().zip(CLOSED) {
             if !OF_NO_CONTACT.contains(&name) {
                 *value = None;
             }
         }
     }
+}
+
+/// The limits of a scene that are speeds, those that there are.
+pub(in crate::study) fn speeds(scene: &Scene) -> Vec<(LimitName, f64)> {
+    let parameters = Parameters::<f64>::of(scene);
+    let mut found = speed_values(&parameters.machine(), parameters.operation.speed_rad_s);
+    keep_known(scene, &mut found);
+    let known = |value: &f64| value.is_finite();
+    let all = CLOSED.into_iter().zip(found);
+    all.filter_map(|(name, value)| Some((name, value.filter(known)?))).collect()
+}
+
+/// Their sensitivities by one parameter.
+pub(in crate::study) fn speed_sensitivities(
+    scene: &Scene,
+    parameter: &Parameter,
+) -> Vec<(LimitName, Option<f64>)> {
+    let parameters = parameter.seeded(scene);
+    let found = speed_values(&parameters.machine(), parameters.operation.speed_rad_s);
+    let by = |dual: Dual64| sensitivity(dual.re, dual.eps, parameter.of(scene));
+    CLOSED.into_iter().zip(found).map(|(name, value)| (name, value.and_then(by))).collect()
+}
+
+/// The limits of a scene in closed form.
+pub(super) fn limits(scene: &CheckedScene) -> Vec<Limit> {
+    let parameters = Parameters::<f64>::of(scene);
+    let mut found = values(&parameters);
+    keep_known(scene, &mut found);
     let derived: Vec<[Option<Dual64>; CLOSED.len()]> =
         acting(scene).map(|parameter| values(&parameter.seeded(scene))).collect();
     let limits = CLOSED.into_iter().enumerate().map(|(place, name)| {
@@ -123,7 +163,7 @@ fn note(scene: &CheckedScene, name: LimitName, value: f64) -> Option<String> {
         let without = if smoothed { ", without its smoothing" } else { "" };
         return Some(format!("of two groups on the lining{without}"));
     }
-    if !of_speeds || scene.casing.damping_ratio == 0.0 {
+    if !of_speeds || scene.casing_in_use().damping_ratio == 0.0 {
         return None;
     }
     // Blades that bend leave a push where rigid ones have none.
@@ -174,7 +214,6 @@ fn why_none(scene: &CheckedScene, name: LimitName) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Scene;
 
     fn limits_of(stiffness: f64, smoothing: f64) -> Vec<Limit> {
         let mut scene = Scene::builtin("soft-lining").unwrap();

@@ -4,7 +4,7 @@
 //! The only knob that is not a key: the clearance `g0 = R_c - l_b`, set by the casing
 //! radius. With a lining it turns on below zero, where all blades rub at rest.
 
-use crate::report::number::{SiScale, trimmed};
+use crate::report::number::{SiScale, told, trimmed};
 use crate::scene::{Allowed, ContactLaw, Scene};
 
 /// Mantissas of fine turns, two digits; coarse turns use 1, 2 and 5.
@@ -46,40 +46,10 @@ pub(super) fn decades(x: f64, up: bool, mantissas: &[f64], least: f64) -> f64 {
     }
 }
 
-/// A typed number with a prefix and the unit, or without them; a speed also in turns a
-/// minute.
-pub(super) fn in_unit(text: &str, unit: &str) -> Option<f64> {
-    if let Some(turns) = text.strip_suffix("rpm").filter(|_| unit == "rad/s") {
-        return prefixed(turns.trim_end()).map(|turns| turns * std::f64::consts::TAU / 60.0);
-    }
-    prefixed(text.strip_suffix(unit).unwrap_or(text).trim_end())
-}
-
-/// A number with an optional SI prefix at its end.
-fn prefixed(text: &str) -> Option<f64> {
-    if let Ok(x) = text.parse::<f64>() {
-        return Some(x);
-    }
-    let last = text.chars().last()?;
-    let factor = match last {
-        'G' => "e9",
-        'M' => "e6",
-        'k' => "e3",
-        'm' => "e-3",
-        'u' | 'µ' => "e-6",
-        'n' => "e-9",
-        'p' => "e-12",
-        _ => return None,
-    };
-    let number = text.strip_suffix(last)?.trim_end();
-    // Read as one decimal number, so that 50u equals 50e-6 exactly.
-    let plain = number.bytes().all(|b| b.is_ascii_digit() || matches!(b, b'.' | b'-' | b'+'));
-    if plain { format!("{number}{factor}").parse().ok() } else { None }
-}
-
 /// A number in readable form: up to seven digits, a prefix for units that take
 /// one, no trailing zeros.
 pub fn number(x: f64, unit: &str) -> String {
+    let (x, unit) = told(x, unit);
     let scale = SiScale::before(unit, x);
     let shown = x / scale.factor;
     let text = if shown != 0.0 && !(1e-4..1e7).contains(&shown.abs()) {
