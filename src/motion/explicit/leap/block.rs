@@ -288,7 +288,8 @@ impl<B: Disk> Explicit<B> {
         } else if let Some(Held::Corner(held)) = &self.leaps.held {
             Some(locked(held.pulls))
         } else if self.goes_beyond {
-            self.dies().then_some(Verdict::Decay)
+            let dies = self.dies().then_some(Verdict::Decay);
+            dies.or_else(|| self.lock_for_good().map(locked))
         } else {
             self.corner_for_good()
         }

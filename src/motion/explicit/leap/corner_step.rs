@@ -23,7 +23,7 @@ use crate::motion::Plane;
 use crate::motion::explicit::disk::ModalBlades;
 use crate::motion::explicit::rows::TipLaw;
 use crate::motion::explicit::{Coordinate, Oscillator};
-use crate::tolerances::{HELD_LEFT, HELD_ROUNDINGS};
+use crate::tolerances::HELD_ROUNDINGS;
 
 /// `(alpha_c, alpha_s)` and their increments.
 pub(in crate::motion::explicit) type Modes = SVector<f64, 4>;
@@ -153,10 +153,10 @@ impl CornerStep {
         (corner + raised, moved + raised_by, [a, b])
     }
 
-    /// Whether a step leaves the gaps it begins with, but for next to nothing of those
-    /// predicted at rest.
-    pub fn is_closed_by(&self, step: &Stepped, at_rest: [f64; 2]) -> bool {
-        let part = HELD_LEFT.max(HELD_ROUNDINGS * f64::EPSILON / self.sine().powi(2));
+    /// Whether a step leaves the gaps it begins with, but for this part of those
+    /// predicted at rest, or round-off.
+    pub fn is_closed_by(&self, step: &Stepped, at_rest: [f64; 2], part: f64) -> bool {
+        let part = part.max(HELD_ROUNDINGS * f64::EPSILON / self.sine().powi(2));
         (0..2).all(|k| (step.left[k] - self.open[k]).abs() <= part * at_rest[k].abs())
     }
 
