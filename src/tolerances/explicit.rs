@@ -57,6 +57,10 @@ pub(crate) const HELD_PROBE: f64 = 1e-6;
 /// it makes 1e-11 of the angles at rest, on which the pushes of both sides nearly cancel.
 pub(crate) const HELD_LEFT: f64 = 1e-12;
 
+/// Largest blade phase `n_d alpha` for which the linear map of a lock may say that no sign
+/// changes \[rad\]: what its square changes is small against the room that is kept.
+pub(crate) const KEPT_TURN: f64 = 0.02;
+
 /// Largest blade phase `n_d alpha` whose cube the gap of a side that is slid on may leave
 /// out \[rad\]: it makes round-off.
 pub(crate) const SMALL_TURN: f64 = 1e-5;
