@@ -8,6 +8,7 @@ use super::lasting::{Lasting, mark};
 use super::lining::Lining;
 use super::record::Account;
 use super::rows::TipLaw;
+use crate::model::Machine;
 use crate::motion::{ActiveSet, FailureReason, Plane};
 use crate::scene::{CheckedScene, ModelSize};
 use crate::tolerances::ANGLE_LOOK;
@@ -24,6 +25,8 @@ pub(super) struct Beyond {
     /// Steps in a row in which the casing passed much of a side.
     pub long_steps: u32,
     pub lasting: Lasting,
+    /// What the clearance has lost in the latest step and in the one before \[m\].
+    pub closed: [f64; 2],
     pub account: Account,
     /// Whether the tips rub as those of a rotor that turns backward.
     backward: bool,
@@ -40,6 +43,7 @@ impl Beyond {
             dips: [0.0; 2],
             long_steps: 0,
             lasting: Lasting::new(scene.solver.end_s),
+            closed: [0.0; 2],
             account: Account::default(),
             backward: speed < 0.0,
             next_look: 0,
@@ -49,10 +53,10 @@ impl Beyond {
 
     /// From now on with the parameters of another scene, at this rotor speed. Gaps of the
     /// steps before may be others now, by as much as the clearance.
-    pub fn set_parameters(&mut self, scene: &CheckedScene, speed: f64) {
+    pub fn set_parameters(&mut self, scene: &CheckedScene, machine: &Machine, speed: f64) {
         self.backward = speed < 0.0;
         self.steps_unseen = steps_unseen(scene);
-        self.dips = [scene.machine().clearance().abs(); 2];
+        self.dips = [machine.clearance().abs(); 2];
     }
 }
 
@@ -71,6 +75,7 @@ impl<B: Disk> Explicit<B> {
     pub(super) fn take_step_beyond(&mut self) -> Result<(), FailureReason> {
         let (n, force) = (self.n, self.drive.force(self.n));
         self.beyond.before = self.u.map(|coordinate| coordinate.increment);
+        self.follow_speed()?;
         let mut unknown = self.predict(force);
         if self.lining.is_some() {
             unknown |= self.push_lining();
@@ -198,7 +203,7 @@ impl<B: Disk> Explicit<B> {
     /// Whether casing and tips, whose energies bound them, never reach a contact again.
     pub(super) fn rests(&self) -> bool {
         let clearance = self.machine.clearance();
-        if clearance <= 0.0 || self.drive.excitation.is_some() {
+        if clearance <= 0.0 || self.drive.excitation.is_some() || self.follows_speed() {
             return false;
         }
         let rise = self.tips.rise.abs();

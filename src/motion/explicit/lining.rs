@@ -23,7 +23,7 @@ pub(super) struct Lining {
     pub law: LiningLaw,
     near: Columns,
     /// Where the casing was, and below which gap, when `near` was found; see `covers`.
-    found_at: Option<(Plane, f64)>,
+    found_at: Option<Found>,
     /// Of each row near: angle \[rad\], push of its blades \[N\], that of the step before,
     /// torque \[N m\], and its sum of pushes since it was given to the record \[N\].
     angle: Vec<f64x4>,
@@ -33,6 +33,14 @@ pub(super) struct Lining {
     impulse: Vec<f64x4>,
     sums: Sums,
     touching: Touching,
+}
+
+/// Where the casing was, below which gap rows were looked for, and the clearance \[m\].
+#[derive(Clone, Copy, Debug)]
+struct Found {
+    place: Plane,
+    reach: f64,
+    clearance: f64,
 }
 
 /// Sums over the rows of a step.
@@ -116,10 +124,11 @@ impl Lining {
 
     /// Whether the rows near are still all that may press, with the polygon at `w`, below a
     /// gap of `look`: no gap changes by more than the casing moves.
-    fn covers(&self, w: Plane, look: f64) -> bool {
-        self.found_at.is_some_and(|(found, reach)| {
-            let moved = w - found;
-            look + moved.re.abs() + moved.im.abs() <= reach
+    fn covers(&self, w: Plane, look: f64, clearance: f64) -> bool {
+        self.found_at.is_some_and(|found| {
+            let moved = w - found.place;
+            let closed = (found.clearance - clearance).max(0.0);
+            look + moved.re.abs() + moved.im.abs() + closed <= found.reach
         })
     }
 
@@ -270,6 +279,7 @@ impl<B: Disk> Explicit<B> {
         let rotor =
             self.drive.rotor.speed(self.time_of(self.n) - self.drive.step) * self.drive.step;
         self.beyond.account.sums.rotor_work_j -= moment * rotor;
+        self.count_growth(push);
         if tips.friction == 0.0 {
             return;
         }
@@ -337,7 +347,7 @@ impl<B: Disk> Explicit<B> {
         let w = wave.map(|wave| z - wave * tips.rise);
         let look = tips.diameters * bound * (z.re.abs() + z.im.abs());
         let Some(lining) = &self.lining else { return false };
-        if w.is_some_and(|w| lining.covers(w, look)) {
+        if w.is_some_and(|w| lining.covers(w, look, tips.clearance)) {
             return false;
         }
         let margin = w.map_or(0.0, |w| LINING_MARGIN * (tips.clearance.abs() + w.norm()));
@@ -345,7 +355,8 @@ impl<B: Disk> Explicit<B> {
         let Self { lining: Some(lining), blades, record, beyond, machine, n, .. } = self else {
             return false;
         };
-        lining.found_at = w.map(|w| (w, look + margin));
+        let (reach, clearance) = (look + margin, tips.clearance);
+        lining.found_at = w.map(|place| Found { place, reach, clearance });
         let rows = &beyond.candidates;
         if lining.near.index == *rows {
             return false;
@@ -390,12 +401,13 @@ impl<B: Disk> Explicit<B> {
         // What the lining held in the step before, from the same rows.
         let back = Plane::cis(tips.diameters * self.drive.speed(0) * self.drive.step);
         let z = Plane::new(self.u[0].x - self.u[0].increment, self.u[1].x - self.u[1].increment);
+        let lost = self.beyond.closed[0];
         let Self { lining: Some(lining), blades, machine, .. } = self else { return };
         let each = f64::from(blades.table().blades_per_row);
         let mut energy = 0.0;
         for (row, side, ..) in lining.pressed() {
             let direction = machine.polygon.direction(side);
-            let gap = tips.place(direction, z * back, blades.angle_before(row)).gap;
+            let gap = tips.place(direction, z * back, blades.angle_before(row)).gap + lost;
             energy += each * lining.law.energy(gap);
         }
         self.beyond.account.lining_before = energy;

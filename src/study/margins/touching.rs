@@ -76,7 +76,7 @@ const NEAR: f64 = 0.01;
 /// The scene as the event solver takes it with rigid blades, and no motion but that
 /// of the casing; none where it does not start at rest.
 fn reference(scene: &Scene) -> Option<CheckedScene> {
-    if scene.clearance() <= 0.0 {
+    if scene.machine().clearance() <= 0.0 {
         return None;
     }
     if scene.initial != Initial::default() {
@@ -171,8 +171,10 @@ pub(super) fn limit(scene: &CheckedScene) -> Limit {
 
 /// Why no pulse touches.
 pub(super) fn why_none(scene: &CheckedScene) -> &'static str {
-    if scene.clearance() <= 0.0 {
+    if scene.machine().clearance() <= 0.0 {
         "all blades touch without a pulse"
+    } else if scene.casing.clearance_loss_m_s2 != 0.0 && scene.operation.speed_ramp_rad_s2 != 0.0 {
+        "at a constant speed only, as the clearance changes with it"
     } else if scene.initial == Initial::default() {
         "no pulse of this length touches within the run"
     } else {

@@ -187,6 +187,16 @@ impl Disk for FullBlades {
             self.turn(row + member * rows, torque / f64::from(members));
         }
     }
+    fn stiffen(&mut self, added: f64) -> f64 {
+        let before = self.energy();
+        Arc::make_mut(&mut self.ring).stiffen(added);
+        self.energy() - before
+    }
+    fn shrink(&mut self, part: f64) {
+        self.x.iter_mut().for_each(|x| *x *= part);
+        self.bounds.reset(f64::INFINITY);
+        self.seen.steps = u32::MAX;
+    }
     fn begin(&mut self, row: u32, torque: f64) {
         let (members, rows) = (self.rows.members, self.rows.table.count() as u32);
         for member in (0..members).map(|member| row + member * rows) {

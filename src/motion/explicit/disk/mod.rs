@@ -80,6 +80,13 @@ pub(in crate::motion) trait Disk: Clone + Debug + Send + Sync + 'static {
         }
         change
     }
+    /// Blades whose frequencies squared are this much above those at rest from now on, in
+    /// place of another much \[rad^2/s^2\]; what that gives them of energy \[J\].
+    fn stiffen(&mut self, _added: f64) -> f64 {
+        0.0
+    }
+    /// Leaves a part of every angle, and the rates.
+    fn shrink(&mut self, _part: f64) {}
     /// Corrects the start for a torque that acts at it: the step before it, only.
     fn begin(&mut self, row: u32, torque: f64);
     /// `[alpha_c, alpha_s]` \[rad\].
