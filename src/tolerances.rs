@@ -2,6 +2,7 @@
 //! reason and what breaks if it is changed. Numbers of terms, nodes and table
 //! entries stand where the tables are.
 
+mod doubts;
 mod event;
 mod explicit;
 mod harmonic;
@@ -9,6 +10,7 @@ mod lining;
 mod margins;
 mod precision;
 
+pub(crate) use doubts::*;
 pub(crate) use event::*;
 pub(crate) use explicit::*;
 pub(crate) use harmonic::*;

@@ -149,7 +149,8 @@ async def check():
 
 
 try:
-    subprocess.run(["sh", "-ec", blocks[0]], cwd=work, check=True)
+    session = blocks[0].split("ttyd")[0]
+    subprocess.run(["sh", "-ec", session], cwd=work, check=True)
     expect("the explorer opens", lambda: " LOCKED " in screen())
     asyncio.run(check())
     expect("q ends the session", lambda: screen() == "")

@@ -38,6 +38,9 @@ pub struct FiguresCommand {
     /// Only these figures, such as 4,9; or coincidence, which is not of the paper
     #[arg(long, value_name = "FIGURES", value_delimiter = ',')]
     only: Vec<String>,
+    /// Pictures without captions, which go beside them as text (.txt)
+    #[arg(long)]
+    no_caption: bool,
 }
 
 impl FiguresCommand {
@@ -58,7 +61,8 @@ impl FiguresCommand {
             let stem = which.stem();
             // One letter for each of several panels.
             let data = ["", "a", "b", "c", "d"].map(|letter| format!("{stem}{letter}.csv"));
-            for name in data.iter().chain([&format!("{stem}.svg")]) {
+            let text = self.no_caption.then(|| format!("{stem}.txt"));
+            for name in data.iter().chain([&format!("{stem}.svg")]).chain(&text) {
                 output::try_place(&self.out.join(name))?;
             }
         }
@@ -105,6 +109,7 @@ impl FiguresCommand {
         // The folder is the user's; the same figure is the same file in each.
         let command =
             CommandLine::new("figures", &scene).option("--only", which).option("--out", "figures");
+        let command = command.flag("--no-caption", self.no_caption);
         let origin = Provenance { command, scene };
         let stem = which.stem();
         let (mut wrote, mut replaced) = (Vec::new(), Vec::new());
@@ -112,9 +117,18 @@ impl FiguresCommand {
             Written::New => wrote.push(name),
             Written::Replaced => replaced.push(name),
         };
+        let bare = Figure { caption: Vec::new(), ..figure.clone() };
+        let drawn = if self.no_caption { &bare } else { figure };
         let name = format!("{stem}.svg");
-        let written = write(&self.out.join(&name), out, |out| svg::write(figure, &origin, out))?;
+        let written = write(&self.out.join(&name), out, |out| svg::write(drawn, &origin, out))?;
         note(name, written);
+        if self.no_caption && !figure.caption.is_empty() {
+            let name = format!("{stem}.txt");
+            let caption = figure.caption.join("\n") + "\n";
+            let text = |out: &mut dyn Write| out.write_all(caption.as_bytes());
+            let written = write(&self.out.join(&name), out, text)?;
+            note(name, written);
+        }
         for (panel, letter) in figure.panels.iter().zip('a'..='z') {
             let letter = if figure.panels.len() > 1 { letter.to_string() } else { String::new() };
             let name = format!("{stem}{letter}.csv");

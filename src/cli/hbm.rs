@@ -14,8 +14,9 @@ use super::status::{self, Refusal, Status, say};
 use super::words::Words;
 use super::{Done, output};
 use crate::harmonic::{Form, Sweep};
+use crate::report::number::speed;
 use crate::report::{CommandLine, hbm as report, json};
-use crate::scene::Scene;
+use crate::scene::{Quantity, Scene};
 
 /// Default number of speeds of a sweep.
 const SPEEDS: usize = 51;
@@ -167,15 +168,15 @@ impl HbmCommand {
     }
 
     fn view(&self) -> Result<HbmView, Refusal> {
-        let values = |option: &str, text: &Option<String>| match text {
-            Some(text) => Range::parse(option, text).map(|range| Some(range.values())),
+        let values = |option: &str, text: &Option<String>, of: Quantity| match text {
+            Some(text) => Range::parse(option, text, of).map(|range| Some(range.values())),
             None => Ok(None),
         };
         if let Some(view) = self.lining.view()? {
             return Ok(HbmView::Lining(view));
         }
-        let zetas = values("--zetas", &self.zetas)?;
-        let omegas = values("--omegas", &self.omegas)?;
+        let zetas = values("--zetas", &self.zetas, Quantity::Plain)?;
+        let omegas = values("--omegas", &self.omegas, Quantity::Speed)?;
         Ok(match self {
             Self { branches: true, .. } => HbmView::Branches,
             Self { fold: true, .. } => HbmView::Fold,
@@ -207,9 +208,10 @@ impl HbmCommand {
 fn warn_missing(sweep: &Sweep) {
     if let Some(first) = sweep.missing.first() {
         say(&format!(
-            "rubscope: no locked motion at {} of {} speeds, the first of them {first} rad/s: the blades are so soft that the branch folds back",
+            "rubscope: no locked motion at {} of {} speeds, the first of them {}: the blades are so soft that the branch folds back",
             sweep.missing.len(),
-            sweep.missing.len() + sweep.points.len()
+            sweep.missing.len() + sweep.points.len(),
+            speed(*first)
         ));
     }
 }

@@ -1,7 +1,6 @@
 //! The views of `rubscope hbm` for blades on a lining, `--smooth` and `--follow`, and of
 //! a coincidence against speed, `--coincidence`.
 
-use crate::scene::keys;
 use std::rc::Rc;
 
 use clap::Args;
@@ -14,9 +13,11 @@ use crate::harmonic::{
 };
 use crate::report::CommandLine;
 use crate::report::hbm::{self as report, HbmReport, LiningReport};
-use crate::report::number::short;
+use crate::report::number::{per_speed, short, speed, speed_unit};
 use crate::report::table::Table;
-use crate::scene::{ContactLaw, Scene};
+use crate::scene::keys;
+use crate::scene::units::{RangeError, read_ends};
+use crate::scene::{ContactLaw, Key, Quantity, Scene};
 
 /// What is asked of a lining.
 #[derive(Args, Debug)]
@@ -50,7 +51,8 @@ impl LiningOptions {
     /// The view that these options ask for, if any.
     pub fn view(&self) -> Result<Option<LiningView>, Refusal> {
         if let (Some(path), Some(over)) = (&self.follow, &self.over) {
-            return Ok(Some(LiningView::Follow(path.clone(), ends(over)?)));
+            let of = keys::find(path).map_or(Quantity::Length, Key::quantity);
+            return Ok(Some(LiningView::Follow(path.clone(), ends(over, of)?)));
         }
         Ok(match self {
             Self { smooth: true, .. } => Some(LiningView::Smooth),
@@ -69,12 +71,10 @@ impl LiningOptions {
     }
 }
 
-fn ends(text: &str) -> Result<[f64; 2], Refusal> {
-    let mut parts = text.split(':').map(|part| part.trim().parse::<f64>());
-    match (parts.next(), parts.next(), parts.next()) {
-        (Some(Ok(from)), Some(Ok(to)), None) if from.is_finite() && to.is_finite() => {
-            Ok([from, to])
-        }
+fn ends(text: &str, of: Quantity) -> Result<[f64; 2], Refusal> {
+    match read_ends(text, of) {
+        Ok((ends, None)) => Ok(ends),
+        Err(RangeError::End(why)) => Err(Refusal::because(format!("--over = {text}: {why}"))),
         _ => Err(Refusal::of("--over", text, "FROM:TO, two numbers")),
     }
 }
@@ -159,7 +159,7 @@ fn under_preload(found: &LiningReport) -> Vec<(String, Table)> {
         short(found.stiffness_n_per_m)
     );
     if let Some(shifted) = found.shifted_rad_s {
-        title.push_str(&format!(" Coincidence on the lining {} rad/s.", short(shifted)));
+        title.push_str(&format!(" Coincidence on the lining {}.", speed(shifted)));
     }
     let changes: Vec<String> = found.hopf.iter().map(change).collect();
     title.push_str(&match changes.len() {
@@ -171,20 +171,22 @@ fn under_preload(found: &LiningReport) -> Vec<(String, Table)> {
 
 fn change(point: &HopfPoint) -> String {
     let change = if point.grows_above { "grows from" } else { "decays from" };
-    format!("{change} {} rad/s", short(point.speed_rad_s))
+    format!("{change} {}", speed(point.speed_rad_s))
 }
 
 fn over_clearance(found: &LiningReport, lining: &Lining) -> Vec<(String, Table)> {
     let mut title = "Steady states in the frame of the blades.".to_string();
     if let Some(least) = found.least {
         title.push_str(&format!(
-            " Without smoothing a lock of two groups needs a lining of at least {} N/m (at {} rad/s); one of {} N/m ",
+            " Without smoothing a lock of two groups needs a lining of at least {} N/m (at {}); one of {} N/m ",
             short(least.stiffness_n_per_m),
-            short(least.speed_rad_s),
+            speed(least.speed_rad_s),
             short(lining.stiffness_n_per_m)
         ));
         title.push_str(&match found.window {
-            Some(window) => format!("holds it from {} rad/s.", report::speeds_of(window)),
+            Some(window) => {
+                format!("holds it from {} {}.", report::speeds_of(window), speed_unit())
+            }
             None => "holds it at no speed.".to_string(),
         });
     }
@@ -229,10 +231,10 @@ fn curve(json: HbmReport, asked: &Asked) -> Result<Answer, HarmonicError> {
     let markers: Vec<f64> =
         scene.machine().coincidence_speeds().iter().map(|speed| sense * speed).collect();
     let shifted = shifted_coincidence(scene, asked.fastest());
-    let shown: Vec<String> = markers.iter().map(|speed| short(*speed)).collect();
-    let mut title = format!("Coincidences (30) at {} rad/s", shown.join(" and "));
+    let shown: Vec<String> = markers.iter().map(|speed| short(per_speed(*speed))).collect();
+    let mut title = format!("Coincidences (30) at {} {}", shown.join(" and "), speed_unit());
     if let Some(shifted) = shifted {
-        title.push_str(&format!(", on the lining at {} rad/s", short(shifted)));
+        title.push_str(&format!(", on the lining at {}", speed(shifted)));
     }
     let what = if scene.clearance() > 0.0 {
         "the wave that lasts once it touches"

@@ -14,7 +14,7 @@ use crate::harmonic::{
 };
 use crate::model::Machine;
 use crate::report::hbm::{self as report, CompliancePoint, HbmReport, WhirlRow};
-use crate::report::number::short;
+use crate::report::number::{self, short};
 use crate::report::table::{MadeTable, Table};
 use crate::scene::{Scene, keys};
 
@@ -208,7 +208,7 @@ fn slipping(
         .iter()
         .map(|limit| {
             let change = if limit.appears { "appears" } else { "vanishes" };
-            format!("{change} at {} rad/s", short(limit.speed_rad_s))
+            format!("{change} at {}", number::speed(limit.speed_rad_s))
         })
         .collect();
     let found = points.iter().filter(|point| point.exists()).count();
@@ -257,18 +257,18 @@ fn series(
     }
     let mut tables = Vec::new();
     for (speed, found) in &series {
-        let speed = short(*speed);
+        let speed = number::speed(*speed);
         match found {
             Ok(found) => {
                 let title = format!(
-                    "A lock needs one harmonic, exactly. Slip at {speed} rad/s, truncated at -H to H:"
+                    "A lock needs one harmonic, exactly. Slip at {speed}, truncated at -H to H:"
                 );
                 tables.push((title, report::truncation_table(found)));
                 let title = "Its harmonics in the standing frame:".to_string();
                 tables.push((title, report::term_table(found)));
             }
             Err(reason) => {
-                let title = format!("No slip at {speed} rad/s ({}).", reason);
+                let title = format!("No slip at {speed} ({}).", reason);
                 tables.push((title, Table::default()));
             }
         }
@@ -291,12 +291,12 @@ fn folding(
     let branch = corner_branch(machine, side, damped, [from, to], ARC)?;
     let title = match branch.fold {
         Some(fold) if branch.points.is_empty() => format!(
-            "The corner branch folds back at {} rad/s, below all of these speeds.",
-            short(fold.speed_rad_s)
+            "The corner branch folds back at {}, below all of these speeds.",
+            number::speed(fold.speed_rad_s)
         ),
         Some(fold) => format!(
-            "The corner branch folds back at {} rad/s, opened to {} rad from {} rad.",
-            short(fold.speed_rad_s),
+            "The corner branch folds back at {}, opened to {} rad from {} rad.",
+            number::speed(fold.speed_rad_s),
             short(fold.opening_rad),
             short(machine.polygon.delta)
         ),
@@ -356,13 +356,15 @@ pub(super) fn whirling(
     let [flutter, undamped] =
         [flutter_speed(machine, fastest), undamped_flutter_speed(machine, fastest)];
     let window = machine.lock_window(fastest);
-    let told = |speed: f64| format!("{} rad/s", short(speed));
+    let told = number::speed;
     let mut title = match onset {
         Some(onset) => format!("On a rim of many blades whirl begins at {}", told(onset)),
         None => "Nothing whirls on a rim of many blades".to_string(),
     };
     title += &match window {
-        Some(window) => format!("; a lock holds from {} rad/s", report::speeds_of(window)),
+        Some(window) => {
+            format!("; a lock holds from {} {}", report::speeds_of(window), number::speed_unit())
+        }
         None => "; no lock holds at any speed".to_string(),
     };
     title += &match flutter {
@@ -391,7 +393,7 @@ pub(super) fn compliance(
     let range = omegas.map_or_else(|| linspace(-reach, reach, FREQUENCIES), <[f64]>::to_vec);
     let waves = round_whirls(&joint);
     let chart = report::compliance_chart(&joint, &waves);
-    let at = format!("at {} rad/s", short(speed));
+    let at = format!("at {}", number::speed(speed));
     let title = format!("B(omega) {at}, real part to the right, imaginary part up [m/N]:");
     let crossings = if waves.is_empty() {
         format!("B(omega) does not cross the negative real axis {at}: nothing whirls.")

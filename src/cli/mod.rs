@@ -3,6 +3,7 @@
 //!
 //! Data goes to standard output, everything else to standard error.
 
+mod check;
 mod explore;
 mod figures;
 mod hbm;
@@ -11,6 +12,7 @@ mod hbm_views;
 mod man;
 mod map;
 mod margins;
+mod new;
 pub mod options;
 mod output;
 mod part_file;
@@ -22,6 +24,7 @@ pub mod script;
 mod sign;
 mod signals;
 pub mod status;
+mod survey;
 mod words;
 
 use std::ffi::OsString;
@@ -59,6 +62,9 @@ enum Command {
     Hbm(Box<hbm::HbmCommand>),
     Map(Box<map::MapCommand>),
     Margins(Box<margins::MarginsCommand>),
+    Survey(Box<survey::SurveyCommand>),
+    New(Box<new::NewCommand>),
+    Check(Box<check::CheckCommand>),
     Precision(Box<precision::PrecisionCommand>),
     Figures(Box<figures::FiguresCommand>),
     Scenes(scenes::ScenesCommand),
@@ -98,6 +104,9 @@ fn dispatch(cli: Cli, out: &mut dyn Write) -> Done {
         Some(Command::Hbm(command)) => command.run(out),
         Some(Command::Map(command)) => command.run(out),
         Some(Command::Margins(command)) => command.run(out),
+        Some(Command::Survey(command)) => command.run(out),
+        Some(Command::New(command)) => command.run(out),
+        Some(Command::Check(command)) => command.run(out),
         Some(Command::Precision(command)) => command.run(out),
         Some(Command::Figures(command)) => command.run(out),
         Some(Command::Scenes(command)) => command.run(out),

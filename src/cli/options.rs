@@ -8,6 +8,7 @@ use super::range::Range;
 use super::status::{Refusal, note, say};
 use super::words::Words;
 use crate::model::Operation;
+use crate::report::number::tell_in_rpm;
 use crate::scene::{
     Adjustment, CheckedScene, ContactLaw, DEFAULT, ModelSize, Scene, SceneError, SolverKind,
 };
@@ -55,6 +56,9 @@ pub struct SceneOptions {
     /// Any key of the scene file, such as bladed_disk.blades=24; repeatable, applied last
     #[arg(long, value_name = "PATH=VALUE", allow_hyphen_values = true, help_heading = HEADING)]
     set: Vec<String>,
+    /// Tell speeds in turns a minute; files and JSON keep rad/s
+    #[arg(long, help_heading = HEADING)]
+    rpm: bool,
 }
 
 const HEADING: &str = "Options that change the scene";
@@ -84,6 +88,12 @@ impl SceneOptions {
     #[must_use]
     pub fn name(&self) -> Option<&str> {
         self.scene.as_deref()
+    }
+
+    /// Whether speeds are to be told in turns a minute.
+    #[must_use]
+    pub fn in_rpm(&self) -> bool {
+        self.rpm
     }
 
     /// The speed or range given with `--speed`, as it was typed.
@@ -118,6 +128,7 @@ impl SceneOptions {
     }
 
     fn apply(&self, mut scene: Scene, swept: Swept) -> anyhow::Result<Resolved> {
+        tell_in_rpm(self.rpm);
         let mut given = Vec::new();
         let (mut speeds, mut pulses) = (None, None);
         for (option, key, text) in self.named() {
@@ -129,7 +140,7 @@ impl SceneOptions {
             };
             match range {
                 Some(range) if Range::looks_like(text) => {
-                    let parsed = Range::parse(option, text)?;
+                    let parsed = Range::parse(option, text, keys::find(key)?.quantity())?;
                     *range = Some(parsed);
                     scene.set(key, &parsed.from.to_string())?;
                 }

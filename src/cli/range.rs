@@ -1,6 +1,8 @@
 //! `FROM:TO:COUNT`, a range of values that a command sweeps.
 
 use super::status::Refusal;
+use crate::scene::Quantity;
+use crate::scene::units::RangeError;
 use crate::study::parse_range;
 
 /// Most values of one range.
@@ -24,18 +26,15 @@ impl Range {
         text.contains(':')
     }
 
-    /// Reads `FROM:TO:COUNT`, given for `name` (an option as typed).
+    /// Reads `FROM:TO:COUNT`, given for `name` (an option as typed), with ends of a quantity.
     ///
     /// # Errors
-    /// Text of another form, ends that are not finite numbers, or a count
+    /// Text of another form, ends that are not finite numbers of the quantity, or a count
     /// outside 1 to 100,000.
-    pub fn parse(name: &str, text: &str) -> Result<Self, Refusal> {
-        match parse_range(text) {
-            Some((from, to, count))
-                if from.is_finite() && to.is_finite() && (1..=MOST).contains(&count) =>
-            {
-                Ok(Self { from, to, count })
-            }
+    pub fn parse(name: &str, text: &str, of: Quantity) -> Result<Self, Refusal> {
+        match parse_range(text, of) {
+            Ok((from, to, count)) if (1..=MOST).contains(&count) => Ok(Self { from, to, count }),
+            Err(RangeError::End(why)) => Err(Refusal::because(format!("{name} = {text}: {why}"))),
             _ => {
                 let form = format!("FROM:TO:COUNT, two numbers and a count from 1 to {MOST}");
                 Err(Refusal::of(name, text, form))
@@ -84,13 +83,17 @@ mod tests {
     #[test]
     fn other_forms_are_refused_with_the_form_that_is_allowed() {
         assert_eq!(
-            Range::parse("--speed", "-10:1e2:3").unwrap(),
+            Range::parse("--speed", "-10:1e2:3", Quantity::Speed).unwrap(),
             Range { from: -10.0, to: 100.0, count: 3 }
         );
+        let minute = Range::parse("--speed", "0rpm:9500 rpm:3", Quantity::Speed).unwrap();
+        assert!((minute.to - 994.837_673_637).abs() < 1e-8);
+        let force = Range::parse("--speed", "0:43 kN:3", Quantity::Speed).unwrap_err().to_string();
+        assert_eq!(force, "--speed = 0:43 kN:3: this is a force; it takes rad/s, rpm or Hz");
         for text in
             ["1:2", "1:2:0", "1:2:x", "a:2:3", "1:nan:3", "1:2:3:4", "1:2:-3", "1:2:9999999"]
         {
-            let message = Range::parse("--speed", text).unwrap_err().to_string();
+            let message = Range::parse("--speed", text, Quantity::Speed).unwrap_err().to_string();
             assert!(message.starts_with(&format!("--speed = {text}: allowed is FROM:TO:COUNT")));
         }
     }

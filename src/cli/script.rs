@@ -12,7 +12,8 @@ use super::status::Refusal;
 use crate::motion;
 use crate::report::number::time;
 use crate::scene::keys::{self, Live, SPEED};
-use crate::scene::{CheckedScene, KEYS, Key, SolverKind, Value};
+use crate::scene::units::UnitError;
+use crate::scene::{CheckedScene, KEYS, Key, Quantity, SolverKind, Value};
 
 /// The option, as it is named in refusals.
 const OPTION: &str = "--at";
@@ -55,11 +56,14 @@ pub fn parse(options: &[String]) -> Result<Vec<(f64, RequestedChange)>, Refusal>
 
 fn parse_one(text: &str) -> Result<(f64, RequestedChange), Refusal> {
     let form = || {
-        let allowed = "TIME:PATH=VALUE or TIME:pulse, with TIME in seconds";
+        let allowed = "TIME:PATH=VALUE or TIME:pulse, with TIME in seconds or as 0.3ms";
         Refusal::of(OPTION, text, allowed)
     };
     let (time, change) = text.split_once(':').ok_or_else(form)?;
-    let time: f64 = time.trim().parse().map_err(|_| form())?;
+    let time = Quantity::Time.read(time).map_err(|why| match why {
+        UnitError::NoNumber => form(),
+        why => Refusal::because(format!("{OPTION} {text}: {why}")),
+    })?;
     let change = match change.split_once('=') {
         Some((path, value)) => {
             RequestedChange::Set { path: path.trim().into(), value: value.trim().into() }

@@ -407,6 +407,7 @@ mod tests {
             nodal_diameters: 0,
             mistuning: disk.mistuning.into(),
             mistuning_seed: 1,
+            modes: Vec::new(),
         };
         let casing = Casing {
             radius_m: casing.radius_m.into(),
@@ -415,6 +416,7 @@ mod tests {
             damping_ratio: casing.damping_ratio.into(),
             tangential_ratio: casing.tangential_ratio.into(),
             clearance_loss_m_s2: casing.clearance_loss_m_s2.into(),
+            modes: Vec::new(),
         };
         Machine::new(&disk, &casing, 3).with_friction(Dual64::from(0.05))
     }

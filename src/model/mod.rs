@@ -14,6 +14,8 @@ pub use lining::LiningLaw;
 pub use lock::LockWindow;
 pub use machine::{Machine, blade_frequency};
 pub use number::Number;
-pub use parameters::{BladedDisk, Casing, ContactSurface, Excitation, Initial, Operation};
+pub use parameters::{
+    BladedDisk, Casing, ContactSurface, Excitation, Initial, Mode, ModePart, Operation,
+};
 pub use polygon::ContactPolygon;
 pub(crate) use polygon::{fraction_of_turn, gcd};

@@ -3,7 +3,93 @@
 //! the allowed values. Each number is one of a type `T`: `f64`, or one that carries
 //! its derivative along (`Number`).
 
-use serde::Serialize;
+use std::collections::BTreeMap;
+
+use serde::{Serialize, Serializer};
+
+/// A mode of casing or disk by its number of diameters. What it leaves out is the
+/// structure's own value.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mode {
+    /// Its nodal diameters.
+    pub nodal_diameters: u32,
+    /// Modal mass of the casing \[kg\], or inertia of a blade \[kg m^2\].
+    pub mass: Option<f64>,
+    /// Modal stiffness of the casing \[N/m\], or of a blade on the disk \[N m/rad\].
+    pub stiffness: Option<f64>,
+    /// Damping ratio.
+    pub damping_ratio: Option<f64>,
+}
+
+/// A value of a mode.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ModePart {
+    /// Mass, or inertia.
+    Mass,
+    /// Stiffness.
+    Stiffness,
+    /// Damping ratio.
+    Damping,
+}
+
+impl Mode {
+    /// One of its values.
+    #[must_use]
+    pub fn part(&self, part: ModePart) -> Option<f64> {
+        match part {
+            ModePart::Mass => self.mass,
+            ModePart::Stiffness => self.stiffness,
+            ModePart::Damping => self.damping_ratio,
+        }
+    }
+
+    /// The same, to be changed.
+    pub fn part_mut(&mut self, part: ModePart) -> &mut Option<f64> {
+        match part {
+            ModePart::Mass => &mut self.mass,
+            ModePart::Stiffness => &mut self.stiffness,
+            ModePart::Damping => &mut self.damping_ratio,
+        }
+    }
+}
+
+/// The mode of so many diameters, if it is known.
+fn mode_of(modes: &[Mode], diameters: u32) -> Option<&Mode> {
+    modes.iter().find(|mode| mode.nodal_diameters == diameters)
+}
+
+/// A value that the mode of so many diameters has of its own.
+fn own_part(modes: &mut [Mode], diameters: u32, part: ModePart) -> Option<&mut f64> {
+    modes.iter_mut().find(|mode| mode.nodal_diameters == diameters)?.part_mut(part).as_mut()
+}
+
+/// Modes with the names that their values have in a scene file.
+fn named<S: Serializer>(modes: &[Mode], names: [&str; 2], out: S) -> Result<S::Ok, S::Error> {
+    out.collect_seq(modes.iter().map(|mode| {
+        let parts = [(names[0], mode.mass), (names[1], mode.stiffness)];
+        let mut all = BTreeMap::from([("nodal_diameters", Number::Whole(mode.nodal_diameters))]);
+        let damping = [("damping_ratio", mode.damping_ratio)];
+        let known = parts.into_iter().chain(damping);
+        all.extend(known.filter_map(|(name, value)| Some((name, Number::Real(value?)))));
+        all
+    }))
+}
+
+/// A number of a mode.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Number {
+    Whole(u32),
+    Real(f64),
+}
+
+fn casing_modes<S: Serializer>(modes: &[Mode], out: S) -> Result<S::Ok, S::Error> {
+    named(modes, ["modal_mass_kg", "modal_stiffness_n_per_m"], out)
+}
+
+fn disk_modes<S: Serializer>(modes: &[Mode], out: S) -> Result<S::Ok, S::Error> {
+    named(modes, ["inertia_kg_m2", "stiffness_nm_per_rad"], out)
+}
 
 /// A tuned bladed disk of rigid blades on angular springs, Eqs. (2)-(3).
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -32,6 +118,9 @@ pub struct BladedDisk<T = f64> {
     pub mistuning: T,
     /// Number of the draw of the stiffnesses.
     pub mistuning_seed: u32,
+    /// Modes with values of their own, by their diameters.
+    #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "disk_modes")]
+    pub modes: Vec<Mode>,
 }
 
 impl<T> BladedDisk<T> {
@@ -39,6 +128,32 @@ impl<T> BladedDisk<T> {
     #[must_use]
     pub fn diameters_beside(&self, casing: u32) -> u32 {
         if self.nodal_diameters == 0 { casing } else { self.nodal_diameters }
+    }
+}
+
+impl BladedDisk {
+    /// It with the values of its mode of so many diameters, and no other modes.
+    #[must_use]
+    pub fn at(&self, diameters: u32) -> Self {
+        let mode = mode_of(&self.modes, diameters);
+        let of = |part, own: f64| mode.and_then(|mode| mode.part(part)).unwrap_or(own);
+        Self {
+            inertia_kg_m2: of(ModePart::Mass, self.inertia_kg_m2),
+            stiffness_nm_per_rad: of(ModePart::Stiffness, self.stiffness_nm_per_rad),
+            damping_ratio: of(ModePart::Damping, self.damping_ratio),
+            modes: Vec::new(),
+            ..*self
+        }
+    }
+
+    /// A value of that mode, or its own where the mode has none.
+    pub fn part_at(&mut self, diameters: u32, part: ModePart) -> &mut f64 {
+        let own = match part {
+            ModePart::Mass => &mut self.inertia_kg_m2,
+            ModePart::Stiffness => &mut self.stiffness_nm_per_rad,
+            ModePart::Damping => &mut self.damping_ratio,
+        };
+        own_part(&mut self.modes, diameters, part).unwrap_or(own)
     }
 }
 
@@ -57,6 +172,7 @@ impl Default for BladedDisk {
             nodal_diameters: 0,
             mistuning: 0.0,
             mistuning_seed: 1,
+            modes: Vec::new(),
         }
     }
 }
@@ -78,6 +194,35 @@ pub struct Casing<T = f64> {
     /// What blades and disk lose of the clearance as they grow, `c`: at a speed it is
     /// `R_c - l_b - c Omega^2` \[m s^2\].
     pub clearance_loss_m_s2: T,
+    /// Modes with values of their own, by their diameters.
+    #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "casing_modes")]
+    pub modes: Vec<Mode>,
+}
+
+impl Casing {
+    /// It with the values of its mode of so many diameters, and no other modes.
+    #[must_use]
+    pub fn at(&self, diameters: u32) -> Self {
+        let mode = mode_of(&self.modes, diameters);
+        let of = |part, own: f64| mode.and_then(|mode| mode.part(part)).unwrap_or(own);
+        Self {
+            modal_mass_kg: of(ModePart::Mass, self.modal_mass_kg),
+            modal_stiffness_n_per_m: of(ModePart::Stiffness, self.modal_stiffness_n_per_m),
+            damping_ratio: of(ModePart::Damping, self.damping_ratio),
+            modes: Vec::new(),
+            ..*self
+        }
+    }
+
+    /// A value of that mode, or its own where the mode has none.
+    pub fn part_at(&mut self, diameters: u32, part: ModePart) -> &mut f64 {
+        let own = match part {
+            ModePart::Mass => &mut self.modal_mass_kg,
+            ModePart::Stiffness => &mut self.modal_stiffness_n_per_m,
+            ModePart::Damping => &mut self.damping_ratio,
+        };
+        own_part(&mut self.modes, diameters, part).unwrap_or(own)
+    }
 }
 
 impl Default for Casing {
@@ -90,6 +235,7 @@ impl Default for Casing {
             damping_ratio: 0.05,
             tangential_ratio: 0.0,
             clearance_loss_m_s2: 0.0,
+            modes: Vec::new(),
         }
     }
 }

@@ -37,7 +37,7 @@ impl Serialize for MapJson<'_> {
         let mut object = out.serialize_map(None)?;
         object.serialize_entry("schema", "rubscope.map/1")?;
         object.serialize_entry("program", &command(map).flag("--json", true).program())?;
-        object.serialize_entry("scene", &map.plan.scene)?;
+        object.serialize_entry("scene", &map.plan.scene.told())?;
         let names = names(map);
         for (short, name, axis) in [("x", names[0], &map.plan.x), ("y", names[1], &map.plan.y)] {
             object.serialize_entry(short, &json!({ "path": axis.path, "log": axis.log }))?;
@@ -156,8 +156,8 @@ pub fn figure(map: &Map, curves: &[overlay::Curve]) -> Figure {
     let title = format!("{} ({} contact)", scene.title, scene.solver.contact);
     let conditions = [
         (keys::DIAMETERS, format!("n_d = {}", scene.operation.nodal_diameters)),
-        (keys::CASING_DAMPING, format!("ζ_c = {}", scene.casing.damping_ratio)),
-        (keys::BLADE_DAMPING, format!("ζ_bd = {}", scene.bladed_disk.damping_ratio)),
+        (keys::CASING_DAMPING, format!("ζ_c = {}", scene.casing_in_use().damping_ratio)),
+        (keys::BLADE_DAMPING, format!("ζ_bd = {}", scene.disk_in_use().damping_ratio)),
         (keys::SOLVER, format!("{} solver", scene.solver.kind)),
         (keys::MODEL, format!("{} model", scene.solver.model)),
         (keys::END, format!("runs of {} s", scene.solver.end_s)),

@@ -1,6 +1,7 @@
 //! Reports: one file per format. A report takes what a computation returned
 //! and a place to write to; it computes nothing itself.
 
+pub mod check;
 pub mod command;
 pub mod figure;
 pub mod hbm;
@@ -14,6 +15,7 @@ pub mod number;
 pub mod precision;
 pub mod sentence;
 pub mod summary;
+pub mod survey;
 pub mod svg;
 pub mod symbols;
 pub mod table;

@@ -2,6 +2,7 @@
 //! under tiny changes.
 
 use std::cell::Cell;
+use std::f64::consts::TAU;
 
 pub use crate::numeric::rounding::rounded;
 
@@ -54,10 +55,48 @@ pub fn time(seconds: f64) -> String {
 /// suits it; in letters of ASCII.
 #[must_use]
 pub fn with_unit(x: f64, digits: usize, unit: &str) -> String {
+    let (x, unit) = told(x, unit);
     let scale = SiScale::before(unit, x);
     let shown = short(rounded(x / scale.factor, digits));
     format!("{shown} {}{unit}", scale.in_ascii()).trim_end().to_string()
 }
+
+thread_local! {
+    /// Whether this thread tells speeds in turns a minute.
+    static IN_RPM: Cell<bool> = const { Cell::new(false) };
+}
+
+/// From now on this thread tells speeds in turns a minute, or in radians a second again.
+/// Files and JSON keep radians a second.
+pub fn tell_in_rpm(rpm: bool) {
+    IN_RPM.set(rpm);
+}
+
+/// The unit in which speeds are told.
+#[must_use]
+pub fn speed_unit() -> &'static str {
+    if IN_RPM.get() { "rpm" } else { RAD_S }
+}
+
+/// A speed \[rad/s\] in the unit in which speeds are told.
+#[must_use]
+pub fn per_speed(omega: f64) -> f64 {
+    if IN_RPM.get() { omega * 60.0 / TAU } else { omega }
+}
+
+/// A speed with its unit, in at most six significant digits.
+#[must_use]
+pub fn speed(omega: f64) -> String {
+    format!("{} {}", short(per_speed(omega)), speed_unit())
+}
+
+/// A number and its unit as they are told.
+#[must_use]
+pub fn told(x: f64, unit: &str) -> (f64, &str) {
+    if unit == RAD_S { (per_speed(x), speed_unit()) } else { (x, unit) }
+}
+
+const RAD_S: &str = "rad/s";
 
 /// "1 step", "2 steps", "1,000,000 steps".
 #[must_use]

@@ -124,7 +124,7 @@ impl Facts {
             touches: report.impact_count,
             law: report.solver.contact,
             pressed: scene.clearance() < 0.0,
-            damped: scene.casing.damping_ratio > 0.0,
+            damped: scene.casing_in_use().damping_ratio > 0.0,
             broken: report.broken.map(|(_, speed)| speed),
             failure: report.failure.clone(),
             doubts: pulls.into_iter().chain(sensitive).collect(),

@@ -3,8 +3,9 @@
 use std::io::{Result, Write};
 
 use super::Wall;
+use super::line::capital;
 use super::number::Digits;
-use super::number::{count, grouped, short, time};
+use super::number::{count, grouped, per_speed, short, speed, time};
 use crate::model::Machine;
 use crate::motion::{Contact, RunReport, Verdict};
 use crate::scene::{ContactLaw, SolverKind};
@@ -31,6 +32,9 @@ pub fn write(report: &RunReport, wall: Wall, out: &mut dyn Write) -> Result<()> 
         writeln!(out, "{}", report.scene.title)?;
     }
     writeln!(out, "{}", how(report))?;
+    if let Some(note) = report.scene.modes_note() {
+        writeln!(out, "{}.", capital(&note))?;
+    }
     if report.solver.linearised {
         writeln!(out, "Blade angles inside the gap's phase are left out (linearised).")?;
     }
@@ -76,12 +80,12 @@ fn how(report: &RunReport) -> String {
         ""
     };
     format!(
-        "{} solver, {} contact, {} model{follow}{step}; {} at {} rad/s; pulse of {} N for {}{excitation}; simulated to {}.",
+        "{} solver, {} contact, {} model{follow}{step}; {} at {}; pulse of {} N for {}{excitation}; simulated to {}.",
         capital(report.solver.kind.as_ref()),
         report.solver.contact,
         report.solver.model,
         count(u64::from(scene.operation.nodal_diameters), "nodal diameter"),
-        short(scene.operation.speed_rad_s),
+        speed(scene.operation.speed_rad_s),
         short(scene.operation.pulse_n),
         time(scene.operation.pulse_s),
         time(scene.solver.end_s),
@@ -149,15 +153,15 @@ fn motion(report: &RunReport, machine: &Machine, out: &mut dyn Write) -> Result<
         room(machine)
     )?;
     if let Some(wave) = outcome.wave_speed_rad_s {
-        let wave = digits.told(wave, spread.and_then(|spread| spread.wave_speed_rad_s), short);
-        writeln!(out, "The wave turns at {wave} rad/s.")?;
+        let wave = digits.told(wave, spread.and_then(|spread| spread.wave_speed_rad_s), speed);
+        writeln!(out, "The wave turns at {wave}.")?;
     }
     if let Some(note) = digits.note() {
         writeln!(out, "{note}")?;
     }
     writeln!(out, "{}", speeds(report, machine))?;
     if let Some(dangerous) = machine.coincidence_felt_at(report.end_speed_rad_s) {
-        writeln!(out, "Dangerous coincidence speed: {} rad/s.", short(dangerous))?;
+        writeln!(out, "Dangerous coincidence speed: {}.", speed(dangerous))?;
     }
     writeln!(out, "{}", impacts(report))
 }
@@ -200,19 +204,21 @@ fn touch(contact: &Contact, moved: Option<f64>, digits: &Digits) -> String {
 
 /// The rotor speed, compared with the threshold speeds.
 fn speeds(report: &RunReport, machine: &Machine) -> String {
-    let speed = report.end_speed_rad_s;
-    let lock = machine.lock_window(speed);
-    let at_end = if speed == report.scene.operation.speed_rad_s { "" } else { " at the end" };
-    let mut parts = vec![format!("Rotor speed{at_end}: {} rad/s", short(speed))];
+    let now = report.end_speed_rad_s;
+    let lock = machine.lock_window(now);
+    let at_end = if now == report.scene.operation.speed_rad_s { "" } else { " at the end" };
+    let mut parts = vec![format!("Rotor speed{at_end}: {}", speed(now))];
     let part_of = |name: &str, threshold: f64| {
-        format!("{} of {name} ({} rad/s", short(speed.abs() / threshold), short(threshold))
+        format!("{} of {name} ({}", short(now.abs() / threshold), speed(threshold))
     };
     parts.extend(machine.critical_speed().map(|critical| part_of("Omega_c", critical) + ")"));
     if let Some(lock) = lock.filter(|lock| lock.from > 0.0) {
         // More groups may hold a wave on a lining, elsewhere.
         let groups = if machine.lining.is_some() { " of two groups" } else { "" };
         let ends = match lock.to {
-            Some(to) => format!(", where locks{groups} begin; they end at {}", short(to)),
+            Some(to) => {
+                format!(", where locks{groups} begin; they end at {}", short(per_speed(to)))
+            }
             None if machine.lining.is_some() => format!(", where locks{groups} begin"),
             None => String::new(),
         };
@@ -291,11 +297,6 @@ fn listed(blades: &[u32]) -> String {
         }
         [head @ .., last] => format!("{} and {last}", names(head)),
     }
-}
-
-fn capital(word: &str) -> String {
-    let mut letters = word.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 #[cfg(test)]

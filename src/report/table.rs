@@ -5,7 +5,7 @@
 use std::io::{Result, Write};
 use std::rc::Rc;
 
-use super::number::{exact, short};
+use super::number::{exact, per_speed, short, speed_unit};
 
 /// One cell of a table.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,9 +18,14 @@ pub enum TableCell {
     Empty,
 }
 
+/// Columns of speeds, which text tells in the unit of speeds. CSV has them as they are.
+const SPEEDS: [&str; 5] =
+    ["speed_rad_s", "wave_speed_rad_s", "appears_rad_s", "vanishes_rad_s", "speed [rad/s]"];
+
 impl TableCell {
-    fn in_text(&self) -> String {
+    fn in_text(&self, is_speed: bool) -> String {
         match self {
+            Self::Number(x) if is_speed => short(per_speed(*x)),
             Self::Number(x) => short(*x),
             Self::Word(word) => word.clone(),
             Self::Empty => "-".to_string(),
@@ -170,31 +175,43 @@ impl Table {
 pub(super) struct Layout {
     widths: Vec<usize>,
     words: Vec<bool>,
+    speeds: Vec<bool>,
+}
+
+/// The name of a column in text.
+fn shown(name: &str) -> String {
+    if !SPEEDS.contains(&name) || speed_unit() != "rpm" {
+        return name.to_string();
+    }
+    name.replace("rad_s", "rpm").replace("rad/s", "rpm")
 }
 
 impl Layout {
     /// Of columns with these names.
     pub fn of(names: &[String]) -> Self {
-        let widths = names.iter().map(|name| name.chars().count()).collect();
-        Self { widths, words: vec![false; names.len()] }
+        let widths = names.iter().map(|name| shown(name).chars().count()).collect();
+        let speeds = names.iter().map(|name| SPEEDS.contains(&name.as_str())).collect();
+        Self { widths, words: vec![false; names.len()], speeds }
     }
 
     /// Makes room for a row.
     pub fn meet(&mut self, row: &[TableCell]) {
-        for ((cell, width), word) in row.iter().zip(&mut self.widths).zip(&mut self.words) {
-            *width = (*width).max(cell.in_text().chars().count());
+        let columns = self.widths.iter_mut().zip(&mut self.words).zip(&self.speeds);
+        for (cell, ((width, word), speed)) in row.iter().zip(columns) {
+            *width = (*width).max(cell.in_text(*speed).chars().count());
             *word |= matches!(cell, TableCell::Word(_));
         }
     }
 
     /// Writes the names, if there are any.
     pub fn write_names(&self, names: &[String], out: &mut dyn Write) -> Result<()> {
-        if names.is_empty() { Ok(()) } else { self.line(names.iter().cloned(), out) }
+        if names.is_empty() { Ok(()) } else { self.line(names.iter().map(|name| shown(name)), out) }
     }
 
     /// Writes a row.
     pub fn write(&self, row: &[TableCell], out: &mut dyn Write) -> Result<()> {
-        self.line(row.iter().map(TableCell::in_text), out)
+        let cells = row.iter().zip(&self.speeds).map(|(cell, speed)| cell.in_text(*speed));
+        self.line(cells, out)
     }
 
     fn line(&self, row: impl Iterator<Item = String>, out: &mut dyn Write) -> Result<()> {

@@ -66,8 +66,8 @@ fn growth(scene: &Scene) -> Result<(), SceneError> {
 fn frequencies(scene: &Scene) -> Result<(), SceneError> {
     let machine = scene.machine();
     for (key, value, frequency) in [
-        (keys::CASING_MASS, scene.casing.modal_mass_kg, machine.omega_c),
-        (keys::BLADE_INERTIA, scene.bladed_disk.inertia_kg_m2, machine.omega_bd),
+        (keys::CASING_MASS, machine.casing_mass, machine.omega_c),
+        (keys::BLADE_INERTIA, machine.blade_inertia, machine.omega_bd),
     ] {
         if !(1e-6..=1e15).contains(&frequency) {
             // Rounded to the outside of the allowed range.

@@ -1,6 +1,6 @@
 //! The type of a scene that can be solved; the solvers take only this.
 
-use super::keys;
+use super::{keys, modes};
 use std::ops::Deref;
 
 use serde::Serialize;
@@ -17,9 +17,28 @@ use super::{ContactLaw, KEYS, ModelSize, Scene, SceneError, SolverKind, check};
 /// assert!(refused.to_string().starts_with("operation.speed_rad_s = NaN"));
 /// # Ok::<(), rubscope::scene::SceneError>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(transparent)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct CheckedScene(Scene);
+
+impl Serialize for CheckedScene {
+    fn serialize<S: serde::Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
+        self.0.told().serialize(out)
+    }
+}
+
+impl Scene {
+    /// The scene as reports have it: where a mode is missing it is said.
+    pub(crate) fn told(&self) -> impl Serialize {
+        #[derive(Serialize)]
+        struct Told<'a> {
+            #[serde(flatten)]
+            scene: &'a Scene,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            modes_note: Option<String>,
+        }
+        Told { scene: self, modes_note: self.modes_note() }
+    }
+}
 
 impl Deref for CheckedScene {
     type Target = Scene;
@@ -83,6 +102,7 @@ impl Scene {
     /// The first key out of bounds, or the first combination that is not allowed
     /// (clearance, stable step, solver pairs), in one line.
     pub fn checked(&self) -> Result<CheckedScene, SceneError> {
+        modes::check(self)?;
         for key in KEYS {
             key.check(&(key.get)(self))?;
         }

@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use super::units::UnitError;
+
 /// Why a scene, or a key of one, was refused.
 #[derive(Debug, Error, Clone, PartialEq)]
 pub enum SceneError {
@@ -22,6 +24,16 @@ pub enum SceneError {
         value: String,
         /// What would be accepted.
         allowed: String,
+    },
+    /// A number of another quantity, or of no unit.
+    #[error("{key} = {value}: {why}")]
+    Unit {
+        /// Dotted path.
+        key: String,
+        /// The value as given.
+        value: String,
+        /// What it is, and which units are allowed.
+        why: UnitError,
     },
     /// Text that is not TOML.
     #[error("not a TOML file: {0}")]

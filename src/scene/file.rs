@@ -5,7 +5,7 @@ use std::path::Path;
 
 use toml::{Table, Value as Toml};
 
-use super::{Allowed, BUILTIN, Key, Scene, SceneError, Value, keys};
+use super::{Allowed, BUILTIN, Key, Scene, SceneError, Value, keys, modes};
 
 /// Largest scene file \[bytes\]; the built-in ones have some hundreds.
 const LARGEST_FILE: u64 = 1 << 20;
@@ -76,7 +76,10 @@ impl Scene {
             if name == "schema" {
                 check_schema(value)?;
             } else if let Toml::Table(inner) = value {
-                for (leaf, value) in inner {
+                // Frequencies of modes are of the masses beside them.
+                let (modes, plain): (Vec<_>, Vec<_>) =
+                    inner.iter().partition(|(leaf, _)| *leaf == "modes");
+                for (leaf, value) in plain.into_iter().chain(modes) {
                     read(&mut scene, &format!("{name}.{leaf}"), value)?;
                 }
                 if inner.is_empty() && !keys::KEYS.iter().any(|key| in_table(key, name)) {
@@ -94,13 +97,22 @@ impl Scene {
     pub fn to_toml(&self) -> String {
         let mut out = String::from("schema = 1\n");
         let mut table = "";
+        let own = self.without_modes();
         for key in keys::KEYS {
+            match key.path {
+                keys::CASING_MODES => out.push_str(&modes::CASING.blocks(&self.casing.modes)),
+                keys::DISK_MODES => out.push_str(&modes::DISK.blocks(&self.bladed_disk.modes)),
+                _ => {}
+            }
+            if matches!(key.allowed, Allowed::Modes(_)) {
+                continue;
+            }
             let (section, leaf) = key.path.split_once('.').unwrap_or(("", key.path));
             if section != table {
                 out.push_str(&format!("\n[{section}]\n"));
                 table = section;
             }
-            out.push_str(&format!("{leaf} = {}\n", as_toml(&(key.get)(self))));
+            out.push_str(&format!("{leaf} = {}\n", as_toml(&(key.get)(&own))));
         }
         out
     }
@@ -141,9 +153,14 @@ fn read(scene: &mut Scene, path: &str, toml: &Toml) -> Result<(), SceneError> {
         (Toml::Float(x), Allowed::Real { .. }) => Some(Value::Real(*x)),
         (Toml::Integer(n), Allowed::Real { .. }) => Some(Value::Real(*n as f64)),
         (Toml::Integer(n), Allowed::Whole { .. }) => u64::try_from(*n).ok().map(Value::Whole),
+        (Toml::String(text), Allowed::Real { .. }) => match key.parse(text) {
+            Err(error @ SceneError::Unit { .. }) => return Err(error),
+            read => read.ok(),
+        },
         (Toml::String(text), Allowed::OneOf(_) | Allowed::Text { .. }) => {
             Some(Value::Text(text.clone()))
         }
+        (Toml::Array(_), Allowed::Modes(_)) => Some(Value::Text(toml.to_string())),
         (Toml::Array(items), Allowed::SomeOf(_)) => items
             .iter()
             .map(|item| item.as_str().map(String::from))
@@ -156,6 +173,7 @@ fn read(scene: &mut Scene, path: &str, toml: &Toml) -> Result<(), SceneError> {
     scene.set_value(key, value)
 }
 
-fn one_line(value: &Toml) -> String {
+/// A value in one line.
+pub(super) fn one_line(value: &Toml) -> String {
     value.to_string().lines().collect::<Vec<_>>().join(" ")
 }

@@ -3,7 +3,10 @@
 
 use strum::VariantNames;
 
+use super::modes::{self, Structure};
+use super::units::{Quantity, UnitError};
 use super::{ContactLaw, ModelSize, Scene, SceneError, SolverKind};
+use crate::model::ModePart;
 
 /// A value of a key.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,6 +61,8 @@ pub enum Allowed {
         /// Most characters.
         most: usize,
     },
+    /// A list of the modes of a structure, as text.
+    Modes(&'static Structure),
 }
 
 impl std::fmt::Display for Allowed {
@@ -73,6 +78,7 @@ impl std::fmt::Display for Allowed {
             Self::OneOf(words) => write!(out, "one of {}", words.join(", ")),
             Self::SomeOf(words) => write!(out, "a list of {}, each once", words.join(", ")),
             Self::Text { most } => write!(out, "a line of text of up to {most} characters"),
+            Self::Modes(structure) => write!(out, "a list of modes, each {}", structure.form()),
         }
     }
 }
@@ -140,6 +146,7 @@ impl Key {
                     && list.iter().all(|word| words.contains(&word.as_str()))
                     && list.iter().enumerate().all(distinct)
             }
+            (Value::Text(text), Allowed::Modes(structure)) => return structure.check(text),
             (Value::Text(text), Allowed::Text { most }) => {
                 let length = text.chars().count();
                 if length > most {
@@ -157,7 +164,14 @@ impl Key {
         }
     }
 
-    /// Reads a value of this key's kind from text, as given on a command line.
+    /// What a number of it is of.
+    #[must_use]
+    pub fn quantity(&self) -> Quantity {
+        Quantity::of(self.unit)
+    }
+
+    /// Reads a value of this key's kind from text, as given on a command line; a number may
+    /// have a unit.
     ///
     /// # Errors
     /// Text that is not of the kind this key holds.
@@ -165,9 +179,15 @@ impl Key {
         let refused = || SceneError::refused(self.path, text, self.allowed.to_string());
         let trimmed = text.trim();
         Ok(match self.allowed {
-            Allowed::Real { .. } => Value::Real(trimmed.parse().map_err(|_| refused())?),
+            Allowed::Real { .. } => Value::Real(self.quantity().read(trimmed).map_err(|why| {
+                let (key, value) = (self.path.to_string(), trimmed.to_string());
+                match why {
+                    UnitError::NoNumber => refused(),
+                    why => SceneError::Unit { key, value, why },
+                }
+            })?),
             Allowed::Whole { .. } => Value::Whole(trimmed.parse().map_err(|_| refused())?),
-            Allowed::OneOf(_) => Value::Text(trimmed.to_string()),
+            Allowed::OneOf(_) | Allowed::Modes(_) => Value::Text(trimmed.to_string()),
             Allowed::Text { .. } => Value::Text(text.to_string()),
             Allowed::SomeOf(_) => {
                 Value::Words(trimmed.split(',').map(|word| word.trim().to_string()).collect())
@@ -242,6 +262,41 @@ macro_rules! real {
         }
     };
 }
+/// As `real`, of a value that modes may have of their own: that of the mode in use.
+macro_rules! moded {
+    ($path:expr, $live:ident, $unit:literal, $what:literal, $above:literal $min:literal .. $max:literal, $in_use:ident.$field:ident, $place:ident $part:ident) => {
+        Key {
+            path: $path,
+            unit: $unit,
+            what: $what,
+            live: Live::$live,
+            allowed: Allowed::Real { min: $min, max: $max, above: $above },
+            get: |scene| Value::Real(scene.$in_use().$field),
+            set: |scene, value| {
+                if let Value::Real(x) = value {
+                    *scene.$place(ModePart::$part) = x
+                }
+            },
+        }
+    };
+}
+macro_rules! modes {
+    ($path:expr, $live:ident, $what:literal, $structure:ident, $table:ident, $set:ident) => {
+        Key {
+            path: $path,
+            unit: "-",
+            what: $what,
+            live: Live::$live,
+            allowed: Allowed::Modes(&modes::$structure),
+            get: |scene| Value::Text(modes::$structure.text(&scene.$table.modes)),
+            set: |scene, value| {
+                if let Value::Text(text) = value {
+                    modes::$set(scene, &text)
+                }
+            },
+        }
+    };
+}
 macro_rules! whole {
     ($path:expr, $live:ident, $what:literal, $min:literal .. $max:literal, $($field:ident).+) => {
         Key {
@@ -306,17 +361,60 @@ pub fn differing(from: &Scene, to: &Scene) -> impl Iterator<Item = &'static Key>
     KEYS.iter().filter(move |key| (key.get)(from) != (key.get)(to))
 }
 
+/// Set one after the other they make the one scene of the other: what chooses the modes
+/// in use comes first, what they are last.
 fn changed(from: &Scene, to: &Scene, view: bool) -> impl Iterator<Item = (&'static str, String)> {
-    let changed = differing(from, to).filter(move |key| key.path.starts_with("view.") == view);
-    changed.map(move |key| {
-        let text = match (key.get)(to) {
-            Value::Real(x) => format!("{x:?}"),
-            Value::Text(text) => text,
-            Value::Words(words) => words.join(","),
-            other => other.to_string(),
-        };
-        (key.path, text)
-    })
+    let (mut made, scene) = walked(from, to, view);
+    let alike = scene.casing == to.casing && scene.bladed_disk == to.bladed_disk;
+    if !view && !alike {
+        // A value that the mode in use hides: everything anew.
+        let none = MODES.map(|path| (path, "[]".to_string()));
+        made = walked(&from.without_modes(), &to.without_modes(), view).0;
+        made.splice(0..0, none);
+        let known = [&to.bladed_disk.modes, &to.casing.modes].map(|modes| !modes.is_empty());
+        let modes = MODES.into_iter().zip(known).filter(|(_, known)| *known);
+        made.extend(modes.filter_map(|(path, _)| Some((path, text_of(find(path).ok()?, to)))));
+    }
+    made.into_iter()
+}
+
+/// The lists of modes.
+const MODES: [&str; 2] = [DISK_MODES, CASING_MODES];
+
+/// The keys that lead from a scene to another, and where they lead.
+fn walked(from: &Scene, to: &Scene, view: bool) -> (Vec<(&'static str, String)>, Scene) {
+    const FIRST: [&str; 2] = [DIAMETERS, DISK_DIAMETERS];
+    let mut scene = from.clone();
+    let place = |key: &&Key| match key.path {
+        path if FIRST.contains(&path) => 0,
+        path if MODES.contains(&path) => 2,
+        _ => 1,
+    };
+    let mut keys: Vec<&Key> =
+        KEYS.iter().filter(|key| key.path.starts_with("view.") == view).collect();
+    // Where nothing has modes the order is that of the file.
+    if !from.casing.modes.is_empty() || !from.bladed_disk.modes.is_empty() {
+        keys.sort_by_key(place);
+    }
+    let mut made = Vec::new();
+    for key in keys {
+        let value = (key.get)(to);
+        if (key.get)(&scene) != value {
+            made.push((key.path, text_of(key, to)));
+            (key.set)(&mut scene, value);
+        }
+    }
+    (made, scene)
+}
+
+/// The value of a key in a scene as text that is read back exactly.
+fn text_of(key: &Key, scene: &Scene) -> String {
+    match (key.get)(scene) {
+        Value::Real(x) => format!("{x:?}"),
+        Value::Text(text) => text,
+        Value::Words(words) => words.join(","),
+        other => other.to_string(),
+    }
 }
 
 /// What is no key, but is turned and swept as one: the clearance `R_c - l_b`, which the
@@ -341,21 +439,23 @@ keys! {
     NOTE "note" = text(Aside, "what to look for", 4000, note);
     BLADES "bladed_disk.blades" = whole(Never, "number of blades N", 1..4096, bladed_disk.blades);
     BLADE_LENGTH "bladed_disk.blade_length_m" = real(Never, "m", "blade length l_b", true 0.0..1e3, bladed_disk.blade_length_m);
-    BLADE_INERTIA "bladed_disk.inertia_kg_m2" = real(Steps, "kg m^2", "blade inertia m_b", true 0.0..1e9, bladed_disk.inertia_kg_m2);
-    BLADE_STIFFNESS "bladed_disk.stiffness_nm_per_rad" = real(Steps, "N m/rad", "blade-to-disk stiffness k_b", true 0.0..1e15, bladed_disk.stiffness_nm_per_rad);
+    BLADE_INERTIA "bladed_disk.inertia_kg_m2" = moded(Steps, "kg m^2", "blade inertia m_b", true 0.0..1e9, disk_in_use.inertia_kg_m2, disk_part Mass);
+    BLADE_STIFFNESS "bladed_disk.stiffness_nm_per_rad" = moded(Steps, "N m/rad", "blade-to-disk stiffness k_b", true 0.0..1e15, disk_in_use.stiffness_nm_per_rad, disk_part Stiffness);
     BLADE_COUPLING "bladed_disk.coupling_nm_per_rad" = real(Steps, "N m/rad", "blade-to-blade stiffness k_bb", false 0.0..1e15, bladed_disk.coupling_nm_per_rad);
-    BLADE_DAMPING "bladed_disk.damping_ratio" = real(Steps, "-", "blade damping zeta_bd", false 0.0..10.0, bladed_disk.damping_ratio);
+    BLADE_DAMPING "bladed_disk.damping_ratio" = moded(Steps, "-", "blade damping zeta_bd", false 0.0..10.0, disk_in_use.damping_ratio, disk_part Damping);
     STIFFENING "bladed_disk.centrifugal_stiffening" = real(Steps, "-", "centrifugal stiffening B, omega^2 + B Omega^2", false 0.0..1e3, bladed_disk.centrifugal_stiffening);
     RADIAL_COUPLING "bladed_disk.radial_coupling" = real(Steps, "-", "slope of the path of a blade tip kappa", false -10.0..10.0, bladed_disk.radial_coupling);
     DISK_DIAMETERS "bladed_disk.nodal_diameters" = whole(Never, "nodal diameters of the disk, 0 as the casing, n_b", 0..4096, bladed_disk.nodal_diameters);
     MISTUNING "bladed_disk.mistuning" = real(Never, "-", "standard deviation of single k_b (full model), sd", false 0.0..0.2, bladed_disk.mistuning);
     MISTUNING_SEED "bladed_disk.mistuning_seed" = whole(Never, "draw of the single k_b, seed", 0..1_000_000, bladed_disk.mistuning_seed);
+    DISK_MODES "bladed_disk.modes" = modes(Aside, "modes of the disk by their diameters", DISK, bladed_disk, set_disk);
     CASING_RADIUS "casing.radius_m" = real(Never, "m", "casing radius R_c", true 0.0..1e3, casing.radius_m);
-    CASING_MASS "casing.modal_mass_kg" = real(Steps, "kg", "casing modal mass m_c", true 0.0..1e9, casing.modal_mass_kg);
-    CASING_STIFFNESS "casing.modal_stiffness_n_per_m" = real(Steps, "N/m", "casing modal stiffness k_c", true 0.0..1e15, casing.modal_stiffness_n_per_m);
-    CASING_DAMPING "casing.damping_ratio" = real(Steps, "-", "casing damping zeta_c", false 0.0..10.0, casing.damping_ratio);
+    CASING_MASS "casing.modal_mass_kg" = moded(Steps, "kg", "casing modal mass m_c", true 0.0..1e9, casing_in_use.modal_mass_kg, casing_part Mass);
+    CASING_STIFFNESS "casing.modal_stiffness_n_per_m" = moded(Steps, "N/m", "casing modal stiffness k_c", true 0.0..1e15, casing_in_use.modal_stiffness_n_per_m, casing_part Stiffness);
+    CASING_DAMPING "casing.damping_ratio" = moded(Steps, "-", "casing damping zeta_c", false 0.0..10.0, casing_in_use.damping_ratio, casing_part Damping);
     TANGENTIAL_RATIO "casing.tangential_ratio" = real(Steps, "-", "tangential over radial casing amplitude tau", false 0.0..10.0, casing.tangential_ratio);
     CLEARANCE_LOSS "casing.clearance_loss_m_s2" = real(Steps, "m s^2", "clearance lost with speed c, g0 - c Omega^2", false 0.0..1.0, casing.clearance_loss_m_s2);
+    CASING_MODES "casing.modes" = modes(Aside, "modes of the casing by their diameters", CASING, casing, set_casing);
     FRICTION "contact.friction" = real(Steps, "-", "friction coefficient mu", false 0.0..5.0, contact.friction);
     RESTITUTION "contact.restitution" = real(Steps, "-", "coefficient of restitution e", false 0.0..0.95, contact.restitution);
     LINING_STIFFNESS "contact.stiffness_n_per_m" = real(Steps, "N/m", "stiffness of the lining under a blade (smooth only) k_p", true 0.0..1e15, contact.stiffness_n_per_m);

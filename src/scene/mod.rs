@@ -6,20 +6,26 @@
 //! knobs of the explorer all use the table in `keys`.
 
 mod beyond;
+mod build;
 mod builtin;
 mod check;
 mod checked;
+mod doubts;
 mod error;
 mod file;
 pub mod keys;
+mod modes;
+pub mod units;
 
 use serde::Serialize;
 use strum::{AsRefStr, Display, EnumString, VariantNames};
 
+pub use build::{Family, ModalData, read_modes};
 pub use builtin::{BUILTIN, Builtin, DEFAULT};
 pub use checked::{Adjustment, CheckedScene};
 pub use error::SceneError;
 pub use keys::{Allowed, KEYS, Key, Value};
+pub use units::Quantity;
 
 pub use crate::contact::ContactLaw;
 use crate::model::{
@@ -166,10 +172,10 @@ impl Scene {
     /// The machine this scene describes at its speed, with all that is derived from it.
     #[must_use]
     pub fn machine(&self) -> Machine {
-        let mut machine =
-            Machine::new(&self.bladed_disk, &self.casing, self.operation.nodal_diameters)
-                .with_friction(self.contact.friction)
-                .with_lining(self.lining());
+        let (disk, casing) = (self.disk_in_use(), self.casing_in_use());
+        let mut machine = Machine::new(&disk, &casing, self.operation.nodal_diameters)
+            .with_friction(self.contact.friction)
+            .with_lining(self.lining());
         if self.solver.model == ModelSize::Rigid {
             // Blades that do not bend do not move their tips outward.
             machine.radial_coupling = 0.0;
@@ -275,7 +281,10 @@ mod tests {
 
     #[test]
     fn every_key_is_in_the_struct_and_every_field_in_the_table() {
-        let scene = Scene::base();
+        let mut scene = Scene::base();
+        let mode = crate::model::Mode { nodal_diameters: 3, ..Default::default() };
+        scene.casing.modes = vec![mode.clone()];
+        scene.bladed_disk.modes = vec![mode];
         let table = toml::Table::try_from(&scene).unwrap();
         let mut paths = Vec::new();
         for (name, value) in &table {

@@ -5,7 +5,8 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::scene::keys::CLEARANCE;
-use crate::scene::{Allowed, Key, Scene, SceneError, Value, keys};
+use crate::scene::units::{RangeError, UnitError, read_ends};
+use crate::scene::{Allowed, Key, Quantity, Scene, SceneError, Value, keys};
 
 /// Most values one axis may have.
 pub const MOST_VALUES: u32 = 100_000;
@@ -39,18 +40,29 @@ pub enum AxisError {
         /// What would be accepted.
         allowed: String,
     },
+    /// An end of another quantity.
+    #[error("axis {path} = {range}: {why}")]
+    Unit {
+        /// Dotted path.
+        path: String,
+        /// As given.
+        range: String,
+        /// What it is, and which units are allowed.
+        why: UnitError,
+    },
     /// A key that does not exist, or a value that it does not allow.
     #[error(transparent)]
     Scene(#[from] SceneError),
 }
 
-/// Reads `FROM:TO:COUNT`; none for text of another form.
-#[must_use]
-pub fn parse_range(text: &str) -> Option<(f64, f64, usize)> {
-    let mut parts = text.split(':').map(str::trim);
-    let (from, to) = (parts.next()?.parse().ok()?, parts.next()?.parse().ok()?);
-    let count = parts.next()?.parse().ok()?;
-    parts.next().is_none().then_some((from, to, count))
+/// Reads `FROM:TO:COUNT` with ends of a quantity.
+///
+/// # Errors
+/// Text of another form, or an end of another quantity.
+pub fn parse_range(text: &str, of: Quantity) -> Result<(f64, f64, usize), RangeError> {
+    let ([from, to], count) = read_ends(text, of)?;
+    let count = count.and_then(|count| count.trim().parse().ok()).ok_or(RangeError::Form)?;
+    Ok((from, to, count))
 }
 
 /// A key and the values it takes along one axis.
@@ -82,12 +94,7 @@ impl Axis {
     /// # Errors
     /// An unknown or non-numeric key, or an invalid range.
     pub fn new(path: &str, from: f64, to: f64, count: u32, log: bool) -> Result<Self, AxisError> {
-        let key = if path == CLEARANCE { None } else { Some(keys::find(path)?) };
-        if key
-            .is_some_and(|key| !matches!(key.allowed, Allowed::Real { .. } | Allowed::Whole { .. }))
-        {
-            return Err(AxisError::NotNumeric { path: path.to_string() });
-        }
+        let key = key_of(path)?;
         let axis = Self { path: path.to_string(), from, to, count, log };
         let refused = |allowed: &str| AxisError::Range {
             path: path.to_string(),
@@ -131,9 +138,16 @@ impl Axis {
             Some(rest) => (true, rest),
             None => (false, range.trim()),
         };
-        let (from, to, count) = parse_range(range).ok_or_else(form)?;
+        let path = path.trim();
+        let of = key_of(path)?.map_or(Quantity::Length, Key::quantity);
+        let (from, to, count) = parse_range(range, of).map_err(|error| match error {
+            RangeError::Form => form(),
+            RangeError::End(why) => {
+                AxisError::Unit { path: path.to_string(), range: range.to_string(), why }
+            }
+        })?;
         // A count beyond all bounds is refused as any other that is too large.
-        Self::new(path.trim(), from, to, u32::try_from(count).unwrap_or(u32::MAX), log)
+        Self::new(path, from, to, u32::try_from(count).unwrap_or(u32::MAX), log)
     }
 
     /// Value number `index`, from 0; both ends are exact.
@@ -191,6 +205,18 @@ impl Axis {
     }
 }
 
+/// The key of an axis, which holds a number; none of the clearance.
+fn key_of(path: &str) -> Result<Option<&'static Key>, AxisError> {
+    if path == CLEARANCE {
+        return Ok(None);
+    }
+    let key = keys::find(path)?;
+    if !matches!(key.allowed, Allowed::Real { .. } | Allowed::Whole { .. }) {
+        return Err(AxisError::NotNumeric { path: path.to_string() });
+    }
+    Ok(Some(key))
+}
+
 /// A number as a value of this key.
 fn as_value(key: &Key, value: f64) -> Value {
     match key.allowed {
@@ -213,6 +239,19 @@ mod tests {
             assert!((value / expected - 1.0).abs() < 1e-12);
         }
         assert_eq!(Axis::parse("operation.speed_rad_s=7:9:1").unwrap().values(), [7.0]);
+    }
+
+    #[test]
+    fn ends_may_have_units() {
+        let axis = Axis::parse("operation.pulse_n=log:1kN:1 MN:4").unwrap();
+        assert_eq!((axis.from, axis.to), (1e3, 1e6));
+        let axis = Axis::parse("clearance=50um:0.2 mm:4").unwrap();
+        assert_eq!((axis.from, axis.to), (50e-6, 0.2e-3));
+        let refused = Axis::parse("operation.speed_rad_s=0:43 kN:4").unwrap_err().to_string();
+        assert_eq!(
+            refused,
+            "axis operation.speed_rad_s = 0:43 kN:4: this is a force; it takes rad/s, rpm or Hz"
+        );
     }
 
     #[test]

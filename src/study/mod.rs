@@ -8,6 +8,7 @@ pub mod margins;
 pub mod overlay;
 pub mod part;
 pub mod precision;
+pub mod survey;
 
 pub use axis::{Axis, AxisError, parse_range};
 pub use map::{Cell, Cells};

@@ -32,16 +32,12 @@ pub(crate) const SHORTEST_BLOCK_OF_BLADES: u64 = 128;
 /// rings keep one turn of them. Speed only.
 pub(crate) const SHAPES_KEPT: u32 = 128;
 
-/// Rows of shapes that are kept of a larger ring, for the blades near contact.
-/// Fewer: they are made anew in every step. Speed only.
-pub(crate) const ROWS_NEAR: usize = 16;
-
 /// Blades that are looked at before the bound on all others, at most. Speed only.
 pub(crate) const BLADES_FIRST: usize = 8;
 
-/// Blades that cost as much one by one as all of them at once, for each unit of
-/// the sum of the prime factors of their number. Speed only.
-pub(crate) const FEW_BLADES: usize = 4;
+/// Blades that cost as much one by one as all of them at once, for each doubling of their
+/// number; so many rows of shapes are kept of a larger ring. Speed only.
+pub(crate) const FEW_BLADES: usize = 6;
 
 /// Steps a corner must have been closed before it is held. Fewer: maps are made
 /// for contacts that end.
@@ -58,14 +54,21 @@ pub(crate) const HELD_PROBE: f64 = 1e-6;
 /// it makes 1e-11 of the angles at rest, on which the pushes of both sides nearly cancel.
 pub(crate) const HELD_LEFT: f64 = 1e-12;
 
-/// Largest blade phase `n_d alpha` whose square the map of a held corner, and whose cube
-/// the gap of a side that is slid on, may leave out \[rad\]: they make 1e-10 of the pushes,
-/// and round-off.
+/// Largest blade phase `n_d alpha` whose cube the gap of a side that is slid on may leave
+/// out \[rad\]: it makes round-off.
 pub(crate) const SMALL_TURN: f64 = 1e-5;
+
+/// Largest blade phases whose square, cube and fourth power the map of a held corner may
+/// leave out \[rad\]: they make 1e-10 of the pushes.
+pub(crate) const SMALL_TURNS: [f64; 3] = [1e-5, 2e-4, 1e-3];
 
 /// Roundings of what is left, over the square of the sine of a corner: a flat one loses
 /// digits of its pushes by as much.
 pub(crate) const HELD_ROUNDINGS: f64 = 16.0;
+
+/// Most that the map of a lock of tips that rise or rub may let a deviation grow before it
+/// dies: friction feeds it for a while. Larger: digits of the map are lost by as much.
+pub(crate) const MOST_GROWTH: f64 = 100.0;
 
 /// Newton steps to the modes at rest; two reach round-off.
 pub(crate) const HELD_CORRECTIONS: usize = 6;
@@ -93,6 +96,10 @@ pub(crate) const LIGHT_PUSH: f64 = 1e-6;
 /// Blade phase below which sine and cosine are two terms of their series
 /// \[rad\]: exact to round-off.
 pub(crate) const SMALL_PHASE: f64 = 1e-4;
+
+/// Blade phase below which sine and versine are two terms of it \[rad\]: exact to
+/// round-off of one.
+pub(crate) const SHORT_SERIES_PHASE: f64 = 1.5e-3;
 
 /// Blade phase below which they are four terms of it \[rad\]: exact to round-off.
 pub(crate) const SERIES_PHASE: f64 = 0.03;

@@ -316,7 +316,8 @@ fn assignments(app: &App, typed: &str) -> Vec<(Fit, Found)> {
     for (place, knob) in KNOBS.iter().enumerate() {
         let splits = (1..words.len()).rev().filter_map(|at| words.split_at_checked(at));
         let named = splits.filter_map(|(name, value)| Some((fit(knob, name)?, value.join(" "))));
-        let alone = knob.path == keys::SPEED && nameless.ends_with("rpm");
+        let alone = knob.path == keys::SPEED
+            && ["rpm", "Hz", "rad/s"].iter().any(|unit| nameless.ends_with(unit));
         let alone = alone.then(|| (Fit::Name, nameless.clone()));
         let values = named.chain(alone);
         let values = values.filter_map(|(fit, text)| Some((fit, knob.parse(&text).ok()?, text)));

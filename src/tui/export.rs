@@ -18,37 +18,60 @@ const CELL: (u32, u32) = (8, 17);
 /// Diameter of a dot of a curve.
 const DOT: f64 = 2.8;
 
-/// The screen as a picture: its size, and the background of its theme.
+/// The screen as a picture, without what is typed or said for a moment.
 pub fn svg(app: &App) -> String {
-    let area = Rect::new(0, 0, app.layout.size.0, app.layout.size.1);
-    let ink = Ink::of(app.appearance.theme);
-    let mut buffer = Buffer::empty(area);
     let mut plain = app.clone();
     plain.dialogue.mode = InputMode::Main;
     plain.status = None;
-    panels::paint(&plain, &mut buffer, area);
-    let (width, height) = (u32::from(area.width) * CELL.0, u32::from(area.height) * CELL.1);
-    let (ground, scene) = (ink.ground, app.run.started.clone().into_scene());
-    let mut out = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-         viewBox=\"0 0 {width} {height}\" font-family=\"monospace\" font-size=\"13\">\n\
-         {}<rect width=\"{width}\" height=\"{height}\" fill=\"{ground}\"/>\n",
-        describe(&Provenance { command: app.command_line(), scene }),
-    );
-    let columns = usize::from(area.width).max(1);
-    for (row, cells) in (0..).zip(buffer.content.chunks(columns)) {
-        draw_row(cells, row * CELL.1, &ink, &mut out);
-    }
+    let scene = app.run.started.clone().into_scene();
+    let mut out = opening(app, 0, &describe(&Provenance { command: app.command_line(), scene }));
+    out.extend(rows(&plain));
     out.push_str("</svg>\n");
     out
 }
 
-/// Draws one row of cells: what has the same look in one element.
-fn draw_row(cells: &[Cell], y: u32, ink: &Ink, out: &mut String) {
-    let mut x = 0;
-    for run in cells.chunk_by(|a, b| Look::of(a, ink) == Look::of(b, ink)) {
-        let Some(look) = run.first().map(|cell| Look::of(cell, ink)) else { continue };
-        let width = CELL.0 * u32::try_from(run.len()).unwrap_or(0);
+/// The first lines of a picture: its size with so many more rows below the screen,
+/// what comes with it, and the background of its theme.
+pub fn opening(app: &App, below: u32, with: &str) -> String {
+    let (columns, rows) = (u32::from(app.layout.size.0), u32::from(app.layout.size.1) + below);
+    let (width, height) = (columns * CELL.0, rows * CELL.1);
+    let ground = Ink::of(app.appearance.theme).ground;
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+         viewBox=\"0 0 {width} {height}\" font-family=\"monospace\" font-size=\"13\" \
+         xml:space=\"preserve\">\n\
+         {with}<rect width=\"{width}\" height=\"{height}\" fill=\"{ground}\"/>\n"
+    )
+}
+
+/// The rows of the screen as it stands, from the top, each as a part of a picture.
+pub fn rows(app: &App) -> Vec<String> {
+    let area = Rect::new(0, 0, app.layout.size.0, app.layout.size.1);
+    let ink = Ink::of(app.appearance.theme);
+    let mut buffer = Buffer::empty(area);
+    panels::paint(app, &mut buffer, area);
+    let columns = usize::from(area.width).max(1);
+    let cells = (0..).zip(buffer.content.chunks(columns));
+    cells.map(|(row, cells)| drawn_row(cells, row * CELL.1, &ink)).collect()
+}
+
+/// One row of cells: what has the same look in one element, words with the space
+/// between them.
+fn drawn_row(cells: &[Cell], y: u32, ink: &Ink) -> String {
+    let mut looks: Vec<(Look, &Cell)> = Vec::with_capacity(cells.len());
+    for cell in cells {
+        let own = Look::of(cell, ink);
+        let joined = looks.last().map(|&(before, _)| before).filter(|before| {
+            (before.shape, own.shape) == (Shape::Letters, Shape::Blank)
+                && before.behind == own.behind
+        });
+        looks.push((joined.unwrap_or(own), cell));
+    }
+    let (mut x, mut out) = (0, String::new());
+    for run in looks.chunk_by(|a, b| a.0 == b.0) {
+        let Some(&(look, _)) = run.first() else { continue };
+        let cells_wide = |count: usize| CELL.0 * u32::try_from(count).unwrap_or(0);
+        let width = cells_wide(run.len());
         if let Some(behind) = look.behind {
             out.push_str(&block(x, y, width, CELL.1, behind));
         }
@@ -63,9 +86,11 @@ fn draw_row(cells: &[Cell], y: u32, ink: &Ink, out: &mut String) {
             }
             Shape::Dots => out.push_str(&dots(run, x, y, look.fill)),
             Shape::Letters => {
-                let text: String = run.iter().map(|cell| escaped(cell.symbol())).collect();
+                let blanks = run.iter().rev().take_while(|(_, cell)| cell.symbol() == " ").count();
+                let run = &run[..run.len() - blanks];
+                let text: String = run.iter().map(|(_, cell)| escaped(cell.symbol())).collect();
                 let weight = if look.bold { " font-weight=\"bold\"" } else { "" };
-                let (base, fill) = (y + CELL.1 - 4, look.fill);
+                let (base, fill, width) = (y + CELL.1 - 4, look.fill, cells_wide(run.len()));
                 // Letters keep to their cells where the font is wider or narrower.
                 out.push_str(&format!(
                     "<text x=\"{x}\" y=\"{base}\" textLength=\"{width}\" fill=\"{fill}\"{weight}>{text}</text>\n"
@@ -74,16 +99,27 @@ fn draw_row(cells: &[Cell], y: u32, ink: &Ink, out: &mut String) {
         }
         x += width;
     }
+    out
 }
 
-/// The dots of a row of cells as one path of round points.
-fn dots(run: &[Cell], left: u32, top: u32, fill: &str) -> String {
+/// The dots of a row of cells as one path of round points, each from the one before.
+fn dots(run: &[(Look, &Cell)], left: u32, top: u32, fill: &str) -> String {
     let mut points = String::new();
-    for (index, cell) in (0..).zip(run) {
+    let mut from = (0, 0);
+    for (index, (_, cell)) in (0..).zip(run) {
         for (across, down) in sub_pixels(cell.symbol()).into_iter().flatten() {
-            let x = left + CELL.0 * index + CELL.0 * (2 * across + 1) / 4;
-            let y = f64::from(top) + f64::from(CELL.1 * (2 * down + 1)) / 8.0;
-            points.push_str(&format!("M{x} {y:.1}h0"));
+            let x = i64::from(left + CELL.0 * index + CELL.0 * (2 * across + 1) / 4);
+            // In tenths, so that no error adds up.
+            let y = i64::from(10 * top + 10 * CELL.1 * (2 * down + 1) / 8);
+            let (right, below) = (x - from.0, y - from.1);
+            let sign = if below < 0 { "-" } else { "" };
+            let (whole, tenth) = (below.abs() / 10, below.abs() % 10);
+            points.push_str(&format!("m{right} {sign}{whole}"));
+            if tenth != 0 {
+                points.push_str(&format!(".{tenth}"));
+            }
+            points.push_str("h0");
+            from = (x, y);
         }
     }
     format!(

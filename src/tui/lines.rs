@@ -358,8 +358,8 @@ mod tests {
             (b"export map.csv", "refused: nothing exported: "),
             (b"save /", "refused: cannot write /"),
             (b"t abc", "refused: t abc: this is no time"),
-            (b"150Hz", "refused: 150Hz: of which knob?"),
-            (b"speed 150Hz", "150Hz cannot be read; it takes rad/s or rpm"),
+            (b"43kN", "refused: 43kN: of which knob?"),
+            (b"speed 43kN", "43kN cannot be read: this is a force; it takes rad/s, rpm or Hz"),
             (
                 b"start u_c 1",
                 "start u_c: 1 with u_s = 0 is not possible; allowed is a casing position",

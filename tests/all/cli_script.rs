@@ -109,6 +109,7 @@ fn a_key_acts_live_just_where_the_motion_takes_it() {
         (Value::Text(word), Allowed::OneOf(words)) => {
             (*words.iter().find(|other| **other != word).unwrap()).to_string()
         }
+        (_, Allowed::Modes(_)) => "[{ nodal_diameters = 7 }]".to_string(),
         _ => "map".to_string(),
     };
     for model in [ModelSize::Modal, ModelSize::Full] {
@@ -132,7 +133,8 @@ fn a_key_acts_live_just_where_the_motion_takes_it() {
                 Err(_) if takes => assert!(
                     ["title", "note", "view.charts", "view.begin_s", "solver.end_s"]
                         .contains(&key.path)
-                        || key.path.starts_with("initial."),
+                        || key.path.starts_with("initial.")
+                        || key.path.ends_with(".modes"),
                     "{text}"
                 ),
                 Err(_) => {}

@@ -6,7 +6,7 @@ use std::fmt::Debug;
 
 use rubscope::cli::range::Range;
 use rubscope::cli::script::{RequestedScript, parse};
-use rubscope::scene::{Allowed, BUILTIN, CheckedScene, KEYS, Scene, Value, keys};
+use rubscope::scene::{Allowed, BUILTIN, CheckedScene, KEYS, Quantity, Scene, Value, keys};
 use rubscope::study::part::{read_all, write};
 use rubscope::study::{Axis, Cell, Map, MapPlan};
 
@@ -41,7 +41,7 @@ pub fn words() -> Vec<String> {
             }
             Allowed::Real { min, max, .. } => words.extend([min, max].map(|x| format!("{x:e}"))),
             Allowed::Whole { min, max } => words.extend([min, max].map(|n| n.to_string())),
-            Allowed::Text { .. } => {}
+            Allowed::Text { .. } | Allowed::Modes(_) => {}
         }
     }
     let odd = [
@@ -149,7 +149,7 @@ fn set_seeds() -> Vec<Vec<u8>> {
 /// many as asked for, in order, and begin and end as given.
 pub fn range(data: &[u8]) {
     let Ok(text) = std::str::from_utf8(data) else { return };
-    if let Ok(range) = Range::parse("--speed", text)
+    if let Ok(range) = Range::parse("--speed", text, Quantity::Speed)
         && range.count <= 10_000
     {
         in_order(&range.values(), range.from, range.to, range.count, &range);

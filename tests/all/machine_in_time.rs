@@ -62,10 +62,7 @@ fn at_a_constant_speed_it_is_the_machine_of_that_speed() {
         (vec![], 1e-9),
         (vec![(KIND, "event")], 1e-12),
         (vec![("solver.model", "full"), ("bladed_disk.damping_ratio", "0")], 1e-9),
-        (
-            vec![(KAPPA, "0.1"), ("solver.model", "full"), ("bladed_disk.damping_ratio", "0")],
-            1e-11,
-        ),
+        (vec![(KAPPA, "0.1"), ("solver.model", "full"), ("bladed_disk.damping_ratio", "0")], 1e-11),
     ] {
         let mut scene = base(&changes).into_scene();
         set(&mut scene, &[(STIFFENING, "1.5"), (LOSS, "1e-10")]);
@@ -173,9 +170,21 @@ impl Plain {
 fn a_run_up_converges_to_an_integrator_of_its_own_to_second_order() {
     for changes in [
         // Through the speed from which rest grows, 453.4 rad/s.
-        [(STIFFENING, "0.5"), (LOSS, "0"), (SPEED, "448"), (RAMP, "300"), ("casing.radius_m", "0.49988")],
+        [
+            (STIFFENING, "0.5"),
+            (LOSS, "0"),
+            (SPEED, "448"),
+            (RAMP, "300"),
+            ("casing.radius_m", "0.49988"),
+        ],
         // A gap that closes, from 5 um to -25 um.
-        [(STIFFENING, "0.8"), (LOSS, "1e-9"), (SPEED, "400"), (RAMP, "800"), ("casing.radius_m", "0.500065")],
+        [
+            (STIFFENING, "0.8"),
+            (LOSS, "1e-9"),
+            (SPEED, "400"),
+            (RAMP, "800"),
+            ("casing.radius_m", "0.500065"),
+        ],
     ] {
         let end = 0.04;
         let scene = |step: &str| {
@@ -248,7 +257,9 @@ fn a_sudden_speed_leaves_the_motion_and_its_work_is_the_rotors() {
             let expected = 0.5 * 0.5 * mass * squares * amplitude * amplitude;
             assert!((work / expected - 1.0).abs() < 0.01, "{work:e} {expected:e}");
         }
-        assert!((motion.machine().omega_bd / scene.machine().at(440.0).omega_bd - 1.0).abs() < 1e-15);
+        assert!(
+            (motion.machine().omega_bd / scene.machine().at(440.0).omega_bd - 1.0).abs() < 1e-15
+        );
         motion.advance(0.03).unwrap();
         let late = motion.energy_account().unwrap();
         assert!(late.residual().abs() < 1e-3 * late.pulse_work_j.abs(), "{late:?}");
@@ -265,9 +276,8 @@ fn events_and_steps_agree_after_a_sudden_speed() {
     ] {
         for speed in [480.0, 510.0] {
             let after = |kind: &str, step: &str| {
-                let mut motion = Motion::new(&base(
-                    &[&changes[..], &[(KIND, kind), (STEP, step)]].concat(),
-                ));
+                let mut motion =
+                    Motion::new(&base(&[&changes[..], &[(KIND, kind), (STEP, step)]].concat()));
                 motion.advance(1e-3).unwrap();
                 let before = motion.state();
                 motion.set_speed(speed, 0.0);
@@ -294,7 +304,9 @@ fn a_gap_that_closes_on_the_way_ends_a_rigid_run_at_its_instant() {
     motion.set_speed(400.0, 1e4);
     let failure = motion.advance(0.1).unwrap_err();
     let closed = (1e-4_f64 / 3.9e-10).sqrt();
-    assert!(matches!(failure.reason, FailureReason::Closed { speed_rad_s } if (speed_rad_s - closed).abs() < 0.02));
+    assert!(
+        matches!(failure.reason, FailureReason::Closed { speed_rad_s } if (speed_rad_s - closed).abs() < 0.02)
+    );
     assert!((failure.t_s - (1e-3 + (closed - 400.0) / 1e4)).abs() < 2e-6, "{failure}");
     // At once, by either solver; and no event solver follows a ramp.
     for kind in ["explicit", "event"] {

@@ -1,4 +1,4 @@
-//! The Python of docs/python.md and of the README runs on what the program
+//! The Python of docs/python.md runs on what the program
 //! writes. `RUBSCOPE_PYTHON` names a Python with numpy and matplotlib, which
 //! then must have both; without the variable, `python3` runs what it can.
 
@@ -109,10 +109,6 @@ fn the_python_of_the_documents_runs() {
     if python.plots {
         let picture = std::fs::read(folder.path().join("gaps.png")).unwrap();
         assert!(picture.starts_with(b"\x89PNG") && picture.len() > 10_000, "Fig. 5 is empty");
-    }
-    // The README's Python reads the same history.
-    for (_, text) in self::blocks(&read("README.md")).iter().filter(|(word, _)| word == "python") {
-        python.check(text, None, folder.path());
     }
 }
 

@@ -22,21 +22,121 @@ fn picture(theme: Theme) -> String {
     export::svg(&session.app)
 }
 
+/// A picture that moves: the screens of the first minute, with the keys below.
+struct Moving {
+    session: Session,
+    /// The rows of each frame, and how long it stands in tenths of a second.
+    frames: Vec<(Vec<String>, u32)>,
+}
+
+impl Moving {
+    /// Frames of the motion as it goes on, with a line that says what was pressed.
+    fn film(&mut self, said: &str, count: usize, tenths: u32) {
+        for _ in 0..count {
+            self.session.press("");
+            let mut rows = export::rows(&self.session.app);
+            let light = self.session.app.appearance.theme == Theme::Light;
+            let fill = if light { "#0b57d0" } else { "#78a9ff" };
+            let y = 17 * (u32::try_from(rows.len()).unwrap() + 1) - 4;
+            rows.push(format!("<text x=\"8\" y=\"{y}\" fill=\"{fill}\">{said}</text>\n"));
+            self.frames.push((rows, tenths));
+        }
+    }
+
+    /// Every row that differs is there once, and seen while it stands on the screen.
+    /// Where motion is unwanted the first frame stays.
+    fn picture(&self) -> String {
+        let total: u32 = self.frames.iter().map(|(_, tenths)| tenths).sum();
+        let (mut styles, mut parts) = (String::new(), String::new());
+        let mut seen: Vec<(String, String)> = Vec::new();
+        for row in 0..self.frames[0].0.len() {
+            let mut shown: Vec<(&str, Vec<[u32; 2]>)> = Vec::new();
+            let mut at = 0;
+            for (rows, tenths) in &self.frames {
+                let span = [at, at + tenths];
+                at += tenths;
+                match shown.iter_mut().find(|(text, _)| *text == rows[row]) {
+                    Some((_, spans)) if spans.last().unwrap()[1] == span[0] => {
+                        spans.last_mut().unwrap()[1] = span[1];
+                    }
+                    Some((_, spans)) => spans.push(span),
+                    None => shown.push((&rows[row], vec![span])),
+                }
+            }
+            for (text, spans) in shown {
+                if spans == [[0, total]] {
+                    parts.push_str(text);
+                    continue;
+                }
+                let percent = |tenths: u32| f64::from(tenths) * 100.0 / f64::from(total);
+                let mut keys = String::new();
+                for [from, to] in &spans {
+                    keys += &format!(
+                        "{:.2}%{{opacity:1}}{:.2}%{{opacity:0}}",
+                        percent(*from),
+                        percent(*to)
+                    );
+                }
+                if spans[0][0] > 0 {
+                    keys.insert_str(0, "0%{opacity:0}");
+                }
+                let known =
+                    seen.iter().find(|(other, _)| *other == keys).map(|(_, name)| name.clone());
+                let name = known.unwrap_or_else(|| {
+                    let name = format!("k{}", seen.len());
+                    styles += &format!(
+                        "@keyframes {name}{{{keys}}}.{name}{{animation:{name} {}s step-end infinite}}\n",
+                        f64::from(total) / 10.0
+                    );
+                    seen.push((keys, name.clone()));
+                    name
+                });
+                let still = if spans[0][0] == 0 { " class=\"first" } else { " class=\"later" };
+                parts += &format!("<g{still} {name}\">{text}</g>\n");
+            }
+        }
+        let still = "@media (prefers-reduced-motion:reduce){.later{display:none}g{animation:none!important}}\n";
+        let style = format!("<style>{styles}{still}</style>\n");
+        export::opening(&self.session.app, 1, &style) + &parts + "</svg>\n"
+    }
+}
+
+/// The first minute of the README: its keys, and what they show.
+fn first_minute(theme: Theme) -> String {
+    let scene = Scene::builtin("paper-nd3").unwrap();
+    let session = Session::with_stride((100, 30), 2e-4, scene, theme, Marker::Braille);
+    let mut moving = Moving { session, frames: Vec::new() };
+    moving.film("rubscope", 8, 5);
+    for (keys, said) in [("\n", "Enter"), ("4", "Enter 4"), ("0", "Enter 40"), ("0", "Enter 400")] {
+        moving.session.press(keys);
+        moving.film(said, 1, 4);
+    }
+    moving.session.press("\n");
+    moving.film("Enter 400 Enter: the speed is turned down, and one blade pulls", 5, 6);
+    moving.session.press("uc");
+    moving.film("u c: undone; beside it contact that only pushes", 5, 7);
+    moving.session.press("c5");
+    moving.film("c 5: the map of all speeds and pulses", 1, 40);
+    moving.picture()
+}
+
 #[test]
 fn the_pictures_are_what_the_screen_shows() {
     for (name, theme) in [("dark", Theme::Dark), ("light", Theme::Light)] {
-        let file = format!("assets/pictures/screen-{name}.svg");
-        let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(&file);
-        let now = picture(theme);
-        if std::env::var("RUBSCOPE_PICTURES").is_ok_and(|value| value == "write") {
-            std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-            std::fs::write(&path, &now).unwrap();
+        for (what, now) in [("screen", picture(theme)), ("minute", first_minute(theme))] {
+            let file = format!("assets/pictures/{what}-{name}.svg");
+            let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(&file);
+            if std::env::var("RUBSCOPE_PICTURES").is_ok_and(|value| value == "write") {
+                std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+                std::fs::write(&path, &now).unwrap();
+            }
+            let kept = std::fs::read_to_string(&path).unwrap();
+            assert!(
+                kept == now,
+                "{file} is not what the screen shows: RUBSCOPE_PICTURES=write cargo test readme makes it again"
+            );
+            assert!(now.len() < 400_000, "{file} has {} bytes", now.len());
         }
-        let kept = std::fs::read_to_string(&path).unwrap();
-        assert!(
-            kept == now,
-            "{file} is not what the screen shows: RUBSCOPE_PICTURES=write cargo test readme makes it again"
-        );
     }
 }
 

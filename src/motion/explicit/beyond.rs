@@ -2,16 +2,16 @@
 //! theirs: tips that move outward as blades bend, friction, restitution, a lining that
 //! gives way, disks of other diameters and mistuned ones.
 
-use super::Explicit;
 use super::disk::Disk;
 use super::lasting::{Lasting, mark};
 use super::lining::Lining;
 use super::record::Account;
 use super::rows::TipLaw;
+use super::{Coordinate, Explicit};
 use crate::model::Machine;
 use crate::motion::{ActiveSet, FailureReason, Plane};
 use crate::scene::{CheckedScene, ModelSize};
-use crate::tolerances::ANGLE_LOOK;
+use crate::tolerances::{ANGLE_LOOK, LONG_STEP};
 
 /// What a step leaves to the next, and what the verdict needs.
 #[derive(Clone, Debug)]
@@ -22,7 +22,11 @@ pub(super) struct Beyond {
     pub candidates: Vec<u32>,
     /// Bounds on the penetration left at the latest step and at the one before \[m\].
     pub dips: [f64; 2],
-    /// Steps in a row in which the casing passed much of a side.
+    /// Deepest distance to a target in the latest contact \[m\].
+    pub depth: f64,
+    /// Way of the casing in a step that passes much of a side \[m\], and the steps in a row
+    /// that did.
+    pub long: f64,
     pub long_steps: u32,
     pub lasting: Lasting,
     /// What the clearance has lost in the latest step and in the one before \[m\].
@@ -41,6 +45,8 @@ impl Beyond {
             before: [0.0; 2],
             candidates: Vec::new(),
             dips: [0.0; 2],
+            depth: 0.0,
+            long: long_step(scene),
             long_steps: 0,
             lasting: Lasting::new(scene.solver.end_s),
             closed: [0.0; 2],
@@ -51,13 +57,32 @@ impl Beyond {
         }
     }
 
+    /// The next step until `n` at which to look at the swing of rigid tips, which is then
+    /// looked at.
+    pub fn look_until(&mut self, n: u64) -> Option<u64> {
+        let look = self.next_look;
+        (look <= n).then(|| {
+            self.next_look = look + self.steps_unseen;
+            look
+        })
+    }
+
     /// From now on with the parameters of another scene, at this rotor speed. Gaps of the
     /// steps before may be others now, by as much as the clearance.
     pub fn set_parameters(&mut self, scene: &CheckedScene, machine: &Machine, speed: f64) {
         self.backward = speed < 0.0;
         self.steps_unseen = steps_unseen(scene);
+        self.long = long_step(scene);
         self.dips = [machine.clearance().abs(); 2];
     }
+}
+
+/// Way of the casing in a step that passes much of a side \[m\].
+fn long_step(scene: &CheckedScene) -> f64 {
+    let machine = scene.machine();
+    let polygon = &machine.polygon;
+    let side = 2.0 * machine.clearance() * polygon.delta.tan();
+    if polygon.has_corners() { LONG_STEP * side } else { f64::INFINITY }
 }
 
 /// Steps between two looks at the swing of rigid tips.
@@ -73,14 +98,12 @@ fn steps_unseen(scene: &CheckedScene) -> u64 {
 impl<B: Disk> Explicit<B> {
     /// One step.
     pub(super) fn take_step_beyond(&mut self) -> Result<(), FailureReason> {
-        let (n, force) = (self.n, self.drive.force(self.n));
-        self.beyond.before = self.u.map(|coordinate| coordinate.increment);
+        let force = self.drive.force(self.n);
         self.follow_speed()?;
+        let tips = self.tips_at(self.n);
+        self.beyond.before = self.u.map(|coordinate| coordinate.increment);
         let mut unknown = self.predict(force);
-        if self.lining.is_some() {
-            unknown |= self.push_lining();
-        }
-        let tips = self.tips_at(n);
+        unknown |= self.push_lining(&tips);
         let met = self.touch(&tips);
         // Growth is what it is called, whatever it does to the contact.
         unknown |= met.as_ref().is_ok_and(|more| *more) || met.is_err();
@@ -119,11 +142,14 @@ impl<B: Disk> Explicit<B> {
         if tips.casing_friction == 0.0 {
             return Ok(());
         }
-        let rate = self.u[0].increment.hypot(self.u[1].increment) / self.drive.step;
-        let speed_m_s = self.machine.tangential_ratio * rate;
+        let [c, s] = self.u.map(|coordinate| coordinate.increment);
+        let by_step = self.machine.tangential_ratio / self.drive.step;
         let tip_m_s = self.drive.speed(self.n).abs() * self.scene.casing.radius_m;
-        let outrun = speed_m_s > tip_m_s;
-        if outrun { Err(FailureReason::CasingSpeed { speed_m_s, tip_m_s }) } else { Ok(()) }
+        if by_step * by_step * (c * c + s * s) > tip_m_s * tip_m_s {
+            let speed_m_s = by_step * c.hypot(s);
+            return Err(FailureReason::CasingSpeed { speed_m_s, tip_m_s });
+        }
+        Ok(())
     }
 
     /// What tips do at step `n`: friction turns round with the rotor.
@@ -191,8 +217,17 @@ impl<B: Disk> Explicit<B> {
 
     /// Energy in casing, blades and lining between the last two steps \[J\].
     pub(super) fn stored(&self) -> f64 {
-        let casing: f64 = self.u.iter().map(|&at| self.casing.twice_energy(at)).sum();
-        0.5 * casing + self.blades.energy() + self.beyond.account.in_lining()
+        if self.leaps.holds_corner() {
+            let (u, blades) = self.materialized();
+            return self.stored_in(u, &blades);
+        }
+        self.stored_in(self.u, &self.blades)
+    }
+
+    fn stored_in(&self, u: [Coordinate; 2], blades: &B) -> f64 {
+        let casing: f64 = u.iter().map(|&at| self.casing.twice_energy(at)).sum();
+        let lining = self.lining.as_ref().map_or(0.0, Lining::stored);
+        0.5 * casing + blades.energy() + lining
     }
 
     /// `stored`; zero in the paper's model, which keeps no account.

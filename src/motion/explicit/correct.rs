@@ -213,7 +213,9 @@ impl<B: Disk> Explicit<B> {
         let (z, turn) = self.in_blade_frame();
         let restitution = self.scene.contact.restitution;
         let highest = self.highest_target();
-        self.find_candidates(z, tips, bound, highest);
+        // As deep as the step before, nothing has to be looked for twice.
+        let likely = if self.law.pulls() { 0.0 } else { NEIGHBOUR_DEPTHS * self.beyond.depth };
+        self.find_candidates(z, tips, bound, highest + likely);
         let deepest = self.gather_targets(z, tips, restitution);
         if deepest <= 0.0 {
             let dip = self.rows.iter().fold(0.0, |dip: f64, row| dip.max(-row.place.gap));
@@ -226,7 +228,8 @@ impl<B: Disk> Explicit<B> {
         self.is_shallow(deepest)?;
         // A push may close the gap beside it, by as much as is asked of it.
         let reach = NEIGHBOUR_DEPTHS * deepest;
-        if !self.law.pulls() {
+        self.beyond.depth = deepest;
+        if !self.law.pulls() && reach > likely {
             let found = self.beyond.candidates.len();
             self.find_candidates(z, tips, bound, reach + highest);
             if self.beyond.candidates.len() > found {
@@ -246,19 +249,19 @@ impl<B: Disk> Explicit<B> {
         self.settle(z + shift, turn, tips);
         self.keep_rows();
         self.look_at_swing();
-        self.look_at_speed(tips)?;
+        self.look_at_speed()?;
         Ok(self.watch.moved(change))
     }
 
     /// # Errors
     /// The wave passes the blades too fast for the step, and has for long.
-    fn look_at_speed(&mut self, tips: &TipLaw) -> Result<(), FailureReason> {
-        let moved_m = self.u[0].increment.hypot(self.u[1].increment);
-        let side_m = 2.0 * tips.clearance * self.machine.polygon.delta.tan();
-        let long = self.machine.polygon.has_corners() && moved_m > LONG_STEP * side_m;
+    fn look_at_speed(&mut self) -> Result<(), FailureReason> {
+        let [c, s] = self.u.map(|coordinate| coordinate.increment);
+        let (moved2, long) = (c * c + s * s, self.beyond.long);
         let steps = &mut self.beyond.long_steps;
-        *steps = if long { *steps + 1 } else { 0 };
+        *steps = if moved2 > long * long { *steps + 1 } else { 0 };
         if *steps > MOST_LONG_STEPS {
+            let (moved_m, side_m) = (moved2.sqrt(), long / LONG_STEP);
             return Err(FailureReason::LongStep { moved_m, side_m });
         }
         Ok(())

@@ -1,21 +1,21 @@
 //! A lining that gives way, as arrays: the gaps of all rows near it and the pushes of the
 //! latest step, which act on the next one (docs/theory.md, sections 6 and 10).
 //!
-//! `near` are the rows that may press, padded to whole lanes by rows of no blade. They
+//! `near` are the rows that may press, padded to whole pairs by a row of no blade. They
 //! are looked for again when the casing has moved by the margin that they were looked for
-//! with. What touches is kept by changes: steps in which the same rows press cost no more
-//! than their sums.
+//! with. One pass over them finds the pushes and all their sums; what touches is kept by
+//! changes, and what the lining stores is worked out from the pushes when it is asked for.
 
-use wide::f64x4;
+use wide::f64x2;
 
 use super::Explicit;
-use super::disk::{Columns, Disk};
+use super::disk::{Columns, Disk, Pair};
 use super::lasting::mark;
 use super::record::Record;
 use super::rows::TipLaw;
 use crate::model::LiningLaw;
 use crate::motion::{ActiveSet, Plane};
-use crate::tolerances::{LINING_MARGIN, SERIES_PHASE};
+use crate::tolerances::{LINING_MARGIN, SERIES_PHASE, SHORT_SERIES_PHASE};
 
 /// The lining and the rows near it.
 #[derive(Clone, Debug)]
@@ -24,14 +24,11 @@ pub(super) struct Lining {
     near: Columns,
     /// Where the casing was, and below which gap, when `near` was found; see `covers`.
     found_at: Option<Found>,
-    /// Of each row near: angle \[rad\], push of its blades \[N\], that of the step before,
-    /// torque \[N m\], and its sum of pushes since it was given to the record \[N\].
-    angle: Vec<f64x4>,
-    push: Vec<f64x4>,
-    push_before: Vec<f64x4>,
-    torque: Vec<f64x4>,
-    impulse: Vec<f64x4>,
+    /// The turn of the frame of the blades at the pushes.
+    turn: Plane,
     sums: Sums,
+    /// Stored at the step before, where that is not what the pushes before say \[J\].
+    held_before: Option<f64>,
     touching: Touching,
 }
 
@@ -48,12 +45,14 @@ struct Found {
 struct Sums {
     /// Pushes along the normals of their rows, without friction \[N\].
     force: Plane,
-    /// Pushes \[N\], and pushes times their levers `A` \[N m\].
+    /// Pushes \[N\], and their torques \[N m\].
     push: f64,
-    moment: f64,
-    /// Stored in the lining \[J\].
-    energy: f64,
+    torque: f64,
+    /// What two modes feel of the torques \[N m\].
+    felt: [f64; 2],
     deepest: f64,
+    /// Whether other rows press than in the step before.
+    changed: bool,
 }
 
 /// What presses.
@@ -71,12 +70,9 @@ impl Lining {
             law,
             near: Columns::default(),
             found_at: None,
-            angle: Vec::new(),
-            push: Vec::new(),
-            push_before: Vec::new(),
-            torque: Vec::new(),
-            impulse: Vec::new(),
+            turn: Plane::default(),
             sums: Sums::default(),
+            held_before: None,
             touching: Touching::default(),
         }
     }
@@ -86,39 +82,61 @@ impl Lining {
         self.touching.sides != ActiveSet::Nothing
     }
 
-    /// The rows that press: index, side, push \[N\] and torque \[N m\].
-    fn pressed(&self) -> impl Iterator<Item = (u32, u32, f64, f64)> {
-        let rows = self.near.index.iter().zip(&self.near.side);
-        rows.zip(each(&self.push).zip(each(&self.torque)))
-            .filter(|(_, (push, _))| *push > 0.0)
-            .map(|((&index, &side), (push, torque))| (index, side, push, torque))
+    /// The rows that press: index, side and push \[N\].
+    fn pressed(&self) -> impl Iterator<Item = (u32, u32, f64)> {
+        self.near.each(|pair| pair.push).filter(|(_, _, push)| *push > 0.0)
     }
 
     /// The multipliers of the rows that press, with their sides \[N\].
     pub fn multipliers(&self) -> Vec<(u32, f64)> {
-        self.pressed().map(|(_, side, push, _)| (side, -push)).collect()
+        self.pressed().map(|(_, side, push)| (side, -push)).collect()
     }
 
     /// Gives the sums of the pushes until now to the record.
     pub fn give_impulses(&mut self, record: &mut Record) {
-        for (impulse, &side) in each(&self.impulse).zip(&self.near.side) {
+        for (_, side, impulse) in self.near.each(|pair| pair.impulse) {
             if impulse != 0.0 {
                 record.impulse(side, -impulse);
             }
         }
-        self.impulse.fill(f64x4::ZERO);
+        self.near.pairs.iter_mut().for_each(|pair| pair.impulse = f64x2::ZERO);
+    }
+
+    /// Stored between the last two steps \[J\].
+    pub fn stored(&self) -> f64 {
+        let before = self.held_before.unwrap_or_else(|| self.energy(|pair| pair.before));
+        0.5 * (before + self.energy(|pair| pair.push))
+    }
+
+    /// Stored under these pushes of all rows \[J\].
+    fn energy(&self, push: impl Fn(&Pair) -> f64x2 + Clone) -> f64 {
+        let LiningLaw { stiffness_n_per_m: k, smoothing_m } = self.law;
+        let of_row = |push: f64, stiffness: f64| {
+            // As deep as such a push says of one blade.
+            let deep = push / stiffness;
+            let on_line = deep >= 0.5 * smoothing_m;
+            let depth =
+                if on_line { deep + 0.5 * smoothing_m } else { (2.0 * smoothing_m * deep).sqrt() };
+            stiffness / k * self.law.energy(-depth)
+        };
+        let rows = self.near.each(push).zip(self.near.each(|pair| pair.stiffness));
+        let pressed = rows.filter(|((.., push), _)| *push > 0.0);
+        pressed.map(|((.., push), (.., stiffness))| of_row(push, stiffness)).sum()
     }
 
     /// Nothing presses at step `n`.
     pub fn release(&mut self, record: &mut Record, n: u64) {
         if !self.presses() {
+            self.held_before = Some(0.0);
             return;
         }
-        for (_, side, ..) in self.pressed() {
+        for (_, side, _) in self.pressed() {
             record.keep_touching(n.saturating_sub(1), side);
         }
-        self.push.fill(f64x4::ZERO);
-        self.torque.fill(f64x4::ZERO);
+        self.held_before = Some(self.energy(|pair| pair.push));
+        for pair in &mut self.near.pairs {
+            (pair.push, pair.torque) = (f64x2::ZERO, f64x2::ZERO);
+        }
         (self.sums, self.touching) = (Sums::default(), Touching::default());
     }
 
@@ -134,104 +152,137 @@ impl Lining {
 
     /// Takes other rows as those near at step `n`, with the pushes of those that pressed
     /// in the step before; whether one of these is no longer near.
-    fn take_rows(&mut self, near: Columns, record: &mut Record, n: u64) -> bool {
+    fn take_rows(&mut self, mut near: Columns, record: &mut Record, n: u64) -> bool {
         self.give_impulses(record);
-        let nothing = || vec![f64x4::ZERO; near.blades.len()];
-        let (mut push, mut left) = (nothing(), false);
-        for (index, side, pushed, _) in self.pressed() {
+        self.held_before = Some(self.energy(|pair| pair.push));
+        let mut places: Vec<(u32, usize)> = near.index.iter().copied().zip(0..).collect();
+        places.sort_unstable();
+        let mut left = false;
+        for (index, side, push) in self.pressed() {
             record.keep_touching(n.saturating_sub(1), side);
-            match near.index.iter().position(|known| *known == index) {
-                Some(place) => push[place / 4].as_mut_array()[place % 4] = pushed,
-                None => left = true,
+            match places.binary_search_by_key(&index, |(known, _)| *known) {
+                Ok(found) => near.put_push(places[found].1, push),
+                Err(_) => left = true,
             }
         }
-        (self.angle, self.torque) = (nothing(), nothing());
-        (self.push_before, self.impulse) = (nothing(), nothing());
-        (self.push, self.near) = (push, near);
+        self.near = near;
         left
     }
 
-    /// Pushes of all rows, with the casing at `z` in the frame of the blades and each
-    /// row at its `angle`, which none exceeds by its phase `most`.
-    fn press(&mut self, z: Plane, tips: &TipLaw, most: f64) {
-        std::mem::swap(&mut self.push, &mut self.push_before);
-        self.sums = if most < SERIES_PHASE {
-            self.press_by(z, tips, |phase| {
-                let q = phase * phase;
-                let sin = q * (1.0 / 6.0) * (1.0 - q * (1.0 / 20.0) * (1.0 - q * (1.0 / 42.0)));
-                let fourth = 1.0 - q * (1.0 / 30.0) * (1.0 - q * (1.0 / 56.0));
-                (phase - phase * sin, 1.0 - q * 0.5 * (1.0 - q * (1.0 / 12.0) * fourth))
-            })
-        } else {
-            self.press_by(z, tips, |phase| {
-                let both = phase.to_array().map(f64::sin_cos);
-                (both.map(|(sin, _)| sin).into(), both.map(|(_, cos)| cos).into())
-            })
+    /// Pushes of all rows, with the casing at `z` in the frame of the blades and the modes
+    /// or each row at its angle, which none exceeds by its phase `most`.
+    fn press(&mut self, z: Plane, tips: &TipLaw, modes: Option<[f64; 2]>, most: f64) {
+        let smooth = self.law.smoothing_m > 0.0;
+        self.sums = match (modes, smooth) {
+            (Some(modes), true) => self.press_at::<true, true>(z, tips, modes, most),
+            (Some(modes), false) => self.press_at::<true, false>(z, tips, modes, most),
+            (None, true) => self.press_at::<false, true>(z, tips, [0.0; 2], most),
+            (None, false) => self.press_at::<false, false>(z, tips, [0.0; 2], most),
         };
     }
 
-    /// `press` with this sine and cosine.
+    /// `press` by the shortest series that is exact.
     #[inline(always)]
-    fn press_by(
+    fn press_at<const MODAL: bool, const SMOOTH: bool>(
         &mut self,
         z: Plane,
         tips: &TipLaw,
-        sin_cos: impl Fn(f64x4) -> (f64x4, f64x4),
+        modes: [f64; 2],
+        most: f64,
     ) -> Sums {
-        let LiningLaw { stiffness_n_per_m: k, smoothing_m } = self.law;
-        let eps = f64x4::splat(smoothing_m);
-        let by_depth = if smoothing_m > 0.0 { 0.5 / smoothing_m } else { 0.0 };
+        if most < SHORT_SERIES_PHASE {
+            self.press_by::<MODAL, SMOOTH>(z, tips, modes, |phase| {
+                let q = phase * phase;
+                let versine = q * (0.5 - q * (1.0 / 24.0));
+                (phase - phase * (q * (1.0 / 6.0)), versine)
+            })
+        } else if most < SERIES_PHASE {
+            self.press_by::<MODAL, SMOOTH>(z, tips, modes, |phase| {
+                let q = phase * phase;
+                let sin = q * (1.0 / 6.0) * (1.0 - q * (1.0 / 20.0) * (1.0 - q * (1.0 / 42.0)));
+                let fourth = 1.0 - q * (1.0 / 30.0) * (1.0 - q * (1.0 / 56.0));
+                (phase - phase * sin, q * 0.5 * (1.0 - q * (1.0 / 12.0) * fourth))
+            })
+        } else {
+            self.press_by::<MODAL, SMOOTH>(z, tips, modes, |phase| {
+                let sin = phase.to_array().map(f64::sin);
+                let half = (phase * 0.5).to_array().map(f64::sin);
+                (sin.into(), half.map(|half| 2.0 * half * half).into())
+            })
+        }
+    }
+
+    /// `press` with this sine and versine, one less the cosine.
+    #[inline(always)]
+    fn press_by<const MODAL: bool, const SMOOTH: bool>(
+        &mut self,
+        z: Plane,
+        tips: &TipLaw,
+        modes: [f64; 2],
+        sin_versine: impl Fn(f64x2) -> (f64x2, f64x2),
+    ) -> Sums {
+        let eps = f64x2::splat(self.law.smoothing_m);
+        let by_depth = f64x2::splat(if SMOOTH { 0.5 / self.law.smoothing_m } else { 0.0 });
         let TipLaw { clearance, diameters, rise, pushed, .. } = *tips;
-        let [mut x, mut y, mut pushes, mut moment, mut energy, mut deepest] = [f64x4::ZERO; 6];
-        let Self { near, angle, push, torque, .. } = self;
-        let rows = near.cosine.iter().zip(&near.sine).zip(&near.blades);
-        let rows = rows.zip(angle).zip(push.iter_mut().zip(torque));
-        for ((((&c, &s), &blades), &mut angle), (push, torque)) in rows {
-            let (sin, cos) = sin_cos(angle * diameters);
-            let (inward, across) = (c * z.re + s * z.im, c * z.im - s * z.re);
-            let closed = angle * rise - (inward * cos + across * sin + clearance);
-            let arm = (across * cos - inward * sin) * diameters;
-            let deep = closed.fast_max(f64x4::ZERO);
-            let parabola = deep.fast_min(eps);
-            let (line, bent) = (deep - parabola, parabola * parabola * by_depth);
-            let pressed = blades * ((bent + line) * k);
-            *push = pressed;
-            *torque = pressed * (arm - pushed);
-            x += pressed * (c * cos - s * sin);
-            y += pressed * (s * cos + c * sin);
-            pushes += pressed;
-            moment += pressed * arm;
-            energy += blades * (bent * parabola * (1.0 / 3.0) + line * (parabola + line) * 0.5);
+        let [mut x, mut y, mut pushes, mut turning, mut deepest, mut changed] = [f64x2::ZERO; 6];
+        let mut felt = [f64x2::ZERO; 2];
+        for pair in &mut self.near.pairs {
+            let angle = if MODAL {
+                pair.shape[0] * modes[0] + pair.shape[1] * modes[1]
+            } else {
+                pair.angle
+            };
+            let (sin, versine) = sin_versine(angle * diameters);
+            let (c, s) = (pair.cosine, pair.sine);
+            let across = c - (c * versine + s * sin);
+            let along = s - (s * versine - c * sin);
+            let inward = across * z.re + along * z.im;
+            let arm = across * z.im - along * z.re;
+            let deep = (angle * rise - (inward + clearance)).fast_max(f64x2::ZERO);
+            let depth = if SMOOTH {
+                let parabola = deep.fast_min(eps);
+                parabola * parabola * by_depth + (deep - parabola)
+            } else {
+                deep
+            };
+            let push = depth * pair.stiffness;
+            changed |= push.simd_gt(f64x2::ZERO) ^ pair.push.simd_gt(f64x2::ZERO);
+            pair.before = pair.push;
+            pair.push = push;
+            pair.impulse += push;
+            let torque = push * (arm * diameters - pushed);
+            if MODAL {
+                felt[0] += pair.shape[0] * torque;
+                felt[1] += pair.shape[1] * torque;
+            } else {
+                pair.torque = torque;
+            }
+            x += push * across;
+            y += push * along;
+            pushes += push;
+            turning += torque;
             deepest = deepest.fast_max(deep);
         }
         Sums {
             force: Plane::new(x.reduce_add(), y.reduce_add()),
             push: pushes.reduce_add(),
-            moment: moment.reduce_add(),
-            energy: k * energy.reduce_add(),
+            torque: turning.reduce_add(),
+            felt: felt.map(f64x2::reduce_add),
             deepest: deepest.to_array().into_iter().fold(0.0, f64::max),
+            changed: changed.to_bitmask() != 0,
         }
-    }
-
-    /// Whether other rows press than in the step before.
-    fn has_changed(&self) -> bool {
-        let pressing = |push: &f64x4| push.simd_gt(f64x4::ZERO).to_bitmask();
-        let both = self.push.iter().zip(&self.push_before);
-        both.fold(0, |changed, (now, before)| changed | (pressing(now) ^ pressing(before))) != 0
     }
 
     /// Keeps which rows press at step `n`, where these are others than before.
     fn keep_change(&mut self, record: &mut Record, n: u64, rows: usize) {
-        for (before, &side) in each(&self.push_before).zip(&self.near.side) {
+        let both = self.near.each(|pair| pair.push).zip(self.near.each(|pair| pair.before));
+        for ((_, side, _), (.., before)) in both.clone() {
             if before > 0.0 {
                 record.keep_touching(n.saturating_sub(1), side);
             }
         }
         let (mut touching, mut count) = (Touching::default(), 0);
-        let both = each(&self.push).zip(each(&self.push_before));
-        for ((now, before), (&index, &side)) in
-            both.zip(self.near.index.iter().zip(&self.near.side))
-        {
+        for ((index, side, now), (.., before)) in both {
             if now > 0.0 {
                 touching.sides = touching.sides.with(side);
                 touching.set = touching.set.wrapping_add(mark(index));
@@ -246,51 +297,41 @@ impl Lining {
     }
 }
 
-/// The numbers one by one.
-fn each(lanes: &[f64x4]) -> impl Iterator<Item = f64> {
-    lanes.iter().flat_map(|four| four.to_array())
-}
-
 impl<B: Disk> Explicit<B> {
     /// Corrects a predicted step by the pushes of its beginning; whether to look at the
     /// blades.
-    pub(super) fn push_lining(&mut self) -> bool {
-        if !self.lining.as_ref().is_some_and(Lining::presses) {
+    pub(super) fn push_lining(&mut self, tips: &TipLaw) -> bool {
+        let Self { lining: Some(lining), blades, casing, .. } = self else { return false };
+        if !lining.presses() {
             return false;
         }
-        let n = self.n - 1;
-        let tips = self.tips_at(n);
-        let (c, s) = self.drive.turn(n);
-        let turn = Plane::new(c, s);
-        let Some(lining) = &self.lining else { return false };
-        let change = self.blades.push(&lining.near, &lining.torque);
-        let shift = tips.push_on_casing(lining.sums.force) * self.casing.compliance;
+        let change = blades.push(&lining.near, lining.sums.felt);
+        let (shift, turn) =
+            (tips.push_on_casing(lining.sums.force) * casing.compliance, lining.turn);
         self.shift_casing(shift, turn);
         if !self.beyond.account.forgone {
-            self.count_lining(turn, &tips);
+            self.count_lining(tips);
         }
         self.watch.moved(change)
     }
 
     /// Work of the rotor and heat of the pushes over the last two half steps.
-    fn count_lining(&mut self, turn: Plane, tips: &TipLaw) {
-        let Some(lining) = &self.lining else { return };
-        let Sums { force, push, moment, .. } = lining.sums;
-        let rotor =
-            self.drive.rotor.speed(self.time_of(self.n) - self.drive.step) * self.drive.step;
-        self.beyond.account.sums.rotor_work_j -= moment * rotor;
-        self.count_growth(push);
+    fn count_lining(&mut self, tips: &TipLaw) {
+        let [c, s] = self.moved();
+        let turned = self.drive.speed(self.n - 1) * self.drive.step;
+        let lost = self.lost_clearance();
+        let Self { lining: Some(lining), blades, beyond, .. } = self else { return };
+        let Sums { force, push, torque, .. } = lining.sums;
+        let sums = &mut beyond.account.sums;
+        sums.growth_work_j += 0.5 * push * lost;
+        sums.rotor_work_j -= (torque + tips.pushed * push) * turned;
         if tips.friction == 0.0 {
             return;
         }
-        let [c, s] = self.moved();
-        let moved = Plane::new(0.5 * c, 0.5 * s) * turn.conj();
+        let moved = Plane::new(0.5 * c, 0.5 * s) * lining.turn.conj();
         let along = moved.im * force.re - moved.re * force.im;
-        let turned = |blades: &mut B, row| 0.5 * (blades.angle(row) - blades.angle_before(row));
-        let Self { lining: Some(lining), blades, .. } = self else { return };
-        let bent: f64 = lining.pressed().map(|(row, _, w, _)| w * turned(blades, row)).sum();
-        let slid = push * self.scene.casing.radius_m * rotor;
-        let sums = &mut self.beyond.account.sums;
+        let bent = blades.swept(&lining.near);
+        let slid = push * self.scene.casing.radius_m * turned;
         sums.rotor_work_j += tips.friction * slid;
         sums.friction_heat_j += tips.friction * (slid + self.machine.blade_length * bent)
             - tips.casing_friction * along;
@@ -299,14 +340,14 @@ impl<B: Disk> Explicit<B> {
     /// What the pushes of the latest step do to casing and blades of the one after it.
     pub(super) fn push_ahead(&self, tips: &TipLaw, blades: &mut B) -> Plane {
         let Some(lining) = &self.lining else { return Plane::default() };
-        blades.push(&lining.near, &lining.torque);
+        blades.push(&lining.near, lining.sums.felt);
         tips.push_on_casing(lining.sums.force) * self.casing.compliance
     }
 
     /// The pushes of the lining at the latest step.
     pub(super) fn press(&mut self, tips: &TipLaw, bound: f64) {
-        let (z, _) = self.in_blade_frame();
-        self.find_pressed(z, tips, bound);
+        let (z, turn) = self.in_blade_frame();
+        self.find_pressed(z, turn, tips, bound);
         if !self.keep_pressed() {
             self.part();
             return;
@@ -321,22 +362,26 @@ impl<B: Disk> Explicit<B> {
     pub(super) fn leave_lining(&mut self) {
         if let Some(lining) = &mut self.lining {
             lining.release(&mut self.record, self.n);
-            self.beyond.account.press(0.0);
         }
     }
 
     /// Finds the pushes of the lining now.
-    fn find_pressed(&mut self, z: Plane, tips: &TipLaw, bound: f64) {
+    fn find_pressed(&mut self, z: Plane, turn: Plane, tips: &TipLaw, bound: f64) {
+        if let Some(lining) = &mut self.lining {
+            (lining.turn, lining.held_before) = (turn, None);
+        }
         let left = self.find_near(z, tips, bound);
         let n = self.n;
-        let Self { lining: Some(lining), blades, record, beyond, .. } = self else { return };
-        blades.angles(&lining.near, &mut lining.angle);
-        lining.press(z, tips, tips.diameters * bound);
-        if left || lining.has_changed() {
+        let Self { lining: Some(lining), blades, record, .. } = self else { return };
+        let modes = blades.modes();
+        if modes.is_none() {
+            blades.angles(&mut lining.near);
+        }
+        lining.press(z, tips, modes, tips.diameters * bound);
+        if left || lining.sums.changed {
             lining.keep_change(record, n, blades.table().count());
         }
         record.deepest = record.deepest.max(lining.sums.deepest);
-        beyond.account.press(lining.sums.energy);
     }
 
     /// Finds the rows that may press, where they are not known; whether one that pressed
@@ -362,7 +407,8 @@ impl<B: Disk> Explicit<B> {
             return false;
         }
         let direction = |side| machine.polygon.direction(side);
-        let near = Columns::of(rows, blades.table(), direction, |row| blades.shape_of(row));
+        let k = lining.law.stiffness_n_per_m;
+        let near = Columns::of(rows, blades.table(), k, direction, |row| blades.shape_of(row));
         lining.take_rows(near, record, *n)
     }
 
@@ -373,9 +419,6 @@ impl<B: Disk> Explicit<B> {
         let Touching { sides, set, all } = lining.touching;
         if sides == ActiveSet::Nothing {
             return false;
-        }
-        for (impulse, &push) in lining.impulse.iter_mut().zip(&lining.push) {
-            *impulse += push;
         }
         record.touch(*n, sides, false);
         let since = beyond.lasting.touch(t, set, all);
@@ -390,12 +433,10 @@ impl<B: Disk> Explicit<B> {
         let tips = self.tips;
         let bound = self.blades.bound();
         let (z, turn) = self.in_blade_frame();
-        self.find_pressed(z, &tips, bound);
+        self.find_pressed(z, turn, &tips, bound);
         let Self { lining: Some(lining), blades, .. } = self else { return };
         let force = tips.push_on_casing(lining.sums.force) * turn;
-        for (row, _, _, torque) in lining.pressed() {
-            blades.begin(row, torque);
-        }
+        blades.begin(&lining.near, lining.sums.felt);
         self.u =
             [(0, force.re), (1, force.im)].map(|(k, force)| self.casing.begin(self.u[k], force));
         // What the lining held in the step before, from the same rows.
@@ -405,12 +446,12 @@ impl<B: Disk> Explicit<B> {
         let Self { lining: Some(lining), blades, machine, .. } = self else { return };
         let each = f64::from(blades.table().blades_per_row);
         let mut energy = 0.0;
-        for (row, side, ..) in lining.pressed() {
+        for (row, side, _) in lining.pressed() {
             let direction = machine.polygon.direction(side);
             let gap = tips.place(direction, z * back, blades.angle_before(row)).gap + lost;
             energy += each * lining.law.energy(gap);
         }
-        self.beyond.account.lining_before = energy;
+        lining.held_before = Some(energy);
         self.keep_pressed();
     }
 
@@ -418,20 +459,21 @@ impl<B: Disk> Explicit<B> {
     /// the half step before, too.
     pub(super) fn press_again(&mut self) {
         let n = self.n;
-        if let Some(mut old) = self.lining.take() {
-            old.give_impulses(&mut self.record);
-            old.release(&mut self.record, n + 1);
-        }
+        let old = self.lining.take();
         self.lining = self.scene.lining().map(Lining::new);
-        if self.lining.is_none() {
-            return;
-        }
-        let held = self.beyond.account;
+        let part = old.map_or(1.0, |mut old| {
+            old.give_impulses(&mut self.record);
+            let held = old.energy(|pair| pair.push);
+            let before = 2.0 * old.stored() - held;
+            old.release(&mut self.record, n + 1);
+            if held > 0.0 { before / held } else { 1.0 }
+        });
         let (tips, bound) = (self.tips, self.blades.bound());
-        let (z, _) = self.in_blade_frame();
-        self.find_pressed(z, &tips, bound);
-        let part = if held.lining > 0.0 { held.lining_before / held.lining } else { 1.0 };
-        let account = &mut self.beyond.account;
-        account.lining_before = part * account.lining;
+        let (z, turn) = self.in_blade_frame();
+        self.find_pressed(z, turn, &tips, bound);
+        let Some(lining) = &mut self.lining else { return };
+        lining.held_before = Some(part * lining.energy(|pair| pair.push));
+        // The record has the pushes of this step.
+        lining.near.pairs.iter_mut().for_each(|pair| pair.impulse = f64x2::ZERO);
     }
 }

@@ -73,15 +73,16 @@ impl<B: Disk> Explicit<B> {
         }
         let speed = self.drive.speed(self.n);
         self.machine.turn_at(speed);
-        let work = self.blades.stiffen(self.machine.stiffened_by());
-        self.beyond.account.sums.rotor_work_j += work;
+        let before = self.blades.energy();
+        self.blades = self.blades.with_parameters(&self.scene, &self.machine);
+        self.beyond.account.sums.rotor_work_j += self.blades.energy() - before;
+        self.begin_closing();
         if self.tips.clearance == self.machine.clearance() || !self.goes_beyond {
             return;
         }
         let before = self.stored();
         self.tips = TipLaw::at(&self.machine, speed);
         self.beyond.dips = [self.machine.clearance().abs(); 2];
-        self.begin_closing();
         self.give_way();
         self.press_again();
         self.beyond.account.sums.growth_work_j += self.stored() - before;

@@ -6,7 +6,8 @@ use std::io::{Result, Write};
 use super::{notes, speeds_of};
 use crate::harmonic::{Form, Sweep};
 use crate::model::Machine;
-use crate::report::number::{count, short};
+use crate::report::line::capital;
+use crate::report::number::{self, count, short};
 use crate::scene::Scene;
 
 /// The heading of one view.
@@ -34,6 +35,9 @@ impl Heading<'_> {
         if !scene.title.is_empty() {
             writeln!(out, "{}", scene.title)?;
         }
+        if let Some(note) = scene.modes_note() {
+            writeln!(out, "{}.", capital(&note))?;
+        }
         let polygon = &machine.polygon;
         writeln!(
             out,
@@ -45,25 +49,27 @@ impl Heading<'_> {
             short(machine.clearance())
         )?;
         if let Some(critical) = machine.critical_speed() {
-            write!(out, "Critical speed {} rad/s", short(critical))?;
+            write!(out, "Critical speed {}", number::speed(critical))?;
             let lock_of = |machine: &Machine| machine.lock_window(speed).map(speeds_of);
-            let zeta = short(machine.casing_damping_ratio);
+            let (zeta, unit) = (short(machine.casing_damping_ratio), number::speed_unit());
             // More groups may hold a wave on a lining, elsewhere.
             let groups = if machine.lining.is_some() { " of two groups" } else { "" };
             match lock_of(machine) {
                 Some(lock) if !damped => {
                     let without = lock_of(&machine.clone().undamped()).unwrap_or_default();
-                    let words = "rad/s without damping";
+                    let words = format!("{unit} without damping");
                     write!(
                         out,
                         ", lock-in{groups} from {without} {words}, {lock} with zeta_c = {zeta}"
                     )?;
                 }
-                Some(lock) => write!(out, ", lock-in{groups} from {lock} rad/s (zeta_c = {zeta})")?,
+                Some(lock) => {
+                    write!(out, ", lock-in{groups} from {lock} {unit} (zeta_c = {zeta})")?;
+                }
                 None => {}
             }
             if let Some(dangerous) = machine.dangerous_speed_toward(speed) {
-                write!(out, ", dangerous coincidence {} rad/s", short(dangerous))?;
+                write!(out, ", dangerous coincidence {}", number::speed(dangerous))?;
             }
             writeln!(out, ".")?;
         }

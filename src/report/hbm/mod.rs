@@ -28,7 +28,7 @@ use crate::harmonic::{
     SlipPoint, SlipSpectrum, Sweep,
 };
 use crate::model::{ContactPolygon, Excitation, LockWindow, Machine};
-use crate::report::number::short;
+use crate::report::number::{per_speed, short};
 use crate::scene::Scene;
 
 /// The whole answer of `rubscope hbm --json`, its parts in order.
@@ -41,8 +41,10 @@ impl HbmReport {
     /// rotor that turns in the sense of `speed`.
     #[must_use]
     pub fn new(scene: &Scene, machine: &Machine, form: Form, damped: bool, speed: f64) -> Self {
-        let report =
-            Self(Parts::default()).with("scene", scene).with("form", form).with("damped", damped);
+        let report = Self(Parts::default())
+            .with("scene", scene.told())
+            .with("form", form)
+            .with("damped", damped);
         let (notes, window) = (notes(scene, machine), machine.lock_window(speed));
         let report = if notes.is_empty() { report } else { report.with("notes", notes) };
         report
@@ -233,7 +235,7 @@ pub fn notes(scene: &Scene, machine: &Machine) -> Vec<String> {
 #[must_use]
 pub fn speeds_of(window: LockWindow) -> String {
     match window.to {
-        Some(to) => format!("{} to {}", short(window.from), short(to)),
-        None => short(window.from),
+        Some(to) => format!("{} to {}", short(per_speed(window.from)), short(per_speed(to))),
+        None => short(per_speed(window.from)),
     }
 }

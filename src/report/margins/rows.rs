@@ -4,7 +4,7 @@
 use std::io::{Result, Write};
 
 use super::{LimitRow, WIDTH, tell, words};
-use crate::report::number::short;
+use crate::report::number;
 use crate::report::symbols::symbol;
 use crate::report::table::{Table, TableCell};
 use crate::study::margins::{Limit, Margins, Quantity};
@@ -14,7 +14,7 @@ const APART: usize = 2;
 
 /// Writes them all.
 pub(super) fn write(margins: &Margins, out: &mut dyn Write) -> Result<()> {
-    let speed = short(margins.scene.operation.speed_rad_s);
+    let speed = number::speed(margins.scene.operation.speed_rad_s);
     let pulse = words::value(margins.scene.operation.pulse_n, 6, Quantity::Pulse);
     let all = LimitRow::all(margins, &[]);
     let of = |wanted: fn(&LimitRow) -> bool| -> Vec<LimitRow> {
@@ -22,11 +22,11 @@ pub(super) fn write(margins: &Margins, out: &mut dyn Write) -> Result<()> {
     };
     let groups = [
         (
-            format!("Speeds; the scene has {} rad/s:", speed.trim_start_matches('-')),
+            format!("Speeds; the scene has {}:", speed.trim_start_matches('-')),
             of(|row| row.quantity() == Quantity::Speed),
         ),
         (format!("Pulses; the scene has {pulse}:"), of(|row| row.quantity() == Quantity::Pulse)),
-        (format!("The locked motion at {speed} rad/s:"), of(|row| row.is_load())),
+        (format!("The locked motion at {speed}:"), of(|row| row.is_load())),
     ];
     for (title, limits) in groups {
         if !limits.is_empty() {

@@ -1,8 +1,9 @@
 //! What text and picture say of margins in the same words.
 
 use crate::report::CommandLine;
+use crate::report::line::capital;
 use crate::report::number::SiScale;
-use crate::report::number::{count, grouped, rounded, short, time, with_unit};
+use crate::report::number::{count, grouped, rounded, short, speed, time, with_unit};
 use crate::scene::{ContactLaw, Scene, SolverKind};
 use crate::study::margins::{Band, Found, Limit, LimitName, Margins, Quantity, parameter};
 
@@ -52,8 +53,8 @@ pub fn change(by: f64) -> String {
 pub fn conditions(margins: &Margins) -> String {
     let (operation, solver) = (&margins.scene.operation, &margins.scene.solver);
     format!(
-        "{} rad/s, pulse of {} for {}, {}; {} law, {} solver, {} model.",
-        short(operation.speed_rad_s),
+        "{}, pulse of {} for {}, {}; {} law, {} solver, {} model.",
+        speed(operation.speed_rad_s),
         value(operation.pulse_n, 6, Quantity::Pulse),
         time(operation.pulse_s),
         count(u64::from(operation.nodal_diameters), "nodal diameter"),
@@ -66,7 +67,10 @@ pub fn conditions(margins: &Margins) -> String {
 /// What the closed forms are of, where the scene asks for more.
 #[must_use]
 pub fn note(margins: &Margins) -> Option<String> {
-    margins.note.as_ref().map(|note| format!("Speeds and loads are {note}."))
+    let tuned = margins.note.as_ref().map(|note| format!("Speeds and loads are {note}."));
+    let modes = margins.scene.modes_note().map(|note| format!("{}.", capital(&note)));
+    let notes: Vec<String> = modes.into_iter().chain(tuned).collect();
+    (!notes.is_empty()).then(|| notes.join(" "))
 }
 
 /// How well parameters are known, and what that was tried with.

@@ -54,7 +54,7 @@ fn light(scene: &Scene) -> Scene {
 }
 
 fn words(scene: &Scene) -> String {
-    let (casing, blades) = (scene.casing.damping_ratio, scene.bladed_disk.damping_ratio);
+    let (casing, blades) = (scene.casing_in_use().damping_ratio, scene.disk_in_use().damping_ratio);
     format!("ζ_c = {casing}, ζ_bd = {blades}")
 }
 

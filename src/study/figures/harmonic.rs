@@ -72,7 +72,7 @@ pub fn multipliers(scene: &Scene, as_paper: bool) -> Result<Figure, HarmonicErro
         "n_d = {}, locked between {a} and {b}. Undamped: the paper's equations as printed (27); \
          damped: the form of the time-domain model, with ζ_c = {}.{}",
         machine.nodal_diameters,
-        scene.casing.damping_ratio,
+        machine.casing_damping_ratio,
         notes(scene)
     );
     let title = "Contact multipliers of the locked motion against rotor speed";

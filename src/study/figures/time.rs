@@ -70,8 +70,8 @@ fn note(scene: &CheckedScene, report: &RunReport) -> String {
         operation.speed_rad_s,
         force_words(operation.pulse_n),
         1e6 * operation.pulse_s,
-        scene.casing.damping_ratio,
-        scene.bladed_disk.damping_ratio,
+        scene.casing_in_use().damping_ratio,
+        scene.disk_in_use().damping_ratio,
         solver.kind,
         solver.contact,
         ending(report),
@@ -256,7 +256,7 @@ fn blade_lines(samples: &[Sample]) -> Vec<Series> {
 fn blade_title(letter: &str, scene: &CheckedScene) -> String {
     format!(
         "{letter} bladed disk, ζ_bd = {}",
-        (1e3 * scene.bladed_disk.damping_ratio).round() / 1e3
+        (1e3 * scene.disk_in_use().damping_ratio).round() / 1e3
     )
 }
 
@@ -276,7 +276,8 @@ pub fn response(scene: &CheckedScene, as_paper: bool) -> Figure {
     let mut figure = coordinates(scene);
     // The paper prints d_bd = 2 omega_bd zeta_bd beside m_b: without the inertia,
     // the damping ratio is larger by 1/m_b.
-    let literal = scene.bladed_disk.damping_ratio / scene.bladed_disk.inertia_kg_m2;
+    let disk = scene.disk_in_use();
+    let literal = disk.damping_ratio / disk.inertia_kg_m2;
     let text = literal.to_string();
     if as_paper && let Ok(damped) = scene.clone().into_scene().with(&[(keys::BLADE_DAMPING, &text)])
     {

@@ -43,8 +43,8 @@ pub fn zone(scene: &CheckedScene, as_paper: bool) -> Figure {
     let has_line = panels.iter().any(|panel| panel.series.iter().any(is_threshold));
     let mut note = format!(
         "ζ_c = {}, ζ_bd = {}, pulse of {} µs, runs of {} s, {} solver in {}.",
-        scene.casing.damping_ratio,
-        scene.bladed_disk.damping_ratio,
+        scene.casing_in_use().damping_ratio,
+        scene.disk_in_use().damping_ratio,
         1e6 * scene.operation.pulse_s,
         scene.solver.end_s,
         scene.solver.kind,

@@ -4,15 +4,18 @@
 use num_dual::Dual64;
 
 use super::limit::{Limit, LimitName, Sensitivities};
-use super::parameters::{Parameters, acting, sensitivity};
+use super::parameters::{Parameter, Parameters, acting, sensitivity};
 use crate::harmonic::{flutters, lock_fold_speed, lock_loads, whirl_beginnings, whirl_onset};
 use crate::model::{Machine, Number};
 use crate::numeric::rounding::rounded;
-use crate::scene::CheckedScene;
+use crate::scene::{CheckedScene, Scene};
 
 /// How far beyond the speeds of interest the end of the branch of a lock is told, as a
 /// factor: stiff blades give way at speeds that no rotor has.
 const FAR: f64 = 10.0;
+
+/// How many of the closed forms are speeds; they come first.
+const SPEEDS: usize = 9;
 
 /// The closed forms, in the order in which they are shown.
 pub(super) const CLOSED: [LimitName; 15] = [
@@ -47,34 +50,42 @@ pub(super) fn values<T: Number>(parameters: &Parameters<T>) -> [Option<T>; CLOSE
 fn every<T: Number>(parameters: &Parameters<T>) -> [Vec<T>; CLOSED.len()] {
     let machine = parameters.machine();
     let speed = parameters.operation.speed_rad_s;
-    let sense = 1_f64.copysign(speed.re());
     let loads = lock_loads(&machine, speed);
-    let windows = machine.lock_windows(speed.re());
-    let whirls = if machine.changes_with_speed() {
-        whirl_beginnings(&machine, speed.re())
-    } else {
-        one(whirl_onset(&machine, speed.re()))
-    };
-    // The flutter is of a corner that does not give.
-    let fluttering =
-        if machine.lining.is_none() { flutters(&machine, speed.re()) } else { Vec::new() };
     let of = |get: fn(&crate::harmonic::LockLoads<T>) -> T| one(loads.as_ref().map(get));
-    [
-        one(machine.critical_speed()),
-        one(machine.adhesive_speed()),
-        windows.iter().map(|window| window.from).collect(),
-        windows.iter().filter_map(|window| window.to).collect(),
-        one(fold(&machine, speed)),
-        one(machine.dangerous_speed()),
-        machine.coincidence_differences(),
-        whirls.into_iter().map(|onset| onset * sense).collect(),
-        fluttering.into_iter().map(|flutter| flutter.from).collect(),
+    let of_lock = [
         of(|loads| loads.pushes_n[0]),
         of(|loads| loads.pushes_n[1]),
         of(|loads| loads.torque_nm),
         of(|loads| loads.power_w),
         of(|loads| loads.largest_alpha_rad),
         of(|loads| loads.energy_j),
+    ];
+    let mut all = speed_values(&machine, speed).into_iter().chain(of_lock);
+    std::array::from_fn(|_| all.next().unwrap_or_default())
+}
+
+/// Those that are speeds.
+fn speed_values<T: Number>(machine: &Machine<T>, speed: T) -> [Vec<T>; SPEEDS] {
+    let toward = speed.re();
+    let sense = 1_f64.copysign(toward);
+    let windows = machine.lock_windows(toward);
+    let whirls = if machine.changes_with_speed() {
+        whirl_beginnings(machine, toward)
+    } else {
+        one(whirl_onset(machine, toward))
+    };
+    // The flutter is of a corner that does not give.
+    let fluttering = if machine.lining.is_none() { flutters(machine, toward) } else { Vec::new() };
+    [
+        one(machine.critical_speed()),
+        one(machine.adhesive_speed()),
+        windows.iter().map(|window| window.from).collect(),
+        windows.iter().filter_map(|window| window.to).collect(),
+        one(fold(machine, speed)),
+        one(machine.dangerous_speed()),
+        machine.coincidence_differences(),
+        whirls.into_iter().map(|onset| onset * sense).collect(),
+        fluttering.into_iter().map(|flutter| flutter.from).collect(),
     ]
 }
 
@@ -92,18 +103,46 @@ fn fold<T: Number>(machine: &Machine<T>, speed: T) -> Option<T> {
 const OF_NO_CONTACT: [LimitName; 3] =
     [LimitName::OmegaC, LimitName::Coincidence, LimitName::CoincidenceDifference];
 
+/// The limits of rigid contact are not those of a lining that is pressed at rest, which
+/// has others (`LiningState`).
+fn keep_known<T>(scene: &Scene, found: &mut [Vec<T>]) {
+    if scene.clearance() <= 0.0 {
+        for (values, name) in found.iter_mut().zip(CLOSED) {
+            if !OF_NO_CONTACT.contains(&name) {
+                values.clear();
+            }
+        }
+    }
+}
+
+/// The limits of a scene that are speeds, all of them.
+pub(in crate::study) fn speeds(scene: &Scene) -> Vec<(LimitName, f64)> {
+    every_speed(scene, &Parameters::<f64>::of(scene))
+}
+
+/// Their sensitivities by one parameter, in the same order.
+pub(in crate::study) fn speed_sensitivities(
+    scene: &Scene,
+    parameter: &Parameter,
+) -> Vec<Option<f64>> {
+    let of = parameter.of(scene);
+    let found = every_speed(scene, &parameter.seeded(scene)).into_iter();
+    found.map(|(_, dual): (_, Dual64)| sensitivity(dual.re, dual.eps, of)).collect()
+}
+
+fn every_speed<T: Number>(scene: &Scene, parameters: &Parameters<T>) -> Vec<(LimitName, T)> {
+    let mut found = speed_values(&parameters.machine(), parameters.operation.speed_rad_s);
+    keep_known(scene, &mut found);
+    let each = CLOSED.into_iter().zip(found);
+    let each = each.flat_map(|(name, values)| values.into_iter().map(move |value| (name, value)));
+    each.filter(|(_, value)| value.re().is_finite()).collect()
+}
+
 /// The limits of a scene in closed form.
 pub(super) fn limits(scene: &CheckedScene) -> Vec<Limit> {
     let parameters = Parameters::<f64>::of(scene);
     let mut found = every(&parameters);
-    if scene.clearance() <= 0.0 {
-        // Of rigid contact; a lining that is pressed at rest has others (`LiningState`).
-        for (value, name) in found.iter_mut().zip(CLOSED) {
-            if !OF_NO_CONTACT.contains(&name) {
-                value.clear();
-            }
-        }
-    }
+    keep_known(scene, &mut found);
     let derived: Vec<[Vec<Dual64>; CLOSED.len()]> =
         acting(scene).map(|parameter| every(&parameter.seeded(scene))).collect();
     let present =
@@ -144,8 +183,7 @@ fn note(scene: &CheckedScene, name: LimitName, value: f64) -> Option<String> {
         return Some(format!("of two groups on the lining{without}"));
     }
     let machine = scene.machine();
-    let closed = machine.closing_speed().is_some_and(|closed| closed == value);
-    if name == LimitName::LockEnds && closed {
+    if name == LimitName::LockEnds && machine.closing_speed() == Some(value) {
         return Some("there the clearance is lost".to_string());
     }
     if name == LimitName::FlutterSpeed {
@@ -153,7 +191,7 @@ fn note(scene: &CheckedScene, name: LimitName, value: f64) -> Option<String> {
         let ends = found.iter().find(|flutter| flutter.from == value)?.to?;
         return Some(format!("up to {} rad/s, where stiffer blades end it", rounded(ends, 6)));
     }
-    if !of_speeds || scene.casing.damping_ratio == 0.0 {
+    if !of_speeds || scene.casing_in_use().damping_ratio == 0.0 {
         return None;
     }
     // Blades that bend leave a push where rigid ones have none.
@@ -213,7 +251,6 @@ fn why_none(scene: &CheckedScene, name: LimitName) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Scene;
 
     fn limits_of(stiffness: f64, smoothing: f64) -> Vec<Limit> {
         let mut scene = Scene::builtin("soft-lining").unwrap();

@@ -22,6 +22,7 @@ use serde::Serialize;
 use crate::motion::GoOn;
 use crate::scene::{CheckedScene, ContactLaw};
 
+pub(super) use closed::{speed_sensitivities, speeds};
 pub use lasting::{Band, lasting_pulse};
 pub use limit::{Limit, LimitName, Quantity, Sensitivities, Side};
 pub use parameters::{CLEARANCE, PARAMETERS, Parameter, acting, parameter};

@@ -188,7 +188,7 @@ impl Parameter {
 impl<T: Number> Parameters<T> {
     /// Of a scene, without derivatives.
     pub(super) fn of(scene: &Scene) -> Self {
-        let (disk, casing) = (&scene.bladed_disk, &scene.casing);
+        let (disk, casing) = (scene.disk_in_use(), scene.casing_in_use());
         let operation = &scene.operation;
         Self {
             disk: BladedDisk {
@@ -207,6 +207,7 @@ impl<T: Number> Parameters<T> {
                 nodal_diameters: disk.nodal_diameters,
                 mistuning: disk.mistuning.into(),
                 mistuning_seed: disk.mistuning_seed,
+                modes: Vec::new(),
             },
             casing: Casing {
                 radius_m: casing.radius_m.into(),
@@ -215,6 +216,7 @@ impl<T: Number> Parameters<T> {
                 damping_ratio: casing.damping_ratio.into(),
                 tangential_ratio: casing.tangential_ratio.into(),
                 clearance_loss_m_s2: casing.clearance_loss_m_s2.into(),
+                modes: Vec::new(),
             },
             friction: scene.contact.friction.into(),
             stiffness: scene.contact.stiffness_n_per_m.into(),

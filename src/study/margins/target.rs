@@ -13,7 +13,8 @@ use super::limit::LimitName;
 use super::parameters::{PARAMETERS, Parameter, Parameters, parameter};
 use super::{lasting_pulse, touching};
 use crate::motion::GoOn;
-use crate::scene::{CheckedScene, ContactLaw};
+use crate::scene::units::UnitError;
+use crate::scene::{CheckedScene, ContactLaw, Quantity};
 use crate::tolerances::{LASTING_REACH, TARGET_FACTOR, TARGET_REACHED, TARGET_SPAN};
 
 /// Why a target was refused.
@@ -24,6 +25,14 @@ pub enum TargetError {
     Form {
         /// As given.
         text: String,
+    },
+    /// A value of another quantity.
+    #[error("target {text}: {why}")]
+    Unit {
+        /// As given.
+        text: String,
+        /// What it is, and which units are allowed.
+        why: UnitError,
     },
     /// No parameter.
     #[error("parameter {path}: allowed is one of {}", paths())]
@@ -78,7 +87,11 @@ impl Target {
         let form = || TargetError::Form { text: text.to_string() };
         let (name, value) = text.split_once('=').ok_or_else(form)?;
         let name: LimitName = name.trim().parse().map_err(|_| form())?;
-        let wanted: f64 = value.trim().parse().map_err(|_| form())?;
+        let wanted = Quantity::of(name.quantity().unit()).read(value);
+        let wanted = wanted.map_err(|why| match why {
+            UnitError::NoNumber => form(),
+            why => TargetError::Unit { text: text.to_string(), why },
+        })?;
         if !wanted.is_finite() {
             return Err(form());
         }

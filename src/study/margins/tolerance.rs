@@ -119,7 +119,8 @@ impl Tolerance {
             let Some(known) = parameter(&path) else {
                 return Err(ToleranceError::Parameter { path });
             };
-            let percent: f64 = percent.trim().parse().map_err(|_| form())?;
+            let percent = percent.trim().trim_end_matches('%').trim_end();
+            let percent: f64 = percent.parse().map_err(|_| form())?;
             if !(percent > 0.0 && percent <= MOST_PERCENT) {
                 return Err(form());
             }

@@ -96,7 +96,7 @@ impl App {
             touches: run.impacts,
             law: self.scene.solver.contact,
             pressed: self.is_pressed(),
-            damped: self.scene.casing.damping_ratio > 0.0,
+            damped: self.machine.casing_damping_ratio > 0.0,
             broken: run.broken.map(|(_, speed)| speed),
             failure: run.failure.clone(),
             doubts: self.doubts(run),

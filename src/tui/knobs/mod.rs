@@ -11,13 +11,15 @@ use inert::Inert;
 pub use naming::{Fit, best, called, fit, plain};
 use number::CLEARANCE;
 pub use number::number;
-use number::{decades, in_unit, mantissas};
+use number::{decades, mantissas};
 use range::Bar;
 pub use range::{KnobRange, meaning};
 pub use table::KNOBS;
 
+use crate::scene::units::UnitError;
 use crate::scene::{
-    Adjustment, Allowed, CheckedScene, ContactLaw, Scene, SceneError, Value, keys, keys::Key,
+    Adjustment, Allowed, CheckedScene, ContactLaw, Quantity, Scene, SceneError, Value, keys,
+    keys::Key,
 };
 
 /// The contact laws as their knob turns through them: from the paper's law one step up is
@@ -279,6 +281,9 @@ impl Knob {
 
     /// A refusal of a value of it in the words of the panel, without keys of the file.
     pub fn refusal(&self, error: &SceneError) -> String {
+        if let SceneError::Unit { value, why, .. } = error {
+            return format!("{}: {value} cannot be read: {why}", self.label);
+        }
         let SceneError::Refused { key, value, allowed } = error else { return error.to_string() };
         let words = |text: &str| {
             KNOBS.iter().fold(text.to_string(), |text, knob| text.replace(knob.path, knob.label))
@@ -286,18 +291,12 @@ impl Knob {
         let own = key == self.path;
         // What it cannot read is refused by `parse` in the same way.
         let reads = self.parse(value).err().as_ref() != Some(error);
-        let has_unit = value.starts_with(|c: char| c.is_ascii_digit());
         match self.allowed() {
             Allowed::OneOf(_) if own && !reads => {
                 format!("{}: {value} is unknown; {}", self.label, self.range_words())
             }
             Allowed::Whole { .. } if own && !reads => {
                 format!("{}: {value} is no whole number; {}", self.label, self.range_words())
-            }
-            Allowed::Real { .. } if own && !reads && has_unit => {
-                let unit = if self.unit().is_empty() { "no unit" } else { self.unit() };
-                let turns = if self.unit() == "rad/s" { " or rpm" } else { "" };
-                format!("{}: {value} cannot be read; it takes {unit}{turns}", self.label)
             }
             Allowed::Real { .. } if own && !reads => {
                 format!("{}: {value} is no number; {}", self.label, self.range_words())
@@ -309,8 +308,13 @@ impl Knob {
         }
     }
 
-    /// Reads what was typed: a number, also with an SI prefix (`20k`, `50u`),
-    /// or a word or its beginning.
+    /// What a number of it is of.
+    fn quantity(&self) -> Quantity {
+        Quantity::of(self.unit())
+    }
+
+    /// Reads what was typed: a number, also with its unit or an SI prefix, or a word or
+    /// its beginning.
     ///
     /// # Errors
     /// The refusal, in one line.
@@ -318,9 +322,14 @@ impl Knob {
         let text = text.trim();
         let refused = |allowed: String| SceneError::refused(self.path, text, allowed);
         match self.allowed() {
-            Allowed::Real { .. } => in_unit(text, self.unit())
-                .map(Value::Real)
-                .ok_or_else(|| refused("a number, such as 500, 2.5e-7, 20k or 50u".into())),
+            Allowed::Real { .. } => {
+                self.quantity().read(text).map(Value::Real).map_err(|why| match why {
+                    UnitError::NoNumber => {
+                        refused("a number, such as 500, 2.5e-7, 20k or 50u".into())
+                    }
+                    why => SceneError::Unit { key: self.path.into(), value: text.into(), why },
+                })
+            }
             Allowed::Whole { .. } => {
                 text.parse().map(Value::Whole).map_err(|_| refused("a whole number".into()))
             }

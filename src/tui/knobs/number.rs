@@ -46,37 +46,6 @@ pub(super) fn decades(x: f64, up: bool, mantissas: &[f64], least: f64) -> f64 {
     }
 }
 
-/// A typed number with a prefix and the unit, or without them; a speed also in turns a
-/// minute.
-pub(super) fn in_unit(text: &str, unit: &str) -> Option<f64> {
-    if let Some(turns) = text.strip_suffix("rpm").filter(|_| unit == "rad/s") {
-        return prefixed(turns.trim_end()).map(|turns| turns * std::f64::consts::TAU / 60.0);
-    }
-    prefixed(text.strip_suffix(unit).unwrap_or(text).trim_end())
-}
-
-/// A number with an optional SI prefix at its end.
-fn prefixed(text: &str) -> Option<f64> {
-    if let Ok(x) = text.parse::<f64>() {
-        return Some(x);
-    }
-    let last = text.chars().last()?;
-    let factor = match last {
-        'G' => "e9",
-        'M' => "e6",
-        'k' => "e3",
-        'm' => "e-3",
-        'u' | 'µ' => "e-6",
-        'n' => "e-9",
-        'p' => "e-12",
-        _ => return None,
-    };
-    let number = text.strip_suffix(last)?.trim_end();
-    // Read as one decimal number, so that 50u equals 50e-6 exactly.
-    let plain = number.bytes().all(|b| b.is_ascii_digit() || matches!(b, b'.' | b'-' | b'+'));
-    if plain { format!("{number}{factor}").parse().ok() } else { None }
-}
-
 /// A number in readable form: up to seven digits, a prefix for units that take
 /// one, no trailing zeros.
 pub fn number(x: f64, unit: &str) -> String {

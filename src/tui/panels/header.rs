@@ -330,7 +330,8 @@ fn modes(app: &App) -> Vec<Part> {
     let word = if pages > 0 { "back" } else { "ahead" };
     let pages = (pages != 0).then(|| format!("{} {word}", pages.abs()));
     let live = app.knobs.live.then(|| "LIVE".to_string());
-    pages.into_iter().chain(live).map(|text| Part::plain(1, text, focus)).collect()
+    let missing = app.scene.modes_note().map(|_| "own mode: none known of n_d".to_string());
+    pages.into_iter().chain(live).chain(missing).map(|text| Part::plain(1, text, focus)).collect()
 }
 
 /// The next change of contact.

@@ -1,5 +1,5 @@
 //! The fields of the JSON reports, and the columns of the files, in the tables
-//! of docs/commands.md: all of them, and none that is not there.
+//! of docs/formats.md: all of them, and none that is not there.
 
 use std::collections::BTreeSet;
 
@@ -57,7 +57,7 @@ fn told(document: &Document, header: &str) -> BTreeSet<String> {
 
 #[test]
 fn every_field_of_the_reports_is_in_the_documents() {
-    let document = read("docs/commands.md");
+    let document = read("docs/formats.md");
     let map = "map slip --speed 300:500:2 --pulse 2e4:5e4:2 --json";
     let pressed = "--contact smooth --set casing.radius_m=0.49988 --set bladed_disk.radial_coupling=0.5 --set contact.stiffness_n_per_m=27e3";
     let soft = "--set bladed_disk.stiffness_nm_per_rad=1e-3 --speed";
@@ -132,7 +132,7 @@ fn columns_of(arguments: &str, name: &str) -> BTreeSet<String> {
 
 #[test]
 fn every_column_of_the_files_is_in_the_documents() {
-    let document = read("docs/commands.md");
+    let document = read("docs/formats.md");
     let gaps: Vec<String> = (1..=22).map(|blade| format!("gap_{blade}_m")).collect();
     let without_gaps = |columns: BTreeSet<String>| -> BTreeSet<String> {
         let mut columns: BTreeSet<String> =

@@ -6,6 +6,15 @@ use rubscope::tui::lessons::{LETTERS, Lesson, LessonStep, all};
 /// Longest line of a document.
 const MOST: usize = 120;
 
+/// The lessons with their durations: the rows of a table.
+pub fn course() -> Vec<Vec<String>> {
+    let row = |(place, lesson): (usize, &Lesson)| {
+        let minutes = format!("{} minutes", lesson.minutes());
+        vec![place.to_string(), lesson.title.clone(), minutes, lesson.needs.clone()]
+    };
+    (1..).zip(all()).map(row).collect()
+}
+
 /// The text of `docs/lessons.md` between its comments.
 pub fn sheet() -> String {
     let mut out = String::new();

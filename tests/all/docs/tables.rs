@@ -144,6 +144,8 @@ fn scene_keys() -> String {
 fn tables() -> Vec<(String, String)> {
     let mut found = vec![("keys".to_string(), keys()), ("scene file".to_string(), scene_keys())];
     found.push(("lessons".into(), super::lessons::sheet()));
+    let header = ["", "lesson", "takes", "needs"];
+    found.push(("course".into(), table(&header, super::lessons::course())));
     let mut whole = Cli::command();
     whole.build();
     found.push(("options of every command".into(), scene_options(&whole)));

@@ -8,9 +8,10 @@
 use std::sync::Arc;
 
 use super::angle_bounds::AngleBounds;
+use super::full_at_once::Seen;
 use super::ring::{Ring, springs};
-use super::shapes::{NearRows, product};
-use super::{Disk, RowTable};
+use super::shapes::{NearRows, Room, product};
+use super::{Columns, Disk, RowTable};
 use crate::model::{Machine, gcd};
 use crate::motion::Plane;
 use crate::motion::explicit::{Coordinate, Driven, Oscillator};
@@ -23,7 +24,7 @@ use crate::tolerances::{ANGLE_LOOK, SHORTEST_BLOCK, SHORTEST_BLOCK_OF_BLADES, TI
 #[derive(Clone, Debug)]
 pub struct FullBlades {
     pub(super) ring: Arc<Ring>,
-    rows: Arc<Rows>,
+    pub(super) rows: Arc<Rows>,
     /// Mode coordinates, and their last increments.
     pub(super) x: Vec<f64>,
     pub(super) increments: Vec<f64>,
@@ -32,37 +33,29 @@ pub struct FullBlades {
     /// The diameters that the excitation drove in the last step, and its torques \[N m\].
     torque: Option<(usize, [f64; 2])>,
     near: NearRows,
+    pub(super) room: Room,
     pub(super) bounds: AngleBounds,
-    seen: Seen,
+    pub(super) seen: Seen,
 }
 
 /// What does not move.
 #[derive(Debug)]
-struct Rows {
-    table: RowTable,
+pub(super) struct Rows {
+    pub table: RowTable,
     /// Members of the ring in a row.
-    members: u32,
+    pub members: u32,
     /// Angle of a row per unit torque `distance` rows away.
     influence: Vec<f64>,
+    /// Largest angle of a blade by unit torques on all of them, of either sign.
+    pub most_turned: f64,
     /// `Oscillator::lost` of each coordinate.
     losses: Vec<f64>,
     /// Stiffness of each blade beyond that of the others \[N m/rad\]; none if tuned.
-    springs: Vec<f64>,
+    pub springs: Vec<f64>,
     /// Steps between two looks at all blades, at most.
-    steps_unseen: u32,
+    pub steps_unseen: u32,
     /// Turn of a blade after which all are looked at \[rad\].
-    most_slack: f64,
-}
-
-/// A look at the angles of all rows.
-#[derive(Clone, Debug)]
-struct Seen {
-    angles: Vec<f64>,
-    /// How far they may have turned since \[rad\], and the steps since.
-    slack: f64,
-    steps: u32,
-    /// Largest of a blade, and the largest about the mean \[rad\].
-    largest: [f64; 2],
+    pub most_slack: f64,
 }
 
 impl Rows {
@@ -86,6 +79,7 @@ impl Rows {
             table,
             members,
             influence,
+            most_turned: ring.influence.iter().map(|angle| angle.abs()).sum(),
             losses: losses.repeat(2),
             springs: springs(scene),
             steps_unseen: (ANGLE_LOOK / turn).clamp(1.0, 1e9) as u32,
@@ -129,14 +123,14 @@ impl Disk for FullBlades {
     }
     fn coordinates(&self) -> usize {
         let members = self.ring.shapes.count();
-        2 + if self.rows.springs.is_empty() { members } else { members * members }
+        2 + if self.rows.springs.is_empty() { members } else { 8 * members }
     }
     fn table(&self) -> &RowTable {
         &self.rows.table
     }
     fn predict(&mut self, driven: Driven<'_>) -> f64 {
         self.torque = self.driving(driven);
-        let pulls = self.pulls();
+        let pulled = self.pull();
         self.seen.steps = self.seen.steps.saturating_add(1);
         let Self { ring, x, increments, before, torque, bounds, .. } = self;
         if !before.is_empty() {
@@ -157,8 +151,8 @@ impl Disk for FullBlades {
             }
         };
         self.seen.slack += change;
-        for (blade, torque) in pulls.into_iter().enumerate() {
-            change += self.turn(blade as u32, torque);
+        if pulled {
+            change += self.turn_all();
         }
         change
     }
@@ -197,18 +191,54 @@ impl Disk for FullBlades {
         self.bounds.reset(f64::INFINITY);
         self.seen.steps = u32::MAX;
     }
-    fn begin(&mut self, row: u32, torque: f64) {
-        let (members, rows) = (self.rows.members, self.rows.table.count() as u32);
-        for member in (0..members).map(|member| row + member * rows) {
-            let shapes = self.ring.shapes.row(member as usize);
-            for k in 0..self.ring.oscillators.len() {
-                for place in self.ring.pair(k) {
-                    let felt = shapes[place] * torque / f64::from(members);
-                    let begun = self.ring.oscillators[k].begin(self.coordinate_at(place), felt);
-                    self.increments[place] = begun.increment;
-                }
+    fn angles(&mut self, rows: &mut Columns) {
+        if self.are_many(rows) {
+            self.see_all();
+        }
+        let seen = self.seen.are_of_now().then_some(&self.seen.angles);
+        let (ring, table, x, near) = (&self.ring, &self.rows, &self.x, &mut self.near);
+        let mut angle = |row: u32| match seen {
+            Some(angles) => angles[row as usize],
+            None => mean_of(ring, table, near, row, |shapes| product(shapes, x)),
+        };
+        for (pair, rows) in rows.pairs.iter_mut().zip(rows.index.chunks(2)) {
+            let first = angle(rows[0]);
+            pair.angle = [first, rows.get(1).map_or(first, |&row| angle(row))].into();
+        }
+    }
+    fn push(&mut self, rows: &Columns, _: [f64; 2]) -> f64 {
+        if self.are_many(rows) {
+            self.put(rows.each(|pair| pair.torque));
+            return self.turn_all();
+        }
+        let mut change = 0.0;
+        for (row, _, torque) in rows.each(|pair| pair.torque) {
+            if torque != 0.0 {
+                self.correct(row, torque);
+                change += self.compliance(row, row) * torque.abs();
             }
         }
+        change
+    }
+    fn swept(&mut self, rows: &Columns) -> f64 {
+        self.put(rows.each(|pair| pair.push));
+        let Self { ring, increments, before, room, .. } = self;
+        let (mut swept, moved) = (0.0, |place: usize| 0.5 * (increments[place] + before[place]));
+        ring.shapes.feel(room, |k, felt| {
+            let pair = ring.pair(k).into_iter().zip(felt);
+            swept += pair.map(|(place, felt)| felt * moved(place)).sum::<f64>();
+        });
+        swept
+    }
+    fn begin(&mut self, rows: &Columns, _: [f64; 2]) {
+        self.put(rows.each(|pair| pair.torque));
+        let Self { ring, x, increments, room, .. } = self;
+        ring.shapes.feel(room, |k, felt| {
+            for (place, felt) in ring.pair(k).into_iter().zip(felt) {
+                let at = Coordinate { x: x[place], increment: increments[place] };
+                increments[place] = ring.oscillators[k].begin(at, felt).increment;
+            }
+        });
     }
     fn modal(&self) -> [f64; 2] {
         self.ring.shown().map(|(_, place, factor)| factor * self.x[place])
@@ -222,6 +252,10 @@ impl Disk for FullBlades {
         self.ring.shapes.all(&self.x).repeat(self.ring.alike as usize)
     }
     fn look(&mut self, largest: f64) -> (f64, f64) {
+        if self.seen.are_of_now() {
+            let now = self.seen.largest[0];
+            return (now, now);
+        }
         self.bounds.look(&self.ring, &mut self.near, &self.x, largest)
     }
     fn reach(&self) -> f64 {
@@ -315,6 +349,7 @@ impl FullBlades {
             before: vec![0.0; if scene.goes_beyond() { coordinates } else { 0 }],
             torque: None,
             near: NearRows::default(),
+            room: ring.shapes.room(),
             bounds: AngleBounds::at_rest(members),
             seen: Seen {
                 angles: vec![0.0; rows.table.count()],
@@ -339,15 +374,6 @@ impl FullBlades {
         Some((k, excitation.torque_on(k as u32 * self.ring.alike, phase)))
     }
 
-    /// Torques of the extra springs \[N m\].
-    fn pulls(&self) -> Vec<f64> {
-        if self.rows.springs.is_empty() {
-            return Vec::new();
-        }
-        let angles = self.ring.shapes.all(&self.x);
-        angles.iter().zip(&self.rows.springs).map(|(angle, spring)| -spring * angle).collect()
-    }
-
     /// Corrects the step by a torque on one member (from 0); a bound on what it turns.
     fn turn(&mut self, member: u32, torque: f64) -> f64 {
         let Self { ring, x, increments, near, .. } = self;
@@ -356,27 +382,6 @@ impl FullBlades {
         self.bounds.turn(change);
         self.seen.slack += change;
         change
-    }
-
-    /// Looks at all blades, if they may have turned too far since the last look.
-    fn see(&mut self) {
-        let rows = &self.rows;
-        if self.seen.slack <= rows.most_slack && self.seen.steps < rows.steps_unseen {
-            return;
-        }
-        let angles = self.ring.shapes.all(&self.x);
-        let mean = angles.iter().sum::<f64>() / angles.len() as f64;
-        let most = |about: f64| {
-            let size = |angle: &f64| (angle - about).abs();
-            angles.iter().map(size).fold(0.0, |most, at| if at <= most { most } else { at })
-        };
-        self.seen.largest = [most(0.0), most(mean)];
-        let count = rows.table.count();
-        for (row, angle) in self.seen.angles.iter_mut().enumerate() {
-            let members = angles.iter().skip(row).step_by(count);
-            *angle = members.sum::<f64>() / f64::from(rows.members);
-        }
-        (self.seen.slack, self.seen.steps) = (0.0, 0);
     }
 
     /// Twice the energy in the extra springs between the last two steps \[J\].

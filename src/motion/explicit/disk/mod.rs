@@ -4,11 +4,12 @@
 //! To contact they all look alike: *rows* of blades that nothing tells apart, their
 //! angles, and the angle that torques on rows make in one step.
 //!
-//! Read `table` (rows), `rigid`, `modal`; then `shapes`, `ring` and `full`, whose largest
-//! angle `angle_bounds` and `full_flight` keep cheap.
+//! Read `table` (rows), `rigid`, `modal`; then `shapes`, `ring`, `full` and `full_at_once`,
+//! whose largest angle `angle_bounds` and `full_flight` keep cheap.
 
 mod angle_bounds;
 mod full;
+mod full_at_once;
 mod full_flight;
 mod modal;
 mod rigid;
@@ -19,11 +20,11 @@ mod table;
 pub use full::FullBlades;
 pub use modal::ModalBlades;
 pub use rigid::RigidBlades;
-pub(in crate::motion) use table::{Columns, RowTable};
+pub(in crate::motion) use table::{Columns, Pair, RowTable};
 
 use std::fmt::Debug;
 
-use wide::f64x4;
+use wide::f64x2;
 
 use super::drive::Driven;
 use super::oscillator::Coordinate;
@@ -59,24 +60,26 @@ pub(in crate::motion) trait Disk: Clone + Debug + Send + Sync + 'static {
     fn shape_of(&self, _row: u32) -> (f64, f64) {
         (0.0, 0.0)
     }
-    /// The angles of these rows \[rad\].
-    fn angles(&mut self, rows: &Columns, into: &mut [f64x4]) {
-        for (four, rows) in into.iter_mut().zip(rows.index.chunks(4)) {
-            let mut angle = 0.0;
-            for (place, into) in four.as_mut_array().iter_mut().enumerate() {
-                angle = rows.get(place).map_or(angle, |&row| self.angle(row));
-                *into = angle;
-            }
+    /// The angles of the two modes, where they are all that moves \[rad\].
+    fn modes(&self) -> Option<[f64; 2]> {
+        None
+    }
+    /// Finds the angles of these rows \[rad\].
+    fn angles(&mut self, rows: &mut Columns) {
+        for (pair, rows) in rows.pairs.iter_mut().zip(rows.index.chunks(2)) {
+            let first = self.angle(rows[0]);
+            pair.angle = f64x2::from([first, rows.get(1).map_or(first, |&row| self.angle(row))]);
         }
     }
-    /// Corrects the predicted step by torques on these rows \[N m\]; a bound on the
-    /// change of any blade angle \[rad\].
-    fn push(&mut self, rows: &Columns, torques: &[f64x4]) -> f64 {
-        let torques = torques.iter().flat_map(|four| four.to_array());
+    /// Corrects the predicted step by the torques on these rows, of which two modes feel
+    /// so much \[N m\]; a bound on the change of any blade angle \[rad\].
+    fn push(&mut self, rows: &Columns, _felt: [f64; 2]) -> f64 {
         let mut change = 0.0;
-        for (&row, torque) in rows.index.iter().zip(torques).filter(|(_, torque)| *torque != 0.0) {
-            self.correct(row, torque);
-            change += self.compliance(row, row) * torque.abs();
+        for (row, _, torque) in rows.each(|pair| pair.torque) {
+            if torque != 0.0 {
+                self.correct(row, torque);
+                change += self.compliance(row, row) * torque.abs();
+            }
         }
         change
     }
@@ -87,8 +90,19 @@ pub(in crate::motion) trait Disk: Clone + Debug + Send + Sync + 'static {
     }
     /// Leaves a part of every angle, and the rates.
     fn shrink(&mut self, _part: f64) {}
-    /// Corrects the start for a torque that acts at it: the step before it, only.
-    fn begin(&mut self, row: u32, torque: f64);
+    /// The pushes on these rows times what their blades have turned over the last two half
+    /// steps \[N rad\].
+    fn swept(&mut self, rows: &Columns) -> f64 {
+        let mut swept = 0.0;
+        for (row, _, push) in rows.each(|pair| pair.push) {
+            if push != 0.0 {
+                swept += push * 0.5 * (self.angle(row) - self.angle_before(row));
+            }
+        }
+        swept
+    }
+    /// Corrects the start for torques that act at it: the step before it, only.
+    fn begin(&mut self, rows: &Columns, felt: [f64; 2]);
     /// `[alpha_c, alpha_s]` \[rad\].
     fn modal(&self) -> [f64; 2];
     /// Their rates where the next step of length `step` is `ahead` \[rad/s\].
@@ -121,8 +135,9 @@ pub(in crate::motion) trait Disk: Clone + Debug + Send + Sync + 'static {
     fn held_modes(&self) -> Option<HeldModes<'_>> {
         None
     }
-    /// Puts the modes of a held corner back.
-    fn set_held_modes(&mut self, _: [Coordinate; 2]) {}
+    /// Puts the modes of a held corner back, and their increments of the step before the
+    /// last.
+    fn set_held_modes(&mut self, _: [Coordinate; 2], _: [f64; 2]) {}
 
     /// A bound on every blade angle now, as close as candidates need it \[rad\].
     fn bound(&mut self) -> f64;

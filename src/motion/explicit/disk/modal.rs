@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use wide::f64x4;
+use wide::f64x2;
 
 use super::{Columns, Disk, HeldModes, RowTable};
 use crate::model::{ContactPolygon, Machine, gcd};
@@ -136,23 +136,13 @@ impl Disk for ModalBlades {
     fn shape_of(&self, row: u32) -> (f64, f64) {
         self.rows.shapes[row as usize]
     }
-    fn angles(&mut self, rows: &Columns, into: &mut [f64x4]) {
-        let [x, y] = self.modal();
-        let [c, s] = &rows.shapes;
-        for ((angle, &c), &s) in into.iter_mut().zip(c).zip(s) {
-            *angle = c * x + s * y;
-        }
+    fn modes(&self) -> Option<[f64; 2]> {
+        Some(self.modal())
     }
-    fn push(&mut self, rows: &Columns, torques: &[f64x4]) -> f64 {
-        let [c, s] = &rows.shapes;
-        let mut felt = [f64x4::ZERO; 2];
-        for ((&torque, &c), &s) in torques.iter().zip(c).zip(s) {
-            felt[0] += c * torque;
-            felt[1] += s * torque;
-        }
+    fn push(&mut self, _: &Columns, felt: [f64; 2]) -> f64 {
         let mut change = 0.0;
         for (mode, felt) in self.modes.iter_mut().zip(felt) {
-            let moved = self.oscillator.compliance * felt.reduce_add();
+            let moved = self.oscillator.compliance * felt;
             mode.x += moved;
             mode.increment += moved;
             change += moved.abs();
@@ -167,10 +157,19 @@ impl Disk for ModalBlades {
     fn shrink(&mut self, part: f64) {
         self.modes.iter_mut().for_each(|mode| mode.x *= part);
     }
-    fn begin(&mut self, row: u32, torque: f64) {
-        let (c, s) = self.rows.shapes[row as usize];
-        for (mode, shape) in self.modes.iter_mut().zip([c, s]) {
-            *mode = self.oscillator.begin(*mode, torque * shape);
+    fn swept(&mut self, rows: &Columns) -> f64 {
+        let mut pushes = [f64x2::ZERO; 2];
+        for pair in &rows.pairs {
+            pushes[0] += pair.shape[0] * pair.push;
+            pushes[1] += pair.shape[1] * pair.push;
+        }
+        let [c, s] = pushes.map(f64x2::reduce_add);
+        let moved = |k: usize| 0.5 * (self.modes[k].increment + self.before[k]);
+        c * moved(0) + s * moved(1)
+    }
+    fn begin(&mut self, _: &Columns, felt: [f64; 2]) {
+        for (mode, felt) in self.modes.iter_mut().zip(felt) {
+            *mode = self.oscillator.begin(*mode, felt);
         }
     }
     fn modal(&self) -> [f64; 2] {
@@ -224,8 +223,8 @@ impl Disk for ModalBlades {
     fn held_modes(&self) -> Option<HeldModes<'_>> {
         Some(HeldModes { modes: self.modes, moving: Some(self) })
     }
-    fn set_held_modes(&mut self, modes: [Coordinate; 2]) {
-        self.modes = modes;
+    fn set_held_modes(&mut self, modes: [Coordinate; 2], before: [f64; 2]) {
+        (self.modes, self.before) = (modes, before);
     }
     fn bound(&mut self) -> f64 {
         self.swing()

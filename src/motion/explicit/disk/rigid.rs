@@ -2,8 +2,6 @@
 
 use std::sync::Arc;
 
-use wide::f64x4;
-
 use super::{Columns, Disk, HeldModes, RowTable};
 use crate::model::Machine;
 use crate::motion::Plane;
@@ -45,10 +43,16 @@ impl Disk for RigidBlades {
         0.0
     }
     fn correct(&mut self, _: u32, _: f64) {}
-    fn push(&mut self, _: &Columns, _: &[f64x4]) -> f64 {
+    fn modes(&self) -> Option<[f64; 2]> {
+        Some([0.0; 2])
+    }
+    fn push(&mut self, _: &Columns, _: [f64; 2]) -> f64 {
         0.0
     }
-    fn begin(&mut self, _: u32, _: f64) {}
+    fn swept(&mut self, _: &Columns) -> f64 {
+        0.0
+    }
+    fn begin(&mut self, _: &Columns, _: [f64; 2]) {}
     fn modal(&self) -> [f64; 2] {
         [0.0; 2]
     }

@@ -56,7 +56,7 @@ impl Ring {
 
     /// The ring of a scene with `alike` blades as one member.
     pub fn new(scene: &Scene, machine: &Machine, alike: u32) -> Self {
-        let disk = &scene.bladed_disk;
+        let disk = &scene.disk_in_use();
         let count = disk.blades / alike;
         let inertia = disk.inertia_kg_m2 * f64::from(alike);
         let shapes = Shapes::new(count);
@@ -231,7 +231,7 @@ fn shown(machine: &Machine, shapes: &Shapes, alike: u32) -> [(usize, f64); 2] {
 /// Stiffness of each blade beyond `k_b`, `sd x_i k_b` with `x_i` standard normal less
 /// their mean, so that `k_b` is the mean stiffness \[N m/rad\]; none for a tuned disk.
 pub(super) fn springs(scene: &Scene) -> Vec<f64> {
-    let disk = &scene.bladed_disk;
+    let disk = &scene.disk_in_use();
     if disk.mistuning == 0.0 {
         return Vec::new();
     }

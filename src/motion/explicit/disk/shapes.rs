@@ -3,16 +3,18 @@
 //!
 //! Cosines of all pairs are multiples of one angle, so one turn of them is a
 //! table of all. One blade costs a sum over the modes; the blades near contact, which are
-//! asked for step after step, keep their rows. Every blade at once is a
-//! discrete Fourier transform: of a ring that divides into parts, one of each
-//! part is enough (Cooley and Tukey), which makes `N^2` into `N` times the sum of
-//! the prime factors of `N`.
+//! asked for step after step, keep their rows. Every blade at once, and what many blades
+//! feel, are discrete Fourier transforms, `N log N` instead of `N^2`.
 
+use std::fmt;
 use std::sync::Arc;
 
+use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+
 use crate::model::fraction_of_turn;
+use crate::motion::Plane;
 use crate::motion::explicit::Coordinate;
-use crate::tolerances::{FEW_BLADES, ROWS_NEAR, SHAPES_KEPT};
+use crate::tolerances::{FEW_BLADES, SHAPES_KEPT};
 
 /// Numbers that are added side by side.
 pub(super) const LANES: usize = 4;
@@ -31,6 +33,28 @@ pub(super) struct Shapes {
     /// `rows[blade]`, ready to be multiplied with coordinates, of a ring of few
     /// blades; none of a larger one, where they would be `N^2` numbers.
     rows: Vec<Vec<f64>>,
+    transforms: Transforms,
+}
+
+/// From coordinates to blades and back.
+struct Transforms {
+    to_blades: Arc<dyn ComplexToReal<f64>>,
+    to_modes: Arc<dyn RealToComplex<f64>>,
+}
+
+impl fmt::Debug for Transforms {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Transforms({})", self.to_blades.len())
+    }
+}
+
+/// Room for the transforms of a ring, which step after step takes.
+#[derive(Clone, Debug)]
+pub(super) struct Room {
+    spectrum: Vec<Plane>,
+    scratch: Vec<Plane>,
+    /// One value of each blade.
+    pub blades: Vec<f64>,
 }
 
 impl Shapes {
@@ -44,7 +68,12 @@ impl Shapes {
         };
         let scales: Vec<f64> = (0..=count / 2).map(scale).collect();
         let width = scales.len().next_multiple_of(LANES);
-        let mut shapes = Self { turn, width, scales, rows: Vec::new() };
+        let mut planner = RealFftPlanner::new();
+        let transforms = Transforms {
+            to_blades: planner.plan_fft_inverse(count as usize),
+            to_modes: planner.plan_fft_forward(count as usize),
+        };
+        let mut shapes = Self { turn, width, scales, rows: Vec::new(), transforms };
         if count <= SHAPES_KEPT {
             shapes.rows = (0..count as usize).map(|blade| shapes.row(blade)).collect();
         }
@@ -117,91 +146,61 @@ impl Shapes {
 
     /// How many blades cost less one by one than all of them at once.
     pub fn few(&self) -> usize {
-        if !self.rows.is_empty() {
-            return self.count();
+        FEW_BLADES * (usize::BITS - self.count().leading_zeros()) as usize
+    }
+
+    /// Room for `all_into` and `feel`.
+    pub fn room(&self) -> Room {
+        let Transforms { to_blades, to_modes } = &self.transforms;
+        let scratch = to_blades.get_scratch_len().max(to_modes.get_scratch_len());
+        Room {
+            spectrum: to_modes.make_output_vec(),
+            scratch: vec![Plane::default(); scratch],
+            blades: vec![0.0; self.count()],
         }
-        let (mut left, mut factors) = (self.count(), 0);
-        while left > 1 {
-            let factor = smallest_factor(left);
-            (left, factors) = (left / factor, factors + factor);
-        }
-        FEW_BLADES * factors
     }
 
     /// The values at every blade.
     pub fn all(&self, coordinates: &[f64]) -> Vec<f64> {
-        if self.rows.is_empty() {
-            let nothing = vec![0.0; coordinates.len()];
-            return self.all_moving(coordinates, &nothing).iter().map(|at| at.x).collect();
+        if self.count() <= self.few() {
+            return (0..self.count()).map(|blade| self.at(blade, coordinates)).collect();
         }
-        (0..self.count()).map(|blade| self.at(blade, coordinates)).collect()
+        let mut room = self.room();
+        self.all_into(coordinates, &mut room);
+        room.blades
+    }
+
+    /// As `all`, into the room.
+    pub fn all_into(&self, coordinates: &[f64], room: &mut Room) {
+        let (cosines, sines) = coordinates.split_at(self.width);
+        let modes = self.scales.iter().zip(cosines.iter().zip(sines));
+        for (k, (value, (scale, (c, s)))) in room.spectrum.iter_mut().zip(modes).enumerate() {
+            // The others come twice in the sum, as they and as their conjugates.
+            let alone = k == 0 || 2 * k == self.count();
+            let (re, im) = if alone { (*c, 0.0) } else { (0.5 * c, -0.5 * s) };
+            *value = Plane::new(scale * re, scale * im);
+        }
+        let Room { spectrum, scratch, blades } = room;
+        let done = self.transforms.to_blades.process_with_scratch(spectrum, blades, scratch);
+        debug_assert!(done.is_ok(), "{done:?}");
+    }
+
+    /// What the modes feel of the values at the blades: gives the diameters of each pair,
+    /// and both values.
+    pub fn feel(&self, room: &mut Room, mut felt: impl FnMut(usize, [f64; 2])) {
+        let Room { spectrum, scratch, blades } = room;
+        let done = self.transforms.to_modes.process_with_scratch(blades, spectrum, scratch);
+        debug_assert!(done.is_ok(), "{done:?}");
+        for (k, (value, scale)) in room.spectrum.iter().zip(&self.scales).enumerate() {
+            felt(k, [scale * value.re, -scale * value.im]);
+        }
     }
 
     /// Position and increment of every blade.
     pub fn all_moving(&self, positions: &[f64], increments: &[f64]) -> Vec<Coordinate> {
-        if !self.rows.is_empty() {
-            let [x, increments] = [positions, increments].map(|values| self.all(values));
-            let both = x.into_iter().zip(increments);
-            return both.map(|(x, increment)| Coordinate { x, increment }).collect();
-        }
-        // Two real sums in one complex one.
-        let count = self.count();
-        let mut spectrum = vec![(0.0, 0.0); count];
-        for (k, &scale) in self.scales.iter().enumerate() {
-            let (a, b) = (scale * positions[k], scale * positions[self.width + k]);
-            let (c, d) = (scale * increments[k], scale * increments[self.width + k]);
-            if k == 0 || 2 * k == count {
-                spectrum[k] = (a, c);
-            } else {
-                spectrum[k] = (0.5 * (a + d), 0.5 * (c - b));
-                spectrum[count - k] = (0.5 * (a - d), 0.5 * (c + b));
-            }
-        }
-        let mut values = vec![(0.0, 0.0); count];
-        self.transform(&spectrum, 0, 1, &mut values, &mut vec![(0.0, 0.0); count]);
-        values.into_iter().map(|(x, increment)| Coordinate { x, increment }).collect()
-    }
-
-    /// `values[i] = sum_k spectrum[first + k stride] exp(2 pi i k stride/N)`, for
-    /// `k` and `i` below the number of values, which is `N/stride`.
-    fn transform(
-        &self,
-        spectrum: &[(f64, f64)],
-        first: usize,
-        stride: usize,
-        values: &mut [(f64, f64)],
-        room: &mut [(f64, f64)],
-    ) {
-        let count = values.len();
-        if count == 1 {
-            values[0] = spectrum[first];
-            return;
-        }
-        let parts = smallest_factor(count);
-        let each = count / parts;
-        for (part, values) in values.chunks_exact_mut(each).enumerate() {
-            self.transform(spectrum, first + part * stride, parts * stride, values, room);
-        }
-        let whole = self.turn.len();
-        for place in 0..each {
-            for (part, member) in room.iter_mut().take(parts).enumerate() {
-                *member = values[part * each + place];
-            }
-            for (row, value) in values.iter_mut().skip(place).step_by(each).enumerate() {
-                let turn = (row * each + place) * stride;
-                let (mut at, mut sum) = (0, (0.0, 0.0));
-                for member in room.iter().take(parts) {
-                    let (c, s) = self.turn[at];
-                    sum.0 += member.0 * c - member.1 * s;
-                    sum.1 += member.0 * s + member.1 * c;
-                    at += turn;
-                    if at >= whole {
-                        at -= whole;
-                    }
-                }
-                *value = sum;
-            }
-        }
+        let [x, increments] = [positions, increments].map(|values| self.all(values));
+        let both = x.into_iter().zip(increments);
+        both.map(|(x, increment)| Coordinate { x, increment }).collect()
     }
 }
 
@@ -215,12 +214,6 @@ pub(super) fn product(row: &[f64], coordinates: &[f64]) -> f64 {
         }
     }
     (sums[0] + sums[2]) + (sums[1] + sums[3])
-}
-
-/// The smallest prime factor of `count >= 2`.
-fn smallest_factor(count: usize) -> usize {
-    let divides = |factor: &usize| count.is_multiple_of(*factor);
-    (2..).take_while(|factor| factor * factor <= count).find(divides).unwrap_or(count)
 }
 
 /// The rows asked for last.
@@ -247,13 +240,13 @@ impl NearRows {
     /// Makes a row, instead of the oldest where there are enough; its place.
     fn make(&mut self, shapes: &Shapes, blade: u32) -> usize {
         let row = (blade, shapes.row(blade as usize).into());
-        if self.rows.len() < ROWS_NEAR {
+        if self.rows.len() < shapes.few() {
             self.rows.push(row);
             return self.rows.len() - 1;
         }
         let place = self.oldest;
         self.rows[place] = row;
-        self.oldest = (place + 1) % ROWS_NEAR;
+        self.oldest = (place + 1) % self.rows.len();
         place
     }
 }
@@ -337,7 +330,7 @@ mod near_tests {
                 let blade = (step * step / 7) % count;
                 assert_eq!(near.row(&shapes, blade), shapes.row(blade as usize), "{step}");
             }
-            assert!(near.rows.len() <= ROWS_NEAR);
+            assert!(near.rows.len() <= shapes.few());
             assert_eq!(near.rows.is_empty(), count == 22);
         }
     }

@@ -1,6 +1,6 @@
 //! Which blades make one constraint row: those that nothing tells apart.
 
-use wide::f64x4;
+use wide::f64x2;
 
 use crate::model::Machine;
 
@@ -50,49 +50,76 @@ impl RowTable {
     }
 }
 
-/// Up to four numbers, filled up by another.
-fn fours(part: &[f64], filling: f64) -> f64x4 {
-    let mut four = [filling; 4];
-    four[..part.len()].copy_from_slice(part);
-    f64x4::from(four)
-}
-
-/// Some rows as columns of numbers, four at a time; the last is repeated, of no blade.
+/// Some rows as columns of numbers, two at a time; the last is repeated, without
+/// stiffness, where their number is odd.
 #[derive(Clone, Debug, Default)]
 pub(in crate::motion) struct Columns {
     pub index: Vec<u32>,
     pub side: Vec<u32>,
-    /// Direction of each row at rest, `(cos psi, sin psi)`.
-    pub cosine: Vec<f64x4>,
-    pub sine: Vec<f64x4>,
-    /// `Disk::shape_of` each row.
-    pub shapes: [Vec<f64x4>; 2],
-    /// Blades of each row.
-    pub blades: Vec<f64x4>,
+    pub pairs: Vec<Pair>,
+}
+
+/// Two rows side by side.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::motion) struct Pair {
+    /// Direction at rest, `(cos psi, sin psi)`.
+    pub cosine: f64x2,
+    pub sine: f64x2,
+    /// `Disk::shape_of`.
+    pub shape: [f64x2; 2],
+    /// Stiffness of the lining under all blades of a row \[N/m\].
+    pub stiffness: f64x2,
+    /// Angle \[rad\] and torque \[N m\] of each row, where there are not only two modes.
+    pub angle: f64x2,
+    pub torque: f64x2,
+    /// Push on the blades of a row, that of the step before, and the sum of the pushes
+    /// since it was given to the record \[N\].
+    pub push: f64x2,
+    pub before: f64x2,
+    pub impulse: f64x2,
 }
 
 impl Columns {
-    /// These rows of a disk, with the directions of their sides and their shapes.
+    /// These rows of a disk under a lining of this stiffness for each blade, with the
+    /// directions of their sides and their shapes.
     pub fn of(
         rows: &[u32],
         table: &RowTable,
+        stiffness_n_per_m: f64,
         direction: impl Fn(u32) -> (f64, f64),
         shape: impl Fn(u32) -> (f64, f64),
     ) -> Self {
         let side: Vec<u32> = rows.iter().map(|&row| table.side[row as usize]).collect();
-        let column = |of: &dyn Fn(usize) -> f64| -> Vec<f64x4> {
-            let values: Vec<f64> = (0..rows.len()).map(of).collect();
-            values.chunks(4).map(|part| fours(part, part[part.len() - 1])).collect()
+        let each = f64::from(table.blades_per_row) * stiffness_n_per_m;
+        let pair = |(rows, sides): (&[u32], &[u32])| {
+            let both = |of: &dyn Fn(usize) -> f64| f64x2::from([of(0), of(rows.len() - 1)]);
+            let shapes = [shape(rows[0]), shape(rows[rows.len() - 1])];
+            let shapes = |place: usize| shapes[place.min(1)];
+            Pair {
+                cosine: both(&|place| direction(sides[place]).0),
+                sine: both(&|place| direction(sides[place]).1),
+                shape: [both(&|place| shapes(place).0), both(&|place| shapes(place).1)],
+                stiffness: f64x2::from([each, if rows.len() > 1 { each } else { 0.0 }]),
+                ..Pair::default()
+            }
         };
-        let each = f64::from(table.blades_per_row);
-        Self {
-            index: rows.to_vec(),
-            cosine: column(&|place| direction(side[place]).0),
-            sine: column(&|place| direction(side[place]).1),
-            shapes: [column(&|place| shape(rows[place]).0), column(&|place| shape(rows[place]).1)],
-            blades: vec![each; rows.len()].chunks(4).map(|part| fours(part, 0.0)).collect(),
-            side,
-        }
+        let pairs = rows.chunks(2).zip(side.chunks(2)).map(pair).collect();
+        Self { index: rows.to_vec(), side, pairs }
+    }
+
+    /// Index and side of each row, and this value of it.
+    pub fn each(
+        &self,
+        value: impl Fn(&Pair) -> f64x2 + Clone,
+    ) -> impl Iterator<Item = (u32, u32, f64)> + Clone {
+        let values = self.pairs.iter().flat_map(move |pair| value(pair).to_array());
+        let rows = self.index.iter().zip(&self.side);
+        rows.zip(values).map(|((&index, &side), value)| (index, side, value))
+    }
+
+    /// The push of the row at a place \[N\].
+    pub fn put_push(&mut self, place: usize, push: f64) {
+        self.pairs[place / 2].push.as_mut_array()[place % 2] = push;
     }
 }
 

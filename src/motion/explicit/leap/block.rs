@@ -10,7 +10,7 @@ use super::held_corner::HeldCorner;
 use super::held_side::HeldSide;
 use crate::motion::explicit::disk::Disk;
 use crate::motion::explicit::{Coordinate, Explicit};
-use crate::motion::{ActiveSet, Verdict};
+use crate::motion::{ActiveSet, Plane, Verdict};
 use crate::tolerances::{
     BREAK_STEPS, HELD_AFTER, LARGEST_BLADE_ANGLE, LIGHT_BLADES, ROOM_TO_CHANGE, SHORTEST_BLOCK,
 };
@@ -51,6 +51,14 @@ impl<B: Disk> Explicit<B> {
         self.leaps.block.is_open()
     }
 
+    /// Whether a lock beyond the paper is held.
+    pub(in crate::motion::explicit) fn open_lock(&mut self) -> bool {
+        if !self.leaps.block.is_open() && self.record.last_touch == self.n {
+            self.hold_lock();
+        }
+        self.leaps.block.is_open()
+    }
+
     /// Goes on inside the open block, up to `target`; takes it at its end.
     pub(in crate::motion::explicit) fn use_block(&mut self, target: u64) {
         let before = self.leaps.block.used;
@@ -75,6 +83,9 @@ impl<B: Disk> Explicit<B> {
             self.u = self.u.map(|coordinate| self.casing.skip(coordinate, used));
         } else if used > 0 {
             let largest = self.largest_angle();
+            if let Some(Held::Corner(corner)) = &self.leaps.held {
+                self.beyond.before = self.held_before(corner, used);
+            }
             (self.u, self.blades) = self.materialized();
             self.watch.skipped(largest, self.blades.look(largest).1);
         }
@@ -199,10 +210,10 @@ impl Held {
 impl<B: Disk> Explicit<B> {
     /// Begins a block of steps in which the same sides close, if there are enough.
     pub(in crate::motion::explicit) fn hold(&mut self) -> bool {
-        if let Some(corner) = self.hold_corner() {
-            self.leaps.held = Some(Held::Corner(Box::new(corner)));
-            self.leaps.block = Block::new(ENDLESS);
-        } else if let Some(side) = self.hold_side() {
+        if self.hold_lock() {
+            return true;
+        }
+        if let Some(side) = self.hold_side() {
             let length = side.length;
             if length < SHORTEST_BLOCK {
                 self.leaps.slide_tried = self.n + length;
@@ -214,6 +225,31 @@ impl<B: Disk> Explicit<B> {
         self.leaps.held.is_some()
     }
 
+    /// Begins a block without end of a lock, if it can.
+    fn hold_lock(&mut self) -> bool {
+        let Some(corner) = self.hold_corner() else { return false };
+        self.leaps.held = Some(Held::Corner(Box::new(corner)));
+        self.leaps.block = Block::new(ENDLESS);
+        true
+    }
+
+    /// Keeps how a held lock beyond the paper goes on: flows of energy, and looks at the
+    /// swing of the tips.
+    fn log_lock(&mut self, corner: &HeldCorner, before: u64) {
+        let used = self.leaps.block.used();
+        if let Some([work, casing, blades, heat]) = corner.flows(before, used) {
+            let sums = &mut self.beyond.account.sums;
+            sums.rotor_work_j += work;
+            sums.casing_loss_j += casing;
+            sums.blade_loss_j += blades;
+            sums.friction_heat_j += heat;
+        }
+        while let Some(n) = self.beyond.look_until(self.n + used) {
+            let swing = self.tips.rise.abs() * corner.amplitude(n.saturating_sub(self.n));
+            self.beyond.lasting.look(self.time_of(n), Plane::default(), Plane::default(), swing);
+        }
+    }
+
     /// Keeps what the steps of held sides did since `before`.
     pub(in crate::motion::explicit) fn log_held(&mut self, held: &Held, before: u64) {
         let (used, t) = (self.leaps.block.used(), self.time_of(self.latest_step()));
@@ -221,6 +257,11 @@ impl<B: Disk> Explicit<B> {
             self.record.impulse(side, sum);
         }
         self.record.log.touch(t, self.record.log.active_set);
+        if let Held::Corner(corner) = held
+            && self.goes_beyond
+        {
+            self.log_lock(corner, before);
+        }
         match held {
             Held::Corner(corner) if corner.pulls => {
                 self.record.log.tensile_steps += used - before;

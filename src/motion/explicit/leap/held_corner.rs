@@ -3,211 +3,34 @@
 //!
 //! In the frame of the blades the casing then follows from the blade angles
 //! alone (two gaps are zero), and at constant speed one step maps the blade
-//! modes `b = (alpha_c, alpha_s, increments)` to themselves. The map is affine
-//! to the square of the blade phase that is left of their vibration, so any
-//! number of steps is one small matrix power about the modes at rest. The step
+//! modes `b = (alpha_c, alpha_s, increments)` to themselves. The map is affine to the
+//! square of the blade phase that is left of their vibration, so any number of steps is
+//! one small matrix power about the modes at rest; of a larger vibration its square and
+//! cube are taken along (`unfolded`). The step
 //! is worked out with its small parts apart (`CornerStep`), so that it carries
 //! no round-off of the gaps; the map is used only while both multipliers and
-//! both predicted gaps keep their signs with room to spare, and where no gap is
-//! left: a push turns the sides of soft blades in a long step.
+//! both predicted gaps keep their signs with room to spare, and where every step leaves the
+//! same gaps: a push turns the sides of soft blades in a long step.
 //!
-//! The prediction of such a step (`CornerStep`) leaves the corner by some `h^2` of the
-//! clearance, and a gap taken from the clearance itself would round that off. In the frame
-//! of the blades, with `q = 1 - exp(-i nu h)`, `r = 1 - ratio` and the steps of the
-//! oscillator, a casing that stood in the corners `z[n-1]` and `z[n]` is
-//! predicted at
-//!
-//! ```text
-//! z* = z[n] - (q (q + r - q r) + (1 - q) pull) z[n] + (1 - q)^2 (1 - r) (z[n] - z[n-1])
-//! ```
-//!
-//! where nothing is added up that cancels. A side turned by `tau` from where it
-//! touched at `y` opens by `2 g0 sin^2(tau/2) + y sin tau`.
+//! Beyond the paper tips may rise and rub, and the flows of energy go on: their sums over
+//! many steps are closed, too.
 
-use nalgebra::{SMatrix, SVector};
+use std::sync::Arc;
 
-use crate::contact;
-use crate::model::Machine;
-use crate::motion::explicit::disk::{Disk, ModalBlades};
-use crate::motion::explicit::oscillator::Leap;
-use crate::motion::explicit::{Coordinate, Explicit, Oscillator};
-use crate::motion::{ActiveSet, Plane};
+use nalgebra::SMatrix;
+
+use super::corner_step::{CornerStep, Modes, Stepped};
+use super::unfolded::{Deviations, Unfolded, unfold};
+use crate::motion::ActiveSet;
+use crate::motion::explicit::disk::{Disk, HeldModes};
+use crate::motion::explicit::oscillator::{LARGEST, Leap};
+use crate::motion::explicit::{Coordinate, Explicit};
 use crate::tolerances::{
-    ANGLE_LOOK, HELD_AFTER, HELD_AGAIN, HELD_CORRECTIONS, HELD_LEFT, HELD_PROBE, HELD_ROUNDINGS,
-    ROOM_TO_CHANGE, SMALL_TURN,
+    ANGLE_LOOK, HELD_AFTER, HELD_AGAIN, HELD_CORRECTIONS, HELD_PROBE, MOST_GROWTH, ROOM_TO_CHANGE,
+    SMALL_TURNS,
 };
 
-/// A step from one corner to the next.
-#[derive(Clone, Debug)]
-pub(in crate::motion::explicit) struct CornerStep {
-    sides: [u32; 2],
-    /// `exp(i psi)` of both sides.
-    directions: [Plane; 2],
-    clearance: f64,
-    diameters: f64,
-    casing: Oscillator,
-    blades: Option<ModalBlades>,
-    /// `q` above.
-    turned: Plane,
-}
-
-/// What a step does.
-pub(in crate::motion::explicit) struct Stepped {
-    /// Change of the blade modes.
-    pub change: Modes,
-    /// Multipliers of both sides \[N\].
-    pub multipliers: [f64; 2],
-    /// Predicted gaps of both sides \[m\].
-    pub gaps: [f64; 2],
-    /// What the correction leaves of them, as it turns the sides \[m\].
-    pub left: [f64; 2],
-}
-
-impl CornerStep {
-    /// For a wave that turns by `turn` a step against the standing frame.
-    pub fn new(
-        machine: &Machine,
-        casing: &Oscillator,
-        blades: Option<&ModalBlades>,
-        sides: [u32; 2],
-        turn: f64,
-    ) -> Self {
-        let half = (0.5 * turn).sin();
-        Self {
-            sides,
-            directions: sides.map(|side| {
-                let (c, s) = machine.polygon.direction(side);
-                Plane::new(c, s)
-            }),
-            clearance: machine.clearance(),
-            diameters: machine.nodal_diameters,
-            casing: casing.clone(),
-            blades: blades.cloned(),
-            turned: Plane::new(2.0 * half * half, turn.sin()),
-        }
-    }
-
-    pub fn sides(&self) -> [u32; 2] {
-        self.sides
-    }
-
-    /// Sine of the angle between the sides.
-    pub fn sine(&self) -> f64 {
-        (self.directions[0].conj() * self.directions[1]).im
-    }
-
-    /// The blades that move, if any.
-    pub fn blades(&self) -> Option<&ModalBlades> {
-        self.blades.as_ref()
-    }
-
-    /// `n_d alpha` of both sides at these displacements of the modes.
-    fn turns(&self, displacements: [f64; 2]) -> [f64; 2] {
-        let Some(blades) = &self.blades else { return [0.0; 2] };
-        self.sides.map(|side| {
-            let (c, s) = blades.shape(side);
-            self.diameters * (c * displacements[0] + s * displacements[1])
-        })
-    }
-
-    /// The point where both gaps are zero, and the normals there.
-    fn corner(&self, turns: [f64; 2]) -> (Plane, [Plane; 2]) {
-        let a = self.directions[0] * Plane::cis(turns[0]);
-        let b = self.directions[1] * Plane::cis(turns[1]);
-        let scale = -self.clearance / (a.conj() * b).im;
-        (Plane::new(scale * (b.im - a.im), scale * (a.re - b.re)), [a, b])
-    }
-
-    /// Change of the corner where the sides turn by `change` to `turns`.
-    fn moved(&self, turns: [f64; 2], change: [f64; 2]) -> Plane {
-        // z = i g0 (b - a)/Im(conj(a) b), taken apart from its value before.
-        let (now, [a, b]) = self.corner(turns);
-        let back = |normal: Plane, by: f64| {
-            let half = (0.5 * by).sin();
-            // normal (1 - exp(-i by))
-            normal * Plane::new(2.0 * half * half, by.sin())
-        };
-        let (da, db) = (back(a, change[0]), back(b, change[1]));
-        let before = ((a - da).conj() * (b - db)).im;
-        let spread = (da.conj() * b + a.conj() * db - da.conj() * db).im;
-        // now = s/D, then = (s - ds)/(D - dD): now - then = (ds - now dD)/(D - dD).
-        let shift = Plane::i() * (da - db) * -self.clearance;
-        (shift - now * spread) / before
-    }
-
-    /// The casing in the corner of these modes, and what it moved in its last
-    /// step, both in the frame of the blades now.
-    pub fn casing(&self, modes: Modes) -> (Plane, Plane) {
-        let turns = self.turns([modes[0], modes[1]]);
-        let place = self.corner(turns).0;
-        let moved = self.moved(turns, self.turns([modes[2], modes[3]]));
-        // z[n] - exp(-i nu h) z[n-1]
-        (place, moved + self.turned * (place - moved))
-    }
-
-    /// One step from these modes. `None` where the rows are dependent.
-    pub fn from(&self, modes: Modes) -> Option<Stepped> {
-        let turns = self.turns([modes[0], modes[1]]);
-        let (place, normals) = self.corner(turns);
-        let moved = self.moved(turns, self.turns([modes[2], modes[3]]));
-        let (q, one) = (self.turned, Plane::new(1.0, 0.0));
-        let (loss, pull) = (self.casing.loss, self.casing.pull);
-        let pulled = q * (q + loss - q * loss) + (one - q) * pull;
-        let shift = (one - q) * (one - q) * ((1.0 - loss) * moved) - place * pulled;
-        // The blades predict, too: their change, which is their increment.
-        let steps = self.blades.as_ref().map(|blades| {
-            let at = |x, increment| Coordinate { x, increment };
-            [at(modes[0], modes[2]), at(modes[1], modes[3])]
-                .map(|mode| blades.oscillator().step(mode, 0.0).increment)
-        });
-        let steps = steps.unwrap_or_default();
-        let bends = self.turns(steps);
-        let ahead: [Plane; 2] = std::array::from_fn(|k| normals[k] * Plane::cis(bends[k]));
-        // Gaps of a casing that has left the corner, of sides turned meanwhile.
-        let opened = |shift: Plane, bends: [f64; 2]| -> [f64; 2] {
-            std::array::from_fn(|k| {
-                let half = (0.5 * bends[k]).sin();
-                let along = (place * normals[k].conj()).im;
-                let turned = 2.0 * self.clearance * half * half + along * bends[k].sin();
-                (shift * (normals[k] * Plane::cis(bends[k])).conj()).re + turned
-            })
-        };
-        let gaps = opened(shift, bends);
-        let arms = ahead.map(|normal| self.diameters * ((place + shift) * normal.conj()).im);
-        let bent = |j: usize, k: usize| {
-            self.blades.as_ref().map_or(0.0, |blades| {
-                let ((ca, sa), (cb, sb)) =
-                    (blades.shape(self.sides[j]), blades.shape(self.sides[k]));
-                blades.oscillator().compliance * (ca * cb + sa * sb)
-            })
-        };
-        let entry = |j: usize, k: usize| {
-            self.casing.compliance * (ahead[j] * ahead[k].conj()).re
-                + arms[j] * arms[k] * bent(j, k)
-        };
-        let cross = entry(0, 1);
-        let multipliers = contact::pair([[entry(0, 0), cross], [cross, entry(1, 1)]], gaps);
-        let (mut change, mut left) = (Modes::zeros(), [0.0; 2]);
-        if let Some(blades) = &self.blades {
-            let (mut taken, mut moved) = (steps, shift);
-            for k in 0..2 {
-                let (c, s) = blades.shape(self.sides[k]);
-                let torque = -arms[k] * multipliers[k] * blades.oscillator().compliance;
-                taken[0] += torque * c;
-                taken[1] += torque * s;
-                moved -= ahead[k] * (self.casing.compliance * multipliers[k]);
-            }
-            change = Modes::new(taken[0], taken[1], taken[0] - modes[2], taken[1] - modes[3]);
-            left = opened(moved, self.turns(taken));
-        }
-        let finite = multipliers.iter().all(|lambda| lambda.is_finite());
-        finite.then_some(Stepped { change, multipliers, gaps, left })
-    }
-}
-
-/// `(alpha_c, alpha_s)` and their increments.
-pub(in crate::motion::explicit) type Modes = SVector<f64, 4>;
-type StepMap = SMatrix<f64, 4, 4>;
+pub(super) type StepMap = SMatrix<f64, 4, 4>;
 
 /// The map of a held corner, from one step on.
 #[derive(Clone, Debug)]
@@ -215,18 +38,17 @@ pub(in crate::motion::explicit) struct HeldCorner {
     step: CornerStep,
     /// Whether a multiplier pulls.
     pub pulls: bool,
-    /// Blade modes at rest.
+    /// Blade modes at rest, and multipliers there \[N\].
     rest: Modes,
-    /// Blade modes at the start, less those at rest.
-    start: Modes,
-    /// Many steps of the deviation from rest.
-    leap: Leap<4>,
-    /// Inverse of what one step changes of it; zero for rigid blades.
-    unchanged: StepMap,
-    /// Multipliers of the step from `b`: value at rest and gradient \[N\].
-    multipliers: [(f64, Modes); 2],
+    multipliers: [f64; 2],
+    /// Blade modes from the start on, less those at rest.
+    deviations: Arc<dyn Deviations>,
+    /// Whether flows of energy are counted.
+    counts: bool,
     /// Bounds on angle and increment of the deviation from rest.
     swing: (f64, f64),
+    /// How far the map lets the energy of a deviation grow at most, as a size.
+    growth: f64,
 }
 
 impl HeldCorner {
@@ -238,37 +60,39 @@ impl HeldCorner {
 
     /// Blade modes after `steps` steps.
     fn modes(&self, steps: u64) -> Modes {
-        self.rest + self.leap.apply(self.start, steps)
+        self.rest + self.deviations.after(steps)
     }
 
     /// Multipliers of the step that led to `steps` steps from the start \[N\].
     pub fn multipliers(&self, steps: u64) -> [f64; 2] {
-        let from = steps.saturating_sub(1);
         // The step itself knows them to the last digit, at any vibration.
-        self.step.from(self.modes(from)).map_or_else(
-            || {
-                let deviation = self.leap.apply(self.start, from);
-                self.multipliers.map(|(value, gradient)| value + gradient.dot(&deviation))
-            },
-            |step| step.multipliers,
-        )
+        let step = self.step.from(self.modes(steps.saturating_sub(1)));
+        step.map_or(self.multipliers, |step| step.multipliers)
     }
 
     /// Sums of the multipliers of the steps after `before`, up to `steps` \[N\].
     pub fn sums(&self, before: u64, steps: u64) -> [f64; 2] {
-        let [from, to] = [before, steps].map(|steps| self.leap.apply(self.start, steps));
-        // The sum of T^k b is (T - 1)^-1 times what they change in all.
-        let deviation = self.unchanged * (to - from);
-        let count = (steps - before) as f64;
-        self.multipliers.map(|(value, gradient)| count * value + gradient.dot(&deviation))
+        let [a, b, ..] = self.deviations.sums(before, steps);
+        [a, b]
     }
 
-    /// Whether the steps leave next to nothing of their gaps, at rest and as far from it
-    /// as the modes swing.
+    /// Flows of energy of the steps after `before`, up to `steps`; see `CornerStep::flows`
+    /// \[J\].
+    pub fn flows(&self, before: u64, steps: u64) -> Option<[f64; 4]> {
+        let sums = || self.deviations.sums(before, steps);
+        self.counts.then(sums).map(|[_, _, flows @ ..]| flows)
+    }
+
+    /// Amplitude of the blade modes after `steps` steps \[rad\].
+    pub fn amplitude(&self, steps: u64) -> f64 {
+        let modes = self.modes(steps);
+        modes[0].hypot(modes[1])
+    }
+
+    /// Whether the steps leave the gaps they begin with, but for next to nothing of those
+    /// predicted, at rest and as far from it as the modes swing.
     fn closes(&self, at_rest: &Stepped) -> Option<bool> {
-        let part = HELD_LEFT.max(HELD_ROUNDINGS * f64::EPSILON / self.step.sine().powi(2));
-        let closed =
-            |step: &Stepped| (0..2).all(|k| step.left[k].abs() <= part * at_rest.gaps[k].abs());
+        let closed = |step: &Stepped| self.step.is_closed_by(step, at_rest.gaps);
         let mut all = closed(at_rest);
         let (angle, increment) = self.swing;
         for (j, swing) in [angle, angle, increment, increment].into_iter().enumerate() {
@@ -294,9 +118,9 @@ impl HeldCorner {
         let (mut before, mut here, mut at) = (0.0, angle(0), 0);
         while at < steps {
             // The deviation from rest never grows beyond its bound now.
-            let deviation = self.leap.apply(self.start, at);
+            let deviation = self.deviations.after(at);
             let bound = blades.oscillator().reach_of(as_coordinates(deviation)).0;
-            if self.rest[0].hypot(self.rest[1]) + bound <= most {
+            if self.rest[0].hypot(self.rest[1]) + self.growth * bound <= most {
                 break;
             }
             let after = angle((at + stride).min(steps));
@@ -342,58 +166,88 @@ impl<B: Disk> Explicit<B> {
     }
 
     fn make_map(&self, sides: [u32; 2]) -> Option<HeldCorner> {
-        let now = self.blades.held_modes()?;
-        let turn = self.machine.nu(self.drive.speed(self.n)) * self.drive.step;
-        let step = CornerStep::new(&self.machine, &self.casing, now.moving, sides, turn);
+        let now = self.corner_modes()?;
+        let speed = self.drive.speed(self.n);
+        let turn = self.machine.nu(speed) * self.drive.step;
+        let (machine, casing) = (&self.machine, &self.casing);
+        let step = CornerStep::new(machine, self.tips, casing, now.moving, sides, turn);
         let now = as_modes(now.modes);
-        let mut rest = now;
-        let (change, slopes) = slopes(&step, rest)?;
-        let mut unchanged = StepMap::zeros();
-        if step.blades().is_some() {
-            unchanged = change.try_inverse()?;
-            for _ in 0..HELD_CORRECTIONS {
-                let correction = unchanged * step.from(rest)?.change;
-                rest -= correction;
-                if correction.amax() <= f64::EPSILON * rest.amax() {
-                    break;
-                }
+        let resting = rest_in(&step, now)?;
+        let start = now - resting.rest;
+        let (mut swing, mut growth) = ((0.0, 0.0), 1.0);
+        if let Some(blades) = step.blades() {
+            let oscillator = blades.oscillator();
+            swing = oscillator.reach_of(as_coordinates(start));
+            if self.goes_beyond {
+                growth = growth_of(&Leap::new(resting.change), oscillator.turn())?;
+                swing = (growth * swing.0, growth * swing.1);
             }
-        } else {
-            rest = Modes::zeros();
         }
-        let at_rest = step.from(rest)?;
+        if !self.is_kept(&step, &resting, swing) {
+            return None;
+        }
+        let Resting { rest, at_rest, change, unchanged, slopes } = resting;
         let [a, b] = at_rest.multipliers;
-        let start = now - rest;
-        let swing = step
-            .blades()
-            .map_or((0.0, 0.0), |blades| blades.oscillator().reach_of(as_coordinates(start)));
-        let held = HeldCorner {
-            pulls: a > 0.0 || b > 0.0,
-            rest,
-            start,
-            leap: Leap::new(change),
-            unchanged,
-            multipliers: [(a, slopes[0]), (b, slopes[1])],
-            swing,
-            step,
+        let (length, radius) = (machine.blade_length, self.scene.casing.radius_m);
+        let rotor = speed * self.drive.step;
+        let outcome = |deviation: Modes| {
+            let modes = rest + deviation;
+            let stepped = step.from(modes)?;
+            let [a, b] = stepped.multipliers;
+            let [work, casing, blades, heat] = step.flows(modes, &stepped, rotor, length, radius);
+            Some((stepped.change, [a, b, work, casing, blades, heat]))
         };
-        let [first, second] = at_rest.gaps;
-        let kept = self.is_kept(&held, [a, b, first, second], slopes);
-        (kept && held.closes(&at_rest)?).then_some(held)
+        let phase = machine.nodal_diameters * swing.0;
+        let [linear, square, _] = SMALL_TURNS;
+        let counts = self.goes_beyond && !self.beyond.account.forgone;
+        let (_, values) = outcome(Modes::zeros())?;
+        let deviations: Arc<dyn Deviations> = match step.blades() {
+            Some(blades) if phase > linear || counts => {
+                let angle = swing.0.max(HELD_PROBE);
+                let increment = swing.1.max(angle * blades.oscillator().turn());
+                let scale = Modes::new(angle, angle, increment, increment);
+                unfold(outcome, start, scale, phase > square)?.into()
+            }
+            _ => {
+                Arc::new(Unfolded::linear(start, change, unchanged, values, [slopes[0], slopes[1]]))
+            }
+        };
+        let pulls = a > 0.0 || b > 0.0;
+        let multipliers = [a, b];
+        let held = HeldCorner { step, pulls, rest, multipliers, deviations, counts, swing, growth };
+        held.closes(&at_rest)?.then_some(held)
     }
 
-    /// Whether multipliers and predicted gaps never come near a change of sign:
-    /// neither at rest nor by the vibration before it.
-    fn is_kept(&self, held: &HeldCorner, rest: [f64; 4], slopes: [Modes; 4]) -> bool {
-        let (angle, increment) = held.swing;
-        if self.machine.nodal_diameters * angle > SMALL_TURN {
+    /// The modes of a corner whose rows are its two sides, and whose casing is rigid and
+    /// gives nothing back.
+    fn corner_modes(&self) -> Option<HeldModes<'_>> {
+        let plain = || {
+            let by_side = self.blades.wave().is_some() && self.blades.table().is_by_side();
+            let rigid = self.lining.is_none() && self.scene.contact.restitution == 0.0;
+            by_side && rigid && self.beyond.long_steps == 0
+        };
+        if !self.goes_beyond || plain() { self.blades.held_modes() } else { None }
+    }
+
+    /// Whether multipliers and predicted gaps never come near a change of sign, and no blade
+    /// of another side near the casing: neither at rest nor by the vibration before it.
+    fn is_kept(&self, step: &CornerStep, at: &Resting, (angle, increment): (f64, f64)) -> bool {
+        let turn = self.machine.nodal_diameters * angle;
+        if turn > SMALL_TURNS[2] {
             return false;
         }
-        (0..4).all(|k| {
-            let swing = angle * (slopes[k][0].hypot(slopes[k][1]))
-                + increment * (slopes[k][2].hypot(slopes[k][3]));
-            let sign_fits = if k < 2 { self.law.pulls() || rest[k] < 0.0 } else { rest[k] < 0.0 };
-            sign_fits && rest[k].is_finite() && swing < ROOM_TO_CHANGE * rest[k].abs()
+        if self.goes_beyond {
+            let (place, _) = step.casing(at.rest);
+            let moves = 4.0 * turn * place.norm() + self.tips.rise.abs() * angle;
+            if moves > ROOM_TO_CHANGE * step.nearest_other(&self.machine, at.rest) {
+                return false;
+            }
+        }
+        let ([a, b], [first, second]) = (at.at_rest.multipliers, at.at_rest.gaps);
+        [a, b, first, second].into_iter().zip(at.slopes).enumerate().all(|(k, (rest, slope))| {
+            let swing = angle * (slope[0].hypot(slope[1])) + increment * (slope[2].hypot(slope[3]));
+            let sign_fits = if k < 2 { self.law.pulls() || rest < 0.0 } else { rest < 0.0 };
+            sign_fits && rest.is_finite() && swing < ROOM_TO_CHANGE * rest.abs()
         })
     }
 
@@ -405,7 +259,8 @@ impl<B: Disk> Explicit<B> {
     ) -> ([Coordinate; 2], B) {
         let modes = held.modes(steps);
         let mut blades = self.blades.clone();
-        blades.set_held_modes(as_coordinates(modes));
+        let before = if self.goes_beyond && steps > 0 { held.modes(steps - 1) } else { modes };
+        blades.set_held_modes(as_coordinates(modes), [before[2], before[3]]);
         let (c, s) = self.drive.look_at_turn(self.n + steps);
         let (place, change) = held.step.casing(modes);
         let u = [
@@ -414,6 +269,69 @@ impl<B: Disk> Explicit<B> {
         ];
         (u, blades)
     }
+
+    /// Increments of the casing in the step before the last of `steps` \[m\].
+    pub(in crate::motion::explicit) fn held_before(
+        &self,
+        held: &HeldCorner,
+        steps: u64,
+    ) -> [f64; 2] {
+        let before = steps.saturating_sub(1);
+        let (c, s) = self.drive.look_at_turn(self.n + before);
+        let (_, change) = held.step.casing(held.modes(before));
+        [change.re * c - change.im * s, change.re * s + change.im * c]
+    }
+}
+
+/// How far a map lets a deviation grow at most, in the energy of free modes that turn by
+/// `turn` in a step; none where it may grow on and on, or far.
+fn growth_of(leap: &Leap<4>, turn: f64) -> Option<f64> {
+    let scale = Modes::new(1.0, 1.0, turn, turn);
+    let norm = |exponent| {
+        let column = |k: usize| {
+            let unit = Modes::from_fn(|row, _| if row == k { scale[k] } else { 0.0 });
+            leap.doubled(unit, exponent).component_div(&scale)
+        };
+        let map = StepMap::from_columns(&[0, 1, 2, 3].map(column));
+        map.tr_mul(&map).symmetric_eigenvalues().max().sqrt()
+    };
+    let norms: Vec<f64> = (0..=LARGEST).map(norm).collect();
+    let growth = norms.iter().fold(1.0, |growth, norm| growth * norm.max(1.0));
+    let ends = norms.last().is_some_and(|last| *last < MOST_GROWTH);
+    (ends && growth < MOST_GROWTH).then_some(growth)
+}
+
+/// Blade modes at rest in a corner, the step from there, and the map of the deviation.
+struct Resting {
+    rest: Modes,
+    at_rest: Stepped,
+    /// The map, minus one, and its inverse; zero for rigid blades.
+    change: StepMap,
+    unchanged: StepMap,
+    slopes: [Modes; 4],
+}
+
+/// The rest nearest to `now`; none where steps leave more than next to nothing of their
+/// gaps there.
+fn rest_in(step: &CornerStep, now: Modes) -> Option<Resting> {
+    let mut rest = now;
+    let (change, slopes) = slopes(step, rest)?;
+    let mut unchanged = StepMap::zeros();
+    if step.blades().is_some() {
+        unchanged = change.try_inverse()?;
+        for _ in 0..HELD_CORRECTIONS {
+            let correction = unchanged * step.from(rest)?.change;
+            rest -= correction;
+            if correction.amax() <= f64::EPSILON * rest.amax() {
+                break;
+            }
+        }
+    } else {
+        rest = Modes::zeros();
+    }
+    let at_rest = step.from(rest)?;
+    let closed = step.is_closed_by(&at_rest, at_rest.gaps);
+    closed.then_some(Resting { rest, at_rest, change, unchanged, slopes })
 }
 
 /// The map of the deviation from `at`, minus one, and the gradients of multipliers
@@ -448,7 +366,11 @@ fn as_coordinates(modes: Modes) -> [Coordinate; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::motion::explicit::Oscillator;
+    use crate::motion::explicit::disk::ModalBlades;
+    use crate::motion::explicit::rows::TipLaw;
     use crate::scene::Scene;
+    use crate::tolerances::HELD_LEFT;
 
     /// A corner of the paper's blades, and their modes at rest in it.
     fn corner() -> (CornerStep, Modes) {
@@ -459,7 +381,8 @@ mod tests {
         let blades = ModalBlades::at_rest(&scene, &machine, None);
         let turn = machine.nu(scene.operation.speed_rad_s) * 1e-5;
         let sides = [4, machine.polygon.next(4)];
-        let step = CornerStep::new(&machine, &casing, Some(&blades), sides, turn);
+        let tips = TipLaw::at(&machine, scene.operation.speed_rad_s);
+        let step = CornerStep::new(&machine, tips, &casing, Some(&blades), sides, turn);
         let mut rest = Modes::zeros();
         let back = slopes(&step, rest).unwrap().0.try_inverse().unwrap();
         for _ in 0..HELD_CORRECTIONS {
@@ -486,15 +409,22 @@ mod tests {
             for (a, b) in [(2.0, 2.0), (0.5, 2.0), (2.0, 0.5)] {
                 let gaps = [a * most[0] / HELD_LEFT, b * most[1] / HELD_LEFT];
                 let at_rest = Stepped { gaps, ..step.from(rest).unwrap() };
+                let nothing = StepMap::zeros();
                 let held = HeldCorner {
                     step: step.clone(),
                     pulls: false,
                     rest,
-                    start: Modes::zeros(),
-                    leap: Leap::new(StepMap::zeros()),
-                    unchanged: StepMap::zeros(),
-                    multipliers: [(0.0, Modes::zeros()); 2],
+                    multipliers: [0.0; 2],
+                    deviations: Arc::new(Unfolded::linear(
+                        Modes::zeros(),
+                        nothing,
+                        nothing,
+                        [0.0; 6],
+                        [Modes::zeros(); 2],
+                    )),
+                    counts: false,
                     swing,
+                    growth: 1.0,
                 };
                 let closes = (0..2).all(|k| most[k] <= HELD_LEFT * gaps[k]);
                 assert_eq!(held.closes(&at_rest), Some(closes), "{swing:?} {a} {b} {most:?}");

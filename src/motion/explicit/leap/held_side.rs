@@ -326,7 +326,8 @@ impl<B: Disk> Explicit<B> {
     pub(in crate::motion::explicit) fn slid(&self, sliding: &Sliding) -> ([Coordinate; 2], B) {
         let mut blades = self.blades.clone();
         if let Some(moving) = self.blades.held_modes().and_then(|blades| blades.moving) {
-            blades.set_held_modes(sliding.modes(moving));
+            let modes = sliding.modes(moving);
+            blades.set_held_modes(modes, modes.map(|mode| mode.increment));
         }
         (self.standing(sliding.side, self.n, sliding.casing()), blades)
     }

@@ -6,7 +6,7 @@ use plotters::style::text_anchor::HPos;
 use super::row::printed;
 use super::{LINE, Page, SMALL, TEXT};
 use crate::report::margins::{LimitRow, words};
-use crate::report::number::{short, time, with_unit};
+use crate::report::number::{speed as speed_text, time, with_unit};
 use crate::report::svg::LEFT;
 use crate::report::svg::paper::{Drawn, typed, write_at, write_from};
 use crate::report::symbols::{in_print, symbol};
@@ -24,13 +24,13 @@ pub(super) fn loads(margins: &Margins, page: &mut Page<'_, '_>) -> Drawn<()> {
     let loads = LimitRow::all(margins, &[]).into_iter().filter(LimitRow::is_load);
     let (with, without): (Vec<_>, Vec<_>) = loads.partition(|row| row.value().is_some());
     page.rule()?;
-    let speed = printed(&short(margins.scene.operation.speed_rad_s));
+    let speed = printed(&speed_text(margins.scene.operation.speed_rad_s));
     let none = match without.first().and_then(LimitRow::note) {
         Some(note) if with.is_empty() => format!(" none: {note}"),
         _ => String::new(),
     };
     let [what, value, side, moves] = LOADS;
-    page.lines(&format!("The locked motion at {speed} rad/s:{none}"), TEXT, 20)?;
+    page.lines(&format!("The locked motion at {speed}:{none}"), TEXT, 20)?;
     for row in with {
         let Some(load) = row.value() else { continue };
         let (area, y) = (page.area, page.y);

@@ -1,0 +1,26 @@
+//! `rubscope check`: what follows from a scene, what is not known, and what looks like a slip.
+
+use std::io::Write;
+
+use clap::Args;
+
+use super::Done;
+use super::options::SceneOptions;
+use super::status::{self, Status};
+use crate::report::check as report;
+
+/// Say in sentences what follows from a scene, what is unknown, and what looks like a slip.
+#[derive(Args, Debug)]
+pub struct CheckCommand {
+    #[command(flatten)]
+    options: SceneOptions,
+}
+
+impl CheckCommand {
+    pub(super) fn run(&self, out: &mut dyn Write) -> Done {
+        let scene = self.options.scene()?;
+        status::say_noted();
+        report::write(&scene, out)?;
+        Ok(Status::Done)
+    }
+}

@@ -1,0 +1,88 @@
+//! `rubscope survey`: the limits of every number of diameters, and which lie in a range.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::options::SceneOptions;
+use super::status::{self, Refusal, Status};
+use super::{Done, output};
+use crate::report::{CommandLine, Provenance, json, survey as report, svg};
+use crate::scene::CheckedScene;
+use crate::study::margins::{TargetError, parameter};
+use crate::study::survey::{Survey, speed_range};
+
+/// Find the limits of every number of diameters, and which of them lie in a range of speeds.
+///
+/// Frequencies of casing and disk, critical and lock speeds, coincidences, whirl and
+/// flutter, each by the modes that the scene has for that number of diameters.
+#[derive(Args, Debug)]
+pub struct SurveyCommand {
+    #[command(flatten)]
+    options: SceneOptions,
+    /// The speeds of the machine, such as 6000rpm:11000rpm
+    #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true)]
+    range: Option<String>,
+    /// Also how much 1 % of this parameter moves each limit, such as casing.modal_mass_kg
+    #[arg(long, value_name = "PATH")]
+    by: Option<String>,
+    /// Print everything as JSON (rubscope.survey/1)
+    #[arg(long)]
+    json: bool,
+    /// Write the limits to FILE: .csv, or .svg for the interference chart
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+}
+
+impl SurveyCommand {
+    pub(super) fn run(&self, out: &mut dyn Write) -> Done {
+        let format = match &self.out {
+            Some(path) => Some(output::format(path, &["csv", "svg"])?),
+            None => None,
+        };
+        let scene = self.options.scene()?;
+        let range = self.range.as_deref().map(speed_range).transpose();
+        let range = range.map_err(|error| Refusal::because(format!("--{error}")))?;
+        let by = match &self.by {
+            Some(path) => Some(parameter(path.trim()).ok_or_else(|| {
+                Refusal::because(TargetError::Parameter { path: path.clone() }.to_string())
+            })?),
+            None => None,
+        };
+        status::say_noted();
+        let survey = Survey::of(&scene, range, by);
+        self.deliver(&survey, &scene, format, out)?;
+        Ok(Status::Done)
+    }
+
+    fn deliver(
+        &self,
+        survey: &Survey,
+        scene: &CheckedScene,
+        format: Option<&str>,
+        out: &mut dyn Write,
+    ) -> anyhow::Result<()> {
+        let command = CommandLine::new("survey", scene)
+            .optional("--range", self.range.as_ref())
+            .optional("--by", self.by.as_ref());
+        if self.json {
+            json::write_as("rubscope.survey/1", &command, survey, out)?;
+        }
+        if let Some(path) = &self.out {
+            let rows = format!("{} numbers of diameters", survey.rows.len());
+            if format == Some("svg") {
+                let command = command.option("--out", "survey.svg");
+                let origin = Provenance { command, scene: scene.clone().into_scene() };
+                let figure = report::figure(survey);
+                output::save(path, &rows, out, |out| svg::write(&figure, &origin, out))?;
+            } else {
+                output::save(path, &rows, out, |out| report::table(survey).write_csv(out))?;
+            }
+        }
+        if !self.json {
+            report::write(survey, out)?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,134 @@
+//! What follows from a scene, in sentences: the machine, its frequencies and limits, what is
+//! not known, and what looks like a slip.
+
+use std::f64::consts::TAU;
+use std::io::{Result, Write};
+
+use super::line::{capital, wrapped};
+use super::margins::{WIDTH, words};
+use super::number::{count, rounded, short, speed, with_unit};
+use crate::scene::{CheckedScene, ModelSize};
+use crate::study::margins::{LimitName, Margins, Quantity};
+
+/// Writes the sentences, a paragraph for each matter.
+///
+/// # Errors
+/// An error of the writer.
+pub fn write(scene: &CheckedScene, out: &mut dyn Write) -> Result<()> {
+    let doubts = scene.doubts();
+    let mut paragraphs =
+        vec![scene.title.clone(), machine(scene), frequencies(scene), limits(scene)];
+    paragraphs.extend(unknown(scene));
+    paragraphs.push(match doubts.len() {
+        0 => "Nothing looks like a slip of a unit or a decimal point.".to_string(),
+        some => format!("{} like a slip:", if some == 1 { "This looks" } else { "These look" }),
+    });
+    for text in paragraphs.iter().filter(|text| !text.is_empty()) {
+        wrapped(text, WIDTH).iter().try_for_each(|line| writeln!(out, "{line}"))?;
+    }
+    for doubt in doubts {
+        for (row, line) in wrapped(&doubt, WIDTH - 2).iter().enumerate() {
+            writeln!(out, "{} {line}", if row == 0 { "-" } else { " " })?;
+        }
+    }
+    Ok(())
+}
+
+fn machine(scene: &CheckedScene) -> String {
+    let machine = scene.machine();
+    let polygon = &machine.polygon;
+    let clearance = scene.clearance();
+    let room = if clearance > 0.0 { "a clearance of" } else { "an interference of" };
+    let corners = if polygon.has_corners() {
+        format!(
+            "With {} the blades form {} groups of {}, between which a wave can lock.",
+            count(u64::from(polygon.nodal_diameters), "nodal diameter"),
+            polygon.sides,
+            polygon.blades_per_side
+        )
+    } else {
+        format!(
+            "With {} the blades form no corner: no wave can lock.",
+            count(u64::from(polygon.nodal_diameters), "nodal diameter")
+        )
+    };
+    format!(
+        "{} of {} in a casing of the radius {}: {room} {}, {} % of the radius. {corners}",
+        count(u64::from(polygon.blades), "blade"),
+        length(machine.blade_length),
+        length(scene.casing.radius_m),
+        length(clearance.abs()),
+        short(rounded(100.0 * clearance.abs() / scene.casing.radius_m, 3)),
+    )
+}
+
+fn length(x: f64) -> String {
+    with_unit(x, 6, "m")
+}
+
+fn frequencies(scene: &CheckedScene) -> String {
+    let machine = scene.machine();
+    let hertz = |omega: f64| format!("{} Hz", short(rounded(omega / TAU, 5)));
+    let disk = machine.blade_modal_mass / (machine.blade_length * machine.blade_length);
+    let rigid = match scene.solver.model {
+        ModelSize::Rigid => " The model leaves the motion of the blades out.",
+        _ => "",
+    };
+    format!(
+        "The casing has {} ({} kg, damping ratio {}), the bladed disk {} ({} kg at the tips, \
+         damping ratio {}).{rigid}",
+        hertz(machine.omega_c),
+        short(machine.casing_mass),
+        short(machine.casing_damping_ratio),
+        hertz(machine.omega_bd),
+        short(rounded(disk, 5)),
+        short(machine.blade_damping_ratio),
+    )
+}
+
+/// Where the scene stands.
+fn limits(scene: &CheckedScene) -> String {
+    let margins = Margins::of(scene);
+    let now = speed(scene.operation.speed_rad_s);
+    let mut told = vec![format!("The rotor turns at {now}.")];
+    for limit in &margins.limits {
+        let speeds = limit.quantity == Quantity::Speed;
+        let Some(value) = limit.value else {
+            let note = limit.note.as_deref().filter(|_| limit.name == LimitName::OmegaLock);
+            told.extend(note.map(|note| format!("No lock: {note}.")));
+            continue;
+        };
+        if !(speeds || limit.name == LimitName::TouchingPulse) {
+            continue;
+        }
+        let value = words::value(value, 6, limit.quantity);
+        let margin =
+            limit.margin.map_or(String::new(), |part| format!(" ({})", words::margin(part)));
+        told.push(format!("{} {value}{margin}: {}.", limit.name.symbol(), limit.name.what()));
+    }
+    told.join(" ")
+}
+
+/// What the scene does not say.
+fn unknown(scene: &CheckedScene) -> Option<String> {
+    let half = scene.bladed_disk.blades / 2;
+    let known = |modes: &[crate::model::Mode]| {
+        (0..=half).filter(|n| modes.iter().any(|mode| mode.nodal_diameters == *n)).count() as u64
+    };
+    if let Some(note) = scene.modes_note() {
+        return Some(format!("{}.", capital(&note)));
+    }
+    let all = u64::from(half) + 1;
+    match known(&scene.casing.modes) {
+        0 => Some(format!(
+            "One mode of the casing is given; for other numbers of diameters than {} nothing is \
+             known, and the same is taken.",
+            scene.operation.nodal_diameters
+        )),
+        some if some < all => Some(format!(
+            "Modes of the casing are known for {some} of {all} numbers of diameters; for the \
+             others its own values are taken."
+        )),
+        _ => None,
+    }
+}

@@ -1,0 +1,329 @@
+//! The survey of all numbers of diameters: aligned text for people, a table of every limit
+//! (CSV), and the interference chart (SVG).
+
+use std::borrow::Cow;
+use std::f64::consts::TAU;
+use std::io::{Result, Write};
+
+use super::line::{capital, wrapped};
+use super::margins::{WIDTH, words};
+use super::number::{count, per_speed, rounded, short, speed, speed_unit, time};
+use super::symbols::symbol;
+use super::table::{Table, TableCell};
+use crate::study::figures::{Figure, Panel, Quantity, Series, Style};
+use crate::study::margins::{LimitName, Quantity as Kind};
+use crate::study::survey::{Survey, SurveyLimit, SurveyRow};
+
+/// Most rows of the text where every number of diameters has one.
+const ROWS: usize = 64;
+/// Most of the nearest limits that are listed.
+const NEAREST: usize = 16;
+/// Width of a number in the text.
+const NUMBER: usize = 8;
+
+/// Every limit, one row each; a number of diameters without any has one row, too.
+#[must_use]
+pub fn table(survey: &Survey) -> Table {
+    let mut table = Table::new([
+        "nodal_diameters",
+        "omega_c_rad_s",
+        "omega_bd_rad_s",
+        "name",
+        "value_rad_s",
+        "margin",
+        "in_range",
+        "by",
+    ]);
+    for row in &survey.rows {
+        let own = [
+            f64::from(row.nodal_diameters).into(),
+            row.omega_c_rad_s.into(),
+            row.omega_bd_rad_s.into(),
+        ];
+        if row.limits.is_empty() {
+            table.push(own.to_vec());
+        }
+        for limit in &row.limits {
+            let of_limit = [
+                limit.name.to_string().into(),
+                limit.value.into(),
+                limit.margin.into(),
+                limit.in_range.into(),
+                limit.by.into(),
+            ];
+            table.push(own.iter().cloned().chain(of_limit).collect());
+        }
+    }
+    table
+}
+
+/// Writes the survey for people.
+///
+/// # Errors
+/// An error of the writer.
+pub fn write(survey: &Survey, out: &mut dyn Write) -> Result<()> {
+    let scene = &survey.scene;
+    let mut tell =
+        |text: &str| wrapped(text, WIDTH).iter().try_for_each(|line| writeln!(out, "{line}"));
+    tell(&scene.title)?;
+    tell(&head(survey))?;
+    let unknown: Vec<String> = survey
+        .rows
+        .iter()
+        .filter(|row| !row.modes_known)
+        .map(|row| row.nodal_diameters.to_string())
+        .collect();
+    if let Some(last) = unknown.last() {
+        let which = if unknown.len() > 12 {
+            format!("{} of them, up to {last}", unknown.len())
+        } else {
+            unknown.join(", ")
+        };
+        tell(&format!(
+            "Numbers of diameters with ° have no mode of their own in the scene, and the own \
+             values of casing or disk: {which}."
+        ))?;
+    }
+    survey.note.iter().try_for_each(|note| tell(&format!("The limits are {note}.")))?;
+    writeln!(out)?;
+    rows(survey).write_text(out)?;
+    writeln!(out)?;
+    nearest(survey, out)?;
+    writeln!(out)?;
+    writeln!(out, "Computed in {}.", time(rounded(survey.wall_s, 2)))
+}
+
+/// The machine and the range in a few sentences.
+#[must_use]
+pub fn head(survey: &Survey) -> String {
+    let scene = &survey.scene;
+    let asked = match survey.range_rad_s {
+        Some([from, to]) => {
+            let other = if speed_unit() == "rpm" { String::new() } else { in_rpm([from, to]) };
+            format!("* marks what lies from {} to {}{other}.", speed(from), speed(to))
+        }
+        None => "Without --range nothing is marked.".to_string(),
+    };
+    let mirrored = survey.rows.iter().all(|row| {
+        let back = row.limits.iter().filter(|limit| limit.value < 0.0);
+        back.into_iter().all(|limit| {
+            row.limit(limit.name, true).is_some_and(|forward| forward.value == -limit.value)
+        })
+    });
+    let sense = match (survey.is_forward(), mirrored) {
+        (forward, true) => {
+            let other = if forward { "backward" } else { "forward" };
+            format!("The same speeds with the other sign are those of a rotor that turns {other}.")
+        }
+        (true, false) => "Speeds of a rotor that turns forward; --json has the others.".into(),
+        (false, false) => "Speeds of a rotor that turns backward; --json has the others.".into(),
+    };
+    format!(
+        "{} blades, 0 to {}; speeds in {}, frequencies in Hz. {asked} {sense}",
+        scene.bladed_disk.blades,
+        count(u64::from(scene.bladed_disk.blades / 2), "nodal diameter"),
+        speed_unit(),
+    )
+}
+
+fn in_rpm([from, to]: [f64; 2]) -> String {
+    let turns = |omega: f64| short(omega * 60.0 / TAU);
+    format!(" ({} to {} rpm)", turns(from), turns(to))
+}
+
+/// One line for each number of diameters, where they are few, or else for those with
+/// something in the range.
+fn rows(survey: &Survey) -> Table {
+    let names = survey.names();
+    let forward = survey.is_forward();
+    let titles = ["casing", "disk"].into_iter().map(String::from);
+    let titles = titles.chain(names.iter().map(|name| title(*name).to_string()));
+    let heads =
+        std::iter::once(" n_d".to_string()).chain(titles.map(|name| format!("{name:>NUMBER$}")));
+    let mut table = Table::new(heads);
+    let inside = |row: &&SurveyRow| row.limits.iter().any(|limit| limit.in_range == Some(true));
+    let few = survey.rows.len() <= ROWS;
+    let shown: Vec<&SurveyRow> = survey.rows.iter().filter(|row| few || inside(row)).collect();
+    let shown = if shown.is_empty() { survey.rows.iter().collect() } else { shown };
+    for row in shown.iter().take(ROWS) {
+        let here = row.nodal_diameters == survey.scene.operation.nodal_diameters;
+        let sign = if here { ">" } else { " " };
+        let known = if row.modes_known { "" } else { "°" };
+        let hertz = |omega: f64| format!("{:>NUMBER$}", short(rounded(omega / TAU, 5)));
+        let mut cells = vec![
+            format!("{sign}{}{known}", row.nodal_diameters),
+            hertz(row.omega_c_rad_s),
+            hertz(row.omega_bd_rad_s),
+        ];
+        cells.extend(names.iter().map(|name| cell(row.limit(*name, forward))));
+        table.push(cells.into_iter().map(TableCell::from).collect());
+    }
+    let left = survey.rows.len() - shown.len().min(ROWS);
+    if left > 0 {
+        table.push(vec![format!("and {left} more: --json or --out").into()]);
+    }
+    table
+}
+
+/// A limit in a narrow column, in letters of ASCII.
+fn title(name: LimitName) -> &'static str {
+    match name {
+        LimitName::OmegaC => "Omega_c",
+        LimitName::OmegaLock => "Om_lock",
+        LimitName::LockEnds => "ends",
+        LimitName::OmegaAdhesive => "adhesive",
+        LimitName::Coincidence => "sum (31)",
+        LimitName::CoincidenceDifference => "diff (30)",
+        LimitName::LockFold => "gives way",
+        LimitName::WhirlOnset => "whirl",
+        LimitName::FlutterSpeed => "flutter",
+        _ => "",
+    }
+}
+
+fn cell(limit: Option<&SurveyLimit>) -> String {
+    let Some(limit) = limit else { return format!("{:>NUMBER$}", "-") };
+    let value = short(rounded(per_speed(limit.value.abs()), 5));
+    let sign = if limit.in_range == Some(true) { "*" } else { "" };
+    format!("{value:>NUMBER$}{sign}")
+}
+
+/// What lies in the range, the nearest to the scene first.
+fn nearest(survey: &Survey, out: &mut dyn Write) -> Result<()> {
+    let found = survey.nearest();
+    let present = speed(survey.scene.operation.speed_rad_s);
+    let what = match (survey.range_rad_s, found.len()) {
+        (Some(_), 0) => return beside(survey, out),
+        (Some(_), some) => format!("{} in the range", count(some as u64, "limit")),
+        (None, _) => "Limits".to_string(),
+    };
+    writeln!(out, "{what}, the nearest to {present} first:")?;
+    let by = survey.by.map(|path| format!("+1 % of {} moves it by", symbol(path)));
+    let mut table = Table::new(
+        ["n_d".into(), "limit".into(), "speed".into(), "now".to_string()].into_iter().chain(by),
+    );
+    for (diameters, limit) in found.iter().take(NEAREST) {
+        table.push(line(*diameters, limit));
+    }
+    table.write_text(out)?;
+    match found.len().saturating_sub(NEAREST) {
+        0 => Ok(()),
+        more => writeln!(out, "... and {more} more, see --json"),
+    }
+}
+
+/// A limit of a number of diameters, in words.
+fn line(diameters: u32, limit: &SurveyLimit) -> Vec<TableCell> {
+    let margin = limit.margin.map_or_else(|| "the other way round".into(), words::margin);
+    vec![
+        diameters.to_string().into(),
+        limit.name.to_string().into(),
+        words::value(limit.value, 6, Kind::Speed).into(),
+        margin.into(),
+        limit.by.map_or_else(|| TableCell::from(""), |by| words::change(by).into()),
+    ]
+}
+
+/// Nothing lies in the range: the nearest limits below and above it.
+fn beside(survey: &Survey, out: &mut dyn Write) -> Result<()> {
+    let Some([from, to]) = survey.range_rad_s else { return Ok(()) };
+    let all = || {
+        let of_row = |row: &SurveyRow| -> Vec<(u32, SurveyLimit)> {
+            row.limits.iter().map(|limit| (row.nodal_diameters, limit.clone())).collect()
+        };
+        survey.rows.iter().flat_map(of_row)
+    };
+    let below = all().filter(|(_, limit)| limit.value < from);
+    let below = below.max_by(|a, b| a.1.value.total_cmp(&b.1.value));
+    let above = all().filter(|(_, limit)| limit.value > to);
+    let above = above.min_by(|a, b| a.1.value.total_cmp(&b.1.value));
+    let told = |side: &str, found: &Option<(u32, SurveyLimit)>| match found {
+        Some((diameters, limit)) => {
+            let what = count(u64::from(*diameters), "diameter");
+            format!("{side} it {} of {what} at {}", limit.name, speed(limit.value))
+        }
+        None => format!("none {side} it"),
+    };
+    let text = format!("{}; {}", told("below", &below), told("above", &above));
+    writeln!(out, "No limit lies in the range: the nearest are {text}.")
+}
+
+/// How far beyond the range limits are drawn, as a part of it.
+const BEYOND: f64 = 0.25;
+
+/// The interference chart: frequencies and the lines `n_d Omega` over the numbers of
+/// diameters, and below it the limits over them.
+#[must_use]
+pub fn figure(survey: &Survey) -> Figure {
+    let rows = &survey.rows;
+    let over = |of: fn(&SurveyRow) -> f64| {
+        rows.iter().map(move |row| (f64::from(row.nodal_diameters), of(row)))
+    };
+    let present = survey.scene.operation.speed_rad_s.abs();
+    let mut frequencies = vec![
+        Series::new("casing ω_c", Style::Discs(0, 4), over(|row| row.omega_c_rad_s))
+            .named("omega_c"),
+        Series::new("disk ω_bd", Style::Discs(1, 4), over(|row| row.omega_bd_rad_s))
+            .named("omega_bd"),
+    ];
+    let last = rows.last().map_or(0.0, |row| f64::from(row.nodal_diameters));
+    let most =
+        rows.iter().fold(0.0_f64, |most, row| most.max(row.omega_c_rad_s + row.omega_bd_rad_s));
+    // A line goes as far as the frequencies do.
+    let turning = |omega: f64| {
+        let end = if omega > 0.0 { (most / omega).min(last) } else { last };
+        [(0.0, 0.0), (end, end * omega)]
+    };
+    frequencies.push(
+        Series::new(format!("n_d Ω at {}", speed(present)), Style::Line(3), turning(present))
+            .named("now"),
+    );
+    let mut limits = Vec::new();
+    if let Some([from, to]) = survey.range_rad_s {
+        for (end, name) in [(from, "from"), (to, "to")] {
+            let label = format!("n_d Ω at {}", speed(end));
+            let points = turning(end.abs());
+            frequencies.push(Series::new(label, Style::Dashed(4), points).named(name));
+            let level = [(0.0, end), (last, end)];
+            limits.push(
+                Series::new(format!("{name} {}", speed(end)), Style::Dashed(4), level).named(name),
+            );
+        }
+    }
+    limits.push(
+        Series::new(
+            format!("now {}", speed(survey.scene.operation.speed_rad_s)),
+            Style::Line(3),
+            [0.0, last].map(|n| (n, survey.scene.operation.speed_rad_s)),
+        )
+        .named("now"),
+    );
+    for (colour, name) in survey.names().into_iter().enumerate() {
+        let points = rows.iter().filter_map(|row| {
+            let limit = row.limit(name, survey.is_forward())?;
+            let shown = survey.range_rad_s.is_none_or(|[from, to]| {
+                let more = BEYOND * (to - from);
+                (from - more..=to + more).contains(&limit.value)
+            });
+            shown.then(|| (f64::from(row.nodal_diameters), limit.value))
+        });
+        let points: Vec<_> = points.collect();
+        if !points.is_empty() {
+            limits.push(
+                Series::new(name.symbol(), Style::Discs(colour, 4), points).named(name.to_string()),
+            );
+        }
+    }
+    let diameters = || Quantity::new("nodal_diameters", "nodal diameters n_d", 1.0);
+    let frequency = Quantity::new("omega_rad_s", "frequency [Hz]", 1.0 / TAU);
+    let panels = vec![
+        Panel::new("(a) frequencies", diameters(), frequency, frequencies),
+        Panel::new("(b) limits", diameters(), speed_axis(), limits),
+    ];
+    Figure::new(survey.scene.title.clone(), capital(&head(survey)), panels)
+}
+
+fn speed_axis() -> Quantity {
+    let label = Cow::Owned(format!("rotor speed Ω [{}]", speed_unit()));
+    Quantity { column: "speed_rad_s".into(), label, factor: per_speed(1.0), log: false }
+}

@@ -1,0 +1,348 @@
+//! A scene from what an engineer has: blades, radius and clearance, and the frequencies and
+//! modal masses of a modal analysis; the inverse of the formulas of the machine.
+//!
+//! Modal masses are those of shapes with the amplitude 1 at the rim of the casing, and at
+//! the tips of the blades. A mode of the disk with the mass `M` has blades of the inertia
+//! `m_b = 2 M l_b^2/N`; half of it where all blades move alike, or in turn.
+
+use std::f64::consts::TAU;
+
+use super::modes::{hertz_of, number_of, of_neighbours};
+use super::{Allowed, Scene, SceneError, keys};
+
+/// One mode of a modal analysis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Family {
+    /// Its nodal diameters.
+    pub nodal_diameters: u32,
+    /// Its frequency \[Hz\].
+    pub frequency_hz: f64,
+    /// Its modal mass \[kg\].
+    pub modal_mass_kg: f64,
+    /// Its damping ratio, if it is known.
+    pub damping_ratio: Option<f64>,
+}
+
+/// What a scene is made from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModalData {
+    /// One line that names the machine.
+    pub title: String,
+    /// Number of blades.
+    pub blades: u32,
+    /// Inner radius of the casing \[m\].
+    pub radius_m: f64,
+    /// Clearance between blade tips and casing \[m\].
+    pub clearance_m: f64,
+    /// The number of diameters that the scene begins with.
+    pub nodal_diameters: u32,
+    /// The modes of the casing.
+    pub casing: Vec<Family>,
+    /// The modes of the disk.
+    pub disk: Vec<Family>,
+    /// Damping ratios of casing and disk, where a mode has none of its own.
+    pub damping_ratios: [f64; 2],
+    /// The speeds of the machine \[rad/s\].
+    pub range_rad_s: [f64; 2],
+    /// The pulse that starts the motion \[N\].
+    pub pulse_n: f64,
+}
+
+impl ModalData {
+    /// The scene file, with a comment on every key.
+    ///
+    /// # Errors
+    /// What no scene can have, named by its key.
+    pub fn to_toml(&self) -> Result<String, SceneError> {
+        let own = |modes: &[Family], key: &str| {
+            let here = modes.iter().find(|mode| mode.nodal_diameters == self.nodal_diameters);
+            let none = || SceneError::refused(key, "none", "at least one mode");
+            here.or(modes.first()).copied().ok_or_else(none)
+        };
+        let casing = own(&self.casing, keys::CASING_MODES)?;
+        let disk = own(&self.disk, keys::DISK_MODES)?;
+        let length = self.radius_m - self.clearance_m;
+        let inertia = self.inertia(&disk, length);
+        let (stiffness, coupling) = self.springs(&disk, inertia);
+        let omega = TAU * casing.frequency_hz;
+        let [from, to] = self.range_rad_s;
+        let mut text = String::new();
+        let mut line = |line: &str| {
+            text.push_str(line);
+            text.push('\n');
+        };
+        let rpm = |omega: f64| omega * 60.0 / TAU;
+        line("# A machine for rubscope. All numbers are in SI units; a number with another unit");
+        line("# stands in quotes: speed_rad_s = \"9500 rpm\", pulse_n = \"2 kN\".");
+        line(&format!(
+            "# Its speeds: rubscope survey FILE --range {}rpm:{}rpm",
+            rpm(from),
+            rpm(to)
+        ));
+        line("schema = 1");
+        line(&format!("title = {:?}", self.title));
+        line("");
+        line("[bladed_disk]");
+        line(&format!("blades = {}  # number of blades N", self.blades));
+        line(&format!("blade_length_m = {length:?}  # from the axis to the tip l_b, m"));
+        line(&format!("inertia_kg_m2 = {inertia:?}  # of one blade about the axis m_b, kg m^2"));
+        line(&format!(
+            "stiffness_nm_per_rad = {stiffness:?}  # of a blade on the disk k_b, N m/rad"
+        ));
+        line(&format!("coupling_nm_per_rad = {coupling:?}  # between two blades k_bb, N m/rad"));
+        line(&format!("damping_ratio = {:?}  # of every blade mode", self.damping_ratios[1]));
+        if self.disk.len() > 1 {
+            line("");
+            line("# Modes of the disk: frequency in Hz, inertia of a blade in kg m^2.");
+        }
+        for mode in self.disk.iter().filter(|_| self.disk.len() > 1) {
+            line("[[bladed_disk.modes]]");
+            line(&format!("nodal_diameters = {}", mode.nodal_diameters));
+            line(&format!("frequency_hz = {:?}", mode.frequency_hz));
+            let inertia = self.inertia(mode, length);
+            line(&format!("inertia_kg_m2 = {inertia:?}"));
+            if let Some(ratio) = mode.damping_ratio {
+                line(&format!("damping_ratio = {ratio:?}"));
+            }
+        }
+        line("");
+        line("[casing]");
+        line(&format!("radius_m = {:?}  # inner radius R_c, m", self.radius_m));
+        line(&format!(
+            "modal_mass_kg = {:?}  # m_c, kg; for diameters without a mode below",
+            casing.modal_mass_kg
+        ));
+        let stiffness = casing.modal_mass_kg * omega * omega;
+        line(&format!("modal_stiffness_n_per_m = {stiffness:?}  # k_c, N/m; likewise"));
+        line(&format!("damping_ratio = {:?}  # of every casing mode", self.damping_ratios[0]));
+        line("");
+        line("# Modes of the casing: frequency in Hz, modal mass in kg.");
+        for mode in &self.casing {
+            line("[[casing.modes]]");
+            line(&format!("nodal_diameters = {}", mode.nodal_diameters));
+            line(&format!("frequency_hz = {:?}", mode.frequency_hz));
+            line(&format!("modal_mass_kg = {:?}", mode.modal_mass_kg));
+            if let Some(ratio) = mode.damping_ratio {
+                line(&format!("damping_ratio = {ratio:?}"));
+            }
+        }
+        line("");
+        line("[operation]");
+        line(&format!("nodal_diameters = {}  # of the modes in use n_d", self.nodal_diameters));
+        let speed = 0.5 * (from + to);
+        line(&format!("speed_rad_s = {speed:?}  # rotor speed, rad/s: the middle of the range"));
+        line(&format!("pulse_n = {:?}  # force that starts the motion, N", self.pulse_n));
+        line("pulse_s = 50e-6  # its length, s");
+        line("");
+        line("[solver]");
+        line("kind = \"event\"  # or explicit: time steps");
+        line("contact = \"unilateral\"  # contact only pushes");
+        line("model = \"modal\"  # rigid, modal or full");
+        let end = 1e-2 * (4e4 / casing.frequency_hz).ceil();
+        line(&format!("end_s = {end:?}  # end of a run, s"));
+        Scene::from_toml(&text)?;
+        Ok(text)
+    }
+
+    /// Inertia of a blade in a mode of the disk.
+    fn inertia(&self, mode: &Family, length: f64) -> f64 {
+        let alike = (2 * u64::from(mode.nodal_diameters)) % u64::from(self.blades.max(1)) == 0;
+        let share = if alike { 1.0 } else { 2.0 };
+        share * mode.modal_mass_kg * length * length / f64::from(self.blades)
+    }
+
+    /// `k_b` and `k_bb` that give the mode, and with it the one that differs most in the
+    /// stiffness between blades; no such stiffness from one mode, or where it would pull.
+    fn springs(&self, mode: &Family, inertia: f64) -> (f64, f64) {
+        let part = |mode: &Family| of_neighbours(1.0, mode.nodal_diameters, self.blades);
+        let square = |mode: &Family| (TAU * mode.frequency_hz).powi(2);
+        let far = |other: &&Family| (part(other) - part(mode)).abs();
+        let other = self.disk.iter().max_by(|a, b| far(a).total_cmp(&far(b)));
+        let coupling = other.filter(|other| far(other) > 0.0).map_or(0.0, |other| {
+            inertia * (square(mode) - square(other)) / (part(mode) - part(other))
+        });
+        let stiffness = inertia * square(mode) - coupling * part(mode);
+        match coupling > 0.0 && stiffness > 0.0 {
+            true => (stiffness, coupling),
+            false => (inertia * square(mode), 0.0),
+        }
+    }
+}
+
+/// Reads the modes of a table: a line of names, then a line for each mode. Names are
+/// `structure` (casing or disk; casing where there is none), `nodal_diameters`,
+/// `frequency_hz`, `modal_mass_kg`, and `damping_ratio` if there is one. Empty lines and
+/// those that begin with `#` are left out.
+///
+/// # Errors
+/// A missing column, or a value that is not allowed, by its line and column.
+pub fn read_modes(text: &str) -> Result<[Vec<Family>; 2], SceneError> {
+    let mut lines = text.lines().enumerate().filter(|(_, line)| {
+        let line = line.trim();
+        !line.is_empty() && !line.starts_with('#')
+    });
+    let cells = |line: &str| -> Vec<String> {
+        line.split(',').map(|cell| cell.trim().trim_matches('"').to_string()).collect()
+    };
+    let names = lines.next().map_or_else(Vec::new, |(_, line)| cells(line));
+    let known = COLUMNS.iter().all(|name| names.iter().any(|known| known == name));
+    if !known {
+        let allowed = format!("a first line with {}", COLUMNS.join(", "));
+        return Err(SceneError::refused("table", names.join(","), allowed));
+    }
+    let mut found = [Vec::new(), Vec::new()];
+    for (place, line) in lines {
+        let row = cells(line);
+        let cell = |name: &str| {
+            let at = names.iter().position(|known| known == name);
+            at.and_then(|at| row.get(at)).map_or("", String::as_str)
+        };
+        let path = |name: &str| format!("line {}, {name}", place + 1);
+        let structure = match cell("structure") {
+            "casing" | "" => 0,
+            "disk" => 1,
+            other => return Err(SceneError::refused(path("structure"), other, "casing or disk")),
+        };
+        let mode = Family::read(
+            COLUMNS.map(cell),
+            Some(cell("damping_ratio")).filter(|cell| !cell.is_empty()),
+            &path,
+        )?;
+        let modes: &mut Vec<Family> = &mut found[structure];
+        if modes.iter().any(|known| known.nodal_diameters == mode.nodal_diameters) {
+            let given = format!("{} twice", mode.nodal_diameters);
+            let allowed = "one mode for each number of diameters";
+            return Err(SceneError::refused(path(COLUMNS[0]), given, allowed));
+        }
+        modes.push(mode);
+    }
+    Ok(found)
+}
+
+/// What a mode needs.
+const COLUMNS: [&str; 3] = ["nodal_diameters", "frequency_hz", "modal_mass_kg"];
+
+impl Family {
+    /// A mode from the texts of its diameters, frequency and mass, and its damping ratio;
+    /// `path` names each for a refusal.
+    ///
+    /// # Errors
+    /// The first that is not allowed.
+    pub fn read(
+        [diameters, frequency, mass]: [&str; 3],
+        damping: Option<&str>,
+        path: &dyn Fn(&str) -> String,
+    ) -> Result<Self, SceneError> {
+        let whole = keys::find(keys::DIAMETERS)?;
+        let most = match whole.allowed {
+            Allowed::Whole { max, .. } => max,
+            _ => u64::MAX,
+        };
+        let [of_diameters, of_frequency, of_mass] = COLUMNS.map(path);
+        let read = diameters.trim().parse().ok().filter(|n| u64::from(*n) <= most);
+        let refused = || SceneError::refused(of_diameters, diameters, whole.allowed.to_string());
+        let ratio =
+            |text: &str| number_of(&path("damping_ratio"), text, keys::find(keys::CASING_DAMPING)?);
+        Ok(Self {
+            nodal_diameters: read.ok_or_else(refused)?,
+            frequency_hz: hertz_of(&of_frequency, frequency)?,
+            modal_mass_kg: number_of(&of_mass, mass, keys::find(keys::CASING_MASS)?)?,
+            damping_ratio: damping.map(ratio).transpose()?,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn data() -> ModalData {
+        let family = |nodal_diameters, frequency_hz, modal_mass_kg| Family {
+            nodal_diameters,
+            frequency_hz,
+            modal_mass_kg,
+            damping_ratio: None,
+        };
+        ModalData {
+            title: "A \"quoted\" machine".into(),
+            blades: 36,
+            radius_m: 0.42,
+            clearance_m: 0.3e-3,
+            nodal_diameters: 5,
+            casing: vec![family(4, 310.7, 3.1), family(5, 420.3, 2.9), family(6, 533.9, 2.8)],
+            disk: vec![family(4, 151.3, 5.5), family(5, 155.9, 5.4), family(6, 159.7, 5.3)],
+            damping_ratios: [0.01, 0.002],
+            range_rad_s: [TAU * 100.0, TAU * 180.0],
+            pulse_n: 2e4,
+        }
+    }
+
+    fn close(value: f64, expected: f64) {
+        assert!((value / expected - 1.0).abs() < 1e-12, "{value} is not {expected}");
+    }
+
+    #[test]
+    fn frequencies_and_masses_come_back_to_twelve_digits() {
+        let data = data();
+        let mut scene = Scene::from_toml(&data.to_toml().unwrap()).unwrap();
+        assert_eq!(scene.title, data.title);
+        close(scene.clearance(), data.clearance_m);
+        for (casing, disk) in data.casing.iter().zip(&data.disk) {
+            scene.operation.nodal_diameters = casing.nodal_diameters;
+            let machine = scene.machine();
+            close(machine.omega_c, TAU * casing.frequency_hz);
+            close(machine.casing_mass, casing.modal_mass_kg);
+            close(machine.omega_bd, TAU * disk.frequency_hz);
+            let tip = machine.blade_length * machine.blade_length;
+            close(machine.blade_modal_mass / tip, disk.modal_mass_kg);
+        }
+        assert_eq!(scene.modes_note(), None);
+    }
+
+    #[test]
+    fn two_families_of_the_disk_give_the_stiffness_between_blades() {
+        // Those of a disk with given springs.
+        let base = Scene::base();
+        let mass = 11.0 * 0.20825 / (0.4999 * 0.4999);
+        let of = |diameters: u32| Family {
+            nodal_diameters: diameters,
+            frequency_hz: crate::model::blade_frequency(&base.bladed_disk, diameters) / TAU,
+            modal_mass_kg: mass,
+            damping_ratio: None,
+        };
+        let two = ModalData {
+            blades: 22,
+            radius_m: 0.5,
+            clearance_m: 1e-4,
+            nodal_diameters: 3,
+            disk: vec![of(3), of(8)],
+            ..data()
+        };
+        let scene = Scene::from_toml(&two.to_toml().unwrap()).unwrap();
+        close(scene.bladed_disk.stiffness_nm_per_rad, 15_000.0);
+        close(scene.bladed_disk.coupling_nm_per_rad, 3_000.0);
+        close(scene.bladed_disk.inertia_kg_m2, 0.20825);
+    }
+
+    #[test]
+    fn a_table_is_read_and_what_is_wrong_has_its_line() {
+        let head = "structure,nodal_diameters,frequency_hz,modal_mass_kg,damping_ratio\n";
+        let text =
+            format!("# of the rig\n{head}casing, 3, 139.8, 2.0, 0.05\ndisk,3,45.6,9166 g,\n");
+        let [casing, disk] = read_modes(&text).unwrap();
+        assert_eq!((casing[0].frequency_hz, casing[0].damping_ratio), (139.8, Some(0.05)));
+        assert_eq!((disk[0].modal_mass_kg, disk[0].damping_ratio), (9.166, None));
+        for (rows, start) in [
+            ("casing,3,0,2,\n", "line 2, frequency_hz = 0: allowed is a frequency above 0"),
+            ("casing,3,9,2,\ncasing,3,9,2,\n", "line 3, nodal_diameters = 3 twice: allowed is one"),
+            ("casing,x,9,2,\n", "line 2, nodal_diameters = x: allowed is a whole number"),
+            ("casing,3,9,2 kN,\n", "line 2, modal_mass_kg = 2 kN: this is a force; it takes kg"),
+            ("rotor,3,9,2,\n", "line 2, structure = rotor: allowed is casing or disk"),
+        ] {
+            let message = read_modes(&format!("{head}{rows}")).unwrap_err().to_string();
+            assert!(message.starts_with(start), "{message}");
+        }
+        let message = read_modes("frequency_hz\n1\n").unwrap_err().to_string();
+        assert!(message.starts_with("table = frequency_hz: allowed is a first line with nodal"));
+    }
+}

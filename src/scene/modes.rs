@@ -1,0 +1,378 @@
+//! The modes of casing and disk by their number of diameters: `[[casing.modes]]` and
+//! `[[bladed_disk.modes]]`, as they are read and written, and which of them is in use.
+//!
+//! What a mode leaves out is the structure's own value. A frequency stands for the
+//! stiffness that gives it: `k_c = m_c (2 pi f)^2` of the casing, and of the disk that
+//! `k_b` which with the given `k_bb` does, `m_b (2 pi f)^2 - 4 k_bb sin^2(pi n/N)`.
+
+use std::f64::consts::{PI, TAU};
+
+use toml::{Table, Value as Toml};
+
+use super::units::{Quantity, UnitError};
+use super::{Scene, SceneError, Value, file, keys};
+use crate::model::{BladedDisk, Casing, Mode, ModePart};
+
+/// Name of the number of diameters in a mode, and of its frequency.
+const DIAMETERS: &str = "nodal_diameters";
+const FREQUENCY: &str = "frequency_hz";
+/// Largest frequency \[Hz\]: beyond the range of any machine.
+const MOST_HZ: f64 = 1e9;
+
+/// A structure with modes: the path of its list, and the keys of mass and stiffness beside it.
+#[derive(Debug, PartialEq)]
+pub struct Structure {
+    path: &'static str,
+    keys: [(&'static str, ModePart); 3],
+}
+
+pub(super) const CASING: Structure = Structure {
+    path: keys::CASING_MODES,
+    keys: [
+        (keys::CASING_MASS, ModePart::Mass),
+        (keys::CASING_STIFFNESS, ModePart::Stiffness),
+        (keys::CASING_DAMPING, ModePart::Damping),
+    ],
+};
+pub(super) const DISK: Structure = Structure {
+    path: keys::DISK_MODES,
+    keys: [
+        (keys::BLADE_INERTIA, ModePart::Mass),
+        (keys::BLADE_STIFFNESS, ModePart::Stiffness),
+        (keys::BLADE_DAMPING, ModePart::Damping),
+    ],
+};
+
+/// The name of a key in its table.
+fn leaf(path: &str) -> &str {
+    path.split_once('.').map_or(path, |(_, leaf)| leaf)
+}
+
+/// A mode as it was read: its values, and its frequency where that stands for a stiffness.
+struct Read {
+    mode: Mode,
+    frequency_hz: Option<f64>,
+}
+
+impl Structure {
+    /// The modes of a list in a scene file.
+    ///
+    /// # Errors
+    /// The first mode with an unknown key, a value that is not allowed, or a number of
+    /// diameters that another has.
+    fn read(&self, items: &[Toml]) -> Result<Vec<Read>, SceneError> {
+        let mut found: Vec<Read> = Vec::with_capacity(items.len());
+        for (place, item) in items.iter().enumerate() {
+            let name = format!("{}[{}]", self.path, place + 1);
+            let Toml::Table(table) = item else {
+                return Err(SceneError::refused(
+                    name,
+                    file::one_line(item),
+                    format!("a mode {}", self.form()),
+                ));
+            };
+            found.push(self.mode(&name, table)?);
+        }
+        found.sort_by_key(|read| read.mode.nodal_diameters);
+        let twice = found.windows(2).find(
+            |pair| matches!(pair, [a, b] if a.mode.nodal_diameters == b.mode.nodal_diameters),
+        );
+        match twice.and_then(|pair| pair.first()) {
+            Some(read) => Err(SceneError::refused(
+                format!("{}.{DIAMETERS}", self.path),
+                format!("{} twice", read.mode.nodal_diameters),
+                "one mode for each number of diameters",
+            )),
+            None => Ok(found),
+        }
+    }
+
+    /// What a mode may have, in words.
+    pub(super) fn form(&self) -> String {
+        format!("with {DIAMETERS} and any of {}", self.names().join(", "))
+    }
+
+    fn names(&self) -> Vec<&'static str> {
+        let mut names = self.keys.map(|(path, _)| leaf(path)).to_vec();
+        names.insert(2, FREQUENCY);
+        names
+    }
+
+    fn mode(&self, name: &str, table: &Table) -> Result<Read, SceneError> {
+        let (mut mode, mut diameters, mut frequency_hz) = (Mode::default(), None, None);
+        for (entry, value) in table {
+            let path = format!("{name}.{entry}");
+            let own = self.keys.iter().find(|(path, _)| leaf(path) == entry);
+            if let Some((key, part)) = own {
+                *mode.part_mut(*part) = Some(number(&path, value, keys::find(key)?)?);
+            } else if entry == DIAMETERS {
+                let key = keys::find(keys::DIAMETERS)?;
+                let whole = value.as_integer().and_then(|n| u32::try_from(n).ok());
+                let allowed = whole.filter(|n| key.check(&Value::Whole(u64::from(*n))).is_ok());
+                diameters = Some(allowed.ok_or_else(|| {
+                    SceneError::refused(&path, file::one_line(value), key.allowed.to_string())
+                })?);
+            } else if entry == FREQUENCY {
+                frequency_hz = Some(hertz(&path, value)?);
+            } else {
+                let allowed = format!("{DIAMETERS}, {}", self.names().join(", "));
+                return Err(SceneError::UnknownKey { key: path, allowed });
+            }
+        }
+        mode.nodal_diameters = diameters.ok_or_else(|| {
+            SceneError::refused(
+                name,
+                format!("{{ {} }}", short(table)),
+                format!("a mode {}", self.form()),
+            )
+        })?;
+        if let (Some(frequency), Some(_)) = (frequency_hz, mode.stiffness) {
+            let stiffness = leaf(self.keys[1].0);
+            let allowed = format!("{FREQUENCY} or {stiffness}, not both");
+            return Err(SceneError::refused(format!("{name}.{FREQUENCY}"), frequency, allowed));
+        }
+        Ok(Read { mode, frequency_hz })
+    }
+
+    /// The list in one line, as `--set` takes it.
+    pub(super) fn text(&self, modes: &[Mode]) -> String {
+        let each = modes.iter().map(|mode| {
+            let values: Vec<String> =
+                self.values(mode).map(|(name, value)| format!("{name} = {value}")).collect();
+            format!("{{ {} }}", values.join(", "))
+        });
+        format!("[{}]", each.collect::<Vec<_>>().join(", "))
+    }
+
+    /// The list as a part of a file.
+    pub(super) fn blocks(&self, modes: &[Mode]) -> String {
+        let block = |mode: &Mode| {
+            let values: String =
+                self.values(mode).map(|(name, value)| format!("{name} = {value}\n")).collect();
+            format!("\n[[{}]]\n{values}", self.path)
+        };
+        modes.iter().map(block).collect()
+    }
+
+    fn values(&self, mode: &Mode) -> impl Iterator<Item = (&'static str, String)> {
+        let parts = self.keys.map(|(path, part)| (leaf(path), mode.part(part)));
+        let numbers =
+            parts.into_iter().filter_map(|(name, value)| Some((name, format!("{:?}", value?))));
+        [(DIAMETERS, mode.nodal_diameters.to_string())].into_iter().chain(numbers)
+    }
+
+    /// Whether a text is such a list.
+    ///
+    /// # Errors
+    /// Why it is not.
+    pub(super) fn check(&self, text: &str) -> Result<(), SceneError> {
+        self.parsed(text).map(drop)
+    }
+
+    fn parsed(&self, text: &str) -> Result<Vec<Read>, SceneError> {
+        let read = format!("modes = {text}").parse::<Table>().ok();
+        match read.as_ref().and_then(|table| table.get("modes")) {
+            Some(Toml::Array(items)) if read.as_ref().is_some_and(|table| table.len() == 1) => {
+                self.read(items)
+            }
+            _ => Err(SceneError::refused(
+                self.path,
+                text,
+                format!("a list of modes, each {}", self.form()),
+            )),
+        }
+    }
+
+    /// The modes of a checked text, each with the stiffness that its frequency asks for.
+    pub(super) fn modes(&self, text: &str, stiffness: impl Fn(&Mode, f64) -> f64) -> Vec<Mode> {
+        let known = |read: Read| {
+            let asked = read.frequency_hz.map(|hertz| stiffness(&read.mode, TAU * hertz));
+            Mode { stiffness: asked.or(read.mode.stiffness), ..read.mode }
+        };
+        self.parsed(text).unwrap_or_default().into_iter().map(known).collect()
+    }
+}
+
+/// Some of a table, in one line.
+fn short(table: &Table) -> String {
+    let values = table.iter().map(|(name, value)| format!("{name} = {}", file::one_line(value)));
+    values.collect::<Vec<_>>().join(", ")
+}
+
+/// A number of a mode, within the bounds of the key beside the list.
+fn number(path: &str, value: &Toml, key: &keys::Key) -> Result<f64, SceneError> {
+    match value {
+        Toml::String(text) => number_of(path, text, key),
+        value => bounded(path, value, key, plain(value)),
+    }
+}
+
+/// The same from text, with or without its unit.
+pub(super) fn number_of(path: &str, text: &str, key: &keys::Key) -> Result<f64, SceneError> {
+    bounded(path, text, key, read(path, text, key.quantity())?)
+}
+
+fn bounded(
+    path: &str,
+    given: impl ToString,
+    key: &keys::Key,
+    read: Option<f64>,
+) -> Result<f64, SceneError> {
+    read.filter(|x| key.check(&Value::Real(*x)).is_ok())
+        .ok_or_else(|| SceneError::refused(path, given, key.allowed.to_string()))
+}
+
+/// A number of a file that has no unit.
+fn plain(value: &Toml) -> Option<f64> {
+    value.as_float().or_else(|| value.as_integer().map(|n| n as f64))
+}
+
+/// A number of a quantity; none for text that is none.
+fn read(path: &str, text: &str, of: Quantity) -> Result<Option<f64>, SceneError> {
+    match of.read(text) {
+        Ok(number) => Ok(Some(number)),
+        Err(UnitError::NoNumber) => Ok(None),
+        Err(why) => Err(SceneError::Unit { key: path.into(), value: text.into(), why }),
+    }
+}
+
+/// A frequency: a bare number is in hertz, as the key says.
+fn hertz(path: &str, value: &Toml) -> Result<f64, SceneError> {
+    match value {
+        Toml::String(text) => hertz_of(path, text),
+        value => frequency(path, file::one_line(value), plain(value)),
+    }
+}
+
+/// The same from text.
+pub(super) fn hertz_of(path: &str, text: &str) -> Result<f64, SceneError> {
+    let given = match text.trim().parse() {
+        Ok(bare) => Some(bare),
+        Err(_) => read(path, text, Quantity::Speed)?.map(|omega| omega / TAU),
+    };
+    frequency(path, text.to_string(), given)
+}
+
+fn frequency(path: &str, given: String, hertz: Option<f64>) -> Result<f64, SceneError> {
+    hertz.filter(|hertz| *hertz > 0.0 && *hertz <= MOST_HZ).ok_or_else(|| {
+        let allowed = format!("a frequency above 0 and up to {MOST_HZ:e} Hz");
+        SceneError::refused(path, given, allowed)
+    })
+}
+
+/// `4 k_bb sin^2(pi n/N)`: what the stiffness between blades adds to `k_b` \[N m/rad\].
+pub(super) fn of_neighbours(coupling: f64, diameters: u32, blades: u32) -> f64 {
+    let sine = (PI * f64::from(diameters) / f64::from(blades)).sin();
+    4.0 * coupling * sine * sine
+}
+
+/// The modes of the casing in a text that was checked.
+pub(super) fn set_casing(scene: &mut Scene, text: &str) {
+    let own = scene.casing.modal_mass_kg;
+    scene.casing.modes = CASING.modes(text, |mode, omega| mode.mass.unwrap_or(own) * omega * omega);
+}
+
+/// The modes of the disk in a text that was checked.
+pub(super) fn set_disk(scene: &mut Scene, text: &str) {
+    let BladedDisk { inertia_kg_m2: own, coupling_nm_per_rad: coupling, blades, .. } =
+        scene.bladed_disk;
+    scene.bladed_disk.modes = DISK.modes(text, |mode, omega| {
+        let whole = mode.mass.unwrap_or(own) * omega * omega;
+        whole - of_neighbours(coupling, mode.nodal_diameters, blades)
+    });
+}
+
+/// # Errors
+/// A mode whose frequency the blades have without any stiffness of their own.
+pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
+    let disk = &scene.bladed_disk;
+    let soft = |mode: &&Mode| mode.stiffness.is_some_and(|stiffness| stiffness <= 0.0);
+    let Some(mode) = disk.modes.iter().find(soft) else { return Ok(()) };
+    let inertia = mode.mass.unwrap_or(disk.inertia_kg_m2);
+    let (diameters, coupling) = (mode.nodal_diameters, disk.coupling_nm_per_rad);
+    let neighbours = of_neighbours(coupling, diameters, disk.blades);
+    let hertz = |stiffness: f64| (stiffness / inertia).sqrt() / TAU;
+    let given = hertz(neighbours + mode.stiffness.unwrap_or(0.0));
+    let least = hertz(neighbours);
+    let allowed = format!(
+        "above {least:.4} at {diameters} diameters, which {} = {coupling} alone gives",
+        keys::BLADE_COUPLING
+    );
+    let name = format!("{}.{FREQUENCY}", keys::DISK_MODES);
+    Err(SceneError::refused(name, format!("{given:.4}"), allowed))
+}
+
+impl Scene {
+    /// The casing with the values of its mode in use, that of the scene's nodal diameters.
+    #[must_use]
+    pub fn casing_in_use(&self) -> Casing {
+        self.casing.at(self.operation.nodal_diameters)
+    }
+
+    /// The disk with the values of its mode in use.
+    #[must_use]
+    pub fn disk_in_use(&self) -> BladedDisk {
+        self.bladed_disk.at(self.disk_diameters())
+    }
+
+    /// Nodal diameters of the modes of the disk.
+    fn disk_diameters(&self) -> u32 {
+        self.bladed_disk.diameters_beside(self.operation.nodal_diameters)
+    }
+
+    /// A value of the casing's mode in use.
+    pub(super) fn casing_part(&mut self, part: ModePart) -> &mut f64 {
+        self.casing.part_at(self.operation.nodal_diameters, part)
+    }
+
+    /// A value of the disk's mode in use.
+    pub(super) fn disk_part(&mut self, part: ModePart) -> &mut f64 {
+        self.bladed_disk.part_at(self.disk_diameters(), part)
+    }
+
+    /// This scene with no modes but the structures' own.
+    pub(super) fn without_modes(&self) -> Self {
+        let mut scene = self.clone();
+        scene.casing.modes.clear();
+        scene.bladed_disk.modes.clear();
+        scene
+    }
+
+    /// What is taken where modes are known, but none of these diameters: in a sentence
+    /// without its end.
+    #[must_use]
+    pub fn modes_note(&self) -> Option<String> {
+        let missing = |modes: &[Mode], diameters: u32| {
+            !modes.is_empty() && modes.iter().all(|mode| mode.nodal_diameters != diameters)
+        };
+        let note = |modes: &[Mode], diameters: u32, name: &str| {
+            missing(modes, diameters).then(|| {
+                let known: Vec<String> =
+                    modes.iter().map(|mode| mode.nodal_diameters.to_string()).collect();
+                let plural = if diameters == 1 { "" } else { "s" };
+                format!(
+                    "no mode of the {name} with {diameters} nodal diameter{plural} is known \
+                     (known: {}): the {name}'s own values are taken",
+                    listed(&known)
+                )
+            })
+        };
+        let casing = note(&self.casing.modes, self.operation.nodal_diameters, "casing");
+        let disk = note(&self.bladed_disk.modes, self.disk_diameters(), "disk");
+        let notes: Vec<String> = casing.into_iter().chain(disk).collect();
+        (!notes.is_empty()).then(|| notes.join("; "))
+    }
+}
+
+/// Most numbers that a note lists.
+const LISTED: usize = 8;
+
+fn listed(known: &[String]) -> String {
+    match known {
+        [first @ .., last] if known.len() > LISTED => {
+            let some: Vec<&str> = first.iter().take(LISTED - 2).map(String::as_str).collect();
+            format!("{} ... {last}", some.join(", "))
+        }
+        all => all.join(", "),
+    }
+}

@@ -1,0 +1,390 @@
+//! The one reader of numbers with units: the one list of units, by quantity, and SI
+//! prefixes in front of them. A bare number is in SI units.
+//!
+//! `9500rpm`, `1200 rad/s`, `43.4 kN`, `43.4k`, `0.2 mm`, `50us`. A decimal number under a
+//! prefix is read as one decimal number, so that `50u` equals `50e-6` exactly.
+
+use std::f64::consts::TAU;
+
+use thiserror::Error;
+
+/// What a number is of. The letter `m` alone is a metre, never a thousandth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// A count, a ratio or a part.
+    Plain,
+    /// An angular speed or frequency.
+    Speed,
+    /// Its rate.
+    Acceleration,
+    /// A force.
+    Force,
+    /// A length.
+    Length,
+    /// A time.
+    Time,
+    /// A velocity.
+    Velocity,
+    /// A mass.
+    Mass,
+    /// A stiffness.
+    Stiffness,
+    /// A moment of inertia.
+    Inertia,
+    /// A torque.
+    Torque,
+    /// A torsional stiffness.
+    TorsionalStiffness,
+    /// An angle.
+    Angle,
+    /// A power.
+    Power,
+    /// An energy.
+    Energy,
+}
+
+use Quantity::{
+    Acceleration, Angle, Energy, Force, Inertia, Length, Mass, Plain, Power, Speed, Stiffness,
+    Time, Torque, TorsionalStiffness, Velocity,
+};
+
+/// One unit: what it is of, how it is written, and what it is in SI units: a power of ten
+/// times a factor, which is 1 where it is a decimal one.
+struct Unit {
+    of: Quantity,
+    name: &'static str,
+    power: i32,
+    factor: f64,
+    /// Whether it takes SI prefixes.
+    prefixed: bool,
+}
+
+const fn unit(of: Quantity, name: &'static str, power: i32) -> Unit {
+    Unit { of, name, power, factor: 1.0, prefixed: true }
+}
+
+const fn whole(of: Quantity, name: &'static str, factor: f64) -> Unit {
+    Unit { of, name, power: 0, factor, prefixed: false }
+}
+
+/// Every unit, the one of SI first of its quantity.
+const UNITS: &[Unit] = &[
+    Unit { of: Plain, name: "%", power: -2, factor: 1.0, prefixed: false },
+    whole(Speed, "rad/s", 1.0),
+    whole(Speed, "rpm", TAU / 60.0),
+    Unit { of: Speed, name: "Hz", power: 0, factor: TAU, prefixed: true },
+    whole(Acceleration, "rad/s^2", 1.0),
+    whole(Acceleration, "rpm/s", TAU / 60.0),
+    unit(Force, "N", 0),
+    unit(Length, "m", 0),
+    unit(Time, "s", 0),
+    unit(Velocity, "m/s", 0),
+    Unit { of: Mass, name: "kg", power: 0, factor: 1.0, prefixed: false },
+    unit(Mass, "g", -3),
+    unit(Stiffness, "N/m", 0),
+    unit(Stiffness, "N/mm", 3),
+    Unit { of: Inertia, name: "kg m^2", power: 0, factor: 1.0, prefixed: false },
+    Unit { of: Inertia, name: "kg cm^2", power: -4, factor: 1.0, prefixed: false },
+    Unit { of: Inertia, name: "kg mm^2", power: -6, factor: 1.0, prefixed: false },
+    Unit { of: Inertia, name: "g m^2", power: -3, factor: 1.0, prefixed: false },
+    unit(Torque, "N m", 0),
+    unit(Torque, "N mm", -3),
+    unit(TorsionalStiffness, "N m/rad", 0),
+    unit(TorsionalStiffness, "N mm/rad", -3),
+    unit(Angle, "rad", 0),
+    whole(Angle, "deg", TAU / 360.0),
+    unit(Power, "W", 0),
+    unit(Energy, "J", 0),
+];
+
+/// SI prefixes, and the powers of ten that they stand for.
+const PREFIXES: [(char, i32); 7] =
+    [('G', 9), ('M', 6), ('k', 3), ('m', -3), ('u', -6), ('n', -9), ('p', -12)];
+
+/// Why a text is no number of a quantity.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum UnitError {
+    /// It begins with no number.
+    #[error("no number")]
+    NoNumber,
+    /// The unit is one of another quantity.
+    #[error("this is {is}; {}", takes(*.wanted))]
+    Other {
+        /// What it is of.
+        is: &'static str,
+        /// What it should be of.
+        wanted: Quantity,
+    },
+    /// No such unit.
+    #[error("no unit {unit}; {}", takes(*.wanted))]
+    Unknown {
+        /// As given.
+        unit: String,
+        /// What it should be of.
+        wanted: Quantity,
+    },
+}
+
+impl Quantity {
+    /// Of a number in this unit of SI, as in the table of keys; a plain number for any other.
+    #[must_use]
+    pub fn of(unit: &str) -> Self {
+        UNITS.iter().find(|known| known.name == unit).map_or(Plain, |known| known.of)
+    }
+
+    /// What it is, with an article.
+    fn what(self) -> &'static str {
+        match self {
+            Plain => "a part",
+            Speed => "a speed or frequency",
+            Acceleration => "an angular acceleration",
+            Force => "a force",
+            Length => "a length",
+            Time => "a time",
+            Velocity => "a velocity",
+            Mass => "a mass",
+            Stiffness => "a stiffness",
+            Inertia => "a moment of inertia",
+            Torque => "a torque",
+            TorsionalStiffness => "a torsional stiffness",
+            Angle => "an angle",
+            Power => "a power",
+            Energy => "an energy",
+        }
+    }
+
+    /// Its units, in words: `rad/s, rpm or Hz`.
+    #[must_use]
+    pub fn units(self) -> String {
+        let names: Vec<&str> =
+            UNITS.iter().filter(|unit| unit.of == self).map(|unit| unit.name).collect();
+        match names.as_slice() {
+            [first @ .., last] if !first.is_empty() => format!("{} or {last}", first.join(", ")),
+            one => one.concat(),
+        }
+    }
+
+    /// Reads a number of this quantity.
+    ///
+    /// # Errors
+    /// No number, no unit, or one of another quantity.
+    pub fn read(self, text: &str) -> Result<f64, UnitError> {
+        let text = text.trim();
+        // As Rust reads numbers, with infinities: whoever asks says what is allowed.
+        if let Ok(number) = text.parse() {
+            return Ok(number);
+        }
+        let end = number_end(text);
+        let (number, unit) = text.split_at_checked(end).unwrap_or((text, ""));
+        let decimal = Decimal::of(number).ok_or(UnitError::NoNumber)?;
+        let written = plain(unit);
+        let (power, factor) = self.scale(&written).ok_or_else(|| self.refused(&written, unit))?;
+        let scaled = decimal.times_ten_to(power).ok_or(UnitError::NoNumber)?;
+        Ok(if factor == 1.0 { scaled } else { scaled * factor })
+    }
+
+    /// What a unit of it, or a prefix alone, is in SI units.
+    fn scale(self, written: &str) -> Option<(i32, f64)> {
+        let of_unit = UNITS.iter().filter(|unit| unit.of == self).find_map(|unit| {
+            let prefix = written.strip_suffix(plain(unit.name).as_str());
+            // Nobody writes RPM or hz for something else.
+            let prefix = prefix.or_else(|| any_case(unit, written));
+            match prefix? {
+                "" => Some((unit.power, unit.factor)),
+                prefix if unit.prefixed => Some((unit.power + power_of(prefix)?, unit.factor)),
+                _ => None,
+            }
+        });
+        // Metres and thousandths are told apart by the unit.
+        of_unit.or_else(|| (written != "m").then(|| power_of(written)).flatten().map(|p| (p, 1.0)))
+    }
+
+    fn refused(self, written: &str, unit: &str) -> UnitError {
+        if !written.chars().all(|c| c.is_alphanumeric() || matches!(c, '/' | '%')) {
+            return UnitError::NoNumber;
+        }
+        let other = UNITS.iter().map(|unit| unit.of).find(|of| {
+            let named = power_of(written).is_none() || written == "m";
+            named && of.scale(written).is_some()
+        });
+        match other {
+            Some(other) => UnitError::Other { is: other.what(), wanted: self },
+            None => UnitError::Unknown { unit: unit.trim().to_string(), wanted: self },
+        }
+    }
+}
+
+/// Why a text is no range.
+#[derive(Clone, Debug, PartialEq)]
+pub enum RangeError {
+    /// It is not of the form `FROM:TO`.
+    Form,
+    /// One end is not of the quantity.
+    End(UnitError),
+}
+
+/// The ends of `FROM:TO`, finite numbers of a quantity, and what follows another colon.
+///
+/// # Errors
+/// Text of another form, or an end that is of something else.
+pub fn read_ends(text: &str, of: Quantity) -> Result<([f64; 2], Option<&str>), RangeError> {
+    let mut parts = text.splitn(3, ':');
+    let mut end = || match of.read(parts.next().ok_or(RangeError::Form)?) {
+        Ok(end) if end.is_finite() => Ok(end),
+        Ok(_) | Err(UnitError::NoNumber) => Err(RangeError::Form),
+        Err(why) => Err(RangeError::End(why)),
+    };
+    let ends = [end()?, end()?];
+    Ok((ends, parts.next()))
+}
+
+/// What a quantity takes, in words.
+fn takes(quantity: Quantity) -> String {
+    format!("it takes {}", quantity.units())
+}
+
+/// What stands before `rpm` or `Hz` in capitals or not.
+fn any_case<'a>(unit: &Unit, written: &'a str) -> Option<&'a str> {
+    let at = written.len().checked_sub(unit.name.len())?;
+    let (prefix, name) = written.split_at_checked(at)?;
+    let known = unit.of == Speed && unit.name.eq_ignore_ascii_case(name);
+    known.then_some(prefix)
+}
+
+fn power_of(prefix: &str) -> Option<i32> {
+    let mut letters = prefix.chars();
+    let (letter, None) = (letters.next()?, letters.next()) else { return None };
+    PREFIXES.iter().find(|(known, _)| *known == letter).map(|(_, power)| *power)
+}
+
+/// A unit as it is compared: without spaces and points, with ASCII letters.
+fn plain(unit: &str) -> String {
+    let kept = unit.chars().filter(|c| !c.is_whitespace() && !matches!(c, '·' | '*' | '^'));
+    kept.map(|c| match c {
+        'µ' | 'μ' => 'u',
+        '²' => '2',
+        other => other,
+    })
+    .collect()
+}
+
+/// Where the decimal number at the start of a text ends.
+fn number_end(text: &str) -> usize {
+    let bytes = text.as_bytes();
+    let digit = |at: usize| bytes.get(at).is_some_and(u8::is_ascii_digit);
+    let sign = |at: usize| usize::from(matches!(bytes.get(at), Some(b'+' | b'-')));
+    let mut end = sign(0);
+    while digit(end) || bytes.get(end) == Some(&b'.') {
+        end += 1;
+    }
+    if matches!(bytes.get(end), Some(b'e' | b'E')) && digit(end + 1 + sign(end + 1)) {
+        end += 1 + sign(end + 1);
+        while digit(end) {
+            end += 1;
+        }
+    }
+    end
+}
+
+/// A decimal number: its digits with sign and point, and its power of ten.
+struct Decimal<'a> {
+    digits: &'a str,
+    power: i32,
+}
+
+impl<'a> Decimal<'a> {
+    fn of(text: &'a str) -> Option<Self> {
+        let (digits, power) = match text.split_once(['e', 'E']) {
+            Some((digits, power)) => (digits, power.parse().ok()?),
+            None => (text, 0),
+        };
+        digits.parse::<f64>().ok().map(|_| Self { digits, power })
+    }
+
+    /// Read as one decimal number.
+    fn times_ten_to(&self, power: i32) -> Option<f64> {
+        format!("{}e{}", self.digits, self.power.checked_add(power)?).parse().ok()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::KEYS;
+
+    #[test]
+    fn numbers_are_read_as_they_are_written() {
+        for (of, text, value) in [
+            (Speed, "450", 450.0),
+            (Speed, "-430 rad/s", -430.0),
+            (Speed, "9500rpm", 9500.0 * (TAU / 60.0)),
+            (Speed, "9500 RPM", 9500.0 * (TAU / 60.0)),
+            (Speed, "150Hz", 150.0 * TAU),
+            (Speed, "0.15 kHz", 150.0 * TAU),
+            (Speed, "1.2k", 1200.0),
+            (Force, "43.4k", 43.4e3),
+            (Force, "43.4 kN", 43.4e3),
+            (Force, "1e3k", 1e6),
+            (Length, "0.2 mm", 0.2e-3),
+            (Length, "20m", 20.0),
+            (Length, "100 µm", 1e-4),
+            (Time, "50us", 50e-6),
+            (Time, "50u", 50e-6),
+            (Stiffness, "1.544 MN/m", 1.544e6),
+            (Stiffness, "1544 N/mm", 1.544e6),
+            (Mass, "250 g", 0.25),
+            (Mass, "2kg", 2.0),
+            (Inertia, "2082.5 kg cm²", 0.20825),
+            (TorsionalStiffness, "15 kN·m/rad", 15e3),
+            (TorsionalStiffness, "15kNm/rad", 15e3),
+            (Torque, "3 Nm", 3.0),
+            (Velocity, "5 mm/s", 5e-3),
+            (Acceleration, "-400 rad/s^2", -400.0),
+            (Plain, "5 %", 0.05),
+            (Plain, "0.05", 0.05),
+            (Angle, "1 mrad", 1e-3),
+        ] {
+            assert_eq!(of.read(text), Ok(value), "{text}");
+        }
+    }
+
+    #[test]
+    fn another_quantity_is_named() {
+        for (of, text, told) in [
+            (Speed, "43 kN", "this is a force; it takes rad/s, rpm or Hz"),
+            (Force, "9500rpm", "this is a speed or frequency; it takes N"),
+            (Time, "20m", "this is a length; it takes s"),
+            (Length, "50us", "this is a time; it takes m"),
+            (Plain, "3 N/m", "this is a stiffness; it takes %"),
+            (Speed, "5 furlongs", "no unit furlongs; it takes rad/s, rpm or Hz"),
+            (Mass, "5 kkg", "no unit kkg; it takes kg or g"),
+            (Speed, "fast", "no number"),
+            (Force, "1e", "no unit e; it takes N"),
+            (Force, "", "no number"),
+            (Force, "--3", "no number"),
+            (Force, "1.2.3k", "no number"),
+            (Speed, "9,500rpm", "no number"),
+            (Speed, "100:500:5", "no number"),
+        ] {
+            assert_eq!(of.read(text).unwrap_err().to_string(), told, "{text}");
+        }
+    }
+
+    #[test]
+    fn every_unit_of_a_key_is_in_the_list() {
+        for key in KEYS.iter().filter(|key| key.unit != "-") {
+            assert_ne!(Quantity::of(key.unit), Plain, "{} {}", key.path, key.unit);
+            assert_eq!(Quantity::of(key.unit).read(&format!("1 {}", key.unit)), Ok(1.0));
+        }
+    }
+
+    #[test]
+    fn every_unit_is_of_one_quantity() {
+        for unit in UNITS {
+            for other in UNITS.iter().filter(|other| other.of != unit.of) {
+                let written = plain(unit.name);
+                assert_eq!(other.of.scale(&written), None, "{} {:?}", unit.name, other.of);
+            }
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! `rubscope new` and `rubscope check`: from modal data to a scene, and what it says of it.
+
+use std::f64::consts::TAU;
+use std::path::Path;
+
+use rubscope::scene::Scene;
+
+use crate::cli_support::{refusal, rubscope};
+
+/// The worked example of docs/your-machine.md.
+pub const TABLE: &str = "\
+structure,nodal_diameters,frequency_hz,modal_mass_kg
+casing,4,310.7,3.1
+casing,5,420.3,2.9
+casing,6,533.9,2.8
+disk,4,151.3,5.5
+disk,5,155.9,5.4
+disk,6,159.7,5.3
+";
+
+fn text(words: &[&str]) -> String {
+    let output = rubscope(words);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// A new scene in a folder, and what was said.
+fn made(folder: &Path) -> (String, String) {
+    let [table, file] = ["modes.csv", "mine.toml"].map(|name| folder.join(name));
+    std::fs::write(&table, TABLE).unwrap();
+    let [table, file] = [table, file].map(|path| path.to_str().unwrap().to_string());
+    let told = text(&[
+        "new",
+        &file,
+        "--modes",
+        &table,
+        "--blades",
+        "36",
+        "--radius",
+        "420mm",
+        "--clearance",
+        "0.3 mm",
+        "--nd",
+        "5",
+        "--casing-damping",
+        "1 %",
+        "--range",
+        "6000rpm:11000rpm",
+    ]);
+    (file, told)
+}
+
+#[test]
+fn a_machine_in_hertz_comes_back_to_twelve_digits() {
+    let folder = tempfile::tempdir().unwrap();
+    let (file, told) = made(folder.path());
+    assert!(told.starts_with("Wrote ") && told.contains("36 blades, 0 to 18 nodal"), "{told}");
+    let mut scene = Scene::load(&file).unwrap();
+    let mut compared = 0;
+    for row in TABLE.lines().skip(1) {
+        let cells: Vec<&str> = row.split(',').collect();
+        let hertz: f64 = cells[2].parse().unwrap();
+        scene.set("operation.nodal_diameters", cells[1]).unwrap();
+        let machine = scene.machine();
+        let omega = if cells[0] == "casing" { machine.omega_c } else { machine.omega_bd };
+        assert!((omega / (TAU * hertz) - 1.0).abs() < 1e-12, "{row}");
+        compared += 1;
+    }
+    assert_eq!(compared, 6);
+    scene.set("operation.nodal_diameters", "5").unwrap();
+    assert!((scene.operation.speed_rad_s / (8500.0 * TAU / 60.0) - 1.0).abs() < 1e-15);
+    assert_eq!(scene.casing.damping_ratio, 0.01);
+    // The pulse makes a blade touch.
+    let run = text(&["run", &file]);
+    assert!(!run.contains("No blade hit the casing"), "{run}");
+    // Every line of a key has a comment.
+    let toml = std::fs::read_to_string(&file).unwrap();
+    for key in ["blade_length_m", "inertia_kg_m2", "radius_m", "speed_rad_s", "pulse_n", "end_s"] {
+        let line = toml.lines().find(|line| line.starts_with(key)).unwrap();
+        assert!(line.contains("  # "), "{line}");
+    }
+    let command = "# Its speeds: rubscope survey FILE --range 6000rpm:11000rpm";
+    assert!(toml.contains(command), "{toml}");
+}
+
+#[test]
+fn what_cannot_be_made_is_refused_in_one_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let (file, _) = made(folder.path());
+    let new = folder.path().join("other.toml");
+    let new = new.to_str().unwrap();
+    let start = ["new", new, "--blades", "36", "--radius", "0.42"];
+    let more = ["--clearance", "0.3mm", "--nd", "5", "--casing", "5:420.3:2.9"];
+    let whole = [&start[..], &more, &["--disk", "5:155.9Hz:5.4kg"]].concat();
+    for (words, says) in [
+        (vec!["new", &file], "a name that is not taken: this file exists"),
+        (vec!["new", "x.txt"], "FILE = x.txt: allowed is a name that ends in .toml"),
+        (start.to_vec(), "new: --clearance is missing (Clearance of the blade tips"),
+        ([&start[..], &more].concat(), "new: --disk is missing (Frequency of the bladed disk"),
+        (whole.clone(), "new: --range is missing"),
+        ([&whole[..], &["--range", "9:3"]].concat(), "--range 9:3: allowed is FROM:TO, two speeds"),
+        (
+            [&whole[..], &["--range", "3:9", "--casing", "5:1:1"]].concat(),
+            "--casing = 5 nodal diameters twice: allowed is one mode for each",
+        ),
+        (
+            [&start[..], &["--clearance", "3 kN"]].concat(),
+            "--clearance = 3 kN: this is a force; it takes m",
+        ),
+        (
+            [&start[..], &["--clearance", "2m"]].concat(),
+            "--clearance = 2 m: allowed is a length above 0 and below the radius, 0.42 m",
+        ),
+        ([&start[..], &["--casing", "5:0:1"]].concat(), "frequency_hz = 0: allowed is a frequency"),
+    ] {
+        let said = refusal(&words);
+        assert!(said.contains(says), "{said}");
+        assert!(!Path::new(new).exists());
+    }
+}
+
+#[test]
+fn a_check_says_what_follows_and_what_looks_like_a_slip() {
+    let folder = tempfile::tempdir().unwrap();
+    let (file, _) = made(folder.path());
+    let told = text(&["check", &file]).split_whitespace().collect::<Vec<_>>().join(" ");
+    for words in [
+        "36 blades of 419.7 mm in a casing of the radius 420 mm: a clearance of 300 um, 0.0714 % \
+         of the radius.",
+        "With 5 nodal diameters the blades form 36 groups of 1, between which a wave can lock.",
+        "The casing has 420.3 Hz (2.9 kg, damping ratio 0.01), the bladed disk 155.9 Hz (5.4 kg",
+        "The rotor turns at 890.118 rad/s. Ω_c 528.165 rad/s (+68.5 %): critical speed",
+        "Modes of the casing are known for 3 of 19 numbers of diameters",
+        "Nothing looks like a slip of a unit or a decimal point.",
+    ] {
+        assert!(told.contains(words), "{words}: {told}");
+    }
+    let slips = ["check", &file, "--speed", "9500", "--set", "bladed_disk.blade_length_m=0.4"];
+    let told = text(&slips).split_whitespace().collect::<Vec<_>>().join(" ");
+    for words in [
+        "These look like a slip:",
+        "- The clearance (casing.radius_m less bladed_disk.blade_length_m) is 20.0000 mm",
+        "- operation.speed_rad_s = 9500 (90718 rpm) moves the blade tips at 3990 m/s",
+        "Was it rpm? Then write \"9500 rpm\".",
+    ] {
+        assert!(told.contains(words), "{words}: {told}");
+    }
+    let missing = text(&["check", &file, "--nd", "7"]);
+    assert!(missing.contains("No mode of the casing with 7 nodal diameters is known"), "{missing}");
+    let own = text(&["check", "undamped", "--set", "casing.modes=[]"]);
+    assert!(own.contains("One mode of the casing is given"), "{own}");
+}

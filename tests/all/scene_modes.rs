@@ -1,0 +1,226 @@
+//! The modes of casing and disk by their diameters, and numbers with units, as files and
+//! options give them.
+
+use std::f64::consts::TAU;
+
+use rubscope::model::Mode;
+use rubscope::report::CommandLine;
+use rubscope::scene::{BUILTIN, Scene};
+
+use crate::cli_support::{refusal, rubscope};
+
+fn close(value: f64, expected: f64, part: f64) {
+    assert!((value / expected - 1.0).abs() <= part, "{value} is not {expected}");
+}
+
+fn scene(name: &str, changes: &[(&str, &str)]) -> Scene {
+    Scene::builtin(name).unwrap().with(changes).unwrap().into_scene()
+}
+
+const DIAMETERS: &str = "operation.nodal_diameters";
+const STIFFNESS: &str = "casing.modal_stiffness_n_per_m";
+
+#[test]
+fn the_papers_scene_knows_its_modes_of_three_and_four_diameters() {
+    let four = scene("paper-nd3", &[(DIAMETERS, "4")]);
+    close(four.machine().critical_speed().unwrap(), 256.12, 1e-5);
+    close(four.machine().lock_speed().unwrap(), 303.42, 1e-4);
+    let other = Scene::builtin("paper-nd4").unwrap();
+    assert_eq!(four.machine(), other.machine());
+    assert_eq!((four.casing, four.bladed_disk), (other.casing, other.bladed_disk));
+    let told = rubscope(&["run", "--nd", "4", "--end", "0.001"]);
+    let told = String::from_utf8(told.stdout).unwrap();
+    assert!(told.contains("Omega_c (256.12 rad/s"), "{told}");
+    assert!(!told.contains("No mode"), "{told}");
+}
+
+#[test]
+fn a_missing_mode_is_said_in_text_and_json() {
+    let note = "o mode of the casing with 5 nodal diameters is known (known: 3, 4): the casing's \
+                own values are taken";
+    for command in ["run --nd 5 --end 0.001", "margins --nd 5 --no-search", "hbm --nd 5"] {
+        let words: Vec<&str> = command.split(' ').collect();
+        let text = String::from_utf8(rubscope(&words).stdout).unwrap();
+        let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(text.contains(&format!("N{note}.")), "{command}: {text}");
+        let json = rubscope(&[&words[..], &["--json"]].concat()).stdout;
+        let json: serde_json::Value = serde_json::from_slice(&json).unwrap();
+        let told = json["scene"]["modes_note"].as_str().unwrap();
+        assert_eq!(told, format!("n{note}"), "{command}");
+    }
+}
+
+#[test]
+fn keys_act_on_the_mode_in_use_and_others_keep_their_values() {
+    let mut scene = scene("paper-nd3", &[(DIAMETERS, "4"), (STIFFNESS, "3e6")]);
+    close(scene.machine().omega_c, 1.5e6_f64.sqrt(), 1e-14);
+    scene.set(DIAMETERS, "3").unwrap();
+    close(scene.machine().casing_stiffness, 1.544e6, 0.0);
+    // What a mode leaves out is the casing's own, and is shared.
+    scene.set("casing.damping_ratio", "0.01").unwrap();
+    scene.set(DIAMETERS, "4").unwrap();
+    assert_eq!(scene.machine().casing_damping_ratio, 0.01);
+    assert_eq!(scene.machine().casing_stiffness, 3e6);
+}
+
+#[test]
+fn frequencies_in_hertz_stand_for_the_stiffness_that_gives_them() {
+    let toml = "
+[casing]
+modal_mass_kg = 3.5
+[[casing.modes]]
+nodal_diameters = 5
+frequency_hz = 251.3
+[[casing.modes]]
+nodal_diameters = 6
+frequency_hz = \"17400 rpm\"
+modal_mass_kg = \"3300 g\"
+[bladed_disk]
+blades = 36
+[[bladed_disk.modes]]
+nodal_diameters = 5
+frequency_hz = 92.75
+[operation]
+nodal_diameters = 5
+speed_rad_s = \"2000 rpm\"
+pulse_n = \"43.4 kN\"
+pulse_s = \"50us\"
+";
+    let mut scene = Scene::from_toml(toml).unwrap();
+    let machine = scene.machine();
+    close(machine.omega_c, TAU * 251.3, 1e-14);
+    close(machine.omega_bd, TAU * 92.75, 1e-13);
+    close(scene.operation.speed_rad_s, TAU * 2000.0 / 60.0, 1e-14);
+    assert_eq!((scene.operation.pulse_n, scene.operation.pulse_s), (43.4e3, 50e-6));
+    assert_eq!(Scene::from_toml(&scene.to_toml()).unwrap(), scene);
+    scene.set(DIAMETERS, "6").unwrap();
+    let machine = scene.machine();
+    close(machine.omega_c, TAU * 290.0, 1e-14);
+    assert_eq!(machine.casing_mass, 3.3);
+    assert!(scene.modes_note().unwrap().starts_with("no mode of the disk with 6 nodal"));
+}
+
+#[test]
+fn every_scene_is_made_again_by_its_command_also_where_a_mode_hides_values() {
+    let modes = "[{ nodal_diameters = 3, modal_stiffness_n_per_m = 2.0e6 }]";
+    let hidden = Scene::from_toml(
+        "[casing]\nmodal_mass_kg = 3.0\nmodal_stiffness_n_per_m = 1e6\n[[casing.modes]]\n\
+         nodal_diameters = 3\nmodal_stiffness_n_per_m = 2e6\n",
+    )
+    .unwrap();
+    let mut all = vec![hidden, scene("paper-nd3", &[(DIAMETERS, "4"), (STIFFNESS, "3e6")])];
+    all.push(scene("paper-nd3", &[(DIAMETERS, "5"), (STIFFNESS, "3e6")]));
+    all.push(scene("slip", &[("casing.modes", modes)]));
+    all.push(scene("half-n", &[("bladed_disk.modes", "[{ nodal_diameters = 11 }]")]));
+    for name in BUILTIN {
+        all.push(scene(name.name, &[(DIAMETERS, "2")]));
+    }
+    for scene in all {
+        for base in ["paper-nd3", "half-n"] {
+            let from = Scene::builtin(base).unwrap();
+            let line = CommandLine::from_base("run", base, &from, &scene).to_string();
+            let mut made = from.clone();
+            for (path, text) in rubscope::scene::keys::differences(&from, &scene) {
+                made.set(path, &text).unwrap();
+            }
+            let alike = (&made.casing, &made.bladed_disk, &made.operation, &made.title)
+                == (&scene.casing, &scene.bladed_disk, &scene.operation, &scene.title);
+            assert!(alike, "{line}");
+        }
+    }
+}
+
+#[test]
+fn bad_modes_and_units_are_refused_by_name() {
+    for (toml, start) in [
+        (
+            "[[casing.modes]]\nnodal_diameters = 3\n[[casing.modes]]\nnodal_diameters = 3\n",
+            "casing.modes.nodal_diameters = 3 twice: allowed is one mode for each number",
+        ),
+        (
+            "[[casing.modes]]\nnodal_diameters = 3\nfrequency_hz = 0\n",
+            "casing.modes[1].frequency_hz = 0: allowed is a frequency above 0",
+        ),
+        (
+            "[[casing.modes]]\nfrequency_hz = 100.0\n",
+            "casing.modes[1] = { frequency_hz = 100.0 }: allowed is a mode with nodal_diameters",
+        ),
+        (
+            "[[casing.modes]]\nnodal_diameters = 3\ncolour = 1\n",
+            "unknown key casing.modes[1].colour; allowed: nodal_diameters, modal_mass_kg",
+        ),
+        (
+            "[[casing.modes]]\nnodal_diameters = 3\nfrequency_hz = 1\nmodal_stiffness_n_per_m = 1\n",
+            "casing.modes[1].frequency_hz = 1: allowed is frequency_hz or modal_stiffness_n_per_m",
+        ),
+        (
+            "[[casing.modes]]\nnodal_diameters = 3\nmodal_mass_kg = \"2 kN\"\n",
+            "casing.modes[1].modal_mass_kg = 2 kN: this is a force; it takes kg or g",
+        ),
+        (
+            "[[casing.modes]]\nnodal_diameters = 3\nmodal_mass_kg = -2\n",
+            "casing.modes[1].modal_mass_kg = -2: allowed is a number above 0",
+        ),
+        (
+            "[[bladed_disk.modes]]\nnodal_diameters = 11\nfrequency_hz = 20\n",
+            "bladed_disk.modes.frequency_hz = 20.0000: allowed is above 38.2",
+        ),
+        ("[casing]\nmodes = 3\n", "casing.modes = 3: allowed is a list of modes"),
+        (
+            "[operation]\nspeed_rad_s = \"43 kN\"\n",
+            "operation.speed_rad_s = 43 kN: this is a force; it takes rad/s, rpm or Hz",
+        ),
+    ] {
+        let message = Scene::from_toml(toml).unwrap_err().to_string();
+        assert!(message.starts_with(start), "{message}");
+        assert_eq!(message.lines().count(), 1, "{message}");
+    }
+    for (words, start) in [
+        ("run --speed 43kN", "rubscope: operation.speed_rad_s = 43kN: this is a force; it takes"),
+        ("run --pulse 9500rpm", "rubscope: operation.pulse_n = 9500rpm: this is a speed or freq"),
+        ("map --speed 0:1mm:3", "rubscope: --speed = 0:1mm:3: this is a length; it takes rad/s"),
+        ("run --at 3N:pulse", "rubscope: --at 3N:pulse: this is a force; it takes s"),
+        (
+            "margins --target omega_c=3mm --by casing.modal_mass_kg",
+            "rubscope: target omega_c=3mm: this is a length; it takes rad/s, rpm or Hz",
+        ),
+        ("run --set casing.modes=3", "rubscope: casing.modes = 3: allowed is a list of modes"),
+    ] {
+        let said = refusal(&words.split(' ').collect::<Vec<_>>());
+        assert!(said.starts_with(start), "{said}");
+    }
+}
+
+#[test]
+fn options_take_units_and_mean_the_same_as_bare_numbers() {
+    let json = |words: &str| {
+        let output = rubscope(&words.split(' ').collect::<Vec<_>>());
+        let mut value: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        for table in ["cost", "solver"] {
+            value[table] = serde_json::Value::Null;
+        }
+        value["program"]["command"] = serde_json::Value::Null;
+        value
+    };
+    for (with, bare) in [
+        ("run --pulse 43.4kN --step 0.2us --end 1ms", "run --pulse 43400 --step 2e-7 --end 1e-3"),
+        (
+            "run --end 1ms --at 0.2ms:operation.pulse_n=2kN",
+            "run --end 1e-3 --at 2e-4:operation.pulse_n=2000",
+        ),
+        ("margins --no-search --speed 75Hz", "margins --no-search --speed 471.23889803846896"),
+    ] {
+        assert_eq!(json(&format!("{with} --json")), json(&format!("{bare} --json")), "{with}");
+    }
+}
+
+#[test]
+fn a_mode_is_named_by_what_it_has() {
+    let mode = Mode { nodal_diameters: 3, stiffness: Some(2e6), ..Mode::default() };
+    let mut scene = Scene::base();
+    scene.casing.modes = vec![mode];
+    let json = serde_json::to_value(&scene).unwrap();
+    let expected = serde_json::json!([{ "nodal_diameters": 3, "modal_stiffness_n_per_m": 2e6 }]);
+    assert_eq!(json["casing"]["modes"], expected);
+    assert!(serde_json::to_value(Scene::base()).unwrap()["casing"].get("modes").is_none());
+}

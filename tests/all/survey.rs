@@ -1,0 +1,214 @@
+//! `rubscope survey`: each number of diameters is what the single commands say of it.
+
+use rubscope::scene::{CheckedScene, Scene};
+use rubscope::study::margins::{LimitName, Margins, Quantity, parameter};
+use rubscope::study::survey::{Survey, speed_range};
+
+use crate::cli_support::{refusal, rubscope};
+
+fn scene(name: &str, changes: &[(&str, &str)]) -> CheckedScene {
+    Scene::builtin(name).unwrap().with(changes).unwrap()
+}
+
+fn close(value: f64, expected: f64, part: f64) {
+    assert!((value / expected - 1.0).abs() <= part, "{value} is not {expected}");
+}
+
+fn json(words: &[&str]) -> serde_json::Value {
+    let output = rubscope(words);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+fn text(words: &str) -> String {
+    let output = rubscope(&words.split(' ').collect::<Vec<_>>());
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+#[test]
+fn every_row_has_the_limits_that_margins_finds_for_its_diameters() {
+    for (name, speed) in
+        [("paper-nd3", "500"), ("friction-lock", "-430"), ("rub", "450"), ("digs-in", "300")]
+    {
+        let scene = scene(name, &[("operation.speed_rad_s", speed)]);
+        let mass = parameter("casing.modal_mass_kg").unwrap();
+        let survey = Survey::of(&scene, None, Some(mass));
+        assert_eq!(survey.rows.len(), scene.bladed_disk.blades as usize / 2 + 1);
+        let mut compared = 0;
+        for row in &survey.rows {
+            let mut own = scene.clone().into_scene();
+            own.operation.nodal_diameters = row.nodal_diameters;
+            own.solver.kind = rubscope::scene::SolverKind::Explicit;
+            own.solver.step_s = 1e-7;
+            let margins = Margins::of(&own.checked().unwrap());
+            let forward = own.operation.speed_rad_s > 0.0;
+            for limit in margins.limits.iter().filter(|limit| limit.quantity == Quantity::Speed) {
+                let found = row.limit(limit.name, forward);
+                assert_eq!(found.map(|found| found.value.abs()), limit.value, "{}", limit.name);
+                let Some(found) = found else { continue };
+                assert_eq!(found.margin, limit.margin, "{}", limit.name);
+                let by = limit.sensitivities.by("casing.modal_mass_kg").unwrap();
+                assert!((found.by.unwrap() - by).abs() < 1e-12, "{}", limit.name);
+                compared += 1;
+            }
+        }
+        assert!(compared > 30, "{name}: {compared}");
+    }
+}
+
+#[test]
+fn every_row_of_the_paper_is_what_the_campbell_diagram_says() {
+    let survey = json(&["survey", "paper-nd3", "--json"]);
+    assert_eq!(survey["schema"], "rubscope.survey/1");
+    for row in survey["rows"].as_array().unwrap().iter().skip(1) {
+        let diameters = row["nodal_diameters"].to_string();
+        let words = ["hbm", "paper-nd3", "--campbell", "--json", "--nd", &diameters];
+        let single = json(&[&words[..], &["--speed", "0:500:2"]].concat());
+        assert_eq!(row["omega_c_rad_s"], single["casing_frequency_rad_s"]);
+        assert_eq!(row["omega_bd_rad_s"], single["blade_frequency_rad_s"]);
+        let limit = |name: &str| {
+            let all = row["limits"].as_array().unwrap();
+            let found = all
+                .iter()
+                .find(|limit| limit["name"] == name && limit["value"].as_f64().unwrap() > 0.0);
+            found.map_or(serde_json::Value::Null, |limit| limit["value"].clone())
+        };
+        for (name, field) in [
+            ("omega_c", "omega_c_rad_s"),
+            ("omega_lock", "omega_lock_rad_s"),
+            ("omega_adhesive", "omega_adhesive_rad_s"),
+            ("coincidence", "coincidence_rad_s"),
+        ] {
+            assert_eq!(limit(name), single[field], "{diameters}: {name}");
+        }
+    }
+}
+
+#[test]
+fn the_numbers_are_those_of_independent_formulas() {
+    let survey = Survey::of(&scene("paper-nd3", &[]), None, None);
+    let frequencies = [
+        268.381839036,
+        270.547372399,
+        276.771637402,
+        286.308924036,
+        298.113394976,
+        311.030591211,
+        323.945433059,
+        335.870623909,
+        345.98825455,
+        353.663870078,
+        358.447752897,
+        360.072021607,
+    ];
+    for (row, omega) in survey.rows.iter().zip(frequencies) {
+        close(row.omega_bd_rad_s, omega, 1e-11);
+        assert_eq!(row.modes_known, [3, 4].contains(&row.nodal_diameters));
+    }
+    let four = |name| survey.rows[4].limit(name, true).unwrap().value;
+    close(four(LimitName::OmegaC), 256.12, 1e-5);
+    close(four(LimitName::OmegaLock), 303.42, 1e-5);
+    close(four(LimitName::Coincidence), 330.648, 2e-6);
+    close(four(LimitName::CoincidenceDifference), 181.592, 3e-6);
+    let back = survey.rows[4].limit(LimitName::Coincidence, false).unwrap().value;
+    assert_eq!(back, -four(LimitName::Coincidence));
+    // No wave turns without nodal diameters.
+    assert!(survey.rows[0].limits.is_empty());
+}
+
+#[test]
+fn what_lies_in_the_range_is_told_the_nearest_first() {
+    let scene = scene("paper-nd3", &[("operation.speed_rad_s", "300")]);
+    let survey = Survey::of(&scene, Some([200.0, 320.0]), None);
+    let nearest = survey.nearest();
+    assert!(nearest.len() > 5);
+    let far: Vec<f64> = nearest.iter().map(|(_, limit)| (limit.value - 300.0).abs()).collect();
+    assert!(far.is_sorted());
+    let all = survey.rows.iter().flat_map(|row| &row.limits);
+    let inside = all.clone().filter(|limit| (200.0..=320.0).contains(&limit.value)).count();
+    assert_eq!(inside, nearest.len());
+    assert!(all.clone().all(|limit| limit.in_range.is_some()));
+    let told = text("survey paper-nd3 --speed 300 --range 200:320");
+    let joined = told.split_whitespace().collect::<Vec<_>>().join(" ");
+    for words in
+        [" >3 139.84 ", "* marks what lies from 200 rad/s to 320 rad/s", "nearest to 300 rad/s"]
+    {
+        assert!(joined.contains(words), "{words}: {told}");
+    }
+    assert!(told.lines().all(|line| line.chars().count() <= 110), "{told}");
+    let none = text("survey paper-nd3 --range 3000:3100");
+    assert!(none.contains("No limit lies in the range"), "{none}");
+}
+
+#[test]
+fn speeds_are_told_in_turns_a_minute_where_that_is_wanted() {
+    let told = text("survey paper-nd3 --range 2000rpm:3000rpm --rpm");
+    let joined = told.split_whitespace().collect::<Vec<_>>().join(" ");
+    for words in ["speeds in rpm", "from 2000 rpm to 3000 rpm", "2796.8"] {
+        assert!(joined.contains(words), "{words}: {told}");
+    }
+    assert!(!told.contains("rad/s"), "{told}");
+    let run = text("run paper-nd3 --rpm --end 0.001");
+    for words in ["at 4774.65 rpm", "Omega_c (2796.78 rpm"] {
+        assert!(run.contains(words), "{words}: {run}");
+    }
+    let hbm = text("hbm paper-nd3 --rpm --speed 450:500:2");
+    assert!(hbm.contains("Critical speed 2796.78 rpm") && hbm.contains("speed [rpm]"), "{hbm}");
+    let margins = text("margins paper-nd3 --rpm --no-search");
+    assert!(margins.contains("2796.78 rpm") && !margins.contains("rad/s"), "{margins}");
+    // Files and JSON stay as they are.
+    let whole = |words: &str| {
+        let mut value = json(&words.split(' ').collect::<Vec<_>>());
+        value["wall_s"] = serde_json::Value::Null;
+        value
+    };
+    assert_eq!(whole("survey paper-nd3 --json --rpm"), whole("survey paper-nd3 --json"));
+}
+
+#[test]
+fn the_survey_is_written_as_csv_and_as_a_chart() {
+    let folder = tempfile::tempdir().unwrap();
+    let [csv, svg] = ["s.csv", "s.svg"].map(|name| folder.path().join(name));
+    for file in [&csv, &svg] {
+        let file = file.to_str().unwrap();
+        let words = ["survey", "paper-nd3", "--range", "200:320", "--out", file];
+        assert!(rubscope(&words).status.success());
+    }
+    let csv = std::fs::read_to_string(csv).unwrap();
+    assert!(csv.starts_with("nodal_diameters,omega_c_rad_s,omega_bd_rad_s,name,value_rad_s,"));
+    let four = csv.lines().find(|line| line.starts_with("4,") && line.contains(",omega_c,"));
+    let value: f64 = four.unwrap().split(',').nth(4).unwrap().parse().unwrap();
+    close(value, 256.12, 1e-5);
+    assert!(four.unwrap().contains(",true,"), "{four:?}");
+    let svg = std::fs::read_to_string(svg).unwrap();
+    for words in ["(a) frequencies", "(b) limits", "nodal diameters", "rubscope survey paper-nd3"] {
+        assert!(svg.contains(words), "{words}");
+    }
+    assert!(!svg.contains("NaN"));
+}
+
+#[test]
+fn a_range_that_is_none_is_refused_by_name() {
+    assert_eq!(speed_range("0:60 rpm").unwrap()[1], std::f64::consts::TAU);
+    for (words, start) in [
+        ("survey --range 11000rpm:6000rpm", "rubscope: --range 11000rpm:6000rpm: allowed is FROM:"),
+        ("survey --range 5", "rubscope: --range 5: allowed is FROM:TO, two speeds, the lower one"),
+        ("survey --range 0:3kN", "rubscope: --range 0:3kN: this is a force; it takes rad/s, rpm"),
+        ("survey --range 0:nan", "rubscope: --range 0:nan: allowed is FROM:TO"),
+        ("survey --by casing", "rubscope: parameter casing: allowed is one of clearance, "),
+        ("survey --out x.npz", "rubscope: --out"),
+    ] {
+        let said = refusal(&words.split(' ').collect::<Vec<_>>());
+        assert!(said.starts_with(start), "{said}");
+    }
+}
+
+#[test]
+fn thousands_of_blades_have_a_row_each() {
+    let blades = [("bladed_disk.blades", "4096")];
+    let survey = Survey::of(&scene("paper-nd3", &blades), Some([1.0, 2.0]), None);
+    assert_eq!(survey.rows.len(), 2049);
+    let told = text("survey paper-nd3 --set bladed_disk.blades=4096 --range 1:2");
+    assert!(told.contains(" more: --json or --out") && told.lines().count() < 100, "{told}");
+}
