@@ -64,10 +64,10 @@ fn coincidences_are_the_roots_of_their_quadratic() {
             let machine = machine(&[(STIFFENING, stiffening), (SPEED, speed)]);
             assert_eq!(machine.dangerous_speed().is_some(), sum.is_some(), "{stiffening}");
             if let (Some(found), Some(sum)) = (machine.dangerous_speed(), sum) {
-                close(found, sum, 3e-12);
+                close(found, sum, 1e-11);
             }
             let differences = machine.coincidence_differences();
-            close(differences[0], difference, 3e-12);
+            close(differences[0], difference, 1e-11);
             // Each is where frequencies meet, in the machine of that speed.
             for found in machine.coincidence_speeds() {
                 let (turn, here) = (machine.nu(found), machine.at(found));

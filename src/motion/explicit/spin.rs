@@ -6,7 +6,7 @@
 use super::Explicit;
 use super::disk::Disk;
 use super::rows::TipLaw;
-use crate::motion::FailureReason;
+use crate::motion::{Failure, FailureReason};
 
 impl<B: Disk> Explicit<B> {
     /// Whether the machine changes from step to step.
@@ -86,6 +86,10 @@ impl<B: Disk> Explicit<B> {
         self.give_way();
         self.press_again();
         self.beyond.account.sums.growth_work_j += self.stored() - before;
+        if let Err(reason) = self.has_room(speed) {
+            self.record.end_contact(self.n);
+            self.failure.get_or_insert(Failure { t_s: self.time_of(self.n), reason });
+        }
     }
 
     /// Where a clearance that is smaller all at once leaves rigid tips in the casing, all

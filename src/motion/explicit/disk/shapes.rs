@@ -37,6 +37,7 @@ pub(super) struct Shapes {
 }
 
 /// From coordinates to blades and back.
+#[derive(Clone)]
 struct Transforms {
     to_blades: Arc<dyn ComplexToReal<f64>>,
     to_modes: Arc<dyn RealToComplex<f64>>,
