@@ -91,6 +91,7 @@ impl ExploreCommand {
             mouse: !self.no_mouse,
             line: self.line,
             config: !self.no_config,
+            rpm: self.options.in_rpm(),
             source: Some(tui::Source { name: name.to_string(), scene: read }),
         };
         status::say_noted();

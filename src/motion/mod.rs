@@ -5,10 +5,11 @@
 //! on, `clone` forks it, nothing is global.
 //!
 //! Read `solver` (what every solver offers), `drive` and `contacts` (what they share), then
-//! one kind of solver (`explicit` or `event`), then `run` with `script`, `wave`, `verdict`
-//! and `sensitivity`: a whole run, and what it is worth.
+//! one kind of solver (`explicit` or `event`), then `run` with `script`, `wave`, `verdict`,
+//! `course` and `sensitivity`: a whole run, and what it is worth.
 
 mod contacts;
+mod course;
 mod drive;
 mod event;
 mod explicit;
@@ -22,14 +23,15 @@ pub mod verdict;
 mod wave;
 
 pub use contacts::{ActiveSet, ContactLog, EnergyAccount, Hold, Impact, in_phase_order};
+pub use course::Course;
 pub use drive::{Pulse, Rotor, State};
 pub use event::{ExactEvents, LinearEvents};
 pub use failure::{Failure, FailureReason};
 pub use propagator::FreeFlight;
 pub use run::{
-    FinalState, ImpactReport, RunReport, Sample, Sampling, SolverReport, VerdictReached, Watch,
-    lock_that_broke, run_to_end, run_to_end_watched, run_to_verdict, simulate, simulate_with,
-    verdict_of,
+    FinalState, ImpactReport, Looker, RunReport, Sample, Sampling, SolverReport, VerdictReached,
+    Watch, lock_that_broke, run_to_end, run_to_end_watched, run_to_verdict, simulate,
+    simulate_with, verdict_of,
 };
 pub use script::{Change, Script};
 pub use sensitivity::{CHANGED_RUNS, Spread, is_sensitive, run_with_sensitivity};

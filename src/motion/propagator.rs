@@ -206,10 +206,10 @@ pub struct FreeFlight<'a, T> {
 }
 
 impl<T: Number> FreeFlight<'_, T> {
-    /// The change of the gap of a side at `t` \[s\] by one newton of pulse \[m/N\]: the
-    /// gap is the clearance and this times the pulse.
+    /// What one newton of pulse has moved the casing by `t` \[m/N\], and how far the blades
+    /// have turned against its wave by then \[rad\].
     #[must_use]
-    pub fn gap_by_pulse(&self, side: u32, t: T) -> T {
+    pub fn moved_by_pulse(&self, t: T) -> (T, T) {
         let Self { machine, operation } = *self;
         let omega = machine.omega_c;
         let flight = Propagator::new(machine.casing_damping_ratio * omega, omega * omega);
@@ -218,9 +218,17 @@ impl<T: Number> FreeFlight<'_, T> {
             ramp -= flight.at(t - operation.pulse_s).ramp;
         }
         let rotor = (operation.speed_rad_s + operation.speed_ramp_rad_s2 * t * 0.5) * t;
-        let (turn_sin, turn_cos) = machine.nu(rotor).sin_cos();
-        let (c, s) = machine.polygon.direction(side);
-        ramp / machine.casing_mass * (turn_cos * c - turn_sin * s)
+        (ramp / machine.casing_mass, machine.nu(rotor))
+    }
+
+    /// The change of the gap of a side at `t` \[s\] by one newton of pulse \[m/N\]: the
+    /// gap is the clearance and this times the pulse.
+    #[must_use]
+    pub fn gap_by_pulse(&self, side: u32, t: T) -> T {
+        let (moved, turn) = self.moved_by_pulse(t);
+        let (turn_sin, turn_cos) = turn.sin_cos();
+        let (c, s) = self.machine.polygon.direction(side);
+        moved * (turn_cos * c - turn_sin * s)
     }
 }
 

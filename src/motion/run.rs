@@ -13,7 +13,7 @@ use super::{
     to_the_end,
 };
 use crate::scene::{CheckedScene, ContactLaw, ModelSize, SolverKind};
-use crate::tolerances::{LAST_PART, RUN_LOOKS};
+use crate::tolerances::{LAST_PART, LOOKS_A_PERIOD, RUN_LOOKS};
 
 /// What a recorder sees at one instant.
 #[derive(Clone, Debug)]
@@ -152,29 +152,47 @@ impl VerdictReached {
     }
 }
 
+/// Looks at a run at instants of its own.
+pub trait Looker {
+    /// When to look next \[s\]; infinity where it has seen enough.
+    fn due(&self) -> f64;
+
+    /// Looks at that instant; whether the run may go on.
+    fn see(&mut self, motion: &Motion) -> bool;
+}
+
 /// Runs a checked scene until its verdict is settled, at most to its end; none
 /// where `go_on` said no on the way.
 #[must_use]
 pub fn run_to_verdict(scene: &CheckedScene, go_on: GoOn<'_>) -> Option<VerdictReached> {
+    run_looked_at(scene, &mut [], go_on)
+}
+
+/// As `run_to_verdict`, and looked at on the way.
+pub(super) fn run_looked_at(
+    scene: &CheckedScene,
+    lookers: &mut [&mut dyn Looker],
+    go_on: GoOn<'_>,
+) -> Option<VerdictReached> {
     let end = scene.solver.end_s;
-    let mut wave = WaveTracker::of_none();
-    run_motion_to_verdict(Motion::new(scene), &Script::default(), end, None, &mut wave, go_on)
+    run_motion_to_verdict(Motion::new(scene), &Script::default(), end, None, lookers, go_on)
         .map(|(motion, verdict)| VerdictReached::of(&motion, verdict))
 }
 
 /// Runs a motion through a script until its verdict is settled, at most to
-/// `end`, and looks at its wave; where there is `noise`, its rate changes by this part,
-/// up or down, once a casing period. None where `go_on` said no on the way.
+/// `end`; where there is `noise`, its rate changes by this part, up or down, once a casing
+/// period. None where `go_on` or a looker said no on the way.
 pub(super) fn run_motion_to_verdict(
     motion: Motion,
     script: &Script,
     end: f64,
     noise: Option<f64>,
-    wave: &mut WaveTracker,
+    lookers: &mut [&mut dyn Looker],
     go_on: GoOn<'_>,
 ) -> Option<(Motion, Verdict)> {
-    // Looking costs little against one casing period of motion.
-    let interval = (TAU / motion.machine().omega_c).max(end / RUN_LOOKS);
+    // Looking costs little against a part of a casing period of motion.
+    let period = (TAU / motion.machine().omega_c).max(end / RUN_LOOKS);
+    let interval = period / LOOKS_A_PERIOD as f64;
     let mut scripted = Scripted::new(motion, script);
     scripted.motion.forgo_checks();
     let mut verdict = None;
@@ -182,34 +200,43 @@ pub(super) fn run_motion_to_verdict(
     while verdict.is_none() {
         looks += 1;
         let until = (looks as f64 * interval).min(end);
-        verdict = match advance_looking(&mut scripted, wave, until, go_on) {
+        verdict = match advance_looking(&mut scripted, lookers, until, go_on) {
             Err(_) => scripted.motion.final_verdict().or(Some(Verdict::Failed)),
             Ok(false) => return None,
             Ok(true) if until >= end => Some(verdict_of(&scripted.motion, LAST_PART * end)),
             Ok(true) if scripted.is_through() => scripted.motion.final_verdict(),
             Ok(true) => None,
         };
-        if let (None, Some(part)) = (verdict, noise) {
-            scripted.motion.scale_rate(1.0 + part * sign(looks));
+        if let (None, Some(part)) = (verdict, noise)
+            && looks % LOOKS_A_PERIOD == 0
+        {
+            scripted.motion.scale_rate(1.0 + part * sign(looks / LOOKS_A_PERIOD));
         }
     }
     Some((scripted.motion, verdict?))
 }
 
-/// Advances to `until`, and looks at the wave on the way.
+/// Advances to `until`, and lets the lookers look on the way.
 fn advance_looking(
     scripted: &mut Scripted<'_>,
-    wave: &mut WaveTracker,
+    lookers: &mut [&mut dyn Looker],
     until: f64,
     go_on: GoOn<'_>,
 ) -> Result<bool, Failure> {
-    while wave.next_look() <= until {
-        if !scripted.advance_while(wave.next_look(), go_on)? {
+    loop {
+        let next = lookers.iter().map(|looker| looker.due()).fold(f64::INFINITY, f64::min);
+        if next > until {
+            return scripted.advance_while(until, go_on);
+        }
+        if !scripted.advance_while(next, go_on)? {
             return Ok(false);
         }
-        wave.look(scripted.motion.state());
+        for looker in lookers.iter_mut().filter(|looker| looker.due() <= next) {
+            if !looker.see(&scripted.motion) {
+                return Ok(false);
+            }
+        }
     }
-    scripted.advance_while(until, go_on)
 }
 
 /// The verdict on a motion now: the proven one, or that over the last

@@ -9,7 +9,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::run::{VerdictReached, report, run_motion_to_verdict, run_to_verdict};
+use super::course::{Beside, Course};
+use super::run::{Looker, VerdictReached, report, run_looked_at, run_motion_to_verdict};
 use super::script::{Change, Script};
 use super::wave::WaveTracker;
 use super::{Contact, GoOn, Motion, RunReport, Verdict};
@@ -34,29 +35,33 @@ pub fn run_with_sensitivity(
     scene: &CheckedScene,
     go_on: GoOn<'_>,
 ) -> Option<(VerdictReached, bool)> {
-    let reached = run_to_verdict(scene, go_on)?;
-    let sensitive = is_sensitive(scene, &Script::default(), reached, go_on)?;
+    let mut course = Course::over(scene.solver.end_s);
+    let reached = run_looked_at(scene, &mut [&mut course], go_on)?;
+    let sensitive = is_sensitive(scene, reached, &course, go_on)?;
     Some((reached, sensitive))
 }
 
 /// Whether a tiny change makes another verdict, or another number of impacts, of
-/// a checked scene with changes that settled so; none where `go_on` said no on
-/// the way. Idle threads of the pool that asks take some of the runs, and the first
-/// that disagrees ends the others.
+/// a checked scene that settled so and went this way; none where `go_on` said no on
+/// the way. Idle threads of the pool that asks take some of the runs, the first
+/// that disagrees ends the others, and one that goes beside the course ends there.
 #[must_use]
 pub fn is_sensitive(
     scene: &CheckedScene,
-    script: &Script,
     reached: VerdictReached,
+    course: &Course,
     go_on: GoOn<'_>,
 ) -> Option<bool> {
+    let script = Script::default();
     let moment = moment(scene);
     let found = AtomicBool::new(false);
     let undecided = || !found.load(Ordering::Relaxed) && go_on();
     let agrees_to_the_end = |change: &TinyChange| {
-        let mut wave = WaveTracker::of_none();
-        let Some((motion, verdict)) = change.run(scene, script, &mut wave, &undecided) else {
-            return false;
+        let mut beside = Beside::of(course, reached);
+        let mut lookers: Vec<&mut dyn Looker> = Vec::new();
+        lookers.extend(beside.iter_mut().map(|beside| beside as &mut dyn Looker));
+        let Some((motion, verdict)) = change.run(scene, &script, &mut lookers, &undecided) else {
+            return beside.is_some_and(|beside| beside.agrees());
         };
         let differs = VerdictReached::of(&motion, verdict).differs_from(reached, moment);
         found.fetch_or(differs, Ordering::Relaxed);
@@ -115,7 +120,7 @@ impl TinyChange {
         self,
         scene: &CheckedScene,
         script: &Script,
-        wave: &mut WaveTracker,
+        lookers: &mut [&mut dyn Looker],
         go_on: GoOn<'_>,
     ) -> Option<(Motion, Verdict)> {
         let mut motion = Motion::new(&self.changed(scene));
@@ -124,7 +129,7 @@ impl TinyChange {
             motion.scale_tolerance(FINER);
         }
         let script = script.mapped(|change| self.change(change));
-        run_motion_to_verdict(motion, &script, scene.solver.end_s, noise, wave, go_on)
+        run_motion_to_verdict(motion, &script, scene.solver.end_s, noise, lookers, go_on)
     }
 
     /// Runs a scene with this change to its end.
@@ -135,7 +140,7 @@ impl TinyChange {
         go_on: GoOn<'_>,
     ) -> Option<RunReport> {
         let mut wave = WaveTracker::over(scene, script);
-        let (mut motion, _) = self.run(scene, script, &mut wave, go_on)?;
+        let (mut motion, _) = self.run(scene, script, &mut [&mut wave], go_on)?;
         // What is settled before the end goes on to it; a failure stays where it is.
         let arrived = motion.advance_while(scene.solver.end_s, go_on).unwrap_or(true);
         arrived.then(|| report(scene, &motion, &wave))
@@ -249,6 +254,7 @@ impl Spread {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::motion::run_to_verdict;
     use crate::scene::Scene;
 
     #[test]
@@ -261,10 +267,33 @@ mod tests {
     }
 
     #[test]
+    fn a_changed_run_that_stops_beside_the_first_one_says_what_it_would_say_at_its_end() {
+        let (mut settled, mut both) = (0, [0; 2]);
+        let slips = [("slip", "rigid"), ("rub", "modal")];
+        for ((name, model), n) in slips.into_iter().flat_map(|slip| (0..12).map(move |n| (slip, n)))
+        {
+            let keys = [("solver.model", model), ("solver.kind", "event"), ("solver.end_s", "0.5")];
+            let mut scene = Scene::builtin(name).unwrap().with(&keys).unwrap().into_scene();
+            scene.operation.speed_rad_s = 380.0 + 12.0 * f64::from(n);
+            scene.operation.pulse_n = 3e4 * 1.35_f64.powi(n);
+            let scene = scene.checked().unwrap();
+            let mut course = Course::over(scene.solver.end_s);
+            let reached = run_looked_at(&scene, &mut [&mut course], &|| true).unwrap();
+            let told = |course: &Course| is_sensitive(&scene, reached, course, &|| true).unwrap();
+            let (early, late) = (told(&course), told(&Course::over(scene.solver.end_s)));
+            assert_eq!(early, late, "{name} {n}");
+            settled += usize::from(Beside::of(&course, reached).is_some());
+            both[usize::from(late)] += 1;
+        }
+        assert!(settled > 2 && both.iter().all(|count| *count > 0), "{settled} {both:?}");
+    }
+
+    #[test]
     fn what_is_told_to_stop_does_not_know_whether_a_run_is_sensitive() {
         let scene = Scene::base().as_reference().checked().unwrap();
         let reached = run_to_verdict(&scene, &|| true).unwrap();
-        assert_eq!(is_sensitive(&scene, &Script::default(), reached, &|| false), None);
+        let course = Course::over(scene.solver.end_s);
+        assert_eq!(is_sensitive(&scene, reached, &course, &|| false), None);
         assert_eq!(run_with_sensitivity(&scene, &|| false), None);
     }
 }

@@ -2,8 +2,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::State;
+use super::run::Looker;
 use super::script::{Change, Script};
+use super::{Motion, State};
 use crate::model::Machine;
 use crate::scene::CheckedScene;
 use crate::tolerances::{LAST_PART, WAVE_LOOKS, WAVE_LOOKS_A_TURN};
@@ -48,12 +49,6 @@ impl WaveTracker {
         Self { end, interval, next, first: None, last: (0.0, 0.0), turned: 0.0 }
     }
 
-    /// Over nothing: nobody will ask for the speed.
-    pub fn of_none() -> Self {
-        let next = f64::INFINITY;
-        Self { end: 0.0, interval: 0.0, next, first: None, last: (0.0, 0.0), turned: 0.0 }
-    }
-
     /// When to look next \[s\]; infinity after the end.
     pub fn next_look(&self) -> f64 {
         self.next
@@ -93,6 +88,17 @@ impl WaveTracker {
         let elapsed = self.last.0 - self.first?.0;
         let speed = self.turned / elapsed / machine.nodal_diameters;
         (elapsed > 0.0 && speed.is_finite()).then_some(speed)
+    }
+}
+
+impl Looker for WaveTracker {
+    fn due(&self) -> f64 {
+        self.next_look()
+    }
+
+    fn see(&mut self, motion: &Motion) -> bool {
+        self.look(motion.state());
+        true
     }
 }
 

@@ -104,7 +104,7 @@ fn limits(scene: &CheckedScene) -> String {
         let value = words::value(value, 6, limit.quantity);
         let margin =
             limit.margin.map_or(String::new(), |part| format!(" ({})", words::margin(part)));
-        told.push(format!("{} {value}{margin}: {}.", limit.name.symbol(), limit.name.what()));
+        told.push(format!("{} {value}{margin}: {}.", limit.name, limit.name.what()));
     }
     told.join(" ")
 }

@@ -90,6 +90,18 @@ pub fn speed(omega: f64) -> String {
     format!("{} {}", short(per_speed(omega)), speed_unit())
 }
 
+/// The unit in which angular frequencies are told: hertz where speeds are told in turns.
+#[must_use]
+pub fn frequency_unit() -> &'static str {
+    if IN_RPM.get() { "Hz" } else { RAD_S }
+}
+
+/// An angular frequency \[rad/s\] in that unit.
+#[must_use]
+pub fn per_frequency(omega: f64) -> f64 {
+    if IN_RPM.get() { omega / TAU } else { omega }
+}
+
 /// A number and its unit as they are told.
 #[must_use]
 pub fn told(x: f64, unit: &str) -> (f64, &str) {

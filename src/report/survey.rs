@@ -80,8 +80,8 @@ pub fn write(survey: &Survey, out: &mut dyn Write) -> Result<()> {
             unknown.join(", ")
         };
         tell(&format!(
-            "Numbers of diameters with ° have no mode of their own in the scene, and the own \
-             values of casing or disk: {which}."
+            "Numbers of diameters with ? have no mode in the scene, and the own values of casing or \
+             disk; they are not in the list below: {which}."
         ))?;
     }
     survey.note.iter().try_for_each(|note| tell(&format!("The limits are {note}.")))?;
@@ -148,7 +148,7 @@ fn rows(survey: &Survey) -> Table {
     for row in shown.iter().take(ROWS) {
         let here = row.nodal_diameters == survey.scene.operation.nodal_diameters;
         let sign = if here { ">" } else { " " };
-        let known = if row.modes_known { "" } else { "°" };
+        let known = if row.modes_known { "" } else { "?" };
         let hertz = |omega: f64| format!("{:>NUMBER$}", short(rounded(omega / TAU, 5)));
         let mut cells = vec![
             format!("{sign}{}{known}", row.nodal_diameters),
@@ -231,7 +231,7 @@ fn beside(survey: &Survey, out: &mut dyn Write) -> Result<()> {
         let of_row = |row: &SurveyRow| -> Vec<(u32, SurveyLimit)> {
             row.limits.iter().map(|limit| (row.nodal_diameters, limit.clone())).collect()
         };
-        survey.rows.iter().flat_map(of_row)
+        survey.rows.iter().filter(|row| row.modes_known).flat_map(of_row)
     };
     let below = all().filter(|(_, limit)| limit.value < from);
     let below = below.max_by(|a, b| a.1.value.total_cmp(&b.1.value));

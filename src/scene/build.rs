@@ -7,6 +7,8 @@
 
 use std::f64::consts::TAU;
 
+use crate::numeric::rounding::rounded;
+
 use super::modes::{hertz_of, number_of, of_neighbours};
 use super::{Allowed, Scene, SceneError, keys};
 
@@ -61,7 +63,7 @@ impl ModalData {
         };
         let casing = own(&self.casing, keys::CASING_MODES)?;
         let disk = own(&self.disk, keys::DISK_MODES)?;
-        let length = self.radius_m - self.clearance_m;
+        let length = digits(self.radius_m - self.clearance_m);
         let inertia = self.inertia(&disk, length);
         let (stiffness, coupling) = self.springs(&disk, inertia);
         let omega = TAU * casing.frequency_hz;
@@ -71,7 +73,7 @@ impl ModalData {
             text.push_str(line);
             text.push('\n');
         };
-        let rpm = |omega: f64| omega * 60.0 / TAU;
+        let rpm = |omega: f64| digits(omega * 60.0 / TAU);
         line("# A machine for rubscope. All numbers are in SI units; a number with another unit");
         line("# stands in quotes: speed_rad_s = \"9500 rpm\", pulse_n = \"2 kN\".");
         line(&format!(
@@ -112,7 +114,7 @@ impl ModalData {
             "modal_mass_kg = {:?}  # m_c, kg; for diameters without a mode below",
             casing.modal_mass_kg
         ));
-        let stiffness = casing.modal_mass_kg * omega * omega;
+        let stiffness = digits(casing.modal_mass_kg * omega * omega);
         line(&format!("modal_stiffness_n_per_m = {stiffness:?}  # k_c, N/m; likewise"));
         line(&format!("damping_ratio = {:?}  # of every casing mode", self.damping_ratios[0]));
         line("");
@@ -129,7 +131,7 @@ impl ModalData {
         line("");
         line("[operation]");
         line(&format!("nodal_diameters = {}  # of the modes in use n_d", self.nodal_diameters));
-        let speed = 0.5 * (from + to);
+        let speed = digits(0.5 * (from + to));
         line(&format!("speed_rad_s = {speed:?}  # rotor speed, rad/s: the middle of the range"));
         line(&format!("pulse_n = {:?}  # force that starts the motion, N", self.pulse_n));
         line("pulse_s = 50e-6  # its length, s");
@@ -148,7 +150,7 @@ impl ModalData {
     fn inertia(&self, mode: &Family, length: f64) -> f64 {
         let alike = (2 * u64::from(mode.nodal_diameters)) % u64::from(self.blades.max(1)) == 0;
         let share = if alike { 1.0 } else { 2.0 };
-        share * mode.modal_mass_kg * length * length / f64::from(self.blades)
+        digits(share * mode.modal_mass_kg * length * length / f64::from(self.blades))
     }
 
     /// `k_b` and `k_bb` that give the mode, and with it the one that differs most in the
@@ -163,8 +165,8 @@ impl ModalData {
         });
         let stiffness = inertia * square(mode) - coupling * part(mode);
         match coupling > 0.0 && stiffness > 0.0 {
-            true => (stiffness, coupling),
-            false => (inertia * square(mode), 0.0),
+            true => (digits(stiffness), digits(coupling)),
+            false => (digits(inertia * square(mode)), 0.0),
         }
     }
 }
@@ -217,6 +219,11 @@ pub fn read_modes(text: &str) -> Result<[Vec<Family>; 2], SceneError> {
         modes.push(mode);
     }
     Ok(found)
+}
+
+/// A number as it is written: what round-off adds is left out.
+fn digits(x: f64) -> f64 {
+    rounded(x, 14)
 }
 
 /// What a mode needs.

@@ -46,8 +46,8 @@ pub enum Quantity {
 }
 
 use Quantity::{
-    Acceleration, Angle, Energy, Force, Growth, Inertia, Length, Mass, Plain, Power, Speed, Stiffness,
-    Time, Torque, TorsionalStiffness, Velocity,
+    Acceleration, Angle, Energy, Force, Growth, Inertia, Length, Mass, Plain, Power, Speed,
+    Stiffness, Time, Torque, TorsionalStiffness, Velocity,
 };
 
 /// One unit: what it is of, how it is written, and what it is in SI units: a power of ten

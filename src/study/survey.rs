@@ -150,7 +150,8 @@ impl Survey {
     }
 
     /// Limits with the diameters that they are of, the nearest to the scene first: those in
-    /// the range, or all of the scene's sense of rotation without one.
+    /// the range, or all of the scene's sense of rotation without one. Diameters of which no
+    /// mode is known, where others are, have none of this machine.
     #[must_use]
     pub fn nearest(&self) -> Vec<(u32, &SurveyLimit)> {
         let speed = self.scene.operation.speed_rad_s;
@@ -162,6 +163,7 @@ impl Survey {
         let mut found: Vec<(u32, &SurveyLimit)> = self
             .rows
             .iter()
+            .filter(|row| row.modes_known)
             .flat_map(|row| row.limits.iter().map(|limit| (row.nodal_diameters, limit)))
             .filter(|(_, limit)| wanted(limit))
             .collect();
@@ -197,36 +199,51 @@ fn row(
 ) -> SurveyRow {
     let scene = with_diameters(scene, diameters);
     let machine = scene.machine();
-    let senses = [1.0, -1.0].into_iter();
+    let own = 1_f64.copysign(scene.operation.speed_rad_s);
+    let found = Speeds::of(&scene, own, by);
+    // Only friction tells the two senses apart.
+    let other = (scene.contact.friction != 0.0).then(|| Speeds::of(&scene, -own, by));
+    let of = |sense: f64| match &other {
+        Some(other) if sense != own => other,
+        _ => &found,
+    };
+    let limits = [1.0, -1.0].map(|sense| of(sense).limits(&scene, sense, range));
     SurveyRow {
         nodal_diameters: diameters,
         omega_c_rad_s: machine.omega_c,
         omega_bd_rad_s: machine.omega_bd,
         modes_known: scene.modes_note().is_none(),
-        limits: senses.flat_map(|sense| limits(&scene, sense, range, by)).collect(),
+        limits: limits.concat(),
     }
 }
 
-/// The limits of a rotor that turns in one sense.
-fn limits(
-    scene: &Scene,
-    sense: f64,
-    range: Option<[f64; 2]>,
-    by: Option<&Parameter>,
-) -> Vec<SurveyLimit> {
-    let present = scene.operation.speed_rad_s;
-    let mut turned = scene.clone();
-    turned.operation.speed_rad_s = sense * present.abs().max(1.0);
-    let derived = by.map_or(Vec::new(), |by| speed_sensitivities(&turned, by));
-    let limit = |(place, (name, size)): (usize, (LimitName, f64))| {
-        let value = sense * size;
-        SurveyLimit {
-            name,
-            value,
-            margin: (present * sense >= 0.0).then(|| present.abs() / size - 1.0),
-            in_range: range.map(|[from, to]| (from..=to).contains(&value)),
-            by: derived.get(place).copied().flatten(),
-        }
-    };
-    speeds(&turned).into_iter().enumerate().map(limit).collect()
+/// The sizes of the limits of a rotor that turns in one sense, and their sensitivities.
+struct Speeds {
+    sizes: Vec<(LimitName, f64)>,
+    by: Vec<Option<f64>>,
+}
+
+impl Speeds {
+    fn of(scene: &Scene, sense: f64, by: Option<&Parameter>) -> Self {
+        let mut turned = scene.clone();
+        turned.operation.speed_rad_s = sense * scene.operation.speed_rad_s.abs().max(1.0);
+        let by = by.map_or(Vec::new(), |by| speed_sensitivities(&turned, by));
+        Self { sizes: speeds(&turned), by }
+    }
+
+    /// As limits of a rotor that turns in this sense.
+    fn limits(&self, scene: &Scene, sense: f64, range: Option<[f64; 2]>) -> Vec<SurveyLimit> {
+        let present = scene.operation.speed_rad_s;
+        let limit = |(place, (name, size)): (usize, &(LimitName, f64))| {
+            let value = sense * size;
+            SurveyLimit {
+                name: *name,
+                value,
+                margin: (present * sense >= 0.0).then(|| present.abs() / size - 1.0),
+                in_range: range.map(|[from, to]| (from..=to).contains(&value)),
+                by: self.by.get(place).copied().flatten(),
+            }
+        };
+        self.sizes.iter().enumerate().map(limit).collect()
+    }
 }

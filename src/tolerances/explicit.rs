@@ -126,3 +126,9 @@ pub(crate) const TIP_SLACK: f64 = 0.02;
 /// looked for beyond those that press: smaller, they are looked for more often; larger,
 /// more open rows are counted along. No result depends on it.
 pub(crate) const LINING_MARGIN: f64 = 0.05;
+
+/// Sizes of a wave on a preloaded lining that are tried for whether it dies, and how much
+/// smaller each is than the one before: down to 1e-9 of what lifts a blade.
+pub(crate) const DIES_LOOKS: i32 = 400;
+/// See `DIES_LOOKS`.
+pub(crate) const DIES_SMALLER: f64 = 0.95;

@@ -1,9 +1,13 @@
 //! Those of the margins.
 
-/// Part of itself to which the smallest pulse that touches is bisected, before its
-/// last digits come from the closed form. Smaller: a touch is asked for between two
-/// roundings.
-pub(crate) const TOUCHING_PART: f64 = 1e-12;
+/// Looks over the first swing for how far the casing moves. Fewer: more of the swings after
+/// it are looked at. Speed only.
+pub(crate) const SWING_LOOKS: u32 = 64;
+
+/// Part of the way from the middle of a side to its corner, and of a radian of the casing,
+/// between two looks for the nearest instant. Larger: its slope has several zeros between
+/// two looks.
+pub(crate) const TOUCHING_LOOK: f64 = 0.25;
 
 /// Most casing periods in which the first touch is looked for. More: an undamped
 /// casing takes longer than a hundredth of a second. Fewer: a blade that passes
@@ -30,6 +34,10 @@ pub(crate) const LASTING_REACH: f64 = 0.02;
 /// which contacts happen to fall make the difference.
 pub(crate) const LASTING_REACH_BY_STEPS: f64 = 0.2;
 
+/// Part of what is left that is cut off each time on the way to an edge that has moved, on
+/// the side where nothing lasts. Speed only.
+pub(crate) const LASTING_CUT: f64 = 0.15;
+
 /// Change of a parameter by which the edge of lasting is differentiated, as a part of
 /// that reach. Larger: an edge that moves twenty times as much is lost. Smaller:
 /// round-off, and for the explicit solver the steps at which contacts happen to fall,
@@ -46,10 +54,6 @@ pub(crate) const LASTING_ZONE: f64 = 1.78;
 /// Most work of one of the runs of a search: updates of a coordinate. A search makes
 /// some thousand runs, so more of them are many minutes.
 pub(crate) const LASTING_WORK: f64 = 5e7;
-
-/// Part of itself to which the touching pulse of a sample is known. Larger: its spread
-/// by small tolerances has no third digit.
-pub(crate) const SAMPLED_TOUCH: f64 = 1e-6;
 
 /// Factor between two values of a parameter on the way to a target. Larger: a limit
 /// that goes there and back between two is missed.

@@ -5,6 +5,7 @@ use ratatui::style::Style;
 
 use super::raster::{Marker, Pen};
 use super::theme::{Role, Theme};
+use crate::report::number::{speed_unit, tell_in_rpm};
 
 /// Theme and marker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,12 +18,14 @@ pub struct Appearance {
     pub wide: bool,
     /// Whether `m` comes to octants.
     pub octants: bool,
+    /// Whether speeds are told in turns a minute.
+    pub rpm: bool,
 }
 
 impl Appearance {
     /// For a screen in front of the user.
     pub fn new(theme: Theme, marker: Marker) -> Self {
-        Self { theme, marker, wide: false, octants: false }
+        Self { theme, marker, wide: false, octants: false, rpm: false }
     }
 
     /// The next theme; what to say.
@@ -40,6 +43,18 @@ impl Appearance {
     pub fn next_marker(&mut self) -> String {
         self.marker = self.marker.next(self.octants);
         format!("marker {}", self.marker)
+    }
+
+    /// Speeds in turns a minute, or in radians a second; what to say.
+    pub fn next_speeds(&mut self) -> String {
+        self.rpm = !self.rpm;
+        self.use_speeds();
+        format!("speeds in {}", speed_unit())
+    }
+
+    /// What is told from now on has speeds in the chosen unit.
+    pub fn use_speeds(&self) {
+        tell_in_rpm(self.rpm);
     }
 
     /// Whether the screen is for a projector.

@@ -3,6 +3,7 @@
 
 use super::knobs::number;
 pub use crate::report::number::SiScale;
+use crate::report::number::{per_speed, told};
 pub use crate::report::ticks::{nice_step, ticks};
 
 /// The axis of a chart: its range and the prefix of its labels.
@@ -18,6 +19,8 @@ pub struct ChartAxis {
     powers: bool,
     /// The unit that these powers have.
     unit: Option<&'static str>,
+    /// Whether it is one of speeds, whose ticks are round in the unit of speeds.
+    speeds: bool,
 }
 
 impl ChartAxis {
@@ -28,7 +31,13 @@ impl ChartAxis {
 
     /// An axis without a prefix.
     pub fn plain(low: f64, high: f64) -> Self {
-        Self { low, high, scale: SiScale::plain(), powers: false, unit: None }
+        Self { low, high, scale: SiScale::plain(), powers: false, unit: None, speeds: false }
+    }
+
+    /// An axis of speeds \[rad/s\], in the unit in which they are told.
+    pub fn speeds(low: f64, high: f64) -> Self {
+        let scale = SiScale { factor: 1.0 / per_speed(1.0), prefix: "" };
+        Self { scale, speeds: true, ..Self::plain(low, high) }
     }
 
     /// An axis of powers of ten, from one exponent to another.
@@ -43,6 +52,11 @@ impl ChartAxis {
 
     /// Round values and their spacing; for powers only whole exponents.
     pub(super) fn ticks(&self, most: usize) -> (Vec<f64>, f64) {
+        let unit = if self.speeds { self.scale.factor } else { 1.0 };
+        if unit != 1.0 {
+            let (values, step) = ticks(self.low / unit, self.high / unit, most);
+            return (values.into_iter().map(|value| value * unit).collect(), step * unit);
+        }
         let (values, step) = ticks(self.low, self.high, most);
         if !self.powers {
             return (values, step);
@@ -85,7 +99,8 @@ fn prefixed(value: f64, digits: usize, unit: &str) -> String {
     if !value.is_finite() {
         return format!("- {unit}").trim_end().to_string();
     }
-    let scale = SiScale::of(value);
+    let (value, unit) = told(value, unit);
+    let scale = if unit == "rpm" { SiScale::plain() } else { SiScale::of(value) };
     let shown = value / scale.factor;
     let before = 1 + [10.0, 100.0, 1000.0].iter().filter(|limit| shown.abs() >= **limit).count();
     let decimals = digits.saturating_sub(before);

@@ -53,12 +53,41 @@ pub struct Config {
     /// Terminals that did not say their background in time.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub silent_terminals: Vec<String>,
+    /// The units in which numbers are told.
+    #[serde(skip_serializing_if = "Units::are_usual")]
+    pub units: Units,
     /// The steps of the lessons that were done.
     #[serde(skip_serializing_if = "LessonsDone::is_empty")]
     pub steps_done: LessonsDone,
     /// What other versions remember.
     #[serde(flatten)]
     pub others: toml::Table,
+}
+
+/// The units in which numbers are told.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Units {
+    /// That of speeds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub speed: Option<SpeedUnit>,
+}
+
+/// A unit of speeds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum SpeedUnit {
+    /// Turns a minute.
+    #[serde(rename = "rpm")]
+    Rpm,
+    /// Radians a second.
+    #[serde(rename = "rad/s")]
+    Radians,
+}
+
+impl Units {
+    fn are_usual(&self) -> bool {
+        *self == Self::default()
+    }
 }
 
 impl Config {
@@ -125,13 +154,14 @@ struct Choices {
     marker: Marker,
     charts: usize,
     mouse: bool,
+    rpm: bool,
 }
 
 impl Choices {
     fn of(app: &App) -> Self {
         let look = app.appearance;
         let (charts, mouse) = (app.layout.beside, app.mouse.on);
-        Self { theme: look.theme, marker: look.marker, charts, mouse }
+        Self { theme: look.theme, marker: look.marker, charts, mouse, rpm: look.rpm }
     }
 }
 
@@ -181,6 +211,7 @@ impl Memory {
             app.layout.beside = charts;
         }
         app.lessons.done.clone_from(&self.config.steps_done);
+        app.appearance.rpm |= self.config.units.speed == Some(SpeedUnit::Rpm);
         app.mouse.on &= self.config.mouse.unwrap_or(true);
         app.dialogue.is_new = self.path.is_some() && !self.config.introduced;
         app.status.clone_from(&self.complaint);
@@ -225,6 +256,10 @@ impl Memory {
         }
         if ended.mouse != began.mouse {
             config.mouse = Some(ended.mouse);
+        }
+        if ended.rpm != began.rpm {
+            let unit = if ended.rpm { SpeedUnit::Rpm } else { SpeedUnit::Radians };
+            config.units.speed = Some(unit);
         }
         config.introduced |= introduced;
         if let Some(terminal) = self.silent.clone().filter(|name| !config.is_silent(name)) {

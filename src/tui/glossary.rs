@@ -10,12 +10,16 @@ use super::app::App;
 use super::knobs::{knob_of, number};
 use super::views::ViewId;
 use crate::harmonic::Joint;
+use crate::report::number::{frequency_unit, per_frequency, told};
 
 /// The text of the glossary.
 const TEXT: &str = include_str!("../../assets/glossary.toml");
 
 /// What follows from the scene, by the name of its term, with its unit.
 type Value = (&'static str, &'static str, fn(&App) -> Option<f64>);
+
+/// Stands for the unit of frequencies.
+const FREQUENCY: &str = "frequency";
 
 /// The values of the terms that are no knobs.
 const VALUES: &[Value] = &[
@@ -26,9 +30,9 @@ const VALUES: &[Value] = &[
     ("Omega_adhesive", "rad/s", |app| app.machine.adhesive_speed()),
     ("coincidence", "rad/s", |app| app.machine.dangerous_speed_toward(app.speed())),
     ("coincidence (30)", "rad/s", |app| app.machine.coincidence_speeds().first().copied()),
-    ("omega_c", "rad/s", |app| Some(app.machine.omega_c)),
-    ("omega_bd", "rad/s", |app| Some(app.machine.omega_bd)),
-    ("nu", "rad/s", |app| Some(app.machine.nu(app.speed()))),
+    ("omega_c", FREQUENCY, |app| Some(app.machine.omega_c)),
+    ("omega_bd", FREQUENCY, |app| Some(app.machine.omega_bd)),
+    ("nu", FREQUENCY, |app| Some(app.machine.nu(app.speed()))),
     ("N'", "", |app| Some(f64::from(app.machine.polygon.sides))),
     ("delta", "rad", |app| Some(app.machine.polygon.delta)),
     ("|z| locked", "m", |app| app.machine.locked_amplitude()),
@@ -128,6 +132,10 @@ impl Term {
         }
         let (_, unit, value) = VALUES.iter().find(|(name, ..)| *name == self.name())?;
         let value = value(app).filter(|value| value.is_finite())?;
+        let (value, unit) = match *unit {
+            FREQUENCY => (per_frequency(value), frequency_unit()),
+            unit => told(value, unit),
+        };
         // Four digits are enough to know where one stands.
         let rounded: f64 = format!("{value:.3e}").parse().ok()?;
         Some(number(rounded, unit))

@@ -252,6 +252,7 @@ const FILES: &[(&str, &str)] = lessons![
     "what-if",
     "coincidence",
     "friction",
+    "your-machine",
 ];
 
 /// Every lesson, in the order of the list.

@@ -62,6 +62,8 @@ pub fn lines(
     let marker = options.marker(&config::Config::default(), &ability);
     let mut lines = Lines::of(scene, marker);
     lines.app.files.source.clone_from(&options.source);
+    lines.app.appearance.rpm = options.rpm;
+    lines.app.appearance.use_speeds();
     lines.settle();
     lines.tell(out)?;
     writeln!(out, "{}", lines.app.appearance.spell("help: what can be asked for"))?;
@@ -387,7 +389,7 @@ mod tests {
     #[test]
     fn a_lesson_asks_and_takes_the_answer() {
         let text = answers(b"lesson lock\nanswer b\ng\nG\nquit\nspeed 450\n");
-        assert!(text.contains("[a]") && text.contains("Lesson 2 of 12"), "{text}");
+        assert!(text.contains("[a]") && text.contains("Lesson 2 of 13"), "{text}");
         assert!(text.contains("Your answer b is right: in a corner of two walls."), "{text}");
         assert!(!text.contains("450"), "{text}");
     }

@@ -114,6 +114,7 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
     app.mouse.on = options.mouse;
     app.appearance.octants = ability.octants || options.marker == Some(Marker::Octant);
     memory.silent = found.silent.then_some(name);
+    app.appearance.rpm = options.rpm;
     memory.prepare(&mut app);
     terminal::set_mouse(app.mouse.on)?;
     terminal::set_whole_frames(!ability::is_plain(&variable("TERM")));

@@ -44,6 +44,8 @@ pub struct ExploreOptions {
     pub line: Line,
     /// Whether the config file is read and written.
     pub config: bool,
+    /// Whether speeds are told in turns a minute.
+    pub rpm: bool,
     /// Where the scene is from, for the command line that repeats the run.
     pub source: Option<Source>,
 }
@@ -58,6 +60,7 @@ impl Default for ExploreOptions {
             mouse: true,
             line: Line::Auto,
             config: true,
+            rpm: false,
             source: None,
         }
     }

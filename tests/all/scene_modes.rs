@@ -224,3 +224,13 @@ fn a_mode_is_named_by_what_it_has() {
     assert_eq!(json["casing"]["modes"], expected);
     assert!(serde_json::to_value(Scene::base()).unwrap()["casing"].get("modes").is_none());
 }
+
+#[test]
+fn an_axis_over_the_diameters_takes_their_modes() {
+    let axis = rubscope::study::Axis::parse("operation.nodal_diameters=3:5:3").unwrap();
+    let mut scene = Scene::builtin("paper-nd3").unwrap();
+    for (index, critical) in [(0, 292.878_435), (1, 256.12), (2, 175.727_061), (1, 256.12)] {
+        axis.apply(&mut scene, index).unwrap();
+        close(scene.machine().critical_speed().unwrap(), critical, 1e-5);
+    }
+}

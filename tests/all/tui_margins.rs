@@ -294,3 +294,45 @@ fn where_there_is_no_limit_the_row_says_why() {
     assert!(session.text().contains("Ω_c: none: no wave turns"), "{}", session.text());
     assert_eq!(session.app.scene.operation.speed_rad_s, 500.0);
 }
+
+#[test]
+fn the_survey_shows_every_number_of_diameters_and_enter_takes_one() {
+    for size in [(80, 24), (120, 40)] {
+        let mut session = Session::open(size.0, size.1, short(), Theme::Dark, Marker::Braille);
+        session.press("D");
+        session.press("");
+        let text = session.text();
+        for words in ["8 all diameters", "139.84", "292.88", "256.12", "●3", "5?"] {
+            assert!(text.contains(words), "{words}: {text}");
+        }
+        assert!(text.contains("nearest to 500 rad/s: n_d 3 Ω_lock"), "{text}");
+        session.press("i↓");
+        assert!(session.text().contains("▸4"), "{}", session.text());
+        session.press("\n");
+        assert_eq!(session.app.scene.operation.nodal_diameters, 4);
+        let critical = session.app.machine.critical_speed().unwrap();
+        assert!((critical - 256.12).abs() < 5e-3, "{critical}");
+        session.press("\u{1b}");
+        session.press("D");
+        session.press("");
+        let text = session.text();
+        assert!(text.contains("Ω_lock") && !text.contains("all diameters"), "{text}");
+    }
+}
+
+#[test]
+fn speeds_are_told_in_the_chosen_unit_and_a_missing_mode_is_told() {
+    let mut session = Session::open(120, 40, short(), Theme::Dark, Marker::Braille);
+    session.press("U");
+    let text = session.text();
+    assert!(text.contains("speeds in rpm") && text.contains("4775 rpm"), "{text}");
+    session.press("8");
+    session.press("");
+    assert!(session.text().contains("2796.8"), "{}", session.text());
+    session.press("U");
+    session.press("");
+    assert!(session.text().contains("292.88") && session.text().contains("500 rad/s"));
+    session.select("operation.nodal_diameters");
+    session.press("\n5\n");
+    assert!(session.text().contains("own mode: none known of n_d"), "{}", session.text());
+}

@@ -6,9 +6,12 @@
 //! with. One pass over them finds the pushes and all their sums; what touches is kept by
 //! changes, and what the lining stores is worked out from the pushes when it is asked for.
 
+use std::sync::OnceLock;
+
 use wide::f64x2;
 
 use super::Explicit;
+use super::dies::Dies;
 use super::disk::{Columns, Disk, Pair};
 use super::lasting::mark;
 use super::record::Record;
@@ -30,6 +33,8 @@ pub(super) struct Lining {
     /// Stored at the step before, where that is not what the pushes before say \[J\].
     held_before: Option<f64>,
     touching: Touching,
+    /// Which waves die at this speed, once asked.
+    pub dies: OnceLock<Option<Dies>>,
 }
 
 /// Where the casing was, below which gap rows were looked for, and the clearance \[m\].
@@ -74,7 +79,13 @@ impl Lining {
             sums: Sums::default(),
             held_before: None,
             touching: Touching::default(),
+            dies: OnceLock::new(),
         }
+    }
+
+    /// Whether all rows press.
+    pub fn all_press(&self) -> bool {
+        self.touching.all
     }
 
     /// Whether any row presses.

@@ -2,14 +2,17 @@
 //! lining from the start, at two dampings (docs/theory.md, section 10). No figure of the
 //! paper: its last page names what is shown here as work to come.
 
+use rayon::prelude::*;
+
 use super::{Figure, Mark, Panel, Quantity, Series, Style};
 use crate::harmonic::{CoincidencePoint, HarmonicError, Lining, coincidence, shifted_coincidence};
 use crate::motion::{Sampling, Script, run_to_end};
 use crate::scene::keys;
 use crate::scene::{CheckedScene, ContactLaw, Scene, SceneError};
 
-/// Speeds of a curve.
+/// Speeds of a curve, and of a part of it that one thread computes.
 const SPEEDS: u32 = 401;
+const SPEEDS_AT_ONCE: usize = 16;
 /// Damping ratio of casing and blades in the second curve.
 const LIGHT: f64 = 0.01;
 /// Stiffness of all blades together in it, `N k_p/2` \[N/m\].
@@ -71,7 +74,9 @@ fn curve(
         // Grows without bound: nothing to draw.
         None => f64::NAN,
     };
-    let found = coincidence(scene, speeds)?;
+    let parts: Result<Vec<_>, _> =
+        speeds.par_chunks(SPEEDS_AT_ONCE).map(|part| coincidence(scene, part)).collect();
+    let found = parts?.concat();
     let points = found.iter().map(|point| (point.speed_rad_s, amplitude(point)));
     Ok(Series::new(words(scene), Style::Line(colour), points).named(name))
 }
@@ -92,7 +97,8 @@ fn runs(scene: &CheckedScene, [from, to]: [f64; 2]) -> Series {
         });
         (speed, largest)
     };
-    Series::new("runs in time", Style::Discs(0, 4), RUNS.map(run)).named("simulated")
+    let found: Vec<(f64, f64)> = RUNS.into_par_iter().map(run).collect();
+    Series::new("runs in time", Style::Discs(0, 4), found).named("simulated")
 }
 
 /// The figure.

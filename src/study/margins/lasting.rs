@@ -19,11 +19,11 @@ use super::limit::{Limit, LimitName, Sensitivities};
 use super::parameters::{CLEARANCE, Parameter, acting, is_length, parameter};
 use super::touching;
 use crate::motion::{GoOn, Verdict, run_to_verdict, run_with_sensitivity};
-use crate::numeric::bisection::try_bisected;
+use crate::numeric::bisection::{try_bisected, try_cut};
 use crate::scene::keys::PULSE;
 use crate::scene::{CheckedScene, ContactLaw, ModelSize, Scene, SolverKind};
 use crate::tolerances::{
-    LASTING_CHANGE, LASTING_EDGE, LASTING_EDGE_BY_STEPS, LASTING_PART, LASTING_REACH,
+    LASTING_CHANGE, LASTING_CUT, LASTING_EDGE, LASTING_EDGE_BY_STEPS, LASTING_PART, LASTING_REACH,
     LASTING_REACH_BY_STEPS, LASTING_SMOOTH, LASTING_WORK, LASTING_ZONE,
 };
 
@@ -166,12 +166,12 @@ fn bands(edges: &Edges<'_>, pulses: &[f64]) -> Option<Vec<Band>> {
             }
             (less, true) => {
                 let less = less.map_or(pulse, |(less, _)| less);
-                let from_n = edges.between([less, pulse], LASTING_PART, None)?;
+                let from_n = edges.between([less, pulse], LASTING_PART)?;
                 let verdicts = vec![verdict];
                 found.push(Band { from_n, to_n: None, verdicts, sensitive: false });
             }
             (Some((less, true)), false) => {
-                let to_n = edges.between([pulse, less], LASTING_PART, None)?;
+                let to_n = edges.between([pulse, less], LASTING_PART)?;
                 if let Some(band) = found.last_mut() {
                     band.to_n = Some(to_n);
                 }
@@ -195,7 +195,7 @@ fn bands(edges: &Edges<'_>, pulses: &[f64]) -> Option<Vec<Band>> {
     if let Some(band) = beginning(&found).and_then(|place| found.get_mut(place)) {
         // The edge is known to a part that the pulse just below it does not last.
         let less = band.from_n * (1.0 - LASTING_PART);
-        band.from_n = edges.between([less, band.from_n], edges.finest(), None)?;
+        band.from_n = edges.between([less, band.from_n], edges.finest())?;
     }
     Some(found)
 }
@@ -361,13 +361,8 @@ impl<'a> Edges<'a> {
 
     /// The edge of lasting from a pulse that does not last to one that does, either
     /// way; the nearest found that lasts.
-    pub(super) fn between(
-        &self,
-        [not, lasting]: [f64; 2],
-        part: f64,
-        changed: Option<Change<'_>>,
-    ) -> Option<f64> {
-        let lasts = |pulse| self.verdict(pulse, changed).map(lasts).ok_or(());
+    fn between(&self, [not, lasting]: [f64; 2], part: f64) -> Option<f64> {
+        let lasts = |pulse| self.verdict(pulse, None).map(lasts).ok_or(());
         try_bisected([not, lasting], part, lasts).ok().map(|[_, lasting]| lasting)
     }
 
@@ -412,8 +407,18 @@ impl<'a> Edges<'a> {
         if lasts(self.verdict(not, changed)?) || !lasts(self.verdict(lasting, changed)?) {
             return Some(None);
         }
-        let part = self.finest();
-        self.between([not, lasting], part, changed).map(Some)
+        // What lasts is run for long, and what does not ends early: so the edge is come to by
+        // small cuts, and the answers that follow from it are not asked again.
+        let (ends, part) = ([not, lasting], self.finest());
+        let asked = |pulse: f64| self.verdict(pulse, changed).map(lasts).ok_or(());
+        let [short, enough] = try_cut(ends, part, LASTING_CUT, asked).ok()?;
+        let sense = (lasting - not).signum();
+        let known = |pulse: f64| match pulse {
+            _ if (pulse - short) * sense <= 0.0 => Ok(false),
+            _ if (pulse - enough) * sense >= 0.0 => Ok(true),
+            _ => asked(pulse),
+        };
+        try_bisected(ends, part, known).ok().map(|[_, edge]| Some(edge))
     }
 }
 

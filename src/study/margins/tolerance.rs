@@ -7,12 +7,11 @@ use serde::Serialize;
 use thiserror::Error;
 
 use super::closed::{CLOSED, values};
-use super::limit::{Limit, LimitName};
-use super::parameters::{CLEARANCE, Parameter, Parameters, is_length, parameter};
+use super::limit::LimitName;
+use super::parameters::{Parameter, Parameters, is_length, parameter};
 use super::target::paths;
 use super::{Margins, touching};
 use crate::scene::CheckedScene;
-use crate::tolerances::SAMPLED_TOUCH;
 
 /// Samples taken.
 pub const SAMPLES: usize = 10_000;
@@ -180,7 +179,8 @@ struct Samples(Vec<[Option<f64>; CLOSED.len() + 1]>);
 impl Samples {
     fn of(margins: &Margins, tolerances: &[Tolerance], counted: &(dyn Fn() + Sync)) -> Self {
         let scene = &margins.scene;
-        let touching = margins.limit(LimitName::TouchingPulse);
+        let touches =
+            margins.limit(LimitName::TouchingPulse).is_some_and(|limit| limit.value.is_some());
         let known: Vec<(&Parameter, f64)> = tolerances
             .iter()
             .filter_map(|tolerance| Some((parameter(tolerance.path)?, tolerance.percent / 100.0)))
@@ -203,8 +203,9 @@ impl Samples {
             let mut all = [None; CLOSED.len() + 1];
             let closed = values(&Parameters::<f64>::of(&changed));
             all[..CLOSED.len()].copy_from_slice(&closed);
-            all[CLOSED.len()] =
-                touching.and_then(|limit| touch(limit, &known, changes, [scene, &changed]));
+            if touches {
+                all[CLOSED.len()] = touching::smallest(&changed).map(|touch| touch.pulse_n);
+            }
             all
         };
         Self(changes.par_iter().map(|changes| (sample(changes), counted()).0).collect())
@@ -237,23 +238,4 @@ impl Samples {
             high: high?,
         })
     }
-}
-
-/// The touching pulse of a sample, sought from where the derivatives put it.
-fn touch(
-    limit: &Limit,
-    known: &[(&Parameter, f64)],
-    changes: &[f64],
-    [before, scene]: [&CheckedScene; 2],
-) -> Option<f64> {
-    let value = limit.value.filter(|value| *value != 0.0)?;
-    let moved = known.iter().zip(changes).map(|((parameter, _), change)| {
-        // The pulse goes with the clearance exactly, however much that changes.
-        let own = parameter.path != CLEARANCE && !is_length(parameter.path);
-        let by = limit.sensitivities.by(parameter.path).filter(|_| own);
-        by.unwrap_or(0.0) * change
-    });
-    let wider = scene.machine().clearance() / before.machine().clearance();
-    let guess = value * wider * moved.sum::<f64>().exp();
-    touching::near(scene, guess, SAMPLED_TOUCH)
 }

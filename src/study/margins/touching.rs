@@ -1,5 +1,5 @@
-//! The smallest pulse that makes a blade touch: by bisection on the event solver, and
-//! to the last digit, with its derivative, where the gap of the side just closes.
+//! The smallest pulse that makes a blade touch, to the last digit, and its derivative: until
+//! then the casing moves in closed form.
 
 use std::f64::consts::TAU;
 
@@ -7,12 +7,12 @@ use num_dual::Dual64;
 
 use super::limit::{Limit, LimitName, Sensitivities};
 use super::parameters::{Parameter, Parameters, acting, parameter, sensitivity};
-use crate::model::{Excitation, Initial, Number};
-use crate::motion::{FreeFlight, Motion};
-use crate::numeric::bisection::{bisected, bisected_to};
+use crate::model::{Excitation, Initial, Machine, Number};
+use crate::motion::FreeFlight;
+use crate::numeric::bisection::bisected;
 use crate::scene::keys::PULSE;
 use crate::scene::{CheckedScene, ModelSize, Scene};
-use crate::tolerances::{TOUCHING_PART, TOUCHING_PERIODS};
+use crate::tolerances::{SWING_LOOKS, TOUCHING_LOOK, TOUCHING_PERIODS};
 
 /// The smallest pulse that touches, and where it does.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,79 +36,29 @@ pub fn grazing_pulse(scene: &Scene, most: f64) -> Option<f64> {
 /// As `grazing_pulse`, and where it touches.
 #[must_use]
 pub fn first_touch(scene: &Scene, most: f64) -> Option<FirstTouch> {
-    let reference = reference(scene)?;
-    let mut found = touch_of(&reference, most)?;
-    bisected_to([0.0, most.abs()], TOUCHING_PART, |size| {
-        match touch_of(&reference, size.copysign(most)) {
-            Some(touch) => {
-                found = touch;
-                true
-            }
-            None => false,
-        }
-    });
-    Some(polished(scene, found))
+    let sense = 1_f64.copysign(most);
+    least(scene, sense).filter(|touch| touch.pulse_n.abs() <= most.abs())
 }
 
-/// As `first_touch` near a guess, to `part` of itself.
-pub(super) fn near(scene: &CheckedScene, guess: f64, part: f64) -> Option<f64> {
-    let reference = reference(scene)?;
-    let touches = |size: f64| touch_of(&reference, size.copysign(guess)).is_some();
-    let (mut less, mut enough) = (guess.abs(), guess.abs());
-    for _ in 0..40 {
-        if !touches(less) {
-            break;
-        }
-        less *= 1.0 - NEAR;
-    }
-    for _ in 0..400 {
-        if touches(enough) {
-            return Some(bisected_to([less, enough], part, touches)[1].copysign(guess));
-        }
-        (less, enough) = (enough, enough * (1.0 + NEAR));
-    }
-    None
+/// The smallest pulse of the sense of the scene's that touches, if its key allows it.
+pub(super) fn smallest(scene: &Scene) -> Option<FirstTouch> {
+    let most = parameter(PULSE).map_or(f64::MAX, Parameter::largest);
+    first_touch(scene, if scene.operation.pulse_n < 0.0 { -most } else { most })
 }
 
-/// Step of that search.
-const NEAR: f64 = 0.01;
-
-/// The scene as the event solver takes it with rigid blades, and no motion but that
-/// of the casing; none where it does not start at rest.
-fn reference(scene: &Scene) -> Option<CheckedScene> {
-    if scene.machine().clearance() <= 0.0 {
-        return None;
-    }
-    if scene.initial != Initial::default() {
-        return None;
-    }
+/// Whether there is a clearance, and the casing starts in the middle of it.
+fn starts_at_rest(scene: &Scene) -> bool {
     let mut scene = scene.as_reference();
     scene.solver.model = ModelSize::Rigid;
     scene.excitation = Excitation::default();
-    scene.checked().ok()
-}
-
-/// The first contact under this pulse, if there is one.
-fn touch_of(reference: &CheckedScene, pulse: f64) -> Option<FirstTouch> {
-    let scene = reference.perturbed(|scene| scene.operation.pulse_n = pulse);
-    let mut motion = Motion::new(&scene);
-    let (end, mut until) = (longest(&scene), TAU / scene.machine().omega_c);
-    // What follows the first contact is of no interest, and may be a rub without end. A
-    // motion that fails may have touched before; one that leaves the model has not.
-    while motion.advance(until.min(end)).is_ok()
-        && motion.contacts().impacts.is_empty()
-        && until < end
-    {
-        until *= 2.0;
-    }
-    let first = motion.contacts().impacts.first()?;
-    Some(FirstTouch { pulse_n: pulse, t_s: first.t_s, side: first.side })
+    scene.machine().clearance() > 0.0
+        && scene.initial == Initial::default()
+        && scene.checked().is_ok()
 }
 
 /// How long a blade may still pass nearer to the casing than before \[s\]: later its
 /// swing has decayed by more than the angle between two blades can hide.
-fn longest(scene: &Scene) -> f64 {
-    let machine = scene.machine();
+fn longest(scene: &Scene, machine: &Machine) -> f64 {
     let period = TAU / machine.omega_c;
     let hidden = -machine.polygon.delta.cos().max(0.0).ln();
     let fades = hidden / (machine.casing_damping_ratio * machine.omega_c);
@@ -118,35 +68,86 @@ fn longest(scene: &Scene) -> f64 {
     (scene.operation.pulse_s + period + wait).min(scene.solver.end_s)
 }
 
+/// Where the casing is at an instant, by one newton \[m/N\].
+#[derive(Clone, Copy)]
+struct Look {
+    t: f64,
+    /// How far it has moved, and how far of that toward the nearest side.
+    moved: f64,
+    near: f64,
+    side: u32,
+}
+
+/// The smallest pulse of this sense that touches: the largest way to a side by one newton.
+///
+/// No side is nearer than the casing has moved, and one is as near as that times the cosine
+/// of half a side's angle. So only instants matter at which the casing has moved further
+/// than the best way so far, and what lies before is passed at its highest rate.
+fn least(scene: &Scene, sense: f64) -> Option<FirstTouch> {
+    if !starts_at_rest(scene) {
+        return None;
+    }
+    let all = Parameters::<f64>::of(scene);
+    let machine = all.machine();
+    let (flight, polygon, operation) = (all.flight(&machine), &machine.polygon, &all.operation);
+    let look = |t: f64| {
+        let (moved, turn) = flight.moved_by_pulse(t);
+        let (sin, cos) = turn.sin_cos();
+        let [x, y] = [cos, -sin].map(|part| sense * moved * part);
+        let side = polygon.nearest_side(x, y);
+        let (c, s) = polygon.direction(side);
+        Look { t, moved: moved.abs(), near: -(x * c + y * s), side }
+    };
+    let end = longest(scene, &machine);
+    let swing = end.min(operation.pulse_s + TAU / machine.omega_c);
+    let looks = (1..=SWING_LOOKS).map(|k| look(swing * f64::from(k) / f64::from(SWING_LOOKS)));
+    let furthest = looks.fold(0.0, |most: f64, look| most.max(look.moved));
+    let mut best = furthest * polygon.delta.cos().max(0.0);
+    let speeds = [0.0, end].map(|t| operation.speed_rad_s + operation.speed_ramp_rad_s2 * t);
+    let turning = machine.nu(speeds[0].abs().max(speeds[1].abs())) / polygon.delta;
+    let step = TOUCHING_LOOK / turning.max(machine.omega_c);
+    let fastest = operation.pulse_s / machine.casing_mass;
+    let mut found: Option<FirstTouch> = None;
+    let (mut before, mut now) = (0.0, look(0.0));
+    while now.t < end {
+        let passed = (best - now.moved) / fastest - step;
+        let ahead = look((now.t + passed.max(step)).min(end));
+        let is_nearest = now.near > before && now.near >= ahead.near;
+        let last = (ahead.t == end && ahead.near > now.near).then_some(ahead);
+        for look in is_nearest.then_some(now).into_iter().chain(last) {
+            // A look misses the nearest instant by less than the square of a step.
+            if look.near > 0.0 && look.near * (1.0 + TOUCHING_LOOK * TOUCHING_LOOK) >= best {
+                let touch = polished(&Parameters::of(scene), look, sense, step);
+                best = best.max(machine.clearance() / touch.pulse_n.abs());
+                found = found
+                    .filter(|found| found.pulse_n.abs() <= touch.pulse_n.abs())
+                    .or(Some(touch));
+            }
+        }
+        (before, now) = (now.near, ahead);
+    }
+    found
+}
+
 /// The force that closes the gap of a side at one instant exactly.
 fn force<T: Number>(flight: &FreeFlight<'_, T>, side: u32, t: T) -> T {
     -flight.machine.clearance() / flight.gap_by_pulse(side, t)
 }
 
-/// The same touch at the instant at which the side needs least.
-fn polished(scene: &Scene, touch: FirstTouch) -> FirstTouch {
-    let all = Parameters::<Dual64>::of(scene);
+/// The same side at the instant near this look at which it needs least; at the end of what
+/// is looked at, that end.
+fn polished(all: &Parameters<Dual64>, look: Look, sense: f64, step: f64) -> FirstTouch {
     let machine = all.machine();
     let flight = all.flight(&machine);
     // The derivative of the force by the instant has one zero near the touch.
-    let slope =
-        |t: f64| force(&flight, touch.side, Dual64::new(t, 1.0)).eps * touch.pulse_n.signum();
-    let reach = 1e-4 / machine.omega_c.re;
-    let (early, late) = ((touch.t_s - reach).max(0.0), touch.t_s + reach);
+    let slope = |t: f64| force(&flight, look.side, Dual64::new(t, 1.0)).eps * sense;
+    let (early, late) = ((look.t - step).max(0.5 * look.t), look.t + step);
     let t_s = if slope(early) < 0.0 && slope(late) > 0.0 {
         bisected([early, late], |t| slope(t) >= 0.0)[1]
     } else {
-        // At the end of what is looked at, not where the gap is least.
-        touch.t_s
+        look.t
     };
-    let pulse_n = force(&flight, touch.side, Dual64::from(t_s)).re;
-    let agrees = (pulse_n / touch.pulse_n - 1.0).abs() < 10.0 * TOUCHING_PART;
-    if agrees { FirstTouch { pulse_n, t_s, ..touch } } else { touch }
-}
-
-/// The smallest pulse of the sense of the scene's that touches, if one does.
-pub(super) fn smallest(scene: &CheckedScene) -> Option<FirstTouch> {
-    first_touch(scene, enough(scene)?)
+    FirstTouch { pulse_n: force(&flight, look.side, Dual64::from(t_s)).re, t_s, side: look.side }
 }
 
 /// The limit, with its derivatives by the implicit function theorem: the gap of the
@@ -181,19 +182,3 @@ pub(super) fn why_none(scene: &CheckedScene) -> &'static str {
         "only for a casing that starts at rest"
     }
 }
-
-/// A pulse that touches, if any of its length does \[N\]: by doubling, from one that
-/// moves the free casing by about the clearance.
-fn enough(scene: &CheckedScene) -> Option<f64> {
-    let reference = reference(scene)?;
-    let machine = scene.machine();
-    let impulse = machine.clearance() * machine.omega_c * machine.casing_mass;
-    let force = impulse / scene.operation.pulse_s + machine.clearance() * machine.casing_stiffness;
-    let sense = if scene.operation.pulse_n < 0.0 { -1.0 } else { 1.0 };
-    let most = parameter(PULSE).map_or(f64::MAX, Parameter::largest);
-    let doubled = (0..=DOUBLINGS).map(|k| sense * (force * 2_f64.powi(k)).min(most));
-    doubled.into_iter().find(|pulse| pulse.is_finite() && touch_of(&reference, *pulse).is_some())
-}
-
-/// Most doublings: beyond, the casing has left the model long before it touches.
-const DOUBLINGS: i32 = 40;

@@ -18,7 +18,7 @@ use strum::IntoStaticStr;
 
 pub use ways::{Effort, Way, ways};
 
-use crate::motion::{GoOn, Motion, Script, State, Verdict, VerdictReached, is_sensitive};
+use crate::motion::{Course, GoOn, Motion, State, Verdict, VerdictReached, is_sensitive};
 use crate::scene::{Scene, SceneError};
 use crate::tolerances;
 use track::Track;
@@ -297,7 +297,8 @@ fn described(
         reference.method = Method::None(Lack::EventsFailed);
     }
     let reached = VerdictReached::of(&track.end, track.verdict);
-    reference.sensitive = is_sensitive(&track.way.of(scene)?, &Script::default(), reached, go_on);
+    let unseen = Course::over(scene.solver.end_s);
+    reference.sensitive = is_sensitive(&track.way.of(scene)?, reached, &unseen, go_on);
     Ok(reference.sensitive.map(|_| reference))
 }
 

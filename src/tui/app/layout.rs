@@ -17,6 +17,8 @@ pub struct Layout {
     pub beside: usize,
     /// Whether the gaps are drawn against time.
     pub heat: bool,
+    /// Whether the margins are those of all diameters.
+    pub survey: bool,
     /// Whether the large chart has the whole screen.
     pub full_screen: bool,
     /// Width and height of the screen, in cells.
@@ -27,8 +29,14 @@ impl Layout {
     /// The charts that a scene names, and then the others.
     pub(super) fn of(scene: &Scene) -> Self {
         let views = ViewId::all().collect();
-        let mut layout =
-            Self { views, beside: MOST_BESIDE, heat: false, full_screen: false, size: (80, 24) };
+        let mut layout = Self {
+            views,
+            beside: MOST_BESIDE,
+            heat: false,
+            survey: false,
+            full_screen: false,
+            size: (80, 24),
+        };
         layout.open(scene);
         layout
     }
@@ -77,6 +85,17 @@ impl Layout {
     /// Whether the gaps are drawn against time.
     pub(super) fn is_heat(&self) -> bool {
         self.heat
+    }
+
+    /// Whether the margins are those of all diameters.
+    pub fn is_surveyed(&self) -> bool {
+        self.survey
+    }
+
+    /// The margins of all diameters, or of one; what to say.
+    pub(super) fn turn_survey(&mut self, on: bool) -> String {
+        self.survey = on;
+        format!("margins of {}", if on { "all diameters" } else { "n_d alone" })
     }
 
     /// The gaps against time, or those of one instant; what to say.

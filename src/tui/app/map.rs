@@ -4,7 +4,7 @@
 //! The margins from the keyboard: what Enter does at a limit and at a knob.
 
 use crate::report::number::rounded;
-use crate::scene::{CheckedScene, ContactLaw, Value};
+use crate::scene::{Allowed, CheckedScene, ContactLaw, Value};
 use crate::study::{Axis, MapPlan};
 use crate::tui::app::{App, cell_of};
 use crate::tui::knobs::{Knob, knob_of, number, place_of};
@@ -131,11 +131,25 @@ impl App {
         Some([cell_of(cursor.across, COLUMNS), row].map(|cell| cell as usize))
     }
 
+    /// The margins of all diameters where those of one are seen, and the other way round;
+    /// from another view the survey.
+    pub(super) fn turn_survey(&mut self) {
+        let on = !(self.is_large(ViewId::Margins) && self.layout.is_surveyed());
+        let said = self.layout.turn_survey(on);
+        self.reading.stop();
+        self.walk(ViewId::Margins);
+        self.status = Some(said);
+    }
+
     /// Gives a knob exactly the value of a limit, and selects it to go on from there.
     pub(super) fn jump_to_limit(&mut self, path: &str, value: f64, to: &str) {
         let Some((place, knob)) = place_of(path).zip(knob_of(path)) else { return };
         self.knobs.select(place);
-        if self.set(knob, Value::Real(value)) {
+        let value_of = match knob.allowed() {
+            Allowed::Whole { .. } => Value::Whole(value as u64),
+            _ => Value::Real(value),
+        };
+        if self.set(knob, value_of) {
             let name = knob.label.split(' ').next().unwrap_or(knob.label);
             let jumped = format!("{name} {}: {to}", number(rounded(value, DIGITS), knob.unit()));
             // A message about what else the turn did stays.

@@ -131,6 +131,7 @@ impl App {
     /// Carries out an action.
     pub fn act(&mut self, action: Action) -> Effect {
         self.status = None;
+        self.appearance.use_speeds();
         match (self.dialogue.mode().clone(), action) {
             (_, Action::Quit) => return Effect::Quit,
             (_, Action::Suspend) => return Effect::Suspend,
@@ -138,6 +139,7 @@ impl App {
             (_, Action::Theme) => {
                 self.status = Some(self.appearance.next_theme());
             }
+            (_, Action::SpeedUnit) => self.status = Some(self.appearance.next_speeds()),
             (InputMode::Main, Action::Marker) => {
                 self.status = Some(self.appearance.next_marker());
                 // Some terminals leave parts of octants behind.
@@ -248,6 +250,7 @@ impl App {
             Action::Answer(place) => self.answer(place),
             Action::LeaveLesson => self.leave_lesson(),
             Action::Heat => self.turn_gaps(),
+            Action::Survey => self.turn_survey(),
             Action::PageBack => self.pan(true),
             Action::PageForward => self.pan(false),
             Action::GoToEnd => self.go_to(self.end_s()),

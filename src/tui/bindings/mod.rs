@@ -63,6 +63,8 @@ pub enum Action {
     Answer(usize),
     Scenes,
     Heat,
+    Survey,
+    SpeedUnit,
     Charts,
     PageBack,
     PageForward,
@@ -259,6 +261,7 @@ impl Action {
             | Self::PreviousView
             | Self::View(_)
             | Self::Heat
+            | Self::Survey
             | Self::Charts
             | Self::FullScreen
             | Self::Present
@@ -275,7 +278,9 @@ impl Action {
             | Self::Answer(_)
             | Self::Scenes => Group::Scenes,
             Self::Save | Self::Export | Self::Copy | Self::Yes => Group::Files,
-            Self::Marker | Self::Theme | Self::Mouse | Self::Redraw => Group::Look,
+            Self::Marker | Self::Theme | Self::SpeedUnit | Self::Mouse | Self::Redraw => {
+                Group::Look
+            }
             Self::Help | Self::Palette | Self::Quit | Self::Suspend | Self::Close => Group::Program,
         }
     }

@@ -149,6 +149,12 @@ const BEFORE_VIEWS: &[Binding] = &[
         Action::Heat,
         "gaps against time as shades, or those of one instant"
     ),
+    bind!(
+        Main,
+        [letter('D')],
+        Action::Survey,
+        "margins of all diameters: the survey, or those of n_d alone"
+    ),
     bind!(Main, [letter('v')], Action::Charts, "one, two, three or four charts"),
     bind!(Main, [letter('<'), key(KeyCode::PageUp)], Action::PageBack, "a page of time back"),
     bind!(
@@ -178,6 +184,7 @@ const AFTER_VIEWS: &[Binding] = &[
         Action::Theme,
         "next theme (dark, light, colour-blind on dark or light, mono)"
     ),
+    bind!(Main, [letter('U')], Action::SpeedUnit, "units: speeds in rpm, or in rad/s"),
     bind!(Main, [ctrl('z')], Action::Suspend, "suspend"),
     bind!(Main, [ctrl('l')], Action::Redraw, "draw the screen again"),
     bind!(Main, [key(KeyCode::Esc)], Action::Close, "close what is open; never quits"),

@@ -4,7 +4,7 @@
 //! The only knob that is not a key: the clearance `g0 = R_c - l_b`, set by the casing
 //! radius. With a lining it turns on below zero, where all blades rub at rest.
 
-use crate::report::number::{SiScale, trimmed};
+use crate::report::number::{SiScale, told, trimmed};
 use crate::scene::{Allowed, ContactLaw, Scene};
 
 /// Mantissas of fine turns, two digits; coarse turns use 1, 2 and 5.
@@ -49,6 +49,7 @@ pub(super) fn decades(x: f64, up: bool, mantissas: &[f64], least: f64) -> f64 {
 /// A number in readable form: up to seven digits, a prefix for units that take
 /// one, no trailing zeros.
 pub fn number(x: f64, unit: &str) -> String {
+    let (x, unit) = told(x, unit);
     let scale = SiScale::before(unit, x);
     let shown = x / scale.factor;
     let text = if shown != 0.0 && !(1e-4..1e7).contains(&shown.abs()) {

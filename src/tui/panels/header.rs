@@ -5,7 +5,7 @@
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier, style::Style};
 
 use crate::motion::Verdict;
-use crate::report::number::{rounded, short as digits, trimmed};
+use crate::report::number::{per_speed, rounded, short as digits, speed_unit, trimmed};
 use crate::report::sentence::Sentence;
 use crate::scene::ContactLaw;
 use crate::tui::app::App;
@@ -209,10 +209,10 @@ fn speed(app: &App) -> Part {
     };
     // A speed that changes keeps its width.
     let shown = match arrow {
-        "" => digits(rounded(app.speed(), 4)),
-        _ => format!("{:.1}", app.speed()),
+        "" => digits(rounded(per_speed(app.speed()), 4)),
+        _ => format!("{:.1}", per_speed(app.speed())),
     };
-    let alone = vec![(format!("{shown} rad/s{arrow}"), text)];
+    let alone = vec![(format!("{shown} {}{arrow}", speed_unit()), text)];
     let mut most = vec![alone.clone()];
     for (name, limit) in named_limits(app) {
         let mut longer = most.last().cloned().unwrap_or_default();
@@ -269,6 +269,7 @@ fn limits(app: &App) -> Option<Part> {
 
 /// Four or five digits are enough for a limit.
 fn short(speed: f64) -> String {
+    let speed = per_speed(speed);
     let decimals = if speed.abs() < 10.0 { 3 } else { 1 };
     trimmed(&format!("{speed:.decimals$}")).to_string()
 }

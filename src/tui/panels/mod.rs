@@ -31,6 +31,7 @@ pub fn draw(frame: &mut Frame, app: &App) {
 /// Paints the whole screen into a buffer.
 pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
     app.forget_places();
+    app.appearance.use_speeds();
     if area.width < LEAST_WIDTH || area.height < LEAST_HEIGHT {
         let needs = format!(
             "rubscope needs {LEAST_WIDTH}x{LEAST_HEIGHT}; this is {}x{}",

@@ -7,7 +7,7 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use crate::motion::{Motion, Script, is_sensitive, run_to_verdict};
+use crate::motion::{Course, Motion, VerdictReached, is_sensitive};
 use crate::scene::{CheckedScene, ContactLaw, Scene, SolverKind};
 use crate::tui::engine::{
     Answer, FORECAST_LIMIT, FullRun, FullRunState, Order, Pace, Results, Sensitive,
@@ -129,10 +129,17 @@ impl Forecasts {
             return;
         }
         if self.sensitive.is_none() {
-            let job = self.sensitivity.get_or_insert_with(|| sensitivity(&order.scene));
-            let known = job.receive(SLICE);
-            let known = known.map(|known| if known { Sensitive::Yes } else { Sensitive::No });
-            self.sensitive = known.or(job.is_done().then_some(Sensitive::GivenUp));
+            let begin = || Some(sensitivity(&order.scene, self.full_run.reached()?));
+            self.sensitivity = self.sensitivity.take().or_else(begin);
+            self.sensitive = match &mut self.sensitivity {
+                Some(job) => {
+                    let known = job.receive(SLICE);
+                    let known = known.map(|yes| if yes { Sensitive::Yes } else { Sensitive::No });
+                    known.or(job.is_done().then_some(Sensitive::GivenUp))
+                }
+                // The run itself took too long.
+                None => Some(Sensitive::GivenUp),
+            };
             return;
         }
         self.studies.compute(order, &self.full_run);
@@ -173,15 +180,16 @@ fn reference(scene: &Scene) -> Option<FullRunJob> {
 }
 
 /// Finds out whether a tiny change of the pulse, the speed or the motion changes the
-/// outcome, as `rubscope run` does; nothing comes where this takes too long.
-fn sensitivity(scene: &CheckedScene) -> Background<bool> {
+/// outcome of the run that came to this; nothing comes where this takes too long.
+fn sensitivity(
+    scene: &CheckedScene,
+    (reached, course): (VerdictReached, Course),
+) -> Background<bool> {
     let scene = scene.clone();
     Background::start(move |to, go_on| {
         let began = Instant::now();
         let go_on = || go_on() && began.elapsed() < FORECAST_LIMIT;
-        let found = run_to_verdict(&scene, &go_on)
-            .and_then(|reached| is_sensitive(&scene, &Script::default(), reached, &go_on));
-        if let Some(sensitive) = found {
+        if let Some(sensitive) = is_sensitive(&scene, reached, &course, &go_on) {
             // Without a receiver nobody asks any more.
             let _ = to.send(sensitive);
         }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::reading::Copies;
-use crate::motion::{Motion, lock_that_broke, verdict_of};
+use crate::motion::{Course, Looker, Motion, VerdictReached, lock_that_broke, verdict_of};
 use crate::tolerances::LAST_PART;
 use crate::tui::engine::{FORECAST_LIMIT, FullRun, FullRunState};
 use crate::tui::trace::{Mark, Marks, Trace};
@@ -26,6 +26,7 @@ pub struct FullRunJob {
     limit: Duration,
     /// Steps taken and skipped before the start.
     before: [u64; 2],
+    course: Course,
     result: Option<FullRun>,
 }
 
@@ -51,6 +52,7 @@ impl FullRunJob {
             wall: Duration::ZERO,
             slice: SLICE,
             limit: FORECAST_LIMIT,
+            course: Course::over(start + length),
             result: None,
             motion,
             start,
@@ -84,6 +86,9 @@ impl FullRunJob {
                 self.points.push(point(&self.motion));
                 self.marks.look(self.motion.contacts());
                 self.copies.follow(&self.motion);
+                if self.course.due() <= sample {
+                    self.course.see(&self.motion);
+                }
             }
         }
         self.wall += began.elapsed();
@@ -115,6 +120,13 @@ impl FullRunJob {
     /// The end of the run \[s\].
     pub fn end(&self) -> f64 {
         self.end
+    }
+
+    /// What it came to, and which way, once it is done: of a run from the start of a scene,
+    /// what changed runs must agree with.
+    pub fn reached(&self) -> Option<(VerdictReached, Course)> {
+        let run = self.result.as_ref()?;
+        Some((VerdictReached::of(&self.motion, run.verdict), self.course.clone()))
     }
 
     fn finished(&self) -> FullRun {

@@ -105,11 +105,14 @@ fn arguments(command: &Command, pass: impl Fn(&&Arg) -> bool) -> String {
 /// The options that change the scene, with the keys that they set.
 fn scene_options(command: &Command) -> String {
     let row = |arg: &Arg| {
-        let (long, value) = (arg.get_long().unwrap(), &arg.get_value_names().unwrap()[0]);
-        let long = format!("--{long}");
+        let long = format!("--{}", arg.get_long().unwrap());
+        let help = arg.get_help().unwrap().to_string();
+        if !arg.get_action().takes_values() {
+            return vec![code(long), String::new(), help];
+        }
+        let value = &arg.get_value_names().unwrap()[0];
         let keys = SceneOptions::keys();
         let key = keys.iter().find(|(option, _)| *option == long).map(|(_, key)| code(key));
-        let help = arg.get_help().unwrap().to_string();
         vec![code(format!("{long} {value}")), key.unwrap_or_else(|| "any".into()), help]
     };
     let own = command.get_arguments().filter(changes_the_scene);

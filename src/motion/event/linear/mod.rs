@@ -78,7 +78,7 @@ pub struct LinearEvents {
     looks: u64,
     deepest: f64,
     widest: f64,
-    /// Whether energies and the widest angle are followed.
+    /// Whether energies, the widest angle and the deepest gap are followed.
     checked: bool,
     failure: Option<Failure>,
 }

@@ -74,6 +74,11 @@ impl Held {
 /// Real and imaginary part.
 type Wave = [Terms; 2];
 
+/// The size of a term of both parts. What it cannot square is round-off.
+fn length(wave: &Wave, n: usize) -> f64 {
+    (wave[0][n].powi(2) + wave[1][n].powi(2)).sqrt()
+}
+
 /// One stretch.
 #[derive(Clone, Debug)]
 pub(super) struct Stretch {
@@ -199,7 +204,7 @@ impl Stretch {
     fn summed(&self, held: usize) -> bool {
         let moves = |wave: &Wave| {
             // Both parts together: one of them may pass through zero.
-            let size: Terms = std::array::from_fn(|n| wave[0][n].hypot(wave[1][n]));
+            let size: Terms = std::array::from_fn(|n| length(wave, n));
             ended(&size) && size.iter().all(|term| term.is_finite())
         };
         moves(&self.z)
@@ -281,16 +286,15 @@ impl Stretch {
     /// The farthest that a blade tip can swing in this stretch, whether a gap feels it or
     /// not \[m\].
     pub(super) fn swings(&self, parameters: &Parameters) -> f64 {
-        let size = |n: usize| self.a[0][n].hypot(self.a[1][n]);
+        let size = |n: usize| length(&self.a, n);
         parameters.machine.blade_length * (1..TERMS).map(size).sum::<f64>()
     }
 
     /// The farthest that any gap can close in this stretch, and what it has of the
     /// clearance at its start at most \[m\].
     pub(super) fn travel(&self, parameters: &Parameters) -> [f64; 2] {
-        let size = |wave: &Wave, n: usize| (wave[0][n].powi(2) + wave[1][n].powi(2)).sqrt();
         let arm = parameters.arm().abs();
-        let each = |n: usize| size(&self.z, n) + arm * size(&self.a, n);
+        let each = |n: usize| length(&self.z, n) + arm * length(&self.a, n);
         [(1..TERMS).map(each).sum(), each(0)]
     }
 }

@@ -78,9 +78,12 @@ impl LinearEvents {
             self.fail(0.0, FailureReason::Series);
             return;
         }
-        let [travel, _] = stretch.travel(parameters);
-        let moved = travel.max(stretch.swings(parameters));
-        if !pulses && self.opened.is_empty() && moved <= ROUNDINGS * parameters.clearance() {
+        let still = ROUNDINGS * parameters.clearance();
+        let rests = !pulses
+            && self.opened.is_empty()
+            && stretch.travel(parameters)[0] <= still
+            && stretch.swings(parameters) <= still;
+        if rests {
             self.stretch = stretch;
             if self.held_for_good(0.0) {
                 self.stretch = self.stretch.clone().at_rest();
@@ -176,14 +179,14 @@ impl LinearEvents {
         let parameters = &self.parameters;
         if self.checked {
             self.energies.book(parameters, &self.held, &self.stretch, s);
-        }
-        self.widest = self.widest_until(s);
-        let [travel, reach] = self.stretch.travel(parameters);
-        if reach + travel >= parameters.clearance() {
-            let known = |row: usize| self.opened.iter().any(|gap| gap.row == row);
-            let gaps = (0..parameters.rows.len()).filter(|&row| !known(row));
-            let least = gaps.map(|row| parameters.gap(row, &point)).fold(0.0, f64::min);
-            self.deepest = self.deepest.max(-least);
+            self.widest = self.widest_until(s);
+            let [travel, reach] = self.stretch.travel(parameters);
+            if reach + travel >= parameters.clearance() {
+                let known = |row: usize| self.opened.iter().any(|gap| gap.row == row);
+                let gaps = (0..parameters.rows.len()).filter(|&row| !known(row));
+                let least = gaps.map(|row| parameters.gap(row, &point)).fold(0.0, f64::min);
+                self.deepest = self.deepest.max(-least);
+            }
         }
         let limit = JUST_OPENED * parameters.clearance();
         let later = self.opened.iter().map(|gap| gap.later(parameters, &self.stretch, s));

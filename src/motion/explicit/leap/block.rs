@@ -288,16 +288,14 @@ impl<B: Disk> Explicit<B> {
         } else if let Some(Held::Corner(held)) = &self.leaps.held {
             Some(locked(held.pulls))
         } else if self.goes_beyond {
-            None
-        } else if self.blades.held_modes().is_none() {
-            self.corner_for_good()
+            self.dies().then_some(Verdict::Decay)
         } else {
-            None
+            self.corner_for_good()
         }
     }
 
-    /// A corner of blades of their own, if at constant speed its pushes cannot
-    /// vanish any more: an angle, its rate and its acceleration enter them with
+    /// A corner that is not leapt over, if at constant speed its pushes cannot change their
+    /// signs any more: an angle, its rate and its acceleration enter them with
     /// at most all rates squared times the distance of the corner over its sine.
     fn corner_for_good(&self) -> Option<Verdict> {
         let sides = self.steady_corner()?;
@@ -324,6 +322,7 @@ impl<B: Disk> Explicit<B> {
         let moment_arm = machine.nodal_diameters * machine.polygon.half_side();
         let light = moment_arm * moment_arm * self.blades.compliance(0, 0)
             < LIGHT_BLADES * self.casing.compliance;
+        let least = if self.law.pulls() { least.min(a.abs()).min(b.abs()) } else { least };
         (light && change < ROOM_TO_CHANGE * least).then(|| locked(a > 0.0 || b > 0.0))
     }
 }

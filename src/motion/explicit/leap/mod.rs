@@ -96,5 +96,8 @@ impl<B: Disk> Explicit<B> {
         self.leaps.hold_tried = self.n;
         self.leaps.slide_tried = self.n;
         self.leaps.same_sides = 0;
+        if let Some(lining) = &mut self.lining {
+            lining.dies = std::sync::OnceLock::new();
+        }
     }
 }

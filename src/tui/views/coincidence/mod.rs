@@ -15,6 +15,7 @@ use ratatui::layout::Rect;
 
 use crate::harmonic::{CoincidencePoint, Joint, Lining, RoundWhirl, round_whirls};
 use crate::motion::ActiveSet;
+use crate::report::number::{frequency_unit, per_frequency, per_speed, speed_unit};
 use crate::scene::ModelSize;
 use crate::tui::app::{App, Cursor};
 use crate::tui::axis::{ChartAxis, nice_step, readable};
@@ -137,10 +138,10 @@ fn chart(
     let values = || curves.points.iter().filter_map(what.of).filter(|value| value.is_finite());
     let now = now(app).filter(|_| large);
     let y = rounded(values().chain(now));
-    let x = ChartAxis::plain(curves.from, curves.to);
+    let x = ChartAxis::speeds(curves.from, curves.to);
     let read = app.cursor_in(ViewId::Coincidence).map(|at| x.at(at.across));
     let point = look.either('◆', '@');
-    let named = format!("{}, {}{} over rad/s", what.curve, y.scale.prefix, what.unit);
+    let named = format!("{}, {}{} over {}", what.curve, y.scale.prefix, what.unit, speed_unit());
     let mut legend = vec![entry(look, &look.first(), &named)];
     if let Some(now) = now {
         legend.push((format!("{point} {}", readable(now, "rad")), look.style(Role::Contact)));
@@ -208,7 +209,9 @@ fn sentence(app: &App, curves: &CoincidenceCurves) -> String {
     let waves = curves.points.iter().filter(|point| point.blade_amplitude_rad.is_some());
     let mut speeds = waves.map(|point| point.speed_rad_s.abs());
     let ends = speeds.next().map(|first| (first, speeds.next_back().unwrap_or(first)));
-    let between = |(from, to): (f64, f64)| format!("{from:.0} to {to:.0} rad/s");
+    let between = |(from, to): (f64, f64)| {
+        format!("{:.0} to {:.0} {}", per_speed(from), per_speed(to), speed_unit())
+    };
     let what = match ends {
         _ if app.scene.solver.model == ModelSize::Rigid => {
             "rigid blades have no coincidence: choose another model".to_string()
@@ -220,7 +223,7 @@ fn sentence(app: &App, curves: &CoincidenceCurves) -> String {
         Some((from, to))
             if curves.points.last().is_some_and(|last| last.speed_rad_s.abs() <= to) =>
         {
-            format!("a whirl can last from {from:.0} rad/s on")
+            format!("a whirl can last from {:.0} {} on", per_speed(from), speed_unit())
         }
         Some(ends) => format!("a whirl can last: {}", between(ends)),
         None if app.machine.radial_coupling == 0.0 => {
@@ -242,7 +245,7 @@ fn reading(app: &App, speed: f64) -> String {
     let named = [
         ("|a|", point.blade_amplitude_rad, "rad"),
         ("|z|", point.casing_amplitude_m, "m"),
-        ("ω", point.omega_rad_s, "rad/s"),
+        ("ω", point.omega_rad_s.map(per_frequency), frequency_unit()),
         ("growth", point.growth_1_s, "1/s"),
     ];
     let named = named
@@ -305,7 +308,10 @@ fn plane(app: &App, buffer: &mut Buffer, at: ViewArea) {
         Some(wave) => {
             let contact = look.style(Role::Contact);
             let (omega, s) = (wave.omega_rad_s, wave.stiffness_n_per_m);
-            legend.push((format!("{point} ω {}", readable(omega, "rad/s")), contact));
+            legend.push((
+                format!("{point} ω {}", readable(per_frequency(omega), frequency_unit())),
+                contact,
+            ));
             legend.push((format!("S {}", readable(s, "N/m")), contact));
         }
         None => legend.push(("no crossing".into(), quiet)),

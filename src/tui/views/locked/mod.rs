@@ -13,6 +13,7 @@ use ratatui::layout::{Constraint, Layout, Rect};
 
 use crate::harmonic::{Form, LockedPoint, Sweep, locked_motion};
 use crate::motion::{ActiveSet, Verdict};
+use crate::report::number::speed_unit;
 use crate::tui::app::{App, Cursor, STEP};
 use crate::tui::axis::{ChartAxis, nice_step, readable};
 use crate::tui::plot::Plot;
@@ -107,7 +108,7 @@ fn multipliers(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let point = look.either('◆', '@');
     let prefix = curves.and_then(|curves| Some(force_axis(curves, curves.damped.as_ref()?)));
     let prefix = prefix.map_or("", |y| y.scale.prefix);
-    let mut legend = vec![(format!("{prefix}N over rad/s"), quiet)];
+    let mut legend = vec![(format!("{prefix}N over {}", speed_unit()), quiet)];
     legend.push(entry(look, &look.first(), if pair { "λ_a" } else { "λ" }));
     if pair {
         legend.push(entry(look, &look.second(), "λ_b"));
@@ -149,7 +150,7 @@ fn multipliers(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let inside = if at.large { read(app, curves, buffer, inside) } else { inside };
     // The scale follows the curves: the mean over an impact may be far outside.
     let y = force_axis(curves, damped).evened(inside, look);
-    let x = ChartAxis::plain(0.0, curves.fastest);
+    let x = ChartAxis::speeds(0.0, curves.fastest);
     let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
     at.note(app, plot.inner);
     plot.level(0.0, look.either('┈', '.'), quiet);
@@ -274,13 +275,13 @@ impl Chart {
         let points = &damped.points;
         let scaled = || points.iter().filter(|point| curves.scales(point.speed_rad_s));
         let values = self.quantities.iter().flat_map(|(_, of)| scaled().map(of));
-        let (x, y) = (ChartAxis::plain(0.0, curves.fastest), range(values));
+        let (x, y) = (ChartAxis::speeds(0.0, curves.fastest), range(values));
         let pens: [Pen; 2] = [look.first(), look.second()];
         let named = pens.iter().zip(self.quantities);
         let mut legend: Vec<_> = named.map(|(pen, (name, _))| entry(look, pen, name)).collect();
         let third = self.quantities.get(2);
         legend.extend(third.map(|(name, _)| dots(look, name)));
-        legend.push((format!("{}{} over rad/s", y.scale.prefix, self.unit), quiet));
+        legend.push((format!("{}{} over {}", y.scale.prefix, self.unit, speed_unit()), quiet));
         legend.push((self.note.to_string(), quiet));
         let inside = title(app, buffer, at, self.name, &legend);
         let y = y.evened(inside, look);

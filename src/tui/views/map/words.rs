@@ -7,7 +7,7 @@ use super::picture::{is_inside, sign};
 use super::{CellRun, LiveMap};
 use crate::motion::Verdict;
 use crate::report::map::means;
-use crate::report::number::{count, grouped, rounded};
+use crate::report::number::{count, grouped, rounded, told};
 use crate::scene::keys::SPEED;
 use crate::study::overlay::Curve;
 use crate::study::{Axis, MapPlan};
@@ -60,6 +60,10 @@ fn axis_name(axis: &Axis) -> String {
         unit => {
             // The same prefix as the ticks.
             let scale = crate::tui::axis::SiScale::of(axis.from.abs().max(axis.to.abs()));
+            let (_, unit) = told(0.0, unit);
+            if axis.path == SPEED {
+                return format!("{name} [{unit}]");
+            }
             format!("{name} [{}{unit}]", scale.prefix)
         }
     }

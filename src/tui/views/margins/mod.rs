@@ -1,7 +1,10 @@
 //! View 8: how far the scene is from every limit, and what moves each of them most.
 
 mod rows;
+mod survey;
 mod table;
+
+use std::sync::Arc;
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
@@ -9,6 +12,7 @@ use super::panel::{Opening, ViewArea, ViewPanel, not_yet, title};
 use crate::report::margins;
 use crate::scene::ContactLaw;
 use crate::study::margins::Margins;
+use crate::study::survey::Survey;
 use crate::tui::app::{App, Cursor};
 use crate::tui::text::{first_lines, print, wrap};
 pub use rows::DIGITS;
@@ -28,6 +32,8 @@ pub struct LiveMargins {
     pub margins: Margins,
     /// The laws whose smallest lasting pulse is still searched.
     pub awaited: Vec<ContactLaw>,
+    /// The survey of all diameters, once it is computed.
+    pub survey: Option<Arc<Survey>>,
 }
 
 /// The view.
@@ -39,6 +45,9 @@ impl ViewPanel for MarginsView {
     }
 
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
+        if app.layout.is_surveyed() {
+            return survey::draw(app, buffer, at, survey::cell(app).filter(|_| at.large));
+        }
         let look = &app.appearance;
         let inside = title(app, buffer, at, "margins", &rows::title(app, at.area.width));
         let Some((live, old)) = app.margins() else { return not_yet(app, buffer, inside) };
@@ -65,16 +74,25 @@ impl ViewPanel for MarginsView {
     }
 
     fn grid(&self, app: &App) -> [u32; 2] {
+        if app.layout.is_surveyed() {
+            return [1, survey::rows(app)].map(|count| count * survey::rows(app).min(1));
+        }
         let rows = app.margins().map_or(0, |(live, _)| live.rows().len());
         u32::try_from(rows).ok().filter(|rows| *rows > 0).map_or([0, 0], |rows| [COLUMNS, rows])
     }
 
     fn here(&self, app: &App) -> Cursor {
+        if app.layout.is_surveyed() {
+            return survey::here(app);
+        }
         let rows = f64::from(self.grid(app)[1].max(1));
         Cursor { across: 0.5 / f64::from(COLUMNS), up: 1.0 - 0.5 / rows }
     }
 
     fn opening(&self, app: &App, _: Cursor) -> Option<Opening> {
+        if app.layout.is_surveyed() {
+            return survey::opening(app);
+        }
         let ((live, old), [column, row]) = (app.margins()?, app.margins_cell()?);
         if old {
             let reason = "these margins are of the knobs before; new ones are under way";
@@ -85,16 +103,18 @@ impl ViewPanel for MarginsView {
 
     fn csv(&self, app: &App) -> Result<String, String> {
         let (live, _) = app.margins().ok_or("there are no margins yet")?;
+        let table = match &live.survey {
+            Some(survey) if app.layout.is_surveyed() => crate::report::survey::table(survey),
+            _ => margins::table(&live.margins),
+        };
         let mut bytes = Vec::new();
-        margins::table(&live.margins).write_csv(&mut bytes).map_err(|error| error.to_string())?;
+        table.write_csv(&mut bytes).map_err(|error| error.to_string())?;
         String::from_utf8(bytes).map_err(|error| error.to_string())
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
-
     use super::*;
     use crate::scene::Scene;
     use crate::tui::bindings::Action;

@@ -6,7 +6,7 @@
 use ratatui::style::Style;
 
 use crate::report::margins::LimitRow;
-use crate::report::number::{rounded, short};
+use crate::report::number::{per_speed, rounded, short, speed_unit};
 use crate::study::margins::{Margins, Quantity, Side};
 use crate::tui::app::App;
 use crate::tui::appearance::Appearance;
@@ -27,7 +27,7 @@ impl LiveMargins {
     /// Margins in which nothing was searched yet.
     pub fn of(margins: Margins) -> Self {
         let awaited = margins.laws().to_vec();
-        Self { margins, awaited }
+        Self { margins, awaited, survey: None }
     }
 
     /// The rows, in the order of the limits; what is searched is among the pulses.
@@ -36,11 +36,11 @@ impl LiveMargins {
     }
 }
 
-/// The value of a limit, in a column whose speeds are in rad/s.
+/// The value of a limit, in a column whose speeds have the unit of speeds.
 pub fn value_text(row: &LimitRow) -> String {
     match (row.value(), row.quantity()) {
         (None, _) => String::new(),
-        (Some(value), Quantity::Speed) => number(rounded(value, DIGITS), ""),
+        (Some(value), Quantity::Speed) => number(rounded(per_speed(value), DIGITS), ""),
         (Some(value), quantity) => with_unit(value, quantity),
     }
 }
@@ -48,7 +48,10 @@ pub fn value_text(row: &LimitRow) -> String {
 /// A value of a limit, with its unit.
 pub fn with_unit(value: f64, quantity: Quantity) -> String {
     match quantity {
-        Quantity::Speed | Quantity::Pulse => number(rounded(value, DIGITS), quantity.unit()),
+        Quantity::Speed => {
+            format!("{} {}", number(rounded(per_speed(value), DIGITS), ""), speed_unit())
+        }
+        Quantity::Pulse => number(rounded(value, DIGITS), quantity.unit()),
         _ => readable(value, quantity.unit()),
     }
 }

@@ -11,6 +11,7 @@ use ratatui::layout::{Position, Rect};
 use ratatui::style::{Modifier, Style};
 
 use crate::report::margins::{LimitRow, TOLD};
+use crate::report::number::speed_unit;
 use crate::study::margins::{Band, Limit, Quantity};
 use crate::tui::app::App;
 use crate::tui::appearance::Appearance;
@@ -108,7 +109,7 @@ impl<'a> Table<'a> {
                 Column::Symbol => "limit",
                 Column::Bar if place.width >= 21 => "from 0 to it, and now",
                 Column::Bar => "",
-                Column::Value => "rad/s",
+                Column::Value => speed_unit(),
                 Column::Percent => "now",
                 Column::Word => "",
                 Column::Knob(0) if columns.knobs() > 1 => "1 % more of a knob gives, %",

@@ -9,6 +9,7 @@ use std::f64::consts::TAU;
 use ratatui::buffer::Buffer;
 use realfft::RealFftPlanner;
 
+use crate::report::number::{frequency_unit, per_frequency, speed_unit};
 use crate::tui::app::App;
 use crate::tui::axis::{ChartAxis, nice_step, readable};
 use crate::tui::plot::Plot;
@@ -107,7 +108,7 @@ fn amplitudes(app: &App, buffer: &mut Buffer, at: ViewArea) {
 fn reading(spectrum: &Spectrum, frequency: f64) -> Option<String> {
     let line = (frequency / spectrum.resolution).round().max(0.0) as usize;
     let (u_c, u_s) = (spectrum.cosine.get(line)?, spectrum.sine.get(line)?);
-    let at = readable(line as f64 * spectrum.resolution, "rad/s");
+    let at = readable(per_frequency(line as f64 * spectrum.resolution), frequency_unit());
     Some(format!("at {at}: u_c {}, u_s {}", readable(*u_c, "m"), readable(*u_s, "m")))
 }
 
@@ -119,14 +120,14 @@ fn campbell(app: &App, buffer: &mut Buffer, at: ViewArea) {
         entry(look, &look.first(), "n_d Ω"),
         entry(look, &look.second(), "n_d Ω±ω_bd"),
         (format!("{meet} meets ω_c"), look.style(Role::Contact)),
-        ("rad/s by rad/s".to_string(), quiet),
+        (format!("rad/s by {}", speed_unit()), quiet),
     ];
     let inside = title(app, buffer, at, "Campbell", &legend);
     let fastest = app.results().found.locked.as_ref().map_or(600.0, |curves| curves.fastest);
     let top = app.machine.nu(fastest).max(1.5 * app.machine.omega_c);
     // Over the speeds of the present sense of rotation.
     let sense = if app.speed() < 0.0 { -1.0 } else { 1.0 };
-    let x = ChartAxis::plain((sense * fastest).min(0.0), (sense * fastest).max(0.0));
+    let x = ChartAxis::speeds((sense * fastest).min(0.0), (sense * fastest).max(0.0));
     let Some(mut plot) = Plot::new(buffer, inside, x, ChartAxis::plain(0.0, top), look) else {
         return;
     };

@@ -9,6 +9,7 @@ use super::{Given, Study};
 use crate::motion::GoOn;
 use crate::scene::CheckedScene;
 use crate::study::margins::Margins;
+use crate::study::survey::Survey;
 use crate::tui::views::ViewId;
 use crate::tui::views::margins::LiveMargins;
 use crate::tui::worker::WORKER_NAME;
@@ -35,8 +36,10 @@ impl Study for MarginsStudy {
     fn begin(scene: &CheckedScene, given: &Given) -> Self {
         let (theirs, searches) = (scene.clone(), given.bounds.searches);
         let coming = Background::start(move |to, go_on| {
-            let live = LiveMargins::of(Margins::of(&theirs));
+            let mut live = LiveMargins::of(Margins::of(&theirs));
             // Without a receiver nobody asks any more, and `go_on` says so.
+            let _ = to.send(live.clone());
+            live.survey = Some(Arc::new(Survey::of(&theirs, None, None)));
             let _ = to.send(live.clone());
             if searches {
                 search(live, to, go_on);
