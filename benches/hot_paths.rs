@@ -11,7 +11,8 @@
 use std::hint::black_box;
 use std::time::Duration;
 
-use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use criterion::measurement::WallTime;
+use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
 use rubscope::harmonic::{Form, locked_motion};
 use rubscope::motion::{
     ExactEvents, Motion, Sample, Sampling, Script, is_sensitive, run_to_end, run_to_verdict,
@@ -54,16 +55,49 @@ fn explicit(criterion: &mut Criterion) {
     ];
     let full: (&str, Changes) = ("full, contact", &[SLIP[0], SLIP[1], MICROSECOND, FULL]);
     for (name, changes) in cases.into_iter().chain([full]) {
-        let scene = scene(changes);
-        let motion = to_the_end_of(&scene, Motion::new(&scene));
-        let (taken, skipped) = (motion.steps_taken().unwrap(), motion.steps_skipped().unwrap());
-        // Where most steps are skipped, the time over those taken tells nothing.
-        group.throughput(Throughput::Elements(if taken > skipped { taken } else { 0 }));
-        group.bench_with_input(name, &scene, |bencher, scene| {
-            bencher.iter(|| to_the_end_of(scene, Motion::new(black_box(scene))).state().u[0]);
-        });
+        whole_run(&mut group, name, &scene(changes));
     }
     group.finish();
+}
+
+/// The same of scenes beyond the paper, of locks at a step that leaves more vibration, and
+/// of three sides.
+fn beyond(criterion: &mut Criterion) {
+    const COARSE: (&str, &str) = ("solver.step_s", "5e-7");
+    const SHORT: (&str, &str) = ("solver.end_s", "0.02");
+    const SIDES: [(&str, &str); 2] =
+        [("bladed_disk.blades", "60"), ("operation.nodal_diameters", "20")];
+    const EXPLICIT: (&str, &str) = ("solver.kind", "explicit");
+    let many = |blades, stiffness| {
+        let size = [("bladed_disk.blades", blades), ("contact.stiffness_n_per_m", stiffness)];
+        [&size[..], &[FULL, ("solver.end_s", "0.001")]].concat()
+    };
+    let mut group = criterion.benchmark_group("explicit, beyond");
+    for (name, preset, changes) in [
+        ("coincidence", "coincidence", vec![("solver.end_s", "0.1")]),
+        ("coincidence, 352 blades, full", "coincidence", many("352", "1687.5")),
+        ("coincidence, 4096 blades, full", "coincidence", many("4096", "145.02")),
+        ("rub", "rub", vec![SHORT]),
+        ("digs-in", "digs-in", vec![SHORT]),
+        ("soft-lining", "soft-lining", vec![SHORT]),
+        ("friction-lock", "friction-lock", vec![EXPLICIT]),
+        ("default scene, 5e-7 s", "paper-nd3", vec![COARSE]),
+        ("three sides", "paper-nd3", vec![SIDES[0], SIDES[1], MICROSECOND, SHORT]),
+    ] {
+        whole_run(&mut group, name, &Scene::builtin(preset).unwrap().with(&changes).unwrap());
+    }
+    group.finish();
+}
+
+/// A run to its end, by the step taken where most are taken.
+fn whole_run(group: &mut BenchmarkGroup<'_, WallTime>, name: &str, scene: &CheckedScene) {
+    let motion = to_the_end_of(scene, Motion::new(scene));
+    let (taken, skipped) = (motion.steps_taken().unwrap(), motion.steps_skipped().unwrap());
+    // Where most steps are skipped, the time over those taken tells nothing.
+    group.throughput(Throughput::Elements(if taken > skipped { taken } else { 0 }));
+    group.bench_with_input(name, scene, |bencher, scene| {
+        bencher.iter(|| to_the_end_of(scene, Motion::new(black_box(scene))).state().u[0]);
+    });
 }
 
 /// Whole runs of the event solver.
@@ -154,5 +188,5 @@ fn short() -> Criterion {
         .measurement_time(Duration::from_millis(1200))
 }
 
-criterion_group! { name = hot_paths; config = short(); targets = explicit, event, harmonic, map, record }
+criterion_group! { name = hot_paths; config = short(); targets = explicit, beyond, event, harmonic, map, record }
 criterion_main!(hot_paths);

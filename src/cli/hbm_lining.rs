@@ -73,7 +73,7 @@ impl LiningOptions {
 
 fn ends(text: &str, of: Quantity) -> Result<[f64; 2], Refusal> {
     match read_ends(text, of) {
-        Ok((ends, None)) => Ok(ends),
+        Ok((ends, None)) if ends.iter().all(|end| end.is_finite()) => Ok(ends),
         Err(RangeError::End(why)) => Err(Refusal::because(format!("--over = {text}: {why}"))),
         _ => Err(Refusal::of("--over", text, "FROM:TO, two numbers")),
     }

@@ -66,7 +66,7 @@ pub struct NewCommand {
     /// The speeds of the machine, such as 6000rpm:11000rpm
     #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true)]
     range: Option<String>,
-    /// Tell speeds in turns a minute
+    /// Show speeds in rpm
     #[arg(long)]
     rpm: bool,
 }

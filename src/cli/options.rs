@@ -56,7 +56,7 @@ pub struct SceneOptions {
     /// Any key of the scene file, such as bladed_disk.blades=24; repeatable, applied last
     #[arg(long, value_name = "PATH=VALUE", allow_hyphen_values = true, help_heading = HEADING)]
     set: Vec<String>,
-    /// Tell speeds in turns a minute; files and JSON keep rad/s
+    /// Show speeds in rpm; files and JSON keep rad/s
     #[arg(long, help_heading = HEADING)]
     rpm: bool,
 }

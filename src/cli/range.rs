@@ -33,7 +33,11 @@ impl Range {
     /// outside 1 to 100,000.
     pub fn parse(name: &str, text: &str, of: Quantity) -> Result<Self, Refusal> {
         match parse_range(text, of) {
-            Ok((from, to, count)) if (1..=MOST).contains(&count) => Ok(Self { from, to, count }),
+            Ok((from, to, count))
+                if from.is_finite() && to.is_finite() && (1..=MOST).contains(&count) =>
+            {
+                Ok(Self { from, to, count })
+            }
             Err(RangeError::End(why)) => Err(Refusal::because(format!("{name} = {text}: {why}"))),
             _ => {
                 let form = format!("FROM:TO:COUNT, two numbers and a count from 1 to {MOST}");

@@ -227,15 +227,16 @@ pub enum RangeError {
     End(UnitError),
 }
 
-/// The ends of `FROM:TO`, finite numbers of a quantity, and what follows another colon.
+/// The ends of `FROM:TO`, numbers of a quantity, and what follows another colon. Whether
+/// they are finite, whoever asks looks.
 ///
 /// # Errors
 /// Text of another form, or an end that is of something else.
 pub fn read_ends(text: &str, of: Quantity) -> Result<([f64; 2], Option<&str>), RangeError> {
     let mut parts = text.splitn(3, ':');
     let mut end = || match of.read(parts.next().ok_or(RangeError::Form)?) {
-        Ok(end) if end.is_finite() => Ok(end),
-        Ok(_) | Err(UnitError::NoNumber) => Err(RangeError::Form),
+        Ok(end) => Ok(end),
+        Err(UnitError::NoNumber) => Err(RangeError::Form),
         Err(why) => Err(RangeError::End(why)),
     };
     let ends = [end()?, end()?];

@@ -44,7 +44,7 @@ pub enum SurveyError {
 pub fn speed_range(text: &str) -> Result<[f64; 2], SurveyError> {
     let form = || SurveyError::Range { text: text.to_string() };
     match units::read_ends(text, units::Quantity::Speed) {
-        Ok(([from, to], None)) if from < to => Ok([from, to]),
+        Ok(([from, to], None)) if from < to && (to - from).is_finite() => Ok([from, to]),
         Err(RangeError::End(why)) => Err(SurveyError::Unit { text: text.to_string(), why }),
         _ => Err(form()),
     }

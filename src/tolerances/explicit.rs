@@ -39,6 +39,9 @@ pub(crate) const BLADES_FIRST: usize = 8;
 /// number; so many rows of shapes are kept of a larger ring. Speed only.
 pub(crate) const FEW_BLADES: usize = 6;
 
+/// The same of blades whose torques are given back, too. Speed only.
+pub(crate) const FEW_PRESSED: usize = 2;
+
 /// Steps a corner must have been closed before it is held. Fewer: maps are made
 /// for contacts that end.
 pub(crate) const HELD_AFTER: u64 = 64;
@@ -53,6 +56,10 @@ pub(crate) const HELD_PROBE: f64 = 1e-6;
 /// Part of a predicted gap that a step of the map may leave, as a push bends the blades:
 /// it makes 1e-11 of the angles at rest, on which the pushes of both sides nearly cancel.
 pub(crate) const HELD_LEFT: f64 = 1e-12;
+
+/// Largest blade phase `n_d alpha` for which the linear map of a lock may say that no sign
+/// changes \[rad\]: what its square changes is small against the room that is kept.
+pub(crate) const KEPT_TURN: f64 = 0.02;
 
 /// Largest blade phase `n_d alpha` whose cube the gap of a side that is slid on may leave
 /// out \[rad\]: it makes round-off.
@@ -126,6 +133,9 @@ pub(crate) const TIP_SLACK: f64 = 0.02;
 /// looked for beyond those that press: smaller, they are looked for more often; larger,
 /// more open rows are counted along. No result depends on it.
 pub(crate) const LINING_MARGIN: f64 = 0.05;
+
+/// The same for the rows near a rigid casing. Speed only.
+pub(crate) const TIP_MARGIN: f64 = 0.005;
 
 /// Sizes of a wave on a preloaded lining that are tried for whether it dies, and how much
 /// smaller each is than the one before: down to 1e-9 of what lifts a blade.

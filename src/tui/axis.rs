@@ -183,6 +183,20 @@ mod tests {
     }
 
     #[test]
+    fn an_axis_of_speeds_has_round_ticks_in_the_unit_of_speeds() {
+        crate::report::number::tell_in_rpm(true);
+        let axis = ChartAxis::speeds(0.0, 600.0);
+        let (values, step) = axis.ticks(5);
+        let labels: Vec<String> = values.iter().map(|value| axis.label(*value, step)).collect();
+        let told = (readable(50.0 * std::f64::consts::PI, "rad/s"), number(-100.0, "rad/s"));
+        crate::report::number::tell_in_rpm(false);
+        assert!(labels.len() > 2, "{labels:?}");
+        assert!(labels.iter().all(|label| label.parse::<u32>().unwrap() % 1000 == 0), "{labels:?}");
+        assert_eq!(told, ("1500 rpm".into(), "-954.9297 rpm".into()));
+        assert_eq!(ChartAxis::speeds(0.0, 600.0).ticks(6).0[1], 100.0);
+    }
+
+    #[test]
     fn a_range_grows_at_once_and_shrinks_late() {
         let mut range = AutoRange::new(-1.0, 1.0);
         range.follow(-0.9, 0.9);

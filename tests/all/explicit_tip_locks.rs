@@ -142,3 +142,68 @@ fn forced_blades_are_loudest_where_slip_meets_their_frequency() {
         assert!((found / expected - 1.0).abs() < 0.06, "{zeta}: {found}");
     }
 }
+
+#[test]
+fn a_lock_of_tips_that_rise_and_rub_is_the_same_stepped_or_skipped() {
+    // Vibration, as a phase, that takes the square and the cube along, and rigid blades.
+    for (model, damping, changes, most) in [
+        ("modal", 0.01, vec![(MU, 0.15), (TAU, 1.0 / 3.0)], 300),
+        ("modal", 0.01, vec![(MU, 0.05), (TAU, 0.2)], 300),
+        ("modal", 0.01, vec![(KAPPA, 0.02)], 300),
+        ("modal", 0.3, vec![(KAPPA, 0.1), (MU, 0.05)], 30_000),
+        ("modal", 0.3, vec![(KAPPA, -0.1), (MU, 0.05), (TAU, 0.1)], 30_000),
+        ("rigid", 0.01, vec![(MU, 0.15), (TAU, 1.0 / 3.0)], 300),
+    ] {
+        let mut scene = in_corner(scene(&changes));
+        scene.set("solver.model", model).unwrap();
+        (scene.bladed_disk.damping_ratio, scene.solver.step_s) = (damping, 5e-7);
+        scene.solver.end_s = 0.04;
+        let checked = scene.checked().unwrap();
+        let [mut leapt, mut stepped] = [Motion::new(&checked), Motion::new(&checked)];
+        // Looks on the way change nothing.
+        for until in [0.01, 0.010_02, 0.023, 0.04] {
+            leapt.advance(until).unwrap();
+        }
+        for chunk in 1..=1600 {
+            stepped.set_speed(scene.operation.speed_rad_s, 0.0);
+            stepped.advance(f64::from(chunk) * 2.5e-5).unwrap();
+        }
+        let taken = leapt.steps_taken().unwrap();
+        assert!(taken < most, "{model} {changes:?}: {taken}");
+        assert_eq!(stepped.steps_skipped(), Some(0));
+        // The same again after the lock was disturbed.
+        for (go_on, close) in [(0.0, 1.0), (2e-5, 4.0)] {
+            for motion in [&mut leapt, &mut stepped] {
+                if go_on > 0.0 {
+                    motion.set_speed(scene.operation.speed_rad_s, 0.0);
+                    motion.advance(0.04 + go_on).unwrap();
+                }
+            }
+            let (a, b) = (leapt.state(), stepped.state());
+            let largest = b.alpha[0].hypot(b.alpha[1]);
+            for (x, y) in a.u.iter().zip(b.u) {
+                assert!((x - y).abs() < close * 1e-14, "{model} {changes:?}: {x} {y}");
+            }
+            for (x, y) in a.alpha.iter().zip(b.alpha) {
+                let apart = (x - y).abs();
+                assert!(apart <= close * 1e-8 * largest, "{model} {changes:?}: {x} {y}");
+            }
+            let [a, b] = [&leapt, &stepped].map(|motion| motion.energy_account().unwrap());
+            let size = b.rotor_work_j.abs();
+            for (x, y) in [
+                (a.rotor_work_j, b.rotor_work_j),
+                (a.casing_loss_j, b.casing_loss_j),
+                (a.blade_loss_j, b.blade_loss_j),
+                (a.friction_heat_j, b.friction_heat_j),
+                (a.impact_loss_j, b.impact_loss_j),
+                (a.stored_j, b.stored_j),
+            ] {
+                assert!((x - y).abs() < close * 1e-9 * size, "{model} {changes:?}: {x} {y}");
+            }
+        }
+        let [a, b] = [&leapt, &stepped].map(|motion| motion.checks());
+        let apart = (a.max_blade_angle_rad - b.max_blade_angle_rad).abs();
+        assert!(apart <= 1e-9 * b.max_blade_angle_rad, "{model} {changes:?}: {a:?} {b:?}");
+        assert_eq!(leapt.contacts().active_set, stepped.contacts().active_set);
+    }
+}

@@ -75,10 +75,8 @@ fn assert_true(check: &Check, session: &Session, runs: &mut Runs) {
         }
         Expected::Number(is) => {
             let found = found(check, app, runs);
-            let within = match check.key {
-                Some(_) => 1e-9 * is.abs(),
-                None => check.within.unwrap_or_else(|| half_digit(*is)),
-            };
+            let written = if check.key.is_some() { 1e-9 * is.abs() } else { half_digit(*is) };
+            let within = check.within.unwrap_or(written);
             assert!(within <= half_digit(*is), "{check:?}: looser than it is written");
             let near = found.iter().any(|x| (x - is).abs() <= within);
             assert!(near, "{check:?}: {:?}", found.iter().take(8).collect::<Vec<_>>());

@@ -305,7 +305,7 @@ fn the_survey_shows_every_number_of_diameters_and_enter_takes_one() {
         for words in ["8 all diameters", "139.84", "292.88", "256.12", "●3", "5?"] {
             assert!(text.contains(words), "{words}: {text}");
         }
-        assert!(text.contains("nearest to 500 rad/s: n_d 3 Ω_lock"), "{text}");
+        assert!(text.contains("nearest to 500 rad/s: Ω_lock of 3"), "{text}");
         session.press("i↓");
         assert!(session.text().contains("▸4"), "{}", session.text());
         session.press("\n");

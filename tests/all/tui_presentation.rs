@@ -44,7 +44,11 @@ fn a_projector_shows_values_being_typed_refusals_lists_and_ends_with_escape() {
     session.press("P\n43");
     assert!(session.text().contains("speed Ω = 43_"), "{}", session.text());
     session.press("x\n");
-    assert!(session.text().contains("speed Ω: 43x cannot be read: no unit x;"), "{}", session.text());
+    assert!(
+        session.text().contains("speed Ω: 43x cannot be read: no unit x;"),
+        "{}",
+        session.text()
+    );
     session.press("\u{1b}");
     session.press("?");
     assert!(session.text().contains("Type to find"), "{}", session.text());

@@ -6,7 +6,7 @@ use super::disk::Disk;
 use super::lasting::{Lasting, mark};
 use super::lining::Lining;
 use super::record::Account;
-use super::rows::TipLaw;
+use super::rows::{Found, TipLaw};
 use super::{Coordinate, Explicit};
 use crate::model::Machine;
 use crate::motion::{ActiveSet, FailureReason, Plane};
@@ -18,8 +18,9 @@ use crate::tolerances::{ANGLE_LOOK, LONG_STEP};
 pub(super) struct Beyond {
     /// Increments of the casing in the step before the last \[m\].
     pub before: [f64; 2],
-    /// Rows that may touch now.
+    /// Rows that may touch now, and how far they were looked for.
     pub candidates: Vec<u32>,
+    pub found: Option<Found>,
     /// Bounds on the penetration left at the latest step and at the one before \[m\].
     pub dips: [f64; 2],
     /// Deepest distance to a target in the latest contact \[m\].
@@ -44,6 +45,7 @@ impl Beyond {
         Self {
             before: [0.0; 2],
             candidates: Vec::new(),
+            found: None,
             dips: [0.0; 2],
             depth: 0.0,
             long: long_step(scene),
@@ -73,6 +75,7 @@ impl Beyond {
         self.backward = speed < 0.0;
         self.steps_unseen = steps_unseen(scene);
         self.long = long_step(scene);
+        self.found = None;
         self.dips = [machine.clearance().abs(); 2];
     }
 }

@@ -14,7 +14,7 @@ use super::rows::{Row, TipLaw, turned};
 use crate::contact::repeated::{GroupReference, Repeat};
 use crate::motion::{ActiveSet, FailureReason, Plane};
 use crate::tolerances::{
-    LONG_STEP, MOST_LONG_STEPS, MOST_ROWS, NEIGHBOUR_DEPTHS, ROUND_OFF, ROUNDINGS,
+    LONG_STEP, MOST_LONG_STEPS, MOST_ROWS, NEIGHBOUR_DEPTHS, ROUND_OFF, ROUNDINGS, TIP_MARGIN,
 };
 
 impl<B: Disk> Explicit<B> {
@@ -215,7 +215,7 @@ impl<B: Disk> Explicit<B> {
         let highest = self.highest_target();
         // As deep as the step before, nothing has to be looked for twice.
         let likely = if self.law.pulls() { 0.0 } else { NEIGHBOUR_DEPTHS * self.beyond.depth };
-        self.find_candidates(z, tips, bound, highest + likely);
+        self.find_candidates(z, tips, bound, highest + likely, TIP_MARGIN);
         let deepest = self.gather_targets(z, tips, restitution);
         if deepest <= 0.0 {
             let dip = self.rows.iter().fold(0.0, |dip: f64, row| dip.max(-row.place.gap));
@@ -230,9 +230,7 @@ impl<B: Disk> Explicit<B> {
         let reach = NEIGHBOUR_DEPTHS * deepest;
         self.beyond.depth = deepest;
         if !self.law.pulls() && reach > likely {
-            let found = self.beyond.candidates.len();
-            self.find_candidates(z, tips, bound, reach + highest);
-            if self.beyond.candidates.len() > found {
+            if self.find_candidates(z, tips, bound, reach + highest, TIP_MARGIN) {
                 self.gather_targets(z, tips, restitution);
             }
         }

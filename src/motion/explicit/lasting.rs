@@ -82,8 +82,8 @@ impl Lasting {
         }
         let values = [casing.re, casing.im, tips.re, tips.im];
         for ((low, high), value) in self.now.ends.iter_mut().zip(values) {
-            *low = low.min(value);
-            *high = high.max(value);
+            *low = if value < *low { value } else { *low };
+            *high = if value > *high { value } else { *high };
         }
         self.now.swing = self.now.swing.max(swing);
     }

@@ -12,7 +12,7 @@ use wide::f64x2;
 
 use super::Explicit;
 use super::dies::Dies;
-use super::disk::{Columns, Disk, Pair};
+use super::disk::{Columns, Disk};
 use super::lasting::mark;
 use super::record::Record;
 use super::rows::TipLaw;
@@ -25,8 +25,6 @@ use crate::tolerances::{LINING_MARGIN, SERIES_PHASE, SHORT_SERIES_PHASE};
 pub(super) struct Lining {
     pub law: LiningLaw,
     near: Columns,
-    /// Where the casing was, and below which gap, when `near` was found; see `covers`.
-    found_at: Option<Found>,
     /// The turn of the frame of the blades at the pushes.
     turn: Plane,
     sums: Sums,
@@ -35,14 +33,6 @@ pub(super) struct Lining {
     touching: Touching,
     /// Which waves die at this speed, once asked.
     pub dies: OnceLock<Option<Dies>>,
-}
-
-/// Where the casing was, below which gap rows were looked for, and the clearance \[m\].
-#[derive(Clone, Copy, Debug)]
-struct Found {
-    place: Plane,
-    reach: f64,
-    clearance: f64,
 }
 
 /// Sums over the rows of a step.
@@ -56,9 +46,12 @@ struct Sums {
     /// What two modes feel of the torques \[N m\].
     felt: [f64; 2],
     deepest: f64,
-    /// Whether other rows press than in the step before.
-    changed: bool,
+    /// A number for the set of places near that press.
+    pressing: u64,
 }
+
+/// Odd, so that numbers of different sets differ.
+const MARK: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// What presses.
 #[derive(Clone, Copy, Debug, Default)]
@@ -74,7 +67,6 @@ impl Lining {
         Self {
             law,
             near: Columns::default(),
-            found_at: None,
             turn: Plane::default(),
             sums: Sums::default(),
             held_before: None,
@@ -95,7 +87,7 @@ impl Lining {
 
     /// The rows that press: index, side and push \[N\].
     fn pressed(&self) -> impl Iterator<Item = (u32, u32, f64)> {
-        self.near.each(|pair| pair.push).filter(|(_, _, push)| *push > 0.0)
+        self.near.pushes().filter(|(_, _, push)| *push > 0.0)
     }
 
     /// The multipliers of the rows that press, with their sides \[N\].
@@ -115,12 +107,12 @@ impl Lining {
 
     /// Stored between the last two steps \[J\].
     pub fn stored(&self) -> f64 {
-        let before = self.held_before.unwrap_or_else(|| self.energy(|pair| pair.before));
-        0.5 * (before + self.energy(|pair| pair.push))
+        let before = self.held_before.unwrap_or_else(|| self.energy(self.near.before()));
+        0.5 * (before + self.energy(self.near.pushes()))
     }
 
     /// Stored under these pushes of all rows \[J\].
-    fn energy(&self, push: impl Fn(&Pair) -> f64x2 + Clone) -> f64 {
+    fn energy(&self, pushes: impl Iterator<Item = (u32, u32, f64)>) -> f64 {
         let LiningLaw { stiffness_n_per_m: k, smoothing_m } = self.law;
         let of_row = |push: f64, stiffness: f64| {
             // As deep as such a push says of one blade.
@@ -130,7 +122,7 @@ impl Lining {
                 if on_line { deep + 0.5 * smoothing_m } else { (2.0 * smoothing_m * deep).sqrt() };
             stiffness / k * self.law.energy(-depth)
         };
-        let rows = self.near.each(push).zip(self.near.each(|pair| pair.stiffness));
+        let rows = pushes.zip(self.near.each(|pair| pair.stiffness));
         let pressed = rows.filter(|((.., push), _)| *push > 0.0);
         pressed.map(|((.., push), (.., stiffness))| of_row(push, stiffness)).sum()
     }
@@ -144,40 +136,27 @@ impl Lining {
         for (_, side, _) in self.pressed() {
             record.keep_touching(n.saturating_sub(1), side);
         }
-        self.held_before = Some(self.energy(|pair| pair.push));
+        self.held_before = Some(self.energy(self.near.pushes()));
         for pair in &mut self.near.pairs {
-            (pair.push, pair.torque) = (f64x2::ZERO, f64x2::ZERO);
+            (pair.pushes, pair.torque) = ([f64x2::ZERO; 2], f64x2::ZERO);
         }
         (self.sums, self.touching) = (Sums::default(), Touching::default());
     }
 
-    /// Whether the rows near are still all that may press, with the polygon at `w`, below a
-    /// gap of `look`: no gap changes by more than the casing moves.
-    fn covers(&self, w: Plane, look: f64, clearance: f64) -> bool {
-        self.found_at.is_some_and(|found| {
-            let moved = w - found.place;
-            let closed = (found.clearance - clearance).max(0.0);
-            look + moved.re.abs() + moved.im.abs() + closed <= found.reach
-        })
-    }
-
     /// Takes other rows as those near at step `n`, with the pushes of those that pressed
-    /// in the step before; whether one of these is no longer near.
-    fn take_rows(&mut self, mut near: Columns, record: &mut Record, n: u64) -> bool {
+    /// in the step before.
+    fn take_rows(&mut self, mut near: Columns, record: &mut Record, n: u64) {
         self.give_impulses(record);
-        self.held_before = Some(self.energy(|pair| pair.push));
+        self.held_before = Some(self.energy(self.near.pushes()));
         let mut places: Vec<(u32, usize)> = near.index.iter().copied().zip(0..).collect();
         places.sort_unstable();
-        let mut left = false;
         for (index, side, push) in self.pressed() {
             record.keep_touching(n.saturating_sub(1), side);
-            match places.binary_search_by_key(&index, |(known, _)| *known) {
-                Ok(found) => near.put_push(places[found].1, push),
-                Err(_) => left = true,
+            if let Ok(found) = places.binary_search_by_key(&index, |(known, _)| *known) {
+                near.put_push(places[found].1, push);
             }
         }
         self.near = near;
-        left
     }
 
     /// Pushes of all rows, with the casing at `z` in the frame of the blades and the modes
@@ -201,55 +180,62 @@ impl Lining {
         modes: [f64; 2],
         most: f64,
     ) -> Sums {
-        if most < SHORT_SERIES_PHASE {
+        if tips.diameters == 0.0 {
+            self.press_by::<MODAL, SMOOTH>(z, tips, modes, |_| (f64x2::ZERO, f64x2::ONE))
+        } else if most < SHORT_SERIES_PHASE {
             self.press_by::<MODAL, SMOOTH>(z, tips, modes, |phase| {
                 let q = phase * phase;
-                let versine = q * (0.5 - q * (1.0 / 24.0));
-                (phase - phase * (q * (1.0 / 6.0)), versine)
+                // Short chains of operations.
+                let cos = (1.0 - q * 0.5) + (q * q) * (1.0 / 24.0);
+                (phase - (phase * (1.0 / 6.0)) * q, cos)
             })
         } else if most < SERIES_PHASE {
             self.press_by::<MODAL, SMOOTH>(z, tips, modes, |phase| {
                 let q = phase * phase;
                 let sin = q * (1.0 / 6.0) * (1.0 - q * (1.0 / 20.0) * (1.0 - q * (1.0 / 42.0)));
                 let fourth = 1.0 - q * (1.0 / 30.0) * (1.0 - q * (1.0 / 56.0));
-                (phase - phase * sin, q * 0.5 * (1.0 - q * (1.0 / 12.0) * fourth))
+                (phase - phase * sin, 1.0 - q * 0.5 * (1.0 - q * (1.0 / 12.0) * fourth))
             })
         } else {
             self.press_by::<MODAL, SMOOTH>(z, tips, modes, |phase| {
-                let sin = phase.to_array().map(f64::sin);
-                let half = (phase * 0.5).to_array().map(f64::sin);
-                (sin.into(), half.map(|half| 2.0 * half * half).into())
+                let both = phase.to_array().map(f64::sin_cos);
+                (both.map(|(sin, _)| sin).into(), both.map(|(_, cos)| cos).into())
             })
         }
     }
 
-    /// `press` with this sine and versine, one less the cosine.
+    /// `press` with this sine and cosine. Phases are angles where there are no diameters.
     #[inline(always)]
     fn press_by<const MODAL: bool, const SMOOTH: bool>(
         &mut self,
         z: Plane,
         tips: &TipLaw,
         modes: [f64; 2],
-        sin_versine: impl Fn(f64x2) -> (f64x2, f64x2),
+        sin_cos: impl Fn(f64x2) -> (f64x2, f64x2),
     ) -> Sums {
         let eps = f64x2::splat(self.law.smoothing_m);
         let by_depth = f64x2::splat(if SMOOTH { 0.5 / self.law.smoothing_m } else { 0.0 });
-        let TipLaw { clearance, diameters, rise, pushed, .. } = *tips;
-        let [mut x, mut y, mut pushes, mut turning, mut deepest, mut changed] = [f64x2::ZERO; 6];
+        let TipLaw { clearance, diameters, pushed, .. } = *tips;
+        let scale = if diameters == 0.0 { 1.0 } else { diameters };
+        let rise = tips.rise / scale;
+        let modes = modes.map(|mode| mode * scale);
+        let [mut x, mut y, mut pushes, mut turning, mut deepest] = [f64x2::ZERO; 5];
         let mut felt = [f64x2::ZERO; 2];
+        let mut pressing = 0_u64;
+        self.near.latest ^= 1;
+        let now = self.near.latest & 1;
         for pair in &mut self.near.pairs {
-            let angle = if MODAL {
+            let phase = if MODAL {
                 pair.shape[0] * modes[0] + pair.shape[1] * modes[1]
             } else {
-                pair.angle
+                pair.angle * scale
             };
-            let (sin, versine) = sin_versine(angle * diameters);
-            let (c, s) = (pair.cosine, pair.sine);
-            let across = c - (c * versine + s * sin);
-            let along = s - (s * versine - c * sin);
+            let (sin, cos) = sin_cos(phase);
+            let across = pair.cosine * cos - pair.sine * sin;
+            let along = pair.sine * cos + pair.cosine * sin;
             let inward = across * z.re + along * z.im;
             let arm = across * z.im - along * z.re;
-            let deep = (angle * rise - (inward + clearance)).fast_max(f64x2::ZERO);
+            let deep = (phase * rise - (inward + clearance)).fast_max(f64x2::ZERO);
             let depth = if SMOOTH {
                 let parabola = deep.fast_min(eps);
                 parabola * parabola * by_depth + (deep - parabola)
@@ -257,9 +243,9 @@ impl Lining {
                 deep
             };
             let push = depth * pair.stiffness;
-            changed |= push.simd_gt(f64x2::ZERO) ^ pair.push.simd_gt(f64x2::ZERO);
-            pair.before = pair.push;
-            pair.push = push;
+            let touches = u64::from(push.simd_gt(f64x2::ZERO).to_bitmask());
+            pressing = pressing.wrapping_mul(MARK).wrapping_add(touches);
+            pair.pushes[now] = push;
             pair.impulse += push;
             let torque = push * (arm * diameters - pushed);
             if MODAL {
@@ -280,13 +266,13 @@ impl Lining {
             torque: turning.reduce_add(),
             felt: felt.map(f64x2::reduce_add),
             deepest: deepest.to_array().into_iter().fold(0.0, f64::max),
-            changed: changed.to_bitmask() != 0,
+            pressing,
         }
     }
 
     /// Keeps which rows press at step `n`, where these are others than before.
     fn keep_change(&mut self, record: &mut Record, n: u64, rows: usize) {
-        let both = self.near.each(|pair| pair.push).zip(self.near.each(|pair| pair.before));
+        let both = self.near.pushes().zip(self.near.before());
         for ((_, side, _), (.., before)) in both.clone() {
             if before > 0.0 {
                 record.keep_touching(n.saturating_sub(1), side);
@@ -381,38 +367,29 @@ impl<B: Disk> Explicit<B> {
         if let Some(lining) = &mut self.lining {
             (lining.turn, lining.held_before) = (turn, None);
         }
-        let left = self.find_near(z, tips, bound);
+        let anew = self.find_near(z, tips, bound);
         let n = self.n;
         let Self { lining: Some(lining), blades, record, .. } = self else { return };
         let modes = blades.modes();
         if modes.is_none() {
             blades.angles(&mut lining.near);
         }
+        let before = lining.sums.pressing;
         lining.press(z, tips, modes, tips.diameters * bound);
-        if left || lining.sums.changed {
+        if anew || lining.sums.pressing != before {
             lining.keep_change(record, n, blades.table().count());
         }
         record.deepest = record.deepest.max(lining.sums.deepest);
     }
 
-    /// Finds the rows that may press, where they are not known; whether one that pressed
-    /// is not among them.
+    /// Finds the rows that may press, where they are not known; whether these are others.
     fn find_near(&mut self, z: Plane, tips: &TipLaw, bound: f64) -> bool {
-        let wave = if tips.rise == 0.0 { Some(Plane::default()) } else { self.blades.wave() };
-        let wave = wave.filter(|_| self.blades.table().is_by_side());
-        let w = wave.map(|wave| z - wave * tips.rise);
-        let look = tips.diameters * bound * (z.re.abs() + z.im.abs());
-        let Some(lining) = &self.lining else { return false };
-        if w.is_some_and(|w| lining.covers(w, look, tips.clearance)) {
+        if !self.find_candidates(z, tips, bound, 0.0, LINING_MARGIN) {
             return false;
         }
-        let margin = w.map_or(0.0, |w| LINING_MARGIN * (tips.clearance.abs() + w.norm()));
-        self.find_candidates(z, tips, bound, margin);
         let Self { lining: Some(lining), blades, record, beyond, machine, n, .. } = self else {
             return false;
         };
-        let (reach, clearance) = (look + margin, tips.clearance);
-        lining.found_at = w.map(|place| Found { place, reach, clearance });
         let rows = &beyond.candidates;
         if lining.near.index == *rows {
             return false;
@@ -420,7 +397,8 @@ impl<B: Disk> Explicit<B> {
         let direction = |side| machine.polygon.direction(side);
         let k = lining.law.stiffness_n_per_m;
         let near = Columns::of(rows, blades.table(), k, direction, |row| blades.shape_of(row));
-        lining.take_rows(near, record, *n)
+        lining.take_rows(near, record, *n);
+        true
     }
 
     /// Keeps the pushes of the lining at the latest step; whether there are any.
@@ -474,7 +452,7 @@ impl<B: Disk> Explicit<B> {
         self.lining = self.scene.lining().map(Lining::new);
         let part = old.map_or(1.0, |mut old| {
             old.give_impulses(&mut self.record);
-            let held = old.energy(|pair| pair.push);
+            let held = old.energy(old.near.pushes());
             let before = 2.0 * old.stored() - held;
             old.release(&mut self.record, n + 1);
             if held > 0.0 { before / held } else { 1.0 }
@@ -483,7 +461,7 @@ impl<B: Disk> Explicit<B> {
         let (z, turn) = self.in_blade_frame();
         self.find_pressed(z, turn, &tips, bound);
         let Some(lining) = &mut self.lining else { return };
-        lining.held_before = Some(part * lining.energy(|pair| pair.push));
+        lining.held_before = Some(part * lining.energy(lining.near.pushes()));
         // The record has the pushes of this step.
         lining.near.pairs.iter_mut().for_each(|pair| pair.impulse = f64x2::ZERO);
     }

@@ -32,6 +32,8 @@ pub struct Oscillator {
     damping: f64,
     stiffness: f64,
     step: f64,
+    /// See `lost`.
+    lost: f64,
     /// Many steps at once, acting on `(x, increment)`; none once it was stiffened.
     leap: Option<Leap<2>>,
 }
@@ -56,7 +58,8 @@ impl Oscillator {
         let pull = stiffness * compliance;
         let loss = 2.0 * drag * compliance;
         let leap = Some(Leap::new(Matrix2::new(-pull, ratio, -pull, -loss)));
-        Self { ratio, pull, loss, compliance, mass, damping, stiffness, step, leap }
+        let lost = loss / (4.0 * compliance);
+        Self { ratio, pull, loss, compliance, mass, damping, stiffness, step, lost, leap }
     }
 
     /// State at n = 0 from position and rate, so that `x[-1]` is
@@ -122,7 +125,7 @@ impl Oscillator {
     /// \[J/rad^2\] or \[J/m^2\].
     #[must_use]
     pub fn lost(&self) -> f64 {
-        self.loss / (4.0 * self.compliance)
+        self.lost
     }
 
     /// Angle that a free coordinate turns through in a step, about \[rad\].

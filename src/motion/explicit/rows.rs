@@ -115,15 +115,47 @@ pub(super) fn turned((c, s): (f64, f64), phase: f64) -> Plane {
     Plane::new(c * cos - s * sin, s * cos + c * sin)
 }
 
+/// Where the polygon of the tips was, below which gap, and how far from the casing, when
+/// candidates were found.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Found {
+    place: Plane,
+    reach: f64,
+    clearance: f64,
+}
+
 impl<B: Disk> Explicit<B> {
-    /// The rows whose gaps may be below `reach` now, for blades within `bound`.
-    pub(super) fn find_candidates(&mut self, z: Plane, tips: &TipLaw, bound: f64, reach: f64) {
+    /// The rows whose gaps may be below `reach` now, for blades within `bound`, and some
+    /// more, up to a gap larger by a `margin` and the way of the polygon; whether they were
+    /// looked for anew.
+    pub(super) fn find_candidates(
+        &mut self,
+        z: Plane,
+        tips: &TipLaw,
+        bound: f64,
+        reach: f64,
+        margin: f64,
+    ) -> bool {
         // A blade angle moves a gap by at most |z| n_d alpha beside its slope.
         let look = reach + tips.diameters * bound * (z.re.abs() + z.im.abs());
-        self.beyond.candidates.clear();
         let wave = if tips.rise == 0.0 { Some(Plane::default()) } else { self.blades.wave() };
-        match wave.filter(|_| self.blades.table().is_by_side()) {
-            Some(wave) => self.walk(z - wave * tips.rise, look, false, |this, side| {
+        let wave = wave.filter(|_| self.blades.table().is_by_side());
+        let w = wave.map(|wave| z - wave * tips.rise);
+        // No gap changes by more than the polygon moves and the casing comes nearer.
+        let covers = |w: Plane, found: Found| {
+            let moved = w - found.place;
+            let closed = (found.clearance - tips.clearance).max(0.0);
+            look + moved.re.abs() + moved.im.abs() + closed <= found.reach
+        };
+        if w.zip(self.beyond.found).is_some_and(|(w, found)| covers(w, found)) {
+            return false;
+        }
+        self.beyond.candidates.clear();
+        let margin = w.map_or(0.0, |w| margin * (tips.clearance.abs() + w.norm()));
+        let look = look + margin;
+        self.beyond.found = w.map(|place| Found { place, reach: look, clearance: tips.clearance });
+        match w {
+            Some(w) => self.walk(w, look, false, |this, side| {
                 let row = this.blades.table().of_side(side)[0];
                 this.beyond.candidates.push(row);
                 false
@@ -139,6 +171,7 @@ impl<B: Disk> Explicit<B> {
                 }
             }
         }
+        true
     }
 
     /// Adds the nearest side of the polygon at `w` and those on either side of it, as long

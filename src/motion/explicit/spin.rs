@@ -7,6 +7,7 @@ use super::Explicit;
 use super::disk::Disk;
 use super::rows::TipLaw;
 use crate::motion::{Failure, FailureReason};
+use crate::tolerances::TIP_MARGIN;
 
 impl<B: Disk> Explicit<B> {
     /// Whether the machine changes from step to step.
@@ -103,7 +104,7 @@ impl<B: Disk> Explicit<B> {
         for _ in 0..GIVE_WAY {
             let (tips, bound) = (self.tips, self.blades.bound());
             let (z, _) = self.in_blade_frame();
-            self.find_candidates(z, &tips, bound, 0.0);
+            self.find_candidates(z, &tips, bound, 0.0, TIP_MARGIN);
             let deepest = self.gather_targets(z, &tips, 0.0);
             self.rows.clear();
             if deepest <= 0.0 {

@@ -48,6 +48,19 @@ fn what_was_chosen_by_key_is_there_at_the_next_start() {
 }
 
 #[test]
+fn the_unit_of_speeds_is_remembered_and_can_be_written_by_hand() {
+    let home = tempfile::tempdir().unwrap();
+    let path = home.path().join("config.toml");
+    std::fs::write(&path, "[units]\nspeed = \"rpm\"\n").unwrap();
+    let first = session(&path, |app| _ = app.act(Action::SpeedUnit));
+    assert!(first.appearance.rpm);
+    assert_eq!(read(&path).units.speed, Some(SpeedUnit::Radians));
+    assert!(!session(&path, |_| {}).appearance.rpm);
+    std::fs::write(&path, "[units]\nspeed = \"knots\"\n").unwrap();
+    assert!(Memory::at(Some(path)).complaint.unwrap().starts_with("config.toml is not used"));
+}
+
+#[test]
 fn a_file_is_written_only_if_something_changed_and_keeps_what_is_not_known() {
     let home = tempfile::tempdir().unwrap();
     let path = home.path().join("config.toml");

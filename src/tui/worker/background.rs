@@ -27,6 +27,19 @@ pub fn spare_threads() -> usize {
     cores.saturating_sub(1).clamp(1, MOST_THREADS)
 }
 
+/// Does work on these threads: not every core, as the motion plays on.
+pub fn on_spare_cores<R: Send>(work: impl FnOnce() -> R + Send) -> R {
+    // The panic hook knows these threads, too.
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(spare_threads())
+        .thread_name(|_| WORKER_NAME.to_string())
+        .build();
+    match pool {
+        Ok(pool) => pool.install(work),
+        Err(_) => work(),
+    }
+}
+
 impl<T: Send + 'static> Background<T> {
     /// Starts `work`, which sends its results and looks at whether to go on.
     pub fn start(work: impl FnOnce(&Sender<T>, GoOn<'_>) + Send + 'static) -> Self {

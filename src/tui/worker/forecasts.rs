@@ -13,7 +13,7 @@ use crate::tui::engine::{
     Answer, FORECAST_LIMIT, FullRun, FullRunState, Order, Pace, Results, Sensitive,
 };
 use crate::tui::trace::Mark;
-use crate::tui::worker::background::Background;
+use crate::tui::worker::background::{Background, on_spare_cores};
 use crate::tui::worker::full_run::{FullRunJob, SLICE};
 use crate::tui::worker::studies::Studies;
 
@@ -189,7 +189,8 @@ fn sensitivity(
     Background::start(move |to, go_on| {
         let began = Instant::now();
         let go_on = || go_on() && began.elapsed() < FORECAST_LIMIT;
-        if let Some(sensitive) = is_sensitive(&scene, reached, &course, &go_on) {
+        let found = on_spare_cores(|| is_sensitive(&scene, reached, &course, &go_on));
+        if let Some(sensitive) = found {
             // Without a receiver nobody asks any more.
             let _ = to.send(sensitive);
         }

@@ -221,7 +221,7 @@ impl Disk for FullBlades {
         change
     }
     fn swept(&mut self, rows: &Columns) -> f64 {
-        self.put(rows.each(|pair| pair.push));
+        self.put(rows.pushes());
         let Self { ring, increments, before, room, .. } = self;
         let (mut swept, moved) = (0.0, |place: usize| 0.5 * (increments[place] + before[place]));
         ring.shapes.feel(room, |k, felt| {

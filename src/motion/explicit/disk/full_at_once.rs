@@ -3,6 +3,7 @@
 
 use super::Columns;
 use super::full::FullBlades;
+use crate::tolerances::{FEW_BLADES, FEW_PRESSED};
 
 /// A look at the angles of all rows.
 #[derive(Clone, Debug)]
@@ -35,7 +36,7 @@ impl FullBlades {
 
     /// Whether so many rows cost more one by one than all at once.
     pub(super) fn are_many(&self, rows: &Columns) -> bool {
-        rows.index.len() * self.rows.members as usize > self.ring.few
+        rows.index.len() * self.rows.members as usize > self.ring.few / FEW_BLADES * FEW_PRESSED
     }
 
     /// Puts values of rows, shared evenly by their members, into the room.

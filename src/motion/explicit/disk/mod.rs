@@ -20,7 +20,7 @@ mod table;
 pub use full::FullBlades;
 pub use modal::ModalBlades;
 pub use rigid::RigidBlades;
-pub(in crate::motion) use table::{Columns, Pair, RowTable};
+pub(in crate::motion) use table::{Columns, RowTable};
 
 use std::fmt::Debug;
 
@@ -94,7 +94,7 @@ pub(in crate::motion) trait Disk: Clone + Debug + Send + Sync + 'static {
     /// steps \[N rad\].
     fn swept(&mut self, rows: &Columns) -> f64 {
         let mut swept = 0.0;
-        for (row, _, push) in rows.each(|pair| pair.push) {
+        for (row, _, push) in rows.pushes() {
             if push != 0.0 {
                 swept += push * 0.5 * (self.angle(row) - self.angle_before(row));
             }

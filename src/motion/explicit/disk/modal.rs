@@ -160,8 +160,9 @@ impl Disk for ModalBlades {
     fn swept(&mut self, rows: &Columns) -> f64 {
         let mut pushes = [f64x2::ZERO; 2];
         for pair in &rows.pairs {
-            pushes[0] += pair.shape[0] * pair.push;
-            pushes[1] += pair.shape[1] * pair.push;
+            let push = pair.pushes[rows.latest & 1];
+            pushes[0] += pair.shape[0] * push;
+            pushes[1] += pair.shape[1] * push;
         }
         let [c, s] = pushes.map(f64x2::reduce_add);
         let moved = |k: usize| 0.5 * (self.modes[k].increment + self.before[k]);

@@ -57,6 +57,7 @@ pub(in crate::motion) struct Columns {
     pub index: Vec<u32>,
     pub side: Vec<u32>,
     pub pairs: Vec<Pair>,
+    pub latest: usize,
 }
 
 /// Two rows side by side.
@@ -72,10 +73,10 @@ pub(in crate::motion) struct Pair {
     /// Angle \[rad\] and torque \[N m\] of each row, where there are not only two modes.
     pub angle: f64x2,
     pub torque: f64x2,
-    /// Push on the blades of a row, that of the step before, and the sum of the pushes
-    /// since it was given to the record \[N\].
-    pub push: f64x2,
-    pub before: f64x2,
+    /// Push on the blades of a row, that of the latest step at the place `latest` and that
+    /// of the step before, and the sum of the pushes since it was given to the record
+    /// \[N\].
+    pub pushes: [f64x2; 2],
     pub impulse: f64x2,
 }
 
@@ -104,7 +105,7 @@ impl Columns {
             }
         };
         let pairs = rows.chunks(2).zip(side.chunks(2)).map(pair).collect();
-        Self { index: rows.to_vec(), side, pairs }
+        Self { index: rows.to_vec(), side, pairs, latest: 0 }
     }
 
     /// Index and side of each row, and this value of it.
@@ -117,9 +118,19 @@ impl Columns {
         rows.zip(values).map(|((&index, &side), value)| (index, side, value))
     }
 
-    /// The push of the row at a place \[N\].
+    /// The push of each row in the latest step \[N\].
+    pub fn pushes(&self) -> impl Iterator<Item = (u32, u32, f64)> + Clone {
+        self.each(|pair| pair.pushes[self.latest & 1])
+    }
+
+    /// The same in the step before \[N\].
+    pub fn before(&self) -> impl Iterator<Item = (u32, u32, f64)> + Clone {
+        self.each(|pair| pair.pushes[(self.latest ^ 1) & 1])
+    }
+
+    /// Puts the push of the row at a place in the latest step \[N\].
     pub fn put_push(&mut self, place: usize, push: f64) {
-        self.pairs[place / 2].push.as_mut_array()[place % 2] = push;
+        self.pairs[place / 2].pushes[self.latest & 1].as_mut_array()[place % 2] = push;
     }
 }
 

@@ -53,7 +53,8 @@ impl<B: Disk> Explicit<B> {
 
     /// Whether a lock beyond the paper is held.
     pub(in crate::motion::explicit) fn open_lock(&mut self) -> bool {
-        if !self.leaps.block.is_open() && self.record.last_touch == self.n {
+        let lasts = self.leaps.same_sides >= HELD_AFTER && self.record.last_touch == self.n;
+        if lasts && !self.leaps.block.is_open() {
             self.hold_lock();
         }
         self.leaps.block.is_open()
@@ -257,10 +258,11 @@ impl<B: Disk> Explicit<B> {
             self.record.impulse(side, sum);
         }
         self.record.log.touch(t, self.record.log.active_set);
-        if let Held::Corner(corner) = held
-            && self.goes_beyond
-        {
-            self.log_lock(corner, before);
+        if let Held::Corner(corner) = held {
+            self.record.deepest = self.record.deepest.max(corner.deepest());
+            if self.goes_beyond {
+                self.log_lock(corner, before);
+            }
         }
         match held {
             Held::Corner(corner) if corner.pulls => {
@@ -287,16 +289,19 @@ impl<B: Disk> Explicit<B> {
             Some(Verdict::Decay)
         } else if let Some(Held::Corner(held)) = &self.leaps.held {
             Some(locked(held.pulls))
-        } else if self.goes_beyond {
-            self.dies().then_some(Verdict::Decay)
+        } else if self.goes_beyond || self.blades.held_modes().is_some() {
+            let dies = self.dies().then_some(Verdict::Decay);
+            dies.or_else(|| self.lock_for_good().map(locked))
         } else {
             self.corner_for_good()
         }
     }
 
-    /// A corner that is not leapt over, if at constant speed its pushes cannot change their
+    /// A corner of blades one by one, if at constant speed its pushes cannot change their
     /// signs any more: an angle, its rate and its acceleration enter them with
-    /// at most all rates squared times the distance of the corner over its sine.
+    /// at most all rates squared times the distance of the corner over its sine. Pushes that
+    /// stay swing the blades about another rest, which is no farther than the same torque
+    /// brings all modes at the least stiffness.
     fn corner_for_good(&self) -> Option<Verdict> {
         let sides = self.steady_corner()?;
         let since = (self.record.log.since / self.drive.step) as u64;
@@ -316,10 +321,12 @@ impl<B: Disk> Explicit<B> {
             + machine.blade_damping_ratio * machine.omega_bd_max;
         let nu = machine.nu(self.drive.speed(self.n)).abs();
         let rates = nu + machine.omega_c + machine.omega_bd_max + 2.0 * damping;
-        let turned = machine.nodal_diameters * self.blades.reach();
+        let moment_arm = machine.nodal_diameters * machine.polygon.half_side();
+        let torque = moment_arm * (a.abs() + b.abs());
+        let rest = 2.0 * torque / self.scene.bladed_disk.stiffness_nm_per_rad;
+        let turned = machine.nodal_diameters * (self.blades.reach() + rest);
         let distance = machine.clearance() / (sin * cos);
         let change = 2.0 * turned * rates * rates * distance * machine.casing_mass;
-        let moment_arm = machine.nodal_diameters * machine.polygon.half_side();
         let light = moment_arm * moment_arm * self.blades.compliance(0, 0)
             < LIGHT_BLADES * self.casing.compliance;
         let least = if self.law.pulls() { least.min(a.abs()).min(b.abs()) } else { least };

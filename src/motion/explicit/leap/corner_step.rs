@@ -257,12 +257,12 @@ impl CornerStep {
         let lost = self.blades.as_ref().map_or(0.0, |blades| blades.oscillator().lost());
         let TipLaw { friction, casing_friction, .. } = self.tips;
         let (mut work, mut heat) = (0.0, 0.0);
-        for k in 0..2 {
+        for (k, bent) in bent.into_iter().enumerate() {
             let push = -step.multipliers[k];
             let along = 0.5 * (moved * step.normals[k].conj()).im;
             work += push * (friction * radius * rotor - step.arms[k] * rotor);
             heat += push
-                * (friction * (radius * rotor + 0.5 * length * bent[k]) - casing_friction * along);
+                * (friction * (radius * rotor + 0.5 * length * bent) - casing_friction * along);
         }
         let casing = self.casing.lost() * moved.norm_sqr();
         let blades = lost * (turned[0] * turned[0] + turned[1] * turned[1]);

@@ -10,7 +10,8 @@
 //! is worked out with its small parts apart (`CornerStep`), so that it carries
 //! no round-off of the gaps; the map is used only while both multipliers and
 //! both predicted gaps keep their signs with room to spare, and where every step leaves the
-//! same gaps: a push turns the sides of soft blades in a long step.
+//! same gaps: a push turns the sides of its blades, by next to nothing in a short step, and
+//! the corner that is held then has the gaps that steps leave at rest (`rest_in`).
 //!
 //! Beyond the paper tips may rise and rub, and the flows of energy go on: their sums over
 //! many steps are closed, too.
@@ -26,8 +27,8 @@ use crate::motion::explicit::disk::{Disk, HeldModes};
 use crate::motion::explicit::oscillator::{LARGEST, Leap};
 use crate::motion::explicit::{Coordinate, Explicit};
 use crate::tolerances::{
-    ANGLE_LOOK, HELD_AFTER, HELD_AGAIN, HELD_CORRECTIONS, HELD_PROBE, MOST_GROWTH, ROOM_TO_CHANGE,
-    SMALL_TURNS,
+    ANGLE_LOOK, HELD_AFTER, HELD_AGAIN, HELD_CORRECTIONS, HELD_PROBE, KEPT_TURN, MOST_GROWTH,
+    ROOM_TO_CHANGE, SMALL_TURNS,
 };
 
 pub(super) type StepMap = SMatrix<f64, 4, 4>;
@@ -83,6 +84,11 @@ impl HeldCorner {
         self.counts.then(sums).map(|[_, _, flows @ ..]| flows)
     }
 
+    /// Deepest penetration that its steps leave \[m\].
+    pub fn deepest(&self) -> f64 {
+        self.step.open.iter().fold(0.0, |deepest, gap| deepest.max(-gap))
+    }
+
     /// Amplitude of the blade modes after `steps` steps \[rad\].
     pub fn amplitude(&self, steps: u64) -> f64 {
         let modes = self.modes(steps);
@@ -94,6 +100,7 @@ impl HeldCorner {
     fn closes(&self, at_rest: &Stepped) -> Option<bool> {
         let closed = |step: &Stepped| self.step.is_closed_by(step, at_rest.gaps);
         let mut all = closed(at_rest);
+        all &= closed(&self.step.from(self.modes(0))?);
         let (angle, increment) = self.swing;
         for (j, swing) in [angle, angle, increment, increment].into_iter().enumerate() {
             for end in [-swing, swing] {
@@ -166,26 +173,13 @@ impl<B: Disk> Explicit<B> {
     }
 
     fn make_map(&self, sides: [u32; 2]) -> Option<HeldCorner> {
-        let now = self.corner_modes()?;
-        let speed = self.drive.speed(self.n);
-        let turn = self.machine.nu(speed) * self.drive.step;
-        let (machine, casing) = (&self.machine, &self.casing);
-        let step = CornerStep::new(machine, self.tips, casing, now.moving, sides, turn);
-        let now = as_modes(now.modes);
-        let resting = rest_in(&step, now)?;
-        let start = now - resting.rest;
-        let (mut swing, mut growth) = ((0.0, 0.0), 1.0);
-        if let Some(blades) = step.blades() {
-            let oscillator = blades.oscillator();
-            swing = oscillator.reach_of(as_coordinates(start));
-            if self.goes_beyond {
-                growth = growth_of(&Leap::new(resting.change), oscillator.turn())?;
-                swing = (growth * swing.0, growth * swing.1);
-            }
-        }
-        if !self.is_kept(&step, &resting, swing) {
+        let Standing { step, resting, start, swing, growth } =
+            self.stand_in(sides, self.goes_beyond)?;
+        let phase = self.machine.nodal_diameters * swing.0;
+        if phase > SMALL_TURNS[2] || !self.is_kept(&step, &resting, swing) {
             return None;
         }
+        let (machine, speed) = (&self.machine, self.drive.speed(self.n));
         let Resting { rest, at_rest, change, unchanged, slopes } = resting;
         let [a, b] = at_rest.multipliers;
         let (length, radius) = (machine.blade_length, self.scene.casing.radius_m);
@@ -197,7 +191,6 @@ impl<B: Disk> Explicit<B> {
             let [work, casing, blades, heat] = step.flows(modes, &stepped, rotor, length, radius);
             Some((stepped.change, [a, b, work, casing, blades, heat]))
         };
-        let phase = machine.nodal_diameters * swing.0;
         let [linear, square, _] = SMALL_TURNS;
         let counts = self.goes_beyond && !self.beyond.account.forgone;
         let (_, values) = outcome(Modes::zeros())?;
@@ -218,6 +211,42 @@ impl<B: Disk> Explicit<B> {
         held.closes(&at_rest)?.then_some(held)
     }
 
+    /// Whether a lock that swings too far to be leapt over pulls, if no push of it and no
+    /// predicted gap ever changes its sign.
+    pub(super) fn lock_for_good(&self) -> Option<bool> {
+        let sides = self.steady_corner()?;
+        let since = (self.record.log.since / self.drive.step) as u64;
+        if self.n < since + HELD_AFTER {
+            return None;
+        }
+        let Standing { step, resting, swing, .. } = self.stand_in(sides, true)?;
+        let small = self.machine.nodal_diameters * swing.0 < KEPT_TURN;
+        let pulls = resting.at_rest.multipliers.iter().any(|multiplier| *multiplier > 0.0);
+        (small && self.is_kept(&step, &resting, swing)).then_some(pulls)
+    }
+
+    /// The corner of these sides, its rest and the swing about it, with how far the swing
+    /// may grow first where that is asked for.
+    fn stand_in(&self, sides: [u32; 2], grows: bool) -> Option<Standing> {
+        let now = self.corner_modes()?;
+        let turn = self.machine.nu(self.drive.speed(self.n)) * self.drive.step;
+        let (machine, casing) = (&self.machine, &self.casing);
+        let mut step = CornerStep::new(machine, self.tips, casing, now.moving, sides, turn);
+        let now = as_modes(now.modes);
+        let resting = rest_in(&mut step, now)?;
+        let start = now - resting.rest;
+        let (mut swing, mut growth) = ((0.0, 0.0), 1.0);
+        if let Some(blades) = step.blades() {
+            let oscillator = blades.oscillator();
+            swing = oscillator.reach_of(as_coordinates(start));
+            if grows {
+                growth = growth_of(&Leap::new(resting.change), oscillator.turn())?;
+                swing = (growth * swing.0, growth * swing.1);
+            }
+        }
+        Some(Standing { step, resting, start, swing, growth })
+    }
+
     /// The modes of a corner whose rows are its two sides, and whose casing is rigid and
     /// gives nothing back.
     fn corner_modes(&self) -> Option<HeldModes<'_>> {
@@ -233,9 +262,6 @@ impl<B: Disk> Explicit<B> {
     /// of another side near the casing: neither at rest nor by the vibration before it.
     fn is_kept(&self, step: &CornerStep, at: &Resting, (angle, increment): (f64, f64)) -> bool {
         let turn = self.machine.nodal_diameters * angle;
-        if turn > SMALL_TURNS[2] {
-            return false;
-        }
         if self.goes_beyond {
             let (place, _) = step.casing(at.rest);
             let moves = 4.0 * turn * place.norm() + self.tips.rise.abs() * angle;
@@ -311,27 +337,43 @@ struct Resting {
     slopes: [Modes; 4],
 }
 
-/// The rest nearest to `now`; none where steps leave more than next to nothing of their
-/// gaps there.
-fn rest_in(step: &CornerStep, now: Modes) -> Option<Resting> {
+/// A corner, its rest, and the blades about it.
+struct Standing {
+    step: CornerStep,
+    resting: Resting,
+    /// Blade modes now, less those at rest.
+    start: Modes,
+    /// Bounds on angle and increment of what they come to, and how far they may grow first.
+    swing: (f64, f64),
+    growth: f64,
+}
+
+/// The rest nearest to `now`. Where steps leave more than next to nothing of their gaps,
+/// the corner of the step gets the gaps that they leave there.
+fn rest_in(step: &mut CornerStep, now: Modes) -> Option<Resting> {
     let mut rest = now;
-    let (change, slopes) = slopes(step, rest)?;
-    let mut unchanged = StepMap::zeros();
-    if step.blades().is_some() {
-        unchanged = change.try_inverse()?;
-        for _ in 0..HELD_CORRECTIONS {
-            let correction = unchanged * step.from(rest)?.change;
-            rest -= correction;
-            if correction.amax() <= f64::EPSILON * rest.amax() {
-                break;
+    for _ in 0..HELD_CORRECTIONS {
+        let (change, slopes) = slopes(step, rest)?;
+        let mut unchanged = StepMap::zeros();
+        if step.blades().is_some() {
+            unchanged = change.try_inverse()?;
+            for _ in 0..HELD_CORRECTIONS {
+                let correction = unchanged * step.from(rest)?.change;
+                rest -= correction;
+                if correction.amax() <= f64::EPSILON * rest.amax() {
+                    break;
+                }
             }
+        } else {
+            rest = Modes::zeros();
         }
-    } else {
-        rest = Modes::zeros();
+        let at_rest = step.from(rest)?;
+        if step.is_closed_by(&at_rest, at_rest.gaps) {
+            return Some(Resting { rest, at_rest, change, unchanged, slopes });
+        }
+        step.open = at_rest.left;
     }
-    let at_rest = step.from(rest)?;
-    let closed = step.is_closed_by(&at_rest, at_rest.gaps);
-    closed.then_some(Resting { rest, at_rest, change, unchanged, slopes })
+    None
 }
 
 /// The map of the deviation from `at`, minus one, and the gradients of multipliers
@@ -369,6 +411,7 @@ mod tests {
     use crate::motion::explicit::Oscillator;
     use crate::motion::explicit::disk::ModalBlades;
     use crate::motion::explicit::rows::TipLaw;
+    use crate::motion::{Solver, Verdict};
     use crate::scene::Scene;
     use crate::tolerances::HELD_LEFT;
 
@@ -435,5 +478,51 @@ mod tests {
         }
         // Either side alone, by an angle, an increment and both.
         assert!(open.len() >= 6, "{open:?}");
+    }
+
+    #[test]
+    fn a_lock_that_is_decided_before_it_is_leapt_over_is_kept_to_the_end() {
+        let mut random = fastrand::Rng::with_seed(3);
+        let mut between = |low: f64, high: f64| low + (high - low) * random.f64();
+        let (mut decided, mut pulled) = (0, 0);
+        for n in 0..120 {
+            let mut scene = Scene::base();
+            let law = if n % 3 == 0 { "unilateral" } else { "bilateral" };
+            scene.set("solver.contact", law).unwrap();
+            for (key, value) in [
+                ("bladed_disk.radial_coupling", between(0.02, 0.5)),
+                ("contact.friction", if n % 6 == 0 { between(0.0, 0.2) } else { 0.0 }),
+                ("operation.speed_rad_s", between(300.0, 560.0)),
+                ("operation.pulse_n", 10_f64.powf(between(3.8, 5.5))),
+                ("casing.damping_ratio", between(0.02, 0.2)),
+                ("bladed_disk.damping_ratio", between(0.02, 0.2)),
+                ("solver.step_s", between(1e-6, 4e-6)),
+                ("solver.end_s", 0.2),
+            ] {
+                scene.set(key, &value.to_string()).unwrap();
+            }
+            let mut motion = Explicit::<ModalBlades>::new(&scene.checked().unwrap());
+            let mut told = None;
+            for look in 1..=100 {
+                let advanced = motion.advance(2e-3 * f64::from(look));
+                let now = motion.final_verdict().filter(|verdict| verdict.is_held());
+                let since = motion.contacts().since;
+                match told {
+                    Some(before) => assert_eq!((now, since, advanced.is_ok()), before, "{scene:?}"),
+                    // Leapt over, it is held by other proofs.
+                    None if now.is_some() && motion.leaps.held.is_some() => break,
+                    None if now.is_some() => told = Some((now, since, true)),
+                    None => {}
+                }
+            }
+            if let Some((Some(verdict), since, _)) = told {
+                decided += 1;
+                pulled += usize::from(verdict == Verdict::Adhesive);
+                if since < 0.1 {
+                    assert_eq!(motion.lasting(0.02), verdict, "{scene:?}");
+                }
+            }
+        }
+        assert!(decided > 10 && pulled > 2, "{decided} {pulled}");
     }
 }

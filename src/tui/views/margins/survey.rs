@@ -70,7 +70,9 @@ pub fn draw(app: &App, buffer: &mut Buffer, at: ViewArea, cell: Option<usize>) {
             let columns = 2 + shown(survey).count().min(4);
             let width = u16::try_from(FIRST + COLUMN * columns).unwrap_or(u16::MAX);
             let width = width.min(inside.width / 2 + 8);
-            let right = Rect { x: inside.x + width, width: inside.width - width, ..inside };
+            // One column apart.
+            let x = (inside.x + width + 1).min(inside.right());
+            let right = Rect { x, width: inside.right() - x, ..inside };
             (Rect { width, ..inside }, Some(right))
         }
         None => (inside, None),
@@ -154,15 +156,24 @@ fn value(app: &App, survey: &Survey, row: &SurveyRow, name: LimitName) -> (Strin
         return ("-".to_string(), look.style(Role::Quiet));
     };
     let near = limit.margin.is_some_and(|margin| margin.abs() <= NEAR);
-    let role = if near { Role::Contact } else { Role::Text };
+    let role = role(near, row);
     (short(rounded(per_speed(limit.value.abs()), 5)), look.style(role))
+}
+
+/// Diameters without a mode of their own, where others have one, are none of this machine.
+fn role(near: bool, row: &SurveyRow) -> Role {
+    match (row.modes_known, near) {
+        (false, _) => Role::Quiet,
+        (true, true) => Role::Contact,
+        (true, false) => Role::Text,
+    }
 }
 
 /// What is nearest to the present speed, or the row under the cursor.
 fn foot_text(app: &App, survey: &Survey, cell: Option<usize>) -> String {
     let told = |diameters: u32, limit: &SurveyLimit| {
         let margin = limit.margin.map_or(String::new(), |part| format!(" {}", words::margin(part)));
-        format!("n_d {diameters} {}{margin}", limit.name.symbol())
+        format!("{} of {diameters}{margin}", limit.name.symbol())
     };
     if let Some(row) = cell.and_then(|place| survey.rows.get(place)) {
         let known = if row.modes_known { "" } else { ", no mode of its own" };
@@ -192,7 +203,7 @@ fn over_diameters(app: &App, buffer: &mut Buffer, area: Rect, survey: &Survey) {
             let speed = limit.value.abs();
             if speed <= top {
                 let near = limit.margin.is_some_and(|margin| margin.abs() <= NEAR);
-                let style = look.style(if near { Role::Contact } else { Role::Text });
+                let style = look.style(role(near, row));
                 plot.point(f64::from(row.nodal_diameters), speed, *letter, style);
             }
         }

@@ -12,8 +12,7 @@ use crate::study::margins::Margins;
 use crate::study::survey::Survey;
 use crate::tui::views::ViewId;
 use crate::tui::views::margins::LiveMargins;
-use crate::tui::worker::WORKER_NAME;
-use crate::tui::worker::background::{Background, spare_threads};
+use crate::tui::worker::background::{Background, on_spare_cores};
 
 /// The margins that are being found. Dropping them ends the thread.
 #[derive(Debug)]
@@ -83,7 +82,7 @@ impl Study for MarginsStudy {
 
 /// Searches under one law after the other.
 fn search(mut live: LiveMargins, to: &Sender<LiveMargins>, go_on: GoOn<'_>) {
-    let mut search = || {
+    on_spare_cores(|| {
         while let Some(law) = live.awaited.first().copied() {
             if !live.margins.search(law, go_on) {
                 return;
@@ -91,16 +90,7 @@ fn search(mut live: LiveMargins, to: &Sender<LiveMargins>, go_on: GoOn<'_>) {
             live.awaited.remove(0);
             let _ = to.send(live.clone());
         }
-    };
-    // Not every core: the motion plays on. The panic hook knows these threads, too.
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(spare_threads())
-        .thread_name(|_| WORKER_NAME.to_string())
-        .build();
-    match pool {
-        Ok(pool) => pool.install(search),
-        Err(_) => search(),
-    }
+    });
 }
 
 #[cfg(test)]
