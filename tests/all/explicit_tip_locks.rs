@@ -146,12 +146,13 @@ fn forced_blades_are_loudest_where_slip_meets_their_frequency() {
 #[test]
 fn a_lock_of_tips_that_rise_and_rub_is_the_same_stepped_or_skipped() {
     // Vibration, as a phase, that takes the square and the cube along, and rigid blades.
+    // Where tips rise and blades swing, the first half of the 80,000 steps damps them.
     for (model, damping, changes, most) in [
         ("modal", 0.01, vec![(MU, 0.15), (TAU, 1.0 / 3.0)], 300),
         ("modal", 0.01, vec![(MU, 0.05), (TAU, 0.2)], 300),
         ("modal", 0.01, vec![(KAPPA, 0.02)], 300),
-        ("modal", 0.3, vec![(KAPPA, 0.1), (MU, 0.05)], 30_000),
-        ("modal", 0.3, vec![(KAPPA, -0.1), (MU, 0.05), (TAU, 0.1)], 30_000),
+        ("modal", 0.3, vec![(KAPPA, 0.1), (MU, 0.05)], 40_000),
+        ("modal", 0.3, vec![(KAPPA, -0.1), (MU, 0.05), (TAU, 0.1)], 40_000),
         ("rigid", 0.01, vec![(MU, 0.15), (TAU, 1.0 / 3.0)], 300),
     ] {
         let mut scene = in_corner(scene(&changes));

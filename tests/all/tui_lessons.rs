@@ -122,6 +122,9 @@ fn numbers(text: &str) -> Vec<(String, Vec<f64>)> {
         if unit.starts_with('%') {
             values = vec![value / 100.0];
         }
+        if unit.starts_with("rpm") {
+            values = vec![value * std::f64::consts::TAU / 60.0];
+        }
         found.push((digits, values));
     }
     found

@@ -179,6 +179,12 @@ impl<B: Disk> Explicit<B> {
         if phase > SMALL_TURNS[2] || !self.is_kept(&step, &resting, swing) {
             return None;
         }
+        // Where steps leave gaps, the deepest prediction has been seen.
+        let deepest = (2..4).map(|k| resting.at_rest.gaps[k - 2].abs() + resting.moves(k, swing));
+        let leaves = !self.goes_beyond && step.open != [0.0; 2];
+        if leaves && deepest.fold(0.0, f64::max) > self.record.deepest_predicted {
+            return None;
+        }
         let (machine, speed) = (&self.machine, self.drive.speed(self.n));
         let Resting { rest, at_rest, change, unchanged, slopes } = resting;
         let [a, b] = at_rest.multipliers;
@@ -270,8 +276,8 @@ impl<B: Disk> Explicit<B> {
             }
         }
         let ([a, b], [first, second]) = (at.at_rest.multipliers, at.at_rest.gaps);
-        [a, b, first, second].into_iter().zip(at.slopes).enumerate().all(|(k, (rest, slope))| {
-            let swing = angle * (slope[0].hypot(slope[1])) + increment * (slope[2].hypot(slope[3]));
+        [a, b, first, second].into_iter().enumerate().all(|(k, rest)| {
+            let swing = at.moves(k, (angle, increment));
             let sign_fits = if k < 2 { self.law.pulls() || rest < 0.0 } else { rest < 0.0 };
             sign_fits && rest.is_finite() && swing < ROOM_TO_CHANGE * rest.abs()
         })
@@ -335,6 +341,14 @@ struct Resting {
     change: StepMap,
     unchanged: StepMap,
     slopes: [Modes; 4],
+}
+
+impl Resting {
+    /// How far a swing moves a push (0, 1 \[N\]) or a predicted gap (2, 3 \[m\]) at most.
+    fn moves(&self, k: usize, (angle, increment): (f64, f64)) -> f64 {
+        let slope = self.slopes[k];
+        angle * slope[0].hypot(slope[1]) + increment * slope[2].hypot(slope[3])
+    }
 }
 
 /// A corner, its rest, and the blades about it.
