@@ -1,4 +1,4 @@
-//! A machine that changes with the rotor speed (docs/theory.md, section 1): blades stiffen,
+//! A machine that changes with the rotor speed (docs/theory.md, section 10): blades stiffen,
 //! `omega^2 + B Omega^2` (Southwell), and grow, `g0 - c Omega^2`. Damping coefficients,
 //! arms and friction stay. All that asks for the machine at a speed asks `Machine::at`.
 

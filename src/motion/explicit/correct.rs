@@ -229,10 +229,11 @@ impl<B: Disk> Explicit<B> {
         // A push may close the gap beside it, by as much as is asked of it.
         let reach = NEIGHBOUR_DEPTHS * deepest;
         self.beyond.depth = deepest;
-        if !self.law.pulls() && reach > likely {
-            if self.find_candidates(z, tips, bound, reach + highest, TIP_MARGIN) {
-                self.gather_targets(z, tips, restitution);
-            }
+        if !self.law.pulls()
+            && reach > likely
+            && self.find_candidates(z, tips, bound, reach + highest, TIP_MARGIN)
+        {
+            self.gather_targets(z, tips, restitution);
         }
         let limit = if self.law.pulls() { 0.0 } else { reach };
         let kept = self.below_first(limit);

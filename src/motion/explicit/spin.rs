@@ -1,4 +1,4 @@
-//! A machine that changes with the rotor speed (docs/theory.md, sections 1 and 6). Under a
+//! A machine that changes with the rotor speed (docs/theory.md, section 10). Under a
 //! ramp the force of a step is that of blades as stiff as at its beginning, and contact aims
 //! at the gap at its end; a sudden change of speed leaves displacements and rates. What
 //! either gives to the blades is work of the rotor or of their growth.
@@ -7,7 +7,7 @@ use super::Explicit;
 use super::disk::Disk;
 use super::rows::TipLaw;
 use crate::motion::{Failure, FailureReason};
-use crate::tolerances::TIP_MARGIN;
+use crate::tolerances::{GIVE_WAY, TIP_MARGIN};
 
 impl<B: Disk> Explicit<B> {
     /// Whether the machine changes from step to step.
@@ -116,6 +116,3 @@ impl<B: Disk> Explicit<B> {
         }
     }
 }
-
-/// Times that displacements shrink: each leaves what is of second order in blade angles.
-const GIVE_WAY: usize = 4;
