@@ -15,8 +15,8 @@ use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
 use rubscope::harmonic::{Form, locked_motion};
 use rubscope::motion::{
-    ExactEvents, Motion, Sample, Sampling, Script, is_sensitive, run_to_end, run_to_verdict,
-    to_the_end,
+    ExactEvents, Motion, Sample, Sampling, Script, run_to_end, run_to_verdict,
+    run_with_sensitivity, to_the_end,
 };
 use rubscope::scene::{CheckedScene, Scene};
 
@@ -152,10 +152,7 @@ fn map(criterion: &mut Criterion) {
         bencher.iter(|| run_to_verdict(black_box(&cell), &to_the_end));
     });
     group.bench_function("a cell with certainty", |bencher| {
-        bencher.iter(|| {
-            let reached = run_to_verdict(black_box(&cell), &to_the_end).unwrap();
-            is_sensitive(&cell, &Script::default(), reached, &to_the_end)
-        });
+        bencher.iter(|| run_with_sensitivity(black_box(&cell), &to_the_end));
     });
     group.finish();
 }

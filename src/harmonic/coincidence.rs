@@ -9,7 +9,7 @@ use super::{HarmonicError, Joint, Lining, RoundWhirl, Whirl, error, lock_roots, 
 use crate::model::Machine;
 use crate::scene::{ContactLaw, Scene};
 
-/// A straight line `frequency = at_standstill + slope * Omega`.
+/// A line `frequency = +-sqrt(at_standstill^2 + stiffening Omega^2) + slope * Omega`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Line {
     /// What it is.
@@ -18,6 +18,14 @@ pub struct Line {
     pub at_standstill_rad_s: f64,
     /// Change with the rotor speed.
     pub slope: f64,
+    /// Centrifugal stiffening `B` of the blades, which bends their lines.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub stiffening: f64,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde gives a reference")]
+fn is_zero(number: &f64) -> bool {
+    *number == 0.0
 }
 
 impl Line {
@@ -25,16 +33,23 @@ impl Line {
     /// backward in the standing frame.
     #[must_use]
     pub fn at(&self, speed: f64) -> f64 {
-        self.at_standstill_rad_s + self.slope * speed
+        let own = if self.stiffening == 0.0 {
+            self.at_standstill_rad_s
+        } else {
+            self.at_standstill_rad_s
+                .hypot(self.stiffening.sqrt() * speed)
+                .copysign(self.at_standstill_rad_s)
+        };
+        own + self.slope * speed
     }
 }
 
-/// One of the four coincidences of Eq. (30), `casing = n_d Omega + blades`.
+/// One of the coincidences of Eq. (30), `casing = n_d Omega + blades`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Coincidence {
     /// `+omega_c` or `-omega_c` \[rad/s\].
     pub casing_rad_s: f64,
-    /// `+omega_bd` or `-omega_bd` \[rad/s\].
+    /// `+omega_bd` or `-omega_bd`, at that speed \[rad/s\].
     pub blades_rad_s: f64,
     /// Rotor speed where they coincide \[rad/s\]; negative for the other sense
     /// of rotation.
@@ -48,8 +63,8 @@ pub struct Coincidence {
 pub struct Campbell {
     /// Casing, bladed disk forward and backward, then engine orders.
     pub lines: Vec<Line>,
-    /// The four coincidences.
-    pub coincidences: [Coincidence; 4],
+    /// The coincidences: four, unless blades stiffen so much that there are more or less.
+    pub coincidences: Vec<Coincidence>,
 }
 
 impl Campbell {
@@ -73,35 +88,38 @@ impl Campbell {
         if n_d == 0.0 {
             return Err(HarmonicError::NoWave);
         }
-        let (omega_c, omega_bd) = (machine.omega_c, machine.omega_bd);
+        let (omega_c, omega_bd) = (machine.omega_c, machine.omega_bd_at_rest());
         let sense = if speed < 0.0 { -1.0 } else { 1.0 };
-        let line = |name: &str, at_standstill_rad_s, slope| Line {
+        let line = |name: &str, at_standstill_rad_s, slope, stiffening| Line {
             name: name.to_string(),
             at_standstill_rad_s,
             slope,
+            stiffening,
         };
+        let stiffening = machine.stiffening();
         let mut lines = vec![
-            line("omega_c", omega_c, 0.0),
-            line("-omega_c", -omega_c, 0.0),
-            line("n_d Omega + omega_bd", omega_bd, n_d),
-            line("n_d Omega - omega_bd", -omega_bd, n_d),
+            line("omega_c", omega_c, 0.0, 0.0),
+            line("-omega_c", -omega_c, 0.0, 0.0),
+            line("n_d Omega + omega_bd", omega_bd, n_d, stiffening),
+            line("n_d Omega - omega_bd", -omega_bd, n_d, stiffening),
         ];
         lines.extend(
-            orders.iter().map(|&order| line(&format!("{order} Omega"), 0.0, f64::from(order))),
+            orders.iter().map(|&order| line(&format!("{order} Omega"), 0.0, f64::from(order), 0.0)),
         );
-        let coincidence = |casing: f64, blades: f64| Coincidence {
-            casing_rad_s: casing,
-            blades_rad_s: blades,
-            speed_rad_s: (casing - blades) / n_d,
+        let coincidence = |turns: f64, blades: f64, speed: f64| Coincidence {
+            casing_rad_s: turns * omega_c,
+            blades_rad_s: blades * machine.at(speed).omega_bd,
+            speed_rad_s: turns * speed,
             // The two directions of every wave exchange with the sense of rotation.
-            dangerous: casing * sense > 0.0 && blades * sense < 0.0,
+            dangerous: turns * sense > 0.0 && blades * sense < 0.0,
         };
-        let coincidences = [
-            coincidence(omega_c, omega_bd),
-            coincidence(omega_c, -omega_bd),
-            coincidence(-omega_c, omega_bd),
-            coincidence(-omega_c, -omega_bd),
-        ];
+        let (differences, sum) = machine.meetings(omega_c, omega_bd);
+        let of_difference =
+            |turns| differences.iter().map(move |&speed| coincidence(turns, turns, speed));
+        let of_sum = |turns| sum.map(|speed| coincidence(turns, -turns, speed));
+        let coincidences =
+            of_difference(1.0).chain(of_sum(1.0)).chain(of_sum(-1.0)).chain(of_difference(-1.0));
+        let coincidences = coincidences.collect();
         Ok(Self { lines, coincidences })
     }
 }
@@ -138,7 +156,11 @@ pub fn coincidence(scene: &Scene, speeds: &[f64]) -> Result<Vec<CoincidencePoint
     let smooth = scene.solver.contact == ContactLaw::Smooth;
     let point = |&speed: &f64| {
         error::refuse_endless(&[speed])?;
-        if smooth { on_lining(&lining, speed) } else { Ok(on_rigid_casing(&machine, speed)) }
+        if smooth {
+            on_lining(&lining.at(speed), speed)
+        } else {
+            Ok(on_rigid_casing(&machine, speed))
+        }
     };
     speeds.iter().map(point).collect()
 }
@@ -175,8 +197,8 @@ fn on_lining(lining: &Lining, speed: f64) -> Result<CoincidencePoint, HarmonicEr
 /// bounded unless the structures flutter as one.
 fn on_rigid_casing(machine: &Machine, speed: f64) -> CoincidencePoint {
     let joint = Joint::at(machine, speed);
-    let wave = RoundWhirl::lasting(&round_whirls(&joint));
-    let clearance = machine.clearance();
+    let clearance = joint.machine.clearance();
+    let wave = RoundWhirl::lasting(&round_whirls(&joint)).filter(|_| clearance > 0.0);
     CoincidencePoint {
         speed_rad_s: speed,
         growth_1_s: None,
@@ -197,7 +219,7 @@ mod tests {
         let machine = Scene::base().machine();
         let campbell = Campbell::of(&machine, &[1, 3], 500.0).unwrap();
         assert_eq!(campbell.lines.len(), 6);
-        for found in campbell.coincidences {
+        for found in &campbell.coincidences {
             let casing = if found.casing_rad_s > 0.0 { 0 } else { 1 };
             let blades = if found.blades_rad_s > 0.0 { 2 } else { 3 };
             let gap = campbell.lines[casing].at(found.speed_rad_s)

@@ -184,6 +184,11 @@ pub fn equilibrium(
     error::refuse_endless(&[speed])?;
     error::refuse_other_diameters(machine)?;
     error::refuse_tips(machine, "0 where every equilibrium is asked; the lock takes it")?;
+    let machine = &*machine.at(speed);
+    if machine.changes_with_speed() && machine.clearance() <= 0.0 {
+        // Blades have grown into the casing.
+        return Ok(None);
+    }
     let wave = Wave::at(machine, speed, damped);
     let scales = Scales::of(machine);
     let loads = match kind {

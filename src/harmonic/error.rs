@@ -127,6 +127,19 @@ pub(super) fn refuse_preload(machine: &Machine) -> Result<(), HarmonicError> {
     }
 }
 
+/// Refuses a machine that changes with the speed, where its branch is followed in both.
+pub(super) fn refuse_change(machine: &Machine) -> Result<(), HarmonicError> {
+    if !machine.changes_with_speed() {
+        return Ok(());
+    }
+    let (key, value) = match machine.stiffening() {
+        0.0 => (keys::CLEARANCE_LOSS, machine.clearance_loss()),
+        stiffening => (keys::STIFFENING, stiffening),
+    };
+    let allowed = "0 where the corner branch is followed; the lock takes it";
+    Err(HarmonicError::refused(key, value, allowed))
+}
+
 /// Refuses modes of the disk of other diameters than those of the casing: no single
 /// harmonic balances them.
 pub(super) fn refuse_other_diameters(machine: &Machine) -> Result<(), HarmonicError> {

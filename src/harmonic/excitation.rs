@@ -120,6 +120,10 @@ fn at(
     excitation: &Excitation,
     speed: f64,
 ) -> Result<Option<ExcitedLock>, HarmonicError> {
+    let machine = &*machine.at(speed);
+    if machine.clearance() <= 0.0 {
+        return Ok(None);
+    }
     let wave = Wave::at(machine, speed, true);
     let equations = Equations::new(machine, corner, Form::Modal);
     let Some(unknowns) = equations.locked(wave) else { return Ok(None) };

@@ -170,6 +170,7 @@ pub fn corner_branch(
     let corner = Corner::after(&machine.polygon, side)?;
     error::refuse_other_diameters(machine)?;
     error::refuse_tips(machine, "0 where the corner branch is followed; the lock takes it")?;
+    error::refuse_change(machine)?;
     let Some(critical) = machine.critical_speed() else { return Err(HarmonicError::NoWave) };
     if !(from >= 0.0 && to > from && to / critical <= FASTEST) {
         let allowed = format!("two speeds with 0 <= from < to, up to {FASTEST:e} critical speeds");

@@ -12,17 +12,21 @@
 //! - real part: `c (1 - x^2) + 1 - y^2 - 2 mu_c zeta_bd y = 0`
 //! - imaginary part: `2 c zeta_c x + 2 zeta_bd y + mu_c (1 - y^2) = 0`
 
+use std::borrow::Cow;
+
 use nalgebra::Complex;
+use num_dual::Dual64;
 
 use crate::model::{Machine, Number};
+use crate::numeric::bisection::bisected;
 use crate::numeric::real_roots::{Coefficients, Point, product, real_roots, sum};
-use crate::tolerances::BESIDE_A_LIMIT;
+use crate::tolerances::{BESIDE_A_LIMIT, FLUTTER_FURTHEST, FLUTTER_STRIDE};
 
 /// The joint of blades and casing at one rotor speed.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Joint<'a> {
-    /// The machine, with its friction.
-    pub machine: &'a Machine,
+    /// The machine at that speed, with its friction.
+    pub machine: Cow<'a, Machine>,
     /// Wave frequency in the frame of the blades, `nu = n_d Omega` \[rad/s\].
     pub nu: f64,
     /// Friction that the casing feels, `mu_c`.
@@ -35,11 +39,16 @@ impl<'a> Joint<'a> {
     /// At a rotor speed \[rad/s\].
     #[must_use]
     pub fn at(machine: &'a Machine, speed: f64) -> Self {
+        Self::of(machine.at(speed), speed)
+    }
+
+    /// Of a machine at that speed.
+    pub(super) fn of(machine: Cow<'a, Machine>, speed: f64) -> Self {
         Self {
-            machine,
             nu: machine.nu(speed),
             casing_friction: machine.casing_friction_at(speed),
             coupling_product: machine.coupling_product_at(speed),
+            machine,
         }
     }
 
@@ -57,7 +66,7 @@ impl<'a> Joint<'a> {
     /// `k_c - omega^2 m_c + i omega d_c` \[N/m\].
     #[must_use]
     pub fn casing_stiffness(&self, omega: f64) -> Complex<f64> {
-        let m = self.machine;
+        let m = &*self.machine;
         Complex::new(m.casing_stiffness - omega * omega * m.casing_mass, omega * m.casing_damping)
     }
 
@@ -65,7 +74,7 @@ impl<'a> Joint<'a> {
     /// blades, `k_a - s^2 m_a + i s d_a` \[N m/rad\].
     #[must_use]
     pub fn blade_stiffness(&self, s: f64) -> Complex<f64> {
-        let m = self.machine;
+        let m = &*self.machine;
         let inertia = s * s * m.blade_modal_mass;
         Complex::new(m.blade_modal_stiffness - inertia, s * m.blade_modal_damping)
     }
@@ -85,7 +94,7 @@ impl<'a> Joint<'a> {
     /// Lever of a push at the blades, `|kappa + mu| l_b` \[m\].
     #[must_use]
     pub fn blade_lever(&self) -> f64 {
-        let machine = self.machine;
+        let machine = &*self.machine;
         let friction = machine.friction_at(self.nu);
         (machine.radial_coupling + friction).abs() * machine.blade_length
     }
@@ -97,23 +106,109 @@ impl<'a> Joint<'a> {
 /// in the sense of `toward`.
 #[must_use]
 pub fn undamped_flutter_speed<T: Number>(machine: &Machine<T>, toward: f64) -> Option<T> {
-    let pair = HeldPair::of(machine, toward)?;
+    let pair = HeldPair::of(&machine.at(T::zero()), toward)?;
     let rate = pair.rate * pair.rate;
     let square = (pair.coupling * rate + 1.0) * (pair.coupling.recip() + 1.0);
-    let speed = square.sqrt() * machine.critical_speed()?;
+    let critical = machine.critical_speed()?;
+    let mut speed = square.sqrt() * critical;
+    if machine.changes_with_speed() {
+        // The stiffness of blades at a speed stands on both sides.
+        let stiffer = machine.stiffening() * (critical / machine.omega_bd_at_rest()).powi(2);
+        let left = -(pair.coupling * rate + 1.0) / pair.coupling * stiffer + 1.0;
+        speed /= left.sqrt();
+    }
     speed.re().is_finite().then_some(speed)
 }
 
 /// The rotor speed above which the lock of a machine flutters, as a magnitude \[rad/s\],
 /// with its damping; that is lower than without by a finite amount, however small the
-/// damping is (Ziegler's paradox). None where tips are not joined or never flutter; for
+/// damping is (Ziegler's paradox); the lowest where there are several. None where tips are not joined or never flutter; for
 /// a rotor that turns in the sense of `toward`.
 #[must_use]
 pub fn flutter_speed<T: Number>(machine: &Machine<T>, toward: f64) -> Option<T> {
-    let pair = HeldPair::of(machine, toward)?;
-    if !pair.has_friction() && !pair.casing_is_damped() && pair.blades.re() == 0.0 {
-        return undamped_flutter_speed(machine, toward);
+    flutters(machine, toward).first().map(|flutter| flutter.from)
+}
+
+/// Speeds between which a lock flutters, as magnitudes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Flutter<T = f64> {
+    /// The lowest \[rad/s\].
+    pub from: T,
+    /// Where it ends again, as blades stiffen \[rad/s\].
+    pub to: Option<f64>,
+}
+
+/// Every range of speeds in which the lock of a machine flutters, as `flutter_speed`. Where
+/// the machine changes with the speed, those that begin up to `FLUTTER_FURTHEST` critical
+/// speeds and before the clearance is lost.
+#[must_use]
+pub fn flutters<T: Number>(machine: &Machine<T>, toward: f64) -> Vec<Flutter<T>> {
+    let Some(pair) = HeldPair::of(machine, toward) else { return Vec::new() };
+    let undamped = !pair.has_friction() && !pair.casing_is_damped() && pair.blades.re() == 0.0;
+    let from = if undamped {
+        undamped_flutter_speed(machine, toward)
+    } else if machine.changes_with_speed() {
+        return sought_flutters(machine, toward);
+    } else {
+        constant_flutter_speed(machine, &pair)
+    };
+    let closed = machine.closing_speed().map_or(f64::INFINITY, |closed| closed.re());
+    let from = from.filter(|from| from.re() < closed);
+    from.map(|from| Flutter { from, to: None }).into_iter().collect()
+}
+
+/// Of a machine that changes with the speed: the changes of growth over a scan, refined.
+fn sought_flutters<T: Number>(machine: &Machine<T>, toward: f64) -> Vec<Flutter<T>> {
+    let plain = machine.plain();
+    let Some(critical) = plain.critical_speed() else { return Vec::new() };
+    let grows = |speed: f64| {
+        HeldPair::of(&plain.at(speed), toward).is_some_and(|pair| {
+            pair.roots(plain.nu(speed) / plain.omega_c).iter().any(|root| root.re > 0.0)
+        })
+    };
+    let furthest = critical * FLUTTER_FURTHEST;
+    let last = plain.closing_speed().map_or(furthest, |closed| closed.min(furthest));
+    let mut found: Vec<Flutter<T>> = Vec::new();
+    let (mut low, mut below) = (0.0, false);
+    let mut high = critical / FLUTTER_FURTHEST;
+    while low < last {
+        high = high.min(last);
+        let above = grows(high);
+        if above != below {
+            let [before, after] = bisected([low, high], |speed| grows(speed) == above);
+            let root = 0.5 * (before + after);
+            if above {
+                found.extend(derived(machine, root, toward).map(|from| Flutter { from, to: None }));
+            } else if let Some(flutter) = found.last_mut() {
+                flutter.to = Some(root);
+            }
+        }
+        (low, below, high) = (high, above, high * FLUTTER_STRIDE);
     }
+    found
+}
+
+/// A flutter speed with its derivatives: one step of Newton's method from the root, with
+/// the machine of that speed.
+fn derived<T: Number>(machine: &Machine<T>, root: f64, toward: f64) -> Option<T> {
+    let plain = machine.plain();
+    let moving = Dual64::from(root).derivative();
+    let slope = apart(&plain.map(Dual64::from), moving, toward)?.eps;
+    let speed = T::from(root);
+    let step = apart(machine, speed, toward)? / slope;
+    Some(speed - (step - step.re()))
+}
+
+/// How far the turn of a speed is from the nearest limit of the machine at that speed.
+fn apart<T: Number>(machine: &Machine<T>, speed: T, toward: f64) -> Option<T> {
+    let pair = HeldPair::of(&machine.at(speed), toward)?;
+    let turn = machine.nu(speed) / machine.omega_c;
+    let limits = pair.limits().into_iter().map(|limit| limit - turn);
+    let finite = limits.filter(|apart| apart.re().is_finite());
+    finite.min_by(|a, b| a.re().abs().total_cmp(&b.re().abs()))
+}
+
+fn constant_flutter_speed<T: Number>(machine: &Machine<T>, pair: &HeldPair<T>) -> Option<T> {
     let mut limits = pair.limits();
     limits.retain(|turn| turn.re() > 0.0 && turn.re().is_finite());
     limits.sort_by(|a, b| a.re().total_cmp(&b.re()));
@@ -125,7 +220,7 @@ pub fn flutter_speed<T: Number>(machine: &Machine<T>, toward: f64) -> Option<T> 
 /// with the blades: the roots `l = i s` \[1/s\]. Empty without joined tips.
 #[must_use]
 pub fn lock_roots(joint: &Joint) -> Vec<Complex<f64>> {
-    let Some(pair) = HeldPair::of(joint.machine, joint.nu) else { return Vec::new() };
+    let Some(pair) = HeldPair::of(&joint.machine, joint.nu) else { return Vec::new() };
     let omega_c = joint.machine.omega_c;
     let turned = if joint.nu < 0.0 { Complex::conj } else { |value: &Complex<f64>| *value };
     pair.roots(joint.nu.abs() / omega_c).iter().map(|root| turned(root) * omega_c).collect()

@@ -12,6 +12,8 @@ use super::fold::CornerAngle;
 use super::stability::Linearised;
 use super::{Character, Corner, Form, HarmonicError, error, lining, tip_lock};
 use crate::model::{Machine, Number};
+use crate::numeric::bisection::bisected;
+use crate::numeric::maximum::highest;
 
 /// The locked motion at one rotor speed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -76,7 +78,7 @@ pub struct Sweep {
     /// One point for each speed with a locked motion, in the given order.
     pub points: Vec<LockedPoint>,
     /// The speeds without one: the blades are so soft that the branch has
-    /// folded back \[rad/s\].
+    /// folded back, or have grown into the casing \[rad/s\].
     pub missing: Vec<f64>,
 }
 
@@ -96,7 +98,7 @@ impl Locked {
     ) -> Result<Self, HarmonicError> {
         let corner = Corner::after(&machine.polygon, corner.a)?;
         error::refuse_other_diameters(machine)?;
-        error::refuse_preload(machine)?;
+        error::refuse_preload(&machine.at(0.0))?;
         if form != Form::Modal {
             let allowed = format!("0 with the form {form}; the form modal has it");
             error::refuse_tips(machine, &allowed)?;
@@ -123,14 +125,29 @@ impl Locked {
     /// A speed that is not finite, or one with no locked motion.
     pub fn at(&self, speed: f64) -> Result<LockedPoint, HarmonicError> {
         error::refuse_endless(&[speed])?;
-        let solution = if self.machine.tips_incline_or_rub() {
-            self.of_tips(speed)
+        let turned = self.machine.changes_with_speed().then(|| self.turned(speed));
+        let here = turned.as_ref().unwrap_or(self);
+        let solution = if here.machine.clearance() <= 0.0 {
+            None
+        } else if here.machine.tips_incline_or_rub() {
+            here.of_tips(speed)
         } else {
-            self.of_the_paper(speed)
+            here.of_the_paper(speed)
         };
-        let softness = self.equations.softness();
+        let softness = here.equations.softness();
         let solution = solution.ok_or(HarmonicError::NotFound { speed, softness })?;
-        Ok(self.point(speed, &solution))
+        Ok(here.point(speed, &solution))
+    }
+
+    /// The same with the machine at a speed.
+    fn turned(&self, speed: f64) -> Self {
+        let machine = self.machine.at(speed).into_owned();
+        Self {
+            scales: Scales::of(&machine),
+            equations: Equations::new(&machine, self.corner, self.form),
+            machine,
+            ..*self
+        }
     }
 
     /// The locked motion at each speed \[rad/s\].
@@ -305,6 +322,7 @@ pub struct LockLoads<T = f64> {
 /// beyond the fold of very soft blades, and on a lining where no two groups hold it alone.
 #[must_use]
 pub fn lock_loads<T: Number>(machine: &Machine<T>, speed: T) -> Option<LockLoads<T>> {
+    let machine = &*machine.at(speed);
     let clear = machine.clearance().re() > 0.0;
     if !machine.polygon.has_corners() || machine.has_other_diameters() || !clear {
         return None;
@@ -387,10 +405,41 @@ pub fn lock_fold_speed<T: Number>(machine: &Machine<T>) -> Option<T> {
     if machine.tips_incline_or_rub() || machine.has_other_diameters() || machine.lining.is_some() {
         return None;
     }
-    let critical = machine.critical_speed()?;
+    let (still, critical) = (machine.at(T::zero()), machine.critical_speed()?);
     let stiffness =
-        CornerAngle::of(machine).fold_stiffness().filter(|_| machine.polygon.has_corners())?;
-    Some(critical * (-stiffness + 1.0).sqrt())
+        CornerAngle::of(&still).fold_stiffness().filter(|_| machine.polygon.has_corners())?;
+    if !machine.changes_with_speed() {
+        return Some(critical * (-stiffness + 1.0).sqrt());
+    }
+    // `1 - x = stiffness (1 + b x)/(1 - e x)^2` of the square `x` of the speed, in `Omega_c`:
+    // blades stiffen, and the wave gets smaller.
+    let stiffer = machine.stiffening() * (critical / machine.omega_bd_at_rest()).powi(2);
+    let Some(closed) = machine.closing_speed().map(|closed| (closed / critical).powi(2)) else {
+        let square = (-stiffness + 1.0) / (stiffness * stiffer + 1.0);
+        return (square.re() > 0.0).then(|| critical * square.sqrt());
+    };
+    let left = |x: T| {
+        let smaller = -(x / closed) + 1.0;
+        let value = (x - 1.0) * smaller * smaller + stiffness * (stiffer * x + 1.0);
+        let slope = smaller * (smaller - (x - 1.0) * 2.0 / closed) + stiffness * stiffer;
+        (value, slope)
+    };
+    // It has one maximum at most, between the critical speed and the loss of the clearance.
+    let last = closed.re();
+    if last <= 1.0 {
+        return None;
+    }
+    let (highest, most) = highest([1.0, last], |x| left(T::from(x)).0.re());
+    if most <= 0.0 {
+        return None;
+    }
+    let [low, high] = bisected([1.0, highest], |x| left(T::from(x)).0.re() > 0.0);
+    let mut x = T::from(0.5 * (low + high));
+    for _ in 0..2 {
+        let (value, slope) = left(x);
+        x -= value / slope;
+    }
+    Some(critical * x.sqrt())
 }
 
 #[cfg(test)]

@@ -42,7 +42,7 @@ pub use equilibria::{
 pub use error::HarmonicError;
 pub use excitation::{ExcitedLock, ExcitedLocks, drives};
 pub use fold::{CornerBranch, Fold, corner_branch};
-pub use joint::{Joint, flutter_speed, lock_roots, undamped_flutter_speed};
+pub use joint::{Flutter, Joint, flutter_speed, flutters, lock_roots, undamped_flutter_speed};
 pub use lining::{
     BranchEnd, BranchPoint, Cycle, FollowedBranch, GroupPush, GrowthThreshold, HopfPoint,
     LeastStiffness, Lining, LiningState, Rest, RestRoot, ShiftedCoincidence, Special, Whirl,
@@ -52,7 +52,8 @@ pub use locked::{
     LockLoads, Locked, LockedPoint, Sweep, lock_fold_speed, lock_loads, locked_motion,
 };
 pub use round_whirl::{
-    RoundWhirl, RoundWhirlLoads, WhirlOnset, round_whirls, whirl_onset, whirl_onsets,
+    RoundWhirl, RoundWhirlLoads, WhirlOnset, round_whirls, whirl_beginnings, whirl_onset,
+    whirl_onsets,
 };
 pub use slip::{
     Crossing, NoSlip, SlipLimit, SlipOrbit, SlipPoint, SlipRegion, slip_limits, slip_map, slip_over,

@@ -46,7 +46,7 @@ pub struct RoundWhirl {
 /// casing do not meet in one wave ([`Joint::has_one_wave`]), and where nothing is lost, so that any frequency would do.
 #[must_use]
 pub fn round_whirls(joint: &Joint) -> Vec<RoundWhirl> {
-    let machine = joint.machine;
+    let machine = &*joint.machine;
     if !Joint::has_one_wave(machine) {
         return Vec::new();
     }
@@ -89,7 +89,7 @@ impl RoundWhirl {
     /// `|s|/nu` (Manley and Rowe).
     #[must_use]
     pub fn loads(&self, joint: &Joint) -> RoundWhirlLoads {
-        let machine = joint.machine;
+        let machine = &*joint.machine;
         let clearance = machine.clearance();
         let push = self.stiffness_n_per_m * clearance;
         let (casing, blades) = (self.casing_per_w * clearance, self.blades_per_w * clearance);
@@ -127,7 +127,7 @@ struct Scaled {
 
 impl Scaled {
     fn of(joint: &Joint) -> Self {
-        let machine = joint.machine;
+        let machine = &*joint.machine;
         Self {
             turn: joint.nu / machine.omega_c,
             blade_rate: machine.omega_bd / machine.omega_c,
@@ -255,11 +255,26 @@ pub struct WhirlOnset {
 /// must be undone by the speed alone.
 #[must_use]
 pub fn whirl_onset<T: Number>(machine: &Machine<T>, toward: f64) -> Option<T> {
+    beginnings(machine, toward, true).first().copied()
+}
+
+/// As `whirl_onset`, every such speed, from the slowest.
+#[must_use]
+pub fn whirl_beginnings<T: Number>(machine: &Machine<T>, toward: f64) -> Vec<T> {
+    beginnings(machine, toward, false)
+}
+
+fn beginnings<T: Number>(machine: &Machine<T>, toward: f64, first: bool) -> Vec<T> {
     // Pairs of waves need both structures.
     if machine.coupling_product_at(T::from(toward)).re() == 0.0 {
-        return None;
+        return Vec::new();
     }
-    let onset = sought(&machine.plain(), toward, true).into_iter().find(|onset| onset.appears)?;
+    let onsets = sought(&machine.plain(), toward, first).into_iter();
+    onsets.filter(|onset| onset.appears).filter_map(|onset| derived(machine, &onset)).collect()
+}
+
+/// The speed of a fold with its derivatives.
+fn derived<T: Number>(machine: &Machine<T>, onset: &WhirlOnset) -> Option<T> {
     // A lining is never stiffer than where blades lift off for half of each turn.
     let softest = machine.lining.map(|lining| lining.stiffness_n_per_m.re());
     let most = softest.map_or(f64::INFINITY, |k| 0.25 * f64::from(machine.polygon.blades) * k);
@@ -267,8 +282,10 @@ pub fn whirl_onset<T: Number>(machine: &Machine<T>, toward: f64) -> Option<T> {
         return None;
     }
     let omega = onset.wave.omega_rad_s;
-    let s = -machine.nu(T::from(onset.speed_rad_s)) + omega;
-    let turned = machine.casing_friction_at(T::from(toward));
+    let speed = T::from(onset.speed_rad_s);
+    let machine = &*machine.at(speed);
+    let s = -machine.nu(speed) + omega;
+    let turned = machine.casing_friction_at(speed);
     let casing = [
         machine.casing_stiffness - machine.casing_mass * (omega * omega),
         machine.casing_damping * omega,
@@ -278,7 +295,7 @@ pub fn whirl_onset<T: Number>(machine: &Machine<T>, toward: f64) -> Option<T> {
         machine.blade_modal_damping * s,
     ];
     let square = |[re, im]: [T; 2]| re * re + im * im;
-    let product = machine.coupling_product_at(T::from(toward));
+    let product = machine.coupling_product_at(speed);
     let imaginary =
         (turned * casing[0] - casing[1]) / square(casing) - product * blades[1] / square(blades);
     // By s, and s falls with the speed.
@@ -287,7 +304,11 @@ pub fn whirl_onset<T: Number>(machine: &Machine<T>, toward: f64) -> Option<T> {
         * 2.0;
     let by_s =
         (machine.blade_modal_damping - blades[1] * square_by_s / square(blades)) / square(blades);
-    let by_speed = (product * by_s).re() * machine.nodal_diameters;
+    // Blades that stiffen: `k_a` grows by this for each unit of speed.
+    let stiffer = machine.stiffening() * machine.blade_modal_mass * speed * 2.0;
+    let by_stiffness = blades[1] * blades[0] * 2.0 / (square(blades) * square(blades));
+    let by_speed =
+        (product * by_s).re() * machine.nodal_diameters + (product * by_stiffness * stiffer).re();
     Some(-(imaginary - imaginary.re()) / by_speed + onset.speed_rad_s)
 }
 
@@ -300,7 +321,12 @@ pub fn whirl_onsets(machine: &Machine, toward: f64) -> Vec<WhirlOnset> {
 
 /// The same, or only as far as to the first that appears: the rest takes most of the time.
 fn sought(machine: &Machine, toward: f64, first: bool) -> Vec<WhirlOnset> {
-    let Some(dangerous) = machine.dangerous_speed() else { return Vec::new() };
+    if machine.nodal_diameters == 0.0 {
+        return Vec::new();
+    }
+    // That of blades that do not stiffen.
+    let dangerous = (machine.omega_c + machine.omega_bd_at_rest()) / machine.nodal_diameters;
+    let closed = machine.closing_speed().filter(|_| machine.lining.is_none());
     let sense = if toward < 0.0 { -1.0 } else { 1.0 };
     let waves = |speed: f64| round_whirls(&Joint::at(machine, sense * speed));
     let mut found: Vec<WhirlOnset> = Vec::new();
@@ -313,7 +339,7 @@ fn sought(machine: &Machine, toward: f64, first: bool) -> Vec<WhirlOnset> {
             // A single wave that comes or goes does so with infinite pushes: no fold.
             let appears = above.len() > below.len();
             let (few, many) = if appears { (below, above) } else { (above, below) };
-            if many.len() < few.len() + 2 {
+            if many.len() < few.len() + 2 || closed.is_some_and(|closed| speed >= closed) {
                 continue;
             }
             let there = waves(speed);
@@ -376,6 +402,7 @@ mod tests {
             stiffness_nm_per_rad: disk.stiffness_nm_per_rad.into(),
             coupling_nm_per_rad: disk.coupling_nm_per_rad.into(),
             damping_ratio: disk.damping_ratio.into(),
+            centrifugal_stiffening: disk.centrifugal_stiffening.into(),
             radial_coupling: kappa,
             nodal_diameters: 0,
             mistuning: disk.mistuning.into(),
@@ -388,6 +415,7 @@ mod tests {
             modal_stiffness_n_per_m: casing.modal_stiffness_n_per_m.into(),
             damping_ratio: casing.damping_ratio.into(),
             tangential_ratio: casing.tangential_ratio.into(),
+            clearance_loss_m_s2: casing.clearance_loss_m_s2.into(),
             modes: Vec::new(),
         };
         Machine::new(&disk, &casing, 3).with_friction(Dual64::from(0.05))

@@ -32,6 +32,8 @@ pub enum NoSlip {
     NoDrive,
     /// The wave would have to be pulled to stay on a side.
     Lifts,
+    /// Blades have grown into the casing.
+    Closed,
 }
 
 /// A lasting slip.
@@ -123,6 +125,7 @@ pub fn slip_map(machine: &Machine, rotor_speed: f64, speed: f64) -> Option<Cross
     if machine.casing_feels_tips() {
         return None;
     }
+    let machine = &*machine.at(rotor_speed);
     let slide = SaddleFlow::at(machine, rotor_speed)?;
     let units = Units::of(machine);
     let arc = slide.cross(speed / units.speed)?;
@@ -141,7 +144,7 @@ pub fn slip_map(machine: &Machine, rotor_speed: f64, speed: f64) -> Option<Cross
 /// A polygon without corners, or a speed that is not finite.
 pub fn slip_over(machine: &Machine, speeds: &[f64]) -> Result<Vec<SlipPoint>, HarmonicError> {
     error::refuse_tips_on_casing(machine, "slip")?;
-    error::refuse_preload(machine)?;
+    error::refuse_preload(&machine.at(0.0))?;
     error::refuse_no_corner(&machine.polygon)?;
     error::refuse_endless(speeds)?;
     Ok(speeds.iter().map(|&speed| point(machine, speed)).collect())
@@ -191,6 +194,9 @@ pub fn slip_limits(machine: &Machine, speeds: &[f64]) -> Result<Vec<SlipLimit>, 
 
 /// The repeating arc at a speed, held by contact all along.
 pub(super) fn repeating(machine: &Machine, speed: f64) -> Result<(SaddleFlow, Arc), NoSlip> {
+    if machine.at(speed).clearance() <= 0.0 {
+        return Err(NoSlip::Closed);
+    }
     let slide = SaddleFlow::at(machine, speed).ok_or(NoSlip::BelowCritical)?;
     if slide.kept <= 0.0 {
         return Err(NoSlip::StopsAtCorner);
@@ -201,6 +207,7 @@ pub(super) fn repeating(machine: &Machine, speed: f64) -> Result<(SaddleFlow, Ar
 }
 
 fn point(machine: &Machine, speed: f64) -> SlipPoint {
+    let machine = &*machine.at(speed);
     let outcome = repeating(machine, speed).map(|(slide, arc)| orbit(machine, speed, &slide, &arc));
     SlipPoint { speed_rad_s: speed, outcome }
 }

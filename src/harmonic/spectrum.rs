@@ -71,6 +71,7 @@ pub fn slip_spectrum(
         let allowed = format!("a whole number from 0 to {HARMONICS}");
         return Err(HarmonicError::refused("harmonics", most, allowed));
     }
+    let machine = &*machine.at(speed);
     Ok(repeating(machine, speed).map(|(slide, arc)| {
         let orbit = Orbit { slide, arc, delta: machine.polygon.delta };
         orbit.spectrum(machine, speed, most)

@@ -36,6 +36,8 @@ pub enum NoWhirl {
     Lifts,
     /// One repeats, but neighbouring motions leave it.
     Unstable,
+    /// Blades have grown into the casing.
+    Closed,
 }
 
 /// A lasting whirl.
@@ -79,7 +81,7 @@ pub struct WhirlPoint {
 pub fn whirl_over(machine: &Machine, speeds: &[f64]) -> Result<Vec<WhirlPoint>, HarmonicError> {
     error::refuse_no_corner(&machine.polygon)?;
     error::refuse_other_diameters(machine)?;
-    error::refuse_preload(machine)?;
+    error::refuse_preload(&machine.at(0.0))?;
     error::refuse_endless(speeds)?;
     let point = |&speed: &f64| WhirlPoint { speed_rad_s: speed, outcome: at(machine, speed) };
     Ok(speeds.iter().map(point).collect())
@@ -90,6 +92,9 @@ fn at(machine: &Machine, speed: f64) -> Result<WhirlOrbit, NoWhirl> {
     let joint = Joint::at(machine, speed);
     if joint.coupling_product == 0.0 {
         return Err(NoWhirl::NotInclined);
+    }
+    if joint.machine.clearance() <= 0.0 {
+        return Err(NoWhirl::Closed);
     }
     // A wave that is slower than the rotor passes against the phase.
     let sense = if speed < 0.0 { -1.0 } else { 1.0 };
@@ -112,7 +117,7 @@ fn at(machine: &Machine, speed: f64) -> Result<WhirlOrbit, NoWhirl> {
 
 /// Every motion that repeats, with the time of its arc, the fastest first.
 fn repeating(arc: &WhirlArc, joint: &Joint) -> Vec<(f64, Free)> {
-    let machine = joint.machine;
+    let machine = &*joint.machine;
     let side = 2.0 * machine.polygon.delta;
     // Passing times of waves that turn this fast in the frame of the blades.
     let [slow, fast] = WHIRL_RATES.map(|part| part * machine.omega_bd / machine.omega_c);
@@ -163,7 +168,7 @@ fn balanced(arc: &WhirlArc, time: f64) -> Option<(f64, Free)> {
 
 /// The orbit of a fixed point, judged.
 fn orbit(joint: &Joint, arc: &WhirlArc, time: f64, free: &Free) -> Result<WhirlOrbit, NoWhirl> {
-    let machine = joint.machine;
+    let machine = &*joint.machine;
     let end = arc.end(&arc.over(time), free);
     let samples = Samples::along(arc, time, &arc.start(free));
     let least = samples.extreme(|states| -arc.push(states)).map(|most| -most);
@@ -300,7 +305,7 @@ impl WhirlArc {
     /// At the speed of a joint, where the contact passes over the blades in a direction
     /// (1 with the phase, -1 against it).
     pub fn of(joint: &Joint, direction: f64) -> Self {
-        let machine = joint.machine;
+        let machine = &*joint.machine;
         let kappa = machine.radial_coupling;
         let lever = kappa + machine.friction_at(joint.nu);
         let inertia = machine.blade_length * machine.blade_length * machine.casing_mass

@@ -8,6 +8,9 @@
 //!
 //! On a lining of the stiffness `k` of a group both push where `-tan(delta) Re H - |Im H| >=
 //! 1/(k sin 2 delta)`, without smoothing: one term more, `(K^2 + D^2)/(k sin 2 delta)`.
+//!
+//! Where blades stiffen with the speed, `c` is `c/(1 + b x^2)`, and where they grow, every
+//! window ends with the clearance.
 
 use super::{Machine, Number};
 use crate::numeric::real_roots::{Coefficients, Point, product, real_roots, sum};
@@ -58,14 +61,26 @@ impl<T: Number> Machine<T> {
     #[must_use]
     pub fn lock_windows(&self, toward: f64) -> Vec<LockWindow<T>> {
         let slope = self.polygon.delta.tan();
-        if self.clearance().re() <= 0.0 {
+        if self.clearance_at_rest().re() <= 0.0 {
             return Vec::new();
         }
         if !self.casing_feels_tips() && self.lining.is_none() {
             let from = self.threshold(1.0 / slope);
-            return from.map(|from| LockWindow { from, to: None }).into_iter().collect();
+            let window = from.map(|from| LockWindow { from, to: None });
+            return self.with_clearance(window.into_iter().collect());
         }
-        self.windows(slope, toward)
+        self.with_clearance(self.windows(slope, toward))
+    }
+
+    /// These windows, as far as there is a clearance.
+    fn with_clearance(&self, mut windows: Vec<LockWindow<T>>) -> Vec<LockWindow<T>> {
+        if let Some(closed) = self.closing_speed() {
+            windows.retain(|window| window.from.re() < closed.re());
+            for window in &mut windows {
+                window.to = window.to.filter(|to| to.re() < closed.re()).or(Some(closed));
+            }
+        }
+        windows
     }
 
     /// Speed down to which the printed equality algorithm holds a lock, one
@@ -73,15 +88,19 @@ impl<T: Number> Machine<T> {
     /// friction, which no pull has, and on a lining, which does not pull.
     #[must_use]
     pub fn adhesive_speed(&self) -> Option<T> {
-        if self.lining.is_some() || self.clearance().re() <= 0.0 {
+        if self.lining.is_some() || self.clearance_at_rest().re() <= 0.0 {
             return None;
         }
-        if !self.tips_incline_or_rub() {
-            return self.threshold(self.polygon.delta.tan());
-        }
         let slope = 1.0 / self.polygon.delta.tan();
-        let windows = if self.friction.re() == 0.0 { self.windows(slope, 1.0) } else { Vec::new() };
-        windows.first().map(|window| window.from)
+        let windows = if !self.tips_incline_or_rub() {
+            let from = self.threshold(self.polygon.delta.tan());
+            from.map(|from| LockWindow { from, to: None }).into_iter().collect()
+        } else if self.friction.re() == 0.0 {
+            self.windows(slope, 1.0)
+        } else {
+            Vec::new()
+        };
+        self.with_clearance(windows).first().map(|window| window.from)
     }
 
     /// Whether every lock above the critical speed pushes, as nothing parts the two pushes.
@@ -109,7 +128,8 @@ impl<T: Number> Machine<T> {
             // In a mirrored machine both the drag and the friction change their sign.
             friction: self.casing_friction_at(T::one()),
             coupling: self.coupling_product_at(T::from(toward)) * self.casing_stiffness
-                / self.blade_modal_stiffness,
+                / self.blade_stiffness_at_rest(),
+            stiffening: self.stiffening() * (critical / self.omega_bd_at_rest()).powi(2),
             lining: self.lining.map_or(T::zero(), |lining| {
                 let group = lining.stiffness_n_per_m * f64::from(self.polygon.blades_per_side);
                 self.casing_stiffness / (group * (2.0 * self.polygon.delta).sin())
@@ -155,21 +175,22 @@ impl<T: Number> Machine<T> {
     /// have modes of other diameters than the casing.
     #[must_use]
     pub fn locked_multipliers(&self, speed: T) -> Option<[T; 2]> {
-        if !self.polygon.has_corners() || self.clearance().re() <= 0.0 {
+        let here = self.at(speed);
+        if !here.polygon.has_corners() || here.clearance().re() <= 0.0 {
             return None;
         }
-        let nu = self.nu(speed);
-        let (sin, cos) = self.polygon.delta.sin_cos();
-        let mut stiff = self.casing_stiffness - nu * nu * self.casing_mass;
-        let mut drag = self.casing_damping * nu;
-        if self.casing_feels_tips() {
-            if self.has_other_diameters() {
+        let nu = here.nu(speed);
+        let (sin, cos) = here.polygon.delta.sin_cos();
+        let mut stiff = here.casing_stiffness - nu * nu * here.casing_mass;
+        let mut drag = here.casing_damping * nu;
+        if here.casing_feels_tips() {
+            if here.has_other_diameters() {
                 return None;
             }
-            [stiff, drag] = self.with_tips(stiff, drag, speed);
+            [stiff, drag] = here.with_tips(stiff, drag, speed);
         }
         let (stiff, drag) = (stiff / cos, drag / sin);
-        let scale = self.clearance() / (2.0 * cos);
+        let scale = here.clearance() / (2.0 * cos);
         Some([scale * (stiff - drag), scale * (stiff + drag)])
     }
 
@@ -190,7 +211,10 @@ struct Balance<T> {
     slope: f64,
     damping: T,
     friction: T,
+    /// At rest.
     coupling: T,
+    /// `b`, what the blades stiffen by.
+    stiffening: T,
     lining: T,
 }
 
@@ -200,10 +224,16 @@ impl<T: Number> Balance<T> {
         let (stiff, drag) = (-(x * x) + 1.0, self.damping * x);
         let (stiff_slope, drag_slope) = (x * -2.0, self.damping);
         let square = stiff * stiff + drag * drag;
-        let along = stiff + self.coupling * square + self.friction * drag;
+        let stiffer = self.stiffening * x * x + 1.0;
+        let coupling = self.coupling / stiffer;
+        let coupling_slope = -coupling / stiffer * self.stiffening * x * 2.0;
+        let along = stiff + coupling * square + self.friction * drag;
         let across = drag - self.friction * stiff;
         let square_slope = (stiff * stiff_slope + drag * drag_slope) * 2.0;
-        let along_slope = stiff_slope + self.coupling * square_slope + self.friction * drag_slope;
+        let along_slope = stiff_slope
+            + coupling * square_slope
+            + coupling_slope * square
+            + self.friction * drag_slope;
         let across_slope = drag_slope - self.friction * stiff_slope;
         (
             along * self.slope + across * sign + self.lining * square,
@@ -233,6 +263,7 @@ impl<T: Number> Balance<T> {
     fn ends(&self) -> Vec<(f64, f64)> {
         let (damping, friction, coupling) =
             (self.damping.re(), self.friction.re(), self.coupling.re());
+        let stiffening = self.stiffening.re();
         let on = |sign: f64| {
             move |from: Point, to: Point| -> Coefficients {
                 let quadratic =
@@ -247,7 +278,13 @@ impl<T: Number> Balance<T> {
                     self.slope * friction + sign,
                     &product(&drag, &one),
                 );
-                sum(1.0, &alone, self.slope * coupling + self.lining.re(), &square)
+                if stiffening == 0.0 {
+                    return sum(1.0, &alone, self.slope * coupling + self.lining.re(), &square);
+                }
+                let stiffer = quadratic(&|u, v| u.q * v.q + stiffening * u.p * v.p);
+                let rigid = sum(1.0, &alone, self.lining.re(), &square);
+                let tips = product(&one, &square);
+                sum(1.0, &product(&stiffer, &rigid), self.slope * coupling, &tips)
             }
         };
         let mut ends = Vec::new();

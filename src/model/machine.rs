@@ -1,9 +1,10 @@
 //! What follows from the parameters and the nodal diameters alone: frequencies,
 //! modal masses and damping (docs/theory.md, section 1), and the coincidences of both
-//! structures (docs/theory.md, section 4).
+//! structures (docs/theory.md, section 4). Where it changes with the speed: `spin`.
 
 use std::f64::consts::TAU;
 
+use super::spin::Spin;
 use super::{BladedDisk, Casing, ContactPolygon, LiningLaw, Number};
 
 /// The four-coordinate model of one machine at one number of nodal diameters.
@@ -15,7 +16,7 @@ use super::{BladedDisk, Casing, ContactPolygon, LiningLaw, Number};
 pub struct Machine<T = f64> {
     /// Phase groups and the polygon in the frame of the blades.
     pub polygon: ContactPolygon,
-    clearance: T,
+    pub(super) clearance: T,
     /// `n_d` as a number.
     pub nodal_diameters: f64,
     /// Casing modal mass `m_c` \[kg\].
@@ -56,10 +57,12 @@ pub struct Machine<T = f64> {
     pub friction: T,
     /// The lining of the casing under a blade; none from `new`, for rigid contact.
     pub lining: Option<LiningLaw<T>>,
+    /// How it changes with the speed, if it does.
+    pub(super) spin: Option<Spin<T>>,
 }
 
 impl<T: Number> Machine<T> {
-    /// Derives the model. The parameters must be checked before (`scene`).
+    /// Derives the model of a rotor at rest. The parameters must be checked before (`scene`).
     #[must_use]
     pub fn new(disk: &BladedDisk<T>, casing: &Casing<T>, nodal_diameters: u32) -> Self {
         let clearance = casing.radius_m - disk.blade_length_m;
@@ -71,7 +74,7 @@ impl<T: Number> Machine<T> {
         let omega_bd = blade_frequency(disk, blade_diameters);
         let omega_bd_max = blade_frequency(disk, disk.blades / 2);
         let omega_c = (casing.modal_stiffness_n_per_m / casing.modal_mass_kg).sqrt();
-        Self {
+        let mut machine = Self {
             polygon,
             clearance,
             nodal_diameters: f64::from(nodal_diameters),
@@ -94,7 +97,10 @@ impl<T: Number> Machine<T> {
             tangential_ratio: casing.tangential_ratio,
             friction: T::from(0.0),
             lining: None,
-        }
+            spin: None,
+        };
+        machine.spin = Spin::of(disk, casing, &machine);
+        machine
     }
 
     /// This machine with a friction coefficient `mu` between blades and casing.
@@ -118,6 +124,7 @@ impl<T: Number> Machine<T> {
             casing_damping_ratio: zero,
             blade_modal_damping: zero,
             blade_damping_ratio: zero,
+            spin: self.spin.map(|spin| Spin { blade_damping_ratio: zero, ..spin }),
             ..self
         }
     }
@@ -152,32 +159,38 @@ impl<T: Number> Machine<T> {
     /// This machine in plain numbers, without derivatives.
     #[must_use]
     pub fn plain(&self) -> Machine {
+        self.map(|number| number.re())
+    }
+
+    /// This machine with each number by a function.
+    pub(crate) fn map<U: Number>(&self, of: impl Fn(T) -> U) -> Machine<U> {
         Machine {
             polygon: self.polygon.clone(),
-            clearance: self.clearance.re(),
+            clearance: of(self.clearance),
             nodal_diameters: self.nodal_diameters,
-            casing_mass: self.casing_mass.re(),
-            casing_stiffness: self.casing_stiffness.re(),
-            casing_damping: self.casing_damping.re(),
-            casing_damping_ratio: self.casing_damping_ratio.re(),
-            omega_c: self.omega_c.re(),
-            blade_inertia: self.blade_inertia.re(),
-            blade_modal_mass: self.blade_modal_mass.re(),
-            blade_modal_damping: self.blade_modal_damping.re(),
-            blade_modal_stiffness: self.blade_modal_stiffness.re(),
-            blade_damping_ratio: self.blade_damping_ratio.re(),
-            omega_bd: self.omega_bd.re(),
-            omega_bd_max: self.omega_bd_max.re(),
+            casing_mass: of(self.casing_mass),
+            casing_stiffness: of(self.casing_stiffness),
+            casing_damping: of(self.casing_damping),
+            casing_damping_ratio: of(self.casing_damping_ratio),
+            omega_c: of(self.omega_c),
+            blade_inertia: of(self.blade_inertia),
+            blade_modal_mass: of(self.blade_modal_mass),
+            blade_modal_damping: of(self.blade_modal_damping),
+            blade_modal_stiffness: of(self.blade_modal_stiffness),
+            blade_damping_ratio: of(self.blade_damping_ratio),
+            omega_bd: of(self.omega_bd),
+            omega_bd_max: of(self.omega_bd_max),
             has_sine_mode: self.has_sine_mode,
-            blade_length: self.blade_length.re(),
-            radial_coupling: self.radial_coupling.re(),
+            blade_length: of(self.blade_length),
+            radial_coupling: of(self.radial_coupling),
             blade_diameters: self.blade_diameters,
-            tangential_ratio: self.tangential_ratio.re(),
-            friction: self.friction.re(),
+            tangential_ratio: of(self.tangential_ratio),
+            friction: of(self.friction),
             lining: self.lining.map(|lining| LiningLaw {
-                stiffness_n_per_m: lining.stiffness_n_per_m.re(),
-                smoothing_m: lining.smoothing_m.re(),
+                stiffness_n_per_m: of(lining.stiffness_n_per_m),
+                smoothing_m: of(lining.smoothing_m),
             }),
+            spin: self.spin.map(|spin| spin.map(&of)),
         }
     }
 
@@ -201,7 +214,7 @@ impl<T: Number> Machine<T> {
         self.blade_diameters != self.nodal_diameters
     }
 
-    /// Clearance at rest `g0 = R_c - l_b` \[m\].
+    /// Clearance `g0`, at rest `R_c - l_b` \[m\].
     #[must_use]
     pub fn clearance(&self) -> T {
         self.clearance
@@ -223,28 +236,68 @@ impl<T: Number> Machine<T> {
     /// increasing order \[rad/s\]; empty for `n_d = 0`.
     #[must_use]
     pub fn coincidence_speeds(&self) -> Vec<T> {
-        if self.nodal_diameters == 0.0 {
-            return Vec::new();
-        }
-        let difference = (self.omega_c - self.omega_bd).abs();
-        let sum = self.omega_c + self.omega_bd;
-        vec![difference / self.nodal_diameters, sum / self.nodal_diameters]
+        let mut speeds = self.coincidence_differences();
+        speeds.extend(self.dangerous_speed());
+        speeds.sort_by(|a, b| a.re().total_cmp(&b.re()));
+        speeds
+    }
+
+    /// The positive speeds where a casing wave and a blade wave of one sense coincide, the
+    /// differences of (30), in increasing order; two or none where blades stiffen so that
+    /// they overtake the casing, or stay ahead of it \[rad/s\].
+    #[must_use]
+    pub fn coincidence_differences(&self) -> Vec<T> {
+        let (mut speeds, _) = self.meetings(self.omega_c, self.omega_bd_at_rest());
+        speeds.iter_mut().for_each(|speed| *speed = speed.abs());
+        speeds.sort_by(|a, b| a.re().total_cmp(&b.re()));
+        speeds
     }
 
     /// The dangerous coincidence of a rotor that turns forward,
-    /// `Omega = (omega_c + omega_bd)/n_d`, Eq. (31) \[rad/s\]; none for `n_d = 0`.
+    /// `Omega = (omega_c + omega_bd)/n_d`, Eq. (31) \[rad/s\]; none for `n_d = 0`, and
+    /// where blades stiffen faster than the wave turns, `B >= n_d^2`.
     #[must_use]
     pub fn dangerous_speed(&self) -> Option<T> {
-        self.coincidence_speeds().last().copied()
+        self.meetings(self.omega_c, self.omega_bd_at_rest()).1
+    }
+
+    /// The speeds at which waves of a casing of one frequency and of blades of another at
+    /// rest meet, `casing = n Omega +- blades`: the differences, negative where the blades
+    /// are faster, and the sum. With `B` they are the roots of
+    /// `(n^2 - B) Omega^2 - 2 n casing Omega + casing^2 - blades^2`, of which the sum has
+    /// `n Omega` above the casing.
+    #[must_use]
+    pub fn meetings(&self, casing: T, blades: T) -> (Vec<T>, Option<T>) {
+        let (n, stiffening) = (self.nodal_diameters, self.stiffening());
+        if n == 0.0 {
+            return (Vec::new(), None);
+        }
+        if stiffening.re() == 0.0 {
+            return (vec![(casing - blades) / n], Some((casing + blades) / n));
+        }
+        let apart = (casing - blades) * (casing + blades);
+        let lead = -stiffening + n * n;
+        // A quarter of the discriminant, without its cancellation.
+        let square = stiffening * apart + blades * blades * (n * n);
+        if square.re() < 0.0 {
+            return (Vec::new(), None);
+        }
+        // The root of the larger sum first; the other by their product.
+        let far = casing * n + square.sqrt();
+        let [near, far] = [apart / far, far / lead];
+        let is_sum = |root: T| root.re() * n > casing.re();
+        let found = [near, far].into_iter().filter(|root| root.re().is_finite());
+        let (sums, differences): (Vec<T>, Vec<T>) = found.partition(|root| is_sum(*root));
+        (differences, sums.first().copied())
     }
 
     /// The coincidence that the tips of this machine make dangerous at a speed: (31), or
     /// the difference of (30) where they dig in, `kappa (kappa + mu) < 0` \[rad/s\].
     #[must_use]
     pub fn coincidence_felt_at(&self, speed: T) -> Option<T> {
-        let speeds = self.coincidence_speeds();
         let digs_in = self.coupling_product_at(speed).re() < 0.0;
-        let felt = if digs_in { speeds.first() } else { speeds.last() }.copied()?;
+        let first = || self.coincidence_differences().first().copied();
+        let felt = if digs_in { first() } else { self.dangerous_speed() }?;
         Some(if speed.re() < 0.0 { -felt } else { felt })
     }
 

@@ -8,6 +8,7 @@ mod machine;
 mod number;
 mod parameters;
 mod polygon;
+mod spin;
 
 pub use lining::LiningLaw;
 pub use lock::LockWindow;

@@ -104,8 +104,11 @@ pub struct BladedDisk<T = f64> {
     pub stiffness_nm_per_rad: T,
     /// Blade-to-blade stiffness `k_bb` \[N m/rad\].
     pub coupling_nm_per_rad: T,
-    /// Viscous damping ratio of every blade mode, `zeta_bd`.
+    /// Viscous damping ratio of every blade mode at rest, `zeta_bd`.
     pub damping_ratio: T,
+    /// Centrifugal stiffening `B`: every blade frequency becomes
+    /// `sqrt(omega^2 + B Omega^2)`.
+    pub centrifugal_stiffening: T,
     /// Slope of the path of a blade tip, `kappa`: it moves outward by
     /// `kappa l_b alpha`; 0 for the paper's tips.
     pub radial_coupling: T,
@@ -164,6 +167,7 @@ impl Default for BladedDisk {
             stiffness_nm_per_rad: 15_000.0,
             coupling_nm_per_rad: 3_000.0,
             damping_ratio: 0.04,
+            centrifugal_stiffening: 0.0,
             radial_coupling: 0.0,
             nodal_diameters: 0,
             mistuning: 0.0,
@@ -187,6 +191,9 @@ pub struct Casing<T = f64> {
     /// Tangential over radial amplitude of the mode at the inner face, `tau`: 0 for
     /// the paper's radial casing, `1/n_d` for a ring that does not stretch.
     pub tangential_ratio: T,
+    /// What blades and disk lose of the clearance as they grow, `c`: at a speed it is
+    /// `R_c - l_b - c Omega^2` \[m s^2\].
+    pub clearance_loss_m_s2: T,
     /// Modes with values of their own, by their diameters.
     #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "casing_modes")]
     pub modes: Vec<Mode>,
@@ -227,6 +234,7 @@ impl Default for Casing {
             modal_stiffness_n_per_m: 1.544e6,
             damping_ratio: 0.05,
             tangential_ratio: 0.0,
+            clearance_loss_m_s2: 0.0,
             modes: Vec::new(),
         }
     }

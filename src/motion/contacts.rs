@@ -195,8 +195,12 @@ impl ContactLog {
 pub struct EnergyAccount {
     /// Work of the pulse and of the excitation.
     pub pulse_work_j: f64,
-    /// Work that keeps the rotor turning against contact and friction.
+    /// Work that keeps the rotor turning against contact and friction, and that stiffens
+    /// the blades as its speed changes.
     pub rotor_work_j: f64,
+    /// Work of blades that grow with the speed, on what they touch.
+    #[serde(skip_serializing_if = "is_none")]
+    pub growth_work_j: f64,
     /// Dissipated in the damping of the casing.
     pub casing_loss_j: f64,
     /// Dissipated in the damping of the blades.
@@ -207,6 +211,12 @@ pub struct EnergyAccount {
     pub impact_loss_j: f64,
     /// Gained since the start: in casing, blades and lining.
     pub stored_j: f64,
+}
+
+/// A machine that does not change has no such row.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde gives a reference")]
+fn is_none(work: &f64) -> bool {
+    *work == 0.0
 }
 
 impl EnergyAccount {
@@ -221,10 +231,10 @@ impl EnergyAccount {
             - self.impact_loss_j
     }
 
-    /// Work of pulse, excitation and rotor \[J\].
+    /// Work of pulse, excitation, rotor and growth \[J\].
     #[must_use]
     pub fn supplied(&self) -> f64 {
-        self.pulse_work_j + self.rotor_work_j
+        self.pulse_work_j + self.rotor_work_j + self.growth_work_j
     }
 }
 

@@ -99,6 +99,15 @@ pub enum FailureReason {
     /// The equations of a solver are for a constant speed.
     #[error("this solver of what goes beyond the paper's model needs a constant speed")]
     Ramp,
+    /// Blades and disk have grown by all of the clearance.
+    #[error(
+        "at {speed_rad_s:.6} rad/s the blades have grown into the casing, and rigid contact needs \
+         a clearance"
+    )]
+    Closed {
+        /// Rotor speed \[rad/s\].
+        speed_rad_s: f64,
+    },
     /// The power series of a motion in contact does not converge.
     #[error(
         "blades and casing in contact move each other ever faster, beyond what their series can \

@@ -228,7 +228,7 @@ impl Motion {
     #[must_use]
     pub fn new(scene: &CheckedScene) -> Self {
         match (scene.solver.kind, scene.solver.model) {
-            (SolverKind::Event, _) if scene.goes_beyond() => LinearEvents::new(scene).into(),
+            (SolverKind::Event, _) if scene.has_other_tips() => LinearEvents::new(scene).into(),
             (SolverKind::Event, _) => ExactEvents::of(scene).into(),
             (SolverKind::Explicit, ModelSize::Rigid) => Explicit::<RigidBlades>::new(scene).into(),
             (SolverKind::Explicit, ModelSize::Modal) => Explicit::<ModalBlades>::new(scene).into(),

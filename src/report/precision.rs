@@ -186,7 +186,7 @@ pub fn write(report: &Precision, out: &mut dyn Write) -> Result<()> {
         time(reference.wall_s),
     )?;
     writeln!(out, "{}", goodness(reference))?;
-    if report.scene.goes_beyond() && reference.method == Method::Events {
+    if report.scene.has_other_tips() && reference.method == Method::Events {
         writeln!(
             out,
             "It is linearised: blade angles inside the phase of the gap are left out, which the \

@@ -429,6 +429,7 @@ fn why(reason: &FailureReason) -> &'static str {
         }
         FailureReason::Rows { .. } => "too many blades touch at once",
         FailureReason::Ramp => "the speed must be constant",
+        FailureReason::Closed { .. } => "the blades have grown into the casing",
         FailureReason::Series => "the motion is too fast",
         FailureReason::Events | FailureReason::EventsAtOnce | FailureReason::Looks => {
             "there are too many touches"

@@ -9,6 +9,20 @@ impl Scene {
     /// solved by the paper's own solvers, bit for bit as without this.
     #[must_use]
     pub fn goes_beyond(&self) -> bool {
+        self.has_other_tips() || self.changes_with_speed()
+    }
+
+    /// Whether its machine changes with the rotor speed, so that a run feels it.
+    #[must_use]
+    pub fn changes_with_speed(&self) -> bool {
+        let stiffens = self.bladed_disk.centrifugal_stiffening != 0.0;
+        let grows = self.casing.clearance_loss_m_s2 != 0.0;
+        grows || (stiffens && self.solver.model != ModelSize::Rigid)
+    }
+
+    /// Whether tips and casing meet otherwise than in the paper, at any speed.
+    #[must_use]
+    pub fn has_other_tips(&self) -> bool {
         let (disk, surface) = (&self.bladed_disk, &self.contact);
         let model = self.solver.model;
         let tips = disk.radial_coupling != 0.0 || surface.friction != 0.0;
@@ -45,7 +59,8 @@ impl Scene {
         })
     }
 
-    /// The clearance at rest `g0 = R_c - l_b`; below zero all blades rub at rest \[m\].
+    /// The clearance of a rotor at rest, `g0 = R_c - l_b`; below zero all blades rub there
+    /// \[m\].
     #[must_use]
     pub fn clearance(&self) -> f64 {
         self.casing.radius_m - self.bladed_disk.blade_length_m
@@ -182,6 +197,11 @@ fn by_events(scene: &Scene) -> Result<(), SceneError> {
     if scene.solver.kind != SolverKind::Event || ramp == 0.0 || !scene.goes_beyond() {
         return Ok(());
     }
-    let allowed = "0 with solver.kind = \"event\" beyond the paper's model";
+    let allowed = if scene.has_other_tips() {
+        "0 with solver.kind = \"event\" beyond the paper's model"
+    } else {
+        "0 with solver.kind = \"event\" where the machine changes with the speed \
+         (bladed_disk.centrifugal_stiffening, casing.clearance_loss_m_s2)"
+    };
     Err(SceneError::refused(keys::SPEED_RAMP, ramp, allowed))
 }

@@ -19,6 +19,7 @@ const ROUND_OFF: f64 = 1.0 + 1e-12;
 /// The first combination that is not allowed, named by its key.
 pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     clearance(scene)?;
+    growth(scene)?;
     frequencies(scene)?;
     initial_state(scene)?;
     excitation(scene)?;
@@ -44,6 +45,21 @@ fn clearance(scene: &Scene) -> Result<(), SceneError> {
         )
     };
     Err(SceneError::refused(keys::CASING_RADIUS, scene.casing.radius_m, allowed))
+}
+
+/// Rigid contact needs a clearance over the whole run, also where blades grow.
+fn growth(scene: &Scene) -> Result<(), SceneError> {
+    let (loss, fastest) = (scene.casing.clearance_loss_m_s2, scene.fastest_rad_s());
+    let rigid = scene.solver.contact != ContactLaw::Smooth;
+    if !(rigid && loss != 0.0 && scene.machine().at(fastest).clearance() <= 0.0) {
+        return Ok(());
+    }
+    let allowed = format!(
+        "at most {:e}, so that a clearance is left at {fastest} rad/s, or any with \
+         solver.contact = \"smooth\", whose lining blades may press",
+        below(scene.clearance() / (fastest * fastest))
+    );
+    Err(SceneError::refused(keys::CLEARANCE_LOSS, format!("{loss:e}"), allowed))
 }
 
 /// The squares of frequencies must stay in the range of numbers.
@@ -100,10 +116,8 @@ fn excitation(scene: &Scene) -> Result<(), SceneError> {
 /// Bounds of the step, each printed so that the printed value is accepted.
 fn explicit(scene: &Scene) -> Result<(), SceneError> {
     let (step, end) = (scene.solver.step_s, scene.solver.end_s);
-    let operation = &scene.operation;
-    let last = operation.speed_rad_s + operation.speed_ramp_rad_s2 * end;
-    let fastest = operation.speed_rad_s.abs().max(last.abs());
-    let turn = f64::from(operation.nodal_diameters) * fastest;
+    let fastest = scene.fastest_rad_s();
+    let turn = f64::from(scene.operation.nodal_diameters) * fastest;
     let stable = scene.stable_step();
     let is_stable = step < stable;
     let turns_little = turn * step <= MOST_TURN * ROUND_OFF;

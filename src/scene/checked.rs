@@ -62,7 +62,7 @@ impl CheckedScene {
     /// # Errors
     /// It does, in one line.
     pub fn is_of_the_paper(&self) -> Result<(), SceneError> {
-        if !self.goes_beyond() {
+        if !self.has_other_tips() {
             return Ok(());
         }
         let allowed = "one without what goes beyond the paper, for the paper's own solver";

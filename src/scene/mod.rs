@@ -169,7 +169,7 @@ impl Scene {
         }
     }
 
-    /// The machine this scene describes, with all that is derived from it.
+    /// The machine this scene describes at its speed, with all that is derived from it.
     #[must_use]
     pub fn machine(&self) -> Machine {
         let (disk, casing) = (self.disk_in_use(), self.casing_in_use());
@@ -180,6 +180,7 @@ impl Scene {
             // Blades that do not bend do not move their tips outward.
             machine.radial_coupling = 0.0;
         }
+        machine.turn_at(self.operation.speed_rad_s);
         machine
     }
 
@@ -189,10 +190,19 @@ impl Scene {
         (self.solver.contact == ContactLaw::Smooth).then(|| LiningLaw::of(&self.contact))
     }
 
+    /// The largest speed of the run, as a magnitude \[rad/s\].
+    #[must_use]
+    pub fn fastest_rad_s(&self) -> f64 {
+        let operation = &self.operation;
+        let last = operation.speed_rad_s + operation.speed_ramp_rad_s2 * self.solver.end_s;
+        operation.speed_rad_s.abs().max(last.abs())
+    }
+
     /// Largest step the explicit solver is stable for, `2/omega_max`, Eq. (9) \[s\].
     #[must_use]
     pub fn stable_step(&self) -> f64 {
         let machine = self.machine();
+        let machine = machine.at(self.fastest_rad_s());
         let fastest = match self.solver.model {
             ModelSize::Rigid => machine.omega_c,
             ModelSize::Modal => machine.omega_c.max(machine.omega_bd),

@@ -41,11 +41,13 @@ pub enum Quantity {
     Power,
     /// An energy.
     Energy,
+    /// A length over the square of a speed.
+    Growth,
 }
 
 use Quantity::{
-    Acceleration, Angle, Energy, Force, Inertia, Length, Mass, Plain, Power, Speed, Stiffness,
-    Time, Torque, TorsionalStiffness, Velocity,
+    Acceleration, Angle, Energy, Force, Growth, Inertia, Length, Mass, Plain, Power, Speed,
+    Stiffness, Time, Torque, TorsionalStiffness, Velocity,
 };
 
 /// One unit: what it is of, how it is written, and what it is in SI units: a power of ten
@@ -95,6 +97,7 @@ const UNITS: &[Unit] = &[
     whole(Angle, "deg", TAU / 360.0),
     unit(Power, "W", 0),
     unit(Energy, "J", 0),
+    whole(Growth, "m s^2", 1.0),
 ];
 
 /// SI prefixes, and the powers of ten that they stand for.
@@ -150,6 +153,7 @@ impl Quantity {
             Angle => "an angle",
             Power => "a power",
             Energy => "an energy",
+            Growth => "a length over the square of a speed",
         }
     }
 

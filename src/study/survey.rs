@@ -220,7 +220,7 @@ fn row(
 /// The sizes of the limits of a rotor that turns in one sense, and their sensitivities.
 struct Speeds {
     sizes: Vec<(LimitName, f64)>,
-    by: Vec<(LimitName, Option<f64>)>,
+    by: Vec<Option<f64>>,
 }
 
 impl Speeds {
@@ -234,16 +234,16 @@ impl Speeds {
     /// As limits of a rotor that turns in this sense.
     fn limits(&self, scene: &Scene, sense: f64, range: Option<[f64; 2]>) -> Vec<SurveyLimit> {
         let present = scene.operation.speed_rad_s;
-        let limit = |(name, size): &(LimitName, f64)| {
+        let limit = |(place, (name, size)): (usize, &(LimitName, f64))| {
             let value = sense * size;
             SurveyLimit {
                 name: *name,
                 value,
                 margin: (present * sense >= 0.0).then(|| present.abs() / size - 1.0),
                 in_range: range.map(|[from, to]| (from..=to).contains(&value)),
-                by: self.by.iter().find(|(of, _)| of == name).and_then(|(_, by)| *by),
+                by: self.by.get(place).copied().flatten(),
             }
         };
-        self.sizes.iter().map(limit).collect()
+        self.sizes.iter().enumerate().map(limit).collect()
     }
 }

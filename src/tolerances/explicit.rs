@@ -142,3 +142,7 @@ pub(crate) const TIP_MARGIN: f64 = 0.005;
 pub(crate) const DIES_LOOKS: i32 = 400;
 /// See `DIES_LOOKS`.
 pub(crate) const DIES_SMALLER: f64 = 0.95;
+
+/// Times that displacements shrink where a clearance is smaller all at once: each leaves
+/// what is of second order in blade angles.
+pub(crate) const GIVE_WAY: usize = 4;

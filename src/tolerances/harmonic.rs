@@ -103,3 +103,11 @@ pub(crate) const WHIRL_ENDS: f64 = 1e-9;
 
 /// Samples of an arc of whirl, for its extremes.
 pub(crate) const WHIRL_SAMPLES: usize = 128;
+
+/// Flutter of a machine that changes with the speed is looked for up to so many critical
+/// speeds, from as small a part of one. Beyond, no rotor turns.
+pub(crate) const FLUTTER_FURTHEST: f64 = 100.0;
+
+/// Factor between two speeds at which that growth is asked. Larger: a narrow range of
+/// flutter is stepped over.
+pub(crate) const FLUTTER_STRIDE: f64 = 1.01;

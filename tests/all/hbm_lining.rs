@@ -228,7 +228,7 @@ fn too_stiff_a_joint_grows_without_bound() {
     with(&preloaded("54e3", &[]), |lining| {
         let unbounded = lining.whirl(425.0).unwrap();
         assert_eq!(unbounded, Whirl::Unbounded);
-        let wave = round_whirls(&Joint::at(lining.machine, 425.0));
+        let wave = round_whirls(&Joint::at(&lining.machine, 425.0));
         assert!(wave[0].stiffness_n_per_m < lining.stiffness_far_out());
         assert!(!lining.is_bounded(425.0) && lining.is_bounded(390.0));
     });

@@ -76,7 +76,7 @@ fn undamped_the_push_spreads_over_more_blades() {
             assert_eq!(held, [pushing], "{speed}: {states:?}");
         }
         // The first swap, at |K| = 2 k_p sin^2 delta.
-        let m = lining.machine;
+        let m = &lining.machine;
         let outward = 2.0 * 1e7 * m.polygon.delta.sin().powi(2);
         let swap = ((m.casing_stiffness + outward) / m.casing_mass).sqrt() / 3.0;
         for (speed, pushing) in [(swap - 0.01, 2), (swap + 0.01, 3)] {

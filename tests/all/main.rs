@@ -79,6 +79,8 @@ mod live_changes;
 mod live_event;
 mod live_random;
 mod lock_ends;
+mod machine_at_speed;
+mod machine_in_time;
 mod map_adaptive;
 mod map_cli;
 mod map_flags;

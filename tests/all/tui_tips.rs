@@ -105,7 +105,7 @@ fn what_is_beyond_the_paper_is_folded_but_for_what_the_scene_has_of_it() {
     }
     // A click on a folded group opens it.
     let mut session = open((80, 24), scene());
-    for (group, label) in [("beyond the paper 9 ▸", "▸tip slope κ"), ("start 6 ▸", "▸start u_c")]
+    for (group, label) in [("beyond the paper 11 ▸", "▸tip slope κ"), ("start 6 ▸", "▸start u_c")]
     {
         let row = session.rows().iter().position(|row| row.contains(group)).unwrap() as u16;
         click(&mut session, (3, row));

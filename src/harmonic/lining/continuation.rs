@@ -171,7 +171,7 @@ impl<'a> Way<'a> {
         let scene = self.scene_at(part)?;
         let machine = scene.machine();
         let lining = Lining::of(&machine, &scene.contact)?;
-        Ok(of(&Balance::at(lining, scene.operation.speed_rad_s)))
+        Ok(of(&Balance::at(&lining, scene.operation.speed_rad_s)))
     }
 
     /// The place of the gaps \[m\].

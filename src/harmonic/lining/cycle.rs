@@ -61,11 +61,12 @@ impl Lining<'_> {
     /// # Errors
     /// Stiffnesses that differ by too many powers of ten.
     pub fn cycles(&self, speed: f64) -> Result<Vec<Cycle>, HarmonicError> {
-        let joint = Joint::at(self.machine, speed);
+        let lining = self.at(speed);
+        let joint = Joint::at(&self.machine, speed);
         let mut found = Vec::new();
         for wave in round_whirls(&joint) {
-            for r in self.amplitudes(wave.stiffness_n_per_m) {
-                found.push(self.cycle(&joint, speed, &wave, r)?);
+            for r in lining.amplitudes(wave.stiffness_n_per_m) {
+                found.push(lining.cycle(&joint, speed, &wave, r)?);
             }
         }
         found.sort_by(|a: &Cycle, b| a.gap_amplitude_m.total_cmp(&b.gap_amplitude_m));
@@ -105,7 +106,7 @@ impl Lining<'_> {
     /// for half of each turn, they decay.
     #[must_use]
     pub fn is_bounded(&self, speed: f64) -> bool {
-        let joint = Joint::at(self.machine, speed);
+        let joint = Joint::at(&self.machine, speed);
         !Quartic::new(&joint, self.stiffness_far_out()).rest(speed).grows
     }
 
@@ -136,7 +137,7 @@ pub(super) fn small_motions(
     [omega, s]: [f64; 2],
     tangent: Tangent,
 ) -> Option<Vec<Complex<f64>>> {
-    let m = joint.machine;
+    let m = &*joint.machine;
     let friction = joint.casing_friction;
     let (kappa, length) = (m.radial_coupling, m.blade_length);
     // Lengths of the blades' tips, times in units of the fastest frequency.

@@ -9,6 +9,7 @@
 //! narrow one is summed without losing a digit.
 
 use crate::scene::keys;
+use std::borrow::Cow;
 use std::f64::consts::{PI, TAU};
 
 use crate::harmonic::{HarmonicError, Joint, error};
@@ -18,10 +19,10 @@ use crate::numeric::quadrature::GAUSS_8;
 use crate::tolerances::{LINING_DIVIDED, LINING_NARROWEST, LINING_STRIDES, LINING_WIDEST};
 
 /// A machine whose casing has a lining under the blades.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Lining<'a> {
     /// The machine, with its friction and its clearance, negative with preload.
-    pub machine: &'a Machine,
+    pub machine: Cow<'a, Machine>,
     /// Stiffness `k_p` under one blade \[N/m\].
     pub stiffness_n_per_m: f64,
     /// Depth `eps` over which it sets in \[m\].
@@ -46,10 +47,20 @@ impl<'a> Lining<'a> {
             return Err(HarmonicError::refused(key, value, allowed));
         }
         Ok(Self {
-            machine,
+            machine: Cow::Borrowed(machine),
             stiffness_n_per_m: surface.stiffness_n_per_m,
             smoothing_m: surface.smoothing_m,
         })
+    }
+
+    /// The same with the machine at a rotor speed \[rad/s\].
+    #[must_use]
+    pub fn at(&self, speed: f64) -> Self {
+        let machine = match self.machine.at(speed) {
+            Cow::Borrowed(_) => self.machine.clone(),
+            Cow::Owned(here) => Cow::Owned(here),
+        };
+        Self { machine, ..*self }
     }
 
     /// Depth to which every blade is pressed in at rest, `-g0` \[m\]; negative where there
@@ -72,7 +83,7 @@ impl<'a> Lining<'a> {
     }
 
     pub(super) fn law(&self) -> LiningLaw {
-        let Self { stiffness_n_per_m, smoothing_m, .. } = *self;
+        let &Self { stiffness_n_per_m, smoothing_m, .. } = self;
         LiningLaw { stiffness_n_per_m, smoothing_m }
     }
 

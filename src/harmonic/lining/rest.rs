@@ -59,7 +59,8 @@ impl Lining<'_> {
     /// casing and blades, each by itself.
     #[must_use]
     pub fn rest(&self, speed: f64) -> Rest {
-        Quartic::new(&Joint::at(self.machine, speed), self.stiffness_at_rest()).rest(speed)
+        let stiffness = self.at(speed).stiffness_at_rest();
+        Quartic::new(&Joint::at(&self.machine, speed), stiffness).rest(speed)
     }
 }
 
@@ -81,7 +82,7 @@ pub(super) struct Quartic {
 impl Quartic {
     /// Of a joint and a stiffness of all blades \[N/m\].
     pub fn new(joint: &Joint, stiffness: f64) -> Self {
-        let m = joint.machine;
+        let m = &*joint.machine;
         let casing = m.casing_stiffness / m.casing_mass;
         let blades = m.blade_modal_stiffness / m.blade_modal_mass;
         let joined = stiffness / m.casing_mass;
@@ -226,15 +227,26 @@ pub struct GrowthThreshold {
 /// sense of rotation of `sense`; `None` for blades that nothing comes back to.
 fn shifted(machine: &Machine, stiffness: f64, sense: f64) -> Option<ShiftedCoincidence> {
     let product = machine.coupling_product_at(sense);
-    let blades = machine.blade_modal_stiffness + stiffness * product;
+    let [casing_rad_s, blades] = pressed(machine, stiffness, product)?;
+    let (differences, sum) = machine.meetings(casing_rad_s, blades);
+    let speed = if product < 0.0 { differences.first().copied() } else { sum }?;
+    let blades_rad_s = if machine.stiffening() == 0.0 {
+        blades
+    } else {
+        blades.hypot(machine.stiffening().sqrt() * speed)
+    };
+    Some(ShiftedCoincidence { speed_rad_s: speed.copysign(sense), casing_rad_s, blades_rad_s })
+}
+
+/// The frequencies of casing and blades at rest that all press on this stiffness; `None`
+/// for blades that nothing comes back to.
+fn pressed(machine: &Machine, stiffness: f64, product: f64) -> Option<[f64; 2]> {
+    let blades = machine.blade_stiffness_at_rest() + stiffness * product;
     if product == 0.0 || blades < 0.0 {
         return None;
     }
-    let casing_rad_s = ((machine.casing_stiffness + stiffness) / machine.casing_mass).sqrt();
-    let blades_rad_s = (blades / machine.blade_modal_mass).sqrt();
-    let meeting = casing_rad_s + blades_rad_s.copysign(product);
-    let speed_rad_s = (meeting / machine.nodal_diameters).copysign(sense);
-    Some(ShiftedCoincidence { speed_rad_s, casing_rad_s, blades_rad_s })
+    let casing = ((machine.casing_stiffness + stiffness) / machine.casing_mass).sqrt();
+    Some([casing, (blades / machine.blade_modal_mass).sqrt()])
 }
 
 /// Width in speed over which growth changes around a coincidence \[rad/s\].
@@ -256,8 +268,8 @@ impl Lining<'_> {
     /// of `speed`; none with a clearance.
     #[must_use]
     pub fn shifted_coincidence(&self, speed: f64) -> Option<ShiftedCoincidence> {
-        let stiffness = self.stiffness_at_rest();
-        (stiffness > 0.0).then(|| shifted(self.machine, stiffness, speed)).flatten()
+        let stiffness = self.at(speed).stiffness_at_rest();
+        (stiffness > 0.0).then(|| shifted(&self.machine, stiffness, speed)).flatten()
     }
 
     /// Every speed in a range \[rad/s\] at which the worst growth at rest changes its
@@ -306,19 +318,26 @@ impl Lining<'_> {
 
     /// The speeds of the scan, in order.
     fn places(&self, [from, to]: [f64; 2]) -> Vec<f64> {
-        let stiffness = self.stiffness_at_rest();
+        let mut linings = vec![self.at(from).stiffness_at_rest(), self.at(to).stiffness_at_rest()];
+        linings.dedup();
         let part = |k: u32| f64::from(k) / f64::from(GROWTH_SCAN);
         let mut places: Vec<f64> =
             (0..=GROWTH_SCAN).map(|k| from + (to - from) * part(k)).collect();
         let (reach, fine) = TONGUE_SCAN;
-        for sense in [-1.0, 1.0] {
-            let Some(found) = shifted(self.machine, stiffness, sense) else { continue };
-            let stride = width(self.machine, stiffness, sense) / fine;
-            for blades in [found.blades_rad_s, -found.blades_rad_s] {
-                let middle = sense * (found.casing_rad_s + blades) / self.machine.nodal_diameters;
-                places.extend((-reach..=reach).map(|k| middle + stride * f64::from(k)));
+        for (&stiffness, sense) in linings.iter().flat_map(|of| [(of, -1.0), (of, 1.0)]) {
+            let product = self.machine.coupling_product_at(sense);
+            let Some([casing, blades]) = pressed(&self.machine, stiffness, product) else {
+                continue;
+            };
+            let stride = width(&self.machine, stiffness, sense) / fine;
+            let (differences, sum) = self.machine.meetings(casing, blades);
+            for middle in sum.into_iter().chain(differences) {
+                let place = |k| sense * middle + stride * f64::from(k);
+                places.extend((-reach..=reach).map(place));
             }
         }
+        // Where the lining begins to be pressed.
+        places.extend(self.machine.closing_speed().into_iter().flat_map(|speed| [-speed, speed]));
         places.retain(|speed| (from..=to).contains(speed));
         places.sort_by(f64::total_cmp);
         places.dedup();

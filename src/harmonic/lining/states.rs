@@ -14,6 +14,8 @@
 //! each speed, and one that is softer than the least of these never holds a lock. Beyond the
 //! last speed of two groups three may go on.
 
+use std::borrow::Cow;
+
 use nalgebra::{Complex, Matrix2, Vector2};
 use serde::Serialize;
 
@@ -21,7 +23,7 @@ use super::Lining;
 use super::cycle::{Tangent, small_motions};
 use crate::harmonic::LockLoads;
 use crate::harmonic::{HarmonicError, Joint, error};
-use crate::model::{Machine, Number};
+use crate::model::{LiningLaw, Machine, Number};
 use crate::numeric::maximum::highest;
 use crate::tolerances::{
     AS_ZERO, LINING_ALIKE, LINING_NEUTRAL, NEWTON_STEPS, WINDOW_LOOKS, WINDOW_REACH,
@@ -65,7 +67,7 @@ pub struct GroupPush {
 }
 
 /// The two equations at one speed.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Balance<'a> {
     pub lining: Lining<'a>,
     pub joint: Joint<'a>,
@@ -83,9 +85,10 @@ fn as_matrix(number: Complex<f64>) -> Matrix2<f64> {
 }
 
 impl<'a> Balance<'a> {
-    pub fn at(lining: Lining<'a>, speed: f64) -> Self {
-        let machine = lining.machine;
-        let joint = Joint::at(machine, speed);
+    pub fn at(lining: &Lining<'a>, speed: f64) -> Self {
+        let lining = lining.at(speed);
+        let machine = &*lining.machine;
+        let joint = Joint::of(lining.machine.clone(), speed);
         let casing = joint.casing_stiffness(joint.nu);
         let turned = Complex::new(1.0, joint.casing_friction);
         let pushed = turned + casing * (joint.coupling_product / machine.blade_modal_stiffness);
@@ -101,7 +104,7 @@ impl<'a> Balance<'a> {
 
     /// Of all sides: phase, and gap at a place.
     pub fn gaps(&self, w: Vector2<f64>) -> impl Iterator<Item = (u32, Vector2<f64>, f64)> {
-        let machine = self.lining.machine;
+        let machine = &*self.lining.machine;
         let clearance = machine.clearance();
         (0..machine.polygon.sides).map(move |side| {
             let (cos, sin) = machine.polygon.direction(side);
@@ -164,7 +167,7 @@ impl<'a> Balance<'a> {
     /// The place that neighbouring sides from the first on would hold if they were
     /// springs, `eps = 0`.
     pub fn sprung(&self, sides: u32) -> Option<Vector2<f64>> {
-        let machine = self.lining.machine;
+        let machine = &*self.lining.machine;
         let each = self.lining.stiffness_n_per_m * f64::from(machine.polygon.blades_per_side);
         let clearance = machine.clearance() + 0.5 * self.lining.smoothing_m;
         let (mut push, mut slope) = (Vector2::zeros(), Matrix2::zeros());
@@ -205,7 +208,7 @@ impl<'a> Balance<'a> {
 
     /// The state at a place.
     pub fn state(&self, w: Vector2<f64>) -> Result<LiningState, HarmonicError> {
-        let machine = self.lining.machine;
+        let machine = &*self.lining.machine;
         let unsettled = HarmonicError::Unsettled { speed: self.speed };
         let (push, slope) = self.pushes(w);
         let tangent: Tangent = [[slope[(0, 0)], slope[(0, 1)]], [slope[(1, 0)], slope[(1, 1)]]];
@@ -251,7 +254,7 @@ impl Lining<'_> {
     /// A speed that is not finite, or stiffnesses that differ by too many powers of ten.
     pub fn states(&self, speed: f64) -> Result<Vec<LiningState>, HarmonicError> {
         error::refuse_endless(&[speed])?;
-        let balance = Balance::at(*self, speed);
+        let balance = Balance::at(self, speed);
         let mut places: Vec<Vector2<f64>> = vec![Vector2::zeros()];
         for start in balance.starts() {
             if let Some(w) = balance.solve(start)
@@ -285,9 +288,9 @@ const SIDES: [u32; 2] = [0, 1];
 /// the smallest motion leaves it.
 fn place(machine: &Machine, speed: f64) -> Option<(Vector2<f64>, Balance<'_>)> {
     let law = machine.lining.filter(|_| Joint::has_one_wave(machine))?;
-    let lining =
-        Lining { machine, stiffness_n_per_m: law.stiffness_n_per_m, smoothing_m: law.smoothing_m };
-    let balance = Balance::at(lining, speed);
+    let LiningLaw { stiffness_n_per_m, smoothing_m } = law;
+    let lining = Lining { machine: Cow::Borrowed(machine), stiffness_n_per_m, smoothing_m };
+    let balance = Balance::at(&lining, speed);
     let w = balance.solve(balance.sprung(2)?)?;
     let pushing = balance.gaps(w).filter(|(.., gap)| *gap < 0.0).map(|(side, ..)| side);
     let held = pushing.eq(SIDES) && balance.state(w).is_ok_and(|state| state.stable);
@@ -300,6 +303,7 @@ pub(in crate::harmonic) fn lock_loads<T: Number>(
     machine: &Machine<T>,
     speed: T,
 ) -> Option<LockLoads<T>> {
+    let machine = &*machine.at(speed);
     let (law, plain) = (machine.lining?, machine.plain());
     let (w, balance) = place(&plain, speed.re())?;
     let polygon = &machine.polygon;

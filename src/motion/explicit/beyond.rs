@@ -8,6 +8,7 @@ use super::lining::Lining;
 use super::record::Account;
 use super::rows::{Found, TipLaw};
 use super::{Coordinate, Explicit};
+use crate::model::Machine;
 use crate::motion::{ActiveSet, FailureReason, Plane};
 use crate::scene::{CheckedScene, ModelSize};
 use crate::tolerances::{ANGLE_LOOK, LONG_STEP};
@@ -19,7 +20,7 @@ pub(super) struct Beyond {
     pub before: [f64; 2],
     /// Rows that may touch now, and how far they were looked for.
     pub candidates: Vec<u32>,
-    pub found: Found,
+    pub found: Option<Found>,
     /// Bounds on the penetration left at the latest step and at the one before \[m\].
     pub dips: [f64; 2],
     /// Deepest distance to a target in the latest contact \[m\].
@@ -29,6 +30,8 @@ pub(super) struct Beyond {
     pub long: f64,
     pub long_steps: u32,
     pub lasting: Lasting,
+    /// What the clearance has lost in the latest step and in the one before \[m\].
+    pub closed: [f64; 2],
     pub account: Account,
     /// Whether the tips rub as those of a rotor that turns backward.
     backward: bool,
@@ -48,6 +51,7 @@ impl Beyond {
             long: long_step(scene),
             long_steps: 0,
             lasting: Lasting::new(scene.solver.end_s),
+            closed: [0.0; 2],
             account: Account::default(),
             backward: speed < 0.0,
             next_look: 0,
@@ -67,12 +71,12 @@ impl Beyond {
 
     /// From now on with the parameters of another scene, at this rotor speed. Gaps of the
     /// steps before may be others now, by as much as the clearance.
-    pub fn set_parameters(&mut self, scene: &CheckedScene, speed: f64) {
+    pub fn set_parameters(&mut self, scene: &CheckedScene, machine: &Machine, speed: f64) {
         self.backward = speed < 0.0;
         self.steps_unseen = steps_unseen(scene);
         self.long = long_step(scene);
         self.found = None;
-        self.dips = [scene.machine().clearance().abs(); 2];
+        self.dips = [machine.clearance().abs(); 2];
     }
 }
 
@@ -98,6 +102,7 @@ impl<B: Disk> Explicit<B> {
     /// One step.
     pub(super) fn take_step_beyond(&mut self) -> Result<(), FailureReason> {
         let force = self.drive.force(self.n);
+        self.follow_speed()?;
         let tips = self.tips_at(self.n);
         self.beyond.before = self.u.map(|coordinate| coordinate.increment);
         let mut unknown = self.predict(force);
@@ -236,7 +241,7 @@ impl<B: Disk> Explicit<B> {
     /// Whether casing and tips, whose energies bound them, never reach a contact again.
     pub(super) fn rests(&self) -> bool {
         let clearance = self.machine.clearance();
-        if clearance <= 0.0 || self.drive.excitation.is_some() {
+        if clearance <= 0.0 || self.drive.excitation.is_some() || self.follows_speed() {
             return false;
         }
         let rise = self.tips.rise.abs();

@@ -229,10 +229,11 @@ impl<B: Disk> Explicit<B> {
         // A push may close the gap beside it, by as much as is asked of it.
         let reach = NEIGHBOUR_DEPTHS * deepest;
         self.beyond.depth = deepest;
-        if !self.law.pulls() && reach > likely {
-            if self.find_candidates(z, tips, bound, reach + highest, TIP_MARGIN) {
-                self.gather_targets(z, tips, restitution);
-            }
+        if !self.law.pulls()
+            && reach > likely
+            && self.find_candidates(z, tips, bound, reach + highest, TIP_MARGIN)
+        {
+            self.gather_targets(z, tips, restitution);
         }
         let limit = if self.law.pulls() { 0.0 } else { reach };
         let kept = self.below_first(limit);
@@ -267,7 +268,7 @@ impl<B: Disk> Explicit<B> {
 
     /// Makes rows of the candidates, with their distances to the target; how far the
     /// deepest is beyond its own.
-    fn gather_targets(&mut self, z: Plane, tips: &TipLaw, restitution: f64) -> f64 {
+    pub(super) fn gather_targets(&mut self, z: Plane, tips: &TipLaw, restitution: f64) -> f64 {
         self.rows.clear();
         self.gaps.clear();
         let mut deepest = 0.0_f64;
@@ -309,7 +310,8 @@ impl<B: Disk> Explicit<B> {
         let u = Plane::new(self.u[0].x - c, self.u[1].x - s);
         let z = u * self.turn_before().conj();
         let angle = self.blades.angle_before(row.index);
-        tips.place(self.machine.polygon.direction(row.side), z, angle).gap
+        let gap = tips.place(self.machine.polygon.direction(row.side), z, angle).gap;
+        gap + self.lost_clearance()
     }
 
     /// The turn of the frame of the blades two steps before.
@@ -337,6 +339,7 @@ impl<B: Disk> Explicit<B> {
             if row.lambda != 0.0 && !self.beyond.account.forgone {
                 let closed = 0.5 * (gap - self.gap_before(&row, tips));
                 self.beyond.account.sums.impact_loss_j += row.lambda * closed;
+                self.count_growth(-row.lambda);
                 self.count_push(&row, turn, tips);
             }
         }

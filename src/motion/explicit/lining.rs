@@ -316,9 +316,11 @@ impl<B: Disk> Explicit<B> {
     fn count_lining(&mut self, tips: &TipLaw) {
         let [c, s] = self.moved();
         let turned = self.drive.speed(self.n - 1) * self.drive.step;
+        let lost = self.lost_clearance();
         let Self { lining: Some(lining), blades, beyond, .. } = self else { return };
         let Sums { force, push, torque, .. } = lining.sums;
         let sums = &mut beyond.account.sums;
+        sums.growth_work_j += 0.5 * push * lost;
         sums.rotor_work_j -= (torque + tips.pushed * push) * turned;
         if tips.friction == 0.0 {
             return;
@@ -429,12 +431,13 @@ impl<B: Disk> Explicit<B> {
         // What the lining held in the step before, from the same rows.
         let back = Plane::cis(tips.diameters * self.drive.speed(0) * self.drive.step);
         let z = Plane::new(self.u[0].x - self.u[0].increment, self.u[1].x - self.u[1].increment);
+        let lost = self.beyond.closed[0];
         let Self { lining: Some(lining), blades, machine, .. } = self else { return };
         let each = f64::from(blades.table().blades_per_row);
         let mut energy = 0.0;
         for (row, side, _) in lining.pressed() {
             let direction = machine.polygon.direction(side);
-            let gap = tips.place(direction, z * back, blades.angle_before(row)).gap;
+            let gap = tips.place(direction, z * back, blades.angle_before(row)).gap + lost;
             energy += each * lining.law.energy(gap);
         }
         lining.held_before = Some(energy);

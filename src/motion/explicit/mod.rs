@@ -10,7 +10,8 @@
 //! (`leap`).
 //!
 //! Read `oscillator` (one coordinate) and `drive`, then `rows`, `pushes` and `correct` (rigid
-//! contact of a step) and `lining`, `disk` (what it asks of the blades), `beyond`, `lasting` and `dies`; `record`,
+//! contact of a step) and `lining`, `disk` (what it asks of the blades), `beyond`, `spin` (a machine that
+//! changes with the speed), `lasting` and `dies`; `record`,
 //! `parameters` and `solver` put them together.
 
 mod beyond;
@@ -27,6 +28,7 @@ mod pushes;
 mod record;
 mod rows;
 mod solver;
+mod spin;
 
 pub(super) use disk::{FullBlades, ModalBlades, RigidBlades};
 pub(super) use drive::EngineOrderTorque;

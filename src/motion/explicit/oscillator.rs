@@ -34,8 +34,8 @@ pub struct Oscillator {
     step: f64,
     /// See `lost`.
     lost: f64,
-    /// Many steps at once, acting on `(x, increment)`.
-    leap: Leap<2>,
+    /// Many steps at once, acting on `(x, increment)`; none once it was stiffened.
+    leap: Option<Leap<2>>,
 }
 
 /// Displacement and last increment of one coordinate.
@@ -57,7 +57,7 @@ impl Oscillator {
         let ratio = (inertia - drag) * compliance;
         let pull = stiffness * compliance;
         let loss = 2.0 * drag * compliance;
-        let leap = Leap::new(Matrix2::new(-pull, ratio, -pull, -loss));
+        let leap = Some(Leap::new(Matrix2::new(-pull, ratio, -pull, -loss)));
         let lost = loss / (4.0 * compliance);
         Self { ratio, pull, loss, compliance, mass, damping, stiffness, step, lost, leap }
     }
@@ -83,6 +83,13 @@ impl Oscillator {
         Coordinate { increment: at.increment - change, ..at }
     }
 
+    /// From now on with another stiffness.
+    pub fn stiffen(&mut self, stiffness: f64) {
+        self.stiffness = stiffness;
+        self.pull = stiffness * self.compliance;
+        self.leap = None;
+    }
+
     /// One step under a force.
     #[must_use]
     pub fn step(&self, at: Coordinate, force: f64) -> Coordinate {
@@ -93,7 +100,10 @@ impl Oscillator {
     /// `steps` free steps at once.
     #[must_use]
     pub fn skip(&self, at: Coordinate, steps: u64) -> Coordinate {
-        let ahead = self.leap.apply(Vector2::new(at.x, at.increment), steps);
+        let Some(leap) = &self.leap else {
+            return (0..steps).fold(at, |at, _| self.step(at, 0.0));
+        };
+        let ahead = leap.apply(Vector2::new(at.x, at.increment), steps);
         Coordinate { x: ahead.x, increment: ahead.y }
     }
 

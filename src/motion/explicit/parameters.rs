@@ -68,6 +68,7 @@ impl<B: Disk> Explicit<B> {
         };
         motion.neighbours_matter = motion.neighbours_matter();
         if motion.goes_beyond {
+            motion.begin_closing();
             motion.press_start();
             motion.beyond.account.start = motion.stored();
         }
@@ -86,17 +87,19 @@ impl<B: Disk> Explicit<B> {
         self.interrupt();
         let before = self.stored_beyond();
         self.scene = Arc::new(scene.clone());
-        self.machine = scene.machine();
+        let speed = self.drive.speed(self.n);
+        self.machine = scene.machine().at(speed).into_owned();
         self.blades = self.blades.with_parameters(scene, &self.machine);
         self.casing = Oscillator::of_casing(&self.machine, self.drive.step);
         self.leaps.forget_map();
         self.law = contact::law(scene.solver.contact);
         self.drive.set_parameters(scene);
         self.neighbours_matter = self.neighbours_matter();
-        let speed = self.drive.speed(self.n);
         self.tips = TipLaw::at(&self.machine, speed);
         if self.goes_beyond {
-            self.beyond.set_parameters(scene, speed);
+            self.beyond.set_parameters(scene, &self.machine, speed);
+            self.begin_closing();
+            self.give_way();
             self.press_again();
             self.beyond.account.start += self.stored() - before;
         }

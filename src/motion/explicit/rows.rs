@@ -115,9 +115,14 @@ pub(super) fn turned((c, s): (f64, f64), phase: f64) -> Plane {
     Plane::new(c * cos - s * sin, s * cos + c * sin)
 }
 
-/// Where the polygon of the tips was, and below which gap, when candidates were found; none
-/// where they are no polygon.
-pub(super) type Found = Option<(Plane, f64)>;
+/// Where the polygon of the tips was, below which gap, and how far from the casing, when
+/// candidates were found.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Found {
+    place: Plane,
+    reach: f64,
+    clearance: f64,
+}
 
 impl<B: Disk> Explicit<B> {
     /// The rows whose gaps may be below `reach` now, for blades within `bound`, and some
@@ -136,18 +141,19 @@ impl<B: Disk> Explicit<B> {
         let wave = if tips.rise == 0.0 { Some(Plane::default()) } else { self.blades.wave() };
         let wave = wave.filter(|_| self.blades.table().is_by_side());
         let w = wave.map(|wave| z - wave * tips.rise);
-        // No gap changes by more than the polygon moves.
-        let covers = |(found, most): (Plane, f64), w: Plane| {
-            let moved = w - found;
-            look + moved.re.abs() + moved.im.abs() <= most
+        // No gap changes by more than the polygon moves and the casing comes nearer.
+        let covers = |w: Plane, found: Found| {
+            let moved = w - found.place;
+            let closed = (found.clearance - tips.clearance).max(0.0);
+            look + moved.re.abs() + moved.im.abs() + closed <= found.reach
         };
-        if w.zip(self.beyond.found).is_some_and(|(w, found)| covers(found, w)) {
+        if w.zip(self.beyond.found).is_some_and(|(w, found)| covers(w, found)) {
             return false;
         }
         self.beyond.candidates.clear();
         let margin = w.map_or(0.0, |w| margin * (tips.clearance.abs() + w.norm()));
         let look = look + margin;
-        self.beyond.found = w.map(|w| (w, look));
+        self.beyond.found = w.map(|place| Found { place, reach: look, clearance: tips.clearance });
         match w {
             Some(w) => self.walk(w, look, false, |this, side| {
                 let row = this.blades.table().of_side(side)[0];

@@ -177,6 +177,7 @@ impl<B: Disk> Solver for Explicit<B> {
         self.beyond.lasting.forget();
         self.drive.set_speed(self.n, speed, ramp);
         self.leaps.forget_map();
+        self.take_speed();
     }
 
     /// In a held corner the casing follows the blades: it has no free rate.

@@ -189,7 +189,7 @@ pub fn compliance_table(points: &Rc<Vec<CompliancePoint>>) -> MadeTable {
 /// `*` where a wave attracts and `o` at its threshold.
 #[must_use]
 pub fn compliance_chart(joint: &Joint, waves: &[RoundWhirl]) -> Table {
-    let machine = joint.machine;
+    let machine = &*joint.machine;
     let resonances = [
         (machine.omega_c, machine.casing_damping_ratio * machine.omega_c),
         (-machine.omega_c, machine.casing_damping_ratio * machine.omega_c),

@@ -193,7 +193,7 @@ pub fn campbell(campbell: &Campbell, speeds: &Rc<Vec<f64>>) -> Parts {
     Parts::default()
         .with_rows("speed_rad_s", speeds, |speed| json!(speed))
         .with_rows("lines", &Rc::new(campbell.lines.clone()), line)
-        .with_whole("coincidences", campbell.coincidences)
+        .with_whole("coincidences", &campbell.coincidences)
 }
 
 /// The response of the lock to an engine order in JSON: amplitudes of

@@ -216,7 +216,7 @@ pub fn campbell_table(campbell: &Campbell, speeds: &Rc<Vec<f64>>) -> MadeTable {
     })
 }
 
-/// The four coincidences of Eq. (30).
+/// The coincidences of Eq. (30).
 #[must_use]
 pub fn coincidence_table(campbell: &Campbell) -> Table {
     Table::of(

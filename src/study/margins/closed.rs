@@ -5,8 +5,9 @@ use num_dual::Dual64;
 
 use super::limit::{Limit, LimitName, Sensitivities};
 use super::parameters::{Parameter, Parameters, acting, sensitivity};
-use crate::harmonic::{flutter_speed, lock_fold_speed, lock_loads, whirl_onset};
+use crate::harmonic::{flutters, lock_fold_speed, lock_loads, whirl_beginnings, whirl_onset};
 use crate::model::{Machine, Number};
+use crate::numeric::rounding::rounded;
 use crate::scene::{CheckedScene, Scene};
 
 /// How far beyond the speeds of interest the end of the branch of a lock is told, as a
@@ -39,13 +40,18 @@ pub(super) const CLOSED: [LimitName; 15] = [
 const SELDOM: [LimitName; 4] =
     [LimitName::LockEnds, LimitName::LockFold, LimitName::WhirlOnset, LimitName::FlutterSpeed];
 
-/// Every closed form of these parameters, in the order of `CLOSED`; none where the
-/// machine has no such limit.
+/// The first of every closed form of these parameters, in the order of `CLOSED`; none
+/// where the machine has no such limit.
 pub(super) fn values<T: Number>(parameters: &Parameters<T>) -> [Option<T>; CLOSED.len()] {
+    every(parameters).map(|found| found.first().copied())
+}
+
+/// As `values`, all of them: of a machine that changes with the speed there may be several.
+fn every<T: Number>(parameters: &Parameters<T>) -> [Vec<T>; CLOSED.len()] {
     let machine = parameters.machine();
     let speed = parameters.operation.speed_rad_s;
     let loads = lock_loads(&machine, speed);
-    let of = |get: fn(&crate::harmonic::LockLoads<T>) -> T| loads.as_ref().map(get);
+    let of = |get: fn(&crate::harmonic::LockLoads<T>) -> T| one(loads.as_ref().map(get));
     let of_lock = [
         of(|loads| loads.pushes_n[0]),
         of(|loads| loads.pushes_n[1]),
@@ -54,31 +60,37 @@ pub(super) fn values<T: Number>(parameters: &Parameters<T>) -> [Option<T>; CLOSE
         of(|loads| loads.largest_alpha_rad),
         of(|loads| loads.energy_j),
     ];
-    let mut all = [None; CLOSED.len()];
-    let (first, last) = all.split_at_mut(SPEEDS);
-    first.copy_from_slice(&speed_values(&machine, speed));
-    last.copy_from_slice(&of_lock);
-    all
+    let mut all = speed_values(&machine, speed).into_iter().chain(of_lock);
+    std::array::from_fn(|_| all.next().unwrap_or_default())
 }
 
 /// Those that are speeds.
-fn speed_values<T: Number>(machine: &Machine<T>, speed: T) -> [Option<T>; SPEEDS] {
-    let sense = 1_f64.copysign(speed.re());
-    let coincidences = machine.coincidence_speeds();
-    let window = machine.lock_window(speed.re());
+fn speed_values<T: Number>(machine: &Machine<T>, speed: T) -> [Vec<T>; SPEEDS] {
+    let toward = speed.re();
+    let sense = 1_f64.copysign(toward);
+    let windows = machine.lock_windows(toward);
+    let whirls = if machine.changes_with_speed() {
+        whirl_beginnings(machine, toward)
+    } else {
+        one(whirl_onset(machine, toward))
+    };
     // The flutter is of a corner that does not give.
-    let hard = machine.lining.is_none();
+    let fluttering = if machine.lining.is_none() { flutters(machine, toward) } else { Vec::new() };
     [
-        machine.critical_speed(),
-        machine.adhesive_speed(),
-        window.map(|window| window.from),
-        window.and_then(|window| window.to),
-        fold(machine, speed),
-        coincidences.last().copied(),
-        coincidences.first().copied(),
-        whirl_onset(machine, speed.re()).map(|onset| onset * sense),
-        hard.then(|| flutter_speed(machine, speed.re())).flatten(),
+        one(machine.critical_speed()),
+        one(machine.adhesive_speed()),
+        windows.iter().map(|window| window.from).collect(),
+        windows.iter().filter_map(|window| window.to).collect(),
+        one(fold(machine, speed)),
+        one(machine.dangerous_speed()),
+        machine.coincidence_differences(),
+        whirls.into_iter().map(|onset| onset * sense).collect(),
+        fluttering.into_iter().map(|flutter| flutter.from).collect(),
     ]
+}
+
+fn one<T>(value: Option<T>) -> Vec<T> {
+    value.into_iter().collect()
 }
 
 /// The end of the branch of the lock, where a rotor may come near it.
@@ -93,59 +105,66 @@ const OF_NO_CONTACT: [LimitName; 3] =
 
 /// The limits of rigid contact are not those of a lining that is pressed at rest, which
 /// has others (`LiningState`).
-fn keep_known<T>(scene: &Scene, found: &mut [Option<T>]) {
+fn keep_known<T>(scene: &Scene, found: &mut [Vec<T>]) {
     if scene.clearance() <= 0.0 {
-        for (value, name) in found.iter_mut().zip(CLOSED) {
+        for (values, name) in found.iter_mut().zip(CLOSED) {
             if !OF_NO_CONTACT.contains(&name) {
-                *value = None;
+                values.clear();
             }
         }
     }
 }
 
-/// The limits of a scene that are speeds, those that there are.
+/// The limits of a scene that are speeds, all of them.
 pub(in crate::study) fn speeds(scene: &Scene) -> Vec<(LimitName, f64)> {
-    let parameters = Parameters::<f64>::of(scene);
-    let mut found = speed_values(&parameters.machine(), parameters.operation.speed_rad_s);
-    keep_known(scene, &mut found);
-    let known = |value: &f64| value.is_finite();
-    let all = CLOSED.into_iter().zip(found);
-    all.filter_map(|(name, value)| Some((name, value.filter(known)?))).collect()
+    every_speed(scene, &Parameters::<f64>::of(scene))
 }
 
-/// Their sensitivities by one parameter.
+/// Their sensitivities by one parameter, in the same order.
 pub(in crate::study) fn speed_sensitivities(
     scene: &Scene,
     parameter: &Parameter,
-) -> Vec<(LimitName, Option<f64>)> {
-    let parameters = parameter.seeded(scene);
-    let found = speed_values(&parameters.machine(), parameters.operation.speed_rad_s);
-    let by = |dual: Dual64| sensitivity(dual.re, dual.eps, parameter.of(scene));
-    CLOSED.into_iter().zip(found).map(|(name, value)| (name, value.and_then(by))).collect()
+) -> Vec<Option<f64>> {
+    let of = parameter.of(scene);
+    let found = every_speed(scene, &parameter.seeded(scene)).into_iter();
+    found.map(|(_, dual): (_, Dual64)| sensitivity(dual.re, dual.eps, of)).collect()
+}
+
+fn every_speed<T: Number>(scene: &Scene, parameters: &Parameters<T>) -> Vec<(LimitName, T)> {
+    let mut found = speed_values(&parameters.machine(), parameters.operation.speed_rad_s);
+    keep_known(scene, &mut found);
+    let each = CLOSED.into_iter().zip(found);
+    let each = each.flat_map(|(name, values)| values.into_iter().map(move |value| (name, value)));
+    each.filter(|(_, value)| value.re().is_finite()).collect()
 }
 
 /// The limits of a scene in closed form.
 pub(super) fn limits(scene: &CheckedScene) -> Vec<Limit> {
     let parameters = Parameters::<f64>::of(scene);
-    let mut found = values(&parameters);
+    let mut found = every(&parameters);
     keep_known(scene, &mut found);
-    let derived: Vec<[Option<Dual64>; CLOSED.len()]> =
-        acting(scene).map(|parameter| values(&parameter.seeded(scene))).collect();
-    let limits = CLOSED.into_iter().enumerate().map(|(place, name)| {
-        let value = found[place];
-        let present = name.quantity().path().map(|_| scene.operation.speed_rad_s.abs());
-        let mut limit = Limit::new(name, value, present);
-        if let Some(value) = value {
+    let derived: Vec<[Vec<Dual64>; CLOSED.len()]> =
+        acting(scene).map(|parameter| every(&parameter.seeded(scene))).collect();
+    let present =
+        |name: LimitName| name.quantity().path().map(|_| scene.operation.speed_rad_s.abs());
+    let limits = CLOSED.into_iter().enumerate().flat_map(|(place, name)| {
+        let mut limits = Vec::new();
+        for (which, &value) in found[place].iter().enumerate() {
+            let mut limit = Limit::new(name, Some(value), present(name));
             let by = acting(scene).zip(&derived).map(|(parameter, derived)| {
-                let slope = derived[place].map_or(f64::NAN, |dual| dual.eps);
+                let slope = derived[place].get(which).map_or(f64::NAN, |dual| dual.eps);
                 (parameter.path, sensitivity(value, slope, parameter.of(scene)))
             });
             limit.sensitivities = Sensitivities(by.collect());
             limit.note = note(scene, name, value);
-        } else {
-            limit.note = Some(why_none(scene, name));
+            limits.push(limit);
         }
-        limit
+        if limits.is_empty() {
+            let mut limit = Limit::new(name, None, present(name));
+            limit.note = Some(why_none(scene, name));
+            limits.push(limit);
+        }
+        limits
     });
     limits.filter(|limit| !SELDOM.contains(&limit.name) || limit.value.is_some()).collect()
 }
@@ -163,11 +182,19 @@ fn note(scene: &CheckedScene, name: LimitName, value: f64) -> Option<String> {
         let without = if smoothed { ", without its smoothing" } else { "" };
         return Some(format!("of two groups on the lining{without}"));
     }
+    let machine = scene.machine();
+    if name == LimitName::LockEnds && machine.closing_speed() == Some(value) {
+        return Some("there the clearance is lost".to_string());
+    }
+    if name == LimitName::FlutterSpeed {
+        let found = flutters(&machine, scene.operation.speed_rad_s);
+        let ends = found.iter().find(|flutter| flutter.from == value)?.to?;
+        return Some(format!("up to {} rad/s, where stiffer blades end it", rounded(ends, 6)));
+    }
     if !of_speeds || scene.casing_in_use().damping_ratio == 0.0 {
         return None;
     }
     // Blades that bend leave a push where rigid ones have none.
-    let machine = scene.machine();
     let sense = 1_f64.copysign(scene.operation.speed_rad_s);
     let of_rigid_blades =
         if name == LimitName::LockEnds { value } else { machine.lock_speed_toward(sense)? };
@@ -188,12 +215,22 @@ fn why_none(scene: &CheckedScene, name: LimitName) -> String {
     let (polygon, diameters) = (&machine.polygon, scene.operation.nodal_diameters);
     if diameters == 0 {
         "no wave turns without nodal diameters".to_string()
+    } else if name == LimitName::Coincidence {
+        format!("B = {} >= n_d^2: blades stiffen faster than the wave turns", machine.stiffening())
+    } else if name == LimitName::CoincidenceDifference {
+        "blades stay faster than the casing".to_string()
     } else if !polygon.has_corners() {
         format!("{diameters} nodal diameters make no corner of blades")
     } else {
         let hard = machine.clone().with_lining(None).lock_window(scene.operation.speed_rad_s);
         match (machine.lining, name) {
             _ if scene.clearance() <= 0.0 => "all blades rub at rest: nothing locks",
+            _ if !of_speeds && machine.clearance() <= 0.0 => {
+                "all blades rub at this speed: nothing locks"
+            }
+            _ if machine.closing_speed().is_some() && hard.is_none() => {
+                "the clearance is lost before blades lock"
+            }
             (Some(_), LimitName::OmegaAdhesive) => "a lining does not pull",
             (Some(_), _) if of_speeds && hard.is_some() => {
                 "the lining is too soft: two groups hold a lock on it at no speed"

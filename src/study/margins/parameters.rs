@@ -63,12 +63,14 @@ pub const PARAMETERS: &[Parameter] = &[
     at!(keys::BLADE_STIFFNESS, disk.stiffness_nm_per_rad),
     at!(keys::BLADE_COUPLING, disk.coupling_nm_per_rad),
     at!(keys::BLADE_DAMPING, disk.damping_ratio),
+    at!(keys::STIFFENING, disk.centrifugal_stiffening),
     at!(keys::RADIAL_COUPLING, disk.radial_coupling),
     at!(RADIUS, casing.radius_m),
     at!(keys::CASING_MASS, casing.modal_mass_kg),
     at!(keys::CASING_STIFFNESS, casing.modal_stiffness_n_per_m),
     at!(keys::CASING_DAMPING, casing.damping_ratio),
     at!(keys::TANGENTIAL_RATIO, casing.tangential_ratio),
+    at!(keys::CLEARANCE_LOSS, casing.clearance_loss_m_s2),
     at!(keys::FRICTION, friction),
     at!(STIFFNESS, stiffness),
     at!(SMOOTHING, smoothing),
@@ -78,10 +80,17 @@ pub const PARAMETERS: &[Parameter] = &[
     at!(keys::PULSE_TIME, operation.pulse_s),
 ];
 
-/// Those that act in a scene: one without a lining has none of its numbers.
+/// Those that act in a scene: one without a lining has none of its numbers, and a machine
+/// that stays the same at every speed none that would change it.
 pub fn acting(scene: &Scene) -> impl Iterator<Item = &'static Parameter> {
     let lined = scene.solver.contact == ContactLaw::Smooth;
-    PARAMETERS.iter().filter(move |parameter| lined || !parameter.is_of_lining())
+    let changes = |parameter: &Parameter| {
+        ![keys::STIFFENING, keys::CLEARANCE_LOSS].contains(&parameter.path)
+            || parameter.of(scene) != 0.0
+    };
+    PARAMETERS
+        .iter()
+        .filter(move |parameter| (lined || !parameter.is_of_lining()) && changes(parameter))
 }
 
 /// The parameter of this path; none for a key that holds no real number of the
@@ -189,6 +198,7 @@ impl<T: Number> Parameters<T> {
                 stiffness_nm_per_rad: disk.stiffness_nm_per_rad.into(),
                 coupling_nm_per_rad: disk.coupling_nm_per_rad.into(),
                 damping_ratio: disk.damping_ratio.into(),
+                centrifugal_stiffening: disk.centrifugal_stiffening.into(),
                 // Rigid blades do not move their tips outward, as in `Scene::machine`.
                 radial_coupling: match scene.solver.model {
                     ModelSize::Rigid => T::from(0.0),
@@ -205,6 +215,7 @@ impl<T: Number> Parameters<T> {
                 modal_stiffness_n_per_m: casing.modal_stiffness_n_per_m.into(),
                 damping_ratio: casing.damping_ratio.into(),
                 tangential_ratio: casing.tangential_ratio.into(),
+                clearance_loss_m_s2: casing.clearance_loss_m_s2.into(),
                 modes: Vec::new(),
             },
             friction: scene.contact.friction.into(),
@@ -226,14 +237,16 @@ impl<T: Number> Parameters<T> {
         FreeFlight { machine, operation: &self.operation }
     }
 
-    /// The machine of these parameters.
+    /// The machine of these parameters at their speed.
     pub(super) fn machine(&self) -> Machine<T> {
-        Machine::new(&self.disk, &self.casing, self.operation.nodal_diameters)
+        let mut machine = Machine::new(&self.disk, &self.casing, self.operation.nodal_diameters)
             .with_friction(self.friction)
             .with_lining((self.law == ContactLaw::Smooth).then_some(LiningLaw {
                 stiffness_n_per_m: self.stiffness,
                 smoothing_m: self.smoothing,
-            }))
+            }));
+        machine.turn_at(self.operation.speed_rad_s);
+        machine
     }
 }
 

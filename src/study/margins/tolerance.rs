@@ -149,7 +149,10 @@ impl Margins {
             return;
         }
         let samples = Samples::of(self, &tolerances, counted);
+        let mut before = None;
         for limit in &mut self.limits {
+            // Samples are of the first of a name.
+            let again = before.replace(limit.name) == Some(limit.name);
             let Some(value) = limit.value else { continue };
             let sum = |each: &dyn Fn(f64) -> f64| -> Option<f64> {
                 let parts = tolerances.iter().map(|tolerance| {
@@ -163,7 +166,7 @@ impl Margins {
             limit.spread = Some(Spread {
                 linear_sd: variance.map(|variance| value.abs() * variance.sqrt()),
                 linear_worst: worst.map(|worst| value.abs() * worst),
-                sampled: samples.told(limit.name),
+                sampled: if again { None } else { samples.told(limit.name) },
             });
         }
         self.tolerances = tolerances;

@@ -51,7 +51,9 @@ fn starts_at_rest(scene: &Scene) -> bool {
     let mut scene = scene.as_reference();
     scene.solver.model = ModelSize::Rigid;
     scene.excitation = Excitation::default();
-    scene.clearance() > 0.0 && scene.initial == Initial::default() && scene.checked().is_ok()
+    scene.machine().clearance() > 0.0
+        && scene.initial == Initial::default()
+        && scene.checked().is_ok()
 }
 
 /// How long a blade may still pass nearer to the casing than before \[s\]: later its
@@ -116,7 +118,7 @@ fn least(scene: &Scene, sense: f64) -> Option<FirstTouch> {
             // A look misses the nearest instant by less than the square of a step.
             if look.near > 0.0 && look.near * (1.0 + TOUCHING_LOOK * TOUCHING_LOOK) >= best {
                 let touch = polished(&Parameters::of(scene), look, sense, step);
-                best = best.max(scene.clearance() / touch.pulse_n.abs());
+                best = best.max(machine.clearance() / touch.pulse_n.abs());
                 found = found
                     .filter(|found| found.pulse_n.abs() <= touch.pulse_n.abs())
                     .or(Some(touch));
@@ -170,8 +172,10 @@ pub(super) fn limit(scene: &CheckedScene) -> Limit {
 
 /// Why no pulse touches.
 pub(super) fn why_none(scene: &CheckedScene) -> &'static str {
-    if scene.clearance() <= 0.0 {
+    if scene.machine().clearance() <= 0.0 {
         "all blades touch without a pulse"
+    } else if scene.casing.clearance_loss_m_s2 != 0.0 && scene.operation.speed_ramp_rad_s2 != 0.0 {
+        "at a constant speed only, as the clearance changes with it"
     } else if scene.initial == Initial::default() {
         "no pulse of this length touches within the run"
     } else {

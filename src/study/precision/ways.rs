@@ -89,7 +89,7 @@ pub fn ways(scene: &Scene, effort: Effort) -> Vec<Way> {
     }
     ways.retain(|way| match way.of(scene) {
         // Beyond the paper the event solver has one tolerance, its own.
-        Ok(scene) if scene.goes_beyond() => {
+        Ok(scene) if scene.has_other_tips() => {
             way.tolerance.is_none_or(|tolerance| tolerance <= tolerances::EVENT)
         }
         found => found.is_ok(),
@@ -121,7 +121,7 @@ pub(super) fn reference(scene: &Scene, model: ModelSize) -> Result<Way, Way> {
     let mut blades = scene.clone();
     (blades.solver.model, blades.solver.contact) = (model, contact);
     blades.contact.restitution = 0.0;
-    let own = model == ModelSize::Full && blades.goes_beyond();
+    let own = model == ModelSize::Full && blades.has_other_tips();
     let size = if model == ModelSize::Rigid { ModelSize::Rigid } else { ModelSize::Modal };
     let exact = by_events(size, tolerances::EVENT);
     if smooth || own || exact.of(scene).is_err() { Err(by_steps) } else { Ok(exact) }
@@ -151,7 +151,7 @@ impl Way {
     pub(super) fn start(&self, scene: &Scene) -> Result<Motion, SceneError> {
         let scene = self.of(scene)?;
         Ok(match self.tolerance {
-            Some(tolerance) if !scene.goes_beyond() => {
+            Some(tolerance) if !scene.has_other_tips() => {
                 ExactEvents::new(&scene)?.with_tolerance(tolerance).into()
             }
             _ => Motion::new(&scene),

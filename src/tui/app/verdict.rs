@@ -116,7 +116,7 @@ impl App {
             doubts.push(Doubt::Sensitive);
         }
         if let Some(other) = other.filter(|other| *other != run.verdict && doubts.is_empty()) {
-            let beyond = self.scene.goes_beyond();
+            let beyond = self.scene.has_other_tips();
             doubts.push(Doubt::Differs(other, if beyond { Cause::Angles } else { Cause::Step }));
         }
         doubts

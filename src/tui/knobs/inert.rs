@@ -151,7 +151,7 @@ mod tests {
                 seen.insert(knob.path);
             }
         }
-        assert_eq!(seen.len(), 18, "{seen:?}");
+        assert_eq!(seen.len(), 19, "{seen:?}");
     }
 
     #[test]

@@ -282,6 +282,23 @@ pub const KNOBS: &[Knob] = &[
     .bar(From(0.0, 20.0))
     .unless(inert::draw),
     knob(
+        Beyond,
+        "stiffening B",
+        keys::STIFFENING,
+        Linear(0.1, 0.5),
+        "centrifugal stiffening: ω_bd² grows by B Ω²; 0 in the paper",
+    )
+    .bar(From(0.0, 3.0))
+    .unless(inert::rigid),
+    knob(
+        Beyond,
+        "growth c",
+        keys::CLEARANCE_LOSS,
+        Decades(1e-14),
+        "clearance lost as blades grow with the speed, c Ω²; 0 in the paper",
+    )
+    .usual(1e-10),
+    knob(
         Start,
         "start u_c",
         keys::INITIAL_U_C,

@@ -30,7 +30,8 @@ mod transitions;
 use crate::model::Machine;
 use crate::motion::event::Clock;
 use crate::motion::{
-    Checks, ContactLog, Failure, GoOn, Plane, Pulse, Rotor, Solver, State, Verdict, to_the_end,
+    Checks, ContactLog, Failure, FailureReason, GoOn, Plane, Pulse, Rotor, Solver, State, Verdict,
+    to_the_end,
 };
 use crate::scene::{CheckedScene, SceneError};
 use crate::tolerances::EVENT_RANGE;
@@ -272,7 +273,17 @@ impl Solver for ExactEvents {
     }
 
     fn set_speed(&mut self, speed: f64, ramp: f64) {
-        self.intervene(|event| event.rotor.change(event.clock.now, speed, ramp));
+        self.intervene(|event| {
+            event.rotor.change(event.clock.now, speed, ramp);
+            event.energy_balance.rotor += event.parameters.turn_at(speed, &event.tips);
+        });
+        if self.failure.is_none() && self.parameters.machine.changes_with_speed() {
+            if ramp != 0.0 {
+                self.fail(0.0, FailureReason::Ramp);
+            } else if self.parameters.clearance <= 0.0 {
+                self.fail(0.0, FailureReason::Closed { speed_rad_s: speed });
+            }
+        }
     }
 
     fn scale_rate(&mut self, factor: f64) {

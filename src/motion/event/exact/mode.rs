@@ -402,6 +402,8 @@ pub(super) struct EnergyBalance {
     pub pulse: f64,
     /// Work of the rotor through the contact.
     pub rotor: f64,
+    /// Work of blades that grow.
+    pub growth: f64,
     /// Dissipated by the casing damping.
     pub dissipated: f64,
     /// Lost in impacts.
@@ -411,7 +413,7 @@ pub(super) struct EnergyBalance {
 impl EnergyBalance {
     /// Ending is missing from the balance at a state of this energy.
     pub(super) fn residual(&self, energy: f64) -> f64 {
-        self.pulse + self.rotor - (energy - self.start) - self.dissipated - self.lost
+        self.pulse + self.rotor + self.growth - (energy - self.start) - self.dissipated - self.lost
     }
 }
 

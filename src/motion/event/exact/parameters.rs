@@ -75,6 +75,25 @@ impl Parameters {
         }
     }
 
+    /// Takes the machine at a rotor speed \[rad/s\]; what it gives to blades at these
+    /// angles, per unit casing mass \[m^2/s^2\].
+    pub(super) fn turn_at(&mut self, speed: f64, tips: &Tips) -> f64 {
+        let stored = |parameters: &Self| {
+            let of = |blades: Blades| 0.5 * blades.mass * blades.propagator.stiffness;
+            parameters.blades.map_or(0.0, of) * tips.angle.norm_sqr()
+        };
+        let before = stored(self);
+        self.machine.turn_at(speed);
+        self.clearance = self.machine.clearance();
+        if self.corners {
+            self.half_side = self.machine.polygon.half_side();
+        }
+        for blades in self.blades.iter_mut().chain(&mut self.following) {
+            blades.turn_at(&self.machine);
+        }
+        stored(self) - before
+    }
+
     /// `exp(i psi)` of a side.
     pub(super) fn direction(&self, side: u32) -> Plane {
         let (cos, sin) = self.machine.polygon.direction(side);
@@ -208,6 +227,13 @@ impl Blades {
             ratio: diameters * diameters / mass,
             mass,
         })
+    }
+
+    /// Becomes as stiff as a machine at some speed has them.
+    fn turn_at(&mut self, machine: &Machine) {
+        self.omega = machine.omega_bd;
+        let damping = machine.blade_damping_ratio * self.omega;
+        self.propagator = Propagator::new(damping, self.omega * self.omega);
     }
 
     /// Whether the casing cannot tell them from rigid ones, and they are so much

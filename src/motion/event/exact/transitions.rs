@@ -15,7 +15,7 @@ use std::f64::consts::TAU;
 use super::free::{Free, OpenedSide};
 use super::impact::CornerContact;
 use super::locked::CornerSeries;
-use super::mode::{Ending, Mode, Next};
+use super::mode::{Ending, Mode, Next, casing_energy};
 use super::parameters::Drive;
 use super::slide::{From, SideSeries, Slide};
 use super::{ExactEvents, locked, rocking};
@@ -209,13 +209,20 @@ impl ExactEvents {
             let (normal, _) = self.parameters.normal(side, &tips);
             rate += Plane::i() * normal * ((factor - 1.0) * along.rate);
         }
-        let flight = self.mode.flight(&self.parameters, s);
+        let standing = self.mode.standing(&self.parameters, s);
+        let mut flight = self.mode.flight(&self.parameters, s);
         let corner = self.mode.corner().filter(|_| !matches!(self.mode, Mode::Rocking { .. }));
         self.rebase(s, None);
         self.clock.begin_at(self.clock.now);
-        let nu = self.parameters.drive.nu;
+        let (nu, clearance) = (self.parameters.drive.nu, self.parameters.clearance);
         change(self);
         self.parameters.drive = self.drive_now(self.parameters.drive.phase);
+        if self.parameters.clearance > clearance {
+            flight = Some(standing);
+        } else if self.parameters.clearance < clearance {
+            self.give_way(standing, side.map(|(side, _)| side), corner);
+            return;
+        }
         // The rate against the blades jumps with the speed of the rotor.
         let rate = rate + Plane::i() * place * (nu - self.parameters.drive.nu);
         match (flight, corner, side) {
@@ -228,6 +235,29 @@ impl ExactEvents {
 }
 
 impl ExactEvents {
+    /// A clearance that is smaller all at once: where it leaves the casing beyond a side, all
+    /// of its displacement shrinks by one part, and its rate stays.
+    fn give_way(&mut self, (u, v): (Plane, Plane), held: Option<u32>, corner: Option<u32>) {
+        let back = Plane::cis(-self.parameters.drive.phase);
+        let (place, polygon) = (u * back, &self.parameters.machine.polygon);
+        let near = polygon.nearest_side(place.re, place.im);
+        let side = held.unwrap_or(near);
+        let open = polygon.gap(near, place.re, place.im).min(polygon.gap(side, place.re, place.im));
+        if open > 0.0 || polygon.clearance <= 0.0 {
+            self.enter(Mode::Free(Free::new(u, v, self.tips)));
+            return;
+        }
+        let part = polygon.clearance / (polygon.clearance - open);
+        let work = casing_energy(&self.parameters, u * part, v);
+        self.energy_balance.growth += work - casing_energy(&self.parameters, u, v);
+        let place = place * part;
+        let rate = v * back - Plane::i() * place * self.parameters.drive.nu;
+        match corner {
+            Some(a) => self.meet_corner_at(a, rate),
+            None => self.touch(if held.is_some() { side } else { near }, place, rate),
+        }
+    }
+
     /// The first mode, from the initial state.
     pub(super) fn begin(&mut self, place: Plane, rate: Plane) {
         let polygon = &self.parameters.machine.polygon;

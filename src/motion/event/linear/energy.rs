@@ -25,6 +25,8 @@ pub(super) struct Energies {
     pub pulse: f64,
     /// Work of the rotor through the slope of the casing wave.
     pub rotor: f64,
+    /// Work of blades that grow with the speed.
+    pub growth: f64,
     /// Its work against friction on a casing at rest: all of it becomes heat.
     pub sliding: f64,
     /// What friction does on the motion of casing and blades: less heat.
@@ -41,7 +43,7 @@ impl Energies {
     /// What is missing from the balance at a state of this energy.
     pub(super) fn residual(&self, energy: f64) -> f64 {
         let lost = self.casing + self.blades + self.impacts;
-        self.pulse + self.rotor + self.dragged - lost - (energy - self.start)
+        self.pulse + self.rotor + self.growth + self.dragged - lost - (energy - self.start)
     }
 
     /// Books the first `s` seconds of a stretch.

@@ -303,6 +303,7 @@ impl Solver for LinearEvents {
             pulse_work_j: mass * energies.pulse,
             // Against friction it works on a casing at rest too: that part is all heat.
             rotor_work_j: mass * (energies.rotor + energies.sliding),
+            growth_work_j: mass * energies.growth,
             casing_loss_j: mass * energies.casing,
             blade_loss_j: mass * energies.blades,
             friction_heat_j: mass * (energies.sliding - energies.dragged),
@@ -327,12 +328,14 @@ impl Solver for LinearEvents {
     /// A ramp is none of this solver's: it fails there.
     fn set_speed(&mut self, speed: f64, ramp: f64) {
         self.swings.forget();
-        self.intervene(|motion, _| {
+        self.intervene(|motion, point| {
             motion.rotor.change(motion.clock.now, speed, ramp);
-            motion.parameters.turn_at(speed);
+            motion.take_speed(speed, point);
         });
         if ramp != 0.0 {
             self.fail(0.0, FailureReason::Ramp);
+        } else if self.parameters.clearance() <= 0.0 {
+            self.fail(0.0, FailureReason::Closed { speed_rad_s: speed });
         }
     }
 

@@ -115,6 +115,15 @@ impl Parameters {
         parameters
     }
 
+    /// Blades as stiff as those of the machine.
+    pub(super) fn stiffen(&mut self) {
+        let machine = &self.machine;
+        if let Some(blades) = &mut self.blades {
+            let omega = machine.omega_bd;
+            blades.propagator = Propagator::new(machine.blade_damping_ratio * omega, omega * omega);
+        }
+    }
+
     /// Turns with another speed \[rad/s\].
     pub(super) fn turn_at(&mut self, speed: f64) {
         let machine = &self.machine;

@@ -240,12 +240,21 @@ impl LinearEvents {
         let Some(mut point) = self.rebase(s) else { return };
         self.clock.begin_at(self.clock.now);
         let (before, energy) = (self.parameters.nu, self.parameters.energy(&point));
+        let clearance = self.parameters.clearance();
         let rate = point.dz;
         change(self, &mut point);
         let jump = before - self.parameters.nu;
         point.dz += Plane::i() * point.z * jump;
         self.energies.start += self.parameters.energy(&point) - energy;
         self.shift_opened(point.dz - rate, Plane::default());
+        if self.parameters.clearance() != clearance {
+            // What touched may be open now, and the other way round.
+            self.held = Held::default();
+            self.opened.clear();
+            self.rest = std::sync::OnceLock::new();
+            self.begin(point);
+            return;
+        }
         if jump == 0.0 {
             let rows = std::mem::take(&mut self.held).rows;
             self.settle(&mut point, &rows);
@@ -264,6 +273,33 @@ impl LinearEvents {
 }
 
 impl LinearEvents {
+    /// The machine at another speed. Blades get stiffer where they are, which is work of the
+    /// rotor; and where a smaller clearance leaves tips in the casing, all displacements
+    /// shrink by one part, which is work of their growth.
+    pub(super) fn take_speed(&mut self, speed: f64, point: &mut Point) {
+        let parameters = &mut self.parameters;
+        // In the frame of this speed: the rates of the casing are changed to the next after.
+        let before = parameters.energy(point);
+        let turned = parameters.nu;
+        parameters.machine.turn_at(speed);
+        parameters.stiffen();
+        let stiffened = parameters.energy(point);
+        let open = (0..parameters.rows.len())
+            .map(|row| parameters.gap(row, point))
+            .fold(f64::INFINITY, f64::min);
+        let clearance = parameters.clearance();
+        if open < 0.0 && clearance > 0.0 {
+            let part = clearance / (clearance - open);
+            point.dz += Plane::i() * point.z * ((1.0 - part) * turned);
+            (point.z, point.a) = (point.z * part, point.a * part);
+        }
+        let after = parameters.energy(point);
+        self.energies.rotor += stiffened - before;
+        self.energies.growth += after - stiffened;
+        self.energies.start -= after - before;
+        parameters.turn_at(speed);
+    }
+
     /// Rows that touch, each with the rate of its gap \[m/s\].
     pub(super) fn meet(&mut self, point: &mut Point, met: &[(usize, f64)]) {
         let parameters = &self.parameters;

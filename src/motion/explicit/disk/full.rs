@@ -181,6 +181,16 @@ impl Disk for FullBlades {
             self.turn(row + member * rows, torque / f64::from(members));
         }
     }
+    fn stiffen(&mut self, added: f64) -> f64 {
+        let before = self.energy();
+        Arc::make_mut(&mut self.ring).stiffen(added);
+        self.energy() - before
+    }
+    fn shrink(&mut self, part: f64) {
+        self.x.iter_mut().for_each(|x| *x *= part);
+        self.bounds.reset(f64::INFINITY);
+        self.seen.steps = u32::MAX;
+    }
     fn angles(&mut self, rows: &mut Columns) {
         if self.are_many(rows) {
             self.see_all();

@@ -83,6 +83,13 @@ pub(in crate::motion) trait Disk: Clone + Debug + Send + Sync + 'static {
         }
         change
     }
+    /// Blades whose frequencies squared are this much above those at rest from now on, in
+    /// place of another much \[rad^2/s^2\]; what that gives them of energy \[J\].
+    fn stiffen(&mut self, _added: f64) -> f64 {
+        0.0
+    }
+    /// Leaves a part of every angle, and the rates.
+    fn shrink(&mut self, _part: f64) {}
     /// The pushes on these rows times what their blades have turned over the last two half
     /// steps \[N rad\].
     fn swept(&mut self, rows: &Columns) -> f64 {

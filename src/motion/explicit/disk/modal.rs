@@ -16,6 +16,8 @@ use crate::scene::Scene;
 #[derive(Clone, Debug)]
 pub struct ModalBlades {
     oscillator: Oscillator,
+    /// Modal mass \[kg m^2\] and stiffness at rest \[N m/rad\].
+    still: [f64; 2],
     modes: [Coordinate; 2],
     /// Their increments of the step before the last.
     before: [f64; 2],
@@ -76,6 +78,7 @@ impl Disk for ModalBlades {
                 machine.blade_modal_stiffness,
                 scene.solver.step_s,
             ),
+            still: [machine.blade_modal_mass, machine.blade_stiffness_at_rest()],
             modes: [Coordinate::default(); 2],
             before: [0.0; 2],
             torque: [0.0; 2],
@@ -145,6 +148,14 @@ impl Disk for ModalBlades {
             change += moved.abs();
         }
         change
+    }
+    fn stiffen(&mut self, added: f64) -> f64 {
+        let (before, [mass, stiffness]) = (self.energy(), self.still);
+        self.oscillator.stiffen(stiffness + added * mass);
+        self.energy() - before
+    }
+    fn shrink(&mut self, part: f64) {
+        self.modes.iter_mut().for_each(|mode| mode.x *= part);
     }
     fn swept(&mut self, rows: &Columns) -> f64 {
         let mut pushes = [f64x2::ZERO; 2];

@@ -16,7 +16,7 @@ use crate::scene::Scene;
 
 /// Members, modes and rows of a ring. A list of coefficients is laid out as the
 /// coordinates are; see `Shapes`.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Ring {
     /// Blades that are one member.
     pub alike: u32,
@@ -30,6 +30,9 @@ pub(super) struct Ring {
     pub few: usize,
     /// Largest turn of a mode in a step \[rad\].
     pub fastest: f64,
+    /// Inertia of a member \[kg m^2\], and the stiffness of each mode at rest \[N m/rad\].
+    inertia: f64,
+    still: Vec<f64>,
     /// Coefficients of `Oscillator`, of every coordinate.
     ratio: Vec<f64>,
     pull: Vec<f64>,
@@ -57,11 +60,14 @@ impl Ring {
         let count = disk.blades / alike;
         let inertia = disk.inertia_kg_m2 * f64::from(alike);
         let shapes = Shapes::new(count);
-        let oscillators: Vec<Oscillator> = (0..=count / 2)
-            .map(|k| {
-                let omega = blade_frequency(disk, alike * k);
+        let frequencies: Vec<f64> =
+            (0..=count / 2).map(|k| blade_frequency(disk, alike * k)).collect();
+        let oscillators: Vec<Oscillator> = frequencies
+            .iter()
+            .map(|omega| {
                 let damping = 2.0 * disk.damping_ratio * omega * inertia;
-                Oscillator::new(inertia, damping, omega * omega * inertia, scene.solver.step_s)
+                let stiffness = (omega * omega + machine.stiffened_by()) * inertia;
+                Oscillator::new(inertia, damping, stiffness, scene.solver.step_s)
             })
             .collect();
         let coefficients = |coefficient: fn(&Oscillator) -> f64| {
@@ -86,8 +92,19 @@ impl Ring {
             compliance,
             largest_shape: shapes.scales().iter().fold(0.0, |most, &scale| f64::max(most, scale)),
             shown: shown(machine, &shapes, alike),
+            inertia,
+            still: frequencies.iter().map(|omega| omega * omega * inertia).collect(),
             shapes,
             oscillators,
+        }
+    }
+
+    /// Blades whose frequencies squared are this much above those at rest \[rad^2/s^2\].
+    pub fn stiffen(&mut self, added: f64) {
+        let width = self.shapes.width();
+        for (k, (oscillator, still)) in self.oscillators.iter_mut().zip(&self.still).enumerate() {
+            oscillator.stiffen(still + added * self.inertia);
+            (self.pull[k], self.pull[width + k]) = (oscillator.pull, oscillator.pull);
         }
     }
 

@@ -22,7 +22,7 @@ pub(super) const LANES: usize = 4;
 /// Mode shapes of `N` blades. Coordinates are lists of twice `width` numbers:
 /// the cosine modes of `0 ..= N/2` diameters, then the sine modes, each filled
 /// up with zeros to a multiple of `LANES`.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Shapes {
     /// `(cos, sin)` of `2 pi i/N`.
     turn: Vec<(f64, f64)>,
@@ -37,6 +37,7 @@ pub(super) struct Shapes {
 }
 
 /// From coordinates to blades and back.
+#[derive(Clone)]
 struct Transforms {
     to_blades: Arc<dyn ComplexToReal<f64>>,
     to_modes: Arc<dyn RealToComplex<f64>>,

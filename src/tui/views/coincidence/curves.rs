@@ -81,8 +81,9 @@ fn even(from: f64, to: f64, count: u32) -> Vec<f64> {
 
 /// Both coincidences, and where blades rub at rest that of the machine on its lining.
 fn markers(scene: &Scene, machine: &Machine) -> Vec<(f64, &'static str)> {
-    let names = ["coincidence (30)", "coincidence (31)"];
-    let mut markers: Vec<_> = machine.coincidence_speeds().into_iter().zip(names).collect();
+    let differences = machine.coincidence_differences().into_iter();
+    let mut markers: Vec<_> = differences.map(|speed| (speed, "coincidence (30)")).collect();
+    markers.extend(machine.dangerous_speed().map(|speed| (speed, "coincidence (31)")));
     let shifted = shifted_coincidence(scene, scene.operation.speed_rad_s);
     markers.extend(shifted.map(|speed| (speed.abs(), "on the lining")));
     markers.retain(|(speed, _)| speed.is_finite() && *speed > 0.0);
@@ -119,7 +120,7 @@ pub fn points(scene: &Scene, speeds: &[f64]) -> Vec<CoincidencePoint> {
 /// Frequencies along the compliance, denser where it turns fast \[rad/s\].
 pub fn frequencies(joint: &Joint) -> Vec<f64> {
     const COUNT: u32 = 240;
-    let machine = joint.machine;
+    let machine = &*joint.machine;
     let most = 1.5 * (joint.nu.abs() + machine.omega_bd).max(machine.omega_c);
     let mut found = even(-most, most, 2 * COUNT);
     let widths = [

@@ -39,7 +39,7 @@ impl LockedCurves {
         // A rotor that turns backwards has its own locked motion; it is drawn over |Ω|.
         let sense = scene.operation.speed_rad_s.signum();
         let speeds: Vec<f64> = (0..POINTS).map(|k| sense * f64::from(k) * step).collect();
-        let open = machine.clearance() > 0.0;
+        let open = machine.clearance_at_rest() > 0.0;
         let curve = |damped| {
             open.then(|| locked_motion(&machine, Form::Modal, damped, None, &speeds).ok()).flatten()
         };
@@ -64,14 +64,16 @@ impl LockedCurves {
 
 /// The push of the whirl at every speed that has one.
 fn whirl(scene: &Scene, machine: &Machine, speeds: &[f64]) -> Vec<(f64, f64)> {
-    let clearance = machine.clearance();
-    let rigid = scene.solver.contact != ContactLaw::Smooth && clearance > 0.0;
+    let open = machine.clearance_at_rest() > 0.0;
+    let rigid = scene.solver.contact != ContactLaw::Smooth && open;
     if !rigid || !is_coupled(scene) {
         return Vec::new();
     }
     let push = |speed: &f64| {
-        let wave = RoundWhirl::lasting(&round_whirls(&Joint::at(machine, *speed)))?;
-        Some((speed.abs(), -wave.stiffness_n_per_m * clearance))
+        let joint = Joint::at(machine, *speed);
+        let wave = RoundWhirl::lasting(&round_whirls(&joint))?;
+        let clearance = joint.machine.clearance();
+        (clearance > 0.0).then(|| (speed.abs(), -wave.stiffness_n_per_m * clearance))
     };
     speeds.iter().filter_map(push).collect()
 }

@@ -207,6 +207,7 @@ fn usual(path: &str, scene: &Scene, clearance: f64) -> f64 {
         keys::MISTUNING => 0.025,
         keys::MISTUNING_SEED => 10.0,
         keys::LINING_SMOOTHING => 1e-6,
+        keys::CLEARANCE_LOSS => 0.1 * clearance / scene.fastest_rad_s().max(1.0).powi(2),
         keys::BLADE_COUPLING => scene.disk_in_use().stiffness_nm_per_rad,
         _ => 1.0,
     }

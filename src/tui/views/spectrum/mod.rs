@@ -57,7 +57,7 @@ fn highest(app: &App) -> f64 {
 
 /// Frequencies in the fixed frame, with their names \[rad/s\].
 fn lines(app: &App, speed: f64) -> [(f64, &'static str); 4] {
-    let machine = &app.machine;
+    let machine = app.machine.at(speed);
     let wave = machine.nu(speed);
     [
         (wave.abs(), "n_d Ω"),
