@@ -164,3 +164,44 @@ impl AngleBounds {
 fn size(angle: f64) -> f64 {
     if angle.is_nan() { f64::INFINITY } else { angle.abs() }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::motion::explicit::disk::full::tests::pressed;
+    use crate::motion::explicit::disk::{Disk, FullBlades};
+
+    #[test]
+    fn angles_are_never_beyond_their_estimates() {
+        let scene = pressed(1e-5);
+        let mut blades = FullBlades::at_rest(&scene, &scene.machine(), None);
+        for step in 0..3000_u32 {
+            blades.predict(None);
+            if step % 50 < 5 {
+                blades.correct(step % 22, -0.3);
+            }
+            let angles = blades.every_angle();
+            let (_, estimates, slack) = blades.estimates();
+            for (angle, estimate) in angles.iter().zip(estimates) {
+                assert!((angle - estimate).abs() <= slack * (1.0 + 1e-9) + 1e-18, "{step}");
+            }
+            let most = angles.iter().fold(0.0_f64, |most, angle| most.max(angle.abs()));
+            assert!(most <= blades.bound() * (1.0 + 1e-9));
+        }
+    }
+
+    #[test]
+    fn bent_blades_that_get_other_parameters_are_looked_at() {
+        let scene = pressed(1e-5);
+        let mut blades = FullBlades::at_rest(&scene, &scene.machine(), None);
+        for step in 0..100_u32 {
+            blades.predict(None);
+            blades.correct(step % 22, -0.3);
+        }
+        for steps in 0..2 {
+            let mut changed = blades.with_parameters(&scene, &scene.machine());
+            (0..steps).for_each(|_| _ = changed.predict(None));
+            let most = changed.every_angle().iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            assert!(most > 0.0 && most <= changed.bound() * (1.0 + 1e-9), "{steps}: {most}");
+        }
+    }
+}
