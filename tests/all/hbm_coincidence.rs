@@ -43,7 +43,7 @@ fn under_preload_it_is_growth_and_the_wave_it_ends_in() {
 fn over_a_clearance_it_is_the_whirl_on_the_rim() {
     let mut scene = Scene::base();
     scene.set("bladed_disk.radial_coupling", "0.3").unwrap();
-    // MODEL: omega, |z| and |a| of the rim formula.
+    // Of the rim formula: omega, |z| and |a|.
     for (speed, omega, z, a) in [
         (420.0, 982.439, 1.6765e-4, 5.7724e-4),
         (450.0, 1088.520, 2.1659e-4, 8.0872e-4),

@@ -137,7 +137,7 @@ fn the_touching_pulse_is_the_smallest_that_touches() {
     let scene = Scene::base().checked().unwrap();
     let limit = of(&scene, LimitName::TouchingPulse);
     assert_eq!(limit.quantity, Quantity::Pulse);
-    close(limit.value, 3_795.024_727, 1e-9, "MODEL.md has 3795.03");
+    close(limit.value, 3_795.024_727, 1e-9, "3795.03 by another program");
     let impacts = |pulse: f64| {
         let mut scene = scene.as_reference();
         scene.operation.pulse_n = pulse;
