@@ -229,7 +229,7 @@ impl<B: Disk> Explicit<B> {
     /// Begins a block without end of a lock, if it can.
     fn hold_lock(&mut self) -> bool {
         let Some(corner) = self.hold_corner() else { return false };
-        self.leaps.held = Some(Held::Corner(Box::new(corner)));
+        self.leaps.held = Some(Held::Corner(corner));
         self.leaps.block = Block::new(ENDLESS);
         true
     }

@@ -155,7 +155,8 @@ fn top([mut low, mut high]: [u64; 2], value: impl Fn(u64) -> f64) -> f64 {
 impl<B: Disk> Explicit<B> {
     /// Makes the map, if a corner has been held long enough and the map can be
     /// trusted for all later steps.
-    pub(in crate::motion::explicit) fn hold_corner(&mut self) -> Option<HeldCorner> {
+    #[inline]
+    pub(in crate::motion::explicit) fn hold_corner(&mut self) -> Option<Box<HeldCorner>> {
         let sides = self.steady_corner()?;
         let since = ((self.record.log.since / self.drive.step) as u64).max(self.leaps.hold_tried);
         if self.n < since + HELD_AFTER {
@@ -172,7 +173,9 @@ impl<B: Disk> Explicit<B> {
         (self.drive.is_steady(self.n) && self.record.last_touch == self.n).then_some([a, b])
     }
 
-    fn make_map(&self, sides: [u32; 2]) -> Option<HeldCorner> {
+    // Out of the steps: its stack is large.
+    #[inline(never)]
+    fn make_map(&self, sides: [u32; 2]) -> Option<Box<HeldCorner>> {
         let Standing { step, resting, start, swing, growth } =
             self.stand_in(sides, self.goes_beyond)?;
         let phase = self.machine.nodal_diameters * swing.0;
@@ -214,7 +217,7 @@ impl<B: Disk> Explicit<B> {
         let pulls = a > 0.0 || b > 0.0;
         let multipliers = [a, b];
         let held = HeldCorner { step, pulls, rest, multipliers, deviations, counts, swing, growth };
-        held.closes(&at_rest)?.then_some(held)
+        held.closes(&at_rest)?.then(|| Box::new(held))
     }
 
     /// Whether a lock that swings too far to be leapt over pulls, if no push of it and no
