@@ -140,6 +140,8 @@ pub(crate) const TIP_MARGIN: f64 = 0.005;
 /// Sizes of a wave on a preloaded lining that are tried for whether it dies, and how much
 /// smaller each is than the one before: down to 1e-9 of what lifts a blade.
 pub(crate) const DIES_LOOKS: i32 = 400;
+/// Round-off of one step of such a wave, in units of the last place.
+pub(crate) const DIES_ROUNDINGS: f64 = 64.0;
 /// See `DIES_LOOKS`.
 pub(crate) const DIES_SMALLER: f64 = 0.95;
 

@@ -16,7 +16,7 @@ use super::rows::TipLaw;
 use crate::model::LiningLaw;
 use crate::motion::Plane;
 use crate::numeric::lyapunov::lyapunov;
-use crate::tolerances::{DIES_LOOKS, DIES_SMALLER, LARGEST_BLADE_ANGLE};
+use crate::tolerances::{DIES_LOOKS, DIES_ROUNDINGS, DIES_SMALLER, LARGEST_BLADE_ANGLE};
 
 /// A row that presses: its direction, its shape in the modes of the blades, and its blades.
 #[derive(Clone, Copy, Debug)]
@@ -201,6 +201,11 @@ impl Dies {
         let steepest = SymmetricEigen::new(bound.clone()).eigenvalues.max();
         let kept = (2.0 - matrix.norm()).max(0.0);
         let shrinks = 0.125 * length * rate * kept * kept / steepest;
+        // Without damping the step keeps a wave, but for the round-off of its map.
+        let uneven = steepest * SymmetricEigen::new(inverse.clone()).eigenvalues.max();
+        if shrinks.is_nan() || shrinks <= DIES_ROUNDINGS * f64::EPSILON * uneven {
+            return None;
+        }
         let per_unit = |row: &DVector<f64>| row.dot(&(&inverse * row)).max(0.0).sqrt();
         // The largest of one part of the state in a wave of unit size.
         let part = |place: usize| {
@@ -367,6 +372,38 @@ mod tests {
         let (modal, rigid) =
             (proved::<ModalBlades>(500, "modal"), proved::<RigidBlades>(60, "rigid"));
         assert!(modal > 120 && rigid > 15, "{modal} {rigid}");
+    }
+
+    #[test]
+    fn a_wave_that_nothing_damps_is_not_proved_to_die() {
+        for (friction, damping) in [("0", "0"), ("0.15", "0"), ("0", "1e-5")] {
+            for (model, speed) in [("rigid", "517.3"), ("rigid", "351.5"), ("modal", "300")] {
+                let scene = Scene::base().with(&[
+                    ("casing.radius_m", "0.49988"),
+                    ("casing.damping_ratio", damping),
+                    ("bladed_disk.damping_ratio", if model == "rigid" { "0.3" } else { damping }),
+                    ("contact.stiffness_n_per_m", "3e7"),
+                    ("contact.friction", friction),
+                    ("solver.contact", "smooth"),
+                    ("solver.model", model),
+                    ("solver.step_s", "1e-6"),
+                    ("operation.pulse_n", "8e3"),
+                    ("operation.speed_rad_s", speed),
+                ]);
+                let scene = scene.unwrap();
+                let proved = if model == "rigid" {
+                    let mut motion = Explicit::<RigidBlades>::new(&scene);
+                    motion.advance(2e-3).unwrap();
+                    motion.final_verdict()
+                } else {
+                    let mut motion = Explicit::<ModalBlades>::new(&scene);
+                    motion.advance(2e-3).unwrap();
+                    motion.final_verdict()
+                };
+                let dies = damping != "0" && model == "rigid";
+                assert_eq!(proved, dies.then_some(Verdict::Decay), "{model} {friction} {damping}");
+            }
+        }
     }
 
     #[test]

@@ -323,7 +323,7 @@ impl<B: Disk> Explicit<B> {
         let rates = nu + machine.omega_c + machine.omega_bd_max + 2.0 * damping;
         let moment_arm = machine.nodal_diameters * machine.polygon.half_side();
         let torque = moment_arm * (a.abs() + b.abs());
-        let rest = 2.0 * torque / self.scene.bladed_disk.stiffness_nm_per_rad;
+        let rest = 2.0 * torque / self.scene.disk_in_use().stiffness_nm_per_rad;
         let turned = machine.nodal_diameters * (self.blades.reach() + rest);
         let distance = machine.clearance() / (sin * cos);
         let change = 2.0 * turned * rates * rates * distance * machine.casing_mass;
