@@ -1,11 +1,25 @@
 //! Blade-tip/casing rub of a flexible bladed disk in a flexible casing, after
 //! Legrand, Pierre and Peseux (2010).
 //!
-//! Dependencies point one way: `cli` and `tui` use `report` and `study`, these
-//! use `motion` (time domain) and `harmonic` (frequency domain), these use
-//! `contact`, and all use `model`, which knows only `numeric`. A `scene` says what to solve and how.
-//! Everything below `cli` and `tui` knows no terminal and prints nothing; without
-//! the features `cli` and `explorer` the crate is that part alone.
+//! Begin with a [`scene::Scene`]: a built-in one, a file, or your own machine from a table
+//! of modes ([`scene::read_modes`]). [`scene::Scene::checked`] refuses what cannot be
+//! solved, and names it.
+//!
+//! | to find | ask |
+//! |---|---|
+//! | frequencies, critical and coincidence speeds | [`model::Machine`] |
+//! | how a run ends, and whether a tiny change ends otherwise | [`motion::simulate`] |
+//! | only how it ends | [`motion::run_to_verdict`] |
+//! | the state on the way, with changes of speed, pulse and damping | [`motion::Motion`] |
+//! | the locked motion against speed | [`harmonic::locked_motion`], [`harmonic::Locked`] |
+//! | slip, whirl, flutter, rest on a lining | [`harmonic`] |
+//! | verdicts over two parameters | [`study::map`] |
+//! | the distance to every limit, and what moves it | [`study::margins`] |
+//! | every number of nodal diameters | [`study::survey`] |
+//!
+//! Units are SI. A multiplier is negative where the contact pushes. The crate's `examples`
+//! are whole programs; `docs/theory.md` has the equations that are cited by number. Without
+//! the features `cli` and `explorer` nothing here knows a terminal or prints.
 //!
 //! ```
 //! use rubscope::motion::{Verdict, simulate};
