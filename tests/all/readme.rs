@@ -120,27 +120,48 @@ fn first_minute(theme: Theme) -> String {
     moving.picture()
 }
 
+/// Compares a picture of the page with what makes it, or writes it.
+fn assert_is_made(file: &str, now: &str) {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(file);
+    if std::env::var("RUBSCOPE_PICTURES").is_ok_and(|value| value == "write") {
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(&path, now).unwrap();
+    }
+    let kept = std::fs::read_to_string(&path).unwrap();
+    assert!(
+        kept == now,
+        "{file} is not what rubscope makes: RUBSCOPE_PICTURES=write cargo test readme makes it again"
+    );
+    assert!(now.len() < 400_000, "{file} has {} bytes", now.len());
+}
+
 #[test]
 fn the_pictures_are_what_the_screen_shows() {
     for (name, theme) in [("dark", Theme::Dark), ("light", Theme::Light)] {
         for (what, now) in [("screen", picture(theme)), ("minute", first_minute(theme))] {
-            let file = format!("assets/pictures/{what}-{name}.svg");
-            let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(&file);
-            if std::env::var("RUBSCOPE_PICTURES").is_ok_and(|value| value == "write") {
-                std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-                std::fs::write(&path, &now).unwrap();
-            }
-            let kept = std::fs::read_to_string(&path).unwrap();
-            assert!(
-                kept == now,
-                "{file} is not what the screen shows: RUBSCOPE_PICTURES=write cargo test readme makes it again"
-            );
-            assert!(now.len() < 400_000, "{file} has {} bytes", now.len());
+            assert_is_made(&format!("assets/pictures/{what}-{name}.svg"), &now);
         }
     }
 }
 
-/// The first line of the screen, and the line of the other verdict below it.
+#[test]
+fn the_map_and_the_survey_are_what_their_commands_write() {
+    let page = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md")).unwrap();
+    for what in ["map", "survey"] {
+        let out = format!("--out {what}.svg");
+        let command = page.lines().find_map(|line| {
+            let (before, _) = line.split_once(&out)?;
+            Some(before.rsplit_once("rubscope ")?.1.to_string())
+        });
+        let folder = tempfile::tempdir().unwrap();
+        let mut rubscope = assert_cmd::cargo::cargo_bin_cmd!("rubscope");
+        let command = command.unwrap() + &out;
+        rubscope.current_dir(folder.path()).args(command.split(' ')).assert().success();
+        let now = std::fs::read_to_string(folder.path().join(format!("{what}.svg"))).unwrap();
+        assert_is_made(&format!("assets/pictures/{what}.svg"), &now);
+    }
+}
+
 fn header(session: &Session) -> String {
     session.text().lines().take(3).collect::<Vec<_>>().join("\n")
 }
