@@ -95,7 +95,8 @@ fn dispatch(cli: Cli, out: &mut dyn Write) -> Done {
     if cli.command.is_some() || cli.explore.is_in_lines() {
         signals::watch().context("cannot watch signals")?;
     }
-    if cli.command.is_some() {
+    // A sign of life would wipe the questions of `new`.
+    if !matches!(cli.command, None | Some(Command::New(_))) {
         sign::begin();
     }
     match cli.command {

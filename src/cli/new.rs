@@ -46,6 +46,10 @@ pub struct NewCommand {
     /// Clearance of the blade tips, such as 0.3mm
     #[arg(long, value_name = "LENGTH")]
     clearance: Option<String>,
+    /// The speed that the scene begins with, such as 9500rpm; the middle of the range if not
+    /// given
+    #[arg(long, value_name = "SPEED", allow_hyphen_values = true)]
+    speed: Option<String>,
     /// Nodal diameters that the scene begins with
     #[arg(long, value_name = "COUNT")]
     nd: Option<String>,
@@ -132,6 +136,9 @@ impl NewCommand {
         let radius_m = length(asking, "--radius", self.radius.as_ref(), radius)?;
         let clearance = "Clearance of the blade tips [m, or such as 0.3mm]";
         let clearance_m = length(asking, "--clearance", self.clearance.as_ref(), clearance)?;
+        if !(radius_m > 0.0 && radius_m.is_finite()) {
+            return Err(Refusal::of("--radius", radius_m, "a length above 0").into());
+        }
         if !(clearance_m > 0.0 && clearance_m < radius_m) {
             let allowed = format!("a length above 0 and below the radius, {radius_m} m");
             return Err(Refusal::of("--clearance", format!("{clearance_m} m"), allowed).into());
@@ -167,6 +174,8 @@ impl NewCommand {
         let refused =
             |error: crate::study::survey::SurveyError| Refusal::because(format!("--{error}"));
         let range_rad_s = speed_range(&range).map_err(refused)?;
+        let speed = |text: &String| number("--speed", text, Quantity::Speed);
+        let speed_rad_s = self.speed.as_ref().map(speed).transpose()?;
         let title = self.file.file_stem().map(|stem| stem.to_string_lossy().into_owned());
         Ok(ModalData {
             title: title.unwrap_or_default(),
@@ -178,6 +187,7 @@ impl NewCommand {
             disk,
             damping_ratios,
             range_rad_s,
+            speed_rad_s: speed_rad_s.unwrap_or(0.5 * (range_rad_s[0] + range_rad_s[1])),
             pulse_n: 1.0,
         })
     }
@@ -210,7 +220,11 @@ fn whole(option: &str, text: &str) -> Result<u32, Refusal> {
 
 fn number(option: &str, text: &str, of: Quantity) -> anyhow::Result<f64> {
     let refused = |why| Refusal::because(format!("{option} = {text}: {why}"));
-    Ok(of.read(text).map_err(refused)?)
+    let read = of.read(text).map_err(refused)?;
+    match read.is_finite() {
+        true => Ok(read),
+        false => Err(Refusal::of(option, text, "a finite number").into()),
+    }
 }
 
 /// Who answers questions: a user at a terminal, or nobody.

@@ -46,6 +46,8 @@ pub struct ModalData {
     pub damping_ratios: [f64; 2],
     /// The speeds of the machine \[rad/s\].
     pub range_rad_s: [f64; 2],
+    /// The speed that the scene begins with \[rad/s\].
+    pub speed_rad_s: f64,
     /// The pulse that starts the motion \[N\].
     pub pulse_n: f64,
 }
@@ -82,7 +84,7 @@ impl ModalData {
             rpm(to)
         ));
         line("schema = 1");
-        line(&format!("title = {:?}", self.title));
+        line(&format!("title = {}", toml::Value::from(self.title.as_str())));
         line("");
         line("[bladed_disk]");
         line(&format!("blades = {}  # number of blades N", self.blades));
@@ -131,8 +133,7 @@ impl ModalData {
         line("");
         line("[operation]");
         line(&format!("nodal_diameters = {}  # of the modes in use n_d", self.nodal_diameters));
-        let speed = digits(0.5 * (from + to));
-        line(&format!("speed_rad_s = {speed:?}  # rotor speed, rad/s: the middle of the range"));
+        line(&format!("speed_rad_s = {:?}  # rotor speed, rad/s", digits(self.speed_rad_s)));
         line(&format!("pulse_n = {:?}  # force that starts the motion, N", self.pulse_n));
         line("pulse_s = 50e-6  # its length, s");
         line("");
@@ -172,14 +173,14 @@ impl ModalData {
 }
 
 /// Reads the modes of a table: a line of names, then a line for each mode. Names are
-/// `structure` (casing or disk; casing where there is none), `nodal_diameters`,
+/// `structure` (casing or disk), `nodal_diameters`,
 /// `frequency_hz`, `modal_mass_kg`, and `damping_ratio` if there is one. Empty lines and
-/// those that begin with `#` are left out.
+/// those that begin with `#` are left out, and columns of other names.
 ///
 /// # Errors
 /// A missing column, or a value that is not allowed, by its line and column.
 pub fn read_modes(text: &str) -> Result<[Vec<Family>; 2], SceneError> {
-    let mut lines = text.lines().enumerate().filter(|(_, line)| {
+    let mut lines = text.trim_start_matches('\u{feff}').lines().enumerate().filter(|(_, line)| {
         let line = line.trim();
         !line.is_empty() && !line.starts_with('#')
     });
@@ -187,23 +188,29 @@ pub fn read_modes(text: &str) -> Result<[Vec<Family>; 2], SceneError> {
         line.split(',').map(|cell| cell.trim().trim_matches('"').to_string()).collect()
     };
     let names = lines.next().map_or_else(Vec::new, |(_, line)| cells(line));
-    let known = COLUMNS.iter().all(|name| names.iter().any(|known| known == name));
-    if !known {
-        let allowed = format!("a first line with {}", COLUMNS.join(", "));
-        return Err(SceneError::refused("table", names.join(","), allowed));
+    let count = |name: &str| names.iter().filter(|known| *known == name).count();
+    if count(STRUCTURE) != 1 || COLUMNS.iter().any(|name| count(name) != 1) {
+        let allowed =
+            format!("{STRUCTURE}, {}, each once, separated by commas", COLUMNS.join(", "));
+        return Err(SceneError::refused("the first line", names.join(","), allowed));
     }
     let mut found = [Vec::new(), Vec::new()];
     for (place, line) in lines {
         let row = cells(line);
+        if row.len() != names.len() {
+            let allowed = format!("as many as names in the first line, {}", names.len());
+            let given = format!("{} cells", row.len());
+            return Err(SceneError::refused(format!("line {}", place + 1), given, allowed));
+        }
         let cell = |name: &str| {
             let at = names.iter().position(|known| known == name);
             at.and_then(|at| row.get(at)).map_or("", String::as_str)
         };
         let path = |name: &str| format!("line {}, {name}", place + 1);
-        let structure = match cell("structure") {
-            "casing" | "" => 0,
+        let structure = match cell(STRUCTURE).to_lowercase().as_str() {
+            "casing" => 0,
             "disk" => 1,
-            other => return Err(SceneError::refused(path("structure"), other, "casing or disk")),
+            other => return Err(SceneError::refused(path(STRUCTURE), other, "casing or disk")),
         };
         let mode = Family::read(
             COLUMNS.map(cell),
@@ -226,6 +233,8 @@ fn digits(x: f64) -> f64 {
     rounded(x, 14)
 }
 
+/// What a line of the table is of.
+const STRUCTURE: &str = "structure";
 /// What a mode needs.
 const COLUMNS: [&str; 3] = ["nodal_diameters", "frequency_hz", "modal_mass_kg"];
 
@@ -280,7 +289,27 @@ mod tests {
             disk: vec![family(4, 151.3, 5.5), family(5, 155.9, 5.4), family(6, 159.7, 5.3)],
             damping_ratios: [0.01, 0.002],
             range_rad_s: [TAU * 100.0, TAU * 180.0],
+            speed_rad_s: TAU * 140.0,
             pulse_n: 2e4,
+        }
+    }
+
+    #[test]
+    fn tables_of_spreadsheets_are_read_or_refused_by_their_line() {
+        let head = "structure,nodal_diameters,frequency_hz,modal_mass_kg";
+        let table = format!("\u{feff}{head}\r\nCasing,4,310.7,3.1\r\ndisk,4,151.3,5.5\r\n");
+        let [casing, disk] = read_modes(&table).unwrap();
+        assert_eq!((casing[0].frequency_hz, disk[0].modal_mass_kg), (310.7, 5.5));
+        for (table, refusal) in [
+            (format!("{head}\ncasing,4,310,7,3,1"), "line 2 = 6 cells: allowed is as many as"),
+            (format!("{head}\ncasing,4,310"), "line 2 = 3 cells"),
+            (head.replace("structure", "struct"), "the first line = struct,nodal_diameters"),
+            (format!("{head},structure"), "each once"),
+            (head.replace(',', ";"), "separated by commas"),
+            (format!("{head}\nrotor,4,310.7,3.1"), "line 2, structure = rotor"),
+        ] {
+            let error = read_modes(&table).unwrap_err().to_string();
+            assert!(error.contains(refusal), "{table}: {error}");
         }
     }
 
@@ -350,6 +379,8 @@ mod tests {
             assert!(message.starts_with(start), "{message}");
         }
         let message = read_modes("frequency_hz\n1\n").unwrap_err().to_string();
-        assert!(message.starts_with("table = frequency_hz: allowed is a first line with nodal"));
+        assert!(
+            message.starts_with("the first line = frequency_hz: allowed is structure, nodal_diam")
+        );
     }
 }

@@ -16,6 +16,7 @@ impl Scene {
         let doubts =
             [self.clearance_doubt(), self.speed_doubt(), self.mass_doubt(), self.diameters_doubt()];
         let mut all: Vec<String> = doubts.into_iter().flatten().collect();
+        all.extend(self.modes_doubts());
         all.extend(self.frequency_doubts());
         all.extend(self.damping_doubts());
         all
@@ -73,6 +74,19 @@ impl Scene {
         })
     }
 
+    fn modes_doubts(&self) -> Vec<String> {
+        let blades = self.bladed_disk.blades;
+        let named =
+            [(keys::CASING_MODES, &self.casing.modes), (keys::DISK_MODES, &self.bladed_disk.modes)];
+        let all =
+            named.into_iter().flat_map(|(key, modes)| modes.iter().map(move |mode| (key, mode)));
+        let far = all.filter(|(_, mode)| mode.nodal_diameters > blades / 2);
+        far.map(|(key, mode)| {
+            format!("{key} has a mode of {} diameters, more than half of the {blades} blades; it is never in use.", mode.nodal_diameters)
+        })
+        .collect()
+    }
+
     fn frequency_doubts(&self) -> Vec<String> {
         let machine = self.machine();
         let [least, most] = DOUBTFUL_FREQUENCY;
@@ -118,6 +132,11 @@ mod tests {
                 "The clearance (casing.radius_m less bladed_disk.blade_length_m) is 20.0000 mm, 4.00 % of",
             ),
             ("bladed_disk.blade_length_m", "0.4999999", "is 0.0001 mm, less than"),
+            (
+                "casing.modes",
+                "[{ nodal_diameters = 12, frequency_hz = 140.0 }]",
+                "casing.modes has a mode of 12 diameters, more than half of the 22 blades",
+            ),
             (
                 "operation.speed_rad_s",
                 "9500",
