@@ -64,6 +64,9 @@ pub(crate) const WHIRL_SWING: f64 = 0.25;
 /// Part of the clearance below which a wave on a lining is at rest.
 pub(crate) const WAVE_AT_REST: f64 = 1e-3;
 
+/// The same below which there is no wave, only round-off.
+pub(crate) const WAVE_ROUND_OFF: f64 = 1e-12;
+
 /// Part of a wave on a lining now to which it must fall, as it goes, to be dying. Larger: a
 /// wave that comes down to its limit cycle is said to die.
 pub(crate) const WAVE_DYING: f64 = 0.5;

@@ -358,3 +358,45 @@ fn a_lock_is_leapt_over_whatever_the_step_and_the_vibration_left_in_it() {
         }
     }
 }
+
+#[test]
+fn the_largest_blade_angle_of_a_lock_is_found_in_its_last_part_too() {
+    for changes in [
+        [
+            ("casing.damping_ratio", "0.026091164386023134"),
+            ("bladed_disk.stiffness_nm_per_rad", "1843"),
+            ("bladed_disk.coupling_nm_per_rad", "370"),
+            ("bladed_disk.inertia_kg_m2", "0.05839"),
+            ("casing.radius_m", "0.5000794"),
+            (STEP, "3.43e-7"),
+            ("operation.speed_rad_s", "498.269"),
+            (PULSE, "94191"),
+            ("solver.end_s", "0.009838"),
+        ],
+        [
+            ("casing.damping_ratio", "0.0346"),
+            ("bladed_disk.stiffness_nm_per_rad", "507.1"),
+            ("bladed_disk.coupling_nm_per_rad", "3000"),
+            ("bladed_disk.inertia_kg_m2", "0.0486"),
+            ("casing.radius_m", "0.5"),
+            (STEP, "2.35e-7"),
+            ("operation.speed_rad_s", "480.08"),
+            (PULSE, "419100"),
+            ("solver.end_s", "0.008571"),
+        ],
+    ] {
+        let undamped = [(LAW, "bilateral"), ("bladed_disk.damping_ratio", "1e-6")];
+        let scene = scene(&[&changes[..], &undamped].concat());
+        let (checked, end) = (scene.checked().unwrap(), scene.solver.end_s);
+        let [mut leapt, mut stepped] = [Motion::new(&checked), Motion::new(&checked)];
+        leapt.advance(end).unwrap();
+        assert!(leapt.steps_skipped() > Some(10_000));
+        for chunk in 1..=(end / scene.solver.step_s) as u32 / 50 {
+            stepped.set_speed(scene.operation.speed_rad_s, 0.0);
+            stepped.advance(f64::from(50 * chunk) * scene.solver.step_s).unwrap();
+        }
+        stepped.advance(end).unwrap();
+        let [a, b] = [&leapt, &stepped].map(|motion| motion.checks().max_blade_angle_rad);
+        assert!((a - b).abs() <= 1e-8 * b, "{a:e} {b:e}");
+    }
+}

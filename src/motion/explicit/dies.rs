@@ -7,7 +7,7 @@
 //! `|r| <= c |x|^2` there, a wave of `c |x| < s` shrinks in every step. So it stays where it
 //! was linear, if no blade leaves that within `|x|`, and dies.
 
-use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use nalgebra::{Complex, DMatrix, DVector, SymmetricEigen};
 
 use super::Explicit;
 use super::disk::Disk;
@@ -122,6 +122,14 @@ pub(super) struct Dies {
     largest: f64,
 }
 
+/// What is known of the linear motion about rest.
+#[derive(Clone, Debug)]
+pub(super) struct Rest {
+    dies: Option<Dies>,
+    /// Whether every wave that is small enough dies.
+    attracts: bool,
+}
+
 impl<B: Disk> Explicit<B> {
     /// Whether every wave to come dies: all blades press a lining and stay so.
     pub(super) fn dies(&self) -> bool {
@@ -131,7 +139,7 @@ impl<B: Disk> Explicit<B> {
         let Some(modes) = self.blades.held_modes().filter(|_| self.drive.is_steady(self.n)) else {
             return false;
         };
-        let Some(dies) = lining.dies.get_or_init(|| self.when_it_dies()) else { return false };
+        let Some(dies) = &lining.rest.get_or_init(|| self.rest()).dies else { return false };
         let (c, s) = self.drive.look_at_turn(self.n);
         let back = Plane::new(c, -s);
         let [[x, y], [a, b]] = [self.u, modes.modes];
@@ -144,8 +152,20 @@ impl<B: Disk> Explicit<B> {
         dies.holds(&state)
     }
 
-    /// None where rest does not attract, or is no equilibrium.
-    fn when_it_dies(&self) -> Option<Dies> {
+    /// Whether all blades press a lining, and no wave dies there: nothing damps it, or it
+    /// grows.
+    pub(super) fn no_wave_dies(&self) -> bool {
+        let pressed = self.lining.as_ref().filter(|lining| lining.all_press());
+        let steady = self.drive.is_steady(self.n) && self.blades.held_modes().is_some();
+        pressed.is_some_and(|lining| steady && !lining.rest.get_or_init(|| self.rest()).attracts)
+    }
+
+    fn rest(&self) -> Rest {
+        self.pressed_rest().unwrap_or(Rest { dies: None, attracts: true })
+    }
+
+    /// None where rest is no equilibrium of one linear step.
+    fn pressed_rest(&self) -> Option<Rest> {
         let moving = self.blades.held_modes()?.moving;
         let (table, machine) = (self.blades.table(), &self.machine);
         let plane = |(c, s): (f64, f64)| Plane::new(c, s);
@@ -165,7 +185,7 @@ impl<B: Disk> Explicit<B> {
         };
         let tip_speed = self.drive.speed(self.n).abs() * self.scene.casing.radius_m;
         let rate = machine.omega_c.max(machine.omega_bd);
-        Dies::of(
+        Rest::of(
             &step,
             self.drive.step,
             rate,
@@ -175,7 +195,7 @@ impl<B: Disk> Explicit<B> {
     }
 }
 
-impl Dies {
+impl Rest {
     /// Of steps this long \[s\] with this rate of the motion \[rad/s\]; `outrun` are the
     /// casing's way along the tips by its own, and the speed of these \[m/s\].
     fn of(step: &Step<'_>, length: f64, rate: f64, blade: f64, outrun: [f64; 2]) -> Option<Self> {
@@ -193,10 +213,30 @@ impl Dies {
             let at = units.state(&DVector::from_fn(size, |n, _| f64::from(u8::from(n == k))));
             matrix.set_column(k, &units.states(&step.change(&at), size));
         }
+        let kept = DIES_ROUNDINGS * f64::EPSILON;
+        let shrinks = |root: &Complex<f64>| 2.0 * root.re + root.norm_sqr() < -kept;
+        let attracts = matrix.clone().complex_eigenvalues().iter().all(shrinks);
+        let dies = Dies::of(step, &matrix, units, [length, rate], outrun).filter(|_| attracts);
+        Some(Self { dies, attracts })
+    }
+}
+
+impl Dies {
+    /// Of a wave under these steps, `matrix` less one, of a length \[s\] and with this rate of
+    /// the motion \[rad/s\].
+    fn of(
+        step: &Step<'_>,
+        matrix: &DMatrix<f64>,
+        units: Units,
+        [length, rate]: [f64; 2],
+        outrun: [f64; 2],
+    ) -> Option<Self> {
+        let Step { tips, law, rows, .. } = *step;
+        let (size, room) = (matrix.nrows(), -tips.clearance - law.smoothing_m);
         // With M = 2/(h rate) D (2 + D)^-1, each step takes h rate/4 |(2 + D) x|^2 of x^T Q x.
         let two = DMatrix::<f64>::identity(size, size) * 2.0;
-        let across = (&two + &matrix).try_inverse()?;
-        let bound = lyapunov(&(&matrix * across * (2.0 / (length * rate))))?;
+        let across = (&two + matrix).try_inverse()?;
+        let bound = lyapunov(&(matrix * across * (2.0 / (length * rate))))?;
         let inverse = bound.clone().cholesky()?.inverse();
         let steepest = SymmetricEigen::new(bound.clone()).eigenvalues.max();
         let kept = (2.0 - matrix.norm()).max(0.0);
@@ -352,7 +392,7 @@ mod tests {
     impl<B: Disk> Explicit<B> {
         /// The wave now, as a part of the largest that dies.
         fn size_of_wave(&self) -> Option<f64> {
-            let dies = self.lining.as_ref()?.dies.get()?.clone()?;
+            let dies = self.lining.as_ref()?.rest.get()?.dies.clone()?;
             let modes = self.blades.held_modes()?.modes;
             let (c, s) = self.drive.look_at_turn(self.n);
             let back = Plane::new(c, -s);
@@ -404,6 +444,39 @@ mod tests {
                 assert_eq!(proved, dies.then_some(Verdict::Decay), "{model} {friction} {damping}");
             }
         }
+    }
+
+    #[test]
+    fn what_nothing_damps_or_what_grows_is_no_decay_whenever_it_is_looked_at() {
+        let still = [("casing.damping_ratio", "0"), ("bladed_disk.damping_ratio", "0")];
+        let rigid = [("solver.model", "rigid"), ("bladed_disk.radial_coupling", "0")];
+        let shared = [("operation.speed_rad_s", "193.5"), ("operation.pulse_n", "189.1")];
+        let coincidence = Scene::builtin("coincidence").unwrap();
+        let neutral = coincidence.clone().with(&[still, rigid, shared].concat()).unwrap();
+        let growing = coincidence.with(&[("operation.pulse_n", "0.1")]).unwrap();
+        for end in [0.05, 0.15, 0.18, 0.19, 0.2, 0.22, 0.3] {
+            for (scene, of) in [(&neutral, "neutral"), (&growing, "growing")] {
+                let end = end.to_string();
+                let scene = scene.clone().into_scene().with(&[("solver.end_s", &end)]).unwrap();
+                let window = 0.1 * scene.solver.end_s;
+                let verdict = if of == "neutral" {
+                    let mut motion = Explicit::<RigidBlades>::new(&scene);
+                    motion.advance(scene.solver.end_s).unwrap();
+                    motion.lasting(window)
+                } else {
+                    let mut motion = Explicit::<ModalBlades>::new(&scene);
+                    motion.advance(scene.solver.end_s).unwrap();
+                    motion.lasting(window)
+                };
+                assert_eq!(verdict, Verdict::Slip, "{of} {end}");
+            }
+        }
+        // Rest itself is no wave.
+        let rest =
+            neutral.into_scene().with(&[("operation.pulse_n", "0"), ("solver.end_s", "0.02")]);
+        let mut motion = Explicit::<RigidBlades>::new(&rest.unwrap());
+        motion.advance(0.02).unwrap();
+        assert_eq!(motion.lasting(2e-3), Verdict::Decay);
     }
 
     #[test]

@@ -3,7 +3,9 @@
 
 use crate::motion::verdict::Trend;
 use crate::motion::{ActiveSet, ContactLog, Plane, Verdict};
-use crate::tolerances::{LAST_PART, WAVE_AT_REST, WAVE_DYING, WAVE_FALLS_SOON, WHIRL_SWING};
+use crate::tolerances::{
+    LAST_PART, WAVE_AT_REST, WAVE_DYING, WAVE_FALLS_SOON, WAVE_ROUND_OFF, WHIRL_SWING,
+};
 
 /// Extremes over one stretch of time.
 #[derive(Clone, Copy, Debug)]
@@ -105,6 +107,12 @@ impl Lasting {
     /// The largest swing of the last stretches \[m\].
     pub fn swing(&self) -> f64 {
         self.now.swing.max(self.before.swing)
+    }
+
+    /// Whether the casing moves about its rest in a machine with this clearance, by more
+    /// than round-off.
+    pub fn moves(&self, clearance: f64) -> bool {
+        self.now.wave().max(self.before.wave()) > WAVE_ROUND_OFF * clearance.abs()
     }
 
     /// Forgets what was before a change on the way.

@@ -11,7 +11,7 @@ use std::sync::OnceLock;
 use wide::f64x2;
 
 use super::Explicit;
-use super::dies::Dies;
+use super::dies::Rest;
 use super::disk::{Columns, Disk};
 use super::lasting::mark;
 use super::record::Record;
@@ -32,7 +32,7 @@ pub(super) struct Lining {
     held_before: Option<f64>,
     touching: Touching,
     /// Which waves die at this speed, once asked.
-    pub dies: OnceLock<Option<Dies>>,
+    pub rest: OnceLock<Rest>,
 }
 
 /// Sums over the rows of a step.
@@ -71,7 +71,7 @@ impl Lining {
             sums: Sums::default(),
             held_before: None,
             touching: Touching::default(),
-            dies: OnceLock::new(),
+            rest: OnceLock::new(),
         }
     }
 

@@ -106,8 +106,11 @@ impl<B: Disk> Solver for Explicit<B> {
         if !self.goes_beyond {
             return judge(log, now, window);
         }
-        let clearance = self.machine.clearance();
-        self.beyond.lasting.verdict(log, now, window, clearance, self.lining.is_some())
+        let (lasting, clearance) = (&self.beyond.lasting, self.machine.clearance());
+        match lasting.verdict(log, now, window, clearance, self.lining.is_some()) {
+            Verdict::Decay if lasting.moves(clearance) && self.no_wave_dies() => Verdict::Slip,
+            verdict => verdict,
+        }
     }
 
     fn swing(&self) -> f64 {

@@ -131,10 +131,13 @@ impl HeldCorner {
                 break;
             }
             let after = angle((at + stride).min(steps));
-            // Between looks an angle rises by the square of half a look, at most.
-            if here >= before && here >= after && here * (1.0 + ANGLE_LOOK * ANGLE_LOOK) > most {
-                let around = [at.saturating_sub(stride), (at + stride).min(steps)];
-                most = most.max(top(around, angle));
+            // Between looks an angle rises by the square of half a look, at most; the last
+            // stretch has its top before a higher end.
+            let rises = after > here;
+            let turns = if rises { at + stride >= steps } else { here >= before };
+            if turns && here.max(after) * (1.0 + ANGLE_LOOK * ANGLE_LOOK) > most {
+                let from = if rises { at } else { at.saturating_sub(stride) };
+                most = most.max(top([from, (at + stride).min(steps)], angle));
             }
             (before, here, at) = (here, after, at + stride);
         }

@@ -97,7 +97,7 @@ impl<B: Disk> Explicit<B> {
         self.leaps.slide_tried = self.n;
         self.leaps.same_sides = 0;
         if let Some(lining) = &mut self.lining {
-            lining.dies = std::sync::OnceLock::new();
+            lining.rest = std::sync::OnceLock::new();
         }
     }
 }
