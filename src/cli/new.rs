@@ -136,7 +136,7 @@ impl NewCommand {
         let radius_m = length(asking, "--radius", self.radius.as_ref(), radius)?;
         let clearance = "Clearance of the blade tips [m, or such as 0.3mm]";
         let clearance_m = length(asking, "--clearance", self.clearance.as_ref(), clearance)?;
-        if !(radius_m > 0.0 && radius_m.is_finite()) {
+        if radius_m <= 0.0 {
             return Err(Refusal::of("--radius", radius_m, "a length above 0").into());
         }
         if !(clearance_m > 0.0 && clearance_m < radius_m) {

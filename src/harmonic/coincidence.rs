@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use super::{HarmonicError, Joint, Lining, RoundWhirl, Whirl, error, lock_roots, round_whirls};
 use crate::model::Machine;
+use crate::numeric::is_zero;
 use crate::scene::{ContactLaw, Scene};
 
 /// A line `frequency = +-sqrt(at_standstill^2 + stiffening Omega^2) + slope * Omega`.
@@ -21,11 +22,6 @@ pub struct Line {
     /// Centrifugal stiffening `B` of the blades, which bends their lines.
     #[serde(skip_serializing_if = "is_zero")]
     pub stiffening: f64,
-}
-
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde gives a reference")]
-fn is_zero(number: &f64) -> bool {
-    *number == 0.0
 }
 
 impl Line {

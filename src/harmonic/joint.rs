@@ -122,8 +122,8 @@ pub fn undamped_flutter_speed<T: Number>(machine: &Machine<T>, toward: f64) -> O
 
 /// The rotor speed above which the lock of a machine flutters, as a magnitude \[rad/s\],
 /// with its damping; that is lower than without by a finite amount, however small the
-/// damping is (Ziegler's paradox); the lowest where there are several. None where tips are not joined or never flutter; for
-/// a rotor that turns in the sense of `toward`.
+/// damping is (Ziegler's paradox); the lowest where there are several. None where tips are
+/// not joined or never flutter; for a rotor that turns in the sense of `toward`.
 #[must_use]
 pub fn flutter_speed<T: Number>(machine: &Machine<T>, toward: f64) -> Option<T> {
     flutters(machine, toward).first().map(|flutter| flutter.from)

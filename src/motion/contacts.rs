@@ -11,6 +11,7 @@
 use serde::Serialize;
 
 use crate::model::ContactPolygon;
+use crate::numeric::is_zero;
 use crate::tolerances::IMPACTS_KEPT;
 
 /// The phase groups in contact at one instant.
@@ -199,7 +200,7 @@ pub struct EnergyAccount {
     /// the blades as its speed changes.
     pub rotor_work_j: f64,
     /// Work of blades that grow with the speed, on what they touch.
-    #[serde(skip_serializing_if = "is_none")]
+    #[serde(skip_serializing_if = "is_zero")]
     pub growth_work_j: f64,
     /// Dissipated in the damping of the casing.
     pub casing_loss_j: f64,
@@ -211,12 +212,6 @@ pub struct EnergyAccount {
     pub impact_loss_j: f64,
     /// Gained since the start: in casing, blades and lining.
     pub stored_j: f64,
-}
-
-/// A machine that does not change has no such row.
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde gives a reference")]
-fn is_none(work: &f64) -> bool {
-    *work == 0.0
 }
 
 impl EnergyAccount {

@@ -6,7 +6,7 @@
 //!
 //! Read `solver` (what every solver offers), `drive` and `contacts` (what they share), then
 //! one kind of solver (`explicit` or `event`), then `run` with `script`, `wave`, `verdict`,
-//! `course` and `sensitivity`: a whole run, and what it is worth.
+//! `course` and `sensitivity`: a whole run, and whether a tiny change makes another of it.
 
 mod contacts;
 mod course;

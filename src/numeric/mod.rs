@@ -10,3 +10,9 @@ pub(crate) mod quadrature;
 pub(crate) mod real_roots;
 pub(crate) mod rounding;
 pub(crate) mod sum;
+
+/// Whether a number is zero; serde asks so what it may leave out.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde gives a reference")]
+pub(crate) fn is_zero(number: &f64) -> bool {
+    *number == 0.0
+}

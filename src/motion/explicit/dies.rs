@@ -414,6 +414,13 @@ mod tests {
         assert!(modal > 120 && rigid > 15, "{modal} {rigid}");
     }
 
+    /// The motion of a scene at an instant.
+    fn after<B: Disk>(scene: &CheckedScene, t: f64) -> Explicit<B> {
+        let mut motion = Explicit::new(scene);
+        motion.advance(t).unwrap();
+        motion
+    }
+
     #[test]
     fn a_wave_that_nothing_damps_is_not_proved_to_die() {
         for (friction, damping) in [("0", "0"), ("0.15", "0"), ("0", "1e-5")] {
@@ -431,14 +438,9 @@ mod tests {
                     ("operation.speed_rad_s", speed),
                 ]);
                 let scene = scene.unwrap();
-                let proved = if model == "rigid" {
-                    let mut motion = Explicit::<RigidBlades>::new(&scene);
-                    motion.advance(2e-3).unwrap();
-                    motion.final_verdict()
-                } else {
-                    let mut motion = Explicit::<ModalBlades>::new(&scene);
-                    motion.advance(2e-3).unwrap();
-                    motion.final_verdict()
+                let proved = match model {
+                    "rigid" => after::<RigidBlades>(&scene, 2e-3).final_verdict(),
+                    _ => after::<ModalBlades>(&scene, 2e-3).final_verdict(),
                 };
                 let dies = damping != "0" && model == "rigid";
                 assert_eq!(proved, dies.then_some(Verdict::Decay), "{model} {friction} {damping}");
@@ -458,15 +460,10 @@ mod tests {
             for (scene, of) in [(&neutral, "neutral"), (&growing, "growing")] {
                 let end = end.to_string();
                 let scene = scene.clone().into_scene().with(&[("solver.end_s", &end)]).unwrap();
-                let window = 0.1 * scene.solver.end_s;
-                let verdict = if of == "neutral" {
-                    let mut motion = Explicit::<RigidBlades>::new(&scene);
-                    motion.advance(scene.solver.end_s).unwrap();
-                    motion.lasting(window)
-                } else {
-                    let mut motion = Explicit::<ModalBlades>::new(&scene);
-                    motion.advance(scene.solver.end_s).unwrap();
-                    motion.lasting(window)
+                let end = scene.solver.end_s;
+                let verdict = match of {
+                    "neutral" => after::<RigidBlades>(&scene, end).lasting(0.1 * end),
+                    _ => after::<ModalBlades>(&scene, end).lasting(0.1 * end),
                 };
                 assert_eq!(verdict, Verdict::Slip, "{of} {end}");
             }
@@ -474,9 +471,8 @@ mod tests {
         // Rest itself is no wave.
         let rest =
             neutral.into_scene().with(&[("operation.pulse_n", "0"), ("solver.end_s", "0.02")]);
-        let mut motion = Explicit::<RigidBlades>::new(&rest.unwrap());
-        motion.advance(0.02).unwrap();
-        assert_eq!(motion.lasting(2e-3), Verdict::Decay);
+        let rested = after::<RigidBlades>(&rest.unwrap(), 0.02).lasting(2e-3);
+        assert_eq!(rested, Verdict::Decay);
     }
 
     #[test]

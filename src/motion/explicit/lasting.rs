@@ -109,10 +109,10 @@ impl Lasting {
         self.now.swing.max(self.before.swing)
     }
 
-    /// Whether the casing moves about its rest in a machine with this clearance, by more
-    /// than round-off.
-    pub fn moves(&self, clearance: f64) -> bool {
-        self.now.wave().max(self.before.wave()) > WAVE_ROUND_OFF * clearance.abs()
+    /// Whether the casing moves about its rest by more than round-off, where a clearance
+    /// has this size \[m\].
+    fn moves(&self, size: f64) -> bool {
+        self.now.wave().max(self.before.wave()) > WAVE_ROUND_OFF * size
     }
 
     /// Forgets what was before a change on the way.
@@ -126,7 +126,7 @@ impl Lasting {
     }
 
     /// The verdict over the last `window` seconds, of a machine with this clearance, on
-    /// a lining or not.
+    /// a lining or not; `no_wave_dies` there tells apart what falls and what turns slowly.
     pub fn verdict(
         &self,
         log: &ContactLog,
@@ -134,6 +134,7 @@ impl Lasting {
         window: f64,
         clearance: f64,
         lining: bool,
+        no_wave_dies: impl FnOnce() -> bool,
     ) -> Verdict {
         let start = now - window;
         let lasted = |since: Option<f64>| since.is_some_and(|t| t <= start);
@@ -162,7 +163,7 @@ impl Lasting {
             ActiveSet::Nothing => false,
         };
         if lining && lasted(self.all_since) {
-            match (dies, whirls) {
+            match (dies && !(self.moves(size) && no_wave_dies()), whirls) {
                 (true, _) => Verdict::Decay,
                 (false, true) => Verdict::Whirl,
                 (false, false) => Verdict::Slip,
@@ -182,10 +183,13 @@ impl Lasting {
     }
 }
 
+/// Odd and without a pattern, so that sums and products of it differ for different sets.
+pub(super) const MARK: u64 = 0x9e37_79b9_7f4a_7c15;
+
 /// A number of one row, so that sums of them differ for different sets (the finisher of
 /// SplitMix64).
 pub(super) fn mark(row: u32) -> u64 {
-    let mut x = (u64::from(row) + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    let mut x = (u64::from(row) + 1).wrapping_mul(MARK);
     x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     x ^ (x >> 27)
 }

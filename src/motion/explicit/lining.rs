@@ -13,7 +13,7 @@ use wide::f64x2;
 use super::Explicit;
 use super::dies::Rest;
 use super::disk::{Columns, Disk};
-use super::lasting::mark;
+use super::lasting::{MARK, mark};
 use super::record::Record;
 use super::rows::TipLaw;
 use crate::model::LiningLaw;
@@ -49,9 +49,6 @@ struct Sums {
     /// A number for the set of places near that press.
     pressing: u64,
 }
-
-/// Odd, so that numbers of different sets differ.
-const MARK: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// What presses.
 #[derive(Clone, Copy, Debug, Default)]

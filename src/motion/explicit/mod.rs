@@ -10,9 +10,9 @@
 //! (`leap`).
 //!
 //! Read `oscillator` (one coordinate) and `drive`, then `rows`, `pushes` and `correct` (rigid
-//! contact of a step) and `lining`, `disk` (what it asks of the blades), `beyond`, `spin` (a machine that
-//! changes with the speed), `lasting` and `dies`; `record`,
-//! `parameters` and `solver` put them together.
+//! contact of a step) and `lining`, `disk` (what it asks of the blades), `beyond`, `spin` (a
+//! machine that changes with the speed), `lasting` and `dies`; `record`, `parameters` and
+//! `solver` put them together.
 
 mod beyond;
 mod correct;

@@ -32,7 +32,7 @@ pub struct Oscillator {
     damping: f64,
     stiffness: f64,
     step: f64,
-    /// See `lost`.
+    /// What `lost` says: a division that no step repeats.
     lost: f64,
     /// Many steps at once, acting on `(x, increment)`; none once it was stiffened.
     leap: Option<Leap<2>>,

@@ -107,10 +107,8 @@ impl<B: Disk> Solver for Explicit<B> {
             return judge(log, now, window);
         }
         let (lasting, clearance) = (&self.beyond.lasting, self.machine.clearance());
-        match lasting.verdict(log, now, window, clearance, self.lining.is_some()) {
-            Verdict::Decay if lasting.moves(clearance) && self.no_wave_dies() => Verdict::Slip,
-            verdict => verdict,
-        }
+        let lining = self.lining.is_some();
+        lasting.verdict(log, now, window, clearance, lining, || self.no_wave_dies())
     }
 
     fn swing(&self) -> f64 {

@@ -303,12 +303,8 @@ impl<B: Disk> Explicit<B> {
     /// stay swing the blades about another rest, which is no farther than the same torque
     /// brings all modes at the least stiffness.
     fn corner_for_good(&self) -> Option<Verdict> {
-        let sides = self.steady_corner()?;
-        let since = (self.record.log.since / self.drive.step) as u64;
         let machine = &self.machine;
-        if self.n < since + HELD_AFTER || !machine.polygon.has_corners() {
-            return None;
-        }
+        let sides = self.steady_corner_since(0).filter(|_| machine.polygon.has_corners())?;
         let sum = |side| {
             let rows = self.rows.iter().filter(|row| row.side == side);
             rows.map(|row| row.lambda).sum::<f64>()

@@ -160,20 +160,24 @@ impl<B: Disk> Explicit<B> {
     /// trusted for all later steps.
     #[inline]
     pub(in crate::motion::explicit) fn hold_corner(&mut self) -> Option<Box<HeldCorner>> {
-        let sides = self.steady_corner()?;
-        let since = ((self.record.log.since / self.drive.step) as u64).max(self.leaps.hold_tried);
-        if self.n < since + HELD_AFTER {
-            return None;
-        }
+        let sides = self.steady_corner_since(self.leaps.hold_tried)?;
         self.leaps.hold_tried = self.n + HELD_AGAIN;
         self.make_map(sides)
     }
 
     /// The corner in contact in this step, if neither pulse nor ramp nor
     /// excitation acts on it.
-    pub(in crate::motion::explicit) fn steady_corner(&self) -> Option<[u32; 2]> {
+    fn steady_corner(&self) -> Option<[u32; 2]> {
         let ActiveSet::Corner(a, b) = self.record.log.active_set else { return None };
         (self.drive.is_steady(self.n) && self.record.last_touch == self.n).then_some([a, b])
+    }
+
+    /// The same, if it has lasted for `HELD_AFTER` steps, and as many since this one.
+    #[inline]
+    pub(super) fn steady_corner_since(&self, step: u64) -> Option<[u32; 2]> {
+        let sides = self.steady_corner()?;
+        let since = ((self.record.log.since / self.drive.step) as u64).max(step);
+        (self.n >= since + HELD_AFTER).then_some(sides)
     }
 
     // Out of the steps: its stack is large.
@@ -226,11 +230,7 @@ impl<B: Disk> Explicit<B> {
     /// Whether a lock that swings too far to be leapt over pulls, if no push of it and no
     /// predicted gap ever changes its sign.
     pub(super) fn lock_for_good(&self) -> Option<bool> {
-        let sides = self.steady_corner()?;
-        let since = (self.record.log.since / self.drive.step) as u64;
-        if self.n < since + HELD_AFTER {
-            return None;
-        }
+        let sides = self.steady_corner_since(0)?;
         let Standing { step, resting, swing, .. } = self.stand_in(sides, true)?;
         let small = self.machine.nodal_diameters * swing.0 < KEPT_TURN;
         let pulls = resting.at_rest.multipliers.iter().any(|multiplier| *multiplier > 0.0);
