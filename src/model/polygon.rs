@@ -127,13 +127,38 @@ impl ContactPolygon {
     /// the mode displacements `(x, y)`.
     #[must_use]
     pub fn largest_component(&self, x: f64, y: f64) -> f64 {
+        self.largest_component_near(x, y, &mut self.nearest_side(-x, -y))
+    }
+
+    /// The same, beginning at a side that may have it; that side is then the one that has.
+    #[must_use]
+    pub fn largest_component_near(&self, x: f64, y: f64, near: &mut u32) -> f64 {
         let along = |side: u32| {
             let (c, s) = self.direction(side);
-            (c * x + s * y).abs()
+            c * x + s * y
         };
-        let near = along(self.nearest_side(x, y));
+        // Around the sides it has one top, and opposite one bottom.
+        let climb = |from: u32, sign: f64| {
+            let mut top = (from, sign * along(from));
+            for way in [Self::next, Self::previous] {
+                for _ in 0..self.sides {
+                    let side = way(self, top.0);
+                    let value = sign * along(side);
+                    if value > top.1 {
+                        top = (side, value);
+                    } else {
+                        break;
+                    }
+                }
+            }
+            top
+        };
+        let (side, top) = climb(*near, 1.0);
+        *near = side;
         // Sides in even number lie opposite each other.
-        if self.sides.is_multiple_of(2) { near } else { near.max(along(self.nearest_side(-x, -y))) }
+        let even = self.sides.is_multiple_of(2);
+        let opposite = (side + self.sides / 2) % self.sides;
+        if even { top.abs() } else { top.max(climb(opposite, -1.0).1) }
     }
 }
 
@@ -238,6 +263,11 @@ mod tests {
                 });
                 let all = each.fold(0.0, f64::max);
                 assert_eq!(polygon.largest_component(x, y), all, "{sides} {step}");
+                for mut near in 0..sides {
+                    let from = near;
+                    let largest = polygon.largest_component_near(x, y, &mut near);
+                    assert_eq!(largest, all, "{sides} {step} {from}");
+                }
             }
         }
     }

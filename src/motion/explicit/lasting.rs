@@ -184,7 +184,7 @@ impl Lasting {
 }
 
 /// Odd and without a pattern, so that sums and products of it differ for different sets.
-pub(super) const MARK: u64 = 0x9e37_79b9_7f4a_7c15;
+const MARK: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// A number of one row, so that sums of them differ for different sets (the finisher of
 /// SplitMix64).

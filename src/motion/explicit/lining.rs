@@ -1,19 +1,20 @@
 //! A lining that gives way, as arrays: the gaps of all rows near it and the pushes of the
 //! latest step, which act on the next one (docs/theory.md, sections 6 and 10).
 //!
-//! `near` are the rows that may press, padded to whole pairs by a row of no blade. They
+//! `near` are the rows that may press, padded to whole fours by rows of no blade. They
 //! are looked for again when the casing has moved by the margin that they were looked for
 //! with. One pass over them finds the pushes and all their sums; what touches is kept by
 //! changes, and what the lining stores is worked out from the pushes when it is asked for.
 
 use std::sync::OnceLock;
 
-use wide::f64x2;
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, dispatch, f64x4};
 
 use super::Explicit;
 use super::dies::Rest;
 use super::disk::{Columns, Disk};
-use super::lasting::{MARK, mark};
+use super::lasting::mark;
 use super::record::Record;
 use super::rows::TipLaw;
 use crate::model::LiningLaw;
@@ -33,6 +34,8 @@ pub(super) struct Lining {
     touching: Touching,
     /// Which waves die at this speed, once asked.
     pub rest: OnceLock<Rest>,
+    /// What the processor can do with four rows at once: more or less of it, to the same bit.
+    lanes: Level,
 }
 
 /// Sums over the rows of a step.
@@ -46,8 +49,8 @@ struct Sums {
     /// What two modes feel of the torques \[N m\].
     felt: [f64; 2],
     deepest: f64,
-    /// A number for the set of places near that press.
-    pressing: u64,
+    /// Whether other rows press than in the step before.
+    changed: bool,
 }
 
 /// What presses.
@@ -69,6 +72,7 @@ impl Lining {
             held_before: None,
             touching: Touching::default(),
             rest: OnceLock::new(),
+            lanes: Level::new(),
         }
     }
 
@@ -94,12 +98,12 @@ impl Lining {
 
     /// Gives the sums of the pushes until now to the record.
     pub fn give_impulses(&mut self, record: &mut Record) {
-        for (_, side, impulse) in self.near.each(|pair| pair.impulse) {
+        for (_, side, impulse) in self.near.each(|four| four.impulse) {
             if impulse != 0.0 {
                 record.impulse(side, -impulse);
             }
         }
-        self.near.pairs.iter_mut().for_each(|pair| pair.impulse = f64x2::ZERO);
+        self.near.fours.iter_mut().for_each(|four| four.impulse = [0.0; 4]);
     }
 
     /// Stored between the last two steps \[J\].
@@ -119,7 +123,7 @@ impl Lining {
                 if on_line { deep + 0.5 * smoothing_m } else { (2.0 * smoothing_m * deep).sqrt() };
             stiffness / k * self.law.energy(-depth)
         };
-        let rows = pushes.zip(self.near.each(|pair| pair.stiffness));
+        let rows = pushes.zip(self.near.each(|four| four.stiffness));
         let pressed = rows.filter(|((.., push), _)| *push > 0.0);
         pressed.map(|((.., push), (.., stiffness))| of_row(push, stiffness)).sum()
     }
@@ -134,8 +138,8 @@ impl Lining {
             record.keep_touching(n.saturating_sub(1), side);
         }
         self.held_before = Some(self.energy(self.near.pushes()));
-        for pair in &mut self.near.pairs {
-            (pair.pushes, pair.torque) = ([f64x2::ZERO; 2], f64x2::ZERO);
+        for four in &mut self.near.fours {
+            (four.pushes, four.torque) = ([[0.0; 4]; 2], [0.0; 4]);
         }
         (self.sums, self.touching) = (Sums::default(), Touching::default());
     }
@@ -159,112 +163,9 @@ impl Lining {
     /// Pushes of all rows, with the casing at `z` in the frame of the blades and the modes
     /// or each row at its angle, which none exceeds by its phase `most`.
     fn press(&mut self, z: Plane, tips: &TipLaw, modes: Option<[f64; 2]>, most: f64) {
-        let smooth = self.law.smoothing_m > 0.0;
-        self.sums = match (modes, smooth) {
-            (Some(modes), true) => self.press_at::<true, true>(z, tips, modes, most),
-            (Some(modes), false) => self.press_at::<true, false>(z, tips, modes, most),
-            (None, true) => self.press_at::<false, true>(z, tips, [0.0; 2], most),
-            (None, false) => self.press_at::<false, false>(z, tips, [0.0; 2], most),
-        };
-    }
-
-    /// `press` by the shortest series that is exact.
-    #[inline(always)]
-    fn press_at<const MODAL: bool, const SMOOTH: bool>(
-        &mut self,
-        z: Plane,
-        tips: &TipLaw,
-        modes: [f64; 2],
-        most: f64,
-    ) -> Sums {
-        if tips.diameters == 0.0 {
-            self.press_by::<MODAL, SMOOTH>(z, tips, modes, |_| (f64x2::ZERO, f64x2::ONE))
-        } else if most < SHORT_SERIES_PHASE {
-            self.press_by::<MODAL, SMOOTH>(z, tips, modes, |phase| {
-                let q = phase * phase;
-                // Short chains of operations.
-                let cos = (1.0 - q * 0.5) + (q * q) * (1.0 / 24.0);
-                (phase - (phase * (1.0 / 6.0)) * q, cos)
-            })
-        } else if most < SERIES_PHASE {
-            self.press_by::<MODAL, SMOOTH>(z, tips, modes, |phase| {
-                let q = phase * phase;
-                let sin = q * (1.0 / 6.0) * (1.0 - q * (1.0 / 20.0) * (1.0 - q * (1.0 / 42.0)));
-                let fourth = 1.0 - q * (1.0 / 30.0) * (1.0 - q * (1.0 / 56.0));
-                (phase - phase * sin, 1.0 - q * 0.5 * (1.0 - q * (1.0 / 12.0) * fourth))
-            })
-        } else {
-            self.press_by::<MODAL, SMOOTH>(z, tips, modes, |phase| {
-                let both = phase.to_array().map(f64::sin_cos);
-                (both.map(|(sin, _)| sin).into(), both.map(|(_, cos)| cos).into())
-            })
-        }
-    }
-
-    /// `press` with this sine and cosine. Phases are angles where there are no diameters.
-    #[inline(always)]
-    fn press_by<const MODAL: bool, const SMOOTH: bool>(
-        &mut self,
-        z: Plane,
-        tips: &TipLaw,
-        modes: [f64; 2],
-        sin_cos: impl Fn(f64x2) -> (f64x2, f64x2),
-    ) -> Sums {
-        let eps = f64x2::splat(self.law.smoothing_m);
-        let by_depth = f64x2::splat(if SMOOTH { 0.5 / self.law.smoothing_m } else { 0.0 });
-        let TipLaw { clearance, diameters, pushed, .. } = *tips;
-        let scale = if diameters == 0.0 { 1.0 } else { diameters };
-        let rise = tips.rise / scale;
-        let modes = modes.map(|mode| mode * scale);
-        let [mut x, mut y, mut pushes, mut turning, mut deepest] = [f64x2::ZERO; 5];
-        let mut felt = [f64x2::ZERO; 2];
-        let mut pressing = 0_u64;
-        self.near.latest ^= 1;
-        let now = self.near.latest & 1;
-        for pair in &mut self.near.pairs {
-            let phase = if MODAL {
-                pair.shape[0] * modes[0] + pair.shape[1] * modes[1]
-            } else {
-                pair.angle * scale
-            };
-            let (sin, cos) = sin_cos(phase);
-            let across = pair.cosine * cos - pair.sine * sin;
-            let along = pair.sine * cos + pair.cosine * sin;
-            let inward = across * z.re + along * z.im;
-            let arm = across * z.im - along * z.re;
-            let deep = (phase * rise - (inward + clearance)).fast_max(f64x2::ZERO);
-            let depth = if SMOOTH {
-                let parabola = deep.fast_min(eps);
-                parabola * parabola * by_depth + (deep - parabola)
-            } else {
-                deep
-            };
-            let push = depth * pair.stiffness;
-            let touches = u64::from(push.simd_gt(f64x2::ZERO).to_bitmask());
-            pressing = pressing.wrapping_mul(MARK).wrapping_add(touches);
-            pair.pushes[now] = push;
-            pair.impulse += push;
-            let torque = push * (arm * diameters - pushed);
-            if MODAL {
-                felt[0] += pair.shape[0] * torque;
-                felt[1] += pair.shape[1] * torque;
-            } else {
-                pair.torque = torque;
-            }
-            x += push * across;
-            y += push * along;
-            pushes += push;
-            turning += torque;
-            deepest = deepest.fast_max(deep);
-        }
-        Sums {
-            force: Plane::new(x.reduce_add(), y.reduce_add()),
-            push: pushes.reduce_add(),
-            torque: turning.reduce_add(),
-            felt: felt.map(f64x2::reduce_add),
-            deepest: deepest.to_array().into_iter().fold(0.0, f64::max),
-            pressing,
-        }
+        let (law, rows) = (self.law, &mut self.near);
+        let press = Press { law, rows, z, tips, modes, most };
+        self.sums = dispatch!(self.lanes, simd => press.on(simd));
     }
 
     /// Keeps which rows press at step `n`, where these are others than before.
@@ -288,6 +189,136 @@ impl Lining {
         }
         touching.all = count == rows;
         self.touching = touching;
+    }
+}
+
+/// The pass over all rows near.
+struct Press<'a> {
+    law: LiningLaw,
+    rows: &'a mut Columns,
+    z: Plane,
+    tips: &'a TipLaw,
+    modes: Option<[f64; 2]>,
+    most: f64,
+}
+
+impl Press<'_> {
+    #[inline(always)]
+    fn on<S: Simd>(self, simd: S) -> Sums {
+        let smooth = self.law.smoothing_m > 0.0;
+        match (self.modes, smooth) {
+            (Some(modes), true) => self.at::<S, true, true>(simd, modes),
+            (Some(modes), false) => self.at::<S, true, false>(simd, modes),
+            (None, true) => self.at::<S, false, true>(simd, [0.0; 2]),
+            (None, false) => self.at::<S, false, false>(simd, [0.0; 2]),
+        }
+    }
+
+    /// By the shortest series of sine and cosine that is exact.
+    #[inline(always)]
+    fn at<S: Simd, const MODAL: bool, const SMOOTH: bool>(self, simd: S, modes: [f64; 2]) -> Sums {
+        let all = |number: f64| f64x4::splat(simd, number);
+        let one = all(1.0);
+        if self.tips.diameters == 0.0 {
+            self.by::<S, MODAL, SMOOTH>(simd, modes, |_| (all(0.0), one))
+        } else if self.most < SHORT_SERIES_PHASE {
+            self.by::<S, MODAL, SMOOTH>(simd, modes, |phase| {
+                let q = phase * phase;
+                // Short chains of operations.
+                let cos = (one - q * 0.5) + (q * q) * (1.0 / 24.0);
+                (phase - (phase * (1.0 / 6.0)) * q, cos)
+            })
+        } else if self.most < SERIES_PHASE {
+            self.by::<S, MODAL, SMOOTH>(simd, modes, |phase| {
+                let q = phase * phase;
+                let fifth = one - q * (1.0 / 20.0) * (one - q * (1.0 / 42.0));
+                let fourth = one - q * (1.0 / 30.0) * (one - q * (1.0 / 56.0));
+                let cos = one - q * 0.5 * (one - q * (1.0 / 12.0) * fourth);
+                (phase - phase * (q * (1.0 / 6.0) * fifth), cos)
+            })
+        } else {
+            self.by::<S, MODAL, SMOOTH>(simd, modes, |phase| {
+                let both = <[f64; 4]>::from(phase).map(f64::sin_cos);
+                let (sin, cos) = (both.map(|(sin, _)| sin), both.map(|(_, cos)| cos));
+                (sin.simd_into(simd), cos.simd_into(simd))
+            })
+        }
+    }
+
+    /// With this sine and cosine. Phases are angles where there are no diameters.
+    #[inline(always)]
+    fn by<S: Simd, const MODAL: bool, const SMOOTH: bool>(
+        self,
+        simd: S,
+        modes: [f64; 2],
+        sin_cos: impl Fn(f64x4<S>) -> (f64x4<S>, f64x4<S>),
+    ) -> Sums {
+        let all = |number: f64| f64x4::splat(simd, number);
+        let load = |numbers: [f64; 4]| -> f64x4<S> { numbers.simd_into(simd) };
+        let one = all(1.0);
+        let Self { law, rows, z, tips, .. } = self;
+        let scale = if tips.diameters == 0.0 { 1.0 } else { tips.diameters };
+        let modes = modes.map(|mode| all(mode * scale));
+        let (scale, rise) = (all(scale), all(tips.rise / scale));
+        let (clearance, diameters) = (all(tips.clearance), all(tips.diameters));
+        let (pushed, re, im) = (all(tips.pushed), all(z.re), all(z.im));
+        let eps = all(law.smoothing_m);
+        let by_depth = all(if SMOOTH { 0.5 / law.smoothing_m } else { 0.0 });
+        let none = all(0.0);
+        let [mut x, mut y, mut pushes, mut turning, mut deepest] = [none; 5];
+        let (mut felt, mut changed) = ([none; 2], none);
+        rows.latest ^= 1;
+        let now = rows.latest & 1;
+        for four in &mut rows.fours {
+            let shape = [load(four.shape[0]), load(four.shape[1])];
+            let phase = if MODAL {
+                shape[0] * modes[0] + shape[1] * modes[1]
+            } else {
+                load(four.angle) * scale
+            };
+            let (sin, cos) = sin_cos(phase);
+            let (cosine, sine) = (load(four.cosine), load(four.sine));
+            let across = cosine * cos - sine * sin;
+            let along = sine * cos + cosine * sin;
+            let inward = across * re + along * im;
+            let arm = across * im - along * re;
+            let deep = (phase * rise - (inward + clearance)).max(none);
+            let depth = if SMOOTH {
+                let parabola = deep.min(eps);
+                parabola * parabola * by_depth + (deep - parabola)
+            } else {
+                deep
+            };
+            let push = depth * load(four.stiffness);
+            let presses = push.simd_gt(none).select(one, none);
+            let other = presses - load(four.pushes[now ^ 1]).simd_gt(none).select(one, none);
+            changed += other * other;
+            four.pushes[now] = push.into();
+            four.impulse = (load(four.impulse) + push).into();
+            let torque = push * (arm * diameters - pushed);
+            if MODAL {
+                felt = [felt[0] + shape[0] * torque, felt[1] + shape[1] * torque];
+            } else {
+                four.torque = torque.into();
+            }
+            x += push * across;
+            y += push * along;
+            pushes += push;
+            turning += torque;
+            deepest = deepest.max(deep);
+        }
+        let sum = |four: f64x4<S>| {
+            let [a, b, c, d] = four.into();
+            (a + b) + (c + d)
+        };
+        Sums {
+            force: Plane::new(sum(x), sum(y)),
+            push: sum(pushes),
+            torque: sum(turning),
+            felt: felt.map(sum),
+            deepest: <[f64; 4]>::from(deepest).into_iter().fold(0.0, f64::max),
+            changed: sum(changed) > 0.0,
+        }
     }
 }
 
@@ -371,9 +402,8 @@ impl<B: Disk> Explicit<B> {
         if modes.is_none() {
             blades.angles(&mut lining.near);
         }
-        let before = lining.sums.pressing;
         lining.press(z, tips, modes, tips.diameters * bound);
-        if anew || lining.sums.pressing != before {
+        if anew || lining.sums.changed {
             lining.keep_change(record, n, blades.table().count());
         }
         record.deepest = record.deepest.max(lining.sums.deepest);
@@ -460,6 +490,6 @@ impl<B: Disk> Explicit<B> {
         let Some(lining) = &mut self.lining else { return };
         lining.held_before = Some(part * lining.energy(lining.near.pushes()));
         // The record has the pushes of this step.
-        lining.near.pairs.iter_mut().for_each(|pair| pair.impulse = f64x2::ZERO);
+        lining.near.fours.iter_mut().for_each(|four| four.impulse = [0.0; 4]);
     }
 }

@@ -201,18 +201,19 @@ impl Disk for FullBlades {
             Some(angles) => angles[row as usize],
             None => mean_of(ring, table, near, row, |shapes| product(shapes, x)),
         };
-        for (pair, rows) in rows.pairs.iter_mut().zip(rows.index.chunks(2)) {
-            let first = angle(rows[0]);
-            pair.angle = [first, rows.get(1).map_or(first, |&row| angle(row))].into();
+        for (four, rows) in rows.fours.iter_mut().zip(rows.index.chunks(4)) {
+            for (place, &row) in four.angle.iter_mut().zip(rows) {
+                *place = angle(row);
+            }
         }
     }
     fn push(&mut self, rows: &Columns, _: [f64; 2]) -> f64 {
         if self.are_many(rows) {
-            self.put(rows.each(|pair| pair.torque));
+            self.put(rows.each(|four| four.torque));
             return self.turn_all();
         }
         let mut change = 0.0;
-        for (row, _, torque) in rows.each(|pair| pair.torque) {
+        for (row, _, torque) in rows.each(|four| four.torque) {
             if torque != 0.0 {
                 self.correct(row, torque);
                 change += self.compliance(row, row) * torque.abs();
@@ -231,7 +232,7 @@ impl Disk for FullBlades {
         swept
     }
     fn begin(&mut self, rows: &Columns, _: [f64; 2]) {
-        self.put(rows.each(|pair| pair.torque));
+        self.put(rows.each(|four| four.torque));
         let Self { ring, x, increments, room, .. } = self;
         ring.shapes.feel(room, |k, felt| {
             for (place, felt) in ring.pair(k).into_iter().zip(felt) {

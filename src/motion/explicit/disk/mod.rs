@@ -24,8 +24,6 @@ pub(in crate::motion) use table::{Columns, RowTable};
 
 use std::fmt::Debug;
 
-use wide::f64x2;
-
 use super::drive::Driven;
 use super::oscillator::Coordinate;
 use crate::model::Machine;
@@ -66,16 +64,17 @@ pub(in crate::motion) trait Disk: Clone + Debug + Send + Sync + 'static {
     }
     /// Finds the angles of these rows \[rad\].
     fn angles(&mut self, rows: &mut Columns) {
-        for (pair, rows) in rows.pairs.iter_mut().zip(rows.index.chunks(2)) {
-            let first = self.angle(rows[0]);
-            pair.angle = f64x2::from([first, rows.get(1).map_or(first, |&row| self.angle(row))]);
+        for (four, rows) in rows.fours.iter_mut().zip(rows.index.chunks(4)) {
+            for (angle, &row) in four.angle.iter_mut().zip(rows) {
+                *angle = self.angle(row);
+            }
         }
     }
     /// Corrects the predicted step by the torques on these rows, of which two modes feel
     /// so much \[N m\]; a bound on the change of any blade angle \[rad\].
     fn push(&mut self, rows: &Columns, _felt: [f64; 2]) -> f64 {
         let mut change = 0.0;
-        for (row, _, torque) in rows.each(|pair| pair.torque) {
+        for (row, _, torque) in rows.each(|four| four.torque) {
             if torque != 0.0 {
                 self.correct(row, torque);
                 change += self.compliance(row, row) * torque.abs();

@@ -3,8 +3,6 @@
 
 use std::sync::Arc;
 
-use wide::f64x2;
-
 use super::{Columns, Disk, HeldModes, RowTable};
 use crate::model::{ContactPolygon, Machine, gcd};
 use crate::motion::Plane;
@@ -25,6 +23,8 @@ pub struct ModalBlades {
     torque: [f64; 2],
     has_sine_mode: bool,
     rows: Arc<Rows>,
+    /// Phase of the blades that had the largest angle when it was looked at last.
+    widest: u32,
     /// Angle of each row, where they are not those of a wave of the casing's diameters.
     angles: Vec<f64>,
 }
@@ -84,6 +84,7 @@ impl Disk for ModalBlades {
             torque: [0.0; 2],
             angles: vec![0.0; if rows.follows { 0 } else { rows.table.count() }],
             has_sine_mode: machine.has_sine_mode,
+            widest: 0,
             rows: Arc::new(rows),
         };
         let torques = blades.torques(driven);
@@ -158,13 +159,16 @@ impl Disk for ModalBlades {
         self.modes.iter_mut().for_each(|mode| mode.x *= part);
     }
     fn swept(&mut self, rows: &Columns) -> f64 {
-        let mut pushes = [f64x2::ZERO; 2];
-        for pair in &rows.pairs {
-            let push = pair.pushes[rows.latest & 1];
-            pushes[0] += pair.shape[0] * push;
-            pushes[1] += pair.shape[1] * push;
+        let mut pushes = [[0.0; 4]; 2];
+        for four in &rows.fours {
+            let push = four.pushes[rows.latest & 1];
+            for (sum, shape) in pushes.iter_mut().zip(four.shape) {
+                for k in 0..4 {
+                    sum[k] += shape[k] * push[k];
+                }
+            }
         }
-        let [c, s] = pushes.map(f64x2::reduce_add);
+        let [c, s] = pushes.map(|[a, b, c, d]| (a + b) + (c + d));
         let moved = |k: usize| 0.5 * (self.modes[k].increment + self.before[k]);
         c * moved(0) + s * moved(1)
     }
@@ -190,7 +194,9 @@ impl Disk for ModalBlades {
         if amplitude <= largest {
             return (0.0, amplitude);
         }
-        let now = self.largest(self.modal());
+        let [cosine, sine] = self.modal();
+        let now = self.rows.phases.largest_component_near(cosine, sine, &mut self.widest);
+        let now = if amplitude.is_finite() { now } else { f64::INFINITY };
         (now, now)
     }
     fn reach(&self) -> f64 {

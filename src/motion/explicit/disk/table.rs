@@ -1,7 +1,5 @@
 //! Which blades make one constraint row: those that nothing tells apart.
 
-use wide::f64x2;
-
 use crate::model::Machine;
 
 /// The rows of a disk. The blades of a row are `row`, `row + rows`, `row + 2 rows` and so
@@ -50,34 +48,34 @@ impl RowTable {
     }
 }
 
-/// Some rows as columns of numbers, two at a time; the last is repeated, without
-/// stiffness, where their number is odd.
+/// Some rows as columns of numbers, four at a time; the last is repeated, without
+/// stiffness, until they are whole fours.
 #[derive(Clone, Debug, Default)]
 pub(in crate::motion) struct Columns {
     pub index: Vec<u32>,
     pub side: Vec<u32>,
-    pub pairs: Vec<Pair>,
+    pub fours: Vec<Four>,
     pub latest: usize,
 }
 
-/// Two rows side by side.
+/// Four rows side by side.
 #[derive(Clone, Copy, Debug, Default)]
-pub(in crate::motion) struct Pair {
+pub(in crate::motion) struct Four {
     /// Direction at rest, `(cos psi, sin psi)`.
-    pub cosine: f64x2,
-    pub sine: f64x2,
+    pub cosine: [f64; 4],
+    pub sine: [f64; 4],
     /// `Disk::shape_of`.
-    pub shape: [f64x2; 2],
+    pub shape: [[f64; 4]; 2],
     /// Stiffness of the lining under all blades of a row \[N/m\].
-    pub stiffness: f64x2,
+    pub stiffness: [f64; 4],
     /// Angle \[rad\] and torque \[N m\] of each row, where there are not only two modes.
-    pub angle: f64x2,
-    pub torque: f64x2,
+    pub angle: [f64; 4],
+    pub torque: [f64; 4],
     /// Push on the blades of a row, that of the latest step at the place `latest` and that
     /// of the step before, and the sum of the pushes since it was given to the record
     /// \[N\].
-    pub pushes: [f64x2; 2],
-    pub impulse: f64x2,
+    pub pushes: [[f64; 4]; 2],
+    pub impulse: [f64; 4],
 }
 
 impl Columns {
@@ -92,45 +90,44 @@ impl Columns {
     ) -> Self {
         let side: Vec<u32> = rows.iter().map(|&row| table.side[row as usize]).collect();
         let each = f64::from(table.blades_per_row) * stiffness_n_per_m;
-        let pair = |(rows, sides): (&[u32], &[u32])| {
-            let both = |of: &dyn Fn(usize) -> f64| f64x2::from([of(0), of(rows.len() - 1)]);
-            let shapes = [shape(rows[0]), shape(rows[rows.len() - 1])];
-            let shapes = |place: usize| shapes[place.min(1)];
-            Pair {
-                cosine: both(&|place| direction(sides[place]).0),
-                sine: both(&|place| direction(sides[place]).1),
-                shape: [both(&|place| shapes(place).0), both(&|place| shapes(place).1)],
-                stiffness: f64x2::from([each, if rows.len() > 1 { each } else { 0.0 }]),
-                ..Pair::default()
+        let four = |(rows, sides): (&[u32], &[u32])| {
+            let last = rows.len() - 1;
+            let column = |of: &dyn Fn(usize) -> f64| [0, 1, 2, 3].map(|k: usize| of(k.min(last)));
+            Four {
+                cosine: column(&|k| direction(sides[k]).0),
+                sine: column(&|k| direction(sides[k]).1),
+                shape: [column(&|k| shape(rows[k]).0), column(&|k| shape(rows[k]).1)],
+                stiffness: [0, 1, 2, 3].map(|k| if k <= last { each } else { 0.0 }),
+                ..Four::default()
             }
         };
-        let pairs = rows.chunks(2).zip(side.chunks(2)).map(pair).collect();
-        Self { index: rows.to_vec(), side, pairs, latest: 0 }
+        let fours = rows.chunks(4).zip(side.chunks(4)).map(four).collect();
+        Self { index: rows.to_vec(), side, fours, latest: 0 }
     }
 
     /// Index and side of each row, and this value of it.
     pub fn each(
         &self,
-        value: impl Fn(&Pair) -> f64x2 + Clone,
+        value: impl Fn(&Four) -> [f64; 4] + Clone,
     ) -> impl Iterator<Item = (u32, u32, f64)> + Clone {
-        let values = self.pairs.iter().flat_map(move |pair| value(pair).to_array());
+        let values = self.fours.iter().flat_map(value);
         let rows = self.index.iter().zip(&self.side);
         rows.zip(values).map(|((&index, &side), value)| (index, side, value))
     }
 
     /// The push of each row in the latest step \[N\].
     pub fn pushes(&self) -> impl Iterator<Item = (u32, u32, f64)> + Clone {
-        self.each(|pair| pair.pushes[self.latest & 1])
+        self.each(|four| four.pushes[self.latest & 1])
     }
 
     /// The same in the step before \[N\].
     pub fn before(&self) -> impl Iterator<Item = (u32, u32, f64)> + Clone {
-        self.each(|pair| pair.pushes[(self.latest ^ 1) & 1])
+        self.each(|four| four.pushes[(self.latest ^ 1) & 1])
     }
 
     /// Puts the push of the row at a place in the latest step \[N\].
     pub fn put_push(&mut self, place: usize, push: f64) {
-        self.pairs[place / 2].pushes[self.latest & 1].as_mut_array()[place % 2] = push;
+        self.fours[place / 4].pushes[self.latest & 1][place % 4] = push;
     }
 }
 
