@@ -96,6 +96,14 @@ pub(crate) const LEAP_FOLDS: f64 = 8.0;
 /// penetration needs no look at the neighbour. Speed only.
 pub(crate) const SLIDING_DEPTH: f64 = 1e-2;
 
+/// Part of a push that blades may take away at most where a side is slid along, of tips
+/// that friction turns into the casing: nearer to one, single steps say why they fail.
+pub(crate) const SLIDING_SHARE: f64 = 0.5;
+
+/// Part of the way in a step that ends a motion beyond the paper, below which a slide need
+/// not look at it. Speed only.
+pub(crate) const SLIDING_WAY: f64 = 0.5;
+
 /// Mass ratio of the blades of a side below which its third power is round-off of a
 /// push.
 pub(crate) const LIGHT_PUSH: f64 = 1e-6;

@@ -69,6 +69,11 @@ impl Beyond {
         })
     }
 
+    /// Steps from step `n` to that look, at least one.
+    pub fn unseen(&self, n: u64) -> u64 {
+        self.next_look.saturating_sub(n).max(1)
+    }
+
     /// From now on with the parameters of another scene, at this rotor speed. Gaps of the
     /// steps before may be others now, by as much as the clearance.
     pub fn set_parameters(&mut self, scene: &CheckedScene, machine: &Machine, speed: f64) {
@@ -220,7 +225,7 @@ impl<B: Disk> Explicit<B> {
 
     /// Energy in casing, blades and lining between the last two steps \[J\].
     pub(super) fn stored(&self) -> f64 {
-        if self.leaps.holds_corner() {
+        if self.leaps.are_ahead() {
             let (u, blades) = self.materialized();
             return self.stored_in(u, &blades);
         }

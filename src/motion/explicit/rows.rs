@@ -15,7 +15,7 @@ use crate::motion::Plane;
 use crate::tolerances::{SERIES_PHASE, SMALL_PHASE};
 
 /// What the tips do at the rotor speed of now.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(in crate::motion) struct TipLaw {
     pub clearance: f64,
     pub diameters: f64,

@@ -279,6 +279,11 @@ impl ModalBlades {
         &self.oscillator
     }
 
+    /// Increments of the modes in the step before the last \[rad\].
+    pub fn before(&self) -> [f64; 2] {
+        self.before
+    }
+
     /// `(p_c, p_s)` of a side, where the disk has the diameters of the casing wave.
     pub fn shape(&self, side: u32) -> (f64, f64) {
         self.rows.phases.direction(side)

@@ -261,7 +261,7 @@ impl<B: Disk> Explicit<B> {
 
     /// The modes of a corner whose rows are its two sides, and whose casing is rigid and
     /// gives nothing back.
-    fn corner_modes(&self) -> Option<HeldModes<'_>> {
+    pub(super) fn corner_modes(&self) -> Option<HeldModes<'_>> {
         let plain = || {
             let by_side = self.blades.wave().is_some() && self.blades.table().is_by_side();
             let rigid = self.lining.is_none() && self.scene.contact.restitution == 0.0;

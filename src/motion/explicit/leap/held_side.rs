@@ -27,13 +27,13 @@ use std::sync::Arc;
 
 use nalgebra::{SMatrix, SVector};
 
-use super::sliding::{Rules, Sliding};
+use super::sliding::{Before, Done, Rules, Sliding, Tips};
 use crate::model::ContactPolygon;
 use crate::motion::explicit::disk::{Disk, HeldModes};
 use crate::motion::explicit::oscillator::{LARGEST, Leap};
 use crate::motion::explicit::{Coordinate, Explicit, Oscillator};
 use crate::motion::{ActiveSet, Plane};
-use crate::tolerances::{LEAP_FOLDS, SHORTEST_BLOCK};
+use crate::tolerances::{LEAP_FOLDS, SHORTEST_BLOCK, SLIDING_WAY};
 
 /// `y`, `y[n] - y[n-1]`, `g0`, and the sum of the `y` of the steps before.
 pub(in crate::motion::explicit) type Along = SVector<f64, 4>;
@@ -277,19 +277,47 @@ impl<B: Disk> Explicit<B> {
             && let Some(side) = self.steady_side()
         {
             self.leaps.sliding = self.begin_sliding(side);
+            if self.leaps.sliding.is_none() && self.goes_beyond {
+                self.leaps.slide_tried = self.n + SHORTEST_BLOCK;
+            }
         }
         self.leaps.sliding.is_some()
     }
 
     fn begin_sliding(&self, side: u32) -> Option<Sliding> {
-        let HeldModes { modes, moving } = self.blades.held_modes()?;
+        let HeldModes { modes, moving } = self.corner_modes()?;
+        let moving = moving?;
         if self.neighbours_matter || !self.machine.polygon.has_corners() {
             return None;
         }
-        let rules = Rules::new(&self.machine, &self.casing, moving?, self.side_step())?;
-        let mut sliding = Sliding::new(rules, moving?, side, self.seen_from(side), modes)?;
-        sliding.multiplier = self.rows.first().map_or(0.0, |row| row.lambda);
+        let tips = self.goes_beyond.then(|| self.sliding_tips());
+        let step = self.side_step();
+        let rules = Rules::new(&self.machine, &self.casing, moving, step, tips)?;
+        let [c, s] = self.beyond.before;
+        let before = Plane::new(c, s) * self.standing_side(side, self.n.saturating_sub(1)).conj();
+        let mut sliding = Sliding::new(rules, moving, side, self.seen_from(side), modes, before)?;
+        sliding.multiplier = self.rows.iter().map(|row| row.lambda).sum();
         Some(sliding)
+    }
+
+    /// What a slide beyond the paper needs at this speed.
+    fn sliding_tips(&self) -> Tips {
+        let (law, turned) = (self.tips, self.drive.speed(self.n) * self.drive.step);
+        let tip = turned.abs() * self.scene.casing.radius_m;
+        let outrun = if law.casing_friction == 0.0 {
+            f64::INFINITY
+        } else {
+            tip / self.machine.tangential_ratio
+        };
+        Tips {
+            law,
+            fastest: SLIDING_WAY * self.beyond.long.min(outrun),
+            turned,
+            radius: self.scene.casing.radius_m,
+            length: self.machine.blade_length,
+            casing_lost: self.casing.lost(),
+            counts: !self.beyond.account.forgone,
+        }
     }
 
     /// Slides on, by `steps` steps at most, until another kind of step must be taken.
@@ -305,6 +333,9 @@ impl<B: Disk> Explicit<B> {
             self.record.keep_touching(self.n, side);
             self.record.touch(self.n, self.record.log.active_set, false);
         }
+        if self.goes_beyond {
+            self.keep_slide(&done);
+        }
         if done.steps < steps {
             self.end_sliding();
             // Deciding costs as much as some steps.
@@ -312,10 +343,30 @@ impl<B: Disk> Explicit<B> {
         }
     }
 
+    /// Keeps what steps along a side beyond the paper did.
+    fn keep_slide(&mut self, done: &Done) {
+        self.record.deepest = self.record.deepest.max(done.left);
+        let sums = &mut self.beyond.account.sums;
+        sums.rotor_work_j += done.flows.rotor;
+        sums.casing_loss_j += done.flows.casing;
+        sums.blade_loss_j += done.flows.blades;
+        sums.friction_heat_j += done.flows.heat;
+        sums.impact_loss_j += done.flows.impact;
+        let swing = self.leaps.sliding.as_ref().map_or(0.0, Sliding::amplitude);
+        if let Some(n) = self.beyond.look_until(self.n) {
+            let swing = self.tips.rise.abs() * swing;
+            self.beyond.lasting.look(self.time_of(n), Plane::default(), Plane::default(), swing);
+        }
+    }
+
     /// Goes on by single steps.
     pub(in crate::motion::explicit) fn end_sliding(&mut self) {
         if let Some(sliding) = self.leaps.sliding.take() {
             (self.u, self.blades) = self.slid(&sliding);
+            let Before { moved, gaps, .. } = sliding.before;
+            let moved = moved * self.standing_side(sliding.side, self.n.saturating_sub(1));
+            self.beyond.before = [moved.re, moved.im];
+            self.beyond.dips = gaps.map(|gap| f64::max(-gap, 0.0));
             for row in self.rows.iter_mut().filter(|row| row.side == sliding.side) {
                 row.lambda = sliding.multiplier;
             }
@@ -326,8 +377,8 @@ impl<B: Disk> Explicit<B> {
     pub(in crate::motion::explicit) fn slid(&self, sliding: &Sliding) -> ([Coordinate; 2], B) {
         let mut blades = self.blades.clone();
         if let Some(moving) = self.blades.held_modes().and_then(|blades| blades.moving) {
-            let modes = sliding.modes(moving);
-            blades.set_held_modes(modes, modes.map(|mode| mode.increment));
+            let (modes, before) = sliding.modes(moving);
+            blades.set_held_modes(modes, before);
         }
         (self.standing(sliding.side, self.n, sliding.casing()), blades)
     }

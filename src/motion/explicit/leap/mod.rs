@@ -2,7 +2,7 @@
 //! lock (`corner_step`, `unfolded`, `held_corner`), a wave that slides along one side
 //! of rigid blades (`held_side`). Along a side of blades that move a short step is enough
 //! (`sliding`). Each says itself where it applies (docs/theory.md, section 6); beyond the
-//! paper only locks are leapt. Read them in this order.
+//! paper these are locks and sides of blades that move. Read them in this order.
 
 mod block;
 mod corner_step;
@@ -46,6 +46,11 @@ impl Leaps {
         matches!(self.held, Some(Held::Corner(_)))
     }
 
+    /// Whether the coordinates are those of an earlier step.
+    pub fn are_ahead(&self) -> bool {
+        self.holds_corner() || self.sliding.is_some()
+    }
+
     /// The speed or the machine is another.
     pub fn forget_map(&mut self) {
         self.side_map = None;
@@ -71,13 +76,14 @@ impl<B: Disk> Explicit<B> {
     /// Takes steps at once, up to step `target` and about `most` of them, if there are
     /// any to take; how many are worth a look at the clock.
     pub(super) fn leap(&mut self, target: u64, most: usize) -> Option<usize> {
-        if self.goes_beyond {
-            self.open_lock().then(|| self.use_block(target))?;
+        if self.goes_beyond && self.open_lock() {
+            self.use_block(target);
             Some(0)
         } else if self.is_sliding() {
-            self.slide((target - self.n).min(most as u64));
-            Some(most)
-        } else if self.open_block() {
+            let unseen = if self.goes_beyond { self.beyond.unseen(self.n) } else { u64::MAX };
+            self.slide((target - self.n).min(most as u64).min(unseen));
+            Some(most.min(unseen as usize))
+        } else if !self.goes_beyond && self.open_block() {
             self.use_block(target);
             Some(0)
         } else {
