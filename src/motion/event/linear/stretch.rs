@@ -96,9 +96,14 @@ impl Held {
 /// Real and imaginary part.
 type Wave = [Terms; 2];
 
-/// The size of a term of both parts. What it cannot square is round-off.
-fn length(wave: &Wave, n: usize) -> f64 {
-    (wave[0][n].powi(2) + wave[1][n].powi(2)).sqrt()
+/// The sizes of the terms, both parts together: one of them may pass through zero. What it
+/// cannot square is round-off.
+fn lengths([re, im]: &Wave) -> Terms {
+    let mut lengths = [0.0; TERMS];
+    for (length, (re, im)) in lengths.iter_mut().zip(re.iter().zip(im)) {
+        *length = (re * re + im * im).sqrt();
+    }
+    lengths
 }
 
 /// One stretch.
@@ -205,7 +210,8 @@ impl Stretch {
             let mut tips = -(a * stiffness + da * (damping * (order + 1.0)));
             if !held.rows.is_empty() {
                 let pushes = held.against(arm, casing, tips);
-                let (z, a) = parameters.moved(held.directions.into_iter().zip(pushes));
+                let each = held.directions.iter().copied().zip(pushes).take(held.rows.len());
+                let (z, a) = parameters.moved(each);
                 (casing, tips) = (casing + z, tips + a);
                 for (terms, push) in self.pushes.iter_mut().zip(pushes).take(held.rows.len()) {
                     terms[n] = push / (h * h);
@@ -229,9 +235,7 @@ impl Stretch {
 
     /// Whether the terms left out are round-off; and how far it may go, by those kept.
     fn summed(&mut self, arm: f64, held: usize) -> bool {
-        // Both parts together: one of them may pass through zero.
-        let sizes = |wave: &Wave| -> Terms { std::array::from_fn(|n| length(wave, n)) };
-        let (z, a) = (sizes(&self.z), sizes(&self.a));
+        let (z, a) = (lengths(&self.z), lengths(&self.a));
         let each = |(z, a): (&f64, &f64)| z + arm * a;
         self.travel = [z.iter().zip(&a).skip(1).map(each).sum(), each((&z[0], &a[0]))];
         self.swing = a.iter().skip(1).sum();
@@ -314,11 +318,15 @@ impl Stretch {
     /// Gap of a row as a power series \[m\].
     pub(super) fn gap(&self, parameters: &Parameters, row: usize) -> Terms {
         let arm = parameters.arm();
-        let direction = parameters.rows.get(row).map_or_else(Direction::default, |r| r.direction);
-        let mut terms: Terms = std::array::from_fn(|n| {
-            let z = Plane::new(self.z[0][n], self.z[1][n]);
-            direction.along(arm, z, Plane::new(self.a[0][n], self.a[1][n]))
-        });
+        let Direction { casing, tip } =
+            parameters.rows.get(row).map_or_else(Direction::default, |row| row.direction);
+        let ([z_re, z_im], [a_re, a_im]) = (&self.z, &self.a);
+        let mut terms = [0.0; TERMS];
+        let parts = z_re.iter().zip(z_im).zip(a_re.iter().zip(a_im));
+        for (term, ((z_re, z_im), (a_re, a_im))) in terms.iter_mut().zip(parts) {
+            let along = casing.re * z_re + casing.im * z_im;
+            *term = along - arm * (tip.re * a_re + tip.im * a_im);
+        }
         terms[0] += parameters.clearance();
         terms
     }
