@@ -455,7 +455,7 @@ pub(super) fn seek(
         let noise = parameters.tolerance * (g0 + reach + travel);
         let open = |row: &usize| !held.rows.contains(row) && opened.iter().all(|l| l.row != *row);
         let from = stretch.from();
-        let near = |row: &usize| !(parameters.gap(*row, from) > travel + noise);
+        let near = |row: &usize| parameters.gap(*row, from) <= travel + noise;
         for row in (0..parameters.rows.len()).filter(near).filter(open) {
             let terms = stretch.gap(parameters, row);
             if let Some(x) = first_zero(&terms, noise, end) {
