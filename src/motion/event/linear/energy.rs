@@ -8,7 +8,7 @@
 use std::f64::consts::TAU;
 
 use super::LinearEvents;
-use super::parameters::{Parameters, Point};
+use super::parameters::{Parameters, Point, size};
 use super::stretch::{Held, Stretch};
 use crate::motion::propagator::damped;
 use crate::motion::verdict::Trend;
@@ -95,8 +95,8 @@ impl Energies {
         for (row, impulse) in impulses {
             if let Some(row) = parameters.rows.get(row) {
                 sum += impulse;
-                casing += row.casing * impulse;
-                tips += row.tip * impulse;
+                casing += row.direction.casing * impulse;
+                tips += row.direction.tip * impulse;
             }
         }
         // The sides turn with the rotor: their slope carries the casing along.
@@ -164,18 +164,24 @@ impl LinearEvents {
     /// Fails a motion that has grown beyond what the model describes.
     pub(super) fn check_growth(&mut self, s: f64, point: &Point) {
         let parameters = &self.parameters;
-        let angle_rad = parameters.largest_angle(point.a);
-        let (distance_m, radius_m) = (point.z.norm(), parameters.radius);
-        let along = parameters.machine.tangential_ratio * parameters.carried(point).norm();
-        let tips = parameters.speed.abs() * radius_m;
+        let distance_m = size(point.z);
+        let radius_m = parameters.radius;
+        // No blade bends more than its modes together.
+        let angle_rad = match size(point.a) {
+            most if most > LARGEST_BLADE_ANGLE => parameters.largest_angle(point.a),
+            most => most,
+        };
+        let drags = parameters.turn.im != 0.0;
+        let along = || parameters.machine.tangential_ratio * parameters.carried(point).norm();
         let reason = if angle_rad > LARGEST_BLADE_ANGLE {
             FailureReason::BladeAngle { angle_rad }
         } else if distance_m > radius_m && !parameters.machine.polygon.has_corners() {
             FailureReason::NoCorner { radius_m }
         } else if distance_m > radius_m {
             FailureReason::Displacement { distance_m, radius_m }
-        } else if parameters.turn.im != 0.0 && along > tips {
-            FailureReason::CasingSpeed { speed_m_s: along, tip_m_s: tips }
+        } else if drags && along() > parameters.speed.abs() * radius_m {
+            let tip_m_s = parameters.speed.abs() * radius_m;
+            FailureReason::CasingSpeed { speed_m_s: along(), tip_m_s }
         } else {
             return;
         };

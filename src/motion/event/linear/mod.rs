@@ -348,7 +348,7 @@ impl Solver for LinearEvents {
             let free = match side {
                 None => motion.parameters.carried(point),
                 Some(side) => {
-                    let along = Plane::i() * side.casing;
+                    let along = Plane::i() * side.direction.casing;
                     along * (along.conj() * point.dz).re
                 }
             };

@@ -161,9 +161,7 @@ impl Parameters {
 
     /// The row's share of a displacement of casing and blades.
     pub(super) fn along(&self, row: usize, z: Plane, a: Plane) -> f64 {
-        let Some(row) = self.rows.get(row) else { return 0.0 };
-        let casing = row.casing.re * z.re + row.casing.im * z.im;
-        casing - self.arm() * (row.tip.re * a.re + row.tip.im * a.im)
+        self.rows.get(row).map_or(0.0, |row| row.direction.along(self.arm(), z, a))
     }
 
     /// Gap of a row \[m\].
@@ -183,25 +181,27 @@ impl Parameters {
 
     /// The sum of the sizes of the terms of such accelerations, as a gap feels them.
     pub(super) fn size_of_free(&self, point: &Point, force: Plane) -> f64 {
-        let casing = force.norm()
-            + (self.casing.stiffness + self.nu * self.nu) * point.z.norm()
-            + self.drag.norm() * point.dz.norm();
+        let casing = size(force)
+            + (self.casing.stiffness + self.nu * self.nu) * size(point.z)
+            + size(self.drag) * size(point.dz);
         let blades = self.blades.map_or(0.0, |blades| {
             let Propagator { damping, stiffness, .. } = blades.propagator;
-            stiffness * point.a.norm() + 2.0 * damping * point.da.norm()
+            stiffness * size(point.a) + 2.0 * damping * size(point.da)
         });
         casing + self.arm().abs() * blades
     }
 
-    /// What a unit push on each of these rows adds to the accelerations of casing and
-    /// blades.
+    /// What these pushes, each with its row, add to the accelerations of casing and blades.
     pub(super) fn pushed(&self, pushes: impl Iterator<Item = (usize, f64)>) -> (Plane, Plane) {
+        self.moved(pushes.filter_map(|(row, push)| Some((self.rows.get(row)?.direction, push))))
+    }
+
+    /// The same of pushes along these directions.
+    pub(super) fn moved(&self, pushes: impl Iterator<Item = (Direction, f64)>) -> (Plane, Plane) {
         let (mut casing, mut tips) = (Plane::default(), Plane::default());
         for (row, push) in pushes {
-            if let Some(row) = self.rows.get(row) {
-                casing += row.casing * push;
-                tips += row.tip * push;
-            }
+            casing += row.casing * push;
+            tips += row.tip * push;
         }
         (self.turn * casing, tips * -self.blades.map_or(0.0, |blades| blades.lever))
     }
@@ -246,15 +246,34 @@ impl Parameters {
     }
 }
 
+/// The length of a vector whose square is no round-off.
+pub(super) fn size(vector: Plane) -> f64 {
+    vector.norm_sqr().sqrt()
+}
+
 /// Blades that touch together.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Row {
     /// The side of the polygon they belong to.
     pub side: u32,
-    /// Direction `exp(i psi)` in which their push moves the casing.
+    pub direction: Direction,
+}
+
+/// Where a row pushes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Direction {
+    /// Direction `exp(i psi)` in which a push moves the casing.
     pub casing: Plane,
-    /// Mean of `exp(i n_b Phi)` over them: how it turns the blade modes.
+    /// Mean of `exp(i n_b Phi)` over its blades: how it turns the blade modes.
     pub tip: Plane,
+}
+
+impl Direction {
+    /// Its share of a displacement of casing and blades whose tips rise by `arm`.
+    pub(super) fn along(&self, arm: f64, z: Plane, a: Plane) -> f64 {
+        let casing = self.casing.re * z.re + self.casing.im * z.im;
+        casing - arm * (self.tip.re * a.re + self.tip.im * a.im)
+    }
 }
 
 /// Every row of a machine whose blades have the phases of `tips`.
@@ -265,7 +284,7 @@ pub(super) fn rows(machine: &Machine, tips: &ContactPolygon, moving: bool) -> Ve
     if same || !moving {
         let row = |side| {
             let casing = plane(polygon.direction(side));
-            Row { side, casing, tip: casing }
+            Row { side, direction: Direction { casing, tip: casing } }
         };
         return (0..polygon.sides).map(row).collect();
     }
@@ -280,8 +299,7 @@ pub(super) fn rows(machine: &Machine, tips: &ContactPolygon, moving: bool) -> Ve
     }
     let row = |((side, _), (sum, count)): ((u32, u32), (Plane, f64))| Row {
         side,
-        casing: plane(polygon.direction(side)),
-        tip: sum / count,
+        direction: Direction { casing: plane(polygon.direction(side)), tip: sum / count },
     };
     groups.into_iter().map(row).collect()
 }
@@ -313,7 +331,7 @@ mod tests {
         assert_eq!(found("22", "4", "6", "0.1").len(), 11);
         let merged = found("22", "4", "5", "0");
         assert_eq!(merged.len(), 11);
-        assert!(merged.iter().all(|row| row.tip.norm() < 1e-15));
+        assert!(merged.iter().all(|row| row.direction.tip.norm() < 1e-15));
         assert_eq!(found("22", "3", "25", "0.1").len(), 22);
     }
 }

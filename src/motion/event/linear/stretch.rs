@@ -6,7 +6,7 @@
 //! Order by order the pushes are those that keep the held gaps closed: with `c_j` the
 //! row of a gap, `c_j (free acceleration) + sum W_jk Q_k = 0`.
 
-use super::parameters::{Parameters, Point};
+use super::parameters::{Direction, Parameters, Point};
 use crate::motion::Plane;
 use crate::motion::event::series::{
     STRETCH, TERMS, Terms, curved_step, ended, gap, jounce, values,
@@ -19,6 +19,8 @@ use crate::tolerances::{EVENT, MOST_HALVINGS, MOST_HELD, PEAK_LOOKS, ROUND_OFF};
 #[derive(Clone, Debug, Default)]
 pub(super) struct Held {
     pub rows: Vec<usize>,
+    /// Where they push.
+    directions: [Direction; MOST_HELD],
     /// The inverse of their contact matrix.
     pub inverse: Square<MOST_HELD>,
 }
@@ -36,12 +38,29 @@ impl Held {
             return None;
         }
         let inverse = inverse(&matrix, rows.len())?;
-        Some(Self { rows, inverse })
+        let mut directions = [Direction::default(); MOST_HELD];
+        for (direction, &row) in directions.iter_mut().zip(&rows) {
+            *direction = parameters.rows.get(row)?.direction;
+        }
+        Some(Self { rows, directions, inverse })
     }
 
     /// The pushes that these openings of the held gaps ask for.
     pub(super) fn pushes(&self, openings: &[f64; MOST_HELD]) -> [f64; MOST_HELD] {
-        self.inverse.map(|row| -row.iter().zip(openings).map(|(a, b)| a * b).sum::<f64>())
+        let (mut pushes, held) = ([0.0; MOST_HELD], self.rows.len());
+        for (push, row) in pushes.iter_mut().zip(&self.inverse).take(held) {
+            *push = -row.iter().zip(openings).take(held).map(|(a, b)| a * b).sum::<f64>();
+        }
+        pushes
+    }
+
+    /// The pushes that keep the held gaps closed against these accelerations.
+    fn against(&self, arm: f64, casing: Plane, tips: Plane) -> [f64; MOST_HELD] {
+        let mut openings = [0.0; MOST_HELD];
+        for (opening, row) in openings.iter_mut().zip(&self.directions).take(self.rows.len()) {
+            *opening = row.along(arm, casing, tips);
+        }
+        self.pushes(&openings)
     }
 
     /// `openings` of the rows, one by one.
@@ -61,6 +80,9 @@ impl Held {
     /// The same point with the held gaps closed and at rest but for round-off.
     pub(super) fn closed(&self, parameters: &Parameters, point: &Point) -> Point {
         let mut point = *point;
+        if self.rows.is_empty() {
+            return point;
+        }
         let apart = self.pushes(&self.each(|row| parameters.gap(row, &point)));
         let (z, a) = parameters.pushed(self.with(apart));
         (point.z, point.a) = (point.z + z, point.a + a);
@@ -74,9 +96,14 @@ impl Held {
 /// Real and imaginary part.
 type Wave = [Terms; 2];
 
-/// The size of a term of both parts. What it cannot square is round-off.
-fn length(wave: &Wave, n: usize) -> f64 {
-    (wave[0][n].powi(2) + wave[1][n].powi(2)).sqrt()
+/// The sizes of the terms, both parts together: one of them may pass through zero. What it
+/// cannot square is round-off.
+fn lengths([re, im]: &Wave) -> Terms {
+    let mut lengths = [0.0; TERMS];
+    for (length, (re, im)) in lengths.iter_mut().zip(re.iter().zip(im)) {
+        *length = (re * re + im * im).sqrt();
+    }
+    lengths
 }
 
 /// One stretch.
@@ -93,6 +120,12 @@ pub(super) struct Stretch {
     pub pushes: [Terms; MOST_HELD],
     /// Pushes below this are round-off of the terms that they add up.
     pub noise: f64,
+    /// The farthest that any gap can close in this stretch, and what it has of the
+    /// clearance at its start at most \[m\].
+    pub travel: [f64; 2],
+    /// The farthest that a blade can swing in this stretch, whether a gap feels it or not
+    /// \[rad\].
+    pub swing: f64,
     /// Whether no stretch is short enough for its terms to end.
     pub lost: bool,
     /// Whether it is the free flight to the end.
@@ -100,36 +133,30 @@ pub(super) struct Stretch {
 }
 
 impl Stretch {
-    /// From a point on with these rows held under a force, for at most `most` seconds.
-    pub(super) fn new(
+    /// Begins from a point on with these rows held under a force, for at most `most`
+    /// seconds.
+    pub(super) fn begin(
+        &mut self,
         parameters: &Parameters,
         held: &Held,
         from: Point,
         force: Plane,
         most: f64,
-    ) -> Self {
+    ) {
         let zero = [0.0; TERMS];
         let spread = held.inverse.iter().flatten().fold(0.0_f64, |sum, entry| sum.max(entry.abs()));
-        let mut stretch = Self {
-            length: (STRETCH / parameters.rates()).min(most),
-            from,
-            z: [zero; 2],
-            a: [zero; 2],
-            force: [zero; 2],
-            pushes: [zero; MOST_HELD],
-            noise: ROUND_OFF * spread * parameters.size_of_free(&from, force),
-            lost: false,
-            free: false,
-        };
+        (self.force, self.pushes) = ([zero; 2], [zero; MOST_HELD]);
+        (self.from, self.free) = (from, false);
+        self.length = (STRETCH / parameters.rates()).min(most);
+        self.noise = ROUND_OFF * spread * parameters.size_of_free(&from, force);
         for _ in 0..MOST_HALVINGS {
-            stretch.expand(parameters, held, force);
-            stretch.lost = !stretch.summed(held.rows.len());
-            if !stretch.lost {
+            self.expand(parameters, held, force);
+            self.lost = !self.summed(parameters.arm().abs(), held.rows.len());
+            if !self.lost {
                 break;
             }
-            stretch.length *= 0.5;
+            self.length *= 0.5;
         }
-        stretch
     }
 
     /// The free flight that no blade ever meets.
@@ -143,17 +170,18 @@ impl Stretch {
             force: [zero; 2],
             pushes: [zero; MOST_HELD],
             noise: 0.0,
+            travel: [0.0; 2],
+            swing: 0.0,
             lost: false,
             free: true,
         }
     }
 
     /// The same place for ever: what moves is round-off.
-    pub(super) fn at_rest(mut self) -> Self {
+    pub(super) fn come_to_rest(&mut self) {
         let hold = |terms: &mut Terms| terms.iter_mut().skip(1).for_each(|term| *term = 0.0);
         self.z.iter_mut().chain(&mut self.a).chain(&mut self.pushes).for_each(hold);
         self.length = f64::INFINITY;
-        self
     }
 
     fn expand(&mut self, parameters: &Parameters, held: &Held, force: Plane) {
@@ -167,31 +195,36 @@ impl Stretch {
         let put = |wave: &mut Wave, n: usize, value: Plane| {
             (wave[0][n], wave[1][n]) = (value.re, value.im);
         };
-        let at = |wave: &Wave, n: usize| Plane::new(wave[0][n], wave[1][n]);
+        let (arm, pulsed) = (parameters.arm(), force != Plane::default());
         let mut acting = force * (h * h);
-        put(&mut self.z, 0, self.from.z);
-        put(&mut self.z, 1, self.from.dz * h);
-        put(&mut self.a, 0, self.from.a);
-        put(&mut self.a, 1, self.from.da * h);
-        for n in 0..TERMS - 2 {
+        // The terms of this order and of the next.
+        let (mut z, mut a) = (self.from.z, self.from.a);
+        let (mut dz, mut da) = (self.from.dz * h, self.from.da * h);
+        put(&mut self.z, 0, z);
+        put(&mut self.z, 1, dz);
+        put(&mut self.a, 0, a);
+        put(&mut self.a, 1, da);
+        for (n, over) in OVER.into_iter().enumerate() {
             let order = n as f64;
-            put(&mut self.force, n, acting / (h * h));
-            let mut casing =
-                acting - spring * at(&self.z, n) - drag * at(&self.z, n + 1) * (order + 1.0);
-            let mut tips =
-                -(at(&self.a, n) * stiffness + at(&self.a, n + 1) * (damping * (order + 1.0)));
+            let mut casing = acting - spring * z - drag * dz * (order + 1.0);
+            let mut tips = -(a * stiffness + da * (damping * (order + 1.0)));
             if !held.rows.is_empty() {
-                let pushes = held.pushes(&held.each(|row| parameters.along(row, casing, tips)));
-                let (z, a) = parameters.pushed(held.with(pushes));
+                let pushes = held.against(arm, casing, tips);
+                let each = held.directions.iter().copied().zip(pushes).take(held.rows.len());
+                let (z, a) = parameters.moved(each);
                 (casing, tips) = (casing + z, tips + a);
-                for (terms, push) in self.pushes.iter_mut().zip(pushes) {
+                for (terms, push) in self.pushes.iter_mut().zip(pushes).take(held.rows.len()) {
                     terms[n] = push / (h * h);
                 }
             }
-            let over = 1.0 / ((order + 1.0) * (order + 2.0));
-            put(&mut self.z, n + 2, casing * over);
-            put(&mut self.a, n + 2, tips * over);
-            acting = acting * spin / (order + 1.0);
+            (z, dz) = (dz, casing * over);
+            (a, da) = (da, tips * over);
+            put(&mut self.z, n + 2, dz);
+            put(&mut self.a, n + 2, da);
+            if pulsed {
+                put(&mut self.force, n, acting / (h * h));
+                acting = acting * spin / (order + 1.0);
+            }
         }
     }
 
@@ -200,15 +233,15 @@ impl Stretch {
         &self.from
     }
 
-    /// Whether the terms left out are round-off.
-    fn summed(&self, held: usize) -> bool {
-        let moves = |wave: &Wave| {
-            // Both parts together: one of them may pass through zero.
-            let size: Terms = std::array::from_fn(|n| length(wave, n));
-            ended(&size) && size.iter().all(|term| term.is_finite())
-        };
-        moves(&self.z)
-            && moves(&self.a)
+    /// Whether the terms left out are round-off; and how far it may go, by those kept.
+    fn summed(&mut self, arm: f64, held: usize) -> bool {
+        let (z, a) = (lengths(&self.z), lengths(&self.a));
+        let each = |(z, a): (&f64, &f64)| z + arm * a;
+        self.travel = [z.iter().zip(&a).skip(1).map(each).sum(), each((&z[0], &a[0]))];
+        self.swing = a.iter().skip(1).sum();
+        let moves = |size: &Terms| ended(size) && size.iter().all(|term| term.is_finite());
+        moves(&z)
+            && moves(&a)
             && self.pushes.iter().take(held).all(|terms| ended(terms) || self.is_noise(terms))
     }
 
@@ -232,12 +265,21 @@ impl Stretch {
         }
         let x = self.part(s);
         let per = if self.length > 0.0 { 1.0 / self.length } else { 0.0 };
-        let at = |wave: &Wave| {
-            let [[re, re_rate, _], [im, im_rate, _]] = [values(&wave[0], x), values(&wave[1], x)];
-            (Plane::new(re, im), Plane::new(re_rate, im_rate) * per)
-        };
-        let ((z, dz), (a, da)) = (at(&self.z), at(&self.a));
-        Point { z, dz, a, da }
+        let ([z_re, z_im], [a_re, a_im]) = (&self.z, &self.a);
+        let (mut value, mut rate) = ([0.0; 4], [0.0; 4]);
+        // All four at once: none waits for another.
+        for n in (0..TERMS).rev() {
+            for (k, term) in [z_re[n], z_im[n], a_re[n], a_im[n]].into_iter().enumerate() {
+                rate[k] = rate[k] * x + value[k];
+                value[k] = value[k] * x + term;
+            }
+        }
+        Point {
+            z: Plane::new(value[0], value[1]),
+            dz: Plane::new(rate[0], rate[1]) * per,
+            a: Plane::new(value[2], value[3]),
+            da: Plane::new(rate[2], rate[3]) * per,
+        }
     }
 
     fn flown(&self, parameters: &Parameters, s: f64) -> Point {
@@ -275,29 +317,31 @@ impl Stretch {
 
     /// Gap of a row as a power series \[m\].
     pub(super) fn gap(&self, parameters: &Parameters, row: usize) -> Terms {
-        let mut terms: Terms = std::array::from_fn(|n| {
-            let z = Plane::new(self.z[0][n], self.z[1][n]);
-            parameters.along(row, z, Plane::new(self.a[0][n], self.a[1][n]))
-        });
+        let arm = parameters.arm();
+        let Direction { casing, tip } =
+            parameters.rows.get(row).map_or_else(Direction::default, |row| row.direction);
+        let ([z_re, z_im], [a_re, a_im]) = (&self.z, &self.a);
+        let mut terms = [0.0; TERMS];
+        let parts = z_re.iter().zip(z_im).zip(a_re.iter().zip(a_im));
+        for (term, ((z_re, z_im), (a_re, a_im))) in terms.iter_mut().zip(parts) {
+            let along = casing.re * z_re + casing.im * z_im;
+            *term = along - arm * (tip.re * a_re + tip.im * a_im);
+        }
         terms[0] += parameters.clearance();
         terms
     }
-
-    /// The farthest that a blade tip can swing in this stretch, whether a gap feels it or
-    /// not \[m\].
-    pub(super) fn swings(&self, parameters: &Parameters) -> f64 {
-        let size = |n: usize| length(&self.a, n);
-        parameters.machine.blade_length * (1..TERMS).map(size).sum::<f64>()
-    }
-
-    /// The farthest that any gap can close in this stretch, and what it has of the
-    /// clearance at its start at most \[m\].
-    pub(super) fn travel(&self, parameters: &Parameters) -> [f64; 2] {
-        let arm = parameters.arm().abs();
-        let each = |n: usize| length(&self.z, n) + arm * length(&self.a, n);
-        [(1..TERMS).map(each).sum(), each(0)]
-    }
 }
+
+/// `1/((n + 1) (n + 2))`, by which an acceleration becomes the term after the next.
+const OVER: [f64; TERMS - 2] = {
+    let mut over = [0.0; TERMS - 2];
+    let mut n = 0;
+    while n < over.len() {
+        over[n] = 1.0 / ((n as f64 + 1.0) * (n as f64 + 2.0));
+        n += 1;
+    }
+    over
+};
 
 /// What ends a stretch.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -405,15 +449,14 @@ pub(super) fn seek(
             (end, what) = (x, Ending::Touch(gap.row, (slope / stretch.length).min(0.0)));
         }
     }
-    let [travel, reach] = stretch.travel(parameters);
+    let [travel, reach] = stretch.travel;
     let g0 = parameters.clearance();
     if reach + travel >= g0 {
         let noise = parameters.tolerance * (g0 + reach + travel);
         let open = |row: &usize| !held.rows.contains(row) && opened.iter().all(|l| l.row != *row);
-        for row in (0..parameters.rows.len()).filter(open) {
-            if parameters.gap(row, stretch.from()) > travel + noise {
-                continue;
-            }
+        let from = stretch.from();
+        let near = |row: &usize| parameters.gap(*row, from) <= travel + noise;
+        for row in (0..parameters.rows.len()).filter(near).filter(open) {
             let terms = stretch.gap(parameters, row);
             if let Some(x) = first_zero(&terms, noise, end) {
                 let rate = values(&terms, x)[1] / stretch.length;

@@ -9,7 +9,7 @@
 use std::f64::consts::TAU;
 
 use super::LinearEvents;
-use super::parameters::Point;
+use super::parameters::{Point, size};
 use super::stretch::{Ending, Held, OpenedGap, Stretch, seek};
 use crate::motion::{ActiveSet, Failure, FailureReason, Plane};
 use crate::numeric::elimination::inverse;
@@ -72,26 +72,19 @@ impl LinearEvents {
             return;
         }
         let most = if pulses { self.elapsed(self.pulse.end) } else { f64::INFINITY };
-        let stretch = Stretch::new(parameters, &self.held, point, self.force(), most);
-        if stretch.lost {
-            self.stretch = stretch;
+        let force = self.force();
+        self.stretch.begin(&self.parameters, &self.held, point, force, most);
+        if self.stretch.lost {
             self.fail(0.0, FailureReason::Series);
             return;
         }
-        let still = ROUNDINGS * parameters.clearance();
-        let rests = !pulses
-            && self.opened.is_empty()
-            && stretch.travel(parameters)[0] <= still
-            && stretch.swings(parameters) <= still;
-        if rests {
-            self.stretch = stretch;
-            if self.held_for_good(0.0) {
-                self.stretch = self.stretch.clone().at_rest();
-                self.next = (f64::INFINITY, Ending::StretchEnd);
-                return;
-            }
-        } else {
-            self.stretch = stretch;
+        let still = ROUNDINGS * self.parameters.clearance();
+        let tips = self.parameters.machine.blade_length * self.stretch.swing;
+        let rests = !pulses && self.opened.is_empty();
+        if rests && self.stretch.travel[0] <= still && tips <= still && self.held_for_good(0.0) {
+            self.stretch.come_to_rest();
+            self.next = (f64::INFINITY, Ending::StretchEnd);
+            return;
         }
         self.next = seek(&self.parameters, &self.stretch, &self.held, &self.opened);
     }
@@ -148,8 +141,7 @@ impl LinearEvents {
     /// would otherwise strike in turn without end.
     fn touching(&self, point: &Point, hit: usize) -> Vec<(usize, f64)> {
         let parameters = &self.parameters;
-        let size =
-            parameters.clearance() + point.z.norm() + parameters.arm().abs() * point.a.norm();
+        let size = parameters.clearance() + size(point.z) + parameters.arm().abs() * size(point.a);
         let limit = AT_A_CORNER * parameters.tolerance * size;
         let rate_if_near = |row: usize| {
             if row == hit {
@@ -180,7 +172,7 @@ impl LinearEvents {
         if self.checked {
             self.energies.book(parameters, &self.held, &self.stretch, s);
             self.widest = self.widest_until(s);
-            let [travel, reach] = self.stretch.travel(parameters);
+            let [travel, reach] = self.stretch.travel;
             if reach + travel >= parameters.clearance() {
                 let known = |row: usize| self.opened.iter().any(|gap| gap.row == row);
                 let gaps = (0..parameters.rows.len()).filter(|&row| !known(row));
@@ -197,7 +189,7 @@ impl LinearEvents {
         } else {
             self.clock.pass(s);
         }
-        self.swings.see(self.clock.start(), point.a.norm());
+        self.swings.see(self.clock.start(), size(point.a));
         Some(point)
     }
 
@@ -306,7 +298,7 @@ impl LinearEvents {
         let arm = parameters.arm().abs();
         // Slower is at rest: the round-off of rates that cancel.
         let soft = SOFT_TOUCH * parameters.machine.omega_c * parameters.clearance()
-            + ROUND_OFF * (point.dz.norm() + arm * point.da.norm());
+            + ROUND_OFF * (size(point.dz) + arm * size(point.da));
         let rebound = |rate: f64| {
             let back = -parameters.restitution * rate;
             if back > soft { back } else { 0.0 }
@@ -439,13 +431,17 @@ pub(super) fn pushes(
     joint: impl Fn(usize, usize) -> f64,
     opening: &[f64],
     noise: f64,
-) -> Option<Vec<f64>> {
+) -> Option<Touching> {
     let n = opening.len();
     if n > MOST_TOUCHING {
         return None;
     }
-    let matrix: Vec<Vec<f64>> =
-        (0..n).map(|row| (0..n).map(|by| joint(row, by)).collect()).collect();
+    let mut matrix = [[0.0; MOST_TOUCHING]; MOST_TOUCHING];
+    for (row, line) in matrix.iter_mut().enumerate().take(n) {
+        for (by, entry) in line.iter_mut().enumerate().take(n) {
+            *entry = joint(row, by);
+        }
+    }
     (0..=n.min(MOST_HELD)).rev().find_map(|size| {
         (0_u32..1 << n)
             .filter(|choice| choice.count_ones() as usize == size)
@@ -453,22 +449,31 @@ pub(super) fn pushes(
     })
 }
 
+/// A number for each row that touches.
+type Touching = [f64; MOST_TOUCHING];
+
 /// The pushes of the rows of one choice, if nothing is wrong with them.
-fn try_choice(matrix: &[Vec<f64>], opening: &[f64], noise: f64, choice: u32) -> Option<Vec<f64>> {
-    let chosen: Vec<usize> = (0..opening.len()).filter(|row| (choice >> row) & 1 == 1).collect();
+fn try_choice(
+    matrix: &[Touching; MOST_TOUCHING],
+    opening: &[f64],
+    noise: f64,
+    choice: u32,
+) -> Option<Touching> {
+    let is_chosen = |row: usize| (choice >> row) & 1 == 1;
+    let chosen = || (0..opening.len()).filter(|&row| is_chosen(row)).take(MOST_HELD);
     let mut square = [[0.0; MOST_HELD]; MOST_HELD];
     let mut right = [0.0; MOST_HELD];
-    for (k, &row) in chosen.iter().enumerate() {
+    for (k, row) in chosen().enumerate() {
         right[k] = -opening[row];
-        for (l, &by) in chosen.iter().enumerate() {
+        for (l, by) in chosen().enumerate() {
             square[k][l] = matrix[row][by];
         }
     }
-    let inverse = inverse(&square, chosen.len())?;
-    let mut pushes = vec![0.0; opening.len()];
-    for (k, &row) in chosen.iter().enumerate() {
-        let push: f64 = inverse[k].iter().zip(&right).map(|(a, b)| a * b).sum();
-        let least: f64 = inverse[k].iter().map(|entry| entry.abs()).sum();
+    let inverse = inverse(&square, chosen().count())?;
+    let mut pushes = [0.0; MOST_TOUCHING];
+    for (row, line) in chosen().zip(&inverse) {
+        let push: f64 = line.iter().zip(&right).map(|(a, b)| a * b).sum();
+        let least: f64 = line.iter().map(|entry| entry.abs()).sum();
         if push.is_nan() || push < -noise * least {
             return None;
         }
@@ -476,7 +481,7 @@ fn try_choice(matrix: &[Vec<f64>], opening: &[f64], noise: f64, choice: u32) -> 
     }
     let open = |row: usize| {
         let lifted: f64 = matrix[row].iter().zip(&pushes).map(|(a, b)| a * b).sum();
-        (choice >> row) & 1 == 1 || opening[row] + lifted >= -noise
+        is_chosen(row) || opening[row] + lifted >= -noise
     };
     (0..opening.len()).all(open).then_some(pushes)
 }
@@ -496,8 +501,8 @@ mod tests {
                 assert!(found[row] >= 0.0 && rate > -1e-14 && (rate * found[row]).abs() < 1e-13);
             }
         }
-        assert_eq!(pushes(joint, &[1.0, 1.0], 1e-14).unwrap(), [0.0, 0.0]);
-        assert_eq!(pushes(joint, &[-1.0, 1.0], 1e-14).unwrap(), [1.0, 0.0]);
+        assert_eq!(pushes(joint, &[1.0, 1.0], 1e-14).unwrap()[..2], [0.0, 0.0]);
+        assert_eq!(pushes(joint, &[-1.0, 1.0], 1e-14).unwrap()[..2], [1.0, 0.0]);
     }
 
     #[test]
