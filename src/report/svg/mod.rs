@@ -80,7 +80,9 @@ fn draw(figure: &Figure, description: &str, text: &mut String) -> Drawn<()> {
     }
     root.present()?;
     drop((panels, below, root));
-    finish(text, [width, height], description);
+    let cells = figure.panels.iter().any(panel::has_cells);
+    let style = if cells { STYLE } else { "" };
+    finish(text, [width, height], &format!("{description}{style}"));
     Ok(())
 }
 
@@ -106,7 +108,7 @@ fn finish(text: &mut String, [width, height]: [u32; 2], description: &str) {
     *text = text.replacen(&fine, &format!("width=\"{width}\" height=\"{height}\""), 1);
     *text = with_subscripts(text).replace(UNDERSCORE, "_");
     let start = text.find('>').map_or(0, |end| end + 1);
-    text.insert_str(start, &format!("\n{}\n{STYLE}", description.trim_end()));
+    text.insert_str(start, &format!("\n{}", description.trim_end()));
 }
 
 /// Lowers what follows an underscore in the text of a picture: `u_c`, `n_d`. The
@@ -193,7 +195,9 @@ mod tests {
         assert_eq!(lines(&draw(&[Style::Discs(1, 5)])) - none, 4);
         let rims = |styles: &[Style]| draw(styles).matches("stroke=\"#FFFFFF\"").count();
         assert_eq!(rims(&[Style::Line(2)]), 0);
-        assert_eq!(rims(&[Style::Cells(Verdict::Whirl), Style::Line(2)]), 1);
+        let whirl = Style::Cells(Verdict::Whirl);
+        assert_eq!(rims(&[whirl, Style::Line(2)]), 1);
+        assert!(draw(&[whirl]).contains(STYLE) && !disc.contains(STYLE));
         assert!(disc.contains(">\nat −5 N, so-called\n<"));
     }
 
