@@ -8,6 +8,7 @@ use serde_json::json;
 
 use super::number::short;
 use super::summary::OF_WHAT;
+use super::symbols::greek;
 use super::{CommandLine, table};
 use crate::motion::Verdict;
 use crate::scene::{Key, keys};
@@ -126,7 +127,7 @@ pub fn figure(map: &Map, curves: &[overlay::Curve]) -> Figure {
     let (scene, x, y) = (&map.plan.scene, &map.plan.x, &map.plan.y);
     let quantity = |axis: &Axis| Quantity {
         column: leaf(axis).to_string().into(),
-        label: keys::find(&axis.path).map_or_else(|_| axis.path.clone(), Key::title).into(),
+        label: greek(&keys::find(&axis.path).map_or_else(|_| axis.path.clone(), Key::title)).into(),
         factor: 1.0,
         log: axis.log,
     };
@@ -149,8 +150,7 @@ pub fn figure(map: &Map, curves: &[overlay::Curve]) -> Figure {
         |axis: &Axis, value| (-0.5..=f64::from(axis.count) - 0.5).contains(&axis.place(value));
     for (curve, colour) in curves.iter().zip([5, 2, 1]) {
         let shown = curve.points.iter().copied().filter(|at| inside(x, at.0) && inside(y, at.1));
-        let label = curve.name.replace("Omega", "Ω");
-        series.push(Series::new(label, Style::Line(colour), shown).named(curve.name));
+        series.push(Series::new(greek(curve.name), Style::Line(colour), shown).named(curve.name));
     }
     series.retain(|series| !series.points.is_empty());
     let title = format!("{} ({} contact)", scene.title, scene.solver.contact);

@@ -67,18 +67,7 @@ pub fn write(survey: &Survey, out: &mut dyn Write) -> Result<()> {
         |text: &str| wrapped(text, WIDTH).iter().try_for_each(|line| writeln!(out, "{line}"));
     tell(&scene.title)?;
     tell(&head(survey))?;
-    let unknown: Vec<String> = survey
-        .rows
-        .iter()
-        .filter(|row| !row.modes_known)
-        .map(|row| row.nodal_diameters.to_string())
-        .collect();
-    if let Some(last) = unknown.last() {
-        let which = if unknown.len() > 12 {
-            format!("{} of them, up to {last}", unknown.len())
-        } else {
-            unknown.join(", ")
-        };
+    if let Some(which) = unknown(survey) {
         tell(&format!(
             "Numbers of diameters with ? have no mode in the scene, and the own values of casing or \
              disk; they are not in the list below: {which}."
@@ -93,10 +82,18 @@ pub fn write(survey: &Survey, out: &mut dyn Write) -> Result<()> {
     writeln!(out, "Computed in {}.", time(rounded(survey.wall_s, 2)))
 }
 
+/// The numbers of diameters without a mode in the scene.
+fn unknown(survey: &Survey) -> Option<String> {
+    let without = survey.rows.iter().filter(|row| !row.modes_known);
+    let all: Vec<String> = without.map(|row| row.nodal_diameters.to_string()).collect();
+    let last = all.last()?;
+    let many = all.len() > 12;
+    Some(if many { format!("{} of them, up to {last}", all.len()) } else { all.join(", ") })
+}
+
 /// The machine and the range in a few sentences.
 #[must_use]
 pub fn head(survey: &Survey) -> String {
-    let scene = &survey.scene;
     let asked = match survey.range_rad_s {
         Some([from, to]) => {
             let other = if speed_unit() == "rpm" { String::new() } else { in_rpm([from, to]) };
@@ -104,26 +101,35 @@ pub fn head(survey: &Survey) -> String {
         }
         None => "Without --range nothing is marked.".to_string(),
     };
+    format!(
+        "{}; speeds in {}, frequencies in Hz. {asked} {}",
+        machine(survey),
+        speed_unit(),
+        sense(survey)
+    )
+}
+
+fn machine(survey: &Survey) -> String {
+    let blades = survey.scene.bladed_disk.blades;
+    format!("{blades} blades, 0 to {}", count(u64::from(blades / 2), "nodal diameter"))
+}
+
+/// What the speeds of the other sense are.
+fn sense(survey: &Survey) -> String {
     let mirrored = survey.rows.iter().all(|row| {
         let back = row.limits.iter().filter(|limit| limit.value < 0.0);
         back.into_iter().all(|limit| {
             row.limit(limit.name, true).is_some_and(|forward| forward.value == -limit.value)
         })
     });
-    let sense = match (survey.is_forward(), mirrored) {
+    match (survey.is_forward(), mirrored) {
         (forward, true) => {
             let other = if forward { "backward" } else { "forward" };
             format!("The same speeds with the other sign are those of a rotor that turns {other}.")
         }
         (true, false) => "Speeds of a rotor that turns forward; --json has the others.".into(),
         (false, false) => "Speeds of a rotor that turns backward; --json has the others.".into(),
-    };
-    format!(
-        "{} blades, 0 to {}; speeds in {}, frequencies in Hz. {asked} {sense}",
-        scene.bladed_disk.blades,
-        count(u64::from(scene.bladed_disk.blades / 2), "nodal diameter"),
-        speed_unit(),
-    )
+    }
 }
 
 fn in_rpm([from, to]: [f64; 2]) -> String {
@@ -248,6 +254,8 @@ fn beside(survey: &Survey, out: &mut dyn Write) -> Result<()> {
     writeln!(out, "No limit lies in the range: the nearest are {text}.")
 }
 
+/// Colour number of the lines, apart from those of the limits.
+const INK: usize = 5;
 /// How far beyond the range limits are drawn, as a part of it.
 const BEYOND: f64 = 0.25;
 
@@ -275,7 +283,7 @@ pub fn figure(survey: &Survey) -> Figure {
         [(0.0, 0.0), (end, end * omega)]
     };
     frequencies.push(
-        Series::new(format!("n_d Ω at {}", speed(present)), Style::Line(3), turning(present))
+        Series::new(format!("n_d Ω at {}", speed(present)), Style::Line(INK), turning(present))
             .named("now"),
     );
     let mut limits = Vec::new();
@@ -283,17 +291,18 @@ pub fn figure(survey: &Survey) -> Figure {
         for (end, name) in [(from, "from"), (to, "to")] {
             let label = format!("n_d Ω at {}", speed(end));
             let points = turning(end.abs());
-            frequencies.push(Series::new(label, Style::Dashed(4), points).named(name));
+            frequencies.push(Series::new(label, Style::Dashed(INK), points).named(name));
             let level = [(0.0, end), (last, end)];
             limits.push(
-                Series::new(format!("{name} {}", speed(end)), Style::Dashed(4), level).named(name),
+                Series::new(format!("{name} {}", speed(end)), Style::Dashed(INK), level)
+                    .named(name),
             );
         }
     }
     limits.push(
         Series::new(
             format!("now {}", speed(survey.scene.operation.speed_rad_s)),
-            Style::Line(3),
+            Style::Line(INK),
             [0.0, last].map(|n| (n, survey.scene.operation.speed_rad_s)),
         )
         .named("now"),
@@ -320,7 +329,11 @@ pub fn figure(survey: &Survey) -> Figure {
         Panel::new("(a) frequencies", diameters(), frequency, frequencies),
         Panel::new("(b) limits", diameters(), speed_axis(), limits),
     ];
-    Figure::new(survey.scene.title.clone(), capital(&head(survey)), panels)
+    let own = unknown(survey).map_or_else(String::new, |which| {
+        format!(" With the own values of casing or disk, as the scene has no mode of it: {which}.")
+    });
+    let note = format!("{}.{own} {}", machine(survey), sense(survey));
+    Figure::new(survey.scene.title.clone(), capital(&note), panels)
 }
 
 fn speed_axis() -> Quantity {

@@ -32,8 +32,32 @@ pub fn symbol(path: &str) -> String {
 /// Symbols in Greek letters and with the signs of print: `Ω_c`, `ζ_c`, `−0.5`.
 #[must_use]
 pub fn in_print(text: &str) -> String {
-    let text = text.replace("Omega", "Ω").replace("zeta", "ζ").replace("g0", "g_0");
-    text.replace('-', "−")
+    greek(text).replace('-', "−")
+}
+
+/// Symbols in Greek letters.
+#[must_use]
+pub fn greek(text: &str) -> String {
+    let letter = |word: &str| {
+        match word {
+            "Omega" => "Ω",
+            "zeta" => "ζ",
+            "kappa" => "κ",
+            "mu" => "μ",
+            "tau" => "τ",
+            "eps" => "ε",
+            "g0" => "g_0",
+            _ => return word.to_string(),
+        }
+        .to_string()
+    };
+    let words = text.split_inclusive(|c: char| !c.is_ascii_alphanumeric());
+    let parts = words.map(|part| {
+        let end = part.find(|c: char| !c.is_ascii_alphanumeric()).unwrap_or(part.len());
+        let (word, rest) = part.split_at(end);
+        letter(word) + rest
+    });
+    parts.collect()
 }
 
 #[cfg(test)]
@@ -60,5 +84,6 @@ mod tests {
         assert_eq!(symbol("bladed_disk.blades"), "N");
         assert_eq!(symbol("operation.nodal_diameters"), "n_d");
         assert_eq!(in_print("Omega -0.5 zeta_c g0"), "Ω −0.5 ζ_c g_0");
+        assert_eq!(greek("speed Omega, mu kappa(tau) eps much"), "speed Ω, μ κ(τ) ε much");
     }
 }

@@ -68,6 +68,19 @@ pub fn power_of_ten(exponent: f64) -> String {
     }
 }
 
+/// A number as a multiple of a power of ten: `2.5·10⁵`, `10⁶`.
+#[must_use]
+pub fn scientific(x: f64) -> String {
+    let text = format!("{x:.5e}");
+    let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let power = power_of_ten(exponent.parse().unwrap_or(0.0));
+    match digits.trim_end_matches('0').trim_end_matches('.') {
+        "1" => power,
+        "-1" => format!("-{power}"),
+        digits => format!("{digits}·{power}"),
+    }
+}
+
 /// A digit or sign as an exponent.
 fn raised(c: char) -> char {
     let digits = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
@@ -80,6 +93,12 @@ fn raised(c: char) -> char {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_number_is_a_multiple_of_a_power_of_ten() {
+        let told = [250_000.0, 1e6, -1e6, -3e-4].map(scientific);
+        assert_eq!(told, ["2.5·10⁵", "10⁶", "-10⁶", "-3·10⁻⁴"]);
+    }
 
     #[test]
     fn steps_are_round() {

@@ -38,8 +38,7 @@ pub fn opening(app: &App, below: u32, with: &str) -> String {
     let ground = Ink::of(app.appearance.theme).ground;
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-         viewBox=\"0 0 {width} {height}\" font-family=\"monospace\" font-size=\"13\" \
-         xml:space=\"preserve\">\n\
+         viewBox=\"0 0 {width} {height}\" font-family=\"monospace\" font-size=\"13\">\n\
          {with}<rect width=\"{width}\" height=\"{height}\" fill=\"{ground}\"/>\n"
     )
 }
@@ -56,16 +55,17 @@ pub fn rows(app: &App) -> Vec<String> {
 }
 
 /// One row of cells: what has the same look in one element, words with the space
-/// between them.
+/// between them. Browsers make one space of several, so an element has no more.
 fn drawn_row(cells: &[Cell], y: u32, ink: &Ink) -> String {
     let mut looks: Vec<(Look, &Cell)> = Vec::with_capacity(cells.len());
     for cell in cells {
         let own = Look::of(cell, ink);
-        let joined = looks.last().map(|&(before, _)| before).filter(|before| {
+        let joined = looks.last().filter(|(before, last)| {
             (before.shape, own.shape) == (Shape::Letters, Shape::Blank)
                 && before.behind == own.behind
+                && last.symbol() != " "
         });
-        looks.push((joined.unwrap_or(own), cell));
+        looks.push((joined.map_or(own, |&(before, _)| before), cell));
     }
     let (mut x, mut out) = (0, String::new());
     for run in looks.chunk_by(|a, b| a.0 == b.0) {
@@ -230,6 +230,9 @@ mod tests {
         assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
         assert_eq!(svg.matches("<text").count(), svg.matches("</text>").count());
         assert!(!svg.contains("NaN"));
+        let texts = || svg.lines().filter(|line| line.starts_with("<text"));
+        assert!(texts().count() > 20);
+        assert_eq!(texts().find(|text| text.contains("  ")), None);
         // The fonts of most viewers have no braille: curves are dots.
         assert!(svg.contains("<path "));
         assert!(!svg.contains(|c: char| ('\u{2801}'..='\u{28ff}').contains(&c)));

@@ -187,6 +187,18 @@ fn the_survey_is_written_as_csv_and_as_a_chart() {
         assert!(svg.contains(words), "{words}");
     }
     assert!(!svg.contains("NaN"));
+    // Nothing that belongs to the text alone; marks stand by themselves.
+    let shown = svg.split_once("</desc>").unwrap().1;
+    assert!(!shown.contains("* marks") && !shown.contains("--range"), "{shown}");
+    let coloured = shown.lines().filter(|line| line.starts_with("<polyline"));
+    let of_lines = coloured.filter(|line| !line.contains("#000000") && !line.contains("#323232"));
+    assert!(of_lines.clone().count() > 0);
+    for line in of_lines {
+        let points = line.split("points=\"").nth(1).unwrap().split('"').next().unwrap();
+        let xs = points.split_whitespace().map(|at| at.split(',').next().unwrap());
+        let xs: Vec<i32> = xs.map(|x| x.parse().unwrap()).collect();
+        assert!(xs.iter().max().unwrap() - xs.iter().min().unwrap() <= 40, "{line}");
+    }
 }
 
 #[test]

@@ -66,9 +66,9 @@ fn draw(figure: &Figure, description: &str, text: &mut String) -> Drawn<()> {
     let root = SVGBackend::with_string(text, (FINE * width, FINE * height)).into_drawing_area();
     root.fill(&WHITE)?;
     let line = |index: usize| (LINE as usize * index) as i32;
-    write_at(&root, &figure.title, (LEFT, 10), TITLE)?;
+    write_at(&root, &signed(&figure.title), (LEFT, 10), TITLE)?;
     for (index, words) in note.iter().enumerate() {
-        write_at(&root, words, (LEFT, 38 + line(index)), TEXT)?;
+        write_at(&root, &signed(words), (LEFT, 38 + line(index)), TEXT)?;
     }
     let (_, below) = root.split_vertically(FINE * head);
     let (panels, _) = below.split_vertically(FINE * body);
@@ -76,13 +76,31 @@ fn draw(figure: &Figure, description: &str, text: &mut String) -> Drawn<()> {
         panel::draw(panel, &area)?;
     }
     for (index, words) in caption.iter().enumerate() {
-        write_at(&root, words, (LEFT, (head + body) as i32 + line(index)), TEXT)?;
+        write_at(&root, &signed(words), (LEFT, (head + body) as i32 + line(index)), TEXT)?;
     }
     root.present()?;
     drop((panels, below, root));
-    finish(text, [width, height], description);
+    let cells = figure.panels.iter().any(panel::has_cells);
+    let style = if cells { STYLE } else { "" };
+    finish(text, [width, height], &format!("{description}{style}"));
     Ok(())
 }
+
+/// A text whose negative numbers have the sign of print.
+fn signed(text: &str) -> String {
+    let mut before = ' ';
+    let mut letters = text.chars().peekable();
+    let mut out = String::new();
+    while let Some(c) = letters.next() {
+        let number = letters.peek().is_some_and(char::is_ascii_digit);
+        out.push(if c == '-' && number && !before.is_alphanumeric() { '−' } else { c });
+        before = c;
+    }
+    out
+}
+
+/// Cells side by side without seams, whatever the size of the picture.
+const STYLE: &str = "<style>rect{shape-rendering:crispEdges}</style>";
 
 /// The size shown, subscripts, and where the picture comes from before anything drawn.
 fn finish(text: &mut String, [width, height]: [u32; 2], description: &str) {
@@ -156,6 +174,31 @@ mod tests {
         );
         assert!(svg.contains("a &amp; b") && svg.contains("u &lt; [µm]"));
         assert!(!svg.contains("NaN") && !svg.contains("inf"));
+    }
+
+    #[test]
+    fn marks_are_not_joined_and_lines_over_cells_have_a_rim() {
+        let draw = |styles: &[Style]| {
+            let points = [(1.0, 1.0), (2.0, 3.0), (4.0, 2.0)];
+            let series = styles.iter().map(|style| Series::new("a", *style, points)).collect();
+            let panel = Panel::new("", Quantity::SPEED, Quantity::SPEED, series);
+            let figure = Figure::new("at -5 N, so-called", "", vec![panel]);
+            let mut text = String::new();
+            super::draw(&figure, "", &mut text).unwrap();
+            text
+        };
+        let lines = |text: &str| text.matches("<polyline").count();
+        let none = lines(&draw(&[]));
+        let disc = draw(&[Style::Discs(0, 5)]);
+        assert_eq!((lines(&disc) - none, disc.matches("<circle").count()), (0, 4));
+        // Three points and the legend, one square each.
+        assert_eq!(lines(&draw(&[Style::Discs(1, 5)])) - none, 4);
+        let rims = |styles: &[Style]| draw(styles).matches("stroke=\"#FFFFFF\"").count();
+        assert_eq!(rims(&[Style::Line(2)]), 0);
+        let whirl = Style::Cells(Verdict::Whirl);
+        assert_eq!(rims(&[whirl, Style::Line(2)]), 1);
+        assert!(draw(&[whirl]).contains(STYLE) && !disc.contains(STYLE));
+        assert!(disc.contains(">\nat −5 N, so-called\n<"));
     }
 
     #[test]

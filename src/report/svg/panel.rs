@@ -5,10 +5,10 @@ use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
-use super::paper::{Area, Drawn, FINE, TEXT, colour, font, px, width_of, write_at};
+use super::paper::{Area, Drawn, FINE, TEXT, colour, font, px, strokes, width_of, write_at};
 use super::{LEFT, LINE};
 use crate::report::number::short;
-use crate::report::ticks::{log_ticks, power_of_ten, ticks};
+use crate::report::ticks::{log_ticks, power_of_ten, scientific, ticks};
 use crate::study::figures::{Mark, Panel, Quantity, Series, Style};
 
 /// Height of a panel's title.
@@ -61,9 +61,19 @@ pub fn draw(panel: &Panel, area: &Area) -> Drawn<()> {
     // A series with a name is drawn last, on top.
     let is_faint = |series: &&Series| series.style == Style::Faint;
     let (faint, named): (Vec<&Series>, Vec<&Series>) = panel.series.iter().partition(is_faint);
+    // Over cells of any colour lines and dots have a white rim.
+    let rim = has_cells(panel).then(|| WHITE.stroke_width(4 * FINE));
     for series in faint.into_iter().chain(named) {
         let points = series.points.iter().map(|point| (x.shown(point.0), y.shown(point.1)));
         let ink = colour(series.style).stroke_width(FINE + FINE / 2);
+        match series.style {
+            Style::Line(_) | Style::Dashed(_) | Style::Dotted(_) => {
+                if let Some(rim) = rim {
+                    chart.draw_series(LineSeries::new(points.clone(), rim))?;
+                }
+            }
+            _ => {}
+        }
         match series.style {
             Style::Faint => {
                 let thin = colour(series.style).stroke_width(FINE / 2);
@@ -84,13 +94,21 @@ pub fn draw(panel: &Panel, area: &Area) -> Drawn<()> {
                 let tile = |at| EmptyElement::at(at) + Rectangle::new(corners, fill);
                 chart.draw_series(points.map(tile))?;
             }
-            Style::Discs(_, radius) => {
-                let pale = colour(series.style).mix(0.5).stroke_width(FINE);
-                chart.draw_series(LineSeries::new(points.clone(), pale))?;
-                let fill = colour(series.style).filled();
-                chart.draw_series(points.map(|at| Circle::new(at, px(radius), fill)))?;
+            Style::Discs(number, radius) => {
+                let strokes = strokes(number, radius);
+                let ink = colour(series.style).stroke_width(2 * FINE);
+                for stroke in &strokes {
+                    let drawn = |at| EmptyElement::at(at) + PathElement::new(stroke.clone(), ink);
+                    chart.draw_series(points.clone().map(drawn))?;
+                }
+                if strokes.is_empty() {
+                    let fill = colour(series.style).filled();
+                    chart.draw_series(points.map(|at| Circle::new(at, px(radius), fill)))?;
+                }
             }
             Style::Dots => {
+                let around = points.clone().filter(|_| rim.is_some());
+                chart.draw_series(around.map(|at| Circle::new(at, px(5) / 2, WHITE.filled())))?;
                 let fill = colour(series.style).filled();
                 chart.draw_series(points.map(|at| Circle::new(at, px(3) / 2, fill)))?;
             }
@@ -104,6 +122,9 @@ pub fn draw(panel: &Panel, area: &Area) -> Drawn<()> {
         let at = x.shown(mark.x);
         if (x.low..=x.high).contains(&at) {
             let line = [(at, y.low), (at, y.high)];
+            if let Some(rim) = rim {
+                chart.draw_series(LineSeries::new(line, rim))?;
+            }
             let ink = BLACK.stroke_width(FINE);
             chart.draw_series(DashedLineSeries::new(line, px(3), px(3), ink))?;
             draw_mark(mark, &chart.backend_coord(&(at, y.high)), &rest)?;
@@ -159,7 +180,17 @@ fn draw_sample(style: Style, (left, top): (i32, i32), area: &Area) -> Drawn<()> 
                 area.draw(&Rectangle::new([at(dot, 7), at(dot + 3, 10)], fill.filled()))?;
             }
         }
-        Style::Discs(_, radius) => area.draw(&Circle::new(at(9, 8), px(radius), fill.filled()))?,
+        Style::Discs(number, radius) => {
+            let strokes = strokes(number, radius);
+            for stroke in &strokes {
+                let ink = fill.stroke_width(2 * FINE);
+                let drawn = PathElement::new(stroke.clone(), ink);
+                area.draw(&(EmptyElement::at(at(9, 8)) + drawn))?;
+            }
+            if strokes.is_empty() {
+                area.draw(&Circle::new(at(9, 8), px(radius), fill.filled()))?;
+            }
+        }
         Style::Dots => area.draw(&Circle::new(at(9, 8), px(3) / 2, fill.filled()))?,
         Style::Edge => {
             area.draw(&TriangleMarker::new(at(9, 9), px(5), fill.stroke_width(FINE)))?;
@@ -235,7 +266,14 @@ impl<'a> Scale<'a> {
 
     /// The label of a tick.
     pub fn label(&self, tick: f64) -> String {
-        if self.quantity.log { power_of_ten(tick) } else { short(tick).replace('-', "−") }
+        if self.quantity.log {
+            return power_of_ten(tick);
+        }
+        // All ticks of an axis in one way.
+        let most = self.low.abs().max(self.high.abs());
+        let plain = tick == 0.0 || (1e-3..1e6).contains(&most);
+        let text = if plain { short(tick) } else { scientific(tick) };
+        text.replace('-', "−")
     }
 }
 

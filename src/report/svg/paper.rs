@@ -18,14 +18,15 @@ const LETTER: f64 = 0.47;
 /// Left and right of text that is wrapped \[px\].
 const MARGINS: u32 = 40;
 
-/// Colours that colour-blind readers can distinguish (Okabe and Ito).
+/// Colours that colour-blind readers can distinguish (hues of Okabe and Ito), each lighter
+/// or darker than the others in grey.
 const COLOURS: [RGBColor; 6] = [
-    RGBColor(0, 114, 178),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 158, 115),
-    RGBColor(204, 121, 167),
-    RGBColor(230, 159, 0),
-    RGBColor(60, 60, 60),
+    RGBColor(0, 96, 165),
+    RGBColor(225, 110, 10),
+    RGBColor(0, 150, 110),
+    RGBColor(205, 130, 175),
+    RGBColor(240, 175, 20),
+    RGBColor(50, 50, 50),
 ];
 
 pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
@@ -85,27 +86,73 @@ pub fn wrapped(text: &str, width: u32) -> Vec<String> {
     lines
 }
 
+/// The lines of the mark of a number, about its place; none for a disc. They are open, so
+/// that marks at one place can be seen, and one more than colours.
+pub fn strokes(number: usize, radius: i32) -> Vec<Vec<(i32, i32)>> {
+    let r = px(radius);
+    let (low, wide) = (r / 2, r * 7 / 8);
+    match number % 7 {
+        0 => vec![],
+        1 => vec![vec![(-r, -r), (r, -r), (r, r), (-r, r), (-r, -r)]],
+        2 => vec![vec![(-r, -r), (r, r)], vec![(-r, r), (r, -r)]],
+        3 => vec![vec![(0, -r), (wide, low), (-wide, low), (0, -r)]],
+        4 => vec![vec![(0, -r), (r, 0), (0, r), (-r, 0), (0, -r)]],
+        5 => vec![vec![(-r, 0), (r, 0)], vec![(0, -r), (0, r)]],
+        _ => vec![vec![(0, r), (wide, -low), (-wide, -low), (0, r)]],
+    }
+}
+
 pub fn colour(style: Style) -> RGBColor {
     let index = match style {
         Style::Faint => return RGBColor(130, 130, 130),
         Style::Line(n) | Style::Dashed(n) | Style::Dotted(n) | Style::Discs(n, _) => n,
         Style::Cells(verdict) => return colour_of(verdict),
-        Style::Dots => return RGBColor(120, 120, 120),
+        Style::Dots => return RGBColor(60, 60, 60),
         Style::Edge => return BLACK,
     };
     *COLOURS.get(index % COLOURS.len()).unwrap_or(&BLACK)
 }
 
-/// Colour of a verdict; verdicts differ in lightness too, for colour-blind readers.
+/// Colour of a verdict; each is lighter or darker than the others, for colour-blind readers
+/// and in grey.
 fn colour_of(verdict: Verdict) -> RGBColor {
     match verdict {
         Verdict::Decay => RGBColor(240, 240, 240),
         Verdict::Bounce => RGBColor(190, 210, 235),
-        Verdict::Slip => RGBColor(240, 190, 70),
-        Verdict::Whirl => RGBColor(60, 150, 90),
-        Verdict::Divergent => RGBColor(110, 60, 130),
-        Verdict::Locked => RGBColor(40, 70, 140),
-        Verdict::Adhesive => RGBColor(200, 70, 90),
+        Verdict::Slip => RGBColor(235, 165, 40),
+        Verdict::Whirl => RGBColor(80, 175, 120),
+        Verdict::Divergent => RGBColor(105, 50, 130),
+        Verdict::Locked => RGBColor(25, 50, 110),
+        Verdict::Adhesive => RGBColor(200, 65, 80),
         Verdict::Failed => RGBColor(0, 0, 0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn grey(RGBColor(red, green, blue): RGBColor) -> f64 {
+        0.299 * f64::from(red) + 0.587 * f64::from(green) + 0.114 * f64::from(blue)
+    }
+
+    fn assert_apart(colours: impl Iterator<Item = RGBColor>, least: f64) {
+        let mut greys: Vec<f64> = colours.map(grey).collect();
+        greys.sort_by(f64::total_cmp);
+        assert!(greys.windows(2).all(|pair| pair[1] - pair[0] >= least), "{greys:?}");
+    }
+
+    #[test]
+    fn colours_differ_in_grey() {
+        assert_apart(Verdict::ALL.iter().map(|verdict| colour_of(*verdict)), 20.0);
+        assert_apart(COLOURS.into_iter(), 10.0);
+    }
+
+    #[test]
+    fn marks_differ_in_shape() {
+        let mut all: Vec<_> = (0..7).map(|number| strokes(number, 4)).collect();
+        all.sort();
+        all.dedup();
+        assert_eq!(all.len(), 7);
     }
 }
