@@ -197,15 +197,10 @@ impl Disk for FullBlades {
         }
         let seen = self.seen.are_of_now().then_some(&self.seen.angles);
         let (ring, table, x, near) = (&self.ring, &self.rows, &self.x, &mut self.near);
-        let mut angle = |row: u32| match seen {
+        rows.put_angles(|row| match seen {
             Some(angles) => angles[row as usize],
             None => mean_of(ring, table, near, row, |shapes| product(shapes, x)),
-        };
-        for (four, rows) in rows.fours.iter_mut().zip(rows.index.chunks(4)) {
-            for (place, &row) in four.angle.iter_mut().zip(rows) {
-                *place = angle(row);
-            }
-        }
+        });
     }
     fn push(&mut self, rows: &Columns, _: [f64; 2]) -> f64 {
         if self.are_many(rows) {

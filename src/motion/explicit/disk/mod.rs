@@ -64,11 +64,7 @@ pub(in crate::motion) trait Disk: Clone + Debug + Send + Sync + 'static {
     }
     /// Finds the angles of these rows \[rad\].
     fn angles(&mut self, rows: &mut Columns) {
-        for (four, rows) in rows.fours.iter_mut().zip(rows.index.chunks(4)) {
-            for (angle, &row) in four.angle.iter_mut().zip(rows) {
-                *angle = self.angle(row);
-            }
-        }
+        rows.put_angles(|row| self.angle(row));
     }
     /// Corrects the predicted step by the torques on these rows, of which two modes feel
     /// so much \[N m\]; a bound on the change of any blade angle \[rad\].

@@ -105,6 +105,19 @@ impl Columns {
         Self { index: rows.to_vec(), side, fours, latest: 0 }
     }
 
+    /// Takes the angle of each row from this; those that pad a four have that of its last.
+    pub fn put_angles(&mut self, mut angle: impl FnMut(u32) -> f64) {
+        for (four, rows) in self.fours.iter_mut().zip(self.index.chunks(4)) {
+            let mut last = 0.0;
+            for (k, place) in four.angle.iter_mut().enumerate() {
+                if let Some(&row) = rows.get(k) {
+                    last = angle(row);
+                }
+                *place = last;
+            }
+        }
+    }
+
     /// Index and side of each row, and this value of it.
     pub fn each(
         &self,
@@ -153,5 +166,20 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn what_pads_a_four_is_its_last_row_without_stiffness() {
+        let table = RowTable::new(&Scene::base().machine(), 1);
+        let rows: Vec<u32> = (3..9).collect();
+        let shape = |row: u32| (f64::from(row), -f64::from(row));
+        let mut columns = Columns::of(&rows, &table, 2.0, |side| (f64::from(side), 0.5), shape);
+        columns.put_angles(|row| 0.1 * f64::from(row));
+        let [first, last] = [columns.fours[0], columns.fours[1]];
+        assert_eq!(first.shape, [[3.0, 4.0, 5.0, 6.0], [-3.0, -4.0, -5.0, -6.0]]);
+        assert_eq!((first.stiffness, last.stiffness), ([2.0; 4], [2.0, 2.0, 0.0, 0.0]));
+        assert_eq!(last.shape[0], [7.0, 8.0, 8.0, 8.0]);
+        assert_eq!(last.angle, [7.0, 8.0, 8.0, 8.0].map(|row| 0.1 * row));
+        assert_eq!(last.cosine[1..], [f64::from(table.side[8]); 3]);
     }
 }
