@@ -61,6 +61,14 @@ pub(crate) const HELD_LEFT: f64 = 1e-12;
 /// changes \[rad\]: what its square changes is small against the room that is kept.
 pub(crate) const KEPT_TURN: f64 = 0.02;
 
+/// Part of a push or gap that the swing of a lock may take where its linear motion is followed:
+/// what is left is ten times what the square of a phase up to `KEPT_TURN` changes.
+pub(crate) const FOLLOWED_ROOM: f64 = 0.8;
+
+/// Looks at that motion at most, of `ANGLE_LOOK` each: eighty turns. More: a decision that
+/// comes earlier costs more than it saves.
+pub(crate) const FOLLOWED_LOOKS: usize = 4096;
+
 /// Largest blade phase `n_d alpha` whose cube the gap of a side that is slid on may leave
 /// out \[rad\]: it makes round-off.
 pub(crate) const SMALL_TURN: f64 = 1e-5;

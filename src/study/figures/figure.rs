@@ -73,7 +73,7 @@ pub enum Style {
     Faint,
     /// Cells of a map, in the colour of this verdict.
     Cells(Verdict),
-    /// Discs of this colour number and radius in pixels, joined by a pale line.
+    /// Discs of this colour number and radius in pixels.
     Discs(usize, i32),
     /// Small grey dots.
     Dots,

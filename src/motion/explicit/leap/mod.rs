@@ -1,13 +1,14 @@
 //! Steps taken many at once, with the result of taking each: free flight (`block`), a held
 //! lock (`corner_step`, `unfolded`, `held_corner`), a wave that slides along one side
 //! of rigid blades (`held_side`). Along a side of blades that move a short step is enough
-//! (`sliding`). Each says itself where it applies (docs/theory.md, section 6); beyond the
+//! (`sliding`). A lock of a larger swing is known to last (`kept`). Each says itself where it applies (docs/theory.md, section 6); beyond the
 //! paper these are locks and sides of blades that move. Read them in this order.
 
 mod block;
 mod corner_step;
 mod held_corner;
 mod held_side;
+mod kept;
 mod sliding;
 mod unfolded;
 

@@ -1,0 +1,149 @@
+//! Whether a lock that swings too far to be leapt over lasts to the end: its linear motion about
+//! rest is followed, a small part of a turn at a time, until bounds say the rest
+//! (docs/theory.md, section 9). The pushes may change their signs under a law that pulls, if
+//! one pulls at rest, and at some step of the part of the run that the verdict is about.
+
+use super::held_corner::{Resting, Standing, as_coordinates};
+use crate::motion::explicit::Explicit;
+use crate::motion::explicit::disk::{Disk, ModalBlades};
+use crate::motion::explicit::oscillator::{LARGEST, Leap};
+use crate::tolerances::{ANGLE_LOOK, FOLLOWED_LOOKS, FOLLOWED_ROOM, KEPT_TURN, LAST_PART};
+
+impl<B: Disk> Explicit<B> {
+    /// Whether such a lock pulls, if nothing that matters to it ever changes its sign.
+    pub(super) fn lock_for_good(&self) -> Option<bool> {
+        let sides = self.steady_corner_since(0)?;
+        let standing = self.stand_in(sides, true)?;
+        let pulls = (0..2).any(|k| standing.resting.value(k) > 0.0);
+        self.lasts(&standing, pulls).then_some(pulls)
+    }
+
+    /// Whether all gaps keep their signs from now on, and either all pushes do or one
+    /// `pulls` before the end.
+    fn lasts(&self, standing: &Standing, pulls: bool) -> bool {
+        let Standing { step, resting, start, growth, swing } = standing;
+        let all = !(pulls && self.law.pulls());
+        let Some(blades) = step.blades() else {
+            return self.is_kept(step, resting, *swing, true);
+        };
+        let (leap, exponent) = steps_of(resting, blades);
+        let end = self.scene.solver.end_s / self.drive.step;
+        let verdict_from = (1.0 - LAST_PART) * end - self.n as f64;
+        let (mut at, mut steps, mut pulled) = (*start, 0.0, all);
+        for _ in 0..FOLLOWED_LOOKS {
+            let reach = blades.oscillator().reach_of(as_coordinates(at));
+            // What the modes turn between two looks bends a value by its square.
+            let bends = |k: usize| ANGLE_LOOK * ANGLE_LOOK * resting.moves(k, reach);
+            let moved = |k: usize| resting.slopes[k].dot(&at);
+            pulled |= steps >= verdict_from
+                && (0..2).any(|k| resting.value(k) > 0.0 && moved(k) + resting.value(k) > bends(k));
+            let small = self.machine.nodal_diameters * reach.0 < KEPT_TURN;
+            let grown = (growth * reach.0, growth * reach.1);
+            if small && pulled && self.is_kept(step, resting, grown, all) {
+                return true;
+            }
+            let keeps = |k: usize| {
+                let fits = resting.sign_fits(k, self.law.pulls());
+                fits && moved(k).abs() + bends(k) < FOLLOWED_ROOM * resting.value(k).abs()
+            };
+            let far = !self.goes_beyond || self.is_far_from_others(step, resting, reach.0);
+            if !(small && far && (0..4).filter(|&k| all || k >= 2).all(keeps)) {
+                return false;
+            }
+            at = leap.doubled(at, exponent);
+            steps += (1_u64 << exponent) as f64;
+        }
+        false
+    }
+}
+
+/// The map of the deviation, and the exponent of so many steps that it turns by a look.
+fn steps_of(resting: &Resting, blades: &ModalBlades) -> (Leap<4>, usize) {
+    let turn = blades.oscillator().turn();
+    let mut scaled = resting.change;
+    for (row, column) in [(0, 2), (0, 3), (1, 2), (1, 3)] {
+        scaled[(row, column)] *= turn;
+        scaled[(column, row)] /= turn;
+    }
+    let steps = ANGLE_LOOK / scaled.norm();
+    let exponent = (0..LARGEST).rev().find(|&k| (1_u64 << k) as f64 <= steps);
+    (Leap::new(resting.change), exponent.unwrap_or(0))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::motion::explicit::Explicit;
+    use crate::motion::explicit::disk::ModalBlades;
+    use crate::motion::{Solver, Verdict};
+    use crate::scene::Scene;
+
+    #[test]
+    fn a_lock_that_is_decided_before_it_is_leapt_over_is_kept_to_the_end() {
+        let mut random = fastrand::Rng::with_seed(3);
+        let mut between = |low: f64, high: f64| low + (high - low) * random.f64();
+        let (mut decided, mut pulled) = (0, 0);
+        for n in 0..120 {
+            let mut scene = Scene::base();
+            let law = if n % 3 == 0 { "unilateral" } else { "bilateral" };
+            scene.set("solver.contact", law).unwrap();
+            for (key, value) in [
+                ("bladed_disk.radial_coupling", between(0.02, 0.5)),
+                ("contact.friction", if n % 6 == 0 { between(0.0, 0.2) } else { 0.0 }),
+                ("operation.speed_rad_s", between(300.0, 560.0)),
+                ("operation.pulse_n", 10_f64.powf(between(3.8, 5.5))),
+                ("casing.damping_ratio", between(0.02, 0.2)),
+                ("bladed_disk.damping_ratio", between(0.02, 0.2)),
+                ("solver.step_s", between(1e-6, 4e-6)),
+                ("solver.end_s", 0.2),
+            ] {
+                scene.set(key, &value.to_string()).unwrap();
+            }
+            let mut motion = Explicit::<ModalBlades>::new(&scene.checked().unwrap());
+            let mut told = None;
+            for look in 1..=100 {
+                let advanced = motion.advance(2e-3 * f64::from(look));
+                let now = motion.final_verdict().filter(|verdict| verdict.is_held());
+                let since = motion.contacts().since;
+                match told {
+                    Some(before) => assert_eq!((now, since, advanced.is_ok()), before, "{scene:?}"),
+                    // Leapt over, it is held by other proofs.
+                    None if now.is_some() && motion.leaps.held.is_some() => break,
+                    None if now.is_some() => told = Some((now, since, true)),
+                    None => {}
+                }
+            }
+            if let Some((Some(verdict), since, _)) = told {
+                decided += 1;
+                pulled += usize::from(verdict == Verdict::Adhesive);
+                if since < 0.1 {
+                    assert_eq!(motion.lasting(0.02), verdict, "{scene:?}");
+                }
+            }
+        }
+        assert!(decided > 10 && pulled > 2, "{decided} {pulled}");
+    }
+
+    #[test]
+    fn a_lock_whose_pushes_change_their_signs_is_known_to_last_long_before_its_end() {
+        let mut scene = Scene::base();
+        for (key, value) in [
+            ("bladed_disk.radial_coupling", "0.3"),
+            ("operation.speed_rad_s", "450"),
+            ("operation.pulse_n", "100e3"),
+            ("solver.contact", "bilateral"),
+            ("solver.step_s", "1e-6"),
+            ("solver.end_s", "0.5"),
+        ] {
+            scene.set(key, value).unwrap();
+        }
+        let mut motion = Explicit::<ModalBlades>::new(&scene.checked().unwrap());
+        motion.advance(0.04).unwrap();
+        assert_eq!(motion.final_verdict(), Some(Verdict::Adhesive));
+        let (since, before) = (motion.contacts().since, motion.contacts().tensile_steps);
+        motion.advance(0.45).unwrap();
+        let pulled = motion.contacts().tensile_steps - before;
+        assert!(0 < pulled && pulled < 410_000, "{pulled}");
+        motion.advance(0.5).unwrap();
+        assert_eq!((motion.lasting(0.05), motion.contacts().since), (Verdict::Adhesive, since));
+    }
+}
