@@ -83,7 +83,10 @@ impl ContactPolygon {
     /// The blades (numbered from 1) of a side, in increasing order.
     #[must_use]
     pub fn blades_of_side(&self, side: u32) -> Vec<u32> {
-        (1..=self.blades).filter(|&blade| self.side_of_blade(blade) == side % self.sides).collect()
+        let (sides, reduced) = (self.sides, self.nodal_diameters / self.blades_per_side);
+        let first = u64::from(side % sides) * u64::from(inverse(reduced, sides)) % u64::from(sides);
+        let first = u32::try_from(first).unwrap_or(0);
+        (0..self.blades_per_side).map(|turn| 1 + first + turn * sides).collect()
     }
 
     /// The next side in increasing phase.
@@ -191,6 +194,20 @@ pub(crate) fn gcd(a: u32, b: u32) -> u32 {
     if b == 0 { a } else { gcd(b, a % b) }
 }
 
+/// What gives the remainder one of `modulus` when multiplied by `number`, which has no
+/// common divisor with it (the extended algorithm of Euclid).
+fn inverse(number: u32, modulus: u32) -> u32 {
+    let modulus = i64::from(modulus);
+    let (mut rest, mut next) = (modulus, i64::from(number) % modulus);
+    let (mut factor, mut next_factor) = (0, 1);
+    while next > 0 {
+        let times = rest / next;
+        (rest, next) = (next, rest - times * next);
+        (factor, next_factor) = (next_factor, factor - times * next_factor);
+    }
+    u32::try_from(factor.rem_euclid(modulus)).unwrap_or(0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -248,6 +265,25 @@ mod tests {
             let nearest = polygon.nearest_side(x, y);
             let smallest = (0..22).map(|k| polygon.gap(k, x, y)).fold(f64::INFINITY, f64::min);
             assert!(polygon.gap(nearest, x, y) <= smallest + 1e-12);
+        }
+    }
+
+    #[test]
+    fn the_blades_of_a_side_are_those_that_belong_to_it() {
+        for blades in [1, 2, 3, 7, 12, 22, 36, 60] {
+            for diameters in 0..=blades {
+                let polygon = ContactPolygon::new(blades, diameters, 1e-4);
+                for side in 0..=polygon.sides {
+                    let of_side =
+                        |&blade: &u32| polygon.side_of_blade(blade) == side % polygon.sides;
+                    let expected: Vec<u32> = (1..=blades).filter(of_side).collect();
+                    assert_eq!(
+                        polygon.blades_of_side(side),
+                        expected,
+                        "{blades} {diameters} {side}"
+                    );
+                }
+            }
         }
     }
 
