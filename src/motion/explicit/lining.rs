@@ -493,3 +493,41 @@ impl<B: Disk> Explicit<B> {
         lining.near.fours.iter_mut().for_each(|four| four.impulse = [0.0; 4]);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::Solver;
+    use crate::motion::explicit::{FullBlades, ModalBlades};
+    use crate::scene::Scene;
+
+    fn compare<B: Disk>(scene: &Scene) {
+        let mut wide = Explicit::<B>::new(&scene.checked().unwrap());
+        let mut narrow = wide.clone();
+        if let Some(lining) = &mut narrow.lining {
+            lining.lanes = Level::baseline();
+        }
+        for motion in [&mut wide, &mut narrow] {
+            motion.advance(0.02).unwrap();
+        }
+        assert!(wide.contacts().impact_count > 5);
+        assert_eq!(wide.state(), narrow.state());
+        assert_eq!(wide.energy_account(), narrow.energy_account());
+        assert_eq!(wide.multipliers(), narrow.multipliers());
+    }
+
+    #[test]
+    fn what_the_processor_can_do_at_once_changes_no_bit() {
+        for (blades, smoothing, kappa) in [(22, 1e-6, 0.5), (13, 0.0, 0.5), (22, 1e-6, 3.0)] {
+            let mut scene = Scene::base();
+            scene.bladed_disk.blades = blades;
+            scene.bladed_disk.radial_coupling = kappa;
+            (scene.contact.stiffness_n_per_m, scene.contact.smoothing_m) = (5e6, smoothing);
+            scene.contact.friction = 0.1;
+            scene.solver.contact = crate::scene::ContactLaw::Smooth;
+            (scene.solver.step_s, scene.operation.pulse_n) = (2e-6, 5e4);
+            compare::<ModalBlades>(&scene);
+            compare::<FullBlades>(&scene);
+        }
+    }
+}
