@@ -8,6 +8,8 @@
 //! the first part is stored in a lining or lost in an impact, the second comes from the
 //! rotor, and what the rotor gives against friction beyond the third is heat.
 
+use std::ops::AddAssign;
+
 use serde::Serialize;
 
 use crate::model::ContactPolygon;
@@ -212,6 +214,19 @@ pub struct EnergyAccount {
     pub impact_loss_j: f64,
     /// Gained since the start: in casing, blades and lining.
     pub stored_j: f64,
+}
+
+impl AddAssign for EnergyAccount {
+    fn add_assign(&mut self, other: Self) {
+        self.pulse_work_j += other.pulse_work_j;
+        self.rotor_work_j += other.rotor_work_j;
+        self.growth_work_j += other.growth_work_j;
+        self.casing_loss_j += other.casing_loss_j;
+        self.blade_loss_j += other.blade_loss_j;
+        self.friction_heat_j += other.friction_heat_j;
+        self.impact_loss_j += other.impact_loss_j;
+        self.stored_j += other.stored_j;
+    }
 }
 
 impl EnergyAccount {

@@ -9,7 +9,7 @@ use super::record::Account;
 use super::rows::{Found, TipLaw};
 use super::{Coordinate, Explicit};
 use crate::model::Machine;
-use crate::motion::{ActiveSet, FailureReason, Plane};
+use crate::motion::{ActiveSet, FailureReason};
 use crate::scene::{CheckedScene, ModelSize};
 use crate::tolerances::{ANGLE_LOOK, LONG_STEP};
 
@@ -152,12 +152,17 @@ impl<B: Disk> Explicit<B> {
         }
         let [c, s] = self.u.map(|coordinate| coordinate.increment);
         let by_step = self.machine.tangential_ratio / self.drive.step;
-        let tip_m_s = self.drive.speed(self.n).abs() * self.scene.casing.radius_m;
+        let tip_m_s = self.tip_speed();
         if by_step * by_step * (c * c + s * s) > tip_m_s * tip_m_s {
             let speed_m_s = by_step * c.hypot(s);
             return Err(FailureReason::CasingSpeed { speed_m_s, tip_m_s });
         }
         Ok(())
+    }
+
+    /// Speed of the tips along the casing \[m/s\].
+    pub(super) fn tip_speed(&self) -> f64 {
+        self.drive.speed(self.n).abs() * self.scene.casing.radius_m
     }
 
     /// What tips do at step `n`: friction turns round with the rotor.
@@ -196,7 +201,7 @@ impl<B: Disk> Explicit<B> {
         if self.n >= self.beyond.next_look {
             self.beyond.next_look = self.n + self.beyond.steps_unseen;
             let (t, swing) = (self.time_of(self.n), self.swing_of_blades());
-            self.beyond.lasting.look(t, Plane::default(), Plane::default(), swing);
+            self.beyond.lasting.look_at_tips(t, swing);
         }
     }
 

@@ -183,7 +183,7 @@ impl<B: Disk> Explicit<B> {
             rows: &rows,
             turn: machine.nu(self.drive.speed(self.n)) * self.drive.step,
         };
-        let tip_speed = self.drive.speed(self.n).abs() * self.scene.casing.radius_m;
+        let tip_speed = self.tip_speed();
         let rate = machine.omega_c.max(machine.omega_bd);
         Rest::of(
             &step,

@@ -90,6 +90,11 @@ impl Lasting {
         self.now.swing = self.now.swing.max(swing);
     }
 
+    /// The same of a rigid casing: only how far the tips swing \[m\].
+    pub fn look_at_tips(&mut self, t: f64, swing: f64) {
+        self.look(t, Plane::default(), Plane::default(), swing);
+    }
+
     /// The rows that touch now, as the sum of `mark` of each, and whether all do; since
     /// when they are the same \[s\].
     pub fn touch(&mut self, t: f64, set: u64, all: bool) -> f64 {
@@ -204,8 +209,7 @@ mod tests {
 
     #[test]
     fn trends_are_forgotten_where_someone_changes_the_motion() {
-        let mut scene = Scene::base();
-        for (path, value) in [
+        let scene = Scene::base().with(&[
             ("solver.contact", "smooth"),
             ("solver.step_s", "1e-6"),
             ("solver.end_s", "2e-3"),
@@ -213,10 +217,8 @@ mod tests {
             ("casing.radius_m", "0.49988"),
             ("bladed_disk.radial_coupling", "0.5"),
             ("operation.pulse_n", "100"),
-        ] {
-            scene.set(path, value).unwrap();
-        }
-        let scene = scene.checked().unwrap();
+        ]);
+        let scene = scene.unwrap();
         let mut motion = Explicit::<ModalBlades>::new(&scene);
         motion.advance(1.9e-3).unwrap();
         let known = |motion: &Explicit<ModalBlades>| {

@@ -66,13 +66,9 @@ pub fn draw(panel: &Panel, area: &Area) -> Drawn<()> {
     for series in faint.into_iter().chain(named) {
         let points = series.points.iter().map(|point| (x.shown(point.0), y.shown(point.1)));
         let ink = colour(series.style).stroke_width(FINE + FINE / 2);
-        match series.style {
-            Style::Line(_) | Style::Dashed(_) | Style::Dotted(_) => {
-                if let Some(rim) = rim {
-                    chart.draw_series(LineSeries::new(points.clone(), rim))?;
-                }
-            }
-            _ => {}
+        let is_line = matches!(series.style, Style::Line(_) | Style::Dashed(_) | Style::Dotted(_));
+        if let Some(rim) = rim.filter(|_| is_line) {
+            chart.draw_series(LineSeries::new(points.clone(), rim))?;
         }
         match series.style {
             Style::Faint => {

@@ -171,7 +171,7 @@ impl LinearEvents {
             most if most > LARGEST_BLADE_ANGLE => parameters.largest_angle(point.a),
             most => most,
         };
-        let drags = parameters.turn.im != 0.0;
+        let (drags, tip_m_s) = (parameters.turn.im != 0.0, parameters.speed.abs() * radius_m);
         let along = || parameters.machine.tangential_ratio * parameters.carried(point).norm();
         let reason = if angle_rad > LARGEST_BLADE_ANGLE {
             FailureReason::BladeAngle { angle_rad }
@@ -179,8 +179,7 @@ impl LinearEvents {
             FailureReason::NoCorner { radius_m }
         } else if distance_m > radius_m {
             FailureReason::Displacement { distance_m, radius_m }
-        } else if drags && along() > parameters.speed.abs() * radius_m {
-            let tip_m_s = parameters.speed.abs() * radius_m;
+        } else if drags && along() > tip_m_s {
             FailureReason::CasingSpeed { speed_m_s: along(), tip_m_s }
         } else {
             return;

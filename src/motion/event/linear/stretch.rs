@@ -318,14 +318,13 @@ impl Stretch {
     /// Gap of a row as a power series \[m\].
     pub(super) fn gap(&self, parameters: &Parameters, row: usize) -> Terms {
         let arm = parameters.arm();
-        let Direction { casing, tip } =
+        let direction =
             parameters.rows.get(row).map_or_else(Direction::default, |row| row.direction);
         let ([z_re, z_im], [a_re, a_im]) = (&self.z, &self.a);
         let mut terms = [0.0; TERMS];
         let parts = z_re.iter().zip(z_im).zip(a_re.iter().zip(a_im));
         for (term, ((z_re, z_im), (a_re, a_im))) in terms.iter_mut().zip(parts) {
-            let along = casing.re * z_re + casing.im * z_im;
-            *term = along - arm * (tip.re * a_re + tip.im * a_im);
+            *term = direction.along(arm, Plane::new(*z_re, *z_im), Plane::new(*a_re, *a_im));
         }
         terms[0] += parameters.clearance();
         terms

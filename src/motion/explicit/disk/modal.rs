@@ -194,9 +194,8 @@ impl Disk for ModalBlades {
         if amplitude <= largest {
             return (0.0, amplitude);
         }
-        let [cosine, sine] = self.modal();
-        let now = self.rows.phases.largest_component_near(cosine, sine, &mut self.widest);
-        let now = if amplitude.is_finite() { now } else { f64::INFINITY };
+        let (now, widest) = self.largest_and_where(self.modal());
+        self.widest = widest;
         (now, now)
     }
     fn reach(&self) -> f64 {
@@ -290,11 +289,18 @@ impl ModalBlades {
     }
 
     /// The largest angle of any blade at these mode displacements \[rad\].
-    pub fn largest(&self, [cosine, sine]: [f64; 2]) -> f64 {
+    pub fn largest(&self, modes: [f64; 2]) -> f64 {
+        self.largest_and_where(modes).0
+    }
+
+    /// The same, and the phase of the blades that have it.
+    fn largest_and_where(&self, [cosine, sine]: [f64; 2]) -> (f64, u32) {
+        let mut widest = self.widest;
         if cosine.is_finite() && sine.is_finite() {
-            self.rows.phases.largest_component(cosine, sine)
+            let phases = &self.rows.phases;
+            (phases.largest_component_near(cosine, sine, &mut widest), widest)
         } else {
-            f64::INFINITY
+            (f64::INFINITY, widest)
         }
     }
 }

@@ -10,7 +10,7 @@ use super::held_corner::HeldCorner;
 use super::held_side::HeldSide;
 use crate::motion::explicit::disk::Disk;
 use crate::motion::explicit::{Coordinate, Explicit};
-use crate::motion::{ActiveSet, Plane, Verdict};
+use crate::motion::{ActiveSet, EnergyAccount, Verdict};
 use crate::tolerances::{
     BREAK_STEPS, HELD_AFTER, LARGEST_BLADE_ANGLE, LIGHT_BLADES, ROOM_TO_CHANGE, SHORTEST_BLOCK,
 };
@@ -239,15 +239,17 @@ impl<B: Disk> Explicit<B> {
     fn log_lock(&mut self, corner: &HeldCorner, before: u64) {
         let used = self.leaps.block.used();
         if let Some([work, casing, blades, heat]) = corner.flows(before, used) {
-            let sums = &mut self.beyond.account.sums;
-            sums.rotor_work_j += work;
-            sums.casing_loss_j += casing;
-            sums.blade_loss_j += blades;
-            sums.friction_heat_j += heat;
+            self.beyond.account.sums += EnergyAccount {
+                rotor_work_j: work,
+                casing_loss_j: casing,
+                blade_loss_j: blades,
+                friction_heat_j: heat,
+                ..EnergyAccount::default()
+            };
         }
         while let Some(n) = self.beyond.look_until(self.n + used) {
             let swing = self.tips.rise.abs() * corner.amplitude(n.saturating_sub(self.n));
-            self.beyond.lasting.look(self.time_of(n), Plane::default(), Plane::default(), swing);
+            self.beyond.lasting.look_at_tips(self.time_of(n), swing);
         }
     }
 

@@ -230,7 +230,7 @@ impl<B: Disk> Explicit<B> {
     /// The corner of these sides, its rest and the swing about it, with how far the swing
     /// may grow first where that is asked for.
     pub(super) fn stand_in(&self, sides: [u32; 2], grows: bool) -> Option<Standing> {
-        let now = self.corner_modes()?;
+        let now = self.modes_of_sides()?;
         let turn = self.machine.nu(self.drive.speed(self.n)) * self.drive.step;
         let (machine, casing) = (&self.machine, &self.casing);
         let mut step = CornerStep::new(machine, self.tips, casing, now.moving, sides, turn);
@@ -249,9 +249,9 @@ impl<B: Disk> Explicit<B> {
         Some(Standing { step, resting, start, swing, growth })
     }
 
-    /// The modes of a corner whose rows are its two sides, and whose casing is rigid and
-    /// gives nothing back.
-    pub(super) fn corner_modes(&self) -> Option<HeldModes<'_>> {
+    /// The modes of blades whose rows are sides, where the casing is rigid and gives nothing
+    /// back.
+    pub(super) fn modes_of_sides(&self) -> Option<HeldModes<'_>> {
         let plain = || {
             let by_side = self.blades.wave().is_some() && self.blades.table().is_by_side();
             let rigid = self.lining.is_none() && self.scene.contact.restitution == 0.0;

@@ -285,7 +285,7 @@ impl<B: Disk> Explicit<B> {
     }
 
     fn begin_sliding(&self, side: u32) -> Option<Sliding> {
-        let HeldModes { modes, moving } = self.corner_modes()?;
+        let HeldModes { modes, moving } = self.modes_of_sides()?;
         let moving = moving?;
         if self.neighbours_matter || !self.machine.polygon.has_corners() {
             return None;
@@ -303,12 +303,9 @@ impl<B: Disk> Explicit<B> {
     /// What a slide beyond the paper needs at this speed.
     fn sliding_tips(&self) -> Tips {
         let (law, turned) = (self.tips, self.drive.speed(self.n) * self.drive.step);
-        let tip = turned.abs() * self.scene.casing.radius_m;
-        let outrun = if law.casing_friction == 0.0 {
-            f64::INFINITY
-        } else {
-            tip / self.machine.tangential_ratio
-        };
+        let drags = law.casing_friction != 0.0;
+        let by_step = self.drive.step / self.machine.tangential_ratio;
+        let outrun = if drags { by_step * self.tip_speed() } else { f64::INFINITY };
         Tips {
             law,
             fastest: SLIDING_WAY * self.beyond.long.min(outrun),
@@ -346,16 +343,11 @@ impl<B: Disk> Explicit<B> {
     /// Keeps what steps along a side beyond the paper did.
     fn keep_slide(&mut self, done: &Done) {
         self.record.deepest = self.record.deepest.max(done.left);
-        let sums = &mut self.beyond.account.sums;
-        sums.rotor_work_j += done.flows.rotor;
-        sums.casing_loss_j += done.flows.casing;
-        sums.blade_loss_j += done.flows.blades;
-        sums.friction_heat_j += done.flows.heat;
-        sums.impact_loss_j += done.flows.impact;
+        self.beyond.account.sums += done.flows;
         let swing = self.leaps.sliding.as_ref().map_or(0.0, Sliding::amplitude);
         if let Some(n) = self.beyond.look_until(self.n) {
             let swing = self.tips.rise.abs() * swing;
-            self.beyond.lasting.look(self.time_of(n), Plane::default(), Plane::default(), swing);
+            self.beyond.lasting.look_at_tips(self.time_of(n), swing);
         }
     }
 

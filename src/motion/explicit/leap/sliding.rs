@@ -8,15 +8,15 @@
 //! `zeta = z conj(normal) = -g0 + X + i Y`, all numbers of a step are small parts.
 //!
 //! Tips that move outward or rub slide by the same loop, with larger phases, their slope
-//! and friction, and what the ledger of energy asks of each step (`Flows`).
+//! and friction, and what the ledger of energy asks of each step.
 
 use super::held_side::SideStep;
 use crate::model::Machine;
-use crate::motion::Plane;
 use crate::motion::explicit::disk::ModalBlades;
 use crate::motion::explicit::record::Watch;
 use crate::motion::explicit::rows::TipLaw;
 use crate::motion::explicit::{Coordinate, Oscillator};
+use crate::motion::{EnergyAccount, Plane};
 use crate::tolerances::{
     LIGHT_PUSH, NEIGHBOUR_DEPTHS, SERIES_PHASE, SLIDING_DEPTH, SLIDING_SHARE, SMALL_TURN,
 };
@@ -104,17 +104,8 @@ pub(in crate::motion::explicit) struct Done {
     /// Deepest predicted penetration, and the deepest that a step has left \[m\].
     pub predicted: f64,
     pub left: f64,
-    pub flows: Flows,
-}
-
-/// Flows of energy of some steps beyond the paper \[J\].
-#[derive(Clone, Copy, Debug, Default)]
-pub(in crate::motion::explicit) struct Flows {
-    pub rotor: f64,
-    pub casing: f64,
-    pub blades: f64,
-    pub heat: f64,
-    pub impact: f64,
+    /// Flows of energy beyond the paper.
+    pub flows: EnergyAccount,
 }
 
 impl Rules {
@@ -157,14 +148,6 @@ impl Rules {
         })
     }
 
-    /// The gap of the side with the casing at `zeta` and its blades at an angle \[m\].
-    fn gap(&self, zeta: Plane, along: f64) -> f64 {
-        let (sin, versine) = phase::<true>(self.diameters * along);
-        let rise = self.tips.map_or(0.0, |tips| tips.law.rise);
-        let at_rest = zeta.re + self.clearance;
-        at_rest + (zeta.im * sin - zeta.re * versine) - rise * along
-    }
-
     /// The largest angle of any blade, for a side's blades at `along`.
     fn largest(&self, along: f64, across: f64, blades: &ModalBlades, side: u32) -> f64 {
         if across.abs() <= self.spread * along.abs() {
@@ -201,10 +184,13 @@ impl Sliding {
         let ahead = rules.blades.step(along, 0.0);
         let change = moved + rules.step.turned.conj() * (zeta - moved);
         let [cosine, sine] = blades.before();
+        let gap = |zeta: Plane, along: f64| {
+            rules.tips.map_or(0.0, |tips| tips.law.place((1.0, 0.0), zeta, along).gap)
+        };
         let before = Before {
             moved: moved_before,
             bent: [c * cosine + s * sine, c * sine - s * cosine],
-            gaps: [rules.gap(zeta, along.x), rules.gap(zeta - change, along.x - along.increment)],
+            gaps: [gap(zeta, along.x), gap(zeta - change, along.x - along.increment)],
         };
         inside.then(|| Self {
             side,
@@ -358,16 +344,16 @@ impl Sliding {
                     let flows = &mut done.flows;
                     let both = now + (latest - turned * latest);
                     let swept = [da + turning, eb + db];
-                    flows.casing += tips.casing_lost * both.norm_sqr();
-                    flows.blades += blades_lost * (swept[0] * swept[0] + swept[1] * swept[1]);
-                    flows.impact += 0.5 * lambda * (left - before.gaps[1]);
-                    flows.rotor += lambda * arm * tips.turned;
+                    flows.casing_loss_j += tips.casing_lost * both.norm_sqr();
+                    flows.blade_loss_j += blades_lost * (swept[0] * swept[0] + swept[1] * swept[1]);
+                    flows.impact_loss_j += 0.5 * lambda * (left - before.gaps[1]);
+                    flows.rotor_work_j += lambda * arm * tips.turned;
                     if friction != 0.0 {
                         let slid = tips.radius * tips.turned;
                         let bent = 0.5 * tips.length * swept[0];
                         let along = 0.5 * (both.im * (1.0 - bow) - both.re * sin);
-                        flows.rotor -= lambda * friction * slid;
-                        flows.heat -= lambda * (friction * (slid + bent) - drag * along);
+                        flows.rotor_work_j -= lambda * friction * slid;
+                        flows.friction_heat_j -= lambda * (friction * (slid + bent) - drag * along);
                     }
                 }
                 done.left = done.left.max(-left);
