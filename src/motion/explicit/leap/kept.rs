@@ -27,6 +27,7 @@ impl<B: Disk> Explicit<B> {
             return self.is_kept(step, resting, *swing, true);
         };
         let (leap, exponent) = steps_of(resting, blades);
+        let stride = (1_u64 << exponent) as f64;
         let end = self.scene.solver.end_s / self.drive.step;
         let verdict_from = (1.0 - LAST_PART) * end - self.n as f64;
         let (mut at, mut steps, mut pulled) = (*start, 0.0, all);
@@ -39,8 +40,14 @@ impl<B: Disk> Explicit<B> {
                 && (0..2).any(|k| resting.value(k) > 0.0 && moved(k) + resting.value(k) > bends(k));
             let small = self.machine.nodal_diameters * reach.0 < KEPT_TURN;
             let grown = (growth * reach.0, growth * reach.1);
-            if small && pulled && self.is_kept(step, resting, grown, all) {
-                return true;
+            if small && self.is_kept(step, resting, grown, all) {
+                if pulled {
+                    return true;
+                }
+                // Nothing but a push of the last part is left to find.
+                let ahead = stride.max(verdict_from - steps).floor();
+                (at, steps) = (leap.apply(at, ahead as u64), steps + ahead);
+                continue;
             }
             let keeps = |k: usize| {
                 let fits = resting.sign_fits(k, self.law.pulls());
@@ -50,8 +57,7 @@ impl<B: Disk> Explicit<B> {
             if !(small && far && (0..4).filter(|&k| all || k >= 2).all(keeps)) {
                 return false;
             }
-            at = leap.doubled(at, exponent);
-            steps += (1_u64 << exponent) as f64;
+            (at, steps) = (leap.doubled(at, exponent), steps + stride);
         }
         false
     }
@@ -125,18 +131,18 @@ mod tests {
 
     #[test]
     fn a_lock_whose_pushes_change_their_signs_is_known_to_last_long_before_its_end() {
-        let mut scene = Scene::base();
-        for (key, value) in [
-            ("bladed_disk.radial_coupling", "0.3"),
-            ("operation.speed_rad_s", "450"),
-            ("operation.pulse_n", "100e3"),
-            ("solver.contact", "bilateral"),
-            ("solver.step_s", "1e-6"),
-            ("solver.end_s", "0.5"),
-        ] {
-            scene.set(key, value).unwrap();
-        }
-        let mut motion = Explicit::<ModalBlades>::new(&scene.checked().unwrap());
+        let scene = |end: &str| {
+            let keys = [
+                ("bladed_disk.radial_coupling", "0.3"),
+                ("operation.speed_rad_s", "450"),
+                ("operation.pulse_n", "100e3"),
+                ("solver.contact", "bilateral"),
+                ("solver.step_s", "1e-6"),
+                ("solver.end_s", end),
+            ];
+            Scene::base().with(&keys).unwrap()
+        };
+        let mut motion = Explicit::<ModalBlades>::new(&scene("0.5"));
         motion.advance(0.04).unwrap();
         assert_eq!(motion.final_verdict(), Some(Verdict::Adhesive));
         let (since, before) = (motion.contacts().since, motion.contacts().tensile_steps);
@@ -145,5 +151,9 @@ mod tests {
         assert!(0 < pulled && pulled < 410_000, "{pulled}");
         motion.advance(0.5).unwrap();
         assert_eq!((motion.lasting(0.05), motion.contacts().since), (Verdict::Adhesive, since));
+        // However far the end is.
+        let mut motion = Explicit::<ModalBlades>::new(&scene("50"));
+        motion.advance(0.04).unwrap();
+        assert_eq!(motion.final_verdict(), Some(Verdict::Adhesive));
     }
 }
