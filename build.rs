@@ -7,7 +7,16 @@ use std::process::Command;
 
 /// What the program is made of. A change of anything else is no reason to build
 /// again, and makes no other program.
-const SOURCES: [&str; 6] = ["src", "presets", "assets", "build.rs", "Cargo.toml", "Cargo.lock"];
+const SOURCES: [&str; 8] = [
+    "src",
+    "solver/src",
+    "solver/Cargo.toml",
+    "presets",
+    "assets",
+    "build.rs",
+    "Cargo.toml",
+    "Cargo.lock",
+];
 
 /// Where `cargo package` tells the commit.
 const INFO: &str = ".cargo_vcs_info.json";

@@ -11,10 +11,10 @@ use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use ratatui::{Terminal, backend::TestBackend};
-use rubscope::scene::Scene;
 use rubscope::tui::terminal::NoHost;
 use rubscope::tui::worker::{Playback, Stepwise};
 use rubscope::tui::{App, Marker, Theme, run};
+use rubscope_solver::scene::Scene;
 
 /// The default scene, with a run that does not end while it is measured.
 fn app() -> App {

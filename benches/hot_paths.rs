@@ -13,12 +13,12 @@ use std::time::Duration;
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
-use rubscope::harmonic::{Form, locked_motion};
-use rubscope::motion::{
+use rubscope_solver::harmonic::{Form, locked_motion};
+use rubscope_solver::motion::{
     ExactEvents, Motion, Sample, Sampling, Script, run_to_end, run_to_verdict,
     run_with_sensitivity, to_the_end,
 };
-use rubscope::scene::{CheckedScene, Scene};
+use rubscope_solver::scene::{CheckedScene, Scene};
 
 type Changes = &'static [(&'static str, &'static str)];
 

@@ -1,53 +1,10 @@
-//! Blade-tip/casing rub of a flexible bladed disk in a flexible casing, after
-//! Legrand, Pierre and Peseux (2010).
+//! The `rubscope` program as a library, so that tests and benchmarks can reach its
+//! parts: [`report`] writes what the solvers of [`rubscope_solver`] return, [`cli`] is the
+//! command line, [`tui`] the explorer, and [`file`] writes files completely or not at all.
 //!
-//! Begin with a [`scene::Scene`]: a built-in one, a file ([`scene::Scene::load`]), or your own
-//! machine from a table of modes ([`scene::read_modes`], [`scene::ModalData::to_toml`],
-//! [`scene::Scene::from_toml`]). [`scene::Scene::checked`] refuses what cannot be solved, and
-//! names it; all below takes what it returns, which is a scene, too.
-//!
-//! | to find | ask |
-//! |---|---|
-//! | frequencies, critical and coincidence speeds | [`model::Machine`] |
-//! | how a run ends, and whether a tiny change ends otherwise | [`motion::simulate`] |
-//! | only how it ends | [`motion::run_to_verdict`], with [`motion::to_the_end`] |
-//! | the state on the way, with changes of speed, pulse and damping | [`motion::Motion`] |
-//! | the locked motion against speed | [`harmonic::locked_motion`] of [`scene::Scene::machine`] |
-//! | slip, whirl, flutter, rest on a lining | [`harmonic`] |
-//! | verdicts over two parameters | [`study::MapPlan::compute`] a cell, [`study::Map::fill`] all |
-//! | the distance to every limit, and what moves it | [`study::margins::Margins::of`] |
-//! | every number of nodal diameters | [`study::survey::Survey::of`] |
-//!
-//! Units are SI. A multiplier is negative where the contact pushes. The crate's `examples`
-//! are whole programs; `docs/theory.md` has the equations that are cited by number. Without
-//! the features `cli` and `explorer` nothing here knows a terminal or prints.
-//!
-//! ```
-//! use rubscope::motion::{Verdict, simulate};
-//! use rubscope::scene::Scene;
-//!
-//! let mut scene = Scene::builtin("paper-nd3")?; // equality contact, 1 MN
-//! let report = simulate(&scene.checked()?);
-//! assert_eq!(report.outcome.verdict, Verdict::Locked);
-//! scene.set("solver.contact", "unilateral")?; // contact that may only push
-//! let report = simulate(&scene.checked()?);
-//! assert_eq!(report.outcome.verdict, Verdict::Decay);
-//! # Ok::<(), rubscope::scene::SceneError>(())
-//! ```
+//! A program that needs the model and the solvers alone depends on `rubscope-solver`.
 
-#[cfg(feature = "cli")]
 pub mod cli;
-pub mod contact;
 pub mod file;
-pub mod harmonic;
-pub mod model;
-pub mod motion;
-mod numeric;
-#[cfg(feature = "report")]
 pub mod report;
-pub mod scene;
-pub mod study;
-
-mod tolerances;
-#[cfg(feature = "explorer")]
 pub mod tui;

@@ -11,8 +11,8 @@ use super::options::{SceneOptions, read_scene};
 use super::status::{self, Refusal, Status};
 use super::words::Words;
 use super::{Cli, Done};
-use crate::scene::DEFAULT;
 use crate::tui;
+use rubscope_solver::scene::DEFAULT;
 
 /// What the explorer opens with.
 #[derive(Args, Debug)]

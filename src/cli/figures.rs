@@ -12,8 +12,8 @@ use super::status::{self, Refusal, Status, say};
 use super::{Done, output, sign};
 use crate::file::Written;
 use crate::report::{CommandLine, Provenance, figure::table, svg};
-use crate::scene::{CheckedScene, Scene};
-use crate::study::figures::{Figure, Which};
+use rubscope_solver::scene::{CheckedScene, Scene};
+use rubscope_solver::study::figures::{Figure, Which};
 
 const SCENE: &str =
     "Built-in scene or path of a .toml file [default: paper-nd3; each figure has its own]";

@@ -13,10 +13,10 @@ use super::range::{Range, linspace};
 use super::status::{self, Refusal, Status, say};
 use super::words::Words;
 use super::{Done, output};
-use crate::harmonic::{Form, Sweep};
 use crate::report::number::speed;
 use crate::report::{CommandLine, hbm as report, json};
-use crate::scene::{Quantity, Scene};
+use rubscope_solver::harmonic::{Form, Sweep};
+use rubscope_solver::scene::{Quantity, Scene};
 
 /// Default number of speeds of a sweep.
 const SPEEDS: usize = 51;

@@ -7,17 +7,17 @@ use clap::Args;
 
 use super::hbm_views::{Answer, Asked};
 use super::status::Refusal;
-use crate::harmonic::{
-    FollowedBranch, HarmonicError, HopfPoint, Lining, coincidence, follow, growth_threshold,
-    least_lock_stiffness, shifted_coincidence,
-};
 use crate::report::CommandLine;
 use crate::report::hbm::{self as report, HbmReport, LiningReport};
 use crate::report::number::{per_speed, short, speed, speed_unit};
 use crate::report::table::Table;
-use crate::scene::keys;
-use crate::scene::units::{RangeError, read_ends};
-use crate::scene::{ContactLaw, Key, Quantity, Scene};
+use rubscope_solver::harmonic::{
+    FollowedBranch, HarmonicError, HopfPoint, Lining, coincidence, follow, growth_threshold,
+    least_lock_stiffness, shifted_coincidence,
+};
+use rubscope_solver::scene::keys;
+use rubscope_solver::scene::units::{RangeError, read_ends};
+use rubscope_solver::scene::{ContactLaw, Key, Quantity, Scene};
 
 /// What is asked of a lining.
 #[derive(Args, Debug)]

@@ -6,17 +6,17 @@ use std::rc::Rc;
 use super::hbm_lining::{self, LiningView};
 use super::range::linspace;
 use super::status::Refusal;
-use crate::harmonic::{
+use crate::report::hbm::{self as report, CompliancePoint, HbmReport, WhirlRow};
+use crate::report::number::{self, short};
+use crate::report::table::{MadeTable, Table};
+use rubscope_solver::harmonic::{
     Branches, Campbell, Corner, ExcitedLocks, Form, HarmonicError, Joint, NoSlip, SlipPoint,
     SlipRegion, SlipSpectrum, Sweep, WhirlPoint, corner_branch, drives, flutter_speed,
     locked_motion, round_whirls, slip_limits, slip_over, slip_spectrum, undamped_flutter_speed,
     whirl_onset, whirl_over,
 };
-use crate::model::Machine;
-use crate::report::hbm::{self as report, CompliancePoint, HbmReport, WhirlRow};
-use crate::report::number::{self, short};
-use crate::report::table::{MadeTable, Table};
-use crate::scene::{Scene, keys};
+use rubscope_solver::model::Machine;
+use rubscope_solver::scene::{Scene, keys};
 
 /// Arc length between points of a branch followed through its fold.
 const ARC: f64 = 0.05;

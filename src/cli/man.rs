@@ -9,8 +9,8 @@ use clap_mangen::roff::{Roff, bold, roman};
 
 use super::status::{Refusal, Status};
 use super::{Cli, Done};
-use crate::scene::BUILTIN;
 use crate::tui::bindings::{self, Context, keys_text};
+use rubscope_solver::scene::BUILTIN;
 
 /// When the text of the pages last changed in more than its wording. A page without
 /// a date has its source in the place of the date.

@@ -21,8 +21,8 @@ use super::status::{self, Refusal, Status, say};
 use super::{Done, output, sign};
 use crate::file::{self, Written};
 use crate::report::{Provenance, json, map as report, svg};
-use crate::scene::keys;
-use crate::study::{Axis, AxisError, Cell, Map, MapPlan, Progress, Shard, overlay, part};
+use rubscope_solver::scene::keys;
+use rubscope_solver::study::{Axis, AxisError, Cell, Map, MapPlan, Progress, Shard, overlay, part};
 
 /// Most threads: more than any machine has cores for.
 const MOST_THREADS: usize = 1024;

@@ -8,10 +8,10 @@ use clap::Args;
 use super::options::SceneOptions;
 use super::status::{self, Refusal, Status};
 use super::{Done, output, sign};
-use crate::motion::to_the_end;
 use crate::report::{CommandLine, Provenance, json, margins as report, svg};
-use crate::scene::CheckedScene;
-use crate::study::margins::{Margins, SAMPLES, Target, TargetError, Tolerance};
+use rubscope_solver::motion::to_the_end;
+use rubscope_solver::scene::CheckedScene;
+use rubscope_solver::study::margins::{Margins, SAMPLES, Target, TargetError, Tolerance};
 
 /// Find how far a scene is from every limit, and what moves each limit most.
 ///

@@ -10,11 +10,11 @@ use clap::Args;
 use super::Done;
 use super::status::{Refusal, Status};
 use crate::file;
-use crate::numeric::rounding::rounded;
 use crate::report::survey as report;
-use crate::scene::{Family, ModalData, Quantity, Scene, SceneError, read_modes};
-use crate::study::margins::{LimitName, Margins};
-use crate::study::survey::{Survey, speed_range};
+use rubscope_solver::numeric::rounding::rounded;
+use rubscope_solver::scene::{Family, ModalData, Quantity, Scene, SceneError, read_modes};
+use rubscope_solver::study::margins::{LimitName, Margins};
+use rubscope_solver::study::survey::{Survey, speed_range};
 
 /// Largest table of modes \[bytes\].
 const LARGEST_TABLE: u64 = 1 << 20;
@@ -171,8 +171,9 @@ impl NewCommand {
         ];
         let range = "Speeds of the machine, FROM:TO, such as 6000rpm:11000rpm";
         let range = asking.value("--range", self.range.as_ref(), range, None)?;
-        let refused =
-            |error: crate::study::survey::SurveyError| Refusal::because(format!("--{error}"));
+        let refused = |error: rubscope_solver::study::survey::SurveyError| {
+            Refusal::because(format!("--{error}"))
+        };
         let range_rad_s = speed_range(&range).map_err(refused)?;
         let speed = |text: &String| number("--speed", text, Quantity::Speed);
         let speed_rad_s = self.speed.as_ref().map(speed).transpose()?;

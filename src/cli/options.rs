@@ -1,15 +1,15 @@
 //! The scene a command works on: a built-in scene or a file, and options that
 //! change it. Precedence: option, then file, then documented default.
 
-use crate::scene::keys;
 use clap::Args;
+use rubscope_solver::scene::keys;
 
 use super::range::Range;
 use super::status::{Refusal, note, say};
 use super::words::Words;
-use crate::model::Operation;
 use crate::report::number::tell_in_rpm;
-use crate::scene::{
+use rubscope_solver::model::Operation;
+use rubscope_solver::scene::{
     Adjustment, CheckedScene, ContactLaw, DEFAULT, ModelSize, Scene, SceneError, SolverKind,
 };
 

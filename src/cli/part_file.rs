@@ -10,8 +10,8 @@ use anyhow::Context;
 
 use super::status::{Refusal, note};
 use crate::file;
-use crate::study::part::{self, PartWriter};
-use crate::study::{Cell, Map};
+use rubscope_solver::study::part::{self, PartWriter};
+use rubscope_solver::study::{Cell, Map};
 
 /// A part file that is this map's alone until it is dropped.
 pub(super) struct PartFile {

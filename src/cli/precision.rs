@@ -8,9 +8,9 @@ use clap::Args;
 use super::options::SceneOptions;
 use super::status::{self, Refusal, Status};
 use super::{Done, output, sign};
-use crate::motion::to_the_end;
 use crate::report::{CommandLine, Provenance, json, precision as report, svg};
-use crate::study::precision::{Effort, Measure, Precision, ways};
+use rubscope_solver::motion::to_the_end;
+use rubscope_solver::study::precision::{Effort, Measure, Precision, ways};
 
 /// Measure every solver's speed against its error on a scene.
 #[derive(Args, Debug)]

@@ -1,9 +1,9 @@
 //! `FROM:TO:COUNT`, a range of values that a command sweeps.
 
 use super::status::Refusal;
-use crate::scene::Quantity;
-use crate::scene::units::RangeError;
-use crate::study::parse_range;
+use rubscope_solver::scene::Quantity;
+use rubscope_solver::scene::units::RangeError;
+use rubscope_solver::study::parse_range;
 
 /// Most values of one range.
 const MOST: usize = 100_000;

@@ -11,10 +11,12 @@ use super::script::{self, RequestedScript};
 use super::sign::LongRun;
 use super::status::{self, Refusal, Status};
 use super::{Done, output, sign};
-use crate::motion::{CHANGED_RUNS, Sample, Sampling, Verdict, run_to_end_watched, to_the_end};
+use crate::report::history::HISTORY_VALUES;
 use crate::report::{CommandLine, History, Provenance, Wall, json, npz, summary};
-use crate::scene::Scene;
-use crate::tolerances::HISTORY_VALUES;
+use rubscope_solver::motion::{
+    CHANGED_RUNS, Sample, Sampling, Verdict, run_to_end_watched, to_the_end,
+};
+use rubscope_solver::scene::Scene;
 
 /// Simulate a scene in time and report how it ends.
 #[derive(Args, Debug)]

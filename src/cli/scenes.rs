@@ -7,7 +7,7 @@ use clap::Args;
 use super::Done;
 use super::status::Status;
 use super::words::Words;
-use crate::scene::{BUILTIN, Scene};
+use rubscope_solver::scene::{BUILTIN, Scene};
 
 /// List the built-in scenes; with a name, print its file.
 #[derive(Args, Debug)]

@@ -9,11 +9,11 @@
 use serde::{Serialize, Serializer};
 
 use super::status::Refusal;
-use crate::motion;
 use crate::report::number::time;
-use crate::scene::keys::{self, Live, SPEED};
-use crate::scene::units::UnitError;
-use crate::scene::{CheckedScene, KEYS, Key, Quantity, SolverKind, Value};
+use rubscope_solver::motion;
+use rubscope_solver::scene::keys::{self, Live, SPEED};
+use rubscope_solver::scene::units::UnitError;
+use rubscope_solver::scene::{CheckedScene, KEYS, Key, Quantity, SolverKind, Value};
 
 /// The option, as it is named in refusals.
 const OPTION: &str = "--at";

@@ -9,10 +9,10 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::status::say;
-use crate::motion::{Motion, Watch};
 use crate::report::number::{grouped, time};
-use crate::scene::{CheckedScene, SolverKind};
-use crate::tolerances::{MOST_EVENTS, MOST_LOOKS};
+use rubscope_solver::motion::{Motion, Watch};
+use rubscope_solver::scene::{CheckedScene, SolverKind};
+use rubscope_solver::tolerances::{MOST_EVENTS, MOST_LOOKS};
 
 /// A command that ends sooner shows nothing.
 const SOON: Duration = Duration::from_millis(300);
@@ -198,7 +198,7 @@ mod tests {
 #[cfg(test)]
 mod long_run_tests {
     use super::*;
-    use crate::scene::Scene;
+    use rubscope_solver::scene::Scene;
 
     #[test]
     fn a_long_run_tells_its_bound_once() {

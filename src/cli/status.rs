@@ -9,7 +9,7 @@ use thiserror::Error;
 
 use super::sign;
 use crate::report::line::clean;
-use crate::scene::SceneError;
+use rubscope_solver::scene::SceneError;
 
 /// How a command ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -9,9 +9,9 @@ use super::options::SceneOptions;
 use super::status::{self, Refusal, Status};
 use super::{Done, output};
 use crate::report::{CommandLine, Provenance, json, survey as report, svg};
-use crate::scene::CheckedScene;
-use crate::study::margins::{TargetError, parameter};
-use crate::study::survey::{Survey, speed_range};
+use rubscope_solver::scene::CheckedScene;
+use rubscope_solver::study::margins::{TargetError, parameter};
+use rubscope_solver::study::survey::{Survey, speed_range};
 
 /// Find the limits of every number of diameters, and which of them lie in a range of speeds.
 ///

@@ -7,7 +7,7 @@ use clap::builder::{PossibleValue, StringValueParser, TypedValueParser};
 use clap::{Arg, Command, Error};
 use strum::VariantNames;
 
-use crate::scene::BUILTIN;
+use rubscope_solver::scene::BUILTIN;
 
 /// Accepts any text; the shell offers these words.
 #[derive(Clone, Debug)]

@@ -9,11 +9,12 @@ mod place;
 mod temporary;
 
 use std::fs::File;
-use std::io::{BufWriter, Error, ErrorKind, Read, Result, Write};
+use std::io::{BufWriter, Error, ErrorKind, Result, Write};
 use std::path::Path;
 
 use place::Place;
 pub use place::check_place;
+pub use rubscope_solver::scene::read_text;
 pub use temporary::settle;
 use temporary::{PRIVATE, Temporary, USUAL};
 
@@ -105,22 +106,4 @@ fn fill(file: &File, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result
     let mut out = BufWriter::new(file);
     write(&mut out)?;
     out.flush()
-}
-
-/// The text of a file of at most this many bytes; no more are ever in memory.
-///
-/// # Errors
-/// An error of the system, a larger file, or bytes that are not UTF-8.
-pub fn read_text(path: &Path, most: u64) -> Result<String> {
-    let mut bytes = Vec::new();
-    // A device or a huge file ends here, not in memory.
-    File::open(path)?.take(most + 1).read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > most {
-        let reason = format!("allowed are up to {most} bytes");
-        return Err(Error::new(ErrorKind::FileTooLarge, reason));
-    }
-    String::from_utf8(bytes).map_err(|error| {
-        let place = error.utf8_error().valid_up_to();
-        Error::new(ErrorKind::InvalidData, format!("byte {place} is not UTF-8 text"))
-    })
 }

@@ -7,8 +7,8 @@ use std::io::{Result, Write};
 use super::line::{capital, wrapped};
 use super::margins::{WIDTH, words};
 use super::number::{count, rounded, short, speed, with_unit};
-use crate::scene::{CheckedScene, ModelSize};
-use crate::study::margins::{LimitName, Margins, Quantity};
+use rubscope_solver::scene::{CheckedScene, ModelSize};
+use rubscope_solver::study::margins::{LimitName, Margins, Quantity};
 
 /// Writes the sentences, a paragraph for each matter.
 ///
@@ -112,7 +112,7 @@ fn limits(scene: &CheckedScene) -> String {
 /// What the scene does not say.
 fn unknown(scene: &CheckedScene) -> Option<String> {
     let half = scene.bladed_disk.blades / 2;
-    let known = |modes: &[crate::model::Mode]| {
+    let known = |modes: &[rubscope_solver::model::Mode]| {
         (0..=half).filter(|n| modes.iter().any(|mode| mode.nodal_diameters == *n)).count() as u64
     };
     if let Some(note) = scene.modes_note() {

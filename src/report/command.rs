@@ -5,8 +5,8 @@ use std::fmt::{Display, Formatter};
 
 use serde_json::{Value, json};
 
-use crate::scene::keys::{differences, view_differences};
-use crate::scene::{BUILTIN, DEFAULT, Scene};
+use rubscope_solver::scene::keys::{differences, view_differences};
+use rubscope_solver::scene::{BUILTIN, DEFAULT, Scene};
 
 /// Name of the program in files.
 pub const PROGRAM: &str = "rubscope";

@@ -1,7 +1,7 @@
 //! The data of a figure as a table, one for each panel.
 
 use super::table::{Table, TableCell};
-use crate::study::figures::Panel;
+use rubscope_solver::study::figures::Panel;
 
 /// If all series share x, a column for x and one for each series; otherwise one
 /// row per point, with the name of its series.
@@ -40,7 +40,7 @@ fn long(panel: &Panel) -> Table {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::figures::{Quantity, Series, Style};
+    use rubscope_solver::study::figures::{Quantity, Series, Style};
 
     fn text(points: [&[(f64, f64)]; 2]) -> String {
         let [a, b] = points.map(|points| points.iter().copied());

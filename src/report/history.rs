@@ -3,8 +3,10 @@
 use std::io::{Result, Write};
 
 use super::table::{TableCell, write_csv};
-use crate::motion::Sample;
-use crate::tolerances::HISTORY_VALUES;
+use rubscope_solver::motion::Sample;
+
+/// Most values of a history: 800 MB. More: the system ends the program.
+pub const HISTORY_VALUES: usize = 100_000_000;
 
 /// Columns before the gaps of the single blades.
 const COLUMNS: [&str; 11] = [
@@ -114,7 +116,7 @@ impl History {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
-    use crate::motion::State;
+    use rubscope_solver::motion::State;
 
     pub(in crate::report) fn sample(t_s: f64) -> Sample {
         Sample {

@@ -7,7 +7,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::{CommandLine, Wall};
-use crate::motion::RunReport;
+use rubscope_solver::motion::RunReport;
 
 /// Writes a report, indented, with a newline at its end.
 ///

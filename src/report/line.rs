@@ -1,7 +1,7 @@
 //! Text from outside (names, titles, refused values) made safe to show in one
 //! line of a terminal.
 
-use crate::scene::keys::is_plain;
+use rubscope_solver::scene::keys::is_plain;
 
 /// Characters of a message that are shown at each end of a very long one.
 const SHOWN: usize = 800;

@@ -10,10 +10,10 @@ use super::number::short;
 use super::summary::OF_WHAT;
 use super::symbols::greek;
 use super::{CommandLine, table};
-use crate::motion::Verdict;
-use crate::scene::{Key, keys};
-use crate::study::figures::{Figure, Panel, Quantity, Series, Style};
-use crate::study::{Axis, Cell, Map, overlay};
+use rubscope_solver::motion::Verdict;
+use rubscope_solver::scene::{Key, keys};
+use rubscope_solver::study::figures::{Figure, Panel, Quantity, Series, Style};
+use rubscope_solver::study::{Axis, Cell, Map, overlay};
 
 /// Most rows of the text map.
 const TEXT_ROWS: usize = 40;
@@ -38,7 +38,7 @@ impl Serialize for MapJson<'_> {
         let mut object = out.serialize_map(None)?;
         object.serialize_entry("schema", "rubscope.map/1")?;
         object.serialize_entry("program", &command(map).flag("--json", true).program())?;
-        object.serialize_entry("scene", &map.plan.scene.told())?;
+        object.serialize_entry("scene", &map.plan.scene.reported())?;
         let names = names(map);
         for (short, name, axis) in [("x", names[0], &map.plan.x), ("y", names[1], &map.plan.y)] {
             object.serialize_entry(short, &json!({ "path": axis.path, "log": axis.log }))?;
@@ -285,8 +285,8 @@ fn write_legend(map: &Map, out: &mut dyn Write) -> Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Scene;
-    use crate::study::MapPlan;
+    use rubscope_solver::scene::Scene;
+    use rubscope_solver::study::MapPlan;
 
     #[test]
     fn the_ends_of_a_narrow_map_stay_apart() {

@@ -106,7 +106,7 @@ mod tests {
 
     #[test]
     fn a_full_disk_is_told_in_the_words_of_the_disk_wherever_it_comes() {
-        let scene = crate::scene::Scene::base();
+        let scene = rubscope_solver::scene::Scene::base();
         let command = crate::report::CommandLine::new("run", &scene);
         let (history, origin) = (History::new(0), Provenance { command, scene });
         let room = |room| write(&history, &origin, &mut Disk(room));

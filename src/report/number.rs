@@ -4,7 +4,7 @@
 use std::cell::Cell;
 use std::f64::consts::TAU;
 
-pub use crate::numeric::rounding::rounded;
+pub use rubscope_solver::numeric::rounding::rounded;
 
 /// A number in at most six significant digits.
 ///

@@ -6,9 +6,9 @@ use std::io::{Result, Write};
 use super::number::{count, rounded, short, time};
 use super::summary::OF_WHAT;
 use super::table::Table;
-use crate::scene::{ContactLaw, ModelSize, SolverKind};
-use crate::study::figures::{Figure, Panel, Quantity, Series, Style};
-use crate::study::precision::{Lack, Method, Precision, Reference, Row, Way};
+use rubscope_solver::scene::{ContactLaw, ModelSize, SolverKind};
+use rubscope_solver::study::figures::{Figure, Panel, Quantity, Series, Style};
+use rubscope_solver::study::precision::{Lack, Method, Precision, Reference, Row, Way};
 
 /// Size of the text chart.
 const COLUMNS: usize = 64;

@@ -6,8 +6,8 @@ use std::fmt;
 
 use super::line::capital;
 use super::number::{count, grouped, with_unit};
-use crate::motion::{Failure, FailureReason, RunReport, Verdict};
-use crate::scene::ContactLaw;
+use rubscope_solver::motion::{Failure, FailureReason, RunReport, Verdict};
+use rubscope_solver::scene::ContactLaw;
 
 /// Between the word of the verdict and its sentence, and between two sentences.
 const APART: [&str; 2] = ["  ", " "];

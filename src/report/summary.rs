@@ -6,9 +6,9 @@ use super::Wall;
 use super::line::capital;
 use super::number::Digits;
 use super::number::{count, grouped, per_speed, short, speed, time};
-use crate::model::Machine;
-use crate::motion::{Contact, RunReport, Verdict};
-use crate::scene::{ContactLaw, SolverKind};
+use rubscope_solver::model::Machine;
+use rubscope_solver::motion::{Contact, RunReport, Verdict};
+use rubscope_solver::scene::{ContactLaw, SolverKind};
 
 /// What the tiny changes are of that a sensitive run does not outlast.
 pub(super) const OF_WHAT: &str = "of the pulse, the speed or the motion";
@@ -302,8 +302,8 @@ fn listed(blades: &[u32]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::motion::simulate;
-    use crate::scene::Scene;
+    use rubscope_solver::motion::simulate;
+    use rubscope_solver::scene::Scene;
 
     fn report(settings: &[(&str, &str)]) -> RunReport {
         let mut scene = Scene::base();

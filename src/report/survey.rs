@@ -10,9 +10,9 @@ use super::margins::{WIDTH, words};
 use super::number::{count, per_speed, rounded, short, speed, speed_unit, time};
 use super::symbols::symbol;
 use super::table::{Table, TableCell};
-use crate::study::figures::{Figure, Panel, Quantity, Series, Style};
-use crate::study::margins::{LimitName, Quantity as Kind};
-use crate::study::survey::{Survey, SurveyLimit, SurveyRow};
+use rubscope_solver::study::figures::{Figure, Panel, Quantity, Series, Style};
+use rubscope_solver::study::margins::{LimitName, Quantity as Kind};
+use rubscope_solver::study::survey::{Survey, SurveyLimit, SurveyRow};
 
 /// Most rows of the text where every number of diameters has one.
 const ROWS: usize = 64;

@@ -1,8 +1,8 @@
 //! The symbols of parameters, as the paper and the documents write them: taken from
 //! what the table of keys says of each.
 
-use crate::scene::keys;
-use crate::study::margins::CLEARANCE;
+use rubscope_solver::scene::keys;
+use rubscope_solver::study::margins::CLEARANCE;
 
 /// What a key says at its end where it is a value of the start.
 const AT_START: &str = " at t = 0";
@@ -63,7 +63,7 @@ pub fn greek(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::margins::PARAMETERS;
+    use rubscope_solver::study::margins::PARAMETERS;
 
     #[test]
     fn every_parameter_has_its_own_symbol() {

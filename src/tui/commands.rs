@@ -12,8 +12,8 @@ use super::knobs::{Fit, KNOBS, Knob, best, called, fit, knob_of, plain};
 use super::lessons::{self, LETTERS};
 use super::views::ViewId;
 use super::views::map::numeric;
-use crate::scene::Value;
-use crate::scene::keys;
+use rubscope_solver::scene::Value;
+use rubscope_solver::scene::keys;
 
 /// Something that can be asked for.
 #[derive(Clone, Debug, PartialEq)]
@@ -397,9 +397,9 @@ fn has_in_order(text: &str, word: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::keys::PULSE;
-    use crate::scene::{BUILTIN, Scene};
     use crate::tui::Marker;
+    use rubscope_solver::scene::keys::PULSE;
+    use rubscope_solver::scene::{BUILTIN, Scene};
 
     fn app() -> App {
         App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Braille)

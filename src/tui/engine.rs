@@ -10,9 +10,9 @@ use super::trace::{Mark, Trace};
 use super::views::ViewId;
 use super::views::map::MapChoice;
 use super::worker::Found;
-use crate::motion::{ActiveSet, Checks, Failure, Hold, Motion, State, Verdict};
-use crate::scene::CheckedScene;
-use crate::study::MapPlan;
+use rubscope_solver::motion::{ActiveSet, Checks, Failure, Hold, Motion, State, Verdict};
+use rubscope_solver::scene::CheckedScene;
+use rubscope_solver::study::MapPlan;
 
 /// The task of the engine. Counters only grow, so that no key press is lost
 /// when an order replaces an older one.

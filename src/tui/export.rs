@@ -215,10 +215,10 @@ impl Ink {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Scene;
     use crate::tui::Marker;
     use crate::tui::engine::Engine;
     use crate::tui::worker::Stepwise;
+    use rubscope_solver::scene::Scene;
 
     #[test]
     fn a_picture_is_well_formed_and_says_what_the_screen_says() {
@@ -258,7 +258,7 @@ mod tests {
         app.files.source = Some(crate::tui::Source { name, scene });
         let svg = svg(&app);
         assert!(svg.contains("rubscope run 'a [2J  ]]&gt;&lt;/desc&gt; .toml'"), "{}", &svg[..600]);
-        let plain = |c: char| c == '\n' || crate::scene::keys::is_plain(c);
+        let plain = |c: char| c == '\n' || rubscope_solver::scene::keys::is_plain(c);
         assert_eq!(svg.chars().find(|c| !plain(*c)), None);
     }
 

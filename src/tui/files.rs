@@ -15,8 +15,8 @@ use std::time::Duration;
 
 use crate::file;
 use crate::report::line::clean;
-use crate::scene::{BUILTIN, CheckedScene, Scene};
 use crate::tui::events::ScreenEvent;
+use rubscope_solver::scene::{BUILTIN, CheckedScene, Scene};
 
 /// Name of the thread: the panic hook leaves the screen alone for it.
 pub const FILES_NAME: &str = "rubscope-files";

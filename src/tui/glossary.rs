@@ -9,8 +9,8 @@ use serde::Deserialize;
 use super::app::App;
 use super::knobs::{knob_of, number};
 use super::views::ViewId;
-use crate::harmonic::Joint;
 use crate::report::number::{frequency_unit, per_frequency, told};
+use rubscope_solver::harmonic::Joint;
 
 /// The text of the glossary.
 const TEXT: &str = include_str!("../../assets/glossary.toml");
@@ -145,9 +145,9 @@ impl Term {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::motion::Verdict;
-    use crate::scene::Scene;
     use crate::tui::{Marker, Theme};
+    use rubscope_solver::motion::Verdict;
+    use rubscope_solver::scene::Scene;
 
     fn app() -> App {
         App::new(

@@ -1,7 +1,7 @@
 //! The record of a run as bins with the least and the greatest value of each
 //! channel, so that a contact peak of one step is visible at any zoom.
 
-use crate::motion::ActiveSet;
+use rubscope_solver::motion::ActiveSet;
 
 /// The recorded quantities, in the order of `Bin::low`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

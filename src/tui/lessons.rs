@@ -7,8 +7,8 @@ use std::sync::OnceLock;
 
 use serde::{Deserialize, Serialize};
 
-use crate::scene::{CheckedScene, Scene, SceneError};
-use crate::study::margins::LimitName;
+use rubscope_solver::scene::{CheckedScene, Scene, SceneError};
+use rubscope_solver::study::margins::LimitName;
 
 /// One lesson.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -268,10 +268,10 @@ pub fn all() -> &'static [Lesson] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::keys::CHARTS;
     use crate::tui::appearance::Appearance;
     use crate::tui::knobs::KNOBS;
     use crate::tui::{Marker, Theme};
+    use rubscope_solver::scene::keys::CHARTS;
 
     #[test]
     fn every_lesson_is_read_and_its_steps_make_sense() {

@@ -17,7 +17,7 @@ use super::options::ExploreOptions;
 use super::worker::Playback;
 use super::{Marker, Theme, ability, config, panels};
 use crate::report::line::clean;
-use crate::scene::{CheckedScene, Scene};
+use rubscope_solver::scene::{CheckedScene, Scene};
 
 /// Longest line that is read, in bytes.
 const LONGEST: u64 = 1000;

@@ -59,7 +59,7 @@ pub use raster::Marker;
 pub use run::run;
 pub use theme::{Theme, ThemeChoice};
 
-use crate::scene::CheckedScene;
+use rubscope_solver::scene::CheckedScene;
 
 /// Whether there is a terminal that only shows lines.
 pub fn is_dumb_terminal() -> bool {

@@ -1,7 +1,7 @@
 //! A run ahead of the playback: its coordinates at equal intervals, and the
 //! changes of contact on the way.
 
-use crate::motion::{ActiveSet, ContactLog};
+use rubscope_solver::motion::{ActiveSet, ContactLog};
 
 /// Most changes of contact kept.
 const MOST_MARKS: usize = 2000;

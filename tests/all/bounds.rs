@@ -1,8 +1,8 @@
 //! Work has bounds, and what passes them is told by name: scenes that once ran
 //! for minutes or for ever, and those next to a bound that must still run.
 
-use rubscope::motion::{Motion, Verdict, simulate};
-use rubscope::scene::Scene;
+use rubscope_solver::motion::{Motion, Verdict, simulate};
+use rubscope_solver::scene::Scene;
 
 use crate::cli_support::refusal;
 use crate::plain::scenes::scene;

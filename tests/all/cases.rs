@@ -1,10 +1,10 @@
 //! Scenes that once failed, with values from independent codes. Each is a whole
 //! command line of `run` or `map`, its options without their dashes.
 
-use rubscope::motion::{
+use rubscope_solver::motion::{
     RunReport, Sampling, Script, Verdict, run_to_verdict, simulate, simulate_with, to_the_end,
 };
-use rubscope::scene::Scene;
+use rubscope_solver::scene::Scene;
 
 /// The report of `run BASE OPTIONS`.
 fn run(base: &str, options: &str) -> RunReport {

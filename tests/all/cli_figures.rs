@@ -4,10 +4,10 @@
 use std::path::Path;
 
 use rayon::prelude::*;
-use rubscope::harmonic::coincidence;
-use rubscope::motion::Verdict;
-use rubscope::scene::{CheckedScene, Scene};
-use rubscope::study::figures::{Figure, NUMBERS, Which, figure, name_of, scene_of};
+use rubscope_solver::harmonic::coincidence;
+use rubscope_solver::motion::Verdict;
+use rubscope_solver::scene::{CheckedScene, Scene};
+use rubscope_solver::study::figures::{Figure, NUMBERS, Which, figure, name_of, scene_of};
 
 use crate::cli_support::{refusal, rubscope};
 use crate::plain::Plain;
@@ -177,7 +177,7 @@ fn round_off_moves_the_lock_at_the_longest_step_of_figure_4() {
 
 /// The angles of the blades over the last tenth of the run, as a part of the
 /// largest of the whole run.
-fn swing(panel: &rubscope::study::figures::Panel) -> f64 {
+fn swing(panel: &rubscope_solver::study::figures::Panel) -> f64 {
     let range = |points: &[(f64, f64)]| {
         let values = points.iter().map(|point| point.1);
         values.clone().fold(f64::MIN, f64::max) - values.fold(f64::MAX, f64::min)

@@ -1,10 +1,10 @@
 //! `rubscope margins` for people and files: the text and the table say what the library
 //! gives, and the command of a target shows it.
 
-use rubscope::motion::Verdict;
 use rubscope::report::margins as report;
-use rubscope::scene::{CheckedScene, ContactLaw, Scene};
-use rubscope::study::margins::{
+use rubscope_solver::motion::Verdict;
+use rubscope_solver::scene::{CheckedScene, ContactLaw, Scene};
+use rubscope_solver::study::margins::{
     Band, Limit, LimitName, Margins, PARAMETERS, Quantity, Target, Tolerance, acting,
 };
 

@@ -3,8 +3,8 @@
 
 use rubscope::report::line::wrapped;
 use rubscope::report::{CommandLine, Provenance, margins as report, svg};
-use rubscope::scene::CheckedScene;
-use rubscope::study::margins::{LimitName, Margins};
+use rubscope_solver::scene::CheckedScene;
+use rubscope_solver::study::margins::{LimitName, Margins};
 
 use crate::cli_margins::{full, scene, text, unsampled};
 use crate::cli_support::rubscope;

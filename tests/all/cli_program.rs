@@ -68,7 +68,7 @@ fn scenes_are_listed_and_printed_as_files_that_load() {
     for name in ["paper-nd3", "paper-nd4", "adhesive", "undamped"] {
         assert!(list.lines().any(|line| line.starts_with(name)), "{list}");
         let toml = printed(&["scenes", name]);
-        assert!(rubscope::scene::Scene::from_toml(&toml).is_ok(), "{toml}");
+        assert!(rubscope_solver::scene::Scene::from_toml(&toml).is_ok(), "{toml}");
     }
 }
 

@@ -1,9 +1,9 @@
 //! `rubscope run`: verdicts, JSON, history files, exit status.
 
 use crate::cli_support::{refusal, rubscope};
-use rubscope::motion::simulate;
 use rubscope::report::summary;
-use rubscope::scene::Scene;
+use rubscope_solver::motion::simulate;
+use rubscope_solver::scene::Scene;
 
 /// A quick scene: few steps, a decay.
 const QUICK: [&str; 6] = ["--contact", "unilateral", "--pulse", "20000", "--end", "0.002"];
@@ -155,7 +155,7 @@ fn numpy_files_hold_one_array_a_column() {
     };
     assert_eq!(text("version.npy"), env!("CARGO_PKG_VERSION"));
     // The scene is a scene file, and the command gives the same file again.
-    let scene = rubscope::scene::Scene::from_toml(&text("scene.npy")).unwrap();
+    let scene = rubscope_solver::scene::Scene::from_toml(&text("scene.npy")).unwrap();
     assert_eq!(scene.operation.nodal_diameters, 3);
     let command = text("command.npy");
     let elsewhere = tempfile::tempdir().unwrap();

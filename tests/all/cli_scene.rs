@@ -152,7 +152,7 @@ fn a_scene_file_has_a_largest_size() {
     let huge = folder.path().join("huge.toml");
     std::fs::write(&huge, format!("title = \"{}\"", "x".repeat(2 << 20))).unwrap();
     for path in [link, huge] {
-        let refused = rubscope::scene::Scene::load(path.to_str().unwrap()).unwrap_err();
+        let refused = rubscope_solver::scene::Scene::load(path.to_str().unwrap()).unwrap_err();
         assert!(refused.to_string().contains("up to 1048576 bytes"), "{refused}");
     }
 }

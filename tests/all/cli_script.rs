@@ -3,8 +3,8 @@
 
 use crate::cli_support::{refusal, rubscope};
 use rubscope::cli::script::{RequestedChange, RequestedScript, parse};
-use rubscope::motion::{self, Motion};
-use rubscope::scene::{Allowed, ContactLaw, KEYS, Key, ModelSize, Scene, SolverKind, Value};
+use rubscope_solver::motion::{self, Motion};
+use rubscope_solver::scene::{Allowed, ContactLaw, KEYS, Key, ModelSize, Scene, SolverKind, Value};
 
 fn parsed(options: &[&str]) -> Result<Vec<(f64, RequestedChange)>, String> {
     let options: Vec<String> = options.iter().map(ToString::to_string).collect();

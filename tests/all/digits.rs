@@ -1,12 +1,12 @@
 //! Which digits of a run hold: its spread, the text that leaves the others out, and runs
 //! that do not ask.
 
-use rubscope::motion::{
+use rubscope::report::summary;
+use rubscope_solver::motion::{
     Contact, Motion, RunReport, Sampling, Script, Spread, Watch, run_to_end, run_to_end_watched,
     simulate,
 };
-use rubscope::report::summary;
-use rubscope::scene::{CheckedScene, Scene};
+use rubscope_solver::scene::{CheckedScene, Scene};
 
 use crate::cli_support::rubscope;
 

@@ -1,8 +1,8 @@
 //! The event solver on the motions whose numbers are known: the reference cases,
 //! the closed forms of locked motion, thresholds in speed and in pulse.
 
-use rubscope::motion::{ActiveSet, ExactEvents, Solver, Verdict};
-use rubscope::scene::Scene;
+use rubscope_solver::motion::{ActiveSet, ExactEvents, Solver, Verdict};
+use rubscope_solver::scene::Scene;
 
 pub fn scene(changes: &[(&str, f64)]) -> Scene {
     scene_of("rigid", changes)

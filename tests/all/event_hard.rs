@@ -4,8 +4,8 @@
 use std::f64::consts::FRAC_PI_2;
 
 use crate::event_cases::scene as event_scene;
-use rubscope::motion::{ActiveSet, ExactEvents, Failure, Solver, Verdict};
-use rubscope::scene::{ModelSize, Scene};
+use rubscope_solver::motion::{ActiveSet, ExactEvents, Failure, Solver, Verdict};
+use rubscope_solver::scene::{ModelSize, Scene};
 
 const ZETA: &str = "casing.damping_ratio";
 const PULSE: &str = "operation.pulse_n";
@@ -301,7 +301,7 @@ fn strong_pulses_between_two_sides() {
                 ("solver.end_s", "3e-4"),
             ];
             let scene = Scene::base().with(&[&fixed[..], changes].concat()).unwrap();
-            rubscope::motion::simulate(&scene)
+            rubscope_solver::motion::simulate(&scene)
         };
         let event = run(&[("solver.kind", "event")]);
         let steps = run(&[("solver.kind", "explicit"), ("solver.step_s", "1e-8")]);

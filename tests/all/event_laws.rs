@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 
 use crate::plain::scenes::{in_corner, scene};
 use proptest::prelude::*;
-use rubscope::motion::{ExactEvents, Motion, Solver, State};
-use rubscope::scene::{ModelSize, Scene, SolverKind};
+use rubscope_solver::motion::{ExactEvents, Motion, Solver, State};
+use rubscope_solver::scene::{ModelSize, Scene, SolverKind};
 
 /// A scene of every kind the event solver takes; one in three with moving blades.
 fn scenes() -> impl Strategy<Value = Scene> {

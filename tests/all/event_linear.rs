@@ -1,11 +1,11 @@
 //! The event solver of what goes beyond the paper's model: reference motions from
 //! independent codes, and agreement with the paper's event solver where both apply.
 
-use rubscope::motion::{
+use rubscope_solver::motion::{
     ActiveSet, ExactEvents, LinearEvents, Motion, Sample, Sampling, Script, Solver, Verdict,
     run_to_end,
 };
-use rubscope::scene::{CheckedScene, Scene};
+use rubscope_solver::scene::{CheckedScene, Scene};
 
 const SLOPE: &str = "bladed_disk.radial_coupling";
 const FRICTION: &str = "contact.friction";

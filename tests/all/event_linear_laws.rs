@@ -3,8 +3,8 @@
 //! no energy from nowhere.
 
 use proptest::prelude::*;
-use rubscope::motion::{LinearEvents, Motion, Solver, Verdict, to_the_end};
-use rubscope::scene::{CheckedScene, Scene};
+use rubscope_solver::motion::{LinearEvents, Motion, Solver, Verdict, to_the_end};
+use rubscope_solver::scene::{CheckedScene, Scene};
 
 use crate::{drawn, event_linear};
 

@@ -4,9 +4,9 @@
 use std::f64::consts::TAU;
 
 use crate::event_cases::scene_of;
-use rubscope::model::Machine;
-use rubscope::motion::{ActiveSet, ExactEvents, Solver, State, Verdict};
-use rubscope::scene::Scene;
+use rubscope_solver::model::Machine;
+use rubscope_solver::motion::{ActiveSet, ExactEvents, Solver, State, Verdict};
+use rubscope_solver::scene::Scene;
 
 fn scene(changes: &[(&str, f64)]) -> Scene {
     scene_of("modal", changes)

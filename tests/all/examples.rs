@@ -3,16 +3,16 @@
 use std::error::Error;
 use std::io::Write;
 
-#[path = "../../examples/live_knobs.rs"]
+#[path = "../../solver/examples/live_knobs.rs"]
 #[expect(dead_code, reason = "its main is for cargo")]
 mod live_knobs;
-#[path = "../../examples/locked_sweep.rs"]
+#[path = "../../solver/examples/locked_sweep.rs"]
 #[expect(dead_code, reason = "its main is for cargo")]
 mod locked_sweep;
-#[path = "../../examples/run.rs"]
+#[path = "../../solver/examples/run.rs"]
 #[expect(dead_code, reason = "its main is for cargo")]
 mod run;
-#[path = "../../examples/study.rs"]
+#[path = "../../solver/examples/study.rs"]
 #[expect(dead_code, reason = "its main is for cargo")]
 mod study;
 

@@ -1,7 +1,9 @@
 //! The explicit solver against the reference numbers and closed forms.
 
-use rubscope::motion::{Motion, RunReport, Sample, Sampling, Script, Verdict, simulate_with};
-use rubscope::scene::Scene;
+use rubscope_solver::motion::{
+    Motion, RunReport, Sample, Sampling, Script, Verdict, simulate_with,
+};
+use rubscope_solver::scene::Scene;
 
 /// Case A of the paper's machine: three diameters, 500 rad/s, 20 kN.
 fn scene(changes: &[(&str, &str)]) -> Scene {

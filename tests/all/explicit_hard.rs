@@ -1,8 +1,8 @@
 //! Hard cases of the explicit solver: each has a right answer or a clear error;
 //! nothing hangs and no report contains NaN.
 
-use rubscope::motion::{RunReport, Verdict, simulate};
-use rubscope::scene::{Scene, SceneError};
+use rubscope_solver::motion::{RunReport, Verdict, simulate};
+use rubscope_solver::scene::{Scene, SceneError};
 
 /// Runs 2 ms of the paper's machine with changes, or says why it is refused.
 fn run(changes: &[(&str, &str)]) -> Result<RunReport, SceneError> {

@@ -4,8 +4,8 @@
 use crate::tips_support::{
     END, KAPPA, MU, PULSE, SPEED, STEP, TAU, coordinates, in_corner, limit, pressed, scene,
 };
-use rubscope::motion::{Motion, Verdict, run_to_verdict, to_the_end};
-use rubscope::scene::Scene;
+use rubscope_solver::motion::{Motion, Verdict, run_to_verdict, to_the_end};
+use rubscope_solver::scene::Scene;
 
 fn set(mut scene: Scene, key: &str, value: &str) -> Scene {
     scene.set(key, value).unwrap();

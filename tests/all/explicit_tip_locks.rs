@@ -2,7 +2,7 @@
 //! the speeds down to which they hold.
 
 use crate::tips_support::{KAPPA, MU, PULSE, SPEED, STEP, TAU, ZETA_BD, in_corner, limit, scene};
-use rubscope::motion::{Change, Motion, Verdict, verdict_of};
+use rubscope_solver::motion::{Change, Motion, Verdict, verdict_of};
 
 /// The mean pushes over the end of a lock, both negative.
 fn pushes(changes: &[(&str, f64)], step: f64) -> [f64; 2] {

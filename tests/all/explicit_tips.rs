@@ -4,8 +4,10 @@
 use crate::tips_support::{
     END, KAPPA, MU, PULSE, SPEED, STEP, TAU, ZETA_BD, ZETA_C, coordinates, scene,
 };
-use rubscope::motion::{FailureReason, Motion, RunReport, Verdict, run_to_verdict, to_the_end};
-use rubscope::scene::Scene;
+use rubscope_solver::motion::{
+    FailureReason, Motion, RunReport, Verdict, run_to_verdict, to_the_end,
+};
+use rubscope_solver::scene::Scene;
 
 fn run(scene: &Scene) -> RunReport {
     crate::run_once(&scene.checked().unwrap())

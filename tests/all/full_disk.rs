@@ -4,8 +4,8 @@
 
 use crate::plain::compare::Pair;
 use crate::plain::scenes::{LAWS, scene};
-use rubscope::motion::Motion;
-use rubscope::scene::Scene;
+use rubscope_solver::motion::Motion;
+use rubscope_solver::scene::Scene;
 
 /// Blades, diameters and the blades of a side.
 const RINGS: [(&str, &str, usize); 4] =

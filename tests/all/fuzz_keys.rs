@@ -6,13 +6,13 @@ use std::time::Duration;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::{Terminal, backend::TestBackend};
-use rubscope::scene::Scene;
 use rubscope::tui::bindings::BINDINGS;
 use rubscope::tui::engine::{Engine, Order, Snapshot};
 use rubscope::tui::events::ScreenEvent;
 use rubscope::tui::terminal::NoHost;
 use rubscope::tui::worker::Playback;
 use rubscope::tui::{App, Exit, Marker, Theme, run};
+use rubscope_solver::scene::Scene;
 
 /// Most bytes of one stream.
 const LONGEST: usize = 400;

@@ -6,9 +6,9 @@ use std::fmt::Debug;
 
 use rubscope::cli::range::Range;
 use rubscope::cli::script::{RequestedScript, parse};
-use rubscope::scene::{Allowed, BUILTIN, CheckedScene, KEYS, Quantity, Scene, Value, keys};
-use rubscope::study::part::{read_all, write};
-use rubscope::study::{Axis, Cell, Map, MapPlan};
+use rubscope_solver::scene::{Allowed, BUILTIN, CheckedScene, KEYS, Quantity, Scene, Value, keys};
+use rubscope_solver::study::part::{read_all, write};
+use rubscope_solver::study::{Axis, Cell, Map, MapPlan};
 
 /// A kind of input.
 pub struct Target {
@@ -249,7 +249,7 @@ fn part_seeds() -> Vec<Vec<u8>> {
         let map = Map::empty(plan.clone());
         // Invented cells: a run is not what is tested.
         for index in (0..map.cells.len()).step_by(step) {
-            let verdict = rubscope::motion::Verdict::ALL[index % 6];
+            let verdict = rubscope_solver::motion::Verdict::ALL[index % 6];
             let cell = Cell { verdict, sensitive: plan.sensitivity && index % 2 == 1 };
             map.cells.set(index, Some(cell));
         }

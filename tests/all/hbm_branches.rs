@@ -1,7 +1,7 @@
 //! Every equilibrium of the blade frame, its stability and the thresholds.
 
-use rubscope::harmonic::{Branches, Character, Kind, Threshold, equilibria};
-use rubscope::model::{BladedDisk, Casing, Machine};
+use rubscope_solver::harmonic::{Branches, Character, Kind, Threshold, equilibria};
+use rubscope_solver::model::{BladedDisk, Casing, Machine};
 
 fn machine(stiffness: f64, nodal_diameters: u32, zeta_c: f64) -> Machine {
     let disk = BladedDisk { stiffness_nm_per_rad: stiffness, ..BladedDisk::default() };

@@ -1,8 +1,8 @@
 //! What a coincidence does against speed, as the library, the command line and its files
 //! give it.
 
-use rubscope::harmonic::{Joint, coincidence, round_whirls, shifted_coincidence};
-use rubscope::scene::Scene;
+use rubscope_solver::harmonic::{Joint, coincidence, round_whirls, shifted_coincidence};
+use rubscope_solver::scene::Scene;
 use serde_json::Value;
 
 use crate::cli_support::{refusal, rubscope};

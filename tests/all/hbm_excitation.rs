@@ -2,8 +2,8 @@
 //! equations of motion of the standing frame.
 
 use nalgebra::Complex;
-use rubscope::harmonic::{ExcitedLock, ExcitedLocks, drives};
-use rubscope::model::{BladedDisk, Casing, Excitation, Machine};
+use rubscope_solver::harmonic::{ExcitedLock, ExcitedLocks, drives};
+use rubscope_solver::model::{BladedDisk, Casing, Excitation, Machine};
 
 fn machine(nodal_diameters: u32) -> Machine {
     Machine::new(&BladedDisk::default(), &Casing::default(), nodal_diameters)

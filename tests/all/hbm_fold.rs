@@ -4,8 +4,8 @@
 use std::f64::consts::FRAC_PI_2;
 
 use crate::hbm_support::keeps_to_its_laws;
-use rubscope::harmonic::{CornerBranch, Equilibrium, Form, corner_branch, locked_motion};
-use rubscope::model::{BladedDisk, Casing, Machine};
+use rubscope_solver::harmonic::{CornerBranch, Equilibrium, Form, corner_branch, locked_motion};
+use rubscope_solver::model::{BladedDisk, Casing, Machine};
 
 /// Fourteen blades and 55 diameters: the corner branch of blades of such a
 /// stiffness \[N m/rad\] folds at speeds that a rotor has.

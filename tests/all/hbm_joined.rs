@@ -2,12 +2,12 @@
 //! docs/theory.md, section 10, and laws.
 
 use proptest::prelude::*;
-use rubscope::harmonic::{
+use rubscope_solver::harmonic::{
     Form, HarmonicError, Joint, equilibria, flutter_speed, lock_loads, lock_roots, locked_motion,
     slip_over, undamped_flutter_speed,
 };
-use rubscope::model::Machine;
-use rubscope::scene::Scene;
+use rubscope_solver::model::Machine;
+use rubscope_solver::scene::Scene;
 
 /// Table 1 with these tips: `kappa`, `mu`, `mu_c`.
 fn scene([kappa, mu, mu_c]: [f64; 3]) -> Scene {

@@ -2,10 +2,10 @@
 
 use crate::hbm_support::keeps_to_its_laws;
 use proptest::prelude::*;
-use rubscope::harmonic::{
+use rubscope_solver::harmonic::{
     Character, Corner, Form, Kind, Locked, corner_branch, equilibria, slip_map, slip_over,
 };
-use rubscope::model::{BladedDisk, Casing, Machine};
+use rubscope_solver::model::{BladedDisk, Casing, Machine};
 
 /// Machines with corners: 3 to 40 blades, any diameters that leave three sides,
 /// clearances of 10 um to 1 mm, blades from soft to stiff, damping up to 0.3.

@@ -2,8 +2,8 @@
 //! limit cycles, against numbers from time integration by other programs, and laws for
 //! random machines.
 
-use rubscope::harmonic::{Cycle, Joint, Lining, Whirl, growth_threshold, round_whirls};
-use rubscope::scene::Scene;
+use rubscope_solver::harmonic::{Cycle, Joint, Lining, Whirl, growth_threshold, round_whirls};
+use rubscope_solver::scene::Scene;
 
 /// Pressed in by 20 micrometres, with the smooth law.
 const PRELOADED: [(&str, &str); 3] = [

@@ -1,8 +1,8 @@
 //! Steady states of blades on a lining over a clearance: which linings hold a lock and
 //! at which speeds, and branches followed over a parameter.
 
-use rubscope::harmonic::{BranchEnd, Lining, Special, follow, least_lock_stiffness};
-use rubscope::scene::Scene;
+use rubscope_solver::harmonic::{BranchEnd, Lining, Special, follow, least_lock_stiffness};
+use rubscope_solver::scene::Scene;
 
 use crate::hbm_lining::{close, preloaded, with};
 

@@ -2,8 +2,8 @@
 //! numbers, and the eight equations (27) written out as they are printed.
 
 use nalgebra::{SMatrix, SVector};
-use rubscope::harmonic::{Corner, Form, Locked, LockedPoint, locked_motion};
-use rubscope::model::{BladedDisk, Casing, Machine};
+use rubscope_solver::harmonic::{Corner, Form, Locked, LockedPoint, locked_motion};
+use rubscope_solver::model::{BladedDisk, Casing, Machine};
 
 fn machine(nodal_diameters: u32, zeta_c: f64) -> Machine {
     let casing = Casing { damping_ratio: zeta_c, ..Casing::default() };

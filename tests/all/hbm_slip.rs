@@ -1,8 +1,8 @@
 //! Slip in the frequency domain: the map from corner to corner, its fixed
 //! point, and the balance of power.
 
-use rubscope::harmonic::{NoSlip, SlipLimit, slip_limits, slip_map, slip_over};
-use rubscope::model::{BladedDisk, Casing, Machine};
+use rubscope_solver::harmonic::{NoSlip, SlipLimit, slip_limits, slip_map, slip_over};
+use rubscope_solver::model::{BladedDisk, Casing, Machine};
 
 fn machine(nodal_diameters: u32, zeta_c: f64) -> Machine {
     let casing = Casing { damping_ratio: zeta_c, ..Casing::default() };

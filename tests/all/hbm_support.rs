@@ -2,8 +2,8 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use rubscope::harmonic::{CornerBranch, Equilibrium, GroupContact};
-use rubscope::model::Machine;
+use rubscope_solver::harmonic::{CornerBranch, Equilibrium, GroupContact};
+use rubscope_solver::model::Machine;
 
 /// The widest corner angle: a right angle less a small margin \[rad\].
 const WIDEST: f64 = FRAC_PI_2 - 1e-3;

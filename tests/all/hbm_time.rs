@@ -2,9 +2,9 @@
 //! coordinates, the lock-in threshold by bisection, the speed of slip.
 
 use nalgebra::Complex;
-use rubscope::harmonic::{Corner, ExcitedLocks, Form, Locked, SlipOrbit, slip_over};
-use rubscope::motion::{ActiveSet, ExactEvents, Motion, Solver};
-use rubscope::scene::{ModelSize, Scene};
+use rubscope_solver::harmonic::{Corner, ExcitedLocks, Form, Locked, SlipOrbit, slip_over};
+use rubscope_solver::motion::{ActiveSet, ExactEvents, Motion, Solver};
+use rubscope_solver::scene::{ModelSize, Scene};
 
 /// Rigid blades unless a test changes it, as the closed forms have them.
 fn scene(changes: &[(&str, &str)]) -> Scene {

@@ -2,11 +2,11 @@
 //! the polygon of the blades there are.
 
 use proptest::prelude::*;
-use rubscope::harmonic::{
+use rubscope_solver::harmonic::{
     Joint, NoWhirl, RoundWhirl, round_whirls, whirl_onset, whirl_onsets, whirl_over,
 };
-use rubscope::model::Machine;
-use rubscope::scene::Scene;
+use rubscope_solver::model::Machine;
+use rubscope_solver::scene::Scene;
 
 /// Table 1 with these tips: `kappa`, `mu`, `mu_c`, and one damping ratio for both
 /// structures, if given.
@@ -227,7 +227,7 @@ fn where_nothing_whirls_it_is_said_why() {
     assert_eq!(why([0.3, 0.0, 0.0], 412.0), Some(NoWhirl::NoBalance));
     assert_eq!(why([0.3, 0.0, 0.0], 413.0), None);
     let mut four = machine([0.3, 0.0, 0.0], None);
-    four.polygon = rubscope::model::ContactPolygon::new(4, 3, 1e-4);
+    four.polygon = rubscope_solver::model::ContactPolygon::new(4, 3, 1e-4);
     let outcome = whirl_over(&four, &[500.0]).unwrap()[0].outcome;
     assert_eq!(outcome, Err(NoWhirl::StopsAtCorner));
     let mut flat = Scene::base();

@@ -45,10 +45,16 @@ fn sources(folder: &Path) -> Vec<PathBuf> {
 /// The parts that a line of code names; a comment names none.
 fn named(line: &str) -> impl Iterator<Item = &str> {
     let code = line.split("//").next().unwrap_or_default();
-    code.split("crate::").skip(1).map(|rest| {
+    let after = ["crate::", "rubscope_solver::"].map(|root| code.split(root).skip(1));
+    after.into_iter().flatten().map(|rest| {
         let end = rest.find(|c: char| !c.is_alphanumeric() && c != '_');
         &rest[..end.unwrap_or(rest.len())]
     })
+}
+
+/// The folders of the sources of both packages.
+fn packages() -> [PathBuf; 2] {
+    ["src", "solver/src"].map(|folder| root().join(folder))
 }
 
 #[test]
@@ -56,8 +62,11 @@ fn every_part_uses_only_what_is_drawn_below_it() {
     let rows = rows();
     let mut wrong = Vec::new();
     let mut uses = 0;
-    for file in sources(&root().join("src")) {
-        let inside = file.strip_prefix(root().join("src")).unwrap();
+    for (package, file) in packages()
+        .iter()
+        .flat_map(|package| sources(package).into_iter().map(move |f| (package, f)))
+    {
+        let inside = file.strip_prefix(package).unwrap();
         let first = inside.components().next().unwrap().as_os_str().to_str().unwrap();
         let part = first.trim_end_matches(".rs");
         if ["main", "lib"].contains(&part) {
@@ -84,7 +93,7 @@ fn every_file_that_is_named_exists() {
     let mut seen = 0;
     for word in text.split('`').skip(1).step_by(2) {
         let path = word.split([':', ' ']).next().unwrap_or_default();
-        let inside = ["src/", "tests/", "presets/", "assets/", "examples/", "benches/", "fuzz/"]
+        let inside = ["src/", "tests/", "presets/", "assets/", "solver/", "benches/", "fuzz/"]
             .iter()
             .any(|folder| path.starts_with(folder));
         // In capitals: a name that the reader chooses.
@@ -110,7 +119,7 @@ fn no_solver_knows_its_sibling() {
         ("explicit/disk", &["leap::", "beyond::", "Leaps", "Beyond"]),
     ];
     for (folder, forbidden) in apart {
-        let files = sources(&root().join("src/motion").join(folder));
+        let files = sources(&root().join("solver/src/motion").join(folder));
         assert!(files.len() > 5, "{folder}");
         for file in files {
             for line in fs::read_to_string(&file).unwrap().lines() {

@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use rubscope::harmonic::{Form, Lining, locked_motion};
-use rubscope::motion::{RunReport, Sampling, Script, run_to_end};
-use rubscope::scene::{CheckedScene, Value, keys};
-use rubscope::study::margins::Margins;
 use rubscope::tui::App;
 use rubscope::tui::lessons::Check;
+use rubscope_solver::harmonic::{Form, Lining, locked_motion};
+use rubscope_solver::motion::{RunReport, Sampling, Script, run_to_end};
+use rubscope_solver::scene::{CheckedScene, Value, keys};
+use rubscope_solver::study::margins::Margins;
 
 /// Runs that were asked for, by their scene: several checks ask for the same.
 #[derive(Default)]

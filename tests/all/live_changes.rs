@@ -4,7 +4,7 @@
 
 use crate::plain::compare::Pair;
 use crate::plain::scenes::{LAWS, MODELS, in_corner, scene};
-use rubscope::scene::Scene;
+use rubscope_solver::scene::Scene;
 
 const MODEL: &str = "solver.model";
 const LAW: &str = "solver.contact";

@@ -3,8 +3,8 @@
 
 use crate::plain::Plain;
 use crate::plain::scenes::{in_corner, scene};
-use rubscope::motion::{ActiveSet, Motion};
-use rubscope::scene::{Scene, SolverKind};
+use rubscope_solver::motion::{ActiveSet, Motion};
+use rubscope_solver::scene::{Scene, SolverKind};
 
 /// Steps that divide every instant below.
 const STEPS: [f64; 4] = [4e-6, 1e-6, 2.5e-7, 1e-7];
@@ -83,7 +83,7 @@ fn converges(scene: &Scene, acts: &[(f64, Act)], end: f64, tolerance: f64) -> Mo
         assert!((found - 1.0).abs() < tolerance, "{what}: slope {found} of {apart:?}");
         assert!(apart[3] < 5e-3, "{what}: {apart:?}");
     }
-    if scene.solver.model == rubscope::scene::ModelSize::Modal {
+    if scene.solver.model == rubscope_solver::scene::ModelSize::Modal {
         let turned = runs.each_ref().map(|run| {
             let alpha = run.modal();
             (alpha[0] - state.alpha[0]).hypot(alpha[1] - state.alpha[1]) / run.widest

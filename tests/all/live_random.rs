@@ -3,7 +3,7 @@
 
 use crate::plain::compare::Pair;
 use crate::plain::scenes::{in_corner, scene};
-use rubscope::scene::{ContactLaw, ModelSize, Scene};
+use rubscope_solver::scene::{ContactLaw, ModelSize, Scene};
 
 /// SplitMix64: the same scripts on every machine.
 struct Dice(u64);

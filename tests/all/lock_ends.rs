@@ -3,10 +3,10 @@
 //! with its derivatives, and against runs in time on both sides of each.
 
 use nalgebra::Complex;
-use rubscope::harmonic::{Lining, coincidence};
-use rubscope::motion::{Change, Motion, Verdict};
-use rubscope::scene::{ContactLaw, Scene};
-use rubscope::study::margins::{LimitName, Margins, Target};
+use rubscope_solver::harmonic::{Lining, coincidence};
+use rubscope_solver::motion::{Change, Motion, Verdict};
+use rubscope_solver::scene::{ContactLaw, Scene};
+use rubscope_solver::study::margins::{LimitName, Margins, Target};
 
 use crate::cli_support::rubscope;
 use crate::tips_support::{KAPPA, MU, SPEED, STEP, TAU, ZETA_C, in_corner, scene};

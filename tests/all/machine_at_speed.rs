@@ -2,14 +2,14 @@
 //! that grow, `g0 - c Omega^2`. Closed forms against numbers that were made apart, and every
 //! view of the frequency domain against the machine at one speed that stays the same.
 
-use rubscope::harmonic::{
+use rubscope_solver::harmonic::{
     Campbell, Form, Joint, Lining, coincidence, equilibria, flutter_speed, flutters, lock_loads,
     lock_roots, locked_motion, slip_over, undamped_flutter_speed, whirl_beginnings, whirl_onset,
     whirl_over,
 };
-use rubscope::model::Machine;
-use rubscope::scene::Scene;
-use rubscope::study::margins::{LimitName, Margins};
+use rubscope_solver::model::Machine;
+use rubscope_solver::scene::Scene;
+use rubscope_solver::study::margins::{LimitName, Margins};
 
 const STIFFENING: &str = "bladed_disk.centrifugal_stiffening";
 const LOSS: &str = "casing.clearance_loss_m_s2";
@@ -343,8 +343,8 @@ fn limits_change_with_every_parameter_as_their_derivatives_say() {
     ] {
         let value = |sign: f64| {
             let mut other = of.clone();
-            let key = rubscope::scene::keys::find(path).unwrap();
-            let rubscope::scene::Value::Real(x) = (key.get)(&of) else { panic!("{path}") };
+            let key = rubscope_solver::scene::keys::find(path).unwrap();
+            let rubscope_solver::scene::Value::Real(x) = (key.get)(&of) else { panic!("{path}") };
             other.set(path, &format!("{:e}", x * (1.0 + sign * part))).unwrap();
             limits(&other)
         };

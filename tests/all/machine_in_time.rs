@@ -3,9 +3,9 @@
 //! on a lining, against an integrator of its own; and what a change of speed gives to the
 //! blades stands in the ledger.
 
-use rubscope::model::LiningLaw;
-use rubscope::motion::{FailureReason, Motion, State};
-use rubscope::scene::{CheckedScene, Scene};
+use rubscope_solver::model::LiningLaw;
+use rubscope_solver::motion::{FailureReason, Motion, State};
+use rubscope_solver::scene::{CheckedScene, Scene};
 
 use crate::machine_at_speed::frozen;
 

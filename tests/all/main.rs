@@ -22,8 +22,8 @@
 #![expect(clippy::unwrap_used, clippy::panic, reason = "a test states what must hold")]
 
 use proptest::prelude::ProptestConfig;
-use rubscope::motion::{RunReport, Sampling, Script, run_to_end};
-use rubscope::scene::CheckedScene;
+use rubscope_solver::motion::{RunReport, Sampling, Script, run_to_end};
+use rubscope_solver::scene::CheckedScene;
 
 mod bounds;
 mod cases;

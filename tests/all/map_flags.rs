@@ -3,9 +3,9 @@
 
 use std::f64::consts::TAU;
 
-use rubscope::motion::{Motion, VerdictReached, run_to_verdict, to_the_end, verdict_of};
-use rubscope::scene::{CheckedScene, ModelSize, Scene};
-use rubscope::study::{Axis, MapPlan};
+use rubscope_solver::motion::{Motion, VerdictReached, run_to_verdict, to_the_end, verdict_of};
+use rubscope_solver::scene::{CheckedScene, ModelSize, Scene};
+use rubscope_solver::study::{Axis, MapPlan};
 
 /// Scene and casing damping of the four maps: 0 to 500 rad/s, 0 to 1 MN.
 const MAPS: [(&str, f64); 4] =

@@ -4,10 +4,10 @@
 
 use std::f64::consts::TAU;
 
-use rubscope::motion::{Verdict, run_to_verdict, to_the_end};
-use rubscope::scene::{ContactLaw, ModelSize, Scene, SolverKind};
-use rubscope::study::margins::grazing_pulse;
-use rubscope::study::{Axis, Map, MapPlan, Progress, Shard};
+use rubscope_solver::motion::{Verdict, run_to_verdict, to_the_end};
+use rubscope_solver::scene::{ContactLaw, ModelSize, Scene, SolverKind};
+use rubscope_solver::study::margins::grazing_pulse;
+use rubscope_solver::study::{Axis, Map, MapPlan, Progress, Shard};
 
 /// The paper's machine with rigid blades, cell by cell, without sensitivity.
 fn plan(speed: &str, pulse: &str) -> MapPlan {

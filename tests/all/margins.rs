@@ -1,10 +1,10 @@
 //! Margins: sensitivities against closed forms and differences, the smallest pulses
 //! against runs, targets and tolerances.
 
-use rubscope::model::Machine;
-use rubscope::motion::{run_to_verdict, to_the_end};
-use rubscope::scene::{CheckedScene, ContactLaw, Scene};
-use rubscope::study::margins::{
+use rubscope_solver::model::Machine;
+use rubscope_solver::motion::{run_to_verdict, to_the_end};
+use rubscope_solver::scene::{CheckedScene, ContactLaw, Scene};
+use rubscope_solver::study::margins::{
     CLEARANCE, Limit, LimitName, Margins, Quantity, Target, Tolerance, first_touch, grazing_pulse,
     parameter,
 };
@@ -174,7 +174,7 @@ fn paper(speed: f64) -> CheckedScene {
 fn the_lasting_pulses_are_the_edges_of_the_papers_zone() {
     let lasts = |speed: f64, pulse: f64| {
         let scene = paper(speed).into_scene();
-        let operation = rubscope::model::Operation { pulse_n: pulse, ..scene.operation };
+        let operation = rubscope_solver::model::Operation { pulse_n: pulse, ..scene.operation };
         let scene = Scene { operation, ..scene }.checked().unwrap();
         run_to_verdict(&scene, &to_the_end).unwrap().verdict.keeps_contact()
     };

@@ -1,8 +1,8 @@
 //! Margins of a machine with inclined tips: limits that the paper's has not, with their
 //! sensitivities.
 
-use rubscope::scene::Scene;
-use rubscope::study::margins::{LimitName, Margins};
+use rubscope_solver::scene::Scene;
+use rubscope_solver::study::margins::{LimitName, Margins};
 
 fn scene(changes: &[(&str, &str)]) -> Scene {
     let mut scene = Scene::base();

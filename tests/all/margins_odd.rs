@@ -1,10 +1,10 @@
 //! Margins of scenes that others leave out: soft blades, a ramp, pulses that pull, a
 //! rotor that turns backward, and tolerances that depend on each other.
 
-use rubscope::harmonic::{lock_fold_speed, lock_loads};
-use rubscope::motion::{Motion, run_to_verdict, to_the_end};
-use rubscope::scene::{CheckedScene, ContactLaw};
-use rubscope::study::margins::{
+use rubscope_solver::harmonic::{lock_fold_speed, lock_loads};
+use rubscope_solver::motion::{Motion, run_to_verdict, to_the_end};
+use rubscope_solver::scene::{CheckedScene, ContactLaw};
+use rubscope_solver::study::margins::{
     CLEARANCE, LimitName, Margins, SAMPLES, Side, Target, Tolerance, first_touch, grazing_pulse,
     lasting_pulse,
 };

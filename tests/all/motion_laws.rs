@@ -3,8 +3,8 @@
 
 use crate::drawn;
 use proptest::prelude::*;
-use rubscope::motion::{Change, Motion, Pulse, Script, Verdict, run_to_end, verdict_of};
-use rubscope::scene::{ContactLaw, ModelSize, Scene};
+use rubscope_solver::motion::{Change, Motion, Pulse, Script, Verdict, run_to_end, verdict_of};
+use rubscope_solver::scene::{ContactLaw, ModelSize, Scene};
 
 /// A random machine with something beyond the paper.
 fn machines() -> impl Strategy<Value = Scene> {

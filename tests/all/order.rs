@@ -1,8 +1,8 @@
 //! The explicit solver against the event solver: its order, its thresholds, and
 //! where the two contact laws differ.
 
-use rubscope::motion::{Motion, State, Verdict, run_to_verdict, to_the_end};
-use rubscope::scene::Scene;
+use rubscope_solver::motion::{Motion, State, Verdict, run_to_verdict, to_the_end};
+use rubscope_solver::scene::Scene;
 
 fn scene(changes: &[(&str, &str)]) -> Scene {
     Scene::base().with(changes).unwrap().into_scene()

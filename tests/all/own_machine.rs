@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use rubscope::scene::Scene;
+use rubscope_solver::scene::Scene;
 
 use crate::cli_support::{refusal, rubscope};
 

@@ -3,8 +3,8 @@
 
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
-use rubscope::motion::{Motion, run_to_verdict};
-use rubscope::scene::{BUILTIN, CheckedScene, ModelSize, Scene, SolverKind};
+use rubscope_solver::motion::{Motion, run_to_verdict};
+use rubscope_solver::scene::{BUILTIN, CheckedScene, ModelSize, Scene, SolverKind};
 
 use crate::plain::scenes::scene;
 

@@ -64,7 +64,7 @@ fn every_diameter_is_damped_by_the_same_ratio() {
     scene.bladed_disk.coupling_nm_per_rad = 9000.0;
     let h = 1e-6;
     for diameters in [0_u32, 1, 5, 11] {
-        let omega = rubscope::model::blade_frequency(&scene.bladed_disk, diameters);
+        let omega = rubscope_solver::model::blade_frequency(&scene.bladed_disk, diameters);
         let mut disk = Disk::new(&scene, Dd::from(h));
         let angle = |i: usize| std::f64::consts::TAU * f64::from(diameters) * i as f64 / 22.0;
         for blade in 0..22 {

@@ -2,7 +2,7 @@
 
 use crate::plain::compare::Pair;
 use crate::plain::scenes::{LAWS, MODELS, in_corner, scene};
-use rubscope::scene::{ContactLaw, Scene};
+use rubscope_solver::scene::{ContactLaw, Scene};
 
 /// Compares states every half millisecond until `end` or the motion's failure.
 fn compare(name: &str, scene: &Scene, end: f64) -> Pair {

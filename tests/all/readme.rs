@@ -3,8 +3,8 @@
 
 use std::path::PathBuf;
 
-use rubscope::scene::Scene;
 use rubscope::tui::{Marker, Theme, export};
+use rubscope_solver::scene::Scene;
 
 use crate::tui_support::Session;
 

@@ -4,8 +4,8 @@
 
 use crate::drawn;
 use proptest::prelude::*;
-use rubscope::motion::Motion;
-use rubscope::scene::{ModelSize, Scene, SolverKind};
+use rubscope_solver::motion::Motion;
+use rubscope_solver::scene::{ModelSize, Scene, SolverKind};
 
 /// Steps of one scene, as parts of the shortest.
 const STEPS: [f64; 5] = [1.0, 1.11, 1.23, 1.37, 1.58];

@@ -2,8 +2,8 @@
 //! paper's model are solved by its own solvers, bit for bit as without those keys.
 
 use crate::cli_support::{refusal, rubscope};
-use rubscope::motion::{RunReport, simulate};
-use rubscope::scene::{BUILTIN, KEYS, Scene};
+use rubscope_solver::motion::{RunReport, simulate};
+use rubscope_solver::scene::{BUILTIN, KEYS, Scene};
 
 /// Keys that say nothing where nothing goes beyond the paper, with other values.
 const IDLE: &[(&str, &str)] = &[

@@ -3,9 +3,9 @@
 
 use std::f64::consts::TAU;
 
-use rubscope::model::Mode;
 use rubscope::report::CommandLine;
-use rubscope::scene::{BUILTIN, Scene};
+use rubscope_solver::model::Mode;
+use rubscope_solver::scene::{BUILTIN, Scene};
 
 use crate::cli_support::{refusal, rubscope};
 
@@ -120,7 +120,7 @@ fn every_scene_is_made_again_by_its_command_also_where_a_mode_hides_values() {
             let from = Scene::builtin(base).unwrap();
             let line = CommandLine::from_base("run", base, &from, &scene).to_string();
             let mut made = from.clone();
-            for (path, text) in rubscope::scene::keys::differences(&from, &scene) {
+            for (path, text) in rubscope_solver::scene::keys::differences(&from, &scene) {
                 made.set(path, &text).unwrap();
             }
             let alike = (&made.casing, &made.bladed_disk, &made.operation, &made.title)
@@ -227,7 +227,7 @@ fn a_mode_is_named_by_what_it_has() {
 
 #[test]
 fn an_axis_over_the_diameters_takes_their_modes() {
-    let axis = rubscope::study::Axis::parse("operation.nodal_diameters=3:5:3").unwrap();
+    let axis = rubscope_solver::study::Axis::parse("operation.nodal_diameters=3:5:3").unwrap();
     let mut scene = Scene::builtin("paper-nd3").unwrap();
     for (index, critical) in [(0, 292.878_435), (1, 256.12), (2, 175.727_061), (1, 256.12)] {
         axis.apply(&mut scene, index).unwrap();

@@ -1,7 +1,7 @@
 //! Runs the numbers in the scene notes and in docs/accuracy.md that no other test checks.
 
-use rubscope::motion::{ActiveSet, Motion, RunReport, Verdict, simulate};
-use rubscope::scene::Scene;
+use rubscope_solver::motion::{ActiveSet, Motion, RunReport, Verdict, simulate};
+use rubscope_solver::scene::Scene;
 
 fn scene(name: &str, changes: &[(&str, &str)]) -> Scene {
     Scene::builtin(name).unwrap().with(changes).unwrap().into_scene()

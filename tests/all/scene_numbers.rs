@@ -1,8 +1,8 @@
 //! Runs the numbers in the notes of the scenes that go beyond the paper.
 
-use rubscope::harmonic::{Lining, least_lock_stiffness};
-use rubscope::motion::{Motion, RunReport, Verdict, simulate};
-use rubscope::scene::Scene;
+use rubscope_solver::harmonic::{Lining, least_lock_stiffness};
+use rubscope_solver::motion::{Motion, RunReport, Verdict, simulate};
+use rubscope_solver::scene::Scene;
 
 fn scene(name: &str, changes: &[(&str, &str)]) -> Scene {
     Scene::builtin(name).unwrap().with(changes).unwrap().into_scene()

@@ -1,7 +1,7 @@
 //! Every built-in scene does what its note says, also in longer runs.
 
-use rubscope::motion::{Motion, RunReport, Verdict, simulate};
-use rubscope::scene::Scene;
+use rubscope_solver::motion::{Motion, RunReport, Verdict, simulate};
+use rubscope_solver::scene::Scene;
 
 fn run(name: &str, changes: &[(&str, &str)]) -> RunReport {
     let scene = Scene::builtin(name).unwrap().with(changes).unwrap();

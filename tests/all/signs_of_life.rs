@@ -5,7 +5,7 @@
 
 use std::path::Path;
 
-use rubscope::scene::BUILTIN;
+use rubscope_solver::scene::BUILTIN;
 
 use crate::pty_support::{Start, Terminal};
 

@@ -4,7 +4,7 @@
 
 use crate::plain::compare::Pair;
 use crate::plain::scenes::{in_corner, scene};
-use rubscope::scene::{ContactLaw, ModelSize, Scene};
+use rubscope_solver::scene::{ContactLaw, ModelSize, Scene};
 
 /// The `k`th number between 0 and 1 of a seed.
 fn random(seed: u64, k: u64) -> f64 {

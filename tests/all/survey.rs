@@ -1,8 +1,8 @@
 //! `rubscope survey`: each number of diameters is what the single commands say of it.
 
-use rubscope::scene::{CheckedScene, Scene};
-use rubscope::study::margins::{LimitName, Margins, Quantity, parameter};
-use rubscope::study::survey::{Survey, speed_range};
+use rubscope_solver::scene::{CheckedScene, Scene};
+use rubscope_solver::study::margins::{LimitName, Margins, Quantity, parameter};
+use rubscope_solver::study::survey::{Survey, speed_range};
 
 use crate::cli_support::{refusal, rubscope};
 
@@ -39,7 +39,7 @@ fn every_row_has_the_limits_that_margins_finds_for_its_diameters() {
         for row in &survey.rows {
             let mut own = scene.clone().into_scene();
             own.operation.nodal_diameters = row.nodal_diameters;
-            own.solver.kind = rubscope::scene::SolverKind::Explicit;
+            own.solver.kind = rubscope_solver::scene::SolverKind::Explicit;
             own.solver.step_s = 1e-7;
             let margins = Margins::of(&own.checked().unwrap());
             let forward = own.operation.speed_rad_s > 0.0;

@@ -5,10 +5,10 @@
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-use rubscope::harmonic::{Kind, equilibria, equilibrium};
-use rubscope::model::Machine;
-use rubscope::motion::{ExactEvents, Solver, run_to_verdict, to_the_end};
-use rubscope::scene::{ModelSize, Scene};
+use rubscope_solver::harmonic::{Kind, equilibria, equilibrium};
+use rubscope_solver::model::Machine;
+use rubscope_solver::motion::{ExactEvents, Solver, run_to_verdict, to_the_end};
+use rubscope_solver::scene::{ModelSize, Scene};
 use serde_json::Value;
 
 use crate::cli_support::rubscope;
@@ -256,7 +256,7 @@ fn formulas_survive_markdown() {
 fn sections_cited_in_the_source_exist() {
     let page = page();
     let mut cited = HashMap::new();
-    let mut folders = vec![root().join("src")];
+    let mut folders = vec![root().join("src"), root().join("solver/src")];
     while let Some(folder) = folders.pop() {
         for entry in std::fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();

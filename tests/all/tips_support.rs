@@ -1,8 +1,8 @@
 //! What the tests of the solvers beyond the paper share: scenes in few words, a start
 //! in a corner, and limits as the step goes to zero.
 
-use rubscope::motion::{Motion, State};
-use rubscope::scene::Scene;
+use rubscope_solver::motion::{Motion, State};
+use rubscope_solver::scene::Scene;
 
 /// The paper's machine, 22 blades and 3 diameters, unilateral, with some keys set.
 pub fn scene(changes: &[(&str, f64)]) -> Scene {

@@ -1,8 +1,8 @@
 //! Finding things in the explorer: the help and its filter, the palette, and the
 //! last line, at every size.
 
-use rubscope::scene::Scene;
 use rubscope::tui::{Exit, Marker, Theme};
+use rubscope_solver::scene::Scene;
 
 use crate::tui_support::Session;
 

@@ -6,11 +6,11 @@ use std::time::Duration;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::{Terminal, backend::TestBackend, buffer::Buffer};
-use rubscope::scene::Scene;
 use rubscope::tui::events::ScreenEvent;
 use rubscope::tui::terminal::NoHost;
 use rubscope::tui::worker::Stepwise;
 use rubscope::tui::{App, Marker, Theme, run};
+use rubscope_solver::scene::Scene;
 
 /// Escape sequences, a break of a line, text from right to left, characters
 /// without a width, wide ones, and letters with many accents.

@@ -2,9 +2,9 @@
 //! live speed, the cursor, and ways to leave.
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
-use rubscope::scene::Scene;
 use rubscope::tui::events::ScreenEvent;
 use rubscope::tui::{Exit, Marker, Theme};
+use rubscope_solver::scene::Scene;
 
 use crate::tui_support::{Session, scene};
 

@@ -1,12 +1,12 @@
 //! Every step of every lesson, through the explorer: answers, tasks, and what the
 //! text says against what the solvers find.
 
-use rubscope::motion::simulate;
-use rubscope::scene::Scene;
 use rubscope::tui::bindings::{Action, Context};
 use rubscope::tui::events::ScreenEvent;
 use rubscope::tui::lessons::{self, Check, Expected, Lesson, LessonStep};
 use rubscope::tui::{App, Marker, Theme};
+use rubscope_solver::motion::simulate;
+use rubscope_solver::scene::Scene;
 
 use super::lesson_values::{Runs, found};
 use super::tui_support::{Session, scene};

@@ -74,6 +74,6 @@ fn a_scene_is_saved_by_a_line_and_no_file_is_replaced() {
     let save = format!("save {}\n", path.display());
     let (text, _) = told(&[], format!("speed 450\n{save}{save}").as_bytes());
     assert!(text.contains("written: ") && text.contains("exists"), "{text}");
-    let scene = rubscope::scene::Scene::load(path.to_str().unwrap()).unwrap();
+    let scene = rubscope_solver::scene::Scene::load(path.to_str().unwrap()).unwrap();
     assert_eq!(scene.operation.speed_rad_s, 450.0);
 }

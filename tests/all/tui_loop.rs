@@ -6,7 +6,6 @@ use std::time::Duration;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::{Terminal, backend::TestBackend};
-use rubscope::scene::Scene;
 use rubscope::tui::engine::{Engine, Order, Snapshot};
 use rubscope::tui::events::ScreenEvent;
 use rubscope::tui::files::{FileJob, FileResult};
@@ -14,6 +13,7 @@ use rubscope::tui::history::Channel;
 use rubscope::tui::terminal::{Host, NoHost};
 use rubscope::tui::worker::Stepwise;
 use rubscope::tui::{App, Exit, Marker, Theme, run};
+use rubscope_solver::scene::Scene;
 
 /// Ends the loop at the second picture.
 struct Second {

@@ -2,12 +2,12 @@
 //! are those of `rubscope map`, and a cell opens exactly the run it shows.
 
 use ratatui::style::Color;
-use rubscope::harmonic::{Form, locked_motion};
-use rubscope::motion::{Verdict, run_to_verdict, to_the_end};
-use rubscope::scene::{ContactLaw, Scene, SolverKind};
-use rubscope::study::{Map, MapPlan};
 use rubscope::tui::engine::FullRunState;
 use rubscope::tui::{Marker, Theme};
+use rubscope_solver::harmonic::{Form, locked_motion};
+use rubscope_solver::motion::{Verdict, run_to_verdict, to_the_end};
+use rubscope_solver::scene::{ContactLaw, Scene, SolverKind};
+use rubscope_solver::study::{Map, MapPlan};
 
 use crate::cli_support::rubscope;
 use crate::tui_support::Session;

@@ -2,11 +2,11 @@
 //! limit or selects a knob, and no scene and no size is too odd for it.
 
 use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
-use rubscope::scene::Scene;
-use rubscope::study::margins::{LimitName, Margins};
 use rubscope::tui::bindings::Action;
 use rubscope::tui::events::ScreenEvent;
 use rubscope::tui::{Effect, Heard, Marker, Theme};
+use rubscope_solver::scene::Scene;
+use rubscope_solver::study::margins::{LimitName, Margins};
 
 use crate::tui_support::{Session, scene};
 

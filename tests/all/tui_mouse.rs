@@ -92,7 +92,7 @@ fn a_click_selects_a_knob_and_the_wheel_turns_the_one_below_it() {
 
 #[test]
 fn the_wheel_turns_the_same_knob_while_the_pointer_stays() {
-    let scene = rubscope::scene::Scene::builtin("rub").unwrap();
+    let scene = rubscope_solver::scene::Scene::builtin("rub").unwrap();
     let mut session = Session::with_stride((80, 24), 1e-4, scene, Theme::Dark, Marker::Braille);
     let contact = find(&session, "contact    ");
     // The bar of the speed goes, and the rows below it move up.

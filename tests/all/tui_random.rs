@@ -8,13 +8,13 @@ use std::time::Duration;
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use proptest::prelude::*;
 use ratatui::{Terminal, backend::TestBackend};
-use rubscope::scene::Scene;
 use rubscope::tui::bindings::BINDINGS;
 use rubscope::tui::engine::{Engine, FullRunState, Order, Results, Snapshot};
 use rubscope::tui::events::ScreenEvent;
 use rubscope::tui::terminal::NoHost;
 use rubscope::tui::worker::Stepwise;
 use rubscope::tui::{App, Exit, Marker, Theme, run};
+use rubscope_solver::scene::Scene;
 
 /// Number of looks that the answers of `Late` are delayed: more than one `press` has.
 const DELAY: usize = 3;

@@ -1,7 +1,7 @@
 //! The list of scenes on the screen, and what a saved scene says about itself.
 
-use rubscope::scene::{BUILTIN, Scene};
 use rubscope::tui::{App, Marker, Source, Theme};
+use rubscope_solver::scene::{BUILTIN, Scene};
 
 use super::tui_support::{Session, scene};
 

@@ -1,8 +1,8 @@
 //! Whole screens of the explorer: its first screen, its views, its themes, and how
 //! it says what it finds.
 
-use rubscope::scene::Scene;
 use rubscope::tui::{Marker, Theme};
+use rubscope_solver::scene::Scene;
 
 use crate::tui_support::{Session, scene};
 
@@ -107,7 +107,7 @@ fn a_wide_first_line_has_the_cost_of_a_step_taken_and_the_part_skipped() {
 fn speed_against_error_shows_every_kind_of_solver() {
     let mut scene = scene();
     scene.solver.end_s = 2e-3;
-    scene.solver.contact = rubscope::scene::ContactLaw::Unilateral;
+    scene.solver.contact = rubscope_solver::scene::ContactLaw::Unilateral;
     scene.operation.pulse_n = 2e4;
     let mut session = Session::open(120, 40, scene, Theme::Dark, Marker::Braille);
     // Wall times differ from run to run: only the fixed parts are checked.

@@ -6,11 +6,11 @@ use std::time::Duration;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::{Terminal, backend::TestBackend};
-use rubscope::scene::Scene;
 use rubscope::tui::events::ScreenEvent;
 use rubscope::tui::terminal::NoHost;
 use rubscope::tui::worker::Stepwise;
 use rubscope::tui::{App, Exit, Marker, Theme, run};
+use rubscope_solver::scene::Scene;
 
 /// An explorer, its screen and its engine.
 pub struct Session {

@@ -2,9 +2,9 @@
 //! come, changes of contact, and the sweep of a knob.
 
 use ratatui::{Terminal, backend::TestBackend};
-use rubscope::motion::Motion;
-use rubscope::scene::Scene;
 use rubscope::tui::{Marker, Source, Theme};
+use rubscope_solver::motion::Motion;
+use rubscope_solver::scene::Scene;
 
 use crate::tui_support::Session;
 

@@ -2,8 +2,8 @@
 //! below the zero line, and the view of the coincidence.
 
 use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
-use rubscope::scene::{ContactLaw, Scene, SolverKind};
 use rubscope::tui::{Marker, Theme};
+use rubscope_solver::scene::{ContactLaw, Scene, SolverKind};
 
 use crate::tui_support::{Session, scene};
 

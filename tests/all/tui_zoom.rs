@@ -3,10 +3,10 @@
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use proptest::prelude::*;
-use rubscope::motion::{ActiveSet, Motion};
-use rubscope::scene::Scene;
 use rubscope::tui::history::{Bin, Channel, columns, contacts};
 use rubscope::tui::{App, Marker, Theme};
+use rubscope_solver::motion::{ActiveSet, Motion};
+use rubscope_solver::scene::Scene;
 
 use crate::tui_support::{Session, scene};
 
@@ -87,7 +87,7 @@ fn check(app: &App) {
         // A sample tells of the time since the one before.
         let dt = (end - page.0) / (20 * COLUMNS) as f64;
         let by = dt
-            + if app.scene.solver.kind == rubscope::scene::SolverKind::Explicit {
+            + if app.scene.solver.kind == rubscope_solver::scene::SolverKind::Explicit {
                 step
             } else {
                 0.0

@@ -3,10 +3,10 @@
 use crate::plain::scenes::{in_corner, scene};
 use proptest::prelude::*;
 
-use rubscope::motion::{
+use rubscope_solver::motion::{
     ActiveSet, Motion, Verdict, VerdictReached, run_to_verdict, to_the_end, verdict_of,
 };
-use rubscope::scene::{ContactLaw, ModelSize, Scene, SolverKind};
+use rubscope_solver::scene::{ContactLaw, ModelSize, Scene, SolverKind};
 
 /// Part of the run over which a verdict is judged: the last tenth.
 const LAST_PART: f64 = 0.1;

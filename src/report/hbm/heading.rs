@@ -4,11 +4,11 @@
 use std::io::{Result, Write};
 
 use super::{notes, speeds_of};
-use crate::harmonic::{Form, Sweep};
-use crate::model::Machine;
 use crate::report::line::capital;
 use crate::report::number::{self, count, short};
-use crate::scene::Scene;
+use rubscope_solver::harmonic::{Form, Sweep};
+use rubscope_solver::model::Machine;
+use rubscope_solver::scene::Scene;
 
 /// The heading of one view.
 #[derive(Debug)]

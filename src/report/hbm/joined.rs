@@ -8,10 +8,12 @@ use nalgebra::Complex;
 use serde_json::{Value, json};
 
 use super::parts::Parts;
-use crate::harmonic::{Joint, RoundWhirl, RoundWhirlLoads, WhirlOrbit, WhirlPoint, round_whirls};
-use crate::model::Machine;
 use crate::report::table::MadeTable;
 use crate::report::table::{Column, Table, TableCell};
+use rubscope_solver::harmonic::{
+    Joint, RoundWhirl, RoundWhirlLoads, WhirlOrbit, WhirlPoint, round_whirls,
+};
+use rubscope_solver::model::Machine;
 
 /// Columns and rows of the chart of the compliance.
 const CHART: (usize, usize) = (72, 24);

@@ -5,13 +5,13 @@ use std::rc::Rc;
 use serde_json::{Value, json};
 
 use super::parts::Parts;
-use crate::harmonic::{
+use crate::report::table::MadeTable;
+use crate::report::table::{Column, Table, TableCell};
+use rubscope_solver::harmonic::{
     CoincidencePoint, Cycle, FollowedBranch, GrowthThreshold, HopfPoint, LeastStiffness,
     LiningState, Rest, Special,
 };
-use crate::model::LockWindow;
-use crate::report::table::MadeTable;
-use crate::report::table::{Column, Table, TableCell};
+use rubscope_solver::model::LockWindow;
 
 /// All of one lining against speed.
 #[derive(Clone, Debug, PartialEq)]

@@ -23,13 +23,13 @@ pub use tables::*;
 
 use parts::{Part, Parts};
 
-use crate::harmonic::{
+use crate::report::number::{per_speed, short};
+use rubscope_solver::harmonic::{
     Branches, Campbell, CornerBranch, ExcitedLock, ExcitedLocks, Form, Line, LockedPoint, NoSlip,
     SlipPoint, SlipSpectrum, Sweep,
 };
-use crate::model::{ContactPolygon, Excitation, LockWindow, Machine};
-use crate::report::number::{per_speed, short};
-use crate::scene::Scene;
+use rubscope_solver::model::{ContactPolygon, Excitation, LockWindow, Machine};
+use rubscope_solver::scene::Scene;
 
 /// The whole answer of `rubscope hbm --json`, its parts in order.
 #[derive(Debug, Serialize)]
@@ -42,7 +42,7 @@ impl HbmReport {
     #[must_use]
     pub fn new(scene: &Scene, machine: &Machine, form: Form, damped: bool, speed: f64) -> Self {
         let report = Self(Parts::default())
-            .with("scene", scene.told())
+            .with("scene", scene.reported())
             .with("form", form)
             .with("damped", damped);
         let (notes, window) = (notes(scene, machine), machine.lock_window(speed));

@@ -6,7 +6,7 @@ use serde::Serialize;
 use serde::ser::{Error, SerializeMap, SerializeSeq, Serializer};
 use serde_json::{Value, json};
 
-use crate::harmonic::HarmonicError;
+use rubscope_solver::harmonic::HarmonicError;
 
 /// Parts by name.
 #[derive(Default)]

@@ -4,12 +4,12 @@
 use std::io::Error;
 use std::rc::Rc;
 
-use crate::harmonic::{
+use crate::report::table::MadeTable;
+use crate::report::table::{Column, Table, TableCell};
+use rubscope_solver::harmonic::{
     Branches, Campbell, CornerBranch, Equilibrium, ExcitedLock, ExcitedLocks, Kind, LockedPoint,
     SlipOrbit, SlipPoint, SlipRegion, SlipSpectrum, Sweep,
 };
-use crate::report::table::MadeTable;
-use crate::report::table::{Column, Table, TableCell};
 
 /// One word for a point: that of its character, or locked.
 fn state(point: &LockedPoint) -> TableCell {

@@ -13,7 +13,7 @@ use serde_json::json;
 
 use super::line::wrapped;
 use super::table::{Table, TableCell};
-use crate::study::margins::{Limit, Margins, acting};
+use rubscope_solver::study::margins::{Limit, Margins, acting};
 
 /// Widest line of the text; a command to copy stays in one line.
 pub const WIDTH: usize = 100;

@@ -1,7 +1,7 @@
 //! One limit as the text, the page and the screen show it.
 
-use crate::scene::ContactLaw;
-use crate::study::margins::{Limit, LimitName, Margins, Quantity, Side};
+use rubscope_solver::scene::ContactLaw;
+use rubscope_solver::study::margins::{Limit, LimitName, Margins, Quantity, Side};
 
 /// Parameters that are told of a limit.
 pub const TOLD: usize = 3;

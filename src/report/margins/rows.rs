@@ -7,7 +7,7 @@ use super::{LimitRow, WIDTH, tell, words};
 use crate::report::number;
 use crate::report::symbols::symbol;
 use crate::report::table::{Table, TableCell};
-use crate::study::margins::{Limit, Margins, Quantity};
+use rubscope_solver::study::margins::{Limit, Margins, Quantity};
 
 /// Between two columns.
 const APART: usize = 2;

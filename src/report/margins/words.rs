@@ -4,8 +4,10 @@ use crate::report::CommandLine;
 use crate::report::line::capital;
 use crate::report::number::SiScale;
 use crate::report::number::{count, grouped, rounded, short, speed, time, with_unit};
-use crate::scene::{ContactLaw, Scene, SolverKind};
-use crate::study::margins::{Band, Found, Limit, LimitName, Margins, Quantity, parameter};
+use rubscope_solver::scene::{ContactLaw, Scene, SolverKind};
+use rubscope_solver::study::margins::{
+    Band, Found, Limit, LimitName, Margins, Quantity, parameter,
+};
 
 /// A margin from which on it is told as a factor.
 const FACTORS: f64 = 9.0;

@@ -1,8 +1,8 @@
 //! Sentences of every verdict, doubt and width.
 
 use super::*;
-use crate::motion::{Sampling, Script, run_to_end};
-use crate::scene::{BUILTIN, Scene};
+use rubscope_solver::motion::{Sampling, Script, run_to_end};
+use rubscope_solver::scene::{BUILTIN, Scene};
 
 const WIDTHS: std::ops::RangeInclusive<usize> = 40..=200;
 

@@ -10,8 +10,8 @@ use plotters::prelude::*;
 
 use super::Provenance;
 use super::line::harmless;
-use crate::study::figures::Figure;
 use paper::{Drawn, FINE, TEXT, UNDERSCORE, wrapped, write_at};
+use rubscope_solver::study::figures::Figure;
 
 pub use margins::write_margins;
 
@@ -139,10 +139,10 @@ fn with_subscripts(svg: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::motion::Verdict;
     use crate::report::CommandLine;
-    use crate::scene::Scene;
-    use crate::study::figures::{Mark, Panel, Quantity, Series, Style};
+    use rubscope_solver::motion::Verdict;
+    use rubscope_solver::scene::Scene;
+    use rubscope_solver::study::figures::{Mark, Panel, Quantity, Series, Style};
 
     fn drawn(points: Vec<(f64, f64)>, log: bool) -> String {
         let x = Quantity { log, ..Quantity::SPEED };

@@ -9,7 +9,7 @@ use super::paper::{Area, Drawn, FINE, TEXT, colour, font, px, strokes, width_of,
 use super::{LEFT, LINE};
 use crate::report::number::short;
 use crate::report::ticks::{log_ticks, power_of_ten, scientific, ticks};
-use crate::study::figures::{Mark, Panel, Quantity, Series, Style};
+use rubscope_solver::study::figures::{Mark, Panel, Quantity, Series, Style};
 
 /// Height of a panel's title.
 const TITLE: u32 = 24;

@@ -4,9 +4,9 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use crate::motion::Verdict;
-use crate::scene::keys::is_plain;
-use crate::study::figures::Style;
+use rubscope_solver::motion::Verdict;
+use rubscope_solver::scene::keys::is_plain;
+use rubscope_solver::study::figures::Style;
 
 /// Factor of the drawing size over the shown size: the backend has whole
 /// numbers only, and smooth lines would get steps.

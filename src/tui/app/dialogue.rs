@@ -5,11 +5,11 @@
 //! The open list of commands: what is typed, which line is chosen, and doing it.
 
 use crate::report::line::clean;
-use crate::scene::Scene;
 use crate::tui::app::{App, Effect};
 use crate::tui::bindings::Action;
 use crate::tui::commands::{self, Command};
 use crate::tui::{lessons, panels};
+use rubscope_solver::scene::Scene;
 
 /// What the keyboard acts on.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -9,12 +9,12 @@
 use std::path::{Component, Path, PathBuf};
 
 use crate::report::CommandLine;
-use crate::scene::keys::differences;
-use crate::scene::{CheckedScene, DEFAULT, Scene};
 use crate::tui::app::{App, Effect, InputMode, Purpose, Source};
 use crate::tui::export;
 use crate::tui::files::{FileJob, FileResult};
 use crate::tui::files::{FoundScene, FoundScenes, builtin_scenes};
+use rubscope_solver::scene::keys::differences;
+use rubscope_solver::scene::{CheckedScene, DEFAULT, Scene};
 
 /// A file that is being written.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -5,14 +5,14 @@
 //! A sweep: the selected knob goes from its value to another by itself, one
 //! value after the verdict of the one before is on the screen.
 
-use crate::motion::Change;
 use crate::report::line::clean;
-use crate::scene::{CheckedScene, SceneError, Value};
 use crate::tui::app::play::Tempo;
 use crate::tui::app::{App, InputMode, LessonProgress, Source};
 use crate::tui::engine::FullRunState;
 use crate::tui::knobs::{KNOBS, Knob, place_of};
 use crate::tui::views::ViewId;
+use rubscope_solver::motion::Change;
+use rubscope_solver::scene::{CheckedScene, SceneError, Value};
 
 /// The knobs, and what can be undone.
 #[derive(Clone, Debug, Default)]
@@ -426,8 +426,8 @@ fn values(from: &Value, to: &Value) -> Vec<Value> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Scene;
     use crate::tui::{Marker, Theme};
+    use rubscope_solver::scene::Scene;
 
     #[test]
     fn undo_and_redo_come_back_and_a_new_change_forgets_what_was_undone() {

@@ -1,9 +1,9 @@
 //! Which charts are on the screen, and where.
 
 use super::App;
-use crate::scene::Scene;
 use crate::tui::bindings::Action;
 use crate::tui::views::{ViewId, ViewPanel};
+use rubscope_solver::scene::Scene;
 
 /// Most charts next to the large one.
 const MOST_BESIDE: usize = 3;

@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use super::knobs::Past;
 use super::{App, InputMode, Source};
-use crate::scene::{Scene, Value};
 use crate::tui::knobs::{knob_of, place_of};
 use crate::tui::lessons::{self, Condition, LETTERS, Lesson, LessonStep, LessonsDone};
 use crate::tui::panels;
 use crate::tui::views::ViewId;
+use rubscope_solver::scene::{Scene, Value};
 
 /// The progress of a lesson.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,13 +4,13 @@
 //! The margins from the keyboard: what Enter does at a limit and at a knob.
 
 use crate::report::number::rounded;
-use crate::scene::{Allowed, CheckedScene, ContactLaw, Value};
-use crate::study::{Axis, MapPlan};
 use crate::tui::app::{App, cell_of};
 use crate::tui::knobs::{Knob, knob_of, number, place_of};
 use crate::tui::views::ViewId;
 use crate::tui::views::map::{MapAxis, here, value_text};
 use crate::tui::views::margins::{COLUMNS, DIGITS, LiveMargins};
+use rubscope_solver::scene::{Allowed, CheckedScene, ContactLaw, Value};
+use rubscope_solver::study::{Axis, MapPlan};
 
 impl App {
     /// Makes a view the large one by a key. The map gives the arrows to its cell
@@ -171,8 +171,8 @@ impl App {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::keys::{CLEARANCE, PULSE, SPEED};
     use crate::tui::app::on_screen;
+    use rubscope_solver::scene::keys::{CLEARANCE, PULSE, SPEED};
 
     fn axes(app: &App) -> [&'static str; 2] {
         [app.map.x.path, app.map.y.path]

@@ -42,8 +42,8 @@ use super::raster::Marker;
 use super::theme::Theme;
 use super::views::ViewId;
 use super::views::map::MapChoice;
-use crate::model::Machine;
-use crate::scene::{CheckedScene, Scene};
+use rubscope_solver::model::Machine;
+use rubscope_solver::scene::{CheckedScene, Scene};
 
 /// Where a scene is from.
 #[derive(Clone, Debug, PartialEq)]
@@ -191,7 +191,7 @@ const BINS_PER_PAGE: f64 = 1024.0;
 /// The paper's scene on a screen of 120 x 40, for the tests of the parts.
 #[cfg(test)]
 fn on_screen() -> App {
-    let scene = crate::scene::Scene::builtin("paper-nd3").unwrap().checked().unwrap();
+    let scene = rubscope_solver::scene::Scene::builtin("paper-nd3").unwrap().checked().unwrap();
     let mut app = App::new(scene, crate::tui::Theme::Mono, crate::tui::Marker::Braille);
     app.layout.size = (120, 40);
     app

@@ -2,11 +2,11 @@
 //! at any rate, then a new one starts.
 
 use super::App;
-use crate::scene::Scene;
 use crate::tui::axis::{instant, nice_step, readable};
 use crate::tui::bindings::Action;
 use crate::tui::engine::PageRecord;
 use crate::tui::history::{Bin, BinHistory};
+use rubscope_solver::scene::Scene;
 
 /// Simulated time per wall-clock time, from 1e-5 to 1.
 pub const RATES: &[f64] =
@@ -363,7 +363,7 @@ mod tests {
 
     #[test]
     fn the_rate_in_words_is_the_one_that_is_reached() {
-        let scene = crate::scene::Scene::base().checked().unwrap();
+        let scene = rubscope_solver::scene::Scene::base().checked().unwrap();
         let mut app = App::new(scene, crate::tui::Theme::Mono, crate::tui::Marker::Ascii);
         // Not known yet: what was asked for is no answer.
         assert_eq!(app.rate_text(), "..");
@@ -380,9 +380,10 @@ mod tests {
 
     #[test]
     fn a_last_step_that_passes_the_end_stays_on_the_last_page() {
-        let scene = crate::scene::Scene::base().checked().unwrap();
+        let scene = rubscope_solver::scene::Scene::base().checked().unwrap();
         let mut app = App::new(scene, crate::tui::Theme::Mono, crate::tui::Marker::Ascii);
-        let mut moment = crate::tui::engine::Moment::of(&crate::motion::Motion::new(&app.scene));
+        let mut moment =
+            crate::tui::engine::Moment::of(&rubscope_solver::motion::Motion::new(&app.scene));
         moment.state.t_s = app.end_s() + 1e-6;
         app.run.latest.moment = Some(moment);
         let (from, to) = app.page();

@@ -5,13 +5,13 @@ use std::sync::Arc;
 
 use super::App;
 use super::play::begin_s;
-use crate::model::Machine;
-use crate::motion::ActiveSet;
-use crate::scene::CheckedScene;
 use crate::tui::axis::{AutoRange, instant, readable};
 use crate::tui::engine::{Answer, Moment, Results, Sensitive, Snapshot, generation};
 use crate::tui::history::{Bin, BinHistory, Channel};
 use crate::tui::knobs::{KNOBS, Knob};
+use rubscope_solver::model::Machine;
+use rubscope_solver::motion::ActiveSet;
+use rubscope_solver::scene::CheckedScene;
 
 /// Part of a page for which a held corner counts as standing still.
 const STILL: f64 = 0.2;
@@ -385,8 +385,8 @@ fn grow(range: &mut AutoRange, data: Option<(f64, f64)>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Scene;
     use crate::tui::engine::FullRunState;
+    use rubscope_solver::scene::Scene;
 
     #[test]
     fn a_run_without_a_verdict_is_not_pinned() {

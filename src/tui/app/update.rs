@@ -1,6 +1,6 @@
 //! Keys and actions: each changes the state and returns an effect outside it.
 
-use crate::scene::keys::PULSE;
+use rubscope_solver::scene::keys::PULSE;
 use std::path::PathBuf;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
@@ -288,9 +288,9 @@ impl App {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Scene;
     use crate::tui::bindings::{Context, of};
     use crate::tui::{Marker, Theme};
+    use rubscope_solver::scene::Scene;
 
     #[test]
     fn a_key_that_changes_nothing_says_so() {

@@ -5,16 +5,16 @@
 //! The speeds that a scene is measured by: of a lock, and of the coincidence that can
 //! make it whirl.
 
-use crate::model::LockWindow;
-use crate::motion::{ActiveSet, Verdict};
 use crate::report::sentence::{Cause, Doubt, Facts, Sentence};
-use crate::scene::{ContactLaw, ModelSize};
 use crate::tui::app::App;
 use crate::tui::axis::readable;
 use crate::tui::engine::{Answer, FORECAST_LIMIT, FullRun, FullRunState, Sensitive};
 use crate::tui::knobs::KNOBS;
 use crate::tui::text::few;
 use crate::tui::trace::{Happening, Mark};
+use rubscope_solver::model::LockWindow;
+use rubscope_solver::motion::{ActiveSet, Verdict};
+use rubscope_solver::scene::{ContactLaw, ModelSize};
 
 impl App {
     /// The full run of the scene's own solver, once it is computed.

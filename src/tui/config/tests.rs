@@ -1,7 +1,7 @@
 use super::*;
-use crate::scene::Scene;
 use crate::tui::bindings::Action;
 use crate::tui::lessons;
+use rubscope_solver::scene::Scene;
 
 fn app() -> App {
     App::new(Scene::base().checked().unwrap(), Theme::Dark, Marker::Braille)

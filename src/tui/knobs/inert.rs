@@ -4,8 +4,8 @@
 
 use std::sync::LazyLock;
 
-use crate::scene::{ContactLaw, ModelSize, Scene, SolverKind};
 use crate::tui::knobs::{Group, Knob};
+use rubscope_solver::scene::{ContactLaw, ModelSize, Scene, SolverKind};
 
 /// Why a knob changes nothing in a scene.
 pub type Inert = fn(&Scene) -> Option<&'static str>;
@@ -111,8 +111,8 @@ impl Knob {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::motion::simulate;
     use crate::tui::knobs::KNOBS;
+    use rubscope_solver::motion::simulate;
 
     /// Scenes of which each has other inert knobs.
     const CASES: [&[(&str, &str)]; 8] = [

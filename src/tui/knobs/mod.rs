@@ -16,8 +16,8 @@ use range::Bar;
 pub use range::{KnobRange, meaning};
 pub use table::KNOBS;
 
-use crate::scene::units::UnitError;
-use crate::scene::{
+use rubscope_solver::scene::units::UnitError;
+use rubscope_solver::scene::{
     Adjustment, Allowed, CheckedScene, ContactLaw, Quantity, Scene, SceneError, Value, keys,
     keys::Key,
 };
@@ -347,7 +347,7 @@ impl Knob {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::SolverKind;
+    use rubscope_solver::scene::SolverKind;
 
     fn knob(path: &str) -> &'static Knob {
         knob_of(path).unwrap()

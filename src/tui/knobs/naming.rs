@@ -1,9 +1,9 @@
 //! The names of a knob: by which words it is meant, and how surely.
 
 use super::{KNOBS, Knob};
-use crate::scene::keys;
 use crate::tui::appearance::Appearance;
 use crate::tui::{Marker, Theme};
+use rubscope_solver::scene::keys;
 
 /// How well words name a knob, the best first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -5,7 +5,7 @@
 //! radius. With a lining it turns on below zero, where all blades rub at rest.
 
 use crate::report::number::{SiScale, told, trimmed};
-use crate::scene::{Allowed, ContactLaw, Scene};
+use rubscope_solver::scene::{Allowed, ContactLaw, Scene};
 
 /// Mantissas of fine turns, two digits; coarse turns use 1, 2 and 5.
 const FINE: &[f64] = &[
@@ -62,7 +62,7 @@ pub fn number(x: f64, unit: &str) -> String {
 }
 
 /// Its name in the place of a path.
-pub(super) use crate::scene::keys::CLEARANCE;
+pub(super) use rubscope_solver::scene::keys::CLEARANCE;
 
 /// What it may hold; a rigid casing refuses what is not above 0.
 pub(super) const ALLOWED: Allowed = Allowed::Real { min: -1e3, max: 1e3, above: false };
@@ -87,8 +87,8 @@ pub(super) fn turned(x: f64, up: bool, coarse: bool, scene: &Scene) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Value;
     use crate::tui::knobs::{Knob, knob_of};
+    use rubscope_solver::scene::Value;
 
     #[test]
     fn numbers_read_as_people_write_them() {
@@ -119,7 +119,7 @@ mod tests {
     #[test]
     fn a_lining_is_turned_through_zero_to_an_interference_and_back() {
         let mut scene = Scene::base();
-        scene.solver.contact = crate::scene::ContactLaw::Smooth;
+        scene.solver.contact = rubscope_solver::scene::ContactLaw::Smooth;
         let (pressed, seen) = turns(&scene, false, 11);
         let down = ["50", "20", "10", "5", "2", "1", "-1", "-2", "-5", "-10", "-20"];
         assert_eq!(seen, down.map(|x| format!("{x} µm")));
@@ -145,7 +145,7 @@ mod tests {
         assert_eq!(down, Value::Real(0.0));
         // And a pressed lining cannot become rigid.
         let mut pressed = scene;
-        pressed.solver.contact = crate::scene::ContactLaw::Smooth;
+        pressed.solver.contact = rubscope_solver::scene::ContactLaw::Smooth;
         pressed.casing.radius_m = pressed.bladed_disk.blade_length_m - 2e-5;
         let law = knob_of("solver.contact").unwrap();
         let refused = law.set(&pressed, Value::Text("unilateral".into())).unwrap_err().to_string();

@@ -3,10 +3,10 @@
 //!
 //! The pulse from which on a blade touches, in closed form.
 
-use crate::model::{Initial, Machine};
 use crate::report::number::rounded;
-use crate::scene::{Allowed, ContactLaw, Scene, Value};
 use crate::tui::knobs::{Knob, Turn};
+use rubscope_solver::model::{Initial, Machine};
+use rubscope_solver::scene::{Allowed, ContactLaw, Scene, Value};
 
 /// The usual range of a knob, or of a limit, on which its bar is drawn. Values may be
 /// beyond it.
@@ -314,8 +314,8 @@ pub fn touching_pulse(scene: &Scene, machine: &Machine) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::margins::grazing_pulse;
     use crate::tui::knobs::{KNOBS, knob_of};
+    use rubscope_solver::study::margins::grazing_pulse;
 
     fn range(path: &str, scene: &Scene) -> Option<KnobRange> {
         knob_of(path).unwrap().range(scene, scene, &scene.machine())

@@ -5,10 +5,10 @@ use super::inert::{self, Inert};
 use super::number::{CLEARANCE, LEAST};
 use super::range::{Bar, bars};
 use super::{Group, Knob, Turn};
-use crate::scene::keys;
 use Bar::{From, Of};
 use Group::{Beyond, Machine, Model, Operation, Start, Time};
 use Turn::{Decades, Linear, Whole, Words};
+use rubscope_solver::scene::keys;
 
 const fn knob(
     group: Group,

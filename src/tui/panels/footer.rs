@@ -188,8 +188,8 @@ fn keys(app: &App, buffer: &mut Buffer, area: Rect) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Scene;
     use crate::tui::{raster::Marker, theme::Theme};
+    use rubscope_solver::scene::Scene;
 
     fn line(app: &App, width: u16) -> String {
         let area = Rect::new(0, 0, width, 1);

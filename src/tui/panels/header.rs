@@ -4,10 +4,8 @@
 
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier, style::Style};
 
-use crate::motion::Verdict;
 use crate::report::number::{per_speed, rounded, short as digits, speed_unit, trimmed};
 use crate::report::sentence::Sentence;
-use crate::scene::ContactLaw;
 use crate::tui::app::App;
 use crate::tui::appearance::Appearance;
 use crate::tui::axis::readable;
@@ -15,6 +13,8 @@ use crate::tui::engine::{FORECAST_LIMIT, Limit, Sensitive};
 use crate::tui::text::{columns, pieces, print};
 use crate::tui::theme::{Role, Theme};
 use crate::tui::views::map::colour;
+use rubscope_solver::motion::Verdict;
+use rubscope_solver::scene::ContactLaw;
 
 type Parts = Vec<(String, Style)>;
 
@@ -368,9 +368,9 @@ fn duration(seconds: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Scene;
     use crate::tui::engine::FullRunState;
     use crate::tui::raster::Marker;
+    use rubscope_solver::scene::Scene;
 
     #[test]
     fn a_run_that_was_given_up_is_told_as_text_and_not_as_work() {

@@ -197,10 +197,10 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, help: &HelpState) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Scene;
     use crate::tui::knobs::KNOBS;
     use crate::tui::views::ViewId;
     use crate::tui::{raster::Marker, theme::Theme};
+    use rubscope_solver::scene::Scene;
 
     fn text(filter: &str) -> String {
         let app = App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Braille);

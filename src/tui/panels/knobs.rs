@@ -12,11 +12,11 @@ use ratatui::layout::{Position, Rect};
 use ratatui::style::Modifier;
 
 use crate::report::line::capital;
-use crate::scene::Allowed;
 use crate::tui::app::{App, InputMode};
 use crate::tui::knobs::{Group, KNOBS, Knob, KnobRange, meaning};
 use crate::tui::text::{columns, first_lines, pieces, print, shorten, wrap};
 use crate::tui::theme::Role;
+use rubscope_solver::scene::Allowed;
 
 /// Draws the column.
 pub fn panel(app: &App, buffer: &mut Buffer, area: Rect) {
@@ -352,7 +352,7 @@ mod tests {
 
     #[test]
     fn the_letters_that_are_drawn_on_a_bar_are_told_and_no_others() {
-        let scene = crate::scene::Scene::base().checked().unwrap();
+        let scene = rubscope_solver::scene::Scene::base().checked().unwrap();
         let app = App::new(scene, crate::tui::Theme::Mono, crate::tui::Marker::Braille);
         let told = |width| legend(&app, Rect::new(0, 0, width, 1), &KNOBS[0]).unwrap();
         let wide = told(200);

@@ -263,9 +263,9 @@ pub fn lesson_at(app: &App, (x, y): (u16, u16)) -> Option<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Scene;
     use crate::tui::bindings::Action;
     use crate::tui::{Marker, Theme};
+    use rubscope_solver::scene::Scene;
 
     fn app() -> App {
         App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Braille)

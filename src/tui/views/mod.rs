@@ -15,7 +15,7 @@ pub mod spectrum;
 
 pub use panel::{LEAST_ROWS, Opening, ViewArea, ViewPanel};
 
-use crate::scene::keys::CHARTS;
+use rubscope_solver::scene::keys::CHARTS;
 
 /// Names a view, in the order of the digits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -8,7 +8,6 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Modifier, Style};
 
 use crate::report::table::{TableCell, write_csv};
-use crate::scene::CheckedScene;
 use crate::tui::app::{App, Cursor};
 use crate::tui::appearance::Appearance;
 use crate::tui::axis::ChartAxis;
@@ -17,6 +16,7 @@ use crate::tui::raster::Pen;
 use crate::tui::text::{columns, pieces, print};
 use crate::tui::theme::Role;
 use crate::tui::views::ViewId;
+use rubscope_solver::scene::CheckedScene;
 
 /// A view: how it is drawn and exported.
 pub trait ViewPanel: Sync {

@@ -5,13 +5,13 @@ use ratatui::{buffer::Buffer, layout::Rect};
 
 use super::panel::{ViewArea, ViewPanel, not_yet, title};
 use crate::report::precision::{decades, letter, place, reference_words, series};
-use crate::scene::{ContactLaw, SolverKind};
-use crate::study::precision::{Effort, Measure, Row, Way};
 use crate::tui::app::App;
 use crate::tui::axis::{ChartAxis, readable};
 use crate::tui::plot::Plot;
 use crate::tui::text::{columns, print, wrap};
 use crate::tui::theme::Role;
+use rubscope_solver::scene::{ContactLaw, SolverKind};
+use rubscope_solver::study::precision::{Effort, Measure, Row, Way};
 
 /// Columns of the title before its legend.
 const TITLE: usize = 14;

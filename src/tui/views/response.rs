@@ -5,9 +5,7 @@
 use ratatui::{buffer::Buffer, layout::Rect};
 
 use super::panel::{ViewArea, ViewPanel, csv, dots, entry, name_level, names, title};
-use crate::motion::ActiveSet;
 use crate::report::line::clean;
-use crate::scene::ModelSize;
 use crate::tui::app::{App, Cursor};
 use crate::tui::axis::{AutoRange, ChartAxis, instant, readable};
 use crate::tui::engine::{FullRun, Moment};
@@ -18,6 +16,8 @@ use crate::tui::text::{columns, print, wrap};
 use crate::tui::theme::Role;
 use crate::tui::trace::Happening;
 use crate::tui::worker::other_law;
+use rubscope_solver::motion::ActiveSet;
+use rubscope_solver::scene::ModelSize;
 
 /// Sub-pixels between two signs of a pinned run.
 const PINNED: usize = 8;

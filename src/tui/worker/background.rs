@@ -10,7 +10,7 @@ use std::thread::available_parallelism;
 use std::time::Duration;
 
 use super::thread::WORKER_NAME;
-use crate::motion::GoOn;
+use rubscope_solver::motion::GoOn;
 
 /// A computation under way that sends its results one by one.
 pub struct Background<T> {

@@ -4,8 +4,8 @@ use super::full_run::FullRunJob;
 use super::page::Page;
 use super::reading::Copies;
 use super::recorder::Recorder;
-use crate::motion::{GoOn, Motion};
-use crate::scene::{CheckedScene, Scene, SceneError, SolverKind};
+use rubscope_solver::motion::{GoOn, Motion};
+use rubscope_solver::scene::{CheckedScene, Scene, SceneError, SolverKind};
 
 /// The same scene under the other contact law, played up to the same time.
 #[derive(Debug)]

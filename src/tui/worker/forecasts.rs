@@ -7,8 +7,6 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use crate::motion::{Course, Motion, VerdictReached, is_sensitive};
-use crate::scene::{CheckedScene, ContactLaw, Scene, SolverKind};
 use crate::tui::engine::{
     Answer, FORECAST_LIMIT, FullRun, FullRunState, Order, Pace, Results, Sensitive,
 };
@@ -16,6 +14,8 @@ use crate::tui::trace::Mark;
 use crate::tui::worker::background::{Background, on_spare_cores};
 use crate::tui::worker::full_run::{FullRunJob, SLICE};
 use crate::tui::worker::studies::Studies;
+use rubscope_solver::motion::{Course, Motion, VerdictReached, is_sensitive};
+use rubscope_solver::scene::{CheckedScene, ContactLaw, Scene, SolverKind};
 
 /// The computations for one motion.
 #[derive(Debug)]

@@ -5,10 +5,12 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::reading::Copies;
-use crate::motion::{Course, Looker, Motion, VerdictReached, lock_that_broke, verdict_of};
-use crate::tolerances::LAST_PART;
 use crate::tui::engine::{FORECAST_LIMIT, FullRun, FullRunState};
 use crate::tui::trace::{Mark, Marks, Trace};
+use rubscope_solver::motion::{
+    Course, Looker, Motion, VerdictReached, lock_that_broke, verdict_of,
+};
+use rubscope_solver::tolerances::LAST_PART;
 
 /// A full run that is being computed.
 #[derive(Debug)]
@@ -216,7 +218,7 @@ fn point(motion: &Motion) -> [f64; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Scene, SolverKind};
+    use rubscope_solver::scene::{Scene, SolverKind};
 
     #[test]
     fn the_steps_of_a_run_are_those_since_its_start() {

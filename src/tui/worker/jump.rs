@@ -1,8 +1,8 @@
 //! The next change of contact of a motion, found to round-off whatever the page
 //! of time on the screen.
 
-use crate::motion::{GoOn, Motion};
 use crate::tui::trace::{Mark, Marks};
+use rubscope_solver::motion::{GoOn, Motion};
 
 /// Most steps of the search.
 const MOST_STEPS: usize = 20_000;

@@ -5,8 +5,8 @@
 use std::f64::consts::TAU;
 
 use super::recorder::in_blade_frame;
-use crate::motion::{Motion, State};
 use crate::tui::trace::Mark;
+use rubscope_solver::motion::{Motion, State};
 
 /// Part of a turn of the wave that one frame may show.
 const TURN: f64 = 0.125;
@@ -109,9 +109,9 @@ pub fn rate_at(now: f64, rate: f64, marks: &[Mark]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::motion::ActiveSet;
-    use crate::scene::Scene;
     use crate::tui::trace::Happening;
+    use rubscope_solver::motion::ActiveSet;
+    use rubscope_solver::scene::Scene;
 
     fn marks(times: &[f64]) -> Vec<Mark> {
         let what = Happening::Contact(ActiveSet::Nothing, ActiveSet::Side(1));

@@ -7,9 +7,9 @@ use std::time::{Duration, Instant};
 
 use super::full_run::SLICE;
 use super::recorder::Recorder;
-use crate::motion::{Failure, GoOn, Motion};
 use crate::tui::engine::{FORECAST_LIMIT, PageRecord};
 use crate::tui::history::{BinHistory, interpolated};
+use rubscope_solver::motion::{Failure, GoOn, Motion};
 
 /// Samples per recorded bin.
 const SAMPLES: f64 = 4.0;
@@ -166,7 +166,7 @@ pub fn next_sample(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Scene;
+    use rubscope_solver::scene::Scene;
 
     /// A page over the first millisecond of a scene, computed to its end.
     fn computed(scene: Scene, end: f64) -> (Page, Motion) {

@@ -15,11 +15,11 @@ use super::reading::Copies;
 use super::reading::Reading;
 use super::recorder::Recorder;
 use super::studies::{Bounds, Studies};
-use crate::motion::{Change, Motion};
-use crate::scene::keys::differences;
 use crate::tui::engine::{Limit, Moment, Order, Snapshot};
 use crate::tui::trace::Mark;
 use crate::tui::views::ViewId;
+use rubscope_solver::motion::{Change, Motion};
+use rubscope_solver::scene::keys::differences;
 
 /// Turn of the wave in the longest sample, at most.
 const TURN: f64 = std::f64::consts::TAU / PER_TURN;

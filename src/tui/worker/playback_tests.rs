@@ -1,8 +1,8 @@
 //! What a playback promises, against plain runs.
 
 use super::*;
-use crate::scene::Scene;
 use crate::tui::{App, Marker, Theme};
+use rubscope_solver::scene::Scene;
 
 fn order(scene: Scene) -> Order {
     let app = App::new(scene.checked().unwrap(), Theme::Mono, Marker::Ascii);

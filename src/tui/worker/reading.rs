@@ -7,8 +7,8 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use crate::motion::Motion;
 use crate::tui::engine::Moment;
+use rubscope_solver::motion::Motion;
 
 /// The instant that is read.
 #[derive(Debug, Default)]

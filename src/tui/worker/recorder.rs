@@ -1,9 +1,9 @@
 //! Samples of a motion as bins of least and greatest values, and contact
 //! forces as means between snapshots.
 
-use crate::model::Machine;
-use crate::motion::{ActiveSet, ContactLog, Motion, State};
 use crate::tui::history::{Bin, CHANNELS, MOST_BINS, thin};
+use rubscope_solver::model::Machine;
+use rubscope_solver::motion::{ActiveSet, ContactLog, Motion, State};
 
 /// `z = (u_c + i u_s) exp(-i n_d theta)` \[m\], with `turned = n_d theta`.
 pub fn in_blade_frame(u: [f64; 2], turned: f64) -> [f64; 2] {

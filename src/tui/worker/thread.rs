@@ -249,10 +249,10 @@ impl Engine for Stepwise {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Scene;
     use crate::tui::engine::FullRunState;
     use crate::tui::history::CHANNELS;
     use crate::tui::{App, Marker, Theme};
+    use rubscope_solver::scene::Scene;
 
     fn order(speed: f64, restarts: u64) -> Order {
         let mut scene = Scene::base();

@@ -8,7 +8,7 @@
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
-use rubscope::scene::Scene;
+use rubscope_solver::scene::Scene;
 
 use super::{Block, Document, documents};
 

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use rubscope::study::margins::CLEARANCE;
+use rubscope_solver::study::margins::CLEARANCE;
 use serde_json::Value;
 
 use super::{Document, read};

@@ -1,9 +1,9 @@
 //! The numbers of docs/accuracy.md that no other test checks, those outside its
 //! console blocks, and of the README.
 
-use rubscope::motion::{RunReport, Verdict, simulate};
-use rubscope::scene::Scene;
-use rubscope::study::Cell;
+use rubscope_solver::motion::{RunReport, Verdict, simulate};
+use rubscope_solver::scene::Scene;
+use rubscope_solver::study::Cell;
 
 use super::read;
 use crate::cli_support::rubscope;
@@ -251,7 +251,7 @@ fn the_explorer_has_the_lessons_views_and_limits_of_the_document() {
     let views = text.lines().filter(|line| {
         line.strip_prefix("### ").is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
     });
-    assert_eq!(views.count(), rubscope::scene::keys::CHARTS.len());
+    assert_eq!(views.count(), rubscope_solver::scene::keys::CHARTS.len());
     let (columns, rows) = rubscope::tui::terminal::MOST;
     assert!(document.says(&format!("at most {columns} x {rows}")));
 }

@@ -4,8 +4,8 @@
 
 use clap::{Arg, Command, CommandFactory};
 use rubscope::cli::{Cli, options::SceneOptions};
-use rubscope::scene::{KEYS, Scene, Value};
 use rubscope::tui::bindings::{self, BINDINGS, Binding, Context, Group, keys_text};
+use rubscope_solver::scene::{KEYS, Scene, Value};
 use strum::IntoEnumIterator;
 
 use super::{documents, top};
@@ -130,7 +130,7 @@ fn changes_the_scene(arg: &&Arg) -> bool {
 
 fn scene_keys() -> String {
     let base = Scene::base();
-    let row = |key: &rubscope::scene::Key| {
+    let row = |key: &rubscope_solver::scene::Key| {
         let default = match (key.get)(&base) {
             Value::Text(text) if text.is_empty() => "empty".to_string(),
             value => code(value),

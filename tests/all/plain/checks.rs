@@ -1,7 +1,7 @@
 //! What the program and the plain stepper must agree on, each to its round-off.
 
-use rubscope::motion::{ActiveSet, Verdict, verdict_of};
-use rubscope::scene::ModelSize;
+use rubscope_solver::motion::{ActiveSet, Verdict, verdict_of};
+use rubscope_solver::scene::ModelSize;
 
 use super::compare::{Pair, ROOM, distance};
 

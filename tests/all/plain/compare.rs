@@ -1,8 +1,8 @@
 //! Compares the explicit motion of the program with the plain stepper, and
 //! bounds the difference by round-off.
 
-use rubscope::motion::{Change, Motion};
-use rubscope::scene::Scene;
+use rubscope_solver::motion::{Change, Motion};
+use rubscope_solver::scene::Scene;
 
 use super::{Failure, Plain, Why};
 

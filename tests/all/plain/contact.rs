@@ -1,7 +1,7 @@
 //! One step in contact: the gaps of all blades, the rows, their multipliers,
 //! the corrections.
 
-use rubscope::scene::{ContactLaw, ModelSize, Scene};
+use rubscope_solver::scene::{ContactLaw, ModelSize, Scene};
 
 use super::dd::{Dd, ZERO};
 use super::disk::phase;

@@ -6,7 +6,7 @@
 //! *modal* those of `n_d` diameters, *rigid* none. `plain_stepper` checks the
 //! modes against neighbours coupled by springs.
 
-use rubscope::scene::{ModelSize, Scene};
+use rubscope_solver::scene::{ModelSize, Scene};
 
 use super::dd::{Dd, ONE, TAU, ZERO};
 

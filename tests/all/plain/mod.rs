@@ -41,7 +41,7 @@ pub mod history;
 pub mod law;
 pub mod scenes;
 
-use rubscope::scene::{ContactLaw, Scene};
+use rubscope_solver::scene::{ContactLaw, Scene};
 
 use dd::{Dd, ZERO};
 use disk::{Coordinate, Disk, Oscillator};

@@ -1,6 +1,6 @@
 //! Scenes for comparisons: changes to the default, and starts in a corner.
 
-use rubscope::scene::Scene;
+use rubscope_solver::scene::Scene;
 
 pub const LAWS: [&str; 2] = ["unilateral", "bilateral"];
 pub const MODELS: [&str; 3] = ["rigid", "modal", "full"];

@@ -14,7 +14,7 @@ use super::{LEFT, TITLE, describe, finish};
 use crate::report::line::wrapped;
 use crate::report::margins::words;
 use crate::report::{Provenance, command};
-use crate::study::margins::Margins;
+use rubscope_solver::study::margins::Margins;
 
 /// Width of the page \[px\]: a line of it is one of a printed page.
 const WIDTH: u32 = 840;

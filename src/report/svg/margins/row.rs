@@ -13,7 +13,7 @@ use crate::report::svg::LEFT;
 use crate::report::svg::paper::{Area, Drawn, FINE, letters_in, px, write_at, write_from};
 use crate::report::symbols::{in_print, symbol};
 use crate::report::ticks::{log_ticks, power_of_ten};
-use crate::study::margins::{Limit, LimitName, Margins, Quantity};
+use rubscope_solver::study::margins::{Limit, LimitName, Margins, Quantity};
 
 /// Left of what is said of the margin.
 const MARGIN: i32 = 582;

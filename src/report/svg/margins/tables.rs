@@ -10,9 +10,9 @@ use crate::report::number::{speed as speed_text, time, with_unit};
 use crate::report::svg::LEFT;
 use crate::report::svg::paper::{Drawn, typed, write_at, write_from};
 use crate::report::symbols::{in_print, symbol};
-use crate::scene::keys::{Allowed, KEYS};
-use crate::scene::{Scene, SolverKind, Value};
-use crate::study::margins::Margins;
+use rubscope_solver::scene::keys::{Allowed, KEYS};
+use rubscope_solver::scene::{Scene, SolverKind, Value};
+use rubscope_solver::study::margins::Margins;
 
 /// Columns of the loads: words, right end of the value, way it acts, what moves it.
 const LOADS: [i32; 4] = [76, 440, 450, 520];

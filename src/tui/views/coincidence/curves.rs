@@ -4,10 +4,10 @@
 
 use std::f64::consts::TAU;
 
-use crate::harmonic::{CoincidencePoint, Joint, coincidence, shifted_coincidence};
-use crate::model::{Initial, Machine};
-use crate::scene::{ModelSize, Scene, SolverChoice, View};
 use crate::tui::axis::nice_step;
+use rubscope_solver::harmonic::{CoincidencePoint, Joint, coincidence, shifted_coincidence};
+use rubscope_solver::model::{Initial, Machine};
+use rubscope_solver::scene::{ModelSize, Scene, SolverChoice, View};
 
 /// Speeds over the whole range, and around each coincidence.
 const POINTS: u32 = 121;

@@ -13,10 +13,7 @@ use nalgebra::Complex;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use crate::harmonic::{CoincidencePoint, Joint, Lining, RoundWhirl, round_whirls};
-use crate::motion::ActiveSet;
 use crate::report::number::{frequency_unit, per_frequency, per_speed, speed_unit};
-use crate::scene::ModelSize;
 use crate::tui::app::{App, Cursor};
 use crate::tui::axis::{ChartAxis, nice_step, readable};
 use crate::tui::plot::Plot;
@@ -28,6 +25,9 @@ use crate::tui::views::frame::square;
 use crate::tui::views::panel::{
     ViewArea, ViewPanel, csv, entry, name_speeds, not_yet, title, uprights,
 };
+use rubscope_solver::harmonic::{CoincidencePoint, Joint, Lining, RoundWhirl, round_whirls};
+use rubscope_solver::motion::ActiveSet;
+use rubscope_solver::scene::ModelSize;
 
 /// From this width on, the compliance is beside the curve.
 const BESIDE_FROM: u16 = 76;

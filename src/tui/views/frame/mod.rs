@@ -10,7 +10,6 @@ use std::f64::consts::TAU;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use crate::motion::ActiveSet;
 use crate::tui::app::{App, Cursor};
 use crate::tui::axis::{ChartAxis, instant, readable};
 use crate::tui::history::Channel;
@@ -21,6 +20,7 @@ use crate::tui::views::ViewId;
 use crate::tui::views::panel::{ViewArea, ViewPanel, title};
 use crate::tui::views::response::ResponseView;
 use crate::tui::worker::{in_blade_frame, rim_point};
+use rubscope_solver::motion::ActiveSet;
 
 /// From this width on, the polygon is beside the wheel where nothing else is shown.
 const BOTH_FROM: u16 = 76;

@@ -6,8 +6,6 @@
 
 use ratatui::buffer::Buffer;
 
-use crate::model::ContactPolygon;
-use crate::motion::ActiveSet;
 use crate::tui::app::{App, Cursor, cell_of};
 use crate::tui::axis::{ChartAxis, instant};
 use crate::tui::history::{Bin, Channel};
@@ -16,6 +14,8 @@ use crate::tui::raster::Pen;
 use crate::tui::theme::Role;
 use crate::tui::views::ViewId;
 use crate::tui::views::panel::{self, ViewArea, ViewPanel, csv, name_level, title};
+use rubscope_solver::model::ContactPolygon;
+use rubscope_solver::motion::ActiveSet;
 
 /// The view.
 pub struct GapsView;

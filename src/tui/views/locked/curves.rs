@@ -2,10 +2,12 @@
 //! harmonic balance with and without damping, and beyond the paper the push of the
 //! whirl that can last instead.
 
-use crate::harmonic::{Form, Joint, RoundWhirl, Sweep, flutter_speed, locked_motion, round_whirls};
-use crate::model::Machine;
-use crate::scene::{ContactLaw, ModelSize, Scene};
 use crate::tui::axis::nice_step;
+use rubscope_solver::harmonic::{
+    Form, Joint, RoundWhirl, Sweep, flutter_speed, locked_motion, round_whirls,
+};
+use rubscope_solver::model::Machine;
+use rubscope_solver::scene::{ContactLaw, ModelSize, Scene};
 
 /// Speeds of one curve.
 const POINTS: u32 = 161;

@@ -11,8 +11,6 @@ pub mod curves;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Rect};
 
-use crate::harmonic::{Form, LockedPoint, Sweep, locked_motion};
-use crate::motion::{ActiveSet, Verdict};
 use crate::report::number::speed_unit;
 use crate::tui::app::{App, Cursor, STEP};
 use crate::tui::axis::{ChartAxis, nice_step, readable};
@@ -24,6 +22,8 @@ use crate::tui::views::locked::curves::LockedCurves;
 use crate::tui::views::panel::{
     self, LEAST_ROWS, ViewArea, ViewPanel, csv, dots, entry, name_speeds, title,
 };
+use rubscope_solver::harmonic::{Form, LockedPoint, Sweep, locked_motion};
+use rubscope_solver::motion::{ActiveSet, Verdict};
 
 /// From this height on, the large chart shows the undamped curve of the paper too.
 const ROOMY: u16 = 14;

@@ -15,10 +15,10 @@ pub use words::value_text;
 
 use super::panel::{Opening, ViewArea, ViewPanel, not_yet, title};
 use crate::report::map::write_csv;
-use crate::study::{Axis, MapPlan};
 use crate::tui::app::{App, Cursor};
 use crate::tui::text::{print, spelled_pieces};
 use crate::tui::theme::Role;
+use rubscope_solver::study::{Axis, MapPlan};
 use words::Line;
 
 /// From this width on, what the map means stands beside it.

@@ -7,16 +7,16 @@ use ratatui::{buffer::Buffer, layout::Rect};
 use super::super::panel::ViewArea;
 use super::words::present;
 use super::{LiveMap, words};
-use crate::motion::Verdict;
 use crate::report::map::mark;
-use crate::scene::keys::SPEED;
-use crate::study::overlay::Curve;
-use crate::study::{Axis, Cell};
 use crate::tui::app::App;
 use crate::tui::appearance::Appearance;
 use crate::tui::axis::ChartAxis;
 use crate::tui::plot::Plot;
 use crate::tui::theme::{Role, Theme};
+use rubscope_solver::motion::Verdict;
+use rubscope_solver::scene::keys::SPEED;
+use rubscope_solver::study::overlay::Curve;
+use rubscope_solver::study::{Axis, Cell};
 
 /// Whether cells are letters.
 pub fn letters(look: &Appearance) -> bool {

@@ -4,13 +4,13 @@
 //! The map as it is computed: coarse blocks first, then finer ones in a fixed
 //! order, and the run of one cell.
 
-use crate::motion::Verdict;
-use crate::scene::{Allowed, ContactLaw, Scene, SolverKind, keys};
-use crate::study::overlay::{Curve, threshold_curves};
-use crate::study::{Axis, Cell, Map, MapPlan};
 use crate::tui::axis::nice_step;
 use crate::tui::knobs::{KNOBS, Knob, knob_of};
 use crate::tui::views::locked::curves::speed_range;
+use rubscope_solver::motion::Verdict;
+use rubscope_solver::scene::{Allowed, ContactLaw, Scene, SolverKind, keys};
+use rubscope_solver::study::overlay::{Curve, threshold_curves};
+use rubscope_solver::study::{Axis, Cell, Map, MapPlan};
 
 /// Most cells across and up. Usual ranges give round values: 7.5 rad/s for 600,
 /// a tenth of a decade for four.
@@ -329,9 +329,9 @@ pub struct CellRun {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::ModelSize;
     use crate::tui::knobs::Group;
     use crate::tui::views::map::MapChoice;
+    use rubscope_solver::scene::ModelSize;
 
     #[test]
     fn the_map_does_not_depend_on_the_knobs_it_sweeps() {
@@ -346,7 +346,7 @@ mod tests {
 
     #[test]
     fn the_pulse_of_an_opened_scene_is_on_its_map() {
-        for builtin in crate::scene::BUILTIN {
+        for builtin in rubscope_solver::scene::BUILTIN {
             let scene = Scene::builtin(builtin.name).unwrap();
             let pulse = scene.operation.pulse_n.abs();
             let Ok(plan) = MapChoice::default().anchored(&scene).plan(&scene) else { continue };
@@ -371,7 +371,7 @@ mod tests {
 
     #[test]
     fn every_numeric_knob_can_be_on_either_axis_of_every_scene() {
-        for builtin in crate::scene::BUILTIN {
+        for builtin in rubscope_solver::scene::BUILTIN {
             let scene = Scene::builtin(builtin.name).unwrap();
             for knob in numeric() {
                 let usual = MapChoice::default();

@@ -5,17 +5,17 @@ use ratatui::style::Style;
 
 use super::picture::{is_inside, sign};
 use super::{CellRun, LiveMap};
-use crate::motion::Verdict;
 use crate::report::map::means;
 use crate::report::number::{count, grouped, rounded, told};
-use crate::scene::keys::SPEED;
-use crate::study::overlay::Curve;
-use crate::study::{Axis, MapPlan};
 use crate::tui::app::App;
 use crate::tui::axis::readable;
 use crate::tui::knobs::{Knob, knob_of, number};
 use crate::tui::text::{columns, few, wrap};
 use crate::tui::theme::Role;
+use rubscope_solver::motion::Verdict;
+use rubscope_solver::scene::keys::SPEED;
+use rubscope_solver::study::overlay::Curve;
+use rubscope_solver::study::{Axis, MapPlan};
 
 /// One line: pieces with their styles.
 pub type Line = Vec<(String, Style)>;

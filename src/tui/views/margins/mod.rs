@@ -10,12 +10,12 @@ use ratatui::{buffer::Buffer, layout::Rect};
 
 use super::panel::{Opening, ViewArea, ViewPanel, not_yet, title};
 use crate::report::margins;
-use crate::scene::ContactLaw;
-use crate::study::margins::Margins;
-use crate::study::survey::Survey;
 use crate::tui::app::{App, Cursor};
 use crate::tui::text::{first_lines, print, wrap};
 pub use rows::DIGITS;
+use rubscope_solver::scene::ContactLaw;
+use rubscope_solver::study::margins::Margins;
+use rubscope_solver::study::survey::Survey;
 use table::Table;
 
 /// Columns of the reading cursor: the limit, and the knobs that matter most.
@@ -116,10 +116,10 @@ impl ViewPanel for MarginsView {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Scene;
     use crate::tui::bindings::Action;
     use crate::tui::views::ViewId;
     use crate::tui::{Marker, Theme};
+    use rubscope_solver::scene::Scene;
 
     fn app() -> App {
         let scene = Scene::base().checked().unwrap();

@@ -7,7 +7,6 @@ use ratatui::style::Style;
 
 use crate::report::margins::LimitRow;
 use crate::report::number::{per_speed, rounded, short, speed_unit};
-use crate::study::margins::{Margins, Quantity, Side};
 use crate::tui::app::App;
 use crate::tui::appearance::Appearance;
 use crate::tui::axis::readable;
@@ -16,6 +15,7 @@ use crate::tui::theme::Role;
 use crate::tui::views::Opening;
 use crate::tui::views::margins::LiveMargins;
 use crate::tui::views::margins::table::signs;
+use rubscope_solver::study::margins::{Margins, Quantity, Side};
 
 /// Digits of a limit.
 pub const DIGITS: usize = 5;

@@ -9,9 +9,6 @@ use ratatui::style::{Modifier, Style};
 
 use crate::report::margins::words;
 use crate::report::number::{per_speed, rounded, short, speed, speed_unit};
-use crate::scene::keys::DIAMETERS;
-use crate::study::margins::LimitName;
-use crate::study::survey::{Survey, SurveyLimit, SurveyRow};
 use crate::tui::app::{App, Cursor};
 use crate::tui::axis::ChartAxis;
 use crate::tui::plot::Plot;
@@ -19,6 +16,9 @@ use crate::tui::text::{print, shorten};
 use crate::tui::theme::Role;
 use crate::tui::views::Opening;
 use crate::tui::views::panel::{ViewArea, not_yet, title};
+use rubscope_solver::scene::keys::DIAMETERS;
+use rubscope_solver::study::margins::LimitName;
+use rubscope_solver::study::survey::{Survey, SurveyLimit, SurveyRow};
 
 /// Width of a column, and of the first one.
 const COLUMN: usize = 9;

@@ -12,7 +12,6 @@ use ratatui::style::{Modifier, Style};
 
 use crate::report::margins::{LimitRow, TOLD};
 use crate::report::number::speed_unit;
-use crate::study::margins::{Band, Limit, Quantity};
 use crate::tui::app::App;
 use crate::tui::appearance::Appearance;
 use crate::tui::knobs::KnobRange;
@@ -22,6 +21,7 @@ use crate::tui::views::ViewArea;
 use crate::tui::views::margins::rows::{change_text, knob_symbol, percent_text, value_text};
 use crate::tui::views::margins::{COLUMNS, rows};
 use Column::{Bar, Knob, Percent, Symbol, Value, Word};
+use rubscope_solver::study::margins::{Band, Limit, Quantity};
 
 /// From this height on, columns have headings.
 const HEADING_FROM: u16 = 8;

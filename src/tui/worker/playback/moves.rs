@@ -6,13 +6,13 @@
 
 use std::time::{Duration, Instant};
 
-use crate::motion::Motion;
 use crate::tui::trace::Marks;
 use crate::tui::worker::full_run::SLICE;
 use crate::tui::worker::jump::{met, next_change};
 use crate::tui::worker::page::{longest_sample, next_sample};
 use crate::tui::worker::playback::Playback;
 use crate::tui::worker::recorder::Recorder;
+use rubscope_solver::motion::Motion;
 
 /// Most samples that a jump to the next change of contact records.
 const JUMP_SAMPLES: f64 = 20_000.0;

@@ -5,10 +5,10 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::{Given, Study};
-use crate::scene::Scene;
 use crate::tui::views::ViewId;
 use crate::tui::views::coincidence::curves::CoincidenceCurves;
 use crate::tui::worker::background::Background;
+use rubscope_solver::scene::Scene;
 
 /// The curves that are being computed; none where the wave has no coincidence.
 #[derive(Debug)]

@@ -4,9 +4,9 @@
 use std::sync::Arc;
 
 use super::{Given, Study};
-use crate::scene::Scene;
 use crate::tui::views::ViewId;
 use crate::tui::views::locked::curves::LockedCurves;
+use rubscope_solver::scene::Scene;
 
 /// The curves of a scene.
 #[derive(Debug)]

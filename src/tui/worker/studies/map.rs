@@ -7,14 +7,14 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-use crate::motion::{GoOn, Motion, verdict_of};
-use crate::study::{Cell, MapPlan};
-use crate::tolerances::LAST_PART;
 use crate::tui::engine::FORECAST_LIMIT;
 use crate::tui::views::ViewId;
 use crate::tui::views::map::{CellRun, LiveMap, coarse_first};
 use crate::tui::worker::background::{Background, spare_threads};
 use crate::tui::worker::studies::{Given, Study};
+use rubscope_solver::motion::{GoOn, Motion, verdict_of};
+use rubscope_solver::study::{Cell, MapPlan};
+use rubscope_solver::tolerances::LAST_PART;
 
 /// Longest wall time of one cell: an ordinary one takes a hundredth of it.
 const CELL_LIMIT: Duration = Duration::from_secs(1);
@@ -217,10 +217,10 @@ fn run_of(plan: MapPlan, cell: [u32; 2], go_on: GoOn<'_>) -> Option<CellRun> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::motion::Verdict;
-    use crate::scene::Scene;
     use crate::tui::views::map::MapChoice;
     use crate::tui::worker::studies::tests::with_given;
+    use rubscope_solver::motion::Verdict;
+    use rubscope_solver::scene::Scene;
 
     #[test]
     fn a_map_that_was_stopped_goes_on_and_has_the_cells_of_its_plan() {

@@ -6,13 +6,13 @@ use std::sync::mpsc::Sender;
 use std::time::Duration;
 
 use super::{Given, Study};
-use crate::motion::GoOn;
-use crate::scene::CheckedScene;
-use crate::study::margins::Margins;
-use crate::study::survey::Survey;
 use crate::tui::views::ViewId;
 use crate::tui::views::margins::LiveMargins;
 use crate::tui::worker::background::{Background, on_spare_cores};
+use rubscope_solver::motion::GoOn;
+use rubscope_solver::scene::CheckedScene;
+use rubscope_solver::study::margins::Margins;
+use rubscope_solver::study::survey::Survey;
 
 /// The margins that are being found. Dropping them ends the thread.
 #[derive(Debug)]
@@ -97,8 +97,8 @@ fn search(mut live: LiveMargins, to: &Sender<LiveMargins>, go_on: GoOn<'_>) {
 mod tests {
     use super::super::tests::with_given;
     use super::*;
-    use crate::scene::Scene;
-    use crate::study::margins::LimitName;
+    use rubscope_solver::scene::Scene;
+    use rubscope_solver::study::margins::LimitName;
 
     #[test]
     fn the_closed_forms_come_first_and_then_one_law_after_the_other() {

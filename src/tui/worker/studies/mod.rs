@@ -14,9 +14,9 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::full_run::{FullRunJob, SLICE};
-use crate::study::MapPlan;
 use crate::tui::engine::{Order, Working};
 use crate::tui::views::ViewId;
+use rubscope_solver::study::MapPlan;
 
 /// A study that takes longer says how far it is.
 const LONG: Duration = Duration::from_millis(500);
@@ -274,10 +274,10 @@ impl Studies {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::motion::Motion;
-    use crate::scene::Scene;
     use crate::tui::views::ViewId;
     use crate::tui::{App, Marker, Theme};
+    use rubscope_solver::motion::Motion;
+    use rubscope_solver::scene::Scene;
 
     /// What a study depends on, with a run that is not looked at.
     pub(super) fn with_given<T>(scene: &Scene, view: ViewId, with: impl Fn(&Given) -> T) -> T {

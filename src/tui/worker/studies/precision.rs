@@ -5,11 +5,11 @@ use std::sync::mpsc::Sender;
 use std::time::Duration;
 
 use super::{Given, Study};
-use crate::motion::GoOn;
-use crate::scene::Scene;
-use crate::study::precision::{Effort, Measure, Precision, Reference, Row, ways};
 use crate::tui::views::ViewId;
 use crate::tui::worker::background::Background;
+use rubscope_solver::motion::GoOn;
+use rubscope_solver::scene::Scene;
+use rubscope_solver::study::precision::{Effort, Measure, Precision, Reference, Row, ways};
 
 /// What the thread finds.
 enum Part {

@@ -1,0 +1,436 @@
+//! Every equilibrium of the blade frame at a constant speed: rest, a side that holds the
+//! wave alone, and a corner; their branches over speed, and the speeds where a branch
+//! appears, vanishes, becomes tensile or changes its stability (docs/theory.md, section 8).
+//! By symmetry one side and one corner represent all `N'`.
+
+use nalgebra::Complex;
+use serde::Serialize;
+use strum::AsRefStr;
+
+use super::corner::Configuration;
+use super::equations::{Equations, Scales, Unknowns, Wave};
+use super::stability::{Linearised, at_rest, grows, largest_growth};
+use super::{Corner, Form, HarmonicError, error};
+use crate::model::Machine;
+use crate::numeric::bisection::try_bisected;
+use crate::tolerances::BRANCH_CHANGES;
+
+/// What is in contact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, AsRefStr)]
+#[serde(rename_all = "lowercase")]
+#[strum(serialize_all = "lowercase")]
+pub enum Kind {
+    /// No contact: the casing at rest.
+    Rest,
+    /// One phase group.
+    Side,
+    /// Two neighbouring phase groups.
+    Corner,
+}
+
+impl Kind {
+    /// Every kind.
+    pub const ALL: [Self; 3] = [Self::Rest, Self::Side, Self::Corner];
+}
+
+/// Whether a real contact can hold an equilibrium, or the reason why not.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, AsRefStr)]
+#[serde(rename_all = "lowercase")]
+#[strum(serialize_all = "lowercase")]
+pub enum Character {
+    /// There is no such equilibrium.
+    Absent,
+    /// Some multiplier pulls: no real contact holds it.
+    Pulls,
+    /// Some multiplier pulls, but both predicted gaps close, so that the
+    /// paper's equality algorithm holds it.
+    Adhesive,
+    /// Another blade would be inside the casing.
+    Penetrates,
+    /// Admissible, but some motion that keeps the contacts grows.
+    Unstable,
+    /// Admissible, and no motion that keeps the contacts grows.
+    Stable,
+}
+
+impl Character {
+    /// Of a steady state whose contacts push, or else may be held by a pull, whose other
+    /// gaps are as small as this, and about which some motion grows or not.
+    pub(super) fn of(
+        pushes: bool,
+        held_by_pulls: bool,
+        smallest_gap: f64,
+        grows: impl FnOnce() -> bool,
+    ) -> Self {
+        if !pushes {
+            if held_by_pulls { Self::Adhesive } else { Self::Pulls }
+        } else if smallest_gap < 0.0 {
+            Self::Penetrates
+        } else if grows() {
+            Self::Unstable
+        } else {
+            Self::Stable
+        }
+    }
+
+    /// Whether pushes can hold it, with every other gap open.
+    #[must_use]
+    pub fn is_admissible(self) -> bool {
+        matches!(self, Self::Unstable | Self::Stable)
+    }
+}
+
+/// One phase group in contact.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct GroupContact {
+    /// Its side of the contact polygon.
+    #[serde(skip)]
+    pub side: u32,
+    /// Its blades, numbered from 1.
+    pub blades: Vec<u32>,
+    /// Sum of the group's multipliers; negative pushes \[N\].
+    pub multiplier_n: f64,
+}
+
+/// A steady state in the frame of the blades.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Equilibrium {
+    /// Rotor speed \[rad/s\].
+    pub speed_rad_s: f64,
+    /// What is in contact.
+    pub kind: Kind,
+    /// Whether a contact can hold it.
+    pub character: Character,
+    /// Both signs right and every other gap open.
+    pub admissible: bool,
+    /// Admissible, and no motion that keeps the contacts grows.
+    pub stable: bool,
+    /// The groups in contact.
+    pub contacts: Vec<GroupContact>,
+    /// `z = (u_c + i u_s) exp(-i n_d theta)` \[m\].
+    #[serde(skip)]
+    pub z_m: [f64; 2],
+    /// Amplitude `|z|` of the casing wave \[m\].
+    pub amplitude_m: f64,
+    /// Cosine coordinate of the blades \[rad\].
+    pub alpha_c_rad: f64,
+    /// Sine coordinate of the blades \[rad\].
+    pub alpha_s_rad: f64,
+    /// Smallest gap of the groups not in contact \[m\].
+    pub smallest_gap_m: f64,
+    /// Torque the rotor must give, `sum Lambda A` \[N m\].
+    pub torque_nm: f64,
+    /// Its power, equal to that of the casing's damper, `d_c nu^2 |z|^2` \[W\].
+    pub power_w: f64,
+    /// Largest real part of the eigenvalues \[1/s\].
+    pub growth_per_s: f64,
+    /// Eigenvalues of the motion that keeps the contacts \[1/s\]; `[real,
+    /// imaginary]` in reports.
+    #[serde(serialize_with = "as_pairs")]
+    pub eigenvalues_per_s: Vec<Complex<f64>>,
+}
+
+fn as_pairs<S: serde::Serializer>(values: &[Complex<f64>], out: S) -> Result<S::Ok, S::Error> {
+    out.collect_seq(values.iter().map(|value| [value.re, value.im]))
+}
+
+/// All equilibria at one speed \[rad/s\] that exist, rest first. The side is
+/// the first of the default corner.
+///
+/// ```
+/// use rubscope_solver::harmonic::{Character, Kind, equilibria};
+/// use rubscope_solver::scene::Scene;
+///
+/// let machine = Scene::builtin("paper-nd3")?.machine();
+/// let states = equilibria(&machine, 500.0, true)?;
+/// let found: Vec<_> = states.iter().map(|state| (state.kind, state.character)).collect();
+/// assert_eq!(found, [
+///     (Kind::Rest, Character::Stable),
+///     (Kind::Side, Character::Unstable), // a saddle: the wave slides to a corner
+///     (Kind::Corner, Character::Stable),
+/// ]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// A speed that is not finite, or eigenvalues that cannot be computed.
+pub fn equilibria(
+    machine: &Machine,
+    speed: f64,
+    damped: bool,
+) -> Result<Vec<Equilibrium>, HarmonicError> {
+    let corner = Corner::paper(&machine.polygon).ok();
+    let side = corner.map_or(0, |corner| corner.a);
+    let all = Kind::ALL.map(|kind| equilibrium(machine, kind, side, speed, damped));
+    let mut found = Vec::new();
+    for state in all {
+        found.extend(state?);
+    }
+    Ok(found)
+}
+
+/// The equilibrium of one kind on `side`, or on the corner between it and the
+/// next, at one speed; `None` where there is none.
+///
+/// # Errors
+/// A speed that is not finite, or eigenvalues that cannot be computed.
+pub fn equilibrium(
+    machine: &Machine,
+    kind: Kind,
+    side: u32,
+    speed: f64,
+    damped: bool,
+) -> Result<Option<Equilibrium>, HarmonicError> {
+    error::refuse_endless(&[speed])?;
+    error::refuse_other_diameters(machine)?;
+    error::refuse_tips(machine, "0 where every equilibrium is asked; the lock takes it")?;
+    let machine = &*machine.at(speed);
+    if machine.changes_with_speed() && machine.clearance() <= 0.0 {
+        // Blades have grown into the casing.
+        return Ok(None);
+    }
+    let wave = Wave::at(machine, speed, damped);
+    let scales = Scales::of(machine);
+    let loads = match kind {
+        Kind::Rest => Some(((0.0, 0.0), Vec::new())),
+        Kind::Side => on_side(machine, &scales, wave, side),
+        Kind::Corner => in_corner(machine, wave, side),
+    };
+    let Some((z, loads)) = loads else { return Ok(None) };
+    let compliance = scales.softness * scales.share;
+    let configuration = Configuration::bent(&machine.polygon, z, compliance, &loads);
+    judged(machine, kind, speed, damped, &configuration, &loads).map(Some)
+}
+
+/// `z` and the loads (side, multiplier, moment arm) of an equilibrium, scaled.
+type Loaded = ((f64, f64), Vec<(u32, f64, f64)>);
+
+/// One side holds the wave: `(stiffness + i drag) z = -Lambda exp(i phi)` and a
+/// closed gap give `Lambda = (stiffness^2 + drag^2)/stiffness`, moment arm
+/// `drag/stiffness`; the blade angle only turns the frame.
+fn on_side(machine: &Machine, scales: &Scales, wave: Wave, side: u32) -> Option<Loaded> {
+    let (stiffness, drag) = (wave.stiffness, wave.drag);
+    let (multiplier, arm) = if drag == 0.0 {
+        (stiffness, 0.0)
+    } else {
+        (stiffness + drag * drag / stiffness, drag / stiffness)
+    };
+    if !(multiplier.is_finite() && arm.is_finite()) {
+        return None;
+    }
+    let loads = vec![(side, multiplier, arm)];
+    let still =
+        Configuration::bent(&machine.polygon, (0.0, 0.0), scales.softness * scales.share, &loads);
+    let (c, s) = still.direction(&machine.polygon, side);
+    // z exp(-i phi) = -1 + i arm.
+    Some(((-c - arm * s, -s + arm * c), loads))
+}
+
+fn in_corner(machine: &Machine, wave: Wave, side: u32) -> Option<Loaded> {
+    let corner = Corner::after(&machine.polygon, side).ok()?;
+    let equations = Equations::new(machine, corner, Form::Modal);
+    let unknowns = equations.locked(wave)?;
+    Some(loads_of(machine, corner, &unknowns))
+}
+
+/// The loads of a solution of the corner's equations.
+pub(super) fn loads_of(machine: &Machine, corner: Corner, unknowns: &Unknowns) -> Loaded {
+    let [x, y, lambda_a, lambda_b, alpha_a, alpha_b]: [f64; 6] = (*unknowns).into();
+    let softness = Scales::of(machine).softness;
+    let turns = [softness * alpha_a, softness * alpha_b];
+    let configuration = Configuration::of_pair(&machine.polygon, (x, y), corner.sides(), turns);
+    let arm = |side, multiplier| configuration.held(&machine.polygon, side, multiplier).arm;
+    let loads = vec![
+        (corner.a, lambda_a, arm(corner.a, lambda_a)),
+        (corner.b, lambda_b, arm(corner.b, lambda_b)),
+    ];
+    ((x, y), loads)
+}
+
+/// Gaps, stability, torque and character of a configuration under its loads.
+///
+/// # Errors
+/// Eigenvalues that cannot be computed.
+pub(super) fn judged(
+    machine: &Machine,
+    kind: Kind,
+    speed: f64,
+    damped: bool,
+    configuration: &Configuration,
+    loads: &[(u32, f64, f64)],
+) -> Result<Equilibrium, HarmonicError> {
+    let (polygon, scales) = (&machine.polygon, Scales::of(machine));
+    let sides: Vec<u32> = loads.iter().map(|load| load.0).collect();
+    let held: Vec<_> =
+        loads.iter().map(|load| configuration.held(polygon, load.0, load.1)).collect();
+    let motion = Linearised::about(machine, speed, damped, &held);
+    let eigenvalues = match kind {
+        Kind::Rest => at_rest(machine, speed, damped),
+        _ => motion.eigenvalues().ok_or(HarmonicError::Unsettled { speed })?,
+    };
+    let open = configuration.smallest_gap(polygon, &sides);
+    let pushes = loads.iter().all(|load| load.1 <= 0.0);
+    let held_by_pulls = kind == Kind::Corner && motion.closes();
+    let character =
+        Character::of(pushes, held_by_pulls, open, || grows(&eigenvalues, machine.omega_c));
+    let moment_arm: f64 = match Wave::at(machine, speed, damped).drag {
+        // Without drag the moment arms cancel, and their sum is rounding only.
+        0.0 => 0.0,
+        _ => held.iter().map(|side| side.multiplier * side.arm).sum(),
+    };
+    let torque = machine.nodal_diameters * scales.force * scales.length * moment_arm;
+    let angle = if scales.softness > 0.0 { scales.angle / scales.softness } else { 0.0 };
+    let contact = |&(side, multiplier, _): &(u32, f64, f64)| GroupContact {
+        side,
+        blades: polygon.blades_of_side(side),
+        multiplier_n: multiplier * scales.force,
+    };
+    let z_m = [configuration.z.0 * scales.length, configuration.z.1 * scales.length];
+    Ok(Equilibrium {
+        speed_rad_s: speed,
+        kind,
+        character,
+        admissible: character.is_admissible(),
+        stable: character == Character::Stable,
+        contacts: loads.iter().map(contact).collect(),
+        z_m,
+        amplitude_m: z_m[0].hypot(z_m[1]),
+        alpha_c_rad: configuration.turn.0 * angle,
+        alpha_s_rad: configuration.turn.1 * angle,
+        smallest_gap_m: open * scales.length,
+        torque_nm: torque,
+        power_w: torque * speed,
+        growth_per_s: largest_growth(&eigenvalues),
+        eigenvalues_per_s: eigenvalues,
+    })
+}
+
+/// A speed at which a branch changes its character.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Threshold {
+    /// Where, to the last digit \[rad/s\].
+    pub speed_rad_s: f64,
+    /// Which branch.
+    pub kind: Kind,
+    /// What it is below.
+    pub below: Character,
+    /// What it is above.
+    pub above: Character,
+}
+
+/// Equilibria over a list of speeds. They are found where they are asked for: all of
+/// them at once are a thousand bytes for each speed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Branches {
+    machine: Machine,
+    speeds: Vec<f64>,
+    damped: bool,
+    /// Where branches change between the smallest and the largest speed, in
+    /// order of speed.
+    pub thresholds: Vec<Threshold>,
+    /// How many equilibria there are at all speeds.
+    pub count: usize,
+}
+
+impl Branches {
+    /// Over these speeds \[rad/s\]; changes are found between neighbouring
+    /// ones and then bisected.
+    ///
+    /// # Errors
+    /// A speed that is not finite, or eigenvalues that cannot be computed.
+    pub fn over(machine: &Machine, speeds: &[f64], damped: bool) -> Result<Self, HarmonicError> {
+        let (machine, thresholds) = (machine.clone(), Vec::new());
+        let mut found = Self { machine, speeds: speeds.to_vec(), damped, thresholds, count: 0 };
+        for place in 0..speeds.len() {
+            found.count += found.states_at(place)?.len();
+        }
+        let mut sorted = speeds.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        let mut thresholds = Vec::new();
+        for kind in Kind::ALL {
+            let character = |speed| -> Result<Character, HarmonicError> {
+                Ok(found.at(kind, speed)?.map_or(Character::Absent, |state| state.character))
+            };
+            for pair in sorted.windows(2) {
+                if let [low, high] = *pair {
+                    let here = changes(low, high, &character)?.into_iter();
+                    thresholds.extend(here.map(|(speed_rad_s, below, above)| Threshold {
+                        speed_rad_s,
+                        kind,
+                        below,
+                        above,
+                    }));
+                }
+            }
+        }
+        thresholds.sort_by(|a, b| a.speed_rad_s.total_cmp(&b.speed_rad_s));
+        Ok(Self { thresholds, ..found })
+    }
+
+    /// How many speeds there are.
+    #[must_use]
+    pub fn speeds(&self) -> usize {
+        self.speeds.len()
+    }
+
+    /// Every equilibrium at the speed at a place of the list.
+    ///
+    /// # Errors
+    /// None for what `over` gave.
+    pub fn states_at(&self, place: usize) -> Result<Vec<Equilibrium>, HarmonicError> {
+        let mut states = Vec::new();
+        if let Some(&speed) = self.speeds.get(place) {
+            for kind in Kind::ALL {
+                states.extend(self.at(kind, speed)?);
+            }
+        }
+        Ok(states)
+    }
+
+    /// Every equilibrium at every speed, in the order of the speeds.
+    ///
+    /// # Errors
+    /// None for what `over` gave.
+    pub fn states(&self) -> Result<Vec<Equilibrium>, HarmonicError> {
+        let mut all = Vec::with_capacity(self.count);
+        for place in 0..self.speeds() {
+            all.append(&mut self.states_at(place)?);
+        }
+        Ok(all)
+    }
+
+    fn at(&self, kind: Kind, speed: f64) -> Result<Option<Equilibrium>, HarmonicError> {
+        let side = Corner::paper(&self.machine.polygon).map_or(0, |corner| corner.a);
+        equilibrium(&self.machine, kind, side, speed, self.damped)
+    }
+}
+
+/// The changes of `what` between two speeds, as far as bisection finds them:
+/// the speed, and the values below and above.
+pub(super) fn changes<T: Copy + PartialEq>(
+    low: f64,
+    high: f64,
+    what: &impl Fn(f64) -> Result<T, HarmonicError>,
+) -> Result<Vec<(f64, T, T)>, HarmonicError> {
+    let mut found: Vec<(f64, T, T)> = Vec::new();
+    let (mut start, mut before, last) = (low, what(low)?, what(high)?);
+    while before != last && found.len() < BRANCH_CHANGES {
+        let mut after = last;
+        let [_, above] = try_bisected([start, high], 0.0, |speed| {
+            let here = what(speed)?;
+            let changed = here != before;
+            if changed {
+                after = here;
+            }
+            Ok(changed)
+        })?;
+        match found.last_mut() {
+            // A state at a single speed is not a branch, such as the side at
+            // the critical speed, where its push is infinite.
+            Some(last) if above - last.0 <= 4.0 * f64::EPSILON * above.abs() => last.2 = after,
+            _ => found.push((above, before, after)),
+        }
+        (start, before) = (above, after);
+    }
+    Ok(found)
+}

@@ -1,0 +1,538 @@
+//! Locked motion: two phase groups hold the casing wave in a corner of the blade frame, where
+//! it is an equilibrium (docs/theory.md, section 8). Against speed, with what holds it and
+//! whether it lasts; and what it takes (pushes, torque, power, blade angle, energy) and the
+//! speed at which its branch ends, of any kind of number, so that each comes with its
+//! derivatives (section 4).
+
+use serde::Serialize;
+
+use super::corner::Configuration;
+use super::equations::{Equations, Scales, Wave};
+use super::fold::CornerAngle;
+use super::stability::Linearised;
+use super::{Character, Corner, Form, HarmonicError, error, lining, tip_lock};
+use crate::model::{Machine, Number};
+use crate::numeric::bisection::bisected;
+use crate::numeric::maximum::highest;
+
+/// The locked motion at one rotor speed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct LockedPoint {
+    /// Rotor speed `Omega` \[rad/s\].
+    pub speed_rad_s: f64,
+    /// `[Lambda_a, Lambda_b]`, summed over each group; negative is a push \[N\].
+    pub multipliers_n: [f64; 2],
+    /// Angle of one blade of each group, `[alpha_a, alpha_b]` \[rad\].
+    pub alpha_rad: [f64; 2],
+    /// `u_cc`, cosine part of `u_c(t)`, Eq. (25) \[m\].
+    pub u_cc_m: f64,
+    /// `u_cs`, sine part of `u_c(t)` \[m\].
+    pub u_cs_m: f64,
+    /// `u_sc`, cosine part of `u_s(t)` \[m\].
+    pub u_sc_m: f64,
+    /// `u_ss`, sine part of `u_s(t)` \[m\].
+    pub u_ss_m: f64,
+    /// Amplitude `|z|` of the casing wave \[m\].
+    pub amplitude_m: f64,
+    /// Smallest gap of all groups not in contact \[m\]; infinite if there are none.
+    pub smallest_gap_m: f64,
+    /// Torque the rotor must give to hold the wave, `sum Lambda A`, beside the torque of
+    /// friction itself, `mu sum P R_c` \[N m\].
+    pub torque_nm: f64,
+    /// Its power, `torque * Omega` \[W\].
+    pub power_w: f64,
+    /// What holds it, if anything does. The motion that may grow is the time model's
+    /// (two blade modes), in every form.
+    pub character: Character,
+    /// Whether pushes can hold it: both multipliers push (or vanish) and
+    /// every other gap is open.
+    pub admissible: bool,
+    /// Whether it lasts by pushes alone: admissible, and no motion that keeps both
+    /// contacts grows.
+    pub stable: bool,
+    /// Largest row of the eight equations (27), dimensionless: torques over
+    /// `n_d k_c g0^2`, gaps over `g0`, forces over `k_c g0`.
+    pub residual: f64,
+}
+
+/// Solver of the locked motion of one machine in one corner and one form.
+#[derive(Clone, Debug)]
+pub struct Locked {
+    machine: Machine,
+    corner: Corner,
+    form: Form,
+    damped: bool,
+    scales: Scales,
+    equations: Equations,
+}
+
+/// The locked motion over a list of speeds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sweep {
+    /// The corner that holds the wave.
+    pub corner: Corner,
+    /// Which equations.
+    pub form: Form,
+    /// Whether they include the damping of casing and blades.
+    pub damped: bool,
+    /// One point for each speed with a locked motion, in the given order.
+    pub points: Vec<LockedPoint>,
+    /// The speeds without one: the blades are so soft that the branch has
+    /// folded back, or have grown into the casing \[rad/s\].
+    pub missing: Vec<f64>,
+}
+
+impl Locked {
+    /// Prepares the equations. Undamped is the paper's Eq. (27); damped adds
+    /// `d_c` to its casing rows.
+    ///
+    /// # Errors
+    /// A polygon without corners, disk modes of other diameters than the casing, an
+    /// interference fit, and a
+    /// form other than modal where tips are inclined or rub.
+    pub fn new(
+        machine: &Machine,
+        corner: Corner,
+        form: Form,
+        damped: bool,
+    ) -> Result<Self, HarmonicError> {
+        let corner = Corner::after(&machine.polygon, corner.a)?;
+        error::refuse_other_diameters(machine)?;
+        error::refuse_preload(&machine.at(0.0))?;
+        if form != Form::Modal {
+            let allowed = format!("0 with the form {form}; the form modal has it");
+            error::refuse_tips(machine, &allowed)?;
+        }
+        Ok(Self {
+            machine: if damped { machine.clone() } else { machine.clone().undamped() },
+            corner,
+            form,
+            damped,
+            scales: Scales::of(machine),
+            equations: Equations::new(machine, corner, form),
+        })
+    }
+
+    /// The corner that holds the wave.
+    #[must_use]
+    pub fn corner(&self) -> Corner {
+        self.corner
+    }
+
+    /// The locked motion at one speed \[rad/s\].
+    ///
+    /// # Errors
+    /// A speed that is not finite, or one with no locked motion.
+    pub fn at(&self, speed: f64) -> Result<LockedPoint, HarmonicError> {
+        error::refuse_endless(&[speed])?;
+        let turned = self.machine.changes_with_speed().then(|| self.turned(speed));
+        let here = turned.as_ref().unwrap_or(self);
+        let solution = if here.machine.clearance() <= 0.0 {
+            None
+        } else if here.machine.tips_incline_or_rub() {
+            here.of_tips(speed)
+        } else {
+            here.of_the_paper(speed)
+        };
+        let softness = here.equations.softness();
+        let solution = solution.ok_or(HarmonicError::NotFound { speed, softness })?;
+        Ok(here.point(speed, &solution))
+    }
+
+    /// The same with the machine at a speed.
+    fn turned(&self, speed: f64) -> Self {
+        let machine = self.machine.at(speed).into_owned();
+        Self {
+            scales: Scales::of(&machine),
+            equations: Equations::new(&machine, self.corner, self.form),
+            machine,
+            ..*self
+        }
+    }
+
+    /// The locked motion at each speed \[rad/s\].
+    ///
+    /// # Errors
+    /// A speed that is not finite.
+    pub fn sweep(&self, speeds: &[f64]) -> Result<Sweep, HarmonicError> {
+        let mut points = Vec::with_capacity(speeds.len());
+        let mut missing = Vec::new();
+        for &speed in speeds {
+            match self.at(speed) {
+                Ok(point) => points.push(point),
+                Err(HarmonicError::NotFound { .. }) => missing.push(speed),
+                Err(error) => return Err(error),
+            }
+        }
+        Ok(Sweep { corner: self.corner, form: self.form, damped: self.damped, points, missing })
+    }
+
+    /// The solution of the paper's equations.
+    fn of_the_paper(&self, speed: f64) -> Option<Solution> {
+        let wave = Wave::at(&self.machine, speed, self.damped);
+        let unknowns = self.equations.locked(wave)?;
+        let [x, y, lambda_a, lambda_b, alpha_a, alpha_b]: [f64; 6] = unknowns.into();
+        let (multipliers, alpha) = ([lambda_a, lambda_b], [alpha_a, alpha_b]);
+        let (polygon, sides) = (&self.machine.polygon, self.corner.sides());
+        let turns = alpha.map(|angle| self.scales.softness * angle);
+        let configuration = Configuration::of_pair(polygon, (x, y), sides, turns);
+        let held = [0, 1].map(|i| configuration.held(polygon, sides[i], multipliers[i]));
+        let smallest_gap = configuration.smallest_gap(polygon, &sides);
+        let motion = Linearised::about(&self.machine, speed, self.damped, &held);
+        let pushes = multipliers.iter().all(|&l| l <= 0.0);
+        Some(Solution {
+            z: [x, y],
+            multipliers,
+            alpha_rad: alpha.map(|angle| angle * self.scales.angle),
+            smallest_gap,
+            // Without drag the two moment arms cancel, and their sum is rounding only.
+            moment_arm: match wave.drag {
+                0.0 => 0.0,
+                _ => held.iter().map(|side| side.multiplier * side.arm).sum(),
+            },
+            character: Character::of(pushes, motion.closes(), smallest_gap, || !motion.is_stable()),
+            residual: self.equations.printed_residual(wave, &unknowns),
+        })
+    }
+
+    /// The solution with tips that are inclined or rub.
+    fn of_tips(&self, speed: f64) -> Option<Solution> {
+        let machine = &self.machine;
+        let (equations, held) = tip_lock::held(machine, self.corner, speed)?;
+        let [x, y, .., push_a, push_b] = held;
+        let touches = equations.phases.map(|phase| equations.touch(phase, &held));
+        let polygon = &machine.polygon;
+        let smallest_gap = (0..polygon.sides)
+            .filter(|side| !self.corner.sides().contains(side))
+            .map(|side| equations.gap(polygon.direction(side), &held))
+            .fold(f64::INFINITY, f64::min);
+        let pushes = push_a >= 0.0 && push_b >= 0.0;
+        // A pull has no friction. Without the contact forces both gaps close.
+        let across = (2.0 * polygon.delta).cos();
+        let closes = push_a + push_b * across > 0.0 && push_b + push_a * across > 0.0;
+        let held_by_pulls = closes && machine.friction == 0.0;
+        let residual = equations.residual(&held);
+        Some(Solution {
+            z: [x, y],
+            multipliers: [-push_a, -push_b],
+            alpha_rad: touches.map(|touch| touch.alpha),
+            smallest_gap,
+            moment_arm: -(push_a * touches[0].across + push_b * touches[1].across),
+            character: Character::of(pushes, held_by_pulls, smallest_gap, || {
+                let closed = equations.closed(&held);
+                Linearised::about(machine, speed, self.damped, &closed).grows_in_corner()
+            }),
+            residual: residual.iter().fold(0.0, |most: f64, row| most.max(row.abs())),
+        })
+    }
+
+    fn point(&self, speed: f64, solution: &Solution) -> LockedPoint {
+        let Scales { length, force, .. } = self.scales;
+        let [x, y] = solution.z.map(|part| part * length);
+        let torque = self.machine.nodal_diameters * force * length * solution.moment_arm;
+        let character = solution.character;
+        LockedPoint {
+            speed_rad_s: speed,
+            multipliers_n: solution.multipliers.map(|l| l * force),
+            alpha_rad: solution.alpha_rad,
+            u_cc_m: x,
+            u_cs_m: -y,
+            u_sc_m: y,
+            u_ss_m: x,
+            amplitude_m: x.hypot(y),
+            smallest_gap_m: length * solution.smallest_gap,
+            torque_nm: torque,
+            power_w: torque * speed,
+            character,
+            admissible: character.is_admissible(),
+            stable: character == Character::Stable,
+            residual: solution.residual,
+        }
+    }
+}
+
+/// The lock at one speed, scaled, whichever equations it solves.
+struct Solution {
+    z: [f64; 2],
+    multipliers: [f64; 2],
+    alpha_rad: [f64; 2],
+    smallest_gap: f64,
+    /// `sum Lambda A` over `n_d`.
+    moment_arm: f64,
+    character: Character,
+    residual: f64,
+}
+
+/// The locked motion of a machine over speeds \[rad/s\], held between the
+/// groups of two blades (the paper's where `None`, see [`Corner::paper`]).
+///
+/// ```
+/// use rubscope_solver::harmonic::{Form, locked_motion};
+/// use rubscope_solver::scene::Scene;
+///
+/// let machine = Scene::builtin("paper-nd3")?.machine();
+/// let speeds: Vec<f64> = (0..=500).map(f64::from).collect();
+/// let sweep = locked_motion(&machine, Form::Modal, false, Some([6, 21]), &speeds)?;
+/// let last = sweep.points[500];
+/// assert!((last.multipliers_n[0] - -150.85535).abs() < 1e-4);
+/// assert!(last.admissible && last.stable);
+/// assert!(!sweep.points[292].admissible && sweep.points[293].admissible);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// A polygon without corners, blades that are not phase neighbours, or a speed
+/// that is not finite.
+pub fn locked_motion(
+    machine: &Machine,
+    form: Form,
+    damped: bool,
+    blades: Option<[u32; 2]>,
+    speeds: &[f64],
+) -> Result<Sweep, HarmonicError> {
+    let corner = match blades {
+        Some(pair) => Corner::of_blades(&machine.polygon, pair)?,
+        None => Corner::paper(&machine.polygon)?,
+    };
+    Locked::new(machine, corner, form, damped)?.sweep(speeds)
+}
+
+/// The loads of the damped lock at one speed, exact for blades that move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LockLoads<T = f64> {
+    /// Pushes of the groups a and b, minus their multipliers; negative pulls \[N\].
+    pub pushes_n: [T; 2],
+    /// Angle of one blade of each group \[rad\].
+    pub alpha_rad: [T; 2],
+    /// Largest angle of any blade, in size: those a quarter of the wave away from the
+    /// contacts bend most \[rad\].
+    pub largest_alpha_rad: T,
+    /// Amplitude `|z|` of the casing wave \[m\].
+    pub amplitude_m: T,
+    /// Torque the rotor must give to hold the wave, `n_d d_c nu |z|^2` without friction,
+    /// beside the torque of friction itself \[N m\].
+    pub torque_nm: T,
+    /// Its power \[W\].
+    pub power_w: T,
+    /// Energy of the casing wave, `(k_c + m_c nu^2) |z|^2/2` \[J\].
+    pub energy_j: T,
+}
+
+/// The loads of the lock of a machine at a speed \[rad/s\]; none without corners,
+/// beyond the fold of very soft blades, and on a lining where no two groups hold it alone.
+#[must_use]
+pub fn lock_loads<T: Number>(machine: &Machine<T>, speed: T) -> Option<LockLoads<T>> {
+    let machine = &*machine.at(speed);
+    let clear = machine.clearance().re() > 0.0;
+    if !machine.polygon.has_corners() || machine.has_other_diameters() || !clear {
+        return None;
+    }
+    if machine.lining.is_some() {
+        return lining::lock_loads(machine, speed);
+    }
+    if machine.tips_incline_or_rub() {
+        return joined(machine, speed);
+    }
+    let (wave, scales) = (Wave::at(machine, speed, true), Scales::of(machine));
+    let delta = machine.polygon.delta;
+    let (sin, cos) = (CornerAngle::of(machine).derived(wave.stiffness)? + delta).sin_cos();
+    let (stiff, drag) = (wave.stiffness / cos, wave.drag / sin);
+    let pushes = [(drag - stiff) / (cos * 2.0), -(stiff + drag) / (cos * 2.0)];
+    let arms = [pushes[0] * sin / cos, -pushes[1] * sin / cos];
+    // Of a blade at a phase from the middle of the corner; side `k` after group a.
+    let bent = |side: u32| {
+        let phase = delta * (2.0 * f64::from(side) - 1.0);
+        let torque = arms[0] * (phase + delta).cos() + arms[1] * (phase - delta).cos();
+        -torque * scales.share * scales.angle
+    };
+    let amplitude = scales.length / cos;
+    let nu = machine.nu(speed);
+    let torque = machine.casing_damping * nu * amplitude * amplitude * machine.nodal_diameters;
+    let pushes = pushes.map(|push| push * scales.force);
+    let groups = (pushes, [bent(0), bent(1)]);
+    let all = (0..machine.polygon.sides).map(bent);
+    Some(LockLoads::of((machine, speed), (amplitude, torque), groups, all))
+}
+
+impl<T: Number> LockLoads<T> {
+    /// Of a wave of this amplitude \[m\] that takes this torque \[N m\], with the pushes and
+    /// angles of both groups, and the angles of all \[N, rad\].
+    pub(super) fn of(
+        (machine, speed): (&Machine<T>, T),
+        (amplitude, torque): (T, T),
+        (pushes_n, alpha_rad): ([T; 2], [T; 2]),
+        all: impl Iterator<Item = T>,
+    ) -> Self {
+        let nu = machine.nu(speed);
+        let stored = machine.casing_stiffness + machine.casing_mass * nu * nu;
+        let larger = |most: T, angle: T| if angle > most { angle } else { most };
+        Self {
+            pushes_n,
+            alpha_rad,
+            largest_alpha_rad: all.map(|angle| angle.abs()).fold(T::zero(), larger),
+            amplitude_m: amplitude,
+            torque_nm: torque,
+            power_w: torque * speed,
+            energy_j: stored * amplitude * amplitude * 0.5,
+        }
+    }
+}
+
+/// With tips that are inclined or rub.
+fn joined<T: Number>(machine: &Machine<T>, speed: T) -> Option<LockLoads<T>> {
+    let corner = Corner::paper(&machine.polygon).ok()?;
+    let (equations, held) = tip_lock::held(machine, corner, speed)?;
+    let [x, y, alpha_c, alpha_s, push_a, push_b] = held;
+    let touches = equations.phases.map(|phase| equations.touch(phase, &held));
+    let bent = |side: u32| {
+        let (c, s) = machine.polygon.direction(side);
+        (alpha_c * c + alpha_s * s) * equations.angle
+    };
+    let Scales { length, force, .. } = Scales::of(machine);
+    let arms = push_a * touches[0].across + push_b * touches[1].across;
+    let torque = -arms * force * length * machine.nodal_diameters;
+    let amplitude = (x * x + y * y).sqrt() * length;
+    let groups = ([push_a * force, push_b * force], touches.map(|touch| touch.alpha));
+    let all = (0..machine.polygon.sides).map(bent);
+    Some(LockLoads::of((machine, speed), (amplitude, torque), groups, all))
+}
+
+/// The largest speed with a lock \[rad/s\]: blades that are soft give way above it.
+/// None without corners, with tips that are inclined or rub, on a lining, and where it is
+/// beyond any speed that a number can square.
+#[must_use]
+pub fn lock_fold_speed<T: Number>(machine: &Machine<T>) -> Option<T> {
+    if machine.tips_incline_or_rub() || machine.has_other_diameters() || machine.lining.is_some() {
+        return None;
+    }
+    let (still, critical) = (machine.at(T::zero()), machine.critical_speed()?);
+    let stiffness =
+        CornerAngle::of(&still).fold_stiffness().filter(|_| machine.polygon.has_corners())?;
+    if !machine.changes_with_speed() {
+        return Some(critical * (-stiffness + 1.0).sqrt());
+    }
+    // `1 - x = stiffness (1 + b x)/(1 - e x)^2` of the square `x` of the speed, in `Omega_c`:
+    // blades stiffen, and the wave gets smaller.
+    let stiffer = machine.stiffening() * (critical / machine.omega_bd_at_rest()).powi(2);
+    let Some(closed) = machine.closing_speed().map(|closed| (closed / critical).powi(2)) else {
+        let square = (-stiffness + 1.0) / (stiffness * stiffer + 1.0);
+        return (square.re() > 0.0).then(|| critical * square.sqrt());
+    };
+    let left = |x: T| {
+        let smaller = -(x / closed) + 1.0;
+        let value = (x - 1.0) * smaller * smaller + stiffness * (stiffer * x + 1.0);
+        let slope = smaller * (smaller - (x - 1.0) * 2.0 / closed) + stiffness * stiffer;
+        (value, slope)
+    };
+    // It has one maximum at most, between the critical speed and the loss of the clearance.
+    let last = closed.re();
+    if last <= 1.0 {
+        return None;
+    }
+    let (highest, most) = highest([1.0, last], |x| left(T::from(x)).0.re());
+    if most <= 0.0 {
+        return None;
+    }
+    let [low, high] = bisected([1.0, highest], |x| left(T::from(x)).0.re() > 0.0);
+    let mut x = T::from(0.5 * (low + high));
+    for _ in 0..2 {
+        let (value, slope) = left(x);
+        x -= value / slope;
+    }
+    Some(critical * x.sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::harmonic::{Form, Kind, corner_branch, equilibria, locked_motion};
+    use crate::scene::Scene;
+
+    fn machine(set: &[(&str, &str)]) -> Machine {
+        let mut scene = Scene::base();
+        set.iter().for_each(|(path, value)| scene.set(path, value).unwrap());
+        scene.machine()
+    }
+
+    fn close(value: f64, expected: f64, part: f64) {
+        assert!((value - expected).abs() <= part * expected.abs(), "{value} is not {expected}");
+    }
+
+    /// The two blade coordinates of the lock.
+    fn blade_modes(machine: &Machine, speed: f64) -> [f64; 2] {
+        let states = equilibria(machine, speed, true).unwrap();
+        let corner = states.iter().find(|state| state.kind == Kind::Corner).unwrap();
+        [corner.alpha_c_rad, corner.alpha_s_rad]
+    }
+
+    #[test]
+    fn loads_are_those_of_the_harmonic_balance() {
+        for (set, part) in [
+            (&[][..], 1e-12),
+            (&[("operation.nodal_diameters", "4")], 1e-12),
+            (
+                &[
+                    ("bladed_disk.stiffness_nm_per_rad", "0.02"),
+                    ("bladed_disk.coupling_nm_per_rad", "0"),
+                ],
+                1e-10,
+            ),
+        ] {
+            let machine = machine(set);
+            for speed in [320.0, 500.0, -430.0] {
+                let sweep = locked_motion(&machine, Form::Modal, true, None, &[speed]).unwrap();
+                let point = sweep.points[0];
+                let loads = lock_loads(&machine, speed).unwrap();
+                for i in [0, 1] {
+                    close(-loads.pushes_n[i], point.multipliers_n[i], part);
+                    close(loads.alpha_rad[i], point.alpha_rad[i], 1e-7);
+                }
+                close(loads.torque_nm, point.torque_nm, 1e-9);
+                close(loads.power_w, point.power_w, 1e-9);
+                close(loads.amplitude_m, point.amplitude_m, part);
+                let polygon = &machine.polygon;
+                let modes = blade_modes(&machine, speed);
+                close(loads.largest_alpha_rad, polygon.largest_component(modes[0], modes[1]), 1e-7);
+            }
+        }
+    }
+
+    #[test]
+    fn the_branch_ends_at_the_fold() {
+        let machine = machine(&[
+            ("bladed_disk.stiffness_nm_per_rad", "0.02"),
+            ("bladed_disk.coupling_nm_per_rad", "0"),
+        ]);
+        let fold = lock_fold_speed(&machine).unwrap();
+        let branch = corner_branch(&machine, 0, true, [0.0, 2.0 * fold], 0.02).unwrap();
+        close(fold, branch.fold.unwrap().speed_rad_s, 1e-12);
+        assert!(lock_loads(&machine, 0.999 * fold).is_some());
+        assert_eq!(lock_loads(&machine, 1.001 * fold), None);
+    }
+
+    #[test]
+    fn energy_is_that_of_two_modes_which_turn_the_wave() {
+        let machine = machine(&[]);
+        for speed in [0.0, 320.0, -430.0] {
+            let loads = lock_loads(&machine, speed).unwrap();
+            // At any instant, such as one where the wave is at 0.7 rad.
+            let (y, x) = 0.7_f64.sin_cos();
+            let nu = machine.nu(speed);
+            let modes = [(x, -nu * y), (y, nu * x)].map(|(place, rate)| {
+                let (place, rate) = (loads.amplitude_m * place, loads.amplitude_m * rate);
+                let stretched = 0.5 * machine.casing_stiffness * place * place;
+                stretched + 0.5 * machine.casing_mass * rate * rate
+            });
+            close(loads.energy_j, modes[0] + modes[1], 1e-12);
+        }
+    }
+
+    #[test]
+    fn nothing_is_loaded_without_corners() {
+        for diameters in ["0", "11"] {
+            let machine = machine(&[("operation.nodal_diameters", diameters)]);
+            assert_eq!(lock_loads(&machine, 500.0), None);
+            assert_eq!(lock_fold_speed(&machine), None);
+        }
+    }
+}

@@ -1,0 +1,197 @@
+//! Reads and writes scene files (TOML). Keys that a file does not contain have
+//! the documented default (the paper's machine); unknown keys are refused.
+
+use std::fs::File;
+use std::io::{Error, ErrorKind, Read};
+use std::path::Path;
+
+use toml::{Table, Value as Toml};
+
+use super::{Allowed, BUILTIN, Key, Scene, SceneError, Value, keys, modes};
+
+/// Largest scene file \[bytes\]; the built-in ones have some hundreds.
+const LARGEST_FILE: u64 = 1 << 20;
+
+impl Scene {
+    /// A built-in scene by name, or the scene of a `.toml` file.
+    ///
+    /// # Errors
+    /// No such scene, no such file, or a file that is refused.
+    pub fn load(name_or_path: &str) -> Result<Self, SceneError> {
+        let scene = Self::load_unchecked(name_or_path)?;
+        scene.checked().map_err(|error| match builtin_text(name_or_path) {
+            Some(_) => error,
+            None => in_file(name_or_path, error),
+        })?;
+        Ok(scene)
+    }
+
+    /// As `load`, but checks only each key, not the combinations, so that
+    /// options can still change the scene before the full check.
+    ///
+    /// # Errors
+    /// No such scene, no such file, or a key in it that is refused.
+    pub fn load_unchecked(name_or_path: &str) -> Result<Self, SceneError> {
+        if let Some(text) = builtin_text(name_or_path) {
+            return Self::from_toml_unchecked(text);
+        }
+        let path = Path::new(name_or_path);
+        let is_toml = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("toml"));
+        if !is_toml && !name_or_path.contains(std::path::MAIN_SEPARATOR) {
+            return Err(SceneError::UnknownScene {
+                name: name_or_path.to_string(),
+                allowed: BUILTIN.iter().map(|scene| scene.name).collect::<Vec<_>>().join(", "),
+            });
+        }
+        let refused = |reason: String| SceneError::File { path: name_or_path.to_string(), reason };
+        let text = read_text(path, LARGEST_FILE).map_err(|error| refused(error.to_string()))?;
+        Self::from_toml_unchecked(&text).map_err(|error| in_file(name_or_path, error))
+    }
+
+    /// Reads a scene file and checks it completely.
+    ///
+    /// # Errors
+    /// The first error in it, in one line.
+    pub fn from_toml(text: &str) -> Result<Self, SceneError> {
+        let scene = Self::from_toml_unchecked(text)?;
+        scene.checked()?;
+        Ok(scene)
+    }
+
+    /// Reads a scene file and checks each key but not the combinations, so that
+    /// options can still change the scene before the full check.
+    ///
+    /// # Errors
+    /// Text that is not TOML, unknown keys, values of the wrong type or out of
+    /// bounds.
+    pub fn from_toml_unchecked(text: &str) -> Result<Self, SceneError> {
+        let table: Table = text.parse().map_err(|error: toml::de::Error| {
+            let message = error.message().lines().collect::<Vec<_>>().join(" ");
+            let line = error.span().map_or(1, |span| {
+                1 + text.as_bytes().iter().take(span.start).filter(|&&byte| byte == b'\n').count()
+            });
+            SceneError::Syntax(format!("line {line}: {message}"))
+        })?;
+        let mut scene = Self::base();
+        for (name, value) in &table {
+            if name == "schema" {
+                check_schema(value)?;
+            } else if let Toml::Table(inner) = value {
+                // Frequencies of modes are of the masses beside them.
+                let (modes, plain): (Vec<_>, Vec<_>) =
+                    inner.iter().partition(|(leaf, _)| *leaf == "modes");
+                for (leaf, value) in plain.into_iter().chain(modes) {
+                    read(&mut scene, &format!("{name}.{leaf}"), value)?;
+                }
+                if inner.is_empty() && !keys::KEYS.iter().any(|key| in_table(key, name)) {
+                    return Err(keys::unknown(name));
+                }
+            } else {
+                read(&mut scene, name, value)?;
+            }
+        }
+        Ok(scene)
+    }
+
+    /// The scene as a TOML file with every key.
+    #[must_use]
+    pub fn to_toml(&self) -> String {
+        let mut out = String::from("schema = 1\n");
+        let mut table = "";
+        let own = self.without_modes();
+        for key in keys::KEYS {
+            match key.path {
+                keys::CASING_MODES => out.push_str(&modes::CASING.blocks(&self.casing.modes)),
+                keys::DISK_MODES => out.push_str(&modes::DISK.blocks(&self.bladed_disk.modes)),
+                _ => {}
+            }
+            if matches!(key.allowed, Allowed::Modes(_)) {
+                continue;
+            }
+            let (section, leaf) = key.path.split_once('.').unwrap_or(("", key.path));
+            if section != table {
+                out.push_str(&format!("\n[{section}]\n"));
+                table = section;
+            }
+            out.push_str(&format!("{leaf} = {}\n", as_toml(&(key.get)(&own))));
+        }
+        out
+    }
+}
+
+/// Reads a text file of at most `most` bytes; no more are ever in memory.
+///
+/// # Errors
+/// An error of the system, a larger file, or bytes that are not UTF-8.
+pub fn read_text(path: &Path, most: u64) -> std::io::Result<String> {
+    let mut bytes = Vec::new();
+    // A device or a huge file ends here, not in memory.
+    File::open(path)?.take(most + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > most {
+        let reason = format!("allowed are up to {most} bytes");
+        return Err(Error::new(ErrorKind::FileTooLarge, reason));
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let place = error.utf8_error().valid_up_to();
+        Error::new(ErrorKind::InvalidData, format!("byte {place} is not UTF-8 text"))
+    })
+}
+fn builtin_text(name: &str) -> Option<&'static str> {
+    BUILTIN.iter().find(|scene| scene.name == name).map(|scene| scene.toml)
+}
+
+fn in_file(path: &str, error: SceneError) -> SceneError {
+    SceneError::InFile { path: path.to_string(), error: Box::new(error) }
+}
+
+fn in_table(key: &Key, table: &str) -> bool {
+    key.path.split_once('.').is_some_and(|(name, _)| name == table)
+}
+
+fn as_toml(value: &Value) -> Toml {
+    match value {
+        Value::Real(x) => Toml::Float(*x),
+        Value::Whole(n) => Toml::Integer(i64::try_from(*n).unwrap_or(i64::MAX)),
+        Value::Text(text) => Toml::String(text.clone()),
+        Value::Words(words) => Toml::Array(words.iter().cloned().map(Toml::String).collect()),
+    }
+}
+
+fn check_schema(value: &Toml) -> Result<(), SceneError> {
+    if value.as_integer() == Some(1) {
+        Ok(())
+    } else {
+        Err(SceneError::refused("schema", one_line(value), "1"))
+    }
+}
+
+fn read(scene: &mut Scene, path: &str, toml: &Toml) -> Result<(), SceneError> {
+    let key = keys::find(path)?;
+    let value = match (toml, key.allowed) {
+        (Toml::Float(x), Allowed::Real { .. }) => Some(Value::Real(*x)),
+        (Toml::Integer(n), Allowed::Real { .. }) => Some(Value::Real(*n as f64)),
+        (Toml::Integer(n), Allowed::Whole { .. }) => u64::try_from(*n).ok().map(Value::Whole),
+        (Toml::String(text), Allowed::Real { .. }) => match key.parse(text) {
+            Err(error @ SceneError::Unit { .. }) => return Err(error),
+            read => read.ok(),
+        },
+        (Toml::String(text), Allowed::OneOf(_) | Allowed::Text { .. }) => {
+            Some(Value::Text(text.clone()))
+        }
+        (Toml::Array(_), Allowed::Modes(_)) => Some(Value::Text(toml.to_string())),
+        (Toml::Array(items), Allowed::SomeOf(_)) => items
+            .iter()
+            .map(|item| item.as_str().map(String::from))
+            .collect::<Option<Vec<_>>>()
+            .map(Value::Words),
+        _ => None,
+    };
+    let value =
+        value.ok_or_else(|| SceneError::refused(path, one_line(toml), key.allowed.to_string()))?;
+    scene.set_value(key, value)
+}
+
+/// A value in one line.
+pub(super) fn one_line(value: &Toml) -> String {
+    value.to_string().lines().collect::<Vec<_>>().join(" ")
+}

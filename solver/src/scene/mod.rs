@@ -1,0 +1,356 @@
+//! Scenes: one machine, its operation and its solver in one value.
+//!
+//! A scene comes from a built-in preset or a TOML file and can be changed key
+//! by key (`Scene::set`). An invalid value is refused in one line with the key,
+//! the value and what is allowed. The file format, the command line and the
+//! knobs of the explorer all use the table in `keys`.
+
+mod beyond;
+mod build;
+mod builtin;
+mod check;
+mod checked;
+mod doubts;
+mod error;
+mod file;
+pub mod keys;
+mod modes;
+pub mod units;
+
+use serde::Serialize;
+use strum::{AsRefStr, Display, EnumString, VariantNames};
+
+pub use build::{Family, ModalData, read_modes};
+pub use builtin::{BUILTIN, Builtin, DEFAULT};
+pub use checked::{Adjustment, CheckedScene};
+pub use error::SceneError;
+pub use file::read_text;
+pub use keys::{Allowed, KEYS, Key, Value};
+pub use units::Quantity;
+
+pub use crate::contact::ContactLaw;
+use crate::model::{
+    BladedDisk, Casing, ContactSurface, Excitation, Initial, LiningLaw, Machine, Operation,
+};
+
+/// Which solver advances the motion.
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, Serialize, Display, EnumString, AsRefStr, VariantNames,
+)]
+#[serde(rename_all = "lowercase")]
+#[strum(serialize_all = "lowercase")]
+pub enum SolverKind {
+    /// Explicit central differences, Eqs. (8)-(16): first order in contact.
+    Explicit,
+    /// Event-driven closed forms: the reference.
+    Event,
+}
+
+/// Which parts of the machine can move.
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, Serialize, Display, EnumString, AsRefStr, VariantNames,
+)]
+#[serde(rename_all = "lowercase")]
+#[strum(serialize_all = "lowercase")]
+pub enum ModelSize {
+    /// Casing only; the blades are rigid.
+    Rigid,
+    /// The paper's four coordinates.
+    Modal,
+    /// One coordinate per blade, Eqs. (2)-(3).
+    Full,
+}
+
+/// Numerical choices of a time simulation.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SolverChoice {
+    /// Which solver.
+    pub kind: SolverKind,
+    /// Which contact law.
+    pub contact: ContactLaw,
+    /// Which model size.
+    pub model: ModelSize,
+    /// Time step of the explicit solver \[s\].
+    pub step_s: f64,
+    /// End of the simulation \[s\].
+    pub end_s: f64,
+}
+
+impl Default for SolverChoice {
+    fn default() -> Self {
+        Self {
+            kind: SolverKind::Explicit,
+            contact: ContactLaw::Unilateral,
+            model: ModelSize::Modal,
+            step_s: 1e-7,
+            end_s: 0.1,
+        }
+    }
+}
+
+/// What the explorer opens with.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct View {
+    /// Names of charts, the first one the largest.
+    pub charts: Vec<String>,
+    /// Where it begins to play, at most the end of the run \[s\].
+    pub begin_s: f64,
+}
+
+impl Default for View {
+    fn default() -> Self {
+        let charts = ["frame", "response", "gaps", "locked"].map(String::from).to_vec();
+        Self { charts, begin_s: 0.0 }
+    }
+}
+
+/// One scene, complete: every key has a value.
+///
+/// ```
+/// use rubscope_solver::scene::Scene;
+/// let mut scene = Scene::builtin("paper-nd3")?;
+/// scene.set("operation.speed_rad_s", "450")?;
+/// assert_eq!(scene.operation.speed_rad_s, 450.0);
+/// let refused = scene.set("bladed_disk.blades", "0").unwrap_err();
+/// assert!(refused.to_string().starts_with("bladed_disk.blades = 0"));
+/// # Ok::<(), rubscope_solver::scene::SceneError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Scene {
+    /// Version of the file format; 1.
+    #[serde(serialize_with = "schema_as_number")]
+    pub schema: Schema,
+    /// One line that names the scene.
+    pub title: String,
+    /// What to look for.
+    pub note: String,
+    /// The bladed disk.
+    pub bladed_disk: BladedDisk,
+    /// The casing.
+    pub casing: Casing,
+    /// Friction, restitution and lining where they touch.
+    pub contact: ContactSurface,
+    /// Speed, pulse and nodal diameters.
+    pub operation: Operation,
+    /// Casing state at t = 0.
+    pub initial: Initial,
+    /// Engine-order excitation of the blades; off by default.
+    pub excitation: Excitation,
+    /// Numerical choices.
+    pub solver: SolverChoice,
+    /// Charts to open with.
+    pub view: View,
+}
+
+/// The version of the scene format; there is one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Schema;
+
+fn schema_as_number<S: serde::Serializer>(_: &Schema, out: S) -> Result<S::Ok, S::Error> {
+    out.serialize_u32(1)
+}
+
+impl Scene {
+    /// What an empty file describes: the values of keys that a file leaves out. It
+    /// has the paper's machine, and no words.
+    #[must_use]
+    pub fn base() -> Self {
+        Self {
+            schema: Schema,
+            title: String::new(),
+            note: String::new(),
+            bladed_disk: BladedDisk::default(),
+            casing: Casing::default(),
+            contact: ContactSurface::default(),
+            operation: Operation::default(),
+            initial: Initial::default(),
+            excitation: Excitation::default(),
+            solver: SolverChoice::default(),
+            view: View::default(),
+        }
+    }
+
+    /// The machine this scene describes at its speed, with all that is derived from it.
+    #[must_use]
+    pub fn machine(&self) -> Machine {
+        let (disk, casing) = (self.disk_in_use(), self.casing_in_use());
+        let mut machine = Machine::new(&disk, &casing, self.operation.nodal_diameters)
+            .with_friction(self.contact.friction)
+            .with_lining(self.lining());
+        if self.solver.model == ModelSize::Rigid {
+            // Blades that do not bend do not move their tips outward.
+            machine.radial_coupling = 0.0;
+        }
+        machine.turn_at(self.operation.speed_rad_s);
+        machine
+    }
+
+    /// The lining under a blade, with the smooth law.
+    #[must_use]
+    pub fn lining(&self) -> Option<LiningLaw> {
+        (self.solver.contact == ContactLaw::Smooth).then(|| LiningLaw::of(&self.contact))
+    }
+
+    /// The largest speed of the run, as a magnitude \[rad/s\].
+    #[must_use]
+    pub fn fastest_rad_s(&self) -> f64 {
+        let operation = &self.operation;
+        let last = operation.speed_rad_s + operation.speed_ramp_rad_s2 * self.solver.end_s;
+        operation.speed_rad_s.abs().max(last.abs())
+    }
+
+    /// Largest step the explicit solver is stable for, `2/omega_max`, Eq. (9) \[s\].
+    #[must_use]
+    pub fn stable_step(&self) -> f64 {
+        let machine = self.machine();
+        let machine = machine.at(self.fastest_rad_s());
+        let fastest = match self.solver.model {
+            ModelSize::Rigid => machine.omega_c,
+            ModelSize::Modal => machine.omega_c.max(machine.omega_bd),
+            ModelSize::Full => machine.omega_c.max(machine.omega_bd_max),
+        };
+        if self.solver.contact != ContactLaw::Smooth {
+            return 2.0 / fastest;
+        }
+        // All blades on the lining.
+        let (lining, blades) = (self.contact.stiffness_n_per_m, f64::from(self.bladed_disk.blades));
+        let speed = self.operation.speed_rad_s;
+        let turn = machine.casing_friction_at(speed).hypot(1.0);
+        let tips = match self.solver.model {
+            ModelSize::Rigid => 0.0,
+            ModelSize::Modal => machine.coupling_product_at(speed).abs() / machine.blade_modal_mass,
+            ModelSize::Full => {
+                2.0 * machine.coupling_product_at(speed).abs() / machine.blade_inertia / blades
+            }
+        };
+        let joined = lining * blades * (turn / machine.casing_mass + tips)
+            / if machine.polygon.sides > 2 { 2.0 } else { 1.0 };
+        2.0 / fastest.hypot(joined.sqrt())
+    }
+
+    /// Sets one key from text, as `--set` and the knobs do, and checks the
+    /// value against the key's own bounds. The scene is unchanged on error.
+    ///
+    /// # Errors
+    /// An unknown key, a value of the wrong type, or one out of bounds.
+    pub fn set(&mut self, path: &str, text: &str) -> Result<(), SceneError> {
+        let key = keys::find(path)?;
+        let value = key.parse(text)?;
+        self.set_value(key, value)
+    }
+
+    /// This scene with some keys set from text, checked completely.
+    ///
+    /// # Errors
+    /// The first key, value or combination that is refused.
+    pub fn with(mut self, changes: &[(&str, &str)]) -> Result<CheckedScene, SceneError> {
+        for (path, text) in changes {
+            self.set(path, text)?;
+        }
+        self.checked()
+    }
+
+    /// Sets one key to a value, checked against the key's own bounds.
+    ///
+    /// # Errors
+    /// A value of the wrong kind or out of bounds.
+    pub fn set_value(&mut self, key: &Key, value: Value) -> Result<(), SceneError> {
+        key.check(&value)?;
+        (key.set)(self, value);
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refusal(toml: &str) -> String {
+        let message = Scene::from_toml(toml).unwrap_err().to_string();
+        assert_eq!(message.lines().count(), 1, "{message}");
+        message
+    }
+
+    #[test]
+    fn every_builtin_scene_loads_and_survives_a_round_trip() {
+        for builtin in BUILTIN {
+            let scene = Scene::builtin(builtin.name).unwrap();
+            assert!(!scene.title.is_empty() && !scene.note.is_empty(), "{}", builtin.name);
+            assert_eq!(Scene::from_toml(&scene.to_toml()).unwrap(), scene);
+        }
+    }
+
+    #[test]
+    fn every_key_is_in_the_struct_and_every_field_in_the_table() {
+        let mut scene = Scene::base();
+        let mode = crate::model::Mode { nodal_diameters: 3, ..Default::default() };
+        scene.casing.modes = vec![mode.clone()];
+        scene.bladed_disk.modes = vec![mode];
+        let table = toml::Table::try_from(&scene).unwrap();
+        let mut paths = Vec::new();
+        for (name, value) in &table {
+            match value {
+                toml::Value::Table(inner) => {
+                    paths.extend(inner.keys().map(|leaf| format!("{name}.{leaf}")));
+                }
+                _ if name == "schema" => {}
+                _ => paths.push(name.clone()),
+            }
+        }
+        let mut keys: Vec<&str> = KEYS.iter().map(|key| key.path).collect();
+        keys.sort_unstable();
+        paths.sort_unstable();
+        assert_eq!(paths, keys);
+    }
+
+    #[test]
+    fn what_a_file_may_not_hold_is_refused_by_name() {
+        for (toml, start) in [
+            ("colour = 1", "unknown key colour; allowed: schema, title"),
+            ("[casing]\ncolour = 1", "unknown key casing.colour; allowed: casing.radius_m"),
+            ("[paint]\n", "unknown key paint; allowed"),
+            ("schema = 2", "schema = 2: allowed is 1"),
+            ("[casing]\nradius_m = \"wide\"", "casing.radius_m = \"wide\": allowed is a number"),
+            ("[casing]\nradius_m = nan", "casing.radius_m = NaN: allowed"),
+            ("[operation]\npulse_n = inf", "operation.pulse_n = inf: allowed"),
+            ("[bladed_disk]\nblades = 0", "bladed_disk.blades = 0: allowed is a whole number"),
+            ("[bladed_disk]\nblades = 2.5", "bladed_disk.blades = 2.5: allowed is a whole"),
+            ("[casing]\nradius_m = 0.4", "casing.radius_m = 0.4: allowed is above bladed_disk"),
+            ("[solver]\nstep_s = 0.01", "solver.step_s = 1e-2: allowed is above 0 and below"),
+            ("[solver]\nkind = \"magic\"", "solver.kind = \"magic\": allowed is one of explicit"),
+            (
+                "[solver]\nkind = \"event\"\ncontact = \"bilateral\"",
+                "solver.contact = \"bilateral\"",
+            ),
+            ("[initial]\nu_c_m = 1.0", "initial.u_c_m = 1 with u_s = 0: "),
+            (
+                "[view]\ncharts = [\"map\", \"gaps\", \"map\"]",
+                "view.charts = [\"map\", \"gaps\", \"map\"]",
+            ),
+            ("casing = 3", "unknown key casing"),
+            ("casing.radius_m.x = 3", "casing.radius_m = "),
+            ("a = = 3", "not a TOML file: line 1"),
+        ] {
+            let message = refusal(toml);
+            assert!(message.starts_with(start), "{toml:?} gave {message}");
+        }
+    }
+
+    #[test]
+    fn options_read_numbers_of_any_sign_and_refuse_the_rest() {
+        let mut scene = Scene::base();
+        scene.set("operation.speed_rad_s", "-430").unwrap();
+        assert_eq!(scene.operation.speed_rad_s, -430.0);
+        let before = scene.clone();
+        for (key, value) in [
+            ("operation.speed_rad_s", "fast"),
+            ("operation.speed_rad_s", "NaN"),
+            ("bladed_disk.blades", "-1"),
+            ("solver.model", "huge"),
+            ("nothing", "1"),
+        ] {
+            assert!(scene.set(key, value).is_err(), "{key} = {value}");
+        }
+        assert_eq!(scene, before);
+    }
+}
