@@ -10,7 +10,7 @@
 //! | numbers of other codes | `cases` `explicit_tips` | `explicit_lining` | `event_cases` | `event_linear` | `hbm_locked` `hbm_slip` `hbm_joined` `hbm_lining` |
 //! | closed forms | `explicit` `explicit_tip_locks` | `lock_ends` | `event_cases` | `event_linear` | `theory` `hbm_laws` `hbm_whirl` |
 //! | plain stepping, or integration | `plain_stepper` `rebound` | `explicit_lining` | `event_modal` | `rebound` | `hbm_time` `hbm_excitation` |
-//! | its order | `order` `rebound` | `explicit_lining` | `order` | `explicit_tips` | `hbm_fold` |
+//! | its order | `order` `rebound` | `explicit_lining` | `order` | `explicit_tips` | |
 //! | leaps are steps | `sliding` `soft_locks` `plain_stepper` | | | | |
 //! | no pull, no energy made, mirrors | `motion_laws` | `motion_laws` | `event_laws` | `event_linear_laws` | `hbm_laws` |
 //! | sizes of the disk agree | `full_disk` | `explicit_lining` | | | |
@@ -63,14 +63,12 @@ mod hbm_branches;
 mod hbm_cli;
 mod hbm_coincidence;
 mod hbm_excitation;
-mod hbm_fold;
 mod hbm_joined;
 mod hbm_laws;
 mod hbm_lining;
 mod hbm_lining_states;
 mod hbm_locked;
 mod hbm_slip;
-mod hbm_support;
 mod hbm_time;
 mod hbm_whirl;
 mod house;
