@@ -11,7 +11,7 @@
 //! - slip as a map: `slip`
 //! - coincidences and excitation: `coincidence`, `excitation`
 //! - blades and casing as one (section 10), and the speed from which their lock flutters:
-//!   `joint`; that lock: `tip_lock`; the whirl in the limit of many
+//!   `joint`; the whirl in the limit of many
 //!   blades: `round_whirl`; on a lining: `lining`
 
 mod coincidence;
@@ -27,7 +27,6 @@ mod locked;
 mod round_whirl;
 mod slip;
 mod stability;
-mod tip_lock;
 
 pub use coincidence::{
     Campbell, Coincidence, CoincidencePoint, Line, coincidence, shifted_coincidence,

@@ -33,7 +33,9 @@ impl WhirlRow {
     pub fn at(machine: &Machine, speed: f64) -> Self {
         let joint = Joint::at(machine, speed);
         let lasting = RoundWhirl::lasting(&round_whirls(&joint));
-        let open = lasting.filter(|_| joint.machine.clearance() > 0.0);
+        // Without a coupling every undamped resonance would do.
+        let rubs = joint.machine.clearance() > 0.0 && joint.coupling_product != 0.0;
+        let open = lasting.filter(|_| rubs);
         Self { speed_rad_s: speed, wave: open.map(|wave| (wave, wave.loads(&joint))) }
     }
 }
