@@ -20,7 +20,28 @@ struct Gone {
 const POSITIONAL: &str = "SCENE";
 
 /// Every input of an earlier version that is refused with a hint.
-const GONE: &[Gone] = &[];
+const GONE: &[Gone] = &[
+    Gone {
+        command: "hbm",
+        name: "--fold",
+        instead: "hbm --branches gives the speed where the corner of soft blades becomes absent",
+    },
+    Gone {
+        command: "hbm",
+        name: "--follow",
+        instead: "hbm --smooth gives the steady states on a lining at each speed and scene",
+    },
+    Gone {
+        command: "hbm",
+        name: "--over",
+        instead: "hbm --smooth gives the steady states on a lining at each speed and scene",
+    },
+    Gone {
+        command: "hbm",
+        name: "--harmonics",
+        instead: "hbm --slip gives the exact orbit of slip, without a series",
+    },
+];
 
 /// Returns the refusal of a command line with an option or an argument of an earlier version.
 pub fn argument(error: &clap::Error, arguments: &[OsString]) -> Option<String> {

@@ -9,7 +9,7 @@
 //! | numbers of other codes | `cases` `explicit_tips` | `explicit_lining` | `event_cases` | `event_linear` | `hbm_locked` `hbm_slip` `hbm_joined` `hbm_lining` |
 //! | closed forms | `explicit` `explicit_tip_locks` | `lock_ends` | `event_cases` | `event_linear` | `theory` `hbm_laws` `hbm_whirl` |
 //! | plain stepping, or integration | `plain_stepper` `rebound` | `explicit_lining` | `event_modal` | `rebound` | `hbm_time` `hbm_excitation` |
-//! | its order | `order` `rebound` | `explicit_lining` | `order` | `explicit_tips` | `hbm_fold` |
+//! | its order | `order` `rebound` | `explicit_lining` | `order` | `explicit_tips` | |
 //! | leaps are steps | `sliding` `soft_locks` `plain_stepper` | | | | |
 //! | no pull, no energy made, mirrors | `motion_laws` | `motion_laws` | `event_laws` | `event_linear_laws` | `hbm_laws` |
 //! | sizes of the disk agree | `full_disk` | `explicit_lining` | | | |

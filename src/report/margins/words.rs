@@ -221,7 +221,9 @@ pub fn check(found: &Found, scene: &Scene) -> Option<CommandLine> {
         LimitName::WhirlOnset | LimitName::FlutterSpeed => {
             hbm.option("--speed", speed).flag("--whirl", true)
         }
-        LimitName::LockFold => hbm.option("--speed", format!("0:{reached}:2")).flag("--fold", true),
+        LimitName::LockFold => {
+            hbm.option("--speed", format!("0:{reached}:2")).flag("--branches", true)
+        }
         LimitName::LockEnergy => CommandLine::new("margins", &changed).flag("--no-search", true),
         _ => hbm.option("--speed", speed),
     })
