@@ -5,7 +5,7 @@ use rubscope::report::margins as report;
 use rubscope_solver::motion::Verdict;
 use rubscope_solver::scene::{CheckedScene, ContactLaw, Scene};
 use rubscope_solver::study::margins::{
-    Band, Limit, LimitName, Margins, PARAMETERS, Quantity, Target, Tolerance, acting,
+    Band, Limit, LimitName, Margins, Quantity, Target, acting,
 };
 
 use crate::cli_support::rubscope;
@@ -14,22 +14,8 @@ pub fn scene(name: &str, changes: &[(&str, &str)]) -> CheckedScene {
     Scene::builtin(name).unwrap().with(changes).unwrap()
 }
 
-/// Margins with all that can be in them.
+/// Margins with all that can be in them. Lasting pulses are made up: a search is slow.
 pub fn full(scene: &CheckedScene) -> Margins {
-    let mut margins = unsampled(scene);
-    let known: Vec<String> = PARAMETERS
-        .iter()
-        .filter(|parameter| ["clearance", "casing.damping_ratio"].contains(&parameter.path))
-        .filter(|parameter| parameter.of(scene) != 0.0)
-        .map(|parameter| format!("{}=10", parameter.path))
-        .collect();
-    margins.spread(Tolerance::parse_all(&known, scene).unwrap(), &|| {});
-    margins
-}
-
-/// The same without samples, which take a second. Lasting pulses are made up: a search
-/// is slow.
-pub fn unsampled(scene: &CheckedScene) -> Margins {
     let mut margins = Margins::of(scene);
     let touching = margins.limit(LimitName::TouchingPulse).unwrap().clone();
     let pulse = touching.value.filter(|value| *value != 0.0).unwrap_or(1e3);
@@ -147,7 +133,7 @@ fn the_text_names_the_knobs_that_matter() {
 }
 
 #[test]
-fn bands_spread_target_and_cost_are_told() {
+fn bands_target_and_cost_are_told() {
     let margins = full(&scene("paper-nd3", &[]));
     let text = text(&margins);
     assert!(text.contains("lasting_pulse (bilateral law): every larger pulse that was tried"));
@@ -157,26 +143,6 @@ fn bands_spread_target_and_cost_are_told() {
         "{text}"
     );
     assert!(text.contains("379.5 kN   the largest tried  inside       bounce, locked"), "{text}");
-    // The spread is the second row of this name.
-    let row = text.lines().find(|line| line.starts_with("omega_lock [rad/s] ")).unwrap();
-    let spread = margins.limit(LimitName::OmegaLock).unwrap().spread.unwrap();
-    let sampled = spread.sampled.unwrap();
-    let is = [
-        spread.linear_sd.unwrap(),
-        spread.linear_worst.unwrap(),
-        sampled.sd,
-        sampled.low,
-        sampled.high,
-    ];
-    for (said, is) in cells(row)[1..].iter().zip(is) {
-        close(said.parse().unwrap(), is, 5.1e-4);
-    }
-    assert!(text.contains("Spread with clearance within 10 %, casing.damping_ratio within 10 %"));
-    assert!(text.contains("(10,000 samples, seed 2010):"), "{text}");
-    assert!(text.contains("lasting_pulse: not sampled: each sample is a search."), "{text}");
-    // A limit that does not move has no spread, not even round-off.
-    let still = text.lines().find(|line| line.starts_with("omega_c [rad/s] ")).unwrap();
-    assert_eq!(cells(still)[1..4], ["0"; 3]);
     assert!(
         text.contains("casing.damping_ratio = 0.0636674 puts omega_lock at 450 rad/s (0.05 gives")
     );

@@ -181,10 +181,6 @@ fn reports_say_where_they_come_from() {
         &[
             "margins",
             "--no-search",
-            "--tolerance",
-            "clearance=5",
-            "--tolerance",
-            "casing.damping_ratio=1",
             "--target",
             "omega_lock=350",
             "--by",

@@ -29,7 +29,7 @@ fn a_target_is_reached_and_the_harmonic_balance_says_so() {
 
 #[test]
 fn the_answer_does_not_depend_on_threads() {
-    let arguments = ["margins", "--json", "--tolerance", "clearance=5", "--end", "0.02"];
+    let arguments = ["margins", "--json", "--end", "0.02"];
     let answers = ["1", "3"].map(|threads| {
         let mut program = assert_cmd::cargo::cargo_bin_cmd!("rubscope");
         let out = program.args(arguments).env("RAYON_NUM_THREADS", threads).output().unwrap();
@@ -98,21 +98,6 @@ fn what_has_no_meaning_is_refused_in_one_line() {
             "rubscope: parameter solver.kind: allowed is one of clearance,",
         ),
         (&["--target", "omega_c=1"], "rubscope: "),
-        (&["--tolerance", "clearance"], "rubscope: tolerance clearance: allowed is PATH=PERCENT"),
-        (
-            &["--tolerance", "clearance=0"],
-            "rubscope: tolerance clearance=0: allowed is PATH=PERCENT",
-        ),
-        (&["--tolerance", "clearance=NaN"], "rubscope: tolerance clearance=NaN: allowed is"),
-        (&["--tolerance", "x=1"], "rubscope: tolerance x: allowed is one of clearance,"),
-        (
-            &["--tolerance", "operation.speed_ramp_rad_s2=1"],
-            "rubscope: tolerance operation.speed_ramp_rad_s2: the scene has 0",
-        ),
-        (
-            &["--tolerance", "clearance=1", "--tolerance", "clearance=2"],
-            "rubscope: tolerance clearance is given twice",
-        ),
         (&["--out", "a.txt"], "rubscope: --out = a.txt"),
     ] {
         let told = refusal(&[&["margins", "--no-search"], arguments].concat());

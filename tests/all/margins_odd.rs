@@ -1,15 +1,15 @@
-//! Margins of scenes that others leave out: soft blades, a ramp, pulses that pull, a
-//! rotor that turns backward, and tolerances that depend on each other.
+//! Margins of scenes that others leave out: soft blades, a ramp, pulses that pull, and
+//! a rotor that turns backward.
 
 use rubscope_solver::harmonic::{lock_fold_speed, lock_loads};
 use rubscope_solver::motion::{Motion, run_to_verdict, to_the_end};
 use rubscope_solver::scene::{CheckedScene, ContactLaw};
 use rubscope_solver::study::margins::{
-    CLEARANCE, LimitName, Margins, SAMPLES, Side, Target, Tolerance, first_touch, grazing_pulse,
+    CLEARANCE, LimitName, Margins, Side, Target, first_touch, grazing_pulse,
     lasting_pulse,
 };
 
-use crate::cli_margins::{scene, text, unsampled};
+use crate::cli_margins::{scene, text, full};
 use crate::cli_support::rubscope;
 use crate::margins::{close, differenced, of};
 
@@ -26,13 +26,6 @@ fn soft(stiffness: &str, speed: &str) -> CheckedScene {
             ("operation.speed_rad_s", speed),
         ],
     )
-}
-
-fn spread(scene: &CheckedScene, texts: &[&str]) -> Margins {
-    let texts: Vec<String> = texts.iter().map(ToString::to_string).collect();
-    let mut margins = Margins::of(scene);
-    margins.spread(Tolerance::parse_all(&texts, scene).unwrap(), &|| {});
-    margins
 }
 
 #[test]
@@ -245,60 +238,6 @@ fn targets_far_away_and_at_zero() {
 }
 
 #[test]
-fn tolerances_have_a_largest() {
-    let scene = scene("paper-nd3", &[]);
-    let read = |text: &str| Tolerance::parse_all(&[text.to_string()], &scene);
-    assert_eq!(read("clearance=50").unwrap()[0].percent, 50.0);
-    assert!(read("clearance=50.1").is_err() && read("clearance=-1").is_err());
-}
-
-#[test]
-fn spreads_hold_the_middle_of_the_samples_and_are_never_below_zero() {
-    // The limits of a rotor that turns backward: torque and push are below zero.
-    let scene = scene("paper-nd3", &[("operation.speed_rad_s", "-500")]);
-    let mass = "casing.modal_mass_kg=1";
-    let stiffness = "casing.modal_stiffness_n_per_m=1";
-    let margins = spread(&scene, &[mass, stiffness]);
-    for limit in &margins.limits {
-        let (Some(value), Some(spread)) = (limit.value, limit.spread) else { continue };
-        let (sd, worst) = (spread.linear_sd.unwrap(), spread.linear_worst.unwrap());
-        assert!(sd >= 0.0 && worst >= sd, "{}: {sd} {worst}", limit.name);
-        assert!(limit.name != LimitName::Torque || value < 0.0);
-    }
-    // Equal and opposite: the worst is where both are against it.
-    let critical = margins.limit(LimitName::OmegaC).unwrap();
-    let worst = critical.spread.unwrap().linear_worst;
-    close(worst, 0.01 * critical.value.unwrap(), 1e-12, "worst");
-    // Of one parameter the samples are even, and 95 % of them are in 95 % of the range.
-    let margins = spread(&scene, &[stiffness]);
-    let critical = margins.limit(LimitName::OmegaC).unwrap();
-    let (value, sampled) = (critical.value.unwrap(), critical.spread.unwrap().sampled.unwrap());
-    for (end, part) in [(sampled.low, -0.95), (sampled.high, 0.95)] {
-        close(Some((end / value - 1.0) / 0.005), part, 0.015, "end of the range");
-    }
-}
-
-#[test]
-fn the_clearance_and_its_lengths_vary_together_in_any_order() {
-    let scene = scene("paper-nd3", &[]);
-    // Each length within a tenth of the clearance, and the clearance by itself.
-    let each = ["clearance=10", "bladed_disk.blade_length_m=0.002", "casing.radius_m=0.002"];
-    for turn in 0..3 {
-        let texts = [each[turn], each[(turn + 1) % 3], each[(turn + 2) % 3]];
-        let margins = spread(&scene, &texts);
-        let limit = margins.limit(LimitName::LockEnergy).unwrap();
-        let spread = limit.spread.unwrap();
-        let sampled = spread.sampled.unwrap();
-        assert_eq!((sampled.samples, sampled.missing), (SAMPLES, 0));
-        // The energy goes with the square of the clearance.
-        let part = (0.1_f64.powi(2) + 2.0 * (0.002e-2 * 0.5 / 1e-4_f64).powi(2)) / 3.0;
-        close(spread.linear_sd.map(|sd| sd / limit.value.unwrap()), 2.0 * part.sqrt(), 1e-3, "sd");
-        let error = sampled.sd / spread.linear_sd.unwrap() - 1.0;
-        assert!(error.abs() < 0.03, "{texts:?}: {error}");
-    }
-}
-
-#[test]
 fn a_pulse_is_below_at_or_beyond_its_limit() {
     let base = scene("slip", &[]);
     let value = of(&base, LimitName::TouchingPulse).value.unwrap();
@@ -317,10 +256,6 @@ fn the_command_has_every_option_again() {
         "omega_c=300",
         "--by",
         "casing.modal_mass_kg",
-        "--tolerance",
-        "clearance=1",
-        "--tolerance",
-        "casing.damping_ratio=2",
         "--no-search",
         "--json",
     ];
@@ -346,7 +281,7 @@ fn the_command_of_the_end_of_the_branch_goes_up_to_it() {
 
 #[test]
 fn many_bands_are_cut_and_counted() {
-    let mut margins = unsampled(&scene("paper-nd3", &[]));
+    let mut margins = full(&scene("paper-nd3", &[]));
     let limit = margins.limits.iter_mut().find(|limit| !limit.bands.is_empty()).unwrap();
     let first = limit.bands[0].clone();
     limit.bands = (0..13).map(|_| first.clone()).collect();
@@ -357,7 +292,7 @@ fn many_bands_are_cut_and_counted() {
 
 #[test]
 fn rows_and_titles_of_scenes_without_a_lock_or_that_turn_backward() {
-    let told = text(&unsampled(&scene("paper-nd3", &[("operation.speed_rad_s", "-430")])));
+    let told = text(&full(&scene("paper-nd3", &[("operation.speed_rad_s", "-430")])));
     assert!(told.contains("\nSpeeds; the scene has 430 rad/s:\nlimit "), "{told}");
     assert!(told.contains("\nThe locked motion at -430 rad/s:\nload "), "{told}");
     // What was not found has no list of bands, but its reason in its row.

@@ -10,11 +10,10 @@ use rubscope_solver::scene::BUILTIN;
 use crate::pty_support::{Start, Terminal};
 
 /// Every command that computes; SCENE is its scene.
-const COMMANDS: [&str; 9] = [
+const COMMANDS: [&str; 8] = [
     "run SCENE --out h.csv",
     "hbm SCENE --speed 0:1000:2000",
     "margins SCENE",
-    "margins SCENE --no-search --tolerance casing.modal_mass_kg=5",
     "margins SCENE --no-search --target touching_pulse=1e4 --by casing.damping_ratio",
     "precision SCENE --repeat 1",
     "figures SCENE --out .",
@@ -82,7 +81,7 @@ fn what_takes_long_shows_that_it_is_alive() {
 #[test]
 fn the_line_is_gone_when_the_result_is_printed() {
     let folder = tempfile::tempdir().unwrap();
-    let command = "margins --no-search --tolerance casing.modal_mass_kg=5";
+    let command = "margins --no-search";
     let mut terminal = start(command, folder.path());
     assert_eq!(terminal.wait(), 0);
     assert!(!is_seen(terminal.parser.screen()), "{}", terminal.text());

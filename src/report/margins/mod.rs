@@ -56,7 +56,6 @@ pub fn write(margins: &Margins, out: &mut dyn Write) -> Result<()> {
         rows::bands(limit, out)?;
     }
     rows::notes(margins, out)?;
-    rows::spread(margins, out)?;
     rows::target(margins, out)?;
     writeln!(out)?;
     tell(&words::cost(margins), out)

@@ -1,12 +1,12 @@
 //! The text of margins: a row for each limit (speeds, pulses, the loads of the lock), then the
-//! bands of lasting pulses, the spread by tolerances, and the target.
+//! bands of lasting pulses, and the target.
 
 use std::io::{Result, Write};
 
 use super::{LimitRow, WIDTH, tell, words};
 use crate::report::number;
 use crate::report::symbols::symbol;
-use crate::report::table::{Table, TableCell};
+use crate::report::table::Table;
 use rubscope_solver::study::margins::{Limit, Margins, Quantity};
 
 /// Between two columns.
@@ -156,24 +156,6 @@ pub(super) fn notes(margins: &Margins, out: &mut dyn Write) -> Result<()> {
         writeln!(out)?;
     }
     said.iter().try_for_each(|(note, names)| tell(&format!("{names}: {note}."), out))
-}
-
-/// How far limits spread with the tolerances given.
-pub(super) fn spread(margins: &Margins, out: &mut dyn Write) -> Result<()> {
-    if margins.tolerances.is_empty() {
-        return Ok(());
-    }
-    writeln!(out)?;
-    tell(&words::tolerances(margins), out)?;
-    let mut table = Table::new(["limit"].into_iter().chain(words::SPREAD));
-    for limit in &margins.limits {
-        if let Some((unit, told)) = words::spread(limit) {
-            let name = [format!("{} [{unit}]", limit.name)];
-            table.push(name.into_iter().chain(told).map(TableCell::from).collect());
-        }
-    }
-    table.write_text(out)?;
-    words::sampling(margins).iter().try_for_each(|line| tell(line, out))
 }
 
 /// The parameter that puts a limit where it is wanted, and the command that shows it.

@@ -2,11 +2,10 @@
 
 use crate::report::CommandLine;
 use crate::report::line::capital;
-use crate::report::number::SiScale;
-use crate::report::number::{count, grouped, rounded, short, speed, time, with_unit};
+use crate::report::number::{count, rounded, short, speed, time, with_unit};
 use rubscope_solver::scene::{ContactLaw, Scene, SolverKind};
 use rubscope_solver::study::margins::{
-    Band, Found, Limit, LimitName, Margins, Quantity, parameter,
+    Band, Found, LimitName, Margins, Quantity, parameter,
 };
 
 /// A margin from which on it is told as a factor.
@@ -73,78 +72,6 @@ pub fn note(margins: &Margins) -> Option<String> {
     let modes = margins.scene.modes_note().map(|note| format!("{}.", capital(&note)));
     let notes: Vec<String> = modes.into_iter().chain(tuned).collect();
     (!notes.is_empty()).then(|| notes.join(" "))
-}
-
-/// How well parameters are known, and what that was tried with.
-#[must_use]
-pub fn tolerances(margins: &Margins) -> String {
-    let known = margins.tolerances.iter();
-    let known = known.map(|one| format!("{} within {} %", one.path, short(one.percent)));
-    let known: Vec<String> = known.collect();
-    let sampled = margins.limits.iter().find_map(|limit| limit.spread?.sampled);
-    let tried = sampled.map_or_else(String::new, |sampled| {
-        let samples = count(sampled.samples as u64, "sample");
-        format!(" ({samples}, seed {})", sampled.seed)
-    });
-    format!("Spread with {}{tried}:", known.join(", "))
-}
-
-/// Heads of what `spread` gives, after the name of the limit.
-pub const SPREAD: [&str; 5] = ["sd, linear", "worst, linear", "sd, sampled", "95 % from", "to"];
-
-/// The spread of a limit, in a unit with its prefix: by the first derivatives the
-/// standard deviation and the worst case, by samples the standard deviation and the
-/// middle 95 %; a dash where there is none.
-#[must_use]
-pub fn spread(limit: &Limit) -> Option<(String, [String; 5])> {
-    let (value, spread) = (limit.value?, limit.spread?);
-    let unit = limit.quantity.unit();
-    let scale = SiScale::before(unit, value);
-    let told = |x: Option<f64>, digits| {
-        x.map_or_else(|| "-".to_string(), |x| short(rounded(x / scale.factor, digits)))
-    };
-    let sampled = spread.sampled;
-    let numbers = [
-        told(spread.linear_sd, 4),
-        told(spread.linear_worst, 4),
-        told(sampled.map(|sampled| without_round_off(sampled.sd, sampled.mean)), 4),
-        told(sampled.map(|sampled| sampled.low), 5),
-        told(sampled.map(|sampled| sampled.high), 5),
-    ];
-    Some((format!("{}{unit}", scale.in_ascii()), numbers))
-}
-
-/// A standard deviation; zero where it is only round-off of the mean.
-fn without_round_off(sd: f64, mean: f64) -> f64 {
-    if sd > ROUND_OFF * mean.abs() { sd } else { 0.0 }
-}
-
-/// Part of a mean that summing up samples may be wrong by: thousands of units in the
-/// last place.
-const ROUND_OFF: f64 = 1e-12;
-
-/// What is to be said of samples besides their numbers, of all limits of which it is
-/// the same.
-#[must_use]
-pub fn sampling(margins: &Margins) -> Vec<String> {
-    let mut said: Vec<(String, String)> = Vec::new();
-    for limit in &margins.limits {
-        let Some(spread) = limit.spread else { continue };
-        let what = match spread.sampled {
-            None if limit.contact.is_some() => "not sampled: each sample is a search".to_string(),
-            None => "no sample has one".to_string(),
-            Some(sampled) if sampled.missing > 0 => {
-                let all = count(sampled.samples as u64, "sample");
-                format!("{} of {all} have none", grouped(sampled.missing as u64))
-            }
-            Some(_) => continue,
-        };
-        match said.iter_mut().find(|(_, known)| *known == what) {
-            Some((names, _)) => names.push_str(&format!(", {}", limit.name)),
-            None => said.push((limit.name.to_string(), what)),
-        }
-    }
-    said.iter().map(|(names, what)| format!("{names}: {what}.")).collect()
 }
 
 /// The parameter that puts a limit where it is wanted, in a sentence.

@@ -89,7 +89,7 @@ fn every_field_of_the_reports_is_in_the_documents() {
             "| field of `rubscope.margins/1` | what it is |",
             vec![
                 "margins --no-search --nd 11 --model full --json",
-                "margins --end 0.02 --json --tolerance clearance=5 --target omega_c=300 --by casing.modal_mass_kg",
+                "margins --end 0.02 --json --target omega_c=300 --by casing.modal_mass_kg",
             ],
         ),
         (

@@ -6,7 +6,6 @@ use strum::{AsRefStr, Display, EnumIter, EnumString, VariantNames};
 
 use super::lasting::Band;
 use super::parameters::is_length;
-use super::tolerance::Spread;
 use crate::scene::ContactLaw;
 
 /// Which limit.
@@ -134,9 +133,6 @@ pub struct Limit {
     /// What else is to be said, such as why there is no value.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
-    /// How far it spreads with the tolerances given.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub spread: Option<Spread>,
 }
 
 /// The sensitivities of one limit, by the path of the parameter; none where there is
@@ -195,7 +191,6 @@ impl Limit {
             sensitivities: Sensitivities::default(),
             bands: Vec::new(),
             note: None,
-            spread: None,
         }
     }
 

@@ -1,8 +1,7 @@
 //! How far a scene is from every limit, and which of its parameters moves a limit
 //! most: closed forms (`closed`), the smallest pulse that touches (`touching`) and
-//! the smallest that lasts (`lasting`), the value of a parameter that puts a limit
-//! where it is wanted (`target`), and how far limits spread where parameters are not
-//! known better (`tolerance`). docs/theory.md, section 9.
+//! the smallest that lasts (`lasting`), and the value of a parameter that puts a limit
+//! where it is wanted (`target`). docs/theory.md, section 9.
 //!
 //! A *sensitivity* is `d ln(limit)/d ln(parameter)`: the change of the limit in per
 //! cent by one per cent of the parameter.
@@ -12,7 +11,6 @@ mod lasting;
 mod limit;
 mod parameters;
 mod target;
-mod tolerance;
 mod touching;
 
 use std::time::Instant;
@@ -27,7 +25,6 @@ pub use lasting::{Band, lasting_pulse};
 pub use limit::{Limit, LimitName, Quantity, Sensitivities, Side};
 pub use parameters::{CLEARANCE, PARAMETERS, Parameter, acting, parameter};
 pub use target::{Found, Target, TargetError};
-pub use tolerance::{SAMPLES, SEED, Sampled, Spread, Tolerance, ToleranceError};
 pub use touching::{FirstTouch, first_touch, grazing_pulse};
 
 /// Every limit of one scene.
@@ -52,9 +49,6 @@ pub struct Margins {
     pub note: Option<String>,
     /// Its limits, in the order in which they are shown.
     pub limits: Vec<Limit>,
-    /// The parameters that are known only so well, if any.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub tolerances: Vec<Tolerance>,
     /// The parameter that puts a limit where it is wanted, if asked.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub target: Option<Found>,
@@ -84,7 +78,7 @@ impl Margins {
         limits.insert(place.unwrap_or(limits.len()), touching::limit(scene));
         let cost = Cost { wall_s: start.elapsed().as_secs_f64(), ..Cost::default() };
         let (scene, note) = (scene.clone(), scene.tuned_note());
-        Self { scene, note, limits, tolerances: Vec::new(), target: None, cost }
+        Self { scene, note, limits, target: None, cost }
     }
 
     /// The laws under which lasting pulses are searched: that of the scene first.

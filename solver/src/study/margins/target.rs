@@ -43,7 +43,7 @@ pub enum TargetError {
 }
 
 /// The paths of all parameters.
-pub(super) fn paths() -> String {
+fn paths() -> String {
     PARAMETERS.iter().map(|parameter| parameter.path).collect::<Vec<_>>().join(", ")
 }
 

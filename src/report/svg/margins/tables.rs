@@ -1,5 +1,4 @@
-//! The small tables of the page: the loads of the lock, the spread by tolerances, the
-//! target, and the parameters of the scene.
+//! The small tables of the page: the loads of the lock, the target, and the parameters of the scene.
 
 use plotters::style::text_anchor::HPos;
 
@@ -16,9 +15,6 @@ use rubscope_solver::study::margins::Margins;
 
 /// Columns of the loads: words, right end of the value, way it acts, what moves it.
 const LOADS: [i32; 4] = [76, 440, 450, 520];
-/// Right ends of the columns of the spread.
-const SPREAD: [i32; 5] = [300, 430, 560, 690, 815];
-
 /// The loads of the locked motion.
 pub(super) fn loads(margins: &Margins, page: &mut Page<'_, '_>) -> Drawn<()> {
     let loads = LimitRow::all(margins, &[]).into_iter().filter(LimitRow::is_load);
@@ -44,32 +40,6 @@ pub(super) fn loads(margins: &Margins, page: &mut Page<'_, '_>) -> Drawn<()> {
             write_at(area, &in_print(&told), (x, y), SMALL)?;
         }
         page.y += LINE + 2;
-    }
-    Ok(())
-}
-
-/// How far limits spread.
-pub(super) fn spread(margins: &Margins, page: &mut Page<'_, '_>) -> Drawn<()> {
-    if margins.tolerances.is_empty() {
-        return Ok(());
-    }
-    page.rule()?;
-    page.lines(&typed(&words::tolerances(margins)), TEXT, 20)?;
-    for (head, x) in words::SPREAD.iter().zip(SPREAD) {
-        write_from(page.area, head, (x, page.y), SMALL, HPos::Right)?;
-    }
-    page.y += LINE + 2;
-    for limit in &margins.limits {
-        let Some((unit, told)) = words::spread(limit) else { continue };
-        let name = format!("{} [{}]", limit.name.symbol(), unit.replace('u', "µ"));
-        write_at(page.area, &name, (LEFT, page.y), SMALL)?;
-        for (text, x) in told.iter().zip(SPREAD) {
-            write_from(page.area, &printed(text), (x, page.y), SMALL, HPos::Right)?;
-        }
-        page.y += LINE;
-    }
-    for line in words::sampling(margins) {
-        page.lines(&typed(&line), SMALL, LINE)?;
     }
     Ok(())
 }
