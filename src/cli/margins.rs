@@ -7,7 +7,7 @@ use clap::Args;
 
 use super::options::SceneOptions;
 use super::status::{self, Refusal, Status};
-use super::{Done, gone, output, sign};
+use super::{Done, gone, output};
 use crate::report::{CommandLine, Provenance, json, margins as report, svg};
 use rubscope_solver::motion::to_the_end;
 use rubscope_solver::scene::CheckedScene;
@@ -33,9 +33,6 @@ pub struct MarginsCommand {
     /// The parameter for --target, such as casing.damping_ratio
     #[arg(long, value_name = "PATH", requires = "target")]
     by: Option<String>,
-    /// Leave out the smallest lasting pulses, which take many runs
-    #[arg(long)]
-    no_search: bool,
 }
 
 impl MarginsCommand {
@@ -57,12 +54,6 @@ impl MarginsCommand {
         };
         status::say_noted();
         let mut margins = Margins::of(&scene);
-        if !self.no_search {
-            for law in margins.laws() {
-                sign::doing(format!("smallest lasting pulse, {law} law"));
-                margins.search(law, &to_the_end);
-            }
-        }
         margins.target = target.and_then(|target| target.solve(&scene, &to_the_end));
         self.deliver(&margins, &scene, format, out)?;
         Ok(Status::Done)
@@ -100,6 +91,5 @@ impl MarginsCommand {
         CommandLine::new("margins", scene)
             .optional("--target", self.target.as_ref())
             .optional("--by", self.by.as_ref())
-            .flag("--no-search", self.no_search)
     }
 }

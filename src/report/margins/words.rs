@@ -3,10 +3,8 @@
 use crate::report::CommandLine;
 use crate::report::line::capital;
 use crate::report::number::{count, rounded, short, speed, time, with_unit};
-use rubscope_solver::scene::{ContactLaw, Scene, SolverKind};
-use rubscope_solver::study::margins::{
-    Band, Found, LimitName, Margins, Quantity, parameter,
-};
+use rubscope_solver::scene::Scene;
+use rubscope_solver::study::margins::{Found, LimitName, Margins, Quantity, parameter};
 
 /// A margin from which on it is told as a factor.
 const FACTORS: f64 = 9.0;
@@ -26,16 +24,6 @@ pub fn margin(part: f64) -> String {
     }
     let percent = 100.0 * part;
     if percent.abs() < 99.95 { format!("{percent:+.1} %") } else { format!("{percent:+.0} %") }
-}
-
-/// Where a pulse is beside a band: inside it, or how far from its beginning.
-#[must_use]
-pub fn place(band: &Band, pulse: Option<f64>) -> String {
-    match pulse {
-        Some(pulse) if band.holds(pulse) => "inside".to_string(),
-        Some(pulse) => margin(pulse / band.from_n - 1.0),
-        None => String::new(),
-    }
 }
 
 /// A change in per cent, of one per cent of a parameter.
@@ -116,17 +104,10 @@ pub fn target(found: &Found, margins: &Margins) -> String {
 pub fn check(found: &Found, scene: &Scene) -> Option<CommandLine> {
     let (to, reached) = found.to.zip(found.reached)?;
     let mut changed = parameter(found.by)?.set(scene, to).ok()?;
-    let law = found.name.law(scene.solver.contact);
     if found.name.quantity() == Quantity::Pulse {
         changed.operation.pulse_n = reached * BEYOND;
-        if let Some(law) = law {
-            changed.solver.contact = law;
-            // It knows both laws; the event solver knows one.
-            changed.solver.kind = SolverKind::Explicit;
-        }
-        // As the limit was sought, where the event solver knows the scene.
-        let by_events = law != Some(ContactLaw::Bilateral);
-        if let Some(checked) = changed.clone().checked().ok().filter(|_| by_events)
+        // The touching pulse is exact, and so is the event solver where it knows the scene.
+        if let Ok(checked) = changed.clone().checked()
             && let Ok(reference) = checked.as_reference().checked()
         {
             changed = reference.into_scene();
@@ -149,7 +130,7 @@ pub fn check(found: &Found, scene: &Scene) -> Option<CommandLine> {
             hbm.option("--speed", speed).flag("--whirl", true)
         }
         LimitName::LockFold => hbm.option("--speed", format!("0:{reached}:2")).flag("--fold", true),
-        LimitName::LockEnergy => CommandLine::new("margins", &changed).flag("--no-search", true),
+        LimitName::LockEnergy => CommandLine::new("margins", &changed),
         _ => hbm.option("--speed", speed),
     })
 }
@@ -161,15 +142,7 @@ const BEYOND: f64 = 1.001;
 /// What the answer took.
 #[must_use]
 pub fn cost(margins: &Margins) -> String {
-    let cost = &margins.cost;
-    let wall = |seconds: f64| time(rounded(seconds, 2));
-    let search = match cost.search_wall_s {
-        Some(seconds) => {
-            format!("lasting pulses {}, {}", wall(seconds), count(cost.search_runs, "run"))
-        }
-        None => "lasting pulses not searched".to_string(),
-    };
-    format!("Cost: closed forms and the touching pulse {}; {search}.", wall(cost.wall_s))
+    format!("Computed in {}.", time(rounded(margins.cost.wall_s, 2)))
 }
 
 #[cfg(test)]
@@ -199,38 +172,6 @@ mod tests {
             (-1234.56, "-1235 %"),
         ] {
             assert_eq!(change(by), told);
-        }
-    }
-
-    #[test]
-    fn a_pulse_is_shown_under_its_law_and_by_its_solver() {
-        let events = "--set solver.kind=event";
-        let unilateral = "--set solver.contact=unilateral";
-        let bilateral = "--set solver.contact=bilateral";
-        // The first scene is of the explicit solver and the bilateral law, the other
-        // of the event solver and the unilateral law.
-        for (scene, name, has, has_not) in [
-            ("paper-nd3", LimitName::TouchingPulse, &[events, unilateral][..], &[bilateral][..]),
-            ("paper-nd3", LimitName::LastingPulse, &[], &[events, unilateral]),
-            ("paper-nd3", LimitName::LastingPulseUnilateral, &[events, unilateral], &[]),
-            ("slip", LimitName::LastingPulse, &[], &[bilateral, "solver.kind"]),
-            ("slip", LimitName::LastingPulseBilateral, &[bilateral], &[unilateral]),
-        ] {
-            let found = Found {
-                name,
-                wanted: 1e5,
-                by: "casing.damping_ratio",
-                from: 0.01,
-                to: Some(0.02),
-                reached: Some(1e5),
-                met: None,
-                tried: [0.01, 0.02],
-            };
-            let told = check(&found, &Scene::builtin(scene).unwrap()).unwrap().to_string();
-            assert!(told.starts_with(&format!("rubscope run {scene} ")), "{told}");
-            assert!(told.contains("casing.damping_ratio=0.02"), "{told}");
-            assert!(has.iter().all(|words| told.contains(words)), "{name}: {told}");
-            assert!(!has_not.iter().any(|words| told.contains(words)), "{name}: {told}");
         }
     }
 }
