@@ -41,7 +41,24 @@ const GONE: &[Gone] = &[
         name: "--harmonics",
         instead: "hbm --slip gives the exact orbit of slip, without a series",
     },
+    Gone {
+        command: "margins",
+        name: "--tolerance",
+        instead: "a tolerance moves a limit by its sensitivity times that many per cent; rubscope \
+                  margins --json has every sensitivity",
+    },
+    Gone {
+        command: "margins",
+        name: "--no-search",
+        instead: "nothing is searched any more, so leave it out",
+    },
+    Gone { command: "margins", name: "lasting_pulse", instead: PULSES },
+    Gone { command: "margins", name: "lasting_pulse_unilateral", instead: PULSES },
+    Gone { command: "margins", name: "lasting_pulse_bilateral", instead: PULSES },
 ];
+
+/// What answers which pulses last.
+const PULSES: &str = "rubscope map --pulse FROM:TO:COUNT shows which pulses last";
 
 /// Returns the refusal of a command line with an option or an argument of an earlier version.
 pub fn argument(error: &clap::Error, arguments: &[OsString]) -> Option<String> {
