@@ -7,7 +7,7 @@ use clap::Args;
 
 use super::options::SceneOptions;
 use super::status::{self, Refusal, Status};
-use super::{Done, output, sign};
+use super::{Done, gone, output, sign};
 use crate::report::{CommandLine, Provenance, json, margins as report, svg};
 use rubscope_solver::motion::to_the_end;
 use rubscope_solver::scene::CheckedScene;
@@ -50,7 +50,10 @@ impl MarginsCommand {
         let scene = self.options.scene()?;
         let target = match (&self.target, &self.by) {
             (Some(target), Some(by)) => {
-                let refused = |error: TargetError| Refusal::because(error.to_string());
+                let name = target.split('=').next().unwrap_or_default().trim();
+                let refused = |error: TargetError| {
+                    Refusal::because(gone::name("margins", name).unwrap_or(error.to_string()))
+                };
                 Some(Target::parse(target, by).map_err(refused)?)
             }
             _ => None,
