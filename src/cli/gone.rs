@@ -20,7 +20,11 @@ struct Gone {
 const POSITIONAL: &str = "SCENE";
 
 /// Every input of an earlier version that is refused with a hint.
-const GONE: &[Gone] = &[];
+const GONE: &[Gone] = &[Gone {
+    command: "map",
+    name: "--resume",
+    instead: "make a long map in shares, map --shard K/COUNT; one that was interrupted runs again",
+}];
 
 /// Returns the refusal of a command line with an option or an argument of an earlier version.
 pub fn argument(error: &clap::Error, arguments: &[OsString]) -> Option<String> {
