@@ -45,7 +45,6 @@ mod map_adaptive;
 mod map_cli;
 mod map_flags;
 mod map_hostile;
-mod map_locks;
 mod map_parts;
 mod map_signals;
 mod map_zone;
