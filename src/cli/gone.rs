@@ -21,27 +21,26 @@ const POSITIONAL: &str = "SCENE";
 
 /// Every input of an earlier version that is refused with a hint.
 const GONE: &[Gone] = &[
-    Gone {
-        command: "hbm",
-        name: "--fold",
-        instead: "hbm --branches gives the speed where the corner of soft blades becomes absent",
-    },
-    Gone {
-        command: "hbm",
-        name: "--follow",
-        instead: "hbm --smooth gives the steady states on a lining at each speed and scene",
-    },
-    Gone {
-        command: "hbm",
-        name: "--over",
-        instead: "hbm --smooth gives the steady states on a lining at each speed and scene",
-    },
-    Gone {
-        command: "hbm",
-        name: "--harmonics",
-        instead: "hbm --slip gives the exact orbit of slip, without a series",
-    },
+    gone("hbm", "--fold", "hbm --branches says from which speed soft blades have no corner"),
+    gone("hbm", "--follow", STATES),
+    gone("hbm", "--over", STATES),
+    gone("hbm", "--harmonics", "hbm --slip gives the exact orbit of slip, without a series"),
+    gone("margins", "--tolerance", "margins --json has the sensitivity of every limit"),
+    gone("margins", "lasting_pulse", PULSES),
+    gone("margins", "lasting_pulse_unilateral", PULSES),
+    gone("margins", "lasting_pulse_bilateral", PULSES),
+    gone("map", "--resume", "map --shard K/COUNT computes a share; an interrupted one runs again"),
 ];
+
+/// What answers `hbm --follow`.
+const STATES: &str = "hbm --smooth gives the steady states on a lining at each speed";
+
+/// What answers which pulses last.
+const PULSES: &str = "map --pulse FROM:TO:COUNT shows which pulses last";
+
+const fn gone(command: &'static str, name: &'static str, instead: &'static str) -> Gone {
+    Gone { command, name, instead }
+}
 
 /// Returns the refusal of a command line with an option or an argument of an earlier version.
 pub fn argument(error: &clap::Error, arguments: &[OsString]) -> Option<String> {

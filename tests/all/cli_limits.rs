@@ -224,7 +224,7 @@ fn an_end_below_one_step_is_refused_and_one_step_is_not() {
         "run --end 1e-8 --step 1e-7",
         "run rub --end 1e-8 --step 1e-7",
         "map --speed 400:500:2 --pulse 1e4:2e4:2 --end 1e-8 --step 1e-7",
-        "margins --no-search --end 1e-8 --step 1e-7",
+        "margins --end 1e-8 --step 1e-7",
     ];
     for line in lines {
         let said = refusal(&line.split_whitespace().collect::<Vec<_>>());

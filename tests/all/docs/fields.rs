@@ -88,8 +88,8 @@ fn every_field_of_the_reports_is_in_the_documents() {
         (
             "| field of `rubscope.margins/1` | what it is |",
             vec![
-                "margins --no-search --nd 11 --model full --json",
-                "margins --end 0.02 --json --tolerance clearance=5 --target omega_c=300 --by casing.modal_mass_kg",
+                "margins --nd 11 --model full --json",
+                "margins --end 0.02 --json --target omega_c=300 --by casing.modal_mass_kg",
             ],
         ),
         (
@@ -151,7 +151,7 @@ fn every_column_of_the_files_is_in_the_documents() {
     let header = "| column of a map | what it is |";
     let told_map = told(&document, header);
     assert_eq!(told_map, &(&map - &axes) | &names(&["the keys of the two axes"]), "{header}");
-    let margins = columns_of("margins --no-search", "a.csv");
+    let margins = columns_of("margins", "a.csv");
     let paths: BTreeSet<String> =
         margins.iter().filter(|name| name.contains('.') || *name == CLEARANCE).cloned().collect();
     let header = "| column of the margins | what it is |";
