@@ -130,7 +130,7 @@ pub fn check(found: &Found, scene: &Scene) -> Option<CommandLine> {
             hbm.option("--speed", speed).flag("--whirl", true)
         }
         LimitName::LockFold => {
-            hbm.option("--speed", format!("0:{reached}:2")).flag("--branches", true)
+            hbm.option("--speed", format!("0:{}:2", 2.0 * reached)).flag("--branches", true)
         }
         LimitName::LockEnergy => CommandLine::new("margins", &changed),
         _ => hbm.option("--speed", speed),
