@@ -35,6 +35,16 @@ const GONE: &[Gone] = &[
     Gone { command: "margins", name: "lasting_pulse", instead: PULSES },
     Gone { command: "margins", name: "lasting_pulse_unilateral", instead: PULSES },
     Gone { command: "margins", name: "lasting_pulse_bilateral", instead: PULSES },
+    Gone {
+        command: "margins",
+        name: "blade_angle",
+        instead: "rubscope hbm --speed SPEED shows the angles of the blades",
+    },
+    Gone {
+        command: "margins",
+        name: "lock_energy",
+        instead: "torque and power are what the rotor gives to hold the wave",
+    },
 ];
 
 /// What answers which pulses last.

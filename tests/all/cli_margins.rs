@@ -134,8 +134,6 @@ fn the_command_of_a_target_shows_the_limit_there() {
         ("coincidence_difference=203", "casing.modal_mass_kg", 203.0),
         ("push_b=66", "casing.damping_ratio", 66.0),
         ("torque=0.0123", "clearance", 0.0123),
-        // In millijoules.
-        ("lock_energy=0.0234", "clearance", 23.4),
     ] {
         let mut margins = Margins::of(&scene);
         let before = text(&margins).split_once("Computed in ").unwrap().0.to_string();

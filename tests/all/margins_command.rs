@@ -60,8 +60,6 @@ fn the_json_has_every_limit_with_every_parameter() {
             "push_b",
             "torque",
             "power",
-            "blade_angle",
-            "lock_energy",
         ]
     );
     let lock = &limits[2];

@@ -1,7 +1,7 @@
 //! Margins of scenes that others leave out: soft blades, a ramp, pulses that pull, and
 //! a rotor that turns backward.
 
-use rubscope_solver::harmonic::{lock_fold_speed, lock_loads};
+use rubscope_solver::harmonic::lock_fold_speed;
 use rubscope_solver::motion::{Motion, run_to_verdict, to_the_end};
 use rubscope_solver::scene::CheckedScene;
 use rubscope_solver::study::margins::{
@@ -56,16 +56,6 @@ fn the_end_of_the_branch_is_told_where_a_rotor_may_come_near_it() {
     // It is at 8,200 rad/s; the threshold of the lock at 412 rad/s.
     let has = |speed: &str| Margins::of(&soft("0.4", speed)).limit(LimitName::LockFold).is_some();
     assert!(!has("500") && has("-1000") && has("1000"));
-}
-
-#[test]
-fn the_blade_angle_is_the_larger_of_both() {
-    for speed in ["300", "500", "-500"] {
-        let scene = scene("paper-nd3", &[("operation.speed_rad_s", speed)]);
-        let loads = lock_loads(&scene.machine(), scene.operation.speed_rad_s).unwrap();
-        let [a, b] = loads.alpha_rad.map(f64::abs);
-        assert_eq!(of(&scene, LimitName::BladeAngle).value, Some(a.max(b)));
-    }
 }
 
 #[test]

@@ -184,14 +184,14 @@ fn the_columns_and_rows_that_have_no_room_are_said_or_left_out() {
         insta::assert_snapshot!(format!("margins_{width}x{height}"), session.text());
         assert!(session.text().contains("Enter jump  "), "{}", session.text());
     }
-    resize(&mut session, (80, 16));
+    resize(&mut session, (80, 13));
     session.press("i");
     assert!(session.text().contains(" more"), "{}", session.text());
     session.press("i");
     session.press(&"j".repeat(20));
-    assert_eq!(cell(&session), [0, 11]);
+    assert_eq!(cell(&session), [0, 9]);
     assert!(session.text().contains("before"), "{}", session.text());
-    assert!(line(&session, "wave energy").contains("mJ"), "{}", session.text());
+    assert!(line(&session, "power").contains(" W"), "{}", session.text());
 }
 
 #[test]

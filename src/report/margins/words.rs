@@ -130,7 +130,6 @@ pub fn check(found: &Found, scene: &Scene) -> Option<CommandLine> {
             hbm.option("--speed", speed).flag("--whirl", true)
         }
         LimitName::LockFold => hbm.option("--speed", format!("0:{reached}:2")).flag("--fold", true),
-        LimitName::LockEnergy => CommandLine::new("margins", &changed),
         _ => hbm.option("--speed", speed),
     })
 }
