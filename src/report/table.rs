@@ -10,6 +10,9 @@ use std::rc::Rc;
 use super::line::wrapped;
 use super::number::{exact, per_speed, rounded, short, speed_unit};
 
+/// Letters between two columns of text.
+const APART: usize = 2;
+
 /// Widest line of the notes below a table.
 pub const WIDTH: usize = 100;
 
@@ -232,18 +235,18 @@ impl Table {
         self.rows.is_empty()
     }
 
-    /// Returns how people see it.
+    /// Returns the rows as people see them, in padded cells, headings first; columns that do
+    /// not fit into `room` letters with `apart` of them between columns are left out from the
+    /// right.
     #[must_use]
-    pub fn layout(&self) -> Layout {
+    pub fn lines(&self, room: usize, apart: usize) -> Vec<Vec<String>> {
         let mut layout = Layout::of(&self.headings);
         self.rows.iter().for_each(|row| layout.meet(row));
-        layout
-    }
-
-    /// Returns the rows as people see them, in padded cells: the first line is the headings.
-    #[must_use]
-    pub fn lines(&self) -> Vec<Vec<String>> {
-        let layout = self.layout();
+        let mut used = 0;
+        layout.columns.retain(|(_, _, width, _)| {
+            used += width + apart;
+            used <= room.saturating_add(apart)
+        });
         let rows = self.rows.iter().map(|row| layout.line(row));
         std::iter::once(layout.headings()).chain(rows).collect()
     }
@@ -262,8 +265,16 @@ impl Table {
     /// # Errors
     /// An error of the writer.
     pub fn write_text(&self, out: &mut dyn Write) -> Result<()> {
+        self.write_text_in(usize::MAX, out)
+    }
+
+    /// Writes text as [`Table::write_text`] does, of the columns that fit into `room` letters.
+    ///
+    /// # Errors
+    /// An error of the writer.
+    pub fn write_text_in(&self, room: usize, out: &mut dyn Write) -> Result<()> {
         if !self.headings.is_empty() {
-            self.lines().iter().try_for_each(|line| write_line(line, out))?;
+            self.lines(room, APART).iter().try_for_each(|line| write_line(line, out))?;
         }
         let notes = self.notes.iter().flat_map(|note| wrapped(note, WIDTH));
         notes.into_iter().try_for_each(|line| writeln!(out, "{line}"))
@@ -271,12 +282,12 @@ impl Table {
 }
 
 fn write_line(cells: &[String], out: &mut dyn Write) -> Result<()> {
-    writeln!(out, "{}", cells.join("  ").trim_end())
+    writeln!(out, "{}", cells.join(&" ".repeat(APART)).trim_end())
 }
 
 /// How people see the columns of a table: their widths are those of the cells met.
 #[derive(Clone, Debug)]
-pub struct Layout {
+struct Layout {
     /// The columns for people: their place in the table, heading and width, and whether they
     /// have words, which stand to the left.
     columns: Vec<(usize, Heading, usize, bool)>,
@@ -298,12 +309,6 @@ impl Layout {
             *width = (*width).max(heading.text(cell).chars().count());
             *word |= matches!(cell, TableCell::Word(_));
         }
-    }
-
-    /// Returns the width of each column.
-    #[must_use]
-    pub fn widths(&self) -> Vec<usize> {
-        self.columns.iter().map(|column| column.2).collect()
     }
 
     fn headings(&self) -> Vec<String> {
@@ -466,7 +471,7 @@ mod tests {
         assert_eq!(written(Table::write_csv), "value_n,exact\n1.234,5\n2000,6\n");
         let text = "value\n  1.2  wrong\n 2 kN  -\none note\n";
         assert_eq!(written(Table::write_text), text);
-        assert_eq!(table.lines()[1], ["  1.2", "wrong"]);
+        assert_eq!(table.lines(7, 2)[1], ["  1.2"]);
     }
 
     #[test]

@@ -8,7 +8,7 @@ use rubscope_solver::study::margins::{
     CLEARANCE, LimitName, Margins, Side, Target, first_touch, grazing_pulse,
 };
 
-use crate::cli_margins::{full, scene, text};
+use crate::cli_margins::{scene, text};
 use crate::cli_support::rubscope;
 use crate::margins::{close, differenced, of};
 
@@ -237,15 +237,10 @@ fn the_command_of_the_end_of_the_branch_goes_up_to_it() {
 }
 
 #[test]
-fn rows_and_titles_of_scenes_without_a_lock_or_that_turn_backward() {
-    let told = text(&full(&scene("paper-nd3", &[("operation.speed_rad_s", "-430")])));
-    assert!(told.contains("\nSpeeds; the scene has 430 rad/s:\nlimit "), "{told}");
-    assert!(told.contains("\nThe locked motion at -430 rad/s:\nload "), "{told}");
-    // Speeds keep their rows; loads of no lock are one line.
+fn what_a_scene_without_a_lock_lacks_has_one_reason() {
     let told = text(&Margins::of(&scene("paper-nd3", &[("operation.nodal_diameters", "0")])));
-    let reason = "no wave turns without nodal diameters";
-    assert!(told.contains("\nSpeeds; the scene has 500 rad/s:\n"), "{told}");
-    let rows = told.lines().filter(|line| line.starts_with("omega_") && line.ends_with(reason));
-    assert_eq!(rows.count(), 3, "{told}");
-    assert!(told.contains(&format!("\nThe locked motion at 500 rad/s: none: {reason}.\n")));
+    let reason = "none, as no wave turns without nodal diameters.";
+    assert_eq!(told.replace('\n', " ").matches(reason).count(), 1, "{told}");
+    let rows = told.lines().filter(|line| line.starts_with("omega_") && line.ends_with(" -"));
+    assert!(rows.count() >= 3, "{told}");
 }
