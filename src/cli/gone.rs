@@ -45,7 +45,12 @@ const GONE: &[Gone] = &[
         name: "lock_energy",
         instead: "torque and power are what the rotor gives to hold the wave",
     },
+    Gone { command: "figures", name: "SCENE", instead: OWN },
+    Gone { command: "figures", name: "--set", instead: OWN },
 ];
+
+/// What draws a scene of one's own.
+const OWN: &str = "each figure has its own scene; rubscope run, hbm and map --out draw any other";
 
 /// What answers which pulses last.
 const PULSES: &str = "rubscope map --pulse FROM:TO:COUNT shows which pulses last";
