@@ -78,8 +78,8 @@ const ENVIRONMENT: &[(&str, &str)] = &[
     (
         "COLORFGBG",
         "Such as 0;15: the last number is the background, by which the explorer chooses its \
-         theme. Without it, the explorer asks the terminal, and waits a quarter of a second for \
-         its answer.",
+         theme. Without it, the explorer asks the terminal, and draws on a dark background until \
+         it answers.",
     ),
     (
         "XDG_CONFIG_HOME, HOME",
@@ -104,9 +104,8 @@ const ENVIRONMENT: &[(&str, &str)] = &[
 /// The files that the program knows by itself.
 const FILES: &[(&str, &str)] = &[(
     "~/.config/rubscope/config.toml",
-    "What the explorer remembers: theme, marker, number of charts, mouse, and terminals that do \
-     not say their background. Options win over it; --no-config does without it. It may be \
-     removed at any time.",
+    "What the explorer remembers: theme, marker, number of charts, mouse. Options win over it; \
+     --no-config does without it. It may be removed at any time.",
 )];
 
 const EXAMPLES: &[(&str, &str)] = &[

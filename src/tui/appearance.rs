@@ -3,6 +3,7 @@
 
 use ratatui::style::Style;
 
+use super::ground::Ground;
 use super::raster::{Marker, Pen};
 use super::theme::{Role, Theme};
 use crate::report::number::{speed_unit, tell_in_rpm};
@@ -12,6 +13,8 @@ use crate::report::number::{speed_unit, tell_in_rpm};
 pub struct Appearance {
     /// Colours by role.
     pub theme: Theme,
+    /// Whether the theme follows the background of the terminal: none was chosen by a key.
+    pub follows_ground: bool,
     /// How points are drawn.
     pub marker: Marker,
     /// Whether the screen is for a projector: lines are two sub-pixels thick.
@@ -25,7 +28,7 @@ pub struct Appearance {
 impl Appearance {
     /// For a screen in front of the user.
     pub fn new(theme: Theme, marker: Marker) -> Self {
-        Self { theme, marker, wide: false, octants: false, rpm: false }
+        Self { theme, follows_ground: false, marker, wide: false, octants: false, rpm: false }
     }
 
     /// The next theme; what to say.
@@ -35,8 +38,15 @@ impl Appearance {
 
     /// Another theme; what to say.
     pub fn use_theme(&mut self, theme: Theme) -> String {
-        self.theme = theme;
+        (self.theme, self.follows_ground) = (theme, false);
         format!("theme {}", self.theme.name())
+    }
+
+    /// Uses the theme for the background that the terminal has reported.
+    pub fn use_ground(&mut self, ground: Ground) {
+        if self.follows_ground {
+            self.theme = self.theme.on(ground);
+        }
     }
 
     /// The next marker; what to say.

@@ -10,7 +10,6 @@ use std::time::Duration;
 use etcetera::{BaseStrategy, choose_base_strategy};
 use serde::{Deserialize, Serialize};
 
-use super::ability::is_remote;
 use super::app::App;
 use super::files::FILES_NAME;
 use super::lessons::LessonsDone;
@@ -21,10 +20,6 @@ use crate::report::line::clean;
 
 /// Largest file that is read.
 const MOST_BYTES: u64 = 64 * 1024;
-/// Most terminals that are remembered as silent.
-const MOST_TERMINALS: usize = 16;
-/// Longest name of one.
-const LONGEST_NAME: usize = 64;
 /// Most charts next to the large one.
 const MOST_CHARTS: usize = 3;
 /// How long the end of the program waits for the file: a busy disk takes a second, one
@@ -50,9 +45,6 @@ pub struct Config {
     pub mouse: Option<bool>,
     /// Whether a key was pressed below the line for new users.
     pub introduced: bool,
-    /// Terminals that did not say their background in time.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub silent_terminals: Vec<String>,
     /// The units in which numbers are told.
     #[serde(skip_serializing_if = "Units::are_usual")]
     pub units: Units,
@@ -91,11 +83,6 @@ impl Units {
 }
 
 impl Config {
-    /// Whether this terminal is known not to say its background.
-    pub fn is_silent(&self, terminal: &str) -> bool {
-        self.silent_terminals.iter().any(|known| known == terminal)
-    }
-
     fn read(path: &Path) -> Result<Self, String> {
         match path.metadata() {
             // A pipe would keep the program waiting.
@@ -139,18 +126,11 @@ fn is_at_home(folder: &Path, home: &Path) -> bool {
     home.is_dir() || !folder.starts_with(home)
 }
 
-/// The name by which a terminal is remembered. The same terminal may answer at
-/// once here, and too late over a network.
-pub fn terminal_name(variable: &dyn Fn(&str) -> String) -> String {
-    let name = [variable("TERM"), variable("TERM_PROGRAM")].join(" ");
-    let name: String = name.trim().chars().take(LONGEST_NAME).collect();
-    if is_remote(variable) { format!("{name} over ssh") } else { name }
-}
-
 /// What can be changed by keys.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Choices {
-    theme: Theme,
+    /// `None` while it follows the background of the terminal.
+    theme: Option<Theme>,
     marker: Marker,
     charts: usize,
     mouse: bool,
@@ -161,7 +141,8 @@ impl Choices {
     fn of(app: &App) -> Self {
         let look = app.appearance;
         let (charts, mouse) = (app.layout.beside, app.mouse.on);
-        Self { theme: look.theme, marker: look.marker, charts, mouse, rpm: look.rpm }
+        let theme = (!look.follows_ground).then_some(look.theme);
+        Self { theme, marker: look.marker, charts, mouse, rpm: look.rpm }
     }
 }
 
@@ -176,8 +157,6 @@ pub struct Memory {
     pub complaint: Option<String>,
     /// The choices at the start.
     began: Option<Choices>,
-    /// This terminal, if it did not answer in time.
-    pub silent: Option<String>,
 }
 
 impl Memory {
@@ -202,7 +181,7 @@ impl Memory {
         };
         // A file with a mistake in it is the user's to mend.
         let path = path.filter(|_| complaint.is_none());
-        Self { path, config, complaint, began: None, silent: None }
+        Self { path, config, complaint, began: None }
     }
 
     /// Gives the state what is remembered, and notes where it began.
@@ -246,7 +225,7 @@ impl Memory {
     fn changed(&self, mut config: Config, ended: Choices, introduced: bool) -> Config {
         let Some(began) = self.began else { return config };
         if ended.theme != began.theme {
-            config.theme = Some(ThemeChoice::of(ended.theme));
+            config.theme = ended.theme.map(ThemeChoice::of);
         }
         if ended.marker != began.marker {
             config.marker = Some(ended.marker);
@@ -262,11 +241,6 @@ impl Memory {
             config.units.speed = Some(unit);
         }
         config.introduced |= introduced;
-        if let Some(terminal) = self.silent.clone().filter(|name| !config.is_silent(name)) {
-            config.silent_terminals.push(terminal);
-            let extra = config.silent_terminals.len().saturating_sub(MOST_TERMINALS);
-            config.silent_terminals.drain(..extra);
-        }
         config
     }
 }

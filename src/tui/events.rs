@@ -3,19 +3,14 @@
 
 use std::sync::mpsc::Sender;
 use std::thread;
-use std::time::{Duration, Instant};
+#[cfg(unix)]
+use std::time::Duration;
 
 use crossterm::event::{Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers, MouseEvent};
 
-use super::ability::{LATE, LateAnswer, is_part_of_answer};
-use super::files::FileResult;
-use super::files::FoundScenes;
+use super::files::{FileResult, FoundScenes};
+use super::ground::Ground;
 use super::input::Input;
-
-/// Keys that follow each other this closely are no typing.
-const BURST: Duration = Duration::from_millis(3);
-/// Most events that are taken together.
-const MOST_IN_BURST: usize = 64;
 
 /// Something that happened.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,6 +29,8 @@ pub enum ScreenEvent {
     Suspend,
     /// The job was continued.
     Continued,
+    /// The terminal has reported its background.
+    Ground(Ground),
     /// A text was pasted.
     Pasted(String),
     /// The file that was being written is done.
@@ -44,34 +41,17 @@ pub enum ScreenEvent {
     InputClosed,
 }
 
-/// Starts the thread that reads keys; the answer to an unanswered question may be
-/// among the first.
+/// Starts the thread that reads keys, and the report of the background among them.
 ///
 /// # Errors
-/// The system gives no thread.
-pub fn read_keys(to: Sender<ScreenEvent>, unanswered: bool) -> std::io::Result<()> {
+/// The system cannot start a thread.
+pub fn read_keys(to: Sender<ScreenEvent>) -> std::io::Result<()> {
     let read = move || {
-        let began = Instant::now();
-        let mut late = LateAnswer::default();
         let mut input = Input::default();
         loop {
-            let mut burst = vec![input.next()];
-            while unanswered && began.elapsed() < LATE && may_follow(&burst, &mut input) {
-                burst.push(input.next());
-            }
-            let keys: Option<Vec<KeyEvent>> = burst.iter().map(key_of).collect();
-            if keys.is_some_and(|keys| is_part_of_answer(&keys)) {
-                continue;
-            }
-            for event in burst {
-                if let Ok(Event::Key(key)) = &event
-                    && unanswered
-                    && began.elapsed() < LATE
-                    && late.takes(key)
-                {
-                    continue;
-                }
-                let Some(event) = screen_event(event) else { continue };
+            let event = input.next().transpose().and_then(screen_event);
+            let ground = input.take_ground().map(ScreenEvent::Ground);
+            for event in [ground, event].into_iter().flatten() {
                 let last = event == ScreenEvent::InputClosed;
                 if to.send(event).is_err() || last {
                     return;
@@ -80,18 +60,6 @@ pub fn read_keys(to: Sender<ScreenEvent>, unanswered: bool) -> std::io::Result<(
         }
     };
     thread::Builder::new().name("rubscope-input".into()).spawn(read).map(|_| ())
-}
-
-/// Whether more of what came last is there already: nobody types that fast.
-fn may_follow(burst: &[std::io::Result<Event>], input: &mut Input) -> bool {
-    burst.last().and_then(key_of).is_some() && burst.len() < MOST_IN_BURST && input.has_more(BURST)
-}
-
-fn key_of(event: &std::io::Result<Event>) -> Option<KeyEvent> {
-    match event {
-        Ok(Event::Key(key)) => Some(*key),
-        _ => None,
-    }
 }
 
 /// What an event of the terminal is for the explorer, if it is anything.

@@ -18,6 +18,7 @@ pub mod export;
 #[doc(hidden)]
 pub mod files;
 mod glossary;
+mod ground;
 #[doc(hidden)]
 pub mod history;
 mod host;
@@ -101,28 +102,31 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
     let mut worker = worker::Worker::spawn(wake)?;
     let variable = |name: &str| std::env::var(name).unwrap_or_default();
     let mut memory = config::Memory::recall(options.config);
-    let name = config::terminal_name(&variable);
-    let mut found = ability::Found::default();
-    let ask = || {
-        found = ability::find(&variable, memory.config.is_silent(&name));
-        found.ground
-    };
-    let theme = options.theme(&memory.config, &variable, ask);
+    let choice = options.theme(&memory.config, &variable);
+    let ground = ground::Ground::named(&variable("COLORFGBG"));
+    let term = variable("TERM");
+    let is_plain = ability::is_plain(&term);
+    let is_asked = choice.follows_ground() && ground.is_none() && !is_plain && !term.is_empty();
     let ability = ability::Ability::of(&variable);
+    let theme = choice.theme(ground.unwrap_or_default());
     let mut app = App::new(scene, theme, options.marker(&memory.config, &ability));
+    app.appearance.follows_ground = choice.follows_ground();
     app.files.source.clone_from(&options.source);
     app.mouse.on = options.mouse;
     app.appearance.octants = ability.octants || options.marker == Some(Marker::Octant);
-    memory.silent = found.silent.then_some(name);
     app.appearance.rpm = options.rpm;
     memory.prepare(&mut app);
     terminal::set_mouse(app.mouse.on)?;
-    terminal::set_whole_frames(!ability::is_plain(&variable("TERM")));
+    terminal::set_whole_frames(!is_plain);
     let guard = terminal::Guard;
     let line = options.line(&variable);
     let mut shell = terminal::Shell { events: sender, unseen: None, line };
     let ended = terminal::open().and_then(|mut screen| {
-        events::read_keys(shell.events.clone(), found.unanswered)?;
+        events::read_keys(shell.events.clone())?;
+        if is_asked {
+            // The report is not waited for: until it comes, the background is taken for dark.
+            terminal::ask_ground()?;
+        }
         let ended = run(&mut screen, &events, &mut app, &mut worker, &mut shell, options.frame());
         // Dropping the screen would write to standard error if the terminal is gone.
         std::mem::forget(screen);

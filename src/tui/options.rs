@@ -5,13 +5,12 @@ use std::time::Duration;
 
 use strum::{EnumString, VariantNames};
 
-use super::ability::Ground;
 use super::ability::{Ability, is_remote};
 use super::app::Source;
 use super::config::Config;
 use super::line::Line;
 use super::raster::Marker;
-use super::theme::{Theme, ThemeChoice};
+use super::theme::ThemeChoice;
 
 /// When to use colour.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, EnumString, VariantNames)]
@@ -67,28 +66,22 @@ impl Default for ExploreOptions {
 }
 
 impl ExploreOptions {
-    /// The theme: an option wins over the environment, and that over the config
-    /// file. The ground is asked for only where it matters.
-    pub(super) fn theme(
-        &self,
-        config: &Config,
-        variable: &dyn Fn(&str) -> String,
-        ground: impl FnOnce() -> Ground,
-    ) -> Theme {
+    /// Returns the choice of a theme: an option wins over the environment, and that over the
+    /// config file.
+    pub(super) fn theme(&self, config: &Config, variable: &dyn Fn(&str) -> String) -> ThemeChoice {
         let plain = match self.color {
             Color::Always => false,
             Color::Never => true,
             Color::Auto => !variable("NO_COLOR").is_empty() || variable("TERM") == "dumb",
         };
         let given = self.theme.filter(|choice| *choice != ThemeChoice::Auto);
-        let choice = match given {
+        match given {
             Some(choice) => choice,
             None if plain => ThemeChoice::Mono,
             // `auto` given as an option wins over the config file too.
             None if self.theme.is_some() => ThemeChoice::Auto,
             None => config.theme.unwrap_or_default(),
-        };
-        choice.theme(ground)
+        }
     }
 
     /// The marker: an option wins over what the terminal can show, and that over
@@ -112,12 +105,14 @@ impl ExploreOptions {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tui::Theme;
+    use crate::tui::ground::Ground;
 
     fn theme(options: ExploreOptions, config: Option<ThemeChoice>, no_color: &str) -> Theme {
         let config = Config { theme: config, ..Config::default() };
         let variable =
             |name: &str| if name == "NO_COLOR" { no_color.to_string() } else { String::new() };
-        options.theme(&config, &variable, || Ground::Light)
+        options.theme(&config, &variable).theme(Ground::Light)
     }
 
     #[test]

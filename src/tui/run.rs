@@ -184,6 +184,10 @@ fn handle(event: ScreenEvent, app: &mut App, host: &mut dyn Host) -> Reaction {
             Heard::Acted(effect) => take(effect, app, host),
         },
         ScreenEvent::Resize => Reaction::Draw(Due::Now),
+        ScreenEvent::Ground(ground) => {
+            app.appearance.use_ground(ground);
+            Reaction::Draw(Due::Now)
+        }
         ScreenEvent::Pasted(text) => {
             app.paste(&text);
             Reaction::Draw(Due::Now)

@@ -24,6 +24,7 @@ use ratatui::buffer::Cell;
 use ratatui::layout::{Position, Size};
 
 use crate::tui::files::FILES_NAME;
+use crate::tui::ground::QUESTION;
 use crate::tui::tty::Tty;
 use crate::tui::worker::WORKER_NAME;
 
@@ -191,9 +192,12 @@ pub fn regain() -> Result<(), Error> {
     Ok(())
 }
 
-/// Whether the terminal may be asked something before the screen is set up.
-pub fn may_be_asked() -> bool {
-    tty().is_ok_and(Tty::may_be_asked)
+/// Asks the terminal for its background where its report would come among the keys.
+///
+/// # Errors
+/// The terminal is closed.
+pub fn ask_ground() -> Result<(), Error> {
+    if tty()?.hears_itself() { write(QUESTION) } else { Ok(()) }
 }
 
 /// Gives up the frame that is being written and all that follow, until the

@@ -5,7 +5,7 @@ use ratatui::style::{Color, Modifier, Style};
 use serde::{Deserialize, Serialize};
 use strum::{EnumString, VariantNames};
 
-use super::ability::Ground;
+use super::ground::Ground;
 
 /// What a colour is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,20 +49,19 @@ pub enum ThemeChoice {
 }
 
 impl ThemeChoice {
-    /// The theme; the ground is asked for only if it matters.
-    pub fn theme(self, ground: impl FnOnce() -> Ground) -> Theme {
+    /// Whether the theme follows the background of the terminal.
+    pub fn follows_ground(self) -> bool {
+        matches!(self, Self::Auto | Self::ColorBlind)
+    }
+
+    /// Returns the theme for this background.
+    pub fn theme(self, ground: Ground) -> Theme {
         match self {
             Self::Dark => Theme::Dark,
             Self::Light => Theme::Light,
             Self::Mono => Theme::Mono,
-            Self::Auto => match ground() {
-                Ground::Dark => Theme::Dark,
-                Ground::Light => Theme::Light,
-            },
-            Self::ColorBlind => match ground() {
-                Ground::Dark => Theme::ColourBlind,
-                Ground::Light => Theme::ColourBlindLight,
-            },
+            Self::Auto => Theme::Dark.on(ground),
+            Self::ColorBlind => Theme::ColourBlind.on(ground),
         }
     }
 
@@ -102,6 +101,17 @@ impl Theme {
     /// The name on screen.
     pub fn name(self) -> &'static str {
         ["dark", "light", "colour-blind on dark", "colour-blind on light", "mono"][self as usize]
+    }
+
+    /// Returns the theme of the same kind for another background.
+    pub fn on(self, ground: Ground) -> Self {
+        match (self, ground) {
+            (Self::Dark | Self::Light, Ground::Dark) => Self::Dark,
+            (Self::Dark | Self::Light, Ground::Light) => Self::Light,
+            (Self::ColourBlind | Self::ColourBlindLight, Ground::Dark) => Self::ColourBlind,
+            (Self::ColourBlind | Self::ColourBlindLight, Ground::Light) => Self::ColourBlindLight,
+            (Self::Mono, _) => Self::Mono,
+        }
     }
 
     /// The next theme.
@@ -249,11 +259,11 @@ mod tests {
     #[test]
     fn a_choice_stands_for_a_theme_and_asks_for_the_ground_only_if_it_matters() {
         for theme in Theme::ALL {
-            let ground = || theme.ground().unwrap();
+            let ground = theme.ground().unwrap();
             assert_eq!(ThemeChoice::of(theme).theme(ground), theme);
         }
-        assert_eq!(ThemeChoice::Auto.theme(|| Ground::Light), Theme::Light);
-        assert_eq!(ThemeChoice::Auto.theme(|| Ground::Dark), Theme::Dark);
+        assert_eq!(ThemeChoice::Auto.theme(Ground::Light), Theme::Light);
+        assert_eq!(ThemeChoice::Auto.theme(Ground::Dark), Theme::Dark);
     }
 
     #[test]

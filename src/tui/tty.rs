@@ -181,18 +181,10 @@ impl Tty {
         nix::unistd::tcgetpgrp(&self.keys).map_or(true, |front| front == nix::unistd::getpgrp())
     }
 
-    /// Whether a question may be asked, and its answer read as a key would be: all
-    /// is one terminal, in the foreground, and takes a few bytes without waiting.
-    pub fn may_be_asked(&self) -> bool {
-        let device = |file: &dyn AsFd| {
-            let file = file.as_fd();
-            let state = rustix::fs::fstat(file).ok()?;
-            termios::isatty(file).then_some(state.st_rdev)
-        };
-        let (input, output) = (std::io::stdin(), std::io::stdout());
-        let same = device(&input).is_some() && device(&input) == device(&output);
-        let other = device(&std::io::stderr()).is_some_and(|error| Some(error) != device(&output));
-        same && !other && self.in_foreground() && self.has_room().unwrap_or(false)
+    /// Whether what the terminal reports comes among the keys: both are one terminal.
+    pub fn hears_itself(&self) -> bool {
+        let device = |file: &OwnedFd| rustix::fs::fstat(file).ok().map(|state| state.st_rdev);
+        device(&self.keys).is_some_and(|keys| Some(keys) == device(&self.out))
     }
 
     /// Whether a process in the background may write.

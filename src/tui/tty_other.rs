@@ -61,8 +61,8 @@ impl Tty {
         true
     }
 
-    /// A console window is dark unless it is told otherwise.
-    pub fn may_be_asked(&self) -> bool {
+    /// A console window does not report its background.
+    pub fn hears_itself(&self) -> bool {
         false
     }
 

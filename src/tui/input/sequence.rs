@@ -5,16 +5,20 @@ use crossterm::event::{
     Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers, MouseButton, MouseEvent, MouseEventKind,
 };
 
-/// What bytes are.
+use crate::tui::ground::{Ground, begins_report};
+
+/// How the bytes since the last event are interpreted.
 #[derive(Debug)]
 pub enum Piece {
-    /// The beginning of something.
+    /// The beginning of a sequence.
     Unfinished,
-    /// Something complete.
+    /// A complete event.
     Event(Event),
     /// The beginning of a pasted text.
     Paste,
-    /// Nothing that is known here.
+    /// The background of the terminal.
+    Ground(Ground),
+    /// A sequence that is not known here.
     Nothing,
 }
 
@@ -24,13 +28,14 @@ impl From<Option<Event>> for Piece {
     }
 }
 
-/// What bytes that began one event are.
+/// Interprets the bytes since the last event.
 pub fn piece(bytes: &[u8]) -> Piece {
     match bytes {
         [] | [0x1b] => Piece::Unfinished,
         [0x1b, 0x1b, ..] => press(KeyCode::Esc),
         [0x1b, b'[', rest @ ..] => control_sequence(rest),
         [0x1b, b'O'] => Piece::Unfinished,
+        [0x1b, b']', rest @ ..] => report(rest),
         [0x1b, b'O', last, ..] => lettered(*last).map(|code| key(code, KeyModifiers::NONE)).into(),
         [0x1b, rest @ ..] => match piece(rest) {
             Piece::Event(Event::Key(with)) => {
@@ -49,6 +54,17 @@ pub fn piece(bytes: &[u8]) -> Piece {
             Err(error) if error.error_len().is_none() => Piece::Unfinished,
             Err(_) => Piece::Nothing,
         },
+    }
+}
+
+/// Interprets what follows `ESC ]`: a report of the terminal.
+fn report(bytes: &[u8]) -> Piece {
+    match bytes {
+        [report @ .., 0x07] | [report @ .., 0x1b, b'\\'] => {
+            Ground::reported(report).map_or(Piece::Nothing, Piece::Ground)
+        }
+        [begun @ .., 0x1b] | begun if begins_report(begun) => Piece::Unfinished,
+        _ => Piece::Nothing,
     }
 }
 
