@@ -67,16 +67,6 @@ impl Appearance {
         tell_in_rpm(self.rpm);
     }
 
-    /// Whether the screen is for a projector.
-    pub fn is_wide(&self) -> bool {
-        self.wide
-    }
-
-    /// The screen is for a projector, or the usual one.
-    pub fn set_wide(&mut self, wide: bool) {
-        self.wide = wide;
-    }
-
     /// Style of a role.
     pub fn style(&self, role: Role) -> Style {
         self.theme.style(role)

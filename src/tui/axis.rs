@@ -1,9 +1,8 @@
 //! Axes: round ticks (1-2-5), labels under one SI prefix per axis, and ranges
 //! that follow the data with hysteresis, so that the scale does not jump.
 
-use super::knobs::number;
 pub use crate::report::number::SiScale;
-use crate::report::number::{per_speed, told};
+use crate::report::number::{per_speed, told, trimmed};
 pub use crate::report::ticks::{nice_step, ticks};
 
 /// The axis of a chart: its range and the prefix of its labels.
@@ -84,6 +83,21 @@ impl ChartAxis {
     }
 }
 
+/// Returns a number in readable form: up to seven digits, a prefix for units that take one,
+/// no trailing zeros.
+pub fn number(x: f64, unit: &str) -> String {
+    let (x, unit) = told(x, unit);
+    let scale = SiScale::before(unit, x);
+    let shown = x / scale.factor;
+    let text = if shown != 0.0 && !(1e-4..1e7).contains(&shown.abs()) {
+        format!("{shown:e}")
+    } else {
+        let digits = 6 - shown.abs().max(1e-4).log10().floor() as i32;
+        trimmed(&format!("{shown:.*}", digits.clamp(0, 9) as usize)).to_string()
+    };
+    format!("{text} {}{unit}", scale.prefix).trim_end().to_string()
+}
+
 /// A number with four significant digits and its SI prefix, such as `228.2 µ`.
 pub fn readable(value: f64, unit: &str) -> String {
     prefixed(value, 4, unit)
@@ -155,6 +169,17 @@ fn round_out(low: f64, high: f64) -> (f64, f64) {
 mod tests {
     use super::*;
     use proptest::prelude::*;
+
+    #[test]
+    fn numbers_read_as_people_write_them() {
+        assert_eq!(number(1e-4, "m"), "100 µm");
+        assert_eq!(number(1e6, "N"), "1 MN");
+        assert_eq!(number(0.05, ""), "0.05");
+        assert_eq!(number(-430.0, "rad/s"), "-430 rad/s");
+        assert_eq!(number(1.544e6, "N/m"), "1.544 MN/m");
+        assert_eq!(number(0.0, "N"), "0 N");
+        assert_eq!(number(1e-7, "s"), "100 ns");
+    }
 
     #[test]
     fn ticks_are_round_and_inside() {

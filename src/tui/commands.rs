@@ -3,15 +3,15 @@
 //! word that goes somewhere (`t 0.3 ms`, `blade 7`, `scene rub`) or a knob with a value
 //! comes first, then whatever else has these words.
 
-use super::Theme;
 use super::app::{App, Purpose};
 use super::axis::readable;
 use super::bindings::{self, Action, Binding, Chord, Context};
 use super::files::builtin_scenes;
 use super::knobs::{Fit, KNOBS, Knob, best, called, fit, knob_of, plain};
 use super::lessons::{self, LETTERS};
-use super::views::ViewId;
-use super::views::map::numeric;
+use super::theme::Theme;
+use super::views::id::ViewId;
+use super::views::map::plan::numeric;
 use rubscope_solver::scene::Value;
 use rubscope_solver::scene::keys;
 
@@ -231,7 +231,7 @@ fn directed(app: &App, typed: &str) -> Option<Vec<Found>> {
                 view.digit().to_string() == lower || view.word().starts_with(&lower)
             };
             let act = |view: ViewId| {
-                Found::of("view", view.panel().what(), Command::Act(Action::View(view)))
+                Found::of("view", view.what(), Command::Act(Action::View(view)))
                     .beside(view.digit().to_string())
             };
             let found: Vec<Found> = ViewId::all().filter(named).map(act).collect();

@@ -22,9 +22,6 @@ use crate::report::line::clean;
 const MOST_BYTES: u64 = 64 * 1024;
 /// Most charts next to the large one.
 const MOST_CHARTS: usize = 3;
-/// How long the end of the program waits for the file: a busy disk takes a second, one
-/// that never answers must not keep the user.
-pub const PATIENCE: Duration = Duration::from_secs(5);
 
 /// What is remembered. A field that is missing in the file has its default;
 /// fields that are not known here are kept.

@@ -7,12 +7,16 @@ use std::time::Duration;
 
 use super::history::{Bin, BinHistory};
 use super::trace::{Mark, Trace};
-use super::views::ViewId;
-use super::views::map::MapChoice;
-use super::worker::Found;
+use super::views::coincidence::curves::CoincidenceCurves;
+use super::views::id::ViewId;
+use super::views::locked::curves::LockedCurves;
+use super::views::map::plan::{CellRun, LiveMap, MapChoice};
+use super::views::margins::live::LiveMargins;
+use super::views::spectrum::lines::Spectrum;
 use rubscope_solver::motion::{ActiveSet, Checks, Failure, Hold, Motion, State, Verdict};
 use rubscope_solver::scene::CheckedScene;
 use rubscope_solver::study::MapPlan;
+use rubscope_solver::study::precision::Precision;
 
 /// The task of the engine. Counters only grow, so that no key press is lost
 /// when an order replaces an older one.
@@ -233,6 +237,25 @@ pub enum Sensitive {
     Yes,
     /// Given up: it takes too long.
     GivenUp,
+}
+
+/// What the studies of the views have found.
+#[derive(Clone, Debug, Default)]
+pub struct Found {
+    /// The locked motion against speed.
+    pub locked: Option<Arc<LockedCurves>>,
+    /// The spectrum of the run.
+    pub spectrum: Option<Arc<Spectrum>>,
+    /// What a coincidence does; `None` within where there is no coincidence.
+    pub coincidence: Option<Arc<Option<CoincidenceCurves>>>,
+    /// The margins; what is searched arrives later.
+    pub margins: Option<Arc<LiveMargins>>,
+    /// The run of the map's cell that was asked for.
+    pub cell: Option<Arc<CellRun>>,
+    /// The map; cells arrive one by one.
+    pub map: Option<Arc<LiveMap>>,
+    /// Speed against error; rows arrive one by one.
+    pub precision: Option<Arc<Precision>>,
 }
 
 /// Results for one generation of the knobs.

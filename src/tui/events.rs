@@ -89,7 +89,7 @@ fn screen_event(event: std::io::Result<Event>) -> Option<ScreenEvent> {
 /// The system cannot start a thread or watch signals.
 #[cfg(unix)]
 pub fn watch_signals(to: Sender<ScreenEvent>) -> std::io::Result<()> {
-    use super::{files, job, terminal};
+    use super::{ending, files, job, terminal};
     use signal_hook::consts::{SIGCONT, SIGTSTP, SIGWINCH};
     let watched = deadly_signals().into_iter().chain([SIGTSTP, SIGCONT, SIGWINCH]);
     let mut signals = signal_hook::iterator::Signals::new(watched)?;
@@ -109,7 +109,7 @@ pub fn watch_signals(to: Sender<ScreenEvent>) -> std::io::Result<()> {
                 SIGWINCH => _ = to.send(ScreenEvent::Resize),
                 deadly => {
                     let number = u8::try_from(deadly).unwrap_or(0);
-                    terminal::end(number);
+                    ending::end(number);
                     if to.send(ScreenEvent::Signal(number)).is_ok() {
                         thread::sleep(GRACE);
                     }
@@ -156,4 +156,4 @@ pub fn watch_signals(_: Sender<ScreenEvent>) -> std::io::Result<()> {
 
 /// How long the drawing thread may take to end after a signal: it has a file to keep.
 #[cfg(unix)]
-const GRACE: Duration = super::config::PATIENCE;
+const GRACE: Duration = super::ending::PATIENCE;

@@ -9,13 +9,12 @@ use std::io::{ErrorKind, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
-use std::sync::mpsc::{Sender, channel};
+use std::sync::mpsc::channel;
 use std::thread;
 use std::time::Duration;
 
 use crate::file;
 use crate::report::line::clean;
-use crate::tui::events::ScreenEvent;
 use rubscope_solver::scene::{BUILTIN, CheckedScene, Scene};
 
 /// Name of the thread: the panic hook leaves the screen alone for it.
@@ -73,28 +72,16 @@ impl FileJob {
     }
 }
 
-/// Starts the thread that writes a file; its result comes as an event, unless
-/// there is no thread.
-pub fn write_aside(job: FileJob, events: Sender<ScreenEvent>) -> Option<FileResult> {
+/// Does `work` in a thread of its own and gives its result to `done`; without a thread, or
+/// after a panic, the result of `failed`, which in the first case is returned.
+pub fn aside<T: Send + 'static>(
+    work: impl FnOnce() -> T + Send + 'static,
+    failed: fn(String) -> T,
+    done: impl FnOnce(T) + Send + 'static,
+) -> Option<T> {
     let work = move || {
-        let result = catch_unwind(AssertUnwindSafe(|| job.run()))
-            .unwrap_or_else(|_| FileResult::Failed("the program has an error".into()));
-        // Without a receiver the program is about to end.
-        let _ = events.send(ScreenEvent::Written(result));
-    };
-    let started = thread::Builder::new().name(FILES_NAME.into()).spawn(work);
-    started.err().map(|error| FileResult::Failed(error.to_string()))
-}
-
-/// Starts the thread that reads the scenes of a directory; they come as an event,
-/// unless there is no thread.
-pub fn find_aside(directory: PathBuf, events: Sender<ScreenEvent>) -> Option<FoundScenes> {
-    let failed = |reason: String| FoundScenes { missing: Some(reason), ..FoundScenes::default() };
-    let work = move || {
-        let found = catch_unwind(AssertUnwindSafe(|| FoundScenes::of(&directory)))
-            .unwrap_or_else(|_| failed("the program has an error".into()));
-        // Without a receiver the program is about to end.
-        let _ = events.send(ScreenEvent::Scenes(found));
+        let result = catch_unwind(AssertUnwindSafe(work));
+        done(result.unwrap_or_else(|_| failed("the program has an error".into())));
     };
     let started = thread::Builder::new().name(FILES_NAME.into()).spawn(work);
     started.err().map(|error| failed(error.to_string()))
@@ -152,6 +139,11 @@ pub struct FoundScenes {
 }
 
 impl FoundScenes {
+    /// Returns an empty list, for this reason.
+    pub fn failed(reason: String) -> Self {
+        Self { missing: Some(reason), ..Self::default() }
+    }
+
     /// Reads the `.toml` files of a directory; the empty path is the working
     /// directory.
     pub fn of(directory: &Path) -> Self {
@@ -159,8 +151,7 @@ impl FoundScenes {
         let entries = match std::fs::read_dir(here) {
             Ok(entries) => entries,
             Err(error) => {
-                let missing = Some(clean(&format!("this folder cannot be read: {error}")));
-                return Self { missing, ..Self::default() };
+                return Self::failed(clean(&format!("this folder cannot be read: {error}")));
             }
         };
         let names = entries.flatten().take(MOST_NAMES).map(|entry| entry.file_name());

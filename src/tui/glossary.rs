@@ -7,8 +7,9 @@ use std::sync::LazyLock;
 use serde::Deserialize;
 
 use super::app::App;
-use super::knobs::{knob_of, number};
-use super::views::ViewId;
+use super::axis::number;
+use super::knobs::knob_of;
+use super::views::id::ViewId;
 use crate::report::number::{frequency_unit, per_frequency, told};
 use rubscope_solver::harmonic::Joint;
 

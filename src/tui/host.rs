@@ -5,8 +5,7 @@ use std::path::PathBuf;
 use std::sync::mpsc::Sender;
 
 use super::events::ScreenEvent;
-use super::files::FoundScenes;
-use super::files::{FileJob, FileResult, find_aside, write_aside};
+use super::files::{FileJob, FileResult, FoundScenes, aside};
 use super::job;
 use super::line::Line;
 use super::terminal;
@@ -126,7 +125,10 @@ impl Host for Shell {
     }
 
     fn write(&mut self, job: FileJob) -> Option<FileResult> {
-        write_aside(job, self.events.clone())
+        let events = self.events.clone();
+        // Without a receiver the program is about to end.
+        let done = move |result| _ = events.send(ScreenEvent::Written(result));
+        aside(move || job.run(), FileResult::Failed, done)
     }
 
     fn unseen(&mut self, reason: Option<String>) {
@@ -134,7 +136,9 @@ impl Host for Shell {
     }
 
     fn find_scenes(&mut self, directory: PathBuf) -> Option<FoundScenes> {
-        find_aside(directory, self.events.clone())
+        let events = self.events.clone();
+        let done = move |found| _ = events.send(ScreenEvent::Scenes(found));
+        aside(move || FoundScenes::of(&directory), FoundScenes::failed, done)
     }
 }
 

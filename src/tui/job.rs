@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering::SeqCst};
 
 use nix::unistd::{Pid, getpgid, getpgrp, getpid, getppid, getsid};
 
-use super::terminal;
+use super::ending::ended_by;
 
 /// Whether the job has been asked to stop, and not to continue since.
 static WANTED: AtomicBool = AtomicBool::new(false);
@@ -25,7 +25,7 @@ pub fn want_stop(wanted: bool) {
 /// # Errors
 /// The system refuses.
 pub fn stop() -> Result<()> {
-    if !WANTED.swap(false, SeqCst) || terminal::ended_by().is_some() {
+    if !WANTED.swap(false, SeqCst) || ended_by().is_some() {
         return Ok(());
     }
     signal_hook::low_level::emulate_default_handler(signal_hook::consts::SIGTSTP)

@@ -8,14 +8,17 @@ use std::io::{BufRead, Error, Read, Write};
 
 use anyhow::Context as _;
 
-use super::app::{App, Effect, InputMode};
+use super::app::{App, InputMode};
 use super::commands::{self, Found};
 use super::engine::{Order, Pace};
 use super::files::FileResult;
 use super::knobs::KNOBS;
 use super::options::ExploreOptions;
+use super::raster::Marker;
+use super::theme::Theme;
+use super::update::Effect;
 use super::worker::Playback;
-use super::{Marker, Theme, ability, config, panels};
+use super::{ability, config, panels};
 use crate::report::line::clean;
 use rubscope_solver::scene::{CheckedScene, Scene};
 

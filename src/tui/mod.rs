@@ -10,6 +10,7 @@ mod axis;
 pub mod bindings;
 mod commands;
 mod config;
+mod ending;
 #[doc(hidden)]
 pub mod engine;
 #[doc(hidden)]
@@ -21,7 +22,8 @@ mod glossary;
 mod ground;
 #[doc(hidden)]
 pub mod history;
-mod host;
+#[doc(hidden)]
+pub mod host;
 #[cfg_attr(not(unix), path = "input_other.rs")]
 mod input;
 #[cfg_attr(not(unix), path = "job_other.rs")]
@@ -44,6 +46,7 @@ mod theme;
 pub mod trace;
 #[cfg_attr(not(unix), path = "tty_other.rs")]
 mod tty;
+mod update;
 mod views;
 #[doc(hidden)]
 pub mod worker;
@@ -52,13 +55,14 @@ use std::fs::File;
 use std::io::IsTerminal;
 use std::sync::{Arc, mpsc};
 
-pub use app::{App, Effect, Exit, Heard, Source};
+pub use app::{App, Exit, Source};
 pub use line::Line;
 pub use lines::lines;
 pub use options::{Color, ExploreOptions};
 pub use raster::Marker;
 pub use run::run;
 pub use theme::{Theme, ThemeChoice};
+pub use update::{Effect, Heard};
 
 use rubscope_solver::scene::CheckedScene;
 
@@ -93,7 +97,7 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
     // With `NO_COLOR`, crossterm would drop bold and reverse too; the mono
     // theme has no colours anyway.
     crossterm::style::force_color_output(true);
-    terminal::install_panic_hook();
+    terminal::install_panic_hook(&[worker::WORKER_NAME, files::FILES_NAME]);
     let (sender, events) = mpsc::channel();
     events::watch_signals(sender.clone())?;
     let fresh = sender.clone();
@@ -120,7 +124,7 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
     terminal::set_whole_frames(!is_plain);
     let guard = terminal::Guard;
     let line = options.line(&variable);
-    let mut shell = terminal::Shell { events: sender, unseen: None, line };
+    let mut shell = host::Shell { events: sender, unseen: None, line };
     let ended = terminal::open().and_then(|mut screen| {
         events::read_keys(shell.events.clone())?;
         if is_asked {
@@ -133,11 +137,11 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
         ended
     });
     drop(guard);
-    memory.keep(&app, config::PATIENCE);
+    memory.keep(&app, ending::PATIENCE);
     if app.files.writing.is_some() {
         files::tidy_up();
     }
-    match (terminal::ended_by(), ended) {
+    match (ending::ended_by(), ended) {
         (Some(signal), _) | (None, Ok(Exit::Signal(signal))) => Ok(128 + signal),
         (None, Ok(Exit::Done)) => match (app.files.writing, shell.unseen) {
             (Some(writing), _) => anyhow::bail!("gave up writing {}: no answer", writing.name),

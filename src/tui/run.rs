@@ -6,13 +6,14 @@ use std::time::{Duration, Instant};
 
 use ratatui::{Terminal, backend::Backend};
 
-use super::app::{App, Effect, Exit, Heard};
+use super::app::{App, Exit};
 use super::engine::{Engine, Order};
 use super::events::ScreenEvent;
 use super::files::FileResult;
 use super::host::Host;
 use super::line::Throttle;
 use super::panels::{self, LEAST_HEIGHT, LEAST_WIDTH};
+use super::update::{Effect, Heard};
 
 /// Draw at least this often, to detect a closed terminal by its error.
 const HEARTBEAT: Duration = Duration::from_secs(1);

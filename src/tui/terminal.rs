@@ -8,7 +8,7 @@
 use std::io::{Error, Write};
 use std::sync::OnceLock;
 use std::sync::atomic::Ordering::SeqCst;
-use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU64};
+use std::sync::atomic::{AtomicBool, AtomicU64};
 use std::time::{Duration, Instant};
 
 use crossterm::cursor::{Hide, Show};
@@ -23,12 +23,9 @@ use ratatui::backend::{Backend, ClearType, CrosstermBackend, WindowSize};
 use ratatui::buffer::Cell;
 use ratatui::layout::{Position, Size};
 
-use crate::tui::files::FILES_NAME;
+use crate::tui::ending::ended_by;
 use crate::tui::ground::QUESTION;
 use crate::tui::tty::Tty;
-use crate::tui::worker::WORKER_NAME;
-
-pub use super::host::{Host, NoHost, Shell};
 
 /// The terminal, opened once.
 static TTY: OnceLock<Tty> = OnceLock::new();
@@ -40,8 +37,6 @@ static CUT: AtomicBool = AtomicBool::new(false);
 static TORN: AtomicBool = AtomicBool::new(false);
 /// Whether mouse events are asked for while the terminal is set up.
 static MOUSE: AtomicBool = AtomicBool::new(false);
-/// The first signal that ends the program; 0 if there was none.
-static ENDED_BY: AtomicU8 = AtomicU8::new(0);
 
 /// Whether frames are sent as synchronized updates.
 static WHOLE: AtomicBool = AtomicBool::new(false);
@@ -206,22 +201,12 @@ pub fn cut_frame() {
     CUT.store(true, SeqCst);
 }
 
-/// Notes a signal that ends the program: nothing is drawn any more.
-pub fn end(signal: u8) {
-    let _ = ENDED_BY.compare_exchange(0, signal, SeqCst, SeqCst);
-}
-
-/// The signal that ends the program, if there was one.
-pub fn ended_by() -> Option<u8> {
-    Some(ENDED_BY.load(SeqCst)).filter(|signal| *signal != 0)
-}
-
 /// Writes a frame, or a sequence beside frames, unless it is given up.
 ///
 /// # Errors
 /// The terminal is closed.
 pub fn write(bytes: &[u8]) -> Result<(), Error> {
-    let cut = || CUT.load(SeqCst) || ENDED_BY.load(SeqCst) != 0;
+    let cut = || CUT.load(SeqCst) || ended_by().is_some();
     let began = Instant::now();
     let sent = tty()?.send(bytes, cut)?;
     SENT.fetch_add(sent as u64, SeqCst);
@@ -303,14 +288,13 @@ pub fn open() -> Result<Screen, Error> {
     Terminal::new(ScreenBackend::default())
 }
 
-/// A panic restores the terminal before it is reported. Panics of the worker
-/// and of the thread for files are caught and shown on the screen, so the hook
-/// does not report them.
-pub fn install_panic_hook() {
+/// Restores the terminal before a panic is reported. Panics of threads with these names are
+/// caught and shown on the screen, so the hook does not report them.
+pub fn install_panic_hook(caught: &'static [&'static str]) {
     let report = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |info| {
         let thread = std::thread::current();
-        if thread.name().is_some_and(|name| [WORKER_NAME, FILES_NAME].contains(&name)) {
+        if thread.name().is_some_and(|name| caught.contains(&name)) {
             return;
         }
         leave();

@@ -259,7 +259,7 @@ mod tests {
     #[test]
     fn a_choice_stands_for_a_theme_and_asks_for_the_ground_only_if_it_matters() {
         for theme in Theme::ALL {
-            let ground = theme.ground().unwrap();
+            let ground = theme.ground().unwrap_or_default();
             assert_eq!(ThemeChoice::of(theme).theme(ground), theme);
         }
         assert_eq!(ThemeChoice::Auto.theme(Ground::Light), Theme::Light);

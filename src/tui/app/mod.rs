@@ -11,19 +11,16 @@ mod mouse;
 mod play;
 mod reading;
 mod run;
-mod update;
+mod sweep;
 mod verdict;
 
-pub use dialogue::{InputMode, Purpose};
-
-pub use dialogue::HelpState;
-pub use lesson::LessonProgress;
-
-pub use dialogue::PaletteState;
-pub use files::SceneEntry;
-pub use mouse::Heard;
+pub use dialogue::{HelpState, InputMode, PaletteState, Purpose};
+pub use files::{SceneEntry, Writing};
+pub use knobs::Past;
+pub use lesson::{LessonProgress, StepProgress};
+pub use mouse::Grip;
 pub use reading::{Cursor, STEP, cell_of};
-pub use update::Effect;
+pub use sweep::Sweep;
 
 use dialogue::Dialogue;
 use files::Files;
@@ -40,8 +37,8 @@ use super::bindings::Context;
 use super::engine::{Moment, Order};
 use super::raster::Marker;
 use super::theme::Theme;
-use super::views::ViewId;
-use super::views::map::MapChoice;
+use super::views::id::ViewId;
+use super::views::map::plan::MapChoice;
 use rubscope_solver::model::Machine;
 use rubscope_solver::scene::{CheckedScene, Scene};
 
@@ -63,8 +60,8 @@ pub enum Exit {
     Signal(u8),
 }
 
-/// The explorer: what every part reads, and the parts. Each has a file with its state,
-/// its keys and its tests, and no part names a field of another.
+/// The explorer: what every part reads, and the parts. Each part has a file with its state and
+/// what can be asked of it; what keys do with it is in `update`.
 #[derive(Clone, Debug)]
 pub struct App {
     /// The scene with the current values of the knobs.
@@ -190,9 +187,9 @@ const BINS_PER_PAGE: f64 = 1024.0;
 
 /// The paper's scene on a screen of 120 x 40, for the tests of the parts.
 #[cfg(test)]
-fn on_screen() -> App {
+pub fn on_screen() -> App {
     let scene = rubscope_solver::scene::Scene::builtin("paper-nd3").unwrap().checked().unwrap();
-    let mut app = App::new(scene, crate::tui::Theme::Mono, crate::tui::Marker::Braille);
+    let mut app = App::new(scene, Theme::Mono, Marker::Braille);
     app.layout.size = (120, 40);
     app
 }

@@ -30,14 +30,14 @@ pub struct Run {
     /// Chart ranges.
     pub ranges: Ranges,
     /// The record of the running motion.
-    history: BinHistory,
+    pub history: BinHistory,
     /// The record under the other contact law.
-    comparison: BinHistory,
+    pub comparison: BinHistory,
     /// The latest verdict there is, of this scene or of an older one.
-    pub(super) answer: Option<Arc<Answer>>,
-    pub(super) restarts: u64,
-    pub(super) changes: u64,
-    pub(super) pulses: u64,
+    pub answer: Option<Arc<Answer>>,
+    pub restarts: u64,
+    pub changes: u64,
+    pub pulses: u64,
 }
 
 /// A pinned run, drawn behind the next ones.
@@ -99,7 +99,7 @@ impl Ranges {
 
 impl Run {
     /// Of a scene at its start.
-    pub(super) fn of(scene: &CheckedScene, machine: &Machine) -> Self {
+    pub fn of(scene: &CheckedScene, machine: &Machine) -> Self {
         Self {
             started: scene.clone(),
             latest: Snapshot::default(),
@@ -116,7 +116,7 @@ impl Run {
     }
 
     /// Of a scene from its start again. Old studies stay until there are new ones.
-    fn restart(&mut self, scene: &CheckedScene) {
+    pub fn restart(&mut self, scene: &CheckedScene) {
         self.restarts += 1;
         self.started = scene.clone();
         self.history.clear();
@@ -135,7 +135,7 @@ impl Run {
     }
 
     /// The pulse is fired again.
-    pub(super) fn fire(&mut self) {
+    pub fn fire(&mut self) {
         self.pulses += 1;
         self.forget_forecasts();
     }
@@ -149,39 +149,19 @@ impl Run {
     }
 
     /// The ranges of the charts follow the data, or stay; what to say.
-    pub(super) fn autoscale(&mut self) -> String {
+    pub fn autoscale(&mut self) -> String {
         self.ranges.follow = !self.ranges.follow;
         format!("scales {}", if self.ranges.follow { "follow the data" } else { "stay fixed" })
     }
 
     /// Compares the other contact law, or no longer.
-    pub(super) fn set_compare(&mut self, compare: bool) {
+    pub fn set_compare(&mut self, compare: bool) {
         if compare != self.compare {
             self.compare = compare;
             let results = &mut self.latest.results;
             (results.comparison, results.comparison_page) = (None, None);
             self.comparison.clear();
         }
-    }
-
-    /// The record of what was played.
-    pub(super) fn played(&self) -> &BinHistory {
-        &self.history
-    }
-
-    /// The same under the other contact law.
-    pub(super) fn compared(&self) -> &BinHistory {
-        &self.comparison
-    }
-
-    /// Whether the other contact law runs too.
-    pub(super) fn is_compared(&self) -> bool {
-        self.compare
-    }
-
-    /// The scene with which it started.
-    pub(super) fn scene(&self) -> &CheckedScene {
-        &self.started
     }
 }
 
@@ -216,7 +196,7 @@ impl App {
     }
 
     /// Pins the run behind the next ones, or removes what is pinned.
-    pub(super) fn pin(&mut self) {
+    pub fn pin(&mut self) {
         if self.run.baseline.take().is_some() {
             self.status = Some("baseline removed".into());
             return;
@@ -352,7 +332,7 @@ impl App {
     /// Whether the wave is fixed in the frame of the blades: the motion is
     /// paused, or a corner has been held for a while.
     pub fn is_still(&self) -> bool {
-        !self.play.is_playing()
+        !self.play.playing
             || self.moment().is_some_and(|moment| {
                 let held = moment.state.t_s - moment.since;
                 matches!(moment.active_set, ActiveSet::Corner(..)) && held > self.page_s() * STILL
@@ -418,7 +398,7 @@ mod tests {
         }
         assert_eq!((run.restarts, run.changes, run.pulses), (1, 1, 1));
         run.set_compare(true);
-        assert!(run.is_compared());
+        assert!(run.compare);
         assert_eq!(run.autoscale(), "scales stay fixed");
         assert!(!run.ranges.follow);
     }

@@ -266,7 +266,7 @@ impl App {
     }
 
     /// The blades in a lining at the instant that is shown, in words.
-    pub(super) fn in_the_lining(&self) -> String {
+    pub fn in_the_lining(&self) -> String {
         let touching = self.touching_blades();
         let all = self.machine.polygon.blades as usize;
         let who = match touching.as_slice() {

@@ -8,7 +8,7 @@ mod table;
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use strum::{EnumIter, IntoStaticStr};
 
-use crate::tui::views::ViewId;
+use crate::tui::views::id::ViewId;
 
 pub use table::BINDINGS;
 

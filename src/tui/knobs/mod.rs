@@ -10,12 +10,12 @@ mod table;
 use inert::Inert;
 pub use naming::{Fit, best, called, fit, plain};
 use number::CLEARANCE;
-pub use number::number;
 use number::{decades, mantissas};
 use range::Bar;
 pub use range::{KnobRange, meaning};
 pub use table::KNOBS;
 
+use crate::tui::axis;
 use rubscope_solver::scene::units::UnitError;
 use rubscope_solver::scene::{
     Adjustment, Allowed, CheckedScene, ContactLaw, Quantity, Scene, SceneError, Value, keys,
@@ -249,7 +249,7 @@ impl Knob {
     /// The value as shown, with prefix and unit.
     pub fn shown(&self, value: &Value) -> String {
         match value {
-            Value::Real(x) => number(*x, self.unit()),
+            Value::Real(x) => axis::number(*x, self.unit()),
             Value::Text(word) => word.clone(),
             other => other.to_string(),
         }

@@ -2,7 +2,8 @@
 
 use super::{KNOBS, Knob};
 use crate::tui::appearance::Appearance;
-use crate::tui::{Marker, Theme};
+use crate::tui::raster::Marker;
+use crate::tui::theme::Theme;
 use rubscope_solver::scene::keys;
 
 /// How well words name a knob, the best first.

@@ -198,7 +198,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, help: &HelpState) {
 mod tests {
     use super::*;
     use crate::tui::knobs::KNOBS;
-    use crate::tui::views::ViewId;
+    use crate::tui::views::id::ViewId;
     use crate::tui::{raster::Marker, theme::Theme};
     use rubscope_solver::scene::Scene;
 

@@ -20,9 +20,6 @@ use rubscope_solver::scene::CheckedScene;
 
 /// A view: how it is drawn and exported.
 pub trait ViewPanel: Sync {
-    /// What it shows, for the help.
-    fn what(&self) -> &'static str;
-
     /// Draws it.
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea);
 

@@ -30,17 +30,13 @@ const SIDE_BY_SIDE_FROM: u16 = 90;
 pub struct ResponseView;
 
 impl ViewPanel for ResponseView {
-    fn what(&self) -> &'static str {
-        "response"
-    }
-
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
         let casing = Page::casing("response".into(), app);
         if app.run.compare {
             both_laws(app, buffer, at);
         } else if let (above, Some(below)) = at.pair(40)
             && app.layout.full_screen
-            && !app.appearance.is_wide()
+            && !app.appearance.wide
             && bends(app)
         {
             page(app, buffer, above, &casing);

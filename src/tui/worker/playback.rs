@@ -17,7 +17,7 @@ use super::recorder::Recorder;
 use super::studies::{Bounds, Studies};
 use crate::tui::engine::{Limit, Moment, Order, Snapshot};
 use crate::tui::trace::Mark;
-use crate::tui::views::ViewId;
+use crate::tui::views::id::ViewId;
 use rubscope_solver::motion::{Change, Motion};
 use rubscope_solver::scene::keys::differences;
 

@@ -29,10 +29,6 @@ const BOTH_FROM: u16 = 76;
 pub struct FrameView;
 
 impl ViewPanel for FrameView {
-    fn what(&self) -> &'static str {
-        "the wheel, and the wave as the blades see it"
-    }
-
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
         if at.area.width >= BOTH_FROM && app.is_alone() {
             let [left, right] = at.columns();

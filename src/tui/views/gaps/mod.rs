@@ -21,10 +21,6 @@ use rubscope_solver::motion::ActiveSet;
 pub struct GapsView;
 
 impl ViewPanel for GapsView {
-    fn what(&self) -> &'static str {
-        "gaps"
-    }
-
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
         if app.layout.heat { draw_heat(app, buffer, at) } else { draw(app, buffer, at) }
     }

@@ -4,13 +4,11 @@
 
 mod picture;
 pub use picture::colour;
-mod plan;
+pub mod plan;
 mod words;
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
-pub use plan::{CellRun, LiveMap, coarse_first};
-pub use plan::{MapAxis, MapChoice, numeric};
 pub use words::value_text;
 
 use super::panel::{Opening, ViewArea, ViewPanel, not_yet, title};
@@ -18,6 +16,7 @@ use crate::report::map::write_csv;
 use crate::tui::app::{App, Cursor};
 use crate::tui::text::{print, spelled_pieces};
 use crate::tui::theme::Role;
+use plan::LiveMap;
 use rubscope_solver::study::{Axis, MapPlan};
 use words::Line;
 
@@ -34,10 +33,6 @@ const ONE_ROW_FROM: u16 = 7;
 pub struct MapView;
 
 impl ViewPanel for MapView {
-    fn what(&self) -> &'static str {
-        "map of the verdict over two knobs"
-    }
-
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
         let live = app.results().found.map.as_deref();
         let plan = app.map_plan();

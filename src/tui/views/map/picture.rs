@@ -5,8 +5,9 @@ use ratatui::style::{Color, Style};
 use ratatui::{buffer::Buffer, layout::Rect};
 
 use super::super::panel::ViewArea;
+use super::plan::LiveMap;
+use super::words;
 use super::words::present;
-use super::{LiveMap, words};
 use crate::report::map::mark;
 use crate::tui::app::App;
 use crate::tui::appearance::Appearance;

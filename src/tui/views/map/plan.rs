@@ -330,7 +330,6 @@ pub struct CellRun {
 mod tests {
     use super::*;
     use crate::tui::knobs::Group;
-    use crate::tui::views::map::MapChoice;
     use rubscope_solver::scene::ModelSize;
 
     #[test]

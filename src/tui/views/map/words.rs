@@ -4,12 +4,12 @@
 use ratatui::style::Style;
 
 use super::picture::{is_inside, sign};
-use super::{CellRun, LiveMap};
+use super::plan::{CellRun, LiveMap};
 use crate::report::map::means;
 use crate::report::number::{count, grouped, rounded, told};
 use crate::tui::app::App;
-use crate::tui::axis::readable;
-use crate::tui::knobs::{Knob, knob_of, number};
+use crate::tui::axis::{number, readable};
+use crate::tui::knobs::{Knob, knob_of};
 use crate::tui::text::{columns, few, wrap};
 use crate::tui::theme::Role;
 use rubscope_solver::motion::Verdict;

@@ -9,32 +9,18 @@ use crate::report::margins::LimitRow;
 use crate::report::number::{per_speed, rounded, short, speed_unit};
 use crate::tui::app::App;
 use crate::tui::appearance::Appearance;
-use crate::tui::axis::readable;
-use crate::tui::knobs::{Knob, knob_of, number};
+use crate::tui::axis::{number, readable};
+use crate::tui::knobs::{Knob, knob_of};
 use crate::tui::theme::Role;
 use crate::tui::views::Opening;
-use crate::tui::views::margins::LiveMargins;
 use crate::tui::views::margins::table::signs;
-use rubscope_solver::study::margins::{Margins, Quantity, Side};
+use rubscope_solver::study::margins::{Quantity, Side};
 
 /// Digits of a limit.
 pub const DIGITS: usize = 5;
 
 /// From this factor on, a margin is told as one.
 const FACTORS: f64 = 10.0;
-
-impl LiveMargins {
-    /// Margins in which nothing was searched yet.
-    pub fn of(margins: Margins) -> Self {
-        let awaited = margins.laws().to_vec();
-        Self { margins, awaited, survey: None }
-    }
-
-    /// The rows, in the order of the limits; what is searched is among the pulses.
-    pub fn rows(&self) -> Vec<LimitRow<'_>> {
-        LimitRow::all(&self.margins, &self.awaited)
-    }
-}
 
 /// The value of a limit, in a column whose speeds have the unit of speeds.
 pub fn value_text(row: &LimitRow) -> String {

@@ -8,8 +8,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use crate::tui::engine::FORECAST_LIMIT;
-use crate::tui::views::ViewId;
-use crate::tui::views::map::{CellRun, LiveMap, coarse_first};
+use crate::tui::views::id::ViewId;
+use crate::tui::views::map::plan::{CellRun, LiveMap, coarse_first};
 use crate::tui::worker::background::{Background, spare_threads};
 use crate::tui::worker::studies::{Given, Study};
 use rubscope_solver::motion::{GoOn, Motion, verdict_of};
@@ -217,7 +217,7 @@ fn run_of(plan: MapPlan, cell: [u32; 2], go_on: GoOn<'_>) -> Option<CellRun> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tui::views::map::MapChoice;
+    use crate::tui::views::map::plan::MapChoice;
     use crate::tui::worker::studies::tests::with_given;
     use rubscope_solver::motion::Verdict;
     use rubscope_solver::scene::Scene;

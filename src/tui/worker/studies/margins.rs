@@ -6,8 +6,8 @@ use std::sync::mpsc::Sender;
 use std::time::Duration;
 
 use super::{Given, Study};
-use crate::tui::views::ViewId;
-use crate::tui::views::margins::LiveMargins;
+use crate::tui::views::id::ViewId;
+use crate::tui::views::margins::live::LiveMargins;
 use crate::tui::worker::background::{Background, on_spare_cores};
 use rubscope_solver::motion::GoOn;
 use rubscope_solver::scene::CheckedScene;

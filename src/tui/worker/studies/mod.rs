@@ -14,8 +14,8 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::full_run::{FullRunJob, SLICE};
-use crate::tui::engine::{Order, Working};
-use crate::tui::views::ViewId;
+use crate::tui::engine::{Found, Order, Working};
+use crate::tui::views::id::ViewId;
 use rubscope_solver::study::MapPlan;
 
 /// A study that takes longer says how far it is.
@@ -179,18 +179,12 @@ impl<S: Study> Work for Kept<S> {
 }
 
 macro_rules! studies {
-    ($($(#[$what:meta])* $name:ident: $study:ty,)*) => {
+    ($($name:ident: $study:ty,)*) => {
         /// The studies of one scene, in the order in which they are computed.
         #[derive(Debug, Default)]
         pub struct Studies {
             bounds: Bounds,
             $($name: Kept<$study>,)*
-        }
-
-        /// What the studies have found.
-        #[derive(Clone, Debug, Default)]
-        pub struct Found {
-            $($(#[$what])* pub $name: Option<Arc<<$study as Study>::Found>>,)*
         }
 
         impl Studies {
@@ -212,19 +206,12 @@ macro_rules! studies {
 }
 
 studies! {
-    /// The locked motion against speed.
     locked: locked::LockedStudy,
-    /// The spectrum of the run.
     spectrum: spectrum::SpectrumStudy,
-    /// What a coincidence does; none within where there is no coincidence.
     coincidence: coincidence::CoincidenceStudy,
-    /// The margins; what is searched arrives later.
     margins: margins::MarginsStudy,
-    /// The run of the map's cell that was asked for.
     cell: map::CellStudy,
-    /// The map; cells arrive one by one.
     map: map::MapStudy,
-    /// Speed against error; rows arrive one by one.
     precision: precision::PrecisionStudy,
 }
 
@@ -274,7 +261,7 @@ impl Studies {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tui::views::ViewId;
+    use crate::tui::views::id::ViewId;
     use crate::tui::{App, Marker, Theme};
     use rubscope_solver::motion::Motion;
     use rubscope_solver::scene::Scene;

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::{Given, Study};
-use crate::tui::views::ViewId;
-use crate::tui::views::spectrum::Spectrum;
+use crate::tui::views::id::ViewId;
+use crate::tui::views::spectrum::lines::Spectrum;
 
 /// The spectrum of a run.
 #[derive(Debug)]
