@@ -81,7 +81,8 @@ fn a_jump_stops_at_the_change_of_contact_at_any_zoom() {
     run.advance(scene.solver.end_s).unwrap();
     let impacts: Vec<f64> = run.contacts().impacts.iter().map(|impact| impact.t_s).collect();
     for bin_s in [1e-9, 2e-5, 1e-3] {
-        let mut order = Order { bin_s, ..order(scene.clone()) };
+        // A page of so many bins, as on the screen.
+        let mut order = Order { bin_s, page: (0.0, 1024.0 * bin_s), ..order(scene.clone()) };
         let mut playback = computed(&order);
         for (number, impact) in (1..).zip(impacts.iter().take(2)) {
             order.jumps = number;
