@@ -37,8 +37,9 @@ pub struct ExploreCommand {
     #[arg(long, value_name = "MARKER",
           value_parser = choice::<tui::Marker>(), hide_possible_values = true)]
     marker: Option<tui::Marker>,
-    /// How much the line to the terminal carries: thin (a few kilobytes a second),
-    /// full, or auto: thin over SSH or where the terminal is slow
+    /// How much the line to the terminal carries: thin (at most 5 kB a second while the
+    /// motion plays: a larger window has fewer frames, down to one in ten seconds), full,
+    /// or auto: thin over SSH or where the terminal is slow
     #[arg(long, value_name = "LINE", default_value = "auto",
           value_parser = choice::<tui::Line>(), hide_possible_values = true)]
     line: tui::Line,

@@ -1,6 +1,6 @@
-//! How much the terminal is sent. On a thin line the frames of a playing motion
-//! come as often as five kilobytes a second allow; what a key asks for may take
-//! more for a moment.
+//! How much the terminal is sent. On a thin line the frames of a playing motion come as often
+//! as five kilobytes a second allow, more seldom in a larger window; what a key asks for may
+//! take more for a moment.
 
 use std::time::{Duration, Instant};
 
@@ -13,7 +13,7 @@ pub enum Line {
     /// As a thin line over SSH, or once a write had to wait.
     #[default]
     Auto,
-    /// At most five kilobytes a second while the motion plays.
+    /// At most five kilobytes a second while the motion plays, in a window of any size.
     Thin,
     /// Every frame that was asked for.
     Full,
@@ -27,8 +27,11 @@ const KEYS: f64 = 20_000.0;
 const AHEAD: Duration = Duration::from_secs(1);
 /// Longest wait of an answer to a key.
 const SOON: Duration = Duration::from_millis(200);
-/// Longest pause between two frames, whatever the last one took.
-const LONGEST: Duration = Duration::from_secs(2);
+/// Longest wait of an answer to a key on a line where writes have to wait.
+const LATEST: Duration = Duration::from_secs(2);
+/// Longest pause between two frames, whatever the last one took: 45 kB are most of a window of
+/// 400 columns and 100 rows.
+const LONGEST: Duration = Duration::from_secs(10);
 
 /// The account of what the line has taken.
 #[derive(Debug)]
@@ -66,7 +69,7 @@ impl Throttle {
         // A key is answered soon, whatever was sent before.
         match (by_key, self.slow) {
             (true, false) => wait.saturating_sub(AHEAD).min(SOON),
-            (true, true) => wait.saturating_sub(AHEAD),
+            (true, true) => wait.saturating_sub(AHEAD).min(LATEST),
             (false, _) => wait,
         }
     }
@@ -91,9 +94,11 @@ mod tests {
 
     #[test]
     fn a_thin_line_takes_five_kilobytes_a_second_at_any_size_of_frame() {
-        for bytes in [200, 1000, 3000, 9000] {
+        for bytes in [200, 1000, 3000, 9000, 25_000, 45_000] {
             let thin = rate(Line::Thin, bytes, false, false);
             assert!(thin < 5000.0, "{bytes}: {thin}");
+        }
+        for bytes in [200, 1000, 3000, 9000] {
             let slow = rate(Line::Auto, bytes, true, true);
             assert!(slow < 5500.0, "{bytes}: {slow}");
         }
