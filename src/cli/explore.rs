@@ -60,7 +60,7 @@ fn frames(text: &str) -> Result<f64, String> {
     fps.ok_or_else(|| "allowed is a number from 0.1 to 60".to_string())
 }
 
-/// One of the words of a choice.
+/// Returns one of the words of a choice.
 fn choice<T>() -> impl TypedValueParser<Value = T>
 where
     T: FromStr + VariantNames + Clone + Send + Sync + 'static,
@@ -71,7 +71,7 @@ where
 }
 
 impl ExploreCommand {
-    /// Whether it is without a screen.
+    /// Returns whether it is without a screen.
     pub(super) fn is_in_lines(&self) -> bool {
         self.lines || tui::is_dumb_terminal()
     }
@@ -107,7 +107,7 @@ impl ExploreCommand {
         }
     }
 
-    /// A command after options is read as a scene: explain the right order.
+    /// Returns a command after options is read as a scene: explain the right order.
     fn refuse_command(&self) -> Result<(), Refusal> {
         let name = self.options.name().unwrap_or_default();
         if Cli::command().get_subcommands().any(|command| command.get_name() == name) {

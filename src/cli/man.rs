@@ -124,7 +124,7 @@ const EXAMPLES: &[(&str, &str)] = &[
     ),
 ];
 
-/// The sections that are not in the definition of the command line.
+/// Returns the sections that are not in the definition of the command line.
 fn added() -> Roff {
     let mut page = Roff::new();
     page.control("SH", ["SCENES"]);

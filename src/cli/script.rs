@@ -122,13 +122,13 @@ impl RequestedStep {
     }
 }
 
-/// Whether a key can act on a running motion of this scene.
+/// Returns whether a key can act on a running motion of this scene.
 fn acts_live(key: &Key, scene: &CheckedScene) -> bool {
     let by_steps = scene.solver.kind == SolverKind::Explicit;
     key.live == Live::Always || (by_steps && key.live == Live::Steps)
 }
 
-/// What can act on a running motion of this scene, for error messages.
+/// Returns what can act on a running motion of this scene, for error messages.
 fn live_keys(scene: &CheckedScene) -> String {
     let keys: Vec<&str> =
         KEYS.iter().filter(|key| acts_live(key, scene)).map(|key| key.path).collect();
@@ -160,13 +160,13 @@ impl RequestedScript {
         Ok(Self(steps))
     }
 
-    /// Whether there are no changes.
+    /// Returns whether there are no changes.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// The changes of the motion.
+    /// Returns the changes of the motion.
     #[must_use]
     pub fn changes(&self) -> motion::Script {
         let acts =
@@ -191,7 +191,7 @@ impl Serialize for RequestedScript {
     }
 }
 
-/// A step as JSON reports tell it.
+/// Returns a step as JSON reports tell it.
 fn told(step: &RequestedStep) -> serde_json::Value {
     let t_s = step.t_s;
     match &step.change {

@@ -32,7 +32,7 @@ fn style(sign: &ProgressBar, template: &str) {
     }
 }
 
-/// Shows it from now on, as long as the command is at work.
+/// Shows the sign of life from now on, as long as the command is at work.
 pub fn begin() {
     if !stderr().is_terminal() {
         return;
@@ -47,14 +47,14 @@ pub fn begin() {
     let _ = thread::Builder::new().name("rubscope-sign".into()).spawn(begun);
 }
 
-/// Says what is being done now.
+/// Shows what is being done now.
 pub fn doing(what: impl Into<String>) {
     if let Some(sign) = SIGN.get() {
         sign.set_message(what.into());
     }
 }
 
-/// Says how many parts the work has, in this form; each is counted by `inc`.
+/// Shows how many parts the work has, in this form; each is counted by `inc`.
 pub fn bar(parts: u64, template: &str) -> ProgressBar {
     let Some(sign) = SIGN.get() else { return ProgressBar::hidden() };
     style(sign, template);
@@ -71,7 +71,7 @@ pub fn aside<T>(print: impl FnOnce() -> T) -> T {
     }
 }
 
-/// The work is done.
+/// Ends the sign of life: the work is done.
 pub fn end() {
     if let Some(sign) = SIGN.get() {
         sign.finish_and_clear();
@@ -111,7 +111,7 @@ pub(super) struct LongRun {
 }
 
 impl LongRun {
-    /// Of a run that begins now, followed by `changed` more.
+    /// Creates the bar of a run that begins now, followed by `changed` more.
     pub(super) fn of(scene: &CheckedScene, changed: usize) -> Self {
         Self {
             bar: bar(PARTS, "{spinner} {bar:30} {msg} {elapsed}"),
@@ -122,7 +122,7 @@ impl LongRun {
         }
     }
 
-    /// Whether a look is due after this much wall time.
+    /// Returns whether a look is due after this much wall time.
     fn is_due(&self, elapsed: Duration) -> bool {
         elapsed >= self.next
     }
@@ -149,7 +149,7 @@ impl Watch for LongRun {
     }
 }
 
-/// How much of a run to `end_s` is done, by its time or by its bound, and in words.
+/// Returns how much of a run to `end_s` is done, by its time or by its bound, and in words.
 fn progress(motion: &Motion, end_s: f64) -> (f64, String) {
     let now = motion.t_s();
     let (part, told) = (now / end_s, format!("{} of {}", time(now), time(end_s)));
@@ -162,7 +162,7 @@ fn progress(motion: &Motion, end_s: f64) -> (f64, String) {
     }
 }
 
-/// What bounds a run, and what follows it.
+/// Returns what bounds a run, and what follows it.
 fn bound(scene: &CheckedScene, changed: usize) -> String {
     let end = time(scene.solver.end_s);
     let most = match scene.solver.kind {

@@ -20,7 +20,7 @@ impl StopRequest {
         Self(())
     }
 
-    /// The number of the signal that asked to stop, if one did.
+    /// Returns the number of the signal that asked to stop, if one did.
     pub(super) fn received(&self) -> Option<u8> {
         Some(NOTED.load(Ordering::SeqCst)).filter(|&number| number != 0)
     }
@@ -64,8 +64,8 @@ pub(super) fn watch() -> std::io::Result<()> {
 #[cfg(unix)]
 const LONGEST_CHANGE: std::time::Duration = std::time::Duration::from_secs(2);
 
-/// The signals that were ignored when the program started, a bit each from signal
-/// 1 on; none where the system does not tell.
+/// Returns the signals that were ignored when the program started, a bit each from signal 1 on;
+/// none where the system does not tell.
 #[cfg(unix)]
 fn ignored() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

@@ -29,12 +29,12 @@ pub enum Status {
 pub struct Refusal(String);
 
 impl Refusal {
-    /// A refusal of `value` for `name`, an option or argument as typed.
+    /// Creates a refusal of `value` for `name`, an option or argument as typed.
     pub fn of(name: &str, value: impl std::fmt::Display, allowed: impl std::fmt::Display) -> Self {
         Self(format!("{name} = {value}: allowed is {allowed}"))
     }
 
-    /// A refusal with this reason.
+    /// Creates a refusal with this reason.
     pub fn because(reason: impl Into<String>) -> Self {
         Self(reason.into())
     }
@@ -43,7 +43,7 @@ impl Refusal {
 /// SIGPIPE, which has this number on every Unix.
 const BROKEN_PIPE: u8 = 13;
 
-/// The exit status of a command, after its message if it has one.
+/// Returns the exit status of a command, after its message if it has one.
 pub fn exit(done: super::Done) -> u8 {
     if done.is_ok() {
         say_noted();
@@ -98,8 +98,8 @@ pub fn say_noted() {
     lines.iter().for_each(|line| say(line));
 }
 
-/// The exit status of a command line that clap did not turn into a command:
-/// help and version on standard output, anything else refused in one line.
+/// Returns the exit status of a command line that clap did not turn into a command: help and
+/// version on standard output, anything else refused in one line.
 pub fn usage(error: &clap::Error, arguments: &[OsString]) -> u8 {
     match error.kind() {
         Usage::DisplayHelp | Usage::DisplayVersion => match error.print() {
@@ -115,7 +115,7 @@ pub fn usage(error: &clap::Error, arguments: &[OsString]) -> u8 {
     }
 }
 
-/// Clap's message without its usage block, as one line.
+/// Returns the message of clap without its usage block, as one line.
 fn in_one_line(message: &str) -> String {
     let told: Vec<&str> = message
         .lines()

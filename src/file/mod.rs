@@ -79,7 +79,7 @@ pub fn create(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> 
     create_with(path, USUAL, write)
 }
 
-/// As `create`, for the user alone: others can never read it.
+/// Same as [`create`], for the user alone: others can never read the file.
 ///
 /// # Errors
 /// As `create`.

@@ -59,7 +59,7 @@ pub fn write(report: &RunReport, wall: Wall, out: &mut dyn Write) -> Result<()> 
     writeln!(out, "{}", cost(report, wall))
 }
 
-/// Solver, contact law, model, and the conditions of the run.
+/// Writes solver, contact law, model, and the conditions of the run.
 fn how(report: &RunReport) -> String {
     let scene = &report.scene;
     let step = match report.solver.kind {
@@ -92,7 +92,7 @@ fn how(report: &RunReport) -> String {
     )
 }
 
-/// What a verdict means, in one sentence.
+/// Returns what a verdict means, in one sentence.
 fn meaning(report: &RunReport) -> &'static str {
     match report.outcome.verdict {
         Verdict::Decay if report.scene.clearance() < 0.0 => {
@@ -117,7 +117,7 @@ fn meaning(report: &RunReport) -> &'static str {
     }
 }
 
-/// A warning if the bilateral law pulled.
+/// Returns a warning if the bilateral law pulled.
 fn warning(report: &RunReport) -> Option<String> {
     let pulls = report.checks.tensile_steps;
     (report.solver.contact == ContactLaw::Bilateral && pulls > 0).then(|| {
@@ -166,7 +166,7 @@ fn motion(report: &RunReport, machine: &Machine, out: &mut dyn Write) -> Result<
     writeln!(out, "{}", impacts(report))
 }
 
-/// What a length is a part of.
+/// Returns what a length is a part of.
 fn room(machine: &Machine) -> &'static str {
     if machine.clearance() < 0.0 { "interference" } else { "clearance" }
 }
@@ -202,7 +202,7 @@ fn touch(contact: &Contact, moved: Option<f64>, digits: &Digits) -> String {
     format!("{who} {verb} with {force} N at the end.")
 }
 
-/// The rotor speed, compared with the threshold speeds.
+/// Returns the rotor speed, compared with the threshold speeds.
 fn speeds(report: &RunReport, machine: &Machine) -> String {
     let now = report.end_speed_rad_s;
     let lock = machine.lock_window(now);
@@ -284,7 +284,7 @@ fn cost(report: &RunReport, wall: Wall) -> String {
     format!("Cost: {what}run {}{each}{certainty}.", time(wall.run_s))
 }
 
-/// "6", "6 and 17", "1, 2 and 3", "1, 3, 5 and 8 more".
+/// Lists numbers: "6", "6 and 17", "1, 2 and 3", "1, 3, 5 and 8 more".
 fn listed(blades: &[u32]) -> String {
     let names = |blades: &[u32]| -> String {
         blades.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")

@@ -12,13 +12,13 @@ pub struct Ability {
 }
 
 impl Ability {
-    /// By the environment.
+    /// Reads what the terminal can show from the environment.
     pub fn of(variable: &dyn Fn(&str) -> String) -> Self {
         // Windows has none of these variables, and can show everything but octants.
         Self { ascii_only: cfg!(unix) && only_ascii(variable), octants: draws_octants(variable) }
     }
 
-    /// Whether it can show this marker.
+    /// Returns whether it can show this marker.
     pub fn shows(&self, marker: Marker) -> bool {
         match marker {
             Marker::Ascii => true,
@@ -27,27 +27,26 @@ impl Ability {
         }
     }
 
-    /// The marker if none was chosen.
+    /// Returns the marker if none was chosen.
     pub fn marker(&self) -> Marker {
         if self.ascii_only { Marker::Ascii } else { Marker::Braille }
     }
 }
 
-/// Whether the terminal is reached over SSH.
+/// Returns whether the terminal is reached over SSH.
 pub fn is_remote(variable: &dyn Fn(&str) -> String) -> bool {
     ["SSH_CONNECTION", "SSH_TTY"].iter().any(|name| !variable(name).is_empty())
 }
 
-/// Whether a kind of terminal is a console or an old terminal with little more
-/// than text.
+/// Returns whether a kind of terminal is a console or an old terminal with little more than text.
 pub fn is_plain(term: &str) -> bool {
     let term = term.to_ascii_lowercase();
     let digital = term.strip_prefix("vt").is_some_and(|model| model.starts_with(char::is_numeric));
     digital || term == "linux" || term.starts_with("linux-") || term == "ansi"
 }
 
-/// Whether the terminal is one of those known to draw octants. Others show them
-/// in few fonts or leave parts of them behind, and so do tmux and screen.
+/// Returns whether the terminal is one of those known to draw octants. Others show them in few
+/// fonts or leave parts of them behind, and so do tmux and screen.
 fn draws_octants(variable: &dyn Fn(&str) -> String) -> bool {
     let has = |name: &str| !variable(name).is_empty();
     if has("TMUX") || has("STY") {
@@ -62,8 +61,8 @@ fn draws_octants(variable: &dyn Fn(&str) -> String) -> bool {
     !multiplexed && (known || by_name)
 }
 
-/// Whether only ASCII can be shown: by the kind of terminal, or because the
-/// locale is not one of UTF-8.
+/// Returns whether only ASCII can be shown: by the kind of terminal, or because the locale is not
+/// one of UTF-8.
 fn only_ascii(variable: &dyn Fn(&str) -> String) -> bool {
     if is_plain(&variable("TERM")) {
         return true;

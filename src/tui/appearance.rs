@@ -26,17 +26,17 @@ pub struct Appearance {
 }
 
 impl Appearance {
-    /// For a screen in front of the user.
+    /// Creates the appearance for a screen in front of the user.
     pub fn new(theme: Theme, marker: Marker) -> Self {
         Self { theme, follows_ground: false, marker, wide: false, octants: false, rpm: false }
     }
 
-    /// The next theme; what to say.
+    /// Changes to the next theme; returns the message.
     pub fn next_theme(&mut self) -> String {
         self.use_theme(self.theme.next())
     }
 
-    /// Another theme; what to say.
+    /// Changes to a theme; returns the message.
     pub fn use_theme(&mut self, theme: Theme) -> String {
         (self.theme, self.follows_ground) = (theme, false);
         format!("theme {}", self.theme.name())
@@ -49,35 +49,35 @@ impl Appearance {
         }
     }
 
-    /// The next marker; what to say.
+    /// Changes to the next marker; returns the message.
     pub fn next_marker(&mut self) -> String {
         self.marker = self.marker.next(self.octants);
         format!("marker {}", self.marker)
     }
 
-    /// Speeds in turns a minute, or in radians a second; what to say.
+    /// Changes the unit of speeds, rpm or rad/s; returns the message.
     pub fn next_speeds(&mut self) -> String {
         self.rpm = !self.rpm;
         self.use_speeds();
         format!("speeds in {}", speed_unit())
     }
 
-    /// What is told from now on has speeds in the chosen unit.
+    /// Uses the chosen unit for all speeds that are shown from now on.
     pub fn use_speeds(&self) {
         tell_in_rpm(self.rpm);
     }
 
-    /// Style of a role.
+    /// Returns the style of a role.
     pub fn style(&self, role: Role) -> Style {
         self.theme.style(role)
     }
 
-    /// Whether only ASCII may be written.
+    /// Returns whether only ASCII may be written.
     pub fn ascii(&self) -> bool {
         self.marker == Marker::Ascii
     }
 
-    /// The Unicode or the ASCII way to write something.
+    /// Returns the Unicode or the ASCII way to write something.
     pub fn either<T>(&self, unicode: T, ascii: T) -> T {
         if self.ascii() { ascii } else { unicode }
     }
@@ -87,7 +87,7 @@ impl Appearance {
         self.either("…", "..")
     }
 
-    /// Text with Greek letters and signs spelled out where only ASCII is drawn.
+    /// Returns the text with Greek letters and signs spelled out where only ASCII is drawn.
     pub fn spell(&self, text: &str) -> String {
         if !self.ascii() {
             return text.to_string();
@@ -134,22 +134,22 @@ impl Appearance {
         out
     }
 
-    /// Signs of the axis lines: upright, its tick, the corner, level, its tick.
+    /// Returns the signs of the axis lines: upright, its tick, the corner, level, its tick.
     pub fn axis_signs(&self) -> [char; 5] {
         self.either(['│', '┤', '└', '─', '┬'], ['|', '+', '+', '-', '+'])
     }
 
-    /// Solid pen of the first series.
+    /// Returns the solid pen of the first series.
     pub fn first(&self) -> Pen {
         Pen { style: self.style(Role::First), sign: '*', dashed: false }
     }
 
-    /// Dashed pen of the second series.
+    /// Returns the dashed pen of the second series.
     pub fn second(&self) -> Pen {
         Pen { style: self.style(Role::Second), sign: 'o', dashed: true }
     }
 
-    /// Pen for data to compare with.
+    /// Returns the pen for data to compare with.
     pub fn quiet(&self) -> Pen {
         Pen { style: self.style(Role::Quiet), sign: '.', dashed: true }
     }

@@ -23,33 +23,33 @@ pub struct ChartAxis {
 }
 
 impl ChartAxis {
-    /// An axis whose labels carry the prefix of its greatest magnitude.
+    /// Creates an axis whose labels carry the prefix of its greatest magnitude.
     pub fn scaled(low: f64, high: f64) -> Self {
         Self { scale: SiScale::of(low.abs().max(high.abs())), ..Self::plain(low, high) }
     }
 
-    /// An axis without a prefix.
+    /// Creates an axis without a prefix.
     pub fn plain(low: f64, high: f64) -> Self {
         Self { low, high, scale: SiScale::plain(), powers: false, unit: None, speeds: false }
     }
 
-    /// An axis of speeds \[rad/s\], in the unit in which they are told.
+    /// Creates an axis of speeds \[rad/s\], in the unit in which they are told.
     pub fn speeds(low: f64, high: f64) -> Self {
         let scale = SiScale { factor: 1.0 / per_speed(1.0), prefix: "" };
         Self { scale, speeds: true, ..Self::plain(low, high) }
     }
 
-    /// An axis of powers of ten, from one exponent to another.
+    /// Creates an axis of powers of ten, from one exponent to another.
     pub fn powers(low: f64, high: f64) -> Self {
         Self { powers: true, ..Self::plain(low, high) }
     }
 
-    /// As `powers`, with a unit and its prefix: `100 kN` for `1e5`.
+    /// Same as [`Self::powers`], with a unit and its prefix: `100 kN` for `1e5`.
     pub fn powers_of(low: f64, high: f64, unit: &'static str) -> Self {
         Self { unit: Some(unit), ..Self::powers(low, high) }
     }
 
-    /// Round values and their spacing; for powers only whole exponents.
+    /// Returns the round values and their spacing; for powers only whole exponents.
     pub(super) fn ticks(&self, most: usize) -> (Vec<f64>, f64) {
         let unit = if self.speeds { self.scale.factor } else { 1.0 };
         if unit != 1.0 {
@@ -63,7 +63,7 @@ impl ChartAxis {
         (values.into_iter().filter(|v| (v - v.round()).abs() < 1e-9).collect(), 1.0)
     }
 
-    /// The label of a tick.
+    /// Returns the label of a tick.
     pub(super) fn label(&self, value: f64, step: f64) -> String {
         match (self.powers, self.unit) {
             (true, Some(unit)) => number(10f64.powi(value.round() as i32), unit),
@@ -72,12 +72,12 @@ impl ChartAxis {
         }
     }
 
-    /// The value at a part of the axis, 0 to 1.
+    /// Returns the value at a part of the axis, 0 to 1.
     pub fn at(&self, part: f64) -> f64 {
         self.low + part * (self.high - self.low)
     }
 
-    /// Whether it is a proper range.
+    /// Returns whether it is a proper range.
     pub(super) fn is_sound(&self) -> bool {
         self.low.is_finite() && self.high.is_finite() && self.high > self.low
     }
@@ -98,17 +98,17 @@ pub fn number(x: f64, unit: &str) -> String {
     format!("{text} {}{unit}", scale.prefix).trim_end().to_string()
 }
 
-/// A number with four significant digits and its SI prefix, such as `228.2 µ`.
+/// Returns a number with four significant digits and its SI prefix, such as `228.2 µ`.
 pub fn readable(value: f64, unit: &str) -> String {
     prefixed(value, 4, unit)
 }
 
-/// An instant with six significant digits, enough to type it elsewhere.
+/// Returns an instant with six significant digits, enough to type it elsewhere.
 pub fn instant(t: f64) -> String {
     prefixed(t, 6, "s")
 }
 
-/// A number with so many significant digits and its SI prefix.
+/// Returns a number with so many significant digits and its SI prefix.
 fn prefixed(value: f64, digits: usize, unit: &str) -> String {
     if !value.is_finite() {
         return format!("- {unit}").trim_end().to_string();
@@ -135,7 +135,7 @@ pub struct AutoRange {
 const SHRINK_BELOW: f64 = 0.35;
 
 impl AutoRange {
-    /// A range to begin with.
+    /// Creates a range to begin with.
     pub const fn new(low: f64, high: f64) -> Self {
         Self { low, high }
     }
@@ -157,7 +157,7 @@ impl AutoRange {
     }
 }
 
-/// The smallest range with round ends that holds `[low, high]`.
+/// Returns the smallest range with round ends that holds `[low, high]`.
 fn round_out(low: f64, high: f64) -> (f64, f64) {
     match nice_step(high - low, 8) {
         Some(step) => ((low / step).floor() * step, (high / step).ceil() * step),

@@ -118,7 +118,7 @@ fn private_folder(folder: &Path) -> std::io::Result<()> {
     std::fs::create_dir_all(folder)
 }
 
-/// Whether a folder may be made: not below a home that does not exist.
+/// Returns whether a folder may be made: not below a home that does not exist.
 fn is_at_home(folder: &Path, home: &Path) -> bool {
     home.is_dir() || !folder.starts_with(home)
 }

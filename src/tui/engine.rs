@@ -63,23 +63,23 @@ pub struct Order {
 }
 
 impl Order {
-    /// Whether a view is on the screen.
+    /// Returns whether a view is on the screen.
     pub fn shows(&self, view: ViewId) -> bool {
         self.open.contains(&view)
     }
 
-    /// The map to compute, while its view is open and the scene has one.
+    /// Returns the map to compute, while its view is open and the scene has one.
     pub fn map_plan(&self) -> Option<MapPlan> {
         self.shows(ViewId::Map).then(|| self.map.plan(&self.scene).ok()).flatten()
     }
 
-    /// Number of the knobs' state: grows with every restart, live change and pulse.
+    /// Returns the number of the knobs' state: grows with every restart, live change and pulse.
     pub fn generation(&self) -> u64 {
         generation(self.restarts, self.changes, self.pulses)
     }
 }
 
-/// The generation of the knobs after so many restarts, live changes and pulses.
+/// Returns the generation of the knobs after so many restarts, live changes and pulses.
 pub fn generation(restarts: u64, changes: u64, pulses: u64) -> u64 {
     restarts + changes + pulses
 }
@@ -188,7 +188,7 @@ pub struct Moment {
 }
 
 impl Moment {
-    /// The instant at which a motion is; forces are those of this instant.
+    /// Creates the instant at which a motion is; forces are those of this instant.
     pub fn of(motion: &Motion) -> Self {
         let (state, log) = (motion.state(), motion.contacts());
         Self {
@@ -314,7 +314,7 @@ pub trait Engine {
     fn order(&mut self, order: &Order);
     /// Returns the new snapshot, if there is one.
     fn take(&mut self) -> Option<Snapshot>;
-    /// A frame has been drawn: a turning picture may turn on.
+    /// Tells the engine that a frame has been drawn: a turning picture may turn on.
     fn drawn(&mut self) {}
 }
 

@@ -62,7 +62,7 @@ pub fn read_keys(to: Sender<ScreenEvent>) -> std::io::Result<()> {
     thread::Builder::new().name("rubscope-input".into()).spawn(read).map(|_| ())
 }
 
-/// What an event of the terminal is for the explorer, if it is anything.
+/// Returns what an event of the terminal is for the explorer, if it is anything.
 fn screen_event(event: std::io::Result<Event>) -> Option<ScreenEvent> {
     Some(match event {
         // Some terminals also report releases; repeats count as presses.
@@ -123,8 +123,8 @@ pub fn watch_signals(to: Sender<ScreenEvent>) -> std::io::Result<()> {
     thread::Builder::new().name("rubscope-signals".into()).spawn(watch).map(|_| ())
 }
 
-/// Every signal that ends a program which does not catch it, and can be caught;
-/// not those of faults in the program itself.
+/// Returns every signal that ends a program which does not catch it, and can be caught; not those
+/// of faults in the program itself.
 #[cfg(unix)]
 fn deadly_signals() -> Vec<i32> {
     use signal_hook::consts::{

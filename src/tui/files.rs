@@ -116,7 +116,7 @@ pub struct FoundScene {
     pub scene: Result<CheckedScene, String>,
 }
 
-/// The built-in scenes, read once.
+/// Returns the built-in scenes, read once.
 pub fn builtin_scenes() -> &'static [FoundScene] {
     static READ: OnceLock<Vec<FoundScene>> = OnceLock::new();
     READ.get_or_init(|| {
@@ -168,7 +168,7 @@ impl FoundScenes {
     }
 }
 
-/// A file, if it is a regular one.
+/// Returns a file, if it is a regular one.
 fn found(directory: &Path, name: String) -> Option<FoundScene> {
     let path = directory.join(&name);
     if !std::fs::metadata(&path).is_ok_and(|kind| kind.is_file()) {

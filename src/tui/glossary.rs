@@ -97,18 +97,18 @@ pub struct ViewWords {
 /// The file is part of the program, and a test reads it.
 static GLOSSARY: LazyLock<Glossary> = LazyLock::new(|| toml::from_str(TEXT).unwrap_or_default());
 
-/// The sections of the glossary.
+/// Returns the sections of the glossary.
 pub fn sections() -> &'static [Section] {
     &GLOSSARY.section
 }
 
-/// A view in words.
+/// Returns a view in words.
 pub fn view(view: ViewId) -> Option<&'static ViewWords> {
     GLOSSARY.view.iter().find(|words| words.name == view.word())
 }
 
 impl Term {
-    /// Meaning, equation and value as one text.
+    /// Returns the meaning, equation and value as one text.
     pub fn text(&self, app: &App) -> String {
         let mut text = self.meaning.clone();
         if !self.equation.is_empty() {
@@ -122,7 +122,7 @@ impl Term {
         text
     }
 
-    /// The symbol in letters that every keyboard has.
+    /// Returns the symbol in letters that every keyboard has.
     pub fn name(&self) -> &str {
         self.name.as_deref().unwrap_or(&self.symbol)
     }

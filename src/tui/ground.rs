@@ -50,7 +50,7 @@ impl Ground {
     }
 }
 
-/// Whether these bytes can be the beginning of a report.
+/// Returns whether these bytes can be the beginning of a report.
 pub fn begins_report(bytes: &[u8]) -> bool {
     let rest = bytes.iter().skip(BEGINNING.len());
     bytes.len() <= LONGEST

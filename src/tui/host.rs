@@ -28,7 +28,7 @@ pub trait Host {
     /// # Errors
     /// The terminal cannot be written to.
     fn copy(&mut self, text: &str) -> Result<()>;
-    /// How much the terminal is sent.
+    /// Returns how much the terminal is sent.
     fn line(&self) -> Line {
         Line::Auto
     }
@@ -36,7 +36,7 @@ pub trait Host {
     fn sent(&self) -> u64 {
         0
     }
-    /// Whether a write had to wait for the terminal.
+    /// Returns whether a write had to wait for the terminal.
     fn is_slow(&self) -> bool {
         false
     }
@@ -44,7 +44,7 @@ pub trait Host {
     fn mouse(&mut self, _on: bool) {}
     /// Writes a file. Without a result, that comes later as an event.
     fn write(&mut self, job: FileJob) -> Option<FileResult>;
-    /// Why a file was not written, as long as no screen has shown it.
+    /// Records why a file was not written, until a screen has shown it.
     fn unseen(&mut self, _reason: Option<String>) {}
     /// Reads the scenes of a directory. Without a result, that comes later as an
     /// event.
@@ -142,7 +142,7 @@ impl Host for Shell {
     }
 }
 
-/// Base 64 with padding, as OSC 52 wants it.
+/// Encodes bytes in base 64 with padding, as OSC 52 needs it.
 fn base64(bytes: &[u8]) -> String {
     const SIGNS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let mut out = String::new();

@@ -139,7 +139,7 @@ pub enum Condition {
 }
 
 impl LessonStep {
-    /// The place of the right answer.
+    /// Returns the place of the right answer.
     pub fn right_place(&self) -> Option<usize> {
         let right = self.right?;
         LETTERS.iter().position(|letter| *letter == right)
@@ -154,7 +154,7 @@ const QUESTION: f64 = 0.5;
 const TASK: f64 = 2.0;
 
 impl Lesson {
-    /// How long it takes, by what there is to read, to answer and to do.
+    /// Returns how long it takes, by what there is to read, to answer and to do.
     pub fn minutes(&self) -> u32 {
         let of = |step: &LessonStep| {
             let texts = [&step.question, &step.reason, &step.task].into_iter().flatten();
@@ -170,8 +170,8 @@ impl Lesson {
         self.steps.iter().map(of).sum::<f64>().ceil() as u32
     }
 
-    /// The scene of a step, before or after its question is answered: that of the
-    /// lesson, with what its steps have set and their tasks have changed so far.
+    /// Returns the scene of a step, before or after its question is answered: that of the lesson,
+    /// with what its steps have set and their tasks have changed so far.
     ///
     /// # Errors
     /// A key or a value that is refused.
@@ -206,7 +206,7 @@ impl LessonsDone {
         }
     }
 
-    /// Whether none was done.
+    /// Returns whether none was done.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
@@ -216,17 +216,17 @@ impl LessonsDone {
         self.0.entry(lesson.name.to_string()).or_default().insert(step + 1);
     }
 
-    /// Whether a step, counted from 0, was done.
+    /// Returns whether a step, counted from 0, was done.
     pub fn has(&self, lesson: &Lesson, step: usize) -> bool {
         self.0.get(lesson.name).is_some_and(|steps| steps.contains(&(step + 1)))
     }
 
-    /// How many steps of a lesson were done.
+    /// Returns how many steps of a lesson were done.
     pub fn count(&self, lesson: &Lesson) -> usize {
         (0..lesson.steps.len()).filter(|step| self.has(lesson, *step)).count()
     }
 
-    /// The first step of a lesson that was not done.
+    /// Returns the first step of a lesson that was not done.
     pub fn next(&self, lesson: &Lesson) -> Option<usize> {
         (0..lesson.steps.len()).find(|step| !self.has(lesson, *step))
     }
@@ -255,7 +255,7 @@ const FILES: &[(&str, &str)] = lessons![
     "your-machine",
 ];
 
-/// Every lesson, in the order of the list.
+/// Returns every lesson, in the order of the list.
 pub fn all() -> &'static [Lesson] {
     static LESSONS: OnceLock<Vec<Lesson>> = OnceLock::new();
     // The files are part of the program, and a test reads each of them.

@@ -45,12 +45,12 @@ pub struct Throttle {
 }
 
 impl Throttle {
-    /// An account that begins at `now`, with `sent` bytes sent already.
+    /// Creates an account that begins at `now`, with `sent` bytes sent already.
     pub fn new(line: Line, now: Instant, sent: u64) -> Self {
         Self { line, free: now, sent, slow: false }
     }
 
-    /// A frame has been sent; `sent` is the number of bytes in all.
+    /// Records that a frame has been sent; `sent` is the number of bytes in all.
     pub fn spend(&mut self, sent: u64, by_key: bool, slow: bool, now: Instant) {
         let bytes = sent.saturating_sub(self.sent) as f64;
         (self.sent, self.slow) = (sent, slow);
@@ -63,7 +63,7 @@ impl Throttle {
         self.free = self.free.max(now).min(now + LONGEST) + spent;
     }
 
-    /// How long the next frame must wait from `now`.
+    /// Returns how long the next frame must wait from `now`.
     pub fn wait(&self, by_key: bool, now: Instant) -> Duration {
         let wait = self.free.saturating_duration_since(now);
         // A key is answered soon, whatever was sent before.

@@ -91,7 +91,7 @@ pub fn lines(
     }
 }
 
-/// The next line; none at the end of the input.
+/// Returns the next line; none at the end of the input.
 fn read(input: &mut dyn BufRead) -> Result<Option<Result<String, &'static str>>, Error> {
     let mut bytes = Vec::new();
     // With its end.
@@ -120,7 +120,7 @@ impl Lines {
         Self { app, engine: None, ordered: None }
     }
 
-    /// Has everything computed that the state asks for.
+    /// Computes everything that the state needs.
     fn settle(&mut self) {
         for _ in 0..ORDERS {
             // Without charts there are no studies.
@@ -243,7 +243,7 @@ impl Lines {
         writeln!(out, "refused: {}", self.spelled(&clean(why)))
     }
 
-    /// Everything of a kind that can be opened.
+    /// Returns everything of a kind that can be opened.
     fn list(&self, kind: &str, out: &mut dyn Write) -> Result<(), Error> {
         for found in commands::found(&self.app, &format!("{kind} ")) {
             writeln!(out, "{}", self.spelled(&format!("{kind} {}", found.what)))?;
@@ -251,12 +251,12 @@ impl Lines {
         Ok(())
     }
 
-    /// The two lines at the top of the screen.
+    /// Returns the two lines at the top of the screen.
     fn tell(&self, out: &mut dyn Write) -> Result<(), Error> {
         panels::head_text(&self.app).iter().try_for_each(|line| writeln!(out, "{line}"))
     }
 
-    /// What is other than before: knobs with their values, and what the last line of the
+    /// Returns what is other than before: knobs with their values, and what the last line of the
     /// screen would say, or what only a screen can show.
     fn changed(&self, before: &Scene, shown: Option<String>) -> Vec<String> {
         let differ = KNOBS.iter().filter(|knob| knob.get(before) != knob.get(&self.app.scene));
@@ -289,7 +289,7 @@ impl Lines {
     }
 }
 
-/// What only a screen shows of a command.
+/// Returns what only a screen shows of a command.
 fn shown(found: &Found) -> Option<String> {
     use super::bindings::{Action, Group};
     let action = match found.command {

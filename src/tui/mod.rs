@@ -66,13 +66,13 @@ pub use update::{Effect, Heard};
 
 use rubscope_solver::scene::CheckedScene;
 
-/// Whether there is a terminal that only shows lines.
+/// Returns whether there is a terminal that only shows lines.
 pub fn is_dumb_terminal() -> bool {
     let dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
     dumb && std::io::stdout().is_terminal()
 }
 
-/// Whether there are a screen and a keyboard.
+/// Returns whether there are a screen and a keyboard.
 ///
 /// # Errors
 /// What is missing.

@@ -84,14 +84,14 @@ impl ExploreOptions {
         }
     }
 
-    /// The marker: an option wins over what the terminal can show, and that over
-    /// the config file.
+    /// Returns the marker: an option wins over what the terminal can show, and that over the config
+    /// file.
     pub(super) fn marker(&self, config: &Config, ability: &Ability) -> Marker {
         let remembered = config.marker.filter(|marker| ability.shows(*marker));
         self.marker.or(remembered).unwrap_or_else(|| ability.marker())
     }
 
-    /// The line: over SSH it is thin.
+    /// Returns the line: over SSH it is thin.
     pub(super) fn line(&self, variable: &dyn Fn(&str) -> String) -> Line {
         if self.line == Line::Auto && is_remote(variable) { Line::Thin } else { self.line }
     }

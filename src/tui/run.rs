@@ -39,7 +39,7 @@ enum Due {
 }
 
 impl Due {
-    /// Least time between two frames.
+    /// Returns the least time between two frames.
     fn pause(self, frame: Duration) -> Duration {
         match self {
             Self::Later => HEARTBEAT,
@@ -209,7 +209,7 @@ fn handle(event: ScreenEvent, app: &mut App, host: &mut dyn Host) -> Reaction {
     }
 }
 
-/// What follows from a key or a click.
+/// Returns what follows from a key or a click.
 fn take(effect: Effect, app: &mut App, host: &mut dyn Host) -> Reaction {
     match effect {
         Effect::None => Reaction::Draw(Due::Now),

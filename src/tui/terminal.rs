@@ -80,7 +80,7 @@ fn tty() -> Result<&'static Tty, Error> {
     TTY.get().ok_or_else(|| Error::other("no terminal"))
 }
 
-/// Raw keys, the alternate screen, no cursor, pasted text in one piece.
+/// Sets up raw keys, the alternate screen, no cursor, and pasted text in one piece.
 ///
 /// # Errors
 /// The terminal refuses.
@@ -234,12 +234,12 @@ pub fn sent() -> u64 {
     SENT.load(SeqCst)
 }
 
-/// Whether a write had to wait for the terminal.
+/// Returns whether a write had to wait for the terminal.
 pub fn is_slow() -> bool {
     SLOW.load(SeqCst)
 }
 
-/// The size of the screen: that of the terminal within bounds.
+/// Returns the size of the screen: that of the terminal within bounds.
 ///
 /// # Errors
 /// The terminal is closed.

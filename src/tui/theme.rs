@@ -49,7 +49,7 @@ pub enum ThemeChoice {
 }
 
 impl ThemeChoice {
-    /// Whether the theme follows the background of the terminal.
+    /// Returns whether the theme follows the background of the terminal.
     pub fn follows_ground(self) -> bool {
         matches!(self, Self::Auto | Self::ColorBlind)
     }
@@ -65,7 +65,7 @@ impl ThemeChoice {
         }
     }
 
-    /// The choice that stands for a theme.
+    /// Creates the choice that stands for a theme.
     pub fn of(theme: Theme) -> Self {
         match theme {
             Theme::Dark => Self::Dark,
@@ -98,7 +98,7 @@ impl Theme {
     pub const ALL: [Self; 5] =
         [Self::Dark, Self::Light, Self::ColourBlind, Self::ColourBlindLight, Self::Mono];
 
-    /// The name on screen.
+    /// Returns the name on screen.
     pub fn name(self) -> &'static str {
         ["dark", "light", "colour-blind on dark", "colour-blind on light", "mono"][self as usize]
     }
@@ -114,12 +114,12 @@ impl Theme {
         }
     }
 
-    /// The next theme.
+    /// Returns the next theme.
     pub fn next(self) -> Self {
         Self::ALL[(self as usize + 1) % Self::ALL.len()]
     }
 
-    /// The background that it is made for; none if it can be read on both.
+    /// Returns the background that it is made for; none if it can be read on both.
     #[cfg(test)]
     fn ground(self) -> Option<Ground> {
         match self {
@@ -129,7 +129,7 @@ impl Theme {
         }
     }
 
-    /// Style of a role. Only the sixteen named colours, which follow the user's
+    /// Returns the style of a role. Only the sixteen named colours, which follow the user's
     /// palette.
     pub fn style(self, role: Role) -> Style {
         let colour = match (self, role) {

@@ -18,7 +18,7 @@ pub struct Trace {
 }
 
 impl Trace {
-    /// The part of one coordinate that overlaps `[from, to]`, as points over time.
+    /// Returns the part of one coordinate that overlaps `[from, to]`, as points over time.
     pub fn between(
         &self,
         place: usize,
@@ -65,7 +65,7 @@ pub struct Marks {
 }
 
 impl Marks {
-    /// From a motion whose record is this.
+    /// Creates a record of changes of contact from here on.
     pub fn from(log: &ContactLog) -> Self {
         Self { seen: Vec::new(), active_set: log.active_set, impacts: log.impact_count }
     }

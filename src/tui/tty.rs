@@ -58,8 +58,8 @@ impl Tty {
         Ok(Self { out, keys, returns, before: RwLock::new(None) })
     }
 
-    /// Every key as it is pressed. The settings before are kept, unless this
-    /// screen made them.
+    /// Returns every key as it is pressed. The settings before are kept, unless this screen made
+    /// them.
     ///
     /// # Errors
     /// The terminal refuses.
@@ -165,7 +165,7 @@ impl Tty {
         let _ = termios::tcflush(&self.out, QueueSelector::OFlush);
     }
 
-    /// Columns and rows, as the terminal reports them.
+    /// Returns the columns and rows, as the terminal reports them.
     ///
     /// # Errors
     /// The terminal is closed.
@@ -174,28 +174,28 @@ impl Tty {
         Ok((size.ws_col, size.ws_row))
     }
 
-    /// Whether this process is in the foreground: in the background, a change of
-    /// the settings stops it.
+    /// Returns whether this process is in the foreground: in the background, a change of the
+    /// settings stops it.
     pub fn in_foreground(&self) -> bool {
         // Without job control on this terminal there is no background.
         nix::unistd::tcgetpgrp(&self.keys).map_or(true, |front| front == nix::unistd::getpgrp())
     }
 
-    /// Whether what the terminal reports comes among the keys: both are one terminal.
+    /// Returns whether what the terminal reports comes among the keys: both are one terminal.
     pub fn hears_itself(&self) -> bool {
         let device = |file: &OwnedFd| rustix::fs::fstat(file).ok().map(|state| state.st_rdev);
         device(&self.keys).is_some_and(|keys| Some(keys) == device(&self.out))
     }
 
-    /// Whether a process in the background may write.
+    /// Returns whether a process in the background may write.
     pub fn may_write_from_background(&self) -> bool {
         termios::tcgetattr(&self.keys)
             .is_ok_and(|settings| !settings.local_modes.contains(LocalModes::TOSTOP))
     }
 }
 
-/// The terminal of standard output, opened anew: writes that do not wait are a
-/// property of the open file, which the shell shares with standard output.
+/// Returns the terminal of standard output, opened anew: writes that do not wait are a property of
+/// the open file, which the shell shares with standard output.
 fn reopened() -> Option<File> {
     let out = std::io::stdout();
     let named = termios::ttyname(&out, Vec::new()).ok();

@@ -56,7 +56,7 @@ impl Default for Dialogue {
 }
 
 impl Dialogue {
-    /// Whether none is open.
+    /// Returns whether none is open.
     pub fn is_closed(&self) -> bool {
         self.mode == InputMode::Main
     }
@@ -77,7 +77,7 @@ impl Dialogue {
         self.mode = InputMode::Main;
     }
 
-    /// The text that is being typed.
+    /// Returns the text that is being typed.
     pub fn typed(&mut self) -> Option<&mut String> {
         match &mut self.mode {
             InputMode::Typing(text) | InputMode::Sweeping(text) | InputMode::Naming(_, text) => {
@@ -89,7 +89,7 @@ impl Dialogue {
         }
     }
 
-    /// After a change of what is looked for, the list begins at its top.
+    /// Scrolls the list to its top after a change of what is searched.
     pub fn look_again(&mut self) {
         match &mut self.mode {
             InputMode::Help(help) => help.scroll = 0,
@@ -98,7 +98,7 @@ impl Dialogue {
         }
     }
 
-    /// Its own keys; false where it has none for this.
+    /// Carries out an action of a list; returns false where the dialogue has none for this.
     pub fn act(&mut self, action: Action) -> bool {
         match (&mut self.mode, action) {
             (InputMode::Lessons(place), Action::KnobBelow) => {

@@ -35,7 +35,7 @@ pub struct Files {
 }
 
 impl Files {
-    /// With this scene open.
+    /// Creates the files with this scene open.
     pub fn of(opened: CheckedScene) -> Self {
         let (directory, found) = (PathBuf::new(), FoundScenes::default());
         Self { directory, opened, source: None, writing: None, found }
@@ -47,7 +47,7 @@ impl Files {
         self.source = source.or(self.source.take());
     }
 
-    /// A key was pressed while a file is being written.
+    /// Records that a key was pressed while a file is being written.
     pub fn disturb(&mut self) {
         if let Some(writing) = &mut self.writing {
             writing.undisturbed = false;
@@ -56,12 +56,12 @@ impl Files {
 }
 
 impl App {
-    /// The command line as text.
+    /// Returns the command line as text.
     pub fn command(&self) -> String {
         self.command_line().to_string()
     }
 
-    /// `rubscope run SCENE` with every key that differs from it.
+    /// Returns `rubscope run SCENE` with every key that differs from the scene.
     pub fn command_line(&self) -> CommandLine {
         // Without a source it is the default scene, which is built in.
         let default = || Source {
@@ -80,7 +80,7 @@ impl App {
         live.iter().fold(start, at)
     }
 
-    /// Keys that differ from a scene, with their values as text.
+    /// Returns the keys that differ from a scene, with their values as text.
     pub fn changes_from(&self, base: &Scene) -> Vec<(&'static str, String)> {
         differences(base, &self.scene).collect()
     }
@@ -100,7 +100,7 @@ pub struct SceneEntry {
 }
 
 impl App {
-    /// Every scene that can be opened. One from elsewhere that is open comes first.
+    /// Returns every scene that can be opened. One from elsewhere that is open comes first.
     pub fn scene_entries(&self) -> Vec<SceneEntry> {
         let open = self.files.source.as_ref().map_or(DEFAULT, |source| source.name.as_str());
         let builtin = builtin_scenes().iter().map(|FoundScene { name, scene }| SceneEntry {
@@ -125,14 +125,14 @@ impl App {
         entries
     }
 
-    /// The place of the selected scene: the open one, unless another was chosen.
+    /// Returns the place of the selected scene: the open one, unless another was chosen.
     pub fn scene_place(&self, entries: &[SceneEntry], chosen: Option<usize>) -> usize {
         let open = || entries.iter().position(|entry| entry.open).unwrap_or(0);
         chosen.unwrap_or_else(open).min(entries.len().saturating_sub(1))
     }
 }
 
-/// Whether two paths are written for the same file.
+/// Returns whether two paths are written for the same file.
 fn same_path(one: &Path, other: &Path) -> bool {
     let parts = |path: &Path| -> Vec<std::ffi::OsString> {
         let named = path.components().filter(|part| *part != Component::CurDir);

@@ -53,12 +53,12 @@ impl Knobs {
         self.select(next % count);
     }
 
-    /// The last value of a knob was refused.
+    /// Records why the last value of a knob was refused.
     pub fn refuse(&mut self, knob: &Knob, error: &SceneError) {
         self.refusal = Some(clean(&knob.refusal(error)));
     }
 
-    /// The same by its key; what to say.
+    /// Makes knobs act on the running motion, or no longer; returns the message.
     pub fn turn_live(&mut self) -> String {
         self.live = !self.live;
         let how = match self.live {
@@ -68,7 +68,7 @@ impl Knobs {
         how.into()
     }
 
-    /// Has undo come back to this state.
+    /// Records a state for undo.
     pub fn remember(&mut self, past: Past) {
         self.undo.push(past);
         if self.undo.len() > KEPT {
@@ -77,17 +77,18 @@ impl Knobs {
         self.redo.clear();
     }
 
-    /// Number of states that undo can come back to.
+    /// Returns the number of states that undo can come back to.
     pub fn remembered(&self) -> usize {
         self.undo.len()
     }
 
-    /// Undo comes back to the first so many states only.
+    /// Forgets all but the first so many states of undo.
     pub fn merge(&mut self, known: usize) {
         self.undo.truncate(known);
     }
 
-    /// The state before, or after, this one; none where there is no such state.
+    /// Returns the state before, or after, this one, and records this one; `None` where there is no
+    /// such state.
     pub fn step_back(&mut self, redo: bool, now: Past) -> Option<Past> {
         let Self { undo, redo: redone, .. } = self;
         let (from, to) = if redo { (redone, undo) } else { (undo, redone) };
@@ -98,7 +99,7 @@ impl Knobs {
 }
 
 impl App {
-    /// The selected knob.
+    /// Returns the selected knob.
     pub fn selected(&self) -> Option<&'static Knob> {
         KNOBS.get(self.knobs.selected)
     }
@@ -112,7 +113,7 @@ impl App {
         place.is_some()
     }
 
-    /// The present state, to come back to.
+    /// Returns the present state, to come back to.
     pub fn past(&self) -> Past {
         Past {
             scene: self.scene.clone(),

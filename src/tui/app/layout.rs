@@ -26,7 +26,7 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// The charts that a scene names, and then the others.
+    /// Creates the layout with the charts that a scene names first.
     pub fn of(scene: &Scene) -> Self {
         let views = ViewId::all().collect();
         let mut layout = Self {
@@ -41,7 +41,7 @@ impl Layout {
         layout
     }
 
-    /// The charts that a scene names come first.
+    /// Puts the charts that a scene names first.
     pub fn open(&mut self, scene: &Scene) {
         let named = scene.view.charts.iter().filter_map(|word| ViewId::from_word(word));
         let mut views: Vec<ViewId> = named.collect();
@@ -51,17 +51,17 @@ impl Layout {
         self.views = views;
     }
 
-    /// The large chart.
+    /// Returns the large chart.
     pub fn view(&self) -> ViewId {
         self.views.first().copied().unwrap_or(ViewId::Response)
     }
 
-    /// Every view, the large one first.
+    /// Returns every view, the large one first.
     pub fn views(&self) -> &[ViewId] {
         &self.views
     }
 
-    /// The charts as they were; whether the large one is another.
+    /// Restores the order of the charts; returns whether the large one is another.
     pub fn set_views(&mut self, views: Vec<ViewId>) -> bool {
         let before = self.view();
         self.views = views;
@@ -82,18 +82,18 @@ impl Layout {
         }
     }
 
-    /// Whether the margins are those of all diameters.
+    /// Returns whether the margins are those of all diameters.
     pub fn is_surveyed(&self) -> bool {
         self.survey
     }
 
-    /// The margins of all diameters, or of one; what to say.
+    /// Shows the margins of all diameters, or of one; returns the message.
     pub fn turn_survey(&mut self, on: bool) -> String {
         self.survey = on;
         format!("margins of {}", if on { "all diameters" } else { "n_d alone" })
     }
 
-    /// The gaps against time, or those of one instant; what to say.
+    /// Shows the gaps against time, or those of one instant; returns the message.
     pub fn turn_gaps(&mut self) -> String {
         self.heat = !self.heat;
         format!("gaps {}", if self.heat { "against time" } else { "of this instant" })
@@ -109,7 +109,7 @@ impl Layout {
         }
     }
 
-    /// The view some places after the large one in the table.
+    /// Returns the view some places after the large one in the table.
     pub fn neighbour(&self, by: i64) -> ViewId {
         let views: Vec<ViewId> = ViewId::all().collect();
         let place = (self.view() as i64 + by).rem_euclid(views.len() as i64);
@@ -118,23 +118,23 @@ impl Layout {
 }
 
 impl App {
-    /// The large chart.
+    /// Returns the large chart.
     pub fn view(&self) -> ViewId {
         self.layout.view()
     }
 
-    /// Whether a view is the large chart.
+    /// Returns whether a view is the large chart.
     pub fn is_large(&self, view: ViewId) -> bool {
         self.view() == view
     }
 
-    /// Whether a view can be on the screen.
+    /// Returns whether a view can be on the screen.
     pub fn is_open(&self, view: ViewId) -> bool {
         let shown = if self.is_alone() { 1 } else { 1 + self.layout.beside };
         self.layout.views.iter().take(shown).any(|other| *other == view)
     }
 
-    /// Whether only the large chart is on the screen.
+    /// Returns whether only the large chart is on the screen.
     pub fn is_alone(&self) -> bool {
         self.layout.full_screen || self.appearance.wide || self.compares()
     }

@@ -37,7 +37,7 @@ pub struct StepProgress {
 }
 
 impl LessonProgress {
-    /// The progress of the present step.
+    /// Returns the progress of the present step.
     pub fn now(&self) -> StepProgress {
         self.steps.get(self.step).copied().unwrap_or_default()
     }
@@ -60,19 +60,19 @@ pub struct Lessons {
 impl Lessons {}
 
 impl App {
-    /// The current lesson.
+    /// Returns the current lesson.
     pub fn current_lesson(&self) -> Option<(&'static Lesson, &LessonProgress)> {
         let progress = self.lessons.progress.as_ref()?;
         Some((lessons::all().get(progress.lesson)?, progress))
     }
 
-    /// The present step of the lesson.
+    /// Returns the present step of the lesson.
     pub fn lesson_step(&self) -> Option<(&'static LessonStep, StepProgress)> {
         let (lesson, progress) = self.current_lesson()?;
         Some((lesson.steps.get(progress.step)?, progress.now()))
     }
 
-    /// Whether a lesson waits for an answer.
+    /// Returns whether a lesson waits for an answer.
     pub fn is_asked(&self) -> bool {
         let step = self.lesson_step();
         step.is_some_and(|(step, now)| step.question.is_some() && now.answer.is_none())
@@ -97,7 +97,7 @@ impl App {
         }
     }
 
-    /// Whether the state meets the condition of a task.
+    /// Returns whether the state meets the condition of a task.
     pub fn meets(&self, condition: &Condition) -> bool {
         let number = |path: &str| knob_of(path)?.number(&self.scene);
         match condition {

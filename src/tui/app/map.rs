@@ -7,7 +7,7 @@ use rubscope_solver::scene::ContactLaw;
 use rubscope_solver::study::MapPlan;
 
 impl App {
-    /// The plan of the map.
+    /// Returns the plan of the map.
     ///
     /// # Errors
     /// The scene has no such map; the reason in one line.
@@ -15,27 +15,27 @@ impl App {
         self.map.plan(&self.scene)
     }
 
-    /// The plan of the map on the screen: the last one, until a new one can be seen.
+    /// Returns the plan of the map on the screen: the last one, until a new one can be seen.
     pub fn shown_plan(&self) -> Option<MapPlan> {
         let shown = self.results().found.map.as_ref().map(|live| live.map.plan.clone());
         shown.or_else(|| self.map_plan().ok())
     }
 
-    /// Column and row of the cell under the cursor.
+    /// Returns the column and row of the cell under the cursor.
     pub fn map_cell(&self) -> Option<[u32; 2]> {
         let cursor = self.cursor_in(ViewId::Map)?;
         let plan = self.shown_plan()?;
         Some([cell_of(cursor.across, plan.x.count), cell_of(cursor.up, plan.y.count)])
     }
 
-    /// The contact law of the map.
+    /// Returns the contact law of the map.
     pub fn map_law(&self) -> ContactLaw {
         self.map.law.unwrap_or(self.scene.solver.contact)
     }
 }
 
 impl App {
-    /// The margins on the screen, and whether they are of other knobs.
+    /// Returns the margins on the screen, and whether they are of other knobs.
     pub fn margins(&self) -> Option<(&LiveMargins, bool)> {
         let live = self.results().found.margins.as_deref()?;
         Some((live, live.margins.scene != self.scene))

@@ -95,7 +95,7 @@ pub struct App {
 }
 
 impl App {
-    /// The explorer on a checked scene.
+    /// Creates the explorer on a checked scene.
     pub fn new(scene: CheckedScene, theme: Theme, marker: Marker) -> Self {
         let machine = scene.machine();
         Self {
@@ -116,7 +116,7 @@ impl App {
         }
     }
 
-    /// What the keyboard acts on, as the table of bindings names it.
+    /// Returns what the keyboard acts on, as the table of bindings names it.
     pub fn context(&self) -> Context {
         match self.dialogue.mode {
             InputMode::Main if self.reading.on => Context::Reading,
@@ -133,7 +133,7 @@ impl App {
         }
     }
 
-    /// The order for the engine.
+    /// Returns the order for the engine.
     pub fn order(&self) -> Order {
         Order {
             scene: self.scene.clone(),
@@ -158,25 +158,25 @@ impl App {
         }
     }
 
-    /// Whether the large chart compares both contact laws, over the whole height.
+    /// Returns whether the large chart compares both contact laws, over the whole height.
     pub fn compares(&self) -> bool {
         self.run.compare && self.is_large(ViewId::Response)
     }
 
-    /// The instant that every panel shows: that under the reading cursor, or now.
+    /// Returns the instant that every panel shows: that under the reading cursor, or now.
     pub fn shown(&self) -> Option<&Moment> {
         let reading = self.results().reading.as_deref();
         let reading = reading.filter(|_| self.cursor_time().is_some());
         reading.or(self.moment())
     }
 
-    /// The current rotor speed \[rad/s\].
+    /// Returns the current rotor speed \[rad/s\].
     pub fn speed(&self) -> f64 {
         let moment = self.moment();
         moment.map_or(self.scene.operation.speed_rad_s, |moment| moment.speed)
     }
 
-    /// Why the motion stopped.
+    /// Returns why the motion stopped.
     pub fn failure(&self) -> Option<&String> {
         self.moment()?.failure.as_ref()
     }
@@ -185,7 +185,7 @@ impl App {
 /// Bins recorded per page: more than the sub-pixels of a wide screen.
 const BINS_PER_PAGE: f64 = 1024.0;
 
-/// The paper's scene on a screen of 120 x 40, for the tests of the parts.
+/// Returns the paper's scene on a screen of 120 x 40, for the tests of the parts.
 #[cfg(test)]
 pub fn on_screen() -> App {
     let scene = rubscope_solver::scene::Scene::builtin("paper-nd3").unwrap().checked().unwrap();

@@ -57,7 +57,7 @@ impl Default for Mouse {
 }
 
 impl Mouse {
-    /// It acts, or no longer; what to say.
+    /// Switches the mouse on or off; returns the message.
     pub fn toggle(&mut self) -> String {
         (self.on, self.grip) = (!self.on, None);
         let how = match self.on {
@@ -86,7 +86,7 @@ impl App {
         }
     }
 
-    /// What the key does that is drawn in a cell of the screen.
+    /// Returns what the key does that is drawn in a cell of the screen.
     pub fn key_at(&self, at: (u16, u16)) -> Option<Action> {
         let places = self.mouse.keys.try_borrow().ok()?;
         places.iter().find(|(area, _)| area.contains(at.into())).map(|(_, action)| *action)
@@ -100,7 +100,7 @@ impl App {
         }
     }
 
-    /// The place in the large chart that is drawn in a cell of the screen.
+    /// Returns the place in the large chart that is drawn in a cell of the screen.
     pub fn cursor_at(&self, (x, y): (u16, u16)) -> Option<Cursor> {
         let places = self.mouse.charts.try_borrow().ok()?;
         let noted = places.iter().find(|noted| noted.area.contains((x, y).into()))?;

@@ -24,7 +24,7 @@ const REAL: f64 = 0.95;
 /// Zoom steps in either direction.
 const MOST_ZOOM: i32 = 12;
 
-/// Length of a page at a rate and a zoom, a round number \[s\].
+/// Returns the length of a page at a rate and a zoom, a round number \[s\].
 pub fn page_length(rate: f64, zoom: i32) -> f64 {
     let usual = nice_step(PAGE_SECONDS * rate, 1).unwrap_or(PAGE_SECONDS * rate);
     // Every zoom step is one place in the sequence 1, 2, 5, 10, 20, 50, ...
@@ -40,7 +40,7 @@ pub fn page_length(rate: f64, zoom: i32) -> f64 {
     format!("{mantissa}e{}", place.div_euclid(3)).parse().unwrap_or(usual)
 }
 
-/// Where a scene begins to play \[s\].
+/// Returns where a scene begins to play \[s\].
 pub fn begin_s(scene: &Scene) -> f64 {
     scene.view.begin_s.min(scene.solver.end_s)
 }
@@ -83,13 +83,13 @@ pub struct Tempo {
 }
 
 impl Play {
-    /// From an instant on \[s\].
+    /// Creates the state of playing that begins at an instant \[s\].
     pub fn from(go_to_s: f64) -> Self {
         let (playing, slow_at_events) = (true, true);
         Self { playing, rate: FIRST_RATE, slow_at_events, go_to_s, ..Self::default() }
     }
 
-    /// Its keys; what they say.
+    /// Carries out an action on playing; returns the message, if there is one.
     pub fn act(&mut self, action: Action) -> Option<String> {
         match action {
             Action::Pause => {
@@ -119,7 +119,7 @@ impl Play {
         None
     }
 
-    /// The run begins again.
+    /// Resets what belongs to the former run.
     pub fn restart(&mut self, go_to_s: f64) {
         self.playing |= std::mem::take(&mut self.stopped_by_end);
         (self.pages_back, self.page, self.go_to_s) = (0, 0, go_to_s);
@@ -128,19 +128,18 @@ impl Play {
         self.met = self.jumps;
     }
 
-    /// How fast time passes on the screen.
+    /// Returns how fast time passes on the screen.
     pub fn tempo(&self) -> Tempo {
         Tempo { rate: self.rate, zoom: self.zoom, slow_at_events: self.slow_at_events }
     }
 
-    /// Time passes as it did.
+    /// Restores how fast time passes.
     pub fn set_tempo(&mut self, tempo: Tempo) {
         (self.rate, self.zoom) = (tempo.rate, tempo.zoom);
         self.slow_at_events = tempo.slow_at_events;
     }
 
-    /// What happens in a few microseconds can be seen; a page has this length, where one
-    /// is wanted \[s\].
+    /// Slows down at changes of contact, and sets the length of a page where one is wanted \[s\].
     pub fn show_closely(&mut self, page_s: Option<Option<f64>>) {
         self.slow_at_events = true;
         if let Some(length) = page_s {
@@ -148,12 +147,12 @@ impl Play {
         }
     }
 
-    /// Whether another page is the current one since the last call.
+    /// Records the current page; returns whether it is another one than at the last call.
     pub fn is_new_page(&mut self, page: i64) -> bool {
         std::mem::replace(&mut self.page, page) != page
     }
 
-    /// Whether this snapshot is the first that knows what the latest jump has met.
+    /// Returns whether this snapshot is the first with the result of the latest jump.
     pub fn is_met(&mut self, jumps: u64) -> bool {
         let is_new = jumps == self.jumps && jumps > self.met;
         if is_new {
@@ -172,12 +171,12 @@ impl Play {
         is_new && self.stopped_by_end
     }
 
-    /// Motion per wall-clock time.
+    /// Returns the motion per wall-clock time.
     fn rate(&self) -> f64 {
         RATES.get(self.rate).copied().unwrap_or(5e-3)
     }
 
-    /// The zoom at which a page is as long as this, or a little longer.
+    /// Returns the zoom at which a page is as long as this, or a little longer.
     fn zoom_for(&self, length: f64) -> i32 {
         let mut all = (-MOST_ZOOM..=MOST_ZOOM).rev();
         let long = |zoom: &i32| page_length(self.rate(), *zoom) >= length * (1.0 - 1e-9);
@@ -186,28 +185,28 @@ impl Play {
 }
 
 impl App {
-    /// Motion per wall-clock time.
+    /// Returns the motion per wall-clock time.
     pub fn rate(&self) -> f64 {
         self.play.rate()
     }
 
-    /// Length of a page \[s\].
+    /// Returns the length of a page \[s\].
     pub fn page_s(&self) -> f64 {
         page_length(self.rate(), self.play.zoom)
     }
 
-    /// Motion time now \[s\].
+    /// Returns the motion time now \[s\].
     pub fn now(&self) -> f64 {
         self.moment().map_or(0.0, |moment| moment.state.t_s)
     }
 
-    /// The end of the forecast \[s\].
+    /// Returns the end of the forecast \[s\].
     pub fn end_s(&self) -> f64 {
         let end = self.results().end_s;
         if end > 0.0 { end } else { self.scene.solver.end_s }
     }
 
-    /// The page that is shown, from and to \[s\].
+    /// Returns the page that is shown, from and to \[s\].
     pub fn page(&self) -> (f64, f64) {
         let length = self.page_s();
         let number = (self.page_number() - self.play.pages_back).max(0);
@@ -215,13 +214,13 @@ impl App {
         (start, start + length)
     }
 
-    /// The record of the page that is shown: computed again at its zoom, with what is to
+    /// Returns the record of the page that is shown: computed again at its zoom, with what is to
     /// come, or until that is done what was played at a zoom like it.
     pub fn record(&self) -> &[Bin] {
         self.recorded(self.results().page.as_deref(), &self.run.history)
     }
 
-    /// The same under the other contact law.
+    /// Returns the same under the other contact law.
     pub fn comparison_record(&self) -> &[Bin] {
         self.recorded(self.results().comparison_page.as_deref(), &self.run.comparison)
     }
@@ -234,30 +233,30 @@ impl App {
         }
     }
 
-    /// The bins of a record that are behind the motion, and those ahead of it.
+    /// Returns the bins of a record that are behind the motion, and those ahead of it.
     pub fn past_and_future<'a>(&self, record: &'a [Bin]) -> (&'a [Bin], &'a [Bin]) {
         let now = self.now();
         record.split_at(record.partition_point(|bin| bin.from < now))
     }
 
-    /// The last step may pass the end of the run, which may be that of a page.
+    /// Returns the last step may pass the end of the run, which may be that of a page.
     pub fn page_number(&self) -> i64 {
         self.page_of(self.now().min(self.end_s()))
     }
 
-    /// The page of an instant: one that has just become full is shown full.
+    /// Returns the page of an instant: one that has just become full is shown full.
     pub fn page_of(&self, t: f64) -> i64 {
         (t / self.page_s() - 1e-9).floor().max(0.0) as i64
     }
 
-    /// Part of the page that is before the instant that is read, or now, 0 to 1.
+    /// Returns the part of the page that is before the instant that is read, or now, 0 to 1.
     pub fn part_of_page(&self) -> f64 {
         let (from, to) = self.page();
         ((self.reading.at_s.unwrap_or(self.now()) - from) / (to - from)).clamp(0.0, 1.0)
     }
 
-    /// The rate that is reached, in words: `200x slower` than real time; while nothing plays
-    /// the one that is asked for.
+    /// Returns the rate that is reached, in words: `200x slower` than real time; while nothing
+    /// plays the one that is asked for.
     pub fn rate_text(&self) -> String {
         let rate = if self.play.playing { self.results().pace.reached } else { Some(self.rate()) };
         let Some(rate) = rate else { return self.appearance.ellipsis().into() };

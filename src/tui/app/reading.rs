@@ -29,36 +29,36 @@ pub struct Reading {
 }
 
 impl Reading {
-    /// Whether there is something to leave.
+    /// Returns whether there is something to leave.
     pub fn is_open(&self) -> bool {
         self.on || self.cursor.is_some()
     }
 
-    /// Nothing is read any more.
+    /// Stops reading.
     pub fn stop(&mut self) {
         *self = Self::default();
     }
 }
 
 impl App {
-    /// The cursor in a view, while that is the large chart.
+    /// Returns the cursor in a view, while that is the large chart.
     pub fn cursor_in(&self, view: ViewId) -> Option<Cursor> {
         self.reading.cursor.filter(|_| self.is_large(view))
     }
 
-    /// The instant that is read: that of the cursor in the chart over time where it was
+    /// Returns the instant that is read: that of the cursor in the chart over time where it was
     /// last \[s\].
     pub fn cursor_time(&self) -> Option<f64> {
         self.reading.at_s.filter(|_| self.reading.cursor.is_some())
     }
 
-    /// Nothing is read any more.
+    /// Stops reading.
     pub fn stop_reading(&mut self) {
         self.reading.stop();
     }
 }
 
-/// The cell of a part, 0 to 1, of a row of cells.
+/// Returns the cell of a part, 0 to 1, of a row of cells.
 pub fn cell_of(part: f64, cells: u32) -> u32 {
     ((part * f64::from(cells)) as u32).min(cells.saturating_sub(1))
 }

@@ -52,8 +52,8 @@ pub struct Baseline {
 }
 
 impl Baseline {
-    /// What was pinned: the knobs in which it differs from the present scene, and
-    /// its verdict.
+    /// Returns what was pinned: the knobs in which it differs from the present scene, and its
+    /// verdict.
     pub fn what(&self, app: &App) -> String {
         let differs = |knob: &&Knob| knob.get(&self.scene) != knob.get(&app.scene);
         let shown = |knob: &Knob| format!("{} {}", knob.label, knob.text(&self.scene));
@@ -79,8 +79,7 @@ pub struct Ranges {
 }
 
 impl Ranges {
-    /// Ranges at the start: the clearance and a little more. Where the blades rub at
-    /// rest, as far into the lining.
+    /// Creates the run of a scene at its start.
     pub fn of(clearance: f64) -> Self {
         let size = clearance.abs();
         let gaps = match clearance < 0.0 {
@@ -115,7 +114,7 @@ impl Run {
         }
     }
 
-    /// Of a scene from its start again. Old studies stay until there are new ones.
+    /// Starts the run again. Results of studies stay until there are new ones.
     pub fn restart(&mut self, scene: &CheckedScene) {
         self.restarts += 1;
         self.started = scene.clone();
@@ -128,13 +127,13 @@ impl Run {
         self.latest = Snapshot { results, ..Snapshot::default() };
     }
 
-    /// A knob acts on the motion.
+    /// Records that a knob acts on the motion.
     fn change(&mut self) {
         self.changes += 1;
         self.forget_forecasts();
     }
 
-    /// The pulse is fired again.
+    /// Records that the pulse is fired again.
     pub fn fire(&mut self) {
         self.pulses += 1;
         self.forget_forecasts();
@@ -148,7 +147,7 @@ impl Run {
         results.sensitive = Sensitive::Unknown;
     }
 
-    /// The ranges of the charts follow the data, or stay; what to say.
+    /// Makes the ranges of the charts follow the data, or stay; returns the message.
     pub fn autoscale(&mut self) -> String {
         self.ranges.follow = !self.ranges.follow;
         format!("scales {}", if self.ranges.follow { "follow the data" } else { "stay fixed" })
@@ -166,12 +165,12 @@ impl Run {
 }
 
 impl App {
-    /// What was computed of the run.
+    /// Returns what was computed of the run.
     pub fn results(&self) -> &Results {
         &self.run.latest.results
     }
 
-    /// The motion as it plays.
+    /// Returns the motion as it plays.
     pub fn moment(&self) -> Option<&Moment> {
         self.run.latest.moment.as_ref()
     }
@@ -272,7 +271,7 @@ impl App {
         }
     }
 
-    /// Number of the knobs' state.
+    /// Returns the number of the knobs' state.
     fn generation(&self) -> u64 {
         generation(self.run.restarts, self.run.changes, self.run.pulses)
     }
@@ -313,7 +312,7 @@ impl App {
         grow(gaps, most.map(|most| (low, clearance + most)));
     }
 
-    /// When a new page starts, ranges may shrink to the data of the old one.
+    /// Lets ranges shrink to the data of the old page when a new one starts.
     fn turn_page(&mut self) {
         let page = self.page_number();
         if !self.play.is_new_page(page) || !self.run.ranges.follow {
@@ -329,8 +328,8 @@ impl App {
         }
     }
 
-    /// Whether the wave is fixed in the frame of the blades: the motion is
-    /// paused, or a corner has been held for a while.
+    /// Returns whether the wave is fixed in the frame of the blades: the motion is paused, or a
+    /// corner has been held for a while.
     pub fn is_still(&self) -> bool {
         !self.play.playing
             || self.moment().is_some_and(|moment| {

@@ -36,7 +36,7 @@ pub struct Sweep {
 }
 
 impl App {
-    /// The question in the last line.
+    /// Returns the question in the last line.
     pub fn sweep_question(&self, typed: &str) -> Option<String> {
         let knob = self.selected()?;
         let now = knob.text(&self.scene);
@@ -65,15 +65,15 @@ impl Sweep {
         Some((self.knob, self.rest.pop()?))
     }
 
-    /// How far it is, for the last line.
+    /// Returns how far it is, for the last line.
     pub fn progress(&self) -> String {
         let done = self.all.saturating_sub(self.rest.len());
         let part = 100 * done / self.all.max(1);
         format!("sweeping {}: {part} %; any key stops", self.knob.label)
     }
 
-    /// The verdicts in one line, locks first, then the longest stretches:
-    /// `speed: LOCKED 412 to 460 rad/s, DECAY 300 to 411 rad/s`.
+    /// Returns the verdicts in one line, locks first, then the longest stretches: `speed: LOCKED
+    /// 412 to 460 rad/s, DECAY 300 to 411 rad/s`.
     pub fn summary(&self) -> String {
         let shown = |stretch: &Stretch| match stretch.from == stretch.to {
             true => format!("{} {}", stretch.word, stretch.from),
@@ -93,8 +93,8 @@ impl Sweep {
     }
 }
 
-/// The values after the first, up to the last: even steps, or even ratios where
-/// both have one sign and are far apart.
+/// Returns the values after the first, up to the last: even steps, or even ratios where both have
+/// one sign and are far apart.
 fn values(from: &Value, to: &Value) -> Vec<Value> {
     match (from, to) {
         (Value::Whole(from), Value::Whole(to)) => {

@@ -114,7 +114,7 @@ pub struct Chord {
 }
 
 impl Chord {
-    /// The chord of a key event.
+    /// Returns the bindings of a context.
     pub fn of(event: &KeyEvent) -> Self {
         let shift = event.modifiers.contains(KeyModifiers::SHIFT);
         let ctrl = event.modifiers.contains(KeyModifiers::CONTROL);
@@ -182,13 +182,13 @@ pub struct Binding {
 }
 
 impl Context {
-    /// The context that has the keys which this one has not.
+    /// Returns the context that has the keys which this one has not.
     pub fn behind(self) -> Option<Self> {
         matches!(self, Self::Reading | Self::Question).then_some(Self::Main)
     }
 }
 
-/// What a key does in a context.
+/// Returns what a key does in a context.
 pub fn lookup(context: Context, chord: Chord) -> Option<Action> {
     let own = of(context).find(|binding| binding.keys.contains(&chord));
     match (own, context.behind()) {
@@ -197,12 +197,12 @@ pub fn lookup(context: Context, chord: Chord) -> Option<Action> {
     }
 }
 
-/// The bindings of a context.
+/// Creates the bindings of a context.
 pub fn of(context: Context) -> impl Iterator<Item = &'static Binding> {
     BINDINGS.iter().filter(move |binding| binding.context == context)
 }
 
-/// The keys of a binding as text, such as `Up, k`.
+/// Returns the keys of a binding as text, such as `Up, k`.
 pub fn keys_text(binding: &Binding) -> String {
     binding.keys.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
 }
@@ -229,7 +229,7 @@ pub enum Group {
 }
 
 impl Action {
-    /// The group of an action.
+    /// Returns the group of an action.
     pub fn group(self) -> Group {
         match self {
             Self::KnobAbove

@@ -56,7 +56,7 @@ impl Decoder {
         self.begun.clear();
     }
 
-    /// There is no more at once: an Escape is the key of this name.
+    /// Records that no more bytes come at once: an Escape alone is the key of this name.
     pub fn end(&mut self, found: &mut VecDeque<Event>) {
         if self.begun == [ESCAPE] {
             self.begun.clear();
@@ -64,8 +64,8 @@ impl Decoder {
         }
     }
 
-    /// Nothing has come for so long, a moment at least: what was begun takes no key with it,
-    /// and a Ctrl-C that came last is a key also where the end of a pasted text was lost.
+    /// Records that nothing has come for this long: what was begun swallows no key, and a Ctrl-C
+    /// that came last is a key even where the end of a pasted text was lost.
     pub fn pause(&mut self, silent: Duration, found: &mut VecDeque<Event>) {
         self.end(found);
         if self.begun == [ESCAPE, b']'] {
@@ -82,7 +82,7 @@ impl Decoder {
         }
     }
 
-    /// Whether more must come.
+    /// Returns whether more must come.
     pub fn is_unfinished(&self) -> bool {
         !self.begun.is_empty() || self.pasted.is_some()
     }

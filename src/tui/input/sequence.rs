@@ -85,7 +85,7 @@ fn typed(letter: char) -> Event {
     key(KeyCode::Char(letter), capital)
 }
 
-/// What follows `ESC [`.
+/// Returns what follows `ESC [`.
 fn control_sequence(bytes: &[u8]) -> Piece {
     match bytes {
         // The console of Linux has F1 to F5 so.
@@ -122,8 +122,8 @@ fn pointed(numbers: &str, up: bool) -> Option<Event> {
     mouse(button, place()?, place()?, up)
 }
 
-/// Two bits of the button, Shift, Alt, Control, whether it moves, and two bits for
-/// the wheel.
+/// Returns two bits of the button, Shift, Alt, Control, whether it moves, and two bits for the
+/// wheel.
 fn mouse(bits: u8, column: u16, row: u16, up: bool) -> Option<Event> {
     let button = match bits & 3 {
         0 => Some(MouseButton::Left),
@@ -153,7 +153,7 @@ fn mouse(bits: u8, column: u16, row: u16, up: bool) -> Option<Event> {
     Some(Event::Mouse(MouseEvent { kind, column, row, modifiers }))
 }
 
-/// A key with its modifiers: `CSI A`, `CSI 1;5 A`, `CSI 5 ~`, `CSI 99;5 u`.
+/// Returns a key with its modifiers: `CSI A`, `CSI 1;5 A`, `CSI 5 ~`, `CSI 99;5 u`.
 fn pressed(numbers: &str, last: u8) -> Option<Event> {
     let mut numbers = numbers.split(';');
     let which = numbers.next()?.split(':').next()?;
@@ -196,7 +196,7 @@ fn pressed(numbers: &str, last: u8) -> Option<Event> {
     Some(Event::Key(key))
 }
 
-/// Keys that end in a letter of their own.
+/// Returns the keys that end in a letter of their own.
 fn lettered(last: u8) -> Option<KeyCode> {
     Some(match last {
         b'A' => KeyCode::Up,
@@ -211,7 +211,7 @@ fn lettered(last: u8) -> Option<KeyCode> {
     })
 }
 
-/// Keys that have a number.
+/// Returns the keys that have a number.
 fn numbered(number: u8) -> Option<KeyCode> {
     Some(match number {
         1 | 7 => KeyCode::Home,

@@ -61,23 +61,23 @@ impl Group {
     pub const ALL: [Self; 6] =
         [Self::Operation, Self::Time, Self::Model, Self::Machine, Self::Beyond, Self::Start];
 
-    /// Its heading.
+    /// Returns its heading.
     pub fn name(self) -> &'static str {
         ["operation", "time", "model", "machine", "beyond the paper", "start"][self as usize]
     }
 
-    /// Places of its knobs in the table.
+    /// Returns the places of its knobs in the table.
     pub fn places(self) -> impl Iterator<Item = usize> {
         KNOBS.iter().enumerate().filter(move |(_, knob)| knob.group == self).map(|(place, _)| place)
     }
 }
 
-/// The place of the knob of a key in the table.
+/// Returns the place of the knob of a key in the table.
 pub fn place_of(path: &str) -> Option<usize> {
     KNOBS.iter().position(|knob| knob.path == path)
 }
 
-/// The knob of a key.
+/// Returns the knob of a key.
 pub fn knob_of(path: &str) -> Option<&'static Knob> {
     KNOBS.get(place_of(path)?)
 }
@@ -108,7 +108,7 @@ impl Knob {
         keys::KEYS.iter().find(|key| key.path == self.path)
     }
 
-    /// The value in a scene.
+    /// Returns the value in a scene.
     pub fn get(&self, scene: &Scene) -> Value {
         self.key().map_or_else(
             || {
@@ -154,7 +154,7 @@ impl Knob {
         Ok((changed, said))
     }
 
-    /// What to say about keys that follow this knob.
+    /// Returns what to say about keys that follow this knob.
     fn followed(&self, made: &[Adjustment], law: ContactLaw) -> Option<String> {
         let first = made.first()?;
         Some(match (first.key, self.path) {
@@ -177,7 +177,7 @@ impl Knob {
         })
     }
 
-    /// The value after one turn.
+    /// Returns the value after one turn.
     pub fn turned(&self, value: &Value, up: bool, coarse: bool, scene: &Scene) -> Value {
         match (value, self.turn) {
             (Value::Real(x), Turn::Linear(fine, large)) => {
@@ -216,7 +216,7 @@ impl Knob {
         }
     }
 
-    /// The nearest multiple of a step, within bounds.
+    /// Returns the nearest multiple of a step, within bounds.
     fn round_to(&self, x: f64, step: f64) -> f64 {
         let next = (x / step).round() * step;
         // Decimal digits, without the round-off of a multiple.
@@ -231,22 +231,22 @@ impl Knob {
         }
     }
 
-    /// What it may hold.
+    /// Returns what it may hold.
     pub fn allowed(&self) -> Allowed {
         self.key().map_or(number::ALLOWED, |key| key.allowed)
     }
 
-    /// The unit; empty for words and counts.
+    /// Returns the unit; empty for words and counts.
     pub fn unit(&self) -> &'static str {
         self.key().map_or("m", |key| key.unit).trim_matches('-')
     }
 
-    /// The value in a scene as shown.
+    /// Returns the value in a scene as shown.
     pub fn text(&self, scene: &Scene) -> String {
         self.shown(&self.get(scene))
     }
 
-    /// The value as shown, with prefix and unit.
+    /// Returns the value as shown, with prefix and unit.
     pub fn shown(&self, value: &Value) -> String {
         match value {
             Value::Real(x) => axis::number(*x, self.unit()),
@@ -255,12 +255,12 @@ impl Knob {
         }
     }
 
-    /// Its symbol: the last word of its name.
+    /// Returns its symbol: the last word of its name.
     pub fn symbol(&self) -> &'static str {
         self.label.split(' ').next_back().unwrap_or(self.label)
     }
 
-    /// Its label without its symbol.
+    /// Returns its label without its symbol.
     pub fn name(&self) -> &'static str {
         let is_word = |word: &str| word.len() > 1 && word.bytes().all(|b| b.is_ascii_lowercase());
         match self.label.rsplit_once(' ') {
@@ -269,7 +269,8 @@ impl Knob {
         }
     }
 
-    /// What it may hold, in words with its unit; nothing for words, which its sentence names.
+    /// Returns what it may hold, in words with its unit; nothing for words, which its sentence
+    /// names.
     pub fn range_words(&self) -> String {
         let words = match self.allowed() {
             Allowed::OneOf(words) => return format!("one of {}", words.join(", ")),
@@ -279,7 +280,7 @@ impl Knob {
         format!("{words} {}", self.unit()).trim_end().to_string()
     }
 
-    /// A refusal of a value of it in the words of the panel, without keys of the file.
+    /// Returns a refusal of a value of it in the words of the panel, without keys of the file.
     pub fn refusal(&self, error: &SceneError) -> String {
         if let SceneError::Unit { value, why, .. } = error {
             return format!("{}: {value} cannot be read: {why}", self.label);
@@ -308,7 +309,7 @@ impl Knob {
         }
     }
 
-    /// What a number of it is of.
+    /// Returns what a number of it is of.
     fn quantity(&self) -> Quantity {
         Quantity::of(self.unit())
     }

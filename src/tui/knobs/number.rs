@@ -11,12 +11,12 @@ const FINE: &[f64] = &[
 ];
 const COARSE: &[f64] = &[1.0, 2.0, 5.0];
 
-/// The mantissas of a turn.
+/// Returns the mantissas of a turn.
 pub(super) fn mantissas(coarse: bool) -> &'static [f64] {
     if coarse { COARSE } else { FINE }
 }
 
-/// The next number up or down whose mantissa is in the list.
+/// Returns the next number up or down whose mantissa is in the list.
 pub(super) fn decades(x: f64, up: bool, mantissas: &[f64], least: f64) -> f64 {
     if x.abs() < least * (1.0 - 1e-9) {
         return if up { least } else { 0.0 };
@@ -54,7 +54,7 @@ pub(super) const LEAST: f64 = 1e-9;
 /// and of a turn on a lining, from which one more goes on to the other side of zero.
 const LEAST_ON_LINING: f64 = 1e-6;
 
-/// The value after one turn. There is no clearance of zero.
+/// Returns the value after one turn. There is no clearance of zero.
 pub(super) fn turned(x: f64, up: bool, coarse: bool, scene: &Scene) -> f64 {
     let lining = scene.solver.contact == ContactLaw::Smooth;
     let least = if lining { LEAST_ON_LINING } else { LEAST };

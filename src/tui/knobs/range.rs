@@ -23,12 +23,12 @@ pub struct KnobRange {
 }
 
 impl KnobRange {
-    /// With equal widths of equal differences.
+    /// Creates a range on which equal differences have equal widths.
     pub fn linear(low: f64, high: f64) -> Self {
         Self { low, high, log: false, sign: 1.0, marks: Vec::new() }
     }
 
-    /// With equal widths of equal factors.
+    /// Creates a range on which equal factors have equal widths.
     pub fn log(low: f64, high: f64) -> Self {
         Self { log: true, ..Self::linear(low, high) }
     }
@@ -46,13 +46,13 @@ impl KnobRange {
         self
     }
 
-    /// Whether there are places on it.
+    /// Returns whether there are places on it.
     pub fn is_sound(&self) -> bool {
         let ends = self.low.is_finite() && self.high.is_finite() && self.high > self.low;
         ends && (!self.log || self.low > 0.0)
     }
 
-    /// The place of a value on the bar, 0 to 1.
+    /// Returns the place of a value on the bar, 0 to 1.
     pub fn part(&self, value: f64) -> f64 {
         let value = value * self.sign;
         let part = match self.log {
@@ -63,12 +63,12 @@ impl KnobRange {
         if part.is_finite() { part.clamp(0.0, 1.0) } else { 0.0 }
     }
 
-    /// Where a value stands; nowhere for 0 on a scale of factors.
+    /// Returns where a value stands; nowhere for 0 on a scale of factors.
     pub fn place(&self, value: f64) -> Option<f64> {
         (!self.log || value != 0.0).then(|| self.part(value))
     }
 
-    /// The value at a place of the bar.
+    /// Returns the value at a place of the bar.
     pub fn at(&self, part: f64) -> f64 {
         let part = part.clamp(0.0, 1.0);
         self.sign
@@ -107,7 +107,7 @@ const LETTERS: [(char, &str); 10] = [
     ('r', "a ring: 1/n_d"),
 ];
 
-/// What a letter on a bar means.
+/// Returns what a letter on a bar means.
 pub fn meaning(letter: char) -> &'static str {
     LETTERS.iter().find(|(known, _)| *known == letter).map_or("", |(_, meaning)| meaning)
 }
@@ -135,7 +135,7 @@ impl Case<'_> {
         self.scene.solver.contact == ContactLaw::Smooth
     }
 
-    /// The magnitude in the opened scene, or what is usual where it is 0 there.
+    /// Returns the magnitude in the opened scene, or what is usual where it is 0 there.
     fn usual(&self) -> f64 {
         let value = self.knob.number(self.opened).unwrap_or(0.0).abs();
         if value > 0.0 { value } else { self.knob.usual }
@@ -241,9 +241,9 @@ pub mod bars {
 }
 
 impl Knob {
-    /// The usual range of this knob, and the limits on it; none for words. It
-    /// depends on the machine and on the scene as it was opened, not on the value:
-    /// a bar whose scale moves cannot be read.
+    /// Returns the usual range of this knob, and the limits on it; none for words. It depends on
+    /// the machine and on the scene as it was opened, not on the value: a bar whose scale moves
+    /// cannot be read.
     pub fn range(&self, scene: &Scene, opened: &Scene, machine: &Machine) -> Option<KnobRange> {
         let case = Case { knob: self, value: self.number(scene)?, scene, opened, machine };
         let range = match self.bar {
@@ -254,7 +254,7 @@ impl Knob {
         Some(range).filter(KnobRange::is_sound)
     }
 
-    /// The value as a number; none for words.
+    /// Returns the value as a number; none for words.
     pub fn number(&self, scene: &Scene) -> Option<f64> {
         match self.get(scene) {
             Value::Real(x) => Some(x),
@@ -263,8 +263,8 @@ impl Knob {
         }
     }
 
-    /// The value that the knob would be turned to next to a number, for a bar that
-    /// is dragged.
+    /// Returns the value that the knob would be turned to next to a number, for a bar that is
+    /// dragged.
     pub fn near(&self, x: f64) -> Option<Value> {
         match (self.turn, self.allowed()) {
             (Turn::Linear(fine, _), _) => Some(Value::Real(self.round_to(x, fine))),
@@ -278,11 +278,10 @@ impl Knob {
     }
 }
 
-/// The force at which the free casing, at rest before the pulse, reaches the
-/// clearance \[N\]. That is the least pulse that can make contact; the blades may
-/// need up to `1/cos delta` times as much, until one passes the largest
-/// displacement. None where something else moves the casing too, or where it does
-/// not swing.
+/// Returns the force at which the free casing, at rest before the pulse, reaches the clearance
+/// \[N\]. That is the least pulse that can make contact; the blades may need up to `1/cos delta`
+/// times as much, until one passes the largest displacement. None where something else moves the
+/// casing too, or where it does not swing.
 pub fn touching_pulse(scene: &Scene, machine: &Machine) -> Option<f64> {
     let (zeta, omega) = (machine.casing_damping_ratio, machine.omega_c);
     let (length, mass) = (scene.operation.pulse_s, machine.casing_mass);

@@ -17,7 +17,7 @@ const LEAST: (u16, u16) = (60, 18);
 /// From this height on, letters and bar are twice as high.
 const TALL: u16 = 32;
 
-/// Whether the screen is drawn so.
+/// Returns whether the screen is drawn so.
 pub fn is_shown(app: &App, area: Rect) -> bool {
     let open = matches!(
         app.dialogue.mode,
@@ -113,7 +113,7 @@ pub fn knob(app: &App, buffer: &mut Buffer, area: Rect) {
     knobs::draw(app, buffer, bar_cells(area), knob);
 }
 
-/// The cells of the bar of the selected knob.
+/// Returns the cells of the bar of the selected knob.
 pub fn bar_cells(area: Rect) -> Rect {
     let height = area.height.saturating_sub(1);
     Rect { x: area.x + 2, y: area.y + 1, width: area.width.saturating_sub(4), height }

@@ -8,7 +8,7 @@ use crate::tui::files::{FileJob, FileResult, FoundScenes};
 use rubscope_solver::scene::{CheckedScene, Scene};
 
 impl App {
-    /// Has a file written; where one exists, the result is a question.
+    /// Starts writing a file; where one exists, the result is a question.
     pub(super) fn write(&mut self, purpose: Purpose, name: &str, replace: bool) -> Effect {
         let name = name.trim();
         if name.is_empty() {
@@ -57,14 +57,14 @@ impl App {
         result == FileResult::Written
     }
 
-    /// The screen shows this state: from now on a key can be the answer to its
+    /// Records that the screen shows this state: from now on a key can be the answer to its
     /// question, and a sweep can go on.
     pub fn drawn(&mut self) {
         self.dialogue.asked = true;
         self.sweep_on();
     }
 
-    /// The command to copy; the status line shows it too.
+    /// Returns the command to copy, and shows it in the last line.
     pub(super) fn copied(&mut self) -> String {
         let command = self.command();
         self.status = Some(format!("copied: {command}"));
@@ -136,8 +136,8 @@ impl App {
         self.set_scene(scene, false);
     }
 
-    /// The scene to save. Title and note of the opened scene would be false where
-    /// knobs were turned: then they say what was changed.
+    /// Returns the scene to save. Title and note of the opened scene would be false where knobs
+    /// were turned: then they say what was changed.
     pub(super) fn scene_to_save(&self) -> Scene {
         let mut scene = self.scene.clone().into_scene();
         let (base, name) = match &self.files.source {

@@ -10,7 +10,7 @@ use crate::tui::views::id::ViewId;
 use rubscope_solver::scene::Scene;
 
 impl App {
-    /// The key of the lessons: the list, the next page, or the next step.
+    /// Opens the list of lessons, or goes to the next page or the next step.
     pub(super) fn lesson_key(&mut self) {
         let Some((lesson, progress)) = self.current_lesson() else {
             let done = &self.lessons.done;
@@ -35,7 +35,7 @@ impl App {
         }
     }
 
-    /// The step before.
+    /// Goes to the step before.
     pub(super) fn lesson_back(&mut self) {
         match self.lessons.progress.as_ref().map(|progress| (progress.lesson, progress.step)) {
             None => self.status = Some("no lesson is open".into()),

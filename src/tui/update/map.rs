@@ -88,8 +88,8 @@ impl App {
         self.status = opened.map(|values| format!("opened {values}, {law}; u undoes"));
     }
 
-    /// The margins of all diameters where those of one are seen, and the other way round;
-    /// from another view the survey.
+    /// Shows the margins of all diameters instead of those of one, or the other way round; from
+    /// another view the survey.
     pub(super) fn turn_survey(&mut self) {
         let on = !(self.is_large(ViewId::Margins) && self.layout.is_surveyed());
         let said = self.layout.turn_survey(on);

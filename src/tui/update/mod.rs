@@ -95,13 +95,13 @@ impl App {
         Effect::None
     }
 
-    /// Another text is typed: what was said of the one before is over.
+    /// Forgets the message about the text that was typed before.
     fn typed_on(&mut self) {
         self.knobs.refusal = None;
         self.dialogue.look_again();
     }
 
-    /// What can be seen of this state, without what only a status says.
+    /// Returns what can be seen of this state, without what only a status says.
     fn seen(&self) -> impl PartialEq + use<> {
         let shown = (self.order(), self.layout.clone(), self.appearance);
         let open = (self.dialogue.mode.clone(), self.lessons.progress.clone());
@@ -109,7 +109,7 @@ impl App {
         (shown, open, read, self.selected().map(|knob| knob.path), self.knobs.refusal.clone())
     }
 
-    /// What to say of a key that has changed nothing.
+    /// Returns what to say of a key that has changed nothing.
     fn nothing(&self, chord: Chord, action: Action) -> String {
         match action {
             Action::Close if self.lessons.progress.is_some() => "G leaves the lesson".into(),
@@ -286,7 +286,7 @@ impl App {
         }
     }
 
-    /// The screen for a projector, or the usual one.
+    /// Changes to the screen for a projector, or to the usual one.
     pub(super) fn present(&mut self, on: bool) {
         if on && self.lessons.progress.is_some() {
             self.status = Some("a lesson needs the usual screen; G leaves it".into());

@@ -18,7 +18,7 @@ impl App {
         }
     }
 
-    /// The place of the pointer is read from now on.
+    /// Starts reading at the pointer.
     pub(super) fn point(&mut self, cursor: Cursor) {
         self.reading.on = true;
         self.put_cursor(cursor);
@@ -69,7 +69,7 @@ impl App {
         Ok(())
     }
 
-    /// After a change of the large chart: an instant goes on being read.
+    /// Keeps the instant that is read after a change of the large chart.
     pub(super) fn keep_instant(&mut self) {
         match self.cursor_time() {
             Some(_) => self.reading.cursor = Some(self.panel().here(self)),
@@ -77,7 +77,7 @@ impl App {
         }
     }
 
-    /// The arrows move the cursor from now on, or no longer.
+    /// Gives the arrows to the cursor, or back to the knobs.
     pub(super) fn toggle_reading(&mut self) {
         if self.reading.on {
             return self.reading.stop();
@@ -113,7 +113,7 @@ impl App {
         }
     }
 
-    /// The gaps against time, or those of one instant; the blade that is read stays.
+    /// Shows the gaps against time, or those of one instant; the blade that is read stays.
     pub(super) fn turn_gaps(&mut self) {
         let cursor = self.cursor_in(ViewId::Gaps);
         let blade = cursor.map(|cursor| if self.layout.heat { cursor.up } else { cursor.across });
@@ -139,7 +139,7 @@ impl App {
         }
     }
 
-    /// Whether the run has this instant.
+    /// Returns whether the run has this instant.
     ///
     /// # Errors
     /// It has not, in words.

@@ -40,22 +40,22 @@ const VIEWS: [(ViewId, &str); CHARTS.len()] = [
 ];
 
 impl ViewId {
-    /// All views.
+    /// Returns all views.
     pub fn all() -> impl Iterator<Item = Self> {
         VIEWS.iter().map(|(id, _)| *id)
     }
 
-    /// Its word in scene files, lessons and file names.
+    /// Returns its word in scene files, lessons and file names.
     pub fn word(self) -> &'static str {
         CHARTS[self as usize]
     }
 
-    /// The view a word stands for.
+    /// Returns the view a word stands for.
     pub fn from_word(word: &str) -> Option<Self> {
         Self::all().find(|view| view.word() == word)
     }
 
-    /// The digit key that opens it.
+    /// Returns the digit key that opens it.
     pub fn digit(self) -> u8 {
         self as u8 + 1
     }

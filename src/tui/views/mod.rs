@@ -35,24 +35,24 @@ const VIEWS: [(ViewId, &dyn ViewPanel); CHARTS.len()] = [
 ];
 
 impl ViewId {
-    /// What it draws and exports.
+    /// Returns what it draws and exports.
     pub fn panel(self) -> &'static dyn ViewPanel {
         VIEWS[self as usize].1
     }
 }
 
 impl App {
-    /// What the large chart draws and exports.
+    /// Returns what the large chart draws and exports.
     pub fn panel(&self) -> &'static dyn ViewPanel {
         self.view().panel()
     }
 
-    /// What Enter does at the reading cursor.
+    /// Returns what Enter does at the reading cursor.
     pub fn opening(&self) -> Option<Opening> {
         self.panel().opening(self, self.reading.cursor?)
     }
 
-    /// Column and row of the margins under the cursor; the first row is the upper one.
+    /// Returns the column and row of the margins under the cursor; the first row is the upper one.
     pub fn margins_cell(&self) -> Option<[usize; 2]> {
         let cursor = self.cursor_in(ViewId::Margins)?;
         let rows = u32::try_from(self.margins()?.0.rows().len()).ok().filter(|rows| *rows > 0)?;

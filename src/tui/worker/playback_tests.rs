@@ -155,7 +155,7 @@ fn a_comparison_that_is_slow_catches_up_before_a_change_acts_on_both() {
     }
 }
 
-/// The paper's scene over a millisecond, with both laws.
+/// Returns the paper's scene over a millisecond, with both laws.
 fn short() -> Order {
     let mut scene = Scene::base();
     (scene.solver.step_s, scene.solver.end_s) = (1e-6, 1e-3);

@@ -37,8 +37,8 @@ struct Shared {
 }
 
 impl Shared {
-    /// A poisoned lock contains plain values that are always replaced as a
-    /// whole, so they are valid.
+    /// Returns a poisoned lock contains plain values that are always replaced as a whole, so they
+    /// are valid.
     fn lock(&self) -> MutexGuard<'_, Slots> {
         self.slots.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -132,8 +132,8 @@ fn run(shared: &Shared, wake: &Waker) {
     }
 }
 
-/// The next order, if there is one, and whether a frame was drawn; waits when
-/// there is nothing to do. None if the thread must end.
+/// Returns the next order, if there is one, and whether a frame was drawn; waits when there is
+/// nothing to do. None if the thread must end.
 fn next_order(shared: &Shared, busy: bool, playing: bool) -> Option<(Option<Order>, bool)> {
     let mut slots = shared.lock();
     if slots.order.is_none() && !slots.quit && !busy {
@@ -203,7 +203,7 @@ pub struct Stepwise {
 }
 
 impl Stepwise {
-    /// An engine that plays `stride` seconds of motion between two snapshots.
+    /// Creates an engine that plays `stride` seconds of motion between two snapshots.
     pub fn new(stride: f64) -> Self {
         Self {
             stride,

@@ -39,13 +39,13 @@ impl ViewPanel for FrameView {
         }
     }
 
-    /// The trail is among the columns of the response.
+    /// Returns the trail is among the columns of the response.
     fn csv(&self, app: &App) -> Result<String, String> {
         ResponseView.csv(app)
     }
 }
 
-/// A square of half side `reach` fitted into an area of cells twice as high as wide.
+/// Returns a square of half side `reach` fitted into an area of cells twice as high as wide.
 pub fn square(area: Rect, reach: f64) -> (ChartAxis, ChartAxis) {
     // The labels take about six columns and two rows.
     let (width, height) = (
@@ -60,8 +60,8 @@ pub fn square(area: Rect, reach: f64) -> (ChartAxis, ChartAxis) {
     (ChartAxis::scaled(-x, x), ChartAxis::scaled(-y, y))
 }
 
-/// The place under the reading cursor, and how far the nearest blade is from it
-/// where blades are rigid.
+/// Returns the place under the reading cursor, and how far the nearest blade is from it where
+/// blades are rigid.
 fn reading(app: &App, x: ChartAxis, y: ChartAxis) -> Option<String> {
     let cursor = app.cursor_in(ViewId::Frame)?;
     let (x, y) = (x.at(cursor.across), y.at(cursor.up));
@@ -73,7 +73,7 @@ fn reading(app: &App, x: ChartAxis, y: ChartAxis) -> Option<String> {
     Some(format!("{gap}{to} {blade} at {}, {}", readable(x, "m"), readable(y, "m")))
 }
 
-/// What the point is: the casing, as the tips of the blades see it.
+/// Returns what the point is: the casing, as the tips of the blades see it.
 fn named(app: &App) -> &'static str {
     let machine = &app.machine;
     match machine.radial_coupling == 0.0 {
@@ -84,7 +84,7 @@ fn named(app: &App) -> &'static str {
     }
 }
 
-/// Which sides touch at the instant that is shown. In a lining the gaps say it.
+/// Returns which sides touch at the instant that is shown. In a lining the gaps say it.
 fn touching_sides(app: &App) -> impl Fn(u32) -> bool {
     let polygon = &app.machine.polygon;
     let active_set = app.shown().map_or(ActiveSet::Nothing, |moment| moment.active_set);
@@ -243,7 +243,7 @@ fn wheel(app: &App, buffer: &mut Buffer, at: ViewArea) {
     }
 }
 
-/// The blade next to the reading cursor, its gap, and the instant that is read.
+/// Returns the blade next to the reading cursor, its gap, and the instant that is read.
 fn blade_read(app: &App, x: ChartAxis, y: ChartAxis, cursor: Cursor) -> Option<String> {
     let moment = app.shown()?;
     let blades = app.machine.polygon.blades;

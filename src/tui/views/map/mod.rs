@@ -55,7 +55,7 @@ impl ViewPanel for MapView {
         app.shown_plan().map_or(Cursor { across: 0.5, up: 0.5 }, |plan| here(app, &plan))
     }
 
-    /// The run of the cell: its knobs, and the law and solver of the map.
+    /// Returns the run of the cell: its knobs, and the law and solver of the map.
     fn opening(&self, app: &App, _: Cursor) -> Option<Opening> {
         let (plan, [column, row]) = (app.shown_plan()?, app.map_cell()?);
         let scene = plan.scene_of(plan.index(column, row)).ok()?;
@@ -70,7 +70,7 @@ impl ViewPanel for MapView {
     }
 }
 
-/// The cell of a map nearest to the present knobs.
+/// Returns the cell of a map nearest to the present knobs.
 pub fn here(app: &App, plan: &MapPlan) -> Cursor {
     let part = |axis: &Axis| {
         let count = f64::from(axis.count.max(1));

@@ -17,7 +17,7 @@ pub struct Spectrum {
 }
 
 impl Spectrum {
-    /// Spectrum of samples at equal intervals over `length` seconds.
+    /// Computes the spectrum of samples at equal intervals over `length` seconds.
     pub fn of(signal: &[[f64; 2]], length: f64) -> Self {
         let of = |place: usize| {
             let samples: Vec<f64> =
@@ -28,7 +28,7 @@ impl Spectrum {
     }
 }
 
-/// Amplitude of each line; a sine on a line shows its own amplitude.
+/// Returns the amplitude of each line; a sine on a line shows its own amplitude.
 fn amplitudes_of(mut samples: Vec<f64>) -> Vec<f64> {
     let count = samples.len();
     if count < 8 || samples.iter().any(|x| !x.is_finite()) {

@@ -48,7 +48,7 @@ fn highest(app: &App) -> f64 {
     (1.3 * most / step).ceil() * step
 }
 
-/// Frequencies in the fixed frame, with their names \[rad/s\].
+/// Returns the frequencies in the fixed frame, with their names \[rad/s\].
 fn lines(app: &App, speed: f64) -> [(f64, &'static str); 4] {
     let machine = app.machine.at(speed);
     let wave = machine.nu(speed);
@@ -97,7 +97,7 @@ fn amplitudes(app: &App, buffer: &mut Buffer, at: ViewArea) {
     name_speeds(&mut plot, &marks, app);
 }
 
-/// The line nearest to a frequency.
+/// Returns the line nearest to a frequency.
 fn reading(spectrum: &Spectrum, frequency: f64) -> Option<String> {
     let line = (frequency / spectrum.resolution).round().max(0.0) as usize;
     let (u_c, u_s) = (spectrum.cosine.get(line)?, spectrum.sine.get(line)?);

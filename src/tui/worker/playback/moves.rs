@@ -20,7 +20,7 @@ const JUMP_SAMPLES: f64 = 20_000.0;
 pub(super) const JUMP_LIMIT: Duration = Duration::from_secs(1);
 
 impl Playback {
-    /// One time step, or one sample of a solver that does not step.
+    /// Takes one time step, or one sample of a solver without steps.
     pub(super) fn step(&mut self) {
         let step = match self.motion.steps() {
             Some(_) => self.order.scene.solver.step_s,
@@ -97,7 +97,7 @@ impl Playback {
 }
 
 impl Playback {
-    /// The latest motion by `t` that is known: a copy of the run ahead, or of the past.
+    /// Returns the latest motion by `t` that is known: a copy of the run ahead, or of the past.
     fn before(&self, t: f64) -> Option<Motion> {
         self.forecasts.before(t).or_else(|| self.copies.before(t, &self.motion))
     }
@@ -125,7 +125,7 @@ impl Playback {
         self.reading.go_on(self.time_limit.min(SLICE));
     }
 
-    /// Whether the pages on the screen are computed.
+    /// Returns whether the pages on the screen are computed.
     pub(super) fn pages_are_done(&self) -> bool {
         self.page.is_done() && self.comparison.as_ref().is_none_or(|theirs| theirs.page.is_done())
     }

@@ -104,7 +104,7 @@ impl Study for MapStudy {
 }
 
 impl MapStudy {
-    /// A map of `plan`; of its cells at most the `most` coarsest are computed.
+    /// Creates a map of `plan`; of its cells at most the `most` coarsest are computed.
     fn new(plan: &MapPlan, most: usize) -> Self {
         let (mut order, first) = coarse_first(plan);
         order.truncate(most.max(1));

@@ -62,13 +62,13 @@ pub trait Study: fmt::Debug + Sized {
     /// Whether it takes so long that others like it go on beside it.
     const BESIDE: bool = false;
 
-    /// The inputs that are wanted; none where no view shows it.
+    /// Returns the inputs that are wanted; none where no view shows it.
     fn key(given: &Given) -> Option<Self::Key>;
 
     /// Starts it.
     fn begin(key: &Self::Key, given: &Given) -> Self;
 
-    /// Whether nothing more comes.
+    /// Returns whether nothing more comes.
     fn is_done(&self) -> bool {
         true
     }
@@ -77,21 +77,21 @@ pub trait Study: fmt::Debug + Sized {
     /// than `patience`.
     fn work(&mut self, _patience: Duration) {}
 
-    /// How far it is, 0 to 1, where that is known.
+    /// Returns how far it is, 0 to 1, where that is known.
     fn part(&self) -> Option<f64> {
         None
     }
 
-    /// The result, as soon as it can be shown instead of the one before.
+    /// Returns the result, as soon as it can be shown instead of the one before.
     fn found(&self) -> Option<&Arc<Self::Found>>;
 
-    /// What to show where there is no result before.
+    /// Returns what to show where there is no result before.
     fn first(&self) -> Option<&Arc<Self::Found>> {
         None
     }
 
-    /// Nobody wants it now; false where it must end, so that the work of the next order has
-    /// the processor.
+    /// Pauses the study while it is not wanted; returns false where it must end, so that the work
+    /// of the next order has the processor.
     fn wait(&mut self) -> bool {
         true
     }
@@ -139,7 +139,7 @@ trait Work {
     fn is_done(&self, given: &Given) -> bool;
     fn work(&mut self, given: &Given, patience: Duration);
     fn stop_unwanted(&mut self, given: &Given);
-    /// How far it is, where it takes long.
+    /// Returns how far it is, where it takes long.
     fn working(&self, given: &Given) -> Option<Working>;
 }
 
@@ -196,7 +196,7 @@ macro_rules! studies {
                 [$(&mut self.$name as &mut dyn Work),*].into_iter()
             }
 
-            /// What they have found so far.
+            /// Returns what they have found so far.
             pub fn found(&self, order: &Order, run: &FullRunJob) -> Found {
                 let given = self.given(order, run);
                 Found { $($name: self.$name.shown(&given),)* }
@@ -231,13 +231,13 @@ impl Studies {
         self.all_mut().for_each(|study| study.stop_unwanted(&given));
     }
 
-    /// What takes long.
+    /// Returns what takes long.
     pub fn working(&self, order: &Order, run: &FullRunJob) -> Vec<Working> {
         let given = self.given(order, run);
         self.all().filter_map(|study| study.working(&given)).collect()
     }
 
-    /// Whether a study that is needed is missing.
+    /// Returns whether a study that is needed is missing.
     pub fn is_computing(&self, order: &Order, run: &FullRunJob) -> bool {
         let given = self.given(order, run);
         self.all().any(|study| !study.is_done(&given))
