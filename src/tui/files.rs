@@ -1,9 +1,6 @@
-//! Files are opened in a thread of their own: a pipe without a reader or a
-//! network that does not answer blocks that thread, not the screen.
-//!
-//! The scene files of a directory, read in a thread of their own: a network that
-//! does not answer blocks that thread, not the screen. Only regular files are
-//! opened, and only so many.
+//! Reading and writing files in threads of their own: a pipe without a reader or a network that
+//! does not answer blocks such a thread, not the screen. Of a directory only regular files are
+//! opened, and a limited number of them.
 
 use std::io::{ErrorKind, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};

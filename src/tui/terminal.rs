@@ -1,9 +1,6 @@
-//! Sets up the terminal, and restores it however the program ends. Restoring
-//! takes no lock that is held during output, never waits for the terminal, and
-//! may be done by any thread, more than once.
-//!
-//! The backend of the screen: crossterm's, but with frames that can be given up
-//! and a size within bounds.
+//! The terminal of the explorer: setting it up, drawing on it with frames that can be given up,
+//! and restoring it however the program ends. Restoring takes no lock that is held during
+//! output, never waits for the terminal, and may be done by any thread, more than once.
 
 use std::io::{Error, Write};
 use std::sync::OnceLock;

@@ -1,9 +1,5 @@
-//! The verdict in one sentence, and what touches, in words.
-//!
-//! What touches, as the blades see it: which of them, and how deep in a lining.
-//!
-//! The speeds that a scene is measured by: of a lock, and of the coincidence that can
-//! make it whirl.
+//! The state of the run in words: its verdict in one sentence, which blades touch and how deep
+//! in a lining, and the speeds of locks and coincidence that it is compared with.
 
 use crate::report::sentence::{Cause, Doubt, Facts, Sentence};
 use crate::tui::app::App;

@@ -1,7 +1,5 @@
-//! The one table of key bindings: the key handler, the footer, the help and
-//! the manual page use it.
-//!
-//! The groups of actions, under whose headings the help lists their keys.
+//! The table of key bindings, which the key handler, the footer, the help and the manual page
+//! use, and the groups of actions under which the help lists them.
 
 mod table;
 

@@ -1,6 +1,5 @@
-//! Where a knob cannot change the run as the others stand, and why: a column of the table.
-//!
-//! Which knobs have a scene leave the paper's model. A folded group shows these.
+//! When a knob changes nothing because of the values of the others, and when it takes a scene
+//! beyond the model of the paper.
 
 use std::sync::LazyLock;
 

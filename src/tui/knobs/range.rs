@@ -1,7 +1,6 @@
-//! Where the value of a knob stands: its usual range, which is a column of the table, the
-//! limits on it, and the value at a place of its bar.
-//!
-//! The pulse from which on a blade touches, in closed form.
+//! The bar of a knob as numbers: its usual range, which is a column of the table, the limits
+//! marked on it, among them the pulse from which on a blade touches, and the value at a place of
+//! the bar.
 
 use crate::report::number::rounded;
 use crate::tui::knobs::{Knob, Turn};

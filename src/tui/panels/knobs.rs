@@ -1,11 +1,7 @@
-//! The knobs: a column in groups with the selected one explained below, or a
-//! single line if there is no room.
-//!
-//! Which lines the column of knobs has: the operation and the group of the selected knob are
-//! open, or that group alone where both have no room, and the others are folded, with what
-//! is changed in them. Only the selected knob has a bar. The mouse asks it too.
-//!
-//! The bar of a knob: where its value stands in its range, with the limits on it.
+//! The knobs: a column in groups with the selected one explained below, or a single line if
+//! there is no room. The first group and that of the selected knob are open, the others are
+//! folded and show what is changed in them. Only the selected knob has a bar, with the limits on
+//! it; the mouse asks for the same lines.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};

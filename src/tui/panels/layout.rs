@@ -1,6 +1,5 @@
-//! The places of all panels at each screen size.
-//!
-//! What is at a place of the screen, for the mouse.
+//! The places of all panels at each screen size, and what the mouse finds at a place of the
+//! screen.
 
 use ratatui::layout::{Constraint, Layout, Position, Rect};
 

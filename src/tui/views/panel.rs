@@ -1,7 +1,5 @@
-//! The trait of a view, and what all views share: the title row with its
-//! legend, and CSV text.
-//!
-//! Speeds that are marked on a chart over speeds, with their names.
+//! The trait of a view, and what views share: the title row with its legend, the names of marked
+//! speeds and levels, and CSV text.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Rect};

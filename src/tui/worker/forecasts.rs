@@ -1,8 +1,6 @@
-//! What is computed beside the motion that plays: the run to its end, the same by
-//! the event solver, whether a small change would change it, and the studies.
-//!
-//! The latest verdict, and the run of an older scene that goes on to get one: while a knob is
-//! turned faster than a run takes, the answers come as often as runs can.
+//! What is computed beside the motion that plays: the run to its end, the same by the event
+//! solver, whether a small change would change it, and the studies. While a knob is turned
+//! faster than a run takes, an older run goes on, so that verdicts come as often as runs can.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};

@@ -1,8 +1,6 @@
-//! The instant of the reading cursor, computed from a copy of the motion in
-//! slices, so that neither the playback nor the next order waits for it.
-//!
-//! Copies of the motion at some instants, so that any instant of the run can be
-//! computed again exactly.
+//! The instant of the reading cursor, computed in slices, so that neither the playback nor the
+//! next order waits for it; and the copies of the motion from which any instant of the run can
+//! be computed again exactly.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};

@@ -1,10 +1,7 @@
-//! The worker thread: one slot with the latest order, one with the latest
-//! snapshot. Neither side waits for the other: a newer order replaces an older
-//! one, and a snapshot that was not taken is merged with the next.
-//!
-//! An engine without thread and clock, for tests that must give the same
-//! screens on every machine: every snapshot advances the motion by the same
-//! time, and the speed of the solver is a fixed number.
+//! The worker thread: one slot with the latest order, one with the latest snapshot. Neither side
+//! waits for the other: a newer order replaces an older one, and a snapshot that was not taken
+//! is merged with the next. Beside it an engine without thread and clock, for tests that must
+//! give the same screens on every machine.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};

@@ -1,9 +1,6 @@
-//! View 4: the wheel, and where there is room the casing wave as a point in the frame that
-//! turns with the blades, inside the polygon of phase groups, with its trail.
-//!
-//! The bladed disk as a wheel, in the frame of the blades: blades as spokes, the casing
-//! around them with its lobes magnified by a stated factor, and the blades that touch it
-//! marked and numbered.
+//! View 4: the bladed disk as a wheel in the frame of the blades, inside the casing, whose lobes
+//! are magnified by a stated factor; and where there is room the casing wave as a point in the
+//! same frame, inside the polygon of phase groups, with its trail.
 
 use std::f64::consts::TAU;
 

@@ -1,8 +1,6 @@
-//! View 2: the gap of every blade now, over the fixed zero line of the casing;
-//! blades in contact have a mark and their number.
-//!
-//! View 2 against time: a row for each blade, a column for each part of the page,
-//! the smallest gap as a shade and contact as a full block. It needs no colour.
+//! View 2: the gap of every blade at one instant, over the fixed zero line of the casing, or
+//! against time: a row for each blade, a column for each part of the page, and the smallest gap
+//! as a shade, which needs no colour. Blades in contact have a mark and their number.
 
 use ratatui::buffer::Buffer;
 

@@ -1,8 +1,6 @@
-//! What the explorer's map sweeps: two knobs over sensible ranges, under the
-//! scene's own contact law, solver and model, or under the other law.
-//!
-//! The map as it is computed: coarse blocks first, then finer ones in a fixed
-//! order, and the run of one cell.
+//! The map of the explorer: two knobs over sensible ranges, under the scene's own contact law,
+//! solver and model or under the other law. It is computed in coarse blocks first, then in finer
+//! ones in a fixed order.
 
 use crate::tui::axis::nice_step;
 use crate::tui::knobs::{KNOBS, Knob, knob_of};

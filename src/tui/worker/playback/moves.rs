@@ -1,8 +1,6 @@
-//! Moves of the motion that do not take the time that they show: a step, a jump to the next
-//! change of contact, and one to an instant of the run ahead.
-//!
-//! What is computed again of the motion, from copies: the page on the screen, and the
-//! instant of the reading cursor.
+//! Moves of the motion that take less time than they show: a step, a jump to the next change of
+//! contact, and one to an instant of the run ahead; and what is computed again from copies of
+//! the motion: the page on the screen and the instant of the reading cursor.
 
 use std::time::{Duration, Instant};
 

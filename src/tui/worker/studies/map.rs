@@ -1,7 +1,5 @@
-//! The computation of the map, in threads of its own that stop within a millisecond when
-//! nobody wants it any more.
-//!
-//! The run of the map's cell under the cursor, in a thread of its own.
+//! The study of the map and that of the cell under its cursor, in threads of their own that stop
+//! within a millisecond when nobody wants their results any more.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
